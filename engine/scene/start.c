@@ -1,140 +1,14 @@
 /*
- * The start nearest the guess, as the runtime seeks it: Newton's steps, each the smallest that closes the
- * linearized rows, then velocities least in the metric of M. This is the ordinary case only: where rows depend on
- * each other, or Newton leads far away or nowhere, 1 is returned and the search in Python decides.
+ * The start nearest the guess, as the runtime seeks it: a closed configuration (closing.c), then velocities least in
+ * the metric of M. This is the ordinary case only: where Newton leads far away or nowhere, 1 is returned and the
+ * search in Python decides.
  */
-#include "../run/asked.h"
-#include "calls.h"
+#include "closing.c"
 #include "start.h"
 
-#ifndef N_APART /* few starts say where journals are: Phi of these joints is -e, behind set, its rate behind rates */
-#define N_APART 0
-static const int apart_row[] = {0};
-#endif
-
-enum {
-    N_START_ROWS = N_ALL_ROWS + (N_SET > N_RATES ? N_SET : N_RATES),
-    N_NORMAL = N_START_ROWS > N_Q ? N_START_ROWS : N_Q, MAX_CLOSING = 60
-};
-#define FAR 0.5   /* rad: where a guessed angle turns further, a nearer configuration is sought (closure.py) */
-#define APART 0.2 /* the same of a guessed place, as a share of the size (followed.py) */
-
-/* Rows of the linearized system with what each must still give, columns over their weights; a normal matrix. */
-typedef struct {
-    double size, reach, weight[N_Q], step[N_Q], placed[N_Q];
-    double guess[N_GUESS + 1], set[N_SET + N_APART + 1], rates[N_RATES + N_APART + 1];
-    double row[N_START_ROWS + 1][N_Q], rest[N_START_ROWS + 1];
-    double normal[N_NORMAL + 1][N_NORMAL + 1], right[N_NORMAL + 1];
-    Asked *asked;
-} Closing;
-
-/* normal x = right by Cholesky's method, x in `right`; 1 where a pivot has (nearly) vanished, or nobody wants it. */
-static int solve_normal(Closing *w, int n)
-{
-    for (int k = 0; k < n; k++) {
-        const double whole = w->normal[k][k];
-        if (given_up(w->asked))
-            return 1;
-        for (int i = k; i < n; i++) {
-            double sum = w->normal[i][k];
-            for (int j = 0; j < k; j++)
-                sum -= w->normal[i][j] * w->normal[k][j];
-            w->normal[i][k] = sum;
-        }
-        if (!(w->normal[k][k] > 1e-12 * whole) || !isfinite(whole))
-            return 1;
-        const double root = sqrt(w->normal[k][k]);
-        for (int i = k; i < n; i++)
-            w->normal[i][k] /= root;
-    }
-    for (int k = 0; k < n; k++) {
-        for (int j = 0; j < k; j++)
-            w->right[k] -= w->normal[k][j] * w->right[j];
-        w->right[k] /= w->normal[k][k];
-    }
-    for (int k = n - 1; k >= 0; k--) {
-        for (int j = k + 1; j < n; j++)
-            w->right[k] -= w->normal[j][k] * w->right[j];
-        w->right[k] /= w->normal[k][k];
-    }
-    return 0;
-}
-
-/* The shortest step with row step = rest: step = row^T x, row row^T x = rest. */
-static int shortest_step(Closing *w, int rows)
-{
-    for (int i = 0; i < rows; i++) {
-        w->right[i] = w->rest[i];
-        for (int j = 0; j <= i; j++) {
-            w->normal[i][j] = 0.0;
-            for (int k = 0; k < N_Q; k++)
-                w->normal[i][j] += w->row[i][k] * w->row[j][k];
-        }
-    }
-    if (solve_normal(w, rows))
-        return 1;
-    for (int k = 0; k < N_Q; k++) {
-        w->step[k] = 0.0;
-        for (int i = 0; i < rows; i++)
-            w->step[k] += w->row[i][k] * w->right[i];
-    }
-    return 0;
-}
-
-/* The step that leaves the least of `rest`, damped a little: where Newton begins, no more. */
-static int nearest_step(Closing *w, int rows)
-{
-    double trace = 0.0;
-    for (int i = 0; i < N_Q; i++) {
-        w->right[i] = 0.0;
-        for (int k = 0; k < rows; k++)
-            w->right[i] += w->row[k][i] * w->rest[k];
-        for (int j = 0; j <= i; j++) {
-            w->normal[i][j] = 0.0;
-            for (int k = 0; k < rows; k++)
-                w->normal[i][j] += w->row[k][i] * w->row[k][j];
-        }
-        trace += w->normal[i][i];
-    }
-    for (int i = 0; i < N_Q; i++)
-        w->normal[i][i] += 1e-10 * trace + 1e-300;
-    if (solve_normal(w, N_Q))
-        return 1;
-    for (int k = 0; k < N_Q; k++)
-        w->step[k] = w->right[k];
-    return 0;
-}
-
-/* -Phi, and what is still open of the start's set, over their sizes; the norm of both. */
-static double open_rows(Closing *w, double t, const double *q, const Parameters *p)
-{
-    double sum = 0.0;
-    constraints(t, q, p, w->rest);
-    for (int k = 0; k < N_APART; k++)
-        w->rest[apart_row[k]] += w->set[N_SET + k];
-    for (int r = 0; r < N_ALL_ROWS; r++)
-        w->rest[r] /= row_is_length[r] ? -w->size : -1.0;
-    for (int i = 0; i < N_SET; i++)
-        w->rest[N_ALL_ROWS + i] = (w->set[i] - q[set_place[i]]) / (set_place[i] % 3 == 2 ? 1.0 : w->size);
-    for (int r = 0; r < N_ALL_ROWS + N_SET; r++)
-        sum += w->rest[r] * w->rest[r];
-    return sqrt(sum);
-}
-
-/* Phi_q, and the rows of set, over their sizes and weights; rows of `rest` with them. */
-static void linearized_rows(Closing *w, double t, const double *q, const Parameters *p)
-{
-    gudgeon_phi_q(t, q, (const double *)p, &w->row[0][0]);
-    for (int i = 0; i < N_SET; i++)
-        for (int k = 0; k < N_Q; k++)
-            w->row[N_ALL_ROWS + i][k] = k == set_place[i] ? 1.0 : 0.0;
-    for (int r = 0; r < N_ALL_ROWS + N_SET; r++) {
-        const int is_length = r < N_ALL_ROWS ? row_is_length[r] : set_place[r - N_ALL_ROWS] % 3 != 2;
-        for (int k = 0; k < N_Q; k++)
-            w->row[r][k] /= w->weight[k] * (is_length ? w->size : 1.0);
-    }
-    open_rows(w, t, q, p);
-}
+#define FAR 0.5      /* rad: where a guessed angle turns further, a nearer configuration is sought (closure.py) */
+#define APART 0.2    /* the same of a guessed place, as a share of the size (followed.py) */
+#define MIRRORED 0.1 /* of both: where a guess is further off, what lies on its other side is looked at */
 
 /* How far from the origin (m) drives, the start's set and its guess ask bodies to be: the size, at least. */
 static double farthest_place(Closing *w, double t, const Parameters *p, const double *q)
@@ -150,10 +24,9 @@ static double farthest_place(Closing *w, double t, const Parameters *p, const do
     return reach;
 }
 
-/* Coordinates weigh as in the runtime; the guess, with angles that rows alone determine (drives, sliders). */
+/* Coordinates weigh as in the runtime; the guess. */
 static int first_guess(Closing *w, double t, const Parameters *p, double *q)
 {
-    int rows = 0;
     start_values(p, w->guess, w->set, w->rates);
     for (int k = 0; k < N_Q; k++) {
         w->weight[k] = k % 3 == 2 ? 1e-2 : 1e-4 / w->size;
@@ -165,55 +38,81 @@ static int first_guess(Closing *w, double t, const Parameters *p, double *q)
     }
     for (int i = 0; i < N_SET; i++)
         q[set_place[i]] = w->set[i];
-    linearized_rows(w, t, q, p);
-    for (int r = 0; r < N_ALL_ROWS + N_SET; r++) {
-        int places = 0;
-        for (int k = 0; k < N_Q; k++)
-            places |= k % 3 != 2 && w->row[r][k] != 0.0;
-        if (places)
-            continue;
-        for (int k = 0; k < N_Q; k++)
-            w->row[rows][k] = w->row[r][k];
-        w->rest[rows++] = w->rest[r];
-    }
-    if (shortest_step(w, rows))
+    if (place_angles(w, t, p, q))
         return 1;
     for (int k = 0; k < N_Q; k++)
-        w->placed[k] = q[k] += w->step[k] / w->weight[k];
+        w->placed[k] = q[k];
     w->reach = farthest_place(w, t, p, q);
     return 0;
 }
 
-/* Newton with line search, positions put in first; ends where no step helps any more. */
-static int close_rows(Closing *w, double t, const Parameters *p, double *q)
+/* How far the worst guessed coordinate is off, as a share of how far it may be without a longer search. */
+static double strayed(const Closing *w, const double *q)
 {
-    double other[N_Q], share = 1.0;
-    linearized_rows(w, t, q, p);
-    for (int r = 0; r < N_ALL_ROWS + N_SET; r++)
-        for (int k = 2; k < N_Q; k += 3)
-            w->row[r][k] = 0.0;
-    if (nearest_step(w, N_ALL_ROWS + N_SET))
-        return 1;
-    for (int k = 0; k < N_Q; k++)
-        q[k] += w->step[k] / w->weight[k];
-    double norm = open_rows(w, t, q, p);
-    for (int i = 0; i < MAX_CLOSING && share > 1e-4; i++) {
-        linearized_rows(w, t, q, p);
-        if (shortest_step(w, N_ALL_ROWS + N_SET))
-            return 1;
-        for (share = 1.0; share > 1e-4; share *= 0.5) {
-            for (int k = 0; k < N_Q; k++)
-                other[k] = q[k] + share * (w->step[k] / w->weight[k]);
-            const double left = open_rows(w, t, other, p);
-            if (left < (1.0 - 1e-4 * share) * norm) {
-                norm = left;
-                for (int k = 0; k < N_Q; k++)
-                    q[k] = other[k];
-                break;
-            }
-        }
+    double worst = 0.0;
+    for (int i = 0; i < N_GUESS; i++) {
+        const int k = guess_place[i];
+        const double may = k % 3 == 2 ? FAR : APART * max_of(w->size, fabs(w->placed[k]));
+        worst = max_of(fabs(q[k] - w->placed[k]) / may, worst);
     }
-    return !(norm < 1e-10 + 1e-14 * w->reach / w->size);
+    return worst;
+}
+
+/* Not run off to where parallel lines meet. */
+static int is_near(const Closing *w, const double *q)
+{
+    int near = 1;
+    for (int k = 0; k < N_Q; k++)
+        near &= k % 3 == 2 || fabs(q[k]) < 1e3 * w->reach;
+    return near;
+}
+
+/* From the guess, by the weights of coordinates, squared. */
+static double distance(const Closing *w, const double *q)
+{
+    double sum = 0.0;
+    for (int k = 0; k < N_Q; k++)
+        sum += (q[k] - w->placed[k]) * w->weight[k] * (q[k] - w->placed[k]) * w->weight[k];
+    return sum;
+}
+
+/* Angles within half a turn of the guess; 1 where a row counts turns. */
+static int unwind(Closing *w, double t, const Parameters *p, double *q)
+{
+    int wound = 0;
+    for (int k = 2; k < N_Q; k += 3) {
+        const double turns = rint((q[k] - w->placed[k]) / (2.0 * PI));
+        wound |= turns != 0.0;
+        q[k] -= 2.0 * PI * turns;
+    }
+    return wound && !rows_closed(w, open_rows(w, t, q, p));
+}
+
+/*
+ * Where Newton ended beside the guess, a closed configuration beyond it may be nearer, with what is not guessed as it
+ * is, or beyond it too: the nearest of the three.
+ */
+static void nearer(Closing *w, double t, const Parameters *p, double *q)
+{
+    if (strayed(w, q) < MIRRORED)
+        return;
+    for (int k = 0; k < N_Q; k++) {
+        w->first[k] = q[k];
+        w->beyond[k] = 2.0 * w->placed[k] - q[k];
+    }
+    for (int all = 0; all < 2; all++) {
+        for (int k = 0; k < N_Q; k++)
+            w->other[k] = all ? w->beyond[k] : w->first[k];
+        for (int i = 0; i < N_GUESS; i++)
+            w->other[guess_place[i]] = w->beyond[guess_place[i]];
+        for (int i = 0; i < N_SET; i++)
+            w->other[set_place[i]] = w->set[i];
+        if (place_angles(w, t, p, w->other) || close_rows(w, t, p, w->other) || !is_near(w, w->other)
+            || unwind(w, t, p, w->other) || !(distance(w, w->other) < distance(w, q)))
+            continue;
+        for (int k = 0; k < N_Q; k++)
+            q[k] = w->other[k];
+    }
 }
 
 /* Phi_q v = nu and the start's rates, least in the metric of M; refined twice. */
@@ -265,14 +164,9 @@ int close_start(double t, const double *parameters, double size, double *q, doub
     w->size = size;
     w->asked = asked;
     int status = first_guess(w, t, p, q) || close_rows(w, t, p, q);
-    for (int i = 0; i < N_GUESS; i++) { /* far from the guess: another branch may be nearer */
-        const int k = guess_place[i];
-        const double may = k % 3 == 2 ? FAR : APART * max_of(size, fabs(w->placed[k]));
-        status |= !(fabs(q[k] - w->placed[k]) < may);
-    }
-    for (int k = 0; k < N_Q; k++)
-        if (k % 3 != 2 && !(fabs(q[k]) < 1e3 * w->reach))
-            status = 1;
+    if (!status && strayed(w, q) < 1.0)
+        nearer(w, t, p, q);
+    status = status || !(strayed(w, q) < 1.0) || !is_near(w, q); /* another branch may be nearer */
     status = status || first_velocities(w, t, p, q, v);
     open_rows(w, t, q, p);
     *residual = 0.0;

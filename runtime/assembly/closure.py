@@ -17,7 +17,8 @@ from gudgeon.contract.kernel_source import PointInfo
 from gudgeon.model.compiled import Array
 
 MAX_STEPS = 60
-FAR = 0.5  # rad: where a guessed angle turns further, or a place lies APART, a nearer configuration is sought
+FAR = 0.5  # rad: where a guessed angle turns further, or a place lies APART, many more are sought
+MIRRORED = 0.1  # of that: where a guess is further off, what lies on its other side is looked at
 TRIES, MANY, MORE = 24, 60, 5  # from as many other angles; fewer with more coordinates than these; so many times again
 AWAY = 1e3  # of how far drives and the start ask for: a body so far from the origin is lost
 CLOSED = 1e-10  # a residual above this share of the mechanism's size is no assembly,
@@ -103,12 +104,15 @@ class Closure:
     def nearest(self) -> tuple[Array, bool]:
         """The closed configuration nearest the guess, True; or the nearest to one there is, False.
 
-        Where Newton leads far away or nowhere, others are sought.
+        Where Newton ends beside the guess, the other one may be nearer: it is sought beyond the guess, with what is
+        not guessed as it is, and beyond it too. Where all lead far away or nowhere, others are sought.
         """
         guess = self.first_guess()
         first = self.newton(guess)
-        if self.is_closed(first) and self._strayed(first, guess) < 1.0 and self.is_near(first) and not self.points:
-            return first, True
+        if self._counts(first) and self._strayed(first, guess) < 1.0:
+            best = self._nearer(first, guess)
+            if self._strayed(best, guess) < 1.0:
+                return best, True
         found = [first]
         for spread in (1.0, np.pi) if self.guess else (np.pi,):
             found += [self.newton(other) for other in self._others(guess, spread)]
@@ -118,9 +122,26 @@ class Closure:
                 return best, True
         if closed:  # none so near as one may be: looked for longer
             found = [self.newton(other) for seed in range(1, MORE) for other in self._others(guess, 1.0, seed)]
-            more = (self.unwound(q, guess) for q in found if self.is_near(q) and self.is_closed(q))
+            more = (self.unwound(q, guess) for q in found if self._counts(q))
             return min([best, *more], key=lambda q: self.distance(q, guess)), True
         return min(near, key=self.norm, default=guess), False
+
+    def _counts(self, q: Array) -> bool:
+        """Whether it is a closed configuration."""
+        return self.is_closed(q) and self.is_near(q)
+
+    def _nearer(self, first: Array, guess: Array) -> Array:
+        """A closed configuration, or the nearer one of those beyond the guess."""
+        if self._strayed(first, guess) < MIRRORED:
+            return first
+        beyond, found = 2.0 * guess - first, first.copy()
+        found[self.guessed] = beyond[self.guessed]
+        for mirrored in (found, beyond):
+            mirrored[self.set_index] = self.set
+            other = self.newton(self.place_angles(mirrored))
+            if self._counts(other):
+                first = min(first, self.unwound(other, guess), key=lambda q: self.distance(q, guess))
+        return first
 
     def distance(self, q: Array, guess: Array) -> float:
         """From what is guessed: coordinates by their weights, points as shares of the size."""
@@ -189,9 +210,10 @@ class Closure:
         return bool(np.abs(q[~self.is_angle]).max(initial=0.0) < AWAY * self.reach)
 
     def _strayed(self, q: Array, guess: Array) -> float:
-        """How far the worst guessed coordinate is off, as a share of how far it may be without a further look."""
+        """How far the worst guess is off, as a share of how far it may be without a longer search."""
         may = np.where(self.is_angle, FAR, APART * np.maximum(self.size, np.abs(guess)))
-        return float((np.abs(q - guess) / may)[self.guessed].max(initial=0.0))
+        points = [np.linalg.norm(self.off_point(q, *point)) / (APART * self.size) for point in self.points]
+        return float(max([*(np.abs(q - guess) / may)[self.guessed], *points], default=0.0))
 
     def _others(self, guess: Array, of_guessed: float, seed: int = 0) -> Iterator[Array]:
         """Coordinates around the guess, the same in every run; driven and set ones fall back into place.

@@ -159,11 +159,11 @@ def test_events_of_periods_that_steps_leap_over(method: str, folder: Path) -> No
     path, rng, n, t_end = folder / "wheel.yaml", np.random.default_rng(1), 40, 6.0
     path.write_text(WHEEL, encoding="utf-8")
     P, c, T = rng.uniform(0.3, 7.0, n), rng.uniform(-3.0, 3.0, n), rng.uniform(0.05, 2.0, n)
-    l, s = P * rng.uniform(0.05, 0.95, n), T * rng.uniform(0.1, 0.9, n)
-    batch = gudgeon.load(path).simulate_many({"P": P, "c": c, "l": l, "T": T, "s": s}, t_end, method=method)
+    level, s = P * rng.uniform(0.05, 0.95, n), T * rng.uniform(0.1, 0.9, n)
+    batch = gudgeon.load(path).simulate_many({"P": P, "c": c, "l": level, "T": T, "s": s}, t_end, method=method)
     k = np.arange(-200, 300)
     for i in range(n):
-        begins, passes = (c[i] + k * P[i]) / 5.0, (c[i] + l[i] + k * P[i]) / 5.0
+        begins, passes = (c[i] + k * P[i]) / 5.0, (c[i] + level[i] + k * P[i]) / 5.0
         expected = {
             "both": [begins, passes],
             "rising": [passes],
