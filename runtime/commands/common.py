@@ -89,11 +89,12 @@ def at_numbers(mechanism: Mechanism, linkage: NumPyLinkage, given: Mapping[str, 
     from gudgeon.generator.pipeline import closed_linkage
 
     source, count = linkage.source, len(linkage.source.slots) + len(linkage.source.derived)
-    own = {name: x for name, x in known_here(source, given).items() if name not in TOGETHER}  # gains move no start
-    p = linkage.p[:count].copy()
-    values, is_given = given_slots(source, own)
+    known, p = known_here(source, given), linkage.p[:count].copy()
+    values, is_given = given_slots(source, known)
     p[: len(values)][is_given] = values[is_given]
     check(source, p)  # before anything follows from them
+    gains = {*TOGETHER, *(name for names in TOGETHER.values() for name in names)}
+    own = {name: x for name, x in known.items() if name not in gains}  # these move no start
     if not own:
         return linkage
     try:

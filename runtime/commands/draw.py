@@ -20,7 +20,7 @@ from gudgeon.commands.progress import progress_bar, status_line
 from gudgeon.errors import AssemblyError, BadValueError, GudgeonError, SolverError
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.quantities import number_of_text
-from gudgeon.language.shown import visible
+from gudgeon.language.shown import path_text
 from gudgeon.loading.find import find_mechanism, read_bytes
 from gudgeon.model.parameters import spaced
 from gudgeon.waiting.working import working
@@ -75,7 +75,7 @@ def draw_file(request: Request) -> int:
 
         data = as_bytes(picture, target.suffix.lower())
     write_bytes(target, data)
-    print(f"wrote {visible(target)}")
+    print(f"wrote {path_text(target)}")
     if failure is not None:
         raise failure
     return 0

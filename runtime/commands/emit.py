@@ -12,7 +12,7 @@ from gudgeon.commands.common import check_folder, chosen_scenes
 from gudgeon.commands.progress import status_line
 from gudgeon.errors import InputError
 from gudgeon.files.writing import PART, Aside, read_regular
-from gudgeon.language.shown import visible
+from gudgeon.language.shown import path_text
 from gudgeon.loading.engine import engine_files, engine_readme
 from gudgeon.loading.find import find_mechanism, kernel_source, read_bytes
 from gudgeon.loading.shipped import REST
@@ -39,12 +39,12 @@ def emit_c(mechanism: str, folder: Path, wanted: tuple[str, ...]) -> int:
             source, _ = kernel_source(data, file, scene)
         texts = {**source.files, REST: replace(source, files={}).to_json() + "\n"}
         _write(folder / scene, {name: text.encode() for name, text in texts.items()})
-        print(f"wrote {visible(folder / scene)}: {', '.join(texts)}")
+        print(f"wrote {path_text(folder / scene)}: {', '.join(texts)}")
         needs_engine |= not source.cdef
     if needs_engine:
         for room, texts in rooms.items():
             _write(folder / room, {name: text.encode() for name, text in texts.items()})
-        print(f"wrote {visible(folder / ENGINE)}: what all scenes share")
+        print(f"wrote {path_text(folder / ENGINE)}: what all scenes share")
     return 0
 
 

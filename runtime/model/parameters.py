@@ -6,11 +6,12 @@ import difflib
 import math
 import operator
 import re
+import sys
 from collections.abc import Mapping
 
 import numpy as np
 
-from gudgeon.contract.kernel_source import KernelSource, Slot
+from gudgeon.contract.kernel_source import Condition, KernelSource, Slot
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.language.wanted import mapping, number_of
 from gudgeon.model.choices import place_of_word
@@ -25,6 +26,7 @@ _PLAIN = re.compile(rf"[-+]?(?!0[0-9])(?P<mantissa>{_MANTISSA})(?:{_EXPONENT})?"
 _GLUED = re.compile(rf"({_NUMBER})\s*(?![eE][-+]?[0-9])([A-Za-zµμ°].*)")
 GAINS = ("baumgarte.alpha", "baumgarte.beta")  # of rk4 in the full formulation, nobody else's
 TOGETHER = {"gains": GAINS}  # one name for several numbers
+MOST_GAIN = 1e150  # 1/s: its square is a number
 RELATIONS = {">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le}
 
 
@@ -114,7 +116,8 @@ def plain_number(text: str) -> float | None:
     if found is None:
         return None
     value = float(found[0])
-    return value if math.isfinite(value) and (value or not re.search("[1-9]", found["mantissa"])) else None
+    whole = sys.float_info.min <= abs(value) < math.inf or (not value and not re.search("[1-9]", found["mantissa"]))
+    return value if whole else None
 
 
 def spaced(text: str) -> str:
@@ -146,9 +149,9 @@ def without_baumgarte(compiled: CompiledModel, given: Array, is_given: Array) ->
 
 
 def check(source: KernelSource, p: Array) -> None:
-    """Every condition of the file again, on the values of this run."""
+    """Every condition again, on the values of this run."""
     value = {slot.address: float(p[k]) for k, slot in enumerate(source.slots)}
-    for condition in source.conditions:  # first: sides that make no triangle leave a point that is NaN
+    for condition in conditions(source):  # first: sides that make no triangle leave a point that is NaN
         bound = sum(value[a] for a in condition.addresses) if condition.addresses else float(condition.bound)
         known = math.isfinite(value[condition.address]) and math.isfinite(bound)
         if known and not RELATIONS[condition.relation](value[condition.address], bound):
@@ -165,9 +168,16 @@ def check(source: KernelSource, p: Array) -> None:
             raise BadValueError(f"{name}, which follows from the parameters, is {number}: not finite with these values")
 
 
+def conditions(source: KernelSource) -> tuple[Condition, ...]:
+    """Those of the file, and of Baumgarte's gains, which no file has: a negative one drives rows apart."""
+    gains = [slot.address for slot in source.slots if slot.address.startswith("baumgarte.")]
+    asked = ((">=", 0.0, "a negative gain drives rows apart"), ("<=", MOST_GAIN, "its square is no number"))
+    return (*source.conditions, *(Condition(gain, *one) for gain in gains for one in asked))
+
+
 def _range(source: KernelSource, address: str) -> str:
-    """All that the file's conditions ask of a number: "> 0 and <= 1"."""
-    asked = [condition for condition in source.conditions if condition.address == address]
+    """All that the conditions ask of a number: "> 0 and <= 1"."""
+    asked = [condition for condition in conditions(source) if condition.address == address]
     told = (c.bound if isinstance(c.bound, str) else f"{c.bound:g}" for c in asked)
     return " and ".join(f"{c.relation} {bound}" for c, bound in zip(asked, told, strict=True))
 

@@ -30,7 +30,7 @@ from gudgeon.simulation.arguments import MAX_STEPS, METHODS, end_of, method_of, 
 from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude, contradicted, late
 from gudgeon.simulation.hidden_jumps import up_to_a_jump
-from gudgeon.simulation.restart import check_fits, numbers, own
+from gudgeon.simulation.restart import check_fits, numbers, off_constraints, own
 from gudgeon.simulation.wanted_peaks import search_of, wanted_peaks
 from gudgeon.waiting.ctrl_c import CtrlC
 from gudgeon.waiting.imports import GENERATOR, whole
@@ -218,6 +218,8 @@ class Simulation:
             check_fits(self.compiled, begin, p)
         q, v, memory = self._closed(p) if begin is None else (begin.q, begin.v, begin.memory)
         check_start(self.compiled, p, t0, q)
+        if begin is not None:
+            remarks += off_constraints(self.compiled, p, t0, q, v)
         remarks += parting(self.compiled, p, t0, q, v, memory)
         problem = Problem(
             self.compiled, p, times, q, v, memory, h, progress, None if begin is None else begin.state,

@@ -73,6 +73,22 @@ def test_gains_are_both_gains(call: Gudgeon, pump: str) -> None:
     assert twice.exit_code == 2 and "baumgarte.beta is given twice" in twice.stderr
 
 
+@pytest.mark.parametrize("command", ["check", "run"])
+@pytest.mark.parametrize(
+    ("setting", "told"),
+    [
+        ("gains=-1", "baumgarte.alpha is -1: a negative gain drives rows apart; expected >= 0 and <= 1e+150"),
+        ("baumgarte.beta=1e300", "baumgarte.beta is 1e+300: its square is no number"),
+        ("gains=1e-320", "'1e-320' is out of range"), ("c=1e-306 mm", "'1e-306 mm' is out of range"),
+        ("omega=1e-320rpm", "'1e-320 rpm' is out of range"),
+    ],
+)  # fmt: skip
+def test_numbers_that_mean_nothing(command: str, setting: str, told: str, call: Gudgeon, pump: str) -> None:
+    """Check says so as a run does; below 2.2e-308 a number has lost digits before anything is made of it."""
+    done = call(command, pump, "--set", setting)
+    assert done.exit_code == 2 and told in " ".join(done.stderr.split())
+
+
 def test_gains_in_python_and_in_batches(pump: str) -> None:
     simulation = gudgeon.load(pump, formulation="full")
     run = simulation.simulate(1e-3, parameters={"gains": "3 1/s"})

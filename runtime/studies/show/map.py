@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.language.shown import visible
+from gudgeon.language.shown import path_text
 from gudgeon.studies.map import VerdictBox, VerdictMap
 from gudgeon.studies.show.map_words import explain, value
 from gudgeon.studies.show.tables import console, new_table, print_json, write_files
@@ -80,7 +80,7 @@ def _show(
     for line in verdict(found, mark_step):
         out.print(line)
     for path in written:
-        out.print(f"wrote {visible(path)}")
+        out.print(f"wrote {path_text(path)}")
 
 
 def _map_table(scene: VerdictMap) -> Table:
