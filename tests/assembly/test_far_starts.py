@@ -9,7 +9,7 @@ import pytest
 
 from gudgeon.assembly import linkage, start
 from gudgeon.assembly.search import search
-from gudgeon.errors import AssemblyError
+from gudgeon.errors import AssemblyError, SingularError
 from tests.scenes import loader
 
 CART = """
@@ -79,3 +79,9 @@ def test_masses_that_no_double_holds_together_are_told(tmp_path: Path) -> None:
     assert heavy.start().v[6] == pytest.approx(speed, rel=1e-9)
     with pytest.raises(AssemblyError, match=r"the masses of crank \(1e\+20 kg\) and piston \(0.1 kg\) are too far"):
         loader(tmp_path)(ENGINE.format(mass=1e20)).start()
+    for inertia, beside in ((1e-30, r"crank \(0.0001 kg\*m\^2\) and rod \(1e-30"), (1e100, r"rod \(1e\+100 .* and crank")):
+        with pytest.raises(AssemblyError, match=rf"the inertias of {beside}.*too far apart"):
+            heavy.start({"bodies.crank.mass": 1.0, "bodies.rod.inertia": inertia})
+    numbers = {"bodies.crank.mass": 1.0, "bodies.rod.inertia": 1e-20}
+    with pytest.raises(SingularError, match=r"(?s)vanished.*the inertias of crank .* and rod .* are too far apart"):
+        heavy.simulate(0.01, output=2, parameters=numbers)
