@@ -65,7 +65,8 @@ def as_parameter(source: KernelSource, address: str) -> tuple[str, str]:
     """(message, hint) about an address that holds an expression of t or motion, and no number; "" for another one."""
     written = next((one for one in source.written if one.address == address), None)
     if written is None and address.removeprefix("outputs.") not in source.outputs:
-        found = (_unplaced_journal(source, address), _only_material(source, address), _literal_zero(source, address))
+        found = (_unplaced_journal(source, address), _only_material(source, address), _literal_zero(source, address),
+                 _of_motion(source, address))  # fmt: skip
         return next((one for one in found if one[0]), ("", ""))
     key = address.rpartition(".")[2]
     told = f"{address} is an expression of t or motion, compiled as it stands: it is no number that can be set"
@@ -73,6 +74,23 @@ def as_parameter(source: KernelSource, address: str) -> tuple[str, str]:
         f"a number in it can be, once it is a parameter: parameters: {{phase: … deg}}, {key}: phase + …,"
         " then set phase; overrides= of gudgeon.load compiles anew with another expression"
     )
+
+
+def _of_motion(source: KernelSource, address: str) -> tuple[str, str]:
+    """The same of a coordinate or velocity of a body: what its start is, and what drives it."""
+    body, _, part = address.rpartition(".")
+    if body not in (one.name for one in source.bodies) or part not in ("x", "y", "theta", "vx", "vy", "omega"):
+        return "", ""
+    rate, own = part in ("vx", "vy", "omega"), {slot.address for slot in source.slots}
+    said = [name for name in (f"start.{section}.{address}" for section in ("rates", "set", "guess")) if name in own]
+    unit = {"omega": "rad/s", "theta": "deg"}.get(part, "m/s" if rate else "mm")
+    section = "rates" if rate else "set"
+    wanted = f"start: {{{section}: {{{address}: 0 {unit}}}}}, then start.{section}.{address} can be set"
+    hint = f"its start is {said[0]}" if said else f"write {wanted}"
+    if source.drives:
+        drives = ", ".join(f"drives.{drive.name}.value" for drive in source.drives)
+        hint += f"; of what is driven {drives} says it: set the parameters in it"
+    return f"{address} is a result of the motion, and no number of the file", hint
 
 
 def _unplaced_journal(source: KernelSource, address: str) -> tuple[str, str]:

@@ -45,6 +45,20 @@ def test_a_number_that_is_written_as_zero_is_told(address: str, call: Gudgeon, p
     assert "write a parameter there" in done.stderr
 
 
+def test_a_result_of_the_motion_is_told_what_says_it(call: Gudgeon, pump: str) -> None:
+    """A start that has its section, one that has not, and what is driven."""
+    for address, told in (("crank.omega", "of what is driven drives.motor.value says it"),
+                          ("rod.omega", "write start: {rates: {rod.omega: 0 rad/s}}, then start.rates.rod.omega can be"),
+                          ("piston.x", "its start is start.guess.piston.x")):  # fmt: skip
+        for command in ("check", "run"):
+            done = call(command, pump, "--set", f"{address}=1")
+            words = " ".join(done.stderr.split())
+            assert done.exit_code == 2 and f"{address} is a result of the motion, and no number of the file" in words
+            assert told in words
+    with pytest.raises(UnknownNameError, match=r"bob.omega is a result .*\n.*start: \{rates: \{bob.omega: 0 rad/s"):
+        gudgeon.load("pendulum").simulate(0.1, parameters={"bob.omega": 1.0})
+
+
 def test_where_a_journal_begins_is_said_by_the_file_first(call: Gudgeon, pump: str) -> None:
     joint = gudgeon.load(pump, "worn").source.clearances[0].name
     done = call("run", pump, "--scene", "worn", "--set", f"start.play.{joint}.e.x=1um")
