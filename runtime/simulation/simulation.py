@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
@@ -14,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gudgeon.assembly.followed import nearer_text, off_text, unfollowed
+from gudgeon.assembly.followed import tell_unfollowed
 from gudgeon.assembly.journals import parting
 from gudgeon.assembly.redundant_rows import check_start
 from gudgeon.assembly.start import Start, assemble
@@ -293,7 +292,5 @@ class Simulation:
     def _closed(self, p: Array) -> tuple[Array, Array, Array]:
         """The start that the file describes: q, q̇, and nothing in contact."""
         assembled = assemble(self.compiled, p)
-        for name, off in unfollowed(self.compiled, p, assembled.q).items():
-            told = f"{name} begins {off_text(name, off)} from its guess: {nearer_text(self.source)}; gudgeon check"
-            warnings.warn(f"{told} --branches lists those that there are", stacklevel=4)
+        tell_unfollowed(self.compiled, p, assembled.q, stacklevel=4)
         return assembled.q, assembled.v, np.full(self.compiled.n_memory, np.nan)

@@ -140,6 +140,7 @@ def test_check_at_other_numbers(call: Gudgeon, pump: str) -> None:
     short = call("check", pump, "--set", "bodies.rod.length=5mm")
     assert short.exit_code == gudgeon.errors.AssemblyError.exit_code, short.output
     assert "rod" in short.stderr and "length" in short.stderr
+    assert short.stdout.startswith("valid, but scenes ideal, worn cannot be run: 3 bodies")
     wear = call("check", pump, "--set", "bearings.pin.clearance=-1mm")
     assert wear.exit_code == 2 and "clearance" in wear.stderr
     assert call("check", pump, "--set", "bodies.rood.length=1").exit_code == 2
