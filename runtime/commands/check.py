@@ -203,7 +203,8 @@ def _print(
 
 def _wrapped(name: str, text: str) -> str:
     """ "name: text" in lines of WIDTH columns, those that follow below the text."""
-    lines = textwrap.wrap(f"{name}: {text}", WIDTH, subsequent_indent=" " * min(len(name) + 2, HANGING), break_on_hyphens=False)
+    below = " " * min(len(name) + 2, HANGING)
+    lines = textwrap.wrap(f"{name}: {text}", WIDTH, subsequent_indent=below, break_on_hyphens=False)
     return "\n".join(lines)
 
 

@@ -65,9 +65,9 @@ def find_mechanism(mechanism: str | os.PathLike[str]) -> Path:
 
 
 def read_bytes(file: Path) -> bytes:
-    """A mechanism file's bytes. InputError if it cannot be read or is no regular file, LimitError if it is too large."""
+    """A mechanism file's bytes. InputError if it cannot be read or is no regular file, LimitError if too large."""
     try:
-        return read_regular(file, hint="name a YAML file")
+        return read_regular(file, MAX_BYTES, hint="name a YAML file")
     except LimitError:
         raise
     except InputError as error:

@@ -19,8 +19,8 @@ import numpy as np
 
 from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.files.writing import written
-from gudgeon.language.wanted import path as named
 from gudgeon.language.wanted import mapping, text, told
+from gudgeon.language.wanted import path as named
 from gudgeon.model.choices import said
 from gudgeon.results import peaks, trace
 from gudgeon.results.hdf5_image import Table, Variable, pieces

@@ -76,9 +76,8 @@ def compare(run: Result, reference: Result | None, watch: Sequence[str]) -> Scen
     driven = () if run.source.massless else drive_series(run.source)
     drives = tuple(of_samples(name, run.unit(name), run.t, run[name]) for name in driven)
     rows = run.source.rows if run.source.formulation == "full" else run.source.closures
-    constrained = bool(rows) or run.diagnostics.phi_max > 0.0
-    found = run.source.scene, motion, errors, forces, run.constants, run.diagnostics, events, drives, constrained
-    return SceneReport(*found, _scales(run, forces, drives))
+    found = run.source.scene, motion, errors, forces, run.constants, run.diagnostics, events, drives
+    return SceneReport(*found, bool(rows) or run.diagnostics.phi_max > 0.0, _scales(run, forces, drives))
 
 
 def _scales(run: Result, forces: Mapping[str, tuple[float, float]], drives: Sequence[Extreme]) -> dict[str, float]:

@@ -48,7 +48,7 @@ def test_a_number_that_is_written_as_zero_is_told(address: str, call: Gudgeon, p
 def test_a_result_of_the_motion_is_told_what_says_it(call: Gudgeon, pump: str) -> None:
     """A start that has its section, one that has not, and what is driven."""
     for address, told in (("crank.omega", "of what is driven drives.motor.value says it"),
-                          ("rod.omega", "write start: {rates: {rod.omega: 0 rad/s}}, then start.rates.rod.omega can be"),
+                          ("rod.omega", "write start: {rates: {rod.omega: 0 rad/s}}, then start.rates.rod.omega"),
                           ("piston.x", "its start is start.guess.piston.x")):  # fmt: skip
         for command in ("check", "run"):
             done = call(command, pump, "--set", f"{address}=1")

@@ -300,7 +300,7 @@ def test_what_is_told(pendulum: Simulation) -> None:
     y = np.zeros(2 * pendulum.compiled.n)
     refused: list[tuple[Callable[[], object], str]] = [
         (lambda: pendulum.simulate(0.01, output=vast), "output has 1000000000000 entries: expected 100000000 at most"),
-        (lambda: pendulum.simulate(0.01, output=0.5), "output is 0.5: expected a whole number of intervals, 1 to 1e+08"),  # type: ignore[arg-type]
+        (lambda: pendulum.simulate(0.01, output=0.5), "output is 0.5: expected a whole number of intervals, 1 to"),
         (lambda: pendulum.simulate(0.01, output={}), "output is dict '{}': expected real numbers"),  # type: ignore[arg-type]
         (lambda: pendulum.simulate_many([{}], threads=np.timedelta64(5)), "threads is timedelta64"),  # type: ignore[arg-type]
         (lambda: gudgeon.load("a\nb.yaml"), "cannot read a\\nb.yaml: No such file"),

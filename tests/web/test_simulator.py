@@ -92,7 +92,8 @@ def test_numbers_of_a_page_and_what_it_refuses(tmp_path: Path) -> None:
     odd: dict[str, dict[str, Any]] = {
         "method is": {"method": "kinematic"}, "t_end is": {"t_end": 0}, "rtol is": {"rtol": 2},
         "output is": {"output": 0}, "slice is 0: expected a whole number": {"slice": 0},
-        "slice is -1": {"slice": -1}, "slice is 0.5": {"slice": 0.5}, "slice is 2,3: expected a number": {"slice": [2, 3]},
+        "slice is -1": {"slice": -1}, "slice is 0.5": {"slice": 0.5},
+        "slice is 2,3: expected a number": {"slice": [2, 3]},
         "rtol is 1e-6: expected a number": {"rtol": "1e-6"}, "tend is no option: expected t_end": {"tend": 1},
     }  # fmt: skip
     kinds: list[tuple[str, dict[str, Any]]] = [

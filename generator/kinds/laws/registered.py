@@ -19,6 +19,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, TypeGuard
 
+from gudgeon.contract.limits import MAX_BYTES
 from gudgeon.errors import BadNameError, InputError, LawError, Location, shortened
 from gudgeon.files.reading import read_regular
 from gudgeon.generator.field import FLAG, NUMBER, RELATIONS, WORD, Bound, Field
@@ -97,7 +98,7 @@ def _of_file(typed: str | os.PathLike[str]) -> tuple[Law, Origin]:
     if not os.fspath(typed):
         raise LawError("a law's file has no name: ''", hint=hint)
     try:
-        data = read_regular(typed, "the law", hint)
+        data = read_regular(typed, MAX_BYTES, "the law", hint)
     except InputError as error:
         raise LawError(error.message, error.where, error.hint) from error
     digest = hashlib.sha256(data)

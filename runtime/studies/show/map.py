@@ -119,7 +119,7 @@ def tell_failures(out: Console, file: str, found: VerdictMap | VerdictBox, cells
 
 
 def compared(found: VerdictMap | VerdictBox) -> str:
-    """Over what the errors are, and against what: with dry contacts two runs can be compared over the first few alone."""
+    """Over what the errors are, and against what: with dry contacts runs can be compared over the first few alone."""
     finer = "a 10× shorter step" if found.setting.fixed else "a 100× tighter tolerance"
     ends = [cell.compared for cell in found.cells if cell.compared == cell.compared]
     shortest, longest = (seconds(end) for end in (min(ends, default=0.0), max(ends, default=0.0)))
