@@ -9,7 +9,7 @@ from gudgeon.errors import InputError, LimitError, Location, shortened
 from gudgeon.files.writing import kind
 
 
-def read_regular(file: str | os.PathLike[str], most: int, what: str = "", hint: str = "") -> bytes:
+def read_named(file: str | os.PathLike[str], most: int, what: str = "", hint: str = "") -> bytes:
     """At most so many bytes of a file; `what` it is, and a `hint`, for the errors.
 
     InputError if it cannot be read or is no regular file, LimitError if it is too large. A device or pipe is not

@@ -15,7 +15,7 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.limits import MAX_BYTES
 from gudgeon.errors import BadValueError, InputError, LimitError
 from gudgeon.files.beside import read_beside
-from gudgeon.files.reading import read_regular
+from gudgeon.files.reading import read_named
 from gudgeon.language.wanted import mapping, number_of, path, text
 from gudgeon.loading.cache import Cache, default_cache, digest
 from gudgeon.loading.contents import contents
@@ -67,7 +67,7 @@ def find_mechanism(mechanism: str | os.PathLike[str]) -> Path:
 def read_bytes(file: Path) -> bytes:
     """A mechanism file's bytes. InputError if it cannot be read or is no regular file, LimitError if too large."""
     try:
-        return read_regular(file, MAX_BYTES, hint="name a YAML file")
+        return read_named(file, MAX_BYTES, hint="name a YAML file")
     except LimitError:
         raise
     except InputError as error:

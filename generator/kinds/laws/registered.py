@@ -21,7 +21,7 @@ from typing import Any, TypeGuard
 
 from gudgeon.contract.limits import MAX_BYTES
 from gudgeon.errors import BadNameError, InputError, LawError, Location, shortened
-from gudgeon.files.reading import read_regular
+from gudgeon.files.reading import read_named
 from gudgeon.generator.field import FLAG, NUMBER, RELATIONS, WORD, Bound, Field
 from gudgeon.generator.kinds.laws.law import OWN, RESULTS, Law, State, house
 from gudgeon.language.names import check_label
@@ -98,7 +98,7 @@ def _of_file(typed: str | os.PathLike[str]) -> tuple[Law, Origin]:
     if not os.fspath(typed):
         raise LawError("a law's file has no name: ''", hint=hint)
     try:
-        data = read_regular(typed, MAX_BYTES, "the law", hint)
+        data = read_named(typed, MAX_BYTES, "the law", hint)
     except InputError as error:
         raise LawError(error.message, error.where, error.hint) from error
     digest = hashlib.sha256(data)
