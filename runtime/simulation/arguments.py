@@ -57,7 +57,7 @@ def output_times(
     Raises BadValueError.
     """
     if isinstance(output, (float, np.floating)):
-        raise BadValueError(f"output is {output:g}: expected {OUTPUT}", hint="a list for times: output=[0.5]")
+        raise BadValueError(f"output is {told(output)}: expected {OUTPUT}", hint="a list for times: output=[0.5]")
     if output is not None and not isinstance(output, bool) and not is_whole(output):
         times = _given_times(t0, output)
         _check_both(None if t_end is None else seconds("t_end", t_end), float(times[-1]))
