@@ -186,7 +186,8 @@ def test_no_other_length_of_a_start(ball: gudgeon.Simulation, method: str) -> No
         ([0.0, 0.2, 0.1], "increasing times.*0.1 s after 0.2 s"), ([0.0, 0.0], "increasing"), ([], "at least one"),
         ([-0.1, 0.1], "begin at 0.0 s, got -0.1 s"), ([0.0, np.nan], r"output\[1\] is nan"), (True, "output is True"),
         ([0.0, np.inf], r"output\[1\] is inf"), ([[[0.0, 0.1]]], "has shape"), ("10", "expected real numbers"),
-        (np.ma.array([0.0, 0.1], mask=[False, True]), r"output\[1\] is masked"), (0, "output is 0"), (2.0, "output is 2.0: expected a whole number"),
+        (np.ma.array([0.0, 0.1], mask=[False, True]), r"output\[1\] is masked"), (0, "output is 0"),
+        (2.0, "output is 2.0: expected a whole number"),
     ],
 )  # fmt: skip
 def test_output_times_that_are_none(ball: gudgeon.Simulation, output: Any, told: str) -> None:

@@ -19,7 +19,7 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.errors import BadValueError, SolverError
+from gudgeon.errors import BadValueError, InputError, SolverError
 from gudgeon.integrators.batch import GLANCE
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.mechanisms.n_four_bar import text as n_four_bar
