@@ -22,7 +22,7 @@ class Location:
     column: int
 
     def __str__(self) -> str:
-        return f"{self.file}:{self.line}:{self.column}"
+        return f"{in_a_line(self.file)}:{self.line}:{self.column}"
 
 
 class GudgeonError(Exception):
@@ -174,9 +174,14 @@ class OutputError(GudgeonError):
         super().__init__(f"cannot write {shortened(path)}: {self.reason}" + (f"\n  {hint}" if hint else ""))
 
 
+def in_a_line(text: str) -> str:
+    """A name as Python writes what would end its line."""
+    return text if text.isprintable() else text.replace("\n", "\\n").replace("\r", "\\r")
+
+
 def shortened(path: str | os.PathLike[str]) -> str:
-    """A path as it is told: of a long one both ends."""
-    text = os.fspath(path)
+    """A path as it is told: in a line, of a long one both ends."""
+    text = in_a_line(os.fspath(path))
     return text if len(text) < 200 else f"{text[:80]}…{text[-80:]}"
 
 

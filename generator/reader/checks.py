@@ -11,7 +11,7 @@ from gudgeon.generator.field import RELATIONS
 from gudgeon.generator.mechanism.mechanism import Condition, Quantity, SceneSpec
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.parameters import parameter_values
-from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, evaluate, names
+from gudgeon.language.tree import Binary, Call, Expr, Name, Number, Unary, calls, evaluate, names
 from gudgeon.language.units import si_unit
 
 
@@ -24,6 +24,9 @@ def check_values(reader: Reader, parameters: Mapping[str, Quantity], scenes: Map
     for scene in scenes.values():
         if scene.parameters:
             _check_with(reader, parameters, scene, broken_is_told=before > 0)
+    lasts = dict.fromkeys(call.arguments[2] for quantity in reader.quantities.values() for call in _steps(quantity))
+    for name in {lasting.path for lasting in lasts if isinstance(lasting, Name)}.intersection(parameters):
+        reader.require(parameters[name], ">", 0.0, "a ramp or smooth_step takes that long")  # of numbers given later
 
 
 def _check_with(
@@ -51,13 +54,9 @@ def _check_with(
             complain(address, f"is {value:.6g}{context}", f"expected a whole {reader.wholes[address]}")
     for address, quantity in reader.quantities.items():
         if not (broken_is_told or quantity.of) and (".parameters." not in address or address in values):
-            wrong = None if address in values else _no_number_in(quantity.value, known)
-            if wrong is not None:
-                hint = "expected finite numbers: is there a division by zero or a root of a negative number?"
-                complain(address, f"has a part that is {wrong}{context}", hint)
-            elif (small := _lost_factor(quantity.value, known)) is not None:
-                hint = "expected products and powers from 2.3e-308: (0.01*x)**161, not 0.01**161 * x**161"
-                complain(address, f"has a part that is {small:g}, too small for its digits{context}", hint)
+            message, hint = _wrong_part(quantity, known, address in values)
+            if message:
+                complain(address, f"{message}{context}", hint)
     for condition in reader.conditions:
         broken = _broken(condition, values)
         if broken:
@@ -83,6 +82,30 @@ def _tell(reader: Reader, wrong: Mapping[str, Sequence[tuple[str, str]]], own: M
 def _follows(quantity: Quantity, wrong: Container[str]) -> bool:
     """Whether a number is wrong because another is."""
     return any(part.address in wrong or _follows(part, wrong) for part in quantity.of)
+
+
+def _wrong_part(quantity: Quantity, known: Mapping[str, float], is_known: bool) -> tuple[str, str]:
+    """(message, hint) about a part of an expression that cannot be meant; "" where there is none."""
+    wrong = None if is_known else _no_number_in(quantity.value, known)
+    if wrong is not None:
+        hint = "expected finite numbers: is there a division by zero or a root of a negative number?"
+        return f"has a part that is {wrong}", hint
+    if (small := _lost_factor(quantity.value, known)) is not None:
+        hint = "expected products and powers from 2.3e-308: (0.01*x)**161, not 0.01**161 * x**161"
+        return f"has a part that is {small:g}, too small for its digits", hint
+    for call in _steps(quantity):
+        duration = call.arguments[2]
+        if all(name.path in known for name in names(duration)):
+            lasts = float(evaluate(duration, known.__getitem__))
+            if lasts < 0.0:
+                told = f"has a {call.function} that lasts {lasts:.6g}: it would end before it begins"
+                return told, f"expected {call.function}(t, start, duration), its duration above zero"
+    return "", ""
+
+
+def _steps(quantity: Quantity) -> list[Call]:
+    """The ramps and smooth_steps of an expression."""
+    return [call for function in ("ramp", "smooth_step") for call in calls(quantity.value, function)]
 
 
 def _no_number_in(expr: Expr, known: Mapping[str, float]) -> float | None:

@@ -80,13 +80,16 @@ class Closure:
 
     def norm(self, q: Array) -> float:
         """How far the rows are from closing, lengths as shares of the mechanism's size."""
-        return float(np.linalg.norm(self.residual(q) / self.row_scale))
+        return float(np.linalg.norm(self._scaled(q)))
 
-    def _step(self, q: Array, columns: NDArray[np.bool_] | slice = slice(None)) -> Array:
-        """Smallest weighted step that closes the linearised rows, in some columns only."""
+    def _scaled(self, q: Array) -> Array:
+        return self.residual(q) / self.row_scale
+
+    def _step(self, q: Array, open_by: Array, columns: NDArray[np.bool_] | slice = slice(None)) -> Array:
+        """Smallest weighted step that closes the linearised rows, which are `open_by`, in some columns only."""
         weight = self.weight[columns]
         matrix = self.jacobian(q)[:, columns] / self.row_scale[:, None] / weight
-        target, step = -self.residual(q) / self.row_scale, np.zeros_like(q)
+        target, step = -open_by, np.zeros_like(q)
         if np.isfinite(matrix).all() and np.isfinite(target).all():  # a driven distance has no direction at zero
             few = len(self.place) >= LARGE and len(matrix) > matrix.shape[1]
             step[columns] = (nearest_step if few else smallest)(matrix, target) / weight
@@ -239,15 +242,18 @@ class Closure:
 
     def newton(self, q: Array) -> Array:
         """Newton with line search, positions put in first; as far as it gets."""
-        q = q + self._step(q, ~self.is_angle)
-        norm = self.norm(q)
+        q = q + self._step(q, self._scaled(q), ~self.is_angle)
+        open_by = self._scaled(q)
         for _ in range(MAX_STEPS):
-            step, share = self._step(q), 1.0
-            while share > 1e-4 and not self.norm(q + share * step) < (1.0 - 1e-4 * share) * norm:
+            step, share, norm = self._step(q, open_by), 1.0, float(np.linalg.norm(open_by))
+            while share > 1e-4:
+                after = self._scaled(q + share * step)
+                if float(np.linalg.norm(after)) < (1.0 - 1e-4 * share) * norm:
+                    break
                 share *= 0.5
-            if share <= 1e-4:
+            else:
                 break
-            q, norm = q + share * step, self.norm(q + share * step)
+            q, open_by = q + share * step, after
         return q
 
     def place_angles(self, q: Array) -> Array:

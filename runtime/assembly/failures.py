@@ -9,16 +9,16 @@ from gudgeon.assembly.open_loops import wrong_lengths
 from gudgeon.assembly.rank import tied
 from gudgeon.errors import AssemblyError
 from gudgeon.model.compiled import Array
+from gudgeon.model.far_masses import far_masses
 from gudgeon.model.written import reason
 
 FEW = 60  # coordinates up to which it is looked for which length is wrong
-MOST_APART = 1e14  # times, that one mass may be another: a sum of both still knows the lighter one
 
 
 def stuck(closure: Closure, matrix: Array, left: Array) -> AssemblyError:
     """Velocities that do not fit: the rows whose combination vanishes, drives and rates among them."""
     source = closure.linkage.source
-    if told := _far_masses(closure):
+    if told := far_masses(source, closure.linkage.mass(closure.p)):
         return AssemblyError(told)
     rows = [row.name for row in source.start_rows] + list(source.start_rates)
     moving = {row.name for row in source.start_rows if row.kind == "drive"} | set(source.start_rates)
@@ -50,17 +50,6 @@ def stuck(closure: Closure, matrix: Array, left: Array) -> AssemblyError:
         )
     worst = rows[int(left.argmax())]
     return AssemblyError(f"no velocities fit the start: row {worst} is left with {left.max():.3g}")
-
-
-def _far_masses(closure: Closure) -> str:
-    """Where masses are so far apart that no double knows both."""
-    bodies, mass = closure.linkage.source.bodies, closure.linkage.mass(closure.p)
-    of = {body.name: float(mass[body.index]) for body in bodies}
-    least, most = min(of, key=of.__getitem__), max(of, key=of.__getitem__)
-    if of[most] < MOST_APART * of[least]:
-        return ""
-    told = f"the masses of {most} ({of[most]:g} kg) and {least} ({of[least]:g} kg) are too far apart for doubles"
-    return f"{told}\n  expected none {MOST_APART:g} times another one; check their units"
 
 
 def not_closed(closure: Closure, q: Array) -> AssemblyError:

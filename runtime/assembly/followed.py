@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import warnings
+from collections.abc import Mapping, Sequence
+from contextvars import ContextVar
+
 import numpy as np
 
 from gudgeon.assembly.linkage import Linkage, mechanism_size, place_of
@@ -9,6 +13,8 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.model.compiled import Array
 
 APART = 0.2  # rad, or share of the size: what tells two assemblies apart in a guess
+LISTED = "gudgeon check --branches lists those that there are"
+NOTED: ContextVar[list[Mapping[str, float]] | None] = ContextVar("guesses that runs do not follow", default=None)
 FOLLOWED = np.pi / 6  # rad; so far a guess may be off without a word
 
 
@@ -30,6 +36,28 @@ def unfollowed(linkage: Linkage, p: Array, q: Array) -> dict[str, float]:
             if (away := float(np.linalg.norm(place_of(source, p, q, point) - wanted_at))) > APART * size:
                 off[point.name] = away
     return off
+
+
+def tell_unfollowed(linkage: Linkage, p: Array, q: Array, stacklevel: int) -> None:
+    """A warning for each of them; of a run of a batch it is noted in NOTED, where `tell_of_runs` finds it."""
+    off, noted = unfollowed(linkage, p, q), NOTED.get()
+    if noted is not None:
+        noted.append(off)
+        return
+    for name, away in off.items():
+        told = f"{name} begins {off_text(name, away)} from its guess: {nearer_text(linkage.source)}"
+        warnings.warn(f"{told}; {LISTED}", stacklevel=stacklevel + 1)
+
+
+def tell_of_runs(source: KernelSource, noted: Sequence[Mapping[str, float]], stacklevel: int) -> None:
+    """One warning for all runs of a batch: which guesses, in how many runs, by how much at most."""
+    told = []
+    for name in dict.fromkeys(name for off in noted for name in off):
+        by = [off[name] for off in noted if name in off]
+        told.append(f"{name} in {len(by)} of {len(noted)} runs by up to {off_text(name, max(map(abs, by)))}")
+    if told:
+        text = f"runs begin away from their guess: {', '.join(told)}: {nearer_text(source)}; {LISTED}"
+        warnings.warn(text, stacklevel=stacklevel + 1)
 
 
 def off_text(name: str, off: float) -> str:

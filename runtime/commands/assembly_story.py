@@ -116,11 +116,23 @@ def summary(found: Findings) -> str:
     return f"degrees of freedom {', '.join(counts)}" if counts else "it does not assemble"
 
 
+def without_masses(mechanism: Mechanism, found: Findings) -> list[str]:
+    """Scenes that move by forces in a file that lacks a mass."""
+    moved = [name for name in mechanism.scenes if name in found.scenes and found.scenes[name].scene.freedoms]
+    return moved if any(body.lacks for body in mechanism.bodies.values()) else []
+
+
+def verdict(mechanism: Mechanism, found: Findings) -> str:
+    """ "valid", and which scenes cannot be run all the same."""
+    unable = {*found.failed, *without_masses(mechanism, found)}
+    names = ", ".join(name for name in mechanism.scenes if name in unable)
+    return f"valid, but scene{'s' if len(unable) > 1 else ''} {names} cannot be run" if unable else "valid"
+
+
 def _masses(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
     """What is missing where a scene moves by forces."""
-    moved = [name for name in mechanism.scenes if name in found.scenes and found.scenes[name].scene.freedoms]
     lacking = [f"{b.name} has no {' and no '.join(b.lacks)} ({b.where})" for b in mechanism.bodies.values() if b.lacks]
-    if moved and lacking:
+    if moved := without_masses(mechanism, found):
         yield "masses", f"scene {', '.join(moved)} moves by forces and cannot be run: {', '.join(lacking)}"
 
 

@@ -18,7 +18,7 @@ from gudgeon.commands.progress import status_line
 from gudgeon.commands.reduction_story import story_data, tell
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import KINEMATIC
-from gudgeon.errors import AssemblyError, InputError, InputErrors
+from gudgeon.errors import AssemblyError, InputError, InputErrors, MissingKeyError
 from gudgeon.integrators.adaptive import begins_with
 from gudgeon.loading.find import derived, find_mechanism, read_bytes
 
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from gudgeon.generator.mechanism.mechanism import Mechanism
 
 WIDTH = 100  # columns of what is printed
+HANGING = 14  # columns that what follows is set in by, at most
 MARGIN, GAP = 2, 3  # of a table, and between its columns
 CHECKS = ("scipy:*", "sundials:*")  # integrators of others, which fit wherever something is integrated
 
@@ -55,8 +56,8 @@ def check_file(
         }  # fmt: skip
     if as_json:
         print(json.dumps(_document(mechanism, scenes, seconds, found), ensure_ascii=False, indent=1))
-        return _code(found)
-    print(_wrapped("valid", f"{_counts(mechanism)}; {story.summary(found)}"))
+        return _code(mechanism, found)
+    print(_wrapped(story.verdict(mechanism, found), f"{_counts(mechanism)}; {story.summary(found)}"))
     for whose, remark in story.remarks(mechanism, found):
         print(_wrapped(f"  {whose}", remark))
     for line in story.branches(found) if branches else ():
@@ -66,11 +67,13 @@ def check_file(
     for scene, problem in found.failed.items():
         told = "" if len(found.failed) == len(mechanism.scenes) else f"scene {scene}: "
         raise AssemblyError(f"{told}{problem}")
-    return 0
+    return _code(mechanism, found)
 
 
-def _code(found: story.Findings) -> int:
-    return next((error.exit_code for error in found.failed.values()), 0)
+def _code(mechanism: Mechanism, found: story.Findings) -> int:
+    """That of the first scene that does not assemble; as `run` has it where a mass is missing."""
+    lacking = MissingKeyError.exit_code if story.without_masses(mechanism, found) else 0
+    return next((error.exit_code for error in found.failed.values()), lacking)
 
 
 def _errors(error: InputError) -> list[dict[str, Any]]:
@@ -165,6 +168,7 @@ def _document(
         "bodies": list(mechanism.bodies),
         "joints": list(mechanism.joints),
         "drives": list(mechanism.drives),
+        "verdict": story.verdict(mechanism, found),
         "assembled": story.data(found),
         "assemblies": story.branches_data(found),
         "scenes": {
@@ -199,7 +203,8 @@ def _print(
 
 def _wrapped(name: str, text: str) -> str:
     """ "name: text" in lines of WIDTH columns, those that follow below the text."""
-    lines = textwrap.wrap(f"{name}: {text}", WIDTH, subsequent_indent=" " * (len(name) + 2), break_on_hyphens=False)
+    below = " " * min(len(name) + 2, HANGING)
+    lines = textwrap.wrap(f"{name}: {text}", WIDTH, subsequent_indent=below, break_on_hyphens=False)
     return "\n".join(lines)
 
 

@@ -89,11 +89,12 @@ def at_numbers(mechanism: Mechanism, linkage: NumPyLinkage, given: Mapping[str, 
     from gudgeon.generator.pipeline import closed_linkage
 
     source, count = linkage.source, len(linkage.source.slots) + len(linkage.source.derived)
-    own = {name: x for name, x in known_here(source, given).items() if name not in TOGETHER}  # gains move no start
-    p = linkage.p[:count].copy()
-    values, is_given = given_slots(source, own)
+    known, p = known_here(source, given), linkage.p[:count].copy()
+    values, is_given = given_slots(source, known)
     p[: len(values)][is_given] = values[is_given]
     check(source, p)  # before anything follows from them
+    gains = {*TOGETHER, *(name for names in TOGETHER.values() for name in names)}
+    own = {name: x for name, x in known.items() if name not in gains}  # these move no start
     if not own:
         return linkage
     try:
@@ -118,12 +119,12 @@ def check_folder(option: str, out: Path) -> None:
         told = f"{option} {shortened(out)}: {error.strerror or error}"
         raise InputError(told, hint="name another folder") from error
     if not there.is_dir():
-        raise InputError(f"{option} {out}: {there} is a file", hint="name a folder")
+        raise InputError(f"{option} {shortened(out)}: {shortened(there)} is a file", hint="name a folder")
     try:
         with tempfile.TemporaryFile(dir=there):  # permissions alone do not tell: a folder may be read-only or made up
             pass
     except OSError as error:
-        told = f"{option} {out}: nothing can be written to {there} ({error.strerror or error})"
+        told = f"{option} {shortened(out)}: nothing can be written to {shortened(there)} ({error.strerror or error})"
         raise InputError(told, hint="name another folder") from error
 
 
@@ -144,4 +145,5 @@ def check_name(option: str, path: Path) -> None:
 def need_suffix(path: Path, suffixes: tuple[str, ...]) -> None:
     """InputError for a file whose name does not say what is to be written."""
     if path.suffix.lower() not in suffixes:
-        raise InputError(f"{path}: expected a name that ends in {', '.join(suffixes[:-1])} or {suffixes[-1]}")
+        ends = f"{', '.join(suffixes[:-1])} or {suffixes[-1]}"
+        raise InputError(f"{shortened(path)}: expected a name that ends in {ends}")

@@ -17,10 +17,10 @@ import numpy as np
 
 from gudgeon.commands.common import at_numbers, check_addresses, check_file, chosen_scenes, need_suffix, settings
 from gudgeon.commands.progress import progress_bar, status_line
-from gudgeon.errors import AssemblyError, BadValueError, GudgeonError, SolverError
+from gudgeon.errors import AssemblyError, BadValueError, GudgeonError, SolverError, shortened
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.quantities import number_of_text
-from gudgeon.language.shown import visible
+from gudgeon.language.shown import path_text
 from gudgeon.loading.find import find_mechanism, read_bytes
 from gudgeon.model.parameters import spaced
 from gudgeon.waiting.working import working
@@ -75,7 +75,7 @@ def draw_file(request: Request) -> int:
 
         data = as_bytes(picture, target.suffix.lower())
     write_bytes(target, data)
-    print(f"wrote {visible(target)}")
+    print(f"wrote {path_text(target)}")
     if failure is not None:
         raise failure
     return 0
@@ -90,7 +90,7 @@ def _drawable(target: Path) -> Iterator[None]:
     except (ValueError, ArithmeticError) as error:
         if isinstance(error, GudgeonError):
             raise
-        told = f"no picture {target}: its numbers cannot be drawn ({error})"
+        told = f"no picture {shortened(target)}: its numbers cannot be drawn ({error})"
         raise GudgeonError(f"{told}\n  look for a length or a start that is far too large") from error
 
 

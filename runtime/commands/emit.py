@@ -10,9 +10,9 @@ from pathlib import Path
 
 from gudgeon.commands.common import check_folder, chosen_scenes
 from gudgeon.commands.progress import status_line
-from gudgeon.errors import InputError
+from gudgeon.errors import InputError, shortened
 from gudgeon.files.writing import PART, Aside, read_regular
-from gudgeon.language.shown import visible
+from gudgeon.language.shown import path_text
 from gudgeon.loading.engine import engine_files, engine_readme
 from gudgeon.loading.find import find_mechanism, kernel_source, read_bytes
 from gudgeon.loading.shipped import REST
@@ -39,12 +39,12 @@ def emit_c(mechanism: str, folder: Path, wanted: tuple[str, ...]) -> int:
             source, _ = kernel_source(data, file, scene)
         texts = {**source.files, REST: replace(source, files={}).to_json() + "\n"}
         _write(folder / scene, {name: text.encode() for name, text in texts.items()})
-        print(f"wrote {visible(folder / scene)}: {', '.join(texts)}")
+        print(f"wrote {path_text(folder / scene)}: {', '.join(texts)}")
         needs_engine |= not source.cdef
     if needs_engine:
         for room, texts in rooms.items():
             _write(folder / room, {name: text.encode() for name, text in texts.items()})
-        print(f"wrote {visible(folder / ENGINE)}: what all scenes share")
+        print(f"wrote {path_text(folder / ENGINE)}: what all scenes share")
     return 0
 
 
@@ -109,13 +109,14 @@ def refuse_foreign(folder: Path, inner: Collection[str] = ()) -> None:
 
     `inner`: folders in it that are looked at by themselves.
     """
+    shown = shortened(folder)
     try:
         if folder.is_symlink():
-            raise InputError(f"{folder} is a link: nothing is written through it", hint="name another folder")
+            raise InputError(f"{shown} is a link: nothing is written through it", hint="name another folder")
         if not folder.exists():
             return
         if not folder.is_dir():
-            raise InputError(f"{folder} is a file", hint="name another folder")
+            raise InputError(f"{shown} is a file", hint="name another folder")
         listed = _listed(folder)
         if not listed and read_regular(folder / LIST):
             told = f"{folder / LIST} is no list as `emit` writes it: it does not tell which files there are its own"
@@ -123,14 +124,14 @@ def refuse_foreign(folder: Path, inner: Collection[str] = ()) -> None:
         kept = (path.name for path in folder.iterdir() if _is_own(path, listed) or _is_folder(path, inner))
         foreign = sorted({path.name for path in folder.iterdir()} - set(kept))
     except OSError as error:
-        raise InputError(f"{folder} cannot be read: {error.strerror or error}", hint="name another folder") from error
+        raise InputError(f"{shown} cannot be read: {error.strerror or error}", hint="name another folder") from error
     own = [name for name in foreign if name in listed]
     if foreign and own == foreign:
-        told = f"{folder}: {', '.join(own[:5])} and the checksums in {LIST} differ: files or list were changed"
+        told = f"{shown}: {', '.join(own[:5])} and the checksums in {LIST} differ: files or list were changed"
         raise InputError(told, hint="put back what was changed, move those files away or name another folder")
     if foreign:
         foreign, hint = [name for name in foreign if name not in listed], "move them away or name another folder"
-        raise InputError(f"{folder} holds files that `emit` did not write so: {', '.join(foreign[:5])}", hint=hint)
+        raise InputError(f"{shown} holds files that `emit` did not write so: {', '.join(foreign[:5])}", hint=hint)
 
 
 def _is_folder(path: Path, names: Collection[str]) -> bool:

@@ -11,7 +11,7 @@ import re
 from hashlib import sha256
 from pathlib import Path
 
-from gudgeon.errors import InputError
+from gudgeon.errors import InputError, shortened
 from gudgeon.loading.find import find_mechanism
 
 ORIGIN = "origin"  # attribute of the file
@@ -34,5 +34,5 @@ def check_origin(path: Path, origin: str) -> None:
     except (OSError, ValueError):  # none there; what may be replaced is known when it is written
         return
     if ours and found and not found & set(ours.groups()):
-        told = f"--out: {path} is the result of another mechanism file that has the same name"
+        told = f"--out: {shortened(path)} is the result of another mechanism file that has the same name"
         raise InputError(told, hint="name another folder with --out, or remove it; or change `name:` in one of them")

@@ -15,7 +15,7 @@ from gudgeon.commands.common import check_addresses, check_folder, check_name, c
 from gudgeon.commands.origin import ORIGIN, check_origin, origin_of
 from gudgeon.commands.progress import progress_bar, status_line
 from gudgeon.errors import AssemblyError, GudgeonError, MemoryShortage, SolverError
-from gudgeon.language.shown import visible
+from gudgeon.language.shown import path_text, visible
 from gudgeon.language.suggestions import unknown
 from gudgeon.model.default_step import T_END, scene_end, scene_number
 from gudgeon.model.parameters import prepare, value
@@ -285,5 +285,5 @@ def _show(request: Request, source: KernelSource, reports: list[SceneReport], se
             console.print(table)
         for note in dict.fromkeys(f"{r.scene}: {note}" for r in reports for note in r.diagnostics.notes):
             console.print(f"note: {visible(note)}")
-        print("".join(f"wrote {visible(path)}\n" for path in session.files.values()), end="")
+        print("".join(f"wrote {path_text(path)}\n" for path in session.files.values()), end="")
     session.shown = True

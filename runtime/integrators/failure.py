@@ -84,7 +84,7 @@ def _singular(
             " a shorter step follows a faster one", t, row
         )  # fmt: skip
     try:
-        compiled.check_pivot(status, t, compiled.source.motion_pivots)
+        compiled.check_pivot(status, t, compiled.source.motion_pivots, p)
     except SingularError as error:
         finite = bool(np.isfinite(last).all())
         if finite and np.abs(last).max() < 1e12:

@@ -31,6 +31,11 @@ def _is_shown(character: str) -> bool:
     return character.isprintable() or character in JOINERS or unicodedata.category(character) == "Zs"
 
 
+def path_text(path: object) -> str:
+    """A file's name: visible, and in a line."""
+    return _visible(str(path))
+
+
 def one_line(text: str) -> str:
     """A title: visible, and no longer than one should be."""
     text = _visible(text)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 from collections.abc import Container
 from dataclasses import dataclass
 from fractions import Fraction
@@ -105,8 +106,8 @@ class Tokenizer:
             si = found.to_si(value) if found else float(value)
         except OverflowError:
             self.fail(f"{text!r} is too large", start, "expected a number below 1.8e308")
-        if value and (not si or math.isinf(si)):
-            self.fail(f"{text!r} is out of range", start, "expected a magnitude from 1e-308 to 1e308")
+        if value and not sys.float_info.min <= abs(si) < math.inf:  # below it digits are lost
+            self.fail(f"{text!r} is out of range", start, "expected a magnitude from 2.3e-308 to 1.7e308")
         return Token("number", text, start, Number(si, text, found is not None, start))
 
     def _value(self, literal: str, start: int) -> Fraction:
@@ -129,7 +130,7 @@ class Tokenizer:
             self.fail(f"{following!r} right behind the number {literal}", self.position, hint)
         _, _, exponent = literal.lower().partition("e")
         if exponent and (len(exponent) > 5 or abs(int(exponent)) > _MAX_EXPONENT):
-            self.fail(f"{literal!r} is out of range", start, "expected a magnitude from 1e-308 to 1e308")
+            self.fail(f"{literal!r} is out of range", start, "expected a magnitude from 2.3e-308 to 1.7e308")
         return Fraction(literal)
 
     def _unit(self, start: int) -> tuple[Unit | None, int]:

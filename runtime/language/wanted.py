@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, NoReturn, TypeVar
+from typing import Any, NoReturn, TypeGuard, TypeVar
 
 import numpy as np
 
@@ -73,11 +73,16 @@ def path(value: Any, name: str) -> str | os.PathLike[str]:
     return value
 
 
+def is_whole(value: object) -> TypeGuard[int]:
+    """Whether it is a whole number of Python or NumPy: no truth, and no lapse of time, which NumPy counts as one."""
+    return isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
+
+
 def whole(value: Any, name: str, least: int, most: int) -> int:
     """A whole number between bounds."""
     if isinstance(value, np.ndarray) and value.ndim == 0:
         value = value[()]
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not least <= value <= most:
+    if not is_whole(value) or not least <= value <= most:
         refuse(name, value, f"a whole number from {least} to {most}")
     return int(value)
 
@@ -86,6 +91,8 @@ def number_of(value: Any, name: str) -> float:
     """A finite float, of any kind of real number but text and truth. Raises BadValueError that names it."""
     try:
         if isinstance(value, (str, bytes, bool, np.bool_)) or np.ndim(value) or np.iscomplexobj(value):
+            raise TypeError
+        if isinstance(value, np.ndarray) and value.dtype.kind in "mM":  # of a time without a unit NumPy makes a number
             raise TypeError
         result = float(value)
     except (TypeError, ValueError, OverflowError):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import stat
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from hashlib import sha256
@@ -14,9 +13,9 @@ from typing import TYPE_CHECKING
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.limits import MAX_BYTES
-from gudgeon.errors import BadValueError, InputError, LimitError, Location, shortened
+from gudgeon.errors import BadValueError, InputError, LimitError
 from gudgeon.files.beside import read_beside
-from gudgeon.files.writing import kind
+from gudgeon.files.reading import read_named
 from gudgeon.language.wanted import mapping, number_of, path, text
 from gudgeon.loading.cache import Cache, default_cache, digest
 from gudgeon.loading.contents import contents
@@ -66,29 +65,16 @@ def find_mechanism(mechanism: str | os.PathLike[str]) -> Path:
 
 
 def read_bytes(file: Path) -> bytes:
-    """A mechanism file's bytes. InputError if it cannot be read or is no regular file, LimitError if it is too large.
-
-    A device or pipe is not opened: it may have no end, or keep us waiting; and a file is read more than once.
-    """
+    """A mechanism file's bytes. InputError if it cannot be read or is no regular file, LimitError if too large."""
     try:
-        found = os.stat(file)
-        if stat.S_ISREG(found.st_mode):
-            handle = os.open(file, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
-            with open(handle, "rb") as opened:
-                found = os.fstat(handle)
-                data = opened.read(MAX_BYTES + 1) if found.st_size <= MAX_BYTES else b""
-    except (OSError, ValueError) as error:  # ValueError: a name with a zero byte
-        hint = f"the mechanism that comes with gudgeon is called {file.stem}" if file.stem in shipped() else ""
-        why = getattr(error, "strerror", "") or error
-        raise InputError(f"cannot read {shortened(file)}: {why}", hint=hint) from error
-    if not stat.S_ISREG(found.st_mode):
-        pipe = stat.S_ISFIFO(found.st_mode)
-        hint = "write what comes through the pipe to a file first" if pipe else "name a YAML file"
-        raise InputError(f"cannot read {file}: it is {kind(found)}, not a file", hint=hint)
-    size = max(found.st_size, len(data))
-    if size > MAX_BYTES:
-        raise LimitError(f"a file of {size} bytes", Location(str(file), 1, 1), f"expected at most {MAX_BYTES}")
-    return data
+        return read_named(file, MAX_BYTES, hint="name a YAML file")
+    except LimitError:
+        raise
+    except InputError as error:
+        if file.stem not in shipped():
+            raise
+        hint = f"the mechanism that comes with gudgeon is called {file.stem}"
+        raise InputError(error.message, hint=hint) from error
 
 
 def kernel_source(

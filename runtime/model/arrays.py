@@ -110,7 +110,7 @@ def _of_objects(given: NDArray[Any], name: str) -> NDArray[Any]:
     """Numbers that NumPy keeps as objects (large integers, fractions), as floats."""
     for at, value in np.ndenumerate(given):
         if not isinstance(value, Real):
-            _refuse(name, f"{_place(at)} is {type(value).__name__} {str(value)[:40]!r}")
+            _refuse(f"{name}{_place(at)}", f"is {type(value).__name__} {str(value)[:40]!r}")
     try:
         return given.astype(np.float64)
     except (TypeError, ValueError, OverflowError) as error:

@@ -22,6 +22,7 @@ from gudgeon.language.wanted import number_of, time
 from gudgeon.model.arrays import FLAG, pointer, taken
 from gudgeon.model.choices import choices, filled_in
 from gudgeon.model.evaluation import PARTS, Evaluation, evaluate
+from gudgeon.model.far_masses import far_masses
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -152,7 +153,7 @@ class CompiledModel:
         """
         out = np.empty(2 * self.n + N_WORK)
         status = self.lib.gudgeon_rhs(time(t), *self._point(y, memory, p), self._out(out))
-        self.check_pivot(status, t)
+        self.check_pivot(status, t, p=p)
         return out
 
     def jacobian(self, t: float, y: ArrayLike, p: ArrayLike, memory: ArrayLike | None = None) -> tuple[Array, Array]:
@@ -209,13 +210,17 @@ class CompiledModel:
         array = taken(memory, "memory")
         return array if not self.n_memory and array.shape == (1,) else taken(array, "memory", (self.n_memory,))
 
-    def check_pivot(self, status: int, t: float, pivots: tuple[str, ...] | None = None) -> None:
-        """Raises SingularError for a status k > 0, with the row that the pivot belongs to."""
+    def check_pivot(
+        self, status: int, t: float, pivots: tuple[str, ...] | None = None, p: ArrayLike | None = None
+    ) -> None:  # fmt: skip
+        """Raises SingularError for a status k > 0, with the row that the pivot belongs to; p: numbers to blame."""
         if status > 0:
             row = (pivots or self.source.pivots)[status - 1]
+            told = f"singular or non-finite at t = {t:.9g} s: the pivot of constraint row {row} vanished\n"
+            if p is not None and (masses := far_masses(self.source, self.mass(p))):
+                raise SingularError(f"{told}  {masses}", t, row)
             raise SingularError(
-                f"singular or non-finite at t = {t:.9g} s: the pivot of constraint row {row} vanished\n"
-                "  the mechanism is at a singular position (dead centre), constraints are redundant,"
+                f"{told}  the mechanism is at a singular position (dead centre), constraints are redundant,"
                 " or the state is no longer finite: check the start, or take a smaller step",
                 t, row,
             )  # fmt: skip

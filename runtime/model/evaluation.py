@@ -64,7 +64,7 @@ def evaluate(
         filled = [compiled.pointer(x[first:], written=True) if len(x) else compiled.ffi.NULL for x in results]
         status = compiled.lib.gudgeon_evaluate(count, compiled.pointer(time[rows]), *given, numbers, *filled, failed)
         if status:
-            compiled.check_pivot(status, float(time[first + failed[0]]))
+            compiled.check_pivot(status, float(time[first + failed[0]]), p=p)
         first += count
         chunk = 4 * count if perf_counter() - before < SOON else max(1, count // 4)
         take()

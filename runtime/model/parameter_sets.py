@@ -13,7 +13,7 @@ from gudgeon.errors import BadValueError
 from gudgeon.language.wanted import mapping, told
 from gudgeon.model.arrays import taken
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.parameters import RELATIONS, check, without_baumgarte
+from gudgeon.model.parameters import RELATIONS, check, conditions, without_baumgarte
 
 Values: TypeAlias = float | str
 ParameterSets: TypeAlias = Sequence[Mapping[str, Values]] | Mapping[str, Values | Sequence[Values] | ArrayLike] | Array
@@ -76,7 +76,7 @@ def _rows(parameters: ParameterSets) -> list[Mapping[str, Any]]:
 def column(name: str, values: Any) -> list[Any] | None:
     """The values of every run; None where one stands for all. Raises BadValueError, which begins with `name`."""
     try:
-        shape = () if isinstance(values, (str, bytes, Mapping)) else np.shape(values)
+        shape = () if isinstance(values, (str, bytes, Mapping, type)) else np.shape(values)
     except ValueError:  # rows of different lengths
         raise BadValueError(f"{name} is {told(values)}: expected one value for every run") from None
     if not shape:
@@ -113,7 +113,7 @@ def _valid(source: KernelSource, p: Array) -> Mask:
     """What parameters.check asks for, of all runs at once, (n_runs,)."""
     place = {slot.address: k for k, slot in enumerate(source.slots)}
     valid = np.asarray(np.isfinite(p).all(axis=1))
-    for condition in source.conditions:
+    for condition in conditions(source):
         several = [place[address] for address in condition.addresses]
         bound = p[:, several].sum(axis=1) if several else float(condition.bound)
         valid &= RELATIONS[condition.relation](p[:, place[condition.address]], bound)

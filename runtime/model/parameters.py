@@ -6,11 +6,12 @@ import difflib
 import math
 import operator
 import re
+import sys
 from collections.abc import Mapping
 
 import numpy as np
 
-from gudgeon.contract.kernel_source import KernelSource, Slot
+from gudgeon.contract.kernel_source import Condition, KernelSource, Slot
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.language.wanted import mapping, number_of
 from gudgeon.model.choices import place_of_word
@@ -25,6 +26,7 @@ _PLAIN = re.compile(rf"[-+]?(?!0[0-9])(?P<mantissa>{_MANTISSA})(?:{_EXPONENT})?"
 _GLUED = re.compile(rf"({_NUMBER})\s*(?![eE][-+]?[0-9])([A-Za-zµμ°].*)")
 GAINS = ("baumgarte.alpha", "baumgarte.beta")  # of rk4 in the full formulation, nobody else's
 TOGETHER = {"gains": GAINS}  # one name for several numbers
+MOST_GAIN = 1e150  # 1/s: its square is a number
 RELATIONS = {">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le}
 
 
@@ -63,7 +65,8 @@ def as_parameter(source: KernelSource, address: str) -> tuple[str, str]:
     """(message, hint) about an address that holds an expression of t or motion, and no number; "" for another one."""
     written = next((one for one in source.written if one.address == address), None)
     if written is None and address.removeprefix("outputs.") not in source.outputs:
-        found = (_unplaced_journal(source, address), _only_material(source, address), _literal_zero(source, address))
+        found = (_unplaced_journal(source, address), _only_material(source, address), _literal_zero(source, address),
+                 _of_motion(source, address))  # fmt: skip
         return next((one for one in found if one[0]), ("", ""))
     key = address.rpartition(".")[2]
     told = f"{address} is an expression of t or motion, compiled as it stands: it is no number that can be set"
@@ -71,6 +74,23 @@ def as_parameter(source: KernelSource, address: str) -> tuple[str, str]:
         f"a number in it can be, once it is a parameter: parameters: {{phase: … deg}}, {key}: phase + …,"
         " then set phase; overrides= of gudgeon.load compiles anew with another expression"
     )
+
+
+def _of_motion(source: KernelSource, address: str) -> tuple[str, str]:
+    """The same of a coordinate or velocity of a body: what its start is, and what drives it."""
+    body, _, part = address.rpartition(".")
+    if body not in (one.name for one in source.bodies) or part not in ("x", "y", "theta", "vx", "vy", "omega"):
+        return "", ""
+    rate, own = part in ("vx", "vy", "omega"), {slot.address for slot in source.slots}
+    said = [name for name in (f"start.{section}.{address}" for section in ("rates", "set", "guess")) if name in own]
+    unit = {"omega": "rad/s", "theta": "deg"}.get(part, "m/s" if rate else "mm")
+    section = "rates" if rate else "set"
+    wanted = f"start: {{{section}: {{{address}: 0 {unit}}}}}, then start.{section}.{address} can be set"
+    hint = f"its start is {said[0]}" if said else f"write {wanted}"
+    if source.drives:
+        drives = ", ".join(f"drives.{drive.name}.value" for drive in source.drives)
+        hint += f"; of what is driven {drives} says it: set the parameters in it"
+    return f"{address} is a result of the motion, and no number of the file", hint
 
 
 def _unplaced_journal(source: KernelSource, address: str) -> tuple[str, str]:
@@ -114,7 +134,8 @@ def plain_number(text: str) -> float | None:
     if found is None:
         return None
     value = float(found[0])
-    return value if math.isfinite(value) and (value or not re.search("[1-9]", found["mantissa"])) else None
+    whole = sys.float_info.min <= abs(value) < math.inf or (not value and not re.search("[1-9]", found["mantissa"]))
+    return value if whole else None
 
 
 def spaced(text: str) -> str:
@@ -146,9 +167,9 @@ def without_baumgarte(compiled: CompiledModel, given: Array, is_given: Array) ->
 
 
 def check(source: KernelSource, p: Array) -> None:
-    """Every condition of the file again, on the values of this run."""
+    """Every condition again, on the values of this run."""
     value = {slot.address: float(p[k]) for k, slot in enumerate(source.slots)}
-    for condition in source.conditions:  # first: sides that make no triangle leave a point that is NaN
+    for condition in conditions(source):  # first: sides that make no triangle leave a point that is NaN
         bound = sum(value[a] for a in condition.addresses) if condition.addresses else float(condition.bound)
         known = math.isfinite(value[condition.address]) and math.isfinite(bound)
         if known and not RELATIONS[condition.relation](value[condition.address], bound):
@@ -165,9 +186,16 @@ def check(source: KernelSource, p: Array) -> None:
             raise BadValueError(f"{name}, which follows from the parameters, is {number}: not finite with these values")
 
 
+def conditions(source: KernelSource) -> tuple[Condition, ...]:
+    """Those of the file, and of Baumgarte's gains, which no file has: a negative one drives rows apart."""
+    gains = [slot.address for slot in source.slots if slot.address.startswith("baumgarte.")]
+    asked = ((">=", 0.0, "a negative gain drives rows apart"), ("<=", MOST_GAIN, "its square is no number"))
+    return (*source.conditions, *(Condition(gain, *one) for gain in gains for one in asked))
+
+
 def _range(source: KernelSource, address: str) -> str:
-    """All that the file's conditions ask of a number: "> 0 and <= 1"."""
-    asked = [condition for condition in source.conditions if condition.address == address]
+    """All that the conditions ask of a number: "> 0 and <= 1"."""
+    asked = [condition for condition in conditions(source) if condition.address == address]
     told = (c.bound if isinstance(c.bound, str) else f"{c.bound:g}" for c in asked)
     return " and ".join(f"{c.relation} {bound}" for c, bound in zip(asked, told, strict=True))
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
-from gudgeon.language.wanted import refuse, text, told
+from gudgeon.language.wanted import is_whole, refuse, text, told
 from gudgeon.model.choices import of_runs as chosen_of_runs
 from gudgeon.results.batch_series import kept_text, series, wanted_names
 from gudgeon.results.diagnostics import Extremes
@@ -142,7 +142,7 @@ class Batch:
     def __getitem__(self, key: int | str) -> Result | Array:
         if isinstance(key, str):
             return series(self, [key])[key]
-        if not isinstance(key, (int, np.integer)) or isinstance(key, bool):
+        if not is_whole(key):
             refuse("a run of a batch", key, "its number, or the name of a series")
         if not -len(self) <= key < len(self):
             raise IndexError(f"run {told(key)}: there are {len(self)}")
@@ -159,6 +159,8 @@ class Batch:
     def partial(self, i: int) -> Result | None:
         """The result of run i as far as it came; None where it did not begin."""
         _ = self._states
+        if not is_whole(i):
+            refuse("a run of a batch", i, "its number")
         try:
             return self[i]
         except GudgeonError as error:

@@ -7,6 +7,9 @@ import math
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from gudgeon.errors import UnknownNameError
+from gudgeon.language.wanted import told
+
 
 @dataclass(frozen=True)
 class Peak:
@@ -78,11 +81,12 @@ class Diagnostics:
     extremes: tuple[Extremes, ...] = ()  # over all steps, of the series that `peaks` asked for
 
     def peak(self, joint: str) -> Peak:
-        """The peak at a joint with play; KeyError for any other."""
+        """The peak at a joint with play; UnknownNameError for any other."""
         for peak in self.peaks:
-            if peak.joint == joint:
+            if isinstance(joint, str) and peak.joint == joint:
                 return peak
-        raise KeyError(joint)
+        known = ", ".join(peak.joint for peak in self.peaks) or "none"
+        raise UnknownNameError(f"no peak of {told(joint)}: expected a joint with play", hint=f"there are: {known}")
 
     def to_json(self) -> str:
         """JSON without NaN or infinity (RFC 8259 has neither): they are the words "nan", "inf", "-inf".

@@ -17,10 +17,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.errors import GudgeonError
+from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.files.writing import written
+from gudgeon.language.wanted import mapping, text, told
 from gudgeon.language.wanted import path as named
-from gudgeon.language.wanted import text
 from gudgeon.model.choices import said
 from gudgeon.results import peaks, trace
 from gudgeon.results.hdf5_image import Table, Variable, pieces
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     import xarray
 
 FORMAT = "gudgeon-result/2"
+LONGEST = 200  # characters of the name of an attribute
 SERIES, TRACE, STATES, COMPILED, PEAKS = "series", "trace", "at_events", "compiled", "peaks"
 PARTS = ("impacts", "events", STATES, "parameters", TRACE, PEAKS)
 IMPACTS = {
@@ -148,7 +149,18 @@ def dataset(run: Result, part: str = SERIES) -> xarray.Dataset:
 def save(run: Result, path: str | os.PathLike[str], more: Mapping[str, str] = MappingProxyType({})) -> None:
     """Write `run` to `path`, with more attributes. OutputError where that fails; an older file is then as it was."""
     root, *others = tables(run)
-    write(iter([replace(root, attributes={**root.attributes, **more}), *others]), path)
+    write(iter([replace(root, attributes={**root.attributes, **_more(more, root)}), *others]), path)
+
+
+def _more(given: Any, root: Table) -> dict[str, str]:
+    """Attributes of the user's; those that a result is read back by are not written over. BadValueError."""
+    found = {}
+    for name, value in mapping(given, "attributes", "{name: text}").items():
+        if not 0 < len(name) <= LONGEST or not name.isprintable() or name in root.attributes:
+            hint = f"expected a name other than {', '.join(root.attributes)}"
+            raise BadValueError(f"attributes: {told(name)} is no name for one of your own", hint=hint)
+        found[name] = text(value, f"attributes: {name}")
+    return found
 
 
 def write(tables: Iterator[Table], path: str | os.PathLike[str]) -> None:

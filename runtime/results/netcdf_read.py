@@ -17,7 +17,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.errors import GudgeonError, InputError
+from gudgeon.errors import GudgeonError, InputError, in_a_line
 from gudgeon.integrators.trace import COLUMNS, Trace
 from gudgeon.integrators.trajectory import EVENT_DTYPE, IMPACT_DTYPE
 from gudgeon.language.wanted import path as named
@@ -48,7 +48,7 @@ def opened(path: str | os.PathLike[str], make: Callable[[Any, int], Made]) -> Ma
         import h5py
     except ModuleNotFoundError as error:
         raise GudgeonError("NetCDF files need h5py: pip install 'gudgeon[xarray]'") from error
-    path, shown = Path(named(path, "path")), os.fspath(path)
+    path, shown = Path(named(path, "path")), in_a_line(os.fspath(path))
     try:
         known = path.is_file()
     except OSError:  # a name that is too long

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.drawing.picture import one_word_on_signs
-from gudgeon.errors import GudgeonError
+from gudgeon.errors import GudgeonError, shortened
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.plot_units import drawn, label, scale
 from gudgeon.language.shown import in_figure
@@ -275,5 +275,6 @@ def save_figure(picture: Figure, path: str | os.PathLike[str]) -> None:
         with one_word_on_signs():
             picture.savefig(drawn, format=suffix, metadata={"Software": None} if suffix == "png" else None)
     except (ValueError, ArithmeticError) as error:  # matplotlib finds no ticks for numbers near the largest one
-        raise GudgeonError(f"no picture {path}: its numbers cannot be drawn ({error})\n  watch others") from error
+        told = f"no picture {shortened(path)}: its numbers cannot be drawn ({error})"
+        raise GudgeonError(f"{told}\n  watch others") from error
     write_bytes(path, drawn.getvalue())

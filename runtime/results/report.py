@@ -41,6 +41,7 @@ class SceneReport:
     diagnostics: Diagnostics
     events: Mapping[str, tuple[float, ...]] = field(default_factory=dict)  # event -> its times
     drives: tuple[Extreme, ...] = ()  # torques and forces of the drives
+    constrained: bool = True  # whether rows are left that could open
     scales: Mapping[str, float] = field(default_factory=dict)  # unit -> how large such numbers are in this run
 
 
@@ -74,8 +75,9 @@ def compare(run: Result, reference: Result | None, watch: Sequence[str]) -> Scen
     events = {event.name: tuple(run.events_of(event.name).tolist()) for event in run.source.events}
     driven = () if run.source.massless else drive_series(run.source)
     drives = tuple(of_samples(name, run.unit(name), run.t, run[name]) for name in driven)
+    rows = run.source.rows if run.source.formulation == "full" else run.source.closures
     found = run.source.scene, motion, errors, forces, run.constants, run.diagnostics, events, drives
-    return SceneReport(*found, _scales(run, forces, drives))
+    return SceneReport(*found, bool(rows) or run.diagnostics.phi_max > 0.0, _scales(run, forces, drives))
 
 
 def _scales(run: Result, forces: Mapping[str, tuple[float, float]], drives: Sequence[Extreme]) -> dict[str, float]:
@@ -243,7 +245,7 @@ def _play_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
         shown = [found.get(joint) for found in peaks]
         contacts = [p.first_contact if p else math.nan for p in shown]
         rows.append((f"{joint} first contact", [quantity(t, "s") for t in contacts]))
-        rows.append((f"{joint} its peak", [quantity(p.first_peak, "N", 5) if p else "–" for p in shown]))
+        rows.append((f"{joint} peak of that contact", [quantity(p.first_peak, "N", 5) if p else "–" for p in shown]))
         rows.append((f"{joint} largest e", [quantity(p.e_max, "m", 5) if p else "–" for p in shown]))
         for name, (unit, after) in CONSTANTS.items():
             values = [report.constants.get(f"{joint}.{name}", math.nan) for report in reports]
@@ -268,8 +270,8 @@ def _trust_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     play = [bool(d.peaks) for d in every]
     ratio = [f"{d.ratio_min:.3g} … {d.ratio_max:.3g}" if math.isfinite(d.ratio_min) else "–" for d in every]
     return [
-        ("max |Φ|", [f"{d.phi_max:.2e}" for d in every]),
-        ("max |Φ̇|", [f"{d.phi_dot_max:.2e}" for d in every]),
+        ("max |Φ|", [f"{r.diagnostics.phi_max:.2e}" if r.constrained else "no constraint row" for r in reports]),
+        ("max |Φ̇|", [f"{r.diagnostics.phi_dot_max:.2e}" if r.constrained else "–" for r in reports]),
         ("energy residual", [quantity(d.energy_residual, "J", 3) for d in every]),
         ("of turned over", [quantity(d.energy_turned_over, "J", 3) for d in every]),
         ("trusted until", [_until(d.horizon) for d in every]),

@@ -252,8 +252,8 @@ class Result:
         export.mat(self, path, names)
 
     def save(self, path: str | os.PathLike[str], attributes: Mapping[str, str] = MappingProxyType({})) -> None:
-        """Write everything to a NetCDF file, with more attributes, aside first and then moved into place; OutputError
-        where that fails."""
+        """Write everything to a NetCDF file, with more attributes {name: text}, aside first and then moved into place;
+        OutputError where that fails, BadValueError for attributes that are none."""
         from gudgeon.results import netcdf
 
         netcdf.save(self, path, attributes)

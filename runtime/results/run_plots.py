@@ -100,7 +100,7 @@ class Plot:
     def orbit(self, joint: str, ax: Axes | None = None) -> Axes:
         """Path of the journal's centre in its clearance circle, in units of the clearance."""
         joints = [each.name for each in self.run.source.clearances]
-        if joint not in joints:
+        if not isinstance(joint, str) or joint not in joints:
             hint = f"its joints with play: {', '.join(joints) or 'none'}"
             raise UnknownNameError(f"no orbit of {told(joint)}: expected a joint with play", hint=hint)
         with matplotlib.rc_context(STYLE):

@@ -12,7 +12,7 @@ from gudgeon.contract.methods import ADAPTIVE, AUTO, CHOOSING, KINEMATIC
 from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.integrators import adaptive, kinematic, rk4
 from gudgeon.integrators.peers import driver
-from gudgeon.language.wanted import told
+from gudgeon.language.wanted import is_whole, told
 from gudgeon.model.arrays import taken
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.default_step import scene_end, scene_number, scene_step
@@ -24,6 +24,7 @@ METHODS = {
 }  # fmt: skip
 MAX_STEPS = 10**12
 DEFAULT_OUTPUT, MOST_OUTPUT = 1000, 10**8
+OUTPUT = f"a whole number of intervals, 1 to {MOST_OUTPUT:.0e}, or times (s)"
 MOST_TRUTHS = 10**4  # entries of a list that are looked at one by one
 NEAREST, SHORTEST, FURTHEST = 1024, 1e-290, 1e18  # roundings between start and end; s, of a run
 
@@ -55,7 +56,9 @@ def output_times(
 
     Raises BadValueError.
     """
-    if output is not None and not isinstance(output, (int, np.integer)):
+    if isinstance(output, (float, np.floating)):
+        raise BadValueError(f"output is {told(output)}: expected {OUTPUT}", hint="a list for times: output=[0.5]")
+    if output is not None and not isinstance(output, bool) and not is_whole(output):
         times = _given_times(t0, output)
         _check_both(None if t_end is None else seconds("t_end", t_end), float(times[-1]))
         return times
@@ -64,7 +67,7 @@ def output_times(
         raise BadValueError(f"t_end is {end:g} s: expected a time after the start at {t0:g} s")
     intervals = scene_number(source, "output", p, DEFAULT_OUTPUT) if output is None else output
     if isinstance(intervals, bool) or not 1 <= intervals <= MOST_OUTPUT:
-        raise BadValueError(f"output is {told(intervals)}: expected a number of intervals, 1 to {MOST_OUTPUT:.0e}")
+        raise BadValueError(f"output is {told(intervals)}: expected {OUTPUT}")
     _check_end("t_end is", t0, end, 4 * int(intervals))
     return np.linspace(t0, end, int(intervals) + 1)
 

@@ -127,8 +127,8 @@ def _outside(compiled: CompiledModel, p: Array, trajectory: Trajectory) -> Itera
             )
         if deepest > min(DEEP_CLEARANCE * c, DEEP_RADIUS * radius):
             yield (
-                f"{joint.name}: the journal goes {deepest:.3g} m into its bearing (c {c:.3g} m, radius {radius:.3g} m):"
-                " outside what contact laws hold for; a step too long does this too"
+                f"{joint.name}: the journal goes {1e3 * deepest:.3g} mm into its bearing (c {1e3 * c:.3g} mm, radius"
+                f" {1e3 * radius:.3g} mm): outside what contact laws hold for; a step too long does this too"
             )
 
 

@@ -55,7 +55,8 @@ def own_each(source: KernelSource, start: Any, rows: int) -> list[State]:
     """States of a batch: one for all of `rows` runs or one a run, at one time; empty where none is given."""
     if start is None:
         return []
-    if isinstance(start, State) or not isinstance(start, Iterable) or hasattr(start, "final"):
+    single = isinstance(start, State) or not isinstance(start, Iterable) or getattr(start, "ndim", 1) == 0
+    if single or hasattr(start, "final"):
         return [own(source, start)] * rows
     states = [own(source, one) for one in start]
     if len(states) != rows and 1 not in (rows, len(states)) or not states:
@@ -155,19 +156,43 @@ def numbers(
 
 def check_fits(compiled: CompiledModel, start: State, p: Array) -> None:
     """AssemblyError where the numbers p of a further run leave rows open at the state that it goes on from."""
-    open_by, size = compiled.phi(start.t, start.q, p), mechanism_size(compiled, p)
-    told = [
-        f"{row.name} ({x:.3g} {row.unit})"
-        for row, x in zip(compiled.source.rows, open_by.tolist(), strict=True)
-        if not abs(x) <= OPEN * (size if row.unit == "m" else 1.0)
-    ]
-    if told:
+    if told := _open(compiled, p, compiled.phi(start.t, start.q, p)):
         raise AssemblyError(
-            f"start: the state at t = {start.t:.9g} s does not fit the numbers given: rows"
-            f" {', '.join(told[:MOST_TOLD])} are open by so much\n"
+            f"start: the state at t = {start.t:.9g} s does not fit the numbers given: rows {told} are open by so much\n"
             "  other lengths close elsewhere, and a drive whose value hangs on t and a changed number stands elsewhere"
             " at that time: write it so that it goes on from there, or run from the scene's own start"
         )
+
+
+def off_constraints(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array) -> tuple[str, ...]:
+    """A remark on a state to go on from, q, v (n,) at t (s), that is off the constraints: one that was made by hand.
+
+    Positions Φ(t, q) = 0 and velocities Φ_q q̇ = ν; of these what rounds away beside their terms is no matter.
+    """
+    source = compiled.source
+    with np.errstate(all="ignore"):  # the run itself tells what is not finite
+        told = _open(compiled, p, compiled.phi(t, q, p))
+        if not told:
+            phi_q, nu = compiled.phi_q(t, q, p), compiled.nu(t, q, p)
+            told = _open(compiled, p, phi_q @ v - nu, np.abs(phi_q) @ np.abs(v) + np.abs(nu), "/s")
+    if not told:
+        return ()
+    taken = "the run takes the coordinates that it integrates, and closes the others anew"
+    if source.formulation == "full":
+        taken = "the run begins with it as it stands"
+    if not source.degrees_of_freedom:
+        taken = "the run begins where its drives put it"
+    return (f"the state at t = {t:.9g} s is off the constraints, rows {told}: {taken}",)
+
+
+def _open(compiled: CompiledModel, p: Array, by: Array, terms: Array | float = 0.0, rate: str = "") -> str:
+    """Rows that are open `by` more than a run leaves them, beside `terms` (m,) of theirs: "rod.length (0.1 m)"."""
+    rows, size = compiled.source.rows, mechanism_size(compiled, p)
+    allowed = OPEN * (np.array([size if row.unit == "m" else 1.0 for row in rows]) + terms)
+    told = [f"{row.name} ({x:.3g} {row.unit}{rate})" for row, x, most in zip(rows, by, allowed, strict=True)
+            if not abs(x) <= most]  # fmt: skip
+    more = f" and {len(told) - MOST_TOLD} more" if len(told) > MOST_TOLD else ""
+    return f"{', '.join(told[:MOST_TOLD])}{more}" if told else ""
 
 
 def _quantity(value: float, slot: Slot) -> str:

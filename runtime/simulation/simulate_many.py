@@ -19,7 +19,7 @@ from gudgeon.integrators import batch as many
 from gudgeon.integrators.batch import available_threads
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Counts, Problem, Progress
-from gudgeon.language.wanted import flag, function, text, told
+from gudgeon.language.wanted import flag, function, is_whole, text, told
 from gudgeon.model.compiled import Array
 from gudgeon.model.parameter_sets import ParameterSets, each_of, prepare_sets, rows_of
 from gudgeon.results.bare import Bare, bare
@@ -31,7 +31,7 @@ from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude
 from gudgeon.simulation.each_run import EachRun
 from gudgeon.simulation.hidden_jumps import any_in_batch
-from gudgeon.simulation.restart import check_fits, numbers, own_each
+from gudgeon.simulation.restart import check_fits, numbers, off_constraints, own_each
 from gudgeon.simulation.single_runs import Asked, run_singly
 from gudgeon.simulation.wanted_peaks import Told, search_of, wanted_peaks
 
@@ -57,7 +57,7 @@ def simulate_many(
     method, progress = text(method, "method"), function(progress, "progress")
     stop, side_by_side = flag(stop, "stop"), flag(side_by_side, "side_by_side")
     workers = available_threads() if threads is None else threads
-    if isinstance(workers, bool) or not isinstance(workers, (int, np.integer)) or workers < 1:
+    if not is_whole(workers) or workers < 1:
         raise BadValueError(f"threads is {told(threads)}: expected a number of threads, 1 or more")
     workers = int(min(workers, max(len(starts.given), 1)))  # no more than there is to do
     series = _kept(source, keep)
@@ -187,7 +187,10 @@ class _Results:
         if error is not None and not x["done"][i]:
             raise error
         begin = x["start"][i, :n], x["start"][i, n:], x["remembered"][i, : compiled.n_memory]
-        remarks = self.starts.remarks[i] + parting(compiled, x["p"][i], self.starts.t, *begin)
+        remarks = self.starts.remarks[i]
+        if self.starts.states:
+            remarks += off_constraints(compiled, x["p"][i], self.starts.t, *begin[:2])
+        remarks += parting(compiled, x["p"][i], self.starts.t, *begin)
         problem = Problem(
             compiled, x["p"][i], times, *begin, float(x["step"][i]), method=self.method, rtol=self.rtol,
             p_free=None if self.method == "rk4" else x["p_motion"][i], stop=self.stop, remarks=remarks,

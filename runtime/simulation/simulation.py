@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
@@ -14,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gudgeon.assembly.followed import nearer_text, off_text, unfollowed
+from gudgeon.assembly.followed import tell_unfollowed
 from gudgeon.assembly.journals import parting
 from gudgeon.assembly.redundant_rows import check_start
 from gudgeon.assembly.start import Start, assemble
@@ -30,7 +29,7 @@ from gudgeon.simulation.arguments import MAX_STEPS, METHODS, end_of, method_of, 
 from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude, contradicted, late
 from gudgeon.simulation.hidden_jumps import up_to_a_jump
-from gudgeon.simulation.restart import check_fits, numbers, own
+from gudgeon.simulation.restart import check_fits, numbers, off_constraints, own
 from gudgeon.simulation.wanted_peaks import search_of, wanted_peaks
 from gudgeon.waiting.ctrl_c import CtrlC
 from gudgeon.waiting.imports import GENERATOR, whole
@@ -218,6 +217,8 @@ class Simulation:
             check_fits(self.compiled, begin, p)
         q, v, memory = self._closed(p) if begin is None else (begin.q, begin.v, begin.memory)
         check_start(self.compiled, p, t0, q)
+        if begin is not None:
+            remarks += off_constraints(self.compiled, p, t0, q, v)
         remarks += parting(self.compiled, p, t0, q, v, memory)
         problem = Problem(
             self.compiled, p, times, q, v, memory, h, progress, None if begin is None else begin.state,
@@ -291,7 +292,5 @@ class Simulation:
     def _closed(self, p: Array) -> tuple[Array, Array, Array]:
         """The start that the file describes: q, q̇, and nothing in contact."""
         assembled = assemble(self.compiled, p)
-        for name, off in unfollowed(self.compiled, p, assembled.q).items():
-            told = f"{name} begins {off_text(name, off)} from its guess: {nearer_text(self.source)}; gudgeon check"
-            warnings.warn(f"{told} --branches lists those that there are", stacklevel=4)
+        tell_unfollowed(self.compiled, p, assembled.q, stacklevel=4)
         return assembled.q, assembled.v, np.full(self.compiled.n_memory, np.nan)

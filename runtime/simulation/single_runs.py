@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gudgeon.assembly.followed import NOTED, tell_of_runs
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators.batch import GLANCE
 from gudgeon.integrators.failure import INTERRUPTED
@@ -67,6 +68,7 @@ class _Runs:
         self.results: dict[int, Result] = {}
         self.left: dict[int, Result | _Kept] = {}  # of each that began: its result, or what is kept of it
         self.errors: dict[int, GudgeonError] = {}
+        self.noted: list[Mapping[str, float]] = []  # guesses that runs do not follow
         self.keep = keep
         self.kept = {} if keep is None else {name: np.full((self.n, N), np.nan) for name in ("t", *keep)}
 
@@ -74,6 +76,7 @@ class _Runs:
         slots = self.simulation.source.slots
         given = [(slots[k], float(self.given[i, k])) for k in np.flatnonzero(self.is_given[i]).tolist()]
         parameters = {slot.address: said(slot, value) for slot, value in given}
+        NOTED.set(self.noted)
         try:
             begin = self.starts[i] if self.starts else None
             run = self.simulation.simulate(parameters=parameters, start=begin, progress=self._tick, **self.options[i])
@@ -166,6 +169,7 @@ def run_singly(
     runs = _Runs(simulation, given, is_given, options, starts, asked.keep, N)
     runs.errors |= bad
     runs.run(asked.threads, asked.progress, t0)
+    tell_of_runs(source, runs.noted, stacklevel=4)
     found = [runs.left.get(i) for i in range(runs.n)]
     impacts = tuple(np.zeros(0, IMPACT_DTYPE) if run is None else run.impacts for run in found)
     peaks = np.full((runs.n, len(source.clearances), 3), np.nan)

@@ -67,10 +67,11 @@ class Cell:
     status: Status
     reason: str  # for people, "" where there is nothing to say
     label: str  # the same in a few characters, for the map
-    error: Error
+    error: Error  # over [0, compared]
     energy: float = NAN  # residual over turned over
     penetration: float = NAN  # m, the largest δ
     seconds: float = NAN  # processor time of the long run
+    compared: float = NAN  # s, until when it was compared with a finer run
 
     @property
     def failed(self) -> bool:
@@ -86,9 +87,10 @@ def not_judged(parameters: Parameters, setting: Setting) -> Cell:
 def judge(parameters: Parameters, long: Attempt, pairs: Sequence[Pair], limits: Limits | None = None) -> Cell:
     """`long`: the run over the long window. `pairs`: a run with the same setting, and one with a finer."""
     limits = limits or limits_of(long.setting)
-    cell = partial(Cell, long.setting, parameters, seconds=long.cpu)
-    errors = [difference(a.run, b.run) for a, b in pairs if a.run and b.run and not (a.failure or b.failure)]
-    error = worst(errors)
+    both = [(a.run, b.run) for a, b in pairs if a.run and b.run and not (a.failure or b.failure)]
+    error = worst([difference(a, b) for a, b in both])
+    compared = max((float(min(a.t[-1], b.t[-1])) for a, b in both), default=NAN)
+    cell = partial(Cell, long.setting, parameters, seconds=long.cpu, compared=compared)
     if long.failure or long.run is None:
         at = f"at {seconds(long.failed_at)}" if math.isfinite(long.failed_at) else "fails"
         # a fixed step too long throws a journal through its bearing, whatever the model

@@ -19,7 +19,7 @@ from gudgeon.integrators.kinematic import REACH
 from gudgeon.model.choices import said
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.model.default_step import T_END
-from gudgeon.model.parameters import GAINS, prepare
+from gudgeon.model.parameters import GAINS, conditions, prepare
 from gudgeon.results.series import catalogue
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT
 from gudgeon.simulation.hidden_jumps import may_jump
@@ -35,7 +35,7 @@ def description(compiled: CompiledModel) -> str:
         "mechanism": source.mechanism, "scene": source.scene, "title": source.title,
         "coordinates": source.coordinates, "bodies": [body.name for body in source.bodies],
         "slots": [_slot(slot) for slot in source.slots], "derived": source.derived,
-        "conditions": [asdict(condition) for condition in source.conditions],
+        "conditions": [asdict(condition) for condition in conditions(source)],
         "gains": [place[name] for name in GAINS if name in place],
         "methods": source.methods, "begins": begins_with(source), "automatic": not source.states,
         "pivots": source.motion_pivots, "start_pivots": source.start_pivots,

@@ -21,6 +21,7 @@
  */
 const SMALLEST_RTOL = 1e-14, MOST_STEPS = 2 ** 31, MOST_OUTPUT = 1e7, FURTHEST = 1e18;
 const SLICE = {rk4: 4000, kinematic: 50, adaptive: 500}; // steps or samples between two shares, where nobody says
+const OPTIONS = "t_end, output, method, rtol, step, slice";
 const RELATIONS = {">": (a, b) => a > b, ">=": (a, b) => a >= b, "<": (a, b) => a < b, "<=": (a, b) => a <= b};
 
 /* The simulator of a description (JSON, or what it says) and a module (base64, ArrayBuffer or Uint8Array). */
@@ -95,15 +96,16 @@ class Simulator {
     }
 
     /* Numbers by address or parameter name, of a choice its word; those that are not named are the file's. */
-    setParameters(values) {
+    setParameters(values = {}) {
+        expect(isMapping(values), "parameters", values, "an object {address: number}");
         const given = new Float64Array(this.place.size), mask = new Uint8Array(this.place.size);
         for (const [name, value] of Object.entries(values)) {
             const k = this.place.get(name) ?? this.place.get(`parameters.${name}`);
             if (k === undefined) throw new Error(`no run-time number has the address ${name} in this scene`);
             const {words, address} = this.about.slots[k];
             if (mask[k]) throw new Error(`${address} is given twice`);
-            if (words ? !words.includes(value) : !Number.isFinite(value))
-                throw new Error(`${address} is ${value}: expected ${words ? words.join(" or ") : "a number"}`);
+            const expected = words ? words.join(" or ") : "a number";
+            expect(words ? words.includes(value) : Number.isFinite(value), address, value, expected);
             given[k] = words ? words.indexOf(value) : value;
             mask[k] = 1;
         }
@@ -214,6 +216,7 @@ class Simulator {
      * step (s); `slice`: steps, or samples without a freedom, between two shares.
      */
     *running(options = {}) {
+        expect(isMapping(options), "options", options, "an object {t_end, output, ...}");
         const asked = this.checked(options), memory = new Memory(this.lib), run = new Run(this, asked.t);
         try {
             yield* (asked.method === "kinematic" ? follow : integrate)(this, asked, memory, run);
@@ -224,27 +227,41 @@ class Simulator {
     }
 
     /* Options with what the scene says where they say nothing. */
-    checked({t_end, output, method = "auto", rtol, step, slice}) {
+    checked({t_end, output, method = "auto", rtol, step, slice, ...unknown}) {
+        for (const name of Object.keys(unknown)) throw new Error(`${name} is no option: expected ${OPTIONS}`);
+        for (const [name, value] of Object.entries({t_end, rtol, step, slice}))
+            expect(value == null || typeof value === "number", name, value, "a number");
         const {simulate, methods} = this.about, named = (name) => this.p[this.place.get(`parameters.${name}`)];
         const said = (name) => simulate[name] === undefined ? undefined : valueOf(simulate[name], named);
         const t = outputTimes(t_end ?? said("t_end"), output ?? said("output"), t_end), end = t[t.length - 1];
-        if (method === "auto") method = methods.length === 1 ? methods[0] : step === undefined ? "adaptive" : "rk4";
+        if (method === "auto") method = methods.length === 1 ? methods[0] : step == null ? "adaptive" : "rk4";
         expect(method === "adaptive" || methods.includes(method), "method", method, `auto, ${methods.join(", ")}`);
-        if (method === "kinematic") step = undefined;
-        if (method === "rk4") expect((step ??= said("step")) !== undefined, "step", step, "a time (s) for rk4");
-        if (step !== undefined) {
+        if (method === "kinematic") step = null;
+        if (method === "rk4") expect((step ??= said("step")) != null, "step", step, "a time (s) for rk4");
+        if (step != null) {
             expect(step > 0 && end / step < MOST_STEPS, "step", step, "a positive time (s), not too short");
-            expect(rtol === undefined, "rtol", rtol, "none beside a fixed step");
+            expect(rtol == null, "rtol", rtol, "none beside a fixed step");
         }
         rtol ??= this.about.rtol;
         expect(rtol >= SMALLEST_RTOL && rtol < 1, "rtol", rtol, `a share from ${SMALLEST_RTOL} to 1`);
-        return {t, method, rtol, step, slice: slice ?? SLICE[method] ?? SLICE.adaptive};
+        slice ??= SLICE[method] ?? SLICE.adaptive;
+        expect(Number.isInteger(slice) && slice >= 1 && slice < MOST_STEPS, "slice", slice, "a whole number from 1 on");
+        return {t, method, rtol, step, slice};
     }
 }
 
 function expect(holds, name, value, expected) {
-    if (!holds) throw new Error(`${name} is ${value}: expected ${expected}`);
+    if (!holds) throw new Error(`${name} is ${told(value)}: expected ${expected}`);
 }
+
+/* A value in a message, whatever it is: of an object its kind, [object Map]. */
+function told(value) {
+    const plain = value === null || typeof value !== "object" || Array.isArray(value);
+    return plain ? String(value) : Object.prototype.toString.call(value);
+}
+
+/* Whether names and values can be read from it: a list, a Map or a number would say nothing and be taken. */
+function isMapping(value) { return typeof value === "object" && value !== null && !(Symbol.iterator in value); }
 
 /* Times of samples (s), made as NumPy's linspace makes them, so that they have the same bits. */
 function outputTimes(end, output, given_end) {
@@ -252,7 +269,7 @@ function outputTimes(end, output, given_end) {
         const times = Float64Array.from(output), last = times[times.length - 1];
         const rise = times.every((t, k) => t <= FURTHEST && (k ? t > times[k - 1] : t >= 0));
         expect(times.length && rise, "output", output, "increasing times (s), from 0 on");
-        const apart = given_end === undefined ? 0 : Math.abs(given_end - last);
+        const apart = given_end == null ? 0 : Math.abs(given_end - last);
         expect(apart <= 1e-9 * last, "t_end", given_end, "the last of the times of output, or none");
         return times[0] === 0 ? times : Float64Array.of(0, ...times);
     }

@@ -178,6 +178,12 @@ def test_a_guess_that_is_not_followed_is_told(tmp_path: Path) -> None:
         assert math.degrees(abs(off["coupler.theta"])) == pytest.approx(50.0, abs=1e-6)
     with pytest.warns(UserWarning, match="coupler.theta begins 50° from its guess"):
         gudgeon.load(file).simulate(0.1, output=1)
+    angles = [math.radians(angle + away) for away in (0.0, 5.0, -45.0)]
+    with pytest.warns(UserWarning) as told:  # once for all runs
+        gudgeon.load(file).simulate_many({"start.guess.coupler.theta": angles}, t_end=0.1, output=1)
+    (one,) = told
+    assert str(one.message).startswith("runs begin away from their guess: coupler.theta in 2 of 3 runs by up to 55°:")
+    assert one.filename == __file__
     close = four_bar(start=f"start: {{guess: {{coupler.theta: {angle - 45} deg}}}}")
     assert found(close).scenes["ideal"].off == {}
 

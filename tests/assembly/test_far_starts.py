@@ -9,7 +9,8 @@ import pytest
 
 from gudgeon.assembly import linkage, start
 from gudgeon.assembly.search import search
-from gudgeon.errors import AssemblyError
+from gudgeon.errors import AssemblyError, SingularError
+from gudgeon.model.parameters import prepare
 from tests.scenes import loader
 
 CART = """
@@ -79,3 +80,10 @@ def test_masses_that_no_double_holds_together_are_told(tmp_path: Path) -> None:
     assert heavy.start().v[6] == pytest.approx(speed, rel=1e-9)
     with pytest.raises(AssemblyError, match=r"the masses of crank \(1e\+20 kg\) and piston \(0.1 kg\) are too far"):
         loader(tmp_path)(ENGINE.format(mass=1e20)).start()
+    heavier = r"rod \(1e\+100 .* and crank"
+    for inertia, beside in ((1e-30, r"crank \(0.0001 kg\*m\^2\) and rod \(1e-30"), (1e100, heavier)):
+        with pytest.raises(AssemblyError, match=rf"the inertias of {beside}.*too far apart"):
+            heavy.start({"bodies.crank.mass": 1.0, "bodies.rod.inertia": inertia})
+    p = prepare(heavy.compiled, {"bodies.crank.mass": 1.0, "bodies.rod.inertia": 1e-20})[0]
+    with pytest.raises(SingularError, match=r"(?s)vanished.*the inertias of crank .* and rod .* are too far apart"):
+        heavy.compiled.check_pivot(1, 0.0, p=p)

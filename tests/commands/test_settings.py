@@ -45,6 +45,20 @@ def test_a_number_that_is_written_as_zero_is_told(address: str, call: Gudgeon, p
     assert "write a parameter there" in done.stderr
 
 
+def test_a_result_of_the_motion_is_told_what_says_it(call: Gudgeon, pump: str) -> None:
+    """A start that has its section, one that has not, and what is driven."""
+    for address, told in (("crank.omega", "of what is driven drives.motor.value says it"),
+                          ("rod.omega", "write start: {rates: {rod.omega: 0 rad/s}}, then start.rates.rod.omega"),
+                          ("piston.x", "its start is start.guess.piston.x")):  # fmt: skip
+        for command in ("check", "run"):
+            done = call(command, pump, "--set", f"{address}=1")
+            words = " ".join(done.stderr.split())
+            assert done.exit_code == 2 and f"{address} is a result of the motion, and no number of the file" in words
+            assert told in words
+    with pytest.raises(UnknownNameError, match=r"bob.omega is a result .*\n.*start: \{rates: \{bob.omega: 0 rad/s"):
+        gudgeon.load("pendulum").simulate(0.1, parameters={"bob.omega": 1.0})
+
+
 def test_where_a_journal_begins_is_said_by_the_file_first(call: Gudgeon, pump: str) -> None:
     joint = gudgeon.load(pump, "worn").source.clearances[0].name
     done = call("run", pump, "--scene", "worn", "--set", f"start.play.{joint}.e.x=1um")
@@ -71,6 +85,22 @@ def test_gains_are_both_gains(call: Gudgeon, pump: str) -> None:
     assert run("--set", "gains=0") == both != run()
     twice = call("run", pump, "--set", "gains=0", "--set", "baumgarte.beta=1")
     assert twice.exit_code == 2 and "baumgarte.beta is given twice" in twice.stderr
+
+
+@pytest.mark.parametrize("command", ["check", "run"])
+@pytest.mark.parametrize(
+    ("setting", "told"),
+    [
+        ("gains=-1", "baumgarte.alpha is -1: a negative gain drives rows apart; expected >= 0 and <= 1e+150"),
+        ("baumgarte.beta=1e300", "baumgarte.beta is 1e+300: its square is no number"),
+        ("gains=1e-320", "'1e-320' is out of range"), ("c=1e-306 mm", "'1e-306 mm' is out of range"),
+        ("omega=1e-320rpm", "'1e-320 rpm' is out of range"),
+    ],
+)  # fmt: skip
+def test_numbers_that_mean_nothing(command: str, setting: str, told: str, call: Gudgeon, pump: str) -> None:
+    """Check says so as a run does; below 2.2e-308 a number has lost digits before anything is made of it."""
+    done = call(command, pump, "--set", setting)
+    assert done.exit_code == 2 and told in " ".join(done.stderr.split())
 
 
 def test_gains_in_python_and_in_batches(pump: str) -> None:
@@ -110,6 +140,7 @@ def test_check_at_other_numbers(call: Gudgeon, pump: str) -> None:
     short = call("check", pump, "--set", "bodies.rod.length=5mm")
     assert short.exit_code == gudgeon.errors.AssemblyError.exit_code, short.output
     assert "rod" in short.stderr and "length" in short.stderr
+    assert short.stdout.startswith("valid, but scenes ideal, worn cannot be run: 3 bodies")
     wear = call("check", pump, "--set", "bearings.pin.clearance=-1mm")
     assert wear.exit_code == 2 and "clearance" in wear.stderr
     assert call("check", pump, "--set", "bodies.rood.length=1").exit_code == 2

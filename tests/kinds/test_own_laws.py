@@ -18,7 +18,7 @@ import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import InputError, LawError, UnknownNameError
 from gudgeon.generator.kinds.laws import registered
-from gudgeon.generator.kinds.laws.law import Law, laws
+from gudgeon.generator.kinds.laws.law import Law, called, laws
 from gudgeon.generator.pipeline import derive, generate
 from gudgeon.generator.targets.json_schema import schema
 from gudgeon.generator.targets.latex import equations_text
@@ -69,6 +69,12 @@ def test_without_it_the_name_is_unknown_and_what_to_do_is_told(disc: Path) -> No
     with pytest.raises(UnknownNameError, match=r"unknown normal law 'dashpot'\n(.*\n)*.*--laws FILE.py") as error:
         derive(disc.read_bytes(), str(disc), "wall")
     assert error.value.where is not None and error.value.where.line == 11
+
+
+def test_among_the_laws_it_is_the_last(disc: Path) -> None:
+    before = list(called("normal"))
+    gudgeon.register(law_file(disc.parent))
+    assert list(called("normal")) == [*before, "dashpot"] and "dashpot" not in before
 
 
 def test_everything_follows_from_it(disc: Path) -> None:

@@ -19,7 +19,7 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.errors import BadValueError, SolverError
+from gudgeon.errors import BadValueError, InputError, SolverError
 from gudgeon.integrators.batch import GLANCE
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.mechanisms.n_four_bar import text as n_four_bar
@@ -275,7 +275,7 @@ def test_a_drive_that_cannot_be_followed(value: str, least: float, most: float) 
 @pytest.mark.parametrize("t_end", [5e-324, 1e-310, "5e-324 s", 1e300])
 def test_an_end_that_is_none(t_end: float | str) -> None:
     for simulation in (press("dry"), four_bar()):
-        with pytest.raises(BadValueError, match="expected"):
+        with pytest.raises(InputError, match="expected"):
             simulation.simulate(t_end)
 
 

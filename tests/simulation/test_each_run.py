@@ -110,7 +110,7 @@ MISTAKES: list[tuple[dict[str, Any], str]] = [
     ({"step": [1e-5, -1e-5, 1e-5]}, "run 1: step is -1e-05 s: expected a positive time"),
     ({"t_end": [0.1, "3 kg", 0.1]}, r"run 1: .*time"), ({"t_end": "1/omga"}, "run 0: .*unknown name 'omga'"),
     ({"output": [[0.0, 0.1], [0.0, 0.1], [0.1, 0.0]]}, "run 2: output: expected increasing times"),
-    ({"output": [[0.0, 0.1], 1.0, [0.1, 0.2]]}, r"run 1: output has shape \(\)"),
+    ({"output": [[0.0, 0.1], 1.0, [0.1, 0.2]]}, "run 1: output is 1.0: expected a whole number"),
     ({"output": [[0.0, 0.1]] * 3, "t_end": [0.1, 0.2, 0.1]}, "run 1: t_end is 0.2 s, and the times of output end"),
     ({"output": np.ma.array(np.zeros((3, 2)), mask=np.eye(3, 2, dtype=bool))}, "is masked"),
     ({"t_end": np.ma.array([1.0, 2.0, 3.0], mask=[False, True, False])}, r"t_end\[1\] is masked"),

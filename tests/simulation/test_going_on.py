@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.errors import AssemblyError, BadValueError, InputError
+from gudgeon.errors import AssemblyError, BadValueError, InputError, SolverError
 from gudgeon.results.results import State
 from tests.pump import needs_compiler
 
@@ -62,6 +62,28 @@ def test_other_numbers_are_taken_and_told(options: dict[str, Any]) -> None:
     assert told in run.diagnostics.notes
     same = pendulum.simulate(1.0, output=1, start=state, parameters={"g": 1.62}, **options)
     assert not same.diagnostics.notes and same.parameters["g"] == 1.62
+
+
+@pytest.mark.parametrize("part", ["q", "v"])
+def test_a_state_off_its_constraints_is_told(part: str) -> None:
+    """One run alone and one of a batch; what a run leaves is on them, whatever its rounding."""
+    pendulum = gudgeon.load("pendulum")
+    final = pendulum.simulate(0.5, output=1).final
+    off = replace(final, **{part: getattr(final, part) + 0.01})
+    for simulation, taken in ((pendulum, "closes the others anew"), (pendulum.full, "begins with it as it stands")):
+        run = simulation.simulate(0.51, output=1, start=off)
+        batch = simulation.simulate_many([{}], 0.51, output=1, start=[off])
+        for notes in (run.diagnostics.notes, batch[0].diagnostics.notes):
+            assert notes[0].startswith("the state at t = 0.5 s is off the constraints, rows ") and taken in notes[0]
+        assert not simulation.simulate(0.51, output=1, start=final).diagnostics.notes
+
+
+def test_a_state_far_beyond_all_numbers_fails_without_a_warning(recwarn: pytest.WarningsRecorder) -> None:
+    crank = gudgeon.load("slider_crank", "dry")
+    final = crank.simulate(1e-3, output=1).final
+    with pytest.raises(SolverError, match="no longer finite"):
+        crank.simulate(2e-3, output=1, start=replace(final, q=1e300 * final.q))
+    assert not list(recwarn)
 
 
 @pytest.mark.parametrize("scene", ["ideal", "dry"])

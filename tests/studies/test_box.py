@@ -17,10 +17,12 @@ from gudgeon.errors import BadValueError
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.box import Range, _horizon, corners, judge_point, predictable, sobol
 from gudgeon.studies.map import VerdictBox, verdict_box
-from gudgeon.studies.runs import ONSETS, Error, Setting, Work
+from gudgeon.studies.runs import ONSETS, Error, Setting, Work, difference
 from gudgeon.studies.show.box import WORST, count, grouped, kind, worst_cells
 from gudgeon.studies.show.box_figure import box_figure, telling
+from gudgeon.studies.show.map import compared
 from gudgeon.studies.verdicts import STRICT, Cell, Limits, Status, limits_of
+from gudgeon.studies.words import seconds
 from tests.pump import needs_compiler
 
 AUTO = Setting("auto", 1e-8)
@@ -68,6 +70,19 @@ def test_comparison_ends_between_two_contacts_after_the_fourth() -> None:
     onsets = np.sort(run.impacts["t_on"])
     assert onsets[ONSETS - 1] < predictable(run)[-1] < onsets[ONSETS]
     assert predictable(press("lubricated").simulate(0.01, output=10))[-1] == pytest.approx(0.01)
+
+
+@needs_compiler
+def test_errors_are_told_with_the_time_that_was_compared() -> None:
+    """Those of the first contacts, not of the run: a reader's own difference over all of it is larger."""
+    dry, loose = press("dry"), Setting("rodas5p", 1e-6)
+    cell = judge_point(dry, {}, 0.1, loose)
+    times = np.linspace(0.0, cell.compared, 1001)
+    assert times[-1] == predictable(dry.simulate(output=np.linspace(0.0, 0.1, 10_001), method="rodas5p", rtol=1e-6))[-1]
+    coarse, fine = (dry.simulate(output=times, method="rodas5p", rtol=rtol) for rtol in (1e-6, 1e-8))
+    assert cell.error == difference(coarse, fine)
+    found = VerdictBox("dry", loose, (), (), (cell,), 0.1)
+    assert compared(found) == f"errors over the first {seconds(cell.compared)}, against a 100× tighter tolerance"
 
 
 @needs_compiler

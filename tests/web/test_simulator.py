@@ -91,16 +91,26 @@ def test_numbers_of_a_page_and_what_it_refuses(tmp_path: Path) -> None:
     }  # fmt: skip
     odd: dict[str, dict[str, Any]] = {
         "method is": {"method": "kinematic"}, "t_end is": {"t_end": 0}, "rtol is": {"rtol": 2},
-        "output is": {"output": 0},
+        "output is": {"output": 0}, "slice is 0: expected a whole number": {"slice": 0},
+        "slice is -1": {"slice": -1}, "slice is 0.5": {"slice": 0.5},
+        "slice is 2,3: expected a number": {"slice": [2, 3]},
+        "rtol is 1e-6: expected a number": {"rtol": "1e-6"}, "tend is no option: expected t_end": {"tend": 1},
     }  # fmt: skip
+    kinds: list[tuple[str, dict[str, Any]]] = [
+        ("options is null: expected an object", {"options": None}), ("options is 5", {"options": 5}),
+        ("options is 1: expected an object", {"options": [1]}),
+        *((f"parameters is {told}: expected an object", {"parameters": one, "options": options})
+          for told, one in (("null", None), ("5", 5), ("omega", "omega"), ("", []))),
+        ("omega is [object Object]: expected a number", {"parameters": {"omega": {}}, "options": options}),
+    ]  # fmt: skip
     runs: list[dict[str, Any]] = [{"parameters": parameters, "options": options}]
     runs += [{"parameters": one, "options": options} for one in wrong.values()]
     runs += [{"options": options | one} for one in odd.values()]
-    right, *refused = in_node(press, tmp_path, runs)
+    right, *refused = in_node(press, tmp_path, [*runs, *(one for _, one in kinds)])
     native = press.simulate(parameters=parameters, **options)
     assert same_bits(right, native)
     assert not np.array_equal(native.q, press.simulate(**options).q)
-    for found, text in zip(refused, (*wrong, *odd), strict=True):
+    for found, text in zip(refused, (*wrong, *odd, *(text for text, _ in kinds)), strict=True):
         assert text in found.error
 
 

@@ -131,6 +131,9 @@ def laws() -> Mapping[str, Law]:
 
 
 def called(role: str) -> Mapping[str, Law]:
-    """The laws of a role by every name that they have: their own ones first."""
-    own = {law.name: law for law in laws().values() if law.role == role}
-    return own | {name: law for law in own.values() for name in law.also}
+    """The laws of a role by every name that they have: their own ones first, and the user's last."""
+    found: dict[str, Law] = {}
+    for some in (house(), OWN):
+        fitting = {law.name: law for law in some.values() if law.role == role}
+        found |= fitting | {name: law for law in fitting.values() for name in law.also}
+    return found

@@ -19,7 +19,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, TypeGuard
 
-from gudgeon.errors import BadNameError, LawError, Location, shortened
+from gudgeon.contract.limits import MAX_BYTES
+from gudgeon.errors import BadNameError, InputError, LawError, Location, shortened
+from gudgeon.files.reading import read_named
 from gudgeon.generator.field import FLAG, NUMBER, RELATIONS, WORD, Bound, Field
 from gudgeon.generator.kinds.laws.law import OWN, RESULTS, Law, State, house
 from gudgeon.language.names import check_label
@@ -92,13 +94,13 @@ def place_in(error: BaseException, file: str) -> Location | None:
 
 def _of_file(typed: str | os.PathLike[str]) -> tuple[Law, Origin]:
     """Runs a file. What it does at its top is the user's own business."""
-    shown = shortened(typed)
+    shown, hint = shortened(typed), f"expected a Python file that exports LAW; {WHOLE}"
+    if not os.fspath(typed):
+        raise LawError("a law's file has no name: ''", hint=hint)
     try:
-        data = Path(typed).read_bytes()
-    except (OSError, ValueError) as error:
-        why = getattr(error, "strerror", "") or error
-        hint = f"expected a Python file that exports LAW; {WHOLE}"
-        raise LawError(f"cannot read the law {shown}: {why}", hint=hint) from error
+        data = read_named(typed, MAX_BYTES, "the law", hint)
+    except InputError as error:
+        raise LawError(error.message, error.where, error.hint) from error
     digest = hashlib.sha256(data)
     module = ModuleType(f"gudgeon_law_{digest.hexdigest()[:16]}")
     module.__file__ = os.path.abspath(typed)

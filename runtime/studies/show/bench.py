@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.integrators.peers.driver import NAMES
-from gudgeon.language.shown import visible
+from gudgeon.language.shown import path_text
 from gudgeon.studies.bench import TRUSTED, Row, SceneBench
 from gudgeon.studies.runs import NAN, Setting
 from gudgeon.studies.show.tables import console, new_table, print_json, write_files
@@ -71,7 +71,7 @@ def _show(
         out.print("one right-hand side", style="bold")
         out.print(_rhs_table(found))
     for path in written:
-        out.print(f"wrote {visible(path)}")
+        out.print(f"wrote {path_text(path)}")
 
 
 def _title(scene: SceneBench) -> str:

@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.language.shown import visible
+from gudgeon.language.shown import path_text
 from gudgeon.studies.map import VerdictBox
-from gudgeon.studies.show.map import COLOURS, FULL, SIGNS, cell_rows, partial, tell_failures
+from gudgeon.studies.show.map import COLOURS, FULL, SIGNS, cell_rows, compared, partial, tell_failures
 from gudgeon.studies.show.tables import console, new_table, print_json, write_files
 from gudgeon.studies.verdicts import SEVERITY, Cell, Status
 from gudgeon.studies.words import seconds, share
@@ -55,12 +55,13 @@ def _show(source: KernelSource, file: str, found: Sequence[VerdictBox], written:
         if box.full:
             out.print(f"  {FULL}")
         out.print(f"  {count(box.cells)}")
+        out.print(f"  {compared(box)}")
         out.print(_verdicts(box.cells))
         if worst := worst_cells(box.cells):
             out.print("  the worst points, and what runs them again")
             tell_failures(out, file, box, worst)
     for path in written:
-        out.print(f"wrote {visible(path)}")
+        out.print(f"wrote {path_text(path)}")
 
 
 def count(cells: Sequence[Cell]) -> str:

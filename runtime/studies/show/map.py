@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.language.shown import visible
+from gudgeon.language.shown import path_text
 from gudgeon.studies.map import VerdictBox, VerdictMap
 from gudgeon.studies.show.map_words import explain, value
 from gudgeon.studies.show.tables import console, new_table, print_json, write_files
@@ -62,8 +62,7 @@ def _show(
         return
     out = console()
     for scene in found:
-        finer = "a ten times shorter step" if scene.setting.fixed else "a hundred times tighter tolerance"
-        title = f"{scene.scene}, {scene.setting.method}: sane over {seconds(scene.t_long)}, and equal to {finer}?"
+        title = f"{scene.scene}, {scene.setting.method}: sane over {seconds(scene.t_long)}, {compared(scene)}"
         out.print(title + partial(scene), style="bold")
         if scene.full:
             out.print(f"  {FULL}")
@@ -81,7 +80,7 @@ def _show(
     for line in verdict(found, mark_step):
         out.print(line)
     for path in written:
-        out.print(f"wrote {visible(path)}")
+        out.print(f"wrote {path_text(path)}")
 
 
 def _map_table(scene: VerdictMap) -> Table:
@@ -117,6 +116,15 @@ def tell_failures(out: Console, file: str, found: VerdictMap | VerdictBox, cells
         out.print(f"  {SIGNS[cell.status]} {said}", markup=False, emoji=False)
         again = command(file, found.scene, cell, found.t_long, found.full, laws)
         out.print(f"    {again}", markup=False, emoji=False, soft_wrap=True)
+
+
+def compared(found: VerdictMap | VerdictBox) -> str:
+    """Over what the errors are, and against what: with dry contacts runs can be compared over the first few alone."""
+    finer = "a 10× shorter step" if found.setting.fixed else "a 100× tighter tolerance"
+    ends = [cell.compared for cell in found.cells if cell.compared == cell.compared]
+    shortest, longest = (seconds(end) for end in (min(ends, default=0.0), max(ends, default=0.0)))
+    over = shortest if shortest == longest else f"{shortest} … {longest}"
+    return f"errors over the first {over}, against {finer}" if ends else f"nothing to compare with {finer}"
 
 
 def partial(found: VerdictMap | VerdictBox) -> str:
@@ -178,7 +186,8 @@ def cell_rows(found: VerdictMap | VerdictBox) -> list[dict[str, Any]]:
             "parameters": " ".join(f"{name}={x}" for name, x in cell.parameters.items()),
             "status": cell.status.value, "reason": cell.reason, "energy_residual_share": cell.energy,
             "penetration_m": cell.penetration, "error_coordinates": cell.error.motion,
-            "error_path": cell.error.path, "error_force": cell.error.force, "seconds": cell.seconds,
+            "error_path": cell.error.path, "error_force": cell.error.force, "compared_s": cell.compared,
+            "seconds": cell.seconds,
         }
         for cell in found.cells
     ]  # fmt: skip

@@ -36,5 +36,5 @@ def explain(found: Sequence[VerdictMap]) -> str:
     """What stands in the cells, of all that may stand there what does; three to a line."""
     used = {cell.label.split(" ")[0] for scene in found for cell in scene.cells}
     told = dict.fromkeys(text for word, text in LABELS.items() if word in used)
-    parts = ["a number: largest error against a finer run", *told]
+    parts = ["a number: largest error against a finer run, over the time compared", *told]
     return "\n".join(" · ".join(parts[k : k + 3]) for k in range(0, len(parts), 3))
