@@ -137,7 +137,7 @@ def _guessed_point(reader: Reader, key: Text, pair: Items, address: str, places:
     if ref.body == GROUND:
         raise BadValueError(f"{key} rests", key.where, "expected a point of a body: those of the ground need no guess")
     x, y = read_vector(reader, pair, key, POINT, address)
-    return {f"{key}.x": x, f"{key}.y": y}
+    return {f"{key}.{axis}": reader.keep(replace(part, kept=True)) for axis, part in (("x", x), ("y", y))}
 
 
 def _in_other_parts(key: Text, text: object, declared: Field) -> dict[str, str]:
@@ -162,5 +162,6 @@ def _coordinates(reader: Reader, section: Map, declared: Field, places: Places) 
             if declared.entry and declared.entry.kind == PLACE and _is_point(key, places):
                 raise BadValueError(f"{key} is a point", text.where, "expected where it is about: [x, y]")
             dimension = coordinate_of(key, declared.keys or {}, places, key.where, _in_other_parts(key, text, declared))
-            found[str(key)] = reader.quantity(text, f"start.{declared.name}.{key}", dimension)
+            value = reader.quantity(text, f"start.{declared.name}.{key}", dimension)
+            found[str(key)] = reader.keep(replace(value, kept=True))  # it stands in no equation that 0 would shorten
     return found

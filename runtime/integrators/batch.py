@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon.assembly.followed import unfollowed
 from gudgeon.assembly.linkage import mechanism_sizes
 from gudgeon.assembly.start import assemble
 from gudgeon.errors import GudgeonError, SolverError
@@ -78,6 +79,7 @@ class Runs:
         self.impacts = [[np.zeros(0, IMPACT_DTYPE)] for _ in range(n)]
         self.events = [[no_states(compiled)] for _ in range(n)]
         self.failures: dict[int, GudgeonError] = {}
+        self.unfollowed: dict[int, dict[str, float]] = {}  # guesses, of runs that C could not close near them
         self.interrupted = False
         self.looks: Sequence[Look | None] = ()  # a run each, where somebody looks at all steps
 
@@ -173,6 +175,7 @@ class Runs:
         except GudgeonError as error:
             self.leave_out({i: error})
             return False
+        self.unfollowed[i] = unfollowed(self.compiled, self.arrays["p"][i], start.q)
         self.arrays["start"][i] = np.concatenate([start.q, start.v])
         self.arrays["started"][i] = 1
         return True

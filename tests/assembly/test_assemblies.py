@@ -179,11 +179,15 @@ def test_a_guess_that_is_not_followed_is_told(tmp_path: Path) -> None:
     with pytest.warns(UserWarning, match="coupler.theta begins 50° from its guess"):
         gudgeon.load(file).simulate(0.1, output=1)
     angles = [math.radians(angle + away) for away in (0.0, 5.0, -45.0)]
-    with pytest.warns(UserWarning) as told:  # once for all runs
-        gudgeon.load(file).simulate_many({"start.guess.coupler.theta": angles}, t_end=0.1, output=1)
-    (one,) = told
-    assert str(one.message).startswith("runs begin away from their guess: coupler.theta in 2 of 3 runs by up to 55°:")
-    assert one.filename == __file__
+    free = tmp_path / "free.yaml"  # its runs go from start to end in C
+    free.write_bytes(four_bar(start="start: {set: {crank.theta: 30 deg}, guess: {coupler.theta: 0}}", drives=""))
+    for bars in (file, free):
+        with pytest.warns(UserWarning) as told:  # once for all runs
+            gudgeon.load(bars).simulate_many({"start.guess.coupler.theta": angles}, t_end=0.1, output=1)
+        (one,) = told
+        text = str(one.message)
+        assert text.startswith("runs begin away from their guess: coupler.theta in 2 of 3 runs by up to 55°:")
+        assert one.filename == __file__
     close = four_bar(start=f"start: {{guess: {{coupler.theta: {angle - 45} deg}}}}")
     assert found(close).scenes["ideal"].off == {}
 

@@ -159,9 +159,9 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
     (void)guess;
     /* start */
     set[0] = p->set_axle_y;  /* start.set.axle.y */
-    set[1] = 0.0;  /* start.set.axle.theta */
-    rates[0] = 0.0;  /* start.rates.axle.vy */
-    rates[1] = 0.0;  /* start.rates.axle.omega */
+    set[1] = p->set_axle_theta;  /* start.set.axle.theta */
+    rates[0] = p->rates_axle_vy;  /* start.rates.axle.vy */
+    rates[1] = p->rates_axle_omega;  /* start.rates.axle.omega */
 }
 
 /*

@@ -27,6 +27,9 @@ typedef struct {
     Lanes right_stiffness;
     Lanes right_free_length;
     Lanes set_axle_y;
+    Lanes set_axle_theta;
+    Lanes rates_axle_vy;
+    Lanes rates_axle_omega;
     Lanes axle_head_s_x;
     Lanes road_head_s_x;
     Lanes weight_axle_y;

@@ -92,6 +92,9 @@ struct Parameters {
     double right_stiffness;  /* forces.right.stiffness, N/m */
     double right_free_length;  /* forces.right.free_length, m */
     double set_axle_y;  /* start.set.axle.y, m */
+    double set_axle_theta;  /* start.set.axle.theta, rad */
+    double rates_axle_vy;  /* start.rates.axle.vy, m/s */
+    double rates_axle_omega;  /* start.rates.axle.omega, 1/s */
     double axle_head_s_x;  /* point from the centre of mass, m */
     double road_head_s_x;  /* point from the centre of mass, m */
     double weight_axle_y;  /* weight, N */

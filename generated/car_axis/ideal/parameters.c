@@ -23,6 +23,9 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->right_stiffness = is_given[16] ? given[16] : 1.0;  /* forces.right.stiffness */
     p->right_free_length = is_given[17] ? given[17] : 0.5;  /* forces.right.free_length */
     p->set_axle_y = is_given[18] ? given[18] : 0.5;  /* start.set.axle.y */
+    p->set_axle_theta = is_given[19] ? given[19] : 0.0;  /* start.set.axle.theta */
+    p->rates_axle_vy = is_given[20] ? given[20] : 0.0;  /* start.rates.axle.vy */
+    p->rates_axle_omega = is_given[21] ? given[21] : 0.0;  /* start.rates.axle.omega */
 
     /* derived */
     p->axle_head_s_x = 0.5*p->axle_length;  /* point from the centre of mass */

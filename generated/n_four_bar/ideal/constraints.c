@@ -269,8 +269,8 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
     /* start */
     guess[0] = p->guess_crank1_theta;  /* start.guess.crank1.theta */
     guess[1] = p->guess_crank2_theta;  /* start.guess.crank2.theta */
-    guess[2] = 0.0;  /* start.guess.coupler1.theta */
-    guess[3] = 0.0;  /* start.guess.coupler2.theta */
+    guess[2] = p->guess_coupler1_theta;  /* start.guess.coupler1.theta */
+    guess[3] = p->guess_coupler2_theta;  /* start.guess.coupler2.theta */
     set[0] = p->set_crank0_theta;  /* start.set.crank0.theta */
     rates[0] = p->rates_crank0_omega;  /* start.rates.crank0.omega */
 }

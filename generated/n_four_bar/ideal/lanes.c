@@ -33,6 +33,8 @@ typedef struct {
     Lanes gravity_y;
     Lanes guess_crank1_theta;
     Lanes guess_crank2_theta;
+    Lanes guess_coupler1_theta;
+    Lanes guess_coupler2_theta;
     Lanes set_crank0_theta;
     Lanes rates_crank0_omega;
     Lanes crank0_head_s_x;

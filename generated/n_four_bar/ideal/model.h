@@ -98,6 +98,8 @@ struct Parameters {
     double gravity_y;  /* gravity.y, m/s^2 */
     double guess_crank1_theta;  /* start.guess.crank1.theta, rad */
     double guess_crank2_theta;  /* start.guess.crank2.theta, rad */
+    double guess_coupler1_theta;  /* start.guess.coupler1.theta, rad */
+    double guess_coupler2_theta;  /* start.guess.coupler2.theta, rad */
     double set_crank0_theta;  /* start.set.crank0.theta, rad */
     double rates_crank0_omega;  /* start.rates.crank0.omega, 1/s */
     double crank0_head_s_x;  /* point from the centre of mass, m */

@@ -29,8 +29,10 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->gravity_y = is_given[22] ? given[22] : -9.81;  /* gravity.y */
     p->guess_crank1_theta = is_given[23] ? given[23] : PI/2.0;  /* start.guess.crank1.theta */
     p->guess_crank2_theta = is_given[24] ? given[24] : PI/2.0;  /* start.guess.crank2.theta */
-    p->set_crank0_theta = is_given[25] ? given[25] : PI/2.0;  /* start.set.crank0.theta */
-    p->rates_crank0_omega = is_given[26] ? given[26] : -1.0;  /* start.rates.crank0.omega */
+    p->guess_coupler1_theta = is_given[25] ? given[25] : 0.0;  /* start.guess.coupler1.theta */
+    p->guess_coupler2_theta = is_given[26] ? given[26] : 0.0;  /* start.guess.coupler2.theta */
+    p->set_crank0_theta = is_given[27] ? given[27] : PI/2.0;  /* start.set.crank0.theta */
+    p->rates_crank0_omega = is_given[28] ? given[28] : -1.0;  /* start.rates.crank0.omega */
 
     /* derived */
     p->crank0_head_s_x = 0.5*p->crank0_length;  /* point from the centre of mass */

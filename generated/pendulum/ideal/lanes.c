@@ -17,6 +17,8 @@ typedef struct {
     Lanes rod_length;
     Lanes gravity_y;
     Lanes set_bob_x;
+    Lanes set_bob_theta;
+    Lanes rates_bob_omega;
     Lanes rod_half_inverse_length;
     Lanes weight_bob_y;
     Lanes two_alpha;

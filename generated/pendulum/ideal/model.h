@@ -82,6 +82,8 @@ struct Parameters {
     double rod_length;  /* joints.rod.length, m */
     double gravity_y;  /* gravity.y, m/s^2 */
     double set_bob_x;  /* start.set.bob.x, m */
+    double set_bob_theta;  /* start.set.bob.theta, rad */
+    double rates_bob_omega;  /* start.rates.bob.omega, 1/s */
     double rod_half_inverse_length;  /* of joint rod, 1/m */
     double weight_bob_y;  /* weight, N */
     double two_alpha;  /* 2 alpha, 1/s */

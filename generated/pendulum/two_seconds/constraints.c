@@ -74,8 +74,8 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
     (void)guess;
     /* start */
     set[0] = p->set_bob_x;  /* start.set.bob.x */
-    set[1] = 0.0;  /* start.set.bob.theta */
-    rates[0] = 0.0;  /* start.rates.bob.omega */
+    set[1] = p->set_bob_theta;  /* start.set.bob.theta */
+    rates[0] = p->rates_bob_omega;  /* start.rates.bob.omega */
 }
 
 /*

@@ -13,6 +13,8 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->rod_length = is_given[6] ? given[6] : p->length;  /* joints.rod.length */
     p->gravity_y = is_given[7] ? given[7] : -p->par_g;  /* gravity.y */
     p->set_bob_x = is_given[8] ? given[8] : p->length;  /* start.set.bob.x */
+    p->set_bob_theta = is_given[9] ? given[9] : 0.0;  /* start.set.bob.theta */
+    p->rates_bob_omega = is_given[10] ? given[10] : 0.0;  /* start.rates.bob.omega */
 
     /* derived */
     p->rod_half_inverse_length = 0.5/p->rod_length;  /* of joint rod */

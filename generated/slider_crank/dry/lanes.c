@@ -32,6 +32,7 @@ typedef struct {
     Lanes dry_friction_v0;
     Lanes dry_friction_v1;
     Lanes velocity_floor;
+    Lanes guess_rod_theta;
     Lanes guess_slider_x;
     Lanes crank_head_s_x;
     Lanes rod_head_s_x;

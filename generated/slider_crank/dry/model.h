@@ -97,6 +97,7 @@ struct Parameters {
     double dry_friction_v0;  /* contacts.dry.friction.v0, m/s */
     double dry_friction_v1;  /* contacts.dry.friction.v1, m/s */
     double velocity_floor;  /* contacts.dry.velocity_floor, m/s */
+    double guess_rod_theta;  /* start.guess.rod.theta, rad */
     double guess_slider_x;  /* start.guess.slider.x, m */
     double crank_head_s_x;  /* point from the centre of mass, m */
     double rod_head_s_x;  /* point from the centre of mass, m */

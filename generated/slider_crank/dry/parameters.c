@@ -28,7 +28,8 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->dry_friction_v0 = is_given[21] ? given[21] : 0.001;  /* contacts.dry.friction.v0 */
     p->dry_friction_v1 = is_given[22] ? given[22] : 0.01;  /* contacts.dry.friction.v1 */
     p->velocity_floor = is_given[23] ? given[23] : 1e-06;  /* contacts.dry.velocity_floor */
-    p->guess_slider_x = is_given[24] ? given[24] : 0.17;  /* start.guess.slider.x */
+    p->guess_rod_theta = is_given[24] ? given[24] : 0.0;  /* start.guess.rod.theta */
+    p->guess_slider_x = is_given[25] ? given[25] : 0.17;  /* start.guess.slider.x */
 
     /* derived */
     p->crank_head_s_x = 0.5*p->crank_length;  /* point from the centre of mass */

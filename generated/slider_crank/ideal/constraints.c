@@ -163,7 +163,7 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
 {
     (void)set, (void)rates;
     /* start */
-    guess[0] = 0.0;  /* start.guess.rod.theta */
+    guess[0] = p->guess_rod_theta;  /* start.guess.rod.theta */
     guess[1] = p->guess_slider_x;  /* start.guess.slider.x */
 }
 

@@ -82,6 +82,7 @@ struct Parameters {
     double alpha;  /* baumgarte.alpha, 1/s */
     double beta;  /* baumgarte.beta, 1/s */
     double cylinder_axis_x;  /* joints.cylinder.axis.x, 1 */
+    double guess_rod_theta;  /* start.guess.rod.theta, rad */
     double guess_slider_x;  /* start.guess.slider.x, m */
     double crank_head_s_x;  /* point from the centre of mass, m */
     double rod_head_s_x;  /* point from the centre of mass, m */

@@ -17,7 +17,8 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->alpha = is_given[10] ? given[10] : 50.0;  /* baumgarte.alpha */
     p->beta = is_given[11] ? given[11] : 50.0;  /* baumgarte.beta */
     p->cylinder_axis_x = is_given[12] ? given[12] : 1.0;  /* joints.cylinder.axis.x */
-    p->guess_slider_x = is_given[13] ? given[13] : 0.17;  /* start.guess.slider.x */
+    p->guess_rod_theta = is_given[13] ? given[13] : 0.0;  /* start.guess.rod.theta */
+    p->guess_slider_x = is_given[14] ? given[14] : 0.17;  /* start.guess.slider.x */
 
     /* derived */
     p->crank_head_s_x = 0.5*p->crank_length;  /* point from the centre of mass */

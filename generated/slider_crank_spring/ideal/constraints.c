@@ -133,7 +133,7 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
     guess[0] = p->guess_rod_theta;  /* start.guess.rod.theta */
     guess[1] = p->guess_rod_x;  /* start.guess.rod.x */
     set[0] = p->set_crank_theta;  /* start.set.crank.theta */
-    rates[0] = 0.0;  /* start.rates.crank.omega */
+    rates[0] = p->rates_crank_omega;  /* start.rates.crank.omega */
 }
 
 /*

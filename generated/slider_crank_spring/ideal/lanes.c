@@ -27,6 +27,7 @@ typedef struct {
     Lanes guess_rod_theta;
     Lanes guess_rod_x;
     Lanes set_crank_theta;
+    Lanes rates_crank_omega;
     Lanes two_alpha;
     Lanes beta_squared;
     Lanes inverse_rod_mass;

@@ -92,6 +92,7 @@ struct Parameters {
     double guess_rod_theta;  /* start.guess.rod.theta, rad */
     double guess_rod_x;  /* start.guess.rod.x, m */
     double set_crank_theta;  /* start.set.crank.theta, rad */
+    double rates_crank_omega;  /* start.rates.crank.omega, 1/s */
     double two_alpha;  /* 2 alpha, 1/s */
     double beta_squared;  /* beta^2, 1/s^2 */
     double inverse_rod_mass;  /* 1/M, 1/kg */

@@ -23,6 +23,7 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->guess_rod_theta = is_given[16] ? given[16] : -PI/6.0;  /* start.guess.rod.theta */
     p->guess_rod_x = is_given[17] ? given[17] : 0.87;  /* start.guess.rod.x */
     p->set_crank_theta = is_given[18] ? given[18] : PI/2.0;  /* start.set.crank.theta */
+    p->rates_crank_omega = is_given[19] ? given[19] : 0.0;  /* start.rates.crank.omega */
 
     /* derived */
     p->two_alpha = 2.0*p->alpha;  /* 2 alpha */
