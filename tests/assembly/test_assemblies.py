@@ -210,7 +210,7 @@ start: {{guess: {{piston.x: {guess} mm}}}}
     assert ([f"piston.x begins {off} mm" in str(word.message) for word in told[:1]]) == [True] * bool(off)
 
 
-JANSEN = Path(__file__).parents[1] / "mechanisms" / "described" / "jansen_leg.yaml"
+JANSEN = Path(__file__).parents[2] / "mechanisms" / "gallery" / "jansen_leg.yaml"
 
 
 def test_what_else_to_guess_of_jansens_leg(tmp_path: Path) -> None:
