@@ -157,11 +157,13 @@ def emit(
 @told
 def equations(
     file: File,
-    target: Annotated[Path, typer.Option("--out", "-o", parser=a_file, metavar="PATH", help="x.tex, x.txt or x.html.")],
+    target: Annotated[
+        Path, typer.Option("--out", "-o", parser=a_file, metavar="PATH", help="x.tex, .txt, .html or .ipynb; - prints.")
+    ],
     scene: OneScene = "ideal",
     laws: Laws = None,
 ) -> int:
-    """Write the equations of a scene as LaTeX, text or HTML.
+    """Write the equations of a scene as LaTeX, text, HTML or a notebook that derives and runs them.
 
     Example: gudgeon equations engine.yaml -o press.tex --scene lubricated
     """

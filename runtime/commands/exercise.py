@@ -74,4 +74,4 @@ def _drawing(drawn: Drawn) -> str:
 
     picture = figure_of([sketch_at(drawn.run, drawn.run.t[-1])], [""], f"at {drawn.t:g} s")
     svg = as_bytes(picture, ".svg").decode()
-    return f'<figure>{svg[svg.index("<svg") :]}</figure>'
+    return f"<figure>{svg[svg.index('<svg') :]}</figure>"

@@ -60,9 +60,7 @@ Like = Annotated[
     str | None,
     typer.Option("--like", metavar="NAME", help="A mechanism that comes with gudgeon: four_bar, jansen_leg …"),
 ]
-Sheet = Annotated[
-    Path, typer.Option("--out", "-o", parser=a_file, metavar="PATH", help="x.html, .tex, .txt or .md.")
-]
+Sheet = Annotated[Path, typer.Option("--out", "-o", parser=a_file, metavar="PATH", help="x.html, .tex, .txt or .md.")]
 Seed = Annotated[int, typer.Option("--seed", parser=whole(0), metavar="COUNT", help="Which numbers are drawn.")]
 Moment = Annotated[
     str | None, typer.Option("--at", metavar="TIME", help="When positions and forces are asked for. [default: drawn]")

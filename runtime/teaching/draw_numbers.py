@@ -106,7 +106,7 @@ def _drawn(simulation: Simulation, numbers: dict[str, float], t: float, p: Array
     k = -1 if t > 0.0 else 0
     q, v = run.q[k].copy(), run.v[k].copy()
     if not (np.isfinite(q).all() and np.isfinite(v).all()):
-        raise SolverError(f"no position at {t:g} s")
+        raise SolverError(f"no position at {t:g} s", t)
     size = max(float(np.ptp(q.reshape(-1, 3)[:, :2])), 1e-12)
     decimals = DIGITS - 1 - int(np.floor(np.log10(size)))
     for k in range(len(q)):

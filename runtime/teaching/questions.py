@@ -10,6 +10,7 @@ import sympy as sp
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.targets.latex.document import Block, cells, paragraph, table
 from gudgeon.generator.targets.latex.letters import Name, letter
+from gudgeon.model.compiled import Array
 from gudgeon.teaching.sheet import LONGEST, Question, Subject
 
 PHI, PHI_Q, NU = Name(r"\Phi", "Φ"), Name(r"\Phi_{q}", "Φ_q"), Name(r"\nu", "ν")
@@ -43,7 +44,7 @@ def _freedoms(subject: Subject) -> Question:
         count += own
     total = Name(f"f = {n} - {count} = {n - count}", f"f = {n} - {count} = {n - count}")
     solved: list[Block] = [
-        paragraph(f"{len(mechanism.bodies)} bodies have 3 coordinates each, {n} in all; what joins and drives them:"),
+        paragraph(f"Each body has 3 coordinates, which makes {n}; what joins and drives them:"),
         *table(cells("joint or drive", "type", "rows"), rows),
         paragraph(total, "."),
     ]
@@ -67,7 +68,7 @@ def _rows(subject: Subject) -> Question:
         "Write the rows of ", PHI, f" of {_named(subject)}, in the coordinates of the centres of mass, with the "
         "letters given above. A joint's points are written from its first body to its second.",
     )  # fmt: skip
-    solved = [
+    solved: list[Block] = [
         block
         for k, row in subject.rows
         for block in (paragraph(f"{row.name}, {row.unit}:"), subject.equation(_indexed("Phi", k), row.phi))
@@ -141,6 +142,7 @@ def _entry_unit(row: str, axis: int) -> str:
 def _gamma(subject: Subject) -> Question:
     drawn = subject.drawn
     values = subject.simulation.compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
+    scale = float(np.abs(values).max())
     numbers, solved = dict[str, float](), list[Block]()
     for k, row in subject.rows:
         numbers[row.name] = float(values[k - 1])
@@ -148,7 +150,7 @@ def _gamma(subject: Subject) -> Question:
         if gamma != 0 and sp.count_ops(gamma) <= LONGEST:
             solved.append(subject.equation(_indexed("gamma", k), gamma))
         unit = "m/s²" if row.unit == "m" else "rad/s²"
-        solved.append(subject.value(_indexed("gamma", k), numbers[row.name], unit))
+        solved.append(subject.value(_indexed("gamma", k), numbers[row.name], unit, scale))
     asked = [
         paragraph(f"At the same {drawn.t:g} s the rates are"),
         *_position(subject, rates=True),
@@ -184,29 +186,45 @@ def _force(subject: Subject) -> Iterator[Question]:
     second = mechanism.joints[name].second
     F = [float(drawn.run[f"{name}.{what}"][-1]) for what in ("Fx", "Fy", "F")]
     told: list[Block] = [
-        paragraph(f"The accelerations at {drawn.t:g} s, of centres of mass and of angles, are"), *_accelerations(subject)
-    ]  # fmt: skip
-    for joint in source.clearances:
-        Fx, Fy = (float(drawn.run[f"{joint.name}.F{axis}"][-1]) for axis in "xy")
-        told.append(paragraph(f"{joint.name} has play, and its journal is pushed with (", subject.number(Fx), ", ",
-                              subject.number(Fy), ") N."))  # fmt: skip
+        paragraph(f"The accelerations at {drawn.t:g} s, of centres of mass and of angles, are"),
+        *_by_body(subject, drawn.run.a[-1], "x, m/s²", "y, m/s²", "angle, rad/s²"),
+    ]
+    if source.clearances or source.frictions:
+        told.append(paragraph("Gravity, forces, friction and joints with play add up to the components of g"))
+        told += _by_body(subject, _applied(subject), "x, N", "y, N", "angle, N m")
     told.append(paragraph("By ", KKT, f": what force does {name} put on {second.body}, in ground axes?"))
     lambdas = [(k, row) for k, row in enumerate(subject.model.rows, 1) if row.owner == name]
     solved: list[Block] = [
-        subject.value(_indexed("lambda", k), float(drawn.run[f"lambda.{row.name}"][-1]), "N" if row.unit == "m" else "N m")
+        subject.value(_indexed("lambda", k), _multiplier(subject, row.name), "N" if row.unit == "m" else "N m", F[2])
         for k, row in lambdas
-    ]  # fmt: skip
-    solved += [subject.value(letter("F", axis, name), x, "N") for axis, x in zip("xy", F, strict=False)]
-    solved.append(subject.value(letter("F", name), F[2], "N"))
+    ]
+    solved += [subject.value(letter("F", axis, name), x, "N", F[2]) for axis, x in zip("xy", F, strict=False)]
+    solved.append(subject.value(letter("F", name), F[2], "N", F[2]))
     yield Question("The force in a joint", tuple(told), tuple(solved), dict(zip(("Fx", "Fy", "F"), F, strict=True)))
 
 
-def _accelerations(subject: Subject) -> list[Block]:
+def _multiplier(subject: Subject, row: str) -> float:
+    return float(subject.drawn.run[f"lambda.{row}"][-1])
+
+
+def _applied(subject: Subject) -> Array:
+    """g as the run has it: M q̈ + Φ_qᵀ λ, (n,), N and N·m."""
+    drawn, compiled = subject.drawn, subject.simulation.compiled
+    last, rows = drawn.run, [row.name for row in subject.model.rows]
+    multipliers = np.array([_multiplier(subject, row) for row in rows])
+    held = compiled.phi_q(last.t[-1], last.q[-1], drawn.p).T @ multipliers if rows else 0.0
+    return np.asarray(compiled.mass(drawn.p) * last.a[-1] + held)
+
+
+def _by_body(subject: Subject, values: Array, *header: str) -> list[Block]:
+    """Three numbers a body."""
+    apart = values.reshape(-1, 3)
+    scales = [*2 * [float(np.abs(apart[:, :2]).max())], float(np.abs(apart[:, 2]).max())]
     rows = [
-        cells(body.name, *(subject.number(float(x), 5) for x in subject.drawn.run.a[-1][body.index : body.index + 3]))
+        cells(body.name, *(subject.number(float(values[body.index + k]), 5, scales[k]) for k in range(3)))
         for body in subject.model.bodies
     ]
-    return table(cells("body", "x, m/s²", "y, m/s²", "angle, rad/s²"), rows)
+    return table(cells("body", *header), rows)
 
 
 def _play(subject: Subject) -> Iterator[Question]:

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from gudgeon.teaching.draw_numbers import Drawn
 
 GIVEN = ("Bodies", "Ground", "Curves", "Parameters")  # sections of the document that tell nothing of what is asked
+NOISE = 1e-9
 LONGEST = 60  # operations of an expression that a solution writes out
 
 
@@ -63,9 +64,11 @@ class Subject:
         """The rows that are asked for, by their numbers from 1."""
         return [(k, row) for k, row in enumerate(self.model.rows, 1) if row.owner in self.owners]
 
-    def number(self, x: float, digits: int = 4) -> Name:
-        """A number as it is printed; what rounding leaves of none is 0."""
+    def number(self, x: float, digits: int = 4, scale: float = 0.0) -> Name:
+        """A number as it is printed; beside numbers as large as `scale`, what rounding leaves of none is 0."""
         short = float(f"{x:.{digits}g}")
+        if abs(x) <= NOISE * scale:
+            return Name("0", "0")
         return self.notation.math(sp.Integer(0) if short == 0.0 else sp.Float(short, 17))
 
     def equation(self, left: Name | sp.Symbol, right: sp.Expr) -> Equation:
@@ -73,9 +76,9 @@ class Subject:
         name = left if isinstance(left, Name) else self.notation.math(left)
         return Equation(name, self.notation.terms(self.notation.expand(right)))
 
-    def value(self, left: Name, x: float, unit: str = "") -> Equation:
+    def value(self, left: Name, x: float, unit: str = "", scale: float = 0.0) -> Equation:
         """left = number unit."""
-        number, sign = self.number(x), unit.replace("²", "^{2}").replace(" ", r" \, ")
+        number, sign = self.number(x, scale=scale), unit.replace("²", "^{2}").replace(" ", r" \, ")
         return Equation(left, (Name(rf"{number.latex} \; \mathrm{{{sign}}}", f"{number.text} {unit}".rstrip()),))
 
 

@@ -23,7 +23,9 @@ FLAGS = ["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror", *include_flags()]
 WIDTHS = ([], ["-mavx2"], ["-mavx512f"]) if platform.machine() in ("x86_64", "AMD64") else ([],)  # 2, 4, 8 lanes
 COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]
 SCENES = [
-    (name, scene) for name in generated() for scene in read_mechanism(shipped_file(name).read_bytes(), name, None).scenes
+    (name, scene)
+    for name in generated()
+    for scene in read_mechanism(shipped_file(name).read_bytes(), name, None).scenes
 ]
 # Each file of the engine at least once: play of every kind, friction, chains, a free motion, none; the others are slow.
 TYPICAL = {

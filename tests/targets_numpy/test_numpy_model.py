@@ -25,7 +25,9 @@ from tests.oracles.random_linkage import random_case
 
 pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
 SCENES = [
-    (name, scene) for name in generated() for scene in read_mechanism(shipped_file(name).read_bytes(), name, None).scenes
+    (name, scene)
+    for name in generated()
+    for scene in read_mechanism(shipped_file(name).read_bytes(), name, None).scenes
 ]
 
 
