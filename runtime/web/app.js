@@ -2,7 +2,9 @@
  * The page that runs: time goes on, numbers move, and what is shown follows. At each sample that is shown the document
  * hears `gudgeon:state` with {sim, run, k, t, q, v, p}; `window.gudgeonState` is the last one.
  */
-const SPENT = 7; // ms of a frame in which a run goes on
+const SPENT = 4; // ms of a frame in which a run goes on, or what follows from it
+const PATIENT = 200; // ms that a run may take while numbers go on moving: hands should see what they do
+const READ = 100; // ms between two numbers that are to be read
 
 const by = (id) => document.getElementById(id);
 
@@ -69,14 +71,17 @@ class App {
         this.wake();
     }
 
-    /* A run with the numbers as they are now; the one before it is given up. */
+    /* A run with the numbers as they are now. One that will soon be over is waited for, any other is given up. */
     begin() {
+        const age = performance.now() - this.begun;
+        this.again = this.way !== null && age < PATIENT;
+        if (this.again) return;
         this.way?.return();
         this.way = null;
+        this.begun = performance.now();
         try {
             this.sim.setParameters(this.panel.given);
-            this.way = this.sim.running(this.panel.options.read());
-            this.begun = performance.now();
+            this.way = this.work();
         } catch (error) {
             this.failed(error);
         }
@@ -84,20 +89,28 @@ class App {
         this.wake();
     }
 
-    /* Some of a run; when it is over it is shown. */
+    /* A run and what is shown of it, in pieces. */
+    *work() {
+        const run = yield* this.sim.running({slice: 200, ...this.panel.options.read()});
+        if (run.names.includes("Phi.max")) run.series("Phi.max"); // all that C evaluates
+        yield;
+        yield* this.taking(run);
+        this.complain("");
+    }
+
+    /* Some of the work. */
     goOn() {
         try {
             let next = this.way.next();
             for (const until = performance.now() + SPENT; !next.done && performance.now() < until;) next = this.way.next();
             if (!next.done) return;
             this.way = null;
-            this.take(next.value);
-            this.complain("");
         } catch (error) {
             this.way = null;
             if (error.partial?.q?.length) this.take(error.partial);
             this.failed(error);
         }
+        if (this.again) this.begin();
     }
 
     failed(error) {
@@ -110,22 +123,36 @@ class App {
         by("g-error").hidden = !text;
     }
 
+    take(run) { for (const _ of this.taking(run)); }
+
     /* A run that is over. The first one, with the file's numbers, stays behind the others. */
-    take(run) {
+    *taking(run) {
         const first = !this.run;
         this.run = run;
         this.before ??= run;
         this.span = run.t[run.t.length - 1] - run.t[0];
         this.drawing.fit(run);
-        this.largest = Math.max(...this.settings.joints.map(([name]) => extent(this.seriesOf(`${name}.F`))[1]), 0);
+        this.counted(run);
+        this.seek(Math.min(this.t, run.t[run.t.length - 1]));
+        this.largest = 0;
+        for (const [name] of this.settings.joints) {
+            this.largest = Math.max(this.largest, extent(this.seriesOf(`${name}.F`))[1]);
+            yield;
+        }
         if (first) this.settings.traces.forEach((name) => this.addChart(name));
-        for (const part of [...first ? [] : this.charts, ...this.orbits]) part.draw();
+        for (const part of [...first ? [] : this.charts, ...this.orbits]) {
+            yield;
+            part.draw();
+        }
+        this.wake();
+    }
+
+    counted(run) {
         const made = Object.entries(run.counts ?? {}).filter(([name]) => ["steps", "right_hand_sides"].includes(name));
         const counts = made.map(([name, count]) => `${count.toLocaleString("en")} ${name.replaceAll("_", " ")}`);
         if (run.impacts.length) counts.push(`${run.impacts.length} impacts`);
         const ms = this.begun === undefined ? "" : `, ${(performance.now() - this.begun).toFixed(0)} ms`;
         by("g-counts").textContent = `${told(this.span)} s simulated: ${counts.join(", ")}${ms}`;
-        this.seek(Math.min(this.t, run.t[run.t.length - 1]));
     }
 
     seriesOf(name) { return this.run.names.includes(name) ? this.run.series(name) : []; }
@@ -178,8 +205,10 @@ class App {
         const {run, k, sim} = this, n = this.about.coordinates.length, t = run.t[k], {p} = run;
         const [q, v] = [run.q, run.v].map((rows) => rows.subarray(k * n, (k + 1) * n));
         this.drawing.show(q, p, (name) => this.load(name, k), by("g-forces").checked ? this.forces(k) : []);
-        for (const part of [...this.charts, ...this.orbits]) part.cursor(k);
-        for (const {name, cell, unit} of this.values) this.tell(name, cell, unit, k);
+        this.reads = !this.playing || performance.now() - (this.read ?? 0) > READ;
+        if (this.reads) this.read = performance.now();
+        for (const part of [...this.charts, ...this.orbits]) if (part.run === run) part.cursor(k);
+        if (this.reads) for (const {name, cell, unit} of this.values) this.tell(name, cell, unit, k);
         if (document.activeElement !== by("g-when") || this.playing) by("g-when").value = 1000 * (t - run.t[0]) / this.span;
         by("g-t").textContent = `t = ${t.toFixed(4)} s`;
         by("g-when").setAttribute("aria-valuetext", `${t.toFixed(4)} seconds`);

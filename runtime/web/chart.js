@@ -6,7 +6,7 @@ const HIGH = 150;
 
 /* "kg*m^2" as "kg·m²". */
 function pretty(unit) {
-    return unit.replace(/\^(-?[\d.]+)/g, (_, power) => [...power].map((c) => RAISED[c]).join("")).replaceAll("*", "·");
+    return unit.replace(/\^(-?[\d.]+)/g, (_, power) => raised(power)).replaceAll("*", "·");
 }
 
 /* [factor, unit] in which numbers of that size read well (runtime/language/plot_units.py); angles in degrees. */
@@ -23,9 +23,10 @@ function told(x, digits = 5) {
     if (!Number.isFinite(x)) return "–";
     const [digit, power] = String(Number(x.toPrecision(digits))).replace(/^-/, "−").split("e");
     if (power === undefined) return digit;
-    const raised = [...power.replace("+", "")].map((c) => RAISED[c]).join("");
-    return `${digit}·10${raised}`;
+    return `${digit}·10${raised(power.replace("+", ""))}`;
 }
+
+function raised(power) { return [...power].map((c) => RAISED[c]).join(""); }
 
 /* Round numbers between two, about so many. */
 function ticks(low, high, count) {
@@ -57,6 +58,9 @@ function curve(xs, ys, to_x, to_y) {
     return text;
 }
 
+/* Violations of the constraints are shown by powers of ten: from rounding to a drift there are ten of them. */
+const LEAST = 1e-18;
+
 /* One series over time. `page` knows the names and hears of a time that is pointed at, or that the chart goes. */
 class Chart {
     constructor(page, name) {
@@ -76,10 +80,12 @@ class Chart {
         const away = element("button", {type: "button", class: "g-control g-small", title: "remove this trace"}, head);
         away.textContent = "×";
         away.setAttribute("aria-label", `remove the trace of ${name}`);
-        this.root = svg("svg", {role: "img"}, this.box);
-        this.parts = Object.fromEntries(["axes", "before", "line", "now"].map((one) =>
+        const plot = element("div", {class: "g-plot"}, this.box);
+        this.root = svg("svg", {role: "img"}, plot);
+        this.parts = Object.fromEntries(["axes", "before", "line"].map((one) =>
             [one, svg(one === "axes" ? "g" : "path", {class: `g-${one}`}, this.root)]));
-        this.dot = svg("circle", {class: "g-dot", r: 3.5}, this.root);
+        // what moves at each frame lies on top, so that no curve is painted again
+        [this.now, this.dot] = ["g-now", "g-spot"].map((one) => element("div", {class: one}, plot));
         this.select.onchange = () => { this.name = this.select.value; this.draw(); };
         away.onclick = () => page.removeChart(this);
         this.root.onpointerdown = this.root.onpointermove = (event) => event.buttons && this.seek(event);
@@ -93,17 +99,20 @@ class Chart {
     /* The present run, and behind it the file's. */
     draw() {
         const {run, before} = this.page, {name} = this, full = Math.max(this.box.clientWidth, 200);
-        const known = run.names.includes(name), y = known ? run.series(name) : run.t.map(() => NaN);
-        const other = before && before !== run && known ? before.series(name) : [];
+        this.run = run;
+        this.powers = name.startsWith("Phi");
+        const known = run.names.includes(name), [y, other] = [this.scaled(run), before === run ? [] : this.scaled(before)];
         const [least, most] = extent(y, other), size = Math.max(Math.abs(least), Math.abs(most));
-        const [factor, unit] = readable(size, known ? run.unit(name) : ""), spread = most - least;
-        const margin = spread > 1e-9 * size ? 0.06 * spread : 0.5 * size || 1, low = least - margin, high = most + margin;
+        const [factor, unit] = this.powers ? [1, ""] : readable(size, known ? run.unit(name) : "");
+        const spread = most - least, flat = !(spread > 1e-9 * size);
+        const margin = flat ? (this.powers ? 1 : 0.5 * size || 1) : 0.06 * spread, low = least - margin, high = most + margin;
         this.wide = full - PAD.left - PAD.right;
         this.range = [run.t[0], Math.max(run.t[run.t.length - 1], before ? before.t[before.t.length - 1] : 0)];
         const [from, to] = this.range, to_x = (t) => PAD.left + this.wide * (t - from) / (to - from || 1);
         const tall = HIGH - PAD.top - PAD.bottom, to_y = (x) => PAD.top + tall * (high - x) / (high - low);
         Object.assign(this, {y, to_x, to_y, factor, unit});
         this.root.setAttribute("viewBox", `0 0 ${full} ${HIGH}`);
+        this.root.setAttribute("height", HIGH);
         this.root.setAttribute("aria-label", `${name} over time`);
         this.title.textContent = name;
         this.axes(low * factor, high * factor, full, (x) => to_y(x / factor));
@@ -112,13 +121,21 @@ class Chart {
         this.cursor(this.page.k);
     }
 
+    /* What is drawn of a run: the series, of a violation its power of ten. */
+    scaled(run) {
+        const y = run.names.includes(this.name) ? run.series(this.name) : run.t.map(() => NaN);
+        return this.powers ? y.map((x) => Math.log10(Math.max(x, LEAST))) : y;
+    }
+
     axes(low, high, full, to_y) {
         const {axes} = this.parts, bottom = HIGH - PAD.bottom, [from, to] = this.range;
         axes.replaceChildren();
         const [seconds, unit] = readable(to, "s");
-        for (const x of ticks(low, high, 4)) {
+        const marks = ticks(low, high, 4).filter((x) => !this.powers || Number.isInteger(x));
+        for (const x of marks) {
             svg("path", {d: `M${PAD.left} ${short(to_y(x))}H${full - PAD.right}`}, axes);
-            svg("text", {x: PAD.left - 6, y: short(to_y(x)) + 4, "text-anchor": "end"}, axes).textContent = told(x);
+            svg("text", {x: PAD.left - 6, y: short(to_y(x)) + 4, "text-anchor": "end"}, axes).textContent =
+                this.powers ? `10${raised(String(x))}` : told(x);
         }
         const times = ticks(from * seconds, to * seconds, full < 380 ? 4 : 6);
         times.forEach((t, k) => {
@@ -131,10 +148,10 @@ class Chart {
 
     cursor(k) {
         const {y, to_x, to_y} = this, x = short(to_x(this.page.run.t[k]));
-        this.parts.now.setAttribute("d", `M${x} ${PAD.top}V${HIGH - PAD.bottom}`);
-        this.dot.setAttribute("cx", x);
-        this.dot.setAttribute("cy", Number.isFinite(y[k]) ? short(to_y(y[k])) : -9);
-        this.value.textContent = `${told(y[k] * this.factor, 4)} ${this.unit}`;
+        this.now.style.transform = `translate(${x}px, ${PAD.top}px)`;
+        this.dot.style.transform = `translate(${x}px, ${Number.isFinite(y[k]) ? short(to_y(y[k])) : -99}px)`;
+        const value = this.powers ? told(10 ** y[k], 3) : `${told(y[k] * this.factor, 4)} ${this.unit}`;
+        if (this.page.reads) this.value.textContent = value;
     }
 }
 
@@ -143,21 +160,24 @@ class Orbit {
     constructor(page, name, place) {
         Object.assign(this, {page, name, place});
         this.box = element("figure", {class: "g-orbit", "data-of": `joint-${name}`});
-        this.root = svg("svg", {role: "img", "aria-label": `path of the journal of ${name} in its clearance`}, this.box);
+        const plot = element("div", {class: "g-plot"}, this.box), view = {viewBox: "-92 -92 184 184"};
+        this.root = svg("svg", {role: "img", "aria-label": `path of the journal of ${name} in its clearance`, ...view}, plot);
         this.circle = svg("circle", {class: "g-clearance"}, this.root);
         svg("path", {class: "g-cross", d: "M-6 0H6M0 -6V6"}, this.root);
-        [this.line, this.arm] = ["g-line", "g-arm"].map((name_) => svg("path", {class: name_}, this.root));
-        this.dot = svg("circle", {class: "g-dot", r: 4}, this.root);
+        this.line = svg("path", {class: "g-line"}, this.root);
+        const above = svg("svg", {class: "g-above", "aria-hidden": "true", ...view}, plot);
+        this.arm = svg("path", {class: "g-arm"}, above);
+        this.dot = svg("circle", {class: "g-dot", r: 4}, above);
         this.caption = element("figcaption", {}, this.box);
     }
 
     draw() {
         const {run} = this.page, {name} = this, c = run.p[this.place];
+        this.run = run;
         [this.x, this.y] = [run.series(`${name}.ex`), run.series(`${name}.ey`)];
         const most = Math.max(c, ...extent(this.x, this.y).map(Math.abs));
         this.scale = 80 / most;
         this.c = c;
-        this.root.setAttribute("viewBox", "-92 -92 184 184");
         this.circle.setAttribute("r", short(c * this.scale));
         this.line.setAttribute("d", curve(this.x, this.y, (x) => x * this.scale, (y) => -y * this.scale));
     }
@@ -167,6 +187,7 @@ class Orbit {
         this.dot.setAttribute("cx", short(x * this.scale));
         this.dot.setAttribute("cy", short(-y * this.scale));
         this.arm.setAttribute("d", `M0 0L${short(x * this.scale)} ${short(-y * this.scale)}`);
+        if (!this.page.reads) return;
         const share = (Math.hypot(x, y) / this.c).toFixed(3);
         this.caption.textContent = `${this.name}: c = ${told(this.c * factor, 4)} ${unit}, e/c = ${share}`;
     }

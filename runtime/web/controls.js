@@ -70,7 +70,9 @@ class NumberField {
         const place = Math.round(1000 * (value - low) / (high - low));
         if (document.activeElement !== this.slider) this.slider.value = place;
         this.slider.setAttribute("aria-valuetext", `${told(value / factor, 6)} ${this.told.unit}`);
-        this.field.value = String(Number((value / factor).toPrecision(12)));
+        const exact = String(Number((value / factor).toPrecision(12))), rounded = Number((value / factor).toPrecision(6));
+        this.field.value = exact.length > 9 ? String(rounded) : exact;
+        this.field.title = exact;
     }
 }
 

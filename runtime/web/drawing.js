@@ -169,8 +169,8 @@ class Drawing {
             if (moves || !same) made.setAttribute("d", shapes.map((shape) => this.path(shape, p)).join(""));
         for (const {made, label, shifts} of this.names) {
             const [x, y] = this.at(this.rig.label(label)), shift = shifts[this.narrow] ?? [0, 0];
-            made.setAttribute("x", short(x + shift[0] * this.shift));
-            made.setAttribute("y", short(y + shift[1] * this.shift));
+            const place = `translate(${short(x + shift[0] * this.shift)} ${short(y + shift[1] * this.shift)})`;
+            if (made.place !== place) made.setAttribute("transform", made.place = place);
         }
         this.arrows(q, p, forces);
     }
@@ -201,18 +201,17 @@ class Drawing {
     /* The box of a run, so that what other numbers make larger is still seen; never smaller than at first. */
     fit(run) {
         const n = this.about.coordinates.length, box = [...this.low, ...this.high], margin = 2.6 * this.unit;
-        const every = Math.max(1, Math.floor(run.t.length / 24));
+        const every = Math.max(1, Math.floor(run.t.length / 32)), {frames} = this.rig.carriers;
         for (let i = 0; i < run.t.length; i += every) {
             this.rig.update(run.q.subarray(i * n, (i + 1) * n), run.p);
-            for (const shape of this.rig.shapes.filter((one) => one.moves || i === 0))
-                for (const [x, y] of this.rig.points(shape)) {
-                    if (!Number.isFinite(x + y)) continue;
-                    [box[0], box[1]] = [Math.min(box[0], x - margin), Math.min(box[1], y - margin)];
-                    [box[2], box[3]] = [Math.max(box[2], x + margin), Math.max(box[3], y + margin)];
-                }
+            for (let k = 0; k < frames.length; k += 5) {
+                const [x, y] = [frames[k], frames[k + 1]];
+                if (!this.rig.carriers.told[k / 5].point || !Number.isFinite(x + y)) continue;
+                [box[0], box[1]] = [Math.min(box[0], x - margin), Math.min(box[1], y - margin)];
+                [box[2], box[3]] = [Math.max(box[2], x + margin), Math.max(box[3], y + margin)];
+            }
         }
-        const drawn = [...this.low, ...this.high]; // what is at the margin already stays as it was
-        this.view(box.map((x, k) => (Math.abs(x - drawn[k]) <= 1.01 * margin ? drawn[k] : x)));
+        if (box.some((x, k) => x !== this.box[k])) this.view(box);
     }
 }
 
