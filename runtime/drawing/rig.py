@@ -280,7 +280,7 @@ class _Ways:
         if np.ptp(radii) <= self.exact:
             return shape.radius, 0.0, -1
         p = np.array([posture.p for posture in self.postures])
-        for k in np.flatnonzero(np.ptp(p, axis=0) > 0.0):
+        for k in np.flatnonzero(np.ptp(p[:, : len(self.postures[0].source.slots)], axis=0) > 0.0):
             one = (radii[-1] - radii[0]) / (p[-1, k] - p[0, k]) if p[-1, k] != p[0, k] else 0.0
             if np.abs(radii - radii[0] - one * (p[:, k] - p[0, k])).max() <= self.exact:
                 return float(radii[0] - one * p[0, k]), float(one), int(k)

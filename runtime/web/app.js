@@ -10,18 +10,34 @@ const by = (id) => document.getElementById(id);
 
 class App {
     constructor(about, panel, sim) {
-        Object.assign(this, {about, sim, settings: panel, k: 0, t: 0, playing: false, charts: [], way: null, dirty: false});
-        this.drawing = new Drawing(by("g-drawing"), panel, about);
-        this.orbits = about.clearances.map(([name, place]) => new Orbit(this, name, place));
-        for (const orbit of this.orbits) by("g-orbits").append(orbit.box);
+        Object.assign(this, {settings: panel, k: 0, t: 0, playing: false, charts: [], way: null, dirty: false});
+        this.use(about, sim);
         this.values = panel.values.map((name) => this.valueRow(name));
         this.transport();
         if (sim) this.controls();
         new ResizeObserver(() => this.resized()).observe(by("g-charts"));
     }
 
+    /* A simulator, and what is drawn of its scene. */
+    use(about, sim) {
+        Object.assign(this, {about, sim});
+        this.drawing = new Drawing(by("g-drawing"), this.settings, about);
+        this.orbits = about.clearances.map(([name, place]) => new Orbit(this, name, place));
+        by("g-orbits").replaceChildren(...this.orbits.map(({box}) => box));
+    }
+
+    /* The other formulation of the same scene. */
+    async formulated(which) {
+        const sim = await loaded(which);
+        this.way?.return();
+        this.way = null;
+        this.use(sim.about, sim);
+        this.begin();
+    }
+
     controls() {
-        const heard = {changed: () => this.begin(), complain: (text) => this.complain(text)};
+        const heard = {changed: () => this.begin(), complain: (text) => this.complain(text),
+            formulated: (which) => this.formulated(which)};
         this.panel = new Panel(by("g-numbers"), this.settings.groups, this.about, heard);
     }
 
@@ -30,9 +46,20 @@ class App {
         by("g-when").oninput = () => this.seek(this.run.t[0] + by("g-when").value / 1000 * this.span);
         by("g-named").onchange = () => by("g-drawing").classList.toggle("g-unnamed", !by("g-named").checked);
         by("g-forces").onchange = () => this.wake();
+        by("g-path").onchange = () => this.trail();
+        for (const name of ["", ...Object.keys(this.about.points).filter((one) => this.about.points[one][0] >= 0)])
+            element("option", {value: name}, by("g-path")).textContent = name || "none";
+        by("g-path").value = this.settings.path;
         by("g-add").onclick = () => {
             this.addChart(this.run.names.find((name) => !this.charts.some((chart) => chart.name === name)));
         };
+    }
+
+    /* The path of the point that is chosen. */
+    trail() {
+        const name = by("g-path").value, known = name && this.run.names.includes(`${name}.x`);
+        const [x, y] = known ? [this.run.series(`${name}.x`), this.run.series(`${name}.y`)] : [[], []];
+        this.drawing.trail(x, y);
     }
 
     valueRow(name) {
@@ -133,6 +160,7 @@ class App {
         this.span = run.t[run.t.length - 1] - run.t[0];
         this.drawing.fit(run);
         this.counted(run);
+        this.trail();
         this.seek(Math.min(this.t, run.t[run.t.length - 1]));
         this.largest = 0;
         for (const [name] of this.settings.joints) {

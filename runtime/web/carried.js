@@ -20,11 +20,15 @@ class Recorded {
     series(name) { return name === "t" ? this.t : this.found.get(name) ?? this.t.map(() => NaN); }
 }
 
+/* The simulator of the page; "-full": of the other formulation. */
+function loaded(which = "") {
+    return gudgeon.load(by(`gudgeon-description${which}`).textContent, by(`gudgeon-module${which}`).textContent);
+}
+
 async function start() {
     const told = (id) => JSON.parse(by(id).textContent), about = told("gudgeon-description"), panel = told("gudgeon-panel");
-    const module = by("gudgeon-module");
     by("gudgeon-app").hidden = false;
-    const sim = module ? await gudgeon.load(about, module.textContent) : null, app = new App(about, panel, sim);
+    const sim = by("gudgeon-module") ? await loaded() : null, app = new App(sim?.about ?? about, panel, sim);
     window.gudgeonApp = app;
     if (sim) app.begin();
     else app.take(new Recorded({...panel.recorded, bits: await gudgeon.unpacked(panel.recorded.bits)}, about));

@@ -58,8 +58,8 @@ function curve(xs, ys, to_x, to_y) {
     return text;
 }
 
-/* Violations of the constraints are shown by powers of ten: from rounding to a drift there are ten of them. */
-const LEAST = 1e-18;
+/* Violations of the constraints are shown by powers of ten, from rounding to a drift: at least these. */
+const [LEAST, MOST] = [-17, -9];
 
 /* One series over time. `page` knows the names and hears of a time that is pointed at, or that the chart goes. */
 class Chart {
@@ -102,7 +102,7 @@ class Chart {
         this.run = run;
         this.powers = name.startsWith("Phi");
         const known = run.names.includes(name), [y, other] = [this.scaled(run), before === run ? [] : this.scaled(before)];
-        const [least, most] = extent(y, other), size = Math.max(Math.abs(least), Math.abs(most));
+        const [least, most] = this.powers ? extent(y, other, [LEAST, MOST]) : extent(y, other), size = Math.max(Math.abs(least), Math.abs(most));
         const [factor, unit] = this.powers ? [1, ""] : readable(size, known ? run.unit(name) : "");
         const spread = most - least, flat = !(spread > 1e-9 * size);
         const margin = flat ? (this.powers ? 1 : 0.5 * size || 1) : 0.06 * spread, low = least - margin, high = most + margin;
@@ -124,7 +124,7 @@ class Chart {
     /* What is drawn of a run: the series, of a violation its power of ten. */
     scaled(run) {
         const y = run.names.includes(this.name) ? run.series(this.name) : run.t.map(() => NaN);
-        return this.powers ? y.map((x) => Math.log10(Math.max(x, LEAST))) : y;
+        return this.powers ? y.map((x) => Math.max(Math.log10(x), LEAST)) : y;
     }
 
     axes(low, high, full, to_y) {
@@ -150,7 +150,7 @@ class Chart {
         const {y, to_x, to_y} = this, x = short(to_x(this.page.run.t[k]));
         this.now.style.transform = `translate(${x}px, ${PAD.top}px)`;
         this.dot.style.transform = `translate(${x}px, ${Number.isFinite(y[k]) ? short(to_y(y[k])) : -99}px)`;
-        const value = this.powers ? told(10 ** y[k], 3) : `${told(y[k] * this.factor, 4)} ${this.unit}`;
+        const value = this.powers ? told(this.run.series(this.name)[k], 3) : `${told(y[k] * this.factor, 4)} ${this.unit}`;
         if (this.page.reads) this.value.textContent = value;
     }
 }

@@ -1,8 +1,7 @@
 /* The numbers of the file and what a run is asked for, as fields that a hand or a keyboard moves. */
 const METHODS = {
-    auto: "auto", adaptive: "adaptive", kinematic: "kinematic: Newton’s method, Φ = 0 at each sample",
-    rk4: "rk4: fixed step, Baumgarte’s terms, no projection", dop853: "dop853: projected onto Φ = 0",
-    rodas5p: "rodas5p: implicit, projected onto Φ = 0",
+    auto: "auto", kinematic: "kinematic (Φ = 0 by Newton)", rk4: "rk4 (Baumgarte, not projected)",
+    dop853: "dop853 (projected onto Φ = 0)", rodas5p: "rodas5p (implicit, projected)",
 };
 
 /* An element of HTML. */
@@ -95,8 +94,8 @@ class Choice {
 
 /* Everything that a run may be given. `changed` is called after each move, `complain` with what is refused. */
 class Panel {
-    constructor(form, groups, about, {changed, complain}) {
-        Object.assign(this, {about, changed, complain, given: {}});
+    constructor(form, groups, about, {changed, complain, formulated}) {
+        Object.assign(this, {about, changed, complain, formulated, given: {}});
         this.options = new Options(form, about, this);
         this.fields = groups.flatMap(({title, numbers}, k) => {
             const box = section(title, k === 0, form);
@@ -138,6 +137,7 @@ class Options {
         this.method = this.row(box, "method", element("select", {class: "g-across"}));
         for (const name of about.methods.length > 1 ? ["auto", ...about.methods] : about.methods)
             element("option", {value: name}, this.method).textContent = METHODS[name] ?? name;
+        if (by("gudgeon-module-full")) this.formulations(box, panel);
         const integrates = about.methods[0] !== "kinematic";
         this.rtol = integrates ? this.field(box, "rtol", "", about.rtol) : null;
         this.step = about.methods.includes("rk4") ? this.field(box, "step", "s", about.simulate.step) : null;
@@ -149,6 +149,14 @@ class Options {
                 panel.changed();
             };
         this.fit();
+    }
+
+    /* The same motion in coordinates of a tree, where joints hold by themselves, or of all bodies, where they drift. */
+    formulations(box, panel) {
+        const made = this.row(box, "formulation", element("select", {class: "g-across"}));
+        for (const [name, told_] of [["", "reduced (a tree’s coordinates)"], ["-full", "full (all rows of Φ)"]])
+            element("option", {value: name}, made).textContent = told_;
+        made.onchange = () => panel.formulated(made.value);
     }
 
     row(box, name, made, unit = "") {

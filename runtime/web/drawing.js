@@ -114,7 +114,9 @@ class Drawing {
     constructor(root, {rig, names, joints, looks, pixels}, about) {
         Object.assign(this, {root, about, joints, rig: new Rig(rig, about.points), box: [...rig.low, ...rig.high]});
         Object.assign(this, {scale: pixels[0], planned: pixels, low: rig.low, high: rig.high, unit: rig.unit});
+        root.replaceChildren();
         this.paths = this.makePaths(looks);
+        this.way = svg("path", {class: "d-path"}, root);
         this.force = ["d-reaction", "d-reaction-head"].map((name) => svg("path", {class: name}, root));
         const group = svg("g", {class: "g-name-group"}, root);
         this.names = names.map(([text, part, look, wide, narrow], k) => {
@@ -159,6 +161,9 @@ class Drawing {
     }
 
     at([x, y]) { return [(x - this.low[0]) * this.scale, (this.high[1] - y) * this.scale]; }
+
+    /* The path of a point, from series of its coordinates. */
+    trail(xs, ys) { this.way.setAttribute("d", curve(xs, ys, (x) => this.at([x, 0])[0], (y) => this.at([0, y])[1])); }
 
     /* Everything at q with the numbers p; `forces` are [point, Fx, Fy] and metres of arrow to a newton. */
     show(q, p, load, forces = []) {

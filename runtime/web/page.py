@@ -11,6 +11,7 @@ from html import escape
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from gudgeon.contract.methods import KINEMATIC
 from gudgeon.drawing.page import PIXELS
 from gudgeon.drawing.picture import size_of
 from gudgeon.drawing.rig import Rig
@@ -27,6 +28,7 @@ from gudgeon.web.panel import NARROW, WIDE, looks_of, panel, recorded, rig_of
 FILES = ("run.js", "loops.js", "simulator.js")
 APP = ("drawing.js", "chart.js", "controls.js", "app.js", "carried.js")
 DESCRIPTION, MODULE, PANEL = "gudgeon-description", "gudgeon-module", "gudgeon-panel"  # ids of what is not shown
+ROOM = 62_000  # bytes of a module beside which there is room for the full formulation: constraints that drift
 NO_SIMULATOR = (
     "This page carries one run, with the numbers of the file: it was written without the compiler for pages"
     " (pip install 'gudgeon[web]'), with which its numbers can be moved."
@@ -52,7 +54,10 @@ def write(simulation: Simulation) -> str:
 
 
 def parts(simulation: Simulation) -> Parts:
-    """What a page runs; with one run in place of the simulator where the compiler for pages is not installed."""
+    """What a page runs; with one run in place of the simulator where the compiler for pages is not installed.
+
+    Beside a small simulator it has that of the full formulation, in which constraints drift.
+    """
     run = _run(simulation)
     rig = rig_of(run)
     told = panel(simulation, run, rig) | _scales(rig)
@@ -64,6 +69,9 @@ def parts(simulation: Simulation) -> Parts:
     title = one_line(simulation.source.title or simulation.source.mechanism)
     frame = _file("app.html").replace("@NOTE@", escape(note)).replace("@TITLE@", escape(title))
     shown = [_element(DESCRIPTION, description(simulation.compiled)), _element(PANEL, _json(told)), module]
+    if 0 < len(module) < ROOM and simulation.source.methods != (KINEMATIC,) and simulation.full is not simulation:
+        other = simulation.full.compiled
+        shown += [_element(f"{DESCRIPTION}-full", description(other)), _module(other, "-full")]
     scripts = f"{''.join(shown)}<script>\n{script()}</script>\n<script>\n{app()}</script>"
     return Parts(f"<style>\n{style(*looks_of(rig))}</style>", frame, scripts)
 
@@ -112,9 +120,9 @@ def carried(compiled: CompiledModel) -> str:
     return f"<script>\n{script()}</script>\n{_element(DESCRIPTION, description(compiled))}{module}"
 
 
-def _module(compiled: CompiledModel) -> str:
+def _module(compiled: CompiledModel, which: str = "") -> str:
     packed = base64.b64encode(gzip.compress(simulator(compiled.source), 9, mtime=0)).decode("ascii")
-    return f'<script type="text/plain" id="{MODULE}">{packed}</script>\n'
+    return f'<script type="text/plain" id="{MODULE}{which}">{packed}</script>\n'
 
 
 def _element(name: str, told: str) -> str:

@@ -25,6 +25,7 @@ from gudgeon.web.numbers import groups
 
 WIDE, NARROW = 7.0, 3.6  # inches of a drawing on a desk and on a phone: names are placed for either
 SHOWN_AT = 24  # postures of the run that the drawing is made from
+MORE = ("reaction", "reaction head", "path")  # roles that only the page draws
 KEPT, MOST = 400, 60  # samples and series of a run that is carried
 
 
@@ -45,8 +46,7 @@ def panel(simulation: Simulation, run: Result, rig: Rig) -> dict[str, Any]:
         "joints": [[name, point] for name, point in ends.items() if f"{name}.Fx" in run.names],
         "traces": _first_traces(run), "values": _first_values(run),
         "seconds": span if SLOW <= span <= QUICK else SHOWN,
-        "meanings": {"Phi.max": "how far the constraints are violated", "Phi_dot.max": "and their rates"},
-        "formulation": source.formulation,
+        "path": _first_path(rig),
     }  # fmt: skip
 
 
@@ -74,10 +74,16 @@ def _first_values(run: Result) -> list[str]:
     return [name for name in dict.fromkeys(found) if name in run.names]
 
 
+def _first_path(rig: Rig) -> str:
+    """A point that the file names for nothing but to be looked at."""
+    marks = [one.shape.part.partition(" ")[2] for one in rig.shapes if one.shape.part.startswith("point ")]
+    return marks[0] if marks else ""
+
+
 def looks_of(rig: Rig) -> tuple[list[tuple[str, int]], list[tuple[str, int]]]:
     """Roles and tints of its shapes and of its names, each once."""
     shapes = dict.fromkeys((one.shape.role, one.shape.tint) for one in rig.shapes)
-    unique = {look(role, tint): (role, tint) for role, tint in [*shapes, ("reaction", 0), ("reaction head", 0)]}
+    unique = {look(role, tint): (role, tint) for role, tint in [*shapes, *((role, 0) for role in MORE)]}
     names = {look(role, tint): (role, tint) for role, tint in _name_looks(rig)}
     return list(unique.values()), list(names.values())
 
@@ -113,7 +119,7 @@ def _beside(sketch: Sketch, inches: float) -> dict[str, tuple[float, float]]:
 def recorded(run: Result, named: list[str]) -> dict[str, Any]:
     """A run for a page without a simulator: at most KEPT samples, float32, packed; the series that are named first."""
     rows = np.unique(np.linspace(0, len(run.t) - 1, KEPT).round().astype(int))
-    drawn = [name for name in run.names if name.endswith((".Fx", ".Fy", ".ex", ".ey", ".theta", ".omega"))]
+    drawn = [name for name in run.names if name.endswith((".Fx", ".Fy", ".ex", ".ey"))]
     names = list(dict.fromkeys(name for name in [*named, *drawn, *run.names] if name in run.names))[:MOST]
     table = np.column_stack([run.t[rows], run.q[rows], run.v[rows], *(run[name][rows] for name in names)])
     bits = gzip.compress(np.ascontiguousarray(table.T, dtype="<f4").tobytes(), 9, mtime=0)
