@@ -22,7 +22,7 @@ import numpy as np
 from gudgeon.drawing.plan import Plan, make_plan
 from gudgeon.drawing.posture import GROUND, Posture, body_of
 from gudgeon.drawing.roles import ROLES
-from gudgeon.drawing.shapes import Disc, Shape, Sketch, box_of
+from gudgeon.drawing.shapes import Disc, Shape, Sketch
 from gudgeon.drawing.sketch import make_sketch, room_of_all
 from gudgeon.model.compiled import Array
 
