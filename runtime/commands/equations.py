@@ -1,4 +1,4 @@
-"""`gudgeon equations`: the equations of a scene as LaTeX, plain text or HTML."""
+"""`gudgeon equations`: the equations of a scene as LaTeX, plain text, or a page of HTML that runs."""
 
 from __future__ import annotations
 
@@ -20,11 +20,17 @@ def write_equations(mechanism: str, target: Path, scene: str) -> int:
     data = read_bytes(file)
 
     with status_line(), working(f"deriving {file.stem}, scene {scene}"):
-        from gudgeon.generator.pipeline import derive
-        from gudgeon.generator.targets import latex
+        if target.suffix.lower() == ".html":
+            from gudgeon.simulation.from_file import load
+            from gudgeon.web.page import write as write_page
 
-        write = {".tex": latex.equations_tex, ".txt": latex.equations_text, ".html": latex.equations_html}
-        text = write[target.suffix.lower()](derive(data, str(file), scene))
+            text = write_page(load(mechanism, scene))
+        else:
+            from gudgeon.generator.pipeline import derive
+            from gudgeon.generator.targets import latex
+
+            write = {".tex": latex.equations_tex, ".txt": latex.equations_text}
+            text = write[target.suffix.lower()](derive(data, str(file), scene))
     write_text(target, text)
     print(f"wrote {target}")
     return 0

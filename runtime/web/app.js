@@ -4,6 +4,7 @@
  */
 const SPENT = 4; // ms of a frame in which a run goes on, or what follows from it
 const PATIENT = 200; // ms that a run may take while numbers go on moving: hands should see what they do
+const PAINT = "paint"; // what a piece of work ends with that the browser has to paint: one of these a frame
 const READ = 100; // ms between two numbers that are to be read
 
 const by = (id) => document.getElementById(id);
@@ -129,7 +130,8 @@ class App {
     goOn() {
         try {
             let next = this.way.next();
-            for (const until = performance.now() + SPENT; !next.done && performance.now() < until;) next = this.way.next();
+            const until = performance.now() + SPENT;
+            while (!next.done && next.value !== PAINT && performance.now() < until) next = this.way.next();
             if (!next.done) return;
             this.way = null;
         } catch (error) {
@@ -169,8 +171,8 @@ class App {
         }
         if (first) this.settings.traces.forEach((name) => this.addChart(name));
         for (const part of [...first ? [] : this.charts, ...this.orbits]) {
-            yield;
             part.draw();
+            yield PAINT;
         }
         this.wake();
     }

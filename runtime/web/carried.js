@@ -20,15 +20,18 @@ class Recorded {
     series(name) { return name === "t" ? this.t : this.found.get(name) ?? this.t.map(() => NaN); }
 }
 
+/* What the page carries as JSON packed by gzip. */
+async function carried(id) { return JSON.parse(new TextDecoder().decode(await gudgeon.unpacked(by(id).textContent))); }
+
 /* The simulator of the page; "-full": of the other formulation. */
-function loaded(which = "") {
-    return gudgeon.load(by(`gudgeon-description${which}`).textContent, by(`gudgeon-module${which}`).textContent);
+async function loaded(which = "") {
+    return gudgeon.load(await carried(`gudgeon-description${which}`), by(`gudgeon-module${which}`).textContent);
 }
 
 async function start() {
-    const told = (id) => JSON.parse(by(id).textContent), about = told("gudgeon-description"), panel = told("gudgeon-panel");
+    const sim = by("gudgeon-module") ? await loaded() : null, panel = await carried("gudgeon-panel");
     by("gudgeon-app").hidden = false;
-    const sim = by("gudgeon-module") ? await loaded() : null, app = new App(sim?.about ?? about, panel, sim);
+    const about = sim?.about ?? await carried("gudgeon-description"), app = new App(about, panel, sim);
     window.gudgeonApp = app;
     if (sim) app.begin();
     else app.take(new Recorded({...panel.recorded, bits: await gudgeon.unpacked(panel.recorded.bits)}, about));

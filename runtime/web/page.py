@@ -68,8 +68,13 @@ def carried(compiled: CompiledModel) -> str:
 
 def packed_module(compiled: CompiledModel, which: str = "") -> str:
     """The module of a scene as an element that is not shown: gzip, base64."""
-    packed = base64.b64encode(gzip.compress(simulator(compiled.source), 9, mtime=0)).decode("ascii")
-    return f'<script type="text/plain" id="{MODULE}{which}">{packed}</script>\n'
+    return packed_element(f"{MODULE}{which}", simulator(compiled.source))
+
+
+def packed_element(name: str, data: bytes) -> str:
+    """Bytes that are not shown, for `gudgeon.unpacked`."""
+    packed = base64.b64encode(gzip.compress(data, 9, mtime=0)).decode("ascii")
+    return f'<script type="text/plain" id="{name}">{packed}</script>\n'
 
 
 def element(name: str, told: str) -> str:

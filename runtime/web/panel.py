@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.drawing.labels import Names
 from gudgeon.drawing.page import PIXELS
 from gudgeon.drawing.picture import draw_on, size_of
@@ -39,7 +40,7 @@ def rig_of(run: Result) -> Rig:
 def panel(simulation: Simulation, run: Result, rig: Rig) -> dict[str, Any]:
     """Of a scene, with a run of the file's numbers."""
     source, span = run.source, float(run.t[-1] - run.t[0])
-    ends = {joint.name: joint.point for joint in (*source.joints, *source.clearances)}
+    ends = dict(_journals(source))
     return {
         "groups": groups(simulation, simulation.p),
         "rig": rig.json(), "names": list(_names(rig)),
@@ -50,11 +51,17 @@ def panel(simulation: Simulation, run: Result, rig: Rig) -> dict[str, Any]:
     }  # fmt: skip
 
 
+def _journals(source: KernelSource) -> list[tuple[str, str]]:
+    """Joints, those with play first, and the points at which their forces act."""
+    worn = [(joint.name, joint.point) for joint in source.clearances]
+    return [*worn, *((joint.name, joint.point) for joint in source.joints)]
+
+
 def _first_traces(run: Result) -> list[str]:
     """What is watched, what drives it, a force, the drift: four at most, of what the scene has."""
     source = run.source
     drives = [name for drive in source.drives for name in (f"{drive.name}.torque", f"{drive.name}.force")]
-    joints = [f"{joint.name}.F" for joint in (*source.clearances, *source.joints)]
+    joints = [f"{name}.F" for name, _ in _journals(source)]
     wanted = [*default_watch(run)[:1], *source.peaks[:1], *(name for name in drives if name in run.names)][:2]
     wanted += [name for name in joints if name in run.names and np.isfinite(run[name]).any()][:1]
     return [*dict.fromkeys(wanted), "Phi.max"]
@@ -70,7 +77,7 @@ def _first_values(run: Result) -> list[str]:
     found += [*source.outputs, *source.peaks]
     found += [f"{drive.name}.{what}" for drive in source.drives for what in ("torque", "force")]
     found += [f"{joint.name}.eps" for joint in source.clearances]
-    found += [f"{joint.name}.F" for joint in (*source.clearances, *source.joints)]
+    found += [f"{name}.F" for name, _ in _journals(source)]
     return [name for name in dict.fromkeys(found) if name in run.names]
 
 

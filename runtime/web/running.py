@@ -18,7 +18,7 @@ from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.description import description
 from gudgeon.web.look import look, style
-from gudgeon.web.page import DESCRIPTION, Parts, element, file_text, packed_module, script
+from gudgeon.web.page import DESCRIPTION, Parts, file_text, packed_element, packed_module, script
 from gudgeon.web.panel import NARROW, WIDE, looks_of, panel, recorded, rig_of
 
 APP = ("drawing.js", "chart.js", "controls.js", "app.js", "carried.js")
@@ -35,14 +35,15 @@ def running_parts(simulation: Simulation) -> Parts:
     run = _run(simulation)
     rig = rig_of(run)
     told, note = panel(simulation, run, rig) | _scales(rig), ""
-    carried = element(DESCRIPTION, description(simulation.compiled))
+    carried = packed_element(DESCRIPTION, description(simulation.compiled).encode())
     try:
         carried += _modules(simulation)
     except BuildError as error:
         if error.__cause__ is None or not isinstance(error.__cause__, ImportError):
             raise
         told["recorded"], note = recorded(run, [*told["traces"], *told["values"]]), NO_SIMULATOR
-    carried += element(PANEL, json.dumps(told, ensure_ascii=False, separators=(",", ":"), allow_nan=False))
+    text = json.dumps(told, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+    carried += packed_element(PANEL, text.encode())
     title = one_line(simulation.source.title or simulation.source.mechanism)
     frame = file_text("app.html").replace("@NOTE@", escape(note)).replace("@TITLE@", escape(title))
     scripts = f"{carried}<script>\n{script()}</script>\n<script>\n{app()}</script>"
@@ -56,7 +57,7 @@ def _modules(simulation: Simulation) -> str:
     if not reduced or len(module) > ROOM:
         return module
     full = simulation.full.compiled
-    return module + element(f"{DESCRIPTION}-full", description(full)) + packed_module(full, "-full")
+    return module + packed_element(f"{DESCRIPTION}-full", description(full).encode()) + packed_module(full, "-full")
 
 
 def _run(simulation: Simulation) -> Result:

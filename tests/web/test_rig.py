@@ -83,7 +83,7 @@ def test_a_length_moves_what_it_carries() -> None:
     """The four-bar with another crank and another coupler point, at coordinates that close nothing."""
     run, rig, plan, box = ran("four_bar")
     place = {slot.address: k for k, slot in enumerate(run.source.slots)}
-    p, *_ = prepare(run.compiled, {"bodies.rocker.length": 0.09, "ground.B0.x": 0.13})
+    p, *_ = prepare(gudgeon.load("four_bar").compiled, {"bodies.rocker.length": 0.09, "ground.B0.x": 0.13})
     assert p[place["bodies.rocker.length"]] == 0.09
     posture = replace(postures_of(run, 2)[1], p=p, v=run.v[0])
     assert off(rig, posture, plan, box) < NEAR
@@ -111,7 +111,7 @@ def test_a_page_places_them_alike(name: str, tmp_path: Path) -> None:
     assert program
     file = tmp_path / "places.js"
     file.write_text(file_text("drawing.js") + PLACES, encoding="utf-8")
-    rows, about = [0, 40, 99], json.loads(description(run.compiled))
+    rows, about = [0, 40, 99], json.loads(description(gudgeon.load(name).compiled))
     asked = {"rig": rig.json(), "points": about["points"],
              "postures": [{"q": run.q[k].tolist(), "p": run.p.tolist()} for k in rows]}  # fmt: skip
     done = subprocess.run([program, str(file)], input=json.dumps(asked), capture_output=True, text=True, timeout=60)
