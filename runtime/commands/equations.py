@@ -1,4 +1,4 @@
-"""`gudgeon equations`: the equations of a scene as LaTeX, plain text, HTML or a notebook, or on the terminal."""
+"""`gudgeon equations`: a scene's equations as LaTeX, text, a notebook, a page that runs, or on the terminal."""
 
 from __future__ import annotations
 
@@ -15,23 +15,17 @@ from gudgeon.waiting.working import working
 if TYPE_CHECKING:
     from gudgeon.generator.equations.model import Model
 
-SUFFIXES = (".tex", ".txt", ".html", ".ipynb")
 TERMINAL = Path("-")
 
 
 def write_equations(mechanism: str, target: Path, scene: str) -> int:
-    """Derive one scene and write its equations to x.tex, x.txt, x.html or x.ipynb; of "-" print the text."""
+    """Write one scene's equations to x.tex, x.txt, x.html or x.ipynb; of "-" print the text."""
     if target != TERMINAL:
-        need_suffix(target, SUFFIXES)
+        need_suffix(target, [suffix for suffix in WRITERS if suffix])
         check_file("--out", target)
     chosen_scenes(mechanism, (scene,))
-    file = find_mechanism(mechanism)
-    data = read_bytes(file)
-
-    with status_line(), working(f"deriving {file.stem}, scene {scene}"):
-        from gudgeon.generator.pipeline import derive
-
-        text = _writer(target, mechanism)(derive(data, str(file), scene))
+    with status_line(), working(f"deriving {find_mechanism(mechanism).stem}, scene {scene}"):
+        text = WRITERS[target.suffix.lower()](mechanism, scene)
     if target == TERMINAL:
         print(text, end="")
         return 0
@@ -40,12 +34,38 @@ def write_equations(mechanism: str, target: Path, scene: str) -> int:
     return 0
 
 
-def _writer(target: Path, mechanism: str) -> Callable[[Model], str]:
-    """What makes the text of a file by its suffix."""
-    from gudgeon.generator.targets import latex
+def _model(mechanism: str, scene: str) -> Model:
+    from gudgeon.generator.pipeline import derive
+
+    file = find_mechanism(mechanism)
+    return derive(read_bytes(file), str(file), scene)
+
+
+def _tex(mechanism: str, scene: str) -> str:
+    from gudgeon.generator.targets.latex import equations_tex
+
+    return equations_tex(_model(mechanism, scene))
+
+
+def _text(mechanism: str, scene: str) -> str:
+    from gudgeon.generator.targets.latex import equations_text
+
+    return equations_text(_model(mechanism, scene))
+
+
+def _notebook(mechanism: str, scene: str) -> str:
     from gudgeon.teaching.notebook import notebook
 
-    return {
-        ".tex": latex.equations_tex, ".txt": latex.equations_text, ".html": latex.equations_html,
-        ".ipynb": lambda model: notebook(model, mechanism), "": latex.equations_text,
-    }[target.suffix.lower()]  # fmt: skip
+    return notebook(_model(mechanism, scene), mechanism)
+
+
+def _page(mechanism: str, scene: str) -> str:
+    from gudgeon.simulation.from_file import load
+    from gudgeon.web.page import write
+
+    return write(load(mechanism, scene))
+
+
+WRITERS: dict[str, Callable[[str, str], str]] = {
+    ".tex": _tex, ".txt": _text, ".html": _page, ".ipynb": _notebook, "": _text,
+}  # fmt: skip

@@ -82,10 +82,10 @@ def arc(centre: Array, radius: float, begin: float, end: float, count: int = 25)
 
 
 def hull(points: Sequence[Array]) -> Array:
-    """The corners of the convex hull, counterclockwise (Andrew's monotone chain)."""
+    """The corners of the convex hull, counterclockwise (Andrew's monotone chain), from the first of the points on."""
     ordered = sorted({(float(x), float(y)) for x, y in points})
     if len(ordered) < 3:
-        return np.array(ordered)
+        return np.array(list(dict.fromkeys((float(x), float(y)) for x, y in points)))
     size = max(abs(x) for pair in (ordered[0], ordered[-1]) for x in pair) + 1e-300
 
     def half(these: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
@@ -99,7 +99,9 @@ def hull(points: Sequence[Array]) -> Array:
             chain.append((x, y))
         return chain[:-1]
 
-    return np.array([*half(ordered), *half(reversed(ordered))])
+    corners = [*half(ordered), *half(reversed(ordered))]
+    first = next((corners.index(at) for at in ((float(x), float(y)) for x, y in points) if at in corners), 0)
+    return np.array(corners[first:] + corners[:first])
 
 
 def rounded(points: Sequence[Array], radius: float) -> Array:

@@ -37,7 +37,6 @@ from gudgeon.waiting.imports import GENERATOR, whole
 
 if TYPE_CHECKING:
     from gudgeon.generator.equations.model import Model
-    from gudgeon.loading.find import Loading
     from gudgeon.model.parameter_sets import ParameterSets
     from gudgeon.results.batch import Batch
     from gudgeon.results.results import Result, State
@@ -61,8 +60,7 @@ class Simulation:
         self._full: Simulation | None = None
 
     def __repr__(self) -> str:
-        joints = ", ".join(joint.name for joint in self.source.clearances)
-        of = f"{self.source.mechanism}/{self.source.scene}"
+        joints, of = ", ".join(x.name for x in self.source.clearances), f"{self.source.mechanism}/{self.source.scene}"
         return f"<Simulation {of}: {self.compiled.n // 3} bodies{f', play in {joints}' if joints else ''}>"
 
     @property
@@ -87,10 +85,15 @@ class Simulation:
             from gudgeon.simulation.from_file import load_bytes
 
             self._full = load_bytes(
-                self._loaded_bytes(), self.file, self.source.scene, overrides=self._overrides, formulation="full",
-                portable=self.compiled.portable,
-            )  # fmt: skip
+                self._loaded_bytes(), self.file, self.source.scene, formulation="full",
+                overrides=self._overrides, portable=self.compiled.portable)  # fmt: skip
         return self._full
+
+    def to_html(self) -> str:
+        """The scene's page, HTML: its equations, and above them the mechanism running (gudgeon.web.page.write)."""
+        from gudgeon.web.page import write
+
+        return write(self)
 
     def _loaded_bytes(self) -> bytes:
         """The file's bytes, if they are still those that the kernels were made from."""
