@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gudgeon.assembly.rank import rank
-from gudgeon.commands.reduction_story import outcome
+from gudgeon.contract.ledger_words import outcome
 from gudgeon.contract import ledger as told
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.ledger import Story

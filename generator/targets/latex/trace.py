@@ -1,0 +1,224 @@
+"""What belongs together: tokens of rows, entries, terms, joints, bodies and laws, and the lines of C and YAML of each.
+
+Selecting anything on a page lights whatever has a token in common with it (light.js). Which lines of C compute a row is
+asked of the functions themselves (generator/ir/dependence.py), never of their text.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, fields, is_dataclass
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.generator.equations.constraints import Row
+from gudgeon.generator.equations.model import Model, make_model
+from gudgeon.generator.ir.branches import Branch
+from gudgeon.generator.ir.dependence import NO_MARKS, Marks, free_names, slices
+from gudgeon.generator.ir.kernels import Kernel
+from gudgeon.generator.ir.readable import NUMBERS, readable
+from gudgeon.generator.ir.statements import Statement
+from gudgeon.generator.kernels import closed_linkage
+from gudgeon.generator.kernels.program import Program, make_program
+from gudgeon.generator.mechanism.mechanism import Quantity
+from gudgeon.generator.targets.c.describe import describe
+from gudgeon.generator.targets.c.emit import emit
+from gudgeon.generator.targets.c.lines import find, functions_in
+from gudgeon.generator.targets.numpy.module import ClosedLinkage
+
+# Functions of the closed linkage by the letter of what they give: `constraints` gives phi[r].
+GIVES = {"constraints": "phi", "jacobian": "phi_q", "velocity_rhs": "nu", "acceleration_rhs": "gamma"}
+_INDEX = re.compile(r"^(?:aside->)?(\w+)\[(\d+)\]$")
+Tokens = Mapping[int, Marks]  # by line
+
+
+def row_token(number: int) -> str:
+    """Of a row of Φ, from 1."""
+    return f"row-{number}"
+
+
+def entry_token(row: int, column: int) -> str:
+    """Of an entry of Φ_q, from 1."""
+    return f"entry-{row}-{column}"
+
+
+@dataclass(frozen=True)
+class Trace:
+    """`lines`: tokens by file and line of C; `values`: what the line of a function of Φ stores, "phi.arm_x".
+
+    `numbers`: tokens by address of what hangs on a number of the file. `program` is derived of `model` anew: its names
+    are those of the emitted C.
+    """
+
+    model: Model
+    program: Program
+    source: KernelSource
+    lines: Mapping[str, Tokens]
+    values: Mapping[str, Mapping[int, str]]
+    numbers: Mapping[str, Marks]
+
+
+def trace(model: Model) -> Trace:
+    """The scene's functions, their C, and what of it belongs to what in the document of `model`."""
+    fresh = make_model(model.scene)
+    describe(fresh)
+    ClosedLinkage(fresh)  # what the rank of the rows asks for: numbers stand in the order of the emitted scene's
+    fresh = fresh.without(model.redundancy)
+    program = make_program(fresh)
+    source = emit(program)
+    found = _Finder(program, source)
+    found.all()
+    lines = {file: {k: frozenset(v) for k, v in sorted(own.items())} for file, own in found.lines.items()}
+    return Trace(fresh, program, source, lines, found.values, found.by_address())
+
+
+class _Finder:
+    """Goes through the functions of a scene and notes tokens."""
+
+    def __init__(self, program: Program, source: KernelSource) -> None:
+        self.program, self.model, self.files = program, program.model, source.files
+        self.lines: defaultdict[str, defaultdict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
+        self.values: defaultdict[str, dict[int, str]] = defaultdict(dict)
+        self.numbers: defaultdict[str, set[str]] = defaultdict(set)  # by `p->field`
+        self.number_of = {row.name: k for k, row in enumerate(self.model.rows, 1)}
+        self.every = self.model.all_rows
+        self.shown = {name for row in self.model.rows for name in free_names(row.phi)}
+
+    def all(self) -> None:
+        """Every function that says something of rows, bodies or laws; what `prepare` makes of it last."""
+        program = self.program
+        for kernel in (*program.closed, program.dynamics, *(program.tree.kernels if program.tree else ())):
+            self._function(kernel)
+        for pin in program.pins:
+            contact = self.model.scene.play[pin.clearance.name].contact.name
+            for call in pin.laws.values():
+                own = frozenset({f"law-{contact}", f"joint-{pin.clearance.name}"})
+                self._whole(call.kernel.name, own)
+                for number in call.numbers:
+                    self.numbers[number] |= own
+        for name in self.model.scene.play:
+            for suffix in (f"clearance_{name}", f"{name}_force", f"dry_{name}", f"film_{name}"):
+                self._whole(suffix, frozenset({f"joint-{name}"}))
+        self._prepare()
+
+    def _function(self, kernel: Kernel) -> None:
+        marked = slices(readable(kernel), lambda line: self._marks(kernel.name, line))
+        for number, marks in marked.numbers.items():
+            self.numbers[number] |= marks
+        self._note(kernel, marked.stored)
+
+    def _note(self, kernel: Kernel, stored: Mapping[str, Marks]) -> None:
+        for found in find(kernel, self.files):
+            for target, at in found.lines:
+                own = stored.get(target, NO_MARKS) | self._result(kernel.name, target)
+                for number in at:
+                    self.lines[found.file][number] |= own
+                if kernel.name in GIVES:
+                    self.values[found.file][at[-1]] = f"{GIVES[kernel.name]}.{target}"
+
+    def _marks(self, function: str, line: Statement | Branch) -> Marks:
+        """What a line is looked for: rows where Φ, Φ_q, ν, γ are stored, terms where their names are."""
+        target, index = line.target, _INDEX.match(line.target)
+        if function == "mass_matrix" and index:
+            return frozenset({f"body-{self.model.bodies[int(index[2]) // 3].name}"})
+        if function in GIVES:
+            own = self._terms(target) if function == "constraints" else NO_MARKS
+            if index and function == "jacobian":
+                row, column = divmod(int(index[2]), len(self.model.q))
+                number = self.number_of.get(self.every[row].name)
+                return own | ({entry_token(number, column + 1)} if number else NO_MARKS)
+            return own | (self._row(self.every[int(index[2])].name) if index else NO_MARKS)
+        if function in ("dynamics", "closures", "closure_rates"):
+            return self._of_dynamics(function, target, index)
+        return NO_MARKS
+
+    def _of_dynamics(self, function: str, target: str, index: re.Match[str] | None) -> Marks:
+        rows = self.model.rows if function == "dynamics" else self.program.integrated.system.rows
+        if index and index[1] in ("phi", "phi_dot", "out"):
+            return self._row(rows[int(index[2])].name)
+        name = next((row.name for row in rows if target == f"rhs_{row.name.replace('.', '_')}"), "")
+        return self._row(name)
+
+    def _row(self, name: str) -> Marks:
+        return frozenset({row_token(self.number_of[name])}) if name in self.number_of else NO_MARKS
+
+    def _terms(self, target: str) -> Marks:
+        return frozenset({f"name-{target}"}) if target in self.shown else NO_MARKS
+
+    def _result(self, function: str, target: str) -> Marks:
+        """A multiplier hangs on everything: its own line alone is the row's."""
+        index = _INDEX.match(target)
+        if function == "dynamics" and index and index[1] == "lambda" and int(index[2]) < len(self.model.rows):
+            return self._row(self.model.rows[int(index[2])].name)
+        return NO_MARKS
+
+    def _whole(self, function: str, own: Marks) -> None:
+        """All lines of a function by its name."""
+        for file, text in self.files.items():
+            if file.endswith(".c") and f"{function}(" in text:
+                for name, first, last in functions_in(text):
+                    if name == function:
+                        for number in range(first, last + 1):
+                            self.lines[file][number] |= own
+
+    def _prepare(self) -> None:
+        kernel = closed_linkage.prepare_kernel(self.model)
+        own = {s.name: self.model.symbols.info[s].home for s in self.model.slots.members()}
+        fields = {name: {*self.numbers[home], f"number-{name}"} for name, home in own.items()}
+        marked = slices(readable(kernel), lambda line: frozenset(fields.get(_field(line, own), ())))
+        for target, marks in marked.stored.items():
+            self.numbers[target] |= marks
+        self._note(kernel, marked.stored)
+
+    def by_address(self) -> dict[str, Marks]:
+        """Tokens of each number of the file."""
+        info = self.model.symbols.info
+        entries = self.model.slots.entries.values()
+        return {entry.address: frozenset(self.numbers[info[entry.symbol].home]) for entry in entries}
+
+
+def _field(line: Statement | Branch, homes: Mapping[str, str]) -> str:
+    """The symbol of the number that a line of `prepare` stores."""
+    return next((name for name, home in homes.items() if line.target in (name, home)), "")
+
+
+def yaml_tokens(model: Model, found: Trace) -> dict[int, Marks]:
+    """Tokens by line of the mechanism's file: of whatever stands there, and of what hangs on its numbers."""
+    tokens: defaultdict[int, set[str]] = defaultdict(set)
+    mechanism = model.scene.mechanism
+    for kind, named in (("joint", mechanism.joints), ("drive", mechanism.drives), ("body", mechanism.bodies)):
+        for name, own in named.items():
+            tokens[own.where.line].add(f"{kind}-{name}")
+    where = {**mechanism.joints, **mechanism.drives}
+    for number, row in enumerate(model.rows, 1):
+        tokens[where[row.owner].where.line] |= {row_token(number), *entries_of(model, number, row)}
+    for play in model.scene.play.values():
+        for quantity in _quantities(play.contact):
+            tokens[quantity.where.line].add(f"law-{play.contact.name}")
+    for quantity in (*_quantities(mechanism), *model.scene.parameters.values()):
+        if quantity.address in found.numbers:
+            tokens[quantity.where.line] |= found.numbers[quantity.address]
+    return {line: frozenset({f"yaml-{line}", *own}) for line, own in tokens.items()}
+
+
+def entries_of(model: Model, number: int, row: Row) -> Iterator[str]:
+    """Tokens of a row's entries of Φ_q."""
+    place = {q: k for k, q in enumerate(model.q, 1)}
+    return (entry_token(number, place[q]) for q in row.phi_q)
+
+
+def _quantities(part: object) -> Iterator[Quantity]:
+    """All numbers in a part of a mechanism."""
+    if isinstance(part, Quantity):
+        yield part
+        return
+    inner: Iterable[object] = ()
+    if is_dataclass(part):
+        inner = (getattr(part, one.name) for one in fields(part))
+    elif isinstance(part, Mapping):
+        inner = part.values()
+    elif isinstance(part, (tuple, list)):
+        inner = part
+    for one in inner:
+        yield from _quantities(one)
