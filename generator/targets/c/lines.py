@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
@@ -12,8 +11,6 @@ from gudgeon.generator.ir.readable import Readable
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.targets.c.functions import printed
 from gudgeon.generator.targets.c.layout import within
-
-_FUNCTION = re.compile(r"^[a-z][^;={}]*?\b(\w+)\([^;={}]*\)\n\{\n.*?^\}$", re.MULTILINE | re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -45,8 +42,11 @@ def find(kernel: Kernel, files: Mapping[str, str]) -> Iterator[Found]:
         yield Found(file, part.name, own, first, number - 1, tuple(stored))
 
 
-def functions_in(text: str) -> Iterator[tuple[str, int, int]]:
-    """Name, first and last line of each function that a file defines."""
-    for match in _FUNCTION.finditer(text):
-        first = 1 + text.count("\n", 0, match.start())
-        yield match[1], first, first + match[0].count("\n")
+def place_of(text: str, files: Mapping[str, str]) -> tuple[str, range]:
+    """File and lines of a text that was printed whole; ("", none) where no file has it."""
+    whole = within(text)
+    file = next((name for name, own in files.items() if whole in own), "")
+    if not file or not whole.strip():
+        return "", range(0)
+    first = 1 + files[file].count("\n", 0, files[file].index(whole))
+    return file, range(first, first + whole.rstrip("\n").count("\n") + 1)

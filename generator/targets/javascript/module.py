@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 
 import sympy as sp
 
@@ -15,27 +14,31 @@ from gudgeon.generator.ir.kernels import Kernel, KernelBuilder
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.kernels import closed_linkage
-from gudgeon.generator.targets.javascript.printer import PRELUDE, function, name
+from gudgeon.generator.targets.javascript.printer import PRELUDE, arguments, function
 
 GAP = ("e", "delta", "deltadot", "v_t", "epsilon")  # of a joint with play; epsilon of one with a film
 _GIVEN = (contact.e_x, contact.e_y, contact.de_x, contact.de_y, contact.omega_i, contact.omega_j)
-_NUMBER = re.compile(r"\bp\.(\w+)")
 
 
 def equations_script(model: Model) -> str:
-    """JavaScript that declares `gudgeonEquations`: `numbers`, places in a run's p by the name of the member of p,
+    """JavaScript that declares `gudgeonEquations`, with what a page needs to know of them.
 
-    and `functions` of (t, q, v, p) that return their locals and arrays by name. Raises ValueError for curves.
+    `functions` of t, q, v, p, as far as `given` names them, return their locals and arrays by name; `numbers` are
+    places in a run's p by the name of the member of p; `rows` are the places of the scene's rows in the closed
+    linkage's, `names` what they are called. Raises ValueError for curves.
     """
     kernels = [*closed_linkage.row_kernels(model), *([play_kernel(model)] if model.clearances else [])]
-    text = ",\n".join(map(function, kernels))
-    read = set(_NUMBER.findall(text))
-    members = (name(model.slots.field(symbol)) for symbol in model.slots.members())
-    numbers = json.dumps({one: k for k, one in enumerate(members) if one in read}, separators=(",", ":"))
-    return (
-        f"const gudgeonEquations = (() => {{\n{PRELUDE}"
-        f"return {{numbers: {numbers}, functions: {{\n{text},\n}}}};\n}})();\n"
-    )
+    read: set[str] = set()
+    text = ",\n".join(function(kernel, read) for kernel in kernels)
+    members = map(model.slots.field, model.slots.members())
+    place = {row.name: k for k, row in enumerate(model.all_rows)}
+    told = {
+        "numbers": {one: k for k, one in enumerate(members) if one in read},
+        "rows": [place[row.name] for row in model.rows], "names": [row.name for row in model.rows],
+        "given": {kernel.name: arguments(kernel) for kernel in kernels},
+    }  # fmt: skip
+    parts = ", ".join(f"{key}: {json.dumps(value, separators=(',', ':'))}" for key, value in told.items())
+    return f"const gudgeonEquations = (() => {{\n{PRELUDE}return {{{parts}, functions: {{\n{text},\n}}}};\n}})();\n"
 
 
 def gap_name(model: Model, index: int, of: str) -> str:

@@ -8,8 +8,8 @@ from __future__ import annotations
 import sympy as sp
 
 from gudgeon.generator.ir.branches import Branch
-from gudgeon.generator.ir.kernels import Kernel
-from gudgeon.generator.ir.readable import Readable, readable
+from gudgeon.generator.ir.kernels import Argument, Kernel
+from gudgeon.generator.ir.readable import NUMBERS, Readable, readable
 from gudgeon.generator.ir.statements import Line, Sides, Statement
 from gudgeon.generator.symbols.curves import CurveOf, c_name
 from gudgeon.generator.targets.c.printer import CPrinter, Text
@@ -43,11 +43,18 @@ def name(text: str) -> str:
 
 
 class JavaScriptPrinter(CPrinter):
-    """C's expressions with JavaScript's names of places."""
+    """C's expressions with JavaScript's names of places; `numbers` are the members of p that were read."""
+
+    def __init__(self, of: Readable, numbers: set[str]) -> None:
+        super().__init__(of)
+        self.numbers = numbers
 
     def called(self, text: str) -> str:
         """By what it is called in this function."""
-        return name(super().called(text))
+        plain = super().called(text)
+        if plain.startswith(NUMBERS):
+            self.numbers.add(plain.removeprefix(NUMBERS))
+        return name(plain)
 
     def _print_CurveOf(self, expr: CurveOf) -> str:
         raise ValueError(f"a curve, {c_name(expr.name)}, has no counterpart in JavaScript")
@@ -58,26 +65,37 @@ class JavaScriptPrinter(CPrinter):
         return name(super()._print_Pick(expr))
 
 
-def function(kernel: Kernel) -> str:
-    """A method that returns its locals and arrays by name. Raises ValueError for what has no counterpart."""
+def function(kernel: Kernel, numbers: set[str]) -> str:
+    """A method that returns its locals and arrays by name; `numbers` gets the members of p that it reads.
+
+    Raises ValueError for what has no counterpart.
+    """
     own = readable(kernel)
-    writer = _Lines(own)
+    writer = _Lines(own, numbers)
     body = [text for section in own.sections for line in section.statements for text in writer.lines(line)]
-    outs = [a.name for a in kernel.arguments if not a.type.startswith("const") and a.name in writer.stored]
+    outs = [a.name for a in kernel.arguments if not _is_given(a)]
     arrays = [f"    const {', '.join(f'{out} = []' for out in outs)};"] if outs else []
-    given = ", ".join(name(a.name) for a in kernel.arguments if a.name not in outs)
+    given = ", ".join(arguments(kernel))
     told = ", ".join(dict.fromkeys([*writer.locals, *outs]))
     lines = [*arrays, *(f"    {line}" for line in body), f"    return {{{told}}};"]
     return "\n".join([f"{kernel.name}({given}) {{", *lines, "}"])
 
 
-class _Lines:
-    """Lines of one function; `locals` and `stored` are what they declare and store to."""
+def arguments(kernel: Kernel) -> list[str]:
+    """What a function is given: not the arrays that it returns."""
+    return [name(a.name) for a in kernel.arguments if _is_given(a)]
 
-    def __init__(self, own: Readable) -> None:
-        self.text = Text(JavaScriptPrinter(own))
+
+def _is_given(argument: Argument) -> bool:
+    return argument.type.startswith("const")
+
+
+class _Lines:
+    """Lines of one function; `locals` are what they declare."""
+
+    def __init__(self, own: Readable, numbers: set[str]) -> None:
+        self.text = Text(JavaScriptPrinter(own, numbers))
         self.locals: list[str] = []
-        self.stored: set[str] = set()
 
     def lines(self, item: Line) -> list[str]:
         """One statement or branch."""
@@ -88,7 +106,6 @@ class _Lines:
         target = self.text.printer.called(item.target)
         if item.local:
             self.locals.append(target)
-        self.stored |= item.writes
         if isinstance(item, Statement):
             return [f"{'const ' * item.local}{target} = {self.text.expression(item.value)};"]
         below, other = self.text.expression(item.otherwise), self.text.expression(item.then)

@@ -6,41 +6,32 @@ asked of the functions themselves (generator/ir/dependence.py), never of their t
 
 from __future__ import annotations
 
-import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields, is_dataclass
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model, make_model
 from gudgeon.generator.ir.branches import Branch
 from gudgeon.generator.ir.dependence import NO_MARKS, Marks, free_names, slices
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import NUMBERS, readable
 from gudgeon.generator.ir.statements import Statement
+from gudgeon.generator.ir.values import Place
 from gudgeon.generator.kernels import closed_linkage
 from gudgeon.generator.kernels.program import Program, make_program
 from gudgeon.generator.mechanism.mechanism import Quantity
 from gudgeon.generator.targets.c.describe import describe
-from gudgeon.generator.targets.c.emit import emit
-from gudgeon.generator.targets.c.lines import find, functions_in
+from gudgeon.generator.targets.c import functions
+from gudgeon.generator.targets.c.emit import emit, render
+from gudgeon.generator.targets.c.lines import find, place_of
+from gudgeon.generator.targets.c.play import clearance_code
+from gudgeon.generator.targets.latex.tokens import entries_of, entry_token, row_token
 from gudgeon.generator.targets.numpy.module import ClosedLinkage
 
 # Functions of the closed linkage by the letter of what they give: `constraints` gives phi[r].
 GIVES = {"constraints": "phi", "jacobian": "phi_q", "velocity_rhs": "nu", "acceleration_rhs": "gamma"}
-_INDEX = re.compile(r"^(?:aside->)?(\w+)\[(\d+)\]$")
 Tokens = Mapping[int, Marks]  # by line
-
-
-def row_token(number: int) -> str:
-    """Of a row of Φ, from 1."""
-    return f"row-{number}"
-
-
-def entry_token(row: int, column: int) -> str:
-    """Of an entry of Φ_q, from 1."""
-    return f"entry-{row}-{column}"
 
 
 @dataclass(frozen=True)
@@ -94,12 +85,11 @@ class _Finder:
             contact = self.model.scene.play[pin.clearance.name].contact.name
             for call in pin.laws.values():
                 own = frozenset({f"law-{contact}", f"joint-{pin.clearance.name}"})
-                self._whole(call.kernel.name, own)
+                self._whole(functions.kernel(call.kernel), own)
                 for number in call.numbers:
                     self.numbers[number] |= own
-        for name in self.model.scene.play:
-            for suffix in (f"clearance_{name}", f"{name}_force", f"dry_{name}", f"film_{name}"):
-                self._whole(suffix, frozenset({f"joint-{name}"}))
+            own = frozenset({f"joint-{pin.clearance.name}"})
+            self._whole(clearance_code(pin, render, self.model.law_states), own)
         self._prepare()
 
     def _function(self, kernel: Kernel) -> None:
@@ -115,28 +105,31 @@ class _Finder:
                 for number in at:
                     self.lines[found.file][number] |= own
                 if kernel.name in GIVES:
-                    self.values[found.file][at[-1]] = f"{GIVES[kernel.name]}.{target}"
+                    called = found.own.names.get(target, target)
+                    self.values[found.file][at[-1]] = f"{GIVES[kernel.name]}.{called}"
 
     def _marks(self, function: str, line: Statement | Branch) -> Marks:
         """What a line is looked for: rows where Φ, Φ_q, ν, γ are stored, terms where their names are."""
-        target, index = line.target, _INDEX.match(line.target)
-        if function == "mass_matrix" and index:
-            return frozenset({f"body-{self.model.bodies[int(index[2]) // 3].name}"})
+        target, place = line.target, _place(line.target)
+        if function == "mass_matrix" and place.index >= 0:
+            return frozenset({f"body-{self.model.bodies[place.index // 3].name}"})
         if function in GIVES:
             own = self._terms(target) if function == "constraints" else NO_MARKS
-            if index and function == "jacobian":
-                row, column = divmod(int(index[2]), len(self.model.q))
+            if place.index < 0:
+                return own
+            if function == "jacobian":
+                row, column = divmod(place.index, len(self.model.q))
                 number = self.number_of.get(self.every[row].name)
                 return own | ({entry_token(number, column + 1)} if number else NO_MARKS)
-            return own | (self._row(self.every[int(index[2])].name) if index else NO_MARKS)
+            return own | self._row(self.every[place.index].name)
         if function in ("dynamics", "closures", "closure_rates"):
-            return self._of_dynamics(function, target, index)
+            return self._of_dynamics(function, target, place)
         return NO_MARKS
 
-    def _of_dynamics(self, function: str, target: str, index: re.Match[str] | None) -> Marks:
+    def _of_dynamics(self, function: str, target: str, place: Place) -> Marks:
         rows = self.model.rows if function == "dynamics" else self.program.integrated.system.rows
-        if index and index[1] in ("phi", "phi_dot", "out"):
-            return self._row(rows[int(index[2])].name)
+        if place.index >= 0 and place.base in ("phi", "phi_dot", "out"):
+            return self._row(rows[place.index].name)
         name = next((row.name for row in rows if target == f"rhs_{row.name.replace('.', '_')}"), "")
         return self._row(name)
 
@@ -148,24 +141,23 @@ class _Finder:
 
     def _result(self, function: str, target: str) -> Marks:
         """A multiplier hangs on everything: its own line alone is the row's."""
-        index = _INDEX.match(target)
-        if function == "dynamics" and index and index[1] == "lambda" and int(index[2]) < len(self.model.rows):
-            return self._row(self.model.rows[int(index[2])].name)
+        place = _place(target)
+        if function == "dynamics" and place.base == "lambda" and 0 <= place.index < len(self.model.rows):
+            return self._row(self.model.rows[place.index].name)
         return NO_MARKS
 
-    def _whole(self, function: str, own: Marks) -> None:
-        """All lines of a function by its name."""
-        for file, text in self.files.items():
-            if file.endswith(".c") and f"{function}(" in text:
-                for name, first, last in functions_in(text):
-                    if name == function:
-                        for number in range(first, last + 1):
-                            self.lines[file][number] |= own
+    def _whole(self, text: str, own: Marks) -> None:
+        """All lines of what was printed whole."""
+        file, lines = place_of(text, self.files)
+        for number in lines:
+            self.lines[file][number] |= own
 
     def _prepare(self) -> None:
         kernel = closed_linkage.prepare_kernel(self.model)
         own = {s.name: self.model.symbols.info[s].home for s in self.model.slots.members()}
-        fields = {name: {*self.numbers[home], f"number-{name}"} for name, home in own.items()}
+        slots = {entry.symbol.name for entry in self.model.slots.entries.values()}
+        fields = {name: self.numbers[home] | ({f"number-{name}"} if name in slots else set())
+                  for name, home in own.items()}  # fmt: skip
         marked = slices(readable(kernel), lambda line: frozenset(fields.get(_field(line, own), ())))
         for target, marks in marked.stored.items():
             self.numbers[target] |= marks
@@ -176,6 +168,11 @@ class _Finder:
         info = self.model.symbols.info
         entries = self.model.slots.entries.values()
         return {entry.address: frozenset(self.numbers[info[entry.symbol].home]) for entry in entries}
+
+
+def _place(target: str) -> Place:
+    """`aside->phi[3]` is phi[3] too."""
+    return Place(target.removeprefix("aside->"))
 
 
 def _field(line: Statement | Branch, homes: Mapping[str, str]) -> str:
@@ -200,12 +197,6 @@ def yaml_tokens(model: Model, found: Trace) -> dict[int, Marks]:
         if quantity.address in found.numbers:
             tokens[quantity.where.line] |= found.numbers[quantity.address]
     return {line: frozenset({f"yaml-{line}", *own}) for line, own in tokens.items()}
-
-
-def entries_of(model: Model, number: int, row: Row) -> Iterator[str]:
-    """Tokens of a row's entries of Φ_q."""
-    place = {q: k for k, q in enumerate(model.q, 1)}
-    return (entry_token(number, place[q]) for q in row.phi_q)
 
 
 def _quantities(part: object) -> Iterator[Quantity]:
