@@ -10,7 +10,7 @@ import sympy as sp
 
 from gudgeon.generator.ir.branches import Branch
 from gudgeon.generator.ir.readable import NUMBERS, Readable
-from gudgeon.generator.ir.statements import Line, Statement
+from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Place
 from gudgeon.generator.symbols.corners import Pick
 

@@ -66,8 +66,9 @@ class Sketch:
 class Picture:
     """A drawing: in HTML as SVG, elsewhere as lines whose columns stay under each other, or nothing."""
 
+    caption: str
     svg: str
-    lines: tuple[str, ...]
+    lines: tuple[str, ...] = ()
     kind: str = "picture"
 
 

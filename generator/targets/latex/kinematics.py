@@ -23,7 +23,7 @@ WIDEST = 84  # characters of text that fit side by side in a joint's rows of Φ_
 LONGEST = 400  # operations in one equation that a reader can be asked to read
 
 PHI, NU, GAMMA = Name(r"\Phi", "Φ"), Name(r"\nu", "ν"), Name(r"\gamma", "γ")
-PHI_Q = Name(r"\Phi_{q}", "Φ_q")
+LAMBDA, PHI_Q = Name(r"\lambda", "λ"), Name(r"\Phi_{q}", "Φ_q")
 
 
 def indexed(of: Name, index: int) -> Name:
@@ -111,7 +111,8 @@ def _rows(model: Model, notation: Notation) -> list[Block]:
     ]  # fmt: skip
     for title, rows in _by_owner(model):
         own = rows[0][1]
-        blocks.append(paragraph(f"{title}; {_named(rows)}:", of=[owner_token(own), *(row_token(k) for k, _ in rows)]))
+        of = [owner_token(own), *(row_token(k) for k, _ in rows)]
+        blocks.append(paragraph(f"{title}, ", *_multipliers(rows), f"; {_named(rows)}:", of=of))
         blocks += [_phi(k, row, model, notation) for k, row in rows]
         blocks += _entries(rows, model, notation)
         for letter, values in ((NU, [row.nu for _, row in rows]), (GAMMA, [row.gamma for _, row in rows])):
@@ -150,6 +151,13 @@ def _by_owner(model: Model) -> Iterator[tuple[str, list[tuple[int, Row]]]]:
 
 def _named(rows: Sequence[tuple[int, Row]]) -> str:
     return ("row " if len(rows) == 1 else "rows ") + ", ".join(f"{row.name} ({row.unit})" for _, row in rows)
+
+
+def _multipliers(rows: Sequence[tuple[int, Row]]) -> list[str | Name]:
+    """What they are called, each with the place of its value."""
+    names = [replace(indexed(LAMBDA, k), value=f"lambda.{k}") for k, _ in rows]
+    between = [part for name in names for part in (", ", name)][1:]
+    return [f"multiplier{'s' * (len(rows) > 1)} ", *between]
 
 
 def _jacobian(model: Model) -> list[Block]:

@@ -107,11 +107,13 @@ const gudgeonLight = (() => {
         document.addEventListener("keydown", pressed);
         const carried = document.getElementById("gudgeon-c");
         if (!carried) return;
-        files = await unpack(carried.textContent);
+        const {files: listed, equations} = await unpack(carried.textContent);
+        files = listed;
+        if (equations) gudgeonValues.take(new Function(`${equations}return gudgeonEquations;`)());
         for (const file of Object.values(files)) file.lines = file.text.replace(/\n$/, "").split("\n");
         document.getElementById("gudgeon-c-files").append(...Object.entries(files).map(([name, own]) => list(name, own)));
         if (wanted.size) showLines();
     }
-    if (typeof document !== "undefined") begin();
+    if (typeof document !== "undefined") addEventListener("DOMContentLoaded", begin);
     return {light, select, isLit, get files() { return files; }};
 })();

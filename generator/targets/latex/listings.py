@@ -54,7 +54,7 @@ def _c(found: Trace) -> str:
         of = {str(k): " ".join(sorted(own)) for k, own in found.lines.get(name, {}).items() if own}
         values = {str(k): value for k, value in found.values.get(name, {}).items()}
         files[name] = {"text": text, "of": of, "values": values}
-    told = json.dumps(files, ensure_ascii=False, separators=(",", ":"))
+    told = json.dumps({"files": files, "equations": _equations(found)}, ensure_ascii=False, separators=(",", ":"))
     packed = base64.b64encode(gzip.compress(told.encode(), 9, mtime=0)).decode("ascii")
     others = [name for name in found.source.files if name.endswith((".c", ".h")) and name not in files]
     rest = f" Not listed here: {', '.join(others)}." if others else ""
@@ -71,10 +71,14 @@ def _script(name: str) -> str:
     return Path(__file__).with_name(name).read_text(encoding="utf-8")
 
 
-def scripts(found: Trace) -> str:
-    """What lights up, what values are computed with, what fills them in."""
+def _equations(found: Trace) -> str:
+    """What values are computed with; of a scene with curves nothing, whose state alone is shown then."""
     try:
-        equations = equations_script(found.model)
-    except ValueError:  # curves: no values are shown then, only those of the state
-        equations = "const gudgeonEquations = null;\n"
-    return f'<script>\n"use strict";\n{equations}{_script("light.js")}{_script("live.js")}</script>\n'
+        return equations_script(found.model)
+    except ValueError:
+        return ""
+
+
+def scripts() -> str:
+    """What lights up, and what fills in values."""
+    return f'<script>\n"use strict";\n{_script("light.js")}{_script("live.js")}</script>\n'

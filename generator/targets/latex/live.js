@@ -4,22 +4,22 @@
  */
 const gudgeonValues = (() => {
     const FUNCTIONS = {phi: "constraints", phi_q: "jacobian", nu: "velocity_rhs", gamma: "acceleration_rhs", play: "play"};
-    let state = null, known = {}, waiting = false;
+    let equations = null, state = null, known = {}, waiting = false;
     const seen = new Set();
 
     /* p by the names of its numbers. */
     function named(p) {
-        return Object.fromEntries(Object.entries(gudgeonEquations.numbers).map(([name, k]) => [name, p[k]]));
+        return Object.fromEntries(Object.entries(equations.numbers).map(([name, k]) => [name, p[k]]));
     }
 
     /* What a function of the equations gives at the state: its locals and arrays, computed once. */
     function computed(of) {
-        if (!gudgeonEquations || !FUNCTIONS[of]) return {};
+        if (!equations || !FUNCTIONS[of]) return {};
         known.p ??= named(state.p);
-        const call = gudgeonEquations.functions[FUNCTIONS[of]];
+        const call = equations.functions[FUNCTIONS[of]];
         if (!call) return {};
         const given = {t: state.t, q: state.q, v: state.v, p: known.p};
-        known[of] ??= call(...gudgeonEquations.given[FUNCTIONS[of]].map((name) => given[name]));
+        known[of] ??= call(...equations.given[FUNCTIONS[of]].map((name) => given[name]));
         return known[of];
     }
 
@@ -29,7 +29,7 @@ const gudgeonValues = (() => {
         if (kind === "q" || kind === "v") return state[kind][numbers[0] - 1];
         if (kind === "tmp") return local(computed(rest[0]), rest.slice(1).join("."));
         if (kind === "lambda") return multiplier(numbers[0]);
-        const row = gudgeonEquations?.rows[numbers[0] - 1];
+        const row = equations?.rows[numbers[0] - 1];
         if (kind === "phi_q") return computed(kind).phi_q?.[row * state.q.length + numbers[1] - 1];
         return computed(kind)[kind === "gamma" ? "gamma_rows" : kind]?.[row];
     }
@@ -41,7 +41,7 @@ const gudgeonValues = (() => {
     }
 
     function multiplier(row) {
-        const {run, k} = state, name = gudgeonEquations?.names[row - 1];
+        const {run, k} = state, name = equations?.names[row - 1];
         try {
             return run.series(`lambda.${name}`)[k];
         } catch {
@@ -73,8 +73,15 @@ const gudgeonValues = (() => {
     }
 
     function ask() {
-        if (!waiting) requestAnimationFrame(frame);
+        if (!waiting && typeof document !== "undefined") requestAnimationFrame(frame);
         waiting = true;
+    }
+
+    /* The functions of the scene (targets/javascript), once they are unpacked. */
+    function take(found) {
+        equations = found;
+        known = {};
+        ask();
     }
 
     /* A state: {t, q, v, p, run, k}, coordinates and numbers in the order of the source. */
@@ -100,6 +107,6 @@ const gudgeonValues = (() => {
         document.addEventListener("gudgeon:state", (event) => announce(event.detail));
         addEventListener("DOMContentLoaded", begin);
     }
-    return {announce, value, text};
+    return {announce, take, value, text};
 })();
-if (typeof module !== "undefined") module.exports = {gudgeonValues, gudgeonEquations};
+if (typeof module !== "undefined") module.exports = gudgeonValues;

@@ -14,6 +14,7 @@ from gudgeon.generator.symbols.numbers import SlotEntry
 from gudgeon.generator.targets.latex.document import Block, Section, Sketch, Text, cells, paragraph, table
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import Notation
+from gudgeon.generator.targets.latex.printers import as_angle
 from gudgeon.language.tree import Binary, Call, Expr, Number, Unary
 from gudgeon.language.units import si_unit
 
@@ -39,7 +40,8 @@ class Values:
     def value(self, entry: SlotEntry) -> Text:
         """The default; in front of it the expression that it follows."""
         # what follows others is a result of arithmetic: its last digits would say nothing
-        number = self._notation.math(sp.Float(float(f"{entry.default:.12g}") if entry.follows else entry.default, 17))
+        rounded = entry.follows and as_angle(entry.default) is None
+        number = self._notation.math(sp.Float(float(f"{entry.default:.12g}") if rounded else entry.default, 17))
         return (self._notation.math(entry.value), " = ", number) if entry.follows else (number,)
 
     def vector(self, vector: Vector) -> Text:
@@ -95,7 +97,7 @@ def _joints(model: Model, values: Values) -> list[Block]:
     blocks += table(cells("joint", "field", "value"), fields)
     used = {s for row in model.rows for s in model.symbols.explicit(row.phi).free_symbols}
     guessed = [e for e in model.slots.entries.values() if e.symbol in used and e.address.startswith("start.")]
-    blocks += table(cells("angle at the start", "value, rad"), [cells(e.address, values.slot(e)) for e in guessed])
+    blocks += table(cells("angle at the start", "value"), [cells(e.address, values.slot(e)) for e in guessed])
     for kind in dict.fromkeys(joint.kind for joint in model.scene.mechanism.joints.values()):
         summary, *lines = sketch_of("joints", kind)
         blocks += [paragraph(summary), Sketch(tuple(lines))]

@@ -40,7 +40,8 @@ def pattern(model: Model) -> list[Block]:
         return []
     parts = [*_columns(model, 24), *_row_names(model, 24), *_dots(dots, 30, 24, "entry")]
     size = 30 + CELL * len(model.q) + 4, 24 + CELL * len(model.rows) + 4
-    return [Picture(svg(*size, "entries of the Jacobian that are not zero", parts), _grid(len(model.rows), len(model.q), dots))]
+    caption = "Rows and columns of the Jacobian with its entries that are not zero"
+    return [Picture(caption, svg(*size, caption, parts), _grid(len(model.rows), len(model.q), dots))]
 
 
 def assembled(model: Model) -> list[Block]:
@@ -59,7 +60,8 @@ def assembled(model: Model) -> list[Block]:
         f'<rect class="frame" x=".5" y=".5" width="{total - 1}" height="{total - 1}"/>',
     ]
     parts = [*_dots(masses, 0, 0, "mass", cell), *_dots([*above, *below], 0, 0, "entry", cell), *lines]
-    return [Picture(svg(total, total, "the assembled matrix, M and the entries of the Jacobian", parts), ())]
+    caption = "The assembled matrix: M on its diagonal, the Jacobian below and its transpose on the right"
+    return [Picture(caption, svg(total, total, caption, parts))]
 
 
 def _fits(rows: int, columns: int) -> bool:
@@ -74,13 +76,11 @@ def _entries(model: Model) -> list[Dot]:
 
 
 def _dots(dots: Sequence[Dot], x: int, y: int, kind: str, cell: int = CELL) -> list[str]:
-    """A group of squares: what they have in common is said once."""
+    """A group of squares, whose size is that of their class in the page."""
     squares = (
-        f'<rect x="{x + cell * dot.column}" y="{y + cell * dot.row}"'
-        f' width="{cell - 1}" height="{cell - 1}" data-of="{html.escape(dot.of)}"/>'
-        for dot in dots
+        f'<rect x="{x + cell * dot.column}" y="{y + cell * dot.row}" data-of="{html.escape(dot.of)}"/>' for dot in dots
     )
-    return [f'<g class="{kind}">', *squares, "</g>"]
+    return [f'<g class="{kind} cell{cell}">', *squares, "</g>"]
 
 
 def _columns(model: Model, top: int) -> list[str]:
@@ -122,7 +122,8 @@ def tree(story: Story) -> list[Block]:
     places: dict[str, tuple[float, int]] = {}
     lines: list[str] = []
     _place(carried, "ground", "", 0, [0], places, lines)
-    return [Picture(_tree_svg(story, places), tuple(lines))]
+    caption = "The tree: who places whom, and by which joint"
+    return [Picture(caption, _tree_svg(story, places, caption), tuple(lines))]
 
 
 def _place(
@@ -144,7 +145,7 @@ def _place(
 STEP_X, STEP_Y = 120, 34
 
 
-def _tree_svg(story: Story, places: Mapping[str, tuple[float, int]]) -> str:
+def _tree_svg(story: Story, places: Mapping[str, tuple[float, int]], caption: str) -> str:
     at = {body: (50 + STEP_X * depth, 20 + STEP_Y * row) for body, (row, depth) in places.items()}
     parts = []
     for placed in story.tree:
@@ -152,8 +153,9 @@ def _tree_svg(story: Story, places: Mapping[str, tuple[float, int]]) -> str:
         kind = "rule" if placed.joint else "rule loose"
         parts.append(f'<path class="{kind}" d="M{x0} {y0:g}C{x0 + 60} {y0:g} {x1 - 60} {y1:g} {x1} {y1:g}"/>')
         if placed.joint:
-            of = f' data-of="joint-{html.escape(placed.joint)}"'
-            parts.append(f'<text class="middle small" x="{x1 - 62}" y="{(y0 + 2 * y1) / 3 - 4:g}"{of}>{html.escape(placed.joint)}</text>')
+            name = html.escape(placed.joint)
+            at_y = (y0 + 3 * y1) / 4 - 4
+            parts.append(f'<text class="middle small" x="{x1 - 56}" y="{at_y:g}" data-of="joint-{name}">{name}</text>')
     for body, (x, y) in at.items():
         of = "" if body == "ground" else f' data-of="body-{html.escape(body)}"'
         parts.append(
@@ -161,4 +163,4 @@ def _tree_svg(story: Story, places: Mapping[str, tuple[float, int]]) -> str:
             f'<text class="middle" x="{x}" y="{y + 4:g}">{html.escape(body)}</text></g>'
         )
     width, height = max(x for x, _ in at.values()) + 40, max(y for _, y in at.values()) + 20
-    return svg(width, height, "the tree of the bodies", parts)
+    return svg(width, height, caption, parts)

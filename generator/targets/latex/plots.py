@@ -16,7 +16,7 @@ from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.shared import SharedCall
 from gudgeon.generator.kinds.laws.law import Law
 from gudgeon.generator.targets.javascript.module import gap_name
-from gudgeon.generator.targets.latex.document import Block, Picture, paragraph
+from gudgeon.generator.targets.latex.document import Block, Picture
 from gudgeon.generator.targets.latex.pictures import svg
 from gudgeon.generator.targets.latex.trace import Trace
 from gudgeon.generator.targets.numpy.printer import function
@@ -25,7 +25,7 @@ from gudgeon.language.units import VELOCITY
 POINTS = 61
 DEEPEST = 0.05  # share of the clearance up to which contact forces are drawn
 FAST = 0.1  # m/s, approach at which a law that reads δ̇ itself is drawn
-WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 420, 200, 62, 408, 12, 168
+WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 420, 204, 62, 408, 16, 172
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Plot:
     x_name: str
     y_name: str
     now: str
-    lead: str
+    caption: str
 
 
 def law_plot(found: Trace, joints: Sequence[str], role: str, law: Law) -> list[Block]:
@@ -64,7 +64,7 @@ def law_plot(found: Trace, joints: Sequence[str], role: str, law: Law) -> list[B
     if not all(np.isfinite(curve.y).all() for curve in plot.curves):
         return []
     marks = {name: gap_name(found.model, pins[name], plot.now) for name in joints}
-    return [paragraph(plot.lead), Picture(_drawn(plot, marks), ())]
+    return [Picture(plot.caption, _drawn(plot, marks))]
 
 
 def _numbers(found: Trace) -> Mapping[str, float]:
@@ -97,8 +97,8 @@ def _normal(found: Trace, pin: Pin, call: SharedCall, p: Mapping[str, float]) ->
         further = [ratio * FAST] if pin.further else []
         y = np.broadcast_to(_called(call, p, delta, ratio, *further), delta.shape)
         curves.append(Curve(y, f"δ̇/δ̇⁻ = {ratio:g}" + (f", δ̇ = {ratio * FAST:g} m/s" if pin.further else "")))
-    lead = "The normal force over the penetration, while the surfaces approach, rest and part:"
-    return Plot(delta, tuple(curves), "δ, m", "F_n, N", "delta", lead)
+    caption = "The normal force over the penetration, while the surfaces approach, rest and part"
+    return Plot(delta, tuple(curves), "δ, m", "F_n, N", "delta", caption)
 
 
 def _friction(found: Trace, pin: Pin, call: SharedCall, p: Mapping[str, float]) -> Plot:
@@ -108,16 +108,16 @@ def _friction(found: Trace, pin: Pin, call: SharedCall, p: Mapping[str, float]) 
     speeds = [_value(found, p, symbol) for name, symbol in numbers.items() if name in of_speed]
     v_t = np.linspace(-1.0, 1.0, 2 * POINTS) * 3.0 * (max(speeds, default=0.0) or FAST)
     y = np.broadcast_to(_called(call, p, 1.0, v_t), v_t.shape)
-    lead = "Friction over the slip, for a normal force of 1 N:"
-    return Plot(v_t, (Curve(y, ""),), "v_t, m/s", "F_t/F_n", "v_t", lead)
+    caption = "Friction over the slip, for a normal force of 1 N"
+    return Plot(v_t, (Curve(y, ""),), "v_t, m/s", "F_t/F_n", "v_t", caption)
 
 
 def _film(found: Trace, pin: Pin, call: SharedCall, p: Mapping[str, float]) -> Plot:
     epsilon = np.linspace(0.0, 0.9, POINTS)
     radial, along, *_ = _called(call, p, epsilon, 0.0 * epsilon, -0.5 * epsilon)
     curves = (Curve(np.broadcast_to(radial, epsilon.shape), "F_r"), Curve(np.broadcast_to(along, epsilon.shape), "F_t"))
-    lead = "The film's forces over the eccentricity ratio, for surfaces that turn at 1 rad/s together and no squeeze:"
-    return Plot(epsilon, curves, "ε", "N", "epsilon", lead)
+    caption = "The film's forces over the eccentricity ratio, for surfaces that turn at 1 rad/s together and no squeeze"
+    return Plot(epsilon, curves, "ε", "N", "epsilon", caption)
 
 
 _DRAWN = {"normal": _normal, "friction": _friction, "film": _film}
@@ -154,18 +154,25 @@ def _drawn(plot: Plot, marks: Mapping[str, str]) -> str:
 def _ends(plot: Plot, low: float, high: float, first: float, last: float, zero: float) -> list[str]:
     """What the axes are of, and how far they go."""
     return [
-        f'<text class="end" x="{LEFT - 5}" y="{TOP + 8}">{high:.3g}</text>',
-        f'<text class="end" x="{LEFT - 5}" y="{BOTTOM}">{low:.3g}</text>',
-        f'<text x="{LEFT}" y="{BOTTOM + 16}">{first:.3g}</text>',
-        f'<text class="end" x="{RIGHT}" y="{BOTTOM + 16}">{last:.3g}</text>',
+        f'<text class="end" x="{LEFT - 5}" y="{TOP + 8}">{_plain(high)}</text>',
+        f'<text class="end" x="{LEFT - 5}" y="{BOTTOM}">{_plain(low)}</text>',
+        f'<text x="{LEFT}" y="{BOTTOM + 16}">{_plain(first)}</text>',
+        f'<text class="end" x="{RIGHT}" y="{BOTTOM + 16}">{_plain(last)}</text>',
         f'<text class="middle" x="{(LEFT + RIGHT) / 2:g}" y="{BOTTOM + 28}">{html.escape(plot.x_name)}</text>',
-        f'<text class="middle" transform="translate(14 {(TOP + BOTTOM) / 2:g}) rotate(-90)">{html.escape(plot.y_name)}</text>',
+        f'<text class="middle" transform="translate(14 {(TOP + BOTTOM) / 2:g}) rotate(-90)">'
+        f"{html.escape(plot.y_name)}</text>",
     ]
+
+
+def _plain(value: float) -> str:
+    """A number on an axis."""
+    return f"{value:.3g}".replace("-", "−")
 
 
 def _mark(name: str, value: str, first: float, last: float) -> str:
     """A line at the joint's present state, moved and shown by live.js."""
     return (
         f'<g class="now" data-value="tmp.play.{value}" data-range="{first!r} {last!r} {LEFT} {RIGHT}"'
-        f' visibility="hidden"><path d="M0 {TOP}V{BOTTOM}"/><text class="middle" y="{TOP + 2}">{html.escape(name)}</text></g>'
+        f' visibility="hidden"><path d="M0 {TOP}V{BOTTOM}"/>'
+        f'<text class="middle" y="{TOP - 2}">{html.escape(name)}</text></g>'
     )

@@ -29,7 +29,6 @@ def _story(source: KernelSource) -> list[Block]:
         paragraph("Coordinates and rows that are left, step by step, and what took the others:"),
         *table(cells("coordinates", "rows", "step"), ledger, (2,)),
         *table(cells("", "what it comes to"), story, (1,)),
-        *([paragraph("The tree, from the ground to the bodies that nothing else hangs on:")] if source.story.tree else []),
         *tree(source.story),
     ]
 

@@ -10,8 +10,8 @@ from importlib import resources
 
 import jinja2
 
-from gudgeon.generator.targets.latex.document import Document, Equation, Paragraph, Picture, Sketch, Table, Text
 from gudgeon.generator.targets.latex import to_html
+from gudgeon.generator.targets.latex.document import Document, Equation, Paragraph, Picture, Sketch, Table, Text
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.tex_text import sketch_line, tex
 

@@ -15,14 +15,14 @@ from gudgeon.generator.equations.model import Model, make_model
 from gudgeon.generator.ir.branches import Branch
 from gudgeon.generator.ir.dependence import NO_MARKS, Marks, free_names, slices
 from gudgeon.generator.ir.kernels import Kernel
-from gudgeon.generator.ir.readable import NUMBERS, readable
+from gudgeon.generator.ir.readable import readable
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Place
 from gudgeon.generator.kernels import closed_linkage
 from gudgeon.generator.kernels.program import Program, make_program
 from gudgeon.generator.mechanism.mechanism import Quantity
-from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c import functions
+from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.emit import emit, render
 from gudgeon.generator.targets.c.lines import find, place_of
 from gudgeon.generator.targets.c.play import clearance_code

@@ -55,4 +55,4 @@ def equations_html(model: Model, *, head: str = "", app: str = "", scripts: str 
     found = trace(model)
     document = make_document(model, found)
     document = replace(document, sections=(*document.sections, *listing_sections(model, found)))
-    return render(document, "html", head=head, app=app, scripts=own_scripts(found) + scripts)
+    return render(document, "html", head=head, app=app, scripts=own_scripts() + scripts)
