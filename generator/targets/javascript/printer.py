@@ -28,9 +28,13 @@ const mod_on = (a, b) => mod_of(a, b);
 const period_side = (a, b) => sin(PI * a / b);
 const side = null, g = null;
 """
-_WORDS = frozenset(
-    ["abstract", "arguments", "await", "async", "boolean", "byte", "catch", "class", "debugger", "delete", "eval", "export", "extends", "false", "final", "finally", "function", "implements", "import", "in", "instanceof", "interface", "let", "new", "null", "of", "package", "private", "protected", "public", "super", "synchronized", "this", "throw", "throws", "transient", "true", "try", "typeof", "undefined", "var", "with", "yield", "isFinite", "Infinity", "NaN", "Math"]
-)  # fmt: skip
+_WORDS = frozenset({
+    "abstract", "arguments", "await", "async", "boolean", "byte", "catch", "class", "debugger", "delete", "eval",
+    "export", "extends", "false", "final", "finally", "function", "implements", "import", "in", "instanceof",
+    "interface", "let", "new", "null", "of", "package", "private", "protected", "public", "super", "synchronized",
+    "this", "throw", "throws", "transient", "true", "try", "typeof", "undefined", "var", "with", "yield", "isFinite",
+    "Infinity", "NaN", "Math",
+})  # fmt: skip
 
 
 def name(text: str) -> str:

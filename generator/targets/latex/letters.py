@@ -20,7 +20,7 @@ _DOTS = {0: ("", ""), 1: (r"\dot", "\u0307"), 2: (r"\ddot", "\u0308")}
 
 @dataclass(frozen=True)
 class Name:
-    """A symbol, or any formula, in LaTeX and in plain text; of what it is, and what its value is called (document.py)."""
+    """A symbol, or any formula, in LaTeX and in plain text; with tokens and a value as a block has them."""
 
     latex: str
     text: str

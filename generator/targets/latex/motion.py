@@ -49,7 +49,8 @@ def _masses(model: Model, notation: Notation) -> list[Block]:
     lead = "M is diagonal, because the coordinates are those of the centres of mass; its entries, body by body:"
     lacking = [body.name for body in model.scene.mechanism.bodies.values() if body.lacks]
     told = f"The file gives no mass or no inertia of {', '.join(lacking)}: M only measures how far Newton's steps go."
-    return [paragraph(lead), *table(cells("body", "x", "y", "angle"), rows, of=of), *([paragraph(told)] if lacking else [])]
+    shown = table(cells("body", "x", "y", "angle"), rows, of=of)
+    return [paragraph(lead), *shown, *([paragraph(told)] if lacking else [])]
 
 
 def _elements(model: Model, notation: Notation) -> list[Block]:
@@ -149,8 +150,8 @@ def _equation_of_motion(model: Model, notation: Notation) -> list[Block]:
         paragraph(
             "with ", PHI_DOT, ", ", *gains, "which draw a drifting ", Name(r"\Phi", "Φ"), " back to zero (Baumgarte). ",
             Name(r"-\Phi_{q}^{\mathsf{T}} \lambda", "-Φ_qᵀ·λ"), " holds the forces of joints and drives. ",
-            f"M is {n} × {n}, ", Name(r"\Phi_{q}", "Φ_q"), f" {m} × {n}, and together they are {n + m} equations for {n} "
-            f"accelerations and {m} multipliers.",
+            f"M is {n} × {n}, ", PHI_Q, f" {m} × {n}; these are {n + m} equations for {n} accelerations and {m} "
+            "multipliers.",
         ),
         *assembled(model),
         *_freedoms(model),
@@ -173,10 +174,10 @@ def _freedoms(model: Model) -> list[Block]:
     bodies = f"{len(model.bodies)} {'body' if len(model.bodies) == 1 else 'bodies'}"
     lead = f"Degrees of freedom, counted as Grübler does: three coordinates for each of {bodies}, less {counted} rows, "
     if dropped:
-        told = f": {', '.join(dropped)} say{'s' * (len(dropped) == 1)} nothing new, and the rank is {m}: "
-        return [paragraph(lead, by_count, ". By the rank of ", PHI_Q, " they are ", by_rank, told.removesuffix(": ") + ".")]
-    same = f"The rank of the rows is {m} as well: each row says something new." if m else "There is no row whose rank could be less."
-    return [paragraph(lead, by_count, ". ", same)]
+        told = f": {', '.join(dropped)} say{'s' * (len(dropped) == 1)} nothing new, and the rank is {m}."
+        return [paragraph(lead, by_count, ". By the rank of ", PHI_Q, " they are ", by_rank, told)]
+    same = f" The rank of the rows is {m} as well: each says something new." if m else ""
+    return [paragraph(lead, by_count, f".{same}")]
 
 
 def _default(model: Model, symbol: sp.Symbol) -> str:

@@ -130,7 +130,7 @@ def _place(
     carried: Mapping[str, Sequence[tuple[str, str]]], body: str, joint: str, depth: int, next_row: list[int],
     places: dict[str, tuple[float, int]], lines: list[str],
 ) -> float:  # fmt: skip
-    """Bodies from left to right by depth, leaves one below the other; the rows that a body's own take decide its row."""
+    """From left to right by depth, leaves one below the other; a body stands in the middle of its own."""
     lines.append(f"{'   ' * depth}{body}{f'  by {joint}' if joint else ''}")
     own = [_place(carried, name, by, depth + 1, next_row, places, lines) for name, by in carried.get(body, ())]
     if own:

@@ -132,7 +132,8 @@ def play_sections(model: Model, notation: Notation, found: Trace) -> list[Sectio
     for clearance in model.clearances:
         joint = JointWithPlay(model, clearance, notation, found)
         twin = next((name for name, play in done.items() if _alike(play, joint.play)), None)
-        sections.append(Section(f"Joint {clearance.name} with play", tuple(_geometry(joint, twin is None)), 1, [joint.of]))
+        title = f"Joint {clearance.name} with play"
+        sections.append(Section(title, tuple(_geometry(joint, twin is None)), 1, [joint.of]))
         if twin is None:
             done[clearance.name] = joint.play
             sections += _contact_sections(joint)
@@ -251,5 +252,6 @@ def _share_in_g(joint: JointWithPlay) -> list[Block]:
             sign * contact.F_x, sign * contact.F_y, sign * (x * contact.F_y - y * contact.F_x) + moment
         )  # fmt: skip
         for k, share in enumerate(shares, point.body.index + 1):
-            blocks.append(equation(Name(rf"\Delta g_{{{k}}}", f"Δg_{k}"), sp.expand(notation.expand(share)), notation, [joint.of]))
+            left = Name(rf"\Delta g_{{{k}}}", f"Δg_{k}")
+            blocks.append(equation(left, sp.expand(notation.expand(share)), notation, [joint.of]))
     return blocks

@@ -71,6 +71,6 @@ def _files(found: Trace) -> list[Block]:
     names = [name for name in told if name in found.source.files]
     rows = [cells(name, sentence(told[name])) for name in names]
     return [
-        paragraph("`gudgeon emit` writes these files. First comes model.h, for the names, then dynamics.c, the textbook's."),
+        paragraph("What gudgeon emit writes. First comes model.h, for the names, then dynamics.c, the textbook's."),
         *table(cells("file", "what it holds"), rows, (1,)),
     ]

@@ -184,12 +184,15 @@ def yaml_tokens(model: Model, found: Trace) -> dict[int, Marks]:
     """Tokens by line of the mechanism's file: of whatever stands there, and of what hangs on its numbers."""
     tokens: defaultdict[int, set[str]] = defaultdict(set)
     mechanism = model.scene.mechanism
-    for kind, named in (("joint", mechanism.joints), ("drive", mechanism.drives), ("body", mechanism.bodies)):
-        for name, own in named.items():
-            tokens[own.where.line].add(f"{kind}-{name}")
-    where = {**mechanism.joints, **mechanism.drives}
+    joints = {name: joint.where.line for name, joint in mechanism.joints.items()}
+    drives = {name: drive.where.line for name, drive in mechanism.drives.items()}
+    bodies = {name: body.where.line for name, body in mechanism.bodies.items()}
+    where = {"joint": joints, "drive": drives, "body": bodies}
+    for kind, lines in where.items():
+        for name, line in lines.items():
+            tokens[line].add(f"{kind}-{name}")
     for number, row in enumerate(model.rows, 1):
-        tokens[where[row.owner].where.line] |= {row_token(number), *entries_of(model, number, row)}
+        tokens[where[row.kind][row.owner]] |= {row_token(number), *entries_of(model, number, row)}
     for play in model.scene.play.values():
         for quantity in _quantities(play.contact):
             tokens[quantity.where.line].add(f"law-{play.contact.name}")
