@@ -20,7 +20,7 @@ from gudgeon.generator.targets.latex.letters import Name, letter, of_latex, word
 from gudgeon.generator.targets.latex.mechanism import as_written
 from gudgeon.generator.targets.latex.notation import Notation, distinct
 from gudgeon.generator.targets.latex.plots import law_plot
-from gudgeon.generator.targets.latex.trace import Trace
+from gudgeon.generator.targets.latex.trace import Functions, Trace
 from gudgeon.language.units import si_unit
 
 # What the laws call their abbreviations and constants, in the paper's letters.
@@ -39,7 +39,7 @@ _PAIR = (
 class JointWithPlay:
     """One joint's equations in its own letters: c, R_i, K, c_e stand for this joint's alone."""
 
-    def __init__(self, model: Model, clearance: Clearance, notation: Notation, found: Trace) -> None:
+    def __init__(self, model: Model, clearance: Clearance, notation: Notation, found: Functions) -> None:
         self.model, self.clearance, self.found = model, clearance, found
         self.play = model.scene.play[clearance.name]
         self.of = f"joint-{clearance.name}"  # tokens
@@ -125,7 +125,7 @@ def _sign(parameter: Field) -> str:
     return parameter.symbol or word(parameter.name).latex
 
 
-def play_sections(model: Model, notation: Notation, found: Trace) -> list[Section]:
+def play_sections(model: Model, notation: Notation, found: Functions) -> list[Section]:
     """For each joint with play where its bodies are, what its laws say, and what they do to both bodies."""
     sections: list[Section] = []
     done: dict[str, Play] = {}
@@ -230,7 +230,7 @@ def _law(joint: JointWithPlay, role: str) -> list[Block]:
     for state in law.states:
         told = f" is the {state.meaning}, 0 at each onset, and integrated with the motion while in contact."
         blocks.append(paragraph(letter(state.name), told))
-    plot = law_plot(joint.found, joint.alike, role, law)
+    plot = law_plot(joint.found, joint.alike, role, law) if isinstance(joint.found, Trace) else []
     return [*blocks, *joint.shown(joint.steps(equations)), *plot]
 
 

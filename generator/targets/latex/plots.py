@@ -18,7 +18,7 @@ from gudgeon.generator.kinds.laws.law import Law
 from gudgeon.generator.targets.javascript.module import gap_name
 from gudgeon.generator.targets.latex.document import Block, Picture
 from gudgeon.generator.targets.latex.pictures import svg
-from gudgeon.generator.targets.latex.trace import Trace
+from gudgeon.generator.targets.latex.trace import Functions
 from gudgeon.generator.targets.numpy.printer import function
 from gudgeon.language.units import VELOCITY
 
@@ -48,7 +48,7 @@ class Plot:
     caption: str
 
 
-def law_plot(found: Trace, joints: Sequence[str], role: str, law: Law) -> list[Block]:
+def law_plot(found: Functions, joints: Sequence[str], role: str, law: Law) -> list[Block]:
     """The law of a role in some joints that share it, over its range; nothing of laws with inner states."""
     pins = {pin.clearance.name: k for k, pin in enumerate(found.program.pins)}
     pin = found.program.pins[pins[joints[0]]]
@@ -67,7 +67,7 @@ def law_plot(found: Trace, joints: Sequence[str], role: str, law: Law) -> list[B
     return [Picture(plot.caption, _drawn(plot, marks))]
 
 
-def _numbers(found: Trace) -> Mapping[str, float]:
+def _numbers(found: Functions) -> Mapping[str, float]:
     """Every number of a run by its field, at its default."""
     p = SimpleNamespace()
     count = len(found.model.slots.entries)
@@ -85,12 +85,12 @@ def _called(call: SharedCall, p: Mapping[str, float], *given: Any) -> Any:
     return _callable(call.kernel)(*given, *(p[number.removeprefix("p->")] for number in call.numbers))
 
 
-def _value(found: Trace, p: Mapping[str, float], number: Any) -> float:
+def _value(found: Functions, p: Mapping[str, float], number: Any) -> float:
     """Of a symbol that is a number of the run, or of a number."""
     return p[found.model.slots.field(number)] if number in found.model.symbols.info else float(number)
 
 
-def _normal(found: Trace, pin: Pin, call: SharedCall, p: Mapping[str, float]) -> Plot:
+def _normal(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]) -> Plot:
     delta = np.linspace(0.0, DEEPEST, POINTS) * _value(found, p, pin.clearance.pair.c)
     curves = []
     for ratio in (1.0, 0.0, -1.0):
@@ -101,7 +101,7 @@ def _normal(found: Trace, pin: Pin, call: SharedCall, p: Mapping[str, float]) ->
     return Plot(delta, tuple(curves), "δ, m", "F_n, N", "delta", caption)
 
 
-def _friction(found: Trace, pin: Pin, call: SharedCall, p: Mapping[str, float]) -> Plot:
+def _friction(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]) -> Plot:
     law = pin.clearance.friction
     numbers = law.numbers if law else {}
     of_speed = {own.name for own in law.law.parameters if own.dimension == VELOCITY} if law else set()
@@ -112,7 +112,7 @@ def _friction(found: Trace, pin: Pin, call: SharedCall, p: Mapping[str, float]) 
     return Plot(v_t, (Curve(y, ""),), "v_t, m/s", "F_t/F_n", "v_t", caption)
 
 
-def _film(found: Trace, pin: Pin, call: SharedCall, p: Mapping[str, float]) -> Plot:
+def _film(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]) -> Plot:
     epsilon = np.linspace(0.0, 0.9, POINTS)
     radial, along, *_ = _called(call, p, epsilon, 0.0 * epsilon, -0.5 * epsilon)
     curves = (Curve(np.broadcast_to(radial, epsilon.shape), "F_r"), Curve(np.broadcast_to(along, epsilon.shape), "F_t"))

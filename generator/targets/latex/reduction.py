@@ -8,10 +8,10 @@ from gudgeon.contract.ledger_words import ledger_lines, outcome
 from gudgeon.generator.targets.c.readme import purposes
 from gudgeon.generator.targets.latex.document import Block, Section, cells, paragraph, sentence, table
 from gudgeon.generator.targets.latex.pictures import tree
-from gudgeon.generator.targets.latex.trace import Trace
+from gudgeon.generator.targets.latex.trace import Functions
 
 
-def reduction_sections(found: Trace) -> list[Section]:
+def reduction_sections(found: Functions) -> list[Section]:
     """How the equations become what is integrated, what that saves, and where the C of it stands."""
     source = found.source
     return [
@@ -33,7 +33,7 @@ def _story(source: KernelSource) -> list[Block]:
     ]
 
 
-def _beside(found: Trace) -> list[Block]:
+def _beside(found: Functions) -> list[Block]:
     """Sizes and operations."""
     source, story = found.source, found.source.story
     counts = source.operations
@@ -65,10 +65,10 @@ def _of_matrix(before: Solve | None, after: Solve | None) -> list[tuple[str, int
     ]
 
 
-def _files(found: Trace) -> list[Block]:
+def _files(found: Functions) -> list[Block]:
     """In the order in which they are to be read."""
     told = purposes(found.program)
-    names = [name for name in told if name in found.source.files]
+    names = [name for name in told if name in found.files]
     rows = [cells(name, sentence(told[name])) for name in names]
     return [
         paragraph("What gudgeon emit writes. First comes model.h, for the names, then dynamics.c, the textbook's."),

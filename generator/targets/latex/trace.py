@@ -7,7 +7,7 @@ asked of the functions themselves (generator/ir/dependence.py), never of their t
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields, is_dataclass
 
 from gudgeon.contract.kernel_source import KernelSource
@@ -23,7 +23,7 @@ from gudgeon.generator.kernels.program import Program, make_program
 from gudgeon.generator.mechanism.mechanism import Quantity
 from gudgeon.generator.targets.c import functions
 from gudgeon.generator.targets.c.describe import describe
-from gudgeon.generator.targets.c.emit import emit, render
+from gudgeon.generator.targets.c.emit import described, emit, file_names, render
 from gudgeon.generator.targets.c.lines import find, place_of
 from gudgeon.generator.targets.c.play import clearance_code
 from gudgeon.generator.targets.latex.tokens import entries_of, entry_token, row_token
@@ -35,33 +35,48 @@ Tokens = Mapping[int, Marks]  # by line
 
 
 @dataclass(frozen=True)
-class Trace:
-    """`lines`: tokens by file and line of C; `values`: what the line of a function of Φ stores, "phi.arm_x".
-
-    `numbers`: tokens by address of what hangs on a number of the file. `program` is derived of `model` anew: its names
-    are those of the emitted C.
-    """
+class Functions:
+    """A scene's functions, derived anew, so that their names are those of the emitted C; `files` are its names."""
 
     model: Model
     program: Program
     source: KernelSource
+    files: Collection[str]
+
+
+@dataclass(frozen=True)
+class Trace(Functions):
+    """`lines`: tokens by file and line of C; `values`: what the line of a function of Φ stores, "phi.arm_x".
+
+    `numbers`: tokens by address of what hangs on a number of the file.
+    """
+
     lines: Mapping[str, Tokens]
     values: Mapping[str, Mapping[int, str]]
     numbers: Mapping[str, Marks]
 
 
-def trace(model: Model) -> Trace:
-    """The scene's functions, their C, and what of it belongs to what in the document of `model`."""
+def functions_of(model: Model) -> Functions:
+    """The scene's functions, without their C."""
+    program = _program(model)
+    return Functions(program.model, program, described(program, {}), file_names(program))
+
+
+def _program(model: Model) -> Program:
     fresh = make_model(model.scene)
     describe(fresh)
     ClosedLinkage(fresh)  # what the rank of the rows asks for: numbers stand in the order of the emitted scene's
-    fresh = fresh.without(model.redundancy)
-    program = make_program(fresh)
+    return make_program(fresh.without(model.redundancy))
+
+
+def trace(model: Model) -> Trace:
+    """The scene's functions, their C, and what of it belongs to what in the document of `model`."""
+    program = _program(model)
     source = emit(program)
     found = _Finder(program, source)
     found.all()
     lines = {file: {k: frozenset(v) for k, v in sorted(own.items())} for file, own in found.lines.items()}
-    return Trace(fresh, program, source, lines, found.values, found.by_address())
+    return Trace(program.model, program, source, source.files, lines, found.values, found.by_address())
 
 
 class _Finder:

@@ -16,11 +16,11 @@ from gudgeon.generator.targets.latex.notation import make_notation
 from gudgeon.generator.targets.latex.play import play_sections
 from gudgeon.generator.targets.latex.reduction import reduction_sections
 from gudgeon.generator.targets.latex.render import render
-from gudgeon.generator.targets.latex.trace import Trace, trace
+from gudgeon.generator.targets.latex.trace import Functions, functions_of, trace
 from gudgeon.language.shown import one_line
 
 
-def make_document(model: Model, found: Trace) -> Document:
+def make_document(model: Model, found: Functions) -> Document:
     """Everything that is derived for one scene, in the order of a lecture."""
     mechanism, notation = model.scene.mechanism, make_notation(model)
     left_out = notes(model)
@@ -38,12 +38,12 @@ def make_document(model: Model, found: Trace) -> Document:
 
 def equations_tex(model: Model) -> str:
     """The equations of a scene as a LaTeX file for pdflatex and amsmath, in ASCII."""
-    return render(make_document(model, trace(model)), "tex")
+    return render(make_document(model, functions_of(model)), "tex")
 
 
 def equations_text(model: Model) -> str:
     """The equations of a scene as plain Unicode text, 100 columns wide."""
-    return render(make_document(model, trace(model)), "txt")
+    return render(make_document(model, functions_of(model)), "txt")
 
 
 def equations_html(model: Model, *, head: str = "", app: str = "", scripts: str = "") -> str:
