@@ -61,7 +61,8 @@ def described(program: Program, files: Mapping[str, str], units: tuple[int, ...]
     model, tree, integrated, course = program.model, program.tree, program.integrated, program.course
     prepare = closed_linkage.prepare_kernel(model)
     return describe(
-        model, files=files, main=MAIN, units=units, pivots=program.kkt.pivots, start_pivots=course.pivots if course else (), motion_pivots=integrated.pivots,
+        model, files=files, main=MAIN, units=units,
+        pivots=program.kkt.pivots, start_pivots=course.pivots if course else (), motion_pivots=integrated.pivots,
         operations=_operations(program, prepare),
         tree=tree.system.unknowns if tree else (), chain=integrated.chain,
         closures=tuple(row.name for row in tree.system.rows) if tree else (), formulation=program.formulation,

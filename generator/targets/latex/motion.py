@@ -171,13 +171,13 @@ def _freedoms(model: Model) -> list[Block]:
     n, m, dropped = len(model.q), len(model.rows), model.redundancy.dropped
     counted = m + len(dropped)
     by_count, by_rank = (Name(f"{n} - {k} = {n - k}", f"{n} - {k} = {n - k}") for k in (counted, m))
-    bodies = f"{len(model.bodies)} {'body' if len(model.bodies) == 1 else 'bodies'}"
-    lead = f"Degrees of freedom, counted as Grübler does: three coordinates for each of {bodies}, less {counted} rows, "
+    lead = "Degrees of freedom, counted as Grübler does: "
+    told_of = f", three coordinates for each body less {counted} row{'s' * (counted != 1)}"
     if dropped:
         told = f": {', '.join(dropped)} say{'s' * (len(dropped) == 1)} nothing new, and the rank is {m}."
-        return [paragraph(lead, by_count, ". By the rank of ", PHI_Q, " they are ", by_rank, told)]
+        return [paragraph(lead, by_count, told_of, ". By the rank of ", PHI_Q, " they are ", by_rank, told)]
     same = f" The rank of the rows is {m} as well: each says something new." if m else ""
-    return [paragraph(lead, by_count, f".{same}")]
+    return [paragraph(lead, by_count, f"{told_of}.{same}")]
 
 
 def _default(model: Model, symbol: sp.Symbol) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from gudgeon.contract.ledger import Story
@@ -112,8 +112,8 @@ def _grid(rows: int, columns: int, dots: Sequence[Dot]) -> tuple[str, ...]:
     return tuple(f"{r:>3}  {''.join(line)}" for r, line in enumerate(grid, 1))
 
 
-def tree(story: Story) -> list[Block]:
-    """The tree of the bodies: who carries whom, by which joint."""
+def tree(story: Story, joints: Collection[str]) -> list[Block]:
+    """The tree of the bodies: who carries whom, by which joint; `joints` are those of the file."""
     carried: dict[str, list[tuple[str, str]]] = {}
     for placed in story.tree:
         carried.setdefault(placed.parent, []).append((placed.body, placed.joint))
@@ -123,7 +123,7 @@ def tree(story: Story) -> list[Block]:
     lines: list[str] = []
     _place(carried, "ground", "", 0, [0], places, lines)
     caption = "The tree: who places whom, and by which joint"
-    return [Picture(caption, _tree_svg(story, places, caption), tuple(lines))]
+    return [Picture(caption, _tree_svg(story, joints, places, caption), tuple(lines))]
 
 
 def _place(
@@ -145,7 +145,9 @@ def _place(
 STEP_X, STEP_Y = 120, 34
 
 
-def _tree_svg(story: Story, places: Mapping[str, tuple[float, int]], caption: str) -> str:
+def _tree_svg(
+    story: Story, joints: Collection[str], places: Mapping[str, tuple[float, int]], caption: str
+) -> str:
     at = {body: (50 + STEP_X * depth, 20 + STEP_Y * row) for body, (row, depth) in places.items()}
     parts = []
     for placed in story.tree:
@@ -155,7 +157,9 @@ def _tree_svg(story: Story, places: Mapping[str, tuple[float, int]], caption: st
         if placed.joint:
             name = html.escape(placed.joint)
             at_y = (y0 + 3 * y1) / 4 - 4
-            parts.append(f'<text class="middle small" x="{x1 - 56}" y="{at_y:g}" data-of="joint-{name}">{name}</text>')
+            of = f' data-of="joint-{name}"' if placed.joint in joints else ""
+            shown = name if len(placed.joint) <= 9 else f"{html.escape(placed.joint[:8])}…"
+            parts.append(f'<text class="middle small" x="{x1 - 60}" y="{at_y:g}"{of}>{shown}</text>')
     for body, (x, y) in at.items():
         of = "" if body == "ground" else f' data-of="body-{html.escape(body)}"'
         parts.append(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.ledger import Solve
 from gudgeon.contract.ledger_words import ledger_lines, outcome
@@ -15,21 +17,21 @@ def reduction_sections(found: Functions) -> list[Section]:
     """How the equations become what is integrated, what that saves, and where the C of it stands."""
     source = found.source
     return [
-        Section("From all coordinates to few", tuple(_story(source))),
+        Section("From all coordinates to few", tuple(_story(source, found.model.scene.mechanism.joints))),
         Section("Full and reduced, side by side", tuple(_beside(found))),
         Section("The C, file by file", tuple(_files(found))),
     ]
 
 
-def _story(source: KernelSource) -> list[Block]:
+def _story(source: KernelSource, joints: Collection[str]) -> list[Block]:
     """As `gudgeon check -v` tells it."""
-    ledger = [cells(f"{n:,}", f"{m:,}", sentence(text)) for n, m, text in ledger_lines(source)]
-    story = [cells(name, sentence(text)) for name, text in outcome(source)]
+    ledger = [cells(f"{n:,}", f"{m:,}", f"{text}.") for n, m, text in ledger_lines(source)]
+    story = [cells(name, f"{text}.") for name, text in outcome(source)]
     return [
         paragraph("Coordinates and rows that are left, step by step, and what took the others:"),
         *table(cells("coordinates", "rows", "step"), ledger, (2,)),
         *table(cells("", "what it comes to"), story, (1,)),
-        *tree(source.story),
+        *tree(source.story, joints),
     ]
 
 
@@ -69,7 +71,7 @@ def _files(found: Functions) -> list[Block]:
     """In the order in which they are to be read."""
     told = purposes(found.program)
     names = [name for name in told if name in found.files]
-    rows = [cells(name, sentence(told[name])) for name in names]
+    rows = [cells(name, sentence(told[name].replace("`", ""))) for name in names]
     return [
         paragraph("What gudgeon emit writes. First comes model.h, for the names, then dynamics.c, the textbook's."),
         *table(cells("file", "what it holds"), rows, (1,)),

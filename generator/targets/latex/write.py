@@ -6,7 +6,17 @@ from dataclasses import replace
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.notes import scene_notes as notes
-from gudgeon.generator.targets.latex.document import Document, Section, paragraph, sentence
+from gudgeon.generator.targets.latex.document import (
+    Block,
+    Document,
+    Paragraph,
+    Picture,
+    Section,
+    Sketch,
+    Table,
+    paragraph,
+    sentence,
+)
 from gudgeon.generator.targets.latex.kinematics import kinematics_sections
 from gudgeon.generator.targets.latex.listings import listing_sections
 from gudgeon.generator.targets.latex.listings import scripts as own_scripts
@@ -18,6 +28,9 @@ from gudgeon.generator.targets.latex.reduction import reduction_sections
 from gudgeon.generator.targets.latex.render import render
 from gudgeon.generator.targets.latex.trace import Functions, functions_of, trace
 from gudgeon.language.shown import one_line
+
+# docs/physics.md, section 2
+PAPER = "Where the paper is spoken of: X. Chen, S. Gao, T. Wang, Nonlinear Dynamics, doi 10.1007/s11071-022-07478-4."
 
 
 def make_document(model: Model, found: Functions) -> Document:
@@ -32,8 +45,19 @@ def make_document(model: Model, found: Functions) -> Document:
         *reduction_sections(found),
         *([Section("Left out of this scene", tuple(paragraph(sentence(n)) for n in left_out))] if left_out else []),
     ]
+    if any(_names_the_paper(block) for section in sections for block in section.blocks):
+        sections.append(Section("The paper", (paragraph(PAPER),)))
     facts = (("mechanism ", mechanism.name, ", scene ", model.scene.name),)
     return Document(one_line(mechanism.title or mechanism.name), facts, tuple(sections))
+
+
+def _names_the_paper(block: Block) -> bool:
+    """Whether a sketch, a sentence or a cell speaks of it."""
+    if isinstance(block, (Sketch, Picture)):
+        return any("the paper" in line for line in block.lines)
+    texts = [block.text] if isinstance(block, Paragraph) else []
+    texts += [cell for row in block.rows for cell in row] if isinstance(block, Table) else []
+    return any(isinstance(part, str) and "the paper" in part for text in texts for part in text)
 
 
 def equations_tex(model: Model) -> str:
