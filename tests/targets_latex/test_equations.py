@@ -103,8 +103,8 @@ def test_every_row_is_shown_once_under_its_joint(which: str) -> None:
     for owner in dict.fromkeys(row.owner for row in model.rows):
         named = [f"{row.name} ({row.unit})" for row in model.rows if row.owner == owner]
         kind = "Joint" if owner in model.scene.mechanism.joints else "Drive"
-        named_parts = {**model.scene.mechanism.joints, **model.scene.mechanism.drives}
-        line = named_parts[owner].where.line
+        mechanism = model.scene.mechanism
+        line = (mechanism.joints[owner] if kind == "Joint" else mechanism.drives[owner]).where.line
         told = rf"{kind} {owner}\b[^:]*line {line} of the file[^:]*; rows? {re.escape(', '.join(named))}:"
         assert re.search(told, text)
 
