@@ -21,7 +21,7 @@ TERMINAL = Path("-")
 def write_equations(mechanism: str, target: Path, scene: str) -> int:
     """Write one scene's equations to x.tex, x.txt, x.html or x.ipynb; of "-" print the text."""
     if target != TERMINAL:
-        need_suffix(target, [suffix for suffix in WRITERS if suffix])
+        need_suffix(target, tuple(suffix for suffix in WRITERS if suffix))
         check_file("--out", target)
     chosen_scenes(mechanism, (scene,))
     with status_line(), working(f"deriving {find_mechanism(mechanism).stem}, scene {scene}"):
