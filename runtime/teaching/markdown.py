@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from gudgeon.generator.targets.latex.document import Block, Document, Equation, Paragraph, Table, Text
+from gudgeon.generator.targets.latex.document import Block, Carried, Document, Equation, Paragraph, Table, Text
 from gudgeon.generator.targets.latex.letters import Name
 
 _SIGNS = re.compile(r"([\\`*_{}\[\]<>#|$~])")
@@ -20,13 +20,15 @@ def markdown(document: Document) -> str:
 
 
 def block(shown: Block) -> str:
-    """A paragraph, equation, table or sketch."""
+    """A paragraph, equation, table or sketch; what a page alone has is left out."""
     if isinstance(shown, Paragraph):
         return line(shown.text)
     if isinstance(shown, Equation):
         return f"$$ {shown.left.latex} = {' '.join(term.latex for term in shown.terms)} $$"
     if isinstance(shown, Table):
         return _table(shown)
+    if isinstance(shown, Carried):
+        return ""
     return "\n".join(("```text", *shown.lines, "```"))
 
 
