@@ -111,11 +111,11 @@ def rounded(points: Sequence[Array], radius: float) -> Array:
         return arc(corners[0], radius, 0.0, 2.0 * np.pi, 37)[:-1]
     edges = np.roll(corners, -1, axis=0) - corners
     normals = np.arctan2(-edges[:, 0], edges[:, 1])  # outwards, of the edge that leaves each corner
-    outline = []
+    outline, count = [], 3 + round(12.0 * np.pi / len(corners))  # of each corner: the same for every shape of a plate
     for k, corner in enumerate(corners):
         begin = float(normals[k - 1])
         turn = float((normals[k] - begin) % (2.0 * np.pi))
-        outline.append(arc(corner, radius, begin, begin + turn, 3 + round(turn * 6)))
+        outline.append(arc(corner, radius, begin, begin + turn, count))
     return np.concatenate(outline)
 
 
