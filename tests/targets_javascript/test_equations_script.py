@@ -35,6 +35,8 @@ const answer = %s.map((state) => {
     const by = (kind) => rows.map((_, k) => live.value(`${kind}.${k + 1}`));
     return {all, phi: by("phi"), nu: by("nu"), gamma: by("gamma"),
         phi_q: rows.map((_, k) => state.q.map((_, i) => live.value(`phi_q.${k + 1}.${i + 1}`) ?? 0)),
+        rhs: equations.names.map((name) => live.value(`tmp.rhs.rhs_${name.replaceAll(".", "_")}`)),
+        numbers: state.p.map((_, k) => live.value(`tmp.p.${k + 1}`)),
         gap: %s.map((name) => live.value(`tmp.play.${name}`))};
 });
 console.log(JSON.stringify(answer));
@@ -54,10 +56,12 @@ def test_values_are_those_of_the_compiled_scene(mechanism: str, scene: str, tmp_
     compiled = gudgeon.load(mechanism, scene).compiled
     source = compiled.source
     p = compiled.prepare(np.zeros(len(source.slots)), np.zeros(len(source.slots), dtype=bool))
+    place = {slot.address: k for k, slot in enumerate(source.slots)}
+    alpha, beta = (float(p[place[f"baumgarte.{name}"]]) for name in ("alpha", "beta"))
     states = [random_state(found.model, seed) for seed in range(4)]
     given = [{"t": t, "q": q.tolist(), "v": v.tolist(), "p": p.tolist()} for t, q, v in states]
     gaps = [f"play_{k + 1}_{of}" for k in range(len(found.model.clearances)) for of in ("delta", "deltadot")]
-    script = ASKED % (equations_script(found.model), json.dumps(given), json.dumps(gaps))
+    script = ASKED % (equations_script(found.model, found.program.dynamics), json.dumps(given), json.dumps(gaps))
     (tmp_path / "ask.js").write_text(script, encoding="utf-8")
     done = subprocess.run([program, str(tmp_path / "ask.js"), str(LIVE)], capture_output=True, text=True, timeout=60)
     assert done.returncode == 0, done.stderr
@@ -71,6 +75,10 @@ def test_values_are_those_of_the_compiled_scene(mechanism: str, scene: str, tmp_
         gamma = compiled.gamma(t, q, v, p)
         assert np.allclose(got["gamma"], gamma, rtol=eps, atol=eps * max(1.0, float(np.abs(gamma).max(initial=0.0))))
         want = compiled.phi_q(t, q, p)
+        rate, phi = want @ v - compiled.nu(t, q, p), compiled.phi(t, q, p)
+        rhs = gamma - 2.0 * alpha * rate - beta**2 * phi
+        assert np.allclose(got["rhs"], rhs, rtol=1e-11, atol=1e-11 * scale * beta**2)
+        assert got["numbers"] == p.tolist()
         filled = np.array([[x or 0.0 for x in row] for row in got["phi_q"]]).reshape(want.shape)
         assert np.allclose(filled, want, rtol=eps, atol=eps * scale)
         assert np.array_equal(filled[np.abs(want) == 1.0], want[np.abs(want) == 1.0])

@@ -10,7 +10,9 @@ from gudgeon.generator.equations import contact_steps as contact
 from gudgeon.generator.equations.contact_steps import Step
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance
+from gudgeon.generator.ir.dependence import slices
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder
+from gudgeon.generator.ir.readable import readable
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.kernels import closed_linkage
@@ -20,8 +22,10 @@ GAP = ("e", "delta", "deltadot", "v_t", "epsilon")  # of a joint with play; epsi
 _GIVEN = (contact.e_x, contact.e_y, contact.de_x, contact.de_y, contact.omega_i, contact.omega_j)
 
 
-def equations_script(model: Model) -> str:
+def equations_script(model: Model, dynamics: Kernel | None = None) -> str:
     """JavaScript that declares `gudgeonEquations`, with what a page needs to know of them.
+
+    `dynamics`: its lines up to the right-hand side of each row are among the functions.
 
     `functions` of t, q, v, p, as far as `given` names them, return their locals and arrays by name; `numbers` are
     places in a run's p by the name of the member of p; `rows` are the places of the scene's rows in the closed
@@ -29,7 +33,11 @@ def equations_script(model: Model) -> str:
     """
     kernels = [*closed_linkage.row_kernels(model), *([play_kernel(model)] if model.clearances else [])]
     read: set[str] = set()
-    text = ",\n".join(function(kernel, read) for kernel in kernels)
+    texts = [function(kernel, read) for kernel in kernels]
+    if dynamics is not None:
+        texts.append(function(dynamics, read, right_hand_sides(dynamics, model)))
+        kernels.append(dynamics)
+    text = ",\n".join(texts)
     members = map(model.slots.field, model.slots.members())
     place = {row.name: k for k, row in enumerate(model.all_rows)}
     told = {
@@ -39,6 +47,13 @@ def equations_script(model: Model) -> str:
     }  # fmt: skip
     parts = ", ".join(f"{key}: {json.dumps(value, separators=(',', ':'))}" for key, value in told.items())
     return f"const gudgeonEquations = (() => {{\n{PRELUDE}return {{{parts}, functions: {{\n{text},\n}}}};\n}})();\n"
+
+
+def right_hand_sides(dynamics: Kernel, model: Model) -> set[str]:
+    """Locals of `dynamics` that the right-hand sides of the rows of its linear system hang on."""
+    names = {f"rhs_{row.name.replace('.', '_')}" for row in model.rows}
+    found = slices(readable(dynamics), lambda line: frozenset({"rhs"} if line.target in names else ()))
+    return {name for name in found.stored if name.isidentifier()}
 
 
 def gap_name(model: Model, index: int, of: str) -> str:

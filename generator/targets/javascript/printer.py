@@ -5,6 +5,8 @@ Names of C's functions are those of PRELUDE; p is an object with a member a numb
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import sympy as sp
 
 from gudgeon.generator.ir.branches import Branch
@@ -66,15 +68,17 @@ class JavaScriptPrinter(CPrinter):
         return name(super()._print_Pick(expr))
 
 
-def function(kernel: Kernel, numbers: set[str]) -> str:
+def function(kernel: Kernel, numbers: set[str], only: Collection[str] | None = None) -> str:
     """A method that returns its locals and arrays by name; `numbers` gets the members of p that it reads.
 
-    Raises ValueError for what has no counterpart.
+    `only`: the locals that are computed, nothing else is then. Raises ValueError for what has no counterpart.
     """
     own = readable(kernel)
     writer = _Lines(own, numbers)
-    body = [text for section in own.sections for line in section.statements for text in writer.lines(line)]
-    outs = [a.name for a in kernel.arguments if not _is_given(a)]
+    lines_of = (line for section in own.sections for line in section.statements)
+    wanted = [line for line in lines_of if only is None or getattr(line, "target", "") in only]
+    body = [text for line in wanted for text in writer.lines(line)]
+    outs = [a.name for a in kernel.arguments if not _is_given(a)] if only is None else []
     arrays = [f"    const {', '.join(f'{out} = []' for out in outs)};"] if outs else []
     given = ", ".join(arguments(kernel))
     told = ", ".join(dict.fromkeys([*writer.locals, *outs]))

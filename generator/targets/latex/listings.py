@@ -74,7 +74,7 @@ def _script(name: str) -> str:
 def _equations(found: Trace) -> str:
     """What values are computed with; of a scene with curves nothing, whose state alone is shown then."""
     try:
-        return equations_script(found.model)
+        return equations_script(found.model, found.program.dynamics)
     except ValueError:
         return ""
 

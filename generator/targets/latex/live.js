@@ -3,7 +3,8 @@
  * once a frame and only where it is seen.
  */
 const gudgeonValues = (() => {
-    const FUNCTIONS = {phi: "constraints", phi_q: "jacobian", nu: "velocity_rhs", gamma: "acceleration_rhs", play: "play"};
+    const FUNCTIONS = {phi: "constraints", phi_q: "jacobian", nu: "velocity_rhs", gamma: "acceleration_rhs", play: "play",
+        rhs: "dynamics"};
     let equations = null, state = null, known = {}, waiting = false;
     const seen = new Set();
 
@@ -23,10 +24,12 @@ const gudgeonValues = (() => {
         return known[of];
     }
 
-    /* The number of a name: "q.7", "phi.3", "phi_q.3.7", "lambda.3", "tmp.phi.arm_x"; NaN where there is none. */
+    /* The number of a name: "q.7", "phi.3", "phi_q.3.7", "lambda.3", "p.5", "tmp.phi.arm_x"; NaN where there is none. */
     function value(name) {
         const [kind, ...rest] = name.split("."), numbers = rest.map(Number);
         if (kind === "q" || kind === "v") return state[kind][numbers[0] - 1];
+        if (kind === "p") return state.p[numbers[0] - 1];
+        if (kind === "tmp" && (rest[0] === "p" || rest[0] === "lambda")) return value(rest.join("."));
         if (kind === "tmp") return local(computed(rest[0]), rest.slice(1).join("."));
         if (kind === "lambda") return multiplier(numbers[0]);
         const row = equations?.rows[numbers[0] - 1];

@@ -26,6 +26,7 @@ from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.emit import described, emit, file_names, render
 from gudgeon.generator.targets.c.lines import find, place_of
 from gudgeon.generator.targets.c.play import clearance_code
+from gudgeon.generator.targets.javascript.module import right_hand_sides
 from gudgeon.generator.targets.latex.tokens import entries_of, entry_token, row_token
 from gudgeon.generator.targets.numpy.module import ClosedLinkage
 
@@ -46,7 +47,7 @@ class Functions:
 
 @dataclass(frozen=True)
 class Trace(Functions):
-    """`lines`: tokens by file and line of C; `values`: what the line of a function of Φ stores, "phi.arm_x".
+    """`lines`: tokens by file and line of C; `values`: what a line stores, "phi.arm_x", "p.3", "lambda.2".
 
     `numbers`: tokens by address of what hangs on a number of the file.
     """
@@ -89,6 +90,10 @@ class _Finder:
         self.numbers: defaultdict[str, set[str]] = defaultdict(set)  # by `p->field`
         self.number_of = {row.name: k for k, row in enumerate(self.model.rows, 1)}
         self.every = self.model.all_rows
+        self.computed = right_hand_sides(program.dynamics, self.model)
+        self.multipliers = {f"lambda_{row.name.replace('.', '_')}": k for k, row in enumerate(self.model.rows, 1)}
+        members = map(self.model.slots.field, self.model.slots.members())
+        self.place_in_p = {f"p->{member}": k for k, member in enumerate(members, 1)}
         self.shown = {name for row in self.model.rows for name in free_names(row.phi)}
 
     def all(self) -> None:
@@ -119,9 +124,31 @@ class _Finder:
                 own = stored.get(target, NO_MARKS) | self._result(kernel.name, target)
                 for number in at:
                     self.lines[found.file][number] |= own
-                if kernel.name in GIVES:
-                    called = found.own.names.get(target, target)
-                    self.values[found.file][at[-1]] = f"{GIVES[kernel.name]}.{called}"
+                if value := self._value(kernel.name, found.own.names.get(target, target)):
+                    self.values[found.file][at[-1]] = value
+
+    def _value(self, function: str, called: str) -> str:
+        """What a page calls the value that a line stores; "": it has none."""
+        if function in GIVES:
+            return f"{GIVES[function]}.{called}"
+        if function == "dynamics":
+            return self._of_rows(called)
+        if function == "prepare" and called in self.place_in_p:
+            return f"p.{self.place_in_p[called]}"
+        return ""
+
+    def _of_rows(self, called: str) -> str:
+        """Of `dynamics`: what the right-hand sides hang on, Φ and Φ̇ of a row, multipliers."""
+        if called in self.computed:
+            return f"rhs.{called}"
+        place = _place(called)
+        row = self.model.rows[place.index].name if 0 <= place.index < len(self.model.rows) else ""
+        name = f"{place.base}_{row.replace('.', '_')}"
+        if row and place.base == "lambda":
+            return f"lambda.{place.index + 1}"
+        if called in self.multipliers:
+            return f"lambda.{self.multipliers[called]}"
+        return f"rhs.{name}" if row and name in self.computed else ""
 
     def _marks(self, function: str, line: Statement | Branch) -> Marks:
         """What a line is looked for: rows where Φ, Φ_q, ν, γ are stored, terms where their names are."""
