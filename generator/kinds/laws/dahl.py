@@ -32,9 +32,7 @@ LAW = Law(
     title="Dahl's friction, with the deflection of bristles",
     source="P. R. Dahl (1968), exponent 1; load as in C. Canudas de Wit, P. Tsiotras (1999)",
     reference="P. R. Dahl, A solid friction model, report TOR-0158(3107-18)-1, Aerospace Corporation (1968), exponent "
-              "1; load as in C. Canudas de Wit, P. Tsiotras, Dynamic tire friction models for vehicle traction "
-              "control, Proceedings of the 38th IEEE Conference on Decision and Control (1999) 3746-3751, "
-              "doi 10.1109/CDC.1999.827937",
+              "1; load as in C. Canudas de Wit, P. Tsiotras (1999)",
     validity="presliding and sliding; no difference between static and kinetic friction",
     fields=(
         number("mu", "coefficient of friction", DIMENSIONLESS, symbol="c_f", required=True, bounds=(Bound(">=", 0.0),)),
