@@ -26,6 +26,7 @@ from gudgeon.language.wanted import flag, function, text
 from gudgeon.loading.find import Loading
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameters import prepare, prepare_slots, without_baumgarte
+from gudgeon.results.shown import Shown
 from gudgeon.simulation.arguments import MAX_STEPS, METHODS, end_of, method_of, output_times, step_of
 from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude, contradicted, late
@@ -43,7 +44,7 @@ if TYPE_CHECKING:
     from gudgeon.simulation.peaks import Search
 
 
-class Simulation:
+class Simulation(Shown):
     """What `gudgeon.load` returns. It holds no state: runs may go on in several threads at once.
 
     It may be pickled: another process takes its library from the cache.
@@ -84,9 +85,8 @@ class Simulation:
         if self._full is None:
             from gudgeon.simulation.from_file import load_bytes
 
-            self._full = load_bytes(
-                self._loaded_bytes(), self.file, self.source.scene, formulation="full",
-                overrides=self._overrides, portable=self.compiled.portable)  # fmt: skip
+            self._full = load_bytes(self._loaded_bytes(), self.file, self.source.scene, formulation="full",
+                                    overrides=self._overrides, portable=self.compiled.portable)  # fmt: skip
         return self._full
 
     def to_html(self) -> str:
