@@ -7,7 +7,6 @@ import gzip
 import json
 import math
 import re
-import shutil
 import subprocess
 from collections import Counter
 from collections.abc import Collection, Iterator
@@ -22,7 +21,7 @@ import pytest
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.pipeline import derive, in_c
-from gudgeon.generator.targets.latex import equations_html, equations_tex
+from gudgeon.generator.targets.latex import equations_html
 from gudgeon.generator.targets.latex.trace import Trace, trace, yaml_tokens
 from tests.equations.models import random_state
 from tests.web.node import browser
@@ -228,13 +227,6 @@ def test_a_page_is_well_formed_and_every_token_leads_somewhere(scene: str) -> No
     assert not [token for token in alone if not token.startswith(("yaml-", "name-", "number-"))]
     picks = {token for _, own in reader.elements for token in (own.get("data-pick") or "").split()}
     assert picks <= set(count)
-
-
-@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="no pdflatex")
-def test_latex_compiles(tmp_path: Path) -> None:
-    (tmp_path / "press.tex").write_text(equations_tex(traced("lubricated").model), encoding="utf-8")
-    line = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "press.tex"]
-    assert subprocess.run(line, cwd=tmp_path, capture_output=True, timeout=120).returncode == 0
 
 
 ASKED = """<pre id="told"></pre><script>
