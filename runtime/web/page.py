@@ -33,7 +33,7 @@ def write(simulation: Simulation) -> str:
     """
     from gudgeon.generator.targets.latex import equations_html
 
-    return equations_html(simulation.model, **parts(simulation)._asdict())
+    return equations_html(simulation.model, **parts(simulation)._asdict(), source=simulation.source)
 
 
 def parts(simulation: Simulation) -> Parts:

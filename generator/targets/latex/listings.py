@@ -56,7 +56,7 @@ def _c(found: Trace) -> str:
         files[name] = {"text": text, "of": of, "values": values}
     told = json.dumps({"files": files, "equations": _equations(found)}, ensure_ascii=False, separators=(",", ":"))
     packed = base64.b64encode(gzip.compress(told.encode(), 9, mtime=0)).decode("ascii")
-    others = [name for name in found.source.files if name.endswith((".c", ".h")) and name not in files]
+    others = sorted(name for name in found.source.files if name.endswith((".c", ".h")) and name not in files)
     rest = f" Not listed here: {', '.join(others)}." if others else ""
     return (
         f"<p>The emitted C; what of it computes what was selected is shown at the foot of the page.{rest}</p>\n"

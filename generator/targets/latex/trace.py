@@ -70,10 +70,14 @@ def _program(model: Model) -> Program:
     return make_program(fresh.without(model.redundancy))
 
 
-def trace(model: Model) -> Trace:
-    """The scene's functions, their C, and what of it belongs to what in the document of `model`."""
+def trace(model: Model, source: KernelSource | None = None) -> Trace:
+    """The scene's functions, their C, and what of it belongs to what in the document of `model`.
+
+    source: what was emitted of the scene, where that is known; it is not printed again then.
+    """
     program = _program(model)
-    source = emit(program)
+    if source is None or source.formulation != program.formulation:
+        source = emit(program)
     found = _Finder(program, source)
     found.all()
     lines = {file: {k: frozenset(v) for k, v in sorted(own.items())} for file, own in found.lines.items()}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.notes import scene_notes as notes
 from gudgeon.generator.targets.latex.document import (
@@ -70,13 +71,16 @@ def equations_text(model: Model) -> str:
     return render(make_document(model, functions_of(model)), "txt")
 
 
-def equations_html(model: Model, *, head: str = "", app: str = "", scripts: str = "") -> str:
+def equations_html(
+    model: Model, *, head: str = "", app: str = "", scripts: str = "", source: KernelSource | None = None
+) -> str:
     """The equations of a scene as one HTML file with MathML, its file and its C, each traced to the others.
 
     Raises GudgeonError without the extra `docs`.
     head, app, scripts: HTML that a page which runs has more, in its head, below its title, at its end.
+    source: what was emitted of the scene, where that is known.
     """
-    found = trace(model)
+    found = trace(model, source)
     document = make_document(model, found)
     document = replace(document, sections=(*document.sections, *listing_sections(model, found)))
     return render(document, "html", head=head, app=app, scripts=own_scripts() + scripts)
