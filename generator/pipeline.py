@@ -56,9 +56,17 @@ def closed_linkage(
     return linkage, [r for r, row in enumerate(model.all_rows) if row.name in kept]
 
 
-# What `Model.written` offers: a name each, and what is made of the absolute formulation's functions.
+def _letters(model: Model) -> Any:
+    from gudgeon.generator.targets.latex.shown import Letters
+
+    return Letters(model)
+
+
+# What `Model.written` offers: a name each, and what is made of the absolute formulation's functions; "letters": how
+# the equations are written in documents.
 TARGETS: Mapping[str, Callable[[Model], Any]] = {
     "numpy": lambda model: NumPyModel(make_program(model, "full")),
+    "letters": _letters,
 }
 
 

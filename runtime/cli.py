@@ -8,10 +8,8 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Callable, Iterable
-from functools import wraps
 from pathlib import Path
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any
 
 import typer
 
@@ -25,7 +23,10 @@ from gudgeon.commands.options import (
     File,
     Json,
     Laws,
+    Like,
     Mark,
+    Moment,
+    Name,
     OneScene,
     Out,
     Peaks,
@@ -34,17 +35,16 @@ from gudgeon.commands.options import (
     Range,
     Rest,
     Scenes,
+    Seed,
     Set,
+    Sheet,
     a_file,
     path,
     whole,
 )
+from gudgeon.commands.told import told
 from gudgeon.contract.methods import CHOOSING, KINEMATIC, OFFERED
-from gudgeon.entry import INTERRUPTED, last_word
-from gudgeon.errors import GudgeonError, MemoryShortage
 from gudgeon.language.shown import visible
-
-Command = TypeVar("Command", bound=Callable[..., Any])
 
 app = typer.Typer(
     name="gudgeon",
@@ -53,43 +53,6 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-
-
-def complain(error: GudgeonError) -> None:
-    """Write `error: …` to stderr, in red if somebody looks."""
-    red, plain = ("\033[31m", "\033[0m") if sys.stderr.isatty() else ("", "")
-    print(f"{red}error:{plain} {visible(error)}", file=sys.stderr)
-
-
-def _told(command: Command) -> Command:
-    """Our own errors are told in a line, without a traceback; others are bugs and keep theirs.
-
-    `laws` of a command are known before it begins.
-    """
-
-    @wraps(command)
-    def wrapper(*args: Any, **kwargs: Any) -> None:
-        try:
-            _know(kwargs.pop("laws", None) or ())
-            code = command(*args, **kwargs)
-        except (GudgeonError, MemoryError) as error:
-            complain(known := error if isinstance(error, GudgeonError) else MemoryShortage(error))
-            code = known.exit_code
-        except KeyboardInterrupt:
-            last_word()
-            code = INTERRUPTED
-        if code:
-            raise typer.Exit(code)
-
-    return wrapper  # type: ignore[return-value]
-
-
-def _know(laws: Iterable[str]) -> None:
-    """Laws of the user's own; a mechanism that needs none does not wait for what reads them."""
-    for file in laws:
-        from gudgeon.generator.kinds.laws.registered import register
-
-        register(file)
 
 
 def _version(wanted: bool) -> None:
@@ -108,7 +71,7 @@ def _root(
 
 
 @app.command()
-@_told
+@told
 def run(
     file: File,
     scene: Scenes = None,
@@ -156,7 +119,7 @@ def run(
 
 
 @app.command()
-@_told
+@told
 def check(
     file: File,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="A scene a table: unknowns, operations.")] = False,
@@ -172,7 +135,7 @@ def check(
 
 
 @app.command()
-@_told
+@told
 def emit(
     file: File,
     folder: Annotated[
@@ -191,14 +154,16 @@ def emit(
 
 
 @app.command()
-@_told
+@told
 def equations(
     file: File,
-    target: Annotated[Path, typer.Option("--out", "-o", parser=a_file, metavar="PATH", help="x.tex, x.txt or x.html.")],
+    target: Annotated[
+        Path, typer.Option("--out", "-o", parser=a_file, metavar="PATH", help="x.tex, .txt, .html or .ipynb; - prints.")
+    ],
     scene: OneScene = "ideal",
     laws: Laws = None,
 ) -> int:
-    """Write the equations of a scene as LaTeX, text or HTML.
+    """Write the equations of a scene as LaTeX, text, HTML or a notebook that derives and runs them.
 
     Example: gudgeon equations engine.yaml -o press.tex --scene lubricated
     """
@@ -208,7 +173,35 @@ def equations(
 
 
 @app.command()
-@_told
+@told
+def new(name: Name, like: Like = None) -> int:
+    """Begin a mechanism file, NAME.yaml, with comments that explain it.
+
+    Example: gudgeon new engine --like slider_crank
+    """
+    from gudgeon.commands.new import new_mechanism
+
+    return new_mechanism(name, like)
+
+
+@app.command()
+@told
+def exercise(
+    file: File, target: Sheet, scene: OneScene = "ideal", seed: Seed = 1, at: Moment = None, laws: Laws = None
+) -> int:
+    """Make an exercise sheet of a mechanism, and its solutions in a second file.
+
+    Write Φ, count the freedoms, Φ_q at a position, γ, the force in a joint: numbers are drawn from the seed.
+
+    Example: gudgeon exercise engine.yaml -o sheet.html --seed 7
+    """
+    from gudgeon.commands.exercise import write_exercise
+
+    return write_exercise(file, target, scene, seed, at)
+
+
+@app.command()
+@told
 def draw(
     file: File, scene: OneScene = "ideal", at: At = None, target: Picture = None, set_: Set = None,
     branches: Branches = False, laws: Laws = None,
@@ -225,7 +218,7 @@ def draw(
 
 
 @app.command()
-@_told
+@told
 def schema(laws: Laws = None) -> int:
     """Print the JSON Schema of mechanism files, for editors that complete and check YAML.
 
@@ -237,7 +230,7 @@ def schema(laws: Laws = None) -> int:
 
 
 @app.command()
-@_told
+@told
 def bench(
     file: File, scene: Scenes = None, set_: Set = None, t_end: End = None, out: Out = Path("out"), csv: Csv = None,
     quick: Quick = False, mark: Mark = None,
@@ -263,7 +256,7 @@ def bench(
 
 @app.command("stress", hidden=True)
 @app.command("map")
-@_told
+@told
 def verdicts(
     file: File, scene: Scenes = None, set_: Set = None,
     method: Annotated[str, typer.Option(help=f"{', '.join(OFFERED)}.")] = "auto",
@@ -289,11 +282,11 @@ def verdicts(
 
 def main() -> None:
     """The command line."""
-    told = set[str]()
+    seen = set[str]()
 
     def tell(message: Warning | str, *_: Any, **__: Any) -> None:
-        if str(message) not in told:  # once, and without a line of our code
-            told.add(str(message))
+        if str(message) not in seen:  # once, and without a line of our code
+            seen.add(str(message))
             print(f"warning: {visible(message)}", file=sys.stderr)
 
     warnings.showwarning = tell

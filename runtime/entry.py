@@ -12,16 +12,16 @@ import os
 import signal
 import sys
 
-INTERRUPTED = 130
+from gudgeon.waiting.last_word import INTERRUPTED, is_the_program, last_word
+
 ENDING = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
-_whole: list[bool] = []  # not empty where the process is this command and nothing else
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
 
 def main() -> None:
     """The entry point of the command `gudgeon`."""
     _streams()
-    _whole.append(True)
+    is_the_program()
     ended: list[int] = []
 
     def terminate(number: int, _: object) -> None:
@@ -55,13 +55,6 @@ def _run() -> None:
         if error.errno != errno.EPIPE:  # a reader that has enough needs no word
             print(f"error: cannot write standard output: {error.strerror}", file=sys.stderr)
         sys.exit(1)
-
-
-def last_word() -> None:
-    """That it was interrupted; a second Ctrl-C would find nothing but the end, and make another one of it."""
-    if _whole:
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-    print("interrupted", file=sys.stderr)
 
 
 def _streams() -> None:

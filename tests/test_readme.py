@@ -43,7 +43,8 @@ def call(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Gudgeon:
 def test_every_block_is_of_a_kind_that_is_tested() -> None:
     assert len(blocks("c")) == len(blocks("diff")) == 1 and len(blocks("python")) == 2 and len(blocks("yaml")) == 4
     assert README.count("```") == 2 * sum(len(blocks(kind)) for kind in ("yaml", "sh", "python", "text", "c", "diff"))
-    assert {shlex.split(line)[1] for line in COMMANDS} == {"check", "draw", "run", "emit", "equations", "bench", "map"}
+    wanted = {"check", "draw", "run", "emit", "equations", "exercise", "bench", "map"}
+    assert {shlex.split(line)[1] for line in COMMANDS} == wanted
 
 
 @needs_compiler

@@ -17,6 +17,7 @@ from gudgeon.generator.equations.constraints import Constraints, Row
 from gudgeon.generator.equations.events import Event, make_event, refuse_constant
 from gudgeon.generator.equations.friction import Friction, make_friction
 from gudgeon.generator.equations.geometry import BodySymbols, Geometry
+from gudgeon.generator.equations.lettered import lettered
 from gudgeon.generator.equations.loads import AppliedElement, apply_element
 from gudgeon.generator.equations.own_laws import own_letters
 from gudgeon.generator.equations.play import Clearance, make_clearance
@@ -117,7 +118,24 @@ class Model:
         return {}
 
     def _column(self, expressions: Iterable[sp.Expr]) -> sp.Matrix:
-        return sp.Matrix([as_written(self.symbols.explicit(e)) for e in expressions])
+        return self._lettered([as_written(self.symbols.explicit(e)) for e in expressions])
+
+    def _lettered(self, entries: list[Any]) -> sp.Matrix:
+        """A matrix that prints with the letters of the scene's documents."""
+        return lettered(sp.Matrix(entries), (lambda: self.written("letters")) if "letters" in self.targets else None)
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {self.written('letters').equation().latex}$" if "letters" in self.targets else ""
+
+    def _repr_html_(self) -> str | None:
+        return str(self.written("letters").html()) if "letters" in self.targets else None
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, str]:
+        """What notebooks ask for first: Φ(q, t) = 0 as LaTeX, MathML and text."""
+        if "letters" not in self.targets:
+            return {}
+        text = self.written("letters").equation().text
+        return {"text/plain": text, "text/html": self._repr_html_() or "", "text/latex": self._repr_latex_()}
 
     @cached_property
     def Phi(self) -> sp.Matrix:
@@ -128,7 +146,7 @@ class Model:
     def Phi_q(self) -> sp.Matrix:
         """∂Φ/∂q, (m, n)."""
         zero = sp.Integer(0)
-        return sp.Matrix([[self.symbols.explicit(row.phi_q.get(q, zero)) for q in self.q] for row in self.rows])
+        return self._lettered([[self.symbols.explicit(row.phi_q.get(q, zero)) for q in self.q] for row in self.rows])
 
     @cached_property
     def nu(self) -> sp.Matrix:
@@ -143,7 +161,7 @@ class Model:
     @cached_property
     def M(self) -> sp.Matrix:
         """Mass matrix, (n, n), diagonal: the coordinates are those of the centres of mass."""
-        return sp.diag(*self.masses)
+        return self._lettered(sp.diag(*self.masses).tolist())
 
     @cached_property
     def g(self) -> sp.Matrix:

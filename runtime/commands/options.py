@@ -54,6 +54,17 @@ Laws = Annotated[
     list[str] | None,
     typer.Option("--laws", metavar="FILE.py", help="A force law of your own: the file is run as Python; repeatable."),
 ]
+# of what teaches
+Name = Annotated[str, typer.Argument(metavar="NAME", help="Of the mechanism; the file is NAME.yaml.")]
+Like = Annotated[
+    str | None,
+    typer.Option("--like", metavar="NAME", help="A mechanism that comes with gudgeon: four_bar, jansen_leg …"),
+]
+Sheet = Annotated[Path, typer.Option("--out", "-o", parser=a_file, metavar="PATH", help="x.html, .tex, .txt or .md.")]
+Seed = Annotated[int, typer.Option("--seed", parser=whole(0), metavar="COUNT", help="Which numbers are drawn.")]
+Moment = Annotated[
+    str | None, typer.Option("--at", metavar="TIME", help="When positions and forces are asked for. [default: drawn]")
+]
 # of studies
 Peaks = Annotated[
     list[str] | None,

@@ -15,8 +15,7 @@ from gudgeon.errors import BadValueError
 from gudgeon.model.parameters import addresses, number, prepare, value
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
-
-INTERRUPTED = 130
+from gudgeon.waiting.last_word import INTERRUPTED
 
 
 class Measured(Protocol):

@@ -82,10 +82,10 @@ def arc(centre: Array, radius: float, begin: float, end: float, count: int = 25)
 
 
 def hull(points: Sequence[Array]) -> Array:
-    """The corners of the convex hull, counterclockwise (Andrew's monotone chain)."""
+    """The corners of the convex hull, counterclockwise (Andrew's monotone chain), from the first of the points on."""
     ordered = sorted({(float(x), float(y)) for x, y in points})
     if len(ordered) < 3:
-        return np.array(ordered)
+        return np.array(list(dict.fromkeys((float(x), float(y)) for x, y in points)))
     size = max(abs(x) for pair in (ordered[0], ordered[-1]) for x in pair) + 1e-300
 
     def half(these: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
@@ -99,7 +99,9 @@ def hull(points: Sequence[Array]) -> Array:
             chain.append((x, y))
         return chain[:-1]
 
-    return np.array([*half(ordered), *half(reversed(ordered))])
+    corners = [*half(ordered), *half(reversed(ordered))]
+    first = next((corners.index(at) for at in ((float(x), float(y)) for x, y in points) if at in corners), 0)
+    return np.array(corners[first:] + corners[:first])
 
 
 def rounded(points: Sequence[Array], radius: float) -> Array:
@@ -109,11 +111,11 @@ def rounded(points: Sequence[Array], radius: float) -> Array:
         return arc(corners[0], radius, 0.0, 2.0 * np.pi, 37)[:-1]
     edges = np.roll(corners, -1, axis=0) - corners
     normals = np.arctan2(-edges[:, 0], edges[:, 1])  # outwards, of the edge that leaves each corner
-    outline = []
+    outline, count = [], 3 + round(12.0 * np.pi / len(corners))  # of each corner: the same for every shape of a plate
     for k, corner in enumerate(corners):
         begin = float(normals[k - 1])
         turn = float((normals[k] - begin) % (2.0 * np.pi))
-        outline.append(arc(corner, radius, begin, begin + turn, 3 + round(turn * 6)))
+        outline.append(arc(corner, radius, begin, begin + turn, count))
     return np.concatenate(outline)
 
 

@@ -1,7 +1,8 @@
 """What comes with gudgeon: the mechanism files, and the kernels that were generated from them.
 
 `generated/<mechanism>/<scene>/` holds the C files as they are compiled and `kernel.json`, the rest of the
-KernelSource. With it an unmodified shipped mechanism needs no derivation.
+KernelSource. With it an unmodified shipped mechanism needs no derivation. Files in `mechanisms/gallery/` are found
+by name as those beside it are, and are derived where they are loaded: no C of them is kept.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from gudgeon.errors import UnknownNameError
 
 PACKAGE = Path(__file__).parents[1]
 MECHANISMS = PACKAGE / "mechanisms"
+GALLERY = MECHANISMS / "gallery"
 GENERATED = PACKAGE / "generated"
 REST = "kernel.json"
 _TEXTS = (".c", ".h", ".md")
@@ -22,6 +24,11 @@ _TEXTS = (".c", ".h", ".md")
 
 def shipped() -> tuple[str, ...]:
     """The names of the mechanisms that come with gudgeon, sorted."""
+    return tuple(sorted(path.stem for folder in (MECHANISMS, GALLERY) for path in folder.glob("*.yaml")))
+
+
+def generated() -> tuple[str, ...]:
+    """Those whose C comes with gudgeon too, sorted."""
     return tuple(sorted(path.stem for path in MECHANISMS.glob("*.yaml")))
 
 
@@ -29,7 +36,8 @@ def shipped_file(name: str) -> Path:
     """The file of a shipped mechanism. Raises UnknownNameError, which names the nearest and all."""
     names = shipped()
     if name in names:
-        return (MECHANISMS / f"{name}.yaml").resolve()  # an editable install holds links: show the real file
+        file = next(path for folder in (MECHANISMS, GALLERY) if (path := folder / f"{name}.yaml").exists())
+        return file.resolve()  # an editable install holds links: show the real file
     from difflib import get_close_matches
 
     near = get_close_matches(name, names, 1)

@@ -21,6 +21,7 @@ from gudgeon.integrators.trajectory import no_events
 from gudgeon.language.wanted import text
 from gudgeon.model.choices import said
 from gudgeon.results.diagnostics import Diagnostics, Extremes
+from gudgeon.results.shown import Shown
 from gudgeon.results.state import Array, State
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(eq=False)
-class Result:
+class Result(Shown):
     """One run of N samples. `run["S9.y"]` is the (N,) series of that name (see `gudgeon.series`).
 
     It may be pickled and copied: what is stored and computed so far goes with it; other series are computed there,

@@ -25,6 +25,7 @@ from gudgeon.language.wanted import flag, function, text
 from gudgeon.loading.find import Loading
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameters import prepare, prepare_slots, without_baumgarte
+from gudgeon.results.shown import Shown
 from gudgeon.simulation.arguments import MAX_STEPS, METHODS, end_of, method_of, output_times, step_of
 from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude, contradicted, late
@@ -36,14 +37,13 @@ from gudgeon.waiting.imports import GENERATOR, whole
 
 if TYPE_CHECKING:
     from gudgeon.generator.equations.model import Model
-    from gudgeon.loading.find import Loading
     from gudgeon.model.parameter_sets import ParameterSets
     from gudgeon.results.batch import Batch
     from gudgeon.results.results import Result, State
     from gudgeon.simulation.peaks import Search
 
 
-class Simulation:
+class Simulation(Shown):
     """What `gudgeon.load` returns. It holds no state: runs may go on in several threads at once.
 
     It may be pickled: another process takes its library from the cache.
@@ -60,8 +60,7 @@ class Simulation:
         self._full: Simulation | None = None
 
     def __repr__(self) -> str:
-        joints = ", ".join(joint.name for joint in self.source.clearances)
-        of = f"{self.source.mechanism}/{self.source.scene}"
+        joints, of = ", ".join(x.name for x in self.source.clearances), f"{self.source.mechanism}/{self.source.scene}"
         return f"<Simulation {of}: {self.compiled.n // 3} bodies{f', play in {joints}' if joints else ''}>"
 
     @property
@@ -85,11 +84,15 @@ class Simulation:
         if self._full is None:
             from gudgeon.simulation.from_file import load_bytes
 
-            self._full = load_bytes(
-                self._loaded_bytes(), self.file, self.source.scene, overrides=self._overrides, formulation="full",
-                portable=self.compiled.portable,
-            )  # fmt: skip
+            self._full = load_bytes(self._loaded_bytes(), self.file, self.source.scene, formulation="full",
+                                    overrides=self._overrides, portable=self.compiled.portable)  # fmt: skip
         return self._full
+
+    def to_html(self) -> str:
+        """The scene's page, HTML: its equations, and above them the mechanism running (gudgeon.web.page.write)."""
+        from gudgeon.web.page import write
+
+        return write(self)
 
     def _loaded_bytes(self) -> bytes:
         """The file's bytes, if they are still those that the kernels were made from."""

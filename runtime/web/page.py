@@ -1,12 +1,15 @@
-"""What a page carries to simulate a scene itself: the script, and beside it description and module."""
+"""A scene's page: its equations, and above them what runs, in one file that needs nothing else."""
 
 from __future__ import annotations
 
 import base64
+import gzip
 from functools import cache
 from pathlib import Path
+from typing import NamedTuple
 
 from gudgeon.model.compiled import CompiledModel
+from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.description import description
 from gudgeon.web.module import simulator
 
@@ -14,25 +17,72 @@ FILES = ("run.js", "loops.js", "simulator.js")
 DESCRIPTION, MODULE = "gudgeon-description", "gudgeon-module"  # ids of what is not shown
 
 
+class Parts(NamedTuple):
+    """HTML for the three slots of the equations' page: in its head, below its title, at its end."""
+
+    head: str
+    app: str
+    scripts: str
+
+
+def write(simulation: Simulation) -> str:
+    """The page of a scene, HTML: its equations and all that runs.
+
+    Raises InputError where the file was edited since, GudgeonError without the extras `docs` and `plot`, BuildError
+    where the C does not compile, SolverError where not even a start is found.
+    """
+    from gudgeon.generator.targets.latex import equations_html
+
+    return equations_html(simulation.model, **parts(simulation)._asdict(), source=simulation.source)
+
+
+def parts(simulation: Simulation) -> Parts:
+    """What a page runs. Without the compiler for pages (the extra `web`) it is one run of the file's numbers.
+
+    A small simulator has that of the full formulation beside it, in which constraints drift. Raises as `write`.
+    """
+    import gudgeon.results.plots  # noqa: F401 (without matplotlib it says what to install)
+    from gudgeon.web.running import running_parts
+
+    return running_parts(simulation)
+
+
 @cache
 def script() -> str:
     """JavaScript that declares `gudgeon` with `gudgeon.load`: for a page's <script>, or a file that Node requires."""
-    texts = [Path(__file__).with_name(name).read_text(encoding="utf-8") for name in FILES]
+    texts = [file_text(name) for name in FILES]
     return "\n".join((
-        "const gudgeon = (() => {", '"use strict";', *texts, "return {load, Simulator, Run};", "})();",
+        "const gudgeon = (() => {", '"use strict";', *texts, "return {load, unpacked, Simulator, Run};", "})();",
         'if (typeof module !== "undefined") module.exports = gudgeon;', "",
     ))  # fmt: skip
 
 
 def carried(compiled: CompiledModel) -> str:
-    """HTML of all three, for a page that is one file: `gudgeon.load` of the texts of both elements.
+    """HTML of simulator, description and module, for a page of your own: `gudgeon.load` of both elements' texts.
 
     Raises BuildError where the compiler for pages is not installed.
     """
-    module = base64.b64encode(simulator(compiled.source)).decode("ascii")
-    told = description(compiled).replace("<", "\\u003c")  # no text of a file ends the element
-    return (
-        f"<script>\n{script()}</script>\n"
-        f'<script type="application/json" id="{DESCRIPTION}">{told}</script>\n'
-        f'<script type="text/plain" id="{MODULE}">{module}</script>\n'
-    )
+    module = packed_module(compiled)
+    return f"<script>\n{script()}</script>\n{element(DESCRIPTION, description(compiled))}{module}"
+
+
+def packed_module(compiled: CompiledModel, which: str = "") -> str:
+    """The module of a scene as an element that is not shown: gzip, base64."""
+    return packed_element(f"{MODULE}{which}", simulator(compiled.source))
+
+
+def packed_element(name: str, data: bytes) -> str:
+    """Bytes that are not shown, for `gudgeon.unpacked`."""
+    packed = base64.b64encode(gzip.compress(data, 9, mtime=0)).decode("ascii")
+    return f'<script type="text/plain" id="{name}">{packed}</script>\n'
+
+
+def element(name: str, told: str) -> str:
+    """JSON that is not shown; no text of a file ends the element."""
+    safe = told.replace("<", "\\u003c")
+    return f'<script type="application/json" id="{name}">{safe}</script>\n'
+
+
+def file_text(name: str) -> str:
+    """A file of this room."""
+    return Path(__file__).with_name(name).read_text(encoding="utf-8")

@@ -24,15 +24,22 @@ const SLICE = {rk4: 4000, kinematic: 50, adaptive: 500}; // steps or samples bet
 const OPTIONS = "t_end, output, method, rtol, step, slice";
 const RELATIONS = {">": (a, b) => a > b, ">=": (a, b) => a >= b, "<": (a, b) => a < b, "<=": (a, b) => a <= b};
 
-/* The simulator of a description (JSON, or what it says) and a module (base64, ArrayBuffer or Uint8Array). */
+/* The simulator of a description (JSON, or what it says) and a module: base64 of its bytes packed by gzip, or bytes. */
 async function load(description, module) {
     const about = typeof description === "string" ? JSON.parse(description) : description;
-    const bytes = typeof module === "string" ? Uint8Array.from(atob(module), (c) => c.charCodeAt(0)) : module;
+    const bytes = typeof module === "string" ? await unpacked(module) : module;
     // the engine reads the clock only to ask somebody whether to go on, and nobody is asked: 52 is "no such call"
     const host = {wasi_snapshot_preview1: {clock_time_get: () => 52}};
     const {instance} = await WebAssembly.instantiate(bytes, host);
     instance.exports._initialize();
     return new Simulator(about, instance.exports);
+}
+
+/* Bytes of base64 that gzip made. */
+async function unpacked(text) {
+    const packed = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+    const way = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+    return new Response(way).arrayBuffer();
 }
 
 /*

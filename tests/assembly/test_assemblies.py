@@ -275,7 +275,7 @@ start: {{guess: {{{guess}}}}}
     assert len(told.assemblies) == 2 and len(told.alike) == alike
 
 
-JANSEN = Path(__file__).parents[1] / "mechanisms" / "described" / "jansen_leg.yaml"
+JANSEN = Path(__file__).parents[2] / "mechanisms" / "gallery" / "jansen_leg.yaml"
 
 
 def test_what_else_to_guess_of_jansens_leg(tmp_path: Path) -> None:

@@ -32,7 +32,7 @@ from gudgeon.generator.reader.read import read_mechanism  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 FILES = [
-    *sorted((ROOT / "mechanisms").glob("*.yaml")),
+    *sorted((ROOT / "mechanisms").rglob("*.yaml")),
     *sorted((ROOT / "tests/mechanisms/described").glob("*.yaml")),
     *(ROOT / f"tests/mechanisms/valid/{name}.yaml" for name in ("every_kind", "shapes")),
     *(ROOT / f"tests/mechanisms/methods/{name}.yaml" for name in ("geared_chain", "trammel")),

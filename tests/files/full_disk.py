@@ -136,9 +136,9 @@ def compiled(folder: Path, k: int) -> None:
 
 def told(act: Callable[[], object]) -> None:
     """As the command line does: an error of ours is a sentence and an exit code."""
-    from gudgeon.cli import _told
+    from gudgeon.commands.told import told
 
-    _told(act)()
+    told(act)()
 
 
 def child(act: Callable[[], object]) -> tuple[int, str]:

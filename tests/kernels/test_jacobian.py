@@ -11,7 +11,7 @@ import pytest
 import gudgeon
 from gudgeon.errors import SingularError
 from gudgeon.generator.reader.read import read_mechanism
-from gudgeon.loading.shipped import shipped, shipped_file
+from gudgeon.loading.shipped import generated, shipped_file
 from gudgeon.simulation.simulation import Simulation
 from tests.equations.subjects import GAINS, NAN, Subject, make, shipped_subject
 from tests.oracles.linkage_yaml import to_yaml
@@ -49,7 +49,7 @@ start: {guess: {a.theta: 0.4 rad, c.x: 0.8 m}}
 
 INTEGRATED = [
     (name, scene)
-    for name in shipped()
+    for name in generated()
     for scene in read_mechanism(shipped_file(name).read_bytes(), name, None).scenes
     if "rk4" in gudgeon.load(name, scene).source.methods
 ]

@@ -21,7 +21,7 @@ jsonschema = pytest.importorskip("jsonschema")
 
 MECHANISMS = Path(__file__).resolve().parents[1] / "mechanisms"
 SHIPPED = Path(str(resources.files("gudgeon.mechanisms")))
-FILES = [*sorted(SHIPPED.glob("*.yaml")), *sorted((MECHANISMS / "valid").glob("*.yaml"))]
+FILES = [*sorted(SHIPPED.rglob("*.yaml")), *sorted((MECHANISMS / "valid").glob("*.yaml"))]
 
 
 def plain(node: Any) -> Any:

@@ -17,7 +17,7 @@ from gudgeon.results import results
 
 ROOT = Path(__file__).resolve().parents[2]
 KINEMATIC = ("mechanisms/four_bar.yaml", "mechanisms/nine_bar_press.yaml", "mechanisms/slider_crank.yaml",
-             "tests/mechanisms/described/jansen_leg.yaml")  # fmt: skip
+             "mechanisms/gallery/peaucellier.yaml")  # fmt: skip
 
 
 def stripped(name: str, tmp_path: Path, keys: str = "mass|inertia", body: str = "") -> Path:

@@ -17,13 +17,15 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.pipeline import generate
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.loading.engine import declarations, include_flags, sizes
-from gudgeon.loading.shipped import shipped, shipped_file
+from gudgeon.loading.shipped import generated, shipped_file
 
 FLAGS = ["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror", *include_flags()]
 WIDTHS = ([], ["-mavx2"], ["-mavx512f"]) if platform.machine() in ("x86_64", "AMD64") else ([],)  # 2, 4, 8 lanes
 COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]
 SCENES = [
-    (name, scene) for name in shipped() for scene in read_mechanism(shipped_file(name).read_bytes(), name, None).scenes
+    (name, scene)
+    for name in generated()
+    for scene in read_mechanism(shipped_file(name).read_bytes(), name, None).scenes
 ]
 # Each file of the engine at least once: play of every kind, friction, chains, a free motion, none; the others are slow.
 TYPICAL = {

@@ -48,6 +48,7 @@ def equations(lines: list[str]) -> list[tuple[str, str]]:
 def value(expression: str, known: dict[str, float]) -> float:
     """The number of an expression; KeyError for a name that was not introduced before."""
     text = expression.replace("·", "*").replace("^", "**").replace("√", "sqrt")
+    text = re.sub(r"(\d)(?=π)", r"\1*", re.sub(r"([\d.]+)°", r"(\1*π/180)", text))
     text = re.sub(r"\|([^|]*)\|", r"abs(\1)", text)
     text = NAME.sub(lambda m: m[0] if m[0] in FUNCTIONS else f"known[{m[0]!r}]", text)
     names: dict[str, Any] = {**FUNCTIONS, "known": {"π": math.pi, **known}}
@@ -86,5 +87,5 @@ def numbers(lines: list[str]) -> dict[str, float]:
     """What tables say in the form "l_L1 = 0.08" or "y_O4 = -l_5 = -0.3"."""
     cells = [part for row in rows(lines) for cell in row for part in cell.split(",  ")]
     parts = [cell.split(" = ") for cell in cells if " = " in cell]
-    number = re.compile(r"-?\d[\d.e+-]*")
-    return {part[0]: float(part[-1]) for part in parts if NAME.fullmatch(part[0]) and number.fullmatch(part[-1])}
+    number = re.compile(r"-?(\d[\d.e+-]*°?|\d*π(/\d)?)")
+    return {part[0]: value(part[-1], {}) for part in parts if NAME.fullmatch(part[0]) and number.fullmatch(part[-1])}

@@ -18,14 +18,16 @@ from gudgeon.generator.pipeline import derive
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.generator.targets.latex.write import equations_text
 from gudgeon.generator.targets.numpy import layout, printer
-from gudgeon.loading.shipped import shipped, shipped_file
+from gudgeon.loading.shipped import generated, shipped_file
 from gudgeon.simulation.simulation import Simulation
 from tests.oracles.linkage_yaml import to_yaml
 from tests.oracles.random_linkage import random_case
 
 pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
 SCENES = [
-    (name, scene) for name in shipped() for scene in read_mechanism(shipped_file(name).read_bytes(), name, None).scenes
+    (name, scene)
+    for name in generated()
+    for scene in read_mechanism(shipped_file(name).read_bytes(), name, None).scenes
 ]
 
 

@@ -30,6 +30,10 @@ LAW = Law(
     role="normal",
     title="Hertz contact with a choice of hysteresis damping",
     source="H. Hertz (1881); K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445",
+    reference="H. Hertz, Ueber die Beruehrung fester elastischer Koerper, Journal fuer die reine und angewandte "
+              "Mathematik 92 (1882) 156-171, doi 10.1515/crll.1882.92.156; K. H. Hunt, F. R. E. Crossley, Coefficient "
+              "of restitution interpreted as damping in vibroimpact, Journal of Applied Mechanics 42 (1975) 440-445, "
+              "doi 10.1115/1.3423596",
     validity="a point or a line contact whose stiffness is known or that of spheres; small penetrations",
     fields=(
         number(

@@ -26,6 +26,8 @@ LAW = Law(
     role="normal",
     title="Lankarani and Nikravesh: Hertz stiffness with hysteresis damping",
     source="H. M. Lankarani, P. E. Nikravesh, J. Mech. Design 112 (1990) 369-376",
+    reference="H. M. Lankarani, P. E. Nikravesh, A contact force model with hysteresis damping for impact analysis of "
+              "multibody systems, Journal of Mechanical Design 112 (1990) 369-376, doi 10.1115/1.2912617",
     validity="c_e near 1 (c_e = .9 delivers .91318); external spheres unless geometry is internal",
     fields=(
         number(

@@ -84,6 +84,7 @@ class Law:
     states: tuple[State, ...] = ()
     also: Mapping[str, Mapping[str, str]] = field(default_factory=dict)  # other names -> the choices that they make
     instead: Mapping[str, str] = field(default_factory=dict)  # a choice that says something only without a number
+    reference: str = ""  # the source as far as it is sure: author, title, journal, year, doi
 
     @property
     def variables(self) -> tuple[str, ...]:

@@ -32,6 +32,7 @@ LAW = Law(
     role="friction",
     title="modified Coulomb friction",
     source="physics.md section 3, after J. A. C. Ambrosio",
+    reference="J. A. C. Ambrosio, as in X. Chen, S. Gao, T. Wang, Nonlinear Dynamics, doi 10.1007/s11071-022-07478-4",
     validity="sliding; creeps below v1 where Coulomb's law would stick",
     fields=(
         number("mu", "coefficient of friction", DIMENSIONLESS, symbol="c_f", required=True, bounds=(Bound(">=", 0.0),)),

@@ -50,6 +50,8 @@ LAW = Law(
     role="film",
     title="Pinkus and Sternlicht: long journal bearing, half film",
     source="O. Pinkus, B. Sternlicht, Theory of Hydrodynamic Lubrication (1961), sign corrected",
+    reference="O. Pinkus, B. Sternlicht, Theory of hydrodynamic lubrication, McGraw-Hill, New York (1961), sign "
+              "corrected",
     validity="long bearing (L/D >> 1); follows Guembel's film for |omega_s| >> |d epsilon/dt|; epsilon capped at .9999",
     fields=(
         number("viscosity", "dynamic viscosity", VISCOSITY, symbol=r"\mu", required=True, bounds=(Bound(">", 0.0),)),

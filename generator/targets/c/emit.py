@@ -36,7 +36,7 @@ def emit(program: Program, begun: Begun | None = None) -> KernelSource:
 
     `begun` is told the engine, then each part of MAIN, with the files so far, as soon as these are all that it reads.
     """
-    model, tree, integrated = program.model, program.tree, program.integrated
+    model = program.model
     prepare = closed_linkage.prepare_kernel(model)
     bounds = known_bounds(program)
     files = {HEADER: within(render("model.h.jinja", **header_values(program, bounds)))}
@@ -53,9 +53,15 @@ def emit(program: Program, begun: Begun | None = None) -> KernelSource:
     if program.has_lanes:
         files |= {name: within(text) for name, text in lanes_code.lanes_code(program, render).items()}
     files[readme.NAME] = readme.readme(program, files)
-    course = program.course
+    return described(program, files, () if CURVES in files else tuple(parts))
+
+
+def described(program: Program, files: Mapping[str, str], units: tuple[int, ...] = ()) -> KernelSource:
+    """All that is told of a scene beside its texts."""
+    model, tree, integrated, course = program.model, program.tree, program.integrated, program.course
+    prepare = closed_linkage.prepare_kernel(model)
     return describe(
-        model, files=files, main=MAIN, units=() if CURVES in files else tuple(parts),
+        model, files=files, main=MAIN, units=units,
         pivots=program.kkt.pivots, start_pivots=course.pivots if course else (), motion_pivots=integrated.pivots,
         operations=_operations(program, prepare),
         tree=tree.system.unknowns if tree else (), chain=integrated.chain,
@@ -66,6 +72,13 @@ def emit(program: Program, begun: Begun | None = None) -> KernelSource:
         ),
         lanes=lanes_code.MAIN if program.has_lanes else "",
     )  # fmt: skip
+
+
+def file_names(program: Program) -> list[str]:
+    """What `emit` writes, but for tables of curves and README.md, without writing it."""
+    parts = _parts(program, closed_linkage.prepare_kernel(program.model), known_bounds(program))
+    printed = [name for texts in parts.values() for name in texts]
+    return [HEADER, MAIN, *_shared(program), *printed, *([lanes_code.MAIN] if program.has_lanes else [])]
 
 
 def _shared(program: Program) -> Texts:

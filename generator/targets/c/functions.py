@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import sympy as sp
 
@@ -207,11 +207,7 @@ def arguments(items: tuple[Argument, ...]) -> str:
 
 def kernel(item: Kernel) -> str:
     """A whole function, a long one behind its parts."""
-    return "\n".join(
-        function(part, Lines(CPrinter(own)), own, called=part.name in CALLED_BY_ENGINE)
-        for part in cut(item)
-        if (own := readable(part))
-    )
+    return "\n".join("".join(f"{text}\n" for text, _ in own) for _, _, own in printed(item))
 
 
 def _touched(item: Kernel) -> frozenset[str]:
@@ -227,14 +223,13 @@ def function(
     item: Kernel, writer: Lines, own: Readable, touched: frozenset[str] = NONE, *, called: bool = False
 ) -> str:
     """Its doc comment in front; arguments that it does not touch are voided. `called`: from another unit."""
-    body = "\n\n".join(
-        "\n".join([*([f"    /* {comment_text(section.title)} */"] * bool(section.title)),
-                   *map(writer.line, section.statements)])
-        for section in own.sections
-    ) or "    /* this scene has none */"  # fmt: skip
-    touched |= _touched(item)
-    unread = ", ".join(f"(void){a.name}" for a in item.arguments if a.name not in touched)
-    voids = "".join(f"{line}\n" for line in broken(f"    {unread};")) if unread else ""
+    return "".join(f"{text}\n" for text, _ in pieces(item, writer, own, touched, called=called))
+
+
+def pieces(
+    item: Kernel, writer: Lines, own: Readable, touched: frozenset[str] = NONE, *, called: bool = False
+) -> Iterator[tuple[str, Line | None]]:
+    """The text of a function in its order, what is a line's own with that line."""
     doc = "\n".join(f" * {comment_text(text)}" for text in item.doc)
     attribute = f"__attribute__(({item.attribute})) " if item.attribute else ""
     inline = "inline " if item.inline else ""
@@ -242,4 +237,22 @@ def function(
     head = f"{attribute}{static}{inline}{item.returns} {item.name}({arguments(item.arguments)})"
     together = head.replace(", ", ",\n").replace(" ", "\0").replace("\n", " ")  # an argument is never parted
     head = "\n".join(textwrap.wrap(together, WIDTH, subsequent_indent="    ")).replace("\0", " ")
-    return f"/*\n{doc}\n */\n{head}\n{{\n{voids}{body}\n}}\n"
+    yield f"/*\n{doc}\n */\n{head}\n{{", None
+    touched |= _touched(item)
+    if unread := ", ".join(f"(void){a.name}" for a in item.arguments if a.name not in touched):
+        yield "\n".join(broken(f"    {unread};")), None
+    for k, section in enumerate(own.sections):
+        title = [f"    /* {comment_text(section.title)} */"] * bool(section.title)
+        if before := [*([""] * bool(k)), *title]:
+            yield "\n".join(before), None
+        yield from ((writer.line(line), line) for line in section.statements)
+    if not own.sections:
+        yield "    /* this scene has none */", None
+    yield "}", None
+
+
+def printed(item: Kernel) -> Iterator[tuple[Kernel, Readable, list[tuple[str, Line | None]]]]:
+    """The parts of a function, as they are read, with their text line by line."""
+    for part in cut(item):
+        own = readable(part)
+        yield part, own, list(pieces(part, Lines(CPrinter(own)), own, called=part.name in CALLED_BY_ENGINE))

@@ -47,7 +47,7 @@ def readme(program: Program, files: Mapping[str, str], others: Collection[str] =
     equations = [name for name in _EQUATIONS if name in names]
     rest = [name for name in _NUMERICS if name in names]
     rest = [*(name for name in names if name not in (*equations, *rest)), *rest]
-    told = _EQUATIONS | _NUMERICS | ({} if program.integrates else _FOLLOWED)
+    told = purposes(program)
     return "\n".join([
         f"# {_plain(mechanism.title or mechanism.name)}: scene {scene.name}", "",
         f"C that gudgeon wrote for the mechanism `{mechanism.name}`. {_sizes(program)}", "",
@@ -56,6 +56,11 @@ def readme(program: Program, files: Mapping[str, str], others: Collection[str] =
         *(f"- `{name}`: {told.get(name) or _comment(files.get(name, ''))}" for name in rest), "",
         *_calls(program, names),
     ])  # fmt: skip
+
+
+def purposes(program: Program) -> dict[str, str]:
+    """What each file holds that a scene may have, the equations first, in the order in which they are to be read."""
+    return _EQUATIONS | _NUMERICS | ({} if program.integrates else _FOLLOWED)
 
 
 def _sizes(program: Program) -> str:

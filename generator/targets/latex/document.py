@@ -1,10 +1,12 @@
 """What is shown, before it is laid out: sections of paragraphs, equations, tables and sketches.
 
-Every formula is there in LaTeX and in plain text; HTML takes the LaTeX as MathML.
+Every formula is there in LaTeX and in plain text; HTML takes the LaTeX as MathML. `of` are tokens of what a block
+belongs to (trace.py), `value` is what a page that runs shows beside it (live.js): for HTML alone.
 """
 
 from __future__ import annotations
 
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
@@ -16,6 +18,7 @@ Text: TypeAlias = tuple[str | Name, ...]  # words and formulas in one line
 @dataclass(frozen=True)
 class Paragraph:
     text: Text
+    of: Sequence[str] = ()
     kind: str = "paragraph"
 
     @property
@@ -30,17 +33,25 @@ class Equation:
 
     left: Name
     terms: tuple[Name, ...]
+    of: Sequence[str] = ()
+    pick: str = ""  # what selecting it lights, if that is not all of `of`
+    value: str = ""
     kind: str = "equation"
 
 
 @dataclass(frozen=True)
 class Table:
-    """`wide` are the columns with running text."""
+    """`wide` are the columns with running text, `of` tokens by row."""
 
     header: tuple[Text, ...]
     rows: tuple[tuple[Text, ...], ...]
     wide: tuple[int, ...] = ()
+    of: tuple[Sequence[str], ...] = ()
     kind: str = "table"
+
+    def tokens(self, row: int) -> Sequence[str]:
+        """Of a row, from 0."""
+        return self.of[row] if row < len(self.of) else ()
 
 
 @dataclass(frozen=True)
@@ -51,7 +62,35 @@ class Sketch:
     kind: str = "sketch"
 
 
-Block: TypeAlias = Paragraph | Equation | Table | Sketch
+@dataclass(frozen=True)
+class Picture:
+    """A drawing: in HTML as SVG, elsewhere as lines whose columns stay under each other, or nothing."""
+
+    caption: str
+    svg: str
+    lines: tuple[str, ...] = ()
+    kind: str = "picture"
+
+
+@dataclass(frozen=True)
+class Listing:
+    """A file line by line, folded, with tokens by line from 1; for HTML alone."""
+
+    title: str
+    lines: tuple[str, ...]
+    of: Mapping[int, Collection[str]]
+    kind: str = "listing"
+
+
+@dataclass(frozen=True)
+class Carried:
+    """HTML that a page alone has."""
+
+    html: str
+    kind: str = "carried"
+
+
+Block: TypeAlias = Paragraph | Equation | Table | Sketch | Picture | Listing | Carried
 
 
 @dataclass(frozen=True)
@@ -59,6 +98,7 @@ class Section:
     title: str
     blocks: tuple[Block, ...]
     level: int = 1
+    of: Sequence[str] = ()
 
 
 @dataclass(frozen=True)
@@ -68,9 +108,9 @@ class Document:
     sections: tuple[Section, ...] = field(default=())
 
 
-def paragraph(*text: str | Name) -> Paragraph:
+def paragraph(*text: str | Name, of: Sequence[str] = ()) -> Paragraph:
     """Words and formulas as a paragraph."""
-    return Paragraph(text)
+    return Paragraph(text, of)
 
 
 def sentence(text: str) -> str:
@@ -86,7 +126,10 @@ def cells(*items: str | Name | Text) -> tuple[Text, ...]:
 MOST_ROWS = 32  # a table does not break over pages
 
 
-def table(header: tuple[Text, ...], rows: list[tuple[Text, ...]], wide: tuple[int, ...] = ()) -> list[Block]:
-    """Rows in as many tables as they need; nothing for no rows."""
-    parts = [rows[k : k + MOST_ROWS] for k in range(0, len(rows), MOST_ROWS)]
-    return [Table(header, tuple(part), wide) for part in parts]
+def table(
+    header: tuple[Text, ...], rows: list[tuple[Text, ...]], wide: tuple[int, ...] = (),
+    of: Sequence[Sequence[str]] = (),
+) -> list[Block]:  # fmt: skip
+    """Rows in as many tables as they need; nothing for no rows. `of`: tokens by row."""
+    starts = range(0, len(rows), MOST_ROWS)
+    return [Table(header, tuple(rows[k : k + MOST_ROWS]), wide, tuple(of[k : k + MOST_ROWS])) for k in starts]

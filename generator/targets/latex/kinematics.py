@@ -3,22 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import groupby
 
 import sympy as sp
 
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model
+from gudgeon.generator.ir.dependence import free_names
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.targets.latex.document import Block, Equation, Section, cells, paragraph, table
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import Notation, temporaries
+from gudgeon.generator.targets.latex.pictures import pattern
+from gudgeon.generator.targets.latex.tokens import entry_token, owner_token, row_token
 
 WIDEST = 84  # characters of text that fit side by side in a joint's rows of Φ_q
 
 LONGEST = 400  # operations in one equation that a reader can be asked to read
 
 PHI, NU, GAMMA = Name(r"\Phi", "Φ"), Name(r"\nu", "ν"), Name(r"\gamma", "γ")
+LAMBDA, PHI_Q = Name(r"\lambda", "λ"), Name(r"\Phi_{q}", "Φ_q")
 
 
 def indexed(of: Name, index: int) -> Name:
@@ -26,50 +31,46 @@ def indexed(of: Name, index: int) -> Name:
     return Name(f"{of.latex}_{{{index}}}", f"{of.text}_{index}")
 
 
-def equation(left: Name | sp.Expr, right: sp.Expr, notation: Notation) -> Equation:
-    """left = right, broken between the terms of the right side."""
-    return Equation(left if isinstance(left, Name) else notation.math(left), notation.terms(right))
+def equation(
+    left: Name | sp.Expr, right: sp.Expr, notation: Notation, of: Sequence[str] = (), pick: str = "", value: str = ""
+) -> Equation:
+    """left = right, broken between the terms of the right side; tokens and value as in document.py."""
+    named = left if isinstance(left, Name) else notation.math(left)
+    return Equation(named, notation.terms(right), of, pick, value)
 
 
-def shown(left: Name, right: sp.Expr, notation: Notation) -> Block:
+def shown(
+    left: Name, right: sp.Expr, notation: Notation, of: Sequence[str] = (), pick: str = "", value: str = ""
+) -> Block:
     """left = right; of what fills pages its length alone."""
     size = sp.count_ops(right)
     if size <= LONGEST:
-        return equation(left, right, notation)
-    return paragraph(left, f" follows by differentiation; written out it has {size} operations.")
+        return equation(left, right, notation, of, pick, value)
+    return paragraph(left, f" follows by differentiation; written out it has {size} operations.", of=of)
 
 
 def kinematics_sections(model: Model, notation: Notation) -> list[Section]:
-    """Coordinates, constants, Φ, Φ_q, ν, γ."""
+    """Coordinates, constants, Φ row by row with Φ_q, ν, γ."""
     sections = [Section("Coordinates", tuple(_coordinates(model, notation)))]
     if constants := list(_constants(model, notation)):
         sections.append(Section("Abbreviations", tuple(constants)))
     if not model.rows:
         return sections
-    velocity = paragraph("Velocities obey ", Name(r"\Phi_{q} \dot{q} = \nu = -\Phi_{t}", "Φ_q·q̇ = ν = -Φ_t"), ".")
-    acceleration = paragraph(
-        "Accelerations obey ",
-        Name(
-            r"\Phi_{q} \ddot{q} = \gamma = -(\Phi_{q} \dot{q})_{q} \dot{q} - 2 \Phi_{qt} \dot{q} - \Phi_{tt}",
-            "Φ_q·q̈ = γ = -(Φ_q·q̇)_q·q̇ - 2·Φ_qt·q̇ - Φ_tt",
-        ),
-        ".",
-    )
-    nu, gamma = [row.nu for row in model.rows], [row.gamma for row in model.rows]
     return [
         *sections,
         Section("Constraints", tuple(_rows(model, notation))),
-        Section("Jacobian", tuple(_jacobian(model, notation))),
-        Section("Right-hand side of the velocities", (velocity, *_column(NU, nu, notation))),
-        Section("Right-hand side of the accelerations", (acceleration, *_column(GAMMA, gamma, notation))),
+        Section("Jacobian", tuple(_jacobian(model))),
     ]
 
 
 def _coordinates(model: Model, notation: Notation) -> list[Block]:
-    rows = [
-        cells(body.name, f"{body.index + 1} to {body.index + 3}", *map(notation.math, (*body.q, *body.v)))
-        for body in model.bodies
-    ]
+    rows, tokens = [], []
+    for body in model.bodies:
+        first = body.index + 1
+        q = [replace(notation.math(s), value=f"q.{first + k}") for k, s in enumerate(body.q)]
+        v = [replace(notation.math(s), value=f"v.{first + k}") for k, s in enumerate(body.v)]
+        rows.append(cells(body.name, f"{first} to {first + 2}", *q, *v))
+        tokens.append([f"body-{body.name}"])
     lead = paragraph(
         "Each body has the two coordinates of its centre of mass and an angle, counted from the x axis of the ground "
         "and not wrapped: ",
@@ -77,7 +78,7 @@ def _coordinates(model: Model, notation: Notation) -> list[Block]:
         " coordinates.",
     )
     header = ("body", "number in q", "x", "y", "angle", "rates", "", "")
-    return [lead, *table(cells(*header), rows)]
+    return [lead, *table(cells(*header), rows, of=tokens)]
 
 
 def _constants(model: Model, notation: Notation) -> Iterator[Block]:
@@ -94,67 +95,118 @@ def _constants(model: Model, notation: Notation) -> Iterator[Block]:
 
 
 def _rows(model: Model, notation: Notation) -> list[Block]:
+    """Joint by joint its rows of Φ, their entries of Φ_q, ν and γ."""
     blocks: list[Block] = [
         paragraph(
             "The mechanism is closed while ", Name(r"\Phi(q, t) = 0", "Φ(q, t) = 0"),
-            f" in all of its {len(model.rows)} rows.",
+            f" in all of its {len(model.rows)} rows. Velocities obey ",
+            Name(r"\Phi_{q} \dot{q} = \nu = -\Phi_{t}", "Φ_q·q̇ = ν = -Φ_t"), ", accelerations ",
+            Name(
+                r"\Phi_{q} \ddot{q} = \gamma = -(\Phi_{q} \dot{q})_{q} \dot{q} - 2 \Phi_{qt} \dot{q} - \Phi_{tt}",
+                "Φ_q·q̈ = γ = -(Φ_q·q̇)_q·q̇ - 2·Φ_qt·q̇ - Φ_tt",
+            ),
+            ". For each joint its rows, the columns of ", PHI_Q, " in which they have entries, and what of ",
+            NU, " and ", GAMMA, " is not zero:",
         )
     ]  # fmt: skip
     for title, rows in _by_owner(model):
-        blocks.append(paragraph(f"{title}; {_named(rows)}:"))
-        blocks += [equation(indexed(PHI, k), notation.expand(row.phi), notation) for k, row in rows]
+        own = rows[0][1]
+        of = [owner_token(own), *(row_token(k) for k, _ in rows)]
+        blocks.append(paragraph(f"{title}, ", *_multipliers(rows), f"; {_named(rows)}:", of=of))
+        blocks += [_phi(k, row, model, notation) for k, row in rows]
+        blocks += _entries(rows, model, notation)
+        for letter, values in ((NU, [row.nu for _, row in rows]), (GAMMA, [row.gamma for _, row in rows])):
+            blocks += _column(letter, [k for k, _ in rows], values, own, notation)
     return blocks
 
 
+def _phi(k: int, row: Row, model: Model, notation: Notation) -> Equation:
+    """A row; each of its terms lights its own entries and temporaries."""
+    place = {q: i for i, q in enumerate(model.q, 1)}
+    tokens: dict[sp.Expr, list[str]] = {}
+    for part in sp.Add.make_args(row.phi):
+        named = [f"name-{name}" for name in sorted(free_names(part))]
+        for term in sp.Add.make_args(notation.expand(part)):
+            tokens[term] = tokens[-term] = named
+
+    def of(term: sp.Expr) -> list[str]:
+        explicit = sorted(place[s] for s in model.symbols.explicit(term).free_symbols if s in row.phi_q)
+        return [*(entry_token(k, i) for i in explicit), *tokens.get(term, ())]
+
+    left = indexed(PHI, k)
+    terms = notation.terms(notation.expand(row.phi), of)
+    return Equation(left, terms, [row_token(k), owner_token(row)], row_token(k), f"phi.{k}")
+
+
 def _by_owner(model: Model) -> Iterator[tuple[str, list[tuple[int, Row]]]]:
-    """The numbered rows of each joint and drive, with its name and type."""
+    """The numbered rows of each joint and drive, with its name, type and line of the file."""
     mechanism = model.scene.mechanism
     for (owner, kind), rows in groupby(enumerate(model.rows, 1), key=lambda pair: (pair[1].owner, pair[1].kind)):
         if kind == "joint":
-            yield f"Joint {owner}, {joint_types()[mechanism.joints[owner].kind].title}", list(rows)
+            joint = mechanism.joints[owner]
+            yield f"Joint {owner}, {joint_types()[joint.kind].title}, line {joint.where.line} of the file", list(rows)
         else:
-            yield f"Drive {owner}", list(rows)
+            yield f"Drive {owner}, line {mechanism.drives[owner].where.line} of the file", list(rows)
 
 
 def _named(rows: Sequence[tuple[int, Row]]) -> str:
     return ("row " if len(rows) == 1 else "rows ") + ", ".join(f"{row.name} ({row.unit})" for _, row in rows)
 
 
-def _jacobian(model: Model, notation: Notation) -> list[Block]:
-    """A block a joint: the columns that it has."""
+def _multipliers(rows: Sequence[tuple[int, Row]]) -> list[str | Name]:
+    """What they are called, each with the place of its value."""
+    names = [replace(indexed(LAMBDA, k), value=f"lambda.{k}") for k, _ in rows]
+    between = [part for name in names for part in (", ", name)][1:]
+    return [f"multiplier{'s' * (len(rows) > 1)} ", *between]
+
+
+def _jacobian(model: Model) -> list[Block]:
+    """How full Φ_q is, and where."""
     count = sum(len(row.phi_q) for row in model.rows)
     of = f"{len(model.rows)} × {len(model.q)}"
-    blocks: list[Block] = [
+    return [
         paragraph(
-            "The derivative of ", PHI, f" by the coordinates has {of} entries, of which {count} are not zero. "
-            "For each joint its rows and the columns in which they have entries:",
-        )
+            "The derivative of ", PHI, f" by the coordinates has {of} entries, of which {count} are not zero; "
+            "they stand with their rows above. All in their places:",
+        ),
+        *pattern(model),
     ]  # fmt: skip
+
+
+def _entries(rows: Sequence[tuple[int, Row]], model: Model, notation: Notation) -> list[Block]:
+    """A joint's block of Φ_q: the columns that it has."""
     place = {q: k for k, q in enumerate(model.q)}
-    for title, rows in _by_owner(model):
-        columns = sorted({q for _, row in rows for q in row.phi_q}, key=place.__getitem__)
-        entries = [
-            [notation.math(notation.expand(row.phi_q.get(q, sp.Integer(0)))) for q in columns] for _, row in rows
-        ]
-        blocks.append(paragraph(f"{title}:"))
-        if sum(3 + max(len(entry.text) for entry in column) for column in zip(*entries, strict=True)) <= WIDEST:
-            named = [cells(indexed(PHI, k), *own) for (k, _), own in zip(rows, entries, strict=True)]
-            blocks += table(cells("", *map(notation.math, columns)), named)
-        else:
-            blocks += [_partial(k, q, row.phi_q[q], notation) for k, row in rows for q in columns if q in row.phi_q]
-    return blocks
+    columns = sorted({q for _, row in rows for q in row.phi_q}, key=place.__getitem__)
+
+    def entry(k: int, row: Row, q: sp.Symbol) -> Name:
+        name = notation.math(notation.expand(row.phi_q.get(q, sp.Integer(0))))
+        if q not in row.phi_q:
+            return name
+        constant = row.phi_q[q].is_number
+        return replace(
+            name, of=[entry_token(k, place[q] + 1)], value="" if constant else f"phi_q.{k}.{place[q] + 1}"
+        )
+
+    entries = [[entry(k, row, q) for q in columns] for k, row in rows]
+    if sum(3 + max(len(one.text) for one in column) for column in zip(*entries, strict=True)) > WIDEST:
+        return [_partial(k, q, row, place[q], notation) for k, row in rows for q in columns if q in row.phi_q]
+    named = [cells(indexed(PHI, k), *own) for (k, _), own in zip(rows, entries, strict=True)]
+    tokens = [[row_token(k), owner_token(row)] for k, row in rows]
+    return table(cells("", *map(notation.math, columns)), named, of=tokens)
 
 
-def _partial(k: int, q: sp.Symbol, value: sp.Expr, notation: Notation) -> Block:
+def _partial(k: int, q: sp.Symbol, row: Row, column: int, notation: Notation) -> Block:
     by = notation.math(q)
     left = Name(rf"\partial \Phi_{{{k}}} / \partial {by.latex}", f"∂Φ_{k}/∂{by.text}")
-    return shown(left, notation.expand(value), notation)
+    of = [entry_token(k, column + 1)]
+    return shown(left, notation.expand(row.phi_q[q]), notation, of, value=f"phi_q.{k}.{column + 1}")
 
 
-def _column(of: Name, values: Sequence[sp.Expr], notation: Notation) -> list[Block]:
-    """The components that are not zero."""
-    explicit = [notation.expand(value) for value in values]
-    blocks: list[Block] = [shown(indexed(of, k), value, notation) for k, value in enumerate(explicit, 1) if value != 0]
-    if not blocks:
-        return [paragraph(of, " is zero in every row.")]
-    return blocks if all(value != 0 for value in explicit) else [*blocks, paragraph("All other components are zero.")]
+def _column(of: Name, numbers: Sequence[int], values: Sequence[sp.Expr], own: Row, notation: Notation) -> list[Block]:
+    """The components that are not zero, by their numbers."""
+    name = "nu" if of is NU else "gamma"
+    return [
+        shown(indexed(of, k), explicit, notation, [row_token(k), owner_token(own)], row_token(k), f"{name}.{k}")
+        for k, value in zip(numbers, values, strict=True)
+        if (explicit := notation.expand(value)) != 0
+    ]

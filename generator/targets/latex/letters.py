@@ -3,7 +3,8 @@ r"""Names of symbols as a class writes them: \theta_{\text{L7}} for LaTeX, θ_L7
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 from itertools import takewhile
 
 GREEK = {
@@ -19,10 +20,12 @@ _DOTS = {0: ("", ""), 1: (r"\dot", "\u0307"), 2: (r"\ddot", "\u0308")}
 
 @dataclass(frozen=True)
 class Name:
-    """A symbol, or any formula, in LaTeX and in plain text."""
+    """A symbol, or any formula, in LaTeX and in plain text; with tokens and a value as a block has them."""
 
     latex: str
     text: str
+    of: Sequence[str] = field(default=(), compare=False)
+    value: str = field(default="", compare=False)
 
     @property
     def room(self) -> int:

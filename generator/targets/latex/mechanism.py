@@ -14,6 +14,7 @@ from gudgeon.generator.symbols.numbers import SlotEntry
 from gudgeon.generator.targets.latex.document import Block, Section, Sketch, Text, cells, paragraph, table
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import Notation
+from gudgeon.generator.targets.latex.printers import as_angle
 from gudgeon.language.tree import Binary, Call, Expr, Number, Unary
 from gudgeon.language.units import si_unit
 
@@ -39,7 +40,8 @@ class Values:
     def value(self, entry: SlotEntry) -> Text:
         """The default; in front of it the expression that it follows."""
         # what follows others is a result of arithmetic: its last digits would say nothing
-        number = self._notation.math(sp.Float(float(f"{entry.default:.12g}") if entry.follows else entry.default, 17))
+        rounded = entry.follows and as_angle(entry.default) is None
+        number = self._notation.math(sp.Float(float(f"{entry.default:.12g}") if rounded else entry.default, 17))
         return (self._notation.math(entry.value), " = ", number) if entry.follows else (number,)
 
     def vector(self, vector: Vector) -> Text:
@@ -61,6 +63,7 @@ def part_sections(model: Model, notation: Notation) -> list[Section]:
 
 def _bodies(model: Model, values: Values) -> list[Block]:
     rows, points = [], []
+    of = [[f"body-{name}"] for name in model.scene.mechanism.bodies]
     for body in model.scene.mechanism.bodies.values():
         rows.append(cells(body.name, values.cell(body.mass), values.cell(body.inertia), values.cell(body.length)))
         named = {"com": body.com, **body.points} if body.com is not None else body.points
@@ -71,7 +74,7 @@ def _bodies(model: Model, values: Values) -> list[Block]:
     )
     return [
         paragraph(lead),
-        *table(cells("body", "mass, kg", "inertia, kg m^2", "length, m"), rows),
+        *table(cells("body", "mass, kg", "inertia, kg m^2", "length, m"), rows, of=of),
         *table(cells("point", "in the frame of its body, m"), points),
     ]
 
@@ -90,12 +93,13 @@ def _joints(model: Model, values: Values) -> list[Block]:
         ends = [place(ref, own_type.joins) for ref in (joint.first, joint.second)]
         none = "none: it has play" if joint.name in model.scene.play else "none: they are redundant"
         rows.append(cells(joint.name, own_type.title, *ends, shown or none))
-    blocks: list[Block] = table(cells("joint", "type", "first", "second", "rows"), rows)
+    of = [[f"joint-{name}"] for name in model.scene.mechanism.joints]
+    blocks: list[Block] = table(cells("joint", "type", "first", "second", "rows"), rows, of=of)
     fields = [row for joint in model.scene.mechanism.joints.values() for row in field_rows(joint, values)]
     blocks += table(cells("joint", "field", "value"), fields)
     used = {s for row in model.rows for s in model.symbols.explicit(row.phi).free_symbols}
     guessed = [e for e in model.slots.entries.values() if e.symbol in used and e.address.startswith("start.")]
-    blocks += table(cells("angle at the start", "value, rad"), [cells(e.address, values.slot(e)) for e in guessed])
+    blocks += table(cells("angle at the start", "value"), [cells(e.address, values.slot(e)) for e in guessed])
     for kind in dict.fromkeys(joint.kind for joint in model.scene.mechanism.joints.values()):
         summary, *lines = sketch_of("joints", kind)
         blocks += [paragraph(summary), Sketch(tuple(lines))]
@@ -134,7 +138,8 @@ def _drives(model: Model) -> list[Block]:
             what += f" of {drive.body}" + (f" against {drive.reference}" if drive.reference else "")
         own = [str(k + 1) for k, row in enumerate(model.rows) if row.owner == name]
         rows.append(cells(name, what, as_written(drive.value.value), "".join(own) or "redundant"))
-    return table(cells("drive", "prescribes", "value in the file", "row"), rows, (2,))
+    of = [[f"drive-{name}"] for name in model.scene.mechanism.drives]
+    return table(cells("drive", "prescribes", "value in the file", "row"), rows, (2,), of)
 
 
 def _curves(model: Model) -> list[Block]:

@@ -8,10 +8,11 @@ from gudgeon.generator.equations.friction import Friction
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.targets.latex.document import Block, Equation, Section, Sketch, cells, paragraph, table
-from gudgeon.generator.targets.latex.kinematics import equation, indexed
+from gudgeon.generator.targets.latex.kinematics import PHI_Q, equation, indexed
 from gudgeon.generator.targets.latex.letters import Name, letter
 from gudgeon.generator.targets.latex.mechanism import Values, field_rows, place, sketch_of
 from gudgeon.generator.targets.latex.notation import Notation, temporaries
+from gudgeon.generator.targets.latex.pictures import assembled
 
 KKT = Equation(
     Name(
@@ -44,10 +45,12 @@ def motion_sections(model: Model, notation: Notation) -> list[Section]:
 
 def _masses(model: Model, notation: Notation) -> list[Block]:
     rows = [cells(body.name, *map(notation.math, model.masses[body.index : body.index + 3])) for body in model.bodies]
+    of = [[f"body-{body.name}"] for body in model.bodies]
     lead = "M is diagonal, because the coordinates are those of the centres of mass; its entries, body by body:"
     lacking = [body.name for body in model.scene.mechanism.bodies.values() if body.lacks]
     told = f"The file gives no mass or no inertia of {', '.join(lacking)}: M only measures how far Newton's steps go."
-    return [paragraph(lead), *table(cells("body", "x", "y", "angle"), rows), *([paragraph(told)] if lacking else [])]
+    shown = table(cells("body", "x", "y", "angle"), rows, of=of)
+    return [paragraph(lead), *shown, *([paragraph(told)] if lacking else [])]
 
 
 def _elements(model: Model, notation: Notation) -> list[Block]:
@@ -136,12 +139,8 @@ def _events(model: Model, notation: Notation) -> list[Block]:
 
 def _equation_of_motion(model: Model, notation: Notation) -> list[Block]:
     n, m = len(model.q), len(model.rows)
-    freedom = paragraph(
-        f"Degrees of freedom: {n} coordinates less {m} rows leave ",
-        Name(f"{n} - {m} = {n - m}", f"{n} - {m} = {n - m}"), ".",
-    )  # fmt: skip
     if not model.rows:
-        return [FREE, freedom]
+        return [FREE, *_freedoms(model)]
     alpha, beta = model.baumgarte
     gains = [
         part for symbol in (alpha, beta) for part in (notation.math(symbol), f" = {_default(model, symbol)} 1/s, ")
@@ -150,9 +149,12 @@ def _equation_of_motion(model: Model, notation: Notation) -> list[Block]:
         KKT,
         paragraph(
             "with ", PHI_DOT, ", ", *gains, "which draw a drifting ", Name(r"\Phi", "Φ"), " back to zero (Baumgarte). ",
-            Name(r"-\Phi_{q}^{\mathsf{T}} \lambda", "-Φ_qᵀ·λ"), " holds the forces of joints and drives.",
+            Name(r"-\Phi_{q}^{\mathsf{T}} \lambda", "-Φ_qᵀ·λ"), " holds the forces of joints and drives. ",
+            f"M is {n} × {n}, ", PHI_Q, f" {m} × {n}; these are {n + m} equations for {n} accelerations and {m} "
+            "multipliers.",
         ),
-        freedom,
+        *assembled(model),
+        *_freedoms(model),
     ]  # fmt: skip
     if n == m and not model.clearances:
         blocks.append(
@@ -162,6 +164,20 @@ def _equation_of_motion(model: Model, notation: Notation) -> list[Block]:
             )
         )  # fmt: skip
     return blocks
+
+
+def _freedoms(model: Model) -> list[Block]:
+    """By counting, as Grübler does, and by the rank of the rows."""
+    n, m, dropped = len(model.q), len(model.rows), model.redundancy.dropped
+    counted = m + len(dropped)
+    by_count, by_rank = (Name(f"{n} - {k} = {n - k}", f"{n} - {k} = {n - k}") for k in (counted, m))
+    lead = "Degrees of freedom, counted as Grübler does: "
+    told_of = f", three coordinates for each body less {counted} row{'s' * (counted != 1)}"
+    if dropped:
+        told = f": {', '.join(dropped)} say{'s' * (len(dropped) == 1)} nothing new, and the rank is {m}."
+        return [paragraph(lead, by_count, told_of, ". By the rank of ", PHI_Q, " they are ", by_rank, told)]
+    same = f" The rank of the rows is {m} as well: each says something new." if m else ""
+    return [paragraph(lead, by_count, f"{told_of}.{same}")]
 
 
 def _default(model: Model, symbol: sp.Symbol) -> str:

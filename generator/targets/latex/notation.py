@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -54,12 +54,12 @@ class Notation:
         expression = for_readers(sp.sympify(expression))
         return Name(self._latex.doprint(expression), self._text.doprint(expression))
 
-    def terms(self, expression: sp.Expr) -> tuple[Name, ...]:
-        """The terms of a sum, each with its sign: a line may break between them."""
+    def terms(self, expression: sp.Expr, of: Callable[[sp.Expr], Sequence[str]] = lambda _: ()) -> tuple[Name, ...]:
+        """The terms of a sum, each with its sign: a line may break between them. `of`: a term's tokens."""
         expression = for_readers(sp.sympify(expression))
         signs = self._text.signed_terms(expression)
         return tuple(
-            Name(sign + self._latex.long(term), sign.replace("{}", "") + self._text.doprint(term))
+            Name(sign + self._latex.long(term), sign.replace("{}", "") + self._text.doprint(term), of(term))
             for sign, term in signs
         )
 

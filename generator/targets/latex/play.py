@@ -19,6 +19,8 @@ from gudgeon.generator.targets.latex.kinematics import equation
 from gudgeon.generator.targets.latex.letters import Name, letter, of_latex, word
 from gudgeon.generator.targets.latex.mechanism import as_written
 from gudgeon.generator.targets.latex.notation import Notation, distinct
+from gudgeon.generator.targets.latex.plots import law_plot
+from gudgeon.generator.targets.latex.trace import Functions, Trace
 from gudgeon.language.units import si_unit
 
 # What the laws call their abbreviations and constants, in the paper's letters.
@@ -37,9 +39,12 @@ _PAIR = (
 class JointWithPlay:
     """One joint's equations in its own letters: c, R_i, K, c_e stand for this joint's alone."""
 
-    def __init__(self, model: Model, clearance: Clearance, notation: Notation) -> None:
-        self.model, self.clearance = model, clearance
+    def __init__(self, model: Model, clearance: Clearance, notation: Notation, found: Functions) -> None:
+        self.model, self.clearance, self.found = model, clearance, found
         self.play = model.scene.play[clearance.name]
+        self.of = f"joint-{clearance.name}"  # tokens
+        self.of_law = [f"law-{self.play.contact.name}", self.of]
+        self.alike = [name for name, play in model.scene.play.items() if _alike(play, self.play)]
         self.notation = notation.called(distinct(self._names()))
         self.numbers = list(self._numbers())
 
@@ -109,7 +114,10 @@ class JointWithPlay:
         ]
 
     def shown(self, steps: list[Step]) -> list[Block]:
-        return [equation(step.symbol, self.notation.expand(step.value), self.notation) for step in steps]
+        return [
+            equation(step.symbol, self.notation.expand(step.value), self.notation, self.of_law, self.of_law[0])
+            for step in steps
+        ]
 
 
 def _sign(parameter: Field) -> str:
@@ -117,14 +125,15 @@ def _sign(parameter: Field) -> str:
     return parameter.symbol or word(parameter.name).latex
 
 
-def play_sections(model: Model, notation: Notation) -> list[Section]:
+def play_sections(model: Model, notation: Notation, found: Functions) -> list[Section]:
     """For each joint with play where its bodies are, what its laws say, and what they do to both bodies."""
     sections: list[Section] = []
     done: dict[str, Play] = {}
     for clearance in model.clearances:
-        joint = JointWithPlay(model, clearance, notation)
+        joint = JointWithPlay(model, clearance, notation, found)
         twin = next((name for name, play in done.items() if _alike(play, joint.play)), None)
-        sections.append(Section(f"Joint {clearance.name} with play", tuple(_geometry(joint, twin is None))))
+        title = f"Joint {clearance.name} with play"
+        sections.append(Section(title, tuple(_geometry(joint, twin is None)), 1, [joint.of]))
         if twin is None:
             done[clearance.name] = joint.play
             sections += _contact_sections(joint)
@@ -153,7 +162,7 @@ def _geometry(joint: JointWithPlay, first: bool) -> list[Block]:
         f"Bearing i is {ref.first.body}.{ref.first.point}, journal j is {ref.second.body}.{ref.second.point}; "
         "the eccentricity goes from the bearing's centre to the journal's."
     )
-    own: list[Block] = [equation(symbol, expand(value), notation) for symbol, value in steps]
+    own: list[Block] = [equation(symbol, expand(value), notation, [joint.of]) for symbol, value in steps]
     return [lead, *own, *(joint.shown(contact.gap(clearance)) if first else [])]
 
 
@@ -209,7 +218,10 @@ def _law(joint: JointWithPlay, role: str) -> list[Block]:
     """A law's equations with its source, validity and options."""
     equations = next(equations for equations, _ in joint.laws() if equations.law.role == role)
     law = equations.law
-    blocks: list[Block] = [paragraph(f"{sentence(law.title)} Source: {law.source}. Valid: {law.validity}.")]
+    source = law.reference or law.source
+    blocks: list[Block] = [
+        paragraph(f"{sentence(law.title)} Source: {source}. Valid: {law.validity}.", of=joint.of_law)
+    ]
     blocks += [
         paragraph(f"Option {option.name}: {_word(equations.options[option.name])} ({option.meaning}).")
         for option in law.options
@@ -218,7 +230,8 @@ def _law(joint: JointWithPlay, role: str) -> list[Block]:
     for state in law.states:
         told = f" is the {state.meaning}, 0 at each onset, and integrated with the motion while in contact."
         blocks.append(paragraph(letter(state.name), told))
-    return [*blocks, *joint.shown(joint.steps(equations))]
+    plot = law_plot(joint.found, joint.alike, role, law) if isinstance(joint.found, Trace) else []
+    return [*blocks, *joint.shown(joint.steps(equations)), *plot]
 
 
 def _word(value: str | bool) -> str:
@@ -239,5 +252,6 @@ def _share_in_g(joint: JointWithPlay) -> list[Block]:
             sign * contact.F_x, sign * contact.F_y, sign * (x * contact.F_y - y * contact.F_x) + moment
         )  # fmt: skip
         for k, share in enumerate(shares, point.body.index + 1):
-            blocks.append(equation(Name(rf"\Delta g_{{{k}}}", f"Δg_{k}"), sp.expand(notation.expand(share)), notation))
+            left = Name(rf"\Delta g_{{{k}}}", f"Δg_{k}")
+            blocks.append(equation(left, sp.expand(notation.expand(share)), notation, [joint.of]))
     return blocks

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from decimal import Decimal
+from functools import lru_cache
 from typing import Any
 
 import sympy as sp
@@ -56,7 +58,13 @@ class TextPrinter(_InOrder, StrPrinter):
         return self._names.get(expr, expr.name)
 
     def _print_Float(self, expr: sp.Float) -> str:
-        return number_text(float(expr))
+        angle = as_angle(float(expr))
+        return angle.text if angle else number_text(float(expr))
+
+    def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
+        """A share of π in a product is one number."""
+        text = str(super().parenthesize(item, level, strict))
+        return f"({text})" if item.is_Float and "/" in text and level >= PRECEDENCE["Mul"] else text
 
     def _print_Pi(self, expr: sp.Expr) -> str:
         return "π"
@@ -142,6 +150,8 @@ class TexPrinter(_InOrder, LatexPrinter):
         return rf"{'- ' if expr.p < 0 else ''}\tfrac{{{abs(expr.p)}}}{{{expr.q}}}"
 
     def _print_Float(self, expr: sp.Float) -> str:
+        if angle := as_angle(float(expr)):
+            return angle.latex
         mantissa, _, exponent = number_text(float(expr)).partition("e")
         if not exponent:
             return mantissa
@@ -188,6 +198,28 @@ class TexPrinter(_InOrder, LatexPrinter):
             arguments = sorted(arguments, key=_number_last)
         inside = ", ".join(self._print(argument) for argument in arguments)
         return rf"{name}{f'^{{{exp}}}' if exp else ''}\left({inside}\right)"
+
+
+_SIMPLE = (1, 2, 3, 4, 6)  # of π: what people write as a share of it
+_LONG_NUMBER = 9  # digits from which a number says nothing to people
+
+
+@lru_cache(4096)
+def as_angle(value: float) -> Name | None:
+    """A share of π, or degrees, where a number of rad is that and no shorter: π/2, 39.52°; else None."""
+    if sum(map(str.isdigit, repr(value))) < _LONG_NUMBER:
+        return None
+    for of in _SIMPLE:
+        count = round(value * of / math.pi)
+        if 0 < abs(count) <= 12 and abs(count * math.pi / of - value) <= math.ulp(value):
+            sign, above = "-" * (count < 0), f"{abs(count) if abs(count) > 1 else ''}"
+            if of == 1:
+                return Name(rf"{sign}{above}\pi", f"{sign}{above}π")
+            return Name(rf"{sign}\tfrac{{{above}\pi}}{{{of}}}", f"{sign}{above}π/{of}")
+    degrees = f"{math.degrees(value):.6g}"
+    if abs(math.radians(float(degrees)) - value) <= 2 * math.ulp(value):
+        return Name(rf"{degrees}^{{\circ}}", f"{degrees}°")
+    return None
 
 
 def number_text(value: float) -> str:

@@ -7,19 +7,15 @@ import textwrap
 import unicodedata
 from functools import cache
 from importlib import resources
-from itertools import pairwise
-from xml.etree.ElementTree import Element, tostring
-from xml.sax.saxutils import unescape
 
 import jinja2
 
-from gudgeon.errors import GudgeonError
-from gudgeon.generator.targets.latex.document import Document, Equation, Paragraph, Sketch, Table, Text
+from gudgeon.generator.targets.latex import to_html
+from gudgeon.generator.targets.latex.document import Document, Equation, Paragraph, Picture, Sketch, Table, Text
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.tex_text import sketch_line, tex
 
 WIDTH = 100  # characters of a line of text
-_FUNCTIONS = ("sin", "cos", "tan")
 WIDE = 44  # characters of a column with running text
 
 
@@ -44,7 +40,8 @@ def _environment() -> jinja2.Environment:
     environment.filters.update(
         tex=tex, tex_line=_tex_line, tex_terms=_tex_terms, tex_sketch=sketch_line, tex_columns=_tex_columns,
         tex_row=_tex_row, tex_size=_tex_size,
-        html=html.escape, html_line=_html_line, mathml=_mathml,
+        html=html.escape, html_line=to_html.line, formula=to_html.formula, attributes=to_html.attributes,
+        output=to_html.output, listing=to_html.listing,
         plain_line=_plain_line, plain_paragraph=_plain_paragraph, plain_equation=_plain_equation,
         plain_table=_plain_table, underline=_underline,
     )  # fmt: skip
@@ -70,38 +67,14 @@ def _tex_columns(table: Table) -> str:
     return "".join(rf"p{{{share:.2f}\linewidth}}" if k in table.wide else "l" for k in range(len(table.header)))
 
 
-def _tex_size(block: Sketch | Table) -> str:
+def _tex_size(block: Sketch | Picture | Table) -> str:
     """Long lines take small letters to stay on the page."""
-    if isinstance(block, Sketch):
+    if not isinstance(block, Table):
         return r"\footnotesize" if max(map(len, block.lines), default=0) <= 98 else r"\scriptsize"
     columns = zip(block.header, *block.rows, strict=True)
     widths = [max(_columns(_plain_line(cell)) for cell in column) for column in columns]
     width = sum(2 + min(WIDE, w) if k in block.wide else 2 + w for k, w in enumerate(widths))
     return r"\small" if width <= 105 else r"\footnotesize" if width <= 125 else r"\scriptsize"
-
-
-def _html_line(text: Text) -> str:
-    return "".join(_mathml(part) if isinstance(part, Name) else html.escape(part) for part in text)
-
-
-def _mathml(name: Name) -> str:
-    """A formula as MathML. Raises GudgeonError where the extra `docs` is not installed."""
-    try:
-        from latex2mathml.converter import convert_to_element
-    except ImportError as error:
-        raise GudgeonError("HTML needs latex2mathml: pip install 'gudgeon[docs]'") from error
-    formula = convert_to_element(name.latex)
-    for row in list(formula.iter()):
-        _space_functions(row)
-    return unescape(tostring(formula, encoding="unicode")).replace(r"\_", "_")
-
-
-def _space_functions(row: Element) -> None:
-    """A browser puts no space between a function's name and what it is of."""
-    for k, (word, of) in reversed(list(enumerate(pairwise(row)))):
-        base_of_power = row.tag == "msup" and k == 0
-        if word.tag == "mi" and word.text in _FUNCTIONS and of.tag.startswith(("mr", "ms")) and not base_of_power:
-            row.insert(k + 1, Element("mspace", {"width": "0.167em"}))
 
 
 def _plain_line(text: Text) -> str:

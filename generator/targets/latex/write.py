@@ -2,19 +2,39 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.notes import scene_notes as notes
-from gudgeon.generator.targets.latex.document import Document, Section, paragraph, sentence
+from gudgeon.generator.targets.latex.document import (
+    Block,
+    Document,
+    Paragraph,
+    Picture,
+    Section,
+    Sketch,
+    Table,
+    paragraph,
+    sentence,
+)
 from gudgeon.generator.targets.latex.kinematics import kinematics_sections
+from gudgeon.generator.targets.latex.listings import listing_sections
+from gudgeon.generator.targets.latex.listings import scripts as own_scripts
 from gudgeon.generator.targets.latex.mechanism import part_sections
 from gudgeon.generator.targets.latex.motion import motion_sections
 from gudgeon.generator.targets.latex.notation import make_notation
 from gudgeon.generator.targets.latex.play import play_sections
+from gudgeon.generator.targets.latex.reduction import reduction_sections
 from gudgeon.generator.targets.latex.render import render
+from gudgeon.generator.targets.latex.trace import Functions, functions_of, trace
 from gudgeon.language.shown import one_line
 
+# docs/physics.md, section 2
+PAPER = "Where the paper is spoken of: X. Chen, S. Gao, T. Wang, Nonlinear Dynamics, doi 10.1007/s11071-022-07478-4."
 
-def make_document(model: Model) -> Document:
+
+def make_document(model: Model, found: Functions) -> Document:
     """Everything that is derived for one scene, in the order of a lecture."""
     mechanism, notation = model.scene.mechanism, make_notation(model)
     left_out = notes(model)
@@ -22,26 +42,45 @@ def make_document(model: Model) -> Document:
         *part_sections(model, notation),
         *kinematics_sections(model, notation),
         *motion_sections(model, notation),
-        *play_sections(model, notation),
+        *play_sections(model, notation, found),
+        *reduction_sections(found),
         *([Section("Left out of this scene", tuple(paragraph(sentence(n)) for n in left_out))] if left_out else []),
     ]
+    if any(_names_the_paper(block) for section in sections for block in section.blocks):
+        sections.append(Section("The paper", (paragraph(PAPER),)))
     facts = (("mechanism ", mechanism.name, ", scene ", model.scene.name),)
     return Document(one_line(mechanism.title or mechanism.name), facts, tuple(sections))
 
 
+def _names_the_paper(block: Block) -> bool:
+    """Whether a sketch, a sentence or a cell speaks of it."""
+    if isinstance(block, (Sketch, Picture)):
+        return any("the paper" in line for line in block.lines)
+    texts = [block.text] if isinstance(block, Paragraph) else []
+    texts += [cell for row in block.rows for cell in row] if isinstance(block, Table) else []
+    return any(isinstance(part, str) and "the paper" in part for text in texts for part in text)
+
+
 def equations_tex(model: Model) -> str:
     """The equations of a scene as a LaTeX file for pdflatex and amsmath, in ASCII."""
-    return render(make_document(model), "tex")
+    return render(make_document(model, functions_of(model)), "tex")
 
 
 def equations_text(model: Model) -> str:
     """The equations of a scene as plain Unicode text, 100 columns wide."""
-    return render(make_document(model), "txt")
+    return render(make_document(model, functions_of(model)), "txt")
 
 
-def equations_html(model: Model, *, head: str = "", app: str = "", scripts: str = "") -> str:
-    """The equations of a scene as one HTML file with MathML. Raises GudgeonError without the extra `docs`.
+def equations_html(
+    model: Model, *, head: str = "", app: str = "", scripts: str = "", source: KernelSource | None = None
+) -> str:
+    """The equations of a scene as one HTML file with MathML, its file and its C, each traced to the others.
 
+    Raises GudgeonError without the extra `docs`.
     head, app, scripts: HTML that a page which runs has more, in its head, below its title, at its end.
+    source: what was emitted of the scene, where that is known.
     """
-    return render(make_document(model), "html", head=head, app=app, scripts=scripts)
+    found = trace(model, source)
+    document = make_document(model, found)
+    document = replace(document, sections=(*document.sections, *listing_sections(model, found)))
+    return render(document, "html", head=head, app=app, scripts=own_scripts() + scripts)

@@ -1,0 +1,1 @@
+"""Functions of a scene as JavaScript: what a page evaluates beside its simulator."""

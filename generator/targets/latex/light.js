@@ -1,0 +1,119 @@
+/*
+ * What belongs together lights up together. An element belongs to the tokens of its data-of; selecting it lights all
+ * that share one with its data-pick, or else with its data-of. A row's token stands for the row's entries too.
+ */
+const gudgeonLight = (() => {
+    const LISTED = 400; // lines of C that the panel shows at most
+    let files = {}, wanted = new Set(), chosen = null;
+
+    const tokensOf = (text) => (text ?? "").split(" ").filter(Boolean);
+    const rowOf = (token) => (token.startsWith("entry-") ? `row-${token.split("-")[1]}` : token);
+    const isLit = (of) => tokensOf(of).some((token) => wanted.has(token) || wanted.has(rowOf(token)));
+
+    /* Lights what shares a token with `tokens`; none put all out. */
+    function light(tokens, element = null) {
+        wanted = new Set(tokens);
+        chosen = wanted.size ? element : null;
+        for (const one of document.querySelectorAll("[data-of]")) one.classList.toggle("lit", isLit(one.dataset.of));
+        showLines();
+        document.dispatchEvent(new CustomEvent("gudgeon:lit", {detail: {tokens: [...wanted]}}));
+    }
+
+    function select(element) {
+        if (element === chosen) light([]);
+        else light(tokensOf(element.dataset.pick ?? element.dataset.of), element);
+    }
+
+    /* The panel at the foot of the page: lit lines of C with their values. */
+    function showLines() {
+        const panel = document.getElementById("gudgeon-lines"), found = [];
+        for (const [name, {lines, of, values}] of Object.entries(files))
+            for (const [number, own] of Object.entries(of))
+                if (isLit(own)) found.push({name, number, text: lines[number - 1], value: values[number], of: own});
+        panel.hidden = !found.length;
+        const pre = panel.querySelector("pre");
+        pre.replaceChildren(...found.slice(0, LISTED).map(asLine));
+        const more = found.length > LISTED ? `, of which ${LISTED} are shown` : "";
+        panel.querySelector("p").textContent =
+            `${found.length} ${found.length === 1 ? "line" : "lines"} of C${more}. Escape puts the light out.`;
+    }
+
+    /* A line of C with its number, its value where it has one, and its tokens. */
+    function asLine({name, number, text, value, of}) {
+        const line = document.createElement("span");
+        line.className = "line";
+        line.dataset.place = name ? `${name}:${number}` : number;
+        line.textContent = text || " ";
+        if (value) {
+            const shown = document.createElement("output");
+            shown.dataset.value = `tmp.${value}`;
+            line.append(shown);
+        }
+        if (of) Object.assign(line.dataset, {of, c: name});
+        if (of) line.tabIndex = -1;
+        return line;
+    }
+
+    /* A folded listing of each file, filled when it is first unfolded. */
+    function list(name, {lines, of, values}) {
+        const details = document.createElement("details"), summary = document.createElement("summary");
+        const pre = document.createElement("pre");
+        pre.className = "listing";
+        summary.textContent = `${name}, ${lines.length} lines`;
+        details.append(summary, pre);
+        details.addEventListener("toggle", () => {
+            if (pre.childNodes.length) return;
+            const token = (k) => [`c-${name}-${k}`, of[k]].filter(Boolean).join(" ");
+            pre.append(...lines.map((text, i) =>
+                asLine({name: "", number: i + 1, text, value: values[i + 1], of: of[i + 1] && token(i + 1)})));
+            for (const line of pre.children) if (isLit(line.dataset.of)) line.classList.add("lit");
+            document.dispatchEvent(new CustomEvent("gudgeon:listed"));
+        });
+        return details;
+    }
+
+    async function unpack(text) {
+        const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+        const plain = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+        return JSON.parse(await new Response(plain).text());
+    }
+
+    /* To the next or previous part that can be selected. */
+    function step(from, by) {
+        const all = [...document.querySelectorAll("[data-of]")].filter((one) => one.getClientRects().length);
+        const next = all[all.indexOf(from) + by];
+        if (next) {
+            if (!next.hasAttribute("tabindex")) next.setAttribute("tabindex", "-1");
+            next.focus();
+        }
+    }
+
+    function pressed(event) {
+        const element = event.target.closest?.("[data-of]");
+        const keys = {ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1};
+        if (event.key === "Escape") light([]);
+        else if (!element || event.altKey || event.ctrlKey || event.metaKey) return;
+        else if (event.key === "Enter" || event.key === " ") select(element);
+        else if (keys[event.key]) step(element, keys[event.key]);
+        else return;
+        if (event.key !== "Escape") event.preventDefault();
+    }
+
+    async function begin() {
+        document.addEventListener("click", (event) => {
+            const element = event.target.closest("[data-of]");
+            if (element && !getSelection().toString()) select(element);
+        });
+        document.addEventListener("keydown", pressed);
+        const carried = document.getElementById("gudgeon-c");
+        if (!carried) return;
+        const {files: listed, equations} = await unpack(carried.textContent);
+        files = listed;
+        if (equations) gudgeonValues.take(new Function(`${equations}return gudgeonEquations;`)());
+        for (const file of Object.values(files)) file.lines = file.text.replace(/\n$/, "").split("\n");
+        document.getElementById("gudgeon-c-files").append(...Object.entries(files).map(([name, own]) => list(name, own)));
+        if (wanted.size) showLines();
+    }
+    if (typeof document !== "undefined") addEventListener("DOMContentLoaded", begin);
+    return {light, select, isLit, get files() { return files; }};
+})();

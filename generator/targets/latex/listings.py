@@ -1,0 +1,84 @@
+"""The file and the C of a scene as a page carries them, line by line with what each belongs to."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import hashlib
+import json
+from functools import cache
+from pathlib import Path
+
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.targets.javascript.module import equations_script
+from gudgeon.generator.targets.latex.document import Block, Carried, Listing, Section, paragraph
+from gudgeon.generator.targets.latex.trace import Trace, yaml_tokens
+
+SHOWN = ("parameters.c", "constraints.c", "clearance.c", "dynamics.c", "reduced.c", "positions.c")
+MOST_C = 600_000  # characters of C that a page carries
+LARGEST_FILE = 1_000_000  # bytes of a mechanism's file
+_CARRIED = "gudgeon-c"  # id of what is not shown
+
+
+def listing_sections(model: Model, found: Trace) -> list[Section]:
+    """The mechanism's own file, where it is still the one that was read, and the C."""
+    blocks: list[Block] = []
+    told = paragraph("Select any equation, entry, line or part: everything that has to do with it is lit.")
+    if (text := _own_text(model)) is not None:
+        name = Path(model.scene.mechanism.file).name
+        blocks.append(Listing(name, tuple(text.splitlines()), yaml_tokens(model, found)))
+    return [Section("From the file to the C", (told, *blocks, Carried(_c(found))))]
+
+
+def _own_text(model: Model) -> str | None:
+    """The file that the mechanism was read from, if it is there as it was."""
+    mechanism = model.scene.mechanism
+    file = Path(mechanism.file)
+    try:
+        if not file.is_file() or file.stat().st_size > LARGEST_FILE:
+            return None
+        data = file.read_bytes()
+    except (OSError, ValueError):
+        return None
+    return data.decode("utf-8", "replace") if hashlib.sha256(data).hexdigest() == mechanism.sha256 else None
+
+
+def _c(found: Trace) -> str:
+    """A place for the listing, and what is listed there, packed: light.js unfolds it."""
+    files, left = {}, MOST_C
+    for name in SHOWN:
+        text = found.source.files.get(name)
+        if text is None or len(text) > left:
+            continue
+        left -= len(text)
+        of = {str(k): " ".join(sorted(own)) for k, own in found.lines.get(name, {}).items() if own}
+        values = {str(k): value for k, value in found.values.get(name, {}).items()}
+        files[name] = {"text": text, "of": of, "values": values}
+    told = json.dumps({"files": files, "equations": _equations(found)}, ensure_ascii=False, separators=(",", ":"))
+    packed = base64.b64encode(gzip.compress(told.encode(), 9, mtime=0)).decode("ascii")
+    others = sorted(name for name in found.source.files if name.endswith((".c", ".h")) and name not in files)
+    rest = f" Not listed here: {', '.join(others)}." if others else ""
+    return (
+        f"<p>The emitted C; what of it computes what was selected is shown at the foot of the page.{rest}</p>\n"
+        '<noscript><p>It is listed by the page\'s own script; <code>gudgeon emit</code> writes the same files.</p>'
+        f'</noscript>\n<div id="{_CARRIED}-files"></div>\n'
+        f'<script type="text/plain" id="{_CARRIED}">{packed}</script>'
+    )
+
+
+@cache
+def _script(name: str) -> str:
+    return Path(__file__).with_name(name).read_text(encoding="utf-8")
+
+
+def _equations(found: Trace) -> str:
+    """What values are computed with; of a scene with curves nothing, whose state alone is shown then."""
+    try:
+        return equations_script(found.model, found.program.dynamics)
+    except ValueError:
+        return ""
+
+
+def scripts() -> str:
+    """What lights up, and what fills in values."""
+    return f'<script>\n"use strict";\n{_script("light.js")}{_script("live.js")}</script>\n'

@@ -1,0 +1,115 @@
+/*
+ * Values beside the equations: each element with data-value shows its number at the state that the page announces,
+ * once a frame and only where it is seen.
+ */
+const gudgeonValues = (() => {
+    const FUNCTIONS = {phi: "constraints", phi_q: "jacobian", nu: "velocity_rhs", gamma: "acceleration_rhs", play: "play",
+        rhs: "dynamics"};
+    let equations = null, state = null, known = {}, waiting = false;
+    const seen = new Set();
+
+    /* p by the names of its numbers. */
+    function named(p) {
+        return Object.fromEntries(Object.entries(equations.numbers).map(([name, k]) => [name, p[k]]));
+    }
+
+    /* What a function of the equations gives at the state: its locals and arrays, computed once. */
+    function computed(of) {
+        if (!equations || !FUNCTIONS[of]) return {};
+        known.p ??= named(state.p);
+        const call = equations.functions[FUNCTIONS[of]];
+        if (!call) return {};
+        const given = {t: state.t, q: state.q, v: state.v, p: known.p};
+        known[of] ??= call(...equations.given[FUNCTIONS[of]].map((name) => given[name]));
+        return known[of];
+    }
+
+    /* The number of a name: "q.7", "phi.3", "phi_q.3.7", "lambda.3", "p.5", "tmp.phi.arm_x"; NaN where there is none. */
+    function value(name) {
+        const [kind, ...rest] = name.split("."), numbers = rest.map(Number);
+        if (kind === "q" || kind === "v") return state[kind][numbers[0] - 1];
+        if (kind === "p") return state.p[numbers[0] - 1];
+        if (kind === "tmp" && (rest[0] === "p" || rest[0] === "lambda")) return value(rest.join("."));
+        if (kind === "tmp") return local(computed(rest[0]), rest.slice(1).join("."));
+        if (kind === "lambda") return multiplier(numbers[0]);
+        const row = equations?.rows[numbers[0] - 1];
+        if (kind === "phi_q") return computed(kind).phi_q?.[row * state.q.length + numbers[1] - 1];
+        return computed(kind)[kind === "gamma" ? "gamma_rows" : kind]?.[row];
+    }
+
+    /* A local of a function, or an entry of its array: "phi[3]". */
+    function local(found, name) {
+        const [array, index] = name.replace("]", "").split("[");
+        return index === undefined ? found[name] : found[array]?.[Number(index)];
+    }
+
+    function multiplier(row) {
+        const {run, k} = state, name = equations?.names[row - 1];
+        try {
+            return run.series(`lambda.${name}`)[k];
+        } catch {
+            return NaN;
+        }
+    }
+
+    const text = (x) => (Number.isFinite(x) ? String(Number(x.toPrecision(5))).replace("-", "\u2212") : "");
+
+    /* A number as text; a mark of a plot goes to its place. */
+    function fill(element) {
+        const x = value(element.dataset.value);
+        if (!element.dataset.range) {
+            element.textContent = text(x);
+            return;
+        }
+        const [first, last, left, right] = element.dataset.range.split(" ").map(Number);
+        const inside = x >= first && x <= last;
+        element.setAttribute("visibility", inside ? "visible" : "hidden");
+        if (inside) element.setAttribute("transform", `translate(${left + (right - left) * (x - first) / (last - first)} 0)`);
+    }
+
+    function frame() {
+        waiting = false;
+        for (const element of state ? seen : []) {
+            if (element.isConnected) fill(element);
+            else seen.delete(element);
+        }
+    }
+
+    function ask() {
+        if (!waiting && typeof document !== "undefined") requestAnimationFrame(frame);
+        waiting = true;
+    }
+
+    /* The functions of the scene (targets/javascript), once they are unpacked. */
+    function take(found) {
+        equations = found;
+        known = {};
+        ask();
+    }
+
+    /* A state: {t, q, v, p, run, k}, coordinates and numbers in the order of the source. */
+    function announce(detail) {
+        state = detail;
+        known = {};
+        ask();
+    }
+
+    /* Looks which places of values are seen; those of lines that are listed later too. */
+    function begin() {
+        const watch = new IntersectionObserver((changes) => {
+            for (const {target, isIntersecting} of changes) seen[isIntersecting ? "add" : "delete"](target);
+            ask();
+        });
+        const observe = () => document.querySelectorAll("[data-value]").forEach((one) => watch.observe(one));
+        for (const name of ["gudgeon:lit", "gudgeon:listed"]) document.addEventListener(name, observe);
+        observe();
+        if (window.gudgeonState) announce(window.gudgeonState);
+    }
+
+    if (typeof document !== "undefined") {
+        document.addEventListener("gudgeon:state", (event) => announce(event.detail));
+        addEventListener("DOMContentLoaded", begin);
+    }
+    return {announce, take, value, text};
+})();
+if (typeof module !== "undefined") module.exports = gudgeonValues;

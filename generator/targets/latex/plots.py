@@ -1,0 +1,178 @@
+"""Force laws as curves over their range, drawn from the functions that the NumPy target makes of them."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+from gudgeon.generator.ir.kernels import Kernel
+from gudgeon.generator.kernels import closed_linkage
+from gudgeon.generator.kernels.play import Pin
+from gudgeon.generator.kernels.shared import SharedCall
+from gudgeon.generator.kinds.laws.law import Law
+from gudgeon.generator.targets.javascript.module import gap_name
+from gudgeon.generator.targets.latex.document import Block, Picture
+from gudgeon.generator.targets.latex.pictures import svg
+from gudgeon.generator.targets.latex.trace import Functions
+from gudgeon.generator.targets.numpy.printer import function
+from gudgeon.language.units import VELOCITY
+
+POINTS = 61
+DEEPEST = 0.05  # share of the clearance up to which contact forces are drawn
+FAST = 0.1  # m/s, approach at which a law that reads δ̇ itself is drawn
+WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 420, 204, 62, 408, 16, 172
+
+
+@dataclass(frozen=True)
+class Curve:
+    """y over the plot's x, with a word on it."""
+
+    y: Any
+    told: str
+
+
+@dataclass(frozen=True)
+class Plot:
+    """`now`: what of `play` stands on the x axis (javascript/module.py)."""
+
+    x: Any
+    curves: tuple[Curve, ...]
+    x_name: str
+    y_name: str
+    now: str
+    caption: str
+
+
+def law_plot(found: Functions, joints: Sequence[str], role: str, law: Law) -> list[Block]:
+    """The law of a role in some joints that share it, over its range; nothing of laws with inner states."""
+    pins = {pin.clearance.name: k for k, pin in enumerate(found.program.pins)}
+    pin = found.program.pins[pins[joints[0]]]
+    call = pin.laws.get(role)
+    if call is None or law.states:
+        return []
+    p = _numbers(found)
+    try:
+        with np.errstate(all="ignore"):
+            plot = _DRAWN[role](found, pin, call, p)
+    except (ArithmeticError, ValueError, TypeError, AttributeError):  # a law of the user's own that arrays do not fit
+        return []
+    if not all(np.isfinite(curve.y).all() for curve in plot.curves):
+        return []
+    marks = {name: gap_name(found.model, pins[name], plot.now) for name in joints}
+    return [Picture(plot.caption, _drawn(plot, marks))]
+
+
+def _numbers(found: Functions) -> Mapping[str, float]:
+    """Every number of a run by its field, at its default."""
+    p = SimpleNamespace()
+    count = len(found.model.slots.entries)
+    _callable(closed_linkage.prepare_kernel(found.model))([0.0] * count, [False] * count, p)
+    return {name: float(value) for name, value in vars(p).items()}
+
+
+def _callable(kernel: Kernel) -> Any:
+    names: dict[str, Any] = {"np": np}
+    exec(compile(function(kernel), "<law>", "exec"), names)
+    return names[kernel.name]
+
+
+def _called(call: SharedCall, p: Mapping[str, float], *given: Any) -> Any:
+    return _callable(call.kernel)(*given, *(p[number.removeprefix("p->")] for number in call.numbers))
+
+
+def _value(found: Functions, p: Mapping[str, float], number: Any) -> float:
+    """Of a symbol that is a number of the run, or of a number."""
+    return p[found.model.slots.field(number)] if number in found.model.symbols.info else float(number)
+
+
+def _normal(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]) -> Plot:
+    delta = np.linspace(0.0, DEEPEST, POINTS) * _value(found, p, pin.clearance.pair.c)
+    curves = []
+    for ratio in (1.0, 0.0, -1.0):
+        further = [ratio * FAST] if pin.further else []
+        y = np.broadcast_to(_called(call, p, delta, ratio, *further), delta.shape)
+        curves.append(Curve(y, f"δ̇/δ̇⁻ = {ratio:g}" + (f", δ̇ = {ratio * FAST:g} m/s" if pin.further else "")))
+    caption = "The normal force over the penetration, while the surfaces approach, rest and part"
+    return Plot(delta, tuple(curves), "δ, m", "F_n, N", "delta", caption)
+
+
+def _friction(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]) -> Plot:
+    law = pin.clearance.friction
+    numbers = law.numbers if law else {}
+    of_speed = {own.name for own in law.law.parameters if own.dimension == VELOCITY} if law else set()
+    speeds = [_value(found, p, symbol) for name, symbol in numbers.items() if name in of_speed]
+    v_t = np.linspace(-1.0, 1.0, 2 * POINTS) * 3.0 * (max(speeds, default=0.0) or FAST)
+    y = np.broadcast_to(_called(call, p, 1.0, v_t), v_t.shape)
+    caption = "Friction over the slip, for a normal force of 1 N"
+    return Plot(v_t, (Curve(y, ""),), "v_t, m/s", "F_t/F_n", "v_t", caption)
+
+
+def _film(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]) -> Plot:
+    epsilon = np.linspace(0.0, 0.9, POINTS)
+    radial, along, *_ = _called(call, p, epsilon, 0.0 * epsilon, -0.5 * epsilon)
+    curves = (Curve(np.broadcast_to(radial, epsilon.shape), "F_r"), Curve(np.broadcast_to(along, epsilon.shape), "F_t"))
+    caption = "The film's forces over the eccentricity ratio, for surfaces that turn at 1 rad/s together and no squeeze"
+    return Plot(epsilon, curves, "ε", "N", "epsilon", caption)
+
+
+_DRAWN = {"normal": _normal, "friction": _friction, "film": _film}
+
+
+def _drawn(plot: Plot, marks: Mapping[str, str]) -> str:
+    """Axes with their ends, curves with their words, a mark for where each joint is now."""
+    low, high = (float(f([f(curve.y) for curve in plot.curves])) for f in (np.min, np.max))
+    low, high = min(low, 0.0), max(high, 0.0) if high > low or high > 0.0 else low + 1.0
+    first, last = float(plot.x[0]), float(plot.x[-1])
+
+    def at_x(x: Any) -> Any:
+        return LEFT + (RIGHT - LEFT) * (x - first) / (last - first or 1.0)
+
+    def at_y(y: Any) -> Any:
+        return BOTTOM - (BOTTOM - TOP) * (y - low) / (high - low or 1.0)
+
+    parts = [
+        f'<path class="rule" d="M{LEFT} {TOP}V{BOTTOM}M{LEFT} {at_y(0.0):.1f}H{RIGHT}"/>',
+        *_ends(plot, low, high, first, last, float(at_y(0.0))),
+    ]
+    for k, curve in enumerate(plot.curves):
+        points = zip(at_x(plot.x).tolist(), at_y(np.asarray(curve.y, dtype=float)).tolist(), strict=True)
+        path = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
+        parts.append(f'<polyline class="curve dash{k}" points="{path}"/>')
+        if curve.told:
+            y = TOP + 12 + 15 * k
+            parts.append(f'<path class="curve dash{k}" d="M{LEFT + 12} {y - 4}h26"/>')
+            parts.append(f'<text x="{LEFT + 44}" y="{y}">{html.escape(curve.told)}</text>')
+    parts += [_mark(name, value, first, last) for name, value in marks.items()]
+    return svg(WIDTH, HEIGHT, f"{plot.y_name} over {plot.x_name}", parts)
+
+
+def _ends(plot: Plot, low: float, high: float, first: float, last: float, zero: float) -> list[str]:
+    """What the axes are of, and how far they go."""
+    return [
+        f'<text class="end" x="{LEFT - 5}" y="{TOP + 8}">{_plain(high)}</text>',
+        f'<text class="end" x="{LEFT - 5}" y="{BOTTOM}">{_plain(low)}</text>',
+        f'<text x="{LEFT}" y="{BOTTOM + 16}">{_plain(first)}</text>',
+        f'<text class="end" x="{RIGHT}" y="{BOTTOM + 16}">{_plain(last)}</text>',
+        f'<text class="middle" x="{(LEFT + RIGHT) / 2:g}" y="{BOTTOM + 28}">{html.escape(plot.x_name)}</text>',
+        f'<text class="middle" transform="translate(14 {(TOP + BOTTOM) / 2:g}) rotate(-90)">'
+        f"{html.escape(plot.y_name)}</text>",
+    ]
+
+
+def _plain(value: float) -> str:
+    """A number on an axis."""
+    return f"{value:.3g}".replace("-", "−")
+
+
+def _mark(name: str, value: str, first: float, last: float) -> str:
+    """A line at the joint's present state, moved and shown by live.js."""
+    return (
+        f'<g class="now" data-value="tmp.play.{value}" data-range="{first!r} {last!r} {LEFT} {RIGHT}"'
+        f' visibility="hidden"><path d="M0 {TOP}V{BOTTOM}"/>'
+        f'<text class="middle" y="{TOP - 2}">{html.escape(name)}</text></g>'
+    )

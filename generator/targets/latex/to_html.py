@@ -1,0 +1,84 @@
+"""Parts of a document as HTML: MathML, tokens of what belongs together, places for values, listings."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Collection
+from itertools import pairwise
+from xml.etree.ElementTree import Element, tostring
+
+from gudgeon.errors import GudgeonError
+from gudgeon.generator.targets.latex.document import Listing, Text
+from gudgeon.generator.targets.latex.letters import Name
+
+_FUNCTIONS = ("sin", "cos", "tan")
+
+
+def attributes(of: Collection[str], pick: str = "", focus: bool = False) -> str:
+    """`data-of` and the like of an element, with a space in front; nothing without tokens."""
+    if not of:
+        return ""
+    picks = f' data-pick="{html.escape(pick)}"' if pick else ""
+    return f' data-of="{html.escape(" ".join(of))}"{picks}' + ' tabindex="0"' * focus
+
+
+def output(value: str) -> str:
+    """Where a page that runs shows a value."""
+    return f'<output data-value="{html.escape(value)}"></output>' if value else ""
+
+
+def line(text: Text) -> str:
+    """Words and formulas."""
+    return "".join(formula(part) if isinstance(part, Name) else html.escape(part) for part in text)
+
+
+def formula(name: Name) -> str:
+    """MathML with its tokens and the place of its value."""
+    told = mathml(name) + output(name.value)
+    return f"<span{attributes(name.of)}>{told}</span>" if name.of else told
+
+
+def mathml(name: Name) -> str:
+    """A formula as MathML. Raises GudgeonError where the extra `docs` is not installed."""
+    try:
+        from latex2mathml.converter import convert_to_element
+    except ImportError as error:
+        raise GudgeonError("HTML needs latex2mathml: pip install 'gudgeon[docs]'") from error
+    whole = convert_to_element(name.latex.replace(r"^{\circ}", "°"))  # which no font has to raise
+    whole.attrib.clear()  # what a page takes for granted
+    for row in list(whole.iter()):
+        _space_functions(row)
+        _read_signs(row)
+        _without_rows(row)
+    return tostring(whole, encoding="unicode").replace(" />", "/>").replace(r"\_", "_")
+
+
+def _read_signs(part: Element) -> None:
+    """Characters that are written as their numbers."""
+    part.text = html.unescape(part.text) if part.text else part.text
+
+
+def _without_rows(part: Element) -> None:
+    """A row of one needs no row; an empty one in front of a sign says that the sign has two sides."""
+    for k, inner in enumerate(part):
+        while inner.tag == "mrow" and len(inner) == 1 and not (inner.text or "").strip():
+            inner = inner[0]
+            part[k] = inner
+
+
+def _space_functions(row: Element) -> None:
+    """A browser puts no space between a function's name and what it is of."""
+    for k, (word, of) in reversed(list(enumerate(pairwise(row)))):
+        base_of_power = row.tag == "msup" and k == 0
+        if word.tag == "mi" and word.text in _FUNCTIONS and of.tag.startswith(("mr", "ms")) and not base_of_power:
+            row.insert(k + 1, Element("mspace", {"width": "0.167em"}))
+
+
+def listing(block: Listing) -> str:
+    """A file with the numbers of its lines, folded."""
+    lines = (
+        f'<span class="line"{attributes(sorted(block.of.get(k, ())), focus=True)}>{html.escape(text) or " "}</span>'
+        for k, text in enumerate(block.lines, 1)
+    )
+    title = html.escape(block.title)
+    return f'<details open><summary>{title}</summary><pre class="listing">{"".join(lines)}</pre></details>'

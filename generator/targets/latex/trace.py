@@ -1,0 +1,264 @@
+"""What belongs together: tokens of rows, entries, terms, joints, bodies and laws, and the lines of C and YAML of each.
+
+Selecting anything on a page lights whatever has a token in common with it (light.js). Which lines of C compute a row is
+asked of the functions themselves (generator/ir/dependence.py), never of their text.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass, fields, is_dataclass
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.generator.equations.model import Model, make_model
+from gudgeon.generator.ir.branches import Branch
+from gudgeon.generator.ir.dependence import NO_MARKS, Marks, free_names, slices
+from gudgeon.generator.ir.kernels import Kernel
+from gudgeon.generator.ir.readable import readable
+from gudgeon.generator.ir.statements import Statement
+from gudgeon.generator.ir.values import Place
+from gudgeon.generator.kernels import closed_linkage
+from gudgeon.generator.kernels.program import Program, make_program
+from gudgeon.generator.mechanism.mechanism import Quantity
+from gudgeon.generator.targets.c import functions
+from gudgeon.generator.targets.c.describe import describe
+from gudgeon.generator.targets.c.emit import described, emit, file_names, render
+from gudgeon.generator.targets.c.lines import find, place_of
+from gudgeon.generator.targets.c.play import clearance_code
+from gudgeon.generator.targets.javascript.module import right_hand_sides
+from gudgeon.generator.targets.latex.tokens import entries_of, entry_token, row_token
+from gudgeon.generator.targets.numpy.module import ClosedLinkage
+
+# Functions of the closed linkage by the letter of what they give: `constraints` gives phi[r].
+GIVES = {"constraints": "phi", "jacobian": "phi_q", "velocity_rhs": "nu", "acceleration_rhs": "gamma"}
+Tokens = Mapping[int, Marks]  # by line
+
+
+@dataclass(frozen=True)
+class Functions:
+    """A scene's functions, derived anew, so that their names are those of the emitted C; `files` are its names."""
+
+    model: Model
+    program: Program
+    source: KernelSource
+    files: Collection[str]
+
+
+@dataclass(frozen=True)
+class Trace(Functions):
+    """`lines`: tokens by file and line of C; `values`: what a line stores, "phi.arm_x", "p.3", "lambda.2".
+
+    `numbers`: tokens by address of what hangs on a number of the file.
+    """
+
+    lines: Mapping[str, Tokens]
+    values: Mapping[str, Mapping[int, str]]
+    numbers: Mapping[str, Marks]
+
+
+def functions_of(model: Model) -> Functions:
+    """The scene's functions, without their C."""
+    program = _program(model)
+    return Functions(program.model, program, described(program, {}), file_names(program))
+
+
+def _program(model: Model) -> Program:
+    fresh = make_model(model.scene)
+    describe(fresh)
+    ClosedLinkage(fresh)  # what the rank of the rows asks for: numbers stand in the order of the emitted scene's
+    return make_program(fresh.without(model.redundancy))
+
+
+def trace(model: Model, source: KernelSource | None = None) -> Trace:
+    """The scene's functions, their C, and what of it belongs to what in the document of `model`.
+
+    source: what was emitted of the scene, where that is known; it is not printed again then.
+    """
+    program = _program(model)
+    if source is None or source.formulation != program.formulation:
+        source = emit(program)
+    found = _Finder(program, source)
+    found.all()
+    lines = {file: {k: frozenset(v) for k, v in sorted(own.items())} for file, own in found.lines.items()}
+    return Trace(program.model, program, source, source.files, lines, found.values, found.by_address())
+
+
+class _Finder:
+    """Goes through the functions of a scene and notes tokens."""
+
+    def __init__(self, program: Program, source: KernelSource) -> None:
+        self.program, self.model, self.files = program, program.model, source.files
+        self.lines: defaultdict[str, defaultdict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
+        self.values: defaultdict[str, dict[int, str]] = defaultdict(dict)
+        self.numbers: defaultdict[str, set[str]] = defaultdict(set)  # by `p->field`
+        self.number_of = {row.name: k for k, row in enumerate(self.model.rows, 1)}
+        self.every = self.model.all_rows
+        self.computed = right_hand_sides(program.dynamics, self.model)
+        self.multipliers = {f"lambda_{row.name.replace('.', '_')}": k for k, row in enumerate(self.model.rows, 1)}
+        members = map(self.model.slots.field, self.model.slots.members())
+        self.place_in_p = {f"p->{member}": k for k, member in enumerate(members, 1)}
+        self.shown = {name for row in self.model.rows for name in free_names(row.phi)}
+
+    def all(self) -> None:
+        """Every function that says something of rows, bodies or laws; what `prepare` makes of it last."""
+        program = self.program
+        for kernel in (*program.closed, program.dynamics, *(program.tree.kernels if program.tree else ())):
+            self._function(kernel)
+        for pin in program.pins:
+            contact = self.model.scene.play[pin.clearance.name].contact.name
+            for call in pin.laws.values():
+                own = frozenset({f"law-{contact}", f"joint-{pin.clearance.name}"})
+                self._whole(functions.kernel(call.kernel), own)
+                for number in call.numbers:
+                    self.numbers[number] |= own
+            own = frozenset({f"joint-{pin.clearance.name}"})
+            self._whole(clearance_code(pin, render, self.model.law_states), own)
+        self._prepare()
+
+    def _function(self, kernel: Kernel) -> None:
+        marked = slices(readable(kernel), lambda line: self._marks(kernel.name, line))
+        for number, marks in marked.numbers.items():
+            self.numbers[number] |= marks
+        self._note(kernel, marked.stored)
+
+    def _note(self, kernel: Kernel, stored: Mapping[str, Marks]) -> None:
+        for found in find(kernel, self.files):
+            for target, at in found.lines:
+                own = stored.get(target, NO_MARKS) | self._result(kernel.name, target)
+                for number in at:
+                    self.lines[found.file][number] |= own
+                if value := self._value(kernel.name, found.own.names.get(target, target)):
+                    self.values[found.file][at[-1]] = value
+
+    def _value(self, function: str, called: str) -> str:
+        """What a page calls the value that a line stores; "": it has none."""
+        if function in GIVES:
+            return f"{GIVES[function]}.{called}"
+        if function == "dynamics":
+            return self._of_rows(called)
+        if function == "prepare" and called in self.place_in_p:
+            return f"p.{self.place_in_p[called]}"
+        return ""
+
+    def _of_rows(self, called: str) -> str:
+        """Of `dynamics`: what the right-hand sides hang on, Φ and Φ̇ of a row, multipliers."""
+        if called in self.computed:
+            return f"rhs.{called}"
+        place = _place(called)
+        row = self.model.rows[place.index].name if 0 <= place.index < len(self.model.rows) else ""
+        name = f"{place.base}_{row.replace('.', '_')}"
+        if row and place.base == "lambda":
+            return f"lambda.{place.index + 1}"
+        if called in self.multipliers:
+            return f"lambda.{self.multipliers[called]}"
+        return f"rhs.{name}" if row and name in self.computed else ""
+
+    def _marks(self, function: str, line: Statement | Branch) -> Marks:
+        """What a line is looked for: rows where Φ, Φ_q, ν, γ are stored, terms where their names are."""
+        target, place = line.target, _place(line.target)
+        if function == "mass_matrix" and place.index >= 0:
+            return frozenset({f"body-{self.model.bodies[place.index // 3].name}"})
+        if function in GIVES:
+            own = self._terms(target) if function == "constraints" else NO_MARKS
+            if place.index < 0:
+                return own
+            if function == "jacobian":
+                row, column = divmod(place.index, len(self.model.q))
+                number = self.number_of.get(self.every[row].name)
+                return own | ({entry_token(number, column + 1)} if number else NO_MARKS)
+            return own | self._row(self.every[place.index].name)
+        if function in ("dynamics", "closures", "closure_rates"):
+            return self._of_dynamics(function, target, place)
+        return NO_MARKS
+
+    def _of_dynamics(self, function: str, target: str, place: Place) -> Marks:
+        rows = self.model.rows if function == "dynamics" else self.program.integrated.system.rows
+        if place.index >= 0 and place.base in ("phi", "phi_dot", "out"):
+            return self._row(rows[place.index].name)
+        name = next((row.name for row in rows if target == f"rhs_{row.name.replace('.', '_')}"), "")
+        return self._row(name)
+
+    def _row(self, name: str) -> Marks:
+        return frozenset({row_token(self.number_of[name])}) if name in self.number_of else NO_MARKS
+
+    def _terms(self, target: str) -> Marks:
+        return frozenset({f"name-{target}"}) if target in self.shown else NO_MARKS
+
+    def _result(self, function: str, target: str) -> Marks:
+        """A multiplier hangs on everything: its own line alone is the row's."""
+        place = _place(target)
+        if function == "dynamics" and place.base == "lambda" and 0 <= place.index < len(self.model.rows):
+            return self._row(self.model.rows[place.index].name)
+        return NO_MARKS
+
+    def _whole(self, text: str, own: Marks) -> None:
+        """All lines of what was printed whole."""
+        file, lines = place_of(text, self.files)
+        for number in lines:
+            self.lines[file][number] |= own
+
+    def _prepare(self) -> None:
+        kernel = closed_linkage.prepare_kernel(self.model)
+        own = {s.name: self.model.symbols.info[s].home for s in self.model.slots.members()}
+        slots = {entry.symbol.name for entry in self.model.slots.entries.values()}
+        fields = {name: self.numbers[home] | ({f"number-{name}"} if name in slots else set())
+                  for name, home in own.items()}  # fmt: skip
+        marked = slices(readable(kernel), lambda line: frozenset(fields.get(_field(line, own), ())))
+        for target, marks in marked.stored.items():
+            self.numbers[target] |= marks
+        self._note(kernel, marked.stored)
+
+    def by_address(self) -> dict[str, Marks]:
+        """Tokens of each number of the file."""
+        info = self.model.symbols.info
+        entries = self.model.slots.entries.values()
+        return {entry.address: frozenset(self.numbers[info[entry.symbol].home]) for entry in entries}
+
+
+def _place(target: str) -> Place:
+    """`aside->phi[3]` is phi[3] too."""
+    return Place(target.removeprefix("aside->"))
+
+
+def _field(line: Statement | Branch, homes: Mapping[str, str]) -> str:
+    """The symbol of the number that a line of `prepare` stores."""
+    return next((name for name, home in homes.items() if line.target in (name, home)), "")
+
+
+def yaml_tokens(model: Model, found: Trace) -> dict[int, Marks]:
+    """Tokens by line of the mechanism's file: of whatever stands there, and of what hangs on its numbers."""
+    tokens: defaultdict[int, set[str]] = defaultdict(set)
+    mechanism = model.scene.mechanism
+    joints = {name: joint.where.line for name, joint in mechanism.joints.items()}
+    drives = {name: drive.where.line for name, drive in mechanism.drives.items()}
+    bodies = {name: body.where.line for name, body in mechanism.bodies.items()}
+    where = {"joint": joints, "drive": drives, "body": bodies}
+    for kind, lines in where.items():
+        for name, line in lines.items():
+            tokens[line].add(f"{kind}-{name}")
+    for number, row in enumerate(model.rows, 1):
+        tokens[where[row.kind][row.owner]] |= {row_token(number), *entries_of(model, number, row)}
+    for play in model.scene.play.values():
+        for quantity in _quantities(play.contact):
+            tokens[quantity.where.line].add(f"law-{play.contact.name}")
+    for quantity in (*_quantities(mechanism), *model.scene.parameters.values()):
+        if quantity.address in found.numbers:
+            tokens[quantity.where.line] |= found.numbers[quantity.address]
+    return {line: frozenset({f"yaml-{line}", *own}) for line, own in tokens.items()}
+
+
+def _quantities(part: object) -> Iterator[Quantity]:
+    """All numbers in a part of a mechanism."""
+    if isinstance(part, Quantity):
+        yield part
+        return
+    inner: Iterable[object] = ()
+    if is_dataclass(part):
+        inner = (getattr(part, one.name) for one in fields(part))
+    elif isinstance(part, Mapping):
+        inner = part.values()
+    elif isinstance(part, (tuple, list)):
+        inner = part
+    for one in inner:
+        yield from _quantities(one)

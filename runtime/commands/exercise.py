@@ -1,0 +1,77 @@
+"""`gudgeon exercise`: an exercise sheet of a scene, and its solutions in a second file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gudgeon.commands.common import check_file, chosen_scenes, need_suffix
+from gudgeon.commands.progress import status_line
+from gudgeon.files.writing import write_text
+from gudgeon.loading.find import find_mechanism, read_bytes
+from gudgeon.waiting.working import working
+
+if TYPE_CHECKING:
+    from gudgeon.generator.targets.latex.document import Document
+    from gudgeon.teaching.draw_numbers import Drawn
+
+SUFFIXES = (".html", ".tex", ".txt", ".md")
+
+
+def write_exercise(mechanism: str, target: Path, scene: str, seed: int, at: str | None) -> int:
+    """Write x.html, x.tex, x.txt or x.md, and x-solutions beside it."""
+    need_suffix(target, SUFFIXES)
+    solutions = target.with_name(f"{target.stem}-solutions{target.suffix}")
+    for file in (target, solutions):
+        check_file("--out", file)
+    chosen_scenes(mechanism, (scene,))
+    with status_line():
+        sheet, solved, drawn = make(mechanism, scene, seed, at)
+        texts = [_text(document, target.suffix.lower(), drawn) for document in (sheet, solved)]
+    for file, text in zip((target, solutions), texts, strict=True):
+        write_text(file, text)
+        print(f"wrote {file}")
+    return 0
+
+
+def make(mechanism: str, scene: str, seed: int, at: str | None) -> tuple[Document, Document, Drawn]:
+    """The sheet, its solutions, and the numbers that were drawn for them."""
+    from gudgeon.simulation.from_file import load
+    from gudgeon.teaching.draw_numbers import draw_numbers
+
+    file = find_mechanism(mechanism)
+    data = read_bytes(file)
+    drawn = draw_numbers(simulation := load(mechanism, scene), seed, at)
+    with working(f"deriving {file.stem}, scene {scene}"):
+        from gudgeon.generator.pipeline import derive
+        from gudgeon.teaching.questions import make_questions
+        from gudgeon.teaching.sheet import make_sheets, make_subject
+
+        units = {slot.address: slot.unit for slot in simulation.source.slots}
+        numbers = {address: f"{x!r} {units[address]}".rstrip() for address, x in drawn.numbers.items()}
+        subject = make_subject(derive(data, str(file), scene, numbers), simulation, drawn, seed)
+        return *make_sheets(subject, make_questions(subject), seed), drawn
+
+
+def _text(document: Document, suffix: str, drawn: Drawn) -> str:
+    """In the format of a suffix; a page shows the mechanism too, where matplotlib is."""
+    from gudgeon.generator.targets.latex.render import render
+    from gudgeon.teaching.markdown import markdown
+
+    if suffix == ".md":
+        return markdown(document)
+    slots = {"head": "", "app": _drawing(drawn), "scripts": ""} if suffix == ".html" else {}
+    return render(document, suffix.removeprefix("."), **slots)
+
+
+def _drawing(drawn: Drawn) -> str:
+    try:
+        import matplotlib  # noqa: F401
+    except ImportError:
+        return ""
+    from gudgeon.drawing.picture import as_bytes, figure_of
+    from gudgeon.results.mechanism_plots import sketch_at
+
+    picture = figure_of([sketch_at(drawn.run, drawn.run.t[-1])], [""], f"at {drawn.t:g} s")
+    svg = as_bytes(picture, ".svg").decode()
+    return f"<figure>{svg[svg.index('<svg') :]}</figure>"

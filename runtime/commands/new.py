@@ -1,0 +1,42 @@
+"""`gudgeon new`: a mechanism file to begin with, its comments included."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from gudgeon.errors import BadNameError, InputError
+from gudgeon.files.writing import write_text
+from gudgeon.language.names import check_name
+from gudgeon.loading.shipped import PACKAGE, shipped_file
+
+TEMPLATE = PACKAGE / "templates" / "new.yaml"
+NAME = re.compile(r"^name: .*$", re.MULTILINE)
+
+
+def new_mechanism(name: str, like: str | None) -> int:
+    """Write NAME.yaml: a template that explains itself, or a mechanism that comes with gudgeon under a new name.
+
+    Raises BadNameError, UnknownNameError for `like`, InputError where something of that name stands already.
+    """
+    _check(name)
+    source = TEMPLATE if like is None else shipped_file(like)
+    target = Path(f"{name}.yaml")
+    if target.is_symlink() or target.exists():
+        raise InputError(f"{target} is there already", hint="take another name, or another folder")
+    text = NAME.sub(f"name: {name}", source.read_text(encoding="utf-8"), count=1)
+    if like is not None:
+        text = f"# Begun from {like}, which comes with gudgeon. What follows is told of that one.\n{text}"
+    write_text(target, text)
+    print(f"wrote {target}")
+    print(f"next: gudgeon check {target} -v, gudgeon draw {target}, gudgeon run {target}")
+    return 0
+
+
+def _check(name: str) -> None:
+    """A name that a mechanism can have, and that stands in YAML as it is."""
+    if name.endswith((".yaml", ".yml")):
+        raise BadNameError(f"{name!r}: expected a name without .yaml", None, "the file is called after it")
+    check_name(name, "mechanism", None)
+    if name.lower() in ("true", "false", "null"):
+        raise BadNameError(f"{name!r} cannot name this mechanism: YAML takes it for a value", None, f"such as {name}1")

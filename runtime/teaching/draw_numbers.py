@@ -1,0 +1,115 @@
+"""Numbers for an exercise, drawn from a seed: a few of the file's own, a little changed, and a moment of the motion."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gudgeon.errors import AssemblyError, BadValueError, SolverError
+from gudgeon.language.quantities import number_of_text
+from gudgeon.model.compiled import Array
+from gudgeon.model.default_step import scene_end
+from gudgeon.model.parameters import prepare, spaced
+
+if TYPE_CHECKING:
+    from gudgeon.contract.kernel_source import KernelSource
+    from gudgeon.results.results import Result
+    from gudgeon.simulation.simulation import Simulation
+
+SPREADS = (0.15, 0.15, 0.08, 0.03)  # by how much numbers are changed, in one attempt after the other
+MOST = 4  # numbers that are changed
+MEASURES = ("length", "mass", "inertia")
+DIGITS = 5  # of positions, as shares of the mechanism's size
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A scene with other numbers at t (s): positions and rates rounded as a sheet prints them, SI."""
+
+    numbers: dict[str, float]  # those that differ from the file's, by address
+    t: float
+    q: Array
+    v: Array
+    p: Array
+    run: Result  # it ends at t, with every digit
+
+
+def draw_numbers(simulation: Simulation, seed: int, at: str | None) -> Drawn:
+    """Numbers with which the scene assembles and moves, the file's own where no others do.
+
+    Raises BadValueError for `at`; AssemblyError, SolverError where even those do not.
+    """
+    rng = np.random.default_rng(seed)
+    moment = None if at is None else number_of_text(spaced(at), "--at", (0, 0, 1))
+    if moment is not None and not 0.0 <= moment < np.inf:
+        raise BadValueError(f"--at is {moment:g} s: the motion starts at 0 s", hint="take a time of the motion")
+    failure: Exception | None = None
+    for numbers, share in _attempts(simulation.source, rng):
+        try:
+            p = prepare(simulation.compiled, numbers)[0]
+            t = moment if moment is not None else float(f"{share * scene_end(simulation.source, p):.2g}")
+            return _drawn(simulation, numbers, t, p)
+        except (AssemblyError, SolverError, BadValueError) as error:
+            failure = error
+    assert failure is not None
+    raise failure
+
+
+def _attempts(source: KernelSource, rng: np.random.Generator) -> Iterator[tuple[dict[str, float], float]]:
+    """Numbers, and which share of the scene's time has gone by; at last the file's own, soon after the start."""
+    candidates = [
+        slot
+        for slot in source.slots
+        if not (slot.follows or slot.words) and slot.default != 0.0 and _is_measure(slot.address)
+    ]
+    for spread in SPREADS:
+        some = rng.permutation(len(candidates))[:MOST]
+        factors = 1.0 + spread * rng.uniform(-1.0, 1.0, len(some))
+        share = float(rng.uniform(0.15, 0.85))
+        new = {candidates[k].address: _short(candidates[k].default * x) for k, x in zip(some, factors, strict=True)}
+        yield {address: x for address, x in new.items() if not _same(source, address, x)}, share
+    yield {}, float(rng.uniform(0.15, 0.85))
+    yield {}, 0.05
+
+
+def _is_measure(address: str) -> bool:
+    match address.split("."):
+        case ["parameters", _]:
+            return True
+        case ["bodies", _, field]:
+            return field in MEASURES
+    return False
+
+
+def _short(x: float) -> float:
+    return float(f"{x:.2g}")
+
+
+def _same(source: KernelSource, address: str, x: float) -> bool:
+    return any(slot.address == address and slot.default == x for slot in source.slots)
+
+
+def _drawn(simulation: Simulation, numbers: dict[str, float], t: float, p: Array) -> Drawn:
+    """Raises SolverError where the run ends before t."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        if t > 0.0:
+            run = simulation.simulate(t, output=1, parameters=numbers, peaks=(), stop=False)
+        else:
+            run = simulation.simulate(1e-9, output=1, parameters=numbers, peaks=(), stop=False)
+    if run.diagnostics.interrupted:
+        raise KeyboardInterrupt
+    k = -1 if t > 0.0 else 0
+    q, v = run.q[k].copy(), run.v[k].copy()
+    if not (np.isfinite(q).all() and np.isfinite(v).all()):
+        raise SolverError(f"no position at {t:g} s", t)
+    size = max(float(np.ptp(q.reshape(-1, 3)[:, :2])), 1e-12)
+    decimals = DIGITS - 1 - int(np.floor(np.log10(size)))
+    for k in range(len(q)):
+        q[k] = round(q[k], DIGITS if k % 3 == 2 else decimals)
+        v[k] = float(f"{v[k]:.{DIGITS}g}")
+    return Drawn(numbers, t, q, v, p, run)

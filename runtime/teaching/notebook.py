@@ -1,0 +1,177 @@
+"""A scene's equations as a notebook: derived by plain SymPy, then run in NumPy, then by the compiled simulator.
+
+The format is nbformat 4.5; nothing in it depends on when or where it was written.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from itertools import groupby
+from typing import Any
+
+import sympy as sp
+
+from gudgeon.generator.equations.constraints import Row
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.targets.latex.notation import Notation, make_notation
+from gudgeon.language.shown import one_line
+from gudgeon.teaching.markdown import plain
+from gudgeon.teaching.run_cells import run_cells
+from gudgeon.teaching.sympy_text import names_of, text_of
+
+Cell = tuple[str, str]  # "markdown" or "code", text
+WIDTH = 100
+DERIVED = """\
+Phi_q = Phi.jacobian(q)
+nu = -Phi.diff(t)
+gamma = -(Phi_q * v).jacobian(q) * v - 2 * Phi_q.diff(t) * v - Phi.diff(t, 2)
+Phi_q"""
+
+
+def notebook(model: Model, mechanism: str) -> str:
+    """The notebook's JSON; `mechanism` is the name or file by which its last cells load the scene.
+
+    Raises GudgeonError for what plain SymPy has no word for.
+    """
+    cells: list[dict[str, Any]] = [
+        {"cell_type": kind, "id": f"cell-{k:02d}", "metadata": {}, "source": text.splitlines(keepends=True)}
+        | ({"execution_count": None, "outputs": []} if kind == "code" else {})
+        for k, (kind, text) in enumerate(_cells(model, mechanism), 1)
+    ]
+    kernel = {"display_name": "Python 3", "language": "python", "name": "python3"}
+    document = {"cells": cells, "metadata": {"kernelspec": kernel, "language_info": {"name": "python"}},
+                "nbformat": 4, "nbformat_minor": 5}  # fmt: skip
+    return json.dumps(document, indent=1, ensure_ascii=False) + "\n"
+
+
+def _cells(model: Model, mechanism: str) -> Iterator[Cell]:
+    scene, notation, names = model.scene, make_notation(model), names_of(model)
+    title = plain(one_line(scene.mechanism.title or scene.mechanism.name))
+    yield (
+        "markdown",
+        (
+            f"# {title}\n\nMechanism {plain(scene.mechanism.name)}, scene {plain(scene.name)}. The equations of "
+            "motion, derived by SymPy alone from the file's numbers; then the same functions in NumPy, then the "
+            "compiled simulator."
+        ),
+    )
+    yield "code", "import numpy as np\nimport sympy as sp\n\nsp.init_printing()"
+    yield (
+        "markdown",
+        (
+            "## Coordinates\n\nEach body has the two coordinates of its centre of mass and an angle, counted from the "
+            "x axis of the ground. Lengths are in m, masses in kg, angles in rad."
+        ),
+    )
+    yield "code", _coordinates(model, notation, names)
+    yield "markdown", "## Numbers\n\nEvery number of the file that stands in an equation has a letter."
+    yield "code", _numbers(model, notation, names)
+    yield from _constraints(model, names)
+    if not scene.mechanism.bodies or not model.rows:
+        yield "markdown", "Nothing holds the bodies: Φ has no row."
+    else:
+        yield (
+            "markdown",
+            (
+                "## What follows from Φ\n\n$$ \\Phi_q \\dot q = \\nu = -\\Phi_t, \\qquad \\Phi_q \\ddot q = \\gamma = "
+                "-(\\Phi_q \\dot q)_q \\dot q - 2\\Phi_{qt} \\dot q - \\Phi_{tt} $$"
+            ),
+        )
+        yield "code", DERIVED
+    if not any(body.lacks for body in scene.mechanism.bodies.values()):
+        yield from _motion(model, names)
+    yield from run_cells(model, mechanism)
+
+
+def _defined(symbol: sp.Symbol, notation: Notation, names: dict[sp.Symbol, str]) -> str:
+    return f"{names[symbol]} = sp.Symbol({notation.math(symbol).latex!r}, real=True)"
+
+
+def _coordinates(model: Model, notation: Notation, names: dict[sp.Symbol, str]) -> str:
+    lines = [_defined(symbol, notation, names) for symbol in (model.t, *model.q, *model.v)]
+    q, v = (_column([names[s] for s in symbols]) for symbols in (model.q, model.v))
+    return "\n".join((*lines, "", f"q = {q}", f"v = {v}  # the rates of q"))
+
+
+def _column(items: list[str]) -> str:
+    """A column of SymPy's, as many items a line as fit."""
+    if sum(len(item) + 2 for item in items) < WIDTH:
+        return f"sp.Matrix([{', '.join(items)}])"
+    lines, line = list[str](), ""
+    for item in items:
+        if line and len(line) + len(item) + 2 > WIDTH:
+            lines.append(line)
+            line = ""
+        line += f"{item}, "
+    return "\n    ".join(("sp.Matrix([", *(x.rstrip() for x in (*lines, line)))) + "\n])"
+
+
+def _numbers(model: Model, notation: Notation, names: dict[sp.Symbol, str]) -> str:
+    """Those that stand in Φ, M or g, at their defaults."""
+    expressions = [*(row.phi for row in model.rows), *model.masses, *model.g]
+    used = set().union(*(model.symbols.explicit(sp.sympify(e)).free_symbols for e in expressions))
+    entries = [entry for entry in model.slots.entries.values() if entry.symbol in used]
+    lines = [_defined(entry.symbol, notation, names) for entry in entries]
+    values = [f"    {names[e.symbol]}: {e.default!r},  # {e.address}" for e in entries]
+    return "\n".join((*lines, "", "numbers = {", *values, "}"))
+
+
+def _constraints(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:
+    """A cell a joint or drive, and the column of all."""
+    mechanism, parts = model.scene.mechanism, list[str]()
+    if not model.rows:
+        return
+    yield "markdown", "## Constraints\n\nThe mechanism is closed while Φ(q, t) = 0, joint by joint, drive by drive."
+    for (owner, kind), group in groupby(model.rows, key=lambda row: (row.owner, row.kind)):
+        rows, name = list(group), f"Phi_{owner}"
+        parts.append(f"*{name}")
+        if kind == "drive":
+            what, text = f"Drive {owner}", None
+        else:
+            joint = mechanism.joints[owner]
+            own = joint_types()[joint.kind]
+            ends = (
+                f"{ref.body}.{ref.point}" if own.joins == "points" else ref.body for ref in (joint.first, joint.second)
+            )
+            what, text = f"Joint {owner}, {own.title}: {' and '.join(ends)}", _points(model, owner, name, rows, names)
+        yield "markdown", f"{plain(what)}; {', '.join(f'{plain(row.name)} in {row.unit}' for row in rows)}."
+        explicit = [text_of(row.phi, model, names) for row in rows]
+        yield "code", text or f"{name} = {_lines(explicit)}"
+    yield "code", f"Phi = {_column(parts)}\nPhi"
+
+
+def _points(model: Model, owner: str, name: str, rows: list[Row], names: dict[sp.Symbol, str]) -> str | None:
+    """A revolute joint as two places in ground axes that are one; None for others, and where a row was left out."""
+    joint = model.scene.mechanism.joints[owner]
+    if joint.kind != "revolute" or len(rows) != 2:
+        return None
+    lines = []
+    for what, ref in (("first", joint.first), ("second", joint.second)):
+        frame = model.geometry.point(ref)
+        place = [text_of(component, model, names) for component in (frame.x, frame.y)]
+        lines.append(f"{what}_{owner} = {_lines(place)}  # {ref.body}.{ref.point}")
+    return "\n".join((*lines, f"{name} = first_{owner} - second_{owner}"))
+
+
+def _lines(items: list[str]) -> str:
+    inside = ",\n    ".join(items)
+    return f"sp.Matrix([\n    {inside},\n])"
+
+
+def _motion(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:
+    """M and g; the system is solved in numbers."""
+    told = "The joints with play and friction that may stick add to g; the simulator has them."
+    more = told if model.clearances or model.frictions else ""
+    yield (
+        "markdown",
+        (
+            "## The equation of motion\n\n$$ M \\ddot q + \\Phi_q^{\\mathsf T} \\lambda = g, \\qquad "
+            "\\Phi_q \\ddot q = \\gamma $$\n\nM is diagonal, as the coordinates are those of the centres of mass; g "
+            f"holds gravity and the force elements. {more}".rstrip()
+        ),
+    )
+    masses = [text_of(mass, model, names) for mass in model.masses]
+    forces = [text_of(force, model, names) for force in model.g]
+    yield "code", f"M = sp.diag(*{_column(masses)})\ng = {_column(forces)}"

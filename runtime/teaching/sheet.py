@@ -1,0 +1,173 @@
+"""An exercise sheet of a scene as two documents: what is given and asked, and the same with its solutions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+import sympy as sp
+
+from gudgeon.generator.kinds.forces.force_type import element_types
+from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.targets.latex.document import (
+    Block,
+    Document,
+    Equation,
+    Section,
+    Sketch,
+    cells,
+    paragraph,
+    table,
+)
+from gudgeon.generator.targets.latex.letters import Name
+from gudgeon.generator.targets.latex.mechanism import Values, as_written, field_rows, part_sections, place, sketch_of
+from gudgeon.generator.targets.latex.notation import Notation, make_notation
+from gudgeon.language.shown import one_line
+
+if TYPE_CHECKING:
+    from gudgeon.generator.equations.constraints import Row
+    from gudgeon.generator.equations.model import Model
+    from gudgeon.generator.mechanism.mechanism import Drive
+    from gudgeon.simulation.simulation import Simulation
+    from gudgeon.teaching.draw_numbers import Drawn
+
+GIVEN = ("Bodies", "Ground", "Curves", "Parameters")  # sections of the document that tell nothing of what is asked
+NOISE = 1e-9
+LONGEST = 60  # operations of an expression that a solution writes out
+
+
+@dataclass(frozen=True)
+class Question:
+    """What is asked, and its solution; `numbers` are the answers in SI, by what they are of."""
+
+    title: str
+    asked: tuple[Block, ...]
+    solved: tuple[Block, ...]
+    numbers: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Subject:
+    """What questions are asked of: a scene's equations and letters, its numbers, a choice of its rows."""
+
+    model: Model
+    notation: Notation
+    simulation: Simulation
+    drawn: Drawn
+    rng: np.random.Generator
+    owners: tuple[str, ...]  # joints and drives whose rows are asked for
+
+    @property
+    def rows(self) -> list[tuple[int, Row]]:
+        """The rows that are asked for, by their numbers from 1."""
+        return [(k, row) for k, row in enumerate(self.model.rows, 1) if row.owner in self.owners]
+
+    def number(self, x: float, digits: int = 4, scale: float = 0.0) -> Name:
+        """A number as it is printed; beside numbers as large as `scale`, what rounding leaves of none is 0."""
+        short = float(f"{x:.{digits}g}")
+        if abs(x) <= NOISE * scale:
+            return Name("0", "0")
+        return self.notation.math(sp.Integer(0) if short == 0.0 else sp.Float(short, 17))
+
+    def equation(self, left: Name | sp.Symbol, right: sp.Expr) -> Equation:
+        """left = right in the document's letters."""
+        name = left if isinstance(left, Name) else self.notation.math(left)
+        return Equation(name, self.notation.terms(self.notation.expand(right)))
+
+    def value(self, left: Name, x: float, unit: str = "", scale: float = 0.0) -> Equation:
+        """left = number unit."""
+        number, sign = self.number(x, scale=scale), unit.replace("²", "^{2}").replace(" ", r" \, ")
+        return Equation(left, (Name(rf"{number.latex} \; \mathrm{{{sign}}}", f"{number.text} {unit}".rstrip()),))
+
+
+def make_subject(model: Model, simulation: Simulation, drawn: Drawn, seed: int) -> Subject:
+    """Two joints and a drive at most, drawn."""
+    rng = np.random.default_rng([seed, 1])
+    of = {kind: list(dict.fromkeys(r.owner for r in model.rows if r.kind == kind)) for kind in ("joint", "drive")}
+    chosen = [
+        name
+        for kind, most in (("joint", 2), ("drive", 1))
+        for name in np.array(of[kind], object)[sorted(rng.permutation(len(of[kind]))[:most])]
+    ]
+    return Subject(model, make_notation(model), simulation, drawn, rng, tuple(chosen))
+
+
+def make_sheets(subject: Subject, questions: Sequence[Question], seed: int) -> tuple[Document, Document]:
+    """The sheet, and the sheet with its solutions."""
+    mechanism, scene = subject.model.scene.mechanism, subject.model.scene.name
+    facts = (("mechanism ", mechanism.name, f", scene {scene}, seed {seed}"),)
+    title = one_line(mechanism.title or mechanism.name)
+    given = tuple(_given(subject))
+    asked = tuple(Section(f"{k}. {x.title}", x.asked) for k, x in enumerate(questions, 1))
+    solved = tuple(_solved(k, question) for k, question in enumerate(questions, 1))
+    last = Section("These numbers again", tuple(_again(subject)))
+    sheet = Document(f"Exercise: {title}", facts, (*given, *asked))
+    return sheet, replace(sheet, title=f"Solutions: {title}", sections=(*given, *sum(solved, ()), last))
+
+
+def _solved(k: int, question: Question) -> tuple[Section, ...]:
+    return Section(f"{k}. {question.title}", question.asked), Section("Solution", question.solved, 2)
+
+
+def _given(subject: Subject) -> list[Section]:
+    """Bodies, points, joints, drives and numbers, each with its letter."""
+    model, notation = subject.model, subject.notation
+    sections = {section.title: section for section in part_sections(model, notation) if section.title in GIVEN}
+    joints = Section("Joints and drives", tuple(_joints(subject)))
+    forces = [Section("Gravity and forces", blocks)] if (blocks := tuple(_forces(subject))) else []
+    last = [title for title in ("Curves", "Parameters") if title in sections]
+    first = [sections[title] for title in sections if title not in last]
+    return [*first, joints, *forces, *(sections[title] for title in last)]
+
+
+def _joints(subject: Subject) -> list[Block]:
+    """As the document has them, but not how many rows each has."""
+    model, values = subject.model, Values(subject.model, subject.notation)
+    mechanism, rows = model.scene.mechanism, []
+    for joint in mechanism.joints.values():
+        own = joint_types()[joint.kind]
+        ends = [place(ref, own.joins) for ref in (joint.first, joint.second)]
+        rows.append(cells(joint.name, own.title + (", has play" if joint.name in model.scene.play else ""), *ends))
+    blocks = table(cells("joint", "type", "first", "second"), rows)
+    fields = [row for joint in mechanism.joints.values() for row in field_rows(joint, values)]
+    blocks += table(cells("joint", "field", "value"), fields)
+    driven = [cells(drive.name, _what(drive), as_written(drive.value.value)) for drive in mechanism.drives.values()]
+    blocks += table(cells("drive", "prescribes", "value in the file"), driven, (2,))
+    for kind in dict.fromkeys(joint.kind for joint in mechanism.joints.values()):
+        summary, *lines = sketch_of("joints", kind)
+        blocks += [paragraph(summary), Sketch(tuple(lines))]
+    return blocks
+
+
+def _forces(subject: Subject) -> list[Block]:
+    """Gravity, and what each element joins and has."""
+    model, values = subject.model, Values(subject.model, subject.notation)
+    gravity, elements = model.scene.mechanism.gravity, [e.element for e in model.elements.values()]
+    blocks = table(cells("gravity, m/s^2"), [cells(values.vector(gravity))]) if gravity is not None else []
+    kinds = {element.name: element_types()[element.kind] for element in elements}
+    rows = [
+        cells(e.name, kinds[e.name].title, " and ".join(place(x, kinds[e.name].targets) for x in e.targets))
+        for e in elements
+    ]
+    blocks += table(cells("element", "type", "acts on"), rows)
+    return blocks + table(cells("element", "field", "value"), [r for e in elements for r in field_rows(e, values)])
+
+
+def _what(drive: Drive) -> str:
+    kind, points = drive.kind, drive.points
+    if kind == "distance":
+        return "distance of " + " and ".join(f"{p.body}.{p.point}" for p in points)
+    what = "angle" if kind == "angle" else drive.coordinate
+    against = drive.reference
+    return f"{what} of {drive.body}" + (f" against {against}" if against else "")
+
+
+def _again(subject: Subject) -> list[Block]:
+    """How the numbers that were drawn are set on the command line."""
+    drawn = subject.drawn
+    if not drawn.numbers:
+        return [paragraph(f"All numbers are the file's own; the moment is {drawn.t:g} s.")]
+    told = [f"{address} = {x:g}" for address, x in drawn.numbers.items()]
+    return [paragraph(f"Drawn, in SI: {', '.join(told)}; the moment is {drawn.t:g} s. All else is the file's.")]

@@ -1,0 +1,265 @@
+/*
+ * The page that runs: time goes on, numbers move, and what is shown follows. At each sample that is shown the document
+ * hears `gudgeon:state` with {sim, run, k, t, q, v, p}; `window.gudgeonState` is the last one.
+ */
+const SPENT = 4; // ms of a frame in which a run goes on, or what follows from it
+const PATIENT = 200; // ms that a run may take while numbers go on moving: hands should see what they do
+const PAINT = "paint"; // what a piece of work ends with that the browser has to paint: one of these a frame
+const READ = 100; // ms between two numbers that are to be read
+
+const by = (id) => document.getElementById(id);
+
+class App {
+    constructor(about, panel, sim) {
+        Object.assign(this, {settings: panel, k: 0, t: 0, playing: false, charts: [], way: null, dirty: false});
+        this.use(about, sim);
+        this.values = panel.values.map((name) => this.valueRow(name));
+        this.transport();
+        if (sim) this.controls();
+        new ResizeObserver(() => this.resized()).observe(by("g-charts"));
+    }
+
+    /* A simulator, and what is drawn of its scene. */
+    use(about, sim) {
+        Object.assign(this, {about, sim});
+        this.drawing = new Drawing(by("g-drawing"), this.settings, about);
+        this.orbits = about.clearances.map(([name, place]) => new Orbit(this, name, place));
+        by("g-orbits").replaceChildren(...this.orbits.map(({box}) => box));
+    }
+
+    /* The other formulation of the same scene. */
+    async formulated(which) {
+        const sim = await loaded(which);
+        this.way?.return();
+        this.way = null;
+        this.use(sim.about, sim);
+        this.begin();
+    }
+
+    controls() {
+        const heard = {changed: () => this.begin(), complain: (text) => this.complain(text),
+            formulated: (which) => this.formulated(which)};
+        this.panel = new Panel(by("g-numbers"), this.settings.groups, this.about, heard);
+    }
+
+    transport() {
+        by("g-play").onclick = () => this.play(!this.playing);
+        by("g-when").oninput = () => this.seek(this.run.t[0] + by("g-when").value / 1000 * this.span);
+        by("g-named").onchange = () => by("g-drawing").classList.toggle("g-unnamed", !by("g-named").checked);
+        by("g-forces").onchange = () => this.wake();
+        by("g-path").onchange = () => this.trail();
+        for (const name of ["", ...Object.keys(this.about.points).filter((one) => this.about.points[one][0] >= 0)])
+            element("option", {value: name}, by("g-path")).textContent = name || "none";
+        by("g-path").value = this.settings.path;
+        by("g-add").onclick = () => {
+            this.addChart(this.run.names.find((name) => !this.charts.some((chart) => chart.name === name)));
+        };
+    }
+
+    /* The path of the point that is chosen. */
+    trail() {
+        const name = by("g-path").value, known = name && this.run.names.includes(`${name}.x`);
+        const [x, y] = known ? [this.run.series(`${name}.x`), this.run.series(`${name}.y`)] : [[], []];
+        this.drawing.trail(x, y);
+    }
+
+    valueRow(name) {
+        const row = element("tr", {}, by("g-values"));
+        element("th", {scope: "row"}, row).textContent = name;
+        return {name, cell: element("td", {}, row), unit: element("td", {class: "g-unit"}, row)};
+    }
+
+    /* Names of series by their owner: "A.Fx" is A's. */
+    owners() {
+        const found = new Map();
+        for (const name of this.run.names) {
+            const owner = name.includes(".") ? name.slice(0, name.indexOf(".")) : "outputs";
+            if (!found.has(owner)) found.set(owner, []);
+            found.get(owner).push(name);
+        }
+        return found;
+    }
+
+    addChart(name) {
+        const chart = new Chart(this, name);
+        by("g-charts").append(chart.box);
+        this.charts.push(chart);
+        chart.draw();
+    }
+
+    removeChart(chart) {
+        chart.box.remove();
+        this.charts = this.charts.filter((one) => one !== chart);
+    }
+
+    resized() {
+        this.drawing.resize();
+        if (!this.run) return;
+        for (const chart of this.charts) chart.draw();
+        this.wake();
+    }
+
+    /* A run with the numbers as they are now. One that will soon be over is waited for, any other is given up. */
+    begin() {
+        const age = performance.now() - this.begun;
+        this.again = this.way !== null && age < PATIENT;
+        if (this.again) return;
+        this.way?.return();
+        this.way = null;
+        this.begun = performance.now();
+        try {
+            this.sim.setParameters(this.panel.given);
+            this.way = this.work();
+        } catch (error) {
+            this.failed(error);
+        }
+        this.panel.show(this.sim.p);
+        this.wake();
+    }
+
+    /* A run and what is shown of it, in pieces. */
+    *work() {
+        const run = yield* this.sim.running({slice: 200, ...this.panel.options.read()});
+        if (run.names.includes("Phi.max")) run.series("Phi.max"); // all that C evaluates
+        yield;
+        yield* this.taking(run);
+        this.complain("");
+    }
+
+    /* Some of the work. */
+    goOn() {
+        try {
+            let next = this.way.next();
+            const until = performance.now() + SPENT;
+            while (!next.done && next.value !== PAINT && performance.now() < until) next = this.way.next();
+            if (!next.done) return;
+            this.way = null;
+        } catch (error) {
+            this.way = null;
+            if (error.partial?.q?.length) this.take(error.partial);
+            this.failed(error);
+        }
+        if (this.again) this.begin();
+    }
+
+    failed(error) {
+        const upTo = error.partial?.q?.length ? " What is shown is the run up to there." : "";
+        this.complain(`${error.message}.${upTo || (this.run ? " What is shown is the run before." : "")}`);
+    }
+
+    complain(text) {
+        by("g-error").textContent = text;
+        by("g-error").hidden = !text;
+    }
+
+    take(run) { for (const _ of this.taking(run)); }
+
+    /* A run that is over. The first one, with the file's numbers, stays behind the others. */
+    *taking(run) {
+        const first = !this.run;
+        this.run = run;
+        this.before ??= run;
+        this.span = run.t[run.t.length - 1] - run.t[0];
+        this.drawing.fit(run);
+        this.counted(run);
+        this.trail();
+        this.seek(Math.min(this.t, run.t[run.t.length - 1]));
+        this.largest = 0;
+        for (const [name] of this.settings.joints) {
+            this.largest = Math.max(this.largest, extent(this.seriesOf(`${name}.F`))[1]);
+            yield;
+        }
+        if (first) this.settings.traces.forEach((name) => this.addChart(name));
+        for (const part of [...first ? [] : this.charts, ...this.orbits]) {
+            part.draw();
+            yield PAINT;
+        }
+        this.wake();
+    }
+
+    counted(run) {
+        const made = Object.entries(run.counts ?? {}).filter(([name]) => ["steps", "right_hand_sides"].includes(name));
+        const counts = made.map(([name, count]) => `${count.toLocaleString("en")} ${name.replaceAll("_", " ")}`);
+        if (run.impacts.length) counts.push(`${run.impacts.length} impacts`);
+        const ms = this.begun === undefined ? "" : `, ${(performance.now() - this.begun).toFixed(0)} ms`;
+        by("g-counts").textContent = `${told(this.span)} s simulated: ${counts.join(", ")}${ms}`;
+    }
+
+    seriesOf(name) { return this.run.names.includes(name) ? this.run.series(name) : []; }
+
+    /* The sample nearest to a time. */
+    seek(t) {
+        const {run} = this, last = run.t.length - 1;
+        this.t = Math.min(Math.max(t, run.t[0]), run.t[last]);
+        let [low, high] = [0, last];
+        while (high - low > 1) {
+            const middle = (low + high) >> 1;
+            if (run.t[middle] <= this.t) low = middle;
+            else high = middle;
+        }
+        this.k = this.t - run.t[low] <= run.t[high] - this.t ? low : high;
+        this.wake();
+    }
+
+    play(playing) {
+        this.playing = playing;
+        by("g-play").textContent = playing ? "Pause" : "Play";
+        this.last = undefined;
+        this.wake();
+    }
+
+    /* A frame is drawn when there is something to draw. */
+    wake() {
+        this.dirty = true;
+        this.frame ??= requestAnimationFrame((now) => this.draw(now));
+    }
+
+    draw(now) {
+        this.frame = null;
+        if (this.way) this.goOn();
+        if (this.playing && this.run) this.advance(now);
+        if (this.dirty && this.run) this.show();
+        this.dirty = false;
+        if (this.way || this.playing) this.frame ??= requestAnimationFrame((later) => this.draw(later));
+    }
+
+    advance(now) {
+        const passed = this.last === undefined ? 0 : (now - this.last) / 1000;
+        const {run} = this, t = this.t + passed * by("g-speed").value * this.span / this.settings.seconds;
+        this.last = now;
+        this.seek(t > run.t[run.t.length - 1] ? run.t[0] : t);
+    }
+
+    /* Everything at the present sample. */
+    show() {
+        const {run, k, sim} = this, n = this.about.coordinates.length, t = run.t[k], {p} = run;
+        const [q, v] = [run.q, run.v].map((rows) => rows.subarray(k * n, (k + 1) * n));
+        this.drawing.show(q, p, (name) => this.load(name, k), by("g-forces").checked ? this.forces(k) : []);
+        this.reads = !this.playing || performance.now() - (this.read ?? 0) > READ;
+        if (this.reads) this.read = performance.now();
+        for (const part of [...this.charts, ...this.orbits]) if (part.run === run) part.cursor(k);
+        if (this.reads) for (const {name, cell, unit} of this.values) this.tell(name, cell, unit, k);
+        if (document.activeElement !== by("g-when") || this.playing) by("g-when").value = 1000 * (t - run.t[0]) / this.span;
+        by("g-t").textContent = `t = ${t.toFixed(4)} s`;
+        by("g-when").setAttribute("aria-valuetext", `${t.toFixed(4)} seconds`);
+        const detail = window.gudgeonState = {sim, run, k, t, q, v, p};
+        document.dispatchEvent(new CustomEvent("gudgeon:state", {detail}));
+    }
+
+    tell(name, cell, unit, k) {
+        const x = this.seriesOf(name)[k] ?? NaN, [factor, text] = readable(Math.abs(x), this.run.unit(name));
+        cell.textContent = told(x * factor, 4);
+        unit.textContent = text;
+    }
+
+    /* The force of an element, for the arrow that shows it. */
+    load(name, k) { return ["Fx", "Fy"].map((axis) => this.seriesOf(`${name}.${axis}`)[k] ?? 0); }
+
+    /* Forces at the joints; the largest of the run is the longest arrow. */
+    forces(k) {
+        const metres = LONGEST * this.drawing.unit / this.largest;
+        const [factor, unit] = readable(this.largest, "N");
+        by("g-scale").textContent = `longest arrow of this run: ${told(this.largest * factor, 3)} ${unit}`;
+        return this.settings.joints.map(([name, point]) => [point, ...this.load(name, k), metres]);
+    }
+}

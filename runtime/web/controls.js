@@ -1,0 +1,195 @@
+/* The numbers of the file and what a run is asked for, as fields that a hand or a keyboard moves. */
+const METHODS = {
+    auto: "auto", kinematic: "kinematic (Φ = 0 by Newton)", rk4: "rk4 (Baumgarte, not projected)",
+    dop853: "dop853 (projected onto Φ = 0)", rodas5p: "rodas5p (implicit, projected)",
+};
+
+/* An element of HTML. */
+function element(name, attributes = {}, parent = null) {
+    const made = document.createElement(name);
+    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+    parent?.append(made);
+    return made;
+}
+
+/* A folded part of the panel. */
+function section(title, open, parent) {
+    const box = element("details", {class: "g-section"}, parent);
+    box.open = open;
+    element("summary", {}, box).textContent = title;
+    return box;
+}
+
+/* What somebody typed, in SI; a decimal comma is taken. Of a decimal prefix it is the number nearest to the text. */
+function typed(text, {factor, ten}) {
+    const plain = text.trim().replace(",", ".").replace("−", "-");
+    if (!/^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(plain)) return NaN;
+    if (ten === undefined) return Number(plain) * factor;
+    const [digits, power = "0"] = plain.toLowerCase().split("e");
+    return Number(`${digits}e${Number(power) + ten}`);
+}
+
+/* One number: a slider over its range, and a field for any other. */
+class NumberField {
+    constructor(panel, told, slot, parent) {
+        Object.assign(this, {panel, told, slot});
+        const row = this.row = element("div", {class: "g-number"}, parent), id = `g-number-${told.k}`;
+        const label = element("label", {for: id}, row);
+        label.textContent = told.name;
+        this.slider = element("input", {type: "range", id, min: 0, max: 1000, step: 1}, row);
+        const name = `${slot.address} in ${told.unit || "one"}`;
+        this.field = element("input", {type: "text", inputmode: "decimal", "aria-label": name, size: 8}, row);
+        element("span", {class: "g-unit"}, row).textContent = told.unit;
+        this.back = element("button", {type: "button", class: "g-small", title: "as in the file"}, row);
+        this.back.textContent = "↺";
+        this.back.setAttribute("aria-label", `${slot.address} as in the file`);
+        this.slider.oninput = () => this.slide();
+        this.field.onchange = () => this.take(typed(this.field.value, told), this.field.value);
+        this.back.onclick = () => panel.forget(slot.address);
+    }
+
+    /* The slider's place as a number with four digits. */
+    slide() {
+        const {low, high, factor} = this.told, x = low + this.slider.value / 1000 * (high - low);
+        const digits = String(Number((x / factor).toPrecision(4)));
+        this.take(typed(digits, this.told), digits);
+    }
+
+    take(value, text) {
+        if (Number.isFinite(value)) this.panel.set(this.slot.address, value);
+        else this.panel.complain(`${this.slot.address}: ${text} is no number`);
+    }
+
+    /* What the run has; the field that is being typed in is left alone. */
+    show(p, given) {
+        const {k, low, high, factor} = this.told, value = given ?? p[k];
+        const mine = given !== undefined;
+        this.row.classList.toggle("g-mine", mine);
+        this.back.style.visibility = mine ? "" : "hidden";
+        const place = Math.round(1000 * (value - low) / (high - low));
+        if (document.activeElement !== this.slider) this.slider.value = place;
+        this.slider.setAttribute("aria-valuetext", `${told(value / factor, 6)} ${this.told.unit}`);
+        const exact = String(Number((value / factor).toPrecision(12))), rounded = Number((value / factor).toPrecision(6));
+        this.field.value = exact.length > 9 ? String(rounded) : exact;
+        this.field.title = exact;
+    }
+}
+
+/* A choice of the file. */
+class Choice {
+    constructor(panel, told, slot, parent) {
+        Object.assign(this, {slot, told});
+        const row = this.row = element("div", {class: "g-number"}, parent), id = `g-number-${told.k}`;
+        element("label", {for: id}, row).textContent = told.name;
+        this.select = element("select", {id, class: "g-across"}, row);
+        for (const word of slot.words) element("option", {value: word}, this.select).textContent = word;
+        this.select.onchange = () => panel.set(slot.address, this.select.value);
+    }
+
+    show(p, given) {
+        this.row.classList.toggle("g-mine", given !== undefined);
+        this.select.value = given ?? this.slot.words[p[this.told.k]];
+    }
+}
+
+/* Everything that a run may be given. `changed` is called after each move, `complain` with what is refused. */
+class Panel {
+    constructor(form, groups, about, {changed, complain, formulated}) {
+        Object.assign(this, {about, changed, complain, formulated, given: {}});
+        this.options = new Options(form, about, this);
+        this.fields = groups.flatMap(({title, numbers}, k) => {
+            const box = section(title, k === 0, form);
+            return numbers.map((one) => {
+                const slot = about.slots[one.k];
+                return new (slot.words ? Choice : NumberField)(this, one, slot, box);
+            });
+        });
+        this.reset = element("button", {type: "button", class: "g-reset"}, form);
+        this.reset.textContent = "All as in the file";
+        this.reset.onclick = () => {
+            this.given = {};
+            this.changed();
+        };
+        form.onsubmit = (event) => event.preventDefault();
+    }
+
+    set(address, value) {
+        this.given[address] = value;
+        this.changed();
+    }
+
+    forget(address) {
+        delete this.given[address];
+        this.changed();
+    }
+
+    show(p) {
+        for (const field of this.fields) field.show(p, this.given[field.slot.address]);
+        this.reset.disabled = !Object.keys(this.given).length;
+    }
+}
+
+/* Method, tolerance, length, samples. Empty fields: as the scene has it. */
+class Options {
+    constructor(form, about, panel) {
+        const box = section("Run", true, form);
+        this.about = about;
+        this.method = this.row(box, "method", element("select", {class: "g-across"}));
+        for (const name of about.methods.length > 1 ? ["auto", ...about.methods] : about.methods)
+            element("option", {value: name}, this.method).textContent = METHODS[name] ?? name;
+        if (by("gudgeon-module-full")) this.formulations(box, panel);
+        const integrates = about.methods[0] !== "kinematic";
+        this.rtol = integrates ? this.field(box, "rtol", "", about.rtol) : null;
+        this.step = about.methods.includes("rk4") ? this.field(box, "step", "s", about.simulate.step) : null;
+        this.t_end = this.field(box, "t_end", "s", about.simulate.t_end);
+        this.output = this.field(box, "output", "intervals", about.simulate.output);
+        for (const one of [this.method, this.rtol, this.step, this.t_end, this.output])
+            if (one) one.onchange = () => {
+                this.fit();
+                panel.changed();
+            };
+        this.fit();
+    }
+
+    /* The same motion in coordinates of a tree, where joints hold by themselves, or of all bodies, where they drift. */
+    formulations(box, panel) {
+        const made = this.row(box, "formulation", element("select", {class: "g-across"}));
+        for (const [name, told_] of [["", "reduced (a tree’s coordinates)"], ["-full", "full (all rows of Φ)"]])
+            element("option", {value: name}, made).textContent = told_;
+        made.onchange = () => panel.formulated(made.value);
+    }
+
+    row(box, name, made, unit = "") {
+        const row = element("div", {class: "g-number"}, box), id = `g-run-${name}`;
+        element("label", {for: id}, row).textContent = name;
+        made.id = id;
+        row.append(made);
+        element("span", {class: "g-unit"}, row).textContent = unit;
+        return made;
+    }
+
+    field(box, name, unit, usual) {
+        const made = element("input", {type: "text", inputmode: "decimal", size: 8});
+        made.placeholder = typeof usual === "number" ? String(usual) : "as the scene says";
+        return this.row(box, name, made, unit);
+    }
+
+    /* A step belongs to rk4, a tolerance to all others. */
+    fit() {
+        const fixed = this.method.value === "rk4";
+        if (this.step) this.step.parentElement.hidden = !fixed;
+        if (this.rtol) this.rtol.parentElement.hidden = fixed;
+    }
+
+    /* For `sim.running`. Throws for a text that is no number. */
+    read() {
+        const found = {method: this.method.value}, fixed = found.method === "rk4";
+        for (const name of fixed ? ["step", "t_end", "output"] : ["rtol", "t_end", "output"]) {
+            const text = this[name]?.value.trim();
+            if (!text) continue;
+            found[name] = typed(text, {factor: 1, ten: 0});
+            if (Number.isNaN(found[name])) throw new Error(`${name}: ${text} is no number`);
+        }
+        return found;
+    }
+}

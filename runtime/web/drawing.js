@@ -1,0 +1,229 @@
+/*
+ * The drawing of a mechanism at any coordinates and numbers. What its shapes look like and what carries each of their
+ * points was found where the page was written (runtime/drawing/rig.py); here points are only placed:
+ *
+ *     x = r_P(p, q) + A(φ) (c₀ + s c₁)
+ */
+const SVG = "http://www.w3.org/2000/svg";
+const LONGEST = 9, HEAD = 1.3; // of an arrow of force and of its head, in units of the drawing
+
+function svg(name, attributes = {}, parent = null) {
+    const made = document.createElementNS(SVG, name);
+    for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+    parent?.append(made);
+    return made;
+}
+
+/* A point [its body's place in q, places in p, signs] of a mechanism, into out[at], out[at + 1]. */
+function placePoint(point, q, p, out, at) {
+    if (!point) return out.fill(0, at, at + 2);
+    const [body, x, y, sign_x, sign_y] = point, a = x < 0 ? 0 : sign_x * p[x], b = y < 0 ? 0 : sign_y * p[y];
+    if (body < 0) [out[at], out[at + 1]] = [a, b];
+    else {
+        const c = Math.cos(q[body + 2]), s = Math.sin(q[body + 2]);
+        [out[at], out[at + 1]] = [q[body] + (c * a - s * b), q[body + 1] + (s * a + c * b)];
+    }
+    return out;
+}
+
+/* Carriers with their frames: r_P, cos φ, sin φ and s of each, five numbers side by side. */
+class Carriers {
+    constructor(told, points) {
+        this.told = told.map(([name, turn, by]) => ({point: points[name], turn, by, other: points[turn[1]]}));
+        this.frames = new Float64Array(5 * told.length);
+        this.other = new Float64Array(2);
+    }
+
+    /* Whether a carrier moves with q or a force, not with the numbers alone. */
+    moves(k) {
+        const {point, turn, other} = this.told[k], [kind, , , last] = turn;
+        const turns = kind === "body" || kind === "load" || (kind === "axis" && last >= 0);
+        return turns || (point && point[0] >= 0) || (kind === "pair" && other[0] >= 0);
+    }
+
+    /* All frames; `load` gives the force of an element by its name, [x, y]. */
+    update(q, p, load) {
+        const {frames} = this;
+        this.told.forEach((told, k) => {
+            placePoint(told.point, q, p, frames, 5 * k);
+            const [x, y] = this.way(told, q, p, load, k), size = Math.hypot(x, y);
+            frames[5 * k + 2] = size > 0 ? x / size : 1;
+            frames[5 * k + 3] = size > 0 ? y / size : 0;
+            frames[5 * k + 4] = told.by === -1 ? 0 : told.by === -2 ? size : p[told.by];
+        });
+    }
+
+    way({turn: [kind, i, j, body], other}, q, p, load, k) {
+        if (kind === "body") return [Math.cos(q[i]), Math.sin(q[i])];
+        if (kind === "load") return load(i);
+        if (kind === "pair") {
+            placePoint(other, q, p, this.other, 0);
+            return [this.other[0] - this.frames[5 * k], this.other[1] - this.frames[5 * k + 1]];
+        }
+        if (kind !== "axis") return [1, 0];
+        const x = i < 0 ? 0 : p[i], y = j < 0 ? 0 : p[j];
+        if (body < 0) return [x, y];
+        const c = Math.cos(q[body]), s = Math.sin(q[body]);
+        return [c * x - s * y, s * x + c * y];
+    }
+
+    /* Where a carrier takes an offset (c₀, c₁), [x, y]. */
+    place(k, offsets, at) {
+        const [x, y, c, s, by] = this.frames.subarray(5 * k, 5 * k + 5);
+        const a = offsets[at] + by * offsets[at + 2], b = offsets[at + 1] + by * offsets[at + 3];
+        return [x + c * a - s * b, y + s * a + c * b];
+    }
+}
+
+/* A shape [part, role, tint, closed or [r₀, r₁, k], carrier, [numbers], …] with its points side by side. */
+function unfolded([part, role, tint, kind, ...runs], carriers, step) {
+    const which = [], offsets = [];
+    for (let i = 0; i < runs.length; i += 2) {
+        const width = carriers[runs[i]][2] === -1 ? 2 : 4;
+        for (let j = 0; j < runs[i + 1].length; j += width) {
+            const own = runs[i + 1].slice(j, j + width).map((x) => x * step);
+            which.push(runs[i]);
+            offsets.push(...own, ...(width === 2 ? [0, 0] : []));
+        }
+    }
+    const disc = Array.isArray(kind) ? [kind[0] * step, kind[1], kind[2]] : null;
+    return {part, role, tint, disc, closed: kind === 1, which, offsets: Float64Array.from(offsets)};
+}
+
+/* All shapes of a rig, at its carriers' last frames. */
+class Rig {
+    constructor(rig, points) {
+        this.carriers = new Carriers(rig.carriers, points);
+        this.shapes = rig.shapes.map((told) => unfolded(told, rig.carriers, rig.step));
+        for (const shape of this.shapes) shape.moves = shape.which.some((k) => this.carriers.moves(k));
+        this.labels = rig.labels.map(([k, ...offsets]) => ({k, offsets: offsets.map((x) => x * rig.step)}));
+    }
+
+    update(q, p, load = () => [0, 0]) { this.carriers.update(q, p, load); }
+
+    /* Points of a shape, [[x, y], …], m. */
+    points({which, offsets}) { return which.map((k, i) => this.carriers.place(k, offsets, 4 * i)); }
+
+    radius({disc: [r0, r1, k]}, p) { return k < 0 ? r0 : r0 + r1 * p[k]; }
+
+    label({k, offsets}) { return this.carriers.place(k, offsets, 0); }
+}
+
+/* A rig in an element <svg>: paths, names that keep their size on the screen, arrows of the joints' forces. */
+class Drawing {
+    constructor(root, {rig, names, joints, looks, pixels}, about) {
+        Object.assign(this, {root, about, joints, rig: new Rig(rig, about.points), box: [...rig.low, ...rig.high]});
+        Object.assign(this, {scale: pixels[0], planned: pixels, low: rig.low, high: rig.high, unit: rig.unit});
+        root.replaceChildren();
+        this.paths = this.makePaths(looks);
+        this.way = svg("path", {class: "d-path"}, root);
+        this.force = ["d-reaction", "d-reaction-head"].map((name) => svg("path", {class: name}, root));
+        const group = svg("g", {class: "g-name-group"}, root);
+        this.names = names.map(([text, part, look, wide, narrow], k) => {
+            const made = svg("text", {class: look, "data-of": tokens(part)}, group);
+            made.textContent = text;
+            return {made, shifts: [wide, narrow], label: this.rig.labels[k]};
+        });
+        this.view(this.box);
+    }
+
+    /* Neighbours of one look and part are one path. */
+    makePaths(looks) {
+        const found = [];
+        this.rig.shapes.forEach((shape, k) => {
+            const last = found[found.length - 1], look = looks[k];
+            if (last && last.look === look && last.part === shape.part && last.moves === shape.moves)
+                return last.shapes.push(shape);
+            const made = svg("path", {class: look, "data-of": tokens(shape.part)}, this.root);
+            return found.push({look, part: shape.part, moves: shape.moves, shapes: [shape], made});
+        });
+        return found;
+    }
+
+    /* The part of the plane that is seen, [low x, low y, high x, high y], m. */
+    view(box) {
+        this.box = box;
+        const [x, y] = this.at([box[0], box[3]]), k = this.scale;
+        this.root.setAttribute("viewBox", [x, y, (box[2] - box[0]) * k, (box[3] - box[1]) * k].map(short).join(" "));
+        this.resize();
+    }
+
+    /* Names keep a readable size; on a narrow screen they stand where they were placed for it. */
+    resize() {
+        const {width, height} = this.root.getBoundingClientRect(), [x0, y0, x1, y1] = this.box;
+        const metre = Math.min(width / (x1 - x0), height / (y1 - y0)) || this.scale;
+        this.narrow = metre < Math.sqrt(this.planned[0] * this.planned[1]) ? 1 : 0;
+        const larger = metre / this.planned[this.narrow], size = Math.min(Math.max(larger, 0.95), 1.35);
+        this.pixel = this.scale / metre; // of the drawing's pixels, to one of the screen
+        this.shift = this.pixel * larger;
+        this.root.style.setProperty("--name", `${11 * size * this.pixel}px`);
+        for (const {made, shifts} of this.names) made.style.display = shifts[this.narrow] ? "" : "none";
+    }
+
+    at([x, y]) { return [(x - this.low[0]) * this.scale, (this.high[1] - y) * this.scale]; }
+
+    /* The path of a point, from series of its coordinates. */
+    trail(xs, ys) { this.way.setAttribute("d", curve(xs, ys, (x) => this.at([x, 0])[0], (y) => this.at([0, y])[1])); }
+
+    /* Everything at q with the numbers p; `forces` are [point, Fx, Fy] and metres of arrow to a newton. */
+    show(q, p, load, forces = []) {
+        const same = this.p === p;
+        this.p = p;
+        this.rig.update(q, p, load);
+        for (const {made, moves, shapes} of this.paths)
+            if (moves || !same) made.setAttribute("d", shapes.map((shape) => this.path(shape, p)).join(""));
+        for (const {made, label, shifts} of this.names) {
+            const [x, y] = this.at(this.rig.label(label)), shift = shifts[this.narrow] ?? [0, 0];
+            const place = `translate(${short(x + shift[0] * this.shift)} ${short(y + shift[1] * this.shift)})`;
+            if (made.place !== place) made.setAttribute("transform", made.place = place);
+        }
+        this.arrows(q, p, forces);
+    }
+
+    path(shape, p) {
+        const points = this.rig.points(shape).map((point) => this.at(point));
+        if (!shape.disc) return `M${points.map((xy) => xy.map(short).join(" ")).join("L")}${shape.closed ? "z" : ""}`;
+        const r = short(this.rig.radius(shape, p) * this.scale), [x, y] = points[0];
+        return `M${short(x - r)} ${short(y)}a${r} ${r} 0 1 0 ${2 * r} 0a${r} ${r} 0 1 0 ${-2 * r} 0z`;
+    }
+
+    arrows(q, p, forces) {
+        let [lines, heads] = ["", ""];
+        for (const [name, x, y, metres] of forces) {
+            const size = Math.hypot(x, y) * metres * this.scale;
+            if (!(size > 1)) continue;
+            const tail = this.at(placePoint(this.about.points[name], q, p, new Float64Array(2), 0));
+            const [c, s] = [x / Math.hypot(x, y), -y / Math.hypot(x, y)];
+            const head = Math.min(HEAD * this.unit * this.scale, 0.6 * size), to = (a, b) =>
+                `${short(tail[0] + c * a - s * b)} ${short(tail[1] + s * a + c * b)}`;
+            lines += `M${to(0, 0)}L${to(size - 0.8 * head, 0)}`;
+            heads += `M${to(size, 0)}L${to(size - head, 0.38 * head)}L${to(size - head, -0.38 * head)}z`;
+        }
+        this.force[0].setAttribute("d", lines);
+        this.force[1].setAttribute("d", heads);
+    }
+
+    /* The box of a run, so that what other numbers make larger is still seen; never smaller than at first. */
+    fit(run) {
+        const n = this.about.coordinates.length, box = [...this.low, ...this.high], margin = 2.6 * this.unit;
+        const every = Math.max(1, Math.floor(run.t.length / 32)), {frames} = this.rig.carriers;
+        for (let i = 0; i < run.t.length; i += every) {
+            this.rig.update(run.q.subarray(i * n, (i + 1) * n), run.p);
+            for (let k = 0; k < frames.length; k += 5) {
+                const [x, y] = [frames[k], frames[k + 1]];
+                if (!this.rig.carriers.told[k / 5].point || !Number.isFinite(x + y)) continue;
+                [box[0], box[1]] = [Math.min(box[0], x - margin), Math.min(box[1], y - margin)];
+                [box[2], box[3]] = [Math.max(box[2], x + margin), Math.max(box[3], y + margin)];
+            }
+        }
+        if (box.some((x, k) => x !== this.box[k])) this.view(box);
+    }
+}
+
+function short(x) { return Math.round(10 * x) / 10; }
+
+/* What a part is called by whoever lights it: "joint A" is joint-A, a point lies on its body. */
+function tokens(part) {
+    const [kind, name = ""] = part.split(" ");
+    return kind === "point" ? `body-${name.split(".")[0]}` : `${kind}-${name}`;
+}

@@ -1,0 +1,136 @@
+"""What the running part of a page shows at first, as JSON: the drawing, numbers and their ranges, traces, one run."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.drawing.labels import Names
+from gudgeon.drawing.page import PIXELS
+from gudgeon.drawing.picture import draw_on, size_of
+from gudgeon.drawing.plan import make_plan
+from gudgeon.drawing.rig import Rig, make_rig
+from gudgeon.drawing.shapes import Sketch
+from gudgeon.results.animation import QUICK, SHOWN, SLOW
+from gudgeon.results.postures import posture_at, postures_of
+from gudgeon.results.report import default_watch
+from gudgeon.results.results import Result
+from gudgeon.simulation.simulation import Simulation
+from gudgeon.web.look import look
+from gudgeon.web.numbers import groups
+
+WIDE, NARROW = 7.0, 3.6  # inches of a drawing on a desk and on a phone: names are placed for either
+SHOWN_AT = 24  # postures of the run that the drawing is made from
+MORE = ("reaction", "reaction head", "path")  # roles that only the page draws
+KEPT, MOST = 400, 60  # samples and series of a run that is carried
+
+
+def rig_of(run: Result) -> Rig:
+    """The drawing of a run."""
+    first, *others = postures_of(run, SHOWN_AT)
+    postures = [posture_at(run, float(run.t[0])), *others]
+    return make_rig(postures, make_plan([first, *others]))
+
+
+def panel(simulation: Simulation, run: Result, rig: Rig) -> dict[str, Any]:
+    """Of a scene, with a run of the file's numbers."""
+    source, span = run.source, float(run.t[-1] - run.t[0])
+    ends = dict(_journals(source))
+    return {
+        "groups": groups(simulation, simulation.p),
+        "rig": rig.json(), "names": list(_names(rig)),
+        "joints": [[name, point] for name, point in ends.items() if f"{name}.Fx" in run.names],
+        "traces": _first_traces(run), "values": _first_values(run),
+        "seconds": span if SLOW <= span <= QUICK else SHOWN,
+        "path": _first_path(rig),
+    }  # fmt: skip
+
+
+def _journals(source: KernelSource) -> list[tuple[str, str]]:
+    """Joints, those with play first, and the points at which their forces act."""
+    worn = [(joint.name, joint.point) for joint in source.clearances]
+    return [*worn, *((joint.name, joint.point) for joint in source.joints)]
+
+
+def _first_traces(run: Result) -> list[str]:
+    """What is watched, what drives it, a force, the drift: four at most, of what the scene has."""
+    source = run.source
+    drives = [name for drive in source.drives for name in (f"{drive.name}.torque", f"{drive.name}.force")]
+    joints = [f"{name}.F" for name, _ in _journals(source)]
+    wanted = [*default_watch(run)[:1], *source.peaks[:1], *(name for name in drives if name in run.names)][:2]
+    wanted += [name for name in joints if name in run.names and np.isfinite(run[name]).any()][:1]
+    return [*dict.fromkeys(wanted), "Phi.max"]
+
+
+def _first_values(run: Result) -> list[str]:
+    """Live values: what is watched with its rate, outputs, drives, eccentricities, forces of the joints."""
+    from gudgeon.results.report import rates
+
+    source, found = run.source, list[str]()
+    for name in default_watch(run):
+        found += [name, rates(name)[0]]
+    found += [*source.outputs, *source.peaks]
+    found += [f"{drive.name}.{what}" for drive in source.drives for what in ("torque", "force")]
+    found += [f"{joint.name}.eps" for joint in source.clearances]
+    found += [f"{name}.F" for name, _ in _journals(source)]
+    return [name for name in dict.fromkeys(found) if name in run.names]
+
+
+def _first_path(rig: Rig) -> str:
+    """A point that the file names for nothing but to be looked at."""
+    marks = [one.shape.part.partition(" ")[2] for one in rig.shapes if one.shape.part.startswith("point ")]
+    return marks[0] if marks else ""
+
+
+def looks_of(rig: Rig) -> tuple[list[tuple[str, int]], list[tuple[str, int]]]:
+    """Roles and tints of its shapes and of its names, each once."""
+    shapes = dict.fromkeys((one.shape.role, one.shape.tint) for one in rig.shapes)
+    unique = {look(role, tint): (role, tint) for role, tint in [*shapes, *((role, 0) for role in MORE)]}
+    names = {look(role, tint): (role, tint) for role, tint in _name_looks(rig)}
+    return list(unique.values()), list(names.values())
+
+
+def _name_looks(rig: Rig) -> Iterator[tuple[str, int]]:
+    tints = {one.shape.part: one.shape.tint for one in rig.shapes}
+    for label in rig.sketch.labels:
+        yield label.role, tints.get(label.part, 0)
+
+
+def _names(rig: Rig) -> Iterator[list[Any]]:
+    """[text, part, class, shift on a desk, shift on a phone] of each, shifts in pixels, y down."""
+    wide, narrow = _beside(rig.sketch, WIDE), _beside(rig.sketch, NARROW)
+    for label, (role, tint) in zip(rig.sketch.labels, _name_looks(rig), strict=True):
+        shifts = [[round(x, 1), round(-y, 1)] for x, y in (at.get(label.part, (0.0, 0.0)) for at in (wide, narrow))]
+        hidden = [part not in at for part, at in ((label.part, wide), (label.part, narrow))]
+        told: list[Any] = [None if gone else shift for shift, gone in zip(shifts, hidden, strict=True)]
+        yield [label.text, label.part, f"{look(role, tint)}-name", *told]
+
+
+def _beside(sketch: Sketch, inches: float) -> dict[str, tuple[float, float]]:
+    """How far names are from what they name, at PIXELS to the inch."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=size_of(sketch, inches), dpi=PIXELS)
+    ax = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    draw_on(ax, sketch)
+    figure.draw_without_rendering()
+    names = next((artist for artist in ax.get_children() if isinstance(artist, Names)), None)
+    return names.beside if names is not None else {}
+
+
+def recorded(run: Result, named: list[str]) -> dict[str, Any]:
+    """A run for a page without a simulator: at most KEPT samples, float32, packed; the series that are named first."""
+    rows = np.unique(np.linspace(0, len(run.t) - 1, KEPT).round().astype(int))
+    drawn = [name for name in run.names if name.endswith((".Fx", ".Fy", ".ex", ".ey"))]
+    names = list(dict.fromkeys(name for name in [*named, *drawn, *run.names] if name in run.names))[:MOST]
+    table = np.column_stack([run.t[rows], run.q[rows], run.v[rows], *(run[name][rows] for name in names)])
+    bits = gzip.compress(np.ascontiguousarray(table.T, dtype="<f4").tobytes(), 9, mtime=0)
+    return {
+        "rows": len(rows), "p": [float(x) for x in run.p], "series": {name: run.unit(name) for name in names},
+        "bits": base64.b64encode(bits).decode("ascii"),
+    }  # fmt: skip

@@ -1,0 +1,85 @@
+"""The running part of a page in three strings: style, what is seen, and what runs it."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from functools import cache
+from html import escape
+from typing import Any
+
+from gudgeon.contract.methods import KINEMATIC
+from gudgeon.drawing.page import PIXELS
+from gudgeon.drawing.picture import size_of
+from gudgeon.drawing.rig import Rig
+from gudgeon.errors import BuildError, SolverError
+from gudgeon.language.shown import one_line
+from gudgeon.results.results import Result
+from gudgeon.simulation.simulation import Simulation
+from gudgeon.web.description import description
+from gudgeon.web.look import look, style
+from gudgeon.web.page import DESCRIPTION, Parts, file_text, packed_element, packed_module, script
+from gudgeon.web.panel import NARROW, WIDE, looks_of, panel, recorded, rig_of
+
+APP = ("drawing.js", "chart.js", "controls.js", "app.js", "carried.js")
+PANEL = "gudgeon-panel"
+ROOM = 62_000  # bytes of a module beside which there is room for the full formulation
+NO_SIMULATOR = (
+    "This page carries one run, with the numbers of the file: it was written without the compiler for pages"
+    " (pip install 'gudgeon[web]'), with which its numbers can be moved."
+)
+
+
+def running_parts(simulation: Simulation) -> Parts:
+    """What `page.parts` gives."""
+    run = _run(simulation)
+    rig = rig_of(run)
+    told, note = panel(simulation, run, rig) | _scales(rig), ""
+    carried = packed_element(DESCRIPTION, description(simulation.compiled).encode())
+    try:
+        carried += _modules(simulation)
+    except BuildError as error:
+        if error.__cause__ is None or not isinstance(error.__cause__, ImportError):
+            raise
+        told["recorded"], note = recorded(run, [*told["traces"], *told["values"]]), NO_SIMULATOR
+    text = json.dumps(told, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+    carried += packed_element(PANEL, text.encode())
+    title = one_line(simulation.source.title or simulation.source.mechanism)
+    frame = file_text("app.html").replace("@NOTE@", escape(note)).replace("@TITLE@", escape(title))
+    scripts = f"{carried}<script>\n{script()}</script>\n<script>\n{app()}</script>"
+    return Parts(f"<style>\n{style(*looks_of(rig))}</style>", frame, scripts)
+
+
+def _modules(simulation: Simulation) -> str:
+    """The simulator; where it is small, that of the full formulation too, in which constraints drift."""
+    module = packed_module(simulation.compiled)
+    reduced = simulation.source.formulation == "reduced" and simulation.source.methods != (KINEMATIC,)
+    if not reduced or len(module) > ROOM:
+        return module
+    full = simulation.full.compiled
+    return module + packed_element(f"{DESCRIPTION}-full", description(full).encode()) + packed_module(full, "-full")
+
+
+def _run(simulation: Simulation) -> Result:
+    """A plain run of the scene; up to where it fails, if it does."""
+    try:
+        return simulation.simulate()
+    except SolverError as error:
+        if error.partial is None or len(error.partial.t) < 2:
+            raise
+        return error.partial
+
+
+def _scales(rig: Rig) -> dict[str, Any]:
+    """Looks of the shapes, and how many pixels a metre has on a desk and on a phone."""
+    pixels = []
+    for inches in (WIDE, NARROW):
+        size, sketch = size_of(rig.sketch, inches), replace(rig.sketch, labels=())
+        pixels.append(PIXELS * min(a / b for a, b in zip(size, sketch.high - sketch.low, strict=True)))
+    return {"looks": [look(one.shape.role, one.shape.tint) for one in rig.shapes], "pixels": pixels}
+
+
+@cache
+def app() -> str:
+    """JavaScript of what is seen, behind `script` of page.py."""
+    return "\n".join(("(() => {", '"use strict";', *(file_text(name) for name in APP), "})();", ""))

@@ -1,0 +1,46 @@
+"""`gudgeon new`: what is written passes `check` and runs; nothing is written over."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from gudgeon.generator.reader.read import read_mechanism
+from gudgeon.loading.shipped import shipped
+from tests.pump import Gudgeon, needs_compiler, written
+
+
+@needs_compiler
+def test_the_template_is_valid_and_runs(call: Gudgeon, tmp_path: Path) -> None:
+    done = call("new", "engine")
+    assert done.exit_code == 0 and "wrote engine.yaml" in done.stdout
+    checked = call("check", "engine.yaml")
+    assert checked.stdout == (
+        "valid: 3 bodies, 4 joints, 1 drive; scenes ideal, worn; degrees of freedom 0 (ideal), 2 (worn)\n"
+    )
+    assert call("run", "engine.yaml", "--scene", "worn", "--t-end", "0.01").exit_code == 0
+    text = (tmp_path / "engine.yaml").read_text(encoding="utf-8")
+    assert read_mechanism(text.encode(), "engine.yaml").name == "engine"
+    assert text.count("#") > 15 and max(map(len, text.splitlines())) <= 120
+
+
+@pytest.mark.parametrize("like", shipped())
+def test_like_any_that_is_shipped(like: str, call: Gudgeon, tmp_path: Path) -> None:
+    assert call("new", "mine", "--like", like).exit_code == 0
+    assert read_mechanism((tmp_path / "mine.yaml").read_bytes(), "mine.yaml").name == "mine"
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [("my-engine", "my_engine"), ("engine.yaml", "without .yaml"), ("true", "YAML takes it"), ("../x", "no identifier"),
+     ("gudgeon_x", "kept for emitted code"), ("crane --like double_rocke", "did you mean 'double_rocker'"),
+     ("there", "is there already"), ("link", "is there already")],
+)  # fmt: skip
+def test_what_is_refused_leaves_all_as_it_was(line: str, told: str, call: Gudgeon, tmp_path: Path) -> None:
+    (tmp_path / "there.yaml").write_text("mine")
+    (tmp_path / "link.yaml").symlink_to("nowhere")
+    done = call("new", *line.split())
+    assert done.exit_code == 2 and told in done.stderr
+    assert (tmp_path / "there.yaml").read_text() == "mine" and not (tmp_path / "nowhere").exists()
+    assert written(tmp_path) == {"there.yaml"} or written(tmp_path) == {"there.yaml", "link.yaml"}

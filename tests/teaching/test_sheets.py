@@ -1,0 +1,177 @@
+"""Exercise sheets: what they ask has these answers, by SymPy, by differences, by a solution of the whole system."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sympy as sp
+
+import gudgeon
+from gudgeon.commands.exercise import make
+from gudgeon.generator.pipeline import derive
+from gudgeon.generator.targets.latex.document import Document
+from gudgeon.generator.targets.latex.render import render
+from gudgeon.loading.shipped import shipped_file
+from gudgeon.teaching.draw_numbers import Drawn, draw_numbers
+from gudgeon.teaching.markdown import markdown
+from gudgeon.teaching.questions import make_questions
+from gudgeon.teaching.sheet import Question, Subject, make_subject
+from tests.pump import Gudgeon, written
+
+pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+SCENES = [("four_bar", "ideal"), ("slider_crank", "dry"), ("scotch_yoke", "ideal"), ("n_four_bar", "ideal")]
+
+
+@cache
+def subject(name: str, scene: str, seed: int = 3) -> Subject:
+    simulation = gudgeon.load(name, scene)
+    drawn = draw_numbers(simulation, seed, None)
+    return make_subject(derive(shipped_file(name).read_bytes(), name, scene), simulation, drawn, seed)
+
+
+@cache
+def questions(name: str, scene: str, seed: int = 3) -> Mapping[str, Question]:
+    return {question.title: question for question in make_questions(subject(name, scene, seed))}
+
+
+def at(of: Subject, matrix: sp.Matrix) -> np.ndarray:
+    """A matrix of q, q̇ and t as the sheet has them, by SymPy, with the numbers of the run."""
+    slots = {entry.symbol: of.drawn.p[k] for k, entry in enumerate(of.model.slots.entries.values())}
+    values = dict(zip((*of.model.q, *of.model.v), (*of.drawn.q, *of.drawn.v), strict=True)) | {of.model.t: of.drawn.t}
+    return np.array(matrix.subs(slots | values).evalf(20), float)
+
+
+@pytest.mark.parametrize(("name", "scene"), SCENES)
+def test_jacobian_and_gamma_by_sympy_from_phi_alone(name: str, scene: str) -> None:
+    of, found = subject(name, scene), questions(name, scene)
+    model, names = of.model, [row.name for row in of.model.rows]
+    q, v = sp.Matrix(model.q), sp.Matrix(model.v)
+    phi_q = model.Phi.jacobian(q)
+    gamma = -(phi_q * v).jacobian(q) * v - 2 * phi_q.diff(model.t) * v - model.Phi.diff(model.t, 2)
+    entries, right = at(of, phi_q), at(of, gamma)
+    coordinates = of.simulation.source.coordinates
+    asked = {
+        f"{names[r]} {coordinates[k]}": entries[r, k]
+        for r, row in enumerate(model.rows)
+        for k in range(len(coordinates))
+        if row.owner in of.owners and model.q[k] in row.phi_q
+    }
+    assert found["Φ_q at a position"].numbers == pytest.approx(asked, rel=1e-12, abs=1e-15)
+    owned = {row.name: right[r, 0] for r, row in enumerate(model.rows) if row.owner in of.owners}
+    assert found["γ"].numbers == pytest.approx(owned, rel=1e-10, abs=1e-10)
+
+
+@pytest.mark.parametrize(("name", "scene"), SCENES)
+def test_forces_and_accelerations_by_the_whole_system(name: str, scene: str) -> None:
+    """From positions and rates as they are printed, by SymPy's matrices: M q̈ + Φ_qᵀ λ = g, Φ_q q̈ = γ."""
+    of, found = subject(name, scene), questions(name, scene)
+    drawn, source = of.drawn, of.simulation.source
+    phi_q, mass = at(of, of.model.Phi_q), np.diag(at(of, of.model.M))
+    if source.degrees_of_freedom == 0:
+        q_dd = np.linalg.lstsq(phi_q, at(of, of.model.gamma)[:, 0], rcond=None)[0]
+        ((body, alpha),) = found["Accelerations"].numbers.items()
+        assert q_dd[source.coordinates.index(f"{body}.theta")] == pytest.approx(alpha, rel=2e-3)
+    force = found["The force in a joint"]
+    shown = force.asked[-1].text[-1]  # type: ignore[union-attr]
+    joint, second = re.search(r"what force does (\w+) put on (\w+),", str(shown)).groups()  # type: ignore[union-attr]
+    lambdas = np.array([drawn.run[f"lambda.{row.name}"][-1] for row in of.model.rows])
+    own = np.array([row.owner == joint for row in of.model.rows])
+    k = source.coordinates.index(f"{second}.x")
+    # Q = -Φ_qᵀ λ of the joint's own rows, on the centre of mass of its second body
+    F = -(phi_q[own][:, k : k + 2].T @ lambdas[own])
+    assert (force.numbers["Fx"], force.numbers["Fy"]) == pytest.approx(tuple(F), rel=1e-3, abs=1e-3 * np.abs(F).max())
+    rest = mass * drawn.run.a[-1] + phi_q.T @ lambdas  # = g, in which gravity alone has a closed form
+    if not (source.clearances or of.model.elements):
+        gx, gy = at(of, sp.Matrix(of.model.gravity))[:, 0]
+        weights = mass.reshape(-1, 3) * [gx, gy, 0.0]
+        assert rest == pytest.approx(weights.ravel(), abs=2e-3 * np.abs(lambdas).max())
+
+
+def test_freedoms_are_counted_and_ranked() -> None:
+    assert questions("four_bar", "ideal")["Count the freedoms"].numbers == {"coordinates": 9, "rows": 9, "freedoms": 0}
+    assert questions("slider_crank", "dry")["Count the freedoms"].numbers == {
+        "coordinates": 9,
+        "rows": 7,
+        "freedoms": 2,
+    }
+
+
+PARALLEL = """format: gudgeon/1
+name: parallel
+bodies:
+  one: {length: 50 mm}
+  two: {length: 50 mm}
+  three: {length: 50 mm}
+  coupler: {points: {A: [0, 0], B: [100 mm, 0], C: [200 mm, 0]}}
+ground: {A: [0, 0], B: [100 mm, 0], C: [200 mm, 0]}
+joints:
+  A: {revolute: [ground.A, one.tail]}
+  B: {revolute: [ground.B, two.tail]}
+  C: {revolute: [ground.C, three.tail]}
+  D: {revolute: [one.head, coupler.A]}
+  E: {revolute: [two.head, coupler.B]}
+  F: {revolute: [three.head, coupler.C]}
+drives: {motor: {angle: one, value: 60 deg + t * 1 rad/s}}
+start: {guess: {two.theta: 60 deg, three.theta: 60 deg, coupler.theta: 0}}
+"""
+
+
+def test_a_third_parallel_crank_is_one_too_many_for_gruebler(tmp_path: Path) -> None:
+    (tmp_path / "parallel.yaml").write_text(PARALLEL, encoding="utf-8")
+    _, solved, _ = make(str(tmp_path / "parallel.yaml"), "ideal", 1, None)
+    shown = " ".join(render(solved, "txt").split())
+    assert "f = 12 - 13 = -1." in shown and "the rank is 12, and 0 are free." in shown
+
+
+def test_a_journal_is_where_the_run_has_it() -> None:
+    of, found = subject("slider_crank", "dry"), questions("slider_crank", "dry")["A joint with play"].numbers
+    run = of.drawn.run
+    assert found["e"] == pytest.approx(run["wristpin.e"][-1], rel=1e-3)
+    assert found["ratio"] == pytest.approx(run["wristpin.eps"][-1], rel=1e-3)
+
+
+def documents(name: str, seed: int) -> tuple[Document, Document, Drawn]:
+    return make(name, "ideal", seed, None)
+
+
+def test_a_seed_is_a_sheet_and_another_is_another() -> None:
+    first, again, other = (documents("four_bar", seed) for seed in (5, 5, 6))
+    assert [render(d, "txt") for d in first[:2]] == [render(d, "txt") for d in again[:2]]
+    assert render(first[0], "txt") != render(other[0], "txt")
+    assert first[2].numbers and first[2].numbers != other[2].numbers
+    assert not any("Solution" in section.title for section in first[0].sections)
+
+
+def test_every_form_has_the_same_sections(call: Gudgeon, tmp_path: Path) -> None:
+    """A file with no masses is asked for no force."""
+    text = re.sub(r", mass: [^,]*, inertia: [^,}]*", "", shipped_file("four_bar").read_text(encoding="utf-8"))
+    (tmp_path / "bare.yaml").write_text(text, encoding="utf-8")
+    for suffix in ("txt", "tex", "html", "md"):
+        done = call("exercise", "bare.yaml", "-o", f"sheet.{suffix}", "--seed", "2", "--at", "120ms")
+        assert done.exit_code == 0, done.output
+        sheet, solved = ((tmp_path / f"sheet{x}.{suffix}").read_text("utf-8") for x in ("", "-solutions"))
+        assert "Accelerations" in sheet and "The force in a joint" not in sheet
+        assert (
+            "0.12" in sheet
+            and "Solution" in solved
+            and ("Grübler" in sheet or suffix == "tex" and r"Gr\"{u}bler" in sheet)
+        )
+    assert "<svg" in (tmp_path / "sheet.html").read_text("utf-8")
+    assert written(tmp_path) >= {"sheet.md", "sheet-solutions.md"}
+    for line in ("-o x.pdf", "-o x.txt --at -1s", "-o x.txt --scene worn", "-o x.txt --seed -1"):
+        done = call("exercise", "bare.yaml", *line.split())
+        assert done.exit_code == 2 and "error" in done.stderr.lower()
+    assert not (tmp_path / "x.txt").exists()
+
+
+def test_text_of_a_file_is_no_markup() -> None:
+    sheet, _, _ = documents("four_bar", 1)
+    shown = markdown(sheet)
+    assert r"# Exercise: four-bar linkage, a crank-rocker" in shown and r"mechanism four\_bar" in shown
+    assert shown.count("$") % 2 == 0

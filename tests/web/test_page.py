@@ -1,0 +1,220 @@
+"""The page that runs, in a real Chromium without a window: what hands and keys do, what is shown, in which colours."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib")
+
+import gudgeon  # noqa: E402
+from tests.web.chromium import PHONE, written  # noqa: E402
+
+
+def test_what_a_hand_moves_is_simulated_and_shown(opened: Any, press: Path) -> None:
+    """The clearance typed, then slid; states are the native run's to the last bit."""
+    native = gudgeon.load("nine_bar_press", "lubricated")
+    shown = opened(press)
+    assert shown.same_bits(native.simulate())
+    before = shown.shown()
+    shown.type_into(3, "0,4")
+    assert shown.same_bits(native.simulate(parameters={"c": "0.4 mm"}))
+    after = shown.shown()
+    assert sum(x != y for x, y in zip(before[-4:], after[-4:], strict=True)) >= 3  # traces
+    shown.page.evaluate("gudgeonApp.seek(0.3)")
+    shown.wait()
+    drawn = shown.shown()
+    shown.page.locator("#g-number-2").evaluate("(one) => { one.value = 540; one.dispatchEvent(new Event('input')); }")
+    shown.wait()
+    l5 = shown.page.evaluate("gudgeonApp.sim.p[2]")
+    assert l5 != 0.3
+    assert shown.same_bits(native.simulate(parameters={"c": "0.4 mm", "l5": l5}))
+    assert sum(x != y for x, y in zip(drawn, shown.shown(), strict=True)) > 8
+    assert shown.error() == "" and shown.complaints == []
+
+
+def test_what_cannot_be_run_is_told(opened: Any, press: Path) -> None:
+    shown = opened(press)
+    before = shown.array("q")
+    for text, told in (("-1", "expected > 0"), ("one", "one is no number")):
+        shown.type_into(3, text)
+        assert told in shown.error()
+        assert np.array_equal(shown.array("q"), before)
+    shown.type_into(3, "0.3")
+    assert shown.error() == ""
+    shown.type_into(21, "20")  # L2 does not reach
+    assert "does not close" in shown.error()
+    shown.page.locator(".g-reset").click()
+    shown.wait()
+    assert shown.error() == "" and np.array_equal(shown.array("q"), before)
+    assert shown.complaints == []
+
+
+def test_the_state_is_announced_at_each_sample(opened: Any, press: Path) -> None:
+    shown = opened(press)
+    heard = shown.page.evaluate("""new Promise((done) => {
+        document.addEventListener("gudgeon:state", ({detail: {sim, run, k, t, q, v, p}}) =>
+            done([sim === gudgeonApp.sim, run === gudgeonApp.run, k, t, q.length, v.length, p === run.p,
+                window.gudgeonState.k]), {once: true});
+        gudgeonApp.seek(0.5);
+    })""")
+    assert heard == [True, True, 500, 0.5, 24, 24, True, 500]
+    assert shown.page.evaluate("document.querySelector('#g-drawing [data-of~=joint-A]') !== null")
+    assert shown.page.evaluate("document.querySelector('#g-drawing [data-of~=body-L1]') !== null")
+
+
+FRAMES = """() => new Promise((done) => {
+    const slider = document.querySelector("#g-number-3"), apart = [];
+    let [last, k] = [0, 0];
+    gudgeonApp.play(true);
+    const step = (now) => {
+        if (last) apart.push(now - last);
+        last = now;
+        slider.value = 500 + 300 * Math.sin(k / 30);
+        slider.dispatchEvent(new Event("input"));
+        if (++k < 120) requestAnimationFrame(step);
+        else done(apart.sort((a, b) => a - b));
+    };
+    requestAnimationFrame(step);
+})"""
+
+
+def test_frames_while_a_slider_moves(opened: Any, press: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Told, not asserted: it depends on who else computes here."""
+    shown = opened(press)
+    first = shown.array("q")
+    apart = shown.page.evaluate(FRAMES)
+    with capsys.disabled():
+        print(f"\n    press: {1e3 / np.mean(apart):.0f} frames a second while a slider moves and time goes on"
+              f" (median {apart[len(apart) // 2]:.1f} ms, worst {apart[-1]:.0f} ms)")  # fmt: skip
+    assert not np.array_equal(shown.array("q"), first)  # it has gone on to new runs all the while
+    assert shown.complaints == []
+
+
+def test_sizes(opened: Any, press: Path) -> None:
+    shown = opened(press, PHONE)
+    assert shown.page.evaluate("document.documentElement.scrollWidth") <= 390
+    assert press.stat().st_size < 400_000
+
+
+LABELS = """() => [...document.querySelectorAll("#gudgeon-app :is(button, input, select, summary)")].filter((one) => {
+    const named = one.getAttribute("aria-label") || one.labels?.[0]?.textContent.trim() || one.textContent.trim();
+    return !named || one.tabIndex < 0;
+}).map((one) => one.outerHTML)"""
+
+
+def test_keys_reach_everything(opened: Any, press: Path) -> None:
+    """Each thing has a name; Tab goes through all in sight, and where it is can be seen."""
+    shown = opened(press)
+    page = shown.page
+    assert page.evaluate(LABELS) == []
+    page.evaluate("document.getElementById('g-play').focus()")
+    page.keyboard.press("Space")
+    assert page.inner_text("#g-play") == "Pause"
+    page.keyboard.press("Space")
+    page.keyboard.press("Tab")
+    at = page.evaluate("document.activeElement.id")
+    page.keyboard.press("End")
+    shown.wait()
+    assert (at, page.evaluate("gudgeonApp.t")) == ("g-when", 1.0)
+    seen = set()
+    for _ in range(60):
+        page.keyboard.press("Tab")
+        told = page.evaluate("""() => { const one = document.activeElement, look = getComputedStyle(one);
+            return [one.id || one.textContent.slice(0, 20), look.outlineStyle, look.outlineWidth,
+                one.closest("#gudgeon-app") !== null]; }""")
+        if not told[3]:
+            break
+        assert told[1] == "solid" and told[2] == "2px", told
+        seen.add(told[0])
+    assert {"g-speed", "g-named", "g-forces", "g-run-method", "g-number-3", "g-add"} <= seen
+
+
+# of each text its colour's contrast with what lies behind it (WCAG 2.2, 1.4.3), the worst first
+CONTRAST = """() => {
+    const canvas = new OffscreenCanvas(1, 1).getContext("2d", {willReadFrequently: true});
+    const rgb = (colour) => { canvas.clearRect(0, 0, 1, 1); canvas.fillStyle = colour; canvas.fillRect(0, 0, 1, 1);
+        return [...canvas.getImageData(0, 0, 1, 1).data]; };
+    const light = ([r, g, b]) => { const [x, y, z] = [r, g, b].map((c) => c / 255).map((c) =>
+        c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4); return 0.2126 * x + 0.7152 * y + 0.0722 * z; };
+    const behind = (one) => { for (; one; one = one.parentElement) {
+        const colour = rgb(getComputedStyle(one).backgroundColor); if (colour[3] > 0) return colour; }
+        return rgb("white"); };
+    const app = document.getElementById("gudgeon-app"), found = [];
+    app.querySelectorAll("details").forEach((one) => { one.open = true; });
+    for (const one of app.querySelectorAll("*")) {
+        const text = [...one.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim());
+        if (!(text || one.matches("input[type=text], select")) || !one.getClientRects().length) continue;
+        const look = getComputedStyle(one), of_svg = one instanceof SVGElement;
+        const [a, b] = [light(rgb(of_svg ? look.fill : look.color)), light(behind(one))];
+        found.push([(Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05), one.outerHTML.slice(0, 90)]);
+    }
+    return found.sort((x, y) => x[0] - y[0]);
+}"""
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_text_stands_out(opened: Any, press: Path, scheme: str) -> None:
+    found = opened(press, scheme=scheme).page.evaluate(CONTRAST)
+    assert len(found) > 150
+    assert [one for one in found if one[0] < 4.5] == []
+
+
+def test_print_has_no_controls(opened: Any, press: Path) -> None:
+    page = opened(press, scheme="dark").page
+    page.emulate_media(media="print")
+    told = """[...document.querySelectorAll("#gudgeon-app :is(button, input, select, details)")]
+        .filter((one) => one.getClientRects().length).map((one) => one.outerHTML)"""
+    assert page.evaluate(told) == []
+    assert page.evaluate("document.querySelector('.g-chart .g-print').getClientRects().length") > 0
+    assert page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
+
+
+def test_constraints_drift_where_nothing_holds_them(opened: Any, tmp_path: Path) -> None:
+    """The pendulum in all its coordinates by rk4: with gains less than without, not at all when reduced."""
+    pytest.importorskip("ziglang")
+    pendulum = gudgeon.load("pendulum")
+    shown = opened(written(tmp_path, pendulum))
+    page, place = shown.page, {slot.address: k for k, slot in enumerate(pendulum.source.slots)}
+    worst = "Math.max(...gudgeonApp.run.series('Phi.max').slice(-250))"
+    page.select_option("#g-run-method", "rk4")
+    page.fill("#g-run-step", "0.01")
+    page.fill("#g-run-t_end", "5")
+    page.keyboard.press("Enter")
+    shown.wait()
+    assert page.evaluate(worst) < 1e-14
+    page.select_option("#g-run-formulation", "-full")
+    page.wait_for_function("gudgeonApp.about.rows > 0 && gudgeonApp.run.sim === gudgeonApp.sim && !gudgeonApp.way")
+    drifts = []
+    for gain in ("5", "0"):
+        for name in ("alpha", "beta"):
+            shown.type_into(place[f"baumgarte.{name}"], gain)
+        drifts.append(page.evaluate(worst))
+    held, free = drifts
+    assert free > 10 * held > 1e-13
+    gains = {"baumgarte.alpha": 0.0, "baumgarte.beta": 0.0}
+    assert shown.same_bits(pendulum.full.simulate(5, method="rk4", step=0.01, parameters=gains))
+    assert shown.complaints == []
+
+
+def test_without_the_compiler_it_carries_one_run(
+    opened: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "ziglang", None)
+    four_bar = gudgeon.load("four_bar")
+    shown, run = opened(written(tmp_path, four_bar)), four_bar.simulate()
+    assert "one run" in shown.page.inner_text("#g-note") and "gudgeon[web]" in shown.page.inner_text("#g-note")
+    assert shown.page.evaluate("gudgeonState.sim") is None
+    assert shown.page.evaluate("document.querySelectorAll('#g-numbers *').length") == 0
+    assert len(shown.array("t")) == 400
+    q = shown.array("q").reshape(400, -1)
+    assert np.abs(q[-1] - run.q[-1]).max() < 1e-6 and np.abs(q[0] - run.q[0]).max() < 1e-6
+    lines = shown.shown()[-4:]
+    assert min(map(len, lines)) > 1000
+    shown.page.evaluate("gudgeonApp.play(true)")
+    shown.page.wait_for_function("gudgeonApp.k > 3")
+    assert shown.complaints == []

@@ -1,0 +1,123 @@
+"""Drawings that move without being drawn again: every shipped mechanism beside its drawing, in Python and in Node."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib")
+
+import gudgeon  # noqa: E402
+from gudgeon.drawing.plan import Plan, make_plan  # noqa: E402
+from gudgeon.drawing.posture import Posture  # noqa: E402
+from gudgeon.drawing.rig import EXACT, Rig, make_rig  # noqa: E402
+from gudgeon.drawing.shapes import Disc, Shape, Sketch  # noqa: E402
+from gudgeon.drawing.sketch import make_sketch, room_of_all  # noqa: E402
+from gudgeon.loading.shipped import shipped  # noqa: E402
+from gudgeon.model.parameters import prepare  # noqa: E402
+from gudgeon.results.postures import postures_of  # noqa: E402
+from gudgeon.results.results import Result  # noqa: E402
+from gudgeon.web.description import description  # noqa: E402
+from gudgeon.web.page import file_text  # noqa: E402
+from tests.web.node import node  # noqa: E402
+
+SHORT = {"nine_bar_press": 0.1, "andrews_squeezer": 0.03}  # s of these; a second of the others
+# what is not carried where lengths change too, and how far off it is then (share of the size): corners of plates whose
+# sides turn. Where the file's numbers hold they are exact as well.
+NEAR = 1e-3
+
+
+def keyed(sketch: Sketch) -> Iterator[tuple[tuple[str, int], Shape]]:
+    counts = dict[str, int]()
+    for shape in sketch.shapes:
+        counts[shape.part] = counts.get(shape.part, -1) + 1
+        yield (shape.part, counts[shape.part]), shape
+
+
+def points(shape: Shape) -> Any:
+    return shape.centre[None] if isinstance(shape, Disc) else shape.points
+
+
+Box = tuple[Any, Any]
+
+
+def ran(name: str) -> tuple[Result, Rig, Plan, Box]:
+    run = gudgeon.load(name).simulate(SHORT.get(name, 1.0), output=120)
+    motion = postures_of(run, 13)
+    plan = make_plan(motion)
+    return run, make_rig(motion, plan), plan, room_of_all(motion, [plan])
+
+
+def off(rig: Rig, posture: Posture, plan: Plan, box: Box) -> float:
+    """How far the worst point is from where it is drawn, a share of the size."""
+    drawn = dict(keyed(make_sketch(posture, plan, box=box, inset=False)))
+    carried = {id(one.shape): one for one in rig.shapes}
+    worst = 0.0
+    for key, shape in keyed(rig.sketch):
+        there, here = drawn[key], carried[id(shape)].at(posture)
+        worst = max(worst, float(np.abs(points(here) - points(there)).max()))
+        if isinstance(here, Disc) and isinstance(there, Disc):
+            worst = max(worst, abs(here.radius - there.radius))
+    return worst / rig.size
+
+
+@pytest.mark.parametrize("name", shipped())
+def test_points_are_where_they_are_drawn(name: str) -> None:
+    """At samples that the rig was not made from, arrows of drives in the sense that they had."""
+    run, rig, plan, box = ran(name)
+    rows = np.random.default_rng(4).integers(0, len(run.t), 12)
+    first = run.v[0]
+    others = [Posture(run.source, run.p, run.q[k], float(run.t[k]), first) for k in rows]
+    assert max(off(rig, posture, plan, box) for posture in others) < EXACT
+    assert max(one.off for one in rig.shapes) < NEAR * rig.size
+
+
+def test_a_length_moves_what_it_carries() -> None:
+    """The four-bar with another crank and another coupler point, at coordinates that close nothing."""
+    run, rig, plan, box = ran("four_bar")
+    place = {slot.address: k for k, slot in enumerate(run.source.slots)}
+    p, *_ = prepare(gudgeon.load("four_bar").compiled, {"bodies.rocker.length": 0.09, "ground.B0.x": 0.13})
+    assert p[place["bodies.rocker.length"]] == 0.09
+    posture = replace(postures_of(run, 2)[1], p=p, v=run.v[0])
+    assert off(rig, posture, plan, box) < NEAR
+    drawn = make_sketch(posture, plan, box=box, inset=False).of("joint B0")
+    carried = {id(one.shape): one for one in rig.shapes}
+    for shape, there in zip(rig.sketch.of("joint B0"), drawn, strict=True):
+        assert np.allclose(points(carried[id(shape)].at(posture)), points(there), atol=EXACT * rig.size)
+
+
+PLACES = """
+const fs = require("fs"), asked = JSON.parse(fs.readFileSync(0, "utf-8")), rig = new Rig(asked.rig, asked.points);
+console.log(JSON.stringify(asked.postures.map(({q, p}) => {
+    rig.update(q, p);
+    return rig.shapes.map((shape) => rig.points(shape).flat());
+})));
+"""
+
+
+@pytest.mark.skipif(node() is None, reason="Node is not installed")
+@pytest.mark.parametrize("name", ["slider_crank_spring", "andrews_squeezer", "car_axis"])
+def test_a_page_places_them_alike(name: str, tmp_path: Path) -> None:
+    """drawing.js beside Carried.at; numbers are carried to 1e-11 of the size."""
+    run, rig, *_ = ran(name)
+    program = node()
+    assert program
+    file = tmp_path / "places.js"
+    file.write_text(file_text("drawing.js") + PLACES, encoding="utf-8")
+    rows, about = [0, 40, 99], json.loads(description(gudgeon.load(name).compiled))
+    asked = {"rig": rig.json(), "points": about["points"],
+             "postures": [{"q": run.q[k].tolist(), "p": run.p.tolist()} for k in rows]}  # fmt: skip
+    done = subprocess.run([program, str(file)], input=json.dumps(asked), capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    for k, told in zip(rows, json.loads(done.stdout), strict=True):
+        posture = Posture(run.source, run.p, run.q[k], v=run.v[0])
+        for carried, found in zip(rig.shapes, told, strict=True):
+            there = points(carried.at(posture))
+            assert np.abs(np.reshape(found, (-1, 2)) - there).max() < 0.1 * EXACT * rig.size

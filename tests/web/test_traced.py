@@ -1,0 +1,67 @@
+"""A page whose equations are traced: what is selected is lit, with the values that the run on the page gives it."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib")
+
+import gudgeon  # noqa: E402
+
+# the lit lines of C: file, text, value; seen one by one, because values are filled in where they are seen
+LINES = """async (token) => {
+    gudgeonLight.light([token]);
+    document.getElementById("gudgeon-lines").style.maxHeight = "none";
+    for (let k = 0; k < 4; k++) await new Promise((done) => requestAnimationFrame(done));
+    return [...document.querySelectorAll("#gudgeon-lines .line")].map((one) =>
+        [one.dataset.c, one.firstChild?.textContent ?? "", one.querySelector("output")?.textContent ?? ""]);
+}"""
+STORES = re.compile(r"^\s*(?:const double )?(?:\w|->|\[\d+\])+ = .*;")
+COUNT = "(of) => [...document.querySelectorAll(of)].filter((one) => !one.closest('#gudgeon-lines')).length"
+SAMPLE = 300
+
+
+def number(text: str) -> float:
+    return float(text.replace("\u2212", "-"))
+
+
+def test_a_row_lights_its_lines_with_the_run_s_values(opened: Any, press: Path) -> None:
+    """Each row of Φ: the file, the row, its entries, γ, and lines of C, of which each has the value at this time."""
+    shown, native = opened(press, {"width": 1366, "height": 12000}), gudgeon.load("nine_bar_press", "lubricated")
+    page, run = shown.page, native.simulate(parameters={"c": "0.4 mm"})
+    shown.type_into(3, "0.4")
+    page.evaluate("(k) => gudgeonApp.seek(gudgeonApp.run.t[k])", SAMPLE)
+    shown.wait()
+    t, q, v = float(run.t[SAMPLE]), run.q[SAMPLE], run.v[SAMPLE]
+    phi, gamma = native.compiled.phi(t, q, run.p), native.compiled.gamma(t, q, v, run.p)
+    phi_q = native.compiled.phi_q(t, q, run.p)
+    for k, row in enumerate(native.source.rows):
+        lines = page.evaluate(LINES, f"row-{k + 1}")
+        stored = [(file, text, value) for file, text, value in lines if STORES.match(text)]
+        assert len(stored) > 10 and all(value for file, _, value in stored if file != "reduced.c"), row
+        of = {text.split(" = ")[0].split()[-1]: number(value) for _, text, value in stored if value}
+        assert of[f"aside->lambda[{k}]"] == pytest.approx(run[f"lambda.{row.name}"][SAMPLE], rel=1e-4)
+        entries = [of[name] for name in of if name.startswith("phi_q[")]
+        assert sorted(entries) == pytest.approx(sorted(phi_q[k][np.flatnonzero(phi_q[k])]), rel=1e-4)
+        assert any(x == pytest.approx(gamma[k], rel=1e-4) for name, x in of.items() if name.startswith("gamma_rows["))
+        assert any(abs(x - phi[k]) < 1e-15 for name, x in of.items() if name.startswith("phi["))
+        for what in (".listing .lit", ".equation.lit, .lit .equation, tr.lit", "svg .lit"):
+            assert page.evaluate(COUNT, what) > 0, (row, what)
+    assert shown.complaints == []
+
+
+def test_lines_of_parameters_have_the_numbers_that_were_typed(opened: Any, press: Path) -> None:
+    shown = opened(press, {"width": 1366, "height": 12000})
+    shown.type_into(3, "0.4")
+    lines = shown.page.evaluate(LINES, "joint-A")
+    stored = [(text.split(" = ")[0], value) for _, text, value in lines if text.startswith("    p->") and " = " in text]
+    told = {name.strip(): value for name, value in stored}
+    assert number(told["p->c"]) == number(told["p->pin_clearance"]) == 4e-4
+    shown.page.keyboard.press("Escape")
+    assert shown.page.evaluate("document.querySelectorAll('.lit').length") == 0
+    assert shown.complaints == []
