@@ -185,8 +185,8 @@ def test_a_guess_that_is_not_followed_is_told(tmp_path: Path) -> None:
         with pytest.warns(UserWarning) as told:  # once for all runs
             gudgeon.load(bars).simulate_many({"start.guess.coupler.theta": angles}, t_end=0.1, output=1)
         (one,) = told
-        text = str(one.message)
-        assert text.startswith("runs begin away from their guess: coupler.theta in 2 of 3 runs by up to 55°:")
+        message = str(one.message)
+        assert message.startswith("runs begin away from their guess: coupler.theta in 2 of 3 runs by up to 55°:")
         assert one.filename == __file__
     close = four_bar(start=f"start: {{guess: {{coupler.theta: {angle - 45} deg}}}}")
     assert found(close).scenes["ideal"].off == {}
