@@ -90,12 +90,13 @@ static inline double log_in_parts(double x, double *rest)
     const double r_high = z_high * part[0] - 1.0, r_low = (z - z_high) * part[0], r = r_high + r_low;
     const double r_rest = r_high - r + r_low;
     const double sum = k * 0x1.62e42fefa38p-1 + part[1], near = sum + r;
-    const double half = -0.5 * r, square = r * half, half_high = -0.5 * r_high, square_high = r_high * half_high;
-    const double high = near + square_high;
+    const double r_top = upper_half(r_high), r_bottom = r_high - r_top + r_low; /* the square of the first is exact */
+    const double half = -0.5 * r, square = r * half, half_top = -0.5 * r_top, square_top = r_top * half_top;
+    const double high = near + square_top;
     const double series = r * square * (-2.0 / 3.0 + r * 0.5
         + square * (0.8 + r * (-2.0 / 3.0) + square * (-8.0 / 7.0 + r)));
-    const double low = k * 0x1.ef35793c7673p-45 + part[2] + (sum - near + r) + r_rest + r_low * (half + half_high)
-        + (near - high + square_high) + series;
+    const double low = k * 0x1.ef35793c7673p-45 + part[2] + (sum - near + r) + r_rest + r_bottom * (half + half_top)
+        + (near - high + square_top) + series;
     *rest = high - (high + low) + low;
     return high + low;
 }

@@ -58,6 +58,7 @@ class Closure:
             (point, np.array([told[f"{point.name}.x"], told[f"{point.name}.y"]]))
             for point in source.points if f"{point.name}.x" in told
         ]  # fmt: skip
+        self.wanted = np.zeros(len(self.place))  # what is guessed, as the rows let it be
         self.weight[self.guessed] = np.where(self.is_angle[self.guessed], GUESSED, GUESSED / self.size)
 
     def residual(self, q: Array, p: Array | None = None) -> Array:
@@ -96,11 +97,11 @@ class Closure:
         return step
 
     def first_guess(self) -> Array:
-        """What is guessed and held; angles that rows in angles alone give, and what guessed points ask for."""
+        """What is guessed and held, with angles that rows in angles alone give (`wanted`); moved as points ask for."""
         q = np.zeros(len(self.place))
         q[self.guessed] = list(self.guess.values())
         q[self.set_index] = self.set
-        q = self.place_angles(q)
+        self.wanted = q = self.place_angles(q)
         self.reach = self._farthest_place(q)
         return self._towards_points(q) if self.points else q
 
@@ -112,21 +113,21 @@ class Closure:
         """
         guess = self.first_guess()
         first = self.newton(guess)
-        if self._counts(first) and self._strayed(first, guess) < 1.0:
+        if self._counts(first) and self._strayed(first) < 1.0:
             best = self._nearer(first, guess)
-            if self._strayed(best, guess) < 1.0:
+            if self._strayed(best) < 1.0:
                 return best, True
         found = [first]
         for spread in (1.0, np.pi) if self.guess else (np.pi,):
             found += [self.newton(other) for other in self._others(guess, spread)]
             near = [q for q in found if self.is_near(q)]
-            closed = [self.unwound(q, guess) for q in near if self.is_closed(q)]
-            if closed and self._strayed(best := min(closed, key=lambda q: self.distance(q, guess)), guess) < 1.0:
+            closed = [self.unwound(q) for q in near if self.is_closed(q)]
+            if closed and self._strayed(best := min(closed, key=self.distance)) < 1.0:
                 return best, True
         if closed:  # none so near as one may be: looked for longer
             found = [self.newton(other) for seed in range(1, MORE) for other in self._others(guess, 1.0, seed)]
-            more = (self.unwound(q, guess) for q in found if self._counts(q))
-            return min([best, *more], key=lambda q: self.distance(q, guess)), True
+            more = (self.unwound(q) for q in found if self._counts(q))
+            return min([best, *more], key=self.distance), True
         return min(near, key=self.norm, default=guess), False
 
     def _counts(self, q: Array) -> bool:
@@ -135,7 +136,7 @@ class Closure:
 
     def _nearer(self, first: Array, guess: Array) -> Array:
         """A closed configuration, or the nearer one of those beyond the guess."""
-        if self._strayed(first, guess) < MIRRORED:
+        if self._strayed(first) < MIRRORED:
             return first
         beyond, found = 2.0 * guess - first, first.copy()
         found[self.guessed] = beyond[self.guessed]
@@ -143,28 +144,30 @@ class Closure:
             mirrored[self.set_index] = self.set
             other = self.newton(self.place_angles(mirrored))
             if self._counts(other):
-                first = min(first, self.unwound(other, guess), key=lambda q: self.distance(q, guess))
+                first = min(first, self.unwound(other), key=self.distance)
         return first
 
-    def distance(self, q: Array, guess: Array) -> float:
+    def distance(self, q: Array) -> float:
         """From what is guessed: coordinates by their weights, points as shares of the size."""
         off = [self.off_point(q, point, target) * (GUESSED / self.size) for point, target in self.points]
         free = np.where(np.isin(np.arange(len(q)), self.guessed), 1.0, 0.0 if self.points else 1.0)
-        return float(np.linalg.norm(np.concatenate([(q - guess) * self.weight * free, *off])))
+        return float(np.linalg.norm(np.concatenate([(q - self.wanted) * self.weight * free, *off])))
 
     def off_point(self, q: Array, point: PointInfo, target: Array) -> Array:
         """From where a point is guessed to where it is, (2,), m."""
         return place_of(self.linkage.source, self.p, q, point) - target
 
     def _towards_points(self, q: Array) -> Array:
-        """Guessed points put where they are wanted, as well as the rows let them."""
+        """Guessed points put where they are wanted, as well as the rows and the other guesses let them."""
+        held = np.diag(self.weight)[self.guessed]
 
         def left(x: Array) -> Array:
             off = [self.off_point(x, point, target) / self.size for point, target in self.points]
-            return np.concatenate([self.residual(x) / self.row_scale, *off])
+            return np.concatenate([self.residual(x) / self.row_scale, held @ (x - q), *off])
 
         def slopes(x: Array) -> Array:
-            return np.concatenate([self.jacobian(x) / self.row_scale[:, None], self._points_jacobian(x) / self.size])
+            rows = self.jacobian(x) / self.row_scale[:, None]
+            return np.concatenate([rows, held, self._points_jacobian(x) / self.size])
 
         return self._nearest_fit(q, left, slopes)
 
@@ -212,11 +215,11 @@ class Closure:
         """Not run off to where parallel lines meet, and every row seems to close."""
         return bool(np.abs(q[~self.is_angle]).max(initial=0.0) < AWAY * self.reach)
 
-    def _strayed(self, q: Array, guess: Array) -> float:
+    def _strayed(self, q: Array) -> float:
         """How far the worst guess is off, as a share of how far it may be without a longer search."""
-        may = np.where(self.is_angle, FAR, APART * np.maximum(self.size, np.abs(guess)))
+        may = np.where(self.is_angle, FAR, APART * np.maximum(self.size, np.abs(self.wanted)))
         points = [np.linalg.norm(self.off_point(q, *point)) / (APART * self.size) for point in self.points]
-        return float(max([*(np.abs(q - guess) / may)[self.guessed], *points], default=0.0))
+        return float(max([*(np.abs(q - self.wanted) / may)[self.guessed], *points], default=0.0))
 
     def _others(self, guess: Array, of_guessed: float, seed: int = 0) -> Iterator[Array]:
         """Coordinates around the guess, the same in every run; driven and set ones fall back into place.
@@ -232,11 +235,11 @@ class Closure:
             q[self.set_index] = self.set
             yield self.place_angles(q)
 
-    def unwound(self, q: Array, guess: Array) -> Array:
+    def unwound(self, q: Array) -> Array:
         """Angles within half a turn of the guess, where no row counts turns."""
-        for k in np.flatnonzero(self.is_angle & (np.abs(q - guess) > np.pi)):
+        for k in np.flatnonzero(self.is_angle & (np.abs(q - self.wanted) > np.pi)):
             other = q.copy()
-            other[k] -= 2.0 * np.pi * np.round((q[k] - guess[k]) / (2.0 * np.pi))
+            other[k] -= 2.0 * np.pi * np.round((q[k] - self.wanted[k]) / (2.0 * np.pi))
             q = other if self.is_closed(other) else q
         return q
 

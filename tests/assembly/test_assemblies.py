@@ -220,36 +220,52 @@ start: {{guess: {{piston.x: {guess} mm}}}}
     assert ([f"piston.x begins {off} mm" in str(word.message) for word in told[:1]]) == [True] * bool(off)
 
 
-def test_the_assembly_nearest_to_a_guessed_place(tmp_path: Path) -> None:
-    """The coupler's x alone is guessed: of the two places where the circles of its head meet the nearer one is taken.
+@pytest.mark.parametrize("guessed", ["coupler.x", "coupler.tip, rocker.theta"])
+def test_the_assembly_nearest_to_the_guesses(guessed: str, tmp_path: Path) -> None:
+    """Of the two places where the circles of the coupler's head meet the one nearer to all guesses is taken.
 
-    Newton's steps from the guess led to the other one for a third of such guesses, where both lie near enough.
+    Newton's steps from a guessed x led to the other one for a third of such guesses; beside a point an angle was lost.
     """
     file, rng, n = tmp_path / "bars.yaml", np.random.default_rng(8), 60
-    file.write_text("""
+    text = ", ".join(f"{name}: {'[60 mm, 30 mm]' if 'tip' in name else 1}" for name in guessed.split(", "))
+    file.write_text(f"""
 format: gudgeon/1
 name: bars
-parameters: {phi: 90 deg, l: 120 mm}
-bodies: {crank: {length: 40 mm}, coupler: {length: l}, rocker: {length: 80 mm}}
-ground: {A: [0, 0], D: [100 mm, 0]}
+parameters: {{phi: 90 deg, l: 120 mm}}
+bodies:
+  crank: {{length: 40 mm}}
+  coupler: {{length: l, points: {{tip: [60 mm, 50 mm]}}}}
+  rocker: {{length: 80 mm}}
+ground: {{A: [0, 0], D: [100 mm, 0]}}
 joints:
-  A: {revolute: [ground.A, crank.tail]}
-  B: {revolute: [crank.head, coupler.tail]}
-  C: {revolute: [coupler.head, rocker.head]}
-  D: {revolute: [ground.D, rocker.tail]}
-drives: {motor: {angle: crank, value: phi + 6 rad/s * t}}
-start: {guess: {coupler.x: 60 mm}}
+  A: {{revolute: [ground.A, crank.tail]}}
+  B: {{revolute: [crank.head, coupler.tail]}}
+  C: {{revolute: [coupler.head, rocker.head]}}
+  D: {{revolute: [ground.D, rocker.tail]}}
+drives: {{motor: {{angle: crank, value: phi + 6 rad/s * t}}}}
+start: {{guess: {{{text.replace("coupler.x: 1", "coupler.x: 60 mm")}}}}}
 """)
-    phi, rod, guess = rng.uniform(0.0, 2 * np.pi, n), rng.uniform(0.105, 0.135, n), rng.uniform(0.02, 0.12, n)
+    phi, rod = rng.uniform(0.0, 2 * np.pi, n), rng.uniform(0.105, 0.135, n)
     crank = 0.04 * np.exp(1j * phi)
     way = 0.1 - crank  # from the crank's head to the rocker's tail
     along = (np.abs(way) ** 2 + rod**2 - 0.08**2) / (2 * np.abs(way))
     aside = 1j * np.sqrt(rod**2 - along**2) * np.array([[1.0], [-1.0]])
-    places = (crank + 0.5 * (along + aside) * way / np.abs(way)).real  # of the coupler's middle
-    nearest = places[np.abs(places - guess).argmin(axis=0), np.arange(n)]
+    coupler = (along + aside) * way / np.abs(way)
+    tip, rocker = crank + coupler / rod * (0.06 + 0.05j), np.angle(crank + coupler - 0.1)
+    places = {"coupler.x": (crank + 0.5 * coupler).real, "coupler.tip.x": tip.real, "coupler.tip.y": tip.imag}
+    guesses, off = {}, np.zeros((2, n))
+    for name in guessed.replace("coupler.tip", "coupler.tip.x, coupler.tip.y").split(", "):
+        if name in places:
+            guesses[name] = rng.uniform(0.02, 0.12, n)
+            off += ((places[name] - guesses[name]) / 0.1) ** 2
+        else:
+            guesses[name] = rng.uniform(-3.0, 3.0, n)
+            off += ((rocker - guesses[name] + np.pi) % (2 * np.pi) - np.pi) ** 2
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of guesses that are far from both
-        batch = gudgeon.load(file).simulate_many({"phi": phi, "l": rod, "start.guess.coupler.x": guess}, 1e-3, output=1)
+        columns = {"phi": phi, "l": rod} | {f"start.guess.{name}": values for name, values in guesses.items()}
+        batch = gudgeon.load(file).simulate_many(columns, 1e-3, output=1)
+    nearest = places["coupler.x"][off.argmin(axis=0), np.arange(n)]
     np.testing.assert_allclose(batch["coupler.x"][:, 0], nearest, rtol=0, atol=1e-12)
 
 

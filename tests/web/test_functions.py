@@ -58,7 +58,10 @@ def ranges(n: int) -> dict[str, list[tuple[Array, Array]]]:
     wide, exponents = 2.0 ** rng.uniform(-60.0, 60.0, n), rng.uniform(-9.0, 9.0, n)
     turns = rng.uniform(-9e4, 9e4, n)
     close = np.nextafter(1.0 - 2.0 ** -rng.uniform(30.0, 53.0, n), 0.0)
-    beside_one = [(x, np.clip(76.0 * exponents / np.abs(np.log(x)), -1e18, 1e18)) for x in (close, 2.0 - close)]
+    beside_one = [
+        (x, np.clip(76.0 * exponents / np.abs(np.log(x)), -1e18, 1e18))
+        for x in (close, 2.0 - close, 1.0 + 0.04 * np.abs(near))
+    ]
     beside = np.rint(turns) * (np.pi / 2)  # sines or cosines that are nearly zero
     return {
         "pow": [(wide, exponents), (1.0 + 0.02 * near, 3e4 * exponents / 9.0), (wide, np.full(n, 1.5)), *beside_one],
