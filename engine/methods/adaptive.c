@@ -101,6 +101,10 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
     if (!status)
         status = pass_jumps_here(run, p); /* to the sides that hold there */
 #endif
+#if N_USER_EVENTS
+    if (!status)
+        status = begin_beyond(run, run->tick, p);
+#endif
     if (!status && !(run->h > 0.0))
         status = first_size(run, left, p);
     return status ? status : leave_zeros(run, p);

@@ -49,27 +49,67 @@ static int note_leaps(Run *run, const double *before, const Parameters *p)
 
 #if N_USER_EVENTS
 /*
- * Events whose zero is the end of the run: those that are zero there, or beyond it at once, as far as times are
- * located (tick, s). Returns ENDED where one of them ends the run.
+ * What lies right behind run->t, as far as times are located (tick, s): on the sides that are held (`here`), and on
+ * those of there, which are held from now on (`beyond`).
+ */
+static int look_beyond(Run *run, double tick, const Parameters *p, Aside *here, Aside *beyond)
+{
+    const double h = max_of(4.0 * DBL_EPSILON * fabs(run->t), tick);
+    double y[N_Y], dy[N_Y];
+    int changed = 1;
+    for (int k = 0; k < N_Y; k++)
+        y[k] = run->y[k] + h * run->dy[k];
+    int status = rates(run, run->t + h, y, p, dy, here);
+    *beyond = *here;
+    for (int pass = 0; pass < 6 && changed && !status && run->memory.held; pass++) {
+        changed = 0;
+        for (int k = 0; k < N_SWITCHES; k++)
+            if (run->memory.side[k] * beyond->g[k] < 0.0) {
+                run->memory.side[k] = -run->memory.side[k];
+                changed = 1;
+            }
+        if (changed)
+            status = rates(run, run->t + h, y, p, dy, beyond);
+    }
+    return status;
+}
+
+/* Whether event i is beyond its zero right behind run->t: it leaps there, or goes on from no further than that. */
+static int is_beyond(const Run *run, int i, const Aside *here, const Aside *beyond)
+{
+    return here->event[i] * beyond->event[i] < 0.0 || fabs(here->event[i]) >= fabs(run->aside.event[i]);
+}
+
+/*
+ * Events whose zero, or leap across it, is the end of the run, as far as times are located (tick, s). Returns ENDED
+ * where one of them ends the run.
  */
 static int end_on_zeros(Run *run, double tick, const Parameters *p)
 {
-    int status = 0, zeros = 0;
-    double y[N_Y], dy[N_Y];
-    Aside aside;
-    const double h = max_of(4.0 * DBL_EPSILON * fabs(run->t), tick);
-    for (int i = 0; i < N_USER_EVENTS; i++)
-        zeros |= run->memory.event_side[i] != 0;
-    for (int k = 0; k < N_Y; k++)
-        y[k] = run->y[k] + h * run->dy[k];
-    if (!zeros || rates(run, run->t + h, y, p, dy, &aside))
+    const Memory memory = run->memory;
+    int status = 0;
+    Aside here, beyond;
+    if (look_beyond(run, tick, p, &here, &beyond)) {
+        run->memory = memory;
         return 0;
+    }
+    run->memory = memory;
     for (int i = 0; i < N_USER_EVENTS; i++)
-        if (event_crosses(i, &run->memory.event_side[i], aside.event[i])
-            && fabs(aside.event[i]) >= fabs(run->aside.event[i])
+        if (event_crosses(i, &run->memory.event_side[i], beyond.event[i]) && is_beyond(run, i, &here, &beyond)
             && note_event(run, i, run->t, run->y, p))
             status = ENDED;
     return status;
+}
+
+/* A run that starts on a zero, or a leap, is beyond it: that was the end of what came before, and is not counted. */
+static int begin_beyond(Run *run, double tick, const Parameters *p)
+{
+    Aside here, beyond;
+    int status = look_beyond(run, tick, p, &here, &beyond);
+    for (int i = 0; i < N_USER_EVENTS && !status; i++)
+        if (run->memory.event_side[i] * beyond.event[i] < 0.0 && is_beyond(run, i, &here, &beyond))
+            run->memory.event_side[i] = (signed char)-run->memory.event_side[i];
+    return status ? status : rates(run, run->t, run->y, p, run->dy, &run->aside);
 }
 
 #endif

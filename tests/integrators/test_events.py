@@ -7,6 +7,7 @@ import re
 import shutil
 from importlib import resources
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from typer.testing import CliRunner
 import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import UnknownNameError
+from gudgeon.results.results import State
 from gudgeon.simulation.simulation import Simulation
 
 pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
@@ -176,3 +178,43 @@ def test_events_of_periods_that_steps_leap_over(method: str, folder: Path) -> No
             np.testing.assert_allclose(
                 batch[i].events_of(name), every[(every > 0.0) & (every < t_end)], rtol=0, atol=1e-9, err_msg=name
             )
+
+
+LEAPS = """
+format: gudgeon/1
+name: leaps
+parameters: {T: 0.5 s}
+bodies: {slug: {mass: 1 kg, inertia: 1e-3 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {rail: {translational: [ground.O, slug.origin], axis: [1, 0]}}
+freedoms: 1
+start: {rates: {slug.vx: 1 m/s}}
+events:
+  period: {zero: "mod(t, T) - T/2", direction: falling}
+  on: {zero: "where(t < T, -1, 1)"}
+  place: {zero: "where(slug.x < T * (1 m/s), -1, 1)"}
+  plain: {zero: t - T}
+"""
+
+
+@pytest.mark.parametrize("method", ["dop853", "rodas5p"])
+def test_leaps_at_the_end_and_at_the_start_of_runs(method: str, folder: Path) -> None:
+    """n periods to their end, then piece by piece: each leap happens once, at an end, as a zero does."""
+    (folder / "leaps.yaml").write_text(LEAPS, encoding="utf-8")
+    slug, periods = gudgeon.load(folder / "leaps.yaml"), [0.5, 0.25, 0.3, 0.1, 1 / 3, 0.07]
+    for n in (1, 2, 3):
+        batch = slug.simulate_many({"T": periods}, [n * T for T in periods], method=method)
+        for i, T in enumerate(periods):
+            np.testing.assert_allclose(batch[i].events_of("period"), T * np.arange(1, n + 1), rtol=0, atol=1e-11)
+            for name in ("on", "place", "plain"):
+                np.testing.assert_allclose(batch[i].events_of(name), [T], rtol=0, atol=1e-11)
+    for T in periods:
+        found: list[tuple[Any, ...]] = []
+        start: State | None = None
+        for k in range(1, 8):
+            run = slug.simulate(k * T, output=1, parameters={"T": T}, method=method, start=start)
+            found += [(name, *run.events_of(name)) for name in ("period", "on", "place", "plain")]
+            start = run.final
+        times = {name: [x for other, *some in found for x in some if other == name] for name, *_ in found}
+        np.testing.assert_allclose(times.pop("period"), T * np.arange(1, 8), rtol=0, atol=1e-11)
+        assert [len(some) for some in times.values()] == [1, 1, 1]
