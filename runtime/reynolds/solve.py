@@ -53,12 +53,12 @@ def solve(
     n = _direction(e, v)
     t = np.array([-n[1], n[0]])
     omega_s = sum(turning) - (2.0 * float(v @ t) / size if size > 0.0 else 0.0)
-    eps, w = size / bearing.clearance, (v - 0.5 * sum(turning) * size * t) / bearing.clearance
-    motion = Motion(float(w @ n), float(w @ t), 0.5 * omega_s)
+    eps, c = size / bearing.clearance, bearing.clearance
+    motion = Motion(float(v @ n) / c, (float(v @ t) - 0.5 * sum(turning) * size) / c, 0.5 * omega_s)
     at = _groove(groove, n, sealed, cavitation)
     problem = Problem(eps, bearing.l_over_d, sealed, cavitation, at, motion)
     coarse, fine = refined(problem, around, along)
-    return _film(bearing, ends, e, n, omega_s, turning[1] - turning[0], fine, coarse)
+    return _film(bearing, ends, e, n, omega_s, turning[0] - turning[1], fine, coarse)
 
 
 def _direction(e: Array, v: Array) -> Array:
