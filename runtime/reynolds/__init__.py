@@ -7,8 +7,9 @@
 """
 
 from gudgeon.reynolds.bearing import Bearing
+from gudgeon.reynolds.deviations import Deviation, deviation
 from gudgeon.reynolds.film import Film
-from gudgeon.reynolds.solve import solve
-from gudgeon.reynolds.table import Table, table
+from gudgeon.reynolds.solver import solve
+from gudgeon.reynolds.tables import Table, table
 
-__all__ = ["Bearing", "Film", "Table", "solve", "table"]
+__all__ = ["Bearing", "Deviation", "Film", "Table", "deviation", "solve", "table"]

@@ -1,4 +1,4 @@
-"""The picture of a film: its pressure over the unrolled bearing, and round the journal in the middle."""
+"""The picture of a film, unrolled and round the journal, and the map of a law's deviation."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ from gudgeon.reynolds.film import Film
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from gudgeon.reynolds.deviations import Deviation
 
 GAP, TALL = 0.25, 0.8  # of the circle drawn for the bearing: its clearance, the largest pressure
 
@@ -62,7 +64,7 @@ def _map(ax: Axes, film: Film, factor: float, unit: str) -> None:
     ax.set(xlabel="direction from the bearing's centre in °", ylabel=f"z in {name}")
     ax.set(xlim=(angle[0], angle[-1]), ylim=(z[0], z[-1]))
     ax.xaxis.set_major_locator(MultipleLocator(60.0))
-    ax.xaxis.set_major_formatter(lambda x, _: f"{(x + 180.0) % 360.0 - 180.0:g}")
+    ax.xaxis.set_major_formatter(lambda x, _: f"{(x + 180.0) % 360.0 - 180.0:g}".replace("-", "−"))
     ax.grid(False)
 
 
@@ -92,6 +94,25 @@ def _round(ax: Axes, film: Film) -> None:
     ax.plot([x], [y], "o", color=IDEAL, ms=3)
     side = 1.05 + TALL
     ax.set(xlim=(-side, side), ylim=(-side, side), aspect="equal", xticks=[], yticks=[])
-    ax.set_title("middle plane: pressure, and force on the journal")
+    ax.set_title("pressure in the middle plane")
     ax.spines[:].set_visible(False)
     ax.grid(False)
+
+
+def deviation_map(found: Deviation, ax: Axes | None) -> Axes:
+    """ε across, motion up, the share in percent; as dark as it gets where it is beyond the scale."""
+    import matplotlib
+    from matplotlib.figure import Figure
+
+    with matplotlib.rc_context(STYLE):
+        own = Figure(figsize=(5.2, 3.8), dpi=120, layout="constrained").subplots() if ax is None else ax
+        levels = (0.0, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0)
+        share, up = 100.0 * found.share.T, np.degrees(found.motion)
+        norm = matplotlib.colors.BoundaryNorm(levels, 256, extend="max")
+        drawn = own.pcolormesh(found.eps, up, share, norm=norm, cmap="YlOrRd", shading="nearest")
+        bar = own.figure.colorbar(drawn, ax=own, extend="max")
+        bar.set_label("deviation in % of the largest force at ε")
+        own.set(xlabel="ε", title=f"{found.law} against {found.cavitation}, L/D = {found.l_over_d:g}")
+        own.set_yticks((0.0, 45.0, 90.0, 135.0, 180.0), ("closes", "45°", "turns", "135°", "opens"))
+        own.grid(False)
+    return own

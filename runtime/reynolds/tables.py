@@ -13,7 +13,7 @@ from gudgeon.reynolds.bearing import CAVITATIONS, ENDS, Bearing, cells_of, check
 from gudgeon.reynolds.cavitation import Motion
 from gudgeon.reynolds.equation import Equation
 from gudgeon.reynolds.grid import Array
-from gudgeon.reynolds.solve import CELLS, WIDEST, Problem, refined
+from gudgeon.reynolds.solver import CELLS, WIDEST, Problem, refined
 
 
 @dataclass(frozen=True)
