@@ -24,7 +24,8 @@ from gudgeon.reynolds.equation import Equation
 from gudgeon.reynolds.grid import Array
 
 Flags = NDArray[np.bool_]
-STEPS = 400  # of an active set
+STEPS = 1000  # of an active set that only grows, at worst by a cell a step; from a coarser grid it takes a few
+TRIES = 100  # of one that may come and go
 
 
 @dataclass(frozen=True)
@@ -57,10 +58,12 @@ def solved(
         p = _inverse(equation.matrix, closing, free)
         return Pressure(p, np.ones_like(p), equation.matrix @ p - closing)
     carries = (closing > 0.0) if start is None else (start > 0.0)
+    if kind == "elrod_adams" and start is not None:
+        return _elrod_adams(equation, motion, free, carries & free)
     p, carries = _reynolds(equation.matrix, closing, free, carries & free)
-    if kind == "reynolds":
-        return Pressure(p, np.ones_like(p), equation.matrix @ p - closing)
-    return _elrod_adams(equation, motion, free, carries)
+    if kind == "elrod_adams":
+        return _elrod_adams(equation, motion, free, carries)
+    return Pressure(p, np.ones_like(p), equation.matrix @ p - closing)
 
 
 def _inverse(matrix: sparse.csr_matrix, right: Array, where: Flags) -> Array:
@@ -95,8 +98,18 @@ def _elrod_adams(equation: Equation, motion: Motion, free: Flags, full: Flags) -
             "elrod_adams: the gap closes faster than oil is carried along",
             hint="θ would hang on what was before; cavitation='reynolds' does not know θ",
         )
+    found = _carried_film(matrix, carried, free, full) or _carried_film(matrix, carried, free, np.zeros_like(full))
+    if found is None:
+        raise GudgeonError("elrod_adams: where the film ends is not found: another number of cells may do")
+    return found
+
+
+def _carried_film(
+    matrix: sparse.csr_matrix, carried: sparse.csr_matrix, free: Flags, full: Flags
+) -> Pressure | None:
+    """From the film `full`, or from none: where oil has run out, a film to begin with may come and go for ever."""
     held = np.where(free, 0.0, 1.0)
-    for _ in range(STEPS):
+    for _ in range(TRIES):
         pick = full.astype(float)
         columns = matrix @ sparse.diags(pick) + carried @ sparse.diags(1.0 - pick)
         right = -(carried @ (pick + held))
@@ -107,4 +120,4 @@ def _elrod_adams(equation: Equation, motion: Motion, free: Flags, full: Flags) -
         if np.array_equal(new, full):
             return Pressure(p, filled, matrix @ p + carried @ filled)
         full = new
-    raise GudgeonError("elrod_adams: where the film ends is not found: another number of cells may do")
+    return None

@@ -97,8 +97,12 @@ def law_force(name: str, bearing: Bearing, keys: Mapping[str, float | str | bool
     given = {own.name: values.get(own.name, own.default) for own in law.fields}
     if lacking := [own.name for own in law.fields if own.required and given[own.name] is None]:
         raise MissingKeyError(f"film law {name}: {lacking[0]} is missing")
-    numbers = {own.name: sp.Float(given[own.name]) for own in law.parameters if given[own.name] is not None}
+    numbers = {own.name: sp.Float(number(x, own.name)) for own in law.parameters if (x := given[own.name]) is not None}
     chosen: dict[str, Any] = {own.name: given[own.name] for own in law.options} | dict(law.also.get(name, {}))
+    for own in law.options:
+        if chosen[own.name] not in own.values:
+            expected = " or ".join(map(str, own.values))
+            raise BadValueError(f"film law {name}: {own.name} is {chosen[own.name]!r}: expected {expected}")
     r, c = bearing.radius, bearing.clearance
     pair = PairSymbols(*(sp.Float(x) for x in (r + c, r, c, bearing.length, 1e11, 0.3, 1e11, 0.3)))
     symbols = {x: sp.Symbol(x, real=True) for x in VARIABLES["film"]}

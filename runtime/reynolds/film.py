@@ -26,7 +26,7 @@ class Film:
     radial, tangential: its parts along e and along ẑ × e, N.
     error: N, between these forces and those of half as many cells either way: Roache's index of two grids of a second
     order with the safety factor 3 (P. J. Roache, ASME J. Fluids Eng. 116 (1994) 405–413); what is not in the
-    equation it does not know.
+    equation it does not know. Where elrod_adams lets a film form again the order is the first, and all of it is left.
     attitude: rad, from the line of centres to the load, atan2(F_t, −F_r); with ω_s < 0 it is negative.
     torque_journal, torque_bearing: of the film's shear on each, N·m, about its own centre: ∓T0 − ½ e F_t with
     T0 = μ R³ (ω_j − ω_i) ∬ θ/h dφ dz: where the film is ruptured the gap drags as if it were full, unless

@@ -38,7 +38,7 @@ def test_a_centred_journal_in_its_closed_form() -> None:
     load = -12.0 * math.pi * (z - math.tanh(z)) / (2.0 * z) * rate  # half of the film carries
     found: list[Film] = [
         solve(own, (0.0, 0.0), (rate * own.clearance, 0.0), cavitation="half_sommerfeld", cells=cells)
-        for cells in ((32, 4), (64, 8), (128, 16), (256, 32))
+        for cells in ((32, 4), (64, 8), (128, 16))
     ]
     for one in found:
         where = np.cos(one.angle)[:, None] * (1.0 - np.cosh(one.z / own.radius) / math.cosh(z))
@@ -46,11 +46,11 @@ def test_a_centred_journal_in_its_closed_form() -> None:
     unit = UNIT * own.length
     off = [abs(one.radial / unit - load) for one in found]
     flow = 4.0 * own.clearance * own.radius**2 * rate * math.tanh(z)
-    assert orders(off) == pytest.approx([2.0] * 3, abs=0.15)
-    assert orders([float(abs(one.pressure).max()) for one in found]) == pytest.approx([2.0] * 3, abs=0.15)
-    assert orders([abs(one.leakage - flow) for one in found]) == pytest.approx([2.0] * 3, abs=0.15)
+    assert orders(off) == pytest.approx([2.0] * 2, abs=0.15)
+    assert orders([float(abs(one.pressure).max()) for one in found]) == pytest.approx([2.0] * 2, abs=0.15)
+    assert orders([abs(one.leakage - flow) for one in found]) == pytest.approx([2.0] * 2, abs=0.15)
     assert off[-1] < found[-1].error / unit < 5.0 * off[-1]
-    assert found[-1].force == pytest.approx([load * unit, 0.0], rel=3e-4, abs=1e-9 * unit)
+    assert found[-1].force == pytest.approx([load * unit, 0.0], rel=1e-3, abs=1e-9 * unit)
 
 
 STATES = [

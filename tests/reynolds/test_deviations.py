@@ -23,7 +23,7 @@ def test_a_law_is_computed_as_it_stands() -> None:
     found = deviation("pinkus_sternlicht", 1.0, eps=[0.2, 0.8], motion=motion, cells=(64, 8))
     assert found.share.shape == found.error.shape == (2, 4)
     for (row, column), share in np.ndenumerate(found.share):
-        eps, alpha = found.eps[row], motion[column]
+        eps, alpha = float(found.eps[row]), float(motion[column])
         want = np.array(film.pinkus_sternlicht(eps, math.cos(alpha), 2.0 * math.sin(alpha) / eps))
         assert found.law_force[row, column] == pytest.approx(want, rel=1e-10)
         largest = np.hypot(*found.force[row].T).max()
@@ -32,12 +32,12 @@ def test_a_law_is_computed_as_it_stands() -> None:
 
 def test_the_long_film_is_the_limit_of_long_bearings() -> None:
     """Half film in rotation: what is left goes with D/L, the share of both ends."""
-    shares = [
-        float(deviation("pinkus_sternlicht", k, eps=[0.5], motion=[0.5 * math.pi], cavitation="half_sommerfeld").share[0, 0])
-        for k in (5.0, 10.0, 20.0)
-    ]  # fmt: skip
+    how = {"eps": [0.5], "motion": [0.5 * math.pi], "cavitation": "half_sommerfeld"}
+    found = [deviation("pinkus_sternlicht", k, **how) for k in (5.0, 10.0, 20.0)]  # type: ignore[arg-type]
+    shares = [float(one.share[0, 0]) for one in found]
     assert shares[2] < 0.05
-    assert shares[0] / shares[1] == pytest.approx(2.0, rel=0.15) and shares[1] / shares[2] == pytest.approx(2.0, rel=0.1)
+    assert shares[0] / shares[1] == pytest.approx(2.0, rel=0.15)
+    assert shares[1] / shares[2] == pytest.approx(2.0, rel=0.1)
 
 
 @pytest.mark.parametrize("law", sorted(called("film")))
@@ -50,6 +50,7 @@ def test_every_film_law_can_be_held_against_it(law: str) -> None:
     ({"law": "pinkus"}, "did you mean 'pinkus_sternlicht'"), ({"law": "hertz"}, "unknown film law"),
     ({"eps": [0.0]}, "above 0"), ({"eps": [1.0]}, "below 1"), ({"motion": []}, "at least one"),
     ({"l_over_d": math.inf}, "l_over_d"), ({"stiffness": 1.0}, "no key 'stiffness'"), ({"eps": 0.5}, "eps has shape"),
+    ({"extra_clearance": "1 um"}, "extra_clearance is '1 um'"), ({"as_printed": 3}, "expected False or True"),
 ])  # fmt: skip
 def test_what_is_no_question(how: dict[str, object], told: str) -> None:
     with pytest.raises(InputError, match=told):

@@ -7,6 +7,9 @@ import math
 import numpy as np
 import pytest
 
+from scipy.integrate import quad
+from scipy.optimize import brentq
+
 from gudgeon.errors import BadValueError
 from gudgeon.reynolds import Bearing, Film, solve
 
@@ -53,15 +56,15 @@ def test_leakage_of_a_short_bearing() -> None:
 def test_oil_is_carried_through_the_ruptured_film(omega: float, groove: float | str) -> None:
     """Steady: the groove feeds what leaks, θ ≤ 1, p (1 − θ) = 0, and outside of films what flows round, ½ ω_s θ h, is
     one number."""
-    one = film("elrod_adams", omega_journal=omega, groove=groove, cells=(384, 24))
+    one = film("elrod_adams", omega_journal=omega, groove=groove, cells=(192, 24))
     assert one.supply == pytest.approx(one.leakage, rel=1e-11) and one.leakage > 0.0
     assert (one.content <= 1.0).all() and (one.content > 0.0).all() and not (one.pressure * (1.0 - one.content)).any()
     middle = one.content[:, len(one.z) // 2]
     empty = (middle < 1.0) & (np.roll(middle, 1) < 1.0) & (np.roll(middle, -1) < 1.0)
     flow = middle * one.thickness
     both = empty[1:] & empty[:-1]
-    assert both.sum() > 60
-    assert abs(np.diff(flow) / flow[1:])[both].max() < 2e-3 and np.ptp(middle[empty]) > 0.1
+    assert both.sum() > 30
+    assert abs(np.diff(flow) / flow[1:])[both].max() < 4e-3 and np.ptp(middle[empty]) > 0.1
 
 
 def test_elrod_adams_with_a_groove_at_the_widest_gap_is_reynolds() -> None:
@@ -109,3 +112,39 @@ def test_elrod_adams_refuses_what_it_cannot_know() -> None:
         film("elrod_adams", omega_bearing=-OMEGA)
     with pytest.raises(BadValueError, match="closes faster"):
         solve(BEARING, (27e-6, 0.0), (-0.5, 0.0), omega_journal=1.0, cavitation="elrod_adams")
+
+
+def test_a_film_without_oil_is_found_too() -> None:
+    """A gap that opens at ε = .99, the groove far behind: films come and go while one is looked for, none is there."""
+    turn = 0.2128813559322034
+    dry = solve(Bearing(0.01, 0.0326, 1e-5, 0.1), (9.906e-6 * math.cos(turn), 9.906e-6 * math.sin(turn)),
+                (-8.6e-6, 3.6e-6), omega_journal=2.2693, cavitation="elrod_adams", groove=6.2059)  # fmt: skip
+    assert abs(dry.balance) < 1e-13 * 2.27e-9 and dry.content.min() > 0.0 and (dry.pressure >= 0.0).all()
+
+
+def test_where_a_film_forms_again() -> None:
+    """Sealed and steady, the groove at φ_g behind the thinnest place: it feeds nothing, and ½ ω h_g flows everywhere.
+
+    So p' = 6 (h − h_g)/h³ from where the film forms, ∫ p' dφ = 0 up to the groove says where, and θ h = h_g elsewhere.
+    Where a film forms again the cells are of the first order.
+    """
+    eps, at = 0.6, math.radians(212.0)
+    h_g = 1.0 + eps * math.cos(at)
+
+    def slope(phi: float) -> float:
+        h = 1.0 + eps * math.cos(phi)
+        return 6.0 * (h - h_g) / h**3
+
+    forms = brentq(lambda a: quad(slope, a, at)[0], 0.1, 2.0 * math.pi - at)
+    x = np.linspace(forms, at, 1001)
+    p = np.array([quad(slope, forms, a)[0] for a in x])
+    want = np.array([np.trapezoid(p * np.cos(x), x), np.trapezoid(p * np.sin(x), x)])
+    unit, off = BEARING.viscosity * BEARING.radius**3 * BEARING.length / BEARING.clearance**2 * OMEGA, []
+    for around in (192, 768, 3072):
+        one = solve(BEARING, (-eps * BEARING.clearance, 0.0), omega_journal=OMEGA, cavitation="elrod_adams",
+                    ends="sealed", groove=at, cells=(around, 4))  # fmt: skip
+        off.append(float(np.hypot(one.radial / unit - want[0], one.tangential / unit - want[1])))
+        assert off[-1] < one.error / unit and abs(one.supply) < 1e-9 * LARGE
+    assert off[-1] < 0.01 * np.hypot(*want)
+    assert off[0] / off[1] == pytest.approx(4.0, rel=0.1) and off[1] / off[2] == pytest.approx(4.0, rel=0.1)
+    assert one.extent is not None and one.extent[0] == pytest.approx(forms, abs=0.02)
