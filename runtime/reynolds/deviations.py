@@ -27,7 +27,7 @@ RADIUS, CLEARANCE, VISCOSITY = 0.01, 1e-5, 0.1  # of the bearing that is looked 
 LawForce = Callable[[Array, Array, Array], Array]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Deviation:
     """A law beside the solver at n eccentricity ratios and m motions; forces over μ R³ L/c² at a rate W of 1/s.
 

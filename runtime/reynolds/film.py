@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Film:
     """The film of a bearing at one moment. n angles, 2m + 1 places along it; SI, vectors in the caller's frame.
 

@@ -16,7 +16,7 @@ from gudgeon.reynolds.grid import Array
 from gudgeon.reynolds.solver import CELLS, WIDEST, Problem, refined
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Table:
     """What `table` found; the arrays have the shape to which the states were broadcast.
 

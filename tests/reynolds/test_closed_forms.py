@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import quad
 
 from gudgeon.reynolds import Bearing, Film, solve, table
-from tests.oracles import film
+from tests.oracles import film, finite_bearing
 from tests.oracles.spectral_film import half_film
 
 SHAPE = {"radius": 0.02, "clearance": 4e-5, "viscosity": 0.05}
@@ -139,6 +139,15 @@ def test_as_long_as_wide(eps: float, sommerfeld: float, attitude: float) -> None
     assert 1.0 / (math.pi * load) == pytest.approx(sommerfeld, rel=1e-3)
     assert math.degrees(math.atan2(tangential, -radial)) == pytest.approx(attitude, rel=1e-3)
     assert error < 1e-3 * load
+
+
+@pytest.mark.parametrize("reynolds", [False, True])
+@pytest.mark.parametrize("eps", [0.3, 0.8])
+def test_another_grid_and_another_way_round(eps: float, reynolds: bool) -> None:
+    """The oracle's even cells, which begin their film where they like, as the solver's do without a groove."""
+    want = finite_bearing.load(eps, 1.2, reynolds, around=120, along=24) * 6.0 / (2.0 * 1.2)
+    force, _ = forces(eps, 0.0, 1.0, 1.2, cavitation="reynolds" if reynolds else "half_sommerfeld")
+    assert np.hypot(*force) == pytest.approx(want, rel=2.5e-3)
 
 
 def test_the_default_cells_are_within_a_thousandth() -> None:

@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 import pytest
-
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
