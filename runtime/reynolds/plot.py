@@ -1,0 +1,118 @@
+"""The picture of a film, unrolled and round the journal, and the map of a law's deviation."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gudgeon.language.plot_units import scale
+from gudgeon.results.plots import COLOURS, IDEAL, STYLE
+from gudgeon.reynolds.film import Film
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from gudgeon.reynolds.deviations import Deviation
+
+GAP, TALL = 0.25, 0.8  # of the circle drawn for the bearing: its clearance, the largest pressure
+
+
+def picture(film: Film) -> Figure:
+    """Left p(φ, z), right the middle plane: journal, pressure on it, force; the gap is not to scale."""
+    import matplotlib
+    from matplotlib.figure import Figure
+
+    factor, unit = scale(float(film.pressure.max(initial=0.0)), "Pa")
+    with matplotlib.rc_context(STYLE):
+        figure = Figure(figsize=(10, 4.2), dpi=120, layout="constrained")
+        left, right = figure.subplots(1, 2, width_ratios=(1.7, 1.0))
+        _map(left, film, factor, unit)
+        _round(right, film)
+        figure.suptitle(_title(film), fontsize=11, x=0.012, ha="left")
+    return figure
+
+
+def _title(film: Film) -> str:
+    force, attitude = math.hypot(*film.force), math.degrees(film.attitude)
+    return (
+        f"{film.cavitation}, L/D = {film.bearing.l_over_d:.3g}, ε = {film.eccentricity_ratio:.3g}: "
+        f"{force:.4g} N ± {film.error:.1g} N, attitude {attitude:.1f}°, leakage {film.leakage * 1e6:.3g} ml/s"
+    )
+
+
+def _map(ax: Axes, film: Film, factor: float, unit: str) -> None:
+    """Angles rise by a turn from the widest gap or the groove; the first is repeated behind the last."""
+    angle = np.degrees(np.append(film.angle, film.angle[0] + 2.0 * math.pi))
+    p = np.concatenate([film.pressure, film.pressure[:1]]) * factor
+    from matplotlib.ticker import MaxNLocator, MultipleLocator
+
+    millimetres, name = scale(film.bearing.length, "m")
+    z = film.z * millimetres
+    if p.any():
+        drawn = ax.contourf(angle, z, p.T, np.linspace(0.0, p.max(), 21), cmap="viridis")
+        bar = ax.figure.colorbar(drawn, ax=ax, ticks=MaxNLocator(6))
+        bar.set_label(f"p in {unit}")
+        ax.contour(angle, z, np.where(p > 0.0, 1.0, 0.0).T, [0.5], colors="white", linewidths=0.9)
+    if any(film.eccentricity):
+        _mark_thinnest(ax, film, angle[0])
+    if film.groove is not None:
+        ax.axvline(angle[0], color=COLOURS[5], lw=3.0, label="groove")
+        ax.legend(loc="lower left", fontsize=8, frameon=True)
+    ax.set(xlabel="direction from the bearing's centre in °", ylabel=f"z in {name}")
+    ax.set(xlim=(angle[0], angle[-1]), ylim=(z[0], z[-1]))
+    ax.xaxis.set_major_locator(MultipleLocator(60.0))
+    ax.xaxis.set_major_formatter(lambda x, _: f"{(x + 180.0) % 360.0 - 180.0:g}".replace("-", "−"))
+    ax.grid(False)
+
+
+def _mark_thinnest(ax: Axes, film: Film, first: float) -> None:
+    thinnest = math.degrees(math.atan2(film.eccentricity[1], film.eccentricity[0]))
+    thinnest += 360.0 * math.ceil((first - thinnest) / 360.0)
+    ax.axvline(thinnest, color=COLOURS[0], lw=1.0, ls="--", label="thinnest film")
+    ax.legend(loc="lower left", fontsize=8, frameon=True)
+
+
+def _round(ax: Axes, film: Film) -> None:
+    turn = np.linspace(0.0, 2.0 * math.pi, 361)
+    ax.plot(np.cos(turn), np.sin(turn), color="#777777", lw=1.2)
+    x, y = np.array(film.eccentricity) / film.bearing.clearance * GAP
+    ax.fill(x + (1.0 - GAP) * np.cos(turn), y + (1.0 - GAP) * np.sin(turn), facecolor="#e8e8e8", edgecolor="#777777")
+    p = film.pressure[:, film.pressure.shape[1] // 2]
+    closed, angle = np.append(p, p[0]), np.append(film.angle, film.angle[0])
+    if p.any():
+        out = 1.0 + TALL * closed / p.max()
+        around = np.concatenate([out * np.exp(1j * angle), np.exp(1j * angle[::-1])])
+        ax.fill(around.real, around.imag, facecolor=COLOURS[1], alpha=0.35, lw=0)
+        ax.plot(out * np.cos(angle), out * np.sin(angle), color=COLOURS[1], lw=1.0)
+        tip = np.array([x, y]) + 0.65 * film.force / math.hypot(*film.force)
+        style = {"arrowstyle": "-|>", "color": COLOURS[0], "lw": 1.6}
+        ax.annotate("", (float(tip[0]), float(tip[1])), (x, y), arrowprops=style)
+    ax.plot([0.0], [0.0], "+", color="#777777", ms=6)
+    ax.plot([x], [y], "o", color=IDEAL, ms=3)
+    side = 1.05 + TALL
+    ax.set(xlim=(-side, side), ylim=(-side, side), aspect="equal", xticks=[], yticks=[])
+    ax.set_title("pressure in the middle plane")
+    ax.spines[:].set_visible(False)
+    ax.grid(False)
+
+
+def deviation_map(found: Deviation, ax: Axes | None) -> Axes:
+    """ε across, motion up, the share in percent; as dark as it gets where it is beyond the scale."""
+    import matplotlib
+    from matplotlib.figure import Figure
+
+    with matplotlib.rc_context(STYLE):
+        own = Figure(figsize=(5.2, 3.8), dpi=120, layout="constrained").subplots() if ax is None else ax
+        levels = (0.0, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0)
+        share, up = 100.0 * found.share.T, np.degrees(found.motion)
+        norm = matplotlib.colors.BoundaryNorm(levels, 256, extend="max")
+        drawn = own.pcolormesh(found.eps, up, share, norm=norm, cmap="YlOrRd", shading="nearest")
+        bar = own.figure.colorbar(drawn, ax=own, extend="max")
+        bar.set_label("deviation in % of the largest force at ε")
+        own.set(xlabel="ε", title=f"{found.law} against {found.cavitation}, L/D = {found.l_over_d:g}")
+        own.set_yticks((0.0, 45.0, 90.0, 135.0, 180.0), ("closes", "45°", "turns", "135°", "opens"))
+        own.grid(False)
+    return own

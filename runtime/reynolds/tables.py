@@ -1,0 +1,68 @@
+"""Forces of many states of one bearing, as tables of film laws are made from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gudgeon.errors import BadValueError
+from gudgeon.model.arrays import taken
+from gudgeon.reynolds.bearing import CAVITATIONS, ENDS, Bearing, cells_of, check_eccentricity, choice
+from gudgeon.reynolds.cavitation import Motion
+from gudgeon.reynolds.equation import Equation
+from gudgeon.reynolds.grid import Array
+from gudgeon.reynolds.solver import CELLS, WIDEST, Problem, refined
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """What `table` found; the arrays have the shape to which the states were broadcast.
+
+    eps, eps_rate (1/s), omega_s (rad/s): the states. force: (…, 2) F_r along e and F_t along ẑ × e on the journal, N.
+    error: as a film's, N.
+    """
+
+    eps: Array
+    eps_rate: Array
+    omega_s: Array
+    force: Array
+    error: Array
+
+
+def table(
+    bearing: Bearing, eps: ArrayLike, eps_rate: ArrayLike = 0.0, omega_s: ArrayLike = 0.0, *,
+    cavitation: str = "reynolds", ends: str = "open", groove: str | None = None, cells: tuple[int, int] = CELLS,
+) -> Table:  # fmt: skip
+    """Forces over eccentricity ratio ε in [0, 1), its rate ε̇ (1/s) and ω_s = ω_i + ω_j − 2ψ̇ (rad/s).
+
+    The three are broadcast together; all else is as `solve` takes it, a groove is None or "widest". States of one ε
+    share their grid and flows, and what is asked twice is solved once.
+    """
+    choice(cavitation, "cavitation", CAVITATIONS)
+    sealed = choice(ends, "ends", ENDS) == "sealed"
+    around, along = cells_of(cells, sealed)
+    if groove is not None:
+        choice(groove, "groove", ("None", WIDEST))
+    given = [taken(x, name, finite=True) for x, name in ((eps, "eps"), (eps_rate, "eps_rate"), (omega_s, "omega_s"))]
+    try:
+        states = np.broadcast_arrays(*given)
+    except ValueError:
+        shapes = ", ".join(str(x.shape) for x in given)
+        raise BadValueError(f"eps, eps_rate and omega_s have the shapes {shapes}: they do not go together") from None
+    if (states[0] < 0.0).any():
+        raise BadValueError(f"eps is {states[0].min():g}: expected no less than 0")
+    check_eccentricity(float(states[0].max(initial=0.0)))
+    at = 0.0 if sealed or groove or cavitation == "elrod_adams" else None
+    rows, back = np.unique(np.stack([x.ravel() for x in states], axis=1), axis=0, return_inverse=True)
+    force, error = np.zeros((len(rows), 2)), np.zeros(len(rows))
+    known: tuple[float, dict[int, Equation]] = (-1.0, {})
+    for k, (e, closing, speed) in enumerate(rows.tolist()):
+        known = known if known[0] == e else (e, {})
+        motion = Motion(closing, -0.5 * e * speed, 0.5 * speed)
+        coarse, fine = refined(Problem(e, bearing.l_over_d, sealed, cavitation, at, motion), around, along, known[1])
+        force[k], error[k] = fine.force, np.hypot(*(fine.force - coarse.force))
+    unit, back = bearing.pressure_unit * bearing.radius**2, back.reshape(states[0].shape)
+    e_all, closing_all, speed_all = (x.copy() for x in states)
+    return Table(e_all, closing_all, speed_all, unit * force[back], unit * error[back])
