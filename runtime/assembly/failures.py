@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from gudgeon.assembly.closure import Closure
+from gudgeon.assembly.closure import CLOSED, Closure
 from gudgeon.assembly.open_loops import wrong_lengths
 from gudgeon.assembly.rank import tied
 from gudgeon.errors import AssemblyError
@@ -62,6 +62,8 @@ def not_closed(closure: Closure, q: Array) -> AssemblyError:
     worst = np.argsort(-scaled)[:6]
     worst = worst[scaled[worst] > 1e-3 * scaled.max()]
     rows = ", ".join(_open_row(closure, q, k) for k in worst)
+    if more := int((scaled >= max(CLOSED, 1e-6 * scaled.max())).sum()) - len(worst):
+        rows += f" and {more} more, less far,"
     owners = ", ".join(dict.fromkeys(closure.owners[k] for k in worst if closure.owners[k] != "start"))
     sets = "what start.set holds, " if len(closure.set_index) else ""
     lengths = _lengths(closure, q)

@@ -113,7 +113,7 @@ def summary(found: Findings) -> str:
     if len(by_count) == 1 and not found.failed:
         return f"degrees of freedom {next(iter(by_count))}"
     counts = [f"{count} ({', '.join(names)})" for count, names in by_count.items()]
-    return f"degrees of freedom {', '.join(counts)}" if counts else "it does not assemble"
+    return f"degrees of freedom {', '.join(counts)}" if counts else "none of them assembles"
 
 
 def without_masses(mechanism: Mechanism, found: Findings) -> list[str]:

@@ -178,6 +178,7 @@ def stalled(pace: Pace, ended: NDArray[np.int_], film: str, fast: str, cornered:
     kinds = ("a contact begins or ends", f"a force changes its form (a corner{form})",
              "friction changes between stick and slip", "an event's expression is zero")  # fmt: skip
     count = "all" if ended[whose] == pace.steps else str(ended[whose])
+    smooth = "or make what acts there smooth: of a jump with the sign of a speed v, tanh(v / v0) over a small speed v0"
     if film:
         why = film
     elif ended[whose] > 0.01 * pace.steps:
@@ -187,8 +188,8 @@ def stalled(pace: Pace, ended: NDArray[np.int_], film: str, fast: str, cornered:
     return SolverError(
         f"the run no longer advances at t = {pace.t:.9g} s: its last {pace.steps} steps gained {pace.gained:.3g} s;"
         f" {pace.left:.3g} s are left, {pace.needed:.1e} steps at this pace\n  {why}\n"
-        "  what was computed is kept: look at its last samples; end the run before, or change what acts there; rk4 with"
-        " a step of its own goes over a jump of a force, with an error", pace.t
+        "  what was computed is kept: look at its last samples; end the run before,"
+        f" {smooth}; rk4 with a step of its own goes over a jump of a force, with an error", pace.t
     )  # fmt: skip
 
 

@@ -215,6 +215,10 @@ def _unknown(name: str, source: KernelSource) -> UnknownNameError:
     told, hint = as_parameter(source, name)
     if told:
         return UnknownNameError(told, None, hint)
+    start, _, coordinate = name.partition(".")[2].partition(".")
+    if start in ("guess", "set", "rates") and name.startswith("start.") and coordinate.count(".") == 1:
+        hint = f"expected one that the file's start has; gudgeon.load(..., overrides={{{name!r}: ...}}) brings it in"
+        return UnknownNameError(f"start.{start} of the file does not have {coordinate}", None, hint)
     near = difflib.get_close_matches(name, addresses(source), n=3)
     hint = f"did you mean {', '.join(dict.fromkeys(near))}?" if near else "see run.parameters for all addresses."
     return UnknownNameError(

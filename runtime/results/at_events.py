@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Trajectory
     from gudgeon.results.results import Array, Result
 
+FEW = 6  # times that are told
 OLDER = "the file was written before states at events were kept: run the scene again"
 
 
@@ -58,6 +59,12 @@ class AtEvents:
 
     def __len__(self) -> int:
         return len(self.rows)
+
+    def __repr__(self) -> str:
+        """How many, and when: "3 states at 'top': t = 0.1, 0.3, 0.5 s"."""
+        times = [f"{t:.6g}" for t in self.t[:FEW]] + ["…"] * (len(self) > FEW)
+        states = "state" if len(self) == 1 else "states"
+        return f"{len(self)} {states} at {self.event!r}" + (f": t = {', '.join(times)} s" if times else "")
 
     def unit(self, name: str) -> str:
         """SI unit of a series."""

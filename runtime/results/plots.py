@@ -256,7 +256,8 @@ def _head(picture: Figure, runs: Mapping[str, Result], colours: Mapping[str, str
     run = next(iter(runs.values()))
     title = in_figure(run.source.title or run.source.mechanism, TITLE)
     picture.suptitle(title, fontsize=13, fontweight="bold", x=0.012, ha="left")
-    handles: list[Any] = [Line2D([], [], color=colour, lw=2.2, label=scene) for scene, colour in colours.items()]
+    labels = {scene: f"{scene}{_shorter(scene, runs)}" for scene in colours}
+    handles: list[Any] = [Line2D([], [], color=colour, lw=2.2, label=labels[s]) for s, colour in colours.items()]
     if compared:
         handles.append(Line2D([], [], color=IDEAL, lw=1.4, ls="--", label="ideal"))
     if any(_trusted(run) is not None for run in runs.values()):
@@ -265,6 +266,12 @@ def _head(picture: Figure, runs: Mapping[str, Result], colours: Mapping[str, str
         picture.legend(handles=handles, loc="outside lower center", ncols=min(len(handles), BESIDE), fontsize=9.5)
         return
     picture.legend(handles=handles, loc="upper right", ncols=len(handles), fontsize=9.5, bbox_to_anchor=(0.995, 0.998))
+
+
+def _shorter(scene: str, runs: Mapping[str, Result]) -> str:
+    """Where a run ends before another one of the figure."""
+    end, last = (float(max(run.t[-1] for run in some)) for some in ([runs[scene]], runs.values()))
+    return f", to {end:.4g} s" if end < (1.0 - 1e-9) * last else ""
 
 
 def save_figure(picture: Figure, path: str | os.PathLike[str]) -> None:

@@ -219,7 +219,8 @@ def _range(extreme: Extreme, scales: Mapping[str, float]) -> str:
     if _is_noise(max(abs(extreme.low), abs(extreme.high)), extreme.unit, scales):
         return ZERO
     factor, text = drawn(max(abs(extreme.low), abs(extreme.high)), extreme.unit)
-    return f"{extreme.low * factor:.5g} … {extreme.high * factor:.5g} {text}".strip()
+    ends = (0.0 if _is_noise(abs(end), extreme.unit, scales) else end * factor for end in (extreme.low, extreme.high))
+    return f"{' … '.join(f'{end:.5g}' for end in ends)} {text}".strip()
 
 
 def _force_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
@@ -270,7 +271,7 @@ def _trust_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     play = [bool(d.peaks) for d in every]
     ratio = [f"{d.ratio_min:.3g} … {d.ratio_max:.3g}" if math.isfinite(d.ratio_min) else "–" for d in every]
     return [
-        ("max |Φ|", [f"{r.diagnostics.phi_max:.2e}" if r.constrained else "no constraint row" for r in reports]),
+        ("max |Φ|", [f"{r.diagnostics.phi_max:.2e}" if r.constrained else "no row is left" for r in reports]),
         ("max |Φ̇|", [f"{r.diagnostics.phi_dot_max:.2e}" if r.constrained else "–" for r in reports]),
         ("energy residual", [quantity(d.energy_residual, "J", 3) for d in every]),
         ("of turned over", [quantity(d.energy_turned_over, "J", 3) for d in every]),

@@ -129,7 +129,8 @@ def method_of(source: KernelSource, method: str, fixed: bool) -> str:
         why = f"this scene has {dof} degree{'' if dof == 1 else 's'} of freedom"
         if source.states:
             why = f"a law has an inner state ({next(filter(None, source.states))}), by which no slope is taken"
-        raise BadValueError(f"method {method!r} does not fit: {why}, use auto ({', '.join(source.methods)} fit)")
+        fit = f"{' and '.join(source.methods)} {'fits' if len(source.methods) == 1 else 'fit'} it"
+        raise BadValueError(f"method {method!r} does not fit: {why}; use auto ({fit})")
     return method
 
 
