@@ -85,10 +85,7 @@ def _scales(run: Result, forces: Mapping[str, tuple[float, float]], drives: Sequ
     found: dict[str, float] = {}
     sizes = [("N", force) for force, _ in forces.values()] + [(drive.unit, abs(drive.peak)) for drive in drives]
     for order, array in enumerate((run.q, run.v, run.a)):
-        sizes += [
-            (MOTION_UNITS[k % 3][order], float(np.nanmax(np.abs(array[:, k]), initial=0.0)))
-            for k in range(array.shape[1])
-        ]
+        sizes += [(MOTION_UNITS[k % 3][order], float(np.nanmax(np.abs(x), initial=0.0))) for k, x in enumerate(array.T)]
     for unit, size in sizes:
         if math.isfinite(size):
             found[unit] = max(size, found.get(unit, 0.0))
@@ -216,11 +213,11 @@ def _extreme_rows(reports: Sequence[SceneReport], errors: bool) -> list[tuple[st
 
 
 def _range(extreme: Extreme, scales: Mapping[str, float]) -> str:
-    if _is_noise(max(abs(extreme.low), abs(extreme.high)), extreme.unit, scales):
+    if _is_noise(size := max(abs(extreme.low), abs(extreme.high)), extreme.unit, scales):
         return ZERO
-    factor, text = drawn(max(abs(extreme.low), abs(extreme.high)), extreme.unit)
-    ends = (0.0 if _is_noise(abs(end), extreme.unit, scales) else end * factor for end in (extreme.low, extreme.high))
-    return f"{' … '.join(f'{end:.5g}' for end in ends)} {text}".strip()
+    factor, text = drawn(size, extreme.unit)
+    low, high = (0.0 if _is_noise(abs(x), extreme.unit, scales) else x * factor for x in (extreme.low, extreme.high))
+    return f"{low:.5g} … {high:.5g} {text}".strip()
 
 
 def _force_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
@@ -249,7 +246,7 @@ def _play_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
         rows.append((f"{joint} peak of that contact", [quantity(p.first_peak, "N", 5) if p else "–" for p in shown]))
         rows.append((f"{joint} largest e", [quantity(p.e_max, "m", 5) if p else "–" for p in shown]))
         for name, (unit, after) in CONSTANTS.items():
-            values = [report.constants.get(f"{joint}.{name}", math.nan) for report in reports]
+            values = (report.constants.get(f"{joint}.{name}", math.nan) for report in reports)
             rows.append((f"{joint} {name}{after}", [quantity(value, unit) for value in values]))
     return rows
 
@@ -262,8 +259,8 @@ def _event_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
             return "–" if times is None else "none"
         return f"at {times[0]:.7g} s" if len(times) == 1 else f"{len(times)}, first at {times[0]:.7g} s"
 
-    names = dict.fromkeys(name for report in reports for name in report.events)
-    return [(name, [cell(report.events.get(name)) for report in reports]) for name in names]
+    names = dict.fromkeys(name for r in reports for name in r.events)
+    return [(name, [cell(r.events.get(name)) for r in reports]) for name in names]
 
 
 def _trust_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
