@@ -8,10 +8,8 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Callable, Iterable
-from functools import wraps
 from pathlib import Path
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any
 
 import typer
 
@@ -23,6 +21,7 @@ from gudgeon.commands.options import (
     Csv,
     End,
     File,
+    Folder,
     Json,
     Laws,
     Mark,
@@ -33,18 +32,18 @@ from gudgeon.commands.options import (
     Quick,
     Range,
     Rest,
+    Restart,
+    Runs,
     Scenes,
     Set,
+    Threads,
     a_file,
     path,
     whole,
 )
+from gudgeon.commands.telling import told as _told
 from gudgeon.contract.methods import CHOOSING, KINEMATIC, OFFERED
-from gudgeon.entry import INTERRUPTED, last_word
-from gudgeon.errors import GudgeonError, MemoryShortage
 from gudgeon.language.shown import visible
-
-Command = TypeVar("Command", bound=Callable[..., Any])
 
 app = typer.Typer(
     name="gudgeon",
@@ -53,43 +52,6 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-
-
-def complain(error: GudgeonError) -> None:
-    """Write `error: …` to stderr, in red if somebody looks."""
-    red, plain = ("\033[31m", "\033[0m") if sys.stderr.isatty() else ("", "")
-    print(f"{red}error:{plain} {visible(error)}", file=sys.stderr)
-
-
-def _told(command: Command) -> Command:
-    """Our own errors are told in a line, without a traceback; others are bugs and keep theirs.
-
-    `laws` of a command are known before it begins.
-    """
-
-    @wraps(command)
-    def wrapper(*args: Any, **kwargs: Any) -> None:
-        try:
-            _know(kwargs.pop("laws", None) or ())
-            code = command(*args, **kwargs)
-        except (GudgeonError, MemoryError) as error:
-            complain(known := error if isinstance(error, GudgeonError) else MemoryShortage(error))
-            code = known.exit_code
-        except KeyboardInterrupt:
-            last_word()
-            code = INTERRUPTED
-        if code:
-            raise typer.Exit(code)
-
-    return wrapper  # type: ignore[return-value]
-
-
-def _know(laws: Iterable[str]) -> None:
-    """Laws of the user's own; a mechanism that needs none does not wait for what reads them."""
-    for file in laws:
-        from gudgeon.generator.kinds.laws.registered import register
-
-        register(file)
 
 
 def _version(wanted: bool) -> None:
@@ -285,6 +247,25 @@ def verdicts(
 
     request = Request(file, tuple(scene or ()), tuple(set_ or ()), t_end, out, csv, quick, mark, json)
     return map_file(request, Asked(method, at, tuple(axis or ()), box, tuple(range_ or ())))
+
+
+@app.command()
+@_told
+def study(
+    file: Annotated[str, typer.Argument(metavar="FILE", help="A study: a YAML file, docs/studies.md.")],
+    out: Folder = None, threads: Threads = None, restart: Restart = False, set_: Set = None, runs: Runs = False,
+    json: Json = False, laws: Laws = None,
+) -> int:  # fmt: skip
+    """Many runs of a mechanism, over grids, draws and perturbed starts, and what is measured of them: one dataset.
+
+    Finished blocks of runs are on disk at once: after Ctrl-C, a kill or a full disk the same command goes on. A run
+    that fails is a row with its reason.
+
+    Example: gudgeon study clearance.yaml --out clearance.study
+    """
+    from gudgeon.commands.study import Request, study_file
+
+    return study_file(Request(file, out, threads, restart, tuple(set_ or ()), runs, json))
 
 
 def main() -> None:

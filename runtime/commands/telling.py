@@ -1,0 +1,56 @@
+"""How a command ends: our own errors as a line on stderr and an exit code, Ctrl-C in a word.
+
+What typer waits for is imported here, so nothing else is.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterable
+from functools import wraps
+from typing import Any, TypeVar
+
+import typer
+
+from gudgeon.entry import INTERRUPTED, last_word
+from gudgeon.errors import GudgeonError, MemoryShortage
+from gudgeon.language.shown import visible
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+
+def complain(error: GudgeonError) -> None:
+    """Write `error: …` to stderr, in red if somebody looks."""
+    red, plain = ("\033[31m", "\033[0m") if sys.stderr.isatty() else ("", "")
+    print(f"{red}error:{plain} {visible(error)}", file=sys.stderr)
+
+
+def told(command: Command) -> Command:
+    """Our own errors are told in a line, without a traceback; others are bugs and keep theirs.
+
+    `laws` of a command are known before it begins.
+    """
+
+    @wraps(command)
+    def wrapper(*args: Any, **kwargs: Any) -> None:
+        try:
+            _know(kwargs.pop("laws", None) or ())
+            code = command(*args, **kwargs)
+        except (GudgeonError, MemoryError) as error:
+            complain(known := error if isinstance(error, GudgeonError) else MemoryShortage(error))
+            code = known.exit_code
+        except KeyboardInterrupt:
+            last_word()
+            code = INTERRUPTED
+        if code:
+            raise typer.Exit(code)
+
+    return wrapper  # type: ignore[return-value]
+
+
+def _know(laws: Iterable[str]) -> None:
+    """Laws of the user's own; a mechanism that needs none does not wait for what reads them."""
+    for file in laws:
+        from gudgeon.generator.kinds.laws.registered import register
+
+        register(file)
