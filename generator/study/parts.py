@@ -12,7 +12,7 @@ from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.study.spec import RESERVED, Written
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
 from gudgeon.language.parser import parse
-from gudgeon.language.suggestions import known_hint
+from gudgeon.language.suggestions import known_hint, nearest
 
 MOST_COUNT, MOST_SEED = 1_000_000, 2**63 - 1
 _WHOLE = re.compile(r"0|[1-9][0-9]{0,18}")
@@ -34,9 +34,10 @@ def place_of(node: Any, otherwise: Any) -> Any:
 
 def check_keys(reader: Reader, node: Map, known: Sequence[str], owner: str, needed: Sequence[str] = ()) -> bool:
     """Whether all keys that are needed are there; an error is collected for each that is not, and for strange ones."""
-    reader.errors.extend(unknown_key(key, known, owner) for key in node.names() if key not in known)
-    missing = [name for name in needed if name not in node]
-    reader.errors.extend(missing_key(name, node.where, owner) for name in missing)
+    strange = [key for key in node.names() if key not in known]
+    reader.errors.extend(unknown_key(key, known, owner) for key in strange)
+    meant, missing = {nearest(key, known) for key in strange}, [name for name in needed if name not in node]
+    reader.errors.extend(missing_key(name, node.where, owner) for name in missing if name not in meant)
     return not missing
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from gudgeon.contract.methods import OFFERED
 from gudgeon.errors import BadNameError, BadValueError, MissingKeyError
+from gudgeon.generator.format.shapes import unknown_key
 from gudgeon.generator.reader.collector import EnoughErrors, Reader
 from gudgeon.generator.study.axes import read_choices, read_draw, read_parameters, read_starts
 from gudgeon.generator.study.parts import check_keys, label, mapping, text, texts, word, written
@@ -80,7 +81,7 @@ def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str]) -> 
     windows = _windows(reader, root)
     measures, keep = _measures(reader, root, windows), _keep(reader, root)
     with reader.collect():
-        if not (measures or keep):
+        if not (root.get("measures") or root.get("keep")):
             hint = "expected measures: {peak: {peak: slider.ax}}, or keep: [slider.x]"
             raise MissingKeyError("the study measures nothing and keeps nothing", root.where, hint)
     found = StudyFile(
@@ -162,7 +163,8 @@ def _measures(reader: Reader, root: Map, windows: Mapping[str, Window]) -> tuple
 
 def _measure(reader: Reader, name: Text, node: Map, windows: Mapping[str, Window], root: Map) -> Measure:
     owner = f"measures.{name}"
-    check_keys(reader, node, (*STATISTICS, "window"), owner)
+    if strange := [key for key in node.names() if key not in (*STATISTICS, "window")]:
+        raise unknown_key(strange[0], (*STATISTICS, "window"), owner)
     chosen = [key for key in node.names() if key in STATISTICS]
     if len(chosen) != 1:
         told = f"{owner} has {'no statistic' if not chosen else f'both {chosen[0]} and {chosen[1]}'}"
@@ -201,13 +203,13 @@ def _check_names(reader: Reader, study: StudyFile, root: Map) -> None:
                 raise BadNameError(told, key.where, f"expected once; the first is at {seen[short].where}")
         seen.setdefault(short, key)
     groups = [Text.make(axis.name, axis.where) for axis in study.axes if axis.grouped]
-    names = [*addresses, *groups, *(Text.make(choice.name, choice.where) for choice in study.choices)]
+    names = [*groups, *(Text.make(choice.name, choice.where) for choice in study.choices)]
     names += [key for key in root.part("measures").names()] if isinstance(root.get("measures"), Map) else []
     names += study.keep
-    used: dict[str, Text] = {}
+    used = {str(key): key for key in addresses}
     for key in names:
         own = key in RESERVED and not (key == "run" and key in groups)
-        if key in used and key not in seen or own:
+        if key in used or own:
             with reader.collect():
                 first = f"the first is at {used[key].where}" if key in used else "the dataset has it as its own"
                 raise BadNameError(f"the name {str(key)[:60]!r} is taken", key.where, f"take another one: {first}")

@@ -89,7 +89,7 @@ def loaded(mechanism: str, scene: str, overrides: tuple[tuple[str, str], ...], s
 
 
 def run_block(job: Job, progress: Progress | None = None, simulation: Simulation | None = None) -> Block:
-    """Run, measure, let go; without a simulation load it. KeyboardInterrupt where Ctrl-C ended a run: it is no block."""
+    """Run, measure, let go; without a simulation load it. KeyboardInterrupt where Ctrl-C ended a run."""
     simulation = simulation or loaded(job.mechanism, job.scene, job.overrides, job.sha256)
     table = Table(simulation, job)
     failures = [table.bad.get(i, "") for i in range(job.n)]

@@ -82,7 +82,7 @@ def _about(file: Any, plan: Plan) -> None:
     attributes = {
         "title": plan.study.title or source.title, "mechanism": source.mechanism, "gudgeon": gudgeon.__version__,
         "sha256": source.whole_sha256, "study": json.dumps(plan.study.said, ensure_ascii=False),
-        "notes": "\n".join(plan.notes), "digest": plan.digest, "runs": plan.runs,
+        "notes": "\n".join(plan.notes), "plan": plan.identity, "runs": plan.runs,
     }  # fmt: skip
     for name, value in attributes.items():
         file.attrs[name] = value

@@ -38,15 +38,14 @@ class StudyFolder:
         """Locked, made, and known to be of this plan. Raises InputError for a folder of another one."""
         from filelock import FileLock, Timeout
 
+        lock = FileLock(self.path / LOCK)
         with telling(self.path):
             self.path.mkdir(parents=True, exist_ok=True)
-        lock = FileLock(self.path / LOCK)
-        try:
-            with telling(self.path):
+            try:
                 lock.acquire(timeout=0)
-        except Timeout:
-            told = f"another process is at work in {shortened(self.path)}"
-            raise InputError(told, hint="wait for it, or name another folder") from None
+            except Timeout:
+                told = f"another process is at work in {shortened(self.path)}"
+                raise InputError(told, hint="wait for it, or name another folder") from None
         try:
             self._begin(restart)
             yield self
@@ -74,7 +73,7 @@ class StudyFolder:
         for name in [name for name in there if name in (MANIFEST, DATASET) or _BLOCK.fullmatch(name)]:
             with telling(self.path / name):
                 (self.path / name).unlink(missing_ok=True)
-        text = json.dumps({"said": self.plan.said, "blocks": blocks, "digest": self.plan.digest}, indent=1)
+        text = json.dumps({"said": self.plan.said, "blocks": blocks, "plan": self.plan.identity}, indent=1)
         with written(self.path / MANIFEST, sync=True) as file:
             file.write(text.encode())
 

@@ -93,8 +93,9 @@ def values(numbers: Numbers, slot: Slot, again: bool) -> Array:
         raise BadValueError(told, numbers.texts[0].where, "expected both ends positive, or both negative")
     if first == last:
         raise BadValueError(f"a row from {first:g} to {last:g}", numbers.texts[1].where, "expected two ends")
-    row = np.geomspace if numbers.spacing == GEOMETRIC else np.linspace
-    return np.asarray(row(first, last, numbers.count))
+    if numbers.spacing == GEOMETRIC:
+        return np.geomspace(first, last, numbers.count)
+    return np.linspace(first, last, numbers.count)
 
 
 def check_expression(source: KernelSource, written: Written, wanted: Dimension, more: Mapping[str, Dimension]) -> None:

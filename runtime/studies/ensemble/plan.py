@@ -154,7 +154,15 @@ class Plan:
         return {"format": FOLDER_FORMAT, "gudgeon": gudgeon.__version__, "study": self.study.said, "mechanism": parts}
 
     @cached_property
+    def identity(self) -> str:
+        """A digest of `said`."""
+        return _digest(self.said)
+
+    @cached_property
     def digest(self) -> str:
-        """Of `said`, and of the blocks."""
-        told = json.dumps([self.said, [part.block for part in self.parts]], sort_keys=True)
-        return hashlib.sha256(told.encode()).hexdigest()
+        """The same with how runs are put into blocks: what a block's file is of."""
+        return _digest([self.said, [part.block for part in self.parts]])
+
+
+def _digest(told: Any) -> str:
+    return hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()

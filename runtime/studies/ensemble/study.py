@@ -160,6 +160,6 @@ def load_study(folder: str | os.PathLike[str]) -> Study:
         told = f"the study in {shortened(place)} is not finished"
         raise InputError(told, hint="gudgeon study FILE --out FOLDER goes on with it")
     study = Study(place)
-    if study.dataset.attrs.get("digest") != found.get("digest"):
+    if study.dataset.attrs.get("plan") != found.get("plan"):
         raise InputError(f"{shortened(place / DATASET)} is of another study", hint="remove it: it is written anew")
     return study
