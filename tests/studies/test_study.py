@@ -251,6 +251,10 @@ measures: {x: {final: bob.x}}
     np.testing.assert_allclose(found["x"], 0.5, rtol=1e-4)
     same = gudgeon.study(tmp_path / "s.yaml", settings={"length": 0.5}).dataset
     np.testing.assert_array_equal(same["x"], found["x"])
+    empty = text.replace("measures", "windows: {late: {from: 5 ms * g / (9.81 m/s^2) * 1.5, to: t_end}}\nmeasures")
+    (tmp_path / "late.yaml").write_text(empty)  # of the second run it begins after its end
+    done = call("study", "late.yaml")
+    assert "1 of 2 runs failed" in done.output and "window late goes from" in done.output, done.output
     assert call("study", "s.yaml", "--set", "g=3").exit_code == 2  # it is varied
     assert call("study", "s.yaml", "--set", "lenght=3").exit_code == 2
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
@@ -18,7 +19,7 @@ from gudgeon.results.batch import Array
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT, MOST_OUTPUT
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.ensemble.measures import Spans, measured, series_of, steps_of
+from gudgeon.studies.ensemble.measures import ROUNDING, Spans, measured, series_of, steps_of
 from gudgeon.studies.ensemble.numbers import of_runs, slot_of
 
 if TYPE_CHECKING:
@@ -113,33 +114,50 @@ class Table:
 
     def __init__(self, simulation: Simulation, job: Job) -> None:
         self.source, self.compiled, wanted = simulation.source, simulation.compiled, job.wanted
-        known = {name: values for name, values in job.columns.items() if slot_of(self.source, name) is not None}
-        self.columns: dict[str, Array] = known
-        p, _ = self._numbers(job.n)
-        place = {slot.address: k for k, slot in enumerate(self.source.slots)}
-        for name in {*job.relative, *job.absolute}:
-            if (slot := slot_of(self.source, name)) is not None:
-                base, zero = p[:, place[slot.address]], np.zeros(job.n)
-                off = job.relative.get(name, zero), job.absolute.get(name, zero)
-                self.columns = self.columns | {name: base * (1.0 + off[0]) + off[1]}
-        self.p, bad = self._numbers(job.n) if job.relative or job.absolute else (p, self.bad_numbers)
-        self.bad = {i: str(error) for i, error in bad.items()}
+        self.bad: dict[int, str] = {}
+        self.columns = {name: own for name, own in job.columns.items() if slot_of(self.source, name) is not None}
+        self.p, errors = self._numbers(job.n)
+        if off := {name: slot for name in (*job.relative, *job.absolute) if (slot := slot_of(self.source, name))}:
+            place, zero = {slot.address: k for k, slot in enumerate(self.source.slots)}, np.zeros(job.n)
+            for name, slot in off.items():
+                base, more = self.p[:, place[slot.address]], job.absolute.get(name, zero)
+                self.columns[name] = base * (1.0 + job.relative.get(name, zero)) + more
+            self.p, errors = self._numbers(job.n)
+        self.bad |= {i: str(error) for i, error in errors.items() if i not in self.bad}
         self.t_end = self._ends(wanted.t_end)
-        more = {"t_end": self.t_end}
-        self.output = self._outputs(wanted.output, more)
-        self.step = None if wanted.step is None else of_runs(self.source, wanted.step, self.p, more)
+        known = {"t_end": self.t_end}
+        self.output = self._outputs(wanted.output, known)
+        self.step = None if wanted.step is None else of_runs(self.source, wanted.step, self.p, known)
         if self.step is not None:
             self._refuse(~((self.step > 0.0) & np.isfinite(self.step)), self.step, "step", "a positive time (s)")
-        self.spans: Spans = {
-            name: tuple(None if expr is None else of_runs(self.source, expr, self.p, more) for expr in ends)
-            for name, ends in wanted.windows.items()
-        }
+        self.spans = self._windows(wanted.windows, known)
 
     def _numbers(self, n: int) -> tuple[Array, Mapping[int, GudgeonError]]:
-        rows = [{name: _plain(values[i]) for name, values in self.columns.items()} for i in range(n)]
+        """p of all runs, and what is wrong with it; a number that is none is left out, and its run is bad."""
+        rows: list[dict[str, float | str]] = [{} for _ in range(n)]
+        for name, own in self.columns.items():
+            for i, value in enumerate(map(_plain, own)):
+                if isinstance(value, str) or math.isfinite(value):
+                    rows[i][name] = value
+                else:
+                    self.bad.setdefault(i, f"{name} is {value}: expected a finite number")
         given, is_given = each_of(rows, lambda i, row: given_slots(self.source, row))
-        p, _, self.bad_numbers = prepare_sets(self.compiled, given, is_given, False)
-        return p, self.bad_numbers
+        p, _, errors = prepare_sets(self.compiled, given, is_given, False)
+        return p, errors
+
+    def _windows(self, windows: Mapping[str, tuple[Expr | None, ...]], known: Mapping[str, Array]) -> Spans:
+        """Begin and end of each run's windows; one that lies nowhere in its run is what the run fails of."""
+        found: dict[str, tuple[Array | None, ...]] = {}
+        for name, ends in windows.items():
+            own = [None if expr is None else of_runs(self.source, expr, self.p, known) for expr in ends]
+            limits = zip(own, (np.zeros_like(self.t_end), self.t_end), strict=True)
+            begin, end = (limit if x is None else x for x, limit in limits)
+            within = (begin <= end) & (begin <= self.t_end * (1 + ROUNDING)) & (end >= 0.0)
+            for i in np.flatnonzero(~within).tolist():
+                told = f"window {name} goes from {begin[i]:g} s to {end[i]:g} s with this run's numbers"
+                self.bad.setdefault(i, f"{told}: expected a part of the run, to {self.t_end[i]:g} s")
+            found[name] = tuple(own)
+        return found
 
     def _refuse(self, wrong: Array, values: Array, name: str, expected: str) -> None:
         for i in np.flatnonzero(wrong).tolist():

@@ -81,8 +81,8 @@ def values(numbers: Numbers, slot: Slot, again: bool) -> Array:
     """
     if not numbers.count:
         found = [in_si(text, slot) for text in numbers.texts]
-        first = {value: k for k, value in reversed(list(enumerate(found)))}
-        twice = next((k for k, value in enumerate(found) if first[value] < k and not again), None)
+        first_of = {value: k for k, value in reversed(list(enumerate(found)))}
+        twice = next((k for k, value in enumerate(found) if first_of[value] < k and not again), None)
         if twice is not None:
             text = numbers.texts[twice]
             raise BadValueError(f"{str(text)[:60]!r} stands there twice", text.where, "expected each value once")
@@ -94,8 +94,8 @@ def values(numbers: Numbers, slot: Slot, again: bool) -> Array:
     if first == last:
         raise BadValueError(f"a row from {first:g} to {last:g}", numbers.texts[1].where, "expected two ends")
     if numbers.spacing == GEOMETRIC:
-        return np.geomspace(first, last, numbers.count)
-    return np.linspace(first, last, numbers.count)
+        return np.asarray(np.geomspace(first, last, numbers.count))
+    return np.asarray(np.linspace(first, last, numbers.count))
 
 
 def check_expression(source: KernelSource, written: Written, wanted: Dimension, more: Mapping[str, Dimension]) -> None:

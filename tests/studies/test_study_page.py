@@ -1,0 +1,47 @@
+"""docs/studies.md keeps its word: its file is a study, its Python runs, what it quotes is read, its table is whole."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gudgeon.generator.study.read import KEYS, read_study
+from gudgeon.generator.study.spec import DRAWN, STATISTICS
+from gudgeon.studies.ensemble.resolve import BLOCK
+from tests.pump import needs_compiler
+
+PAGE = (Path(__file__).parents[2] / "docs" / "studies.md").read_text(encoding="utf-8")
+
+
+def block(language: str) -> str:
+    (found,) = re.findall(rf"^```{language}\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
+    return str(found)
+
+
+@needs_compiler
+def test_its_file_and_its_python(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("wristpin.yaml").write_text(block("yaml"), encoding="utf-8")
+    names: dict[str, object] = {}
+    exec(block("python"), names)
+    found = names["study"].dataset  # type: ignore[attr-defined]
+    assert dict(found["peak"].sizes) == {"scene": 2, "c": 3, "omega": 3, "start": 4}
+    assert names["study"].failed == 0 and Path("wristpin.nc").exists()  # type: ignore[attr-defined]
+    np.testing.assert_allclose(found["t_last"].sel(scene="ideal")[0, :, 0], 4 * np.pi / found["omega"], rtol=1e-5)
+
+
+def test_every_key_statistic_and_method_is_on_the_page() -> None:
+    words = set(re.findall(r"[A-Za-z_]\w*", PAGE))
+    assert {*KEYS, *STATISTICS, *DRAWN} <= words
+    assert f"{BLOCK} at most" in PAGE
+
+
+def test_what_it_quotes_is_read() -> None:
+    quoted = [text for text in re.findall(r"`((?:zip|draw|choices): \{[^`]*\})`", PAGE) if "…" not in text]
+    quoted.append("starts: {count: 2, " + re.findall(r"`(ensembles: \{[^`]*\})`", PAGE)[0] + "}")
+    assert len(quoted) == 4
+    for text in quoted:
+        read_study(f"format: gudgeon-study/1\nmechanism: pendulum\nkeep: [bob.x]\n{text}\n".encode(), "quoted.yaml")
