@@ -159,7 +159,7 @@ def test_every_test_that_the_table_names_exists() -> None:
         assert function in {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}, (file, function)
 
 
-PAGES = ["CONTRIBUTING.md", *(f"docs/{name}.md" for name in ("format", "methods", "physics", "race")), *TOLD]
+PAGES = ["CONTRIBUTING.md", *(f"docs/{name}.md" for name in ("format", "methods", "physics", "race", "studies")), *TOLD]
 
 
 @pytest.mark.parametrize("name", PAGES)
