@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from gudgeon.contract.methods import OFFERED
+from gudgeon.contract.methods import KINEMATIC, OFFERED
 from gudgeon.errors import BadNameError, BadValueError, MissingKeyError
 from gudgeon.generator.format.shapes import unknown_key
 from gudgeon.generator.reader.collector import EnoughErrors, Reader
@@ -31,6 +31,7 @@ KEYS = (
     "format", "title", "mechanism", "scenes", "choices", "parameters", "zip", "draw", "starts", "t_end", "output",
     "step", "method", "rtol", "stop", "windows", "measures", "keep",
 )  # fmt: skip
+AUTO = "auto"
 WINDOWED = (*SAMPLES, *CONTACTS, *CROSSINGS)
 
 
@@ -114,11 +115,12 @@ def _written(reader: Reader, root: Map, name: str) -> Written | None:
     return None
 
 
-def _method(reader: Reader, root: Map) -> str:
+def _method(reader: Reader, root: Map) -> Text:
     with reader.collect():
         if "method" in root:
-            return word(root["method"], "method", root.key("method"), (*OFFERED, "kinematic"))
-    return "auto"
+            name = word(root["method"], "method", root.key("method"), (*OFFERED, KINEMATIC))
+            return Text.make(name, root["method"].where)
+    return Text.make(AUTO, root.where)
 
 
 def _rtol(reader: Reader, root: Map) -> Text | None:

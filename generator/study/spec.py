@@ -139,7 +139,7 @@ class StudyFile:
     windows: Mapping[str, Window]
     measures: tuple[Measure, ...]
     keep: tuple[Text, ...]
-    method: str
+    method: Text
     rtol: Text | None
     stop: bool
     said: Mapping[str, Any]

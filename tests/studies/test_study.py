@@ -259,6 +259,24 @@ measures: {x: {final: bob.x}}
     assert call("study", "s.yaml", "--set", "lenght=3").exit_code == 2
 
 
+def test_a_scene_that_cannot_move_follows_its_drives() -> None:
+    """Whatever method, tolerance and step say: those are of the scenes that are integrated, and a note says so."""
+    own: dict[str, Any] = {"parameters": {"omega": ["300 rpm", "600 rpm"]}, "output": 5, "t_end": "1 ms",
+                           "measures": {"x": {"final": "slider.x"}}, "method": "rk4", "step": "t_end / 1000"}
+    found = gudgeon.study({"mechanism": "slider_crank", "scenes": ["ideal", "dry"]} | own)
+    assert found.failed == 0 and sum("no degree of freedom" in note for note in found.notes) == 1
+    for omega in (10 * math.pi, 20 * math.pi):
+        given = {"parameters": {"omega": omega}, "output": 5}
+        run = loaded("slider_crank", "dry").simulate(1e-3, method="rk4", step=1e-6, **given)
+        assert found.dataset["x"].sel(scene="dry", omega=omega) == run["slider.x"][-1]
+        run = loaded("slider_crank").simulate(1e-3, **given)
+        assert found.dataset["x"].sel(scene="ideal", omega=omega) == run["slider.x"][-1]
+    del own["step"], own["method"]
+    assert gudgeon.study({"mechanism": "slider_crank", "scenes": ["ideal", "dry"], "rtol": 1e-6} | own).failed == 0
+    with pytest.raises(InputError, match="scene dry: .*rtol"):
+        gudgeon.study({"mechanism": "slider_crank", "scenes": ["ideal", "dry"], "rtol": 2} | own)
+
+
 def test_slabs_are_boxes_that_cover_a_range_once() -> None:
     for shape in ((), (7,), (2, 3), (3, 1, 4), (2, 3, 2, 2)):
         size = math.prod(shape)

@@ -23,6 +23,7 @@ from gudgeon.studies.ensemble.measures import ROUNDING, Spans, measured, series_
 from gudgeon.studies.ensemble.numbers import of_runs, slot_of
 
 if TYPE_CHECKING:
+    from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.generator.study.spec import Measure
     from gudgeon.integrators.trajectory import Progress
     from gudgeon.results.batch import Batch
@@ -109,6 +110,11 @@ def run_block(job: Job, progress: Progress | None = None, simulation: Simulation
     return found.block(failures)
 
 
+def method_in(source: KernelSource, method: str) -> str:
+    """The method that a scene is run with: one without a degree of freedom follows its drives, whatever is asked."""
+    return method if source.degrees_of_freedom else "auto"
+
+
 class Table:
     """Numbers of all runs of a job, and what follows from them: end, samples, step; why some cannot begin."""
 
@@ -127,8 +133,9 @@ class Table:
         self.t_end = self._ends(wanted.t_end)
         known = {"t_end": self.t_end}
         self.output = self._outputs(wanted.output, known)
-        self.step = None if wanted.step is None else of_runs(self.source, wanted.step, self.p, known)
-        if self.step is not None:
+        self.step: Array | None = None
+        if wanted.step is not None and self.source.degrees_of_freedom:
+            self.step = of_runs(self.source, wanted.step, self.p, known)
             self._refuse(~((self.step > 0.0) & np.isfinite(self.step)), self.step, "step", "a positive time (s)")
         self.spans = self._windows(wanted.windows, known)
 
@@ -204,11 +211,12 @@ def _run(simulation: Simulation, job: Job, table: Table, runs: Array, progress: 
     same_end = len(set(ends.tolist())) == 1
     t_end: Any = None if not alike else float(ends[0]) if same_end else ends
     parameters: Any = {name: list(map(_plain, values[runs])) for name, values in table.columns.items()}
+    source, step = simulation.source, None if table.step is None else table.step[runs]
     batch = simulation.simulate_many(
-        parameters or [{}] * len(runs), t_end, output=output, method=wanted.method, rtol=wanted.rtol,
-        step=None if table.step is None else table.step[runs], threads=job.threads, progress=progress, stop=wanted.stop,
-        keep=series_of(wanted.measures, wanted.keep, simulation.source),
-        peaks=steps_of(wanted.measures, simulation.source),
+        parameters or [{}] * len(runs), t_end, output=output, method=method_in(source, wanted.method),
+        rtol=wanted.rtol if source.degrees_of_freedom else None, step=step, threads=job.threads, progress=progress,
+        stop=wanted.stop, keep=series_of(wanted.measures, wanted.keep, source),
+        peaks=steps_of(wanted.measures, source),
     )  # fmt: skip
     if batch.interrupted:
         raise KeyboardInterrupt

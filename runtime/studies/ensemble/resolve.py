@@ -12,7 +12,7 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.limits import MAX_BYTES
-from gudgeon.errors import BadValueError, GudgeonError, InputError, shortened
+from gudgeon.errors import BadValueError, InputError, shortened
 from gudgeon.files.beside import read_beside
 from gudgeon.integrators import adaptive
 from gudgeon.language.units import DIMENSIONLESS, TIME
@@ -22,7 +22,7 @@ from gudgeon.results.unknown import check_series
 from gudgeon.simulation.arguments import method_of
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.ensemble.block import Job, Table, Wanted
+from gudgeon.studies.ensemble.block import Job, Table, Wanted, method_in
 from gudgeon.studies.ensemble.measures import meaning, series_of, unit_of, unknown_of
 from gudgeon.studies.ensemble.numbers import check_expression, in_si, known_slot, real, slot_of, values
 from gudgeon.studies.ensemble.plan import Coordinate, Deviations, Dimension, Part, Plan
@@ -200,16 +200,25 @@ def _wanted(study: StudyFile, parts: Sequence[Part]) -> Wanted:
         ):  # fmt: skip
             if written is not None:
                 check_expression(source, written, dimension, more)
-        try:
-            chosen = method_of(source, study.method, study.step is not None)
-            adaptive.tolerance(rtol, chosen, study.step is not None)
-        except GudgeonError as error:
-            raise type(error)(f"scene {source.scene}: {error}") from None
+        _check_method(study, source, rtol)
     windows = {name: tuple(None if end is None else end.expr for end in (window.begin, window.end))
                for name, window in study.windows.items()}  # fmt: skip
     t_end, output, step = (None if one is None else one.expr for one in (study.t_end, study.output, study.step))
-    keep = tuple(map(str, study.keep))
-    return Wanted(t_end, output, step, windows, study.measures, keep, study.method, rtol, study.stop)
+    keep, method = tuple(map(str, study.keep)), str(study.method)
+    return Wanted(t_end, output, step, windows, study.measures, keep, method, rtol, study.stop)
+
+
+def _check_method(study: StudyFile, source: KernelSource, rtol: float | None) -> None:
+    """An InputError at its place for a method or a tolerance that a scene cannot have."""
+    method, where = method_in(source, str(study.method)), study.method.where
+    moves = bool(source.degrees_of_freedom)
+    fixed, rtol = moves and study.step is not None, rtol if moves else None
+    try:
+        chosen = method_of(source, method, fixed)
+        where = study.rtol.where if study.rtol is not None else where
+        adaptive.tolerance(rtol, chosen, fixed)
+    except InputError as error:
+        raise type(error)(f"scene {source.scene}: {error.message}", where, error.hint) from None
 
 
 def _tolerance(text: Text) -> float:
@@ -246,6 +255,8 @@ def _notes(study: StudyFile, sources: Sequence[KernelSource]) -> Iterator[str]:
     for name in dict.fromkeys(names):
         if lacking := [scene for scene, source in by_scene.items() if slot_of(source, str(name)) is None]:
             yield f"{name} is no number of scene {', '.join(lacking)}: there the runs are the same whatever it is"
+    if still := [scene for scene, source in by_scene.items() if method_in(source, str(study.method)) != study.method]:
+        yield f"scene {', '.join(still)} has no degree of freedom: it follows its drives, whatever method says"
     for measure in study.measures:
         if lacking := [scene for scene, source in by_scene.items() if unit_of(measure, source) is None]:
             yield f"{measure.name}, {meaning(measure)}, is NaN in scene {', '.join(lacking)}, which has no such thing"
