@@ -210,7 +210,9 @@ def test_perturbed_starts_are_off_by_their_size() -> None:
     assert alone["a"].dims == ("g", "start")
 
 
-def test_failures_are_rows_with_their_reason(call: Gudgeon, tmp_path: Path) -> None:
+def test_failures_are_rows_with_their_reason(
+    call: Gudgeon, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """A clearance larger than its bearing, an end before the start: the others are as they are without them."""
     study: dict[str, Any] = {
         "mechanism": "slider_crank", "scenes": "dry", "parameters": {"c": ["0.1 mm", "20 mm", "0.3 mm"],
@@ -226,6 +228,11 @@ def test_failures_are_rows_with_their_reason(call: Gudgeon, tmp_path: Path) -> N
     run = loaded("slider_crank", "dry").simulate(2e-3, output=4, parameters={"c": 3e-4, "omega": 10 * math.pi})
     assert found.dataset["x"][2, 0] == run["slider.x"][-1]
     (tmp_path / "s.yaml").write_text(json.dumps(study | {"format": "gudgeon-study/1"}))  # YAML holds JSON
+    study["parameters"]["omega"].append("600 rpm")
+    whole = gudgeon.study(study).dataset
+    monkeypatch.setattr(resolve, "BLOCK", 2)
+    xr.testing.assert_identical(gudgeon.study(study).dataset, whole)
+    np.testing.assert_array_equal(whole["t"].isnull().all("sample"), whole["failure"] != "")
     done = call("study", "s.yaml")
     assert done.exit_code == 0 and "4 of 6 runs failed" in done.output, done.output
     document = json.loads(call("study", "s.yaml", "--json", "--out", "s.study").output)

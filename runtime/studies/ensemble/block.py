@@ -69,13 +69,13 @@ class Job:
 
 @dataclass(frozen=True, eq=False)
 class Block:
-    """What is left of n runs; `t` is (N,) where all have the same times, else (n, N)."""
+    """What is left of n runs; `t` is (N,) where all that began have the same times, else (n, N)."""
 
     number: int
     first: int
     measures: Mapping[str, Array]  # (n,)
     failures: tuple[str, ...]  # why a run failed, "" where it did not
-    t_last: Array  # (n,) s
+    t_last: Array  # (n,) s, NaN: it did not begin
     t: Array  # empty where nothing is kept
     series: Mapping[str, Array]  # (n, N)
 
@@ -259,7 +259,8 @@ class _Found:
             t[runs, : taken.shape[1]] = np.where(np.isnan(taken), asked, taken)
             for name in (name for name in keep if name in kept):
                 series[name][runs, : taken.shape[1]] = kept[name]
-        began = ~np.isnan(t).all(axis=1) if N else np.zeros(job.n, bool)
+        began = ~np.isnan(self.t_last)
+        t[~began] = np.nan
         common = t[began][0] if began.any() else np.zeros(N)
         if np.array_equal(t[began], np.broadcast_to(common, t[began].shape)):
             t = common

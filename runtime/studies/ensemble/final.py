@@ -139,7 +139,8 @@ def _fill(variables: dict[str, Any], plan: Plan, block: Block, common: bool) -> 
     values: dict[str, Any] = {**block.measures, "t_last": block.t_last, "failure": np.array(block.failures, object)}
     values |= block.series
     if plan.wanted.keep and not common:
-        values["t"] = np.broadcast_to(block.t, (n, block.t.shape[-1]))
+        began = ~np.isnan(block.t_last)[:, None]
+        values["t"] = np.where(began, np.broadcast_to(block.t, (n, block.t.shape[-1])), np.nan)
     for name, column in values.items():
         for at, rows in slabs(plan.shape, block.first, block.first + n):
             own = column[rows.start - block.first : rows.stop - block.first]
