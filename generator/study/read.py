@@ -31,7 +31,7 @@ KEYS = (
     "format", "title", "mechanism", "scenes", "choices", "parameters", "zip", "draw", "starts", "t_end", "output",
     "step", "method", "rtol", "stop", "windows", "measures", "keep",
 )  # fmt: skip
-AUTO = "auto"
+AUTO, MAX_TITLE = "auto", 200
 WINDOWED = (*SAMPLES, *CONTACTS, *CROSSINGS)
 
 
@@ -73,7 +73,9 @@ def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str]) -> 
     with reader.collect():
         mechanism = text(root["mechanism"], "mechanism", root.key("mechanism"), "a file beside this one, or a name")
     with reader.collect():
-        title = text(root["title"], "title", root.key("title"), "a line") if "title" in root else title
+        if "title" in root and len(title := text(root["title"], "title", root.key("title"), "a line")) > MAX_TITLE:
+            told = f"the title has {len(title)} characters"
+            raise BadValueError(told, title.where, f"expected one line of at most {MAX_TITLE}")
     with reader.collect():
         if "scenes" in root:
             scenes = _once(texts(root["scenes"], "scenes", root.key("scenes"), "names of scenes"), "scene")

@@ -7,7 +7,7 @@ from typing import Any
 
 from gudgeon.errors import BadValueError, Location
 from gudgeon.generator.yaml.tree import Items, Map, Text
-from gudgeon.language.wanted import told
+from gudgeon.language.wanted import is_whole, told
 
 MOST_DEPTH, MOST_VALUES = 16, 1_000_000
 
@@ -39,7 +39,7 @@ def tree_of(value: Any, address: str = "", depth: int = 0) -> Any:
             raise BadValueError(f"{address} has {len(every)} values", where, f"expected at most {MOST_VALUES}")
         return Items.make((tree_of(one, f"{address}[{k}]", depth + 1) for k, one in enumerate(every)), where)
     try:
-        return Text.make(repr(value) if isinstance(value, int) else repr(float(value)), where)
+        return Text.make(repr(int(value)) if is_whole(value) else repr(float(value)), where)
     except (TypeError, ValueError, OverflowError):
         hint = "expected a number, a text, a list or a mapping"
         raise BadValueError(f"{address or 'the study'} is {told(value)}", where, hint) from None

@@ -123,6 +123,16 @@ def test_a_damaged_block_is_run_again(tmp_path: Path, quiet: xr.Dataset) -> None
     xr.testing.assert_identical(gudgeon.study(STUDY, tmp_path).dataset, quiet)
 
 
+def test_a_damaged_dataset_is_refused_and_written_anew(tmp_path: Path, quiet: xr.Dataset) -> None:
+    gudgeon.study(STUDY, tmp_path)
+    for data in (b"", b"no HDF5", (tmp_path / "block-000000.nc").read_bytes()):
+        (tmp_path / "study.nc").write_bytes(data)
+        with pytest.raises(InputError, match="cannot be read"):
+            gudgeon.load_study(tmp_path)
+    (tmp_path / "study.nc").unlink()
+    xr.testing.assert_identical(gudgeon.study(STUDY, tmp_path).dataset, quiet)
+
+
 def test_foreign_folders_stay_as_they_are(tmp_path: Path) -> None:
     (tmp_path / "thesis.tex").write_text("mine")
     for restart in (False, True):

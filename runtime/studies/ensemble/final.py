@@ -19,7 +19,7 @@ from gudgeon.studies.ensemble.measures import meaning
 from gudgeon.studies.ensemble.plan import Coordinate, Plan
 
 _NUMBER = re.compile(r"(?<![A-Za-z_])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
-MOST_KINDS = 100
+MOST_KINDS, MOST_TEXT = 50, 50_000  # kinds of failures, characters of an attribute: HDF5 has no longer ones
 
 
 def write_dataset(folder: StudyFolder) -> None:
@@ -79,10 +79,11 @@ def _about(file: Any, plan: Plan) -> None:
     import gudgeon
 
     source = plan.parts[0].simulation.source
+    said = json.dumps(plan.study.said, ensure_ascii=False)
     attributes = {
         "title": plan.study.title or source.title, "mechanism": source.mechanism, "gudgeon": gudgeon.__version__,
-        "sha256": source.whole_sha256, "study": json.dumps(plan.study.said, ensure_ascii=False),
-        "notes": "\n".join(plan.notes), "plan": plan.identity, "runs": plan.runs,
+        "sha256": source.whole_sha256, "study": said if len(said.encode()) < MOST_TEXT else "",  # the folder's own file has all of it
+        "notes": "\n".join(plan.notes)[: MOST_TEXT // 4], "plan": plan.identity, "runs": plan.runs,
     }  # fmt: skip
     for name, value in attributes.items():
         file.attrs[name] = value

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.contract.limits import MAX_BYTES
-from gudgeon.errors import InputError, shortened
+from gudgeon.errors import InputError, in_a_line, shortened
 from gudgeon.files.reading import read_named
 from gudgeon.files.writing import written
 from gudgeon.language.wanted import flag, function, mapping, names, optional, path, whole
@@ -79,7 +79,9 @@ class Study:
     @property
     def measures(self) -> tuple[str, ...]:
         """Names of what was measured."""
-        return tuple(json.loads(self.dataset.attrs["study"]).get("measures") or ())
+        found, others = self.dataset, ("t_last", "failure")
+        own = (name for name, one in found.data_vars.items() if one.dims == found["t_last"].dims)
+        return tuple(str(name) for name in own if name not in others)
 
     def to_dataframe(self, series: Iterable[str] | str = ()) -> pandas.DataFrame:
         """A row a run: what was varied, all measures, `failure`; SI. With names of kept series a row a sample."""
@@ -159,7 +161,13 @@ def load_study(folder: str | os.PathLike[str]) -> Study:
     if not (place / DATASET).is_file():
         told = f"the study in {shortened(place)} is not finished"
         raise InputError(told, hint="gudgeon study FILE --out FOLDER goes on with it")
-    study = Study(place)
-    if study.dataset.attrs.get("plan") != found.get("plan"):
+    study, h5py = Study(place), h5py_module()
+    try:
+        with h5py.File(place / DATASET, "r") as file:
+            own = file.attrs["plan"] == found.get("plan") and len(file["failure"].shape) >= 0
+    except (OSError, KeyError, ValueError, RuntimeError) as error:
+        told = f"{shortened(place / DATASET)} cannot be read: {in_a_line(str(error))[:200]}"
+        raise InputError(told, hint="remove it: gudgeon study FILE --out FOLDER writes it anew") from error
+    if not own:
         raise InputError(f"{shortened(place / DATASET)} is of another study", hint="remove it: it is written anew")
     return study
