@@ -150,16 +150,17 @@ def test_draws_are_those_of_scipy() -> None:
 def test_arrays_of_numpy_and_more_than_an_attribute_holds() -> None:
     """Whole numbers of NumPy count as such; what HDF5 has no attribute for is in the folder's own file."""
     lengths = np.linspace(0.5, 2.0, 3)
-    measures = {f"measure_{k}": {"final": "bob.x"} for k in range(1500)}
+    windows = {f"window_{k}": {"from": " + ".join(["0 s"] * 100)} for k in range(100)}
     study = {
         "mechanism": "pendulum", "parameters": {"length": lengths}, "t_end": 1e-3, "output": np.int64(1),
-        "starts": {"count": np.int64(2), "absolute": {"length": 1e-3}}, "measures": measures,
+        "starts": {"count": np.int64(2), "absolute": {"length": 1e-3}}, "windows": windows,
+        "measures": {"x": {"final": "bob.x", "window": "window_7"}},
     }  # fmt: skip
     found = gudgeon.study(study)
-    assert set(found.measures) == set(measures) and found.runs == 6 and len(json.dumps(measures)) > 50_000
+    assert found.measures == ("x",) and found.runs == 6 and len(json.dumps(windows)) > 1 << 16
     assert list(found.to_dataframe().columns)[:2] == ["length", "start"]
     np.testing.assert_array_equal(found.dataset["length"], lengths)
-    off = found.dataset["measure_7"] - found.dataset["length"] - found.dataset["length.absolute"]
+    off = found.dataset["x"] - found.dataset["length"] - found.dataset["length.absolute"]
     np.testing.assert_allclose(off, 0.0, atol=1e-8)
 
 

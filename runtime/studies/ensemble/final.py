@@ -79,10 +79,10 @@ def _about(file: Any, plan: Plan) -> None:
     import gudgeon
 
     source = plan.parts[0].simulation.source
-    said = json.dumps(plan.study.said, ensure_ascii=False)
+    said = json.dumps(plan.study.said, ensure_ascii=False)  # where it is too long, the folder's own file has it
     attributes = {
         "title": plan.study.title or source.title, "mechanism": source.mechanism, "gudgeon": gudgeon.__version__,
-        "sha256": source.whole_sha256, "study": said if len(said.encode()) < MOST_TEXT else "",  # the folder's own file has all of it
+        "sha256": source.whole_sha256, "study": said if len(said.encode()) < MOST_TEXT else "",
         "notes": "\n".join(plan.notes)[: MOST_TEXT // 4], "plan": plan.identity, "runs": plan.runs,
     }  # fmt: skip
     for name, value in attributes.items():
