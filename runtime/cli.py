@@ -188,14 +188,16 @@ def draw(
 
 @app.command()
 @_told
-def schema(laws: Laws = None) -> int:
+def schema(
+    study: Annotated[bool, typer.Option("--study", help="Of study files.")] = False, laws: Laws = None
+) -> int:
     """Print the JSON Schema of mechanism files, for editors that complete and check YAML.
 
     Example: gudgeon schema > gudgeon.schema.json
     """
     from gudgeon.commands.schema import print_schema
 
-    return print_schema()
+    return print_schema(study)
 
 
 @app.command()

@@ -16,7 +16,7 @@ from gudgeon.language.suggestions import known_hint, nearest
 
 MOST_COUNT, MOST_SEED = 1_000_000, 2**63 - 1
 _WHOLE = re.compile(r"0|[1-9][0-9]{0,18}")
-_LABEL = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
+LABEL = "[A-Za-z_][A-Za-z0-9_]{0,63}"
 
 
 def mapping(node: Any, owner: str, where: Any) -> Map:
@@ -83,7 +83,7 @@ def seed(node: Map, owner: str) -> int:
 
 def label(name: Text, what: str) -> str:
     """A name of a dimension, an option, a window or a measure. Raises BadNameError."""
-    if not _LABEL.fullmatch(name):
+    if not re.fullmatch(LABEL, name):
         hint = "expected letters, digits and _ in ASCII, at most 64, no digit first"
         raise BadNameError(f"{str(name)[:60]!r} cannot name a {what}", name.where, hint)
     return str(name)

@@ -221,10 +221,13 @@ def test_perturbed_starts_are_off_by_their_size() -> None:
     g = found["g"].values[:, None, None] * (1 + found["g.relative"].values)
     np.testing.assert_allclose(found["a"], -g, rtol=1e-4)
     np.testing.assert_allclose(found["x"], 1.0 + found["length.absolute"].values + 0 * g, rtol=1e-7)
-    study["starts"] = {"count": 5, "seed": 4, "relative": {"g": 0.1}, "distribution": "normal"}
+    study["starts"] = {"count": 5, "seed": 4, "relative": {"parameters.g": 0.1}, "distribution": "normal"}
     alone = gudgeon.study(study).dataset
-    np.testing.assert_allclose(alone["g.relative"], 0.1 * np.random.default_rng([4, 0]).standard_normal((5, 1))[:, 0])
+    normal = np.random.default_rng([4, 0]).standard_normal((5, 1))[:, 0]
+    np.testing.assert_allclose(alone["parameters.g.relative"], 0.1 * normal)
     assert alone["a"].dims == ("g", "start")
+    off_by = 1 + alone["parameters.g.relative"].values
+    np.testing.assert_allclose(alone["a"], -np.array([[9.81], [20.0]]) * off_by, rtol=1e-4)
 
 
 def test_failures_are_rows_with_their_reason(
@@ -290,10 +293,10 @@ def test_a_scene_that_cannot_move_follows_its_drives() -> None:
     found = gudgeon.study({"mechanism": "slider_crank", "scenes": ["ideal", "dry"]} | own)
     assert found.failed == 0 and sum("no degree of freedom" in note for note in found.notes) == 1
     for omega in (10 * math.pi, 20 * math.pi):
-        given = {"parameters": {"omega": omega}, "output": 5}
-        run = loaded("slider_crank", "dry").simulate(1e-3, method="rk4", step=1e-6, **given)
+        given = {"omega": omega}
+        run = loaded("slider_crank", "dry").simulate(1e-3, output=5, method="rk4", step=1e-6, parameters=given)
         assert found.dataset["x"].sel(scene="dry", omega=omega) == run["slider.x"][-1]
-        run = loaded("slider_crank").simulate(1e-3, **given)
+        run = loaded("slider_crank").simulate(1e-3, output=5, parameters=given)
         assert found.dataset["x"].sel(scene="ideal", omega=omega) == run["slider.x"][-1]
     del own["step"], own["method"]
     assert gudgeon.study({"mechanism": "slider_crank", "scenes": ["ideal", "dry"], "rtol": 1e-6} | own).failed == 0

@@ -5,10 +5,13 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+import jsonschema
 import numpy as np
 import pytest
+from ruamel.yaml import YAML
 
 from gudgeon.generator.study.read import KEYS, read_study
+from gudgeon.generator.study.schema import schema
 from gudgeon.generator.study.spec import DRAWN, STATISTICS
 from gudgeon.studies.ensemble.resolve import BLOCK
 from tests.pump import needs_compiler
@@ -37,6 +40,23 @@ def test_every_key_statistic_and_method_is_on_the_page() -> None:
     words = set(re.findall(r"[A-Za-z_]\w*", PAGE))
     assert {*KEYS, *STATISTICS, *DRAWN} <= words
     assert f"{BLOCK} at most" in PAGE
+
+
+def test_the_schema_takes_its_file_and_refuses_others() -> None:
+    """All keys of the reader, its words, and nothing beside them."""
+    whole = schema()
+    jsonschema.Draft202012Validator.check_schema(whole)
+    assert set(whole["properties"]) == set(KEYS)
+    study = YAML(typ="safe").load(block("yaml"))
+    check = jsonschema.Draft202012Validator(whole)
+    assert not list(check.iter_errors(study))
+    wrong = {"mechansim": "a"}, {"starts": {"count": 0}}, {"measures": {"a": {"finale": "b"}}}, {"windows": {"1": {}}}
+    wrong += {"measures": {"a": {"max_of_steps": "b", "window": "c"}}}, {"draw": {"count": 2}}, {"method": "rk5"}
+    for own in wrong:
+        assert list(check.iter_errors(study | own)), own
+    quoted = {"draw": {"count": 3, "method": "sobol", "parameters": {"c": {"mean": 1, "std": "1 mm"}}},
+              "zip": {"run": {"c": [1, 2]}}, "choices": {"a.b": ["x"], "law": {"one": {"a.b": 1}}}}
+    assert not list(check.iter_errors(study | quoted))
 
 
 def test_what_it_quotes_is_read() -> None:

@@ -20,7 +20,7 @@ from gudgeon.simulation.arguments import DEFAULT_OUTPUT, MOST_OUTPUT
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.measures import ROUNDING, Spans, measured, series_of, steps_of
-from gudgeon.studies.ensemble.numbers import of_runs, slot_of
+from gudgeon.studies.ensemble.numbers import key_of, of_runs, slot_of
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
@@ -121,13 +121,13 @@ class Table:
     def __init__(self, simulation: Simulation, job: Job) -> None:
         self.source, self.compiled, wanted = simulation.source, simulation.compiled, job.wanted
         self.bad: dict[int, str] = {}
-        self.columns = {name: own for name, own in job.columns.items() if slot_of(self.source, name) is not None}
+        self.columns = {key: own for name, own in job.columns.items() if (key := key_of(self.source, name))}
         self.p, errors = self._numbers(job.n)
         if off := {name: slot for name in (*job.relative, *job.absolute) if (slot := slot_of(self.source, name))}:
             place, zero = {slot.address: k for k, slot in enumerate(self.source.slots)}, np.zeros(job.n)
             for name, slot in off.items():
                 base, more = self.p[:, place[slot.address]], job.absolute.get(name, zero)
-                self.columns[name] = base * (1.0 + job.relative.get(name, zero)) + more
+                self.columns[key_of(self.source, name)] = base * (1.0 + job.relative.get(name, zero)) + more
             self.p, errors = self._numbers(job.n)
         self.bad |= {i: str(error) for i, error in errors.items() if i not in self.bad}
         self.t_end = self._ends(wanted.t_end)

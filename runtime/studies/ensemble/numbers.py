@@ -32,6 +32,12 @@ def slot_of(source: KernelSource, name: str) -> Slot | None:
     return next((by_address[one] for one in called if one in by_address), None)
 
 
+def key_of(source: KernelSource, name: str) -> str:
+    """What the runs of a scene are given it as, however it is spelled; "": the scene has no such number."""
+    slot = slot_of(source, name)
+    return "" if slot is None else name if name in TOGETHER and slot.address in TOGETHER[name] else slot.address
+
+
 def known_slot(sources: Sequence[KernelSource], name: Text) -> Slot:
     """The same of the first of several scenes that has it. Raises UnknownNameError at the name."""
     for source in sources:

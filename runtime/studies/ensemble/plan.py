@@ -46,8 +46,8 @@ class Dimension:
 class Deviations:
     """How far numbers are off their place: relative and absolute (SI), (n_ensembles, n_starts) each."""
 
-    relative: Mapping[str, Array]
-    absolute: Mapping[str, Array]
+    relative: dict[str, Array]
+    absolute: dict[str, Array]
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.contract.limits import MAX_BYTES
 from gudgeon.errors import BadValueError, InputError, shortened
 from gudgeon.files.beside import read_beside
 from gudgeon.integrators import adaptive
 from gudgeon.language.units import DIMENSIONLESS, TIME
 from gudgeon.loading.find import find_mechanism
+from gudgeon.results.batch import Array
 from gudgeon.results.series import catalogue
 from gudgeon.results.unknown import check_series
 from gudgeon.simulation.arguments import method_of
@@ -29,7 +30,7 @@ from gudgeon.studies.ensemble.plan import Coordinate, Deviations, Dimension, Par
 from gudgeon.studies.ensemble.points import NORMAL, deviations, shares, spread_over
 
 if TYPE_CHECKING:
-    from gudgeon.generator.study.spec import Draw, Starts, StudyFile
+    from gudgeon.generator.study.spec import Deviation, Draw, Starts, StudyFile
     from gudgeon.generator.yaml.tree import Text
 
 MOST_RUNS = 100_000_000
@@ -169,23 +170,33 @@ def _starts(
         coordinates.append(Coordinate("ensemble", over, named, "", "ensemble of starts"))
     for k, name in enumerate(names):
         slot = known_slot(sources, name)
-        for kind, column, of in (("relative", off.relative, replace(slot, unit="", dimension=(0, 0, 0))),
-                                 ("absolute", off.absolute, slot)):  # fmt: skip
-            own = [e[name] if name in e and e[name].relative == (kind == "relative") else None for e in ensembles]
-            if any(own):
-                sizes = np.array([0.0 if one is None else real(one.size, of) for one in own])
-                bad = next((one for one, x in zip(own, sizes, strict=True) if one and not x > 0.0), None)
-                if bad is not None:
-                    raise BadValueError(f"a size of {str(bad.size)!r}", bad.size.where, "expected a positive one")
-                column[str(name)] = sizes[:, None] * points[:, :, k]  # type: ignore[index]
-                told = f"{kind} size of what {name} is off"
-                size = sizes if starts.named else sizes[0]
-                coordinates.append(Coordinate(f"{name}.{kind}_size", over, np.array(size), of.unit, told))
-                by = column[str(name)] if starts.named else column[str(name)][0]
-                told = f"{kind} deviation of {name}"
-                coordinates.append(Coordinate(f"{name}.{kind}", (*over, "start"), by, of.unit, told))
+        for relative, column in ((True, off.relative), (False, off.absolute)):
+            sizes = _sizes(ensembles, name, replace(slot, unit="", dimension=(0, 0, 0)) if relative else slot, relative)
+            if sizes is None:
+                continue
+            column[str(name)] = by = sizes[:, None] * points[:, :, k]
+            kind, unit = ("relative", "") if relative else ("absolute", slot.unit)
+            size, by = (sizes, by) if starts.named else (sizes[0], by[0])
+            coordinates += [
+                Coordinate(f"{name}.{kind}_size", over, np.array(size), unit, f"{kind} size of what {name} is off"),
+                Coordinate(f"{name}.{kind}", (*over, "start"), by, unit, f"{kind} deviation of {name}"),
+            ]
     dimensions = [Dimension("ensemble", len(ensembles))] if starts.named else []
     return off, coordinates, [*dimensions, Dimension("start", starts.count)]
+
+
+def _sizes(
+    ensembles: Sequence[Mapping[Text, Deviation]], name: Text, slot: Slot, relative: bool
+) -> Array | None:
+    """How far a number is off in each ensemble, 0 where it is not; None where it is not in any, in this way."""
+    sizes, found = np.zeros(len(ensembles)), False
+    for k, own in enumerate(ensembles):
+        if name in own and own[name].relative == relative:
+            text, found = own[name].size, True
+            sizes[k] = real(text, slot)
+            if not sizes[k] > 0.0:
+                raise BadValueError(f"a size of {str(text)!r}", text.where, "expected a positive one")
+    return sizes if found else None
 
 
 def _wanted(study: StudyFile, parts: Sequence[Part]) -> Wanted:
@@ -222,8 +233,6 @@ def _check_method(study: StudyFile, source: KernelSource, rtol: float | None) ->
 
 
 def _tolerance(text: Text) -> float:
-    from gudgeon.contract.kernel_source import Slot
-
     return real(text, Slot("rtol", "", 0.0, False, (0, 0, 0)))
 
 
