@@ -73,9 +73,10 @@ def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str]) -> 
     with reader.collect():
         mechanism = text(root["mechanism"], "mechanism", root.key("mechanism"), "a file beside this one, or a name")
     with reader.collect():
-        if "title" in root and len(title := text(root["title"], "title", root.key("title"), "a line")) > MAX_TITLE:
-            told = f"the title has {len(title)} characters"
-            raise BadValueError(told, title.where, f"expected one line of at most {MAX_TITLE}")
+        title = text(root["title"], "title", root.key("title"), "a line") if "title" in root else title
+        if len(title) > MAX_TITLE or not title.isprintable():
+            hint = f"expected one line of at most {MAX_TITLE} characters that can be seen"
+            raise BadValueError(f"the title has {len(title)} characters", title.where, hint)
     with reader.collect():
         if "scenes" in root:
             scenes = _once(texts(root["scenes"], "scenes", root.key("scenes"), "names of scenes"), "scene")

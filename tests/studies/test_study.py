@@ -230,6 +230,17 @@ def test_perturbed_starts_are_off_by_their_size() -> None:
     np.testing.assert_allclose(alone["a"], -np.array([[9.81], [20.0]]) * off_by, rtol=1e-4)
 
 
+def test_starts_alone_and_one_run_alone() -> None:
+    """Nothing else varies: 200 runs, of which each is off by its own; and a study of the file's numbers."""
+    wanted = {"mechanism": "pendulum", "t_end": 1e-3, "output": 1, "measures": {"x": {"final": "bob.x"}}}
+    found = gudgeon.study(wanted | {"starts": {"count": 200, "absolute": {"length": "1 mm"}}}).dataset
+    np.testing.assert_allclose(found["x"], 1.0 + found["length.absolute"], atol=1e-7)
+    assert float(found["length.absolute_size"]) == 1e-3 and len(np.unique(found["x"])) == 200
+    one = gudgeon.study(wanted)
+    assert one.runs == 1 and one.dataset["x"].dims == () and len(one.to_dataframe()) == 1
+    assert one.dataset["x"] == loaded("pendulum").simulate(1e-3, output=1)["bob.x"][-1]
+
+
 def test_failures_are_rows_with_their_reason(
     call: Gudgeon, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -81,6 +81,7 @@ BAD = [  # in place of what, what; line:column and words of the message
     ("t_end: 1 s", "choices: {bodies.bob.masss: [1 kg]}", "5:30", "masss"),
     ("t_end: 1 s", "choices: {heavy: {a: {bodies.bob.mass: -1 kg}}}", "5:40", "positive"),
     ("t_end: 1 s", f"title: {'x' * 201}", "5:8", "at most 200"),
+    ("t_end: 1 s", 'title: "a\\0b"', "5:9", "can be seen"),
     ("t_end: 1 s", "output: 1 s", "5:9", "a pure number"),
 ]  # fmt: skip
 

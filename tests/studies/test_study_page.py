@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Any
 
-import jsonschema
 import numpy as np
 import pytest
 from ruamel.yaml import YAML
@@ -16,6 +16,7 @@ from gudgeon.generator.study.spec import DRAWN, STATISTICS
 from gudgeon.studies.ensemble.resolve import BLOCK
 from tests.pump import needs_compiler
 
+jsonschema = pytest.importorskip("jsonschema")
 PAGE = (Path(__file__).parents[2] / "docs" / "studies.md").read_text(encoding="utf-8")
 
 
@@ -50,8 +51,10 @@ def test_the_schema_takes_its_file_and_refuses_others() -> None:
     study = YAML(typ="safe").load(block("yaml"))
     check = jsonschema.Draft202012Validator(whole)
     assert not list(check.iter_errors(study))
-    wrong = {"mechansim": "a"}, {"starts": {"count": 0}}, {"measures": {"a": {"finale": "b"}}}, {"windows": {"1": {}}}
-    wrong += {"measures": {"a": {"max_of_steps": "b", "window": "c"}}}, {"draw": {"count": 2}}, {"method": "rk5"}
+    wrong: list[dict[str, Any]] = [
+        {"mechansim": "a"}, {"starts": {"count": 0}}, {"measures": {"a": {"finale": "b"}}}, {"windows": {"1": {}}},
+        {"measures": {"a": {"max_of_steps": "b", "window": "c"}}}, {"draw": {"count": 2}}, {"method": "rk5"},
+    ]  # fmt: skip
     for own in wrong:
         assert list(check.iter_errors(study | own)), own
     quoted = {"draw": {"count": 3, "method": "sobol", "parameters": {"c": {"mean": 1, "std": "1 mm"}}},

@@ -54,17 +54,12 @@ class Job:
     sha256: str
     number: int  # of the block
     first: int  # run of the study
+    n: int  # how many
     columns: Mapping[str, Array]
     relative: Mapping[str, Array]
     absolute: Mapping[str, Array]
     wanted: Wanted
     threads: int | None
-
-    @property
-    def n(self) -> int:
-        """How many runs."""
-        every = [*self.columns.values(), *self.relative.values()]
-        return len(every[0]) if every else 1
 
 
 @dataclass(frozen=True, eq=False)

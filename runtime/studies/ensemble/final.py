@@ -67,7 +67,7 @@ def _write(target: BinaryIO, folder: StudyFolder, t: Array, common: bool) -> Non
             _fill(variables, plan, block, common)
             kinds.update(kind_of_failure(told) for told in block.failures if told)
         file.attrs["failed"] = sum(kinds.values())
-        file.attrs["failure_kinds"] = json.dumps(dict(kinds.most_common(MOST_KINDS)), ensure_ascii=False)
+        file.attrs["failure_kinds"] = json.dumps(dict(kinds.most_common(MOST_KINDS)))
 
 
 def kind_of_failure(told: str) -> str:
@@ -79,10 +79,10 @@ def _about(file: Any, plan: Plan) -> None:
     import gudgeon
 
     source = plan.parts[0].simulation.source
-    said = json.dumps(plan.study.said, ensure_ascii=False)  # where it is too long, the folder's own file has it
+    said = json.dumps(plan.study.said)  # where it is too long, the folder's own file has it
     attributes = {
         "title": plan.study.title or source.title, "mechanism": source.mechanism, "gudgeon": gudgeon.__version__,
-        "sha256": source.whole_sha256, "study": said if len(said.encode()) < MOST_TEXT else "",
+        "sha256": source.whole_sha256, "study": said if len(said) < MOST_TEXT else "",
         "notes": "\n".join(plan.notes)[: MOST_TEXT // 4], "plan": plan.identity, "runs": plan.runs,
     }  # fmt: skip
     for name, value in attributes.items():

@@ -27,6 +27,8 @@ def finish(folder: StudyFolder, threads: int | None, executor: Executor | None, 
         if not missing and (folder.path / DATASET).exists():
             return
         done = plan.runs - sum(block.runs for block in missing)
+        if progress and done:  # a bar measures its speed from here on
+            progress(done / plan.runs, f"{done} of {plan.runs} runs are there")
         if executor is None:
             _here(folder, missing, done, threads, progress)
         else:

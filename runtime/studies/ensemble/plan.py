@@ -133,7 +133,7 @@ class Plan:
         relative, absolute = self._off(by_name, len(runs))
         return Job(
             part.mechanism, part.simulation.source.scene, part.overrides, part.sha256, number,
-            k * self.each + int(runs[0]), columns, relative, absolute, self.wanted, threads,
+            k * self.each + int(runs[0]), len(runs), columns, relative, absolute, self.wanted, threads,
         )  # fmt: skip
 
     def _off(self, index: Mapping[str, Array], n: int) -> tuple[dict[str, Array], dict[str, Array]]:

@@ -12,7 +12,7 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.contract.limits import MAX_BYTES
-from gudgeon.errors import BadValueError, InputError, shortened
+from gudgeon.errors import BadValueError, InputError
 from gudgeon.files.beside import read_beside
 from gudgeon.integrators import adaptive
 from gudgeon.language.units import DIMENSIONLESS, TIME
@@ -282,10 +282,3 @@ def _block(plan: Plan, k: int) -> int:
     samples = float(np.nanmax(counts, initial=1.0)) + 1.0
     width = 2 + len(series_of(plan.wanted.measures, plan.wanted.keep, plan.parts[k].simulation.source))
     return int(max(1, min(BLOCK, BYTES // (8 * width * max(samples, 1.0)))))
-
-
-def told_file(study: StudyFile) -> str:
-    """How the study is called in a sentence."""
-    return shortened(study.file) if study.file else "this study"
-
-
