@@ -208,17 +208,19 @@ def test_perturbed_starts_are_off_by_their_size() -> None:
         "mechanism": "pendulum", "parameters": {"g": [9.81, 20]}, "t_end": "1 ms", "output": 1,
         "starts": {"count": 5, "seed": 4, "ensembles": {
             "near": {"relative": {"g": "1e-6"}}, "far": {"relative": {"g": 0.1}, "absolute": {"length": "1 mm"}},
+            "away": {"absolute": {"parameters.g": "1 m/s^2"}},
         }},
         "measures": {"a": {"final": "bob.ay"}, "x": {"final": "bob.x"}},
     }  # fmt: skip
     found = gudgeon.study(study).dataset
     assert found["a"].dims == ("g", "ensemble", "start")
-    off = np.stack([np.random.default_rng([4, k]).uniform(-1, 1, (5, 2)) for k in range(2)])
-    np.testing.assert_allclose(found["g.relative"], np.array([[1e-6], [0.1]]) * off[:, :, 0], rtol=1e-15)
+    off = np.stack([np.random.default_rng([4, k]).uniform(-1, 1, (5, 3)) for k in range(3)])
+    np.testing.assert_allclose(found["g.relative"], np.array([[1e-6], [0.1], [0]]) * off[:, :, 0], rtol=1e-15)
     np.testing.assert_allclose(found["length.absolute"][1], 1e-3 * off[1, :, 1], rtol=1e-15)
-    np.testing.assert_array_equal(found["length.absolute_size"], [0.0, 1e-3])
-    np.testing.assert_array_equal(found["g.relative_size"], [1e-6, 0.1])
-    g = found["g"].values[:, None, None] * (1 + found["g.relative"].values)
+    np.testing.assert_array_equal(found["length.absolute_size"], [0.0, 1e-3, 0.0])
+    np.testing.assert_array_equal(found["g.relative_size"], [1e-6, 0.1, 0.0])
+    g = found["g"].values[:, None, None] * (1 + found["g.relative"].values) + found["parameters.g.absolute"].values
+    np.testing.assert_allclose(found["parameters.g.absolute"][2], off[2, :, 2], rtol=1e-15)
     np.testing.assert_allclose(found["a"], -g, rtol=1e-4)
     np.testing.assert_allclose(found["x"], 1.0 + found["length.absolute"].values + 0 * g, rtol=1e-7)
     study["starts"] = {"count": 5, "seed": 4, "relative": {"parameters.g": 0.1}, "distribution": "normal"}

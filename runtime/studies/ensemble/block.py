@@ -118,11 +118,8 @@ class Table:
         self.bad: dict[int, str] = {}
         self.columns = {key: own for name, own in job.columns.items() if (key := key_of(self.source, name))}
         self.p, errors = self._numbers(job.n)
-        if off := {name: slot for name in (*job.relative, *job.absolute) if (slot := slot_of(self.source, name))}:
-            place, zero = {slot.address: k for k, slot in enumerate(self.source.slots)}, np.zeros(job.n)
-            for name, slot in off.items():
-                base, more = self.p[:, place[slot.address]], job.absolute.get(name, zero)
-                self.columns[key_of(self.source, name)] = base * (1.0 + job.relative.get(name, zero)) + more
+        if off := self._off(job):
+            self.columns |= off
             self.p, errors = self._numbers(job.n)
         self.bad |= {i: str(error) for i, error in errors.items() if i not in self.bad}
         self.t_end = self._ends(wanted.t_end)
@@ -133,6 +130,17 @@ class Table:
             self.step = of_runs(self.source, wanted.step, self.p, known)
             self._refuse(~((self.step > 0.0) & np.isfinite(self.step)), self.step, "step", "a positive time (s)")
         self.spans = self._windows(wanted.windows, known)
+
+    def _off(self, job: Job) -> dict[str, Array]:
+        """The numbers of perturbed starts: a share of where they are, and so much, away from there."""
+        place, found = {slot.address: k for k, slot in enumerate(self.source.slots)}, dict[str, Array]()
+        for name in dict.fromkeys((*job.relative, *job.absolute)):
+            if (slot := slot_of(self.source, name)) is None:
+                continue
+            base, key, zero = self.p[:, place[slot.address]], key_of(self.source, name), np.zeros(job.n)
+            by = base * job.relative.get(name, zero) + job.absolute.get(name, zero)
+            found[key] = found.get(key, base) + by  # another ensemble may spell it otherwise
+        return found
 
     def _numbers(self, n: int) -> tuple[Array, Mapping[int, GudgeonError]]:
         """p of all runs, and what is wrong with it; a number that is none is left out, and its run is bad."""
