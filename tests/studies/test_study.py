@@ -272,6 +272,19 @@ def test_failures_are_rows_with_their_reason(
     assert document["failed"] == 4 and document["measures"]["x"]["nan"] == 4
 
 
+def test_a_run_that_leaves_its_laws_domain_is_a_row_up_to_there() -> None:
+    """Driven at 10⁹ rad/s the journal is pushed through its bearing within a nanosecond."""
+    found = gudgeon.study({
+        "mechanism": "slider_crank", "scenes": "dry", "parameters": {"omega": ["600 rpm", 1e9]}, "t_end": "1 ms",
+        "output": 20, "measures": {"x": {"final": "slider.x"}, "p": {"peak_force": "wristpin"}}, "keep": ["slider.x"],
+    })  # fmt: skip
+    own = found.dataset.isel(omega=1)
+    assert found.failed == 1 and "deep in its bearing" in str(own["failure"].values)
+    assert 0 < own["t_last"] < 1e-9 and own["x"].isnull() and own["p"].isnull()
+    assert own["slider.x"][0] > 0 and own["slider.x"][1:].isnull().all()
+    assert found.dataset["x"][0] == found.dataset["slider.x"][0, -1]
+
+
 def test_the_command_plans_runs_and_takes_numbers(call: Gudgeon, tmp_path: Path) -> None:
     text = """
 format: gudgeon-study/1
