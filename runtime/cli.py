@@ -41,9 +41,9 @@ from gudgeon.commands.options import (
     path,
     whole,
 )
-from gudgeon.commands.telling import told as _told
 from gudgeon.contract.methods import CHOOSING, KINEMATIC, OFFERED
 from gudgeon.language.shown import visible
+from gudgeon.telling import told as _told
 
 app = typer.Typer(
     name="gudgeon",
