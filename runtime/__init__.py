@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from gudgeon.results.results import Result
     from gudgeon.simulation.from_file import load
     from gudgeon.simulation.simulation import Simulation
+    from gudgeon.studies.ensemble.study import Study, load_study, study
 
 __version__ = "0.1.0"
 
@@ -37,6 +38,9 @@ _HOME = {
     "load": "simulation.from_file",
     "join": "results.join",
     "register": "generator.kinds.laws.registered",
+    "study": "studies.ensemble.study",
+    "load_study": "studies.ensemble.study",
+    "Study": "studies.ensemble.study",
     "Simulation": "simulation.simulation",
     "Result": "results.results",
     "Batch": "results.batch",
@@ -64,10 +68,13 @@ __all__ = [
     "Simulation",
     "SingularError",
     "SolverError",
+    "Study",
     "__version__",
     "join",
     "load",
+    "load_study",
     "register",
+    "study",
 ]
 
 

@@ -6,10 +6,8 @@ Exit codes: 0 success, 1 a run failed, 2 bad input, 130 interrupted.
 
 from __future__ import annotations
 
-import sys
-import warnings
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
@@ -21,6 +19,8 @@ from gudgeon.commands.options import (
     Csv,
     End,
     File,
+    Folder,
+    Intervals,
     Json,
     Laws,
     Like,
@@ -34,17 +34,20 @@ from gudgeon.commands.options import (
     Quick,
     Range,
     Rest,
+    Restart,
+    Runs,
     Scenes,
     Seed,
     Set,
     Sheet,
+    Threads,
+    Until,
+    Watch,
     a_file,
     path,
-    whole,
 )
-from gudgeon.commands.told import told
+from gudgeon.commands.told import tell_warnings, told
 from gudgeon.contract.methods import CHOOSING, KINEMATIC, OFFERED
-from gudgeon.language.shown import visible
 
 app = typer.Typer(
     name="gudgeon",
@@ -73,22 +76,11 @@ def _root(
 @app.command()
 @told
 def run(
-    file: File,
-    scene: Scenes = None,
-    set_: Set = None,
-    t_end: Annotated[
-        str | None, typer.Option("--t-end", help="Until when, in s or with a unit. [default: the scene's, or 1 s]")
-    ] = None,
-    output: Annotated[
-        int | None, typer.Option(parser=whole(1), metavar="COUNT", help="Output intervals. [default: the scene's]")
-    ] = None,
+    file: File, scene: Scenes = None, set_: Set = None, t_end: Until = None, output: Intervals = None,
     step: Annotated[str | None, typer.Option(help="Fixed step, in s or with a unit: 5us; auto takes rk4.")] = None,
     method: Annotated[str, typer.Option(help=f"{', '.join(OFFERED)}, {KINEMATIC}, scipy:Radau …")] = "auto",
     rtol: Annotated[str | None, typer.Option(help=f"Tolerance of a step of auto, {', '.join(CHOOSING)}: 1e-8.")] = None,
-    watch: Annotated[
-        list[str] | None,
-        typer.Option("--watch", "-w", metavar="NAME", help="What to compare with the ideal scene: S9.y, L1.head.x."),
-    ] = None,
+    watch: Watch = None,
     peaks: Peaks = None,
     formulation: Annotated[
         str, typer.Option(help="reduced (coordinates of a tree), or full: absolute ones, rk4 with Baumgarte's gains.")
@@ -219,14 +211,16 @@ def draw(
 
 @app.command()
 @told
-def schema(laws: Laws = None) -> int:
+def schema(
+    study: Annotated[bool, typer.Option("--study", help="Of study files.")] = False, laws: Laws = None
+) -> int:
     """Print the JSON Schema of mechanism files, for editors that complete and check YAML.
 
     Example: gudgeon schema > gudgeon.schema.json
     """
     from gudgeon.commands.schema import print_schema
 
-    return print_schema()
+    return print_schema(study)
 
 
 @app.command()
@@ -280,14 +274,26 @@ def verdicts(
     return map_file(request, Asked(method, at, tuple(axis or ()), box, tuple(range_ or ())))
 
 
+@app.command()
+@told
+def study(
+    file: Annotated[str, typer.Argument(metavar="FILE", help="A study: a YAML file, docs/studies.md.")],
+    out: Folder = None, threads: Threads = None, restart: Restart = False, set_: Set = None, runs: Runs = False,
+    json: Json = False, laws: Laws = None,
+) -> int:  # fmt: skip
+    """Many runs of a mechanism, over grids, draws and perturbed starts, and what is measured of them: one dataset.
+
+    Finished blocks of runs are on disk at once: after Ctrl-C, a kill or a full disk the same command goes on. A run
+    that fails is a row with its reason.
+
+    Example: gudgeon study clearance.yaml --out clearance.study
+    """
+    from gudgeon.commands.study import Request, study_file
+
+    return study_file(Request(file, out, threads, restart, tuple(set_ or ()), runs, json))
+
+
 def main() -> None:
     """The command line."""
-    seen = set[str]()
-
-    def tell(message: Warning | str, *_: Any, **__: Any) -> None:
-        if str(message) not in seen:  # once, and without a line of our code
-            seen.add(str(message))
-            print(f"warning: {visible(message)}", file=sys.stderr)
-
-    warnings.showwarning = tell
+    tell_warnings()
     app()

@@ -160,7 +160,7 @@ def test_every_test_that_the_table_names_exists() -> None:
         assert function in {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}, (file, function)
 
 
-BESIDE = ("format", "methods", "physics", "race", "reynolds")
+BESIDE = ("format", "methods", "physics", "race", "reynolds", "studies")
 PAGES = ["CONTRIBUTING.md", *(f"docs/{name}.md" for name in BESIDE), *TOLD]
 
 

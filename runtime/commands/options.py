@@ -105,3 +105,24 @@ Box = Annotated[
     ),
 ]
 Range = Annotated[list[str] | None, typer.Option("--range", metavar="NAME=LOW..HIGH", help="An edge of the box.")]
+Folder = Annotated[
+    Path | None,
+    typer.Option("--out", parser=path, metavar="PATH", help="Folder of the study's blocks. [default: NAME.study]"),
+]
+Threads = Annotated[
+    int | None, typer.Option(parser=whole(1), metavar="COUNT", help="Threads of runs. [default: the cores there are]")
+]
+Restart = Annotated[bool, typer.Option("--restart", help="Begin anew, whatever the folder holds of a study.")]
+Runs = Annotated[
+    bool, typer.Option("--runs", help="Only tell how many runs, blocks, bytes and seconds, by a few on trial.")
+]
+Until = Annotated[
+    str | None, typer.Option("--t-end", help="Until when, in s or with a unit. [default: the scene's, or 1 s]")
+]
+Intervals = Annotated[
+    int | None, typer.Option(parser=whole(1), metavar="COUNT", help="Output intervals. [default: the scene's]")
+]
+Watch = Annotated[
+    list[str] | None,
+    typer.Option("--watch", "-w", metavar="NAME", help="What to compare with the ideal scene: S9.y, L1.head.x."),
+]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import warnings
 from collections.abc import Callable, Iterable
 from functools import wraps
 from typing import Any, TypeVar
@@ -51,3 +52,15 @@ def _know(laws: Iterable[str]) -> None:
         from gudgeon.generator.kinds.laws.registered import register
 
         register(file)
+
+
+def tell_warnings() -> None:
+    """Warnings are told once each, without a line of our code."""
+    seen = set[str]()
+
+    def tell(message: Warning | str, *_: Any, **__: Any) -> None:
+        if str(message) not in seen:
+            seen.add(str(message))
+            print(f"warning: {visible(message)}", file=sys.stderr)
+
+    warnings.showwarning = tell

@@ -109,6 +109,18 @@ def save(room: Path) -> Act:
 
 
 @task
+def study(room: Path) -> Act:
+    """A study beside an older one: its blocks stay, and with room again it goes on from them."""
+    import gudgeon
+    from gudgeon.studies.ensemble import resolve
+
+    resolve.BLOCK = 1
+    file = {"mechanism": "pendulum", "parameters": {"g": [5, 7, 9]}, "t_end": "0.1 s", "output": 500, "keep": ["bob.x"]}
+    gudgeon.study(file)
+    return lambda folder, k: told(lambda: gudgeon.study(file, folder / f"{k}.study").save(folder / "study.nc"))
+
+
+@task
 def compile(room: Path) -> Act:
     """A cache without room: the library is had all the same, from a temporary folder, and that is told."""
     return lambda folder, k: told(lambda: compiled(folder, k))

@@ -1,0 +1,103 @@
+"""What the parts of a study file share: mappings with known keys, words, counts, seeds, expressions."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from gudgeon.errors import BadNameError, BadValueError
+from gudgeon.generator.format.shapes import missing_key, unknown_key
+from gudgeon.generator.reader.collector import Reader
+from gudgeon.generator.study.spec import RESERVED, Written
+from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
+from gudgeon.language.parser import parse
+from gudgeon.language.suggestions import known_hint, nearest
+
+MOST_COUNT, MOST_SEED = 1_000_000, 2**63 - 1
+_WHOLE = re.compile(r"0|[1-9][0-9]{0,18}")
+LABEL = "[A-Za-z_][A-Za-z0-9_]{0,63}"
+
+
+def mapping(node: Any, owner: str, where: Any) -> Map:
+    """A mapping. Raises BadValueError."""
+    if not isinstance(node, Map):
+        raise BadValueError(f"{owner} is {kind_of(node)}", place_of(node, where), "expected a mapping")
+    return node
+
+
+def place_of(node: Any, otherwise: Any) -> Any:
+    """Where a node stands; nothing has no place of its own, its key has."""
+    nothing = isinstance(node, Text) and node.is_nothing
+    return otherwise.where if nothing else getattr(node, "where", otherwise.where)
+
+
+def check_keys(reader: Reader, node: Map, known: Sequence[str], owner: str, needed: Sequence[str] = ()) -> bool:
+    """Whether all keys that are needed are there; an error is collected for each that is not, and for strange ones."""
+    strange = [key for key in node.names() if key not in known]
+    reader.errors.extend(unknown_key(key, known, owner) for key in strange)
+    meant, missing = {nearest(key, known) for key in strange}, [name for name in needed if name not in node]
+    reader.errors.extend(missing_key(name, node.where, owner) for name in missing if name not in meant)
+    return not missing
+
+
+def text(node: Any, owner: str, where: Any, what: str = "a number or a text") -> Text:
+    """A scalar on one line that holds something. Raises BadValueError."""
+    if not isinstance(node, Text) or node.is_nothing or not node.one_line:
+        told = "stands on several lines" if isinstance(node, Text) and not node.one_line else f"is {kind_of(node)}"
+        raise BadValueError(f"{owner} {told}", place_of(node, where), f"expected {what}")
+    return node
+
+
+def texts(node: Any, owner: str, where: Any, what: str) -> tuple[Text, ...]:
+    """A list of scalars, at least one, or a text alone. Raises BadValueError."""
+    if isinstance(node, Text):
+        return (text(node, owner, where, what),)
+    if not isinstance(node, Items) or not node:
+        raise BadValueError(f"{owner} is {'an empty list' if node == [] else kind_of(node)}", place_of(node, where),
+                            f"expected {what}")  # fmt: skip
+    return tuple(text(one, f"{owner}[{k}]", node, what) for k, one in enumerate(node))
+
+
+def word(node: Any, owner: str, where: Any, words: Iterable[str]) -> str:
+    """One of some words. Raises BadValueError."""
+    known, found = list(words), text(node, owner, where, "a word")
+    if found not in known:
+        raise BadValueError(f"{owner} is {kind_of(found)}", found.where, known_hint(found, known, 20))
+    return str(found)
+
+
+def whole(node: Any, owner: str, where: Any, least: int = 1, most: int = MOST_COUNT) -> int:
+    """A whole number. Raises BadValueError."""
+    what = f"a whole number from {least} to {most}"
+    found = text(node, owner, where, what)
+    if not _WHOLE.fullmatch(found) or not least <= int(found) <= most:
+        raise BadValueError(f"{owner} is {kind_of(found)}", found.where, f"expected {what}")
+    return int(found)
+
+
+def seed(node: Map, owner: str) -> int:
+    """The seed of a mapping, 0 if it says none."""
+    return whole(node["seed"], f"{owner}.seed", node.key("seed"), 0, MOST_SEED) if "seed" in node else 0
+
+
+def label(name: Text, what: str) -> str:
+    """A name of a dimension, an option, a window or a measure. Raises BadNameError."""
+    if not re.fullmatch(LABEL, name):
+        hint = "expected letters, digits and _ in ASCII, at most 64, no digit first"
+        raise BadNameError(f"{str(name)[:60]!r} cannot name a {what}", name.where, hint)
+    return str(name)
+
+
+def dimension_name(name: Text, what: str) -> str:
+    """The same of what the dataset will have under this name. Raises BadNameError for one of its own."""
+    if name in RESERVED:
+        hint = "take another name" if what != "parameter" else f"write parameters.{name}"
+        raise BadNameError(f"{str(name)!r} is what the study's dataset calls something of its own", name.where, hint)
+    return label(name, what) if what != "parameter" else str(name)
+
+
+def written(node: Any, owner: str, where: Any) -> Written:
+    """An expression, as yet without dimension. Raises InputError at its column."""
+    found = text(node, owner, where, "an expression: 2*pi/omega")
+    return Written(parse(found, found.where), found)

@@ -1,0 +1,221 @@
+"""A study file, or a mapping of Python, to a StudyFile: all mistakes at once, each at its place."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from gudgeon.contract.methods import KINEMATIC, OFFERED
+from gudgeon.errors import BadNameError, BadValueError, MissingKeyError
+from gudgeon.generator.format.shapes import unknown_key
+from gudgeon.generator.reader.collector import EnoughErrors, Reader
+from gudgeon.generator.study.axes import read_choices, read_draw, read_parameters, read_starts
+from gudgeon.generator.study.parts import check_keys, label, mapping, text, texts, word, written
+from gudgeon.generator.study.spec import (
+    CONTACTS,
+    CROSSINGS,
+    FORMAT,
+    RESERVED,
+    SAMPLES,
+    STATISTICS,
+    Measure,
+    StudyFile,
+    Window,
+    Written,
+)
+from gudgeon.generator.study.tree import plain, tree_of
+from gudgeon.generator.yaml.tree import Map, Text, kind_of, parse_yaml
+from gudgeon.language.suggestions import unknown_name
+
+KEYS = (
+    "format", "title", "mechanism", "scenes", "choices", "parameters", "zip", "draw", "starts", "t_end", "output",
+    "step", "method", "rtol", "stop", "windows", "measures", "keep",
+)  # fmt: skip
+AUTO, MAX_TITLE = "auto", 200
+WINDOWED = (*SAMPLES, *CONTACTS, *CROSSINGS)
+
+
+def read_study(data: bytes | Mapping[str, Any], file: str = "", settings: Mapping[str, str] | None = None) -> StudyFile:
+    """What the bytes of a file say, or a mapping; `settings` are numbers of all runs, over its own.
+
+    Raises an InputError at file:line:column, or InputErrors with all that are wrong.
+    """
+    reader = Reader(file)
+    root = parse_yaml(data, file, reader.errors) if isinstance(data, bytes) else tree_of(data)
+    if not isinstance(root, Map):
+        raise BadValueError(f"the study is {kind_of(root)}", hint="expected a mapping")
+    try:
+        _check_format(root, isinstance(data, bytes))
+        found = _read(reader, root, file, settings or {})
+    except EnoughErrors:
+        found = None
+    reader.raise_errors()
+    assert found is not None
+    return found
+
+
+def _check_format(root: Map, needed: bool) -> None:
+    if "format" not in root:
+        if needed:
+            raise MissingKeyError("no format", root.where, f"expected the key format: {FORMAT}")
+    elif root["format"] != FORMAT:
+        raise BadValueError(f"format is {kind_of(root['format'])}", root.key("format").where, f"expected {FORMAT}")
+
+
+def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str]) -> StudyFile | None:
+    if not check_keys(reader, root, KEYS, "the study", ("mechanism",)):
+        return None
+    fixed, axes = read_parameters(reader, root)
+    draw, starts, choices = read_draw(reader, root), read_starts(reader, root), read_choices(reader, root)
+    fixed = _over(fixed, settings)
+    title = mechanism = Text.make("", root.where)
+    one, scenes = True, (*[Text.make("ideal", root.where)],)
+    with reader.collect():
+        mechanism = text(root["mechanism"], "mechanism", root.key("mechanism"), "a file beside this one, or a name")
+    with reader.collect():
+        title = text(root["title"], "title", root.key("title"), "a line") if "title" in root else title
+        if len(title) > MAX_TITLE or not title.isprintable():
+            hint = f"expected one line of at most {MAX_TITLE} characters that can be seen"
+            raise BadValueError(f"the title has {len(title)} characters", title.where, hint)
+    with reader.collect():
+        if "scenes" in root:
+            scenes = _once(texts(root["scenes"], "scenes", root.key("scenes"), "names of scenes"), "scene")
+            one = isinstance(root["scenes"], Text)
+    times = {name: _written(reader, root, name) for name in ("t_end", "output", "step")}
+    windows = _windows(reader, root)
+    measures, keep = _measures(reader, root, windows), _keep(reader, root)
+    with reader.collect():
+        if not (root.get("measures") or root.get("keep")):
+            hint = "expected measures: {peak: {peak: slider.ax}}, or keep: [slider.x]"
+            raise MissingKeyError("the study measures nothing and keeps nothing", root.where, hint)
+    found = StudyFile(
+        file, str(title), mechanism, scenes, one, tuple(choices), fixed, tuple(axes), draw, starts, times["t_end"],
+        times["output"], times["step"], windows, measures, keep, _method(reader, root), _rtol(reader, root),
+        _stop(reader, root), plain(root) | {"settings": dict(sorted(settings.items()))},
+    )  # fmt: skip
+    _check_names(reader, found, root)
+    return found
+
+
+def _over(fixed: Mapping[Text, Text], settings: Mapping[str, str]) -> dict[Text, Text]:
+    """The file's own numbers under those of --set; a parameter may be called with its section or without."""
+    given = {name.removeprefix("parameters.") for name in settings}
+    kept = {key: value for key, value in fixed.items() if key.removeprefix("parameters.") not in given}
+    own = tree_of({f"--set {name}": value for name, value in settings.items()})
+    return kept | {Text.make(key.removeprefix("--set "), key.where): value for key, value in own.items()}
+
+
+def _once(names: tuple[Text, ...], what: str) -> tuple[Text, ...]:
+    for k, name in enumerate(names):
+        if name in names[:k]:
+            raise BadNameError(f"the {what} {str(name)[:60]!r} is given twice", name.where, "expected each once")
+    return names
+
+
+def _written(reader: Reader, root: Map, name: str) -> Written | None:
+    with reader.collect():
+        return written(root[name], name, root.key(name)) if name in root else None
+    return None
+
+
+def _method(reader: Reader, root: Map) -> Text:
+    with reader.collect():
+        if "method" in root:
+            name = word(root["method"], "method", root.key("method"), (*OFFERED, KINEMATIC))
+            return Text.make(name, root["method"].where)
+    return Text.make(AUTO, root.where)
+
+
+def _rtol(reader: Reader, root: Map) -> Text | None:
+    with reader.collect():
+        return text(root["rtol"], "rtol", root.key("rtol"), "a tolerance: 1e-8") if "rtol" in root else None
+    return None
+
+
+def _stop(reader: Reader, root: Map) -> bool:
+    with reader.collect():
+        return "stop" not in root or word(root["stop"], "stop", root.key("stop"), ("true", "false")) == "true"
+    return True
+
+
+def _windows(reader: Reader, root: Map) -> dict[str, Window]:
+    found: dict[str, Window] = {}
+    with reader.collect():
+        node = mapping(root["windows"], "windows", root.key("windows")) if "windows" in root else root.part("windows")
+        for name, below in node.pairs():
+            with reader.collect():
+                owner = f"windows.{name}"
+                own = mapping(below, owner, name)
+                check_keys(reader, own, ("from", "to"), owner)
+                if not own:
+                    raise BadValueError(f"{owner} is empty", own.where, "expected from:, to:, or both")
+                ends = [written(own[k], f"{owner}.{k}", own.key(k)) if k in own else None for k in ("from", "to")]
+                found[label(name, "window")] = Window(*ends)
+    return found
+
+
+def _measures(reader: Reader, root: Map, windows: Mapping[str, Window]) -> tuple[Measure, ...]:
+    """NAME: {STATISTIC: SERIES, window: NAME}."""
+    found = []
+    with reader.collect():
+        node, key = root.part("measures"), "measures"
+        every = mapping(node, key, root.key(key)) if key in root else node
+        for name, below in every.pairs():
+            with reader.collect():
+                found.append(_measure(reader, name, mapping(below, f"measures.{name}", name), windows, root))
+    return tuple(found)
+
+
+def _measure(reader: Reader, name: Text, node: Map, windows: Mapping[str, Window], root: Map) -> Measure:
+    owner = f"measures.{name}"
+    if strange := [key for key in node.names() if key not in (*STATISTICS, "window")]:
+        raise unknown_key(strange[0], (*STATISTICS, "window"), owner)
+    chosen = [key for key in node.names() if key in STATISTICS]
+    if len(chosen) != 1:
+        told = f"{owner} has {'no statistic' if not chosen else f'both {chosen[0]} and {chosen[1]}'}"
+        raise BadValueError(told, name.where, f"expected one of: {', '.join(STATISTICS)}")
+    (statistic,) = chosen
+    of = text(node[statistic], f"{owner}.{statistic}", statistic, "the name of a series, a joint or an event")
+    window = ""
+    if "window" in node:
+        at = text(node["window"], f"{owner}.window", node.key("window"), "the name of a window")
+        if statistic not in WINDOWED:
+            hint = f"leave it out, or take one of: {', '.join(SAMPLES)}, of samples"
+            raise BadValueError(f"{owner}: {statistic} is of all steps of a run, and knows no window", at.where, hint)
+        if at not in root.get("windows", ()):
+            raise unknown_name("window", at, windows, at.where)
+        window = str(at)
+    return Measure(label(name, "measure"), str(statistic), of, window)
+
+
+def _keep(reader: Reader, root: Map) -> tuple[Text, ...]:
+    with reader.collect():
+        if "keep" in root and root["keep"] != []:
+            return _once(texts(root["keep"], "keep", root.key("keep"), "names of series"), "series")
+    return ()
+
+
+def _check_names(reader: Reader, study: StudyFile, root: Map) -> None:
+    """What the dataset will call something is called so once, and a number is varied or fixed once."""
+    addresses = [*study.fixed, *(key for axis in study.axes for key in axis.columns)]
+    addresses += list(study.draw.numbers) if study.draw else []
+    seen: dict[str, Text] = {}
+    for key in addresses:
+        short = str(key).removeprefix("parameters.")
+        if short in seen:
+            with reader.collect():
+                told = f"{str(key)[:60]!r} is said twice"
+                raise BadNameError(told, key.where, f"expected once; the first is at {seen[short].where}")
+        seen.setdefault(short, key)
+    groups = [Text.make(axis.name, axis.where) for axis in study.axes if axis.grouped]
+    names = [*groups, *(Text.make(choice.name, choice.where) for choice in study.choices)]
+    names += [key for key in root.part("measures").names()] if isinstance(root.get("measures"), Map) else []
+    names += study.keep
+    used = {str(key): key for key in addresses}
+    for key in names:
+        own = key in RESERVED and not (key == "run" and key in groups)
+        if key in used or own:
+            with reader.collect():
+                first = f"the first is at {used[key].where}" if key in used else "the dataset has it as its own"
+                raise BadNameError(f"the name {str(key)[:60]!r} is taken", key.where, f"take another one: {first}")
+        used.setdefault(str(key), key)

@@ -1,0 +1,76 @@
+"""The format of study files as a JSON Schema (draft 2020-12), for editors.
+
+It sees keys, kinds and shapes; units, names and ranges are told by the reader alone.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.contract.methods import KINEMATIC, OFFERED
+from gudgeon.generator.study.parts import LABEL, MOST_COUNT, MOST_SEED
+from gudgeon.generator.study.read import MAX_TITLE, WINDOWED
+from gudgeon.generator.study.spec import DRAWN, FORMAT, GEOMETRIC, LINEAR, NORMAL, STATISTICS, UNIFORM
+
+Json = dict[str, Any]
+
+_NUMBER: Json = {"type": ["number", "string"]}
+_TEXT: Json = {"type": "string", "minLength": 1}
+_LIST: Json = {"anyOf": [_NUMBER, {"type": "array", "items": _NUMBER, "minItems": 1}]}
+_SPACING: Json = {"enum": [LINEAR, GEOMETRIC]}
+
+
+def schema() -> Json:
+    """The schema of a study file."""
+    row = _record({"from": _NUMBER, "to": _NUMBER, "count": _count(2), "spacing": _SPACING}, "from", "to", "count")
+    values = {"anyOf": [*_LIST["anyOf"], row]}
+    names = {"anyOf": [_TEXT, {"type": "array", "items": _TEXT}]}
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": f"study file, {FORMAT}",
+        **_record({
+            "format": {"const": FORMAT}, "title": {"type": "string", "maxLength": MAX_TITLE},
+            "mechanism": _TEXT | {"description": "a file beside this one, or the name of a shipped mechanism"},
+            "scenes": names, "choices": _map({"anyOf": [*_LIST["anyOf"], _map(_map(_NUMBER))]}),
+            "parameters": _map(values), "zip": _map(_map(values)), "draw": _draw(), "starts": _starts(),
+            "t_end": _NUMBER, "output": _NUMBER, "step": _NUMBER, "method": {"enum": [*OFFERED, KINEMATIC]},
+            "rtol": _NUMBER, "stop": {"enum": [True, False, "true", "false"]},
+            "windows": _map(_record({"from": _NUMBER, "to": _NUMBER}), LABEL), "measures": _map(_measure(), LABEL),
+            "keep": names,
+        }, "format", "mechanism"),
+    }  # fmt: skip
+
+
+def _record(properties: Json, *required: str) -> Json:
+    return {"type": "object", "properties": properties, "required": list(required), "additionalProperties": False}
+
+
+def _map(values: Json, names: str = "") -> Json:
+    found = {"type": "object", "additionalProperties": values}
+    return found | {"propertyNames": {"pattern": f"^{names}$"}} if names else found
+
+
+def _count(least: int) -> Json:
+    return {"type": "integer", "minimum": least, "maximum": MOST_COUNT}
+
+
+def _draw() -> Json:
+    normal = _record({"mean": _NUMBER, "std": _NUMBER}, "mean", "std")
+    between = _record({"from": _NUMBER, "to": _NUMBER, "spacing": _SPACING}, "from", "to")
+    seed = {"type": "integer", "minimum": 0, "maximum": MOST_SEED}
+    spreads = _map({"anyOf": [normal, between]}) | {"minProperties": 1}
+    own = {"count": _count(1), "seed": seed, "method": {"enum": list(DRAWN)}, "parameters": spreads}
+    return _record(own, "count", "parameters")
+
+
+def _starts() -> Json:
+    sizes = {"relative": _map(_NUMBER), "absolute": _map(_NUMBER)}
+    seed = {"type": "integer", "minimum": 0, "maximum": MOST_SEED}
+    own = {"count": _count(1), "seed": seed, "distribution": {"enum": [UNIFORM, NORMAL]}}
+    return _record(own | sizes | {"ensembles": _map(_record(sizes), LABEL)}, "count")
+
+
+def _measure() -> Json:
+    """One statistic, those of samples, contacts and events with a window."""
+    each = [_record({name: _TEXT} | ({"window": _TEXT} if name in WINDOWED else {}), name) for name in STATISTICS]
+    return {"oneOf": each}

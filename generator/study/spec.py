@@ -1,0 +1,145 @@
+"""A study as its file says it: frozen values, numbers still as texts with their places.
+
+What a number's unit is, and whether a name exists, only the loaded scenes know (runtime/studies/ensemble/plan.py).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from gudgeon.errors import Location
+from gudgeon.generator.yaml.tree import Text
+from gudgeon.language.tree import Expr
+
+FORMAT = "gudgeon-study/1"
+LINEAR, GEOMETRIC = "linear", "geometric"
+NORMAL, UNIFORM = "normal", "uniform"
+DRAWN = ("random", "latin_hypercube", "sobol", "halton")  # how points are drawn: numpy's generator, or scipy.stats.qmc
+SAMPLES = ("max", "min", "peak", "range", "mean", "rms", "final")  # statistics of a series' samples in a window
+STEPS = ("max_of_steps", "min_of_steps", "peak_of_steps")  # of a series over all steps of a run
+CONTACTS = ("impacts", "first_impact", "impact_speed")  # of a joint's contacts that begin in a window
+JOINT = ("peak_force", "eccentricity")  # of a joint with play over all steps
+CROSSINGS = ("crossings", "first_crossing")  # of an event in a window
+STATISTICS = (*SAMPLES, *STEPS, *CONTACTS, *JOINT, *CROSSINGS)
+RESERVED = (
+    "run", "time", "t", "sample", "scene", "draw", "start", "ensemble", "failure", "t_last",
+)  # what a dataset has of its own
+
+
+@dataclass(frozen=True)
+class Written:
+    """An expression and its text."""
+
+    expr: Expr
+    text: Text
+
+
+@dataclass(frozen=True)
+class Numbers:
+    """A list of values, or `count` of them from the first text to the second one."""
+
+    texts: tuple[Text, ...]
+    count: int = 0
+    spacing: str = ""
+
+
+@dataclass(frozen=True)
+class Axis:
+    """A dimension of the study: numbers that change together, by their addresses, all of one length."""
+
+    name: str
+    where: Location
+    columns: Mapping[Text, Numbers]
+    grouped: bool = False  # of `zip`: the dimension's name is no number's
+
+
+@dataclass(frozen=True)
+class Spread:
+    """How a number is drawn: normal by mean and standard deviation, uniform or geometric between two ends."""
+
+    kind: str
+    ends: tuple[Text, Text]
+
+
+@dataclass(frozen=True)
+class Draw:
+    """Random points, the same every time."""
+
+    count: int
+    seed: int
+    method: str
+    numbers: Mapping[Text, Spread]
+
+
+@dataclass(frozen=True)
+class Deviation:
+    """How far a number is off: by a share of itself, or by so much."""
+
+    relative: bool
+    size: Text
+
+
+@dataclass(frozen=True)
+class Starts:
+    """Each run again `count` times, its numbers a little off; once for each ensemble."""
+
+    count: int
+    seed: int
+    distribution: str
+    ensembles: Mapping[str, Mapping[Text, Deviation]]
+    named: bool  # whether ensembles are a dimension
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A dimension of structure: options by name, each some overrides with which the mechanism is loaded."""
+
+    name: str
+    where: Location
+    options: Mapping[str, Mapping[str, Text]]
+
+
+@dataclass(frozen=True)
+class Window:
+    """A span of time; None: the run's own begin or end."""
+
+    begin: Written | None
+    end: Written | None
+
+
+@dataclass(frozen=True)
+class Measure:
+    """One number a run: a statistic of a series, a joint or an event, in a window ("": the whole run)."""
+
+    name: str
+    statistic: str
+    of: Text
+    window: str = ""
+
+
+@dataclass(frozen=True)
+class StudyFile:
+    """All of a file; `said` is its tree as plain texts, by which two studies are compared."""
+
+    file: str  # "" for a mapping of Python
+    title: str
+    mechanism: Text
+    scenes: tuple[Text, ...]
+    one_scene: bool  # named as a text, not as a list: no dimension
+    choices: tuple[Choice, ...]
+    fixed: Mapping[Text, Text]
+    axes: tuple[Axis, ...]
+    draw: Draw | None
+    starts: Starts | None
+    t_end: Written | None
+    output: Written | None
+    step: Written | None
+    windows: Mapping[str, Window]
+    measures: tuple[Measure, ...]
+    keep: tuple[Text, ...]
+    method: Text
+    rtol: Text | None
+    stop: bool
+    said: Mapping[str, Any]

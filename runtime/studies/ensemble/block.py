@@ -1,0 +1,270 @@
+"""A block of a study's runs: what a process is given, what it runs, what is left of it. Everything can be pickled."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.errors import BadValueError, GudgeonError, InputError
+from gudgeon.language.tree import Expr
+from gudgeon.model.default_step import scene_end, scene_number
+from gudgeon.model.parameter_sets import each_of, prepare_sets
+from gudgeon.model.parameters import given_slots
+from gudgeon.results.batch import Array
+from gudgeon.simulation.arguments import DEFAULT_OUTPUT, MOST_OUTPUT
+from gudgeon.simulation.from_file import load
+from gudgeon.simulation.simulation import Simulation
+from gudgeon.studies.ensemble.measures import ROUNDING, Spans, measured, series_of, steps_of
+from gudgeon.studies.ensemble.numbers import key_of, of_runs, slot_of
+
+if TYPE_CHECKING:
+    from gudgeon.contract.kernel_source import KernelSource
+    from gudgeon.generator.study.spec import Measure
+    from gudgeon.integrators.trajectory import Progress
+    from gudgeon.results.batch import Batch
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What is asked of every run."""
+
+    t_end: Expr | None
+    output: Expr | None
+    step: Expr | None
+    windows: Mapping[str, tuple[Expr | None, ...]]  # begin and end
+    measures: tuple[Measure, ...]
+    keep: tuple[str, ...]
+    method: str
+    rtol: float | None
+    stop: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Job:
+    """Runs of one scene with their numbers, (n,) each; `relative` and `absolute` say how far some are off."""
+
+    mechanism: str
+    scene: str
+    overrides: tuple[tuple[str, str], ...]
+    sha256: str
+    number: int  # of the block
+    first: int  # run of the study
+    n: int  # how many
+    columns: Mapping[str, Array]
+    relative: Mapping[str, Array]
+    absolute: Mapping[str, Array]
+    wanted: Wanted
+    threads: int | None
+
+
+@dataclass(frozen=True, eq=False)
+class Block:
+    """What is left of n runs; `t` is (N,) where all that began have the same times, else (n, N)."""
+
+    number: int
+    first: int
+    measures: Mapping[str, Array]  # (n,)
+    failures: tuple[str, ...]  # why a run failed, "" where it did not
+    t_last: Array  # (n,) s, NaN: it did not begin
+    t: Array  # empty where nothing is kept
+    series: Mapping[str, Array]  # (n, N)
+
+
+@lru_cache(maxsize=16)
+def loaded(mechanism: str, scene: str, overrides: tuple[tuple[str, str], ...], sha256: str) -> Simulation:
+    """The library of a part, in a worker's own process. Raises InputError for a file that was edited since."""
+    found = load(mechanism, scene, overrides=dict(overrides))
+    if found.source.whole_sha256 != sha256:
+        told = f"{mechanism} was edited after the study began"
+        raise InputError(told, hint="put it back as it was, or begin anew with --restart")
+    return found
+
+
+def run_block(job: Job, progress: Progress | None = None, simulation: Simulation | None = None) -> Block:
+    """Run, measure, let go; without a simulation load it. KeyboardInterrupt where Ctrl-C ended a run."""
+    simulation = simulation or loaded(job.mechanism, job.scene, job.overrides, job.sha256)
+    table = Table(simulation, job)
+    failures = [table.bad.get(i, "") for i in range(job.n)]
+    good = np.array([i for i in range(job.n) if i not in table.bad], dtype=int)
+    found = _Found(job, table)
+    if len(good):
+        try:
+            batch = _run(simulation, job, table, good, progress)
+            found.take(good, batch, failures)
+        except InputError:  # of one run, as a rule; alone it says which
+            for i in good:
+                try:
+                    found.take(np.array([i]), _run(simulation, job, table, np.array([i]), None), failures)
+                except InputError as error:
+                    failures[i] = str(error)
+    return found.block(failures)
+
+
+def method_in(source: KernelSource, method: str) -> str:
+    """The method that a scene is run with: one without a degree of freedom follows its drives, whatever is asked."""
+    return method if source.degrees_of_freedom else "auto"
+
+
+class Table:
+    """Numbers of all runs of a job, and what follows from them: end, samples, step; why some cannot begin."""
+
+    def __init__(self, simulation: Simulation, job: Job) -> None:
+        self.source, self.compiled, wanted = simulation.source, simulation.compiled, job.wanted
+        self.bad: dict[int, str] = {}
+        self.columns = {key: own for name, own in job.columns.items() if (key := key_of(self.source, name))}
+        self.p, errors = self._numbers(job.n)
+        if off := self._off(job):
+            self.columns |= off
+            self.p, errors = self._numbers(job.n)
+        self.bad |= {i: str(error) for i, error in errors.items() if i not in self.bad}
+        self.t_end = self._ends(wanted.t_end)
+        known = {"t_end": self.t_end}
+        self.output = self._outputs(wanted.output, known)
+        self.step: Array | None = None
+        if wanted.step is not None and self.source.degrees_of_freedom:
+            self.step = of_runs(self.source, wanted.step, self.p, known)
+            self._refuse(~((self.step > 0.0) & np.isfinite(self.step)), self.step, "step", "a positive time (s)")
+        self.spans = self._windows(wanted.windows, known)
+
+    def _off(self, job: Job) -> dict[str, Array]:
+        """The numbers of perturbed starts: a share of where they are, and so much, away from there."""
+        place, found = {slot.address: k for k, slot in enumerate(self.source.slots)}, dict[str, Array]()
+        for name in dict.fromkeys((*job.relative, *job.absolute)):
+            if (slot := slot_of(self.source, name)) is None:
+                continue
+            base, key, zero = self.p[:, place[slot.address]], key_of(self.source, name), np.zeros(job.n)
+            by = base * job.relative.get(name, zero) + job.absolute.get(name, zero)
+            found[key] = found.get(key, base) + by  # another ensemble may spell it otherwise
+        return found
+
+    def _numbers(self, n: int) -> tuple[Array, Mapping[int, GudgeonError]]:
+        """p of all runs, and what is wrong with it; a number that is none is left out, and its run is bad."""
+        rows: list[dict[str, float | str]] = [{} for _ in range(n)]
+        for name, own in self.columns.items():
+            for i, value in enumerate(map(_plain, own)):
+                if isinstance(value, str) or math.isfinite(value):
+                    rows[i][name] = value
+                else:
+                    self.bad.setdefault(i, f"{name} is {value}: expected a finite number")
+        given, is_given = each_of(rows, lambda i, row: given_slots(self.source, row))
+        p, _, errors = prepare_sets(self.compiled, given, is_given, False)
+        return p, errors
+
+    def _windows(self, windows: Mapping[str, tuple[Expr | None, ...]], known: Mapping[str, Array]) -> Spans:
+        """Begin and end of each run's windows; one that lies nowhere in its run is what the run fails of."""
+        found: dict[str, tuple[Array | None, ...]] = {}
+        for name, ends in windows.items():
+            own = [None if expr is None else of_runs(self.source, expr, self.p, known) for expr in ends]
+            limits = zip(own, (np.zeros_like(self.t_end), self.t_end), strict=True)
+            begin, end = (limit if x is None else x for x, limit in limits)
+            within = (begin <= end) & (begin <= self.t_end * (1 + ROUNDING)) & (end >= 0.0)
+            for i in np.flatnonzero(~within).tolist():
+                told = f"window {name} goes from {begin[i]:g} s to {end[i]:g} s with this run's numbers"
+                self.bad.setdefault(i, f"{told}: expected a part of the run, to {self.t_end[i]:g} s")
+            found[name] = tuple(own)
+        return found
+
+    def _refuse(self, wrong: Array, values: Array, name: str, expected: str) -> None:
+        for i in np.flatnonzero(wrong).tolist():
+            self.bad.setdefault(i, f"{name} is {values[i]:g} with this run's numbers: expected {expected}")
+
+    def _ends(self, expr: Expr | None) -> Array:
+        if expr is not None:
+            found = of_runs(self.source, expr, self.p, {})
+            self._refuse(~((found > 0.0) & np.isfinite(found)), found, "t_end", "a positive time (s)")
+            return found
+        return self._of_scene(lambda p: scene_end(self.source, p))
+
+    def _outputs(self, expr: Expr | None, more: Mapping[str, Array]) -> Array:
+        """Intervals of output of each run: an expression is rounded to a whole number."""
+        if expr is None:
+            return self._of_scene(lambda p: scene_number(self.source, "output", p, DEFAULT_OUTPUT))
+        found = np.rint(of_runs(self.source, expr, self.p, more))
+        expected = f"a number of intervals from 1 to {MOST_OUTPUT:.0e}"
+        self._refuse(~((found >= 1.0) & (found <= MOST_OUTPUT)), found, "output", expected)
+        return found
+
+    def _of_scene(self, value: Any) -> Array:
+        found = np.full(len(self.p), np.nan)
+        for i in range(len(self.p)):
+            try:
+                if i not in self.bad:
+                    found[i] = value(self.p[i])
+            except BadValueError as error:
+                self.bad[i] = str(error)
+        return found
+
+
+def _plain(value: Any) -> float | str:
+    return value if isinstance(value, str) else float(value)
+
+
+def _run(simulation: Simulation, job: Job, table: Table, runs: Array, progress: Progress | None) -> Batch:
+    """The batch of some runs of a job."""
+    wanted, ends, counts = job.wanted, table.t_end[runs], table.output[runs].astype(int)
+    alike = len(set(counts.tolist())) == 1
+    output: Any = int(counts[0])
+    if not alike:
+        output = [np.linspace(0.0, end, k + 1) for end, k in zip(ends, counts, strict=True)]
+    same_end = len(set(ends.tolist())) == 1
+    t_end: Any = None if not alike else float(ends[0]) if same_end else ends
+    parameters: Any = {name: list(map(_plain, values[runs])) for name, values in table.columns.items()}
+    source, step = simulation.source, None if table.step is None else table.step[runs]
+    batch = simulation.simulate_many(
+        parameters or [{}] * len(runs), t_end, output=output, method=method_in(source, wanted.method),
+        rtol=wanted.rtol if source.degrees_of_freedom else None, step=step, threads=job.threads, progress=progress,
+        stop=wanted.stop, keep=series_of(wanted.measures, wanted.keep, source),
+        peaks=steps_of(wanted.measures, source),
+    )  # fmt: skip
+    if batch.interrupted:
+        raise KeyboardInterrupt
+    return batch
+
+
+class _Found:
+    """Measures and series of the runs of a job, NaN until they are taken."""
+
+    def __init__(self, job: Job, table: Table) -> None:
+        self.job, self.table, n = job, table, job.n
+        self.measures = {one.name: np.full(n, np.nan) for one in job.wanted.measures}
+        self.t_last = np.full(n, np.nan)
+        self.kept: list[tuple[Array, Array, Mapping[str, Array]]] = []
+
+    def take(self, runs: Array, batch: Batch, failures: list[str]) -> None:
+        """What is wanted of a batch of these runs; of one that failed only how far it came."""
+        spans: Spans = {
+            name: tuple(None if end is None else end[runs] for end in ends) for name, ends in self.table.spans.items()
+        }
+        failed = {failure.run: str(failure.error) for failure in batch.failures}
+        for i, told in failed.items():
+            failures[runs[i]] = told
+        good = np.array([i not in failed for i in range(len(runs))])
+        for one in self.job.wanted.measures:
+            self.measures[one.name][runs] = np.where(good, measured(batch, one, spans), np.nan)
+        begun = np.asarray(batch.samples) > 0
+        self.t_last[runs] = np.where(begun, batch.t_last, np.nan)
+        if self.job.wanted.keep:
+            self.kept.append((runs, batch.t, batch.kept))  # the batch itself holds what C has stored
+
+    def block(self, failures: list[str]) -> Block:
+        """All of it."""
+        job, keep = self.job, self.job.wanted.keep
+        N = max((asked.shape[-1] for _, asked, _ in self.kept), default=0)
+        t = np.full((job.n, N), np.nan)
+        series = {name: np.full((job.n, N), np.nan) for name in keep}
+        for runs, asked, kept in self.kept:
+            taken = kept["t"]
+            t[runs, : taken.shape[1]] = np.where(np.isnan(taken), asked, taken)
+            for name in (name for name in keep if name in kept):
+                series[name][runs, : taken.shape[1]] = kept[name]
+        began = ~np.isnan(self.t_last)
+        t[~began] = np.nan
+        common = t[began][0] if began.any() else np.zeros(N)
+        if np.array_equal(t[began], np.broadcast_to(common, t[began].shape)):
+            t = common
+        return Block(job.number, job.first, self.measures, tuple(failures), self.t_last, t, series)

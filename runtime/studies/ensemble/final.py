@@ -1,0 +1,177 @@
+"""The dataset of a finished study as one NetCDF-4 file, written block by block: it need not fit into memory."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from typing import Any, BinaryIO
+
+import numpy as np
+
+from gudgeon.files.writing import written
+from gudgeon.results.batch import Array
+from gudgeon.studies.ensemble.block import Block
+from gudgeon.studies.ensemble.folder import DATASET, StudyFolder, h5py_module
+from gudgeon.studies.ensemble.measures import meaning
+from gudgeon.studies.ensemble.plan import Coordinate, Plan
+
+_NUMBER = re.compile(r"(?<![A-Za-z_])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+MOST_KINDS, MOST_TEXT = 50, 50_000  # kinds of failures, characters of an attribute: HDF5 has no longer ones
+
+
+def write_dataset(folder: StudyFolder) -> None:
+    """All blocks as `study.nc`. Raises OutputError; LookupError for a block that is not there."""
+    t, common = _times(folder)
+    with written(folder.path / DATASET, sync=True) as file:
+        _write(file, folder, t, common)
+
+
+def _blocks(folder: StudyFolder) -> Iterator[Block]:
+    for of in folder.plan.blocks:
+        block = folder.read(of.number)
+        if block is None:
+            raise LookupError(f"block {of.number} is gone")
+        yield block
+
+
+def _times(folder: StudyFolder) -> tuple[Array, bool]:
+    """Times of the samples where all runs have the same, (N,); else only as many as the longest run has."""
+    common: Array | None = None
+    alike, most = True, 0
+    for block in _blocks(folder) if folder.plan.wanted.keep else ():
+        most = max(most, block.t.shape[-1])
+        if not block.t.size:  # nobody began
+            continue
+        alike = alike and block.t.ndim == 1 and (common is None or np.array_equal(common, block.t))
+        common = block.t if common is None else common
+    return (common, True) if alike and common is not None else (np.full(most, np.nan), False)
+
+
+def _write(target: BinaryIO, folder: StudyFolder, t: Array, common: bool) -> None:
+    h5py, plan = h5py_module(), folder.plan
+    kinds: Counter[str] = Counter()
+    with h5py.File(target, "w", libver=("earliest", "v110")) as file:
+        _about(file, plan)
+        scales = {one.name: one for one in plan.coordinates if one.over == (one.name,)}
+        for one in [*scales.values(), *(one for one in plan.coordinates if one.name not in scales)]:
+            _coordinate(h5py, file, one)
+        if plan.wanted.keep:
+            time = np.arange(len(t)) if not common else t
+            told = ("time", "s", "time of the sample") if common else ("sample", "", "number of the sample")
+            _coordinate(h5py, file, Coordinate(told[0], (told[0],), time, *told[1:]))
+        variables = _variables(h5py, file, plan, len(t), common)
+        for block in _blocks(folder):
+            _fill(variables, plan, block, common)
+            kinds.update(kind_of_failure(told) for told in block.failures if told)
+        file.attrs["failed"] = sum(kinds.values())
+        file.attrs["failure_kinds"] = json.dumps(dict(kinds.most_common(MOST_KINDS)))
+
+
+def kind_of_failure(told: str) -> str:
+    """The first line of a reason without its numbers: what many runs failed of."""
+    return _NUMBER.sub("…", told.partition("\n")[0])[:200]
+
+
+def _about(file: Any, plan: Plan) -> None:
+    import gudgeon
+
+    source = plan.parts[0].simulation.source
+    said = json.dumps(plan.study.said)  # where it is too long, the folder's own file has it
+    attributes = {
+        "title": plan.study.title or source.title, "mechanism": source.mechanism, "gudgeon": gudgeon.__version__,
+        "sha256": source.whole_sha256, "study": said if len(said) < MOST_TEXT else "",
+        "notes": "\n".join(plan.notes)[: MOST_TEXT // 4], "plan": plan.identity, "runs": plan.runs,
+    }  # fmt: skip
+    for name, value in attributes.items():
+        file.attrs[name] = value
+
+
+def _coordinate(h5py: Any, file: Any, one: Coordinate) -> None:
+    values = np.asarray(one.values)
+    kind = h5py.string_dtype() if values.dtype.kind in "OU" else values.dtype
+    found = file.create_dataset(one.name, data=values.astype(object) if kind != values.dtype else values, dtype=kind)
+    _tell(found, one.unit, one.meaning)
+    if one.over == (one.name,):
+        found.make_scale(one.name)
+    else:
+        for k, name in enumerate(one.over):
+            found.dims[k].attach_scale(file[name])
+
+
+def _tell(found: Any, unit: str, meaning: str) -> None:
+    if unit:
+        found.attrs["units"] = unit
+    if meaning:
+        found.attrs["long_name"] = meaning
+
+
+def _variables(h5py: Any, file: Any, plan: Plan, samples: int, common: bool) -> dict[str, Any]:
+    """Empty ones, over all dimensions."""
+    found: dict[str, Any] = {}
+
+    def add(name: str, over: tuple[str, ...], kind: Any, unit: str, told: str) -> None:
+        shape = tuple(len(file[dimension]) for dimension in over)
+        more = {} if kind is not float else {"fillvalue": np.nan}
+        found[name] = file.create_dataset(name, shape, dtype=kind, **more)
+        _tell(found[name], unit, told)
+        for k, dimension in enumerate(over):
+            found[name].dims[k].attach_scale(file[dimension])
+
+    for one in plan.wanted.measures:
+        add(one.name, plan.dims, float, plan.units[one.name], meaning(one))
+    add("t_last", plan.dims, float, "s", "where the run ended")
+    add("failure", plan.dims, h5py.string_dtype(), "", "why the run failed, empty where it did not")
+    beside = " ".join(one.name for one in plan.coordinates if one.over != (one.name,))
+    over = (*plan.dims, "time" if common else "sample")
+    for name in plan.wanted.keep:
+        add(name, over, float, plan.units[name], f"series {name}")
+    if plan.wanted.keep and not common:
+        add("t", over, float, "s", "time of the sample")
+    for variable in found.values() if beside else ():
+        variable.attrs["coordinates"] = beside  # as CF has it
+    return found
+
+
+def _fill(variables: dict[str, Any], plan: Plan, block: Block, common: bool) -> None:
+    n = len(block.t_last)
+    values: dict[str, Any] = {**block.measures, "t_last": block.t_last, "failure": np.array(block.failures, object)}
+    values |= block.series
+    if plan.wanted.keep and not common:
+        began = ~np.isnan(block.t_last)[:, None]
+        values["t"] = np.where(began, np.broadcast_to(block.t, (n, block.t.shape[-1])), np.nan)
+    for name, column in values.items():
+        for at, rows in slabs(plan.shape, block.first, block.first + n):
+            own = column[rows.start - block.first : rows.stop - block.first]
+            shape = _shape(plan.shape, at)
+            if column.ndim == 2:
+                variables[name][(*at, slice(0, column.shape[1]))] = own.reshape(*shape, column.shape[1])
+            else:
+                variables[name][at] = own.reshape(shape) if shape or name == "failure" else own[0]
+
+
+def _shape(shape: tuple[int, ...], at: tuple[Any, ...]) -> tuple[int, ...]:
+    slices = (range(length)[one] for one, length in zip(at, shape, strict=True) if isinstance(one, slice))
+    return tuple(len(one) for one in slices)
+
+
+def slabs(shape: tuple[int, ...], first: int, last: int) -> Iterable[tuple[tuple[Any, ...], slice]]:
+    """Boxes of an array of this shape that hold its elements first … last − 1 in C order, each with its elements."""
+    if not shape:
+        yield (), slice(first, last)
+        return
+    inner = math.prod(shape[1:])
+    (i, low), (j, high) = divmod(first, inner), divmod(last, inner)
+    whole = tuple(slice(0, length) for length in shape[1:])
+    if i == j:
+        parts = [(i, low, high)]
+    else:
+        parts = [(i, low, inner)] if low else []
+        if i + bool(low) < j:
+            yield (slice(i + bool(low), j), *whole), slice((i + bool(low)) * inner, j * inner)
+        parts += [(j, 0, high)] if high else []
+    for row, a, b in parts:
+        for at, rows in slabs(shape[1:], a, b):
+            yield (row, *at), slice(row * inner + rows.start, row * inner + rows.stop)

@@ -1,0 +1,180 @@
+"""The folder of a study: what it is of, finished blocks, one writer at a time; a kill at any moment loses one block."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import re
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.errors import GudgeonError, InputError, shortened
+from gudgeon.files.writing import PART, read_regular, telling, written
+from gudgeon.language.wanted import told
+from gudgeon.studies.ensemble.block import Block
+
+if TYPE_CHECKING:
+    from gudgeon.studies.ensemble.plan import Plan
+
+MANIFEST, DATASET, LOCK = "study.json", "study.nc", ".lock"
+_BLOCK = re.compile(r"block-[0-9]{6,9}\.nc")
+_MOST_TOLD = 6
+
+
+class StudyFolder:
+    """A folder that one process writes to; a context that holds its lock."""
+
+    def __init__(self, path: str | os.PathLike[str], plan: Plan) -> None:
+        self.path, self.plan = Path(path), plan
+
+    @contextmanager
+    def opened(self, restart: bool) -> Iterator[StudyFolder]:
+        """Locked, made, and known to be of this plan. Raises InputError for a folder of another one."""
+        from filelock import FileLock, Timeout
+
+        lock = FileLock(self.path / LOCK)
+        with telling(self.path):
+            self.path.mkdir(parents=True, exist_ok=True)
+            try:
+                lock.acquire(timeout=0)
+            except Timeout:
+                told = f"another process is at work in {shortened(self.path)}"
+                raise InputError(told, hint="wait for it, or name another folder") from None
+        try:
+            self._begin(restart)
+            yield self
+        finally:
+            lock.release()
+
+    def _begin(self, restart: bool) -> None:
+        there = sorted(name for name in os.listdir(self.path) if name != LOCK)
+        before = manifest(self.path)
+        for name in there:
+            if PART.fullmatch(name):  # of a process that was killed
+                (self.path / name).unlink(missing_ok=True)
+        foreign = [name for name in there if not (_BLOCK.fullmatch(name) or PART.fullmatch(name))]
+        if before is None and foreign:
+            told = f"{shortened(self.path)} is no folder of a study: it holds {foreign[0]}"
+            raise InputError(told, hint="name another folder")
+        blocks = [part.block for part in self.plan.parts]
+        if before is not None and not restart:
+            if before.get("said") != self.plan.said:
+                what = "\n  ".join(_differences(before.get("said"), self.plan.said))
+                hint = "begin anew with --restart (restart=True), or name another folder"
+                raise InputError(f"{shortened(self.path)} holds another study:\n  {what}", hint=hint)
+            if before.get("blocks") == blocks:
+                return
+        for name in [name for name in there if name in (MANIFEST, DATASET) or _BLOCK.fullmatch(name)]:
+            with telling(self.path / name):
+                (self.path / name).unlink(missing_ok=True)
+        text = json.dumps({"said": self.plan.said, "blocks": blocks, "plan": self.plan.identity}, indent=1)
+        with written(self.path / MANIFEST, sync=True) as file:
+            file.write(text.encode())
+
+    def has(self, number: int) -> bool:
+        """Whether a block is there, whole, and of this plan."""
+        return self.read(number) is not None
+
+    def write(self, block: Block) -> None:
+        """One file, whole on the disk when this returns. Raises OutputError."""
+        data = image(block, self.plan.digest)
+        with written(self._file(block.number), sync=True) as file:
+            file.write(data)
+
+    def read(self, number: int) -> Block | None:
+        """A block as it was written; None where there is none, or a damaged one, which is run again."""
+        path = self._file(number)
+        with suppress(OSError, ValueError, KeyError, TypeError):
+            if (data := read_regular(path)) is not None:
+                return from_image(data, self.plan, number)
+        return None
+
+    def _file(self, number: int) -> Path:
+        return self.path / f"block-{number:06d}.nc"
+
+
+def manifest(folder: Path) -> dict[str, Any] | None:
+    """What a folder says of itself; None where it is no study's."""
+    try:
+        data = read_regular(folder / MANIFEST)
+        found = None if data is None else json.loads(data)
+    except (OSError, ValueError):
+        return None
+    return found if isinstance(found, dict) else None
+
+
+def _differences(before: Any, now: Any) -> list[str]:
+    """Where two studies differ, in lines."""
+    old, new = dict(_flat(before)), dict(_flat(now))
+    lines = []
+    for key in dict.fromkeys([*old, *new]):
+        if old.get(key) != new.get(key):
+            then, own = (told(one[key]) if key in one else "not said" for one in (old, new))
+            lines.append(f"{key.removeprefix('study.')} was {then}, is {own}")
+    more = [f"and {len(lines) - _MOST_TOLD} more"] if len(lines) > _MOST_TOLD else []
+    return lines[:_MOST_TOLD] + more
+
+
+def _flat(node: Any, key: str = "") -> Iterator[tuple[str, Any]]:
+    if isinstance(node, Mapping):
+        for name, below in node.items():
+            yield from _flat(below, f"{key}.{name}" if key else str(name))
+    elif isinstance(node, list):
+        for k, below in enumerate(node):
+            yield from _flat(below, f"{key}[{k}]")
+    else:
+        yield key, node
+
+
+def h5py_module() -> Any:
+    """h5py, or what to install."""
+    if not all(map(find_spec, ("h5py", "xarray", "h5netcdf"))):
+        raise GudgeonError("studies need xarray and h5py: pip install 'gudgeon[xarray]'")
+    import h5py
+
+    return h5py
+
+
+def image(block: Block, digest: str) -> bytes:
+    """A block as the bytes of an HDF5 file, every array with checksums."""
+    h5py, memory = h5py_module(), io.BytesIO()
+    with h5py.File(memory, "w") as file:
+        file.attrs["digest"], file.attrs["number"] = digest, block.number
+        arrays = {"t_last": block.t_last, "t": block.t}
+        arrays |= {f"measures/{name}": values for name, values in block.measures.items()}
+        arrays |= {f"series/{name}": values for name, values in block.series.items()}
+        for name, values in arrays.items():
+            file.create_dataset(name, data=values, **({"fletcher32": True} if values.size else {}))
+        told = np.frombuffer(json.dumps(block.failures).encode(), np.uint8)
+        file.create_dataset("failures", data=told, fletcher32=True)
+    return memory.getvalue()
+
+
+def from_image(data: bytes, plan: Plan, number: int) -> Block | None:
+    """The block of these bytes, None where they are another plan's. Raises OSError, ValueError, KeyError for damage."""
+    h5py = h5py_module()
+    of = plan.blocks[number]
+    with h5py.File(io.BytesIO(data), "r") as file:
+        if file.attrs["digest"] != plan.digest or file.attrs["number"] != number:
+            return None
+        measures = {one.name: _array(file, f"measures/{one.name}", 1) for one in plan.wanted.measures}
+        series = {name: _array(file, f"series/{name}", 2) for name in plan.wanted.keep}
+        t_last, t = _array(file, "t_last", 1), np.asarray(file["t"], dtype=float)
+        failures = tuple(json.loads(bytes(np.asarray(file["failures"], np.uint8))))
+    lengths = {len(x) for x in (*measures.values(), *series.values(), t_last, failures)}
+    if lengths != {of.runs} or not all(isinstance(told, str) for told in failures):
+        raise ValueError(f"block {number}: expected {of.runs} runs")
+    return Block(number, of.part * plan.each + of.first, measures, failures, t_last, t, series)
+
+
+def _array(file: Any, name: str, ndim: int) -> Any:
+    found = np.asarray(file[name], dtype=float)
+    if found.ndim != ndim:
+        raise ValueError(f"{name} has {found.ndim} dimensions")
+    return found

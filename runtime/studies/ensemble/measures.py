@@ -1,0 +1,176 @@
+"""One number a run: statistics of series in a window, peaks over all steps, contacts, events."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.errors import UnknownNameError
+from gudgeon.results.batch import Array
+from gudgeon.results.series import catalogue
+from gudgeon.results.unknown import check_series
+
+if TYPE_CHECKING:
+    from gudgeon.generator.study.spec import Measure
+    from gudgeon.results.batch import Batch
+
+Spans: TypeAlias = Mapping[str, tuple[Array | None, ...]]  # window -> begin and end (s) of each run, None: its own
+ROUNDING = 1e-12  # of a time: a sample this near to the end of a window lies in it
+
+STEPS: Mapping[str, str] = {"max_of_steps": "max", "min_of_steps": "min", "peak_of_steps": "abs"}
+JOINT: Mapping[str, str] = {"peak_force": "F", "eccentricity": "e_max"}
+CONTACTS, CROSSINGS = ("impacts", "first_impact", "impact_speed"), ("crossings", "first_crossing")
+OF_JOINTS = (*CONTACTS, *JOINT)
+UNITS = {"impacts": "", "first_impact": "s", "impact_speed": "m/s", "peak_force": "N", "eccentricity": "m",
+         "crossings": "", "first_crossing": "s"}  # fmt: skip
+
+
+def series_of(measures: tuple[Measure, ...], keep: tuple[str, ...], source: KernelSource) -> list[str]:
+    """Series whose samples a scene's runs must give."""
+    known = catalogue(source)
+    others = (*OF_JOINTS, *CROSSINGS, *STEPS)
+    wanted = [*(str(one.of) for one in measures if one.statistic not in others), *keep]
+    return [name for name in dict.fromkeys(wanted) if name in known]
+
+
+def steps_of(measures: tuple[Measure, ...], source: KernelSource) -> list[str]:
+    """Series whose peaks over all steps are wanted."""
+    known = catalogue(source)
+    wanted = (str(one.of) for one in measures if one.statistic in STEPS)
+    return [name for name in dict.fromkeys(wanted) if name in known]
+
+
+def unit_of(measure: Measure, source: KernelSource) -> str | None:
+    """The unit of a measure, None in a scene that has no such thing."""
+    if measure.statistic in OF_JOINTS:
+        return UNITS[measure.statistic] if measure.of in _joints(source) else None
+    if measure.statistic in CROSSINGS:
+        return UNITS[measure.statistic] if measure.of in _events(source) else None
+    return catalogue(source)[measure.of].unit if measure.of in catalogue(source) else None
+
+
+def unknown_of(measure: Measure, source: KernelSource) -> UnknownNameError:
+    """What is said of a measure of something that no scene has."""
+    from gudgeon.language.suggestions import unknown_name
+
+    if measure.statistic in OF_JOINTS:
+        return unknown_name("joint with play", measure.of, _joints(source), measure.of.where)
+    if measure.statistic in CROSSINGS:
+        return unknown_name("event", measure.of, _events(source), measure.of.where)
+    try:
+        check_series(source, [str(measure.of)])
+    except UnknownNameError as error:
+        return UnknownNameError(error.message, measure.of.where, error.hint)
+    raise AssertionError(measure)
+
+
+def _joints(source: KernelSource) -> list[str]:
+    return [joint.name for joint in source.clearances]
+
+
+def _events(source: KernelSource) -> list[str]:
+    return [event.name for event in source.events]
+
+
+def meaning(measure: Measure) -> str:
+    """In a line: "peak of slider.ax in window last"."""
+    told = f"{measure.statistic.replace('_', ' ')} of {measure.of}"
+    return f"{told} in window {measure.window}" if measure.window else told
+
+
+def measured(batch: Batch, measure: Measure, spans: Spans) -> Array:
+    """The values of all runs, (n,); NaN where a run has none."""
+    source, none = batch.source, np.full(len(batch), np.nan)
+    if unit_of(measure, source) is None:
+        return none
+    begin, end = spans.get(measure.window, (None, None))
+    begin = np.full(len(batch), -np.inf) if begin is None else begin
+    end = np.full(len(batch), np.inf) if end is None else end
+    if measure.statistic in STEPS:
+        return np.asarray(getattr(batch.peak(str(measure.of)), STEPS[measure.statistic]))
+    if measure.statistic in JOINT:
+        return np.asarray(batch.peaks[JOINT[measure.statistic]][:, _joints(source).index(measure.of)])
+    if measure.statistic in CONTACTS:
+        return _contacts(batch, measure, begin, end)
+    if measure.statistic in CROSSINGS:
+        return _crossings(batch, measure, begin, end)
+    return STATISTICS[measure.statistic](batch.kept["t"], batch.kept[str(measure.of)], begin, end)
+
+
+def _contacts(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
+    joint, out = _joints(batch.source).index(measure.of), np.full(len(batch), np.nan)
+    for i, impacts in enumerate(batch.impacts):
+        t_on = impacts["t_on"]
+        own = impacts[(impacts["joint"] == joint) & (t_on >= begin[i]) & (t_on <= end[i])]
+        if measure.statistic == "impacts":
+            out[i] = len(own)
+        elif len(own):
+            out[i] = own["t_on"].min() if measure.statistic == "first_impact" else np.abs(own["deltadot"]).max()
+    return out
+
+
+def _crossings(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
+    number, out = _events(batch.source).index(measure.of), np.full(len(batch), np.nan)
+    for i, events in enumerate(batch.events):
+        t = events["t"][events["event"] == number]
+        t = t[(t >= begin[i]) & (t <= end[i])]
+        if measure.statistic == "crossings":
+            out[i] = len(t)
+        elif len(t):
+            out[i] = t.min()
+    return out
+
+
+def _inside(t: Array, x: Array, begin: Array, end: Array) -> Array:
+    """Which samples, (n, N), lie in each run's window."""
+    with np.errstate(invalid="ignore"):
+        slack = ROUNDING * np.abs(t)
+        return np.asarray((t >= begin[:, None] - slack) & (t <= end[:, None] + slack) & ~np.isnan(x))
+
+
+def _extreme(reduce: Callable[..., Array], outside: float, change: Callable[[Array], Array]) -> Callable[..., Array]:
+    def statistic(t: Array, x: Array, begin: Array, end: Array) -> Array:
+        inside = _inside(t, x, begin, end)
+        found = reduce(np.where(inside, change(x), outside), axis=1)
+        return np.asarray(np.where(inside.any(axis=1), found, np.nan))
+
+    return statistic
+
+
+_largest = _extreme(np.max, -np.inf, lambda x: x)
+_smallest = _extreme(np.min, np.inf, lambda x: x)
+_peak = _extreme(np.max, -np.inf, np.abs)
+
+
+def _range(t: Array, x: Array, begin: Array, end: Array) -> Array:
+    return np.asarray(_largest(t, x, begin, end) - _smallest(t, x, begin, end))
+
+
+def _mean(t: Array, x: Array, begin: Array, end: Array) -> Array:
+    """Over time, by trapezoids between the samples in the window; of one sample that itself."""
+    inside = _inside(t, x, begin, end)
+    both = inside[:, 1:] & inside[:, :-1]
+    dt = np.where(both, np.diff(t, axis=1), 0.0)
+    middle = np.where(both, (x[:, 1:] + x[:, :-1]) / 2, 0.0)
+    span = dt.sum(axis=1)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.asarray(np.where(span > 0.0, (dt * middle).sum(axis=1) / span, _final(t, x, begin, end)))
+
+
+def _rms(t: Array, x: Array, begin: Array, end: Array) -> Array:
+    return np.asarray(np.sqrt(_mean(t, x * x, begin, end)))
+
+
+def _final(t: Array, x: Array, begin: Array, end: Array) -> Array:
+    """The last sample in the window."""
+    inside = _inside(t, x, begin, end)
+    last = inside.shape[1] - 1 - np.argmax(inside[:, ::-1], axis=1)
+    return np.asarray(np.where(inside.any(axis=1), x[np.arange(len(x)), last], np.nan))
+
+
+STATISTICS: Mapping[str, Callable[[Array, Array, Array, Array], Array]] = {
+    "max": _largest, "min": _smallest, "peak": _peak, "range": _range, "mean": _mean, "rms": _rms, "final": _final,
+}  # fmt: skip

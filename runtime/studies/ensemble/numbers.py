@@ -1,0 +1,136 @@
+"""Texts of a study file as numbers of a scene: SI, with places; expressions by the numbers of each run."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.contract.kernel_source import KernelSource, Slot
+from gudgeon.errors import BadValueError, InputError, Location
+from gudgeon.language.parser import at, check_dimension, parse
+from gudgeon.language.suggestions import unknown_name
+from gudgeon.language.tree import Expr, evaluate, names
+from gudgeon.language.units import Dimension, dimension
+from gudgeon.model.choices import place_of_word
+from gudgeon.model.parameters import TOGETHER, addresses, given_slots, spaced
+from gudgeon.results.batch import Array
+
+if TYPE_CHECKING:
+    from gudgeon.generator.study.spec import Numbers, Written
+    from gudgeon.generator.yaml.tree import Text
+
+GEOMETRIC = "geometric"
+
+
+def slot_of(source: KernelSource, name: str) -> Slot | None:
+    """The number that a scene has under an address, a parameter's short name or a name for several; None: none."""
+    by_address = {slot.address: slot for slot in source.slots}
+    called = (name, f"parameters.{name}", *TOGETHER.get(name, ()))
+    return next((by_address[one] for one in called if one in by_address), None)
+
+
+def key_of(source: KernelSource, name: str) -> str:
+    """What the runs of a scene are given it as, however it is spelled; "": the scene has no such number."""
+    slot = slot_of(source, name)
+    return "" if slot is None else name if name in TOGETHER and slot.address in TOGETHER[name] else slot.address
+
+
+def known_slot(sources: Sequence[KernelSource], name: Text) -> Slot:
+    """The same of the first of several scenes that has it. Raises UnknownNameError at the name."""
+    for source in sources:
+        if (found := slot_of(source, name)) is not None:
+            return found
+    every = tuple(dict.fromkeys(address for source in sources for address in addresses(source)))
+    try:
+        given_slots(sources[0], {str(name): 0.0})  # says more, of an expression of t for example
+    except InputError as error:
+        if "has the address" not in error.message:
+            raise type(error)(error.message, name.where, error.hint) from None
+    raise unknown_name("number", name, every, name.where)
+
+
+def in_si(text: Text, slot: Slot) -> float | str:
+    """The number that a text says for a slot, of a choice its name. Raises an InputError at the text."""
+    if slot.words:
+        try:
+            place_of_word(str(text), slot)
+        except InputError as error:
+            raise type(error)(error.message, text.where, error.hint) from None
+        return text.strip()
+    expr = parse(spaced(text), text.where)
+    if (name := next(names(expr), None)) is not None:
+        hint = "expected a number with its unit; what follows other numbers is written in the mechanism's file"
+        raise BadValueError(f"{name.path!r} stands in a number of a study", at(text.where, name.offset), hint)
+    check_dimension(expr, dimension(*slot.dimension), lambda path: None, text.where)
+    value = float(evaluate(expr, lambda path: None))
+    if not math.isfinite(value):
+        raise BadValueError(f"{str(text)[:60]!r} is {value}", text.where, "expected a finite number")
+    return value
+
+
+def real(text: Text, slot: Slot) -> float:
+    """The same of a slot that is no choice. Raises BadValueError."""
+    value = in_si(text, slot)
+    if isinstance(value, str):
+        hint = "list the names that it takes, under parameters:"
+        raise BadValueError(f"{slot.address} is a choice by name, there is nothing between", text.where, hint)
+    return value
+
+
+def values(numbers: Numbers, slot: Slot, again: bool) -> Array:
+    """All values of a dimension, (n,), SI, or names; whether one may stand there again.
+
+    Raises BadValueError for ends that leave nothing between.
+    """
+    if not numbers.count:
+        found = [in_si(text, slot) for text in numbers.texts]
+        first_of = {value: k for k, value in reversed(list(enumerate(found)))}
+        twice = next((k for k, value in enumerate(found) if first_of[value] < k and not again), None)
+        if twice is not None:
+            text = numbers.texts[twice]
+            raise BadValueError(f"{str(text)[:60]!r} stands there twice", text.where, "expected each value once")
+        return np.array(found, dtype=object if slot.words else float)
+    first, last = (real(text, slot) for text in numbers.texts)
+    if numbers.spacing == GEOMETRIC and not first * last > 0.0:
+        told = f"a geometric row from {first:g} to {last:g}"
+        raise BadValueError(told, numbers.texts[0].where, "expected both ends positive, or both negative")
+    if first == last:
+        raise BadValueError(f"a row from {first:g} to {last:g}", numbers.texts[1].where, "expected two ends")
+    if numbers.spacing == GEOMETRIC:
+        return np.asarray(np.geomspace(first, last, numbers.count))
+    return np.asarray(np.linspace(first, last, numbers.count))
+
+
+def check_expression(source: KernelSource, written: Written, wanted: Dimension, more: Mapping[str, Dimension]) -> None:
+    """An InputError at its place for an expression that has no such dimension in a scene; `more` names it may use."""
+
+    def dimension_of(path: str) -> Dimension | None:
+        if path in more:
+            return more[path]
+        slot = slot_of(source, path)
+        return None if slot is None else dimension(*slot.dimension)
+
+    for name in names(written.expr):
+        slot = slot_of(source, name.path)
+        if name.path not in more and (slot is None or slot.words):
+            known = [*more, *addresses(source)]
+            place: Location = at(written.text.where, name.offset)
+            raise unknown_name(f"name (in scene {source.scene})", name.path, known, place)
+    check_dimension(written.expr, wanted, dimension_of, written.text.where)
+
+
+def of_runs(source: KernelSource, expr: Expr, p: Array, more: Mapping[str, Any]) -> Array:
+    """The values of an expression, (n,), by the numbers p (n, ...) of the runs; not finite where there is none."""
+    place = {slot.address: k for k, slot in enumerate(source.slots)}
+
+    def value_of(path: str) -> Any:
+        if path in more:
+            return more[path]
+        slot = slot_of(source, path)
+        assert slot is not None, path
+        return p[:, place[slot.address]]
+
+    return np.array(np.broadcast_to(np.asarray(evaluate(expr, value_of), dtype=float), (len(p),)))

@@ -1,0 +1,168 @@
+"""The table of a study's runs, never written out: dimensions, parts of one structure each, and their blocks."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from gudgeon.results.batch import Array
+from gudgeon.studies.ensemble.block import Job, Wanted
+
+if TYPE_CHECKING:
+    from gudgeon.generator.study.spec import StudyFile
+    from gudgeon.simulation.simulation import Simulation
+
+FOLDER_FORMAT = "gudgeon-study-folder/1"
+
+
+@dataclass(frozen=True, eq=False)
+class Coordinate:
+    """Values over some dimensions of the study, SI, or names."""
+
+    name: str
+    over: tuple[str, ...]
+    values: Array
+    unit: str = ""
+    meaning: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Dimension:
+    """What varies along it: numbers of the runs by their addresses, (length,) each."""
+
+    name: str
+    length: int
+    columns: Mapping[str, Array] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class Deviations:
+    """How far numbers are off their place: relative and absolute (SI), (n_ensembles, n_starts) each."""
+
+    relative: dict[str, Array]
+    absolute: dict[str, Array]
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """Runs of one scene with one structure: one library."""
+
+    simulation: Simulation
+    mechanism: str
+    overrides: tuple[tuple[str, str], ...]
+    block: int = 1  # runs a block
+
+    @property
+    def sha256(self) -> str:
+        """Of all that its library was made from."""
+        return self.simulation.source.whole_sha256
+
+
+class BlockOf(NamedTuple):
+    """Which runs a block has."""
+
+    number: int
+    part: int
+    first: int  # run of the part
+    runs: int  # how many
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """A study whose names are resolved; dimensions of structure first, then those of numbers."""
+
+    study: StudyFile
+    structure: tuple[Dimension, ...]
+    numbers: tuple[Dimension, ...]
+    fixed: Mapping[str, float | str]
+    deviations: Deviations | None
+    coordinates: tuple[Coordinate, ...]
+    parts: tuple[Part, ...]
+    wanted: Wanted
+    units: Mapping[str, str]  # of measures and series
+    notes: tuple[str, ...] = ()
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Lengths of all dimensions."""
+        return tuple(one.length for one in (*self.structure, *self.numbers))
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Their names."""
+        return tuple(one.name for one in (*self.structure, *self.numbers))
+
+    @property
+    def each(self) -> int:
+        """Runs of a part."""
+        return math.prod(one.length for one in self.numbers)
+
+    @property
+    def runs(self) -> int:
+        """All of them."""
+        return self.each * len(self.parts)
+
+    @cached_property
+    def blocks(self) -> tuple[BlockOf, ...]:
+        """All of them, part by part."""
+        each = self.each
+        places = ((k, first, min(part.block, each - first)) for k, part in enumerate(self.parts)
+                  for first in range(0, each, part.block))  # fmt: skip
+        return tuple(BlockOf(number, *place) for number, place in enumerate(places))
+
+    def job(self, block: BlockOf, threads: int | None) -> Job:
+        """All that a process needs to run a block."""
+        runs = np.arange(block.first, block.first + block.runs)
+        return self.job_of(block.number, block.part, runs, threads)
+
+    def job_of(self, number: int, k: int, runs: Array, threads: int | None) -> Job:
+        """The same of any runs of a part."""
+        part, shape = self.parts[k], tuple(one.length for one in self.numbers)
+        index = np.unravel_index(runs, shape) if shape else ()
+        columns: dict[str, Array] = {name: np.array([value] * len(runs)) for name, value in self.fixed.items()}
+        for one, at in zip(self.numbers, index, strict=True):
+            columns |= {name: values[at] for name, values in one.columns.items()}
+        by_name = {one.name: at for one, at in zip(self.numbers, index, strict=True)}
+        relative, absolute = self._off(by_name, len(runs))
+        return Job(
+            part.mechanism, part.simulation.source.scene, part.overrides, part.sha256, number,
+            k * self.each + int(runs[0]), len(runs), columns, relative, absolute, self.wanted, threads,
+        )  # fmt: skip
+
+    def _off(self, index: Mapping[str, Array], n: int) -> tuple[dict[str, Array], dict[str, Array]]:
+        if self.deviations is None:
+            return {}, {}
+        at = index.get("ensemble", np.zeros(n, dtype=int)), index["start"]
+        several = self.deviations.relative, self.deviations.absolute
+        relative, absolute = ({name: values[at] for name, values in own.items()} for own in several)
+        return relative, absolute
+
+    @cached_property
+    def said(self) -> dict[str, Any]:
+        """All that decides the results: two studies are the same where this is."""
+        import gudgeon
+
+        parts = {", ".join([part.simulation.source.scene, *(f"{k}={v}" for k, v in part.overrides)]): part.sha256
+                 for part in self.parts}  # fmt: skip
+        return {"format": FOLDER_FORMAT, "gudgeon": gudgeon.__version__, "study": self.study.said, "mechanism": parts}
+
+    @cached_property
+    def identity(self) -> str:
+        """A digest of `said`."""
+        return _digest(self.said)
+
+    @cached_property
+    def digest(self) -> str:
+        """The same with how runs are put into blocks: what a block's file is of."""
+        return _digest([self.said, [part.block for part in self.parts]])
+
+
+def _digest(told: Any) -> str:
+    return hashlib.sha256(json.dumps(told, sort_keys=True).encode()).hexdigest()

@@ -1,0 +1,284 @@
+"""A study file to a plan: its mechanism loaded once a structure, every name and unit checked at its place."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.contract.kernel_source import KernelSource, Slot
+from gudgeon.contract.limits import MAX_BYTES
+from gudgeon.errors import BadValueError, InputError
+from gudgeon.files.beside import read_beside
+from gudgeon.integrators import adaptive
+from gudgeon.language.units import DIMENSIONLESS, TIME
+from gudgeon.loading.find import find_mechanism
+from gudgeon.results.batch import Array
+from gudgeon.results.series import catalogue
+from gudgeon.results.unknown import check_series
+from gudgeon.simulation.arguments import method_of
+from gudgeon.simulation.from_file import load
+from gudgeon.simulation.simulation import Simulation
+from gudgeon.studies.ensemble.block import Job, Table, Wanted, method_in
+from gudgeon.studies.ensemble.measures import meaning, series_of, unit_of, unknown_of
+from gudgeon.studies.ensemble.numbers import check_expression, in_si, known_slot, real, slot_of, values
+from gudgeon.studies.ensemble.plan import Coordinate, Deviations, Dimension, Part, Plan
+from gudgeon.studies.ensemble.points import NORMAL, deviations, shares, spread_over
+
+if TYPE_CHECKING:
+    from gudgeon.generator.study.spec import Deviation, Draw, Starts, StudyFile
+    from gudgeon.generator.yaml.tree import Text
+
+MOST_RUNS = 100_000_000
+BLOCK = 128  # runs of a block at most
+BYTES = 1 << 26  # of states and series of a block, about
+LOOKED_AT = 64  # runs of a part whose samples are counted for that
+
+
+def resolve(study: StudyFile) -> Plan:
+    """Load every structure, check every name. Raises an InputError at its place in the study's file."""
+    structure, coordinates = _structure(study)
+    parts = tuple(_parts(study, structure))
+    sources = [part.simulation.source for part in parts]
+    numbers, found = _numbers(study, sources)
+    off, of_starts, starts = _starts(study.starts, sources)
+    coordinates += found + of_starts
+    wanted = _wanted(study, parts)
+    fixed = {str(name): in_si(text, known_slot(sources, name)) for name, text in study.fixed.items()}
+    coordinates += [Coordinate(name, (), np.array(value), known_slot(sources, name).unit)
+                    for name, value in zip(study.fixed, fixed.values(), strict=True)]  # fmt: skip
+    plan = Plan(
+        study, tuple(structure), (*numbers, *starts), fixed, off, tuple(coordinates), parts, wanted,
+        _units(study, sources), tuple(_notes(study, sources)),
+    )  # fmt: skip
+    if plan.runs > MOST_RUNS:
+        raise BadValueError(f"the study has {plan.runs} runs", hint=f"expected {MOST_RUNS:.0e} at most")
+    return replace(plan, parts=tuple(replace(part, block=_block(plan, k)) for k, part in enumerate(parts)))
+
+
+def _structure(study: StudyFile) -> tuple[list[Dimension], list[Coordinate]]:
+    """Scenes and choices."""
+    named = [("scene", [str(name) for name in study.scenes], "scene of the mechanism")] if not study.one_scene else []
+    named += [(choice.name, list(choice.options), "choice of structure") for choice in study.choices]
+    found = [Coordinate(name, (name,), np.array(words, object), "", told) for name, words, told in named]
+    if study.one_scene:
+        found.append(Coordinate("scene", (), np.array(str(study.scenes[0]), object), "", "scene of the mechanism"))
+    return [Dimension(name, len(words)) for name, words, _ in named], found
+
+
+def mechanism_of(study: StudyFile) -> str:
+    """The shipped mechanism's name, or the path of a file; one that a study file names lies beside it or below."""
+    name = str(study.mechanism)
+    is_file = "/" in name or name.endswith((".yaml", ".yml"))
+    try:
+        if not is_file:
+            find_mechanism(name)
+            return name
+        if not study.file:
+            return str(Path(name).absolute())
+        read_beside(study.file, name, MAX_BYTES)
+        return str((Path(study.file).parent / name).absolute())
+    except InputError as error:
+        message = error.message.replace("the table ", "").replace("path to a table", "path to a mechanism")
+        hint = "expected a YAML file in the study's folder or below, or the name of a shipped mechanism"
+        raise type(error)(message, study.mechanism.where, error.hint if not is_file else hint) from None
+
+
+def _parts(study: StudyFile, structure: Sequence[Dimension]) -> Iterator[Part]:
+    """Every combination of scene and options, loaded."""
+    mechanism = mechanism_of(study)
+    choices = [list(choice.options.values()) for choice in study.choices]
+    for scene, chosen in itertools.product(study.scenes, itertools.product(*choices)):
+        texts = {address: text for own in chosen for address, text in own.items()}
+        overrides = tuple(sorted((address, str(text)) for address, text in texts.items()))
+        yield Part(_load(mechanism, scene, texts, overrides), mechanism, overrides)
+
+
+def _load(
+    mechanism: str, scene: Text, texts: Mapping[str, Text], overrides: tuple[tuple[str, str], ...]
+) -> Simulation:
+    try:
+        return load(mechanism, str(scene), overrides=dict(overrides))
+    except InputError as error:
+        file = error.where.file if error.where else ""
+        address = file.removeprefix("override of ")
+        text = texts.get(address) or next((own for name, own in texts.items() if repr(name) in error.message), None)
+        if file and address not in texts:  # a mistake of the mechanism's file
+            raise
+        raise type(error)(error.message, (text or scene).where, error.hint) from None
+
+
+def _numbers(study: StudyFile, sources: Sequence[KernelSource]) -> tuple[list[Dimension], list[Coordinate]]:
+    """Dimensions of `parameters:`, `zip:` and `draw:`."""
+    dimensions, coordinates = [], []
+    for axis in study.axes:
+        columns = {}
+        for name, numbers in axis.columns.items():
+            slot = known_slot(sources, name)
+            columns[str(name)] = values(numbers, slot, again=axis.grouped)
+            coordinates.append(Coordinate(str(name), (axis.name,), columns[str(name)], slot.unit, slot.address))
+        length = len(next(iter(columns.values())))
+        if axis.grouped:
+            coordinates.append(Coordinate(axis.name, (axis.name,), np.arange(length), "", f"place in zip {axis.name}"))
+        dimensions.append(Dimension(axis.name, length, columns))
+    if study.draw is not None:
+        columns = _drawn(study.draw, sources)
+        dimensions.append(Dimension("draw", study.draw.count, columns))
+        told = f"point of {study.draw.method}, seed {study.draw.seed}"
+        coordinates.append(Coordinate("draw", ("draw",), np.arange(study.draw.count), "", told))
+        for name in study.draw.numbers:
+            slot = known_slot(sources, name)
+            coordinates.append(Coordinate(str(name), ("draw",), columns[str(name)], slot.unit, slot.address))
+    return dimensions, coordinates
+
+
+def _drawn(draw: Draw, sources: Sequence[KernelSource]) -> dict[str, Any]:
+    points = shares(draw.method, draw.count, len(draw.numbers), draw.seed)
+    found = {}
+    for k, (name, spread) in enumerate(draw.numbers.items()):
+        slot = known_slot(sources, name)
+        first, second = (real(text, slot) for text in spread.ends)
+        where = spread.ends[1].where
+        if spread.kind == NORMAL and not second > 0.0:
+            raise BadValueError(f"a standard deviation of {second:g}", where, "expected a positive one")
+        if spread.kind != NORMAL and not first < second:
+            raise BadValueError(f"from {first:g} to {second:g} {slot.unit}", where, "expected from < to")
+        if spread.kind not in (NORMAL, "uniform") and not first > 0.0:
+            raise BadValueError(f"a geometric spread from {first:g}", spread.ends[0].where, "expected positive ends")
+        found[str(name)] = spread_over(spread, first, second, points[:, k])
+    return found
+
+
+def _starts(
+    starts: Starts | None, sources: Sequence[KernelSource]
+) -> tuple[Deviations | None, list[Coordinate], list[Dimension]]:
+    """Perturbed starts: how far each number is off in each, the sizes as coordinates, one or two dimensions."""
+    if starts is None:
+        return None, [], []
+    names = sorted({str(name): name for own in starts.ensembles.values() for name in own}.values())
+    points, ensembles = deviations(starts, list(map(str, names))), list(starts.ensembles.values())
+    over = ("ensemble",) if starts.named else ()
+    off = Deviations({}, {})
+    coordinates = [Coordinate("start", ("start",), np.arange(starts.count), "",
+                              f"perturbed start, {starts.distribution}, seed {starts.seed}")]  # fmt: skip
+    if starts.named:
+        named = np.array(list(starts.ensembles), object)
+        coordinates.append(Coordinate("ensemble", over, named, "", "ensemble of starts"))
+    for k, name in enumerate(names):
+        slot = known_slot(sources, name)
+        for relative, column in ((True, off.relative), (False, off.absolute)):
+            sizes = _sizes(ensembles, name, replace(slot, unit="", dimension=(0, 0, 0)) if relative else slot, relative)
+            if sizes is None:
+                continue
+            column[str(name)] = by = sizes[:, None] * points[:, :, k]
+            kind, unit = ("relative", "") if relative else ("absolute", slot.unit)
+            size, by = (sizes, by) if starts.named else (sizes[0], by[0])
+            coordinates += [
+                Coordinate(f"{name}.{kind}_size", over, np.array(size), unit, f"{kind} size of what {name} is off"),
+                Coordinate(f"{name}.{kind}", (*over, "start"), by, unit, f"{kind} deviation of {name}"),
+            ]
+    dimensions = [Dimension("ensemble", len(ensembles))] if starts.named else []
+    return off, coordinates, [*dimensions, Dimension("start", starts.count)]
+
+
+def _sizes(
+    ensembles: Sequence[Mapping[Text, Deviation]], name: Text, slot: Slot, relative: bool
+) -> Array | None:
+    """How far a number is off in each ensemble, 0 where it is not; None where it is not in any, in this way."""
+    sizes, found = np.zeros(len(ensembles)), False
+    for k, own in enumerate(ensembles):
+        if name in own and own[name].relative == relative:
+            text, found = own[name].size, True
+            sizes[k] = real(text, slot)
+            if not sizes[k] > 0.0:
+                raise BadValueError(f"a size of {str(text)!r}", text.where, "expected a positive one")
+    return sizes if found else None
+
+
+def _wanted(study: StudyFile, parts: Sequence[Part]) -> Wanted:
+    """What is asked of the runs, checked in every scene."""
+    ends = {"t_end": TIME}
+    rtol = None if study.rtol is None else _tolerance(study.rtol)
+    for part in parts:
+        source = part.simulation.source
+        for written, dimension, more in (
+            (study.t_end, TIME, {}), (study.output, DIMENSIONLESS, ends), (study.step, TIME, ends),
+            *((end, TIME, ends) for window in study.windows.values() for end in (window.begin, window.end)),
+        ):  # fmt: skip
+            if written is not None:
+                check_expression(source, written, dimension, more)
+        _check_method(study, source, rtol)
+    windows = {name: tuple(None if end is None else end.expr for end in (window.begin, window.end))
+               for name, window in study.windows.items()}  # fmt: skip
+    t_end, output, step = (None if one is None else one.expr for one in (study.t_end, study.output, study.step))
+    keep, method = tuple(map(str, study.keep)), str(study.method)
+    return Wanted(t_end, output, step, windows, study.measures, keep, method, rtol, study.stop)
+
+
+def _check_method(study: StudyFile, source: KernelSource, rtol: float | None) -> None:
+    """An InputError at its place for a method or a tolerance that a scene cannot have."""
+    method, where = method_in(source, str(study.method)), study.method.where
+    moves = bool(source.degrees_of_freedom)
+    fixed, rtol = moves and study.step is not None, rtol if moves else None
+    try:
+        chosen = method_of(source, method, fixed)
+        where = study.rtol.where if study.rtol is not None else where
+        adaptive.tolerance(rtol, chosen, fixed)
+    except InputError as error:
+        raise type(error)(f"scene {source.scene}: {error.message}", where, error.hint) from None
+
+
+def _tolerance(text: Text) -> float:
+    return real(text, Slot("rtol", "", 0.0, False, (0, 0, 0)))
+
+
+def _units(study: StudyFile, sources: Sequence[KernelSource]) -> dict[str, str]:
+    """Units of measures and kept series. UnknownNameError for one that no scene has."""
+    found = {}
+    for measure in study.measures:
+        units = [unit for source in sources if (unit := unit_of(measure, source)) is not None]
+        if not units:
+            raise unknown_of(measure, sources[-1])
+        found[measure.name] = units[0]
+    for name in study.keep:
+        known = [catalogue(source)[name].unit for source in sources if name in catalogue(source)]
+        if not known:
+            try:
+                check_series(sources[-1], [str(name)])
+            except InputError as error:
+                raise type(error)(error.message, name.where, error.hint) from None
+        found[str(name)] = known[0]
+    return found
+
+
+def _notes(study: StudyFile, sources: Sequence[KernelSource]) -> Iterator[str]:
+    """What a study cannot do in some of its scenes, once for each."""
+    names = [*study.fixed, *(name for axis in study.axes for name in axis.columns)]
+    names += [*study.draw.numbers] if study.draw else []
+    names += [name for own in study.starts.ensembles.values() for name in own] if study.starts else []
+    by_scene = {source.scene: source for source in sources}
+    for name in dict.fromkeys(names):
+        if lacking := [scene for scene, source in by_scene.items() if slot_of(source, str(name)) is None]:
+            yield f"{name} is no number of scene {', '.join(lacking)}: there the runs are the same whatever it is"
+    if still := [scene for scene, source in by_scene.items() if method_in(source, str(study.method)) != study.method]:
+        yield f"scene {', '.join(still)} has no degree of freedom: it follows its drives, whatever method says"
+    for measure in study.measures:
+        if lacking := [scene for scene, source in by_scene.items() if unit_of(measure, source) is None]:
+            yield f"{measure.name}, {meaning(measure)}, is NaN in scene {', '.join(lacking)}, which has no such thing"
+    for name in study.keep:
+        if lacking := [scene for scene, source in by_scene.items() if name not in catalogue(source)]:
+            yield f"{name} is NaN in scene {', '.join(lacking)}, which has no such series"
+
+
+def _block(plan: Plan, k: int) -> int:
+    """Runs of a block of part k: few enough that their samples fit into BYTES, by those of some of its runs."""
+    runs = np.unique(np.linspace(0, plan.each - 1, min(plan.each, LOOKED_AT)).astype(int))
+    job: Job = plan.job_of(0, k, runs, None)
+    counts = Table(plan.parts[k].simulation, job).output
+    samples = float(np.nanmax(counts, initial=1.0)) + 1.0
+    width = 2 + len(series_of(plan.wanted.measures, plan.wanted.keep, plan.parts[k].simulation.source))
+    return int(max(1, min(BLOCK, BYTES // (8 * width * max(samples, 1.0)))))

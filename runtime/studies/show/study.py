@@ -1,0 +1,91 @@
+"""What a study found, for people and for scripts: how many runs, what failed, and the spread of each measure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from gudgeon.language.shown import path_text, visible
+from gudgeon.studies.ensemble.estimate import Estimate
+from gudgeon.studies.ensemble.folder import DATASET
+from gudgeon.studies.ensemble.plan import Plan
+from gudgeon.studies.ensemble.study import Study
+from gudgeon.studies.show.tables import console, new_table, print_json
+from gudgeon.studies.words import seconds
+
+MOST_KINDS = 8
+QUANTILES = {"min": 0.0, "median": 0.5, "max": 1.0}
+
+
+def shape_text(plan: Plan) -> str:
+    """The dimensions: "scene 2 × c 5"."""
+    return " × ".join(f"{name} {length}" for name, length in zip(plan.dims, plan.shape, strict=True)) or "one run"
+
+
+def show_estimate(plan: Plan, found: Estimate, json: bool) -> None:
+    """The plan, nothing run but the trial."""
+    if json:
+        dims = dict(zip(plan.dims, plan.shape, strict=True))
+        print_json({"dimensions": dims, "runs": found.runs, "blocks": found.blocks, "bytes": found.bytes,
+                    "seconds": found.seconds, "tried": found.tried, "tried_failed": found.failed,
+                    "notes": list(plan.notes)})  # fmt: skip
+        return
+    print(f"{found.runs} runs ({visible(shape_text(plan))}) in {found.blocks} blocks")
+    print(f"about {_bytes(found.bytes)} on disk, {_long(found.seconds)} by {found.tried} runs on trial")
+    if found.failed:
+        print(f"{found.failed} of {found.tried} runs on trial failed: {visible(found.reasons[0])}")
+    for note in plan.notes:
+        print(f"note: {visible(note)}")
+
+
+def show_study(plan: Plan, found: Study, json: bool) -> None:
+    """What was measured, over all runs that did not fail."""
+    spread = {name: (unit, row) for name, unit, row in _spread(plan, found)}
+    if json:
+        measures = {name: {"unit": unit, **row} for name, (unit, row) in spread.items()}
+        print_json({"folder": str(found.folder), "dataset": str(found.folder / DATASET), "runs": found.runs,
+                    "failed": found.failed, "failures": found.failures, "measures": measures,
+                    "notes": list(found.notes)})  # fmt: skip
+        return
+    print(f"{found.runs} runs ({visible(shape_text(plan))})")
+    if spread:
+        table = new_table(["measure", *QUANTILES, "unit", "NaN"], ["measure", "unit"])
+        for name, (unit, row) in spread.items():
+            numbers = (f"{row[key]:.6g}" if np.isfinite(row[key]) else "–" for key in QUANTILES)
+            table.add_row(visible(name), *numbers, unit, str(row["nan"]))
+        console().print(table)
+    if found.failed:
+        print(f"{found.failed} of {found.runs} runs failed:")
+        for kind, count in list(found.failures.items())[:MOST_KINDS]:
+            print(f"  {count} × {visible(kind)}")
+        if (more := len(found.failures) - MOST_KINDS) > 0:
+            print(f"  and {more} other reasons")
+    for note in found.notes:
+        print(f"note: {visible(note)}")
+    print(f"wrote {path_text(Path(found.folder) / DATASET)}")
+
+
+def _spread(plan: Plan, found: Study) -> Iterator[tuple[str, str, dict[str, Any]]]:
+    """Of each measure its least, middle and largest value, and in how many runs it is none."""
+    for name in (one.name for one in plan.wanted.measures):
+        values = found.dataset[name].values
+        own = values[np.isfinite(values)]
+        row = {key: float(np.quantile(own, q)) if own.size else float("nan") for key, q in QUANTILES.items()}
+        yield name, plan.units[name], row | {"nan": int(values.size - own.size)}
+
+
+def _bytes(size: int) -> str:
+    for power, unit in ((9, "GB"), (6, "MB"), (3, "kB")):
+        if size >= 10**power:
+            return f"{size / 10**power:.3g} {unit}"
+    return f"{size} bytes"
+
+
+def _long(value: float) -> str:
+    for factor, unit in ((86400.0, "days"), (3600.0, "h"), (60.0, "min")):
+        if value >= 2 * factor:
+            return f"{value / factor:.3g} {unit}"
+    return seconds(value)

@@ -1,0 +1,143 @@
+"""Study files with mistakes: each is told at its place, with what was expected; several are told at once."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+import gudgeon
+from gudgeon.errors import InputError, InputErrors, NotYamlError
+from gudgeon.generator.study.read import read_study
+from gudgeon.studies.ensemble.study import plan_of
+from tests.pump import Gudgeon, needs_compiler
+
+pytestmark = needs_compiler
+GOOD = """\
+format: gudgeon-study/1
+mechanism: pendulum
+parameters:
+  g: [9.81, 20]
+t_end: 1 s
+windows:
+  late: {from: t_end/2}
+measures:
+  y: {final: bob.y, window: late}
+"""
+BAD = [  # in place of what, what; line:column and words of the message
+    ("gudgeon-study/1", "gudgeon/1", "1:1", "expected gudgeon-study/1"),
+    ("mechanism:", "mechansim:", "2:1", "did you mean 'mechanism'"),
+    ("pendulum", "pendlum", "2:12", "pendulum"),
+    ("pendulum", "../pendulum.yaml", "2:12", "study's folder or below"),
+    ("pendulum", "/etc/passwd.yaml", "2:12", "study's folder or below"),
+    ("[9.81, 20]", "[]", "4:6", "an empty list"),
+    ("[9.81, 20]", "[9.81, 9.81]", "4:13", "twice"),
+    ("[9.81, 20]", "[9.81, 20 kg]", "4:13", "an acceleration"),
+    ("[9.81, 20]", "[9.81, length]", "4:13", "'length' stands in a number of a study"),
+    ("[9.81, 20]", "[9.81, __import__('os')]", "4:13", "attributes of Python"),
+    ("[9.81, 20]", "[9.81, 0/0]", "4:13", "finite"),
+    ("[9.81, 20]", "{from: 1, to: 2}", "4:6", "has no count"),
+    ("[9.81, 20]", "{from: 1, to: 2, count: 1}", "4:30", "a whole number from 2"),
+    ("[9.81, 20]", "{from: 1, to: 2, count: 1e9}", "4:30", "a whole number from 2"),
+    ("[9.81, 20]", "{from: -1, to: 2, count: 3, spacing: geometric}", "4:13", "both ends positive"),
+    ("[9.81, 20]", "{from: 1, to: 2, count: 3, spacing: log}", "4:42", "linear, geometric"),
+    ("  g:", "  G:", "4:3", "did you mean 'g'"),
+    ("  g:", "  start:", "4:3", "write parameters.start"),
+    ("1 s", "1 kg", "5:8", "a time"),
+    ("1 s", "1 s / omega", "5:14", "unknown name (in scene ideal) 'omega'"),
+    ("1 s", "2*pi*sqrt(length/", "5:25", "expected"),
+    ("t_end/2", "t_end/length", "7:16", "a time"),
+    ("late: {from: t_end/2}", "late: {}", "7:9", "expected from:, to:, or both"),
+    ("late: {from", "1ate: {from", "7:3", "letters, digits"),
+    ("final", "finale", "9:7", "did you mean 'final'"),
+    ("bob.y,", "bob.z,", "9:14", "nearest: bob"),
+    ("window: late", "window: lat", "9:29", "unknown window 'lat'"),
+    ("final: bob.y, window: late", "max_of_steps: bob.y, window: late", "9:36", "knows no window"),
+    ("final: bob.y, window: late", "impacts: rod", "9:16", "unknown joint with play"),
+    ("final: bob.y, window: late", "crossings: top", "9:18", "unknown event"),
+    ("y: {final", "run: {final", "9:3", "the name 'run' is taken"),
+    ("y: {final", "g: {final", "9:3", "the name 'g' is taken"),
+    ("  y: {final: bob.y, window: late}", "  {}", "1:1", "measures nothing"),
+    ("t_end: 1 s", "scenes: [ideal, idael]", "5:17", "idael"),
+    ("t_end: 1 s", "scenes: [ideal, ideal]", "5:17", "twice"),
+    ("t_end: 1 s", "keep: [bob.q]", "5:8", "bob"),
+    ("t_end: 1 s", "method: rk5", "5:9", "rk4"),
+    ("t_end: 1 s", "rtol: 1e-8 m", "5:7", "a pure number"),
+    ("t_end: 1 s", "stop: maybe", "5:7", "true, false"),
+    ("t_end: 1 s", "zip: {speed: {length: [1, 2], g: [1]}}", "5:7", "length has 2, g has 1"),
+    ("t_end: 1 s", "zip: {speed: {g: [1, 2]}}", "5:15", "is said twice"),
+    ("t_end: 1 s", "draw: {count: 3, parameters: {length: {mean: 1 m}}}", "5:39", "has no std"),
+    ("t_end: 1 s", "draw: {count: 3, parameters: {length: {mean: 1 m, std: -1 m}}}", "5:56", "positive"),
+    ("t_end: 1 s", "draw: {count: 3, parameters: {length: {from: 2 m, to: 1 m}}}", "5:55", "from < to"),
+    ("t_end: 1 s", "draw: {count: 3, parameters: {length: {mean: 1 m, to: 1 m}}}", "5:51", "mean and std"),
+    ("t_end: 1 s", "draw: {count: 0, parameters: {length: {from: 1, to: 2}}}", "5:15", "a whole number from 1"),
+    ("t_end: 1 s", "draw: {count: 3, method: lhs, parameters: {length: {from: 1, to: 2}}}", "5:26", "sobol"),
+    ("t_end: 1 s", "draw: {count: 3, seed: 1.5, parameters: {length: {from: 1, to: 2}}}", "5:24", "a whole number"),
+    ("t_end: 1 s", "starts: {count: 3}", "5:9", "and by how much"),
+    ("t_end: 1 s", "starts: {count: 3, relative: {g: 0}}", "5:34", "positive"),
+    ("t_end: 1 s", "starts: {count: 3, relative: {q: 1}}", "5:31", "unknown number 'q'"),
+    ("t_end: 1 s", "starts: {count: 3, absolute: {length: 1 kg}}", "5:39", "a length"),
+    ("t_end: 1 s", "choices: {bodies.bob.masss: [1 kg]}", "5:30", "masss"),
+    ("t_end: 1 s", "choices: {heavy: {a: {bodies.bob.mass: -1 kg}}}", "5:40", "positive"),
+    ("t_end: 1 s", f"title: {'x' * 201}", "5:8", "at most 200"),
+    ("t_end: 1 s", 'title: "a\\0b"', "5:9", "can be seen"),
+    ("t_end: 1 s", "output: 1 s", "5:9", "a pure number"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("old", "new", "place", "words"), BAD, ids=[f"{k}" for k in range(len(BAD))])
+def test_a_mistake_is_told_at_its_place(old: str, new: str, place: str, words: str, tmp_path: Path) -> None:
+    path = tmp_path / "s.yaml"
+    assert GOOD.count(old) == 1
+    path.write_text(GOOD.replace(old, new))
+    with pytest.raises(InputError) as told:
+        plan_of(path)
+    assert str(told.value).startswith(f"{path}:{place}: "), str(told.value)
+    assert words in str(told.value), str(told.value)
+    assert told.value.hint or "expected" in str(told.value), str(told.value)
+
+
+def test_all_mistakes_of_a_file_at_once(call: Gudgeon, tmp_path: Path) -> None:
+    (tmp_path / "s.yaml").write_text(GOOD.replace("final", "finale").replace("[9.81, 20]", "{}").replace("1 s", "1 z"))
+    with pytest.raises(InputErrors) as told:
+        plan_of("s.yaml" if Path("s.yaml").exists() else tmp_path / "s.yaml")
+    assert len(told.value.errors) >= 3 and re.findall(r"s.yaml:(\d+):", str(told.value)) == sorted(
+        re.findall(r"s.yaml:(\d+):", str(told.value))
+    )
+    done = call("study", "s.yaml")
+    assert done.exit_code == 2 and not (tmp_path / "s.study").exists()
+
+
+def test_what_is_no_study(tmp_path: Path, call: Gudgeon) -> None:
+    for text in ("", "- a", "a: [", "a: &x [*x]"):
+        with pytest.raises(NotYamlError):
+            read_study(text.encode(), "s.yaml")
+    for study in ({}, {"mechanism": 3}, {"mechanism": "pendulum", "keep": [object()]}, 3, None):
+        with pytest.raises(InputError):
+            gudgeon.study(study)  # type: ignore[arg-type]
+    deep: dict[str, object] = {}
+    deep["parameters"] = deep
+    with pytest.raises(InputError, match="deep"):
+        gudgeon.study(deep)
+    assert call("study", "nothing.yaml").exit_code == 2
+    assert call("study", "pendulum").exit_code == 2
+
+
+def test_a_mapping_is_told_by_its_addresses() -> None:
+    with pytest.raises(InputError, match=r"value of parameters.g\[1\]:1:1: "):
+        gudgeon.study({"mechanism": "pendulum", "parameters": {"g": [1, "2 kg"]}, "keep": ["bob.y"]})
+
+
+def test_a_link_out_of_the_folder_is_not_followed(tmp_path: Path) -> None:
+    (tmp_path / "there").mkdir()
+    (tmp_path / "there" / "p.yaml").write_text(Path(gudgeon.load("pendulum").file).read_text())
+    study = tmp_path / "here" / "s.yaml"
+    study.parent.mkdir()
+    study.write_text(GOOD.replace("pendulum", "p.yaml"))
+    (study.parent / "p.yaml").symlink_to(tmp_path / "there" / "p.yaml")
+    with pytest.raises(InputError, match="s.yaml:2:12: .*link"):
+        plan_of(study)
+    (study.parent / "p.yaml").unlink()
+    (study.parent / "p.yaml").write_bytes((tmp_path / "there" / "p.yaml").read_bytes())
+    assert plan_of(study).runs == 2

@@ -1,0 +1,70 @@
+"""docs/studies.md keeps its word: its file is a study, its Python runs, what it quotes is read, its table is whole."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from ruamel.yaml import YAML
+
+from gudgeon.generator.study.read import KEYS, read_study
+from gudgeon.generator.study.schema import schema
+from gudgeon.generator.study.spec import DRAWN, STATISTICS
+from gudgeon.studies.ensemble.resolve import BLOCK
+from tests.pump import needs_compiler
+
+jsonschema = pytest.importorskip("jsonschema")
+PAGE = (Path(__file__).parents[2] / "docs" / "studies.md").read_text(encoding="utf-8")
+
+
+def block(language: str) -> str:
+    (found,) = re.findall(rf"^```{language}\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
+    return str(found)
+
+
+@needs_compiler
+def test_its_file_and_its_python(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("wristpin.yaml").write_text(block("yaml"), encoding="utf-8")
+    names: dict[str, object] = {}
+    exec(block("python"), names)
+    found = names["study"].dataset  # type: ignore[attr-defined]
+    assert dict(found["peak"].sizes) == {"scene": 2, "c": 3, "omega": 3, "start": 4}
+    assert names["study"].failed == 0 and Path("wristpin.nc").exists()  # type: ignore[attr-defined]
+    np.testing.assert_allclose(found["t_last"].sel(scene="ideal")[0, :, 0], 4 * np.pi / found["omega"], rtol=1e-5)
+
+
+def test_every_key_statistic_and_method_is_on_the_page() -> None:
+    words = set(re.findall(r"[A-Za-z_]\w*", PAGE))
+    assert {*KEYS, *STATISTICS, *DRAWN} <= words
+    assert f"{BLOCK} at most" in PAGE
+
+
+def test_the_schema_takes_its_file_and_refuses_others() -> None:
+    """All keys of the reader, its words, and nothing beside them."""
+    whole = schema()
+    jsonschema.Draft202012Validator.check_schema(whole)
+    assert set(whole["properties"]) == set(KEYS)
+    study = YAML(typ="safe").load(block("yaml"))
+    check = jsonschema.Draft202012Validator(whole)
+    assert not list(check.iter_errors(study))
+    wrong: list[dict[str, Any]] = [
+        {"mechansim": "a"}, {"starts": {"count": 0}}, {"measures": {"a": {"finale": "b"}}}, {"windows": {"1": {}}},
+        {"measures": {"a": {"max_of_steps": "b", "window": "c"}}}, {"draw": {"count": 2}}, {"method": "rk5"},
+    ]  # fmt: skip
+    for own in wrong:
+        assert list(check.iter_errors(study | own)), own
+    quoted = {"draw": {"count": 3, "method": "sobol", "parameters": {"c": {"mean": 1, "std": "1 mm"}}},
+              "zip": {"run": {"c": [1, 2]}}, "choices": {"a.b": ["x"], "law": {"one": {"a.b": 1}}}}
+    assert not list(check.iter_errors(study | quoted))
+
+
+def test_what_it_quotes_is_read() -> None:
+    quoted = [text for text in re.findall(r"`((?:zip|draw|choices): \{[^`]*\})`", PAGE) if "…" not in text]
+    quoted.append("starts: {count: 2, " + re.findall(r"`(ensembles: \{[^`]*\})`", PAGE)[0] + "}")
+    assert len(quoted) == 4
+    for text in quoted:
+        read_study(f"format: gudgeon-study/1\nmechanism: pendulum\nkeep: [bob.x]\n{text}\n".encode(), "quoted.yaml")
