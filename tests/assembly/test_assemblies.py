@@ -192,11 +192,9 @@ def test_a_guess_that_is_not_followed_is_told(tmp_path: Path) -> None:
     assert found(close).scenes["ideal"].off == {}
 
 
-@pytest.mark.parametrize(("guess", "side", "off"), [(160, 1, 0), (-74, -1, 0), (-100, -1, 25.9), (-160, -1, 85.9)])
-def test_a_guessed_place_picks_the_branch(tmp_path: Path, guess: float, side: int, off: float) -> None:
-    """x = r cos α ± √(l² − r² sin² α) of a slider-crank: the nearer of the two, told where it is far."""
-    file = tmp_path / "engine.yaml"
-    file.write_text(f"""
+def engine_of(guess: str) -> bytes:
+    """A slider-crank whose crank stands at α, with a guess of its start."""
+    return f"""
 format: gudgeon/1
 name: engine
 bodies: {{crank: {{length: 50 mm}}, rod: {{length: 120 mm}}, piston: {{}}}}
@@ -207,8 +205,15 @@ joints:
   wristpin: {{revolute: [rod.head, piston.origin]}}
   cylinder: {{translational: [ground.O, piston.origin], axis: [1, 0]}}
 drives: {{motor: {{angle: crank, value: 30 deg + 1 rad/s * t}}}}
-start: {{guess: {{piston.x: {guess} mm}}}}
-""")
+start: {{guess: {{{guess}}}}}
+""".encode()
+
+
+@pytest.mark.parametrize(("guess", "side", "off"), [(160, 1, 0), (-74, -1, 0), (-100, -1, 25.9), (-160, -1, 85.9)])
+def test_a_guessed_place_picks_the_branch(tmp_path: Path, guess: float, side: int, off: float) -> None:
+    """x = r cos α ± √(l² − r² sin² α) of a slider-crank: the nearer of the two, told where it is far."""
+    file = tmp_path / "engine.yaml"
+    file.write_bytes(engine_of(f"piston.x: {guess} mm"))
     x = CRANK * math.cos(ALPHA) + side * math.sqrt(0.12**2 - (CRANK * math.sin(ALPHA)) ** 2)
     engine = gudgeon.load(file)
     with warnings.catch_warnings(record=True) as told:
@@ -220,14 +225,13 @@ start: {{guess: {{piston.x: {guess} mm}}}}
     assert ([f"piston.x begins {off} mm" in str(word.message) for word in told[:1]]) == [True] * bool(off)
 
 
-@pytest.mark.parametrize("guessed", ["coupler.x", "coupler.tip, rocker.theta"])
-def test_the_assembly_nearest_to_the_guesses(guessed: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("guess", ["coupler.x: 60 mm", "coupler.tip: [60 mm, 30 mm], rocker.theta: 1"])
+def test_the_assembly_nearest_to_the_guesses(guess: str, tmp_path: Path) -> None:
     """Of the two places where the circles of the coupler's head meet the one nearer to all guesses is taken.
 
     Newton's steps from a guessed x led to the other one for a third of such guesses; beside a point an angle was lost.
     """
     file, rng, n = tmp_path / "bars.yaml", np.random.default_rng(8), 60
-    text = ", ".join(f"{name}: {'[60 mm, 30 mm]' if 'tip' in name else 1}" for name in guessed.split(", "))
     file.write_text(f"""
 format: gudgeon/1
 name: bars
@@ -243,7 +247,7 @@ joints:
   C: {{revolute: [coupler.head, rocker.head]}}
   D: {{revolute: [ground.D, rocker.tail]}}
 drives: {{motor: {{angle: crank, value: phi + 6 rad/s * t}}}}
-start: {{guess: {{{text.replace("coupler.x: 1", "coupler.x: 60 mm")}}}}}
+start: {{guess: {{{guess}}}}}
 """)
     phi, rod = rng.uniform(0.0, 2 * np.pi, n), rng.uniform(0.105, 0.135, n)
     crank = 0.04 * np.exp(1j * phi)
@@ -254,7 +258,7 @@ start: {{guess: {{{text.replace("coupler.x: 1", "coupler.x: 60 mm")}}}}}
     tip, rocker = crank + coupler / rod * (0.06 + 0.05j), np.angle(crank + coupler - 0.1)
     places = {"coupler.x": (crank + 0.5 * coupler).real, "coupler.tip.x": tip.real, "coupler.tip.y": tip.imag}
     guesses, off = {}, np.zeros((2, n))
-    for name in guessed.replace("coupler.tip", "coupler.tip.x, coupler.tip.y").split(", "):
+    for name in ["coupler.x"] if "coupler.x" in guess else ["coupler.tip.x", "coupler.tip.y", "rocker.theta"]:
         if name in places:
             guesses[name] = rng.uniform(0.02, 0.12, n)
             off += ((places[name] - guesses[name]) / 0.1) ** 2
@@ -272,22 +276,9 @@ start: {{guess: {{{text.replace("coupler.x: 1", "coupler.x: 60 mm")}}}}}
 @pytest.mark.parametrize(
     ("guess", "alike"), [("piston.x: 160 mm", False), ("piston.x: -74 mm", False), ("crank.head: [43 mm, 25 mm]", True)]
 )
-def test_guesses_that_tell_assemblies_apart(tmp_path: Path, guess: str, alike: bool) -> None:
+def test_guesses_that_tell_assemblies_apart(guess: str, alike: bool) -> None:
     """The piston stands at 160.7 or -74.1 mm: its place tells them apart, that of the driven crank does not."""
-    text = f"""
-format: gudgeon/1
-name: engine
-bodies: {{crank: {{length: 50 mm}}, rod: {{length: 120 mm}}, piston: {{}}}}
-ground: {{O: [0, 0]}}
-joints:
-  shaft: {{revolute: [ground.O, crank.tail]}}
-  crankpin: {{revolute: [crank.head, rod.tail]}}
-  wristpin: {{revolute: [rod.head, piston.origin]}}
-  cylinder: {{translational: [ground.O, piston.origin], axis: [1, 0]}}
-drives: {{motor: {{angle: crank, value: 30 deg + 1 rad/s * t}}}}
-start: {{guess: {{{guess}}}}}
-"""
-    told = found(text.encode(), branches=True)
+    told = found(engine_of(guess), branches=True)
     assert len(told.assemblies) == 2 and len(told.alike) == alike
 
 
