@@ -62,7 +62,7 @@ static int update_latches(Run *run, double t, double h, const Clearance *before,
         double rate;
         if (!run->memory.latch[i].closed && d1 >= 0.0) {
             const double s = d0 < 0.0 ? crossing(d0, before[i].deltadot, d1, after[i].deltadot, h, &rate) : 0.0;
-            /* a run that begins in contact: as fast as its surfaces move, for nobody knows its onset */
+            /* a run that begins in contact: at least as fast as its surfaces move (begin_in_contact) */
             close_joint(run, i, t + s * h, d0 < 0.0 ? rate : fabs(before[i].deltadot), slowest_impact(p, i));
             bend(run, i, (1.0 - s) * h, &after[i]);
             changed = 1;

@@ -92,6 +92,38 @@ static int lists_full(const Run *run)
         || run->n_events > N_IMPACTS - AT_LEAST_ONE(3 * N_USER_EVENTS) || tape_full(run);
 }
 
+/*
+ * Contact i, which the run begins in: of its onset nobody knows. It is taken as one without loss, whose energy is in
+ * the motion and in the elastic force, F_n delta / (n + 1) with the n = 1.5 of Hertz's law; the mass that it moves is
+ * what its force changes in the rate of deltadot, which is linear in the velocities.
+ */
+static int begin_in_contact(Run *run, int i, const Parameters *p)
+{
+    const double apart = 1e-3; /* s */
+    Latch *latch = &run->memory.latch[i];
+    const double before = latch->deltadot_minus;
+    double force[2], rate[2], y[N_Y], dy[N_Y];
+    Aside aside;
+    int status = 0;
+    for (int closed = 0; closed < 2 && !status; closed++) {
+        latch->closed = (unsigned char)closed;
+        latch->deltadot_minus = INFINITY; /* no damping */
+        status = rates(run, run->t, run->y, p, dy, &aside);
+        force[closed] = aside.clearance[i].F_n;
+        for (int k = 0; k < N_Y; k++)
+            y[k] = run->y[k] + (k >= N_X && k < 2 * N_X ? apart * dy[k] : 0.0);
+        if (!status)
+            status = rates(run, run->t, y, p, dy, &aside);
+        rate[closed] = aside.clearance[i].deltadot;
+    }
+    const double inverse_mass = (rate[0] - rate[1]) / apart / (force[1] - force[0]);
+    const double stored = 2.0 * force[1] * aside.clearance[i].delta / 2.5 * inverse_mass;
+    latch->closed = 1;
+    latch->deltadot_minus = isfinite(stored) && stored > 0.0 ? sqrt(before * before + stored) : before;
+    run->open[i].deltadot = latch->deltadot_minus;
+    return status;
+}
+
 /* The first right-hand side; a start inside contact is in contact, friction begins as its slip says. */
 static int begin(Run *run, const Parameters *p)
 {
@@ -99,8 +131,14 @@ static int begin(Run *run, const Parameters *p)
     int status = rates(run, run->t, run->y, p, run->dy, &run->aside);
     if (!status)
         status = begin_friction(run, p);
-    if (!status && update_latches(run, run->t, 0.0, run->aside.clearance, run->aside.clearance, touched, p))
-        status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+    const Memory known = run->memory;
+    if (!status && update_latches(run, run->t, 0.0, run->aside.clearance, run->aside.clearance, touched, p)) {
+        for (int i = 0; i < N_CLEARANCES && !status; i++)
+            if (run->memory.latch[i].closed && !known.latch[i].closed && run->aside.clearance[i].delta > 0.0)
+                status = begin_in_contact(run, i, p);
+        if (!status)
+            status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+    }
     for (int i = 0; i < N_USER_EVENTS; i++) {
         event_crosses(i, &run->memory.event_side[i], run->aside.event[i]);
         if (isnan(run->aside.event[i]) && !status)

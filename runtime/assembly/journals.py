@@ -54,9 +54,8 @@ def parting(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, mem
 
 def _told(joint: str, depth: float, deltadot: float) -> str:
     moves = f"part at {-deltadot:.4g} m/s" if deltadot < 0.0 else "are at rest"
-    taken = f"{-deltadot:.4g} m/s" if deltadot < 0.0 else "0"
     return (
         f"{joint} begins in contact, {1e6 * depth:.4g} µm deep, while its surfaces {moves}: the onset is not known, and"
-        f" its rate δ̇⁻ is taken as {taken}, or the contact's velocity_floor if that is more; damping of this contact,"
-        " and of no other, hangs on that choice"
+        " its rate δ̇⁻ is taken as that of one without loss, by the energy of motion and elastic force (run.memory has"
+        " it); damping of this contact, and of no other, hangs on that choice"
     )

@@ -159,14 +159,15 @@ DEEP = 2e-6
 @pytest.mark.parametrize("method", ["dop853", "rk4", "scipy:DOP853"])
 @pytest.mark.parametrize(("speed", "told"), [(0.02, ""), (-0.02, "part at 0.02 m/s"), (0.0, "are at rest")])
 def test_a_run_that_begins_in_contact(scenes: Scenes, method: str, speed: float, told: str) -> None:
-    """δ̇⁻ = |δ̇|, at least the floor; the first force by hand; the run says where that is a convention."""
+    """δ̇⁻ of an onset without loss: m δ̇⁻²/2 = m δ̇²/2 + K δ^2.5/2.5; the first force by hand; the run tells of it."""
     n = np.array([0.6, 0.8])
     given = numbers((C + DEEP) * n, speed * n)
     run = scenes.free.simulate(1e-5, output=4, method=method, parameters=given, step=1e-7 if method == "rk4" else None)
-    assert run.memory[0, 0] == pytest.approx(max(abs(speed), 1e-6), rel=1e-9)
     assert run.state[0, 0] == (1 if speed > 0.0 else 2)
     K = 2.0 / 3.0 * 206e9 / (1 - 0.09) * math.sqrt(R * (R - C) / (2 * R - C))
-    force = K * DEEP**1.5 * (1 + 0.75 * (1 - 0.81) * np.sign(speed))
+    onset = math.sqrt(speed**2 + 2.0 * K * DEEP**2.5 / 2.5 / M)
+    assert run.memory[0, 0] == pytest.approx(onset, rel=1e-6)
+    force = K * DEEP**1.5 * (1 + 0.75 * (1 - 0.81) * speed / onset)
     assert run["A.Fn"][0] == pytest.approx(force, rel=1e-6)
     notes = [note for note in run.diagnostics.notes if "begins in contact" in note]
     assert [told in note for note in notes] == [True] * bool(told)
