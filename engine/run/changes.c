@@ -2,23 +2,10 @@
  * What changes at an event: contacts begin and end, corners of laws and expressions change their side, friction its
  * mode; a drive whose rate jumps moves the linkage by an impulse.
  */
-/* Sides of all corners that act from their functions; the one that was just crossed keeps what it was given. */
+/* Sides of all corners that act; the one that was just crossed keeps what it was given. */
 static int settle_sides(Run *run, int crossed, const Parameters *p)
 {
-    for (int pass = 0; pass < 6; pass++) {
-        int changed = 0;
-        const int status = rates(run, run->t, run->y, p, run->dy, &run->aside);
-        if (status)
-            return status;
-        for (int k = 0; k < N_SWITCHES; k++)
-            if (k != crossed && run->memory.side[k] * run->aside.g[k] < 0.0) {
-                run->memory.side[k] = -run->memory.side[k];
-                changed = 1;
-            }
-        if (!changed)
-            return 0;
-    }
-    return 0;
+    return settle_at(run, run->t, run->y, run->dy, &run->aside, crossed, p);
 }
 
 /* A contact begins with no longer a step than the last one could begin with, free flight likewise. */

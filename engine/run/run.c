@@ -77,6 +77,28 @@ static void store_sample(const Run *run, double t, const double *now, const Para
         latched[i * MEMORY + N_MEMORY - N_STATES + k] = now[FIRST_STATE + k];
 }
 
+/*
+ * Sides of all corners that act from their functions at (t, y), and the right-hand side there; corner `kept` (-1: none)
+ * keeps its own.
+ */
+static int settle_at(Run *run, double t, const double *y, double *dy, Aside *aside, int kept, const Parameters *p)
+{
+    for (int pass = 0; pass < 6; pass++) {
+        int changed = 0;
+        const int status = rates(run, t, y, p, dy, aside);
+        if (status)
+            return status;
+        for (int k = 0; k < N_SWITCHES; k++)
+            if (k != kept && run->memory.side[k] * aside->g[k] < 0.0) {
+                run->memory.side[k] = -run->memory.side[k];
+                changed = 1;
+            }
+        if (!changed)
+            return 0;
+    }
+    return 0;
+}
+
 #include "tape.c"
 #include "user_events.c"
 #if N_FRICTIONS

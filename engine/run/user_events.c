@@ -56,22 +56,11 @@ static int look_beyond(Run *run, double tick, const Parameters *p, Aside *here, 
 {
     const double h = max_of(4.0 * DBL_EPSILON * fabs(run->t), tick);
     double y[N_Y], dy[N_Y];
-    int changed = 1;
     for (int k = 0; k < N_Y; k++)
         y[k] = run->y[k] + h * run->dy[k];
-    int status = rates(run, run->t + h, y, p, dy, here);
+    const int status = rates(run, run->t + h, y, p, dy, here);
     *beyond = *here;
-    for (int pass = 0; pass < 6 && changed && !status && run->memory.held; pass++) {
-        changed = 0;
-        for (int k = 0; k < N_SWITCHES; k++)
-            if (run->memory.side[k] * beyond->g[k] < 0.0) {
-                run->memory.side[k] = -run->memory.side[k];
-                changed = 1;
-            }
-        if (changed)
-            status = rates(run, run->t + h, y, p, dy, beyond);
-    }
-    return status;
+    return status || !run->memory.held ? status : settle_at(run, run->t + h, y, dy, beyond, -1, p);
 }
 
 /* Whether event i is beyond its zero right behind run->t: it leaps there, or goes on from no further than that. */
@@ -105,11 +94,14 @@ static int end_on_zeros(Run *run, double tick, const Parameters *p)
 static int begin_beyond(Run *run, double tick, const Parameters *p)
 {
     Aside here, beyond;
+    const Memory before = run->memory;
     int status = look_beyond(run, tick, p, &here, &beyond);
     for (int i = 0; i < N_USER_EVENTS && !status; i++)
         if (run->memory.event_side[i] * beyond.event[i] < 0.0 && is_beyond(run, i, &here, &beyond))
             run->memory.event_side[i] = (signed char)-run->memory.event_side[i];
-    return status ? status : rates(run, run->t, run->y, p, run->dy, &run->aside);
+    if (status || !memcmp(before.side, run->memory.side, sizeof before.side))
+        return status;
+    return rates(run, run->t, run->y, p, run->dy, &run->aside);
 }
 
 #endif
