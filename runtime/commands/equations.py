@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from gudgeon.commands.common import check_file, chosen_scenes, need_suffix
 from gudgeon.commands.progress import status_line
 from gudgeon.files.writing import write_text
+from gudgeon.language.shown import path_text
 from gudgeon.loading.find import find_mechanism, read_bytes
 from gudgeon.waiting.working import working
 
@@ -30,7 +31,7 @@ def write_equations(mechanism: str, target: Path, scene: str) -> int:
         print(text, end="")
         return 0
     write_text(target, text)
-    print(f"wrote {target}")
+    print(f"wrote {path_text(target)}")
     return 0
 
 

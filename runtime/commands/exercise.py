@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from gudgeon.commands.common import check_file, chosen_scenes, need_suffix
 from gudgeon.commands.progress import status_line
 from gudgeon.files.writing import write_text
+from gudgeon.language.shown import path_text
 from gudgeon.loading.find import find_mechanism, read_bytes
 from gudgeon.waiting.working import working
 
@@ -30,7 +31,7 @@ def write_exercise(mechanism: str, target: Path, scene: str, seed: int, at: str 
         texts = [_text(document, target.suffix.lower(), drawn) for document in (sheet, solved)]
     for file, text in zip((target, solutions), texts, strict=True):
         write_text(file, text)
-        print(f"wrote {file}")
+        print(f"wrote {path_text(file)}")
     return 0
 
 

@@ -19,12 +19,13 @@ LONGEST = 9.0  # units
 
 @dataclass(frozen=True, eq=False)
 class Arrows:
-    """`shapes`, and what an arrow of `length` (m of the drawing) stands for: "1 m/s"."""
+    """`shapes`, and what an arrow of `length` (m of the drawing) stands for: "1 m/s"; `on`: on which body it acts."""
 
     role: str
     shapes: tuple[Shape, ...]
     length: float
     text: str
+    on: str = ""
 
 
 def arrows(role: str, vectors: Mapping[str, tuple[Array, Array]], unit: str, pen: float, largest: float) -> Arrows:

@@ -33,15 +33,14 @@ def magnification(posture: Posture, joint: str, unit: float) -> float:
 def insets(
     posture: Posture, unit: float, low: Array, high: Array, touching: frozenset[str] = frozenset()
 ) -> Iterator[tuple[list[Shape], Label, str]]:
-    """Of each joint with play its shapes, its name and its scale; below each other, to the right of the box.
+    """Of each joint with play its shapes, its name and its scale; below each other, to the right of the box, or where
+    that is too low for it in rows below.
 
     To scale are the gap and the eccentricity, not the radii. `touching`: joints whose surfaces are in contact.
     """
     radius = RADIUS * unit
-    count = max(1, int((high[1] - low[1]) / (3.1 * radius)))
-    for k, joint in enumerate(name for name in posture.clearances if not is_wide(posture, name, unit)):
-        column, row = divmod(k, count)
-        centre = np.array([high[0] + (2.0 + 3.2 * column) * radius, high[1] - (1.25 + 3.1 * row) * radius])
+    shown = [name for name in posture.clearances if not is_wide(posture, name, unit)]
+    for joint, centre in zip(shown, _centres(len(shown), radius, low, high), strict=True):
         c = float(posture.p[posture.clearances[joint].clearance])
         times = magnification(posture, joint, unit)
         e = eccentricity(posture, joint)
@@ -57,4 +56,19 @@ def insets(
         factor, text = scale(c, "m")
         told = f"{joint} ×{times:g}, e/c = {float(np.hypot(*e)) / c:.2f}"
         label = Label(part, "inset", told, centre - [0.0, 1.2 * hole], 0.0, 270.0)
-        yield shapes, label, f"{joint}: clearance {c * factor:.4g} {text}, drawn ×{times:g}{DASHED if k == 0 else ''}"
+        note = f"{joint}: clearance {c * factor:.4g} {text}, drawn ×{times:g}"
+        yield shapes, label, f"{note}{DASHED}" if joint == shown[0] else note
+
+
+def _centres(n: int, radius: float, low: Array, high: Array) -> Iterator[Array]:
+    count = max(1, int((high[1] - low[1]) / (3.1 * radius)))
+    width = float(high[0] - low[0])
+    pitch = max(3.6 * radius, min(5.5 * radius, width / max(n, 1)))
+    across = max(1, int(width / pitch))
+    for k in range(n):
+        if n > count and across > count:
+            row, column = divmod(k, across)
+            yield np.array([low[0] + 1.8 * radius + pitch * column, low[1] - (1.6 + 3.1 * row) * radius])
+        else:
+            column, row = divmod(k, count)
+            yield np.array([high[0] + (2.0 + 3.2 * column) * radius, high[1] - (1.25 + 3.1 * row) * radius])

@@ -26,8 +26,8 @@ def movers(posture: Posture, plan: Plan) -> Iterator[Shape]:
         yield from _FORCES.get(part.kind, _other)(posture, plan, part)
 
 
-def names_of_movers(posture: Posture, plan: Plan) -> Iterator[Label]:
-    """Beside each symbol."""
+def names_of_movers(posture: Posture, plan: Plan, still: bool) -> Iterator[Label]:
+    """Beside each symbol; in a picture that stands, `still`, a load that is zero says so."""
     for part in (*posture.parts("drives"), *posture.parts("forces")):
         kind = part.section[:-1]
         if part.kind in ("distance", "spring_damper"):
@@ -39,7 +39,9 @@ def names_of_movers(posture: Posture, plan: Plan) -> Iterator[Label]:
         else:
             place = pivot(posture, part)
             clear = {"angle": DRIVEN, "torque": LOADED}.get(part.kind, WOUND)
-        yield Label(f"{kind} {part.name}", kind, part.name, place, clear * plan.unit)
+        nothing = still and part.kind in ("force", "torque") and not np.any(posture.loads.get(part.name, 1.0))
+        text = f"{part.name} = 0" if nothing else part.name
+        yield Label(f"{kind} {part.name}", kind, text, place, clear * plan.unit)
 
 
 def arrow(part: str, role: str, tail: Array, tip: Array, head: float) -> Iterator[Shape]:

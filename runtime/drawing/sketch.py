@@ -33,8 +33,9 @@ def make_sketch(
     more = [*more, *(shape for kind in arrows for shape in kind.shapes)]
     shapes = [*bodies(posture, plan, loose), *joints(posture, plan), *movers(posture, plan), *more]
     low, high = box or room_of(shapes, plan)
-    told = [*names_of_bodies(posture, plan), *names_of_joints(posture, plan), *names_of_movers(posture, plan)]
-    told, words, corner, beside = [*labels, *told], list[str](), high.copy(), list[Shape]()
+    told = [*names_of_bodies(posture, plan), *names_of_joints(posture, plan)]
+    told = [*labels, *told, *names_of_movers(posture, plan, inset)]
+    words, corner, beside = list[str](), high.copy(), list[Shape]()
     for own, label, note in insets(posture, plan.unit, low, high, touching) if inset else ():
         beside += own
         told, words = [*told, label], [*words, note]
@@ -81,7 +82,7 @@ def _beside(
         tip = tail + [kind.length, 0.0]
         yield (
             list(arrow(f"scale {kind.role}", kind.role, tail, tip, HEAD * u)),
-            Label(f"scale {kind.role}", "scale", f"{kind.role}: {kind.text}", tip, 0.6 * u, 0.0),
+            Label(f"scale {kind.role}", "scale", f"{kind.role}{kind.on}: {kind.text}", tip, 0.6 * u, 0.0),
         )
 
 

@@ -56,7 +56,7 @@ def force_arrows(run: Result, posture: Posture, plan: Plan) -> Arrows:
     longest of this moment, for blows would leave nothing of the others. Raises UnknownNameError without masses."""
     found = dict(_forces(run, posture))
     largest = max((float(np.hypot(*vector)) for _, vector in found.values()), default=0.0)
-    return arrows("reaction", found, "N", plan.unit, largest)
+    return replace(arrows("reaction", found, "N", plan.unit, largest), on=" on the second body")
 
 
 def _forces(run: Result, posture: Posture) -> Iterator[tuple[str, tuple[Array, Array]]]:

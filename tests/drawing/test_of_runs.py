@@ -104,11 +104,12 @@ def test_arrows_are_the_series_to_the_scale_that_is_drawn(press: Result) -> None
     found = by_gid(ax)
     (names,) = [artist for artist in ax.get_children() if isinstance(artist, Names)]
     told = {label.part: label.text for label in names.sketch.labels}
-    for role, unit, letter, of_these in (
-        ("velocity", "m/s", "v", ("L1.head", "L7.com", "L8.head")), ("reaction", "N", "F", ("O1", "Q8", "slider", "B")),
+    for role, on, unit, letter, of_these in (
+        ("velocity", "", "m/s", "v", ("L1.head", "L7.com", "L8.head")),
+        ("reaction", " on the second body", "N", "F", ("O1", "Q8", "slider", "B")),
     ):  # fmt: skip
         wanted = {name: [press[f"{name}.{letter}{axis}"][k] for axis in "xy"] for name in of_these}
-        stands, of = re.fullmatch(rf"{role}: ([\d.]+) (m?{unit})", told[f"scale {role}"]).groups()  # type: ignore[union-attr]
+        stands, of = re.fullmatch(rf"{role}{on}: ([\d.]+) (m?{unit})", told[f"scale {role}"]).groups()  # type: ignore[union-attr]
         tail, tip = found[f"scale-{role}"].get_xy()[0], found[f"scale-{role}-2"].get_xy()[0]
         metres = np.hypot(*(tip - tail)) / (float(stands) * (1e-3 if of.startswith("m") and of != "m/s" else 1.0))
         for name, vector in wanted.items():

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.language.shown import path_text
 from gudgeon.studies.map import VerdictBox, VerdictMap
-from gudgeon.studies.show.map_words import explain, value
+from gudgeon.studies.show.map_words import compared, explain, value
 from gudgeon.studies.show.tables import console, new_table, print_json, write_files
 from gudgeon.studies.verdicts import Cell, Status
 from gudgeon.studies.words import seconds, share
@@ -116,15 +116,6 @@ def tell_failures(out: Console, file: str, found: VerdictMap | VerdictBox, cells
         out.print(f"  {SIGNS[cell.status]} {said}", markup=False, emoji=False)
         again = command(file, found.scene, cell, found.t_long, found.full, laws)
         out.print(f"    {again}", markup=False, emoji=False, soft_wrap=True)
-
-
-def compared(found: VerdictMap | VerdictBox) -> str:
-    """Over what the errors are, and against what: with dry contacts runs can be compared over the first few alone."""
-    finer = "a 10× shorter step" if found.setting.fixed else "a 100× tighter tolerance"
-    ends = [cell.compared for cell in found.cells if cell.compared == cell.compared]
-    shortest, longest = (seconds(end) for end in (min(ends, default=0.0), max(ends, default=0.0)))
-    over = shortest if shortest == longest else f"{shortest} … {longest}"
-    return f"errors over the first {over}, against {finer}" if ends else f"nothing to compare with {finer}"
 
 
 def partial(found: VerdictMap | VerdictBox) -> str:

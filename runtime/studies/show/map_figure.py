@@ -13,7 +13,7 @@ from matplotlib.patches import Patch, Rectangle
 from gudgeon.language.shown import in_figure
 from gudgeon.results.plots import IDEAL, STYLE
 from gudgeon.studies.map import VerdictMap
-from gudgeon.studies.show.map_words import explain, value
+from gudgeon.studies.show.map_words import compared, explain, value
 from gudgeon.studies.verdicts import Cell, Status
 from gudgeon.studies.words import seconds
 
@@ -43,12 +43,12 @@ def map_figure(title: str, found: Sequence[VerdictMap], mark_step: float | None 
         if mark_step is not None and any(_marked(scene, y, mark_step) for scene in found for y in scene.rows.values):
             handles.append(Patch(facecolor="none", edgecolor=IDEAL, lw=1.6, label=f"step {seconds(mark_step)}"))
         question = "which step will do?" if found[0].rows.name == "step" else "where does it fail?"
-        told = " (partial: interrupted)" if any(scene.interrupted for scene in found) else ""
-        head = in_figure(f"{title}: {question}{told}", int(10 * width))
+        part = " (partial: interrupted)" if any(scene.interrupted for scene in found) else ""
+        head = in_figure(f"{title}: {question}{part}", int(10 * width))
         picture.suptitle(head, fontsize=12, fontweight="bold", x=0.012, ha="left")
-        picture.legend(
-            handles=handles, loc="outside lower center", ncols=5, fontsize=9, title=explain(found), title_fontsize=8
-        )
+        over = (f"{scene.scene}: sane over {seconds(scene.t_long)}, {compared(scene)}" for scene in found)
+        told = "\n".join([explain(found), *over])
+        picture.legend(handles=handles, loc="outside lower center", ncols=5, fontsize=9, title=told, title_fontsize=8)
     return picture
 
 
