@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Callable
 from pathlib import Path
 
-import pytest
 from typer.testing import Result
 
-needs_compiler = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
 Gudgeon = Callable[..., Result]
 
 # A crank-slider whose wrist pin has play: small enough to be derived and compiled in seconds.

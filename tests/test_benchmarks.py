@@ -7,7 +7,6 @@ import importlib.util
 import json
 import math
 import re
-import shutil
 import sys
 from pathlib import Path
 
@@ -27,8 +26,7 @@ from benchmarks.peers.reference import ONSETS  # noqa: E402
 from benchmarks.race import page as race_page
 from benchmarks.race import record as race_record
 from benchmarks.race.record import time_to  # noqa: E402
-
-needs_compiler = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+from tests.programs import needs_compiler
 
 
 def test_time_to_an_error_is_interpolated_between_neighbours_only() -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests import ctrl_c
-from tests.pump import needs_compiler
+from tests.programs import needs_compiler
 
 
 @needs_compiler

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import shutil
 from dataclasses import replace
 
 import numpy as np
@@ -13,8 +12,7 @@ from scipy.integrate import solve_ivp
 from tests.oracles import dry, film, finite_bearing, golden, ideal_press, numpy_linkage, press_dense, random_linkage
 from tests.oracles.journal import Journal
 from tests.oracles.numpy_linkage import Body, Drive, End, Linkage, Revolute, Translational, Wave
-
-needs_compiler = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+from tests.programs import needs_compiler
 
 
 def test_ideal_press_has_the_stroke_and_speeds_of_the_source() -> None:

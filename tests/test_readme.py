@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 import re
 import shlex
-import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -14,11 +13,11 @@ from typer.testing import CliRunner, Result
 
 import gudgeon
 from gudgeon.cli import app
+from tests.programs import needs_compiler
 
 ROOT = Path(__file__).resolve().parents[1]
 TOLD = ("README.md", *(f"docs/{name}.md" for name in ("describing", "python", "reading", "checks", "speed")))
 README = "\n".join((ROOT / name).read_text(encoding="utf-8") for name in TOLD)
-needs_compiler = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
 Gudgeon = Callable[[str], Result]
 
 

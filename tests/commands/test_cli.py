@@ -20,7 +20,8 @@ from gudgeon.commands.equations import write_equations
 from gudgeon.commands.studies import Request, load_scenes
 from gudgeon.studies import map as maps
 from gudgeon.studies import stress
-from tests.pump import TEXT, Gudgeon, needs_compiler, written
+from tests.programs import needs_compiler
+from tests.pump import TEXT, Gudgeon, written
 
 CHECKED = """\
 valid: 3 bodies, 4 joints, 1 drive; scenes ideal, worn; degrees of freedom 0 (ideal), 2 (worn)

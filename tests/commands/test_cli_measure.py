@@ -19,7 +19,8 @@ from gudgeon.studies.bench import bench
 from gudgeon.studies.map import verdict_map
 from gudgeon.studies.methods import ADAPTIVE, choice
 from gudgeon.studies.show.bench import notes
-from tests.pump import Gudgeon, needs_compiler, written
+from tests.programs import needs_compiler
+from tests.pump import Gudgeon, written
 
 pytestmark = needs_compiler
 PENDULUM = str(Path(__file__).parents[1] / "mechanisms" / "valid" / "double_pendulum.yaml")

@@ -15,7 +15,8 @@ import pytest
 import gudgeon
 from gudgeon.errors import AssemblyError
 from gudgeon.simulation.simulation import Simulation
-from tests.pump import TEXT, Gudgeon, needs_compiler, written
+from tests.programs import needs_compiler
+from tests.pump import TEXT, Gudgeon, written
 
 
 @needs_compiler

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 import gudgeon
-from tests.pump import needs_compiler
+from tests.programs import needs_compiler
 
 START = "from gudgeon.entry import main; main()"
 TERMINATED = """

@@ -17,7 +17,8 @@ from gudgeon.language.shown import in_figure, one_line, plain_console, visible
 from gudgeon.results import report
 from gudgeon.results.report import compare, tables
 from gudgeon.results.results import Result
-from tests.pump import TEXT, Gudgeon, needs_compiler, written
+from tests.programs import needs_compiler
+from tests.pump import TEXT, Gudgeon, written
 
 TITLES = (
     "[/]", "[bold]x[/foo]", "[link=https://x]y[/link]", "[[bold]", "a $^$ b", "$$", "$\\input{x}$", "\\$x$",

@@ -8,7 +8,8 @@ import pytest
 
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.loading.shipped import shipped
-from tests.pump import Gudgeon, needs_compiler, written
+from tests.programs import needs_compiler
+from tests.pump import Gudgeon, written
 
 
 @needs_compiler

@@ -10,7 +10,8 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError, UnknownNameError
-from tests.pump import TEXT, Gudgeon, needs_compiler
+from tests.programs import needs_compiler
+from tests.pump import TEXT, Gudgeon
 
 pytestmark = needs_compiler
 

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import shutil
 from pathlib import Path
 
 import numpy as np
@@ -24,8 +23,9 @@ from tests.oracles.linkage_yaml import to_yaml
 from tests.oracles.numpy_linkage import GROUND, Drive, End, Revolute, Translational
 from tests.oracles.random_linkage import Case
 from tests.oracles.random_mechanism import near, random_mechanism
+from tests.programs import needs_compiler
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 ALWAYS, ALL = 24, 500
 SEEDS = [seed if seed < ALWAYS else pytest.param(seed, marks=pytest.mark.slow) for seed in range(ALL)]
 GAINS = (50.0, 50.0)  # Baumgarte's, the defaults

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import shutil
 import sys
 from functools import cache
 from importlib.util import find_spec
@@ -18,8 +17,9 @@ from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.integrators.projection import project, residuals
 from gudgeon.results.results import Result
+from tests.programs import needs_compiler
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 KNOWN: dict[str, dict[str, Any]] = json.loads(
     (Path(__file__).parent.parent / "data" / "reference_problems.json").read_text(encoding="utf-8")
 )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import shutil
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -18,8 +17,9 @@ from gudgeon.cli import app
 from gudgeon.errors import UnknownNameError
 from gudgeon.results.results import State
 from gudgeon.simulation.simulation import Simulation
+from tests.programs import needs_compiler
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 
 OMEGA = 20 * np.pi  # rad/s, of the shipped slider-crank: a turn in 0.1 s, dead centres every 0.05 s
 CLOSE = 1e-11  # s; the times are found to 1e-12 s

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import math
-import shutil
 from functools import cache
 from pathlib import Path
 
@@ -15,8 +14,9 @@ from scipy.integrate import solve_ivp
 import gudgeon
 from gudgeon.generator.kinds.laws.law import Law, laws
 from gudgeon.simulation.simulation import Simulation
+from tests.programs import needs_compiler
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 
 PAIR = """\
 format: gudgeon/1

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import shutil
 from dataclasses import replace
 from functools import cache
 
@@ -14,8 +13,9 @@ import gudgeon
 from gudgeon.results.results import Result
 from tests.oracles import golden, ideal_press, press_dense
 from tests.oracles.ideal_press import PressData
+from tests.programs import needs_compiler
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 PRESS = "nine_bar_press"
 GOLDEN = golden.load()
 

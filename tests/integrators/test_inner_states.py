@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
@@ -17,10 +16,11 @@ from gudgeon.generator.targets.latex import equations_tex
 from gudgeon.loading.shipped import shipped_file
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
+from tests.programs import needs_compiler
 from tests.scenes import loader
 from tests.targets_c.test_c_compiles import COMPILERS, FLAGS, compile_c, write
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 COULOMB = "{law: modified_coulomb, mu: 0.15, v0: 1e-4 m/s, v1: 1e-3 m/s}"
 PRESLIDING = 20e-6
 Press = Callable[..., Simulation]

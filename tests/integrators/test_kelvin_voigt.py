@@ -10,7 +10,6 @@ T. Schwager, T. Pöschel, Granular Matter 9 (2007) 465-469.
 from __future__ import annotations
 
 import math
-import shutil
 from collections.abc import Iterator
 
 import numpy as np
@@ -19,8 +18,9 @@ import pytest
 import gudgeon
 from gudgeon.results.results import Result, State
 from tests.kinds.own import example, forgotten
+from tests.programs import needs_compiler
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 TEXT = """\
 format: gudgeon/1
 name: disc

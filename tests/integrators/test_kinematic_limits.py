@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-import shutil
 from pathlib import Path
 
 import pytest
 
 import gudgeon
 from gudgeon.errors import SolverError
+from tests.programs import needs_compiler
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 HEAD = "format: gudgeon/1\nname: limit\n"
 BODY = "mass: .1 kg, inertia: 1e-4 kg*m^2"
 SHORT_ROD = f"""{HEAD}bodies:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from pathlib import Path
 
 import numpy as np
@@ -12,8 +11,9 @@ import gudgeon
 from gudgeon.generator.sparsity.matching import Block, triangular_blocks
 from gudgeon.simulation.simulation import Simulation
 from tests.oracles import ideal_press
+from tests.programs import needs_compiler
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 
 # A plate on three rods, one of them on a driven crank: four rows in four angles that cannot be solved in parts.
 PLATE = """

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import shutil
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -19,8 +18,9 @@ from gudgeon.errors import SolverError
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 from tests.oracles import golden
+from tests.programs import needs_compiler
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 HERE = Path(__file__).parent.parent
 GOLDEN = golden.load()
 KNOWN = json.loads((HERE / "data/reference_problems.json").read_text(encoding="utf-8"))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import shutil
 from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
@@ -16,8 +15,9 @@ import pytest
 import gudgeon
 from gudgeon.mechanisms import n_four_bar
 from gudgeon.simulation.simulation import Simulation
+from tests.programs import needs_compiler
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 KNOWN: dict[str, dict[str, Any]] = json.loads(
     (Path(__file__).parent.parent / "data" / "reference_problems.json").read_text(encoding="utf-8")
 )

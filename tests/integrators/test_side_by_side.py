@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +14,10 @@ from gudgeon.integrators import lanes
 from gudgeon.integrators.batch import Runs
 from gudgeon.integrators.times import Times
 from gudgeon.results.batch import Batch
+from tests.programs import needs_compiler
 from tests.simulation.test_many import assert_same
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 HERE = Path(__file__).parent.parent / "mechanisms"
 COUNT = 11  # divisible by no number of lanes
 # mechanism, scene, column (address, from, to), end and step in s

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -17,9 +16,10 @@ from gudgeon.generator.ir.differentiation import partial
 from gudgeon.generator.symbols.wholes import Share
 from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.latex.printers import TexPrinter, TextPrinter
+from tests.programs import needs_compiler
 from tests.scenes import loader
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 AT = 0.25
 x, a = sp.symbols("x a", real=True)
 FORMS: dict[str, tuple[str, Callable[[Any], Any]]] = {

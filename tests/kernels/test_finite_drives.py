@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
 from pathlib import Path
 
 import mpmath as mp
@@ -12,9 +11,10 @@ import pytest
 
 from gudgeon.simulation.simulation import Simulation
 from tests.kernels.test_finite_slopes import FAR, FORMS, MODERATE, WIDTH
+from tests.programs import needs_compiler
 from tests.scenes import loader
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 U = "((t/(1 s) - 5)/1e-3)"
 
 

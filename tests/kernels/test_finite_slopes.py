@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -19,9 +18,10 @@ from gudgeon.generator.ir.finite_slopes import Slope
 from gudgeon.generator.symbols.from_expressions import to_sympy
 from gudgeon.language.parser import parse
 from gudgeon.simulation.simulation import Simulation
+from tests.programs import needs_compiler
 from tests.scenes import loader
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 WIDTH = 1e-3  # s or m, of the step at 5
 U = {"t": "((t/(1 s) - 5)/1e-3)", "x": "(({}.x/(1 m) - 5)/1e-3)"}
 FORMS: dict[str, tuple[str, Callable[[Any], Any]]] = {

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from functools import cache
 
 import numpy as np
@@ -16,8 +15,9 @@ from gudgeon.simulation.simulation import Simulation
 from tests.equations.subjects import GAINS, NAN, Subject, make, shipped_subject
 from tests.oracles.linkage_yaml import to_yaml
 from tests.oracles.random_mechanism import random_mechanism
+from tests.programs import needs_compiler
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 
 # What shipped mechanisms do not have: corners in forces and drives, powers, a slip between two turning bodies.
 CORNERS = b"""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from functools import cache
 
 import numpy as np
@@ -11,8 +10,9 @@ import pytest
 import gudgeon
 from gudgeon.loading.shipped import shipped_file
 from tests.equations.subjects import NAN, Subject, assert_columns, make, shipped_subject
+from tests.programs import needs_compiler
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 PRESS = shipped_file("nine_bar_press").read_bytes()
 C = 0.3e-3  # clearance of the press
 OIL: dict[str, dict[str, object]] = {

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
-
 import numpy as np
 import pytest
 import sympy as sp
@@ -21,8 +19,8 @@ from gudgeon.loading.shipped import shipped_file
 from gudgeon.mechanisms.n_four_bar import text
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.simulation.simulation import Simulation
+from tests.programs import needs_compiler
 
-needs_compiler = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
 WORKS = [
     ("n_four_bar", "ideal", "reduced"), ("nine_bar_press", "lubricated", "reduced"), ("belt_block", "ideal", "reduced"),
     pytest.param("n_four_bar", "ideal", "full", marks=pytest.mark.slow),

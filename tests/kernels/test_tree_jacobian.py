@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from typing import Any
 
 import numpy as np
@@ -13,8 +12,9 @@ from gudgeon.integrators.session import Session
 from gudgeon.integrators.trajectory import Problem
 from gudgeon.model.parameters import without_baumgarte
 from gudgeon.simulation.simulation import Simulation
+from tests.programs import needs_compiler
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 # a scene, and a time by which it is somewhere: springs stretched, journals off centre, contacts closed
 CASES = (
     ("andrews_squeezer", "ideal", 0.01), ("car_axis", "ideal", 0.3), ("slider_crank_spring", "ideal", 1.0),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -19,9 +18,10 @@ from gudgeon.generator.targets.c import printer, ranges_printer
 from gudgeon.generator.targets.latex.printers import TexPrinter, TextPrinter
 from gudgeon.language.parser import parse
 from gudgeon.simulation.simulation import Simulation
+from tests.programs import needs_compiler
 from tests.scenes import loader
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 X = 80.0
 FORMS: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "coefficient": ("p3*(0.01*x)**161", lambda x: mp.mpf(1e16) * (mp.mpf(0.01) * x) ** 161),

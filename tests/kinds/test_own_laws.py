@@ -25,7 +25,8 @@ from gudgeon.generator.targets.latex import equations_text
 from gudgeon.loading.shipped import shipped_file
 from gudgeon.studies.show.map import files_of_laws
 from tests.kinds.own import example_text, forgotten
-from tests.pump import Gudgeon, needs_compiler
+from tests.programs import needs_compiler
+from tests.pump import Gudgeon
 
 TEXT = """\
 format: gudgeon/1

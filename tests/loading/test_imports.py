@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from gudgeon.waiting import imports
-from tests.pump import needs_compiler
+from tests.programs import needs_compiler
 
 ROOT = Path(__file__).parents[2]
 TWICE = """

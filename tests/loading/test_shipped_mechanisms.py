@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-import shutil
 
 import numpy as np
 import pytest
 
 import gudgeon
 from gudgeon.loading.shipped import shipped
+from tests.programs import needs_compiler
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 
 
 def test_slider_crank_in_closed_form() -> None:

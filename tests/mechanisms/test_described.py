@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -15,8 +14,9 @@ from gudgeon.commands.assembly_story import assemble_scenes
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.results.results import Result
 from tests.mechanisms.circles import Array, Points, beside, meet, point
+from tests.programs import needs_compiler
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 HERE = Path(__file__).parent / "described"
 FILES = sorted(path.stem for path in HERE.glob("*.yaml"))
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -16,8 +15,9 @@ from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.loading.shipped import generated, shipped, shipped_file
 from gudgeon.results.results import Result
 from tests.mechanisms.circles import Array, Points, meet, point, smooth
+from tests.programs import needs_compiler
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 ROOT = Path(__file__).resolve().parents[2]
 GALLERY = sorted(set(shipped()) - set(generated()))
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import shlex
-import shutil
 from pathlib import Path
 
 import numpy as np
@@ -16,8 +15,9 @@ pytest.importorskip("matplotlib")
 import gudgeon  # noqa: E402
 from gudgeon.cli import app  # noqa: E402
 from gudgeon.loading.shipped import generated, shipped, shipped_file  # noqa: E402
+from tests.programs import needs_compiler
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 PAGE = (DOCS / "gallery.md").read_text(encoding="utf-8")
 DRAWN = re.findall(r"!\[[^\]`]*`(gudgeon draw (\w+)[^`]*)`[^\]]*\]\((gallery/\w+\.svg)\)", PAGE)

@@ -25,7 +25,7 @@ from gudgeon.errors import SolverError
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.results.results import Result, State
 from gudgeon.simulation.arguments import METHODS
-from tests.pump import needs_compiler
+from tests.programs import needs_compiler
 
 pytestmark = needs_compiler
 Numbers = np.ndarray[Any, Any]

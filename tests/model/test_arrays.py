@@ -18,7 +18,7 @@ import gudgeon
 from gudgeon.errors import ArrayError, BadValueError, SolverError
 from gudgeon.model.arrays import CODE, FLAG, taken
 from gudgeon.model.compiled import CompiledModel
-from tests.pump import needs_compiler
+from tests.programs import needs_compiler
 
 RUNTIME = Path(__file__).parents[2] / "runtime"
 

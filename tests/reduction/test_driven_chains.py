@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import shutil
 from pathlib import Path
 
 import numpy as np
@@ -20,10 +19,11 @@ from gudgeon.simulation.simulation import Simulation
 from tests.kernels.test_tree_jacobian import slope
 from tests.oracles.linkage_yaml import to_yaml
 from tests.oracles.random_mechanism import random_mechanism
+from tests.programs import needs_compiler
 from tests.reduction.reduced import Numbers, Reduced
 from tests.reduction.test_reduction import NAN, check_state
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 METHODS = Path(__file__).parents[1] / "mechanisms/methods"
 FOUR_BAR = (METHODS / "driven_four_bar.yaml").read_text(encoding="utf-8")
 MOTOR = "{angle: crank, value: 0.5 + omega * t}"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from functools import cache
 from importlib import resources
 from pathlib import Path
@@ -24,9 +23,10 @@ from tests.oracles import numpy_linkage
 from tests.oracles.linkage_yaml import to_yaml
 from tests.oracles.random_linkage import Case
 from tests.oracles.random_mechanism import random_mechanism
+from tests.programs import needs_compiler
 from tests.reduction.reduced import Numbers, Reduced
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 SHIPPED = [
     ("nine_bar_press", "ideal"), ("nine_bar_press", "dry"), ("nine_bar_press", "lubricated"),
     ("andrews_squeezer", "ideal"), ("four_bar", "ideal"), ("slider_crank", "ideal"), ("slider_crank_spring", "ideal"),

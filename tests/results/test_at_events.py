@@ -13,8 +13,8 @@ import pytest
 import gudgeon
 from gudgeon.errors import GudgeonError, UnknownNameError
 from gudgeon.results.results import Result
+from tests.programs import needs_compiler
 from tests.pump import TEXT as PUMP
-from tests.pump import needs_compiler
 from tests.valve import valve
 
 pytestmark = needs_compiler

@@ -14,8 +14,8 @@ import gudgeon  # noqa: E402
 from gudgeon.errors import GudgeonError, InputError, OutputError  # noqa: E402
 from gudgeon.results.batch import Batch  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
+from tests.programs import needs_compiler  # noqa: E402
 from tests.pump import TEXT as PUMP  # noqa: E402
-from tests.pump import needs_compiler  # noqa: E402
 from tests.valve import valve  # noqa: E402
 
 pytestmark = needs_compiler

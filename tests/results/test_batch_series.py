@@ -16,8 +16,8 @@ from gudgeon.results.bare import Bare
 from gudgeon.results.batch import Batch
 from gudgeon.results.results import Result
 from gudgeon.results.series import catalogue
+from tests.programs import needs_compiler
 from tests.pump import TEXT as PUMP
-from tests.pump import needs_compiler
 from tests.valve import valve
 
 pytestmark = needs_compiler

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gudgeon.results.results import Result, read
-from tests.pump import needs_compiler
+from tests.programs import needs_compiler
 from tests.valve import valve
 
 WAYS: list[tuple[str, dict[str, Any]]] = [

@@ -13,7 +13,7 @@ import pytest
 from gudgeon.errors import BadValueError, GudgeonError, OutputError, UnknownNameError
 from gudgeon.results import export
 from gudgeon.results.results import Result
-from tests.pump import needs_compiler
+from tests.programs import needs_compiler
 from tests.valve import valve
 
 

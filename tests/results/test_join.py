@@ -12,8 +12,8 @@ import pytest
 import gudgeon
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.results.results import Result
+from tests.programs import needs_compiler
 from tests.pump import TEXT as PUMP
-from tests.pump import needs_compiler
 
 pytest.importorskip("xarray")
 

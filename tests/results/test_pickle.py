@@ -20,7 +20,7 @@ from gudgeon import errors
 from gudgeon.errors import GudgeonError, InputErrors, Location, SolverError
 from gudgeon.results.batch import Batch
 from gudgeon.results.results import Result
-from tests.pump import needs_compiler
+from tests.programs import needs_compiler
 
 pytestmark = needs_compiler
 SCENES: list[tuple[str, str, dict[str, Any]]] = [

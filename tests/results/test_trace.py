@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from pathlib import Path
 from typing import Any
 
@@ -14,8 +13,9 @@ from gudgeon.integrators.trace import ROWS
 from gudgeon.results import trace
 from gudgeon.results.plots import figure
 from gudgeon.results.results import Result
+from tests.programs import needs_compiler
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 
 
 def by_steps(steps: int) -> Result:

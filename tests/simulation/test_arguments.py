@@ -16,7 +16,8 @@ from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.language.quantities import number_of_text
 from gudgeon.model.parameters import number, plain_number, spaced
 from gudgeon.studies.runs import Setting
-from tests.pump import Gudgeon, needs_compiler
+from tests.programs import needs_compiler
+from tests.pump import Gudgeon
 
 pytestmark = needs_compiler
 

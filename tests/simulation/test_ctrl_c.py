@@ -29,7 +29,7 @@ from gudgeon.simulation import conclusion
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.waiting import asking
 from gudgeon.waiting.ctrl_c import CtrlC
-from tests.pump import needs_compiler
+from tests.programs import needs_compiler
 from tests.simulation.kept import check_kept
 
 pytestmark = needs_compiler

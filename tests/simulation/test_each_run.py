@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import shutil
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -15,9 +14,10 @@ import gudgeon
 from gudgeon.errors import BadValueError, GudgeonError, InputError
 from gudgeon.results.batch import Batch
 from gudgeon.simulation.simulation import Simulation
+from tests.programs import needs_compiler
 from tests.simulation.test_many import assert_same
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 SPEEDS = (60.0, 75.0, 60.0, 60.0, 75.0)
 EIGHTH = 8.0  # of a turn; of cross-checks less
 

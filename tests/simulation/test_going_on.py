@@ -12,7 +12,7 @@ import pytest
 import gudgeon
 from gudgeon.errors import AssemblyError, BadValueError, InputError, SolverError
 from gudgeon.results.results import State
-from tests.pump import needs_compiler
+from tests.programs import needs_compiler
 
 pytestmark = needs_compiler
 METHODS: list[dict[str, Any]] = [

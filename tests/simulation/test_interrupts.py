@@ -22,7 +22,8 @@ from gudgeon.studies.bench import bench
 from gudgeon.studies.box import Range
 from gudgeon.studies.map import verdict_box, verdict_map
 from gudgeon.studies.verdicts import Status
-from tests.pump import Gudgeon, needs_compiler, written
+from tests.programs import needs_compiler
+from tests.pump import Gudgeon, written
 
 pytestmark = needs_compiler
 PENDULUM = str(Path(__file__).parents[1] / "mechanisms" / "valid" / "double_pendulum.yaml")

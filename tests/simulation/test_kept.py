@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pickle
-import shutil
 import tracemalloc
 from functools import cache
 from pathlib import Path
@@ -16,9 +15,10 @@ import gudgeon
 from gudgeon.errors import GudgeonError, UnknownNameError
 from gudgeon.results.batch import Batch
 from gudgeon.simulation.simulation import Simulation
+from tests.programs import needs_compiler
 from tests.valve import valve
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 KEPT = ("S9.ay", "A.F", "energy.residual", "A.state", "L1.head.x", "A.deltadot_minus")
 C = {"c": [3e-4, 4e-4, -1.0, 5e-4, 6e-4, 8e-4, 7e-4]}
 BESIDE = ("samples", "t_last", "peaks")

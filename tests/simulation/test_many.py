@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -17,8 +16,9 @@ from gudgeon.assembly.start import assemble
 from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
 from gudgeon.results.batch import Batch
 from gudgeon.results.results import Result
+from tests.programs import needs_compiler
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 HERE = Path(__file__).parent.parent
 CLEARANCES = np.array([0.3e-3, 0.5e-3, 0.8e-3])
 SPEEDS = np.pi * np.array([2.0, 5.0, 4.0])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import shutil
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -15,8 +14,9 @@ import gudgeon
 from gudgeon.errors import BadValueError
 from gudgeon.results.results import Result, State
 from gudgeon.simulation.simulation import Simulation
+from tests.programs import needs_compiler
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 C = (3e-4, 4e-4, 5e-4)
 
 

@@ -12,7 +12,8 @@ import gudgeon
 from gudgeon.files.writing import read_regular
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.simulation.simulation import Simulation
-from tests.pump import Gudgeon, needs_compiler
+from tests.programs import needs_compiler
+from tests.pump import Gudgeon
 
 
 def none_left(*_: Any, **__: Any) -> Any:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -22,9 +21,10 @@ from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies import axes, bench, box
 from gudgeon.studies import map as maps
 from gudgeon.studies.runs import Error
+from tests.programs import needs_compiler
 
 pandas = pytest.importorskip("pandas", reason="a Series of pandas is one of the values")
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 
 
 def odd_values() -> dict[str, Any]:

@@ -17,7 +17,8 @@ from gudgeon.errors import BadValueError, SolverError, UnknownNameError
 from gudgeon.results.batch import Batch
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
-from tests.pump import TEXT, needs_compiler
+from tests.programs import needs_compiler
+from tests.pump import TEXT
 
 pytestmark = needs_compiler
 METHODS: dict[str, dict[str, Any]] = {

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import shutil
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -19,8 +18,9 @@ from gudgeon.results.report import compare, tables
 from gudgeon.results.results import Result
 from gudgeon.results.run_plots import Plot
 from gudgeon.simulation.horizon import horizon
+from tests.programs import needs_compiler
 
-compiled = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+compiled = needs_compiler
 PRESS = "nine_bar_press"
 VALID = Path(__file__).parent.parent / "mechanisms" / "valid"
 

@@ -18,8 +18,8 @@ from gudgeon.model.default_step import plain_end, scene_end, scene_step
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.bench import bench
 from gudgeon.studies.runs import Setting, window
+from tests.programs import needs_compiler
 from tests.pump import TEXT as PUMP
-from tests.pump import needs_compiler
 
 pytestmark = needs_compiler
 OWN = "simulate: {t_end: 2*pi/omega/turns, step: 1e-4/omega, output: 4*turns}"

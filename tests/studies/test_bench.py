@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import json
 import math
-import shutil
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
@@ -38,8 +37,8 @@ from gudgeon.studies.runs import (
     window,
 )
 from gudgeon.studies.show.bench import bench_rows, notes
+from tests.programs import needs_compiler
 
-needs_compiler = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
 PENDULUM = str(Path(__file__).parents[1] / "mechanisms" / "valid" / "double_pendulum.yaml")
 NAN = math.nan
 

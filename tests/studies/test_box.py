@@ -23,7 +23,7 @@ from gudgeon.studies.show.box_figure import box_figure, telling
 from gudgeon.studies.show.map import compared
 from gudgeon.studies.verdicts import STRICT, Cell, Limits, Status, limits_of
 from gudgeon.studies.words import seconds
-from tests.pump import needs_compiler
+from tests.programs import needs_compiler
 
 AUTO = Setting("auto", 1e-8)
 

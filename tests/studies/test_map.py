@@ -21,7 +21,7 @@ from gudgeon.studies.map import VerdictMap, default_clearances, default_steps, v
 from gudgeon.studies.runs import Attempt, Error, Setting, Work
 from gudgeon.studies.show.map import command, verdict
 from gudgeon.studies.verdicts import Cell, Limits, Status, judge
-from tests.pump import needs_compiler
+from tests.programs import needs_compiler
 
 PENDULUM = str(Path(__file__).parents[1] / "mechanisms" / "valid" / "double_pendulum.yaml")
 C = 0.3e-3

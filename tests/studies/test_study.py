@@ -22,7 +22,8 @@ from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble import resolve
 from gudgeon.studies.ensemble.final import slabs
 from gudgeon.studies.ensemble.study import plan_of
-from tests.pump import Gudgeon, needs_compiler
+from tests.programs import needs_compiler
+from tests.pump import Gudgeon
 
 pytestmark = needs_compiler
 CRANK: dict[str, Any] = {

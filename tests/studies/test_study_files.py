@@ -11,7 +11,8 @@ import gudgeon
 from gudgeon.errors import InputError, InputErrors, NotYamlError
 from gudgeon.generator.study.read import read_study
 from gudgeon.studies.ensemble.study import plan_of
-from tests.pump import Gudgeon, needs_compiler
+from tests.programs import needs_compiler
+from tests.pump import Gudgeon
 
 pytestmark = needs_compiler
 GOOD = """\

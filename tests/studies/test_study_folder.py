@@ -18,7 +18,8 @@ from filelock import FileLock
 import gudgeon
 from gudgeon.errors import GudgeonError, InputError, OutputError
 from gudgeon.studies.ensemble import loop, resolve
-from tests.pump import Gudgeon, needs_compiler
+from tests.programs import needs_compiler
+from tests.pump import Gudgeon
 
 pytestmark = needs_compiler
 STUDY: dict[str, Any] = {

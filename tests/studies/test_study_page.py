@@ -14,7 +14,7 @@ from gudgeon.generator.study.read import KEYS, read_study
 from gudgeon.generator.study.schema import schema
 from gudgeon.generator.study.spec import DRAWN, STATISTICS
 from gudgeon.studies.ensemble.resolve import BLOCK
-from tests.pump import needs_compiler
+from tests.programs import needs_compiler
 
 jsonschema = pytest.importorskip("jsonschema")
 PAGE = (Path(__file__).parents[2] / "docs" / "studies.md").read_text(encoding="utf-8")

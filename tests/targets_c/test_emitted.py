@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from functools import cache
 from typing import Any
 
@@ -16,8 +15,9 @@ from gudgeon.model.compiled import CompiledModel
 from tests.equations.models import press, random_model, random_state
 from tests.equations.thirty_digits import Reference
 from tests.oracles import golden, ideal_press, numpy_linkage, press_dense
+from tests.programs import needs_compiler
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 SEEDS = (1, 3, 4, 6)
 SCENES = ("ideal", "dry", "lubricated")
 NAN = float("nan")

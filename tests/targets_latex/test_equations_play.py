@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
 from functools import cache
 
 import numpy as np
@@ -17,6 +16,7 @@ from gudgeon.loading.build import compile_kernels
 from gudgeon.model.compiled import CompiledModel
 from tests.equations.models import numeric
 from tests.oracles import ideal_press
+from tests.programs import needs_compiler
 from tests.targets_latex.equations_reader import dots_apart, equations, evaluate, numbers, rows, sections, state, value
 from tests.targets_latex.test_equations import PRESS
 
@@ -97,7 +97,7 @@ def press_state(seed: int) -> tuple[float, np.ndarray, np.ndarray]:
     return 0.0, m.q[0] + rng.normal(0.0, 1.5e-4, 24), m.v[0] + rng.normal(0.0, 0.02, 24)
 
 
-@pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+@needs_compiler
 @pytest.mark.parametrize(
     ("variant", "scene"),
     [("as it is", "dry"), *((variant, "lubricated") for variant in VARIANTS), ("dry options", "dry")],

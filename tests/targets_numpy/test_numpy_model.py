@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import re
-import shutil
 from functools import cache
 from pathlib import Path
 
@@ -22,8 +21,9 @@ from gudgeon.loading.shipped import generated, shipped_file
 from gudgeon.simulation.simulation import Simulation
 from tests.oracles.linkage_yaml import to_yaml
 from tests.oracles.random_linkage import random_case
+from tests.programs import needs_compiler
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 SCENES = [
     (name, scene)
     for name in generated()

@@ -12,21 +12,21 @@ from gudgeon.generator.pipeline import derive
 from gudgeon.generator.targets.latex import equations_tex
 from gudgeon.loading.shipped import shipped_file
 from gudgeon.teaching.notebook import notebook
+from tests.programs import missing, needs_compiler
 from tests.pump import Gudgeon
 
 LINE = ("pdflatex", "-interaction=nonstopmode", "-halt-on-error")
-MISSING = "no pdflatex: apt-get install texlive-latex-extra"
-needs_latex = pytest.mark.skipif(shutil.which("pdflatex") is None, reason=MISSING)
 
 
 def compiled(file: Path) -> str:
     """What pdflatex complains of; "" where it made a PDF."""
+    if shutil.which(LINE[0]) is None:
+        missing("no pdflatex: apt-get install texlive-latex-extra")
     line, folder = [*LINE, file.name], file.parent
     done = subprocess.run(line, cwd=folder, capture_output=True, text=True, errors="replace", timeout=120)
     return "" if done.returncode == 0 and file.with_suffix(".pdf").stat().st_size > 10_000 else done.stdout[-2000:]
 
 
-@needs_latex
 @pytest.mark.parametrize(
     ("name", "scene"), [("nine_bar_press", "lubricated"), ("four_bar", "ideal"), ("andrews_squeezer", "short")]
 )
@@ -36,14 +36,13 @@ def test_equations(name: str, scene: str, tmp_path: Path) -> None:
     assert compiled(file) == ""
 
 
-@needs_latex
 @pytest.mark.parametrize("name", ["four_bar", "scissor_lift"])
 def test_exercises(name: str, call: Gudgeon, tmp_path: Path) -> None:
     assert call("exercise", name, "-o", "sheet.tex").exit_code == 0
     assert [compiled(tmp_path / file) for file in ("sheet.tex", "sheet-solutions.tex")] == ["", ""]
 
 
-@pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+@needs_compiler
 def test_a_notebook_runs_in_a_kernel() -> None:
     nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
     pytest.importorskip("ipykernel")

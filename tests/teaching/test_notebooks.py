@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import shutil
 from pathlib import Path
 from typing import Any
 
@@ -14,10 +13,11 @@ import gudgeon
 from gudgeon.generator.pipeline import derive
 from gudgeon.loading.shipped import shipped_file
 from gudgeon.teaching.notebook import notebook
+from tests.programs import needs_compiler
 from tests.pump import Gudgeon, written
 from tests.teaching.test_sheets import PARALLEL
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 
 
 def executed(text: str, capsys: pytest.CaptureFixture[str]) -> tuple[dict[str, Any], str]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
@@ -22,9 +21,10 @@ from gudgeon.teaching.draw_numbers import Drawn, draw_numbers
 from gudgeon.teaching.markdown import markdown
 from gudgeon.teaching.questions import make_questions
 from gudgeon.teaching.sheet import Question, Subject, make_subject
+from tests.programs import needs_compiler
 from tests.pump import Gudgeon, written
 
-pytestmark = pytest.mark.skipif(not any(map(shutil.which, ("cc", "gcc", "clang"))), reason="no C compiler")
+pytestmark = needs_compiler
 SCENES = [("four_bar", "ideal"), ("slider_crank", "dry"), ("scotch_yoke", "ideal"), ("n_four_bar", "ideal")]
 
 

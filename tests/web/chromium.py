@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -15,6 +14,7 @@ import gudgeon
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.page import write
+from tests.programs import missing
 from tests.web.node import browser
 
 DESK, PHONE = {"width": 1366, "height": 900}, {"width": 390, "height": 844}
@@ -22,11 +22,6 @@ READY = "window.gudgeonApp && gudgeonApp.run && !gudgeonApp.way"
 BITS = """name => { const bytes = new Uint8Array(Float64Array.from(gudgeonApp.run[name]).buffer);
     return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join("")); }"""
 C, SECTION = "#g-number-3", ".g-section:has(#g-number-{})"
-
-
-def missing(told: str) -> Any:
-    """A skip; where CI runs, which has what it takes, a failure."""
-    return pytest.fail(told) if os.environ.get("CI") else pytest.skip(told)
 
 
 @pytest.fixture(scope="session")
