@@ -88,9 +88,7 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
 {
     int status = run->ready ? 0 : begin_run(run, p);
     run->tick = min_of(1e-12, 1e-11 * left);
-    for (int k = 0; k < N_SWITCHES; k++)
-        run->memory.side[k] = run->aside.g[k] < 0.0 ? -1.0 : 1.0;
-    run->memory.held = 1;
+    hold_sides(run);
     if (!status)
         status = settle_sides(run, -1, p);
     floor_speeds(run, left);

@@ -77,26 +77,31 @@ static void store_sample(const Run *run, double t, const double *now, const Para
         latched[i * MEMORY + N_MEMORY - N_STATES + k] = now[FIRST_STATE + k];
 }
 
+/* From now on corners keep the sides that they have here. */
+static void hold_sides(Run *run)
+{
+    for (int k = 0; k < N_SWITCHES; k++)
+        run->memory.side[k] = run->aside.g[k] < 0.0 ? -1.0 : 1.0;
+    run->memory.held = 1;
+}
+
 /*
  * Sides of all corners that act from their functions at (t, y), and the right-hand side there; corner `kept` (-1: none)
- * keeps its own.
+ * keeps its own. What begins to act may have held the other side, on which it is no number.
  */
 static int settle_at(Run *run, double t, const double *y, double *dy, Aside *aside, int kept, const Parameters *p)
 {
-    for (int pass = 0; pass < 6; pass++) {
-        int changed = 0;
-        const int status = rates(run, t, y, p, dy, aside);
-        if (status)
-            return status;
-        for (int k = 0; k < N_SWITCHES; k++)
+    int status = 0, changed = 1;
+    for (int pass = 0; pass < 6 && changed; pass++) {
+        changed = 0;
+        status = rates(run, t, y, p, dy, aside);
+        for (int k = 0; k < N_SWITCHES && status != STOPPED; k++)
             if (k != kept && run->memory.side[k] * aside->g[k] < 0.0) {
                 run->memory.side[k] = -run->memory.side[k];
                 changed = 1;
             }
-        if (!changed)
-            return 0;
     }
-    return 0;
+    return status;
 }
 
 #include "tape.c"
@@ -115,35 +120,63 @@ static int lists_full(const Run *run)
 }
 
 /*
- * Contact i, which the run begins in: of its onset nobody knows. It is taken as one without loss, whose energy is in
- * the motion and in the elastic force, F_n delta / (n + 1) with the n = 1.5 of Hertz's law; the mass that it moves is
- * what its force changes in the rate of deltadot, which is linear in the velocities.
+ * The mass that the force of contact i moves: what that force changes in the rate of deltadot, which is linear in the
+ * velocities. way (N_X): the velocities that it leads to, by which deltadot is one more. No number where there is none.
  */
-static int begin_in_contact(Run *run, int i, const Parameters *p)
+static double moved_mass(Run *run, int i, double *way, const Parameters *p)
 {
     const double apart = 1e-3; /* s */
-    Latch *latch = &run->memory.latch[i];
-    const double before = latch->deltadot_minus;
-    double force[2], rate[2], y[N_Y], dy[N_Y];
+    double force[2], rate[2], y[N_Y], dy[2][N_Y], scrap[N_Y];
     Aside aside;
-    int status = 0;
-    for (int closed = 0; closed < 2 && !status; closed++) {
-        latch->closed = (unsigned char)closed;
-        latch->deltadot_minus = INFINITY; /* no damping */
-        status = rates(run, run->t, run->y, p, dy, &aside);
+    memcpy(y, run->y, sizeof y);
+    for (int closed = 0; closed < 2; closed++) {
+        run->memory.latch[i].closed = (unsigned char)closed;
+        run->memory.latch[i].deltadot_minus = INFINITY; /* no damping */
+        if (settle_at(run, run->t, run->y, dy[closed], &aside, -1, p))
+            return NAN;
         force[closed] = aside.clearance[i].F_n;
-        for (int k = 0; k < N_Y; k++)
-            y[k] = run->y[k] + (k >= N_X && k < 2 * N_X ? apart * dy[k] : 0.0);
-        if (!status)
-            status = rates(run, run->t, y, p, dy, &aside);
+        for (int k = N_X; k < 2 * N_X; k++)
+            y[k] = run->y[k] + apart * dy[closed][k];
+        if (rates(run, run->t, y, p, scrap, &aside))
+            return NAN;
         rate[closed] = aside.clearance[i].deltadot;
     }
-    const double inverse_mass = (rate[0] - rate[1]) / apart / (force[1] - force[0]);
-    const double stored = 2.0 * force[1] * aside.clearance[i].delta / 2.5 * inverse_mass;
-    latch->closed = 1;
-    latch->deltadot_minus = isfinite(stored) && stored > 0.0 ? sqrt(before * before + stored) : before;
-    run->open[i].deltadot = latch->deltadot_minus;
-    return status;
+    const double pushed = (rate[1] - rate[0]) / apart;
+    for (int k = 0; k < N_X; k++)
+        way[k] = (dy[1][N_X + k] - dy[0][N_X + k]) / pushed;
+    return (force[1] - force[0]) / pushed;
+}
+
+/*
+ * Contact i, which the run begins in: of its onset nobody knows. It is taken as one without loss, whose energy is in
+ * the motion and in the elastic force F, that at deltadot = 0: F delta / (n + 1), n the exponent of a power law.
+ */
+static void begin_in_contact(Run *run, int i, const Parameters *p)
+{
+    const double deltadot = run->aside.clearance[i].deltadot;
+    double force[2], delta[2], way[N_X], y[N_Y], dy[N_Y];
+    Memory known = run->memory;
+    Aside aside;
+    hold_sides(run); /* an open contact is none then, wherever the journal lies */
+    const double mass = moved_mass(run, i, way, p);
+    memcpy(y, run->y, sizeof y);
+    for (int part = 0; part < 2 && mass > 0.0; part++) {
+        for (int k = 0; k < N_X; k++) {
+            y[k] = run->y[k] - (part ? 0.1 * delta[0] * way[k] : 0.0);
+            y[N_X + k] = run->y[N_X + k] - deltadot * way[k];
+        }
+        const int status = rates(run, run->t, y, p, dy, &aside);
+        force[part] = status ? NAN : fabs(aside.clearance[i].F_n);
+        delta[part] = aside.clearance[i].delta;
+    }
+    if (mass > 0.0) {
+        const double n = log(force[1] / force[0]) / log(delta[1] / delta[0]);
+        const double onset = sqrt(deltadot * deltadot + 2.0 * force[0] * delta[0] / (n + 1.0) / mass);
+        if (n > 0.0 && isfinite(onset))
+            known.latch[i].deltadot_minus = max_of(known.latch[i].deltadot_minus, onset);
+    }
+    run->memory = known;
+    run->open[i].deltadot = known.latch[i].deltadot_minus;
 }
 
 /* The first right-hand side; a start inside contact is in contact, friction begins as its slip says. */
@@ -155,11 +188,10 @@ static int begin(Run *run, const Parameters *p)
         status = begin_friction(run, p);
     const Memory known = run->memory;
     if (!status && update_latches(run, run->t, 0.0, run->aside.clearance, run->aside.clearance, touched, p)) {
-        for (int i = 0; i < N_CLEARANCES && !status; i++)
+        for (int i = 0; i < N_CLEARANCES; i++)
             if (run->memory.latch[i].closed && !known.latch[i].closed && run->aside.clearance[i].delta > 0.0)
-                status = begin_in_contact(run, i, p);
-        if (!status)
-            status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+                begin_in_contact(run, i, p);
+        status = rates(run, run->t, run->y, p, run->dy, &run->aside);
     }
     for (int i = 0; i < N_USER_EVENTS; i++) {
         event_crosses(i, &run->memory.event_side[i], run->aside.event[i]);

@@ -58,9 +58,11 @@ static int look_beyond(Run *run, double tick, const Parameters *p, Aside *here, 
     double y[N_Y], dy[N_Y];
     for (int k = 0; k < N_Y; k++)
         y[k] = run->y[k] + h * run->dy[k];
+    if (!run->memory.held)
+        hold_sides(run);
     const int status = rates(run, run->t + h, y, p, dy, here);
     *beyond = *here;
-    return status || !run->memory.held ? status : settle_at(run, run->t + h, y, dy, beyond, -1, p);
+    return status ? status : settle_at(run, run->t + h, y, dy, beyond, -1, p);
 }
 
 /* Whether event i is beyond its zero right behind run->t: it leaps there, or goes on from no further than that. */

@@ -38,7 +38,7 @@ static int pass_corners(Run *run, Step *step, const Parameters *p)
         most = max_of(most, fabs(step->h * (dy[k] - step->dy[k])) * run->weight[k]);
     for (int k = FIRST_STATE; k < N_Y && !status; k++)
         most = max_of(most, fabs(step->h * (dy[k] - step->dy[k])) * run->weight[k]);
-    if (!status && most < HARMLESS) {
+    if (!status && all_finite(dy, N_Y) && most < HARMLESS) {
         for (int k = 0; k < N_Y; k++)
             step->dy[k] = dy[k];
         step->aside = aside;

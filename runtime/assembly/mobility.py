@@ -26,7 +26,8 @@ class Mobility:
     """Of the closed linkage, its drives among the rows.
 
     `freedoms` by rank, `gruebler` by counting (n − rows); `along` are coordinates that describe the freedoms, as many,
-    `loose` bodies that no row ties to the ground, `redundant` the number of rows that say nothing new.
+    `loose` bodies that no row ties to the ground, `redundant` the number of rows that say nothing new, `aligned` how
+    many more do so at the start alone: links lie in one line there.
     """
 
     coordinates: int
@@ -34,6 +35,7 @@ class Mobility:
     freedoms: int
     along: tuple[str, ...]
     loose: tuple[str, ...]
+    aligned: int
 
     @property
     def gruebler(self) -> int:
@@ -59,7 +61,8 @@ def find_mobility(
     least = min(reversed(range(len(spaces))), key=lambda k: spaces[k].shape[1])  # not the start, where links may align
     names, free = linkage.source.coordinates, spaces[least]
     along = tuple(names[k] for k in _describing(free, _order(names)))
-    return Mobility(len(names), len(kept), free.shape[1], along, _loose(linkage, matrices[least]))
+    aligned = spaces[0].shape[1] - free.shape[1]
+    return Mobility(len(names), len(kept), free.shape[1], along, _loose(linkage, matrices[least]), aligned)
 
 
 def free_motions(linkage: Linkage, p: Array, q: Array, t: float = 0.0) -> Array:

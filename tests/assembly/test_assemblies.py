@@ -121,6 +121,24 @@ def test_bodies_that_nothing_holds_and_rows_that_say_nothing_new() -> None:
     assert (twice.gruebler, twice.freedoms, twice.redundant) == (-2, 0, 2)
 
 
+@pytest.mark.parametrize(("span", "guess", "aligned"), [(0.3, 0, 1), (0.29, 20, 0)])
+def test_a_start_at_a_dead_centre_is_told(span: float, guess: int, aligned: int) -> None:
+    """Two bars over a span: rank 5 of 6 where they are stretched (y of the pin is free to first order), 6 elsewhere."""
+    flat = f"""
+format: gudgeon/1
+name: flat
+bodies: {{a: {{length: 0.1}}, b: {{length: 0.2}}}}
+ground: {{A: [0, 0], B: [{span}, 0]}}
+joints: {{j: {{revolute: [ground.A, a.tail]}}, k: {{revolute: [a.head, b.tail]}}, l: {{revolute: [b.head, ground.B]}}}}
+start: {{guess: {{a.theta: {guess} deg, b.theta: {-guess / 2} deg}}}}
+"""
+    mechanism = read_mechanism(flat.encode(), "flat.yaml")
+    scenes = assemble_scenes(mechanism, False)
+    closed = scenes.scenes["ideal"].closed
+    assert (closed.aligned, closed.freedoms, closed.redundant) == (aligned, 0, 0)
+    assert [whose for whose, _ in remarks(mechanism, scenes)].count("singular") == aligned
+
+
 @pytest.mark.parametrize(("given", "fits"), [(1, True), (0, False), (3, False)])
 def test_freedoms_that_are_given_are_checked(given: int, fits: bool, tmp_path: Path) -> None:
     file = tmp_path / "four.yaml"

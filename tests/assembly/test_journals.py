@@ -173,6 +173,24 @@ def test_a_run_that_begins_in_contact(scenes: Scenes, method: str, speed: float,
     assert [told in note for note in notes] == [True] * bool(told)
 
 
+@pytest.mark.parametrize(
+    ("law", "K", "n"),
+    [
+        ("law: hunt_crossley, stiffness: 2e8, restitution: 1", 2e8, 1.5),
+        ("law: flores, stiffness: 2e8, restitution: 0.5, exponent: 1.2", 2e8, 1.2),
+        ("law: kelvin_voigt, stiffness: 3e6 N/m, damping: 90 N*s/m", 3e6, 1.0),
+    ],
+)
+def test_an_onset_without_loss_by_the_exponent_of_its_law(law: str, K: float, n: float, scenes: Scenes) -> None:
+    """m δ̇⁻²/2 = m δ̇²/2 + K δⁿ⁺¹/(n + 1), whatever the damping is; at rest by the velocity floor at least."""
+    file = scenes.file("law", FREE.replace("law: lankarani_nikravesh, restitution: 0.9", law))
+    scene, away = gudgeon.load(file, "dry"), np.array([0.6, 0.8])
+    for deep, speed in ((DEEP, 0.03), (DEEP, -0.03), (DEEP, 0.0), (1e-12, 0.0)):
+        run = scene.simulate(1e-6, output=1, parameters=numbers((C + deep) * away, speed * away))
+        onset = math.sqrt(speed**2 + 2.0 * K * deep ** (n + 1.0) / (n + 1.0) / M)
+        assert run.impacts["deltadot"][0] == pytest.approx(max(onset, 1e-6), rel=1e-6)
+
+
 def test_what_contradicts_it_is_named(scenes: Scenes) -> None:
     play = "play: {A: {e: [ex, ey], rate: [vx, vy]}}"
     file = scenes.file("held", FREE.replace(play, f"{play}, set: {{ball.x: 1 mm}}"))

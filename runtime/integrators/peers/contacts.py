@@ -7,7 +7,6 @@ of sign between ends of steps only and so lose a contact that begins and ends wi
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -84,32 +83,14 @@ class Contacts:
         found = self.compiled.evaluate(t, y[:, :n], y[:, n : 2 * n], memory, self.p).clearance
         return View(found[..., 6] - self.c, found[..., 7], np.hypot(found[..., 2], found[..., 3]), found[..., 6])
 
-    def begin(self, t: float, y: Array) -> None:
-        """A start inside contact is in contact; contacts of an earlier run go on."""
+    def begin(self, t: float, y: Array, onsets: Callable[[], Array]) -> None:
+        """A start inside contact is in contact; contacts of an earlier run go on. `onsets` gives their δ̇⁻."""
         now = self.view(np.array([t]), y[None])
         self.open = [(t, 0.0, t)] * self.count
         began = np.flatnonzero(~self.closed & (now.delta[0] >= 0.0)).tolist()
+        known = onsets() if began else self.memory
         for k in began:
-            self._close(k, t, abs(float(now.deltadot[0, k])))  # as run/latches.c has it
-        for k in began:
-            if now.delta[0, k] > 0.0:
-                self.memory[k] = math.hypot(float(self.memory[k]), self._stored(k, t, y))
-
-    def _stored(self, k: int, t: float, y: Array) -> float:
-        """The speed (m/s) of what contact k has stored in its elastic force: as run/run.c has it."""
-        n, apart, memory = self.compiled.n, 1e-3, self.memory.copy()
-        q, v, forces, rates = y[None, :n], y[None, n : 2 * n], [], []
-        for latch in (np.nan, np.inf):
-            memory[k] = latch
-            at = self.compiled.evaluate([t], q, v, memory[None], self.p)
-            beyond = self.compiled.evaluate([t], q, v + apart * at.a, memory[None], self.p)
-            forces.append(float(at.clearance[0, k, 2]))
-            rates.append(float(beyond.clearance[0, k, 7]))
-        depth = float(at.clearance[0, k, 6]) - float(self.c[k])
-        if forces[1] == forces[0]:
-            return 0.0
-        stored = 2.0 * forces[1] * depth / 2.5 * (rates[0] - rates[1]) / apart / (forces[1] - forces[0])
-        return math.sqrt(stored) if 0.0 < stored < math.inf else 0.0
+            self._close(k, t, float(known[k]))
 
     def change(self, t: float, y: Array, event: int) -> None:
         """Joint `event` changes between free and contact, and with it every other one that is over its edge."""

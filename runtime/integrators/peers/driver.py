@@ -12,6 +12,7 @@ dry_friction elements, whose modes C owns.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from time import perf_counter
 from typing import Any
 
@@ -20,6 +21,7 @@ from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, NonFiniteError, SolverError
+from gudgeon.integrators import rk4
 from gudgeon.integrators.adaptive import tolerances
 from gudgeon.integrators.peers.contacts import Contacts, Piece
 from gudgeon.integrators.peers.stepper import SCIPY, Equations, Stepper
@@ -125,8 +127,13 @@ class _Driver:
             self.samples.pop()
         self._sample(self.t, self.y)
 
+    def _onsets(self) -> Array:
+        """δ̇⁻ (n_memory,) of contacts that the run begins in: an assumption of the C loops, not what is checked here."""
+        start = replace(self.problem, t=self.problem.t[:1], step=1.0, progress=None)
+        return np.asarray(rk4.run(start).memory[0])
+
     def _begin(self) -> None:
-        self.contacts.begin(self.t, self.y)
+        self.contacts.begin(self.t, self.y, self._onsets)
         self._watch()
         self._sample_present()
 
