@@ -29,6 +29,7 @@ from gudgeon.commands.options import (
     Name,
     OneScene,
     Out,
+    Pages,
     Peaks,
     Picture,
     Quick,
@@ -37,13 +38,13 @@ from gudgeon.commands.options import (
     Restart,
     Runs,
     Scenes,
+    ScenesOfPages,
     Seed,
     Set,
     Sheet,
     Threads,
     Until,
     Watch,
-    a_file,
     path,
 )
 from gudgeon.commands.told import tell_warnings, told
@@ -149,10 +150,8 @@ def emit(
 @told
 def equations(
     file: File,
-    target: Annotated[
-        Path, typer.Option("--out", "-o", parser=a_file, metavar="PATH", help="x.tex, .txt, .html or .ipynb; - prints.")
-    ],
-    scene: OneScene = "ideal",
+    target: Pages,
+    scene: ScenesOfPages = None,
     laws: Laws = None,
 ) -> int:
     """Write the equations of a scene as LaTeX, text, HTML or a notebook that derives and runs them.
@@ -161,7 +160,7 @@ def equations(
     """
     from gudgeon.commands.equations import write_equations
 
-    return write_equations(file, target, scene)
+    return write_equations(file, target, tuple(scene or ()))
 
 
 @app.command()

@@ -157,9 +157,9 @@ def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
         counted = f"by counting there are {closed.gruebler} degrees of freedom, by rank {closed.freedoms}"
         yield "redundant", f"{rows} of Φ say{'s' if closed.redundant == 1 else ''} nothing new: {counted}"
     if closed.aligned:
-        rows = "a row" if closed.aligned == 1 else f"{closed.aligned} rows"
+        rows = "a row of Φ_q depends" if closed.aligned == 1 else f"{closed.aligned} rows of Φ_q depend"
         yield "singular", (
-            f"links lie in one line at the start: {rows} of Φ_q depend{'s' if closed.aligned == 1 else ''} on the others"
+            f"links lie in one line at the start: {rows} on the others"
             " there (a dead centre), and accelerations and reactions are not determined; begin beside it"
         )
     told = {name: off for scene in found.scenes.values() for name, off in scene.off.items()}

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gudgeon.commands.common import check_file, chosen_scenes, need_suffix
 from gudgeon.commands.progress import status_line
+from gudgeon.errors import BadValueError
 from gudgeon.files.writing import write_text
 from gudgeon.language.shown import path_text
 from gudgeon.loading.find import find_mechanism, read_bytes
@@ -16,15 +18,21 @@ from gudgeon.waiting.working import working
 if TYPE_CHECKING:
     from gudgeon.generator.equations.model import Model
 
-TERMINAL = Path("-")
+TERMINAL, DEFAULT = Path("-"), "ideal"
 
 
-def write_equations(mechanism: str, target: Path, scene: str) -> int:
-    """Write one scene's equations to x.tex, x.txt, x.html or x.ipynb; of "-" print the text."""
+def write_equations(mechanism: str, target: Path, scenes: tuple[str, ...]) -> int:
+    """Write one scene's equations to x.tex, x.txt, x.html or x.ipynb, pages of several to a folder; of "-" print the
+    text."""
+    if os.path.isdir(target) or not (target.suffix or target == TERMINAL):
+        return _pages(mechanism, target, scenes)
     if target != TERMINAL:
         need_suffix(target, tuple(suffix for suffix in WRITERS if suffix))
         check_file("--out", target)
-    chosen_scenes(mechanism, (scene,))
+    if len(scenes) > 1:
+        told = f"{path_text(target)} holds the equations of one scene, not of {', '.join(scenes)}"
+        raise BadValueError(told, hint="name a folder: -o pages/")
+    (scene,) = chosen_scenes(mechanism, scenes or (DEFAULT,))
     with status_line(), working(f"deriving {find_mechanism(mechanism).stem}, scene {scene}"):
         text = WRITERS[target.suffix.lower()](mechanism, scene)
     if target == TERMINAL:
@@ -32,6 +40,25 @@ def write_equations(mechanism: str, target: Path, scene: str) -> int:
         return 0
     write_text(target, text)
     print(f"wrote {path_text(target)}")
+    return 0
+
+
+def _pages(mechanism: str, folder: Path, scenes: tuple[str, ...]) -> int:
+    """A page of each scene; from each the others can be chosen."""
+    from gudgeon.simulation.from_file import load
+    from gudgeon.web.page import write
+
+    name = find_mechanism(mechanism).stem
+    files = {scene: f"{name}_{scene}.html" for scene in chosen_scenes(mechanism, scenes)}
+    for file in files.values():
+        check_file("--out", folder / file)
+    with status_line():
+        for scene, file in files.items():
+            with working(f"deriving {name}, scene {scene}"):
+                text = write(load(mechanism, scene), files)
+            folder.mkdir(parents=True, exist_ok=True)
+            write_text(folder / file, text)
+            print(f"wrote {path_text(folder / file)}")
     return 0
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
@@ -37,9 +38,25 @@ def a_file(text: str) -> Path:
     return path(text)
 
 
+def a_file_or_folder(text: str) -> Path:
+    """A name without a suffix is that of a folder, with a stroke at its end or without."""
+    found = path(text)
+    return a_file(text) if found.suffix and not os.path.isdir(found) else found
+
+
 File = Annotated[str, typer.Argument(metavar="FILE", help="A YAML file, or the name of a shipped mechanism.")]
 Scenes = Annotated[list[str] | None, typer.Option("--scene", "-s", help="A scene; may be repeated. [default: all]")]
 OneScene = Annotated[str, typer.Option("--scene", "-s", help="Which scene.")]
+Pages = Annotated[
+    Path,
+    typer.Option(
+        "--out", "-o", parser=a_file_or_folder, metavar="PATH",
+        help="x.tex, .txt, .html or .ipynb; a folder: a page of each scene; - prints.",
+    ),
+]  # fmt: skip
+ScenesOfPages = Annotated[
+    list[str] | None, typer.Option("--scene", "-s", help="A scene; in a folder several. [default: ideal; there all]")
+]
 Branches = Annotated[bool, typer.Option("--branches", help="Assemblies, and the guess that picks each.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON in SI units for a script, nothing else.")]
 Out = Annotated[Path, typer.Option("--out", parser=path, metavar="PATH", help="Folder for what is written.")]

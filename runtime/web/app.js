@@ -16,6 +16,7 @@ class App {
         this.values = panel.values.map((name) => this.valueRow(name));
         this.transport();
         if (sim) this.controls();
+        this.scenes();
         new ResizeObserver(() => this.resized()).observe(by("g-charts"));
     }
 
@@ -54,6 +55,30 @@ class App {
         by("g-add").onclick = () => {
             this.addChart(this.run.names.find((name) => !this.charts.some((chart) => chart.name === name)));
         };
+    }
+
+    /* Pages of other scenes, where some were written beside this one: they begin with the numbers that this one has. */
+    scenes() {
+        const {scenes} = this.settings, select = by("g-scene");
+        for (const name of Object.keys(scenes)) element("option", {value: name}, select).textContent = name;
+        select.value = this.about.scene;
+        select.parentElement.hidden = Object.keys(scenes).length < 2;
+        select.onchange = () => {
+            const told = {...this.panel?.given, t: this.t};
+            const leaves = `${encodeURIComponent(scenes[select.value])}#${new URLSearchParams(told)}`;
+            select.value = this.about.scene; // for who comes back
+            location.href = leaves;
+        };
+    }
+
+    /* Numbers of the page that led here, those that this scene has; times and other texts are left. */
+    arrive() {
+        for (const [address, text] of new URLSearchParams(location.hash.slice(1))) {
+            const slot = this.about.slots.find((one) => one.address === address), value = Number(text);
+            if (address === "t" && Number.isFinite(value)) this.t = value;
+            else if (slot?.words?.includes(text)) this.panel.given[address] = text;
+            else if (slot && !slot.words && text && Number.isFinite(value)) this.panel.given[address] = value;
+        }
     }
 
     /* The path of the point that is chosen. */

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import gzip
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -25,18 +26,19 @@ class Parts(NamedTuple):
     scripts: str
 
 
-def write(simulation: Simulation) -> str:
-    """The page of a scene, HTML: its equations and all that runs.
+def write(simulation: Simulation, scenes: Mapping[str, str] | None = None) -> str:
+    """The page of a scene, HTML: its equations and all that runs. `scenes`: pages beside it by scene, itself among
+    them; it leads to them with the numbers that it has.
 
     Raises InputError where the file was edited since, GudgeonError without the extras `docs` and `plot`, BuildError
     where the C does not compile, SolverError where not even a start is found.
     """
     from gudgeon.generator.targets.latex import equations_html
 
-    return equations_html(simulation.model, **parts(simulation)._asdict(), source=simulation.source)
+    return equations_html(simulation.model, **parts(simulation, scenes)._asdict(), source=simulation.source)
 
 
-def parts(simulation: Simulation) -> Parts:
+def parts(simulation: Simulation, scenes: Mapping[str, str] | None = None) -> Parts:
     """What a page runs. Without the compiler for pages (the extra `web`) it is one run of the file's numbers.
 
     A small simulator has that of the full formulation beside it, in which constraints drift. Raises as `write`.
@@ -44,7 +46,7 @@ def parts(simulation: Simulation) -> Parts:
     import gudgeon.results.plots  # noqa: F401 (without matplotlib it says what to install)
     from gudgeon.web.running import running_parts
 
-    return running_parts(simulation)
+    return running_parts(simulation, scenes or {})
 
 
 @cache

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
 from html import escape
@@ -30,11 +31,11 @@ NO_SIMULATOR = (
 )
 
 
-def running_parts(simulation: Simulation) -> Parts:
+def running_parts(simulation: Simulation, scenes: Mapping[str, str]) -> Parts:
     """What `page.parts` gives."""
     run = _run(simulation)
     rig = rig_of(run)
-    told, note = panel(simulation, run, rig) | _scales(rig), ""
+    told, note = panel(simulation, run, rig) | _scales(rig) | {"scenes": dict(scenes)}, ""
     carried = packed_element(DESCRIPTION, description(simulation.compiled).encode())
     try:
         carried += _modules(simulation)

@@ -224,7 +224,7 @@ def test_a_terminal_is_told_what_is_derived_and_compiled(
         assert list(dict.fromkeys(re.findall(r"\w+ \w+, scene \w+", plain)))[: len(told)] == told
         assert "\x1b[2K" in cold and not re.search(r"\x1b\[[0-9;]*m", cold)
         assert shown(task, Screen()) == ""
-    equations = partial(write_equations, pump, tmp_path / "x.txt", "worn")
+    equations = partial(write_equations, pump, tmp_path / "x.txt", ("worn",))
     for anew, scene in ((equations, "worn"), (lambda: check_file(pump, True, False), "ideal")):
         assert f"deriving pump, scene {scene}" in shown(anew, Screen())
         assert shown(anew, io.StringIO()) == ""

@@ -42,7 +42,7 @@ def ball(tmp_path_factory: pytest.TempPathFactory) -> Simulation:
 
 @pytest.mark.parametrize("method", ["auto", "dop853", "scipy:Radau"])
 def test_out_of_the_metal_into_the_film(method: str, ball: Simulation) -> None:
-    """The cap of ε was held as it was never looked at: no number, as soon as the film began to act. rk4 holds nothing."""
+    """The cap of ε was held as it was never looked at: no number, when the film began to act. rk4 holds nothing."""
     for ey in ("-0.312 mm", "-0.315 mm"):
         fixed = ball.simulate(1e-3, output=10, parameters={"ey": ey}, method="rk4", step=1e-7)
         run = ball.simulate(1e-3, output=10, parameters={"ey": ey}, method=method)

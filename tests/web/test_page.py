@@ -12,6 +12,7 @@ import pytest
 pytest.importorskip("matplotlib")
 
 import gudgeon  # noqa: E402
+from tests.pump import Gudgeon  # noqa: E402
 from tests.web.chromium import PHONE, written  # noqa: E402
 
 
@@ -162,6 +163,26 @@ def test_text_stands_out(opened: Any, press: Path, scheme: str) -> None:
     found = opened(press, scheme=scheme).page.evaluate(CONTRAST)
     assert len(found) > 150
     assert [one for one in found if one[0] < 4.5] == []
+
+
+def test_scenes_lead_to_each_other(opened: Any, tmp_path: Path, call: Gudgeon) -> None:
+    """A folder of pages: another scene begins with the numbers of this one, and computes what the compiled one does."""
+    assert call("equations", "slider_crank", "-o", "pages/").exit_code == 0
+    page = opened(tmp_path / "pages" / "slider_crank_ideal.html")
+    page.page.evaluate("gudgeonApp.panel.set('parameters.omega', 40)")
+    page.wait()
+    page.page.evaluate("gudgeonApp.seek(0.05)")
+    page.page.select_option("#g-scene", "dry")
+    page.page.wait_for_url("**/slider_crank_dry.html#*")
+    page.wait()
+    assert page.page.evaluate("[gudgeonApp.about.scene, gudgeonApp.t]") == ["dry", 0.05]
+    assert page.same_bits(gudgeon.load("slider_crank", "dry").simulate(parameters={"omega": 40.0}))
+    page.page.goto(f"{page.page.url.partition('#')[0]}#parameters.omega=nan&parameters.c=&t=x&bodies.rod.mass=-1")
+    page.page.reload()
+    page.page.wait_for_function("document.getElementById('g-error').textContent")
+    assert page.page.evaluate("gudgeonApp.panel.given") == {"bodies.rod.mass": -1}
+    assert "mass is positive" in page.error()
+    assert page.complaints == []
 
 
 def test_print_has_no_controls(opened: Any, press: Path) -> None:
