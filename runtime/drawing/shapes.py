@@ -129,9 +129,11 @@ def hatching(a: Array, b: Array, into: Array, length: float) -> list[Array]:
     """Short strokes from a line, leaning, to the side `into`: the ground."""
     span = b - a
     along = unit_vector(span)
-    count = max(2, round(float(np.hypot(*span)) / (0.62 * length)))
+    reach = float(np.hypot(*span))
+    count = max(2, round(reach / (0.62 * length)))
     lean = 0.75 * length * (into - along)
-    return [np.array([foot, foot + lean]) for foot in a + np.linspace(0.12, 1.0, count)[:, None] * span]
+    first = min(0.12, 0.75 * length / max(reach, 1e-300))  # as far as the first one leans
+    return [np.array([foot, foot + lean]) for foot in a + np.linspace(first, 1.0, count)[:, None] * span]
 
 
 def zigzag(a: Array, b: Array, height: float, teeth: int = 6, ends: float = 0.2) -> Array:
