@@ -373,8 +373,10 @@ def test_what_leads_to_a_name_begins_at_the_edge_of_what_is_named() -> None:
     picture.draw_without_rendering()
     (ax,) = picture.axes
     (names,) = [artist for artist in ax.get_children() if isinstance(artist, Names)]
-    begins = np.array([ax.transData.inverted().transform(np.asarray(line.get_xydata(), float)[0]) for line in names.leads])
-    assert len(begins) > 10 and np.hypot(*begins.T) == pytest.approx(clear, rel=1e-9)
+    feet = np.array([np.asarray(line.get_xydata(), float)[0] for line in names.leads])
+    begins = ax.transData.inverted().transform(feet)
+    assert len(begins) > 10
+    assert np.hypot(*begins.T) == pytest.approx(clear, rel=1e-9)
 
 
 def test_a_name_stands_outside_the_arrow_around_its_pin() -> None:
