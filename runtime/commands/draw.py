@@ -6,7 +6,6 @@ once the picture is written.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -159,8 +158,9 @@ def _velocities(closure: Closure, q: Array) -> tuple[Array | None, AssemblyError
 
 def _posture(linkage: NumPyLinkage, q: Array, v: Array | None) -> Posture:
     from gudgeon.drawing.posture import Posture
+    from gudgeon.results.postures import loads_at
 
-    loads = _loads(linkage, q, np.zeros_like(q) if v is None else v)
+    loads = loads_at(linkage.source, linkage.p, q, np.zeros_like(q) if v is None else v)
     return Posture(linkage.source, linkage.p, q, 0.0, v, loads)
 
 
@@ -173,7 +173,7 @@ def _sketches(mechanism: Mechanism, closure: Closure, postures: Sequence[Posture
 
     with np.errstate(all="ignore"):
         found = find_mobility(closure.linkage, closure.p, postures[0].q)
-    plans, sketches = [make_plan([posture]) for posture in postures], []
+    plans, sketches = [make_plan([posture], postures[0]) for posture in postures], []
     unit = min(plan.unit for plan in plans)
     plans = [replace(plan, unit=unit) for plan in plans]
     box = room_of_all(postures, plans)
@@ -215,33 +215,3 @@ def _assemblies(mechanism: Mechanism, closure: Closure, q: Array) -> tuple[list[
     here = {True: " (as the file has it)", False: ""}
     titles = [f"{k}  {guess_text(one)}{here[one.is_start]}" for k, one in enumerate(found, 1)]
     return _sketches(mechanism, closure, postures), titles
-
-
-def _loads(linkage: NumPyLinkage, q: Array, v: Array) -> dict[str, tuple[float, float]]:
-    """Forces (N, ground axes) and torques (N·m, 0) of the file at the start, by its expressions."""
-    from gudgeon.results.bare import bare
-
-    source, none = linkage.source, np.zeros((1, 0))
-    state = np.zeros((1, len(source.clearances)), np.int8)
-    run = bare(source, None, linkage.p, np.zeros(1), q[None], v[None], none, none, state, frozenset())
-    written = {one.address: one.tree for one in source.written}
-    slots = {slot.address: float(x) for slot, x in zip(source.slots, linkage.p, strict=False)}
-
-    def number(address: str) -> float:
-        from gudgeon.language.tree import evaluate, from_json
-
-        if address not in written:
-            return slots.get(address, 0.0)
-        return float(np.ravel(evaluate(from_json(json.loads(written[address])), run.value_of))[0])
-
-    loads = {}
-    for part in source.parts:
-        if part.kind == "torque":
-            loads[part.name] = number(f"forces.{part.name}.value"), 0.0
-        elif part.kind == "force":
-            x, y = (number(f"forces.{part.name}.value.{axis}") for axis in "xy")
-            turn = part.options["axes"] == "body" and part.ends[0].partition(".")[0]
-            angle = float(run[f"{turn}.theta"][0]) if turn in {body.name for body in source.bodies} else 0.0
-            c, s = np.cos(angle), np.sin(angle)
-            loads[part.name] = float(c * x - s * y), float(s * x + c * y)
-    return loads

@@ -22,6 +22,12 @@ def eccentricity(posture: Posture, joint: str) -> Array:
     return posture.place(second) - posture.place(first)
 
 
+def in_contact(posture: Posture) -> frozenset[str]:
+    """Joints with play whose surfaces overlap, e ≥ c; those that have nothing but a film never touch."""
+    reach = {name: float(posture.p[joint.clearance]) for name, joint in posture.clearances.items() if joint.dry}
+    return frozenset(name for name, c in reach.items() if float(np.hypot(*eccentricity(posture, name))) >= c)
+
+
 def magnification(posture: Posture, joint: str, unit: float) -> float:
     """How many times larger than the drawing an inset is: two digits, so that the clearance circle fits."""
     c = float(posture.p[posture.clearances[joint].clearance])
@@ -31,12 +37,14 @@ def magnification(posture: Posture, joint: str, unit: float) -> float:
 
 
 def insets(
-    posture: Posture, unit: float, low: Array, high: Array, touching: frozenset[str] = frozenset()
-) -> Iterator[tuple[list[Shape], Label, str]]:
+    posture: Posture, unit: float, low: Array, high: Array, touching: frozenset[str] = frozenset(),
+    touched: frozenset[str] = frozenset(),
+) -> Iterator[tuple[list[Shape], Label, str]]:  # fmt: skip
     """Of each joint with play its shapes, its name and its scale; below each other, to the right of the box, or where
     that is too low for it in rows below.
 
-    To scale are the gap and the eccentricity, not the radii. `touching`: joints whose surfaces are in contact.
+    To scale are the gap and the eccentricity, not the radii. `touching`: joints whose surfaces are in contact, by a red
+    journal; `touched`: those that are not any more, but were since the picture before, by a red bearing.
     """
     radius = RADIUS * unit
     shown = [name for name in posture.clearances if not is_wide(posture, name, unit)]
@@ -47,7 +55,7 @@ def insets(
         part, hole = f"inset {joint}", c * times + JOURNAL * radius
         at = centre + times * e
         shapes: list[Shape] = [
-            Disc(part, "bearing", centre, 1.16 * hole),
+            Disc(part, "touched" if joint in touched - touching else "bearing", centre, 1.16 * hole),
             Disc(part, "hole", centre, hole),
             Disc(part, "touching" if joint in touching else "journal", at, JOURNAL * radius),
             Disc(part, "clearance", centre, c * times),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
@@ -24,8 +24,8 @@ def joints(posture: Posture, plan: Plan) -> Iterator[Shape]:
         yield from _SYMBOLS.get(part.kind, _other)(posture, plan, part)
 
 
-def names_of_joints(posture: Posture, plan: Plan) -> Iterator[Label]:
-    """Beside each."""
+def names_of_joints(posture: Posture, plan: Plan, arcs: Mapping[str, float]) -> Iterator[Label]:
+    """Beside each, and beside the `arcs` of arrows around it: radii in units by joint."""
     for part in posture.parts("joints"):
         place = posture.place(part.ends[-1])
         if part.kind == "gear":
@@ -35,6 +35,7 @@ def names_of_joints(posture: Posture, plan: Plan) -> Iterator[Label]:
         elif part.kind in ("translational", "point_on_line"):
             place = axis_of(posture, part)[2]
         clear = {"translational": 1.5, "distance": 0.5, "gear": 0.3}.get(part.kind, 0.8)
+        clear = max(clear, arcs.get(part.name, 0.0))
         yield Label(f"joint {part.name}", "joint", part.name, place, clear * plan.unit)
 
 

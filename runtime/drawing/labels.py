@@ -96,7 +96,7 @@ class Names(Artist):
             taken = np.vstack([taken, box])
             self.boxes[label.part] = tuple(box.tolist())
             if ring > LED * point:
-                self.leads.append(self._lead(at, middle, half, figure))
+                self.leads.append(self._lead(at, middle, half, label.clear * metre))
 
     def _told(self, left: int) -> Text:
         """That names are missing, in the upper right corner."""
@@ -106,10 +106,13 @@ class Names(Artist):
         text.set_figure(axes.get_figure(root=True))
         return text
 
-    def _lead(self, at: Array, middle: Array, half: Array, figure: Any) -> Line2D:
+    def _lead(self, at: Array, middle: Array, half: Array, clear: float) -> Line2D:
+        """From the edge of what is named to that of its name."""
+        axes: Any = self.axes
         edge = np.clip(at, middle - half, middle + half)
-        line = Line2D(*np.array([at, edge]).T, color="#999999", lw=0.5, transform=None)
-        line.set_figure(figure)
+        begin = at + clear * (edge - at) / max(float(np.hypot(*(edge - at))), clear, 1e-300)
+        line = Line2D(*np.array([begin, edge]).T, color="#999999", lw=0.5, transform=None)
+        line.set_figure(axes.get_figure(root=True))
         return line
 
 

@@ -9,13 +9,15 @@ import numpy as np
 from gudgeon.contract.kernel_source import PartInfo
 from gudgeon.drawing.bodies import BLOCK
 from gudgeon.drawing.joints import PIN, ground_wall
-from gudgeon.drawing.plan import Plan
+from gudgeon.drawing.plan import SLIDING, Plan, axis_of
 from gudgeon.drawing.posture import GROUND, Posture, body_of
 from gudgeon.drawing.shapes import Disc, Label, Line, Shape, arc, arrow_head, rectangle, turned, unit_vector, zigzag
 from gudgeon.model.compiled import Array
 
 ARROW, HEAD = 5.2, 1.3  # lengths in units: of an arrow whose size means nothing, and of its head
 DRIVEN, LOADED, WOUND = 2.3, 3.1, 1.9  # radii of arrows around a pin: a drive's, a torque's; of a spiral spring
+RADII = {"angle": DRIVEN, "coordinate": DRIVEN, "torque": LOADED, "rotational_spring_damper": WOUND}
+ALONG = 0.5  # cosine, from which on a guide leads along a coordinate
 
 
 def movers(posture: Posture, plan: Plan) -> Iterator[Shape]:
@@ -30,18 +32,24 @@ def names_of_movers(posture: Posture, plan: Plan, still: bool) -> Iterator[Label
     """Beside each symbol; in a picture that stands, `still`, a load that is zero says so."""
     for part in (*posture.parts("drives"), *posture.parts("forces")):
         kind = part.section[:-1]
+        way = 45.0
         if part.kind in ("distance", "spring_damper"):
             place, clear = 0.5 * (posture.place(part.ends[0]) + posture.place(part.ends[1])), 1.2
-        elif part.kind in ("coordinate", "force"):
-            place, clear = posture.place(part.ends[0]), 2.0
+        elif part.kind == "coordinate" and part.options["coordinate"] != "theta":
+            (place, side), clear = _beside(posture, plan, part), 0.5
+            way = float(np.degrees(np.arctan2(side[1], side[0])))
+        elif part.kind == "force":
+            span = _span(posture, plan, part)
+            place, clear = posture.place(part.ends[0]) + 0.5 * span, 0.5 if span.any() else 1.2
+            way = float(np.degrees(np.arctan2(span[0], -span[1]))) if span.any() else way
         elif part.kind == "dry_friction":
             place, clear = posture.place(part.ends[1]), 2.0
         else:
             place = pivot(posture, part)
-            clear = {"angle": DRIVEN, "torque": LOADED}.get(part.kind, WOUND)
+            clear = RADII[part.kind]
         nothing = still and part.kind in ("force", "torque") and not np.any(posture.loads.get(part.name, 1.0))
         text = f"{part.name} = 0" if nothing else part.name
-        yield Label(f"{kind} {part.name}", kind, text, place, clear * plan.unit)
+        yield Label(f"{kind} {part.name}", kind, text, place, clear * plan.unit, way)
 
 
 def arrow(part: str, role: str, tail: Array, tip: Array, head: float) -> Iterator[Shape]:
@@ -63,14 +71,33 @@ def round_arrow(part: str, role: str, centre: Array, radius: float, left: bool, 
 
 def pivot(posture: Posture, part: PartInfo) -> Array:
     """Where a body turns: at the pin that joins it to the other one, or to the ground; else at its centre of mass."""
+    joint, turning = _pin(posture, part)
+    if joint is not None:
+        return posture.place(next(end for end in joint.ends if body_of(end) == turning))
+    return posture.centre(turning) if turning in posture.bodies else np.zeros(2)
+
+
+def arcs(posture: Posture) -> dict[str, float]:
+    """Of pins that an arrow goes around, a drive's or a torque's, or a spiral spring, its radius in units."""
+    found = dict[str, float]()
+    for part in (*posture.parts("drives"), *posture.parts("forces")):
+        if part.kind in RADII and part.options.get("coordinate", "theta") == "theta":
+            joint, _ = _pin(posture, part)
+            if joint is not None:
+                found[joint.name] = max(found.get(joint.name, 0.0), RADII[part.kind])
+    return found
+
+
+def _pin(posture: Posture, part: PartInfo) -> tuple[PartInfo | None, str]:
+    """The pin about which a body turns, None without one, and that body."""
     bodies = [body_of(end) for end in part.ends]
     turning = next((body for body in bodies if body != GROUND), bodies[0])
     other = next((body for body in bodies if body != turning), GROUND)
     for joint in posture.parts("joints", "revolute"):
         held = [body_of(end) for end in joint.ends]
         if turning in held and other in held:
-            return posture.place(joint.ends[held.index(turning)])
-    return posture.centre(turning) if turning in posture.bodies else np.zeros(2)
+            return joint, turning
+    return None, turning
 
 
 def _angle(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
@@ -86,10 +113,21 @@ def _coordinate(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]
         return
     k = posture.bodies[body_of(part.ends[0])].index + "xy".index(axis)
     along = np.eye(2)["xy".index(axis)] * (-1.0 if posture.v is not None and posture.v[k] < 0.0 else 1.0)
-    at, u = posture.place(part.ends[0]) + 2.0 * plan.unit * turned(along), plan.unit
-    yield from arrow(
-        f"drive {part.name}", "drive", at - 0.5 * ARROW * u * along, at + 0.5 * ARROW * u * along, HEAD * u
-    )
+    (at, _), half = _beside(posture, plan, part), 0.5 * ARROW * plan.unit * along
+    yield from arrow(f"drive {part.name}", "drive", at - half, at + half, HEAD * plan.unit)
+
+
+def _beside(posture: Posture, plan: Plan, part: PartInfo) -> tuple[Array, Array]:
+    """The middle of a driven coordinate's arrow, and the side (unit vector) on which it lies: above or to the left; of
+    what the ground guides, beside the block, away from the ground."""
+    axis = np.eye(2)["xy".index(part.options["coordinate"])]
+    place, side = posture.place(part.ends[0]), turned(axis)
+    for joint in posture.parts("joints", *SLIDING):
+        if joint.name in plan.ways and body_of(part.ends[0]) in map(body_of, joint.ends):
+            _, along, slider = axis_of(posture, joint)
+            if abs(float(along @ axis)) > ALONG:
+                place, side = slider, -side if float(plan.ways[joint.name] @ side) > 0.0 else side
+    return place + 2.0 * plan.unit * side, side
 
 
 def _cylinder(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
@@ -167,13 +205,21 @@ def _torque(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
 
 
 def _force(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
-    """An arrow that ends beside its point; a ring where the force is zero now, or nobody knows it."""
+    """An arrow that begins at its point; a ring where the force is zero now, or nobody knows it."""
     name, u, place = f"force {part.name}", plan.unit, posture.place(part.ends[0])
-    load = np.array(posture.loads.get(part.name, (0.0, 0.0)))
-    if not (np.isfinite(load).all() and float(np.hypot(*load)) > 0.0):
+    span = _span(posture, plan, part)
+    if not span.any():
         yield Disc(name, "no force", place, 0.9 * u)
         return
-    yield from arrow(name, "force", place, place + ARROW * u * unit_vector(load), HEAD * u)
+    yield from arrow(name, "force", place, place + span, min(HEAD * u, 0.6 * float(np.hypot(*span))))
+
+
+def _span(posture: Posture, plan: Plan, part: PartInfo) -> Array:
+    """A force's arrow from tail to tip, m of the drawing; 0 where the force is zero, or nobody knows it."""
+    load = np.array(posture.loads.get(part.name, (0.0, 0.0)))
+    if not (np.isfinite(load).all() and load.any()):
+        return np.zeros(2)
+    return load * plan.newton if plan.newton > 0.0 else ARROW * plan.unit * unit_vector(load)
 
 
 def _dry_friction(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:

@@ -14,6 +14,7 @@ from gudgeon.drawing.shapes import turned
 from gudgeon.model.compiled import Array
 
 SLIDING = ("translational", "point_on_line")
+ASIDE = (0.03, 0.1)  # share of the size, from which on the ground's points and all points lie on one side of a guide
 WIDE = 3.0  # units: a clearance that needs no magnifying
 # half a bar's width as a share of the whole, the least, and as the most of the shortest link
 SHARE, LEAST, OF_LINK = 0.017, 0.005, 0.16
@@ -23,17 +24,20 @@ SHARE, LEAST, OF_LINK = 0.017, 0.005, 0.16
 class Plan:
     """`unit`: half a bar's width (m). `ways`: of a joint on the ground where that lies, seen from it, (2,).
 
-    `travel`: of a joint that slides the least and largest place along its axis (m), over all postures.
+    `travel`: of a joint that slides the least and largest place along its axis (m), over all postures. `newton`: how
+    long an applied force of 1 N is drawn (m); 0: all are of one length.
     """
 
     unit: float
     ways: Mapping[str, Array]
     travel: Mapping[str, tuple[float, float]]
+    newton: float = 0.0
 
 
-def make_plan(postures: Sequence[Posture]) -> Plan:
-    """Of one position, or of several of a motion."""
-    first = postures[0]
+def make_plan(postures: Sequence[Posture], start: Posture | None = None) -> Plan:
+    """Of one position, or of several of a motion. On which side of a guide the ground lies hangs on the ground's points
+    and on `start`, the first position unless another one is given: one mechanism has one side."""
+    first, start = postures[0], start or postures[0]
     places = np.array([place for posture in postures for place in _places(posture)])
     ways, travel = dict[str, Array](), dict[str, tuple[float, float]]()
     for part in first.parts("joints"):
@@ -41,7 +45,7 @@ def make_plan(postures: Sequence[Posture]) -> Plan:
             along = [_slide(posture, part) for posture in postures]
             travel[part.name] = min(along), max(along)
         if any(body_of(end) == GROUND for end in part.ends):
-            ways[part.name] = _rail_side(first, part, places) if part.kind in SLIDING else _below(postures, part)
+            ways[part.name] = _rail_side(start, part) if _has_rail(part) else _below(postures, part)
     return Plan(_unit(first, places), ways, travel)
 
 
@@ -96,13 +100,21 @@ def _slide(posture: Posture, part: PartInfo) -> float:
     return float((place - on) @ along)
 
 
-def _rail_side(posture: Posture, part: PartInfo, places: Array) -> Array:
-    """Across the axis, away from the mechanism; where that is on both sides, below or to the right."""
-    _, along, place = axis_of(posture, part)
-    across, size = turned(along), float(np.ptp(places, axis=0).max())
-    lies = float((places - place).mean(axis=0) @ across)
-    if abs(lies) > 0.03 * size:
-        return across if lies < 0.0 else -across
+def _has_rail(part: PartInfo) -> bool:
+    """Whether the ground guides: a slot's pin stands on the ground as others do."""
+    return part.kind == "translational" or (part.kind == "point_on_line" and body_of(part.ends[1]) == GROUND)
+
+
+def _rail_side(start: Posture, part: PartInfo) -> Array:
+    """Across the axis, away from the ground's other points; where those lie along it, away from the mechanism at its
+    start; where that is on both sides, below or to the right."""
+    on, along, slider = axis_of(start, part)
+    across = turned(along)
+    ground = [start.place(name) for name in start.points if body_of(name) == GROUND]
+    for places, place, least in ((ground, on, ASIDE[0]), (_places(start), slider, ASIDE[1])):
+        lies = float((np.array(places) - place).mean(axis=0) @ across)
+        if abs(lies) > least * float(np.ptp(places, axis=0).max()):
+            return across if lies < 0.0 else -across
     down = float(across @ np.array([0.3, -1.0]))
     return across if down > 0.0 else -across
 

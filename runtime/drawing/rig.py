@@ -140,10 +140,10 @@ def make_rig(postures: Sequence[Posture], plan: Plan | None = None) -> Rig:
     plan = plan or make_plan(postures)
     postures = [replace(posture, v=postures[0].v) for posture in postures]
     box = room_of_all(postures, [plan])
-    drawn = [make_sketch(postures[0], plan, box=box, inset=False)]
+    drawn = [make_sketch(postures[0], plan, box=box, inset=False, still=False)]
     real = list(postures[:: max(1, len(postures) // 6)][:8])
     tried = [*real, *_moved(real, float((box[1] - box[0]).max()))]
-    drawn += [make_sketch(posture, plan, box=box, inset=False) for posture in tried[1:]]
+    drawn += [make_sketch(posture, plan, box=box, inset=False, still=False) for posture in tried[1:]]
     places = [{key: shape for key, shape in _keyed(sketch)} for sketch in drawn]
     size, found = float((box[1] - box[0]).max()), dict[tuple[str, int], Carried]()
     parts = dict.fromkeys(shape.part for shape in drawn[0].shapes)

@@ -65,6 +65,7 @@ ROLES: Mapping[str, Role] = {
     "bearing": Role(INK, "#ececec", 1.0, 4.4),
     "hole": Role(INK, "white", 1.0, 4.5),
     "journal": Role(INK, "#cfe3f1", 1.0, 4.55),
+    "touched": Role(WRONG, "#ffd5d0", 1.4, 4.4),
     "touching": Role(WRONG, "#ffd5d0", 1.4, 4.55),
     "scale": Role(INK, "", 1.0, 1.0),
 }  # fmt: skip

@@ -8,9 +8,9 @@ import numpy as np
 
 from gudgeon.drawing.arrows import Arrows, round_number
 from gudgeon.drawing.bodies import bodies, names_of_bodies
-from gudgeon.drawing.insets import insets
+from gudgeon.drawing.insets import in_contact, insets
 from gudgeon.drawing.joints import joints, names_of_joints
-from gudgeon.drawing.movers import HEAD, arrow, gravity_of, movers, names_of_movers
+from gudgeon.drawing.movers import HEAD, arcs, arrow, gravity_of, movers, names_of_movers
 from gudgeon.drawing.plan import Plan, make_plan
 from gudgeon.drawing.posture import Posture
 from gudgeon.drawing.shapes import Label, Line, Shape, Sketch, box_of
@@ -21,22 +21,26 @@ MARGIN = 2.6  # units around all
 
 def make_sketch(
     posture: Posture, plan: Plan | None = None, *, more: Sequence[Shape] = (), labels: Sequence[Label] = (),
-    arrows: Sequence[Arrows] = (), loose: frozenset[str] = frozenset(), touching: frozenset[str] = frozenset(),
-    box: tuple[Array, Array] | None = None, inset: bool = True,
+    arrows: Sequence[Arrows] = (), loose: frozenset[str] = frozenset(), touching: frozenset[str] | None = None,
+    touched: frozenset[str] = frozenset(), box: tuple[Array, Array] | None = None, inset: bool = True,
+    still: bool = True,
 ) -> Sketch:  # fmt: skip
     """The drawing of a posture. `more` shapes with their `labels`, and `arrows` with their scales come on top.
 
-    With a `box` of `room_of_all` it keeps its place among others of a motion. `touching`: joints with play whose
-    surfaces are in contact; their insets are left out without `inset`. `loose` bodies are those that nothing holds.
+    With a `box` of `room_of_all` it keeps its place among others of a motion; names of a picture that is not `still`
+    say nothing that changes. `touching`: joints with play whose surfaces are in contact, None: those that overlap;
+    `touched`: those that met since the picture before; their insets are left out without `inset`. `loose` bodies are
+    those that nothing holds.
     """
     plan = plan or make_plan([posture])
     more = [*more, *(shape for kind in arrows for shape in kind.shapes)]
     shapes = [*bodies(posture, plan, loose), *joints(posture, plan), *movers(posture, plan), *more]
     low, high = box or room_of(shapes, plan)
-    told = [*names_of_bodies(posture, plan), *names_of_joints(posture, plan)]
-    told = [*labels, *told, *names_of_movers(posture, plan, inset)]
+    told = [*names_of_bodies(posture, plan), *names_of_joints(posture, plan, arcs(posture))]
+    told = [*labels, *told, *names_of_movers(posture, plan, still)]
+    touching = in_contact(posture) if touching is None else touching
     words, corner, beside = list[str](), high.copy(), list[Shape]()
-    for own, label, note in insets(posture, plan.unit, low, high, touching) if inset else ():
+    for own, label, note in insets(posture, plan.unit, low, high, touching, touched) if inset else ():
         beside += own
         told, words = [*told, label], [*words, note]
         corner = np.maximum(corner, box_of(own)[1] + 1.5 * plan.unit)
@@ -77,7 +81,7 @@ def _beside(
     tick = np.array([0.0, 0.5 * u])
     bar = np.array([begin + tick, begin - tick, begin, end, end + tick, end - tick])
     yield [Line("scale", "scale", bar)], Label("scale", "scale", length_text(length), end, 0.6 * u, 0.0)
-    for k, kind in enumerate(kind for kind in arrows if kind.shapes):
+    for k, kind in enumerate(kind for kind in arrows if kind.length > 0.0):
         tail = begin - [0.0, 2.6 * u * (k + 1)]
         tip = tail + [kind.length, 0.0]
         yield (

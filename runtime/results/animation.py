@@ -7,7 +7,7 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -25,7 +25,7 @@ from gudgeon.errors import BadValueError, GudgeonError, OutputError
 from gudgeon.files.writing import check_target, telling, write_bytes, write_text
 from gudgeon.language.shown import one_line
 from gudgeon.language.wanted import flag, number_of, path, refuse
-from gudgeon.results.mechanism_plots import force_arrows, path_lines, points_of, velocity_arrows
+from gudgeon.results.mechanism_plots import arrows_of, path_lines, points_of, touching_at
 from gudgeon.results.plots import caption_of
 from gudgeon.results.postures import posture_at, postures_of
 
@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 
 SUFFIXES = (".gif", ".mp4", ".html")
 RATE, LONGEST = 25.0, 1000  # pictures a second, and pictures in all
+RED = "red journal: in contact now; red bearing: touched since the picture before"
 SLOW, QUICK, SHOWN = 2.0, 20.0, 6.0  # s: shorter and longer runs are shown within the last
 
 
@@ -114,10 +115,12 @@ def sketches(run: Result, wanted: Wanted) -> Iterator[Sketch]:
     before = wanted.times[0]
     for t in wanted.times:
         posture = posture_at(run, float(t))
-        arrows = [velocity_arrows(posture, motion, plan)] if wanted.velocities else []
-        arrows += [force_arrows(run, posture, plan)] if wanted.forces else []
-        touching = touching_between(run, before, t)
-        yield make_sketch(posture, plan, more=lines, arrows=arrows, touching=touching, box=box)
+        to_scale, arrows = arrows_of(run, posture, motion, plan, wanted.velocities, wanted.forces)
+        drawn = make_sketch(
+            posture, to_scale, more=lines, arrows=arrows, touching=touching_at(run, posture),
+            touched=touching_between(run, before, t), box=box, still=False,
+        )  # fmt: skip
+        yield replace(drawn, notes=(*drawn.notes, RED)) if drawn.notes else drawn
         before = t
 
 

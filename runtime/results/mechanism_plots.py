@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.drawing.arrows import Arrows, arrows, velocities_of
+from gudgeon.drawing.arrows import LONGEST, Arrows, arrows, velocities_of
+from gudgeon.drawing.insets import in_contact
 from gudgeon.drawing.picture import draw_on
 from gudgeon.drawing.plan import Plan, make_plan
 from gudgeon.drawing.posture import Posture
@@ -34,15 +35,27 @@ def sketch_at(run: Result, t: Any, velocities: bool = False, forces: bool = Fals
     velocities, forces = flag(velocities, "velocities"), flag(forces, "forces")
     posture, motion = posture_at(run, time_of(run, t)), postures_of(run)
     plan = make_plan(motion)
-    more = [velocity_arrows(posture, motion, plan)] if velocities else []
-    more += [force_arrows(run, posture, plan)] if forces else []
-    return make_sketch(posture, plan, arrows=more, touching=touching_at(run, posture.t))
+    plan, more = arrows_of(run, posture, motion, plan, velocities, forces)
+    return make_sketch(posture, plan, arrows=more, touching=touching_at(run, posture))
 
 
-def touching_at(run: Result, t: float) -> frozenset[str]:
-    """Joints with play whose surfaces are in contact at the sample before t."""
-    k = max(int(np.searchsorted(run.t, t, side="right")) - 1, 0)
-    return frozenset(joint.name for c, joint in enumerate(run.source.clearances) if run.state[k, c] > 0)
+def touching_at(run: Result, posture: Posture) -> frozenset[str]:
+    """Joints with play whose surfaces are in contact at a posture's time: what a sample there says, between two those
+    that overlap as they are drawn."""
+    if (at := np.flatnonzero(run.t == posture.t)).size:
+        return frozenset(joint.name for c, joint in enumerate(run.source.clearances) if run.state[at[0], c] > 0)
+    return in_contact(posture)
+
+
+def arrows_of(
+    run: Result, posture: Posture, motion: Sequence[Posture], plan: Plan, velocities: bool, forces: bool
+) -> tuple[Plan, list[Arrows]]:
+    """What was asked for, and the plan that draws applied forces to the scale of reactions, if those are drawn."""
+    found = [velocity_arrows(posture, motion, plan)] if velocities else []
+    if not forces:
+        return plan, found
+    reactions, newton = force_arrows(run, posture, plan)
+    return replace(plan, newton=newton), [*found, reactions]
 
 
 def velocity_arrows(posture: Posture, motion: Sequence[Posture], plan: Plan) -> Arrows:
@@ -51,12 +64,17 @@ def velocity_arrows(posture: Posture, motion: Sequence[Posture], plan: Plan) -> 
     return arrows("velocity", dict(velocities_of(posture)), "m/s", plan.unit, max(speeds, default=0.0))
 
 
-def force_arrows(run: Result, posture: Posture, plan: Plan) -> Arrows:
-    """On the second body of each joint, of one with play on the journal, from the samples beside; the longest is the
-    longest of this moment, for blows would leave nothing of the others. Raises UnknownNameError without masses."""
+def force_arrows(run: Result, posture: Posture, plan: Plan) -> tuple[Arrows, float]:
+    """On the second body of each joint, of one with play on the journal, from the samples beside; the longest, applied
+    forces among them, is the longest of this moment, for blows would leave nothing of the others. With the length of
+    1 N (m of the drawing). Raises UnknownNameError without masses."""
     found = dict(_forces(run, posture))
-    largest = max((float(np.hypot(*vector)) for _, vector in found.values()), default=0.0)
-    return replace(arrows("reaction", found, "N", plan.unit, largest), on=" on the second body")
+    applied = [posture.loads[part.name] for part in posture.parts("forces", "force")]
+    sizes = [float(np.hypot(*vector)) for vector in (*(vector for _, vector in found.values()), *applied)]
+    largest = max((size for size in sizes if np.isfinite(size)), default=0.0)
+    told = " on the second body, applied force" if np.any(applied) else " on the second body"
+    drawn = replace(arrows("reaction", found, "N", plan.unit, largest), on=told)
+    return drawn, LONGEST * plan.unit / largest if largest > 0.0 else 0.0
 
 
 def _forces(run: Result, posture: Posture) -> Iterator[tuple[str, tuple[Array, Array]]]:
@@ -89,7 +107,7 @@ def draw_path(run: Result, sketch: Sketch, points: Sequence[str], ax: Axes) -> N
         x, y = run[f"{name}.x"], run[f"{name}.y"]
         ax.plot(x, y, color=colour, lw=1.4, label=name, gid=f"path-{name}", zorder=5)
         ax.plot(x[:1], y[:1], "o", ms=4, mfc="white", mec=colour, mew=1.0, zorder=5.1)
-    ax.legend(loc="upper right", fontsize=8, framealpha=0.8)
+    ax.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=8)  # outside: it hides nothing
 
 
 def path_lines(run: Result, points: Sequence[str]) -> list[Line]:

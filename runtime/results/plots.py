@@ -157,7 +157,9 @@ def _draw_mechanism(part: Any, run: Result) -> None:
     from gudgeon.drawing.picture import draw_on
     from gudgeon.results.mechanism_plots import start_sketch
 
-    draw_on(part.add_subplot(), start_sketch(run))
+    ax = part.add_subplot()
+    draw_on(ax, start_sketch(run))
+    ax.set_title(f"t = {float(run.t[0]):.6g} s")
 
 
 def _draw_motion(
@@ -215,7 +217,7 @@ def _over_time(ax: Axes, text: str, times: Sequence[Any], last: bool) -> None:
         factor, text = scale(end, "s")
         ax.xaxis.set_major_formatter(lambda t, _: f"{t * factor:g}")
         ax.set_xlabel(label("t", text))
-    ax.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 2.5, 5, 10]))
+    ax.yaxis.set_major_locator(MaxNLocator(nbins=4, steps=[1, 2, 2.5, 5, 10], min_n_ticks=3))
 
 
 def _folded(ax: Axes, text: str) -> str:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import json
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,7 +14,8 @@ from gudgeon.integrators.projection import project
 from gudgeon.language.wanted import number_of, refuse
 
 if TYPE_CHECKING:
-    from gudgeon.results.results import Result
+    from gudgeon.contract.kernel_source import KernelSource
+    from gudgeon.results.results import Array, Result
 
 CLOSING = 4  # times that a position between samples is led to Φ = 0
 OF_MOTION = 24  # positions that stand for a motion where a drawing makes room for it
@@ -37,7 +39,9 @@ def time_of(run: Result, t: Any) -> float:
 def posture_at(run: Result, t: float) -> Posture:
     """Where everything is at t (s); loads are those of the samples beside it, linear between."""
     k = int(np.clip(np.searchsorted(run.t, t), 1, max(len(run.t) - 1, 1)))
-    loads = {name: (_between(run, k, t, x), _between(run, k, t, y)) for name, x, y in _loads(run)}
+    near = slice(max(k - 1, 0), k + 1)
+    loads = {name: (float(np.interp(t, run.t[near], x[near])), float(np.interp(t, run.t[near], y[near])))
+             for name, x, y in _loads(run)}  # fmt: skip
     if (at := np.flatnonzero(run.t == t)).size:
         q, v = run.q[at[0]], run.v[at[0]]
     else:
@@ -51,23 +55,19 @@ def posture_at(run: Result, t: float) -> Posture:
 def postures_of(run: Result, count: int = OF_MOTION) -> list[Posture]:
     """The start, and samples of the whole run."""
     places = np.unique(np.linspace(0, len(run.t) - 1, count).round().astype(int))
-    return [Posture(run.source, run.p, run.q[k], float(run.t[k]), run.v[k]) for k in places]
+    series = [*_loads(run)]
+    loads = [{name: (float(x[k]), float(y[k])) for name, x, y in series} for k in places]
+    at = zip(places, loads, strict=True)
+    return [Posture(run.source, run.p, run.q[k], float(run.t[k]), run.v[k], own) for k, own in at]
 
 
-def _loads(run: Result) -> Iterable[tuple[str, str, str]]:
-    """Of forces and torques: name, and its series."""
+def _loads(run: Result) -> Iterator[tuple[str, Any, Any]]:
+    """Of forces and torques: name, and two series, of a torque the second is 0."""
     for part in run.source.parts:
         if part.kind == "force":
-            yield part.name, f"{part.name}.Fx", f"{part.name}.Fy"
+            yield part.name, run[f"{part.name}.Fx"], run[f"{part.name}.Fy"]
         elif part.kind == "torque":
-            yield part.name, f"{part.name}.M", ""
-
-
-def _between(run: Result, k: int, t: float, name: str) -> float:
-    if not name:
-        return 0.0
-    near = slice(max(k - 1, 0), k + 1)
-    return float(np.interp(t, run.t[near], run[name][near]))
+            yield part.name, run[f"{part.name}.M"], np.zeros(len(run.t))
 
 
 def _hermite(run: Result, k: int, t: float) -> tuple[Any, Any]:
@@ -78,3 +78,33 @@ def _hermite(run: Result, k: int, t: float) -> tuple[Any, Any]:
     q = (1 + 2 * s) * (1 - s) ** 2 * q_0 + s**2 * (3 - 2 * s) * q_1 + h * s * (1 - s) * ((1 - s) * v_0 - s * v_1)
     v = 6 * s * (1 - s) * (q_1 - q_0) / h + (1 - s) * (1 - 3 * s) * v_0 + s * (3 * s - 2) * v_1
     return q, v
+
+
+def loads_at(source: KernelSource, p: Array, q: Array, v: Array) -> dict[str, tuple[float, float]]:
+    """Forces (N, ground axes) and torques (N·m, 0) of the file at t = 0, q and v (n,), by its expressions."""
+    from gudgeon.results.bare import bare
+
+    none = np.zeros((1, 0))
+    state = np.zeros((1, len(source.clearances)), np.int8)
+    run = bare(source, None, p, np.zeros(1), q[None], v[None], none, none, state, frozenset())
+    written = {one.address: one.tree for one in source.written}
+    slots = {slot.address: float(x) for slot, x in zip(source.slots, p, strict=False)}
+
+    def number(address: str) -> float:
+        from gudgeon.language.tree import evaluate, from_json
+
+        if address not in written:
+            return slots.get(address, 0.0)
+        return float(np.ravel(evaluate(from_json(json.loads(written[address])), run.value_of))[0])
+
+    loads = {}
+    for part in source.parts:
+        if part.kind == "torque":
+            loads[part.name] = number(f"forces.{part.name}.value"), 0.0
+        elif part.kind == "force":
+            x, y = (number(f"forces.{part.name}.value.{axis}") for axis in "xy")
+            turn = part.options["axes"] == "body" and part.ends[0].partition(".")[0]
+            angle = float(run[f"{turn}.theta"][0]) if turn in {body.name for body in source.bodies} else 0.0
+            c, s = np.cos(angle), np.sin(angle)
+            loads[part.name] = float(c * x - s * y), float(s * x + c * y)
+    return loads

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from gudgeon.drawing.shapes import Sketch
     from gudgeon.results.results import Result
 
+LEGEND = 1.2  # inches for a legend beside a drawing
 SERIES = "the name of a series, or a list of such names"
 
 
@@ -133,13 +134,17 @@ class Plot:
         if not (names := points_of(self.run, points)):
             raise BadValueError("plot.path: expected the name of a point at least", hint='for example "coupler.head"')
         sketch = path_sketch(self.run)
-        return self._drawn(sketch, ax, lambda on: draw_path(self.run, sketch, names, on), caption_of(self.run))
+        caption = f"{caption_of(self.run)}, drawn at t = {float(self.run.t[0]):.6g} s"
+        return self._drawn(sketch, ax, lambda on: draw_path(self.run, sketch, names, on), caption, LEGEND)
 
-    def _drawn(self, sketch: Sketch, ax: Axes | None, draw: Callable[[Axes], None], caption: str) -> Axes:
+    def _drawn(
+        self, sketch: Sketch, ax: Axes | None, draw: Callable[[Axes], None], caption: str, beside: float = 0.0
+    ) -> Axes:
         from gudgeon.drawing.picture import size_of
 
         with matplotlib.rc_context(STYLE):
-            ax = _axes(*size_of(sketch, 7.0)) if ax is None else plain(ax)
+            width, height = size_of(sketch, 7.0)
+            ax = _axes(width + beside, height) if ax is None else plain(ax)
             draw(ax)
             ax.set_title(caption)
             ax.text(0.0, -0.01, "\n".join(sketch.notes), transform=ax.transAxes, va="top", fontsize=7.5)

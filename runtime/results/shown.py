@@ -95,11 +95,13 @@ def _sketch(shown: Any) -> Sketch:
     from gudgeon.drawing.posture import Posture
     from gudgeon.drawing.sketch import make_sketch
     from gudgeon.results.mechanism_plots import sketch_at
+    from gudgeon.results.postures import loads_at
 
     if hasattr(shown, "names"):
         return sketch_at(shown, float(shown.t[0]))
     start = shown.start()
-    posture = Posture(shown.source, shown.p, start.q, 0.0, start.v)
+    loads = loads_at(shown.source, shown.p, start.q, start.v)
+    posture = Posture(shown.source, shown.p, start.q, 0.0, start.v, loads)
     return make_sketch(posture, make_plan([posture]))
 
 

@@ -17,7 +17,7 @@ from gudgeon.drawing.plan import make_plan
 from gudgeon.drawing.rig import Rig, make_rig
 from gudgeon.drawing.shapes import Sketch
 from gudgeon.results.animation import QUICK, SHOWN, SLOW
-from gudgeon.results.postures import posture_at, postures_of
+from gudgeon.results.postures import postures_of
 from gudgeon.results.report import default_watch
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
@@ -32,9 +32,8 @@ KEPT, MOST = 400, 60  # samples and series of a run that is carried
 
 def rig_of(run: Result) -> Rig:
     """The drawing of a run."""
-    first, *others = postures_of(run, SHOWN_AT)
-    postures = [posture_at(run, float(run.t[0])), *others]
-    return make_rig(postures, make_plan([first, *others]))
+    motion = postures_of(run, SHOWN_AT)
+    return make_rig(motion, make_plan(motion))
 
 
 def panel(simulation: Simulation, run: Result, rig: Rig) -> dict[str, Any]:

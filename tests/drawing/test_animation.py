@@ -19,8 +19,12 @@ import pytest
 pytest.importorskip("matplotlib")
 
 import gudgeon  # noqa: E402
+from gudgeon.drawing.insets import eccentricity  # noqa: E402
+from gudgeon.drawing.shapes import Sketch  # noqa: E402
 from gudgeon.errors import BadValueError, GudgeonError, OutputError, UnknownNameError  # noqa: E402
-from gudgeon.results.animation import touching_between  # noqa: E402
+from gudgeon.results.animation import RED, sketches, touching_between, wanted_of  # noqa: E402
+from gudgeon.results.mechanism_plots import touching_at  # noqa: E402
+from gudgeon.results.postures import posture_at  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
 
 
@@ -147,6 +151,31 @@ def test_a_blow_between_two_pictures_is_seen(run: Result) -> None:
     assert touching_between(run, 0.10, 0.109) == frozenset()
     assert touching_between(run, 0.10, 0.111) == touching_between(run, 0.119, 0.2) == frozenset({"A"})
     assert touching_between(run, 0.13, 0.4) == frozenset() and touching_between(run, 0.9, 1.0) == frozenset({"A"})
+
+
+def test_red_is_what_is_at_that_time(crank: Result) -> None:
+    """A red journal where e ≥ c at the picture's time; a red bearing where a contact came and went since the last."""
+    wanted = wanted_of(crank, 1.0, len(crank.t), [], False, False)
+    every = [*sketches(crank, replace(wanted, times=crank.t))]
+    now = np.array(["touching" in roles(sketch) for sketch in every])
+    since = np.array(["touched" in roles(sketch) for sketch in every])
+    assert (now == (crank["wristpin.eps"] >= 1.0)).all() and now.any() and not now.all()
+    on, off, t = crank.impacts["t_on"], np.nan_to_num(crank.impacts["t_off"], nan=np.inf), crank.t
+    met = np.array([((on <= end) & (off >= begin)).any() for begin, end in zip(t, t[1:], strict=False)])
+    assert (since[1:] == (met & ~now[1:])).all() and since.any()
+    assert all(RED in sketch.notes for sketch in every)
+
+
+def roles(sketch: Sketch) -> set[str]:
+    return {shape.role for shape in sketch.of("inset wristpin")}
+
+
+def test_between_samples_red_is_what_is_drawn(crank: Result) -> None:
+    for t in (crank.t[1:] + crank.t[:-1]) / 2:
+        posture = posture_at(crank, float(t))
+        ends = crank.source.clearances[0]
+        overlaps = float(np.hypot(*eccentricity(posture, "wristpin"))) >= crank.p[ends.clearance]
+        assert touching_at(crank, posture) == (frozenset({"wristpin"}) if overlaps else frozenset())
 
 
 def test_files(crank: Result, tmp_path: Path) -> None:

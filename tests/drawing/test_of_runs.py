@@ -13,9 +13,10 @@ pytest.importorskip("matplotlib")
 
 import gudgeon  # noqa: E402
 from gudgeon.drawing.labels import Names  # noqa: E402
+from gudgeon.drawing.movers import ARROW  # noqa: E402
 from gudgeon.errors import BadValueError, UnknownNameError  # noqa: E402
 from gudgeon.results import plots  # noqa: E402
-from gudgeon.results.postures import posture_at  # noqa: E402
+from gudgeon.results.postures import loads_at, posture_at  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
 
 
@@ -118,6 +119,49 @@ def test_arrows_are_the_series_to_the_scale_that_is_drawn(press: Result) -> None
                 assert span == pytest.approx(np.array(vector) * metres, rel=1e-9, abs=1e-12), name
             else:
                 assert np.hypot(*vector) * metres < 1e-3
+
+
+@pytest.fixture(scope="module")
+def pushed() -> Result:
+    return gudgeon.load("slider_crank_spring").simulate(0.5, output=50)
+
+
+def test_applied_forces_are_to_the_scale_of_reactions(pushed: Result) -> None:
+    """Both against the series, by the arrow of a round number; without reactions a force has one length."""
+    ax = pushed.plot.mechanism(float(pushed.t[20]), forces=True)
+    found = by_gid(ax)
+    (names,) = [artist for artist in ax.get_children() if isinstance(artist, Names)]
+    told = {label.part: label.text for label in names.sketch.labels}["scale reaction"]
+    stands, unit = re.fullmatch(r"reaction on the second body, applied force: ([\d.]+) (m?N)", told).groups()  # type: ignore[union-attr]
+    length = np.hypot(*(found["scale-reaction-2"].get_xy()[0] - found["scale-reaction"].get_xy()[0]))
+    metres = length / (float(stands) * (1e-3 if unit == "mN" else 1.0))
+    for gid, series in (("force-push", "push"), *((f"reaction-{joint}", joint) for joint in ("O", "slider"))):
+        span = found[f"{gid}-2"].get_xy()[0] - found[gid].get_xy()[0]
+        assert span == pytest.approx([metres * pushed[f"{series}.F{axis}"][20] for axis in "xy"], rel=1e-9, abs=1e-12)
+    plain = by_gid(pushed.plot.mechanism(float(pushed.t[20])))
+    shaft = plain["force-push-2"].get_xy()[0] - plain["force-push"].get_xy()[0]
+    assert np.hypot(*shaft) == pytest.approx(ARROW * names.sketch.unit)
+
+
+def test_a_force_has_an_arrow_in_every_drawing_of_a_run(pushed: Result) -> None:
+    picture: Any = plots.figure({"ideal": pushed}, pushed, ["rod.x"])
+    (drawn,) = [ax for ax in picture.get_axes() if "body-rod" in by_gid(ax)]
+    assert drawn.get_title() == "t = 0 s"
+    scene = gudgeon.load("slider_crank_spring")
+    for found in (by_gid(drawn), by_gid(pushed.plot.path("rod.tip"))):
+        assert {"force-push", "force-push-2"} <= set(found)  # a shaft and a head
+    start = scene.start()
+    (push,) = loads_at(scene.source, scene.p, start.q, start.v).values()
+    assert push == pytest.approx((pushed["push.Fx"][0], pushed["push.Fy"][0])) == (1.0, 0.0)
+
+
+def test_a_paths_legend_lies_beside_the_drawing(four_bar: Result) -> None:
+    ax = four_bar.plot.path("coupler.tracer", "rocker")
+    figure: Any = ax.figure
+    figure.draw_without_rendering()
+    legend: Any = ax.get_legend()
+    ends = [text.get_window_extent().x1 for text in legend.get_texts()]
+    assert legend.get_window_extent().x0 >= ax.get_window_extent().x1 and max(ends) <= figure.bbox.x1
 
 
 def test_what_cannot_be_drawn_is_told(four_bar: Result) -> None:

@@ -17,6 +17,8 @@ from hypothesis import strategies as st
 
 pytest.importorskip("matplotlib")
 
+from matplotlib.figure import Figure  # noqa: E402
+
 from gudgeon.errors import GudgeonError  # noqa: E402
 from gudgeon.language.plot_units import PREFIXES, pretty, quantity, scale  # noqa: E402
 from gudgeon.results import plots  # noqa: E402
@@ -40,6 +42,16 @@ def test_the_picture_has_errors_forces_and_orbits(run: Result, ideal: Result, tm
     plots.save_figure(picture, tmp_path / "x.png")
     header = (tmp_path / "x.png").read_bytes()[:24]
     assert (int.from_bytes(header[16:20]), int.from_bytes(header[20:24])) == (1200, 900)
+
+
+@given(st.floats(-3, 3), st.floats(-1, 1))
+def test_an_axis_over_time_has_three_ticks_at_least(power: float, middle: float) -> None:
+    ax: Any = Figure(figsize=(4, 2.5)).add_subplot()
+    low, high = (10**power * (middle + part) for part in (-0.02, 0.02))
+    ax.plot([0.0, 1.0], [low, high])
+    plots._over_time(ax, "x [m]", [np.array([0.0, 1.0])], True)
+    begin, end = ax.get_ylim()
+    assert sum(begin <= tick <= end for tick in ax.get_yticks()) > 2
 
 
 def test_an_orbit_is_in_units_of_the_clearance_and_stays_in_its_square(run: Result) -> None:

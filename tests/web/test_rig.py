@@ -22,7 +22,7 @@ from gudgeon.drawing.shapes import Disc, Shape, Sketch  # noqa: E402
 from gudgeon.drawing.sketch import make_sketch, room_of_all  # noqa: E402
 from gudgeon.loading.shipped import shipped  # noqa: E402
 from gudgeon.model.parameters import prepare  # noqa: E402
-from gudgeon.results.postures import postures_of  # noqa: E402
+from gudgeon.results.postures import posture_at, postures_of  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
 from gudgeon.web.description import description  # noqa: E402
 from gudgeon.web.page import file_text  # noqa: E402
@@ -74,7 +74,7 @@ def test_points_are_where_they_are_drawn(name: str) -> None:
     run, rig, plan, box = ran(name)
     rows = np.random.default_rng(4).integers(0, len(run.t), 12)
     first = run.v[0]
-    others = [Posture(run.source, run.p, run.q[k], float(run.t[k]), first) for k in rows]
+    others = [replace(posture_at(run, float(run.t[k])), v=first) for k in rows]
     assert max(off(rig, posture, plan, box) for posture in others) < EXACT
     assert max(one.off for one in rig.shapes) < NEAR * rig.size
 
@@ -95,8 +95,8 @@ def test_a_length_moves_what_it_carries() -> None:
 
 PLACES = """
 const fs = require("fs"), asked = JSON.parse(fs.readFileSync(0, "utf-8")), rig = new Rig(asked.rig, asked.points);
-console.log(JSON.stringify(asked.postures.map(({q, p}) => {
-    rig.update(q, p);
+console.log(JSON.stringify(asked.postures.map(({q, p, loads}) => {
+    rig.update(q, p, (name) => loads[name]);
     return rig.shapes.map((shape) => rig.points(shape).flat());
 })));
 """
@@ -112,12 +112,12 @@ def test_a_page_places_them_alike(name: str, tmp_path: Path) -> None:
     file = tmp_path / "places.js"
     file.write_text(file_text("drawing.js") + PLACES, encoding="utf-8")
     rows, about = [0, 40, 99], json.loads(description(gudgeon.load(name).compiled))
-    asked = {"rig": rig.json(), "points": about["points"],
-             "postures": [{"q": run.q[k].tolist(), "p": run.p.tolist()} for k in rows]}  # fmt: skip
+    postures = [replace(posture_at(run, float(run.t[k])), v=run.v[0]) for k in rows]
+    told = [{"q": one.q.tolist(), "p": one.p.tolist(), "loads": dict(one.loads)} for one in postures]
+    asked = {"rig": rig.json(), "points": about["points"], "postures": told}
     done = subprocess.run([program, str(file)], input=json.dumps(asked), capture_output=True, text=True, timeout=60)
     assert done.returncode == 0, done.stderr
-    for k, told in zip(rows, json.loads(done.stdout), strict=True):
-        posture = Posture(run.source, run.p, run.q[k], v=run.v[0])
-        for carried, found in zip(rig.shapes, told, strict=True):
+    for posture, placed in zip(postures, json.loads(done.stdout), strict=True):
+        for carried, found in zip(rig.shapes, placed, strict=True):
             there = points(carried.at(posture))
             assert np.abs(np.reshape(found, (-1, 2)) - there).max() < 0.1 * EXACT * rig.size
