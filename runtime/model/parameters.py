@@ -65,17 +65,28 @@ def addresses(source: KernelSource) -> list[str]:
 
 def as_parameter(source: KernelSource, address: str) -> tuple[str, str]:
     """(message, hint) about an address that holds an expression of t or motion, and no number; "" for another one."""
+    if (found := _of_the_run(address))[0]:
+        return found
     written = next((one for one in source.written if one.address == address), None)
     if written is None and address.removeprefix("outputs.") not in source.outputs:
-        found = (_unplaced_journal(source, address), _only_material(source, address), _literal_zero(source, address),
+        several = (_unplaced_journal(source, address), _only_material(source, address), _literal_zero(source, address),
                  _of_motion(source, address))  # fmt: skip
-        return next((one for one in found if one[0]), ("", ""))
+        return next((one for one in several if one[0]), ("", ""))
     key = address.rpartition(".")[2]
     told = f"{address} is an expression of t or motion, compiled as it stands: it is no number that can be set"
     return told, (
         f"a number in it can be, once it is a parameter: parameters: {{phase: … deg}}, {key}: phase + …,"
         " then set phase; overrides= of gudgeon.load compiles anew with another expression"
     )
+
+
+def _of_the_run(address: str) -> tuple[str, str]:
+    """The same of what a scene's `simulate` says: the run has it from its options."""
+    section, _, key = address.rpartition(".simulate.")
+    if not section.startswith("scenes.") or key not in ("t_end", "output", "step"):
+        return "", ""
+    told = f"{address} is how a run goes unless it is told otherwise, and no number of the mechanism"
+    return told, f"tell the run: --{key.replace('_', '-')} of the command, {key}= of simulate"
 
 
 def _of_motion(source: KernelSource, address: str) -> tuple[str, str]:
