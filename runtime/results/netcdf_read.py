@@ -12,12 +12,14 @@ import re
 from collections.abc import Callable, Container, Mapping
 from dataclasses import replace
 from pathlib import Path
+from stat import S_ISREG
 from typing import Any, TypeVar
 
 import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, InputError, in_a_line
+from gudgeon.files.writing import kind
 from gudgeon.integrators.trace import COLUMNS, Trace
 from gudgeon.integrators.trajectory import EVENT_DTYPE, IMPACT_DTYPE
 from gudgeon.language.wanted import path as named
@@ -50,16 +52,16 @@ def opened(path: str | os.PathLike[str], make: Callable[[Any, int], Made]) -> Ma
         raise GudgeonError("NetCDF files need h5py: pip install 'gudgeon[xarray]'") from error
     path, shown = Path(named(path, "path")), in_a_line(os.fspath(path))
     try:
-        known = path.is_file()
-    except OSError:  # a name that is too long
-        known = False
-    if not known:
-        raise InputError(f"there is no file {shown}")
+        found = path.stat()
+    except OSError:  # a name that is too long, too
+        raise InputError(f"there is no file {shown}") from None
+    if not S_ISREG(found.st_mode):
+        raise InputError(f"cannot read {shown}: it is {kind(found)}, not a file")
     try:
         if is_damaged(path):
             raise InputError(f"{shown} is not as it was written: it was damaged", hint="run the scene again")
         with h5py.File(path, "r") as file:
-            return make(file, path.stat().st_size)
+            return make(file, found.st_size)
     except InputError:
         raise
     except Exception as error:  # whatever HDF5, JSON or NumPy make of what should not be

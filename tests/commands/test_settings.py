@@ -125,6 +125,16 @@ def test_a_drive_too_fast_for_doubles_is_no_dead_centre(scene: str, call: Gudgeo
     assert told in done.stderr and "its rate 1e+200 rad/s\n  a slower drive can be followed" in done.stderr
 
 
+@pytest.mark.parametrize(("key", "option"), [("step", "--step"), ("t_end", "--t-end"), ("output", "--output")])
+def test_how_a_run_goes_is_told_to_the_run(key: str, option: str, call: Gudgeon, pump: str) -> None:
+    for command in ("check", "run"):
+        done = call(command, pump, "--set", f"scenes.worn.simulate.{key}=1")
+        told = " ".join(done.stderr.split())
+        assert done.exit_code == 2 and f"tell the run: {option} of the command, {key}= of simulate" in told
+    with pytest.raises(UnknownNameError, match=option):
+        gudgeon.load(pump).simulate(1e-3, parameters={f"scenes.worn.simulate.{key}": 1.0})
+
+
 def test_what_overflows_is_told_by_the_key_that_was_written(call: Gudgeon, pump: str) -> None:
     done = call("run", pump, "--set", "bodies.rod.length=1e200m")
     assert done.exit_code == 2 and "error: bodies.rod.length is 1e+200 m, too far from 1 for doubles:" in done.stderr
