@@ -12,14 +12,13 @@ import re
 from collections.abc import Callable, Container, Mapping
 from dataclasses import replace
 from pathlib import Path
-from stat import S_ISREG
 from typing import Any, TypeVar
 
 import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, InputError, in_a_line
-from gudgeon.files.writing import kind
+from gudgeon.files.reading import check_regular
 from gudgeon.integrators.trace import COLUMNS, Trace
 from gudgeon.integrators.trajectory import EVENT_DTYPE, IMPACT_DTYPE
 from gudgeon.language.wanted import path as named
@@ -55,8 +54,7 @@ def opened(path: str | os.PathLike[str], make: Callable[[Any, int], Made]) -> Ma
         found = path.stat()
     except OSError:  # a name that is too long, too
         raise InputError(f"there is no file {shown}") from None
-    if not S_ISREG(found.st_mode):
-        raise InputError(f"cannot read {shown}: it is {kind(found)}, not a file")
+    check_regular(found, shown)
     try:
         if is_damaged(path):
             raise InputError(f"{shown} is not as it was written: it was damaged", hint="run the scene again")

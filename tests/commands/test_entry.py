@@ -103,5 +103,6 @@ def test_a_second_ctrl_c_while_python_ends_leaves_the_exit_code(tmp_path: Path) 
     done = subprocess.run([sys.executable, "-c", code, *words], cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 130 and done.stderr.startswith("interrupted: what was computed"), done.stderr
     code = TERMINATED + LATE + START
-    done = subprocess.run([sys.executable, "-c", code, "check", "pendulum"], cwd=tmp_path, capture_output=True)
-    assert (done.returncode, done.stderr) == (0, b"")
+    words = ["check", "pendulum"]
+    done = subprocess.run([sys.executable, "-c", code, *words], cwd=tmp_path, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
