@@ -12,7 +12,7 @@ import os
 import signal
 import sys
 
-from gudgeon.waiting.last_word import INTERRUPTED, is_the_program, last_word
+from gudgeon.waiting.last_word import INTERRUPTED, is_the_program, last_word, nothing_more
 
 ENDING = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
@@ -34,6 +34,7 @@ def main() -> None:
     try:
         _run()
     except SystemExit as end:
+        nothing_more()  # a command that says itself what an interrupt left ends here too
         sys.exit(128 + ended[0] if ended and end.code == INTERRUPTED else end.code)
 
 

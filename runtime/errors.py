@@ -155,6 +155,9 @@ class MemoryShortage(GudgeonError):
         )
 
 
+LIMITED = "a limit is set on the size of files (ulimit -f)"
+
+
 class CacheError(GudgeonError):
     """The cache folder cannot be used."""
 
@@ -192,6 +195,6 @@ _NAMED = {
 _HINTS = {
     errno.ENOSPC: "what stood there is as it was; make room or name another folder, and do it again",
     errno.EDQUOT: "what stood there is as it was; make room or name another folder, and do it again",
-    errno.EFBIG: "what stood there is as it was; a limit is set on the size of files (ulimit -f)",
+    errno.EFBIG: f"what stood there is as it was; {LIMITED}",
     errno.ENAMETOOLONG: "choose a shorter name",
 }

@@ -7,11 +7,20 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 
-from gudgeon.errors import BadValueError, ExpressionError, InputError, InputErrors, Location, UnknownNameError
+from gudgeon.errors import (
+    BadNameError,
+    BadValueError,
+    ExpressionError,
+    InputError,
+    InputErrors,
+    Location,
+    UnknownNameError,
+)
 from gudgeon.generator.format.shapes import ANY_NAME, check_shape
 from gudgeon.generator.mechanism.mechanism import Condition, Quantity, Vector
 from gudgeon.generator.yaml.tree import Map, Text
 from gudgeon.language.curves import Curve
+from gudgeon.language.names import RESERVED
 from gudgeon.language.parser import at, check_dimension, parse
 from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import CurveCall, Expr, Name, Number, Unary, curve_calls, evaluate, names
@@ -20,6 +29,7 @@ from gudgeon.language.units import DIMENSIONLESS, TIME, Dimension
 ResultDimension = Callable[[Name, Location], Dimension | None]  # None: fits any
 
 
+REFUSED = re.compile(r"'(.+)' cannot name this (?:parameter|curve): ")  # what names.py says
 MOST_ERRORS = 50  # nobody reads more, and each costs a search for the nearest name
 
 
@@ -43,6 +53,7 @@ class Reader:
         self.parameters: dict[str, Dimension | None] = {}  # None: defined without a unit
         self.uses: dict[str, set[Dimension]] = {}  # of those: what they were used as
         self.left_out: frozenset[str] = frozenset()  # names of entries whose shape is wrong
+        self.texts: list[Text] = []  # expressions
 
     def check_shape(self, root: Map) -> Map:
         """The file without the entries whose shape is wrong: these are told, and not missed."""
@@ -68,7 +79,9 @@ class Reader:
 
     def raise_errors(self) -> None:
         """Raise what was collected: one error as itself, several as InputErrors."""
-        errors = [e for e in {_told(e): e for e in reversed(self.errors)}.values() if not self._follows(e)]
+        several = {_told(e): e for e in reversed(self.errors)}.values()
+        misnamed = self._with_refused_names()
+        errors = [e for e in several if not (self._follows(e) or any(_stands_in(e, text) for text in misnamed))]
         if len(errors) == 1:
             raise errors[0]
         if errors:
@@ -78,6 +91,16 @@ class Reader:
         """Whether an error is that of a name whose entry was left out."""
         name = re.match(r"unknown [^']*'([A-Za-z0-9_]+)", error.message)
         return isinstance(error, UnknownNameError) and bool(self.left_out.intersection((ANY_NAME, name and name[1])))
+
+    def _with_refused_names(self) -> list[Text]:
+        """Expressions with a name that was refused where it is defined: what is told of them follows from that.
+
+        What an expression may hold all the same (t, pi) says nothing of the rest.
+        """
+        found = (REFUSED.match(e.message) for e in self.errors if isinstance(e, BadNameError))
+        names = [re.escape(one[1]) for one in found if one and one[1] not in RESERVED]
+        held = re.compile(rf"(?<![\w.])(?:{'|'.join(names)})(?!\w| *\()")
+        return [text for text in self.texts if held.search(text)] if names else []
 
     def quantity(
         self,
@@ -108,6 +131,7 @@ class Reader:
 
     def parse(self, text: Text, address: str) -> Expr:
         """The tree of a scalar. Raises what expressions.parse raises, and on nothing or several lines."""
+        self.texts.append(text)
         if text.is_nothing:
             raise BadValueError(f"{address} has no value", text.where, "expected a number or an expression")
         if not text.one_line:
@@ -158,6 +182,13 @@ class Reader:
     def require_less(self, quantity: Quantity, sum_of: str, message: str) -> None:
         """A condition whose bound is a sum: addresses with " + " between."""
         self.conditions.append(Condition(quantity.address, "<", sum_of, message))
+
+
+def _stands_in(error: InputError, text: Text) -> bool:
+    """Whether an error's place lies in an expression."""
+    if (at_error := error.where) is None or (at_error.file, at_error.line) != (text.where.file, text.where.line):
+        return False
+    return 0 <= at_error.column - text.where.column <= len(text)
 
 
 def _told(error: InputError) -> tuple[str, str, str]:

@@ -26,6 +26,7 @@ from gudgeon.contract.limits import MAX_BYTES
 from gudgeon.errors import InputError, InputErrors, LimitError, Location, NotYamlError, UnknownKeyError
 from gudgeon.generator.yaml.commas import Events
 
+MERGED = "write the keys out; a contact, or a scene, takes those of another one by extends: NAME"
 MAX_DEPTH = 24
 MAX_NODES = 20_000  # aliases counted as what they stand for
 # what ruamel raises on hostile text besides its own errors: "%YAML 1.13" fails an assertion
@@ -250,7 +251,7 @@ class _Composer:
             below = next(self.events)
             value = self.node(self.events.whole(below, True) if event.flow_style else below, depth + 1)
             if key == "<<":
-                raise UnknownKeyError("merge keys ('<<') are no part of the format", key.where, "use extends:")
+                raise UnknownKeyError("merge keys ('<<') are no part of the format", key.where, MERGED)
             if key in made:
                 first = made.key(key).where
                 self.duplicates.append(

@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource, PointInfo
 from gudgeon.model.compiled import Array
-
-_LENGTH = (1, 0, 0)  # exponents of m, kg, s
+from gudgeon.model.sizes import mechanism_sizes
 
 
 class Linkage(Protocol):
@@ -37,23 +36,7 @@ class Linkage(Protocol):
 
 def mechanism_size(linkage: Linkage, p: Array) -> float:
     """The largest coordinate of a point in its body, of a ground point, or length of a joint, m."""
-    return float(mechanism_sizes(linkage, p))
-
-
-def mechanism_sizes(linkage: Linkage, p: Array) -> Array:
-    """The same for parameters of any number of runs: (...,) from (..., n_slots + n_derived)."""
-    index = size_places(linkage.source)
-    if not index:
-        return np.ones(p.shape[:-1])
-    size = np.abs(p[..., index]).max(axis=-1, initial=0.0)
-    return np.where(size > 0.0, size, 1.0)
-
-
-def size_places(source: KernelSource) -> list[int]:
-    """Indices into p of these coordinates and lengths."""
-    index = [k for point in source.points for k in (point.x, point.y) if k >= 0]
-    lengths = [slot.dimension == _LENGTH and slot.address.startswith("joints.") for slot in source.slots]
-    return index + [k for k, is_length in enumerate(lengths) if is_length]
+    return float(mechanism_sizes(linkage.source, p))
 
 
 def angles(source: KernelSource) -> NDArray[np.bool_]:

@@ -25,11 +25,16 @@ def read_named(file: str | os.PathLike[str], most: int, what: str = "", hint: st
                 data = opened.read(most + 1) if found.st_size <= most else b""
     except (OSError, ValueError) as error:  # ValueError: a name with a zero byte
         raise InputError(f"cannot read {told}: {getattr(error, 'strerror', '') or error}", hint=hint) from error
-    if not stat.S_ISREG(found.st_mode):
-        pipe = stat.S_ISFIFO(found.st_mode)
-        hint = "write what comes through the pipe to a file first" if pipe else hint
-        raise InputError(f"cannot read {told}: it is {kind(found)}, not a file", hint=hint)
+    check_regular(found, told, hint)
     size = max(found.st_size, len(data))
     if size > most:
         raise LimitError(f"a file of {size} bytes", Location(os.fspath(file), 1, 1), f"expected at most {most}")
     return data
+
+
+def check_regular(found: os.stat_result, told: str, hint: str = "") -> None:
+    """InputError for a folder, a device, a pipe, by what `told` calls it."""
+    if not stat.S_ISREG(found.st_mode):
+        pipe = stat.S_ISFIFO(found.st_mode)
+        hint = "write what comes through the pipe to a file first" if pipe else hint
+        raise InputError(f"cannot read {told}: it is {kind(found)}, not a file", hint=hint)

@@ -21,7 +21,7 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.assembly.linkage import angles, mechanism_sizes
+from gudgeon.assembly.linkage import angles
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.contract.methods import ADAPTIVE, AUTO, CHOOSING, KINEMATIC
 from gudgeon.errors import BadValueError, InputError
@@ -30,6 +30,7 @@ from gudgeon.integrators.session import Session
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameters import number
+from gudgeon.model.sizes import mechanism_sizes
 
 RTOL = 1e-8  # of a plain run
 FELT_BY_FILMS = 0.015  # share of the speeds within a film that an error of velocities may be
@@ -119,7 +120,7 @@ def choice_of(compiled: CompiledModel, method: str) -> tuple[int, int]:
 
 def lengths(compiled: CompiledModel, p: Array) -> tuple[Array, Array]:
     """L and S of the module's text (m), (...)."""
-    size = mechanism_sizes(compiled, p)
+    size = mechanism_sizes(compiled.source, p)
     play = p[..., [joint.clearance for joint in compiled.source.clearances]]
     least = np.where(play > 0.0, play, np.inf).min(axis=-1, initial=np.inf)
     return np.where(np.isfinite(least), least, size), size

@@ -17,7 +17,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.assembly.followed import unfollowed
-from gudgeon.assembly.linkage import mechanism_sizes
 from gudgeon.assembly.start import assemble
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators import adaptive, lanes, rk4
@@ -28,6 +27,7 @@ from gudgeon.integrators.steps import Look, Tape
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Counts, Progress, Trajectory, plain
 from gudgeon.model.compiled import N_WORK, Array, CompiledModel
+from gudgeon.model.sizes import mechanism_sizes
 from gudgeon.waiting.ctrl_c import CtrlC
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ class Runs:
         scale, least = adaptive.tolerances(compiled, p, rtol)
         self.arrays: dict[str, NDArray[Any]] = {
             "t": times.t, "wanted": times.count, "place": np.arange(n) % places, "p": p, "p_motion": motion,
-            "size": mechanism_sizes(compiled, p), "step": step, "scale": scale, "least": least,
+            "size": mechanism_sizes(compiled.source, p), "step": step, "scale": scale, "least": least,
             "start": np.full((n, 2 * compiled.n), np.nan),
             "started": np.zeros(n, np.uint8), "phase": np.zeros(n, np.uint8), "y": np.empty((places, N, size)),
             "remembered": np.full((n, max(compiled.n_memory, 1)), np.nan), "codes": np.zeros((n, nc), np.int8),

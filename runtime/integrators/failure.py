@@ -23,6 +23,8 @@ NO_NUMBER = "end the run before that, or write it so that it is a number at ever
 NO_SLOPE = "method dop853 does without slopes; or write the force so that it has one there"
 BOUNDED = "end the run before that, or write the drive so that its second rate is bounded: with powers of 2 and more"
 GROWN = "a drive that grows beyond all bounds cannot be followed: end the run before it, or change the drive"
+SLOWER = "a slower drive can be followed: look at its unit"
+OVERFLOWING = 1e75  # rad/s or m/s: an acceleration is its square, an energy or a force the square of that
 FELT, TOO_FAST = 1e-3, 1e9  # rad or m in a step of a run that stands still; rad/s or m/s that nothing can follow
 NEARLY_CLOSED = 0.99  # e/c of a film, beyond which its law is what fails
 
@@ -35,6 +37,8 @@ def failure(
 
     `ahead` (s): how far a step of fixed length looked beyond that state.
     """
+    if status != STOPPED and (too_large := overflowing(compiled, p, t)):
+        return too_large
     q, v = np.ravel(last)[: compiled.n], np.ravel(last)[compiled.n : 2 * compiled.n]
     if status in (UNBOUNDED, TOO_SMALL, NOT_FINITE) and (why := undefined_here(compiled.source, p, t, q, v, ahead)):
         return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)
@@ -139,6 +143,14 @@ def drives_at(compiled: CompiledModel, p: Array, t: float, fast: float = 0.0) ->
         if row.kind == "drive" and row.owner in values and not abs(rate) < fast  # a number alone stays where it is
     ]
     return "".join(f"; {text}" for text in told)
+
+
+def overflowing(compiled: CompiledModel, p: Array, t: float) -> NonFiniteError | None:
+    """The error for drives that are so fast that no double holds what follows from them; None: there are none."""
+    if fast := drives_at(compiled, p, t, OVERFLOWING):
+        told = f"velocities and accelerations are too large for doubles at t = {t:.9g} s{fast}"
+        return NonFiniteError(f"{told}\n  {SLOWER}", t)
+    return None
 
 
 def outgrown(pace: Pace, drives: str) -> SolverError:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
-from gudgeon.integrators.failure import NO_NUMBER, STALLED, STOPPED, Pace, drives_at, outgrown, too_far
+from gudgeon.integrators.failure import NO_NUMBER, STALLED, STOPPED, Pace, drives_at, outgrown, overflowing, too_far
 from gudgeon.integrators.kinematic_events import Events
 from gudgeon.integrators.session import resolution
 from gudgeon.integrators.steps import Course, Look, Steps
@@ -223,6 +223,8 @@ def along(compiled: CompiledModel, p: Array, t: Array, q: Array, v: Array) -> tu
 
 def _failure(problem: Problem, status: int, t: float) -> SolverError:
     """Why the motion cannot be followed beyond t (s)."""
+    if told := overflowing(problem.compiled, problem.p, t):
+        return told
     later = problem.t[problem.t > t]
     until = float(later[0]) if len(later) else t
     why, when = reason_between(problem.compiled.source, problem.p, t, until)

@@ -73,7 +73,7 @@ def check_label(name: str, what: str, where: Location | None) -> None:
     It is enough for what no expression and no C identifier is called by alone: scenes, materials, bearings, contacts.
     """
     if not IDENTIFIER.fullmatch(name):
-        hint = "expected a letter, then letters, digits or '_'"
+        hint = "expected a letter, then letters, digits or '_', in ASCII"
         if IDENTIFIER.fullmatch(plain := name.replace("-", "_").replace(" ", "_")):
             hint += f", such as {plain}"
         if "=" in name and IDENTIFIER.fullmatch(plain := name.partition("=")[0].strip()):

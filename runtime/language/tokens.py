@@ -15,6 +15,7 @@ from gudgeon.language.names import WORDS
 from gudgeon.language.suggestions import nearest
 from gudgeon.language.tree import FUNCTIONS, Number
 from gudgeon.language.units import LATER, OTHER_WORDS, UNITS, Unit, factors, parse_unit, unit
+from gudgeon.language.wanted import IN_RANGE
 
 _MAX_EXPONENT = 400  # decimal: beyond it no number is finite, and exact fractions grow without bound
 _TOKEN = re.compile(
@@ -107,7 +108,7 @@ class Tokenizer:
         except OverflowError:
             self.fail(f"{text!r} is too large", start, "expected a number below 1.8e308")
         if value and not sys.float_info.min <= abs(si) < math.inf:  # below it digits are lost
-            self.fail(f"{text!r} is out of range", start, "expected a magnitude from 2.3e-308 to 1.7e308")
+            self.fail(f"{text!r} is out of range", start, IN_RANGE)
         return Token("number", text, start, Number(si, text, found is not None, start))
 
     def _value(self, literal: str, start: int) -> Fraction:
@@ -130,7 +131,7 @@ class Tokenizer:
             self.fail(f"{following!r} right behind the number {literal}", self.position, hint)
         _, _, exponent = literal.lower().partition("e")
         if exponent and (len(exponent) > 5 or abs(int(exponent)) > _MAX_EXPONENT):
-            self.fail(f"{literal!r} is out of range", start, "expected a magnitude from 2.3e-308 to 1.7e308")
+            self.fail(f"{literal!r} is out of range", start, IN_RANGE)
         return Fraction(literal)
 
     def _unit(self, start: int) -> tuple[Unit | None, int]:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import os
+import sys
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NoReturn, TypeGuard, TypeVar
 
@@ -15,6 +16,7 @@ import numpy as np
 from gudgeon.errors import BadValueError
 
 One = TypeVar("One")
+IN_RANGE = "expected a magnitude from 2.3e-308 to 1.7e308"
 
 
 def told(value: object) -> str:
@@ -92,7 +94,7 @@ def number_of(value: Any, name: str) -> float:
     try:
         if isinstance(value, (str, bytes, bool, np.bool_)) or np.ndim(value) or np.iscomplexobj(value):
             raise TypeError
-        if isinstance(value, np.ndarray) and value.dtype.kind in "mM":  # of a time without a unit NumPy makes a number
+        if isinstance(value, np.ndarray) and value.dtype.kind in "mMb":  # of a time without a unit NumPy makes a number
             raise TypeError
         result = float(value)
     except (TypeError, ValueError, OverflowError):
@@ -101,6 +103,13 @@ def number_of(value: Any, name: str) -> float:
     if not math.isfinite(result):
         raise BadValueError(f"{name}: {value!r} is not a finite number")
     return result
+
+
+def whole_digits(value: float, name: str) -> float:
+    """A number that has all its digits: below the smallest normal one they are lost. Raises BadValueError."""
+    if value and abs(value) < sys.float_info.min:
+        raise BadValueError(f"{name}: {value!r} is out of range", hint=IN_RANGE)
+    return value
 
 
 def time(value: Any) -> float:

@@ -12,6 +12,7 @@ user may have written (trust.py); the list of checksums holds kind and key, so t
 
 from __future__ import annotations
 
+import errno
 import os
 import re
 import stat
@@ -21,7 +22,7 @@ from functools import cache
 from hashlib import sha256
 from pathlib import Path
 
-from gudgeon.errors import BadValueError, CacheError
+from gudgeon.errors import LIMITED, BadValueError, CacheError
 from gudgeon.files.trust import Untrusted, check_folder, check_way, read
 from gudgeon.waiting.ctrl_c import CtrlC
 
@@ -64,7 +65,9 @@ class Cache:
             return self._make(entry, make, renew)
         except (OSError, Untrusted) as error:
             if self.private:
-                raise CacheError(f"the temporary folder {self.root} cannot be used: {error}") from error
+                told = f"the temporary folder {self.root} cannot be used: {error}"
+                is_limit = getattr(error, "errno", 0) == errno.EFBIG and "ulimit" not in told
+                raise CacheError(f"{told}\n  {LIMITED}" if is_limit else told) from error
             self._tell(error)
         return private_cache().fetch(kind, key, make, renew=renew)
 

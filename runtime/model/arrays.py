@@ -52,10 +52,10 @@ def taken(
 ) -> NDArray[Any]:  # fmt: skip
     """`values` as C reads them: aligned, C-contiguous, native byte order, of `dtype`; the array itself if it is so.
 
-    shape: what it must be, None for any length. most: entries that are copied. finite: NaN and infinities are
-    refused. own: always a copy, which no later change of `values` reaches. Numbers stay what they are; an array of
-    masked entries, of text, of complex numbers, of other objects, of another shape raises ArrayError, which names it
-    and the entry.
+    shape: what it must be, None for any length. most: entries that are copied. finite: NaN and infinities are refused.
+    own: always a copy, which no later change of `values` reaches. Numbers stay what they are; an array of masked
+    entries, of text, of truths for numbers, of complex numbers, of other objects, of another shape raises ArrayError,
+    which names it and the entry.
     """
     if type(values) is np.ndarray and values.dtype is dtype and values.flags.carray and not own:
         array: NDArray[Any] = values
@@ -97,6 +97,8 @@ def _converted(
     if given.dtype.kind not in "biuf":
         kind = {"U": "text", "S": "bytes"}.get(given.dtype.kind, given.dtype.name)
         _refuse(name, f"holds {kind if given.ndim else repr(values)[:60]}")
+    if given.dtype.kind == "b" and dtype.kind == "f":
+        _refuse(name, "holds truths" if given.ndim else f"is {given}")
     if shape is not None:
         _check_shape(given, name, shape)
     array: NDArray[Any] = np.array(given, dtype, order="C") if own else np.asarray(given, dtype, order="C")
@@ -109,7 +111,7 @@ def _converted(
 def _of_objects(given: NDArray[Any], name: str) -> NDArray[Any]:
     """Numbers that NumPy keeps as objects (large integers, fractions), as floats."""
     for at, value in np.ndenumerate(given):
-        if not isinstance(value, Real):
+        if not isinstance(value, Real) or isinstance(value, bool):
             _refuse(f"{name}{_place(at)}", f"is {type(value).__name__} {str(value)[:40]!r}")
     try:
         return given.astype(np.float64)

@@ -14,6 +14,7 @@ from gudgeon.language.wanted import mapping, told
 from gudgeon.model.arrays import taken
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameters import RELATIONS, check, conditions, without_baumgarte
+from gudgeon.model.sizes import far_clearances
 
 Values: TypeAlias = float | str
 ParameterSets: TypeAlias = Sequence[Mapping[str, Values]] | Mapping[str, Values | Sequence[Values] | ArrayLike] | Array
@@ -117,4 +118,4 @@ def _valid(source: KernelSource, p: Array) -> Mask:
         several = [place[address] for address in condition.addresses]
         bound = p[:, several].sum(axis=1) if several else float(condition.bound)
         valid &= RELATIONS[condition.relation](p[:, place[condition.address]], bound)
-    return valid
+    return valid & ~far_clearances(source, p).any(axis=1)

@@ -13,9 +13,10 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import Condition, KernelSource, Slot
 from gudgeon.errors import BadValueError, UnknownNameError
-from gudgeon.language.wanted import mapping, number_of
+from gudgeon.language.wanted import mapping, number_of, whole_digits
 from gudgeon.model.choices import place_of_word
 from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.sizes import far_clearance
 
 # a number as files have it, in ASCII digits without '_'; what float() takes beyond that is no number here either
 _NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
@@ -27,6 +28,7 @@ _GLUED = re.compile(rf"({_NUMBER})\s*(?![eE][-+]?[0-9])([A-Za-zµμ°].*)")
 GAINS = ("baumgarte.alpha", "baumgarte.beta")  # of rk4 in the full formulation, nobody else's
 TOGETHER = {"gains": GAINS}  # one name for several numbers
 MOST_GAIN = 1e150  # 1/s: its square is a number
+FAR, MOST_TOLD = 60.0, 3  # powers of ten from 1, beyond which a number makes others overflow; how many are told
 RELATIONS = {">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le}
 
 
@@ -63,17 +65,28 @@ def addresses(source: KernelSource) -> list[str]:
 
 def as_parameter(source: KernelSource, address: str) -> tuple[str, str]:
     """(message, hint) about an address that holds an expression of t or motion, and no number; "" for another one."""
+    if (found := _of_the_run(address))[0]:
+        return found
     written = next((one for one in source.written if one.address == address), None)
     if written is None and address.removeprefix("outputs.") not in source.outputs:
-        found = (_unplaced_journal(source, address), _only_material(source, address), _literal_zero(source, address),
+        several = (_unplaced_journal(source, address), _only_material(source, address), _literal_zero(source, address),
                  _of_motion(source, address))  # fmt: skip
-        return next((one for one in found if one[0]), ("", ""))
+        return next((one for one in several if one[0]), ("", ""))
     key = address.rpartition(".")[2]
     told = f"{address} is an expression of t or motion, compiled as it stands: it is no number that can be set"
     return told, (
         f"a number in it can be, once it is a parameter: parameters: {{phase: … deg}}, {key}: phase + …,"
         " then set phase; overrides= of gudgeon.load compiles anew with another expression"
     )
+
+
+def _of_the_run(address: str) -> tuple[str, str]:
+    """The same of what a scene's `simulate` says: the run has it from its options."""
+    section, _, key = address.rpartition(".simulate.")
+    if not section.startswith("scenes.") or key not in ("t_end", "output", "step"):
+        return "", ""
+    told = f"{address} is how a run goes unless it is told otherwise, and no number of the mechanism"
+    return told, f"tell the run: --{key.replace('_', '-')} of the command, {key}= of simulate"
 
 
 def _of_motion(source: KernelSource, address: str) -> tuple[str, str]:
@@ -124,8 +137,7 @@ def number(value: float | str, slot: Slot) -> float:
         from gudgeon.language.quantities import number_of_text
 
         value = number_of_text(spaced(value), slot.address, slot.dimension)
-    is_switch = isinstance(value, (bool, np.bool_)) and "." in slot.address  # 1 or 0 of the file's; no time is one
-    return number_of(int(value) if is_switch else value, slot.address)
+    return whole_digits(number_of(value, slot.address), slot.address)
 
 
 def plain_number(text: str) -> float | None:
@@ -181,9 +193,22 @@ def check(source: KernelSource, p: Array) -> None:
     for slot in source.slots:
         if not math.isfinite(value[slot.address]):
             raise BadValueError(f"{slot.address} is {value[slot.address]}: not finite with these parameters")
-    for name, number in zip(source.derived, p[len(source.slots) :].tolist(), strict=True):
+    for k, number in enumerate(p[len(source.slots) :].tolist()):
         if not math.isfinite(number):
-            raise BadValueError(f"{name}, which follows from the parameters, is {number}: not finite with these values")
+            raise BadValueError(_overflow(source, value, k, number))
+    if told := far_clearance(source, p):
+        raise BadValueError(told)
+
+
+def _overflow(source: KernelSource, value: Mapping[str, float], k: int, number: float) -> str:
+    """What is said of derived number k: by the names that results know, and with the numbers that made it so."""
+    place, name = len(source.slots) + k, source.derived[k]
+    own = (f"{joint.name}.{one}" for joint in source.clearances for one, at in joint.constants.items() if at == place)
+    far = [slot for slot in source.slots if not slot.words and abs(math.log10(abs(value[slot.address]) or 1.0)) > FAR]
+    told = ", ".join(f"{slot.address} is {value[slot.address]:g} {slot.unit}".rstrip() for slot in far[:MOST_TOLD])
+    whose = f"{next(own, f'{name} of the equations')}, which follows"
+    blamed = f"{told}, too far from 1 for doubles: {whose} from that," if told else f"{whose} from these values,"
+    return f"{blamed} is {number}"
 
 
 def conditions(source: KernelSource) -> tuple[Condition, ...]:

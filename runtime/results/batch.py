@@ -240,8 +240,8 @@ class Batch:
 
         return batch_file.load(path)
 
-    def to_dataframe(self, names: Iterable[str] = ()) -> pandas.DataFrame:
-        """A long table of pandas: run, what was given to it, t, and these series, or all that there are; a row each
+    def to_dataframe(self, names: Iterable[str] | None = None) -> pandas.DataFrame:
+        """A long table of pandas: run, what was given to it, t, and these series, or all there are for None; a row each
         sample reached.
 
         SI, units in `attrs["units"]`.
@@ -250,7 +250,7 @@ class Batch:
 
         return export.batch_dataframe(self, names)
 
-    def to_csv(self, path: str | os.PathLike[str], names: Iterable[str] = ()) -> None:
+    def to_csv(self, path: str | os.PathLike[str], names: Iterable[str] | None = None) -> None:
         """Write the same table as CSV, run by run; every bit of a number."""
         from gudgeon.results import export
 

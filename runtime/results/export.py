@@ -37,17 +37,19 @@ KEYWORDS = frozenset({
 })  # fmt: skip
 
 
-def wanted_series(run: Result, names: Iterable[str]) -> list[str]:
-    """These, each once, or every series for none; UnknownNameError for one that there is not."""
+def wanted_series(run: Result, names: Iterable[str] | None) -> list[str]:
+    """These, each once, or every series for None; UnknownNameError for one that there is not."""
+    if names is None:
+        return list(run.names)
     if isinstance(names, str):
         refuse("names", names, "a list of names of series")
     found = list(dict.fromkeys(plain_names(names, "names", "a list of names of series")))
     for name in found:
         run.unit(name)
-    return [name for name in found if name != "t"] or list(run.names)
+    return [name for name in found if name != "t"]
 
 
-def dataframe(run: Result, names: Iterable[str]) -> pandas.DataFrame:
+def dataframe(run: Result, names: Iterable[str] | None) -> pandas.DataFrame:
     """See Result.to_dataframe."""
     frames = _pandas()
     series = wanted_series(run, names)
@@ -58,7 +60,7 @@ def dataframe(run: Result, names: Iterable[str]) -> pandas.DataFrame:
     return table
 
 
-def batch_dataframe(batch: Batch, names: Iterable[str]) -> pandas.DataFrame:
+def batch_dataframe(batch: Batch, names: Iterable[str] | None) -> pandas.DataFrame:
     """See Batch.to_dataframe."""
     from gudgeon.results.series import catalogue
 
@@ -84,26 +86,26 @@ def _pandas() -> Any:
     return pandas
 
 
-def _runs(batch: Batch, names: Iterable[str]) -> Iterator[Columns]:
+def _runs(batch: Batch, names: Iterable[str] | None) -> Iterator[Columns]:
     """The columns of one run after the other; one that did not begin has no row."""
     from gudgeon.results.batch_series import rows, wanted_names
     from gudgeon.results.series import catalogue
 
     every = batch.kept if batch.states is None else catalogue(batch.source)
-    series = [name for name in wanted_names(batch.source, names) if name != "t"] or [n for n in every if n != "t"]
+    series = [name for name in (every if names is None else wanted_names(batch.source, names)) if name != "t"]
     for i, t, own in rows(batch, series):
         given = {name: values[i] for name, values in batch.parameters.items()}
         same = {"run": np.full(len(t), i)} | {name: np.full(len(t), value) for name, value in given.items()}
         yield same | {"t": t} | own
 
 
-def csv(run: Result, path: str | os.PathLike[str], names: Iterable[str]) -> None:
+def csv(run: Result, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
     """See Result.to_csv."""
     series = wanted_series(run, names)
     _write_csv(path, iter([{"t": run.t} | {name: run[name] for name in series}]))
 
 
-def batch_csv(batch: Batch, path: str | os.PathLike[str], names: Iterable[str]) -> None:
+def batch_csv(batch: Batch, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
     """See Batch.to_csv."""
     _write_csv(path, _runs(batch, names))
 
@@ -126,7 +128,7 @@ def _cell(value: object) -> str:
     return value if isinstance(value, str) else repr(value)
 
 
-def mat(run: Result, path: str | os.PathLike[str], names: Iterable[str]) -> None:
+def mat(run: Result, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
     """See Result.to_mat."""
     from scipy.io import savemat
 

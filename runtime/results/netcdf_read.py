@@ -18,6 +18,7 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, InputError, in_a_line
+from gudgeon.files.reading import check_regular
 from gudgeon.integrators.trace import COLUMNS, Trace
 from gudgeon.integrators.trajectory import EVENT_DTYPE, IMPACT_DTYPE
 from gudgeon.language.wanted import path as named
@@ -50,16 +51,15 @@ def opened(path: str | os.PathLike[str], make: Callable[[Any, int], Made]) -> Ma
         raise GudgeonError("NetCDF files need h5py: pip install 'gudgeon[xarray]'") from error
     path, shown = Path(named(path, "path")), in_a_line(os.fspath(path))
     try:
-        known = path.is_file()
-    except OSError:  # a name that is too long
-        known = False
-    if not known:
-        raise InputError(f"there is no file {shown}")
+        found = path.stat()
+    except OSError:  # a name that is too long, too
+        raise InputError(f"there is no file {shown}") from None
+    check_regular(found, shown)
     try:
         if is_damaged(path):
             raise InputError(f"{shown} is not as it was written: it was damaged", hint="run the scene again")
         with h5py.File(path, "r") as file:
-            return make(file, path.stat().st_size)
+            return make(file, found.st_size)
     except InputError:
         raise
     except Exception as error:  # whatever HDF5, JSON or NumPy make of what should not be

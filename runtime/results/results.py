@@ -234,19 +234,19 @@ class Result(Shown):
 
         return netcdf.dataset(self, part)
 
-    def to_dataframe(self, names: Iterable[str] = ()) -> pandas.DataFrame:
-        """Series as columns of a table of pandas over t (s): these, or all; SI, units in `attrs["units"]`."""
+    def to_dataframe(self, names: Iterable[str] | None = None) -> pandas.DataFrame:
+        """Series as columns of a table of pandas over t (s): these, or all for None; SI, units in `attrs["units"]`."""
         from gudgeon.results import export
 
         return export.dataframe(self, names)
 
-    def to_csv(self, path: str | os.PathLike[str], names: Iterable[str] = ()) -> None:
+    def to_csv(self, path: str | os.PathLike[str], names: Iterable[str] | None = None) -> None:
         """Write t and these series, or all, as CSV in SI: a line of names, then every bit of a sample a line."""
         from gudgeon.results import export
 
         export.csv(self, path, names)
 
-    def to_mat(self, path: str | os.PathLike[str], names: Iterable[str] = ()) -> None:
+    def to_mat(self, path: str | os.PathLike[str], names: Iterable[str] | None = None) -> None:
         """Write t and these series, or all, for MATLAB: "S9.y" as S9_y; cells `variables`, `names` and `units`."""
         from gudgeon.results import export
 

@@ -14,8 +14,13 @@ def is_the_program() -> None:
     _whole.append(True)
 
 
-def last_word() -> None:
-    """That it was interrupted; a second Ctrl-C would find nothing but the end, and make another one of it."""
+def nothing_more() -> None:
+    """A second Ctrl-C would find nothing but the end, and make another one of it: Python, as it ends, lets it kill."""
     if _whole:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def last_word() -> None:
+    """That it was interrupted."""
+    nothing_more()
     print("interrupted", file=sys.stderr)

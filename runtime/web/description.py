@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from gudgeon.assembly.large import LARGE
-from gudgeon.assembly.linkage import mechanism_size, size_places
+from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.assembly.redundant_rows import OPEN, left_out
 from gudgeon.assembly.start import assemble
 from gudgeon.contract.kernel_source import KernelSource, PointInfo, Slot
@@ -20,6 +20,7 @@ from gudgeon.model.choices import said
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.model.default_step import T_END
 from gudgeon.model.parameters import GAINS, conditions, prepare
+from gudgeon.model.sizes import size_places
 from gudgeon.results.series import catalogue
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT
 from gudgeon.simulation.hidden_jumps import may_jump

@@ -32,6 +32,14 @@ def look(self):
 session.Session.look = look
 """
 
+LATE = """
+class Late:  # goes when Python has let go of all handlers, where a Ctrl-C that comes now would kill
+    def __del__(self, kill=os.kill, process=os.getpid(), number=signal.SIGINT):
+        kill(process, number)
+
+sys.late = Late()
+"""
+
 
 def gudgeon_process(line: str, folder: Path, before: str = "", **environment: str) -> subprocess.CompletedProcess[str]:
     """A line of a shell, in which `gudgeon` is the command."""
@@ -85,3 +93,16 @@ def test_signals_that_end_a_program_keep_what_was_computed(ending: str, tmp_path
     assert done.stderr.startswith("interrupted: what was computed is shown and saved; ideal ends at")
     assert gudgeon.Result.load(tmp_path / "out/pendulum_ideal.nc").diagnostics.interrupted
     assert not list((tmp_path / "out").glob(".*"))
+
+
+@needs_compiler
+def test_a_second_ctrl_c_while_python_ends_leaves_the_exit_code(tmp_path: Path) -> None:
+    gudgeon.load("pendulum", "ideal")
+    code = TERMINATED.replace("os.getpid(), signal.SIGTERM", "os.getpid(), signal.SIGINT") + LATE + START
+    words = ["run", "pendulum", "--scene", "ideal", "--out", "out"]
+    done = subprocess.run([sys.executable, "-c", code, *words], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 130 and done.stderr.startswith("interrupted: what was computed"), done.stderr
+    code = TERMINATED + LATE + START
+    words = ["check", "pendulum"]
+    done = subprocess.run([sys.executable, "-c", code, *words], cwd=tmp_path, capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")

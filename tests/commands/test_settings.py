@@ -96,12 +96,48 @@ def test_gains_are_both_gains(call: Gudgeon, pump: str) -> None:
         ("baumgarte.beta=1e300", "baumgarte.beta is 1e+300: its square is no number"),
         ("gains=1e-320", "'1e-320' is out of range"), ("c=1e-306 mm", "'1e-306 mm' is out of range"),
         ("omega=1e-320rpm", "'1e-320 rpm' is out of range"),
+        ("c=1e-18m", "the clearance of B is 1e-18 m, below what doubles tell apart at the mechanism's size (0.06 m)"),
+        ("bearings.pin.radius=1e300", "bearings.pin.radius is 1e+300 m, too far from 1 for doubles: B.K, which"),
     ],
 )  # fmt: skip
 def test_numbers_that_mean_nothing(command: str, setting: str, told: str, call: Gudgeon, pump: str) -> None:
     """Check says so as a run does; below 2.2e-308 a number has lost digits before anything is made of it."""
     done = call(command, pump, "--set", setting)
     assert done.exit_code == 2 and told in " ".join(done.stderr.split())
+
+
+def test_clearances_down_to_what_doubles_tell_apart(pump: str) -> None:
+    """One contact, whose force no longer depends on the clearance; below the bound it would be seen several times."""
+    worn = gudgeon.load(pump, "worn")
+    batch = worn.simulate_many({"c": [1e-12, 1e-14, 1e-16, 1e-18]}, t_end=1e-4)
+    assert [failure.run for failure in batch.failures] == [2, 3]
+    assert all("expected 8.5e-16 m at least" in str(failure.error) for failure in batch.failures)
+    assert [len(contacts) for contacts in batch.impacts[:2]] == [1, 1]
+    slow = worn.simulate(1e-4, parameters={"c": 1e-15}).diagnostics
+    assert slow.onsets == 1 and pytest.approx(batch.peaks["F"][1, 0], rel=1e-5) == slow.peaks[0].F
+
+
+@pytest.mark.parametrize("scene", ["ideal", "worn"])
+def test_a_drive_too_fast_for_doubles_is_no_dead_centre(scene: str, call: Gudgeon, pump: str) -> None:
+    done = call("run", pump, "--scene", scene, "--set", "omega=1e200")
+    assert done.exit_code == 1
+    told = f"scene {scene}: velocities and accelerations are too large for doubles at t = 0 s; drive motor"
+    assert told in done.stderr and "its rate 1e+200 rad/s\n  a slower drive can be followed" in done.stderr
+
+
+@pytest.mark.parametrize(("key", "option"), [("step", "--step"), ("t_end", "--t-end"), ("output", "--output")])
+def test_how_a_run_goes_is_told_to_the_run(key: str, option: str, call: Gudgeon, pump: str) -> None:
+    for command in ("check", "run"):
+        done = call(command, pump, "--set", f"scenes.worn.simulate.{key}=1")
+        told = " ".join(done.stderr.split())
+        assert done.exit_code == 2 and f"tell the run: {option} of the command, {key}= of simulate" in told
+    with pytest.raises(UnknownNameError, match=option):
+        gudgeon.load(pump).simulate(1e-3, parameters={f"scenes.worn.simulate.{key}": 1.0})
+
+
+def test_what_overflows_is_told_by_the_key_that_was_written(call: Gudgeon, pump: str) -> None:
+    done = call("run", pump, "--set", "bodies.rod.length=1e200m")
+    assert done.exit_code == 2 and "error: bodies.rod.length is 1e+200 m, too far from 1 for doubles:" in done.stderr
 
 
 def test_gains_in_python_and_in_batches(pump: str) -> None:

@@ -172,6 +172,15 @@ def test_a_folder_that_cannot_be_made_falls_back_with_a_warning(tmp_path: Path) 
     assert entry.is_relative_to(private_cache().root)
 
 
+def test_a_limit_on_the_size_of_files_is_told_with_what_set_it(folder: Cache) -> None:
+    def make(work: Path) -> None:
+        raise OSError(errno.EFBIG, os.strerror(errno.EFBIG))
+
+    with pytest.warns(RuntimeWarning, match="File too large"), pytest.raises(CacheError) as caught:
+        folder.fetch("kind", "large", make)
+    assert str(caught.value).endswith("File too large\n  a limit is set on the size of files (ulimit -f)")
+
+
 def test_a_full_disk_falls_back_and_leaves_nothing(folder: Cache) -> None:
     def make(work: Path) -> None:
         (work / "a").write_text("half")

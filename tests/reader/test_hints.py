@@ -202,6 +202,8 @@ def test_none_is_no_law() -> None:
         ("forces:\n", "‸springs:\n", UnknownKeyError, "'springs' is called forces here"),
         ("{guess: {piston.x: 160 mm}}", "{guess: {‸piston: 160 mm}}", UnknownNameError, "piston.x, piston.y"),
         ("5 rad/s * t}", "5 rad/s * ‸time}", ExpressionError, "time is written t"),
+        ("name: plain\n", "name: plain\nparameters: {‸é: 1}\n", BadNameError, "in ASCII"),
+        ("mass: 0.21 kg", "‸<<: {mass: 1 kg}", UnknownKeyError, "write the keys out; a contact, or a scene"),
         ("restitution: 0.8", "restitution: 80 ‸%", ExpressionError, "90 % as 0.9"),
         ("contact: dry}}}", "contact: dry}}, simulate: {‸method: rk4}}", UnknownKeyError, "gudgeon run, --method"),
     ],
@@ -209,6 +211,18 @@ def test_none_is_no_law() -> None:
 def test_words_and_signs_of_elsewhere(old: str, new: str, kind: type[InputError], told: str) -> None:
     error = refused(old, new)
     assert type(error) is kind and told in error.hint
+
+
+@pytest.mark.parametrize("name", ["lambda", "sin", "None", "1a", "a-b", "é"])
+def test_a_name_that_is_refused_is_told_once(name: str) -> None:
+    """Where it is defined, and not where it is used; what is wrong elsewhere is told all the same."""
+    text = TEXT.replace("clearance: 0.2 mm", f"clearance: 2 * {name} - 1 mm")
+    text = text.replace("name: plain\n", f"name: plain\nparameters: {{{name}: 0.2 mm}}\n")
+    with pytest.raises(BadNameError, match=f"'{name}' cannot name this parameter"):
+        read_mechanism(text.encode(), "f.yaml")
+    with pytest.raises(InputErrors) as caught:
+        read_mechanism(text.replace("length: 20 mm", "length: sine(1) m").encode(), "f.yaml")
+    assert [type(e) for e in caught.value.errors] == [BadNameError, ExpressionError]
 
 
 def test_a_decimal_comma_and_an_equals_sign() -> None:

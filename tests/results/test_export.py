@@ -59,6 +59,18 @@ def test_names_that_are_none_are_told_before_anything_is_written(way: str, run: 
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize("none", [[], ["t"]])
+def test_an_empty_list_of_names_is_no_series(none: list[str], run: Result, tmp_path: Path) -> None:
+    """As keep=[] keeps none: what was found by a search that finds nothing is not everything."""
+    pytest.importorskip("pandas")
+    assert list(run.to_dataframe(none).columns) == [] and len(run.to_dataframe(none)) == len(run.t)
+    run.to_csv(tmp_path / "run.csv", none)
+    assert (tmp_path / "run.csv").read_text().splitlines() == ["t", *map(repr, run.t.tolist())]
+    run.to_mat(tmp_path / "run.mat", none)
+    loadmat = pytest.importorskip("scipy.io").loadmat
+    assert [str(name[0]) for name in loadmat(tmp_path / "run.mat")["names"].ravel()] == ["t"]
+
+
 def test_csv_gives_back_every_bit(run: Result, tmp_path: Path) -> None:
     path = tmp_path / "run.csv"
     run.to_csv(path)
@@ -143,5 +155,6 @@ def test_a_batch_is_a_long_table_of_its_runs(tmp_path: Path) -> None:
         np.testing.assert_array_equal(own["t"].to_numpy(), run.t)
         assert (own["parameters.w"] == run.parameters["w"]).all()
     assert table.attrs["units"] == {"run": "", "parameters.w": "1/s", "t": "s", "follower.x": "m", "lift": "m"}
+    assert list(batch.to_dataframe([]).columns) == ["run", "parameters.w", "t"]
     batch.to_csv(tmp_path / "batch.csv", ["follower.x", "lift"])
     pandas.testing.assert_frame_equal(pandas.read_csv(tmp_path / "batch.csv"), table)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import replace
 from decimal import Decimal
 from fractions import Fraction
 from typing import Any
@@ -156,7 +157,8 @@ def test_a_number_that_is_set_twice_is_told(call: Gudgeon) -> None:
             assert done.exit_code == 2 and f"this number is set already, by --set {settings[0]}" in done.output
 
 
-@pytest.mark.parametrize("value", [None, [1.0, 2.0], 1j, float("nan"), 10**400, b"1", object(), np.ma.masked, {}])
+@pytest.mark.parametrize("value", [None, [1.0, 2.0], 1j, float("nan"), 10**400, b"1", object(), np.ma.masked, {},
+                                   True, np.True_, np.array(True), 5e-324, -1e-320, np.float64(2e-308)])  # fmt: skip
 def test_what_is_no_number(value: Any) -> None:
     pendulum = gudgeon.load("pendulum")
     with pytest.raises(BadValueError, match="parameters.g"), warnings.catch_warnings():
@@ -166,7 +168,21 @@ def test_what_is_no_number(value: Any) -> None:
         pendulum.simulate(0.01, parameters=[("g", 1.0)])  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("value", [np.float32(1.5), np.int64(3), Fraction(1, 4), Decimal("0.5"), np.array(2.0), True])
+@pytest.mark.parametrize("column", [[True, False], np.array([True]), np.array([2.0, True], object), [1.0, 5e-324]])
+def test_columns_of_what_is_no_number(column: Any) -> None:
+    """As one run is refused; "5e-324" and 5e-324 by one sentence."""
+    pendulum = gudgeon.load("pendulum")
+    with pytest.raises(BadValueError, match=r"run [01]: parameters\.g"):
+        pendulum.simulate_many({"g": column}, 0.01)
+    with pytest.raises(BadValueError, match="truths"):
+        final = pendulum.simulate(0.01).final
+        pendulum.simulate(0.02, start=replace(final, v=np.ones(len(final.v), bool)))
+    for least in (5e-324, "5e-324"):
+        with pytest.raises(gudgeon.InputError, match=r"(?s)5e-324'? is out of range\n.*from 2\.3e-308 to 1\.7e308"):
+            pendulum.simulate(0.01, parameters={"g": least})
+
+
+@pytest.mark.parametrize("value", [np.float32(1.5), np.int64(3), Fraction(1, 4), Decimal("0.5"), np.array(2.0)])
 def test_what_is_one(value: Any) -> None:
     run = gudgeon.load("pendulum").simulate(0.01, output=1, parameters={"g": value})
     assert run.parameters["g"] == float(value)

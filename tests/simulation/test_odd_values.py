@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -305,6 +306,8 @@ def test_what_is_told(pendulum: Simulation) -> None:
         (lambda: pendulum.simulate_many([{}], threads=np.timedelta64(5)), "threads is timedelta64"),  # type: ignore[arg-type]
         (lambda: gudgeon.load("a\nb.yaml"), "cannot read a\\nb.yaml: No such file"),
         (lambda: Result.load("a\nb.nc"), "there is no file a\\nb.nc"),
+        (lambda: Result.load(os.devnull), f"cannot read {os.devnull}: it is a device, not a file"),
+        (lambda: Result.load("."), "cannot read .: it is a folder, not a file"),
         (lambda: gudgeon.register("a\nb.py"), "cannot read the law a\\nb.py: No such file"),
         (lambda: gudgeon.register(""), "a law's file has no name"),
         (lambda: gudgeon.register("/dev/zero"), "cannot read the law /dev/zero: it is a device, not a file"),

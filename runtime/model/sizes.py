@@ -1,0 +1,54 @@
+"""How large a mechanism is, and which clearances are too small for doubles at that size."""
+
+from __future__ import annotations
+
+import sys
+
+import numpy as np
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.model.compiled import Array
+
+_LENGTH = (1, 0, 0)  # exponents of m, kg, s
+LEAST_CLEARANCE = 64 * sys.float_info.epsilon  # times the size: from ten roundings down contacts are seen twice
+
+
+def mechanism_sizes(source: KernelSource, p: Array) -> Array:
+    """The largest coordinate of a point in its body, of a ground point, or length of a joint, m.
+
+    (...,) from parameters (..., n_slots + n_derived) of any number of runs.
+    """
+    index = size_places(source)
+    if not index:
+        return np.ones(p.shape[:-1])
+    size = np.abs(p[..., index]).max(axis=-1, initial=0.0)
+    return np.where(size > 0.0, size, 1.0)
+
+
+def size_places(source: KernelSource) -> list[int]:
+    """Indices into p of these coordinates and lengths."""
+    index = [k for point in source.points for k in (point.x, point.y) if k >= 0]
+    lengths = [slot.dimension == _LENGTH and slot.address.startswith("joints.") for slot in source.slots]
+    return index + [k for k, is_length in enumerate(lengths) if is_length]
+
+
+def far_clearances(source: KernelSource, p: Array) -> Array:
+    """Which clearances doubles do not tell apart from none, (..., n_clearances) of p (..., n_slots + n_derived).
+
+    Where a journal lies in its bearing is a difference of coordinates, each of which is rounded to a share 2^-52.
+    """
+    own = p[..., [joint.clearance for joint in source.clearances]]
+    return np.asarray(own < LEAST_CLEARANCE * mechanism_sizes(source, p)[..., np.newaxis])
+
+
+def far_clearance(source: KernelSource, p: Array) -> str:
+    """What is said of the first of them in one run; "" where there is none."""
+    for joint, is_far in zip(source.clearances, far_clearances(source, p).tolist(), strict=True):
+        if is_far:
+            size = float(mechanism_sizes(source, p))
+            return (
+                f"the clearance of {joint.name} is {p[joint.clearance]:g} m, below what doubles tell apart at the"
+                f" mechanism's size ({size:.3g} m)\n  expected {LEAST_CLEARANCE * size:.2g} m at least; leave the joint"
+                " out of the scene's play for none"
+            )
+    return ""
