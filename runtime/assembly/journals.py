@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from gudgeon.assembly.linkage import Linkage
-from gudgeon.errors import AssemblyError
+from gudgeon.errors import AssemblyError, SingularError
 from gudgeon.model.compiled import Array, CompiledModel
 
 DEEPEST = 0.1  # of the radius, that a journal may lie in its bearing (`deepest` of model.h)
@@ -36,26 +36,41 @@ def parting(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, mem
 
     q, v (n,) at time t (s); memory (n_memory,): contacts that go on from another run know their onset.
     """
-    joints = [joint for k, joint in enumerate(compiled.source.clearances) if joint.dry and math.isnan(memory[k])]
+    joints = [k for k, joint in enumerate(compiled.source.clearances) if joint.dry and math.isnan(memory[k])]
     phi = compiled.closed_phi(t, q, p) if joints else np.zeros(0)
     told = []
-    for joint in joints:
+    for number in joints:
+        joint = compiled.source.clearances[number]
         rows = [k for k, row in enumerate(compiled.source.start_rows) if row.owner == joint.name]
         e = -phi[rows]  # physics.md, section 3: Φ of the joint is −e
         depth = math.hypot(*e) - float(p[joint.clearance])
         if depth > 0.0:
             with np.errstate(all="ignore"):  # a state of anybody's: the run itself tells what is not finite
-                rate = compiled.closed_phi_q(t, q, p)[rows] @ v - compiled.closed_nu(t, q, p)[rows]
-                deltadot = -float(rate @ e) / math.hypot(*e)
-            if deltadot <= 0.0:
-                told.append(_told(joint.name, depth, deltadot))
+                by_v = -(e / math.hypot(*e)) @ compiled.closed_phi_q(t, q, p)[rows]  # ∂δ̇/∂v
+                deltadot = float(by_v @ v + (e / math.hypot(*e)) @ compiled.closed_nu(t, q, p)[rows])
+                approach = v + (1.0 - deltadot) / float(by_v @ by_v) * by_v  # δ̇ = 1 m/s
+                if deltadot <= 0.0 and _reads_onset(compiled, p, t, q, approach, memory, number):
+                    told.append(_told(joint.name, depth, deltadot))
     return tuple(told)
+
+
+def _reads_onset(
+    compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array, number: int
+) -> bool:  # fmt: skip
+    """Whether the force in a joint depends on δ̇⁻ at all: it does not without loss, nor where a law reads δ̇ alone."""
+    latched = np.array([memory, memory])
+    latched[:, number] = 1e-3, np.inf
+    try:
+        force = compiled.evaluate([t, t], [q, q], [v, v], latched, p, parts=("clearance",)).clearance[:, number]
+    except SingularError:  # the run itself tells
+        return True
+    return bool((force[0] != force[1]).any())
 
 
 def _told(joint: str, depth: float, deltadot: float) -> str:
     moves = f"part at {-deltadot:.4g} m/s" if deltadot < 0.0 else "are at rest"
     return (
         f"{joint} begins in contact, {1e6 * depth:.4g} µm deep, while its surfaces {moves}: the onset is not known, and"
-        " its rate δ̇⁻ is taken as that of one without loss, by the energy of motion and elastic force (run.memory has"
-        " it); damping of this contact, and of no other, hangs on that choice"
+        " its rate δ̇⁻ is taken as that of one without loss, by the energy of motion and elastic force (run.impacts has"
+        " it, as deltadot); damping of this contact, and of no other, hangs on that choice"
     )

@@ -171,6 +171,16 @@ def test_a_run_that_begins_in_contact(scenes: Scenes, method: str, speed: float,
     assert run["A.Fn"][0] == pytest.approx(force, rel=1e-6)
     notes = [note for note in run.diagnostics.notes if "begins in contact" in note]
     assert [told in note for note in notes] == [True] * bool(told)
+    assert run.impacts["deltadot"][0] == run.memory[0, 0]  # where the note says that it is
+
+
+@pytest.mark.parametrize(
+    "law", ["{law: hertz, restitution: 1}", "{law: kelvin_voigt, stiffness: 1e7 N/m, damping: 10 N*s/m}"]
+)
+def test_damping_that_knows_no_onset_hangs_on_no_choice(scenes: Scenes, law: str) -> None:
+    file = scenes.file("none", FREE.replace("{law: lankarani_nikravesh, restitution: 0.9}", law))
+    run = gudgeon.load(file, "dry").simulate(1e-4, output=2, parameters=numbers([C + DEEP, 0.0], [-0.02, 0.0]))
+    assert run["A.Fn"][0] > 0.0 and not [note for note in run.diagnostics.notes if "begins in contact" in note]
 
 
 def test_what_contradicts_it_is_named(scenes: Scenes) -> None:
