@@ -19,6 +19,7 @@ from gudgeon.assembly.search import velocities
 from gudgeon.commands.common import at_numbers, check_addresses
 from gudgeon.errors import GudgeonError
 from gudgeon.language.tree import Number
+from gudgeon.model.seams import seams
 
 if TYPE_CHECKING:
     from gudgeon.generator.mechanism.mechanism import Mechanism
@@ -143,6 +144,7 @@ def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
         return
     if (large := _too_large(mechanism, first)) is not None:
         yield "size", large
+    yield from (("curve", told) for told in seams(first.linkage.source, first.linkage.p))
     closed = first.closed
     if closed.loose:
         yield "loose", f"nothing ties {', '.join(closed.loose)} to the ground: no joint, no drive"

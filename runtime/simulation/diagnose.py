@@ -13,6 +13,7 @@ from gudgeon.contract.methods import ADAPTIVE, AUTO
 from gudgeon.integrators.rk4 import last_step
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.seams import seams
 from gudgeon.results.diagnostics import Diagnostics, Peak
 from gudgeon.results.series import without_masses
 
@@ -104,6 +105,7 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
         )
     if compiled.source.events and ":" in problem.method:
         notes.append(f"events are not watched by method {problem.method}")
+    notes += seams(compiled.source, p, float(problem.t[0]), float(trajectory.t[-1]))
     notes += _outside(compiled, p, trajectory)
     if compiled.source.indeterminate:
         notes.append(
