@@ -157,6 +157,16 @@ def test_a_link_that_is_too_short_is_told_by_how_much(tmp_path: Path) -> None:
     assert reached > 0 and f"crank (50 mm) longer by {1e3 * crank:.4g} mm" in str(told.value)
 
 
+def test_a_length_left_in_metres_is_named(tmp_path: Path) -> None:
+    """One that is by hundreds longer than all others; not one that is only too long."""
+    file = tmp_path / "four.yaml"
+    for ground, told in (("180", "times the next longest: was 180 mm meant?"), ("5", "")):
+        file.write_bytes(four_bar(ground=ground))
+        with pytest.raises(AssemblyError) as caught:
+            gudgeon.load(file).start()
+        assert told in str(caught.value) and ("was" in str(caught.value)) == bool(told)
+
+
 def test_a_link_that_is_too_long_is_told_by_how_much(tmp_path: Path) -> None:
     """A rocker longer than what crank's end, coupler and ground can reach around."""
     file = tmp_path / "four.yaml"
