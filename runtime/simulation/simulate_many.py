@@ -104,7 +104,7 @@ def _in_c(
     runs.looks = searches = starts.searches(p, bad, asked)
     before = time.perf_counter()
     runs.run(asked.progress)
-    tell_of_runs(simulation.source, [runs.unfollowed.get(i, {}) for i in range(runs.n)], stacklevel=4)
+    tell_of_runs(simulation.source, [runs.unfollowed.get(i, {}) for i in range(runs.n)])
     told = [search.told() if search else Told() for search in searches]
     batch = _of_runs(_Results(simulation, runs, starts, asked.rtol, asked.stop, asked.method, told), kept)
     return replace(batch, seconds=time.perf_counter() - before, threads=asked.threads)
