@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -64,7 +65,7 @@ class Curve:
         here, end = told_apart(x, high if x > high else low, 6)
         ends = (f"{low:.6g}", end) if x > high else (end, f"{high:.6g}")
         found = parse_unit(self.over) if self.over else None
-        size = found[0].to_si(1) if found else 1.0
+        size = found[0].to_si(Fraction(1)) if found else 1.0
         own = f", from {low / size:.6g} to {high / size:.6g} {self.over}" if size != 1.0 else ""
         return (
             f"at {here}, outside its range, from {ends[0]} to {ends[1]} (SI, angles in rad){own}; in curves.{self.name}"

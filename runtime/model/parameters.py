@@ -194,9 +194,11 @@ def check(source: KernelSource, p: Array) -> None:
         bound = sum(value[a] for a in condition.addresses) if condition.addresses else float(condition.bound)
         known = math.isfinite(value[condition.address]) and math.isfinite(bound)
         if known and not RELATIONS[condition.relation](value[condition.address], bound):
+            unit = next(slot.unit for slot in source.slots if slot.address == condition.address)
             raise BadValueError(
-                f"{condition.address} is {value[condition.address]:.6g}: {condition.message}"
-                + (f" ({condition.bound} is {bound:.6g})" if isinstance(condition.bound, str) else "")
+                f"{condition.address} is {_said(value[condition.address], unit)}{_by(source, condition, value)}:"
+                f" {condition.message}"
+                + (f" ({condition.bound} is {_said(bound, unit)})" if isinstance(condition.bound, str) else "")
                 + f"; expected {_range(source, condition.address)}"
             )
     for slot in source.slots:
@@ -212,6 +214,22 @@ def conditions(source: KernelSource) -> tuple[Condition, ...]:
     gains = [slot.address for slot in source.slots if slot.address.startswith("baumgarte.")]
     asked = ((">=", 0.0, "a negative gain drives rows apart"), ("<=", MOST_GAIN, "its square is no number"))
     return (*source.conditions, *(Condition(gain, *one) for gain in gains for one in asked))
+
+
+def _said(value: float, unit: str) -> str:
+    """A number in SI with its unit."""
+    return f"{value:.6g} {unit}".strip()
+
+
+def _by(source: KernelSource, condition: Condition, value: Mapping[str, float]) -> str:
+    """The parameters that differ from the file's, where a number follows parameters: " with c = 0.008 m"."""
+    if not any(slot.address == condition.address and slot.follows for slot in source.slots):
+        return ""
+    changed = [
+        f"{slot.address.removeprefix('parameters.')} = {_said(value[slot.address], slot.unit)}" for slot in source.slots
+        if slot.address.startswith("parameters.") and value[slot.address] != slot.default
+    ]  # fmt: skip
+    return f" with {', '.join(changed)}" if changed else ""
 
 
 def _range(source: KernelSource, address: str) -> str:

@@ -186,8 +186,9 @@ def test_a_guess_that_is_not_followed_is_told(tmp_path: Path) -> None:
     file.write_bytes(text)
     if "coupler.theta" in off:
         assert math.degrees(abs(off["coupler.theta"])) == pytest.approx(50.0, abs=1e-6)
-    with pytest.warns(UserWarning, match="coupler.theta begins 50° from its guess"):
+    with pytest.warns(UserWarning, match="coupler.theta begins 50° from its guess") as alone:
         gudgeon.load(file).simulate(0.1, output=1)
+    assert alone[0].filename == __file__
     angles = [math.radians(angle + away) for away in (0.0, 5.0, -45.0)]
     free = tmp_path / "free.yaml"  # its runs go from start to end in C
     free.write_bytes(four_bar(start="start: {set: {crank.theta: 30 deg}, guess: {coupler.theta: 0}}", drives=""))
