@@ -182,17 +182,12 @@ def _rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     return rows
 
 
-def _time(t: float) -> str:
-    """Seconds to 0.1 ms; a time that is less than some of these, and not none, in ms or µs."""
-    factor, text = (1.0, "s") if not 0.0 < abs(t) < 1e-2 else (1e3, "ms") if abs(t) >= 1e-5 else (1e6, "µs")
-    return f"{t * factor:.4f} {text}"
-
-
 def _at(value: float, unit: str, t: float, scales: Mapping[str, float]) -> str:
     if math.isfinite(t) and _is_noise(abs(value), unit, scales):
         return ZERO
     factor, text = drawn(value, unit)
-    return f"{value * factor:.4g} {text}".strip() + f" at {_time(t)}" if math.isfinite(t) else "–"
+    when = quantity(t, "s") if 0.0 < abs(t) < 1e-3 else f"{t:.4f} s"
+    return f"{value * factor:.4g} {text}".strip() + f" at {when}" if math.isfinite(t) else "–"
 
 
 def _is_noise(size: float, unit: str, scales: Mapping[str, float]) -> bool:
