@@ -94,8 +94,8 @@ def test_gains_are_both_gains(call: Gudgeon, pump: str) -> None:
 @pytest.mark.parametrize(
     ("setting", "told"),
     [
-        ("gains=-1", "baumgarte.alpha is -1: a negative gain drives rows apart; expected >= 0 and <= 1e+150"),
-        ("baumgarte.beta=1e300", "baumgarte.beta is 1e+300: its square is no number"),
+        ("gains=-1", "baumgarte.alpha is -1 1/s: a negative gain drives rows apart; expected >= 0 and <= 1e+150"),
+        ("baumgarte.beta=1e300", "baumgarte.beta is 1e+300 1/s: its square is no number"),
         ("gains=1e-320", "'1e-320' is out of range"), ("c=1e-306 mm", "'1e-306 mm' is out of range"),
         ("omega=1e-320rpm", "'1e-320 rpm' is out of range"),
     ],
