@@ -204,8 +204,8 @@ def check_curve(call: CurveCall, place: Location, varies: bool) -> None:
         hint = "expected parameters; a curve can stand in drives, forces, events and outputs only"
         raise ExpressionError(f"{call.function!r} is a curve, and this number is constant", place, hint)
     if not any(True for _ in names(argument)) and not curve.within(x := float(evaluate(argument, lambda _: 0.0))):
-        hint = "expected an argument in it, or the key extrapolate: hold, or line"
-        raise BadValueError(f"curve {call.function} at {x:.6g} is outside its range, {curve.range_text}", place, hint)
+        told = f"curve {call.function} is called {curve.outside(x)}"
+        raise BadValueError(told, place, "expected an argument in it")
 
 
 def broken(text: str) -> Number:

@@ -77,7 +77,8 @@ def _curve(reader: Reader, name: Text, node: Map) -> Curve:
         raise BadValueError(f"{owner} has a slope that is no number", name.where, hint)
     return Curve(
         str(name), knots, coefficients, ends, extrapolate, over.dimension if over else None,
-        of.dimension if of else None, _si_of(of), str(node["table"]) if "table" in node else "", len(x),
+        of.dimension if of else None, _si_of(of), str(node["x"]) if over else "",
+        str(node["table"]) if "table" in node else "", len(x),
     )  # fmt: skip
 
 

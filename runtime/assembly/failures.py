@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from gudgeon.assembly.closure import CLOSED, Closure
@@ -12,6 +14,7 @@ from gudgeon.model.compiled import Array
 from gudgeon.model.far_masses import far_masses
 from gudgeon.model.written import reason
 
+FAR = 100.0  # times the next longest: so far apart are lengths in mm and those left in m
 FEW = 60  # coordinates up to which it is looked for which length is wrong
 
 
@@ -66,7 +69,7 @@ def not_closed(closure: Closure, q: Array) -> AssemblyError:
         rows += f" and {more} more, less far,"
     owners = ", ".join(dict.fromkeys(closure.owners[k] for k in worst if closure.owners[k] != "start"))
     sets = "what start.set holds, " if len(closure.set_index) else ""
-    lengths = _lengths(closure, q)
+    lengths = _in_metres(closure) or _lengths(closure, q)
     return AssemblyError(
         f"the start cannot be assembled: rows {rows} stay open (joints {owners or 'none'}){lengths}\n"
         "  either the constraints contradict each other or the guess is far from every branch: check"
@@ -91,6 +94,23 @@ def _lengths(closure: Closure, q: Array) -> str:
         f" {lengths_text(abs(one.missing))}" for one in found
     ]  # fmt: skip
     return f"\n  one change would close it: {', or '.join(told)}" if told else ""
+
+
+def _in_metres(closure: Closure) -> str:
+    """Which few lengths of the file are metres where all the others are far less; "" where none are."""
+    source = closure.linkage.source
+    sizes = {
+        slot.address: abs(float(closure.p[k]))
+        for k, slot in enumerate(source.slots)
+        if slot.dimension == (1, 0, 0) and slot.address.startswith(("bodies.", "ground.", "joints."))
+    }
+    order = sorted((name for name, size in sizes.items() if size > 0.0), key=lambda name: -sizes[name])
+    for k, (name, after) in enumerate(pairwise(order), 1):
+        if sizes[name] > FAR * sizes[after] and sizes[name] >= 1.0 and 2 * k <= len(order):
+            told = ", ".join(f"{long} is {lengths_text(sizes[long])}" for long in order[:k][:3])
+            meant = f"was {sizes[order[0]]:.4g} mm meant" if k == 1 else "were they meant in mm"
+            return f"\n  {told}, {sizes[name] / sizes[after]:,.0f} times the next longest: {meant}? bare numbers are m"
+    return ""
 
 
 def lengths_text(length: float) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import warnings
 from collections.abc import Mapping, Sequence
 from contextvars import ContextVar
@@ -38,7 +39,7 @@ def unfollowed(linkage: Linkage, p: Array, q: Array) -> dict[str, float]:
     return off
 
 
-def tell_unfollowed(linkage: Linkage, p: Array, q: Array, stacklevel: int) -> None:
+def tell_unfollowed(linkage: Linkage, p: Array, q: Array) -> None:
     """A warning for each of them; of a run of a batch it is noted in NOTED, where `tell_of_runs` finds it."""
     off, noted = unfollowed(linkage, p, q), NOTED.get()
     if noted is not None:
@@ -46,10 +47,10 @@ def tell_unfollowed(linkage: Linkage, p: Array, q: Array, stacklevel: int) -> No
         return
     for name, away in off.items():
         told = f"{name} begins {off_text(name, away)} from its guess: {nearer_text(linkage.source)}"
-        warnings.warn(f"{told}; {LISTED}", stacklevel=stacklevel + 1)
+        warnings.warn(f"{told}; {LISTED}", stacklevel=_outside())
 
 
-def tell_of_runs(source: KernelSource, noted: Sequence[Mapping[str, float]], stacklevel: int) -> None:
+def tell_of_runs(source: KernelSource, noted: Sequence[Mapping[str, float]]) -> None:
     """One warning for all runs of a batch: which guesses, in how many runs, by how much at most."""
     told = []
     for name in dict.fromkeys(name for off in noted for name in off):
@@ -57,7 +58,15 @@ def tell_of_runs(source: KernelSource, noted: Sequence[Mapping[str, float]], sta
         told.append(f"{name} in {len(by)} of {len(noted)} runs by up to {off_text(name, max(map(abs, by)))}")
     if told:
         text = f"runs begin away from their guess: {', '.join(told)}: {nearer_text(source)}; {LISTED}"
-        warnings.warn(text, stacklevel=stacklevel + 1)
+        warnings.warn(text, stacklevel=_outside())
+
+
+def _outside() -> int:
+    """How many calls above its caller the user's own line is, as `warnings.warn` counts."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "gudgeon":
+        level, frame = level + 1, frame.f_back
+    return level
 
 
 def off_text(name: str, off: float) -> str:

@@ -3,32 +3,55 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
 from gudgeon.assembly.linkage import Linkage
-from gudgeon.errors import AssemblyError
+from gudgeon.contract.kernel_source import ClearanceInfo
+from gudgeon.errors import AssemblyError, SingularError
+from gudgeon.language.plot_units import told_apart
 from gudgeon.model.compiled import Array, CompiledModel
 
+FAR = 10.0  # times the most that it may be: an e that is longer was hardly meant in its unit
 DEEPEST = 0.1  # of the radius, that a journal may lie in its bearing (`deepest` of model.h)
 
 
 def check_places(linkage: Linkage, p: Array) -> None:
     """AssemblyError for a journal that the file's start lays deeper into its bearing than any law of contact holds."""
+    for joint, e, c in _places(linkage, p):
+        deepest = DEEPEST * float(p[joint.constants["R_i"]])
+        if e - c > deepest:
+            length, most = told_apart(1e3 * e, 1e3 * (c + deepest))
+            bare = "; a bare number is in m" if e > FAR * (c + deepest) else ""
+            raise AssemblyError(
+                f"start.play.{joint.name}.e is {length} mm long and may be {most} mm: the clearance is {1e3 * c:.4g}"
+                " mm, and deeper in metal than a tenth of the bearing's radius no law of contact holds\n"
+                f"  write start.play.{joint.name}: {{e: [{1e3 * c / 2:.3g} mm, 0 mm]}}, or a share of a parameter, as"
+                f" 0.5*c{bare}"
+            )
+
+
+def in_walls(linkage: Linkage, p: Array) -> Iterator[str]:
+    """A remark on each journal that the file's start lays into its bearing's wall."""
+    for joint, e, c in _places(linkage, p):
+        if e > c:
+            so = "a run begins in contact" if joint.dry else "there is no film there"
+            yield (
+                f"{joint.name} begins {1e6 * (e - c):.4g} µm inside its bearing's wall, e/c ="
+                f" {told_apart(e / c, 1.0, 3)[0]}: {so}"
+            )
+
+
+def _places(linkage: Linkage, p: Array) -> Iterator[tuple[ClearanceInfo, float, float]]:
+    """Joints with play that the file's start says a place of, with |e| and c (m)."""
     source = linkage.source
     if not source.start_apart:
         return
     values = linkage.start_values(p)[1][len(source.start_set) :]
     for joint in source.clearances:
         own = [x for row, x in zip(source.start_apart, values, strict=True) if row.rpartition(".")[0] == joint.name]
-        e, c = float(np.linalg.norm(own)), float(p[joint.clearance])
-        deepest = DEEPEST * float(p[joint.constants["R_i"]])
-        if e - c > deepest:
-            raise AssemblyError(
-                f"start.play.{joint.name}.e is {1e3 * e:.4g} mm long, and the clearance of {joint.name} is"
-                f" {1e3 * c:.4g} mm: it lies {1e3 * deepest:.4g} mm, a tenth of its radius, in metal at most\n"
-                f"  a bare number is in m: write e: [{1e3 * c / 2:.3g} mm, 0 mm], or a share of a parameter, 0.5*c"
-            )
+        yield joint, float(np.linalg.norm(own)), float(p[joint.clearance])
 
 
 def parting(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array) -> tuple[str, ...]:
@@ -36,26 +59,47 @@ def parting(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, mem
 
     q, v (n,) at time t (s); memory (n_memory,): contacts that go on from another run know their onset.
     """
-    joints = [joint for k, joint in enumerate(compiled.source.clearances) if joint.dry and math.isnan(memory[k])]
-    phi = compiled.closed_phi(t, q, p) if joints else np.zeros(0)
+    joints = [k for k, joint in enumerate(compiled.source.clearances) if joint.dry and math.isnan(memory[k])]
     told = []
-    for joint in joints:
-        rows = [k for k, row in enumerate(compiled.source.start_rows) if row.owner == joint.name]
-        e = -phi[rows]  # physics.md, section 3: Φ of the joint is −e
+    for number in joints:
+        joint = compiled.source.clearances[number]
+        rows, e = eccentricity(compiled, p, t, q, joint)
         depth = math.hypot(*e) - float(p[joint.clearance])
         if depth > 0.0:
             with np.errstate(all="ignore"):  # a state of anybody's: the run itself tells what is not finite
-                rate = compiled.closed_phi_q(t, q, p)[rows] @ v - compiled.closed_nu(t, q, p)[rows]
-                deltadot = -float(rate @ e) / math.hypot(*e)
-            if deltadot <= 0.0:
-                told.append(_told(joint.name, depth, deltadot))
+                by_v = -(e / math.hypot(*e)) @ compiled.closed_phi_q(t, q, p)[rows]  # ∂δ̇/∂v
+                deltadot = float(by_v @ v + (e / math.hypot(*e)) @ compiled.closed_nu(t, q, p)[rows])
+                approach = v + (1.0 - deltadot) / float(by_v @ by_v) * by_v  # δ̇ = 1 m/s
+                if deltadot <= 0.0 and _reads_onset(compiled, p, t, q, approach, memory, number):
+                    told.append(_told(joint.name, depth, deltadot))
     return tuple(told)
+
+
+def eccentricity(
+    compiled: CompiledModel, p: Array, t: float, q: Array, joint: ClearanceInfo
+) -> tuple[list[int], Array]:  # fmt: skip
+    """The rows of a joint with play in the closed linkage, and e (2,) in ground axes, m."""
+    rows = [k for k, row in enumerate(compiled.source.start_rows) if row.owner == joint.name]
+    return rows, -compiled.closed_phi(t, q, p)[rows]  # physics.md, section 3: Φ of the joint is −e
+
+
+def _reads_onset(
+    compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array, number: int
+) -> bool:  # fmt: skip
+    """Whether the force in a joint depends on δ̇⁻ at all: it does not without loss, nor where a law reads δ̇ alone."""
+    latched = np.array([memory, memory])
+    latched[:, number] = 1e-3, np.inf
+    try:
+        force = compiled.evaluate([t, t], [q, q], [v, v], latched, p, parts=("clearance",)).clearance[:, number]
+    except SingularError:  # the run itself tells
+        return True
+    return bool((force[0] != force[1]).any())
 
 
 def _told(joint: str, depth: float, deltadot: float) -> str:
     moves = f"part at {-deltadot:.4g} m/s" if deltadot < 0.0 else "are at rest"
     return (
         f"{joint} begins in contact, {1e6 * depth:.4g} µm deep, while its surfaces {moves}: the onset is not known, and"
-        " its rate δ̇⁻ is taken as that of one without loss, by the energy of motion and elastic force (run.memory has"
-        " it); damping of this contact, and of no other, hangs on that choice"
+        " its rate δ̇⁻ is taken as that of one without loss, by the energy of motion and elastic force (run.impacts has"
+        " it, as deltadot); damping of this contact, and of no other, hangs on that choice"
     )

@@ -13,12 +13,13 @@ from gudgeon.assembly.branches import Assembly, find_assemblies, guesses_apart
 from gudgeon.assembly.closure import Closure
 from gudgeon.assembly.failures import not_closed
 from gudgeon.assembly.followed import nearer_text, off_text, unfollowed
-from gudgeon.assembly.journals import check_places
+from gudgeon.assembly.journals import check_places, in_walls
 from gudgeon.assembly.mobility import Mobility, check_freedoms, find_mobility
 from gudgeon.assembly.search import velocities
 from gudgeon.commands.common import at_numbers, check_addresses
 from gudgeon.errors import GudgeonError
 from gudgeon.language.tree import Number
+from gudgeon.model.seams import seams
 
 if TYPE_CHECKING:
     from gudgeon.generator.mechanism.mechanism import Mechanism
@@ -143,6 +144,9 @@ def remarks(mechanism: Mechanism, found: Findings) -> Iterator[tuple[str, str]]:
         return
     if (large := _too_large(mechanism, first)) is not None:
         yield "size", large
+    yield from (("curve", told) for told in seams(first.linkage.source, first.linkage.p))
+    deep = (told for scene in found.scenes.values() for told in in_walls(scene.linkage, scene.linkage.p))
+    yield from (("start", told) for told in dict.fromkeys(deep))
     closed = first.closed
     if closed.loose:
         yield "loose", f"nothing ties {', '.join(closed.loose)} to the ground: no joint, no drive"

@@ -19,6 +19,7 @@ def new_mechanism(name: str, like: str | None) -> int:
 
     Raises BadNameError, UnknownNameError for `like`, InputError where something of that name stands already.
     """
+    name = name.removesuffix(".yaml")
     _check(name)
     source = TEMPLATE if like is None else shipped_file(like)
     target = Path(f"{name}.yaml")
@@ -35,7 +36,7 @@ def new_mechanism(name: str, like: str | None) -> int:
 
 def _check(name: str) -> None:
     """A name that a mechanism can have, and that stands in YAML as it is."""
-    if name.endswith((".yaml", ".yml")):
+    if name.endswith(".yml"):
         raise BadNameError(f"{name!r}: expected a name without .yaml", None, "the file is called after it")
     check_name(name, "mechanism", None)
     if name.lower() in ("true", "false", "null"):

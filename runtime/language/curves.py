@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -33,6 +34,7 @@ class Curve:
     argument: Dimension | None = None
     value: Dimension | None = None
     unit: str | None = None  # SI, of the value: an angle's is rad
+    over: str = ""  # the unit of x as the file has it; "": SI
     source: str = ""  # the file that the points came from
     points: int = 0  # how many there were: a piece may have been halved (`in_pairs`)
 
@@ -53,6 +55,22 @@ class Curve:
 
         unit = si_unit(self.argument) if self.argument is not None else ""
         return f"from {self.x[0]:.6g} to {self.x[-1]:.6g} {unit or '(SI, angles in rad)'}"
+
+    def outside(self, x: float) -> str:
+        """What a place outside the range is, in as many digits as tell it from the end that it is behind."""
+        from gudgeon.language.plot_units import told_apart
+        from gudgeon.language.units import parse_unit
+
+        low, high = self.x[0], self.x[-1]
+        here, end = told_apart(x, high if x > high else low, 6)
+        ends = (f"{low:.6g}", end) if x > high else (end, f"{high:.6g}")
+        found = parse_unit(self.over) if self.over else None
+        size = found[0].to_si(Fraction(1)) if found else 1.0
+        own = f", from {low / size:.6g} to {high / size:.6g} {self.over}" if size != 1.0 else ""
+        return (
+            f"at {here}, outside its range, from {ends[0]} to {ends[1]} (SI, angles in rad){own}; in curves.{self.name}"
+            " ends: periodic repeats it, extrapolate: hold or line goes on"
+        )
 
     def told(self) -> str:
         """What it is, in words."""
@@ -103,13 +121,15 @@ class Curve:
 
     def to_data(self) -> list[Any]:
         """What a stored expression keeps of it: not its dimensions, which were checked."""
-        return [self.name, list(self.x), [list(c) for c in self.coefficients], self.ends, self.extrapolate, self.unit]
+        pieces = [list(c) for c in self.coefficients]
+        return [self.name, list(self.x), pieces, self.ends, self.extrapolate, self.unit, self.over]
 
     @staticmethod
     def from_data(data: Sequence[Any]) -> Curve:
         """The curve that `to_data` wrote."""
-        name, x, coefficients, ends, extrapolate, unit = data
-        return Curve(name, tuple(x), tuple(tuple(c) for c in coefficients), ends, extrapolate, unit=unit)
+        name, x, coefficients, ends, extrapolate, unit, *over = data  # results of earlier versions hold no `over`
+        pieces = tuple(tuple(c) for c in coefficients)
+        return Curve(name, tuple(x), pieces, ends, extrapolate, unit=unit, over=over[0] if over else "")
 
 
 def in_pairs(

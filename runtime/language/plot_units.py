@@ -46,3 +46,10 @@ def quantity(value: float, unit: str, digits: int = 4) -> str:
         return "–"
     factor, text = scale(value, unit)
     return f"{value * factor:.{digits}g} {text}".strip()
+
+
+def told_apart(value: float, limit: float, digits: int = 4) -> tuple[str, str]:
+    """Two numbers by the fewest digits, but no fewer than these, by which they differ."""
+    while digits < 17 and value != limit and f"{value:.{digits}g}" == f"{limit:.{digits}g}":
+        digits += 1
+    return f"{value:.{digits}g}", f"{limit:.{digits}g}"

@@ -126,7 +126,9 @@ class Tokenizer:
         if following.isalpha() and not has_unit:
             word = re.match(r"\w*", self.text[self.position :])
             other = OTHER_WORDS.get(word[0]) if word else None
+            guess = nearest(word[0], UNITS, 0.6) if word and word[0] not in self.parameters else None
             hint = f"a unit follows its number ({literal} mm), a product is written {literal} * name"
+            hint = f"did you mean '{literal} {guess}'? A product is written {literal} * name" if guess else hint
             hint = f"write {literal} {other}" if other else hint
             self.fail(f"{following!r} right behind the number {literal}", self.position, hint)
         _, _, exponent = literal.lower().partition("e")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import json
 import math
 import operator
 import re
@@ -13,6 +14,7 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import Condition, KernelSource, Slot
 from gudgeon.errors import BadValueError, UnknownNameError
+from gudgeon.language.tree import from_json, names
 from gudgeon.language.wanted import mapping, number_of, whole_digits
 from gudgeon.model.choices import place_of_word
 from gudgeon.model.compiled import Array, CompiledModel
@@ -67,6 +69,8 @@ def as_parameter(source: KernelSource, address: str) -> tuple[str, str]:
     """(message, hint) about an address that holds an expression of t or motion, and no number; "" for another one."""
     if (found := _of_the_run(address))[0]:
         return found
+    meant = (address, *(one.address for one in source.written if one.address.partition(".")[2] == address))
+    address = meant[-1]  # "motor.value" too
     written = next((one for one in source.written if one.address == address), None)
     if written is None and address.removeprefix("outputs.") not in source.outputs:
         several = (_unplaced_journal(source, address), _only_material(source, address), _literal_zero(source, address),
@@ -94,16 +98,33 @@ def _of_motion(source: KernelSource, address: str) -> tuple[str, str]:
     body, _, part = address.rpartition(".")
     if body not in (one.name for one in source.bodies) or part not in ("x", "y", "theta", "vx", "vy", "omega"):
         return "", ""
+    told = f"{address} is a result of the motion, and no number of the file"
     rate, own = part in ("vx", "vy", "omega"), {slot.address for slot in source.slots}
+    held = rate and source.degrees_of_freedom <= 0
+    if by := _driven(source, body) or held and _driven(source, ""):
+        return told, by
     said = [name for name in (f"start.{section}.{address}" for section in ("rates", "set", "guess")) if name in own]
     unit = {"omega": "rad/s", "theta": "deg"}.get(part, "m/s" if rate else "mm")
     section = "rates" if rate else "set"
     wanted = f"start: {{{section}: {{{address}: 0 {unit}}}}}, then start.{section}.{address} can be set"
     hint = f"its start is {said[0]}" if said else f"write {wanted}"
-    if source.drives:
-        drives = ", ".join(f"drives.{drive.name}.value" for drive in source.drives)
-        hint += f"; of what is driven {drives} says it: set the parameters in it"
-    return f"{address} is a result of the motion, and no number of the file", hint
+    return told, hint
+
+
+def _driven(source: KernelSource, body: str) -> str:
+    """Which drives say how a body moves ("": any at all), and by which parameters; "" where none does."""
+    told = []
+    for part in source.parts:
+        ends = part.ends[:1] if part.kind in ("angle", "coordinate") else part.ends  # then a reference, which it leaves
+        if part.section != "drives" or body and body not in (end.rpartition(".")[0] for end in ends):
+            continue
+        address = f"drives.{part.name}.value"
+        values = [from_json(json.loads(one.tree)) for one in source.written if one.address == address]
+        by = dict.fromkeys(name.path for tree in values for name in names(tree) if name.path != "t")
+        moves = body or "the linkage, which has no freedom left"
+        told.append(f"{part.name} drives {moves}: how it moves is in {address}")
+        told[-1] += f", here by {', '.join(by)}: set that" if by else ": write a parameter there, and set that"
+    return "; ".join(told)
 
 
 def _unplaced_journal(source: KernelSource, address: str) -> tuple[str, str]:
@@ -185,9 +206,11 @@ def check(source: KernelSource, p: Array) -> None:
         bound = sum(value[a] for a in condition.addresses) if condition.addresses else float(condition.bound)
         known = math.isfinite(value[condition.address]) and math.isfinite(bound)
         if known and not RELATIONS[condition.relation](value[condition.address], bound):
+            unit = next(slot.unit for slot in source.slots if slot.address == condition.address)
             raise BadValueError(
-                f"{condition.address} is {value[condition.address]:.6g}: {condition.message}"
-                + (f" ({condition.bound} is {bound:.6g})" if isinstance(condition.bound, str) else "")
+                f"{condition.address} is {_said(value[condition.address], unit)}{_by(source, condition, value)}:"
+                f" {condition.message}"
+                + (f" ({condition.bound} is {_said(bound, unit)})" if isinstance(condition.bound, str) else "")
                 + f"; expected {_range(source, condition.address)}"
             )
     for slot in source.slots:
@@ -216,6 +239,22 @@ def conditions(source: KernelSource) -> tuple[Condition, ...]:
     gains = [slot.address for slot in source.slots if slot.address.startswith("baumgarte.")]
     asked = ((">=", 0.0, "a negative gain drives rows apart"), ("<=", MOST_GAIN, "its square is no number"))
     return (*source.conditions, *(Condition(gain, *one) for gain in gains for one in asked))
+
+
+def _said(value: float, unit: str) -> str:
+    """A number in SI with its unit."""
+    return f"{value:.6g} {unit}".strip()
+
+
+def _by(source: KernelSource, condition: Condition, value: Mapping[str, float]) -> str:
+    """The parameters that differ from the file's, where a number follows parameters: " with c = 0.008 m"."""
+    if not any(slot.address == condition.address and slot.follows for slot in source.slots):
+        return ""
+    changed = [
+        f"{slot.address.removeprefix('parameters.')} = {_said(value[slot.address], slot.unit)}" for slot in source.slots
+        if slot.address.startswith("parameters.") and value[slot.address] != slot.default
+    ]  # fmt: skip
+    return f" with {', '.join(changed)}" if changed else ""
 
 
 def _range(source: KernelSource, address: str) -> str:

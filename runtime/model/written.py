@@ -230,7 +230,7 @@ def culprit(tree: Expr, values: Values) -> str:
         case Binary(operator=operator):
             return f"{told[0]} {operator} {told[1]}"
         case CurveCall(function=function, curve=curve):
-            return f"curve {function} at {told[0]}, outside its range, {curve.range_text}"
+            return f"curve {function} {curve.outside(numbers[0])}"
         case Call(function=function):
             return f"{function} of {', '.join(told)}"
     return "a number that is not finite"

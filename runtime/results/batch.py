@@ -31,12 +31,18 @@ Array: TypeAlias = NDArray[Any]
 PEAK_DTYPE = np.dtype([(name, "f8") for name in ("F", "t", "e_max", "first_contact", "first_peak")])
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Failure:
-    """A run that did not come to its end."""
+    """A run that did not come to its end; equal to another one that says the same, as one does that was saved."""
 
     run: int
     error: GudgeonError
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Failure) and (self.run, str(self.error)) == (other.run, str(other.error))
+
+    def __hash__(self) -> int:
+        return hash((self.run, str(self.error)))
 
     def __str__(self) -> str:
         return f"run {self.run}: {self.error}"
@@ -255,6 +261,12 @@ class Batch:
         from gudgeon.results import export
 
         export.batch_csv(self, path, names)
+
+    def to_mat(self, path: str | os.PathLike[str], names: Iterable[str] | None = None) -> None:
+        """Write for MATLAB `t` and these series, or all, each n × N, and what was given to runs, n × 1; see Result."""
+        from gudgeon.results import export
+
+        export.batch_mat(self, path, names)
 
 
 def given_values(source: KernelSource, p: Array, is_given: NDArray[np.bool_]) -> dict[str, Array]:

@@ -86,14 +86,20 @@ def _pandas() -> Any:
     return pandas
 
 
-def _runs(batch: Batch, names: Iterable[str] | None) -> Iterator[Columns]:
-    """The columns of one run after the other; one that did not begin has no row."""
-    from gudgeon.results.batch_series import rows, wanted_names
+def _wanted_of_batch(batch: Batch, names: Iterable[str] | None) -> list[str]:
+    """These series but t, each once, or for None every one that there is."""
+    from gudgeon.results.batch_series import wanted_names
     from gudgeon.results.series import catalogue
 
     every = batch.kept if batch.states is None else catalogue(batch.source)
-    series = [name for name in (every if names is None else wanted_names(batch.source, names)) if name != "t"]
-    for i, t, own in rows(batch, series):
+    return [name for name in (every if names is None else wanted_names(batch.source, names)) if name != "t"]
+
+
+def _runs(batch: Batch, names: Iterable[str] | None) -> Iterator[Columns]:
+    """The columns of one run after the other; one that did not begin has no row."""
+    from gudgeon.results.batch_series import rows
+
+    for i, t, own in rows(batch, _wanted_of_batch(batch, names)):
         given = {name: values[i] for name, values in batch.parameters.items()}
         same = {"run": np.full(len(t), i)} | {name: np.full(len(t), value) for name, value in given.items()}
         yield same | {"t": t} | own
@@ -130,15 +136,35 @@ def _cell(value: object) -> str:
 
 def mat(run: Result, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
     """See Result.to_mat."""
+    series = ["t", *wanted_series(run, names)]
+    told = [(name, run.unit(name), run.meaning(name)) for name in series]
+    _write_mat(path, run, told, {name: np.asarray(run[name], dtype=float) for name in series})
+
+
+def batch_mat(batch: Batch, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
+    """See Batch.to_mat."""
+    from gudgeon.results.batch_series import series
+    from gudgeon.results.series import catalogue
+
+    known, slots = catalogue(batch.source), {slot.address: slot for slot in batch.source.slots}
+    wanted = _wanted_of_batch(batch, names)
+    told = [("t", "s", "time"), *((name, known[name].unit, known[name].meaning) for name in wanted)]
+    told += [(name, slots[name].unit, "given to each run") for name in batch.parameters]
+    _write_mat(path, batch, told, series(batch, ["t", *wanted]) | dict(batch.parameters))
+
+
+def _write_mat(
+    path: str | os.PathLike[str], of: Result | Batch, told: Sequence[tuple[str, str, str]], columns: Columns
+) -> None:  # fmt: skip
+    """Columns under MATLAB's names, beside what they are: names, units and meanings."""
     from scipy.io import savemat
 
-    series = ["t", *wanted_series(run, names)]
-    fields = _matlab_names(series)
-    found: dict[str, Any] = {fields[name]: np.asarray(run[name], dtype=float) for name in series}
-    table = [(fields[name], name, run.unit(name), run.meaning(name)) for name in series]
-    for column, what in enumerate(("variables", "names", "units", "meanings")):
-        found[what] = np.array([row[column] for row in table], dtype=object)
-    found |= {"mechanism": run.source.mechanism, "scene": run.source.scene}
+    fields = _matlab_names([name for name, *_ in told])
+    found: dict[str, Any] = {fields[name]: columns[name] for name in fields}
+    found["variables"] = np.array(list(fields.values()), dtype=object)
+    for column, what in enumerate(("names", "units", "meanings")):
+        found[what] = np.array([row[column] for row in told], dtype=object)
+    found |= {"mechanism": of.source.mechanism, "scene": of.source.scene}
     with written(named(path, "path")) as file:
         savemat(file, found, long_field_names=True, oned_as="column")
         file.seek(0)

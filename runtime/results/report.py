@@ -186,7 +186,8 @@ def _at(value: float, unit: str, t: float, scales: Mapping[str, float]) -> str:
     if math.isfinite(t) and _is_noise(abs(value), unit, scales):
         return ZERO
     factor, text = drawn(value, unit)
-    return f"{value * factor:.4g} {text}".strip() + f" at {t:.4f} s" if math.isfinite(t) else "–"
+    when = quantity(t, "s") if 0.0 < abs(t) < 1e-3 else f"{t:.4f} s"
+    return f"{value * factor:.4g} {text}".strip() + f" at {when}" if math.isfinite(t) else "–"
 
 
 def _is_noise(size: float, unit: str, scales: Mapping[str, float]) -> bool:

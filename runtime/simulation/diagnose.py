@@ -8,11 +8,13 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from gudgeon.assembly.dead_centre import dependent_rows
+from gudgeon.assembly.journals import eccentricity
 from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.contract.methods import ADAPTIVE, AUTO
 from gudgeon.integrators.rk4 import last_step
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.seams import seams
 from gudgeon.results.diagnostics import Diagnostics, Peak
 from gudgeon.results.series import without_masses
 
@@ -104,7 +106,8 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
         )
     if compiled.source.events and ":" in problem.method:
         notes.append(f"events are not watched by method {problem.method}")
-    notes += _outside(compiled, p, trajectory)
+    notes += seams(compiled.source, p, float(problem.t[0]), float(trajectory.t[-1]))
+    notes += _outside(compiled, problem, trajectory)
     if compiled.source.indeterminate:
         notes.append(
             f"constraints are redundant: the reactions of {', '.join(compiled.source.indeterminate)} are not determined"
@@ -115,8 +118,9 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
     return tuple(notes)
 
 
-def _outside(compiled: CompiledModel, p: Array, trajectory: Trajectory) -> Iterator[str]:
+def _outside(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> Iterator[str]:
     """Joints with play that went where their laws do not hold."""
+    p = problem.p
     for joint, (_, _, e_max) in zip(compiled.source.clearances, trajectory.peaks, strict=True):
         c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
         deepest = float(e_max) - c
@@ -125,10 +129,12 @@ def _outside(compiled: CompiledModel, p: Array, trajectory: Trajectory) -> Itera
                 f"{joint.name}: the film is squeezed out, e/c = {float(e_max) / c:.7g}: its law, singular at e = c, is"
                 " capped there: a dry contact beyond it, or a thicker oil, keeps the surfaces apart"
             )
-        if deepest > min(DEEP_CLEARANCE * c, DEEP_RADIUS * radius):
+        if deepest > (most := min(DEEP_CLEARANCE * c, DEEP_RADIUS * radius)):
+            begun = np.hypot(*eccentricity(compiled, p, float(problem.t[0]), problem.q, joint)[1]) - c > most
             yield (
                 f"{joint.name}: the journal goes {1e3 * deepest:.3g} mm into its bearing (c {1e3 * c:.3g} mm, radius"
-                f" {1e3 * radius:.3g} mm): outside what contact laws hold for; a step too long does this too"
+                f" {1e3 * radius:.3g} mm): outside what contact laws hold for; "
+                + ("it lies so deep from the start on" if begun else "a step too long does this too")
             )
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.assembly.followed import tell_of_runs
-from gudgeon.assembly.journals import parting
+from gudgeon.assembly.journals import check_places, parting
 from gudgeon.assembly.redundant_rows import left_out
 from gudgeon.contract.methods import ADAPTIVE, INTEGRATORS
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
@@ -104,7 +104,7 @@ def _in_c(
     runs.looks = searches = starts.searches(p, bad, asked)
     before = time.perf_counter()
     runs.run(asked.progress)
-    tell_of_runs(simulation.source, [runs.unfollowed.get(i, {}) for i in range(runs.n)], stacklevel=4)
+    tell_of_runs(simulation.source, [runs.unfollowed.get(i, {}) for i in range(runs.n)])
     told = [search.told() if search else Told() for search in searches]
     batch = _of_runs(_Results(simulation, runs, starts, asked.rtol, asked.stop, asked.method, told), kept)
     return replace(batch, seconds=time.perf_counter() - before, threads=asked.threads)
@@ -151,14 +151,19 @@ class _Starts:
         return given, is_given
 
     def unfit(self, p: Array, bad: Mapping[int, Any]) -> dict[int, Any]:
-        """Runs whose numbers leave rows open at the state that they go on from."""
+        """Runs whose numbers leave rows open at the state that they go on from, or lay journals too deep."""
         found: dict[int, Any] = {}
-        for i, state in enumerate(self.states):
-            if self.remarks[i] and i not in bad:
-                try:
-                    check_fits(self.compiled, state, p[i])
-                except AssemblyError as error:
-                    found[i] = error
+        placed = self.compiled.source.start_apart and not self.states
+        for i in range(len(p) if placed or self.states else 0):
+            if i in bad:
+                continue
+            try:
+                if placed:
+                    check_places(self.compiled, p[i])
+                elif self.remarks[i]:
+                    check_fits(self.compiled, self.states[i], p[i])
+            except AssemblyError as error:
+                found[i] = error
         return found
 
     def searches(self, p: Array, bad: Mapping[int, Any], asked: Asked) -> list[Search | None]:

@@ -295,5 +295,5 @@ class Simulation(Shown):
     def _closed(self, p: Array) -> tuple[Array, Array, Array]:
         """The start that the file describes: q, q̇, and nothing in contact."""
         assembled = assemble(self.compiled, p)
-        tell_unfollowed(self.compiled, p, assembled.q, stacklevel=4)
+        tell_unfollowed(self.compiled, p, assembled.q)
         return assembled.q, assembled.v, np.full(self.compiled.n_memory, np.nan)

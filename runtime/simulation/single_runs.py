@@ -169,7 +169,7 @@ def run_singly(
     runs = _Runs(simulation, given, is_given, options, starts, asked.keep, N)
     runs.errors |= bad
     runs.run(asked.threads, asked.progress, t0)
-    tell_of_runs(source, runs.noted, stacklevel=4)
+    tell_of_runs(source, runs.noted)
     found = [runs.left.get(i) for i in range(runs.n)]
     impacts = tuple(np.zeros(0, IMPACT_DTYPE) if run is None else run.impacts for run in found)
     peaks = np.full((runs.n, len(source.clearances), 3), np.nan)

@@ -175,6 +175,16 @@ def test_a_link_that_is_too_short_is_told_by_how_much(tmp_path: Path) -> None:
     assert reached > 0 and f"crank (50 mm) longer by {1e3 * crank:.4g} mm" in str(told.value)
 
 
+def test_a_length_left_in_metres_is_named(tmp_path: Path) -> None:
+    """One that is by hundreds longer than all others; not one that is only too long."""
+    file = tmp_path / "four.yaml"
+    for ground, told in (("180", "times the next longest: was 180 mm meant?"), ("5", "")):
+        file.write_bytes(four_bar(ground=ground))
+        with pytest.raises(AssemblyError) as caught:
+            gudgeon.load(file).start()
+        assert told in str(caught.value) and ("was" in str(caught.value)) == bool(told)
+
+
 def test_a_link_that_is_too_long_is_told_by_how_much(tmp_path: Path) -> None:
     """A rocker longer than what crank's end, coupler and ground can reach around."""
     file = tmp_path / "four.yaml"
@@ -194,8 +204,9 @@ def test_a_guess_that_is_not_followed_is_told(tmp_path: Path) -> None:
     file.write_bytes(text)
     if "coupler.theta" in off:
         assert math.degrees(abs(off["coupler.theta"])) == pytest.approx(50.0, abs=1e-6)
-    with pytest.warns(UserWarning, match="coupler.theta begins 50° from its guess"):
+    with pytest.warns(UserWarning, match="coupler.theta begins 50° from its guess") as alone:
         gudgeon.load(file).simulate(0.1, output=1)
+    assert alone[0].filename == __file__
     angles = [math.radians(angle + away) for away in (0.0, 5.0, -45.0)]
     free = tmp_path / "free.yaml"  # its runs go from start to end in C
     free.write_bytes(four_bar(start="start: {set: {crank.theta: 30 deg}, guess: {coupler.theta: 0}}", drives=""))

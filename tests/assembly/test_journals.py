@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -171,6 +172,16 @@ def test_a_run_that_begins_in_contact(scenes: Scenes, method: str, speed: float,
     assert run["A.Fn"][0] == pytest.approx(force, rel=1e-6)
     notes = [note for note in run.diagnostics.notes if "begins in contact" in note]
     assert [told in note for note in notes] == [True] * bool(told)
+    assert run.impacts["deltadot"][0] == run.memory[0, 0]  # where the note says that it is
+
+
+@pytest.mark.parametrize(
+    "law", ["{law: hertz, restitution: 1}", "{law: kelvin_voigt, stiffness: 1e7 N/m, damping: 10 N*s/m}"]
+)
+def test_damping_that_knows_no_onset_hangs_on_no_choice(scenes: Scenes, law: str) -> None:
+    file = scenes.file("none", FREE.replace("{law: lankarani_nikravesh, restitution: 0.9}", law))
+    run = gudgeon.load(file, "dry").simulate(1e-4, output=2, parameters=numbers([C + DEEP, 0.0], [-0.02, 0.0]))
+    assert run["A.Fn"][0] > 0.0 and not [note for note in run.diagnostics.notes if "begins in contact" in note]
 
 
 @pytest.mark.parametrize(
@@ -225,3 +236,32 @@ def test_an_eccentricity_in_metres_by_mistake_is_told(e: str, scenes: Scenes) ->
         gudgeon.load(file, "dry").simulate(1e-4)
     done = CliRunner().invoke(app, ["check", str(file)])
     assert done.exit_code != 0 and "start.play.A.e is" in done.output
+
+
+def test_a_journal_too_deep_is_refused_alike_alone_and_as_a_column(scenes: Scenes) -> None:
+    """Its length and the most there may be in digits that tell them apart; no unit is blamed where one is plausible."""
+    most = C + R / 10.0
+    texts = []
+    for e in (2.0 * most, most * (1.0 + 1e-7)):
+        with pytest.raises(AssemblyError, match=r"start\.play\.A\.e is") as alone:
+            scenes.free.simulate(1e-4, parameters=numbers([e, 0.0], [0.0, 0.0]))
+        texts.append(str(alone.value))
+    columns = numbers([0.0, 0.0], [0.0, 0.0]) | {"start.play.A.e.x": [2.0 * most, most * (1.0 + 1e-7), 1e-5]}
+    batch = scenes.free.simulate_many(columns, 1e-4)
+    assert {failure.run: str(failure.error) for failure in batch.failures} == dict(enumerate(texts))
+    assert "2.6 mm long and may be 1.3 mm" in texts[0] and "bare number" not in texts[0]
+    length, limit = re.findall(r"(\S+) mm long and may be (\S+) mm", texts[1])[0]
+    assert float(length) > float(limit) == pytest.approx(1.3)
+
+
+def test_check_tells_of_a_start_in_the_wall(scenes: Scenes) -> None:
+    for y, told in ((-0.28, ""), (-0.2836, "A begins 0.7141 µm inside its bearing's wall"), (-0.4, "e/c = 1.37")):
+        file = scenes.file("wall", FREE.replace("ex: 0.1 mm, ey: -0.05 mm", f"ex: 0.1 mm, ey: {y} mm"))
+        shown = " ".join(CliRunner().invoke(app, ["check", str(file)]).output.split())
+        assert ("inside its bearing's wall" in shown) == bool(told) and told in shown
+
+
+def test_a_deep_start_is_not_the_steps_fault(scenes: Scenes) -> None:
+    run = scenes.free.simulate(1e-6, output=2, parameters=numbers([C + 0.2e-3, 0.0], [-0.01, 0.0]))
+    notes = [note for note in run.diagnostics.notes if "outside what contact laws hold for" in note]
+    assert len(notes) == 1 and "from the start on" in notes[0] and "step" not in notes[0]

@@ -26,6 +26,11 @@ def test_the_template_is_valid_and_runs(call: Gudgeon, tmp_path: Path) -> None:
     assert text.count("#") > 15 and max(map(len, text.splitlines())) <= 120
 
 
+def test_the_name_of_the_file_is_taken_as_that_of_the_mechanism(call: Gudgeon, tmp_path: Path) -> None:
+    assert call("new", "mine.yaml").exit_code == 0 and written(tmp_path) == {"mine.yaml"}
+    assert read_mechanism((tmp_path / "mine.yaml").read_bytes(), "mine.yaml").name == "mine"
+
+
 @pytest.mark.parametrize("like", shipped())
 def test_like_any_that_is_shipped(like: str, call: Gudgeon, tmp_path: Path) -> None:
     assert call("new", "mine", "--like", like).exit_code == 0
@@ -34,7 +39,7 @@ def test_like_any_that_is_shipped(like: str, call: Gudgeon, tmp_path: Path) -> N
 
 @pytest.mark.parametrize(
     ("line", "told"),
-    [("my-engine", "my_engine"), ("engine.yaml", "without .yaml"), ("true", "YAML takes it"), ("../x", "no identifier"),
+    [("my-engine", "my_engine"), ("engine.yml", "without .yaml"), ("true", "YAML takes it"), ("../x", "no identifier"),
      ("gudgeon_x", "kept for emitted code"), ("crane --like double_rocke", "did you mean 'double_rocker'"),
      ("there", "is there already"), ("link", "is there already")],
 )  # fmt: skip

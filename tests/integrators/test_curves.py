@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 from pathlib import Path
 
@@ -9,8 +10,10 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicSpline
+from typer.testing import CliRunner
 
 import gudgeon
+from gudgeon.cli import app
 from gudgeon.errors import BadValueError, InputError, SolverError
 from gudgeon.generator.pipeline import generate
 from gudgeon.loading.compiler import find_compiler
@@ -67,6 +70,26 @@ def test_a_follower_is_where_its_cam_says(tmp_path: Path) -> None:
     found = np.array(run.events_of("high"))
     assert len(found) == sum(np.diff(np.sign(s(10.0 * np.linspace(0, 2, 4001)) - 9e-3)) != 0)
     assert np.abs(s(10.0 * found) - 9e-3).max() < 1e-12
+
+
+@pytest.mark.parametrize(("ends", "order"), [("natural", 1), ("not_a_knot", 1), ("clamped", 2), ("periodic", None)])
+def test_a_cam_whose_end_does_not_meet_its_beginning_is_told(tmp_path: Path, ends: str, order: int | None) -> None:
+    """By the run that passes there, and by check; the rate jumps by what SciPy's spline says."""
+    text = CAM.replace("ends: periodic", f"ends: {ends}").replace("lift(omega * t)", "lift(mod(omega * t, 2*pi))")
+    scene, turn = loader(tmp_path)(text), 2.0 * np.pi / 10.0
+    run = scene.simulate(turn + 0.1, output=np.array([0.0, turn - 1e-9, turn + 1e-9, turn + 0.1]))
+    notes = [note for note in run.diagnostics.notes if note.startswith("drive cam: where mod begins curve lift anew")]
+    checked = CliRunner().invoke(app, ["check", *map(str, tmp_path.glob("*.yaml"))]).output
+    assert bool(notes) == ("curve: drive cam: where mod begins" in checked) == (order is not None)
+    assert not [note for note in scene.simulate(turn - 0.1).diagnostics.notes if "anew" in note]
+    if order is not None:
+        scipys = {"not_a_knot": "not-a-knot"}.get(ends, ends)
+        spline = CubicSpline(np.radians(ANGLES), np.array(LIFTS) * 1e-3, bc_type=scipys)
+        end, begin = spline(2.0 * np.pi, order), spline(0.0, order)
+        assert f"from {end:.4g} to {begin:.4g} " in notes[0] and "ends: periodic in curves.lift" in notes[0]
+        name = ("vy", "ay")[order - 1]
+        got = run[f"follower.{name}"]
+        assert got[2] - got[1] == pytest.approx(10.0**order * (begin - end), rel=1e-5)
 
 
 def test_second_rates_are_the_differences_of_rates(tmp_path: Path) -> None:
@@ -154,8 +177,12 @@ def test_outside_the_points_a_run_ends_with_the_curve_the_argument_and_the_range
     with pytest.raises(SolverError, match=r"curve pull at .*outside its range, from -0\.1 to 0\.1 \(SI"):
         load(slug("-pull(slug.x)", "none").replace("vx: 1 m/s", "vx: 5 m/s")).simulate(1.0)
     driven = CAM.replace(", ends: periodic", "").replace("events:", "#").replace("outputs:", "#")
-    with pytest.raises((SolverError, InputError), match=r"curve lift at .*outside its range, from 0 to 6\.28319 \(SI"):
+    with pytest.raises((SolverError, InputError), match=r"outside its range, .*, from 0 to 360 deg") as over:
         load(driven).simulate(1.0)
+    found = re.search(r"curve lift at (\S+), outside its range, from 0 to (\S+) ", str(over.value))
+    assert found is not None
+    at, end = map(float, found.groups())
+    assert at > end == pytest.approx(2.0 * np.pi, rel=1e-5) and "ends: periodic" in str(over.value)
 
 
 def test_a_drive_that_is_held_jumps_in_its_rate(tmp_path: Path) -> None:

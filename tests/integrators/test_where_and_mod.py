@@ -187,7 +187,7 @@ def test_how_long_a_step_lasts_is_a_number_of_the_run(tmp_path: Path) -> None:
     """Of one that is given later the condition holds too, alone and in batches; a scene's own is looked at as read."""
     text = SLUG % "F * smooth_step(t, 0, T)"
     simulation = loader(tmp_path)(text)
-    with pytest.raises(BadValueError, match=r"parameters.T is -1: a ramp or smooth_step takes that long; .* > 0"):
+    with pytest.raises(BadValueError, match=r"parameters.T is -1 s: a ramp or smooth_step takes that long; .* > 0"):
         simulation.simulate(0.1, parameters={"T": -1.0})
     batch = simulation.simulate_many({"T": [1.0, -1.0]}, t_end=0.1, output=1)
     assert [failure.run for failure in batch.failures] == [1]

@@ -52,7 +52,7 @@ def test_a_table_is_as_good_as_points(tmp_path: Path, text: str) -> None:
 REFUSED = [
     (PAIRS, "lift(t, t)", r"takes 1 argument, got 2"),
     (PAIRS, "lift", r"'lift' is a curve"),
-    (PAIRS, "lift(2 s)", r"curve lift at 2 is outside its range, from 0 to 1"),
+    (PAIRS, "lift(2 s)", r"curve lift is called at 2, outside its range, from 0 to 1"),
     (f"{PAIRS}, x: mm", "lift(t)", r"curve lift is over a length \(m\), got"),
     (f"{PAIRS}, y: mm", "lift(t)", r"expected .*, got a length"),
     (f"{PAIRS}, x: parsec", "lift(t)", r"'parsec', which is no unit"),

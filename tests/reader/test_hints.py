@@ -138,6 +138,19 @@ def test_units_without_a_space_and_as_people_write_them() -> None:
     assert inertia.value.value == 2.5e-4 and inertia.dimension == INERTIA  # type: ignore[union-attr]
 
 
+@pytest.mark.parametrize("number", ["60 rmp", "60rmp"])
+def test_a_mistyped_unit_is_told_with_a_space_and_without(number: str) -> None:
+    assert "rpm'?" in refused("5 rad/s", number.replace("r", "‸r", 1)).hint
+
+
+def test_a_play_that_is_a_number_is_told_once_and_what_it_holds() -> None:
+    key = "{bearing: bush, contact: dry}"
+    text = TEXT.replace("start: {guess", "start: {play: {wristpin: {e: [0.1 mm, 0]}}, guess").replace(key, "0.2 mm")
+    with pytest.raises(BadValueError, match=r"scenes\.worn\.play\.wristpin is '0\.2 mm'") as caught:
+        read_mechanism(text.encode(), "f.yaml")
+    assert caught.value.hint == "expected a mapping: {bearing: …, contact: …}"
+
+
 def test_a_unit_that_is_a_parameter_too_is_refused_where_it_stands() -> None:
     head = "name: plain\n"
     with pytest.raises(InputError, match=r"f.yaml:3:\d+: '2m' can mean two things: m is a unit, and a parameter here"):

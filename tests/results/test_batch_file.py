@@ -32,6 +32,7 @@ def assert_same(ours: Batch, theirs: Batch) -> None:
         one, other = getattr(ours, name), getattr(theirs, name)
         assert list(one) == list(other)
         assert all(one[key].tobytes() == other[key].tobytes() for key in one)
+    assert ours.failures == theirs.failures
     assert list(map(str, ours.failures)) == list(map(str, theirs.failures))
     for i in range(len(ours)):
         one, other = ours.partial(i), theirs.partial(i)

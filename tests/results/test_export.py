@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import gudgeon
 from gudgeon.errors import BadValueError, GudgeonError, OutputError, UnknownNameError
 from gudgeon.results import export
 from gudgeon.results.results import Result
@@ -117,6 +118,25 @@ def test_matlab_reads_every_series_with_name_and_unit(run: Result, tmp_path: Pat
     for variable, name in zip(variables, names, strict=True):
         np.testing.assert_array_equal(found[variable].ravel(), run[name])
         assert found[variable].dtype == np.float64  # MATLAB's whole numbers saturate
+
+
+def test_matlab_reads_batches_as_runs_by_samples(tmp_path: Path) -> None:
+    """Runs of their own lengths: NaN behind the end; of a batch that kept series only, those."""
+    from scipy.io import loadmat
+
+    pendulum, lengths = gudgeon.load("pendulum"), [0.2, 0.3, 0.1]
+    for keep in ("states", ["bob.x", "bob.theta"]):
+        batch = pendulum.simulate_many({"g": [9.0, 9.5, 10.0]}, t_end=lengths, output=5, keep=keep)
+        batch.to_mat(tmp_path / "runs.mat", ["bob.theta"])
+        found = loadmat(tmp_path / "runs.mat")
+        np.testing.assert_array_equal(found["bob_theta"], batch["bob.theta"])
+        np.testing.assert_array_equal(found["t"], batch["t"])
+        np.testing.assert_allclose(np.nanmax(found["t"], axis=1), lengths)
+        np.testing.assert_array_equal(found["parameters_g"], np.array([[9.0], [9.5], [10.0]]))
+        told = [[str(cell[0]) for cell in found[key].ravel()] for key in ("names", "units")]
+        assert told == [["t", "bob.theta", "parameters.g"], ["s", "rad", "m/s^2"]]
+        batch.to_mat(tmp_path / "all.mat")
+        assert "bob_x" in loadmat(tmp_path / "all.mat")
 
 
 def test_the_same_run_gives_the_same_matlab_file(run: Result, tmp_path: Path) -> None:

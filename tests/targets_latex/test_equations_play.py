@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.kinds.laws.law import laws
+from gudgeon.generator.field import NUMBER, Field
+from gudgeon.generator.kinds.laws.law import RESULTS, called, laws
 from gudgeon.generator.pipeline import derive, in_c
 from gudgeon.generator.targets.latex import equations_tex, equations_text
 from gudgeon.loading.build import compile_kernels
@@ -171,20 +172,36 @@ def test_every_number_of_a_law_is_in_its_table() -> None:
         assert shown.pop(address)
 
 
-@pytest.mark.parametrize("name", sorted(laws()))
-def test_every_law_is_printed(name: str) -> None:
-    """A new law needs nothing here: its steps, source and validity are in the document."""
-    law = laws()[name]
-    given = ", ".join(f"{p.name}: {(k + 1) * 0.1:.1f}" for k, p in enumerate(law.parameters) if p.default is None)
-    own = f"{{law: {name}{', ' if given else ''}{given}}}"
+def uses() -> list[tuple[str, bool]]:
+    """Every law by every name that it has; those with a number that they can do without, with it and without."""
+    found = [(name, law.fields_as(name)) for role in RESULTS for name, law in called(role).items()]
+    return [(name, left) for name, fields in found for left in sorted({False, any(map(may_lack, fields))})]
+
+
+def may_lack(own: Field) -> bool:
+    return own.kind == NUMBER and own.default is None and not own.required
+
+
+@pytest.mark.parametrize(("name", "left_out"), uses())
+def test_every_law_is_printed(name: str, left_out: bool) -> None:
+    """A new law needs nothing here: its steps, numbers, source and validity are in the document."""
+    law = next(some[name] for role in RESULTS if name in (some := called(role)))
+    needed = [own for own in law.fields_as(name) if own.kind == NUMBER and own.default is None]
+    given = [f"{own.name}: {(k + 1) * 0.1:.1f}" for k, own in enumerate(needed) if not (left_out and may_lack(own))]
+    own = f"{{{', '.join([f'law: {name}', *given])}}}"
     text = PRESS.replace({"normal": NORMAL, "film": FILM}.get(law.role, FRICTION.split(": ", 1)[1].strip()), own)
     model = derive(text.encode(), "press.yaml", "lubricated")
-    shown = " ".join(equations_text(model).split())
+    written = equations_text(model)
+    shown = " ".join(written.split())
     assert (law.reference or law.source) in shown and law.validity in shown
     clearance = model.clearances[0]
     equations_of = {"normal": clearance.normal, "friction": clearance.friction, "film": clearance.film}[law.role]
     assert equations_of is not None and equations_of.law is law
     title = f"Joint A: {'film' if law.role == 'film' else 'dry contact'}"
-    lines = sections(equations_text(model))[title]
-    assert len(equations(lines)) >= sum(step != 0 for step in equations_of.steps.values())
+    lines = sections(written)
+    assert len(equations(lines[title])) >= sum(step != 0 for step in equations_of.steps.values())
+    numbers_of = {cells[2] for cells in rows(lines["Joint A: numbers"]) if len(cells) == 5}
+    for number in law.parameters:
+        told = not (left_out and may_lack(number))
+        assert (f"contacts.oil.{law.role}.{number.name}" in numbers_of) == told
     assert equations_tex(model).isascii()

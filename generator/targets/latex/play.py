@@ -67,8 +67,8 @@ class JointWithPlay:
         if self.clearance.transition is not None:
             yield self.clearance.transition, letter("e", "0")
         for equations, use in self.laws():
-            for parameter in equations.law.parameters:
-                yield self._slot(use.quantities[parameter.name]), of_latex(_sign(parameter))
+            for parameter, quantity in _given(equations, use):
+                yield self._slot(quantity), of_latex(_sign(parameter))
         for name, value in constants.items():
             yield value, _LAW_LETTERS.get(name) or word(name)
         for equations, _ in self.laws():
@@ -92,8 +92,8 @@ class JointWithPlay:
             yield material.numbers["E"], f"E{index}", f"modulus of elasticity of {name} ({what})"
             yield material.numbers["nu"], rf"\nu{index}", f"Poisson's ratio of {name} ({what})"
         for equations, use in self.laws():
-            for parameter in equations.law.parameters:
-                yield use.quantities[parameter.name], _sign(parameter), parameter.meaning
+            for parameter, quantity in _given(equations, use):
+                yield quantity, _sign(parameter), parameter.meaning
         if self.play.contact.transition is not None:
             yield self.play.contact.transition, "e_0", "width of the transition from film to dry contact"
 
@@ -118,6 +118,11 @@ class JointWithPlay:
             equation(step.symbol, self.notation.expand(step.value), self.notation, self.of_law, self.of_law[0])
             for step in steps
         ]
+
+
+def _given(equations: LawEquations, use: LawUse) -> list[tuple[Field, Quantity]]:
+    """The numbers that a law has here: one that may follow from others is not there where the file leaves it out."""
+    return [(own, use.quantities[own.name]) for own in equations.law.parameters if own.name in use.quantities]
 
 
 def _sign(parameter: Field) -> str:
