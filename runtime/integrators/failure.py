@@ -146,7 +146,13 @@ def drives_at(compiled: CompiledModel, p: Array, t: float, fast: float = 0.0) ->
 
 
 def overflowing(compiled: CompiledModel, p: Array, t: float) -> NonFiniteError | None:
-    """The error for drives that are so fast that no double holds what follows from them; None: there are none."""
+    """The error for drives that are so fast that no double holds what follows from them; None: there are none.
+
+    Those that are no number, or become so fast, have words of their own.
+    """
+    rates = [compiled.closed_nu(s, np.zeros(compiled.n), p) for s in (t, 0.5 * t)]
+    if not (np.abs(rates) >= OVERFLOWING).all(axis=0).any():
+        return None
     if fast := drives_at(compiled, p, t, OVERFLOWING):
         told = f"velocities and accelerations are too large for doubles at t = {t:.9g} s{fast}"
         return NonFiniteError(f"{told}\n  {SLOWER}", t)
