@@ -24,9 +24,9 @@ if TYPE_CHECKING:
 
 NOISE, ZERO = 1e-9, "≈ 0"  # a number below this share of what the run has of its kind is shown as none
 COLUMNS = 4  # scenes beside each other in one table
-NEED_A_LEGEND = ("grazes", "δ̇/δ̇⁻ while latched", "steps with it outside ±1")
-# of a joint with play: name -> (unit that a table can scale, what follows the name); the rest is in --json
-CONSTANTS = {"c": ("m", ""), "K": ("", " [N/mⁿ]"), "S": ("N*s", "")}
+# of a joint with play: name -> (unit that a table can scale, what it is); the rest is in --json
+CONSTANTS = {"c": ("m", "clearance c"), "K": ("", "contact stiffness K [N/mⁿ]"), "S": ("N*s", "film factor S")}
+NEED_A_LEGEND = ("grazes", "δ̇/δ̇⁻ while latched", "steps with it outside ±1", CONSTANTS["K"][1], CONSTANTS["S"][1])
 
 
 @dataclass(frozen=True)
@@ -131,7 +131,7 @@ def tables(title: str, reports: Sequence[SceneReport], width: int, verbose: bool
     from gudgeon.language.shown import plain_console
 
     endless = plain_console(10_000)
-    rows = [row for row in _rows(reports) if verbose or row[0] not in NEED_A_LEGEND]
+    rows = [row for row in _rows(reports) if verbose or not row[0].endswith(NEED_A_LEGEND)]
     found: list[Table] = []
     for count in range(min(COLUMNS, len(reports)), 0, -1):
         parts = [slice(first, first + count) for first in range(0, len(reports), count)]
@@ -246,9 +246,9 @@ def _play_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
         rows.append((f"{joint} first contact", [quantity(t, "s") for t in contacts]))
         rows.append((f"{joint} peak of that contact", [quantity(p.first_peak, "N", 5) if p else "–" for p in shown]))
         rows.append((f"{joint} largest e", [quantity(p.e_max, "m", 5) if p else "–" for p in shown]))
-        for name, (unit, after) in CONSTANTS.items():
+        for name, (unit, what) in CONSTANTS.items():
             values = (report.constants.get(f"{joint}.{name}", math.nan) for report in reports)
-            rows.append((f"{joint} {name}{after}", [quantity(value, unit) for value in values]))
+            rows.append((f"{joint} {what}", [quantity(value, unit) for value in values]))
     return rows
 
 
@@ -272,9 +272,9 @@ def _trust_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
         ("max |Φ|", [f"{r.diagnostics.phi_max:.2e}" if r.constrained else "no row is left" for r in reports]),
         ("max |Φ̇|", [f"{r.diagnostics.phi_dot_max:.2e}" if r.constrained else "–" for r in reports]),
         ("energy residual", [quantity(d.energy_residual, "J", 3) for d in every]),
-        ("of turned over", [quantity(d.energy_turned_over, "J", 3) for d in every]),
+        ("energy turned over", [quantity(d.energy_turned_over, "J", 3) for d in every]),
         ("trusted until", [_until(d.horizon) for d in every]),
-        ("onsets", [str(d.onsets) if p else "–" for d, p in zip(every, play, strict=True)]),
+        ("contacts that began", [str(d.onsets) if p else "–" for d, p in zip(every, play, strict=True)]),
         ("grazes", [str(d.grazes) if p and d.grazes else "–" for d, p in zip(every, play, strict=True)]),
         ("δ̇/δ̇⁻ while latched", ratio),
         ("steps with it outside ±1", [str(d.ratio_outside) if math.isfinite(d.ratio_min) else "–" for d in every]),
