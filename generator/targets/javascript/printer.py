@@ -10,16 +10,18 @@ from collections.abc import Collection
 import sympy as sp
 
 from gudgeon.generator.ir.branches import Branch
-from gudgeon.generator.ir.kernels import Argument, Kernel
+from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import NUMBERS, Readable, readable
+from gudgeon.generator.ir.signatures import SIDES
 from gudgeon.generator.ir.statements import Line, Sides, Statement
+from gudgeon.generator.kernels.shared import CORNER
 from gudgeon.generator.symbols.curves import CurveOf, c_name
 from gudgeon.generator.targets.c.printer import CPrinter, Text
 
 PRELUDE = """\
 const {sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, log, sqrt, pow, abs: fabs, PI} = Math;
 const max_of = (x, y) => (x < y ? y : x), min_of = (x, y) => (x > y ? y : x), INFINITY = Infinity;
-const sign_of = (x) => (x > 0 ? 1 : x < 0 ? -1 : x), side_of = (side, g, k, value) => sign_of(value);
+const sign_of = (x) => (x > 0 ? 1 : x < 0 ? -1 : x);
 const just_ahead = (x) => x + 1e-9 * (1 + fabs(x)), just_behind = (x) => x - 1e-9 * (1 + fabs(x));
 const finite_slope = (slope, ahead, behind, way) => (isFinite(slope) ? slope : (ahead - behind) / way);
 const mod_of = (a, b) => {
@@ -28,15 +30,15 @@ const mod_of = (a, b) => {
 };
 const mod_on = (a, b) => mod_of(a, b);
 const period_side = (a, b) => sin(PI * a / b);
-const side = null, g = null;
 """
 _WORDS = frozenset({
     "abstract", "arguments", "await", "async", "boolean", "byte", "catch", "class", "debugger", "delete", "eval",
     "export", "extends", "false", "final", "finally", "function", "implements", "import", "in", "instanceof",
     "interface", "let", "new", "null", "of", "package", "private", "protected", "public", "super", "synchronized",
     "this", "throw", "throws", "transient", "true", "try", "typeof", "undefined", "var", "with", "yield", "isFinite",
-    "Infinity", "NaN", "Math",
+    "Infinity", "NaN", "Math", "functions",
 })  # fmt: skip
+_FILLED = "double *"  # the type of what a function returns by its arguments
 
 
 def name(text: str) -> str:
@@ -59,6 +61,10 @@ class JavaScriptPrinter(CPrinter):
             self.numbers.add(plain.removeprefix(NUMBERS))
         return name(plain)
 
+    def _print_SideOf(self, expr: sp.Expr) -> str:
+        """The side on which its difference is."""
+        return self._call("sign_of", expr.args[1])
+
     def _print_CurveOf(self, expr: CurveOf) -> str:
         raise ValueError(f"a curve, {c_name(expr.name)}, has no counterpart in JavaScript")
 
@@ -74,11 +80,10 @@ def function(kernel: Kernel, numbers: set[str], only: Collection[str] | None = N
     `only`: the locals that are computed, nothing else is then. Raises ValueError for what has no counterpart.
     """
     own = readable(kernel)
-    writer = _Lines(own, numbers)
-    lines_of = (line for section in own.sections for line in section.statements)
-    wanted = [line for line in lines_of if only is None or getattr(line, "target", "") in only]
-    body = [text for line in wanted for text in writer.lines(line)]
-    outs = [a.name for a in kernel.arguments if not _is_given(a)] if only is None else []
+    writer = Lines(own, numbers)
+    body = writer.all(only)
+    outs = [a.name for a in kernel.arguments if a.type == _FILLED and a not in SIDES] if only is None else []
+    outs = [out for out in outs if out not in writer.locals]
     arrays = [f"    const {', '.join(f'{out} = []' for out in outs)};"] if outs else []
     given = ", ".join(arguments(kernel))
     told = ", ".join(dict.fromkeys([*writer.locals, *outs]))
@@ -88,19 +93,27 @@ def function(kernel: Kernel, numbers: set[str], only: Collection[str] | None = N
 
 def arguments(kernel: Kernel) -> list[str]:
     """What a function is given: not the arrays that it returns."""
-    return [name(a.name) for a in kernel.arguments if _is_given(a)]
+    given = (a for a in kernel.arguments if a not in (*SIDES, CORNER))
+    return [name(a.name) for a in given if a.type.startswith("const") or not a.type.endswith("*")]
 
 
-def _is_given(argument: Argument) -> bool:
-    return argument.type.startswith("const")
+def results(kernel: Kernel) -> list[str]:
+    """Numbers that a law returns by its pointers, in their order."""
+    return [name(a.name) for a in kernel.arguments if a.type == _FILLED and a not in SIDES]
 
 
-class _Lines:
+class Lines:
     """Lines of one function; `locals` are what they declare."""
 
     def __init__(self, own: Readable, numbers: set[str]) -> None:
-        self.text = Text(JavaScriptPrinter(own, numbers))
+        self.own, self.text = own, Text(JavaScriptPrinter(own, numbers))
         self.locals: list[str] = []
+
+    def all(self, only: Collection[str] | None = None) -> list[str]:
+        """Every line, or those that store to one of `only`."""
+        every = (line for section in self.own.sections for line in section.statements)
+        wanted = (line for line in every if only is None or getattr(line, "target", "") in only)
+        return [text for line in wanted for text in self.lines(line)]
 
     def lines(self, item: Line) -> list[str]:
         """One statement or branch."""
@@ -109,9 +122,10 @@ class _Lines:
         if not isinstance(item, (Statement, Branch)):
             raise ValueError(f"a line of a function that has no counterpart in JavaScript: {item}")
         target = self.text.printer.called(item.target)
-        if item.local:
+        declared = "const " * (item.local or item.target.startswith("*"))
+        if declared:
             self.locals.append(target)
         if isinstance(item, Statement):
-            return [f"{'const ' * item.local}{target} = {self.text.expression(item.value)};"]
+            return [f"{declared}{target} = {self.text.expression(item.value)};"]
         below, other = self.text.expression(item.otherwise), self.text.expression(item.then)
-        return [f"{'const ' * item.local}{target} = {self.text.expression(item.side)} < 0 ? {below} : {other};"]
+        return [f"{declared}{target} = {self.text.expression(item.side)} < 0 ? {below} : {other};"]

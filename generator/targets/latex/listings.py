@@ -6,6 +6,7 @@ import base64
 import gzip
 import hashlib
 import json
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
@@ -45,18 +46,21 @@ def _own_text(model: Model) -> str | None:
 
 def _c(found: Trace) -> str:
     """A place for the listing, and what is listed there, packed: light.js unfolds it."""
-    files, left = {}, MOST_C
+    texts, left = dict[str, str](), MOST_C
     for name in SHOWN:
         text = found.source.files.get(name)
         if text is None or len(text) > left:
             continue
         left -= len(text)
-        of = {str(k): " ".join(sorted(own)) for k, own in found.lines.get(name, {}).items() if own}
-        values = {str(k): value for k, value in found.values.get(name, {}).items()}
-        files[name] = {"text": text, "of": of, "values": values}
-    told = json.dumps({"files": files, "equations": _equations(found)}, ensure_ascii=False, separators=(",", ":"))
+        texts[name] = text
+    told = json.dumps({
+        "of": {name: _by_line(text, {k: " ".join(sorted(own)) for k, own in found.lines.get(name, {}).items()})
+               for name, text in texts.items()},
+        "values": {name: _by_line(text, found.values.get(name, {})) for name, text in texts.items()},
+        "texts": texts, "equations": _equations(found),
+    }, ensure_ascii=False, separators=(",", ":"))  # fmt: skip
     packed = base64.b64encode(gzip.compress(told.encode(), 9, mtime=0)).decode("ascii")
-    others = sorted(name for name in found.source.files if name.endswith((".c", ".h")) and name not in files)
+    others = sorted(name for name in found.source.files if name.endswith((".c", ".h")) and name not in texts)
     rest = f" Not listed here: {', '.join(others)}." if others else ""
     return (
         f"<p>The emitted C; what of it computes what was selected is shown at the foot of the page.{rest}</p>\n"
@@ -64,6 +68,11 @@ def _c(found: Trace) -> str:
         f'</noscript>\n<div id="{_CARRIED}-files"></div>\n'
         f'<script type="text/plain" id="{_CARRIED}">{packed}</script>'
     )
+
+
+def _by_line(text: str, told: Mapping[int, str]) -> list[str]:
+    """One text a line: packed it takes less room than numbers of lines do."""
+    return [told.get(k, "") for k in range(1, text.count("\n") + 2)]
 
 
 @cache
@@ -74,7 +83,7 @@ def _script(name: str) -> str:
 def _equations(found: Trace) -> str:
     """What values are computed with; of a scene with curves nothing, whose state alone is shown then."""
     try:
-        return equations_script(found.model, found.program.dynamics)
+        return equations_script(found.program)
     except ValueError:
         return ""
 

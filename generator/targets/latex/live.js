@@ -5,6 +5,7 @@
 const gudgeonValues = (() => {
     const FUNCTIONS = {phi: "constraints", phi_q: "jacobian", nu: "velocity_rhs", gamma: "acceleration_rhs", play: "play",
         rhs: "dynamics"};
+    const IDLE = null; // of a line that is not run at the state
     let equations = null, state = null, known = {}, waiting = false;
     const seen = new Set();
 
@@ -24,13 +25,53 @@ const gudgeonValues = (() => {
         return known[of];
     }
 
+    /* What the functions of a joint with play store at the state, {function of C: its locals}, computed once. */
+    function contact(joint) {
+        const play = computed("play"), {functions, joints} = equations;
+        const motion = joints[joint].map((name) => play[name]);
+        return known[`joint ${joint}`] ??= functions[`clearance_${joint}`](...motion, latch(joint), known.p, {});
+    }
+
+    /*
+     * What a joint remembers at the sample: rates of closing, NaN of the free, first; inner states of laws last. Of a
+     * run that keeps none of it (carried.js) a contact is closed by no number, so that its force is none either.
+     */
+    function latch(joint) {
+        const joints = Object.keys(equations.joints), i = joints.indexOf(joint), {run, k} = state;
+        const memory = run?.memory ?? [], width = memory.length / (run?.t?.length || 1);
+        const own = memory.slice(k * width, (k + 1) * width);
+        const deltadot_minus = own[i] ?? NaN, each = equations.states, last = width - each * (joints.length - i);
+        return {closed: !own.length || !Number.isNaN(deltadot_minus), deltadot_minus, state: own.slice(last, last + each)};
+    }
+
+    /* Of a function of clearance.c, in the joint that is lit, or the first that calls it. */
+    function ofLaw(function_, name) {
+        const joints = equations?.called[function_] ?? [];
+        const lit = (joint) => typeof gudgeonLight !== "undefined" && gudgeonLight.isLit(`joint-${joint}`);
+        const joint = joints.find(lit) ?? joints[0];
+        if (!joint) return NaN;
+        const found = contact(joint)[function_];
+        return found && name in found ? found[name] : IDLE;
+    }
+
+    /* What a line stored: "phi.arm_x", "law.dry_A.v_t"; "law.f.x<side" where f's side is below zero, ">": elsewhere. */
+    function stored(name) {
+        const [, plain, relation, side] = name.match(/^([^<>]*)([<>]?)(.*)$/), [kind, ...rest] = plain.split(".");
+        if (relation) {
+            const below = stored(`${plain.slice(0, plain.lastIndexOf("."))}.${side}`);
+            if (below === IDLE || below < 0 !== (relation === "<")) return IDLE;
+        }
+        if (kind === "p" || kind === "lambda") return value(plain);
+        if (kind === "law") return ofLaw(rest[0], rest.slice(1).join("."));
+        return local(computed(kind), rest.join("."));
+    }
+
     /* The number of a name: "q.7", "phi.3", "phi_q.3.7", "lambda.3", "p.5", "tmp.phi.arm_x"; NaN where there is none. */
     function value(name) {
         const [kind, ...rest] = name.split("."), numbers = rest.map(Number);
         if (kind === "q" || kind === "v") return state[kind][numbers[0] - 1];
         if (kind === "p") return state.p[numbers[0] - 1];
-        if (kind === "tmp" && (rest[0] === "p" || rest[0] === "lambda")) return value(rest.join("."));
-        if (kind === "tmp") return local(computed(rest[0]), rest.slice(1).join("."));
+        if (kind === "tmp") return stored(rest.join("."));
         if (kind === "lambda") return multiplier(numbers[0]);
         const row = equations?.rows[numbers[0] - 1];
         if (kind === "phi_q") return computed(kind).phi_q?.[row * state.q.length + numbers[1] - 1];
@@ -52,7 +93,10 @@ const gudgeonValues = (() => {
         }
     }
 
-    const text = (x) => (Number.isFinite(x) ? String(Number(x.toPrecision(5))).replace("-", "\u2212") : "");
+    function text(x) {
+        if (x === IDLE) return "\u2013";
+        return Number.isFinite(x) ? String(Number(x.toPrecision(5))).replaceAll("-", "\u2212") : "";
+    }
 
     /* A number as text; a mark of a plot goes to its place. */
     function fill(element) {
@@ -62,7 +106,7 @@ const gudgeonValues = (() => {
             return;
         }
         const [first, last, left, right] = element.dataset.range.split(" ").map(Number);
-        const inside = x >= first && x <= last;
+        const inside = x !== IDLE && x >= first && x <= last;
         element.setAttribute("visibility", inside ? "visible" : "hidden");
         if (inside) element.setAttribute("transform", `translate(${left + (right - left) * (x - first) / (last - first)} 0)`);
     }
@@ -100,7 +144,10 @@ const gudgeonValues = (() => {
             for (const {target, isIntersecting} of changes) seen[isIntersecting ? "add" : "delete"](target);
             ask();
         });
-        const observe = () => document.querySelectorAll("[data-value]").forEach((one) => watch.observe(one));
+        const observe = () => {
+            document.querySelectorAll("[data-value]").forEach((one) => watch.observe(one));
+            ask(); // another joint may be lit
+        };
         for (const name of ["gudgeon:lit", "gudgeon:listed"]) document.addEventListener(name, observe);
         observe();
         if (window.gudgeonState) announce(window.gudgeonState);
