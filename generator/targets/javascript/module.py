@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import defaultdict
+from contextlib import suppress
 
 import sympy as sp
 
@@ -15,8 +16,11 @@ from gudgeon.generator.ir.signatures import PARAMETERS, STATE
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.kernels import closed_linkage
 from gudgeon.generator.kernels.program import Program
+from gudgeon.generator.kernels.reduced import DYNAMICS
 from gudgeon.generator.targets.javascript.play import MOTION, joint_functions
 from gudgeon.generator.targets.javascript.printer import PRELUDE, arguments, function
+
+_OF_STATES = ("reduce_state", "expand", "closures", "closure_rates", DYNAMICS)
 
 
 def equations_script(program: Program) -> str:
@@ -35,7 +39,9 @@ def equations_script(program: Program) -> str:
     texts = [function(dynamics, read, right_hand_sides(dynamics, model))]
     texts += [function(kernel, read) for kernel in (*kernels, *program.laws)]
     texts += [text for pin in program.pins for text in joint_functions(pin, read)]
-    kernels.append(dynamics)
+    in_tree = tree_functions(program, read)
+    texts = [*in_tree.values(), *texts]  # nearest to what they are like in C: packed, that takes the least room
+    kernels += [dynamics, *(kernel for kernel in _tree_kernels(program) if kernel.name in in_tree)]
     text = ",\n".join(texts)
     members = map(model.slots.field, model.slots.members())
     place = {row.name: k for k, row in enumerate(model.all_rows)}
@@ -49,6 +55,23 @@ def equations_script(program: Program) -> str:
     parts = ", ".join(f"{key}: {json.dumps(value, separators=(',', ':'))}" for key, value in told.items())
     return (f"const gudgeonEquations = (() => {{\n{PRELUDE}const functions = {{\n{text},\n}};\n"
             f"return {{{parts}, functions}};\n}})();\n")  # fmt: skip
+
+
+def tree_functions(program: Program, read: set[str]) -> dict[str, str]:
+    """Functions of reduced.c that a sample says enough for, by name; `read` gets the members of p.
+
+    What drives determine through loops is not among what a sample has; nor is whether friction sticks.
+    """
+    found = dict[str, str]()
+    for kernel in _tree_kernels(program):
+        with suppress(ValueError):
+            found[kernel.name] = function(kernel, read)
+    return found
+
+
+def _tree_kernels(program: Program) -> list[Kernel]:
+    tree = program.tree
+    return [kernel for kernel in tree.every if kernel.name in _OF_STATES] if tree and not tree.chains else []
 
 
 def right_hand_sides(dynamics: Kernel, model: Model) -> set[str]:

@@ -16,6 +16,7 @@ from gudgeon.generator.targets.javascript.printer import JavaScriptPrinter, Line
 
 MOTION = (contact.e_x, contact.e_y, contact.de_x, contact.de_y, contact.omega_i, contact.omega_j)
 BLENDED = ("n", "t", "M_i", "M_j")  # members of a force that film and dry contact share
+_NOTHING = "{n: 0, t: 0, M_i: 0, M_j: 0}"
 _DRY = ("delta", "deltadot", "de_t", "omega_i", "omega_j", "latch", "p", "of")
 _FILM = ("e", "deltadot", "de_t", "omega_i", "omega_j", "p", "of")
 
@@ -23,7 +24,8 @@ _FILM = ("e", "deltadot", "de_t", "omega_i", "omega_j", "p", "of")
 def joint_functions(own: Pin, read: set[str]) -> list[str]:
     """`dry_A`, `film_A` and `clearance_A` of joint A, as far as it has them; `read` gets the members of p.
 
-    What one of them, and the laws that it calls, stores goes to `of` by the function's name: `of.dry_A.a_i`.
+    What one of them, and the laws that it calls, stores goes to `of` by the function's name: `of.dry_A.a_i`; the force
+    in ground axes to `of.force`.
     """
     joint, found = own.clearance.name, []
     if own.clearance.normal is not None:
@@ -66,16 +68,21 @@ def _clearance(own: Pin, read: set[str]) -> list[str]:
     dry, film = (f"functions.{part}_{joint}({', '.join(given)})" for part, given in (("dry", _DRY), ("film", _FILM)))
     body = [*gap.text, _store(f"clearance_{joint}", gap.locals)]
     if own.clearance.film is None:
-        return [*body, f"if (delta > 0) {dry};", "return of;"]
+        return [*body, f"const F = delta > 0 ? {dry} : {_NOTHING};", _turned("F")]
     if own.clearance.normal is None:
-        return [*body, f"{film};", "return of;"]
+        return [*body, _turned(film)]
     kept = ", ".join(share.locals)
     blended = (f'own["F.{one}"] = F.{one} += (1 - share) * (film.{one} - F.{one});' for one in BLENDED)
     return [
-        *body, "if (!(delta > 0)) {", f"    {film};", "    return of;", "}", *share.text,
+        *body, f"if (!(delta > 0)) {_turned(film)}", *share.text,
         f"const F = {dry}, own = Object.assign(of.clearance_{joint}, {{{kept}}});", "if (share < 1) {",
-        f"    const film = {film};", *(f"    {line}" for line in blended), "}", "return of;",
+        f"    const film = {film};", *(f"    {line}" for line in blended), "}", _turned("F"),
     ]  # fmt: skip
+
+
+def _turned(force: str) -> str:
+    """To ground axes, for whoever calls it."""
+    return f"return turned({force}, n_x, n_y, of);"
 
 
 class _Part:

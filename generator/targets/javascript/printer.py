@@ -5,6 +5,7 @@ Names of C's functions are those of PRELUDE; p is an object with a member a numb
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection
 
 import sympy as sp
@@ -13,7 +14,19 @@ from gudgeon.generator.ir.branches import Branch
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import NUMBERS, Readable, readable
 from gudgeon.generator.ir.signatures import SIDES
-from gudgeon.generator.ir.statements import Line, Sides, Statement
+from gudgeon.generator.ir.statements import (
+    Call,
+    Guard,
+    Jump,
+    Line,
+    Rescue,
+    Return,
+    Sides,
+    Sines,
+    Statement,
+    Status,
+)
+from gudgeon.generator.ir.values import Place, Test
 from gudgeon.generator.kernels.shared import CORNER
 from gudgeon.generator.symbols.curves import CurveOf, c_name
 from gudgeon.generator.targets.c.printer import CPrinter, Text
@@ -28,7 +41,10 @@ const mod_of = (a, b) => {
     const rest = a % b;
     return rest !== 0 && rest < 0 !== b < 0 ? rest + b : rest;
 };
-const mod_on = (a, b) => mod_of(a, b);
+const mod_on = (a, b) => mod_of(a, b), isfinite = isFinite;
+const turned = ({n, t, M_i, M_j}, n_x, n_y, of) => Object.assign(of, {
+    force: {Fx: n * n_x - t * n_y, Fy: n * n_y + t * n_x, F_n: n, F_t: t, moment_first: M_i, moment_second: M_j},
+});
 const period_side = (a, b) => sin(PI * a / b);
 """
 _WORDS = frozenset({
@@ -38,6 +54,7 @@ _WORDS = frozenset({
     "this", "throw", "throws", "transient", "true", "try", "typeof", "undefined", "var", "with", "yield", "isFinite",
     "Infinity", "NaN", "Math", "functions",
 })  # fmt: skip
+_SIDES = tuple(Place(argument.name) for argument in SIDES)
 _FILLED = "double *"  # the type of what a function returns by its arguments
 
 
@@ -77,14 +94,19 @@ class JavaScriptPrinter(CPrinter):
 def function(kernel: Kernel, numbers: set[str], only: Collection[str] | None = None) -> str:
     """A method that returns its locals and arrays by name; `numbers` gets the members of p that it reads.
 
-    `only`: the locals that are computed, nothing else is then. Raises ValueError for what has no counterpart.
+    Where a pivot vanishes it ends, and what would come then is undefined. `only`: the locals that are computed, nothing
+    else is then. Raises ValueError for what has no counterpart.
     """
     own = readable(kernel)
-    writer = Lines(own, numbers)
+    ends = only is None and any(isinstance(line, Guard) for part in kernel.sections for line in part.statements)
+    writer = Lines(own, numbers, "var" if ends else "const")
     body = writer.all(only)
+    body = ["solved: {", *(f"    {line}" for line in body), "}"] if ends else body
     outs = [a.name for a in kernel.arguments if a.type == _FILLED and a not in SIDES] if only is None else []
     outs = [out for out in outs if out not in writer.locals]
     arrays = [f"    const {', '.join(f'{out} = []' for out in outs)};"] if outs else []
+    if aside := _aside(kernel) if only is None else "":
+        arrays, outs = [*arrays, f"    const aside = {aside};"], [*outs, "aside"]
     given = ", ".join(arguments(kernel))
     told = ", ".join(dict.fromkeys([*writer.locals, *outs]))
     lines = [*arrays, *(f"    {line}" for line in body), f"    return {{{told}}};"]
@@ -102,11 +124,32 @@ def results(kernel: Kernel) -> list[str]:
     return [name(a.name) for a in kernel.arguments if a.type == _FILLED and a not in SIDES]
 
 
-class Lines:
-    """Lines of one function; `locals` are what they declare."""
+def _aside(kernel: Kernel) -> str:
+    """What the function says beside its results, as an object to be filled; "": nothing."""
+    lines = [line for section in kernel.sections for line in section.statements]
+    places = [line.target for line in lines if isinstance(line, Statement)]
+    places += [place.text for line in lines if isinstance(line, Call) for place in line.results]
+    parts = dict[str, int]()
+    for place in places:
+        if match := re.fullmatch(r"aside->(\w+)\[(\d+)\](\.\w+)?", place):
+            structs = 1 + int(match[2]) if match[3] or match[1] == "clearance" else 0
+            parts[match[1]] = max(structs, parts.get(match[1], 0))
+    told = ", ".join(f"{name}: [{', '.join(['{}'] * count)}]" for name, count in parts.items())
+    return f"{{{told}}}" if parts else ""
 
-    def __init__(self, own: Readable, numbers: set[str]) -> None:
-        self.own, self.text = own, Text(JavaScriptPrinter(own, numbers))
+
+class _JavaScript(Text):
+    """Values; thresholds as numbers."""
+
+    def _factor(self, value: sp.Basic | float) -> str:
+        return repr(float(value)) if isinstance(value, float) else self.expression(value)
+
+
+class Lines:
+    """Lines of one function; `locals` are what they declare, by `word`."""
+
+    def __init__(self, own: Readable, numbers: set[str], word: str = "const") -> None:
+        self.own, self.text, self.word = own, _JavaScript(JavaScriptPrinter(own, numbers)), word
         self.locals: list[str] = []
 
     def all(self, only: Collection[str] | None = None) -> list[str]:
@@ -117,15 +160,35 @@ class Lines:
 
     def lines(self, item: Line) -> list[str]:
         """One statement or branch."""
-        if isinstance(item, Sides):
+        if isinstance(item, (Sides, Status, Jump, Rescue, Return)):
             return []
+        if isinstance(item, Sines):
+            return self._sines(item)
+        if isinstance(item, Guard) and isinstance(item.test, Test):
+            only = f"{self.text.test(item.only)} && " if item.only else ""
+            return [f"if ({only}!({self.text.test(item.test)})) break solved;"]
+        if isinstance(item, Call) and item.function.startswith("clearance_"):
+            given = ", ".join(self._given(x) for x in item.given if x not in _SIDES)
+            return [f"Object.assign({name(item.results[0].text)}, functions.{item.function}({given}, {{}}).force);"]
         if not isinstance(item, (Statement, Branch)):
             raise ValueError(f"a line of a function that has no counterpart in JavaScript: {item}")
         target = self.text.printer.called(item.target)
-        declared = "const " * (item.local or item.target.startswith("*"))
+        declared = f"{self.word} " * (item.local or item.target.startswith("*"))
         if declared:
             self.locals.append(target)
         if isinstance(item, Statement):
             return [f"{declared}{target} = {self.text.expression(item.value)};"]
         below, other = self.text.expression(item.otherwise), self.text.expression(item.then)
         return [f"{declared}{target} = {self.text.expression(item.side)} < 0 ? {below} : {other};"]
+
+    def _given(self, value: sp.Basic | Place) -> str:
+        return name(value.text) if isinstance(value, Place) else self.text.expression(value)
+
+    def _sines(self, item: Sines) -> list[str]:
+        """One vector of all, or groups of four."""
+        angles, found = [self.text.expression(angle) for angle in item.angles], []
+        for function, array in zip(("sin", "cos"), item.arrays, strict=True):
+            told = [f"{function}({angle})" for angle in angles]
+            groups = ", ".join(f"[{', '.join(told[k : k + 4])}]" for k in range(0, len(told), 4))
+            found.append(f"const {array} = {f'[{groups}]' if item.count else groups};")
+        return found

@@ -40,6 +40,9 @@ const gudgeonLight = (() => {
             `${found.length} ${found.length === 1 ? "line" : "lines"} of C${more}${idle}. Escape puts the light out.`;
     }
 
+    /* What a line of C stores to, as listings.py reads it. */
+    function storedIn(text) { return text.match(/([\w.>*[\]-]+) [+]?= /)[1].replaceAll("->", ".").replace(/^\*/, ""); }
+
     /* A line of C with its number, its value where it has one, and its tokens. */
     function asLine({name, number, text, value, of}) {
         const line = document.createElement("span");
@@ -48,7 +51,7 @@ const gudgeonLight = (() => {
         line.textContent = text || " ";
         if (value) {
             const shown = document.createElement("output");
-            shown.dataset.value = `tmp.${value}`;
+            shown.dataset.value = `tmp.${value.endsWith(".") ? value + storedIn(text) : value}`;
             line.append(shown);
         }
         if (of) Object.assign(line.dataset, {of, c: name});

@@ -6,6 +6,7 @@ import base64
 import gzip
 import hashlib
 import json
+import re
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
@@ -18,6 +19,7 @@ from gudgeon.generator.targets.latex.trace import Trace, yaml_tokens
 SHOWN = ("parameters.c", "constraints.c", "clearance.c", "dynamics.c", "reduced.c", "positions.c")
 MOST_C = 600_000  # characters of C that a page carries
 LARGEST_FILE = 1_000_000  # bytes of a mechanism's file
+_STORES = re.compile(r"([\w.>*[\]-]+) [+]?= ")
 _CARRIED = "gudgeon-c"  # id of what is not shown
 
 
@@ -56,7 +58,7 @@ def _c(found: Trace) -> str:
     told = json.dumps({
         "of": {name: _by_line(text, {k: " ".join(sorted(own)) for k, own in found.lines.get(name, {}).items()})
                for name, text in texts.items()},
-        "values": {name: _by_line(text, found.values.get(name, {})) for name, text in texts.items()},
+        "values": {name: _by_line(text, _shorter(text, found.values.get(name, {}))) for name, text in texts.items()},
         "texts": texts, "equations": _equations(found),
     }, ensure_ascii=False, separators=(",", ":"))  # fmt: skip
     packed = base64.b64encode(gzip.compress(told.encode(), 9, mtime=0)).decode("ascii")
@@ -75,9 +77,20 @@ def _by_line(text: str, told: Mapping[int, str]) -> list[str]:
     return [told.get(k, "") for k in range(1, text.count("\n") + 2)]
 
 
+def _shorter(text: str, values: Mapping[int, str]) -> dict[int, str]:
+    """Values with nothing behind the last point where a line says by itself what it stores to, as light.js reads it."""
+    lines, found = text.split("\n"), dict[int, str]()
+    for k, value in values.items():
+        match = _STORES.search(lines[k - 1])
+        name = match[1].replace("->", ".").lstrip("*") if match else ""
+        found[k] = value.removesuffix(name) if value.endswith(f".{name}") else value
+    return found
+
+
 @cache
 def _script(name: str) -> str:
-    return Path(__file__).with_name(name).read_text(encoding="utf-8")
+    """Without indents, which take a tenth of its room."""
+    return re.sub(r"(?m)^ +", "", Path(__file__).with_name(name).read_text(encoding="utf-8"))
 
 
 def _equations(found: Trace) -> str:

@@ -15,14 +15,23 @@ const gudgeonValues = (() => {
     }
 
     /* What a function of the equations gives at the state: its locals and arrays, computed once. */
-    function computed(of) {
-        if (!equations || !FUNCTIONS[of]) return {};
-        known.p ??= named(state.p);
-        const call = equations.functions[FUNCTIONS[of]];
+    function computed(of) { return called(FUNCTIONS[of], state); }
+
+    /* The same of any function, of coordinates q and rates v that are its own. */
+    function called(name, {q, v, latches}) {
+        const call = equations?.functions[name];
         if (!call) return {};
-        const given = {t: state.t, q: state.q, v: state.v, p: known.p};
-        known[of] ??= call(...equations.given[FUNCTIONS[of]].map((name) => given[name]));
-        return known[of];
+        known.p ??= named(state.p);
+        const given = {t: state.t, q, v, p: known.p, memory: {latch: latches}};
+        known[name] ??= call(...equations.given[name].map((one) => given[one]));
+        return known[name];
+    }
+
+    /* Of the reduced formulation, whose coordinates follow from those of all bodies. */
+    function inTree(name) {
+        const {s: q, s_rate: v} = called("reduce_state", state);
+        return name === "reduce_state" || !q ? known[name] ?? {}
+            : called(name, {q, v, latches: Object.keys(equations.joints).map(latch)});
     }
 
     /* What the functions of a joint with play store at the state, {function of C: its locals}, computed once. */
@@ -63,6 +72,7 @@ const gudgeonValues = (() => {
         }
         if (kind === "p" || kind === "lambda") return value(plain);
         if (kind === "law") return ofLaw(rest[0], rest.slice(1).join("."));
+        if (kind === "tree") return local(inTree(rest[0]), rest.slice(1).join(".")) ?? IDLE; // behind a pivot of zero
         return local(computed(kind), rest.join("."));
     }
 
@@ -78,10 +88,9 @@ const gudgeonValues = (() => {
         return computed(kind)[kind === "gamma" ? "gamma_rows" : kind]?.[row];
     }
 
-    /* A local of a function, or an entry of its array: "phi[3]". */
+    /* A local of a function, or an entry of what it fills: "phi[3]", "aside.lambda[2]". */
     function local(found, name) {
-        const [array, index] = name.replace("]", "").split("[");
-        return index === undefined ? found[name] : found[array]?.[Number(index)];
+        return name.split(/[.[\]]+/).filter(Boolean).reduce((part, key) => part?.[key], found);
     }
 
     function multiplier(row) {

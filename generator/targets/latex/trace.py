@@ -27,7 +27,8 @@ from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.emit import described, emit, file_names, render
 from gudgeon.generator.targets.c.lines import Stored, find, find_within, place_of
 from gudgeon.generator.targets.c.play import pin_functions
-from gudgeon.generator.targets.javascript.module import right_hand_sides
+from gudgeon.generator.targets.javascript.module import right_hand_sides, tree_functions
+from gudgeon.generator.targets.javascript.printer import name as name_of
 from gudgeon.generator.targets.latex.tokens import entries_of, entry_token, row_token
 from gudgeon.generator.targets.numpy.module import ClosedLinkage
 
@@ -96,6 +97,7 @@ class _Finder:
         self.number_of = {row.name: k for k, row in enumerate(self.model.rows, 1)}
         self.every = self.model.all_rows
         self.computed = right_hand_sides(program.dynamics, self.model)
+        self.in_tree = tree_functions(program, set())
         self.laws = {kernel.name for kernel in program.laws}
         self.multipliers = {f"lambda_{row.name.replace('.', '_')}": k for k, row in enumerate(self.model.rows, 1)}
         members = map(self.model.slots.field, self.model.slots.members())
@@ -105,7 +107,8 @@ class _Finder:
     def all(self) -> None:
         """Every function that says something of rows, bodies or laws; what `prepare` makes of it last."""
         program = self.program
-        for kernel in (*program.closed, program.dynamics, *(program.tree.kernels if program.tree else ())):
+        in_tree = (*program.tree.around, *program.tree.kernels) if program.tree else ()
+        for kernel in (*program.closed, program.dynamics, *in_tree):
             self._function(kernel)
         for pin in program.pins:
             contact = self.model.scene.play[pin.clearance.name].contact.name
@@ -151,8 +154,10 @@ class _Finder:
             return f"{GIVES[function]}.{called}"
         if function == "dynamics":
             return self._of_rows(called)
+        if function in self.in_tree:
+            return f"tree.{function}.{name_of(called)}"
         if function in self.laws:
-            return f"law.{function}.{called.lstrip('*')}"
+            return f"law.{function}.{name_of(called)}"
         if function == "prepare" and called in self.place_in_p:
             return f"p.{self.place_in_p[called]}"
         return ""
