@@ -5,7 +5,6 @@ Names of C's functions are those of PRELUDE; p is an object with a member a numb
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection
 
 import sympy as sp
@@ -131,9 +130,11 @@ def _aside(kernel: Kernel) -> str:
     places += [place.text for line in lines if isinstance(line, Call) for place in line.results]
     parts = dict[str, int]()
     for place in places:
-        if match := re.fullmatch(r"aside->(\w+)\[(\d+)\](\.\w+)?", place):
-            structs = 1 + int(match[2]) if match[3] or match[1] == "clearance" else 0
-            parts[match[1]] = max(structs, parts.get(match[1], 0))
+        array, _, behind = place.removeprefix("aside->").partition("[")
+        index, _, member = behind.partition("]")
+        if place.startswith("aside->") and behind:
+            structs = 1 + int(index) if member or array == "clearance" else 0
+            parts[array] = max(structs, parts.get(array, 0))
     told = ", ".join(f"{name}: [{', '.join(['{}'] * count)}]" for name, count in parts.items())
     return f"{{{told}}}" if parts else ""
 

@@ -41,7 +41,10 @@ const gudgeonLight = (() => {
     }
 
     /* What a line of C stores to, as listings.py reads it. */
-    function storedIn(text) { return text.match(/([\w.>*[\]-]+) [+]?= /)[1].replaceAll("->", ".").replace(/^\*/, ""); }
+    function storedIn(text) {
+        const words = text.split(" = ")[0].replace(/ \+$/, "").trim().split(" ");
+        return words.at(-1).replaceAll("->", ".").replace(/^\*/, "");
+    }
 
     /* A line of C with its number, its value where it has one, and its tokens. */
     function asLine({name, number, text, value, of}) {

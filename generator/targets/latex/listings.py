@@ -6,7 +6,6 @@ import base64
 import gzip
 import hashlib
 import json
-import re
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
@@ -19,7 +18,6 @@ from gudgeon.generator.targets.latex.trace import Trace, yaml_tokens
 SHOWN = ("parameters.c", "constraints.c", "clearance.c", "dynamics.c", "reduced.c", "positions.c")
 MOST_C = 600_000  # characters of C that a page carries
 LARGEST_FILE = 1_000_000  # bytes of a mechanism's file
-_STORES = re.compile(r"([\w.>*[\]-]+) [+]?= ")
 _CARRIED = "gudgeon-c"  # id of what is not shown
 
 
@@ -81,8 +79,8 @@ def _shorter(text: str, values: Mapping[int, str]) -> dict[int, str]:
     """Values with nothing behind the last point where a line says by itself what it stores to, as light.js reads it."""
     lines, found = text.split("\n"), dict[int, str]()
     for k, value in values.items():
-        match = _STORES.search(lines[k - 1])
-        name = match[1].replace("->", ".").lstrip("*") if match else ""
+        stored = lines[k - 1].partition(" = ")[0].removesuffix(" +").split()
+        name = stored[-1].replace("->", ".").removeprefix("*") if stored else ""
         found[k] = value.removesuffix(name) if value.endswith(f".{name}") else value
     return found
 
@@ -90,7 +88,8 @@ def _shorter(text: str, values: Mapping[int, str]) -> dict[int, str]:
 @cache
 def _script(name: str) -> str:
     """Without indents, which take a tenth of its room."""
-    return re.sub(r"(?m)^ +", "", Path(__file__).with_name(name).read_text(encoding="utf-8"))
+    text = Path(__file__).with_name(name).read_text(encoding="utf-8")
+    return "\n".join(line.lstrip(" ") for line in text.split("\n"))
 
 
 def _equations(found: Trace) -> str:
