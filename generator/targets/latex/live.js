@@ -54,12 +54,12 @@ const gudgeonValues = (() => {
     }
 
     /* Of a function of clearance.c, in the joint that is lit, or the first that calls it. */
-    function ofLaw(function_, name) {
-        const joints = equations?.called[function_] ?? [];
+    function ofLaw(of, name) {
+        const joints = equations?.called[of] ?? [];
         const lit = (joint) => typeof gudgeonLight !== "undefined" && gudgeonLight.isLit(`joint-${joint}`);
         const joint = joints.find(lit) ?? joints[0];
         if (!joint) return NaN;
-        const found = contact(joint)[function_];
+        const found = contact(joint)[of];
         return found && name in found ? found[name] : IDLE;
     }
 
