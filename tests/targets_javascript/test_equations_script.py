@@ -37,7 +37,7 @@ const answer = %s.map((state) => {
         phi_q: rows.map((_, k) => state.q.map((_, i) => live.value(`phi_q.${k + 1}.${i + 1}`) ?? 0)),
         rhs: equations.names.map((name) => live.value(`tmp.rhs.rhs_${name.replaceAll(".", "_")}`)),
         numbers: state.p.map((_, k) => live.value(`tmp.p.${k + 1}`)),
-        gap: %s.map((name) => live.value(`tmp.play.${name}`))};
+        gap: %s.map((name) => live.value(`tmp.law.${name}`))};
 });
 console.log(JSON.stringify(answer));
 """
@@ -60,8 +60,8 @@ def test_values_are_those_of_the_compiled_scene(mechanism: str, scene: str, tmp_
     alpha, beta = (float(p[place[f"baumgarte.{name}"]]) for name in ("alpha", "beta"))
     states = [random_state(found.model, seed) for seed in range(4)]
     given = [{"t": t, "q": q.tolist(), "v": v.tolist(), "p": p.tolist()} for t, q, v in states]
-    gaps = [f"play_{k + 1}_{of}" for k in range(len(found.model.clearances)) for of in ("delta", "deltadot")]
-    script = ASKED % (equations_script(found.model, found.program.dynamics), json.dumps(given), json.dumps(gaps))
+    gaps = [f"clearance_{joint.name}.{of}" for joint in found.model.clearances for of in ("delta", "deltadot")]
+    script = ASKED % (equations_script(found.program), json.dumps(given), json.dumps(gaps))
     (tmp_path / "ask.js").write_text(script, encoding="utf-8")
     done = subprocess.run([program, str(tmp_path / "ask.js"), str(LIVE)], capture_output=True, text=True, timeout=60)
     assert done.returncode == 0, done.stderr

@@ -218,8 +218,8 @@ def test_a_page_is_well_formed_and_every_token_leads_somewhere(scene: str) -> No
     reader.feed(text)
     assert reader.open == [] and len(text.encode()) <= 200_000
     count = Counter(token for _, own in reader.elements for token in (own.get("data-of") or "").split())
-    for file in carried(text)["files"].values():
-        count.update(token for of in file["of"].values() for token in of.split())
+    for file in carried(text)["of"].values():
+        count.update(token for of in file for token in of.split())
     model = traced(scene).model
     expected = {f"row-{k}" for k in range(1, 1 + len(model.rows))} | {f"body-{body.name}" for body in model.bodies}
     assert expected <= set(count)
@@ -270,7 +270,7 @@ def test_light_in_a_browser(tmp_path: Path) -> None:
             "--virtual-time-budget=8000", "--dump-dom", (tmp_path / "page.html").as_uri()]  # fmt: skip
     done = subprocess.run(line, capture_output=True, text=True, timeout=120)
     told = json.loads(done.stdout.partition('<pre id="told">')[2].partition("</pre>")[0])
-    listed = carried(text)["files"]
+    listed = carried(text)["texts"]
     for k, row in enumerate(rows, 1):
         wanted = {
             f"{file}:{number}"

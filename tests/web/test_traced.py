@@ -24,6 +24,7 @@ LINES = """async (token) => {
 STORES = re.compile(r"^\s*(?:const double )?(?:\w|->|\[\d+\])+ = .*;")
 COUNT = "(of) => [...document.querySelectorAll(of)].filter((one) => !one.closest('#gudgeon-lines')).length"
 SAMPLE = 300
+NOT_RUN = "\u2013"
 
 
 def number(text: str) -> float:
@@ -43,7 +44,7 @@ def test_a_row_lights_its_lines_with_the_run_s_values(opened: Any, press: Path) 
     for k, row in enumerate(native.source.rows):
         lines = page.evaluate(LINES, f"row-{k + 1}")
         stored = [(file, text, value) for file, text, value in lines if STORES.match(text)]
-        assert len(stored) > 10 and all(value for file, _, value in stored if file != "reduced.c"), row
+        assert len(stored) > 10 and all(value for _, _, value in stored), row
         of = {text.split(" = ")[0].split()[-1]: number(value) for _, text, value in stored if value}
         assert of[f"aside->lambda[{k}]"] == pytest.approx(run[f"lambda.{row.name}"][SAMPLE], rel=1e-4)
         entries = [of[name] for name in of if name.startswith("phi_q[")]
@@ -53,6 +54,23 @@ def test_a_row_lights_its_lines_with_the_run_s_values(opened: Any, press: Path) 
         for what in (".listing .lit", ".equation.lit, .lit .equation, tr.lit", "svg .lit"):
             assert page.evaluate(COUNT, what) > 0, (row, what)
     assert shown.complaints == []
+
+
+def test_a_law_s_lines_are_of_the_joint_that_is_lit(opened: Any, press: Path) -> None:
+    """Of the first where none is; what is not run at the time is told."""
+    shown = opened(press, {"width": 1366, "height": 12000})
+    shown.type_into(3, "0.4")
+    shown.page.evaluate("(k) => gudgeonApp.seek(gudgeonApp.run.t[k])", SAMPLE)
+    run = gudgeon.load("nine_bar_press", "lubricated").simulate(parameters={"c": "0.4 mm"})
+    for token, joint in (("joint-A", "A"), ("joint-B", "B"), ("law-oil", "A")):
+        lines = [(text, value) for file, text, value in shown.page.evaluate(LINES, token) if file == "clearance.c"]
+        of = {text.split(" = ")[0].strip(): number(value) for text, value in lines if value not in ("", NOT_RUN)}
+        assert of["*F_r_out"] == pytest.approx(-run[f"{joint}.Fn"][SAMPLE], rel=1e-4), token
+        assert of["*F_t_out"] == pytest.approx(run[f"{joint}.Ft"][SAMPLE], rel=1e-4), token
+        assert all(value for text, value in lines if STORES.match(text.replace("*", "")))
+        assert [value for text, value in lines if text.strip().startswith("*F_n_out")] == [NOT_RUN]
+    told = shown.page.evaluate("document.querySelector('#gudgeon-lines p').textContent")
+    assert f"{NOT_RUN}: not run" in told and shown.complaints == []
 
 
 def test_lines_of_parameters_have_the_numbers_that_were_typed(opened: Any, press: Path) -> None:

@@ -184,8 +184,14 @@ def _sides(item: Sides) -> list[str]:
 
 def statements(items: Sequence[Statement]) -> str:
     """Those that stand in a function of a template."""
+    return "\n".join(text for text, _ in one_by_one(items))
+
+
+def one_by_one(items: Sequence[Statement]) -> list[tuple[str, Line]]:
+    """The text of each, and the branches in front of it, with the line that it is."""
     own = lines(items)
-    return "\n".join(map(Lines(CPrinter(own)).line, own.sections[0].statements)) if own.sections else ""
+    writer = Lines(CPrinter(own))
+    return [(writer.line(line), line) for section in own.sections for line in section.statements]
 
 
 def shared_call(call: SharedCall, given: Sequence[str], results: Sequence[str], sides: bool = True) -> str:

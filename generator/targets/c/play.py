@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from gudgeon.generator.equations.play import Clearance
-from gudgeon.generator.ir.statements import Statement
+from gudgeon.generator.ir.statements import Line, Statement
 from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.targets.c import functions
@@ -23,6 +24,19 @@ _STORE = """\
         .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
         .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0%s};"""
 _RATIO = "latch->closed ? deltadot / latch->deltadot_minus : 1.0"
+_BLENDED = "        F.{0} += (1.0 - share) * (film.{0} - F.{0});"  # in play/clearance_transition.c.jinja
+
+
+Stores = list[tuple[str, Line | str]]
+
+
+@dataclass(frozen=True)
+class PinFunction:
+    """A function of a joint with play, and what it stores to in its order: text with a line, or a local's name."""
+
+    name: str
+    text: str
+    stores: Stores
 
 
 def clearances_code(program: Program, render: Render) -> str:
@@ -34,28 +48,46 @@ def clearances_code(program: Program, render: Render) -> str:
 
 def clearance_code(pin: Pin, render: Render, states: int) -> str:
     """What happens round the laws of a joint; `states` of laws are as many for each, as the engine has them."""
+    return "\n".join(part.text for part in pin_functions(pin, render, states))
+
+
+def pin_functions(pin: Pin, render: Render, states: int) -> Iterator[PinFunction]:
+    """Function by function: dry contact and film, as far as the joint has them, and what chooses between them."""
     joint, clearance = pin.clearance.name, pin.clearance
-    parts = []
     if clearance.normal is not None:
-        ratio = {"ratio": _RATIO, "ratio_name": "unclipped" if clearance.clip_ratio else "ratio"}
-        steps: dict[str, Any] = {"before": _lines(pin.before_dry), "after": _lines(pin.after_dry)}
-        steps["law"] = calls_of_dry(pin, "max_of(delta, 0.0)", "double")
-        laws = [pin.laws[role] for role in ("normal", "friction") if role in pin.laws]
-        steps["unread"] = functions.unread_sides(laws, (*pin.before_dry, *pin.after_dry))
-        steps["rates"] = _braced("rate", clearance, states)
-        parts.append(render("play/dry.c.jinja", joint=joint, **ratio, **steps))
+        yield _dry(pin, render, states)
     if clearance.film is not None:
-        steps = {"before": _lines(pin.before_film), "after": _lines(pin.after_film), "law": call_of_film(pin, "double")}
-        steps["unread"] = functions.unread_sides([pin.laws["film"]], (*pin.before_film, *pin.after_film))
-        steps["rates"] = _braced("", clearance, states)
-        parts.append(render("play/film.c.jinja", joint=joint, **steps))
-    parts.append(
-        render(
-            _template(pin), joint=joint, arguments=_ARGUMENTS, gap=_lines(pin.gap), share=_lines(pin.share),
-            store=_store(clearance, states), first=pin.corners.start, last=pin.corners.stop,
-        )
+        yield _film(pin, render, states)
+    text = render(
+        _template(pin), joint=joint, arguments=_ARGUMENTS, gap=_lines(pin.gap), share=_lines(pin.share),
+        store=_store(clearance, states), first=pin.corners.start, last=pin.corners.stop,
     )  # fmt: skip
-    return "\n".join(parts)
+    stores: Stores = [*functions.one_by_one(pin.gap), *functions.one_by_one(pin.share)]
+    stores += [(_BLENDED.format(one), f"F.{one}") for one in ("n", "t", "M_i", "M_j") if pin.has_transition]
+    yield PinFunction(f"clearance_{joint}", text, stores)
+
+
+def _dry(pin: Pin, render: Render, states: int) -> PinFunction:
+    joint, clearance = pin.clearance.name, pin.clearance
+    ratio = "unclipped" if clearance.clip_ratio else "ratio"
+    calls = _calls_of_dry(pin, "max_of(delta, 0.0)", "double", True)
+    steps: dict[str, Any] = {"before": _lines(pin.before_dry), "after": _lines(pin.after_dry)}
+    laws = [pin.laws[role] for role in ("normal", "friction") if role in pin.laws]
+    steps["unread"] = functions.unread_sides(laws, (*pin.before_dry, *pin.after_dry))
+    steps |= {"law": _texts(calls), "rates": _braced("rate", clearance, states)}
+    text = render("play/dry.c.jinja", joint=joint, ratio=_RATIO, ratio_name=ratio, **steps)
+    own: Stores = [(f"    const double {ratio} = {_RATIO};", ratio), *functions.one_by_one(pin.before_dry)]
+    own += [*((code, local) for code, local in calls if local), *functions.one_by_one(pin.after_dry)]
+    return PinFunction(f"dry_{joint}", text, own)
+
+
+def _film(pin: Pin, render: Render, states: int) -> PinFunction:
+    calls, joint = _calls_of_film(pin, "double", True), pin.clearance.name
+    steps: dict[str, Any] = {"before": _lines(pin.before_film), "after": _lines(pin.after_film), "law": _texts(calls)}
+    steps["unread"] = functions.unread_sides([pin.laws["film"]], (*pin.before_film, *pin.after_film))
+    text = render("play/film.c.jinja", joint=joint, rates=_braced("", pin.clearance, states), **steps)
+    own: Stores = [*functions.one_by_one(pin.before_film), *((code, local) for code, local in calls if local)]
+    return PinFunction(f"film_{joint}", text, [*own, *functions.one_by_one(pin.after_film)])
 
 
 def _store(clearance: Clearance, states: int) -> str:
@@ -72,30 +104,47 @@ def _braced(array: str, clearance: Clearance, states: int) -> str:
 
 def calls_of_dry(pin: Pin, delta: str, number: str, sides: bool = True) -> str:
     """Normal force, of `delta`, then friction, if there is any."""
+    return _texts(_calls_of_dry(pin, delta, number, sides))
+
+
+def _calls_of_dry(pin: Pin, delta: str, number: str, sides: bool) -> list[tuple[str, str]]:
+    """Text, and the local that it fills, or ""."""
     given: Sequence[str] = [delta, "ratio", *pin.further]
-    lines = [f"{number} F_n;", functions.shared_call(pin.laws["normal"], given, ("&F_n",), sides)]
+    normal = functions.shared_call(pin.laws["normal"], given, ("&F_n",), sides)
+    found = [(f"{number} F_n;", ""), (normal, "F_n")]
     if "friction" in pin.laws:
         states = range(len(pin.clearance.states))
         given, told = [f"latch->state[{k}]" for k in states], [f"&rate[{k}]" for k in states]
         results = ("&F_along_t_dry", *told)
-        lines.append(f"{number} F_along_t_dry{f', rate[{len(states)}]' if states else ''};")
-        lines.append(functions.shared_call(pin.laws["friction"], ("F_n", "v_t", *given), results, sides))
+        friction = functions.shared_call(pin.laws["friction"], ("F_n", "v_t", *given), results, sides)
+        found.append((f"{number} F_along_t_dry{f', rate[{len(states)}]' if states else ''};", ""))
+        found.append((friction, "F_along_t_dry"))
     else:
         zero = "0.0" if number == "double" else "all_of(0.0)"
-        lines.append(f"const {number} F_along_t_dry = {zero}; /* no friction */")
-        lines += ["(void)v_t;"] * (number == "Lanes")
-    return _wrapped(lines)
+        found.append((f"const {number} F_along_t_dry = {zero}; /* no friction */", "F_along_t_dry"))
+        found += [("(void)v_t;", "")] * (number == "Lanes")
+    return [(_wrapped(code), local) for code, local in found]
 
 
 def call_of_film(pin: Pin, number: str, sides: bool = True) -> str:
     """Its forces, and the torque of shear where that is read."""
+    return _texts(_calls_of_film(pin, number, sides))
+
+
+def _calls_of_film(pin: Pin, number: str, sides: bool) -> list[tuple[str, str]]:
     results = ("&F_r", "&F_along_t_film", "&T0")
     call = functions.shared_call(pin.laws["film"], ("epsilon", "w_n", "w_t"), results, sides)
-    return _wrapped([f"{number} F_r, F_along_t_film, T0;", call, "(void)T0; /* read only with shear */"])
+    unread = "(void)T0; /* read only with shear */"
+    found = [(f"{number} F_r, F_along_t_film, T0;", ""), (call, "F_r"), (unread, "")]
+    return [(_wrapped(code), local) for code, local in found]
 
 
-def _wrapped(lines: Sequence[str]) -> str:
-    return "\n".join(part for line in lines for part in broken(f"    {line}"))
+def _texts(found: Sequence[tuple[str, str]]) -> str:
+    return "\n".join(code for code, _ in found)
+
+
+def _wrapped(code: str) -> str:
+    return "\n".join(broken(f"    {code}"))
 
 
 def _lines(statements: Sequence[Statement]) -> str:

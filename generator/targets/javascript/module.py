@@ -1,42 +1,47 @@
-"""Φ, Φ_q, ν, γ and how joints with play stand, as JavaScript: for the values that a page shows beside its equations."""
+"""Φ, Φ_q, ν, γ and what acts in joints with play, as JavaScript: for values that a page shows beside its equations."""
 
 from __future__ import annotations
 
 import json
+from collections import defaultdict
+from contextlib import suppress
 
 import sympy as sp
 
-from gudgeon.generator.equations import contact_steps as contact
-from gudgeon.generator.equations.contact_steps import Step
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.ir.dependence import slices
 from gudgeon.generator.ir.kernels import Kernel, KernelBuilder
 from gudgeon.generator.ir.readable import readable
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.kernels import closed_linkage
+from gudgeon.generator.kernels.program import Program
+from gudgeon.generator.kernels.reduced import DYNAMICS
+from gudgeon.generator.targets.javascript.play import MOTION, joint_functions
 from gudgeon.generator.targets.javascript.printer import PRELUDE, arguments, function
 
-GAP = ("e", "delta", "deltadot", "v_t", "epsilon")  # of a joint with play; epsilon of one with a film
-_GIVEN = (contact.e_x, contact.e_y, contact.de_x, contact.de_y, contact.omega_i, contact.omega_j)
+_OF_STATES = ("reduce_state", "expand", "closures", "closure_rates", DYNAMICS)
 
 
-def equations_script(model: Model, dynamics: Kernel | None = None) -> str:
+def equations_script(program: Program) -> str:
     """JavaScript that declares `gudgeonEquations`, with what a page needs to know of them.
 
-    `dynamics`: its lines up to the right-hand side of each row are among the functions.
+    Of `dynamics` the lines up to the right-hand side of each row are among the functions; of joints with play all that
+    clearance.c has, `joints` being what `play` calls the motion of each, `called` whose functions call which.
 
     `functions` of t, q, v, p, as far as `given` names them, return their locals and arrays by name; `numbers` are
     places in a run's p by the name of the member of p; `rows` are the places of the scene's rows in the closed
     linkage's, `names` what they are called. Raises ValueError for curves.
     """
+    model, dynamics = program.model, program.dynamics
     kernels = [*closed_linkage.row_kernels(model), *([play_kernel(model)] if model.clearances else [])]
     read: set[str] = set()
-    texts = [function(kernel, read) for kernel in kernels]
-    if dynamics is not None:
-        texts.append(function(dynamics, read, right_hand_sides(dynamics, model)))
-        kernels.append(dynamics)
+    texts = [function(dynamics, read, right_hand_sides(dynamics, model))]
+    texts += [function(kernel, read) for kernel in (*kernels, *program.laws)]
+    texts += [text for pin in program.pins for text in joint_functions(pin, read)]
+    in_tree = tree_functions(program, read)
+    texts = [*in_tree.values(), *texts]  # nearest to what they are like in C: packed, that takes the least room
+    kernels += [dynamics, *(kernel for kernel in _tree_kernels(program) if kernel.name in in_tree)]
     text = ",\n".join(texts)
     members = map(model.slots.field, model.slots.members())
     place = {row.name: k for k, row in enumerate(model.all_rows)}
@@ -44,9 +49,29 @@ def equations_script(model: Model, dynamics: Kernel | None = None) -> str:
         "numbers": {one: k for k, one in enumerate(members) if one in read},
         "rows": [place[row.name] for row in model.rows], "names": [row.name for row in model.rows],
         "given": {kernel.name: arguments(kernel) for kernel in kernels},
+        "joints": {clearance.name: _motion(model, i) for i, clearance in enumerate(model.clearances)},
+        "called": _called(program), "states": model.law_states,
     }  # fmt: skip
     parts = ", ".join(f"{key}: {json.dumps(value, separators=(',', ':'))}" for key, value in told.items())
-    return f"const gudgeonEquations = (() => {{\n{PRELUDE}return {{{parts}, functions: {{\n{text},\n}}}};\n}})();\n"
+    return (f"const gudgeonEquations = (() => {{\n{PRELUDE}const functions = {{\n{text},\n}};\n"
+            f"return {{{parts}, functions}};\n}})();\n")  # fmt: skip
+
+
+def tree_functions(program: Program, read: set[str]) -> dict[str, str]:
+    """Functions of reduced.c that a sample says enough for, by name; `read` gets the members of p.
+
+    What drives determine through loops is not among what a sample has; nor is whether friction sticks.
+    """
+    found = dict[str, str]()
+    for kernel in _tree_kernels(program):
+        with suppress(ValueError):
+            found[kernel.name] = function(kernel, read)
+    return found
+
+
+def _tree_kernels(program: Program) -> list[Kernel]:
+    tree = program.tree
+    return [kernel for kernel in tree.every if kernel.name in _OF_STATES] if tree and not tree.chains else []
 
 
 def right_hand_sides(dynamics: Kernel, model: Model) -> set[str]:
@@ -56,32 +81,30 @@ def right_hand_sides(dynamics: Kernel, model: Model) -> set[str]:
     return {name for name in found.stored if name.isidentifier()}
 
 
-def gap_name(model: Model, index: int, of: str) -> str:
-    """The local of `play` that holds something of a joint with play."""
+def _called(program: Program) -> dict[str, list[str]]:
+    """Joints by the functions of clearance.c that act in them, in their order."""
+    found: defaultdict[str, list[str]] = defaultdict(list)
+    for pin in program.pins:
+        parts = (f"{part}_{pin.clearance.name}" for part in ("clearance", "dry", "film"))
+        for name in (*parts, *(call.kernel.name for call in pin.laws.values())):
+            found[name].append(pin.clearance.name)
+    return found
+
+
+def _motion(model: Model, index: int) -> list[str]:
+    """Locals of `play` that hold the motion in a joint."""
     taken = {symbol.name for symbol in model.symbols.info}
     first = next(word for word in ("play", "joint", "with_play") if not any(one.startswith(word) for one in taken))
-    return f"{first}_{index + 1}_{of}"
+    return [f"{first}_{index + 1}_{symbol.name}" for symbol in MOTION]
 
 
 def play_kernel(model: Model) -> Kernel:
-    """GAP of each joint with play at a state: the steps in front of its laws."""
-    build = KernelBuilder(model.symbols, "play", ["Joints with play: eccentricity, penetration and rate, slip, e/c."])
+    """The eccentricity in each joint with play, its rate, how fast both bodies turn."""
+    build = KernelBuilder(model.symbols, "play", ["Joints with play: eccentricity, its rate, angular velocities."])
     for i, clearance in enumerate(model.clearances):
         build.section(f"joint {clearance.name}")
-        steps = _steps(clearance)
-        own = {step.symbol: sp.Symbol(gap_name(model, i, step.symbol.name), real=True) for step in steps}
-        for step in steps:
-            build.line(Statement(own[step.symbol].name, step.value.xreplace(own)))
+        turning = clearance.first.omega, clearance.second.omega
+        values = (*clearance.eccentricity, *clearance.eccentricity_rate, *turning)
+        for name, value in zip(_motion(model, i), values, strict=True):
+            build.line(Statement(name, sp.sympify(value)))
     return build.build((*STATE, PARAMETERS))
-
-
-def _steps(clearance: Clearance) -> list[Step]:
-    """From the coordinates to δ, δ̇, the slip and e/c."""
-    values = (*clearance.eccentricity, *clearance.eccentricity_rate, clearance.first.omega, clearance.second.omega)
-    steps = [Step(symbol, sp.sympify(value)) for symbol, value in zip(_GIVEN, values, strict=True)]
-    steps += contact.gap(clearance)
-    if clearance.normal is not None:
-        steps += [step for step in contact.before_dry(clearance) if step.symbol != contact.ratio]
-    if clearance.film is not None:
-        steps += contact.before_film(clearance, clearance.film)
-    return steps

@@ -10,33 +10,51 @@ from collections.abc import Collection
 import sympy as sp
 
 from gudgeon.generator.ir.branches import Branch
-from gudgeon.generator.ir.kernels import Argument, Kernel
+from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import NUMBERS, Readable, readable
-from gudgeon.generator.ir.statements import Line, Sides, Statement
+from gudgeon.generator.ir.signatures import SIDES
+from gudgeon.generator.ir.statements import (
+    Call,
+    Guard,
+    Jump,
+    Line,
+    Rescue,
+    Return,
+    Sides,
+    Sines,
+    Statement,
+    Status,
+)
+from gudgeon.generator.ir.values import Place, Test
+from gudgeon.generator.kernels.shared import CORNER
 from gudgeon.generator.symbols.curves import CurveOf, c_name
 from gudgeon.generator.targets.c.printer import CPrinter, Text
 
 PRELUDE = """\
 const {sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, log, sqrt, pow, abs: fabs, PI} = Math;
 const max_of = (x, y) => (x < y ? y : x), min_of = (x, y) => (x > y ? y : x), INFINITY = Infinity;
-const sign_of = (x) => (x > 0 ? 1 : x < 0 ? -1 : x), side_of = (side, g, k, value) => sign_of(value);
+const sign_of = (x) => (x > 0 ? 1 : x < 0 ? -1 : x);
 const just_ahead = (x) => x + 1e-9 * (1 + fabs(x)), just_behind = (x) => x - 1e-9 * (1 + fabs(x));
 const finite_slope = (slope, ahead, behind, way) => (isFinite(slope) ? slope : (ahead - behind) / way);
 const mod_of = (a, b) => {
     const rest = a % b;
     return rest !== 0 && rest < 0 !== b < 0 ? rest + b : rest;
 };
-const mod_on = (a, b) => mod_of(a, b);
+const mod_on = (a, b) => mod_of(a, b), isfinite = isFinite;
+const turned = ({n, t, M_i, M_j}, n_x, n_y, of) => Object.assign(of, {
+    force: {Fx: n * n_x - t * n_y, Fy: n * n_y + t * n_x, F_n: n, F_t: t, moment_first: M_i, moment_second: M_j},
+});
 const period_side = (a, b) => sin(PI * a / b);
-const side = null, g = null;
 """
 _WORDS = frozenset({
     "abstract", "arguments", "await", "async", "boolean", "byte", "catch", "class", "debugger", "delete", "eval",
     "export", "extends", "false", "final", "finally", "function", "implements", "import", "in", "instanceof",
     "interface", "let", "new", "null", "of", "package", "private", "protected", "public", "super", "synchronized",
     "this", "throw", "throws", "transient", "true", "try", "typeof", "undefined", "var", "with", "yield", "isFinite",
-    "Infinity", "NaN", "Math",
+    "Infinity", "NaN", "Math", "functions",
 })  # fmt: skip
+_SIDES = tuple(Place(argument.name) for argument in SIDES)
+_FILLED = "double *"  # the type of what a function returns by its arguments
 
 
 def name(text: str) -> str:
@@ -59,6 +77,10 @@ class JavaScriptPrinter(CPrinter):
             self.numbers.add(plain.removeprefix(NUMBERS))
         return name(plain)
 
+    def _print_SideOf(self, expr: sp.Expr) -> str:
+        """The side on which its difference is."""
+        return self._call("sign_of", expr.args[1])
+
     def _print_CurveOf(self, expr: CurveOf) -> str:
         raise ValueError(f"a curve, {c_name(expr.name)}, has no counterpart in JavaScript")
 
@@ -71,15 +93,19 @@ class JavaScriptPrinter(CPrinter):
 def function(kernel: Kernel, numbers: set[str], only: Collection[str] | None = None) -> str:
     """A method that returns its locals and arrays by name; `numbers` gets the members of p that it reads.
 
-    `only`: the locals that are computed, nothing else is then. Raises ValueError for what has no counterpart.
+    Where a pivot vanishes it ends, and what would come then is undefined. `only`: the locals that are computed, nothing
+    else is then. Raises ValueError for what has no counterpart.
     """
     own = readable(kernel)
-    writer = _Lines(own, numbers)
-    lines_of = (line for section in own.sections for line in section.statements)
-    wanted = [line for line in lines_of if only is None or getattr(line, "target", "") in only]
-    body = [text for line in wanted for text in writer.lines(line)]
-    outs = [a.name for a in kernel.arguments if not _is_given(a)] if only is None else []
+    ends = only is None and any(isinstance(line, Guard) for part in kernel.sections for line in part.statements)
+    writer = Lines(own, numbers, "var" if ends else "const")
+    body = writer.all(only)
+    body = ["solved: {", *(f"    {line}" for line in body), "}"] if ends else body
+    outs = [a.name for a in kernel.arguments if a.type == _FILLED and a not in SIDES] if only is None else []
+    outs = [out for out in outs if out not in writer.locals]
     arrays = [f"    const {', '.join(f'{out} = []' for out in outs)};"] if outs else []
+    if aside := _aside(kernel) if only is None else "":
+        arrays, outs = [*arrays, f"    const aside = {aside};"], [*outs, "aside"]
     given = ", ".join(arguments(kernel))
     told = ", ".join(dict.fromkeys([*writer.locals, *outs]))
     lines = [*arrays, *(f"    {line}" for line in body), f"    return {{{told}}};"]
@@ -88,30 +114,82 @@ def function(kernel: Kernel, numbers: set[str], only: Collection[str] | None = N
 
 def arguments(kernel: Kernel) -> list[str]:
     """What a function is given: not the arrays that it returns."""
-    return [name(a.name) for a in kernel.arguments if _is_given(a)]
+    given = (a for a in kernel.arguments if a not in (*SIDES, CORNER))
+    return [name(a.name) for a in given if a.type.startswith("const") or not a.type.endswith("*")]
 
 
-def _is_given(argument: Argument) -> bool:
-    return argument.type.startswith("const")
+def results(kernel: Kernel) -> list[str]:
+    """Numbers that a law returns by its pointers, in their order."""
+    return [name(a.name) for a in kernel.arguments if a.type == _FILLED and a not in SIDES]
 
 
-class _Lines:
-    """Lines of one function; `locals` are what they declare."""
+def _aside(kernel: Kernel) -> str:
+    """What the function says beside its results, as an object to be filled; "": nothing."""
+    lines = [line for section in kernel.sections for line in section.statements]
+    places = [line.target for line in lines if isinstance(line, Statement)]
+    places += [place.text for line in lines if isinstance(line, Call) for place in line.results]
+    parts = dict[str, int]()
+    for place in places:
+        array, _, behind = place.removeprefix("aside->").partition("[")
+        index, _, member = behind.partition("]")
+        if place.startswith("aside->") and behind:
+            structs = 1 + int(index) if member or array == "clearance" else 0
+            parts[array] = max(structs, parts.get(array, 0))
+    told = ", ".join(f"{name}: [{', '.join(['{}'] * count)}]" for name, count in parts.items())
+    return f"{{{told}}}" if parts else ""
 
-    def __init__(self, own: Readable, numbers: set[str]) -> None:
-        self.text = Text(JavaScriptPrinter(own, numbers))
+
+class _JavaScript(Text):
+    """Values; thresholds as numbers."""
+
+    def _factor(self, value: sp.Basic | float) -> str:
+        return repr(float(value)) if isinstance(value, float) else self.expression(value)
+
+
+class Lines:
+    """Lines of one function; `locals` are what they declare, by `word`."""
+
+    def __init__(self, own: Readable, numbers: set[str], word: str = "const") -> None:
+        self.own, self.text, self.word = own, _JavaScript(JavaScriptPrinter(own, numbers)), word
         self.locals: list[str] = []
+
+    def all(self, only: Collection[str] | None = None) -> list[str]:
+        """Every line, or those that store to one of `only`."""
+        every = (line for section in self.own.sections for line in section.statements)
+        wanted = (line for line in every if only is None or getattr(line, "target", "") in only)
+        return [text for line in wanted for text in self.lines(line)]
 
     def lines(self, item: Line) -> list[str]:
         """One statement or branch."""
-        if isinstance(item, Sides):
+        if isinstance(item, (Sides, Status, Jump, Rescue, Return)):
             return []
+        if isinstance(item, Sines):
+            return self._sines(item)
+        if isinstance(item, Guard) and isinstance(item.test, Test):
+            only = f"{self.text.test(item.only)} && " if item.only else ""
+            return [f"if ({only}!({self.text.test(item.test)})) break solved;"]
+        if isinstance(item, Call) and item.function.startswith("clearance_"):
+            given = ", ".join(self._given(x) for x in item.given if x not in _SIDES)
+            return [f"Object.assign({name(item.results[0].text)}, functions.{item.function}({given}, {{}}).force);"]
         if not isinstance(item, (Statement, Branch)):
             raise ValueError(f"a line of a function that has no counterpart in JavaScript: {item}")
         target = self.text.printer.called(item.target)
-        if item.local:
+        declared = f"{self.word} " * (item.local or item.target.startswith("*"))
+        if declared:
             self.locals.append(target)
         if isinstance(item, Statement):
-            return [f"{'const ' * item.local}{target} = {self.text.expression(item.value)};"]
+            return [f"{declared}{target} = {self.text.expression(item.value)};"]
         below, other = self.text.expression(item.otherwise), self.text.expression(item.then)
-        return [f"{'const ' * item.local}{target} = {self.text.expression(item.side)} < 0 ? {below} : {other};"]
+        return [f"{declared}{target} = {self.text.expression(item.side)} < 0 ? {below} : {other};"]
+
+    def _given(self, value: sp.Basic | Place) -> str:
+        return name(value.text) if isinstance(value, Place) else self.text.expression(value)
+
+    def _sines(self, item: Sines) -> list[str]:
+        """One vector of all, or groups of four."""
+        angles, found = [self.text.expression(angle) for angle in item.angles], []
+        for function, array in zip(("sin", "cos"), item.arrays, strict=True):
+            told = [f"{function}({angle})" for angle in angles]
+            groups = ", ".join(f"[{', '.join(told[k : k + 4])}]" for k in range(0, len(told), 4))
+            found.append(f"const {array} = {f'[{groups}]' if item.count else groups};")
+        return found

@@ -4,7 +4,8 @@
  */
 const gudgeonLight = (() => {
     const LISTED = 400; // lines of C that the panel shows at most
-    let files = {}, wanted = new Set(), chosen = null;
+    const files = {};
+    let wanted = new Set(), chosen = null;
 
     const tokensOf = (text) => (text ?? "").split(" ").filter(Boolean);
     const rowOf = (token) => (token.startsWith("entry-") ? `row-${token.split("-")[1]}` : token);
@@ -28,14 +29,21 @@ const gudgeonLight = (() => {
     function showLines() {
         const panel = document.getElementById("gudgeon-lines"), found = [];
         for (const [name, {lines, of, values}] of Object.entries(files))
-            for (const [number, own] of Object.entries(of))
-                if (isLit(own)) found.push({name, number, text: lines[number - 1], value: values[number], of: own});
+            for (const [k, own] of of.entries())
+                if (isLit(own)) found.push({name, number: k + 1, text: lines[k], value: values[k], of: own});
         panel.hidden = !found.length;
         const pre = panel.querySelector("pre");
         pre.replaceChildren(...found.slice(0, LISTED).map(asLine));
         const more = found.length > LISTED ? `, of which ${LISTED} are shown` : "";
+        const idle = found.some(({value}) => /^law\.|[<>]/.test(value)) ? "; \u2013: not run at this time" : "";
         panel.querySelector("p").textContent =
-            `${found.length} ${found.length === 1 ? "line" : "lines"} of C${more}. Escape puts the light out.`;
+            `${found.length} ${found.length === 1 ? "line" : "lines"} of C${more}${idle}. Escape puts the light out.`;
+    }
+
+    /* What a line of C stores to, as listings.py reads it. */
+    function storedIn(text) {
+        const words = text.split(" = ")[0].replace(/ \+$/, "").trim().split(" ");
+        return words.at(-1).replaceAll("->", ".").replace(/^\*/, "");
     }
 
     /* A line of C with its number, its value where it has one, and its tokens. */
@@ -46,7 +54,7 @@ const gudgeonLight = (() => {
         line.textContent = text || " ";
         if (value) {
             const shown = document.createElement("output");
-            shown.dataset.value = `tmp.${value}`;
+            shown.dataset.value = `tmp.${value.endsWith(".") ? value + storedIn(text) : value}`;
             line.append(shown);
         }
         if (of) Object.assign(line.dataset, {of, c: name});
@@ -63,9 +71,9 @@ const gudgeonLight = (() => {
         details.append(summary, pre);
         details.addEventListener("toggle", () => {
             if (pre.childNodes.length) return;
-            const token = (k) => [`c-${name}-${k}`, of[k]].filter(Boolean).join(" ");
+            const token = (k) => [`c-${name}-${k + 1}`, of[k]].filter(Boolean).join(" ");
             pre.append(...lines.map((text, i) =>
-                asLine({name: "", number: i + 1, text, value: values[i + 1], of: of[i + 1] && token(i + 1)})));
+                asLine({name: "", number: i + 1, text, value: values[i], of: of[i] && token(i)})));
             for (const line of pre.children) if (isLit(line.dataset.of)) line.classList.add("lit");
             document.dispatchEvent(new CustomEvent("gudgeon:listed"));
         });
@@ -107,10 +115,10 @@ const gudgeonLight = (() => {
         document.addEventListener("keydown", pressed);
         const carried = document.getElementById("gudgeon-c");
         if (!carried) return;
-        const {files: listed, equations} = await unpack(carried.textContent);
-        files = listed;
+        const {texts, of, values, equations} = await unpack(carried.textContent);
+        for (const [name, text] of Object.entries(texts))
+            files[name] = {lines: text.replace(/\n$/, "").split("\n"), of: of[name], values: values[name]};
         if (equations) gudgeonValues.take(new Function(`${equations}return gudgeonEquations;`)());
-        for (const file of Object.values(files)) file.lines = file.text.replace(/\n$/, "").split("\n");
         document.getElementById("gudgeon-c-files").append(...Object.entries(files).map(([name, own]) => list(name, own)));
         if (wanted.size) showLines();
     }

@@ -6,6 +6,7 @@ import base64
 import gzip
 import hashlib
 import json
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
@@ -45,18 +46,21 @@ def _own_text(model: Model) -> str | None:
 
 def _c(found: Trace) -> str:
     """A place for the listing, and what is listed there, packed: light.js unfolds it."""
-    files, left = {}, MOST_C
+    texts, left = dict[str, str](), MOST_C
     for name in SHOWN:
         text = found.source.files.get(name)
         if text is None or len(text) > left:
             continue
         left -= len(text)
-        of = {str(k): " ".join(sorted(own)) for k, own in found.lines.get(name, {}).items() if own}
-        values = {str(k): value for k, value in found.values.get(name, {}).items()}
-        files[name] = {"text": text, "of": of, "values": values}
-    told = json.dumps({"files": files, "equations": _equations(found)}, ensure_ascii=False, separators=(",", ":"))
+        texts[name] = text
+    told = json.dumps({
+        "of": {name: _by_line(text, {k: " ".join(sorted(own)) for k, own in found.lines.get(name, {}).items()})
+               for name, text in texts.items()},
+        "values": {name: _by_line(text, _shorter(text, found.values.get(name, {}))) for name, text in texts.items()},
+        "texts": texts, "equations": _equations(found),
+    }, ensure_ascii=False, separators=(",", ":"))  # fmt: skip
     packed = base64.b64encode(gzip.compress(told.encode(), 9, mtime=0)).decode("ascii")
-    others = sorted(name for name in found.source.files if name.endswith((".c", ".h")) and name not in files)
+    others = sorted(name for name in found.source.files if name.endswith((".c", ".h")) and name not in texts)
     rest = f" Not listed here: {', '.join(others)}." if others else ""
     return (
         f"<p>The emitted C; what of it computes what was selected is shown at the foot of the page.{rest}</p>\n"
@@ -66,15 +70,32 @@ def _c(found: Trace) -> str:
     )
 
 
+def _by_line(text: str, told: Mapping[int, str]) -> list[str]:
+    """One text a line: packed it takes less room than numbers of lines do."""
+    return [told.get(k, "") for k in range(1, text.count("\n") + 2)]
+
+
+def _shorter(text: str, values: Mapping[int, str]) -> dict[int, str]:
+    """Values with nothing behind the last point where a line says by itself what it stores to, as light.js reads it."""
+    lines, found = text.split("\n"), dict[int, str]()
+    for k, value in values.items():
+        stored = lines[k - 1].partition(" = ")[0].removesuffix(" +").split()
+        name = stored[-1].replace("->", ".").removeprefix("*") if stored else ""
+        found[k] = value.removesuffix(name) if value.endswith(f".{name}") else value
+    return found
+
+
 @cache
 def _script(name: str) -> str:
-    return Path(__file__).with_name(name).read_text(encoding="utf-8")
+    """Without indents, which take a tenth of its room."""
+    text = Path(__file__).with_name(name).read_text(encoding="utf-8")
+    return "\n".join(line.lstrip(" ") for line in text.split("\n"))
 
 
 def _equations(found: Trace) -> str:
     """What values are computed with; of a scene with curves nothing, whose state alone is shown then."""
     try:
-        return equations_script(found.model, found.program.dynamics)
+        return equations_script(found.program)
     except ValueError:
         return ""
 

@@ -5,6 +5,7 @@
 const gudgeonValues = (() => {
     const FUNCTIONS = {phi: "constraints", phi_q: "jacobian", nu: "velocity_rhs", gamma: "acceleration_rhs", play: "play",
         rhs: "dynamics"};
+    const IDLE = null; // of a line that is not run at the state
     let equations = null, state = null, known = {}, waiting = false;
     const seen = new Set();
 
@@ -14,14 +15,65 @@ const gudgeonValues = (() => {
     }
 
     /* What a function of the equations gives at the state: its locals and arrays, computed once. */
-    function computed(of) {
-        if (!equations || !FUNCTIONS[of]) return {};
-        known.p ??= named(state.p);
-        const call = equations.functions[FUNCTIONS[of]];
+    function computed(of) { return called(FUNCTIONS[of], state); }
+
+    /* The same of any function, of coordinates q and rates v that are its own. */
+    function called(name, {q, v, latches}) {
+        const call = equations?.functions[name];
         if (!call) return {};
-        const given = {t: state.t, q: state.q, v: state.v, p: known.p};
-        known[of] ??= call(...equations.given[FUNCTIONS[of]].map((name) => given[name]));
-        return known[of];
+        known.p ??= named(state.p);
+        const given = {t: state.t, q, v, p: known.p, memory: {latch: latches}};
+        known[name] ??= call(...equations.given[name].map((one) => given[one]));
+        return known[name];
+    }
+
+    /* Of the reduced formulation, whose coordinates follow from those of all bodies. */
+    function inTree(name) {
+        const {s: q, s_rate: v} = called("reduce_state", state);
+        return name === "reduce_state" || !q ? known[name] ?? {}
+            : called(name, {q, v, latches: Object.keys(equations.joints).map(latch)});
+    }
+
+    /* What the functions of a joint with play store at the state, {function of C: its locals}, computed once. */
+    function contact(joint) {
+        const play = computed("play"), {functions, joints} = equations;
+        const motion = joints[joint].map((name) => play[name]);
+        return known[`joint ${joint}`] ??= functions[`clearance_${joint}`](...motion, latch(joint), known.p, {});
+    }
+
+    /*
+     * What a joint remembers at the sample: rates of closing, NaN of the free, first; inner states of laws last. Of a
+     * run that keeps none of it (carried.js) a contact is closed by no number, so that its force is none either.
+     */
+    function latch(joint) {
+        const joints = Object.keys(equations.joints), i = joints.indexOf(joint), {run, k} = state;
+        const memory = run?.memory ?? [], width = memory.length / (run?.t?.length || 1);
+        const own = memory.slice(k * width, (k + 1) * width);
+        const deltadot_minus = own[i] ?? NaN, each = equations.states, last = width - each * (joints.length - i);
+        return {closed: !own.length || !Number.isNaN(deltadot_minus), deltadot_minus, state: own.slice(last, last + each)};
+    }
+
+    /* Of a function of clearance.c, in the joint that is lit, or the first that calls it. */
+    function ofLaw(of, name) {
+        const joints = equations?.called[of] ?? [];
+        const lit = (joint) => typeof gudgeonLight !== "undefined" && gudgeonLight.isLit(`joint-${joint}`);
+        const joint = joints.find(lit) ?? joints[0];
+        if (!joint) return NaN;
+        const found = contact(joint)[of];
+        return found && name in found ? found[name] : IDLE;
+    }
+
+    /* What a line stored: "phi.arm_x", "law.dry_A.v_t"; "law.f.x<side" where f's side is below zero, ">": elsewhere. */
+    function stored(name) {
+        const [, plain, relation, side] = name.match(/^([^<>]*)([<>]?)(.*)$/), [kind, ...rest] = plain.split(".");
+        if (relation) {
+            const below = stored(`${plain.slice(0, plain.lastIndexOf("."))}.${side}`);
+            if (below === IDLE || below < 0 !== (relation === "<")) return IDLE;
+        }
+        if (kind === "p" || kind === "lambda") return value(plain);
+        if (kind === "law") return ofLaw(rest[0], rest.slice(1).join("."));
+        if (kind === "tree") return local(inTree(rest[0]), rest.slice(1).join(".")) ?? IDLE; // behind a pivot of zero
+        return local(computed(kind), rest.join("."));
     }
 
     /* The number of a name: "q.7", "phi.3", "phi_q.3.7", "lambda.3", "p.5", "tmp.phi.arm_x"; NaN where there is none. */
@@ -29,18 +81,16 @@ const gudgeonValues = (() => {
         const [kind, ...rest] = name.split("."), numbers = rest.map(Number);
         if (kind === "q" || kind === "v") return state[kind][numbers[0] - 1];
         if (kind === "p") return state.p[numbers[0] - 1];
-        if (kind === "tmp" && (rest[0] === "p" || rest[0] === "lambda")) return value(rest.join("."));
-        if (kind === "tmp") return local(computed(rest[0]), rest.slice(1).join("."));
+        if (kind === "tmp") return stored(rest.join("."));
         if (kind === "lambda") return multiplier(numbers[0]);
         const row = equations?.rows[numbers[0] - 1];
         if (kind === "phi_q") return computed(kind).phi_q?.[row * state.q.length + numbers[1] - 1];
         return computed(kind)[kind === "gamma" ? "gamma_rows" : kind]?.[row];
     }
 
-    /* A local of a function, or an entry of its array: "phi[3]". */
+    /* A local of a function, or an entry of what it fills: "phi[3]", "aside.lambda[2]". */
     function local(found, name) {
-        const [array, index] = name.replace("]", "").split("[");
-        return index === undefined ? found[name] : found[array]?.[Number(index)];
+        return name.split(/[.[\]]+/).filter(Boolean).reduce((part, key) => part?.[key], found);
     }
 
     function multiplier(row) {
@@ -52,7 +102,10 @@ const gudgeonValues = (() => {
         }
     }
 
-    const text = (x) => (Number.isFinite(x) ? String(Number(x.toPrecision(5))).replace("-", "\u2212") : "");
+    function text(x) {
+        if (x === IDLE) return "\u2013";
+        return Number.isFinite(x) ? String(Number(x.toPrecision(5))).replaceAll("-", "\u2212") : "";
+    }
 
     /* A number as text; a mark of a plot goes to its place. */
     function fill(element) {
@@ -62,7 +115,7 @@ const gudgeonValues = (() => {
             return;
         }
         const [first, last, left, right] = element.dataset.range.split(" ").map(Number);
-        const inside = x >= first && x <= last;
+        const inside = x !== IDLE && x >= first && x <= last;
         element.setAttribute("visibility", inside ? "visible" : "hidden");
         if (inside) element.setAttribute("transform", `translate(${left + (right - left) * (x - first) / (last - first)} 0)`);
     }
@@ -100,7 +153,10 @@ const gudgeonValues = (() => {
             for (const {target, isIntersecting} of changes) seen[isIntersecting ? "add" : "delete"](target);
             ask();
         });
-        const observe = () => document.querySelectorAll("[data-value]").forEach((one) => watch.observe(one));
+        const observe = () => {
+            document.querySelectorAll("[data-value]").forEach((one) => watch.observe(one));
+            ask(); // another joint may be lit
+        };
         for (const name of ["gudgeon:lit", "gudgeon:listed"]) document.addEventListener(name, observe);
         observe();
         if (window.gudgeonState) announce(window.gudgeonState);

@@ -15,7 +15,6 @@ from gudgeon.generator.kernels import closed_linkage
 from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.shared import SharedCall
 from gudgeon.generator.kinds.laws.law import Law
-from gudgeon.generator.targets.javascript.module import gap_name
 from gudgeon.generator.targets.latex.document import Block, Picture
 from gudgeon.generator.targets.latex.pictures import svg
 from gudgeon.generator.targets.latex.trace import Functions
@@ -38,13 +37,13 @@ class Curve:
 
 @dataclass(frozen=True)
 class Plot:
-    """`now`: what of `play` stands on the x axis (javascript/module.py)."""
+    """`now`: what stands on the x axis, by function of a joint and local: "dry", "v_t"."""
 
     x: Any
     curves: tuple[Curve, ...]
     x_name: str
     y_name: str
-    now: str
+    now: tuple[str, str]
     caption: str
 
 
@@ -63,7 +62,8 @@ def law_plot(found: Functions, joints: Sequence[str], role: str, law: Law) -> li
         return []
     if not all(np.isfinite(curve.y).all() for curve in plot.curves):
         return []
-    marks = {name: gap_name(found.model, pins[name], plot.now) for name in joints}
+    part, local = plot.now
+    marks = {name: f"{part}_{name}.{local}" for name in joints}
     return [Picture(plot.caption, _drawn(plot, marks))]
 
 
@@ -98,7 +98,7 @@ def _normal(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]
         y = np.broadcast_to(_called(call, p, delta, ratio, *further), delta.shape)
         curves.append(Curve(y, f"δ̇/δ̇⁻ = {ratio:g}" + (f", δ̇ = {ratio * FAST:g} m/s" if pin.further else "")))
     caption = "The normal force over the penetration, while the surfaces approach, rest and part"
-    return Plot(delta, tuple(curves), "δ, m", "F_n, N", "delta", caption)
+    return Plot(delta, tuple(curves), "δ, m", "F_n, N", ("clearance", "delta"), caption)
 
 
 def _friction(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]) -> Plot:
@@ -109,7 +109,7 @@ def _friction(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, floa
     v_t = np.linspace(-1.0, 1.0, 2 * POINTS) * 3.0 * (max(speeds, default=0.0) or FAST)
     y = np.broadcast_to(_called(call, p, 1.0, v_t), v_t.shape)
     caption = "Friction over the slip, for a normal force of 1 N"
-    return Plot(v_t, (Curve(y, ""),), "v_t, m/s", "F_t/F_n", "v_t", caption)
+    return Plot(v_t, (Curve(y, ""),), "v_t, m/s", "F_t/F_n", ("dry", "v_t"), caption)
 
 
 def _film(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]) -> Plot:
@@ -117,7 +117,7 @@ def _film(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]) 
     radial, along, *_ = _called(call, p, epsilon, 0.0 * epsilon, -0.5 * epsilon)
     curves = (Curve(np.broadcast_to(radial, epsilon.shape), "F_r"), Curve(np.broadcast_to(along, epsilon.shape), "F_t"))
     caption = "The film's forces over the eccentricity ratio, for surfaces that turn at 1 rad/s together and no squeeze"
-    return Plot(epsilon, curves, "ε", "N", "epsilon", caption)
+    return Plot(epsilon, curves, "ε", "N", ("film", "epsilon"), caption)
 
 
 _DRAWN = {"normal": _normal, "friction": _friction, "film": _film}
@@ -172,7 +172,7 @@ def _plain(value: float) -> str:
 def _mark(name: str, value: str, first: float, last: float) -> str:
     """A line at the joint's present state, moved and shown by live.js."""
     return (
-        f'<g class="now" data-value="tmp.play.{value}" data-range="{first!r} {last!r} {LEFT} {RIGHT}"'
+        f'<g class="now" data-value="tmp.law.{value}" data-range="{first!r} {last!r} {LEFT} {RIGHT}"'
         f' visibility="hidden"><path d="M0 {TOP}V{BOTTOM}"/>'
         f'<text class="middle" y="{TOP - 2}">{html.escape(name)}</text></g>'
     )

@@ -7,8 +7,9 @@ asked of the functions themselves (generator/ir/dependence.py), never of their t
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields, is_dataclass
+from functools import partial
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.equations.model import Model, make_model
@@ -24,9 +25,10 @@ from gudgeon.generator.mechanism.mechanism import Quantity
 from gudgeon.generator.targets.c import functions
 from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.emit import described, emit, file_names, render
-from gudgeon.generator.targets.c.lines import find, place_of
-from gudgeon.generator.targets.c.play import clearance_code
-from gudgeon.generator.targets.javascript.module import right_hand_sides
+from gudgeon.generator.targets.c.lines import Stored, find, find_within, place_of
+from gudgeon.generator.targets.c.play import pin_functions
+from gudgeon.generator.targets.javascript.module import right_hand_sides, tree_functions
+from gudgeon.generator.targets.javascript.printer import name as name_of
 from gudgeon.generator.targets.latex.tokens import entries_of, entry_token, row_token
 from gudgeon.generator.targets.numpy.module import ClosedLinkage
 
@@ -95,6 +97,8 @@ class _Finder:
         self.number_of = {row.name: k for k, row in enumerate(self.model.rows, 1)}
         self.every = self.model.all_rows
         self.computed = right_hand_sides(program.dynamics, self.model)
+        self.in_tree = tree_functions(program, set())
+        self.laws = {kernel.name for kernel in program.laws}
         self.multipliers = {f"lambda_{row.name.replace('.', '_')}": k for k, row in enumerate(self.model.rows, 1)}
         members = map(self.model.slots.field, self.model.slots.members())
         self.place_in_p = {f"p->{member}": k for k, member in enumerate(members, 1)}
@@ -103,17 +107,22 @@ class _Finder:
     def all(self) -> None:
         """Every function that says something of rows, bodies or laws; what `prepare` makes of it last."""
         program = self.program
-        for kernel in (*program.closed, program.dynamics, *(program.tree.kernels if program.tree else ())):
+        in_tree = (*program.tree.around, *program.tree.kernels) if program.tree else ()
+        for kernel in (*program.closed, program.dynamics, *in_tree):
             self._function(kernel)
         for pin in program.pins:
             contact = self.model.scene.play[pin.clearance.name].contact.name
             for call in pin.laws.values():
                 own = frozenset({f"law-{contact}", f"joint-{pin.clearance.name}"})
                 self._whole(functions.kernel(call.kernel), own)
+                self._note(call.kernel, {})
                 for number in call.numbers:
                     self.numbers[number] |= own
-            own = frozenset({f"joint-{pin.clearance.name}"})
-            self._whole(clearance_code(pin, render, self.model.law_states), own)
+            for part in pin_functions(pin, render, self.model.law_states):
+                self._whole(part.text, frozenset({f"joint-{pin.clearance.name}"}))
+                file, stored = find_within(part.text, part.stores, self.files)
+                for one in stored:
+                    self._keep(file, one, f"law.{part.name}.{{}}".format)
         self._prepare()
 
     def _function(self, kernel: Kernel) -> None:
@@ -124,12 +133,20 @@ class _Finder:
 
     def _note(self, kernel: Kernel, stored: Mapping[str, Marks]) -> None:
         for found in find(kernel, self.files):
-            for target, at in found.lines:
-                own = stored.get(target, NO_MARKS) | self._result(kernel.name, target)
-                for number in at:
+            for one in found.lines:
+                own = stored.get(one.target, NO_MARKS) | self._result(kernel.name, one.target)
+                for number in one.lines:
                     self.lines[found.file][number] |= own
-                if value := self._value(kernel.name, found.own.names.get(target, target)):
-                    self.values[found.file][at[-1]] = value
+                self._keep(found.file, one, partial(self._called, kernel.name, found.own.names))
+
+    def _keep(self, file: str, one: Stored, value: Callable[[str], str]) -> None:
+        """What a line stores; of a branch where it does, or, of a side without a value, on its last line alone."""
+        where, side = one.where[:1], value(one.where[1:]) if one.where[1:] else ""
+        if (called := value(one.target)) and (side or where != "<"):
+            self.values[file][one.lines[-1]] = f"{called}{where}{side.rpartition('.')[2]}" if side else called
+
+    def _called(self, function: str, names: Mapping[str, str], name: str) -> str:
+        return self._value(function, names.get(name, name))
 
     def _value(self, function: str, called: str) -> str:
         """What a page calls the value that a line stores; "": it has none."""
@@ -137,6 +154,10 @@ class _Finder:
             return f"{GIVES[function]}.{called}"
         if function == "dynamics":
             return self._of_rows(called)
+        if function in self.in_tree:
+            return f"tree.{function}.{name_of(called)}"
+        if function in self.laws:
+            return f"law.{function}.{name_of(called)}"
         if function == "prepare" and called in self.place_in_p:
             return f"p.{self.place_in_p[called]}"
         return ""

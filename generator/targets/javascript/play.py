@@ -1,0 +1,109 @@
+"""A joint with play in JavaScript, function by function as clearance.c has it: each tells what it stores.
+
+No side is held: a contact is closed where δ > 0, as where C evaluates a sample.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from gudgeon.generator.equations import contact_steps as contact
+from gudgeon.generator.ir.readable import Readable, lines
+from gudgeon.generator.ir.statements import Statement
+from gudgeon.generator.kernels.play import Pin
+from gudgeon.generator.kernels.shared import SharedCall
+from gudgeon.generator.targets.javascript.printer import JavaScriptPrinter, Lines, results
+
+MOTION = (contact.e_x, contact.e_y, contact.de_x, contact.de_y, contact.omega_i, contact.omega_j)
+BLENDED = ("n", "t", "M_i", "M_j")  # members of a force that film and dry contact share
+_NOTHING = "{n: 0, t: 0, M_i: 0, M_j: 0}"
+_DRY = ("delta", "deltadot", "de_t", "omega_i", "omega_j", "latch", "p", "of")
+_FILM = ("e", "deltadot", "de_t", "omega_i", "omega_j", "p", "of")
+
+
+def joint_functions(own: Pin, read: set[str]) -> list[str]:
+    """`dry_A`, `film_A` and `clearance_A` of joint A, as far as it has them; `read` gets the members of p.
+
+    What one of them, and the laws that it calls, stores goes to `of` by the function's name: `of.dry_A.a_i`; the force
+    in ground axes to `of.force`.
+    """
+    joint, found = own.clearance.name, []
+    if own.clearance.normal is not None:
+        found.append(_function(f"dry_{joint}", _DRY, _dry(own, read)))
+    if own.clearance.film is not None:
+        found.append(_function(f"film_{joint}", _FILM, _film(own, read)))
+    return [*found, _function(f"clearance_{joint}", (*map(str, MOTION), "latch", "p", "of"), _clearance(own, read))]
+
+
+def _function(name: str, given: Iterable[str], body: Iterable[str]) -> str:
+    return "\n".join([f"{name}({', '.join(given)}) {{", *(f"    {line}" for line in body), "}"])
+
+
+def _dry(own: Pin, read: set[str]) -> list[str]:
+    ratio = "unclipped" if own.clearance.clip_ratio else "ratio"
+    before, after = _Part(own.before_dry, read), _Part(own.after_dry, read)
+    body = [f"const {ratio} = latch.closed ? deltadot / latch.deltadot_minus : 1;", *before.text]
+    body += _call(own.laws["normal"], ("max_of(delta, 0)", "ratio", *own.further), ("F_n",), read)
+    if "friction" in own.laws:
+        states = (f"latch.state[{k}]" for k in range(len(own.clearance.states)))
+        body += _call(own.laws["friction"], ("F_n", "v_t", *states), ("F_along_t_dry",), read)
+    else:
+        body.append("const F_along_t_dry = 0;")
+    stored = [ratio, *before.locals, "F_n", "F_along_t_dry", *after.locals]
+    return [*body, *after.text, _store(f"dry_{own.clearance.name}", stored), _force("-F_n", "dry")]
+
+
+def _film(own: Pin, read: set[str]) -> list[str]:
+    before, after = _Part(own.before_film, read), _Part(own.after_film, read)
+    forces = ("F_r", "F_along_t_film", "T0")
+    body = [*before.text, *_call(own.laws["film"], ("epsilon", "w_n", "w_t"), forces, read), *after.text]
+    stored = [*before.locals, *forces, *after.locals]
+    return [*body, _store(f"film_{own.clearance.name}", stored), _force("F_r", "film")]
+
+
+def _clearance(own: Pin, read: set[str]) -> list[str]:
+    """The normal, then what acts; where both do, what the dry contact has of the force is blended with the film's."""
+    joint = own.clearance.name
+    gap, share = _Part(own.gap, read), _Part(own.share, read)
+    dry, film = (f"functions.{part}_{joint}({', '.join(given)})" for part, given in (("dry", _DRY), ("film", _FILM)))
+    body = [*gap.text, _store(f"clearance_{joint}", gap.locals)]
+    if own.clearance.film is None:
+        return [*body, f"const F = delta > 0 ? {dry} : {_NOTHING};", _turned("F")]
+    if own.clearance.normal is None:
+        return [*body, _turned(film)]
+    kept = ", ".join(share.locals)
+    blended = (f'own["F.{one}"] = F.{one} += (1 - share) * (film.{one} - F.{one});' for one in BLENDED)
+    return [
+        *body, f"if (!(delta > 0)) {_turned(film)}", *share.text,
+        f"const F = {dry}, own = Object.assign(of.clearance_{joint}, {{{kept}}});", "if (share < 1) {",
+        f"    const film = {film};", *(f"    {line}" for line in blended), "}", _turned("F"),
+    ]  # fmt: skip
+
+
+def _turned(force: str) -> str:
+    """To ground axes, for whoever calls it."""
+    return f"return turned({force}, n_x, n_y, of);"
+
+
+class _Part:
+    """Statements as lines, and the locals that they store."""
+
+    def __init__(self, statements: Sequence[Statement], read: set[str]) -> None:
+        writer = Lines(lines(statements), read)
+        self.text, self.locals = writer.all(), writer.locals
+
+
+def _call(call: SharedCall, given: Iterable[str], stored: Sequence[str], read: set[str]) -> list[str]:
+    """A law's results, the first of them, as locals."""
+    function, numbers = call.kernel.name, map(JavaScriptPrinter(Readable(()), read).called, call.numbers)
+    told = ", ".join(f"{of}: {name}" for of, name in zip(results(call.kernel), stored, strict=False))
+    called = f"functions.{function}({', '.join([*given, *numbers])})"
+    return [f"const {{{told}}} = of.{function} = {called};"]
+
+
+def _store(function: str, names: Iterable[str]) -> str:
+    return f"of.{function} = {{{', '.join(dict.fromkeys(names))}}};"
+
+
+def _force(along: str, part: str) -> str:
+    return f"return {{n: {along}, t: F_along_t_{part}, M_i: M_i_{part}, M_j: M_j_{part}}};"
