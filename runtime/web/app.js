@@ -71,14 +71,15 @@ class App {
         };
     }
 
-    /* Numbers of the page that led here, those that this scene has; times and other texts are left. */
+    /* Numbers of the page that led here, those that this scene has, once the file's own were run. */
     arrive() {
         for (const [address, text] of new URLSearchParams(location.hash.slice(1))) {
-            const slot = this.about.slots.find((one) => one.address === address), value = Number(text);
-            if (address === "t" && Number.isFinite(value)) this.t = value;
-            else if (slot?.words?.includes(text)) this.panel.given[address] = text;
-            else if (slot && !slot.words && text && Number.isFinite(value)) this.panel.given[address] = value;
+            const slot = this.about.slots.find((one) => one.address === address), value = typed(text, {factor: 1});
+            if (address === "t" && Number.isFinite(value)) this.seek(value);
+            else if (slot && (slot.words ? slot.words.includes(text) : Number.isFinite(value)))
+                this.panel.given[address] = slot.words ? text : value;
         }
+        this.again = Object.keys(this.panel.given).length > 0; // what goes on then (goOn) begins again
     }
 
     /* The path of the point that is chosen. */
@@ -199,6 +200,7 @@ class App {
             part.draw();
             yield PAINT;
         }
+        if (first && this.panel) this.arrive();
         this.wake();
     }
 

@@ -33,10 +33,8 @@ async function start() {
     by("gudgeon-app").hidden = false;
     const about = sim?.about ?? await carried("gudgeon-description"), app = new App(about, panel, sim);
     window.gudgeonApp = app;
-    if (sim) {
-        app.arrive();
-        app.begin();
-    } else app.take(new Recorded({...panel.recorded, bits: await gudgeon.unpacked(panel.recorded.bits)}, about));
+    if (sim) app.begin();
+    else app.take(new Recorded({...panel.recorded, bits: await gudgeon.unpacked(panel.recorded.bits)}, about));
     performance.mark("gudgeon:ready");
 }
 

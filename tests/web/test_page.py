@@ -182,6 +182,7 @@ def test_scenes_lead_to_each_other(opened: Any, tmp_path: Path, call: Gudgeon) -
     page.page.wait_for_function("document.getElementById('g-error').textContent")
     assert page.page.evaluate("gudgeonApp.panel.given") == {"bodies.rod.mass": -1}
     assert "mass is positive" in page.error()
+    assert page.same_bits(gudgeon.load("slider_crank", "dry").simulate())  # the file's numbers are what is shown
     assert page.complaints == []
 
 
