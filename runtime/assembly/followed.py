@@ -47,7 +47,7 @@ def tell_unfollowed(linkage: Linkage, p: Array, q: Array) -> None:
         return
     for name, away in off.items():
         told = f"{name} begins {off_text(name, away)} from its guess: {nearer_text(linkage.source)}"
-        warnings.warn(f"{told}; {LISTED}", stacklevel=_outside())
+        warnings.warn(f"{told}; {LISTED}", stacklevel=outside())
 
 
 def tell_of_runs(source: KernelSource, noted: Sequence[Mapping[str, float]]) -> None:
@@ -58,10 +58,10 @@ def tell_of_runs(source: KernelSource, noted: Sequence[Mapping[str, float]]) -> 
         told.append(f"{name} in {len(by)} of {len(noted)} runs by up to {off_text(name, max(map(abs, by)))}")
     if told:
         text = f"runs begin away from their guess: {', '.join(told)}: {nearer_text(source)}; {LISTED}"
-        warnings.warn(text, stacklevel=_outside())
+        warnings.warn(text, stacklevel=outside())
 
 
-def _outside() -> int:
+def outside() -> int:
     """How many calls above its caller the user's own line is, as `warnings.warn` counts."""
     level, frame = 1, sys._getframe(1)
     while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "gudgeon":

@@ -8,7 +8,9 @@ from dataclasses import replace
 from functools import cache
 from html import escape
 from typing import Any
+from warnings import warn
 
+from gudgeon.assembly.followed import outside
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.drawing.page import PIXELS
 from gudgeon.drawing.picture import size_of
@@ -68,6 +70,7 @@ def _run(simulation: Simulation) -> Result:
     except SolverError as error:
         if error.partial is None or len(error.partial.t) < 2:
             raise
+        warn(f"the page shows a run up to where it fails: {error}", stacklevel=outside())
         return error.partial
 
 

@@ -240,3 +240,19 @@ def test_without_the_compiler_it_carries_one_run(
     shown.page.evaluate("gudgeonApp.play(true)")
     shown.page.wait_for_function("gudgeonApp.k > 3")
     assert shown.complaints == []
+
+
+def test_who_writes_the_page_of_a_run_that_fails_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "ziglang", None)
+    text = """
+format: gudgeon/1
+name: fails
+bodies: {crank: {length: 50 mm, mass: 0.1 kg, inertia: 1e-4 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {O: {revolute: [ground.O, crank.tail]}}
+drives: {motor: {angle: crank, value: acos(t/(1 s))}}
+scenes: {s: {simulate: {t_end: 2 s, output: 20}}}
+"""
+    (tmp_path / "fails.yaml").write_text(text, encoding="utf-8")
+    with pytest.warns(UserWarning, match=r"up to where it fails: drives\.motor\.value .* at t = 1 s"):
+        written(tmp_path, gudgeon.load(tmp_path / "fails.yaml", "s"))
