@@ -209,7 +209,7 @@ def test_constraints_drift_where_nothing_holds_them(opened: Any, tmp_path: Path)
     shown.wait()
     assert page.evaluate(worst) < 1e-14
     page.select_option("#g-run-formulation", "-full")
-    page.wait_for_function("gudgeonApp.about.rows > 0 && gudgeonApp.run.sim === gudgeonApp.sim && !gudgeonApp.way")
+    page.wait_for_function("gudgeonApp.about.rows.length && gudgeonApp.run.sim === gudgeonApp.sim && !gudgeonApp.way")
     drifts = []
     for gain in ("5", "0"):
         for name in ("alpha", "beta"):

@@ -5,6 +5,7 @@
 const gudgeonValues = (() => {
     const FUNCTIONS = {phi: "constraints", phi_q: "jacobian", nu: "velocity_rhs", gamma: "acceleration_rhs", play: "play",
         rhs: "dynamics"};
+    const RAISED = {...["⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"], "-": "⁻"};
     let equations = null, state = null, known = {}, waiting = false;
     const seen = new Set();
 
@@ -52,13 +53,25 @@ const gudgeonValues = (() => {
         }
     }
 
-    const text = (x) => (Number.isFinite(x) ? String(Number(x.toPrecision(5))).replace("-", "\u2212") : "");
+    /* Five digits; 1.2e-5 as 1.2·10⁻⁵. */
+    function text(x) {
+        if (!Number.isFinite(x)) return "";
+        const [digits, power] = String(Number(x.toPrecision(5))).replace(/^-/, "\u2212").split("e");
+        return power === undefined ? digits : `${digits}\u00b710${[...power].map((c) => RAISED[c] ?? "").join("")}`;
+    }
+
+    /* Whether a number is what rounding leaves of none, as the page has it: a coordinate, a rate, a multiplier. */
+    function isNone(name, x) {
+        const [kind, k] = name.replace(/^tmp\.lambda\./, "lambda.").split("."), rate = kind === "v" ? "/s" : "";
+        if (kind === "lambda") return state.isNone?.(x, state.run.unit(`lambda.${equations?.names[k - 1]}`));
+        return (kind === "q" || kind === "v") && state.isNone?.(x, (k % 3 ? "m" : "rad") + rate);
+    }
 
     /* A number as text; a mark of a plot goes to its place. */
     function fill(element) {
         const x = value(element.dataset.value);
         if (!element.dataset.range) {
-            element.textContent = text(x);
+            element.textContent = Number.isFinite(x) && isNone(element.dataset.value, x) ? "\u2248 0" : text(x);
             return;
         }
         const [first, last, left, right] = element.dataset.range.split(" ").map(Number);
