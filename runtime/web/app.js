@@ -212,7 +212,7 @@ class App {
         const made = Object.entries(run.counts ?? {}).filter(([name]) => ["steps", "right_hand_sides"].includes(name));
         const counts = made.map(([name, count]) => `${count.toLocaleString("en")} ${name.replaceAll("_", " ")}`);
         const how = run.estimated ? " (estimated for the file’s numbers)" : "";
-        if (run.step) counts.unshift(`steps of ${told(run.step)} s${how}`);
+        if (run.step) counts.unshift(`steps of ${quantity(run.step, "s", 4)}${how}`);
         if (run.impacts.length) counts.push(`${run.impacts.length} impacts`);
         const ms = this.begun === undefined ? "" : `, ${(performance.now() - this.begun).toFixed(0)} ms`;
         by("g-counts").textContent = `${told(this.span)} s simulated: ${counts.join(", ")}${ms}`;
@@ -316,9 +316,9 @@ class App {
     forces(k) {
         const found = this.settings.joints.map(([name, point]) => [point, ...this.load(name, k)]);
         const largest = Math.max(0, ...found.map(([, x, y]) => Math.hypot(x, y)).filter(Number.isFinite));
-        const newtons = (size) => readable(size, "N").reduce((factor, unit) => `${told(size * factor, 3)} ${unit}`);
-        const none = !(largest > this.noise("N")), of = none ? "no force at a joint now" : `longest arrow: ${newtons(largest)}`;
-        if (this.reads) by("g-scale").textContent = `${of}; largest of this run: ${newtons(this.scales.N ?? 0)}`;
+        const none = !(largest > this.noise("N")), most = quantity(this.scales.N ?? 0, "N", 3);
+        const longest = none ? "no force at a joint now" : `longest arrow: ${quantity(largest, "N", 3)}`;
+        if (this.reads) by("g-scale").textContent = `${longest}; largest of this run: ${most}`;
         return none ? [] : found.map((one) => [...one, LONGEST * this.drawing.unit / largest]);
     }
 }

@@ -26,6 +26,12 @@ function told(x, digits = 5) {
     return `${digit}·10${raised(power.replace("+", ""))}`;
 }
 
+/* With its unit, as it reads well. */
+function quantity(x, unit, digits) {
+    const [factor, short_] = readable(Math.abs(x), unit);
+    return `${told(x * factor, digits)} ${short_}`;
+}
+
 function raised(power) { return [...power].map((c) => RAISED[c]).join(""); }
 
 /* Round numbers between two, about so many. */

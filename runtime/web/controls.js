@@ -219,7 +219,7 @@ class Options {
         const given = typed(this.t_end.value, {factor: 1}, this.seconds);
         const usual = {rtol: sim.about.rtol, ...sim.usual(given > 0 ? given : undefined)};
         for (const name of ["rtol", "step", "t_end", "output"])
-            if (this[name]) this[name].placeholder = told(usual[name], 6);
+            if (this[name]) this[name].placeholder = told(usual[name], 4);
         if (!this.step || !usual.estimated) return;
         this.step.placeholder += ", estimated";
         this.step.title = "estimated for the file’s numbers";

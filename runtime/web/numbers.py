@@ -79,7 +79,7 @@ def _allowed(compiled: CompiledModel, slot: Slot, value: float, end: float) -> f
     for _ in range(HALVINGS):
         middle = 0.5 * (good + bad)
         good, bad = (good, middle) if refused(middle) else (middle, bad)
-    return good + EDGE * (value - good)
+    return 0.0 if abs(good) < EDGE * abs(value) and not refused(0.0) else good + EDGE * (value - good)
 
 
 class _Units:

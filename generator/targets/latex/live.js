@@ -5,6 +5,7 @@
 const gudgeonValues = (() => {
     const FUNCTIONS = {phi: "constraints", phi_q: "jacobian", nu: "velocity_rhs", gamma: "acceleration_rhs", play: "play",
         rhs: "dynamics"};
+    const NOISE = 1e-9; // as runtime/results/report.py has it
     const RAISED = {...["⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"], "-": "⁻"};
     let equations = null, state = null, known = {}, waiting = false;
     const seen = new Set();
@@ -60,10 +61,18 @@ const gudgeonValues = (() => {
         return power === undefined ? digits : `${digits}\u00b710${[...power].map((c) => RAISED[c] ?? "").join("")}`;
     }
 
-    /* Whether a number is what rounding leaves of none, as the page has it: a coordinate, a rate, a multiplier. */
+    const largest = (values) => values.reduce((most, x) => Math.max(most, Math.abs(x) || 0), 0);
+
+    /*
+     * Whether a number is what rounding leaves of none: of a coordinate, a rate, a multiplier as the page has it, of an
+     * entry beside its matrix; an open row counts sooner, for it may drift.
+     */
     function isNone(name, x) {
         const [kind, k] = name.replace(/^tmp\.lambda\./, "lambda.").split("."), rate = kind === "v" ? "/s" : "";
         if (kind === "lambda") return state.isNone?.(x, state.run.unit(`lambda.${equations?.names[k - 1]}`));
+        if (x !== 0 && kind === "phi") return Math.abs(x) < 4 * Number.EPSILON * largest(state.q);
+        const beside = {phi_q: "phi_q", nu: "nu", gamma: "gamma_rows"}[kind];
+        if (x !== 0 && beside) return Math.abs(x) < NOISE * largest(computed(kind)[beside]);
         return (kind === "q" || kind === "v") && state.isNone?.(x, (k % 3 ? "m" : "rad") + rate);
     }
 
