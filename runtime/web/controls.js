@@ -206,7 +206,7 @@ class Options {
     /* Why no constraint drifts here, and Python in which they do. */
     drift(box, {note, code}) {
         element("p", {class: "g-quiet"}, box).textContent = note;
-        const more = section("in Python", false, box);
+        const more = section("To see a drift: Python", false, box);
         element("pre", {}, more).textContent = code;
     }
 
