@@ -40,14 +40,17 @@ class App {
     controls() {
         const heard = {changed: () => this.begin(), complain: (text) => this.complain(text),
             formulated: (which) => this.formulated(which)};
-        this.panel = new Panel(by("g-numbers"), this.settings.groups, this.about, heard);
+        this.panel = new Panel(by("g-numbers"), this.settings, this.about, heard);
     }
 
     transport() {
         by("g-play").onclick = () => this.play(!this.playing);
         by("g-when").oninput = () => this.seek(this.run.t[0] + by("g-when").value / 1000 * this.span);
         by("g-named").onchange = () => by("g-drawing").classList.toggle("g-unnamed", !by("g-named").checked);
-        by("g-forces").onchange = () => this.wake();
+        by("g-forces").onchange = () => {
+            by("g-scale").hidden = !by("g-forces").checked;
+            this.wake();
+        };
         by("g-path").onchange = () => this.trail();
         for (const name of ["", ...Object.keys(this.about.points).filter((one) => this.about.points[one][0] >= 0)])
             element("option", {value: name}, by("g-path")).textContent = name || "none";
@@ -133,13 +136,15 @@ class App {
         this.way?.return();
         this.way = null;
         this.begun = performance.now();
+        let wrong = null;
         try {
             this.sim.setParameters(this.panel.given);
             this.way = this.work();
         } catch (error) {
-            this.failed(error);
+            wrong = error;
         }
-        this.panel.show(this.sim.p);
+        this.panel.show(this.sim);
+        if (wrong) this.failed(wrong);
         this.wake();
     }
 
@@ -170,7 +175,8 @@ class App {
 
     failed(error) {
         const upTo = error.partial?.q?.length ? " What is shown is the run up to there." : "";
-        this.complain(`${error.message}.${upTo || (this.run ? " What is shown is the run before." : "")}`);
+        const {message} = error, blamed = this.panel?.blamed(message) ?? "";
+        this.complain(`${message}${blamed}.${upTo || (this.run ? " What is shown is the run before." : "")}`);
     }
 
     complain(text) {
@@ -190,9 +196,9 @@ class App {
         this.counted(run);
         this.trail();
         this.seek(Math.min(this.t, run.t[run.t.length - 1]));
-        this.largest = 0;
-        for (const [name] of this.settings.joints) {
-            this.largest = Math.max(this.largest, extent(this.seriesOf(`${name}.F`))[1]);
+        this.scales = this.motionScales(run);
+        for (const name of [...this.settings.joints.map(([joint]) => `${joint}.F`), ...this.settings.values]) {
+            if (run.names.includes(name)) this.scale(run.unit(name), extent(run.series(name)));
             yield;
         }
         if (first) this.settings.traces.forEach((name) => this.addChart(name));
@@ -207,12 +213,36 @@ class App {
     counted(run) {
         const made = Object.entries(run.counts ?? {}).filter(([name]) => ["steps", "right_hand_sides"].includes(name));
         const counts = made.map(([name, count]) => `${count.toLocaleString("en")} ${name.replaceAll("_", " ")}`);
+        const how = run.estimated ? " (estimated for the file’s numbers)" : "";
+        if (run.step) counts.unshift(`steps of ${quantity(run.step, "s", 4)}${how}`);
         if (run.impacts.length) counts.push(`${run.impacts.length} impacts`);
         const ms = this.begun === undefined ? "" : `, ${(performance.now() - this.begun).toFixed(0)} ms`;
         by("g-counts").textContent = `${told(this.span)} s simulated: ${counts.join(", ")}${ms}`;
     }
 
     seriesOf(name) { return this.run.names.includes(name) ? this.run.series(name) : []; }
+
+    /* By unit the largest number of its kind in a run: what rounding is compared with (results/report.py). */
+    motionScales(run) {
+        const found = this.scales = {}, n = this.about.coordinates.length;
+        [run.q, run.v].forEach((rows, order) => {
+            const most = [0, 0], rate = order ? "/s" : "";
+            rows.forEach((x, i) => {
+                const turns = Number(i % n % 3 === 2);
+                most[turns] = Math.max(most[turns], Math.abs(x) || 0);
+            });
+            found[`m${rate}`] = most[0];
+            found[`rad${rate}`] = Math.max(most[1], most[0] / found.m || 0); // what does not turn: as if it went so far
+        });
+        return found;
+    }
+
+    scale(unit, range) { this.scales[unit] = Math.max(this.scales[unit] ?? 0, ...range.map(Math.abs)); }
+
+    /* What rounding leaves of a number of this unit, at most. */
+    noise(unit) { return this.settings.noise * (this.scales?.[unit] ?? 0); }
+
+    isNone(x, unit) { return x !== 0 && Math.abs(x) < this.noise(unit); }
 
     /* The sample nearest to a time. */
     seek(t) {
@@ -261,32 +291,36 @@ class App {
     show() {
         const {run, k, sim} = this, n = this.about.coordinates.length, t = run.t[k], {p} = run;
         const [q, v] = [run.q, run.v].map((rows) => rows.subarray(k * n, (k + 1) * n));
-        this.drawing.show(q, p, (name) => this.load(name, k), by("g-forces").checked ? this.forces(k) : []);
         this.reads = !this.playing || performance.now() - (this.read ?? 0) > READ;
         if (this.reads) this.read = performance.now();
+        this.drawing.show(q, p, (name) => this.load(name, k), by("g-forces").checked ? this.forces(k) : []);
         for (const part of [...this.charts, ...this.orbits]) if (part.run === run) part.cursor(k);
         if (this.reads) for (const {name, cell, unit} of this.values) this.tell(name, cell, unit, k);
         if (document.activeElement !== by("g-when") || this.playing) by("g-when").value = 1000 * (t - run.t[0]) / this.span;
         by("g-t").textContent = `t = ${t.toFixed(4)} s`;
         by("g-when").setAttribute("aria-valuetext", `${t.toFixed(4)} seconds`);
-        const detail = window.gudgeonState = {sim, run, k, t, q, v, p};
+        const isNone = (x, unit) => this.isNone(x, unit);
+        const detail = window.gudgeonState = {sim, run, k, t, q, v, p, isNone};
         document.dispatchEvent(new CustomEvent("gudgeon:state", {detail}));
     }
 
     tell(name, cell, unit, k) {
-        const x = this.seriesOf(name)[k] ?? NaN, [factor, text] = readable(Math.abs(x), this.run.unit(name));
-        cell.textContent = told(x * factor, 4);
-        unit.textContent = text;
+        const x = this.seriesOf(name)[k] ?? NaN, of = this.run.unit(name), none = this.isNone(x, of);
+        const [factor, text] = readable(Math.abs(x), of);
+        cell.textContent = none ? "≈ 0" : told(x * factor, 4);
+        unit.textContent = none ? "" : text;
     }
 
     /* The force of an element, for the arrow that shows it. */
     load(name, k) { return ["Fx", "Fy"].map((axis) => this.seriesOf(`${name}.${axis}`)[k] ?? 0); }
 
-    /* Forces at the joints; the largest of the run is the longest arrow. */
+    /* Forces at the joints; the longest is that of this moment, for blows would leave nothing of the others. */
     forces(k) {
-        const metres = LONGEST * this.drawing.unit / this.largest;
-        const [factor, unit] = readable(this.largest, "N");
-        by("g-scale").textContent = `longest arrow of this run: ${told(this.largest * factor, 3)} ${unit}`;
-        return this.settings.joints.map(([name, point]) => [point, ...this.load(name, k), metres]);
+        const found = this.settings.joints.map(([name, point]) => [point, ...this.load(name, k)]);
+        const largest = Math.max(0, ...found.map(([, x, y]) => Math.hypot(x, y)).filter(Number.isFinite));
+        const none = !(largest > this.noise("N")), most = quantity(this.scales.N ?? 0, "N", 3);
+        const longest = none ? "no force at a joint now" : `longest arrow: ${quantity(largest, "N", 3)}`;
+        if (this.reads) by("g-scale").textContent = `${longest}; largest of this run: ${most}`;
+        return none ? [] : found.map((one) => [...one, LONGEST * this.drawing.unit / largest]);
     }
 }

@@ -26,6 +26,12 @@ function told(x, digits = 5) {
     return `${digit}·10${raised(power.replace("+", ""))}`;
 }
 
+/* With its unit, as it reads well. */
+function quantity(x, unit, digits) {
+    const [factor, short_] = readable(Math.abs(x), unit);
+    return `${told(x * factor, digits)} ${short_}`;
+}
+
 function raised(power) { return [...power].map((c) => RAISED[c]).join(""); }
 
 /* Round numbers between two, about so many. */
@@ -102,7 +108,10 @@ class Chart {
         this.run = run;
         this.powers = name.startsWith("Phi");
         const known = run.names.includes(name), [y, other] = [this.scaled(run), before === run ? [] : this.scaled(before)];
-        const [least, most] = this.powers ? extent(y, other, [LEAST, MOST]) : extent(y, other), size = Math.max(Math.abs(least), Math.abs(most));
+        const noise = this.powers || !known ? 0 : this.page.noise(run.unit(name));
+        let [least, most] = extent(y, other, this.powers ? [LEAST, MOST] : []);
+        if (Math.max(-least, most) < noise) [least, most] = [-noise, noise];
+        const size = Math.max(Math.abs(least), Math.abs(most));
         const [factor, unit] = this.powers ? [1, ""] : readable(size, known ? run.unit(name) : "");
         const spread = most - least, flat = !(spread > 1e-9 * size);
         const margin = flat ? (this.powers ? 1 : 0.5 * size || 1) : 0.06 * spread, low = least - margin, high = most + margin;
@@ -150,7 +159,8 @@ class Chart {
         const {y, to_x, to_y} = this, x = short(to_x(this.page.run.t[k]));
         this.now.style.transform = `translate(${x}px, ${PAD.top}px)`;
         this.dot.style.transform = `translate(${x}px, ${Number.isFinite(y[k]) ? short(to_y(y[k])) : -99}px)`;
-        const value = this.powers ? told(this.run.series(this.name)[k], 3) : `${told(y[k] * this.factor, 4)} ${this.unit}`;
+        const value = this.powers ? told(this.run.series(this.name)[k], 3) :
+            this.page.isNone(y[k], this.run.unit(this.name)) ? "≈ 0" : `${told(y[k] * this.factor, 4)} ${this.unit}`;
         if (this.page.reads) this.value.textContent = value;
     }
 }

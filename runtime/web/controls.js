@@ -20,31 +20,50 @@ function section(title, open, parent) {
     return box;
 }
 
-/* What somebody typed, in SI; a decimal comma is taken. Of a decimal prefix it is the number nearest to the text. */
-function typed(text, {factor, ten}) {
+/* A unit as UNITS of runtime/language/units.py has it. */
+function asWritten(unit) {
+    const signs = {"°": "deg", "·": "*", "²": "^2", "³": "^3", "µ": "u", "μ": "u", " ": ""};
+    return unit.replace(/[°·²³µμ ]/g, (sign) => signs[sign]);
+}
+
+/*
+ * What somebody typed, in SI: a number, with a decimal comma too, in the field's unit or in one that stands behind it.
+ * Of a decimal prefix it is the number nearest to the text.
+ */
+function typed(text, {factor, unit: own = ""}, units = {}) {
     const plain = text.trim().replace(",", ".").replace("−", "-");
-    if (!/^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(plain)) return NaN;
-    if (ten === undefined) return Number(plain) * factor;
-    const [digits, power = "0"] = plain.toLowerCase().split("e");
+    const [, number, unit] = /^([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)(.*)$/i.exec(plain) ?? [];
+    if (number === undefined) return NaN;
+    const behind = asWritten(unit), of = !behind || behind === asWritten(own) ? factor : units[behind] ?? NaN;
+    const ten = Math.round(Math.log10(of));
+    if (Number(`1e${ten}`) !== of) return Number(number) * of;
+    const [digits, power = "0"] = number.toLowerCase().split("e");
     return Number(`${digits}e${Number(power) + ten}`);
+}
+
+/* What is said of a text that is no number, of a field that is marked with it. */
+function refusal(field, name, text, units = {}) {
+    field.setAttribute("aria-invalid", true);
+    const names = Object.keys(units).join(", ");
+    return `${name}: ${text} is no number${names && `; a unit may stand behind one: ${names}`}`;
 }
 
 /* One number: a slider over its range, and a field for any other. */
 class NumberField {
     constructor(panel, told, slot, parent) {
-        Object.assign(this, {panel, told, slot});
+        Object.assign(this, {panel, told, slot, units: panel.units[slot.unit]});
         const row = this.row = element("div", {class: "g-number"}, parent), id = `g-number-${told.k}`;
         const label = element("label", {for: id}, row);
         label.textContent = told.name;
         this.slider = element("input", {type: "range", id, min: 0, max: 1000, step: 1}, row);
         const name = `${slot.address} in ${told.unit || "one"}`;
-        this.field = element("input", {type: "text", inputmode: "decimal", "aria-label": name, size: 8}, row);
+        this.field = element("input", {type: "text", "aria-label": name, size: 8}, row);
         element("span", {class: "g-unit"}, row).textContent = told.unit;
         this.back = element("button", {type: "button", class: "g-small", title: "as in the file"}, row);
         this.back.textContent = "↺";
         this.back.setAttribute("aria-label", `${slot.address} as in the file`);
         this.slider.oninput = () => this.slide();
-        this.field.onchange = () => this.take(typed(this.field.value, told), this.field.value);
+        this.field.onchange = () => this.take(typed(this.field.value, told, this.units), this.field.value);
         this.back.onclick = () => panel.forget(slot.address);
     }
 
@@ -57,7 +76,7 @@ class NumberField {
 
     take(value, text) {
         if (Number.isFinite(value)) this.panel.set(this.slot.address, value);
-        else this.panel.complain(`${this.slot.address}: ${text} is no number`);
+        else this.panel.complain(refusal(this.field, this.slot.address, text, this.units));
     }
 
     /* What the run has; the field that is being typed in is left alone. */
@@ -65,6 +84,7 @@ class NumberField {
         const {k, low, high, factor} = this.told, value = given ?? p[k];
         const mine = given !== undefined;
         this.row.classList.toggle("g-mine", mine);
+        this.field.removeAttribute("aria-invalid");
         this.back.style.visibility = mine ? "" : "hidden";
         const place = Math.round(1000 * (value - low) / (high - low));
         if (document.activeElement !== this.slider) this.slider.value = place;
@@ -94,8 +114,8 @@ class Choice {
 
 /* Everything that a run may be given. `changed` is called after each move, `complain` with what is refused. */
 class Panel {
-    constructor(form, groups, about, {changed, complain, formulated}) {
-        Object.assign(this, {about, changed, complain, formulated, given: {}});
+    constructor(form, {groups, units, drift}, about, {changed, complain, formulated}) {
+        Object.assign(this, {about, changed, complain, formulated, units, drift, given: {}, moved: null});
         this.options = new Options(form, about, this);
         this.fields = groups.flatMap(({title, numbers}, k) => {
             const box = section(title, k === 0, form);
@@ -108,6 +128,7 @@ class Panel {
         this.reset.textContent = "All as in the file";
         this.reset.onclick = () => {
             this.given = {};
+            this.moved = null;
             this.changed();
         };
         form.onsubmit = (event) => event.preventDefault();
@@ -115,6 +136,7 @@ class Panel {
 
     set(address, value) {
         this.given[address] = value;
+        this.moved = address;
         this.changed();
     }
 
@@ -123,9 +145,20 @@ class Panel {
         this.changed();
     }
 
-    show(p) {
-        for (const field of this.fields) field.show(p, this.given[field.slot.address]);
+    show(sim) {
+        for (const field of this.fields) field.show(sim.p, this.given[field.slot.address]);
+        this.options.show(sim);
         this.reset.disabled = !Object.keys(this.given).length;
+    }
+
+    /* What was moved last, with its number, for a refusal that does not name it; its field is marked. */
+    blamed(text) {
+        const field = this.fields.find(({slot}) => slot.address === this.moved), {told: told_} = field ?? {};
+        field?.field?.setAttribute("aria-invalid", true);
+        if (!field || text.includes(this.moved)) return "";
+        const value = this.given[this.moved];
+        const shown = field.field ? `${told(value / told_.factor, 6)} ${told_.unit}`.trim() : value;
+        return `. Moved last: ${this.moved}, to ${shown}`;
     }
 }
 
@@ -133,19 +166,21 @@ class Panel {
 class Options {
     constructor(form, about, panel) {
         const box = section("Run", true, form);
-        this.about = about;
+        Object.assign(this, {about, seconds: panel.units.s});
         this.method = this.row(box, "method", element("select", {class: "g-across"}));
         for (const name of about.methods.length > 1 ? ["auto", ...about.methods] : about.methods)
             element("option", {value: name}, this.method).textContent = METHODS[name] ?? name;
         if (by("gudgeon-module-full")) this.formulations(box, panel);
+        if (panel.drift) this.drift(box, panel.drift);
         const integrates = about.methods[0] !== "kinematic";
-        this.rtol = integrates ? this.field(box, "rtol", "", about.rtol) : null;
-        this.step = about.methods.includes("rk4") ? this.field(box, "step", "s", about.simulate.step) : null;
-        this.t_end = this.field(box, "t_end", "s", about.simulate.t_end);
-        this.output = this.field(box, "output", "intervals", about.simulate.output);
+        this.rtol = integrates ? this.field(box, "rtol", "") : null;
+        this.step = about.methods.includes("rk4") ? this.field(box, "step", "s") : null;
+        this.t_end = this.field(box, "t_end", "s");
+        this.output = this.field(box, "output", "intervals");
         for (const one of [this.method, this.rtol, this.step, this.t_end, this.output])
             if (one) one.onchange = () => {
                 this.fit();
+                panel.moved = null;
                 panel.changed();
             };
         this.fit();
@@ -168,14 +203,31 @@ class Options {
         return made;
     }
 
-    field(box, name, unit, usual) {
-        const made = element("input", {type: "text", inputmode: "decimal", size: 8});
-        made.placeholder = typeof usual === "number" ? String(usual) : "as the scene says";
-        return this.row(box, name, made, unit);
+    /* Why no constraint drifts here, and Python in which they do. */
+    drift(box, {note, code}) {
+        element("p", {class: "g-quiet"}, box).textContent = note;
+        const more = section("To see a drift: Python", false, box);
+        element("pre", {}, more).textContent = code;
+    }
+
+    field(box, name, unit) {
+        return this.row(box, name, element("input", {type: "text", size: 8}), unit);
+    }
+
+    /* What an empty field stands for. */
+    show(sim) {
+        const given = typed(this.t_end.value, {factor: 1}, this.seconds);
+        const usual = {rtol: sim.about.rtol, ...sim.usual(given > 0 ? given : undefined)};
+        for (const name of ["rtol", "step", "t_end", "output"])
+            if (this[name]) this[name].placeholder = told(usual[name], 4);
+        if (!this.step || !usual.estimated) return;
+        this.step.placeholder += ", estimated";
+        this.step.title = "estimated for the file’s numbers";
     }
 
     /* A step belongs to rk4, a tolerance to all others. */
     fit() {
+        for (const one of [this.rtol, this.step, this.t_end, this.output]) one?.removeAttribute("aria-invalid");
         const fixed = this.method.value === "rk4";
         if (this.step) this.step.parentElement.hidden = !fixed;
         if (this.rtol) this.rtol.parentElement.hidden = fixed;
@@ -187,8 +239,9 @@ class Options {
         for (const name of fixed ? ["step", "t_end", "output"] : ["rtol", "t_end", "output"]) {
             const text = this[name]?.value.trim();
             if (!text) continue;
-            found[name] = typed(text, {factor: 1, ten: 0});
-            if (Number.isNaN(found[name])) throw new Error(`${name}: ${text} is no number`);
+            const units = name === "step" || name === "t_end" ? this.seconds : {};
+            found[name] = typed(text, {factor: 1}, units);
+            if (Number.isNaN(found[name])) throw new Error(refusal(this[name], name, text, units));
         }
         return found;
     }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterator
 from dataclasses import asdict
 from typing import Any
@@ -18,7 +19,7 @@ from gudgeon.integrators.adaptive import FELT_BY_FILMS, RTOL, begins_with, integ
 from gudgeon.integrators.kinematic import REACH
 from gudgeon.model.choices import said
 from gudgeon.model.compiled import CompiledModel
-from gudgeon.model.default_step import T_END
+from gudgeon.model.default_step import SMOOTH, T_END, default_step
 from gudgeon.model.parameters import GAINS, conditions, prepare
 from gudgeon.model.sizes import size_places
 from gudgeon.results.series import catalogue
@@ -47,8 +48,8 @@ def description(compiled: CompiledModel) -> str:
         "rtol": RTOL, "felt_by_films": FELT_BY_FILMS, "reach": REACH,
         "memory": source.n_memory, "events": [[event.name, event.action] for event in source.events],
         "widths": _widths(source), "unknown": _unknown(source), "left_out": _left_out(compiled), "open": OPEN,
-        "rows": len(source.start_rows),
-        "simulate": _simulate(source), "start": _start(compiled),
+        "rows": [[row.owner, row.unit] for row in source.start_rows],
+        "simulate": _simulate(source), "step": _step(compiled), "start": _start(compiled),
         "columns": dict(_columns(source)), "points": {point.name: _point(source, point) for point in source.points},
         "outputs": {name: [series.unit, source.outputs[name]] for name, series in catalogue(source).items()
                     if name in source.outputs},
@@ -107,6 +108,13 @@ def _simulate(source: KernelSource) -> dict[str, Any]:
     """The scene's t_end, output and step: numbers, or trees of parameters."""
     trees = {one.address.rpartition(".")[2]: json.loads(one.tree) for one in source.simulate_written}
     return {"t_end": T_END, "output": DEFAULT_OUTPUT, **source.simulate, **trees}
+
+
+def _step(compiled: CompiledModel) -> list[float] | None:
+    """Of rk4 where nobody says a step: share of a run's length, and its bound (s) with the file's numbers."""
+    if "rk4" not in compiled.source.methods:
+        return None
+    return [SMOOTH, default_step(compiled, prepare(compiled, {})[0], math.inf)]
 
 
 def _start(compiled: CompiledModel) -> dict[str, Any] | None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections import Counter
 from collections.abc import Mapping
@@ -13,7 +12,9 @@ from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.errors import GudgeonError
 from gudgeon.language.plot_units import drawn, pretty
 from gudgeon.language.quantities import number_of_text
-from gudgeon.model.compiled import Array
+from gudgeon.language.units import TIME, UNITS, dimension
+from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.parameters import prepare
 from gudgeon.simulation.simulation import Simulation
 
 SECTIONS = {
@@ -24,13 +25,14 @@ SECTIONS = {
 MORE, TURN = 4.0, 3.141592653589793  # how many times a positive number, how far an angle goes either way
 SMALL = 0.05  # share of the mechanism's size below which a length is none of its links
 STAY = ("bodies", "bearings", "contacts", "materials", "baumgarte")  # whose positive numbers keep their sign
+HALVINGS = 30  # of what lies between a number and an end that is refused
 EDGE = 1e-3  # share of the range that a slider keeps from a bound that is out of reach
 WRITTEN = re.compile(r".*?(?:[\d.)]|\bpi)\s+([A-Za-zµΩ°%][\w*/^.()µ°-]*)$")  # "2*pi rad/s": the unit at its end
 ANGLES = ("deg", "rad", "°")
 
 
 def groups(simulation: Simulation, p: Array) -> list[dict[str, Any]]:
-    """Sections of numbers, the parameters first: [{title, numbers: [{k, name, unit, factor, ten, low, high}]}]."""
+    """Sections of numbers, the parameters first: [{title, numbers: [{k, name, unit, factor, low, high}]}]."""
     source, units = simulation.source, _Units(simulation)
     size, found = mechanism_size(simulation.compiled, p), dict[str, list[dict[str, Any]]]()
     for k, slot in enumerate(source.slots):
@@ -40,9 +42,8 @@ def groups(simulation: Simulation, p: Array) -> list[dict[str, Any]]:
             unit, factor = units.of(slot)
             angle = unit in ANGLES or slot.address.endswith((".theta", ".angle"))
             low, high = _range(source, slot, p, size, angle)
-            ten = _power_of_ten(factor)
+            low, high = (_allowed(simulation.compiled, slot, float(p[k]), end) for end in (low, high))
             told |= {"unit": pretty(unit), "factor": factor, "low": low, "high": high}
-            told |= {"ten": ten} if ten is not None else {}
         found.setdefault(section, []).append(told)
     order = [*(name for name in SECTIONS if name in found), *(name for name in found if name not in SECTIONS)]
     return [{"title": SECTIONS.get(name, name.capitalize()), "numbers": _together(found[name])} for name in order]
@@ -54,10 +55,31 @@ def _together(numbers: list[dict[str, Any]]) -> list[dict[str, Any]]:
     return sorted(numbers, key=lambda one: owners.index(one["name"].partition(".")[0]))
 
 
-def _power_of_ten(factor: float) -> int | None:
-    """Its exponent: a text of digits and this is the number nearest to what was typed, which a product may miss."""
-    exponent = round(math.log10(factor)) if factor > 0.0 else 0
-    return exponent if float(f"1e{exponent}") == factor else None
+def units(source: KernelSource) -> dict[str, dict[str, float]]:
+    """What may be typed behind a number, by its unit in SI: units of the same dimension, and how many of SI each is."""
+    kinds = {"s": TIME} | {slot.unit: dimension(*slot.dimension) for slot in source.slots if not slot.words}
+    return {
+        si: {name: factor for name, (factor, of) in UNITS.items() if of == own and name.isascii()}
+        for si, own in kinds.items()
+    }
+
+
+def _allowed(compiled: CompiledModel, slot: Slot, value: float, end: float) -> float:
+    """The end of a slider; where what follows from the number breaks a condition, the last one before that."""
+    def refused(at: float) -> bool:
+        try:
+            prepare(compiled, {slot.address: at})
+        except GudgeonError:
+            return True
+        return False
+
+    if not refused(end) or refused(value):
+        return end
+    good, bad = value, end
+    for _ in range(HALVINGS):
+        middle = 0.5 * (good + bad)
+        good, bad = (good, middle) if refused(middle) else (middle, bad)
+    return 0.0 if abs(good) < EDGE * abs(value) and not refused(0.0) else good + EDGE * (value - good)
 
 
 class _Units:

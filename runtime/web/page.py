@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import gzip
+import re
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
@@ -52,7 +53,7 @@ def parts(simulation: Simulation, scenes: Mapping[str, str] | None = None) -> Pa
 @cache
 def script() -> str:
     """JavaScript that declares `gudgeon` with `gudgeon.load`: for a page's <script>, or a file that Node requires."""
-    texts = [file_text(name) for name in FILES]
+    texts = [code(name) for name in FILES]
     return "\n".join((
         "const gudgeon = (() => {", '"use strict";', *texts, "return {load, unpacked, Simulator, Run};", "})();",
         'if (typeof module !== "undefined") module.exports = gudgeon;', "",
@@ -83,6 +84,11 @@ def element(name: str, told: str) -> str:
     """JSON that is not shown; no text of a file ends the element."""
     safe = told.replace("<", "\\u003c")
     return f'<script type="application/json" id="{name}">{safe}</script>\n'
+
+
+def code(name: str) -> str:
+    """JavaScript of this room, indented by one space each: a page carries it as it is read, and no more."""
+    return re.sub(r"(?m)^(?: {4})+", lambda indent: " " * (len(indent[0]) // 4), file_text(name))
 
 
 def file_text(name: str) -> str:

@@ -18,11 +18,11 @@ from gudgeon.drawing.rig import Rig, make_rig
 from gudgeon.drawing.shapes import Sketch
 from gudgeon.results.animation import QUICK, SHOWN, SLOW
 from gudgeon.results.postures import postures_of
-from gudgeon.results.report import default_watch
+from gudgeon.results.report import NOISE, default_watch
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.look import look
-from gudgeon.web.numbers import groups
+from gudgeon.web.numbers import groups, units
 
 WIDE, NARROW = 7.0, 3.6  # inches of a drawing on a desk and on a phone: names are placed for either
 SHOWN_AT = 24  # postures of the run that the drawing is made from
@@ -41,7 +41,7 @@ def panel(simulation: Simulation, run: Result, rig: Rig) -> dict[str, Any]:
     source, span = run.source, float(run.t[-1] - run.t[0])
     ends = dict(_journals(source))
     return {
-        "groups": groups(simulation, simulation.p),
+        "groups": groups(simulation, simulation.p), "units": units(source), "noise": NOISE,
         "rig": rig.json(), "names": list(_names(rig)),
         "joints": [[name, point] for name, point in ends.items() if f"{name}.Fx" in run.names],
         "traces": _first_traces(run), "values": _first_values(run),

@@ -178,12 +178,12 @@ class Run {
         const {left_out, open, rows} = this.about, {lib, n} = this.sim;
         if (!left_out.length) return;
         within(lib, (memory) => {
-            const p = memory.numbers(this.p.length, this.p), q = memory.numbers(n), phi = memory.numbers(rows);
+            const p = memory.numbers(this.p.length, this.p), q = memory.numbers(n), phi = memory.numbers(rows.length);
             this.t.forEach((t, i) => {
                 memory.view(q, n).set(this.q.subarray(i * n, (i + 1) * n));
                 lib.gudgeon_phi(t, q, p, phi);
                 for (const [k, owner, length] of left_out)
-                    if (Math.abs(memory.view(phi, rows)[k]) > open * (length ? this.size : 1)) {
+                    if (Math.abs(memory.view(phi, rows.length)[k]) > open * (length ? this.size : 1)) {
                         const told = {0: `${owner} said nothing new with the file's numbers and opens with these`};
                         throw failure(this, 0, told, [], t);
                     }

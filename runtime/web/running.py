@@ -19,9 +19,10 @@ from gudgeon.errors import BuildError, SolverError
 from gudgeon.language.shown import one_line
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
+from gudgeon.web import drift
 from gudgeon.web.description import description
 from gudgeon.web.look import look, style
-from gudgeon.web.page import DESCRIPTION, Parts, file_text, packed_element, packed_module, script
+from gudgeon.web.page import DESCRIPTION, MODULE, Parts, code, file_text, packed_element, packed_module, script
 from gudgeon.web.panel import NARROW, WIDE, looks_of, panel, recorded, rig_of
 
 APP = ("drawing.js", "chart.js", "controls.js", "app.js", "carried.js")
@@ -40,7 +41,8 @@ def running_parts(simulation: Simulation, scenes: Mapping[str, str]) -> Parts:
     told, note = panel(simulation, run, rig) | _scales(rig) | {"scenes": dict(scenes)}, ""
     carried = packed_element(DESCRIPTION, description(simulation.compiled).encode())
     try:
-        carried += _modules(simulation)
+        carried += (modules := _modules(simulation))
+        told["drift"] = drift.told(simulation, f"{MODULE}-full" in modules)
     except BuildError as error:
         if error.__cause__ is None or not isinstance(error.__cause__, ImportError):
             raise
@@ -86,4 +88,4 @@ def _scales(rig: Rig) -> dict[str, Any]:
 @cache
 def app() -> str:
     """JavaScript of what is seen, behind `script` of page.py."""
-    return "\n".join(("(() => {", '"use strict";', *(file_text(name) for name in APP), "})();", ""))
+    return "\n".join(("(() => {", '"use strict";', *(code(name) for name in APP), "})();", ""))

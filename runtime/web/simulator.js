@@ -179,9 +179,21 @@ class Simulator {
             const open = this.lib.gudgeon_start(0, p, this.size, q, v, memory.numbers(1));
             const found = {q: memory.copy(q, this.n), v: memory.copy(v, this.n)};
             if (open || !found.v.every(Number.isFinite))
-                throw new Error("the linkage does not close near its guess with these numbers");
+                throw new Error("the linkage does not close near its guess with these numbers" + this.gap(memory, p, q));
             return found;
         });
+    }
+
+    /* The row that is furthest open at q, in words; "" where none is. */
+    gap(memory, p, q) {
+        const {rows, open} = this.about, phi = memory.numbers(rows.length);
+        const far = ([x, unit]) => x / (unit === "m" ? this.size : 1);
+        this.lib.gudgeon_phi(0, q, p, phi);
+        const found = rows.map(([owner, unit], k) => [Math.abs(memory.view(phi, rows.length)[k]), unit, owner]);
+        const worst = found.sort((a, b) => far(b) - far(a))[0];
+        if (!worst || !(far(worst) > open) || !Number.isFinite(far(worst))) return "";
+        const [x, unit, owner] = worst, [factor, shown] = unit === "m" ? [1e3, " mm"] : [180 / Math.PI, "°"];
+        return `: the largest gap, ${Number((factor * x).toPrecision(3))}${shown}, is in a row of ${owner}`;
     }
 
     /* Where Python alone finds the start: the file's, as long as all that it follows from is as it was. */
@@ -225,6 +237,7 @@ class Simulator {
     *running(options = {}) {
         expect(isMapping(options), "options", options, "an object {t_end, output, ...}");
         const asked = this.checked(options), memory = new Memory(this.lib), run = new Run(this, asked.t);
+        Object.assign(run, {step: asked.step, estimated: asked.estimated});
         try {
             yield* (asked.method === "kinematic" ? follow : integrate)(this, asked, memory, run);
             return run;
@@ -238,13 +251,13 @@ class Simulator {
         for (const name of Object.keys(unknown)) throw new Error(`${name} is no option: expected ${OPTIONS}`);
         for (const [name, value] of Object.entries({t_end, rtol, step, slice}))
             expect(value == null || typeof value === "number", name, value, "a number");
-        const {simulate, methods} = this.about, named = (name) => this.p[this.place.get(`parameters.${name}`)];
-        const said = (name) => simulate[name] === undefined ? undefined : valueOf(simulate[name], named);
-        const t = outputTimes(t_end ?? said("t_end"), output ?? said("output"), t_end), end = t[t.length - 1];
+        const {methods} = this.about, usual = this.usual(t_end);
+        const t = outputTimes(usual.t_end, output ?? usual.output, t_end), end = t[t.length - 1];
         if (method === "auto") method = methods.length === 1 ? methods[0] : step == null ? "adaptive" : "rk4";
         expect(method === "adaptive" || methods.includes(method), "method", method, `auto, ${methods.join(", ")}`);
         if (method === "kinematic") step = null;
-        if (method === "rk4") expect((step ??= said("step")) != null, "step", step, "a time (s) for rk4");
+        const estimated = method === "rk4" && step == null && usual.estimated;
+        if (method === "rk4") step ??= this.usual(end).step;
         if (step != null) {
             expect(step > 0 && end / step < MOST_STEPS, "step", step, "a positive time (s), not too short");
             expect(rtol == null, "rtol", rtol, "none beside a fixed step");
@@ -253,7 +266,15 @@ class Simulator {
         expect(rtol >= SMALLEST_RTOL && rtol < 1, "rtol", rtol, `a share from ${SMALLEST_RTOL} to 1`);
         slice ??= SLICE[method] ?? SLICE.adaptive;
         expect(Number.isInteger(slice) && slice >= 1 && slice < MOST_STEPS, "slice", slice, "a whole number from 1 on");
-        return {t, method, rtol, step, slice};
+        return {t, method, rtol, step, slice, estimated};
+    }
+
+    /* What a run has where nobody says it: the scene's; a step of rk4 is else estimated for the file's numbers. */
+    usual(t_end) {
+        const {simulate, step} = this.about, named = (name) => this.p[this.place.get(`parameters.${name}`)];
+        const said = (name) => simulate[name] === undefined ? undefined : valueOf(simulate[name], named);
+        const end = t_end ?? said("t_end"), own = said("step"), estimated = own === undefined;
+        return {t_end: end, output: said("output"), step: own ?? (step && Math.min(step[0] * end, step[1])), estimated};
     }
 }
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,7 @@ pytest.importorskip("matplotlib")
 
 import gudgeon  # noqa: E402
 from tests.pump import Gudgeon  # noqa: E402
-from tests.web.chromium import PHONE, written  # noqa: E402
+from tests.web.chromium import PHONE, C, written  # noqa: E402
 
 
 def test_what_a_hand_moves_is_simulated_and_shown(opened: Any, press: Path) -> None:
@@ -22,6 +23,8 @@ def test_what_a_hand_moves_is_simulated_and_shown(opened: Any, press: Path) -> N
     shown = opened(press)
     assert shown.same_bits(native.simulate())
     before = shown.shown()
+    shown.type_into(3, "400 µm")
+    assert shown.array("p")[3] == 4e-4
     shown.type_into(3, "0,4")
     assert shown.same_bits(native.simulate(parameters={"c": "0.4 mm"}))
     after = shown.shown()
@@ -41,14 +44,17 @@ def test_what_a_hand_moves_is_simulated_and_shown(opened: Any, press: Path) -> N
 def test_what_cannot_be_run_is_told(opened: Any, press: Path) -> None:
     shown = opened(press)
     before = shown.array("q")
-    for text, told in (("-1", "expected > 0"), ("one", "one is no number")):
+    field = shown.page.locator(f"{C} + input")
+    for text, told in (("-1", "expected > 0"), ("one", "one is no number"), ("90 deg/s", "a unit may stand behind")):
         shown.type_into(3, text)
-        assert told in shown.error()
+        assert told in shown.error() and field.get_attribute("aria-invalid") == "true"
         assert np.array_equal(shown.array("q"), before)
     shown.type_into(3, "0.3")
-    assert shown.error() == ""
+    assert shown.error() == "" and field.get_attribute("aria-invalid") is None
     shown.type_into(21, "20")  # L2 does not reach
-    assert "does not close" in shown.error()
+    told = r"does not close .*: the largest gap, ([\d.]+) mm, is in a row of \w+\. Moved last: "
+    gap = re.search(told, shown.error())
+    assert gap and 1.0 < float(gap[1]) < 300.0
     shown.page.locator(".g-reset").click()
     shown.wait()
     assert shown.error() == "" and np.array_equal(shown.array("q"), before)
@@ -204,13 +210,19 @@ def test_constraints_drift_where_nothing_holds_them(opened: Any, tmp_path: Path)
     page, place = shown.page, {slot.address: k for k, slot in enumerate(pendulum.source.slots)}
     worst = "Math.max(...gudgeonApp.run.series('Phi.max').slice(-250))"
     page.select_option("#g-run-method", "rk4")
+    shown.wait()
+    assert shown.error() == "" and shown.same_bits(pendulum.simulate(method="rk4"))  # its step is estimated
+    assert "estimated" in page.inner_text("#g-counts")
+    page.fill("#g-run-t_end", "5000 ms")
+    page.keyboard.press("Enter")
+    shown.wait()
+    assert shown.same_bits(pendulum.simulate(5, method="rk4"))
     page.fill("#g-run-step", "0.01")
-    page.fill("#g-run-t_end", "5")
     page.keyboard.press("Enter")
     shown.wait()
     assert page.evaluate(worst) < 1e-14
     page.select_option("#g-run-formulation", "-full")
-    page.wait_for_function("gudgeonApp.about.rows > 0 && gudgeonApp.run.sim === gudgeonApp.sim && !gudgeonApp.way")
+    page.wait_for_function("gudgeonApp.about.rows.length && gudgeonApp.run.sim === gudgeonApp.sim && !gudgeonApp.way")
     drifts = []
     for gain in ("5", "0"):
         for name in ("alpha", "beta"):

@@ -27,8 +27,11 @@ SAMPLE = 300
 NOT_RUN = "\u2013"
 
 
+RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--")
+
+
 def number(text: str) -> float:
-    return float(text.replace("\u2212", "-"))
+    return 0.0 if text == "≈ 0" else float(text.replace("·10", "e").translate(RAISED))
 
 
 def test_a_row_lights_its_lines_with_the_run_s_values(opened: Any, press: Path) -> None:
@@ -80,6 +83,11 @@ def test_lines_of_parameters_have_the_numbers_that_were_typed(opened: Any, press
     stored = [(text.split(" = ")[0], value) for _, text, value in lines if text.startswith("    p->") and " = " in text]
     told = {name.strip(): value for name, value in stored}
     assert number(told["p->c"]) == number(told["p->pin_clearance"]) == 4e-4
+    row = shown.page.locator(".equation[role=button]").first
+    row.focus()
+    shown.page.keyboard.press("Enter")
+    assert row.get_attribute("aria-pressed") == "true"
     shown.page.keyboard.press("Escape")
+    assert row.get_attribute("aria-pressed") == "false"
     assert shown.page.evaluate("document.querySelectorAll('.lit').length") == 0
     assert shown.complaints == []

@@ -14,7 +14,9 @@ const gudgeonLight = (() => {
     /* Lights what shares a token with `tokens`; none put all out. */
     function light(tokens, element = null) {
         wanted = new Set(tokens);
+        chosen?.setAttribute("aria-pressed", false);
         chosen = wanted.size ? element : null;
+        chosen?.setAttribute("aria-pressed", true);
         for (const one of document.querySelectorAll("[data-of]")) one.classList.toggle("lit", isLit(one.dataset.of));
         showLines();
         document.dispatchEvent(new CustomEvent("gudgeon:lit", {detail: {tokens: [...wanted]}}));
@@ -113,6 +115,10 @@ const gudgeonLight = (() => {
             if (element && !getSelection().toString()) select(element);
         });
         document.addEventListener("keydown", pressed);
+        for (const one of document.querySelectorAll('[data-of][tabindex="0"]')) {
+            one.setAttribute("role", "button");
+            one.setAttribute("aria-pressed", one === chosen);
+        }
         const carried = document.getElementById("gudgeon-c");
         if (!carried) return;
         const {texts, of, values, equations} = await unpack(carried.textContent);

@@ -6,6 +6,8 @@ const gudgeonValues = (() => {
     const FUNCTIONS = {phi: "constraints", phi_q: "jacobian", nu: "velocity_rhs", gamma: "acceleration_rhs", play: "play",
         rhs: "dynamics"};
     const IDLE = null; // of a line that is not run at the state
+    const NOISE = 1e-9; // as runtime/results/report.py has it
+    const RAISED = {...["⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"], "-": "⁻"};
     let equations = null, state = null, known = {}, waiting = false;
     const seen = new Set();
 
@@ -102,16 +104,34 @@ const gudgeonValues = (() => {
         }
     }
 
+    /* Five digits; 1.2e-5 as 1.2·10⁻⁵. */
     function text(x) {
         if (x === IDLE) return "\u2013";
-        return Number.isFinite(x) ? String(Number(x.toPrecision(5))).replaceAll("-", "\u2212") : "";
+        if (!Number.isFinite(x)) return "";
+        const [digits, power] = String(Number(x.toPrecision(5))).replace(/^-/, "\u2212").split("e");
+        return power === undefined ? digits : `${digits}\u00b710${[...power].map((c) => RAISED[c] ?? "").join("")}`;
+    }
+
+    const largest = (values) => values.reduce((most, x) => Math.max(most, Math.abs(x) || 0), 0);
+
+    /*
+     * Whether a number is what rounding leaves of none: of a coordinate, a rate, a multiplier as the page has it, of an
+     * entry beside its matrix; an open row counts sooner, for it may drift.
+     */
+    function isNone(name, x) {
+        const [kind, k] = name.replace(/^tmp\.lambda\./, "lambda.").split("."), rate = kind === "v" ? "/s" : "";
+        if (kind === "lambda") return state.isNone?.(x, state.run.unit(`lambda.${equations?.names[k - 1]}`));
+        if (x !== 0 && kind === "phi") return Math.abs(x) < 4 * Number.EPSILON * largest(state.q);
+        const beside = {phi_q: "phi_q", nu: "nu", gamma: "gamma_rows"}[kind];
+        if (x !== 0 && beside) return Math.abs(x) < NOISE * largest(computed(kind)[beside]);
+        return (kind === "q" || kind === "v") && state.isNone?.(x, (k % 3 ? "m" : "rad") + rate);
     }
 
     /* A number as text; a mark of a plot goes to its place. */
     function fill(element) {
         const x = value(element.dataset.value);
         if (!element.dataset.range) {
-            element.textContent = text(x);
+            element.textContent = Number.isFinite(x) && isNone(element.dataset.value, x) ? "\u2248 0" : text(x);
             return;
         }
         const [first, last, left, right] = element.dataset.range.split(" ").map(Number);

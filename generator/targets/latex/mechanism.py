@@ -178,4 +178,4 @@ def _parameters(model: Model, notation: Notation, values: Values) -> list[Block]
         rows.append(
             cells(name, notation.math(entry.symbol), values.value(entry), si_unit(entry.dimension) or Name("-", "-"))
         )
-    return table(cells("parameter", "letter", "value in this scene", "unit"), rows)
+    return table(cells("parameter", "letter", "value in the file", "unit"), rows)

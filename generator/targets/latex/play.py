@@ -199,7 +199,7 @@ def _numbers(joint: JointWithPlay) -> list[Block]:
     definitions = joint.model.symbols.definitions
     constants = dict.fromkeys([joint.clearance.pair.R_j, *joint.clearance.constants.values()])
     follow = [equation(s, joint.notation.expand(definitions[s]), joint.notation) for s in constants if s in definitions]
-    header = cells("letter", "meaning", "address", "value", "unit")
+    header = cells("letter", "meaning", "address", "value in the file", "unit")
     return [*table(header, rows, (1,)), paragraph("From these follow once a run:"), *follow]
 
 

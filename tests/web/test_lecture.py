@@ -1,0 +1,75 @@
+"""What a class does with a page: sliders to their ends, forces of a moment, what rounding leaves, a drift in Python."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib")
+
+import gudgeon  # noqa: E402
+from gudgeon.language.units import UNITS, dimension  # noqa: E402
+from gudgeon.model.parameters import prepare  # noqa: E402
+from gudgeon.web import drift  # noqa: E402
+from gudgeon.web.numbers import groups, units  # noqa: E402
+from tests.web.chromium import written  # noqa: E402
+
+
+def test_sliders_reach_nothing_that_is_refused() -> None:
+    """A clearance follows the parameter c: zero is the end of its condition, and no end of the slider."""
+    press = gudgeon.load("nine_bar_press", "lubricated")
+    ends = [(one["k"], one[end]) for group in groups(press, press.p) for one in group["numbers"]
+            for end in ("low", "high") if end in one]  # fmt: skip
+    assert len(ends) > 100
+    for k, end in ends:
+        prepare(press.compiled, {press.source.slots[k].address: end})
+    c = next(one for group in groups(press, press.p) for one in group["numbers"] if one["name"] == "c")
+    assert 0.0 < c["low"] < 1e-2 * c["high"]
+
+
+def test_units_that_a_field_takes_are_those_of_its_dimension() -> None:
+    source = gudgeon.load("nine_bar_press", "lubricated").source
+    taken = units(source)
+    assert taken["m"]["mm"] == 1e-3 and taken["s"]["ms"] == 1e-3 and taken["1/s"]["rpm"] == pytest.approx(np.pi / 30)
+    for slot in source.slots:
+        for name in taken[slot.unit] if not slot.words else ():
+            assert UNITS[name][1] == dimension(*slot.dimension)
+
+
+def test_python_for_a_drift_runs(capsys: pytest.CaptureFixture[str]) -> None:
+    """As the page of a driven mechanism shows it, and that of a scene whose full formulation it does not carry."""
+    four_bar, pendulum = gudgeon.load("four_bar"), gudgeon.load("pendulum")
+    assert drift.told(pendulum, True) is None
+    opens = []
+    for scene, gains in ((four_bar, "0, 0"), (four_bar, "5, 5"), (pendulum, "")):
+        told = drift.told(scene, False)
+        assert told is not None
+        exec(told["code"].replace("alpha, beta = sim.model.numpy(), sim.simulate(), 0, 0", "alpha, beta = "
+                                  f"sim.model.numpy(), sim.simulate(), {gains}"), {})  # fmt: skip
+        opens.append(float(capsys.readouterr().out))
+    free, held, of_pendulum = opens
+    assert 0.0 < held < free < 1e-4 and 1e-16 < of_pendulum < 1e-4
+
+
+def test_forces_of_a_moment_and_what_rounding_leaves(opened: Any, tmp_path: Any) -> None:
+    """The longest arrow is the largest force of its sample; below 1e-9 of the largest of its kind nothing is told."""
+    pytest.importorskip("ziglang")
+    four_bar = gudgeon.load("four_bar")
+    shown, run = opened(written(tmp_path, four_bar)), four_bar.simulate()
+    page, joints = shown.page, [joint.name for joint in four_bar.source.joints]
+    page.check("#g-forces")
+    for k in (137, 500):
+        page.evaluate("(k) => gudgeonApp.seek(gudgeonApp.run.t[k])", k)
+        shown.wait()
+        longest = page.inner_text("#g-scale").split(": ")[1].split()
+        size = max(float(np.hypot(run[f"{name}.Fx"][k], run[f"{name}.Fy"][k])) for name in joints)
+        scale = {"mN": 1e-3, "N;": 1.0, "N": 1.0, "kN;": 1e3, "mN;": 1e-3}[longest[1]]
+        assert float(longest[0]) * scale == pytest.approx(size, rel=6e-3)
+    force = max(float(np.abs(run[f"{name}.F"]).max()) for name in joints)
+    none = "(x) => [gudgeonApp.isNone(x, 'N'), gudgeonApp.isNone(-x, 'N')]"
+    assert page.evaluate(none, 0.9e-9 * force) == [True, True] and page.evaluate(none, 1.1e-9 * force) == [False, False]
+    assert page.evaluate("['1.25e-17', '-3e-9', '0.5'].map((x) => gudgeonValues.text(Number(x)))") == [
+        "1.25·10⁻¹⁷", "−3·10⁻⁹", "0.5"]  # fmt: skip
+    assert "drifts" in page.inner_text("#g-numbers") and shown.complaints == []
