@@ -132,7 +132,8 @@ def _jacobian(subject: Subject) -> Question:
         paragraph("What entries of ", PHI_Q, f" do the rows of {_named(subject)} have there? Check one by moving its "
                   "coordinate by a little."),
     ]  # fmt: skip
-    return Question("Φ_q at a position", tuple(asked), tuple(table(cells("entry", "", "value", "unit"), rows)), numbers)
+    solved = tuple(table(cells("entry", "", "value", "unit"), rows))
+    return Question("The Jacobian at a position", tuple(asked), solved, numbers)
 
 
 def _entry_unit(row: str, axis: int) -> str:

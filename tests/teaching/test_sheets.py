@@ -62,7 +62,7 @@ def test_jacobian_and_gamma_by_sympy_from_phi_alone(name: str, scene: str) -> No
         for k in range(len(coordinates))
         if row.owner in of.owners and model.q[k] in row.phi_q
     }
-    assert found["Φ_q at a position"].numbers == pytest.approx(asked, rel=1e-12, abs=1e-15)
+    assert found["The Jacobian at a position"].numbers == pytest.approx(asked, rel=1e-12, abs=1e-15)
     owned = {row.name: right[r, 0] for r, row in enumerate(model.rows) if row.owner in of.owners}
     assert found["γ"].numbers == pytest.approx(owned, rel=1e-10, abs=1e-10)
 
