@@ -16,9 +16,7 @@ from typing import TYPE_CHECKING, Any
 import matplotlib
 import numpy as np
 from matplotlib.animation import PillowWriter
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from PIL import Image
 
 from gudgeon.drawing.labels import Names
 from gudgeon.drawing.page import PIXELS, page
@@ -39,7 +37,7 @@ if TYPE_CHECKING:
     from gudgeon.results.results import Result
 
 SUFFIXES = (".gif", ".mp4", ".html")
-COLOURS = 128  # of a GIF
+COLOURS, STRIPE = 128, 6  # of a GIF; pixels, by which a colour of the drawing counts for its palette
 NAMED = 60  # characters of a title, beside which the time fits
 RATE, LONGEST = 25.0, 1000  # pictures a second, and pictures in all
 RED = "red journal: in contact now; red bearing: touched since the picture before"
@@ -176,31 +174,25 @@ def _beside(picture: Figure, names: Names | None) -> dict[str, tuple[float, floa
 class _GifWriter(PillowWriter):
     """Pictures in few colours as they come: what is flat stays flat, and only what moves is compressed."""
 
-    def setup(self, fig: Any, outfile: Any, dpi: Any = None) -> None:
-        """Of a figure with Agg's canvas."""
-        super().setup(fig, outfile, dpi)
-        self._pictures: list[Image.Image] = []
-
-    def grab_frame(self, **_: Any) -> None:
-        """The figure as it is now."""
-        canvas = FigureCanvasAgg(self.fig)
-        canvas.draw()
-        pixels = np.asarray(canvas.buffer_rgba())[..., :3]
-        if not self._pictures:  # red that flashes later has a place in the palette too
-            self._palette = Image.fromarray(np.vstack([pixels, _swatches(pixels.shape[1])])).quantize(COLOURS)
-        self._pictures.append(Image.fromarray(pixels).quantize(palette=self._palette, dither=Image.Dither.NONE))
-
-    def finish(self) -> None:
-        """Write the file."""
-        first, *others = self._pictures
-        first.save(self.outfile, save_all=True, append_images=others, duration=int(1000 / self.fps), loop=0)
+    def grab_frame(self, **savefig: Any) -> None:
+        """The figure as it is now; the first one's palette holds every colour of a drawing, red that flashes too."""
+        super().grab_frame(**savefig)
+        picture = self._frames[-1].convert("RGB")
+        if len(self._frames) == 1:
+            self._palette = _with_swatches(picture).quantize(COLOURS)
+        self._frames[-1] = picture.quantize(palette=self._palette, dither=0)
 
 
-def _swatches(width: int) -> Any:
-    """Rows of pixels in every colour of a drawing, (N, width, 3)."""
+def _with_swatches(picture: Any) -> Any:
+    """A picture of Pillow's with a stripe of each colour below it."""
     names = [*TINTS, *EDGES, *(word for role in ROLES.values() for word in (role.edge, role.face) if word[:1] == "#")]
-    rows = [np.array(matplotlib.colors.to_rgb(name)) * 255.0 for name in dict.fromkeys(names)]
-    return np.repeat(np.repeat(np.array(rows, np.uint8)[:, None], 6, axis=0), width, axis=1)
+    width, height = picture.size
+    stripes = list(dict.fromkeys(names))
+    more = picture.crop((0, 0, width, height + STRIPE * len(stripes)))
+    for k, name in enumerate(stripes):
+        colour = tuple(round(255 * share) for share in matplotlib.colors.to_rgb(name))
+        more.paste(colour, (0, height + STRIPE * k, width, height + STRIPE * (k + 1)))
+    return more
 
 
 def _film(run: Result, wanted: Wanted, suffix: str) -> bytes:

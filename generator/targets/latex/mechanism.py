@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib
 import inspect
-import re
 
 import sympy as sp
 
@@ -183,8 +182,7 @@ def _curves(model: Model) -> list[Block]:
 
 def unit_of(number: Number) -> str:
     """The unit behind a number of the file, "rpm"; "" where it has none."""
-    found = re.fullmatch(r"[-+]?[\d.]+(?:[eE][-+]?\d+)?\s*([^\d\s].*)", number.text.strip())
-    return found[1] if found and number.has_unit else ""
+    return number.text.strip().lstrip("+-.0123456789eE ") if number.has_unit else ""
 
 
 _STRENGTH = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 4}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import html
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import SimpleNamespace
@@ -175,8 +174,9 @@ def _plain(value: float) -> str:
 
 def _set(text: str) -> str:
     """Words of a picture, a letter behind _ lowered."""
-    lowered = r'<tspan class="small" dy="3">\1</tspan><tspan dy="-3">&#8203;</tspan>'
-    return re.sub(r"_(\w)", lowered, html.escape(text))
+    first, *others = html.escape(text).split("_")
+    lowered = (f'<tspan class="small" dy="3">{x[:1]}</tspan><tspan dy="-3">&#8203;{x[1:]}</tspan>' for x in others)
+    return "".join((first, *lowered))
 
 
 def _mark(name: str, value: str, first: float, last: float) -> str:
