@@ -174,6 +174,9 @@ def _beside(picture: Figure, names: Names | None) -> dict[str, tuple[float, floa
 class _GifWriter(PillowWriter):
     """Pictures in few colours as they come: what is flat stays flat, and only what moves is compressed."""
 
+    _frames: list[Any]
+    _palette: Any
+
     def grab_frame(self, **savefig: Any) -> None:
         """The figure as it is now; the first one's palette holds every colour of a drawing, red that flashes too."""
         super().grab_frame(**savefig)

@@ -39,7 +39,7 @@ def pattern(model: Model) -> list[Block]:
     dots = _entries(model)
     if not _fits(len(model.rows), len(model.q)):
         return []
-    cell = _cell(len(model.q), SMALL)
+    cell = cell_side(len(model.q), SMALL)
     parts = [*_columns(model, 24, cell), *_row_names(model, 24, cell), *_dots(dots, 30, 24, "entry", cell)]
     size = 30 + cell * len(model.q) + 4, 24 + cell * len(model.rows) + 4
     caption = "Rows and columns of the Jacobian with its entries that are not zero"
@@ -55,7 +55,7 @@ def assembled(model: Model) -> list[Block]:
     masses = [Dot(k, k, f"body-{body.name}") for body in model.bodies for k in range(body.index, body.index + 3)]
     below = [Dot(n + dot.row, dot.column, dot.of) for dot in entries]
     above = [Dot(dot.column, n + dot.row, dot.of) for dot in entries]
-    cell = _cell(n + m, TINY)
+    cell = cell_side(n + m, TINY)
     total = cell * (n + m)
     lines = [
         f'<path class="rule" d="M0 {cell * n}H{total}M{cell * n} 0V{total}"/>' if m else "",
@@ -70,7 +70,7 @@ def _fits(rows: int, columns: int) -> bool:
     return rows <= MOST_ROWS and columns <= MOST_COLUMNS
 
 
-def _cell(columns: int, least: int) -> int:
+def cell_side(columns: int, least: int) -> int:
     """Side of an entry in pixels: the fewer there are, the larger."""
     return min(LARGE, max(least, ROOM // max(1, columns)))
 

@@ -65,7 +65,7 @@ def law_plot(found: Functions, joints: Sequence[str], role: str, law: Law) -> li
     if not all(np.isfinite(curve.y).all() for curve in plot.curves):
         return []
     marks = {name: gap_name(found.model, pins[name], plot.now) for name in joints}
-    return [Picture(plot.caption, _drawn(plot, marks))]
+    return [Picture(plot.caption, drawn(plot, marks))]
 
 
 def _numbers(found: Functions) -> Mapping[str, float]:
@@ -124,7 +124,7 @@ def _film(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]) 
 _DRAWN = {"normal": _normal, "friction": _friction, "film": _film}
 
 
-def _drawn(plot: Plot, marks: Mapping[str, str]) -> str:
+def drawn(plot: Plot, marks: Mapping[str, str]) -> str:
     """Axes with their ends, curves with their words, a mark for where each joint is now."""
     low, high = (float(f([f(curve.y) for curve in plot.curves])) for f in (np.min, np.max))
     low, high = min(low, 0.0), max(high, 0.0) if high > low or high > 0.0 else low + 1.0
