@@ -1,8 +1,8 @@
 """gudgeon: planar linkages whose joints may have play, from YAML to a compiled simulator.
 
     >>> import gudgeon
-    >>> press = gudgeon.load("engine.yaml", scene="dry")
-    >>> run = press.simulate(t_end=1.0, output=1000)
+    >>> engine = gudgeon.load("engine.yaml", scene="worn")
+    >>> run = engine.simulate(t_end=1.0, output=1000)
 
 Names are imported when they are first asked for (PEP 562): `import gudgeon` alone costs next to nothing.
 """

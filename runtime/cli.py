@@ -100,7 +100,7 @@ def run(
 
     The ideal scene (no play) is always run too, at the same times and with the same parameters.
 
-    Example: gudgeon run engine.yaml --scene dry --set c=0.5mm --t-end 0.2
+    Example: gudgeon run engine.yaml --scene worn --set c=0.5mm --t-end 0.2
     """
     from gudgeon.commands.run import Request, run_scenes
 
@@ -139,7 +139,7 @@ def emit(
 ) -> int:  # fmt: skip
     """Write the generated C, to be read or to be built into something else.
 
-    Example: gudgeon emit engine.yaml -o c --scene dry
+    Example: gudgeon emit engine.yaml -o c --scene worn
     """
     from gudgeon.commands.emit import emit_c
 
@@ -156,7 +156,7 @@ def equations(
 ) -> int:
     """Write the equations of a scene as LaTeX, text, HTML or a notebook that derives and runs them.
 
-    Example: gudgeon equations engine.yaml -o press.tex --scene lubricated
+    Example: gudgeon equations engine.yaml -o engine.tex --scene worn
     """
     from gudgeon.commands.equations import write_equations
 
@@ -238,7 +238,7 @@ def bench(
     Errors are taken against another method at a much tighter tolerance. The cross-checks (scipy:*, sundials:*)
     take part where a scene allows them, at fewer tolerances where they are slow; with --quick they stay away.
 
-    Example: gudgeon bench engine.yaml --scene dry --mark-step 0.1ms
+    Example: gudgeon bench engine.yaml --scene worn --mark-step 0.1ms
     """
     from gudgeon.commands.bench import bench_file
     from gudgeon.commands.studies import Request
@@ -262,7 +262,7 @@ def verdicts(
     Each run is stable, inaccurate, diverged or outside the model, with its reason; failures with what to
     type to see them again.
 
-    Example: gudgeon map engine.yaml --scene lubricated --method rk4 --mark-step 0.1ms
+    Example: gudgeon map engine.yaml --scene worn --method rk4 --mark-step 0.1ms
 
     Example: gudgeon map engine.yaml --box 64 --range c=.05mm..1mm --range stiffness=1GPa..400GPa
     """

@@ -90,7 +90,7 @@ def _lengths(closure: Closure, q: Array) -> str:
         return ""
     found = wrong_lengths(closure, closure.least(q, closure.p))[:3]
     told = [
-        f"{one.body} ({lengths_text(one.length)}) {'longer' if one.missing > 0.0 else 'shorter'} by"
+        f"{one.told} ({lengths_text(one.length)}) {'longer' if one.missing > 0.0 else 'shorter'} by"
         f" {lengths_text(abs(one.missing))}" for one in found
     ]  # fmt: skip
     return f"\n  one change would close it: {', or '.join(told)}" if told else ""

@@ -21,6 +21,7 @@ from gudgeon.model.compiled import Array
 STEPS = 30
 NUDGE = 1e-6  # relative, of a body's length: for the derivative by it
 SHUT = 1e-7  # share of the size that is left where a length counts as found
+ENDS = {"tail", "head"}
 MOST, LEAST = 4.0, -0.95  # times its length: what would have to grow or shrink further is not what is wrong
 
 
@@ -29,8 +30,14 @@ class WrongLength:
     """A body that would close the linkage if it alone were longer by `missing` (m); negative: shorter."""
 
     body: str
-    length: float  # m, between its two points that lie furthest apart
+    points: tuple[str, str]  # those that joints or drives hold and that lie furthest apart
+    length: float  # m, between them
     missing: float
+
+    @property
+    def told(self) -> str:
+        """The body; with its points where these are not the ends of its length."""
+        return self.body if {*self.points} == ENDS else f"{self.body}, {'–'.join(self.points)}"
 
 
 def wrong_lengths(closure: Closure, q: Array) -> list[WrongLength]:
@@ -41,14 +48,17 @@ def wrong_lengths(closure: Closure, q: Array) -> list[WrongLength]:
 
 def _found(closure: Closure, q: Array) -> Iterator[WrongLength]:
     source = closure.linkage.source
+    held = {end for part in source.parts if part.section != "forces" for end in part.ends}
     for index, body in enumerate(source.bodies):
-        arms = [(point, arm_of(closure.p, point)) for point in source.points if point.body == index]
-        length = max((float(np.hypot(*(a - b))) for (_, a), (_, b) in combinations(arms, 2)), default=0.0)
-        if length > 0.0:
+        arms = [(p, arm_of(closure.p, p)) for p in source.points if p.body == index and p.name in held]
+        apart = {(one, other): float(np.hypot(*(a - b))) for (one, a), (other, b) in combinations(arms, 2)}
+        furthest = max(apart, key=apart.__getitem__, default=None)
+        if furthest is not None and apart[furthest] > 0.0:
+            one, other = (point.name.partition(".")[2] for point in furthest)
             places = sorted({k for point, _ in arms for k in (point.x, point.y) if k >= 0})
             share = _share(closure, q, places)
             if share is not None:
-                yield WrongLength(body.name, length, share * length)
+                yield WrongLength(body.name, (one, other), apart[furthest], share * apart[furthest])
 
 
 def _share(closure: Closure, q: Array, places: list[int]) -> float | None:

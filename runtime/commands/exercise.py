@@ -13,6 +13,7 @@ from gudgeon.loading.find import find_mechanism, read_bytes
 from gudgeon.waiting.working import working
 
 if TYPE_CHECKING:
+    from gudgeon.drawing.shapes import Sketch
     from gudgeon.generator.targets.latex.document import Document
     from gudgeon.teaching.draw_numbers import Drawn
 
@@ -42,37 +43,54 @@ def make(mechanism: str, scene: str, seed: int, at: str | None) -> tuple[Documen
 
     file = find_mechanism(mechanism)
     data = read_bytes(file)
-    drawn = draw_numbers(simulation := load(mechanism, scene), seed, at)
+    simulation = load(mechanism, scene)
     with working(f"deriving {file.stem}, scene {scene}"):
         from gudgeon.generator.pipeline import derive
+        from gudgeon.generator.reading import read_scene
         from gudgeon.teaching.questions import make_questions
-        from gudgeon.teaching.sheet import make_sheets, make_subject
+        from gudgeon.teaching.sheet import make_sheets, make_subject, units_of
 
-        units = {slot.address: slot.unit for slot in simulation.source.slots}
-        numbers = {address: f"{x!r} {units[address]}".rstrip() for address, x in drawn.numbers.items()}
-        subject = make_subject(derive(data, str(file), scene, numbers), simulation, drawn, seed)
+        drawn = draw_numbers(simulation, seed, at, units_of(read_scene(data, str(file), scene)))
+        subject = make_subject(derive(data, str(file), scene, drawn.numbers), simulation, drawn, seed)
         return *make_sheets(subject, make_questions(subject), seed), drawn
 
 
 def _text(document: Document, suffix: str, drawn: Drawn) -> str:
-    """In the format of a suffix; a page shows the mechanism too, where matplotlib is."""
+    """In the format of a suffix; a page and a .tex show the mechanism too, where matplotlib is."""
     from gudgeon.generator.targets.latex.render import render
     from gudgeon.teaching.markdown import markdown
 
     if suffix == ".md":
         return markdown(document)
-    slots = {"head": "", "app": _drawing(drawn), "scripts": ""} if suffix == ".html" else {}
+    slots = {".html": _page_slots, ".tex": _tex_slots}.get(suffix, lambda _: {})(drawn)
     return render(document, suffix.removeprefix("."), **slots)
 
 
-def _drawing(drawn: Drawn) -> str:
+def _page_slots(drawn: Drawn) -> dict[str, str]:
+    found = {"head": "", "app": "", "scripts": ""}
+    if (sketch := _sketch(drawn)) is not None:
+        from gudgeon.drawing.picture import as_bytes, figure_of
+
+        svg = as_bytes(figure_of([sketch], [""], f"at {drawn.t:g} s"), ".svg").decode()
+        found["app"] = f"<figure>{svg[svg.index('<svg') :]}</figure>"
+    return found
+
+
+def _tex_slots(drawn: Drawn) -> dict[str, str]:
+    if (sketch := _sketch(drawn)) is None:
+        return {}
+    from gudgeon.drawing.tikz import tikz_of
+    from gudgeon.generator.targets.latex.tex_text import tex
+
+    return {"drawing": tikz_of(sketch, tex), "caption": f"at {drawn.t:g} s"}
+
+
+def _sketch(drawn: Drawn) -> Sketch | None:
+    """The mechanism at the moment of the sheet; None without matplotlib, which places the names."""
     try:
         import matplotlib  # noqa: F401
     except ImportError:
-        return ""
-    from gudgeon.drawing.picture import as_bytes, figure_of
+        return None
     from gudgeon.results.mechanism_plots import sketch_at
 
-    picture = figure_of([sketch_at(drawn.run, drawn.run.t[-1])], [""], f"at {drawn.t:g} s")
-    svg = as_bytes(picture, ".svg").decode()
-    return f"<figure>{svg[svg.index('<svg') :]}</figure>"
+    return sketch_at(drawn.run, drawn.run.t[-1])

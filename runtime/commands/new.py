@@ -8,9 +8,9 @@ from pathlib import Path
 from gudgeon.errors import BadNameError, InputError
 from gudgeon.files.writing import write_text
 from gudgeon.language.names import check_name
-from gudgeon.loading.shipped import PACKAGE, shipped_file
+from gudgeon.loading.shipped import room, shipped_file
 
-TEMPLATE = PACKAGE / "templates" / "new.yaml"
+TEMPLATE = room("templates") / "new.yaml"
 NAME = re.compile(r"^name: .*$", re.MULTILINE)
 
 

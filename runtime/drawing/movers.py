@@ -9,7 +9,7 @@ import numpy as np
 from gudgeon.contract.kernel_source import PartInfo
 from gudgeon.drawing.bodies import BLOCK
 from gudgeon.drawing.joints import PIN, ground_wall
-from gudgeon.drawing.plan import SLIDING, Plan, axis_of
+from gudgeon.drawing.plan import SLIDING, Plan, axis_of, has_rail
 from gudgeon.drawing.posture import GROUND, Posture, body_of
 from gudgeon.drawing.shapes import Disc, Label, Line, Shape, arc, arrow_head, rectangle, turned, unit_vector, zigzag
 from gudgeon.model.compiled import Array
@@ -145,9 +145,9 @@ def _cylinder(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
 
 
 def _feet(posture: Posture, part: PartInfo, name: str, plan: Plan) -> Iterator[Shape]:
-    """A wall where an end is fixed to the ground and no joint has drawn it."""
+    """A wall where an end is fixed to the ground and no joint has drawn it: a rail's own point stands nowhere."""
     places = [posture.place(end) for end in part.ends]
-    joined = {end for joint in posture.parts("joints") for end in joint.ends}
+    joined = {end for joint in posture.parts("joints") if not has_rail(joint) for end in joint.ends}
     for end, place, other in zip(part.ends, places, reversed(places), strict=True):
         if body_of(end) == GROUND and end not in joined:
             yield from ground_wall(name, place, unit_vector(place - other), plan.unit)
@@ -163,6 +163,12 @@ def _spring_damper(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Sha
         return
     springs, damps = (posture.number(f"forces.{part.name}.{what}") != 0.0 for what in ("stiffness", "damping"))
     aside = 1.15 * u * turned(unit_vector(b - a)) if springs and damps else np.zeros(2)
+    ground = _ground_along(posture, plan, a, b)
+    if springs and damps and ground is not None:  # both beside the rail
+        aside = -1.15 * u * ground
+        a, b, ends = a + aside, b + aside, (a, b)
+    else:
+        ends = a, b
     if springs or not damps:
         free = posture.number(f"forces.{part.name}.free_length") or float(np.hypot(*(b - a)))
         teeth = int(np.clip(round(0.35 * free / u), 4, 14))
@@ -172,10 +178,20 @@ def _spring_damper(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Sha
     if damps:
         yield from _damper(name, a + 0.12 * (b - a) - aside, a + 0.88 * (b - a) - aside, u)
     if springs and damps:
-        for end, share in ((a, 0.12), (b, 0.88)):
+        for end, share in zip(ends, (0.12, 0.88), strict=True):
             beam = a + share * (b - a)
             yield Line(name, "spring", np.array([beam - aside, beam + aside]))
-            yield Line(name, "spring", np.array([end, beam]))
+            yield Line(name, "spring", np.array([end, ends[0] + share * (b - a)]))
+
+
+def _ground_along(posture: Posture, plan: Plan, a: Array, b: Array) -> Array | None:
+    """On which side the ground lies of a rail along which both places are, a unit vector; None without such a rail."""
+    for joint in posture.parts("joints", *SLIDING):
+        if has_rail(joint) and joint.name in plan.ways:
+            on, along, _ = axis_of(posture, joint)
+            if max(abs(float((place - on) @ turned(along))) for place in (a, b)) < plan.unit:
+                return plan.ways[joint.name]
+    return None
 
 
 def _damper(name: str, a: Array, b: Array, u: float) -> Iterator[Shape]:

@@ -41,7 +41,7 @@ def draw_on(ax: Axes, sketch: Sketch, faint: bool = False) -> None:
         seen[shape.part] += 1
         told = gid("", shape.part)
         patch.set_gid(told if seen[shape.part] == 1 else f"{told}-{seen[shape.part]}")
-        ax.add_patch(patch)
+        ax.add_artist(patch)  # limits are set below: add_patch would look for them shape by shape
     if sketch.labels:
         names = Names(sketch, 8.0 if len(sketch.labels) <= FEW else 7.0)
         ax.add_artist(names)

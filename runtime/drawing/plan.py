@@ -45,7 +45,7 @@ def make_plan(postures: Sequence[Posture], start: Posture | None = None) -> Plan
             along = [_slide(posture, part) for posture in postures]
             travel[part.name] = min(along), max(along)
         if any(body_of(end) == GROUND for end in part.ends):
-            ways[part.name] = _rail_side(start, part) if _has_rail(part) else _below(postures, part)
+            ways[part.name] = _rail_side(start, part) if has_rail(part) else _below(postures, part)
     return Plan(_unit(first, places), ways, travel)
 
 
@@ -100,7 +100,7 @@ def _slide(posture: Posture, part: PartInfo) -> float:
     return float((place - on) @ along)
 
 
-def _has_rail(part: PartInfo) -> bool:
+def has_rail(part: PartInfo) -> bool:
     """Whether the ground guides: a slot's pin stands on the ground as others do."""
     return part.kind == "translational" or (part.kind == "point_on_line" and body_of(part.ends[1]) == GROUND)
 

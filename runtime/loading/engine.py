@@ -11,9 +11,9 @@ from functools import cache
 from gudgeon.contract.kernel_source import HEADER, KernelSource
 from gudgeon.loading.cache import digest
 from gudgeon.loading.contents import contents
-from gudgeon.loading.shipped import PACKAGE
+from gudgeon.loading.shipped import room
 
-ENGINE = PACKAGE / "engine"
+ENGINE = room("engine")
 UNIT = ENGINE / "engine.c"
 CALLS, LANE_CALLS = ENGINE / "scene" / "calls.h", ENGINE / "batch" / "lane_calls.h"
 _SIZE = re.compile(r"^#define (\w+) (\d+)\b", re.MULTILINE)
@@ -27,7 +27,7 @@ def engine_files() -> dict[str, str]:
 def engine_readme() -> tuple[str, str]:
     """The page that says which of them to read first: its path and its text. No part of what is compiled."""
     path = ENGINE / "README.md"
-    return path.relative_to(PACKAGE).as_posix(), path.read_text(encoding="utf-8")
+    return path.relative_to(ENGINE.parent).as_posix(), path.read_text(encoding="utf-8")
 
 
 @cache
@@ -38,7 +38,7 @@ def engine_digest() -> str:
 
 def include_flags() -> tuple[str, ...]:
     """The compiler's, for files that include "model.h" beside them and "engine/..."."""
-    return ("-I.", f"-I{PACKAGE}")
+    return ("-I.", f"-I{ENGINE.parent}")
 
 
 def declarations(source: KernelSource) -> str:

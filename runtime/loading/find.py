@@ -19,7 +19,7 @@ from gudgeon.files.reading import read_named
 from gudgeon.language.wanted import mapping, number_of, path, text
 from gudgeon.loading.cache import Cache, default_cache, digest
 from gudgeon.loading.contents import contents
-from gudgeon.loading.shipped import PACKAGE, committed, shipped, shipped_file
+from gudgeon.loading.shipped import PACKAGE, committed, room, shipped, shipped_file
 from gudgeon.waiting.imports import GENERATOR, READER, whole
 from gudgeon.waiting.working import working
 
@@ -173,7 +173,7 @@ def generator_hash(package: Path = PACKAGE) -> str:
     (`contract`): 4 ms; times of files say nothing after a checkout.
     """
     parts: list[str | bytes] = []
-    for room in ("contract", "generator", "language", "templates"):
-        for name, data in contents(package / room, ".py", ".jinja"):
-            parts += [f"{room}/{name}", data]
+    for folder in ("contract", "generator", "language", "templates"):
+        for name, data in contents(room(folder, package), ".py", ".jinja"):
+            parts += [f"{folder}/{name}", data]
     return digest(parts)

@@ -12,12 +12,20 @@ from dataclasses import replace
 from pathlib import Path
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.errors import UnknownNameError
+from gudgeon.errors import InputError, UnknownNameError
 
 PACKAGE = Path(__file__).parents[1]
-MECHANISMS = PACKAGE / "mechanisms"
+
+
+def room(name: str, package: Path = PACKAGE) -> Path:
+    """A folder of the package. Where `pip install -e` points into a clone, it lies beside runtime/ and not in it."""
+    inside = package / name
+    return inside if inside.is_dir() else package.parent / name
+
+
+MECHANISMS = room("mechanisms")
 GALLERY = MECHANISMS / "gallery"
-GENERATED = PACKAGE / "generated"
+GENERATED = room("generated")
 REST = "kernel.json"
 _TEXTS = (".c", ".h", ".md")
 
@@ -33,8 +41,14 @@ def generated() -> tuple[str, ...]:
 
 
 def shipped_file(name: str) -> Path:
-    """The file of a shipped mechanism. Raises UnknownNameError, which names the nearest and all."""
+    """The file of a shipped mechanism. Raises UnknownNameError, which names the nearest and all.
+
+    InputError where none are installed.
+    """
     names = shipped()
+    if not names:
+        told = "this installation of gudgeon is not whole: it has no mechanisms"
+        raise InputError(told, hint="install it anew; in a clone `make run` or `sh tools/setup all,web` does it")
     if name in names:
         file = next(path for folder in (MECHANISMS, GALLERY) if (path := folder / f"{name}.yaml").exists())
         return file.resolve()  # an editable install holds links: show the real file

@@ -6,6 +6,7 @@ import os
 import shutil
 import subprocess
 import tempfile
+import textwrap
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from html import escape
@@ -14,12 +15,14 @@ from typing import TYPE_CHECKING, Any
 
 import matplotlib
 import numpy as np
+from matplotlib.animation import PillowWriter
 from matplotlib.figure import Figure
 
 from gudgeon.drawing.labels import Names
 from gudgeon.drawing.page import PIXELS, page
 from gudgeon.drawing.picture import STYLE, draw_on, size_of
 from gudgeon.drawing.plan import make_plan
+from gudgeon.drawing.roles import EDGES, ROLES, TINTS
 from gudgeon.drawing.sketch import make_sketch, room_of_all
 from gudgeon.errors import BadValueError, GudgeonError, OutputError
 from gudgeon.files.writing import check_target, telling, write_bytes, write_text
@@ -34,6 +37,8 @@ if TYPE_CHECKING:
     from gudgeon.results.results import Result
 
 SUFFIXES = (".gif", ".mp4", ".html")
+COLOURS, STRIPE = 128, 6  # of a GIF; pixels, by which a colour of the drawing counts for its palette
+NAMED = 60  # characters of a title, beside which the time fits
 RATE, LONGEST = 25.0, 1000  # pictures a second, and pictures in all
 RED = "red journal: in contact now; red bearing: touched since the picture before"
 SLOW, QUICK, SHOWN = 2.0, 20.0, 6.0  # s: shorter and longer runs are shown within the last
@@ -136,7 +141,8 @@ def touching_between(run: Result, begin: float, end: float) -> frozenset[str]:
 def _caption(run: Result, t: float, wanted: Wanted) -> str:
     slow = wanted.seconds / float(run.t[-1] - run.t[0]) if run.t[-1] > run.t[0] else 1.0
     told = f", {slow:.3g} times slower" if slow > 1.0 else f", {1 / slow:.3g} times faster"
-    return f"{caption_of(run)}, t = {t:.4f} s{told if abs(slow - 1.0) > 1e-9 else ''}"
+    title = textwrap.shorten(caption_of(run), NAMED, placeholder="…")
+    return f"{title}, t = {t:.4f} s{told if abs(slow - 1.0) > 1e-9 else ''}"
 
 
 def _page(run: Result, wanted: Wanted) -> Animation:
@@ -165,12 +171,39 @@ def _beside(picture: Figure, names: Names | None) -> dict[str, tuple[float, floa
     return names.beside if names is not None else {}
 
 
+class _GifWriter(PillowWriter):
+    """Pictures in few colours as they come: what is flat stays flat, and only what moves is compressed."""
+
+    _frames: list[Any]
+    _palette: Any
+
+    def grab_frame(self, **savefig: Any) -> None:
+        """The figure as it is now; the first one's palette holds every colour of a drawing, red that flashes too."""
+        super().grab_frame(**savefig)
+        picture = self._frames[-1].convert("RGB")
+        if len(self._frames) == 1:
+            self._palette = _with_swatches(picture).quantize(COLOURS)
+        self._frames[-1] = picture.quantize(palette=self._palette, dither=0)
+
+
+def _with_swatches(picture: Any) -> Any:
+    """A picture of Pillow's with a stripe of each colour below it."""
+    names = [*TINTS, *EDGES, *(word for role in ROLES.values() for word in (role.edge, role.face) if word[:1] == "#")]
+    width, height = picture.size
+    stripes = list(dict.fromkeys(names))
+    more = picture.crop((0, 0, width, height + STRIPE * len(stripes)))
+    for k, name in enumerate(stripes):
+        colour = tuple(round(255 * share) for share in matplotlib.colors.to_rgb(name))
+        more.paste(colour, (0, height + STRIPE * k, width, height + STRIPE * (k + 1)))
+    return more
+
+
 def _film(run: Result, wanted: Wanted, suffix: str) -> bytes:
     """By matplotlib's writers, into a folder of its own first."""
-    from matplotlib.animation import FFMpegWriter, PillowWriter
+    from matplotlib.animation import FFMpegWriter
 
     rate: Any = (len(wanted.times) - 1) / wanted.seconds
-    writer: Any = PillowWriter(fps=rate) if suffix == ".gif" else FFMpegWriter(fps=rate, codec="libx264")
+    writer: Any = _GifWriter(fps=rate) if suffix == ".gif" else FFMpegWriter(fps=rate, codec="libx264")
     beside: dict[str, tuple[float, float]] | None = None
     with matplotlib.rc_context(STYLE), tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, f"film{suffix}")

@@ -19,7 +19,7 @@ from gudgeon.drawing.picture import one_word_on_signs
 from gudgeon.errors import GudgeonError, shortened
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.plot_units import drawn, label, scale
-from gudgeon.language.shown import in_figure
+from gudgeon.language.shown import in_figure, one_line
 from gudgeon.results import trace
 from gudgeon.results.series import rates
 
@@ -63,7 +63,8 @@ def peak_of(values: Any) -> float:
 
 
 def caption_of(run: Result) -> str:
-    return f"{run.source.mechanism}, {run.source.scene}"
+    """Of which mechanism and scene a picture is, as `gudgeon draw` has it too."""
+    return f"{one_line(run.source.title or run.source.mechanism)}: {run.source.scene}"
 
 
 def reach(run: Result, joint: str) -> float:

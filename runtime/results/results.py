@@ -209,7 +209,8 @@ class Result(Shown):
         """The run as a moving picture: x.gif, x.mp4 (where ffmpeg is) or x.html, a page of its own that plays.
 
         `seconds` it lasts (None: as long as the run, but 6 where that is under 2 or over 20), with `rate` pictures a
-        second; `points` whose paths are drawn, `velocities` and `forces` as in `plot.mechanism`. Joints with play are
+        second (each is painted, so a GIF or film of fewer `seconds` or at a lower `rate` is written sooner); `points`
+        whose paths are drawn, `velocities` and `forces` as in `plot.mechanism`. Joints with play are
         magnified beside it, red in pictures before which their surfaces met. Of a page, or without a path, what a
         notebook shows. Raises BadValueError, UnknownNameError; GudgeonError without ffmpeg; OutputError.
         """

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.language.plot_units import drawn, label
+from gudgeon.language.shown import in_figure
 from gudgeon.language.wanted import names as listed_names
 from gudgeon.language.wanted import refuse, told
 from gudgeon.results import trace
@@ -20,6 +21,7 @@ from gudgeon.results.plots import (
     COLOURS,
     IDEAL,
     STYLE,
+    TITLE,
     caption_of,
     cycle,
     draw_orbit,
@@ -68,7 +70,7 @@ class Plot:
             for k, own in enumerate(panels.values()):
                 ax = figure.add_subplot(rows, columns, k + 1, axes_class=ShownAxes)
                 self._curves({name: forces.get(name, (run.t, run[name])) for name in own}, ax).set_title("")
-            figure.suptitle(caption_of(run), fontsize=10)
+            figure.suptitle(in_figure(caption_of(run), TITLE), fontsize=10)
         return figure
 
     def series(self, *names: str | Sequence[str], ax: Axes | None = None) -> Axes:
@@ -86,7 +88,8 @@ class Plot:
             factor, text = drawn(max(peak_of(values) for _, values in curves.values()), run.unit(names[0]))
             for (name, (t, values)), colour in zip(curves.items(), cycle(len(names)), strict=True):
                 ax.plot(t, values * factor, color=colour, lw=1.0, label=name)
-            ax.set(xlabel="t [s]", ylabel=label(names[0] if len(names) == 1 else "", text), title=caption_of(run))
+            ax.set(xlabel="t [s]", ylabel=label(names[0] if len(names) == 1 else "", text))
+            ax.set_title(in_figure(caption_of(run), TITLE))
             mark_horizon(ax, run, IDEAL)
             if len(names) > 1:
                 ax.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))  # outside: it hides no curve
@@ -146,7 +149,7 @@ class Plot:
             width, height = size_of(sketch, 7.0)
             ax = _axes(width + beside, height) if ax is None else plain(ax)
             draw(ax)
-            ax.set_title(caption)
+            ax.set_title(in_figure(caption, TITLE))
             ax.text(0.0, -0.01, "\n".join(sketch.notes), transform=ax.transAxes, va="top", fontsize=7.5)
         return ax
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,7 @@ from gudgeon.model.default_step import scene_end
 from gudgeon.model.parameters import prepare, spaced
 
 if TYPE_CHECKING:
-    from gudgeon.contract.kernel_source import KernelSource
+    from gudgeon.contract.kernel_source import KernelSource, Slot
     from gudgeon.results.results import Result
     from gudgeon.simulation.simulation import Simulation
 
@@ -28,9 +29,9 @@ DIGITS = 5  # of positions, as shares of the mechanism's size
 
 @dataclass(frozen=True)
 class Drawn:
-    """A scene with other numbers at t (s): positions and rates rounded as a sheet prints them, SI."""
+    """A scene with other numbers at t (s): positions and rates rounded as a sheet prints them, SI, angles within ±π."""
 
-    numbers: dict[str, float]  # those that differ from the file's, by address
+    numbers: dict[str, str]  # those that differ from the file's, by address, with their units
     t: float
     q: Array
     v: Array
@@ -38,9 +39,12 @@ class Drawn:
     run: Result  # it ends at t, with every digit
 
 
-def draw_numbers(simulation: Simulation, seed: int, at: str | None) -> Drawn:
+def draw_numbers(
+    simulation: Simulation, seed: int, at: str | None, units: Mapping[str, tuple[str, float]] | None = None
+) -> Drawn:
     """Numbers with which the scene assembles and moves, the file's own where no others do.
 
+    units: by address those that the file has, and what one is in SI ("rpm", 0.105); of others SI's are taken.
     Raises BadValueError for `at`; AssemblyError, SolverError where even those do not.
     """
     rng = np.random.default_rng(seed)
@@ -48,7 +52,7 @@ def draw_numbers(simulation: Simulation, seed: int, at: str | None) -> Drawn:
     if moment is not None and not 0.0 <= moment < np.inf:
         raise BadValueError(f"--at is {moment:g} s: the motion starts at 0 s", hint="take a time of the motion")
     failure: Exception | None = None
-    for numbers, share in _attempts(simulation.source, rng):
+    for numbers, share in _attempts(simulation.source, rng, units or {}):
         try:
             p = prepare(simulation.compiled, numbers)[0]
             t = moment if moment is not None else float(f"{share * scene_end(simulation.source, p):.2g}")
@@ -59,7 +63,9 @@ def draw_numbers(simulation: Simulation, seed: int, at: str | None) -> Drawn:
     raise failure
 
 
-def _attempts(source: KernelSource, rng: np.random.Generator) -> Iterator[tuple[dict[str, float], float]]:
+def _attempts(
+    source: KernelSource, rng: np.random.Generator, units: Mapping[str, tuple[str, float]]
+) -> Iterator[tuple[dict[str, str], float]]:
     """Numbers, and which share of the scene's time has gone by; at last the file's own, soon after the start."""
     candidates = [
         slot
@@ -70,8 +76,8 @@ def _attempts(source: KernelSource, rng: np.random.Generator) -> Iterator[tuple[
         some = rng.permutation(len(candidates))[:MOST]
         factors = 1.0 + spread * rng.uniform(-1.0, 1.0, len(some))
         share = float(rng.uniform(0.15, 0.85))
-        new = {candidates[k].address: _short(candidates[k].default * x) for k, x in zip(some, factors, strict=True)}
-        yield {address: x for address, x in new.items() if not _same(source, address, x)}, share
+        changed = [(candidates[k], x) for k, x in zip(some, factors, strict=True)]
+        yield {slot.address: new for slot, x in changed if (new := _changed(slot, x, units))}, share
     yield {}, float(rng.uniform(0.15, 0.85))
     yield {}, 0.05
 
@@ -85,15 +91,14 @@ def _is_measure(address: str) -> bool:
     return False
 
 
-def _short(x: float) -> float:
-    return float(f"{x:.2g}")
+def _changed(slot: Slot, factor: float, units: Mapping[str, tuple[str, float]]) -> str:
+    """Two digits and a unit; "" where they are the number of the file."""
+    unit, one = units.get(slot.address, (slot.unit, 1.0))
+    new = float(f"{slot.default * factor / one:.2g}")
+    return "" if math.isclose(new * one, slot.default, rel_tol=1e-12) else f"{new:g} {unit}".rstrip()
 
 
-def _same(source: KernelSource, address: str, x: float) -> bool:
-    return any(slot.address == address and slot.default == x for slot in source.slots)
-
-
-def _drawn(simulation: Simulation, numbers: dict[str, float], t: float, p: Array) -> Drawn:
+def _drawn(simulation: Simulation, numbers: dict[str, str], t: float, p: Array) -> Drawn:
     """Raises SolverError where the run ends before t."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -110,6 +115,6 @@ def _drawn(simulation: Simulation, numbers: dict[str, float], t: float, p: Array
     size = max(float(np.ptp(q.reshape(-1, 3)[:, :2])), 1e-12)
     decimals = DIGITS - 1 - int(np.floor(np.log10(size)))
     for k in range(len(q)):
-        q[k] = round(q[k], DIGITS if k % 3 == 2 else decimals)
+        q[k] = round(math.remainder(q[k], math.tau), DIGITS) if k % 3 == 2 else round(q[k], decimals)
         v[k] = float(f"{v[k]:.{DIGITS}g}")
     return Drawn(numbers, t, q, v, p, run)

@@ -16,10 +16,11 @@ from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.targets.latex.notation import Notation, make_notation
+from gudgeon.generator.targets.latex.printers import share_of_pi
 from gudgeon.language.shown import one_line
 from gudgeon.teaching.markdown import plain
 from gudgeon.teaching.run_cells import run_cells
-from gudgeon.teaching.sympy_text import names_of, text_of
+from gudgeon.teaching.sympy_text import names_of, number_of_code, text_of
 
 Cell = tuple[str, str]  # "markdown" or "code", text
 WIDTH = 100
@@ -114,8 +115,12 @@ def _numbers(model: Model, notation: Notation, names: dict[sp.Symbol, str]) -> s
     used = set().union(*(model.symbols.explicit(sp.sympify(e)).free_symbols for e in expressions))
     entries = [entry for entry in model.slots.entries.values() if entry.symbol in used]
     lines = [_defined(entry.symbol, notation, names) for entry in entries]
-    values = [f"    {names[e.symbol]}: {e.default!r},  # {e.address}" for e in entries]
+    values = [f"    {names[e.symbol]}: {_default(e.default)},  # {e.address}" for e in entries]
     return "\n".join((*lines, "", "numbers = {", *values, "}"))
+
+
+def _default(value: float) -> str:
+    return number_of_code(value) if share_of_pi(value) else repr(value)
 
 
 def _constraints(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:

@@ -18,6 +18,7 @@ GAMMA = Name(r"\gamma = -(\Phi_{q} \dot{q})_{q} \dot{q} - 2 \Phi_{qt} \dot{q} - 
              "γ = -(Φ_q·q̇)_q·q̇ - 2·Φ_qt·q̇ - Φ_tt")  # fmt: skip
 ACCELERATIONS = Name(r"\Phi_{q} \ddot{q} = \gamma", "Φ_q·q̈ = γ")
 KKT = Name(r"M \ddot{q} + \Phi_{q}^{\mathsf{T}} \lambda = g", "M·q̈ + Φ_qᵀ·λ = g")
+WIDEST = 60  # characters of a formula in a cell
 STATE = (("x", "m"), ("y", "m"), ("theta", "rad"))
 
 
@@ -116,7 +117,7 @@ def _jacobian(subject: Subject) -> Question:
     model, drawn = subject.model, subject.drawn
     values = subject.simulation.compiled.phi_q(drawn.t, drawn.q, drawn.p)
     place = {q: k for k, q in enumerate(model.q)}
-    numbers, rows = dict[str, float](), []
+    numbers, rows, below = dict[str, float](), [], list[Block]()
     for k, row in subject.rows:
         for q in sorted(row.phi_q, key=place.__getitem__):
             x = float(values[k - 1, place[q]])
@@ -124,7 +125,10 @@ def _jacobian(subject: Subject) -> Question:
             by = subject.notation.math(q)
             left = Name(rf"\partial \Phi_{{{k}}} / \partial {by.latex}", f"∂Φ_{k}/∂{by.text}")
             entry = subject.notation.expand(row.phi_q[q])
-            formula = subject.notation.math(entry) if sp.count_ops(entry) <= LONGEST else ""
+            formula: str | Name = subject.notation.math(entry) if sp.count_ops(entry) <= LONGEST else ""
+            if isinstance(formula, Name) and len(formula.text) > WIDEST:
+                below.append(subject.equation(left, entry))
+                formula = "below"
             rows.append(cells(left, formula, subject.number(x), _entry_unit(row.unit, place[q] % 3)))
     asked = [
         paragraph(f"At {drawn.t:g} s the bodies are at"),
@@ -132,7 +136,8 @@ def _jacobian(subject: Subject) -> Question:
         paragraph("What entries of ", PHI_Q, f" do the rows of {_named(subject)} have there? Check one by moving its "
                   "coordinate by a little."),
     ]  # fmt: skip
-    return Question("Φ_q at a position", tuple(asked), tuple(table(cells("entry", "", "value", "unit"), rows)), numbers)
+    solved = [*table(cells("entry", "", "value", "unit"), rows), *below]
+    return Question("The Jacobian at a position", tuple(asked), tuple(solved), numbers)
 
 
 def _entry_unit(row: str, axis: int) -> str:
@@ -148,7 +153,10 @@ def _gamma(subject: Subject) -> Question:
         numbers[row.name] = float(values[k - 1])
         gamma = subject.notation.expand(row.gamma)
         if gamma != 0 and sp.count_ops(gamma) <= LONGEST:
-            solved.append(subject.equation(_indexed("gamma", k), gamma))
+            formula = subject.equation(_indexed("gamma", k), gamma)
+            # cases never break
+            if all(len(term.text) <= WIDEST or "cases" not in term.latex for term in formula.terms):
+                solved.append(formula)
         unit = "m/s²" if row.unit == "m" else "rad/s²"
         solved.append(subject.value(_indexed("gamma", k), numbers[row.name], unit, scale))
     asked = [

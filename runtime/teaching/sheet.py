@@ -22,14 +22,25 @@ from gudgeon.generator.targets.latex.document import (
     table,
 )
 from gudgeon.generator.targets.latex.letters import Name
-from gudgeon.generator.targets.latex.mechanism import Values, as_written, field_rows, part_sections, place, sketch_of
+from gudgeon.generator.targets.latex.mechanism import (
+    Values,
+    driven_value,
+    field_rows,
+    part_sections,
+    place,
+    sketch_of,
+    unit_of,
+)
 from gudgeon.generator.targets.latex.notation import Notation, make_notation
+from gudgeon.generator.targets.latex.write import with_paper
 from gudgeon.language.shown import one_line
+from gudgeon.language.tree import Number
 
 if TYPE_CHECKING:
     from gudgeon.generator.equations.constraints import Row
     from gudgeon.generator.equations.model import Model
     from gudgeon.generator.mechanism.mechanism import Drive
+    from gudgeon.generator.mechanism.scene import Scene
     from gudgeon.simulation.simulation import Simulation
     from gudgeon.teaching.draw_numbers import Drawn
 
@@ -94,6 +105,16 @@ def make_subject(model: Model, simulation: Simulation, drawn: Drawn, seed: int) 
     return Subject(model, make_notation(model), simulation, drawn, rng, tuple(chosen))
 
 
+def units_of(scene: Scene) -> dict[str, tuple[str, float]]:
+    """By the address of a parameter, or of a mass, inertia or length, the file's unit and what one is in SI."""
+    bodies, found = scene.mechanism.bodies.values(), dict[str, tuple[str, float]]()
+    for quantity in (*scene.parameters.values(), *(x for b in bodies for x in (b.mass, b.inertia, b.length))):
+        number = quantity.value if quantity is not None else None
+        if quantity is not None and isinstance(number, Number) and number.value and (unit := unit_of(number)):
+            found[quantity.address] = unit, number.value / float(number.text.strip().removesuffix(unit))
+    return found
+
+
 def make_sheets(subject: Subject, questions: Sequence[Question], seed: int) -> tuple[Document, Document]:
     """The sheet, and the sheet with its solutions."""
     mechanism, scene = subject.model.scene.mechanism, subject.model.scene.name
@@ -103,8 +124,9 @@ def make_sheets(subject: Subject, questions: Sequence[Question], seed: int) -> t
     asked = tuple(Section(f"{k}. {x.title}", x.asked) for k, x in enumerate(questions, 1))
     solved = tuple(_solved(k, question) for k, question in enumerate(questions, 1))
     last = Section("These numbers again", tuple(_again(subject)))
-    sheet = Document(f"Exercise: {title}", facts, (*given, *asked))
-    return sheet, replace(sheet, title=f"Solutions: {title}", sections=(*given, *sum(solved, ()), last))
+    sheet = Document(f"Exercise: {title}", facts, with_paper((*given, *asked)))
+    sections = with_paper((*given, *sum(solved, ()), last))
+    return sheet, replace(sheet, title=f"Solutions: {title}", sections=sections)
 
 
 def _solved(k: int, question: Question) -> tuple[Section, ...]:
@@ -133,8 +155,11 @@ def _joints(subject: Subject) -> list[Block]:
     blocks = table(cells("joint", "type", "first", "second"), rows)
     fields = [row for joint in mechanism.joints.values() for row in field_rows(joint, values)]
     blocks += table(cells("joint", "field", "value"), fields)
-    driven = [cells(drive.name, _what(drive), as_written(drive.value.value)) for drive in mechanism.drives.values()]
-    blocks += table(cells("drive", "prescribes", "value in the file"), driven, (2,))
+    driven = [
+        cells(drive.name, _what(drive), driven_value(model, subject.notation, drive.name))
+        for drive in mechanism.drives.values()
+    ]
+    blocks += table(cells("drive", "prescribes", "value"), driven, (2,)) + values.below()
     for kind in dict.fromkeys(joint.kind for joint in mechanism.joints.values()):
         summary, *lines = sketch_of("joints", kind)
         blocks += [paragraph(summary), Sketch(tuple(lines))]
@@ -145,14 +170,15 @@ def _forces(subject: Subject) -> list[Block]:
     """Gravity, and what each element joins and has."""
     model, values = subject.model, Values(subject.model, subject.notation)
     gravity, elements = model.scene.mechanism.gravity, [e.element for e in model.elements.values()]
-    blocks = table(cells("gravity, m/s^2"), [cells(values.vector(gravity))]) if gravity is not None else []
+    blocks = table(cells("gravity, m/s²"), [cells(values.vector(gravity))]) if gravity is not None else []
     kinds = {element.name: element_types()[element.kind] for element in elements}
     rows = [
         cells(e.name, kinds[e.name].title, " and ".join(place(x, kinds[e.name].targets) for x in e.targets))
         for e in elements
     ]
     blocks += table(cells("element", "type", "acts on"), rows)
-    return blocks + table(cells("element", "field", "value"), [r for e in elements for r in field_rows(e, values)])
+    blocks += table(cells("element", "field", "value"), [r for e in elements for r in field_rows(e, values)])
+    return blocks + values.below()
 
 
 def _what(drive: Drive) -> str:
@@ -169,5 +195,5 @@ def _again(subject: Subject) -> list[Block]:
     drawn = subject.drawn
     if not drawn.numbers:
         return [paragraph(f"All numbers are the file's own; the moment is {drawn.t:g} s.")]
-    told = [f"{address} = {x:g}" for address, x in drawn.numbers.items()]
-    return [paragraph(f"Drawn, in SI: {', '.join(told)}; the moment is {drawn.t:g} s. All else is the file's.")]
+    told = [f"{address} = {x}" for address, x in drawn.numbers.items()]
+    return [paragraph(f"Drawn: {', '.join(told)}; the moment is {drawn.t:g} s. All else is the file's.")]

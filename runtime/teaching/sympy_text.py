@@ -7,11 +7,13 @@ from collections.abc import Mapping
 from typing import Any
 
 import sympy as sp
+from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
 from gudgeon.errors import GudgeonError
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.far_quotients import for_readers
+from gudgeon.generator.targets.latex.printers import share_of_pi
 
 # what a notebook calls so itself
 TAKEN = frozenset(
@@ -51,7 +53,12 @@ class Printer(StrPrinter):
         return self._names.get(expr, expr.name)
 
     def _print_Float(self, expr: sp.Float) -> str:
-        return repr(float(expr)).removesuffix(".0")
+        return number_of_code(float(expr))
+
+    def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
+        """A share of π in a product is one number."""
+        text = str(super().parenthesize(item, level, strict))
+        return f"({text})" if item.is_Float and "sp.pi" in text and level >= PRECEDENCE["Mul"] else text
 
     def _print_Rational(self, expr: sp.Rational) -> str:
         return f"sp.Rational({expr.p}, {expr.q})"
@@ -90,6 +97,16 @@ class Printer(StrPrinter):
     def _print_CurveOf(self, expr: sp.Expr) -> Any:
         told = f"a notebook holds no curves, and this scene has {expr.name}"
         raise GudgeonError(f"{told}\n  write a .tex, .txt or .html")
+
+
+def number_of_code(value: float) -> str:
+    """A number as Python: shares of π as such, others so that they are read back."""
+    share = share_of_pi(value)
+    if share is None:
+        return repr(value).removesuffix(".0")
+    count, of = share
+    above = {1: "sp.pi", -1: "-sp.pi"}.get(count, f"{count}*sp.pi")
+    return above if of == 1 else f"{above}/{of}"
 
 
 def names_of(model: Model) -> dict[sp.Symbol, str]:

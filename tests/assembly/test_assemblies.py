@@ -175,6 +175,20 @@ def test_a_link_that_is_too_short_is_told_by_how_much(tmp_path: Path) -> None:
     assert reached > 0 and f"crank (50 mm) longer by {1e3 * crank:.4g} mm" in str(told.value)
 
 
+def test_what_is_too_short_is_measured_between_points_that_joints_use(tmp_path: Path) -> None:
+    """A tracer far off belongs to no length; the points of a body without length are named, farthest ones first."""
+    missing = math.hypot(0.3 - CRANK * math.cos(ALPHA), CRANK * math.sin(ALPHA)) - COUPLER - ROCKER
+    held = A + B.replace("coupler.tail", "coupler.in") + C.replace("coupler.head", "coupler.out") + D
+    bell = four_bar(ground="300 mm", joints=held).replace(b"length: 100 mm", b"com: [30 mm, 10 mm]")
+    bell = bell.replace(b"tip: [50 mm", b"in: [0, 0], out: [80 mm, 60 mm], tip: [50 mm")
+    file = tmp_path / "four.yaml"
+    for text, told in ((four_bar(ground="300 mm"), "coupler (100 mm)"), (bell, "coupler, in–out (100 mm)")):
+        file.write_bytes(text.replace(b"tip: [50 mm, 20 mm]", b"tip: [500 mm, 20 mm]"))
+        with pytest.raises(AssemblyError) as caught:
+            gudgeon.load(file).start()
+        assert f"{told} longer by {1e3 * missing:.4g} mm" in str(caught.value)
+
+
 def test_a_length_left_in_metres_is_named(tmp_path: Path) -> None:
     """One that is by hundreds longer than all others; not one that is only too long."""
     file = tmp_path / "four.yaml"

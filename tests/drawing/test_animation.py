@@ -18,8 +18,12 @@ import pytest
 
 pytest.importorskip("matplotlib")
 
+from matplotlib.colors import to_rgb  # noqa: E402
+from PIL import Image  # noqa: E402
+
 import gudgeon  # noqa: E402
 from gudgeon.drawing.insets import eccentricity  # noqa: E402
+from gudgeon.drawing.roles import INK, TINTS  # noqa: E402
 from gudgeon.drawing.shapes import Sketch  # noqa: E402
 from gudgeon.errors import BadValueError, GudgeonError, OutputError, UnknownNameError  # noqa: E402
 from gudgeon.results.animation import RED, sketches, touching_between, wanted_of  # noqa: E402
@@ -180,6 +184,11 @@ def test_between_samples_red_is_what_is_drawn(crank: Result) -> None:
 
 def test_files(crank: Result, tmp_path: Path) -> None:
     assert crank.animate(tmp_path / "x.gif", seconds=0.3, rate=10) is None
+    with Image.open(tmp_path / "x.gif") as film:  # few colours, those of a drawing among them: they stay what they are
+        assert film.n_frames == 3 and film.info["duration"] == 150  # type: ignore[attr-defined]
+        colours = {colour for _, colour in film.convert("RGB").getcolors(1 << 20)}  # type: ignore[union-attr]
+    wanted = (np.array(to_rgb(colour)) * 255.0 for colour in ("#ffffff", INK, TINTS[0]))
+    assert all(min(np.abs(np.subtract(one, other)).max() for other in colours) < 8.0 for one in wanted)
     data = (tmp_path / "x.gif").read_bytes()
     assert data.startswith(b"GIF89a") and data.count(b"\x21\xf9\x04") == 3  # a control block for each picture
     shown = crank.animate(str(tmp_path / "x.HTML"), seconds=0.3, rate=10)

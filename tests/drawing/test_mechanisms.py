@@ -390,3 +390,28 @@ def test_what_an_earlier_version_wrote_is_told() -> None:
     posture = drawn(ROOT / "mechanisms/four_bar.yaml").posture
     with pytest.raises(GudgeonError, match="run the scene again"):
         Posture(replace(posture.source, parts=()), posture.p, posture.q)
+
+
+CAR = """
+format: gudgeon/1
+name: car
+freedoms: 1
+bodies: {car: {mass: 1 kg, inertia: 1e-3 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {rail: {translational: [ground.O, car.origin], axis: [1, 0]}}
+forces: {spring: {spring_damper: [ground.O, car.origin], stiffness: 40 N/m, damping: 0.2 N*s/m, free_length: 0.1 m}}
+start: {guess: {car.x: 150 mm}}
+"""
+
+
+def test_a_spring_at_a_rails_own_point_has_its_wall_and_keeps_off_the_rail() -> None:
+    of = drawn(CAR)
+    plan = make_plan([of.posture])
+    sketch = make_sketch(of.posture, plan)
+    lines = [shape for shape in (*sketch.of("joint rail"), *sketch.of("force spring")) if isinstance(shape, Line)]
+    wires = [line for line in lines if line.part == "force spring"]
+    strokes = [line for line in wires if line.role == "hatch"]
+    assert len(strokes) > 2 and all(np.abs(stroke.points).max() < 3.0 * plan.unit for stroke in strokes)
+    rail = next(line for line in lines if line.role == "rail" and line not in wires).points[0, 1]
+    wire = np.vstack([line.points for line in wires if line.role in ("spring", "piston")])
+    assert rail < 0.0 and wire[:, 1].min() > rail

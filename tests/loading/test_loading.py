@@ -23,7 +23,7 @@ from gudgeon.errors import BadValueError, InputError, LimitError, UnknownNameErr
 from gudgeon.loading import shipped
 from gudgeon.loading.cache import Cache
 from gudgeon.loading.find import find_mechanism, generator_hash, kernel_source, model_key, read_bytes
-from gudgeon.loading.shipped import PACKAGE, read_generated, shipped_file, write_generated
+from gudgeon.loading.shipped import PACKAGE, read_generated, room, shipped_file, write_generated
 from tests.tiny import tiny
 
 DATA = b"name: tiny\n"
@@ -195,6 +195,21 @@ def test_what_the_generator_does_not_read_leaves_the_key(package: Path) -> None:
     for path in package.rglob("*.py"):
         path.touch()
     assert generator_hash(package) == base
+
+
+def test_a_plain_editable_install_finds_what_lies_beside_the_package(package: Path) -> None:
+    """`pip install -e .` puts the clone's runtime/ on the path as it is: other folders are its neighbours."""
+    base, beside = generator_hash(package), package.parent
+    for name in ("generator", "templates"):
+        (package / name).rename(beside / name)
+        assert room(name, package) == beside / name
+    assert generator_hash(package) == base
+
+
+def test_an_installation_without_mechanisms_says_that_it_is_not_whole(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("gudgeon.loading.shipped.shipped", lambda: ())
+    with pytest.raises(InputError, match=r"not whole.*\n.*make run"):
+        shipped_file("four_bar")
 
 
 # where it comes from

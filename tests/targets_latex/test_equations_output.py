@@ -10,13 +10,14 @@ from dataclasses import replace
 from importlib import resources
 from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.pipeline import derive
-from gudgeon.generator.targets.latex import equations_html, equations_tex, equations_text
+from gudgeon.generator.targets.latex import equations_html, equations_tex, equations_text, pictures, plots
 from gudgeon.generator.targets.latex.letters import letter, of_latex, word
 from gudgeon.generator.targets.latex.notation import make_notation
 from gudgeon.generator.targets.latex.tex_text import sketch_line, tex
@@ -194,3 +195,18 @@ forces: {f: {force: a.origin, value: ["1 N*(0.01*a.x/(1 m))**161", 0]}}
     assert r"\left(0.01 \, x_{a}\right)^{161}" in source and "= (0.01·x_a)^161" in plain
     assert "10000·exp(5000 - 10000·t)/(exp(5000 - 10000·t) + 1)^2" in plain
     assert not any(word in source + plain for word in ("Whole", "Slope", "Just"))
+
+
+def test_small_matrices_are_large_enough_for_their_names() -> None:
+    """The fewer columns, the larger an entry; never smaller than before."""
+    sides = [pictures.cell_side(columns, pictures.SMALL) for columns in (3, 9, 30, 150)]
+    assert sides == sorted(sides, reverse=True) and sides[1] == pictures.LARGE and sides[-1] == pictures.SMALL
+
+
+def test_axes_of_laws_have_units_that_suit_their_range() -> None:
+    """1e-05 m is 10 µm, 4200 N are 4.2 kN; a letter's index is lowered, markup stays text."""
+    curve = plots.Curve(np.array([0.0, 4200.0]), "F_n < 1")
+    plot = plots.Plot(np.array([0.0, 1e-5]), (curve,), ("δ", "m"), ("F_n", "N"), ("clearance", "delta"), "")
+    shown = plots.drawn(plot, {})
+    assert ">δ [µm]<" in shown and ">10<" in shown and ">4.2<" in shown and "[kN]" in shown and "e-05" not in shown
+    assert "F_n<" not in shown and 'F<tspan class="small" dy="3">n</tspan>' in shown and "&lt; 1" in shown

@@ -13,9 +13,10 @@ import gudgeon
 from gudgeon.generator.pipeline import derive
 from gudgeon.loading.shipped import shipped_file
 from gudgeon.teaching.notebook import notebook
+from gudgeon.teaching.sympy_text import number_of_code
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon, written
-from tests.teaching.test_sheets import PARALLEL
+from tests.teaching.test_sheets import PARALLEL, TURNING
 
 pytestmark = needs_compiler
 
@@ -70,6 +71,13 @@ def test_it_is_a_notebook_and_always_the_same(call: Gudgeon, tmp_path: Path) -> 
         assert set(cell) == keys | ({"outputs", "execution_count"} if cell["cell_type"] == "code" else set())
     derived = "".join("".join(cell["source"]) for cell in document["cells"]).partition("## The same functions")[0]
     assert "gudgeon" not in derived and str(tmp_path) not in text
+
+
+def test_angles_are_shares_of_pi() -> None:
+    assert [number_of_code(x) for x in (np.pi / 2, -np.pi, 3 * np.pi / 4, 1.5, 1.57)] == [
+        "sp.pi/2", "-sp.pi", "3*sp.pi/4", "1.5", "1.57"]  # fmt: skip
+    text = notebook(derive(TURNING.encode(), "turning.yaml", "ideal"), "turning.yaml")
+    assert "sp.pi/2" in text and "1.5707963" not in text
 
 
 def test_nbformat_takes_it() -> None:

@@ -62,7 +62,7 @@ def test_jacobian_and_gamma_by_sympy_from_phi_alone(name: str, scene: str) -> No
         for k in range(len(coordinates))
         if row.owner in of.owners and model.q[k] in row.phi_q
     }
-    assert found["Φ_q at a position"].numbers == pytest.approx(asked, rel=1e-12, abs=1e-15)
+    assert found["The Jacobian at a position"].numbers == pytest.approx(asked, rel=1e-12, abs=1e-15)
     owned = {row.name: right[r, 0] for r, row in enumerate(model.rows) if row.owner in of.owners}
     assert found["γ"].numbers == pytest.approx(owned, rel=1e-10, abs=1e-10)
 
@@ -168,6 +168,31 @@ def test_every_form_has_the_same_sections(call: Gudgeon, tmp_path: Path) -> None
         done = call("exercise", "bare.yaml", *line.split())
         assert done.exit_code == 2 and "error" in done.stderr.lower()
     assert not (tmp_path / "x.txt").exists()
+
+
+TURNING = """format: gudgeon/1
+name: turning
+parameters: {speed: 120 rpm}
+gravity: [0, -9.81 m/s^2]
+bodies: {arm: {length: 50 mm, mass: 80 g, inertia: auto}}
+ground: {O: [0, 0]}
+joints: {O: {revolute: [ground.O, arm.tail]}}
+drives: {motor: {angle: arm, value: pi/2 + speed * t}}
+"""
+
+
+def test_numbers_stand_as_people_write_them(tmp_path: Path) -> None:
+    """Units of the file, angles within half a turn, drives and units typeset, the paper by its name."""
+    (tmp_path / "turning.yaml").write_text(TURNING, encoding="utf-8")
+    sheet, solved, drawn = make(str(tmp_path / "turning.yaml"), "ideal", 2, "4.1 s")
+    assert np.abs(drawn.q[2]) <= np.pi and np.cos(drawn.q[2]) == pytest.approx(np.cos(drawn.run.q[-1, 2]), abs=1e-5)
+    speed = drawn.numbers["parameters.speed"]
+    assert speed.endswith(" rpm") and drawn.run.v[-1, 2] == pytest.approx(float(speed[:-4]) * 2 * np.pi / 60)
+    text, latex = render(sheet, "txt"), render(sheet, "tex")
+    assert f"{speed} = " in text and f"parameters.speed = {speed}" in render(solved, "txt")
+    assert "m/s²" in text and "kg·m²" in text and "Φ_q at" not in text and "textasciicircum" not in latex
+    assert r"\mathit{speed} \, t + \tfrac{\pi}{2}" in latex and "pi / 2" not in text
+    assert "X. Chen, S. Gao, T. Wang, Experimental verification" in text.replace("\n", " ")
 
 
 def test_text_of_a_file_is_no_markup() -> None:

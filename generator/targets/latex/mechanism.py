@@ -11,12 +11,15 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism.mechanism import ForceElement, Joint, PointRef, Quantity, Vector
 from gudgeon.generator.symbols.numbers import SlotEntry
-from gudgeon.generator.targets.latex.document import Block, Section, Sketch, Text, cells, paragraph, table
+from gudgeon.generator.targets.latex.document import Block, Equation, Section, Sketch, Text, cells, paragraph, table
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import Notation
 from gudgeon.generator.targets.latex.printers import as_angle
+from gudgeon.language.plot_units import pretty
 from gudgeon.language.tree import Binary, Call, Expr, Number, Unary
 from gudgeon.language.units import si_unit
+
+LONGEST = 30  # characters of a formula in a cell
 
 
 class Values:
@@ -24,6 +27,7 @@ class Values:
 
     def __init__(self, model: Model, notation: Notation) -> None:
         self._slots, self._notation = model.slots, notation
+        self._long: list[Block] = []  # what numbers follow, where it is longer than a cell is wide
 
     def cell(self, quantity: Quantity | None) -> Text:
         """ "l = 0.08", "y = −l_5 = −0.3", "0", what varies as it is written; nothing for a number that is not there."""
@@ -41,8 +45,24 @@ class Values:
         """The default; in front of it the expression that it follows."""
         # what follows others is a result of arithmetic: its last digits would say nothing
         rounded = entry.follows and as_angle(entry.default) is None
-        number = self._notation.math(sp.Float(float(f"{entry.default:.12g}") if rounded else entry.default, 17))
-        return (self._notation.math(entry.value), " = ", number) if entry.follows else (number,)
+        number = self._notation.math(sp.Float(float(f"{entry.default:.6g}") if rounded else entry.default, 17))
+        if not entry.follows:
+            return (number,)
+        formula = self._notation.math(entry.value)
+        if len(formula.text) <= LONGEST:
+            return formula, " = ", number
+        self._long.append(Equation(self._notation.math(entry.symbol), self._notation.terms(entry.value)))
+        return (number,)
+
+    def sides(self) -> list[tuple[Text, ...]]:
+        """Of bodies that are given by the lengths of their sides."""
+        found = [(e, e.address.split(".")) for e in self._slots.entries.values() if e.address.startswith("bodies.")]
+        return [cells(f"{at[1]}.{at[3]}", self.slot(e)) for e, at in found if at[2:3] == ["sides"] and len(at) == 4]
+
+    def below(self) -> list[Block]:
+        """The long ones since it was last asked, to stand below a table."""
+        found, self._long = list(dict.fromkeys(self._long)), []
+        return [paragraph("What follows from other numbers:"), *found] if found else []
 
     def vector(self, vector: Vector) -> Text:
         return (*self.cell(vector[0]), ",  ", *self.cell(vector[1]))
@@ -55,7 +75,7 @@ def part_sections(model: Model, notation: Notation) -> list[Section]:
         Section("Bodies", tuple(_bodies(model, values))),
         *([Section("Ground", tuple(_ground(model, values)))] if model.scene.mechanism.ground else []),
         Section("Joints", tuple(_joints(model, values))),
-        *([Section("Drives", tuple(_drives(model)))] if model.scene.mechanism.drives else []),
+        *([Section("Drives", tuple(_drives(model, notation)))] if model.scene.mechanism.drives else []),
         *([Section("Curves", tuple(_curves(model)))] if model.scene.mechanism.curves else []),
         *([Section("Parameters", tuple(_parameters(model, notation, values)))] if model.scene.parameters else []),
     ]
@@ -74,14 +94,16 @@ def _bodies(model: Model, values: Values) -> list[Block]:
     )
     return [
         paragraph(lead),
-        *table(cells("body", "mass, kg", "inertia, kg m^2", "length, m"), rows, of=of),
+        *table(cells("body", "mass, kg", "inertia, kg·m²", "length, m"), rows, of=of),
+        *table(cells("side", "length, m"), values.sides()),
         *table(cells("point", "in the frame of its body, m"), points),
+        *values.below(),
     ]
 
 
 def _ground(model: Model, values: Values) -> list[Block]:
     rows = [cells(name, values.vector(at)) for name, at in model.scene.mechanism.ground.items()]
-    return table(cells("point", "position, m"), rows)
+    return [*table(cells("point", "position, m"), rows), *values.below()]
 
 
 def _joints(model: Model, values: Values) -> list[Block]:
@@ -100,6 +122,7 @@ def _joints(model: Model, values: Values) -> list[Block]:
     used = {s for row in model.rows for s in model.symbols.explicit(row.phi).free_symbols}
     guessed = [e for e in model.slots.entries.values() if e.symbol in used and e.address.startswith("start.")]
     blocks += table(cells("angle at the start", "value"), [cells(e.address, values.slot(e)) for e in guessed])
+    blocks += values.below()
     for kind in dict.fromkeys(joint.kind for joint in model.scene.mechanism.joints.values()):
         summary, *lines = sketch_of("joints", kind)
         blocks += [paragraph(summary), Sketch(tuple(lines))]
@@ -128,7 +151,7 @@ def sketch_of(folder: str, kind: str) -> list[str]:
     return [summary, *rest.strip("\n").splitlines()]
 
 
-def _drives(model: Model) -> list[Block]:
+def _drives(model: Model, notation: Notation) -> list[Block]:
     rows = []
     for name, drive in model.scene.mechanism.drives.items():
         if drive.kind == "distance":
@@ -137,15 +160,29 @@ def _drives(model: Model) -> list[Block]:
             what = "angle" if drive.kind == "angle" else drive.coordinate
             what += f" of {drive.body}" + (f" against {drive.reference}" if drive.reference else "")
         own = [str(k + 1) for k, row in enumerate(model.rows) if row.owner == name]
-        rows.append(cells(name, what, as_written(drive.value.value), "".join(own) or "redundant"))
+        rows.append(cells(name, what, driven_value(model, notation, name), "".join(own) or "redundant"))
     of = [[f"drive-{name}"] for name in model.scene.mechanism.drives]
-    return table(cells("drive", "prescribes", "value in the file", "row"), rows, (2,), of)
+    return table(cells("drive", "prescribes", "value", "row"), rows, (2,), of)
+
+
+def driven_value(model: Model, notation: Notation, drive: str) -> str | Name:
+    """What a drive prescribes, as a formula; as the file has it where that would not fit."""
+    written, angle = model.scene.mechanism.drives[drive].value.value, model.constraints.drive_angles.get(drive)
+    if angle is None:
+        return as_written(written)
+    formula = notation.math(notation.expand(model.symbols.explicit(model.symbols.definitions[angle[0]])))
+    return formula if len(formula.text) <= 2 * LONGEST else as_written(written)
 
 
 def _curves(model: Model) -> list[Block]:
     """What an expression's curves are; f' and f'' are their derivatives."""
     rows = [cells(name, f"{curve.told()} (SI)") for name, curve in model.scene.mechanism.curves.items()]
     return table(cells("curve", "what it is"), rows, (1,))
+
+
+def unit_of(number: Number) -> str:
+    """The unit behind a number of the file, "rpm"; "" where it has none."""
+    return number.text.strip().lstrip("+-.0123456789eE ") if number.has_unit else ""
 
 
 _STRENGTH = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 4}
@@ -175,7 +212,10 @@ def _parameters(model: Model, notation: Notation, values: Values) -> list[Block]
     rows = []
     for name in model.scene.parameters:
         entry = model.slots.entries[f"parameters.{name}"]
+        written, value = model.scene.parameters[name].value, values.value(entry)
+        if isinstance(written, Number) and unit_of(written) not in ("", si_unit(entry.dimension)):
+            value = (f"{written.text} = ", *value)
         rows.append(
-            cells(name, notation.math(entry.symbol), values.value(entry), si_unit(entry.dimension) or Name("-", "-"))
+            cells(name, notation.math(entry.symbol), value, pretty(si_unit(entry.dimension)) or Name("-", "-"))
         )
-    return table(cells("parameter", "letter", "value in the file", "unit"), rows)
+    return [*table(cells("parameter", "letter", "value in the file", "unit"), rows), *values.below()]

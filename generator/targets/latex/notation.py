@@ -140,6 +140,10 @@ def of_address(address: str) -> Name:
             return letter({"x": "xi", "y": "eta"}[axis], body, "com")
         case ["bodies", body, "points", point, axis]:
             return letter({"x": "xi", "y": "eta"}[axis], body, point)
+        case ["bodies", body, "sides", sides]:
+            return letter("l", body, sides)
+        case ["bodies", body, "sides", point, axis]:
+            return letter({"x": "xi", "y": "eta"}[axis], body, point)
         case ["materials", material, constant]:
             return letter(constant, material)
         case ["bearings", bearing, "length"]:

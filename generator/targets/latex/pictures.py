@@ -11,7 +11,8 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.targets.latex.document import Block, Picture
 from gudgeon.generator.targets.latex.tokens import entry_token, row_token
 
-CELL = 10  # side of an entry in a picture of a matrix
+SMALL, TINY, LARGE = 10, 6, 20  # side of an entry in a picture of a matrix, of an assembled one; at most
+ROOM = 420  # pixels up to which a small matrix grows
 MOST_ROWS, MOST_COLUMNS = 150, 150  # beyond which nobody sees anything in it
 WIDEST_GRID = 92  # columns of characters
 FULL, EMPTY = "■", "·"
@@ -38,8 +39,9 @@ def pattern(model: Model) -> list[Block]:
     dots = _entries(model)
     if not _fits(len(model.rows), len(model.q)):
         return []
-    parts = [*_columns(model, 24), *_row_names(model, 24), *_dots(dots, 30, 24, "entry")]
-    size = 30 + CELL * len(model.q) + 4, 24 + CELL * len(model.rows) + 4
+    cell = cell_side(len(model.q), SMALL)
+    parts = [*_columns(model, 24, cell), *_row_names(model, 24, cell), *_dots(dots, 30, 24, "entry", cell)]
+    size = 30 + cell * len(model.q) + 4, 24 + cell * len(model.rows) + 4
     caption = "Rows and columns of the Jacobian with its entries that are not zero"
     return [Picture(caption, svg(*size, caption, parts), _grid(len(model.rows), len(model.q), dots))]
 
@@ -53,7 +55,7 @@ def assembled(model: Model) -> list[Block]:
     masses = [Dot(k, k, f"body-{body.name}") for body in model.bodies for k in range(body.index, body.index + 3)]
     below = [Dot(n + dot.row, dot.column, dot.of) for dot in entries]
     above = [Dot(dot.column, n + dot.row, dot.of) for dot in entries]
-    cell = 6
+    cell = cell_side(n + m, TINY)
     total = cell * (n + m)
     lines = [
         f'<path class="rule" d="M0 {cell * n}H{total}M{cell * n} 0V{total}"/>' if m else "",
@@ -68,6 +70,11 @@ def _fits(rows: int, columns: int) -> bool:
     return rows <= MOST_ROWS and columns <= MOST_COLUMNS
 
 
+def cell_side(columns: int, least: int) -> int:
+    """Side of an entry in pixels: the fewer there are, the larger."""
+    return min(LARGE, max(least, ROOM // max(1, columns)))
+
+
 def _entries(model: Model) -> list[Dot]:
     place = {q: k for k, q in enumerate(model.q)}
     return [
@@ -75,29 +82,29 @@ def _entries(model: Model) -> list[Dot]:
     ]
 
 
-def _dots(dots: Sequence[Dot], x: int, y: int, kind: str, cell: int = CELL) -> list[str]:
-    """A group of squares, whose size is that of their class in the page."""
+def _dots(dots: Sequence[Dot], x: int, y: int, kind: str, cell: int) -> list[str]:
+    """A group of squares, whose size the page reads from it."""
     squares = (
         f'<rect x="{x + cell * dot.column}" y="{y + cell * dot.row}" data-of="{html.escape(dot.of)}"/>' for dot in dots
     )
-    return [f'<g class="{kind} cell{cell}">', *squares, "</g>"]
+    return [f'<g class="{kind} cells" style="--cell: {cell - 1}px">', *squares, "</g>"]
 
 
-def _columns(model: Model, top: int) -> list[str]:
+def _columns(model: Model, top: int, cell: int) -> list[str]:
     """Names of the bodies above their three columns, each with a rule on its left."""
-    parts = []
-    bottom = top + CELL * len(model.rows)
+    parts, most = [], 3 * cell // 7  # letters that fit above three columns
+    bottom = top + cell * len(model.rows)
     for body in model.bodies:
-        x = 30 + CELL * body.index
-        name = html.escape(body.name if len(body.name) <= 5 else f"{body.name[:4]}…")
+        x = 30 + cell * body.index
+        name = html.escape(body.name if len(body.name) <= most else f"{body.name[: most - 1]}…")
         parts.append(f'<path class="rule" d="M{x - 0.5} {top - 6}V{bottom}"/>')
         parts.append(f'<text x="{x + 1}" y="{top - 9}" data-of="body-{html.escape(body.name)}">{name}</text>')
     return parts
 
 
-def _row_names(model: Model, top: int) -> list[str]:
+def _row_names(model: Model, top: int, cell: int) -> list[str]:
     return [
-        f'<text class="end" x="25" y="{top + CELL * r + 8}" data-of="{row_token(r + 1)}">{r + 1}</text>'
+        f'<text class="end" x="25" y="{top + cell * r + cell // 2 + 3}" data-of="{row_token(r + 1)}">{r + 1}</text>'
         for r in range(len(model.rows))
     ]
 

@@ -21,6 +21,8 @@ from gudgeon.generator.targets.latex.mechanism import as_written
 from gudgeon.generator.targets.latex.notation import Notation, distinct
 from gudgeon.generator.targets.latex.plots import law_plot
 from gudgeon.generator.targets.latex.trace import Functions, Trace
+from gudgeon.language.plot_units import pretty
+from gudgeon.language.plot_units import quantity as in_unit
 from gudgeon.language.units import si_unit
 
 # What the laws call their abbreviations and constants, in the paper's letters.
@@ -195,7 +197,7 @@ def _numbers(joint: JointWithPlay) -> list[Block]:
         written = f"{as_written(quantity.value)} = " if entry is not None and entry.follows else ""
         value: Text = ("0",) if entry is None else (written, joint.notation.math(sp.Float(entry.default, 17)))
         called = of_latex(sign) if entry is None else joint.notation.math(entry.symbol)
-        rows.append(cells(called, meaning, quantity.address, value, si_unit(quantity.dimension) or "-"))
+        rows.append(cells(called, meaning, quantity.address, value, pretty(si_unit(quantity.dimension)) or "-"))
     definitions = joint.model.symbols.definitions
     constants = dict.fromkeys([joint.clearance.pair.R_j, *joint.clearance.constants.values()])
     follow = [equation(s, joint.notation.expand(definitions[s]), joint.notation) for s in constants if s in definitions]
@@ -208,7 +210,7 @@ def _dry(joint: JointWithPlay) -> list[Block]:
     floor = joint.model.slots.entries[f"contacts.{joint.play.contact.name}.velocity_floor"].default
     impact = paragraph(
         "It acts while ", Name(r"\delta > 0", "δ > 0"), ". ", stored, " is the speed of approach at the onset, "
-        f"at least {floor:g} m/s, kept until separation; before an onset is accepted ",
+        f"at least {in_unit(floor, 'm/s')}, kept until separation; before an onset is accepted ",
         Name(r"\dot{\delta} / ", "δ̇ / "), stored, " counts as 1.",
     )  # fmt: skip
     friction = _law(joint, "friction") if clearance.friction else [

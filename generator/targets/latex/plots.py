@@ -19,6 +19,7 @@ from gudgeon.generator.targets.latex.document import Block, Picture
 from gudgeon.generator.targets.latex.pictures import svg
 from gudgeon.generator.targets.latex.trace import Functions
 from gudgeon.generator.targets.numpy.printer import function
+from gudgeon.language.plot_units import label, scale
 from gudgeon.language.units import VELOCITY
 
 POINTS = 61
@@ -37,12 +38,12 @@ class Curve:
 
 @dataclass(frozen=True)
 class Plot:
-    """`now`: what stands on the x axis, by function of a joint and local: "dry", "v_t"."""
+    """Axes are (letter, SI unit); `now`: what stands on the x axis, by function of a joint and local: "dry", "v_t"."""
 
     x: Any
     curves: tuple[Curve, ...]
-    x_name: str
-    y_name: str
+    x_axis: tuple[str, str]
+    y_axis: tuple[str, str]
     now: tuple[str, str]
     caption: str
 
@@ -64,7 +65,7 @@ def law_plot(found: Functions, joints: Sequence[str], role: str, law: Law) -> li
         return []
     part, local = plot.now
     marks = {name: f"{part}_{name}.{local}" for name in joints}
-    return [Picture(plot.caption, _drawn(plot, marks))]
+    return [Picture(plot.caption, drawn(plot, marks))]
 
 
 def _numbers(found: Functions) -> Mapping[str, float]:
@@ -98,7 +99,7 @@ def _normal(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]
         y = np.broadcast_to(_called(call, p, delta, ratio, *further), delta.shape)
         curves.append(Curve(y, f"δ̇/δ̇⁻ = {ratio:g}" + (f", δ̇ = {ratio * FAST:g} m/s" if pin.further else "")))
     caption = "The normal force over the penetration, while the surfaces approach, rest and part"
-    return Plot(delta, tuple(curves), "δ, m", "F_n, N", ("clearance", "delta"), caption)
+    return Plot(delta, tuple(curves), ("δ", "m"), ("F_n", "N"), ("clearance", "delta"), caption)
 
 
 def _friction(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]) -> Plot:
@@ -109,7 +110,7 @@ def _friction(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, floa
     v_t = np.linspace(-1.0, 1.0, 2 * POINTS) * 3.0 * (max(speeds, default=0.0) or FAST)
     y = np.broadcast_to(_called(call, p, 1.0, v_t), v_t.shape)
     caption = "Friction over the slip, for a normal force of 1 N"
-    return Plot(v_t, (Curve(y, ""),), "v_t, m/s", "F_t/F_n", ("dry", "v_t"), caption)
+    return Plot(v_t, (Curve(y, ""),), ("v_t", "m/s"), ("F_t/F_n", ""), ("dry", "v_t"), caption)
 
 
 def _film(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]) -> Plot:
@@ -117,13 +118,13 @@ def _film(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]) 
     radial, along, *_ = _called(call, p, epsilon, 0.0 * epsilon, -0.5 * epsilon)
     curves = (Curve(np.broadcast_to(radial, epsilon.shape), "F_r"), Curve(np.broadcast_to(along, epsilon.shape), "F_t"))
     caption = "The film's forces over the eccentricity ratio, for surfaces that turn at 1 rad/s together and no squeeze"
-    return Plot(epsilon, curves, "ε", "N", ("film", "epsilon"), caption)
+    return Plot(epsilon, curves, ("ε", ""), ("F", "N"), ("film", "epsilon"), caption)
 
 
 _DRAWN = {"normal": _normal, "friction": _friction, "film": _film}
 
 
-def _drawn(plot: Plot, marks: Mapping[str, str]) -> str:
+def drawn(plot: Plot, marks: Mapping[str, str]) -> str:
     """Axes with their ends, curves with their words, a mark for where each joint is now."""
     low, high = (float(f([f(curve.y) for curve in plot.curves])) for f in (np.min, np.max))
     low, high = min(low, 0.0), max(high, 0.0) if high > low or high > 0.0 else low + 1.0
@@ -146,27 +147,36 @@ def _drawn(plot: Plot, marks: Mapping[str, str]) -> str:
         if curve.told:
             y = TOP + 12 + 15 * k
             parts.append(f'<path class="curve dash{k}" d="M{LEFT + 12} {y - 4}h26"/>')
-            parts.append(f'<text x="{LEFT + 44}" y="{y}">{html.escape(curve.told)}</text>')
+            parts.append(f'<text x="{LEFT + 44}" y="{y}">{_set(curve.told)}</text>')
     parts += [_mark(name, value, first, last) for name, value in marks.items()]
-    return svg(WIDTH, HEIGHT, f"{plot.y_name} over {plot.x_name}", parts)
+    return svg(WIDTH, HEIGHT, f"{plot.y_axis[0]} over {plot.x_axis[0]}", parts)
 
 
 def _ends(plot: Plot, low: float, high: float, first: float, last: float, zero: float) -> list[str]:
-    """What the axes are of, and how far they go."""
+    """What the axes are of, and how far they go, in units that suit that."""
+    across, x_unit = scale(max(abs(first), abs(last)), plot.x_axis[1])
+    up, y_unit = scale(max(abs(low), abs(high)), plot.y_axis[1])
+    x_name, y_name = _set(label(plot.x_axis[0], x_unit)), _set(label(plot.y_axis[0], y_unit))
     return [
-        f'<text class="end" x="{LEFT - 5}" y="{TOP + 8}">{_plain(high)}</text>',
-        f'<text class="end" x="{LEFT - 5}" y="{BOTTOM}">{_plain(low)}</text>',
-        f'<text x="{LEFT}" y="{BOTTOM + 16}">{_plain(first)}</text>',
-        f'<text class="end" x="{RIGHT}" y="{BOTTOM + 16}">{_plain(last)}</text>',
-        f'<text class="middle" x="{(LEFT + RIGHT) / 2:g}" y="{BOTTOM + 28}">{html.escape(plot.x_name)}</text>',
-        f'<text class="middle" transform="translate(14 {(TOP + BOTTOM) / 2:g}) rotate(-90)">'
-        f"{html.escape(plot.y_name)}</text>",
+        f'<text class="end" x="{LEFT - 5}" y="{TOP + 8}">{_plain(high * up)}</text>',
+        f'<text class="end" x="{LEFT - 5}" y="{BOTTOM}">{_plain(low * up)}</text>',
+        f'<text x="{LEFT}" y="{BOTTOM + 16}">{_plain(first * across)}</text>',
+        f'<text class="end" x="{RIGHT}" y="{BOTTOM + 16}">{_plain(last * across)}</text>',
+        f'<text class="middle" x="{(LEFT + RIGHT) / 2:g}" y="{BOTTOM + 28}">{x_name}</text>',
+        f'<text class="middle" transform="translate(14 {(TOP + BOTTOM) / 2:g}) rotate(-90)">{y_name}</text>',
     ]
 
 
 def _plain(value: float) -> str:
     """A number on an axis."""
     return f"{value:.3g}".replace("-", "−")
+
+
+def _set(text: str) -> str:
+    """Words of a picture, a letter behind _ lowered."""
+    first, *others = html.escape(text).split("_")
+    lowered = (f'<tspan class="small" dy="3">{x[:1]}</tspan><tspan dy="-3">&#8203;{x[1:]}</tspan>' for x in others)
+    return "".join((first, *lowered))
 
 
 def _mark(name: str, value: str, first: float, last: float) -> str:

@@ -209,16 +209,24 @@ def as_angle(value: float) -> Name | None:
     """A share of π, or degrees, where a number of rad is that and no shorter: π/2, 39.52°; else None."""
     if sum(map(str.isdigit, repr(value))) < _LONG_NUMBER:
         return None
-    for of in _SIMPLE:
-        count = round(value * of / math.pi)
-        if 0 < abs(count) <= 12 and abs(count * math.pi / of - value) <= math.ulp(value):
-            sign, above = "-" * (count < 0), f"{abs(count) if abs(count) > 1 else ''}"
-            if of == 1:
-                return Name(rf"{sign}{above}\pi", f"{sign}{above}π")
-            return Name(rf"{sign}\tfrac{{{above}\pi}}{{{of}}}", f"{sign}{above}π/{of}")
+    if share := share_of_pi(value):
+        count, of = share
+        sign, above = "-" * (count < 0), f"{abs(count) if abs(count) > 1 else ''}"
+        if of == 1:
+            return Name(rf"{sign}{above}\pi", f"{sign}{above}π")
+        return Name(rf"{sign}\tfrac{{{above}\pi}}{{{of}}}", f"{sign}{above}π/{of}")
     degrees = f"{math.degrees(value):.6g}"
     if abs(math.radians(float(degrees)) - value) <= 2 * math.ulp(value):
         return Name(rf"{degrees}^{{\circ}}", f"{degrees}°")
+    return None
+
+
+def share_of_pi(value: float) -> tuple[int, int] | None:
+    """(k, n) where a number is k π/n to its last digit, as people write angles."""
+    for of in _SIMPLE:
+        count = round(value * of / math.pi)
+        if 0 < abs(count) <= 12 and abs(count * math.pi / of - value) <= math.ulp(value):
+            return count, of
     return None
 
 

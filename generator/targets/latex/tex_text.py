@@ -16,8 +16,8 @@ _SPECIAL = {
 _MATH = {
     **{sign: greek(name) for name, sign in GREEK.items()},
     "−": "-", "±": r"\pm", "·": r"\cdot", "×": r"\times", "≤": r"\leq", "≥": r"\geq", "≠": r"\neq", "≈": r"\approx",
-    "‖": r"\Vert", "→": r"\to", "∂": r"\partial", "√": r"\surd", "°": r"{}^{\circ}", "½": r"\frac{1}{2}", "²": "{}^{2}",
-    "³": "{}^{3}", "∞": r"\infty", "µ": r"\mu", "⁻": "{}^{-}",
+    "‖": r"\Vert", "→": r"\to", "∂": r"\partial", "√": r"\surd", "°": r"{}^{\circ}", "½": r"\frac{1}{2}",
+    **{sign: f"{{}}^{{{k}}}" for k, sign in enumerate("⁰¹²³⁴⁵⁶⁷⁸⁹")}, "∞": r"\infty", "µ": r"\mu", "⁻": "{}^{-}",
 }  # fmt: skip
 _MARKS = {
     "\u0300": "`", "\u0301": "'", "\u0302": "^", "\u0303": "~", "\u0304": "=", "\u0306": "u", "\u0307": ".",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from gudgeon.contract.kernel_source import KernelSource
@@ -31,7 +32,11 @@ from gudgeon.generator.targets.latex.trace import Functions, functions_of, trace
 from gudgeon.language.shown import one_line
 
 # docs/physics.md, section 2
-PAPER = "Where the paper is spoken of: X. Chen, S. Gao, T. Wang, Nonlinear Dynamics, doi 10.1007/s11071-022-07478-4."
+PAPER = (
+    "Where the paper is spoken of: X. Chen, S. Gao, T. Wang, Experimental verification of dynamic behavior for "
+    "multi-link press mechanism with 2D revolute joint considering dry friction clearances and lubricated clearances, "
+    "Nonlinear Dynamics, doi 10.1007/s11071-022-07478-4."
+)
 
 
 def make_document(model: Model, found: Functions) -> Document:
@@ -46,10 +51,14 @@ def make_document(model: Model, found: Functions) -> Document:
         *reduction_sections(found),
         *([Section("Left out of this scene", tuple(paragraph(sentence(n)) for n in left_out))] if left_out else []),
     ]
-    if any(_names_the_paper(block) for section in sections for block in section.blocks):
-        sections.append(Section("The paper", (paragraph(PAPER),)))
     facts = (("mechanism ", mechanism.name, ", scene ", model.scene.name),)
-    return Document(one_line(mechanism.title or mechanism.name), facts, tuple(sections))
+    return Document(one_line(mechanism.title or mechanism.name), facts, with_paper(sections))
+
+
+def with_paper(sections: Sequence[Section]) -> tuple[Section, ...]:
+    """The sections; where one speaks of the paper, another one behind them names it."""
+    named = any(_names_the_paper(block) for section in sections for block in section.blocks)
+    return (*sections, Section("The paper", (paragraph(PAPER),))) if named else (*sections,)
 
 
 def _names_the_paper(block: Block) -> bool:
