@@ -139,13 +139,13 @@ def test_sides_that_make_no_triangle(tmp_path: Path) -> None:
     with pytest.raises(BadValueError, match=words):
         read_body(body.replace("PQ: s", "PQ: 2*s"))
     for wrong in (0.14, 0.15, 0.02, 0.01):  # degenerate ones too
-        with pytest.raises(BadValueError, match=r"bodies.body.sides.\w+ is [\d.]+: each side .* is 0\.\d+\)"):
+        with pytest.raises(BadValueError, match=r"bodies.body.sides.\w+ is [\d.]+ m.*: each side .* is 0\.\d+ m\)"):
             run(body, tmp_path, {"s": wrong})
     batch = gudgeon.load(tmp_path / "swing.yaml").simulate_many(
         {"s": [0.1, 0.15, 0.12]}, t_end=1e-3, output=1, method="dop853"
     )
     assert [failure.run for failure in batch.failures] == [1]
-    assert "(bodies.body.sides.PR + bodies.body.sides.QR is 0.14)" in str(batch.failures[0].error)
+    assert "(bodies.body.sides.PR + bodies.body.sides.QR is 0.14 m)" in str(batch.failures[0].error)
 
 
 WRONG: list[tuple[str, type[InputError], str]] = [

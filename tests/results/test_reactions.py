@@ -78,5 +78,5 @@ def test_axis_that_vanishes_at_run_time_is_refused(load: Load) -> None:
     ground: {o: [0, 0]}
     joints: {guide: {translational: [ground.o, s.origin], axis: [along, across]}}
     """
-    with pytest.raises(BadValueError, match="not finite"):
+    with pytest.raises(BadValueError, match=r"guide_axis_x_2 .* is nan"):
         load(text).simulate(1.0, parameters={"along": 0.0, "across": 0.0})
