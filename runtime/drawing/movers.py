@@ -163,7 +163,7 @@ def _spring_damper(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Sha
         return
     springs, damps = (posture.number(f"forces.{part.name}.{what}") != 0.0 for what in ("stiffness", "damping"))
     aside = 1.15 * u * turned(unit_vector(b - a)) if springs and damps else np.zeros(2)
-    ground = _ground_along(posture, plan, a, b)
+    ground = _ground_along(posture, plan, part, a, b)
     if springs and damps and ground is not None:  # both beside the rail
         aside = -1.15 * u * ground
         a, b, ends = a + aside, b + aside, (a, b)
@@ -184,10 +184,11 @@ def _spring_damper(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Sha
             yield Line(name, "spring", np.array([end, ends[0] + share * (b - a)]))
 
 
-def _ground_along(posture: Posture, plan: Plan, a: Array, b: Array) -> Array | None:
-    """On which side the ground lies of a rail along which both places are, a unit vector; None without such a rail."""
+def _ground_along(posture: Posture, plan: Plan, part: PartInfo, a: Array, b: Array) -> Array | None:
+    """On which side the ground lies of a rail along which an element holds what slides, a unit vector; None without."""
+    held = {body_of(end) for end in part.ends}
     for joint in posture.parts("joints", *SLIDING):
-        if has_rail(joint) and joint.name in plan.ways:
+        if has_rail(joint) and joint.name in plan.ways and held == {body_of(end) for end in joint.ends}:
             on, along, _ = axis_of(posture, joint)
             if max(abs(float((place - on) @ turned(along))) for place in (a, b)) < plan.unit:
                 return plan.ways[joint.name]
