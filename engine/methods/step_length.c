@@ -4,6 +4,7 @@
  */
 enum { MAX_STUCK = 200, MAX_CRAWL = 2000, PATIENCE = 8,
     SHORTENED = 12 /* times, by four each: what a step does not resolve then is noise */ };
+#define FINE 1e-9     /* of a run: in a step as short nothing is looked for that is shorter still */
 #define LONG_RUN 1e4  /* s: an end further away than this says nothing about the shortest step that makes sense */
 #define WORTH 0.8     /* of a stiff step's length, that an explicit one must have to be cheaper */
 #define WORKS 10.0    /* times rtol, that the works of a step may err, as a share of the energy turned over */
@@ -84,7 +85,7 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
             continue;
         }
         const int wanted = !status && step->error <= run->accept && run->fixed <= 0.0;
-        const double pulse = wanted ? missed_pulse(run, step, p) : 0.0;
+        const double pulse = wanted && h > FINE * far ? missed_pulse(run, step, p) : 0.0;
         if (pulse > 0.0 && shortened++ < SHORTENED) {
             again = 1;
             run->rejected++;

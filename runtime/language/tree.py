@@ -155,6 +155,25 @@ def calls(expr: Expr, function: str = "") -> Iterator[Call]:
                 yield from calls(argument, function)
 
 
+def reached(expr: Expr, function: str, value_of: Callable[[str], Any]) -> Iterator[Call]:
+    """The calls of one function on which the value of `expr` hangs: of a where's branches those that are picked."""
+    match expr:
+        case Unary(operand=operand):
+            yield from reached(operand, function, value_of)
+        case Binary(left=left, right=right):
+            yield from reached(left, function, value_of)
+            yield from reached(right, function, value_of)
+        case Call(arguments=arguments):
+            if function == expr.function:
+                yield expr
+            if expr.function == "where":
+                left, right, then, otherwise = arguments
+                gap = evaluate(left, value_of) - evaluate(right, value_of)
+                arguments = (left, right, *(then,) * bool(gap <= 0.0), *(otherwise,) * bool(gap >= 0.0))
+            for argument in arguments:
+                yield from reached(argument, function, value_of)
+
+
 def curve_calls(expr: Expr) -> Iterator[CurveCall]:
     """Every curve that is called in `expr`."""
     return (call for call in calls(expr) if isinstance(call, CurveCall))

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource, WrittenInfo
-from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Number, Unary, calls, evaluate, from_json, names
+from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Number, Unary, calls, evaluate, from_json, names, reached
 from gudgeon.model.compiled import Array, CompiledModel, Evaluation
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 CORNERED = frozenset({"abs", "min", "max", "ramp", "sign", "where", "mod"})  # whose corners end steps
 _REACH = tuple(10.0**k for k in range(-13, -8))  # s, or share of the time: how far ahead of a state a reason may lie
+MOST_CORNERS = 64  # of a where, that are looked at one after the other
 Values = Callable[[str], float]
 
 
@@ -107,6 +108,28 @@ def undefined_here(source: KernelSource, p: Array, t: float, q: Array, v: Array,
                     if told := next(filter(None, words), ""):
                         return told
     return ""
+
+
+def undefined_at_a_corner(
+    source: KernelSource, p: Array, info: WrittenInfo, tree: Expr, t: Array
+) -> tuple[str, float] | None:
+    """What of a drive is no number where one of its wheres changes over between the times t, and when; None: all is."""
+    none = np.zeros(0)
+    found = []
+    for call in calls(tree, "where"):
+        gap = Binary("-", *call.arguments[:2])
+
+        def ahead_of_zero(time: float, gap: Expr = gap) -> bool:
+            return bool(of_time(source, p, gap, np.array([time]))[0] < 0.0)
+
+        before = of_time(source, p, gap, t) < 0.0
+        for k in np.flatnonzero(before[1:] != before[:-1])[:MOST_CORNERS].tolist():
+            for end in _neighbours(ahead_of_zero, float(t[k]), float(t[k + 1])):
+                values = values_at(source, p, end, none, none)
+                if any(other is call for other in reached(tree, "where", values)):
+                    told = _of_branches(source, p, info, call, end, none, none)
+                    found += [(told, end)] if told else []
+    return min(found, key=lambda one: one[1], default=None)
 
 
 def _neighbours(answer: Callable[[float], bool], low: float, high: float) -> tuple[float, float]:

@@ -17,11 +17,12 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import KINEMATIC
-from gudgeon.errors import SolverError
+from gudgeon.errors import NonFiniteError, SolverError
+from gudgeon.integrators.failure import NO_NUMBER
 from gudgeon.integrators.trajectory import Problem
 from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, functions, names
 from gudgeon.model.compiled import Array
-from gudgeon.model.written import CORNERED, of_time, trees
+from gudgeon.model.written import CORNERED, of_time, trees, undefined_at_a_corner
 
 BREAKING = frozenset({"where", "mod"})  # of CORNERED: the value itself may jump
 _HIDING = frozenset({"sqrt", "hypot", "asin", "acos", "atan", "atan2", "tan", "log"})
@@ -33,13 +34,14 @@ EVERYWHERE = 6  # of them that stand out like the one that does most: it is no p
 
 @dataclass(frozen=True)
 class Jump:
-    """Where and how: "rate" (by `size`, of f's unit a second), "infinite rate" or "value" (by `size`)."""
+    """Where and how: "rate" (by `size`, of f's unit a second), "infinite rate", "value" (by `size`), or `told`."""
 
     drive: str
     t: float
     kind: str
     size: float
     breaks: bool = False  # between what where and mod choose
+    told: str = ""  # a branch of a where is no number at its own corner: in words
 
 
 def hidden_jumps(source: KernelSource, p: Array, t0: float, t1: float) -> list[Jump]:
@@ -114,10 +116,13 @@ def up_to_a_jump(problem: Problem) -> tuple[Problem, SolverError | None]:
     why = "its rate is no number there" if first.kind == "rate" else "no linkage follows it"
     told = _told(first, "the impulse there would be left out" if _integrates(source) else why)
     found_to = 1e-10 * max(abs(t0), abs(first.t)) if first.breaks else 0.0  # at the jump itself it is on either side
-    return replace(problem, t=problem.t[problem.t < first.t - found_to]), SolverError(told, first.t)
+    error = (NonFiniteError if first.told else SolverError)(told, first.t)
+    return replace(problem, t=problem.t[problem.t < first.t - found_to]), error
 
 
 def _told(jump: Jump, why: str) -> str:
+    if jump.told:
+        return f"{jump.told}\n  {NO_NUMBER}"
     if jump.kind == "infinite rate":
         return (
             f"drive {jump.drive}: its rate is infinite at t = {jump.t:.6g} s: no velocity is a number there\n"
@@ -158,6 +163,10 @@ def _first_break(source: KernelSource, p: Array, tree: Expr, drive: str, t0: flo
     """The first time at which a drive jumps, its end among them, where the last sample is on either side; or none."""
     behind = AT_THE_END * (t1 - t0)
     t1 += behind
+    info = next(info for info, _ in trees(source, ("drives",)) if info.address.split(".")[1] == drive)
+    undefined = undefined_at_a_corner(source, p, info, tree, np.linspace(t0, t1, GRID + 1))
+    if undefined:
+        t1 = undefined[1]
     share, h = _share(source, p, tree, t0, t1, "reflect"), (t1 - t0) / GRID  # the last place may stand out too
     for k in np.flatnonzero(share > 3.0)[:MOST_CORNERS].tolist():
         at = t0 + (k + 1) * h
@@ -166,7 +175,7 @@ def _first_break(source: KernelSource, p: Array, tree: Expr, drive: str, t0: flo
             near = of_time(source, p, tree, np.array([at - h, at, at + h]))
             if jump.size > 10.0 * behind * np.abs(np.diff(near)).max() / h:  # else the corner of a rate, so near an end
                 return [replace(jump, breaks=True)]
-    return []
+    return [Jump(drive, t1, "no number", np.nan, breaks=True, told=undefined[0])] if undefined else []
 
 
 def _share(source: KernelSource, p: Array, tree: Expr, t0: float, t1: float, beyond: Any = "edge") -> Array:

@@ -279,11 +279,20 @@ drives: {motor: {coordinate: cart.x, value: "0.05 m * where(PHASE < T/2, PHASE/T
     ("law", "method"), [("where(t < 0.3 s, 1, sin(U)/U)", "rk4"), ("where(t < 0.3 s, sin(U)/U, 1)", "dop853")]
 )
 def test_a_branch_that_is_no_number_at_its_own_corner_is_named(law: str, method: str, tmp_path: Path) -> None:
-    """It was a second rate that grows beyond all bounds, or no step was small enough."""
+    """It was a second rate that grows beyond all bounds, or no step was small enough: rates are 0/0 in binary64."""
     linkage = loader(tmp_path)(LINKAGE % law.replace("U", "(t/(1 s) - 0.3)"))
     step = 1e-2 if method == "rk4" else None
-    with pytest.raises(SolverError, match=r"drives\.motor\.value \(line .* at t = 0\.3 s.*nan: 0 divided by 0"):
+    with pytest.raises(SolverError, match=r"drives\.motor\.value \(line .* at t = 0\.3 s.*nan: 0 divided by 0") as told:
         linkage.simulate(0.6, method=method, step=step)
+    assert 0.29 < told.value.partial.t[-1] < 0.3
+    assert linkage.simulate(0.29, method=method, step=step).t[-1] == 0.29
+
+
+def test_a_corner_that_is_not_reached_is_no_matter(tmp_path: Path) -> None:
+    """The inner where changes over at 0.3 s, where the outer one does not ask it."""
+    law = "where(t < 0.5 s, 1, where(t < 0.3 s, sin(U)/U, 1))".replace("U", "(t/(1 s) - 0.3)")
+    plain, asked = (loader(tmp_path)(LINKAGE % value).simulate(0.6, output=2) for value in ("1", law))
+    np.testing.assert_allclose(asked.q, plain.q, rtol=0, atol=1e-9)
 
 
 @pytest.mark.parametrize("method", ["dop853", "rodas5p"])
