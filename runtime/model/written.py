@@ -117,7 +117,8 @@ def undefined_at_a_corner(
     none = np.zeros(0)
     found = []
     for call in calls(tree, "where"):
-        gap = Binary("-", *call.arguments[:2])
+        left, right = call.arguments[:2]
+        gap = Binary("-", left, right)
 
         def ahead_of_zero(time: float, gap: Expr = gap) -> bool:
             return bool(of_time(source, p, gap, np.array([time]))[0] < 0.0)
