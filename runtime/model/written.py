@@ -16,7 +16,17 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource, WrittenInfo
 from gudgeon.language.tree import (
-    Binary, Call, CurveCall, Expr, Number, Unary, calls, evaluate, from_json, names, reached,
+    Binary,
+    Call,
+    CurveCall,
+    Expr,
+    Number,
+    Unary,
+    calls,
+    evaluate,
+    from_json,
+    names,
+    reached,
 )  # fmt: skip
 from gudgeon.model.compiled import Array, CompiledModel, Evaluation
 
