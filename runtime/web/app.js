@@ -187,7 +187,7 @@ class App {
         const upTo = error.partial?.q?.length ? " What is shown is the run up to there." : "";
         const {message} = error, blamed = this.panel?.blamed(message) ?? "";
         const call = `gudgeon.load(${this.settings.loaded}).simulate(parameters=${JSON.stringify(this.panel?.given)})`;
-        const python = error.searched ? ` Python searches on from this guess: ${call}.` : "";
+        const python = error.searched ? ` Python searches on and runs from what it finds: ${call}.` : "";
         this.complain(`${message}${blamed}.${python}${upTo || (this.run ? " What is shown is the run before." : "")}`);
     }
 
@@ -310,7 +310,8 @@ class App {
         this.drawing.show(q, p, (name) => this.load(name, k), by("g-forces").checked ? this.forces(k) : []);
         for (const part of [...this.charts, ...this.orbits]) if (part.run === run) part.cursor(k);
         if (this.reads) for (const {name, cell, unit} of this.values) this.tell(name, cell, unit, k);
-        if (document.activeElement !== by("g-when") || this.playing) by("g-when").value = 1000 * (t - run.t[0]) / (this.span || 1);
+        const share = (t - run.t[0]) / (this.span || 1);
+        if (document.activeElement !== by("g-when") || this.playing) by("g-when").value = 1000 * share;
         by("g-t").textContent = `t = ${t.toFixed(4)} s`;
         by("g-when").setAttribute("aria-valuetext", `${t.toFixed(4)} seconds`);
         const isNone = (x, unit) => this.isNone(x, unit);

@@ -207,7 +207,7 @@ class Simulator {
         const {q, v} = this.about.start, [now, before] = [this.p, this.file].map((p) => this.startFollows(p));
         const parts = v.some((x) => x !== 0) ? ["rows", "masses"] : ["rows"]; // at rest no mass counts
         if (!parts.every((part) => now[part].every((x, k) => Object.is(x, before[part][k]))))
-            throw searched("these numbers move the start of this scene, which is found in Python only (gudgeon.load)");
+            throw searched("these numbers move the start of this scene, which is found in Python only");
         return {q: Float64Array.from(q), v: Float64Array.from(v)};
     }
 
