@@ -5,6 +5,7 @@
 const SPENT = 4; // ms of a frame in which a run goes on, or what follows from it
 const PATIENT = 200; // ms that a run may take while numbers go on moving: hands should see what they do
 const PAINT = "paint"; // what a piece of work ends with that the browser has to paint: one of these a frame
+const MOST_TOLD = 8; // of a link's numbers, that are not taken
 const READ = 100; // ms between two numbers that are to be read
 
 /* "1 step", "1,000 steps". */
@@ -91,7 +92,8 @@ class App {
                 this.panel.given[address] = slot.words ? text : value;
             else odd.push(`${one} (expected ${slot?.words?.join(" or ") ?? "a number"})`);
         }
-        if (odd.length) by("g-note").textContent = `Not taken from the link: ${odd.join(", ")}.`;
+        const more = odd.splice(MOST_TOLD).length ? " and more" : "";
+        if (odd.length) by("g-note").textContent = `Not taken from the link: ${odd.join(", ")}${more}.`;
         this.again = Object.keys(this.panel.given).length > 0; // what goes on then (goOn) begins again
     }
 

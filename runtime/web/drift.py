@@ -1,4 +1,4 @@
-"""What a page says of drift where it shows none at first: why constraints hold in it, and Python in which they drift."""
+"""What a page says of drift where it shows none at first: why constraints hold, and Python in which they drift."""
 
 from __future__ import annotations
 

@@ -189,8 +189,8 @@ def test_scenes_lead_to_each_other(opened: Any, tmp_path: Path, call: Gudgeon) -
     assert page.page.evaluate("gudgeonApp.panel.given") == {"bodies.rod.mass": -1}
     assert "bodies.rod.mass is -1 kg: a mass is positive; expected > 0 kg" in page.error()
     assert page.page.inner_text("#g-note") == (
-        "Not taken from the link: parameters.omega = nan (expected a number), parameters.c = nothing (expected a number),"
-        " t = x (expected a number), bodies.rad.mass = 1 (this scene has no such number)."
+        "Not taken from the link: parameters.omega = nan (expected a number), parameters.c = nothing"
+        " (expected a number), t = x (expected a number), bodies.rad.mass = 1 (this scene has no such number)."
     )
     assert page.same_bits(gudgeon.load("slider_crank", "dry").simulate())  # the file's numbers are what is shown
     assert page.complaints == []

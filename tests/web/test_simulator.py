@@ -35,6 +35,7 @@ RUNS: dict[tuple[str, str], list[dict[str, Any]]] = {
     ("andrews_squeezer", "ideal"): [{"t_end": 0.03, "output": 60}],
 }  # fmt: skip
 
+FAST: dict[str, Any] = {"t_end": 0.05, "output": 10, "method": "rk4", "step": 2e-4}
 SOON: dict[str, Any] = {"t_end": 0.02, "output": 20, "method": "dop853"}
 WHILE: dict[str, Any] = {"t_end": 2.0, "output": 37}
 
@@ -113,6 +114,17 @@ def test_numbers_of_a_page_and_what_it_refuses(tmp_path: Path) -> None:
     assert not np.array_equal(native.q, press.simulate(**options).q)
     for found, text in zip(refused, (*wrong, *odd, *(text for text, _ in kinds)), strict=True):
         assert text in found.error
+
+
+@needs_node
+def test_a_journal_that_is_too_deep_is_named(tmp_path: Path) -> None:
+    """Which one, and how deep, as the native run says it."""
+    crank, options = gudgeon.load("slider_crank", "dry"), FAST
+    with pytest.raises(SolverError) as caught:
+        crank.simulate(**options)
+    (found,) = in_node(crank, tmp_path, [{"options": options}])
+    told = str(caught.value).partition(", at t = ")[0]
+    assert "the journal of wristpin lies 129 mm deep" in told and found.error == f"{told}: t = 0.002 s"
 
 
 @needs_node
@@ -220,6 +232,7 @@ def test_events_are_noted_and_end_a_run(text: str, scene: str, tmp_path: Path) -
     assert list(found.shares) == sorted(found.shares)
 
 
+LONG: dict[str, Any] = {"t_end": 2000.0, "output": 2}
 FAR = {"half: {zero: crank.theta - 30 deg, action": "half: {zero: crank.theta - 1000.5 rad, action"}
 
 
@@ -230,7 +243,7 @@ def test_few_samples_of_a_long_time_come_in_pieces(scene: str, tmp_path: Path) -
     text = CRANK.replace("length: 80 mm", "length: 200 mm")
     for old, new in FAR.items():
         text = text.replace(old, new)
-    simulation, asked = loader(tmp_path)(text, scene), {"t_end": 2000.0, "output": 2}
+    simulation, asked = loader(tmp_path)(text, scene), LONG
     native = simulation.simulate(**asked)
     (found,) = in_node(simulation, tmp_path, [{"options": asked, "slices": True}])
     assert found.error == "" and np.array_equal(found.arrays["t"], native.t)
