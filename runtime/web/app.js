@@ -5,7 +5,13 @@
 const SPENT = 4; // ms of a frame in which a run goes on, or what follows from it
 const PATIENT = 200; // ms that a run may take while numbers go on moving: hands should see what they do
 const PAINT = "paint"; // what a piece of work ends with that the browser has to paint: one of these a frame
+const MOST_TOLD = 8; // of a link's numbers, that are not taken
 const READ = 100; // ms between two numbers that are to be read
+
+/* "1 step", "1,000 steps". */
+function howMany(count, names) {
+    return `${count.toLocaleString("en")} ${count === 1 ? names.replace(/s$/, "") : names}`;
+}
 
 const by = (id) => document.getElementById(id);
 
@@ -74,14 +80,20 @@ class App {
         };
     }
 
-    /* Numbers of the page that led here, those that this scene has, once the file's own were run. */
+    /* Numbers of the page that led here, those that this scene has, once the file's own were run; others are told. */
     arrive() {
-        for (const [address, text] of new URLSearchParams(location.hash.slice(1))) {
+        const odd = [], asked = location.hash.includes("=") ? location.hash.slice(1) : ""; // else a place of the page
+        for (const [address, text] of new URLSearchParams(asked)) {
             const slot = this.about.slots.find((one) => one.address === address), value = typed(text, {factor: 1});
+            const one = `${address} = ${text || "nothing"}`.slice(0, 80);
             if (address === "t" && Number.isFinite(value)) this.seek(value);
-            else if (slot && (slot.words ? slot.words.includes(text) : Number.isFinite(value)))
+            else if (!slot && address !== "t") odd.push(`${one} (this scene has no such number)`);
+            else if (slot?.words ? slot.words.includes(text) : Number.isFinite(value))
                 this.panel.given[address] = slot.words ? text : value;
+            else odd.push(`${one} (expected ${slot?.words?.join(" or ") ?? "a number"})`);
         }
+        const more = odd.splice(MOST_TOLD).length ? " and more" : "";
+        if (odd.length) by("g-note").textContent = `Not taken from the link: ${odd.join(", ")}${more}.`;
         this.again = Object.keys(this.panel.given).length > 0; // what goes on then (goOn) begins again
     }
 
@@ -176,7 +188,9 @@ class App {
     failed(error) {
         const upTo = error.partial?.q?.length ? " What is shown is the run up to there." : "";
         const {message} = error, blamed = this.panel?.blamed(message) ?? "";
-        this.complain(`${message}${blamed}.${upTo || (this.run ? " What is shown is the run before." : "")}`);
+        const call = `gudgeon.load(${this.settings.loaded}).simulate(parameters=${JSON.stringify(this.panel?.given)})`;
+        const python = error.searched ? ` Python searches on and runs from what it finds: ${call}.` : "";
+        this.complain(`${message}${blamed}.${python}${upTo || (this.run ? " What is shown is the run before." : "")}`);
     }
 
     complain(text) {
@@ -212,12 +226,14 @@ class App {
 
     counted(run) {
         const made = Object.entries(run.counts ?? {}).filter(([name]) => ["steps", "right_hand_sides"].includes(name));
-        const counts = made.map(([name, count]) => `${count.toLocaleString("en")} ${name.replaceAll("_", " ")}`);
+        const counts = made.map(([name, count]) => howMany(count, name.replaceAll("_", " ")));
         const how = run.estimated ? " (estimated for the file’s numbers)" : "";
         if (run.step) counts.unshift(`steps of ${quantity(run.step, "s", 4)}${how}`);
-        if (run.impacts.length) counts.push(`${run.impacts.length} impacts`);
+        if (run.impacts.length) counts.push(howMany(run.impacts.length, "impacts"));
         const ms = this.begun === undefined ? "" : `, ${(performance.now() - this.begun).toFixed(0)} ms`;
-        by("g-counts").textContent = `${told(this.span)} s simulated: ${counts.join(", ")}${ms}`;
+        const length = this.span ? `${told(this.span)} s simulated` : "the run ends where it begins";
+        by("g-counts").textContent = `${length}: ${counts.join(", ")}${ms}`;
+        by("g-when").disabled = !this.span;
     }
 
     seriesOf(name) { return this.run.names.includes(name) ? this.run.series(name) : []; }
@@ -296,7 +312,8 @@ class App {
         this.drawing.show(q, p, (name) => this.load(name, k), by("g-forces").checked ? this.forces(k) : []);
         for (const part of [...this.charts, ...this.orbits]) if (part.run === run) part.cursor(k);
         if (this.reads) for (const {name, cell, unit} of this.values) this.tell(name, cell, unit, k);
-        if (document.activeElement !== by("g-when") || this.playing) by("g-when").value = 1000 * (t - run.t[0]) / this.span;
+        const share = (t - run.t[0]) / (this.span || 1);
+        if (document.activeElement !== by("g-when") || this.playing) by("g-when").value = 1000 * share;
         by("g-t").textContent = `t = ${t.toFixed(4)} s`;
         by("g-when").setAttribute("aria-valuetext", `${t.toFixed(4)} seconds`);
         const isNone = (x, unit) => this.isNone(x, unit);

@@ -1,6 +1,6 @@
 /* The numbers of the file and what a run is asked for, as fields that a hand or a keyboard moves. */
 const METHODS = {
-    auto: "auto", kinematic: "kinematic (Φ = 0 by Newton)", rk4: "rk4 (Baumgarte, not projected)",
+    auto: "auto", driven: "rk4 (all rows of Φ kept: they drift)", kinematic: "kinematic (Φ = 0 by Newton)", rk4: "rk4 (Baumgarte, not projected)",
     dop853: "dop853 (projected onto Φ = 0)", rodas5p: "rodas5p (implicit, projected)",
 };
 
@@ -114,11 +114,13 @@ class Choice {
 
 /* Everything that a run may be given. `changed` is called after each move, `complain` with what is refused. */
 class Panel {
-    constructor(form, {groups, units, drift}, about, {changed, complain, formulated}) {
-        Object.assign(this, {about, changed, complain, formulated, units, drift, given: {}, moved: null});
+    constructor(form, {groups, units, drift, drifts}, about, {changed, complain, formulated}) {
+        Object.assign(this, {about, changed, complain, formulated, units, drift, drifts, given: {},
+            moved: null, gains: []});
         this.options = new Options(form, about, this);
         this.fields = groups.flatMap(({title, numbers}, k) => {
             const box = section(title, k === 0, form);
+            if (numbers.every((one) => about.gains.includes(one.k))) this.gains.push(box);
             return numbers.map((one) => {
                 const slot = about.slots[one.k];
                 return new (slot.words ? Choice : NumberField)(this, one, slot, box);
@@ -148,6 +150,7 @@ class Panel {
     show(sim) {
         for (const field of this.fields) field.show(sim.p, this.given[field.slot.address]);
         this.options.show(sim);
+        for (const box of this.gains) box.hidden = !this.options.heldByGains;
         this.reset.disabled = !Object.keys(this.given).length;
     }
 
@@ -166,14 +169,14 @@ class Panel {
 class Options {
     constructor(form, about, panel) {
         const box = section("Run", true, form);
-        Object.assign(this, {about, seconds: panel.units.s});
+        const driven = about.methods[0] === "kinematic";
+        Object.assign(this, {about, seconds: panel.units.s, drifts: panel.drifts});
         this.method = this.row(box, "method", element("select", {class: "g-across"}));
-        for (const name of about.methods.length > 1 ? ["auto", ...about.methods] : about.methods)
-            element("option", {value: name}, this.method).textContent = METHODS[name] ?? name;
+        for (const name of driven ? about.methods : ["auto", ...about.methods])
+            element("option", {value: name}, this.method).textContent = METHODS[driven && name === "rk4" ? "driven" : name] ?? name;
         if (by("gudgeon-module-full")) this.formulations(box, panel);
         if (panel.drift) this.drift(box, panel.drift);
-        const integrates = about.methods[0] !== "kinematic";
-        this.rtol = integrates ? this.field(box, "rtol", "") : null;
+        this.rtol = !driven ? this.field(box, "rtol", "") : null;
         this.step = about.methods.includes("rk4") ? this.field(box, "step", "s") : null;
         this.t_end = this.field(box, "t_end", "s");
         this.output = this.field(box, "output", "intervals");
@@ -188,7 +191,7 @@ class Options {
 
     /* The same motion in coordinates of a tree, where joints hold by themselves, or of all bodies, where they drift. */
     formulations(box, panel) {
-        const made = this.row(box, "formulation", element("select", {class: "g-across"}));
+        const made = this.formulation = this.row(box, "formulation", element("select", {class: "g-across"}));
         for (const [name, told_] of [["", "reduced (a tree’s coordinates)"], ["-full", "full (all rows of Φ)"]])
             element("option", {value: name}, made).textContent = told_;
         made.onchange = () => panel.formulated(made.value);
@@ -206,12 +209,17 @@ class Options {
     /* Why no constraint drifts here, and Python in which they do. */
     drift(box, {note, code}) {
         element("p", {class: "g-quiet"}, box).textContent = note;
-        const more = section("To see a drift: Python", false, box);
+        const more = section("A drift in Python", false, box);
         element("pre", {}, more).textContent = code;
     }
 
     field(box, name, unit) {
         return this.row(box, name, element("input", {type: "text", size: 8}), unit);
+    }
+
+    /* Baumgarte's terms act on rows that are integrated and not projected. */
+    get heldByGains() {
+        return this.method.value === "rk4" && (this.drifts || this.formulation?.value === "-full");
     }
 
     /* What an empty field stands for. */

@@ -15,6 +15,7 @@ from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.assembly.redundant_rows import OPEN, left_out
 from gudgeon.assembly.start import assemble
 from gudgeon.contract.kernel_source import KernelSource, PointInfo, Slot
+from gudgeon.contract.methods import KINEMATIC
 from gudgeon.integrators.adaptive import FELT_BY_FILMS, RTOL, begins_with, integrated_angles
 from gudgeon.integrators.kinematic import REACH
 from gudgeon.model.choices import said
@@ -39,7 +40,7 @@ def description(compiled: CompiledModel) -> str:
         "slots": [_slot(slot) for slot in source.slots], "derived": source.derived,
         "conditions": [asdict(condition) for condition in conditions(source)],
         "gains": [place[name] for name in GAINS if name in place],
-        "methods": source.methods, "begins": begins_with(source), "automatic": not source.states,
+        "methods": _methods(source), "begins": begins_with(source), "automatic": not source.states,
         "pivots": source.motion_pivots, "start_pivots": source.start_pivots,
         "evaluation_pivots": source.pivots,
         "angles": integrated_angles(source).tolist(), "sizes": size_places(source),
@@ -56,6 +57,12 @@ def description(compiled: CompiledModel) -> str:
         "notes": [NOT_SEEN] if may_jump(source) else [],
     }  # fmt: skip
     return json.dumps(found, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+
+
+def _methods(source: KernelSource) -> list[str]:
+    """Python's; where the drives leave no freedom, rows that are kept may be integrated too, events not looked for."""
+    driven = source.methods == (KINEMATIC,)
+    return [*source.methods, *(["rk4"] if driven and not source.events else [])]
 
 
 def _slot(slot: Slot) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""What a page says of drift where it cannot show any: why constraints hold in it, and Python in which they drift."""
+"""What a page says of drift where it shows none at first: why constraints hold, and Python in which they drift."""
 
 from __future__ import annotations
 
@@ -9,10 +9,12 @@ from gudgeon.contract.methods import KINEMATIC
 from gudgeon.loading.shipped import shipped, shipped_file
 from gudgeon.simulation.simulation import Simulation
 
-SOLVED = (
-    "The drives leave no freedom: Φ = 0 is solved at each sample and nothing is integrated, so that no constraint"
-    " drifts and Baumgarte’s terms have nothing to do."
+SOLVED = "The drives leave no freedom: Φ = 0 is solved at each sample, so that no constraint drifts."
+KEPT = (
+    " Method rk4 integrates a = Φ_q⁻¹ (γ − 2α Φ̇ − β² Φ) instead, with all rows kept: Φ drifts (its trace is Phi.max),"
+    " or is held by Baumgarte’s terms, whose α and β are shown then."
 )
+EVENTS = " Its rows are not integrated on this page, for its events are looked for along the solved motion alone."
 HELD = (
     "Here the joints of the tree hold by themselves. The full formulation, in which all rows of Φ, those of the drives"
     " too, drift or are held by Baumgarte’s terms, is not on this page."
@@ -48,15 +50,20 @@ print(run["Phi.max"].max())
 def told(simulation: Simulation, carried: bool) -> dict[str, str] | None:
     """{note, code} of a scene; None where the page itself has a formulation that drifts. `carried`: the full one."""
     if simulation.source.methods == (KINEMATIC,):
-        note, code = SOLVED, INTEGRATED
+        note, code = SOLVED + (EVENTS if simulation.source.events else KEPT), INTEGRATED
     elif simulation.source.formulation == "reduced" and not carried:
         note, code = HELD, RUN
     else:
         return None
-    return {"note": note, "code": code.substitute(loaded=_loaded(simulation))}
+    return {"note": note, "code": code.substitute(loaded=loaded(simulation))}
 
 
-def _loaded(simulation: Simulation) -> str:
+def drifts(simulation: Simulation) -> bool:
+    """Whether rk4 of a page integrates all rows of the scene, which Baumgarte's terms hold then."""
+    return simulation.source.formulation != "reduced" or simulation.source.methods == (KINEMATIC,)
+
+
+def loaded(simulation: Simulation) -> str:
     """What `gudgeon.load` is given: the name of a shipped file or that of the user's, without its folder; the scene."""
     name = simulation.file.stem
     own = name not in shipped() or not simulation.file.samefile(shipped_file(name))

@@ -3,6 +3,7 @@
  * runtime/integrators/session.py, adaptive.py, rk4.py and kinematic.py do, call for call, so that bits are the same.
  */
 const WORKS = 3, MOST_LISTED = 256; // events and impacts that the engine's lists hold
+const AT_ONCE = 2000; // steps between samples of a motion without a freedom, before somebody else has a turn
 const EVENTS_FULL = -3, ENDED = -7, EVENT_STOPS = 1; // statuses of engine/scene/types.h and kinematic/events.c
 const TOLD = {
     "-2": "the motion is no longer finite", "-4": "a friction or a corner of the forces changes its side without end",
@@ -32,7 +33,7 @@ function before(t, time) {
 /* The error of a status at a time, with the run so far. */
 function failure(run, status, told, pivots, t) {
     const why = told[status] ?? `singular: the pivot of constraint row ${pivots[status - 1]} vanished`;
-    return Object.assign(new Error(`${why}: t = ${t} s`), {partial: run, status, t});
+    return Object.assign(new Error(`${why}: t = ${said(t, "s", 9)}`), {partial: run, status, t});
 }
 
 /* A run whose motion is integrated: its struct, and rows of samples as C fills them. */
@@ -88,6 +89,16 @@ class Session {
         const counts = this.memory.longs(this.report_at[1], COUNTS.length);
         const named = Object.fromEntries(COUNTS.map((name, k) => [name, counts[k]]));
         return {t: this.memory.view(this.report_at[0], 1)[0], counts: named};
+    }
+
+    /* What is said of statuses here: of journals that are too deep which one, and how deep. */
+    get told() {
+        const peaks = this.memory.view(this.report_at[3], 3 * this.width.state), {about, p} = this.sim;
+        const depths = about.clearances.map(([name, k], i) => [peaks[3 * i + 2] - p[k], name]);
+        const [depth, name] = depths.sort(([a], [b]) => b - a)[0] ?? [];
+        const deep = `the journal of ${name} lies ${Number((1e3 * depth).toPrecision(3))} mm deep in its bearing, beyond a`
+            + " tenth of its radius";
+        return depths.length ? {...TOLD, "-8": deep} : TOLD;
     }
 
     /* The first sample from a row on that is no number; undefined: none is. */
@@ -151,7 +162,7 @@ function* integrate(sim, asked, memory, run) {
         else if (status === ENDED) session.close();
         else if (status) {
             session.take();
-            throw failure(run, status, TOLD, sim.about.pivots, odd === undefined ? t : asked.t[odd]);
+            throw failure(run, status, session.told, sim.about.pivots, odd === undefined ? t : asked.t[odd]);
         }
         if (status === ENDED) break;
         yield t / t_end;
@@ -173,6 +184,8 @@ class Way {
         this.longs = memory.bytes(8);
         this.side = memory.bytes(sim.about.events.length);
         this.course = memory.bytes(lib.gudgeon_course_size());
+        this.row_size = 1 + 2 * n;
+        this.tape = memory.numbers(AT_ONCE * this.row_size);
         const {q, v} = sim.start();
         memory.view(this.q, n).set(q);
         memory.view(this.v, n).set(v);
@@ -182,12 +195,44 @@ class Way {
     /* Places of a row: time, q, v. */
     row(i) { return [this.times + 8 * i, this.q + 8 * i * this.n, this.v + 8 * i * this.n]; }
 
-    /* Rows up to `last`: the last one that was reached, and why no further. */
-    motion(first, last) {
-        const [t, q, v] = this.row(first), a = this.a + 8 * first * this.n;
-        const status = this.lib.gudgeon_kinematic(this.course, last - first, t, this.p, q, v, a, this.maxima,
-            this.maxima + 8, this.longs, this.longs + 4);
-        return [first + this.memory.longs(this.longs, 2)[1], status];
+    /* Rows up to `last`: the last one that was reached, and why no further; not one where the next is far away. */
+    motion(first, last, room = AT_ONCE) {
+        const [t, q, v] = this.row(first), a = this.a + 8 * first * this.n, {lib, course} = this;
+        lib.gudgeon_course_tape(course, room && this.tape, room);
+        const status = lib.gudgeon_kinematic(course, last - first, t, this.p, q, v, a, this.maxima, this.maxima + 8,
+            this.longs, this.longs + 4);
+        const moved = first + this.memory.longs(this.longs, 2)[1], full = status === EVENTS_FULL;
+        if (full && moved > first) lib.gudgeon_course_again(course); // from there, as if it had gone no further
+        return [moved, full ? 0 : status];
+    }
+
+    /* Many steps have not led to the next row: it stands where they ended until `goOn` or `arrive`. */
+    rest(first) {
+        const {n, memory, row_size} = this, [time, q, v] = this.row(first + 1);
+        const [t, ...state] = memory.view(this.tape + 8 * (AT_ONCE - 1) * row_size, row_size);
+        this.resting = {row: first + 1, t: this.t[first + 1]};
+        this.t[first + 1] = memory.view(time, 1)[0] = t;
+        [q, v].forEach((place, k) => memory.view(place, n).set(state.slice(k * n, k * n + n)));
+    }
+
+    /* From the place of that rest, which takes the row of the last sample; what that one has is kept. */
+    goOn(first) {
+        const {memory, n, resting} = this, places = [...this.row(first), this.work + 8 * first * WORKS];
+        const sizes = [1, n, n, WORKS], next = [...this.row(first + 1), this.work + 8 * (first + 1) * WORKS];
+        this.kept ??= {places, t: this.t[first], first, values: places.map((place, k) => memory.copy(place, sizes[k]))};
+        places.forEach((place, k) => memory.view(place, sizes[k]).set(memory.copy(next[k], sizes[k])));
+        this.t[first] = this.t[first + 1];
+        this.t[first + 1] = memory.view(next[0], 1)[0] = resting.t;
+        this.resting = null;
+    }
+
+    /* The sample has its row again. */
+    arrive() {
+        const {kept, memory} = this;
+        if (!kept) return;
+        kept.places.forEach((place, k) => memory.view(place, kept.values[k].length).set(kept.values[k]));
+        this.t[kept.first] = kept.t;
+        this.kept = null;
     }
 
     /* Works of the same rows: the last one, and why no further. */
@@ -203,7 +248,7 @@ class Way {
     eventStops(first, end) {
         if (!this.sim.about.events.length || end === first) return false;
         const times = [...this.t.subarray(first, end + 1)];
-        if (end === this.t.length - 1)
+        if (times[times.length - 1] === this.t_end)
             times.push(this.t_end + Math.max(4 * spacing(this.t_end), 1e-12 * (this.t_end - times[times.length - 2])));
         for (let done = 0; done < times.length - 1;) {
             const [status, count] = this.look(first + done, times.slice(done));
@@ -233,12 +278,13 @@ class Way {
     /* An event ends the run among these rows: the last sample stands at its time. */
     cut(first, end) {
         const t_end = Math.max(...this.run.events.map(({t}) => t));
-        const last = first + before(this.t.subarray(first, end + 1), t_end - resolution(this.run.t));
+        const rows = before(this.t.subarray(first, end + 1), t_end - resolution(this.run.t));
+        const last = first + Math.max(rows, Number(Boolean(this.kept))); // whose row is another's now
         this.t = Float64Array.of(...this.t.subarray(0, last), t_end);
         this.memory.view(this.times, last + 1)[last] = t_end;
         if (last === first) return last;
         this.lib.gudgeon_course_again(this.course);
-        const [, status] = this.motion(last - 1, last);
+        const [, status] = this.motion(last - 1, last, 0);
         if (status) throw failure(this.run, status, KINEMATIC_TOLD, this.sim.about.start_pivots, t_end);
         return last;
     }
@@ -253,6 +299,7 @@ class Way {
     }
 
     take(rows) {
+        this.arrive();
         const {memory, n} = this, of = (place, width) => memory.copy(place, rows * width);
         Object.assign(this.run, {t: this.t.slice(0, rows), q: of(this.q, n), v: of(this.v, n), a: of(this.a, n),
             work: of(this.work, WORKS), memory: new Float64Array(rows), state: new Int8Array(0),
@@ -274,7 +321,9 @@ function* follow(sim, asked, memory, run) {
     const way = new Way(sim, asked, memory, run), samples = asked.t.length - 1;
     let first = 0, last = samples, stops = false;
     do {
-        const [moved, failed] = way.motion(first, Math.min(first + asked.slice, last));
+        let [moved, failed] = way.motion(first, Math.min(first + asked.slice, last));
+        const rests = moved === first && !failed && last > first;
+        if (rests) way.rest(moved++);
         stops = way.eventStops(first, moved);
         if (stops) last = way.cut(first, moved);
         const [worked, unknown] = way.works(first, stops ? last : moved);
@@ -282,8 +331,12 @@ function* follow(sim, asked, memory, run) {
             way.take(worked + 1);
             throw failure(run, unknown || failed, KINEMATIC_TOLD, sim.about.start_pivots, way.reached(unknown ? 1 : 0));
         }
-        first = worked;
-        yield first / samples;
+        if (rests && !stops) way.goOn(first);
+        else {
+            way.arrive();
+            first = worked;
+        }
+        yield way.t[first] / way.t_end;
     } while (first < last);
     way.take(first + 1);
     run.checkLeftOut();

@@ -13,6 +13,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.contract.methods import KINEMATIC
 from gudgeon.errors import BadValueError, BuildError
 from gudgeon.loading.cache import Cache, default_cache, digest
 from gudgeon.loading.compiler import plain
@@ -26,8 +27,10 @@ MODULE = "simulator.wasm"
 CALLED = (
     "prepare", "mass", "phi", "phi_q", "nu", "start_values", "start", "evaluate", "run_size", "run_start", "run_stop",
     "run_events", "run_impacts", "run_report", "run_sample", "method", "adaptive_setup", "adaptive_run", "rk4_run",
-    "course_size", "course_begin", "course_again", "course_pace", "kinematic", "kinematic_works", "kinematic_events",
-)  # fmt: skip
+    "course_size", "course_begin", "course_again", "course_pace", "course_tape", "course_taped", "kinematic",
+    "kinematic_works", "kinematic_events",
+)
+DRIVEN = ("rhs",)  # and where its drives leave no freedom  # fmt: skip
 # No contraction to fused multiply-adds and no fast math, as of a library (loading/compiler.py). The stack is as large
 # as programs have it; zig puts it first, so that what overflows it traps instead of writing over numbers.
 FLAGS = (
@@ -71,7 +74,8 @@ def _zig() -> Path:
 
 def _exports(source: KernelSource) -> list[str]:
     declared = set(re.findall(r"\bgudgeon_(\w+)\(", declarations(source)))
-    return [f"-Wl,--export=gudgeon_{name}" for name in CALLED if name in declared]
+    called = CALLED + (DRIVEN if source.methods == (KINEMATIC,) else ())
+    return [f"-Wl,--export=gudgeon_{name}" for name in called if name in declared]
 
 
 def _build(source: KernelSource, line: list[str], folder: Path) -> None:

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import base64
 import gzip
-import re
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
+from gudgeon.language.scripts import carried_script
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.description import description
 from gudgeon.web.module import simulator
 
-FILES = ("run.js", "loops.js", "simulator.js")
+FILES = ("run.js", "loops.js", "drift.js", "simulator.js")
 DESCRIPTION, MODULE = "gudgeon-description", "gudgeon-module"  # ids of what is not shown
 
 
@@ -87,8 +87,8 @@ def element(name: str, told: str) -> str:
 
 
 def code(name: str) -> str:
-    """JavaScript of this room, indented by one space each: a page carries it as it is read, and no more."""
-    return re.sub(r"(?m)^(?: {4})+", lambda indent: " " * (len(indent[0]) // 4), file_text(name))
+    """JavaScript of this room, as a page carries it."""
+    return carried_script(file_text(name))
 
 
 def file_text(name: str) -> str:

@@ -43,6 +43,7 @@ def running_parts(simulation: Simulation, scenes: Mapping[str, str]) -> Parts:
     try:
         carried += (modules := _modules(simulation))
         told["drift"] = drift.told(simulation, f"{MODULE}-full" in modules)
+        told |= {"drifts": drift.drifts(simulation), "loaded": drift.loaded(simulation)}
     except BuildError as error:
         if error.__cause__ is None or not isinstance(error.__cause__, ImportError):
             raise

@@ -1,6 +1,6 @@
 /*
  * A scene of gudgeon in a page or in Node: the C that was emitted for it and the engine's, as WebAssembly, called as
- * Python calls them. Numbers are SI, angles rad. With loops.js and run.js this is one script (`script` of web.page):
+ * Python calls them. Numbers are SI, angles rad. With run.js, loops.js and drift.js this is one script (`script` of web.page):
  *
  *     const sim = await gudgeon.load(description, module);   // JSON, and base64 or bytes, as Python wrote them
  *     sim.setParameters({omega: 3, "joints.A.clearance": 5e-4});   // all others are the file's
@@ -20,6 +20,7 @@
  * What cannot be computed is an Error; its `partial` is the run up to there.
  */
 const SMALLEST_RTOL = 1e-14, MOST_STEPS = 2 ** 31, MOST_OUTPUT = 1e7, FURTHEST = 1e18;
+const DRIVEN_STEP = 1e-3; // share of a run, of rk4 where the drives leave no freedom
 const SLICE = {rk4: 4000, kinematic: 50, adaptive: 500}; // steps or samples between two shares, where nobody says
 const OPTIONS = "t_end, output, method, rtol, step, slice";
 const RELATIONS = {">": (a, b) => a > b, ">=": (a, b) => a >= b, "<": (a, b) => a < b, "<=": (a, b) => a <= b};
@@ -157,16 +158,21 @@ class Simulator {
     /* Every condition of the file again. */
     check(p) {
         const {conditions, slots, derived} = this.about, value = (address) => p[this.place.get(address)];
+        const unit = (address) => slots[this.place.get(address)].unit;
         for (const {address, relation, bound, message} of conditions) {
             const limit = typeof bound === "number" ? bound : bound.split(" + ").reduce((sum, a) => sum + value(a), 0);
             const known = Number.isFinite(value(address)) && Number.isFinite(limit);
             if (known && !RELATIONS[relation](value(address), limit))
-                throw new Error(`${address} is ${value(address)}: ${message}; expected ${relation} ${limit}`);
+                throw new Error(`${address} is ${said(value(address), unit(address))}: ${message}; expected ${relation}`
+                    + ` ${said(limit, unit(address))}${typeof bound === "number" ? "" : `, which is ${bound}`}`);
         }
         [...slots.map((slot) => slot.address), ...derived].forEach((name, k) => {
             if (!Number.isFinite(p[k])) throw new Error(`${name} is ${p[k]}: not finite with these numbers`);
         });
     }
+
+    /* Whether the drives leave no freedom. */
+    get driven() { return this.about.methods[0] === "kinematic"; }
 
     /* The largest coordinate of a point in its body, of a ground point, or length of a joint (m). */
     get size() { return this.about.sizes.reduce((most, k) => Math.max(most, Math.abs(this.p[k])), 0) || 1; }
@@ -179,7 +185,7 @@ class Simulator {
             const open = this.lib.gudgeon_start(0, p, this.size, q, v, memory.numbers(1));
             const found = {q: memory.copy(q, this.n), v: memory.copy(v, this.n)};
             if (open || !found.v.every(Number.isFinite))
-                throw new Error("the linkage does not close near its guess with these numbers" + this.gap(memory, p, q));
+                throw searched("the linkage does not close near its guess with these numbers" + this.gap(memory, p, q));
             return found;
         });
     }
@@ -201,7 +207,7 @@ class Simulator {
         const {q, v} = this.about.start, [now, before] = [this.p, this.file].map((p) => this.startFollows(p));
         const parts = v.some((x) => x !== 0) ? ["rows", "masses"] : ["rows"]; // at rest no mass counts
         if (!parts.every((part) => now[part].every((x, k) => Object.is(x, before[part][k]))))
-            throw new Error("these numbers move the start of this scene, which is found in Python only (gudgeon.load)");
+            throw searched("these numbers move the start of this scene, which is found in Python only");
         return {q: Float64Array.from(q), v: Float64Array.from(v)};
     }
 
@@ -239,7 +245,8 @@ class Simulator {
         const asked = this.checked(options), memory = new Memory(this.lib), run = new Run(this, asked.t);
         Object.assign(run, {step: asked.step, estimated: asked.estimated});
         try {
-            yield* (asked.method === "kinematic" ? follow : integrate)(this, asked, memory, run);
+            const loop = asked.method === "kinematic" ? follow : this.driven ? drift : integrate;
+            yield* loop(this, asked, memory, run);
             return run;
         } finally {
             memory.free();
@@ -253,8 +260,9 @@ class Simulator {
             expect(value == null || typeof value === "number", name, value, "a number");
         const {methods} = this.about, usual = this.usual(t_end);
         const t = outputTimes(usual.t_end, output ?? usual.output, t_end), end = t[t.length - 1];
-        if (method === "auto") method = methods.length === 1 ? methods[0] : step == null ? "adaptive" : "rk4";
-        expect(method === "adaptive" || methods.includes(method), "method", method, `auto, ${methods.join(", ")}`);
+        if (method === "auto") method = this.driven ? "kinematic" : step == null ? "adaptive" : "rk4";
+        const known = methods.includes(method) || (method === "adaptive" && !this.driven);
+        expect(known, "method", method, `auto, ${methods.join(", ")}`);
         if (method === "kinematic") step = null;
         const estimated = method === "rk4" && step == null && usual.estimated;
         if (method === "rk4") step ??= this.usual(end).step;
@@ -274,13 +282,20 @@ class Simulator {
         const {simulate, step} = this.about, named = (name) => this.p[this.place.get(`parameters.${name}`)];
         const said = (name) => simulate[name] === undefined ? undefined : valueOf(simulate[name], named);
         const end = t_end ?? said("t_end"), own = said("step"), estimated = own === undefined;
-        return {t_end: end, output: said("output"), step: own ?? (step && Math.min(step[0] * end, step[1])), estimated};
+        const short = step ? Math.min(step[0] * end, step[1]) : end * DRIVEN_STEP;
+        return {t_end: end, output: said("output"), step: own ?? short, estimated: estimated && step !== null};
     }
 }
 
 function expect(holds, name, value, expected) {
     if (!holds) throw new Error(`${name} is ${told(value)}: expected ${expected}`);
 }
+
+/* The error of a start that a page does not look for any further, as Python does (assembly/search.py). */
+function searched(text) { return Object.assign(new Error(text), {searched: true}); }
+
+/* A number in SI with its unit. */
+function said(x, unit, digits = 6) { return `${Number(x.toPrecision(digits))} ${unit}`.trim(); }
 
 /* A value in a message, whatever it is: of an object its kind, [object Map]. */
 function told(value) {

@@ -73,3 +73,50 @@ def test_forces_of_a_moment_and_what_rounding_leaves(opened: Any, tmp_path: Any)
     assert page.evaluate("['1.25e-17', '-3e-9', '0.5'].map((x) => gudgeonValues.text(Number(x)))") == [
         "1.25·10⁻¹⁷", "−3·10⁻⁹", "0.5"]  # fmt: skip
     assert "drifts" in page.inner_text("#g-numbers") and shown.complaints == []
+
+
+BOX = "[...document.querySelectorAll('.g-section')].find((one) => one.textContent.startsWith('Baumgarte'))"
+ONE_SAMPLE = """() => {
+    const {run} = gudgeonApp, n = run.sim.n, one = new run.constructor(run.sim, run.t.slice(0, 1));
+    const rows = Object.entries({q: n, v: n, a: n, work: 3}).map(([name, width]) => [name, run[name].slice(0, width)]);
+    gudgeonApp.take(Object.assign(one, Object.fromEntries(rows), {memory: run.memory.slice(0, 1), counts: {steps: 1}}));
+    gudgeonApp.seek(1);
+}"""
+
+
+def test_a_driven_page_keeps_its_rows_where_it_is_asked_to(opened: Any, tmp_path: Any) -> None:
+    """Gains are shown where they act; Φ drifts without them. A guess that only Python follows; a run of one sample."""
+    pytest.importorskip("ziglang")
+    four_bar = gudgeon.load("four_bar")
+    shown = opened(written(tmp_path, four_bar))
+    page, place = shown.page, {slot.address: k for k, slot in enumerate(four_bar.source.slots)}
+    worst = "Math.max(...gudgeonApp.run.series('Phi.max').slice(-250))"
+    assert page.evaluate(f"{BOX}.hidden") and page.evaluate(worst) < 1e-14 and shown.same_bits(four_bar.simulate())
+    page.select_option("#g-run-method", "rk4")
+    shown.wait()
+    page.fill("#g-run-step", "20 ms")
+    page.fill("#g-run-t_end", "20")
+    page.keyboard.press("Enter")
+    shown.wait()
+    assert not page.evaluate(f"{BOX}.hidden")
+    drifts = []
+    for gain in ("5", "0"):
+        for name in ("alpha", "beta"):
+            shown.type_into(place[f"baumgarte.{name}"], gain)
+        drifts.append(page.evaluate(worst))
+    assert drifts[1] > 30 * drifts[0] > 1e-9 and shown.error() == ""
+    page.select_option("#g-run-method", "kinematic")
+    shown.wait()
+    assert page.evaluate(f"{BOX}.hidden") and page.evaluate(worst) < 1e-14
+    page.click(".g-reset")
+    shown.type_into(place["start.guess.coupler.theta"], "120")
+    told, call = shown.error().split(" Python searches on and runs from what it finds: ")
+    assert "does not close near its guess" in told
+    with pytest.warns(UserWarning, match="from its guess"):
+        assert len(eval(call.partition(". What is shown")[0], {"gudgeon": gudgeon}).t) > 100
+    page.click(".g-reset")
+    shown.wait()
+    page.evaluate(ONE_SAMPLE)
+    shown.wait()
+    assert page.inner_text("#g-counts").startswith("the run ends where it begins: 1 step, ")
+    assert page.is_disabled("#g-when") and shown.complaints == []

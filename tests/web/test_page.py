@@ -183,11 +183,15 @@ def test_scenes_lead_to_each_other(opened: Any, tmp_path: Path, call: Gudgeon) -
     page.wait()
     assert page.page.evaluate("[gudgeonApp.about.scene, gudgeonApp.t]") == ["dry", 0.05]
     assert page.same_bits(gudgeon.load("slider_crank", "dry").simulate(parameters={"omega": 40.0}))
-    page.page.goto(f"{page.page.url.partition('#')[0]}#parameters.omega=nan&parameters.c=&t=x&bodies.rod.mass=-1")
+    page.page.goto(f"{page.page.url.partition('#')[0]}#parameters.omega=nan&parameters.c=&t=x&bodies.rod.mass=-1&bodies.rad.mass=1")
     page.page.reload()
     page.page.wait_for_function("document.getElementById('g-error').textContent")
     assert page.page.evaluate("gudgeonApp.panel.given") == {"bodies.rod.mass": -1}
-    assert "mass is positive" in page.error()
+    assert "bodies.rod.mass is -1 kg: a mass is positive; expected > 0 kg" in page.error()
+    assert page.page.inner_text("#g-note") == (
+        "Not taken from the link: parameters.omega = nan (expected a number), parameters.c = nothing"
+        " (expected a number), t = x (expected a number), bodies.rad.mass = 1 (this scene has no such number)."
+    )
     assert page.same_bits(gudgeon.load("slider_crank", "dry").simulate())  # the file's numbers are what is shown
     assert page.complaints == []
 

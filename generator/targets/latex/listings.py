@@ -14,6 +14,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.targets.javascript.module import equations_script
 from gudgeon.generator.targets.latex.document import Block, Carried, Listing, Section, paragraph
 from gudgeon.generator.targets.latex.trace import Trace, yaml_tokens
+from gudgeon.language.scripts import carried_script
 
 SHOWN = ("parameters.c", "constraints.c", "clearance.c", "dynamics.c", "reduced.c", "positions.c")
 MOST_C = 600_000  # characters of C that a page carries
@@ -87,9 +88,7 @@ def _shorter(text: str, values: Mapping[int, str]) -> dict[int, str]:
 
 @cache
 def _script(name: str) -> str:
-    """Without indents, which take a tenth of its room."""
-    text = Path(__file__).with_name(name).read_text(encoding="utf-8")
-    return "\n".join(line.lstrip(" ") for line in text.split("\n"))
+    return carried_script(Path(__file__).with_name(name).read_text(encoding="utf-8"))
 
 
 def _equations(found: Trace) -> str:

@@ -1,0 +1,33 @@
+"""What a page carries of our JavaScript is the same program as what is read."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import gudgeon.generator.targets.latex
+import gudgeon.web
+from gudgeon.language.scripts import carried_script
+
+FOLDERS = (gudgeon.web, gudgeon.generator.targets.latex)
+FILES = [file for folder in FOLDERS for file in sorted(Path(str(folder.__file__)).parent.glob("*.js"))]
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.name)
+def test_comments_and_indents_alone_are_left_out(file: Path) -> None:
+    """By the words of another reader of JavaScript; lines that end statements are the same."""
+    lexers, tokens = pytest.importorskip("pygments.lexers"), pytest.importorskip("pygments.token")
+    text = file.read_text(encoding="utf-8")
+    carried = carried_script(text)
+
+    def words(of: str) -> list[tuple[object, str]]:
+        every = lexers.JavascriptLexer().get_tokens(of)
+        return [(kind, word) for kind, word in every if kind not in tokens.Comment and word.strip()]
+
+    def ends(of: str) -> list[str]:
+        told = "".join(word for kind, word in lexers.JavascriptLexer().get_tokens(of) if kind not in tokens.Comment)
+        return [line.strip() for line in told.split("\n") if line.strip()]
+
+    assert words(carried) == words(text) and ends(carried) == ends(text)
+    assert len(carried) < 0.85 * len(text) and "/*" not in carried
