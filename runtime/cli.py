@@ -34,6 +34,7 @@ from gudgeon.commands.options import (
     Picture,
     Quick,
     Range,
+    Report,
     Rest,
     Restart,
     Runs,
@@ -94,7 +95,7 @@ def run(
         bool, typer.Option("--regenerate", help="Derive and compile again, whatever the cache has.")
     ] = False,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Rows that need docs/methods.md too.")] = False,
-    json: Json = False, laws: Laws = None,
+    report: Report = False, json: Json = False, laws: Laws = None,
 ) -> int:  # fmt: skip
     """Simulate scenes and compare them with the ideal one: a table, a NetCDF file a scene, one picture.
 
@@ -106,7 +107,7 @@ def run(
 
     request = Request(
         file, tuple(scene or ()), tuple(set_ or ()), t_end, output, step, method, rtol, tuple(watch or ()), out,
-        horizon, regenerate, json, formulation, verbose, tuple(peaks or ()),
+        horizon, regenerate, json, formulation, verbose, tuple(peaks or ()), report,
     )  # fmt: skip
     return run_scenes(request)
 

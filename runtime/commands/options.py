@@ -130,6 +130,9 @@ Threads = Annotated[
     int | None, typer.Option(parser=whole(1), metavar="COUNT", help="Threads of runs. [default: the cores there are]")
 ]
 Restart = Annotated[bool, typer.Option("--restart", help="Begin anew, whatever the folder holds of a study.")]
+Report = Annotated[
+    bool, typer.Option("--report", help="A page a scene: orbits, contacts, energy, trust. Runs each again.")
+]
 Runs = Annotated[
     bool, typer.Option("--runs", help="Only tell how many runs, blocks, bytes and seconds, by a few on trial.")
 ]
