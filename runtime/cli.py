@@ -19,6 +19,7 @@ from gudgeon.commands.options import (
     Csv,
     End,
     File,
+    Finished,
     Folder,
     Intervals,
     Json,
@@ -43,6 +44,7 @@ from gudgeon.commands.options import (
     Seed,
     Set,
     Sheet,
+    StudyFile,
     Threads,
     Until,
     Watch,
@@ -277,20 +279,18 @@ def verdicts(
 @app.command()
 @told
 def study(
-    file: Annotated[str, typer.Argument(metavar="FILE", help="A study: a YAML file, docs/studies.md.")],
-    out: Folder = None, threads: Threads = None, restart: Restart = False, set_: Set = None, runs: Runs = False,
-    json: Json = False, laws: Laws = None,
+    file: StudyFile, finished: Finished = None, out: Folder = None, json: Json = False, laws: Laws = None,
+    threads: Threads = None, restart: Restart = False, set_: Set = None, runs: Runs = False,
 ) -> int:  # fmt: skip
     """Many runs of a mechanism, over grids, draws and perturbed starts, and what is measured of them: one dataset.
 
-    Finished blocks of runs are on disk at once: after Ctrl-C, a kill or a full disk the same command goes on. A run
-    that fails is a row with its reason.
+    Finished blocks of runs are on disk at once: after Ctrl-C, a kill or a full disk the same command goes on.
 
-    Example: gudgeon study clearance.yaml --out clearance.study
+    Example: gudgeon study clearance.yaml --out clearance.study, then gudgeon study report clearance.study
     """
     from gudgeon.commands.study import Request, study_file
 
-    return study_file(Request(file, out, threads, restart, tuple(set_ or ()), runs, json))
+    return study_file(Request(file, out, threads, restart, tuple(set_ or ()), runs, json, finished))
 
 
 def main() -> None:

@@ -54,7 +54,7 @@ def low_pass(t: Array, values: Array, cutoff: float, order: int = 2, causal: boo
     rate, order = rate_of(t), whole(order, "order", 1, MOST_ORDER)
     finite(values)
     if not 0.0 < cutoff < 0.499 * rate:
-        told = f"cutoff: {cutoff:g} Hz with {rate:g} samples a second: expected more than 0 and less than {0.5 * rate:g}"
+        told = f"cutoff: {cutoff:g} Hz with {rate:g} samples a second: expected one below half of that"
         raise BadValueError(told, hint="simulate with a larger output")
     warped = np.tan(np.pi * cutoff / rate)  # of the bilinear transform
     if not causal:

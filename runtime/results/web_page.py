@@ -24,8 +24,12 @@ STYLE = """
 .g-report :is(h1, h2, h3, p, li, td, th, figcaption) { overflow-wrap: anywhere; }
 .g-report .g-wide { overflow-x: auto; max-width: 100%; }
 .g-report table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: .4rem 0; font-size: .92em; }
-.g-report :is(td, th) { padding: .2rem .7rem .2rem 0; text-align: right; vertical-align: top; overflow-wrap: normal; }
+.g-report :is(td, th) { padding: .2rem .7rem .2rem 0; text-align: right; vertical-align: top; overflow-wrap: normal;
+  white-space: nowrap; }
 .g-report :is(td, th):first-child { text-align: left; }
+.g-report .g-words :is(td, th) { text-align: left; white-space: normal; min-width: 4rem; max-width: 30rem; }
+.g-report .g-pairs td { white-space: normal; }
+.g-report .g-beside > div { min-width: 0; max-width: 100%; }
 .g-report th { font-weight: 600; border-bottom: 1px solid var(--line); }
 .g-report tbody tr + tr td { border-top: 1px solid var(--line); }
 .g-report .g-quiet { color: var(--quiet); }
@@ -71,14 +75,15 @@ def text(words: str) -> str:
     return escape(one_line(words))
 
 
-def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """Cells are text; nothing where there is no row."""
+def table(head: Sequence[str], rows: Iterable[Sequence[str]], words: bool = False) -> str:
+    """Cells are text, `words` or numbers; nothing where there is no row."""
     body = "".join(f"<tr>{''.join(f'<td>{escape(visible(cell))}</td>' for cell in row)}</tr>" for row in rows)
     if not body:
         return ""
     names = "".join(f"<th scope='col'>{escape(visible(name))}</th>" for name in head)
     above = f"<thead><tr>{names}</tr></thead>" if any(head) else ""
-    return f"<div class='g-wide' tabindex='0'><table>{above}<tbody>{body}</tbody></table></div>"
+    kind = " class='g-words'" if words else "" if any(head) else " class='g-pairs'"
+    return f"<div class='g-wide' tabindex='0'><table{kind}>{above}<tbody>{body}</tbody></table></div>"
 
 
 def lines(texts: Iterable[str], kind: str = "") -> str:

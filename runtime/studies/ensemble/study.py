@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
     from gudgeon.integrators.trajectory import Progress
     from gudgeon.studies.ensemble.plan import Plan
+    from gudgeon.studies.show.study_page import StudyReport
     from gudgeon.studies.show.study_plots import StudyPlot
 
 MOST_THREADS = 4096
@@ -101,6 +102,13 @@ class Study:
         from gudgeon.studies.show.study_plots import StudyPlot
 
         return StudyPlot(self)
+
+    def report(self) -> StudyReport:
+        """What varied, what failed, every measure and its figures, for people: `.to_html()`, or as a notebook shows it.
+        """
+        from gudgeon.studies.show.study_page import StudyReport
+
+        return StudyReport(self)
 
     def save(self, target: str | os.PathLike[str]) -> None:
         """Write the dataset as one NetCDF file, which any reader opens. Raises OutputError."""

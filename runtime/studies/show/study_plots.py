@@ -69,24 +69,33 @@ class StudyPlot:
         return ax
 
     def bands(
-        self, series: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None
-    ) -> Axes:
-        """A kept series over time: median, quartiles and extremes of all runs, or of each value of `by`."""
+        self, series: str, by: str | None = None, *, share: bool = False, at: Coords | None = None,
+        ax: Axes | None = None,
+    ) -> Axes:  # fmt: skip
+        """A kept series over time: median, quartiles and extremes of all runs, or of each value of `by`.
+
+        share: over each run's own length, 0 to 1, where runs have as many samples at the same shares of it.
+        BadValueError for runs with other times (or shares) than each other.
+        """
         t, found = self.data.series(series, at)
-        if t.ndim > 1:
+        if share:
+            t = self.data.shares(np.broadcast_to(t, found.shape))
+        if t is None or t.ndim > 1:
             told = f"{series}: the runs have samples at different times, of which there are no bands"
-            raise BadValueError(told, hint="pick runs with the same times (at=…), or draw an overlay")
+            raise BadValueError(told, hint="pick runs with the same times (at=…), share=True, or draw an overlay")
         by = self.data.dimension(found, by) if by is not None else None
         with matplotlib.rc_context(STYLE):
             ax = new_axes(8.0, 3.6) if ax is None else plain(ax)
             factor, unit = drawn(peak_of(found.values), found.attrs.get("units", ""))
             for (told, own), colour in zip(parts := self.data.split(found, by), cycle(len(parts)), strict=True):
                 _band(ax, t, quantiles(self.data.rows(own, found.dims[-1])) * factor, colour, told, 0.0)
-            ax.set(xlabel="t [s]", ylabel=label(one_line(series), unit))
+            ax.set(xlabel="share of the run" if share else "t [s]", ylabel=label(one_line(series), unit))
             self._finish(ax, at, len(parts) > 1)
         return ax
 
-    def overlay(self, series: str, by: str, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
+    def overlay(
+        self, series: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None
+    ) -> Axes:
         """A kept series over time, every run a curve, in the colour of its value of `by`."""
         t, found = self.data.series(series, at)
         return self._curves([(t, found)], "t [s]", series, by, at, ax)
@@ -181,7 +190,7 @@ class StudyPlot:
             ax.grid(False)
             ax.figure.colorbar(image, ax=ax, label=label(one_line(name), unit))
             if middle.size <= SMALL:
-                _numbers(ax, middle * factor)
+                _numbers(ax, middle * factor, image)
             self._finish(ax, at, False)
         return ax
 
@@ -209,17 +218,13 @@ def _band(ax: Axes, x: Any, five: Any, colour: str, told: str, size: float = 4.0
     ax.plot(x[order], middle[order], "-o" if size else "-", ms=size, color=colour, lw=1.1, label=told)
 
 
-def _numbers(ax: Axes, values: Any) -> None:
+def _numbers(ax: Axes, values: Any, image: Any) -> None:
+    """In each cell, dark on what is bright."""
     for (row, column), value in np.ndenumerate(values):
         if np.isfinite(value):
-            ax.text(column, row, f"{value:.3g}", ha="center", va="center", fontsize=7, color="white",
-                    path_effects=[_outline()])  # fmt: skip
-
-
-def _outline() -> Any:
-    from matplotlib.patheffects import withStroke
-
-    return withStroke(linewidth=1.6, foreground="#333333")
+            bright = np.dot(image.cmap(image.norm(value))[:3], (0.299, 0.587, 0.114)) > 0.55
+            colour = "#111111" if bright else "white"
+            ax.text(column, row, f"{value:.3g}", ha="center", va="center", fontsize=7.5, color=colour)
 
 
 def _said(value: Any) -> str:
