@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from gudgeon.results.batch import Batch
     from gudgeon.results.join import join
     from gudgeon.results.results import Result
+    from gudgeon.simulation.examine import examine
     from gudgeon.simulation.from_file import load
     from gudgeon.simulation.simulation import Simulation
     from gudgeon.studies.ensemble.study import Study, load_study, study
@@ -36,6 +37,7 @@ __version__ = "0.1.0"
 
 _HOME = {
     "load": "simulation.from_file",
+    "examine": "simulation.examine",
     "join": "results.join",
     "register": "generator.kinds.laws.registered",
     "study": "studies.ensemble.study",
@@ -70,6 +72,7 @@ __all__ = [
     "SolverError",
     "Study",
     "__version__",
+    "examine",
     "join",
     "load",
     "load_study",

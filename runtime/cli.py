@@ -19,6 +19,7 @@ from gudgeon.commands.options import (
     Csv,
     End,
     File,
+    Finished,
     Folder,
     Intervals,
     Json,
@@ -34,6 +35,7 @@ from gudgeon.commands.options import (
     Picture,
     Quick,
     Range,
+    Report,
     Rest,
     Restart,
     Runs,
@@ -42,6 +44,7 @@ from gudgeon.commands.options import (
     Seed,
     Set,
     Sheet,
+    StudyFile,
     Threads,
     Until,
     Watch,
@@ -94,7 +97,7 @@ def run(
         bool, typer.Option("--regenerate", help="Derive and compile again, whatever the cache has.")
     ] = False,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Rows that need docs/methods.md too.")] = False,
-    json: Json = False, laws: Laws = None,
+    report: Report = False, json: Json = False, laws: Laws = None,
 ) -> int:  # fmt: skip
     """Simulate scenes and compare them with the ideal one: a table, a NetCDF file a scene, one picture.
 
@@ -106,7 +109,7 @@ def run(
 
     request = Request(
         file, tuple(scene or ()), tuple(set_ or ()), t_end, output, step, method, rtol, tuple(watch or ()), out,
-        horizon, regenerate, json, formulation, verbose, tuple(peaks or ()),
+        horizon, regenerate, json, formulation, verbose, tuple(peaks or ()), report,
     )  # fmt: skip
     return run_scenes(request)
 
@@ -276,20 +279,18 @@ def verdicts(
 @app.command()
 @told
 def study(
-    file: Annotated[str, typer.Argument(metavar="FILE", help="A study: a YAML file, docs/studies.md.")],
-    out: Folder = None, threads: Threads = None, restart: Restart = False, set_: Set = None, runs: Runs = False,
-    json: Json = False, laws: Laws = None,
+    file: StudyFile, finished: Finished = None, out: Folder = None, json: Json = False, laws: Laws = None,
+    threads: Threads = None, restart: Restart = False, set_: Set = None, runs: Runs = False,
 ) -> int:  # fmt: skip
     """Many runs of a mechanism, over grids, draws and perturbed starts, and what is measured of them: one dataset.
 
-    Finished blocks of runs are on disk at once: after Ctrl-C, a kill or a full disk the same command goes on. A run
-    that fails is a row with its reason.
+    Finished blocks of runs are on disk at once: after Ctrl-C, a kill or a full disk the same command goes on.
 
-    Example: gudgeon study clearance.yaml --out clearance.study
+    Example: gudgeon study clearance.yaml --out clearance.study, then gudgeon study report clearance.study
     """
     from gudgeon.commands.study import Request, study_file
 
-    return study_file(Request(file, out, threads, restart, tuple(set_ or ()), runs, json))
+    return study_file(Request(file, out, threads, restart, tuple(set_ or ()), runs, json, finished))
 
 
 def main() -> None:

@@ -124,12 +124,19 @@ Box = Annotated[
 Range = Annotated[list[str] | None, typer.Option("--range", metavar="NAME=LOW..HIGH", help="An edge of the box.")]
 Folder = Annotated[
     Path | None,
-    typer.Option("--out", parser=path, metavar="PATH", help="Folder of the study's blocks. [default: NAME.study]"),
+    typer.Option("--out", parser=path, metavar="PATH", help="Folder of blocks, or the page. [default: NAME.study]"),
 ]
+StudyFile = Annotated[
+    str, typer.Argument(metavar="FILE", help="A study: a YAML file, docs/studies.md; or the word report, for a page.")
+]
+Finished = Annotated[str | None, typer.Argument(metavar="[FOLDER]", help="The finished study of that page.")]
 Threads = Annotated[
     int | None, typer.Option(parser=whole(1), metavar="COUNT", help="Threads of runs. [default: the cores there are]")
 ]
 Restart = Annotated[bool, typer.Option("--restart", help="Begin anew, whatever the folder holds of a study.")]
+Report = Annotated[
+    bool, typer.Option("--report", help="A page a scene: orbits, contacts, energy, trust. Runs each again.")
+]
 Runs = Annotated[
     bool, typer.Option("--runs", help="Only tell how many runs, blocks, bytes and seconds, by a few on trial.")
 ]

@@ -53,6 +53,7 @@ class Request:
     formulation: str = "reduced"
     verbose: bool = False
     peaks: tuple[str, ...] = ()  # beside those that scenes ask for
+    report: bool = False
 
 
 @dataclass
@@ -80,6 +81,8 @@ def run_scenes(request: Request) -> int:
         path = result_path(request.out, simulation.source.mechanism, name)
         check_name("--out", path)
         check_origin(path, origin_of(request.file, simulation.source.sha256))
+        if request.report:
+            check_name("--out", path.with_suffix(".html"))
     check_name("--out", request.out / f"{simulations[IDEAL].source.mechanism}.png")
     session = Session()
     try:
@@ -88,7 +91,7 @@ def run_scenes(request: Request) -> int:
         session.interrupted = True
     try:
         if session.runs:
-            _hand_over(request, simulations[IDEAL], session)
+            _hand_over(request, simulations, session)
     except KeyboardInterrupt:
         session.interrupted = True
     for scene, error in session.failures.items():
@@ -164,7 +167,7 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
             try:
                 run = simulation.simulate(
                     until, output=request.output, method=method, step=step,
-                    rtol=request.rtol, horizon=request.horizon,
+                    rtol=request.rtol, horizon=request.horizon or request.report,
                     parameters=known_here(simulation.source, settings), progress=bar(name),
                     against=simulations[IDEAL] if simulation.source.clearances else None,
                     peaks=_peaks(request, simulation.source),
@@ -184,13 +187,21 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
                 return
 
 
-def _hand_over(request: Request, ideal: Simulation, session: Session) -> None:
+def _hand_over(request: Request, simulations: Mapping[str, Simulation], session: Session) -> None:
     """Everything after the integration: the results are saved first, for nothing that follows may lose them."""
     from gudgeon.results.report import compare, default_watch
 
     runs = {scene: session.runs[scene] for scene in sorted(session.runs, key=lambda scene: scene != IDEAL)}
     _save(request, runs, session)
-    _refer(ideal, session)
+    _refer(simulations[IDEAL], session)
+    if request.report:
+        from gudgeon.commands.run_reports import write_reports
+
+        def save(some: Mapping[str, Result]) -> None:
+            _save(request, some, session)
+
+        told = session.files, session.unwritten, request.json
+        write_reports(runs, simulations, session.references, request.out, save, *told)
     first = session.runs.get(IDEAL) or next(iter([*session.references.values(), *session.runs.values()]))
     watch = request.watch or default_watch(first)
     reports = [compare(run, session.references.get(scene), watch) for scene, run in runs.items()]

@@ -6,16 +6,20 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-from gudgeon.commands.common import check_folder, settings
+from gudgeon.commands.common import check_file, check_folder, need_suffix, settings
 from gudgeon.commands.progress import progress_bar, status_line
+from gudgeon.errors import BadValueError, shortened
+from gudgeon.files.writing import write_bytes
 from gudgeon.language.shown import path_text
 from gudgeon.studies.ensemble.estimate import estimate
 from gudgeon.studies.ensemble.folder import StudyFolder
 from gudgeon.studies.ensemble.plan import Plan
-from gudgeon.studies.ensemble.study import plan_of, run_plan
+from gudgeon.studies.ensemble.study import load_study, plan_of, run_plan
 from gudgeon.studies.show.study import show_estimate, show_study
+from gudgeon.studies.show.tables import print_json
 
 INTERRUPTED, FAILED = 130, 1
+REPORT = "report"  # in the place of a file
 
 
 @dataclass(frozen=True)
@@ -29,6 +33,7 @@ class Request:
     sets: tuple[str, ...] = ()
     runs: bool = False
     json: bool = False
+    finished: str | None = None  # the folder of which a page is wanted
 
     @property
     def folder(self) -> Path:
@@ -36,8 +41,30 @@ class Request:
         return self.out or Path(f"{Path(self.file).stem}.study")
 
 
+def report_study(folder: str, out: Path | None, json: bool) -> int:
+    """The page of a finished study, beside its folder unless `out` says where."""
+    page = out or Path(folder).absolute().with_suffix(".html")
+    need_suffix(page, (".html", ".htm"))
+    check_file("--out", page)
+    with status_line(quiet=json):
+        found = load_study(folder).report().to_html()
+    write_bytes(page, found.encode())
+    if json:
+        print_json({"files": {"report": str(page)}})
+    else:
+        print(f"wrote {path_text(page)}")
+    return 0
+
+
 def study_file(request: Request) -> int:
     """Run what is missing, print what was found; 1 where every run failed."""
+    if request.finished is not None:
+        if request.file != REPORT:
+            hint = f"gudgeon study {REPORT} FOLDER writes a page of it"
+            raise BadValueError(f"study takes one file, and found {shortened(request.finished)} too", hint=hint)
+        return report_study(request.finished, request.out, request.json)
+    if request.file == REPORT and not Path(REPORT).exists():
+        raise BadValueError(f"study {REPORT}: of which study?", hint=f"gudgeon study {REPORT} NAME.study")
     given = settings(request.sets)
     if not request.runs:
         check_folder("--out", request.folder)

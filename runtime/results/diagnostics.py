@@ -51,6 +51,57 @@ class Extremes:
 
 
 @dataclass(frozen=True)
+class JointExamined:
+    """What a second pass through a joint's contacts found (simulation/examine.py); NaN: there was nothing of it."""
+
+    joint: str
+    impacting: float  # share of the time from an onset until the penetration first stops growing
+    F_rms: float  # N, over all of the time
+    taken: float  # J, by normal contact forces while the surfaces approached
+    returned: float  # J, by these while they parted; what is missing was damped
+    friction: float  # J, taken by tangential contact forces
+    film: float  # J, taken by the film
+    separations: int
+    restitution_min: float  # rate of parting over rate of approach, of contacts that ended
+    restitution_q1: float
+    restitution_median: float
+    restitution_q3: float
+    restitution_max: float
+
+
+@dataclass(frozen=True)
+class IdealForce:
+    """The reaction at a joint of the ideal scene, at the samples of the run."""
+
+    joint: str
+    peak: float  # N
+    t_peak: float  # s
+    rms: float  # N
+
+
+@dataclass(frozen=True)
+class Difference:
+    """How far a run is from one with smaller steps, over the samples up to `until`, the horizon if it is known."""
+
+    name: str
+    unit: str
+    largest: float
+    t: float  # s
+    until: float  # s
+
+
+@dataclass(frozen=True)
+class Examined:
+    """What other runs beside this one tell of it; empty: it could not be had, and `notes` say why."""
+
+    joints: tuple[JointExamined, ...] = ()
+    ideal: tuple[IdealForce, ...] = ()
+    differences: tuple[Difference, ...] = ()
+    compared_with: str = ""  # "steps half as long"
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
 class Diagnostics:
     """Of one run; NaN stands for what the method does not have (the step of a kinematic scene)."""
 
@@ -79,6 +130,7 @@ class Diagnostics:
     last_step: float = float("nan")  # s, of a fixed step, where the last one up to t_end is shorter; NaN: it is not
     horizon: float = float("nan")  # s, to which the trace can be trusted; inf: to the end, NaN: not asked
     extremes: tuple[Extremes, ...] = ()  # over all steps, of the series that `peaks` asked for
+    examined: Examined | None = None  # by other runs, for a report; None: nobody asked
 
     def peak(self, joint: str) -> Peak:
         """The peak at a joint with play; UnknownNameError for any other."""
@@ -94,8 +146,9 @@ class Diagnostics:
         A float is written with as many digits as reading it back exactly needs.
         """
         data = asdict(self)
-        if not self.extremes:
-            del data["extremes"]
+        for name in ("extremes", "examined"):
+            if not data[name]:
+                del data[name]
         return json.dumps(_words(data), ensure_ascii=False, allow_nan=False)
 
     @staticmethod
@@ -105,10 +158,11 @@ class Diagnostics:
         data["peaks"] = tuple(Peak(**_numbers(peak, Peak)) for peak in data["peaks"])
         data["extremes"] = tuple(Extremes(**_numbers(one, Extremes)) for one in data.get("extremes", ()))
         data["notes"] = tuple(data["notes"])
+        data["examined"] = _examined(data["examined"]) if data.get("examined") else None
         return Diagnostics(**_numbers(data, Diagnostics))
 
     def __str__(self) -> str:
-        lists = ("peaks", "notes", "extremes")
+        lists = ("peaks", "notes", "extremes", "examined")
         rows = [f"{name:>30}  {value}" for name, value in asdict(self).items() if name not in lists]
         rows += [f"{'peak at ' + p.joint:>30}  {p.F:.6g} N at {p.t:.6g} s, e ≤ {p.e_max:.6g} m" for p in self.peaks]
         rows += [
@@ -127,6 +181,12 @@ def extremes_to_json(extremes: tuple[Extremes, ...]) -> str:
 def extremes_from_json(text: str) -> tuple[Extremes, ...]:
     """What `extremes_to_json` wrote, bit for bit."""
     return tuple(Extremes(**_numbers(one, Extremes)) for one in json.loads(text))
+
+
+def _examined(data: dict[str, Any]) -> Examined:
+    kinds = {"joints": JointExamined, "ideal": IdealForce, "differences": Difference}
+    lists = {name: tuple(kind(**_numbers(one, kind)) for one in data[name]) for name, kind in kinds.items()}
+    return Examined(**data | lists | {"notes": tuple(data["notes"])})
 
 
 def _words(value: Any) -> Any:

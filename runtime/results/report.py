@@ -110,15 +110,16 @@ def as_json(reports: Sequence[SceneReport]) -> dict[str, Any]:
             "events": {name: list(times) for name, times in report.events.items()},
             "diagnostics": asdict(report.diagnostics),
         }
-    clean: dict[str, Any] = _finite(scenes)
+    clean: dict[str, Any] = finite(scenes)
     return clean
 
 
-def _finite(value: Any) -> Any:
+def finite(value: Any) -> Any:
+    """NaN and infinity, which JSON has no number for, as None, at any depth."""
     if isinstance(value, dict):
-        return {key: _finite(item) for key, item in value.items()}
+        return {key: finite(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_finite(item) for item in value]
+        return [finite(item) for item in value]
     if hasattr(value, "item"):
         value = value.item()
     return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from gudgeon.results.at_events import AtEvents
     from gudgeon.results.run_plots import Plot
     from gudgeon.results.series import Series
+    from gudgeon.results.trust import RunReport
 
 
 @dataclass(eq=False)
@@ -217,6 +218,12 @@ class Result(Shown):
         from gudgeon.results import animation
 
         return animation.animate(self, path, animation.wanted_of(self, seconds, rate, points, velocities, forces))
+
+    def report(self) -> RunReport:
+        """What joints with play did, where energy went, how far to believe it: `print`, `.to_html()`, `.to_dict()`."""
+        from gudgeon.results.trust import RunReport
+
+        return RunReport(self)
 
     def value_of(self, name: str) -> Any:
         """What a name in an output's expression stands for: a series, t, or a parameter."""

@@ -14,14 +14,15 @@ from typing import TYPE_CHECKING, Any
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.language.plot_units import drawn, label
 from gudgeon.language.shown import in_figure
+from gudgeon.language.wanted import flag, positive, refuse, told
 from gudgeon.language.wanted import names as listed_names
-from gudgeon.language.wanted import refuse, told
 from gudgeon.results import trace
 from gudgeon.results.plots import (
     COLOURS,
     IDEAL,
     STYLE,
     TITLE,
+    UNTRUSTED,
     caption_of,
     cycle,
     draw_orbit,
@@ -29,7 +30,7 @@ from gudgeon.results.plots import (
     peak_of,
     reach,
 )
-from gudgeon.results.series import drive_series
+from gudgeon.results.series import drive_series, rates
 
 import matplotlib  # isort: skip  (plots.py says where it is missing)
 from matplotlib.axes import Axes  # isort: skip
@@ -78,19 +79,20 @@ class Plot:
         every = [name for some in names for name in listed_names(some, "names", SERIES)]
         return self._curves({name: (self.run.t, self.run[name]) for name in every}, ax)
 
-    def _curves(self, curves: Mapping[str, tuple[Any, Any]], ax: Axes | None) -> Axes:
-        """Times and values by the name of a series; all have one unit."""
+    def _curves(self, curves: Mapping[str, tuple[Any, Any]], ax: Axes | None, over: str = "t [s]") -> Axes:
+        """Times (or frequencies) and values by the name of a series; all have one unit."""
         run, names = self.run, list(curves)
         if not names:
             raise BadValueError("plot.series: expected the name of a series at least")
         with matplotlib.rc_context(STYLE):
-            ax = _axes(8.0, 3.6) if ax is None else plain(ax)
+            ax = new_axes(8.0, 3.6) if ax is None else plain(ax)
             factor, text = drawn(max(peak_of(values) for _, values in curves.values()), run.unit(names[0]))
             for (name, (t, values)), colour in zip(curves.items(), cycle(len(names)), strict=True):
                 ax.plot(t, values * factor, color=colour, lw=1.0, label=name)
-            ax.set(xlabel="t [s]", ylabel=label(names[0] if len(names) == 1 else "", text))
+            ax.set(xlabel=over, ylabel=label(names[0] if len(names) == 1 else "", text))
             ax.set_title(in_figure(caption_of(run), TITLE))
-            mark_horizon(ax, run, IDEAL)
+            if over == "t [s]":
+                mark_horizon(ax, run, IDEAL)
             if len(names) > 1:
                 ax.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))  # outside: it hides no curve
         return ax
@@ -108,8 +110,79 @@ class Plot:
             hint = f"its joints with play: {', '.join(joints) or 'none'}"
             raise UnknownNameError(f"no orbit of {told(joint)}: expected a joint with play", hint=hint)
         with matplotlib.rc_context(STYLE):
-            ax = _axes(4.2, 4.4) if ax is None else plain(ax)
+            ax = new_axes(4.2, 4.4) if ax is None else plain(ax)
             draw_orbit(ax, self.run, joint, COLOURS[1], reach(self.run, joint))
+        return ax
+
+    def phase(self, x: str, y: str | None = None, ax: Axes | None = None) -> Axes:
+        """One series over another, "S9.y" over itself its rate, with a ring where the run starts."""
+        y = self._rate_of(x) if y is None else y
+        return self._pairs(self.run[x], self.run[y], x, y, ax, "-")
+
+    def section(self, event: str, x: str, y: str | None = None, ax: Axes | None = None) -> Axes:
+        """Poincaré's section: the states at the located times of an event, one series over another, else its rate."""
+        y, at = self._rate_of(x) if y is None else y, self.run.at_events(event)
+        if not len(at):
+            raise BadValueError(f"plot.section: {event} did not happen in this run")
+        return self._pairs(at[x], at[y], x, y, ax, ".", f", at {event}, {len(at)} states")
+
+    def _rate_of(self, name: str) -> str:
+        found = next((rate for rate in rates(name) if rate in self.run), "")
+        if not found:
+            self.run.unit(name)  # UnknownNameError
+            raise BadValueError(f"{name} has no rate by name: name the other series too")
+        return found
+
+    def _pairs(self, xs: Any, ys: Any, x: str, y: str, ax: Axes | None, style: str, more: str = "") -> Axes:
+        with matplotlib.rc_context(STYLE):
+            ax = new_axes(5.2, 4.4) if ax is None else plain(ax)
+            (of_x, x_unit), (of_y, y_unit) = (
+                drawn(peak_of(values), self.run.unit(name)) for name, values in ((x, xs), (y, ys))
+            )
+            ax.plot(xs * of_x, ys * of_y, style, color=COLOURS[1], lw=0.8, ms=3.0)
+            if style == "-":
+                ax.plot(xs[:1] * of_x, ys[:1] * of_y, "o", ms=4, mfc="white", mec=IDEAL, mew=0.9)
+            ax.set(xlabel=label(x, x_unit), ylabel=label(y, y_unit))
+            ax.set_title(in_figure(caption_of(self.run) + more, TITLE))
+        return ax
+
+    def spectrum(self, *names: str | Sequence[str], window: str = "hann", ax: Axes | None = None) -> Axes:
+        """Amplitudes over frequency (Hz), one-sided, of series of one unit at even samples, each less its mean.
+
+        window: boxcar, hann, hamming, blackman, blackmanharris or flattop, divided by its mean, so that a sine of
+        amplitude A on a line of the spectrum has A (between lines flattop is off least). BadValueError for samples
+        that are not even, or no numbers.
+        """
+        from gudgeon.results.signals import spectrum
+
+        every = [name for some in names for name in listed_names(some, "names", SERIES)]
+        found = {name: spectrum(self.run.t, self.run[name], window) for name in every}
+        ax = self._curves(found, ax, "f [Hz]")
+        ax.set_title(in_figure(f"{caption_of(self.run)}, window {window}", TITLE))
+        return ax
+
+    def low_pass(
+        self, name: str, cutoff: float, *, order: int = 2, causal: bool = True, ax: Axes | None = None
+    ) -> Axes:
+        """A series as an accelerometer shows it: behind a low-pass of Butterworth, −3 dB at `cutoff` (Hz), over itself.
+
+        causal: as an amplifier does, with its delay; False: forwards and back, without phase. BadValueError for
+        samples that are not even, or a cutoff beyond half their rate.
+        """
+        from gudgeon.results.signals import low_pass
+
+        run = self.run
+        left = low_pass(run.t, run[name], positive(cutoff, "cutoff"), order, flag(causal, "causal"))
+        kind = "causal" if causal else "zero phase"
+        told = f"low-pass {cutoff:g} Hz, Butterworth of order {order}, {kind}"
+        with matplotlib.rc_context(STYLE):
+            ax = new_axes(8.0, 3.6) if ax is None else plain(ax)
+            factor, text = drawn(max(peak_of(run[name]), peak_of(left)), run.unit(name))
+            ax.plot(run.t, run[name] * factor, color=UNTRUSTED, lw=0.6, alpha=0.7, label=name)
+            ax.plot(run.t, left * factor, color=COLOURS[1], lw=1.2, label=told)
+            ax.set(xlabel="t [s]", ylabel=label(name, text))
+            ax.set_title(in_figure(caption_of(run), TITLE))
+            ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), ncols=2)
         return ax
 
     def mechanism(
@@ -147,7 +220,7 @@ class Plot:
 
         with matplotlib.rc_context(STYLE):
             width, height = size_of(sketch, 7.0)
-            ax = _axes(width + beside, height) if ax is None else plain(ax)
+            ax = new_axes(width + beside, height) if ax is None else plain(ax)
             draw(ax)
             ax.set_title(in_figure(caption, TITLE))
             ax.text(0.0, -0.01, "\n".join(sketch.notes), transform=ax.transAxes, va="top", fontsize=7.5)
@@ -181,7 +254,8 @@ def _figure(width: float, height: float) -> Figure:
     return ShownFigure(figsize=(width, height), layout="constrained")
 
 
-def _axes(width: float, height: float) -> Axes:
+def new_axes(width: float, height: float) -> Axes:
+    """Of a figure of their own, inches."""
     return _figure(width, height).add_subplot(axes_class=ShownAxes)
 
 

@@ -62,19 +62,19 @@ def horizon(simulation: Simulation, run: Result, progress: Progress | None = Non
     t0, t1 = float(run.t[0]), float(run.t[-1])
     if simulation.source.degrees_of_freedom == 0 or not t1 > t0:
         return math.inf
-    begin = _state(run)
-    usual, tighter = _settings(run)
+    begin = begin_of(run)
+    usual, tighter = settings_of(run)
     variants = ((begin, usual), (begin, tighter), (_moved(simulation, run, begin), usual))
     known = t0
     for times in _ladder(t0, t1):
         runs = []
         for start, settings in variants:
-            repeated = _repeated(simulation, times, start, settings, progress)
-            if repeated is None:
+            other = repeated(simulation, times, start, settings, progress)
+            if other is None:
                 return known
-            if repeated.diagnostics.interrupted:
+            if other.diagnostics.interrupted:
                 raise KeyboardInterrupt
-            runs.append(repeated)
+            runs.append(other)
         agreed, parted = _agreement(simulation, runs, apart)
         known = max(known, agreed)
         if parted:
@@ -93,8 +93,9 @@ def _ladder(t0: float, t1: float) -> Iterator[Array]:
         low, top = top, 4.0 * top
 
 
-def _repeated(
-    simulation: Simulation, times: Array, start: State, settings: dict[str, Any], progress: Progress | None
+def repeated(
+    simulation: Simulation, times: Array, start: State | None, settings: dict[str, Any],
+    progress: Progress | None,
 ) -> Result | None:
     """A run through `times`, as far as it goes, None: not even from the start; events do not end it."""
     try:
@@ -127,7 +128,7 @@ def _angles(run: Result) -> Any:
     return np.array([name.endswith(".theta") for name in run.source.coordinates])
 
 
-def _settings(run: Result) -> tuple[dict[str, Any], dict[str, Any]]:
+def settings_of(run: Result) -> tuple[dict[str, Any], dict[str, Any]]:
     """Arguments of simulate for the run as it was, and for the more exact one."""
     from gudgeon.simulation.arguments import METHODS
 
@@ -148,7 +149,7 @@ def _tolerances(simulation: Simulation, run: Result) -> Array:
     return np.concatenate([of_q, np.full(len(of_q), MOVED)])
 
 
-def _state(run: Result) -> State:
+def begin_of(run: Result) -> State:
     """The run's first sample, to start from."""
     return replace(run.final, t=float(run.t[0]), q=run.q[0], v=run.v[0], state=run.state[0], memory=run.memory[0])
 

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
     from gudgeon.integrators.trajectory import Progress
     from gudgeon.studies.ensemble.plan import Plan
+    from gudgeon.studies.show.study_page import StudyReport
+    from gudgeon.studies.show.study_plots import StudyPlot
 
 MOST_THREADS = 4096
 _CHUNK = 1 << 20
@@ -93,6 +95,20 @@ class Study:
 
             return pandas.DataFrame({str(name): [one.values.item()] for name, one in found.variables.items()})
         return found.to_dataframe().reset_index()
+
+    @property
+    def plot(self) -> StudyPlot:
+        """Figures: `study.plot.measure("peak", "c")`, `.bands("S9.y")`, `.heat_map("peak", "c", "omega")` …"""
+        from gudgeon.studies.show.study_plots import StudyPlot
+
+        return StudyPlot(self)
+
+    def report(self) -> StudyReport:
+        """What varied, what failed, every measure and its figures, for people: `.to_html()`, or as a notebook shows it.
+        """
+        from gudgeon.studies.show.study_page import StudyReport
+
+        return StudyReport(self)
 
     def save(self, target: str | os.PathLike[str]) -> None:
         """Write the dataset as one NetCDF file, which any reader opens. Raises OutputError."""

@@ -1,0 +1,206 @@
+"""The report of a run, `run.report()`: what its joints with play did, where energy went, how far it may be believed.
+
+Everything is of what a result holds, so that one that was read from a file has the same report, bit for bit. What other
+runs tell (simulation/examine.py) is there if it was asked for, and named as missing if not.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import asdict, dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.results.diagnostics import Examined
+from gudgeon.results.report import finite
+
+if TYPE_CHECKING:
+    from gudgeon.contract.kernel_source import ClearanceInfo, KernelSource
+    from gudgeon.results.results import Array, Result
+
+SQUEEZE = 0.5  # of the mean rate of both surfaces: faster squeezing is not what a half film holds for
+OFF = 0.02  # of the joints' work: a quadrature that misses more of it is told
+_LAW = re.compile(r"/\*\n \* (?P<title>[^\n]*)\.\n \* Source: (?P<source>[^\n]*)\.\n \* Valid: (?P<valid>[^\n]*)\.\n")
+NOT_ASKED = "not asked for: gudgeon run --report, or gudgeon.examine(simulation, run, ideal)"
+
+
+@dataclass(frozen=True)
+class RunReport:
+    """The report of one run; `print` shows it, a notebook too, `to_html` is a page of its own."""
+
+    run: Result
+
+    @cached_property
+    def _found(self) -> dict[str, Any]:
+        run = self.run
+        joints = {joint.name: _joint(run, k, joint) for k, joint in enumerate(run.source.clearances)}
+        return {
+            "title": run.source.title, "mechanism": run.source.mechanism, "scene": run.source.scene,
+            "t": [float(run.t[0]), float(run.t[-1])], "samples": len(run.t), "method": run.diagnostics.method,
+            "joints": joints, "energy": _energy(run), "trust": _trust(run), "laws": laws_of(run.source),
+            "warnings": [*run.diagnostics.notes, *_warnings(run, joints)],
+        }  # fmt: skip
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain values in SI, None where there is nothing: JSON takes them."""
+        plain: dict[str, Any] = finite(self._found)
+        return plain
+
+    def to_html(self) -> str:
+        """One page that needs nothing from elsewhere: tables, and each joint's orbit as SVG."""
+        from gudgeon.results.trust_page import page_of
+
+        return page_of(self.run, self._found)
+
+    def _repr_html_(self) -> str:
+        from gudgeon.results.trust_page import sections
+        from gudgeon.results.web_page import article
+
+        return article(sections(self.run, self._found))
+
+    def __str__(self) -> str:
+        from gudgeon.results.trust_page import as_text
+
+        return as_text(self._found)
+
+    def __repr__(self) -> str:
+        return f"<RunReport {self.run.source.mechanism}/{self.run.source.scene}>"
+
+
+def _joint(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
+    """Of a joint with play; times, forces and places over all steps, shares of time from onsets and separations."""
+    peak, c = run.diagnostics.peak(joint.name), float(run.p[joint.clearance])
+    own = run.impacts[run.impacts["joint"] == k]
+    examined, deepest = _examined(run, joint.name), peak.e_max - c
+    found = {
+        "c": c, "time": _shares(run, k, joint, own), "contacts": len(own),
+        "still_closed": int(np.isnan(own["t_off"]).sum()), "approach": _spread(own["deltadot"]),
+        "restitution": None, "peak": {"F": peak.F, "t": peak.t}, "rms": _rms(run, joint.name),
+        "rms_of": "samples", "ideal": None, "largest_e": peak.e_max,
+        "penetration": max(deepest, 0.0) if joint.dry else math.nan,
+        "penetration_share": max(deepest, 0.0) / c if joint.dry else math.nan,
+        "film_least": max(-deepest, 0.0) if joint.film else math.nan, "work": None,
+    }  # fmt: skip
+    if examined is not None:
+        names = ("min", "q1", "median", "q3", "max")
+        found["restitution"] = {name: getattr(examined, f"restitution_{name}") for name in names}
+        found |= {"rms": examined.F_rms, "rms_of": "all of the time"}
+        damping = examined.taken - examined.returned
+        found["work"] = {"taken": examined.taken, "returned": examined.returned, "damping": damping,
+                         "friction": examined.friction, "film": examined.film}  # fmt: skip
+    for ideal in (run.diagnostics.examined or Examined()).ideal:
+        if ideal.joint == joint.name:
+            found["ideal"] = {"F": ideal.peak, "t": ideal.t_peak, "rms": ideal.rms}
+    return found
+
+
+def _examined(run: Result, joint: str) -> Any:
+    found = run.diagnostics.examined or Examined()
+    return next((one for one in found.joints if one.joint == joint), None)
+
+
+def _shares(run: Result, k: int, joint: ClearanceInfo, own: Array) -> dict[str, float]:
+    """Of the time: free, impacting (from an onset until the penetration first stops growing), in contact, on a film.
+
+    How long surfaces touch follows from onsets and separations; of it what is impact from a second pass, else samples.
+    """
+    begin, end = float(run.t[0]), float(run.t[-1])
+    if not end > begin:
+        return dict.fromkeys(("free", "impacting", "contact", "film"), math.nan)
+    off = np.where(np.isnan(own["t_off"]), end, own["t_off"])
+    touching = np.clip(off, begin, end) - np.clip(own["t_on"], begin, end)
+    closed = float(touching.sum()) / (end - begin)
+    examined = _examined(run, joint.name)
+    if examined is not None and joint.dry:
+        impacting = min(examined.impacting, closed)
+    else:
+        states = run.state[:, k]
+        impacting = closed * float((states == 1).sum()) / max(int((states > 0).sum()), 1)
+    apart = 1.0 - closed
+    return {"free": 0.0 if joint.film else apart, "impacting": impacting, "contact": closed - impacting,
+            "film": apart if joint.film else 0.0}  # fmt: skip
+
+
+def _spread(values: Array) -> dict[str, float] | None:
+    if not len(values):
+        return None
+    low, middle, high = (float(x) for x in np.quantile(values, (0.0, 0.5, 1.0)))
+    return {"min": low, "median": middle, "max": high}
+
+
+def _rms(run: Result, joint: str) -> float:
+    """Of the samples, by trapezoids."""
+    force, span = run[f"{joint}.F"], float(run.t[-1] - run.t[0])
+    return math.sqrt(float(np.trapezoid(force**2, run.t)) / span) if span > 0.0 else float(force[0])
+
+
+def _energy(run: Result) -> dict[str, float] | None:
+    """Works to the end and the balance, J; None of a scene that lacks masses."""
+    if run.source.massless:
+        return None
+    d, names = run.diagnostics, ("drives", "forces", "clearances")
+    found = {name: float(run.work[-1, k] - run.work[0, k]) for k, name in enumerate(names)}
+    total = run["energy.kinetic"] + run["energy.potential"]
+    found |= {"change": float(total[-1] - total[0]), "residual": d.energy_residual, "turned_over": d.energy_turned_over}
+    joints = [_examined(run, joint.name) for joint in run.source.clearances]
+    if joints and all(joints):
+        parts = [x for one in joints for x in (one.taken - one.returned, one.friction, one.film) if math.isfinite(x)]
+        found["not_told_apart"] = -found["clearances"] - math.fsum(parts)
+    return found
+
+
+def _trust(run: Result) -> dict[str, Any]:
+    d, examined = run.diagnostics, run.diagnostics.examined or Examined()
+    horizon: Any = "to the end" if d.horizon == math.inf else d.horizon
+    return {
+        "phi_max": d.phi_max, "phi_dot_max": d.phi_dot_max, "horizon": horizon, "steps": d.steps, "rtol": d.rtol,
+        "step": d.step, "compared_with": examined.compared_with, "interrupted": d.interrupted,
+        "differences": [asdict(one) for one in examined.differences], "notes": list(examined.notes),
+        "asked": d.examined is not None,
+    }  # fmt: skip
+
+
+def laws_of(source: KernelSource) -> list[dict[str, str]]:
+    """Title, source and validity of each law of contact, friction and film, as its C says them."""
+    found: dict[str, dict[str, str]] = {}
+    for text in (text for name, text in source.files.items() if name == "clearance.c"):
+        for law in _LAW.finditer(text):
+            found.setdefault(law["title"], law.groupdict())
+    return list(found.values())
+
+
+def _warnings(run: Result, joints: dict[str, dict[str, Any]]) -> list[str]:
+    """Where a run went beyond what its laws are good for; what it told itself is among its notes."""
+    d, found = run.diagnostics, []
+    if d.ratio_outside:
+        found.append(
+            f"in {d.ratio_outside} steps in contact δ̇/δ̇⁻ was outside ±1, {d.ratio_min:.3g} … {d.ratio_max:.3g}: damping"
+            " laws are made for impacts that nothing drives on"
+        )
+    for joint in (joint for joint in run.source.clearances if joint.film):
+        share = _squeezed(run, joint)
+        if share > 0.0:
+            found.append(
+                f"{joint.name}: in {100 * share:.3g} % of the time |ε̇| is over half the surfaces' mean rate: a half"
+                " film holds for |ω| ≫ |ε̇|"
+            )
+    energy = _energy(run) or {}
+    if abs(energy.get("not_told_apart", 0.0)) > OFF * max(abs(energy.get("clearances", 0.0)), 1e-300):
+        found.append(
+            f"{energy['not_told_apart']:.3g} J of the joints' work is of neither contact, friction nor the film's"
+            " force: its shear, or contacts that the second pass did not resolve"
+        )
+    return found
+
+
+def _squeezed(run: Result, joint: ClearanceInfo) -> float:
+    """Share of the samples on the film at which its squeezing is not slow beside its turning."""
+    sides = [run.source.bodies[body].name for body in (joint.first, joint.second) if body >= 0]
+    turning = 0.5 * np.abs(sum(run[f"{name}.omega"] for name in sides))
+    c = float(run.p[joint.clearance])
+    on_film = run[f"{joint.name}.e"] < c
+    fast = np.abs(run[f"{joint.name}.deltadot"]) / c > SQUEEZE * turning
+    return float((fast & on_film).sum()) / max(int(on_film.sum()), 1)

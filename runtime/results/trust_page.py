@@ -1,0 +1,160 @@
+"""The report of a run as a page and as text: the same rows in both."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from html import escape
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.language.plot_units import quantity
+from gudgeon.language.shown import one_line, visible
+from gudgeon.results import trace
+from gudgeon.results.trust import NOT_ASKED
+from gudgeon.results.web_page import Section, lines, page, table
+
+if TYPE_CHECKING:
+    from gudgeon.results.results import Result
+
+SIDE, MOST = 260, 6000  # pixels of an orbit, its points
+Rows = list[tuple[str, str]]
+
+
+def page_of(run: Result, found: Mapping[str, Any]) -> str:
+    """The whole file."""
+    return page(_title(found), _about(found), sections(run, found))
+
+
+def sections(run: Result, found: Mapping[str, Any]) -> Iterator[Section]:
+    """Heading and HTML of each part."""
+    yield "What to know", lines(found["warnings"], "g-warning")
+    for name, joint in found["joints"].items():
+        inside = f"{orbit_svg(run, name)}<div>{table(('', ''), joint_rows(joint, found['trust']['asked']))}</div>"
+        yield f"Joint {name}", f"<div class='g-beside'>{inside}</div>"
+    yield "Energy", table(("", ""), energy_rows(found))
+    trust = found["trust"]
+    yield "How far to believe it", table(("", ""), trust_rows(trust)) + lines(trust["notes"], "g-quiet")
+    yield "Laws", "".join(
+        f"<h3>{escape(visible(law['title']))}</h3>" + lines([f"Valid: {law['valid']}.", f"Source: {law['source']}."])
+        for law in found["laws"]
+    )
+
+
+def as_text(found: Mapping[str, Any]) -> str:
+    """The same for a terminal."""
+    parts: list[tuple[str, Rows]] = [("", [("", _about(found))])]
+    parts += [(f"joint {name}", joint_rows(one, found["trust"]["asked"])) for name, one in found["joints"].items()]
+    parts += [("energy", energy_rows(found)), ("how far to believe it", trust_rows(found["trust"]))]
+    told = [_title(found)]
+    for heading, rows in parts:
+        told += [heading] if heading and rows else []
+        told += [f"  {name:<34}  {cell}".rstrip() if name else f"  {cell}" for name, cell in rows]
+    told += [f"law: {law['title']}; valid: {law['valid']}" for law in found["laws"]]
+    return visible("\n".join([*told, *(f"note: {one}" for one in (*found["warnings"], *found["trust"]["notes"]))]))
+
+
+def _title(found: Mapping[str, Any]) -> str:
+    return f"{one_line(found['title'] or found['mechanism'])}: {found['scene']}"
+
+
+def _about(found: Mapping[str, Any]) -> str:
+    begin, end = found["t"]
+    return f"{begin:.6g} … {end:.6g} s, {found['samples']} samples, {found['method']}, {found['trust']['steps']} steps"
+
+
+def joint_rows(joint: Mapping[str, Any], asked: bool) -> Rows:
+    """Name and cell."""
+    shares = ((name, joint["time"][name]) for name in ("free", "impacting", "contact", "film"))
+    time = ", ".join(f"{name} {100 * x:.4g} %" for name, x in shares if x or name == "free")
+    rows = [("clearance c", quantity(joint["c"], "m")), ("share of the time", time)]
+    still = f", {joint['still_closed']} to the end" if joint["still_closed"] else ""
+    rows.append(("contacts", f"{joint['contacts']}{still}"))
+    if joint["approach"]:
+        rows.append(("approach, least … median … largest", _range(joint["approach"], "m/s")))
+        back = joint["restitution"]
+        known = back is not None and math.isfinite(back["median"])
+        none = "no contact ended" if back is not None else NOT_ASKED
+        rows.append(("restitution delivered, the same", _range(back, "") if known else none))
+    rows.append(("peak force", f"{quantity(joint['peak']['F'], 'N')} at {quantity(joint['peak']['t'], 's')}"))
+    rows.append((f"RMS force, of {joint['rms_of']}", quantity(joint["rms"], "N")))
+    if ideal := joint["ideal"]:
+        rows.append(("ideal peak force", f"{quantity(ideal['F'], 'N')}{_times(joint['peak']['F'], ideal['F'])}"))
+        rows.append(("ideal RMS force", f"{quantity(ideal['rms'], 'N')}{_times(joint['rms'], ideal['rms'])}"))
+    else:
+        rows.append(("ideal forces", NOT_ASKED if not asked else "not known"))
+    if math.isfinite(joint["penetration"]):
+        told = f"{quantity(joint['penetration'], 'm')}, {joint['penetration_share']:.3g} c"
+        rows.append(("deepest penetration", told if joint["penetration"] else "none"))
+    if math.isfinite(joint["film_least"]):
+        rows.append(("least film thickness", quantity(joint["film_least"], "m")))
+    return rows + _work_rows(joint["work"], asked)
+
+
+def _work_rows(work: Mapping[str, float] | None, asked: bool) -> Rows:
+    if work is None:
+        return [("where its work went", NOT_ASKED if not asked else "not known")]
+    names = {"taken": "energy into contact", "returned": "given back", "damping": "taken by damping",
+             "friction": "taken by friction", "film": "taken by the film"}  # fmt: skip
+    return [(told, quantity(work[name], "J")) for name, told in names.items() if math.isfinite(work[name])]
+
+
+def _range(found: Mapping[str, float], unit: str) -> str:
+    return " … ".join(quantity(found[name], unit) for name in ("min", "median", "max"))
+
+
+def _times(value: float, ideal: float) -> str:
+    """How many times the ideal one."""
+    return f", with play {value / ideal:.3g} times that" if ideal > 0.0 else ""
+
+
+def energy_rows(found: Mapping[str, Any]) -> Rows:
+    """Name and cell."""
+    energy = found["energy"]
+    if energy is None:
+        return [("energy", "not known: a body has no mass or no inertia")]
+    names = {
+        "drives": "work of the drives", "forces": "work of the forces", "clearances": "work of the joints with play",
+        "not_told_apart": "taken by joints, not told apart", "change": "kinetic and potential energy, change",
+        "residual": "largest residual of the balance", "turned_over": "turned over",
+    }  # fmt: skip
+    rows = [(told, quantity(energy[name], "J")) for name, told in names.items() if name in energy]
+    return [row for row in rows if found["joints"] or row[0] != names["clearances"]]
+
+
+def trust_rows(trust: Mapping[str, Any]) -> Rows:
+    """Name and cell."""
+    rows = [("drift, max |Φ|", f"{trust['phi_max']:.2e}"), ("drift, max |Φ̇|", f"{trust['phi_dot_max']:.2e}")]
+    if math.isfinite(trust["rtol"]):
+        rows.append(("tolerance of a step", f"{trust['rtol']:.3g}"))
+    if math.isfinite(trust["step"]):
+        rows.append(("step", quantity(trust["step"], "s")))
+    horizon = trust["horizon"]
+    until = horizon if isinstance(horizon, str) else quantity(horizon, "s") if math.isfinite(horizon) else "not sought"
+    rows.append(("believed until (horizon)", until))
+    for one in trust["differences"]:
+        told = f"{quantity(one['largest'], one['unit'])} at {quantity(one['t'], 's')}"
+        rows.append((f"{one['name']}, against {trust['compared_with']}", told))
+    return rows if trust["asked"] else [*rows, ("against smaller steps", NOT_ASKED)]
+
+
+def orbit_svg(run: Result, joint: str) -> str:
+    """The journal's path through all steps, as far as a picture shows them, in the circle e = c."""
+    c = run.constants[f"{joint}.c"]
+    _, x, y = trace.path(run, joint)
+    good = np.isfinite(x) & np.isfinite(y)
+    x, y = x[good] / c, y[good] / c
+    reach = 1.06 * max(1.0, float(np.hypot(x, y).max(initial=0.0)))
+    scale = SIDE / (2.0 * reach)
+    kept = slice(None, None, max(1, -(-len(x) // MOST)))
+    points = zip(SIDE / 2 + scale * x[kept], SIDE / 2 - scale * y[kept], strict=True)
+    path = " ".join(f"{a:.1f},{b:.1f}" for a, b in points)
+    first = path.partition(" ")[0].partition(",")
+    start = f"<circle class='g-start' cx='{first[0]}' cy='{first[2]}' r='3.5'/>" if path else ""
+    return (
+        f"<figure><svg role='img' aria-label='orbit of the journal of {escape(joint, quote=True)}' width='{SIDE}'"
+        f" height='{SIDE}' viewBox='0 0 {SIDE} {SIDE}'><circle class='g-circle' cx='{SIDE / 2:g}' cy='{SIDE / 2:g}'"
+        f" r='{scale:.1f}'/><polyline class='g-path' stroke-width='.8' points='{path}'/>{start}</svg>"
+        "<figcaption>the journal in the circle e = c, ○ start</figcaption></figure>"
+    )

@@ -1,0 +1,92 @@
+"""A page of HTML that is whole by itself: headings, tables and pictures; light and dark, on a phone and on paper.
+
+What comes from a file is text: `escape` it, or hand it to `table` and `lines`, which do.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from html import escape
+
+from gudgeon.language.shown import one_line, visible
+
+Section = tuple[str, str]  # heading, text; what is under it, HTML
+
+STYLE = """
+.g-report { --ink: #1c1c1e; --paper: #fff; --quiet: #62656a; --line: #d9dce0; --panel: #f5f6f7; --accent: #0067a8;
+  --second: #c2410c; color: var(--ink); font: 15px/1.5 system-ui, sans-serif; }
+@media (prefers-color-scheme: dark) { .g-report { --ink: #e7e8ea; --paper: #16181b; --quiet: #a3a8ae; --line: #383c42;
+  --panel: #1f2226; --accent: #6cb8f0; --second: #f59e6b; } }
+.g-report { background: var(--paper); }
+.g-report h1 { font-size: 1.5rem; line-height: 1.25; margin: 0 0 .3rem; }
+.g-report h2 { font-size: 1.15rem; margin: 2rem 0 .5rem; border-bottom: 1px solid var(--line); }
+.g-report h3 { font-size: 1rem; margin: 1rem 0 .3rem; }
+.g-report :is(h1, h2, h3, p, li, td, th, figcaption) { overflow-wrap: anywhere; }
+.g-report .g-wide { overflow-x: auto; max-width: 100%; }
+.g-report table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: .4rem 0; font-size: .92em; }
+.g-report :is(td, th) { padding: .2rem .7rem .2rem 0; text-align: right; vertical-align: top; overflow-wrap: normal;
+  white-space: nowrap; }
+.g-report :is(td, th):first-child { text-align: left; }
+.g-report .g-words :is(td, th) { text-align: left; white-space: normal; min-width: 4rem; max-width: 30rem; }
+.g-report .g-pairs td { white-space: normal; }
+.g-report .g-beside > div { min-width: 0; max-width: 100%; }
+.g-report th { font-weight: 600; border-bottom: 1px solid var(--line); }
+.g-report tbody tr + tr td { border-top: 1px solid var(--line); }
+.g-report .g-quiet { color: var(--quiet); }
+.g-report .g-warning { border-left: 3px solid var(--second); padding-left: .7rem; }
+.g-report figure { margin: .6rem 0; break-inside: avoid; }
+.g-report figcaption { color: var(--quiet); font-size: .9em; }
+.g-report .g-beside { display: flex; flex-wrap: wrap; gap: .5rem 2rem; align-items: flex-start; }
+.g-report .g-figures { display: grid; gap: 1rem;
+  grid-template-columns: repeat(auto-fit, minmax(min(27rem, 100%), 1fr)); }
+.g-report svg { max-width: 100%; height: auto; }
+.g-report .g-figures svg { width: 100%; background: #fff; border-radius: 4px; }
+.g-report .g-circle { fill: var(--panel); stroke: var(--quiet); }
+.g-report .g-path { fill: none; stroke: var(--accent); stroke-linejoin: round; }
+.g-report .g-start { fill: var(--paper); stroke: var(--ink); }
+@media print { .g-report { --ink: #000; --paper: #fff; --quiet: #444; --line: #bbb; --panel: #f6f6f6; --accent: #0067a8;
+  --second: #c2410c; font-size: 10pt; } .g-report .g-wide { overflow: visible; } .g-report tr { break-inside: avoid; } }
+"""
+PAGE = """<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<meta name="color-scheme" content="light dark"><title>{title}</title>
+<style>html {{ background: #fff; }} @media (prefers-color-scheme: dark) {{ html {{ background: #16181b; }} }}
+@media print {{ html {{ background: #fff; }} }}
+body {{ margin: 0; }} body > .g-report {{ max-width: 68rem; margin: 0 auto; padding: 1.5rem max(1rem, 2vw) 3rem; }}
+</style></head>
+<body>{article}</body></html>
+"""
+
+
+def page(title: str, about: str, sections: Iterable[Section]) -> str:
+    """The whole file. `title` and `about` are text."""
+    head = f"<h1>{text(title)}</h1><p class='g-quiet'>{escape(visible(about))}</p>"
+    return PAGE.format(title=text(title), article=article(sections, head))
+
+
+def article(sections: Iterable[Section], head: str = "") -> str:
+    """What a notebook shows: the same without the rest of a page."""
+    parts = [f"<section><h2>{escape(visible(name))}</h2>{inside}</section>" for name, inside in sections if inside]
+    return f"<article class='g-report'><style>{STYLE}</style>{head}{''.join(parts)}</article>"
+
+
+def text(words: str) -> str:
+    """Text of a file in a line."""
+    return escape(one_line(words))
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[str]], words: bool = False) -> str:
+    """Cells are text, `words` or numbers; nothing where there is no row."""
+    body = "".join(f"<tr>{''.join(f'<td>{escape(visible(cell))}</td>' for cell in row)}</tr>" for row in rows)
+    if not body:
+        return ""
+    names = "".join(f"<th scope='col'>{escape(visible(name))}</th>" for name in head)
+    above = f"<thead><tr>{names}</tr></thead>" if any(head) else ""
+    kind = " class='g-words'" if words else "" if any(head) else " class='g-pairs'"
+    return f"<div class='g-wide' tabindex='0'><table{kind}>{above}<tbody>{body}</tbody></table></div>"
+
+
+def lines(texts: Iterable[str], kind: str = "") -> str:
+    """A paragraph each."""
+    of = f" class='{kind}'" if kind else ""
+    return "".join(f"<p{of}>{escape(visible(one))}</p>" for one in texts)

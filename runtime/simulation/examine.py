@@ -1,0 +1,233 @@
+"""What other runs beside a run tell of it, for its report: `examine(simulation, run, ideal)`.
+
+The run once more, bit for bit, sampled within its contacts at Gauss's points between all its samples, rows of its
+trace, onsets, separations and peaks of force: where the work of each joint with play went, and how fast surfaces part.
+The run with steps half as long, or a tolerance a hundred times tighter: how far it errs. The ideal scene at its times:
+what its joints would carry without play. What is found is in `diagnostics.examined`, and in the run's file with that.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.polynomial.legendre import leggauss
+
+from gudgeon.contract.methods import ADAPTIVE, AUTO
+from gudgeon.errors import BadValueError, GudgeonError
+from gudgeon.results.diagnostics import Difference, Examined, IdealForce, JointExamined
+from gudgeon.results.report import default_watch
+from gudgeon.results.series import MOTION, rates
+from gudgeon.simulation.horizon import begin_of, repeated, settings_of
+
+if TYPE_CHECKING:
+    from gudgeon.contract.kernel_source import ClearanceInfo
+    from gudgeon.integrators.trajectory import Progress
+    from gudgeon.model.compiled import Array
+    from gudgeon.results.results import Result
+    from gudgeon.simulation.simulation import Simulation
+
+NODES, WEIGHTS = leggauss(6)
+MOST = 20_000  # samples between which there are Gauss's points; of more each so many-th
+ANOTHER = "the run could not be repeated bit for bit: where the work of its joints went is not known"
+
+
+def examine(
+    simulation: Simulation, run: Result, ideal: Simulation | Result | None = None, progress: Progress | None = None
+) -> Result:
+    """The run with `diagnostics.examined`. `ideal`: the ideal scene, or its run at the run's times.
+
+    BadValueError for a run of another scene, or a file of it that has no scene. Ctrl-C is passed on.
+    """
+    if run.source.whole_sha256 != simulation.source.whole_sha256 or run.source.scene != simulation.source.scene:
+        raise BadValueError("examine: expected the simulation whose run it is")
+    notes: list[str] = []
+    joints = _joints(simulation, run, notes, progress)
+    differences, told = _differences(simulation, run, notes, progress)
+    found = Examined(joints, _ideal(run, ideal, notes), differences, told, tuple(notes))
+    return replace(run, diagnostics=replace(run.diagnostics, examined=found))
+
+
+def _again(
+    simulation: Simulation, run: Result, t: Array, settings: dict[str, Any], progress: Progress | None
+) -> Iterator[Result]:
+    """The run at times t: begun as the file says, and begun in its first sample. What ends early is none."""
+    for start in (None, begin_of(run)) if run.t[0] == 0.0 else (begin_of(run),):
+        try:
+            other = repeated(simulation, t, start, settings, progress)
+        except GudgeonError:  # a start that does not close any more
+            continue
+        if other is not None and other.diagnostics.interrupted:
+            raise KeyboardInterrupt
+        if other is not None and len(other.t) == len(t):
+            yield other
+
+
+def _joints(
+    simulation: Simulation, run: Result, notes: list[str], progress: Progress | None
+) -> tuple[JointExamined, ...]:
+    if not run.source.clearances or len(run.t) < 2:
+        return ()
+    t, weights = _points(run)
+    ends = run.impacts["t_off"]
+    every = np.unique(np.concatenate([run.t, t, ends[(ends >= run.t[0]) & (ends <= run.t[-1])]]))
+    usual = settings_of(run)[0]
+    for other in (x for own in _as_it_was(usual) for x in _again(simulation, run, every, own, progress)):
+        same = np.searchsorted(other.t, run.t)
+        if np.array_equal(other.q[same], run.q, equal_nan=True) and np.array_equal(other.v[same], run.v):
+            at = np.searchsorted(other.t, t)
+            each = enumerate(run.source.clearances)
+            return tuple(_joint(run, other, k, joint, at, weights) for k, joint in each)
+    notes.append(ANOTHER)
+    return ()
+
+
+def _as_it_was(usual: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """A run by "auto" is told by the one method that made all its steps, if one did."""
+    if usual["method"] in AUTO and "step" not in usual:
+        yield usual | {"method": ADAPTIVE}
+    yield usual
+
+
+def _points(run: Result) -> tuple[Array, Array]:
+    """Times (s) and weights (s) of a quadrature over all that is in contact, or where there is a film over all."""
+    edges = [run.t[:: max(1, len(run.t) // MOST)], run.t[-1:], *(run.impacts[n] for n in ("t_on", "t_off", "t_peak"))]
+    edges += [] if run.trace is None else [run.trace.t]
+    t = np.unique(np.concatenate(edges))
+    t = t[(t >= run.t[0]) & (t <= run.t[-1])]
+    half, middle = 0.5 * np.diff(t), 0.5 * (t[1:] + t[:-1])
+    kept = half > 1e-12 * (t[-1] - t[0])
+    if not any(joint.film for joint in run.source.clearances):
+        begin = np.sort(run.impacts["t_on"])
+        end = np.sort(np.where(np.isnan(run.impacts["t_off"]), np.inf, run.impacts["t_off"]))
+        kept &= np.searchsorted(begin, middle, "right") > np.searchsorted(end, middle, "right")
+    half, middle = half[kept], middle[kept]
+    return (middle[:, None] + half[:, None] * NODES).ravel(), (half[:, None] * WEIGHTS).ravel()
+
+
+def _joint(run: Result, other: Result, k: int, joint: ClearanceInfo, at: Any, weights: Array) -> JointExamined:
+    """Of `other`, the run once more, at its points `at`."""
+    name, span = joint.name, float(run.t[-1] - run.t[0])
+    e, force = other[f"{name}.e"][at], other[f"{name}.F"][at]
+    parts = ((other[f"{name}.F{axis}"] * other[f"{name}.e{axis}"])[at] for axis in "xy")
+    with np.errstate(invalid="ignore", divide="ignore"):
+        normal = np.where(e > 0.0, sum(parts) / e, 0.0) * other[f"{name}.deltadot"][at]  # W, by the forces
+    touching = (e > run.p[joint.clearance]) if joint.dry else np.zeros(len(at), bool)
+    slip = (other[f"{name}.Ft"] * other[f"{name}.vt"])[at]
+    in_film = _film_power(other, joint)[at] if joint.film else np.zeros(len(at))
+    found = [
+        float(weights @ np.where(touching, power, 0.0))
+        for power in (np.maximum(-normal, 0.0), np.maximum(normal, 0.0), -slip)
+    ]
+    film = float(weights @ np.where(touching, 0.0, -in_film))
+    impacting = _until_turns(run, other, k, name) / span if joint.dry else math.nan
+    rms = math.sqrt(float(weights @ force**2) / span)
+    taken, returned, friction = found if joint.dry else (math.nan,) * 3
+    return JointExamined(
+        name, impacting, rms, taken, returned, friction, film if joint.film else math.nan,
+        *_restitution(run, other, k, name),
+    )  # fmt: skip
+
+
+def _until_turns(run: Result, other: Result, k: int, name: str) -> float:
+    """From the onset of each contact until its penetration first stops growing, s."""
+    rate, total = other[f"{name}.deltadot"], 0.0
+    for contact in run.impacts[run.impacts["joint"] == k]:
+        begin, end = max(contact["t_on"], run.t[0]), contact["t_off"]
+        end = run.t[-1] if math.isnan(end) else min(end, run.t[-1])
+        first, last = np.searchsorted(other.t, (begin, end), "right")
+        fell = np.flatnonzero(rate[first:last] <= 0.0)
+        turn = end
+        if len(fell) and (j := int(first + fell[0])) > first and rate[j - 1] > 0.0:
+            turn = other.t[j - 1] + (other.t[j] - other.t[j - 1]) * rate[j - 1] / (rate[j - 1] - rate[j])
+        elif len(fell):
+            turn = other.t[first + fell[0]]
+        total += max(float(turn - begin), 0.0)
+    return total
+
+
+def _film_power(run: Result, joint: ClearanceInfo) -> Array:
+    """Of the film's resultant, which acts on both bodies at the journal's centre: F · (ė − ω_i ẑ × e), (N,) W."""
+    name, source = joint.name, run.source
+    bearing = next((part.ends[0] for part in source.parts if part.section == "joints" and part.name == name), "")
+    omega = run[f"{source.bodies[joint.first].name}.omega"] if joint.first >= 0 else 0.0
+    ex, ey = run[f"{name}.ex"], run[f"{name}.ey"]
+    x, y = (_rate(run, joint.point, axis) - _rate(run, bearing, axis) for axis in (0, 1))
+    power: Array = run[f"{name}.Fx"] * (x + omega * ey) + run[f"{name}.Fy"] * (y - omega * ex)
+    return power
+
+
+def _rate(run: Result, point: str, axis: int) -> Array:
+    """Velocity of a point; 0 of the ground's."""
+    body, _, last = point.rpartition(".")
+    name = f"{body if last == 'com' else point}.{MOTION[axis][1]}"
+    return run[name] if name in run else np.zeros(len(run.t))
+
+
+def _restitution(run: Result, other: Result, k: int, name: str) -> tuple[int, float, float, float, float, float]:
+    """How many contacts ended, and least, quartiles and largest of what they gave back of the approach's rate."""
+    own = run.impacts[run.impacts["joint"] == k]
+    own = own[(own["t_off"] >= run.t[0]) & (own["t_off"] <= run.t[-1])]
+    parting = -other[f"{name}.deltadot"][np.searchsorted(other.t, own["t_off"])]
+    if not len(own):
+        return 0, math.nan, math.nan, math.nan, math.nan, math.nan
+    low, q1, middle, q3, high = map(float, np.quantile(parting / own["deltadot"], (0.0, 0.25, 0.5, 0.75, 1.0)))
+    return len(own), low, q1, middle, q3, high
+
+
+def _ideal(run: Result, ideal: Simulation | Result | None, notes: list[str]) -> tuple[IdealForce, ...]:
+    """Forces at the joints with play, if they had none."""
+    if ideal is None or run.source.massless or not run.source.clearances:
+        return ()
+    if hasattr(ideal, "simulate"):
+        known = {slot.address for slot in ideal.source.slots}
+        values = {slot.address: run.parameters[slot.address] for slot in run.source.slots if slot.address in known}
+        try:
+            ideal = ideal.simulate(output=run.t, parameters=values, stop=False, peaks=())
+        except GudgeonError as error:
+            notes.append(f"the ideal scene cannot be followed: {str(error).partition(chr(10))[0]}")
+            return ()
+    found = []
+    for name in (joint.name for joint in run.source.clearances if f"{joint.name}.F" in ideal.names):
+        force = ideal[f"{name}.F"]
+        if np.isfinite(force).all():
+            at = int(force.argmax())
+            rms = mean_square(ideal.t, force) ** 0.5
+            found.append(IdealForce(name, float(force[at]), float(ideal.t[at]), rms))
+    return tuple(found)
+
+
+def mean_square(t: Array, values: Array) -> float:
+    """Over time, by trapezoids between samples; that of the one where there is one alone."""
+    span = float(t[-1] - t[0])
+    return float(np.trapezoid(values**2, t)) / span if span > 0.0 else float(values[0] ** 2)
+
+
+def _differences(
+    simulation: Simulation, run: Result, notes: list[str], progress: Progress | None
+) -> tuple[tuple[Difference, ...], str]:
+    """Of what a reader wants to see, and of the forces of joints with play, up to the horizon if it is known."""
+    if simulation.source.degrees_of_freedom == 0 and not run.source.clearances or len(run.t) < 2:
+        return (), ""  # Newton's method at each sample: there is no step
+    usual, tighter = settings_of(run)
+    fixed = "step" in usual
+    told = "steps half as long" if fixed else f"tolerance {tighter['rtol']:.3g} a step"
+    settings = usual | {"step": usual["step"] / 2.0} if fixed else tighter
+    other = next(_again(simulation, run, run.t, settings, progress), None)
+    if other is None:
+        notes.append(f"a run with {told} does not come to the end of this one")
+        return (), ""
+    horizon = run.diagnostics.horizon
+    until = min(horizon, float(run.t[-1])) if math.isfinite(horizon) else float(run.t[-1])
+    believed = run.t <= until
+    names = [name for watched in default_watch(run) for name in (watched, *rates(watched)) if name]
+    found = []
+    for name in dict.fromkeys([*names, *(f"{joint.name}.F" for joint in run.source.clearances)]):
+        apart = np.abs(other[name] - run[name])[believed]
+        if np.isfinite(apart).all():
+            at = int(apart.argmax())
+            found.append(Difference(name, run.unit(name), float(apart[at]), float(run.t[at]), until))
+    return tuple(found), told

@@ -1,0 +1,207 @@
+"""What pictures and pages take of a study's dataset: runs by their coordinates, axes with units, sections of series."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from gudgeon.errors import BadValueError, UnknownNameError
+from gudgeon.language.plot_units import drawn, label, pretty, scale
+from gudgeon.language.shown import one_line
+from gudgeon.language.suggestions import unknown
+from gudgeon.language.wanted import flag, number_of, text, told
+
+if TYPE_CHECKING:
+    from gudgeon.studies.ensemble.study import Study
+
+Coords: TypeAlias = Mapping[str, Any]
+SAMPLES, OWN_TIMES = ("time", "sample"), "t"
+MANY = ("start", "draw", "ensemble")  # dimensions of which one asks the spread first
+
+
+class StudyData:
+    """The dataset of a study, asked by names; UnknownNameError names the nearest."""
+
+    def __init__(self, study: Study) -> None:
+        self.study, self.dataset = study, study.dataset
+        self.title = str(self.dataset.attrs.get("title") or self.dataset.attrs.get("mechanism", ""))
+
+    @property
+    def kept(self) -> tuple[str, ...]:
+        """Names of the series that were kept."""
+        return tuple(str(name) for name, one in self.dataset.data_vars.items()
+                     if one.dims and one.dims[-1] in SAMPLES and name != OWN_TIMES)  # fmt: skip
+
+    def unit(self, name: str) -> str:
+        """SI, of a variable or a coordinate."""
+        return str(self.dataset[name].attrs.get("units", ""))
+
+    def measure(self, name: str, at: Coords | None = None) -> Any:
+        """A measure as a DataArray, of the runs at some coordinates."""
+        if text(name, "a measure", "the name of a measure") not in self.study.measures:
+            raise unknown(f"the study has no measure {name!r}", name, self.study.measures)
+        return self._picked(self.dataset[name], at)
+
+    def series(self, name: str, at: Coords | None = None) -> tuple[Any, Any]:
+        """Times, (N,) where all runs have the same, else (…, N), and a kept series (…, N)."""
+        if text(name, "a series", "the name of a kept series") not in self.kept:
+            raise unknown(f"the study kept no series {name!r}", name, self.kept)
+        found = self._picked(self.dataset[name], at)
+        if OWN_TIMES not in self.dataset:
+            return self.dataset["time"].values, found
+        t = self._picked(self.dataset[OWN_TIMES], at).values
+        rows = t.reshape(-1, t.shape[-1])
+        alike = rows[np.isfinite(rows[:, 0])]
+        if len(alike) and (np.isclose(alike, alike[0], rtol=1e-12, equal_nan=True)).all():
+            return alike[0], found
+        return t, found
+
+    def shares(self, t: Any) -> Any:
+        """Samples as shares of their run, (N,), where all runs have the same; None where they do not."""
+        rows = t.reshape(-1, t.shape[-1])
+        rows = rows[np.isfinite(rows).all(axis=1)]
+        if not len(rows) or not (rows[:, -1] > rows[:, 0]).all():
+            return None
+        own = (rows - rows[:, :1]) / (rows[:, -1:] - rows[:, :1])
+        return own[0] if np.allclose(own, own[0], rtol=0.0, atol=1e-9) else None
+
+    def _picked(self, found: Any, at: Coords | None) -> Any:
+        for name, value in (at or {}).items():
+            dimension = self.dimension(found, name)
+            found = found.isel({dimension: self.nearest(found, dimension, value)})
+        return found
+
+    def dimension(self, found: Any, name: str) -> str:
+        """A dimension of runs. BadValueError where it has but the one value."""
+        known = [str(one) for one in found.dims if one not in SAMPLES]
+        if text(name, "a dimension") in known:
+            return name
+        if name in self.dataset.dims or name in self.dataset.coords:
+            over = [str(one) for one in self.dataset[name].dims if one in known]
+            if len(over) == 1:  # a number of a zip or a draw
+                return over[0]
+            raise BadValueError(f"{name} does not vary over the runs that are shown")
+        raise _no_dimension(name, known)
+
+    def nearest(self, found: Any, dimension: str, value: Any) -> int:
+        """The place of a coordinate's value: that word, or the nearest number."""
+        values = self.dataset[dimension].values if dimension in self.dataset.coords else np.arange(len(found))
+        if values.dtype.kind in "OU":
+            words = [str(one) for one in values]
+            if value not in words:
+                raise unknown(f"{dimension} has no {told(value)}", str(value), tuple(words))
+            return words.index(value)
+        return int(np.abs(values - number_of(value, dimension)).argmin())
+
+    def first(self, found: Any) -> str:
+        """What a measure is drawn over if nobody says: the first dimension that is a number's, else the first."""
+        dims = [str(one) for one in found.dims]
+        numbers = [one for one in dims if one not in MANY and self._is_number(one)]
+        if not dims:
+            raise BadValueError("the study has one run here: there is nothing to draw it over")
+        return next(iter(numbers), next((one for one in dims if one != "scene"), dims[0]))
+
+    def _is_number(self, dimension: str) -> bool:
+        return self.dataset[dimension].values.dtype.kind in "fiu"
+
+    def lines(self, found: Any, over: str) -> str | None:
+        """What tells lines apart if nobody says: scenes, else the first dimension of words."""
+        dims = [str(one) for one in found.dims if one != over]
+        words = [one for one in dims if not self._is_number(one)]
+        return "scene" if "scene" in dims else next(iter(words), None)
+
+    def split(self, found: Any, by: str | None) -> list[tuple[str, Any]]:
+        """What to call it and the runs, for each value of `by`; "" and all for None."""
+        if by is None:
+            return [("", found)]
+        words, _ = self.labels(found, by, named=True)
+        return [(word, found.isel({by: k})) for k, word in enumerate(words)]
+
+    def rows(self, found: Any, *kept: str) -> Any:
+        """(runs, …): all other dimensions together as the first one, then these."""
+        others = [one for one in found.dims if one not in kept]
+        values = found.transpose(*others, *kept).values
+        return values.reshape(-1, *values.shape[len(others) :])
+
+    def axis(self, name: str) -> tuple[Any, str, list[str] | None]:
+        """Places of a coordinate's values, a label, and words for ticks where they are no numbers."""
+        values = self.dataset[name].values
+        if values.dtype.kind in "OU":
+            return np.arange(len(values)), one_line(name), [one_line(str(one)) for one in values]
+        factor, shown = drawn(float(np.abs(values).max(initial=0.0)), self.unit(name))
+        return values * factor, label(one_line(name), shown), None
+
+    def place(self, found: Any, name: str, value: Any) -> float:
+        """Where on that axis a value lies."""
+        values = self.dataset[name].values
+        if values.dtype.kind in "OU":
+            return float(self.nearest(found, name, value))
+        return number_of(value, name) * drawn(float(np.abs(values).max(initial=0.0)), self.unit(name))[0]
+
+    def labels(self, found: Any, dimension: str, named: bool = False) -> tuple[list[str], str]:
+        """A word for each value, "0.3" or with `named` "c = 0.3 mm", and the dimension's label."""
+        values = self.dataset[dimension].values
+        if values.dtype.kind in "OU":
+            return [one_line(str(one)) for one in values], one_line(dimension)
+        factor, unit = scale(float(np.abs(values).max(initial=0.0)), self.unit(dimension))
+        words = [f"{float(value) * factor:.4g}" for value in values]
+        if named:
+            words = [f"{one_line(dimension)} = {word} {unit}".strip() for word in words]
+        return words, label(one_line(dimension), unit)
+
+    def sections(
+        self, section: str, names: list[str], level: float, falling: bool, after: float, at: Coords | None
+    ) -> list[tuple[tuple[int, ...], list[Any]]]:
+        """Place of a run among those picked, and values of these series where one goes through a level."""
+        t, through = self.series(section, at)
+        others = [self.series(name, at)[1].values for name in names]
+        level, after, falling = number_of(level, "level"), number_of(after, "after"), flag(falling, "falling")
+        times, found = np.broadcast_to(t, through.shape), []
+        for where in np.ndindex(through.shape[:-1]):
+            own = [series[where] for series in others]
+            found.append((where, crossings(times[where], through.values[where], own, level, falling, after)))
+        return found
+
+    def spreads(self, name: str) -> Iterator[tuple[dict[str, str], Any]]:
+        """Of a measure what its coordinates are, in words, and the numbers over starts and draws there."""
+        found = self.dataset[name]
+        dims = [str(one) for one in found.dims if one not in MANY]
+        words = {one: self.labels(found, one)[0] for one in dims}
+        values = found.transpose(*dims, *(one for one in found.dims if one in MANY)).values
+        for where in np.ndindex(values.shape[: len(dims)]):
+            yield {one: words[one][k] for one, k in zip(dims, where, strict=True)}, np.ravel(values[where])
+
+    def shown_unit(self, name: str) -> str:
+        """For people."""
+        return pretty(self.unit(name))
+
+
+def crossings(t: Any, through: Any, others: list[Any], level: float, falling: bool, after: float) -> list[Any]:
+    """Values of other series, (k,) each, where one rises (falls) through a level after a time.
+
+    Between samples all lie on PCHIP's monotone cubics.
+    """
+    from scipy.interpolate import PchipInterpolator
+
+    good = np.isfinite(t) & np.isfinite(through) & np.all([np.isfinite(own) for own in others], axis=0)
+    if good.sum() < 2:
+        return [np.zeros(0) for _ in others]
+    t, below = t[good], (through[good] - level) * (-1.0 if falling else 1.0)
+    path = PchipInterpolator(t, below)
+    starts = np.flatnonzero((below[:-1] < 0.0) & (below[1:] >= 0.0))
+    roots = path.roots(discontinuity=False, extrapolate=False)
+    at = np.array([_in_part(roots, t[k], t[k + 1]) for k in starts])
+    at = at[at >= after] if len(at) else at
+    return [PchipInterpolator(t, own[good])(at) for own in others]
+
+
+def _in_part(roots: Any, begin: float, end: float) -> float:
+    """The root between two samples; the later one where rounding lost it."""
+    own = roots[(roots >= begin) & (roots <= end)]
+    return float(own[0]) if len(own) else float(end)
+
+
+def _no_dimension(name: str, known: list[str]) -> UnknownNameError:
+    return unknown(f"the runs that are shown have no dimension {name!r}", name, tuple(known))

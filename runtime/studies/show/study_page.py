@@ -1,0 +1,251 @@
+"""A study as one page of HTML: what varied, what failed, every measure by its coordinates, figures of all of it."""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.errors import GudgeonError
+from gudgeon.language.plot_units import scale
+from gudgeon.language.shown import one_line
+from gudgeon.results.web_page import Section, article, lines, page, table, text
+from gudgeon.studies.ensemble.final import kind_of_failure
+from gudgeon.studies.show.claims import claims_sections
+from gudgeon.studies.show.study_data import MANY, StudyData
+from gudgeon.studies.words import counted
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from gudgeon.studies.ensemble.study import Study
+
+MOST_ROWS, MOST_FIGURES, MOST_CURVES, MOST_NUMBERS, MOST_SAMPLES = 500, 40, 60, 30_000_000, 20_000
+SHOWN_VALUES = 8  # of what varied, in full
+_AROUND = re.compile(r"^.*?(?=<svg)|<metadata>.*?</metadata>|<!--.*?-->", re.DOTALL)
+_IDS = re.compile(r'(\bid="|xlink:href="#|url\(#)')
+
+
+@dataclass(frozen=True)
+class StudyReport:
+    """A finished study for people: `to_html` is a page of its own, a notebook shows the same."""
+
+    study: Study
+
+    def to_html(self) -> str:
+        """The whole file; it asks for nothing from elsewhere."""
+        parts = _parts(self.study)
+        first = next(iter(parts.values()))
+        return page(first.title, _about(parts), _all(self.study, parts))
+
+    def _repr_html_(self) -> str:
+        parts = _parts(self.study)
+        return article(_all(self.study, parts), f"<h1>{text(next(iter(parts.values())).title)}</h1>")
+
+
+def _parts(study: Study) -> dict[str, StudyData]:
+    """The study, or those that its file calls its parts, by name."""
+    return {name: StudyData(own) for name, own in (getattr(study, "parts", None) or {"": study}).items()}
+
+
+def _all(study: Study, parts: dict[str, StudyData]) -> Iterator[Section]:
+    """Claims are of the whole, and first."""
+    yield from claims_sections(study)
+    for name, data in parts.items():
+        before = f"{name}: " if name else ""
+        if name:
+            yield f"Part {name}", lines([_counts(data)])
+        yield from ((before + heading, inside) for heading, inside in sections(data, name or "study"))
+
+
+def sections(data: StudyData, name: str = "study") -> Iterator[Section]:
+    """Heading and HTML of each part; what is empty is left out of the page. `name`: of its pictures."""
+    study = data.study
+    yield "What varied", table(("", "over", "values", "unit", ""), _varied(data), True)
+    yield "Failed runs", table(("runs", "failed of", "the first of them"), _failures(data), True)
+    yield "Notes", lines(study.notes)
+    yield "Measures", _measures(data)
+    try:
+        import gudgeon.studies.show.study_plots  # noqa: F401 (without matplotlib it says what to install)
+    except GudgeonError as error:
+        yield "Figures", lines([str(error)])
+        return
+    yield "Figures", _gallery(data, _figures(data), f"{name}-measure")
+    yield "Series", _gallery(data, _series(data), f"{name}-series")
+
+
+def _about(parts: dict[str, StudyData]) -> str:
+    attributes = next(iter(parts.values())).dataset.attrs
+    about = "; ".join(f"{name}: {_counts(data)}" if name else _counts(data) for name, data in parts.items())
+    versions = f"gudgeon {attributes['gudgeon']} · file {str(attributes['sha256'])[:12]}"
+    return f"{about} · mechanism {attributes['mechanism']} · {versions}"
+
+
+def _counts(data: StudyData) -> str:
+    study = data.study
+    sizes = " × ".join(f"{name} {size}" for name, size in data.dataset["t_last"].sizes.items())
+    failed = f", {study.failed} failed" if study.failed else ", none failed"
+    return f"{counted(study.runs, 'run')}{f' ({sizes})' if sizes else ''}{failed}"
+
+
+def _varied(data: StudyData) -> Iterator[tuple[str, ...]]:
+    for name, one in data.dataset.coords.items():
+        if name in ("time", "sample"):
+            continue
+        over = ", ".join(str(d) for d in one.dims) if one.dims != (name,) else ""
+        unit, told = str(one.attrs.get("units", "")), str(one.attrs.get("long_name", ""))
+        values = np.ravel(one.values)
+        if values.dtype.kind in "OU":
+            yield str(name), over, _listed([one_line(str(value)) for value in values]), "", told
+            continue
+        factor, shown = scale(float(np.abs(values).max(initial=0.0)), unit)
+        words = [f"{float(value) * factor:.6g}" for value in values]
+        yield str(name), over, _listed(words, counting=values.dtype.kind == "i"), shown, told
+
+
+def _listed(words: list[str], counting: bool = False) -> str:
+    """All of few; of many the ends."""
+    if len(words) <= SHOWN_VALUES and not (counting and len(words) > 2):
+        return ", ".join(words)
+    return f"{words[0]} … {words[-1]}, {len(words)} of them"
+
+
+def _failures(data: StudyData) -> Iterator[tuple[str, ...]]:
+    """How many failed of what, and where the first of these lies."""
+    if not data.study.failed:
+        return
+    found = data.dataset["failure"]
+    values, first = np.ravel(found.values), dict[str, tuple[str, int]]()
+    for k in np.flatnonzero(values != ""):
+        first.setdefault(kind_of_failure(str(values[k])), (str(values[k]), int(k)))
+    words = {str(one): data.labels(found, str(one), named=True)[0] for one in found.dims}
+    for kind, count in data.study.failures.items():
+        told, place = first.get(kind, ("", 0))
+        where = np.unravel_index(place, found.shape) if found.shape else ()
+        at = ", ".join(_named(str(one), words[str(one)][i]) for one, i in zip(found.dims, where, strict=True))
+        yield str(count), kind, f"{at}: {told.partition(chr(10))[0]}" if at else told.partition("\n")[0]
+
+
+def _named(dimension: str, word: str) -> str:
+    return word if " = " in word else f"{dimension} {word}"
+
+
+def _measures(data: StudyData) -> str:
+    """A row for each place but starts and draws; median, quartiles, and how many runs these are of."""
+    names, rows, left = data.study.measures, dict[tuple[str, ...], list[str]](), 0
+    if not names:
+        return ""
+    dims, units, spread = [], [], False
+    for name in names:
+        shape = data.dataset[name]
+        dims = [str(one) for one in shape.dims if one not in MANY]
+        spread = any(one in MANY for one in shape.dims)
+        factor, unit = scale(float(np.nanmax(np.abs(np.nan_to_num(shape.values)), initial=0.0)), data.unit(name))
+        units.append(unit)
+        for at, values in data.spreads(name):
+            key = tuple(at.values())
+            if key not in rows and len(rows) >= MOST_ROWS:
+                left += name == names[0]
+                continue
+            rows.setdefault(key, []).append(_spread(values * factor, spread))
+    head = [data.labels(data.dataset[names[0]], one)[1] for one in dims]
+    head += [f"{name} [{unit}]" if unit else name for name, unit in zip(names, units, strict=True)]
+    told = ["median (quartiles) over starts and draws; n: of so many runs, where others have no number"] * spread
+    told += [f"{left} more rows are in the dataset"] * bool(left)
+    return table(head, ([*key, *cells] for key, cells in rows.items())) + lines(told, "g-quiet")
+
+
+def _spread(values: Any, spread: bool) -> str:
+    own = values[np.isfinite(values)]
+    if not own.size:
+        return "–"
+    if not spread:
+        return f"{own[0]:.5g}"
+    q1, middle, q3 = np.quantile(own, (0.25, 0.5, 0.75))
+    less = f" n = {own.size}" if own.size < values.size else ""
+    return f"{middle:.5g} ({q1:.4g} … {q3:.4g}){less}"
+
+
+Draw = tuple[str, Callable[[], "Axes"]]  # what it shows, and how it is drawn
+
+
+def _figures(data: StudyData) -> Iterator[Draw]:
+    """Each measure over the first that varied, by scene; and where two did, a map of these in each scene."""
+    from gudgeon.studies.show.study_plots import StudyPlot
+
+    plot = StudyPlot(data.study)
+    for name in data.study.measures:
+        found = data.dataset[name]
+        if not found.dims or not np.isfinite(found.values).any():
+            continue
+        yield f"{name}: {_pooled(data, found)}", partial(plot.measure, name)
+        varied = [str(one) for one in found.dims if one != "scene" and one not in MANY]
+        if len(varied) < 2:
+            continue
+        for scene in [str(one) for one in data.dataset["scene"].values] if "scene" in found.dims else [""]:
+            at = {"scene": scene} if scene else {}
+            if not np.isfinite(data.measure(name, at).values).any():
+                continue
+            yield f"{name}: median", partial(plot.heat_map, name, *varied[:2], at=at)
+
+
+def _pooled(data: StudyData, found: Any) -> str:
+    """Over which runs the statistics of a measure's figure go."""
+    over = data.first(found)
+    others = [str(one) for one in found.dims if one not in (over, data.lines(found, over))]
+    return f"median, quartiles and extremes over {', '.join(others)}" if others else "of each run"
+
+
+def _series(data: StudyData) -> Iterator[Draw]:
+    """Bands where runs have the same times, else curves of the first ones."""
+    from gudgeon.studies.show.study_plots import StudyPlot
+
+    plot = StudyPlot(data.study)
+    for name in data.kept:
+        found = data.dataset[name]
+        if found.size > MOST_NUMBERS or found.shape[-1] > MOST_SAMPLES or not found.size:
+            continue
+        t, _ = data.series(name)
+        runs = found.size // found.shape[-1]
+        by = "scene" if "scene" in found.dims else None
+        if t.ndim == 1:
+            told = f"{name}: median, quartiles and extremes of {counted(runs, 'run')}"
+            yield told, partial(plot.bands, name, by)
+        elif data.shares(t) is not None:
+            told = f"{name}: median, quartiles and extremes of {counted(runs, 'run')}, each over its own length"
+            yield told, partial(plot.bands, name, by, share=True)
+        elif runs <= MOST_CURVES:
+            yield f"{name}: {counted(runs, 'run')}", partial(plot.overlay, name, by)
+
+
+def _gallery(data: StudyData, drawn: Iterator[Draw], kind: str) -> str:
+    """Pictures side by side; one that cannot be drawn is told."""
+    parts, left = [], 0
+    for k, (caption, draw) in enumerate(drawn):
+        if k >= MOST_FIGURES:
+            left += 1
+            continue
+        try:
+            inside = _svg(draw(), f"{kind}-{k}")
+        except (GudgeonError, ValueError, ArithmeticError) as error:
+            inside = lines([f"not drawn: {error}"], "g-quiet")
+        parts.append(f"<figure>{inside}<figcaption>{text(caption)}</figcaption></figure>")
+    more = lines([f"{left} more figures: study.plot draws them"] * bool(left), "g-quiet")
+    return f"<div class='g-figures'>{''.join(parts)}</div>{more}" if parts else ""
+
+
+def _svg(ax: Axes, name: str) -> str:
+    """The figure's SVG by itself: words are text, names are its own, no date."""
+    import matplotlib
+
+    target = io.BytesIO()
+    with matplotlib.rc_context({"svg.hashsalt": name, "svg.fonttype": "none"}):
+        figure: Any = ax.figure
+        figure.savefig(target, format="svg", metadata={"Date": None, "Creator": None})
+    found = _AROUND.sub("", target.getvalue().decode())
+    return _IDS.sub(lambda own: f"{own[1]}{name}-", found)

@@ -1,0 +1,231 @@
+"""Figures of a study, `study.plot`: bands of an ensemble, curves over a parameter, sections, maps over two parameters.
+
+Each method draws one Axes, made or given, of the runs that `at` picks: {"scene": "dry", "c": 3e-4}, the nearest of a
+number's values. NaN, of runs that failed, is in no statistic.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.errors import BadValueError
+from gudgeon.language.plot_units import drawn, label, quantity
+from gudgeon.language.shown import in_figure, one_line
+from gudgeon.language.wanted import number_of
+from gudgeon.results.plots import COLOURS, IDEAL, STYLE, TITLE, cycle, peak_of
+from gudgeon.results.run_plots import new_axes, plain
+from gudgeon.studies.show.study_data import Coords, StudyData
+
+import matplotlib  # isort: skip  (plots.py says where it is missing)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from numpy.typing import ArrayLike
+
+    from gudgeon.studies.ensemble.study import Study
+
+QUARTILES = (0.0, 0.25, 0.5, 0.75, 1.0)
+SMALL = 80  # cells of a map beside which numbers can be read
+
+
+class StudyPlot:
+    """Figures of one study; every method returns its Axes, `axes.figure.savefig("x.svg")` stores them."""
+
+    def __init__(self, study: Study) -> None:
+        self.data = StudyData(study)
+
+    def measure(
+        self, name: str, over: str | None = None, by: str | None = None, *, at: Coords | None = None,
+        published: Mapping[Any, float] | None = None, ax: Axes | None = None,
+    ) -> Axes:  # fmt: skip
+        """A measure over what was varied (the first number), a line for each value of `by` (scenes).
+
+        Lines are medians of all other runs, bands their quartiles and extremes. published: {coordinate: value, SI},
+        marks of what others found.
+        """
+        found = self.data.measure(name, at)
+        axis = self.data.first(found) if over is None else over
+        over = self.data.dimension(found, axis)
+        by = self.data.lines(found, over) if by is None else self.data.dimension(found, by)
+        marks = {key: number_of(value, "published") for key, value in dict(published or {}).items()}
+        with matplotlib.rc_context(STYLE):
+            ax = new_axes(5.6, 3.6) if ax is None else plain(ax)
+            x, x_label, ticks = self.data.axis(axis)
+            most = [peak_of(found.values), *(abs(value) for value in marks.values())]
+            factor, unit = drawn(max(most), found.attrs.get("units", ""))
+            for (told, own), colour in zip(parts := self.data.split(found, by), cycle(len(parts)), strict=True):
+                _band(ax, x, quantiles(self.data.rows(own, over)) * factor, colour, told)
+            if marks:
+                places = [self.data.place(found, axis, value) for value in marks]
+                ax.plot(places, np.array(list(marks.values())) * factor, "*", color=IDEAL, ms=9, label="published")
+            ax.set(xlabel=x_label, ylabel=label(one_line(name), unit))
+            if ticks is not None:
+                ax.set_xticks(x, ticks)
+            self._finish(ax, at, len(parts) > 1 or bool(marks))
+        return ax
+
+    def bands(
+        self, series: str, by: str | None = None, *, share: bool = False, at: Coords | None = None,
+        ax: Axes | None = None,
+    ) -> Axes:  # fmt: skip
+        """A kept series over time: median, quartiles and extremes of all runs, or of each value of `by`.
+
+        share: over each run's own length, 0 to 1, where runs have as many samples at the same shares of it.
+        BadValueError for runs with other times (or shares) than each other.
+        """
+        t, found = self.data.series(series, at)
+        if share:
+            t = self.data.shares(np.broadcast_to(t, found.shape))
+        if t is None or t.ndim > 1:
+            told = f"{series}: the runs have samples at different times, of which there are no bands"
+            raise BadValueError(told, hint="pick runs with the same times (at=…), share=True, or draw an overlay")
+        by = self.data.dimension(found, by) if by is not None else None
+        with matplotlib.rc_context(STYLE):
+            ax = new_axes(8.0, 3.6) if ax is None else plain(ax)
+            factor, unit = drawn(peak_of(found.values), found.attrs.get("units", ""))
+            for (told, own), colour in zip(parts := self.data.split(found, by), cycle(len(parts)), strict=True):
+                _band(ax, t, quantiles(self.data.rows(own, found.dims[-1])) * factor, colour, told, 0.0)
+            ax.set(xlabel="share of the run" if share else "t [s]", ylabel=label(one_line(series), unit))
+            self._finish(ax, at, len(parts) > 1)
+        return ax
+
+    def overlay(
+        self, series: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None
+    ) -> Axes:
+        """A kept series over time, every run a curve, in the colour of its value of `by`."""
+        t, found = self.data.series(series, at)
+        return self._curves([(t, found)], "t [s]", series, by, at, ax)
+
+    def phase(
+        self, x: str, y: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None
+    ) -> Axes:
+        """One kept series over another, every run a curve, in the colour of its value of `by`."""
+        (_, xs), (_, ys) = self.data.series(x, at), self.data.series(y, at)
+        factor, unit = drawn(peak_of(xs.values), xs.attrs.get("units", ""))
+        return self._curves([(xs.values * factor, ys)], label(one_line(x), unit), y, by, at, ax)
+
+    def _curves(
+        self, pairs: list[tuple[Any, Any]], x_label: str, name: str, by: str | None, at: Coords | None,
+        ax: Axes | None,
+    ) -> Axes:  # fmt: skip
+        (x, found), = pairs
+        by = self.data.dimension(found, by) if by is not None else None
+        with matplotlib.rc_context(STYLE):
+            ax = new_axes(8.0, 3.6) if ax is None else plain(ax)
+            factor, unit = drawn(peak_of(found.values), found.attrs.get("units", ""))
+            x = np.broadcast_to(x, found.shape)
+            parts = self.data.split(found, by)
+            for k, ((told, own), colour) in enumerate(zip(parts, cycle(len(parts)), strict=True)):
+                own_x = x if by is None else np.take(x, k, axis=found.dims.index(by))
+                rows = zip(own_x.reshape(-1, x.shape[-1]), own.values.reshape(-1, x.shape[-1]), strict=True)
+                for j, (xs, ys) in enumerate(rows):
+                    ax.plot(xs, ys * factor, color=colour, lw=0.8, alpha=0.8, label=told if j == 0 else None)
+            ax.set(xlabel=x_label, ylabel=label(one_line(name), unit))
+            self._finish(ax, at, len(parts) > 1)
+        return ax
+
+    def section(
+        self, section: str, x: str, y: str, *, level: float = 0.0, falling: bool = False, after: float = 0.0,
+        at: Coords | None = None, ax: Axes | None = None,
+    ) -> Axes:  # fmt: skip
+        """Poincaré's section: kept series x and y where a third one rises (falls) through a level (SI), after a time.
+
+        Between samples all lie on monotone cubics (PCHIP); `run.plot.section` has the located states of an event.
+        """
+        own = self.data.sections(section, [x, y], level, falling, after, at)
+        xs, ys = (np.concatenate([pair[k] for _, pair in own]) if own else np.zeros(0) for k in range(2))
+        with matplotlib.rc_context(STYLE):
+            ax = new_axes(5.2, 4.4) if ax is None else plain(ax)
+            (of_x, x_unit), (of_y, y_unit) = (
+                drawn(peak_of(values), self.data.unit(name)) for name, values in ((x, xs), (y, ys))
+            )
+            ax.plot(xs * of_x, ys * of_y, ".", color=COLOURS[1], ms=3.0)
+            ax.set(xlabel=label(one_line(x), x_unit), ylabel=label(one_line(y), y_unit))
+            self._finish(ax, at, False)
+        return ax
+
+    def bifurcation(
+        self, series: str, over: str, section: str, *, level: float = 0.0, falling: bool = False, after: float = 0.0,
+        at: Coords | None = None, ax: Axes | None = None,
+    ) -> Axes:  # fmt: skip
+        """Values of a kept series in the section (see `section`), a dot each, over a parameter."""
+        _, found = self.data.series(series, at)
+        place = found.dims.index(self.data.dimension(found, over))
+        x, x_label, ticks = self.data.axis(over)
+        own = self.data.sections(section, [series], level, falling, after, at)
+        xs = np.concatenate([np.full(len(values), x[where[place]]) for where, (values,) in own] or [np.zeros(0)])
+        ys = np.concatenate([values for _, (values,) in own] or [np.zeros(0)])
+        with matplotlib.rc_context(STYLE):
+            ax = new_axes(6.4, 4.0) if ax is None else plain(ax)
+            factor, unit = drawn(peak_of(ys), self.data.unit(series))
+            ax.plot(xs, ys * factor, ".", color=COLOURS[1], ms=2.0)
+            ax.set(xlabel=x_label, ylabel=label(one_line(series), unit))
+            if ticks is not None:
+                ax.set_xticks(x, ticks)
+            self._finish(ax, at, False)
+        return ax
+
+    def heat_map(
+        self, name: str, x: str, y: str, *, at: Coords | None = None, ax: Axes | None = None
+    ) -> Axes:
+        """A measure over two dimensions, of all other runs their median; a cell without a number stays empty."""
+        found = self.data.measure(name, at)
+        x, y = self.data.dimension(found, x), self.data.dimension(found, y)
+        if x == y:
+            raise BadValueError(f"heat_map: {x} is both x and y")
+        middle = quantiles(self.data.rows(found, y, x), (0.5,))[0]
+        with matplotlib.rc_context(STYLE):
+            ax = new_axes(5.8, 4.2) if ax is None else plain(ax)
+            factor, unit = drawn(peak_of(middle), found.attrs.get("units", ""))
+            image = ax.imshow(middle * factor, origin="lower", aspect="auto", cmap="viridis")
+            for which, name_of in ((ax.xaxis, x), (ax.yaxis, y)):
+                words, told = self.data.labels(found, name_of)
+                which.set_ticks(range(len(words)), words)
+                which.set_label_text(told)
+            ax.tick_params(axis="x", rotation=45 if middle.shape[1] > 6 else 0)
+            ax.grid(False)
+            ax.figure.colorbar(image, ax=ax, label=label(one_line(name), unit))
+            if middle.size <= SMALL:
+                _numbers(ax, middle * factor, image)
+            self._finish(ax, at, False)
+        return ax
+
+    def _finish(self, ax: Axes, at: Coords | None, legend: bool) -> None:
+        picked = ", ".join(f"{one_line(str(name))} = {_said(value)}" for name, value in (at or {}).items())
+        ax.set_title(in_figure(": ".join(filter(None, (one_line(self.data.title), picked))), TITLE))
+        if legend:
+            ax.legend(fontsize=8)
+
+
+def quantiles(rows: ArrayLike, which: tuple[float, ...] = QUARTILES) -> Any:
+    """(len(which), …) over the first axis, NaN left out; NaN where there is nothing else."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)  # all NaN: that is what it says
+        return np.nanquantile(np.where(np.isfinite(rows), rows, np.nan), which, axis=0)
+
+
+def _band(ax: Axes, x: Any, five: Any, colour: str, told: str, size: float = 4.0) -> None:
+    """Extremes, quartiles and the median; where there is one run alone its line."""
+    low, q1, middle, q3, high = five
+    order = np.argsort(x, kind="stable")
+    if not np.array_equal(low, high, equal_nan=True):
+        ax.fill_between(x[order], low[order], high[order], color=colour, alpha=0.12, lw=0)
+        ax.fill_between(x[order], q1[order], q3[order], color=colour, alpha=0.28, lw=0)
+    ax.plot(x[order], middle[order], "-o" if size else "-", ms=size, color=colour, lw=1.1, label=told)
+
+
+def _numbers(ax: Axes, values: Any, image: Any) -> None:
+    """In each cell, dark on what is bright."""
+    for (row, column), value in np.ndenumerate(values):
+        if np.isfinite(value):
+            bright = np.dot(image.cmap(image.norm(value))[:3], (0.299, 0.587, 0.114)) > 0.55
+            colour = "#111111" if bright else "white"
+            ax.text(column, row, f"{value:.3g}", ha="center", va="center", fontsize=7.5, color=colour)
+
+
+def _said(value: Any) -> str:
+    return one_line(value) if isinstance(value, str) else quantity(float(value), "")

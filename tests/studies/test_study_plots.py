@@ -1,0 +1,131 @@
+"""Figures of a study beside NumPy on its dataset, and its sections beside a harmonic oscillator's closed form."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("matplotlib")
+
+import gudgeon  # noqa: E402
+from gudgeon.errors import BadValueError, UnknownNameError  # noqa: E402
+from gudgeon.studies.show.study_data import crossings  # noqa: E402
+from tests.programs import needs_compiler  # noqa: E402
+
+pytestmark = needs_compiler
+OSCILLATOR = """\
+format: gudgeon/1
+name: mass
+parameters: {k: 100 N/m, x0: 0.1 m}
+bodies: {load: {mass: 1 kg, inertia: 1 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {rail: {translational: [ground.O, load.origin], axis: [1, 0]}}
+forces: {spring: {spring_damper: [ground.O, load.origin], stiffness: k, free_length: 1 m}}
+start: {set: {load.x: 1 m + x0}}
+"""
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory: pytest.TempPathFactory) -> gudgeon.Study:
+    """x = 1 + x0 cos ωt, ω = √k; the amplitude is one of a Latin hypercube of nine."""
+    folder = tmp_path_factory.mktemp("oscillator")
+    (folder / "mass.yaml").write_text(OSCILLATOR, encoding="utf-8")
+    return gudgeon.study({
+        "mechanism": str(folder / "mass.yaml"), "parameters": {"k": [100, 400, 900]},
+        "zip": {"way": {"bodies.load.mass": ["1 kg", "4 kg"]}},
+        "draw": {"count": 9, "seed": 2, "method": "latin_hypercube",
+                 "parameters": {"x0": {"from": "5 cm", "to": "20 cm"}}},
+        "t_end": 2.0, "output": 400, "measures": {"far": {"max": "load.x"}, "fast": {"peak": "load.vx"}},
+        "keep": ["load.x", "load.vx"],
+    })  # fmt: skip
+
+
+def plots(study: gudgeon.Study) -> Any:
+    """matplotlib's own types have too many forms."""
+    return study.plot
+
+
+def test_a_measure_over_a_parameter_has_quartiles(study: gudgeon.Study) -> None:
+    ax = plots(study).measure("fast", "k", "way", published={250.0: 3.0})
+    x, y = ax.lines[0].get_data()
+    np.testing.assert_allclose(x, [100, 400, 900])
+    expected = np.median(study.dataset["fast"].values[:, 0], axis=1)
+    np.testing.assert_allclose(y, expected)
+    np.testing.assert_allclose(y, np.median(study.dataset["x0"]) * np.sqrt([100, 400, 900]), rtol=1e-3)
+    assert len(ax.collections) == 4  # quartiles and extremes of both masses
+    low = ax.collections[1].get_paths()[0].vertices[:, 1]
+    assert low.min() == pytest.approx(np.quantile(study.dataset["fast"].values[0, 0], 0.25))
+    assert ax.lines[2].get_xydata().tolist() == [[250.0, 3.0]]
+
+
+def test_bands_are_quantiles_by_hand(study: gudgeon.Study) -> None:
+    """Of nine sorted runs the third and the seventh are the quartiles, the fifth is the median."""
+    ax = plots(study).bands("load.x", at={"k": 400, "way": 0})
+    rows = np.sort(study.dataset["load.x"].values[1, 0], axis=0)
+    np.testing.assert_allclose(ax.lines[0].get_ydata(), rows[4])
+    quartiles = ax.collections[1].get_paths()[0].vertices
+    at = np.flatnonzero(quartiles[:, 0] == study.dataset["time"].values[123])
+    assert sorted(quartiles[at, 1])[:: len(at) - 1] == pytest.approx([rows[2, 123], rows[6, 123]])
+
+
+def test_a_map_of_two_dimensions_is_its_medians(study: gudgeon.Study) -> None:
+    ax = plots(study).heat_map("far", "x0", "k", at={"way": 1})
+    (image,) = ax.images
+    np.testing.assert_allclose(image.get_array(), study.dataset["far"].values[:, 1])
+    assert [tick.get_text() for tick in ax.get_yticklabels()] == ["100", "400", "900"]
+    with pytest.raises(BadValueError, match="both x and y"):
+        plots(study).heat_map("far", "k", "k")
+
+
+def test_a_section_of_an_oscillator_is_a_point_a_run(study: gudgeon.Study) -> None:
+    """Where x rises through its middle its rate is x0 ω; over the parameter k a dot a turn and amplitude."""
+    ax: Any = plots(study).section("load.x", "load.x", "load.vx", level=1.0, at={"k": 400, "way": 0})
+    x, rate = ax.lines[0].get_data()
+    np.testing.assert_allclose(x, 1.0, atol=1e-9)
+    apart = np.abs(rate[:, None] - 20 * study.dataset["x0"].values)
+    assert apart.min(axis=1).max() < 5e-3 and (apart.min(axis=0) < 5e-3).all()
+    dots = plots(study).bifurcation("load.vx", "k", "load.x", level=1.0, after=0.5, at={"way": 0}).lines[0]
+    found = np.array(dots.get_xydata())
+    turns = [int((np.sqrt(k) * 2.0 - 1.5 * np.pi) // (2 * np.pi) + 1) for k in (100, 400, 900)]
+    early = [int((np.sqrt(k) * 0.5 - 1.5 * np.pi) // (2 * np.pi) + 1) for k in (100, 400, 900)]
+    for k, all_turns, before in zip((100, 400, 900), turns, early, strict=True):
+        own = found[found[:, 0] == k]
+        assert len(own) == 9 * (all_turns - before)
+        assert own[:, 1].max() == pytest.approx(float(study.dataset["x0"].max()) * np.sqrt(k), rel=1e-2)
+
+
+def test_crossings_are_found_between_samples() -> None:
+    t = np.linspace(0.0, 10.0, 401)
+    (rising,) = crossings(t, np.sin(t), [t], 0.5, False, 0.0)
+    np.testing.assert_allclose(rising, [np.pi / 6, np.pi / 6 + 2 * np.pi], atol=1e-4)
+    (falling,) = crossings(t, np.sin(t), [t], 0.5, True, 3.0)
+    np.testing.assert_allclose(falling, [5 * np.pi / 6 + 2 * np.pi], atol=1e-4)
+    assert crossings(t, np.full(401, np.nan), [t], 0.0, False, 0.0)[0].size == 0
+
+
+def test_curves_and_phases_have_a_colour_a_value(study: gudgeon.Study, tmp_path: Path) -> None:
+    ax: Any = plots(study).overlay("load.x", "k", at={"way": 0})
+    assert len(ax.lines) == 27 and len({line.get_color() for line in ax.lines}) == 3
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == [f"k = {k} kg/s²" for k in (100, 400, 900)]
+    phase = plots(study).phase("load.x", "load.vx", "k", at={"way": 0, "x0": 0.1})
+    own = np.array(phase.lines[1].get_xydata())
+    a = 0.5 * np.ptp(own[:, 0])
+    np.testing.assert_allclose(((own[:, 0] - 1.0) / a) ** 2 + (own[:, 1] / (20 * a)) ** 2, 1.0, atol=1e-3)
+    phase.figure.savefig(tmp_path / "x.svg")
+    phase.figure.savefig(tmp_path / "x.png")
+    given = plots(study).bands("load.x", "k", ax=phase)
+    assert given is phase
+
+
+def test_names_that_do_not_exist_are_told(study: gudgeon.Study) -> None:
+    for call in (
+        lambda plot: plot.measure("fats"), lambda plot: plot.measure("fast", "kk"), lambda plot: plot.bands("load.y"),
+        lambda plot: plot.bands("load.x", at={"c": 1.0}),
+    ):  # fmt: skip
+        with pytest.raises(UnknownNameError):
+            call(plots(study))
+    with pytest.raises(BadValueError, match="does not vary"):
+        plots(study).measure("fast", "scene")

@@ -1,0 +1,128 @@
+"""The page of a study: all of its numbers, of failed runs, of one run, of what is hostile; and the command for it."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+import pandas
+import pytest
+from typer.testing import CliRunner
+
+pytest.importorskip("matplotlib")
+
+import gudgeon  # noqa: E402
+from gudgeon.cli import app  # noqa: E402
+from gudgeon.errors import GudgeonError  # noqa: E402
+from gudgeon.studies.show.claims import claims_sections  # noqa: E402
+from gudgeon.studies.show.study_page import StudyReport  # noqa: E402
+from tests.programs import needs_compiler  # noqa: E402
+from tests.studies.test_study_plots import OSCILLATOR  # noqa: E402
+
+pytestmark = needs_compiler
+HOSTILE = "</title><script>alert(1)</script> $x$ &"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Runs of their own lengths, a third of them without a stiffness that the mass could have."""
+    place = tmp_path_factory.mktemp("report")
+    (place / "mass.yaml").write_text(OSCILLATOR, encoding="utf-8")
+    gudgeon.study({
+        "title": HOSTILE, "mechanism": str(place / "mass.yaml"),
+        "parameters": {"k": [100, 400], "bodies.load.mass": [1, 4, -1]},
+        "starts": {"count": 5, "seed": 1, "relative": {"x0": 0.1}}, "t_end": "0.1 m/x0*1 s", "output": 20,
+        "measures": {"far": {"max": "load.x"}, "fast": {"peak": "load.vx"}}, "keep": ["load.x"],
+    }, place / "mass.study")  # fmt: skip
+    return place / "mass.study"
+
+
+@pytest.fixture(scope="module")
+def page(folder: Path) -> str:
+    return gudgeon.load_study(folder).report().to_html()
+
+
+def check(page: str) -> list[ElementTree.Element]:
+    """Nothing from elsewhere, nothing that runs, no name twice; its pictures."""
+    assert not re.search(r"<script|<link|<img|@import|\ssrc=|url\((?!#)|\son\w+=", page)
+    assert not re.search(r'href="(?!#|data:image/png;base64)', page)
+    ids = re.findall(r'\bid="([^"]*)"', page)
+    assert len(ids) == len(set(ids)) and set(re.findall(r'href="#([^"]*)"|url\(#([^)]*)\)', page)) is not None
+    for one, other in re.findall(r'href="#([^"]*)"|url\(#([^)]*)\)', page):
+        assert (one or other) in ids
+    return [ElementTree.fromstring(svg) for svg in re.findall(r"<svg.*?</svg>", page, re.DOTALL)]
+
+
+def test_a_page_has_the_studys_numbers(folder: Path, page: str) -> None:
+    study = gudgeon.load_study(folder)
+    assert study.failed == 10 and "30 runs (k 2 × bodies.load.mass 3 × start 5), 10 failed" in page
+    assert page == gudgeon.load_study(folder).report().to_html()  # the same bytes, without a date
+    q1, middle, q3 = np.quantile(study.dataset["fast"].values[1, 0], (0.25, 0.5, 0.75))
+    assert f"<td>{middle:.5g} ({q1:.4g} … {q3:.4g})</td>" in page
+    assert "<td>10</td>" in page and "k = 100 kg/s²" in page  # of what, and the first of them
+    assert f"gudgeon {gudgeon.__version__}" in page
+
+
+def test_it_is_whole_by_itself_and_what_it_quotes_is_text(page: str) -> None:
+    pictures = check(page)
+    assert len(pictures) >= 4 and "&lt;script&gt;alert(1)&lt;/script&gt;" in page
+    for name in ("What varied", "Failed runs", "Measures", "Figures", "Series"):
+        assert f"<h2>{name}</h2>" in page
+    assert "prefers-color-scheme: dark" in page and "@media print" in page and "width=device-width" in page
+
+
+def test_one_run_and_one_that_failed_have_pages(tmp_path: Path) -> None:
+    one = gudgeon.study({"mechanism": "pendulum", "t_end": 0.1, "output": 5, "measures": {"low": {"min": "bob.y"}}})
+    page = one.report().to_html()
+    check(page)
+    assert "1 run, none failed" in page and f"<td>{1e3 * float(one.dataset['low']):.5g}</td>" in page
+    (tmp_path / "mass.yaml").write_text(OSCILLATOR, encoding="utf-8")
+    none = gudgeon.study({"mechanism": str(tmp_path / "mass.yaml"), "parameters": {"bodies.load.mass": [-1, -2]},
+                          "measures": {"far": {"max": "load.x"}}, "keep": ["load.x"]})  # fmt: skip
+    assert none.failed == 2
+    page = none.report().to_html()
+    check(page)
+    assert "2 failed" in page and "<td>–</td>" in page
+
+
+def test_claims_and_parts_are_shown_where_there_are_any(folder: Path) -> None:
+    """Of an object that has them: tables of pandas, and studies by name."""
+    study = gudgeon.load_study(folder)
+    numbers = pandas.DataFrame({"claim": ["<i>peak</i>"], "printed": [2.5], "median": [np.nan], "note": [""]})
+    claims = SimpleNamespace(numbers=numbers, trends=pandas.DataFrame(), source="a paper & more")
+    whole: Any = SimpleNamespace(claims=claims, parts={"one": study, "two": study})
+    ((heading, inside),) = claims_sections(whole)
+    assert heading == "Published numbers" and "&lt;i&gt;peak" in inside and "<td>2.5</td><td>–</td>" in inside
+    assert "a paper &amp; more" in inside and "note" not in inside
+    page = StudyReport(whole).to_html()
+    check(page)
+    assert "<h2>Part two</h2>" in page and "<h2>two: Measures</h2>" in page and "Published numbers" in page
+
+    class NoClaims:
+        @property
+        def claims(self) -> Any:
+            raise GudgeonError("none")
+
+    nothing: Any = NoClaims()
+    assert claims_sections(nothing) == [] == claims_sections(study)
+
+
+def test_the_command_writes_a_page(folder: Path, page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    target = str(tmp_path / "page.html")
+    told = CliRunner().invoke(app, ["study", "report", str(folder), "--out", target, "--json"])
+    assert told.exit_code == 0 and json.loads(told.stdout)["files"]["report"] == target
+    assert Path(target).read_text(encoding="utf-8") == page
+    told = CliRunner().invoke(app, ["study", "report", str(folder)])
+    assert told.exit_code == 0 and folder.with_suffix(".html").read_text(encoding="utf-8") == page
+    for wrong, why in (
+        (["report"], "of which study"), (["report", "none.study"], "no folder of a study"),
+        (["mass.yaml", "x"], "takes one file"), (["report", str(folder), "--out", "page.txt"], "ends in .html"),
+    ):  # fmt: skip
+        told = CliRunner().invoke(app, ["study", *wrong])
+        assert told.exit_code == 2 and why in told.stderr, told.stderr

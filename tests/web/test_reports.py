@@ -1,0 +1,49 @@
+"""Reports of a run and of a study in Chromium: nothing is asked for, nothing sticks out of a phone, dark is dark."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import gudgeon
+from tests.programs import needs_compiler
+from tests.web.chromium import DESK, PHONE
+
+pytestmark = needs_compiler
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+    pytest.importorskip("matplotlib")
+    folder = tmp_path_factory.mktemp("reports")
+    simulation = gudgeon.load("bouncing_ball", "damped")
+    run = gudgeon.examine(simulation, simulation.simulate(1.0))
+    study = gudgeon.study({
+        "mechanism": "bouncing_ball", "scenes": ["elastic", "damped"], "t_end": 0.6, "output": 30,
+        "parameters": {"height": [0.5, 1.0], "contacts.damped.normal.stiffness": [1e8, 2e8]}, "keep": ["ball.y"],
+        "measures": {"hits": {"impacts": "fall"}, "force": {"peak_force": "fall"}},
+    })  # fmt: skip
+    (folder / "run.html").write_text(run.report().to_html(), encoding="utf-8")
+    (folder / "study.html").write_text(study.report().to_html(), encoding="utf-8")
+    return [folder / "run.html", folder / "study.html"]
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("size", [DESK, PHONE], ids=["desk", "phone"])
+def test_pages_fit_and_ask_for_nothing(chromium: Any, pages: list[Path], size: dict[str, int], scheme: str) -> None:
+    context = chromium.new_context(viewport=size, color_scheme=scheme)
+    for file in pages:
+        page, asked, told = context.new_page(), list[str](), list[str]()
+        page.on("request", lambda request, asked=asked: asked.append(request.url))
+        page.on("console", lambda message, told=told: told.append(message.text))
+        page.goto(file.as_uri())
+        assert [url for url in asked if not url.startswith("data:")] == [file.as_uri()] and not told
+        assert page.evaluate("document.documentElement.scrollWidth") <= size["width"]
+        paper = page.evaluate("getComputedStyle(document.querySelector('.g-report')).backgroundColor")
+        assert (paper == "rgb(255, 255, 255)") == (scheme == "light")
+        page.emulate_media(media="print", color_scheme=scheme)
+        paper = page.evaluate("getComputedStyle(document.querySelector('.g-report')).backgroundColor")
+        assert paper == "rgb(255, 255, 255)"
+    context.close()
