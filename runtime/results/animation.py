@@ -27,13 +27,14 @@ from gudgeon.drawing.sketch import make_sketch, room_of_all
 from gudgeon.errors import BadValueError, GudgeonError, OutputError
 from gudgeon.files.writing import check_target, telling, write_bytes, write_text
 from gudgeon.language.shown import one_line
-from gudgeon.language.wanted import flag, number_of, path, refuse
+from gudgeon.language.wanted import flag, function, number_of, path, refuse
 from gudgeon.results.mechanism_plots import arrows_of, path_lines, points_of, touching_at
 from gudgeon.results.plots import caption_of
 from gudgeon.results.postures import posture_at, postures_of
 
 if TYPE_CHECKING:
     from gudgeon.drawing.shapes import Sketch
+    from gudgeon.integrators.trajectory import Progress
     from gudgeon.results.results import Result
 
 SUFFIXES = (".gif", ".mp4", ".html")
@@ -69,9 +70,12 @@ class Wanted:
     points: Sequence[str]
     velocities: bool
     forces: bool
+    progress: Progress | None = None
 
 
-def wanted_of(run: Result, seconds: Any, rate: Any, points: Any, velocities: Any, forces: Any) -> Wanted:
+def wanted_of(
+    run: Result, seconds: Any, rate: Any, points: Any, velocities: Any, forces: Any, progress: Any = None
+) -> Wanted:
     """Checked. Raises BadValueError, UnknownNameError."""
     span = float(run.t[-1] - run.t[0])
     seconds = (span if SLOW <= span <= QUICK else SHOWN) if seconds is None else number_of(seconds, "seconds")
@@ -84,7 +88,7 @@ def wanted_of(run: Result, seconds: Any, rate: Any, points: Any, velocities: Any
         raise BadValueError(f"{count} pictures: expected at most {LONGEST}", hint=hint)
     times = np.linspace(float(run.t[0]), float(run.t[-1]), count)
     arrows = flag(velocities, "velocities"), flag(forces, "forces")
-    return Wanted(times, seconds, points_of(run, [points]), *arrows)
+    return Wanted(times, seconds, points_of(run, [points]), *arrows, function(progress, "progress"))
 
 
 def animate(run: Result, target: Any, wanted: Wanted) -> Animation | None:
@@ -118,7 +122,9 @@ def sketches(run: Result, wanted: Wanted) -> Iterator[Sketch]:
     plan = make_plan(motion)
     box, lines = room_of_all(motion, [plan]), path_lines(run, wanted.points)
     before = wanted.times[0]
-    for t in wanted.times:
+    for k, t in enumerate(wanted.times):
+        if wanted.progress:
+            wanted.progress(k / len(wanted.times), f"picture {k + 1} of {len(wanted.times)}")
         posture = posture_at(run, float(t))
         to_scale, arrows = arrows_of(run, posture, motion, plan, wanted.velocities, wanted.forces)
         drawn = make_sketch(

@@ -196,6 +196,14 @@ def test_files(crank: Result, tmp_path: Path) -> None:
     assert "<iframe" in shown._repr_html_() and "<script" not in shown._repr_html_()
 
 
+def test_each_picture_is_told(crank: Result, tmp_path: Path) -> None:
+    heard: list[tuple[float, str]] = []
+    crank.animate(tmp_path / "x.gif", seconds=0.4, rate=10.0, progress=lambda *told: heard.append(told))
+    assert heard == [(k / 4, f"picture {k + 1} of 4") for k in range(4)]
+    with pytest.raises(BadValueError, match="progress"):
+        crank.animate(progress=3)  # type: ignore[arg-type]
+
+
 def test_what_cannot_be_is_told(crank: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", str(tmp_path))
     asked: Any = crank.animate
