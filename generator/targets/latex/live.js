@@ -137,7 +137,18 @@ const gudgeonValues = (() => {
         const [first, last, left, right] = element.dataset.range.split(" ").map(Number);
         const inside = x !== IDLE && x >= first && x <= last;
         element.setAttribute("visibility", inside ? "visible" : "hidden");
-        if (inside) element.setAttribute("transform", `translate(${left + (right - left) * (x - first) / (last - first)} 0)`);
+        if (!inside) return;
+        const share = (x - first) / (last - first);
+        element.setAttribute("transform", `translate(${left + (right - left) * share} 0)`);
+        const curves = element.parentNode.querySelectorAll("polyline");
+        element.querySelectorAll("circle").forEach((dot, k) => dot.setAttribute("cy", height(curves[k], share)));
+    }
+
+    /* Of a curve whose points stand evenly, at a share of its way across. */
+    function height(curve, share) {
+        const y = curve.getAttribute("points").split(" ").map((point) => Number(point.split(",")[1]));
+        const at = share * (y.length - 1), k = Math.min(Math.floor(at), y.length - 2);
+        return y[k] + (at - k) * (y[k + 1] - y[k]);
     }
 
     function frame() {
