@@ -152,13 +152,14 @@ def _caption(run: Result, t: float, wanted: Wanted) -> str:
 
 
 def _page(run: Result, wanted: Wanted) -> Animation:
-    """Names are placed once, by matplotlib, and then stay beside what they name."""
+    """Names are placed by matplotlib once, then stay beside what they name until another one is there."""
     drawn = list(sketches(run, wanted))
     picture, names = _canvas(drawn[0], _caption(run, wanted.times[0], wanted))
     beside = _beside(picture, names)
+    halves = {part: 0.5 * (np.array(box[2:]) - box[:2]) for part, box in names.boxes.items()} if names else {}
     width = float(picture.get_size_inches()[0]) * PIXELS
     title = one_line(f"{run.source.title or run.source.mechanism}: {run.source.scene}")
-    text = page(title, drawn, [float(t) for t in wanted.times], wanted.seconds, width, beside)
+    text = page(title, drawn, [float(t) for t in wanted.times], wanted.seconds, width, beside, halves)
     return Animation(text, width, width * float(np.divide(*(drawn[0].high - drawn[0].low)[::-1])))
 
 
@@ -210,14 +211,14 @@ def _film(run: Result, wanted: Wanted, suffix: str) -> bytes:
 
     rate: Any = (len(wanted.times) - 1) / wanted.seconds
     writer: Any = _GifWriter(fps=rate) if suffix == ".gif" else FFMpegWriter(fps=rate, codec="libx264")
-    beside: dict[str, tuple[float, float]] | None = None
+    beside: dict[str, tuple[float, float]] = {}
     with matplotlib.rc_context(STYLE), tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, f"film{suffix}")
         for t, sketch in zip(wanted.times, sketches(run, wanted), strict=True):
             picture, names = _canvas(sketch, _caption(run, float(t), wanted))
-            beside = _beside(picture, names) if beside is None else beside
             if names is not None:
                 names.held = beside
+            beside = _beside(picture, names)
             if t == wanted.times[0]:
                 writer.setup(picture, file, PIXELS)
             writer.fig = picture
