@@ -26,7 +26,8 @@ ASKED = """
 const live = require(process.argv[2]);
 live.take((() => {%s return gudgeonEquations;})());
 console.log(JSON.stringify(%s.map(({memory, a, ...state}) => {
-    live.announce({...state, run: {memory: Float64Array.from(memory), t: [0], series: (name) => [a[name] ?? NaN]}, k: 0});
+    const series = (name) => [a[name] ?? NaN];
+    live.announce({...state, run: {memory: Float64Array.from(memory), t: [0], series}, k: 0});
     return Object.fromEntries(%s.map((name) => [name, live.value(`tmp.${name}`)]));
 })));
 """
