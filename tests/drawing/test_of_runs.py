@@ -229,8 +229,9 @@ def test_no_line_leads_under_a_name() -> None:
         ax: Any = run.plot.mechanism(float(t))
         ax.figure.draw_without_rendering()
         names = next(artist for artist in ax.get_children() if isinstance(artist, Names))
-        for line in names.leads:
-            segment = np.transpose(line.get_data()).reshape(1, 4)
+        leads: Any = names.leads
+        for line in leads:
+            segment = line.get_xydata().reshape(1, 4)
             inner = [np.array(box) + [1.0, 1.0, -1.0, -1.0] for box in names.boxes.values()]
             assert sum(crossing(box, segment) for box in inner) == 0, t
 
