@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gudgeon.commands.common import check_file, chosen_scenes, need_suffix
 from gudgeon.commands.progress import status_line
-from gudgeon.errors import BadValueError
+from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.files.writing import write_text
 from gudgeon.language.shown import path_text
 from gudgeon.loading.find import find_mechanism, read_bytes
@@ -40,7 +41,27 @@ def write_equations(mechanism: str, target: Path, scenes: tuple[str, ...]) -> in
         return 0
     write_text(target, text)
     print(f"wrote {path_text(target)}")
+    if target.suffix.lower() == ".ipynb":
+        _run_once(mechanism, scene, target)
     return 0
+
+
+def _run_once(mechanism: str, scene: str, notebook: Path) -> None:
+    """The run of a notebook's last cells, so that one that cannot be is told now. Raises GudgeonError."""
+    from gudgeon.simulation.from_file import load
+
+    try:
+        with status_line(), warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # the notebook shows them
+            simulation = load(mechanism, scene)
+            with working(f"running {simulation.source.mechanism}, scene {scene}, as the notebook will"):
+                run = simulation.simulate()
+    except GudgeonError as error:
+        told = GudgeonError(f"{path_text(notebook)} is written, but what it runs in its last cells fails: {error}")
+        told.exit_code = error.exit_code
+        raise told from error
+    if run.diagnostics.interrupted:
+        raise KeyboardInterrupt
 
 
 def _pages(mechanism: str, folder: Path, scenes: tuple[str, ...]) -> int:

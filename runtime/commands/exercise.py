@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from gudgeon.commands.common import check_file, chosen_scenes, need_suffix
 from gudgeon.commands.progress import status_line
+from gudgeon.errors import AssemblyError, GudgeonError, SolverError
 from gudgeon.files.writing import write_text
 from gudgeon.language.shown import path_text
 from gudgeon.loading.find import find_mechanism, read_bytes
@@ -44,13 +45,20 @@ def make(mechanism: str, scene: str, seed: int, at: str | None) -> tuple[Documen
     file = find_mechanism(mechanism)
     data = read_bytes(file)
     simulation = load(mechanism, scene)
+    from gudgeon.generator.reading import read_scene
+    from gudgeon.teaching.sheet import make_sheets, make_subject, units_of
+
+    with working(f"running {file.stem}, scene {scene}, with other numbers"):
+        try:
+            drawn = draw_numbers(simulation, seed, at, units_of(read_scene(data, str(file), scene)))
+        except (AssemblyError, SolverError) as error:
+            told = GudgeonError(f"no sheet: the run that its numbers come from fails, the file's own too: {error}")
+            told.exit_code = error.exit_code
+            raise told from error
     with working(f"deriving {file.stem}, scene {scene}"):
         from gudgeon.generator.pipeline import derive
-        from gudgeon.generator.reading import read_scene
         from gudgeon.teaching.questions import make_questions
-        from gudgeon.teaching.sheet import make_sheets, make_subject, units_of
 
-        drawn = draw_numbers(simulation, seed, at, units_of(read_scene(data, str(file), scene)))
         subject = make_subject(derive(data, str(file), scene, drawn.numbers), simulation, drawn, seed)
         return *make_sheets(subject, make_questions(subject), seed), drawn
 

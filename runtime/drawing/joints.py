@@ -8,7 +8,7 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import PartInfo
 from gudgeon.drawing.bodies import BLOCK, SLOT, guide_and_slider, guide_ends
-from gudgeon.drawing.plan import Plan, axis_of, is_wide
+from gudgeon.drawing.plan import Plan, axis_of, has_rail, is_wide
 from gudgeon.drawing.posture import GROUND, Posture, body_of
 from gudgeon.drawing.shapes import Disc, Label, Line, Shape, hatching, rectangle, rounded, turned, unit_vector
 from gudgeon.model.compiled import Array
@@ -35,8 +35,11 @@ def names_of_joints(posture: Posture, plan: Plan, arcs: Mapping[str, float]) -> 
         elif part.kind in ("translational", "point_on_line"):
             place = axis_of(posture, part)[2]
         clear = {"translational": 1.5, "distance": 0.5, "gear": 0.3}.get(part.kind, 0.8)
-        clear = max(clear, arcs.get(part.name, 0.0))
-        yield Label(f"joint {part.name}", "joint", part.name, place, clear * plan.unit)
+        clear, way = max(clear, arcs.get(part.name, 0.0)), 45.0
+        if has_rail(part) and part.name in plan.ways:  # beyond the ground, where nothing slides
+            x, y = plan.ways[part.name]
+            clear, way = BLOCK[1] + 1.2, float(np.degrees(np.arctan2(y, x)))
+        yield Label(f"joint {part.name}", "joint", part.name, place, clear * plan.unit, way)
 
 
 def ground_wall(part: str, place: Array, into: Array, u: float, half: float = 1.5) -> Iterator[Shape]:

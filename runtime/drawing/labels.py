@@ -6,7 +6,7 @@ each. The same picture gives the same places.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -24,13 +24,14 @@ RINGS = (2.0, 6.0, 11.0, 17.0, 25.0, 35.0, 48.0, 64.0, 84.0, 110.0, 145.0, 190.0
 ORDER = (45.0, 0.0, 90.0, 180.0, 270.0, 135.0, 315.0, 225.0, *(22.5 + 45.0 * k for k in range(8)))  # on a ring, degrees
 LED = 15.0  # points; further off than that a thin line leads back
 GAP = 1.2  # points between names
+LEFT_FREE = 3.0  # points between a name and what leads to another one
 
 
 class Names(Artist):
     """All names of a sketch; `boxes` are where they are after drawing, (left, low, right, high) in pixels by part.
 
-    `beside` is then how far the middle of each is from what it names; `held`, the same of an earlier picture of a
-    motion, keeps them there.
+    `beside` is then how far the middle of each is from what it names; `held`, the same of the picture before of a
+    motion, keeps them there while there is room.
     """
 
     def __init__(self, sketch: Sketch, size: float) -> None:
@@ -73,30 +74,26 @@ class Names(Artist):
         axes: Any = self.axes
         figure, to_pixels = axes.get_figure(root=True), axes.transData.transform
         point = figure.dpi / 72.0
-        lines = obstacles(self.sketch.shapes, to_pixels)
         room = np.array(axes.get_window_extent(renderer).extents)
         metre = float(np.hypot(*(to_pixels((1.0, 0.0)) - to_pixels((0.0, 0.0)))))
-        self.leads, self.boxes, taken = [], {}, np.zeros((0, 4))
+        halves = {}
         for text, label in zip(self.texts, self.sketch.labels, strict=True):
             text.set_figure(figure)
             text.set_position((0.0, 0.0))
             extent = text.get_window_extent(renderer)
-            half = 0.5 * np.array([extent.width, extent.height])
-            at = to_pixels(label.place)
-            middle, ring = at + self.held.get(label.part, (0.0, 0.0)), 0.0
-            if label.part not in self.held:
-                found = best_place(at, half, label.way, label.clear * metre, point, lines, taken, room)
-                text.set_visible(found is not None)
-                if found is None:
-                    continue
-                middle, ring = found
-            self.beside[label.part] = float(middle[0] - at[0]), float(middle[1] - at[1])
+            halves[label.part] = 0.5 * np.array([extent.width, extent.height])
+        self.beside = settled(self.sketch, halves, self.held, to_pixels, metre, point, room)
+        self.leads, self.boxes = [], {}
+        for text, label in zip(self.texts, self.sketch.labels, strict=True):
+            text.set_visible(label.part in self.beside)
+            if label.part not in self.beside:
+                continue
+            at, half, clear = to_pixels(label.place), halves[label.part], label.clear * metre
+            middle = at + self.beside[label.part]
             text.set_position((float(middle[0]), float(middle[1])))
-            box = np.array([*(middle - half), *(middle + half)])
-            taken = np.vstack([taken, box])
-            self.boxes[label.part] = tuple(box.tolist())
-            if ring > LED * point:
-                self.leads.append(self._lead(at, middle, half, label.clear * metre))
+            self.boxes[label.part] = tuple([*(middle - half), *(middle + half)])
+            if is_led(at, middle, half, clear, point):
+                self.leads.append(self._lead(at, middle, half, clear))
 
     def _told(self, left: int) -> Text:
         """That names are missing, in the upper right corner."""
@@ -107,13 +104,53 @@ class Names(Artist):
         return text
 
     def _lead(self, at: Array, middle: Array, half: Array, clear: float) -> Line2D:
-        """From the edge of what is named to that of its name."""
         axes: Any = self.axes
-        edge = np.clip(at, middle - half, middle + half)
-        begin = at + clear * (edge - at) / max(float(np.hypot(*(edge - at))), clear, 1e-300)
-        line = Line2D(*np.array([begin, edge]).T, color="#999999", lw=0.5, transform=None)
+        ends = lead(at, middle, half, clear).reshape(2, 2)
+        line = Line2D(*ends.T, color="#999999", lw=0.5, transform=None)
         line.set_figure(axes.get_figure(root=True))
         return line
+
+
+def settled(
+    sketch: Sketch, halves: Mapping[str, Array], held: Mapping[str, tuple[float, float]], to_pixels: Any,
+    metre: float, point: float, room: Array,
+) -> dict[str, tuple[float, float]]:  # fmt: skip
+    """How far the middle of each name is from what it names, by part, pixels; without those that have no place.
+
+    halves: half of each name's width and height. held: the same of the picture before, which a name keeps while it
+    lies on no other name and within the `room`. metre, point: their pixels.
+    """
+    beside, taken = dict[str, tuple[float, float]](), np.zeros((0, 4))
+    lines: Array | None = None
+    for label in sketch.labels:
+        at, half, clear = to_pixels(label.place), halves[label.part], label.clear * metre
+        middle = at + held.get(label.part, (0.0, 0.0))
+        box = np.array([[*(middle - half), *(middle + half)]])
+        if label.part not in held or overlapping(box, taken).any() or not _inside(box, room)[0]:
+            lines = obstacles(sketch.shapes, to_pixels) if lines is None else lines
+            found = best_place(at, half, label.way, clear, point, lines, taken, room)
+            if found is None:
+                continue
+            middle = found
+            box = np.array([[*(middle - half), *(middle + half)]])
+            if is_led(at, middle, half, clear, point):
+                lines = np.vstack([lines, lead(at, middle, half, clear)])  # which the names behind it leave free
+        beside[label.part] = float(middle[0] - at[0]), float(middle[1] - at[1])
+        taken = np.vstack([taken, box])
+    return beside
+
+
+def lead(at: Array, middle: Array, half: Array, clear: float) -> Array:
+    """From the edge of what is named to that of its name, a segment (1, 4)."""
+    edge = np.clip(at, middle - half, middle + half)
+    begin = at + clear * (edge - at) / max(float(np.hypot(*(edge - at))), clear, 1e-300)
+    return np.array([[*begin, *edge]])
+
+
+def is_led(at: Array, middle: Array, half: Array, clear: float, point: float) -> bool:
+    """Whether a name is so far from what it names that a line leads back."""
+    edge = np.clip(at, middle - half, middle + half)
+    return float(np.hypot(*(edge - at))) - clear > LED * point
 
 
 def gid(kind: str, part: str) -> str:
@@ -137,8 +174,8 @@ def _outlines(shapes: Sequence[Shape]) -> Iterator[Array]:
 
 def best_place(
     at: Array, half: Array, way: float, clear: float, point: float, lines: Array, taken: Array, room: Array
-) -> tuple[Array, float] | None:
-    """The middle of a name, and how far its box is from what it names: the nearest place on no line and no other name;
+) -> Array | None:
+    """The middle of a name: the nearest place on no line and no other name, to which no line leads under another name;
     where every place has a line, the one with the fewest; None where there is no place. Pixels; `half` its size,
     `room` the picture's box."""
     angles = np.radians([way, *ORDER])
@@ -152,13 +189,17 @@ def best_place(
         boxes = np.hstack([middles - half - GAP * point, middles + half + GAP * point])
         free = ~overlapping(boxes, taken).any(axis=1) & _inside(boxes, room)
         hits = np.array([crossing(box, lines) if ok else np.inf for box, ok in zip(boxes, free, strict=True)])
+        for j in np.flatnonzero(free):
+            if len(taken) and is_led(at, middles[j], half, clear, point):
+                back = lead(at, middles[j], half, clear)
+                hits[j] += sum(crossing(box, back) for box in taken + LEFT_FREE * point * np.array([-1, -1, 1, 1]))
         costs = hits + 0.02 * ring
         k = int(np.argmin(costs))
         if hits[k] == 0.0:
-            return middles[k], reach - clear
+            return middles[k]
         if costs[k] < fewest:
-            fallback, fewest, far = middles[k], costs[k], reach - clear
-    return (fallback, far) if np.isfinite(fewest) else None
+            fallback, fewest = middles[k], costs[k]
+    return fallback if np.isfinite(fewest) else None
 
 
 def overlapping(boxes: Array, taken: Array) -> NDArray[np.bool_]:

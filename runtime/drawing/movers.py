@@ -146,11 +146,10 @@ def _cylinder(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
 
 def _feet(posture: Posture, part: PartInfo, name: str, plan: Plan) -> Iterator[Shape]:
     """A wall where an end is fixed to the ground and no joint has drawn it: a rail's own point stands nowhere."""
-    places = [posture.place(end) for end in part.ends]
     joined = {end for joint in posture.parts("joints") if not has_rail(joint) for end in joint.ends}
-    for end, place, other in zip(part.ends, places, reversed(places), strict=True):
+    for end in part.ends:
         if body_of(end) == GROUND and end not in joined:
-            yield from ground_wall(name, place, unit_vector(place - other), plan.unit)
+            yield from ground_wall(name, posture.place(end), plan.ways[part.name], plan.unit)
 
 
 def _spring_damper(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:

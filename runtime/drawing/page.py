@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from html import escape
 from typing import Any
 
 import numpy as np
 
-from gudgeon.drawing.labels import gid
+from gudgeon.drawing.labels import gid, settled
 from gudgeon.drawing.roles import EDGES, NAMES, ROLES, TINTS, colour_of
 from gudgeon.drawing.shapes import Disc, Shape, Sketch
 from gudgeon.model.compiled import Array
@@ -21,10 +22,10 @@ Styles = dict[tuple[str, int], int]
 
 def page(
     title: str, sketches: Sequence[Sketch], times: Sequence[float], seconds: float, width: float,
-    beside: Mapping[str, tuple[float, float]],
+    beside: Mapping[str, tuple[float, float]], halves: Mapping[str, Array],
 ) -> str:  # fmt: skip
     """The whole text. `sketches` in one box, at `times` (s) of the run, are shown within `seconds`; `width` in pixels,
-    `beside` how far the middle of each name is from what it names, pixels, y up."""
+    `beside` how far the middle of each name is from what it names, at first, pixels, y up, `halves` half its size."""
     first = sketches[0]
     scale = width / float(first.high[0] - first.low[0])
     height = scale * float(first.high[1] - first.low[1])
@@ -36,7 +37,9 @@ def page(
     kinds = _kinds(sketches)
     frames = [_frame(sketch, kinds, at, scale, styles) for sketch in sketches]
     names = [label for label in first.labels if label.part in beside]
-    places = [_name_places(sketch, [label.part for label in names], at, beside) for sketch in sketches]
+    parts = [label.part for label in names]
+    followed = _followed(sketches, beside, halves, scale)
+    places = [_name_places(sketch, parts, at, now) for sketch, now in zip(sketches, followed, strict=True)]
     data = {
         "times": [round(t, 9) for t in times], "seconds": seconds, "styles": [_css(*key) for key in styles],
         "frames": _changes(frames), "places": _changes(places),
@@ -45,10 +48,10 @@ def page(
     paths = "".join(f'<path id="{name}"/>' for name in kinds)
     note = "<br>".join(escape(note) for note in first.notes)
     told = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
-    parts = {"TITLE": escape(title), "NOTE": note, "WIDTH": f"{width:.0f}", "HEIGHT": f"{height:.0f}", "PATHS": paths,
+    slots = {"TITLE": escape(title), "NOTE": note, "WIDTH": f"{width:.0f}", "HEIGHT": f"{height:.0f}", "PATHS": paths,
              "NAMES": texts, "DATA": told}  # fmt: skip
     return re.sub(
-        f"@({'|'.join(parts)})@", lambda found: parts[found[1]], PAGE
+        f"@({'|'.join(slots)})@", lambda found: slots[found[1]], PAGE
     )  # in one go: a title may hold such a word
 
 
@@ -97,6 +100,18 @@ def _css(role: str, tint: int) -> str:
     return f"stroke:{colour_of(look.edge, tint)};fill:{colour_of(look.face, tint)};stroke-width:{width:.2f}{dashes}"
 
 
+def _followed(
+    sketches: Sequence[Sketch], beside: Mapping[str, tuple[float, float]], halves: Mapping[str, Array], scale: float
+) -> Iterator[Mapping[str, tuple[float, float]]]:
+    """Of each picture how far names are from what they name; one for which there is no room stays where it was."""
+    low, room = sketches[0].low, scale * np.array([*np.zeros(2), *(sketches[0].high - sketches[0].low)])
+    for sketch in sketches:
+        named = replace(sketch, labels=tuple(label for label in sketch.labels if label.part in beside))
+        found = settled(named, halves, beside, lambda x: scale * (np.asarray(x) - low), scale, PIXELS / 72.0, room)
+        beside = {**beside, **found}
+        yield beside
+
+
 def _name_places(
     sketch: Sketch, parts: Sequence[str], at: Any, beside: Mapping[str, tuple[float, float]]
 ) -> list[list[Any]]:
@@ -137,7 +152,7 @@ svg text { font: 11px sans-serif; text-anchor: middle; dominant-baseline: centra
 output { font-variant-numeric: tabular-nums; min-width: 7em }
 p { color: #555; font-size: 12px }
 </style></head><body>
-<h1 style="font-size: 1.1em">@TITLE@</h1>
+<h1 dir="auto" style="font-size: 1.1em">@TITLE@</h1>
 <svg viewBox="0 0 @WIDTH@ @HEIGHT@" role="img" aria-label="@TITLE@"><g>@PATHS@</g><g id="names">@NAMES@</g></svg>
 <div class="bar"><button id="play">Play</button>
 <input id="when" type="range" min="0" value="0" step="1" aria-label="time"><output id="t"></output>

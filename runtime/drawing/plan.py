@@ -10,7 +10,7 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import PartInfo
 from gudgeon.drawing.posture import GROUND, Posture, anchors, body_of, distinct
-from gudgeon.drawing.shapes import turned
+from gudgeon.drawing.shapes import turned, unit_vector
 from gudgeon.model.compiled import Array
 
 SLIDING = ("translational", "point_on_line")
@@ -22,7 +22,8 @@ SHARE, LEAST, OF_LINK = 0.017, 0.005, 0.16
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """`unit`: half a bar's width (m). `ways`: of a joint on the ground where that lies, seen from it, (2,).
+    """`unit`: half a bar's width (m). `ways`: of a joint, cylinder or spring on the ground where that lies, seen from
+    it, (2,).
 
     `travel`: of a joint that slides the least and largest place along its axis (m), over all postures. `newton`: how
     long an applied force of 1 N is drawn (m); 0: all are of one length.
@@ -46,6 +47,9 @@ def make_plan(postures: Sequence[Posture], start: Posture | None = None) -> Plan
             travel[part.name] = min(along), max(along)
         if any(body_of(end) == GROUND for end in part.ends):
             ways[part.name] = _rail_side(start, part) if has_rail(part) else _below(postures, part)
+    for part in (*first.parts("drives", "distance"), *first.parts("forces", "spring_damper")):
+        if any(body_of(end) == GROUND for end in part.ends):
+            ways[part.name] = _behind(postures, part)
     return Plan(_unit(first, places), ways, travel)
 
 
@@ -137,6 +141,14 @@ def _below(postures: Sequence[Posture], part: PartInfo) -> Array:
     free = [_nearest(np.array(angles), float(np.arctan2(y, x))) for x, y in ways]
     share = [float((away < np.radians(50.0)).mean()) for away in free]
     return ways[0] if share[0] == 0.0 else ways[int(np.argmin(share))]
+
+
+def _behind(postures: Sequence[Posture], part: PartInfo) -> Array:
+    """The direction in which an element that holds the ground ends there: away from its other end, on the mean."""
+    fixed, other = sorted(part.ends, key=lambda end: body_of(end) != GROUND)
+    spans = [posture.place(fixed) - posture.place(other) for posture in postures]
+    mean = np.sum([unit_vector(span) for span in spans], axis=0)
+    return unit_vector(mean if float(np.hypot(*mean)) > ASIDE[0] * len(spans) else spans[0])
 
 
 def _nearest(angles: Array, way: float) -> Array:

@@ -27,13 +27,14 @@ from gudgeon.drawing.sketch import make_sketch, room_of_all
 from gudgeon.errors import BadValueError, GudgeonError, OutputError
 from gudgeon.files.writing import check_target, telling, write_bytes, write_text
 from gudgeon.language.shown import one_line
-from gudgeon.language.wanted import flag, number_of, path, refuse
+from gudgeon.language.wanted import flag, function, number_of, path, refuse
 from gudgeon.results.mechanism_plots import arrows_of, path_lines, points_of, touching_at
 from gudgeon.results.plots import caption_of
 from gudgeon.results.postures import posture_at, postures_of
 
 if TYPE_CHECKING:
     from gudgeon.drawing.shapes import Sketch
+    from gudgeon.integrators.trajectory import Progress
     from gudgeon.results.results import Result
 
 SUFFIXES = (".gif", ".mp4", ".html")
@@ -69,9 +70,12 @@ class Wanted:
     points: Sequence[str]
     velocities: bool
     forces: bool
+    progress: Progress | None = None
 
 
-def wanted_of(run: Result, seconds: Any, rate: Any, points: Any, velocities: Any, forces: Any) -> Wanted:
+def wanted_of(
+    run: Result, seconds: Any, rate: Any, points: Any, velocities: Any, forces: Any, progress: Any = None
+) -> Wanted:
     """Checked. Raises BadValueError, UnknownNameError."""
     span = float(run.t[-1] - run.t[0])
     seconds = (span if SLOW <= span <= QUICK else SHOWN) if seconds is None else number_of(seconds, "seconds")
@@ -84,7 +88,7 @@ def wanted_of(run: Result, seconds: Any, rate: Any, points: Any, velocities: Any
         raise BadValueError(f"{count} pictures: expected at most {LONGEST}", hint=hint)
     times = np.linspace(float(run.t[0]), float(run.t[-1]), count)
     arrows = flag(velocities, "velocities"), flag(forces, "forces")
-    return Wanted(times, seconds, points_of(run, [points]), *arrows)
+    return Wanted(times, seconds, points_of(run, [points]), *arrows, function(progress, "progress"))
 
 
 def animate(run: Result, target: Any, wanted: Wanted) -> Animation | None:
@@ -118,7 +122,9 @@ def sketches(run: Result, wanted: Wanted) -> Iterator[Sketch]:
     plan = make_plan(motion)
     box, lines = room_of_all(motion, [plan]), path_lines(run, wanted.points)
     before = wanted.times[0]
-    for t in wanted.times:
+    for k, t in enumerate(wanted.times):
+        if wanted.progress:
+            wanted.progress(k / len(wanted.times), f"picture {k + 1} of {len(wanted.times)}")
         posture = posture_at(run, float(t))
         to_scale, arrows = arrows_of(run, posture, motion, plan, wanted.velocities, wanted.forces)
         drawn = make_sketch(
@@ -146,13 +152,14 @@ def _caption(run: Result, t: float, wanted: Wanted) -> str:
 
 
 def _page(run: Result, wanted: Wanted) -> Animation:
-    """Names are placed once, by matplotlib, and then stay beside what they name."""
+    """Names are placed by matplotlib once, then stay beside what they name until another one is there."""
     drawn = list(sketches(run, wanted))
     picture, names = _canvas(drawn[0], _caption(run, wanted.times[0], wanted))
     beside = _beside(picture, names)
+    halves = {part: 0.5 * (np.array(box[2:]) - box[:2]) for part, box in names.boxes.items()} if names else {}
     width = float(picture.get_size_inches()[0]) * PIXELS
     title = one_line(f"{run.source.title or run.source.mechanism}: {run.source.scene}")
-    text = page(title, drawn, [float(t) for t in wanted.times], wanted.seconds, width, beside)
+    text = page(title, drawn, [float(t) for t in wanted.times], wanted.seconds, width, beside, halves)
     return Animation(text, width, width * float(np.divide(*(drawn[0].high - drawn[0].low)[::-1])))
 
 
@@ -204,14 +211,14 @@ def _film(run: Result, wanted: Wanted, suffix: str) -> bytes:
 
     rate: Any = (len(wanted.times) - 1) / wanted.seconds
     writer: Any = _GifWriter(fps=rate) if suffix == ".gif" else FFMpegWriter(fps=rate, codec="libx264")
-    beside: dict[str, tuple[float, float]] | None = None
+    beside: dict[str, tuple[float, float]] = {}
     with matplotlib.rc_context(STYLE), tempfile.TemporaryDirectory() as folder:
         file = os.path.join(folder, f"film{suffix}")
         for t, sketch in zip(wanted.times, sketches(run, wanted), strict=True):
             picture, names = _canvas(sketch, _caption(run, float(t), wanted))
-            beside = _beside(picture, names) if beside is None else beside
             if names is not None:
                 names.held = beside
+            beside = _beside(picture, names)
             if t == wanted.times[0]:
                 writer.setup(picture, file, PIXELS)
             writer.fig = picture

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     import xarray
 
     from gudgeon.integrators.trace import Trace
+    from gudgeon.integrators.trajectory import Progress
     from gudgeon.model.compiled import CompiledModel, Evaluation
     from gudgeon.results.animation import Animation
     from gudgeon.results.at_events import AtEvents
@@ -205,19 +206,20 @@ class Result(Shown):
 
     def animate(
         self, path: str | os.PathLike[str] | None = None, *, seconds: float | None = None, rate: float = 25.0,
-        points: Iterable[str] = (), velocities: bool = False, forces: bool = False,
+        points: Iterable[str] = (), velocities: bool = False, forces: bool = False, progress: Progress | None = None,
     ) -> Animation | None:  # fmt: skip
         """The run as a moving picture: x.gif, x.mp4 (where ffmpeg is) or x.html, a page of its own that plays.
 
         `seconds` it lasts (None: as long as the run, but 6 where that is under 2 or over 20), with `rate` pictures a
         second (each is painted, so a GIF or film of fewer `seconds` or at a lower `rate` is written sooner); `points`
-        whose paths are drawn, `velocities` and `forces` as in `plot.mechanism`. Joints with play are
-        magnified beside it, red in pictures before which their surfaces met. Of a page, or without a path, what a
-        notebook shows. Raises BadValueError, UnknownNameError; GudgeonError without ffmpeg; OutputError.
+        whose paths are drawn, `velocities` and `forces` as in `plot.mechanism`. Joints with play are magnified beside
+        it, red in pictures before which their surfaces met. Of a page, or without a path, what a notebook shows.
+        `progress(share, text)` hears of each picture. BadValueError, UnknownNameError; without ffmpeg GudgeonError.
         """
         from gudgeon.results import animation
 
-        return animation.animate(self, path, animation.wanted_of(self, seconds, rate, points, velocities, forces))
+        wanted = animation.wanted_of(self, seconds, rate, points, velocities, forces, progress)
+        return animation.animate(self, path, wanted)
 
     def report(self) -> RunReport:
         """What joints with play did, where energy went, how far to believe it: `print`, `.to_html()`, `.to_dict()`."""

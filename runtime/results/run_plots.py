@@ -197,7 +197,7 @@ class Plot:
         from gudgeon.results.mechanism_plots import sketch_at
         from gudgeon.results.postures import time_of
 
-        sketch, caption = sketch_at(self.run, t, velocities, forces), f"t = {time_of(self.run, t):.6g} s"
+        sketch, caption = sketch_at(self.run, t, velocities, forces), f"t\u00a0=\u00a0{time_of(self.run, t):.6g}\u00a0s"
         return self._drawn(sketch, ax, lambda on: draw_on(on, sketch), f"{caption_of(self.run)}, {caption}")
 
     def path(self, *points: str | Sequence[str], ax: Axes | None = None) -> Axes:
@@ -216,13 +216,14 @@ class Plot:
     def _drawn(
         self, sketch: Sketch, ax: Axes | None, draw: Callable[[Axes], None], caption: str, beside: float = 0.0
     ) -> Axes:
-        from gudgeon.drawing.picture import size_of
+        from gudgeon.drawing.picture import PER_INCH, size_of
 
         with matplotlib.rc_context(STYLE):
             width, height = size_of(sketch, 7.0)
+            across = TITLE if ax is not None else min(TITLE, int(PER_INCH * (width + beside)))
             ax = new_axes(width + beside, height) if ax is None else plain(ax)
             draw(ax)
-            ax.set_title(in_figure(caption, TITLE))
+            ax.set_title(in_figure(caption, across))
             ax.text(0.0, -0.01, "\n".join(sketch.notes), transform=ax.transAxes, va="top", fontsize=7.5)
         return ax
 

@@ -23,6 +23,8 @@ from PIL import Image  # noqa: E402
 
 import gudgeon  # noqa: E402
 from gudgeon.drawing.insets import eccentricity  # noqa: E402
+from gudgeon.drawing.labels import overlapping  # noqa: E402
+from gudgeon.drawing.page import _followed  # noqa: E402
 from gudgeon.drawing.roles import INK, TINTS  # noqa: E402
 from gudgeon.drawing.shapes import Sketch  # noqa: E402
 from gudgeon.errors import BadValueError, GudgeonError, OutputError, UnknownNameError  # noqa: E402
@@ -194,6 +196,35 @@ def test_files(crank: Result, tmp_path: Path) -> None:
     shown = crank.animate(str(tmp_path / "x.HTML"), seconds=0.3, rate=10)
     assert shown is not None and (tmp_path / "x.HTML").read_text() == shown.html
     assert "<iframe" in shown._repr_html_() and "<script" not in shown._repr_html_()
+
+
+@pytest.mark.parametrize("name", ["jansen_leg", "whitworth"])
+def test_names_follow_and_lie_on_no_other(name: str) -> None:
+    """A turn of the crank: each name keeps its place beside what it names until another name is there."""
+    run = gudgeon.load(name).simulate()
+    drawn = list(sketches(run, wanted_of(run, 1.6, 25.0, [], False, False)))
+    scale = 700.0 / float(drawn[0].high[0] - drawn[0].low[0])
+    halves = {label.part: np.array([3.5 * len(label.text), 6.0]) for label in drawn[0].labels}
+    followed = list(_followed(drawn, dict.fromkeys(halves, (0.0, 0.0)), halves, scale))[1:]
+    fixed = still = moves = 0
+    for sketch, before, now in zip(drawn[2:], followed, followed[1:], strict=False):
+        middles = {label.part: scale * label.place + now[label.part] for label in sketch.labels}
+        boxes = np.array([[*(at - halves[part]), *(at + halves[part])] for part, at in middles.items()])
+        assert overlapping(boxes, boxes).sum() == len(boxes)
+        moves += sum(before[part] != now[part] for part in now)
+        still += sum(before[part] == now[part] for part in now)
+        first = [scale * label.place + followed[0][label.part] for label in sketch.labels]
+        boxes = np.array([[*(at - half), *(at + half)] for at, half in zip(first, halves.values(), strict=True)])
+        fixed += int(overlapping(boxes, boxes).sum() > len(boxes))
+    assert fixed > 0 and 0 < moves < 0.1 * still  # without following some would lie on others
+
+
+def test_each_picture_is_told(crank: Result, tmp_path: Path) -> None:
+    heard: list[tuple[float, str]] = []
+    crank.animate(tmp_path / "x.gif", seconds=0.4, rate=10.0, progress=lambda *told: heard.append(told))
+    assert heard == [(k / 4, f"picture {k + 1} of 4") for k in range(4)]
+    with pytest.raises(BadValueError, match="progress"):
+        crank.animate(progress=3)  # type: ignore[arg-type]
 
 
 def test_what_cannot_be_is_told(crank: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -12,10 +12,11 @@ import pytest
 pytest.importorskip("matplotlib")
 
 import gudgeon  # noqa: E402
-from gudgeon.drawing.labels import Names  # noqa: E402
+from gudgeon.drawing.labels import Names, crossing  # noqa: E402
 from gudgeon.drawing.movers import ARROW  # noqa: E402
 from gudgeon.errors import BadValueError, UnknownNameError  # noqa: E402
 from gudgeon.results import plots  # noqa: E402
+from gudgeon.results.mechanism_plots import sketch_at  # noqa: E402
 from gudgeon.results.postures import loads_at, posture_at  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
 
@@ -181,7 +182,7 @@ def test_what_cannot_be_drawn_is_told(four_bar: Result) -> None:
             asked()
     axes = four_bar.plot.mechanism("250 ms")
     title = f"{four_bar.source.title}: {four_bar.source.scene}, t = 0.25 s"  # what `gudgeon draw` puts above it
-    assert axes.get_title().replace("\n", " ") == title and four_bar.plot.mechanism(0.1, ax=axes) is axes
+    assert " ".join(axes.get_title().split()) == title and four_bar.plot.mechanism(0.1, ax=axes) is axes
 
 
 def test_a_file_of_a_run_is_drawn_as_the_run_is(press: Result, tmp_path: Path) -> None:
@@ -201,3 +202,42 @@ def test_the_figure_of_a_command_shows_the_mechanism(press: Result, tmp_path: Pa
     plots.save_figure(picture, tmp_path / "x.png")
     (names,) = [artist for artist in drawn[0].get_children() if isinstance(artist, Names)]
     assert {f"joint {name}" for name in ("A", "guide", "P2")} <= set(names.boxes)
+
+
+def test_walls_stand_still() -> None:
+    """What a spring and a cylinder hold on the ground lies where it lay, across the mean of their motion."""
+    for name, part in (("andrews_squeezer", "force spring"), ("cylinder_boom", "drive cylinder")):
+        run = gudgeon.load(name).simulate()
+        shapes = [sketch_at(run, share * float(run.t[-1])).shapes for share in (0.0, 0.37, 1.0)]
+        walls = [next(one.points for one in own if (one.part, one.role) == (part, "rail")) for own in shapes]  # type: ignore[union-attr]
+        assert np.ptp(walls, axis=0).max() < 1e-12, name
+        fixed, moving = sorted(
+            next(one.ends for one in run.source.parts if one.name == part.split()[1]),
+            key=lambda end: not end.startswith("ground"),
+        )
+        postures = [posture_at(run, float(t)) for t in run.t[:: max(1, len(run.t) // 20)]]
+        spans = [posture.place(moving) - posture.place(fixed) for posture in postures]
+        mean = np.mean([span / np.hypot(*span) for span in spans], axis=0)
+        across = walls[0][1] - walls[0][0]
+        assert abs(float(across @ mean)) < 0.05 * float(np.hypot(*across)), name
+
+
+def test_no_line_leads_under_a_name() -> None:
+    """From the screw of the landing gear past the crosshead and its way."""
+    run = gudgeon.load("landing_gear").simulate(1.0)
+    for t in np.linspace(0.0, 1.0, 6):
+        ax: Any = run.plot.mechanism(float(t))
+        ax.figure.draw_without_rendering()
+        names = next(artist for artist in ax.get_children() if isinstance(artist, Names))
+        leads: Any = names.leads
+        for line in leads:
+            segment = line.get_xydata().reshape(1, 4)
+            inner = [np.array(box) + [1.0, 1.0, -1.0, -1.0] for box in names.boxes.values()]
+            assert sum(crossing(box, segment) for box in inner) == 0, t
+
+
+def test_a_title_fits_a_narrow_figure() -> None:
+    figure: Any = gudgeon.load("shaker").simulate(0.01).plot.mechanism().figure
+    figure.draw_without_rendering()
+    box = figure.axes[0].title.get_window_extent()
+    assert 0.0 <= box.x0 < box.x1 <= figure.bbox.x1 and "\u00a0=\u00a0" in figure.axes[0].get_title()

@@ -20,31 +20,38 @@ LINE = ("pdflatex", "-interaction=nonstopmode", "-halt-on-error")
 
 
 def compiled(file: Path) -> str:
-    """What pdflatex complains of; "" where it made a PDF."""
+    """What pdflatex complains of, and lines that run off the page; "" where it made a PDF of lines that fit."""
     if shutil.which(LINE[0]) is None:
         missing("no pdflatex: apt-get install texlive-latex-extra")
     line, folder = [*LINE, file.name], file.parent
     done = subprocess.run(line, cwd=folder, capture_output=True, text=True, errors="replace", timeout=120)
-    return "" if done.returncode == 0 and file.with_suffix(".pdf").stat().st_size > 10_000 else done.stdout[-2000:]
+    if done.returncode != 0 or file.with_suffix(".pdf").stat().st_size <= 10_000:
+        return done.stdout[-2000:]
+    log = file.with_suffix(".log").read_text(errors="replace")
+    wide = [line for pt, line in re.findall(r"Overfull .hbox \(([\d.]+)pt( .*)", log) if float(pt) > 5.0]
+    return "\n".join(wide)
 
 
 @pytest.mark.parametrize(
-    ("name", "scene"), [("nine_bar_press", "lubricated"), ("four_bar", "ideal"), ("andrews_squeezer", "short")]
-)
+    ("name", "scene"),
+    [
+        ("nine_bar_press", "lubricated"), ("four_bar", "ideal"), ("andrews_squeezer", "short"),
+        ("bouncing_ball", "damped"), ("toggle_clamp", "ideal"),
+    ],
+)  # fmt: skip
 def test_equations(name: str, scene: str, tmp_path: Path) -> None:
+    """Neither a long table of numbers nor the second derivative of a smooth step runs off the page."""
     file = tmp_path / "equations.tex"
     file.write_text(equations_tex(derive(shipped_file(name).read_bytes(), name, scene)), encoding="utf-8")
     assert compiled(file) == ""
 
 
-@pytest.mark.parametrize("name", ["four_bar", "jansen_leg"])
+@pytest.mark.parametrize("name", ["four_bar", "jansen_leg", "scissor_lift"])
 def test_exercises(name: str, call: Gudgeon, tmp_path: Path) -> None:
     """Nothing runs off the page, plates by their sides neither; the sheet and its solutions have a drawing."""
     assert call("exercise", name, "-o", "sheet.tex", "--seed", "1").exit_code == 0
     for file in (tmp_path / "sheet.tex", tmp_path / "sheet-solutions.tex"):
         assert compiled(file) == ""
-        wide = re.findall(r"Overfull .hbox \(([\d.]+)pt", file.with_suffix(".log").read_text(errors="replace"))
-        assert max(map(float, wide), default=0.0) < 5.0
         assert file.read_text(encoding="ascii").count(r"\begin{tikzpicture}") == 1
 
 

@@ -95,6 +95,21 @@ def test_curves_are_refused(call: Gudgeon, tmp_path: Path) -> None:
     assert written(tmp_path) == {"cam.yaml"}
 
 
+@needs_compiler
+def test_a_run_that_fails_is_told(call: Gudgeon, tmp_path: Path) -> None:
+    """A bar that does not reach: the equations are there, the run inside is none; a sheet has no numbers at all."""
+    text = TURNING.replace("ground: {O: [0, 0]}", "ground: {O: [0, 0], P: [1 m, 0]}")
+    text = text.replace("joints: {", "joints: {P: {revolute: [ground.P, arm.head]}, ")
+    (tmp_path / "short.yaml").write_text(text, encoding="utf-8")
+    done = call("equations", "short.yaml", "-o", "x.ipynb")
+    assert done.exit_code == 1 and written(tmp_path) == {"short.yaml", "x.ipynb"}
+    assert "x.ipynb is written, but what it runs in its last cells fails: " in done.stderr
+    assert "cannot be assembled" in done.stderr
+    done = call("exercise", "short.yaml", "-o", "x.md")
+    assert done.exit_code == 1 and "no sheet: the run that its numbers come from fails" in done.stderr
+    assert written(tmp_path) == {"short.yaml", "x.ipynb"}
+
+
 def test_the_terminal_gets_the_text(call: Gudgeon, tmp_path: Path) -> None:
     printed = call("equations", "four_bar", "-o", "-").stdout
     assert call("equations", "four_bar", "-o", "x.txt").exit_code == 0

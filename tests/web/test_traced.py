@@ -22,6 +22,12 @@ LINES = """async (token) => {
         [one.dataset.c, one.firstChild?.textContent ?? "", one.querySelector("output")?.textContent ?? ""]);
 }"""
 STORES = re.compile(r"^\s*(?:const double )?(?:\w|->|\[\d+\])+ = .*;")
+# of each mark that is shown in a plot: where it is across, its dots, the plot's curves
+MARKS = """() => [...document.querySelectorAll("g.now[visibility=visible]")].map((mark) => [
+    Number(mark.getAttribute("transform").match(/[\\d.]+/)[0]),
+    [...mark.querySelectorAll("circle")].map((dot) => Number(dot.getAttribute("cy"))),
+    [...mark.parentNode.querySelectorAll("polyline")].map((curve) =>
+        curve.getAttribute("points").split(" ").map((point) => point.split(",").map(Number)))])"""
 COUNT = "(of) => [...document.querySelectorAll(of)].filter((one) => !one.closest('#gudgeon-lines')).length"
 SAMPLE = 300
 NOT_RUN = "\u2013"
@@ -74,6 +80,22 @@ def test_a_law_s_lines_are_of_the_joint_that_is_lit(opened: Any, press: Path) ->
         assert [value for text, value in lines if text.strip().startswith("*F_n_out")] == [NOT_RUN]
     told = shown.page.evaluate("document.querySelector('#gudgeon-lines p').textContent")
     assert f"{NOT_RUN}: not run" in told and shown.complaints == []
+
+
+def test_a_joint_s_state_is_marked_on_each_curve(opened: Any, press: Path) -> None:
+    """The film's two, at moments at which the eccentricity is within the plot; the dots lie on the curves."""
+    shown, found = opened(press, {"width": 1366, "height": 30000}), 0
+    shown.wait()
+    run = gudgeon.load("nine_bar_press", "lubricated").simulate()
+    for k in np.flatnonzero(run["A.e"] / run.parameters["c"] < 0.85)[:: len(run.t) // 6]:
+        shown.page.evaluate("(k) => gudgeonApp.seek(gudgeonApp.run.t[k])", int(k))
+        shown.wait()
+        for x, dots, curves in shown.page.evaluate(MARKS):
+            assert len(dots) == len(curves) > 0
+            found += 1
+            for y, curve in zip(dots, curves, strict=True):
+                assert y == pytest.approx(np.interp(x, *np.transpose(curve)), abs=0.3)
+    assert found >= 3
 
 
 def test_lines_of_parameters_have_the_numbers_that_were_typed(opened: Any, press: Path) -> None:

@@ -20,7 +20,9 @@ from gudgeon.generator.kernels.reduced import DYNAMICS
 from gudgeon.generator.targets.javascript.play import MOTION, joint_functions
 from gudgeon.generator.targets.javascript.printer import PRELUDE, arguments, function
 
-_OF_STATES = ("reduce_state", "expand", "closures", "closure_rates", DYNAMICS)
+_OF_STATES = (
+    "reduce_state", "reduce_accelerations", "expand", "closures", "closure_rates", DYNAMICS, "reduced_project",
+)  # fmt: skip
 
 
 def equations_script(program: Program) -> str:
@@ -30,7 +32,8 @@ def equations_script(program: Program) -> str:
     clearance.c has, `joints` being what `play` calls the motion of each, `called` whose functions call which.
 
     `functions` of t, q, v, p, as far as `given` names them, return their locals and arrays by name; `numbers` are
-    places in a run's p by the name of the member of p; `rows` are the places of the scene's rows in the closed
+    places in a run's p by the name of the member of p; `bodies` stand in the order of q, `closing` are the places of
+    what `closures` gives in what `reduced_project` takes; `rows` are the places of the scene's rows in the closed
     linkage's, `names` what they are called. Raises ValueError for curves.
     """
     model, dynamics = program.model, program.dynamics
@@ -50,7 +53,8 @@ def equations_script(program: Program) -> str:
         "rows": [place[row.name] for row in model.rows], "names": [row.name for row in model.rows],
         "given": {kernel.name: arguments(kernel) for kernel in kernels},
         "joints": {clearance.name: _motion(model, i) for i, clearance in enumerate(model.clearances)},
-        "called": _called(program), "states": model.law_states,
+        "called": _called(program), "states": model.law_states, "bodies": [body.name for body in model.bodies],
+        "closing": _closing(program),
     }  # fmt: skip
     parts = ", ".join(f"{key}: {json.dumps(value, separators=(',', ':'))}" for key, value in told.items())
     return (f"const gudgeonEquations = (() => {{\n{PRELUDE}const functions = {{\n{text},\n}};\n"
@@ -72,6 +76,15 @@ def tree_functions(program: Program, read: set[str]) -> dict[str, str]:
 def _tree_kernels(program: Program) -> list[Kernel]:
     tree = program.tree
     return [kernel for kernel in tree.every if kernel.name in _OF_STATES] if tree and not tree.chains else []
+
+
+def _closing(program: Program) -> list[int]:
+    """Of each closed loop's row its place among all rows of the tree's linkage."""
+    if program.tree is None:
+        return []
+    system = program.tree.system
+    place = {row.name: k for k, row in enumerate(system.model.all_rows)}
+    return [place[row.name] for row in system.rows]
 
 
 def right_hand_sides(dynamics: Kernel, model: Model) -> set[str]:

@@ -85,9 +85,14 @@ def _constants(model: Model, notation: Notation) -> Iterator[Block]:
     """Derived numbers and long drives that the rows show by a letter; those of forces stand with the forces."""
     laws = {value for clearance in model.clearances for value in clearance.constants.values()}
     apart = laws | set(temporaries(model))
-    for symbol, definition in model.symbols.definitions.items():
-        if symbol in notation.kept and symbol not in apart:
-            yield equation(symbol, notation.expand(definition), notation)
+    shown = [
+        equation(symbol, notation.expand(definition), notation)
+        for symbol, definition in model.symbols.definitions.items()
+        if symbol in notation.kept and symbol not in apart
+    ]
+    yield from shown
+    if any("where(" in term.text for one in shown for term in one.terms):
+        yield paragraph("where(", Name("a < b, x, y", "a < b, x, y"), ") is x while a is less than b, else y.")
     if any(notation.expand(value).has(sp.Heaviside) for row in model.rows for value in (row.nu, row.gamma)) or any(
         definition.has(sp.Heaviside) for definition in model.symbols.definitions.values()
     ):

@@ -20,11 +20,11 @@ const gudgeonValues = (() => {
     function computed(of) { return called(FUNCTIONS[of], state); }
 
     /* The same of any function, of coordinates q and rates v that are its own. */
-    function called(name, {q, v, latches}) {
+    function called(name, {q, v, latches, r, all_a}) {
         const call = equations?.functions[name];
         if (!call) return {};
         known.p ??= named(state.p);
-        const given = {t: state.t, q, v, p: known.p, memory: {latch: latches}};
+        const given = {t: state.t, q, v, r, all_a, p: known.p, memory: {latch: latches}};
         known[name] ??= call(...equations.given[name].map((one) => given[one]));
         return known[name];
     }
@@ -32,8 +32,31 @@ const gudgeonValues = (() => {
     /* Of the reduced formulation, whose coordinates follow from those of all bodies. */
     function inTree(name) {
         const {s: q, s_rate: v} = called("reduce_state", state);
-        return name === "reduce_state" || !q ? known[name] ?? {}
-            : called(name, {q, v, latches: Object.keys(equations.joints).map(latch)});
+        if (name === "reduce_state" || !q) return known[name] ?? {};
+        if (name === "reduce_accelerations") return called(name, {...state, all_a: accelerations()});
+        const r = name === "reduced_project" && residuals(q);
+        return called(name, {q, v, r, latches: Object.keys(equations.joints).map(latch)});
+    }
+
+    /* How far the loops are open, in all rows of the tree's linkage. */
+    function residuals(q) {
+        const r = [];
+        called("closures", {q}).out?.forEach((x, k) => { r[equations.closing[k]] = x; });
+        return r;
+    }
+
+    /* Of all bodies, as the run has them. */
+    function accelerations() {
+        return equations.bodies.flatMap((body) => ["ax", "ay", "alpha"].map((one) => series(`${body}.${one}`)));
+    }
+
+    /* At the state; NaN where the run has none. */
+    function series(name) {
+        try {
+            return state.run.series(name)[state.k];
+        } catch {
+            return NaN;
+        }
     }
 
     /* What the functions of a joint with play store at the state, {function of C: its locals}, computed once. */
@@ -95,14 +118,7 @@ const gudgeonValues = (() => {
         return name.split(/[.[\]]+/).filter(Boolean).reduce((part, key) => part?.[key], found);
     }
 
-    function multiplier(row) {
-        const {run, k} = state, name = equations?.names[row - 1];
-        try {
-            return run.series(`lambda.${name}`)[k];
-        } catch {
-            return NaN;
-        }
-    }
+    function multiplier(row) { return series(`lambda.${equations?.names[row - 1]}`); }
 
     /* Five digits; 1.2e-5 as 1.2·10⁻⁵. */
     function text(x) {
@@ -137,7 +153,18 @@ const gudgeonValues = (() => {
         const [first, last, left, right] = element.dataset.range.split(" ").map(Number);
         const inside = x !== IDLE && x >= first && x <= last;
         element.setAttribute("visibility", inside ? "visible" : "hidden");
-        if (inside) element.setAttribute("transform", `translate(${left + (right - left) * (x - first) / (last - first)} 0)`);
+        if (!inside) return;
+        const share = (x - first) / (last - first);
+        element.setAttribute("transform", `translate(${left + (right - left) * share} 0)`);
+        const curves = element.parentNode.querySelectorAll("polyline");
+        element.querySelectorAll("circle").forEach((dot, k) => dot.setAttribute("cy", height(curves[k], share)));
+    }
+
+    /* Of a curve whose points stand evenly, at a share of its way across. */
+    function height(curve, share) {
+        const y = curve.getAttribute("points").split(" ").map((point) => Number(point.split(",")[1]));
+        const at = share * (y.length - 1), k = Math.min(Math.floor(at), y.length - 2);
+        return y[k] + (at - k) * (y[k + 1] - y[k]);
     }
 
     function frame() {

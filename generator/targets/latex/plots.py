@@ -148,7 +148,7 @@ def drawn(plot: Plot, marks: Mapping[str, str]) -> str:
             y = TOP + 12 + 15 * k
             parts.append(f'<path class="curve dash{k}" d="M{LEFT + 12} {y - 4}h26"/>')
             parts.append(f'<text x="{LEFT + 44}" y="{y}">{_set(curve.told)}</text>')
-    parts += [_mark(name, value, first, last) for name, value in marks.items()]
+    parts += [_mark(name, value, first, last, len(plot.curves)) for name, value in marks.items()]
     return svg(WIDTH, HEIGHT, f"{plot.y_axis[0]} over {plot.x_axis[0]}", parts)
 
 
@@ -179,10 +179,11 @@ def _set(text: str) -> str:
     return "".join((first, *lowered))
 
 
-def _mark(name: str, value: str, first: float, last: float) -> str:
-    """A line at the joint's present state, moved and shown by live.js."""
+def _mark(name: str, value: str, first: float, last: float, curves: int) -> str:
+    """A line at the joint's present state and a dot on each curve, moved and shown by live.js."""
+    dots = '<circle r="3"/>' * curves
     return (
         f'<g class="now" data-value="tmp.law.{value}" data-range="{first!r} {last!r} {LEFT} {RIGHT}"'
-        f' visibility="hidden"><path d="M0 {TOP}V{BOTTOM}"/>'
+        f' visibility="hidden"><path d="M0 {TOP}V{BOTTOM}"/>{dots}'
         f'<text class="middle" y="{TOP - 2}">{html.escape(name)}</text></g>'
     )

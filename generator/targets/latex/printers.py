@@ -129,8 +129,8 @@ class TexPrinter(_InOrder, LatexPrinter):
         """`expr`, if it is long with brackets and fractions that a line may break in."""
         if len(self._text.doprint(expr)) <= LONG:
             return str(self.doprint(expr))
-        loose = str(TexPrinter(self._names, self._order, True).doprint(expr))
-        return loose.replace(r"\left(", r"\bigl(").replace(r"\right)", r"\bigr)")
+        loose = str(TexPrinter(self._names, self._order, True).doprint(expr))  # behind commas and factors too
+        return loose.replace(r"\left(", r"\bigl(").replace(r"\right)", r"\bigr)").replace(", ", r", \allowbreak ")
 
     def _print_Mul(self, expr: sp.Expr) -> str:
         """A number over a number stands in front, small; the rest as SymPy has it, or breakable."""
@@ -142,7 +142,8 @@ class TexPrinter(_InOrder, LatexPrinter):
             return rf"{sign}{self._print(abs(number))} \, {inside}"
         if not self._breakable or below.is_Number:
             return str(super()._print_Mul(expr))
-        return rf"{self.parenthesize(above, PRECEDENCE['Mul'])} / \left({self._print(below)}\right)"
+        under = self.parenthesize(below, PRECEDENCE["Mul"], strict=True)
+        return f"{self.parenthesize(above, PRECEDENCE['Mul'])} / {under}"
 
     def _print_Rational(self, expr: sp.Rational) -> str:
         if expr.q == 1:
@@ -174,6 +175,9 @@ class TexPrinter(_InOrder, LatexPrinter):
 
     def _print_Pick(self, expr: sp.Expr, exp: str | None = None) -> str:
         left, right, below, otherwise = map(self._print, compared(expr))
+        if self._breakable:  # no line breaks between the cases of a brace
+            text = rf"\operatorname{{where}}\left({left} < {right}, {below}, {otherwise}\right)"
+            return rf"{text}^{{{exp}}}" if exp else text
         cases = rf"{below} & {left} < {right} \\ {otherwise} & \text{{else}}"
         text = rf"\begin{{cases}} {cases} \end{{cases}}"
         return rf"\left({text}\right)^{{{exp}}}" if exp else text

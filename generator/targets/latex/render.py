@@ -17,6 +17,8 @@ from gudgeon.generator.targets.latex.tex_text import sketch_line, tex
 
 WIDTH = 100  # characters of a line of text
 WIDE = 44  # characters of a column with running text
+LETTER = {r"\small": 0.0106, r"\footnotesize": 0.0096, r"\scriptsize": 0.009}  # shares of a line that one takes
+GAP = 0.025  # between two columns
 
 
 def render(document: Document, suffix: str, **slots: str) -> str:
@@ -63,7 +65,9 @@ def _tex_terms(equation: Equation) -> str:
 
 def _tex_columns(table: Table) -> str:
     """Running text gets what the page leaves for it."""
-    share = 0.34 / max(1, len(table.wide))
+    others = [_width(table, k) for k in range(len(table.header)) if k not in table.wide]
+    taken = LETTER[_tex_size(table)] * sum(others) + GAP * len(table.header)
+    share = max(0.12, min(0.34, 1.0 - taken)) / max(1, len(table.wide))
     return "".join(rf"p{{{share:.2f}\linewidth}}" if k in table.wide else "l" for k in range(len(table.header)))
 
 
@@ -71,10 +75,14 @@ def _tex_size(block: Sketch | Picture | Table) -> str:
     """Long lines take small letters to stay on the page."""
     if not isinstance(block, Table):
         return r"\footnotesize" if max(map(len, block.lines), default=0) <= 98 else r"\scriptsize"
-    columns = zip(block.header, *block.rows, strict=True)
-    widths = [max(_columns(_plain_line(cell)) for cell in column) for column in columns]
+    widths = [_width(block, k) for k in range(len(block.header))]
     width = sum(2 + min(WIDE, w) if k in block.wide else 2 + w for k, w in enumerate(widths))
     return r"\small" if width <= 105 else r"\footnotesize" if width <= 125 else r"\scriptsize"
+
+
+def _width(table: Table, k: int) -> int:
+    """Characters of a column."""
+    return max(_columns(_plain_line(row[k])) for row in (table.header, *table.rows))
 
 
 def _plain_line(text: Text) -> str:

@@ -44,7 +44,8 @@ def mathml(name: Name) -> str:
         from latex2mathml.converter import convert_to_element
     except ImportError as error:
         raise GudgeonError("HTML needs latex2mathml: pip install 'gudgeon[docs]'") from error
-    whole = convert_to_element(name.latex.replace(r"^{\circ}", "°"))  # which no font has to raise
+    text = name.latex.replace(r"^{\circ}", "°")  # which no font has to raise
+    whole = convert_to_element(text.replace(r"\allowbreak ", ""))
     whole.attrib.clear()  # what a page takes for granted
     for row in list(whole.iter()):
         _space_functions(row)
