@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from gudgeon.contract.methods import KINEMATIC, OFFERED
 from gudgeon.errors import BadNameError, BadValueError, MissingKeyError
-from gudgeon.generator.format.shapes import unknown_key
+from gudgeon.generator.format.shapes import missing_key, unknown_key
 from gudgeon.generator.reader.collector import EnoughErrors, Reader
 from gudgeon.generator.study.axes import read_choices, read_draw, read_parameters, read_starts
 from gudgeon.generator.study.parts import check_keys, label, mapping, text, texts, word, written
 from gudgeon.generator.study.spec import (
     CONTACTS,
     CROSSINGS,
+    DEVIATIONS,
     FORMAT,
     RESERVED,
     SAMPLES,
     STATISTICS,
+    STEPS,
     Measure,
     StudyFile,
     Window,
@@ -32,7 +34,8 @@ KEYS = (
     "step", "method", "rtol", "stop", "windows", "measures", "keep",
 )  # fmt: skip
 AUTO, MAX_TITLE = "auto", 200
-WINDOWED = (*SAMPLES, *CONTACTS, *CROSSINGS)
+WINDOWED = (*SAMPLES, DEVIATIONS[0], *CONTACTS, *CROSSINGS)
+OF_SERIES = (*SAMPLES, *STEPS, *DEVIATIONS)  # what may be less another scene's
 
 
 def read_study(data: bytes | Mapping[str, Any], file: str = "", settings: Mapping[str, str] | None = None) -> StudyFile:
@@ -162,14 +165,23 @@ def _measures(reader: Reader, root: Map, windows: Mapping[str, Window]) -> tuple
         every = mapping(node, key, root.key(key)) if key in root else node
         for name, below in every.pairs():
             with reader.collect():
-                found.append(_measure(reader, name, mapping(below, f"measures.{name}", name), windows, root))
+                found.append(_measure(name, mapping(below, f"measures.{name}", name), windows, root))
+                _check_one_origin(found)
     return tuple(found)
 
 
-def _measure(reader: Reader, name: Text, node: Map, windows: Mapping[str, Window], root: Map) -> Measure:
-    owner = f"measures.{name}"
-    if strange := [key for key in node.names() if key not in (*STATISTICS, "window")]:
-        raise unknown_key(strange[0], (*STATISTICS, "window"), owner)
+def _check_one_origin(measures: Sequence[Measure]) -> None:
+    """Over all steps a run goes beside one other scene."""
+    origins = [one.origin for one in measures if one.origin is not None and one.statistic not in WINDOWED]
+    if origins and origins[-1] != origins[0]:
+        told = f"over all steps runs go beside scene {origins[0]} and scene {origins[-1]}"
+        raise BadValueError(told, origins[-1].where, f"expected from: {origins[0]}, or a statistic of samples")
+
+
+def _measure(name: Text, node: Map, windows: Mapping[str, Window], root: Map) -> Measure:
+    owner, known = f"measures.{name}", (*STATISTICS, "window", "from")
+    if strange := [key for key in node.names() if key not in known]:
+        raise unknown_key(strange[0], known, owner)
     chosen = [key for key in node.names() if key in STATISTICS]
     if len(chosen) != 1:
         told = f"{owner} has {'no statistic' if not chosen else f'both {chosen[0]} and {chosen[1]}'}"
@@ -185,7 +197,20 @@ def _measure(reader: Reader, name: Text, node: Map, windows: Mapping[str, Window
         if at not in root.get("windows", ()):
             raise unknown_name("window", at, windows, at.where)
         window = str(at)
-    return Measure(label(name, "measure"), str(statistic), of, window)
+    return Measure(label(name, "measure"), str(statistic), of, window, _origin(name, node, statistic))
+
+
+def _origin(name: Text, node: Map, statistic: Text) -> Text | None:
+    """The scene whose series is subtracted."""
+    owner = f"measures.{name}"
+    if "from" not in node:
+        if statistic in DEVIATIONS:
+            raise missing_key("from", node.where, owner)
+        return None
+    if statistic not in OF_SERIES:
+        hint = f"leave it out, or take one of: {', '.join(OF_SERIES)}"
+        raise BadValueError(f"{owner}: {statistic} is of no series", node.key("from").where, hint)
+    return text(node["from"], f"{owner}.from", node.key("from"), "the name of a scene")
 
 
 def _keep(reader: Reader, root: Map) -> tuple[Text, ...]:

@@ -9,8 +9,8 @@ from typing import Any
 
 from gudgeon.contract.methods import KINEMATIC, OFFERED
 from gudgeon.generator.study.parts import LABEL, MOST_COUNT, MOST_SEED
-from gudgeon.generator.study.read import MAX_TITLE, WINDOWED
-from gudgeon.generator.study.spec import DRAWN, FORMAT, GEOMETRIC, LINEAR, NORMAL, STATISTICS, UNIFORM
+from gudgeon.generator.study.read import MAX_TITLE, OF_SERIES, WINDOWED
+from gudgeon.generator.study.spec import DEVIATIONS, DRAWN, FORMAT, GEOMETRIC, LINEAR, NORMAL, STATISTICS, UNIFORM
 
 Json = dict[str, Any]
 
@@ -71,6 +71,9 @@ def _starts() -> Json:
 
 
 def _measure() -> Json:
-    """One statistic, those of samples, contacts and events with a window."""
-    each = [_record({name: _TEXT} | ({"window": _TEXT} if name in WINDOWED else {}), name) for name in STATISTICS]
+    """One statistic; those of samples, contacts and events with a window, those of series less another scene's."""
+    each = []
+    for name in STATISTICS:
+        own = {name: _TEXT} | {key: _TEXT for key, of in (("window", WINDOWED), ("from", OF_SERIES)) if name in of}
+        each.append(_record(own, name, *(["from"] if name in DEVIATIONS else [])))
     return {"oneOf": each}
