@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from gudgeon.contract.methods import KINEMATIC, OFFERED
@@ -22,6 +22,7 @@ from gudgeon.generator.study.spec import (
     STEPS,
     Measure,
     StudyFile,
+    StudySet,
     Window,
     Written,
 )
@@ -31,14 +32,22 @@ from gudgeon.language.suggestions import unknown_name
 
 KEYS = (
     "format", "title", "mechanism", "scenes", "choices", "parameters", "zip", "draw", "starts", "t_end", "output",
-    "step", "method", "rtol", "stop", "windows", "measures", "keep",
+    "step", "method", "rtol", "stop", "windows", "measures", "keep", "parts",
 )  # fmt: skip
+WHOLE = ("format", "parts")  # of a file, not of its parts
+PART = tuple(key for key in KEYS if key not in WHOLE)
+ALONE = ""  # the name of a study that is all of its file
 AUTO, MAX_TITLE = "auto", 200
 WINDOWED = (*SAMPLES, DEVIATIONS[0], *CONTACTS, *CROSSINGS)
 OF_SERIES = (*SAMPLES, *STEPS, *DEVIATIONS)  # what may be less another scene's
 
 
 def read_study(data: bytes | Mapping[str, Any], file: str = "", settings: Mapping[str, str] | None = None) -> StudyFile:
+    """The same of a file without parts."""
+    return read_studies(data, file, settings).parts[ALONE]
+
+
+def read_studies(data: bytes | Mapping[str, Any], file: str = "", settings: Mapping[str, str] | None = None) -> StudySet:
     """What the bytes of a file say, or a mapping; `settings` are numbers of all runs, over its own.
 
     Raises an InputError at file:line:column, or InputErrors with all that are wrong.
@@ -49,12 +58,33 @@ def read_study(data: bytes | Mapping[str, Any], file: str = "", settings: Mappin
         raise BadValueError(f"the study is {kind_of(root)}", hint="expected a mapping")
     try:
         _check_format(root, isinstance(data, bytes))
-        found = _read(reader, root, file, settings or {})
+        found = {name: _read(reader, node, file, settings or {}, owner) for name, owner, node in _parts(reader, root)}
     except EnoughErrors:
-        found = None
+        found = {}
+    reader.errors = list({str(error): error for error in reader.errors}.values())  # parts share what the file says
     reader.raise_errors()
-    assert found is not None
-    return found
+    parts = {name: part for name, part in found.items() if part is not None}
+    title = str(root["title"]) if "title" in root else ""
+    return StudySet(file, title, parts, "parts" in root)
+
+
+def _parts(reader: Reader, root: Map) -> Iterator[tuple[str, str, Map]]:
+    """Name, owner and keys of each part: its own over those of the file, each whole."""
+    if "parts" not in root:
+        yield ALONE, "the study", root
+        return
+    common = [(key, node) for key, node in root.pairs() if key not in WHOLE]
+    strange = [key for key, _ in common if key not in PART]
+    reader.errors.extend(unknown_key(key, KEYS, "the study") for key in strange)
+    with reader.collect():
+        every = mapping(root["parts"], "parts", root.key("parts"))
+        if not every:
+            raise BadValueError("parts is empty", root.key("parts").where, "expected {clearance: {…}, material: {…}}")
+        for name, node in every.pairs():
+            with reader.collect():
+                own = mapping(node, f"parts.{name}", name)
+                kept = [(key, below) for key, below in common if key not in own and key not in strange]
+                yield label(name, "part"), f"parts.{name}", Map.make([*kept, *own.pairs()], own.where)
 
 
 def _check_format(root: Map, needed: bool) -> None:
@@ -65,8 +95,8 @@ def _check_format(root: Map, needed: bool) -> None:
         raise BadValueError(f"format is {kind_of(root['format'])}", root.key("format").where, f"expected {FORMAT}")
 
 
-def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str]) -> StudyFile | None:
-    if not check_keys(reader, root, KEYS, "the study", ("mechanism",)):
+def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str], owner: str) -> StudyFile | None:
+    if not check_keys(reader, root, KEYS if owner == "the study" else PART, owner, ("mechanism",)):
         return None
     fixed, axes = read_parameters(reader, root)
     draw, starts, choices = read_draw(reader, root), read_starts(reader, root), read_choices(reader, root)
@@ -90,7 +120,7 @@ def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str]) -> 
     with reader.collect():
         if not (root.get("measures") or root.get("keep")):
             hint = "expected measures: {peak: {peak: slider.ax}}, or keep: [slider.x]"
-            raise MissingKeyError("the study measures nothing and keeps nothing", root.where, hint)
+            raise MissingKeyError(f"{owner} measures nothing and keeps nothing", root.where, hint)
     found = StudyFile(
         file, str(title), mechanism, scenes, one, tuple(choices), fixed, tuple(axes), draw, starts, times["t_end"],
         times["output"], times["step"], windows, measures, keep, _method(reader, root), _rtol(reader, root),

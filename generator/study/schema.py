@@ -8,9 +8,10 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.contract.methods import KINEMATIC, OFFERED
-from gudgeon.generator.study.parts import LABEL, MOST_COUNT, MOST_SEED
+from gudgeon.generator.study.parts import MOST_COUNT, MOST_SEED
 from gudgeon.generator.study.read import MAX_TITLE, OF_SERIES, WINDOWED
 from gudgeon.generator.study.spec import DEVIATIONS, DRAWN, FORMAT, GEOMETRIC, LINEAR, NORMAL, STATISTICS, UNIFORM
+from gudgeon.language.names import LABEL
 
 Json = dict[str, Any]
 
@@ -25,20 +26,23 @@ def schema() -> Json:
     row = _record({"from": _NUMBER, "to": _NUMBER, "count": _count(2), "spacing": _SPACING}, "from", "to", "count")
     values = {"anyOf": [*_LIST["anyOf"], row]}
     names = {"anyOf": [_TEXT, {"type": "array", "items": _TEXT}]}
+    own = {
+        "title": {"type": "string", "maxLength": MAX_TITLE},
+        "mechanism": _TEXT | {"description": "a file beside this one, or the name of a shipped mechanism"},
+        "scenes": names, "choices": _map({"anyOf": [*_LIST["anyOf"], _map(_map(_NUMBER))]}),
+        "parameters": _map(values), "zip": _map(_map(values)), "draw": _draw(), "starts": _starts(),
+        "t_end": _NUMBER, "output": _NUMBER, "step": _NUMBER, "method": {"enum": [*OFFERED, KINEMATIC]},
+        "rtol": _NUMBER, "stop": {"enum": [True, False, "true", "false"]},
+        "windows": _map(_record({"from": _NUMBER, "to": _NUMBER}), LABEL), "measures": _map(_measure(), LABEL),
+        "keep": names,
+    }  # fmt: skip
+    whole = {"format": {"const": FORMAT}, "parts": _map(_record(own), LABEL) | {"minProperties": 1}}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": f"study file, {FORMAT}",
-        **_record({
-            "format": {"const": FORMAT}, "title": {"type": "string", "maxLength": MAX_TITLE},
-            "mechanism": _TEXT | {"description": "a file beside this one, or the name of a shipped mechanism"},
-            "scenes": names, "choices": _map({"anyOf": [*_LIST["anyOf"], _map(_map(_NUMBER))]}),
-            "parameters": _map(values), "zip": _map(_map(values)), "draw": _draw(), "starts": _starts(),
-            "t_end": _NUMBER, "output": _NUMBER, "step": _NUMBER, "method": {"enum": [*OFFERED, KINEMATIC]},
-            "rtol": _NUMBER, "stop": {"enum": [True, False, "true", "false"]},
-            "windows": _map(_record({"from": _NUMBER, "to": _NUMBER}), LABEL), "measures": _map(_measure(), LABEL),
-            "keep": names,
-        }, "format", "mechanism"),
-    }  # fmt: skip
+        **_record(whole | own, "format"),
+        "anyOf": [{"required": ["mechanism"]}, {"required": ["parts"]}],
+    }
 
 
 def _record(properties: Json, *required: str) -> Json:

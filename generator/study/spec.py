@@ -148,3 +148,13 @@ class StudyFile:
     rtol: Text | None
     stop: bool
     said: Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class StudySet:
+    """A whole file: one study, named "", or its parts by name."""
+
+    file: str
+    title: str
+    parts: Mapping[str, StudyFile]
+    named: bool  # whether the file has parts
