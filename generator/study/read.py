@@ -10,6 +10,8 @@ from gudgeon.errors import BadNameError, BadValueError, MissingKeyError
 from gudgeon.generator.format.shapes import missing_key, unknown_key
 from gudgeon.generator.reader.collector import EnoughErrors, Reader
 from gudgeon.generator.study.axes import read_choices, read_draw, read_parameters, read_starts
+from gudgeon.generator.study.claim_spec import Claims
+from gudgeon.generator.study.claims import read_claims
 from gudgeon.generator.study.parts import check_keys, label, mapping, text, texts, word, written
 from gudgeon.generator.study.spec import (
     CONTACTS,
@@ -32,9 +34,9 @@ from gudgeon.language.suggestions import unknown_name
 
 KEYS = (
     "format", "title", "mechanism", "scenes", "choices", "parameters", "zip", "draw", "starts", "t_end", "output",
-    "step", "method", "rtol", "stop", "windows", "measures", "keep", "parts",
+    "step", "method", "rtol", "stop", "windows", "measures", "keep", "parts", "claims",
 )  # fmt: skip
-WHOLE = ("format", "parts")  # of a file, not of its parts
+WHOLE = ("format", "parts", "claims")  # of a file, not of its parts
 PART = tuple(key for key in KEYS if key not in WHOLE)
 ALONE = ""  # the name of a study that is all of its file
 AUTO, MAX_TITLE = "auto", 200
@@ -47,7 +49,9 @@ def read_study(data: bytes | Mapping[str, Any], file: str = "", settings: Mappin
     return read_studies(data, file, settings).parts[ALONE]
 
 
-def read_studies(data: bytes | Mapping[str, Any], file: str = "", settings: Mapping[str, str] | None = None) -> StudySet:
+def read_studies(
+    data: bytes | Mapping[str, Any], file: str = "", settings: Mapping[str, str] | None = None
+) -> StudySet:
     """What the bytes of a file say, or a mapping; `settings` are numbers of all runs, over its own.
 
     Raises an InputError at file:line:column, or InputErrors with all that are wrong.
@@ -56,16 +60,18 @@ def read_studies(data: bytes | Mapping[str, Any], file: str = "", settings: Mapp
     root = parse_yaml(data, file, reader.errors) if isinstance(data, bytes) else tree_of(data)
     if not isinstance(root, Map):
         raise BadValueError(f"the study is {kind_of(root)}", hint="expected a mapping")
+    claims = Claims()
     try:
         _check_format(root, isinstance(data, bytes))
         found = {name: _read(reader, node, file, settings or {}, owner) for name, owner, node in _parts(reader, root)}
+        claims = read_claims(reader, root)
     except EnoughErrors:
         found = {}
     reader.errors = list({str(error): error for error in reader.errors}.values())  # parts share what the file says
     reader.raise_errors()
     parts = {name: part for name, part in found.items() if part is not None}
     title = str(root["title"]) if "title" in root else ""
-    return StudySet(file, title, parts, "parts" in root)
+    return StudySet(file, title, parts, "parts" in root, claims)
 
 
 def _parts(reader: Reader, root: Map) -> Iterator[tuple[str, str, Map]]:
@@ -124,10 +130,15 @@ def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str], own
     found = StudyFile(
         file, str(title), mechanism, scenes, one, tuple(choices), fixed, tuple(axes), draw, starts, times["t_end"],
         times["output"], times["step"], windows, measures, keep, _method(reader, root), _rtol(reader, root),
-        _stop(reader, root), plain(root) | {"settings": dict(sorted(settings.items()))},
+        _stop(reader, root), _said(root) | {"settings": dict(sorted(settings.items()))},
     )  # fmt: skip
     _check_names(reader, found, root)
     return found
+
+
+def _said(root: Map) -> dict[str, Any]:
+    """What decides the results: not what is claimed of them."""
+    return {key: said for key, said in plain(root).items() if key != "claims"}
 
 
 def _over(fixed: Mapping[Text, Text], settings: Mapping[str, str]) -> dict[Text, Text]:

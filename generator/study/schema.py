@@ -8,6 +8,8 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.contract.methods import KINEMATIC, OFFERED
+from gudgeon.generator.study.claim_spec import COUNTED
+from gudgeon.generator.study.claims import MOST_TEXT, TRIAL
 from gudgeon.generator.study.parts import MOST_COUNT, MOST_SEED
 from gudgeon.generator.study.read import MAX_TITLE, OF_SERIES, WINDOWED
 from gudgeon.generator.study.spec import DEVIATIONS, DRAWN, FORMAT, GEOMETRIC, LINEAR, NORMAL, STATISTICS, UNIFORM
@@ -36,7 +38,8 @@ def schema() -> Json:
         "windows": _map(_record({"from": _NUMBER, "to": _NUMBER}), LABEL), "measures": _map(_measure(), LABEL),
         "keep": names,
     }  # fmt: skip
-    whole = {"format": {"const": FORMAT}, "parts": _map(_record(own), LABEL) | {"minProperties": 1}}
+    parts = _map(_record(own), LABEL) | {"minProperties": 1}
+    whole = {"format": {"const": FORMAT}, "parts": parts, "claims": _claims()}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": f"study file, {FORMAT}",
@@ -72,6 +75,21 @@ def _starts() -> Json:
     seed = {"type": "integer", "minimum": 0, "maximum": MOST_SEED}
     own = {"count": _count(1), "seed": seed, "distribution": {"enum": [UNIFORM, NORMAL]}}
     return _record(own | sizes | {"ensembles": _map(_record(sizes), LABEL)}, "count")
+
+
+def _claims() -> Json:
+    """Numbers, and trends of one trial, of several, or of none."""
+    at, texts = _map(_NUMBER), {"anyOf": [_TEXT, {"type": "array", "items": _TEXT, "minItems": 1}]}
+    told = {key: {"type": "string", "maxLength": MOST_TEXT} for key in ("says", "figure", "note")}
+    number = _record(told | {"measure": _TEXT, "part": _TEXT, "at": at, "value": _NUMBER}, "measure")
+    counts = {"type": "object", "properties": {name: {"type": "integer", "minimum": 0} for name in COUNTED},
+              "additionalProperties": False}  # fmt: skip
+    own: Json = dict.fromkeys(TRIAL, _NUMBER) | dict.fromkeys(("larger", "than", "from", "to", "at"), at)
+    own |= {"measure": texts, "more_than": texts, "most_lowered": texts, "counts": counts, "part": _TEXT}
+    several = {"all": {"type": "array", "items": _record(own), "minItems": 1}, "not_computed": _TEXT}
+    trend = _record(told | own | several)
+    source = {"type": "string", "maxLength": MOST_TEXT}
+    return _record({"source": source, "numbers": _map(number, LABEL), "trends": _map(trend, LABEL)})
 
 
 def _measure() -> Json:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gudgeon.errors import Location
+from gudgeon.generator.study.claim_spec import Claims
 from gudgeon.generator.yaml.tree import Text
 from gudgeon.language.tree import Expr
 
@@ -158,3 +159,4 @@ class StudySet:
     title: str
     parts: Mapping[str, StudyFile]
     named: bool  # whether the file has parts
+    claims: Claims

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from gudgeon.errors import GudgeonError
 from gudgeon.files.writing import written
 from gudgeon.language.wanted import names, path
+from gudgeon.studies.ensemble.claimed import Claimed, read_claims_of
 from gudgeon.studies.ensemble.folder import DATASET, h5py_module
 
 if TYPE_CHECKING:
@@ -53,6 +54,14 @@ class Study:
     def parts(self) -> Mapping[str, Study]:
         """Studies by the names that the file gives its parts; none, where it is one study."""
         return {}
+
+    @cached_property
+    def claims(self) -> Claimed:
+        """What the file claims of the runs, judged by them: `claims.numbers` and `claims.trends`, two tables.
+
+        Raises GudgeonError where it claims nothing.
+        """
+        return read_claims_of(self.folder)
 
     @property
     def tree(self) -> xarray.DataTree:

@@ -18,6 +18,7 @@ from gudgeon.studies.ensemble.block import Job, Wanted
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import StudyFile, StudySet
     from gudgeon.simulation.simulation import Simulation
+    from gudgeon.studies.ensemble.claims import Known
 
 FOLDER_FORMAT = "gudgeon-study-folder/1"
 
@@ -170,6 +171,7 @@ class Plans:
 
     file: StudySet
     each: Mapping[str, Plan]
+    claims: Known | None = None
 
     @property
     def named(self) -> bool:

@@ -6,6 +6,7 @@ import os
 import tempfile
 from collections.abc import Mapping
 from concurrent.futures import Executor
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +14,7 @@ from gudgeon.contract.limits import MAX_BYTES
 from gudgeon.errors import InputError, InputErrors, in_a_line, shortened
 from gudgeon.files.reading import read_named
 from gudgeon.language.wanted import flag, function, mapping, optional, path, whole
+from gudgeon.studies.ensemble.claimed import write_claims
 from gudgeon.studies.ensemble.finished import Study, StudyOfParts
 from gudgeon.studies.ensemble.folder import DATASET, MANIFEST, StudyFolder, h5py_module, manifest, open_parts, parts_of
 from gudgeon.studies.ensemble.loop import finish
@@ -42,6 +44,7 @@ def plans_of(
 
 def _resolved(studies: StudySet) -> Plans:
     """Mistakes of all parts at once, each once where parts share what the file says."""
+    from gudgeon.studies.ensemble.claims import known_claims
     from gudgeon.studies.ensemble.plan import Plans
     from gudgeon.studies.ensemble.resolve import resolve
 
@@ -57,7 +60,8 @@ def _resolved(studies: StudySet) -> Plans:
     different = list({str(error): error for error in errors}.values())
     if different:
         raise different[0] if len(different) == 1 else InputErrors(different)
-    return Plans(studies, plans)
+    found = Plans(studies, plans)
+    return replace(found, claims=known_claims(found))
 
 
 def study(
@@ -103,7 +107,10 @@ def run_plans(
         with StudyFolder(folder / name, plan).opened(restart) as opened:
             finish(opened, threads, executor, report if progress else None)
         done += plan.runs
-    return StudyOfParts(folder, list(plans.each), keeps) if plans.named else Study(folder, keeps)
+    study = StudyOfParts(folder, list(plans.each), keeps) if plans.named else Study(folder, keeps)
+    if plans.claims is not None:
+        write_claims(folder, plans, plans.claims, study)
+    return study
 
 
 def load_study(folder: str | os.PathLike[str]) -> Study:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -9,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from gudgeon.language.shown import path_text, visible
+from gudgeon.studies.ensemble.claimed import FILE, claims_json
 from gudgeon.studies.ensemble.estimate import Estimate
 from gudgeon.studies.ensemble.finished import Study
 from gudgeon.studies.ensemble.folder import DATASET
@@ -63,12 +65,15 @@ def show_studies(plans: Plans, found: Study, json: bool) -> None:
     if json:
         each = {name: _study_json(plan, parts[name]) for name, plan in plans.each.items()}
         whole = {"folder": str(found.folder), "runs": found.runs, "failed": found.failed, "parts": each}
-        print_json(whole if plans.named else each[""])
+        claims = claims_json(found.folder)
+        print_json((whole if plans.named else each[""]) | ({} if claims is None else {"claims": claims}))
         return
     for name, plan in plans.each.items():
         if name:
             print(f"part {visible(name)}:")
         _show_study(plan, parts[name])
+    if claims_json(found.folder) is not None:
+        _show_claims(found)
 
 
 def _study_json(plan: Plan, found: Study) -> dict[str, Any]:
@@ -97,6 +102,19 @@ def _show_study(plan: Plan, found: Study) -> None:
     for note in found.notes:
         print(f"note: {visible(note)}")
     print(f"wrote {path_text(Path(found.folder) / DATASET)}")
+
+
+def _show_claims(found: Study) -> None:
+    """How many trends hold, and how far numbers are off."""
+    numbers, trends, _ = found.claims
+    if len(trends):
+        told = [own["verdict"].iloc[0] if own["agreed"].all() else "not the same in all ensembles"
+                for _, own in trends.groupby("claim", sort=False)]  # fmt: skip
+        print(f"{len(told)} trends: " + ", ".join(f"{count} {name}" for name, count in Counter(told).most_common()))
+    if len(numbers) and numbers["printed"].notna().any():
+        off = numbers["deviation"].abs().groupby(numbers["claim"]).median()
+        print(f"{numbers['claim'].nunique()} numbers: half of the medians within {off.median():.3g} % of the printed")
+    print(f"wrote {path_text(Path(found.folder) / FILE)}")
 
 
 def _spread(plan: Plan, found: Study) -> Iterator[tuple[str, str, dict[str, Any]]]:
