@@ -233,6 +233,9 @@ def test_the_schema_takes_what_is_read() -> None:
     check = jsonschema.Draft202012Validator(schema())
     study = YAML(typ="safe").load(TEXT)
     assert not list(check.iter_errors(study))
-    for trend in ({"grow_along": "c"}, {"at": "c"}, {"measure": []}, {"counts": {"bodies": 1.5}}, {"all": []}):
+    wrong: list[dict[str, Any]] = [
+        {"grow_along": "c"}, {"at": "c"}, {"measure": []}, {"counts": {"bodies": 1.5}}, {"all": []},
+    ]  # fmt: skip
+    for trend in wrong:
         study["claims"]["trends"]["T1"] = trend
         assert list(check.iter_errors(study)), trend
