@@ -60,7 +60,8 @@ def test_measures_of_a_run_belong_together() -> None:
     """x rises in 3 of 4 pairs and y in 3 of 4, but never both fall: runs of both are 2 of 4."""
     own = {A: {"x": np.array([0.0, 2.0]), "y": np.array([2.0, 0.0])},
            B: {"x": np.array([1.0, 3.0]), "y": np.array([3.0, 1.0])}}  # fmt: skip
-    checks = [Check((A, B), (name,), lambda x, name=name: x(1, name) > x(0, name)) for name in "xy"]  # type: ignore[misc]
+    checks = [Check((A, B), ("x",), lambda x: x(1, "x") > x(0, "x")),
+              Check((A, B), ("y",), lambda x: x(1, "y") > x(0, "y"))]  # fmt: skip
     found = judged(checks, own)
     assert (found.probability, found.chance) == (0.75, 0.5)
 
