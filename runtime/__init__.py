@@ -31,7 +31,8 @@ if TYPE_CHECKING:
     from gudgeon.simulation.examine import examine
     from gudgeon.simulation.from_file import load
     from gudgeon.simulation.simulation import Simulation
-    from gudgeon.studies.ensemble.study import Study, load_study, study
+    from gudgeon.studies.ensemble.finished import Study
+    from gudgeon.studies.ensemble.study import load_study, study
 
 __version__ = "0.1.0"
 
@@ -42,7 +43,7 @@ _HOME = {
     "register": "generator.kinds.laws.registered",
     "study": "studies.ensemble.study",
     "load_study": "studies.ensemble.study",
-    "Study": "studies.ensemble.study",
+    "Study": "studies.ensemble.finished",
     "Simulation": "simulation.simulation",
     "Result": "results.results",
     "Batch": "results.batch",

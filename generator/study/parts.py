@@ -11,12 +11,12 @@ from gudgeon.generator.format.shapes import missing_key, unknown_key
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.study.spec import RESERVED, Written
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
+from gudgeon.language.names import LABEL
 from gudgeon.language.parser import parse
 from gudgeon.language.suggestions import known_hint, nearest
 
 MOST_COUNT, MOST_SEED = 1_000_000, 2**63 - 1
 _WHOLE = re.compile(r"0|[1-9][0-9]{0,18}")
-LABEL = "[A-Za-z_][A-Za-z0-9_]{0,63}"
 
 
 def mapping(node: Any, owner: str, where: Any) -> Map:

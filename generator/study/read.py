@@ -2,24 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from gudgeon.contract.methods import KINEMATIC, OFFERED
 from gudgeon.errors import BadNameError, BadValueError, MissingKeyError
-from gudgeon.generator.format.shapes import unknown_key
+from gudgeon.generator.format.shapes import missing_key, unknown_key
 from gudgeon.generator.reader.collector import EnoughErrors, Reader
 from gudgeon.generator.study.axes import read_choices, read_draw, read_parameters, read_starts
+from gudgeon.generator.study.claim_spec import Claims
+from gudgeon.generator.study.claims import read_claims
 from gudgeon.generator.study.parts import check_keys, label, mapping, text, texts, word, written
 from gudgeon.generator.study.spec import (
     CONTACTS,
     CROSSINGS,
+    DEVIATIONS,
     FORMAT,
     RESERVED,
     SAMPLES,
     STATISTICS,
+    STEPS,
     Measure,
     StudyFile,
+    StudySet,
     Window,
     Written,
 )
@@ -29,13 +34,24 @@ from gudgeon.language.suggestions import unknown_name
 
 KEYS = (
     "format", "title", "mechanism", "scenes", "choices", "parameters", "zip", "draw", "starts", "t_end", "output",
-    "step", "method", "rtol", "stop", "windows", "measures", "keep",
+    "step", "method", "rtol", "stop", "windows", "measures", "keep", "parts", "claims",
 )  # fmt: skip
+WHOLE = ("format", "parts", "claims")  # of a file, not of its parts
+PART = tuple(key for key in KEYS if key not in WHOLE)
+ALONE = ""  # the name of a study that is all of its file
 AUTO, MAX_TITLE = "auto", 200
-WINDOWED = (*SAMPLES, *CONTACTS, *CROSSINGS)
+WINDOWED = (*SAMPLES, DEVIATIONS[0], *CONTACTS, *CROSSINGS)
+OF_SERIES = (*SAMPLES, *STEPS, *DEVIATIONS)  # what may be less another scene's
 
 
 def read_study(data: bytes | Mapping[str, Any], file: str = "", settings: Mapping[str, str] | None = None) -> StudyFile:
+    """The same of a file without parts."""
+    return read_studies(data, file, settings).parts[ALONE]
+
+
+def read_studies(
+    data: bytes | Mapping[str, Any], file: str = "", settings: Mapping[str, str] | None = None
+) -> StudySet:
     """What the bytes of a file say, or a mapping; `settings` are numbers of all runs, over its own.
 
     Raises an InputError at file:line:column, or InputErrors with all that are wrong.
@@ -44,14 +60,37 @@ def read_study(data: bytes | Mapping[str, Any], file: str = "", settings: Mappin
     root = parse_yaml(data, file, reader.errors) if isinstance(data, bytes) else tree_of(data)
     if not isinstance(root, Map):
         raise BadValueError(f"the study is {kind_of(root)}", hint="expected a mapping")
+    claims = Claims()
     try:
         _check_format(root, isinstance(data, bytes))
-        found = _read(reader, root, file, settings or {})
+        found = {name: _read(reader, node, file, settings or {}, owner) for name, owner, node in _parts(reader, root)}
+        claims = read_claims(reader, root)
     except EnoughErrors:
-        found = None
+        found = {}
+    reader.errors = list({str(error): error for error in reader.errors}.values())  # parts share what the file says
     reader.raise_errors()
-    assert found is not None
-    return found
+    parts = {name: part for name, part in found.items() if part is not None}
+    title = str(root["title"]) if "title" in root else ""
+    return StudySet(file, title, parts, "parts" in root, claims)
+
+
+def _parts(reader: Reader, root: Map) -> Iterator[tuple[str, str, Map]]:
+    """Name, owner and keys of each part: its own over those of the file, each whole."""
+    if "parts" not in root:
+        yield ALONE, "the study", root
+        return
+    common = [(key, node) for key, node in root.pairs() if key not in WHOLE]
+    strange = [key for key, _ in common if key not in PART]
+    reader.errors.extend(unknown_key(key, KEYS, "the study") for key in strange)
+    with reader.collect():
+        every = mapping(root["parts"], "parts", root.key("parts"))
+        if not every:
+            raise BadValueError("parts is empty", root.key("parts").where, "expected {clearance: {…}, material: {…}}")
+        for name, node in every.pairs():
+            with reader.collect():
+                own = mapping(node, f"parts.{name}", name)
+                kept = [(key, below) for key, below in common if key not in own and key not in strange]
+                yield label(name, "part"), f"parts.{name}", Map.make([*kept, *own.pairs()], own.where)
 
 
 def _check_format(root: Map, needed: bool) -> None:
@@ -62,8 +101,8 @@ def _check_format(root: Map, needed: bool) -> None:
         raise BadValueError(f"format is {kind_of(root['format'])}", root.key("format").where, f"expected {FORMAT}")
 
 
-def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str]) -> StudyFile | None:
-    if not check_keys(reader, root, KEYS, "the study", ("mechanism",)):
+def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str], owner: str) -> StudyFile | None:
+    if not check_keys(reader, root, KEYS if owner == "the study" else PART, owner, ("mechanism",)):
         return None
     fixed, axes = read_parameters(reader, root)
     draw, starts, choices = read_draw(reader, root), read_starts(reader, root), read_choices(reader, root)
@@ -87,14 +126,19 @@ def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str]) -> 
     with reader.collect():
         if not (root.get("measures") or root.get("keep")):
             hint = "expected measures: {peak: {peak: slider.ax}}, or keep: [slider.x]"
-            raise MissingKeyError("the study measures nothing and keeps nothing", root.where, hint)
+            raise MissingKeyError(f"{owner} measures nothing and keeps nothing", root.where, hint)
     found = StudyFile(
         file, str(title), mechanism, scenes, one, tuple(choices), fixed, tuple(axes), draw, starts, times["t_end"],
         times["output"], times["step"], windows, measures, keep, _method(reader, root), _rtol(reader, root),
-        _stop(reader, root), plain(root) | {"settings": dict(sorted(settings.items()))},
+        _stop(reader, root), _said(root) | {"settings": dict(sorted(settings.items()))},
     )  # fmt: skip
     _check_names(reader, found, root)
     return found
+
+
+def _said(root: Map) -> dict[str, Any]:
+    """What decides the results: not what is claimed of them."""
+    return {key: said for key, said in plain(root).items() if key != "claims"}
 
 
 def _over(fixed: Mapping[Text, Text], settings: Mapping[str, str]) -> dict[Text, Text]:
@@ -162,14 +206,23 @@ def _measures(reader: Reader, root: Map, windows: Mapping[str, Window]) -> tuple
         every = mapping(node, key, root.key(key)) if key in root else node
         for name, below in every.pairs():
             with reader.collect():
-                found.append(_measure(reader, name, mapping(below, f"measures.{name}", name), windows, root))
+                found.append(_measure(name, mapping(below, f"measures.{name}", name), windows, root))
+                _check_one_origin(found)
     return tuple(found)
 
 
-def _measure(reader: Reader, name: Text, node: Map, windows: Mapping[str, Window], root: Map) -> Measure:
-    owner = f"measures.{name}"
-    if strange := [key for key in node.names() if key not in (*STATISTICS, "window")]:
-        raise unknown_key(strange[0], (*STATISTICS, "window"), owner)
+def _check_one_origin(measures: Sequence[Measure]) -> None:
+    """Over all steps a run goes beside one other scene."""
+    origins = [one.origin for one in measures if one.origin is not None and one.statistic not in WINDOWED]
+    if origins and origins[-1] != origins[0]:
+        told = f"over all steps runs go beside scene {origins[0]} and scene {origins[-1]}"
+        raise BadValueError(told, origins[-1].where, f"expected from: {origins[0]}, or a statistic of samples")
+
+
+def _measure(name: Text, node: Map, windows: Mapping[str, Window], root: Map) -> Measure:
+    owner, known = f"measures.{name}", (*STATISTICS, "window", "from")
+    if strange := [key for key in node.names() if key not in known]:
+        raise unknown_key(strange[0], known, owner)
     chosen = [key for key in node.names() if key in STATISTICS]
     if len(chosen) != 1:
         told = f"{owner} has {'no statistic' if not chosen else f'both {chosen[0]} and {chosen[1]}'}"
@@ -185,7 +238,20 @@ def _measure(reader: Reader, name: Text, node: Map, windows: Mapping[str, Window
         if at not in root.get("windows", ()):
             raise unknown_name("window", at, windows, at.where)
         window = str(at)
-    return Measure(label(name, "measure"), str(statistic), of, window)
+    return Measure(label(name, "measure"), str(statistic), of, window, _origin(name, node, statistic))
+
+
+def _origin(name: Text, node: Map, statistic: Text) -> Text | None:
+    """The scene whose series is subtracted."""
+    owner = f"measures.{name}"
+    if "from" not in node:
+        if statistic in DEVIATIONS:
+            raise missing_key("from", node.where, owner)
+        return None
+    if statistic not in OF_SERIES:
+        hint = f"leave it out, or take one of: {', '.join(OF_SERIES)}"
+        raise BadValueError(f"{owner}: {statistic} is of no series", node.key("from").where, hint)
+    return text(node["from"], f"{owner}.from", node.key("from"), "the name of a scene")
 
 
 def _keep(reader: Reader, root: Map) -> tuple[Text, ...]:

@@ -8,9 +8,12 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.contract.methods import KINEMATIC, OFFERED
-from gudgeon.generator.study.parts import LABEL, MOST_COUNT, MOST_SEED
-from gudgeon.generator.study.read import MAX_TITLE, WINDOWED
-from gudgeon.generator.study.spec import DRAWN, FORMAT, GEOMETRIC, LINEAR, NORMAL, STATISTICS, UNIFORM
+from gudgeon.generator.study.claim_spec import COUNTED
+from gudgeon.generator.study.claims import MOST_TEXT, TRIAL
+from gudgeon.generator.study.parts import MOST_COUNT, MOST_SEED
+from gudgeon.generator.study.read import MAX_TITLE, OF_SERIES, WINDOWED
+from gudgeon.generator.study.spec import DEVIATIONS, DRAWN, FORMAT, GEOMETRIC, LINEAR, NORMAL, STATISTICS, UNIFORM
+from gudgeon.language.names import LABEL
 
 Json = dict[str, Any]
 
@@ -25,20 +28,24 @@ def schema() -> Json:
     row = _record({"from": _NUMBER, "to": _NUMBER, "count": _count(2), "spacing": _SPACING}, "from", "to", "count")
     values = {"anyOf": [*_LIST["anyOf"], row]}
     names = {"anyOf": [_TEXT, {"type": "array", "items": _TEXT}]}
+    own = {
+        "title": {"type": "string", "maxLength": MAX_TITLE},
+        "mechanism": _TEXT | {"description": "a file beside this one, or the name of a shipped mechanism"},
+        "scenes": names, "choices": _map({"anyOf": [*_LIST["anyOf"], _map(_map(_NUMBER))]}),
+        "parameters": _map(values), "zip": _map(_map(values)), "draw": _draw(), "starts": _starts(),
+        "t_end": _NUMBER, "output": _NUMBER, "step": _NUMBER, "method": {"enum": [*OFFERED, KINEMATIC]},
+        "rtol": _NUMBER, "stop": {"enum": [True, False, "true", "false"]},
+        "windows": _map(_record({"from": _NUMBER, "to": _NUMBER}), LABEL), "measures": _map(_measure(), LABEL),
+        "keep": names,
+    }  # fmt: skip
+    parts = _map(_record(own), LABEL) | {"minProperties": 1}
+    whole = {"format": {"const": FORMAT}, "parts": parts, "claims": _claims()}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": f"study file, {FORMAT}",
-        **_record({
-            "format": {"const": FORMAT}, "title": {"type": "string", "maxLength": MAX_TITLE},
-            "mechanism": _TEXT | {"description": "a file beside this one, or the name of a shipped mechanism"},
-            "scenes": names, "choices": _map({"anyOf": [*_LIST["anyOf"], _map(_map(_NUMBER))]}),
-            "parameters": _map(values), "zip": _map(_map(values)), "draw": _draw(), "starts": _starts(),
-            "t_end": _NUMBER, "output": _NUMBER, "step": _NUMBER, "method": {"enum": [*OFFERED, KINEMATIC]},
-            "rtol": _NUMBER, "stop": {"enum": [True, False, "true", "false"]},
-            "windows": _map(_record({"from": _NUMBER, "to": _NUMBER}), LABEL), "measures": _map(_measure(), LABEL),
-            "keep": names,
-        }, "format", "mechanism"),
-    }  # fmt: skip
+        **_record(whole | own, "format"),
+        "anyOf": [{"required": ["mechanism"]}, {"required": ["parts"]}],
+    }
 
 
 def _record(properties: Json, *required: str) -> Json:
@@ -70,7 +77,25 @@ def _starts() -> Json:
     return _record(own | sizes | {"ensembles": _map(_record(sizes), LABEL)}, "count")
 
 
+def _claims() -> Json:
+    """Numbers, and trends of one trial, of several, or of none."""
+    at, texts = _map(_NUMBER), {"anyOf": [_TEXT, {"type": "array", "items": _TEXT, "minItems": 1}]}
+    told = {key: {"type": "string", "maxLength": MOST_TEXT} for key in ("says", "figure", "note")}
+    number = _record(told | {"measure": _TEXT, "part": _TEXT, "at": at, "value": _NUMBER}, "measure")
+    counts = {"type": "object", "properties": {name: {"type": "integer", "minimum": 0} for name in COUNTED},
+              "additionalProperties": False}  # fmt: skip
+    own: Json = dict.fromkeys(TRIAL, _NUMBER) | dict.fromkeys(("larger", "than", "from", "to", "at"), at)
+    own |= {"measure": texts, "more_than": texts, "most_lowered": texts, "counts": counts, "part": _TEXT}
+    several = {"all": {"type": "array", "items": _record(own), "minItems": 1}, "not_computed": _TEXT}
+    trend = _record(told | own | several)
+    source = {"type": "string", "maxLength": MOST_TEXT}
+    return _record({"source": source, "numbers": _map(number, LABEL), "trends": _map(trend, LABEL)})
+
+
 def _measure() -> Json:
-    """One statistic, those of samples, contacts and events with a window."""
-    each = [_record({name: _TEXT} | ({"window": _TEXT} if name in WINDOWED else {}), name) for name in STATISTICS]
+    """One statistic; those of samples, contacts and events with a window, those of series less another scene's."""
+    each = []
+    for name in STATISTICS:
+        own = {name: _TEXT} | {key: _TEXT for key, of in (("window", WINDOWED), ("from", OF_SERIES)) if name in of}
+        each.append(_record(own, name, *(["from"] if name in DEVIATIONS else [])))
     return {"oneOf": each}

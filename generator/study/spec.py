@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gudgeon.errors import Location
+from gudgeon.generator.study.claim_spec import Claims
 from gudgeon.generator.yaml.tree import Text
 from gudgeon.language.tree import Expr
 
@@ -19,10 +20,11 @@ NORMAL, UNIFORM = "normal", "uniform"
 DRAWN = ("random", "latin_hypercube", "sobol", "halton")  # how points are drawn: numpy's generator, or scipy.stats.qmc
 SAMPLES = ("max", "min", "peak", "range", "mean", "rms", "final")  # statistics of a series' samples in a window
 STEPS = ("max_of_steps", "min_of_steps", "peak_of_steps")  # of a series over all steps of a run
+DEVIATIONS = ("deviation", "deviation_of_steps")  # largest magnitude of a series less that of another scene
 CONTACTS = ("impacts", "first_impact", "impact_speed")  # of a joint's contacts that begin in a window
 JOINT = ("peak_force", "eccentricity")  # of a joint with play over all steps
 CROSSINGS = ("crossings", "first_crossing")  # of an event in a window
-STATISTICS = (*SAMPLES, *STEPS, *CONTACTS, *JOINT, *CROSSINGS)
+STATISTICS = (*SAMPLES, *STEPS, *DEVIATIONS, *CONTACTS, *JOINT, *CROSSINGS)
 RESERVED = (
     "run", "time", "t", "sample", "scene", "draw", "start", "ensemble", "failure", "t_last",
 )  # what a dataset has of its own
@@ -111,12 +113,16 @@ class Window:
 
 @dataclass(frozen=True)
 class Measure:
-    """One number a run: a statistic of a series, a joint or an event, in a window ("": the whole run)."""
+    """One number a run: a statistic of a series, a joint or an event, in a window ("": the whole run).
+
+    `origin`: the scene whose series is subtracted, at the same times and with the same numbers.
+    """
 
     name: str
     statistic: str
     of: Text
     window: str = ""
+    origin: Text | None = None
 
 
 @dataclass(frozen=True)
@@ -143,3 +149,14 @@ class StudyFile:
     rtol: Text | None
     stop: bool
     said: Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class StudySet:
+    """A whole file: one study, named "", or its parts by name."""
+
+    file: str
+    title: str
+    parts: Mapping[str, StudyFile]
+    named: bool  # whether the file has parts
+    claims: Claims

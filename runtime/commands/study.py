@@ -13,9 +13,9 @@ from gudgeon.files.writing import write_bytes
 from gudgeon.language.shown import path_text
 from gudgeon.studies.ensemble.estimate import estimate
 from gudgeon.studies.ensemble.folder import StudyFolder
-from gudgeon.studies.ensemble.plan import Plan
-from gudgeon.studies.ensemble.study import load_study, plan_of, run_plan
-from gudgeon.studies.show.study import show_estimate, show_study
+from gudgeon.studies.ensemble.plan import Plans
+from gudgeon.studies.ensemble.study import load_study, plans_of, run_plans
+from gudgeon.studies.show.study import show_estimates, show_studies
 from gudgeon.studies.show.tables import print_json
 
 INTERRUPTED, FAILED = 130, 1
@@ -69,22 +69,23 @@ def study_file(request: Request) -> int:
     if not request.runs:
         check_folder("--out", request.folder)
     with status_line(quiet=request.json):
-        plan = plan_of(request.file, given)
+        plans = plans_of(request.file, given)
     if request.runs:
-        show_estimate(plan, estimate(plan, request.threads), request.json)
+        estimates = {name: estimate(plan, request.threads) for name, plan in plans.each.items()}
+        show_estimates(plans, estimates, request.json)
         return 0
     try:
         with progress_bar(request.json) as bar:
-            found = run_plan(plan, request.folder, request.threads, None, bar(request.folder.stem), request.restart)
+            found = run_plans(plans, request.folder, request.threads, None, bar(request.folder.stem), request.restart)
     except KeyboardInterrupt:
-        _interrupted(plan, request.folder)
+        _interrupted(plans, request.folder)
         return INTERRUPTED
-    show_study(plan, found, request.json)
+    show_studies(plans, found, request.json)
     return FAILED if found.failed == found.runs else 0
 
 
-def _interrupted(plan: Plan, folder: Path) -> None:
-    opened = StudyFolder(folder, plan)
-    there = sum(opened.has(block.number) for block in plan.blocks)
-    told = f"{there} of {len(plan.blocks)} blocks of runs are in {path_text(folder)}"
+def _interrupted(plans: Plans, folder: Path) -> None:
+    every = [(StudyFolder(folder / name, plan), plan.blocks) for name, plan in plans.each.items()]
+    there = sum(opened.has(block.number) for opened, blocks in every for block in blocks)
+    told = f"{there} of {sum(len(blocks) for _, blocks in every)} blocks of runs are in {path_text(folder)}"
     print(f"interrupted: {told}; the same command goes on from there", file=sys.stderr)

@@ -9,6 +9,7 @@ from gudgeon.errors import BadNameError, Location
 from gudgeon.language.tree import FUNCTIONS
 
 MAX_LENGTH = 64
+LABEL = "[A-Za-z_][A-Za-z0-9_]{0,63}"  # of what a study names: windows, measures, parts, claims
 IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*", re.ASCII)
 
 # What names a thing of the file, and nothing in C: emitted code calls it otherwise (generator/symbols/symbols.py).

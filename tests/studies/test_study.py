@@ -21,7 +21,7 @@ from gudgeon.errors import BadValueError, InputError
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble import resolve
 from gudgeon.studies.ensemble.final import slabs
-from gudgeon.studies.ensemble.study import plan_of
+from gudgeon.studies.ensemble.study import plans_of
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
 
@@ -348,6 +348,6 @@ def test_a_block_holds_as_many_samples_as_fit(monkeypatch: pytest.MonkeyPatch) -
     """However many runs there are: memory is that of a block."""
     monkeypatch.setattr(resolve, "BYTES", 100_000)
     draw = {"count": 1000, "parameters": {"g": {"from": 5, "to": 10}}}
-    plan = plan_of({"mechanism": "pendulum", "draw": draw, "output": 99, "keep": ["bob.x"]})
+    plan = plans_of({"mechanism": "pendulum", "draw": draw, "output": 99, "keep": ["bob.x"]}).each[""]
     assert plan.runs == 1000 and plan.parts[0].block == 100_000 // (8 * 3 * 100)
     assert sum(block.runs for block in plan.blocks) == 1000

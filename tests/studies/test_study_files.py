@@ -10,7 +10,7 @@ import pytest
 import gudgeon
 from gudgeon.errors import InputError, InputErrors, NotYamlError
 from gudgeon.generator.study.read import read_study
-from gudgeon.studies.ensemble.study import plan_of
+from gudgeon.studies.ensemble.study import plans_of
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
 
@@ -93,7 +93,7 @@ def test_a_mistake_is_told_at_its_place(old: str, new: str, place: str, words: s
     assert GOOD.count(old) == 1
     path.write_text(GOOD.replace(old, new))
     with pytest.raises(InputError) as told:
-        plan_of(path)
+        plans_of(path)
     assert str(told.value).startswith(f"{path}:{place}: "), str(told.value)
     assert words in str(told.value), str(told.value)
     assert told.value.hint or "expected" in str(told.value), str(told.value)
@@ -102,7 +102,7 @@ def test_a_mistake_is_told_at_its_place(old: str, new: str, place: str, words: s
 def test_all_mistakes_of_a_file_at_once(call: Gudgeon, tmp_path: Path) -> None:
     (tmp_path / "s.yaml").write_text(GOOD.replace("final", "finale").replace("[9.81, 20]", "{}").replace("1 s", "1 z"))
     with pytest.raises(InputErrors) as told:
-        plan_of("s.yaml" if Path("s.yaml").exists() else tmp_path / "s.yaml")
+        plans_of("s.yaml" if Path("s.yaml").exists() else tmp_path / "s.yaml")
     assert len(told.value.errors) >= 3 and re.findall(r"s.yaml:(\d+):", str(told.value)) == sorted(
         re.findall(r"s.yaml:(\d+):", str(told.value))
     )
@@ -138,7 +138,7 @@ def test_a_link_out_of_the_folder_is_not_followed(tmp_path: Path) -> None:
     study.write_text(GOOD.replace("pendulum", "p.yaml"))
     (study.parent / "p.yaml").symlink_to(tmp_path / "there" / "p.yaml")
     with pytest.raises(InputError, match="s.yaml:2:12: .*link"):
-        plan_of(study)
+        plans_of(study)
     (study.parent / "p.yaml").unlink()
     (study.parent / "p.yaml").write_bytes((tmp_path / "there" / "p.yaml").read_bytes())
-    assert plan_of(study).runs == 2
+    assert plans_of(study).runs == 2

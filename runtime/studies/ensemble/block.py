@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,13 +16,13 @@ from gudgeon.model.parameter_sets import each_of, prepare_sets
 from gudgeon.model.parameters import given_slots
 from gudgeon.results.batch import Array
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT, MOST_OUTPUT
-from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
+from gudgeon.studies.ensemble.libraries import loaded, method_in
 from gudgeon.studies.ensemble.measures import ROUNDING, Spans, measured, series_of, steps_of
 from gudgeon.studies.ensemble.numbers import key_of, of_runs, slot_of
+from gudgeon.studies.ensemble.origins import at_samples, of_steps, origin_of
 
 if TYPE_CHECKING:
-    from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.generator.study.spec import Measure
     from gudgeon.integrators.trajectory import Progress
     from gudgeon.results.batch import Batch
@@ -75,16 +74,6 @@ class Block:
     series: Mapping[str, Array]  # (n, N)
 
 
-@lru_cache(maxsize=16)
-def loaded(mechanism: str, scene: str, overrides: tuple[tuple[str, str], ...], sha256: str) -> Simulation:
-    """The library of a part, in a worker's own process. Raises InputError for a file that was edited since."""
-    found = load(mechanism, scene, overrides=dict(overrides))
-    if found.source.whole_sha256 != sha256:
-        told = f"{mechanism} was edited after the study began"
-        raise InputError(told, hint="put it back as it was, or begin anew with --restart")
-    return found
-
-
 def run_block(job: Job, progress: Progress | None = None, simulation: Simulation | None = None) -> Block:
     """Run, measure, let go; without a simulation load it. KeyboardInterrupt where Ctrl-C ended a run."""
     simulation = simulation or loaded(job.mechanism, job.scene, job.overrides, job.sha256)
@@ -103,11 +92,6 @@ def run_block(job: Job, progress: Progress | None = None, simulation: Simulation
                 except InputError as error:
                     failures[i] = str(error)
     return found.block(failures)
-
-
-def method_in(source: KernelSource, method: str) -> str:
-    """The method that a scene is run with: one without a degree of freedom follows its drives, whatever is asked."""
-    return method if source.degrees_of_freedom else "auto"
 
 
 class Table:
@@ -215,11 +199,12 @@ def _run(simulation: Simulation, job: Job, table: Table, runs: Array, progress: 
     t_end: Any = None if not alike else float(ends[0]) if same_end else ends
     parameters: Any = {name: list(map(_plain, values[runs])) for name, values in table.columns.items()}
     source, step = simulation.source, None if table.step is None else table.step[runs]
+    origin = of_steps(wanted.measures, source)
     batch = simulation.simulate_many(
         parameters or [{}] * len(runs), t_end, output=output, method=method_in(source, wanted.method),
         rtol=wanted.rtol if source.degrees_of_freedom else None, step=step, threads=job.threads, progress=progress,
         stop=wanted.stop, keep=series_of(wanted.measures, wanted.keep, source),
-        peaks=steps_of(wanted.measures, source),
+        peaks=steps_of(wanted.measures, source), against=origin_of(job, origin) if origin else None,
     )  # fmt: skip
     if batch.interrupted:
         raise KeyboardInterrupt
@@ -243,9 +228,10 @@ class _Found:
         failed = {failure.run: str(failure.error) for failure in batch.failures}
         for i, told in failed.items():
             failures[runs[i]] = told
-        good = np.array([i not in failed for i in range(len(runs))])
+        origins = at_samples(self.job, self.table, runs, batch, failures)
+        good = np.array([not failures[i] for i in runs])
         for one in self.job.wanted.measures:
-            self.measures[one.name][runs] = np.where(good, measured(batch, one, spans), np.nan)
+            self.measures[one.name][runs] = np.where(good, measured(batch, one, spans, origins), np.nan)
         begun = np.asarray(batch.samples) > 0
         self.t_last[runs] = np.where(begun, batch.t_last, np.nan)
         if self.job.wanted.keep:

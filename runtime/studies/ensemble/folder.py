@@ -6,7 +6,7 @@ import io
 import json
 import os
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from importlib.util import find_spec
 from pathlib import Path
@@ -16,8 +16,10 @@ import numpy as np
 
 from gudgeon.errors import GudgeonError, InputError, shortened
 from gudgeon.files.writing import PART, read_regular, telling, written
+from gudgeon.language.names import LABEL
 from gudgeon.language.wanted import told
 from gudgeon.studies.ensemble.block import Block
+from gudgeon.studies.ensemble.plan import FOLDER_FORMAT
 
 if TYPE_CHECKING:
     from gudgeon.studies.ensemble.plan import Plan
@@ -107,6 +109,27 @@ def manifest(folder: Path) -> dict[str, Any] | None:
     except (OSError, ValueError):
         return None
     return found if isinstance(found, dict) else None
+
+
+def open_parts(path: Path, parts: Sequence[str], restart: bool) -> None:
+    """A folder of studies, each in a folder of its own. Raises InputError for one that holds anything else."""
+    with telling(path):
+        path.mkdir(parents=True, exist_ok=True)
+        there = [name for name in sorted(os.listdir(path)) if not PART.fullmatch(name)]
+    before = manifest(path)
+    if there and before is None:
+        raise InputError(f"{shortened(path)} is no folder of a study: it holds {there[0]}", hint="name another folder")
+    if before is not None and "parts" not in before and not restart:
+        hint = "begin anew with --restart (restart=True), or name another folder"
+        raise InputError(f"{shortened(path)} holds a study without parts", hint=hint)
+    with written(path / MANIFEST, sync=True) as file:
+        file.write(json.dumps({"format": FOLDER_FORMAT, "parts": list(parts)}, indent=1).encode())
+
+
+def parts_of(found: Mapping[str, Any]) -> list[str]:
+    """Names of the parts that a folder says it has; what is no name of one is left out."""
+    named = found.get("parts")
+    return [name for name in named if isinstance(name, str) and re.fullmatch(LABEL, name)] if named else []
 
 
 def _differences(before: Any, now: Any) -> list[str]:

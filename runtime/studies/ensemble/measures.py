@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -17,10 +17,13 @@ if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Measure
     from gudgeon.results.batch import Batch
 
+Origins: TypeAlias = Mapping[str, Mapping[str, Array]]  # scene -> series of runs, (n, N) each, at their own samples
 Spans: TypeAlias = Mapping[str, tuple[Array | None, ...]]  # window -> begin and end (s) of each run, None: its own
 ROUNDING = 1e-12  # of a time: a sample this near to the end of a window lies in it
 
-STEPS: Mapping[str, str] = {"max_of_steps": "max", "min_of_steps": "min", "peak_of_steps": "abs"}
+STEPS: Mapping[str, str] = {
+    "max_of_steps": "max", "min_of_steps": "min", "peak_of_steps": "abs", "deviation_of_steps": "abs",
+}  # fmt: skip
 JOINT: Mapping[str, str] = {"peak_force": "F", "eccentricity": "e_max"}
 CONTACTS, CROSSINGS = ("impacts", "first_impact", "impact_speed"), ("crossings", "first_crossing")
 OF_JOINTS = (*CONTACTS, *JOINT)
@@ -37,9 +40,9 @@ def series_of(measures: tuple[Measure, ...], keep: tuple[str, ...], source: Kern
 
 
 def steps_of(measures: tuple[Measure, ...], source: KernelSource) -> list[str]:
-    """Series whose peaks over all steps are wanted."""
+    """Series whose peaks over all steps are wanted; a scene's deviation from itself is nowhere sought."""
     known = catalogue(source)
-    wanted = (str(one.of) for one in measures if one.statistic in STEPS)
+    wanted = (str(one.of) for one in measures if one.statistic in STEPS and one.origin != source.scene)
     return [name for name in dict.fromkeys(wanted) if name in known]
 
 
@@ -67,6 +70,17 @@ def unknown_of(measure: Measure, source: KernelSource) -> UnknownNameError:
     raise AssertionError(measure)
 
 
+def check_origin(measures: Iterable[Measure], source: KernelSource) -> None:
+    """UnknownNameError at its place for a series that the scene that is to be subtracted has not."""
+    for one in measures:
+        if one.origin == source.scene and one.of not in catalogue(source):
+            try:
+                check_series(source, [str(one.of)])
+            except UnknownNameError as error:
+                told = f"scene {source.scene}: {error.message}"
+                raise UnknownNameError(told, one.of.where, error.hint) from None
+
+
 def _joints(source: KernelSource) -> list[str]:
     return [joint.name for joint in source.clearances]
 
@@ -78,11 +92,12 @@ def _events(source: KernelSource) -> list[str]:
 def meaning(measure: Measure) -> str:
     """In a line: "peak of slider.ax in window last"."""
     told = f"{measure.statistic.replace('_', ' ')} of {measure.of}"
+    told = f"{told} from scene {measure.origin}" if measure.origin is not None else told
     return f"{told} in window {measure.window}" if measure.window else told
 
 
-def measured(batch: Batch, measure: Measure, spans: Spans) -> Array:
-    """The values of all runs, (n,); NaN where a run has none."""
+def measured(batch: Batch, measure: Measure, spans: Spans, origins: Origins) -> Array:
+    """The values of all runs, (n,); NaN where a run has none. `origins`: what series are less than."""
     source, none = batch.source, np.full(len(batch), np.nan)
     if unit_of(measure, source) is None:
         return none
@@ -90,14 +105,24 @@ def measured(batch: Batch, measure: Measure, spans: Spans) -> Array:
     begin = np.full(len(batch), -np.inf) if begin is None else begin
     end = np.full(len(batch), np.inf) if end is None else end
     if measure.statistic in STEPS:
-        return np.asarray(getattr(batch.peak(str(measure.of)), STEPS[measure.statistic]))
+        return _of_steps(batch, measure)
     if measure.statistic in JOINT:
         return np.asarray(batch.peaks[JOINT[measure.statistic]][:, _joints(source).index(measure.of)])
     if measure.statistic in CONTACTS:
         return _contacts(batch, measure, begin, end)
     if measure.statistic in CROSSINGS:
         return _crossings(batch, measure, begin, end)
-    return STATISTICS[measure.statistic](batch.kept["t"], batch.kept[str(measure.of)], begin, end)
+    values = batch.kept[str(measure.of)]
+    if measure.origin is not None:
+        values = values - (values if measure.origin == source.scene else origins[measure.origin][measure.of])
+    return STATISTICS[measure.statistic](batch.kept["t"], values, begin, end)
+
+
+def _of_steps(batch: Batch, measure: Measure) -> Array:
+    if measure.origin is not None and measure.origin == batch.source.scene:
+        return np.where(np.asarray(batch.samples) > 0, 0.0, np.nan)
+    found = batch.peak(str(measure.of)) if measure.origin is None else batch.peak_error(str(measure.of))
+    return np.asarray(getattr(found, STEPS[measure.statistic]))
 
 
 def _contacts(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
@@ -173,4 +198,5 @@ def _final(t: Array, x: Array, begin: Array, end: Array) -> Array:
 
 STATISTICS: Mapping[str, Callable[[Array, Array, Array, Array], Array]] = {
     "max": _largest, "min": _smallest, "peak": _peak, "range": _range, "mean": _mean, "rms": _rms, "final": _final,
+    "deviation": _peak,
 }  # fmt: skip

@@ -16,8 +16,9 @@ from gudgeon.results.batch import Array
 from gudgeon.studies.ensemble.block import Job, Wanted
 
 if TYPE_CHECKING:
-    from gudgeon.generator.study.spec import StudyFile
+    from gudgeon.generator.study.spec import StudyFile, StudySet
     from gudgeon.simulation.simulation import Simulation
+    from gudgeon.studies.ensemble.claims import Known
 
 FOLDER_FORMAT = "gudgeon-study-folder/1"
 
@@ -162,6 +163,25 @@ class Plan:
     def digest(self) -> str:
         """The same with how runs are put into blocks: what a block's file is of."""
         return _digest([self.said, [part.block for part in self.parts]])
+
+
+@dataclass(frozen=True, eq=False)
+class Plans:
+    """All of a file: the plan of each of its parts, or one, ""."""
+
+    file: StudySet
+    each: Mapping[str, Plan]
+    claims: Known | None = None
+
+    @property
+    def named(self) -> bool:
+        """Whether the file has parts."""
+        return self.file.named
+
+    @property
+    def runs(self) -> int:
+        """Of all parts."""
+        return sum(plan.runs for plan in self.each.values())
 
 
 def _digest(told: Any) -> str:

@@ -23,8 +23,9 @@ from gudgeon.results.unknown import check_series
 from gudgeon.simulation.arguments import method_of
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.ensemble.block import Job, Table, Wanted, method_in
-from gudgeon.studies.ensemble.measures import meaning, series_of, unit_of, unknown_of
+from gudgeon.studies.ensemble.block import Job, Table, Wanted
+from gudgeon.studies.ensemble.libraries import method_in
+from gudgeon.studies.ensemble.measures import check_origin, meaning, series_of, unit_of, unknown_of
 from gudgeon.studies.ensemble.numbers import check_expression, in_si, known_slot, real, slot_of, values
 from gudgeon.studies.ensemble.plan import Coordinate, Deviations, Dimension, Part, Plan
 from gudgeon.studies.ensemble.points import NORMAL, deviations, shares, spread_over
@@ -95,6 +96,8 @@ def _parts(study: StudyFile, structure: Sequence[Dimension]) -> Iterator[Part]:
     for scene, chosen in itertools.product(study.scenes, itertools.product(*choices)):
         texts = {address: text for own in chosen for address, text in own.items()}
         overrides = tuple(sorted((address, str(text)) for address, text in texts.items()))
+        for origin in dict.fromkeys(one.origin for one in study.measures if one.origin is not None):
+            check_origin(study.measures, _load(mechanism, origin, texts, overrides).source)
         yield Part(_load(mechanism, scene, texts, overrides), mechanism, overrides)
 
 

@@ -2,135 +2,66 @@
 
 from __future__ import annotations
 
-import json
 import os
 import tempfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from concurrent.futures import Executor
-from functools import cached_property
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.contract.limits import MAX_BYTES
-from gudgeon.errors import InputError, in_a_line, shortened
+from gudgeon.errors import InputError, InputErrors, in_a_line, shortened
 from gudgeon.files.reading import read_named
-from gudgeon.files.writing import written
-from gudgeon.language.wanted import flag, function, mapping, names, optional, path, whole
-from gudgeon.studies.ensemble.folder import DATASET, MANIFEST, StudyFolder, h5py_module, manifest
+from gudgeon.language.wanted import flag, function, mapping, optional, path, whole
+from gudgeon.studies.ensemble.claimed import write_claims
+from gudgeon.studies.ensemble.finished import Study, StudyOfParts
+from gudgeon.studies.ensemble.folder import DATASET, MANIFEST, StudyFolder, h5py_module, manifest, open_parts, parts_of
 from gudgeon.studies.ensemble.loop import finish
 
 if TYPE_CHECKING:
-    import pandas
-    import xarray
-
+    from gudgeon.generator.study.spec import StudySet
     from gudgeon.integrators.trajectory import Progress
-    from gudgeon.studies.ensemble.plan import Plan
-    from gudgeon.studies.show.study_page import StudyReport
-    from gudgeon.studies.show.study_plots import StudyPlot
+    from gudgeon.studies.ensemble.plan import Plan, Plans
 
 MOST_THREADS = 4096
-_CHUNK = 1 << 20
 
 
-class Study:
-    """A finished study in its folder; what is asked for is read from there."""
-
-    def __init__(self, folder: Path, keeps: tempfile.TemporaryDirectory[str] | None = None) -> None:
-        self.folder, self._keeps = folder, keeps
-
-    def __repr__(self) -> str:
-        own = self.dataset["t_last"].sizes
-        sizes = " × ".join(f"{name} {size}" for name, size in own.items())
-        failed = f", {self.failed} failed" if self.failed else ""
-        return f"<Study of {self.dataset.attrs['mechanism']}: {self.runs} runs{f' ({sizes})' if sizes else ''}{failed}>"
-
-    @cached_property
-    def dataset(self) -> xarray.Dataset:
-        """Measures, kept series and `failure` over the dimensions of the study; read from the file as it is asked.
-
-        Coordinates are what was varied, SI, with `units`; NaN is what a failed run has no value for.
-        """
-        import xarray
-
-        h5py_module()
-        found = xarray.open_dataset(
-            self.folder / DATASET, engine="h5netcdf", decode_times=False, decode_timedelta=False
-        )
-        return found if self._keeps is None else found.load()  # a temporary folder goes before what was asked of it
-
-    @property
-    def runs(self) -> int:
-        """How many there are."""
-        return int(self.dataset.attrs["runs"])
-
-    @property
-    def failed(self) -> int:
-        """How many did not come to their end; `dataset["failure"]` says why."""
-        return int(self.dataset.attrs["failed"])
-
-    @property
-    def failures(self) -> dict[str, int]:
-        """What runs failed of, without their numbers, and how many of each; the most frequent first."""
-        return dict(json.loads(self.dataset.attrs["failure_kinds"]))
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """What is to be known of it, each once."""
-        return tuple(filter(None, str(self.dataset.attrs["notes"]).split("\n")))
-
-    @property
-    def measures(self) -> tuple[str, ...]:
-        """Names of what was measured."""
-        found, others = self.dataset, ("t_last", "failure")
-        own = (name for name, one in found.data_vars.items() if one.dims == found["t_last"].dims)
-        return tuple(str(name) for name in own if name not in others)
-
-    def to_dataframe(self, series: Iterable[str] | str = ()) -> pandas.DataFrame:
-        """A row a run: what was varied, all measures, `failure`; SI. With names of kept series a row a sample."""
-        asked = names(series, "series", "a list of names of kept series")
-        times = ["t"] if asked and "t" in self.dataset else []
-        found = self.dataset[[*times, *asked]] if asked else self.dataset[[*self.measures, "t_last", "failure"]]
-        if not found.sizes:
-            import pandas
-
-            return pandas.DataFrame({str(name): [one.values.item()] for name, one in found.variables.items()})
-        return found.to_dataframe().reset_index()
-
-    @property
-    def plot(self) -> StudyPlot:
-        """Figures: `study.plot.measure("peak", "c")`, `.bands("S9.y")`, `.heat_map("peak", "c", "omega")` …"""
-        from gudgeon.studies.show.study_plots import StudyPlot
-
-        return StudyPlot(self)
-
-    def report(self) -> StudyReport:
-        """What varied, what failed, every measure and its figures, for people: `.to_html()`, or as a notebook shows it.
-        """
-        from gudgeon.studies.show.study_page import StudyReport
-
-        return StudyReport(self)
-
-    def save(self, target: str | os.PathLike[str]) -> None:
-        """Write the dataset as one NetCDF file, which any reader opens. Raises OutputError."""
-        with open(self.folder / DATASET, "rb") as source, written(path(target, "path")) as file:
-            while data := source.read(_CHUNK):
-                file.write(data)
-
-
-def plan_of(
+def plans_of(
     study: str | os.PathLike[str] | Mapping[str, Any], settings: Mapping[str, float | str] | None = None
-) -> Plan:
-    """The plan of a study file or of a mapping, its mechanism loaded. Raises InputError."""
-    from gudgeon.generator.study.read import read_study
-    from gudgeon.studies.ensemble.resolve import resolve
+) -> Plans:
+    """The plans of a study file or of a mapping, mechanisms loaded. Raises InputError."""
+    from gudgeon.generator.study.read import read_studies
 
     h5py_module()
     given = {name: str(value) for name, value in mapping(settings, "settings").items()}
     if isinstance(study, Mapping):
-        return resolve(read_study(study, "", given))
+        return _resolved(read_studies(study, "", given))
     file = os.fspath(path(study, "study"))
     data = read_named(file, MAX_BYTES, hint="name a YAML file that begins with format: gudgeon-study/1")
-    return resolve(read_study(data, file, given))
+    return _resolved(read_studies(data, file, given))
+
+
+def _resolved(studies: StudySet) -> Plans:
+    """Mistakes of all parts at once, each once where parts share what the file says."""
+    from gudgeon.studies.ensemble.claims import known_claims
+    from gudgeon.studies.ensemble.plan import Plans
+    from gudgeon.studies.ensemble.resolve import resolve
+
+    plans: dict[str, Plan] = {}
+    errors: list[InputError] = []
+    for name, part in studies.parts.items():
+        try:
+            plans[name] = resolve(part)
+        except InputErrors as error:
+            errors += error.errors
+        except InputError as error:
+            errors.append(error)
+    different = list({str(error): error for error in errors}.values())
+    if different:
+        raise different[0] if len(different) == 1 else InputErrors(different)
+    found = Plans(studies, plans)
+    return replace(found, claims=known_claims(found))
 
 
 def study(
@@ -152,21 +83,34 @@ def study(
     """
     threads = None if threads is None else whole(threads, "threads", 1, MOST_THREADS)
     executor, progress = optional(executor, "executor", Executor), function(progress, "progress")
-    restart, plan = flag(restart, "restart"), plan_of(study, settings)
+    restart, plans = flag(restart, "restart"), plans_of(study, settings)
     if folder is None:
         kept = tempfile.TemporaryDirectory(prefix="gudgeon-study-")
-        return run_plan(plan, Path(kept.name), threads, executor, progress, restart, kept)
-    return run_plan(plan, Path(path(folder, "folder")), threads, executor, progress, restart)
+        return run_plans(plans, Path(kept.name), threads, executor, progress, restart, kept)
+    return run_plans(plans, Path(path(folder, "folder")), threads, executor, progress, restart)
 
 
-def run_plan(
-    plan: Plan, folder: Path, threads: int | None = None, executor: Executor | None = None,
+def run_plans(
+    plans: Plans, folder: Path, threads: int | None = None, executor: Executor | None = None,
     progress: Progress | None = None, restart: bool = False, keeps: tempfile.TemporaryDirectory[str] | None = None,
 ) -> Study:  # fmt: skip
-    """The study of a plan in a folder."""
-    with StudyFolder(folder, plan).opened(restart) as opened:
-        finish(opened, threads, executor, progress)
-    return Study(folder, keeps)
+    """The study of a file in a folder, each part in one of its own."""
+    if plans.named:
+        open_parts(folder, list(plans.each), restart)
+    done = 0
+    for name, plan in plans.each.items():
+
+        def report(fraction: float, text: str, name: str = name, runs: int = plan.runs, before: int = done) -> None:
+            if progress:
+                progress((before + fraction * runs) / plans.runs, f"{name}: {text}" if name else text)
+
+        with StudyFolder(folder / name, plan).opened(restart) as opened:
+            finish(opened, threads, executor, report if progress else None)
+        done += plan.runs
+    study = StudyOfParts(folder, list(plans.each), keeps) if plans.named else Study(folder, keeps)
+    if plans.claims is not None:
+        write_claims(folder, plans, plans.claims, study)
+    return study
 
 
 def load_study(folder: str | os.PathLike[str]) -> Study:
@@ -174,6 +118,10 @@ def load_study(folder: str | os.PathLike[str]) -> Study:
     place = Path(path(folder, "folder"))
     if (found := manifest(place)) is None:
         raise InputError(f"{shortened(place)} is no folder of a study: it has no {MANIFEST}")
+    if parts := parts_of(found):
+        for name in parts:
+            load_study(place / name)
+        return StudyOfParts(place, parts)
     if not (place / DATASET).is_file():
         told = f"the study in {shortened(place)} is not finished"
         raise InputError(told, hint="gudgeon study FILE --out FOLDER goes on with it")

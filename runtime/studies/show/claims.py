@@ -8,7 +8,7 @@ from gudgeon.errors import GudgeonError
 from gudgeon.results.web_page import Section, lines, table
 
 if TYPE_CHECKING:
-    from gudgeon.studies.ensemble.study import Study
+    from gudgeon.studies.ensemble.finished import Study
 
 TABLES = {"numbers": "Published numbers", "trends": "Published trends"}
 

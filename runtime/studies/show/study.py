@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from gudgeon.language.shown import path_text, visible
+from gudgeon.studies.ensemble.claimed import FILE, claims_json
 from gudgeon.studies.ensemble.estimate import Estimate
+from gudgeon.studies.ensemble.finished import Study
 from gudgeon.studies.ensemble.folder import DATASET
-from gudgeon.studies.ensemble.plan import Plan
-from gudgeon.studies.ensemble.study import Study
+from gudgeon.studies.ensemble.plan import Plan, Plans
 from gudgeon.studies.show.tables import console, new_table, print_json
 from gudgeon.studies.words import seconds
 
@@ -25,14 +27,30 @@ def shape_text(plan: Plan) -> str:
     return " × ".join(f"{name} {length}" for name, length in zip(plan.dims, plan.shape, strict=True)) or "one run"
 
 
-def show_estimate(plan: Plan, found: Estimate, json: bool) -> None:
-    """The plan, nothing run but the trial."""
+def show_estimates(plans: Plans, found: Mapping[str, Estimate], json: bool) -> None:
+    """The plans, nothing run but the trial."""
     if json:
-        dims = dict(zip(plan.dims, plan.shape, strict=True))
-        print_json({"dimensions": dims, "runs": found.runs, "blocks": found.blocks, "bytes": found.bytes,
-                    "seconds": found.seconds, "tried": found.tried, "tried_failed": found.failed,
-                    "notes": list(plan.notes)})  # fmt: skip
+        each = {name: _estimate_json(plan, found[name]) for name, plan in plans.each.items()}
+        print_json({"parts": each} if plans.named else each[""])
         return
+    for name, plan in plans.each.items():
+        if name:
+            print(f"part {visible(name)}:")
+        _show_estimate(plan, found[name])
+    if plans.named:
+        size, spent = sum(one.bytes for one in found.values()), sum(one.seconds for one in found.values())
+        print(f"all parts: {plans.runs} runs, about {_bytes(size)} on disk, {_long(spent)}")
+
+
+def _estimate_json(plan: Plan, found: Estimate) -> dict[str, Any]:
+    return {
+        "dimensions": dict(zip(plan.dims, plan.shape, strict=True)), "runs": found.runs, "blocks": found.blocks,
+        "bytes": found.bytes, "seconds": found.seconds, "tried": found.tried, "tried_failed": found.failed,
+        "notes": list(plan.notes),
+    }  # fmt: skip
+
+
+def _show_estimate(plan: Plan, found: Estimate) -> None:
     print(f"{found.runs} runs ({visible(shape_text(plan))}) in {found.blocks} blocks")
     print(f"about {_bytes(found.bytes)} on disk, {_long(found.seconds)} by {found.tried} runs on trial")
     if found.failed:
@@ -41,15 +59,33 @@ def show_estimate(plan: Plan, found: Estimate, json: bool) -> None:
         print(f"note: {visible(note)}")
 
 
-def show_study(plan: Plan, found: Study, json: bool) -> None:
-    """What was measured, over all runs that did not fail."""
-    spread = {name: (unit, row) for name, unit, row in _spread(plan, found)}
+def show_studies(plans: Plans, found: Study, json: bool) -> None:
+    """What was measured, over all runs that did not fail; of each part."""
+    parts = found.parts or {"": found}
     if json:
-        measures = {name: {"unit": unit, **row} for name, (unit, row) in spread.items()}
-        print_json({"folder": str(found.folder), "dataset": str(found.folder / DATASET), "runs": found.runs,
-                    "failed": found.failed, "failures": found.failures, "measures": measures,
-                    "notes": list(found.notes)})  # fmt: skip
+        each = {name: _study_json(plan, parts[name]) for name, plan in plans.each.items()}
+        whole = {"folder": str(found.folder), "runs": found.runs, "failed": found.failed, "parts": each}
+        claims = claims_json(found.folder)
+        print_json((whole if plans.named else each[""]) | ({} if claims is None else {"claims": claims}))
         return
+    for name, plan in plans.each.items():
+        if name:
+            print(f"part {visible(name)}:")
+        _show_study(plan, parts[name])
+    if claims_json(found.folder) is not None:
+        _show_claims(found)
+
+
+def _study_json(plan: Plan, found: Study) -> dict[str, Any]:
+    measures = {name: {"unit": unit, **row} for name, unit, row in _spread(plan, found)}
+    return {
+        "folder": str(found.folder), "dataset": str(found.folder / DATASET), "runs": found.runs,
+        "failed": found.failed, "failures": found.failures, "measures": measures, "notes": list(found.notes),
+    }  # fmt: skip
+
+
+def _show_study(plan: Plan, found: Study) -> None:
+    spread = {name: (unit, row) for name, unit, row in _spread(plan, found)}
     print(f"{found.runs} runs ({visible(shape_text(plan))})")
     if spread:
         table = new_table(["measure", *QUANTILES, "unit", "NaN"], ["measure", "unit"])
@@ -66,6 +102,19 @@ def show_study(plan: Plan, found: Study, json: bool) -> None:
     for note in found.notes:
         print(f"note: {visible(note)}")
     print(f"wrote {path_text(Path(found.folder) / DATASET)}")
+
+
+def _show_claims(found: Study) -> None:
+    """How many trends hold, and how far numbers are off."""
+    numbers, trends, _ = found.claims
+    if len(trends):
+        told = [own["verdict"].iloc[0] if own["agreed"].all() else "not the same in all ensembles"
+                for _, own in trends.groupby("claim", sort=False)]  # fmt: skip
+        print(f"{len(told)} trends: " + ", ".join(f"{count} {name}" for name, count in Counter(told).most_common()))
+    if len(numbers) and numbers["printed"].notna().any():
+        off = numbers["deviation"].abs().groupby(numbers["claim"]).median()
+        print(f"{numbers['claim'].nunique()} numbers: half of the medians within {off.median():.3g} % of the printed")
+    print(f"wrote {path_text(Path(found.folder) / FILE)}")
 
 
 def _spread(plan: Plan, found: Study) -> Iterator[tuple[str, str, dict[str, Any]]]:

@@ -14,7 +14,7 @@ from gudgeon.language.suggestions import unknown
 from gudgeon.language.wanted import flag, number_of, text, told
 
 if TYPE_CHECKING:
-    from gudgeon.studies.ensemble.study import Study
+    from gudgeon.studies.ensemble.finished import Study
 
 Coords: TypeAlias = Mapping[str, Any]
 SAMPLES, OWN_TIMES = ("time", "sample"), "t"

@@ -23,7 +23,7 @@ from gudgeon.studies.words import counted
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from gudgeon.studies.ensemble.study import Study
+    from gudgeon.studies.ensemble.finished import Study
 
 MOST_ROWS, MOST_FIGURES, MOST_CURVES, MOST_NUMBERS, MOST_SAMPLES = 500, 40, 60, 30_000_000, 20_000
 SHOWN_VALUES = 8  # of what varied, in full

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import ArrayLike
 
-    from gudgeon.studies.ensemble.study import Study
+    from gudgeon.studies.ensemble.finished import Study
 
 QUARTILES = (0.0, 0.25, 0.5, 0.75, 1.0)
 SMALL = 80  # cells of a map beside which numbers can be read

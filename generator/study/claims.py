@@ -1,0 +1,196 @@
+"""`claims:` of a study file: published numbers and trends, each with the runs that it is about."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from gudgeon.errors import BadNameError, BadValueError
+from gudgeon.generator.format.shapes import missing_key, unknown_key
+from gudgeon.generator.reader.collector import Reader
+from gudgeon.generator.study.claim_spec import (
+    ALONG,
+    BETWEEN,
+    COUNTED,
+    COUNTS,
+    KINDS,
+    SAME,
+    Claims,
+    NumberClaim,
+    Selection,
+    TrendClaim,
+    Trial,
+)
+from gudgeon.generator.study.parts import check_keys, label, mapping, place_of, text, texts, whole
+from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
+
+KEYS = ("source", "numbers", "trends")
+NUMBER = ("figure", "says", "measure", "part", "at", "value", "note")
+TOLD = ("says", "figure", "note")  # of a trend, whatever it is judged by
+COMMON = ("measure", "part", "at")
+MORE = {"grows_along": ("by",), "alike_along": ("within",), "spreads_along": ("more_than",), "larger": ("than", "by"),
+        "most_lowered": ("from", "to"), "exceeds": ("by",), "near": ("within",)}  # fmt: skip
+NEEDED = {"alike_along": "within", "spreads_along": "more_than", "larger": "than", "near": "within"}
+TRIAL = tuple(dict.fromkeys((*KINDS, *COMMON, *(key for keys in MORE.values() for key in keys))))
+TREND = (*TOLD, *TRIAL, "all", "not_computed")
+MOST_TEXT = 1000
+
+
+def read_claims(reader: Reader, root: Map) -> Claims:
+    """None where the file makes none."""
+    if "claims" not in root:
+        return Claims()
+    with reader.collect():
+        node = mapping(root["claims"], "claims", root.key("claims"))
+        check_keys(reader, node, KEYS, "claims")
+        source = ""
+        with reader.collect():
+            source = _line(node, "source", "claims")
+        numbers, trends = list[NumberClaim](), list[TrendClaim]()
+        for name, below in _each(reader, node, "numbers"):
+            with reader.collect():
+                numbers.append(_number(reader, name, mapping(below, f"claims.numbers.{name}", name)))
+        for name, below in _each(reader, node, "trends"):
+            with reader.collect():
+                trends.append(_trend(name, mapping(below, f"claims.trends.{name}", name)))
+        _once(reader, [*(one.name for one in numbers), *(one.name for one in trends)])
+        return Claims(source, tuple(numbers), tuple(trends))
+    return Claims()
+
+
+def _each(reader: Reader, node: Map, section: str) -> Sequence[tuple[Text, Any]]:
+    with reader.collect():
+        if section in node:
+            return mapping(node[section], f"claims.{section}", node.key(section)).pairs()
+    return ()
+
+
+def _once(reader: Reader, names: Sequence[Text]) -> None:
+    for k, name in enumerate(names):
+        if name in names[:k]:
+            first = names[names.index(name)].where
+            reader.errors.append(BadNameError(f"claim {str(name)[:60]!r} is there twice", name.where, f"once: {first}"))
+
+
+def _line(node: Map, key: str, owner: str) -> str:
+    """Words for people, on as many lines as YAML folds."""
+    if key not in node:
+        return ""
+    found = node[key]
+    if not isinstance(found, Text) or found.is_nothing:
+        raise BadValueError(f"{owner}.{key} is {kind_of(found)}", place_of(found, node.key(key)), "expected a text")
+    told = " ".join(found.split())
+    if len(told) > MOST_TEXT or not told.isprintable():
+        raise BadValueError(f"{owner}.{key} has {len(told)} characters", found.where, f"at most {MOST_TEXT}, visible")
+    return told
+
+
+def _number(reader: Reader, name: Text, node: Map) -> NumberClaim:
+    owner = f"claims.numbers.{name}"
+    label(name, "claim")
+    if not check_keys(reader, node, NUMBER, owner, ("measure",)):
+        raise missing_key("measure", node.where, owner)
+    measure = text(node["measure"], f"{owner}.measure", node.key("measure"), "the name of a measure")
+    value = text(node["value"], f"{owner}.value", node.key("value"), "a number") if "value" in node else None
+    figure, says, note = (_line(node, key, owner) for key in ("figure", "says", "note"))
+    return NumberClaim(name, figure, measure, _selection(node, owner, name), value, says, note)
+
+
+def _selection(node: Map, owner: str, where: Text) -> Selection:
+    """`part` and `at`."""
+    part = text(node["part"], f"{owner}.part", node.key("part"), "the name of a part") if "part" in node else None
+    at = _values(mapping(node["at"], f"{owner}.at", node.key("at")), f"{owner}.at") if "at" in node else {}
+    return Selection(part, at, where)
+
+
+def _values(node: Map, owner: str) -> dict[Text, Text]:
+    return {key: text(value, f"{owner}.{key}", key, "one value") for key, value in node.pairs()}
+
+
+def _other(node: Map, key: str, owner: str, base: Selection) -> Selection:
+    """A selection that stands at a key: {part: …, c: 0.3 mm}, over that of the trend."""
+    own = mapping(node[key], f"{owner}.{key}", node.key(key))
+    values = _values(own, f"{owner}.{key}")
+    part = next((value for name, value in values.items() if name == "part"), base.part)
+    kept = {name: value for name, value in base.at.items() if name not in values}
+    return Selection(part, kept | {name: value for name, value in values.items() if name != "part"}, node.key(key))
+
+
+def _trend(name: Text, node: Map) -> TrendClaim:
+    owner = f"claims.trends.{name}"
+    label(name, "claim")
+    figure, says, note = (_line(node, key, owner) for key in ("figure", "says", "note"))
+    if strange := [key for key in node.names() if key not in TREND]:
+        raise unknown_key(strange[0], TREND, owner)
+    why = _line(node, "not_computed", owner)
+    own = Map.make([(key, below) for key, below in node.pairs() if key not in TOLD], node.where)
+    if why:
+        if extra := [key for key in own.names() if key != "not_computed"]:
+            raise BadValueError(f"{owner} is not computed, and has {extra[0]}", extra[0].where, "expected one of both")
+        return TrendClaim(name, figure, says, (), why, note)
+    return TrendClaim(name, figure, says, tuple(_trials(name, own, owner)), "", note)
+
+
+def _trials(name: Text, node: Map, owner: str) -> list[Trial]:
+    """One, or those of `all`, each over the keys beside it."""
+    if "all" not in node:
+        return [_trial(name, node, owner)]
+    every = node["all"]
+    if not isinstance(every, Items) or not every:
+        raise BadValueError(f"{owner}.all is {kind_of(every)}", node.key("all").where, "expected a list of trials")
+    found = []
+    for k, below in enumerate(every):
+        own = mapping(below, f"{owner}.all[{k}]", node.key("all"))
+        if strange := [key for key in own.names() if key not in TRIAL]:
+            raise unknown_key(strange[0], TRIAL, f"{owner}.all[{k}]")
+        kept = [(key, value) for key, value in node.pairs() if key != "all" and key not in own]
+        found.append(_trial(name, Map.make([*kept, *own.pairs()], own.where), f"{owner}.all[{k}]"))
+    return found
+
+
+def _trial(name: Text, node: Map, owner: str) -> Trial:
+    chosen = [key for key in node.names() if key in KINDS]
+    if len(chosen) != 1:
+        told = f"{owner} has {'nothing to judge it by' if not chosen else f'both {chosen[0]} and {chosen[1]}'}"
+        hint = f"expected one of: {', '.join((*KINDS, 'all', 'not_computed'))}"
+        raise BadValueError(told, place_of(node, name), hint)
+    kind, known = chosen[0], (chosen[0], *COMMON, *MORE.get(chosen[0], ()))
+    if strange := [key for key in node.names() if key not in known]:
+        raise unknown_key(strange[0], known, owner)
+    if (needed := NEEDED.get(kind)) and needed not in node:
+        raise missing_key(needed, node.where, owner)
+    base = _selection(node, owner, kind)
+    if kind == COUNTS:
+        counts = _counts(mapping(node[kind], f"{owner}.{kind}", kind), f"{owner}.{kind}")
+        return Trial(kind, (), base, kind, counts=counts)
+    if "measure" not in node:
+        raise missing_key("measure", node.where, owner)
+    measures = texts(node["measure"], f"{owner}.measure", node.key("measure"), "names of measures")
+    by = next((text(node[key], f"{owner}.{key}", node.key(key), "a number") for key in ("by", "within") if key in node),
+              None)  # fmt: skip
+    if kind in BETWEEN:
+        return _between(node, owner, kind, measures, base, by)
+    of = text(node[kind], f"{owner}.{kind}", kind, "a dimension" if kind in ALONG else "a measure or a number")
+    others = texts(node["more_than"], f"{owner}.more_than", node.key("more_than"), "measures") if "more_than" in node \
+        else (of,) if kind in SAME else ()  # fmt: skip
+    if kind == "spreads_along" and len(others) != len(measures):
+        raise BadValueError(f"{owner}.more_than has {len(others)} names", node.key("more_than").where,
+                            f"expected as many as measure: {len(measures)}")  # fmt: skip
+    return Trial(kind, measures, base, of, None, others, by)
+
+
+def _between(
+    node: Map, owner: str, kind: Text, measures: tuple[Text, ...], base: Selection, by: Text | None
+) -> Trial:
+    if kind == "larger":
+        return Trial(kind, measures, _other(node, kind, owner, base), kind, _other(node, "than", owner, base), (), by)
+    if lacking := [key for key in ("from", "to") if key not in node]:
+        raise missing_key(lacking[0], node.where, owner)
+    others = texts(node[kind], f"{owner}.{kind}", kind, "other measures, which are lowered less")
+    return Trial(kind, measures, _other(node, "from", owner, base), kind, _other(node, "to", owner, base), others)
+
+
+def _counts(node: Map, owner: str) -> dict[Text, int]:
+    if strange := [key for key in node.names() if key not in COUNTED]:
+        raise unknown_key(strange[0], COUNTED, owner)
+    return {key: whole(value, f"{owner}.{key}", key, 0) for key, value in node.pairs()}

@@ -1,0 +1,175 @@
+"""What runs say of the claims of their file: two tables, in the study's folder as JSON and CSV."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from gudgeon.errors import GudgeonError
+from gudgeon.files.writing import read_regular, written
+from gudgeon.results.batch import Array
+from gudgeon.studies.ensemble.judge import Cell, judged
+
+if TYPE_CHECKING:
+    import pandas
+
+    from gudgeon.studies.ensemble.claims import Known, KnownNumber, KnownTrend
+    from gudgeon.studies.ensemble.finished import Study
+    from gudgeon.studies.ensemble.plan import Plan, Plans
+
+FILE, TABLES = "claims.json", ("numbers", "trends")
+NOT_COMPUTED = "not computed"
+UNNAMED = ""  # the ensemble of runs that are in none
+
+
+class Claimed(NamedTuple):
+    """Two tables, a row for each claim and ensemble.
+
+    numbers: claim, figure, says, measure, unit, printed, ensemble, n (runs), q25, median, q75 (SI), deviation (% of
+    the printed value), note. trends: claim, figure, says, ensemble, verdict ("holds", "fails", "undecided", "not
+    computed"), probability (the least of what it consists of), chance (that one run of each scene shows all of it),
+    agreed (whether all ensembles have the same verdict), note.
+    """
+
+    numbers: pandas.DataFrame
+    trends: pandas.DataFrame
+    source: str
+
+
+def write_claims(folder: Path, plans: Plans, known: Known, study: Study) -> None:
+    """Judge all claims by the finished runs; a folder whose file makes none has no such files. Raises OutputError."""
+    if not (known.numbers or known.trends):
+        for name in (FILE, *(f"claims_{table}.csv" for table in TABLES)):
+            (folder / name).unlink(missing_ok=True)
+        return
+    runs = _Finished(plans, study)
+    rows = {
+        "numbers": [row for one in known.numbers for row in _of_number(one, runs)],
+        "trends": [row for one in known.trends for row in _of_trend(one, runs)],
+    }
+    with written(folder / FILE) as file:
+        file.write(json.dumps({"source": plans.file.claims.source} | rows, indent=1).encode())
+    for name, table in zip(TABLES, _tables(rows), strict=True):
+        with written(folder / f"claims_{name}.csv") as file:
+            file.write(table.to_csv(index=False).encode())
+
+
+def read_claims_of(folder: Path) -> Claimed:
+    """What write_claims left. Raises GudgeonError where there is nothing."""
+    document = claims_json(folder)
+    if document is None:
+        raise GudgeonError("the file of this study makes no claims")
+    numbers, trends = _tables(document)
+    return Claimed(numbers, trends, str(document.get("source", "")))
+
+
+def claims_json(folder: Path) -> dict[str, Any] | None:
+    """The document of a folder; None where its study claims nothing."""
+    try:
+        data = read_regular(folder / FILE)
+        found = None if data is None else json.loads(data)
+    except (OSError, ValueError):
+        return None
+    return found if isinstance(found, dict) and all(isinstance(found.get(name), list) for name in TABLES) else None
+
+
+def _tables(rows: Mapping[str, Any]) -> list[pandas.DataFrame]:
+    import pandas
+
+    found = [pandas.DataFrame(rows[name]) for name in TABLES]
+    for name in ("printed", "q25", "median", "q75", "deviation"):
+        if name in found[0]:
+            found[0][name] = found[0][name].astype(float)  # null is NaN
+    for name in ("probability", "chance"):
+        if name in found[1]:
+            found[1][name] = found[1][name].astype(float)
+    return found
+
+
+class _Finished:
+    """Measures of a study's runs, cell by cell and ensemble by ensemble."""
+
+    def __init__(self, plans: Plans, study: Study) -> None:
+        self.plans, self.study = plans, study
+        self.held: dict[tuple[str, str], Array] = {}
+
+    def ensembles(self, cells: list[Cell]) -> list[str]:
+        """Names of those that any of these cells has, or UNNAMED."""
+        names = [name for part in dict.fromkeys(cell.part for cell in cells) for name in self._named(part)]
+        return list(dict.fromkeys(names)) or [UNNAMED]
+
+    def _named(self, part: str) -> list[str]:
+        plan = self.plans.each[part]
+        return [str(name) for one in plan.coordinates if one.name == "ensemble" for name in one.values]
+
+    def values(self, cell: Cell, measure: str, ensemble: str) -> Array:
+        """(n,); of a cell without this ensemble all that it has."""
+        plan, key = self.plans.each[cell.part], (cell.part, measure)
+        if key not in self.held:
+            own = self.study.parts[cell.part] if self.plans.named else self.study
+            self.held[key] = np.asarray(own.dataset[measure].transpose(*plan.dims).values, dtype=float)
+        found = self.held[key][cell.index]
+        named = self._named(cell.part)
+        if named and ensemble in named:
+            return np.asarray(found[named.index(ensemble)])
+        return np.asarray(found).ravel()
+
+
+def _of_number(known: KnownNumber, runs: _Finished) -> Iterator[dict[str, Any]]:
+    claim = known.claim
+    for ensemble in runs.ensembles([known.cell]):
+        values = runs.values(known.cell, str(claim.measure), ensemble)
+        own = values[np.isfinite(values)]
+        quartiles = np.quantile(own, [0.25, 0.5, 0.75]) if len(own) else np.full(3, np.nan)
+        off = 100.0 * (quartiles[1] / known.printed - 1.0) if known.printed else math.nan
+        yield {
+            "claim": str(claim.name), "figure": claim.figure, "says": claim.says, "part": known.cell.part,
+            "at": _at(runs.plans.each[known.cell.part], known.cell), "measure": str(claim.measure), "unit": known.unit,
+            "printed": _plain(known.printed), "ensemble": ensemble, "n": len(own), "q25": _plain(quartiles[0]),
+            "median": _plain(quartiles[1]), "q75": _plain(quartiles[2]), "deviation": _plain(off), "note": claim.note,
+        }  # fmt: skip
+
+
+def _at(plan: Plan, cell: Cell) -> str:
+    """Where a cell lies: "scene dry, c 0.0003 m"."""
+    told, dims = [], [name for name in plan.dims if name not in ("ensemble", "start")]
+    for name, k in zip(dims, cell.index, strict=True):
+        for one in (one for one in plan.coordinates if one.over == (name,)):
+            value = one.values[k]
+            text = value if isinstance(value, str) else f"{float(value):.6g}"
+            told.append(f"{one.name} {text}{f' {one.unit}' if one.unit else ''}")
+    return ", ".join(told)
+
+
+def _of_trend(known: KnownTrend, runs: _Finished) -> Iterator[dict[str, Any]]:
+    claim = known.claim
+    common = {"claim": str(claim.name), "figure": claim.figure, "says": claim.says}
+    if claim.not_computed:
+        told = " ".join(filter(None, (claim.not_computed, claim.note)))
+        yield common | {"ensemble": UNNAMED, "verdict": NOT_COMPUTED, "probability": None, "chance": None,
+                        "agreed": True, "note": told}  # fmt: skip
+        return
+    cells = list(dict.fromkeys(cell for check in known.checks for cell in check.cells))
+    measures = list(dict.fromkeys(name for check in known.checks for name in check.measures))
+    each = {}
+    for ensemble in runs.ensembles(cells):
+        own = {cell: {name: runs.values(cell, name, ensemble) for name in measures if _has(runs, cell, name)}
+               for cell in cells}  # fmt: skip
+        each[ensemble] = judged(known.checks, own)
+    agreed = len({one.verdict for one in each.values()}) == 1
+    for ensemble, one in each.items():
+        yield common | {"ensemble": ensemble, "verdict": one.verdict, "probability": _plain(one.probability),
+                        "chance": _plain(one.chance), "agreed": agreed, "note": claim.note}  # fmt: skip
+
+
+def _has(runs: _Finished, cell: Cell, measure: str) -> bool:
+    return any(one.name == measure for one in runs.plans.each[cell.part].wanted.measures)
+
+
+def _plain(value: float | None) -> float | None:
+    return None if value is None or not math.isfinite(value) else float(value)

@@ -1,0 +1,298 @@
+"""Claims of a study's file to checks on its runs: every part, coordinate, measure and unit looked at, at its place."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import reduce
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.contract.kernel_source import KernelSource, Slot
+from gudgeon.errors import BadValueError, InputError, InputErrors, UnknownKeyError
+from gudgeon.generator.study.claim_spec import ALONG, COUNTS, NumberClaim, Selection, TrendClaim, Trial
+from gudgeon.language.suggestions import unknown_name
+from gudgeon.language.units import unit
+from gudgeon.results.batch import Array
+from gudgeon.studies.ensemble.judge import Cell, Check, Look
+from gudgeon.studies.ensemble.numbers import real
+from gudgeon.studies.ensemble.plan import Coordinate, Plan, Plans
+
+if TYPE_CHECKING:
+    from gudgeon.generator.yaml.tree import Text
+
+STARTS = ("ensemble", "start")  # dimensions that no claim selects: it is about all of them
+SAME = 1e-9  # of a coordinate: so near it is the value that a claim says
+MOST_LISTED = 8
+
+
+@dataclass(frozen=True, eq=False)
+class KnownNumber:
+    """A published number and the runs that it is about."""
+
+    claim: NumberClaim
+    cell: Cell
+    unit: str
+    printed: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class KnownTrend:
+    """A trend and its checks."""
+
+    claim: TrendClaim
+    checks: tuple[Check, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Known:
+    """All claims of a file."""
+
+    numbers: tuple[KnownNumber, ...] = ()
+    trends: tuple[KnownTrend, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Selected:
+    """Which places along each dimension of a part a selection leaves, starts left out."""
+
+    part: str
+    plan: Plan
+    places: Mapping[str, tuple[int, ...]]
+
+    def cells(self, fixed: Mapping[str, int]) -> Iterator[tuple[tuple[Any, ...], Cell]]:
+        """All of them, with the values of their dimensions that are not fixed."""
+        for index in itertools.product(*([fixed[name]] if name in fixed else own for name, own in self.places.items())):
+            free = [(name, k) for name, k in zip(self.places, index, strict=True) if self._is_free(name, fixed)]
+            yield tuple((name, self._value(name, k)) for name, k in free), Cell(self.part, index)
+
+    def _is_free(self, name: str, fixed: Mapping[str, int]) -> bool:
+        return name not in fixed and len(self.places[name]) > 1
+
+    def _value(self, name: str, k: int) -> Any:
+        found = next((one for one in self.plan.coordinates if one.name == name and one.over == (name,)), None)
+        return k if found is None else found.values[k].item() if hasattr(found.values[k], "item") else found.values[k]
+
+
+def known_claims(plans: Plans) -> Known:
+    """Raises InputErrors with all that do not fit the runs, each at its place."""
+    claims, errors = plans.file.claims, list[InputError]()
+    numbers, trends = list[KnownNumber](), list[KnownTrend]()
+    for number in claims.numbers:
+        try:
+            numbers.append(_number(plans, number))
+        except InputError as error:
+            errors.append(error)
+    for trend in claims.trends:
+        try:
+            trends.append(KnownTrend(trend, tuple(check for one in trend.trials for check in _checks(plans, one))))
+        except InputError as error:
+            errors.append(error)
+    if errors:
+        raise errors[0] if len(errors) == 1 else InputErrors(errors)
+    return Known(tuple(numbers), tuple(trends))
+
+
+def _number(plans: Plans, claim: NumberClaim) -> KnownNumber:
+    chosen = _select(plans, claim.selection)
+    cells = [cell for _, cell in chosen.cells({})]
+    if len(cells) > 1:
+        left = [f"{name} ({len(own)})" for name, own in chosen.places.items() if len(own) > 1]
+        hint = f"say in at: which value of {', '.join(left)}"
+        raise BadValueError(f"{claim.name} is about {len(cells)} scenes", claim.name.where, hint)
+    told = _unit(chosen.plan, claim.measure)
+    return KnownNumber(claim, cells[0], told, None if claim.value is None else _in(claim.value, told))
+
+
+def _unit(plan: Plan, measure: Text) -> str:
+    known = [one.name for one in plan.wanted.measures]
+    if measure not in known:
+        raise unknown_name("measure", measure, known, measure.where)
+    return plan.units[str(measure)]
+
+
+def _in(text: Text, told: str) -> float:
+    """A number in a unit of SI."""
+    of = unit(told).dimension if told and unit(told) else None  # type: ignore[union-attr]
+    exponents = (float(of.length), float(of.mass), float(of.time)) if of else (0.0, 0.0, 0.0)
+    return real(text, Slot("value", told, 0.0, False, exponents))
+
+
+def _select(plans: Plans, selection: Selection) -> Selected:
+    part, where = "", selection.where.where
+    if plans.named:
+        if selection.part is None:
+            raise UnknownKeyError("a claim on no part", where, f"expected part: one of {', '.join(plans.each)}")
+        part = str(selection.part)
+        if part not in plans.each:
+            raise unknown_name("part", part, list(plans.each), selection.part.where)
+    elif selection.part is not None:
+        raise BadValueError("the file has no parts", selection.part.where, "leave part: out")
+    plan = plans.each[part]
+    places = {name: tuple(range(length)) for name, length in zip(plan.dims, plan.shape, strict=True)}
+    for name, value in selection.at.items():
+        one = _coordinate(plan, name)
+        own = _places_of(one, value)
+        if one.over:
+            places[one.over[0]] = tuple(k for k in places[one.over[0]] if k in own)
+        if not own or one.over and not places[one.over[0]]:
+            raise BadValueError(f"no run has {name} {str(value)[:60]!r}", value.where, _values_told(one))
+    return Selected(part, plan, {name: own for name, own in places.items() if name not in STARTS})
+
+
+def _coordinate(plan: Plan, name: Text) -> Coordinate:
+    """Of one dimension that is no start, or of none."""
+    known = {one.name: one for one in plan.coordinates if len(one.over) < 2 and not set(one.over) & set(STARTS)}
+    found = known.get(str(name)) or known.get(str(name).removeprefix("parameters."))
+    if found is None:
+        raise unknown_name("coordinate", name, list(known), name.where)
+    return found
+
+
+def _places_of(one: Coordinate, value: Text) -> set[int]:
+    values = np.atleast_1d(np.asarray(one.values))
+    if values.dtype.kind in "OU":
+        return {k for k, own in enumerate(values.tolist()) if str(own) == value.strip()}
+    wanted = _in(value, one.unit)
+    return set(np.flatnonzero(np.abs(values - wanted) <= SAME * np.abs(values)).tolist())
+
+
+def _values_told(one: Coordinate) -> str:
+    values = [str(value) if isinstance(value, str) else f"{value:.6g}" for value in np.atleast_1d(one.values).tolist()]
+    more = ", …" if len(values) > MOST_LISTED else ""
+    return f"expected one of: {', '.join(values[:MOST_LISTED])}{more}{f' ({one.unit})' if one.unit else ''}"
+
+
+def _checks(plans: Plans, trial: Trial) -> Iterator[Check]:
+    chosen = _select(plans, trial.selection)
+    if trial.kind == COUNTS:
+        yield _count(chosen, trial)
+        return
+    for measure in (*trial.measures, *trial.others):
+        _unit(chosen.plan, measure)
+    if trial.kind in ALONG:
+        yield from _along(chosen, trial)
+    elif trial.than is not None:
+        yield from _between(chosen, _select(plans, trial.than), trial)
+    else:
+        yield from _of_one(chosen, trial)
+
+
+def _share(trial: Trial, otherwise: float) -> float:
+    return otherwise if trial.by is None else _in(trial.by, "")
+
+
+def _along(chosen: Selected, trial: Trial) -> Iterator[Check]:
+    one = _coordinate(chosen.plan, trial.text)
+    if not one.over or len(chosen.places[one.over[0]]) < 2:
+        told = f"nothing to compare along {str(trial.text)[:60]!r}: it has one value here"
+        raise BadValueError(told, trial.text.where, "leave it out of at:, or take another dimension")
+    (dimension,) = one.over
+    order = chosen.places[dimension]
+    if np.asarray(one.values).dtype.kind not in "OU":
+        order = tuple(sorted(order, key=lambda k: float(one.values[k])))
+    rows = [dict(chosen.cells({dimension: k})) for k in order]
+    for key in rows[0]:
+        yield from _row([row[key] for row in rows], trial)
+
+
+def _row(cells: list[Cell], trial: Trial) -> Iterator[Check]:
+    """Of cells along a dimension."""
+    for k, measure in enumerate(map(str, trial.measures)):
+        if trial.kind == "grows_along":
+            for pair in itertools.pairwise(cells):
+                yield Check(pair, (measure,), _larger(measure, _share(trial, 1.0)))
+        elif trial.kind == "alike_along":
+            for two in itertools.combinations(cells, 2):
+                yield Check(two, (measure,), _alike(measure, _share(trial, 0.0)))
+        else:
+            other = str(trial.others[k])
+            yield Check(tuple(cells), (measure, other), _spreads(measure, other, len(cells)))
+
+
+def _larger(measure: str, by: float) -> Callable[[Look], Array]:
+    return lambda x: x(1, measure) > by * x(0, measure)
+
+
+def _alike(measure: str, within: float) -> Callable[[Look], Array]:
+    def shows(x: Look) -> Array:
+        a, b = x(0, measure), x(1, measure)
+        return np.asarray(np.abs(a - b) <= within * np.maximum(np.abs(a), np.abs(b)))
+
+    return shows
+
+
+def _spreads(measure: str, other: str, n: int) -> Callable[[Look], Array]:
+    def spread(x: Look, name: str) -> Array:
+        values = [x(k, name) for k in range(n)]
+        return np.asarray(reduce(np.maximum, values) - reduce(np.minimum, values))
+
+    return lambda x: spread(x, measure) > spread(x, other)
+
+
+def _between(first: Selected, second: Selected, trial: Trial) -> Iterator[Check]:
+    for name in (*trial.measures, *trial.others):
+        _unit(second.plan, name)
+    here, there = dict(first.cells({})), dict(second.cells({}))
+    if here.keys() != there.keys():
+        told = f"{trial.text} and what it is compared with are not about the same runs"
+        hint = "what neither selects must have the same values in both"
+        raise BadValueError(told, trial.text.where, hint)
+    for key, cell in here.items():
+        for measure in [str(name) for name in trial.measures]:
+            if trial.kind == "larger":
+                yield Check((there[key], cell), (measure,), _larger(measure, _share(trial, 1.0)))
+            for other in [str(name) for name in trial.others]:
+                yield Check((cell, there[key]), (measure, other), _lowered(measure, other))
+
+
+def _lowered(measure: str, other: str) -> Callable[[Look], Array]:
+    """From the first cell to the second a measure falls to a smaller share of its magnitude than another one."""
+    return lambda x: np.abs(x(1, measure) * x(0, other)) < np.abs(x(1, other) * x(0, measure))
+
+
+def _of_one(chosen: Selected, trial: Trial) -> Iterator[Check]:
+    """Of each cell alone: another measure of the same run, or a number."""
+    for _, cell in chosen.cells({}):
+        for name in trial.measures:
+            measure = str(name)
+            if trial.others:
+                yield Check((cell,), (measure, str(trial.others[0])),
+                            _exceeds(measure, str(trial.others[0]), _share(trial, 1.0)))  # fmt: skip
+                continue
+            number, within = _in(trial.text, _unit(chosen.plan, name)), _share(trial, 0.0)
+            low = {"above": number, "near": number - within * abs(number)}.get(trial.kind, -np.inf)
+            high = {"below": number, "near": number + within * abs(number)}.get(trial.kind, np.inf)
+            yield Check((cell,), (measure,), _inside(measure, low, high, trial.kind == "near"))
+
+
+def _exceeds(measure: str, other: str, by: float) -> Callable[[Look], Array]:
+    return lambda x: x(0, measure) > by * x(0, other)
+
+
+def _inside(measure: str, low: float, high: float, ends: bool) -> Callable[[Look], Array]:
+    def shows(x: Look) -> Array:
+        own = x(0, measure)
+        return np.asarray((own >= low) & (own <= high) if ends else (own > low) & (own < high))
+
+    return shows
+
+
+def _count(chosen: Selected, trial: Trial) -> Check:
+    """What a scene has, the same in every run of it."""
+    structure = [one.length for one in chosen.plan.structure]
+    places = [cell.index[: len(structure)] for _, cell in chosen.cells({})]
+    parts = {int(np.ravel_multi_index(place, structure)) if structure else 0 for place in places}
+    sources = [chosen.plan.parts[k].simulation.source for k in sorted(parts)]
+    right = all(_counted(source)[str(name)] == count for source in sources for name, count in trial.counts.items())
+    return Check((), (), lambda x: np.array(right))
+
+
+def _counted(source: KernelSource) -> dict[str, int]:
+    return {
+        "bodies": len(source.bodies), "joints": len(source.joints) + len(source.clearances),
+        "drives": len(source.drives), "freedoms": source.degrees_of_freedom, "rows": len(source.rows),
+        "coordinates": len(source.coordinates), "play": len(source.clearances),
+    }  # fmt: skip

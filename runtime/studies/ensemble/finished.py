@@ -1,0 +1,209 @@
+"""A finished study in its folder: datasets and tables, read as they are asked for."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gudgeon.errors import GudgeonError
+from gudgeon.files.writing import written
+from gudgeon.language.wanted import names, path
+from gudgeon.studies.ensemble.claimed import Claimed, read_claims_of
+from gudgeon.studies.ensemble.folder import DATASET, h5py_module
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+    from gudgeon.studies.show.study_page import StudyReport
+    from gudgeon.studies.show.study_plots import StudyPlot
+
+_CHUNK = 1 << 20
+
+
+class Study:
+    """A finished study in its folder; what is asked for is read from there."""
+
+    def __init__(self, folder: Path, keeps: tempfile.TemporaryDirectory[str] | None = None) -> None:
+        self.folder, self._keeps = folder, keeps
+
+    def __repr__(self) -> str:
+        own = self.dataset["t_last"].sizes
+        sizes = " × ".join(f"{name} {size}" for name, size in own.items())
+        failed = f", {self.failed} failed" if self.failed else ""
+        return f"<Study of {self.dataset.attrs['mechanism']}: {self.runs} runs{f' ({sizes})' if sizes else ''}{failed}>"
+
+    @cached_property
+    def dataset(self) -> xarray.Dataset:
+        """Measures, kept series and `failure` over the dimensions of the study; read from the file as it is asked.
+
+        Coordinates are what was varied, SI, with `units`; NaN is what a failed run has no value for.
+        """
+        import xarray
+
+        h5py_module()
+        found = xarray.open_dataset(
+            self.folder / DATASET, engine="h5netcdf", decode_times=False, decode_timedelta=False
+        )
+        return found if self._keeps is None else found.load()  # a temporary folder goes before what was asked of it
+
+    @property
+    def parts(self) -> Mapping[str, Study]:
+        """Studies by the names that the file gives its parts; none, where it is one study."""
+        return {}
+
+    @cached_property
+    def claims(self) -> Claimed:
+        """What the file claims of the runs, judged by them: `claims.numbers` and `claims.trends`, two tables.
+
+        Raises GudgeonError where it claims nothing.
+        """
+        return read_claims_of(self.folder)
+
+    @property
+    def tree(self) -> xarray.DataTree:
+        """The dataset as a tree of one node, or of a node for each part."""
+        import xarray
+
+        return xarray.DataTree(self.dataset)
+
+    @property
+    def runs(self) -> int:
+        """How many there are."""
+        return int(self.dataset.attrs["runs"])
+
+    @property
+    def failed(self) -> int:
+        """How many did not come to their end; `dataset["failure"]` says why."""
+        return int(self.dataset.attrs["failed"])
+
+    @property
+    def failures(self) -> dict[str, int]:
+        """What runs failed of, without their numbers, and how many of each; the most frequent first."""
+        return dict(json.loads(self.dataset.attrs["failure_kinds"]))
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What is to be known of it, each once."""
+        return tuple(filter(None, str(self.dataset.attrs["notes"]).split("\n")))
+
+    @property
+    def measures(self) -> tuple[str, ...]:
+        """Names of what was measured."""
+        found, others = self.dataset, ("t_last", "failure")
+        own = (name for name, one in found.data_vars.items() if one.dims == found["t_last"].dims)
+        return tuple(str(name) for name in own if name not in others)
+
+    def to_dataframe(self, series: Iterable[str] | str = ()) -> pandas.DataFrame:
+        """A row a run: what was varied, all measures, `failure`; SI. With names of kept series a row a sample."""
+        asked = names(series, "series", "a list of names of kept series")
+        times = ["t"] if asked and "t" in self.dataset else []
+        found = self.dataset[[*times, *asked]] if asked else self.dataset[[*self.measures, "t_last", "failure"]]
+        if not found.sizes:
+            import pandas
+
+            return pandas.DataFrame({str(name): [one.values.item()] for name, one in found.variables.items()})
+        return found.to_dataframe().reset_index()
+
+    @property
+    def plot(self) -> StudyPlot:
+        """Figures: `study.plot.measure("peak", "c")`, `.bands("S9.y")`, `.heat_map("peak", "c", "omega")` …"""
+        from gudgeon.studies.show.study_plots import StudyPlot
+
+        return StudyPlot(self)
+
+    def report(self) -> StudyReport:
+        """What varied, what failed, every measure and its figures, for people: `.to_html()`, or as a notebook shows it.
+        """
+        from gudgeon.studies.show.study_page import StudyReport
+
+        return StudyReport(self)
+
+    def save(self, target: str | os.PathLike[str]) -> None:
+        """Write the dataset as one NetCDF file, which any reader opens. Raises OutputError."""
+        with open(self.folder / DATASET, "rb") as source, written(path(target, "path")) as file:
+            while data := source.read(_CHUNK):
+                file.write(data)
+
+
+class StudyOfParts(Study):
+    """A finished study whose file has parts: each is a Study of its own, all of them one DataTree."""
+
+    def __init__(
+        self, folder: Path, parts: Sequence[str], keeps: tempfile.TemporaryDirectory[str] | None = None
+    ) -> None:
+        super().__init__(folder, keeps)
+        self._parts = {name: Study(folder / name, keeps) for name in parts}
+
+    def __repr__(self) -> str:
+        told = ", ".join(f"{name} {part.runs}" for name, part in self._parts.items())
+        return f"<Study of {len(self._parts)} parts: {told} runs{f', {self.failed} failed' if self.failed else ''}>"
+
+    @property
+    def parts(self) -> Mapping[str, Study]:
+        """Studies by the names that the file gives its parts."""
+        return dict(self._parts)
+
+    @property
+    def dataset(self) -> xarray.Dataset:
+        """Each part has its own. Raises GudgeonError."""
+        raise self._of_parts("dataset")
+
+    @property
+    def tree(self) -> xarray.DataTree:
+        """A node for each part, whose dataset is the part's."""
+        import xarray
+
+        return xarray.DataTree.from_dict({name: part.dataset for name, part in self._parts.items()})
+
+    @property
+    def runs(self) -> int:
+        """Of all parts."""
+        return sum(part.runs for part in self._parts.values())
+
+    @property
+    def failed(self) -> int:
+        """Of all parts."""
+        return sum(part.failed for part in self._parts.values())
+
+    @property
+    def failures(self) -> dict[str, int]:
+        """What runs failed of in all parts, and how many of each; the most frequent first."""
+        every: Counter[str] = Counter()
+        for part in self._parts.values():
+            every.update(part.failures)
+        return dict(every.most_common())
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Of all parts, each with its name in front."""
+        return tuple(f"{name}: {note}" for name, part in self._parts.items() for note in part.notes)
+
+    @property
+    def measures(self) -> tuple[str, ...]:
+        """Names of what was measured in any part."""
+        return tuple(dict.fromkeys(name for part in self._parts.values() for name in part.measures))
+
+    @property
+    def plot(self) -> StudyPlot:
+        """Each part has its own. Raises GudgeonError."""
+        raise self._of_parts("plot")
+
+    def to_dataframe(self, series: Iterable[str] | str = ()) -> pandas.DataFrame:
+        """Each part has its own. Raises GudgeonError."""
+        raise self._of_parts("to_dataframe()")
+
+    def save(self, target: str | os.PathLike[str]) -> None:
+        """Write all datasets as one NetCDF file, a group for each part: xarray.open_datatree reads it."""
+        with written(path(target, "path")) as file:
+            file.write(bytes(self.tree.to_netcdf(engine="h5netcdf")))
+
+    def _of_parts(self, what: str) -> GudgeonError:
+        name = next(iter(self._parts))
+        return GudgeonError(f"this study has parts: {', '.join(self._parts)}\n  ask one: study.parts[{name!r}].{what}")

@@ -1,0 +1,185 @@
+"""What a series is less than: that of another scene with the same numbers, at the very samples of each run."""
+
+from __future__ import annotations
+
+import json
+from collections import OrderedDict
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from threading import Lock
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.errors import InputError
+from gudgeon.language.tree import from_json, names
+from gudgeon.model.parameter_sets import each_of, prepare_sets
+from gudgeon.model.parameters import given_slots
+from gudgeon.results.batch import Array
+from gudgeon.results.series import catalogue
+from gudgeon.simulation.simulation import Simulation
+from gudgeon.studies.ensemble.libraries import loaded, method_in
+from gudgeon.studies.ensemble.measures import STEPS
+from gudgeon.studies.ensemble.numbers import key_of
+
+if TYPE_CHECKING:
+    from gudgeon.contract.kernel_source import KernelSource
+    from gudgeon.generator.study.spec import Measure
+    from gudgeon.results.batch import Batch
+    from gudgeon.studies.ensemble.block import Job, Table
+
+KEPT = 1 << 26  # bytes of series that the next blocks of a process may need again
+
+
+def origins_of(measures: Iterable[Measure], scene: str = "") -> tuple[str, ...]:
+    """Scenes that are subtracted, each once; but for one's own."""
+    return tuple(dict.fromkeys(str(one.origin) for one in measures if one.origin is not None and one.origin != scene))
+
+
+def of_steps(measures: Sequence[Measure], source: KernelSource) -> str:
+    """The one that is subtracted at every step; "": none is."""
+    own = (one for one in measures if one.statistic in STEPS and one.of in catalogue(source))
+    return next(iter(origins_of(own, source.scene)), "")
+
+
+def origin_of(job: Job, scene: str) -> Simulation:
+    """The library of another scene of a job's structure."""
+    return loaded(job.mechanism, scene, job.overrides, job.sha256)
+
+
+def idle(source: KernelSource) -> Array:
+    """Which numbers of p a motion does not read of itself, (n,): parameters that stand in no expression of t or motion.
+
+    What else they decide, lengths or masses that follow them, stands in p beside them.
+    """
+    trees = [json.loads(one.tree) for one in source.written] + list(source.outputs.values())
+    read = {f"parameters.{name.path.removeprefix('parameters.')}" for tree in trees for name in names(from_json(tree))}
+    own = [slot.address.startswith("parameters.") and slot.address not in read for slot in source.slots]
+    return np.array(own + [False] * len(source.derived), dtype=bool)
+
+
+@dataclass(frozen=True, eq=False)
+class Alike:
+    """Runs of another scene, told apart by what decides them."""
+
+    columns: Mapping[str, Array]  # its own numbers, (n,)
+    p: Array  # (n, ...), without what decides nothing
+    t: tuple[Array, ...]  # samples of each
+    step: Array | None
+
+    def key(self, i: int) -> tuple[bytes, bytes, float]:
+        """The same for runs that are the same."""
+        return self.p[i].tobytes(), self.t[i].tobytes(), 0.0 if self.step is None else float(self.step[i])
+
+
+class Recent:
+    """Series that were taken last, at most so many bytes of them."""
+
+    def __init__(self) -> None:
+        self._held: OrderedDict[Any, Mapping[str, Array]] = OrderedDict()
+        self._bytes, self._lock = 0, Lock()
+
+    def get(self, key: Any) -> Mapping[str, Array] | None:
+        """None where they are gone."""
+        with self._lock:
+            if key in self._held:
+                self._held.move_to_end(key)
+            return self._held.get(key)
+
+    def put(self, key: Any, series: Mapping[str, Array]) -> None:
+        """Older ones go where there is no place."""
+        with self._lock:
+            if key in self._held:
+                return
+            self._held[key] = series
+            self._bytes += sum(one.nbytes for one in series.values())
+            while self._bytes > KEPT:
+                self._bytes -= sum(one.nbytes for one in self._held.popitem(last=False)[1].values())
+
+
+_recent = Recent()
+
+
+def at_samples(job: Job, table: Table, runs: Array, batch: Batch, failures: list[str]) -> dict[str, dict[str, Array]]:
+    """Of each scene that is subtracted its series at the samples of these runs of a job, (n, N), NaN where none are.
+
+    A scene that cannot be run with the numbers of a run is what that run fails of.
+    """
+    found: dict[str, dict[str, Array]] = {}
+    wanted = [one for one in job.wanted.measures if one.statistic not in STEPS]
+    for scene in origins_of(wanted, batch.source.scene):
+        simulation = origin_of(job, scene)
+        known = catalogue(simulation.source).keys() & catalogue(batch.source).keys()
+        own = dict.fromkeys(str(one.of) for one in wanted if one.origin == scene and one.of in known)
+        if own:
+            found[scene] = _series(job, simulation, table, runs, batch, list(own), failures)
+    return found
+
+
+def _series(
+    job: Job, simulation: Simulation, table: Table, runs: Array, batch: Batch, wanted: list[str], failures: list[str]
+) -> dict[str, Array]:
+    times = batch.kept["t"]
+    out = {name: np.full(times.shape, np.nan) for name in wanted}
+    good = [i for i in range(len(runs)) if not failures[runs[i]] and np.isfinite(times[i]).sum() > 1]
+    alike = _alike(simulation, table, runs, [row[np.isfinite(row)] for row in times])
+    common = (job.mechanism, job.overrides, job.sha256, simulation.source.scene, job.wanted.method, job.wanted.rtol,
+              tuple(wanted))  # fmt: skip
+    keys = [(common, alike.key(i)) for i in range(len(runs))]
+    held = {keys[i]: _recent.get(keys[i]) for i in good}
+    missing = [i for i in {keys[i]: i for i in reversed(good)}.values() if held[keys[i]] is None]
+    for i, series in _made(job, simulation, alike, sorted(missing), wanted).items():
+        if isinstance(series, str):
+            for k in (k for k in good if keys[k] == keys[i]):
+                failures[runs[k]] = f"scene {simulation.source.scene}: {series}"
+        else:
+            held[keys[i]] = series
+            _recent.put(keys[i], series)
+    for i in good:
+        for name, values in (held[keys[i]] or {}).items():
+            out[name][i, np.isfinite(times[i])] = values
+    return out
+
+
+def _alike(simulation: Simulation, table: Table, runs: Array, times: list[Array]) -> Alike:
+    source = simulation.source
+    columns = {key: values[runs] for name, values in table.columns.items() if (key := key_of(source, name))}
+    rows = [{name: _plain(values[i]) for name, values in columns.items()} for i in range(len(runs))]
+    given, is_given = each_of(rows, lambda i, row: given_slots(source, row))
+    p, _, _ = prepare_sets(simulation.compiled, given, is_given, False)
+    step = table.step[runs] if table.step is not None and source.degrees_of_freedom else None
+    return Alike(columns, np.where(idle(source), 0.0, p), tuple(times), step)
+
+
+def _plain(value: Any) -> float | str:
+    return value if isinstance(value, str) else float(value)
+
+
+def _made(
+    job: Job, simulation: Simulation, alike: Alike, runs: list[int], wanted: list[str]
+) -> dict[int, Mapping[str, Array] | str]:
+    """Series of each run, or why there are none."""
+    if not runs:
+        return {}
+    source, moves = simulation.source, bool(simulation.source.degrees_of_freedom)
+    t = [alike.t[i] for i in runs]
+    same = all(np.array_equal(one, t[0]) for one in t)
+    try:
+        batch = simulation.simulate_many(
+            {name: [_plain(values[i]) for i in runs] for name, values in alike.columns.items()} or [{}] * len(runs),
+            output=t[0] if same else t, method=method_in(source, job.wanted.method),
+            rtol=job.wanted.rtol if moves else None, step=None if alike.step is None else alike.step[runs],
+            threads=job.threads, stop=False, keep=wanted, peaks=[],
+        )  # fmt: skip
+    except InputError as error:
+        if len(runs) == 1:
+            return {runs[0]: str(error)}
+        each = [_made(job, simulation, alike, [i], wanted) for i in runs]
+        return {i: series for own in each for i, series in own.items()}
+    if batch.interrupted:
+        raise KeyboardInterrupt
+    failed = {failure.run: str(failure.error) for failure in batch.failures}
+    return {
+        i: failed[k] if k in failed else {name: batch.kept[name][k, : len(t[k])].copy() for name in wanted}
+        for k, i in enumerate(runs)
+    }

@@ -1,0 +1,47 @@
+"""studies/chen_2022.yaml is read whole; what it says of the paper adds up. Its runs are `make study`."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import pytest
+from ruamel.yaml import YAML
+
+import gudgeon
+from gudgeon.generator.study.read import read_studies
+from gudgeon.generator.study.schema import schema
+from tests.programs import needs_compiler
+
+FILE = Path(__file__).parents[2] / "studies" / "chen_2022.yaml"
+
+
+def test_all_numbers_and_trends_are_there() -> None:
+    """66 and 41; every one with its figure, two thirds of the trends and more are judged by runs."""
+    claims = read_studies(FILE.read_bytes(), str(FILE)).claims
+    printed = [one for one in claims.numbers if one.value is not None]
+    trends = [one for one in claims.trends if one.name.startswith("T")]
+    assert [str(one.name) for one in printed] == [f"N{k:02d}" for k in range(1, 67)]
+    assert [str(one.name) for one in trends] == [f"T{k:02d}" for k in range(1, 42)]
+    assert all(one.figure for one in printed) and all(one.figure and one.says for one in trends)
+    assert [str(one.name) for one in trends if one.not_computed] == ["T29", "T36"]
+    assert Counter(str(one.measure) for one in printed) == {"y": 12, "v": 12, "a": 14, "FA": 8, "FB": 8, "acc": 12}
+
+
+def test_the_schema_takes_it() -> None:
+    jsonschema = pytest.importorskip("jsonschema")
+    study = YAML(typ="safe").load(FILE.read_text(encoding="utf-8"))
+    assert not list(jsonschema.Draft202012Validator(schema()).iter_errors(study))
+
+
+@needs_compiler
+def test_the_films_forces_are_near_the_papers(tmp_path: Path) -> None:
+    """At 3π and 0.6 mm peaks are within 16 % of theirs: 18.61 and 15.18 N; the rest of the study is left out here."""
+    study = YAML(typ="safe").load(FILE.read_text(encoding="utf-8"))
+    own = study["parts"]["speed_oil"] | {"mechanism": study["mechanism"], "t_end": "0.4 s", "output": 400}
+    own["parameters"] = {"c": "0.6 mm", "omega": "3*pi rad/s"}
+    own["claims"] = {"numbers": {name: {key: value for key, value in study["claims"]["numbers"][name].items()
+                                        if key != "part"} for name in ("N49", "N52")}}  # fmt: skip
+    numbers = gudgeon.study(own, tmp_path / "s").claims.numbers
+    assert len(numbers) == 2 and (np.abs(numbers["deviation"]) < 16.0).all()

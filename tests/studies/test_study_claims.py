@@ -1,0 +1,242 @@
+"""Claims: probabilities counted by hand, verdicts of pendulums whose answers are known, mistakes at their places."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from ruamel.yaml import YAML
+
+import gudgeon
+from gudgeon.errors import GudgeonError, InputError, InputErrors
+from gudgeon.generator.study.schema import schema
+from gudgeon.studies.ensemble import judge
+from gudgeon.studies.ensemble.judge import Cell, Check, Look, judged
+from gudgeon.studies.ensemble.study import plans_of
+from tests.programs import needs_compiler
+from tests.pump import Gudgeon
+
+A, B, C, D = (Cell("", (k,)) for k in range(4))
+
+
+def larger(first: Cell, second: Cell) -> Check:
+    return Check((first, second), ("m",), lambda x: x(1, "m") > x(0, "m"))
+
+
+def runs(**values: list[float]) -> dict[Cell, dict[str, Any]]:
+    cells = {"a": A, "b": B, "c": C, "d": D}
+    return {cells[name]: {"m": np.array(own)} for name, own in values.items()}
+
+
+def test_the_probability_is_that_of_all_pairs() -> None:
+    """Of 1, 2, 3 and 2, 4: (1,2) (1,4) (2,4) (3,4) rise, (2,2) is a tie, (3,2) falls."""
+    found = judged([larger(A, B)], runs(a=[1, 2, 3], b=[2, 4]))
+    assert (found.probability, found.chance, found.verdict) == (4 / 6, 4 / 6, "undecided")
+    assert judged([larger(B, A)], runs(a=[1, 2, 3], b=[2, 4])).verdict == "fails"  # 1 of 6
+    assert judged([larger(A, B)], runs(a=[1, 2, 3, 4, 5], b=[5])).verdict == "holds"  # 4 of 5
+    assert judged([larger(A, B)], runs(a=[1, 2, 3], b=[2])).verdict == "fails"  # 1 of 3
+    assert judged([larger(A, B)], runs(a=[1, math.nan, 2], b=[3, math.nan])).probability == 1.0
+    none = judged([larger(A, B)], runs(a=[1, 2], b=[math.nan]))
+    assert math.isnan(none.probability) and none.verdict == "undecided" and math.isnan(none.chance)
+
+
+def test_the_chance_is_that_single_runs_show_all_of_it() -> None:
+    """A chain is counted run by run, for its middle is in both; what shares no run is independent."""
+    own = runs(a=[1, 5, 2], b=[3, 0, 4], c=[4, 2, 6], d=[1, 7])
+    chain = judged([larger(A, B), larger(B, C)], own)
+    triples = [a < b < c for a, b, c in itertools.product([1, 5, 2], [3, 0, 4], [4, 2, 6])]
+    assert chain.chance == pytest.approx(sum(triples) / 27, rel=1e-15)
+    assert chain.probability == min(4 / 9, 6 / 9) and chain.verdict == "undecided"
+    apart = judged([larger(A, B), larger(D, C)], own)
+    assert apart.chance == pytest.approx(4 / 9 * 3 / 6, rel=1e-15)
+
+
+def test_measures_of_a_run_belong_together() -> None:
+    """x rises in 3 of 4 pairs and y in 3 of 4, but never both fall: runs of both are 2 of 4."""
+    own = {A: {"x": np.array([0.0, 2.0]), "y": np.array([2.0, 0.0])},
+           B: {"x": np.array([1.0, 3.0]), "y": np.array([3.0, 1.0])}}  # fmt: skip
+    checks = [Check((A, B), ("x",), lambda x: x(1, "x") > x(0, "x")),
+              Check((A, B), ("y",), lambda x: x(1, "y") > x(0, "y"))]  # fmt: skip
+    found = judged(checks, own)
+    assert (found.probability, found.chance) == (0.75, 0.5)
+
+
+def test_of_very_many_combinations_some_are_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    def middle(x: Look) -> Any:
+        return (x(0, "m") < x(1, "m")) & (x(1, "m") < x(2, "m"))
+
+    rng = np.random.default_rng(3)
+    own = {cell: {"m": rng.normal(k, 1.0, 30)} for k, cell in enumerate((A, B, C))}
+    whole = judged([Check((A, B, C), ("m",), middle)], own).probability
+    monkeypatch.setattr(judge, "MOST", 20_000)
+    drawn = judged([Check((A, B, C), ("m",), middle)], own).probability
+    assert drawn != whole and abs(drawn - whole) < 4 * math.sqrt(whole * (1 - whole) / 20_000)
+
+
+TEXT = """\
+format: gudgeon-study/1
+mechanism: pendulum
+output: 10
+measures:
+  x: {final: bob.x}
+  drop: {final: bob.y}
+  a: {final: bob.ay}
+parts:
+  grid:
+    t_end: 1 ms
+    parameters: {length: [2 m, 1 m], g: [1.62, 9.81]}
+  noisy:
+    t_end: 1 ms
+    parameters: {length: [1 m, 1.1 m, 1.2 m]}
+    starts: {count: 8, seed: 5, ensembles: {near: {relative: {length: 1e-6}}, far: {absolute: {length: 0.5 m}}}}
+claims:
+  source: somebody, somewhere
+  numbers:
+    N1: {figure: Fig 1, part: grid, measure: x, at: {length: 100 cm, g: 9.81}, value: 2 m, note: twice ours}
+    N2: {figure: Fig 1, part: noisy, measure: x, at: {length: 1.1 m}, value: 110 cm}
+    N3: {part: grid, measure: a, at: {length: 1 m, g: 1.62}, says: ours alone}
+  trends:
+    T1: {says: x grows with length, part: grid, measure: x, grows_along: length}
+    T2: {says: x grows with g, part: grid, measure: x, grows_along: g}
+    T3: {says: x hardly depends on g, part: grid, measure: x, alike_along: g, within: 1e-3}
+    T4: {part: grid, measure: x, larger: {length: 2 m}, than: {length: 1 m}, by: 1.5}
+    T5: {part: noisy, measure: x, grows_along: length}
+    T6: {part: grid, measure: x, exceeds: drop, at: {g: 9.81}}
+    T7: {part: grid, measure: a, near: -9.81 m/s^2, within: 0.01, at: {g: 9.81}}
+    T8: {part: grid, measure: a, below: -5 m/s^2}
+    T9: {part: grid, counts: {bodies: 1, joints: 1, drives: 0, freedoms: 2, rows: 1, coordinates: 3, play: 0}}
+    T10: {says: a photograph, not_computed: nobody measures a photograph}
+    T11: {part: grid, measure: x, spreads_along: length, more_than: drop}
+    T12: {part: grid, measure: a, most_lowered: x, from: {g: 9.81}, to: {g: 1.62}}
+    T13: {part: grid, all: [{measure: x, grows_along: length}, {measure: x, larger: {part: noisy, length: 1.2 m},
+          than: {g: 1.62, length: 1 m}}]}
+    T14: {part: grid, measure: x, above: 1.5 m, at: {length: 1 m}}
+"""
+
+
+@pytest.fixture(scope="module")
+def found(tmp_path_factory: pytest.TempPathFactory) -> gudgeon.Study:
+    path = tmp_path_factory.mktemp("claims") / "s.yaml"
+    path.write_text(TEXT)
+    return gudgeon.study(path, path.with_suffix(".study"))
+
+
+@needs_compiler
+def test_a_pendulum_that_is_let_go_level(found: gudgeon.Study) -> None:
+    """After a millisecond x = l, y ≈ −g t²/2 and its acceleration −g; what follows is told of each ensemble."""
+    trends = found.claims.trends.set_index("claim")
+    verdicts = {name: tuple(dict.fromkeys(trends.loc[[name], "verdict"])) for name in trends.index.unique()}
+    holds, fails = ("holds",), ("fails",)
+    assert verdicts == {
+        "T1": holds, "T2": fails, "T3": holds, "T4": holds, "T5": ("holds", "undecided"), "T6": holds, "T7": holds,
+        "T8": fails, "T9": holds, "T10": ("not computed",), "T11": holds, "T12": holds, "T13": ("holds", "undecided"),
+        "T14": fails,
+    }, verdicts  # fmt: skip
+    assert trends.loc["T5", "ensemble"].tolist() == ["near", "far"] and not trends.loc["T5", "agreed"].any()
+    assert trends.loc["T1", "ensemble"] == "" and trends.loc["T10", "note"] == "nobody measures a photograph"
+    x = found.parts["noisy"].dataset["x"].sel(ensemble="far").values
+    pairs = [np.mean(x[k + 1][None, :] > x[k][:, None]) for k in range(2)]
+    row = trends.loc["T5"].set_index("ensemble").loc["far"]
+    assert row["probability"] == pytest.approx(min(pairs), rel=1e-15)
+    chain = [a < b < c for a, b, c in itertools.product(*x)]
+    assert row["chance"] == pytest.approx(np.mean(chain), rel=1e-15)
+
+
+@needs_compiler
+def test_numbers_beside_the_printed_ones(found: gudgeon.Study, tmp_path: Path) -> None:
+    numbers = found.claims.numbers.set_index("claim")
+    row = numbers.loc["N1"]
+    assert row["median"] == pytest.approx(1.0, rel=1e-6) and row["deviation"] == pytest.approx(-50.0, abs=1e-3)
+    assert (row["printed"], row["unit"], row["n"], row["note"]) == (2.0, "m", 1, "twice ours")
+    far = numbers.loc["N2"].set_index("ensemble").loc["far"]
+    x = found.parts["noisy"].dataset["x"].sel(ensemble="far")[1].values
+    assert [far[name] for name in ("q25", "median", "q75")] == np.quantile(x, [0.25, 0.5, 0.75]).tolist()
+    assert far["n"] == 8 and "length 1.1 m" in far["at"]
+    assert math.isnan(numbers.loc["N3", "printed"]) and math.isnan(numbers.loc["N3", "deviation"])
+    assert found.claims.source == "somebody, somewhere"
+    again = gudgeon.load_study(found.folder).claims
+    assert again.trends.equals(found.claims.trends) and again.numbers.equals(found.claims.numbers)
+    assert (found.folder / "claims_trends.csv").read_text().count("\n") == len(again.trends) + 1
+
+
+@needs_compiler
+def test_claims_decide_no_run(found: gudgeon.Study, tmp_path: Path, call: Gudgeon) -> None:
+    """What is claimed may be edited: the runs that are there are judged again."""
+    before = (found.folder / "grid" / "study.nc").stat().st_mtime_ns
+    path = found.folder.with_suffix(".yaml")
+    path.write_text(path.read_text().replace("above: 1.5 m", "above: 0.5 m"))
+    again = gudgeon.study(path, found.folder)
+    assert again.claims.trends.set_index("claim").loc["T14", "verdict"] == "holds"
+    assert (found.folder / "grid" / "study.nc").stat().st_mtime_ns == before
+    done = call("study", str(path), "--out", str(found.folder), "--json")
+    assert len(json.loads(done.output)["claims"]["trends"]) == len(again.claims.trends)
+    assert "14 trends" in call("study", str(path), "--out", str(found.folder)).output
+    with pytest.raises(GudgeonError, match="makes no claims"):
+        _ = gudgeon.study({"mechanism": "pendulum", "t_end": 1e-3, "output": 1, "keep": ["bob.x"]}).claims
+
+
+BAD = [  # in place of what, what; line and words of the message
+    ("part: grid, measure: x, at: {length: 100", "measure: x, at: {length: 100", "19:5", "expected part: one of grid"),
+    ("part: grid, measure: x, at: {length: 100", "part: grit, measure: x, at: {length: 100", "19:31", "unknown"),
+    ("length: 100 cm", "length: 3 m", "19:62", "expected one of: 2, 1 (m)"),
+    ("length: 100 cm", "lenght: 3 m", "19:54", "unknown coordinate"),
+    ("length: 100 cm", "length: 1 kg", "19:62", "a length"),
+    ("value: 2 m,", "value: 2 kg,", "19:87", "a length"),
+    ("{length: 100 cm, g: 9.81}", "{length: 100 cm}", "19:5", "say in at: which value of g (2)"),
+    ("measure: x, grows_along: g}", "measure: q, grows_along: g}", "24:53", "unknown measure 'q'"),
+    ("grows_along: g}", "grows_along: mass}", "24:69", "unknown coordinate"),
+    ("measure: x, grows_along: g}", "measure: x, grows_along: g, at: {g: 9.81}}", "24:69", "one value here"),
+    ("grows_along: g}", "falls_along: g}", "24:56", "falls_along"),
+    ("grows_along: g}", "grows_along: g, above: 3}", "24:9", "both grows_along and above"),
+    ("alike_along: g, within: 1e-3", "alike_along: g", "25:9", "has no within"),
+    ("than: {length: 1 m}, by", "than: {g: 9.81}, by", "26:34", "not about the same runs"),
+    ("near: -9.81 m/s^2", "near: -9.81 m", "29:40", "an acceleration"),
+    ("{bodies: 1,", "{bodeis: 1,", "31:31", "did you mean 'bodies'"),
+    ("not_computed: nobody", "above: 3, not_computed: nobody", "32:31", "expected one of both"),
+    ("more_than: drop", "more_than: [drop, x]", "33:58", "expected as many"),
+    ("from: {g: 9.81}, to", "to", "34:10", "has no from"),
+    ("all: [{measure: x, grows", "all: [{measure: x, says: q, grows", "35:42", "says"),
+    ("    T14:", "    T1:", "37:5", "given twice"),
+    ("    T14:", "    N1:", "37:5", "is there twice"),
+    ("    N3:", "    3N:", "21:5", "letters, digits"),
+    ("source: somebody, somewhere", "source: []", "17:11", "a list"),
+]  # fmt: skip
+
+
+@needs_compiler
+@pytest.mark.parametrize(("old", "new", "place", "words"), BAD, ids=[f"{k}" for k in range(len(BAD))])
+def test_a_mistake_is_told_at_its_place(old: str, new: str, place: str, words: str, tmp_path: Path) -> None:
+    path, text = tmp_path / "s.yaml", TEXT
+    assert text.count(old) == 1, old
+    path.write_text(text.replace(old, new))
+    with pytest.raises(InputError) as told:
+        plans_of(path)
+    assert str(told.value).startswith(f"{path}:{place}") and words in str(told.value), str(told.value)
+
+
+@needs_compiler
+def test_all_mistakes_of_claims_at_once(tmp_path: Path) -> None:
+    path = tmp_path / "s.yaml"
+    path.write_text(TEXT.replace("value: 2 m", "value: 2 kg").replace("grows_along: g", "grows_along: q").replace(
+        "-9.81 m/s^2", "-9.81 m"))  # fmt: skip
+    with pytest.raises(InputErrors) as told:
+        plans_of(path)
+    assert [str(error).split(":")[1] for error in told.value.errors] == ["19", "24", "29"], str(told.value)
+
+
+def test_the_schema_takes_what_is_read() -> None:
+    jsonschema = pytest.importorskip("jsonschema")
+    check = jsonschema.Draft202012Validator(schema())
+    study = YAML(typ="safe").load(TEXT)
+    assert not list(check.iter_errors(study))
+    wrong: list[dict[str, Any]] = [
+        {"grow_along": "c"}, {"at": "c"}, {"measure": []}, {"counts": {"bodies": 1.5}}, {"all": []},
+    ]  # fmt: skip
+    for trend in wrong:
+        study["claims"]["trends"]["T1"] = trend
+        assert list(check.iter_errors(study)), trend
