@@ -62,7 +62,7 @@ def horizon(simulation: Simulation, run: Result, progress: Progress | None = Non
     t0, t1 = float(run.t[0]), float(run.t[-1])
     if simulation.source.degrees_of_freedom == 0 or not t1 > t0:
         return math.inf
-    begin = _state(run)
+    begin = beginning(run)
     usual, tighter = _settings(run)
     variants = ((begin, usual), (begin, tighter), (_moved(simulation, run, begin), usual))
     known = t0
@@ -148,7 +148,7 @@ def _tolerances(simulation: Simulation, run: Result) -> Array:
     return np.concatenate([of_q, np.full(len(of_q), MOVED)])
 
 
-def _state(run: Result) -> State:
+def beginning(run: Result) -> State:
     """The run's first sample, to start from."""
     return replace(run.final, t=float(run.t[0]), q=run.q[0], v=run.v[0], state=run.state[0], memory=run.memory[0])
 
