@@ -1,4 +1,4 @@
-"""The largest Lyapunov exponent of a run as it was found: its growth interval by interval, its uncertainty, its section.
+"""The largest Lyapunov exponent of a run as it was found: growth by intervals, uncertainty, returns to a section.
 
 What is measured is the rate at which neighbours part, λ = lim ln(d(t)/d(0))/t (G. Benettin, L. Galgani, A. Giorgilli,
 J.-M. Strelcyn, Meccanica 15:9, 1980). Of an exponent per return, 1/return, it is λ times the mean time between returns
@@ -62,7 +62,7 @@ class Lyapunov:
 
     @property
     def exponent(self) -> float:
-        """1/s: the slope of ln of the growth over time, least squares, so that its swings within a period do no harm."""
+        """1/s: the slope of ln of the growth over time by least squares, to which swings within a period do no harm."""
         return float(self.series[-1])
 
     @cached_property

@@ -70,14 +70,14 @@ class Flow:
         return np.concatenate([y[self.m :], a])
 
     def slopes(self, t: float, y: Array, chain: Array, memory: Array) -> Array:
-        """∂ẏ/∂(y, δ̇⁻), (2m + n_clearances) square; δ̇⁻ of a contact stays as it is."""
+        """Slopes of the rates of (y, δ̇⁻, t) along these, (2m + n_clearances + 1) square; δ̇⁻ stays as it is."""
         m, size = self.m, 2 * self.m + N_WORK
-        J, f_t, A = np.empty((size, size)), np.empty(size), np.zeros((2 * self.m + self.joints,) * 2)
+        J, f_t, A = np.empty((size, size)), np.empty(size), np.zeros((2 * self.m + self.joints + 1,) * 2)
         given = np.concatenate([y, np.zeros(N_WORK), chain[0]]), memory, self.p
         status = self.compiled.lib.gudgeon_jacobian(t, *self.pointers(*given), *self.pointers(J, f_t, written=True))
         self.compiled.check_node(status, t)
-        A[: 2 * m, : 2 * m] = J[: 2 * m, : 2 * m]
-        for k in np.flatnonzero(np.isfinite(memory[: self.joints])):
+        A[: 2 * m, : 2 * m], A[: 2 * m, -1] = J[: 2 * m, : 2 * m], f_t[: 2 * m]
+        for k in (k for k in range(self.joints) if np.isfinite(memory[k])):
             ends = []
             for share in (1.0 - NUDGE, 1.0 + NUDGE):
                 other = memory.copy()

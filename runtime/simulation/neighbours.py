@@ -31,6 +31,7 @@ class Neighbours:
     compiled: CompiledModel
     p: Array  # (n_slots + n_derived,)
     weights: Array  # (2n,) what counts as 1
+    size: float  # m, the mechanism's
     crossing: float  # s, in which the motion crosses the mechanism's size
 
     @staticmethod
@@ -41,7 +42,7 @@ class Neighbours:
         speeds = np.sqrt(np.mean(np.square(run.v / np.where(angle, 1.0, size)), axis=0))
         crossing = 1.0 / speeds.max(initial=0.0) if speeds.max(initial=0.0) > 0.0 else 1.0
         of_q = np.where(angle, length / size, length)
-        return Neighbours(compiled, run.p, np.concatenate([of_q, of_q / crossing]), crossing)
+        return Neighbours(compiled, run.p, np.concatenate([of_q, of_q / crossing]), size, crossing)
 
     @property
     def n(self) -> int:
@@ -89,4 +90,3 @@ def alike(one: State, other: State) -> bool:
     modes = (one.memory[clearances:], other.memory[clearances:])
     closed = np.array_equal(one.state > 0, other.state > 0)
     return closed and np.array_equal(np.isnan(modes[0]), np.isnan(modes[1]))
-

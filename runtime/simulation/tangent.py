@@ -1,7 +1,9 @@
 """The growth of differences by the tangent: the variational equation along the run, through its contacts.
 
 δẏ = J δy with the exact Jacobian J at states of the run, panel by panel by Gauss's collocation of order 6. Panels end
-where contacts begin and end, as C located them, and are halved until the propagator of each stretch stands still.
+where contacts begin and end, as C located them. They are halved until two things hold: the propagator stands still, and
+it carries the motion's own direction, with t as one more coordinate, from one end to the other: f(b) = P f(a). So no
+corner of a force that is passed between two nodes is missed, however short the time, such as a slip that turns round.
 
 There the right-hand side changes from f⁻ to f⁺ on a surface g(y) = 0, and differences pass by the saltation matrix
 S = I + (f⁺ − f⁻) ∇gᵀ/(∇gᵀ f⁻) (M. di Bernardo, C. Budd, A. Champneys, P. Kowalczyk, Piecewise-smooth Dynamical Systems,
@@ -33,8 +35,10 @@ BUTCHER = np.array([
     [5 / 36 + ROOT / 30, 2 / 9 + ROOT / 15, 5 / 36],
 ])  # fmt: skip
 WEIGHTS = np.array([5 / 18, 4 / 9, 5 / 18])
-FIRST, DEEPEST = 4, 20  # panels of a stretch; how often one is halved
+FIRST, DEEPEST = 2, 20  # panels of a stretch; how often one is halved
 CLOSE = 1e-9  # change of a panel's propagator by that
+CARRIED = 1e-5  # share of its rates by which the motion's own direction may be missed
+INSIDE = 1e-6  # of a stretch: how far from its ends rates are those within it
 BESIDE = 1e-9  # of the clearance: how far from the surface f⁻ and f⁺ are taken
 SMALL = 1e-4  # of the clearance: differences of gaps and their rates
 LARGEST = 30.0  # ln of the growth over one interval: beyond it the interval is taken again, shorter
@@ -44,7 +48,7 @@ LARGEST = 30.0  # ln of the growth over one interval: beyond it the interval is 
 class Panel:
     """A part, s to s + width of 0 to 1, of the stretch from a to b (s), with its propagator.
 
-    t = a + (b − a) s² (3 − 2 s): forces begin and end with powers of the penetration, δ^1.5, of which s makes whole ones.
+    t = a + (b − a) s² (3 − 2 s): forces begin and end with roots of the penetration, which are smooth in s.
     """
 
     a: float
@@ -53,6 +57,7 @@ class Panel:
     width: float
     depth: int = 0
     P: Array | None = None
+    missed: float = 0.0  # share of the motion's own direction
     change: float = 0.0  # by the last halving
     halves: tuple[Panel, ...] = ()
 
@@ -62,6 +67,13 @@ class Panel:
         s = self.s + self.width * NODES
         times, rates = self.a + (self.b - self.a) * s * s * (3.0 - 2.0 * s), 6.0 * (self.b - self.a) * s * (1.0 - s)
         return list(zip(times.tolist(), (self.width * rates).tolist(), strict=True))
+
+    @property
+    def ends(self) -> list[float]:
+        """Times (s) of both ends, beside those of the stretch."""
+        s, length = np.array([self.s, self.s + self.width]), self.b - self.a
+        return np.clip(self.a + length * s * s * (3.0 - 2.0 * s), self.a + INSIDE * length,
+                       self.b - INSIDE * length).tolist()  # fmt: skip
 
     def halved(self) -> tuple[Panel, Panel]:
         """Its two halves, without propagators."""
@@ -79,7 +91,7 @@ class Panel:
 
 @dataclass(eq=False)
 class Tangent:
-    """`state` of the run, and a difference z of what is integrated and of δ̇⁻, (2m + n_clearances,)."""
+    """`state` of the run, and a difference z of what is integrated, of δ̇⁻ and of t (0), (2m + n_clearances + 1,)."""
 
     simulation: Simulation
     measure: Neighbours
@@ -94,7 +106,7 @@ class Tangent:
         t, y = self.state.t, flat(self.state)
         own, _ = self.flow.reduced(t, y)
         other, _ = self.flow.reduced(t, self.measure.drawn(t, y))
-        self.z = np.append((other - own) / NEAR, np.zeros(self.flow.joints))
+        self.z = np.append((other - own) / NEAR, np.zeros(self.flow.joints + 1))
         self.distance = self._apart(self.state, self.z)
 
     def advance(self, t: float, shortest: bool) -> tuple[Result, float] | None:
@@ -152,22 +164,23 @@ class Tangent:
                 one.halves = one.halved()
             halves = [half for one in open_ones for half in one.halves]
             self._fill(halves)
-            further = []
+            further: list[Panel] = []
             for one in open_ones:
                 first, second = one.halves
                 assert first.P is not None and second.P is not None and one.P is not None
                 change = self._difference(second.P @ first.P, one.P)
-                if change > CLOSE and first.depth < DEEPEST:
+                missed = max(first.missed, second.missed)
+                if (change > CLOSE or missed > CARRIED) and first.depth < DEEPEST:
                     further += one.halves
                 else:
-                    first.change = change
+                    first.change = max(change, missed if missed > CARRIED else 0.0)
             open_ones = further
         return panels
 
     def _fill(self, panels: list[Panel]) -> None:
-        """Propagators by Gauss's method: K = (I − A⊗…)⁻¹ A of each panel, P = I + Σ b K; A is J dt/ds times the width."""
+        """Propagators by Gauss's method, K = (I − A⊗…)⁻¹ A and P = I + Σ b K; A is J dt/ds times the width."""
         nodes = [panel.nodes for panel in panels]
-        known = self._samples(sorted({t for panel in nodes for t, _ in panel}))
+        known = self._samples(sorted({t for panel in nodes for t, _ in panel} | {t for x in panels for t in x.ends}))
         A = np.array([[rate * self._slopes(t, *known[t]) for t, rate in panel] for panel in nodes])
         count, _, size, _ = A.shape
         matrix = np.eye(3 * size) - (BUTCHER[None, :, None, :, None] * A[:, :, :, None, :]).reshape(
@@ -175,18 +188,34 @@ class Tangent:
         )
         K = np.linalg.solve(matrix, A.reshape(count, 3 * size, size)).reshape(count, 3, size, size)
         for panel, P in zip(panels, np.eye(size) + np.einsum("i,pijk->pjk", WEIGHTS, K), strict=True):
-            panel.P = P
+            panel.P, panel.missed = P, self._missed(P, *(self._rates(t, *known[t]) for t in panel.ends))
+
+    def _rates(self, t: float, full: Array, memory: Array) -> Array:
+        y, chain = self.flow.reduced(t, full)
+        return self.flow.rates(t, y, chain, memory)
+
+    def _missed(self, P: Array, first: Array, last: Array) -> float:
+        """How far P does not lead the rates at a panel's begin to those at its end, as a share of these."""
+        w, size = self._weights(), len(first)
+        carried = P @ np.concatenate([first, np.zeros(self.flow.joints), [1.0]])
+        most = max(float(np.linalg.norm(one / w[:size])) for one in (first, last))
+        return float(np.linalg.norm((carried[:size] - last) / w[:size])) / max(most, 1e-9 / self.measure.crossing)
 
     def _slopes(self, t: float, full: Array, memory: Array) -> Array:
         y, chain = self.flow.reduced(t, full)
         return self.flow.slopes(t, y, chain, memory)
 
+    def _weights(self) -> Array:
+        """What counts as 1 of y and of δ̇⁻, (2m + n_clearances,)."""
+        largest, crossing = float(self.measure.weights[: self.measure.n].max()), self.measure.crossing
+        q = largest * np.where(self.flow.is_angle, 1.0 / self.measure.size, 1.0)
+        return np.concatenate([q, q / crossing, np.full(self.flow.joints, largest / crossing)])
+
     def _difference(self, P: Array, Q: Array) -> float:
         """Of two propagators, in the measure of the differences."""
-        q = np.where(self.flow.is_angle, 1.0, float(self.measure.weights.max()))
-        speed = np.full(self.flow.joints, q.max() / self.measure.crossing)
-        w = np.concatenate([q, q / self.measure.crossing, speed])
-        return float(np.linalg.norm((P - Q) * w / w[:, None]) / np.linalg.norm(P * w / w[:, None]))
+        w = self._weights()
+        P, Q = P[:-1, :-1] * w / w[:, None], Q[:-1, :-1] * w / w[:, None]
+        return float(np.linalg.norm(P - Q) / np.linalg.norm(P))
 
     def _through(self, z: Array, t: float, joint: int, onset: bool, deltadot: float, at: tuple[Array, Array]) -> Array:
         """z behind the onset or the end of a contact."""
