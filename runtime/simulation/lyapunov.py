@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 WAYS = ("auto", "tangent", "twin")
 RTOL = 1e-12  # of the runs, unless told otherwise: far below what neighbours are apart
 LOOKED = 1000  # samples by which the motion is measured
-INTERVALS = 100  # of the time, and once a period at least
+INTERVALS = 60  # of the time, and once a period at least
 SHORTEST = 2.0**-12  # of an interval
 JUMPING = frozenset({"sign", "where", "mod"})  # whose corners may be jumps
 

@@ -35,9 +35,9 @@ BUTCHER = np.array([
     [5 / 36 + ROOT / 30, 2 / 9 + ROOT / 15, 5 / 36],
 ])  # fmt: skip
 WEIGHTS = np.array([5 / 18, 4 / 9, 5 / 18])
-FIRST, DEEPEST = 2, 20  # panels of a stretch; how often one is halved
-CLOSE = 1e-9  # change of a panel's propagator by that
-CARRIED = 1e-5  # share of its rates by which the motion's own direction may be missed
+FIRST, DEEPEST = 2, 16  # panels of a stretch; how often one is halved
+CLOSE = 1e-8  # change of a panel's propagator by that
+CARRIED = 1e-4  # share of its rates by which the motion's own direction may be missed
 INSIDE = 1e-6  # of a stretch: how far from its ends rates are those within it
 BESIDE = 1e-9  # of the clearance: how far from the surface f⁻ and f⁺ are taken
 SMALL = 1e-4  # of the clearance: differences of gaps and their rates
