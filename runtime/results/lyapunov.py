@@ -49,6 +49,7 @@ class Lyapunov:
     t: Array  # (k + 1,) s: begin, and the end of each interval
     growth: Array  # (k,) ln of what the difference grew by in each
     unresolved: float  # 1/s: change of the tangent's growth with the last halving of its mesh
+    merged: int  # how often a twin became one with the run, as where friction sticks: λ is a bound from above then
     transverse: bool  # differences along the motion itself were taken away: of a section without a clock
     section: Section | None
     final: State = field(repr=False)  # to go on from
@@ -135,6 +136,7 @@ class Lyapunov:
         found = f"{self.exponent:.4g} ± {self.uncertainty:.2g} 1/s"
         if self.section is not None:
             found += f", {self.per_return:.4g} ± {self.per_return_uncertainty:.2g} a return ({self.section.name})"
+        found += f", at most: merged {self.merged} times" if self.merged else ""
         return f"<Lyapunov {found}, by the {self.by}, {self.t[0]:g} … {self.t[-1]:g} s>"
 
 

@@ -86,7 +86,7 @@ def lyapunov(
         returns.note(run)
     return Lyapunov(
         "tangent" if why is None else "twin", why or "", np.array(t), np.array(growth),
-        pair.unresolved / (t[-1] - t[0]), transverse, returns.section(), pair.state,
+        pair.unresolved / (t[-1] - t[0]), pair.merged, transverse, returns.section(), pair.state,
     )  # fmt: skip
 
 

@@ -99,6 +99,7 @@ class Tangent:
     state: State
     transverse: bool
     flow: Flow
+    merged: int = 0  # differences of the tangent do not end
     unresolved: float = 0.0  # sum of changes of ln of the growth
     z: Array = field(init=False)
 

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
 
 FURTHEST = 1e3  # times NEAR: beyond it an interval is taken again, shorter
+ONE = 1e-8  # times NEAR: both runs are one, as where friction sticks; a new neighbour is drawn
 
 
 @dataclass(eq=False)
@@ -33,6 +34,7 @@ class Twin:
     state: State
     transverse: bool
     unresolved: float = 0.0
+    merged: int = 0  # how often both became one
 
     def __post_init__(self) -> None:
         first = self.measure.drawn(self.state.t, flat(self.state))
@@ -55,6 +57,11 @@ class Twin:
             flow = np.concatenate([run.v[-1], run.a[-1]])
             difference -= self.measure.along(difference, flow) * flow
         distance = self.measure.apart(difference)
+        if distance <= ONE * NEAR:
+            grown = math.log(ONE * NEAR / self.distance)
+            self.state, self.merged = run.final, self.merged + 1
+            self.__post_init__()
+            return run, grown
         far = not 1.0 / FURTHEST < distance / self.distance < FURTHEST or distance > FURTHEST * NEAR
         if far and not shortest:
             return None
