@@ -11,6 +11,7 @@ times that is the same for every run: 4,000 between 4^k s and 4^(k + 1) s after 
 the runs part. So the resolution is 2e-4 of the horizon or better, and what lies beyond it is not integrated.
 
 It is a figure of the run, not of the scene alone: each digit of tolerance buys some time, until rounding is what grows.
+What all runs may be believed to on the average is ln(apart/error)/λ, where λ is known: Lyapunov.believable.
 """
 
 from __future__ import annotations

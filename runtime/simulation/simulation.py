@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property
 from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -25,10 +24,10 @@ from gudgeon.language.wanted import flag, function, text
 from gudgeon.loading.find import Loading
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameters import prepare, prepare_slots, without_baumgarte
-from gudgeon.results.shown import Shown
 from gudgeon.simulation.arguments import MAX_STEPS, METHODS, end_of, method_of, output_times, step_of
 from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude, contradicted, late
+from gudgeon.simulation.equations import Equations
 from gudgeon.simulation.hidden_jumps import up_to_a_jump
 from gudgeon.simulation.restart import check_fits, numbers, off_constraints, own
 from gudgeon.simulation.wanted_peaks import search_of, wanted_peaks
@@ -39,11 +38,12 @@ if TYPE_CHECKING:
     from gudgeon.generator.equations.model import Model
     from gudgeon.model.parameter_sets import ParameterSets
     from gudgeon.results.batch import Batch
+    from gudgeon.results.lyapunov import Lyapunov
     from gudgeon.results.results import Result, State
     from gudgeon.simulation.peaks import Search
 
 
-class Simulation(Shown):
+class Simulation(Equations):
     """What `gudgeon.load` returns. It holds no state: runs may go on in several threads at once.
 
     It may be pickled: another process takes its library from the cache.
@@ -116,49 +116,6 @@ class Simulation(Shown):
     def __getstate__(self) -> dict[str, Any]:
         """What is derived is derived again where it is asked for."""
         return self.__dict__ | {"_model": None, "_full": None}
-
-    @property
-    def p(self) -> Array:
-        """Every run-time number with the file's defaults: slots, then derived; a copy."""
-        return self._defaults.copy()
-
-    @cached_property
-    def _defaults(self) -> Array:
-        return prepare(self.compiled, {})[0]
-
-    def rhs(self, t: float, y: ArrayLike, memory: ArrayLike | None = None) -> Array:
-        """ẏ = (q̇, q̈), (2n,), at y = (q, q̇), with the file's defaults; see CompiledModel.rhs."""
-        return self.compiled.rhs(t, y, self._defaults, memory)[: 2 * self.compiled.n]
-
-    def jacobian(self, t: float, y: ArrayLike, memory: ArrayLike | None = None) -> Array:
-        """∂ẏ/∂y, (2n, 2n), of `rhs` at y = (q, q̇), with the file's defaults; exact, SI.
-
-        Rows and columns are (q, q̇), positions in m, angles in rad, time in s. Contacts, corners of min, max, abs
-        and sign, and modes of friction stay as they are at y; `memory` as in CompiledModel.rhs.
-        Raises SingularError where constraint rows depend on each other, ValueError where nothing is integrated.
-        """
-        full = self.full
-        return full.compiled.jacobian(t, y, full._defaults, memory)[0][: 2 * full.compiled.n, : 2 * full.compiled.n]
-
-    def phi(self, t: float, q: ArrayLike) -> Array:
-        """Φ(q, t), (m,)."""
-        return self.compiled.phi(t, q, self._defaults)
-
-    def phi_q(self, t: float, q: ArrayLike) -> Array:
-        """Φ_q, (m, n)."""
-        return self.compiled.phi_q(t, q, self._defaults)
-
-    def nu(self, t: float, q: ArrayLike) -> Array:
-        """ν = −Φ_t, (m,)."""
-        return self.compiled.nu(t, q, self._defaults)
-
-    def gamma(self, t: float, q: ArrayLike, v: ArrayLike) -> Array:
-        """γ, (m,)."""
-        return self.compiled.gamma(t, q, v, self._defaults)
-
-    def mass(self) -> Array:
-        """Diagonal of M, (n,)."""
-        return self.compiled.mass(self._defaults)
 
     def start(self, parameters: Mapping[str, float | str] | None = None) -> Start:
         """The assembled start at t = 0. Raises AssemblyError."""
@@ -270,6 +227,27 @@ class Simulation(Shown):
             self, parameters, t_end, output, method, rtol, step, threads, progress, stop, side_by_side, start, keep,
             peaks, against,
         )  # fmt: skip
+
+    def lyapunov(
+        self, t_end: float | str, *, section: str | float | None = None, by: str = "auto", skip: float | str = 0.0,
+        method: str = "auto", rtol: float | str | None = None, step: float | str | None = None,
+        parameters: Mapping[str, float | str] | None = None, start: State | None = None,
+        progress: Progress | None = None,
+    ) -> Lyapunov:  # fmt: skip
+        """The largest Lyapunov exponent (1/s) of the motion up to t_end (s), with its uncertainty; see Lyapunov.
+
+        `by`: "tangent", the variational equation with the exact Jacobian and a jump at each contact; "twin", a second
+        run that is led back time after time; "auto" the tangent where it says all of how neighbours move.
+        `section`: an event of the file, or a period (s, '2*pi/omega'): the exponent per return too, and the kind of
+        motion, `found.motion`. Where neither drives nor forces read t, differences along the motion are then taken
+        away. `skip`: so long (s) the motion settles first. Of the rest a tenth is left out, in which the difference
+        turns. `method`, `rtol` (1e-12), `step`, `parameters`, `start`: as in `simulate`, of every run.
+        Raises BadValueError without a degree of freedom, and for arguments; SolverError, AssemblyError as `simulate`.
+        """
+        from gudgeon.simulation.lyapunov import lyapunov
+
+        settings = {"method": method, "rtol": rtol, "step": step}
+        return lyapunov(self, t_end, section, by, skip, settings, parameters, start, progress)
 
     def _ran(
         self, problem: Problem, jump: SolverError | None, given: Array, is_given: Array, search: Search | None

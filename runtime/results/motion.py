@@ -1,0 +1,140 @@
+"""What kind of motion returns to a section: periodic, quasi-periodic or chaotic, and the numbers that say so.
+
+Three things are asked of the points, one after the other in time:
+- recurrence: the smallest n for which each point lies near the one n returns before it;
+- the sign of the exponent per return, with its uncertainty;
+- the 0-1 test, the growth of a sum that the points drive: K near 1 in chaos, near 0 in regular motion (G. A. Gottwald,
+  I. Melbourne, SIAM J. Appl. Dyn. Syst. 8:129, 2009, with the modified mean square displacement and the correlation).
+What they do not agree on is undecided.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from gudgeon.results.state import Array
+
+NEAR = 1e-3  # of the motion's extent: how near a point recurs
+MOST_PERIOD = 32
+FEWEST = 40  # points; a period must be seen this often: REPEATED
+REPEATED = 4
+ENOUGH = 0.8  # confidence below which nothing is said
+DRAWS = 100  # frequencies of the 0-1 test
+PERIODIC, QUASI, CHAOTIC, UNDECIDED = "periodic", "quasi-periodic", "chaotic", "undecided"
+
+
+@dataclass(frozen=True)
+class Motion:
+    """`kind` with its `confidence`, and what it was judged by.
+
+    The confidence is the least of the supports that its signs give, 0 to 1; it is no probability. A kind that has
+    less than .8 is not named: it is "undecided", and `supports` tells what each would have had.
+    """
+
+    kind: str  # "periodic", "quasi-periodic", "chaotic" or "undecided"
+    period: int  # returns until the motion repeats itself; 0 unless periodic
+    confidence: float
+    supports: Mapping[str, float] = field(repr=False)  # of each kind
+    points: int  # of the section
+    recurrence: float  # share of the points that recur after `nearest` returns
+    nearest: int  # the number of returns, 1 to 32, after which most of the points recur
+    distance: float  # median distance after so many, as a share of the motion's extent
+    K: float  # of the 0-1 test; NaN where the points do not move
+    per_return: float  # exponent; NaN where it is not known
+    per_return_uncertainty: float
+
+    def __repr__(self) -> str:
+        kind = f"{self.kind} {self.period}" if self.period else self.kind
+        return (
+            f"<Motion {kind}, confidence {self.confidence:.2f}: {self.points} points, {self.recurrence:.0%} recur after"
+            f" {self.nearest}, exponent {self.per_return:.3g} ± {self.per_return_uncertainty:.2g} a return,"
+            f" K = {self.K:.2f}>"
+        )
+
+
+def classify(
+    points: Array, extent: float, per_return: float = math.nan, uncertainty: float = math.nan, near: float = NEAR
+) -> Motion:
+    """Of points (k, d) of a section in the order of time, in one measure; `extent` of the whole motion in the same."""
+    n, share, distance = _recurrence(points, near * extent)
+    k = zero_one(_widest(points)) if _spread(points) > near * extent else math.nan
+    growing, neutral = _sign(per_return, uncertainty, len(points))
+    regular = 1.0 - abs(k) if math.isfinite(k) else math.nan
+    supports = {
+        PERIODIC: _least(share, 1.0 - growing),
+        QUASI: _least(1.0 - share, neutral, regular),
+        CHAOTIC: _least(1.0 - share, growing, k),
+    }
+    kind = max(supports, key=lambda name: supports[name])
+    if len(points) < FEWEST or supports[kind] < ENOUGH:
+        kind = UNDECIDED
+    confidence = max(supports.values()) if kind != UNDECIDED else 1.0 - max(supports.values())
+    return Motion(
+        kind, n if kind == PERIODIC else 0, confidence, supports, len(points), share, n,
+        distance / extent if extent > 0.0 else math.nan, k, per_return, uncertainty,
+    )  # fmt: skip
+
+
+def _least(*signs: float) -> float:
+    """The least of the signs that are known."""
+    known = [sign for sign in signs if math.isfinite(sign)]
+    return max(min(known), 0.0) if known else 0.0
+
+
+def _recurrence(points: Array, near: float) -> tuple[int, float, float]:
+    """The smallest n at which the largest share of points recurs, that share, and the median distance."""
+    best = (0, 0.0, math.inf)
+    for n in range(1, min(MOST_PERIOD, len(points) // REPEATED) + 1):
+        gaps = np.linalg.norm(points[n:] - points[:-n], axis=1)
+        share = float(np.mean(gaps <= near))
+        if share > best[1] + 1e-12 or best[0] == 0:
+            best = (n, share, float(np.median(gaps)))
+    return best
+
+
+def _spread(points: Array) -> float:
+    return float(np.linalg.norm(points - points.mean(axis=0), axis=1).max(initial=0.0)) if len(points) else 0.0
+
+
+def _widest(points: Array) -> Array:
+    """(k,) the points along the direction in which they spread most."""
+    centred = points - points.mean(axis=0)
+    return np.asarray(centred @ np.linalg.svd(centred, full_matrices=False)[2][0])
+
+
+def _sign(rate: float, error: float, count: int) -> tuple[float, float]:
+    """How sure it is that differences grow, and that they do neither; NaN where no exponent is known.
+
+    In regular motion differences grow by powers of time: up to 3 ln k of k returns is none that is exponential.
+    """
+    if not (math.isfinite(rate) and math.isfinite(error)) or count < 2:
+        return math.nan, math.nan
+    none = 3.0 * math.log(count) / count
+
+    def above(bound: float) -> float:
+        return 0.5 * math.erfc((bound - rate) / (math.sqrt(2.0) * max(error, 1e-300)))
+
+    return above(none), above(-none) - above(none)
+
+
+def zero_one(values: Array, seed: int = 1) -> float:
+    """K of the 0-1 test for a series (k,): the median over frequencies of corr(n, D(n)), n to k/10; NaN if k < 40."""
+    count = len(values)
+    if count < FEWEST:
+        return math.nan
+    most, j = count // 10, np.arange(1, count + 1)
+    n = np.arange(1, most + 1)
+    found = []
+    for c in np.random.default_rng(seed).uniform(math.pi / 5, 4 * math.pi / 5, DRAWS):
+        p, q = np.cumsum(values * np.cos(j * c)), np.cumsum(values * np.sin(j * c))
+        squares = [np.mean((p[k:][: count - most] - p[: count - most]) ** 2
+                           + (q[k:][: count - most] - q[: count - most]) ** 2) for k in n]  # fmt: skip
+        displacement = np.array(squares) - values.mean() ** 2 * (1.0 - np.cos(n * c)) / (1.0 - math.cos(c))
+        found.append(np.corrcoef(n, displacement)[0, 1] if np.ptp(displacement) > 0.0 else 0.0)
+    return float(np.median(found))

@@ -1,0 +1,109 @@
+"""The motion as a flow in the coordinates that are integrated: its rates, its exact Jacobian, gaps of joints with play.
+
+Of the reduced formulation these are the coordinates of the tree, whose neighbours all joints of the tree allow; of the
+full one those of all bodies. Gains of Baumgarte's terms are zero, as in the methods that project.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.integrators.adaptive import integrated_angles
+from gudgeon.model.compiled import N_WORK, Array, CompiledModel
+from gudgeon.model.parameters import without_baumgarte
+
+if TYPE_CHECKING:
+    from gudgeon.results.results import Result
+
+NUDGE = 1e-5  # share of δ̇⁻ by which it is moved for the slope of forces along it: they hang on 1/δ̇⁻
+
+
+class Flow:
+    """y (2m,) holds m coordinates and their rates; `chain` what drives determine through loops, found from y alone."""
+
+    def __init__(self, compiled: CompiledModel, run: Result) -> None:
+        source = compiled.source
+        self.compiled, self.p = compiled, without_baumgarte(compiled, run.given, run.is_given)
+        self.tree = source.formulation == "reduced"
+        self.m, self.chained = (len(source.tree), len(source.chain)) if self.tree else (compiled.n, 0)
+        self.is_angle, self.joints = integrated_angles(source), len(source.clearances)
+        rows = [row.owner for row in source.start_rows]
+        self.rows = [[k for k, owner in enumerate(rows) if owner == joint.name] for joint in source.clearances]
+        self.play = [float(self.p[joint.clearance]) for joint in source.clearances]
+
+    def reduced(self, t: float, full: Array) -> tuple[Array, Array]:
+        """y (2m,), and the chain's (2, n_chain), of (q, q̇) of all bodies (2n,)."""
+        if not self.tree:
+            return full.copy(), np.zeros((2, 0))
+        n, size = self.compiled.n, self.m + self.chained
+        q, v = np.zeros(max(size, 1)), np.zeros(max(size, 1))
+        given = self.pointers(full[:n].copy(), full[n:].copy(), self.p)
+        self.compiled.lib.gudgeon_reduce(t, *given, *self.pointers(q, v, written=True))
+        m = self.m
+        return np.concatenate([q[:m], v[:m]]), np.stack([q[m:size], v[m:size]])
+
+    def expanded(self, t: float, y: Array, chain: Array) -> Array:
+        """(q, q̇) of all bodies, (2n,)."""
+        if not self.tree:
+            return y.copy()
+        q, v = np.zeros(self.compiled.n), np.zeros(self.compiled.n)
+        given = self.pointers(np.append(y[: self.m], chain[0]), np.append(y[self.m :], chain[1]), self.p)
+        self.compiled.lib.gudgeon_expand(t, *given, *self.pointers(q, v, written=True))
+        return np.concatenate([q, v])
+
+    def lifted(self, t: float, y: Array, chain: Array, d: Array, h: float) -> Array:
+        """The difference (2n,) of all bodies that d (2m,) of y is, by central differences with h d."""
+        return (self.expanded(t, y + h * d, chain) - self.expanded(t, y - h * d, chain)) / (2.0 * h)
+
+    def rates(self, t: float, y: Array, chain: Array, memory: Array) -> Array:
+        """ẏ, (2m,). Raises SingularError."""
+        if not self.tree:
+            return self.compiled.rhs(t, y, self.p, memory)[: 2 * self.m]
+        a, power = np.zeros(self.m), np.zeros(N_WORK)
+        multipliers = np.zeros(len(self.compiled.source.closures) + 1)
+        given = np.append(y[: self.m], chain[0]), np.append(y[self.m :], chain[1]), memory, self.p
+        out = self.pointers(a, multipliers, power, written=True)
+        status = self.compiled.lib.gudgeon_reduced_rhs(t, *self.pointers(*given), *out)
+        self.compiled.check_pivot(status, t, self.compiled.source.motion_pivots or None)
+        return np.concatenate([y[self.m :], a])
+
+    def slopes(self, t: float, y: Array, chain: Array, memory: Array) -> Array:
+        """Slopes of the rates of (y, δ̇⁻, t) along these, (2m + n_clearances + 1) square; δ̇⁻ stays as it is."""
+        m, size = self.m, 2 * self.m + N_WORK
+        J, f_t, A = np.empty((size, size)), np.empty(size), np.zeros((2 * self.m + self.joints + 1,) * 2)
+        given = np.concatenate([y, np.zeros(N_WORK), chain[0]]), memory, self.p
+        status = self.compiled.lib.gudgeon_jacobian(t, *self.pointers(*given), *self.pointers(J, f_t, written=True))
+        self.compiled.check_node(status, t)
+        A[: 2 * m, : 2 * m], A[: 2 * m, -1] = J[: 2 * m, : 2 * m], f_t[: 2 * m]
+        for k in (k for k in range(self.joints) if np.isfinite(memory[k])):
+            ends = []
+            for share in (1.0 - NUDGE, 1.0 + NUDGE):
+                other = memory.copy()
+                other[k] *= share
+                ends.append(self.rates(t, y, chain, other))
+            A[: 2 * m, 2 * m + k] = (ends[1] - ends[0]) / (2.0 * NUDGE * memory[k])
+        return A
+
+    def chain_at(self, t: float, chain: Array) -> Array:
+        """The chain (2, n_chain) at a time near that at which it was this one: drives alone determine it."""
+        if not self.chained:
+            return chain
+        q, rates = chain[0].copy(), np.zeros(3 * self.chained)
+        self.compiled.lib.gudgeon_chains(t, *self.pointers(q, written=True), *self.pointers(self.p),
+                                         *self.pointers(rates, written=True))  # fmt: skip
+        return np.stack([q, rates[: self.chained]])
+
+    def gap(self, joint: int, t: float, y: Array, chain: Array) -> tuple[float, float]:
+        """Penetration δ (m) and δ̇ (m/s) of a joint with play: its rows, were it closed, are ±e."""
+        full, n, rows = self.expanded(t, y, chain), self.compiled.n, self.rows[joint]
+        e = self.compiled.closed_phi(t, full[:n], self.p)[rows]
+        rate = self.compiled.closed_phi_q(t, full[:n], self.p)[rows] @ full[n:]
+        rate -= self.compiled.closed_nu(t, full[:n], self.p)[rows]
+        length = float(np.hypot(*e))
+        return length - self.play[joint], float(e @ rate) / length
+
+    def pointers(self, *arrays: Array, written: bool = False) -> list[Any]:
+        """C's views of arrays; an empty one is one number long."""
+        return [self.compiled.pointer(array if array.size else np.zeros(1), written=written) for array in arrays]

@@ -1,0 +1,155 @@
+"""The largest Lyapunov exponent of a scene's motion, and of its returns to a section.
+
+The run goes on interval by interval, each from where the last one ended, and with it a neighbour: as a second run
+(twin.py), or in the tangent (tangent.py), which is chosen where the Jacobian says all of how neighbours move. Of a
+section that knows no clock, differences along the motion are taken away (they neither grow nor die out), so that what
+is left is the exponent of the map from return to return; where the file's drives or forces read t, or the section is
+a period, all differences are between states at one time and there is nothing to be taken away.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.errors import BadValueError
+from gudgeon.language.tree import functions, names
+from gudgeon.language.wanted import refuse, text
+from gudgeon.model.parameters import prepare_slots
+from gudgeon.model.written import trees
+from gudgeon.results.lyapunov import Lyapunov
+from gudgeon.simulation.arguments import end_of, seconds
+from gudgeon.simulation.flow import Flow
+from gudgeon.simulation.horizon import begin_of
+from gudgeon.simulation.neighbours import Neighbours
+from gudgeon.simulation.restart import numbers, own
+from gudgeon.simulation.returns import Returns
+from gudgeon.simulation.tangent import Tangent
+from gudgeon.simulation.twin import Twin
+
+if TYPE_CHECKING:
+    from gudgeon.integrators.trajectory import Progress
+    from gudgeon.results.results import Result, State
+    from gudgeon.simulation.simulation import Simulation
+
+WAYS = ("auto", "tangent", "twin")
+RTOL = 1e-12  # of the runs, unless told otherwise: far below what neighbours are apart
+LOOKED = 1000  # samples by which the motion is measured
+INTERVALS = 60  # of the time, and once a period at least
+SHORTEST = 2.0**-12  # of an interval
+JUMPING = frozenset({"sign", "where", "mod"})  # whose corners may be jumps
+
+
+def no_tangent(source: KernelSource) -> str:
+    """Why the Jacobian does not say all of how neighbours move; "" where it does."""
+    if source.no_slopes:
+        return source.no_slopes
+    if source.frictions:
+        return f"{source.frictions[0]} sticks and slips: its rows come and go"
+    if source.rate_jumps:
+        return f"the rate of the drive {source.rate_jumps[0]} may jump: the linkage follows by an impulse"
+    if source.laws:
+        return f"the law {source.laws[0][0]} is of one's own: where it jumps is not known"
+    for info, tree in trees(source, ("forces",)):
+        if found := sorted(functions(tree) & JUMPING):
+            return f"{info.address} calls {found[0]}, which may jump"
+    return ""
+
+
+def lyapunov(
+    simulation: Simulation, t_end: float | str, section: str | float | None, by: str, skip: float | str,
+    settings: dict[str, Any], parameters: Mapping[str, float | str] | None, start: State | None,
+    progress: Progress | None,
+) -> Lyapunov:  # fmt: skip
+    """See Simulation.lyapunov."""
+    source = simulation.source
+    if source.degrees_of_freedom <= 0:
+        raise BadValueError("without a degree of freedom no difference can grow: drives determine the motion")
+    why, settings = _way(source, text(by, "by")), _settings(settings)
+    begin = _settled(simulation, skip, settings, parameters, start)
+    looked = simulation.simulate(t_end, output=LOOKED, stop=False, peaks=(), progress=progress, **begin, **settings)
+    if looked.diagnostics.interrupted:
+        raise KeyboardInterrupt
+    returns = Returns.of(looked, section)
+    measure = Neighbours.of(looked, simulation.compiled)
+    transverse = bool(returns.event) and not _clock(source)
+    arguments = (simulation, measure, settings, begin_of(looked), transverse)
+    pair = Twin(*arguments) if why is not None else Tangent(*arguments, Flow(simulation.compiled, looked))
+    t, growth = [float(looked.t[0])], []
+    for run, grown in _intervals(pair, t[0], float(looked.t[-1]), returns.period, progress):
+        t.append(float(run.t[-1]))
+        growth.append(grown)
+        returns.note(run)
+    return Lyapunov(
+        "tangent" if why is None else "twin", why or "", np.array(t), np.array(growth),
+        pair.unresolved / (t[-1] - t[0]), pair.merged, transverse, returns.section(), pair.state,
+    )  # fmt: skip
+
+
+def _intervals(
+    pair: Twin | Tangent, begin: float, end: float, period: float, progress: Progress | None
+) -> Iterator[tuple[Result, float]]:
+    """Runs one after the other, with ln of the growth in each; ends of periods are ends of intervals."""
+    longest = (end - begin) / INTERVALS
+    if period:
+        longest = period / math.ceil(period / longest)
+    t, h = begin, longest
+    while t < end:
+        goal = min(begin + (math.floor((t - begin) / longest * (1.0 + 1e-12) + 1e-6) + 1) * longest, end)
+        goal = end if end - goal < 1e-6 * longest else goal
+        aim = goal if t + h > goal - 1e-3 * h else t + h
+        done = pair.advance(aim, h <= SHORTEST * longest)
+        if done is None:
+            h = 0.5 * (aim - t)
+            continue
+        t, h = aim, min(2.0 * h, longest) if abs(done[1]) < 1.0 else h
+        yield done
+        if progress:
+            progress((t - begin) / (end - begin), "following a neighbour")
+
+
+def _way(source: KernelSource, by: str) -> str | None:
+    """None: by the tangent; else why not. Raises BadValueError."""
+    if by not in WAYS:
+        refuse("by", by, f"one of {', '.join(WAYS)}")
+    why = no_tangent(source)
+    if by == "tangent" and why:
+        raise BadValueError(f"no exponent by the tangent: {why}", hint='by="twin" takes a second run')
+    return None if by == "tangent" or (by == "auto" and not why) else why
+
+
+def _settings(settings: dict[str, Any]) -> dict[str, Any]:
+    """Arguments of simulate for all runs."""
+    given = {name: value for name, value in settings.items() if value is not None}
+    fixed = given.get("step") is not None or given.get("method") == "rk4"
+    return given if fixed or "rtol" in given else given | {"rtol": RTOL}
+
+
+def _settled(
+    simulation: Simulation, skip: float | str, settings: dict[str, Any],
+    parameters: Mapping[str, float | str] | None, start: State | None,
+) -> dict[str, Any]:  # fmt: skip
+    """Further arguments of simulate for the run that is looked at: it begins where the motion has settled."""
+    state = None if start is None else own(simulation.source, start)
+    given, is_given, _ = numbers(simulation.compiled, state, parameters)
+    p = prepare_slots(simulation.compiled, given, is_given)
+    wait = seconds("skip", end_of(simulation.source, skip, p) or 0.0)
+    if not (math.isfinite(wait) and wait >= 0.0):
+        raise BadValueError(f"skip is {wait:g} s: expected a time of zero or more")
+    arguments: dict[str, Any] = {"start": start, "parameters": parameters}
+    if wait == 0.0:
+        return arguments
+    t = wait + (0.0 if state is None else state.t)
+    run = simulation.simulate(t, output=1, stop=False, peaks=(), **arguments, **settings)
+    if run.diagnostics.interrupted:
+        raise KeyboardInterrupt
+    return {"start": run.final}
+
+
+def _clock(source: KernelSource) -> bool:
+    """Whether a drive or a force reads t."""
+    return any(name.path == "t" for _, tree in trees(source, ("drives", "forces")) for name in names(tree))

@@ -1,0 +1,92 @@
+"""Two neighbouring states of one scene: how far they are apart, and differences that the constraints allow.
+
+A difference (δq, δv) of all bodies is measured without units: lengths by the smallest clearance (without play by the
+mechanism's size), angles by the same over the size, velocities by these and the time in which the motion crosses the
+size. No exponent hangs on it; how soon it is reached does.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gudgeon.assembly.linkage import angles
+from gudgeon.integrators.adaptive import lengths
+from gudgeon.integrators.projection import project
+from gudgeon.model.compiled import Array, CompiledModel
+
+if TYPE_CHECKING:
+    from gudgeon.results.results import Result, State
+
+NEAR = 1e-6  # how far neighbours begin apart: far above what an integrator errs by, far below what is non-linear
+DRAW = 1  # seed of the first difference
+
+
+@dataclass(frozen=True, eq=False)
+class Neighbours:
+    """What measures differences of states of one run."""
+
+    compiled: CompiledModel
+    p: Array  # (n_slots + n_derived,)
+    weights: Array  # (2n,) what counts as 1
+    size: float  # m, the mechanism's
+    crossing: float  # s, in which the motion crosses the mechanism's size
+
+    @staticmethod
+    def of(run: Result, compiled: CompiledModel) -> Neighbours:
+        """By the numbers and the speeds of a run."""
+        length, size = (float(x) for x in lengths(compiled, run.p))
+        angle = angles(compiled.source)
+        speeds = np.sqrt(np.mean(np.square(run.v / np.where(angle, 1.0, size)), axis=0))
+        crossing = 1.0 / speeds.max(initial=0.0) if speeds.max(initial=0.0) > 0.0 else 1.0
+        of_q = np.where(angle, length / size, length)
+        return Neighbours(compiled, run.p, np.concatenate([of_q, of_q / crossing]), size, crossing)
+
+    @property
+    def n(self) -> int:
+        """Coordinates of all bodies."""
+        return len(self.weights) // 2
+
+    def apart(self, difference: Array) -> float:
+        """How far, of a difference (2n,) of (q, q̇)."""
+        return float(np.linalg.norm(difference / self.weights))
+
+    def onto(self, t: float, y: Array) -> Array:
+        """(q, q̇) moved back onto the constraints."""
+        n = len(y) // 2
+        return np.concatenate(project(self.compiled, t, y[:n], y[n:], self.p))
+
+    def drawn(self, t: float, y: Array) -> Array:
+        """A neighbour of y, NEAR apart, in a direction drawn once and for all."""
+        ahead = self.weights * np.random.default_rng(DRAW).standard_normal(len(y))
+        for _ in range(2):  # what is left of it by the constraints, then as long as is wanted
+            ahead *= NEAR / self.apart(ahead)
+            ahead = self.onto(t, y + ahead) - self.onto(t, y)
+        return y + ahead
+
+    def along(self, difference: Array, flow: Array) -> float:
+        """How much of the motion's direction (2n,), (q̇, q̈), is in a difference."""
+        w = self.weights
+        length = float(np.sum(np.square(flow / w)))
+        return float((difference / w) @ (flow / w)) / length if length > 0.0 else 0.0
+
+
+def flat(state: State) -> Array:
+    """(q, q̇), (2n,)."""
+    return np.concatenate([state.q, state.v])
+
+
+def moved(state: State, y: Array, memory: Array) -> State:
+    """The same with other coordinates, velocities and memory."""
+    n = len(state.q)
+    return replace(state, q=y[:n].copy(), v=y[n:].copy(), memory=memory)
+
+
+def alike(one: State, other: State) -> bool:
+    """Whether the same contacts are closed and the same frictions stick."""
+    clearances = len(one.state)
+    modes = (one.memory[clearances:], other.memory[clearances:])
+    closed = np.array_equal(one.state > 0, other.state > 0)
+    return closed and np.array_equal(np.isnan(modes[0]), np.isnan(modes[1]))

@@ -1,0 +1,276 @@
+"""The growth of differences by the tangent: the variational equation along the run, through its contacts.
+
+δẏ = J δy with the exact Jacobian J at states of the run, panel by panel by Gauss's collocation of order 6. Panels end
+where contacts begin and end, as C located them. They are halved until two things hold: the propagator stands still, and
+it carries the motion's own direction, with t as one more coordinate, from one end to the other: f(b) = P f(a). So no
+corner of a force that is passed between two nodes is missed, however short the time, such as a slip that turns round.
+
+There the right-hand side changes from f⁻ to f⁺ on a surface g(y) = 0, and differences pass by the saltation matrix
+S = I + (f⁺ − f⁻) ∇gᵀ/(∇gᵀ f⁻) (M. di Bernardo, C. Budd, A. Champneys, P. Kowalczyk, Piecewise-smooth Dynamical Systems,
+Springer 2008, section 2.5); g is the penetration. A contact remembers δ̇⁻, so its difference is one more coordinate:
+it begins at the onset, with δ(δ̇⁻) = ∇ġ·δy + g̈⁻ δt, δt = −∇g·δy/ġ, and ends with the contact.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.model.compiled import Array
+from gudgeon.simulation.flow import Flow
+from gudgeon.simulation.neighbours import NEAR, Neighbours, flat
+
+if TYPE_CHECKING:
+    from gudgeon.results.results import Result, State
+    from gudgeon.simulation.simulation import Simulation
+
+ROOT = np.sqrt(15.0)
+NODES = np.array([0.5 - ROOT / 10, 0.5, 0.5 + ROOT / 10])  # E. Hairer, G. Wanner, Solving ODEs II, table IV.5.2
+BUTCHER = np.array([
+    [5 / 36, 2 / 9 - ROOT / 15, 5 / 36 - ROOT / 30],
+    [5 / 36 + ROOT / 24, 2 / 9, 5 / 36 - ROOT / 24],
+    [5 / 36 + ROOT / 30, 2 / 9 + ROOT / 15, 5 / 36],
+])  # fmt: skip
+WEIGHTS = np.array([5 / 18, 4 / 9, 5 / 18])
+FIRST, DEEPEST = 2, 16  # panels of a stretch; how often one is halved
+CLOSE = 1e-8  # change of a panel's propagator by that
+CARRIED = 1e-4  # share of its rates by which the motion's own direction may be missed
+INSIDE = 1e-6  # of a stretch: how far from its ends rates are those within it
+BESIDE = 1e-9  # of the clearance: how far from the surface f⁻ and f⁺ are taken
+SMALL = 1e-4  # of the clearance: differences of gaps and their rates
+LARGEST = 30.0  # ln of the growth over one interval: beyond it the interval is taken again, shorter
+
+
+@dataclass(eq=False)
+class Panel:
+    """A part, s to s + width of 0 to 1, of the stretch from a to b (s), with its propagator.
+
+    t = a + (b − a) s² (3 − 2 s): forces begin and end with roots of the penetration, which are smooth in s.
+    """
+
+    a: float
+    b: float
+    s: float
+    width: float
+    depth: int = 0
+    P: Array | None = None
+    missed: float = 0.0  # share of the motion's own direction
+    change: float = 0.0  # by the last halving
+    halves: tuple[Panel, ...] = ()
+
+    @property
+    def nodes(self) -> list[tuple[float, float]]:
+        """Times (s) of the three nodes, with dt/ds times the width."""
+        s = self.s + self.width * NODES
+        times, rates = self.a + (self.b - self.a) * s * s * (3.0 - 2.0 * s), 6.0 * (self.b - self.a) * s * (1.0 - s)
+        return list(zip(times.tolist(), (self.width * rates).tolist(), strict=True))
+
+    @property
+    def ends(self) -> list[float]:
+        """Times (s) of both ends, beside those of the stretch."""
+        s, length = np.array([self.s, self.s + self.width]), self.b - self.a
+        return np.clip(self.a + length * s * s * (3.0 - 2.0 * s), self.a + INSIDE * length,
+                       self.b - INSIDE * length).tolist()  # fmt: skip
+
+    def halved(self) -> tuple[Panel, Panel]:
+        """Its two halves, without propagators."""
+        h, one = 0.5 * self.width, (self.a, self.b)
+        return Panel(*one, self.s, h, self.depth + 1), Panel(*one, self.s + h, h, self.depth + 1)
+
+    def whole(self) -> tuple[Array, float]:
+        """Its propagator, of its halves' where there are any, and the changes that are left."""
+        if not self.halves:
+            assert self.P is not None
+            return self.P, self.change
+        (P, first), (Q, second) = (half.whole() for half in self.halves)
+        return Q @ P, first + second
+
+
+@dataclass(eq=False)
+class Tangent:
+    """`state` of the run, and a difference z of what is integrated, of δ̇⁻ and of t (0), (2m + n_clearances + 1,)."""
+
+    simulation: Simulation
+    measure: Neighbours
+    settings: dict[str, Any]
+    state: State
+    transverse: bool
+    flow: Flow
+    merged: int = 0  # differences of the tangent do not end
+    unresolved: float = 0.0  # sum of changes of ln of the growth
+    z: Array = field(init=False)
+
+    def __post_init__(self) -> None:
+        t, y = self.state.t, flat(self.state)
+        own, _ = self.flow.reduced(t, y)
+        other, _ = self.flow.reduced(t, self.measure.drawn(t, y))
+        self.z = np.append((other - own) / NEAR, np.zeros(self.flow.joints + 1))
+        self.distance = self._apart(self.state, self.z)
+
+    def advance(self, t: float, shortest: bool) -> tuple[Result, float] | None:
+        """To t (s): the run there and the logarithm of the growth; None: the interval is too long."""
+        run = self._run([t])
+        changes = self._changes(run)
+        places = {t_on for t_on, *_ in changes}
+        at = self._samples(sorted(places)) if places else {}
+        z, left = self.z, 0.0
+        for panel in self._propagated(sorted({self.state.t, t, *places})):
+            P, change = panel.whole()
+            z, left = P @ z, left + change
+            for when, joint, onset, deltadot in changes:
+                if when == panel.b and panel.s + panel.width == 1.0:
+                    z = self._through(z, when, joint, onset, deltadot, at[when])
+        z = self._onto(run, z)
+        distance = self._apart(run.final, z)
+        grown = math.log(distance / self.distance)
+        if abs(grown) > LARGEST and not shortest:
+            return None
+        self.state, self.z, self.distance, self.unresolved = run.final, z / distance, 1.0, self.unresolved + left
+        return run, grown
+
+    def _run(self, times: list[float] | Array) -> Result:
+        run = self.simulation.simulate(output=times, start=self.state, stop=False, peaks=(), **self.settings)
+        if run.diagnostics.interrupted:
+            raise KeyboardInterrupt
+        return run
+
+    def _changes(self, run: Result) -> list[tuple[float, int, bool, float]]:
+        """Onsets and ends of contacts within the run: time, joint, whether it begins, δ̇⁻; by time."""
+        begin, end = float(run.t[0]), float(run.t[-1])
+        found = []
+        for impact in run.impacts:
+            joint, deltadot = int(impact["joint"]), float(impact["deltadot"])
+            found += [(float(impact[name]), joint, name == "t_on", deltadot) for name in ("t_on", "t_off")
+                      if begin < impact[name] < end]  # fmt: skip
+        return sorted(found)
+
+    def _samples(self, times: list[float]) -> dict[float, tuple[Array, Array]]:
+        """(q, q̇) and memory at these times."""
+        run = self._run([t for t in times if t > self.state.t])
+        rows = np.searchsorted(run.t, times)
+        return {t: (np.concatenate([run.q[k], run.v[k]]), run.memory[k].copy())
+                for t, k in zip(times, rows, strict=True)}  # fmt: skip
+
+    def _propagated(self, places: list[float]) -> list[Panel]:
+        """Panels from the first to the last of these times, whose propagators stand still."""
+        panels = [Panel(a, b, k / FIRST, 1.0 / FIRST) for a, b in zip(places, places[1:], strict=False)
+                  for k in range(FIRST)]  # fmt: skip
+        self._fill(panels)
+        open_ones = panels
+        while open_ones:
+            for one in open_ones:
+                one.halves = one.halved()
+            halves = [half for one in open_ones for half in one.halves]
+            self._fill(halves)
+            further: list[Panel] = []
+            for one in open_ones:
+                first, second = one.halves
+                assert first.P is not None and second.P is not None and one.P is not None
+                change = self._difference(second.P @ first.P, one.P)
+                missed = max(first.missed, second.missed)
+                if (change > CLOSE or missed > CARRIED) and first.depth < DEEPEST:
+                    further += one.halves
+                else:
+                    first.change = max(change, missed if missed > CARRIED else 0.0)
+            open_ones = further
+        return panels
+
+    def _fill(self, panels: list[Panel]) -> None:
+        """Propagators by Gauss's method, K = (I − A⊗…)⁻¹ A and P = I + Σ b K; A is J dt/ds times the width."""
+        nodes = [panel.nodes for panel in panels]
+        known = self._samples(sorted({t for panel in nodes for t, _ in panel} | {t for x in panels for t in x.ends}))
+        A = np.array([[rate * self._slopes(t, *known[t]) for t, rate in panel] for panel in nodes])
+        count, _, size, _ = A.shape
+        matrix = np.eye(3 * size) - (BUTCHER[None, :, None, :, None] * A[:, :, :, None, :]).reshape(
+            count, 3 * size, 3 * size
+        )
+        K = np.linalg.solve(matrix, A.reshape(count, 3 * size, size)).reshape(count, 3, size, size)
+        for panel, P in zip(panels, np.eye(size) + np.einsum("i,pijk->pjk", WEIGHTS, K), strict=True):
+            panel.P, panel.missed = P, self._missed(P, *(self._rates(t, *known[t]) for t in panel.ends))
+
+    def _rates(self, t: float, full: Array, memory: Array) -> Array:
+        y, chain = self.flow.reduced(t, full)
+        return self.flow.rates(t, y, chain, memory)
+
+    def _missed(self, P: Array, first: Array, last: Array) -> float:
+        """How far P does not lead the rates at a panel's begin to those at its end, as a share of these."""
+        w, size = self._weights(), len(first)
+        carried = P @ np.concatenate([first, np.zeros(self.flow.joints), [1.0]])
+        most = max(float(np.linalg.norm(one / w[:size])) for one in (first, last))
+        return float(np.linalg.norm((carried[:size] - last) / w[:size])) / max(most, 1e-9 / self.measure.crossing)
+
+    def _slopes(self, t: float, full: Array, memory: Array) -> Array:
+        y, chain = self.flow.reduced(t, full)
+        return self.flow.slopes(t, y, chain, memory)
+
+    def _weights(self) -> Array:
+        """What counts as 1 of y and of δ̇⁻, (2m + n_clearances,)."""
+        largest, crossing = float(self.measure.weights[: self.measure.n].max()), self.measure.crossing
+        q = largest * np.where(self.flow.is_angle, 1.0 / self.measure.size, 1.0)
+        return np.concatenate([q, q / crossing, np.full(self.flow.joints, largest / crossing)])
+
+    def _difference(self, P: Array, Q: Array) -> float:
+        """Of two propagators, in the measure of the differences."""
+        w = self._weights()
+        P, Q = P[:-1, :-1] * w / w[:, None], Q[:-1, :-1] * w / w[:, None]
+        return float(np.linalg.norm(P - Q) / np.linalg.norm(P))
+
+    def _through(self, z: Array, t: float, joint: int, onset: bool, deltadot: float, at: tuple[Array, Array]) -> Array:
+        """z behind the onset or the end of a contact."""
+        flow, size = self.flow, 2 * self.flow.m
+        (y, chain), d = flow.reduced(t, at[0]), z[:size]
+        closed, free = at[1].copy(), at[1].copy()
+        closed[joint], free[joint] = deltadot, np.nan
+        gap, rate = flow.gap(joint, t, y, chain)
+        h = SMALL / self.measure.apart(self._lifted(t, y, chain, d))
+        ends = [np.array(flow.gap(joint, t, y + s * h * d, chain)) for s in (1.0, -1.0)]
+        along, along_rate = (ends[0] - ends[1]) / (2.0 * h)
+        later = -along / rate
+        out = (BESIDE * flow.play[joint] + 2.0 * abs(gap)) / abs(rate)  # s
+        drift = flow.rates(t, y, chain, free)
+        drift[flow.m :] = 0.0
+        f = [flow.rates(t + s * out, y + s * out * drift, flow.chain_at(t + s * out, chain), memory)
+             for s, memory in ((-1.0, free if onset else closed), (1.0, closed if onset else free))]  # fmt: skip
+        passed = z.copy()
+        passed[:size] -= (f[1] - f[0]) * later
+        passed[size + joint] = 0.0
+        if onset and deltadot < rate * (1.0 + 1e-6):  # else the floor of δ̇⁻, which does not move
+            passed[size + joint] = along_rate + self._turning(joint, t, y, chain, f[0]) * later
+        return passed
+
+    def _turning(self, joint: int, t: float, y: Array, chain: Array, f: Array) -> float:
+        """g̈ along f, m/s²."""
+        flow, n = self.flow, len(y) // 2
+        lifted = self._lifted(t, y, chain, f)
+        lifted[self.measure.n :] = 0.0
+        h = SMALL / max(self.measure.apart(lifted), 1.0 / self.measure.crossing)
+        rates = [flow.gap(joint, t + s, y + s * f + 0.5 * s * s * np.append(f[n:], np.zeros(n)),
+                          flow.chain_at(t + s, chain))[1] for s in (h, -h)]  # fmt: skip
+        return (rates[0] - rates[1]) / (2.0 * h)
+
+    def _onto(self, run: Result, z: Array) -> Array:
+        """z led back into the constraints' tangent, and across the motion where that is wanted."""
+        t, full, size = float(run.t[-1]), flat(run.final), 2 * self.flow.m
+        y, chain = self.flow.reduced(t, full)
+        d = z[:size]
+        if self.transverse:
+            f = self.flow.rates(t, y, chain, run.memory[-1])
+            d = d - f * self.measure.along(self._lifted(t, y, chain, d), self._lifted(t, y, chain, f))
+        h = NEAR / self.measure.apart(self._lifted(t, y, chain, d))
+        ends = [self.flow.reduced(t, self.measure.onto(t, self.flow.expanded(t, y + s * h * d, chain)))[0]
+                for s in (1.0, -1.0)]  # fmt: skip
+        return np.append((ends[0] - ends[1]) / (2.0 * h), z[size:])
+
+    def _lifted(self, t: float, y: Array, chain: Array, d: Array) -> Array:
+        """The difference of all bodies that d is."""
+        largest = float(np.abs(d).max(initial=0.0))
+        if largest == 0.0:
+            return np.zeros(2 * self.measure.n)
+        return self.flow.lifted(t, y, chain, d, 1e-6 / largest)
+
+    def _apart(self, state: State, z: Array) -> float:
+        y, chain = self.flow.reduced(state.t, flat(state))
+        return self.measure.apart(self._lifted(state.t, y, chain, z[: 2 * self.flow.m]))

@@ -1,0 +1,62 @@
+"""Kinds of motion, of maps whose motion is known."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from gudgeon.results.motion import classify, zero_one
+
+
+def logistic(r: float, count: int = 600) -> np.ndarray:
+    x, found = 0.3, []
+    for k in range(1000 + count):
+        x = r * x * (1.0 - x)
+        if k >= 1000:
+            found.append(x)
+    return np.array(found)[:, None]
+
+
+def turning(share: float, count: int = 600) -> np.ndarray:
+    angle = 2.0 * math.pi * share * np.arange(count)
+    return np.stack([np.cos(angle), np.sin(angle)], axis=1)
+
+
+@pytest.mark.parametrize(("r", "period", "rate"), [(2.8, 1, math.log(0.8)), (3.2, 2, -0.9163), (3.5, 4, -0.8725)])
+def test_the_logistic_map_doubles_its_period(r: float, period: int, rate: float) -> None:
+    found = classify(logistic(r), 0.3, rate, 0.01)
+    assert (found.kind, found.period) == ("periodic", period) and found.confidence > 0.99
+    assert (classify(logistic(r), 0.3).kind, found.nearest) == ("periodic", period)
+
+
+def test_at_four_it_is_chaotic() -> None:
+    found = classify(logistic(4.0), 0.3, math.log(2.0), 0.02)
+    assert found.kind == "chaotic" and found.period == 0 and found.K > 0.9
+    assert "chaotic, confidence" in repr(found)
+    assert classify(logistic(4.0), 0.3).kind == "chaotic"
+
+
+def test_a_turn_by_the_golden_section_is_quasi_periodic() -> None:
+    found = classify(turning((math.sqrt(5.0) - 1.0) / 2.0), 1.0, 1e-4, 1e-3)
+    assert found.kind == "quasi-periodic" and abs(found.K) < 0.1
+    assert classify(turning(3.0 / 7.0), 1.0, 0.0, 1e-3).period == 7
+
+
+def test_what_signs_do_not_agree_on_is_undecided() -> None:
+    """Random points that do not grow apart, turns that do, too few points, and an exponent of either sign."""
+    draws = np.random.default_rng(3).standard_normal((600, 1))
+    for points, rate, error in (
+        (draws, -0.5, 0.01), (turning(0.618034), 0.5, 0.01), (logistic(4.0, 30), 0.69, 0.01), (logistic(4.0), 0.2, 0.4),
+    ):  # fmt: skip
+        found = classify(points, 1.0, rate, error)
+        assert found.kind == "undecided" and found.period == 0
+
+
+def test_the_0_1_test_is_that_of_gottwald_and_melbourne() -> None:
+    """r from 3.5 to 4: 0 in windows of periods, 1 in chaos (their figure 2)."""
+    assert abs(zero_one(logistic(3.55)[:, 0])) < 0.1
+    assert zero_one(logistic(3.97, 2000)[:, 0]) > 0.95
+    assert abs(zero_one(turning(math.sqrt(2.0), 2000)[:, 0])) < 0.1
+    assert math.isnan(zero_one(np.arange(39.0)))
