@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 import gudgeon
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.simulation.flow import Flow
-from gudgeon.simulation.horizon import beginning
+from gudgeon.simulation.horizon import begin_of
 from gudgeon.simulation.lyapunov import no_tangent
 from gudgeon.simulation.neighbours import Neighbours
 from gudgeon.simulation.simulation import Simulation
@@ -147,7 +147,7 @@ def ball(scene: str, folder: Path | None = None) -> Simulation:
 def carried(simulation: Simulation, t: float, difference: Any) -> tuple[np.ndarray, np.ndarray]:
     """A difference of y at the start as the tangent has it at t, and ẏ there; `difference` of ẏ at the start."""
     run = simulation.simulate(t, output=4, rtol=1e-12)
-    flow, start = Flow(simulation.compiled, run), beginning(run)
+    flow, start = Flow(simulation.compiled, run), begin_of(run)
     pair = Tangent(simulation, Neighbours.of(run, simulation.compiled), {"rtol": 1e-12}, start, False, flow)
     y, chain = flow.reduced(0.0, np.concatenate([start.q, start.v]))
     pair.z = np.append(difference(flow.rates(0.0, y, chain, start.memory)), [0.0, 0.0])
