@@ -16,6 +16,7 @@ run: setup  ## the nine-bar press in three scenes: a table, and a picture under 
 
 study: setup  ## Chen, Gao and Wang's paper (studies/chen_2022.yaml): its runs, numbers and trends, under out/
 	@$(GUDGEON) study studies/chen_2022.yaml --out out/chen_2022.study $(ARGS)
+	@$(GUDGEON) study report out/chen_2022.study
 
 checks: setup-test  ## the table (docs/checks.md) of what is checked against what, measured anew
 	@.venv/bin/python -m tests.checks

@@ -150,7 +150,12 @@ def attempt(
         chosen = {} if setting.method == "kinematic" else {"step": setting.value}
     try:
         run = simulation.simulate(
-            output=times, method=setting.method, parameters=parameters, progress=watch, stop=False, peaks=(),
+            output=times,
+            method=setting.method,
+            parameters=parameters,
+            progress=watch,
+            stop=False,
+            peaks=(),
             **chosen,
         )
     except _TooSlowError:

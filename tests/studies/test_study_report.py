@@ -93,12 +93,24 @@ def test_one_run_and_one_that_failed_have_pages(tmp_path: Path) -> None:
 def test_claims_and_parts_are_shown_where_there_are_any(folder: Path) -> None:
     """Of an object that has them: tables of pandas, and studies by name."""
     study = gudgeon.load_study(folder)
-    numbers = pandas.DataFrame({"claim": ["<i>peak</i>"], "printed": [2.5], "median": [np.nan], "note": [""]})
-    claims = SimpleNamespace(numbers=numbers, trends=pandas.DataFrame(), source="a paper & more")
+    row = {"claim": "<i>peak</i>", "figure": "Fig 3", "says": "", "part": "one", "at": "c 0.3 mm", "measure": "peak",
+           "unit": "m", "printed": 2.5e-3, "ensemble": "near", "n": 5, "q25": 1.9e-3, "median": 2e-3, "q75": 2.1e-3,
+           "deviation": -20.0, "note": "a & b"}  # fmt: skip
+    far = row | {"ensemble": "far", "median": 3e-3, "q25": 2e-3, "q75": 4e-3, "deviation": 20.0}
+    lone = row | {"claim": "N2", "ensemble": "", "n": 1, "figure": "", "printed": np.nan, "deviation": np.nan}
+    trend = {"claim": "T1", "figure": "", "says": "it grows", "note": ""}
+    judged = [trend | {"ensemble": name, "verdict": verdict, "probability": odds, "chance": 0.5, "agreed": False}
+              for name, verdict, odds in (("near", "holds", 0.9), ("far", "fails", 0.2))]  # fmt: skip
+    tables = pandas.DataFrame([row, far, lone]), pandas.DataFrame(judged)
+    claims = SimpleNamespace(numbers=tables[0], trends=tables[1], source="a paper & more")
     whole: Any = SimpleNamespace(claims=claims, parts={"one": study, "two": study})
-    ((heading, inside),) = claims_sections(whole)
-    assert heading == "Published numbers" and "&lt;i&gt;peak" in inside and "<td>2.5</td><td>–</td>" in inside
-    assert "a paper &amp; more" in inside and "note" not in inside
+    (heading, inside), (trends, judgement) = claims_sections(whole)
+    assert (heading, trends) == ("Published numbers", "Published trends") and "&lt;i&gt;peak" in inside
+    assert "<td>2.5 mm</td><td>2 mm (1.9 … 2.1)</td><td>3 mm (2 … 4)</td><td>−20.0 … +20.0 %</td>" in inside
+    assert "<td>–</td><td>2 mm</td><td></td>" in inside  # one run, in no ensemble
+    assert inside.count("<figure>") == 1 and "Fig 3: peak" in inside and "not drawn" not in inside
+    assert "not agreed: near holds, far fails" in judgement and "<td>0.9, 0.2</td><td>0.5</td>" in judgement
+    assert "a paper &amp; more" in inside and "a &amp; b" in inside
     page = StudyReport(whole).to_html()
     check(page)
     assert "<h2>Part two</h2>" in page and "<h2>two: Measures</h2>" in page and "Published numbers" in page

@@ -12,6 +12,7 @@ import numpy as np
 
 from gudgeon.errors import GudgeonError
 from gudgeon.files.writing import read_regular, written
+from gudgeon.language.plot_units import quantity
 from gudgeon.results.batch import Array
 from gudgeon.studies.ensemble.judge import Cell, judged
 
@@ -136,13 +137,12 @@ def _of_number(known: KnownNumber, runs: _Finished) -> Iterator[dict[str, Any]]:
 
 
 def _at(plan: Plan, cell: Cell) -> str:
-    """Where a cell lies: "scene dry, c 0.0003 m"."""
+    """Where a cell lies: "scene dry, c 0.3 mm"."""
     told, dims = [], [name for name in plan.dims if name not in ("ensemble", "start")]
     for name, k in zip(dims, cell.index, strict=True):
         for one in (one for one in plan.coordinates if one.over == (name,)):
             value = one.values[k]
-            text = value if isinstance(value, str) else f"{float(value):.6g}"
-            told.append(f"{one.name} {text}{f' {one.unit}' if one.unit else ''}")
+            told.append(f"{one.name} {value if isinstance(value, str) else quantity(float(value), one.unit, 6)}")
     return ", ".join(told)
 
 

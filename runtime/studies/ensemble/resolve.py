@@ -101,9 +101,7 @@ def _parts(study: StudyFile, structure: Sequence[Dimension]) -> Iterator[Part]:
         yield Part(_load(mechanism, scene, texts, overrides), mechanism, overrides)
 
 
-def _load(
-    mechanism: str, scene: Text, texts: Mapping[str, Text], overrides: tuple[tuple[str, str], ...]
-) -> Simulation:
+def _load(mechanism: str, scene: Text, texts: Mapping[str, Text], overrides: tuple[tuple[str, str], ...]) -> Simulation:
     try:
         return load(mechanism, str(scene), overrides=dict(overrides))
     except InputError as error:
@@ -188,9 +186,7 @@ def _starts(
     return off, coordinates, [*dimensions, Dimension("start", starts.count)]
 
 
-def _sizes(
-    ensembles: Sequence[Mapping[Text, Deviation]], name: Text, slot: Slot, relative: bool
-) -> Array | None:
+def _sizes(ensembles: Sequence[Mapping[Text, Deviation]], name: Text, slot: Slot, relative: bool) -> Array | None:
     """How far a number is off in each ensemble, 0 where it is not; None where it is not in any, in this way."""
     sizes, found = np.zeros(len(ensembles)), False
     for k, own in enumerate(ensembles):

@@ -1,39 +1,151 @@
-"""What a study's page shows of claims: tables of numbers and trends that others published, beside the study's own."""
+"""What a study's page shows of claims: numbers and trends that others published, a row each, beside the study's own."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.errors import GudgeonError
+from gudgeon.language.plot_units import scale
 from gudgeon.results.web_page import Section, lines, table
+from gudgeon.studies.show.pictures import Draw, gallery
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
     from gudgeon.studies.ensemble.finished import Study
 
-TABLES = {"numbers": "Published numbers", "trends": "Published trends"}
+Row = Mapping[str, Any]  # of a table of claims: a claim and an ensemble
+LARGE = 30.0  # times the least, from which on an axis of values is logarithmic
+SHORT = 22  # characters of where a number was taken, that stand under it
 
 
 def claims_sections(study: Study) -> list[Section]:
-    """A heading and a table for `study.claims.numbers` and `.trends`, tables as pandas has them, and their source; none
-    of a study that claims nothing."""
+    """Published numbers with figures in their order, and trends; none of a study that claims nothing."""
     try:
-        found = getattr(study, "claims", None)
+        found = study.claims
     except GudgeonError:  # its file makes no claims
         return []
-    tables = [(heading, _table(getattr(found, name, None))) for name, heading in TABLES.items()]
-    shown = [(heading, inside) for heading, inside in tables if inside]
-    source = str(getattr(found, "source", ""))
-    return [(heading, lines([source] * bool(source), "g-quiet") + inside) for heading, inside in shown]
+    numbers, trends = (list(_each(table.to_dict("records"))) for table in (found.numbers, found.trends))
+    source = lines([found.source] * bool(found.source), "g-quiet")
+    shown = [
+        ("Published numbers", _numbers(numbers) + gallery(_figures(numbers), "claims")),
+        ("Published trends", _trends(trends)),
+    ]
+    return [(heading, source + inside) for heading, inside in shown if inside]
 
 
-def _table(found: Any) -> str:
-    """Columns in which something is written; nothing of an empty table."""
-    columns = {str(name): [_cell(value) for value in found[name]] for name in getattr(found, "columns", ())}
-    columns = {name: cells for name, cells in columns.items() if any(cells)}
-    return table(list(columns), zip(*columns.values(), strict=True), True) if columns else ""
+def _each(rows: Iterable[Row]) -> Iterator[list[Row]]:
+    """The rows of each claim: one for every ensemble."""
+    claims: dict[str, list[Row]] = {}
+    for row in rows:
+        claims.setdefault(str(row["claim"]), []).append(row)
+    yield from claims.values()
 
 
-def _cell(value: Any) -> str:
-    if isinstance(value, float):
-        return f"{value:.4g}" if value == value else "–"
-    return "" if value is None else str(value)
+def _ensembles(claims: list[list[Row]]) -> list[str]:
+    return list(dict.fromkeys(str(row["ensemble"]) for rows in claims for row in rows if row["ensemble"]))
+
+
+def _numbers(claims: list[list[Row]]) -> str:
+    """A row a claim: median and quartiles of each ensemble, or of all runs where there is none."""
+    names = _ensembles(claims) or [""]
+    head = ["", "figure", "what", "printed", *(f"ours, {name}" if name else "ours" for name in names), "off by", "note"]
+    told = ["ours: median (quartiles); off by: of the medians from what is printed"]
+    return table(head, (_number(rows, names) for rows in claims), True) + lines(told * bool(claims), "g-quiet")
+
+
+def _number(rows: list[Row], names: list[str]) -> list[str]:
+    first, own = rows[0], {str(row["ensemble"]): row for row in rows}
+    factor, unit = scale(_size(rows), str(first["unit"]))
+    printed = "–" if _none(first["printed"]) else f"{first['printed'] * factor:.4g} {unit}".strip()
+    cells = [_median(own.get(name) or (rows[0] if len(rows) == 1 and k == 0 else None), factor, unit)
+             for k, name in enumerate(names)]  # fmt: skip
+    off = sorted(row["deviation"] for row in rows if not _none(row["deviation"]))
+    told = "" if not off else f"{off[0]:+.1f} %" if off[-1] - off[0] < 0.05 else f"{off[0]:+.1f} … {off[-1]:+.1f} %"
+    told = told.replace("-", "−")
+    what = str(first["says"]) or ", ".join(filter(None, (str(first["measure"]), str(first["part"]), str(first["at"]))))
+    return [str(first["claim"]), str(first["figure"]), what, printed, *cells, told, str(first["note"])]
+
+
+def _median(row: Row | None, factor: float, unit: str) -> str:
+    if row is None:
+        return ""
+    if _none(row["median"]):
+        return "–"
+    middle = f"{row['median'] * factor:.4g} {unit}".strip()
+    return middle if row["n"] == 1 else f"{middle} ({row['q25'] * factor:.4g} … {row['q75'] * factor:.4g})"
+
+
+def _trends(claims: list[list[Row]]) -> str:
+    """A row a claim: one verdict where all ensembles agree, else that of each."""
+    head = ["", "figure", "what", "verdict", "probability", "one run shows it", "note"]
+    told = "probability: that the next run shows it, the least of all that the trend says, ensemble by ensemble"
+    return table(head, map(_trend, claims), True) + lines([told] * bool(claims), "g-quiet")
+
+
+def _trend(rows: list[Row]) -> list[str]:
+    first = rows[0]
+    each = ", ".join(f"{row['ensemble']} {row['verdict']}" for row in rows)
+    verdict = str(first["verdict"]) if first["agreed"] else f"not agreed: {each}"
+    odds = (_odds(row[name] for row in rows) for name in ("probability", "chance"))
+    return [str(first["claim"]), str(first["figure"]), str(first["says"]), verdict, *odds, str(first["note"])]
+
+
+def _odds(values: Iterable[Any]) -> str:
+    shown = ["–" if _none(value) else f"{value:.2g}" for value in values]
+    return shown[0] if len(set(shown)) == 1 else ", ".join(shown)
+
+
+def _figures(claims: list[list[Row]]) -> Iterator[Draw]:
+    """A picture for each figure of the source and measure, in the source's order."""
+    groups: dict[tuple[str, str], list[list[Row]]] = {}
+    for rows in claims:
+        if not _none(rows[0]["printed"]) and rows[0]["figure"]:
+            groups.setdefault((str(rows[0]["figure"]), str(rows[0]["measure"])), []).append(rows)
+    for (figure, measure), own in groups.items():
+        yield f"{figure}: {measure}, printed and ours", partial(_drawn, own, measure)
+
+
+def _drawn(claims: list[list[Row]], measure: str) -> Axes:
+    """Medians with quartiles of each ensemble, what is printed as a black mark."""
+    from gudgeon.results.run_plots import new_axes
+
+    factor, unit = scale(max(map(_size, claims)), str(claims[0][0]["unit"]))
+    names = _ensembles(claims) or [""]
+    ax = new_axes(5.6, 3.2)
+    for j, name in enumerate(names):
+        own = [(k, row) for k, rows in enumerate(claims) for row in rows
+               if row["ensemble"] in (name, "") and not _none(row["median"])]  # fmt: skip
+        at = [k + 0.16 * (j - 0.5 * (len(names) - 1)) for k, _ in own]
+        middle, low, high = ([row[part] * factor for _, row in own] for part in ("median", "q25", "q75"))
+        reach = [[m - q for m, q in zip(middle, low, strict=True)], [q - m for m, q in zip(middle, high, strict=True)]]
+        ax.errorbar(at, middle, reach, fmt="o", ms=3.5, capsize=2.0, lw=1.0, label=name or "ours")
+    printed = [rows[0]["printed"] * factor for rows in claims]
+    ax.plot(range(len(claims)), printed, "k_", ms=16, mew=1.6, label="printed")
+    ax.set_xticks(range(len(claims)), [_tick(rows[0]) for rows in claims], fontsize=7)
+    ax.set_xlim(-0.6, len(claims) - 0.4)
+    shown = [abs(value) for value in (*printed, *(row["median"] * factor for rows in claims for row in rows)) if value]
+    if shown and min(shown) > 0.0 and max(shown) > LARGE * min(shown):
+        ax.set_yscale("log")
+    else:
+        ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
+    ax.set_ylabel(f"{measure} [{unit}]" if unit else measure)
+    ax.legend(fontsize=7, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=len(names) + 1)
+    return ax
+
+
+def _tick(row: Row) -> str:
+    at = str(row["at"])
+    return f"{row['claim']}\n{at}" if len(at) <= SHORT else str(row["claim"])
+
+
+def _size(rows: list[Row]) -> float:
+    values = (rows[0]["printed"], *(row["median"] for row in rows))
+    return max((abs(value) for value in values if not _none(value)), default=0.0)
+
+
+def _none(value: Any) -> bool:
+    return value is None or (isinstance(value, float) and math.isnan(value))

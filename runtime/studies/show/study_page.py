@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import io
-import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -17,18 +15,15 @@ from gudgeon.language.shown import one_line
 from gudgeon.results.web_page import Section, article, lines, page, table, text
 from gudgeon.studies.ensemble.final import kind_of_failure
 from gudgeon.studies.show.claims import claims_sections
+from gudgeon.studies.show.pictures import Draw, gallery
 from gudgeon.studies.show.study_data import MANY, StudyData
 from gudgeon.studies.words import counted
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
     from gudgeon.studies.ensemble.finished import Study
 
-MOST_ROWS, MOST_FIGURES, MOST_CURVES, MOST_NUMBERS, MOST_SAMPLES = 500, 40, 60, 30_000_000, 20_000
+MOST_ROWS, MOST_CURVES, MOST_NUMBERS, MOST_SAMPLES = 500, 60, 30_000_000, 20_000
 SHOWN_VALUES = 8  # of what varied, in full
-_AROUND = re.compile(r"^.*?(?=<svg)|<metadata>.*?</metadata>|<!--.*?-->", re.DOTALL)
-_IDS = re.compile(r'(\bid="|xlink:href="#|url\(#)')
 
 
 @dataclass(frozen=True)
@@ -75,8 +70,8 @@ def sections(data: StudyData, name: str = "study") -> Iterator[Section]:
     except GudgeonError as error:
         yield "Figures", lines([str(error)])
         return
-    yield "Figures", _gallery(data, _figures(data), f"{name}-measure")
-    yield "Series", _gallery(data, _series(data), f"{name}-series")
+    yield "Figures", gallery(_figures(data), f"{name}-measure")
+    yield "Series", gallery(_series(data), f"{name}-series")
 
 
 def _about(parts: dict[str, StudyData]) -> str:
@@ -171,9 +166,6 @@ def _spread(values: Any, spread: bool) -> str:
     return f"{middle:.5g} ({q1:.4g} … {q3:.4g}){less}"
 
 
-Draw = tuple[str, Callable[[], "Axes"]]  # what it shows, and how it is drawn
-
-
 def _figures(data: StudyData) -> Iterator[Draw]:
     """Each measure over the first that varied, by scene; and where two did, a map of these in each scene."""
     from gudgeon.studies.show.study_plots import StudyPlot
@@ -221,31 +213,3 @@ def _series(data: StudyData) -> Iterator[Draw]:
             yield told, partial(plot.bands, name, by, share=True)
         elif runs <= MOST_CURVES:
             yield f"{name}: {counted(runs, 'run')}", partial(plot.overlay, name, by)
-
-
-def _gallery(data: StudyData, drawn: Iterator[Draw], kind: str) -> str:
-    """Pictures side by side; one that cannot be drawn is told."""
-    parts, left = [], 0
-    for k, (caption, draw) in enumerate(drawn):
-        if k >= MOST_FIGURES:
-            left += 1
-            continue
-        try:
-            inside = _svg(draw(), f"{kind}-{k}")
-        except (GudgeonError, ValueError, ArithmeticError) as error:
-            inside = lines([f"not drawn: {error}"], "g-quiet")
-        parts.append(f"<figure>{inside}<figcaption>{text(caption)}</figcaption></figure>")
-    more = lines([f"{left} more figures: study.plot draws them"] * bool(left), "g-quiet")
-    return f"<div class='g-figures'>{''.join(parts)}</div>{more}" if parts else ""
-
-
-def _svg(ax: Axes, name: str) -> str:
-    """The figure's SVG by itself: words are text, names are its own, no date."""
-    import matplotlib
-
-    target = io.BytesIO()
-    with matplotlib.rc_context({"svg.hashsalt": name, "svg.fonttype": "none"}):
-        figure: Any = ax.figure
-        figure.savefig(target, format="svg", metadata={"Date": None, "Creator": None})
-    found = _AROUND.sub("", target.getvalue().decode())
-    return _IDS.sub(lambda own: f"{own[1]}{name}-", found)

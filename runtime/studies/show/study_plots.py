@@ -93,16 +93,12 @@ class StudyPlot:
             self._finish(ax, at, len(parts) > 1)
         return ax
 
-    def overlay(
-        self, series: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None
-    ) -> Axes:
+    def overlay(self, series: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
         """A kept series over time, every run a curve, in the colour of its value of `by`."""
         t, found = self.data.series(series, at)
         return self._curves([(t, found)], "t [s]", series, by, at, ax)
 
-    def phase(
-        self, x: str, y: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None
-    ) -> Axes:
+    def phase(self, x: str, y: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
         """One kept series over another, every run a curve, in the colour of its value of `by`."""
         (_, xs), (_, ys) = self.data.series(x, at), self.data.series(y, at)
         factor, unit = drawn(peak_of(xs.values), xs.attrs.get("units", ""))
@@ -112,7 +108,7 @@ class StudyPlot:
         self, pairs: list[tuple[Any, Any]], x_label: str, name: str, by: str | None, at: Coords | None,
         ax: Axes | None,
     ) -> Axes:  # fmt: skip
-        (x, found), = pairs
+        ((x, found),) = pairs
         by = self.data.dimension(found, by) if by is not None else None
         with matplotlib.rc_context(STYLE):
             ax = new_axes(8.0, 3.6) if ax is None else plain(ax)
@@ -169,9 +165,7 @@ class StudyPlot:
             self._finish(ax, at, False)
         return ax
 
-    def heat_map(
-        self, name: str, x: str, y: str, *, at: Coords | None = None, ax: Axes | None = None
-    ) -> Axes:
+    def heat_map(self, name: str, x: str, y: str, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
         """A measure over two dimensions, of all other runs their median; a cell without a number stays empty."""
         found = self.data.measure(name, at)
         x, y = self.data.dimension(found, x), self.data.dimension(found, y)
