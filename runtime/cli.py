@@ -16,6 +16,7 @@ from gudgeon.commands.options import (
     Axis,
     Box,
     Branches,
+    Cluster,
     Csv,
     End,
     File,
@@ -45,6 +46,7 @@ from gudgeon.commands.options import (
     Threads,
     Until,
     Watch,
+    Workers,
     path,
 )
 from gudgeon.commands.told import tell_warnings, told
@@ -277,8 +279,8 @@ def verdicts(
 @told
 def study(
     file: Annotated[str, typer.Argument(metavar="FILE", help="A study: a YAML file, docs/studies.md.")],
-    out: Folder = None, threads: Threads = None, restart: Restart = False, set_: Set = None, runs: Runs = False,
-    json: Json = False, laws: Laws = None,
+    out: Folder = None, threads: Threads = None, workers: Workers = None, dask: Cluster = None,
+    restart: Restart = False, set_: Set = None, runs: Runs = False, json: Json = False, laws: Laws = None,
 ) -> int:  # fmt: skip
     """Many runs of a mechanism, over grids, draws and perturbed starts, and what is measured of them: one dataset.
 
@@ -289,7 +291,7 @@ def study(
     """
     from gudgeon.commands.study import Request, study_file
 
-    return study_file(Request(file, out, threads, restart, tuple(set_ or ()), runs, json))
+    return study_file(Request(file, out, threads, restart, tuple(set_ or ()), runs, json, workers, dask))
 
 
 def main() -> None:

@@ -13,6 +13,7 @@ from gudgeon.studies.ensemble.estimate import estimate
 from gudgeon.studies.ensemble.folder import StudyFolder
 from gudgeon.studies.ensemble.plan import Plan
 from gudgeon.studies.ensemble.study import plan_of, run_plan
+from gudgeon.studies.ensemble.workers import workers
 from gudgeon.studies.show.study import show_estimate, show_study
 
 INTERRUPTED, FAILED = 130, 1
@@ -29,6 +30,8 @@ class Request:
     sets: tuple[str, ...] = ()
     runs: bool = False
     json: bool = False
+    workers: int | None = None
+    cluster: str | None = None
 
     @property
     def folder(self) -> Path:
@@ -47,8 +50,9 @@ def study_file(request: Request) -> int:
         show_estimate(plan, estimate(plan, request.threads), request.json)
         return 0
     try:
-        with progress_bar(request.json) as bar:
-            found = run_plan(plan, request.folder, request.threads, None, bar(request.folder.stem), request.restart)
+        with workers(request.workers, request.cluster) as pool, progress_bar(request.json) as bar:
+            report = bar(request.folder.stem)
+            found = run_plan(plan, request.folder, request.threads, pool, report, request.restart)
     except KeyboardInterrupt:
         _interrupted(plan, request.folder)
         return INTERRUPTED

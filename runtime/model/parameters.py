@@ -43,7 +43,7 @@ def given_slots(
     UnknownNameError; BadValueError for a number given twice, by two spellings of its address.
     """
     parameters = mapping(parameters, what, "{address or parameter name: a float in SI, or '0.5 mm'}")
-    place = {slot.address: k for k, slot in enumerate(source.slots)}
+    place = source.place
     values, mask, spelled = np.zeros(len(place)), np.zeros(len(place), dtype=bool), dict[int, str]()
     for name, value in parameters.items():
         address = name if name in place else f"parameters.{name}"
@@ -191,12 +191,12 @@ def prepare_slots(compiled: CompiledModel, given: Array, is_given: Array) -> Arr
 
 
 def without_baumgarte(compiled: CompiledModel, given: Array, is_given: Array) -> Array:
-    """p with both gains zero: for methods that project onto the constraints instead."""
-    place = {slot.address: k for k, slot in enumerate(compiled.source.slots)}
+    """p of a run, or of n, with both gains zero: for methods that project onto the constraints instead."""
+    place = compiled.source.place
     gains = [place[name] for name in GAINS if name in place]
     values, mask = given.copy(), is_given.copy()
-    values[gains], mask[gains] = 0.0, True
-    return compiled.prepare(values, mask)
+    values[..., gains], mask[..., gains] = 0.0, True
+    return compiled.prepare(values, mask) if values.ndim == 1 else compiled.prepare_each(values, mask)
 
 
 def check(source: KernelSource, p: Array) -> None:

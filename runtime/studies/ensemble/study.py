@@ -15,11 +15,13 @@ from gudgeon.contract.limits import MAX_BYTES
 from gudgeon.errors import InputError, in_a_line, shortened
 from gudgeon.files.reading import read_named
 from gudgeon.files.writing import written
-from gudgeon.language.wanted import flag, function, mapping, names, optional, path, whole
+from gudgeon.language.wanted import flag, function, mapping, names, path, whole
 from gudgeon.studies.ensemble.folder import DATASET, MANIFEST, StudyFolder, h5py_module, manifest
 from gudgeon.studies.ensemble.loop import finish
+from gudgeon.studies.ensemble.workers import executor_of
 
 if TYPE_CHECKING:
+    import distributed
     import pandas
     import xarray
 
@@ -119,28 +121,28 @@ def plan_of(
 
 def study(
     study: str | os.PathLike[str] | Mapping[str, Any], folder: str | os.PathLike[str] | None = None, *,
-    threads: int | None = None, executor: Executor | None = None, progress: Progress | None = None,
-    restart: bool = False, settings: Mapping[str, float | str] | None = None,
+    threads: int | None = None, executor: Executor | distributed.Client | None = None,
+    progress: Progress | None = None, restart: bool = False, settings: Mapping[str, float | str] | None = None,
 ) -> Study:  # fmt: skip
     """Make all runs of a study, and what it measures of them.
 
     study: a YAML file (docs/studies.md), or a mapping that says the same. folder: where finished blocks of runs go at
     once; the same call goes on from what is there, whatever ended it, to the same dataset. None: a temporary folder,
     which goes with the Study. threads: in each process, None for the cores there are (1 with an executor).
-    executor: any of concurrent.futures; its workers are given blocks and load their own libraries. restart: begin
-    anew. settings: {address: number or text} for all runs, over the study's own. A run that fails is a row with its
-    reason and NaN, and stops no other.
+    executor: any of concurrent.futures, or a Client of dask.distributed; its workers are given blocks and load their
+    own libraries. restart: begin anew. settings: {address: number or text} for all runs, over the study's own. A run
+    that fails is a row with its reason and NaN, and stops no other.
 
     Raises InputError, with its place, for a mistake in the study or a folder of another study; OutputError for a
     disk that takes no more. Ctrl-C is passed on: what is in the folder stays.
     """
     threads = None if threads is None else whole(threads, "threads", 1, MOST_THREADS)
-    executor, progress = optional(executor, "executor", Executor), function(progress, "progress")
+    pool, progress = executor_of(executor), function(progress, "progress")
     restart, plan = flag(restart, "restart"), plan_of(study, settings)
     if folder is None:
         kept = tempfile.TemporaryDirectory(prefix="gudgeon-study-")
-        return run_plan(plan, Path(kept.name), threads, executor, progress, restart, kept)
-    return run_plan(plan, Path(path(folder, "folder")), threads, executor, progress, restart)
+        return run_plan(plan, Path(kept.name), threads, pool, progress, restart, kept)
+    return run_plan(plan, Path(path(folder, "folder")), threads, pool, progress, restart)
 
 
 def run_plan(
