@@ -151,6 +151,8 @@ def number(value: float | str, slot: Slot) -> float:
     """A float, or a text as in the YAML file, with a unit or without: '0.5 mm', '1e-9'; SI. Of a choice its name."""
     if slot.words:
         return place_of_word(value, slot)
+    if type(value) is float and sys.float_info.min <= abs(value) < math.inf:
+        return value
     if isinstance(value, str):
         found = plain_number(value)
         if found is not None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,7 +19,8 @@ from gudgeon.integrators import adaptive
 from gudgeon.integrators import batch as many
 from gudgeon.integrators.batch import available_threads
 from gudgeon.integrators.times import Times
-from gudgeon.integrators.trajectory import Counts, Problem, Progress
+from gudgeon.integrators.session import counts_of_runs
+from gudgeon.integrators.trajectory import Problem, Progress
 from gudgeon.language.wanted import flag, function, is_whole, text, told
 from gudgeon.model.compiled import Array
 from gudgeon.model.parameter_sets import ParameterSets, each_of, prepare_sets, rows_of
@@ -41,7 +42,6 @@ if TYPE_CHECKING:
     from gudgeon.simulation.peaks import Search
     from gudgeon.simulation.simulation import Simulation
 
-COUNTS = tuple(field.name for field in fields(Counts))
 
 
 def simulate_many(
@@ -236,8 +236,7 @@ def _of_runs(results: _Results, kept: _Kept | None) -> Batch:
     if kept:
         runs.let_go()
     impacts = tuple(runs.impacts_of(i) for i in range(runs.n))
-    counts = [runs.counts(i) for i in range(runs.n)]
-    numbers = {name: np.array([getattr(c, name) for c in counts]) for name in COUNTS} | {"seconds": x["seconds"]}
+    numbers = {**counts_of_runs(x["counts"], x["residuals"]), "seconds": x["seconds"]}
     return Batch(
         source=source, t=runs.times.t, states=None if kept else states, samples=x["done"], t_last=x["t_last"],
         parameters=given_values(source, x["p"], results.starts.is_given), impacts=impacts,
