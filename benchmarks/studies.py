@@ -32,7 +32,7 @@ VISCOSITY, TENTH, WHOLE = "contacts.oil.film.viscosity", 2, 20  # how many of th
 
 
 def one(viscosities: int, threads: int) -> dict[str, float]:
-    """A study in this process: runs, failed ones, s of wall and processor, and of its runs alone, MB before and most."""
+    """A study in this process: runs, failed ones, s of wall, of processor, of its runs alone; MB before and at most."""
     study = YAML(typ="safe").load(FILE)
     study["parameters"][VISCOSITY]["count"] = viscosities
     plan, alone = plan_of(study), math.nan

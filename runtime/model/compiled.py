@@ -87,10 +87,10 @@ class CompiledModel:
             values, mask = (values, mask) if last else filled_in(self.source, chosen, values, mask, p)
         return p
 
-    def prepare_each(self, given: ArrayLike, is_given: ArrayLike) -> Array:
+    def prepare_each(self, given: Array, is_given: NDArray[np.generic]) -> Array:
         """The same of n runs, (n, n_slots + n_derived), from values and mask (n, n_slots)."""
         slots = len(self.source.slots)
-        values, mask = taken(given, "given", (None, slots)), taken(is_given, "is_given", (len(given), slots), dtype=FLAG)
+        values, mask = taken(given, "given", (None, slots)), taken(is_given, "is_given", (None, slots), dtype=FLAG)
         if mask[:, list(self._choices)].any():
             return np.array([self.prepare(*pair) for pair in zip(values, mask, strict=True)])
         p = np.empty((len(values), self.n_p))

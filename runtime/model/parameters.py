@@ -11,6 +11,7 @@ import sys
 from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import Condition, KernelSource, Slot
 from gudgeon.errors import BadValueError, UnknownNameError
@@ -192,7 +193,7 @@ def prepare_slots(compiled: CompiledModel, given: Array, is_given: Array) -> Arr
     return p
 
 
-def without_baumgarte(compiled: CompiledModel, given: Array, is_given: Array) -> Array:
+def without_baumgarte(compiled: CompiledModel, given: Array, is_given: NDArray[np.generic]) -> Array:
     """p of a run, or of n, with both gains zero: for methods that project onto the constraints instead."""
     place = compiled.source.place
     gains = [place[name] for name in GAINS if name in place]

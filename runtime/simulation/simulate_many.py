@@ -18,8 +18,8 @@ from gudgeon.errors import AssemblyError, BadValueError, SolverError
 from gudgeon.integrators import adaptive
 from gudgeon.integrators import batch as many
 from gudgeon.integrators.batch import available_threads
-from gudgeon.integrators.times import Times
 from gudgeon.integrators.session import counts_of_runs
+from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Problem, Progress
 from gudgeon.language.wanted import flag, function, is_whole, text, told
 from gudgeon.model.compiled import Array
@@ -31,6 +31,7 @@ from gudgeon.results.results import Result, State
 from gudgeon.simulation.arguments import method_of
 from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude
+from gudgeon.simulation.diagnose import may_not_hold, not_held
 from gudgeon.simulation.each_run import EachRun
 from gudgeon.simulation.hidden_jumps import any_in_batch
 from gudgeon.simulation.restart import check_fits, numbers, off_constraints, own_each
@@ -213,6 +214,19 @@ class _Results:
             raise error
         return made
 
+    def notes(self) -> dict[int, tuple[str, ...]]:
+        """What runs should say of themselves, as far as it is known without their samples; of those that have any."""
+        x, source, n = self.runs.arrays, self.simulation.source, self.simulation.compiled.n
+        peaks, counted = x["peaks"][:, : len(source.clearances)], counts_of_runs(x["counts"], x["residuals"])
+        some = may_not_hold(source, x["p"], x["size"], counted["phi_max"], counted["grazes"], peaks) & (x["done"] > 0)
+        found = {i: remarks for i, remarks in enumerate(self.starts.remarks) if remarks}
+        for i in np.flatnonzero(some).tolist():
+            begin, counts, t0 = x["start"][i, :n], self.runs.counts(i), float(self.runs.times.of(i)[0])
+            told = not_held(self.simulation.compiled, x["p"][i], t0, begin, counts, peaks[i])
+            found[i] = (*found.get(i, ()), *told)
+        for i, each in enumerate(self.told):
+            found[i] = (*found.get(i, ()), *each.notes)
+        return found
 
     def bare(self, i: int, parts: frozenset[str]) -> Bare | None:
         """Run i as ResultOf has it."""

@@ -93,7 +93,7 @@ def test_killed_at_random_moments(tmp_path: Path, quiet: xr.Dataset) -> None:
         gudgeon.study(STUDY, tmp_path / "whole", threads=1)
     finally:
         sys.setprofile(None)
-        threading.setprofile(None)  # type: ignore[arg-type]
+        threading.setprofile(None)
     rng, ends, there = np.random.default_rng(16), [], []
     for k, moment in enumerate(rng.integers(1, counted[0], 10).tolist()):
         folder = tmp_path / str(k // 2)  # each second one kills what went on from the first

@@ -121,4 +121,4 @@ def test_a_cluster_that_is_none_is_told(call: Gudgeon, tmp_path: Path, monkeypat
         told = call("study", "s.yaml", "--dask", address)
         assert told.exit_code == 2 and "no scheduler answers" in told.output
     with pytest.raises(BadValueError, match="executor"):
-        gudgeon.study(STUDY, executor="tcp://127.0.0.1:1")  # type: ignore[arg-type]
+        gudgeon.study(STUDY, executor="tcp://127.0.0.1:1")
