@@ -16,6 +16,7 @@ from gudgeon.commands.options import (
     Axis,
     Box,
     Branches,
+    Cluster,
     Csv,
     End,
     File,
@@ -48,6 +49,7 @@ from gudgeon.commands.options import (
     Threads,
     Until,
     Watch,
+    Workers,
     path,
 )
 from gudgeon.commands.told import tell_warnings, told
@@ -84,8 +86,7 @@ def run(
     step: Annotated[str | None, typer.Option(help="Fixed step, in s or with a unit: 5us; auto takes rk4.")] = None,
     method: Annotated[str, typer.Option(help=f"{', '.join(OFFERED)}, {KINEMATIC}, scipy:Radau …")] = "auto",
     rtol: Annotated[str | None, typer.Option(help=f"Tolerance of a step of auto, {', '.join(CHOOSING)}: 1e-8.")] = None,
-    watch: Watch = None,
-    peaks: Peaks = None,
+    watch: Watch = None, peaks: Peaks = None,
     formulation: Annotated[
         str, typer.Option(help="reduced (coordinates of a tree), or full: absolute ones, rk4 with Baumgarte's gains.")
     ] = "reduced",
@@ -93,9 +94,7 @@ def run(
         bool, typer.Option("--horizon", help="Run thrice more to find the time to which each trace can be trusted.")
     ] = False,
     out: Out = Path("out"),
-    regenerate: Annotated[
-        bool, typer.Option("--regenerate", help="Derive and compile again, whatever the cache has.")
-    ] = False,
+    regenerate: Annotated[bool, typer.Option("--regenerate", help="Derive and compile again.")] = False,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Rows that need docs/methods.md too.")] = False,
     report: Report = False, json: Json = False, laws: Laws = None,
 ) -> int:  # fmt: skip
@@ -280,7 +279,8 @@ def verdicts(
 @told
 def study(
     file: StudyFile, finished: Finished = None, out: Folder = None, json: Json = False, laws: Laws = None,
-    threads: Threads = None, restart: Restart = False, set_: Set = None, runs: Runs = False,
+    threads: Threads = None, workers: Workers = None, dask: Cluster = None, restart: Restart = False, set_: Set = None,
+    runs: Runs = False,
 ) -> int:  # fmt: skip
     """Many runs of a mechanism, over grids, draws and perturbed starts, and what is measured of them: one dataset.
 
@@ -290,7 +290,7 @@ def study(
     """
     from gudgeon.commands.study import Request, study_file
 
-    return study_file(Request(file, out, threads, restart, tuple(set_ or ()), runs, json, finished))
+    return study_file(Request(file, out, threads, restart, tuple(set_ or ()), runs, json, finished, workers, dask))
 
 
 def main() -> None:

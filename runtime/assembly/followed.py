@@ -52,6 +52,9 @@ def tell_unfollowed(linkage: Linkage, p: Array, q: Array) -> None:
 
 def tell_of_runs(source: KernelSource, noted: Sequence[Mapping[str, float]]) -> None:
     """One warning for all runs of a batch: which guesses, in how many runs, by how much at most."""
+    if (kept := NOTED.get()) is not None:  # by who makes many batches
+        kept.extend(noted)
+        return
     told = []
     for name in dict.fromkeys(name for off in noted for name in off):
         by = [off[name] for off in noted if name in off]

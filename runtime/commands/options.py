@@ -133,6 +133,17 @@ Finished = Annotated[str | None, typer.Argument(metavar="[FOLDER]", help="The fi
 Threads = Annotated[
     int | None, typer.Option(parser=whole(1), metavar="COUNT", help="Threads of runs. [default: the cores there are]")
 ]
+Workers = Annotated[
+    int | None,
+    typer.Option(
+        parser=whole(1), metavar="COUNT",
+        help="Processes of their own libraries, in place of threads; then --threads are those of each. [default: none]",
+    ),
+]  # fmt: skip
+Cluster = Annotated[
+    str | None,
+    typer.Option("--dask", metavar="ADDRESS", help="A cluster of dask.distributed, at the address of its scheduler."),
+]
 Restart = Annotated[bool, typer.Option("--restart", help="Begin anew, whatever the folder holds of a study.")]
 Report = Annotated[
     bool, typer.Option("--report", help="A page a scene: orbits, contacts, energy, trust. Runs each again.")

@@ -11,6 +11,7 @@ from gudgeon.language.shown import visible
 from gudgeon.waiting import working
 
 Report = Callable[[float, str], None]  # fraction done, a few words
+MEMORY = 600.0  # s that speed is measured over: blocks of a long study come minutes apart
 
 
 @contextmanager
@@ -28,7 +29,7 @@ def progress_bar(quiet: bool = False) -> Iterator[Callable[[str], Report | None]
             if not shown:
                 shown.append(_start())
             if not task:
-                task.append(shown[0].add_task(name, total=1.0, text=""))
+                task.append(shown[0].add_task(name, total=1.0, completed=fraction, text=""))  # speed counts from here
             shown[0].update(task[0], completed=fraction, text=text)
 
         return report
@@ -70,6 +71,7 @@ def _start() -> Any:
     progress = Progress(
         TextColumn("{task.description}", markup=False), BarColumn(), TaskProgressColumn(), TimeRemainingColumn(),
         TextColumn("{task.fields[text]}", markup=False), console=plain_console(stderr=True), transient=True,
+        speed_estimate_period=MEMORY,
     )  # fmt: skip
     progress.start()
     return progress

@@ -15,6 +15,7 @@ from gudgeon.studies.ensemble.estimate import estimate
 from gudgeon.studies.ensemble.folder import StudyFolder
 from gudgeon.studies.ensemble.plan import Plans
 from gudgeon.studies.ensemble.study import load_study, plans_of, run_plans
+from gudgeon.studies.ensemble.workers import workers
 from gudgeon.studies.show.study import show_estimates, show_studies
 from gudgeon.studies.show.tables import print_json
 
@@ -34,6 +35,8 @@ class Request:
     runs: bool = False
     json: bool = False
     finished: str | None = None  # the folder of which a page is wanted
+    workers: int | None = None
+    cluster: str | None = None
 
     @property
     def folder(self) -> Path:
@@ -75,8 +78,9 @@ def study_file(request: Request) -> int:
         show_estimates(plans, estimates, request.json)
         return 0
     try:
-        with progress_bar(request.json) as bar:
-            found = run_plans(plans, request.folder, request.threads, None, bar(request.folder.stem), request.restart)
+        with workers(request.workers, request.cluster) as pool, progress_bar(request.json) as bar:
+            report = bar(request.folder.stem)
+            found = run_plans(plans, request.folder, request.threads, pool, report, request.restart)
     except KeyboardInterrupt:
         _interrupted(plans, request.folder)
         return INTERRUPTED

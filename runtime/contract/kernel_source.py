@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import MISSING, asdict, dataclass, fields
+from functools import cached_property
 from hashlib import sha256
 from typing import Any
 
@@ -228,6 +229,11 @@ class KernelSource:
     start_apart: tuple[str, ...] = ()  # rows of joints with play that the start holds apart, by e and its rate
     parts: tuple[PartInfo, ...] = ()  # all joints, drives and force elements: what is drawn
     massless: tuple[str, ...] = ()  # bodies without mass or inertia: nothing is known that follows from masses
+
+    @cached_property
+    def place(self) -> dict[str, int]:
+        """Where each slot stands, by its address; not to be written."""
+        return {slot.address: k for k, slot in enumerate(self.slots)}
 
     @property
     def degrees_of_freedom(self) -> int:

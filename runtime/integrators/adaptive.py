@@ -78,8 +78,8 @@ def _check_samples(session: Session, first: int) -> None:
 
 def first_odd(y: Array, n: int, first: int = 0) -> int:
     """Which sample (N, 2n + …) is no number, for a force was none between the stages of a step; 0: none is."""
-    odd = ~np.isfinite(y[first:, : 2 * n]).all(axis=1)
-    return first + int(odd.argmax()) if odd.any() else 0
+    finite = np.isfinite(y[first:, : 2 * n])
+    return 0 if finite.all() else first + int((~finite.all(axis=1)).argmax())
 
 
 def tolerance(rtol: float | str | None, method: str, fixed: bool) -> float:

@@ -25,7 +25,7 @@ from gudgeon.integrators.lanes import NEW, NOT_CLOSED, OVER, Lanes
 from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, fetch_impacts, no_states, told_apart
 from gudgeon.integrators.steps import Look, Tape
 from gudgeon.integrators.times import Times
-from gudgeon.integrators.trajectory import Counts, Progress, Trajectory, plain
+from gudgeon.integrators.trajectory import Counts, Progress, Trajectory, no_events, plain
 from gudgeon.model.compiled import N_WORK, Array, CompiledModel
 from gudgeon.model.sizes import mechanism_sizes
 from gudgeon.waiting.ctrl_c import CtrlC
@@ -260,12 +260,16 @@ class Runs:
 
     def impacts_of(self, i: int) -> NDArray[Any]:
         """IMPACT_DTYPE, the contacts of run i by their onset."""
-        impacts = np.concatenate(self.impacts[i])
+        several = [each for each in self.impacts[i] if len(each)]
+        if not several:
+            return self.impacts[i][0]
+        impacts = np.concatenate(several)
         return impacts[np.argsort(impacts["t_on"], kind="stable")]
 
     def events_of(self, i: int) -> NDArray[Any]:
         """EVENT_DTYPE, the user events of run i by time."""
-        return plain(told_apart(self.compiled, np.concatenate(self.events[i]))[0])
+        several = [each for each in self.events[i] if len(each)]
+        return plain(told_apart(self.compiled, np.concatenate(several))[0]) if several else no_events()
 
     def counts(self, i: int) -> Counts:
         """Sums and maxima over the steps of run i."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -50,6 +51,8 @@ def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any
     states = compiled.pointer(y), compiled.pointer(memory), compiled.pointer(state, "signed char *")
     count = compiled.lib.gudgeon_run_events(run, compiled.pointer(t), compiled.pointer(event, "int *"), *states)
     fetched = np.zeros(count, dtype=event_dtype(compiled.n, compiled.n_memory, joints))
+    if not count:
+        return fetched
     fetched["event"], fetched["t"], fetched["y"] = event[:count], t[:count], y[:count]
     fetched["memory"], fetched["state"] = memory[:count, : compiled.n_memory], state[:count, :joints]
     told = fetched["event"] >= len(compiled.source.events)
@@ -73,6 +76,8 @@ def fetch_impacts(compiled: CompiledModel, run: Any, last: bool) -> NDArray[Any]
     lists = (compiled.pointer(numbers), compiled.pointer(joints, "int *"))
     count = compiled.lib.gudgeon_run_impacts(run, int(last), *lists)
     fetched = np.zeros(count, dtype=IMPACT_DTYPE)
+    if not count:
+        return fetched
     fetched["joint"] = joints[:count]
     for column, name in enumerate(("t_on", "t_off", "deltadot", "F_peak", "t_peak")):
         fetched[name] = numbers[:count, column]
@@ -84,6 +89,14 @@ def counts_of(counts: NDArray[Any], numbers: Array) -> Counts:
     phi, phi_dot, least, most = (float(x) if np.isfinite(x) else math.nan for x in numbers)
     named = dict(zip(REPORT, counts.tolist(), strict=True))
     return Counts(**named, phi_max=phi, phi_dot_max=phi_dot, ratio_min=least, ratio_max=most)
+
+
+def counts_of_runs(counts: NDArray[Any], numbers: Array) -> dict[str, NDArray[Any]]:
+    """The same of n runs, (n, N_COUNTS) and (n, 4): arrays (n,) by the names in Counts."""
+    known = dict(zip(REPORT, counts.T.copy(), strict=True))
+    finite = np.where(np.isfinite(numbers), numbers, math.nan)
+    known |= dict(zip(("phi_max", "phi_dot_max", "ratio_min", "ratio_max"), finite.T.copy(), strict=True))
+    return {each.name: known[each.name] for each in fields(Counts)}
 
 
 class Session:

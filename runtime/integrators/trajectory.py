@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -24,6 +25,7 @@ Progress: TypeAlias = Callable[[float, str], None]  # fraction done, what is bei
 EVENT_DTYPE = np.dtype([("event", "i4"), ("t", "f8")])  # index into KernelSource.events, s
 
 
+@cache
 def event_dtype(n: int, n_memory: int, n_clearances: int) -> np.dtype[Any]:
     """An event with the state there as samples have it: y is q, v (n each) and the works."""
     at = [("y", "f8", (2 * n + N_WORK,)), ("memory", "f8", (n_memory,)), ("state", "i1", (n_clearances,))]

@@ -57,8 +57,10 @@ def taken(
     entries, of text, of truths for numbers, of complex numbers, of other objects, of another shape raises ArrayError,
     which names it and the entry.
     """
-    if type(values) is np.ndarray and values.dtype is dtype and values.flags.carray and not own:
+    if type(values) is np.ndarray and values.dtype is dtype and not own and values.flags.carray:
         array: NDArray[Any] = values
+    elif type(values) is np.ndarray and values.dtype is dtype and values.size <= most and not values.flags.c_contiguous:
+        array = np.array(values, order="C")  # rows or columns of another one
     else:
         array = _converted(values, name, shape, dtype, own, most)
     if shape is not None and array.shape != shape:

@@ -65,6 +65,6 @@ def told_choices(source: KernelSource, given: Array, is_given: Array) -> tuple[s
     """A remark on what a run chooses otherwise than its scene does."""
     return tuple(
         f"{slot.address} is {said(slot, float(given[k]))} (the scene's is {said(slot, slot.default)})"
-        for k, slot in enumerate(source.slots)
-        if slot.words and is_given[k] and given[k] != slot.default
+        for k, slot in ((k, source.slots[k]) for k in np.flatnonzero(is_given).tolist())
+        if slot.words and given[k] != slot.default
     )

@@ -87,6 +87,18 @@ class CompiledModel:
             values, mask = (values, mask) if last else filled_in(self.source, chosen, values, mask, p)
         return p
 
+    def prepare_each(self, given: Array, is_given: NDArray[np.generic]) -> Array:
+        """The same of n runs, (n, n_slots + n_derived), from values and mask (n, n_slots)."""
+        slots = len(self.source.slots)
+        values, mask = taken(given, "given", (None, slots)), taken(is_given, "is_given", (None, slots), dtype=FLAG)
+        if mask[:, list(self._choices)].any():
+            return np.array([self.prepare(*pair) for pair in zip(values, mask, strict=True)])
+        p = np.empty((len(values), self.n_p))
+        x, given_there, out = self.pointer(values), self.pointer(mask, "unsigned char *"), self._out(p)
+        for i in range(len(p)):
+            self.lib.gudgeon_prepare(x + i * slots, given_there + i * slots, out + i * self.n_p)
+        return p
+
     def mass(self, p: ArrayLike) -> Array:
         """Diagonal of M, (n,)."""
         out = np.empty(self.n)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 Array: TypeAlias = NDArray[np.float64]
 
 CLEARANCE_COLUMNS = ("Fx", "Fy", "Fn", "Ft", "ex", "ey", "e", "deltadot", "vt")
-FIRST, SOON = 64, 5e-3  # samples of the first call of C; s that one is to take, or Ctrl-C would wait
+FIRST, SOON = 256, 5e-3  # samples of the first call of C; s that one is to take, or Ctrl-C would wait
 OUTPUTS = frozenset({"reactions", "torques", "series", "energy"})  # what one function of the scene computes
 
 

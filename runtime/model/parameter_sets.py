@@ -97,10 +97,8 @@ def prepare_sets(
     With `free` the motion is without Baumgarte's terms. Then the runs, by number, whose parameters break a
     condition of the file.
     """
-    p = np.array([compiled.prepare(*pair) for pair in zip(given, is_given, strict=True)])
-    motion = p
-    if free:
-        motion = np.array([without_baumgarte(compiled, *pair) for pair in zip(given, is_given, strict=True)])
+    p = compiled.prepare_each(given, is_given)
+    motion = without_baumgarte(compiled, given, is_given) if free else p
     bad = {}
     for i in np.flatnonzero(~_valid(compiled.source, p)).tolist():
         try:

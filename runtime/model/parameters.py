@@ -11,6 +11,7 @@ import sys
 from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import Condition, KernelSource, Slot
 from gudgeon.errors import BadValueError, UnknownNameError
@@ -43,7 +44,7 @@ def given_slots(
     UnknownNameError; BadValueError for a number given twice, by two spellings of its address.
     """
     parameters = mapping(parameters, what, "{address or parameter name: a float in SI, or '0.5 mm'}")
-    place = {slot.address: k for k, slot in enumerate(source.slots)}
+    place = source.place
     values, mask, spelled = np.zeros(len(place)), np.zeros(len(place), dtype=bool), dict[int, str]()
     for name, value in parameters.items():
         address = name if name in place else f"parameters.{name}"
@@ -151,6 +152,8 @@ def number(value: float | str, slot: Slot) -> float:
     """A float, or a text as in the YAML file, with a unit or without: '0.5 mm', '1e-9'; SI. Of a choice its name."""
     if slot.words:
         return place_of_word(value, slot)
+    if type(value) is float and sys.float_info.min <= abs(value) < math.inf:
+        return value
     if isinstance(value, str):
         found = plain_number(value)
         if found is not None:
@@ -190,13 +193,13 @@ def prepare_slots(compiled: CompiledModel, given: Array, is_given: Array) -> Arr
     return p
 
 
-def without_baumgarte(compiled: CompiledModel, given: Array, is_given: Array) -> Array:
-    """p with both gains zero: for methods that project onto the constraints instead."""
-    place = {slot.address: k for k, slot in enumerate(compiled.source.slots)}
+def without_baumgarte(compiled: CompiledModel, given: Array, is_given: NDArray[np.generic]) -> Array:
+    """p of a run, or of n, with both gains zero: for methods that project onto the constraints instead."""
+    place = compiled.source.place
     gains = [place[name] for name in GAINS if name in place]
     values, mask = given.copy(), is_given.copy()
-    values[gains], mask[gains] = 0.0, True
-    return compiled.prepare(values, mask)
+    values[..., gains], mask[..., gains] = 0.0, True
+    return compiled.prepare(values, mask) if values.ndim == 1 else compiled.prepare_each(values, mask)
 
 
 def check(source: KernelSource, p: Array) -> None:

@@ -54,6 +54,9 @@ class ResultOf(Protocol):
     def __call__(self, i: int, /) -> Result:
         """The full result; raises the error of a run that failed, with what it reached."""
 
+    def notes(self) -> Mapping[int, tuple[str, ...]]:
+        """What runs say of themselves, by their number."""
+
     def bare(self, i: int, parts: frozenset[str], /) -> Result | None:
         """Its samples for series that need at most these parts of an Evaluation; None where there is none."""
 

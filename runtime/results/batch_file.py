@@ -211,6 +211,10 @@ class _Stored:
         """Run i, of which every series is stored."""
         return self.runs.get(i)
 
+    def notes(self) -> dict[int, tuple[str, ...]]:
+        """What runs say of themselves."""
+        return {i: run.diagnostics.notes for i, run in self.runs.items()}
+
 
 def _batch(opened_file: Any, size: int) -> Batch:
     file = File(opened_file, size, FORMATS)

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 
 from gudgeon.assembly.dead_centre import dependent_rows
 from gudgeon.assembly.journals import eccentricity
 from gudgeon.assembly.linkage import mechanism_size
+from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import ADAPTIVE, AUTO
 from gudgeon.integrators.rk4 import last_step
-from gudgeon.integrators.trajectory import Problem, Trajectory
+from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.seams import seams
 from gudgeon.results.diagnostics import Diagnostics, Peak
@@ -99,29 +101,42 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
     for event, t in trajectory.no_number:
         name = compiled.source.events[event].name
         notes.append(f"event {name} is no number (NaN) at t = {t:.9g} s: where it is none it has no zeros")
-    if counts.phi_max > APART * mechanism_size(compiled, p):
-        notes.append(
-            f"the linkage came apart: constraints are violated by up to {counts.phi_max:.3g}: nothing after that means"
-            " anything; a step too long does this, or a drive that pushes the links through a dead centre"
-        )
     if compiled.source.events and ":" in problem.method:
         notes.append(f"events are not watched by method {problem.method}")
     notes += seams(compiled.source, p, float(problem.t[0]), float(trajectory.t[-1]))
-    notes += _outside(compiled, problem, trajectory)
+    notes += not_held(compiled, p, float(problem.t[0]), problem.q, counts, trajectory.peaks)
     if compiled.source.indeterminate:
         notes.append(
             f"constraints are redundant: the reactions of {', '.join(compiled.source.indeterminate)} are not determined"
             " by rigid bodies (NaN)"
         )
-    if counts.grazes:
-        notes.append(f"{counts.grazes} steps touched and left again within: take a smaller step to resolve them")
     return tuple(notes)
 
 
-def _outside(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> Iterator[str]:
+def may_not_hold(source: KernelSource, p: Array, size: Array, phi_max: Array, grazes: Array, peaks: Array) -> Any:
+    """Of which of n runs `not_held` has something to say, (n,): p (n, ...), peaks (n, n_clearances, 3)."""
+    c, e_max = p[:, [joint.clearance for joint in source.clearances]], peaks[:, :, 2]
+    least = np.array([THIN if joint.film and not joint.dry else 1.0 for joint in source.clearances])
+    return (phi_max > APART * size) | (grazes > 0) | (e_max > least * c).any(axis=1)
+
+
+def not_held(
+    compiled: CompiledModel, p: Array, t0: float, q0: Array, counts: Counts, peaks: Array
+) -> Iterator[str]:
+    """What steps and peaks (n_clearances, 3) say against a run that began at q0: links apart, laws left."""
+    if counts.phi_max > APART * mechanism_size(compiled, p):
+        yield (
+            f"the linkage came apart: constraints are violated by up to {counts.phi_max:.3g}: nothing after that means"
+            " anything; a step too long does this, or a drive that pushes the links through a dead centre"
+        )
+    yield from _outside(compiled, p, t0, q0, peaks)
+    if counts.grazes:
+        yield f"{counts.grazes} steps touched and left again within: take a smaller step to resolve them"
+
+
+def _outside(compiled: CompiledModel, p: Array, t0: float, q0: Array, peaks: Array) -> Iterator[str]:
     """Joints with play that went where their laws do not hold."""
-    p = problem.p
-    for joint, (_, _, e_max) in zip(compiled.source.clearances, trajectory.peaks, strict=True):
+    for joint, (_, _, e_max) in zip(compiled.source.clearances, peaks, strict=True):
         c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
         deepest = float(e_max) - c
         if joint.film and not joint.dry and float(e_max) > THIN * c:
@@ -130,7 +145,7 @@ def _outside(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) 
                 " capped there: a dry contact beyond it, or a thicker oil, keeps the surfaces apart"
             )
         if deepest > (most := min(DEEP_CLEARANCE * c, DEEP_RADIUS * radius)):
-            begun = np.hypot(*eccentricity(compiled, p, float(problem.t[0]), problem.q, joint)[1]) - c > most
+            begun = np.hypot(*eccentricity(compiled, p, t0, q0, joint)[1]) - c > most
             yield (
                 f"{joint.name}: the journal goes {1e3 * deepest:.3g} mm into its bearing (c {1e3 * c:.3g} mm, radius"
                 f" {1e3 * radius:.3g} mm): outside what contact laws hold for; "

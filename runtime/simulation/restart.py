@@ -135,13 +135,15 @@ def numbers(
 ) -> tuple[Array, Array, tuple[str, ...]]:
     """Values and mask of the slots, (n_slots,) each: the state's, and over them those given; what to say of it."""
     given, is_given = given_slots(compiled.source, parameters)
-    if start is None or not mapping(start.parameters, "start.parameters"):
+    if start is None:
+        return given, is_given, told_choices(compiled.source, given, is_given)
+    if not mapping(start.parameters, "start.parameters"):
         before, was_given = np.zeros_like(given), np.zeros_like(is_given)
     else:
         before, was_given = given_slots(compiled.source, start.parameters, "start.parameters")
     both, mask = np.where(is_given, given, before), np.logical_or(is_given, was_given)
     chosen = told_choices(compiled.source, both, mask)
-    if start is None or not is_given.any():
+    if not is_given.any():
         return both, mask, chosen
     had, has = compiled.prepare(before, was_given), compiled.prepare(both, mask)
     changed = [k for k in np.flatnonzero(is_given).tolist() if had[k] != has[k]]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,8 +18,9 @@ from gudgeon.errors import AssemblyError, BadValueError, SolverError
 from gudgeon.integrators import adaptive
 from gudgeon.integrators import batch as many
 from gudgeon.integrators.batch import available_threads
+from gudgeon.integrators.session import counts_of_runs
 from gudgeon.integrators.times import Times
-from gudgeon.integrators.trajectory import Counts, Problem, Progress
+from gudgeon.integrators.trajectory import Problem, Progress
 from gudgeon.language.wanted import flag, function, is_whole, text, told
 from gudgeon.model.compiled import Array
 from gudgeon.model.parameter_sets import ParameterSets, each_of, prepare_sets, rows_of
@@ -30,6 +31,7 @@ from gudgeon.results.results import Result, State
 from gudgeon.simulation.arguments import method_of
 from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude
+from gudgeon.simulation.diagnose import may_not_hold, not_held
 from gudgeon.simulation.each_run import EachRun
 from gudgeon.simulation.hidden_jumps import any_in_batch
 from gudgeon.simulation.restart import check_fits, numbers, off_constraints, own_each
@@ -41,7 +43,6 @@ if TYPE_CHECKING:
     from gudgeon.simulation.peaks import Search
     from gudgeon.simulation.simulation import Simulation
 
-COUNTS = tuple(field.name for field in fields(Counts))
 
 
 def simulate_many(
@@ -213,6 +214,19 @@ class _Results:
             raise error
         return made
 
+    def notes(self) -> dict[int, tuple[str, ...]]:
+        """What runs should say of themselves, as far as it is known without their samples; of those that have any."""
+        x, source, n = self.runs.arrays, self.simulation.source, self.simulation.compiled.n
+        peaks, counted = x["peaks"][:, : len(source.clearances)], counts_of_runs(x["counts"], x["residuals"])
+        some = may_not_hold(source, x["p"], x["size"], counted["phi_max"], counted["grazes"], peaks) & (x["done"] > 0)
+        found = {i: remarks for i, remarks in enumerate(self.starts.remarks) if remarks}
+        for i in np.flatnonzero(some).tolist():
+            begin, counts, t0 = x["start"][i, :n], self.runs.counts(i), float(self.runs.times.of(i)[0])
+            told = not_held(self.simulation.compiled, x["p"][i], t0, begin, counts, peaks[i])
+            found[i] = (*found.get(i, ()), *told)
+        for i, each in enumerate(self.told):
+            found[i] = (*found.get(i, ()), *each.notes)
+        return found
 
     def bare(self, i: int, parts: frozenset[str]) -> Bare | None:
         """Run i as ResultOf has it."""
@@ -236,8 +250,7 @@ def _of_runs(results: _Results, kept: _Kept | None) -> Batch:
     if kept:
         runs.let_go()
     impacts = tuple(runs.impacts_of(i) for i in range(runs.n))
-    counts = [runs.counts(i) for i in range(runs.n)]
-    numbers = {name: np.array([getattr(c, name) for c in counts]) for name in COUNTS} | {"seconds": x["seconds"]}
+    numbers = {**counts_of_runs(x["counts"], x["residuals"]), "seconds": x["seconds"]}
     return Batch(
         source=source, t=runs.times.t, states=None if kept else states, samples=x["done"], t_last=x["t_last"],
         parameters=given_values(source, x["p"], results.starts.is_given), impacts=impacts,

@@ -139,6 +139,10 @@ class _Runs:
             raise self.errors[i]
         return self.results[i]
 
+    def notes(self) -> dict[int, tuple[str, ...]]:
+        """What runs say of themselves, of each that began."""
+        return {i: run.diagnostics.notes for i, run in self.left.items()}
+
     def bare(self, i: int, parts: frozenset[str]) -> Result | None:
         """Run i as ResultOf has it."""
         return self.results.get(i)

@@ -95,6 +95,19 @@ def test_what_a_scene_lacks_is_told_once_and_is_nan(crank: gudgeon.Study) -> Non
     assert sum("hits" in note for note in crank.notes) == 1 and all("ideal" in note for note in crank.notes)
 
 
+def test_what_runs_say_of_themselves_is_told_once_with_how_many(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As their own Results say it; of several blocks, and through their files."""
+    monkeypatch.setattr(resolve, "BLOCK", 2)
+    clearances, wanted = [1e-6, 1.5e-6, 2e-6, 3e-4], {"t_end": "pi/omega", "output": 20}
+    measures = {"measures": {"F": {"peak_force": "wristpin"}}}
+    found = gudgeon.study({"mechanism": "slider_crank", "scenes": "dry", "parameters": {"c": clearances}}
+                          | wanted | measures)  # fmt: skip
+    own = [loaded("slider_crank", "dry").simulate("pi/omega", output=20, parameters={"c": c}).diagnostics.notes
+           for c in clearances]  # fmt: skip
+    assert [len(notes) for notes in own] == [1, 1, 1, 0]
+    assert found.notes == (f"3 of 4 runs, such as run 0 (c=1e-06): {own[0][0]}",)
+
+
 def test_an_executors_processes_make_the_same_dataset(crank: gudgeon.Study) -> None:
     with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
         found = gudgeon.study(CRANK, executor=pool)

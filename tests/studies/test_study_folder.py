@@ -6,11 +6,14 @@ import os
 import resource
 import shutil
 import signal
+import sys
+import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import xarray as xr
 from filelock import FileLock
@@ -68,6 +71,42 @@ def test_a_killed_study_goes_on_to_the_same_dataset(moment: float, tmp_path: Pat
     assert not begun or begun[0] > (there - 1) / 6
     xr.testing.assert_identical(found.dataset, quiet)
     xr.testing.assert_identical(gudgeon.load_study(tmp_path).dataset, quiet)
+
+
+def calls_until_killed(most: int, counted: list[int]) -> None:
+    """From here on a call of Python after so many, in whatever thread, kills the process."""
+
+    def count(frame: object, event: str, argument: object) -> None:
+        counted[0] += 1
+        if counted[0] == most:
+            os.kill(os.getpid(), signal.SIGKILL)
+
+    threading.setprofile(count)
+    sys.setprofile(count)
+
+
+def test_killed_at_random_moments(tmp_path: Path, quiet: xr.Dataset) -> None:
+    """At ten calls of Python, wherever they are: loading, runs, the bytes of a block, the dataset; going on as well."""
+    counted = [0]
+    calls_until_killed(0, counted)
+    try:
+        gudgeon.study(STUDY, tmp_path / "whole", threads=1)
+    finally:
+        sys.setprofile(None)
+        threading.setprofile(None)
+    rng, ends, there = np.random.default_rng(16), [], []
+    for k, moment in enumerate(rng.integers(1, counted[0], 10).tolist()):
+        folder = tmp_path / str(k // 2)  # each second one kills what went on from the first
+
+        def act(folder: Path = folder, moment: int = moment) -> None:
+            calls_until_killed(moment, [0])
+            gudgeon.study(STUDY, folder, threads=1)
+
+        ends.append(killed(act))
+        there.append(len(list(folder.glob("block-*.nc"))))
+        if k % 2:
+            xr.testing.assert_identical(gudgeon.study(STUDY, folder).dataset, quiet)
+    assert ends.count(-signal.SIGKILL) >= 6 and len(set(there)) >= 3  # not all at one place
 
 
 def test_a_kill_as_the_dataset_is_written(tmp_path: Path, quiet: xr.Dataset, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -181,7 +220,7 @@ def test_ctrl_c_leaves_what_is_there(call: Gudgeon, tmp_path: Path, monkeypatch:
 
     with monkeypatch.context() as patch:
         patch.setattr(loop, "run_block", interrupted)
-        told = call("study", "s.yaml")
+        told = call("study", "s.yaml", "--threads", "1")
     assert told.exit_code == 130 and "2 of 3 blocks of runs are in s.study" in told.output
     assert call("study", "s.yaml").exit_code == 0 and call("study", "s.yaml", "--restart").exit_code == 0
 

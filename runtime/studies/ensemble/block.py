@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,6 +19,7 @@ from gudgeon.simulation.arguments import DEFAULT_OUTPUT, MOST_OUTPUT
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.libraries import loaded, method_in
 from gudgeon.studies.ensemble.measures import ROUNDING, Spans, measured, series_of, steps_of
+from gudgeon.studies.ensemble.notes import Note, gathered, guesses, merged
 from gudgeon.studies.ensemble.numbers import key_of, of_runs, slot_of
 from gudgeon.studies.ensemble.origins import at_samples, of_steps, origin_of
 
@@ -72,6 +73,7 @@ class Block:
     t_last: Array  # (n,) s, NaN: it did not begin
     t: Array  # empty where nothing is kept
     series: Mapping[str, Array]  # (n, N)
+    notes: Mapping[str, Note] = field(default_factory=dict)  # by their kind
 
 
 def run_block(job: Job, progress: Progress | None = None, simulation: Simulation | None = None) -> Block:
@@ -81,16 +83,17 @@ def run_block(job: Job, progress: Progress | None = None, simulation: Simulation
     failures = [table.bad.get(i, "") for i in range(job.n)]
     good = np.array([i for i in range(job.n) if i not in table.bad], dtype=int)
     found = _Found(job, table)
-    if len(good):
+    with guesses(simulation.source, job.first) as off:
         try:
-            batch = _run(simulation, job, table, good, progress)
-            found.take(good, batch, failures)
+            if len(good):
+                found.take(good, _run(simulation, job, table, good, progress), failures)
         except InputError:  # of one run, as a rule; alone it says which
             for i in good:
                 try:
                     found.take(np.array([i]), _run(simulation, job, table, np.array([i]), None), failures)
                 except InputError as error:
                     failures[i] = str(error)
+    found.notes.append(off)
     return found.block(failures)
 
 
@@ -219,6 +222,7 @@ class _Found:
         self.measures = {one.name: np.full(n, np.nan) for one in job.wanted.measures}
         self.t_last = np.full(n, np.nan)
         self.kept: list[tuple[Array, Array, Mapping[str, Array]]] = []
+        self.notes: list[Mapping[str, Note]] = []
 
     def take(self, runs: Array, batch: Batch, failures: list[str]) -> None:
         """What is wanted of a batch of these runs; of one that failed only how far it came."""
@@ -234,6 +238,8 @@ class _Found:
             self.measures[one.name][runs] = np.where(good, measured(batch, one, spans, origins), np.nan)
         begun = np.asarray(batch.samples) > 0
         self.t_last[runs] = np.where(begun, batch.t_last, np.nan)
+        noted = batch.result.notes()
+        self.notes.append(gathered((self.job.first + int(runs[i]), noted[i]) for i in sorted(noted)))
         if self.job.wanted.keep:
             self.kept.append((runs, batch.t, batch.kept))  # the batch itself holds what C has stored
 
@@ -253,4 +259,5 @@ class _Found:
         common = t[began][0] if began.any() else np.zeros(N)
         if np.array_equal(t[began], np.broadcast_to(common, t[began].shape)):
             t = common
-        return Block(job.number, job.first, self.measures, tuple(failures), self.t_last, t, series)
+        notes = merged(self.notes)
+        return Block(job.number, job.first, self.measures, tuple(failures), self.t_last, t, series, notes)

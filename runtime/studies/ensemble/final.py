@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from typing import Any, BinaryIO
@@ -16,9 +15,10 @@ from gudgeon.results.batch import Array
 from gudgeon.studies.ensemble.block import Block
 from gudgeon.studies.ensemble.folder import DATASET, StudyFolder, h5py_module
 from gudgeon.studies.ensemble.measures import meaning
+from gudgeon.studies.ensemble.notes import MOST, Note, kind_of, merged
 from gudgeon.studies.ensemble.plan import Coordinate, Plan
 
-_NUMBER = re.compile(r"(?<![A-Za-z_])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+MOST_COORDINATES = 6  # that name a run
 MOST_KINDS, MOST_TEXT = 50, 50_000  # kinds of failures, characters of an attribute: HDF5 has no longer ones
 
 
@@ -53,6 +53,7 @@ def _times(folder: StudyFolder) -> tuple[Array, bool]:
 def _write(target: BinaryIO, folder: StudyFolder, t: Array, common: bool) -> None:
     h5py, plan = h5py_module(), folder.plan
     kinds: Counter[str] = Counter()
+    notes: dict[str, Note] = {}
     with h5py.File(target, "w", libver=("earliest", "v110")) as file:
         _about(file, plan)
         scales = {one.name: one for one in plan.coordinates if one.over == (one.name,)}
@@ -65,14 +66,26 @@ def _write(target: BinaryIO, folder: StudyFolder, t: Array, common: bool) -> Non
         variables = _variables(h5py, file, plan, len(t), common)
         for block in _blocks(folder):
             _fill(variables, plan, block, common)
-            kinds.update(kind_of_failure(told) for told in block.failures if told)
+            notes = merged((notes, block.notes))
+            kinds.update(kind_of(told) for told in block.failures if told)
+        frequent = sorted(notes.values(), key=lambda note: (-note.runs, note.run, note.text))[:MOST]
+        lines = (*plan.notes, *(_noted(plan, note) for note in frequent))
+        file.attrs["notes"] = "\n".join(lines)[: MOST_TEXT // 4]
         file.attrs["failed"] = sum(kinds.values())
         file.attrs["failure_kinds"] = json.dumps(dict(kinds.most_common(MOST_KINDS)))
 
 
-def kind_of_failure(told: str) -> str:
-    """The first line of a reason without its numbers: what many runs failed of."""
-    return _NUMBER.sub("…", told.partition("\n")[0])[:200]
+def _noted(plan: Plan, note: Note) -> str:
+    """A note of runs in a line: how many have it, and one of them by what was varied."""
+    at = dict(zip(plan.dims, np.unravel_index(note.run, plan.shape) if plan.shape else (), strict=True))
+    own = (one for one in plan.coordinates if one.over and set(one.over) <= {*at} and one.over == one.over[:1])
+    values = [f"{one.name}={_said(one.values[at[one.over[0]]])}" for one in own][:MOST_COORDINATES]
+    such = f" ({', '.join(values)})" if values else ""
+    return f"{note.runs} of {plan.runs} runs, such as run {note.run}{such}: {' '.join(note.text.split())}"
+
+
+def _said(value: Any) -> str:
+    return str(value) if isinstance(value, str) else f"{value:.6g}"
 
 
 def _about(file: Any, plan: Plan) -> None:
@@ -83,7 +96,7 @@ def _about(file: Any, plan: Plan) -> None:
     attributes = {
         "title": plan.study.title or source.title, "mechanism": source.mechanism, "gudgeon": gudgeon.__version__,
         "sha256": source.whole_sha256, "study": said if len(said) < MOST_TEXT else "",
-        "notes": "\n".join(plan.notes)[: MOST_TEXT // 4], "plan": plan.identity, "runs": plan.runs,
+        "plan": plan.identity, "runs": plan.runs,
     }  # fmt: skip
     for name, value in attributes.items():
         file.attrs[name] = value

@@ -19,6 +19,7 @@ from gudgeon.files.writing import PART, read_regular, telling, written
 from gudgeon.language.names import LABEL
 from gudgeon.language.wanted import told
 from gudgeon.studies.ensemble.block import Block
+from gudgeon.studies.ensemble.notes import Note
 from gudgeon.studies.ensemble.plan import FOLDER_FORMAT
 
 if TYPE_CHECKING:
@@ -174,8 +175,10 @@ def image(block: Block, digest: str) -> bytes:
         arrays |= {f"series/{name}": values for name, values in block.series.items()}
         for name, values in arrays.items():
             file.create_dataset(name, data=values, **({"fletcher32": True} if values.size else {}))
-        told = np.frombuffer(json.dumps(block.failures).encode(), np.uint8)
-        file.create_dataset("failures", data=told, fletcher32=True)
+        notes = {kind: (note.runs, note.run, note.text) for kind, note in block.notes.items()}
+        for name, words in (("failures", block.failures), ("notes", notes)):
+            told = np.frombuffer(json.dumps(words).encode(), np.uint8)
+            file.create_dataset(name, data=told, fletcher32=True)
     return memory.getvalue()
 
 
@@ -189,11 +192,12 @@ def from_image(data: bytes, plan: Plan, number: int) -> Block | None:
         measures = {one.name: _array(file, f"measures/{one.name}", 1) for one in plan.wanted.measures}
         series = {name: _array(file, f"series/{name}", 2) for name in plan.wanted.keep}
         t_last, t = _array(file, "t_last", 1), np.asarray(file["t"], dtype=float)
-        failures = tuple(json.loads(bytes(np.asarray(file["failures"], np.uint8))))
+        failures, told = (json.loads(bytes(np.asarray(file[name], np.uint8))) for name in ("failures", "notes"))
+    notes = {kind: Note(*note) for kind, note in told.items()}
     lengths = {len(x) for x in (*measures.values(), *series.values(), t_last, failures)}
     if lengths != {of.runs} or not all(isinstance(told, str) for told in failures):
         raise ValueError(f"block {number}: expected {of.runs} runs")
-    return Block(number, of.part * plan.each + of.first, measures, failures, t_last, t, series)
+    return Block(number, of.part * plan.each + of.first, measures, tuple(failures), t_last, t, series, notes)
 
 
 def _array(file: Any, name: str, ndim: int) -> Any:

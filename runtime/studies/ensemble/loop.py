@@ -2,81 +2,125 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, wait
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
+from contextlib import contextmanager, suppress
+from itertools import islice
+from threading import Event
 from typing import TYPE_CHECKING
 
 from gudgeon.errors import GudgeonError
+from gudgeon.integrators.batch import GLANCE, available_threads
 from gudgeon.studies.ensemble.block import Block, run_block
 from gudgeon.studies.ensemble.final import write_dataset
 from gudgeon.studies.ensemble.folder import DATASET, StudyFolder
+from gudgeon.studies.ensemble.workers import Processes, is_lost, room
 
 if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Progress
     from gudgeon.studies.ensemble.plan import BlockOf
 
-AHEAD = 2  # blocks for each worker of an executor that wait or run
+SIDE_BY_SIDE = 2  # blocks at once here: while the last runs of one end and Python has the others, no core waits
+FUTILE = 3  # times that workers die one after the other, and no block is done
+
+
+class _Done:
+    """How far a study is: runs of blocks that are written, and shares of those that are under way."""
+
+    def __init__(self, runs: int, done: int, progress: Progress | None) -> None:
+        self.runs, self.done, self.progress = runs, done, progress
+        self.shares: dict[int, float] = {}  # of blocks by their number, in runs
+
+    def add(self, block: BlockOf) -> None:
+        """A block is written."""
+        self.shares.pop(block.number, None)
+        self.done += block.runs
+
+    def tell(self) -> None:
+        """In the calling thread."""
+        if self.progress:
+            under_way = sum(self.shares.copy().values())
+            self.progress((self.done + under_way) / self.runs, f"{self.done} of {self.runs} runs")
 
 
 def finish(folder: StudyFolder, threads: int | None, executor: Executor | None, progress: Progress | None) -> None:
     """Run what is missing, then write the dataset. KeyboardInterrupt leaves what is there."""
-    plan = folder.plan
+    plan, futile = folder.plan, 0
     while True:
         missing = [block for block in plan.blocks if not folder.has(block.number)]
         if not missing and (folder.path / DATASET).exists():
             return
-        done = plan.runs - sum(block.runs for block in missing)
-        if progress and done:  # a bar measures its speed from here on
-            progress(done / plan.runs, f"{done} of {plan.runs} runs are there")
-        if executor is None:
-            _here(folder, missing, done, threads, progress)
-        else:
-            _there(folder, missing, done, threads, executor, progress)
+        done = _Done(plan.runs, plan.runs - sum(block.runs for block in missing), progress)
+        if done.done:  # a bar measures its speed from here on
+            done.tell()
         try:
+            if executor is None:
+                _here(folder, missing, done, threads)
+            else:
+                _there(folder, missing, done, threads, executor)
+        except Exception as error:
+            if not is_lost(error):
+                raise
+            futile = 0 if any(folder.has(block.number) for block in missing) else futile + 1
+            if not isinstance(executor, Processes) or futile >= FUTILE:
+                raise _told(folder, error) from error
+            executor.renew()
+            continue
+        with suppress(LookupError):  # a block that was taken away meanwhile
             write_dataset(folder)
             return
-        except LookupError:  # a block that was taken away meanwhile
-            continue
 
 
-def _here(
-    folder: StudyFolder, missing: list[BlockOf], done: int, threads: int | None, progress: Progress | None
-) -> None:
-    runs = folder.plan.runs
-    for block in missing:
+def _here(folder: StudyFolder, missing: list[BlockOf], done: _Done, threads: int | None) -> None:
+    """In threads of this process; what ends the waiting ends all runs where they are."""
+    most, ended = SIDE_BY_SIDE if (threads or available_threads()) > 1 else 1, Event()
 
-        def report(fraction: float, text: str, of: BlockOf = block, before: int = done) -> None:
-            if progress:
-                progress((before + fraction * of.runs) / runs, text)
+    def run(block: BlockOf) -> Block:
+        def report(fraction: float, text: str) -> None:
+            if ended.is_set():
+                raise KeyboardInterrupt
+            done.shares[block.number] = fraction * block.runs
 
-        simulation = folder.plan.parts[block.part].simulation
-        folder.write(run_block(folder.plan.job(block, threads), report if progress else None, simulation))
-        done += block.runs
-        if progress:
-            progress(done / runs, f"{done} of {runs} runs")
+        return run_block(folder.plan.job(block, threads), report, folder.plan.parts[block.part].simulation)
+
+    with ThreadPoolExecutor(most, thread_name_prefix="gudgeon") as pool:
+        try:
+            _all(folder, missing, done, lambda block: pool.submit(run, block), lambda: most)
+        finally:
+            ended.set()
 
 
 def _there(
-    folder: StudyFolder, missing: list[BlockOf], done: int, threads: int | None, executor: Executor,
-    progress: Progress | None,
+    folder: StudyFolder, missing: list[BlockOf], done: _Done, threads: int | None, executor: Executor
+) -> None:
+    """By whoever the executor gives them to."""
+
+    def submit(block: BlockOf) -> Future[Block]:
+        return executor.submit(run_block, folder.plan.job(block, threads or 1))
+
+    _all(folder, missing, done, submit, lambda: room(executor))
+
+
+def _all(
+    folder: StudyFolder, missing: list[BlockOf], done: _Done, submit: Callable[[BlockOf], Future[Block]],
+    most: Callable[[], int],
 ) -> None:  # fmt: skip
-    """Blocks are written as they come; never more are out than workers can use, so that memory stays as it is."""
-    runs, left, most = folder.plan.runs, iter(missing), AHEAD * max(1, getattr(executor, "_max_workers", 4))
+    """Blocks are written as they come, and never more are out than there is room for."""
+    left = iter(missing)
     out: dict[Future[Block], BlockOf] = {}
-    with _told(folder), _cancelled(out):
+    with _cancelled(out):
+        over: set[Future[Block]] | None = None
         while True:
-            for block in left:
-                out[executor.submit(run_block, folder.plan.job(block, threads or 1))] = block
-                if len(out) >= most:
-                    break
+            if over is None or over:
+                for block in islice(left, max(0, most() - len(out))):
+                    out[submit(block)] = block
             if not out:
                 return
-            for future in wait(out, return_when=FIRST_COMPLETED).done:
-                folder.write(future.result())
-                done += out.pop(future).runs
-                if progress:
-                    progress(done / runs, f"{done} of {runs} runs")
+            over = wait(out, GLANCE, return_when=FIRST_COMPLETED).done
+            for future in sorted(over, key=lambda one: one.cancelled() or one.exception() is not None):
+                folder.write(future.result())  # what is good first: the others raise
+                done.add(out.pop(future))
+            done.tell()
 
 
 @contextmanager
@@ -88,11 +132,7 @@ def _cancelled(out: dict[Future[Block], BlockOf]) -> Iterator[None]:
             future.cancel()
 
 
-@contextmanager
-def _told(folder: StudyFolder) -> Iterator[None]:
-    try:
-        yield
-    except (BrokenExecutor, CancelledError) as error:
-        there = sum(folder.has(block.number) for block in folder.plan.blocks)
-        told = f"a worker ended before its runs did ({type(error).__name__}): {there} of {len(folder.plan.blocks)}"
-        raise GudgeonError(f"{told} blocks are there\n  the same call goes on from them") from error
+def _told(folder: StudyFolder, error: Exception) -> GudgeonError:
+    there = sum(folder.has(block.number) for block in folder.plan.blocks)
+    told = f"a worker ended before its runs did ({type(error).__name__}): {there} of {len(folder.plan.blocks)}"
+    return GudgeonError(f"{told} blocks are there\n  the same call goes on from them")

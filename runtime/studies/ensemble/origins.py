@@ -97,7 +97,7 @@ class Recent:
                 self._bytes -= sum(one.nbytes for one in self._held.popitem(last=False)[1].values())
 
 
-_recent = Recent()
+_recent, _making = Recent(), Lock()
 
 
 def at_samples(job: Job, table: Table, runs: Array, batch: Batch, failures: list[str]) -> dict[str, dict[str, Array]]:
@@ -126,15 +126,16 @@ def _series(
     common = (job.mechanism, job.overrides, job.sha256, simulation.source.scene, job.wanted.method, job.wanted.rtol,
               tuple(wanted))  # fmt: skip
     keys = [(common, alike.key(i)) for i in range(len(runs))]
-    held = {keys[i]: _recent.get(keys[i]) for i in good}
-    missing = [i for i in {keys[i]: i for i in reversed(good)}.values() if held[keys[i]] is None]
-    for i, series in _made(job, simulation, alike, sorted(missing), wanted).items():
-        if isinstance(series, str):
-            for k in (k for k in good if keys[k] == keys[i]):
-                failures[runs[k]] = f"scene {simulation.source.scene}: {series}"
-        else:
-            held[keys[i]] = series
-            _recent.put(keys[i], series)
+    with _making:  # another block in another thread may be about to need the same ones
+        held = {keys[i]: _recent.get(keys[i]) for i in good}
+        missing = [i for i in {keys[i]: i for i in reversed(good)}.values() if held[keys[i]] is None]
+        for i, series in _made(job, simulation, alike, sorted(missing), wanted).items():
+            if isinstance(series, str):
+                for k in (k for k in good if keys[k] == keys[i]):
+                    failures[runs[k]] = f"scene {simulation.source.scene}: {series}"
+            else:
+                held[keys[i]] = series
+                _recent.put(keys[i], series)
     for i in good:
         for name, values in (held[keys[i]] or {}).items():
             out[name][i, np.isfinite(times[i])] = values

@@ -13,13 +13,16 @@ from typing import TYPE_CHECKING, Any
 from gudgeon.contract.limits import MAX_BYTES
 from gudgeon.errors import InputError, InputErrors, in_a_line, shortened
 from gudgeon.files.reading import read_named
-from gudgeon.language.wanted import flag, function, mapping, optional, path, whole
+from gudgeon.language.wanted import flag, function, mapping, path, whole
 from gudgeon.studies.ensemble.claimed import write_claims
 from gudgeon.studies.ensemble.finished import Study, StudyOfParts
 from gudgeon.studies.ensemble.folder import DATASET, MANIFEST, StudyFolder, h5py_module, manifest, open_parts, parts_of
 from gudgeon.studies.ensemble.loop import finish
+from gudgeon.studies.ensemble.workers import executor_of
 
 if TYPE_CHECKING:
+    import distributed
+
     from gudgeon.generator.study.spec import StudySet
     from gudgeon.integrators.trajectory import Progress
     from gudgeon.studies.ensemble.plan import Plan, Plans
@@ -66,28 +69,28 @@ def _resolved(studies: StudySet) -> Plans:
 
 def study(
     study: str | os.PathLike[str] | Mapping[str, Any], folder: str | os.PathLike[str] | None = None, *,
-    threads: int | None = None, executor: Executor | None = None, progress: Progress | None = None,
-    restart: bool = False, settings: Mapping[str, float | str] | None = None,
+    threads: int | None = None, executor: Executor | distributed.Client | None = None,
+    progress: Progress | None = None, restart: bool = False, settings: Mapping[str, float | str] | None = None,
 ) -> Study:  # fmt: skip
     """Make all runs of a study, and what it measures of them.
 
     study: a YAML file (docs/studies.md), or a mapping that says the same. folder: where finished blocks of runs go at
     once; the same call goes on from what is there, whatever ended it, to the same dataset. None: a temporary folder,
     which goes with the Study. threads: in each process, None for the cores there are (1 with an executor).
-    executor: any of concurrent.futures; its workers are given blocks and load their own libraries. restart: begin
-    anew. settings: {address: number or text} for all runs, over the study's own. A run that fails is a row with its
-    reason and NaN, and stops no other.
+    executor: any of concurrent.futures, or a Client of dask.distributed; its workers are given blocks and load their
+    own libraries. restart: begin anew. settings: {address: number or text} for all runs, over the study's own. A run
+    that fails is a row with its reason and NaN, and stops no other.
 
     Raises InputError, with its place, for a mistake in the study or a folder of another study; OutputError for a
     disk that takes no more. Ctrl-C is passed on: what is in the folder stays.
     """
     threads = None if threads is None else whole(threads, "threads", 1, MOST_THREADS)
-    executor, progress = optional(executor, "executor", Executor), function(progress, "progress")
+    pool, progress = executor_of(executor), function(progress, "progress")
     restart, plans = flag(restart, "restart"), plans_of(study, settings)
     if folder is None:
         kept = tempfile.TemporaryDirectory(prefix="gudgeon-study-")
-        return run_plans(plans, Path(kept.name), threads, executor, progress, restart, kept)
-    return run_plans(plans, Path(path(folder, "folder")), threads, executor, progress, restart)
+        return run_plans(plans, Path(kept.name), threads, pool, progress, restart, kept)
+    return run_plans(plans, Path(path(folder, "folder")), threads, pool, progress, restart)
 
 
 def run_plans(

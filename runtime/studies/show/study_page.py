@@ -13,7 +13,7 @@ from gudgeon.errors import GudgeonError
 from gudgeon.language.plot_units import scale
 from gudgeon.language.shown import one_line
 from gudgeon.results.web_page import Section, article, lines, page, table, text
-from gudgeon.studies.ensemble.final import kind_of_failure
+from gudgeon.studies.ensemble.notes import kind_of
 from gudgeon.studies.show.claims import claims_sections
 from gudgeon.studies.show.pictures import Draw, gallery
 from gudgeon.studies.show.study_data import MANY, StudyData
@@ -117,7 +117,7 @@ def _failures(data: StudyData) -> Iterator[tuple[str, ...]]:
     found = data.dataset["failure"]
     values, first = np.ravel(found.values), dict[str, tuple[str, int]]()
     for k in np.flatnonzero(values != ""):
-        first.setdefault(kind_of_failure(str(values[k])), (str(values[k]), int(k)))
+        first.setdefault(kind_of(str(values[k])), (str(values[k]), int(k)))
     words = {str(one): data.labels(found, str(one), named=True)[0] for one in found.dims}
     for kind, count in data.study.failures.items():
         told, place = first.get(kind, ("", 0))

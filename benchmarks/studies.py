@@ -1,0 +1,89 @@
+"""10,000 lubricated runs with summaries on disk: time a run and core, what a second core brings, memory.
+
+    python -m benchmarks.studies [--repeats 3]
+
+studies/lubricated_10000.yaml, and a tenth of it (fewer viscosities), each in a process of its own: the tenth by one
+thread and by two in turns, the least of each is told, beside two threads that only hash; the whole by two. `alone` is
+the processor time of the same runs as one batch without samples; the rest is all that the study adds, series, measures
+and files. On a machine that does other things too, look at that ratio and at processor times. Memory is the most that a
+process had in all.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import resource
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from time import perf_counter, process_time
+
+import numpy as np
+from ruamel.yaml import YAML
+
+from benchmarks.many import machine
+from gudgeon.studies.ensemble.study import plan_of, run_plan
+
+FILE = Path(__file__).parents[1] / "studies" / "lubricated_10000.yaml"
+VISCOSITY, TENTH, WHOLE = "contacts.oil.film.viscosity", 2, 20  # how many of them
+
+
+def one(viscosities: int, threads: int) -> dict[str, float]:
+    """A study in this process: runs, failed ones, s of wall, of processor, of its runs alone; MB before and at most."""
+    study = YAML(typ="safe").load(FILE)
+    study["parameters"][VISCOSITY]["count"] = viscosities
+    plan, alone = plan_of(study), math.nan
+    if viscosities == TENTH:
+        simulation, columns = plan.parts[0].simulation, plan.job_of(0, 0, np.arange(plan.runs), 1).columns
+        before = process_time()
+        simulation.simulate_many(dict(columns), study["t_end"], output=1, rtol=study["rtol"], threads=1, keep=[])
+        alone = process_time() - before
+    before = most()
+    with tempfile.TemporaryDirectory() as folder:
+        wall, cpu = perf_counter(), process_time()
+        found = run_plan(plan, Path(folder), threads)
+        wall, cpu = perf_counter() - wall, process_time() - cpu
+        runs, failed = found.runs, found.failed
+    told = {"runs": runs, "failed": failed, "wall": wall, "cpu": cpu, "alone": alone, "before": before}
+    return told | {"most": most()}
+
+
+def most() -> float:
+    """Memory of this process so far, MB."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1024 if sys.platform == "linux" else 1 << 20)
+
+
+def apart(viscosities: int, threads: int) -> dict[str, float]:
+    """The same in a process of its own."""
+    call = [sys.executable, "-m", "benchmarks.studies", "--one", str(viscosities), str(threads)]
+    found: dict[str, float] = json.loads(subprocess.run(call, check=True, capture_output=True, text=True).stdout)
+    return found
+
+
+def main() -> None:
+    """Command line."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument("--one", type=int, nargs=2, help=argparse.SUPPRESS)
+    options = parser.parse_args()
+    if options.one:
+        print(json.dumps(one(*options.one)))
+        return
+    least, ratio = {1: math.inf, 2: math.inf}, 0.0
+    print("  threads    runs  failed   ms a run: wall    CPU  alone    MB: before  most")
+    for threads in (*(1, 2) * options.repeats, 0):
+        found = apart(TENTH, threads) if threads else apart(WHOLE, 2)
+        each = [1e3 * found[name] / found["runs"] for name in ("wall", "cpu", "alone")]
+        told = f"{each[0]:16.3f}{each[1]:7.3f}{each[2]:7.3f}{found['before']:14.0f}{found['most']:6.0f}"
+        print(f"  {threads or 2:7d}{found['runs']:8.0f}{found['failed']:8.0f}{told}", flush=True)
+        if threads:
+            least[threads], ratio = min(least[threads], found["wall"]), max(ratio, machine(1))
+    told = f"two threads are {least[1] / least[2]:.2f} times as fast as one; two that only hash: {ratio:.2f}"
+    print(f"  {told}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,64 @@
+"""What the runs of a study say of themselves: each kind once, in how many runs, with one of them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from gudgeon.assembly.followed import LISTED, NOTED, nearer_text, off_text
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from gudgeon.contract.kernel_source import KernelSource
+
+_NUMBER = re.compile(r"(?<![A-Za-z_])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+MOST = 50  # kinds that are told
+
+
+@dataclass(frozen=True)
+class Note:
+    """A kind of note: runs that have it, the first of them (of the study) and its words."""
+
+    runs: int
+    run: int
+    text: str
+
+
+def kind_of(told: str) -> str:
+    """The first line of what is told of a run without its numbers: the same of many."""
+    return _NUMBER.sub("…", told.partition("\n")[0])[:200]
+
+
+def gathered(told: Iterable[tuple[int, Sequence[str]]]) -> dict[str, Note]:
+    """Of runs with their notes."""
+    return merged({kind_of(text): Note(1, run, text)} for run, texts in told for text in texts)
+
+
+def merged(several: Iterable[Mapping[str, Note]]) -> dict[str, Note]:
+    """Of notes of different runs."""
+    found: dict[str, Note] = {}
+    for kind, note in (item for one in several for item in one.items()):
+        before = found.get(kind)
+        first = note if before is None or note.run < before.run else before
+        found[kind] = Note(note.runs + (before.runs if before else 0), first.run, first.text)
+    return found
+
+
+@contextmanager
+def guesses(source: KernelSource, run: int) -> Iterator[dict[str, Note]]:
+    """Guesses that runs from here do not follow, which would be a warning a block."""
+    noted: list[Mapping[str, float]] = []
+    found: dict[str, Note] = {}
+    token = NOTED.set(noted)
+    try:
+        yield found
+    finally:
+        NOTED.reset(token)
+    for name in dict.fromkeys(name for off in noted for name in off):
+        by = [off[name] for off in noted if name in off]
+        text = f"{name} begins {off_text(name, by[0])} from its guess: {nearer_text(source)}; {LISTED}"
+        found[kind_of(text)] = Note(len(by), run, text)
