@@ -66,7 +66,7 @@ def test_the_pinned_versions_are_those_in_use() -> None:
     assert wrong == {}
 
 
-BY_NAME = {"bench", "web"}  # extras that are asked for by name alone: not on every platform, or large
+BY_NAME = {"bench", "web", "dask"}  # extras that are asked for by name alone: not on every platform, large, or for few
 
 
 def test_all_holds_every_extra_of_a_user() -> None:
