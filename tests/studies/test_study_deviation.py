@@ -129,7 +129,7 @@ def test_what_the_other_scene_cannot_run_is_a_row_with_its_reason() -> None:
     })  # fmt: skip
     told = found.dataset["failure"].values
     assert told[0].startswith("scene ideal: ") and told[1] == "" and found.failed == 1
-    assert any("away from their guess" in note for note in found.notes), found.notes
+    assert any("70.1 mm from its guess" in note for note in found.notes), found.notes
     np.testing.assert_array_equal(found.dataset["x"].isnull(), [True, False])
 
 
