@@ -101,7 +101,7 @@ def _name_looks(rig: Rig) -> Iterator[tuple[str, int]]:
 
 
 def _names(rig: Rig) -> Iterator[list[Any]]:
-    """[text, part, class, shift on a desk, shift on a phone, clear] of each: shifts in pixels, y down, clear in metres."""
+    """[text, part, class, shift on a desk, on a phone, clear]: shifts in pixels, y down, clear in metres."""
     wide, narrow = _beside(rig.sketch, WIDE), _beside(rig.sketch, NARROW)
     for label, (role, tint) in zip(rig.sketch.labels, _name_looks(rig), strict=True):
         shifts = [[round(x, 1), round(-y, 1)] for x, y in (at.get(label.part, (0.0, 0.0)) for at in (wide, narrow))]
