@@ -56,6 +56,7 @@ class Asked:
     @cached_property
     def there(self) -> Evaluation:
         run = self.run
+        assert run.compiled
         return run.compiled.evaluate(run.t, run.q, run.v, run.memory, run.p)
 
     def at(self, q: Any) -> list[dict[str, float]]:
