@@ -172,9 +172,7 @@ def _acceleration(subject: Subject) -> Question:
     model, drawn = subject.model, subject.drawn
     alphas = {body.name: float(drawn.run[f"{body.name}.alpha"][-1]) for body in model.bodies}
     name = max(alphas, key=lambda body: abs(alphas[body]))
-    symbol = next(body.q[2] for body in model.bodies if body.name == name)
-    of = subject.notation.math(symbol)
-    angle = Name(rf"\ddot{{{of.latex}}}", f"d²{of.text}/dt²")
+    angle = letter("theta", name, dots=2)
     asked = paragraph(
         "Drives determine the whole motion. Write all rows of ", ACCELERATIONS, f" at {drawn.t:g} s, by hand or by "
         f"computer, and solve them: how large is the angular acceleration of {name}?",

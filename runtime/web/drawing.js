@@ -119,10 +119,10 @@ class Drawing {
         this.way = svg("path", {class: "d-path"}, root);
         this.force = ["d-reaction", "d-reaction-head"].map((name) => svg("path", {class: name}, root));
         const group = svg("g", {class: "g-name-group"}, root);
-        this.names = names.map(([text, part, look, wide, narrow], k) => {
+        this.names = names.map(([text, part, look, wide, narrow, clear], k) => {
             const made = svg("text", {class: look, "data-of": tokens(part)}, group);
             made.textContent = text;
-            return {made, shifts: [wide, narrow], label: this.rig.labels[k]};
+            return {made, shifts: [wide, narrow], label: this.rig.labels[k], clear: clear * this.scale};
         });
         this.view(this.box);
     }
@@ -156,8 +156,17 @@ class Drawing {
         const larger = metre / this.planned[this.narrow], size = Math.min(Math.max(larger, 0.95), 1.35);
         this.pixel = this.scale / metre; // of the drawing's pixels, to one of the screen
         this.shift = this.pixel * larger;
+        this.room = [...this.at([x0, y1]), ...this.at([x1, y0])];
         this.root.style.setProperty("--name", `${11 * size * this.pixel}px`);
-        for (const {made, shifts} of this.names) made.style.display = shifts[this.narrow] ? "" : "none";
+        this.named = this.names.filter(({made, shifts}) => {
+            made.style.display = shifts[this.narrow] ? "" : "none";
+            return shifts[this.narrow];
+        });
+        for (const name of this.named) {
+            const {width, height} = name.made.getBBox();
+            name.half = [width / 2, height / 2];
+            name.beside = name.planned = name.shifts[this.narrow].map((x) => x * this.shift);
+        }
     }
 
     at([x, y]) { return [(x - this.low[0]) * this.scale, (this.high[1] - y) * this.scale]; }
@@ -172,12 +181,29 @@ class Drawing {
         this.rig.update(q, p, load);
         for (const {made, moves, shapes} of this.paths)
             if (moves || !same) made.setAttribute("d", shapes.map((shape) => this.path(shape, p)).join(""));
-        for (const {made, label, shifts} of this.names) {
-            const [x, y] = this.at(this.rig.label(label)), shift = shifts[this.narrow] ?? [0, 0];
-            const place = `translate(${short(x + shift[0] * this.shift)} ${short(y + shift[1] * this.shift)})`;
+        for (const name of this.named) name.at = this.at(this.rig.label(name.label));
+        settle(this.named, this.room, this.pixel, () => this.lines());
+        for (const {made, at, beside} of this.named) {
+            const place = `translate(${short(at[0] + beside[0])} ${short(at[1] + beside[1])})`;
             if (made.place !== place) made.setAttribute("transform", made.place = place);
         }
         this.arrows(q, p, forces);
+    }
+
+    /* All lines, as segments x, y, x, y, …; circles as many-sided. */
+    lines() {
+        const found = [];
+        for (const shape of this.rig.shapes) {
+            let points = this.rig.points(shape).map((point) => this.at(point));
+            if (shape.disc) {
+                const [[x, y]] = points, r = this.rig.radius(shape, this.p) * this.scale;
+                points = Array.from({length: 17}, (_, k) =>
+                    [x + r * Math.cos(k * Math.PI / 8), y + r * Math.sin(k * Math.PI / 8)]);
+            }
+            const ends = shape.closed ? [...points, points[0]] : points;
+            for (let k = 1; k < ends.length; k++) found.push(...ends[k - 1], ...ends[k]);
+        }
+        return found;
     }
 
     path(shape, p) {

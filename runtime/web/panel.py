@@ -101,13 +101,13 @@ def _name_looks(rig: Rig) -> Iterator[tuple[str, int]]:
 
 
 def _names(rig: Rig) -> Iterator[list[Any]]:
-    """[text, part, class, shift on a desk, shift on a phone] of each, shifts in pixels, y down."""
+    """[text, part, class, shift on a desk, on a phone, clear]: shifts in pixels, y down, clear in metres."""
     wide, narrow = _beside(rig.sketch, WIDE), _beside(rig.sketch, NARROW)
     for label, (role, tint) in zip(rig.sketch.labels, _name_looks(rig), strict=True):
         shifts = [[round(x, 1), round(-y, 1)] for x, y in (at.get(label.part, (0.0, 0.0)) for at in (wide, narrow))]
         hidden = [part not in at for part, at in ((label.part, wide), (label.part, narrow))]
         told: list[Any] = [None if gone else shift for shift, gone in zip(shifts, hidden, strict=True)]
-        yield [label.text, label.part, f"{look(role, tint)}-name", *told]
+        yield [label.text, label.part, f"{look(role, tint)}-name", *told, float(f"{label.clear:.3g}")]
 
 
 def _beside(sketch: Sketch, inches: float) -> dict[str, tuple[float, float]]:

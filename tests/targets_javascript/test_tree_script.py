@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import json
 import subprocess
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -14,8 +17,10 @@ import pytest
 import gudgeon
 from gudgeon.generator.pipeline import derive
 from gudgeon.generator.targets.javascript.module import equations_script
-from gudgeon.generator.targets.latex.trace import trace
+from gudgeon.generator.targets.latex.trace import Trace, trace
 from gudgeon.loading.find import find_mechanism
+from gudgeon.model.evaluation import Evaluation
+from gudgeon.results.results import Result
 from tests.programs import needs_compiler
 from tests.targets_latex.test_trace import statements
 from tests.web.node import node
@@ -35,7 +40,59 @@ FUNCTIONS = (
     "reduce_state", "reduce_accelerations", "expand", "closures", "closure_rates", "reduced_dynamics",
     "reduced_project",
 )  # fmt: skip
+CHAINS = "chain_directions", "chain_step", "chain_rates", "chain_third"
+METHODS = Path(__file__).parents[1] / "mechanisms/methods"
 CASES = [("nine_bar_press", "dry", 0.02), ("nine_bar_press", "lubricated", 0.2), ("four_bar", None, 0.5)]
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A run, and what a page says of the lines of reduced.c at its samples."""
+
+    found: Trace
+    run: Result
+    folder: Path
+
+    @cached_property
+    def there(self) -> Evaluation:
+        run = self.run
+        assert run.compiled
+        return run.compiled.evaluate(run.t, run.q, run.v, run.memory, run.p)
+
+    def at(self, q: Any) -> list[dict[str, float]]:
+        """Each line's value by its name, bodies being at q."""
+        run, names = self.run, sorted(set(self.found.values["reduced.c"].values()))
+        of = [f"{body.name}.{what}" for body in self.found.model.bodies for what in ("ax", "ay", "alpha")]
+        samples = zip(*(x.tolist() for x in (run.t, q, run.v, run.memory, self.there.a)), strict=True)
+        states = [
+            {"t": t, "q": at, "v": v, "p": run.p.tolist(), "memory": memory, "a": dict(zip(of, a, strict=True))}
+            for t, at, v, memory, a in samples
+        ]
+        told = json.dumps(states).replace("null", "NaN")
+        script = ASKED % (equations_script(self.found.program), told, json.dumps(names))
+        (self.folder / "ask.js").write_text(script, encoding="utf-8")
+        line = [str(node()), str(self.folder / "ask.js"), str(LIVE)]
+        done = subprocess.run(line, capture_output=True, text=True, timeout=60)
+        assert done.returncode == 0, done.stderr
+        return list(json.loads(done.stdout))
+
+
+def asked(mechanism: str, scene: str | None, t_end: float, folder: Path) -> Asked:
+    simulation, file = gudgeon.load(mechanism, scene), find_mechanism(mechanism)
+    found = trace(derive(file.read_bytes(), str(file), simulation.source.scene))
+    return Asked(found, simulation.simulate(t_end, output=40), folder)
+
+
+def array(of: str, places: Iterable[int], rows: list[dict[str, float]]) -> Any:
+    """Entries of an array of a function, sample by sample."""
+    return np.array([[row[f"tree.{of}[{k}]"] for k in places] for row in rows])
+
+
+def check_every_line(asked: Asked, functions: Iterable[str], told: list[dict[str, float]]) -> None:
+    assert all(isinstance(x, float | int) for row in told for x in row.values())
+    for function in functions:
+        for lines, target, _ in statements(asked.found, "reduced.c", function):
+            assert lines[-1] in asked.found.values["reduced.c"] or target in ("pivot", "most"), (function, target)
 
 
 @pytest.mark.parametrize(("mechanism", "scene", "t_end"), CASES)
@@ -43,60 +100,72 @@ def test_the_tree_s_lines_at_samples_of_a_run(
     mechanism: str, scene: str | None, t_end: float, tmp_path: Path
 ) -> None:  # fmt: skip
     """Coordinates there and back, closed loops, accelerations, the power of what has play; every line has a value."""
-    simulation, file, program = gudgeon.load(mechanism, scene), find_mechanism(mechanism), node()
-    found = trace(derive(file.read_bytes(), str(file), simulation.source.scene))
-    run = simulation.simulate(t_end, output=40)
-    names = sorted(set(found.values["reduced.c"].values()))
-    there = simulation.compiled.evaluate(run.t, run.q, run.v, run.memory, run.p)
-    of = [f"{body.name}.{what}" for body in found.model.bodies for what in ("ax", "ay", "alpha")]
-
-    def ask(q: Any) -> list[dict[str, float]]:
-        """What a page says of the lines at the samples, bodies being at q."""
-        samples = zip(*(x.tolist() for x in (run.t, q, run.v, run.memory, there.a)), strict=True)
-        states = [
-            {"t": t, "q": at, "v": v, "p": run.p.tolist(), "memory": memory, "a": dict(zip(of, a, strict=True))}
-            for t, at, v, memory, a in samples
-        ]
-        told = json.dumps(states).replace("null", "NaN")
-        script = ASKED % (equations_script(found.program), told, json.dumps(names))
-        (tmp_path / "ask.js").write_text(script, encoding="utf-8")
-        line = [str(program), str(tmp_path / "ask.js"), str(LIVE)]
-        done = subprocess.run(line, capture_output=True, text=True, timeout=60)
-        assert done.returncode == 0, done.stderr
-        return list(json.loads(done.stdout))
-
-    told = ask(run.q)
-    assert all(isinstance(x, float | int) for row in told for x in row.values())
-    for function in FUNCTIONS:
-        for lines, target, _ in statements(found, "reduced.c", function):
-            assert lines[-1] in found.values["reduced.c"] or target == "pivot", (function, target)
-
-    def array(of: str, count: int, rows: list[dict[str, float]] = told) -> Any:
-        return np.array([[row[f"tree.{of}[{k}]"] for k in range(count)] for row in rows])
-
+    page = asked(mechanism, scene, t_end, tmp_path)
+    found, run, there, told = page.found, page.run, page.there, page.at(page.run.q)
+    check_every_line(page, FUNCTIONS, told)
     tree, model = found.program.tree, found.model
     assert tree
-    n = len(model.q)
-    np.testing.assert_allclose(array("expand.all_q", n), run.q, atol=1e-9)
-    np.testing.assert_allclose(array("expand.all_v", n), run.v, atol=1e-9 * np.abs(run.v).max())
-    np.testing.assert_allclose(array("closures.out", len(tree.system.rows)), 0.0, atol=1e-9)
-    np.testing.assert_allclose(array("closure_rates.out", len(tree.system.rows)), 0.0, atol=1e-9 * np.abs(run.v).max())
+    n, loops = len(model.q), range(len(tree.system.rows))
+    np.testing.assert_allclose(array("expand.all_q", range(n), told), run.q, atol=1e-9)
+    np.testing.assert_allclose(array("expand.all_v", range(n), told), run.v, atol=1e-9 * np.abs(run.v).max())
+    np.testing.assert_allclose(array("closures.out", loops, told), 0.0, atol=1e-9)
+    np.testing.assert_allclose(array("closure_rates.out", loops, told), 0.0, atol=1e-9 * np.abs(run.v).max())
     angles = {body.name: body.index + 2 for body in model.bodies}
     places = [angles.get(name, -1) for name in tree.system.unknowns]
     assert max(places) >= 0
-    a, wanted = array("reduced_dynamics.a", len(places)), there.a[:, places]
+    a, wanted = array("reduced_dynamics.a", range(len(places)), told), there.a[:, places]
     of_angles = np.array(places) >= 0
     np.testing.assert_allclose(a[:, of_angles], wanted[:, of_angles], rtol=1e-6, atol=1e-8 * np.abs(wanted).max())
-    a = array("reduce_accelerations.a", len(places))
+    a = array("reduce_accelerations.a", range(len(places)), told)
     np.testing.assert_allclose(a[:, of_angles], wanted[:, of_angles], rtol=1e-12, atol=1e-12 * np.abs(wanted).max())
     moved = run.q.copy()  # a step of Newton's closes the loops again, to second order
     moved[:, places] += 1e-4 * np.cos(np.arange(len(places)))
-    apart = ask(moved)
-    moved[:, places] -= array("reduced_project.x", len(places), apart)
-    loops = len(tree.system.rows)
-    before, after = (np.abs(array("closures.out", loops, rows)) for rows in (apart, ask(moved)))
+    apart = page.at(moved)
+    moved[:, places] -= array("reduced_project.x", range(len(places)), apart)
+    before, after = (np.abs(array("closures.out", loops, rows)) for rows in (apart, page.at(moved)))
     assert of_angles.all() and before.max() > 1e-6 and after.max() < 1e-3 * before.max()
-    power = array("reduced_dynamics.aside.power", 3)[:, 2]
+    power = array("reduced_dynamics.aside.power", [2], told)[:, 0]
     np.testing.assert_allclose(power, there.power[:, 2], rtol=1e-6, atol=1e-8 * np.abs(there.power).max())
     if model.clearances and scene == "dry":
         assert (run.state.reshape(len(run.t), -1) > 0).any()
+
+
+@pytest.mark.parametrize("mechanism", ["driven_four_bar", "trammel"])
+def test_lines_of_driven_chains_at_samples_of_a_run(mechanism: str, tmp_path: Path) -> None:
+    """Chains that turn, and one that slides: rates of all three orders, what is free beside them, Chebyshev's step.
+
+    Rates and accelerations are those of the absolute formulation, third rates are differences of the second. The step
+    is of order 3: what it leaves of a loop that is opened by 1e-3 is of the order of 1e-9.
+    """
+    page = asked(str(METHODS / f"{mechanism}.yaml"), None, 0.5, tmp_path)
+    tree, run, there, told = page.found.program.tree, page.run, page.there, page.at(page.run.q)
+    assert tree and tree.chains
+    check_every_line(page, [one for one in (*FUNCTIONS, *CHAINS) if one != "reduce_accelerations"], told)
+    n, names = len(tree.system.unknowns), tree.chains.chain.names
+    of = {name: k for body in page.found.model.bodies for k, name in enumerate(
+        (f"{body.name}.x", f"{body.name}.y", body.name), body.index)}  # fmt: skip
+    chain, free = [of[name] for name in names], [of[x] for x in tree.system.unknowns if x in of]
+    rates, second = range(n, n + len(chain)), range(n + len(chain), n + 2 * len(chain))
+    size = np.abs(run.v).max()
+    np.testing.assert_allclose(array("expand.all_q", range(run.q.shape[1]), told), run.q, atol=1e-12)
+    np.testing.assert_allclose(array("expand.all_v", range(run.q.shape[1]), told), run.v, atol=1e-11 * size)
+    np.testing.assert_allclose(array("chain_rates.v", rates, told), run.v[:, chain], atol=1e-11 * size)
+    bends = array("chain_rates.v", second, told)
+    np.testing.assert_allclose(bends, there.a[:, chain], atol=1e-9 * np.abs(there.a).max())
+    at = [k for k, name in enumerate(tree.system.unknowns) if name in of]
+    np.testing.assert_allclose(
+        array("reduced_dynamics.a", at, told), there.a[:, free], atol=1e-9 * np.abs(there.a).max()
+    )
+    third = array("chain_third.out", range(len(chain)), told)
+    np.testing.assert_allclose(third[2:-2], slopes(run.t, bends), atol=1e-2 * np.abs(third).max())
+    np.testing.assert_allclose(array("chain_step.step", range(len(chain)), told), 0.0, atol=1e-12)
+    moved = run.q.copy()
+    moved[:, chain] += 1e-3 * np.cos(np.arange(len(chain)))
+    moved[:, chain] -= array("chain_step.step", range(len(chain)), page.at(moved))
+    np.testing.assert_allclose(moved[:, chain], run.q[:, chain], atol=2e-8)
+    assert np.abs(third).max() > 1.0
+
+
+def slopes(t: Any, x: Any) -> Any:
+    """Differences of order 4 at evenly spaced times, without the two at both ends."""
+    return (x[:-4] - 8.0 * x[1:-3] + 8.0 * x[3:-1] - x[4:]) / (12.0 * (t[1] - t[0]))

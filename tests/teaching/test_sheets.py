@@ -15,6 +15,7 @@ import gudgeon
 from gudgeon.commands.exercise import make
 from gudgeon.generator.pipeline import derive
 from gudgeon.generator.targets.latex.document import Document
+from gudgeon.generator.targets.latex.printers import number_text
 from gudgeon.generator.targets.latex.render import render
 from gudgeon.loading.shipped import shipped_file
 from gudgeon.teaching.draw_numbers import Drawn, draw_numbers
@@ -91,6 +92,24 @@ def test_forces_and_accelerations_by_the_whole_system(name: str, scene: str) -> 
         gx, gy = at(of, sp.Matrix(of.model.gravity))[:, 0]
         weights = mass.reshape(-1, 3) * [gx, gy, 0.0]
         assert rest == pytest.approx(weights.ravel(), abs=2e-3 * np.abs(lambdas).max())
+
+
+def test_dots_stand_over_the_letter_alone() -> None:
+    (shown,) = questions("four_bar", "ideal")["Accelerations"].solved
+    ((body, _),) = questions("four_bar", "ideal")["Accelerations"].numbers.items()
+    accents = re.findall(r"\\ddot\{([^}]*)\}(\S*)", repr(shown).replace("\\\\", "\\"))
+    assert accents and {letters for letters, _ in accents} == {r"\theta"}
+    assert all(rf"_{{\text{{{body}}}}}" in behind for _, behind in accents)
+
+
+@pytest.mark.parametrize(("value", "text"), [
+    (1.1 + 0.55, "1.65"), (0.1 + 0.2, "0.3"), (-0.3 - 0.6, "-0.9"), (1.0 / 3.0, "0.3333333333333333"),
+    (1.65 + 1e-14, "1.65000000000001"), (7e10, "7e10"), (0.0, "0"),
+])  # fmt: skip
+def test_numbers_without_what_a_sum_rounded(value: float, text: str) -> None:
+    """Two units of the last digit at most; what differs by more is read back as it was."""
+    assert number_text(value) == text
+    assert abs(float(text) - value) <= 2.0 * np.spacing(abs(value))
 
 
 def test_freedoms_are_counted_and_ranked() -> None:

@@ -13,6 +13,7 @@ import pytest
 pytest.importorskip("matplotlib")
 
 import gudgeon  # noqa: E402
+from gudgeon.drawing.labels import overlapping  # noqa: E402
 from tests.pump import Gudgeon  # noqa: E402
 from tests.web.chromium import PHONE, C, written  # noqa: E402
 
@@ -99,6 +100,34 @@ def test_frames_while_a_slider_moves(opened: Any, press: Path, capsys: pytest.Ca
         print(f"\n    press: {1e3 / np.mean(apart):.0f} frames a second while a slider moves and time goes on"
               f" (median {apart[len(apart) // 2]:.1f} ms, worst {apart[-1]:.0f} ms)")  # fmt: skip
     assert not np.array_equal(shown.array("q"), first)  # it has gone on to new runs all the while
+    assert shown.complaints == []
+
+
+NAMES = """() => [...Array(200).keys()].map((i) => {
+    gudgeonApp.seek(gudgeonApp.run.t[0] + i / 199 * gudgeonApp.span);
+    gudgeonApp.show();
+    return gudgeonApp.drawing.named.map(({made, at, planned}) => {
+        const {x, y, width, height} = made.getBBox(), {e, f} = made.transform.baseVal[0].matrix;
+        return [e - width / 2, f - height / 2, e + width / 2, f + height / 2, ...at, ...planned];
+    });
+})"""
+
+
+def test_names_follow_and_lie_on_no_other(opened: Any, press: Path) -> None:
+    """A turn of the press: each keeps its place beside what it names until another one is there."""
+    shown = opened(press)
+    told = np.array(shown.page.evaluate(NAMES))
+    rounded = 0.2 * np.array([1.0, 1.0, -1.0, -1.0])  # places are written to a tenth
+    middles = (told[..., :2] + told[..., 2:4]) / 2
+    fixed = 0
+    for names, middle in zip(told, middles, strict=True):
+        assert overlapping(names[:, :4] + rounded, names[:, :4] + rounded).sum() == len(names)
+        off = names[:, 4:6] + names[:, 6:] - middle
+        planned = names[:, :4] + np.hstack([off, off]) + rounded
+        fixed += int(overlapping(planned, planned).sum() > len(names))
+    beside = middles - told[..., 4:6]
+    moves = (np.abs(np.diff(beside, axis=0)).max(axis=-1) > 0.3).sum()
+    assert fixed > 0 and 0 < moves < 0.02 * beside[..., 0].size  # without following some would lie on others
     assert shown.complaints == []
 
 

@@ -15,6 +15,7 @@ from gudgeon.generator.ir.readable import readable
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.kernels import closed_linkage
+from gudgeon.generator.kernels.driven_chains import DIRECTIONS, RATES, STEP, THIRD
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kernels.reduced import DYNAMICS
 from gudgeon.generator.targets.javascript.play import MOTION, joint_functions
@@ -22,6 +23,7 @@ from gudgeon.generator.targets.javascript.printer import PRELUDE, arguments, fun
 
 _OF_STATES = (
     "reduce_state", "reduce_accelerations", "expand", "closures", "closure_rates", DYNAMICS, "reduced_project",
+    DIRECTIONS, STEP, RATES, THIRD,
 )  # fmt: skip
 
 
@@ -64,7 +66,7 @@ def equations_script(program: Program) -> str:
 def tree_functions(program: Program, read: set[str]) -> dict[str, str]:
     """Functions of reduced.c that a sample says enough for, by name; `read` gets the members of p.
 
-    What drives determine through loops is not among what a sample has; nor is whether friction sticks.
+    Driven chains are closed there: their rates follow from their coordinates. Whether friction sticks it does not say.
     """
     found = dict[str, str]()
     for kernel in _tree_kernels(program):
@@ -75,7 +77,7 @@ def tree_functions(program: Program, read: set[str]) -> dict[str, str]:
 
 def _tree_kernels(program: Program) -> list[Kernel]:
     tree = program.tree
-    return [kernel for kernel in tree.every if kernel.name in _OF_STATES] if tree and not tree.chains else []
+    return [kernel for kernel in tree.every if kernel.name in _OF_STATES] if tree else []
 
 
 def _closing(program: Program) -> list[int]:

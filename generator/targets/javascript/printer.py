@@ -17,6 +17,7 @@ from gudgeon.generator.ir.statements import (
     Call,
     Guard,
     Jump,
+    LargestRow,
     Line,
     Rescue,
     Return,
@@ -161,7 +162,7 @@ class Lines:
 
     def lines(self, item: Line) -> list[str]:
         """One statement or branch."""
-        if isinstance(item, (Sides, Status, Jump, Rescue, Return)):
+        if isinstance(item, (Sides, Status, Jump, Rescue, Return, LargestRow)):
             return []
         if isinstance(item, Sines):
             return self._sines(item)

@@ -38,10 +38,8 @@ const gudgeonLight = (() => {
         pre.replaceChildren(...found.slice(0, LISTED).map(asLine));
         const more = found.length > LISTED ? `, of which ${LISTED} are shown` : "";
         const idle = found.some(({value}) => /^law\.|[<>]/.test(value)) ? "; \u2013: not run at this time" : "";
-        const bare = found.some(({name}) => name === "reduced.c") && !files["reduced.c"].values.some(Boolean);
-        const none = bare ? "; those of reduced.c have no values here: driven chains are closed by steps of their own" : "";
         panel.querySelector("p").textContent =
-            `${found.length} ${found.length === 1 ? "line" : "lines"} of C${more}${idle}${none}. Escape puts the light out.`;
+            `${found.length} ${found.length === 1 ? "line" : "lines"} of C${more}${idle}. Escape puts the light out.`;
     }
 
     /* What a line of C stores to, as listings.py reads it. */

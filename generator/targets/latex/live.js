@@ -29,9 +29,22 @@ const gudgeonValues = (() => {
         return known[name];
     }
 
-    /* Of the reduced formulation, whose coordinates follow from those of all bodies. */
+    /*
+     * Coordinates and rates of the tree follow from those of all bodies; of driven chains stand behind them, as C has
+     * them, directions and second rates. Theirs are closed as the sample left them.
+     */
+    function treeState() {
+        const {s, s_rate: rates} = called("reduce_state", state);
+        if (known.tree || !s) return known.tree ?? {};
+        const q = [...s], v = [...rates];
+        Object.assign(q, called("chain_directions", {q}).out);
+        Object.assign(v, called("chain_rates", {q}).v);
+        return known.tree = {q, v};
+    }
+
+    /* Of the reduced formulation. */
     function inTree(name) {
-        const {s: q, s_rate: v} = called("reduce_state", state);
+        const {q, v} = treeState();
         if (name === "reduce_state" || !q) return known[name] ?? {};
         if (name === "reduce_accelerations") return called(name, {...state, all_a: accelerations()});
         const r = name === "reduced_project" && residuals(q);

@@ -235,8 +235,9 @@ def share_of_pi(value: float) -> tuple[int, int] | None:
 
 
 def number_text(value: float) -> str:
-    """The shortest decimal number that is read back as `value`: "0.0003", "7e10", "5e-06"."""
-    text = repr(value).removesuffix(".0")
+    """The shortest decimal number that is read back as `value`, but for what sums rounded: "0.0003", "7e10"."""
+    written = float(f"{value:.12g}")
+    text = repr(written if abs(written - value) <= 2 * math.ulp(value) else value).removesuffix(".0")
     if "e" not in text and abs(value) >= 1e6:
         text = f"{Decimal(text).normalize():e}".replace("e+", "e")
     return text

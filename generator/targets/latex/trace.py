@@ -20,6 +20,7 @@ from gudgeon.generator.ir.readable import readable
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Place
 from gudgeon.generator.kernels import closed_linkage
+from gudgeon.generator.kernels.driven_chains import STEP
 from gudgeon.generator.kernels.program import Program, make_program
 from gudgeon.generator.mechanism.mechanism import Quantity
 from gudgeon.generator.targets.c import functions
@@ -102,12 +103,15 @@ class _Finder:
         self.multipliers = {f"lambda_{row.name.replace('.', '_')}": k for k, row in enumerate(self.model.rows, 1)}
         members = map(self.model.slots.field, self.model.slots.members())
         self.place_in_p = {f"p->{member}": k for k, member in enumerate(members, 1)}
+        tree = program.tree
+        in_chains = tree.chains.chain.rows if tree and tree.chains else ()
+        self.in_chains = {f"phi_{row.name.replace('.', '_')}": row.name for row in in_chains}
         self.shown = {name for row in self.model.rows for name in free_names(row.phi)}
 
     def all(self) -> None:
         """Every function that says something of rows, bodies or laws; what `prepare` makes of it last."""
         program = self.program
-        in_tree = (*program.tree.around, *program.tree.kernels) if program.tree else ()
+        in_tree = program.tree.every if program.tree else ()
         for kernel in (*program.closed, program.dynamics, *in_tree):
             self._function(kernel)
         for pin in program.pins:
@@ -191,6 +195,8 @@ class _Finder:
             return own | self._row(self.every[place.index].name)
         if function in ("dynamics", "closures", "closure_rates"):
             return self._of_dynamics(function, target, place)
+        if function == STEP:
+            return self._row(self.in_chains.get(target, ""))
         return NO_MARKS
 
     def _of_dynamics(self, function: str, target: str, place: Place) -> Marks:
