@@ -34,7 +34,7 @@ _ADVICE = {
     "[": "there are no subscripts", "]": "there are no subscripts", "'": "there are no strings",
     '"': "there are no strings", "\t": "write a space, not a tab", "\u2212": "write '-'", "\u00b7": "write '*'",
     "\u00d7": "write '*'", "\u00b0": "write deg after a space", "{": "there are no braces", ";": "one expression only",
-    ":": "there is no ':' in an expression", ".": "a name continues with a letter after '.'",
+    ":": "there is no ':' in an expression", ".": "a name continues with a letter after '.'; .nan and .inf are no numbers here",
     "&": NESTED, "|": _EITHER, "and": NESTED, "or": _EITHER, "if": _PICKED, "else": _PICKED, "?": _PICKED,
     "not": "the opposite of a < b is a >= b, or where with its two values exchanged",
     "\u2264": "write '<='", "\u2265": "write '>='",

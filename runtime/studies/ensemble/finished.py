@@ -119,7 +119,7 @@ class Study:
         return StudyPlot(self)
 
     def report(self) -> StudyReport:
-        """What varied, what failed, every measure and its figures, for people: `.to_html()`, or as a notebook has it."""
+        """What varied, what failed, every measure and its figures, for people: `.to_html()`, or in a notebook."""
         from gudgeon.studies.show.study_page import StudyReport
 
         return StudyReport(self)
