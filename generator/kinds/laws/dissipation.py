@@ -25,16 +25,20 @@ FACTORS: Mapping[str, Callable[[Any], Any]] = {
 }
 
 
-def normal_force(s: LawInputs, K: Any, factor: str) -> Any:
-    """K δⁿ (1 + a δ̇/δ̇⁻), never negative: what every law with hysteresis damping is.
+def hysteresis(s: LawInputs, factor: str) -> Any:
+    """1 + a δ̇/δ̇⁻, never negative; with the restitution asked for, `restitution`.
 
-    The corner is that of 1 + a δ̇/δ̇⁻ alone: with δⁿ in it, it would be one at every separation.
+    The corner is that of this factor alone: with the elastic force in it, it would be one at every separation.
     """
     import sympy as sp
 
     a = s.derive("hysteresis", FACTORS[factor](s.parameters["restitution"]), "hysteresis damping factor a")
-    delta, ratio = s.variables["delta"], s.variables["ratio"]
-    return K * delta ** s.parameters["exponent"] * sp.Max(1 + a * ratio, 0)
+    return sp.Max(1 + a * s.variables["ratio"], 0)
+
+
+def normal_force(s: LawInputs, K: Any, factor: str) -> Any:
+    """K δⁿ (1 + a δ̇/δ̇⁻), never negative: what every law of Hertz's form with hysteresis damping is."""
+    return K * s.variables["delta"] ** s.parameters["exponent"] * hysteresis(s, factor)
 
 
 def _exp(x: Any) -> Any:
