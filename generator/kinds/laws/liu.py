@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import Bound, number, word
-from gudgeon.generator.kinds.laws.dissipation import FACTORS, hysteresis
+from gudgeon.generator.kinds.laws.dissipation import DAMPINGS, hysteresis
 from gudgeon.generator.kinds.laws.elastic_pair import contact_modulus
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.language.units import DIMENSIONLESS
@@ -39,7 +39,7 @@ LAW = Law(
             "restitution", "coefficient of restitution", DIMENSIONLESS,
             symbol="c_e", default=1.0, bounds=(Bound(">", 0.0), Bound("<=", 1.0)),
         ),
-        word("dissipation", "whose hysteresis damping factor", FACTORS, "hunt_crossley"),
+        word("dissipation", "whose hysteresis damping factor", DAMPINGS, "hunt_crossley"),
     ),
     build=build,
 )  # fmt: skip
