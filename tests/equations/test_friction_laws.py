@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
@@ -61,9 +63,14 @@ def test_brown_and_mcphees_peak_is_static_friction() -> None:
     assert max(-law(1.0, float(v))[0] for v in slips) == pytest.approx(MU_S, rel=5e-3)
 
 
-def lugre(v: float, z: float, **other: float) -> tuple[float, float]:
+@cache
+def lugre_law(damping: float) -> Evaluator:
+    return Evaluator("lugre", LUGRE | {"damping": damping})
+
+
+def lugre(v: float, z: float, damping: float = LUGRE["damping"]) -> tuple[float, float]:
     """The force at a load of 1 N, and the rate of the bristles."""
-    law = Evaluator("lugre", LUGRE | other)
+    law = lugre_law(damping)
     names = [name for name, _ in law._steps]
     values = [1.0, v, z]
     for _, step in law._steps:
