@@ -1,4 +1,4 @@
-"""Fits the numbers of the film law `finite_length` to the solver's tables and prints them: `python tools/finite_length.py`.
+"""Fits the numbers of the film law `finite_length` to the solver: `python tools/finite_length.py` prints them.
 
 A table of 1820 states takes about a minute, the fit seconds. What stands in the law is this, rounded to four places.
 """
