@@ -15,8 +15,8 @@ at its ends and around, one path beside the other: each has the short bearing's 
 with a small r > 0: next to nothing holds a journal that leaves the wall. Λ → 0 is Ocvirk's film, in rotation exactly.
 g0, g1, g3 and r are fitted to tables of `gudgeon.reynolds` by tools/finite_length.py, which prints them, under the
 condition that V > 0 for every ε < 1 and every Λ: then the film only dissipates.
-That such a film has a potential, and its impedance: D. Childs, H. Moes, H. van Leeuwen, ASME J. Lubr. Technol. 99 (1977)
-198–214; the four terms and the fit are this project's.
+That such a film has a potential, and its impedance: D. Childs, H. Moes, H. van Leeuwen, ASME J. Lubr. Technol. 99
+(1977) 198–214; the four terms and the fit are this project's.
 """
 
 from __future__ import annotations
