@@ -13,8 +13,13 @@ def _value(dimension: Dimension | None, meaning: str = "where it is at each time
 
 
 DRIVES: Mapping[str, Kind] = {
-    "angle": Kind("angle of a body, or of one relative to another", _value(DIMENSIONLESS), "bodies", (1, 2),
-                  ("rotation", "theta", "motor", "turn")),
+    "angle": Kind(
+        "angle of a body, or of one relative to another",
+        _value(DIMENSIONLESS),
+        "bodies",
+        (1, 2),
+        ("rotation", "theta", "motor", "turn"),
+    ),
     "coordinate": Kind(
         "x or y of a body's centre of mass, in ground axes, or theta",
         _value(None, "where it is at each time, without jumps: a length, of theta an angle"),

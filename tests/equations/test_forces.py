@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import Any
 
 import pytest
 import sympy as sp
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from gudgeon.generator.kinds.laws.law import RESULTS, VARIABLES, LawInputs, PairSymbols, laws
+from gudgeon.generator.kinds.laws.law import RESULTS, LawInputs, PairSymbols, laws
+from tests.equations.one_law import PAIR, Evaluator
 from tests.oracles import dry, film
 
-PAIR = PairSymbols(R_i=0.015, R_j=0.0147, c=0.3e-3, L=0.04, E_i=70e9, nu_i=0.3, E_j=206e9, nu_j=0.28)
 VISCOSITY = 0.1
 UNIT = VISCOSITY * PAIR.R_j**3 * PAIR.L / PAIR.c**2  # μ R_j³ L / c²
 FAST = settings(derandomize=True, max_examples=200, deadline=None)
@@ -22,35 +20,6 @@ FAST = settings(derandomize=True, max_examples=200, deadline=None)
 rates = st.floats(-100.0, 100.0).filter(lambda x: x == 0.0 or abs(x) > 1e-9)
 moving = rates.filter(bool)
 ratios = st.floats(1e-6, 0.9999)
-
-
-class Evaluator:
-    """A law with numbers for everything but its state variables; calls give its results as floats."""
-
-    def __init__(self, name: str, parameters: Mapping[str, float], **options: str | bool) -> None:
-        self.law = laws()[name]
-        values = {p.name: p.default for p in self.law.parameters} | dict(parameters)
-        chosen = {o.name: o.choice for o in self.law.options} | options
-        symbols = {v: sp.Symbol(v, real=True) for v in self.law.variables}
-        pair = PairSymbols(**{k: sp.Float(v) for k, v in vars(PAIR).items()})
-        numbers = {k: sp.Float(v) for k, v in values.items() if v is not None}
-
-        def derive(name: str, expression: Any, meaning: str) -> Any:
-            return expression
-
-        steps = self.law.build(LawInputs(numbers, chosen, pair, symbols, derive))
-        read = {s.name for step in steps.values() for s in sp.sympify(step).free_symbols}
-        known, self._steps = [s for name, s in symbols.items() if name in (*VARIABLES[self.law.role], *read)], []
-        for step, expression in steps.items():
-            self._steps.append((step, sp.lambdify(known, expression, "math")))
-            known.append(sp.Symbol(step, real=True))
-
-    def __call__(self, *state: float) -> tuple[float, ...]:
-        values, named = list(state), {}
-        for step, function in self._steps:
-            values.append(function(*values))
-            named[step] = float(values[-1])
-        return tuple(named[result] for result in RESULTS[self.law.role])
 
 
 FILM = Evaluator("pinkus_sternlicht", {"viscosity": VISCOSITY})
@@ -169,6 +138,25 @@ def test_restitution_of_the_normal_law(given_restitution: float, delivered: floa
     law = Evaluator("lankarani_nikravesh", {"restitution": given_restitution})
     factor = law(1e-5, 1.0)[0] / law(1e-5, 0.0)[0] - 1.0
     assert dry.delivered(factor) == pytest.approx(delivered, abs=5e-6)
+
+
+@pytest.mark.parametrize(("name", "numbers"), [("hertz", {"stiffness": 1e9}), ("liu", {})])
+@pytest.mark.parametrize("asked", [1e-3, 0.05, 0.3, 0.9, 0.9999, 1.0])
+def test_the_exact_damping_is_the_identitys(name: str, numbers: dict[str, float], asked: float) -> None:
+    """1 − a e = (1 + a) e^{−a(1 + e)}, which is the identity for a > 0."""
+    law = Evaluator(name, {"restitution": asked, **numbers}, dissipation="exact")
+    a = law(1e-5, 1.0)[0] / law(1e-5, 0.0)[0] - 1.0
+    assert 1.0 - a * asked == pytest.approx((1.0 + a) * math.exp(-a * (1.0 + asked)), abs=4e-15)
+    assert (a == 0.0) == (asked == 1.0) and (asked < 0.9 or a == pytest.approx(1.5 * (1.0 - asked) / asked, rel=2e-3))
+
+
+@FAST
+@given(st.floats(1e-9, 1e-2), st.floats(-2.0, 2.0))
+def test_liu_is_the_conforming_pair(delta: float, ratio: float) -> None:
+    law = Evaluator("liu", {"restitution": 1.0})
+    modulus = 1.0 / sum((1.0 - nu**2) / E for E, nu in ((PAIR.E_i, PAIR.nu_i), (PAIR.E_j, PAIR.nu_j)))
+    expected = 0.5 * math.pi * PAIR.L * modulus * delta * math.sqrt(delta / (2.0 * (PAIR.c + delta)))
+    assert law(delta, ratio)[0] == pytest.approx(expected, rel=1e-12)
 
 
 @FAST

@@ -68,5 +68,12 @@ def test_every_damping_factor_obeys_the_identity(name: str) -> None:
     assert identity(float(FACTORS[name](0.7)), run["ball.vy"][-1] / SPEED) == pytest.approx(0.0, abs=1e-7)
 
 
+@pytest.mark.parametrize("asked", [0.05, 0.5, 0.93])
+def test_the_exact_damping_delivers_what_is_asked(asked: float) -> None:
+    simulation = gudgeon.load("bouncing_ball", "damped", overrides={"contacts.damped.normal.dissipation": "exact"})
+    run = impact(simulation, 3e-3, 1e-7, restitution=asked)
+    assert run["ball.vy"][-1] / SPEED == pytest.approx(asked, abs=1e-6)
+
+
 def identity(a: float, e: float) -> float:
     return a * (1 + e) - math.log((1 + a) / (1 - a * e))

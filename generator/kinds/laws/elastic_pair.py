@@ -1,6 +1,6 @@
 """The stiffness of two elastic surfaces by Hertz, from their radii and materials; both conventions of the curvature.
 
-    K = 4/(3(σ_i + σ_j)) √(R_i R_j/(R_i ± R_j)),   σ = (1 − ν²)/E
+K = 4/(3(σ_i + σ_j)) √(R_i R_j/(R_i ± R_j)),   σ = (1 − ν²)/E
 """
 
 from __future__ import annotations
@@ -30,3 +30,12 @@ def pair_stiffness(s: LawInputs) -> Any:
         soft_i, soft_j = (s.whole(1 - nu**2) for nu in (pair.nu_i, pair.nu_j))
         K = sp.Rational(4, 3) * pair.E_i * radius / (soft_i + soft_j * s.whole(pair.E_i / pair.E_j))
     return s.derive("K", K, "contact stiffness")
+
+
+def contact_modulus(s: LawInputs) -> Any:
+    """E* (Pa): 1/E* = (1 − ν_i²)/E_i + (1 − ν_j²)/E_j."""
+    pair = s.pair
+    if (pair.E_i, pair.nu_i) == (pair.E_j, pair.nu_j):
+        return pair.E_i / (2 * (1 - pair.nu_i**2))
+    soft_i, soft_j = (s.whole(1 - nu**2) for nu in (pair.nu_i, pair.nu_j))
+    return pair.E_i / (soft_i + soft_j * s.whole(pair.E_i / pair.E_j))

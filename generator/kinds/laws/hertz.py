@@ -12,7 +12,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import Bound, number, word
-from gudgeon.generator.kinds.laws.dissipation import FACTORS, normal_force
+from gudgeon.generator.kinds.laws.dissipation import DAMPINGS, FACTORS, normal_force
 from gudgeon.generator.kinds.laws.elastic_pair import GEOMETRY, pair_stiffness
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.language.units import DIMENSIONLESS
@@ -48,7 +48,7 @@ LAW = Law(
             "restitution", "coefficient of restitution", DIMENSIONLESS,
             symbol="c_e", default=1.0, bounds=(Bound(">", 0.0), Bound("<=", 1.0)),
         ),
-        word("dissipation", "whose hysteresis damping factor", FACTORS, "hunt_crossley"),
+        word("dissipation", "whose hysteresis damping factor", DAMPINGS, "hunt_crossley"),
         GEOMETRY,
     ),
     build=build,

@@ -13,13 +13,17 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.field import Bound, flag, number, word
+from gudgeon.generator.field import flag
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
-from gudgeon.language.units import LENGTH, VISCOSITY
-
-# Where W vanishes so does every numerator: this keeps 0/0 away, in the derivatives (its square) too, and
-# changes no other value.
-TINY = 1e-150
+from gudgeon.generator.kinds.laws.oil import (
+    ANGULAR_VELOCITY,
+    EXTRA_CLEARANCE,
+    SHEAR,
+    TINY,
+    VISCOUS,
+    film_clearance,
+    shear_torque,
+)  # fmt: skip
 
 
 def build(s: LawInputs) -> dict[str, Any]:
@@ -28,7 +32,7 @@ def build(s: LawInputs) -> dict[str, Any]:
 
     epsilon, w_n, w_t = (s.variables[name] for name in ("epsilon", "w_n", "w_t"))
     pair, viscosity = s.pair, s.parameters["viscosity"]
-    c = s.derive("film_clearance", pair.c + s.parameters["extra_clearance"], "clearance of the film")
+    c = film_clearance(s)
     S = s.derive("S", 6 * viscosity * pair.R_j**3 * pair.L / c**2, "film factor 6 mu R_j^3 L/c^2")
     root, W, f = sp.Symbol("root", real=True), sp.Symbol("W", real=True), sp.Symbol("factor", real=True)
     half = sp.Rational(3, 2) * epsilon
@@ -41,7 +45,7 @@ def build(s: LawInputs) -> dict[str, Any]:
         "factor": 1 + half * w_n / (root * W + half * sp.Abs(w_n) + sp.Float(TINY)),
         "F_r": F_r,
         "F_t": -2 * sp.pi * S * w_t * f / ((2 + epsilon**2) * root),
-        "T0": s.derive("shear", S * c * sp.pi / 3, "2 pi mu R_j^3 L/c") / root if s.options["shear"] else sp.Integer(0),
+        "T0": shear_torque(s, c, root),
     }
 
 
@@ -54,18 +58,9 @@ LAW = Law(
               "corrected",
     validity="long bearing (L/D >> 1); follows Guembel's film for |omega_s| >> |d epsilon/dt|; epsilon capped at .9999",
     fields=(
-        number("viscosity", "dynamic viscosity", VISCOSITY, symbol=r"\mu", required=True, bounds=(Bound(">", 0.0),)),
-        number(
-            "extra_clearance", "added to c in the film alone", LENGTH,
-            symbol="e_t", default=0.0, bounds=(Bound(">=", 0.0),),
-        ),
+        VISCOUS, EXTRA_CLEARANCE,
         flag("as_printed", "the radial force's sign as the paper's Eq. 12 prints it (wrong)"),
-        flag("shear", "shear torque, and the film's resultant at each pin centre"),
-        word(
-            "angular_velocity",
-            "omega_i + omega_j; relative is the paper's omega_j - omega_i, which depends on the observer",
-            ("absolute", "relative"), "absolute",
-        ),
+        SHEAR, ANGULAR_VELOCITY,
     ),
     build=build,
 )  # fmt: skip

@@ -1,0 +1,50 @@
+"""Bengisu and Akay's friction: a parabola up to static friction at the slip v0, then a decay to kinetic friction.
+
+    c_d = c_s [1 − (u/v0 − 1)²],  u ≤ v0;    c_d = c_f + (c_s − c_f) e^{−ξ (u − v0)},  u ≥ v0;    u = |v_t|
+    F_t = −c_d F_n sgn v_t
+
+M. T. Bengisu, A. Akay, J. Sound Vib. 171 (1994) 557–570, as E. Pennestri et al., Nonlinear Dynamics 83 (2016)
+1785–1801, give it.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.field import Bound, number
+from gudgeon.generator.kinds.laws.law import Law, LawInputs
+from gudgeon.generator.kinds.laws.slip import MU, MU_S, both_ways, friction, slip_of
+from gudgeon.language.units import VELOCITY
+
+
+def build(s: LawInputs) -> dict[str, Any]:
+    """F_t (N) on the journal, along t."""
+    import sympy as sp
+
+    mu, mu_s, v0, decay = (s.parameters[name] for name in ("mu", "mu_s", "v0", "decay"))
+
+    def forward(u: Any) -> Any:
+        rising = mu_s * (1 - sp.Min(u / v0 - 1, 0) ** 2)
+        return rising - (mu_s - mu) * (1 - sp.exp(-sp.Max(u - v0, 0) / decay))
+
+    return friction(s, both_ways(s.variables["v_t"], forward))
+
+
+LAW = Law(
+    name="bengisu_akay",
+    role="friction",
+    title="Bengisu and Akay's friction: static friction at v0, then a decay to kinetic friction",
+    source="M. T. Bengisu, A. Akay, J. Sound Vib. 171 (1994) 557-570",
+    reference="M. T. Bengisu, A. Akay, Stability of friction-induced vibrations in multi-degree-of-freedom systems, "
+              "Journal of Sound and Vibration 171 (1994) 557-570, as in E. Pennestri et al., Nonlinear Dynamics 83 "
+              "(2016) 1785-1801, doi 10.1007/s11071-015-2485-3",
+    validity="sliding; creeps below v0 where Coulomb's law would stick; a decay of 1/xi in slip",
+    fields=(
+        MU, MU_S, slip_of("v0", "slip of the largest friction", "v_0"),
+        number(
+            "decay", "slip beyond v0 in which friction falls by 1/e of what it falls, 1/xi", VELOCITY,
+            symbol="v_d", required=True, bounds=(Bound(">", 0.0),),
+        ),
+    ),
+    build=build,
+)  # fmt: skip

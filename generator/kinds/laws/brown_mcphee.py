@@ -1,0 +1,37 @@
+"""Brown and McPhee's friction: one smooth expression whose peak is static friction at the slip v_t0.
+
+    F_t = −F_n [c_f tanh(4x) + (c_s − c_f) x/(x²/4 + ¾)²],   x = v_t/v_t0
+
+P. Brown, J. McPhee, J. Comput. Nonlinear Dyn. 11 (2016) 054502, without its viscous part.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.kinds.laws.law import Law, LawInputs
+from gudgeon.generator.kinds.laws.slip import MU, MU_S, friction, slip_of
+
+
+def build(s: LawInputs) -> dict[str, Any]:
+    """F_t (N) on the journal, along t; x is the slip over that of the peak."""
+    import sympy as sp
+
+    mu, mu_s = s.parameters["mu"], s.parameters["mu_s"]
+    x = sp.Symbol("share", real=True)
+    coefficient = mu * sp.tanh(4 * x) + (mu_s - mu) * x / (x**2 / 4 + sp.Rational(3, 4)) ** 2
+    return {"share": s.variables["v_t"] / s.parameters["v0"], **friction(s, coefficient)}
+
+
+LAW = Law(
+    name="brown_mcphee",
+    role="friction",
+    title="Brown and McPhee's friction: a smooth peak of static friction",
+    source="P. Brown, J. McPhee, J. Comput. Nonlinear Dyn. 11 (2016) 054502",
+    reference="P. Brown, J. McPhee, A continuous velocity-based friction model for dynamics and control with "
+              "physically meaningful parameters, Journal of Computational and Nonlinear Dynamics 11 (2016) 054502, "
+              "doi 10.1115/1.4033658, without its viscous part",
+    validity="sliding; creeps below v0, where its friction is largest",
+    fields=(MU, MU_S, slip_of("v0", "slip of the peak of friction", "v_0")),
+    build=build,
+)  # fmt: skip

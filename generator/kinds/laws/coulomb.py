@@ -1,0 +1,34 @@
+"""Coulomb's friction, smoothed: F_t = −c_f F_n tanh(v_t/v0).
+
+Without a corner, so that a stiff method may step over it; it creeps where Coulomb's law would stick. Of the smooth
+forms of Coulomb's law that E. Pennestri, V. Rossi, P. Salvini, P. P. Valentini, Nonlinear Dynamics 83 (2016) 1785–1801
+compare it is the hyperbolic tangent.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.kinds.laws.law import Law, LawInputs
+from gudgeon.generator.kinds.laws.slip import MU, friction, slip_of
+
+
+def build(s: LawInputs) -> dict[str, Any]:
+    """F_t (N) on the journal, along t."""
+    import sympy as sp
+
+    return friction(s, s.parameters["mu"] * sp.tanh(s.variables["v_t"] / s.parameters["v0"]))
+
+
+LAW = Law(
+    name="coulomb",
+    role="friction",
+    title="Coulomb's friction, smoothed by a hyperbolic tangent",
+    source="C. A. Coulomb (1785); smoothed as in E. Pennestri et al., Nonlinear Dynamics 83 (2016) 1785-1801",
+    reference="C. A. Coulomb (1785), smoothed as in E. Pennestri, V. Rossi, P. Salvini, P. P. Valentini, Review and "
+              "comparison of dry friction force models, Nonlinear Dynamics 83 (2016) 1785-1801, "
+              "doi 10.1007/s11071-015-2485-3",
+    validity="sliding; creeps below v0 where Coulomb's law would stick",
+    fields=(MU, slip_of("v0", "slip at which tanh 1 = .76 of the friction is there", "v_0")),
+    build=build,
+)  # fmt: skip

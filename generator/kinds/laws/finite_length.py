@@ -1,0 +1,83 @@
+"""Film of a bearing of finite length under Reynolds' condition, p ≥ 0 with open ends: a potential of four terms.
+
+Under that condition the force is the gradient of half the power that the film takes, F = −∂V/∂w, with V of the
+second degree in w. With s = √(1 − ε²), q = √(w_n² + s² w_t²), x = ε w_n/q, Λ = L/D and S = μ R_j³ L/c²
+
+    V = S q² (a0 + a1 x + a2 x² + a3 x³)
+    F_r = −S [w_n (2 a0 + a1 x − a3 x³) + ε q (a1 + 2 a2 x + 3 a3 x²)],   F_t = −S s² w_t (2 a0 + a1 x − a3 x³)
+
+x lies between −ε and ε. a0 and a1 are what rotation makes of it, a2 and a3 what squeeze needs besides. A bearing leaks
+at its ends and around, one path beside the other: each has the short bearing's limit and the long one's power of s,
+
+    a0 = π Λ²/(s³ (s² + g0 Λ²)),  a1 = 8 Λ²/(s³ (s² + g1 Λ²)),  a3 = 4/3 Λ²/(s (s² + g3 Λ²)²),
+    a2 = a1 + a3 − (1 − r) a0,    so that V = S q² [(1 + x)(a0 (1 − x) + a1 x + a3 x²) + r a0 x²]
+
+with a small r > 0: next to nothing holds a journal that leaves the wall. Λ → 0 is Ocvirk's film, in rotation exactly.
+g0, g1, g3 and r are fitted to tables of `gudgeon.reynolds` by tools/finite_length.py, which prints them, under the
+condition that V > 0 for every ε < 1 and every Λ: then the film only dissipates.
+That such a film has a potential, and its impedance: D. Childs, H. Moes, H. van Leeuwen, ASME J. Lubr. Technol. 99
+(1977) 198–214; the four terms and the fit are this project's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from gudgeon.generator.kinds.laws.law import Law, LawInputs
+from gudgeon.generator.kinds.laws.oil import FIELDS, TINY, film_clearance, shear_torque
+
+# g = n0 + s (n1/(Λ + n2 s) + n3 + n4 s + n5 Λ s); n0 is the narrow gap's, which is long whatever Λ
+G0 = (0.4585, 2.3287, 2.7330, -0.3790, -0.4570, 0.0685)
+G1 = (0.8320, 0.7485, 0.9568, -0.0110, -0.8023, 0.1461)
+G3 = 0.7670
+REST = 0.0084  # r
+
+
+def around(s: Any, ratio: Any, n: Sequence[float]) -> Any:
+    """g0 or g1, of symbols, numbers or arrays; ratio = Λ."""
+    return n[0] + s * (n[1] / (ratio + n[2] * s) + n[3] + s * (n[4] + n[5] * ratio))
+
+
+def build(s: LawInputs) -> dict[str, Any]:
+    """F_r along n, F_t along t (N, on the journal); T0 is the shear torque per unit ω_j − ω_i (N·m·s)."""
+    import sympy as sp
+
+    epsilon, w_n, w_t = (s.variables[name] for name in ("epsilon", "w_n", "w_t"))
+    c = film_clearance(s)
+    S = s.derive("S", s.parameters["viscosity"] * s.pair.R_j**3 * s.pair.L / c**2, "film factor mu R_j^3 L/c^2")
+    ratio = s.derive("Lambda", s.pair.L / (2 * s.pair.R_j), "length over diameter")
+    names = ("root", "q", "x", "g0", "g1", "narrow", "a0", "a1", "a2", "a3", "turn")
+    root, q, x, g0, g1, narrow, a0, a1, a2, a3, turn = (sp.Symbol(name, real=True) for name in names)
+    square = root**2
+    return {
+        "root": sp.sqrt(1 - epsilon**2),
+        "q": sp.sqrt(w_n**2 + square * w_t**2) + sp.Float(TINY),
+        "x": epsilon * w_n / q,
+        "g0": around(root, ratio, G0),
+        "g1": around(root, ratio, G1),
+        "narrow": ratio**2 / root**3,
+        "a0": sp.pi * narrow / (square + g0 * ratio**2),
+        "a1": 8 * narrow / (square + g1 * ratio**2),
+        "a3": sp.Rational(4, 3) * narrow * (root / (square + G3 * ratio**2)) ** 2,
+        "a2": a1 + a3 - (1 - REST) * a0,
+        "turn": 2 * a0 + x * (a1 - a3 * x**2),
+        "F_r": -S * (w_n * turn + epsilon * q * (a1 + x * (2 * a2 + 3 * a3 * x))),
+        "F_t": -S * square * w_t * turn,
+        "T0": shear_torque(s, c, root),
+    }
+
+
+LAW = Law(
+    name="finite_length",
+    role="film",
+    title="Journal bearing of finite length, Reynolds' condition: fitted potential",
+    source="fit to gudgeon.reynolds by tools/finite_length.py; limits: F. W. Ocvirk, NACA TN 2808 (1952)",
+    reference="A potential of four terms, fitted to Reynolds' equation (p above 0, open ends); the impedance of short, "
+              "long and finite bearings is that of D. Childs, H. Moes, H. van Leeuwen, ASME J. Lubr. Technol. 99 "
+              "(1977) 198--214",
+    validity="L/D .1 to 2, epsilon to .95: within 1.2 % of the largest force at that epsilon, whatever the motion, and "
+             "steady rotation within 2 % of itself; to L/D = 3 and epsilon = .9985 within 3 % and 4 %; capped at .9999",
+    fields=FIELDS,
+    build=build,
+)  # fmt: skip

@@ -1,0 +1,45 @@
+"""Liu's contact of a journal that nearly fills its bearing: conforming cylinders, explicit in the penetration.
+
+    F_n = (π/2) L E* δ √(δ/(2(ΔR + δ))) (1 + a δ̇/δ̇⁻),   1/E* = (1 − ν_i²)/E_i + (1 − ν_j²)/E_j,   ΔR = R_i − R_j = c
+
+never negative. C. S. Liu, K. Zhang, R. Yang, Mechanism and Machine Theory 42 (2007) 183–197; the damping factors are
+those of dissipation.py.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.field import Bound, number, word
+from gudgeon.generator.kinds.laws.dissipation import DAMPINGS, hysteresis
+from gudgeon.generator.kinds.laws.elastic_pair import contact_modulus
+from gudgeon.generator.kinds.laws.law import Law, LawInputs
+from gudgeon.language.units import DIMENSIONLESS
+
+
+def build(s: LawInputs) -> dict[str, Any]:
+    """F_n (N), compressive, for δ > 0."""
+    import sympy as sp
+
+    delta = s.variables["delta"]
+    K = s.derive("K", sp.pi / 2 * s.pair.L * contact_modulus(s), "pi L E*/2")
+    return {"F_n": K * delta * sp.sqrt(delta / (2 * (s.pair.c + delta))) * hysteresis(s, str(s.options["dissipation"]))}
+
+
+LAW = Law(
+    name="liu",
+    role="normal",
+    title="Liu, Zhang and Yang: conforming cylinders, with a choice of hysteresis damping",
+    source="C. S. Liu, K. Zhang, R. Yang, Mechanism and Machine Theory 42 (2007) 183-197",
+    reference="C. S. Liu, K. Zhang, R. Yang, The FEM analysis and approximate model for cylindrical joints with "
+              "clearances, Mechanism and Machine Theory 42 (2007) 183-197, doi 10.1016/j.mechmachtheory.2006.02.006",
+    validity="a pin in a hole with parallel axes, penetrations up to some clearances",
+    fields=(
+        number(
+            "restitution", "coefficient of restitution", DIMENSIONLESS,
+            symbol="c_e", default=1.0, bounds=(Bound(">", 0.0), Bound("<=", 1.0)),
+        ),
+        word("dissipation", "whose hysteresis damping factor", DAMPINGS, "hunt_crossley"),
+    ),
+    build=build,
+)  # fmt: skip

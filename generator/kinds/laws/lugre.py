@@ -1,0 +1,65 @@
+"""LuGre friction: bristles that bend before the surfaces slide, with static friction and damping of their own.
+
+    F_t = −F_n (σ0 z + σ1 ż),   ż = v_t − σ0 |v_t| z/g,   g = c_f + (c_s − c_f) e^{−(v_t/v_s)²}
+
+z is the bristles' deflection, 0 at each onset; |z| ≤ c_s/σ0 for ever. As in tyres the bristles are as stiff as the load
+makes them. Steady sliding gives −F_n g sgn v_t. At a steady load ½ σ0 F_n z² is what they store, and it delivers no
+more than that where σ1 ≤ 4 g/|v_t|: v_t (σ0 z + σ1 ż) − σ0 z ż is a quadratic form in v_t and σ0 z √(|v_t|/g) that is
+nowhere negative then.
+C. Canudas de Wit, H. Olsson, K. J. Åström, P. Lischinsky, IEEE Trans. Autom. Control 40 (1995) 419–425; C. Canudas de
+Wit, P. Tsiotras, Proc. 38th IEEE Conf. Decision and Control (1999) 3746–3751, for the load; N. Barabanov, R. Ortega,
+IEEE Trans. Autom. Control 45 (2000) 830–832, for the bound.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.field import Bound, number
+from gudgeon.generator.kinds.laws.law import Law, LawInputs, State
+from gudgeon.generator.kinds.laws.slip import MU, MU_S, friction, slip_of
+from gudgeon.language.units import dimension
+
+
+def build(s: LawInputs) -> dict[str, Any]:
+    """F_t (N) on the journal, along t; z_rate (m/s)."""
+    import sympy as sp
+
+    names = ("mu", "mu_s", "v_s", "stiffness", "damping")
+    mu, mu_s, v_s, sigma_0, sigma_1 = (s.parameters[name] for name in names)
+    v_t, z = s.variables["v_t"], s.variables["z"]
+    g, rate = sp.Symbol("g", real=True), sp.Symbol("bending", real=True)
+    return {
+        "g": mu + (mu_s - mu) * sp.exp(-((v_t / v_s) ** 2)),
+        "bending": v_t - sigma_0 * sp.Abs(v_t) * z / g,
+        **friction(s, sigma_0 * z + sigma_1 * rate),
+        "z_rate": rate,
+    }
+
+
+LAW = Law(
+    name="lugre",
+    role="friction",
+    title="LuGre friction, with the deflection of bristles",
+    source="C. Canudas de Wit et al., IEEE Trans. Autom. Control 40 (1995) 419-425; load as in C. Canudas de Wit, "
+           "P. Tsiotras (1999)",
+    reference="C. Canudas de Wit, H. Olsson, K. J. Astrom, P. Lischinsky, A new model for control of systems with "
+              "friction, IEEE Transactions on Automatic Control 40 (1995) 419-425, doi 10.1109/9.376053; load as in "
+              "C. Canudas de Wit, P. Tsiotras (1999)",
+    validity="presliding and sliding; gives no energy where sigma_1 <= 4 g/|v_t|, for which c_f instead of g is enough",
+    fields=(
+        number("mu", "coefficient of kinetic friction", MU.dimension, symbol="c_f", required=True,
+               bounds=(Bound(">", 0.0),)),
+        MU_S, slip_of("v_s", "slip in which static friction falls", "v_s"),
+        number(
+            "stiffness", "of the bristles, by the normal force", dimension(length=-1),
+            symbol=r"\sigma_0", required=True, bounds=(Bound(">", 0.0),),
+        ),
+        number(
+            "damping", "of the bristles, by the normal force", dimension(length=-1, time=1),
+            symbol=r"\sigma_1", default=0.0, bounds=(Bound(">=", 0.0),),
+        ),
+    ),
+    build=build,
+    states=(State("z", "deflection of the bristles"),),
+)  # fmt: skip

@@ -1,0 +1,62 @@
+"""Ocvirk's short-bearing film with its squeeze: the half of the gap in which pressure rises, wherever that lies.
+
+    (F_r, F_t) = (μ R_j L³/c²) ∫ (½ ω_s ε sin θ − ε̇ cos θ)(cos θ, sin θ)/(1 + ε cos θ)³ dθ,  θ₁ … θ₁ + π
+    θ₁ = atan2(ε̇, ½ ω_s ε)
+
+in closed form. With W = √(w_n² + w_t²), cos θ₁ = −w_t/W, sin θ₁ = w_n/W, s = √(1 − ε²), D = 1 − ε² cos² θ₁ and
+P = π + 2 arctan(ε sin θ₁/s), the three integrals of (cos², sin cos, sin²)/(1 + ε cos θ)³ are
+
+    cc = P (1 + 2 ε²)/(2 s⁵) + 3 ε sin θ₁/(s⁴ D) + 2 ε sin θ₁ cos² θ₁/(s² D²)
+    sc = −2 ε cos³ θ₁/D²
+    ss = P/(2 s³) + ε sin θ₁ (1 − 2 cos² θ₁ + ε² cos² θ₁)/(s² D²)
+
+by derivatives of ∫ dθ/(1 + ε cos θ) = P/s with respect to ε: nothing is divided by ε or ε̇.
+F. W. Ocvirk, NACA TN 2808 (1952), half film; squeeze and the film's place as physics.md, section 7.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.kinds.laws.law import Law, LawInputs
+from gudgeon.generator.kinds.laws.oil import FIELDS, TINY, film_clearance, shear_torque
+
+
+def build(s: LawInputs) -> dict[str, Any]:
+    """F_r along n, F_t along t (N, on the journal); T0 is the shear torque per unit ω_j − ω_i (N·m·s)."""
+    import sympy as sp
+
+    epsilon, w_n, w_t = (s.variables[name] for name in ("epsilon", "w_n", "w_t"))
+    c = film_clearance(s)
+    S = s.derive("S", s.parameters["viscosity"] * s.pair.R_j * s.pair.L**3 / c**2, "film factor mu R_j L^3/c^2")
+    names = ("root", "W", "cosine", "sine", "D", "P", "cc", "sc", "ss")
+    root, W, cosine, sine, D, P, cc, sc, ss = (sp.Symbol(name, real=True) for name in names)
+    square = root**2
+    return {
+        "root": sp.sqrt(1 - epsilon**2),
+        "W": sp.sqrt(w_n**2 + w_t**2) + sp.Float(TINY),
+        "cosine": -w_t / W,
+        "sine": w_n / W,
+        "D": 1 - (epsilon * cosine) ** 2,
+        "P": sp.pi + 2 * sp.atan(epsilon * sine / root),
+        "cc": P * (1 + 2 * epsilon**2) / (2 * square**2 * root)
+        + epsilon * sine / (square * D) * (3 / square + 2 * cosine**2 / D),
+        "sc": -2 * epsilon * cosine**3 / D**2,
+        "ss": P / (2 * square * root) + epsilon * sine * (1 + (epsilon**2 - 2) * cosine**2) / (square * D**2),
+        "F_r": -S * (w_n * cc + w_t * sc),
+        "F_t": -S * (w_n * sc + w_t * ss),
+        "T0": shear_torque(s, c, root),
+    }
+
+
+LAW = Law(
+    name="ocvirk",
+    role="film",
+    title="Ocvirk: short journal bearing, half film, with squeeze",
+    source="F. W. Ocvirk, NACA TN 2808 (1952), with squeeze",
+    reference="F. W. Ocvirk, Short-bearing approximation for full journal bearings, NACA Technical Note 2808 (1952), "
+              "with squeeze: the half film lies where the pressure is above that of the ends",
+    validity="short bearing (L/D < 1/2; at L/D = 1 it carries twice too much and more); epsilon capped at .9999",
+    fields=FIELDS,
+    build=build,
+)  # fmt: skip

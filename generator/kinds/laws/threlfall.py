@@ -1,0 +1,37 @@
+"""Threlfall's friction, which rises exponentially with the slip until v_r.
+
+    F_t = −c_f F_n (1 − e^{−3u/v_r}) sgn v_t,   u = min(|v_t|, v_r)
+
+so that .9502 c_f F_n is reached at v_r and stays. A. G. Threlfall, Mechanism and Machine Theory 13 (1978) 475–483, as
+E. Pennestri et al., Nonlinear Dynamics 83 (2016) 1785–1801, give it.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.kinds.laws.law import Law, LawInputs
+from gudgeon.generator.kinds.laws.slip import MU, both_ways, friction, slip_of
+
+
+def build(s: LawInputs) -> dict[str, Any]:
+    """F_t (N) on the journal, along t."""
+    import sympy as sp
+
+    v_r = s.parameters["v_r"]
+    risen = both_ways(s.variables["v_t"], lambda u: 1 - sp.exp(-3 * sp.Min(u / v_r, 1)))
+    return friction(s, s.parameters["mu"] * risen)
+
+
+LAW = Law(
+    name="threlfall",
+    role="friction",
+    title="Threlfall's friction: an exponential rise with the slip",
+    source="A. G. Threlfall, Mechanism and Machine Theory 13 (1978) 475-483",
+    reference="A. G. Threlfall, The inclusion of Coulomb friction in mechanisms programs with particular reference to "
+              "DRAM, Mechanism and Machine Theory 13 (1978) 475-483, as in E. Pennestri et al., Nonlinear Dynamics 83 "
+              "(2016) 1785-1801, doi 10.1007/s11071-015-2485-3",
+    validity="sliding; creeps below v_r where Coulomb's law would stick; .9502 mu is its largest coefficient",
+    fields=(MU, slip_of("v_r", "slip above which friction no longer rises", "v_r")),
+    build=build,
+)  # fmt: skip
