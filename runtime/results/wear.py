@@ -1,8 +1,8 @@
 """What a joint with play wears off: Archard's volume or Reye's, as depth over both circumferences.
 
 J. F. Archard, J. Appl. Phys. 24 (1953) 981: V = k F_n s/H, of a normal force F_n over a sliding distance s, a
-hardness H and a pure number k. T. Reye, Der Civilingenieur 4 (1860) 235: a volume in proportion to the work of friction, here k/H
-of it. Both hold for a wear that changes no geometry: clearance and shape stay those of the file.
+hardness H and a pure number k. T. Reye, Der Civilingenieur 4 (1860) 235: a volume in proportion to the work of
+friction, here k/H of it. Both hold for a wear that changes no geometry: clearance and shape stay those of the file.
 """
 
 from __future__ import annotations
@@ -167,17 +167,33 @@ def bearing_of(source: KernelSource, joint: str) -> tuple[int, int, int]:
     return radius, own.constants["R_j"], length
 
 
-def spread(points: int, low: Any, high: Any, loads: Any, overlap: bool) -> Array:
-    """Loads (r, K) put on arcs from low to high (K,) rad: evenly, or as a parabola that is 0 at both ends; (r, points).
+def spread(points: int, low: Array, high: Array, loads: Array, half: Array | None = None) -> Array:
+    """Loads (r, K) laid evenly on arcs from low to high (K,) rad; (r, points).
 
-    Angles may be of any turn; what falls into a cell is the integral over it, so that sums stay those of the loads.
+    `half` (K,) rad: each place of an arc is a parabola, which is 0 so far from it on both sides. Angles may be of any
+    turn; what falls into a cell is the integral over it, so that sums stay those of the loads.
     """
-    a, b = low * (points / (2.0 * np.pi)), high * (points / (2.0 * np.pi))
-    b = np.maximum(b, a + 1e-9)
-    first = np.floor(a).astype(np.int64)
-    count = np.floor(b).astype(np.int64) - first + 1
+    per_cell = 2.0 * np.pi / points
+    wide = np.zeros(len(low)) if half is None else half / per_cell
+    a, b = low / per_cell, high / per_cell
+    b = np.maximum(b, a + np.maximum(1e-9, 1e-6 * wide))
+    first = np.floor(a - wide).astype(np.int64)
+    count = np.floor(b + wide).astype(np.int64) - first + 1
     arcs = np.repeat(np.arange(len(a)), count)
     cell = first[arcs] + np.arange(len(arcs)) - np.repeat(np.cumsum(count) - count, count)
-    x = [np.clip((edge - a[arcs]) / (b - a)[arcs], 0.0, 1.0) for edge in (cell, cell + 1)]
-    left, right = (edge * edge * (3.0 - 2.0 * edge) for edge in x) if overlap else x
+    left, right = (_below(edge, a[arcs], b[arcs], None if half is None else wide[arcs]) for edge in (cell, cell + 1))
     return np.stack([np.bincount(cell % points, load[arcs] * (right - left), points) for load in loads])
+
+
+def _below(x: Array, a: Array, b: Array, half: Array | None) -> Array:
+    """What share of an arc from a to b lies below x; with parabolas of this half width over all of its places."""
+    if half is None:
+        return np.asarray(np.clip((x - a) / (b - a), 0.0, 1.0))
+    half = np.maximum(half, 1e-9)
+    return np.asarray((_parabolas((x - a) / half) - _parabolas((x - b) / half)) * half / (b - a))
+
+
+def _parabolas(s: Array) -> Array:
+    """Twice the integral of 3/4 (1 − s²) from −1 on, which has the area 1 within ±1."""
+    inside = np.clip(s, -1.0, 1.0)
+    return np.asarray((0.75 + inside * (2.0 + inside * (1.5 - 0.25 * inside**2))) / 4.0 + np.maximum(s - 1.0, 0.0))

@@ -34,7 +34,7 @@ TO_ENDS = np.vander(ENDS, 4) @ np.linalg.inv(np.vander(NODES, 4))  # times value
 MOST_POINTS = 1_000_000
 NOTHING, PRESSURE, SPECIFIC = (0, 0, 0), (-1, 1, -2), (1, -1, 2)  # exponents of m, kg, s: k, H, and k/H in m³/(N·m)
 CONTACT = ("point", "overlap")
-NOT_AGAIN = "the run could not be repeated bit for bit: what rubbed in it is not known; run it with this version of gudgeon"
+NOT_AGAIN = "the run could not be repeated bit for bit: what rubbed in it is not known"
 
 
 def wear(
@@ -46,7 +46,7 @@ def wear(
     """What a joint with dry contact wears off in a run, over the circumferences of bearing and journal.
 
     `k`: Archard's pure number with the softer surface's `hardness` (Pa, '1.2 GPa'); without one k/H itself,
-    '1e-6 mm^3/(N*m)', in m³/(N·m). The journal's are the same unless given. `law`: "archard", k F_n s/H, or "reye",
+    '1e-6 mm^3/N/m', in m³/(N·m). The journal's are the same unless given. `law`: "archard", k F_n s/H, or "reye",
     k/H of the work of friction. `contact`: all at the "point" of contact, or by a parabola over the arc in which the
     undeformed circles "overlap", cos β ≥ c/e. `points`: cells of a circumference, of 0.1°. `since`, `until` (s): a
     part of the run, without what its start makes.
@@ -162,17 +162,17 @@ class Rubs:
         slip = w * np.where(touching, np.abs(v_t), 0.0)
         loads = np.stack([slip * np.maximum(F_n, 0.0), slip * np.abs(F_t)]).reshape(2, -1)  # nothing is worn by a pull
         self.slip += float(slip.sum())
-        half = np.arccos(np.minimum(self.c / e, 1.0)) if self.asked.overlap else 0.0 * e
+        half = np.arccos(np.minimum(self.c / e, 1.0)).ravel() if self.asked.overlap else None
         for side, body in enumerate((self.joint.first, self.joint.second)):
             index = self.compiled.source.bodies[body].index if body >= 0 else -1
             angle = np.unwrap(np.arctan2(e_y, e_x), axis=1) - (q[:, :, index + 2] if body >= 0 else 0.0)
             self._lay(side, angle, half, loads)
 
-    def _lay(self, side: int, angle: Array, half: Array, loads: Array) -> None:
-        """Each point's loads on its own part of the arc that the contact sweeps, or wider by half the overlap."""
+    def _lay(self, side: int, angle: Array, half: Array | None, loads: Array) -> None:
+        """Each point's loads on its own part of the arc that the contact sweeps."""
         ends = angle @ TO_ENDS.T
         low, high = np.minimum(ends[:, 1:], ends[:, :-1]), np.maximum(ends[:, 1:], ends[:, :-1])
-        worn = spread(self.asked.points, (low - half).ravel(), (high + half).ravel(), loads, self.asked.overlap)
+        worn = spread(self.asked.points, low.ravel(), high.ravel(), loads, half)
         self.load[side] += worn[0]
         self.friction[side] += worn[1]
 
