@@ -5,13 +5,11 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import asdict, dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from gudgeon.errors import UnknownNameError
 from gudgeon.language.wanted import told
-
-if TYPE_CHECKING:
-    from gudgeon.results.wear import Rubbed
+from gudgeon.results.wear import Rubbed
 
 
 @dataclass(frozen=True)

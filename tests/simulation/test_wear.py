@@ -96,7 +96,7 @@ def test_a_pin_that_slides_under_its_weight(tmp_path: Path) -> None:
     half = gudgeon.wear(simulation, run, "J", k=k / hardness, since=0.25 * np.pi, points=360)
     assert half.bearing.volume == pytest.approx(volume / 2, rel=1e-7, abs=0.0)
     wide = gudgeon.wear(simulation, run, "J", k="5e-5 mm^3/N/m", contact="overlap")
-    assert wide.bearing.volume == pytest.approx(volume, rel=1e-7, abs=0.0) 
+    assert wide.bearing.volume == pytest.approx(volume, rel=1e-7, abs=0.0)
     assert wide.bearing.deepest < (1 + 1e-6) * ring.max()
     beta = math.acos(C / (C + depth))
     worn = wide.angle[wide.bearing.depth > 1e-9 * wide.bearing.deepest]
@@ -147,8 +147,8 @@ def test_a_study_measures_it() -> None:
     study = gudgeon.study({
         "mechanism": "slider_crank", "scenes": ["ideal", "dry"], "parameters": {"c": ["0.1 mm", "0.3 mm"]},
         "t_end": "0.05 s", "output": 10,
-        "measures": {"depth": {"wear_depth": "wristpin"}, "arc": {"wear_arc": "wristpin"}, "F": {"peak_force": "wristpin"},
-                     "ax": {"peak_of_steps": "slider.ax"}},
+        "measures": {"depth": {"wear_depth": "wristpin"}, "arc": {"wear_arc": "wristpin"},
+                     "F": {"peak_force": "wristpin"}, "ax": {"peak_of_steps": "slider.ax"}},
     }).dataset  # fmt: skip
     assert study["depth"].sel(scene="ideal").isnull().all() and study["arc"].attrs["units"] == "rad"
     simulation = gudgeon.load("slider_crank", "dry")
@@ -180,6 +180,6 @@ def test_what_cannot_be_is_refused(crank: tuple[gudgeon.Simulation, gudgeon.Resu
     for wrong in ({"k": 0.0}, {"k": "1 mm"}, {"k": 1.0, "hardness": "1 m"}, {"k": 1.0, "law": "holm"},
                   {"k": 1.0, "since": 0.2}, {"k": 1.0, "contact": "line"}, {"k": 1.0, "points": 3}):  # fmt: skip
         with pytest.raises(gudgeon.InputError):
-            gudgeon.wear(simulation, run, "wristpin", **wrong)  # type: ignore[arg-type]
+            gudgeon.wear(simulation, run, "wristpin", **wrong)
     with pytest.raises(BadValueError, match="whose run it is"):
         gudgeon.wear(gudgeon.load("bouncing_ball", "elastic"), run, "wristpin", k=1.0)
