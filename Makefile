@@ -5,7 +5,7 @@ ARGS ?=
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help run study checks test test-all lint types fuzz bench race map stress peers generated tables setup setup-test clean
+.PHONY: help run study study-jansen checks test test-all lint types fuzz bench race map stress peers generated tables setup setup-test clean
 .NOTPARALLEL:
 
 help:  ## this list
@@ -17,6 +17,9 @@ run: setup  ## the nine-bar press in three scenes: a table, and a picture under 
 study: setup  ## Chen, Gao and Wang's paper (studies/chen_2022.yaml): its runs, numbers and trends, under out/
 	@$(GUDGEON) study studies/chen_2022.yaml --out out/chen_2022.study $(ARGS)
 	@$(GUDGEON) study report out/chen_2022.study
+
+study-jansen: setup  ## trends of a paper on a Jansen leg with play (studies/jansen_wear.yaml): forces, wear, under out/
+	@$(GUDGEON) study studies/jansen_wear.yaml --out out/jansen_wear.study $(ARGS)
 
 checks: setup-test  ## the table (docs/checks.md) of what is checked against what, measured anew
 	@.venv/bin/python -m tests.checks

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from gudgeon.simulation.examine import examine
     from gudgeon.simulation.from_file import load
     from gudgeon.simulation.simulation import Simulation
+    from gudgeon.simulation.wear import wear
     from gudgeon.studies.ensemble.finished import Study
     from gudgeon.studies.ensemble.study import load_study, study
 
@@ -39,6 +40,7 @@ __version__ = "0.1.0"
 _HOME = {
     "load": "simulation.from_file",
     "examine": "simulation.examine",
+    "wear": "simulation.wear",
     "join": "results.join",
     "register": "generator.kinds.laws.registered",
     "study": "studies.ensemble.study",
@@ -79,6 +81,7 @@ __all__ = [
     "load_study",
     "register",
     "study",
+    "wear",
 ]
 
 

@@ -23,8 +23,9 @@ STEPS = ("max_of_steps", "min_of_steps", "peak_of_steps")  # of a series over al
 DEVIATIONS = ("deviation", "deviation_of_steps")  # largest magnitude of a series less that of another scene
 CONTACTS = ("impacts", "first_impact", "impact_speed")  # of a joint's contacts that begin in a window
 JOINT = ("peak_force", "eccentricity")  # of a joint with play over all steps
+WEAR = ("wear_depth", "wear_arc")  # of a joint with dry contact over all steps, of its bearing, for k/H = 1/Pa
 CROSSINGS = ("crossings", "first_crossing")  # of an event in a window
-STATISTICS = (*SAMPLES, *STEPS, *DEVIATIONS, *CONTACTS, *JOINT, *CROSSINGS)
+STATISTICS = (*SAMPLES, *STEPS, *DEVIATIONS, *CONTACTS, *JOINT, *WEAR, *CROSSINGS)
 RESERVED = (
     "run", "time", "t", "sample", "scene", "draw", "start", "ensemble", "failure", "t_last",
 )  # what a dataset has of its own

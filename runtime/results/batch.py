@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     import xarray
 
     from gudgeon.results.at_events import AtEvents
+    from gudgeon.results.wear import Rubbed
 
 Array: TypeAlias = NDArray[Any]
 
@@ -103,6 +104,7 @@ class Batch:
     result: ResultOf = field(repr=False)
     kept: Mapping[str, Array] = field(default_factory=dict)  # series (n, N) instead of states, and "t"
     extremes: tuple[tuple[Extremes, ...], ...] = ()  # of each run, over all steps, where `peaks` asked for them
+    rubbed: tuple[tuple[Rubbed, ...], ...] = ()  # the same of what a study asked for; no file has it
 
     def __len__(self) -> int:
         return len(self.samples)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 from gudgeon.errors import UnknownNameError
 from gudgeon.language.wanted import told
+from gudgeon.results.wear import Rubbed
 
 
 @dataclass(frozen=True)
@@ -131,6 +132,7 @@ class Diagnostics:
     horizon: float = float("nan")  # s, to which the trace can be trusted; inf: to the end, NaN: not asked
     extremes: tuple[Extremes, ...] = ()  # over all steps, of the series that `peaks` asked for
     examined: Examined | None = None  # by other runs, for a report; None: nobody asked
+    rubbed: tuple[Rubbed, ...] = ()  # by all steps, of joints whose wear was asked for; no file has it
 
     def peak(self, joint: str) -> Peak:
         """The peak at a joint with play; UnknownNameError for any other."""
@@ -145,8 +147,8 @@ class Diagnostics:
 
         A float is written with as many digits as reading it back exactly needs.
         """
-        data = asdict(self)
-        for name in ("extremes", "examined"):
+        data = asdict(replace(self, rubbed=()))
+        for name in ("extremes", "examined", "rubbed"):
             if not data[name]:
                 del data[name]
         return json.dumps(_words(data), ensure_ascii=False, allow_nan=False)
@@ -162,8 +164,8 @@ class Diagnostics:
         return Diagnostics(**_numbers(data, Diagnostics))
 
     def __str__(self) -> str:
-        lists = ("peaks", "notes", "extremes", "examined")
-        rows = [f"{name:>30}  {value}" for name, value in asdict(self).items() if name not in lists]
+        lists = ("peaks", "notes", "extremes", "examined", "rubbed")
+        rows = [f"{name:>30}  {value}" for name, value in asdict(replace(self, rubbed=())).items() if name not in lists]
         rows += [f"{'peak at ' + p.joint:>30}  {p.F:.6g} N at {p.t:.6g} s, e ≤ {p.e_max:.6g} m" for p in self.peaks]
         rows += [
             f"{'peaks of ' + x.name + ' against ' * bool(x.against) + x.against:>30}  {x.min:.6g} {x.unit} at"

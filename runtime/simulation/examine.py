@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Progress
     from gudgeon.model.compiled import Array
     from gudgeon.results.results import Result
+    from gudgeon.results.wear import Rubbing
     from gudgeon.simulation.simulation import Simulation
 
 NODES, WEIGHTS = leggauss(6)
@@ -42,8 +43,7 @@ def examine(
 
     BadValueError for a run of another scene, or a file of it that has no scene. Ctrl-C is passed on.
     """
-    if run.source.whole_sha256 != simulation.source.whole_sha256 or run.source.scene != simulation.source.scene:
-        raise BadValueError("examine: expected the simulation whose run it is")
+    check_own(simulation, run, "examine")
     notes: list[str] = []
     joints = _joints(simulation, run, notes, progress)
     differences, told = _differences(simulation, run, notes, progress)
@@ -51,13 +51,20 @@ def examine(
     return replace(run, diagnostics=replace(run.diagnostics, examined=found))
 
 
+def check_own(simulation: Simulation, run: Result, asked: str) -> None:
+    """BadValueError for a run of another scene, or a file of it that has no scene."""
+    if run.source.whole_sha256 != simulation.source.whole_sha256 or run.source.scene != simulation.source.scene:
+        raise BadValueError(f"{asked}: expected the simulation whose run it is")
+
+
 def _again(
-    simulation: Simulation, run: Result, t: Array, settings: dict[str, Any], progress: Progress | None
-) -> Iterator[Result]:
+    simulation: Simulation, run: Result, t: Array, settings: dict[str, Any], progress: Progress | None,
+    peaks: tuple[str | Rubbing, ...] = (),
+) -> Iterator[Result]:  # fmt: skip
     """The run at times t: begun as the file says, and begun in its first sample. What ends early is none."""
     for start in (None, begin_of(run)) if run.t[0] == 0.0 else (begin_of(run),):
         try:
-            other = repeated(simulation, t, start, settings, progress)
+            other = repeated(simulation, t, start, settings, progress, peaks)
         except GudgeonError:  # a start that does not close any more
             continue
         if other is not None and other.diagnostics.interrupted:
@@ -74,18 +81,27 @@ def _joints(
     t, weights = _points(run)
     ends = run.impacts["t_off"]
     every = np.unique(np.concatenate([run.t, t, ends[(ends >= run.t[0]) & (ends <= run.t[-1])]]))
+    other = as_it_was(simulation, run, every, progress)
+    if other is None:
+        notes.append(ANOTHER)
+        return ()
+    at = np.searchsorted(other.t, t)
+    return tuple(_joint(run, other, k, joint, at, weights) for k, joint in enumerate(run.source.clearances))
+
+
+def as_it_was(
+    simulation: Simulation, run: Result, t: Array, progress: Progress | None, peaks: tuple[str | Rubbing, ...] = ()
+) -> Result | None:
+    """The run again, bit for bit, at times t, among which are its own; None where that cannot be had."""
     usual = settings_of(run)[0]
-    for other in (x for own in _as_it_was(usual) for x in _again(simulation, run, every, own, progress)):
+    for other in (x for own in _as_it_went(usual) for x in _again(simulation, run, t, own, progress, peaks)):
         same = np.searchsorted(other.t, run.t)
         if np.array_equal(other.q[same], run.q, equal_nan=True) and np.array_equal(other.v[same], run.v):
-            at = np.searchsorted(other.t, t)
-            each = enumerate(run.source.clearances)
-            return tuple(_joint(run, other, k, joint, at, weights) for k, joint in each)
-    notes.append(ANOTHER)
-    return ()
+            return other
+    return None
 
 
-def _as_it_was(usual: dict[str, Any]) -> Iterator[dict[str, Any]]:
+def _as_it_went(usual: dict[str, Any]) -> Iterator[dict[str, Any]]:
     """A run by "auto" is told by the one method that made all its steps, if one did."""
     if usual["method"] in AUTO and "step" not in usual:
         yield usual | {"method": ADAPTIVE}

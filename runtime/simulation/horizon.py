@@ -32,6 +32,7 @@ from gudgeon.model.compiled import Array
 if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Progress
     from gudgeon.results.results import Result, State
+    from gudgeon.results.wear import Rubbing
     from gudgeon.simulation.simulation import Simulation
 
 APART = 0.25  # see above: of the clearance, where orbits part for the eye; dry motion is on a plateau below it
@@ -96,11 +97,11 @@ def _ladder(t0: float, t1: float) -> Iterator[Array]:
 
 def repeated(
     simulation: Simulation, times: Array, start: State | None, settings: dict[str, Any],
-    progress: Progress | None,
-) -> Result | None:
+    progress: Progress | None, peaks: tuple[str | Rubbing, ...] = (),
+) -> Result | None:  # fmt: skip
     """A run through `times`, as far as it goes, None: not even from the start; events do not end it."""
     try:
-        return simulation.simulate(output=times, start=start, progress=progress, stop=False, peaks=(), **settings)
+        return simulation.simulate(output=times, start=start, progress=progress, stop=False, peaks=peaks, **settings)
     except SolverError as error:
         return cast("Result | None", error.partial)
 

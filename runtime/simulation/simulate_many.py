@@ -36,11 +36,11 @@ from gudgeon.simulation.each_run import EachRun
 from gudgeon.simulation.hidden_jumps import any_in_batch
 from gudgeon.simulation.restart import check_fits, numbers, off_constraints, own_each
 from gudgeon.simulation.single_runs import Asked, run_singly
-from gudgeon.simulation.wanted_peaks import Told, search_of, wanted_peaks
+from gudgeon.simulation.wanted_peaks import Looker, Told, search_of, wanted_peaks
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
-    from gudgeon.simulation.peaks import Search
+    from gudgeon.results.wear import Rubbing
     from gudgeon.simulation.simulation import Simulation
 
 
@@ -49,7 +49,7 @@ def simulate_many(
     simulation: Simulation, parameters: ParameterSets, t_end: Any, output: Any, method: str, rtol: float | str | None,
     step: Any, threads: int | None, progress: Progress | None, stop: bool, side_by_side: bool = True,
     start: State | Sequence[State] | None = None, keep: str | Iterable[str] = STATES,
-    peaks: Iterable[str] | None = None, against: Simulation | None = None,
+    peaks: Iterable[str | Rubbing] | None = None, against: Simulation | None = None,
 ) -> Batch:  # fmt: skip
     """See Simulation.simulate_many."""
     compiled, source = simulation.compiled, simulation.source
@@ -167,7 +167,7 @@ class _Starts:
                 found[i] = error
         return found
 
-    def searches(self, p: Array, bad: Mapping[int, Any], asked: Asked) -> list[Search | None]:
+    def searches(self, p: Array, bad: Mapping[int, Any], asked: Asked) -> list[Looker | None]:
         """Who looks at the steps of each run; empty where nobody does."""
         every = range(len(p) if asked.peaks else 0)
         numbers = [(p[i], self.given[i], self.is_given[i]) for i in every]
@@ -258,4 +258,5 @@ def _of_runs(results: _Results, kept: _Kept | None) -> Batch:
         peaks=peaks_of(x["peaks"][:, :joints], impacts), diagnostics=numbers, failures=as_failures(runs.failures),
         seconds=math.nan, threads=0, interrupted=runs.interrupted, result=results, kept=kept.arrays if kept else {},
         extremes=tuple(told.extremes for told in results.told),
+        rubbed=tuple(told.rubbed for told in results.told),
     )  # fmt: skip

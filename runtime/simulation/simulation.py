@@ -30,7 +30,7 @@ from gudgeon.simulation.conclusion import conclude, contradicted, late
 from gudgeon.simulation.equations import Equations
 from gudgeon.simulation.hidden_jumps import up_to_a_jump
 from gudgeon.simulation.restart import check_fits, numbers, off_constraints, own
-from gudgeon.simulation.wanted_peaks import search_of, wanted_peaks
+from gudgeon.simulation.wanted_peaks import Looker, search_of, wanted_peaks
 from gudgeon.waiting.ctrl_c import CtrlC
 from gudgeon.waiting.imports import GENERATOR, whole
 
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from gudgeon.results.batch import Batch
     from gudgeon.results.lyapunov import Lyapunov
     from gudgeon.results.results import Result, State
-    from gudgeon.simulation.peaks import Search
+    from gudgeon.results.wear import Rubbing
 
 
 class Simulation(Equations):
@@ -126,7 +126,7 @@ class Simulation(Equations):
         rtol: float | str | None = None, step: float | str | None = None,
         parameters: Mapping[str, float | str] | None = None, start: State | None = None,
         progress: Progress | None = None, horizon: bool = False, stop: bool = True,
-        peaks: Iterable[str] | None = None, against: Simulation | None = None,
+        peaks: Iterable[str | Rubbing] | None = None, against: Simulation | None = None,
     ) -> Result:  # fmt: skip
         """Run the scene from t = 0 (or from `start`, the `final` of another run) to t_end (s).
 
@@ -199,7 +199,7 @@ class Simulation(Equations):
         rtol: float | str | None = None, step: float | str | Sequence[float | str] | ArrayLike | None = None,
         threads: int | None = None, progress: Progress | None = None, stop: bool = True, side_by_side: bool = True,
         start: State | Sequence[State] | None = None, keep: str | Iterable[str] = "states",
-        peaks: Iterable[str] | None = None, against: Simulation | None = None,
+        peaks: Iterable[str | Rubbing] | None = None, against: Simulation | None = None,
     ) -> Batch:  # fmt: skip
         """Run the scene with each of many parameter sets, in threads; arguments as in `simulate`.
 
@@ -250,7 +250,7 @@ class Simulation(Equations):
         return lyapunov(self, t_end, section, by, skip, settings, parameters, start, progress)
 
     def _ran(
-        self, problem: Problem, jump: SolverError | None, given: Array, is_given: Array, search: Search | None
+        self, problem: Problem, jump: SolverError | None, given: Array, is_given: Array, search: Looker | None
     ) -> Result:
         """What the time loop made of it and `search` found. Raises SolverError with `partial`; `jump`: at the end."""
         with CtrlC() as ctrl_c:

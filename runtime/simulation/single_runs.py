@@ -28,6 +28,7 @@ from gudgeon.results.results import Result, State
 from gudgeon.waiting.ctrl_c import CtrlC
 
 if TYPE_CHECKING:
+    from gudgeon.results.wear import Rubbing
     from gudgeon.simulation.simulation import Simulation
 
 
@@ -42,7 +43,7 @@ class Asked:
     stop: bool
     side_by_side: bool
     keep: tuple[str, ...] | None  # series; None: states
-    peaks: tuple[str, ...] = ()  # series whose peaks over all steps are wanted
+    peaks: tuple[str | Rubbing, ...] = ()  # series whose peaks over all steps are wanted, and what rubs
     against: Simulation | None = None  # of those less this scene's
 
 
@@ -189,4 +190,5 @@ def run_singly(
         diagnostics=runs.counts(), failures=as_failures(runs.errors), seconds=time.perf_counter() - before,
         threads=asked.threads, interrupted=runs.interrupted, result=runs, kept=runs.kept,
         extremes=tuple(() if run is None else run.diagnostics.extremes for run in found),
+        rubbed=tuple(() if run is None else run.diagnostics.rubbed for run in found),
     )  # fmt: skip

@@ -18,7 +18,7 @@ from gudgeon.results.batch import Array
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT, MOST_OUTPUT
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.libraries import loaded, method_in
-from gudgeon.studies.ensemble.measures import ROUNDING, Spans, measured, series_of, steps_of
+from gudgeon.studies.ensemble.measures import ROUNDING, Spans, measured, rubs_of, series_of, steps_of
 from gudgeon.studies.ensemble.notes import Note, gathered, guesses, merged
 from gudgeon.studies.ensemble.numbers import key_of, of_runs, slot_of
 from gudgeon.studies.ensemble.origins import at_samples, of_steps, origin_of
@@ -202,12 +202,12 @@ def _run(simulation: Simulation, job: Job, table: Table, runs: Array, progress: 
     t_end: Any = None if not alike else float(ends[0]) if same_end else ends
     parameters: Any = {name: list(map(_plain, values[runs])) for name, values in table.columns.items()}
     source, step = simulation.source, None if table.step is None else table.step[runs]
-    origin = of_steps(wanted.measures, source)
+    origin, lookers = of_steps(wanted.measures, source), rubs_of(wanted.measures, source)
     batch = simulation.simulate_many(
         parameters or [{}] * len(runs), t_end, output=output, method=method_in(source, wanted.method),
         rtol=wanted.rtol if source.degrees_of_freedom else None, step=step, threads=job.threads, progress=progress,
         stop=wanted.stop, keep=series_of(wanted.measures, wanted.keep, source),
-        peaks=steps_of(wanted.measures, source), against=origin_of(job, origin) if origin else None,
+        peaks=(*steps_of(wanted.measures, source), *lookers), against=origin_of(job, origin) if origin else None,
     )  # fmt: skip
     if batch.interrupted:
         raise KeyboardInterrupt

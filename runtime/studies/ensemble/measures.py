@@ -12,6 +12,7 @@ from gudgeon.errors import UnknownNameError
 from gudgeon.results.batch import Array
 from gudgeon.results.series import catalogue
 from gudgeon.results.unknown import check_series
+from gudgeon.results.wear import Rubbing, arc
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Measure
@@ -26,9 +27,10 @@ STEPS: Mapping[str, str] = {
 }  # fmt: skip
 JOINT: Mapping[str, str] = {"peak_force": "F", "eccentricity": "e_max"}
 CONTACTS, CROSSINGS = ("impacts", "first_impact", "impact_speed"), ("crossings", "first_crossing")
-OF_JOINTS = (*CONTACTS, *JOINT)
+WEAR = ("wear_depth", "wear_arc")
+OF_JOINTS = (*CONTACTS, *JOINT, *WEAR)
 UNITS = {"impacts": "", "first_impact": "s", "impact_speed": "m/s", "peak_force": "N", "eccentricity": "m",
-         "crossings": "", "first_crossing": "s"}  # fmt: skip
+         "wear_depth": "N/m", "wear_arc": "rad", "crossings": "", "first_crossing": "s"}  # fmt: skip
 
 
 def series_of(measures: tuple[Measure, ...], keep: tuple[str, ...], source: KernelSource) -> list[str]:
@@ -46,10 +48,17 @@ def steps_of(measures: tuple[Measure, ...], source: KernelSource) -> list[str]:
     return [name for name in dict.fromkeys(wanted) if name in known]
 
 
+def rubs_of(measures: tuple[Measure, ...], source: KernelSource) -> tuple[Rubbing, ...]:
+    """Joints whose rubbing over all steps is wanted."""
+    own = _joints(source, dry=True)
+    wanted = (str(one.of) for one in measures if one.statistic in WEAR)
+    return tuple(Rubbing(name) for name in dict.fromkeys(wanted) if name in own)
+
+
 def unit_of(measure: Measure, source: KernelSource) -> str | None:
     """The unit of a measure, None in a scene that has no such thing."""
     if measure.statistic in OF_JOINTS:
-        return UNITS[measure.statistic] if measure.of in _joints(source) else None
+        return UNITS[measure.statistic] if measure.of in _joints(source, measure.statistic in WEAR) else None
     if measure.statistic in CROSSINGS:
         return UNITS[measure.statistic] if measure.of in _events(source) else None
     return catalogue(source)[measure.of].unit if measure.of in catalogue(source) else None
@@ -60,7 +69,7 @@ def unknown_of(measure: Measure, source: KernelSource) -> UnknownNameError:
     from gudgeon.language.suggestions import unknown_name
 
     if measure.statistic in OF_JOINTS:
-        return unknown_name("joint with play", measure.of, _joints(source), measure.of.where)
+        return unknown_name("joint with play", measure.of, _joints(source, measure.statistic in WEAR), measure.of.where)
     if measure.statistic in CROSSINGS:
         return unknown_name("event", measure.of, _events(source), measure.of.where)
     try:
@@ -81,8 +90,8 @@ def check_origin(measures: Iterable[Measure], source: KernelSource) -> None:
                 raise UnknownNameError(told, one.of.where, error.hint) from None
 
 
-def _joints(source: KernelSource) -> list[str]:
-    return [joint.name for joint in source.clearances]
+def _joints(source: KernelSource, dry: bool = False) -> list[str]:
+    return [joint.name for joint in source.clearances if joint.dry or not dry]
 
 
 def _events(source: KernelSource) -> list[str]:
@@ -108,6 +117,8 @@ def measured(batch: Batch, measure: Measure, spans: Spans, origins: Origins) -> 
         return _of_steps(batch, measure)
     if measure.statistic in JOINT:
         return np.asarray(batch.peaks[JOINT[measure.statistic]][:, _joints(source).index(measure.of)])
+    if measure.statistic in WEAR:
+        return _worn(batch, measure)
     if measure.statistic in CONTACTS:
         return _contacts(batch, measure, begin, end)
     if measure.statistic in CROSSINGS:
@@ -123,6 +134,15 @@ def _of_steps(batch: Batch, measure: Measure) -> Array:
         return np.where(np.asarray(batch.samples) > 0, 0.0, np.nan)
     found = batch.peak(str(measure.of)) if measure.origin is None else batch.peak_error(str(measure.of))
     return np.asarray(getattr(found, STEPS[measure.statistic]))
+
+
+def _worn(batch: Batch, measure: Measure) -> Array:
+    """Of the bearing's surface: the deepest cell's load times slip over its area, and the arc that is worn."""
+    out = np.full(len(batch), np.nan)
+    for i, found in enumerate(batch.rubbed):
+        for rubbed in (one for one in found if one.asked.joint == measure.of):
+            out[i] = arc(rubbed.load[0]) if measure.statistic == "wear_arc" else rubbed.depth(0).max()
+    return out
 
 
 def _contacts(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:

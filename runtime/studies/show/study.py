@@ -19,6 +19,7 @@ from gudgeon.studies.show.tables import console, new_table, print_json
 from gudgeon.studies.words import seconds
 
 MOST_KINDS = 8
+MOST_TRENDS = 16  # that are told one by one
 QUANTILES = {"min": 0.0, "median": 0.5, "max": 1.0}
 
 
@@ -105,12 +106,16 @@ def _show_study(plan: Plan, found: Study) -> None:
 
 
 def _show_claims(found: Study) -> None:
-    """How many trends hold, and how far numbers are off."""
+    """Which trends hold, of many only how many, and how far numbers are off."""
     numbers, trends, _ = found.claims
     if len(trends):
-        told = [own["verdict"].iloc[0] if own["agreed"].all() else "not the same in all ensembles"
-                for _, own in trends.groupby("claim", sort=False)]  # fmt: skip
-        print(f"{len(told)} trends: " + ", ".join(f"{count} {name}" for name, count in Counter(told).most_common()))
+        told = {name: own["verdict"].iloc[0] if own["agreed"].all() else "not the same in all ensembles"
+                for name, own in trends.groupby("claim", sort=False)}  # fmt: skip
+        if len(told) <= MOST_TRENDS:
+            says = trends.drop_duplicates("claim").set_index("claim")["says"]
+            print("\n".join(f"{name} {verdict}: {visible(str(says[name]))}" for name, verdict in told.items()))
+        counts = Counter(told.values()).most_common()
+        print(f"{len(told)} trends: " + ", ".join(f"{count} {name}" for name, count in counts))
     if len(numbers) and numbers["printed"].notna().any():
         off = numbers["deviation"].abs().groupby(numbers["claim"]).median()
         print(f"{numbers['claim'].nunique()} numbers: half of the medians within {off.median():.3g} % of the printed")

@@ -1,0 +1,189 @@
+"""How the surfaces of a joint with play rub, step by step: `gudgeon.wear(simulation, run, "A", k=1e-4, hardness=2e9)`.
+
+The run once more, bit for bit. The time loop shows the states of its steps (integrators/steps.py); between neighbours
+in contact motion is the polynomial of degree five through both with their rates and accelerations, forces are those of
+the model at Gauss's points on it. What a point carries is laid on the arc that the contact sweeps about it.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.polynomial.legendre import leggauss
+
+from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
+from gudgeon.integrators.steps import Steps
+from gudgeon.language.quantities import number_of_text
+from gudgeon.language.shown import one_line
+from gudgeon.language.wanted import number_of, positive, refuse, text, told, whole
+from gudgeon.results.wear import HOUR, LAWS, POINTS, Rubbed, Rubbing, Surface, Wear, bearing_of, middles, spread
+from gudgeon.simulation.between import Path
+from gudgeon.simulation.examine import as_it_was, check_own
+from gudgeon.simulation.wanted_peaks import Told
+
+if TYPE_CHECKING:
+    from gudgeon.integrators.trajectory import Progress
+    from gudgeon.model.compiled import Array, CompiledModel
+    from gudgeon.results.results import Result
+    from gudgeon.simulation.simulation import Simulation
+
+NODES, WEIGHTS = 0.5 * (leggauss(4)[0] + 1.0), 0.5 * leggauss(4)[1]
+ENDS = np.concatenate([[0.0], np.cumsum(WEIGHTS)])  # each point's own part lies between two of them
+TO_ENDS = np.vander(ENDS, 4) @ np.linalg.inv(np.vander(NODES, 4))  # times values at the nodes: the polynomial's there
+MOST_POINTS = 1_000_000
+NOTHING, PRESSURE, SPECIFIC = (0, 0, 0), (-1, 1, -2), (1, -1, 2)  # exponents of m, kg, s: k, H, and k/H in m³/(N·m)
+CONTACT = ("point", "overlap")
+NOT_AGAIN = "the run could not be repeated bit for bit: what rubbed in it is not known"
+
+
+def wear(
+    simulation: Simulation, run: Result, joint: str, *, k: float | str, hardness: float | str | None = None,
+    journal_k: float | str | None = None, journal_hardness: float | str | None = None, law: str = "archard",
+    contact: str = "point", points: int = POINTS, since: float | None = None, until: float | None = None,
+    progress: Progress | None = None,
+) -> Wear:  # fmt: skip
+    """What a joint with dry contact wears off in a run, over the circumferences of bearing and journal.
+
+    `k`: Archard's pure number with the softer surface's `hardness` (Pa, '1.2 GPa'); without one k/H itself,
+    '1e-6 mm^3/N/m', in m³/(N·m). The journal's are the same unless given. `law`: "archard", k F_n s/H, or "reye",
+    k/H of the work of friction. `contact`: all at the "point" of contact, or by a parabola over the arc in which the
+    undeformed circles "overlap", cos β ≥ c/e. `points`: cells of a circumference, of 0.1°. `since`, `until` (s): a
+    part of the run, without what its start makes.
+
+    Raises UnknownNameError for a joint without play, BadValueError for numbers, for one without dry contact and for
+    the run of another scene, GudgeonError where the run cannot be repeated. Ctrl-C is passed on.
+    """
+    check_own(simulation, run, "wear")
+    asked = _asked(run, joint, points, since, until, contact)
+    rates = _rate(k, hardness, "k", "hardness"), _rate(
+        k if journal_k is None else journal_k,
+        hardness if journal_hardness is None else journal_hardness, "journal_k", "journal_hardness",
+    )  # fmt: skip
+    if text(law, "law") not in LAWS:
+        refuse("law", law, " or ".join(LAWS))
+    again = as_it_was(simulation, run, run.t, progress, (asked,))
+    if again is None:
+        raise GudgeonError(NOT_AGAIN)
+    return _of(run, again.diagnostics.rubbed[0], rates, law)
+
+
+def _asked(run: Result, joint: Any, points: Any, since: Any, until: Any, contact: Any) -> Rubbing:
+    check_rubs(run.source.clearances, joint)
+    if text(contact, "contact") not in CONTACT:
+        refuse("contact", contact, " or ".join(CONTACT))
+    first, last = (float(run.t[0]), float(run.t[-1])) if len(run.t) else (0.0, 0.0)
+    begin = first if since is None else number_of(since, "since")
+    end = last if until is None else number_of(until, "until")
+    if not first <= begin < end <= last:
+        told_of = f"wear from {begin:g} to {end:g} s of a run from {first:g} to {last:g} s"
+        raise BadValueError(told_of, hint="expected since before until, both within the run")
+    return Rubbing(joint, whole(points, "points", 8, MOST_POINTS), begin, end, contact == "overlap")
+
+
+def check_rubs(clearances: Any, joint: Any) -> None:
+    """UnknownNameError unless the joint has play, BadValueError unless its surfaces touch."""
+    own = [one for one in clearances if isinstance(joint, str) and one.name == joint]
+    if not own:
+        hint = f"its joints with play: {', '.join(one.name for one in clearances) or 'none'}"
+        raise UnknownNameError(f"no wear of {told(joint)}: expected a joint with play", hint=hint)
+    if not own[0].dry:
+        raise BadValueError(f"{joint} has a film alone: nothing wears", hint="expected a contact with a normal law")
+
+
+def _rate(k: Any, hardness: Any, k_name: str, name: str) -> float:
+    """k/H, 1/Pa."""
+
+    def number(value: Any, what: str, exponents: tuple[int, int, int]) -> float:
+        return positive(number_of_text(value, what, exponents) if isinstance(value, str) else value, what)
+
+    if hardness is None:
+        return number(k, k_name, SPECIFIC)
+    return number(k, k_name, NOTHING) / number(hardness, name, PRESSURE)
+
+
+def _of(run: Result, rubbed: Rubbed, rates: tuple[float, float], law: str) -> Wear:
+    hours = (rubbed.end - rubbed.begin) / HOUR
+    bearing, journal = (
+        Surface(rubbed.depth(side, law, rate), rubbed.radii[side], rubbed.length, hours)
+        for side, rate in enumerate(rates)
+    )
+    span, title = (rubbed.begin, rubbed.end), f"{one_line(run.source.title)}: {run.source.scene}"
+    angle = middles(rubbed.asked.points)
+    return Wear(rubbed.asked.joint, law, angle, bearing, journal, rubbed.slip, span, title)
+
+
+class Rubs:
+    """Whoever looks at the contacts of a joint over all steps of one run; `told` says what came of it."""
+
+    def __init__(self, compiled: CompiledModel, asked: Rubbing, numbers: tuple[Array, Array, Array]) -> None:
+        self.path, self.compiled, self.asked = Path(compiled, numbers), compiled, asked
+        self.number = [one.name for one in compiled.source.clearances].index(asked.joint)
+        self.joint = compiled.source.clearances[self.number]
+        self.c = float(numbers[0][self.joint.clearance])
+        self.load, self.friction = np.zeros((2, asked.points)), np.zeros((2, asked.points))
+        self.slip, self.first, self.last, self.seen = 0.0, np.nan, np.nan, 0
+
+    def __call__(self, steps: Steps) -> None:
+        """The next states of the run."""
+        path, before = self.path, min(self.seen, 2)
+        path.take(steps)
+        self.seen += len(steps)
+        x, k = path.steps, np.arange(max(before - 1, 0), len(path.steps) - 1)
+        self.first = float(x.t[0]) if np.isnan(self.first) else self.first
+        self.last = float(x.t[-1])
+        known = np.asarray(np.isfinite(path.run.a[1:]).all(axis=1))
+        begin, end = (np.clip(x.t[rows], self.asked.begin, self.asked.end) for rows in (k, k + 1))
+        kept = path.inner[k] & (x.state[k, self.number] > 0) & known[k] & known[k + 1] & (end > begin)
+        if kept.any():
+            self._rub(k[kept], begin[kept], end[kept])
+
+    def told(self) -> Told:
+        """What was found, as a result has it."""
+        begin, end = max(self.first, self.asked.begin), min(self.last, self.asked.end)
+        lost = (f"wear: {self.path.lost} states of steps have no accelerations and are left out",)
+        R_i, R_j, L = (float(self.path.p[k]) for k in bearing_of(self.compiled.source, self.asked.joint))
+        found = Rubbed(self.asked, self.load, self.friction, self.slip, begin, end, (R_i, R_j), L)
+        return Told(notes=lost if self.path.lost else (), rubbed=(found,))
+
+    def _rub(self, k: Array, begin: Array, end: Array) -> None:
+        """Between states k and k + 1, from `begin` to `end` (K,) s."""
+        x, h = self.path.steps, (end - begin)[:, None]
+        t = begin[:, None] + h * NODES
+        s = ((t - x.t[k, None]) / (x.t[k + 1] - x.t[k])[:, None])[:, :, None]
+        q, v = self._motion(k, s)
+        memory = np.repeat(x.memory[k][:, None], len(NODES), axis=1)
+        states = slice(memory.shape[2] - len(self.compiled.source.states), None)
+        memory[:, :, states] += s * (x.memory[k + 1, states] - x.memory[k, states])[:, None]
+        q_flat, v_flat, latched = (array.reshape(t.size, -1) for array in (q, v, memory))
+        found = self.compiled.evaluate(t.ravel(), q_flat, v_flat, latched, self.path.p, parts=("clearance",))
+        _, _, F_n, F_t, e_x, e_y, e, _, v_t = (column.reshape(t.shape) for column in found.clearance[:, self.number].T)
+        w, touching = h * WEIGHTS, e > self.c
+        slip = w * np.where(touching, np.abs(v_t), 0.0)
+        loads = np.stack([slip * np.maximum(F_n, 0.0), slip * np.abs(F_t)]).reshape(2, -1)  # nothing is worn by a pull
+        self.slip += float(slip.sum())
+        half = np.arccos(np.minimum(self.c / e, 1.0)).ravel() if self.asked.overlap else None
+        for side, body in enumerate((self.joint.first, self.joint.second)):
+            index = self.compiled.source.bodies[body].index if body >= 0 else -1
+            angle = np.unwrap(np.arctan2(e_y, e_x), axis=1) - (q[:, :, index + 2] if body >= 0 else 0.0)
+            self._lay(side, angle, half, loads)
+
+    def _lay(self, side: int, angle: Array, half: Array | None, loads: Array) -> None:
+        """Each point's loads on its own part of the arc that the contact sweeps."""
+        ends = angle @ TO_ENDS.T
+        low, high = np.minimum(ends[:, 1:], ends[:, :-1]), np.maximum(ends[:, 1:], ends[:, :-1])
+        worn = spread(self.asked.points, low.ravel(), high.ravel(), loads, half)
+        self.load[side] += worn[0]
+        self.friction[side] += worn[1]
+
+    def _motion(self, k: Array, s: Array) -> tuple[Array, Array]:
+        """q and q̇ (K, points, n) at shares s of the parts: Hermite's polynomials of degree five."""
+        x, a = self.path.steps, self.path.run.a[1:]
+        h = (x.t[k + 1] - x.t[k])[:, None, None]
+        q0, q1, v0, v1, a0, a1 = (array[rows][:, None] for array in (x.q, x.v, a) for rows in (k, k + 1))
+        way = q1 - q0 - h * v0 - 0.5 * h**2 * a0  # what a parabola from the first state misses at the second
+        rate, bend = h * (v1 - v0 - h * a0), h**2 * (a1 - a0)
+        c3, c4, c5 = 10 * way - 4 * rate + 0.5 * bend, -15 * way + 7 * rate - bend, 6 * way - 3 * rate + 0.5 * bend
+        q = q0 + s * (h * v0 + s * (0.5 * h**2 * a0 + s * (c3 + s * (c4 + s * c5))))
+        v = v0 + s * (h * a0 + s / h * (3 * c3 + s * (4 * c4 + s * 5 * c5)))
+        return q, v
