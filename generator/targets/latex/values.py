@@ -13,7 +13,7 @@ from gudgeon.generator.symbols.numbers import SlotEntry
 from gudgeon.generator.targets.latex.document import Block, Equation, Text, cells, paragraph
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import Notation, of_address
-from gudgeon.generator.targets.latex.printers import LONG, as_angle, number_text
+from gudgeon.generator.targets.latex.printers import LONG, as_angle, number_text, share_of_pi
 from gudgeon.language.output_units import angle_power
 from gudgeon.language.plot_units import pretty
 from gudgeon.language.tree import Binary, Call, Expr, Number, Unary
@@ -52,15 +52,16 @@ class Values:
 
     def in_si(self, entry: SlotEntry) -> Text:
         """The default in SI without its unit; in front of it what the file says, where that is something else."""
-        written = entry.written
+        written, angle = entry.written, entry.dimension in (DIMENSIONLESS, RATE)
+        share = as_angle(entry.default) if angle and share_of_pi(entry.default) else None
+        number = share or self._number(entry.default, exact=isinstance(written, Number))
         if written is None or entry.follows:
-            return (*self._followed(entry), self._number(entry.default))
-        if isinstance(written, Number) and unit_of(written) in ("", si_unit(entry.dimension)):
-            return (self._number(entry.default, exact=True),)
-        angle = as_angle(entry.default) if entry.dimension == DIMENSIONLESS else None
-        return angle if angle is not None and "π" in angle.text else as_written(written), " = ", (
-            self._number(entry.default)
-        )
+            return (*self._followed(entry), number)
+        if isinstance(written, Number):
+            told = unit_of(written) not in ("", si_unit(entry.dimension), si_unit_of(entry))
+        else:
+            told = share is None
+        return (f"{as_written(written)} = ", share or self._number(entry.default)) if told else (number,)
 
     def _followed(self, entry: SlotEntry) -> Text:
         """What a number follows and a sign behind it; nothing where it is long, and stands below."""
@@ -117,7 +118,8 @@ class Values:
         """Both components; a zero beside a letter has its letter, though no equation needs it."""
         known = [one.address in self._slots.entries for one in vector]
         x, y = (
-            (of_address(one.address), " = 0") if one.is_zero and any(known) and one.address.endswith(axis)
+            (of_address(one.address), " = 0")
+            if one.is_zero and any(known) and one.address.endswith(axis) and not one.address.startswith("gravity")
             else self.cell(one)
             for one, axis in zip(vector, (".x", ".y"), strict=True)
         )
