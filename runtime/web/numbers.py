@@ -124,8 +124,8 @@ def _unit_at(tree: Any, slot: Slot) -> tuple[str, float] | None:
     found = WRITTEN.match(node.strip()) if isinstance(node, str) else None
     try:
         if found is None:  # pi/6
-            turns = isinstance(node, str) and slot.unit == "" and angle_power(parse(node, Location(slot.address, 1, 1))) == 1
-            return ("deg", UNITS["deg"][0]) if turns else None
+            written = parse(node, Location(slot.address, 1, 1)) if isinstance(node, str) and not slot.unit else None
+            return ("deg", UNITS["deg"][0]) if written is not None and angle_power(written) == 1 else None
         return found[1], number_of_text(f"1 {found[1]}", slot.address, slot.dimension)
     except GudgeonError:
         return None

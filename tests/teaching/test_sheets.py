@@ -25,6 +25,7 @@ from gudgeon.teaching.draw_numbers import Drawn, draw_numbers
 from gudgeon.teaching.markdown import markdown
 from gudgeon.teaching.questions import make_questions
 from gudgeon.teaching.sheet import Question, Subject, make_subject
+from gudgeon.web.numbers import groups
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon, written
 from tests.targets_latex.equations_reader import value
@@ -199,7 +200,8 @@ def test_numbers_stand_as_people_write_them(tmp_path: Path) -> None:
     assert f"{speed} = " in text and f"parameters.speed = {speed}" in render(solved, "txt")
     assert "m/s²" in text and "kg·m²" in text and "Φ_q at" not in text and "textasciicircum" not in latex
     assert r"\text{speed} \, t + \tfrac{\pi}{2}" in latex and "pi / 2" not in text
-    assert "the paper" not in text and re.search(r"l_arm = [\d.]+ mm", text) and re.search(rf"= {drawn.run.v[-1, 2]:.6g} +rad/s", text)
+    assert "the paper" not in text and re.search(r"l_arm = [\d.]+ mm", text)
+    assert re.search(rf"= {drawn.run.v[-1, 2]:.6g} +rad/s", text)
 
 
 @cache
@@ -283,3 +285,11 @@ def test_text_of_a_file_is_no_markup() -> None:
     shown = markdown(sheet)
     assert r"# Exercise: four-bar linkage, a crank-rocker" in shown and r"mechanism four\_bar" in shown
     assert shown.count("$") % 2 == 0
+
+
+def test_a_slider_of_a_share_of_pi_is_in_degrees(tmp_path: Path) -> None:
+    (tmp_path / "sides.yaml").write_text(SIDES, encoding="utf-8")
+    simulation = gudgeon.load(tmp_path / "sides.yaml", "ideal")
+    p = np.array([slot.default for slot in simulation.source.slots])
+    ((phase, *_), *_) = (section["numbers"] for section in groups(simulation, p))
+    assert (phase["name"], phase["unit"]) == ("phase", "deg") and np.pi / 6 / phase["factor"] == pytest.approx(30)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from decimal import Decimal
 
 import sympy as sp
@@ -21,7 +20,6 @@ from gudgeon.language.units import DIMENSIONLESS, RATE, si_unit
 
 LONGEST = 30  # characters of a formula in a cell
 SMALL = 1e-3  # below it a number is written with a power of ten
-_NUMBER = re.compile(r"(pi|[\d.]+(?:[eE][+-]?\d+)?)\s*(.*)")
 _STRENGTH = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 4}
 
 
@@ -137,8 +135,16 @@ def _measured(written: Expr | None) -> tuple[float, str] | None:
 
 def unit_of(number: Number) -> str:
     """The unit behind a number of the file, "rpm"; "" where it has none."""
-    found = _NUMBER.fullmatch(number.text.strip()) if number.has_unit else None
-    return found[2] if found else ""
+    text = number.text.strip().removeprefix("pi") if number.has_unit else ""
+    return text[max((k for k in range(len(text) + 1) if _is_number(text[:k])), default=0) :].strip()
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def si_unit_of(entry: SlotEntry) -> str:
