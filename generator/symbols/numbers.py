@@ -15,7 +15,7 @@ from gudgeon.generator.mechanism.mechanism import Quantity
 from gudgeon.generator.mechanism.scene import Scene
 from gudgeon.generator.symbols.from_expressions import to_sympy
 from gudgeon.generator.symbols.symbols import Symbols
-from gudgeon.language.tree import evaluate, names
+from gudgeon.language.tree import Expr, evaluate, names
 from gudgeon.language.units import DIMENSIONLESS, Dimension
 
 
@@ -29,6 +29,7 @@ class SlotEntry:
     default: float
     dimension: Dimension
     words: tuple[str, ...] = ()  # what its number, 0, 1, …, stands for
+    written: Expr | None = None  # as the file has it
 
     @property
     def follows(self) -> bool:
@@ -98,7 +99,7 @@ class Slots:
         short = "." not in wanted and not address.startswith("parameters.")  # gravity.y is no y
         shown = address if short else ""
         symbol = self.symbols.new(wanted, "p->{}", address, shown=shown)
-        self.entries[address] = SlotEntry(symbol, address, value, default, quantity.dimension)
+        self.entries[address] = SlotEntry(symbol, address, value, default, quantity.dimension, (), quantity.value)
         return symbol
 
     def use(self, quantity: Quantity) -> sp.Expr:

@@ -6,6 +6,7 @@ so that a plot of an output can say metres. What cannot be told is labelled "".
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from fractions import Fraction
 from typing import TypeAlias
@@ -16,6 +17,7 @@ from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Name, Number, U
 Exponents: TypeAlias = tuple[Fraction, Fraction, Fraction, Fraction]
 _BASES = ("m", "kg", "s", "rad")
 _DERIVED = {"N": "m*kg/s^2", "J": "m^2*kg/s^2", "W": "m^2*kg/s^3", "Pa": "kg/m/s^2", "Hz": "1/s"}
+_TURNS = ("rad", "mrad", "deg", "rev", "rpm")
 _PLAIN = (Fraction(0),) * 4
 _NAMES = ("N", "J", "N/m", "N*s/m", "Pa", "Pa*s", "W", "m", "m/s", "m/s^2", "rad", "rad/s", "rad/s^2")  # preferred
 
@@ -99,3 +101,23 @@ def _text(exponents: Exponents) -> str:
     above = "*".join(base if power == 1 else f"{base}^{power}" for base, power in powers if power > 0)
     below = "".join(f"/{base}" if power == -1 else f"/{base}^{-power}" for base, power in powers if power < 0)
     return (above or "1") + below if powers else ""
+
+
+def angle_power(expression: Expr) -> int:
+    """By which power of an angle numbers of a file are measured: 1 for pi/6, 20 deg, 90 rpm, atan2(4, 3); else 0."""
+    match expression:
+        case Number(text=text, has_unit=has_unit):
+            above, *below = text.removeprefix("pi").split("/") if has_unit else [""]
+            own = [sum(word in _TURNS for word in re.findall(r"[A-Za-z]+", part)) for part in (above, "/".join(below))]
+            return text.startswith("pi") or own[0] - own[1]
+        case Unary(operand=operand):
+            return angle_power(operand)
+        case Binary(operator="*" | "/" as operator, left=left, right=right):
+            return angle_power(left) + (1 if operator == "*" else -1) * angle_power(right)
+        case Binary(operator="+" | "-", left=left, right=right):
+            return max(angle_power(left), angle_power(right))
+        case Call(function="asin" | "acos" | "atan" | "atan2"):
+            return 1
+        case Call(function="abs" | "min" | "max", arguments=arguments):
+            return max(map(angle_power, arguments))
+    return 0

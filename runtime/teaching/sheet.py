@@ -22,16 +22,9 @@ from gudgeon.generator.targets.latex.document import (
     table,
 )
 from gudgeon.generator.targets.latex.letters import Name
-from gudgeon.generator.targets.latex.mechanism import (
-    Values,
-    driven_value,
-    field_rows,
-    part_sections,
-    place,
-    sketch_of,
-    unit_of,
-)
+from gudgeon.generator.targets.latex.mechanism import driven_value, field_rows, part_sections, place, sketch_of
 from gudgeon.generator.targets.latex.notation import Notation, make_notation
+from gudgeon.generator.targets.latex.values import Values, unit_of
 from gudgeon.generator.targets.latex.write import with_paper
 from gudgeon.language.shown import one_line
 from gudgeon.language.tree import Number
@@ -170,7 +163,7 @@ def _forces(subject: Subject) -> list[Block]:
     """Gravity, and what each element joins and has."""
     model, values = subject.model, Values(subject.model, subject.notation)
     gravity, elements = model.scene.mechanism.gravity, [e.element for e in model.elements.values()]
-    blocks = table(cells("gravity, m/s²"), [cells(values.vector(gravity))]) if gravity is not None else []
+    blocks = table(cells("gravity"), [cells(values.vector(gravity))]) if gravity is not None else []
     kinds = {element.name: element_types()[element.kind] for element in elements}
     rows = [
         cells(e.name, kinds[e.name].title, " and ".join(place(x, kinds[e.name].targets) for x in e.targets))

@@ -9,7 +9,9 @@ from typing import Any
 
 from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.contract.kernel_source import KernelSource, Slot
-from gudgeon.errors import GudgeonError
+from gudgeon.errors import GudgeonError, Location
+from gudgeon.language.output_units import angle_power
+from gudgeon.language.parser import parse
 from gudgeon.language.plot_units import drawn, pretty
 from gudgeon.language.quantities import number_of_text
 from gudgeon.language.units import TIME, UNITS, dimension
@@ -120,9 +122,10 @@ def _unit_at(tree: Any, slot: Slot) -> tuple[str, float] | None:
         else:
             node = node.get(key) if isinstance(node, dict) else None
     found = WRITTEN.match(node.strip()) if isinstance(node, str) else None
-    if found is None:
-        return None
     try:
+        if found is None:  # pi/6
+            written = parse(node, Location(slot.address, 1, 1)) if isinstance(node, str) and not slot.unit else None
+            return ("deg", UNITS["deg"][0]) if written is not None and angle_power(written) == 1 else None
         return found[1], number_of_text(f"1 {found[1]}", slot.address, slot.dimension)
     except GudgeonError:
         return None

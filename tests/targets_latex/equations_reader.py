@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from gudgeon.language.units import UNITS
+
 # a letter with dots, hats and subscripts: x_L1, θ̇_L1, ξ_L1.com, δ̇⁻
 NAME = re.compile(r"(?<![\w.])[^\W\d_][\w\u0302\u0307\u0308]*(?:\.\w+)*[⁰⁻']*")
 _EQUATION = re.compile(rf"  ({NAME.pattern}|∂\S+/∂\S+) = (.*)")
@@ -84,8 +86,17 @@ def rows(lines: list[str]) -> list[list[str]]:
 
 
 def numbers(lines: list[str]) -> dict[str, float]:
-    """What tables say in the form "l_L1 = 0.08" or "y_O4 = -l_5 = -0.3"."""
+    """What tables say in the form "l_L1 = 80 mm" or "y_O4 = -l_5 = -0.3 m", in SI."""
     cells = [part for row in rows(lines) for cell in row for part in cell.split(",  ")]
     parts = [cell.split(" = ") for cell in cells if " = " in cell]
-    number = re.compile(r"-?(\d[\d.e+-]*°?|\d*π(/\d)?)")
-    return {part[0]: value(part[-1], {}) for part in parts if NAME.fullmatch(part[0]) and number.fullmatch(part[-1])}
+    found = ((part[0], quantity(part[-1])) for part in parts if NAME.fullmatch(part[0]))
+    return {name: number for name, number in found if number is not None}
+
+
+def quantity(text: str) -> float | None:
+    """A number, behind it a unit or none, in SI; None for any other text."""
+    found = re.fullmatch(r"(-?(?:\d[\d.e+-]*°?|\d*π(?:/\d)?))(?: ([^\d\W].*))?", text)
+    if found is None:
+        return None
+    unit = (found[2] or "").replace("·", "*").replace("²", "^2")
+    return value(found[1], {}) * (UNITS[unit][0] if unit else 1.0)

@@ -18,7 +18,17 @@ from gudgeon.generator.targets.latex.letters import Name, of_latex
 from gudgeon.generator.targets.latex.notation import make_notation
 from gudgeon.generator.targets.latex.to_html import mathml
 from tests.equations.models import numeric, random_model, random_state
-from tests.targets_latex.equations_reader import dots_apart, equations, evaluate, numbers, rows, sections, state, value
+from tests.targets_latex.equations_reader import (
+    dots_apart,
+    equations,
+    evaluate,
+    numbers,
+    quantity,
+    rows,
+    sections,
+    state,
+    value,
+)
 
 SHIPPED = resources.files("gudgeon.mechanisms")
 PRESS = SHIPPED.joinpath("nine_bar_press.yaml").read_text(encoding="utf-8")
@@ -81,7 +91,10 @@ def given_numbers(which: str, t: float, q: np.ndarray, v: np.ndarray) -> dict[st
     for title in ("Bodies", "Ground", "Joints", "Force elements", "Generalized forces"):
         known |= numbers(read(which).get(title, []))
     for cells in rows(read(which).get("Parameters", []))[2:]:
-        known[cells[1]] = value(cells[2].split(" = ")[-1], {})
+        written, in_si = cells[2].split(" = ")[0], cells[2].split(" = ")[-1]
+        exact = quantity(written)
+        known[cells[1]] = value(in_si, {}) if exact is None else exact
+        assert value(in_si, {}) == pytest.approx(known[cells[1]], rel=1e-5)
     return evaluate(read(which).get("Abbreviations", []), known)
 
 

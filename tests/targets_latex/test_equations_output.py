@@ -192,7 +192,7 @@ forces: {f: {force: a.origin, value: ["1 N*(0.01*a.x/(1 m))**161", 0]}}
 """
     model = derive(text.encode(), "f", "ideal")
     source, plain = equations_tex(model), equations_text(model)
-    assert r"\left(0.01 \, x_{a}\right)^{161}" in source and "= (0.01·x_a)^161" in plain
+    assert r"\left(0.01 \, x_{\text{a}}\right)^{161}" in source and "= (0.01·x_a)^161" in plain
     assert "10000·exp(5000 - 10000·t)/(exp(5000 - 10000·t) + 1)^2" in plain
     assert not any(word in source + plain for word in ("Whole", "Slope", "Just"))
 

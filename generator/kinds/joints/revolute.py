@@ -4,7 +4,7 @@ r"""Revolute joint: a point of the first body coincides with a point of the seco
       \      /
 first  \    /  second          Φ = r_first + A(θ_first) s_first − r_second − A(θ_second) s_second
         \  /
-         ()                    the paper's Eq. 19, row by row
+         ()
 """
 
 from __future__ import annotations

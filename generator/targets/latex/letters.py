@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from itertools import takewhile
+from itertools import groupby, takewhile
 
 GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η",
@@ -15,6 +15,7 @@ GREEK = {
     "Phi": "Φ", "Psi": "Ψ", "Omega": "Ω",
 }  # fmt: skip
 _VARIANT = {"epsilon": r"\varepsilon", "phi": r"\varphi"}
+_AXES = frozenset("xyijnt")  # and roles and directions: subscripts in italics; a name stands upright
 _DOTS = {0: ("", ""), 1: (r"\dot", "\u0307"), 2: (r"\ddot", "\u0308")}
 
 
@@ -35,13 +36,13 @@ class Name:
 
 def letter(base: str, *subscripts: str, dots: int = 0, hat: bool = False, raised: str = "") -> Name:
     """A letter or word (a Greek one by its English name) with dots or a hat, subscripts and a raised 0."""
-    latex = greek(base) if base in GREEK else base if len(base) == 1 else rf"\mathit{{{_escaped(base)}}}"
+    latex = greek(base) if base in GREEK else base if len(base) == 1 else rf"\text{{{_escaped(base)}}}"
     text = GREEK.get(base, base)
     accent, mark = (r"\hat", "\u0302") if hat else _DOTS[dots]
     if accent:
         latex, text = f"{accent}{{{latex}}}", text + mark
     if subscripts:
-        latex += f"_{{{','.join(map(_subscript, subscripts))}}}"
+        latex += f"_{{{_subscripted(subscripts)}}}"
         text += "_" + ".".join(GREEK.get(s, s) for s in subscripts)
     return Name(latex + (f"^{{{raised}}}" if raised else ""), text + {"": "", "0": "⁰"}[raised])
 
@@ -75,10 +76,16 @@ def of_latex(latex: str) -> Name:
 _FONTS = {"mathrm", "text", "mathit", "operatorname", "bar", "hat", "tilde"}
 
 
-def _subscript(text: str) -> str:
-    if text in GREEK:
-        return greek(text)
-    return text if text.isdigit() or len(text) == 1 else rf"\text{{{_escaped(text)}}}"
+def _subscripted(parts: Sequence[str]) -> str:
+    """Behind commas: Greek letters, axes and numbers as they are, names upright, those beside each other as one."""
+    told = list[str]()
+    for upright, group in groupby(parts, key=lambda text: text not in GREEK and text not in _AXES):
+        own = list(group)
+        if upright and not all(text.isdigit() for text in own):
+            told.append(rf"\text{{{','.join(map(_escaped, own))}}}")
+        else:
+            told += own if upright else [greek(text) if text in GREEK else text for text in own]
+    return ",".join(told)
 
 
 def _escaped(name: str) -> str:

@@ -5,67 +5,14 @@ from __future__ import annotations
 import importlib
 import inspect
 
-import sympy as sp
-
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.mechanism.mechanism import ForceElement, Joint, PointRef, Quantity, Vector
-from gudgeon.generator.symbols.numbers import SlotEntry
-from gudgeon.generator.targets.latex.document import Block, Equation, Section, Sketch, Text, cells, paragraph, table
+from gudgeon.generator.mechanism.mechanism import ForceElement, Joint, PointRef
+from gudgeon.generator.targets.latex.document import Block, Section, Sketch, Text, cells, paragraph, table
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import Notation
-from gudgeon.generator.targets.latex.printers import as_angle
+from gudgeon.generator.targets.latex.values import LONGEST, Values, as_written, si_unit_of
 from gudgeon.language.plot_units import pretty
-from gudgeon.language.tree import Binary, Call, Expr, Number, Unary
-from gudgeon.language.units import si_unit
-
-LONGEST = 30  # characters of a formula in a cell
-
-
-class Values:
-    """The numbers of a scene as table cells: letter, and value with what it follows."""
-
-    def __init__(self, model: Model, notation: Notation) -> None:
-        self._slots, self._notation = model.slots, notation
-        self._long: list[Block] = []  # what numbers follow, where it is longer than a cell is wide
-
-    def cell(self, quantity: Quantity | None) -> Text:
-        """ "l = 0.08", "y = −l_5 = −0.3", "0", what varies as it is written; nothing for a number that is not there."""
-        if quantity is None:
-            return ("",)
-        if quantity.address not in self._slots.entries:
-            return ("0" if quantity.is_zero else as_written(quantity.value),)
-        return self.slot(self._slots.entries[quantity.address])
-
-    def slot(self, entry: SlotEntry) -> Text:
-        """Letter = value."""
-        return self._notation.math(entry.symbol), " = ", *self.value(entry)
-
-    def value(self, entry: SlotEntry) -> Text:
-        """The default; in front of it the expression that it follows."""
-        # what follows others is a result of arithmetic: its last digits would say nothing
-        rounded = entry.follows and as_angle(entry.default) is None
-        number = self._notation.math(sp.Float(float(f"{entry.default:.6g}") if rounded else entry.default, 17))
-        if not entry.follows:
-            return (number,)
-        formula = self._notation.math(entry.value)
-        if len(formula.text) <= LONGEST:
-            return formula, " = ", number
-        self._long.append(Equation(self._notation.math(entry.symbol), self._notation.terms(entry.value)))
-        return (number,)
-
-    def sides(self) -> list[tuple[Text, ...]]:
-        """Of bodies that are given by the lengths of their sides."""
-        found = [(e, e.address.split(".")) for e in self._slots.entries.values() if e.address.startswith("bodies.")]
-        return [cells(f"{at[1]}.{at[3]}", self.slot(e)) for e, at in found if at[2:3] == ["sides"] and len(at) == 4]
-
-    def below(self) -> list[Block]:
-        """The long ones since it was last asked, to stand below a table."""
-        found, self._long = list(dict.fromkeys(self._long)), []
-        return [paragraph("What follows from other numbers:"), *found] if found else []
-
-    def vector(self, vector: Vector) -> Text:
-        return (*self.cell(vector[0]), ",  ", *self.cell(vector[1]))
 
 
 def part_sections(model: Model, notation: Notation) -> list[Section]:
@@ -94,16 +41,16 @@ def _bodies(model: Model, values: Values) -> list[Block]:
     )
     return [
         paragraph(lead),
-        *table(cells("body", "mass, kg", "inertia, kg·m²", "length, m"), rows, of=of),
-        *table(cells("side", "length, m"), values.sides()),
-        *table(cells("point", "in the frame of its body, m"), points),
+        *table(cells("body", "mass", "inertia", "length"), rows, of=of),
+        *table(cells("side", "length"), values.sides()),
+        *table(cells("point", "in the frame of its body"), points),
         *values.below(),
     ]
 
 
 def _ground(model: Model, values: Values) -> list[Block]:
     rows = [cells(name, values.vector(at)) for name, at in model.scene.mechanism.ground.items()]
-    return [*table(cells("point", "position, m"), rows), *values.below()]
+    return [*table(cells("point", "position"), rows), *values.below()]
 
 
 def _joints(model: Model, values: Values) -> list[Block]:
@@ -180,42 +127,11 @@ def _curves(model: Model) -> list[Block]:
     return table(cells("curve", "what it is"), rows, (1,))
 
 
-def unit_of(number: Number) -> str:
-    """The unit behind a number of the file, "rpm"; "" where it has none."""
-    return number.text.strip().lstrip("+-.0123456789eE ") if number.has_unit else ""
-
-
-_STRENGTH = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 4}
-
-
-def as_written(tree: Expr, around: int = 0) -> str:
-    """An expression of the file with its own numbers and units."""
-    match tree:
-        case Number(value=value, text=text):
-            return text or repr(value)
-        case Unary(operand=operand):
-            text, own = f"-{as_written(operand, 3)}", 3
-        case Binary(operator=operator, left=left, right=right):
-            own = _STRENGTH[operator]
-            sides = (own + 1, own) if operator == "**" else (own, own + 1)
-            text = f"{as_written(left, sides[0])} {operator} {as_written(right, sides[1])}"
-        case Call(function=function, arguments=arguments):
-            written = [as_written(a) for a in arguments]
-            compared = [" < ".join(written[:2]), *written[2:]] if function == "where" else written
-            return f"{function}({', '.join(compared)})"
-        case _:
-            return tree.path
-    return f"({text})" if own < around else text
-
-
 def _parameters(model: Model, notation: Notation, values: Values) -> list[Block]:
+    """What the file says, and the number in SI that equations take."""
     rows = []
     for name in model.scene.parameters:
         entry = model.slots.entries[f"parameters.{name}"]
-        written, value = model.scene.parameters[name].value, values.value(entry)
-        if isinstance(written, Number) and unit_of(written) not in ("", si_unit(entry.dimension)):
-            value = (f"{written.text} = ", *value)
-        rows.append(
-            cells(name, notation.math(entry.symbol), value, pretty(si_unit(entry.dimension)) or Name("-", "-"))
-        )
+        unit = si_unit_of(entry)
+        rows.append(cells(name, notation.math(entry.symbol), values.in_si(entry), pretty(unit) or Name("-", "-")))
     return [*table(cells("parameter", "letter", "value in the file", "unit"), rows), *values.below()]

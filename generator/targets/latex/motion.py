@@ -10,9 +10,10 @@ from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.targets.latex.document import Block, Equation, Section, Sketch, cells, paragraph, table
 from gudgeon.generator.targets.latex.kinematics import PHI_Q, equation, indexed
 from gudgeon.generator.targets.latex.letters import Name, letter
-from gudgeon.generator.targets.latex.mechanism import Values, field_rows, place, sketch_of
+from gudgeon.generator.targets.latex.mechanism import field_rows, place, sketch_of
 from gudgeon.generator.targets.latex.notation import Notation, temporaries
 from gudgeon.generator.targets.latex.pictures import assembled
+from gudgeon.generator.targets.latex.values import Values
 
 KKT = Equation(
     Name(
@@ -116,7 +117,7 @@ def _forces(model: Model, notation: Notation) -> list[Block]:
     lead: list[Block] = []
     if model.scene.mechanism.gravity is not None:
         gravity = Values(model, notation).vector(model.scene.mechanism.gravity)
-        lead += table(cells("gravity, m/s^2"), [cells(gravity)])
+        lead += table(cells("gravity"), [cells(gravity)])
     if blocks:
         lead.append(paragraph("Gravity and force elements, by the numbers of the coordinates:"))
     rest = "All other components are zero." if blocks else "No gravity and no force element acts: g is zero."

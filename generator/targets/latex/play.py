@@ -17,10 +17,10 @@ from gudgeon.generator.targets.latex import play_letters as contact_names
 from gudgeon.generator.targets.latex.document import Block, Section, Text, cells, paragraph, sentence, table
 from gudgeon.generator.targets.latex.kinematics import equation
 from gudgeon.generator.targets.latex.letters import Name, letter, of_latex, word
-from gudgeon.generator.targets.latex.mechanism import as_written
 from gudgeon.generator.targets.latex.notation import Notation, distinct
 from gudgeon.generator.targets.latex.plots import law_plot
 from gudgeon.generator.targets.latex.trace import Functions, Trace
+from gudgeon.generator.targets.latex.values import Values, as_written
 from gudgeon.language.plot_units import pretty
 from gudgeon.language.plot_units import quantity as in_unit
 from gudgeon.language.units import si_unit
@@ -191,11 +191,13 @@ def _contact_sections(joint: JointWithPlay) -> list[Section]:
 
 def _numbers(joint: JointWithPlay) -> list[Block]:
     """The letters of this joint, and what follows from them once a run."""
-    slots, rows = joint.model.slots, []
+    slots, values, rows = joint.model.slots, Values(joint.model, joint.notation), []
     for quantity, sign, meaning in joint.numbers:
         entry = slots.entries.get(quantity.address)
         written = f"{as_written(quantity.value)} = " if entry is not None and entry.follows else ""
-        value: Text = ("0",) if entry is None else (written, joint.notation.math(sp.Float(entry.default, 17)))
+        value: Text = ("0",) if entry is None else values.in_si(entry)
+        if entry is not None and entry.follows:
+            value = written, joint.notation.math(sp.Float(entry.default, 17))
         called = of_latex(sign) if entry is None else joint.notation.math(entry.symbol)
         rows.append(cells(called, meaning, quantity.address, value, pretty(si_unit(quantity.dimension)) or "-"))
     definitions = joint.model.symbols.definitions

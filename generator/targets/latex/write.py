@@ -33,9 +33,9 @@ from gudgeon.language.shown import one_line
 
 # docs/physics.md, section 2
 PAPER = (
-    "Where the paper is spoken of: X. Chen, S. Gao, T. Wang, Experimental verification of dynamic behavior for "
-    "multi-link press mechanism with 2D revolute joint considering dry friction clearances and lubricated clearances, "
-    "Nonlinear Dynamics, doi 10.1007/s11071-022-07478-4."
+    "Laws of joints with play are numbered as in the paper that they are from: X. Chen, S. Gao, T. Wang, Experimental "
+    "verification of dynamic behavior for multi-link press mechanism with 2D revolute joint considering dry friction "
+    "clearances and lubricated clearances, Nonlinear Dynamics, doi 10.1007/s11071-022-07478-4."
 )
 
 

@@ -1,0 +1,174 @@
+"""The numbers of a file as cells of tables: letter, value and unit, and what a number follows."""
+
+from __future__ import annotations
+
+from decimal import Decimal
+
+import sympy as sp
+
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.mechanism.mechanism import Quantity, Vector
+from gudgeon.generator.symbols.numbers import SlotEntry
+from gudgeon.generator.targets.latex.document import Block, Equation, Text, cells, paragraph
+from gudgeon.generator.targets.latex.letters import Name
+from gudgeon.generator.targets.latex.notation import Notation, of_address
+from gudgeon.generator.targets.latex.printers import LONG, as_angle, number_text, share_of_pi
+from gudgeon.language.output_units import angle_power
+from gudgeon.language.plot_units import pretty
+from gudgeon.language.tree import Binary, Call, Expr, Number, Unary
+from gudgeon.language.units import DIMENSIONLESS, RATE, si_unit
+
+LONGEST = 30  # characters of a formula in a cell
+SMALL = 1e-3  # below it a number is written with a power of ten
+_STRENGTH = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 4}
+
+
+class Values:
+    """The numbers of a scene as table cells: letter, and value with what it follows."""
+
+    def __init__(self, model: Model, notation: Notation) -> None:
+        self._slots, self._notation = model.slots, notation
+        self._long: list[Block] = []  # what numbers follow, where it is longer than a cell is wide
+
+    def cell(self, quantity: Quantity | None) -> Text:
+        """ "l = 80 mm", "y = −l_5 = −0.3 m", "0", what varies as it is written; nothing for no number."""
+        if quantity is None:
+            return ("",)
+        if quantity.address not in self._slots.entries:
+            return ("0" if quantity.is_zero else as_written(quantity.value),)
+        return self.slot(self._slots.entries[quantity.address])
+
+    def slot(self, entry: SlotEntry) -> Text:
+        """Letter = value."""
+        return self._notation.math(entry.symbol), " = ", *self.value(entry)
+
+    def value(self, entry: SlotEntry) -> Text:
+        """The default in the unit of the file; what follows others in SI, in front of it the expression."""
+        if (measured := _measured(entry.written)) is not None:
+            return self._with_unit(*measured)
+        return self._followed(entry) + self._with_unit(entry.default, si_unit_of(entry), exact=not entry.follows)
+
+    def in_si(self, entry: SlotEntry) -> Text:
+        """The default in SI without its unit; in front of it what the file says, where that is something else."""
+        written, angle = entry.written, entry.dimension in (DIMENSIONLESS, RATE)
+        share = as_angle(entry.default) if angle and share_of_pi(entry.default) else None
+        number = share or self._number(entry.default, exact=isinstance(written, Number))
+        if written is None or entry.follows:
+            return (*self._followed(entry), number)
+        if isinstance(written, Number):
+            told = unit_of(written) not in ("", si_unit(entry.dimension), si_unit_of(entry))
+        else:
+            told = share is None
+        return (f"{as_written(written)} = ", share or self._number(entry.default)) if told else (number,)
+
+    def _followed(self, entry: SlotEntry) -> Text:
+        """What a number follows and a sign behind it; nothing where it is long, and stands below."""
+        if not entry.follows:
+            return ()
+        formula = self._notation.math(entry.value)
+        if len(formula.text) <= LONGEST:
+            return formula, " = "
+        self._long += self._apart(entry)
+        return ()
+
+    def _apart(self, entry: SlotEntry) -> list[Block]:
+        """A long formula; what stands under a root that fills a line has a letter: no line breaks below that sign."""
+        notation, value, blocks = self._notation, entry.value, list[Block]()
+        left = notation.math(entry.symbol)
+        for root in sorted(value.atoms(sp.Pow), key=sp.default_sort_key):
+            if root.exp == sp.Rational(1, 2) and len(notation.math(root).text) > LONG:
+                latex, text = (name.partition("_")[1:] for name in (left.latex, left.text))
+                marks = "'" * len(blocks)
+                named = Name("".join(("D", *latex, marks)), "".join(("D", *text, marks)))
+                below = sp.Symbol(named.text)
+                blocks.append(Equation(named, notation.terms(root.base)))
+                notation, value = notation.called({below: named}), value.xreplace({root: sp.sqrt(below)})
+        return [*blocks, Equation(left, notation.terms(value))]
+
+    def _with_unit(self, x: float, unit: str, exact: bool = True) -> Text:
+        number = self._number(x, unit == "rad", exact)
+        if unit == "deg":
+            return (Name(rf"{number.latex}^{{\circ}}", f"{number.text}°"),)
+        return (number, f" {pretty(unit)}") if unit and not any(sign in number.text for sign in "π°") else (number,)
+
+    def _number(self, x: float, angle: bool = False, exact: bool = False) -> Name:
+        """As people write it; what is a result of arithmetic has last digits that say nothing."""
+        if angle and (known := as_angle(x)) is not None:
+            return known
+        short = x if exact else float(f"{x:.6g}")
+        if not 0.0 < abs(short) < SMALL:
+            return Name(*(self._notation.math(sp.Float(short, 17)).latex, number_text(short)))
+        digits, _, power = f"{Decimal(repr(short)).normalize():e}".partition("e")
+        in_front = "" if digits == "1" else rf"{digits} \cdot "
+        return Name(rf"{in_front}10^{{{int(power)}}}", f"{digits}e{power}")
+
+    def sides(self) -> list[tuple[Text, ...]]:
+        """Of bodies that are given by the lengths of their sides."""
+        found = [(e, e.address.split(".")) for e in self._slots.entries.values() if e.address.startswith("bodies.")]
+        return [cells(f"{at[1]}.{at[3]}", self.slot(e)) for e, at in found if at[2:3] == ["sides"] and len(at) == 4]
+
+    def below(self) -> list[Block]:
+        """The long ones since it was last asked, to stand below a table."""
+        found, self._long = list(dict.fromkeys(self._long)), []
+        return [paragraph("What follows from other numbers:"), *found] if found else []
+
+    def vector(self, vector: Vector) -> Text:
+        """Both components; a zero beside a letter has its letter, though no equation needs it."""
+        known = [one.address in self._slots.entries for one in vector]
+        x, y = (
+            (of_address(one.address), " = 0")
+            if one.is_zero and any(known) and one.address.endswith(axis) and not one.address.startswith("gravity")
+            else self.cell(one)
+            for one, axis in zip(vector, (".x", ".y"), strict=True)
+        )
+        return (*x, ",  ", *y)
+
+
+def _measured(written: Expr | None) -> tuple[float, str] | None:
+    """A number of the file and its unit; None for what is no number with a unit."""
+    if isinstance(written, Unary) and (inner := _measured(written.operand)) is not None:
+        return -inner[0], inner[1]
+    if not isinstance(written, Number) or not unit_of(written) or written.text.startswith("pi"):
+        return None
+    return float(written.text.removesuffix(unit_of(written))), unit_of(written)
+
+
+def unit_of(number: Number) -> str:
+    """The unit behind a number of the file, "rpm"; "" where it has none."""
+    text = number.text.strip().removeprefix("pi") if number.has_unit else ""
+    return text[max((k for k in range(len(text) + 1) if _is_number(text[:k])), default=0) :].strip()
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def si_unit_of(entry: SlotEntry) -> str:
+    """The SI unit of a number; of angles and their rates rad and rad/s, where the file says that they are."""
+    if entry.written is not None and angle_power(entry.written) == 1:
+        return {DIMENSIONLESS: "rad", RATE: "rad/s"}.get(entry.dimension, si_unit(entry.dimension))
+    return si_unit(entry.dimension)
+
+
+def as_written(tree: Expr, around: int = 0) -> str:
+    """An expression of the file with its own numbers and units."""
+    match tree:
+        case Number(value=value, text=text):
+            return text or repr(value)
+        case Unary(operand=operand):
+            text, own = f"-{as_written(operand, 3)}", 3
+        case Binary(operator=operator, left=left, right=right):
+            own = _STRENGTH[operator]
+            sides = (own + 1, own) if operator == "**" else (own, own + 1)
+            text = f"{as_written(left, sides[0])} {operator} {as_written(right, sides[1])}"
+        case Call(function=function, arguments=arguments):
+            written = [as_written(a) for a in arguments]
+            compared = [" < ".join(written[:2]), *written[2:]] if function == "where" else written
+            return f"{function}({', '.join(compared)})"
+        case _:
+            return tree.path
+    return f"({text})" if own < around else text
