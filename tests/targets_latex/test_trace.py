@@ -224,7 +224,7 @@ def test_a_page_is_well_formed_and_every_token_leads_somewhere(scene: str) -> No
     expected = {f"row-{k}" for k in range(1, 1 + len(model.rows))} | {f"body-{body.name}" for body in model.bodies}
     assert expected <= set(count)
     alone = {token for token, k in count.items() if k == 1}
-    assert not [token for token in alone if not token.startswith(("yaml-", "name-", "number-"))]
+    assert not [token for token in alone if not token.startswith(("yaml-", "name-", "number-", "sum-"))]
     picks = {token for _, own in reader.elements for token in (own.get("data-pick") or "").split()}
     assert picks <= set(count)
 
