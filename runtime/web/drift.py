@@ -22,8 +22,8 @@ KEPT = (
 EVENTS = " Its rows are not integrated on this page, for its events are looked for along the solved motion alone."
 HELD = (
     "Here the joints of the tree hold by themselves. The full formulation, in which all rows of Φ, those of the drives"
-    " too, drift or are held by Baumgarte’s terms, has no room on this page: its C takes {size} kB, and beside more than"
-    " {most} kB there is no second one. gudgeon.load({loaded}).full.to_html() is a page of it."
+    " too, drift or are held by Baumgarte’s terms, has no room on this page: its C takes {size} kB, and beside more"
+    " than {most} kB there is no second one. gudgeon.load({loaded}).full.to_html() is a page of it."
 )
 # a = Φ_q⁻¹ (γ − 2 α Φ̇ − β² Φ): a driven mechanism with its rows kept, as a student would integrate it
 INTEGRATED = Template("""import gudgeon, numpy as np

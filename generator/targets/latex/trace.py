@@ -207,7 +207,7 @@ class _Finder:
         return frozenset({f"name-{target}"}) if target in self.shown else NO_MARKS
 
     def _result(self, function: str, target: str) -> Marks:
-        """Of a line alone: where Φ of a row is summed; a multiplier hangs on everything, and only its own is the row's."""
+        """Of a line alone: where Φ of a row is summed; a multiplier hangs on everything, its own line is the row's."""
         place = _place(target)
         if function == "constraints" and place.index >= 0:
             number = self.number_of.get(self.every[place.index].name)
