@@ -24,6 +24,7 @@ RINGS = (2.0, 6.0, 11.0, 17.0, 25.0, 35.0, 48.0, 64.0, 84.0, 110.0, 145.0, 190.0
 ORDER = (45.0, 0.0, 90.0, 180.0, 270.0, 135.0, 315.0, 225.0, *(22.5 + 45.0 * k for k in range(8)))  # on a ring, degrees
 LED = 15.0  # points; further off than that a thin line leads back
 GAP = 1.2  # points between names
+CROSSED = 2.0  # lines that a crossing of two thin lines, or of one and a name, counts for beside its own
 LEFT_FREE = 3.0  # points between a name and what leads to another one
 
 
@@ -120,7 +121,7 @@ def settled(
     halves: half of each name's width and height. held: the same of the picture before, which a name keeps while it
     lies on no other name and within the `room`. metre, point: their pixels.
     """
-    beside, taken = dict[str, tuple[float, float]](), np.zeros((0, 4))
+    beside, taken, leads = dict[str, tuple[float, float]](), np.zeros((0, 4)), np.zeros((0, 4))
     lines: Array | None = None
     for label in sketch.labels:
         at, half, clear = to_pixels(label.place), halves[label.part], label.clear * metre
@@ -128,13 +129,13 @@ def settled(
         box = np.array([[*(middle - half), *(middle + half)]])
         if label.part not in held or overlapping(box, taken).any() or not _inside(box, room)[0]:
             lines = obstacles(sketch.shapes, to_pixels) if lines is None else lines
-            found = best_place(at, half, label.way, clear, point, lines, taken, room)
+            found = best_place(at, half, label.way, clear, point, lines, taken, room, leads)
             if found is None:
                 continue
             middle = found
             box = np.array([[*(middle - half), *(middle + half)]])
             if is_led(at, middle, half, clear, point):
-                lines = np.vstack([lines, lead(at, middle, half, clear)])  # which the names behind it leave free
+                leads = np.vstack([leads, lead(at, middle, half, clear)])  # which the names behind it leave free
         beside[label.part] = float(middle[0] - at[0]), float(middle[1] - at[1])
         taken = np.vstack([taken, box])
     return beside
@@ -173,11 +174,12 @@ def _outlines(shapes: Sequence[Shape]) -> Iterator[Array]:
 
 
 def best_place(
-    at: Array, half: Array, way: float, clear: float, point: float, lines: Array, taken: Array, room: Array
-) -> Array | None:
-    """The middle of a name: the nearest place on no line and no other name, to which no line leads under another name;
-    where every place has a line, the one with the fewest; None where there is no place. Pixels; `half` its size,
-    `room` the picture's box."""
+    at: Array, half: Array, way: float, clear: float, point: float, lines: Array, taken: Array, room: Array,
+    leads: Array,
+) -> Array | None:  # fmt: skip
+    """The middle of a name: the nearest place on no line and no other name, to which no line leads under another name
+    or across another such line; where every place has a line, the one with the fewest; None where there is no place.
+    Pixels; `half` its size, `room` the picture's box, `leads` the lines that lead to names."""
     angles = np.radians([way, *ORDER])
     ways = np.column_stack([np.cos(angles), np.sin(angles)])
     fallback, fewest = at, np.inf
@@ -188,11 +190,13 @@ def best_place(
             middles = np.vstack([at, middles])
         boxes = np.hstack([middles - half - GAP * point, middles + half + GAP * point])
         free = ~overlapping(boxes, taken).any(axis=1) & _inside(boxes, room)
-        hits = np.array([crossing(box, lines) if ok else np.inf for box, ok in zip(boxes, free, strict=True)])
+        hits = np.array([crossing(box, lines) + CROSSED * crossing(box, leads) if ok else np.inf
+                         for box, ok in zip(boxes, free, strict=True)])  # fmt: skip
         for j in np.flatnonzero(free):
             if len(taken) and is_led(at, middles[j], half, clear, point):
                 back = lead(at, middles[j], half, clear)
-                hits[j] += sum(crossing(box, back) for box in taken + LEFT_FREE * point * np.array([-1, -1, 1, 1]))
+                under = sum(crossing(box, back) for box in taken + LEFT_FREE * point * np.array([-1, -1, 1, 1]))
+                hits[j] += CROSSED * (under + sum(_cross(back[0], one) for one in leads))
         costs = hits + 0.02 * ring
         k = int(np.argmin(costs))
         if hits[k] == 0.0:
@@ -211,6 +215,16 @@ def overlapping(boxes: Array, taken: Array) -> NDArray[np.bool_]:
 
 def _inside(boxes: Array, room: Array) -> NDArray[np.bool_]:
     return np.asarray((boxes[:, :2] >= room[:2]).all(axis=1) & (boxes[:, 2:] <= room[2:]).all(axis=1), dtype=bool)
+
+
+def _cross(one: Array, other: Array) -> bool:
+    """Whether two segments, (4,), cross."""
+
+    def side(line: Array, point: Array) -> float:
+        along, to = line[2:] - line[:2], point - line[:2]
+        return float(along[0] * to[1] - along[1] * to[0])
+
+    return all(side(a, b[:2]) * side(a, b[2:]) < 0.0 for a, b in ((one, other), (other, one)))
 
 
 def crossing(box: Array, lines: Array) -> float:

@@ -151,6 +151,12 @@ svg text { font: 11px sans-serif; text-anchor: middle; dominant-baseline: centra
 #when { flex: 1; min-width: 8em }
 output { font-variant-numeric: tabular-nums; min-width: 7em }
 p { color: #555; font-size: 12px }
+@media screen and (prefers-color-scheme: dark) {
+  :root { color-scheme: dark }
+  body { color: #e8e8ea; background: #16171a }
+  p { color: #a3a3ad }
+  svg { filter: invert(.92) hue-rotate(180deg) } /* dark papers, light ink, hues as they are */
+}
 </style></head><body>
 <h1 dir="auto" style="font-size: 1.1em">@TITLE@</h1>
 <svg viewBox="0 0 @WIDTH@ @HEIGHT@" role="img" aria-label="@TITLE@"><g>@PATHS@</g><g id="names">@NAMES@</g></svg>

@@ -210,7 +210,7 @@ class Plot:
         if not (names := points_of(self.run, points)):
             raise BadValueError("plot.path: expected the name of a point at least", hint='for example "coupler.head"')
         sketch = path_sketch(self.run)
-        caption = f"{caption_of(self.run)}, drawn at t = {float(self.run.t[0]):.6g} s"
+        caption = f"{caption_of(self.run)}, drawn at t\u00a0=\u00a0{float(self.run.t[0]):.6g}\u00a0s"
         return self._drawn(sketch, ax, lambda on: draw_path(self.run, sketch, names, on), caption, LEGEND)
 
     def _drawn(

@@ -4,6 +4,8 @@ const METHODS = {
     dop853: "dop853 (projected onto Φ = 0)", rodas5p: "rodas5p (implicit, projected)",
 };
 
+const HOLDS = 0.4; // 2 alpha h up to which Baumgarte's terms do more good than harm
+
 /* An element of HTML. */
 function element(name, attributes = {}, parent = null) {
     const made = document.createElement(name);
@@ -16,6 +18,9 @@ function element(name, attributes = {}, parent = null) {
 function section(title, open, parent) {
     const box = element("details", {class: "g-section"}, parent);
     box.open = open;
+    box.ontoggle = () => {
+        if (box.open && box.contains(document.activeElement)) box.scrollIntoView({block: "nearest"});
+    };
     element("summary", {}, box).textContent = title;
     return box;
 }
@@ -126,7 +131,7 @@ class Panel {
                 return new (slot.words ? Choice : NumberField)(this, one, slot, box);
             });
         });
-        this.reset = element("button", {type: "button", class: "g-reset"}, form);
+        this.reset = element("button", {type: "button", class: "g-reset"}, element("div", {class: "g-foot"}, form));
         this.reset.textContent = "All as in the file";
         this.reset.onclick = () => {
             this.given = {};
@@ -186,6 +191,7 @@ class Options {
                 panel.moved = null;
                 panel.changed();
             };
+        this.held = element("p", {class: "g-quiet"}, box);
         this.fit();
     }
 
@@ -228,9 +234,21 @@ class Options {
         const usual = {rtol: sim.about.rtol, ...sim.usual(given > 0 ? given : undefined)};
         for (const name of ["rtol", "step", "t_end", "output"])
             if (this[name]) this[name].placeholder = told(usual[name], 4);
+        this.hold(sim, usual.step);
         if (!this.step || !usual.estimated) return;
         this.step.placeholder += ", estimated";
         this.step.title = "estimated for the file’s numbers";
+    }
+
+    /* Whether Baumgarte's terms hold at this step, or push Φ away themselves (docs/methods.md). */
+    hold({p}, usual) {
+        const {gains} = this.about, own = typed(this.step?.value ?? "", {factor: 1}, this.seconds), h = own > 0 ? own : usual;
+        this.held.hidden = !this.heldByGains || !gains.length;
+        if (this.held.hidden) return;
+        const share = 2 * h * Math.max(...gains.map((k) => p[k])), good = told(0.1 / h, 1);
+        const what = share > HOLDS ? `is too much: gains near 1/h push Φ away. Some ${good} 1/s would hold it at this step`
+            : share > 0 ? "is small enough: Φ is held" : `holds nothing: Φ drifts on. Some ${good} 1/s would hold it`;
+        this.held.textContent = `2αh = ${told(share, 2)} ${what}.`;
     }
 
     /* A step belongs to rk4, a tolerance to all others. */

@@ -27,11 +27,15 @@ from gudgeon.results.series import catalogue
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT
 from gudgeon.simulation.hidden_jumps import may_jump
 
+SEEN = 1.0 / 60.0  # share of a run, of a step of rk4 at which rows are seen to drift
 NOT_SEEN = "jumps of drives that their form does not show are looked for in Python only"
 
 
-def description(compiled: CompiledModel) -> str:
-    """The JSON of a scene; with the start of the file's own numbers where a page cannot find it."""
+def description(compiled: CompiledModel, seen_step: float | None = None) -> str:
+    """The JSON of a scene; with the start of the file's own numbers where a page cannot find it.
+
+    seen_step (s): of rk4, where the drives leave no freedom and rows drift.
+    """
     source = compiled.source
     place = {slot.address: k for k, slot in enumerate(source.slots)}
     found = {
@@ -50,7 +54,7 @@ def description(compiled: CompiledModel) -> str:
         "memory": source.n_memory, "events": [[event.name, event.action] for event in source.events],
         "widths": _widths(source), "unknown": _unknown(source), "left_out": _left_out(compiled), "open": OPEN,
         "rows": [[row.owner, row.unit] for row in source.start_rows],
-        "simulate": _simulate(source), "step": _step(compiled), "start": _start(compiled),
+        "simulate": _simulate(source), "step": _step(compiled, seen_step), "start": _start(compiled),
         "columns": dict(_columns(source)), "points": {point.name: _point(source, point) for point in source.points},
         "outputs": {name: [series.unit, source.outputs[name]] for name, series in catalogue(source).items()
                     if name in source.outputs},
@@ -117,10 +121,10 @@ def _simulate(source: KernelSource) -> dict[str, Any]:
     return {"t_end": T_END, "output": DEFAULT_OUTPUT, **source.simulate, **trees}
 
 
-def _step(compiled: CompiledModel) -> list[float] | None:
+def _step(compiled: CompiledModel, seen_step: float | None) -> list[float] | None:
     """Of rk4 where nobody says a step: share of a run's length, and its bound (s) with the file's numbers."""
     if "rk4" not in compiled.source.methods:
-        return None
+        return None if seen_step is None else [SEEN, seen_step]
     return [SMOOTH, default_step(compiled, prepare(compiled, {})[0], math.inf)]
 
 

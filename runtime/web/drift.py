@@ -5,57 +5,88 @@ from __future__ import annotations
 import json
 from string import Template
 
+import numpy as np
+
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.loading.shipped import shipped, shipped_file
+from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 
+STEPS = 60  # of a turn
 SOLVED = "The drives leave no freedom: Φ = 0 is solved at each sample, so that no constraint drifts."
 KEPT = (
     " Method rk4 integrates a = Φ_q⁻¹ (γ − 2α Φ̇ − β² Φ) instead, with all rows kept: Φ drifts (its trace is Phi.max),"
-    " or is held by Baumgarte’s terms, whose α and β are shown then."
+    " or is held by Baumgarte’s terms, whose α and β are shown then. The step is so long that the drift is seen: it"
+    " grows on from turn to turn."
 )
 EVENTS = " Its rows are not integrated on this page, for its events are looked for along the solved motion alone."
 HELD = (
     "Here the joints of the tree hold by themselves. The full formulation, in which all rows of Φ, those of the drives"
-    " too, drift or are held by Baumgarte’s terms, is not on this page."
+    " too, drift or are held by Baumgarte’s terms, has no room on this page: its C takes {size} kB, and beside more"
+    " than {most} kB there is no second one. gudgeon.load({loaded}).full.to_html() is a page of it."
 )
 # a = Φ_q⁻¹ (γ − 2 α Φ̇ − β² Φ): a driven mechanism with its rows kept, as a student would integrate it
 INTEGRATED = Template("""import gudgeon, numpy as np
 
 sim = gudgeon.load($loaded).full
-model, run, alpha, beta = sim.model.numpy(), sim.simulate(), 0, 0  # Baumgarte: 5, 5
-p, n, h, y = model.prepare(), model.n, run.t[-1] / 1000, np.r_[run.q[0], run.v[0]]
+model, run, steps = sim.model.numpy(), sim.simulate(), $steps
+p, n, h = model.prepare(), model.n, run.t[-1] / steps
 
-def rate(t, y):
+def rate(t, y, gain):  # gain: alpha and beta of Baumgarte's terms
     q, v = y[:n], y[n:]
-    J, drift = model.phi_q(t, q, p), 2 * alpha * (model.phi_q(t, q, p) @ v - model.nu(t, q, p))
-    a = model.gamma(t, q, v, p) - drift - beta**2 * model.phi(t, q, p)
+    J, drift = model.phi_q(t, q, p), 2 * gain * (model.phi_q(t, q, p) @ v - model.nu(t, q, p))
+    a = model.gamma(t, q, v, p) - drift - gain**2 * model.phi(t, q, p)
     return np.r_[v, np.linalg.lstsq(J, a)[0]]
 
-for t in h * np.arange(1000):  # rk4
-    k1 = rate(t, y)
-    k2 = rate(t + h / 2, y + h / 2 * k1)
-    k3 = rate(t + h / 2, y + h / 2 * k2)
-    y = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + rate(t + h, y + h * k3))
-print(np.abs(model.phi(t + h, y[:n], p)).max())
+for gain in 0, $gains:  # phi grows on; it is held; 1 / h pushes it away: 2 gain h must stay small
+    y, worst = np.r_[run.q[0], run.v[0]], 0
+    for t in h * np.arange(5 * steps):  # rk4, for five times as long
+        k1 = rate(t, y, gain)
+        k2 = rate(t + h / 2, y + h / 2 * k1, gain)
+        k3 = rate(t + h / 2, y + h / 2 * k2, gain)
+        y = y + h / 6 * (k1 + 2 * k2 + 2 * k3 + rate(t + h, y + h * k3, gain))
+        worst = max(worst, np.abs(model.phi(t + h, y[:n], p)).max())
+    print(gain, worst)
+# neither drifts: sim.simulate() solves phi = 0; method="dop853" projects onto it where something is free
 """)
 RUN = Template("""import gudgeon
 
 sim = gudgeon.load($loaded).full
-run = sim.simulate(method="rk4", parameters={"gains": 0})  # Baumgarte's terms off
-print(run["Phi.max"].max())
+for gain in 0, 5:  # of Baumgarte's terms: off, on
+    print(gain, sim.simulate(method="rk4", parameters={"gains": gain})["Phi.max"].max())
+print(sim.simulate()["Phi.max"].max())  # projected onto Phi = 0 after each step
 """)
 
 
-def told(simulation: Simulation, carried: bool) -> dict[str, str] | None:
-    """{note, code} of a scene; None where the page itself has a formulation that drifts. `carried`: the full one."""
+def seen_step(run: Result) -> float:
+    """Step (s) of rk4 at which a driven mechanism's drift is seen: a share of its fastest turn, or of a run that is
+    shorter; gains of some 0.1 / step hold it then."""
+    rates = [float(np.abs(run.v[:, body.index + 2]).max()) for body in run.source.bodies]
+    turn = 2.0 * np.pi / max([*rates, 1e-300])
+    return min(turn, float(run.t[-1] - run.t[0])) / STEPS
+
+
+def told(simulation: Simulation, run: Result, size: int, most: int) -> dict[str, str] | None:
+    """{note, code} of a scene; None where the page itself has a formulation that drifts.
+
+    run: with the file's numbers. size, most: bytes of its module, and of one beside which there is room for another.
+    """
+    numbers = dict[str, str]()
     if simulation.source.methods == (KINEMATIC,):
         note, code = SOLVED + (EVENTS if simulation.source.events else KEPT), INTEGRATED
-    elif simulation.source.formulation == "reduced" and not carried:
-        note, code = HELD, RUN
+        numbers = _numbers(run)
+    elif simulation.source.formulation == "reduced" and size > most:
+        note, code = HELD.format(size=round(size / 1e3), most=round(most / 1e3), loaded=loaded(simulation)), RUN
     else:
         return None
-    return {"note": note, "code": code.substitute(loaded=loaded(simulation))}
+    return {"note": note, "code": code.substitute(numbers, loaded=loaded(simulation))}
+
+
+def _numbers(run: Result) -> dict[str, str]:
+    """How many steps, and gains: one that holds, and 1/h."""
+    step, length = seen_step(run), float(run.t[-1] - run.t[0])
+    steps = max(1, round(length / step))
+    return {"steps": str(steps), "gains": f"{0.1 * steps / length:.1g}, {steps / length:.3g}"}
 
 
 def drifts(simulation: Simulation) -> bool:

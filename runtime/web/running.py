@@ -22,7 +22,7 @@ from gudgeon.simulation.simulation import Simulation
 from gudgeon.web import drift
 from gudgeon.web.description import description
 from gudgeon.web.look import look, style
-from gudgeon.web.page import DESCRIPTION, MODULE, Parts, code, file_text, packed_element, packed_module, script
+from gudgeon.web.page import DESCRIPTION, Parts, code, file_text, packed_element, packed_module, script
 from gudgeon.web.panel import NARROW, WIDE, looks_of, panel, recorded, rig_of
 
 APP = ("names.js", "drawing.js", "chart.js", "controls.js", "app.js", "carried.js")
@@ -39,10 +39,11 @@ def running_parts(simulation: Simulation, scenes: Mapping[str, str]) -> Parts:
     run = _run(simulation)
     rig = rig_of(run)
     told, note = panel(simulation, run, rig) | _scales(rig) | {"scenes": dict(scenes)}, ""
-    carried = packed_element(DESCRIPTION, description(simulation.compiled).encode())
+    carried = packed_element(DESCRIPTION, description(simulation.compiled, drift.seen_step(run)).encode())
     try:
-        carried += (modules := _modules(simulation))
-        told["drift"] = drift.told(simulation, f"{MODULE}-full" in modules)
+        module = packed_module(simulation.compiled)
+        carried += _modules(simulation, module)
+        told["drift"] = drift.told(simulation, run, len(module), ROOM)
         told |= {"drifts": drift.drifts(simulation), "loaded": drift.loaded(simulation)}
     except BuildError as error:
         if error.__cause__ is None or not isinstance(error.__cause__, ImportError):
@@ -56,9 +57,8 @@ def running_parts(simulation: Simulation, scenes: Mapping[str, str]) -> Parts:
     return Parts(f"<style>\n{style(*looks_of(rig))}</style>", frame, scripts)
 
 
-def _modules(simulation: Simulation) -> str:
+def _modules(simulation: Simulation, module: str) -> str:
     """The simulator; where it is small, that of the full formulation too, in which constraints drift."""
-    module = packed_module(simulation.compiled)
     reduced = simulation.source.formulation == "reduced" and simulation.source.methods != (KINEMATIC,)
     if not reduced or len(module) > ROOM:
         return module

@@ -259,6 +259,8 @@ class Simulator {
         for (const [name, value] of Object.entries({t_end, rtol, step, slice}))
             expect(value == null || typeof value === "number", name, value, "a number");
         const {methods} = this.about, usual = this.usual(t_end);
+        if (this.driven && method === "rk4") // a sample a step, no more: a step ends at each sample
+            output ??= Math.min(usual.output, Math.max(1, Math.ceil(usual.t_end / (step ?? usual.step) * (1 - 1e-12))));
         const t = outputTimes(usual.t_end, output ?? usual.output, t_end), end = t[t.length - 1];
         if (method === "auto") method = this.driven ? "kinematic" : step == null ? "adaptive" : "rk4";
         const known = methods.includes(method) || (method === "adaptive" && !this.driven);

@@ -259,3 +259,9 @@ def test_no_room_for_a_picture(crank: Result, tmp_path: Path, monkeypatch: pytes
     with pytest.raises(OutputError, match=r"x\.gif"):
         crank.animate(tmp_path / "x.gif", seconds=0.2, rate=10)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_page_follows_a_dark_desk(html: str) -> None:
+    """The paper is dark and ink is turned light; in print it stays as it is."""
+    dark = html.split("@media screen and (prefers-color-scheme: dark) {")[1].split("</style>")[0]
+    assert "color-scheme: dark" in dark and re.search(r"svg \{ filter: invert", dark)

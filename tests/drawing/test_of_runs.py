@@ -158,6 +158,7 @@ def test_a_force_has_an_arrow_in_every_drawing_of_a_run(pushed: Result) -> None:
 
 def test_a_paths_legend_lies_beside_the_drawing(four_bar: Result) -> None:
     ax = four_bar.plot.path("coupler.tracer", "rocker")
+    assert "t\u00a0=\u00a00\u00a0s" in ax.get_title()  # one word, wherever the title is folded
     figure: Any = ax.figure
     figure.draw_without_rendering()
     legend: Any = ax.get_legend()

@@ -11,7 +11,7 @@ from hypothesis.extra.numpy import arrays
 pytest.importorskip("matplotlib")
 
 from gudgeon.drawing.arrows import round_number  # noqa: E402
-from gudgeon.drawing.labels import crossing, overlapping  # noqa: E402
+from gudgeon.drawing.labels import best_place, crossing, overlapping  # noqa: E402
 from gudgeon.drawing.shapes import hatching, hull, rectangle, rounded, zigzag  # noqa: E402
 
 PLACES = arrays(float, st.tuples(st.integers(1, 9), st.just(2)), elements=st.integers(-50, 50).map(float))
@@ -82,3 +82,16 @@ def test_symbols_join_what_they_should() -> None:
         assert foot == pytest.approx(0.0, abs=1e-12) and (stroke[1] - stroke[0]) @ into > 0.0
     corners = rectangle(a, np.array([0.6, 0.8]), 2.0, 1.0)
     assert corners.mean(axis=0) == pytest.approx(a) and np.hypot(*(corners - a).T) == pytest.approx(5**0.5)
+
+
+def test_a_leader_crosses_no_other() -> None:
+    """A name in a full place: two walls leave ways out on both sides, and over one of these another leader runs."""
+    walls = np.array([[x, -60.0, x, 60.0] for x in (-8.0, -4.0, 4.0, 8.0)])
+    at, half, room = np.zeros(2), np.array([6.0, 4.0]), np.array([-200.0, -200.0, 200.0, 200.0])
+    nothing = np.zeros((0, 4))
+    free = best_place(at, half, 0.0, 0.0, 1.0, walls, nothing, room, nothing)
+    assert free is not None and abs(free[0]) > 14.0
+    side = float(np.sign(free[0]))
+    other = np.array([[side * 10.0, -150.0, side * 10.0, 150.0]])
+    moved = best_place(at, half, 0.0, 0.0, 1.0, walls, nothing, room, other)
+    assert moved is not None and side * moved[0] < 0.0

@@ -41,16 +41,16 @@ def test_units_that_a_field_takes_are_those_of_its_dimension() -> None:
 def test_python_for_a_drift_runs(capsys: pytest.CaptureFixture[str]) -> None:
     """As the page of a driven mechanism shows it, and that of a scene whose full formulation it does not carry."""
     four_bar, pendulum = gudgeon.load("four_bar"), gudgeon.load("pendulum")
-    assert drift.told(pendulum, True) is None
+    assert drift.told(pendulum, pendulum.simulate(), 10, 10) is None
     opens = []
-    for scene, gains in ((four_bar, "0, 0"), (four_bar, "5, 5"), (pendulum, "")):
-        told = drift.told(scene, False)
-        assert told is not None
-        exec(told["code"].replace("alpha, beta = sim.model.numpy(), sim.simulate(), 0, 0", "alpha, beta = "
-                                  f"sim.model.numpy(), sim.simulate(), {gains}"), {})  # fmt: skip
-        opens.append(float(capsys.readouterr().out))
-    free, held, of_pendulum = opens
-    assert 0.0 < held < free < 1e-4 and 1e-16 < of_pendulum < 1e-4
+    for scene in (four_bar, pendulum):
+        told = drift.told(scene, scene.simulate(), 70_000, 62_000)
+        assert told is not None and ("70 kB" in told["note"]) == (scene is pendulum)
+        exec(told["code"], {})
+        opens.append([float(line.split()[-1]) for line in capsys.readouterr().out.splitlines()])
+    (free, held, pushed), (of_pendulum, _, projected) = opens
+    assert 1e-5 < free < 1e-3 and held < 0.1 * free and pushed > 10 * held  # over five turns
+    assert 0.0 < projected < 1e-10 and 1e-16 < of_pendulum < 1e-4
 
 
 def test_forces_of_a_moment_and_what_rounding_leaves(opened: Any, tmp_path: Any) -> None:
@@ -94,6 +94,16 @@ def test_a_driven_page_keeps_its_rows_where_it_is_asked_to(opened: Any, tmp_path
     assert page.evaluate(f"{BOX}.hidden") and page.evaluate(worst) < 1e-14 and shown.same_bits(four_bar.simulate())
     page.select_option("#g-run-method", "rk4")
     shown.wait()
+    said = page.inner_text("#g-counts"), page.inner_text("#g-numbers")  # the gains of the file, 50 1/s
+    assert "steps of 16.67 ms" in said[0] and "2αh = 1.7 is too much" in said[1] and "Some 6 1/s" in said[1]
+    first = [page.evaluate(worst)]
+    for gain in ("6", "0"):
+        for name in ("alpha", "beta"):
+            shown.type_into(place[f"baumgarte.{name}"], gain)
+        first.append(page.evaluate(worst))
+        assert f"{'is small enough' if gain == '6' else 'holds nothing'}" in page.inner_text("#g-numbers")
+    pushed, held, free = first
+    assert pushed > 2 * free > 6 * held > 1e-8  # the drift is seen in one turn, and where a gain hurts
     page.fill("#g-run-step", "20 ms")
     page.fill("#g-run-t_end", "20")
     page.keyboard.press("Enter")

@@ -225,6 +225,26 @@ def test_scenes_lead_to_each_other(opened: Any, tmp_path: Path, call: Gudgeon) -
     assert page.complaints == []
 
 
+def test_what_is_wide_is_read_whole_on_a_phone_and_in_print(opened: Any, press: Path) -> None:
+    """No table or drawing scrolls sideways at 390 pixels; in print nothing is cut, nor shaded as if it were."""
+    page = opened(press, PHONE).page
+    page.add_style_tag(content="* { content-visibility: visible !important; }")
+    cut = """(of) => [...document.querySelectorAll(of)].filter((one) => one.scrollWidth > one.clientWidth + 1).length"""
+    assert page.evaluate(cut, "body > table, .sketch, .sketch pre") == 0
+    page.emulate_media(media="print")
+    shaded = """() => [...document.querySelectorAll("body > :is(table, pre, figure, .equation)")].filter((one) =>
+        getComputedStyle(one).backgroundImage !== "none" || getComputedStyle(one).overflowX !== "visible").length"""
+    assert page.evaluate(shaded) == 0
+
+
+def test_the_panel_s_foot_is_seen_and_traces_stand_below_the_drawing(opened: Any, press: Path) -> None:
+    page = opened(press, {"width": 1280, "height": 900}).page
+    box = {of: page.locator(of).bounding_box() for of in (".g-reset", "#g-numbers", ".g-stage", ".g-traces")}
+    assert box[".g-reset"]["y"] + box[".g-reset"]["height"] <= 900
+    gap = box[".g-traces"]["y"] - box[".g-stage"]["y"] - box[".g-stage"]["height"]
+    assert 0 <= gap < 40 < box["#g-numbers"]["height"]
+
+
 def test_print_has_no_controls(opened: Any, press: Path) -> None:
     page = opened(press, scheme="dark").page
     page.emulate_media(media="print")

@@ -113,3 +113,25 @@ def test_lines_of_parameters_have_the_numbers_that_were_typed(opened: Any, press
     assert row.get_attribute("aria-pressed") == "false"
     assert shown.page.evaluate("document.querySelectorAll('.lit').length") == 0
     assert shown.complaints == []
+
+
+PICKED = """() => {
+    const terms = [...document.querySelectorAll(".equation[data-pick^=row-] [data-of*='name-']")];
+    const term = terms.find((one) => /^entry-\\d+-\\d+ name-\\w+$/.test(one.dataset.of) && terms.filter((other) =>
+        other.dataset.of.endsWith(one.dataset.of.split(" ")[1])).length > 1); // a coordinate, in more rows than one
+    gudgeonLight.select(term);
+    const lit = [...document.querySelectorAll(".lit")].map((one) => one.dataset.of);
+    return [term.dataset.of.split(" "), lit, document.querySelector("#gudgeon-lines pre").textContent];
+}"""
+
+
+def test_a_term_lights_the_sums_that_it_is_in(opened: Any, press: Path) -> None:
+    """The line that sums its row, its entry in each row that has it, and the line of the file that says so."""
+    shown = opened(press)
+    of, lit, lines = shown.page.evaluate(PICKED)
+    name = next(token for token in of if token.startswith("name-")).removeprefix("name-")
+    named = [one.split() for one in lit if f"name-{name}" in one.split()]
+    entries = {token for of in named for token in of if token.startswith("entry-")}
+    assert len(entries) > 1 and re.search(r"\bphi\[\d+\] = ", lines)
+    assert all(any(entry in one.split() for one in lit if "name-" not in one) for entry in entries)
+    assert "revolute" in lines and "nine_bar_press.yaml" in shown.page.inner_text("#gudgeon-lines p")

@@ -8,9 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import groupby
 from typing import TypeAlias
 
 from gudgeon.generator.targets.latex.letters import Name
+
+APART = 4  # columns without a letter between parts of a sketch
 
 Text: TypeAlias = tuple[str | Name, ...]  # words and formulas in one line
 
@@ -41,12 +44,13 @@ class Equation:
 
 @dataclass(frozen=True)
 class Table:
-    """`wide` are the columns with running text, `of` tokens by row."""
+    """`wide` are the columns with running text, `of` tokens by row; `upright`: on a phone its columns are rows."""
 
     header: tuple[Text, ...]
     rows: tuple[tuple[Text, ...], ...]
     wide: tuple[int, ...] = ()
     of: tuple[Sequence[str], ...] = ()
+    upright: bool = False
     kind: str = "table"
 
     def tokens(self, row: int) -> Sequence[str]:
@@ -60,6 +64,23 @@ class Sketch:
 
     lines: tuple[str, ...]
     kind: str = "sketch"
+
+    @property
+    def parts(self) -> list[tuple[str, ...]]:
+        """Drawings and formulas that may stand below each other where there is no room beside: what is apart is so by
+        columns without a letter."""
+        found = list[tuple[str, ...]]()
+        for blank, own in groupby(self.lines, lambda line: not line.strip()):
+            lines = [] if blank else list(own)
+            while lines:
+                width = max(map(len, lines))
+                used = [any(line[k : k + 1].strip() for line in lines) for k in range(width)]
+                ends = (k for k in range(used.index(True) + 1, width - APART) if not any(used[k : k + APART]))
+                end = next(ends, width)
+                found.append(tuple("\n".join(line[:end].rstrip() for line in lines).strip("\n").split("\n")))
+                begin = next((k for k in range(end, width) if used[k]), width)
+                lines = [line[begin:] for line in lines] if begin < width else []
+        return found
 
 
 @dataclass(frozen=True)
@@ -128,8 +149,8 @@ MOST_ROWS = 32  # a table does not break over pages
 
 def table(
     header: tuple[Text, ...], rows: list[tuple[Text, ...]], wide: tuple[int, ...] = (),
-    of: Sequence[Sequence[str]] = (),
+    of: Sequence[Sequence[str]] = (), upright: bool = False,
 ) -> list[Block]:  # fmt: skip
     """Rows in as many tables as they need; nothing for no rows. `of`: tokens by row."""
     starts = range(0, len(rows), MOST_ROWS)
-    return [Table(header, tuple(rows[k : k + MOST_ROWS]), wide, tuple(of[k : k + MOST_ROWS])) for k in starts]
+    return [Table(header, tuple(rows[k : k + MOST_ROWS]), wide, tuple(of[k : k + MOST_ROWS]), upright) for k in starts]

@@ -197,7 +197,7 @@ def _entries(rows: Sequence[tuple[int, Row]], model: Model, notation: Notation) 
         return [_partial(k, q, row, place[q], notation) for k, row in rows for q in columns if q in row.phi_q]
     named = [cells(indexed(PHI, k), *own) for (k, _), own in zip(rows, entries, strict=True)]
     tokens = [[row_token(k), owner_token(row)] for k, row in rows]
-    return table(cells("", *map(notation.math, columns)), named, of=tokens)
+    return table(cells("", *map(notation.math, columns)), named, of=tokens, upright=True)
 
 
 def _partial(k: int, q: sp.Symbol, row: Row, column: int, notation: Notation) -> Block:

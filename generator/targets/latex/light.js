@@ -1,6 +1,7 @@
 /*
  * What belongs together lights up together. An element belongs to the tokens of its data-of; selecting it lights all
- * that share one with its data-pick, or else with its data-of. A row's token stands for the row's entries too.
+ * that share one with its data-pick, or else with its data-of. A row's token stands for the row's entries too, a
+ * name's for the entries of all terms that have the name, and for the lines that sum their rows.
  */
 const gudgeonLight = (() => {
     const LISTED = 400; // lines of C that the panel shows at most
@@ -11,9 +12,17 @@ const gudgeonLight = (() => {
     const rowOf = (token) => (token.startsWith("entry-") ? `row-${token.split("-")[1]}` : token);
     const isLit = (of) => tokensOf(of).some((token) => wanted.has(token) || wanted.has(rowOf(token)));
 
+    /* A token; of a name the entries of Φ_q of its terms too, and the sums that these stand in. */
+    function named(token) {
+        if (!token.startsWith("name-")) return [token];
+        const terms = [...document.querySelectorAll(`.equation [data-of~="${CSS.escape(token)}"]`)];
+        const entries = terms.flatMap((one) => tokensOf(one.dataset.of)).filter((one) => one.startsWith("entry-"));
+        return [token, ...entries, ...entries.map((one) => `sum-${one.split("-")[1]}`)];
+    }
+
     /* Lights what shares a token with `tokens`; none put all out. */
     function light(tokens, element = null) {
-        wanted = new Set(tokens);
+        wanted = new Set(tokens.flatMap(named));
         chosen?.setAttribute("aria-pressed", false);
         chosen = wanted.size ? element : null;
         chosen?.setAttribute("aria-pressed", true);
@@ -27,19 +36,27 @@ const gudgeonLight = (() => {
         else light(tokensOf(element.dataset.pick ?? element.dataset.of), element);
     }
 
-    /* The panel at the foot of the page: lit lines of C with their values. */
+    /* Lit lines of the mechanism's own file, which stands on the page. */
+    function ownLines() {
+        return [...document.querySelectorAll(".listing > .lit:not([data-c])")].map((line) => ({
+            name: line.closest("details").querySelector("summary").textContent, of: line.dataset.of,
+            number: [...line.parentNode.children].indexOf(line) + 1, text: line.textContent}));
+    }
+
+    /* The panel at the foot of the page: lit lines of the file, and of C with their values. */
     function showLines() {
         const panel = document.getElementById("gudgeon-lines"), found = [];
         for (const [name, {lines, of, values}] of Object.entries(files))
             for (const [k, own] of of.entries())
                 if (isLit(own)) found.push({name, number: k + 1, text: lines[k], value: values[k], of: own});
+        const written = found.length ? ownLines() : [];
         panel.hidden = !found.length;
         const pre = panel.querySelector("pre");
-        pre.replaceChildren(...found.slice(0, LISTED).map(asLine));
+        pre.replaceChildren(...[...written, ...found.slice(0, LISTED)].map(asLine));
         const more = found.length > LISTED ? `, of which ${LISTED} are shown` : "";
         const idle = found.some(({value}) => /^law\.|[<>]/.test(value)) ? "; \u2013: not run at this time" : "";
         panel.querySelector("p").textContent =
-            `${found.length} ${found.length === 1 ? "line" : "lines"} of C${more}${idle}. Escape puts the light out.`;
+            `${found.length} ${found.length === 1 ? "line" : "lines"} of C${more}${written.length ? `, ${written.length} of ${written[0].name}` : ""}${idle}. Escape puts the light out.`;
     }
 
     /* What a line of C stores to, as listings.py reads it. */

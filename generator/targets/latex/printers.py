@@ -142,8 +142,16 @@ class TexPrinter(_InOrder, LatexPrinter):
             return rf"{sign}{self._print(abs(number))} \, {inside}"
         if not self._breakable or below.is_Number:
             return str(super()._print_Mul(expr))
-        under = self.parenthesize(below, PRECEDENCE["Mul"], strict=True)
+        if above.could_extract_minus_sign():
+            return f"- {self._print(-expr)}"
+        under = self.parenthesize(below, PRECEDENCE["Mul"], strict=False)
         return f"{self.parenthesize(above, PRECEDENCE['Mul'])} / {under}"
+
+    def _print_Pow(self, expr: sp.Pow) -> str:
+        """No line breaks under the bar of a root."""
+        if self._breakable and expr.exp == sp.S.Half:
+            return rf"\surd \left({self._print(expr.base)}\right)"
+        return str(super()._print_Pow(expr))
 
     def _print_Rational(self, expr: sp.Rational) -> str:
         if expr.q == 1:

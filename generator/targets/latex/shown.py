@@ -35,7 +35,7 @@ class Letters:
     def html(self) -> str:
         """The same as MathML; LaTeX between dollar signs without the extra `docs`."""
         try:
-            return mathml(self.equation())
+            return mathml(self.equation().latex)
         except GudgeonError:
             return f"$${self.equation().latex}$$"
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from itertools import pairwise
 from xml.etree.ElementTree import Element, tostring
 
@@ -33,19 +33,31 @@ def line(text: Text) -> str:
 
 
 def formula(name: Name) -> str:
-    """MathML with its tokens and the place of its value."""
-    told = mathml(name) + output(name.value)
+    """MathML with its tokens and the place of its value; a line may break where LaTeX's may."""
+    told = "".join(map(mathml, _pieces(name.latex))) + output(name.value)
     return f"<span{attributes(name.of)}>{told}</span>" if name.of else told
 
 
-def mathml(name: Name) -> str:
+def _pieces(latex: str) -> Iterator[str]:
+    """A formula at its \\allowbreak that stand in no braces."""
+    held = ""
+    for part in latex.split(r"\allowbreak "):
+        held += part
+        if held.count("{") == held.count("}") and held.count(r"\left") == held.count(r"\right"):
+            yield held
+            held = ""
+    if held:
+        yield held
+
+
+def mathml(latex: str) -> str:
     """A formula as MathML. Raises GudgeonError where the extra `docs` is not installed."""
     try:
         from latex2mathml.converter import convert_to_element
     except ImportError as error:
         raise GudgeonError("HTML needs latex2mathml: pip install 'gudgeon[docs]'") from error
-    text = name.latex.replace(r"^{\circ}", "°")  # which no font has to raise
-    whole = convert_to_element(text.replace(r"\allowbreak ", ""))
+    text = latex.replace(r"^{\circ}", "°").replace(r"\surd ", r"\text{√}")  # which no font has to raise, nor to stretch
+    whole = convert_to_element(text)
     whole.attrib.clear()  # what a page takes for granted
     for row in list(whole.iter()):
         _space_functions(row)

@@ -18,6 +18,11 @@ def entry_token(row: int, column: int) -> str:
     return f"entry-{row}-{column}"
 
 
+def sum_token(row: int) -> str:
+    """Of the line of C that sums a row of Φ, from 1: lit with each of the row's terms (light.js)."""
+    return f"sum-{row}"
+
+
 def owner_token(row: Row) -> str:
     """Of the joint or drive that a row belongs to."""
     return f"{row.kind}-{row.owner}"

@@ -30,7 +30,7 @@ from gudgeon.generator.targets.c.lines import Stored, find, find_within, place_o
 from gudgeon.generator.targets.c.play import pin_functions
 from gudgeon.generator.targets.javascript.module import right_hand_sides, tree_functions
 from gudgeon.generator.targets.javascript.printer import name as name_of
-from gudgeon.generator.targets.latex.tokens import entries_of, entry_token, row_token
+from gudgeon.generator.targets.latex.tokens import entries_of, entry_token, row_token, sum_token
 from gudgeon.generator.targets.numpy.module import ClosedLinkage
 
 # Functions of the closed linkage by the letter of what they give: `constraints` gives phi[r].
@@ -213,8 +213,11 @@ class _Finder:
         return frozenset({f"name-{target}"}) if target in self.shown else NO_MARKS
 
     def _result(self, function: str, target: str) -> Marks:
-        """A multiplier hangs on everything: its own line alone is the row's."""
+        """Of a line alone: where Φ of a row is summed; a multiplier hangs on everything, its own line is the row's."""
         place = _place(target)
+        if function == "constraints" and place.index >= 0:
+            number = self.number_of.get(self.every[place.index].name)
+            return frozenset({sum_token(number)} if number else ())
         if function == "dynamics" and place.base == "lambda" and 0 <= place.index < len(self.model.rows):
             return self._row(self.model.rows[place.index].name)
         return NO_MARKS
