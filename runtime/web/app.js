@@ -95,13 +95,14 @@ class App {
                 this.seek(value);
                 if (this.t !== value) odd.add(`${one} (the run has ${told(this.run.t[0])} to ${told(this.end)} s)`);
             } else if (!slot && address !== "t") odd.add(`${one} (this scene has no such number)`);
-            else if (slot?.words ? slot.words.includes(text) : Number.isFinite(value))
+            else if (slot?.words ? slot.words.includes(text) : Number.isFinite(value)) {
                 this.panel.given[address] = slot.words ? text : value;
-            else odd.add(`${one} (expected ${slot?.words?.join(" or ") ?? "a number"})`);
+                this.panel.since.add(address);
+                this.again = true; // what goes on then (goOn) begins again
+            } else odd.add(`${one} (expected ${slot?.words?.join(" or ") ?? "a number"})`);
         }
         const first = [...odd].slice(0, MOST_TOLD).join(", "), more = odd.size > MOST_TOLD ? " and more" : "";
         if (odd.size) by("g-note").textContent = `Not taken from the link: ${first}${more}.`;
-        this.again = Object.keys(this.panel.given).length > 0; // what goes on then (goOn) begins again
     }
 
     /* The path of the point that is chosen. */
