@@ -13,6 +13,7 @@ void gudgeon_nu(double t, const double *q, const double *p, double *nu);
 void gudgeon_gamma(double t, const double *q, const double *v, const double *p, double *gamma_rows);
 void gudgeon_start_values(const double *p, double *guess, double *set, double *rates);
 int gudgeon_start(double t, const double *parameters, double size, double *q, double *v, double *residual);
+int gudgeon_follow(double t, const double *parameters, double size, double *q, double *v);
 int gudgeon_rhs(double t, const double *y, const double *memory, const double *p, double *dy);
 double gudgeon_time_rhs(long count, double t, const double *y, const double *memory, const double *p);
 int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *memory,

@@ -22,6 +22,7 @@ typedef struct {
     double guess[N_GUESS + 1], set[N_SET + N_APART + 1], rates[N_RATES + N_APART + 1];
     double row[N_START_ROWS + 1][N_Q], rest[N_START_ROWS + 1];
     double normal[N_NORMAL + 1][N_NORMAL + 1], right[N_NORMAL + 1];
+    int dependent; /* rows that depend on others are left out: they close with them, or the rest says so */
     Asked *asked;
 } Closing;
 
@@ -38,8 +39,14 @@ static int solve_normal(Closing *w, int n)
                 sum -= w->normal[i][j] * w->normal[k][j];
             w->normal[i][k] = sum;
         }
-        if (!(w->normal[k][k] > 1e-12 * whole) || !isfinite(whole))
+        if (!isfinite(whole) || (!(w->normal[k][k] > 1e-12 * whole) && !w->dependent))
             return 1;
+        if (!(w->normal[k][k] > 1e-12 * whole)) {
+            for (int i = k; i < n; i++)
+                w->normal[i][k] = 0.0;
+            w->normal[k][k] = INFINITY; /* its x is 0 */
+            continue;
+        }
         const double root = sqrt(w->normal[k][k]);
         for (int i = k; i < n; i++)
             w->normal[i][k] /= root;

@@ -24,18 +24,24 @@ static double farthest_place(Closing *w, double t, const Parameters *p, const do
     return reach;
 }
 
-/* Coordinates weigh as in the runtime; the guess. */
-static int first_guess(Closing *w, double t, const Parameters *p, double *q)
+/* Numbers of the start; coordinates weigh as in the runtime. */
+static void begin_start(Closing *w, const Parameters *p)
 {
     start_values(p, w->guess, w->set, w->rates);
-    for (int k = 0; k < N_Q; k++) {
+    for (int k = 0; k < N_Q; k++)
         w->weight[k] = k % 3 == 2 ? 1e-2 : 1e-4 / w->size;
-        q[k] = 0.0;
-    }
-    for (int i = 0; i < N_GUESS; i++) {
+    for (int i = 0; i < N_GUESS && !GUESSED_POINTS; i++)
         w->weight[guess_place[i]] = guess_place[i] % 3 == 2 ? 1.0 : 1.0 / w->size;
+}
+
+/* The guess, and what rows in angles alone make of it. */
+static int first_guess(Closing *w, double t, const Parameters *p, double *q)
+{
+    begin_start(w, p);
+    for (int k = 0; k < N_Q; k++)
+        q[k] = 0.0;
+    for (int i = 0; i < N_GUESS; i++)
         q[guess_place[i]] = w->guess[i];
-    }
     for (int i = 0; i < N_SET; i++)
         q[set_place[i]] = w->set[i];
     if (place_angles(w, t, p, q))
@@ -182,4 +188,27 @@ int gudgeon_start(double t, const double *parameters, double size, double *q, do
 {
     Asked nobody = {0};
     return close_start(t, parameters, size, q, v, residual, &nobody);
+}
+
+/*
+ * The start that a closed one with other numbers leads to: from its q by Newton's steps, then v. Rows may depend on
+ * each other. 1: it does not close from there, 2: it does and has no velocities. Whoever calls sees that q stays near.
+ */
+int gudgeon_follow(double t, const double *parameters, double size, double *q, double *v)
+{
+    const Parameters *p = (const Parameters *)parameters;
+    Asked nobody = {0};
+    Closing *w = calloc(1, sizeof(Closing));
+    if (!w)
+        return 1;
+    w->size = size;
+    w->asked = &nobody;
+    w->dependent = 1;
+    begin_start(w, p);
+    w->reach = farthest_place(w, t, p, q);
+    int status = close_rows(w, t, p, q);
+    if (!status && first_velocities(w, t, p, q, v))
+        status = 2;
+    free(w);
+    return status;
 }

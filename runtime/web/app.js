@@ -6,6 +6,9 @@ const SPENT = 4; // ms of a frame in which a run goes on, or what follows from i
 const PATIENT = 200; // ms that a run may take while numbers go on moving: hands should see what they do
 const PAINT = "paint"; // what a piece of work ends with that the browser has to paint: one of these a frame
 const MOST_TOLD = 8; // of a link's numbers, that are not taken
+const UNTOLD = 500; // ms of a run before its share is shown, and a way to stop it
+const LIMIT = 120; // s after which a run is given up, with what it has
+const FOLLOWED = "The start is the assembly followed from the file’s: near its guess Python may find another.";
 const READ = 100; // ms between two numbers that are to be read
 
 /* "1 step", "1,000 steps". */
@@ -17,7 +20,7 @@ const by = (id) => document.getElementById(id);
 
 class App {
     constructor(about, panel, sim) {
-        Object.assign(this, {settings: panel, k: 0, t: 0, playing: false, charts: [], way: null, dirty: false});
+        Object.assign(this, {settings: panel, k: 0, t: 0, playing: false, charts: [], way: null, dirty: false, limit: LIMIT});
         this.use(about, sim);
         this.values = panel.values.map((name) => this.valueRow(name));
         this.transport();
@@ -51,6 +54,7 @@ class App {
 
     transport() {
         by("g-play").onclick = () => this.play(!this.playing);
+        by("g-way").querySelector("button").onclick = () => this.stop("stopped by hand");
         by("g-when").oninput = () => this.seek(this.run.t[0] + by("g-when").value / 1000 * this.span);
         by("g-named").onchange = () => by("g-drawing").classList.toggle("g-unnamed", !by("g-named").checked);
         by("g-forces").onchange = () => {
@@ -62,7 +66,7 @@ class App {
             element("option", {value: name}, by("g-path")).textContent = name || "none";
         by("g-path").value = this.settings.path;
         by("g-add").onclick = () => {
-            this.addChart(this.run.names.find((name) => !this.charts.some((chart) => chart.name === name)));
+            if (this.run) this.addChart(this.run.names.find((name) => !this.charts.some((chart) => chart.name === name)));
         };
     }
 
@@ -82,24 +86,28 @@ class App {
 
     /* Numbers of the page that led here, those that this scene has, once the file's own were run; others are told. */
     arrive() {
-        const odd = [], asked = location.hash.includes("=") ? location.hash.slice(1) : ""; // else a place of the page
+        const odd = new Set(), asked = location.hash.includes("=") ? location.hash.slice(1) : ""; // else a place here
         for (const [address, text] of new URLSearchParams(asked)) {
-            const slot = this.about.slots.find((one) => one.address === address), value = typed(text, {factor: 1});
+            const slot = this.about.slots.find((one) => one.address === address), unit = slot?.unit ?? "s";
+            const value = typed(text, {factor: 1, unit}, this.panel.units[unit]); // as its field takes it, else in SI
             const one = `${address} = ${text || "nothing"}`.slice(0, 80);
-            if (address === "t" && Number.isFinite(value)) this.seek(value);
-            else if (!slot && address !== "t") odd.push(`${one} (this scene has no such number)`);
-            else if (slot?.words ? slot.words.includes(text) : Number.isFinite(value))
+            if (address === "t" && Number.isFinite(value)) {
+                this.seek(value);
+                if (this.t !== value) odd.add(`${one} (the run has ${told(this.run.t[0])} to ${told(this.end)} s)`);
+            } else if (!slot && address !== "t") odd.add(`${one} (this scene has no such number)`);
+            else if (slot?.words ? slot.words.includes(text) : Number.isFinite(value)) {
                 this.panel.given[address] = slot.words ? text : value;
-            else odd.push(`${one} (expected ${slot?.words?.join(" or ") ?? "a number"})`);
+                this.panel.since.add(address);
+                this.again = true; // what goes on then (goOn) begins again
+            } else odd.add(`${one} (expected ${slot?.words?.join(" or ") ?? "a number"})`);
         }
-        const more = odd.splice(MOST_TOLD).length ? " and more" : "";
-        if (odd.length) by("g-note").textContent = `Not taken from the link: ${odd.join(", ")}${more}.`;
-        this.again = Object.keys(this.panel.given).length > 0; // what goes on then (goOn) begins again
+        const first = [...odd].slice(0, MOST_TOLD).join(", "), more = odd.size > MOST_TOLD ? " and more" : "";
+        if (odd.size) by("g-note").textContent = `Not taken from the link: ${first}${more}.`;
     }
 
     /* The path of the point that is chosen. */
     trail() {
-        const name = by("g-path").value, known = name && this.run.names.includes(`${name}.x`);
+        const name = by("g-path").value, known = name && this.run?.names.includes(`${name}.x`);
         const [x, y] = known ? [this.run.series(`${name}.x`), this.run.series(`${name}.y`)] : [[], []];
         this.drawing.trail(x, y);
     }
@@ -157,24 +165,60 @@ class App {
         }
         this.panel.show(this.sim);
         if (wrong) this.failed(wrong);
+        this.onTheWay();
         this.wake();
+    }
+
+    /* How far a long run is; of the first one where it begins. */
+    onTheWay() {
+        const age = performance.now() - this.begun, long = this.way !== null && age > UNTOLD, box = by("g-way");
+        if (long && age > 1000 * this.limit) return this.stop(`given up after ${told(this.limit)} s`);
+        if (long && box.hidden && !this.run) this.still(this.going);
+        box.hidden = !long;
+        if (!long) return;
+        const share = told(100 * (this.share ?? 0), 2), seconds = Math.floor(age / 1000);
+        box.querySelector("progress").value = this.share ?? 0;
+        box.querySelector("span").textContent =
+            `running: ${share} % after ${seconds} s; given up after ${told(this.limit)} s`;
+    }
+
+    /* The mechanism where a run begins that is not over yet. */
+    still(run) {
+        if (!run?.first) return;
+        const {q, v} = run.first;
+        this.drawing.fit({t: [0], q, v, p: run.p});
+        this.drawing.show(q, run.p, () => [0, 0], []);
+    }
+
+    /* No further; what there is stays. */
+    stop(why) {
+        if (!this.way) return;
+        const share = told(100 * (this.share ?? 0), 2), wrong = Object.assign(new Error(), {stops: true});
+        wrong.message = `${why} at ${share} % of the run`;
+        this.again = false;
+        this.goOn(() => this.way.throw(wrong));
+        this.onTheWay();
     }
 
     /* A run and what is shown of it, in pieces. */
     *work() {
-        const run = yield* this.sim.running({slice: 200, ...this.panel.options.read()});
+        this.share = 0;
+        const options = {slice: 200, ...this.panel.options.read()};
+        const run = yield* this.sim.running(options, (going) => { this.going = going; });
         if (run.names.includes("Phi.max")) run.series("Phi.max"); // all that C evaluates
         yield;
         yield* this.taking(run);
         this.complain("");
+        this.panel.since.clear();
     }
 
     /* Some of the work. */
-    goOn() {
+    goOn(first = () => this.way.next()) {
         try {
-            let next = this.way.next();
+            let next = first();
             const until = performance.now() + SPENT;
             while (!next.done && next.value !== PAINT && performance.now() < until) next = this.way.next();
+            if (typeof next.value === "number") this.share = next.value;
             if (!next.done) return;
             this.way = null;
         } catch (error) {
@@ -187,7 +231,7 @@ class App {
 
     failed(error) {
         const upTo = error.partial?.q?.length ? " What is shown is the run up to there." : "";
-        const {message} = error, blamed = this.panel?.blamed(message) ?? "";
+        const {message} = error, blamed = error.stops ? "" : this.panel?.blamed(error, this.sim) ?? "";
         const call = `gudgeon.load(${this.settings.loaded}).simulate(parameters=${JSON.stringify(this.panel?.given)})`;
         const python = error.searched ? ` Python searches on and runs from what it finds: ${call}.` : "";
         this.complain(`${message}${blamed}.${python}${upTo || (this.run ? " What is shown is the run before." : "")}`);
@@ -232,7 +276,8 @@ class App {
         if (run.impacts.length) counts.push(howMany(run.impacts.length, "impacts"));
         const ms = this.begun === undefined ? "" : `, ${(performance.now() - this.begun).toFixed(0)} ms`;
         const length = this.span ? `${told(this.span)} s simulated` : "the run ends where it begins";
-        by("g-counts").textContent = `${length}: ${counts.join(", ")}${ms}`;
+        const start = run.followed ? `. ${FOLLOWED}` : "";
+        by("g-counts").textContent = `${length}: ${counts.join(", ")}${ms}${start}`;
         by("g-when").disabled = !this.span;
     }
 
@@ -259,6 +304,8 @@ class App {
     noise(unit) { return this.settings.noise * (this.scales?.[unit] ?? 0); }
 
     isNone(x, unit) { return x !== 0 && Math.abs(x) < this.noise(unit); }
+
+    get end() { return this.run.t[this.run.t.length - 1]; }
 
     /* The sample nearest to a time. */
     seek(t) {
@@ -290,6 +337,7 @@ class App {
     draw(now) {
         this.frame = null;
         if (this.way) this.goOn();
+        this.onTheWay();
         if (this.playing && this.run) this.advance(now);
         if (this.dirty && this.run) this.show();
         this.dirty = false;

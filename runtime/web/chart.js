@@ -15,6 +15,7 @@ function readable(size, unit) {
     const plain = !(size > 0) || !Number.isFinite(size) || (size >= 0.1 && size < 3000);
     if (plain || !/^(m|N|J|W|Pa|s|Hz)(?![\w^])/.test(unit)) return [1, pretty(unit)];
     const power = Math.min(Math.max(3 * Math.floor((Math.log10(size) + 1) / 3), -12), 9);
+    if (!(size / 10 ** power < 1e21 && size / 10 ** power >= 1e-6)) return [1, pretty(unit)]; // told with a power of ten
     return [10 ** -power, PREFIXES[power] + pretty(unit)];
 }
 

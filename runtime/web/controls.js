@@ -117,11 +117,13 @@ class Choice {
     }
 }
 
+const MOST_BLAMED = 12; // numbers of which each is tried without the others' help
+
 /* Everything that a run may be given. `changed` is called after each move, `complain` with what is refused. */
 class Panel {
     constructor(form, {groups, units, drift, drifts}, about, {changed, complain, formulated}) {
         Object.assign(this, {about, changed, complain, formulated, units, drift, drifts, given: {},
-            moved: null, gains: []});
+            since: new Set(), gains: []});
         this.options = new Options(form, about, this);
         this.fields = groups.flatMap(({title, numbers}, k) => {
             const box = section(title, k === 0, form);
@@ -135,7 +137,7 @@ class Panel {
         this.reset.textContent = "All as in the file";
         this.reset.onclick = () => {
             this.given = {};
-            this.moved = null;
+            this.since.clear();
             this.changed();
         };
         form.onsubmit = (event) => event.preventDefault();
@@ -143,12 +145,13 @@ class Panel {
 
     set(address, value) {
         this.given[address] = value;
-        this.moved = address;
+        this.since.add(address);
         this.changed();
     }
 
     forget(address) {
         delete this.given[address];
+        this.since.delete(address);
         this.changed();
     }
 
@@ -159,14 +162,44 @@ class Panel {
         this.reset.disabled = !Object.keys(this.given).length;
     }
 
-    /* What was moved last, with its number, for a refusal that does not name it; its field is marked. */
-    blamed(text) {
-        const field = this.fields.find(({slot}) => slot.address === this.moved), {told: told_} = field ?? {};
-        field?.field?.setAttribute("aria-invalid", true);
-        if (!field || text.includes(this.moved)) return "";
-        const value = this.given[this.moved];
-        const shown = field.field ? `${told(value / told_.factor, 6)} ${told_.unit}`.trim() : value;
-        return `. Moved last: ${this.moved}, to ${shown}`;
+    /* The numbers that make a refusal, for one that does not name them; their fields are marked. */
+    blamed(error, sim) {
+        const words = error.message.split(/[\s,:;=]+/), named = (one) => words.includes(one);
+        const found = Object.keys(this.given).some(named) ? [] : this.culprits(error, sim);
+        const fields = this.fields.filter(({slot}) => found.includes(slot.address) || (slot.address in this.given
+            && named(slot.address)));
+        for (const {field} of fields) field?.setAttribute("aria-invalid", true);
+        if (!found.length) return "";
+        const told_ = fields.map(({told: {factor, unit}, slot: {address, words}}) => {
+            const value = this.given[address];
+            return `${address} = ${words ? value : `${told(value / factor, 6)} ${unit}`.trim()}`;
+        });
+        return `. ${error.partial ? "Moved since the last whole run" : "What makes it"}: ${told_.join(", ")}`;
+    }
+
+    /* Without which it begins; where no single one does it, those that are refused alone, else all. Later all moved. */
+    culprits(error, sim) {
+        const all = Object.keys(this.given), {given} = this, {p, projected, given: values, mask} = sim;
+        if (error.partial) return [...this.since];
+        const begins = (names) => {
+            try {
+                sim.setParameters(Object.fromEntries(names.map((name) => [name, given[name]])));
+                sim.start();
+                return true;
+            } catch {
+                return false;
+            }
+        };
+        try {
+            if (begins(all)) return [];
+            if (all.length > MOST_BLAMED) return [...this.since];
+            const needed = all.filter((name) => begins(all.filter((other) => other !== name)));
+            if (needed.length) return needed;
+            const alone = all.filter((name) => !begins([name]));
+            return alone.length ? alone : all;
+        } finally {
+            Object.assign(sim, {p, projected, given: values, mask});
+        }
     }
 }
 
@@ -188,7 +221,6 @@ class Options {
         for (const one of [this.method, this.rtol, this.step, this.t_end, this.output])
             if (one) one.onchange = () => {
                 this.fit();
-                panel.moved = null;
                 panel.changed();
             };
         this.held = element("p", {class: "g-quiet"}, box);

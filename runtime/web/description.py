@@ -135,6 +135,7 @@ def _start(compiled: CompiledModel) -> dict[str, Any] | None:
         closed = compiled.close(0.0, p, mechanism_size(compiled, p))
         if closed is not None and np.isfinite(closed[1]).all():
             return None
-    found = assemble(compiled, p)
+    found, large = assemble(compiled, p), compiled.n >= LARGE  # no page asks C then, as Python does not
     values = [max(len(array), 1) for array in compiled.start_values(p)]
-    return {"q": found.q.tolist(), "v": found.v.tolist(), "rows": len(compiled.source.start_rows), "values": values}
+    told = {"q": found.q.tolist(), "v": found.v.tolist(), "rows": len(compiled.source.start_rows), "values": values}
+    return told | ({"large": True} if large else {})

@@ -51,7 +51,7 @@ class Session {
         this.struct = memory.bytes(lib.gudgeon_run_size());
         this.report_at = [memory.numbers(1), memory.bytes(4 * COUNTS.length), memory.numbers(4),
             memory.numbers(3 * this.width.state)];
-        const {q, v} = sim.start(), first = memory.numbers(this.width.y, [...q, ...v]);
+        const {q, v} = run.begin(), first = memory.numbers(this.width.y, [...q, ...v]);
         const unknown = memory.numbers(this.width.memory, new Float64Array(this.width.memory).fill(NaN));
         lib.gudgeon_run_start(this.struct, this.p, t[0], first, unknown);
         lib.gudgeon_run_stop(this.struct, 1);
@@ -154,6 +154,7 @@ function columns(rows, width, from, count) {
 /* Adaptive methods and rk4. */
 function* integrate(sim, asked, memory, run) {
     const session = new Session(sim, asked, memory, run), t_end = asked.t[asked.t.length - 1];
+    run.soFar = () => session.take();
     for (let seen = 0; session.done < asked.t.length; seen = session.done) {
         let status = session.advance(asked.slice);
         const odd = asked.method === "rk4" ? undefined : session.odd(seen), {t} = session.report();
@@ -186,7 +187,7 @@ class Way {
         this.course = memory.bytes(lib.gudgeon_course_size());
         this.row_size = 1 + 2 * n;
         this.tape = memory.numbers(AT_ONCE * this.row_size);
-        const {q, v} = sim.start();
+        const {q, v} = run.begin();
         memory.view(this.q, n).set(q);
         memory.view(this.v, n).set(v);
         lib.gudgeon_course_begin(this.course, sim.about.reach, sim.size, this.t_end, 0, 0, 1);
@@ -320,6 +321,7 @@ function spacing(x) {
 function* follow(sim, asked, memory, run) {
     const way = new Way(sim, asked, memory, run), samples = asked.t.length - 1;
     let first = 0, last = samples, stops = false;
+    run.soFar = () => way.take(first + 1);
     do {
         let [moved, failed] = way.motion(first, Math.min(first + asked.slice, last));
         const rests = moved === first && !failed && last > first;

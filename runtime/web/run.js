@@ -54,6 +54,13 @@ class Run {
         this.ways = this.followUps();
     }
 
+    /* The start, which is known before all else; whether it was followed from the file's. */
+    begin() {
+        this.first = this.sim.start();
+        this.followed = Boolean(this.first.followed);
+        return this.first;
+    }
+
     /* An event of the file at a time (s), or from when on its expression is no number. */
     noteEvent(which, t) {
         const {events} = this.about, told = which >= events.length;

@@ -1,6 +1,7 @@
 /*
  * A scene of gudgeon in a page or in Node: the C that was emitted for it and the engine's, as WebAssembly, called as
- * Python calls them. Numbers are SI, angles rad. With run.js, loops.js and drift.js this is one script (`script` of web.page):
+ * Python calls them. Numbers are SI, angles rad. With start.js, run.js, loops.js and drift.js this is one script
+ * (`script` of web.page):
  *
  *     const sim = await gudgeon.load(description, module);   // JSON, and base64 or bytes, as Python wrote them
  *     sim.setParameters({omega: 3, "joints.A.clearance": 5e-4});   // all others are the file's
@@ -8,7 +9,8 @@
  *     run.t, run.series("S9.y"), run.unit("S9.y"), run.names, run.events, run.impacts
  *
  * A page that keeps its frame rate takes `sim.running(...)`, a generator that yields the share that is done after some
- * steps each and returns the run; `return()` gives it up and frees its memory:
+ * steps each and returns the run; `return()` gives it up and frees its memory, `throw(error)` with `error.stops` too,
+ * and the run up to there is the error's `partial`:
  *
  *     const way = sim.running({t_end: 2});
  *     const some = () => {
@@ -101,6 +103,7 @@ class Simulator {
         this.notes = about.notes;
         this.setParameters({});
         this.file = this.p;
+        this.beginning = new Start(this);
     }
 
     /* Numbers by address or parameter name, of a choice its word; those that are not named are the file's. */
@@ -119,7 +122,7 @@ class Simulator {
         }
         const p = this.prepared(given, mask);
         this.check(p);
-        this.p = p;
+        Object.assign(this, {p, given, mask});
         this.projected = this.withoutGains(given, mask);
     }
 
@@ -171,61 +174,22 @@ class Simulator {
         });
     }
 
+    /* The numbers of so large a share of the way from the file's to those that are given; words are as given. */
+    between(share) {
+        const along = (x, k) => this.about.slots[k].words ? x : this.file[k] + share * (x - this.file[k]);
+        return share === 1 ? this.p : this.prepared(this.given.map(along), this.mask);
+    }
+
     /* Whether the drives leave no freedom. */
     get driven() { return this.about.methods[0] === "kinematic"; }
 
     /* The largest coordinate of a point in its body, of a ground point, or length of a joint (m). */
-    get size() { return this.about.sizes.reduce((most, k) => Math.max(most, Math.abs(this.p[k])), 0) || 1; }
+    get size() { return this.sizeOf(this.p); }
 
-    /* q and q̇ of the closed linkage at t = 0. */
-    start() {
-        if (this.about.start) return this.knownStart();
-        return within(this.lib, (memory) => {
-            const [p, q, v] = [memory.numbers(this.p.length, this.p), memory.numbers(this.n), memory.numbers(this.n)];
-            const open = this.lib.gudgeon_start(0, p, this.size, q, v, memory.numbers(1));
-            const found = {q: memory.copy(q, this.n), v: memory.copy(v, this.n)};
-            if (open || !found.v.every(Number.isFinite))
-                throw searched("the linkage does not close near its guess with these numbers" + this.gap(memory, p, q));
-            return found;
-        });
-    }
+    sizeOf(p) { return this.about.sizes.reduce((most, k) => Math.max(most, Math.abs(p[k])), 0) || 1; }
 
-    /* The row that is furthest open at q, in words; "" where none is. */
-    gap(memory, p, q) {
-        const {rows, open} = this.about, phi = memory.numbers(rows.length);
-        const far = ([x, unit]) => x / (unit === "m" ? this.size : 1);
-        this.lib.gudgeon_phi(0, q, p, phi);
-        const found = rows.map(([owner, unit], k) => [Math.abs(memory.view(phi, rows.length)[k]), unit, owner]);
-        const worst = found.sort((a, b) => far(b) - far(a))[0];
-        if (!worst || !(far(worst) > open) || !Number.isFinite(far(worst))) return "";
-        const [x, unit, owner] = worst, [factor, shown] = unit === "m" ? [1e3, " mm"] : [180 / Math.PI, "°"];
-        return `: the largest gap, ${Number((factor * x).toPrecision(3))}${shown}, is in a row of ${owner}`;
-    }
-
-    /* Where Python alone finds the start: the file's, as long as all that it follows from is as it was. */
-    knownStart() {
-        const {q, v} = this.about.start, [now, before] = [this.p, this.file].map((p) => this.startFollows(p));
-        const parts = v.some((x) => x !== 0) ? ["rows", "masses"] : ["rows"]; // at rest no mass counts
-        if (!parts.every((part) => now[part].every((x, k) => Object.is(x, before[part][k]))))
-            throw searched("these numbers move the start of this scene, which is found in Python only");
-        return {q: Float64Array.from(q), v: Float64Array.from(v)};
-    }
-
-    /* What a start follows from: Φ, Φ_q, ν there, numbers of the file's start; masses. */
-    startFollows(numbers) {
-        const {q, rows, values} = this.about.start, n = this.n;
-        return within(this.lib, (memory) => {
-            const counts = [rows, rows * n, rows, ...values], places = counts.map((count) => memory.numbers(count));
-            const [phi, phi_q, nu, ...start] = places, m = memory.numbers(n);
-            const p = memory.numbers(numbers.length, numbers), at = memory.numbers(n, q);
-            this.lib.gudgeon_phi(0, at, p, phi);
-            this.lib.gudgeon_phi_q(0, at, p, phi_q);
-            this.lib.gudgeon_nu(0, at, p, nu);
-            this.lib.gudgeon_start_values(p, ...start);
-            this.lib.gudgeon_mass(p, m);
-            return {rows: places.flatMap((place, k) => [...memory.copy(place, counts[k])]), masses: memory.copy(m, n)};
-        });
-    }
+    /* q and q̇ of the closed linkage at t = 0; `followed`: from the file's, where the guess leads nowhere. */
+    start() { return this.beginning.find(); }
 
     /* The run of `running`, all the way. */
     run(options = {}) {
@@ -238,16 +202,23 @@ class Simulator {
 
     /*
      * Options as `simulate` of Python has them: t_end (s), output (a number of intervals, or times), method, rtol,
-     * step (s); `slice`: steps, or samples without a freedom, between two shares.
+     * step (s); `slice`: steps, or samples without a freedom, between two shares. `begun` hears of the run first.
      */
-    *running(options = {}) {
+    *running(options = {}, begun = () => {}) {
         expect(isMapping(options), "options", options, "an object {t_end, output, ...}");
         const asked = this.checked(options), memory = new Memory(this.lib), run = new Run(this, asked.t);
         Object.assign(run, {step: asked.step, estimated: asked.estimated});
+        begun(run);
         try {
             const loop = asked.method === "kinematic" ? follow : this.driven ? drift : integrate;
             yield* loop(this, asked, memory, run);
             return run;
+        } catch (error) {
+            if (error.stops && run.soFar) { // by `throw` of who goes on with it
+                run.soFar();
+                error.partial = run;
+            }
+            throw error;
         } finally {
             memory.free();
         }
@@ -292,9 +263,6 @@ class Simulator {
 function expect(holds, name, value, expected) {
     if (!holds) throw new Error(`${name} is ${told(value)}: expected ${expected}`);
 }
-
-/* The error of a start that a page does not look for any further, as Python does (assembly/search.py). */
-function searched(text) { return Object.assign(new Error(text), {searched: true}); }
 
 /* A number in SI with its unit. */
 function said(x, unit, digits = 6) { return `${Number(x.toPrecision(digits))} ${unit}`.trim(); }

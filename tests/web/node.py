@@ -49,6 +49,7 @@ class Answer:
     counts: dict[str, int]
     error: str = ""
     shares: tuple[float, ...] = ()  # that a run in slices told on its way
+    followed: bool = False  # its start from the file's
 
 
 NOTHING: dict[str, Any] = {"arrays": {}, "series": {}, "units": {}, "events": [], "impacts": [], "counts": {}}
@@ -63,7 +64,8 @@ def answer(told: dict[str, Any]) -> Answer:
         for part in ("arrays", "series")
     )
     units, events, impacts, counts = (told[part] for part in ("units", "events", "impacts", "counts"))
-    return Answer(arrays, series, units, events, impacts, counts, error, tuple(shares))
+    followed = bool(told.get("followed"))
+    return Answer(arrays, series, units, events, impacts, counts, error, tuple(shares), followed)
 
 
 def in_node(simulation: Simulation, folder: Path, runs: list[dict[str, Any]]) -> list[Answer]:

@@ -11,6 +11,7 @@ function told(run, names = []) {
         series: Object.fromEntries(names.map((name) => [name, bits(run.series(name))])),
         units: Object.fromEntries(run.names.map((name) => [name, run.unit(name)])),
         events: run.events, impacts: run.impacts, counts: run.counts,
+        followed: run.followed,
     };
 }
 
