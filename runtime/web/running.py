@@ -27,6 +27,7 @@ from gudgeon.web.panel import NARROW, WIDE, looks_of, panel, recorded, rig_of
 
 APP = ("names.js", "drawing.js", "chart.js", "controls.js", "app.js", "carried.js")
 PANEL = "gudgeon-panel"
+PROGRAM = "gudgeon-program"  # what begin.js unpacks and runs: a third of its size
 ROOM = 62_000  # bytes of a module beside which there is room for the full formulation
 NO_SIMULATOR = (
     "This page carries one run, with the numbers of the file: it was written without the compiler for pages"
@@ -53,7 +54,8 @@ def running_parts(simulation: Simulation, scenes: Mapping[str, str]) -> Parts:
     carried += packed_element(PANEL, text.encode())
     title = one_line(simulation.source.title or simulation.source.mechanism)
     frame = file_text("app.html").replace("@NOTE@", escape(note)).replace("@TITLE@", escape(title))
-    scripts = f"{carried}<script>\n{script()}</script>\n<script>\n{app()}</script>"
+    carried += packed_element(PROGRAM, app().encode())
+    scripts = f"{carried}<script>\n{script()}</script>\n<script>\n{code('begin.js')}</script>"
     return Parts(f"<style>\n{style(*looks_of(rig))}</style>", frame, scripts)
 
 
