@@ -24,6 +24,7 @@ from gudgeon.commands.options import (
     Folder,
     Intervals,
     Json,
+    LawName,
     Laws,
     Like,
     Mark,
@@ -48,6 +49,7 @@ from gudgeon.commands.options import (
     StudyFile,
     Threads,
     Until,
+    Version,
     Watch,
     Workers,
     path,
@@ -64,18 +66,8 @@ app = typer.Typer(
 )
 
 
-def _version(wanted: bool) -> None:
-    if wanted:
-        import gudgeon
-
-        print(f"gudgeon {gudgeon.__version__}")
-        raise typer.Exit
-
-
 @app.callback()
-def _root(
-    version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Print it.")] = False,
-) -> None:
+def _root(version: Version = False) -> None:
     pass
 
 
@@ -134,8 +126,7 @@ def check(
 def emit(
     file: File,
     folder: Annotated[
-        Path,
-        typer.Option("--out", "-o", parser=path, metavar="PATH", help="Folder for the C files, one below it a scene."),
+        Path, typer.Option("--out", "-o", parser=path, metavar="PATH", help="Folder for the C files, one a scene.")
     ],
     scene: Scenes = None, laws: Laws = None,
 ) -> int:  # fmt: skip
@@ -150,12 +141,7 @@ def emit(
 
 @app.command()
 @told
-def equations(
-    file: File,
-    target: Pages,
-    scene: ScenesOfPages = None,
-    laws: Laws = None,
-) -> int:
+def equations(file: File, target: Pages, scene: ScenesOfPages = None, laws: Laws = None) -> int:
     """Write the equations of a scene as LaTeX, text, HTML or a notebook that derives and runs them.
 
     Example: gudgeon equations engine.yaml -o engine.tex --scene worn
@@ -163,6 +149,18 @@ def equations(
     from gudgeon.commands.equations import write_equations
 
     return write_equations(file, target, tuple(scene or ()))
+
+
+@app.command("laws")
+@told
+def force_laws(name: LawName = None, json: Json = False, laws: Laws = None) -> int:
+    """List the laws of contact, friction and film; of one its equations, keys, validity and reference.
+
+    Example: gudgeon laws flores
+    """
+    from gudgeon.commands.laws import show_laws
+
+    return show_laws(name, json)
 
 
 @app.command()

@@ -72,7 +72,7 @@ def _line(cells: Row) -> str:
 
 
 def _row(field: Field) -> Row:
-    return f"`{field.name}`", _holds(field), _without(field), _condition(field), field.meaning
+    return f"`{field.name}`", _holds(field), _without(field), condition(field), field.meaning
 
 
 def _holds(field: Field) -> str:
@@ -125,7 +125,8 @@ def _word(value: float | str | bool) -> str:
     return str(value).lower() if isinstance(value, bool) else f"{value:g}" if isinstance(value, float) else value
 
 
-def _condition(field: Field) -> str:
+def condition(field: Field) -> str:
+    """Its bounds, and whether it is whole, in signs."""
     limits = (f"`{limit}`" if isinstance(limit, str) else f"{limit:g}" for _, limit, _ in field.bounds)
     found = [f"{bound.relation} {limit}" for bound, limit in zip(field.bounds, limits, strict=True)]
     return ", ".join([*found, *(["not both 0"] if field.nonzero else []), *(["whole"] if field.whole else [])])

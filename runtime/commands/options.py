@@ -44,6 +44,15 @@ def a_file_or_folder(text: str) -> Path:
     return a_file(text) if found.suffix and not os.path.isdir(found) else found
 
 
+def _version(wanted: bool) -> None:
+    if wanted:
+        import gudgeon
+
+        print(f"gudgeon {gudgeon.__version__}")
+        raise typer.Exit
+
+
+Version = Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Print it.")]
 File = Annotated[str, typer.Argument(metavar="FILE", help="A YAML file, or the name of a shipped mechanism.")]
 Scenes = Annotated[list[str] | None, typer.Option("--scene", "-s", help="A scene; may be repeated. [default: all]")]
 OneScene = Annotated[str, typer.Option("--scene", "-s", help="Which scene.")]
@@ -71,6 +80,7 @@ Laws = Annotated[
     list[str] | None,
     typer.Option("--laws", metavar="FILE.py", help="A force law of your own: the file is run as Python; repeatable."),
 ]
+LawName = Annotated[str | None, typer.Argument(metavar="[NAME]", help="Of a law, or what else it is called.")]
 # of what teaches
 Name = Annotated[str, typer.Argument(metavar="NAME", help="Of the mechanism; the file is NAME.yaml.")]
 Like = Annotated[

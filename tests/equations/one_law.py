@@ -29,6 +29,7 @@ class Evaluator:
         steps = self.law.build(LawInputs(numbers, chosen, pair, symbols, derive))
         read = {s.name for step in steps.values() for s in sp.sympify(step).free_symbols}
         known, self._steps = [s for name, s in symbols.items() if name in (*VARIABLES[self.law.role], *read)], []
+        self.reads = tuple(symbol.name for symbol in known)
         for step, expression in steps.items():
             self._steps.append((step, sp.lambdify(known, expression, "math")))
             known.append(sp.Symbol(step, real=True))

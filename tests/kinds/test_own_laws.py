@@ -10,6 +10,7 @@ import sys
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 from typer.testing import CliRunner
@@ -17,11 +18,14 @@ from typer.testing import CliRunner
 import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import InputError, LawError, UnknownNameError
+from gudgeon.generator.field import number
 from gudgeon.generator.kinds.laws import registered
-from gudgeon.generator.kinds.laws.law import Law, called, laws
+from gudgeon.generator.kinds.laws.built import probe
+from gudgeon.generator.kinds.laws.law import Law, LawInputs, State, called, laws
 from gudgeon.generator.pipeline import derive, generate
 from gudgeon.generator.targets.json_schema import schema
 from gudgeon.generator.targets.latex import equations_text
+from gudgeon.language.units import DIMENSIONLESS
 from gudgeon.loading.shipped import shipped_file
 from gudgeon.studies.show.map import files_of_laws
 from tests.kinds.own import example_text, forgotten
@@ -70,6 +74,21 @@ def test_without_it_the_name_is_unknown_and_what_to_do_is_told(disc: Path) -> No
     with pytest.raises(UnknownNameError, match=r"unknown normal law 'dashpot'\n(.*\n)*.*--laws FILE.py") as error:
         derive(disc.read_bytes(), str(disc), "wall")
     assert error.value.where is not None and error.value.where.line == 11
+
+
+@pytest.mark.parametrize("where", ["abbreviation", "derived", "number", "state"])
+def test_a_keyword_of_c_is_refused_of_any_law_with_its_name(where: str) -> None:
+    """Of those in the house too, whose names nothing else looks at: Python takes `short`, the compiler does not."""
+
+    def build(s: LawInputs) -> dict[str, Any]:
+        F_t = -s.variables["v_t"] * s.derive("short" if where == "derived" else "long_one", s.pair.L, "x")
+        return {"short" if where == "abbreviation" else "brief": s.pair.c, "F_t": F_t, "short_rate": F_t}
+
+    field, state = number("short", "x", DIMENSIONLESS, required=True), State("short", "x")
+    law = Law("brake", "friction", "x", "x", "x", (field,) if where == "number" else (), build,
+              (state,) if where == "state" else ())  # fmt: skip
+    with pytest.raises(LawError, match="law brake: the emitted C has 'short' for something else"):
+        probe(law, {}, [own.name for own in law.parameters])
 
 
 def test_among_the_laws_it_is_the_last(disc: Path) -> None:

@@ -15,6 +15,7 @@ from typing import Any
 from gudgeon.errors import LawError
 from gudgeon.generator.kinds.laws.law import Law, LawInputs, PairSymbols
 from gudgeon.generator.kinds.laws.registered import ORIGINS, place_in, prefix, told
+from gudgeon.language.names import NOT_IN_CODE
 
 PAIR = tuple(PairSymbols.__annotations__)
 FUNCTIONS = (
@@ -36,11 +37,14 @@ def build(law: Law, inputs: LawInputs) -> dict[str, Any]:
     """Its abbreviations and results as SymPy, in their order. Raises LawError for what it may not give or use."""
     import sympy as sp
 
+    for name in (*(own.name for own in law.parameters), *(state.name for state in law.states)):
+        _need_name(law, name)
     given = {symbol for x in (*inputs.parameters.values(), *vars(inputs.pair).values()) for symbol in _symbols(x)}
 
     def derive(name: Any, expression: Any, meaning: Any) -> Any:
         if not isinstance(name, str) or not isinstance(meaning, str):
             raise _error(law, f"derive({name!r}, …) wants a name, an expression and its meaning")
+        _need_name(law, name)
         value = _value(law, f"derive({name!r}, …)", expression)
         _check(law, f"derive({name!r}, …)", value, given, "its parameters and the pair's numbers alone")
         made = inputs.derive(name, value, meaning)
@@ -59,6 +63,7 @@ def build(law: Law, inputs: LawInputs) -> dict[str, Any]:
     results = _checked_names(law, steps)
     found, known = {}, given | {symbol for x in inputs.variables.values() for symbol in _symbols(x)}
     for name, step in steps.items():
+        _need_name(law, name)
         found[name] = value = _value(law, name, step)
         _check(law, name, value, known, f"{_offered(law)}, and abbreviations returned before")
         if name not in results:
@@ -127,6 +132,13 @@ def _checked_names(law: Law, steps: Any) -> frozenset[str]:
     if missing := [name for name in results if name not in steps]:
         raise _error(law, f"build returns no {', '.join(missing)}", expected)
     return frozenset(results)
+
+
+def _need_name(law: Law, name: str) -> None:
+    """Raise LawError for a keyword, which SymPy takes for a name and a compiler does not, or a function of C."""
+    if name in NOT_IN_CODE:
+        hint = "call the number, state or abbreviation otherwise; a number's `symbol` may be any letter"
+        raise _error(law, f"the emitted C has {name!r} for something else", hint)
 
 
 def _value(law: Law, what: str, value: Any) -> Any:

@@ -11,7 +11,7 @@ from gudgeon.generator.equations.contact_steps import Step
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations
 from gudgeon.generator.field import Field
-from gudgeon.generator.kinds.laws.law import RESULTS
+from gudgeon.generator.kinds.laws.law import RESULTS, Law
 from gudgeon.generator.mechanism.mechanism import LawUse, Play, Quantity
 from gudgeon.generator.targets.latex import play_letters as contact_names
 from gudgeon.generator.targets.latex.document import Block, Section, Text, cells, paragraph, sentence, table
@@ -26,7 +26,7 @@ from gudgeon.language.plot_units import quantity as in_unit
 from gudgeon.language.units import si_unit
 
 # What the laws call their abbreviations and constants, in the paper's letters.
-_LAW_LETTERS = {
+LAW_LETTERS = {
     "root": letter("s"), "factor": letter("f"), "hysteresis": letter("a"), "film_clearance": letter("c", "film"),
     "friction_slope": letter("kappa"), "shear": letter("D", "0"), "T0": letter("D"),
     "spring": letter("K"), "damper": letter("D"),
@@ -70,13 +70,12 @@ class JointWithPlay:
             yield self.clearance.transition, letter("e", "0")
         for equations, use in self.laws():
             for parameter, quantity in _given(equations, use):
-                yield self._slot(quantity), of_latex(_sign(parameter))
+                yield self._slot(quantity), of_latex(sign_of(parameter))
         for name, value in constants.items():
-            yield value, _LAW_LETTERS.get(name) or word(name)
+            yield value, LAW_LETTERS.get(name) or word(name)
         for equations, _ in self.laws():
-            own = _LAW_LETTERS | {f"{state.name}_rate": letter(state.name, dots=1) for state in equations.law.states}
             for name in equations.steps:
-                yield self.result(equations, name), own.get(name) or word(name)
+                yield self.result(equations, name), step_name(equations.law, name)
 
     def _slot(self, quantity: Quantity) -> sp.Expr:
         entry = self.model.slots.entries.get(quantity.address)
@@ -95,7 +94,7 @@ class JointWithPlay:
             yield material.numbers["nu"], rf"\nu{index}", f"Poisson's ratio of {name} ({what})"
         for equations, use in self.laws():
             for parameter, quantity in _given(equations, use):
-                yield quantity, _sign(parameter), parameter.meaning
+                yield quantity, sign_of(parameter), parameter.meaning
         if self.play.contact.transition is not None:
             yield self.play.contact.transition, "e_0", "width of the transition from film to dry contact"
 
@@ -127,7 +126,13 @@ def _given(equations: LawEquations, use: LawUse) -> list[tuple[Field, Quantity]]
     return [(own, use.quantities[own.name]) for own in equations.law.parameters if own.name in use.quantities]
 
 
-def _sign(parameter: Field) -> str:
+def step_name(law: Law, name: str) -> Name:
+    """What an abbreviation or a result of a law is called; the rate of a state has its dot."""
+    rates = {f"{state.name}_rate": letter(state.name, dots=1) for state in law.states}
+    return (LAW_LETTERS | rates).get(name) or word(name)
+
+
+def sign_of(parameter: Field) -> str:
     """A law's number in LaTeX: its symbol, or where it has none its name."""
     return parameter.symbol or word(parameter.name).latex
 
@@ -232,18 +237,23 @@ def _law(joint: JointWithPlay, role: str) -> list[Block]:
         paragraph(f"{sentence(law.title)} Source: {source}. Valid: {law.validity}.", of=joint.of_law)
     ]
     blocks += [
-        paragraph(f"Option {option.name}: {_word(equations.options[option.name])} ({option.meaning}).")
+        paragraph(f"Option {option.name}: {as_word(equations.options[option.name])} ({option.meaning}).")
         for option in law.options
         if option.name in equations.options  # one may say nothing beside a number
     ]
-    for state in law.states:
-        told = f" is the {state.meaning}, 0 at each onset, and integrated with the motion while in contact."
-        blocks.append(paragraph(letter(state.name), told))
+    blocks += told_states(law)
     plot = law_plot(joint.found, joint.alike, role, law) if isinstance(joint.found, Trace) else []
     return [*blocks, *joint.shown(joint.steps(equations)), *plot]
 
 
-def _word(value: str | bool) -> str:
+def told_states(law: Law) -> Iterator[Block]:
+    """What each inner state of a law is."""
+    for state in law.states:
+        told = f" is the {state.meaning}, 0 at each onset, and integrated with the motion while in contact."
+        yield paragraph(letter(state.name), told)
+
+
+def as_word(value: str | bool) -> str:
     return str(value).lower() if isinstance(value, bool) else value
 
 

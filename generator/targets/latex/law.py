@@ -1,0 +1,229 @@
+"""One law by itself, of no mechanism: its equations for each of its choices, its keys, validity and reference."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from dataclasses import dataclass, replace
+
+import sympy as sp
+
+from gudgeon.generator.field import NUMBER, Field
+from gudgeon.generator.kinds.laws.built import PAIR, probe
+from gudgeon.generator.kinds.laws.law import Law
+from gudgeon.generator.symbols.symbols import Symbols
+from gudgeon.generator.targets.format_tables import condition
+from gudgeon.generator.targets.latex.document import (
+    Block,
+    Document,
+    Equation,
+    Section,
+    cells,
+    paragraph,
+    sentence,
+    table,
+)
+from gudgeon.generator.targets.latex.kinematics import equation
+from gudgeon.generator.targets.latex.letters import Name, letter, of_latex, word
+from gudgeon.generator.targets.latex.notation import Notation, distinct
+from gudgeon.generator.targets.latex.play import LAW_LETTERS, as_word, sign_of, step_name, told_states
+from gudgeon.generator.targets.latex.play_letters import NAMES, RATIO
+from gudgeon.generator.targets.latex.render import render
+from gudgeon.language.plot_units import pretty
+from gudgeon.language.units import si_unit
+
+_ROLES: Mapping[str, str] = {"normal": "the normal force", "friction": "dry friction", "film": "the oil film"}
+GIVEN = "given"  # what is chosen of a number that may be left out
+# What a law is given and gives: meaning, SI unit.
+_MEANINGS: Mapping[str, tuple[str, str]] = {
+    "delta": ("penetration", "m"),
+    "ratio": ("rate of penetration over that at the onset", "-"),
+    "deltadot": ("rate of penetration", "m/s"),
+    "F_n": ("normal force, which pushes the surfaces apart", "N"),
+    "v_t": ("slip of the journal's surface on the bearing's, along t", "m/s"),
+    "epsilon": ("eccentricity over the film's clearance", "-"),
+    "w_n": ("effective squeeze velocity along n over the clearance", "1/s"),
+    "w_t": ("the same along t", "1/s"),
+    "F_r": ("force on the journal along n, from the bearing's centre to the journal's", "N"),
+    "F_t": ("force on the journal along t, n turned by +90°", "N"),
+    "T0": ("shear torque by the difference of the angular velocities", "N·m·s"),
+    "R_i": ("radius of the bearing", "m"), "R_j": ("radius of the journal", "m"),
+    "c": ("radial clearance", "m"), "L": ("length of the bearing", "m"),
+    "E_i": ("modulus of elasticity of the bearing", "Pa"), "E_j": ("the same of the journal", "Pa"),
+    "nu_i": ("Poisson's ratio of the bearing", "-"), "nu_j": ("the same of the journal", "-"),
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Form:
+    """A law for one choice of its keys: what is chosen, and its equations, those that hold for a run first."""
+
+    chosen: Mapping[str, str | bool]
+    constants: tuple[Equation, ...]
+    steps: tuple[Equation, ...]
+    used: tuple[tuple[str, Name], ...]  # what it is given and gives, by the name in Python
+
+    @property
+    def equations(self) -> tuple[Equation, ...]:
+        return self.constants + self.steps
+
+
+def forms(law: Law, name: str) -> list[Form]:
+    """A law under one of its names, with defaults; then with every other choice of one key what differs by it.
+
+    A number that may be left out is left out, but where it is chosen. Raises LawError, for a law of the user's own.
+    """
+    made = {**law.also.get(name, {})}
+    defaults = {own.name: own.choice for own in law.options} | made
+    first = _form(law, {}, defaults, ())
+    known = {in_a_line(one) for one in first.equations}
+    found = [replace(first, steps=tuple(one for one in first.steps if one.terms[0].text != "0"))]
+    chosen: list[tuple[str, str | bool]] = [
+        (own.name, value) for own in law.options if own.name not in made
+        for value in own.values if value != own.choice
+    ]  # fmt: skip
+    for key, value in (*chosen, *((own.name, GIVEN) for own in law.parameters if _may_lack(own))):
+        form = (
+            _form(law, {key: value}, defaults | {key: value}, ())
+            if key in defaults
+            else _form(law, {key: value}, defaults, (key,))
+        )
+        found.append(replace(form, constants=_new(form.constants, known), steps=_new(form.steps, known)))
+    return found
+
+
+def _new(some: Sequence[Equation], known: Set[str]) -> tuple[Equation, ...]:
+    return tuple(one for one in some if in_a_line(one) not in known)
+
+
+def law_text(law: Law, name: str) -> str:
+    """All about a law under one of its names, as plain Unicode text, 100 columns wide. Raises LawError."""
+    return render(_document(law, name), "txt")
+
+
+def _document(law: Law, name: str) -> Document:
+    first, *others = forms(law, name)
+    made = ", ".join(f"{key}: {value}" for key, value in law.also.get(name, {}).items())
+    facts = [(f"A law of {_ROLES[law.role]}, {name}" + (f": {law.name} with {made}" if made else ""),)]
+    if law.also and not made:
+        facts.append((f"also as {', '.join(law.also)}",))
+    own = law.fields_as(name)
+    blocks: Mapping[str, Iterable[Block]] = {
+        "Equations": _equations(law, first, others),
+        "Other choices": _choices(others),
+        "Numbers": table(cells("key", "letter", "unit", "bounds", "default", "meaning"),
+                         [_number(field) for field in own if field.kind == NUMBER], (5,)),
+        "Options": [_option(field) for field in own if field.kind != NUMBER],
+        "Validity": [paragraph(sentence(law.validity))],
+        "Reference": [paragraph(f"{law.reference or law.source}.")],
+    }  # fmt: skip
+    found = {title: tuple(some) for title, some in blocks.items()}
+    return Document(law.title, tuple(facts), tuple(Section(title, some) for title, some in found.items() if some))
+
+
+def _equations(law: Law, form: Form, others: Sequence[Form]) -> Iterator[Block]:
+    used = {name: called for some in (*reversed(others), form) for name, called in some.used}
+    rows = [cells(used[name], *_MEANINGS[name]) for name in _MEANINGS if name in used]
+    yield from table(cells("letter", "meaning", "unit"), rows)
+    yield from told_states(law)
+    if form.constants:
+        yield paragraph("Once a run:")
+        yield from form.constants
+    yield paragraph("At each evaluation:")
+    yield from form.steps
+
+
+def _choices(others: Sequence[Form]) -> Iterator[Block]:
+    for form in others:
+        if form.equations:
+            told = ", ".join(f"{key}: {as_word(value)}" for key, value in form.chosen.items())
+            yield paragraph(f"With {told}:")
+            yield from form.equations
+
+
+def _number(own: Field) -> tuple[tuple[str | Name, ...], ...]:
+    unit = "any" if own.dimension is None else pretty(si_unit(own.dimension)) or "-"
+    default = "needed" if own.required else "-" if own.default is None else f"{own.default:g}"
+    meaning = f"{own.meaning}; without it {own.otherwise}" if own.otherwise else own.meaning
+    return cells(own.name, of_latex(sign_of(own)), unit, condition(own).replace("`", "") or "-", default, meaning)
+
+
+def _option(own: Field) -> Block:
+    words = ", ".join(map(as_word, own.values))
+    return paragraph(f"{own.name}: {words}; without it {as_word(own.choice)} ({own.meaning}).")
+
+
+def _may_lack(own: Field) -> bool:
+    return own.default is None and not own.required
+
+
+def _form(
+    law: Law, chosen: Mapping[str, str | bool], options: Mapping[str, str | bool], given: Sequence[str]
+) -> Form:  # fmt: skip
+    """The law's equations in letters of its own. A constant that only repeats a number is not written."""
+    numbers = [own.name for own in law.parameters if not _may_lack(own) or own.name in given]
+    made = probe(law, options, numbers)
+    same = {_probed(name): value for name, value in made.derived.items() if value.is_Symbol}
+
+    def plain(value: sp.Expr) -> sp.Expr:
+        while value.free_symbols & {*same}:
+            value = value.xreplace(same)
+        return value
+
+    names = _plain(distinct(_names(law, numbers, made.derived, made.steps)))
+    notation = Notation(Symbols(), names, frozenset(), {})
+    constants = {_probed(name): plain(value) for name, value in made.derived.items() if _probed(name) not in same}
+    steps = {sp.Symbol(name, real=True): plain(value) for name, value in made.steps.items()}
+    read = {step for step, value in steps.items() if value != 0}.union(*(value.free_symbols for value in (*constants.values(), *steps.values())))
+    places = {name: sp.Symbol(name, real=True) for name in (*law.variables, *law.results)}
+    places |= {name: _probed(name) for name in PAIR}
+    used = tuple((name, notation.math(symbol)) for name, symbol in places.items()
+                 if symbol in read and name in _MEANINGS)  # fmt: skip
+
+    def written(some: Mapping[sp.Symbol, sp.Expr]) -> tuple[Equation, ...]:
+        return tuple(equation(left, right, notation) for left, right in some.items())
+
+    return Form(chosen, written(constants), written(steps), used)
+
+
+def _names(
+    law: Law, numbers: Sequence[str], constants: Mapping[str, sp.Expr], steps: Mapping[str, sp.Expr]
+) -> Iterator[tuple[sp.Symbol, Name]]:  # fmt: skip
+    """What has a fixed letter comes first; the law's own abbreviations give way."""
+    own = {parameter.name: parameter for parameter in law.parameters}
+    for name in law.variables:
+        symbol = sp.Symbol(name, real=True)
+        yield symbol, RATIO if name == "ratio" else NAMES.get(symbol) or letter(name)
+    for name in law.results:
+        symbol = sp.Symbol(name, real=True)
+        if name in ("F_n", "F_r", "F_t"):
+            yield symbol, NAMES.get(symbol) or letter("F", "t")
+    for name in numbers:
+        yield _probed(name), of_latex(sign_of(own[name]))
+    for name in PAIR:
+        head, _, index = name.partition("_")
+        yield _probed(name), letter(head, index) if index else letter(head)
+    for name in constants:
+        yield _probed(name), LAW_LETTERS.get(name) or word(name)
+    for name in steps:
+        yield sp.Symbol(name, real=True), step_name(law, name)
+
+
+def _plain(names: Mapping[sp.Symbol, Name]) -> dict[sp.Symbol, Name]:
+    """Who had to give way has its own name, not that of its symbol here."""
+    used = {name.text for name in names.values()}
+    found = dict(names)
+    for symbol, name in names.items():
+        own = letter(symbol.name.removeprefix(_probed("").name))
+        if name == letter(symbol.name) and own.text not in used:
+            found[symbol] = own
+    return found
+
+
+def _probed(name: str) -> sp.Symbol:
+    """The symbol of a number in what `probe` makes."""
+    return sp.Symbol(f"probe_{name}", real=True)
+
+
+def in_a_line(one: Equation) -> str:
+    """An equation as plain text."""
+    return f"{one.left.text} = {''.join(term.text for term in one.terms)}"

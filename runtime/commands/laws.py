@@ -1,0 +1,108 @@
+"""`gudgeon laws`: the laws of contact, friction and film that a mechanism file may name, and one of them in full."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+from gudgeon.language.shown import one_line, plain_console, visible
+from gudgeon.language.suggestions import unknown_name
+from gudgeon.language.units import si_unit
+
+if TYPE_CHECKING:
+    from gudgeon.generator.field import Field
+    from gudgeon.generator.kinds.laws.law import Law
+
+WIDTH = 100  # columns of what is printed
+
+
+def show_laws(name: str | None, as_json: bool) -> int:
+    """A table of all laws, or all about one. Raises UnknownNameError, and LawError for a law of the user's own."""
+    if name is None:
+        if as_json:
+            print(_json(_listed()))
+        else:
+            _print()
+        return 0
+    law = _law(name)
+    if as_json:
+        print(_json(_told(law, name)))
+        return 0
+    from gudgeon.generator.targets.latex.law import law_text
+
+    print(visible(law_text(law, name)), end="")
+    return 0
+
+
+def _law(name: str) -> Law:
+    from gudgeon.generator.kinds.laws.law import RESULTS, called
+
+    known = {called_so: law for role in RESULTS for called_so, law in called(role).items()}
+    if name not in known:
+        raise unknown_name("law", name, known, None)
+    return known[name]
+
+
+def _by_role() -> Iterator[tuple[str, list[Law]]]:
+    """Without SymPy: a law's file imports none at its top."""
+    from gudgeon.generator.kinds.laws.law import RESULTS, laws
+
+    for role in RESULTS:
+        yield role, [law for law in laws().values() if law.role == role]
+
+
+def _print() -> None:
+    """A row a law, a part a role."""
+    from rich.box import SIMPLE_HEAD
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=SIMPLE_HEAD)
+    for head in ("role", "law", "title"):
+        table.add_column(head, no_wrap=head != "title")
+    for role, some in _by_role():
+        for k, law in enumerate(some):
+            also = f"also as {', '.join(law.also)}" if law.also else ""
+            told = "\n".join(filter(None, (one_line(law.title), also)))
+            table.add_row(role if k == 0 else "", law.name, Text(told), end_section=k == len(some) - 1)
+    plain_console(WIDTH).print(table)
+    print("gudgeon laws NAME has the equations of one, its keys, validity and reference.")
+
+
+def _listed() -> dict[str, Any]:
+    return {
+        role: [{"law": law.name, "also": [*law.also], "title": law.title} for law in some] for role, some in _by_role()
+    }
+
+
+def _told(law: Law, name: str) -> dict[str, Any]:
+    from gudgeon.generator.targets.latex.law import forms, in_a_line
+
+    first, *others = (
+        {"chosen": dict(form.chosen), "equations": [in_a_line(one) for one in form.equations]}
+        for form in forms(law, name)
+    )
+    return {
+        "law": law.name, "called": name, "role": law.role, "title": law.title, "also": [*law.also],
+        "chosen": dict(law.also.get(name, {})), "equations": first["equations"],
+        "choices": [form for form in others if form["equations"]],
+        "keys": [_key(own) for own in law.fields_as(name)],
+        "states": {state.name: state.meaning for state in law.states},
+        "validity": law.validity, "reference": law.reference or law.source,
+    }  # fmt: skip
+
+
+def _key(own: Field) -> dict[str, Any]:
+    """A number with its SI unit, None where any fits; an option with its words."""
+    told: dict[str, Any] = {"key": own.name, "kind": own.kind, "meaning": own.meaning, "required": own.required,
+                            "default": own.default}  # fmt: skip
+    if own.values:
+        return {**told, "values": [*own.values]}
+    unit = None if own.dimension is None else si_unit(own.dimension)
+    bounds = [[bound.relation, bound.limit] for bound in own.bounds]
+    return {**told, "symbol": own.symbol, "unit": unit, "bounds": bounds, "otherwise": own.otherwise}
+
+
+def _json(document: Mapping[str, Any]) -> str:
+    return json.dumps(document, ensure_ascii=False, indent=1)

@@ -1,0 +1,124 @@
+"""`gudgeon laws`: all of them in a table without SymPy; of one, equations that give what the law gives."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import pytest
+
+from gudgeon.generator.field import NUMBER
+from gudgeon.generator.kinds.laws.law import RESULTS, Law, called, house
+from gudgeon.generator.targets.latex.document import Equation
+from gudgeon.generator.targets.latex.law import GIVEN, forms, in_a_line
+from gudgeon.generator.targets.latex.letters import of_latex
+from tests.equations.one_law import PAIR, Evaluator
+from tests.kinds.own import example, forgotten
+from tests.pump import Gudgeon
+from tests.targets_latex.equations_reader import dots_apart, evaluate, rows, sections, width
+
+NAMES = [name for role in RESULTS for name in called(role)]
+STATES = {  # of what laws read, by the letter; z lies within what bristles take
+    "delta": 3e-5, "ratio": -0.4, "deltadot": 0.02, "F_n": 700.0, "v_t": -0.03, "z": 2e-5, "epsilon": 0.6, "w_n": -3.0,
+    "w_t": 4.0,
+}  # fmt: skip
+NUMBERS = {"dahl": {"presliding": 1e-4}, "modified_coulomb": {"v0": 0.01, "v1": 0.05}}
+LETTERS = {"delta": "δ", "deltadot": dots_apart("δ̇"), "epsilon": "ε"}
+NO_SYMPY = """
+import sys
+from gudgeon.cli import app
+app(["laws"], standalone_mode=False)
+assert "sympy" not in sys.modules
+"""
+
+
+@pytest.fixture(autouse=True)
+def alone() -> Iterator[None]:
+    with forgotten():
+        yield
+
+
+def test_the_table_has_every_law_and_every_name(call: Gudgeon) -> None:
+    done = call("laws")
+    words = done.stdout.replace(",", " ").split()
+    assert done.exit_code == 0 and {*NAMES, *RESULTS} <= {*words}
+    listed = json.loads(call("laws", "--json").stdout)
+    found = {role: [law["law"] for law in some] for role, some in listed.items()}
+    assert found == {role: [law.name for law in house().values() if law.role == role] for role in RESULTS}
+    assert [*RESULTS] == [*listed] and "flores" in listed["normal"][0]["also"]
+
+
+def test_the_table_waits_for_no_sympy() -> None:
+    done = subprocess.run([sys.executable, "-c", NO_SYMPY], capture_output=True, text=True, check=True)
+    assert "hertz" in done.stdout
+
+
+def law_of(name: str) -> Law:
+    return next(some[name] for role in RESULTS if name in (some := called(role)))
+
+
+def merged(first: Sequence[Equation], changed: Sequence[Equation]) -> list[str]:
+    """The lines of both; of two with the same left side the changed one."""
+    return [f"  {line}" for line in {one.left.text: in_a_line(one) for one in (*first, *changed)}.values()]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_what_is_read_is_what_the_law_gives(name: str) -> None:
+    """The written equations, for every choice of one key, against the law's own function."""
+    law = law_of(name)
+    numbers = {own.name: 0.31 + 0.07 * k for k, own in enumerate(law.parameters)} | NUMBERS.get(law.name, {})
+    state = {key: STATES[key] for key in law.variables}
+    known = {of_latex(own.symbol).text: numbers[own.name] for own in law.parameters}
+    known |= {key.replace("nu", "ν"): value for key, value in vars(PAIR).items()}
+    known |= {LETTERS.get(key, key): value for key, value in state.items()}
+    if "ratio" in state:  # it is written as a fraction
+        known[dots_apart("δ̇") + "⁻"] = STATES["deltadot"] / STATES["ratio"]
+    first, *others = forms(law, name)
+    for form in (first, *others):
+        changed = ((), ()) if form is first else (form.constants, form.steps)
+        read = evaluate([*merged(first.constants, changed[0]), *merged(first.steps, changed[1])], known)
+        chosen = dict(law.also.get(name, {})) | {key: x for key, x in form.chosen.items() if x != GIVEN}
+        given = {own.name: numbers[own.name] for own in law.parameters
+                 if own.required or own.default is not None or own.name in form.chosen}  # fmt: skip
+        alone = Evaluator(law.name, given, **chosen)
+        got = alone(*(state[symbol] for symbol in alone.reads))
+        assert [read.get(result, 0.0) for result in RESULTS[law.role]] == pytest.approx(got, rel=1e-12), form.chosen
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_all_about_one(name: str, call: Gudgeon) -> None:
+    law, done = law_of(name), call("laws", name)
+    text = " ".join(done.stdout.split())
+    assert done.exit_code == 0 and law.title in text and (law.reference or law.source) in text and "probe_" not in text
+    assert max(map(width, done.stdout.splitlines())) <= 100
+    told = json.loads(call("laws", name, "--json").stdout)
+    assert [key["key"] for key in told["keys"]] == [own.name for own in law.fields_as(name)]
+    assert told["law"] == law.name and told["role"] == law.role and told["validity"] == law.validity
+    lines = sections(done.stdout)
+    assert [f"  {line}" for line in told["equations"]] == [line for line in lines["Equations"] if " = " in line]
+    found = {cells[0]: cells for cells in rows(lines["Numbers"]) if len(cells) == 6}
+    for own in law.fields_as(name):
+        assert own.name in (found if own.kind == NUMBER else " ".join(lines["Options"]))
+    assert found[next(own.name for own in law.parameters)][1] == of_latex(law.parameters[0].symbol).text
+
+
+def test_a_film_tells_its_shear_torque_and_what_is_nothing_without_it() -> None:
+    first, *others = forms(law_of("pinkus_sternlicht"), "pinkus_sternlicht")
+    assert [form.chosen for form in others if form.equations] == [{"as_printed": True}, {"shear": True}]
+    assert not [one for one in first.equations if in_a_line(one).endswith(" = 0")]
+
+
+def test_a_law_of_ones_own(call: Gudgeon, tmp_path: Path) -> None:
+    example(tmp_path)
+    done = call("laws", "dashpot", "--laws", "dashpot.py")
+    assert done.exit_code == 0 and "F_n = δ·K + δ̇·D" in done.stdout and "any book on vibrations" in done.stdout
+    listed = json.loads(call("laws", "--json", "--laws", "dashpot.py").stdout)
+    assert listed["normal"][-1] == {"law": "dashpot", "also": [], "title": "A spring and a dashpot"}
+
+
+def test_a_misspelt_name_is_told_with_the_nearest(call: Gudgeon) -> None:
+    done = call("laws", "florres")
+    assert done.exit_code == 2 and "unknown law 'florres'" in done.stderr and "did you mean 'flores'?" in done.stderr
