@@ -72,8 +72,8 @@ def forms(law: Law, name: str) -> list[Form]:
 
     A number that may be left out is left out, but where it is chosen. Raises LawError, for a law of the user's own.
     """
-    made = {**law.also.get(name, {})}
-    defaults = {own.name: own.choice for own in law.options} | made
+    made = law.also.get(name, {})
+    defaults = {own.name: own.choice for own in law.options} | {**made}
     first = _form(law, {}, defaults, ())
     known = {in_a_line(one) for one in first.equations}
     found = [replace(first, steps=tuple(one for one in first.steps if one.terms[0].text != "0"))]
@@ -82,11 +82,8 @@ def forms(law: Law, name: str) -> list[Form]:
         for value in own.values if value != own.choice
     ]  # fmt: skip
     for key, value in (*chosen, *((own.name, GIVEN) for own in law.parameters if _may_lack(own))):
-        form = (
-            _form(law, {key: value}, defaults | {key: value}, ())
-            if key in defaults
-            else _form(law, {key: value}, defaults, (key,))
-        )
+        number = key not in defaults
+        form = _form(law, {key: value}, defaults if number else {**defaults, key: value}, (key,) if number else ())
         found.append(replace(form, constants=_new(form.constants, known), steps=_new(form.steps, known)))
     return found
 
@@ -173,7 +170,8 @@ def _form(
     notation = Notation(Symbols(), names, frozenset(), {})
     constants = {_probed(name): plain(value) for name, value in made.derived.items() if _probed(name) not in same}
     steps = {sp.Symbol(name, real=True): plain(value) for name, value in made.steps.items()}
-    read = {step for step, value in steps.items() if value != 0}.union(*(value.free_symbols for value in (*constants.values(), *steps.values())))
+    found = [value.free_symbols for value in (*constants.values(), *steps.values())]
+    read = {step for step, value in steps.items() if value != 0}.union(*found)
     places = {name: sp.Symbol(name, real=True) for name in (*law.variables, *law.results)}
     places |= {name: _probed(name) for name in PAIR}
     used = tuple((name, notation.math(symbol)) for name, symbol in places.items()
