@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from gudgeon.commands.common import check_file, chosen_scenes, need_suffix
 from gudgeon.commands.progress import status_line
 from gudgeon.errors import AssemblyError, GudgeonError, SolverError
-from gudgeon.files.writing import write_text
+from gudgeon.files.writing import Aside
 from gudgeon.language.shown import path_text
 from gudgeon.loading.find import find_mechanism, read_bytes
 from gudgeon.waiting.working import working
@@ -31,8 +31,11 @@ def write_exercise(mechanism: str, target: Path, scene: str, seed: int, at: str 
     with status_line():
         sheet, solved, drawn = make(mechanism, scene, seed, at)
         texts = [_text(document, target.suffix.lower(), drawn) for document in (sheet, solved)]
-    for file, text in zip((target, solutions), texts, strict=True):
-        write_text(file, text)
+    with Aside(target.parent) as aside:  # both or neither: a sheet beside another one's solutions helps nobody
+        for file, text in zip((target, solutions), texts, strict=True):
+            aside.write(file.name, text.encode())
+        aside.move()
+    for file in (target, solutions):
         print(f"wrote {path_text(file)}")
     return 0
 

@@ -115,6 +115,6 @@ def _drawn(simulation: Simulation, numbers: dict[str, str], t: float, p: Array) 
     size = max(float(np.ptp(q.reshape(-1, 3)[:, :2])), 1e-12)
     decimals = DIGITS - 1 - int(np.floor(np.log10(size)))
     for k in range(len(q)):
-        q[k] = round(math.remainder(q[k], math.tau), DIGITS) if k % 3 == 2 else round(q[k], decimals)
+        q[k] = round(q[k], DIGITS if k % 3 == 2 else decimals)  # whole turns too: rows of drives and gears count them
         v[k] = float(f"{v[k]:.{DIGITS}g}")
     return Drawn(numbers, t, q, v, p, run)

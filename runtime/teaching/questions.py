@@ -52,6 +52,9 @@ def _freedoms(subject: Subject) -> Question:
     if dropped := model.redundancy.dropped:
         told = f"{', '.join(dropped)} follow from the others: the rank is {len(model.rows)}, and {n - len(model.rows)}"
         solved.append(paragraph(f"Counting is not enough here: {told} are free."))
+    elif model.rows:
+        told = f" is {len(model.rows)}, as many as there are rows: none follows from the others, and f is what is free."
+        solved.append(paragraph("The rank of ", PHI_Q, told))
     asked = paragraph(
         "How many coordinates do the bodies have, how many rows does each joint and drive add to ", PHI,
         ", and how many degrees of freedom f are left by Grübler's count? Does the rank of ", PHI_Q, " agree?",

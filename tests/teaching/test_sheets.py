@@ -13,7 +13,7 @@ import sympy as sp
 
 import gudgeon
 from gudgeon.commands.exercise import make
-from gudgeon.errors import Location
+from gudgeon.errors import Location, OutputError
 from gudgeon.generator.pipeline import derive
 from gudgeon.generator.targets.latex import equations_tex, equations_text
 from gudgeon.generator.targets.latex.document import Document
@@ -52,6 +52,37 @@ def at(of: Subject, matrix: sp.Matrix) -> np.ndarray:
     slots = {entry.symbol: of.drawn.p[k] for k, entry in enumerate(of.model.slots.entries.values())}
     values = dict(zip((*of.model.q, *of.model.v), (*of.drawn.q, *of.drawn.v), strict=True)) | {of.model.t: of.drawn.t}
     return np.array(matrix.subs(slots | values).evalf(20), float)
+
+
+def test_the_position_meets_the_rows_that_are_asked_for() -> None:
+    """Whole turns too, which rows of drives and gears count: after 0.95 s the crank has begun another one."""
+    simulation = gudgeon.load("four_bar", "ideal")
+    drawn = draw_numbers(simulation, 3, "0.95 s")
+    crank = drawn.q[list(simulation.source.coordinates).index("crank.theta")]
+    assert crank > np.pi
+    size = np.ptp(drawn.q.reshape(-1, 3)[:, :2])
+    assert np.abs(simulation.compiled.phi(drawn.t, drawn.q, drawn.p)).max() < 2e-4 * max(size, 1.0)
+
+
+def test_a_sheet_and_its_solutions_are_written_together(
+    tmp_path: Path, call: Gudgeon, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A disk that takes the one and not the other leaves the older pair."""
+    from gudgeon.files.writing import Aside
+
+    monkeypatch.chdir(tmp_path)
+    assert call("exercise", "pendulum", "-o", "s.txt", "--seed", "1").exit_code == 0
+    before = {name: (tmp_path / name).read_bytes() for name in ("s.txt", "s-solutions.txt")}
+    whole = Aside.write
+
+    def write(self: Aside, name: str, data: bytes) -> None:
+        if "solutions" in name:
+            raise OutputError(self.folder / name, "no space left")
+        whole(self, name, data)
+
+    monkeypatch.setattr(Aside, "write", write)
+    assert call("exercise", "pendulum", "-o", "s.txt", "--seed", "2").exit_code != 0
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
 
 
 @pytest.mark.parametrize(("name", "scene"), SCENES)
