@@ -28,9 +28,9 @@ def build(s: LawInputs) -> dict[str, Any]:
     names = ("mu", "mu_s", "v_s", "stiffness", "damping")
     mu, mu_s, v_s, sigma_0, sigma_1 = (s.parameters[name] for name in names)
     v_t, z = s.variables["v_t"], s.variables["z"]
-    g, rate = sp.Symbol("g", real=True), sp.Symbol("bending", real=True)
+    g, rate = sp.Symbol("g_v", real=True), sp.Symbol("bending", real=True)
     return {
-        "g": mu + (mu_s - mu) * sp.exp(-((v_t / v_s) ** 2)),
+        "g_v": mu + (mu_s - mu) * sp.exp(-((v_t / v_s) ** 2)),
         "bending": v_t - sigma_0 * sp.Abs(v_t) * z / g,
         **friction(s, sigma_0 * z + sigma_1 * rate),
         "z_rate": rate,
