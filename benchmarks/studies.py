@@ -25,7 +25,7 @@ import numpy as np
 from ruamel.yaml import YAML
 
 from benchmarks.many import machine
-from gudgeon.studies.ensemble.study import plan_of, run_plan
+from gudgeon.studies.ensemble.study import plans_of, run_plans
 
 FILE = Path(__file__).parents[1] / "studies" / "lubricated_10000.yaml"
 VISCOSITY, TENTH, WHOLE = "contacts.oil.film.viscosity", 2, 20  # how many of them
@@ -35,7 +35,8 @@ def one(viscosities: int, threads: int) -> dict[str, float]:
     """A study in this process: runs, failed ones, s of wall, of processor, of its runs alone; MB before and at most."""
     study = YAML(typ="safe").load(FILE)
     study["parameters"][VISCOSITY]["count"] = viscosities
-    plan, alone = plan_of(study), math.nan
+    plans, alone = plans_of(study), math.nan
+    (plan,) = plans.each.values()
     if viscosities == TENTH:
         simulation, columns = plan.parts[0].simulation, plan.job_of(0, 0, np.arange(plan.runs), 1).columns
         before = process_time()
@@ -44,7 +45,7 @@ def one(viscosities: int, threads: int) -> dict[str, float]:
     before = most()
     with tempfile.TemporaryDirectory() as folder:
         wall, cpu = perf_counter(), process_time()
-        found = run_plan(plan, Path(folder), threads)
+        found = run_plans(plans, Path(folder), threads)
         wall, cpu = perf_counter() - wall, process_time() - cpu
         runs, failed = found.runs, found.failed
     told = {"runs": runs, "failed": failed, "wall": wall, "cpu": cpu, "alone": alone, "before": before}
