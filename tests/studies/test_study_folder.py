@@ -8,7 +8,7 @@ import shutil
 import signal
 import sys
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -20,28 +20,16 @@ from filelock import FileLock
 
 import gudgeon
 from gudgeon.errors import GudgeonError, InputError, OutputError
-from gudgeon.studies.ensemble import loop, resolve
+from gudgeon.studies.ensemble import loop
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
 
-pytestmark = needs_compiler
+pytestmark = [needs_compiler, pytest.mark.usefixtures("blocks_of_one")]
 STUDY: dict[str, Any] = {
     "mechanism": "pendulum", "parameters": {"g": [1.62, 3.7, 9.81], "length": ["1 m", "2 m"]},
     "t_end": "20 ms", "output": 10, "measures": {"y": {"final": "bob.y"}, "v": {"peak_of_steps": "bob.vy"}},
     "keep": ["bob.x"],
 }  # fmt: skip
-
-
-@pytest.fixture(autouse=True)
-def blocks_of_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(resolve, "BLOCK", 1)
-
-
-@pytest.fixture(scope="module")
-def quiet() -> Iterator[xr.Dataset]:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(resolve, "BLOCK", 1)
-        yield gudgeon.study(STUDY).dataset
 
 
 def killed(act: Callable[[], object]) -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
@@ -15,28 +15,15 @@ import xarray as xr
 
 import gudgeon
 from gudgeon.errors import BadValueError, GudgeonError
-from gudgeon.studies.ensemble import resolve
 from gudgeon.studies.ensemble.workers import Processes
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
 
-pytestmark = needs_compiler
+pytestmark = [needs_compiler, pytest.mark.usefixtures("blocks_of_one")]
 STUDY: dict[str, Any] = {
     "mechanism": "pendulum", "parameters": {"g": {"from": 1, "to": 10, "count": 12}},
     "t_end": "20 ms", "output": 10, "measures": {"y": {"final": "bob.y"}}, "keep": ["bob.x"],
 }  # fmt: skip
-
-
-@pytest.fixture(autouse=True)
-def blocks_of_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(resolve, "BLOCK", 1)
-
-
-@pytest.fixture(scope="module")
-def quiet() -> Iterator[xr.Dataset]:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(resolve, "BLOCK", 1)
-        yield gudgeon.study(STUDY).dataset
 
 
 def killing(victims: Callable[[], list[int]], times: int = 1) -> Callable[[float, str], None]:
