@@ -14,7 +14,8 @@ from typing import Any
 
 from gudgeon.generator.field import Bound, number
 from gudgeon.generator.kinds.laws.law import Law, LawInputs, State
-from gudgeon.language.units import DIMENSIONLESS, LENGTH
+from gudgeon.generator.kinds.laws.slip import MU
+from gudgeon.language.units import LENGTH
 
 
 def build(s: LawInputs) -> dict[str, Any]:
@@ -35,7 +36,7 @@ LAW = Law(
               "1; load as in C. Canudas de Wit, P. Tsiotras (1999)",
     validity="presliding and sliding; no difference between static and kinetic friction",
     fields=(
-        number("mu", "coefficient of friction", DIMENSIONLESS, symbol="c_f", required=True, bounds=(Bound(">=", 0.0),)),
+        MU,
         number(
             "presliding", "deflection at which it slides", LENGTH,
             symbol="z_s", required=True, bounds=(Bound(">", 0.0),),

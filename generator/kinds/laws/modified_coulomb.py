@@ -14,7 +14,8 @@ from typing import Any
 
 from gudgeon.generator.field import Bound, number
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
-from gudgeon.language.units import DIMENSIONLESS, VELOCITY
+from gudgeon.generator.kinds.laws.slip import MU
+from gudgeon.language.units import VELOCITY
 
 
 def build(s: LawInputs) -> dict[str, Any]:
@@ -35,7 +36,7 @@ LAW = Law(
     reference="J. A. C. Ambrosio, as in X. Chen, S. Gao, T. Wang, Nonlinear Dynamics, doi 10.1007/s11071-022-07478-4",
     validity="sliding; creeps below v1 where Coulomb's law would stick",
     fields=(
-        number("mu", "coefficient of friction", DIMENSIONLESS, symbol="c_f", required=True, bounds=(Bound(">=", 0.0),)),
+        MU,
         number(
             "v0", "slip below which there is no friction", VELOCITY,
             symbol="v_0", required=True, bounds=(Bound(">=", 0.0),),
