@@ -71,7 +71,7 @@ def test_a_reader_that_has_enough(tmp_path: Path) -> None:
 
 
 def test_what_an_encoding_lacks_is_escaped_as_in_json(tmp_path: Path) -> None:
-    line = "gudgeon check nine_bar_press -v"
+    line = "gudgeon check slider_crank -v"
     done = gudgeon_process(line, tmp_path, PYTHONIOENCODING="ascii")
     assert (done.returncode, done.stderr) == (0, "") and "\\u03a6_q" in done.stdout
     found = [

@@ -56,14 +56,23 @@ def assert_columns(got: np.ndarray, want: np.ndarray, n: int, tolerance: float) 
 
 def make(data: bytes, name: str, scene: str, values: Mapping[str, float] | None = None, **options: object) -> Subject:
     """A scene; `values` by slot, `options` change the file itself."""
-    model = derive(data, name, scene, {key.replace("__", "."): x for key, x in options.items()})  # type: ignore[misc]
-    source = in_c(model, "full")
-    library = CompiledModel(source, compile_kernels(source))
+    model, library = _derived(data, name, scene, tuple(options.items()))
+    source = library.source
     given, mask = np.zeros(len(source.slots)), np.zeros(len(source.slots), dtype=bool)
     for k, slot in enumerate(source.slots):
         if slot.address in (values or {}):
             given[k], mask[k] = (values or {})[slot.address], True
     return Subject(model, library, library.prepare(given, mask), ComplexStep(model, values))
+
+
+@cache
+def _derived(
+    data: bytes, name: str, scene: str, options: tuple[tuple[str, object], ...]
+) -> tuple[Model, CompiledModel]:
+    """What the numbers have no part in."""
+    model = derive(data, name, scene, {key.replace("__", "."): x for key, x in options})  # type: ignore[misc]
+    source = in_c(model, "full")
+    return model, CompiledModel(source, compile_kernels(source))
 
 
 @cache

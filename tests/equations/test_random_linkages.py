@@ -26,7 +26,7 @@ from tests.oracles.random_mechanism import near, random_mechanism
 from tests.programs import needs_compiler
 
 pytestmark = needs_compiler
-ALWAYS, ALL = 24, 500
+ALWAYS, ALL = 10, 500
 SEEDS = [seed if seed < ALWAYS else pytest.param(seed, marks=pytest.mark.slow) for seed in range(ALL)]
 GAINS = (50.0, 50.0)  # Baumgarte's, the defaults
 NAN = np.full((1, 1), np.nan)

@@ -56,8 +56,10 @@ def block(beside: str) -> str:
     return "\n".join(lines)
 
 
-@pytest.mark.parametrize("formulation", ["reduced", "full"])
-@pytest.mark.parametrize("beside", ["", "hyperbolic"])
+@pytest.mark.parametrize(("beside", "formulation"), [
+    ("", "reduced"), ("hyperbolic", "full"),
+    *(pytest.param(*both, marks=pytest.mark.slow) for both in (("", "full"), ("hyperbolic", "reduced"))),
+])  # fmt: skip
 def test_drives_have_their_rates(beside: str, formulation: str, tmp_path: Path) -> None:
     """They were those of the numerators alone: .3395 m/s for .005543 m/s."""
     simulation = loader(tmp_path)(block(beside))

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import gudgeon
+from gudgeon.assembly.start import Start
 from gudgeon.errors import SingularError
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.loading.shipped import generated, shipped_file
@@ -55,10 +56,15 @@ INTEGRATED = [
 ]
 
 
+@cache
+def start_of(name: str, scene: str) -> Start:
+    return gudgeon.load(name, scene).start()
+
+
 def near_start(name: str, scene: str, subject: Subject, seed: int) -> tuple[np.ndarray, np.ndarray]:
     """y near the start, off the constraints; a memory with contacts that are latched or not, all modes."""
     rng, source = np.random.default_rng(seed), subject.library.source
-    start = gudgeon.load(name, scene).start()
+    start = start_of(name, scene)
     reach = 2e-4 if source.clearances else 0.05
     y = np.concatenate([start.q, start.v]) + np.repeat([reach, 0.1], subject.n) * rng.standard_normal(2 * subject.n)
     latched = rng.choice([NAN, 0.05], len(source.clearances))

@@ -30,10 +30,15 @@ def oiled(option: str) -> Subject:
     return make(PRESS, "press", "lubricated", None, **OIL[option])
 
 
+@cache
+def press_start(scene: str) -> np.ndarray:
+    start = gudgeon.load("nine_bar_press", scene).start()
+    return np.concatenate([start.q, start.v])
+
+
 def journal_at(subject: Subject, e: tuple[float, float], rate: tuple[float, float], spin: float) -> np.ndarray:
     """The press at its start with joint A's journal at e (m), moving at `rate` (m/s), L2 turning at `spin` (rad/s)."""
-    start = gudgeon.load("nine_bar_press", subject.library.source.scene).start()
-    y, n, joint = np.concatenate([start.q, start.v]), subject.n, subject.model.clearances[0]
+    y, n, joint = press_start(subject.library.source.scene).copy(), subject.n, subject.model.clearances[0]
     body = next(body.index for body in subject.model.bodies if body.name == "L2")
     y[n + body + 2] = spin
     now = subject.exact.function((*joint.eccentricity, *joint.eccentricity_rate))

@@ -33,7 +33,7 @@ SHIPPED = [
     ("pendulum", "ideal"), ("car_axis", "ideal"), ("belt_block", "ideal"), ("bouncing_ball", "ideal"),
     ("n_four_bar", "ideal"), ("shaker", "ideal"),
 ]  # fmt: skip
-ALWAYS, ALL = 24, 500
+ALWAYS, ALL = 10, 500
 QUICK = (*range(ALWAYS), 25)  # 25: a slide on a turning body closes a loop
 SEEDS = [seed if seed in QUICK else pytest.param(seed, marks=pytest.mark.slow) for seed in range(ALL)]
 NAN = np.full(1, np.nan)

@@ -113,7 +113,7 @@ def with_parameters(names: Iterable[str]) -> bytes:
     ]).encode()  # fmt: skip
 
 
-@pytest.mark.parametrize("scene", ["ideal", "oiled"])
+@pytest.mark.parametrize("scene", [pytest.param("ideal", marks=pytest.mark.slow), "oiled"])
 def test_parameters_named_as_emitted_code_and_macros(scene: str, tmp_path: Path) -> None:
     names = vocabulary() | {name for name in TRIED if accepted(name)}
     assert {"aside", "max_of", "Parameters", "N_ROWS", "TREE", "Real", "LONG_RUN"} <= names
