@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -60,11 +61,24 @@ def pin_functions(pin: Pin, render: Render, states: int) -> Iterator[PinFunction
         yield _film(pin, render, states)
     text = render(
         _template(pin), joint=joint, arguments=_ARGUMENTS, gap=_lines(pin.gap), share=_lines(pin.share),
-        store=_store(clearance, states), first=pin.corners.start, last=pin.corners.stop,
+        store=_store(clearance, states), told=_shared_by(clearance), first=pin.corners.start, last=pin.corners.stop,
     )  # fmt: skip
     stores: Stores = [*functions.one_by_one(pin.gap), *functions.one_by_one(pin.share)]
     stores += [(_BLENDED.format(one), f"F.{one}") for one in ("n", "t", "M_i", "M_j") if pin.has_transition]
     yield PinFunction(f"clearance_{joint}", text, stores)
+
+
+def _shared_by(clearance: Clearance) -> str:
+    """What a comment says of film and dry contact together."""
+    if clearance.mixed is None:
+        return (
+            "film for e < c, dry contact for e > c + e_0, a linear blend between them\n"
+            " * (the paper's Eq. 17); a step holds what it began with."
+        )
+    law = clearance.mixed.law
+    told = f"film for e < c; beyond, the dry contact has the share of a law of mixed lubrication. {law.title}."
+    words = textwrap.wrap(f"Joint {clearance.name}: {told} Source: {law.source}. A step holds what it began with.", 110)
+    return "\n * ".join(words).removeprefix(f"Joint {clearance.name}: ")
 
 
 def _dry(pin: Pin, render: Render, states: int) -> PinFunction:

@@ -31,7 +31,9 @@ from gudgeon.generator.targets.latex.render import render
 from gudgeon.language.plot_units import pretty
 from gudgeon.language.units import si_unit
 
-_ROLES: Mapping[str, str] = {"normal": "the normal force", "friction": "dry friction", "film": "the oil film"}
+_ROLES: Mapping[str, str] = {
+    "normal": "the normal force", "friction": "dry friction", "film": "the oil film", "mixed": "mixed lubrication",
+}  # fmt: skip
 GIVEN = "given"  # what is chosen of a number that may be left out
 # What a law is given and gives: meaning, SI unit.
 _MEANINGS: Mapping[str, tuple[str, str]] = {
@@ -45,6 +47,7 @@ _MEANINGS: Mapping[str, tuple[str, str]] = {
     "w_t": ("the same along t", "1/s"),
     "F_r": ("force on the journal along n, from the bearing's centre to the journal's", "N"),
     "F_t": ("force on the journal along t, n turned by +90°", "N"),
+    "share": ("share of the dry contact in force and moments; the rest is the film's", "-"),
     "T0": ("shear torque by the difference of the angular velocities", "N·m·s"),
     "R_i": ("radius of the bearing", "m"), "R_j": ("radius of the journal", "m"),
     "c": ("radial clearance", "m"), "L": ("length of the bearing", "m"),
