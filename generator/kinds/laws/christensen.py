@@ -4,8 +4,8 @@
 
 b is the share of the area in which the heights of both surfaces overlap, for Christensen's density of heights, which is
 nearly a normal one and ends at ±3 σ. With x = 1 − δ/(6σ) it is 1 − x⁴ (35 − 84 x + 70 x² − 20 x³): from 0 at Λ = 3
-to 1 at Λ = −3, three times differentiable at both; the film's share is exact where it is small and the film steep. The contact's force is that of its own laws, the film's that of its
-own, so that what only dissipates does so together.
+to 1 at Λ = −3, three times differentiable at both; the film's share is exact where it is small and the film steep.
+The contact's force is that of its own laws, the film's that of its own: what only dissipates does so together.
 H. Christensen, Proc. Instn Mech. Engrs 184 (1969) 1013–1026 (heights), 186 (1972) 421–430 (the share of the area).
 """
 

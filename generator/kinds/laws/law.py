@@ -60,6 +60,8 @@ RESULTS: Mapping[str, tuple[str, ...]] = {
 }  # fmt: skip
 # What a mixed law may derive: the film's clearance, between the mean surfaces.
 MEAN_CLEARANCE = "mean_clearance"
+# What a normal law may derive: the penetration (m) beyond which it is none, where a run stops.
+DEEPEST = "deepest"
 
 
 @dataclass(frozen=True)

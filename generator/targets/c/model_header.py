@@ -12,6 +12,7 @@ from gudgeon.generator.equations.events import SIGNS
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.notes import has_jumps
 from gudgeon.generator.equations.play import Clearance
+from gudgeon.generator.kinds.laws.law import DEEPEST
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.kernels import outputs
 from gudgeon.generator.kernels.closed_linkage import apart_rows
@@ -146,8 +147,9 @@ def watched_corners(program: Program) -> list[int]:
 
 
 def deepest(clearance: Clearance) -> sp.Expr:
-    """The penetration beyond which contact laws mean nothing: a tenth of the bearing's radius."""
-    return sp.sympify(clearance.pair.R_i) / 10
+    """The penetration beyond which contact laws mean nothing: a tenth of the bearing's radius, or a law's own."""
+    tenth = sp.sympify(clearance.pair.R_i) / 10
+    return sp.Min(clearance.constants[DEEPEST], tenth) if DEEPEST in clearance.constants else tenth
 
 
 def _largest_block(program: Program) -> int:
@@ -231,8 +233,11 @@ def of_joints(model: Model) -> list[tuple[str, str, list[str]]]:
         "slowest_impact": [c.velocity_floor for c in model.clearances],
     }
     read = {s: sp.Symbol(info.home) for s, info in model.symbols.info.items() if info.home}
+    told = dict(_OF_JOINTS)
+    if any(DEEPEST in c.constants for c in model.clearances):
+        told["deepest"] = told["deepest"].replace("radius.", "radius, or a law's own.")
     return [
-        (_OF_JOINTS[name], name, [printer.expression(sp.sympify(x).xreplace(read)) for x in some])
+        (told[name], name, [printer.expression(sp.sympify(x).xreplace(read)) for x in some])
         for name, some in values.items()
     ]
 
