@@ -67,6 +67,9 @@ def _contact(reader: Reader, name: Text, node: Map) -> Contact:
         if role in node:
             with reader.collect():
                 uses[role] = _law_use(reader, f"{address}.{role}", role, node[role])
+    if uses["normal"] and uses["friction"] and uses["normal"].options.get("pulls") is True:
+        hint = "expected one: friction of a force that pulls would drive the slip"
+        raise BadValueError(f"contact {name} has friction, and a normal law that pulls", node["friction"].where, hint)
     own = read_fields(reader, node, CONTACT.fields, Around(address))
     clip = own.options.get("clip_ratio", False) is True
     transition, floor = own.quantities.get("transition"), own.quantities.get("velocity_floor")

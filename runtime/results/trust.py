@@ -23,7 +23,10 @@ if TYPE_CHECKING:
 
 SQUEEZE = 0.5  # of the mean rate of both surfaces: faster squeezing is not what a half film holds for
 OFF = 0.02  # of the joints' work: a quadrature that misses more of it is told
-_LAW = re.compile(r"/\*\n \* (?P<title>[^\n]*)\.\n \* Source: (?P<source>[^\n]*)\.\n \* Valid: (?P<valid>[^\n]*)\.\n")
+_COMMENT = re.compile(r"/\*\n(.*?)\n \*/", re.DOTALL)
+_LAW = re.compile(
+    r"(?P<title>.*?)\. Source: (?P<source>.*?)\. Valid: (?P<valid>.*?)\.(?: Options: (?P<options>.*?)\.)?(?: |$)"
+)
 NOT_ASKED = "not asked for: gudgeon run --report, or gudgeon.examine(simulation, run, ideal)"
 
 
@@ -164,11 +167,12 @@ def _trust(run: Result) -> dict[str, Any]:
 
 
 def laws_of(source: KernelSource) -> list[dict[str, str]]:
-    """Title, source and validity of each law of contact, friction and film, as its C says them."""
-    found: dict[str, dict[str, str]] = {}
-    for text in (text for name, text in source.files.items() if name == "clearance.c"):
-        for law in _LAW.finditer(text):
-            found.setdefault(law["title"], law.groupdict())
+    """Title, source, validity and options of each law of contact, friction and film, as its C says them."""
+    found: dict[tuple[str, str], dict[str, str]] = {}
+    for comment in _COMMENT.findall(source.files.get("clearance.c", "")):
+        if law := _LAW.match(" ".join(line.strip(" *") for line in comment.splitlines())):
+            told = law.groupdict("")
+            found.setdefault((told["title"], told["options"]), told)
     return list(found.values())
 
 

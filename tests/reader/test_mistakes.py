@@ -113,6 +113,7 @@ MISTAKES: list[tuple[str, type[InputError], int, int]] = [
     ("start_play_unknown_joint", UnknownNameError, 20, 10),
     ("start_play_unknown_key", UnknownKeyError, 20, 14),
     ("start_play_wrong_unit", UnitError, 20, 40),
+    ("pulls_with_friction", BadValueError, 25, 15),
     ("start_unknown_coordinate", UnknownNameError, 19, 14),
     ("step_zero", BadValueError, 30, 34),
     ("string_in_expression", ExpressionError, 17, 37),

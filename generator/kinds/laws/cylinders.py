@@ -2,7 +2,7 @@
 
     δ = u (ln(4 ΔR/u) + k),   u = F/(π L E*),   1/E* = (1 − ν_i²)/E_i + (1 − ν_j²)/E_j,   ΔR = R_i − R_j = c
 
-The root of small loads is u = δ/p with p − ln p = ln(4 ΔR/δ) + k, p > 1: p = −W₋₁(−δ e^{−k}/(4 ΔR)), Lambert's function.
+The root of small loads: u = δ/p with p − ln p = ln(4 ΔR/δ) + k, p > 1, by Lambert's function −W₋₁(−δ e^{−k}/(4 ΔR)).
 It ends at p = 1, where the load grows without penetration: δ = 4 ΔR e^{k−1}. Three of Newton's steps from a start that
 is within .8 % leave rounding.
 R. M. Corless et al., Adv. Comput. Math. 5 (1996) 329–359, for W; the bounds of I. Chatzigeorgiou, IEEE Commun. Lett. 17
@@ -14,7 +14,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import Bound, Field, number, word
-from gudgeon.generator.kinds.laws.dissipation import DAMPINGS, hysteresis
+from gudgeon.generator.kinds.laws.dissipation import DAMPINGS, PULLS, hysteresis
 from gudgeon.generator.kinds.laws.elastic_pair import contact_modulus
 from gudgeon.generator.kinds.laws.law import DEEPEST, LawInputs
 from gudgeon.language.units import DIMENSIONLESS
@@ -25,6 +25,7 @@ FIELDS: tuple[Field, ...] = (
         symbol="c_e", default=1.0, bounds=(Bound(">", 0.0), Bound("<=", 1.0)),
     ),
     word("dissipation", "whose hysteresis damping factor", DAMPINGS, "hunt_crossley"),
+    PULLS,
 )  # fmt: skip
 STEPS = 3  # of Newton's method
 _NEVER = 1e-150  # of 4 ΔR, below every penetration: ln is finite at δ = 0

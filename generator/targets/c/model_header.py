@@ -12,13 +12,13 @@ from gudgeon.generator.equations.events import SIGNS
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.notes import has_jumps
 from gudgeon.generator.equations.play import Clearance
-from gudgeon.generator.kinds.laws.law import DEEPEST
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.kernels import outputs
 from gudgeon.generator.kernels.closed_linkage import apart_rows
 from gudgeon.generator.kernels.event_functions import ranges_kernel, reads_state
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kernels.time_terms import count_terms
+from gudgeon.generator.kinds.laws.law import DEEPEST
 from gudgeon.generator.solvers.kkt import EARLY, KKT, NEARLY_SINGULAR, SINGULAR, VANISHING
 from gudgeon.generator.solvers.square_rows import SHARE
 from gudgeon.generator.symbols.periods import PeriodsOf

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.ir.statements import Line, Statement
+from gudgeon.generator.kernels.laws import law_doc
 from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.targets.c import functions
@@ -61,7 +61,8 @@ def pin_functions(pin: Pin, render: Render, states: int) -> Iterator[PinFunction
         yield _film(pin, render, states)
     text = render(
         _template(pin), joint=joint, arguments=_ARGUMENTS, gap=_lines(pin.gap), share=_lines(pin.share),
-        store=_store(clearance, states), told=_shared_by(clearance), first=pin.corners.start, last=pin.corners.stop,
+        store=_store(clearance, states), told=_shared_by(clearance),
+        law=_law_of_share(clearance), first=pin.corners.start, last=pin.corners.stop,
     )  # fmt: skip
     stores: Stores = [*functions.one_by_one(pin.gap), *functions.one_by_one(pin.share)]
     stores += [(_BLENDED.format(one), f"F.{one}") for one in ("n", "t", "M_i", "M_j") if pin.has_transition]
@@ -75,10 +76,15 @@ def _shared_by(clearance: Clearance) -> str:
             "film for e < c, dry contact for e > c + e_0, a linear blend between them\n"
             " * (the paper's Eq. 17); a step holds what it began with."
         )
-    law = clearance.mixed.law
-    told = f"film for e < c; beyond, the dry contact has the share of a law of mixed lubrication. {law.title}."
-    words = textwrap.wrap(f"Joint {clearance.name}: {told} Source: {law.source}. A step holds what it began with.", 110)
-    return "\n * ".join(words).removeprefix(f"Joint {clearance.name}: ")
+    return (
+        "film for e < c; beyond, the dry contact has the share that the law above says;\n"
+        " * a step holds what it began with."
+    )
+
+
+def _law_of_share(clearance: Clearance) -> str:
+    """The comment on a law of mixed lubrication, which is no function of its own; "" where there is none."""
+    return functions.comment(law_doc(clearance.mixed)) if clearance.mixed else ""
 
 
 def _dry(pin: Pin, render: Render, states: int) -> PinFunction:

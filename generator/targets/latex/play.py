@@ -30,7 +30,8 @@ LAW_LETTERS = {
     "root": letter("s"), "factor": letter("f"), "hysteresis": letter("a"), "film_clearance": letter("c", "film"),
     "friction_slope": letter("kappa"), "shear": letter("D", "0"), "T0": letter("D"),
     "spring": letter("K"), "damper": letter("D"), "mean_clearance": letter("c", "mean"), "share": letter("b"),
-    "overlap": letter("l"), "deepest": letter("delta", "max"), "scale": letter("l"), "part": letter("y"), "left": letter("x"),
+    "overlap": letter("l"), "deepest": letter("delta", "max"), "scale": letter("l"), "part": letter("y"),
+    "left": letter("x"),
 }  # fmt: skip
 _PAIR = (
     ("radius", "R_i", "bearing radius"),
