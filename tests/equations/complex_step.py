@@ -66,7 +66,7 @@ class ComplexStep:
         self._slips = [
             self.function([
                 *(friction.jacobian.get(q, sp.Integer(0)) for q in model.q), friction.gamma, friction.slip.v,
-                friction.slip.speed, friction.slip.kinetic,
+                friction.slip.speed, friction.slip.kinetic_at(friction.slip.v),
             ])
             for friction in model.frictions
         ]  # fmt: skip
