@@ -79,7 +79,8 @@ def test_slope_by_the_implicit_function_theorem(law: str) -> None:
             load = root(law, depth * PAIR.c)
             want = 1 / mp.diff(lambda x: printed(law, x), load)
             assert float(slopes[sp.Symbol("F_n", real=True)]) == pytest.approx(float(want), rel=1e-8)
-            known.clear(), slopes.clear()
+            known.clear()
+            slopes.clear()
 
 
 @needs_compiler
