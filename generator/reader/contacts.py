@@ -70,6 +70,9 @@ def _contact(reader: Reader, name: Text, node: Map) -> Contact:
     if uses["normal"] and uses["friction"] and uses["normal"].options.get("pulls") is True:
         hint = "expected one: friction of a force that pulls would drive the slip"
         raise BadValueError(f"contact {name} has friction, and a normal law that pulls", node["friction"].where, hint)
+    if uses["mixed"] and uses["film"] and uses["film"].options.get("as_printed") is True:
+        hint = "expected one: a film as printed drives what it should damp, and goes with the paper's transition alone"
+        raise BadValueError(f"contact {name} has a film as printed, and mixed lubrication", node["mixed"].where, hint)
     own = read_fields(reader, node, CONTACT.fields, Around(address))
     clip = own.options.get("clip_ratio", False) is True
     transition, floor = own.quantities.get("transition"), own.quantities.get("velocity_floor")

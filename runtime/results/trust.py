@@ -78,6 +78,7 @@ def _joint(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
     peak, c = run.diagnostics.peak(joint.name), float(run.p[joint.clearance])
     own = run.impacts[run.impacts["joint"] == k]
     examined, deepest = _examined(run, joint.name), peak.e_max - c
+    between = float(run.p[joint.constants.get("mean_clearance", joint.clearance)])  # rough surfaces: their means
     found = {
         "c": c, "time": _shares(run, k, joint, own), "contacts": len(own),
         "still_closed": int(np.isnan(own["t_off"]).sum()), "approach": _spread(own["deltadot"]),
@@ -85,7 +86,7 @@ def _joint(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
         "rms_of": "samples", "ideal": None, "largest_e": peak.e_max,
         "penetration": max(deepest, 0.0) if joint.dry else math.nan,
         "penetration_share": max(deepest, 0.0) / c if joint.dry else math.nan,
-        "film_least": max(-deepest, 0.0) if joint.film else math.nan, "work": None,
+        "film_least": max(between - peak.e_max, 0.0) if joint.film else math.nan, "work": None,
     }  # fmt: skip
     if examined is not None:
         names = ("min", "q1", "median", "q3", "max")

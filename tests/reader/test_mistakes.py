@@ -83,6 +83,7 @@ MISTAKES: list[tuple[str, type[InputError], int, int]] = [
     ("name_of_a_function", BadNameError, 32, 11),
     ("name_reserved", BadNameError, 17, 3),
     ("negative_mass", BadValueError, 11, 30),
+    ("mixed_with_printed_film", BadValueError, 26, 99),
     ("mixed_without_film", MissingKeyError, 26, 30),
     ("no_bodies", MissingKeyError, 1, 1),
     ("not_a_mapping", NotYamlError, 1, 1),
