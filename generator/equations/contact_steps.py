@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import sympy as sp
 
 from gudgeon.generator.equations.play import Clearance, LawEquations
+from gudgeon.generator.kinds.laws.law import MEAN_CLEARANCE
 
 EPSILON_MAX = 0.9999  # the film is evaluated with its eccentricity ratio capped here
 
@@ -30,6 +31,7 @@ def _symbol(name: str) -> sp.Symbol:
 e_x, e_y, de_x, de_y, omega_i, omega_j = map(_symbol, ("e_x", "e_y", "de_x", "de_y", "omega_i", "omega_j"))
 e, n_x, n_y, delta, deltadot, de_t = map(_symbol, ("e", "n_x", "n_y", "delta", "deltadot", "de_t"))
 stored, ratio, a_i, a_j, v_t = map(_symbol, ("stored", "ratio", "a_i", "a_j", "v_t"))
+depth = _symbol("depth")  # what a law of the dry contact is given for δ
 epsilon, w_n, w_t, share = map(_symbol, ("epsilon", "w_n", "w_t", "share"))
 F_along_n, F_along_t, F_x, F_y, M_i, M_j = map(_symbol, ("F_along_n", "F_along_t", "F_x", "F_y", "M_i", "M_j"))
 
@@ -74,7 +76,7 @@ def after_dry() -> list[Step]:
 
 def before_film(clearance: Clearance, film: LawEquations) -> list[Step]:
     """Eccentricity ratio and the effective squeeze velocity over the film's clearance."""
-    c = clearance.constants.get("film_clearance", clearance.pair.c)
+    c = clearance.constants.get("film_clearance", clearance.constants.get(MEAN_CLEARANCE, clearance.pair.c))
     turning = omega_j - omega_i if film.options.get("angular_velocity") == "relative" else omega_i + omega_j
     return [
         Step(epsilon, sp.Min(e / c, sp.Float(EPSILON_MAX))),
@@ -95,13 +97,17 @@ def after_film(film: LawEquations) -> list[Step]:
     ]
 
 
-def blend(clearance: Clearance, closed: bool = False) -> Step:
-    """The share of the dry contact: 0 at e = c, 1 at e = c + e_0 (the paper's Eq. 17).
+def blend(clearance: Clearance, closed: bool = False) -> list[Step]:
+    """The share of the dry contact: 0 at e = c, 1 at e = c + e_0 (the paper's Eq. 17), or by a law of sharing.
 
-    Of a `closed` contact: without the corner at e = c, which closing and opening it stand for.
+    Of a `closed` contact: without the corner at e = c, which closing and opening it stand for. A law of sharing is
+    given `depth`, for it need not be a number at δ < 0, where a step may look that ends at the separation.
     """
+    if clearance.mixed is not None:
+        own = {delta: depth if closed else sp.Max(0, delta)}
+        return [Step(_symbol(name), sp.sympify(x).xreplace(own)) for name, x in clearance.mixed.steps.items()]
     of_closed = sp.Min(1, delta / clearance.transition)
-    return Step(share, of_closed if closed else sp.Max(0, of_closed))
+    return [Step(share, of_closed if closed else sp.Max(0, of_closed))]
 
 
 def resultant(clearance: Clearance) -> list[Step]:
@@ -110,7 +116,7 @@ def resultant(clearance: Clearance) -> list[Step]:
     normal, radial = -_symbol("F_n"), _symbol("F_r")
     steps: list[Step] = []
     if dry and film:
-        steps.append(blend(clearance))
+        steps += blend(clearance) if clearance.mixed is None else []  # a law is told by itself
         mixed = {s: (of_part(s, "dry"), of_part(s, "film")) for s in (F_along_t, M_i, M_j)}
         mixed = {F_along_n: (normal, radial), **mixed}
         steps += [Step(s, share * of_dry + (1 - share) * of_film) for s, (of_dry, of_film) in mixed.items()]

@@ -33,7 +33,8 @@ _VARIABLES: Mapping[str, Dimension] = {
     "delta": LENGTH, "ratio": DIMENSIONLESS, "deltadot": VELOCITY, "F_n": FORCE, "v_t": VELOCITY,
     "epsilon": DIMENSIONLESS, "w_n": RATE, "w_t": RATE,
 }  # fmt: skip
-_RESULTS: Mapping[str, Dimension] = {"F_n": FORCE, "F_t": FORCE, "F_r": FORCE, "T0": TORQUE * TIME}
+_RESULTS: Mapping[str, Dimension] = {"F_n": FORCE, "F_t": FORCE, "F_r": FORCE, "T0": TORQUE * TIME,
+                                    "share": DIMENSIONLESS}  # fmt: skip
 _PAIR: Mapping[str, Dimension] = {"E_i": PRESSURE, "E_j": PRESSURE, "nu_i": DIMENSIONLESS, "nu_j": DIMENSIONLESS}
 _SAME = (sp.Abs, sp.Max, sp.Min)  # of their arguments' one dimension; what is none of these has pure arguments
 _RATIO = (sp.sign, sp.atan2)  # of any one dimension, and a pure number

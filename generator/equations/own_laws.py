@@ -38,8 +38,7 @@ def own_letters(scene: Scene) -> frozenset[str]:
     """
     found: set[str] = set()
     for play in scene.play.values():
-        uses = (play.contact.normal, play.contact.friction, play.contact.film)
-        some = [(laws()[use.law], use) for use in uses if use is not None]
+        some = [(laws()[use.law], use) for use in play.contact.laws]
         if any(law.name in OWN for law, _ in some):
             names = {law.name: _Names(law, use) for law, use in some}
             for law, use in (one for one in some if one[0].name in OWN):
@@ -107,6 +106,9 @@ def check_numbers(law: Law, variables: tuple[sp.Symbol, ...], steps: Mapping[str
                                for s, x in zip(variables, state, strict=True))  # fmt: skip
                 told = f"{_whose(law)}{name} is {values[-1]:g} at {at}"
                 raise LawError(f"{told}, with the file's numbers", hint="expected a finite real number there")
+            if name == "share" and not (0.0 <= values[-1] <= 1.0 and (state[0] > 0.0 or values[-1] == 0.0)):
+                told = f"{_whose(law)}share is {values[-1]:g} at δ = {state[0]:g} m"
+                raise LawError(told, hint="expected a number between 0 and 1, and 0 at δ = 0, where film alone ends")
 
 
 def _constants(steps: Mapping[str, sp.Expr], slots: Slots) -> set[sp.Symbol]:

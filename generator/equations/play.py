@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import sympy as sp
@@ -12,7 +12,7 @@ from gudgeon.generator.equations.geometry import Geometry, PointFrame
 from gudgeon.generator.equations.loads import PointLoad
 from gudgeon.generator.equations.own_laws import check_numbers
 from gudgeon.generator.kinds.laws.built import build
-from gudgeon.generator.kinds.laws.law import FURTHER, OWN, Law, LawInputs, PairSymbols, State, laws
+from gudgeon.generator.kinds.laws.law import FURTHER, MEAN_CLEARANCE, OWN, Law, LawInputs, PairSymbols, State, laws
 from gudgeon.generator.mechanism.mechanism import Bearing, Joint, LawUse, Play
 from gudgeon.generator.symbols.numbers import Slots
 from gudgeon.generator.symbols.wholes import Whole
@@ -37,7 +37,6 @@ class LawEquations:
     numbers: Mapping[str, sp.Expr]
     derived: Mapping[str, sp.Expr]
 
-
     @property
     def further(self) -> tuple[str, ...]:
         """What it reads besides what all of its role do."""
@@ -57,9 +56,15 @@ class Clearance:
     friction: LawEquations | None
     film: LawEquations | None
     transition: sp.Expr | None
+    mixed: LawEquations | None  # of mixed lubrication, in place of a transition
     velocity_floor: sp.Expr
     clip_ratio: bool
     constants: Mapping[str, sp.Expr]  # what a report prints: K, S, …
+
+    @property
+    def laws(self) -> tuple[LawEquations, ...]:
+        """The laws that it has."""
+        return tuple(law for law in (self.normal, self.friction, self.film, self.mixed) if law is not None)
 
     @property
     def states(self) -> tuple[State, ...]:
@@ -96,11 +101,12 @@ def make_clearance(joint: Joint, play: Play, geometry: Geometry, slots: Slots) -
         constants[name] = slots.derive(wanted, expression, meaning)
         return constants[name]
 
-    def law(use: LawUse | None, role: str) -> LawEquations | None:
-        return None if use is None else _law(use, pair, slots, derive)
+    def law(use: LawUse | None, of: PairSymbols = pair) -> LawEquations | None:
+        return None if use is None else _law(use, of, slots, derive)
 
     contact = play.contact
-    normal, friction, film = law(contact.normal, "normal"), law(contact.friction, "friction"), law(contact.film, "film")
+    normal, friction, mixed = law(contact.normal), law(contact.friction), law(contact.mixed)
+    film = law(contact.film, replace(pair, c=constants.get(MEAN_CLEARANCE, pair.c)))
     floor = (
         slots.use(contact.velocity_floor)
         if contact.velocity_floor
@@ -110,7 +116,7 @@ def make_clearance(joint: Joint, play: Play, geometry: Geometry, slots: Slots) -
     constants["c"], constants["R_i"], constants["R_j"] = pair.c, pair.R_i, pair.R_j
     return Clearance(
         joint.name, joint, geometry.point(joint.first), geometry.point(joint.second),
-        pair, normal, friction, film, transition, floor, contact.clip_ratio, constants,
+        pair, normal, friction, film, transition, mixed, floor, contact.clip_ratio, constants,
     )  # fmt: skip
 
 

@@ -179,6 +179,7 @@ CONTACT = record(
     _law("normal", "law of the normal force"),
     _law("friction", "law of dry friction"),
     _law("film", "law of the oil film"),
+    _law("mixed", "law of mixed lubrication: how film and dry contact share the load; in place of transition"),
     number(
         "transition", "length over which the film hands over to the dry contact; where there are both", LENGTH,
         bounds=(Bound(">", 0.0, "the width of a transition is positive"),),

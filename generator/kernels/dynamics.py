@@ -127,7 +127,7 @@ def _slips(model: Model, build: KernelBuilder, kkt: KKT, forces: list[sp.Expr]) 
         name, node = friction.name, kkt.first_friction + r
         v = build.local(f"slip_{name}", friction.slip.v)
         kkt.sticks[node], sign = friction_mode(build, name, r)
-        force = build.local(f"kinetic_{name}", -sign * friction.slip.kinetic)
+        force = build.local(f"kinetic_{name}", -sign * friction.slip.kinetic_at(v))
         for q, entry in friction.jacobian.items():
             forces[place[q]] += entry * force
         rhs[node] = build.local(f"rhs_{name}", friction.gamma - two_alpha * v)

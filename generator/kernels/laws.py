@@ -45,7 +45,7 @@ def _law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> 
     """Abbreviations become locals, results `*F_…` pointers; the law says its source and validity."""
     law = equations.law
     results = law.results
-    build = KernelBuilder(model.symbols, law_name(equations), _doc(equations))
+    build = KernelBuilder(model.symbols, law_name(equations), law_doc(equations))
     build.section("")
     for name, equation in equations.steps.items():
         value = hoisted(model.slots, sp.sympify(equation))
@@ -60,7 +60,8 @@ def _law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> 
     return with_reciprocals(kernel)
 
 
-def _doc(equations: LawEquations) -> list[str]:
+def law_doc(equations: LawEquations) -> list[str]:
+    """What a comment says of a law: title, source, validity, options."""
     law = equations.law
     chosen = [f"{name}: {value}" for name, value in equations.options.items()]
     return [

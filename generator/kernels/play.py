@@ -16,7 +16,7 @@ from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Chosen, Test
 from gudgeon.generator.kernels.laws import law_calls, law_name
 from gudgeon.generator.kernels.shared import SharedCall, SharedFunctions, joint_numbers
-from gudgeon.generator.solvers.contact_slopes import dry_slopes, film_slopes, in_place, share_slope, unlatched
+from gudgeon.generator.solvers.contact_slopes import DEEP, dry_slopes, film_slopes, in_place, share_slope, unlatched
 
 Statements = tuple[Statement, ...]
 # At e = 0 any direction will do for the normal: the force is isotropic there.
@@ -68,7 +68,7 @@ def make_pin(model: Model, clearance: Clearance, shared: SharedFunctions) -> Pin
         parts["after_film"] = held(contact.after_film(film))
     gap = held(contact.gap(clearance))
     if film is not None and clearance.normal is not None:
-        parts["share"] = held([contact.blend(clearance, closed=True)])
+        parts["share"] = (*((DEEP,) if clearance.mixed else ()), *held(contact.blend(clearance, closed=True)))
     numbers = [switch.index for switch in model.symbols.switches.of(name)]
     corners = range(min(numbers, default=0), max(numbers, default=-1) + 1)
     return Pin(clearance, laws, gap, corners=corners, **parts)
@@ -100,5 +100,5 @@ def pin_slopes(model: Model, clearance: Clearance, shared: SharedFunctions) -> d
 
 
 def _slope_name(clearance: Clearance, part: str) -> str:
-    laws = {"film": [clearance.film], "dry": [clearance.normal, clearance.friction], "share": []}[part]
+    laws = {"film": [clearance.film], "dry": [clearance.normal, clearance.friction], "share": [clearance.mixed]}[part]
     return "_".join([f"{part}_slopes", *(law_name(law) for law in laws if law)])

@@ -69,7 +69,7 @@ class SharedFunctions:
 
 def joint_numbers(model: Model, clearance: Clearance) -> dict[str, str]:
     """What fields of Parameters are called in the equations of a joint with play, those of its laws first."""
-    laws = [law for law in (clearance.normal, clearance.friction, clearance.film) if law]
+    laws = clearance.laws
     named = [(name, value) for law in laws for name, value in law.numbers.items()]
     pair = clearance.pair
     named += [(name, getattr(pair, name)) for name in ("R_i", "R_j", "c", "L", "E_i", "nu_i", "E_j", "nu_j")]

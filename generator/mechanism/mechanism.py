@@ -188,7 +188,7 @@ class LawUse:
 
 @dataclass(frozen=True)
 class Contact:
-    """What happens between journal and bearing: dry laws, a film, the width of the transition."""
+    """What happens between journal and bearing: dry laws, a film, and between both a transition or a law of sharing."""
 
     name: str
     normal: LawUse | None
@@ -197,6 +197,12 @@ class Contact:
     transition: Quantity | None
     clip_ratio: bool = False  # clip δ̇/δ̇⁻ to [−1, 1] (physics.md, section 3)
     velocity_floor: Quantity | None = None  # least δ̇⁻ that an onset stores
+    mixed: LawUse | None = None
+
+    @property
+    def laws(self) -> tuple[LawUse, ...]:
+        """The laws that it has."""
+        return tuple(use for use in (self.normal, self.friction, self.film, self.mixed) if use is not None)
 
 
 @dataclass(frozen=True)

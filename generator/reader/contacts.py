@@ -67,10 +67,16 @@ def _contact(reader: Reader, name: Text, node: Map) -> Contact:
         if role in node:
             with reader.collect():
                 uses[role] = _law_use(reader, f"{address}.{role}", role, node[role])
+    if uses["normal"] and uses["friction"] and uses["normal"].options.get("pulls") is True:
+        hint = "expected one: friction of a force that pulls would drive the slip"
+        raise BadValueError(f"contact {name} has friction, and a normal law that pulls", node["friction"].where, hint)
+    if uses["mixed"] and uses["film"] and uses["film"].options.get("as_printed") is True:
+        hint = "expected one: a film as printed drives what it should damp, and goes with the paper's transition alone"
+        raise BadValueError(f"contact {name} has a film as printed, and mixed lubrication", node["mixed"].where, hint)
     own = read_fields(reader, node, CONTACT.fields, Around(address))
     clip = own.options.get("clip_ratio", False) is True
     transition, floor = own.quantities.get("transition"), own.quantities.get("velocity_floor")
-    return Contact(str(name), uses["normal"], uses["friction"], uses["film"], transition, clip, floor)
+    return Contact(str(name), uses["normal"], uses["friction"], uses["film"], transition, clip, floor, uses["mixed"])
 
 
 def _check_parts(name: Text, node: Map) -> None:
@@ -78,19 +84,23 @@ def _check_parts(name: Text, node: Map) -> None:
     if "normal" not in node and "film" not in node:
         raise MissingKeyError(f"contact {name} has no law", name.where, "expected normal: or film:, or both")
     if "normal" not in node:
-        for part in ("friction", "transition", "velocity_floor", "clip_ratio"):
+        for part in ("friction", "mixed", "transition", "velocity_floor", "clip_ratio"):
             if part in node:
                 message = f"contact {name} has {part} but no normal law"
                 raise MissingKeyError(message, node[part].where, "expected the key 'normal'")
-    if "normal" in node and "film" in node and "transition" not in node:
+    if "transition" in node and "mixed" in node:
+        hint = "expected one: a length over which the film hands over, or a law by which film and contact share"
+        raise BadValueError(f"contact {name} has both transition and mixed", node.key("mixed").where, hint)
+    if "normal" in node and "film" in node and not ("transition" in node or "mixed" in node):
         hint = (
-            "expected the key 'transition': the length over which the film hands over to the dry contact, such as 5 um"
+            "expected the key 'transition': the length over which the film hands over to the dry contact, such as 5 um;"
+            " or 'mixed': a law of mixed lubrication"
         )
         raise MissingKeyError(f"contact {name} has no transition", name.where, hint)
-    if "transition" in node and "film" not in node:
-        raise MissingKeyError(
-            f"contact {name} has a transition but no film", node["transition"].where, "expected the key 'film'"
-        )
+    for part, called_so in (("transition", "a transition"), ("mixed", "mixed lubrication")):
+        if part in node and "film" not in node:
+            message = f"contact {name} has {called_so} but no film"
+            raise MissingKeyError(message, node[part].where, "expected the key 'film'")
 
 
 def _law_use(reader: Reader, address: str, role: str, node: Map) -> LawUse:

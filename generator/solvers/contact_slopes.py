@@ -22,9 +22,9 @@ from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Chosen, Test
 
 INPUTS = (contact.e, contact.deltadot, contact.de_t, contact.omega_i, contact.omega_j)
-DEPTH = sp.Symbol("depth", real=True)  # what the normal law is given for δ
 UNCLIPPED = sp.Symbol("unclipped", real=True)
 _DEEP = Test(contact.delta, ">", (0.0,))
+DEEP = Statement(contact.depth.name, Chosen(_DEEP, contact.delta, ZERO))
 _CLOSED = Test(sp.Symbol("latch->closed", real=True))
 _STORED = sp.Symbol("latch->deltadot_minus", real=True)
 _ARGUMENTS = (
@@ -101,8 +101,8 @@ def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kern
     build, tangents = slopes.build, slopes.tangents
     slopes.section("penetration, ratio of velocities, slip")
     slopes.step(contact.gap(clearance)[3])
-    build.line(Statement(DEPTH.name, sp.Max(contact.delta, 0)))
-    tangents.know(DEPTH, {contact.e: build.local("depth_by_e", Chosen(_DEEP, sp.Integer(1), ZERO))})
+    build.line(Statement(contact.depth.name, sp.Max(contact.delta, 0)))
+    tangents.know(contact.depth, {contact.e: build.local("depth_by_e", Chosen(_DEEP, sp.Integer(1), ZERO))})
     ratio = UNCLIPPED if clearance.clip_ratio else contact.ratio
     build.line(Statement(ratio.name, Chosen(_CLOSED, contact.deltadot / _STORED, sp.Integer(1))))
     slope = build.local("ratio_by_deltadot", Chosen(_CLOSED, 1 / _STORED, ZERO))
@@ -111,7 +111,7 @@ def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kern
         slopes.step(unlatched(step))
     slopes.section("contact")
     further = [sp.Symbol(name, real=True) for name in normal.further]  # inputs of this function as well
-    F_n = slopes.law(normal, (DEPTH, contact.ratio, *further))["F_n"]
+    F_n = slopes.law(normal, (contact.depth, contact.ratio, *further))["F_n"]
     tangential = contact.of_part(contact.F_along_t, "dry")
     if clearance.friction is not None:
         states = [sp.Symbol(f"latch->state[{k}]", real=True) for k in range(len(clearance.states))]  # as they are
@@ -143,7 +143,15 @@ def share_slope(model: Model, clearance: Clearance) -> Kernel:
     ])  # fmt: skip
     tangents = Tangents(model.symbols, build, (contact.delta,), clearance.name)
     build.section("share")
-    value = in_place(model, contact.blend(clearance, closed=True).value)
+    if clearance.mixed is not None:
+        build.line(DEEP)
+        tangents.know(contact.depth, {contact.delta: build.local("depth_by_delta", Chosen(_DEEP, sp.Integer(1), ZERO))})
+    *before, last = contact.blend(clearance, closed=True)
+    for step in before:
+        value = in_place(model, step.value)
+        build.line(Statement(step.symbol.name, tangents.held(value)))
+        tangents.know(step.symbol, tangents.gradient(value, step.symbol))
+    value = in_place(model, last.value)
     build.out("out[0]", tangents.held(value))
     build.out("out[1]", tangents.gradient(value).get(contact.delta, ZERO))
     arguments = (Argument("double", "delta"), PARAMETERS, *SIDES, Argument("double *", "out"))

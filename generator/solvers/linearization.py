@@ -172,6 +172,7 @@ class Linearization:
             force = build.local(f"held_force_{name}", held)
             self.sticks.append(stick)
             self._phi_q(node, friction.jacobian)
+            kinetic = friction.slip.kinetic_at(friction.slip.v)
             row = sum((entry * self.a[self.q[q]] for q, entry in friction.jacobian.items()), -friction.gamma)
             self._split(node, row + two_alpha * friction.slip.v, 1)
             for q, entry in friction.jacobian.items():
@@ -179,8 +180,8 @@ class Linearization:
                 left = self.parts.by_v.pop((node, k), ZERO) - two_alpha * entry  # V has no 2α Φ_q
                 if left := sp.expand(left):
                     self.parts.by_v[node, k] = left
-                residual[k] += entry * (sign * friction.slip.kinetic - force)
-            self._friction_power(node, friction, force - sign * friction.slip.kinetic, stick)
+                residual[k] += entry * (sign * kinetic - force)
+            self._friction_power(node, friction, force - sign * kinetic, stick)
 
     def _friction_power(self, node: int, friction: Friction, force: sp.Expr, stick: sp.Symbol) -> None:
         """Force times the velocity on which it acts; in stick the force is −λ."""

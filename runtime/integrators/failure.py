@@ -221,12 +221,16 @@ def film(compiled: CompiledModel, e_max: Array, p: Array) -> str:
 
 
 def _too_deep(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> SolverError:
-    """A journal a tenth of its bearing's radius or more inside the metal."""
-    deepest, name = max(
-        (float(e - p[joint.clearance]), joint.name) for joint, e in zip(compiled.source.clearances, e_max, strict=True)
+    """A journal a tenth of its bearing's radius or more inside the metal, or where its law of contact ends."""
+    _, deepest, own, name = max(
+        (depth / min(own, 0.1 * float(p[joint.constants["R_i"]])), depth, own, joint.name)
+        for joint, e in zip(compiled.source.clearances, e_max, strict=True)
+        for depth in [float(e - p[joint.clearance])]
+        for own in [float(p[joint.constants["deepest"]]) if "deepest" in joint.constants else np.inf]
     )
+    limit = f"{1e3 * own:.3g} mm, up to which its law of contact holds," if deepest > own else "a tenth of its radius,"
     error = SolverError(
-        f"the journal of {name} lies {1e3 * deepest:.3g} mm deep in its bearing, beyond a tenth of its radius, at"
+        f"the journal of {name} lies {1e3 * deepest:.3g} mm deep in its bearing, beyond {limit} at"
         f" t = {t:.9g} s\n"
         "  laws of contact and film hold for far less: a stiffer material, a thicker oil or less speed, and in rk4 a"
         " shorter step", t

@@ -23,7 +23,10 @@ if TYPE_CHECKING:
 
 SQUEEZE = 0.5  # of the mean rate of both surfaces: faster squeezing is not what a half film holds for
 OFF = 0.02  # of the joints' work: a quadrature that misses more of it is told
-_LAW = re.compile(r"/\*\n \* (?P<title>[^\n]*)\.\n \* Source: (?P<source>[^\n]*)\.\n \* Valid: (?P<valid>[^\n]*)\.\n")
+_COMMENT = re.compile(r"/\*\n(.*?)\n \*/", re.DOTALL)
+_LAW = re.compile(
+    r"(?P<title>.*?)\. Source: (?P<source>.*?)\. Valid: (?P<valid>.*?)\.(?: Options: (?P<options>.*?)\.)?(?: |$)"
+)
 NOT_ASKED = "not asked for: gudgeon run --report, or gudgeon.examine(simulation, run, ideal)"
 
 
@@ -75,6 +78,7 @@ def _joint(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
     peak, c = run.diagnostics.peak(joint.name), float(run.p[joint.clearance])
     own = run.impacts[run.impacts["joint"] == k]
     examined, deepest = _examined(run, joint.name), peak.e_max - c
+    between = float(run.p[joint.constants.get("mean_clearance", joint.clearance)])  # rough surfaces: their means
     found = {
         "c": c, "time": _shares(run, k, joint, own), "contacts": len(own),
         "still_closed": int(np.isnan(own["t_off"]).sum()), "approach": _spread(own["deltadot"]),
@@ -82,7 +86,7 @@ def _joint(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
         "rms_of": "samples", "ideal": None, "largest_e": peak.e_max,
         "penetration": max(deepest, 0.0) if joint.dry else math.nan,
         "penetration_share": max(deepest, 0.0) / c if joint.dry else math.nan,
-        "film_least": max(-deepest, 0.0) if joint.film else math.nan, "work": None,
+        "film_least": max(between - peak.e_max, 0.0) if joint.film else math.nan, "work": None,
     }  # fmt: skip
     if examined is not None:
         names = ("min", "q1", "median", "q3", "max")
@@ -164,11 +168,12 @@ def _trust(run: Result) -> dict[str, Any]:
 
 
 def laws_of(source: KernelSource) -> list[dict[str, str]]:
-    """Title, source and validity of each law of contact, friction and film, as its C says them."""
-    found: dict[str, dict[str, str]] = {}
-    for text in (text for name, text in source.files.items() if name == "clearance.c"):
-        for law in _LAW.finditer(text):
-            found.setdefault(law["title"], law.groupdict())
+    """Title, source, validity and options of each law of contact, friction and film, as its C says them."""
+    found: dict[tuple[str, str], dict[str, str]] = {}
+    for comment in _COMMENT.findall(source.files.get("clearance.c", "")):
+        if law := _LAW.match(" ".join(line.strip(" *") for line in comment.splitlines())):
+            told = law.groupdict("")
+            found.setdefault((told["title"], told["options"]), told)
     return list(found.values())
 
 

@@ -37,7 +37,9 @@ def sections(run: Result, found: Mapping[str, Any]) -> Iterator[Section]:
     trust = found["trust"]
     yield "How far to believe it", table(("", ""), trust_rows(trust)) + lines(trust["notes"], "g-quiet")
     yield "Laws", "".join(
-        f"<h3>{escape(visible(law['title']))}</h3>" + lines([f"Valid: {law['valid']}.", f"Source: {law['source']}."])
+        f"<h3>{escape(visible(law['title']))}</h3>"
+        + lines([*([f"Options: {law['options']}."] if law["options"] else []), f"Valid: {law['valid']}.",
+                 f"Source: {law['source']}."])
         for law in found["laws"]
     )
 
@@ -51,7 +53,8 @@ def as_text(found: Mapping[str, Any]) -> str:
     for heading, rows in parts:
         told += [heading] if heading and rows else []
         told += [f"  {name:<34}  {cell}".rstrip() if name else f"  {cell}" for name, cell in rows]
-    told += [f"law: {law['title']}; valid: {law['valid']}" for law in found["laws"]]
+    told += [f"law: {law['title']}{'; ' * bool(law['options'])}{law['options']}; valid: {law['valid']}"
+             for law in found["laws"]]
     return visible("\n".join([*told, *(f"note: {one}" for one in (*found["warnings"], *found["trust"]["notes"]))]))
 
 

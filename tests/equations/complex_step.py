@@ -66,7 +66,7 @@ class ComplexStep:
         self._slips = [
             self.function([
                 *(friction.jacobian.get(q, sp.Integer(0)) for q in model.q), friction.gamma, friction.slip.v,
-                friction.slip.speed, friction.slip.kinetic,
+                friction.slip.speed, friction.slip.kinetic_at(friction.slip.v),
             ])
             for friction in model.frictions
         ]  # fmt: skip
@@ -137,12 +137,12 @@ class ComplexStep:
         n_x, n_y = (ex / e, ey / e) if e != 0.0 else (1.0, 0.0)
         speeds = (ux * n_x + uy * n_y, uy * n_x - ux * n_y, w_i, w_j)
         delta, total = e - c, np.zeros(4, dtype=complex)
-        share = 1.0 if joint.film is None else _least(1.0 + 0j, delta / e_0) if delta.real > 0.0 else 0.0
+        share = 1.0 if joint.film is None else self._share(joint, delta, e_0) if delta.real > 0.0 else 0.0
         if joint.normal is None:
             share = 0.0
         elif delta.real > 0.0:
             total += share * self._dry(joint, delta, R_i, R_j, speeds, stored)
-        if joint.film is not None and share.real < 1.0:
+        if joint.film is not None and complex(share).real < 1.0:
             total += (1.0 - share) * self._film(joint, joint.film, e, film, speeds)
         force = (total[0] * n_x - total[1] * n_y, total[0] * n_y + total[1] * n_x)
         power = force[0] * ux + force[1] * uy
@@ -155,6 +155,12 @@ class ComplexStep:
                 g[k + 2] += sign * (arm[0] * force[1] - arm[1] * force[0]) + moment
                 power += moment * v[k + 2]
         return complex(power)
+
+    def _share(self, joint: Clearance, delta: complex, e_0: complex) -> complex:
+        """Of the dry contact beside a film."""
+        if joint.mixed is None:
+            return complex(_least(1.0 + 0j, delta / e_0))
+        return complex(self._law(joint.mixed, delta)[0])
 
     def _dry(self, joint: Clearance, delta: complex, R_i: complex, R_j: complex, speeds: Any, stored: float) -> Complex:
         v_n, v_t, w_i, w_j = speeds

@@ -53,6 +53,26 @@ def test_textbook_forces(eps: float) -> None:
     assert FILM(eps, 1.0, 0.0)[:2] == pytest.approx((-UNIT * squeeze, 0.0), rel=1e-13)
 
 
+def test_a_full_film_is_the_integral_over_all_of_the_gap() -> None:
+    """Sommerfeld's condition; in steady rotation the force is square to the eccentricity: π ε ω/(2 s³)."""
+    full, rng = Evaluator("ocvirk", {"viscosity": VISCOSITY}, cavitation="full"), np.random.default_rng(7)
+    for eps in (0.0, *rng.uniform(0.0, 0.95, 20)):
+        w_n, w_t = rng.normal(size=2)
+
+        def part(along: float, eps: float = eps, w: tuple[float, float] = (w_n, w_t)) -> float:
+            def density(theta: float) -> float:
+                pressure = (-w[1] * math.sin(theta) - w[0] * math.cos(theta)) / (1.0 + eps * math.cos(theta)) ** 3
+                return pressure * math.cos(theta - along)
+
+            return float(quad(density, -math.pi, math.pi, epsabs=1e-13, epsrel=1e-13, limit=400)[0])
+
+        got = np.array(full(eps, w_n, w_t)[:2]) / UNIT
+        np.testing.assert_allclose(got, (part(0.0), part(0.5 * math.pi)), rtol=1e-9, atol=1e-11)
+        assert got @ (w_n, w_t) < 0.0
+    radial, tangential, _ = full(0.6, 0.0, -0.5 * 0.6 * 3.0)
+    assert radial == 0.0 and tangential == pytest.approx(UNIT * math.pi * 0.6 * 3.0 / (2.0 * 0.8**3), rel=1e-13)
+
+
 def test_at_rest_and_concentric() -> None:
     assert FILM(0.3, 0.0, 0.0) == (0.0, 0.0, 0.0)
     for w_n, w_t in ((1.0, 0.0), (0.0, 1.0), (0.6, -0.8)):  # against w, half of the full film's π

@@ -7,9 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.integrate import quad, solve_ivp
 
 import gudgeon
 from gudgeon.loading.shipped import shipped_file
+from tests.equations.subjects import make
+from tests.programs import needs_compiler
 
 PERIOD, STICK = 0.8008322171201989, 0.3924  # k = 100 N/m, m = 1 kg, Fs = .6 m g, Fk = .4 m g, belt .1 m/s
 
@@ -52,3 +55,75 @@ def test_a_block_slides_to_rest(tmp_path: Path) -> None:
     assert run["block.x"][1:] == pytest.approx([0.1 - 0.5 * 3.924 * 0.01, 0.5 * stop, 0.5 * stop], abs=1e-12)
     assert run["work.forces"][-1] == pytest.approx(-0.5, abs=1e-12)
     assert math.isclose(run["block.vx"][-1], 0.0, abs_tol=1e-15)
+
+
+FALLS = 0.05  # m/s, Stribeck velocity
+METHODS = ({"method": "rk4", "step": 1e-3}, {"method": "dop853", "rtol": 1e-10}, {"method": "rodas5p", "rtol": 1e-10})
+
+
+@pytest.fixture(scope="module")
+def stribeck(tmp_path_factory: pytest.TempPathFactory) -> gudgeon.Simulation:
+    """The belt's block with friction that falls with the slip."""
+    text = shipped_file("belt_block").read_text(encoding="utf-8")
+    file = tmp_path_factory.mktemp("stribeck") / "belt.yaml"
+    text = text.replace("kinetic: 3.924 N", f"kinetic: 3.924 N, stribeck_velocity: {FALLS}")
+    text = text.replace("  start_at: 0 m\n", "  start_at: 0 m\n  speed: 0 m/s\n")
+    file.write_text(text.replace("block.x: start_at", "block.x: start_at\n  rates: {block.vx: speed}"))
+    return gudgeon.load(file)
+
+
+def falling(v: float, falls: float = FALLS) -> float:
+    return 3.924 + (5.886 - 3.924) * math.exp(-((v / falls) ** 2))
+
+
+@needs_compiler
+@pytest.mark.parametrize("how", METHODS, ids=lambda how: how["method"])
+def test_stick_slip_of_friction_that_falls(how: dict[str, str | float], stribeck: gudgeon.Simulation) -> None:
+    """The cycle: slip by scipy from the limit of stick to the belt's speed, then stick from there to the limit."""
+
+    def rates(t: float, y: np.ndarray) -> list[float]:
+        return [y[1], -100.0 * y[0] + math.copysign(falling(y[1] - 0.1), 0.1 - y[1])]
+
+    def together(t: float, y: np.ndarray) -> float:
+        return float(y[1] - 0.1) if t > 0.05 else -1.0
+
+    together.terminal = True  # type: ignore[attr-defined]
+    slip = solve_ivp(rates, (0.0, 2.0), [0.05886, 0.1 - 1e-12], events=together, rtol=1e-12, atol=1e-14, max_step=0.01)
+    period = slip.t[-1] + (0.05886 - slip.y[0, -1]) / 0.1
+    run = stribeck.simulate(8.0, output=8000, **how)  # type: ignore[arg-type]
+    mode, x = run["rub.mode"], run["block.x"]
+    begins = np.flatnonzero((mode[1:] == 0) & (mode[:-1] != 0)) + 1
+    offsets = [run.t[i + 10] - x[i + 10] / 0.1 for i in begins]
+    assert len(begins) > 7
+    assert np.diff(offsets)[1:] == pytest.approx(period, abs=1e-6)
+    assert np.abs(run["rub.F"]).max() <= 5.886 * (1 + 1e-12)
+    assert run.diagnostics.energy_residual < 1e-7
+    slips = mode != 0
+    wanted = -mode[slips] * np.array([falling(v) for v in run["rub.v"][slips]])
+    assert run["rub.F"][slips] == pytest.approx(wanted, rel=1e-12)
+
+
+@needs_compiler
+@pytest.mark.parametrize("how", METHODS, ids=lambda how: how["method"])
+def test_a_block_slides_to_rest_on_friction_that_falls(
+    how: dict[str, str | float], stribeck: gudgeon.Simulation
+) -> None:
+    """x = ∫ m v/F dv and t = ∫ m/F dv from rest to 1 m/s; all of its energy goes, and it stays."""
+    falls = 0.4
+    way, time = (quad(lambda v, k=k: v**k / falling(v, falls), 0.0, 1.0, epsabs=1e-14)[0] for k in (1, 0))
+    values = {"belt_speed": 0.0, "forces.spring.stiffness": 0.0, "forces.rub.stribeck_velocity": falls, "speed": 1.0}
+    times = [0.0, time - 1e-3, time + 1e-3, 1.0]
+    run = stribeck.simulate(1.0, output=times, parameters=values, **how)  # type: ignore[arg-type]
+    assert run["block.x"][2:] == pytest.approx([way, way], abs=1e-9)
+    assert run["rub.mode"][1] != 0 and (run["rub.mode"][2:] == 0).all()
+    assert run["work.forces"][-1] == pytest.approx(-0.5, abs=1e-8)
+
+
+@needs_compiler
+@pytest.mark.parametrize("mode", [0.0, 1.0, -1.0])
+def test_slopes_of_friction_that_falls(mode: float) -> None:
+    """By the complex step, where it slips either way and where it sticks."""
+    kinetic, text = b"kinetic: 3.924 N", shipped_file("belt_block").read_bytes()
+    subject = make(text.replace(kinetic, kinetic + b", stribeck_velocity: 0.05"), "belt", "ideal")
+    for v in (0.03, 0.13, -0.4):
+        subject.compare(0.0, np.array([0.01, 0.0, 0.0, v, 0.0, 0.0]), np.array([mode]))

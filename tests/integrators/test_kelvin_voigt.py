@@ -1,4 +1,4 @@
-"""One impact on a spring and a dashpot against closed forms, clipped (the house's law) and pulling (one's own).
+"""One impact on a spring and a dashpot against closed forms, clipped and pulling.
 
 With the mass m, ω = √(K/m), ζ = D/(2 m ω) = sin φ and the speed v of approach the force is, from the onset,
 F = m v ω e^(−ζ ω t) sin(ω cos φ t + 2 φ)/cos φ. Clipped it ends at its zero, and the restitution is
@@ -10,14 +10,12 @@ T. Schwager, T. Pöschel, Granular Matter 9 (2007) 465-469.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
 import numpy as np
 import pytest
 
 import gudgeon
 from gudgeon.results.results import Result, State
-from tests.kinds.own import example, forgotten
 from tests.programs import needs_compiler
 
 pytestmark = needs_compiler
@@ -32,7 +30,7 @@ joints: {pin: {revolute: [ground.O, disc.com]}}
 bearings: {b: {radius: 15 mm, clearance: 1 mm, length: 40 mm, bearing_material: steel, journal_material: steel}}
 contacts:
   clipped: {normal: {law: kelvin_voigt, stiffness: 1e6 N/m, damping: 50 N*s/m}}
-  pulling: {normal: {law: dashpot, stiffness: 1e6 N/m, damping: 50 N*s/m}}
+  pulling: {normal: {law: kelvin_voigt, stiffness: 1e6 N/m, damping: 50 N*s/m, pulls: true}}
 scenes:
   clipped: {play: {pin: {bearing: b, contact: clipped}}}
   pulling: {play: {pin: {bearing: b, contact: pulling}}}
@@ -43,12 +41,10 @@ Discs = dict[str, gudgeon.Simulation]
 
 
 @pytest.fixture(scope="module")
-def discs(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Discs]:
+def discs(tmp_path_factory: pytest.TempPathFactory) -> Discs:
     folder = tmp_path_factory.mktemp("discs")
     (folder / "disc.yaml").write_text(TEXT, encoding="utf-8")
-    with forgotten():
-        gudgeon.register(example(folder))
-        yield {scene: gudgeon.load(folder / "disc.yaml", scene) for scene in ("clipped", "pulling")}
+    return {scene: gudgeon.load(folder / "disc.yaml", scene) for scene in ("clipped", "pulling")}
 
 
 def impact(

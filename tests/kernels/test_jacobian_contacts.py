@@ -63,6 +63,31 @@ def test_film_transition_and_contact(option: str, eps: float) -> None:
             subject.compare(0.0, y, np.array(memory))
 
 
+SIGMA = 2e-6  # m, roughness
+
+
+@cache
+def mixed(law: str, film: str) -> Subject:
+    """The press with a law of mixed lubrication in place of the paper's transition."""
+    text = PRESS.replace(b"    transition: 5 um", f"    mixed: {{law: {law}, roughness: 2 um}}".encode())
+    return make(text.replace(b"pinkus_sternlicht", film.encode()), "press", "lubricated")
+
+
+@pytest.mark.parametrize(
+    ("law", "film", "first"), [("christensen", "finite_length", 3), ("greenwood_tripp", "ocvirk", 4)]
+)
+@pytest.mark.parametrize("ratio", [60.0, 3.99, 2.5, 0.4, -1.0, -2.99, -3.5])
+def test_mixed_lubrication(law: str, film: str, first: int, ratio: float) -> None:
+    """At film thickness ratios above, in and below what its laws share, latched or not."""
+    subject, rng = mixed(law, film), np.random.default_rng(int(100.0 * (ratio + 4.0)))
+    for memory in ((NAN, NAN), (0.02, NAN)):
+        for _ in range(2):
+            turn, e = rng.uniform(0.0, 2.0 * np.pi), C + (first - ratio) * SIGMA
+            rate, spin = tuple(rng.uniform(-0.05, 0.05, 2)), float(rng.uniform(-20.0, 20.0))
+            y = journal_at(subject, (e * np.cos(turn), e * np.sin(turn)), rate, spin)
+            subject.compare(0.0, y, np.array(memory), 2e-9)  # e is a difference, of which a film that thin is steep
+
+
 @pytest.mark.parametrize("latched", [NAN, 0.01])
 @pytest.mark.parametrize("slip", [-0.5, -5e-4, -2e-5, 0.0, 2e-5, 5e-4, 0.5])
 @pytest.mark.parametrize("rate", [0.02, -0.02, -0.5])

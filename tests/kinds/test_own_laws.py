@@ -176,7 +176,12 @@ WRONG = [
     ("fields=(", "fields=(word('mode', 'how', ('a', 'b'), 'c'),", "(?s)the default of mode is 'c'.*: a, b"),
     (BUILD, DERIVED, r"derive\('h', …\) uses the symbol delta"),
     (BUILD, '    return {"memory": K, "F_n": K}\n', "the emitted C has 'memory' for something else"),
-    (BUILD, '    return {"damping": K, "F_n": K}\n', "the emitted C has 'damping' for something else"),
+    (BUILD, '    return {"damping": K, "F_n": K}\n', "build returns 'damping', which it is given"),
+    (BUILD, '    return {"delta": K, "F_n": K}\n', "build returns 'delta', which it is given"),
+    (BUILD, '    return {"g": K, "F_n": K}\n', "the emitted C has 'g' for something else"),
+    (BUILD, '    return {"corner": K, "F_n": K}\n', "the emitted C has 'corner' for something else"),
+    (BUILD, '    return {"side_1": K, "F_n": K}\n', "the emitted C has 'side_1' for something else"),
+    (BUILD, '    return {"F_n_out": K, "F_n": K}\n', "the emitted C has 'F_n_out' for something else"),
     (BUILD, '    return {"double": K, "F_n": K}\n', "the emitted C has 'double' for something else"),
 ]  # fmt: skip
 

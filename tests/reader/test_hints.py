@@ -176,11 +176,11 @@ def test_a_damping_names_a_law(name: str) -> None:
     written = read(HERTZ, f"{{law: hertz, restitution: 0.8, geometry: internal, dissipation: {name}}}")
     assert normal(own) == normal(written)
     assert normal(own) == (
-        "hertz", {"exponent": 1.5, "restitution": 0.8}, {"dissipation": name, "geometry": "internal"}
+        "hertz", {"exponent": 1.5, "restitution": 0.8}, {"dissipation": name, "geometry": "internal", "pulls": False}
     )  # fmt: skip
     given = normal(read(HERTZ, f"{{law: {name}, restitution: 0.8, stiffness: 1e9}}"))
     assert given == (
-        "hertz", {"stiffness": 1e9, "exponent": 1.5, "restitution": 0.8}, {"dissipation": name}
+        "hertz", {"stiffness": 1e9, "exponent": 1.5, "restitution": 0.8}, {"dissipation": name, "pulls": False}
     )  # fmt: skip
 
 

@@ -19,9 +19,12 @@ from typer.testing import CliRunner
 import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import BadValueError
+from gudgeon.generator.kinds.laws.law import laws
+from gudgeon.generator.pipeline import generate
 from gudgeon.loading.find import find_mechanism
 from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.results import Result
+from gudgeon.results.trust import laws_of
 from tests.programs import needs_compiler
 
 pytestmark = needs_compiler
@@ -167,3 +170,30 @@ def test_titles_are_text_and_a_page_needs_no_other(tmp_path: Path) -> None:
     assert not re.search(r"(src|href)=|url\(|@import|https?:", page)
     assert page == Result.load(files["damped"]).report().to_html()
     assert "no contact" not in Path(files["report ideal"]).read_text(encoding="utf-8")
+
+
+LAWS = """
+format: gudgeon/1
+name: disc
+materials: {steel: {E: 206 GPa, nu: 0.3}}
+bodies: {disc: {mass: 0.2 kg, inertia: 1e-4 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {A: {revolute: [ground.O, disc.com]}}
+bearings: {b: {radius: 15 mm, clearance: 0.1 mm, length: 10 mm, bearing_material: steel, journal_material: steel}}
+contacts:
+  oil:
+    normal: {law: esdu_78035}
+    film: {law: ocvirk, viscosity: 0.01, cavitation: full, angular_velocity: relative}
+    mixed: {law: greenwood_tripp, roughness: 1 um}
+scenes: {oil: {play: {A: {bearing: b, contact: oil}}}}
+"""
+
+
+def test_every_law_is_told_with_its_conventions() -> None:
+    """However long its source and validity are, and that of mixed lubrication, which is no function of C, too."""
+    told = laws_of(generate(LAWS.encode(), "disc.yaml", "oil"))
+    assert [law["title"].split(":")[0] for law in told] == ["ESDU 78035", "Ocvirk", "Greenwood and Tripp"]
+    for law, name in zip(told, ("esdu_78035", "ocvirk", "greenwood_tripp"), strict=True):
+        own = laws()[name]
+        assert (law["title"], law["source"], law["valid"]) == (own.title, own.source, own.validity)
+    assert "cavitation: full" in told[1]["options"] and "angular_velocity: relative" in told[1]["options"]

@@ -39,7 +39,10 @@ contacts:
     friction: {law: dahl, mu: 0.3, presliding: 20 um}
     film: {law: pinkus_sternlicht, viscosity: 0.05 Pa*s, shear: true}
     transition: 20 um
-  d: {normal: {law: hertz, restitution: 0.8}}
+  d:
+    normal: {law: hertz, restitution: 0.8}
+    film: {law: ocvirk, viscosity: 0.05 Pa*s}
+    mixed: {law: christensen, roughness: 5 um}
 scenes: {m: {play: {A: {bearing: p, contact: c}, B: {bearing: p, contact: d}}}}
 """
 SCENES = ("dry", "lubricated", "m")

@@ -201,15 +201,17 @@ def test_every_law_is_printed(name: str, left_out: bool) -> None:
     needed = [own for own in law.fields_as(name) if own.kind == NUMBER and own.default is None]
     given = [f"{own.name}: {(k + 1) * 0.1:.1f}" for k, own in enumerate(needed) if not (left_out and may_lack(own))]
     own = f"{{{', '.join([f'law: {name}', *given])}}}"
-    text = BOB.replace({"normal": NORMAL, "film": FILM}.get(law.role, FRICTION.split(": ", 1)[1].strip()), own)
+    place = {"normal": NORMAL, "film": FILM, "mixed": "transition: 5 um"}
+    own = f"mixed: {own}" if law.role == "mixed" else own
+    text = BOB.replace(place.get(law.role, FRICTION.split(": ", 1)[1].strip()), own)
     model = derive(text.encode(), "bob.yaml", "lubricated")
     written = equations_text(model)
     shown = " ".join(written.split())
     assert (law.reference or law.source) in shown and law.validity in shown
     clearance = model.clearances[0]
-    equations_of = {"normal": clearance.normal, "friction": clearance.friction, "film": clearance.film}[law.role]
-    assert equations_of is not None and equations_of.law is law
-    title = f"Joint A: {'film' if law.role == 'film' else 'dry contact'}"
+    equations_of = next(one for one in clearance.laws if one.law.role == law.role)
+    assert equations_of.law is law
+    title = f"Joint A: {({'film': 'film', 'mixed': 'mixed lubrication'}).get(law.role, 'dry contact')}"
     lines = sections(written)
     assert len(equations(lines[title])) >= sum(step != 0 for step in equations_of.steps.values())
     numbers_of = {cells[2] for cells in rows(lines["Joint A: numbers"]) if len(cells) == 5}

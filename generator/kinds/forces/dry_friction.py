@@ -2,10 +2,12 @@ r"""Dry friction between a point of the second body and a surface of the first: 
 
      ____[ second ]____   slip v = u · (ṙ_Q − ṙ_P at Q) − speed
      ->  first (belt)     stick: v = 0 holds as a constraint while its force stays within ±static
-                          slip:  force on the second −kinetic · sgn v
+                          slip:  force on the second −F(v) sgn v
 
 `direction` u is fixed in the first body; `speed` is that of its surface along u (a belt). Stick is a row
-of the KKT system that is switched on and off at located events, so a block at rest does not creep.
+of the KKT system that is switched on and off at located events, so a block at rest does not creep. F is `kinetic` at
+any slip, or with `stribeck_velocity` v_s it falls from `static`: F = kinetic + (static − kinetic) exp(−(v/v_s)²), as
+L. C. Bo, D. Pavelescu, Wear 82 (1982) 277–289, with exponent 2; stick and slip then meet without a jump.
 The limits are forces (N): friction whose normal force a joint carries is not in them.
 """
 
@@ -29,7 +31,8 @@ def build(targets: Any, fields: Any) -> Loads:
         vx -= first.body.vx - (second.y - first.body.y) * first.body.omega
         vy -= first.body.vy + (second.x - first.body.x) * first.body.omega
     speed = fields.quantity("speed")
-    slip = Slip(u_x * vx + u_y * vy - speed, speed, fields.quantity("static"), fields.quantity("kinetic"))
+    static, kinetic, falls = (fields.quantity(name) for name in ("static", "kinetic", "stribeck_velocity"))
+    slip = Slip(u_x * vx + u_y * vy - speed, speed, static, kinetic, falls)
     return Loads((), sp.Integer(0), sp.Integer(0), {}, slip)
 
 
@@ -45,6 +48,10 @@ ELEMENT = ElementType(
             bounds=(*NOT_NEGATIVE, Bound(">=", "kinetic", "static is at least kinetic")),
         ),
         number("kinetic", "force while slipping", FORCE, required=True, bounds=NOT_NEGATIVE),
+        number(
+            "stribeck_velocity", "slip in which friction falls from static to kinetic, v_s of exp(-(v/v_s)^2)",
+            VELOCITY, otherwise="it falls at once", bounds=(Bound(">", 0.0),),
+        ),
         number("speed", "speed of the first's surface along the direction", VELOCITY, otherwise="0"),
     ),
     (("F", FORCE), ("v", VELOCITY), ("mode", DIMENSIONLESS)),

@@ -28,12 +28,24 @@ class Load:
 
 @dataclass(frozen=True)
 class Slip:
-    """A slip velocity that friction may hold at zero: v (m/s), the surface's own speed, limits in N."""
+    """A slip velocity that friction may hold at zero: v (m/s), the surface's own speed, limits in N.
+
+    `falls` (m/s): the slip in which friction falls from static to kinetic, by a Gaussian; 0: at once.
+    """
 
     v: Any
     speed: Any
     static: Any
     kinetic: Any
+    falls: Any = 0
+
+    def kinetic_at(self, v: Any) -> Any:
+        """The friction (N) of a slip v, either way."""
+        import sympy as sp
+
+        if self.falls == 0:
+            return self.kinetic
+        return self.kinetic + (self.static - self.kinetic) * sp.exp(-((v / self.falls) ** 2))
 
 
 @dataclass(frozen=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import itertools
 import os
+import re
 import sys
 import uuid
 from collections.abc import Iterable, Iterator, Mapping
@@ -22,6 +23,9 @@ FUNCTIONS = (
     "Abs", "Max", "Min", "sign", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh",
     "tanh",
 )  # fmt: skip
+# What the C functions of a law and of its slopes are given besides its variables and numbers, and tests of corners.
+_ARGUMENTS = frozenset(("e", "de_t", "omega_i", "omega_j", "latch", "p", "side", "g", "corner", "out"))
+_LOCAL = re.compile(r"(side|branch)_\d+|\w+_out")
 _CHOICES = 64  # combinations of a law's options and numbers that are tried
 
 
@@ -62,8 +66,11 @@ def build(law: Law, inputs: LawInputs) -> dict[str, Any]:
         raise _error(law, f"build raised {told(error)}", hint, place) from error
     results = _checked_names(law, steps)
     found, known = {}, given | {symbol for x in inputs.variables.values() for symbol in _symbols(x)}
+    taken = {*law.variables, *(own.name for own in law.parameters)}
     for name, step in steps.items():
         _need_name(law, name)
+        if name in taken:
+            raise _error(law, f"build returns {name!r}, which it is given", "call the abbreviation otherwise")
         found[name] = value = _value(law, name, step)
         _check(law, name, value, known, f"{_offered(law)}, and abbreviations returned before")
         if name not in results:
@@ -135,8 +142,8 @@ def _checked_names(law: Law, steps: Any) -> frozenset[str]:
 
 
 def _need_name(law: Law, name: str) -> None:
-    """Raise LawError for a keyword, which SymPy takes for a name and a compiler does not, or a function of C."""
-    if name in NOT_IN_CODE:
+    """Raise LawError for a keyword, which SymPy takes for a name and a compiler does not, or what is C's own there."""
+    if name in NOT_IN_CODE or name in _ARGUMENTS or _LOCAL.fullmatch(name):
         hint = "call the number, state or abbreviation otherwise; a number's `symbol` may be any letter"
         raise _error(law, f"the emitted C has {name!r} for something else", hint)
 

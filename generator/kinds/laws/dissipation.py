@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from gudgeon.generator.field import flag
 from gudgeon.generator.kinds.laws.law import LawInputs
 
 # name -> a(c_e)
@@ -24,21 +25,24 @@ FACTORS: Mapping[str, Callable[[Any], Any]] = {
     "hu_guo": lambda c_e: 3 * (1 - c_e) / (2 * c_e),
 }
 
+PULLS = flag("pulls", "as printed: the force may be below 0, and pulls the surfaces together while they part fast")
 EXACT = "exact"  # delivers the restitution that it is given
 DAMPINGS = (*FACTORS, EXACT)
 
 
 def hysteresis(s: LawInputs, factor: str) -> Any:
-    """1 + a δ̇/δ̇⁻, never negative; with the restitution asked for, `restitution`.
+    """1 + a δ̇/δ̇⁻, never negative unless the law `pulls`; with the restitution asked for, `restitution`.
 
-    The corner is that of this factor alone: with the elastic force in it, it would be one at every separation.
+    Where nothing drives the surfaces apart it stays above 0 by itself, for a e < 1. The corner is that of this factor
+    alone: with the elastic force in it, it would be one at every separation.
     """
     import sympy as sp
 
     c_e = s.parameters["restitution"]
     a = _solved(s, c_e) if factor == EXACT else FACTORS[factor](c_e)
     a = s.derive("hysteresis", a, "hysteresis damping factor a")
-    return sp.Max(1 + a * s.variables["ratio"], 0)
+    factor_now = 1 + a * s.variables["ratio"]
+    return factor_now if s.options.get("pulls") else sp.Max(factor_now, 0)
 
 
 def normal_force(s: LawInputs, K: Any, factor: str) -> Any:

@@ -2,7 +2,7 @@
 
     F_n = K δⁿ (1 + a δ̇/δ̇⁻),   K = 4/(3(σ_i + σ_j)) √(R_i R_j/(R_i ± R_j)),   σ = (1 − ν²)/E
 
-never negative. `law: flores`, or another damping's name, is this law with that damping.
+never negative unless it `pulls`. `law: flores`, or another damping's name, is this law with that damping.
  H. Hertz, J. reine angew. Math. 92 (1881) 156–171; the damping factors are those of
 K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440–445 and their successors (dissipation.py).
 """
@@ -12,7 +12,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import Bound, number, word
-from gudgeon.generator.kinds.laws.dissipation import DAMPINGS, FACTORS, normal_force
+from gudgeon.generator.kinds.laws.dissipation import DAMPINGS, FACTORS, PULLS, normal_force
 from gudgeon.generator.kinds.laws.elastic_pair import GEOMETRY, pair_stiffness
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.language.units import DIMENSIONLESS
@@ -34,7 +34,8 @@ LAW = Law(
               "Mathematik 92 (1882) 156-171, doi 10.1515/crll.1882.92.156; K. H. Hunt, F. R. E. Crossley, Coefficient "
               "of restitution interpreted as damping in vibroimpact, Journal of Applied Mechanics 42 (1975) 440-445, "
               "doi 10.1115/1.3423596",
-    validity="a point or a line contact whose stiffness is known or that of spheres; small penetrations",
+    validity="a point or a line contact whose stiffness is known or that of spheres; small penetrations; "
+             "driven apart fast it would pull, and is 0 there unless it pulls",
     fields=(
         number(
             "stiffness", "force at unit penetration, N/m^n", None, symbol="K", bounds=(Bound(">", 0.0),),
@@ -49,7 +50,7 @@ LAW = Law(
             symbol="c_e", default=1.0, bounds=(Bound(">", 0.0), Bound("<=", 1.0)),
         ),
         word("dissipation", "whose hysteresis damping factor", DAMPINGS, "hunt_crossley"),
-        GEOMETRY,
+        GEOMETRY, PULLS,
     ),
     build=build,
     also={name: {"dissipation": name} for name in FACTORS if name not in ("none", "lankarani_nikravesh")},

@@ -1,13 +1,14 @@
-"""A spring and a damper side by side: Kelvin and Voigt's contact, which pushes and never pulls.
+"""A spring and a damper side by side: Kelvin and Voigt's contact, which pushes and does not pull unless it is asked to.
 
-    F_n = K δ + D δ̇,   never negative
+    F_n = K δ + D δ̇,   never negative unless it `pulls`
 
 The force begins with D δ̇⁻: it jumps at the onset. It ends where K δ = −D δ̇, before δ = 0, so that none is left to
 jump at the separation. With the reduced mass m, ω = √(K/m) and ζ = D/(2 m ω) < 1 the restitution is
 
     e = exp(−(ζ/√(1 − ζ²)) (π − 2 arcsin ζ))
 
-at any speed (T. Schwager, T. Pöschel, Granular Matter 9 (2007) 465–469); the model: W. Goldsmith, Impact (1960).
+at any speed, and exp(−π ζ/√(1 − ζ²)) where it pulls until δ = 0 (T. Schwager, T. Pöschel, Granular Matter 9 (2007)
+465–469); the model: W. Goldsmith, Impact (1960).
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import Bound, number
+from gudgeon.generator.kinds.laws.dissipation import PULLS
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.language.units import DAMPING, STIFFNESS
 
@@ -25,7 +27,8 @@ def build(s: LawInputs) -> dict[str, Any]:
 
     K = s.derive("spring", s.parameters["stiffness"], "stiffness")
     D = s.derive("damper", s.parameters["damping"], "damping")
-    return {"F_n": sp.Max(K * s.variables["delta"] + D * s.variables["deltadot"], 0)}
+    force = K * s.variables["delta"] + D * s.variables["deltadot"]
+    return {"F_n": force if s.options["pulls"] else sp.Max(force, 0)}
 
 
 LAW = Law(
@@ -36,10 +39,12 @@ LAW = Law(
     reference="W. Goldsmith, Impact: the theory and physical behaviour of colliding solids, Edward Arnold, London "
               "(1960); T. Schwager, T. Poeschel, Coefficient of restitution and linear-dashpot model revisited, "
               "Granular Matter 9 (2007) 465-469",
-    validity="restitution is the same at any speed; the force begins with damping times speed at the onset",
+    validity="restitution is the same at any speed; the force begins with damping times speed at the onset; in the end "
+             "of each contact it would pull, and is 0 there unless it pulls",
     fields=(
         number("stiffness", "force by penetration", STIFFNESS, symbol="K", required=True, bounds=(Bound(">", 0.0),)),
         number("damping", "force by its rate", DAMPING, symbol="D", required=True, bounds=(Bound(">", 0.0),)),
+        PULLS,
     ),
     build=build,
 )  # fmt: skip

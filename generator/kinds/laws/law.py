@@ -50,10 +50,18 @@ VARIABLES: Mapping[str, tuple[str, ...]] = {
     "normal": ("delta", "ratio"),  # δ > 0 (m), δ̇/δ̇⁻
     "friction": ("F_n", "v_t"),  # normal force (N), slip (m/s)
     "film": ("epsilon", "w_n", "w_t"),  # ε < 1, effective squeeze velocity over c (1/s)
+    "mixed": ("delta",),  # δ > 0 (m)
 }
 # What a law of the role may read besides: it is an argument of those that do.
 FURTHER: Mapping[str, tuple[str, ...]] = {"normal": ("deltadot",)}  # δ̇ (m/s)
-RESULTS: Mapping[str, tuple[str, ...]] = {"normal": ("F_n",), "friction": ("F_t",), "film": ("F_r", "F_t", "T0")}
+RESULTS: Mapping[str, tuple[str, ...]] = {
+    "normal": ("F_n",), "friction": ("F_t",), "film": ("F_r", "F_t", "T0"),
+    "mixed": ("share",),  # of the dry contact: 0 at δ = 0, never falling, 1 where no film is left
+}  # fmt: skip
+# What a mixed law may derive: the film's clearance, between the mean surfaces.
+MEAN_CLEARANCE = "mean_clearance"
+# What a normal law may derive: the penetration (m) beyond which it is none, where a run stops.
+DEEPEST = "deepest"
 
 
 @dataclass(frozen=True)
@@ -75,7 +83,7 @@ class Law:
     """
 
     name: str
-    role: str  # "normal", "friction" or "film": the key under a contact in the YAML
+    role: str  # "normal", "friction", "film" or "mixed": the key under a contact in the YAML
     title: str
     source: str
     validity: str

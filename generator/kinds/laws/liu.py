@@ -2,8 +2,8 @@
 
     F_n = (π/2) L E* δ √(δ/(2(ΔR + δ))) (1 + a δ̇/δ̇⁻),   1/E* = (1 − ν_i²)/E_i + (1 − ν_j²)/E_j,   ΔR = R_i − R_j = c
 
-never negative. C. S. Liu, K. Zhang, R. Yang, Mechanism and Machine Theory 42 (2007) 183–197; the damping factors are
-those of dissipation.py.
+never negative unless it `pulls`. C. S. Liu, K. Zhang, R. Yang, Mechanism and Machine Theory 42 (2007) 183–197; the
+damping factors are those of dissipation.py.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import Bound, number, word
-from gudgeon.generator.kinds.laws.dissipation import DAMPINGS, hysteresis
+from gudgeon.generator.kinds.laws.dissipation import DAMPINGS, PULLS, hysteresis
 from gudgeon.generator.kinds.laws.elastic_pair import contact_modulus
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.language.units import DIMENSIONLESS
@@ -33,13 +33,15 @@ LAW = Law(
     source="C. S. Liu, K. Zhang, R. Yang, Mechanism and Machine Theory 42 (2007) 183-197",
     reference="C. S. Liu, K. Zhang, R. Yang, The FEM analysis and approximate model for cylindrical joints with "
               "clearances, Mechanism and Machine Theory 42 (2007) 183-197, doi 10.1016/j.mechmachtheory.2006.02.006",
-    validity="a pin in a hole with parallel axes, penetrations up to some clearances",
+    validity="a pin in a hole with parallel axes, penetrations up to some clearances; driven apart fast it would "
+             "pull, and is 0 there unless it pulls",
     fields=(
         number(
             "restitution", "coefficient of restitution", DIMENSIONLESS,
             symbol="c_e", default=1.0, bounds=(Bound(">", 0.0), Bound("<=", 1.0)),
         ),
         word("dissipation", "whose hysteresis damping factor", DAMPINGS, "hunt_crossley"),
+        PULLS,
     ),
     build=build,
 )  # fmt: skip

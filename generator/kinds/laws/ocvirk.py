@@ -1,4 +1,4 @@
-"""Ocvirk's short-bearing film with its squeeze: the half of the gap in which pressure rises, wherever that lies.
+"""Ocvirk's short-bearing film with its squeeze: the half of the gap in which pressure is above that of the ends.
 
     (F_r, F_t) = (μ R_j L³/c²) ∫ (½ ω_s ε sin θ − ε̇ cos θ)(cos θ, sin θ)/(1 + ε cos θ)³ dθ,  θ₁ … θ₁ + π
     θ₁ = atan2(ε̇, ½ ω_s ε)
@@ -11,6 +11,8 @@ P = π + 2 arctan(ε sin θ₁/s), the three integrals of (cos², sin cos, sin²
     ss = P/(2 s³) + ε sin θ₁ (1 − 2 cos² θ₁ + ε² cos² θ₁)/(s² D²)
 
 by derivatives of ∫ dθ/(1 + ε cos θ) = P/s with respect to ε: nothing is divided by ε or ε̇.
+That is Guembel's condition: no pressure below that of the ends. With `cavitation: full`, Sommerfeld's, all of the gap
+carries, the oil pulls where the surfaces part, and with P = 2π: F_r = −S π (1 + 2 ε²) w_n/s⁵, F_t = −S π w_t/s³.
 F. W. Ocvirk, NACA TN 2808 (1952), half film; squeeze and the film's place as physics.md, section 7.
 """
 
@@ -19,7 +21,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
-from gudgeon.generator.kinds.laws.oil import FIELDS, TINY, film_clearance, shear_torque
+from gudgeon.generator.kinds.laws.oil import CAVITATION, FIELDS, TINY, film_clearance, shear_torque
 
 
 def build(s: LawInputs) -> dict[str, Any]:
@@ -32,6 +34,13 @@ def build(s: LawInputs) -> dict[str, Any]:
     names = ("root", "W", "cosine", "sine", "D", "P", "cc", "sc", "ss")
     root, W, cosine, sine, D, P, cc, sc, ss = (sp.Symbol(name, real=True) for name in names)
     square = root**2
+    if s.options["cavitation"] == "full":
+        return {
+            "root": sp.sqrt(1 - epsilon**2),
+            "F_r": -sp.pi * S * w_n * (1 + 2 * epsilon**2) / (square**2 * root),
+            "F_t": -sp.pi * S * w_t / (square * root),
+            "T0": shear_torque(s, c, root),
+        }
     return {
         "root": sp.sqrt(1 - epsilon**2),
         "W": sp.sqrt(w_n**2 + w_t**2) + sp.Float(TINY),
@@ -57,6 +66,6 @@ LAW = Law(
     reference="F. W. Ocvirk, Short-bearing approximation for full journal bearings, NACA Technical Note 2808 (1952), "
               "with squeeze: the half film lies where the pressure is above that of the ends",
     validity="short bearing (L/D < 1/2; at L/D = 1 it carries twice too much and more); epsilon capped at .9999",
-    fields=FIELDS,
+    fields=(*FIELDS, CAVITATION),
     build=build,
 )  # fmt: skip

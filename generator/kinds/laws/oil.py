@@ -22,6 +22,10 @@ ANGULAR_VELOCITY = word(
     "omega_i + omega_j; relative is the paper's omega_j - omega_i, which depends on the observer",
     ("absolute", "relative"), "absolute",
 )  # fmt: skip
+CAVITATION = word(
+    "cavitation", "half, Guembel's: no pressure below that of the ends; full, Sommerfeld's: it pulls as it pushes",
+    ("half", "full"), "half",
+)  # fmt: skip
 FIELDS: tuple[Field, ...] = (VISCOUS, EXTRA_CLEARANCE, SHEAR, ANGULAR_VELOCITY)
 
 

@@ -225,6 +225,12 @@ def _touched(item: Kernel) -> frozenset[str]:
     return names | corner | {item.names.get(name, name) for name in names}
 
 
+def comment(doc: Sequence[str]) -> str:
+    """Paragraphs as a comment of C."""
+    text = "\n".join(f" * {comment_text(one)}" for one in doc)
+    return f"/*\n{text}\n */\n"
+
+
 def function(
     item: Kernel, writer: Lines, own: Readable, touched: frozenset[str] = NONE, *, called: bool = False
 ) -> str:
@@ -236,14 +242,13 @@ def pieces(
     item: Kernel, writer: Lines, own: Readable, touched: frozenset[str] = NONE, *, called: bool = False
 ) -> Iterator[tuple[str, Line | None]]:
     """The text of a function in its order, what is a line's own with that line."""
-    doc = "\n".join(f" * {comment_text(text)}" for text in item.doc)
     attribute = f"__attribute__(({item.attribute})) " if item.attribute else ""
     inline = "inline " if item.inline else ""
     static = "" if called else "static "
     head = f"{attribute}{static}{inline}{item.returns} {item.name}({arguments(item.arguments)})"
     together = head.replace(", ", ",\n").replace(" ", "\0").replace("\n", " ")  # an argument is never parted
     head = "\n".join(textwrap.wrap(together, WIDTH, subsequent_indent="    ")).replace("\0", " ")
-    yield f"/*\n{doc}\n */\n{head}\n{{", None
+    yield f"{comment(item.doc)}{head}\n{{", None
     touched |= _touched(item)
     if unread := ", ".join(f"(void){a.name}" for a in item.arguments if a.name not in touched):
         yield "\n".join(broken(f"    {unread};")), None

@@ -18,6 +18,7 @@ from gudgeon.generator.kernels.closed_linkage import apart_rows
 from gudgeon.generator.kernels.event_functions import ranges_kernel, reads_state
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kernels.time_terms import count_terms
+from gudgeon.generator.kinds.laws.law import DEEPEST
 from gudgeon.generator.solvers.kkt import EARLY, KKT, NEARLY_SINGULAR, SINGULAR, VANISHING
 from gudgeon.generator.solvers.square_rows import SHARE
 from gudgeon.generator.symbols.periods import PeriodsOf
@@ -146,8 +147,9 @@ def watched_corners(program: Program) -> list[int]:
 
 
 def deepest(clearance: Clearance) -> sp.Expr:
-    """The penetration beyond which contact laws mean nothing: a tenth of the bearing's radius."""
-    return sp.sympify(clearance.pair.R_i) / 10
+    """The penetration beyond which contact laws mean nothing: a tenth of the bearing's radius, or a law's own."""
+    tenth = sp.sympify(clearance.pair.R_i) / 10
+    return sp.Min(clearance.constants[DEEPEST], tenth) if DEEPEST in clearance.constants else tenth
 
 
 def _largest_block(program: Program) -> int:
@@ -231,8 +233,11 @@ def of_joints(model: Model) -> list[tuple[str, str, list[str]]]:
         "slowest_impact": [c.velocity_floor for c in model.clearances],
     }
     read = {s: sp.Symbol(info.home) for s, info in model.symbols.info.items() if info.home}
+    told = dict(_OF_JOINTS)
+    if any(DEEPEST in c.constants for c in model.clearances):
+        told["deepest"] = told["deepest"].replace("radius.", "radius, or a law's own.")
     return [
-        (_OF_JOINTS[name], name, [printer.expression(sp.sympify(x).xreplace(read)) for x in some])
+        (told[name], name, [printer.expression(sp.sympify(x).xreplace(read)) for x in some])
         for name, some in values.items()
     ]
 

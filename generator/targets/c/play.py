@@ -8,6 +8,7 @@ from typing import Any
 
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.ir.statements import Line, Statement
+from gudgeon.generator.kernels.laws import law_doc
 from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.targets.c import functions
@@ -60,11 +61,30 @@ def pin_functions(pin: Pin, render: Render, states: int) -> Iterator[PinFunction
         yield _film(pin, render, states)
     text = render(
         _template(pin), joint=joint, arguments=_ARGUMENTS, gap=_lines(pin.gap), share=_lines(pin.share),
-        store=_store(clearance, states), first=pin.corners.start, last=pin.corners.stop,
+        store=_store(clearance, states), told=_shared_by(clearance),
+        law=_law_of_share(clearance), first=pin.corners.start, last=pin.corners.stop,
     )  # fmt: skip
     stores: Stores = [*functions.one_by_one(pin.gap), *functions.one_by_one(pin.share)]
     stores += [(_BLENDED.format(one), f"F.{one}") for one in ("n", "t", "M_i", "M_j") if pin.has_transition]
     yield PinFunction(f"clearance_{joint}", text, stores)
+
+
+def _shared_by(clearance: Clearance) -> str:
+    """What a comment says of film and dry contact together."""
+    if clearance.mixed is None:
+        return (
+            "film for e < c, dry contact for e > c + e_0, a linear blend between them\n"
+            " * (the paper's Eq. 17); a step holds what it began with."
+        )
+    return (
+        "film for e < c; beyond, the dry contact has the share that the law above says;\n"
+        " * a step holds what it began with."
+    )
+
+
+def _law_of_share(clearance: Clearance) -> str:
+    """The comment on a law of mixed lubrication, which is no function of its own; "" where there is none."""
+    return functions.comment(law_doc(clearance.mixed)) if clearance.mixed else ""
 
 
 def _dry(pin: Pin, render: Render, states: int) -> PinFunction:

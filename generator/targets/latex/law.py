@@ -31,7 +31,9 @@ from gudgeon.generator.targets.latex.render import render
 from gudgeon.language.plot_units import pretty
 from gudgeon.language.units import si_unit
 
-_ROLES: Mapping[str, str] = {"normal": "the normal force", "friction": "dry friction", "film": "the oil film"}
+_ROLES: Mapping[str, str] = {
+    "normal": "the normal force", "friction": "dry friction", "film": "the oil film", "mixed": "mixed lubrication",
+}  # fmt: skip
 GIVEN = "given"  # what is chosen of a number that may be left out
 # What a law is given and gives: meaning, SI unit.
 _MEANINGS: Mapping[str, tuple[str, str]] = {
@@ -45,6 +47,7 @@ _MEANINGS: Mapping[str, tuple[str, str]] = {
     "w_t": ("the same along t", "1/s"),
     "F_r": ("force on the journal along n, from the bearing's centre to the journal's", "N"),
     "F_t": ("force on the journal along t, n turned by +90°", "N"),
+    "share": ("share of the dry contact in force and moments; the rest is the film's", "-"),
     "T0": ("shear torque by the difference of the angular velocities", "N·m·s"),
     "R_i": ("radius of the bearing", "m"), "R_j": ("radius of the journal", "m"),
     "c": ("radial clearance", "m"), "L": ("length of the bearing", "m"),
@@ -74,16 +77,19 @@ def forms(law: Law, name: str) -> list[Form]:
     """
     made = law.also.get(name, {})
     defaults = {own.name: own.choice for own in law.options} | {**made}
-    first = _form(law, {}, defaults, ())
+    needed = [own.name for own in law.parameters if not _may_lack(own)]
+    nothing = {name for name, value in probe(law, defaults, needed).steps.items() if value == 0}
+    first = _form(law, {}, defaults, (), nothing)
     known = {in_a_line(one) for one in first.equations}
-    found = [replace(first, steps=tuple(one for one in first.steps if one.terms[0].text != "0"))]
+    found = [first]
     chosen: list[tuple[str, str | bool]] = [
         (own.name, value) for own in law.options if own.name not in made
         for value in own.values if value != own.choice
     ]  # fmt: skip
     for key, value in (*chosen, *((own.name, GIVEN) for own in law.parameters if _may_lack(own))):
         number = key not in defaults
-        form = _form(law, {key: value}, defaults if number else {**defaults, key: value}, (key,) if number else ())
+        options, given = defaults if number else {**defaults, key: value}, (key,) if number else ()
+        form = _form(law, {key: value}, options, given, nothing)
         found.append(replace(form, constants=_new(form.constants, known), steps=_new(form.steps, known)))
     return found
 
@@ -154,9 +160,13 @@ def _may_lack(own: Field) -> bool:
 
 
 def _form(
-    law: Law, chosen: Mapping[str, str | bool], options: Mapping[str, str | bool], given: Sequence[str]
+    law: Law, chosen: Mapping[str, str | bool], options: Mapping[str, str | bool], given: Sequence[str],
+    nothing: Set[str],
 ) -> Form:  # fmt: skip
-    """The law's equations in letters of its own. A constant that only repeats a number is not written."""
+    """The law's equations in letters of its own. A constant that only repeats a number is not written.
+
+    Nor is a step of `nothing`, those that are 0 by default, where it is 0.
+    """
     numbers = [own.name for own in law.parameters if not _may_lack(own) or own.name in given]
     made = probe(law, options, numbers)
     same = {_probed(name): value for name, value in made.derived.items() if value.is_Symbol}
@@ -169,7 +179,8 @@ def _form(
     names = _plain(distinct(_names(law, numbers, made.derived, made.steps)))
     notation = Notation(Symbols(), names, frozenset(), {})
     constants = {_probed(name): plain(value) for name, value in made.derived.items() if _probed(name) not in same}
-    steps = {sp.Symbol(name, real=True): plain(value) for name, value in made.steps.items()}
+    steps = {sp.Symbol(name, real=True): plain(value) for name, value in made.steps.items()
+             if value != 0 or name not in nothing}  # fmt: skip
     found = [value.free_symbols for value in (*constants.values(), *steps.values())]
     read = {step for step, value in steps.items() if value != 0}.union(*found)
     places = {name: sp.Symbol(name, real=True) for name in (*law.variables, *law.results)}

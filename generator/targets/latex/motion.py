@@ -90,7 +90,7 @@ def _friction(model: Model, friction: Friction, notation: Notation) -> list[Bloc
     ]
     force = [
         equation(Name(rf"\Delta g_{{{place[q]}}}", f"Δg_{place[q]}"),
-                 notation.expand(-entry * slip.kinetic * sp.sign(v)), own)
+                 notation.expand(-entry * slip.kinetic_at(v) * sp.sign(v)), own)
         for q, entry in friction.jacobian.items()
     ]  # fmt: skip
     limit = notation.math(notation.expand(slip.static))

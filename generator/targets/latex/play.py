@@ -29,7 +29,9 @@ from gudgeon.language.units import si_unit
 LAW_LETTERS = {
     "root": letter("s"), "factor": letter("f"), "hysteresis": letter("a"), "film_clearance": letter("c", "film"),
     "friction_slope": letter("kappa"), "shear": letter("D", "0"), "T0": letter("D"),
-    "spring": letter("K"), "damper": letter("D"),
+    "spring": letter("K"), "damper": letter("D"), "mean_clearance": letter("c", "mean"), "share": letter("b"),
+    "overlap": letter("l"), "deepest": letter("delta", "max"), "scale": letter("l"), "part": letter("y"),
+    "left": letter("x"),
 }  # fmt: skip
 _PAIR = (
     ("radius", "R_i", "bearing radius"),
@@ -53,10 +55,7 @@ class JointWithPlay:
     def laws(self) -> Iterator[tuple[LawEquations, LawUse]]:
         """The laws that this joint has, with their place in the file."""
         contact_of, own = self.play.contact, self.clearance
-        for equations, use in ((own.normal, contact_of.normal), (own.friction, contact_of.friction),
-                               (own.film, contact_of.film)):  # fmt: skip
-            if equations is not None and use is not None:
-                yield equations, use
+        yield from zip(own.laws, contact_of.laws, strict=True)
 
     def _names(self) -> Iterator[tuple[sp.Symbol, Name]]:
         pair, constants = self.clearance.pair, self.clearance.constants
@@ -187,9 +186,12 @@ def _contact_sections(joint: JointWithPlay) -> list[Section]:
         blocks = [*joint.shown(contact.before_film(clearance, clearance.film)), *_law(joint, "film"),
                   *joint.shown(contact.after_film(clearance.film))]  # fmt: skip
         sections.append(Section(f"Joint {name}: film", tuple(blocks), 2))
+    if clearance.mixed is not None:
+        sections.append(Section(f"Joint {name}: mixed lubrication", tuple(_mixed(joint)), 2))
     lead = "At the centre any direction serves as n. Force on the journal, in ground axes"
     if clearance.normal is not None and clearance.film is not None:
-        lead += "; d marks the dry part, f the film, b goes from 0 to 1 over the transition"
+        over = "is the share above" if clearance.mixed else "goes from 0 to 1 over the transition"
+        lead += f"; d marks the dry part, f the film, b {over}"
     blocks = [paragraph(lead + ":"), *joint.shown(contact.resultant(clearance))]
     return [*sections, Section(f"Joint {name}: force", tuple(blocks), 2)]
 
@@ -226,6 +228,11 @@ def _dry(joint: JointWithPlay) -> list[Block]:
     ]  # fmt: skip
     return [impact, *joint.shown(contact.before_dry(clearance)), *_law(joint, "normal"), *friction,
             *joint.shown(contact.after_dry())]  # fmt: skip
+
+
+def _mixed(joint: JointWithPlay) -> list[Block]:
+    when = paragraph("While ", Name(r"\delta > 0", "δ > 0"), "; otherwise the share of the dry contact is 0.")
+    return [when, *_law(joint, "mixed")]
 
 
 def _law(joint: JointWithPlay, role: str) -> list[Block]:

@@ -1,0 +1,40 @@
+"""Christensen's mixed lubrication: surfaces touch over a share of their area, and the film has what is left of it.
+
+    F = b F_dry + (1 − b) F_film,   b = ∫ from Λ to 3 of 35/96 (1 − (u/3)²)³ du,   Λ = 3 − δ/σ
+
+b is the share of the area in which the heights of both surfaces overlap, for Christensen's density of heights, which is
+nearly a normal one and ends at ±3 σ. With x = 1 − δ/(6σ) it is 1 − x⁴ (35 − 84 x + 70 x² − 20 x³): from 0 at Λ = 3
+to 1 at Λ = −3, three times differentiable at both; the film's share is exact where it is small and the film steep.
+The contact's force is that of its own laws, the film's that of its own: what only dissipates does so together.
+H. Christensen, Proc. Instn Mech. Engrs 184 (1969) 1013–1026 (heights), 186 (1972) 421–430 (the share of the area).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.kinds.laws.law import Law, LawInputs
+from gudgeon.generator.kinds.laws.roughness import ROUGHNESS, overlap
+
+
+def build(s: LawInputs) -> dict[str, Any]:
+    """The share of the dry contact, for δ > 0."""
+    import sympy as sp
+
+    left = sp.Symbol("left", real=True)
+    return {"left": 1 - overlap(s, 3, -3), "share": 1 - left**4 * (35 - left * (84 - left * (70 - 20 * left)))}
+
+
+LAW = Law(
+    name="christensen",
+    role="mixed",
+    title="Christensen: film and contact share the area, by the film thickness ratio",
+    source="H. Christensen, Proc. Instn Mech. Engrs 184 (1969) 1013-1026 and 186 (1972) 421-430",
+    reference="H. Christensen, Stochastic models for hydrodynamic lubrication of rough surfaces, Proceedings of the "
+              "Institution of Mechanical Engineers 184 (1969) 1013-1026; H. Christensen, A theory of mixed "
+              "lubrication, the same 186 (1972) 421-430",
+    validity="heights nearly normal, of one size over both surfaces; film alone above 3 sigma, contact alone below -3 "
+             "sigma; the clearance is that of the tips, the film's larger by 3 sigma; smooth to the third derivative",
+    fields=(ROUGHNESS,),
+    build=build,
+)  # fmt: skip

@@ -1,0 +1,39 @@
+"""ESDU 78035's contact of a journal in its bearing: cylinders with parallel axes, by the data sheet's formula.
+
+    δ = F/(π L E*) [ln(4 π L E* ΔR/F) + 1],   F_n = F (1 + a δ̇/δ̇⁻),   1/E* = (1 − ν_i²)/E_i + (1 − ν_j²)/E_j
+
+never negative unless it `pulls`, solved for F (cylinders.py). ΔR = R_i − R_j = c.
+ESDU 78035, Contact phenomena I: stresses, deflections and contact dimensions for normally loaded unlubricated elastic
+components (1978), as in C. Pereira, A. Ramalho, J. Ambrósio, Nonlinear Dynamics 63 (2011) 681–697. The damping factors
+are those of dissipation.py.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.kinds.laws.cylinders import FIELDS, cylinder_force
+from gudgeon.generator.kinds.laws.law import Law, LawInputs
+
+
+def build(s: LawInputs) -> dict[str, Any]:
+    """F_n (N), compressive, for δ > 0."""
+    import sympy as sp
+
+    return cylinder_force(s, 1, sp.Rational(37, 10))
+
+
+LAW = Law(
+    name="esdu_78035",
+    role="normal",
+    title="ESDU 78035: cylinders with parallel axes, with a choice of hysteresis damping",
+    source="ESDU 78035 (1978), as in Pereira et al. (2011)",
+    reference="ESDU 78035, Contact phenomena I: stresses, deflections and contact dimensions for normally loaded "
+              "unlubricated elastic components (1978), as in C. Pereira, A. Ramalho, J. Ambrosio, A critical overview "
+              "of internal and external cylinder contact force models, Nonlinear Dynamics 63 (2011) 681-697, doi "
+              "10.1007/s11071-010-9830-3",
+    validity="a contact that is narrow beside the radii; its load has an end at penetrations of 4 clearances, and a "
+             "run that goes deeper than 3.7 stops; driven apart fast it would pull, and is 0 there unless it pulls",
+    fields=FIELDS,
+    build=build,
+)  # fmt: skip

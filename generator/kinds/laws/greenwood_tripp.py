@@ -1,0 +1,46 @@
+"""Greenwood and Tripp's mixed lubrication: asperities take the load as their overlap grows.
+
+    F = b F_dry + (1 − b) F_film,   b = F_{5/2}(Λ)/F_{5/2}(0),   Λ = 4 − δ/σ
+
+F_{5/2}(Λ) = ∫ from Λ of (u − Λ)^{5/2} φ(u) du, with normal heights, is what the asperities' load is in proportion to;
+in the form that N. Patir, H. S. Cheng, Proc. 5th Leeds-Lyon Symp. (1978) 15–21, fit to it, 4.4086e-5 (4 − Λ)^6.804 for
+Λ < 4, b is (δ/(4σ))^6.804. How large the contact's force is its own law says; at Λ = 0, where the mean surfaces meet,
+it is alone. There b has a corner.
+J. A. Greenwood, J. H. Tripp, Proc. Instn Mech. Engrs 185 (1970) 625–633; film and asperities side by side: K. L.
+Johnson, J. A. Greenwood, S. Y. Poon, Wear 19 (1972) 91–108.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.kinds.laws.law import Law, LawInputs
+from gudgeon.generator.kinds.laws.roughness import ROUGHNESS, overlap
+
+POWER = 6.804
+
+
+def build(s: LawInputs) -> dict[str, Any]:
+    """The share of the dry contact, for δ > 0."""
+    import sympy as sp
+
+    part = sp.Symbol("part", real=True)
+    return {"part": overlap(s, 4, 0), "share": part ** sp.Float(POWER)}
+
+
+LAW = Law(
+    name="greenwood_tripp",
+    role="mixed",
+    title="Greenwood and Tripp: the asperities' share of the load, by the film thickness ratio",
+    source="J. A. Greenwood, J. H. Tripp, Proc. Instn Mech. Engrs 185 (1970) 625-633; fit of N. Patir, H. S. Cheng "
+           "(1978)",
+    reference="J. A. Greenwood, J. H. Tripp, The contact of two nominally flat rough surfaces, Proceedings of the "
+              "Institution of Mechanical Engineers 185 (1970) 625-633; their integral as in N. Patir, H. S. Cheng, "
+              "Effect of surface roughness orientation on the central film thickness in EHD contacts, Proceedings of "
+              "the 5th Leeds-Lyon Symposium (1978) 15-21; K. L. Johnson, J. A. Greenwood, S. Y. Poon, A simple theory "
+              "of asperity contact in elastohydrodynamic lubrication, Wear 19 (1972) 91-108",
+    validity="normal heights; film alone above 4 sigma, contact alone where the mean surfaces meet; the clearance is "
+             "that of the tips, the film's larger by 4 sigma; the fit keeps the integral's share to .014",
+    fields=(ROUGHNESS,),
+    build=build,
+)  # fmt: skip

@@ -1,0 +1,38 @@
+"""Johnson's contact of a journal in its bearing: cylinders with parallel axes, pressed together by a load per length.
+
+    δ = F/(π L E*) [ln(4 π L E* ΔR/F) − 1],   F_n = F (1 + a δ̇/δ̇⁻),   1/E* = (1 − ν_i²)/E_i + (1 − ν_j²)/E_j
+
+never negative unless it `pulls`, solved for F (cylinders.py). ΔR = R_i − R_j = c.
+K. L. Johnson, Contact mechanics, Cambridge University Press (1985), section 5.6; in this form C. Pereira, A. Ramalho,
+J. Ambrósio, Nonlinear Dynamics 63 (2011) 681–697. The damping factors are those of dissipation.py.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.kinds.laws.cylinders import FIELDS, cylinder_force
+from gudgeon.generator.kinds.laws.law import Law, LawInputs
+
+
+def build(s: LawInputs) -> dict[str, Any]:
+    """F_n (N), compressive, for δ > 0."""
+    import sympy as sp
+
+    return cylinder_force(s, -1, sp.Rational(1, 2))
+
+
+LAW = Law(
+    name="johnson",
+    role="normal",
+    title="Johnson: cylinders with parallel axes, with a choice of hysteresis damping",
+    source="K. L. Johnson, Contact mechanics (1985), section 5.6, as in Pereira et al. (2011)",
+    reference="K. L. Johnson, Contact mechanics, Cambridge University Press (1985), section 5.6; in this form C. "
+              "Pereira, A. Ramalho, J. Ambrosio, A critical overview of internal and external cylinder contact force "
+              "models, Nonlinear Dynamics 63 (2011) 681-697, doi 10.1007/s11071-010-9830-3",
+    validity="a contact that is narrow beside the radii; its load has an end at penetrations of .541 clearances, and a "
+             "run that goes deeper than half a clearance stops; driven apart fast it would pull, and is 0 there unless "
+             "it pulls",
+    fields=FIELDS,
+    build=build,
+)  # fmt: skip
