@@ -158,6 +158,10 @@ static void rk4_note_event(Run *run, int i, double share, double h, const Parame
         const Clearance *gap = &at.aside.clearance[j];
         double *latched = &event_states(run)->latched[k][j];
         signed char *state = &event_states(run)->state[k][j];
+#if N_RIGID
+        if (rigid_joint[j])
+            continue;
+#endif
         if (gap->delta <= 0.0) {
             *latched = NAN;
             *state = 0;

@@ -44,6 +44,9 @@ typedef struct {
 #if LAW_STATES
     double state[LAW_STATES]; /* of its laws, at the state that is looked at */
 #endif
+#if N_RIGID
+    double force; /* N, of surfaces that do not give: what keeps a closed contact closed (contact_forces.h) */
+#endif
 } Latch;
 
 #if N_CHAIN
@@ -90,6 +93,9 @@ typedef struct {
     double delta, power;                 /* m, W */
 #if LAW_STATES
     double state_rate[LAW_STATES];       /* of the laws' inner states, each unit a second */
+#endif
+#if N_RIGID
+    double half_square_rate;             /* e . e'' + e' . e', m^2/s^2; where surfaces do not give */
 #endif
 } Clearance;
 

@@ -12,7 +12,7 @@ from gudgeon.generator.equations.geometry import Geometry, PointFrame
 from gudgeon.generator.equations.loads import PointLoad
 from gudgeon.generator.equations.own_laws import check_numbers
 from gudgeon.generator.kinds.laws.built import build
-from gudgeon.generator.kinds.laws.law import FURTHER, OWN, Law, LawInputs, PairSymbols, State, laws
+from gudgeon.generator.kinds.laws.law import OWN, Law, LawInputs, PairSymbols, State, laws
 from gudgeon.generator.mechanism.mechanism import Bearing, Joint, LawUse, Play
 from gudgeon.generator.symbols.numbers import Slots
 from gudgeon.generator.symbols.wholes import Whole
@@ -41,7 +41,7 @@ class LawEquations:
     @property
     def further(self) -> tuple[str, ...]:
         """What it reads besides what all of its role do."""
-        return tuple(symbol.name for symbol in self.variables if symbol.name in FURTHER.get(self.law.role, ()))
+        return tuple(symbol.name for symbol in self.variables if symbol.name in self.law.further)
 
 
 @dataclass(frozen=True)
@@ -60,6 +60,11 @@ class Clearance:
     velocity_floor: sp.Expr
     clip_ratio: bool
     constants: Mapping[str, sp.Expr]  # what a report prints: K, S, …
+
+    @property
+    def rigid(self) -> bool:
+        """Whether its surfaces do not give: velocities jump, and a contact that lasts is a constraint."""
+        return self.normal is not None and self.normal.law.rigid
 
     @property
     def states(self) -> tuple[State, ...]:
@@ -136,7 +141,7 @@ def _law(use: LawUse, pair: PairSymbols, slots: Slots, derive: Derive) -> LawEqu
 
     steps = build(law, LawInputs(parameters, use.options, pair, variables, told, Whole))
     read = {symbol.name for step in steps.values() for symbol in step.free_symbols}
-    unread = {name for name in FURTHER.get(law.role, ()) if name not in read}
+    unread = {name for name in law.further if name not in read}
     own = tuple(symbol for name, symbol in variables.items() if name not in unread)
     if law.name in OWN:
         check_numbers(law, own, steps, slots)

@@ -82,6 +82,11 @@ def _check_parts(name: Text, node: Map) -> None:
             if part in node:
                 message = f"contact {name} has {part} but no normal law"
                 raise MissingKeyError(message, node[part].where, "expected the key 'normal'")
+    if "normal" in node and node["normal"].get("law") in _rigid():
+        for part in ("film", "friction", "velocity_floor", "clip_ratio"):
+            if part in node:
+                hint = "expected a contact of this law alone: its surfaces do not give, and it has a threshold of its own"
+                raise BadValueError(f"contact {name} has {node['normal']['law']} and {part}", node.key(part).where, hint)
     if "normal" in node and "film" in node and "transition" not in node:
         hint = (
             "expected the key 'transition': the length over which the film hands over to the dry contact, such as 5 um"
@@ -91,6 +96,11 @@ def _check_parts(name: Text, node: Map) -> None:
         raise MissingKeyError(
             f"contact {name} has a transition but no film", node["transition"].where, "expected the key 'film'"
         )
+
+
+def _rigid() -> set[str]:
+    """Laws of surfaces that do not give."""
+    return {name for name, law in called("normal").items() if law.rigid}
 
 
 def _law_use(reader: Reader, address: str, role: str, node: Map) -> LawUse:

@@ -226,6 +226,7 @@ class KernelSource:
         return sha256("\n".join(parts).encode()).hexdigest() if len(parts) > 1 else self.sha256
 
     peaks: tuple[str, ...] = ()  # series whose peaks over all steps the scene asks for
+    rigid: tuple[str, ...] = ()  # joints with play whose surfaces do not give: Newton's restitution
     start_apart: tuple[str, ...] = ()  # rows of joints with play that the start holds apart, by e and its rate
     parts: tuple[PartInfo, ...] = ()  # all joints, drives and force elements: what is drawn
     massless: tuple[str, ...] = ()  # bodies without mass or inertia: nothing is known that follows from masses
@@ -246,10 +247,17 @@ class KernelSource:
         return len(self.clearances) + len(self.frictions) + len(self.states)
 
     @property
+    def explicit(self) -> bool:
+        """Whether only the explicit methods in C run it: what a law does has no slopes."""
+        return bool(self.states or self.rigid)
+
+    @property
     def no_slopes(self) -> str:
         """Why there is no Jacobian; "" where there is one."""
         if self.methods == (KINEMATIC,):
             return "without a degree of freedom nothing is integrated"
+        if self.rigid:
+            return f"the contact in {self.rigid[0]} is a constraint that comes and goes (newton_restitution)"
         return "a law has an inner state, whose slopes are not derived" if self.states else ""
 
     @property
@@ -258,7 +266,7 @@ class KernelSource:
         integrates = self.degrees_of_freedom or self.clearances or self.frictions
         if not integrates:
             return (KINEMATIC,)
-        return tuple(name for name in INTEGRATORS if not (self.states and name in NEED_SLOPES))
+        return tuple(name for name in INTEGRATORS if not (self.explicit and name in NEED_SLOPES))
 
     def to_json(self) -> str:
         """Readable JSON; the same source gives the same bytes."""

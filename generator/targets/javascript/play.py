@@ -43,7 +43,7 @@ def _dry(own: Pin, read: set[str]) -> list[str]:
     ratio = "unclipped" if own.clearance.clip_ratio else "ratio"
     before, after = _Part(own.before_dry, read), _Part(own.after_dry, read)
     body = [f"const {ratio} = latch.closed ? deltadot / latch.deltadot_minus : 1;", *before.text]
-    body += _call(own.laws["normal"], ("max_of(delta, 0)", "ratio", *own.further), ("F_n",), read)
+    body += _call(own.laws["normal"], ("max_of(delta, 0)", "ratio", *own.given("latch.")), ("F_n",), read)
     if "friction" in own.laws:
         states = (f"latch.state[{k}]" for k in range(len(own.clearance.states)))
         body += _call(own.laws["friction"], ("F_n", "v_t", *states), ("F_along_t_dry",), read)

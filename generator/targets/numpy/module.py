@@ -166,7 +166,7 @@ class NumPyModel(ClosedLinkage):
         rates = _one_each("latches", latches, [c.name for c in model.clearances], [np.nan] * len(model.clearances))
         bent = np.broadcast_to(np.asarray(states, dtype=float), (len(model.clearances), model.law_states)).tolist()
         memory = SimpleNamespace(
-            latch=[SimpleNamespace(closed=bool(x == x), deltadot_minus=float(x), state=z)
+            latch=[SimpleNamespace(closed=bool(x == x), deltadot_minus=float(x), force=np.nan, state=z)
                    for x, z in zip(rates, bent, strict=True)],
             mode=_one_each("modes", modes, [friction.name for friction in model.frictions]),
         )  # fmt: skip

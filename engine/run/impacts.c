@@ -1,0 +1,289 @@
+/*
+ * Surfaces that do not give (Newton's restitution): velocities jump where a gap closes, and a contact that lasts is held
+ * closed until its force is used up. All contacts of one time go by the same linear complementarity problem
+ *
+ *     x >= 0,   D x - r >= 0,   x (D x - r) = 0
+ *
+ * with D of contact_forces.h: of impulses (r = u + e u where surfaces meet at the rate u) and of forces (r = delta'').
+ * J. J. Moreau, in: Nonsmooth Mechanics and Applications (1988); F. Pfeiffer, C. Glocker, Multibody Dynamics with
+ * Unilateral Contacts (1996).
+ */
+#define TOUCHING 1e-10 /* of the clearance: surfaces that are no further apart touch */
+#define PARTED 1e-12   /* of it: how far apart surfaces are put that are to part */
+#define RESTING 1e-6   /* of the threshold: a rate of the gap that is none */
+enum { MOST_PASSES = 100 };
+
+/* Not negative while things go on as they are: the gap of a free joint, m, the force of a closed contact, N. */
+static double contact_margin(const Memory *memory, const Aside *aside, int i)
+{
+    const Clearance *joint = &aside->clearance[i];
+    if (!memory->latch[i].closed)
+        return -joint->delta;
+    return rigid_joint[i] ? memory->latch[i].force : joint->delta;
+}
+
+static int touches(const Run *run, int i, const Parameters *p)
+{
+    const double gap = -run->aside.clearance[i].delta;
+    return rigid_joint[i] && (run->memory.latch[i].closed || gap <= TOUCHING * radial_clearance(p, i));
+}
+
+static double resting(const Parameters *p, int i) { return RESTING * threshold_of(p, i); }
+
+/*
+ * x of the complementarity problem among the contacts that take part: those that push are turned round one by one, the
+ * least number first, until none pulls and none is violated (K. G. Murty, Linear Algebra Appl. 9 (1974) 65-108).
+ */
+static int complementary(const Answer *contacts, const double *r, double *x)
+{
+    unsigned char pushes[N_RIGID] = {0};
+    double size = 0.0;
+    for (int k = 0; k < contacts->n; k++)
+        size = max_of(size, fabs(r[k]));
+    for (long i = 0; i < 1000L << (N_RIGID < 10 ? N_RIGID : 10); i++) {
+        int turned = -1;
+        solve_part(contacts, pushes, r, x);
+        for (int k = 0; k < contacts->n && turned < 0; k++) {
+            double left = -r[k];
+            for (int j = 0; j < contacts->n; j++)
+                left += contacts->D[k][j] * x[j];
+            if (pushes[k] ? x[k] * contacts->D[k][k] < -1e-14 * size : left < -1e-12 * size)
+                turned = k;
+        }
+        if (turned < 0)
+            return 0;
+        pushes[turned] = !pushes[turned];
+    }
+    return CHATTERING;
+}
+
+static int answer_here(Run *run, const Parameters *p, Answer *contacts)
+{
+    run->evaluations += 1 + contacts->n;
+    return find_answer(motion_of_laws, N_Y, run->t, run->y, &run->memory, p, contacts);
+}
+
+/*
+ * Positions and velocities of listed contacts at `gap` (m, each) and, where they are closed, without a rate of it: the
+ * smallest change, measured by M.
+ */
+static int seat(Run *run, double t, double *y, const Parameters *p, Answer *contacts, const double *gap)
+{
+    unsigned char all[N_RIGID], closed[N_RIGID];
+    Memory now = run->memory;
+    for (int k = 0; k < contacts->n; k++) {
+        Latch *latch = &now.latch[contacts->joint[k]];
+        all[k] = 1;
+        closed[k] = (unsigned char)latch->closed;
+        latch->closed = 1; /* that a force moves it */
+    }
+    for (int pass = 0; pass < 3; pass++) {
+        double dy[N_Y], depth[N_RIGID], rate[N_RIGID], x[N_RIGID], u[N_RIGID], worst = 0.0;
+        Aside aside;
+        int status = find_answer(motion_of_laws, N_Y, t, y, &now, p, contacts);
+        if (!status)
+            status = motion_of_laws(t, y, &now, p, dy, &aside);
+        run->evaluations += contacts->n + 2;
+        if (status)
+            return status;
+        for (int k = 0; k < contacts->n; k++) {
+            const Clearance *joint = &aside.clearance[contacts->joint[k]];
+            depth[k] = joint->delta + gap[k];
+            rate[k] = closed[k] ? joint->deltadot : 0.0;
+            worst = max_of(worst, fabs(depth[k]) / radial_clearance(p, contacts->joint[k]));
+        }
+        solve_part(contacts, all, depth, x);
+        solve_part(contacts, closed, rate, u);
+        for (int k = 0; k < contacts->n; k++)
+            for (int i = 0; i < N_X; i++) {
+                y[i] += contacts->way[k][N_X + i] * x[k];
+                y[N_X + i] += contacts->way[k][N_X + i] * u[k];
+            }
+        if (worst < 1e-14)
+            break;
+    }
+    return 0;
+}
+
+/* A state back onto e = c and no rate of it where contacts are closed. */
+static void hold_contacts(Run *run, double t, double *y, const Parameters *p)
+{
+    const double none[N_RIGID] = {0.0};
+    Answer contacts;
+    contacts.n = list_closed(&run->memory, contacts.joint);
+    if (contacts.n)
+        (void)seat(run, t, y, p, &contacts, none);
+}
+
+/* One line of the list that Python fetches; of a blow without a length F_peak is the impulse, N s. */
+static int list_contact(Run *run, const Impact *contact)
+{
+    if (run->n_impacts >= N_IMPACTS)
+        return CHATTERING;
+    run->impacts[run->n_impacts++] = *contact;
+    return 0;
+}
+
+/* Impulses: what they change in the velocities, their work, and what is listed of them. */
+static void jump(Run *run, const Answer *blow, const double *impulse, const double *meeting, const Parameters *p)
+{
+    const double energy = kinetic_energy(run, p);
+    double lost = 0.0;
+    for (int k = 0; k < blow->n; k++) {
+        double change = 0.0;
+        for (int j = 0; j < blow->n; j++)
+            change += blow->D[k][j] * impulse[j];
+        lost += impulse[k] * (meeting[k] - 0.5 * change); /* the impulse by the mean rate of the gap */
+        for (int i = 0; i < N_X; i++)
+            run->y[N_X + i] += blow->way[k][N_X + i] * impulse[k];
+    }
+    run->y[2 * N_X + 2] -= lost;
+    run->y[2 * N_X] += kinetic_energy(run, p) - energy + lost; /* what drives hold moves on as before */
+}
+
+/*
+ * Every joint that touches and closes at a rate gets its impulse, and with it every contact that is closed: one blow.
+ * A parting that would be slower than the threshold is none. Nothing that friction can do has a part in it.
+ */
+static int strike(Run *run, const Parameters *p, int *struck)
+{
+    Answer blow = {0};
+    double meeting[N_RIGID], r[N_RIGID], impulse[N_RIGID], mode[AT_LEAST_ONE(N_FRICTIONS)];
+    const Memory known = run->memory;
+    *struck = 0;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const double u = run->aside.clearance[i].deltadot;
+        const int meets_now = rigid_joint[i] && touches(run, i, p) && u > resting(p, i);
+        if (!meets_now && !(rigid_joint[i] && known.latch[i].closed && u >= -resting(p, i)))
+            continue;
+        const double back = restitution_of(p, i) * u;
+        meeting[blow.n] = u;
+        r[blow.n] = meets_now && back > threshold_of(p, i) ? u + back : u;
+        blow.joint[blow.n++] = i;
+        run->memory.latch[i].closed = 1;
+        *struck |= meets_now;
+    }
+    for (int i = 0; i < N_FRICTIONS; i++) {
+        mode[i] = run->memory.mode[i];
+        run->memory.mode[i] = 2.0; /* a force, not an impulse */
+    }
+    int status = *struck ? answer_here(run, p, &blow) : 0;
+    run->memory = known;
+    if (!status && *struck)
+        status = complementary(&blow, r, impulse);
+    if (status || !*struck)
+        return status;
+    jump(run, &blow, impulse, meeting, p);
+    for (int k = 0; k < blow.n && !status; k++) {
+        const int i = blow.joint[k];
+        const Impact bounce = {run->t, run->t, meeting[k], impulse[k], run->t, i};
+        if (impulse[k] > 0.0)
+            status = list_contact(run, &bounce);
+        run->onsets += impulse[k] > 0.0 && !known.latch[i].closed;
+    }
+    return status ? status : slip_after_blow(run, p);
+}
+
+/* Joint i is closed, or open, from now on. */
+static int turn_contact(Run *run, int i, int closes)
+{
+    Latch *latch = &run->memory.latch[i];
+    const int was = latch->closed;
+    latch->closed = closes;
+    if (closes == was)
+        return 0;
+    run->compressing[i] = 0;
+    if (closes) {
+        latch->deltadot_minus = 0.0;
+        run->open[i] = (Impact){run->t, NAN, 0.0, 0.0, run->t, i};
+        for (int k = run->n_impacts - 1; k >= 0 && run->impacts[k].t_on == run->t; k--)
+            if (run->impacts[k].joint == i)
+                latch->deltadot_minus = run->open[i].deltadot = run->impacts[k].deltadot;
+        return 0;
+    }
+    run->open[i].t_off = run->t;
+    return list_contact(run, &run->open[i]);
+}
+
+/* Which contacts that rest stay closed: those that must push; joint `opens` (-1: none) has just ceased to. */
+static int settle_contacts(Run *run, int opens, const Parameters *p)
+{
+    unsigned char rests[N_CLEARANCES], pushes[N_CLEARANCES] = {0};
+    double force[N_RIGID];
+    const Memory known = run->memory;
+    Answer contacts = {0};
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        rests[i] = i != opens && touches(run, i, p) && fabs(run->aside.clearance[i].deltadot) <= resting(p, i);
+        if (rigid_joint[i])
+            run->memory.latch[i].closed = rests[i];
+        if (rests[i])
+            contacts.joint[contacts.n++] = i;
+    }
+    int status = contacts.n ? answer_here(run, p, &contacts) : 0;
+    if (!status)
+        status = complementary(&contacts, contacts.r, force);
+    for (int k = 0; k < contacts.n && !status; k++)
+        pushes[contacts.joint[k]] = force[k] > 0.0;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        run->memory.latch[i].closed = known.latch[i].closed;
+    for (int i = 0; i < N_CLEARANCES && !status; i++)
+        if (rigid_joint[i])
+            status = turn_contact(run, i, pushes[i]);
+    return status;
+}
+
+/* Closed contacts exactly at e = c, and what touches and parts a little apart: the next step looks for its return. */
+static int put_apart(Run *run, const Parameters *p)
+{
+    double gap[N_RIGID];
+    Answer touching = {0};
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const double apart = PARTED * radial_clearance(p, i);
+        if (!rigid_joint[i] || (!run->memory.latch[i].closed && run->aside.clearance[i].delta < -apart))
+            continue;
+        gap[touching.n] = run->memory.latch[i].closed ? 0.0 : apart;
+        touching.joint[touching.n++] = i;
+    }
+    return touching.n ? seat(run, run->t, run->y, p, &touching, gap) : 0;
+}
+
+/*
+ * Where contacts may change: blows until none meets, then which contacts rest, then the right-hand side of what
+ * follows. `event`: the margin that ended the step, -1 of none.
+ */
+static int meet(Run *run, int event, const Parameters *p)
+{
+    const int opens = event >= 0 && event < N_CLEARANCES && rigid_joint[event] && run->memory.latch[event].closed;
+    int struck = 1, status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+    for (int pass = 0; pass < MOST_PASSES && struck && !status; pass++) {
+        status = strike(run, p, &struck);
+        if (!status && struck)
+            status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+    }
+    if (!status && struck)
+        return CHATTERING;
+    for (int pass = 0; pass < 2 && !status; pass++) { /* forces of stick follow those of contacts, and these them */
+        status = settle_contacts(run, opens ? event : -1, p);
+        if (!status)
+            status = settle_friction(run, p);
+        if (!N_FRICTIONS)
+            break;
+    }
+    if (!status)
+        status = put_apart(run, p);
+    return status ? status : settle_at(run, run->t, run->y, run->dy, &run->aside, -1, p);
+}
+
+/* A start that touches: what meets there is struck, what rests is closed. One that lies outside its bearing is none. */
+static int begin_contacts(Run *run, const Parameters *p)
+{
+    int some = 0;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        if (!rigid_joint[i] || run->memory.latch[i].closed)
+            continue;
+        if (run->aside.clearance[i].delta > 1e-6 * radial_clearance(p, i))
+            return LOST;
+        some |= touches(run, i, p);
+    }
+    return some ? meet(run, -1, p) : 0;
+}
