@@ -7,7 +7,7 @@
 #define Touched unsigned char
 #include "../both/rk4_trial.h"
 
-#if N_FRICTIONS
+#if N_FRICTIONS || N_RIGID
 #include "friction_events.c"
 #else
 #include "no_friction_events.c"
@@ -218,12 +218,12 @@ static inline double way_to(double t, double end)
 }
 
 #if N_CORNERS
-/* Part of a step, to t_new; where friction changes on the way, in parts that end there. */
+/* Part of a step, to t_new; where friction or a rigid contact changes on the way, in parts that end there. */
 static int rk4_part(Run *run, double h, double t_new, const Parameters *p, const Samples *out)
 {
     Trial trial;
 #else
-/* One step to t_new; where friction changes on the way, in parts that end there. */
+/* One step to t_new; where friction or a rigid contact changes on the way, in parts that end there. */
 static int rk4_step(Run *run, double h, double t_new, const Parameters *p, const Samples *out)
 {
     Trial trial;
@@ -244,6 +244,8 @@ static int rk4_step(Run *run, double h, double t_new, const Parameters *p, const
         run->asked.hold = 1;
         if (!failed)
             failed = switch_friction(run, p);
+        if (!failed)
+            failed = meet(run, used_up(run), p);
         if (!failed)
             tape_jump(run, p);
         run->asked.hold = 0;

@@ -9,7 +9,7 @@
  * Unilateral Contacts (1996).
  */
 #define TOUCHING 1e-10 /* of the clearance: surfaces that are no further apart touch */
-#define PARTED 1e-12   /* of it: how far apart surfaces are put that are to part */
+#define PARTED (16.0 * DBL_EPSILON) /* of how far out bodies are: so far apart surfaces are put that are to part */
 #define RESTING 1e-6   /* of the threshold: a rate of the gap that is none */
 enum { MOST_PASSES = 100 };
 
@@ -19,13 +19,22 @@ static double contact_margin(const Memory *memory, const Aside *aside, int i)
     const Clearance *joint = &aside->clearance[i];
     if (!memory->latch[i].closed)
         return -joint->delta;
-    return rigid_joint[i] ? memory->latch[i].force : joint->delta;
+    return rigid_joint[i] ? -joint->F_n : joint->delta;
 }
 
 static int touches(const Run *run, int i, const Parameters *p)
 {
     const double gap = -run->aside.clearance[i].delta;
     return rigid_joint[i] && (run->memory.latch[i].closed || gap <= TOUCHING * radial_clearance(p, i));
+}
+
+/* The closed contact whose force is used up, or pulls; -1: none. */
+static int used_up(const Run *run)
+{
+    for (int i = 0; i < N_CLEARANCES; i++)
+        if (rigid_joint[i] && run->memory.latch[i].closed && contact_margin(&run->memory, &run->aside, i) <= 0.0)
+            return i;
+    return -1;
 }
 
 static double resting(const Parameters *p, int i) { return RESTING * threshold_of(p, i); }
@@ -232,13 +241,25 @@ static int settle_contacts(Run *run, int opens, const Parameters *p)
     return status;
 }
 
+/* The roundings between which a gap is none, m. */
+static double least_gap(const Run *run, const Parameters *p)
+{
+    double all[N_S], most = 0.0;
+    to_absolute(run->t, run->y, &run->memory, p, all);
+    for (int k = 0; k < N_Q; k++)
+        most = max_of(most, k % 3 < 2 ? fabs(all[k]) : 0.0);
+    for (int i = 0; i < N_CLEARANCES; i++)
+        most = max_of(most, radial_clearance(p, i));
+    return PARTED * most;
+}
+
 /* Closed contacts exactly at e = c, and what touches and parts a little apart: the next step looks for its return. */
 static int put_apart(Run *run, const Parameters *p)
 {
     double gap[N_RIGID];
+    const double apart = least_gap(run, p);
     Answer touching = {0};
     for (int i = 0; i < N_CLEARANCES; i++) {
-        const double apart = PARTED * radial_clearance(p, i);
         if (!rigid_joint[i] || (!run->memory.latch[i].closed && run->aside.clearance[i].delta < -apart))
             continue;
         gap[touching.n] = run->memory.latch[i].closed ? 0.0 : apart;

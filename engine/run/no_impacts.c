@@ -6,6 +6,8 @@ static double contact_margin(const Memory *memory, const Aside *aside, int i)
 
 static void hold_contacts(Run *run, double t, double *y, const Parameters *p) { (void)run, (void)t, (void)y, (void)p; }
 
+static int used_up(const Run *run) { return (void)run, -1; }
+
 static int meet(Run *run, int event, const Parameters *p)
 {
     (void)run, (void)event, (void)p;

@@ -137,10 +137,15 @@ static double kinetic_energy(const Run *run, const Parameters *p)
 #include "no_impacts.c"
 #endif
 
+#if N_RIGID
+#define N_RIGID_LISTED MAX_PARTS /* a step of rk4 may hold so many blows; of more a run is ended (list_contact) */
+#else
+#define N_RIGID_LISTED 0
+#endif
 /* Whether the next step may find more than the lists hold. */
 static int lists_full(const Run *run)
 {
-    return run->n_impacts > N_IMPACTS - AT_LEAST_ONE(N_CLEARANCES)
+    return run->n_impacts > N_IMPACTS - (N_RIGID_LISTED + AT_LEAST_ONE(N_CLEARANCES))
         || run->n_events > N_IMPACTS - AT_LEAST_ONE(3 * N_USER_EVENTS) || tape_full(run);
 }
 
