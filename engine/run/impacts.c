@@ -10,7 +10,7 @@
  */
 #define TOUCHING 1e-10 /* of the clearance: surfaces that are no further apart touch */
 #define PARTED (16.0 * DBL_EPSILON) /* of how far out bodies are: so far apart surfaces are put that are to part */
-#define RESTING 1e-6   /* of the threshold: a rate of the gap that is none */
+#define RESTING 1e-6   /* of the threshold: surfaces that close so slowly need no blow */
 enum { MOST_PASSES = 100 };
 
 /* Not negative while things go on as they are: the gap of a free joint, m, the force of a closed contact, N. */
@@ -214,7 +214,10 @@ static int turn_contact(Run *run, int i, int closes)
     return list_contact(run, &run->open[i]);
 }
 
-/* Which contacts that rest stay closed: those that must push; joint `opens` (-1: none) has just ceased to. */
+/*
+ * Which contacts that rest, or part slower than the threshold, are closed: those that must push. Joint `opens` (-1:
+ * none) has just ceased to.
+ */
 static int settle_contacts(Run *run, int opens, const Parameters *p)
 {
     unsigned char rests[N_CLEARANCES], pushes[N_CLEARANCES] = {0};
@@ -222,7 +225,7 @@ static int settle_contacts(Run *run, int opens, const Parameters *p)
     const Memory known = run->memory;
     Answer contacts = {0};
     for (int i = 0; i < N_CLEARANCES; i++) {
-        rests[i] = i != opens && touches(run, i, p) && fabs(run->aside.clearance[i].deltadot) <= resting(p, i);
+        rests[i] = i != opens && touches(run, i, p) && fabs(run->aside.clearance[i].deltadot) <= threshold_of(p, i);
         if (rigid_joint[i])
             run->memory.latch[i].closed = rests[i];
         if (rests[i])
@@ -265,7 +268,10 @@ static int put_apart(Run *run, const Parameters *p)
         gap[touching.n] = run->memory.latch[i].closed ? 0.0 : apart;
         touching.joint[touching.n++] = i;
     }
-    return touching.n ? seat(run, run->t, run->y, p, &touching, gap) : 0;
+    const double energy = kinetic_energy(run, p);
+    const int status = touching.n ? seat(run, run->t, run->y, p, &touching, gap) : 0;
+    run->y[2 * N_X + 2] += kinetic_energy(run, p) - energy; /* of partings slower than the threshold */
+    return status;
 }
 
 /*

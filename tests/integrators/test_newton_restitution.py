@@ -36,15 +36,30 @@ events: {down: {zero: ball.vy, direction: falling}}
 scenes: {hard: {play: {A: {bearing: wide, contact: hard}}, simulate: {t_end: 2 s, step: 1e-3 s}}}
 """
 BAR = """\
-parameters: {tilt: 0.7 rad, turn: 0 rad/s}
+parameters: {tilt: 0.7 rad}
 bodies: {bar: {mass: 0.4 kg, inertia: 3e-3 kg*m^2, points: {pin: [0, 0.12 m]}}}
 ground: {hole: [0, 0]}
 freedoms: 1
 joints: {A: {revolute: [ground.hole, bar.pin]}}
-start: {set: {bar.theta: tilt}, rates: {bar.omega: turn}}
+start: {set: {bar.theta: tilt}, rates: {bar.omega: 0}}
 bearings: {hole: {radius: 15 mm, clearance: 5 mm, length: 10 mm, bearing_material: steel, journal_material: steel}}
 contacts: {hard: {normal: {law: newton_restitution, restitution: 0.6, threshold: 1e-3 m/s}}}
 scenes: {hard: {play: {A: {bearing: hole, contact: hard}}, simulate: {t_end: 1 s, step: 1e-4 s}}}
+"""
+TWO = """\
+bodies: {bar: {mass: 0.4 kg, inertia: 3e-3 kg*m^2, points: {left: [-0.1 m, 0], right: [0.1 m, 0]}}}
+ground: {west: [-0.1 m, 0], east: [0.1 m, 0]}
+freedoms: 0
+joints: {A: {revolute: [ground.west, bar.left]}, B: {revolute: [ground.east, bar.right]}}
+start: {play: {A: {}, B: {}}}
+bearings: {hole: {radius: 15 mm, clearance: 5 mm, length: 10 mm, bearing_material: steel, journal_material: steel}}
+contacts:
+  hard: {normal: {law: newton_restitution, restitution: 0.6}}
+  soft: {normal: {law: newton_restitution, restitution: 0.3}}
+scenes:
+  hard:
+    play: {A: {bearing: hole, contact: hard}, B: {bearing: hole, contact: soft}}
+    simulate: {t_end: 1 s, step: 1e-4 s}
 """
 OBLIQUE = {"start.play.A.e.x": 0.4, "start.play.A.e.y": 0.3, "start.play.A.rate.x": 2.0}
 
@@ -107,11 +122,10 @@ def test_energy_is_lost_by_the_law_and_by_nothing_else(folder: Path, e: float) -
         np.testing.assert_allclose(energy, energy[0], atol=1e-10 * abs(energy).max())
 
 
-def released(c: float = 5e-3, e: float = 0.6, tilt: float = 0.7, turn: float = 0.0, end: float = 0.6) -> tuple[HungBar, Any, Any]:
-    bar = HungBar(0.4, 3e-3, 0.12, c, e, 1e-3)
+def released(tilt: float = 0.7, end: float = 0.6) -> tuple[HungBar, Any, Any]:
+    bar = HungBar(0.4, 3e-3, 0.12, 5e-3, 0.6, 1e-3)
     t = np.linspace(0.0, end, 301)
-    y = np.array([0.12 * math.sin(tilt), -0.12 * math.cos(tilt), tilt, 0.12 * math.cos(tilt) * turn,
-                  0.12 * math.sin(tilt) * turn, turn])  # fmt: skip
+    y = np.array([0.12 * math.sin(tilt), -0.12 * math.cos(tilt), tilt, 0.0, 0.0, 0.0])
     return bar, t, bar.run(y, end, t)
 
 
@@ -128,3 +142,80 @@ def test_a_bar_in_a_hole_against_an_oracle(folder: Path, method: str, formulatio
         np.testing.assert_allclose(run[name], expected[:, column], atol=1e-6)
     closed = run["A.state"] > 0
     np.testing.assert_allclose(run["A.Fn"][closed], [bar.force(y) for y in expected[closed]], atol=1e-5)
+
+
+def test_a_ball_runs_up_the_wall_and_leaves_it_where_nothing_presses(folder: Path) -> None:
+    """A start on the wall; it leaves at cos θ = (2 − v²/(g R))/3 from below, and falls on a parabola."""
+    v, g = 6.0, 9.81
+    start = {"start.play.A.e.y": -1.0, "start.play.A.rate.x": v, "contacts.hard.normal.restitution": 0.0}
+    run = made(folder, BALL).simulate(1.2, parameters=start, output=1200, rtol=1e-11, stop=False)
+    first = run.impacts[0]
+    assert first["t_on"] == 0.0 and first["deltadot"] == 0.0
+    cosine = (2.0 - v * v / g) / 3.0
+    flight = np.flatnonzero(run["A.state"] == 0)
+    assert len(flight) > 20 and run.t[flight[0] - 1] <= first["t_off"] <= run.t[flight[0]]
+    closed = slice(0, flight[0])
+    theta = np.arctan2(run["ball.x"], -run["ball.y"])[closed]
+    assert math.cos(theta[-1]) > cosine - 1e-12 and math.cos(theta[-1] + 7e-3) < cosine
+    force = 0.092 * (v * v - 2.0 * g * (1.0 - np.cos(theta)) + g * np.cos(theta))
+    np.testing.assert_allclose(run["A.Fn"][closed], force, rtol=1e-8, atol=1e-9)
+    np.testing.assert_allclose(np.hypot(run["ball.x"], run["ball.y"])[closed], 1.0, atol=4e-16)
+
+
+def test_a_ball_swings_in_the_hole_as_a_pendulum_of_its_clearance(folder: Path) -> None:
+    from scipy.special import ellipk
+
+    amplitude = 0.9
+    start = {"start.play.A.e.x": math.sin(amplitude), "start.play.A.e.y": -math.cos(amplitude)}
+    run = made(folder, BALL).simulate(5.0, parameters=start, rtol=1e-11, stop=False)
+    period = 4.0 * math.sqrt(1.0 / 9.81) * float(ellipk(math.sin(amplitude / 2.0) ** 2))
+    tops = run.events_of("down")  # at each end of a swing
+    np.testing.assert_allclose(np.diff(tops), period / 2.0, rtol=1e-9)
+    assert len(tops) == 4 and (run["A.state"] == 2).all()
+
+
+@pytest.mark.parametrize("method", ["dop853", "rk4"])
+def test_two_contacts_at_once(folder: Path, method: str) -> None:
+    """Both ends of a bar fall on their walls together: each returns by its own law, the impulses are those of the bar."""
+    simulation = made(folder, TWO)
+    run = simulation.simulate(0.04, method=method, output=400)
+    u, m, J, l = math.sqrt(2.0 * 9.81 * 5e-3), 0.4, 3e-3, 0.1
+    first = run.impacts[:2]
+    np.testing.assert_allclose(first["t_on"], u / 9.81, rtol=1e-9)
+    np.testing.assert_allclose(first["deltadot"], u, rtol=1e-9)
+    assert sorted(first["joint"]) == [0, 1] and first["t_on"][0] == first["t_on"][1]
+    D = np.array([[1 / m + l * l / J, 1 / m - l * l / J], [1 / m - l * l / J, 1 / m + l * l / J]])
+    impulse = np.linalg.solve(D, [1.6 * u, 1.3 * u])
+    np.testing.assert_allclose(first["F_peak"][np.argsort(first["joint"])], impulse, rtol=1e-8)
+    k = int(np.searchsorted(run.t, u / 9.81)) + 1
+    speed, turn = (0.6 + 0.3) / 2.0 * u, (0.3 - 0.6) * u / (2.0 * l)
+    assert run["bar.vy"][k] == pytest.approx(speed - 9.81 * (run.t[k] - u / 9.81), rel=1e-8)
+    assert run["bar.omega"][k] == pytest.approx(turn, rel=1e-8)
+    both = {f"contacts.{name}.normal.restitution": 1.0 for name in ("hard", "soft")}
+    kept = simulation.simulate(0.5, parameters=both, method=method, output=500)
+    energy = kept["energy.kinetic"] + kept["energy.potential"]
+    np.testing.assert_allclose(energy, energy[0], atol=1e-9 * energy[0])
+    np.testing.assert_allclose(kept["bar.theta"], 0.0, atol=1e-9)
+    assert len(kept.impacts) >= 12
+
+
+@pytest.mark.parametrize(("inertia", "held"), [(3e-3, True), (5e-3, False)])
+def test_a_contact_that_rests_takes_part_in_another_ones_blow(folder: Path, inertia: float, held: bool) -> None:
+    """One end rests on its wall when the other strikes: it is held down where 1/m − l²/J < 0, else it is thrown up."""
+    m, l, c, tilt = 0.4, 0.1, 5e-3, 5e-3
+    start = {"start.play.A.e.y": -c, "start.play.B.e.y": -c + 2 * l * math.sin(tilt), "bodies.bar.inertia": inertia}
+    start |= {"start.play.B.e.x": 2 * l * (math.cos(tilt) - 1.0)}
+    start |= {f"contacts.{name}.normal.restitution": 0.0 for name in ("hard", "soft")}
+    run = made(folder, TWO).simulate(0.05, parameters=start, rtol=1e-11)
+    own = run.impacts[run.impacts["joint"] == 0]
+    blow = run.impacts[(run.impacts["joint"] == 1)][0]
+    gone = own[(own["t_off"] == blow["t_on"]) & (own["t_on"] < blow["t_on"])]
+    pressed = own[(own["t_off"] == blow["t_on"]) & (own["t_on"] == blow["t_on"])]
+    cross = 1 / m - l * l / inertia
+    assert (cross < 0.0) == held
+    assert len(pressed) == held and len(gone) == (not held)
+    if held:
+        D = np.array([[1 / m + l * l / inertia, cross], [cross, 1 / m + l * l / inertia]])
+        impulse = np.linalg.solve(D, [0.0, blow["deltadot"]])
+        np.testing.assert_allclose([pressed["F_peak"][0], blow["F_peak"]], impulse, rtol=1e-3)  # walls are a little round
+        assert run["A.state"][-1] == run["B.state"][-1] == 2 and run["A.Fn"][-1] == pytest.approx(0.2 * 9.81, rel=1e-2)
