@@ -106,11 +106,11 @@ def make_clearance(joint: Joint, play: Play, geometry: Geometry, slots: Slots) -
 
     contact = play.contact
     normal, friction, film = law(contact.normal, "normal"), law(contact.friction, "friction"), law(contact.film, "film")
-    floor = (
-        slots.use(contact.velocity_floor)
-        if contact.velocity_floor
-        else slots.constant(f"contacts.{contact.name}.velocity_floor", "velocity_floor", VELOCITY_FLOOR, VELOCITY)
-    )
+    floor: sp.Expr = sp.Integer(0)  # of surfaces that give alone
+    if contact.velocity_floor:
+        floor = slots.use(contact.velocity_floor)
+    elif not (normal and normal.law.rigid):
+        floor = slots.constant(f"contacts.{contact.name}.velocity_floor", "velocity_floor", VELOCITY_FLOOR, VELOCITY)
     transition = slots.use(contact.transition) if contact.transition is not None else None
     constants["c"], constants["R_i"], constants["R_j"] = pair.c, pair.R_i, pair.R_j
     return Clearance(

@@ -34,7 +34,8 @@ LAW = Law(
               "Panagiotopoulos (eds.), Nonsmooth Mechanics and Applications, Springer (1988) 1-82, "
               "doi 10.1007/978-3-7091-2624-0_1; F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts, "
               "Wiley (1996)",
-    validity="impacts far shorter than all else in the motion; what lasts and how hard it presses meanwhile is not told",
+    validity="a blow parts surfaces with e times their speed of approach, what is closed is a constraint that only "
+             "pushes; blows are far shorter than all else in the motion, how hard they press is not told",
     fields=(
         number(
             "restitution", "speed of parting by speed of approach", DIMENSIONLESS,
