@@ -46,10 +46,8 @@ static inline void watch_joint(RunOf *run, int i)
     const Truth highest = closed & (F > run->open[i].F_peak);
     run->open[i].F_peak = pick(highest, F, run->open[i].F_peak);
     run->open[i].t_peak = pick(highest, run->t, run->open[i].t_peak);
-#if N_RIGID
-    if (rigid_joint[i])
+    if (!gives(i))
         return; /* no rate, so no ratio */
-#endif
     const Real ratio = joint->deltadot / run->memory.latch[i].deltadot_minus;
     const Truth outside = (ratio < -1.0) | (ratio > 1.0);
     run->ratio_min = pick(closed & (ratio < run->ratio_min), ratio, run->ratio_min);

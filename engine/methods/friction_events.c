@@ -12,7 +12,7 @@ static int changed(const Run *run, const Aside *after, double *value)
     }
 #if N_RIGID
     for (int i = 0; i < N_CLEARANCES && found < 0; i++) {
-        const double now = rigid_joint[i] ? contact_margin(&run->memory, after, i) : 0.0;
+        const double now = !gives(i) ? contact_margin(&run->memory, after, i) : 0.0;
         if (now < 0.0 && contact_margin(&run->memory, &run->aside, i) > now) {
             found = N_FRICTIONS + i;
             *value = now;

@@ -21,7 +21,6 @@ typedef struct {
     signed char *state;
 } Samples;
 
-
 static void begin_step(Run *run)
 {
     Beginning *from = &run->from;
@@ -158,10 +157,8 @@ static void rk4_note_event(Run *run, int i, double share, double h, const Parame
         const Clearance *gap = &at.aside.clearance[j];
         double *latched = &event_states(run)->latched[k][j];
         signed char *state = &event_states(run)->state[k][j];
-#if N_RIGID
-        if (rigid_joint[j])
+        if (!gives(j))
             continue;
-#endif
         if (gap->delta <= 0.0) {
             *latched = NAN;
             *state = 0;

@@ -24,10 +24,8 @@ static void cross_contact(Run *run, int i, double floor)
 
 static void cross(Run *run, int k, const Parameters *p)
 {
-#if N_RIGID
-    if (k < N_CLEARANCES && rigid_joint[k])
+    if (k < N_CLEARANCES && !gives(k))
         return; /* meet() sees to all of them */
-#endif
     if (k < N_CLEARANCES)
         cross_contact(run, k, slowest_impact(p, k));
     else if (k < N_CLEARANCES + N_SWITCHES)

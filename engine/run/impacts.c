@@ -19,20 +19,20 @@ static double contact_margin(const Memory *memory, const Aside *aside, int i)
     const Clearance *joint = &aside->clearance[i];
     if (!memory->latch[i].closed)
         return -joint->delta;
-    return rigid_joint[i] ? -joint->F_n : joint->delta;
+    return !gives(i) ? -joint->F_n : joint->delta;
 }
 
 static int touches(const Run *run, int i, const Parameters *p)
 {
     const double gap = -run->aside.clearance[i].delta;
-    return rigid_joint[i] && (run->memory.latch[i].closed || gap <= TOUCHING * radial_clearance(p, i));
+    return !gives(i) && (run->memory.latch[i].closed || gap <= TOUCHING * radial_clearance(p, i));
 }
 
 /* The closed contact whose force is used up, or pulls; -1: none. */
 static int used_up(const Run *run)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (rigid_joint[i] && run->memory.latch[i].closed && contact_margin(&run->memory, &run->aside, i) <= 0.0)
+        if (!gives(i) && run->memory.latch[i].closed && contact_margin(&run->memory, &run->aside, i) <= 0.0)
             return i;
     return -1;
 }
@@ -78,11 +78,10 @@ static int answer_here(Run *run, const Parameters *p, Answer *contacts)
  */
 static int seat(Run *run, double t, double *y, const Parameters *p, Answer *contacts, const double *gap)
 {
-    unsigned char all[N_RIGID], closed[N_RIGID];
+    unsigned char closed[N_RIGID];
     Memory now = run->memory;
     for (int k = 0; k < contacts->n; k++) {
         Latch *latch = &now.latch[contacts->joint[k]];
-        all[k] = 1;
         closed[k] = (unsigned char)latch->closed;
         latch->closed = 1; /* that a force moves it */
     }
@@ -101,7 +100,7 @@ static int seat(Run *run, double t, double *y, const Parameters *p, Answer *cont
             rate[k] = closed[k] ? joint->deltadot : 0.0;
             worst = max_of(worst, fabs(depth[k]) / radial_clearance(p, contacts->joint[k]));
         }
-        solve_part(contacts, all, depth, x);
+        solve_part(contacts, NULL, depth, x);
         solve_part(contacts, closed, rate, u);
         for (int k = 0; k < contacts->n; k++)
             for (int i = 0; i < N_X; i++) {
@@ -157,13 +156,13 @@ static void jump(Run *run, const Answer *blow, const double *impulse, const doub
 static int strike(Run *run, const Parameters *p, int *struck)
 {
     Answer blow = {0};
-    double meeting[N_RIGID], r[N_RIGID], impulse[N_RIGID], mode[AT_LEAST_ONE(N_FRICTIONS)];
+    double meeting[N_RIGID], r[N_RIGID], impulse[N_RIGID];
     const Memory known = run->memory;
     *struck = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const double u = run->aside.clearance[i].deltadot;
-        const int meets_now = rigid_joint[i] && touches(run, i, p) && u > resting(p, i);
-        if (!meets_now && !(rigid_joint[i] && known.latch[i].closed && u >= -resting(p, i)))
+        const int meets_now = !gives(i) && touches(run, i, p) && u > resting(p, i);
+        if (!meets_now && !(!gives(i) && known.latch[i].closed && u >= -resting(p, i)))
             continue;
         const double back = restitution_of(p, i) * u;
         meeting[blow.n] = u;
@@ -172,10 +171,8 @@ static int strike(Run *run, const Parameters *p, int *struck)
         run->memory.latch[i].closed = 1;
         *struck |= meets_now;
     }
-    for (int i = 0; i < N_FRICTIONS; i++) {
-        mode[i] = run->memory.mode[i];
-        run->memory.mode[i] = 2.0; /* a force, not an impulse */
-    }
+    for (int i = 0; i < N_FRICTIONS; i++)
+        run->memory.mode[i] = 2.0; /* none: it has a force, not an impulse */
     int status = *struck ? answer_here(run, p, &blow) : 0;
     run->memory = known;
     if (!status && *struck)
@@ -226,7 +223,7 @@ static int settle_contacts(Run *run, int opens, const Parameters *p)
     Answer contacts = {0};
     for (int i = 0; i < N_CLEARANCES; i++) {
         rests[i] = i != opens && touches(run, i, p) && fabs(run->aside.clearance[i].deltadot) <= threshold_of(p, i);
-        if (rigid_joint[i])
+        if (!gives(i))
             run->memory.latch[i].closed = rests[i];
         if (rests[i])
             contacts.joint[contacts.n++] = i;
@@ -239,7 +236,7 @@ static int settle_contacts(Run *run, int opens, const Parameters *p)
     for (int i = 0; i < N_CLEARANCES; i++)
         run->memory.latch[i].closed = known.latch[i].closed;
     for (int i = 0; i < N_CLEARANCES && !status; i++)
-        if (rigid_joint[i])
+        if (!gives(i))
             status = turn_contact(run, i, pushes[i]);
     return status;
 }
@@ -263,7 +260,7 @@ static int put_apart(Run *run, const Parameters *p)
     const double apart = least_gap(run, p);
     Answer touching = {0};
     for (int i = 0; i < N_CLEARANCES; i++) {
-        if (!rigid_joint[i] || (!run->memory.latch[i].closed && run->aside.clearance[i].delta < -apart))
+        if (gives(i) || (!run->memory.latch[i].closed && run->aside.clearance[i].delta < -apart))
             continue;
         gap[touching.n] = run->memory.latch[i].closed ? 0.0 : apart;
         touching.joint[touching.n++] = i;
@@ -280,7 +277,7 @@ static int put_apart(Run *run, const Parameters *p)
  */
 static int meet(Run *run, int event, const Parameters *p)
 {
-    const int opens = event >= 0 && event < N_CLEARANCES && rigid_joint[event] && run->memory.latch[event].closed;
+    const int opens = event >= 0 && event < N_CLEARANCES && !gives(event) && run->memory.latch[event].closed;
     int struck = 1, status = rates(run, run->t, run->y, p, run->dy, &run->aside);
     for (int pass = 0; pass < MOST_PASSES && struck && !status; pass++) {
         status = strike(run, p, &struck);
@@ -306,7 +303,7 @@ static int begin_contacts(Run *run, const Parameters *p)
 {
     int some = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        if (!rigid_joint[i] || run->memory.latch[i].closed)
+        if (gives(i) || run->memory.latch[i].closed)
             continue;
         if (run->aside.clearance[i].delta > 1e-6 * radial_clearance(p, i))
             return LOST;

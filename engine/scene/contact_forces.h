@@ -29,7 +29,7 @@ static int list_closed(const Memory *memory, int *joint)
 {
     int n = 0;
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (rigid_joint[i] && memory->latch[i].closed)
+        if (!gives(i) && memory->latch[i].closed)
             joint[n++] = i;
     return n;
 }
@@ -72,8 +72,8 @@ static int find_answer(RatesOf *rates_of, int size, double t, const double *y, M
 }
 
 /*
- * D x = r in the contacts that take part, x = 0 in the others and in those that depend on what was solved before
- * (Gauss's elimination, the largest diagonal first).
+ * D x = r in the contacts that take part (NULL: all), x = 0 in the others and in those that depend on what was solved
+ * before (Gauss's elimination, the largest diagonal first).
  */
 static void solve_part(const Answer *contacts, const unsigned char *part, const double *r, double *x)
 {
@@ -85,7 +85,7 @@ static void solve_part(const Answer *contacts, const unsigned char *part, const 
         for (int j = 0; j < n; j++)
             A[i][j] = contacts->D[i][j];
         A[i][n] = r[i];
-        left[i] = part[i];
+        left[i] = part ? part[i] : 1;
         x[i] = 0.0;
     }
     for (;;) {
@@ -119,14 +119,11 @@ static int rates_in_contact(RatesOf *rates_of, int size, double t, const double 
     Answer contacts;
     contacts.n = list_closed(memory, contacts.joint);
     if (contacts.n) {
-        unsigned char all[N_RIGID];
         double force[N_RIGID];
         const int status = find_answer(rates_of, size, t, y, memory, p, &contacts);
         if (status)
             return status;
-        for (int k = 0; k < contacts.n; k++)
-            all[k] = 1;
-        solve_part(&contacts, all, contacts.r, force);
+        solve_part(&contacts, NULL, contacts.r, force);
         for (int k = 0; k < contacts.n; k++)
             memory->latch[contacts.joint[k]].force = force[k];
     }

@@ -37,6 +37,13 @@ typedef struct {
     int stop, hold; /* not wanted any more; what is under way comes to its end first */
 } Asked;
 
+/* Whether the surfaces of joint i with play give: where they do not, velocities jump and a contact is a constraint. */
+#if N_RIGID
+#define gives(i) (!rigid_joint[i])
+#else
+#define gives(i) ((void)(i), 1)
+#endif
+
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {
     int closed;

@@ -85,8 +85,8 @@ def _check_parts(name: Text, node: Map) -> None:
     if "normal" in node and node["normal"].get("law") in _rigid():
         for part in ("film", "friction", "velocity_floor", "clip_ratio"):
             if part in node:
-                hint = "expected a contact of this law alone: its surfaces do not give, and it has a threshold of its own"
-                raise BadValueError(f"contact {name} has {node['normal']['law']} and {part}", node.key(part).where, hint)
+                law, hint = node["normal"]["law"], "expected a contact of this law alone: its surfaces do not give"
+                raise BadValueError(f"contact {name} has {law} and {part}", node.key(part).where, hint)
     if "normal" in node and "film" in node and "transition" not in node:
         hint = (
             "expected the key 'transition': the length over which the film hands over to the dry contact, such as 5 um"

@@ -53,7 +53,8 @@ def _bounces_before(own: NDArray[Any], i: int) -> int:
         return 0
     count, slower = 0, 0.0
     for blow in own[:i][::-1]:
-        if blow["t_off"] != blow["t_on"] or not blow["deltadot"] > slower or (count == 0 and blow["t_on"] != own["t_on"][i]):
+        ends_here = count > 0 or blow["t_on"] == own["t_on"][i]
+        if not (ends_here and blow["t_off"] == blow["t_on"] and blow["deltadot"] > slower):
             break
         count, slower = count + 1, float(blow["deltadot"])
     return count

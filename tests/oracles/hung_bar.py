@@ -1,8 +1,7 @@
 """A bar whose pin hangs in a round hole, both rigid: free flight, blows by Newton's law, and rolling without friction.
 
-The pin's centre is at (x, y) from the hole's, the bar's centre of mass at l (sin θ, −cos θ) from the pin's. Flights and
-contacts are integrated by scipy's DOP853 between its own events; the angle of the pin in the hole is a coordinate of
-its own while it touches.
+The bar's centre of mass lies at length (sin θ, −cos θ) from the pin. Flights and contacts are integrated by scipy's
+DOP853 between its own events, in the coordinates of the centre of mass.
 """
 
 from __future__ import annotations
@@ -20,11 +19,11 @@ TIGHT = {"method": "DOP853", "rtol": 1e-12, "atol": 1e-14}
 
 @dataclass
 class HungBar:
-    """m (kg), J about the centre of mass (kg m²), l and clearance c (m), restitution e, threshold (m/s), g (m/s²)."""
+    """m (kg), J about the centre of mass (kg m²), length, clearance c (m), restitution e, threshold (m/s), g (m/s²)."""
 
     m: float
     J: float
-    l: float
+    length: float
     c: float
     e: float
     threshold: float
@@ -39,8 +38,8 @@ class HungBar:
     def pin(self, y: Array) -> tuple[Array, Array]:
         """Place and velocity of the pin."""
         s, c = np.sin(y[2]), np.cos(y[2])
-        return (np.array([y[0] - self.l * s, y[1] + self.l * c]),
-                np.array([y[3] - self.l * c * y[5], y[4] - self.l * s * y[5]]))  # fmt: skip
+        return (np.array([y[0] - self.length * s, y[1] + self.length * c]),
+                np.array([y[3] - self.length * c * y[5], y[4] - self.length * s * y[5]]))  # fmt: skip
 
     def gap(self, y: Array) -> float:
         return float(self.c - np.hypot(*self.pin(y)[0]))
@@ -53,14 +52,14 @@ class HungBar:
         """∂(e)/∂(X, Y, θ): what a unit force along the normal does."""
         at = self.pin(y)[0]
         n = at / np.hypot(*at)
-        return np.array([n[0], n[1], -self.l * (n[0] * np.cos(y[2]) + n[1] * np.sin(y[2]))])
+        return np.array([n[0], n[1], -self.length * (n[0] * np.cos(y[2]) + n[1] * np.sin(y[2]))])
 
     def force(self, y: Array) -> float:
-        """λ that keeps the pin on the wall, by central differences of nothing: ë of the pin written out."""
+        """λ that keeps the pin on the wall: n · ë + (ė · ė − (n · ė)²)/|e| = 0."""
         w, (at, speed) = self.direction(y), self.pin(y)
         n, inverse = at / np.hypot(*at), np.array([1 / self.m, 1 / self.m, 1 / self.J])
         s, c = np.sin(y[2]), np.cos(y[2])
-        turning = self.l * y[5] ** 2 * np.array([s, -c])  # of the pin about the centre of mass: −ω² arm, arm = l(−s, c)
+        turning = self.length * y[5] ** 2 * np.array([s, -c])  # of the pin about the centre of mass: −ω² arm
         along = n @ (np.array([0.0, -self.g]) + turning)
         across = speed @ speed - (n @ speed) ** 2
         return float((along + across / np.hypot(*at)) / (w @ (inverse * w)))
@@ -75,7 +74,7 @@ class HungBar:
         u, w = self.approach(y), self.direction(y)
         inverse = np.array([1 / self.m, 1 / self.m, 1 / self.J])
         stays = self.e * u <= self.threshold
-        impulse = (1.0 if stays else 1.0 + self.e) * u / (w @ (inverse * w))
+        impulse = float((1.0 if stays else 1.0 + self.e) * u / (w @ (inverse * w)))
         self.blows.append((t, u, impulse))
         after = y.copy()
         after[3:] -= inverse * w * impulse

@@ -60,8 +60,9 @@ def pin_functions(pin: Pin, render: Render, states: int) -> Iterator[PinFunction
     if clearance.film is not None:
         yield _film(pin, render, states)
     text = render(
-        _template(pin), joint=joint, rigid=clearance.rigid, arguments=_ARGUMENTS, gap=_lines(pin.gap), share=_lines(pin.share),
-        closed=_CLOSED if not clearance.rigid else "latch->closed", store=_store(clearance, states), first=pin.corners.start, last=pin.corners.stop,
+        _template(pin), joint=joint, arguments=_ARGUMENTS, gap=_lines(pin.gap), share=_lines(pin.share),
+        rigid=clearance.rigid, closed="latch->closed" if clearance.rigid else _CLOSED,
+        store=_store(clearance, states), first=pin.corners.start, last=pin.corners.stop,
     )  # fmt: skip
     stores: Stores = [*functions.one_by_one(pin.gap), *functions.one_by_one(pin.share)]
     stores += [(_BLENDED.format(one), f"F.{one}") for one in ("n", "t", "M_i", "M_j") if pin.has_transition]
