@@ -43,8 +43,12 @@ freedoms: 1
 joints: {A: {revolute: [ground.hole, bar.pin]}}
 start: {set: {bar.theta: tilt}, rates: {bar.omega: 0}}
 bearings: {hole: {radius: 15 mm, clearance: 5 mm, length: 10 mm, bearing_material: steel, journal_material: steel}}
-contacts: {hard: {normal: {law: newton_restitution, restitution: 0.6, threshold: 1e-3 m/s}}}
-scenes: {hard: {play: {A: {bearing: hole, contact: hard}}, simulate: {t_end: 1 s, step: 1e-4 s}}}
+contacts:
+  hard: {normal: {law: newton_restitution, restitution: 0.6, threshold: 1e-3 m/s}}
+  spring: {normal: {law: hertz, stiffness: 1e9, dissipation: exact, restitution: 0.6}}
+scenes:
+  hard: {play: {A: {bearing: hole, contact: hard}}, simulate: {t_end: 1 s, step: 1e-4 s}}
+  spring: {extends: hard, play: {A: {bearing: hole, contact: spring}}}
 """
 TWO = """\
 bodies: {bar: {mass: 0.4 kg, inertia: 3e-3 kg*m^2, points: {left: [-0.1 m, 0], right: [0.1 m, 0]}}}
@@ -65,10 +69,10 @@ OBLIQUE = {"start.play.A.e.x": 0.4, "start.play.A.e.y": 0.3, "start.play.A.rate.
 
 
 @cache
-def made(folder: Path, text: str, formulation: str = "reduced") -> Simulation:
+def made(folder: Path, text: str, formulation: str = "reduced", scene: str = "hard") -> Simulation:
     file = folder / f"rigid_{abs(hash((text, formulation)))}.yaml"
     file.write_text(HEAD + text, encoding="utf-8")
-    return gudgeon.load(file, "hard", formulation=formulation)
+    return gudgeon.load(file, scene, formulation=formulation)
 
 
 @pytest.fixture(scope="module")
@@ -143,6 +147,19 @@ def test_a_bar_in_a_hole_against_an_oracle(folder: Path, method: str, formulatio
         np.testing.assert_allclose(run[name], expected[:, column], atol=1e-6)
     closed = run["A.state"] > 0
     np.testing.assert_allclose(run["A.Fn"][closed], [bar.force(y) for y in expected[closed]], atol=1e-5)
+
+
+def test_ever_stiffer_springs_come_to_the_same(folder: Path) -> None:
+    """Hertz's contact that delivers the same restitution: behind two blows it is off by its time of contact, K^(−2/5)."""
+    t = np.linspace(0.0, 0.06, 61)
+    rigid = made(folder, BAR).simulate(output=t, rtol=1e-11)
+    off = []
+    for stiffness in (1e9, 3.2e11, 1.024e14):  # times 320: contacts are 10 times shorter
+        given = {"contacts.spring.normal.stiffness": stiffness}
+        run = made(folder, BAR, scene="spring").simulate(output=t, rtol=1e-10, parameters=given)
+        assert len(run.impacts) == 2 == (rigid.impacts["t_on"] < 0.06).sum()
+        off.append(abs(run["bar.theta"] - rigid["bar.theta"]).max())
+    assert off[0] < 1e-3 and off[1] < 0.13 * off[0] and off[2] < 0.13 * off[1]
 
 
 def test_a_ball_runs_up_the_wall_and_leaves_it_where_nothing_presses(folder: Path) -> None:
