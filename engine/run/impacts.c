@@ -1,10 +1,7 @@
 /*
  * Surfaces that do not give (Newton's restitution): velocities jump where a gap closes, and a contact that lasts is held
- * closed until its force is used up. All contacts of one time go by the same linear complementarity problem
- *
- *     x >= 0,   D x - r >= 0,   x (D x - r) = 0
- *
- * with D of contact_forces.h: of impulses (r = u + e u where surfaces meet at the rate u) and of forces (r = delta'').
+ * closed until its force is used up. All contacts of one time go by one linear complementarity problem
+ * (contact_forces.h), of impulses (r = u + e u where surfaces meet at the rate u) and of forces (r = delta'').
  * J. J. Moreau, in: Nonsmooth Mechanics and Applications (1988); F. Pfeiffer, C. Glocker, Multibody Dynamics with
  * Unilateral Contacts (1996).
  */
@@ -24,8 +21,26 @@ static double contact_margin(const Memory *memory, const Aside *aside, int i)
 
 static int touches(const Run *run, int i, const Parameters *p)
 {
-    const double gap = -run->aside.clearance[i].delta;
-    return !gives(i) && (run->memory.latch[i].closed || gap <= TOUCHING * radial_clearance(p, i));
+    const int near = run->aside.clearance[i].delta >= -TOUCHING * radial_clearance(p, i);
+    return !gives(i) && (near || run->memory.latch[i].closed);
+}
+
+/*
+ * A step in which no free journal goes further towards its wall, or from it, than half its clearance: flights are so
+ * smooth that a step could else lead out of the bearing and back. Seconds from rates now, less what stages saw of them.
+ */
+static double stride(const Run *run, const Step *step, const Parameters *p)
+{
+    double least = INFINITY;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        double rate = fabs(run->aside.clearance[i].deltadot);
+        if (gives(i) || run->memory.latch[i].closed)
+            continue;
+        if (step)
+            rate = max_of(rate, max_of(fabs(step->rate[i][0]), fabs(step->rate[i][1])));
+        least = min_of(least, 0.5 * radial_clearance(p, i) / rate);
+    }
+    return least;
 }
 
 /* The closed contact whose force is used up, or pulls; -1: none. */
@@ -38,33 +53,6 @@ static int used_up(const Run *run)
 }
 
 static double resting(const Parameters *p, int i) { return RESTING * threshold_of(p, i); }
-
-/*
- * x of the complementarity problem among the contacts that take part: those that push are turned round one by one, the
- * least number first, until none pulls and none is violated (K. G. Murty, Linear Algebra Appl. 9 (1974) 65-108).
- */
-static int complementary(const Answer *contacts, const double *r, double *x)
-{
-    unsigned char pushes[N_RIGID] = {0};
-    double size = 0.0;
-    for (int k = 0; k < contacts->n; k++)
-        size = max_of(size, fabs(r[k]));
-    for (long i = 0; i < 1000L << (N_RIGID < 10 ? N_RIGID : 10); i++) {
-        int turned = -1;
-        solve_part(contacts, pushes, r, x);
-        for (int k = 0; k < contacts->n && turned < 0; k++) {
-            double left = -r[k];
-            for (int j = 0; j < contacts->n; j++)
-                left += contacts->D[k][j] * x[j];
-            if (pushes[k] ? x[k] * contacts->D[k][k] < -1e-14 * size : left < -1e-12 * size)
-                turned = k;
-        }
-        if (turned < 0)
-            return 0;
-        pushes[turned] = !pushes[turned];
-    }
-    return CHATTERING;
-}
 
 static int answer_here(Run *run, const Parameters *p, Answer *contacts)
 {
@@ -175,14 +163,13 @@ static int strike(Run *run, const Parameters *p, int *struck)
         run->memory.mode[i] = 2.0; /* none: it has a force, not an impulse */
     int status = *struck ? answer_here(run, p, &blow) : 0;
     run->memory = known;
-    if (!status && *struck)
-        status = complementary(&blow, r, impulse);
+    status = !status && *struck ? complementary(&blow, r, impulse) : status;
     if (status || !*struck)
         return status;
     jump(run, &blow, impulse, meeting, p);
     for (int k = 0; k < blow.n && !status; k++) {
         const int i = blow.joint[k];
-        const Impact bounce = {run->t, run->t, meeting[k], impulse[k], run->t, i};
+        const Impact bounce = {run->t, run->t, max_of(meeting[k], 0.0), impulse[k], run->t, i};
         if (impulse[k] > 0.0)
             status = list_contact(run, &bounce);
         run->onsets += impulse[k] > 0.0 && !known.latch[i].closed;

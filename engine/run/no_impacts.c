@@ -6,6 +6,11 @@ static double contact_margin(const Memory *memory, const Aside *aside, int i)
 
 static void hold_contacts(Run *run, double t, double *y, const Parameters *p) { (void)run, (void)t, (void)y, (void)p; }
 
+static double stride(const Run *run, const Step *step, const Parameters *p)
+{
+    return (void)run, (void)step, (void)p, INFINITY;
+}
+
 static int used_up(const Run *run) { return (void)run, -1; }
 
 static int meet(Run *run, int event, const Parameters *p)

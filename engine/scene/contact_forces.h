@@ -112,6 +112,33 @@ static void solve_part(const Answer *contacts, const unsigned char *part, const 
     }
 }
 
+/*
+ * x of the complementarity problem x >= 0, D x - r >= 0, x (D x - r) = 0: contacts are turned round one by one, the
+ * least number first, until none pulls and none is violated (K. G. Murty, Linear Algebra Appl. 9 (1974) 65-108).
+ */
+static inline int complementary(const Answer *contacts, const double *r, double *x)
+{
+    unsigned char pushes[N_RIGID] = {0};
+    double size = 0.0;
+    for (int k = 0; k < contacts->n; k++)
+        size = max_of(size, fabs(r[k]));
+    for (long i = 0; i < 1000L << (N_RIGID < 10 ? N_RIGID : 10); i++) {
+        int turned = -1;
+        solve_part(contacts, pushes, r, x);
+        for (int k = 0; k < contacts->n && turned < 0; k++) {
+            double left = -r[k];
+            for (int j = 0; j < contacts->n; j++)
+                left += contacts->D[k][j] * x[j];
+            if (pushes[k] ? x[k] * contacts->D[k][k] < -1e-14 * size : left < -1e-12 * size)
+                turned = k;
+        }
+        if (turned < 0)
+            return 0;
+        pushes[turned] = !pushes[turned];
+    }
+    return CHATTERING;
+}
+
 /* The right-hand side with the forces that closed contacts need; they are left in `memory`. */
 static int rates_in_contact(RatesOf *rates_of, int size, double t, const double *y, Memory *memory,
     const Parameters *p, double *dy, Aside *aside)

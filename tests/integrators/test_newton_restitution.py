@@ -150,7 +150,7 @@ def test_a_bar_in_a_hole_against_an_oracle(folder: Path, method: str, formulatio
 
 
 def test_ever_stiffer_springs_come_to_the_same(folder: Path) -> None:
-    """Hertz's contact that delivers the same restitution: behind two blows it is off by its time of contact, K^(−2/5)."""
+    """Hertz's contact of the same restitution: behind two blows it is off by its time of contact, K^(−2/5)."""
     t = np.linspace(0.0, 0.06, 61)
     rigid = made(folder, BAR).simulate(output=t, rtol=1e-11)
     off = []

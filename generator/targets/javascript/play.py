@@ -68,7 +68,8 @@ def _clearance(own: Pin, read: set[str]) -> list[str]:
     dry, film = (f"functions.{part}_{joint}({', '.join(given)})" for part, given in (("dry", _DRY), ("film", _FILM)))
     body = [*gap.text, _store(f"clearance_{joint}", gap.locals)]
     if own.clearance.film is None:
-        return [*body, f"const F = delta > 0 ? {dry} : {_NOTHING};", _turned("F")]
+        acts = "latch.closed" if own.clearance.rigid else "delta > 0"
+        return [*body, f"const F = {acts} ? {dry} : {_NOTHING};", _turned("F")]
     if own.clearance.normal is None:
         return [*body, _turned(film)]
     kept = ", ".join(share.locals)

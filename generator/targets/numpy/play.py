@@ -19,7 +19,8 @@ def pin(own: Pin) -> str:
     if clearance.normal is None:
         body += [*_film(own), "F = F_r, F_along_t_film, M_i_film, M_j_film", "v_t = 0.0"]
     elif clearance.film is None:
-        body += ["F, v_t = (0.0, 0.0, 0.0, 0.0), 0.0", "if delta > 0:", *indented(_dry(own))]
+        acts = "latch.closed" if clearance.rigid else "delta > 0"
+        body += ["F, v_t = (0.0, 0.0, 0.0, 0.0), 0.0", f"if {acts}:", *indented(_dry(own))]
     else:
         body += [*_film(own), "F, v_t = (F_r, F_along_t_film, M_i_film, M_j_film), 0.0", "if delta > 0:"]
         body += indented([*_dry(own), *lines(own.share), "if share < 1:", f"    film = {', '.join(_FILM)}",
