@@ -1,5 +1,5 @@
 /*
- * Surfaces that do not give (Newton's restitution): velocities jump where a gap closes, and a contact that lasts is held
+ * Surfaces that do not give (Newton's restitution): velocities jump where a gap closes, a contact that lasts is held
  * closed until its force is used up. All contacts of one time go by one linear complementarity problem
  * (contact_forces.h), of impulses (r = u + e u where surfaces meet at the rate u) and of forces (r = delta'').
  * J. J. Moreau, in: Nonsmooth Mechanics and Applications (1988); F. Pfeiffer, C. Glocker, Multibody Dynamics with

@@ -56,6 +56,11 @@ def failure(
         advice = GROWN if fast else advice
     if status == NOT_FINITE:
         return NonFiniteError(f"the motion is no longer finite at t = {t:.9g} s{fast}\n  {advice}", t)
+    if status == CHATTERING and compiled.source.rigid:
+        return SolverError(
+            f"contacts strike, or open and close, without end near t = {t:.9g} s\n"
+            f"  a larger threshold of newton_restitution in {' or '.join(compiled.source.rigid)} closes them earlier", t
+        )  # fmt: skip
     if status == CHATTERING:
         return SolverError(
             f"a friction or another corner of the forces changes its side without end near t = {t:.9g} s\n"

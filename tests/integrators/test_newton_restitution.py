@@ -65,6 +65,28 @@ scenes:
     play: {A: {bearing: hole, contact: hard}, B: {bearing: hole, contact: soft}}
     simulate: {t_end: 1 s, step: 1e-4 s}
 """
+CRANK = """\
+bodies:
+  crank: {length: 50 mm, mass: 0.1 kg, inertia: 4e-5 kg*m^2}
+  rod: {length: 120 mm, mass: 0.2 kg, inertia: 3e-4 kg*m^2}
+  block: {mass: 0.3 kg, inertia: 1e-4 kg*m^2}
+ground: {O: [0, 0]}
+freedoms: 0
+joints:
+  O: {revolute: [ground.O, crank.tail]}
+  P: {revolute: [crank.head, rod.tail]}
+  Q: {revolute: [rod.head, block.origin]}
+  guide: {translational: [ground.O, block.origin], axis: [1, 0]}
+drives: {motor: {angle: crank, value: 10 rad/s * abs(t - 10 ms)}}
+forces: {rub: {dry_friction: [ground.O, block.origin], direction: [1, 0], static: 300 N, kinetic: 250 N}}
+start: {guess: {crank.theta: 6 deg, rod.theta: -3 deg}}
+bearings: {pin: {radius: 8 mm, clearance: 0.2 mm, length: 10 mm, bearing_material: steel, journal_material: steel}}
+contacts: {hard: {normal: {law: newton_restitution, restitution: 0.5}}}
+scenes:
+  hard:
+    play: {P: {bearing: pin, contact: hard}, Q: {bearing: pin, contact: hard}}
+    simulate: {t_end: 30 ms, step: 1e-5 s}
+"""
 OBLIQUE = {"start.play.A.e.x": 0.4, "start.play.A.e.y": 0.3, "start.play.A.rate.x": 2.0}
 
 
@@ -284,3 +306,20 @@ def test_what_cannot_be_had_is_refused(folder: Path, tmp_path: Path) -> None:
             gudgeon.load(file, "hard")
     with pytest.raises(AssemblyError, match=r"start\.play\.A\.e is 1001 mm long and may be 1000 mm, the clearance"):
         made(folder, BALL).simulate(0.1, parameters={"start.play.A.e.x": 1.001})
+
+
+def test_with_friction_that_sticks_and_a_drive_that_turns_round(folder: Path) -> None:
+    """Contacts, sticks and the impulse of a drive at once: both formulations and both methods, balanced by their works."""
+    reference = made(folder, CRANK).simulate(rtol=1e-11, output=300)
+    blows = reference.impacts[reference.impacts["t_off"] == reference.impacts["t_on"]]
+    assert {*reference.impacts["joint"]} == {0, 1} and len(blows) > 20 and (blows["t_on"] > 0.01).any()
+    others = [made(folder, CRANK, "full").simulate(rtol=1e-11, output=300),
+              made(folder, CRANK).simulate(method="rk4", step=1e-6, output=300)]  # fmt: skip
+    for run in (reference, *others):
+        d = run.diagnostics
+        assert d.energy_residual < 1e-6 * d.energy_turned_over
+        assert max(run[f"{joint}.delta"].max() for joint in "PQ") < 1e-12
+        assert min(run[f"{joint}.Fn"].min() for joint in "PQ") >= 0.0
+        np.testing.assert_allclose(run["block.x"], reference["block.x"], atol=1e-6)
+        np.testing.assert_allclose(run["rod.omega"][:100], reference["rod.omega"][:100], atol=1e-4)
+    assert {*reference["rub.mode"]} == {-1.0, 0.0, 1.0}
