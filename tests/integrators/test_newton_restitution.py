@@ -309,7 +309,7 @@ def test_what_cannot_be_had_is_refused(folder: Path, tmp_path: Path) -> None:
 
 
 def test_with_friction_that_sticks_and_a_drive_that_turns_round(folder: Path) -> None:
-    """Contacts, sticks and the impulse of a drive at once: both formulations and both methods, balanced by their works."""
+    """Contacts, sticks and the impulse of a drive at once: formulations and methods agree, works balance."""
     reference = made(folder, CRANK).simulate(rtol=1e-11, output=300)
     blows = reference.impacts[reference.impacts["t_off"] == reference.impacts["t_on"]]
     assert {*reference.impacts["joint"]} == {0, 1} and len(blows) > 20 and (blows["t_on"] > 0.01).any()
