@@ -202,6 +202,9 @@ def test_every_law_is_printed(name: str, left_out: bool) -> None:
     given = [f"{own.name}: {(k + 1) * 0.1:.1f}" for k, own in enumerate(needed) if not (left_out and may_lack(own))]
     own = f"{{{', '.join([f'law: {name}', *given])}}}"
     text = BOB.replace({"normal": NORMAL, "film": FILM}.get(law.role, FRICTION.split(": ", 1)[1].strip()), own)
+    if law.rigid:  # it stands alone
+        for other in (FRICTION, f"    film: {FILM}\n", "    transition: 5 um\n"):
+            text = text.replace(other, "")
     model = derive(text.encode(), "bob.yaml", "lubricated")
     written = equations_text(model)
     shown = " ".join(written.split())
