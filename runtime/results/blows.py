@@ -9,22 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-BLOW_DTYPE = np.dtype([("joint", "i4"), ("t", "f8"), ("approach", "f8"), ("impulse", "f8")])
 FEW, TOLD = 3, 3  # blows that pile up; times at which they do, that are told one by one
 
 
 def is_blow(impacts: NDArray[Any]) -> NDArray[np.bool_]:
     """Which of the impacts took no time, (k,)."""
     found: NDArray[np.bool_] = impacts["t_off"] == impacts["t_on"]
-    return found
-
-
-def blows(impacts: NDArray[Any]) -> NDArray[Any]:
-    """BLOW_DTYPE of a run's impacts: joint, time (s), rate of approach (m/s), impulse (N s) along the normal."""
-    own = impacts[is_blow(impacts)]
-    found = np.zeros(len(own), BLOW_DTYPE)
-    for name, column in (("joint", "joint"), ("t", "t_on"), ("approach", "deltadot"), ("impulse", "F_peak")):
-        found[name] = own[column]
     return found
 
 
