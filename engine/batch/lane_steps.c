@@ -40,7 +40,7 @@ static LaneBits can_close(LaneRun *run, LaneBits open, Lanes t, const Lanes *y, 
 
 #include "../both/project.h"
 
-static void close_state(LaneRun *run, Lanes t, Lanes *y, const LaneParameters *p) { project_state(run, t, y, p); }
+static void close_state(LaneRun *run, Lanes t, Lanes *y, const LaneParameters *p) { project_rows(run, t, y, p); }
 
 #define TrialOf LaneTrial
 #define Touched LaneBits

@@ -43,11 +43,14 @@ static inline void watch_joint(RunOf *run, int i)
     run->t_peak[i] = pick(higher, run->t, run->t_peak[i]);
     if (!any_of(closed))
         return;
+    const Truth highest = closed & (F > run->open[i].F_peak);
+    run->open[i].F_peak = pick(highest, F, run->open[i].F_peak);
+    run->open[i].t_peak = pick(highest, run->t, run->open[i].t_peak);
+    if (!gives(i))
+        return; /* no rate, so no ratio */
     const Real ratio = joint->deltadot / run->memory.latch[i].deltadot_minus;
-    const Truth outside = (ratio < -1.0) | (ratio > 1.0), highest = closed & (F > run->open[i].F_peak);
+    const Truth outside = (ratio < -1.0) | (ratio > 1.0);
     run->ratio_min = pick(closed & (ratio < run->ratio_min), ratio, run->ratio_min);
     run->ratio_max = pick(closed & (ratio > run->ratio_max), ratio, run->ratio_max);
     run->ratio_outside = pick(closed & outside, run->ratio_outside + 1.0, run->ratio_outside);
-    run->open[i].F_peak = pick(highest, F, run->open[i].F_peak);
-    run->open[i].t_peak = pick(highest, run->t, run->open[i].t_peak);
 }

@@ -1,4 +1,4 @@
-/* The lowest indicator that fell through zero between two states; its value in `value`. */
+/* The lowest indicator of friction that fell through zero between two states, or any rigid contact's; its value. */
 static int changed(const Run *run, const Aside *after, double *value)
 {
     int found = -1;
@@ -10,6 +10,15 @@ static int changed(const Run *run, const Aside *after, double *value)
             *value = now;
         }
     }
+#if N_RIGID
+    for (int i = 0; i < N_CLEARANCES && found < 0; i++) {
+        const double now = !gives(i) ? contact_margin(&run->memory, after, i) : 0.0;
+        if (now < 0.0 && contact_margin(&run->memory, &run->aside, i) > now) {
+            found = N_FRICTIONS + i;
+            *value = now;
+        }
+    }
+#endif
     return found;
 }
 

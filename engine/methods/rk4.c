@@ -7,7 +7,7 @@
 #define Touched unsigned char
 #include "../both/rk4_trial.h"
 
-#if N_FRICTIONS
+#if N_FRICTIONS || N_RIGID
 #include "friction_events.c"
 #else
 #include "no_friction_events.c"
@@ -20,7 +20,6 @@ typedef struct {
     double *y, *latched;
     signed char *state;
 } Samples;
-
 
 static void begin_step(Run *run)
 {
@@ -158,6 +157,8 @@ static void rk4_note_event(Run *run, int i, double share, double h, const Parame
         const Clearance *gap = &at.aside.clearance[j];
         double *latched = &event_states(run)->latched[k][j];
         signed char *state = &event_states(run)->state[k][j];
+        if (!gives(j))
+            continue;
         if (gap->delta <= 0.0) {
             *latched = NAN;
             *state = 0;
@@ -214,12 +215,12 @@ static inline double way_to(double t, double end)
 }
 
 #if N_CORNERS
-/* Part of a step, to t_new; where friction changes on the way, in parts that end there. */
+/* Part of a step, to t_new; where friction or a rigid contact changes on the way, in parts that end there. */
 static int rk4_part(Run *run, double h, double t_new, const Parameters *p, const Samples *out)
 {
     Trial trial;
 #else
-/* One step to t_new; where friction changes on the way, in parts that end there. */
+/* One step to t_new; where friction or a rigid contact changes on the way, in parts that end there. */
 static int rk4_step(Run *run, double h, double t_new, const Parameters *p, const Samples *out)
 {
     Trial trial;
@@ -240,6 +241,8 @@ static int rk4_step(Run *run, double h, double t_new, const Parameters *p, const
         run->asked.hold = 1;
         if (!failed)
             failed = switch_friction(run, p);
+        if (!failed)
+            failed = meet(run, used_up(run), p);
         if (!failed)
             tape_jump(run, p);
         run->asked.hold = 0;

@@ -34,6 +34,8 @@ static int pass_jump(Run *run, double t, double apart, const Parameters *p)
     if (!status)
         status = switch_friction(run, p); /* what sticks may be torn off, what slips turned round */
     if (!status)
+        status = meet(run, -1, p);
+    if (!status)
         status = note_leaps(run, NULL, p);
     if (!status)
         tape_jump(run, p);

@@ -6,7 +6,7 @@
 static double margin(const Memory *memory, const Aside *aside, int k)
 {
     if (k < N_CLEARANCES)
-        return memory->latch[k].closed ? aside->clearance[k].delta : -aside->clearance[k].delta;
+        return contact_margin(memory, aside, k);
     k -= N_CLEARANCES;
     if (k < N_SWITCHES)
         return memory->side[k] * aside->g[k];
@@ -20,7 +20,7 @@ static double margin(const Memory *memory, const Aside *aside, int k)
 static void margins_of(const Memory *memory, const Aside *aside, double *out)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
-        out[i] = memory->latch[i].closed ? aside->clearance[i].delta : -aside->clearance[i].delta;
+        out[i] = contact_margin(memory, aside, i);
     for (int k = 0; k < N_SWITCHES; k++)
         out[N_CLEARANCES + k] = memory->side[k] * aside->g[k];
     for (int k = N_CLEARANCES + N_SWITCHES; k < N_MARGINS; k++)
@@ -103,29 +103,26 @@ static int can_close(Run *run, int open, double t, const double *y, const Parame
 
 #include "../both/project.h"
 
+/* Back onto everything that is held. */
+static void project_state(Run *run, double t, double *y, const Parameters *p)
+{
+    project_rows(run, t, y, p);
+    hold_contacts(run, t, y, p);
+}
+
 /* The same after a step of rk4: in absolute coordinates Baumgarte's terms keep the rows instead. */
 static void close_state(Run *run, double t, double *y, const Parameters *p)
 {
     if (TREE)
-        project_state(run, t, y, p);
-}
-
-/* Of all bodies, J. */
-static double kinetic_energy(const Run *run, const Parameters *p)
-{
-    double m[N_Q], all[N_S], sum = 0.0;
-    mass_matrix(p, m);
-    to_absolute(run->t, run->y, &run->memory, p, all);
-    for (int k = 0; k < N_Q; k++)
-        sum += 0.5 * m[k] * all[N_Q + k] * all[N_Q + k];
-    return sum;
+        project_rows(run, t, y, p);
+    hold_contacts(run, t, y, p);
 }
 
 /* A drive whose rate jumps moves the linkage by an impulse; its work is counted. */
 static void pass_impulse(Run *run, const Parameters *p)
 {
     const double before = kinetic_energy(run, p);
-    project_state(run, run->t, run->y, p);
+    project_rows(run, run->t, run->y, p);
     run->y[2 * N_X] += kinetic_energy(run, p) - before;
 }
 

@@ -60,6 +60,8 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
     int again = 0, shortened = 0, given_up = 0;
     if (run->skip >= 0 && run->fixed <= 0.0)
         h = min_of(h, run->pace);
+    if (run->fixed <= 0.0)
+        h = min_of(h, stride(run, NULL, p));
     if (h > left * (1.0 - 1e-9))
         h = left;
     const double longest = h;
@@ -75,6 +77,12 @@ static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step
                 change_method(run);
             else
                 h *= method->bounded / run->stability;
+            continue;
+        }
+        if (!status && step->error <= run->accept && run->fixed <= 0.0 && 1.5 * stride(run, step, p) < h) {
+            again = 1;
+            run->rejected++;
+            h *= 0.5;
             continue;
         }
         if (!status && step->error <= run->accept && is_unresolved(run, step, p) && run->fixed <= 0.0

@@ -24,6 +24,8 @@ static void cross_contact(Run *run, int i, double floor)
 
 static void cross(Run *run, int k, const Parameters *p)
 {
+    if (k < N_CLEARANCES && !gives(k))
+        return; /* meet() sees to all of them */
     if (k < N_CLEARANCES)
         cross_contact(run, k, slowest_impact(p, k));
     else if (k < N_CLEARANCES + N_SWITCHES)
@@ -126,6 +128,8 @@ static int change(Run *run, int event, const Parameters *p)
     int status = corner >= 0 && friction < 0 ? change_side(run, corner, p) : settle_sides(run, -1, p);
     if (!status && friction >= 0 && user_event < 0)
         status = switch_friction(run, p);
+    if (!status && user_event < 0)
+        status = meet(run, event, p);
     if (!status && user_event >= 0
         && event_crosses(user_event, &run->memory.event_side[user_event], run->aside.event[user_event])
         && !run->pole && note_event(run, user_event, run->t, run->y, p))
@@ -154,6 +158,8 @@ static int pass_jumps_here(Run *run, const Parameters *p)
     status = settle_beyond(run, ahead_of(run->t), -1, p);
     if (!status)
         status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+    if (!status)
+        status = meet(run, -1, p);
     return status ? status : note_leaps(run, NULL, p);
 }
 

@@ -107,3 +107,19 @@ static int begin_friction(Run *run, const Parameters *p)
     }
     return unknown ? settle(run, p) : 0;
 }
+
+#if N_RIGID
+static int settle_friction(Run *run, const Parameters *p) { return settle(run, p); }
+
+/* The modes behind a blow: what it moves slips. */
+static int slip_after_blow(Run *run, const Parameters *p)
+{
+    const int status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+    for (int i = 0; i < N_FRICTIONS && !status; i++) {
+        const double v = run->aside.friction[i].v;
+        if (fabs(v) > AT_REST)
+            run->memory.mode[i] = v > 0.0 ? 1.0 : -1.0;
+    }
+    return status;
+}
+#endif

@@ -60,6 +60,10 @@ static int update_latches(Run *run, double t, double h, const Clearance *before,
     for (int i = 0; i < N_CLEARANCES; i++) {
         const double d0 = before[i].delta, d1 = after[i].delta;
         double rate;
+        if (!gives(i)) { /* these begin and end where they are located (impacts.c) */
+            run->grazes += !run->memory.latch[i].closed && touched[i] && d1 < 0.0;
+            continue;
+        }
         if (!run->memory.latch[i].closed && d1 >= 0.0) {
             const double s = d0 < 0.0 ? crossing(d0, before[i].deltadot, d1, after[i].deltadot, h, &rate) : 0.0;
             /* a run that begins in contact: at least as fast as its surfaces move (begin_in_contact) */

@@ -16,3 +16,17 @@ static int begin_friction(Run *run, const Parameters *p)
     (void)run, (void)p;
     return 0;
 }
+
+#if N_RIGID
+static int settle_friction(Run *run, const Parameters *p)
+{
+    (void)run, (void)p;
+    return 0;
+}
+
+static int slip_after_blow(Run *run, const Parameters *p)
+{
+    (void)run, (void)p;
+    return 0;
+}
+#endif

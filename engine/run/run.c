@@ -6,17 +6,23 @@
 /* Where the inner states of a law are in what is integrated. */
 enum { FIRST_STATE = 2 * N_X + N_WORK };
 
-#if LAW_STATES
 /* Laws read their states where they read the latch; what they say of their rates follows the works. */
-static int motion_with_states(Run *run, double t, const double *y, const Parameters *p, double *dy, Aside *aside)
+static int motion_of_laws(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside)
 {
+#if LAW_STATES
     for (int k = 0; k < N_STATES; k++)
-        run->memory.latch[k / LAW_STATES].state[k % LAW_STATES] = y[FIRST_STATE + k];
-    const int status = motion(t, y, &run->memory, p, dy, aside);
+        memory->latch[k / LAW_STATES].state[k % LAW_STATES] = y[FIRST_STATE + k];
+#endif
+    const int status = motion(t, y, memory, p, dy, aside);
+#if LAW_STATES
     for (int k = 0; k < N_STATES; k++)
         dy[FIRST_STATE + k] = aside->clearance[k / LAW_STATES].state_rate[k % LAW_STATES];
+#endif
     return status;
 }
+
+#if N_RIGID
+#include "../scene/contact_forces.h"
 #endif
 
 static int rates(Run *run, double t, const double *y, const Parameters *p, double *dy, Aside *aside)
@@ -24,10 +30,13 @@ static int rates(Run *run, double t, const double *y, const Parameters *p, doubl
     run->evaluations++;
     if (given_up(&run->asked))
         return STOPPED;
-#if LAW_STATES
-    return motion_with_states(run, t, y, p, dy, aside);
+#if N_RIGID
+    int joint[N_RIGID];
+    const int n = list_closed(&run->memory, joint);
+    run->evaluations += n ? n + 1 : 0;
+    return rates_in_contact(motion_of_laws, N_Y, t, y, &run->memory, p, dy, aside);
 #else
-    return motion(t, y, &run->memory, p, dy, aside);
+    return motion_of_laws(t, y, &run->memory, p, dy, aside);
 #endif
 }
 
@@ -104,6 +113,17 @@ static int settle_at(Run *run, double t, const double *y, double *dy, Aside *asi
     return status;
 }
 
+/* Of all bodies, J. */
+static double kinetic_energy(const Run *run, const Parameters *p)
+{
+    double m[N_Q], all[N_S], sum = 0.0;
+    mass_matrix(p, m);
+    to_absolute(run->t, run->y, &run->memory, p, all);
+    for (int k = 0; k < N_Q; k++)
+        sum += 0.5 * m[k] * all[N_Q + k] * all[N_Q + k];
+    return sum;
+}
+
 #include "tape.c"
 #include "user_events.c"
 #if N_FRICTIONS
@@ -111,11 +131,21 @@ static int settle_at(Run *run, double t, const double *y, double *dy, Aside *asi
 #else
 #include "no_friction.c"
 #endif
+#if N_RIGID
+#include "impacts.c"
+#else
+#include "no_impacts.c"
+#endif
 
+#if N_RIGID
+#define N_RIGID_LISTED MAX_PARTS /* a step of rk4 may hold so many blows; of more a run is ended (list_contact) */
+#else
+#define N_RIGID_LISTED 0
+#endif
 /* Whether the next step may find more than the lists hold. */
 static int lists_full(const Run *run)
 {
-    return run->n_impacts > N_IMPACTS - AT_LEAST_ONE(N_CLEARANCES)
+    return run->n_impacts > N_IMPACTS - (N_RIGID_LISTED + AT_LEAST_ONE(N_CLEARANCES))
         || run->n_events > N_IMPACTS - AT_LEAST_ONE(3 * N_USER_EVENTS) || tape_full(run);
 }
 
@@ -193,6 +223,8 @@ static int begin(Run *run, const Parameters *p)
                 begin_in_contact(run, i, p);
         status = rates(run, run->t, run->y, p, run->dy, &run->aside);
     }
+    if (!status)
+        status = begin_contacts(run, p);
     for (int i = 0; i < N_USER_EVENTS; i++) {
         event_crosses(i, &run->memory.event_side[i], run->aside.event[i]);
         if (isnan(run->aside.event[i]) && !status)

@@ -8,8 +8,13 @@
 #include "../scene/events.h"
 #include "../both/one.h"
 
+#if N_RIGID
+#define MAX_PARTS 200 /* of a step of rk4, in which a contact may bounce again and again */
+#else
+#define MAX_PARTS 50
+#endif
 enum {
-    N_IMPACTS = 256, MAX_PARTS = 50
+    N_IMPACTS = 256
 };
 
 typedef struct {

@@ -12,6 +12,26 @@ static int state_equation(double t, const double *y, const Memory *memory, const
     return status;
 }
 
+#if N_RIGID
+#include "contact_forces.h"
+
+static int state_rates(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside)
+{
+    return state_equation(t, y, memory, p, dy, aside);
+}
+
+/* At a sample: with the forces of its closed contacts. */
+static int rates_at(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside)
+{
+    return rates_in_contact(state_rates, N_S, t, y, memory, p, dy, aside);
+}
+#else
+static int rates_at(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside)
+{
+    return state_equation(t, y, memory, p, dy, aside);
+}
+#endif
+
 /* The memory of a sample: impact velocities, NaN where a joint is open; then the modes of friction. */
 void read_memory(const double *sample, Memory *memory)
 {
@@ -71,7 +91,7 @@ int gudgeon_rhs(double t, const double *y, const double *memory, const double *p
     Memory now = {0};
     Aside aside;
     read_memory(memory, &now);
-    return state_equation(t, y, &now, (const Parameters *)p, dy, &aside);
+    return rates_at(t, y, &now, (const Parameters *)p, dy, &aside);
 }
 
 /* The same right-hand side many times over, for benchmarks; the sum keeps the calls alive. */
@@ -106,7 +126,7 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
             y[N_Q + k] = v[i * N_Q + k];
         }
         read_memory(memory + i * N_MEMORY, &now);
-        const int status = state_equation(t[i], y, &now, p, dy, &aside);
+        const int status = rates_at(t[i], y, &now, p, dy, &aside);
         if (status) {
             *failed = i;
             return status;

@@ -13,6 +13,10 @@ void mass_matrix(const Parameters *p, double *m);
 double radial_clearance(const Parameters *p, int i);
 double deepest(const Parameters *p, int i);
 double slowest_impact(const Parameters *p, int i);
+#if N_RIGID
+double restitution_of(const Parameters *p, int i);
+double threshold_of(const Parameters *p, int i);
+#endif
 #else
 static inline double radial_clearance(const Parameters *p, int i) { return (void)p, (void)i, 0.0; }
 static inline double deepest(const Parameters *p, int i) { return (void)p, (void)i, 0.0; }

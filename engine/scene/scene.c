@@ -5,7 +5,7 @@
 #if !PART || PART == 1
 #include "calls.h"
 #include "calls.c"
-#if N_ROWS && !N_FRICTIONS
+#if N_ROWS && !N_FRICTIONS && !N_RIGID
 #include "singular.c"
 #endif
 #if LARGEST_BLOCK > 2

@@ -37,12 +37,22 @@ typedef struct {
     int stop, hold; /* not wanted any more; what is under way comes to its end first */
 } Asked;
 
+/* Whether the surfaces of joint i with play give: where they do not, velocities jump and a contact is a constraint. */
+#if N_RIGID
+#define gives(i) (!rigid_joint[i])
+#else
+#define gives(i) ((void)(i), 1)
+#endif
+
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {
     int closed;
     double deltadot_minus;
 #if LAW_STATES
     double state[LAW_STATES]; /* of its laws, at the state that is looked at */
+#endif
+#if N_RIGID
+    double force; /* N, of surfaces that do not give: what keeps a closed contact closed (contact_forces.h) */
 #endif
 } Latch;
 
@@ -90,6 +100,9 @@ typedef struct {
     double delta, power;                 /* m, W */
 #if LAW_STATES
     double state_rate[LAW_STATES];       /* of the laws' inner states, each unit a second */
+#endif
+#if N_RIGID
+    double half_square_rate;             /* e . e'' + e' . e', m^2/s^2; where surfaces do not give */
 #endif
 } Clearance;
 

@@ -91,6 +91,16 @@ class Model:
         """Inner states of the laws of a joint with play, of the one that has most."""
         return max((len(clearance.states) for clearance in self.clearances), default=0)
 
+    @property
+    def rigid(self) -> tuple[str, ...]:
+        """Joints with play whose surfaces do not give."""
+        return tuple(clearance.name for clearance in self.clearances if clearance.rigid)
+
+    @property
+    def rows_change(self) -> bool:
+        """Whether constraints come and go with the motion: then a pivot that vanishes is told, not mended."""
+        return bool(self.frictions or self.rigid)
+
     @cached_property
     def masses(self) -> tuple[sp.Expr, ...]:
         """The diagonal of M, in the order of q."""

@@ -31,6 +31,8 @@ def scene_notes(model: Model) -> tuple[str, ...]:
         notes.append("no film: dry contact only")
     if states := [f"{c.name}.{state.name}" for c in model.clearances for state in c.states]:
         notes.append(f"inner states of laws, {', '.join(states)}: no slope is taken by them, so no rodas5p, no peers")
+    if model.rigid:
+        notes.append(f"impacts by Newton's restitution in {', '.join(model.rigid)}: no slopes, so no rodas5p, no peers")
     if all(component == 0 for component in model.gravity):
         notes.append("no gravity: no weight terms")
     jumps = jumping_drives(model)

@@ -12,7 +12,7 @@ from gudgeon.generator.equations.geometry import Geometry, PointFrame
 from gudgeon.generator.equations.loads import PointLoad
 from gudgeon.generator.equations.own_laws import check_numbers
 from gudgeon.generator.kinds.laws.built import build
-from gudgeon.generator.kinds.laws.law import FURTHER, MEAN_CLEARANCE, OWN, Law, LawInputs, PairSymbols, State, laws
+from gudgeon.generator.kinds.laws.law import MEAN_CLEARANCE, OWN, Law, LawInputs, PairSymbols, State, laws
 from gudgeon.generator.mechanism.mechanism import Bearing, Joint, LawUse, Play
 from gudgeon.generator.symbols.numbers import Slots
 from gudgeon.generator.symbols.wholes import Whole
@@ -40,7 +40,7 @@ class LawEquations:
     @property
     def further(self) -> tuple[str, ...]:
         """What it reads besides what all of its role do."""
-        return tuple(symbol.name for symbol in self.variables if symbol.name in FURTHER.get(self.law.role, ()))
+        return tuple(symbol.name for symbol in self.variables if symbol.name in self.law.further)
 
 
 @dataclass(frozen=True)
@@ -65,6 +65,11 @@ class Clearance:
     def laws(self) -> tuple[LawEquations, ...]:
         """The laws that it has."""
         return tuple(law for law in (self.normal, self.friction, self.film, self.mixed) if law is not None)
+
+    @property
+    def rigid(self) -> bool:
+        """Whether its surfaces do not give: velocities jump, and a contact that lasts is a constraint."""
+        return self.normal is not None and self.normal.law.rigid
 
     @property
     def states(self) -> tuple[State, ...]:
@@ -107,11 +112,11 @@ def make_clearance(joint: Joint, play: Play, geometry: Geometry, slots: Slots) -
     contact = play.contact
     normal, friction, mixed = law(contact.normal), law(contact.friction), law(contact.mixed)
     film = law(contact.film, replace(pair, c=constants.get(MEAN_CLEARANCE, pair.c)))
-    floor = (
-        slots.use(contact.velocity_floor)
-        if contact.velocity_floor
-        else slots.constant(f"contacts.{contact.name}.velocity_floor", "velocity_floor", VELOCITY_FLOOR, VELOCITY)
-    )
+    floor: sp.Expr = sp.Integer(0)  # of surfaces that give alone
+    if contact.velocity_floor:
+        floor = slots.use(contact.velocity_floor)
+    elif not (normal and normal.law.rigid):
+        floor = slots.constant(f"contacts.{contact.name}.velocity_floor", "velocity_floor", VELOCITY_FLOOR, VELOCITY)
     transition = slots.use(contact.transition) if contact.transition is not None else None
     constants["c"], constants["R_i"], constants["R_j"] = pair.c, pair.R_i, pair.R_j
     return Clearance(
@@ -142,7 +147,7 @@ def _law(use: LawUse, pair: PairSymbols, slots: Slots, derive: Derive) -> LawEqu
 
     steps = build(law, LawInputs(parameters, use.options, pair, variables, told, Whole))
     read = {symbol.name for step in steps.values() for symbol in step.free_symbols}
-    unread = {name for name in FURTHER.get(law.role, ()) if name not in read}
+    unread = {name for name in law.further if name not in read}
     own = tuple(symbol for name, symbol in variables.items() if name not in unread)
     if law.name in OWN:
         check_numbers(law, own, steps, slots)

@@ -16,6 +16,7 @@ import sympy as sp
 
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.friction import Friction
+from gudgeon.generator.equations.geometry import PointFrame
 from gudgeon.generator.equations.loads import PointLoad
 from gudgeon.generator.equations.model import Model
 
@@ -76,6 +77,17 @@ class System:
                 total[k + 1] += y
                 total[k + 2] += point.arm[0] * y - point.arm[1] * x + moment
         return total, {}
+
+    def acceleration(self, point: PointFrame, a: Mapping[int, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:
+        """r̈ of a point at accelerations a of the coordinates: r̈ of the centre of mass + θ̈ ẑ × arm − ω² arm."""
+        if point.body is None:
+            return ZERO, ZERO
+        motion, (arm_x, arm_y), omega = self.motions[point.body.name], point.arm, point.body.omega
+        x, y, theta = (
+            sp.Add(*(entry * a[k] for k, entry in row.items()), bias)
+            for row, bias in zip(motion.jacobian, motion.bias, strict=True)
+        )
+        return x - theta * arm_y - omega**2 * arm_x, y + theta * arm_x - omega**2 * arm_y
 
 
 def absolute(model: Model) -> System:

@@ -35,7 +35,7 @@ def dynamics_kernel(
     """
     model = system.model
     build = KernelBuilder(model.symbols, name, doc)
-    if kkt.rows and not model.frictions:
+    if kkt.rows and not model.rows_change:
         build.section("status")
         build.line(Status())
     _events(model, build)
@@ -48,8 +48,8 @@ def dynamics_kernel(
     b: dict[int, sp.Expr] = {k: f for k, f in enumerate(forces) if f != 0}
     b.update(_constraint_rhs(model, build, kkt, stabilised))
     b.update(slips)
-    # where friction may stick, a vanishing pivot is told, not mended: rows come and go there
-    factor = kkt.factorize(build) if model.frictions else kkt.factorize(build, True, NEARLY_SINGULAR)
+    # where constraints come and go a vanishing pivot is told, not mended
+    factor = kkt.factorize(build) if model.rows_change else kkt.factorize(build, True, NEARLY_SINGULAR)
     x = kkt.solve(build, factor, b)
     build.section("results")
     for k, _ in enumerate(system.q):
@@ -57,10 +57,11 @@ def dynamics_kernel(
     for r, _ in enumerate(kkt.rows):
         build.out(f"aside->lambda[{r}]", x[kkt.n + r])
     _friction_forces(build, kkt, x)
-    if kkt.rows and not model.frictions:
+    _half_squares(build, kkt.system, x)
+    if kkt.rows and not model.rows_change:
         (rescue or _dependent_rows)(build, kkt, b)
     _powers(build, kkt, on_given)
-    build.line(Return(pivot=bool(kkt.rows and not model.frictions)))
+    build.line(Return(pivot=bool(kkt.rows and not model.rows_change)))
     arguments = (*STATE, MEMORY, PARAMETERS, Argument("double *", "a"), Argument("Aside *", "aside"))
     kernel = build.build(arguments, "int", owner="")
     return with_sides(kernel, "aside")
@@ -146,6 +147,16 @@ def _friction_forces(build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> N
         stick = kkt.sticks[kkt.first_friction + r]
         force = Statement(f"aside->friction[{r}].force", -x[kkt.first_friction + r], False, f"stick of {friction.name}")
         build.line(When(Test(stick, "!=", (0.0,)), force))
+
+
+def _half_squares(build: KernelBuilder, system: System, x: Mapping[int, sp.Expr]) -> None:
+    """Half the second rate of e · e in joints whose surfaces do not give: by it a run finds their forces."""
+    for index, clearance in enumerate(system.model.clearances):
+        if clearance.rigid:
+            second, first = (system.acceleration(point, x) for point in (clearance.second, clearance.first))
+            e, edot = clearance.eccentricity, clearance.eccentricity_rate
+            half = sp.Add(*(e[i] * (second[i] - first[i]) + edot[i] ** 2 for i in range(2)))
+            build.out(f"aside->clearance[{index}].half_square_rate", half, "e . e'' + e' . e'")
 
 
 def _dependent_rows(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:

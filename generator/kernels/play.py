@@ -46,6 +46,10 @@ class Pin:
         """What its normal law reads besides δ and δ̇/δ̇⁻."""
         return self.clearance.normal.further if self.clearance.normal else ()
 
+    def given(self, of_latch: str) -> tuple[str, ...]:
+        """The same as text of a target: a force that is held is one of the latch, `of_latch` before its name."""
+        return (f"{of_latch}force",) if self.clearance.rigid else self.further
+
     @property
     def has_transition(self) -> bool:
         """Film and dry contact, blended."""

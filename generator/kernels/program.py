@@ -154,8 +154,8 @@ class Program:
 
     @property
     def has_lanes(self) -> bool:
-        """Whether runs go side by side: where friction may stick, rows come and go by run; nor with inner states."""
-        alone = self.model.frictions or self.model.law_states
+        """Whether runs go side by side: not where constraints come and go by run, nor with inner states of laws."""
+        alone = self.model.rows_change or self.model.law_states
         return self.methods is not None and self.tree is not None and not (self.tree.chains or alone)
 
 

@@ -28,8 +28,8 @@ _DOC = (
 
 
 def is_rescued(system: TreeSystem) -> bool:
-    """Whether a vanishing pivot is mended; where friction may stick it is told, rows come and go there."""
-    return bool(system.rows and not system.frictions)
+    """Whether a vanishing pivot is mended; where constraints come and go it is told."""
+    return bool(system.rows and not system.model.rows_change)
 
 
 def motion_kernels(model: Model, system: TreeSystem) -> list[Kernel]:

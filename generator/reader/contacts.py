@@ -88,6 +88,11 @@ def _check_parts(name: Text, node: Map) -> None:
             if part in node:
                 message = f"contact {name} has {part} but no normal law"
                 raise MissingKeyError(message, node[part].where, "expected the key 'normal'")
+    if "normal" in node and node["normal"].get("law") in _rigid():
+        for part in ("film", "mixed", "friction", "velocity_floor", "clip_ratio"):
+            if part in node:
+                law, hint = node["normal"]["law"], "expected a contact of this law alone: its surfaces do not give"
+                raise BadValueError(f"contact {name} has {law} and {part}", node.key(part).where, hint)
     if "transition" in node and "mixed" in node:
         hint = "expected one: a length over which the film hands over, or a law by which film and contact share"
         raise BadValueError(f"contact {name} has both transition and mixed", node.key("mixed").where, hint)
@@ -101,6 +106,11 @@ def _check_parts(name: Text, node: Map) -> None:
         if part in node and "film" not in node:
             message = f"contact {name} has {called_so} but no film"
             raise MissingKeyError(message, node[part].where, "expected the key 'film'")
+
+
+def _rigid() -> set[str]:
+    """Laws of surfaces that do not give."""
+    return {name for name, law in called("normal").items() if law.rigid}
 
 
 def _law_use(reader: Reader, address: str, role: str, node: Map) -> LawUse:

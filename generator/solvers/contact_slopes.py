@@ -27,6 +27,7 @@ _DEEP = Test(contact.delta, ">", (0.0,))
 DEEP = Statement(contact.depth.name, Chosen(_DEEP, contact.delta, ZERO))
 _CLOSED = Test(sp.Symbol("latch->closed", real=True))
 _STORED = sp.Symbol("latch->deltadot_minus", real=True)
+_FORCE = sp.Symbol("latch->force", real=True)  # of surfaces that do not give
 _ARGUMENTS = (
     *(Argument("double", symbol.name) for symbol in INPUTS), Argument("const Latch *", "latch"), PARAMETERS, *SIDES,
     Argument("PinSlopes *", "out"),
@@ -110,7 +111,7 @@ def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kern
     for step in contact.before_dry(clearance):
         slopes.step(unlatched(step))
     slopes.section("contact")
-    further = [sp.Symbol(name, real=True) for name in normal.further]  # inputs of this function as well
+    further = [_FORCE if clearance.rigid else sp.Symbol(name, real=True) for name in normal.further]  # inputs as well
     F_n = slopes.law(normal, (contact.depth, contact.ratio, *further))["F_n"]
     tangential = contact.of_part(contact.F_along_t, "dry")
     if clearance.friction is not None:

@@ -14,12 +14,20 @@ from gudgeon.language.plot_units import told_apart
 from gudgeon.model.compiled import Array, CompiledModel
 
 FAR = 10.0  # times the most that it may be: an e that is longer was hardly meant in its unit
+ROUNDED = 1e-9  # of the clearance, that a start in contact may be off
 DEEPEST = 0.1  # of the radius, that a journal may lie in its bearing (`deepest` of model.h)
 
 
 def check_places(linkage: Linkage, p: Array) -> None:
     """AssemblyError for a journal that the file's start lays deeper into its bearing than any law of contact holds."""
     for joint, e, c in _places(linkage, p):
+        if joint.name in linkage.source.rigid and e > c * (1.0 + ROUNDED):
+            length, most = told_apart(1e3 * e, 1e3 * c)
+            raise AssemblyError(
+                f"start.play.{joint.name}.e is {length} mm long and may be {most} mm, the clearance: the surfaces of"
+                " this joint do not give (newton_restitution)\n"
+                f"  write start.play.{joint.name}: {{e: [{most} mm, 0 mm]}} for a start in contact, or less"
+            )
         deepest = DEEPEST * float(p[joint.constants["R_i"]])
         if e - c > deepest:
             length, most = told_apart(1e3 * e, 1e3 * (c + deepest))
@@ -35,7 +43,7 @@ def check_places(linkage: Linkage, p: Array) -> None:
 def in_walls(linkage: Linkage, p: Array) -> Iterator[str]:
     """A remark on each journal that the file's start lays into its bearing's wall."""
     for joint, e, c in _places(linkage, p):
-        if e > c:
+        if e > c and joint.name not in linkage.source.rigid:
             so = "a run begins in contact" if joint.dry else "there is no film there"
             yield (
                 f"{joint.name} begins {1e6 * (e - c):.4g} µm inside its bearing's wall, e/c ="

@@ -119,8 +119,8 @@ def driven(source: KernelSource) -> tuple[str, ...]:
 
 
 def _takes_checks(source: KernelSource) -> bool:
-    """Friction that sticks, impulses of drives, inner states of laws are the C methods' own (integrators/peers)."""
-    return KINEMATIC not in source.methods and not (source.frictions or source.rate_jumps or source.states)
+    """Friction that sticks, impulses, inner states of laws are the C methods' own (integrators/peers)."""
+    return KINEMATIC not in source.methods and not (source.frictions or source.rate_jumps or source.explicit)
 
 
 def _reduction(source: KernelSource) -> dict[str, Any]:

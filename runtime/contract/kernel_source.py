@@ -15,7 +15,7 @@ from typing import Any
 
 from gudgeon.contract.ledger import Story
 from gudgeon.contract.methods import INTEGRATORS, KINEMATIC, NEED_SLOPES
-from gudgeon.contract.stored import as_text, complete, shorten
+from gudgeon.contract.stored import as_text, complete, shorten, tuples
 
 HEADER = "model.h"
 ENGINE_ENDS = "/* The engine reads no further: scenes that have all this in common share its code. */"
@@ -226,6 +226,7 @@ class KernelSource:
         return sha256("\n".join(parts).encode()).hexdigest() if len(parts) > 1 else self.sha256
 
     peaks: tuple[str, ...] = ()  # series whose peaks over all steps the scene asks for
+    rigid: tuple[str, ...] = ()  # joints with play whose surfaces do not give: Newton's restitution
     start_apart: tuple[str, ...] = ()  # rows of joints with play that the start holds apart, by e and its rate
     parts: tuple[PartInfo, ...] = ()  # all joints, drives and force elements: what is drawn
     massless: tuple[str, ...] = ()  # bodies without mass or inertia: nothing is known that follows from masses
@@ -246,19 +247,24 @@ class KernelSource:
         return len(self.clearances) + len(self.frictions) + len(self.states)
 
     @property
+    def explicit(self) -> bool:
+        """Whether only the explicit methods in C run it: what a law does has no slopes."""
+        return bool(self.states or self.rigid)
+
+    @property
     def no_slopes(self) -> str:
         """Why there is no Jacobian; "" where there is one."""
         if self.methods == (KINEMATIC,):
             return "without a degree of freedom nothing is integrated"
-        return "a law has an inner state, whose slopes are not derived" if self.states else ""
+        held = f"the contact in {self.rigid[0]} comes and goes, a constraint (newton_restitution)" if self.rigid else ""
+        return held or ("a law has an inner state, whose slopes are not derived" if self.states else "")
 
     @property
     def methods(self) -> tuple[str, ...]:
         """What runs this scene: the integrators, or where nothing is left to be integrated the other one."""
-        integrates = self.degrees_of_freedom or self.clearances or self.frictions
-        if not integrates:
+        if not (self.degrees_of_freedom or self.clearances or self.frictions):
             return (KINEMATIC,)
-        return tuple(name for name in INTEGRATORS if not (self.states and name in NEED_SLOPES))
+        return tuple(name for name in INTEGRATORS if not (self.explicit and name in NEED_SLOPES))
 
     def to_json(self) -> str:
         """Readable JSON; the same source gives the same bytes."""
@@ -275,7 +281,7 @@ class KernelSource:
             "written": WrittenInfo, "simulate_written": WrittenInfo, "parts": PartInfo,
         }  # fmt: skip
         for key, kind in kinds.items():
-            data[key] = tuple(kind(**_tuples(item)) for item in data.get(key, ()))
+            data[key] = tuple(kind(**tuples(item)) for item in data.get(key, ()))
         for key, value in data.items():
             if isinstance(value, list) and key not in kinds:
                 data[key] = tuple(tuple(item) if isinstance(item, list) else item for item in value)
@@ -292,8 +298,3 @@ def _defaults() -> dict[str, Any]:
     )  # fmt: skip
     nothing: dict[str, Any] = {name: [] for name in lists} | {name: {} for name in ("files", "outputs", "simulate")}
     return {"main": MAIN, **nothing, **plain, "story": {}}
-
-
-def _tuples(item: dict[str, Any]) -> dict[str, Any]:
-    """JSON knows lists only: the fields of our values are tuples."""
-    return {key: tuple(value) if isinstance(value, list) else value for key, value in item.items()}

@@ -116,3 +116,8 @@ _OF_STORY: dict[str, Callable[[Data], Any]] = {
     "coordinates": lambda data: data["coordinates"],
     "rows": lambda data: [row["name"] for row in data["start_rows"]],
 }
+
+
+def tuples(item: dict[str, Any]) -> dict[str, Any]:
+    """JSON knows lists only: the fields of our values are tuples."""
+    return {key: tuple(value) if isinstance(value, list) else value for key, value in item.items()}

@@ -57,10 +57,7 @@ def failure(
     if status == NOT_FINITE:
         return NonFiniteError(f"the motion is no longer finite at t = {t:.9g} s{fast}\n  {advice}", t)
     if status == CHATTERING:
-        return SolverError(
-            f"a friction or another corner of the forces changes its side without end near t = {t:.9g} s\n"
-            "  a force that jumps where the motion comes to rest holds it there: use a dry_friction element", t
-        )  # fmt: skip
+        return _chattering(compiled, t)
     if status == TOO_SMALL:
         known = _closed_film(compiled, e_max, p, t) or _dead_centre(compiled, last, p, t)
         return known or SolverError(f"no step is small enough at t = {t:.9g} s{fast}\n  {advice}", t)
@@ -73,6 +70,19 @@ def failure(
     if status == STALLED:
         return SolverError(f"the run no longer advances at t = {t:.9g} s{drives_at(compiled, p, t)}\n  {advice}", t)
     return _singular(compiled, status, t, advice, last, p, fast)
+
+
+def _chattering(compiled: CompiledModel, t: float) -> SolverError:
+    """The error for changes without end at one time."""
+    if compiled.source.rigid:
+        return SolverError(
+            f"contacts strike, or open and close, without end near t = {t:.9g} s\n"
+            f"  a larger threshold of newton_restitution in {' or '.join(compiled.source.rigid)} closes them earlier", t
+        )  # fmt: skip
+    return SolverError(
+        f"a friction or another corner of the forces changes its side without end near t = {t:.9g} s\n"
+        "  a force that jumps where the motion comes to rest holds it there: use a dry_friction element", t
+    )  # fmt: skip
 
 
 def _singular(

@@ -15,6 +15,7 @@ from gudgeon.errors import GudgeonError
 from gudgeon.language.wanted import is_whole, refuse, text, told
 from gudgeon.model.choices import of_runs as chosen_of_runs
 from gudgeon.results.batch_series import kept_text, series, wanted_names
+from gudgeon.results.blows import first_force
 from gudgeon.results.diagnostics import Extremes
 from gudgeon.results.peaks import BatchPeaks, of_runs, run_columns
 from gudgeon.results.results import Result
@@ -294,5 +295,5 @@ def peaks_of(peaks: Array, impacts: tuple[Array, ...]) -> Array:
         for joint in range(peaks.shape[1]):
             own = contacts[contacts["joint"] == joint]
             if len(own):
-                out["first_contact"][i, joint], out["first_peak"][i, joint] = own["t_on"][0], own["F_peak"][0]
+                out["first_contact"][i, joint], out["first_peak"][i, joint] = own["t_on"][0], first_force(own)
     return out

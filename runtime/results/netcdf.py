@@ -38,9 +38,9 @@ PARTS = ("impacts", "events", STATES, "parameters", TRACE, PEAKS)
 IMPACTS = {
     "joint": ("", "joint with play"),
     "t_on": ("s", "onset of the contact"),
-    "t_off": ("s", "separation, NaN: still closed"),
+    "t_off": ("s", "separation, NaN: still closed; of a blow between surfaces that do not give its onset"),
     "deltadot": ("m/s", "rate of the penetration at the onset"),
-    "F_peak": ("N", "largest force of the contact"),
+    "F_peak": ("N", "largest force of the contact; of a blow its impulse, N s"),
     "t_peak": ("s", "time of the largest force"),
 }
 EVENTS = {"event": ("", "event of the mechanism's file"), "t": ("s", "time of the event")}

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gudgeon.integrators.trace import JOINT
+from gudgeon.results.blows import is_blow
 
 if TYPE_CHECKING:
     from gudgeon.model.compiled import Array
@@ -39,7 +40,7 @@ def force(run: Result, joint: str) -> tuple[Array, Array]:
     if k is None:
         return run.t, run[f"{joint}.F"]
     if run.trace is None:
-        own = run.impacts[run.impacts["joint"] == k]
+        own = run.impacts[(run.impacts["joint"] == k) & ~is_blow(run.impacts)]
         peaks = [(peak.t, peak.F) for peak in run.diagnostics.peaks if peak.joint == joint]
         more_t, more = [own["t_peak"], [t for t, _ in peaks]], [own["F_peak"], [F for _, F in peaks]]
     else:

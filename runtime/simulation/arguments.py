@@ -118,16 +118,18 @@ def method_of(source: KernelSource, method: str, fixed: bool) -> str:
             f"{-dof} constraint rows more than coordinates: constraints are redundant or contradict each other\n"
             "  remove a drive or a joint; `gudgeon check -v` lists the rows"
         )
-    stateless = KINEMATIC not in source.methods and not source.states  # inner states of laws: no slopes, no peers
-    fitting = (*source.methods, ADAPTIVE, *driver.NAMES) if stateless else source.methods
+    sloped = KINEMATIC not in source.methods and not source.explicit  # no slopes, no peers
+    fitting = (*source.methods, ADAPTIVE, *driver.NAMES) if sloped else source.methods
     if method == "auto":
-        return fitting[0] if len(fitting) == 1 or fixed else AUTO[0] if source.states else ADAPTIVE
+        return fitting[0] if len(fitting) == 1 or fixed else AUTO[0] if source.explicit else ADAPTIVE
     if method not in METHODS:
         offered = ", ".join(name for name in METHODS if name != ADAPTIVE)  # a name of ours for what auto runs
         raise BadValueError(f"method {method!r}: expected auto, {offered}")
     if method not in fitting:
         why = f"this scene has {dof} degree{'' if dof == 1 else 's'} of freedom"
-        if source.states:
+        if source.rigid:
+            why = source.no_slopes
+        elif source.states:
             why = f"a law has an inner state ({next(filter(None, source.states))}), by which no slope is taken"
         fit = f"{' and '.join(source.methods)} {'fits' if len(source.methods) == 1 else 'fit'} it"
         raise BadValueError(f"method {method!r} does not fit: {why}; use auto ({fit})")

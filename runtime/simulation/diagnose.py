@@ -17,6 +17,7 @@ from gudgeon.integrators.rk4 import last_step
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.seams import seams
+from gudgeon.results.blows import first_force, piled_up
 from gudgeon.results.diagnostics import Diagnostics, Peak
 from gudgeon.results.series import without_masses
 
@@ -105,6 +106,8 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
         notes.append(f"events are not watched by method {problem.method}")
     notes += seams(compiled.source, p, float(problem.t[0]), float(trajectory.t[-1]))
     notes += not_held(compiled, p, float(problem.t[0]), problem.q, counts, trajectory.peaks)
+    if compiled.source.rigid:
+        notes += piled_up([joint.name for joint in compiled.source.clearances], trajectory.impacts)
     if compiled.source.indeterminate:
         notes.append(
             f"constraints are redundant: the reactions of {', '.join(compiled.source.indeterminate)} are not determined"
@@ -157,7 +160,7 @@ def _peaks(compiled: CompiledModel, trajectory: Trajectory) -> tuple[Peak, ...]:
     peaks = []
     for i, joint in enumerate(compiled.source.clearances):
         own = trajectory.impacts[trajectory.impacts["joint"] == i]
-        first = (float(own["t_on"][0]), float(own["F_peak"][0])) if len(own) else (math.nan, math.nan)
+        first = (float(own["t_on"][0]), first_force(own)) if len(own) else (math.nan, math.nan)
         F, t, e_max = (float(x) for x in trajectory.peaks[i])
         peaks.append(Peak(joint.name, F, t, e_max, *first))
     return tuple(peaks)

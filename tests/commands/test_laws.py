@@ -23,10 +23,10 @@ from tests.targets_latex.equations_reader import dots_apart, evaluate, rows, sec
 NAMES = [name for role in RESULTS for name in called(role)]
 STATES = {  # of what laws read, by the letter; z lies within what bristles take
     "delta": 3e-5, "ratio": -0.4, "deltadot": 0.02, "F_n": 700.0, "v_t": -0.03, "z": 2e-5, "epsilon": 0.6, "w_n": -3.0,
-    "w_t": 4.0,
+    "w_t": 4.0, "held_force": 81.0,
 }  # fmt: skip
 NUMBERS = {"dahl": {"presliding": 1e-4}, "modified_coulomb": {"v0": 0.01, "v1": 0.05}}
-LETTERS = {"delta": "δ", "deltadot": dots_apart("δ̇"), "epsilon": "ε"}
+LETTERS = {"held_force": "λ", "delta": "δ", "deltadot": dots_apart("δ̇"), "epsilon": "ε"}
 NO_SYMPY = """
 import sys
 from gudgeon.cli import app

@@ -54,6 +54,7 @@ VARIABLES: Mapping[str, tuple[str, ...]] = {
 }
 # What a law of the role may read besides: it is an argument of those that do.
 FURTHER: Mapping[str, tuple[str, ...]] = {"normal": ("deltadot",)}  # δ̇ (m/s)
+HELD = ("held_force",)  # N, what a law of surfaces that do not give reads in place of it: the force that keeps e = c
 RESULTS: Mapping[str, tuple[str, ...]] = {
     "normal": ("F_n",), "friction": ("F_t",), "film": ("F_r", "F_t", "T0"),
     "mixed": ("share",),  # of the dry contact: 0 at δ = 0, never falling, 1 where no film is left
@@ -93,11 +94,17 @@ class Law:
     also: Mapping[str, Mapping[str, str]] = field(default_factory=dict)  # other names -> the choices that they make
     instead: Mapping[str, str] = field(default_factory=dict)  # a choice that says something only without a number
     reference: str = ""  # the source as far as it is sure: author, title, journal, year, doi
+    rigid: bool = False  # surfaces that do not give: impacts, and contacts that are constraints (engine/run/impacts.c)
 
     @property
     def variables(self) -> tuple[str, ...]:
         """What `build` is given by name: what all of its role are, what it may read besides, then states."""
-        return (*VARIABLES[self.role], *FURTHER.get(self.role, ()), *(state.name for state in self.states))
+        return (*VARIABLES[self.role], *self.further, *(state.name for state in self.states))
+
+    @property
+    def further(self) -> tuple[str, ...]:
+        """What `build` may read besides what all of its role do."""
+        return HELD if self.rigid else FURTHER.get(self.role, ())
 
     @property
     def results(self) -> tuple[str, ...]:

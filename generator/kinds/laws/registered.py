@@ -178,6 +178,7 @@ def _check_keys(law: Law) -> None:
         _need(usable, f"{own.name} is no key of a law", "expected number(…) without `varies`, word(…) or flag(…)")
         _check_field(own, kinds)
     _need(all(isinstance(state, State) for state in law.states), "a state is none", "expected State(name, meaning)")
+    _need(not law.rigid, "it is rigid", "velocities jump by gudgeon's newton_restitution alone")
     _need(law.role == "friction" or not law.states, "it has inner states", "only laws of friction have them so far")
     known = {own.name for own in law.options}
     _need({key for choices in law.also.values() for key in choices} <= known, "`also` chooses what is no option")

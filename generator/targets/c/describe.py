@@ -83,7 +83,7 @@ def describe(
         start_apart=tuple(model.all_rows[k].name for k, _, _ in apart_rows(model)),
         peaks=tuple(map(str, model.scene.peaks)), written=tuple(_written(model)),
         simulate_written=tuple(_simulate_written(model)), states=_states(model), story=story, lanes=lanes,
-        parts=tuple(_parts(mechanism)),
+        parts=tuple(_parts(mechanism)), rigid=model.rigid,
     )  # fmt: skip
 
 

@@ -33,6 +33,8 @@ _OF_JOINTS = {
     "radial_clearance": "Radial clearance of joint i with play, m.",
     "deepest": "The penetration beyond which contact laws mean nothing, m: a tenth of the bearing's radius.",
     "slowest_impact": "The least velocity that counts as that of an impact, m/s.",
+    "restitution_of": "Where surfaces do not give, speed of parting by speed of approach.",
+    "threshold_of": "Where surfaces do not give, the speed of parting below which a contact closes, m/s.",
 }
 _THRESHOLDS: Sizes = {
     limit.name: (limit, meaning)
@@ -115,6 +117,8 @@ def _of_watch(program: Program, bounds: Kernel | None) -> Sizes:
     }  # fmt: skip
     systems = (model, program.integrated.system.model)
     periods = any(switch.g.has(PeriodsOf) for some in systems for switch in some.symbols.switches.found.values())
+    if model.rigid:
+        sizes["N_RIGID"] = (len(model.rigid), "joints with play whose surfaces do not give")
     return sizes | {"PERIODS": (1, "mod begins anew within the motion")} if periods else sizes
 
 
@@ -177,6 +181,8 @@ def _tables(program: Program, of_scene: Sizes) -> list[str]:
     }  # fmt: skip
     if apart := apart_rows(model):
         tables |= {("int", "apart_row"): [k for k, _, _ in apart]}
+    if model.rigid:
+        tables |= {("unsigned char", "rigid_joint"): [int(c.rigid) for c in model.clearances]}
     if program.integrates:
         tables |= _watched(program, of_scene) | {("int", "friction_of_pivot"): _friction_pivots(program.integrated.kkt)}
     return [_table(kind, name, values) for (kind, name), values in tables.items()]
@@ -232,6 +238,11 @@ def of_joints(model: Model) -> list[tuple[str, str, list[str]]]:
         "deepest": [deepest(c) for c in model.clearances],
         "slowest_impact": [c.velocity_floor for c in model.clearances],
     }
+    if model.rigid:
+        values |= {
+            f"{name}_of": [c.normal.numbers[name] if c.rigid and c.normal else 0 for c in model.clearances]
+            for name in ("restitution", "threshold")
+        }
     read = {s: sp.Symbol(info.home) for s, info in model.symbols.info.items() if info.home}
     told = dict(_OF_JOINTS)
     if any(DEEPEST in c.constants for c in model.clearances):

@@ -25,6 +25,7 @@ _STORE = """\
         .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
         .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0%s};"""
 _RATIO = "latch->closed ? deltadot / latch->deltadot_minus : 1.0"
+_CLOSED = "side ? latch->closed : delta > 0.0"
 _BLENDED = "        F.{0} += (1.0 - share) * (film.{0} - F.{0});"  # in play/clearance_transition.c.jinja
 
 
@@ -61,6 +62,7 @@ def pin_functions(pin: Pin, render: Render, states: int) -> Iterator[PinFunction
         yield _film(pin, render, states)
     text = render(
         _template(pin), joint=joint, arguments=_ARGUMENTS, gap=_lines(pin.gap), share=_lines(pin.share),
+        rigid=clearance.rigid, closed="latch->closed" if clearance.rigid else _CLOSED,
         store=_store(clearance, states), told=_shared_by(clearance),
         law=_law_of_share(clearance), first=pin.corners.start, last=pin.corners.stop,
     )  # fmt: skip
@@ -129,7 +131,7 @@ def calls_of_dry(pin: Pin, delta: str, number: str, sides: bool = True) -> str:
 
 def _calls_of_dry(pin: Pin, delta: str, number: str, sides: bool) -> list[tuple[str, str]]:
     """Text, and the local that it fills, or ""."""
-    given: Sequence[str] = [delta, "ratio", *pin.further]
+    given: Sequence[str] = [delta, "ratio", *pin.given("latch->")]
     normal = functions.shared_call(pin.laws["normal"], given, ("&F_n",), sides)
     found = [(f"{number} F_n;", ""), (normal, "F_n")]
     if "friction" in pin.laws:

@@ -43,7 +43,7 @@ def _dry(own: Pin, read: set[str]) -> list[str]:
     ratio = "unclipped" if own.clearance.clip_ratio else "ratio"
     before, after = _Part(own.before_dry, read), _Part(own.after_dry, read)
     body = [f"const {ratio} = latch.closed ? deltadot / latch.deltadot_minus : 1;", *before.text]
-    body += _call(own.laws["normal"], ("max_of(delta, 0)", "ratio", *own.further), ("F_n",), read)
+    body += _call(own.laws["normal"], ("max_of(delta, 0)", "ratio", *own.given("latch.")), ("F_n",), read)
     if "friction" in own.laws:
         states = (f"latch.state[{k}]" for k in range(len(own.clearance.states)))
         body += _call(own.laws["friction"], ("F_n", "v_t", *states), ("F_along_t_dry",), read)
@@ -68,7 +68,8 @@ def _clearance(own: Pin, read: set[str]) -> list[str]:
     dry, film = (f"functions.{part}_{joint}({', '.join(given)})" for part, given in (("dry", _DRY), ("film", _FILM)))
     body = [*gap.text, _store(f"clearance_{joint}", gap.locals)]
     if own.clearance.film is None:
-        return [*body, f"const F = delta > 0 ? {dry} : {_NOTHING};", _turned("F")]
+        acts = "latch.closed" if own.clearance.rigid else "delta > 0"
+        return [*body, f"const F = {acts} ? {dry} : {_NOTHING};", _turned("F")]
     if own.clearance.normal is None:
         return [*body, _turned(film)]
     kept = ", ".join(share.locals)

@@ -40,6 +40,7 @@ _MEANINGS: Mapping[str, tuple[str, str]] = {
     "delta": ("penetration", "m"),
     "ratio": ("rate of penetration over that at the onset", "-"),
     "deltadot": ("rate of penetration", "m/s"),
+    "held_force": ("force that keeps a contact closed, found by the run", "N"),
     "F_n": ("normal force, which pushes the surfaces apart", "N"),
     "v_t": ("slip of the journal's surface on the bearing's, along t", "m/s"),
     "epsilon": ("eccentricity over the film's clearance", "-"),

@@ -214,14 +214,31 @@ def _numbers(joint: JointWithPlay) -> list[Block]:
     return [*table(header, rows, (1,)), paragraph("From these follow once a run:"), *follow]
 
 
-def _dry(joint: JointWithPlay) -> list[Block]:
-    clearance, stored = joint.clearance, joint.notation.math(contact.stored)
+def _rigid(joint: JointWithPlay, stored: Name) -> Block:
+    """What becomes of surfaces that do not give, where they meet and while they touch."""
+    assert joint.clearance.normal is not None
+    e, v_0 = (joint.notation.math(sp.sympify(joint.clearance.normal.numbers[n])) for n in ("restitution", "threshold"))
+    return paragraph(
+        "Its surfaces do not give. Where they meet at the rate ", stored, ", a blow along n parts them with ", e,
+        " times that, or leaves them together where that is less than ", v_0, "; all rows and contacts that are closed"
+        " bear it. A contact that is closed has the force ",
+        Name(r"\lambda \geq 0,\ \ddot{\delta} \leq 0,\ \lambda \ddot{\delta} = 0", "λ ≥ 0, δ̈ ≤ 0, λ δ̈ = 0"), ".",
+    )  # fmt: skip
+
+
+def _onset(joint: JointWithPlay, stored: Name) -> Block:
+    """When a contact acts, and what is kept of its onset."""
     floor = joint.model.slots.entries[f"contacts.{joint.play.contact.name}.velocity_floor"].default
-    impact = paragraph(
+    return paragraph(
         "It acts while ", Name(r"\delta > 0", "δ > 0"), ". ", stored, " is the speed of approach at the onset, "
         f"at least {in_unit(floor, 'm/s')}, kept until separation; before an onset is accepted ",
         Name(r"\dot{\delta} / ", "δ̇ / "), stored, " counts as 1.",
     )  # fmt: skip
+
+
+def _dry(joint: JointWithPlay) -> list[Block]:
+    clearance, stored = joint.clearance, joint.notation.math(contact.stored)
+    impact = _rigid(joint, stored) if clearance.rigid else _onset(joint, stored)
     friction = _law(joint, "friction") if clearance.friction else [
         paragraph("There is no friction:"),
         equation(contact.of_part(contact.F_along_t, "dry"), sp.Integer(0), joint.notation),

@@ -37,6 +37,7 @@ from gudgeon.generator.equations.contact_steps import (
     w_t,
 )
 from gudgeon.generator.equations.play import Clearance
+from gudgeon.generator.kinds.laws.law import HELD
 from gudgeon.generator.targets.latex.letters import Name, letter
 
 # Parts of a joint with film and dry contact are told apart by d and f.
@@ -50,6 +51,7 @@ NAMES: Mapping[sp.Symbol, Name] = {
     epsilon: letter("epsilon"), w_n: letter("w", "n"), w_t: letter("w", "t"), share: letter("b"),
     F_along_n: letter("F", "e"), F_x: letter("F", "x"), F_y: letter("F", "y"),
     sp.Symbol("F_n", real=True): letter("F", "n"), sp.Symbol("F_r", real=True): letter("F", "r"),
+    sp.Symbol(HELD[0], real=True): letter("lambda"),
 }  # fmt: skip
 RATIO, CLIPPED = Name(r"\frac{\dot{\delta}}{\dot{\delta}^{-}}", "(δ̇/δ̇⁻)"), letter("r")
 

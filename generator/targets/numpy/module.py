@@ -157,16 +157,17 @@ class NumPyModel(ClosedLinkage):
         """Accelerations a (n,), multipliers `lambda_`, forces `clearance`, powers: [M Φ_qᵀ; Φ_q 0][a; λ] = [g; γ − …].
 
         `latches` (joints with play,): rate (m/s) with which a contact closed, NaN while it is open; none given: all
-        are open. `modes` (frictions,): 0 stick, ±1 slip with that sign; a scene with friction that may stick must be
-        given them, for only a run finds out which it is. `states` (joints with play, most states of a law): the laws'
-        inner states, m, whose rates are `clearance[i].state_rate`. `status` is 0, or the number of the pivot that
-        vanished. Raises ArrayError for another number of latches or modes.
+        are open; the force of a closed one whose surfaces do not give is NaN, for only a run finds it. `modes`
+        (frictions,): 0 stick, ±1 slip with that sign; a scene with friction that may stick must be given them, for
+        only a run finds out which it is. `states` (joints with play, most states of a law): the laws' inner states, m,
+        whose rates are `clearance[i].state_rate`. `status` is 0, or the number of the pivot that vanished. Raises
+        ArrayError for another number of latches or modes.
         """
         model = self.model
         rates = _one_each("latches", latches, [c.name for c in model.clearances], [np.nan] * len(model.clearances))
         bent = np.broadcast_to(np.asarray(states, dtype=float), (len(model.clearances), model.law_states)).tolist()
         memory = SimpleNamespace(
-            latch=[SimpleNamespace(closed=bool(x == x), deltadot_minus=float(x), state=z)
+            latch=[SimpleNamespace(closed=bool(x == x), deltadot_minus=float(x), force=np.nan, state=z)
                    for x, z in zip(rates, bent, strict=True)],
             mode=_one_each("modes", modes, [friction.name for friction in model.frictions]),
         )  # fmt: skip

@@ -19,7 +19,8 @@ def pin(own: Pin) -> str:
     if clearance.normal is None:
         body += [*_film(own), "F = F_r, F_along_t_film, M_i_film, M_j_film", "v_t = 0.0"]
     elif clearance.film is None:
-        body += ["F, v_t = (0.0, 0.0, 0.0, 0.0), 0.0", "if delta > 0:", *indented(_dry(own))]
+        acts = "latch.closed" if clearance.rigid else "delta > 0"
+        body += ["F, v_t = (0.0, 0.0, 0.0, 0.0), 0.0", f"if {acts}:", *indented(_dry(own))]
     else:
         body += [*_film(own), "F, v_t = (F_r, F_along_t_film, M_i_film, M_j_film), 0.0", "if delta > 0:"]
         body += indented([*_dry(own), *lines(own.share), "if share < 1:", f"    film = {', '.join(_FILM)}",
@@ -38,7 +39,7 @@ def _dry(own: Pin) -> list[str]:
     rubs = _call(own.laws["friction"], "F_n", "v_t", *given) if "friction" in own.laws else "0.0"
     return [
         f"{ratio} = deltadot / latch.deltadot_minus if latch.closed else 1.0", *lines(own.before_dry),
-        *assigned("F_n", _call(own.laws["normal"], "delta", "ratio", *own.further), is_call=True),
+        *assigned("F_n", _call(own.laws["normal"], "delta", "ratio", *own.given("latch.")), is_call=True),
         *assigned(", ".join(["F_along_t_dry", *told]), rubs, is_call=True),
         *lines(own.after_dry), f"F = -F_n, {', '.join(_DRY[1:])}",
     ]  # fmt: skip

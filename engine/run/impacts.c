@@ -1,0 +1,300 @@
+/*
+ * Surfaces that do not give (Newton's restitution): velocities jump where a gap closes, a contact that lasts is held
+ * closed until its force is used up. All contacts of one time go by one linear complementarity problem
+ * (contact_forces.h), of impulses (r = u + e u where surfaces meet at the rate u) and of forces (r = delta'').
+ * J. J. Moreau, in: Nonsmooth Mechanics and Applications (1988); F. Pfeiffer, C. Glocker, Multibody Dynamics with
+ * Unilateral Contacts (1996).
+ */
+#define TOUCHING 1e-10 /* of the clearance: surfaces that are no further apart touch */
+#define PARTED (16.0 * DBL_EPSILON) /* of how far out bodies are: so far apart surfaces are put that are to part */
+#define RESTING 1e-6   /* of the threshold: surfaces that close so slowly need no blow */
+enum { MOST_PASSES = 100 };
+
+/* Not negative while things go on as they are: the gap of a free joint, m, the force of a closed contact, N. */
+static double contact_margin(const Memory *memory, const Aside *aside, int i)
+{
+    const Clearance *joint = &aside->clearance[i];
+    if (!memory->latch[i].closed)
+        return -joint->delta;
+    return !gives(i) ? -joint->F_n : joint->delta;
+}
+
+static int touches(const Run *run, int i, const Parameters *p)
+{
+    const int near = run->aside.clearance[i].delta >= -TOUCHING * radial_clearance(p, i);
+    return !gives(i) && (near || run->memory.latch[i].closed);
+}
+
+/*
+ * A step in which no free journal goes further towards its wall, or from it, than half its clearance: flights are so
+ * smooth that a step could else lead out of the bearing and back. Seconds from rates now, less what stages saw of them.
+ */
+static double stride(const Run *run, const Step *step, const Parameters *p)
+{
+    double least = INFINITY;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        double rate = fabs(run->aside.clearance[i].deltadot);
+        if (gives(i) || run->memory.latch[i].closed)
+            continue;
+        if (step)
+            rate = max_of(rate, max_of(fabs(step->rate[i][0]), fabs(step->rate[i][1])));
+        least = min_of(least, 0.5 * radial_clearance(p, i) / rate);
+    }
+    return least;
+}
+
+/* The closed contact whose force is used up, or pulls; -1: none. */
+static int used_up(const Run *run)
+{
+    for (int i = 0; i < N_CLEARANCES; i++)
+        if (!gives(i) && run->memory.latch[i].closed && contact_margin(&run->memory, &run->aside, i) <= 0.0)
+            return i;
+    return -1;
+}
+
+static double resting(const Parameters *p, int i) { return RESTING * threshold_of(p, i); }
+
+static int answer_here(Run *run, const Parameters *p, Answer *contacts)
+{
+    run->evaluations += 1 + contacts->n;
+    return find_answer(motion_of_laws, N_Y, run->t, run->y, &run->memory, p, contacts);
+}
+
+/*
+ * Positions and velocities of listed contacts at `gap` (m, each) and, where they are closed, without a rate of it: the
+ * smallest change, measured by M.
+ */
+static int seat(Run *run, double t, double *y, const Parameters *p, Answer *contacts, const double *gap)
+{
+    unsigned char closed[N_RIGID];
+    Memory now = run->memory;
+    for (int k = 0; k < contacts->n; k++) {
+        Latch *latch = &now.latch[contacts->joint[k]];
+        closed[k] = (unsigned char)latch->closed;
+        latch->closed = 1; /* that a force moves it */
+    }
+    for (int pass = 0; pass < 3; pass++) {
+        double dy[N_Y], depth[N_RIGID], rate[N_RIGID], x[N_RIGID], u[N_RIGID], worst = 0.0;
+        Aside aside;
+        int status = find_answer(motion_of_laws, N_Y, t, y, &now, p, contacts);
+        if (!status)
+            status = motion_of_laws(t, y, &now, p, dy, &aside);
+        run->evaluations += contacts->n + 2;
+        if (status)
+            return status;
+        for (int k = 0; k < contacts->n; k++) {
+            const Clearance *joint = &aside.clearance[contacts->joint[k]];
+            depth[k] = joint->delta + gap[k];
+            rate[k] = closed[k] ? joint->deltadot : 0.0;
+            worst = max_of(worst, fabs(depth[k]) / radial_clearance(p, contacts->joint[k]));
+        }
+        solve_part(contacts, NULL, depth, x);
+        solve_part(contacts, closed, rate, u);
+        for (int k = 0; k < contacts->n; k++)
+            for (int i = 0; i < N_X; i++) {
+                y[i] += contacts->way[k][N_X + i] * x[k];
+                y[N_X + i] += contacts->way[k][N_X + i] * u[k];
+            }
+        if (worst < 1e-14)
+            break;
+    }
+    return 0;
+}
+
+/* A state back onto e = c and no rate of it where contacts are closed. */
+static void hold_contacts(Run *run, double t, double *y, const Parameters *p)
+{
+    const double none[N_RIGID] = {0.0};
+    Answer contacts;
+    contacts.n = list_closed(&run->memory, contacts.joint);
+    if (contacts.n)
+        (void)seat(run, t, y, p, &contacts, none);
+}
+
+/* One line of the list that Python fetches; of a blow without a length F_peak is the impulse, N s. */
+static int list_contact(Run *run, const Impact *contact)
+{
+    if (run->n_impacts >= N_IMPACTS)
+        return CHATTERING;
+    run->impacts[run->n_impacts++] = *contact;
+    return 0;
+}
+
+/* Impulses: what they change in the velocities, their work, and what is listed of them. */
+static void jump(Run *run, const Answer *blow, const double *impulse, const double *meeting, const Parameters *p)
+{
+    const double energy = kinetic_energy(run, p);
+    double lost = 0.0;
+    for (int k = 0; k < blow->n; k++) {
+        double change = 0.0;
+        for (int j = 0; j < blow->n; j++)
+            change += blow->D[k][j] * impulse[j];
+        lost += impulse[k] * (meeting[k] - 0.5 * change); /* the impulse by the mean rate of the gap */
+        for (int i = 0; i < N_X; i++)
+            run->y[N_X + i] += blow->way[k][N_X + i] * impulse[k];
+    }
+    run->y[2 * N_X + 2] -= lost;
+    run->y[2 * N_X] += kinetic_energy(run, p) - energy + lost; /* what drives hold moves on as before */
+}
+
+/*
+ * Every joint that touches and closes at a rate gets its impulse, and with it every contact that is closed: one blow.
+ * A parting that would be slower than the threshold is none. Nothing that friction can do has a part in it.
+ */
+static int strike(Run *run, const Parameters *p, int *struck)
+{
+    Answer blow = {0};
+    double meeting[N_RIGID], r[N_RIGID], impulse[N_RIGID];
+    const Memory known = run->memory;
+    *struck = 0;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const double u = run->aside.clearance[i].deltadot;
+        const int meets_now = !gives(i) && touches(run, i, p) && u > resting(p, i);
+        if (!meets_now && !(!gives(i) && known.latch[i].closed && u >= -resting(p, i)))
+            continue;
+        const double back = restitution_of(p, i) * u;
+        meeting[blow.n] = u;
+        r[blow.n] = meets_now && back > threshold_of(p, i) ? u + back : u;
+        blow.joint[blow.n++] = i;
+        run->memory.latch[i].closed = 1;
+        *struck |= meets_now;
+    }
+    for (int i = 0; i < N_FRICTIONS; i++)
+        run->memory.mode[i] = 2.0; /* none: it has a force, not an impulse */
+    int status = *struck ? answer_here(run, p, &blow) : 0;
+    run->memory = known;
+    status = !status && *struck ? complementary(&blow, r, impulse) : status;
+    if (status || !*struck)
+        return status;
+    jump(run, &blow, impulse, meeting, p);
+    for (int k = 0; k < blow.n && !status; k++) {
+        const int i = blow.joint[k];
+        const Impact bounce = {run->t, run->t, max_of(meeting[k], 0.0), impulse[k], run->t, i};
+        if (impulse[k] > 0.0)
+            status = list_contact(run, &bounce);
+        run->onsets += impulse[k] > 0.0 && !known.latch[i].closed;
+    }
+    return status ? status : slip_after_blow(run, p);
+}
+
+/* Joint i is closed, or open, from now on. */
+static int turn_contact(Run *run, int i, int closes)
+{
+    Latch *latch = &run->memory.latch[i];
+    const int was = latch->closed;
+    latch->closed = closes;
+    if (closes == was)
+        return 0;
+    run->compressing[i] = 0;
+    if (closes) {
+        latch->deltadot_minus = 0.0;
+        run->open[i] = (Impact){run->t, NAN, 0.0, 0.0, run->t, i};
+        for (int k = run->n_impacts - 1; k >= 0 && run->impacts[k].t_on == run->t; k--)
+            if (run->impacts[k].joint == i)
+                latch->deltadot_minus = run->open[i].deltadot = run->impacts[k].deltadot;
+        return 0;
+    }
+    run->open[i].t_off = run->t;
+    return list_contact(run, &run->open[i]);
+}
+
+/*
+ * Which contacts that rest, or part slower than the threshold, are closed: those that must push. Joint `opens` (-1:
+ * none) has just ceased to.
+ */
+static int settle_contacts(Run *run, int opens, const Parameters *p)
+{
+    unsigned char rests[N_CLEARANCES], pushes[N_CLEARANCES] = {0};
+    double force[N_RIGID];
+    const Memory known = run->memory;
+    Answer contacts = {0};
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        rests[i] = i != opens && touches(run, i, p) && fabs(run->aside.clearance[i].deltadot) <= threshold_of(p, i);
+        if (!gives(i))
+            run->memory.latch[i].closed = rests[i];
+        if (rests[i])
+            contacts.joint[contacts.n++] = i;
+    }
+    int status = contacts.n ? answer_here(run, p, &contacts) : 0;
+    if (!status)
+        status = complementary(&contacts, contacts.r, force);
+    for (int k = 0; k < contacts.n && !status; k++)
+        pushes[contacts.joint[k]] = force[k] > 0.0;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        run->memory.latch[i].closed = known.latch[i].closed;
+    for (int i = 0; i < N_CLEARANCES && !status; i++)
+        if (!gives(i))
+            status = turn_contact(run, i, pushes[i]);
+    return status;
+}
+
+/* The roundings between which a gap is none, m. */
+static double least_gap(const Run *run, const Parameters *p)
+{
+    double all[N_S], most = 0.0;
+    to_absolute(run->t, run->y, &run->memory, p, all);
+    for (int k = 0; k < N_Q; k++)
+        most = max_of(most, k % 3 < 2 ? fabs(all[k]) : 0.0);
+    for (int i = 0; i < N_CLEARANCES; i++)
+        most = max_of(most, radial_clearance(p, i));
+    return PARTED * most;
+}
+
+/* Closed contacts exactly at e = c, and what touches and parts a little apart: the next step looks for its return. */
+static int put_apart(Run *run, const Parameters *p)
+{
+    double gap[N_RIGID];
+    const double apart = least_gap(run, p);
+    Answer touching = {0};
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        if (gives(i) || (!run->memory.latch[i].closed && run->aside.clearance[i].delta < -apart))
+            continue;
+        gap[touching.n] = run->memory.latch[i].closed ? 0.0 : apart;
+        touching.joint[touching.n++] = i;
+    }
+    const double energy = kinetic_energy(run, p);
+    const int status = touching.n ? seat(run, run->t, run->y, p, &touching, gap) : 0;
+    run->y[2 * N_X + 2] += kinetic_energy(run, p) - energy; /* of partings slower than the threshold */
+    return status;
+}
+
+/*
+ * Where contacts may change: blows until none meets, then which contacts rest, then the right-hand side of what
+ * follows. `event`: the margin that ended the step, -1 of none.
+ */
+static int meet(Run *run, int event, const Parameters *p)
+{
+    const int opens = event >= 0 && event < N_CLEARANCES && !gives(event) && run->memory.latch[event].closed;
+    int struck = 1, status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+    for (int pass = 0; pass < MOST_PASSES && struck && !status; pass++) {
+        status = strike(run, p, &struck);
+        if (!status && struck)
+            status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+    }
+    if (!status && struck)
+        return CHATTERING;
+    for (int pass = 0; pass < 2 && !status; pass++) { /* forces of stick follow those of contacts, and these them */
+        status = settle_contacts(run, opens ? event : -1, p);
+        if (!status)
+            status = settle_friction(run, p);
+        if (!N_FRICTIONS)
+            break;
+    }
+    if (!status)
+        status = put_apart(run, p);
+    return status ? status : settle_at(run, run->t, run->y, run->dy, &run->aside, -1, p);
+}
+
+/* A start that touches: what meets there is struck, what rests is closed. One that lies outside its bearing is none. */
+static int begin_contacts(Run *run, const Parameters *p)
+{
+    int some = 0;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        if (gives(i) || run->memory.latch[i].closed)
+            continue;
+        if (run->aside.clearance[i].delta > 1e-6 * radial_clearance(p, i))
+            return LOST;
+        some |= touches(run, i, p);
+    }
+    return some ? meet(run, -1, p) : 0;
+}

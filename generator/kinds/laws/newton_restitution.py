@@ -1,0 +1,51 @@
+"""Newton's impact law between surfaces that do not give: velocities jump, and a contact that lasts is a constraint.
+
+    impact:   δ̇⁺ = −e_n δ̇⁻,   M (q̇⁺ − q̇⁻) + Φ_qᵀ Λ_Φ = −δ_qᵀ Λ,   Λ ≥ 0
+    contact:  δ̈ ≤ 0,   λ ≥ 0,   λ δ̈ = 0   at δ = δ̇ = 0
+
+with the impulse Λ (N s) and the force λ (N) along the normal. A bounce slower than the threshold v_0 ends at rest: the
+contact is closed. Several contacts at one time go by one linear complementarity problem: what is closed, or closes,
+takes part with all others. No force is tangential.
+I. Newton, Principia (1687), scholium to the laws of motion; J. J. Moreau, Unilateral contact and dry friction in finite
+freedom dynamics, in: Nonsmooth Mechanics and Applications (1988) 1–82; F. Pfeiffer, C. Glocker, Multibody Dynamics with
+Unilateral Contacts (1996).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.field import Bound, number
+from gudgeon.generator.kinds.laws.law import Law, LawInputs
+from gudgeon.language.units import DIMENSIONLESS, VELOCITY
+
+
+def build(s: LawInputs) -> dict[str, Any]:
+    """F_n (N) of a closed contact: whatever keeps its surfaces together, which a run finds out."""
+    return {"F_n": s.variables["held_force"]}
+
+
+LAW = Law(
+    name="newton_restitution",
+    role="normal",
+    title="Newton's restitution between surfaces that do not give",
+    source="I. Newton, Principia (1687); J. J. Moreau, in: Nonsmooth Mechanics and Applications (1988) 1-82",
+    reference="J. J. Moreau, Unilateral contact and dry friction in finite freedom dynamics, in: J. J. Moreau, P. D. "
+              "Panagiotopoulos (eds.), Nonsmooth Mechanics and Applications, Springer (1988) 1-82, "
+              "doi 10.1007/978-3-7091-2624-0_1; F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts, "
+              "Wiley (1996)",
+    validity="a blow parts surfaces with e_n times their speed of approach, what is closed is a constraint that only "
+             "pushes; blows are far shorter than all else in the motion, how hard they press is not told",
+    fields=(
+        number(
+            "restitution", "speed of parting by speed of approach", DIMENSIONLESS,
+            symbol="e_n", required=True, bounds=(Bound(">=", 0.0), Bound("<=", 1.0)),
+        ),
+        number(
+            "threshold", "speed of parting below which a contact closes", VELOCITY,
+            symbol="v_0", default=1e-4, bounds=(Bound(">", 0.0),),
+        ),
+    ),
+    build=build,
+    rigid=True,
+)  # fmt: skip
