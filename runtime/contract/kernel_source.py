@@ -146,6 +146,15 @@ class ClearanceInfo:
 
 
 @dataclass(frozen=True)
+class ContourInfo:
+    """The depths of a joint's bearing beyond its circle: `count` slots from the slot `first` on."""
+
+    joint: str
+    first: int
+    count: int
+
+
+@dataclass(frozen=True)
 class PartInfo:
     """A joint, drive or force element as the file has it, for who draws it; its numbers are slots by their addresses.
 
@@ -228,6 +237,7 @@ class KernelSource:
     peaks: tuple[str, ...] = ()  # series whose peaks over all steps the scene asks for
     start_apart: tuple[str, ...] = ()  # rows of joints with play that the start holds apart, by e and its rate
     parts: tuple[PartInfo, ...] = ()  # all joints, drives and force elements: what is drawn
+    contours: tuple[ContourInfo, ...] = ()  # of joints with play whose bearings are no circles
     massless: tuple[str, ...] = ()  # bodies without mass or inertia: nothing is known that follows from masses
 
     @cached_property
@@ -273,6 +283,7 @@ class KernelSource:
             "drives": DriveInfo, "clearances": ClearanceInfo, "start_rows": RowInfo,
             "slots": Slot, "conditions": Condition, "series": SeriesInfo, "events": EventInfo,
             "written": WrittenInfo, "simulate_written": WrittenInfo, "parts": PartInfo,
+            "contours": ContourInfo,
         }  # fmt: skip
         for key, kind in kinds.items():
             data[key] = tuple(kind(**_tuples(item)) for item in data.get(key, ()))

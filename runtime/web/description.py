@@ -78,7 +78,7 @@ def _widths(source: KernelSource) -> dict[str, int]:
     """Columns of what gudgeon_evaluate fills, in its order."""
     return {
         "a": len(source.coordinates), "multipliers": len(source.rows), "reactions": 3 * len(source.joints),
-        "torques": len(source.drives), "clearance": 9 * len(source.clearances), "series": len(source.series),
+        "torques": len(source.drives), "clearance": 10 * len(source.clearances), "series": len(source.series),
         "friction": 2 * len(source.frictions), "energy": 2, "power": 3, "drift": 2,
     }  # fmt: skip
 
@@ -93,7 +93,7 @@ def _unknown(source: KernelSource) -> list[str]:
 
 def _columns(source: KernelSource) -> Iterator[tuple[str, list[Any]]]:
     """Series that are a column of an array: [unit, array, column]; others follow from these (simulator.js)."""
-    widths = {"reactions": 3, "clearance": 9, "friction": 2}
+    widths = {"reactions": 3, "clearance": 10, "friction": 2}
     for name, series in catalogue(source).items():
         if series.stored is not None:
             yield name, [series.unit, *series.stored]

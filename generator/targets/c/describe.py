@@ -12,6 +12,7 @@ from gudgeon.contract.kernel_source import (
     BodyInfo,
     ClearanceInfo,
     Condition,
+    ContourInfo,
     DriveInfo,
     EventInfo,
     JointInfo,
@@ -83,7 +84,7 @@ def describe(
         start_apart=tuple(model.all_rows[k].name for k, _, _ in apart_rows(model)),
         peaks=tuple(map(str, model.scene.peaks)), written=tuple(_written(model)),
         simulate_written=tuple(_simulate_written(model)), states=_states(model), story=story, lanes=lanes,
-        parts=tuple(_parts(mechanism)),
+        parts=tuple(_parts(mechanism)), contours=tuple(_contours(model)),
     )  # fmt: skip
 
 
@@ -204,6 +205,14 @@ def _clearances(model: Model, place: Mapping[sp.Symbol, int], body_of: Mapping[s
         )
         for c in model.clearances
     )  # fmt: skip
+
+
+def _contours(model: Model) -> Iterator[ContourInfo]:
+    place = {entry.symbol: k for k, entry in enumerate(model.slots.entries.values())}
+    for clearance in model.clearances:
+        if clearance.contour:
+            first = model.slots.tables[clearance.contour.table][0]
+            yield ContourInfo(clearance.name, place[first], clearance.contour.count)
 
 
 def _simulate(model: Model) -> dict[str, float]:

@@ -225,7 +225,7 @@ def _dry(joint: JointWithPlay) -> list[Block]:
         equation(contact.of_part(contact.F_along_t, "dry"), sp.Integer(0), joint.notation),
     ]  # fmt: skip
     return [impact, *joint.shown(contact.before_dry(clearance)), *_law(joint, "normal"), *friction,
-            *joint.shown(contact.after_dry())]  # fmt: skip
+            *joint.shown(contact.after_dry(clearance))]  # fmt: skip
 
 
 def _law(joint: JointWithPlay, role: str) -> list[Block]:

@@ -1,0 +1,110 @@
+"""Contours of bearings: depths that a run has, by joint, and how deep a bearing is at an angle."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gudgeon.contract.kernel_source import ContourInfo, KernelSource
+from gudgeon.errors import BadValueError, UnknownNameError
+from gudgeon.language.wanted import mapping, told
+from gudgeon.model.arrays import taken
+
+Array = NDArray[np.float64]
+Contours = Mapping[str, ArrayLike]
+_WANTED = "{joint: depths (m) at equal angles}"
+
+
+def taken_contours(source: KernelSource, contour: Any, runs: bool = False) -> dict[str, Array]:
+    """Depths of the joints that are given, (n,) each, n as many as the file has there; with `runs` (N, n) too.
+
+    Raises UnknownNameError for a joint without a contour, ArrayError for another number of depths, BadValueError for
+    different numbers of runs.
+    """
+    known, found = {one.joint: one for one in source.contours}, dict[str, Array]()
+    for joint, depths in mapping(contour, "contour", _WANTED).items():
+        if joint not in known:
+            hint = f"joints with a contour: {', '.join(known)}" if known else "contour: 128 in the play of a joint"
+            raise UnknownNameError(f"contour: no contour at {told(joint)}", hint=hint)
+        several = runs and np.ndim(depths) == 2
+        shape = (None, known[joint].count) if several else (known[joint].count,)
+        found[joint] = taken(depths, f"contour[{joint!r}]", shape, finite=True)
+    rows = {joint: len(own) for joint, own in found.items() if own.ndim == 2}
+    if len(set(rows.values())) > 1 or 0 in rows.values():
+        several = ", ".join(f"{joint} has {count}" for joint, count in rows.items())
+        raise BadValueError(f"contour: rows of runs: {several}", hint="one contour, or one for every run")
+    return found
+
+
+def of_run(contours: Mapping[str, Array], i: int) -> dict[str, Array]:
+    """Those of run i."""
+    return {joint: own[i] if own.ndim == 2 else own for joint, own in contours.items()}
+
+
+def put(source: KernelSource, contour: Mapping[str, Array], given: Array, is_given: NDArray[np.bool_]) -> None:
+    """Depths (n,) by joint among values and mask of the slots, (n_slots,) each. BadValueError for one given twice."""
+    for one in source.contours:
+        if one.joint in contour:
+            own = slice(one.first, one.first + one.count)
+            if is_given[own].any():
+                raise BadValueError(f"the contour of {one.joint} is given twice: by addresses too", hint="give it once")
+            given[own], is_given[own] = contour[one.joint], True
+
+
+def contour_of(source: KernelSource, p: Array, joint: str) -> Array | None:
+    """Depths (..., n) that p (..., n_slots + n_derived) has; None of a joint whose bearing is a circle."""
+    one = next((one for one in source.contours if one.joint == joint), None)
+    return None if one is None else p[..., one.first : one.first + one.count]
+
+
+def widest(source: KernelSource, p: Array, joint: str) -> float:
+    """What the deepest place of a contour adds to the radial clearance, m; 0 of a circle."""
+    depths = contour_of(source, p, joint)
+    return 0.0 if depths is None else float(depths.max())
+
+
+def depth_at(depths: ArrayLike, angle: ArrayLike, order: int = 0) -> Any:
+    """The contour through depths (n,), m, at angles (rad) in the bearing's frame, or its first or second derivative.
+
+    As engine/scene/contour.h has it: polynomials of degree five whose ends have slopes and second derivatives by
+    central differences.
+    """
+    w, count = np.asarray(depths, float), len(np.asarray(depths))
+    turns = np.asarray(angle, float) / (2.0 * np.pi)
+    x = count * (turns - np.floor(turns))
+    k = np.minimum(x.astype(int), count - 1)
+    a, b, c, d = (w[(k + shift) % count] for shift in (-1, 0, 1, 2))
+    s, slope, bend, rest, per_angle = x - k, 0.5 * (c - a), (a - b) + (c - b), 3.0 * (c - b) + (a - d), count / (2 * np.pi)
+    if order == 0:
+        return b + s * (slope + s * (0.5 * bend + s * rest * (1.5 + s * (s - 2.5))))
+    if order == 1:
+        return per_angle * (slope + s * (bend + s * rest * (4.5 + s * (5.0 * s - 10.0))))
+    return per_angle**2 * (bend + s * rest * (9.0 + s * (20.0 * s - 30.0)))
+
+
+def closed_up(source: KernelSource, p: Array) -> NDArray[np.bool_]:
+    """Whether a bearing is filled up: no clearance is left somewhere, (...) of p (..., n_slots + n_derived)."""
+    found = np.zeros(p.shape[:-1], bool)
+    place = {joint.name: joint.clearance for joint in source.clearances}
+    for one in source.contours:
+        least = p[..., one.first : one.first + one.count].min(axis=-1)
+        found |= ~(p[..., place[one.joint]] + least > 0.0)
+    return found
+
+
+def check_contours(source: KernelSource, p: Array) -> str:
+    """What is said of a contour that leaves no clearance; "" where none does."""
+    for one in source.contours if source.contours and closed_up(source, p) else ():
+        c = next(float(p[joint.clearance]) for joint in source.clearances if joint.name == one.joint)
+        least = float(p[one.first : one.first + one.count].min())
+        if not c + least > 0.0:
+            return f"the contour of {one.joint} is {least:g} m at its shallowest: nothing is left of the clearance {c:g} m"
+    return ""
+
+
+def known(source: KernelSource, joint: str) -> ContourInfo | None:
+    """Where a joint's contour is; None of a circle."""
+    return next((one for one in source.contours if one.joint == joint), None)
