@@ -106,6 +106,7 @@ def _facts(source: KernelSource) -> dict[str, int]:
         "non-zeros of Φ_q": source.story.jacobian,
         "joints with play": len(source.clearances),
         "numbers that can be set": len(source.slots),
+        **({"of them depths of contours": len(source.in_contours)} if source.contours else {}),
     }
     return facts | {_label(name): count for name, count in source.operations.items()}
 

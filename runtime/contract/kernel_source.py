@@ -245,6 +245,11 @@ class KernelSource:
         """Where each slot stands, by its address; not to be written."""
         return {slot.address: k for k, slot in enumerate(self.slots)}
 
+    @cached_property
+    def in_contours(self) -> frozenset[int]:
+        """Slots that are depths of contours: a run sets them together."""
+        return frozenset(k for one in self.contours for k in range(one.first, one.first + one.count))
+
     @property
     def degrees_of_freedom(self) -> int:
         """Coordinates less constraint rows."""

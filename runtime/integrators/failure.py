@@ -14,6 +14,7 @@ from gudgeon.contract.methods import NEED_SLOPES
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
 from gudgeon.language.tree import functions
 from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.contours import widest
 from gudgeon.model.steep import steep_force
 from gudgeon.model.written import CORNERED, of_time, rate_reason, reason, trees, undefined_here
 
@@ -223,7 +224,8 @@ def film(compiled: CompiledModel, e_max: Array, p: Array) -> str:
 def _too_deep(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> SolverError:
     """A journal a tenth of its bearing's radius or more inside the metal."""
     deepest, name = max(
-        (float(e - p[joint.clearance]), joint.name) for joint, e in zip(compiled.source.clearances, e_max, strict=True)
+        (float(e) - widest(compiled.source, p, joint), joint.name)
+        for joint, e in zip(compiled.source.clearances, e_max, strict=True)
     )
     error = SolverError(
         f"the journal of {name} lies {1e3 * deepest:.3g} mm deep in its bearing, beyond a tenth of its radius, at"

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gudgeon.contract.kernel_source import ContourInfo, KernelSource
+from gudgeon.contract.kernel_source import ClearanceInfo, KernelSource
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.language.wanted import mapping, told
 from gudgeon.model.arrays import taken
@@ -56,14 +56,16 @@ def put(source: KernelSource, contour: Mapping[str, Array], given: Array, is_giv
 
 def contour_of(source: KernelSource, p: Array, joint: str) -> Array | None:
     """Depths (..., n) that p (..., n_slots + n_derived) has; None of a joint whose bearing is a circle."""
-    one = next((one for one in source.contours if one.joint == joint), None)
-    return None if one is None else p[..., one.first : one.first + one.count]
+    for one in source.contours:
+        if one.joint == joint:
+            return np.asarray(p[..., one.first : one.first + one.count])
+    return None
 
 
-def widest(source: KernelSource, p: Array, joint: str) -> float:
-    """What the deepest place of a contour adds to the radial clearance, m; 0 of a circle."""
-    depths = contour_of(source, p, joint)
-    return 0.0 if depths is None else float(depths.max())
+def widest(source: KernelSource, p: Array, joint: ClearanceInfo) -> float:
+    """The radial clearance (m) of a joint with play, of a contour at its deepest place."""
+    depths, c = contour_of(source, p, joint.name), float(p[joint.clearance])
+    return c if depths is None else c + float(depths.max())
 
 
 def depth_at(depths: ArrayLike, angle: ArrayLike, order: int = 0) -> Any:
@@ -103,8 +105,3 @@ def check_contours(source: KernelSource, p: Array) -> str:
         if not c + least > 0.0:
             return f"the contour of {one.joint} is {least:g} m at its shallowest: nothing is left of the clearance {c:g} m"
     return ""
-
-
-def known(source: KernelSource, joint: str) -> ContourInfo | None:
-    """Where a joint's contour is; None of a circle."""
-    return next((one for one in source.contours if one.joint == joint), None)

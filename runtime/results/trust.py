@@ -75,6 +75,8 @@ def _joint(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
     peak, c = run.diagnostics.peak(joint.name), float(run.p[joint.clearance])
     own = run.impacts[run.impacts["joint"] == k]
     examined, deepest = _examined(run, joint.name), peak.e_max - c
+    if any(one.joint == joint.name for one in run.source.contours) and len(run.t):
+        deepest = float(run[f"{joint.name}.delta"].max())  # at the samples: how deep it is hangs on where
     found = {
         "c": c, "time": _shares(run, k, joint, own), "contacts": len(own),
         "still_closed": int(np.isnan(own["t_off"]).sum()), "approach": _spread(own["deltadot"]),

@@ -49,6 +49,7 @@ def description(compiled: CompiledModel, seen_step: float | None = None) -> str:
         "evaluation_pivots": source.pivots,
         "angles": integrated_angles(source).tolist(), "sizes": size_places(source),
         "clearances": [[joint.name, joint.clearance] for joint in source.clearances],
+        **({"contours": {one.joint: [one.first, one.count] for one in source.contours}} if source.contours else {}),
         "film": any(joint.film for joint in source.clearances), "beyond": compiled.beyond,
         "rtol": RTOL, "felt_by_films": FELT_BY_FILMS, "reach": REACH,
         "memory": source.n_memory, "events": [[event.name, event.action] for event in source.events],

@@ -37,7 +37,7 @@ def groups(simulation: Simulation, p: Array) -> list[dict[str, Any]]:
     """Sections of numbers, the parameters first: [{title, numbers: [{k, name, unit, factor, low, high}]}]."""
     source, units = simulation.source, _Units(simulation)
     size, found = mechanism_size(simulation.compiled, p), dict[str, list[dict[str, Any]]]()
-    for k, slot in enumerate(source.slots):
+    for k, slot in ((k, slot) for k, slot in enumerate(source.slots) if k not in source.in_contours):
         section, _, name = slot.address.partition(".")
         told: dict[str, Any] = {"k": k, "name": name or section}
         if not slot.words:
