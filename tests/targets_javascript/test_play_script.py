@@ -40,7 +40,7 @@ contacts:
     film: {law: pinkus_sternlicht, viscosity: 0.05 Pa*s, shear: true}
     transition: 20 um
   d: {normal: {law: hertz, restitution: 0.8}}
-scenes: {m: {play: {A: {bearing: p, contact: c}, B: {bearing: p, contact: d}}}}
+scenes: {m: {play: {A: {bearing: p, contact: c}, B: {bearing: p, contact: d, contour: [0, 20 um, 5 um, 0, 0, 30 um, 9 um, 0]}}}}
 """
 SCENES = ("dry", "lubricated", "m")
 ASKED = """
@@ -114,7 +114,8 @@ def forces(case: Case, joint: str, told: dict[str, Any]) -> tuple[float, float]:
     if blended is not None:
         return blended, told[f"law.clearance_{joint}.F.t"]
     if "normal" in pin.laws and told[along["normal"]] is not None:
-        return -told[along["normal"]], told[f"law.dry_{joint}.F_along_t_dry"]
+        pressed = told.get(f"law.dry_{joint}.F_N", told[along["normal"]])
+        return -pressed, told[f"law.dry_{joint}.F_along_t_dry"]
     if "film" in pin.laws:
         return told[along["film"]], told[f"law.{pin.laws['film'].kernel.name}.F_t_out"]
     return 0.0, 0.0
