@@ -56,7 +56,7 @@ def wear(
     """
     check_own(simulation, run, "wear")
     asked = _asked(run, joint, points, since, until, contact)
-    rates = _rate(k, hardness, "k", "hardness"), _rate(
+    rates = rate_of(k, hardness, "k", "hardness"), rate_of(
         k if journal_k is None else journal_k,
         hardness if journal_hardness is None else journal_hardness, "journal_k", "journal_hardness",
     )  # fmt: skip
@@ -91,8 +91,8 @@ def check_rubs(clearances: Any, joint: Any) -> None:
         raise BadValueError(f"{joint} has a film alone: nothing wears", hint="expected a contact with a normal law")
 
 
-def _rate(k: Any, hardness: Any, k_name: str, name: str) -> float:
-    """k/H, 1/Pa."""
+def rate_of(k: Any, hardness: Any, k_name: str, name: str) -> float:
+    """k/H (1/Pa) of what `wear` is given."""
 
     def number(value: Any, what: str, exponents: tuple[int, int, int]) -> float:
         return positive(number_of_text(value, what, exponents) if isinstance(value, str) else value, what)
