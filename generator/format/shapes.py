@@ -12,7 +12,20 @@ from itertools import islice
 from typing import Any
 
 from gudgeon.errors import BadValueError, InputError, InputErrors, Location, MissingKeyError, UnknownKeyError
-from gudgeon.generator.field import CORNERS, DEPTHS, KINDS, LAW, MAPPING, PLACE, POINTS, RECORD, RESULTS, SCALARS, VECTOR, Field
+from gudgeon.generator.field import (
+    CORNERS,
+    DEPTHS,
+    KINDS,
+    LAW,
+    MAPPING,
+    PLACE,
+    POINTS,
+    RECORD,
+    RESULTS,
+    SCALARS,
+    VECTOR,
+    Field,
+)
 from gudgeon.generator.format.sections import FILE, FORMAT, SECTIONS
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
 from gudgeon.language.suggestions import known_hint, nearest, unknown_name

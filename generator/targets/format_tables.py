@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from gudgeon.generator.field import (
     BODY,
     CORNERS,
+    DEPTHS,
     FLAG,
     KINDS,
     LAW,
@@ -14,7 +15,6 @@ from gudgeon.generator.field import (
     NAME,
     NUMBER,
     PLACE,
-    DEPTHS,
     POINTS,
     RECORD,
     RESULTS,

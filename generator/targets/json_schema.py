@@ -11,6 +11,7 @@ from typing import Any
 from gudgeon.generator.field import (
     BODY,
     CORNERS,
+    DEPTHS,
     FLAG,
     KINDS,
     LAW,
@@ -18,7 +19,6 @@ from gudgeon.generator.field import (
     NAME,
     NUMBER,
     PLACE,
-    DEPTHS,
     POINTS,
     RECORD,
     RESULTS,

@@ -13,6 +13,7 @@ from functools import cached_property
 from hashlib import sha256
 from typing import Any
 
+from gudgeon.contract.contour_info import ContourInfo
 from gudgeon.contract.ledger import Story
 from gudgeon.contract.methods import INTEGRATORS, KINEMATIC, NEED_SLOPES
 from gudgeon.contract.stored import as_text, complete, shorten
@@ -146,15 +147,6 @@ class ClearanceInfo:
 
 
 @dataclass(frozen=True)
-class ContourInfo:
-    """The depths of a joint's bearing beyond its circle: `count` slots from the slot `first` on."""
-
-    joint: str
-    first: int
-    count: int
-
-
-@dataclass(frozen=True)
 class PartInfo:
     """A joint, drive or force element as the file has it, for who draws it; its numbers are slots by their addresses.
 
@@ -245,11 +237,6 @@ class KernelSource:
         """Where each slot stands, by its address; not to be written."""
         return {slot.address: k for k, slot in enumerate(self.slots)}
 
-    @cached_property
-    def in_contours(self) -> frozenset[int]:
-        """Slots that are depths of contours: a run sets them together."""
-        return frozenset(k for one in self.contours for k in range(one.first, one.first + one.count))
-
     @property
     def degrees_of_freedom(self) -> int:
         """Coordinates less constraint rows."""
@@ -270,8 +257,7 @@ class KernelSource:
     @property
     def methods(self) -> tuple[str, ...]:
         """What runs this scene: the integrators, or where nothing is left to be integrated the other one."""
-        integrates = self.degrees_of_freedom or self.clearances or self.frictions
-        if not integrates:
+        if not (self.degrees_of_freedom or self.clearances or self.frictions):
             return (KINEMATIC,)
         return tuple(name for name in INTEGRATORS if not (self.states and name in NEED_SLOPES))
 
@@ -287,8 +273,7 @@ class KernelSource:
             "bodies": BodyInfo, "points": PointInfo, "rows": RowInfo, "joints": JointInfo,
             "drives": DriveInfo, "clearances": ClearanceInfo, "start_rows": RowInfo,
             "slots": Slot, "conditions": Condition, "series": SeriesInfo, "events": EventInfo,
-            "written": WrittenInfo, "simulate_written": WrittenInfo, "parts": PartInfo,
-            "contours": ContourInfo,
+            "written": WrittenInfo, "simulate_written": WrittenInfo, "parts": PartInfo, "contours": ContourInfo,
         }  # fmt: skip
         for key, kind in kinds.items():
             data[key] = tuple(kind(**_tuples(item)) for item in data.get(key, ()))

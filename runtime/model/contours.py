@@ -29,8 +29,8 @@ def taken_contours(source: KernelSource, contour: Any, runs: bool = False) -> di
         if joint not in known:
             hint = f"joints with a contour: {', '.join(known)}" if known else "contour: 128 in the play of a joint"
             raise UnknownNameError(f"contour: no contour at {told(joint)}", hint=hint)
-        several = runs and np.ndim(depths) == 2
-        shape = (None, known[joint].count) if several else (known[joint].count,)
+        many = runs and np.ndim(depths) == 2
+        shape = (None, known[joint].count) if many else (known[joint].count,)
         found[joint] = taken(depths, f"contour[{joint!r}]", shape, finite=True)
     rows = {joint: len(own) for joint, own in found.items() if own.ndim == 2}
     if len(set(rows.values())) > 1 or 0 in rows.values():
@@ -44,7 +44,7 @@ def of_run(contours: Mapping[str, Array], i: int) -> dict[str, Array]:
     return {joint: own[i] if own.ndim == 2 else own for joint, own in contours.items()}
 
 
-def put(source: KernelSource, contour: Mapping[str, Array], given: Array, is_given: NDArray[np.bool_]) -> None:
+def put(source: KernelSource, contour: Mapping[str, Array], given: Array, is_given: NDArray[Any]) -> None:
     """Depths (n,) by joint among values and mask of the slots, (n_slots,) each. BadValueError for one given twice."""
     for one in source.contours:
         if one.joint in contour:
@@ -79,7 +79,8 @@ def depth_at(depths: ArrayLike, angle: ArrayLike, order: int = 0) -> Any:
     x = count * (turns - np.floor(turns))
     k = np.minimum(x.astype(int), count - 1)
     a, b, c, d = (w[(k + shift) % count] for shift in (-1, 0, 1, 2))
-    s, slope, bend, rest, per_angle = x - k, 0.5 * (c - a), (a - b) + (c - b), 3.0 * (c - b) + (a - d), count / (2 * np.pi)
+    s, slope, bend, rest = x - k, 0.5 * (c - a), (a - b) + (c - b), 3.0 * (c - b) + (a - d)
+    per_angle = count / (2.0 * np.pi)
     if order == 0:
         return b + s * (slope + s * (0.5 * bend + s * rest * (1.5 + s * (s - 2.5))))
     if order == 1:
@@ -87,21 +88,15 @@ def depth_at(depths: ArrayLike, angle: ArrayLike, order: int = 0) -> Any:
     return per_angle**2 * (bend + s * rest * (9.0 + s * (20.0 * s - 30.0)))
 
 
-def closed_up(source: KernelSource, p: Array) -> NDArray[np.bool_]:
-    """Whether a bearing is filled up: no clearance is left somewhere, (...) of p (..., n_slots + n_derived)."""
-    found = np.zeros(p.shape[:-1], bool)
-    place = {joint.name: joint.clearance for joint in source.clearances}
+def narrowest(source: KernelSource, p: Array) -> Array:
+    """Radial clearances (m), of contours at their shallowest, (..., n_clearances) of p (..., n_slots + n_derived)."""
+    own = p[..., [joint.clearance for joint in source.clearances]]
     for one in source.contours:
-        least = p[..., one.first : one.first + one.count].min(axis=-1)
-        found |= ~(p[..., place[one.joint]] + least > 0.0)
-    return found
+        place = next(k for k, joint in enumerate(source.clearances) if joint.name == one.joint)
+        own[..., place] += p[..., one.first : one.first + one.count].min(axis=-1)
+    return own
 
 
-def check_contours(source: KernelSource, p: Array) -> str:
-    """What is said of a contour that leaves no clearance; "" where none does."""
-    for one in source.contours if source.contours and closed_up(source, p) else ():
-        c = next(float(p[joint.clearance]) for joint in source.clearances if joint.name == one.joint)
-        least = float(p[one.first : one.first + one.count].min())
-        if not c + least > 0.0:
-            return f"the contour of {one.joint} is {least:g} m at its shallowest: nothing is left of the clearance {c:g} m"
-    return ""
+def in_contours(source: KernelSource) -> frozenset[int]:
+    """Slots that are depths of contours: a run sets them together."""
+    return frozenset(k for one in source.contours for k in range(one.first, one.first + one.count))

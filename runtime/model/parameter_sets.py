@@ -13,7 +13,6 @@ from gudgeon.errors import BadValueError
 from gudgeon.language.wanted import mapping, told
 from gudgeon.model.arrays import taken
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.contours import closed_up
 from gudgeon.model.parameters import RELATIONS, check, conditions, without_baumgarte
 from gudgeon.model.sizes import far_clearances
 
@@ -117,4 +116,4 @@ def _valid(source: KernelSource, p: Array) -> Mask:
         several = [place[address] for address in condition.addresses]
         bound = p[:, several].sum(axis=1) if several else float(condition.bound)
         valid &= RELATIONS[condition.relation](p[:, place[condition.address]], bound)
-    return valid & ~(far_clearances(source, p).any(axis=1) | closed_up(source, p))
+    return valid & ~far_clearances(source, p).any(axis=1)

@@ -19,7 +19,6 @@ from gudgeon.language.tree import from_json, names
 from gudgeon.language.wanted import mapping, number_of, whole_digits
 from gudgeon.model.choices import place_of_word
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.contours import check_contours
 from gudgeon.model.sizes import far_clearance
 
 # a number as files have it, in ASCII digits without '_'; what float() takes beyond that is no number here either
@@ -223,7 +222,7 @@ def check(source: KernelSource, p: Array) -> None:
     for k, number in enumerate(p[len(source.slots) :].tolist()):
         if not math.isfinite(number):
             raise BadValueError(_overflow(source, value, k, number))
-    if told := far_clearance(source, p) or check_contours(source, p):
+    if told := far_clearance(source, p):
         raise BadValueError(told)
 
 

@@ -107,13 +107,14 @@ class Flow:
         rate -= self.compiled.closed_nu(t, full[:n], self.p)[rows]
         length = float(np.hypot(*e))
         gap, approach = length - self.play[joint], float(e @ rate) / length
-        if self.depths[joint] is None:
+        depths = self.depths[joint]
+        if depths is None:
             return gap, approach
         place = self.bearing[joint]
         theta, omega = (full[place + 2], full[n + place + 2]) if place >= 0 else (0.0, 0.0)
         angle = np.arctan2(-e[1], -e[0]) - theta
         turning = float(e[0] * rate[1] - e[1] * rate[0]) / length**2 - omega
-        worn, slope = (float(depth_at(self.depths[joint], angle, order)) for order in (0, 1))
+        worn, slope = (float(depth_at(depths, angle, order)) for order in (0, 1))
         return gap - worn, approach - slope * turning
 
     def pointers(self, *arrays: Array, written: bool = False) -> list[Any]:

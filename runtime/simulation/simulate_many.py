@@ -56,7 +56,7 @@ def simulate_many(
     compiled, source = simulation.compiled, simulation.source
     names, against = wanted_peaks(source, peaks), check_beside(source, against)
     each = EachRun(compiled, t_end, output, step)
-    worn = taken_contours(source, contour or {}, runs=True)
+    worn = taken_contours(source, contour, runs=True)
     starts = _Starts(simulation, parameters, start, each, worn)
     method, progress = text(method, "method"), function(progress, "progress")
     stop, side_by_side = flag(stop, "stop"), flag(side_by_side, "side_by_side")
@@ -135,7 +135,8 @@ class _Kept:
 class _Starts:
     """Numbers of all runs, (n_runs, n_slots), states from which they go on (none: from t = 0), what cannot begin."""
 
-    def __init__(self, simulation: Simulation, parameters: ParameterSets, start: Any, each: EachRun, worn: dict[str, Array]
+    def __init__(
+        self, simulation: Simulation, parameters: ParameterSets, start: Any, each: EachRun, worn: dict[str, Array]
     ) -> None:  # fmt: skip
         self.compiled, self.worn = simulation.compiled, worn
         rows, self.bad = rows_of(parameters)

@@ -167,8 +167,7 @@ class Simulation(Equations):
             )  # fmt: skip
         names, beside = wanted_peaks(self.source, peaks), check_beside(self.source, against)
         begin = None if start is None else own(self.source, start)
-        worn = taken_contours(self.source, contour or {})
-        given, is_given, remarks = numbers(self.compiled, begin, parameters, worn)
+        given, is_given, remarks = numbers(self.compiled, begin, parameters, taken_contours(self.source, contour))
         p, t0 = prepare_slots(self.compiled, given, is_given), 0.0 if begin is None else begin.t
         times = output_times(self.source, p, t0, end_of(self.source, t_end, p), output)
         if self.source.degrees_of_freedom < 0:

@@ -87,7 +87,7 @@ def wear_loop(
         whole(points, "points", 8, MOST_POINTS), contact == "overlap", whole(passes, "passes", 0, MOST_PASSES),
         -np.inf if since is None else number_of(since, "since"),
     )  # fmt: skip
-    loop = Loop(simulation, wearing, taken_contours(simulation.source, contour or {}, runs=True))
+    loop = Loop(simulation, wearing, taken_contours(simulation.source, contour, runs=True))
     count = whole(rounds, "rounds", 1, MOST_ROUNDS)
     for k_round in range(count):
         tick = None if progress is None else _share(progress, k_round, count)

@@ -104,7 +104,8 @@ class ComplexStep:
         film = joint.constants.get("film_clearance", joint.pair.c)
         transition = sp.Integer(0) if joint.transition is None else joint.transition
         return (*joint.eccentricity, *joint.eccentricity_rate, joint.first.omega, joint.second.omega, joint.pair.c,
-                joint.pair.R_i, joint.pair.R_j, film, transition, joint.first.theta, *joint.first.arm, *joint.second.arm)  # fmt: skip
+                joint.pair.R_i, joint.pair.R_j, film, transition, joint.first.theta, *joint.first.arm,
+                *joint.second.arm)  # fmt: skip
 
     def __call__(self, t: complex, y: Complex, memory: Sequence[float] | np.ndarray) -> Complex:
         """(q̇, q̈, powers), (2n + 3,)."""

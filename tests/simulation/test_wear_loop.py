@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ import gudgeon
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.simulation.wear_loop import on_slots, smoothed
 from tests.programs import needs_compiler
-from tests.simulation.test_wear import C, G, L, M, PENDULUM, R, TURNING
+from tests.simulation.test_wear import PENDULUM, TURNING, C, G, L, M, R
 
 SLOTS, OMEGA, T_END = 64, 4.0, 0.5
 KEPT = {"restitution: 1, dissipation: none": "restitution: 0.3"}  # what falls into its own hollow comes to rest
@@ -33,9 +34,9 @@ def test_a_pin_sinks_into_its_bearing_as_archard_says(tmp_path: Path) -> None:
     Two runs, the second of twice k by `scale`: the contour's deepest slot goes down by V/2 over a slot's area.
     """
     simulation, k, hardness = written(TURNING, tmp_path / "rig.yaml"), 1e-4, 2e9
-    numbers = {"of_ring": 0.0, "of_pin": [OMEGA, OMEGA / 2]}
-    asked = {"rounds": 3, "k": k, "hardness": hardness, "parameters": numbers, "scale": 4000.0, "points": 3600}
-    found = gudgeon.wear_loop(simulation, "J", T_END, **asked)
+    numbers: dict[str, Any] = {"of_ring": 0.0, "of_pin": [OMEGA, OMEGA / 2]}
+    asked: dict[str, Any] = {"k": k, "hardness": hardness, "parameters": numbers, "scale": 4000.0}
+    found = gudgeon.wear_loop(simulation, "J", T_END, rounds=3, **asked)
     joint, turns = found.joints["J"], np.array([1.0, 0.5])
     volume = 4000.0 * k / hardness * M * G * OMEGA * turns * (R - C) * T_END
     np.testing.assert_allclose(joint.volume, np.tile(volume, (3, 1)), rtol=2e-3)
@@ -45,7 +46,8 @@ def test_a_pin_sinks_into_its_bearing_as_archard_says(tmp_path: Path) -> None:
     assert (joint.contour.argmax(axis=2)[1:] == below).all()
     np.testing.assert_allclose(joint.contour[:, :, below], np.arange(4)[:, None] * volume / area / 2.0, rtol=2e-3)
     assert (np.delete(joint.contour, [below - 1, below, below + 1], axis=2) == 0.0).all()
-    sunk = simulation.simulate(T_END, output=50, parameters=numbers | {"of_pin": OMEGA}, contour={"J": joint.contour[-1, 0]})
+    own, last = numbers | {"of_pin": OMEGA}, {"J": joint.contour[-1, 0]}
+    sunk = simulation.simulate(T_END, output=50, parameters=own, contour=last)
     assert sunk["J.e"][-1] == pytest.approx(C + joint.contour[-1, 0, below] + (M * G / 1e9) ** (2 / 3), rel=1e-6)
 
 

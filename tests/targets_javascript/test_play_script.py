@@ -40,7 +40,11 @@ contacts:
     film: {law: pinkus_sternlicht, viscosity: 0.05 Pa*s, shear: true}
     transition: 20 um
   d: {normal: {law: hertz, restitution: 0.8}}
-scenes: {m: {play: {A: {bearing: p, contact: c}, B: {bearing: p, contact: d, contour: [0, 20 um, 5 um, 0, 0, 30 um, 9 um, 0]}}}}
+scenes:
+  m:
+    play:
+      A: {bearing: p, contact: c}
+      B: {bearing: p, contact: d, contour: [0, 20 um, 5 um, 0, 0, 30 um, 9 um, 0]}
 """
 SCENES = ("dry", "lubricated", "m")
 ASKED = """

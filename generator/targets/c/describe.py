@@ -8,11 +8,11 @@ from types import MappingProxyType
 
 import sympy as sp
 
+from gudgeon.contract.contour_info import ContourInfo
 from gudgeon.contract.kernel_source import (
     BodyInfo,
     ClearanceInfo,
     Condition,
-    ContourInfo,
     DriveInfo,
     EventInfo,
     JointInfo,

@@ -10,8 +10,8 @@ from gudgeon.generator.equations.play import Clearance, Contour
 from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.program import Methods
 from gudgeon.generator.kernels.shared import SharedCall
-from gudgeon.generator.solvers.newton import Newton
 from gudgeon.generator.solvers.contact_slopes import OF_CONTOUR
+from gudgeon.generator.solvers.newton import Newton
 from gudgeon.generator.targets.c import functions
 from gudgeon.generator.targets.c.play import CONTOURS
 from gudgeon.generator.targets.c.printer import expression

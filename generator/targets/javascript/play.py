@@ -82,7 +82,8 @@ def _clearance(own: Pin, read: set[str]) -> list[str]:
     """The normal, then what acts; where both do, what the dry contact has of the force is blended with the film's."""
     joint = own.clearance.name
     gap, share = _Part(own.gap, read), _Part(own.share, read)
-    dry, film = (f"functions.{part}_{joint}({', '.join(given)})" for part, given in (("dry", _given(own)), ("film", _FILM)))
+    parts = (("dry", _given(own)), ("film", _FILM))
+    dry, film = (f"functions.{part}_{joint}({', '.join(given)})" for part, given in parts)
     body = [*gap.text, _store(f"clearance_{joint}", gap.locals)]
     if own.clearance.film is None:
         return [*body, f"const F = delta > 0 ? {dry} : {_NOTHING};", _turned("F")]

@@ -51,8 +51,9 @@ const period_side = (a, b) => sin(PI * a / b);
 CONTOUR = """\
 const contour = (depth, order, angle) => {
     const count = depth.length, turns = angle / (2 * PI), x = count * (turns - Math.floor(turns));
-    const k = Math.min(Math.floor(x), count - 1), [a, b, c, d] = [-1, 0, 1, 2].map((i) => depth[(k + i + count) % count]);
-    const s = x - k, slope = 0.5 * (c - a), bend = (a - b) + (c - b), rest = 3 * (c - b) + (a - d), per = count / (2 * PI);
+    const k = Math.min(Math.floor(x), count - 1), s = x - k, per = count / (2 * PI);
+    const [a, b, c, d] = [-1, 0, 1, 2].map((i) => depth[(k + i + count) % count]);
+    const slope = 0.5 * (c - a), bend = (a - b) + (c - b), rest = 3 * (c - b) + (a - d);
     if (order === 0) return b + s * (slope + s * (0.5 * bend + s * rest * (1.5 + s * (s - 2.5))));
     return per * (slope + s * (bend + s * rest * (4.5 + s * (5 * s - 10))));
 };
