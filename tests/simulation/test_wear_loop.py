@@ -95,3 +95,25 @@ def test_what_cannot_wear_is_refused(tmp_path: Path) -> None:
         gudgeon.wear_loop(simulation, ["J", "J"], 0.01, k=1e-9, rounds=1)
     with pytest.raises(UnknownNameError, match="no contour"):
         gudgeon.wear_loop(gudgeon.load("slider_crank", "dry"), "wristpin", 0.01, k=1e-9, rounds=1)
+
+
+@needs_compiler
+def test_a_study_measures_runs_on_what_was_worn(tmp_path: Path) -> None:
+    """Scenes with a contour wear before the run that is measured, as the loop makes them; another one does not."""
+    simulation = written(TURNING, tmp_path / "rig.yaml")
+    speeds, wear = ["2 rad/s", "4 rad/s"], {"joints": "J", "rounds": 2, "k": 1e-4, "hardness": "2 GPa", "scale": 4000}
+    study: dict[str, Any] = {
+        "mechanism": str(tmp_path / "rig.yaml"), "scenes": ["loose"], "t_end": "0.1 s", "output": 5, "wear": wear,
+        "parameters": {"of_ring": 0.0, "of_pin": speeds}, "measures": {"e": {"final": "J.e"}},
+    }  # fmt: skip
+    found = gudgeon.study(study).dataset["e"].sel(scene="loose").values
+    numbers = {"of_ring": 0.0, "of_pin": [2.0, 4.0]}
+    worn = gudgeon.wear_loop(simulation, "J", 0.1, rounds=2, k=1e-4, hardness=2e9, scale=4000.0, parameters=numbers)
+    for k, own in enumerate(worn.joints["J"].contour[-1]):
+        one = {"of_ring": 0.0, "of_pin": 2.0 * (k + 1)}
+        run = simulation.simulate(0.1, output=5, parameters=one, contour={"J": own})
+        assert found[k] == run["J.e"][-1]
+    assert found[1] > found[0] > C
+    for name, wrong, words in (("joints", "O", "no scene has"), ("k", "1 mm", "wear.k"), ("rounds", 0, "rounds")):
+        with pytest.raises(gudgeon.InputError, match=words):
+            gudgeon.study(study | {"wear": wear | {name: wrong}})

@@ -123,7 +123,8 @@ def _calls_of_dry(pin: Pin, delta: str, number: str, sides: bool) -> list[tuple[
     normal = functions.shared_call(pin.laws["normal"], given, ("&F_n",), sides)
     found = [(f"{number} F_n;", ""), (normal, "F_n")]
     pressed = "F_N" if pin.pressing else "F_n"
-    found += [(code.strip(), step.target) for (code, _), step in zip(functions.one_by_one(pin.pressing), pin.pressing)]
+    pressing = zip(functions.one_by_one(pin.pressing), pin.pressing, strict=True)
+    found += [(code.strip(), step.target) for (code, _), step in pressing]
     if "friction" in pin.laws:
         states = range(len(pin.clearance.states))
         given, told = [f"latch->state[{k}]" for k in states], [f"&rate[{k}]" for k in states]
