@@ -37,8 +37,8 @@ F_along_n, F_along_t, F_x, F_y, M_i, M_j = map(_symbol, ("F_along_n", "F_along_t
 theta_i, beta_i, u_x, u_y, worn, worn_slope = map(
     _symbol, ("theta_i", "beta_i", "u_x", "u_y", "worn", "worn_slope")
 )  # fmt: skip
-beta_rate, reach, steep, F_N = map(_symbol, ("beta_rate", "reach", "steep", "F_N"))
-de_n, across, tilt = map(_symbol, ("de_n", "across", "tilt"))  # rates along e and across it, w′/e
+beta_rate, slant, steep, F_N = map(_symbol, ("beta_rate", "slant", "steep", "F_N"))
+de_n, across, lean = map(_symbol, ("de_n", "across", "lean"))  # rates along e and across it, w′/e
 
 
 def of_part(symbol: sp.Symbol, part: str) -> sp.Symbol:
@@ -65,7 +65,7 @@ def _gap_of_contour(clearance: Clearance, contour: Contour) -> list[Step]:
 
     An elastic force −U′(δ) has U for its energy where it acts along the gradient of δ: by e that is
     u − w′/e t, u along e and t across it, whose length is `steep`, and by the bearing's angle w′. So n is that
-    direction, `reach` = e steep, and the bearing takes the moment −F_n w′ of a force through the journal's centre.
+    direction, `slant` = e steep, and the bearing takes the moment −F_n w′ of a force through the journal's centre.
     """
     return [
         Step(e, sp.sqrt(e_x**2 + e_y**2)),
@@ -77,10 +77,10 @@ def _gap_of_contour(clearance: Clearance, contour: Contour) -> list[Step]:
         Step(delta, e - clearance.pair.c - worn),
         Step(beta_rate, (de_y * u_x - de_x * u_y) / e - omega_i),
         Step(deltadot, de_x * u_x + de_y * u_y - worn_slope * beta_rate),
-        Step(reach, sp.sqrt(e**2 + worn_slope**2)),
-        Step(steep, reach / e),
-        Step(n_x, (e_x + worn_slope * u_y) / reach),
-        Step(n_y, (e_y - worn_slope * u_x) / reach),
+        Step(slant, sp.sqrt(e**2 + worn_slope**2)),
+        Step(steep, slant / e),
+        Step(n_x, (e_x + worn_slope * u_y) / slant),
+        Step(n_y, (e_y - worn_slope * u_x) / slant),
         Step(de_t, de_y * n_x - de_x * n_y),
     ]
 
@@ -89,10 +89,10 @@ def gap_by_angle(clearance: Clearance) -> list[Step]:
     """That of a contour in the directions along e and across it, of rates `de_n` and `across`, of w and w′."""
     return [
         Step(delta, e - clearance.pair.c - worn),
-        Step(tilt, worn_slope / e),
-        Step(steep, sp.sqrt(1 + tilt**2)),
-        Step(deltadot, de_n - tilt * across + worn_slope * omega_i),
-        Step(de_t, (across + tilt * de_n) / steep),
+        Step(lean, worn_slope / e),
+        Step(steep, sp.sqrt(1 + lean**2)),
+        Step(deltadot, de_n - lean * across + worn_slope * omega_i),
+        Step(de_t, (across + lean * de_n) / steep),
     ]
 
 
@@ -118,7 +118,7 @@ def pressing(clearance: Clearance) -> list[Step]:
 
 def along_eccentricity(F_n: sp.Expr, tangential: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
     """The force of a contour along e and across it: −F_n of δ's gradient, and friction across that."""
-    return -F_n + tangential * tilt / steep, F_n * tilt + tangential / steep
+    return -F_n + tangential * lean / steep, F_n * lean + tangential / steep
 
 
 def after_dry(clearance: Clearance) -> list[Step]:

@@ -26,11 +26,11 @@ _GUARDED = {
     contact.n_x: Chosen(_APART, contact.e_x * _INVERSE, sp.Integer(1)),
     contact.n_y: Chosen(_APART, contact.e_y * _INVERSE, sp.Integer(0)),
 }
-_REACHED = Test(contact.reach, ">", (0.0,))
+_SLANTED = Test(contact.slant, ">", (0.0,))
 _GUARDED_OF_CONTOUR = {
     contact.u_x: _GUARDED[contact.n_x],
     contact.u_y: _GUARDED[contact.n_y],
-    contact.steep: Chosen(_APART, contact.reach * _INVERSE, sp.Integer(1)),
+    contact.steep: Chosen(_APART, contact.slant * _INVERSE, sp.Integer(1)),
 }
 
 
@@ -88,7 +88,7 @@ def _guards(clearance: Clearance, steps: Sequence[Step]) -> Mapping[sp.Symbol, C
     if not clearance.contour:
         return _GUARDED
     value = {step.symbol: step.value for step in steps}
-    n = {s: Chosen(_REACHED, value[s], other) for s, other in _AT_CENTRE.items() if s in value}
+    n = {s: Chosen(_SLANTED, value[s], other) for s, other in _AT_CENTRE.items() if s in value}
     turning = value.get(contact.beta_rate)
     if turning is not None:
         away = (turning + contact.omega_i) * contact.e

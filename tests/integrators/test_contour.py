@@ -25,8 +25,8 @@ TEXT = f"""
 format: gudgeon/1
 name: rig
 title: rig
-parameters: {{c: {C}, R: {R}, g: 0 m/s^2}}
-gravity: [0, -g]
+parameters: {{c: {C}, R: {R}, worn: 0 m/s^2, steep: worn}}
+gravity: [0, -steep] # called as the steps of a contour are
 materials: {{steel: {{E: 207 GPa, nu: 0.3}}}}
 ground: {{O: [0, 0]}}
 bearings: {{b: {{radius: R, clearance: c, length: 20 mm, bearing_material: steel, journal_material: steel}}}}
@@ -113,7 +113,7 @@ def test_a_journal_swings_in_a_valley(worn: Simulation) -> None:
     """At rest below, F_n the weight; beside it ω² = g (ρ − 4a)/ρ², of a point on the curve c + δ − a cos 2φ."""
     a, g = A / 8.0, 9.81
     contour, rho = {"J": a * np.cos(2.0 * ANGLES)}, C - a + (MASS * g / K) ** (2.0 / 3.0)
-    numbers = {"g": g, "start.rates.ring.omega": 0.0, "start.rates.pin.omega": 0.0, "bodies.ring.inertia": 1e9}
+    numbers = {"worn": g, "start.rates.ring.omega": 0.0, "start.rates.pin.omega": 0.0, "bodies.ring.inertia": 1e9}
     for away in (0.0, 1e-3):
         e = rho * np.array([math.sin(away), -math.cos(away)])
         numbers |= {"start.play.J.e.x": e[0], "start.play.J.e.y": e[1], "start.play.J.rate.x": 0.0}

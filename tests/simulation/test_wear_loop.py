@@ -107,7 +107,7 @@ def test_a_study_measures_runs_on_what_was_worn(tmp_path: Path) -> None:
         "parameters": {"of_ring": 0.0, "of_pin": speeds}, "measures": {"e": {"final": "J.e"}},
     }  # fmt: skip
     found = gudgeon.study(study).dataset["e"].sel(scene="loose").values
-    numbers = {"of_ring": 0.0, "of_pin": [2.0, 4.0]}
+    numbers: dict[str, Any] = {"of_ring": 0.0, "of_pin": [2.0, 4.0]}
     worn = gudgeon.wear_loop(simulation, "J", 0.1, rounds=2, k=1e-4, hardness=2e9, scale=4000.0, parameters=numbers)
     for k, own in enumerate(worn.joints["J"].contour[-1]):
         one = {"of_ring": 0.0, "of_pin": 2.0 * (k + 1)}

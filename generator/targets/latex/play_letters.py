@@ -33,8 +33,8 @@ from gudgeon.generator.equations.contact_steps import (
     omega_i,
     omega_j,
     ratio,
-    reach,
     share,
+    slant,
     steep,
     stored,
     theta_i,
@@ -60,7 +60,7 @@ NAMES: Mapping[sp.Symbol, Name] = {
     epsilon: letter("epsilon"), w_n: letter("w", "n"), w_t: letter("w", "t"), share: letter("b"),
     F_along_n: letter("F", "e"), F_x: letter("F", "x"), F_y: letter("F", "y"),
     theta_i: letter("theta", "i"), beta_i: letter("beta", "i"), u_x: letter("u", "x"), u_y: letter("u", "y"),
-    worn: letter("w"), worn_slope: Name("w'", "w'"), beta_rate: letter("beta", "i", dots=1), reach: letter("r"),
+    worn: letter("w"), worn_slope: Name("w'", "w'"), beta_rate: letter("beta", "i", dots=1), slant: letter("r"),
     steep: letter("s"), F_N: letter("F", "N"),
     sp.Symbol("F_n", real=True): letter("F", "n"), sp.Symbol("F_r", real=True): letter("F", "r"),
 }  # fmt: skip
