@@ -22,6 +22,7 @@ FLAG = "flag"  # true or false
 TEXT = "text"
 RESULTS = "results"  # names of results: a list, or a text with commas between
 POINTS = "points"  # a list of pairs of numbers
+DEPTHS = "depths"  # a list of numbers, or how many of them are 0
 NAME = "name"  # of an entry of the section `names`
 BODY = "body"  # a body or the ground
 CORNERS = "corners"  # three names of points of the same body

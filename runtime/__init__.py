@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from gudgeon.simulation.from_file import load
     from gudgeon.simulation.simulation import Simulation
     from gudgeon.simulation.wear import wear
+    from gudgeon.simulation.wear_loop import wear_loop
     from gudgeon.studies.ensemble.finished import Study
     from gudgeon.studies.ensemble.study import load_study, study
 
@@ -41,6 +42,7 @@ _HOME = {
     "load": "simulation.from_file",
     "examine": "simulation.examine",
     "wear": "simulation.wear",
+    "wear_loop": "simulation.wear_loop",
     "join": "results.join",
     "register": "generator.kinds.laws.registered",
     "study": "studies.ensemble.study",
@@ -82,6 +84,7 @@ __all__ = [
     "register",
     "study",
     "wear",
+    "wear_loop",
 ]
 
 

@@ -92,11 +92,12 @@ class FakeCompiled:
         self.calls.append(len(t))
         n, s = len(t), self.source
         waves = np.sin(np.outer(t, 1.0 + np.arange(40)))
-        clearance = np.zeros((n, len(s.clearances), 9))
+        clearance = np.zeros((n, len(s.clearances), 10))
         for k in range(len(s.clearances)):
             e = p[2] * (0.4 + 0.7 * np.abs(np.sin(9 * t)))
             angle = 5 * t + np.sin(20 * t)
             clearance[:, k, 4], clearance[:, k, 5], clearance[:, k, 6] = e * np.cos(angle), e * np.sin(angle), e
+            clearance[:, k, 9] = e - p[2]
             force = p[4] * np.maximum(e - p[2], 0.0) ** 1.5
             clearance[:, k, 0], clearance[:, k, 1] = -force * np.cos(angle), -force * np.sin(angle)
             clearance[:, k, 2], clearance[:, k, 7], clearance[:, k, 8] = force, waves[:, 0], waves[:, 1]

@@ -15,6 +15,16 @@ static inline Real cubic_top(Real d0, Real r0, Real d1, Real r1, Real *height)
     return s;
 }
 
+/* What deltadot is the rate of: the eccentricity, or of a bearing with a contour the penetration. */
+static inline Real outward(const ClearanceOf *joint)
+{
+#ifdef CONTOURS
+    return joint->delta;
+#else
+    return joint->e;
+#endif
+}
+
 /* The largest eccentricity of joint i within a step of length h, where the journal turned back in it. */
 static inline void watch_turn(RunOf *run, int i, double h, const ClearanceOf *before, const ClearanceOf *after)
 {
@@ -22,7 +32,12 @@ static inline void watch_turn(RunOf *run, int i, double h, const ClearanceOf *be
     Real top;
     if (!any_of(turned))
         return;
-    cubic_top(before->e, h * before->deltadot, after->e, h * after->deltadot, &top);
+    const Real s = cubic_top(outward(before), h * before->deltadot, outward(after), h * after->deltadot, &top);
+#ifdef CONTOURS
+    top += (1.0 - s) * (before->e - before->delta) + s * (after->e - after->delta);
+#else
+    (void)s;
+#endif
     run->e_max[i] = real_max(pick(turned, top, run->e_max[i]), run->e_max[i]);
 }
 

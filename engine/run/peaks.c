@@ -54,15 +54,17 @@ static void outermost(Run *run, Step *step, double share, int i, const Parameter
     for (int n = 0; n < 6 && low.deltadot > 0.0 && high.deltadot < 0.0; n++) {
         const double h = (to - from) * step->h;
         double top, y[N_Y], dy[N_Y];
-        const double s = from + (to - from) * cubic_top(low.e, h * low.deltadot, high.e, h * high.deltadot, &top);
+        const double round = low.e - outward(&low); /* the rest of e: of a contour what is no penetration, else 0 */
+        const double s = from
+            + (to - from) * cubic_top(outward(&low), h * low.deltadot, outward(&high), h * high.deltadot, &top);
         Aside aside;
-        if (top < 0.99 * run->e_max[i] || make_dense(run, p, step) || state_at(run, step, s, p, y, dy, &aside))
+        if (top + round < 0.99 * run->e_max[i] || make_dense(run, p, step) || state_at(run, step, s, p, y, dy, &aside))
             return;
         const Clearance *now = &aside.clearance[i];
         if (run->trace)
             trace_place(run, i, step->t + s * step->h, now);
         run->e_max[i] = max_of(now->e, run->e_max[i]);
-        if (fabs(now->e - top) < 1e-9 * top)
+        if (fabs(outward(now) - top) < 1e-9 * (top + round))
             return;
         if (now->deltadot > 0.0)
             from = s, low = *now;

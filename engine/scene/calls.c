@@ -152,7 +152,7 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
         }
         for (int k = 0; clearance && k < N_CLEARANCES; k++) {
             const Clearance *joint = &aside.clearance[k];
-            double *out = clearance + (i * N_CLEARANCES + k) * 9;
+            double *out = clearance + (i * N_CLEARANCES + k) * 10;
             out[0] = joint->Fx;
             out[1] = joint->Fy;
             out[2] = -joint->F_n; /* positive: pushes the journal back to the centre */
@@ -162,6 +162,7 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
             out[6] = joint->e;
             out[7] = joint->deltadot;
             out[8] = joint->v_t;
+            out[9] = joint->delta;
         }
     }
     return 0;

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from gudgeon.generator.equations.play import Clearance, LawEquations
+from gudgeon.generator.equations.play import Clearance, Contour, LawEquations
 from gudgeon.generator.kinds.laws.law import MEAN_CLEARANCE
 
 EPSILON_MAX = 0.9999  # the film is evaluated with its eccentricity ratio capped here
@@ -35,6 +35,13 @@ depth = _symbol("depth")  # what a law of the dry contact is given for δ
 epsilon, w_n, w_t, share = map(_symbol, ("epsilon", "w_n", "w_t", "share"))
 F_along_n, F_along_t, F_x, F_y, M_i, M_j = map(_symbol, ("F_along_n", "F_along_t", "F_x", "F_y", "M_i", "M_j"))
 
+# Of a bearing with a contour, which has a depth more than its circle at each angle:
+theta_i, beta_i, u_x, u_y, worn, worn_slope = map(
+    _symbol, ("theta_i", "beta_i", "u_x", "u_y", "worn", "worn_slope")
+)  # fmt: skip
+beta_rate, slant, steep, F_N = map(_symbol, ("beta_rate", "slant", "steep", "F_N"))
+de_n, across, lean = map(_symbol, ("de_n", "across", "lean"))  # rates along e and across it, w′/e
+
 
 def of_part(symbol: sp.Symbol, part: str) -> sp.Symbol:
     """F_t, M_i, M_j of the dry contact or of the film."""
@@ -43,6 +50,8 @@ def of_part(symbol: sp.Symbol, part: str) -> sp.Symbol:
 
 def gap(clearance: Clearance) -> list[Step]:
     """Eccentricity's length, normal, penetration and their rates; t is n turned by +90°."""
+    if clearance.contour:
+        return _gap_of_contour(clearance, clearance.contour)
     return [
         Step(e, sp.sqrt(e_x**2 + e_y**2)),
         Step(n_x, e_x / e),
@@ -53,10 +62,49 @@ def gap(clearance: Clearance) -> list[Step]:
     ]
 
 
+def _gap_of_contour(clearance: Clearance, contour: Contour) -> list[Step]:
+    """The same where c is c + w(β), β the eccentricity's angle in the bearing: δ = e − c − w(β).
+
+    An elastic force −U′(δ) has U for its energy where it acts along the gradient of δ: by e that is
+    u − w′/e t, u along e and t across it, whose length is `steep`, and by the bearing's angle w′. So n is that
+    direction, `slant` = e steep, and the bearing takes the moment −F_n w′ of a force through the journal's centre.
+    """
+    return [
+        Step(e, sp.sqrt(e_x**2 + e_y**2)),
+        Step(u_x, e_x / e),
+        Step(u_y, e_y / e),
+        Step(beta_i, sp.atan2(e_y, e_x) - theta_i),
+        Step(worn, contour.at(beta_i, 0)),
+        Step(worn_slope, contour.at(beta_i, 1)),
+        Step(delta, e - clearance.pair.c - worn),
+        Step(beta_rate, (de_y * u_x - de_x * u_y) / e - omega_i),
+        Step(deltadot, de_x * u_x + de_y * u_y - worn_slope * beta_rate),
+        Step(slant, sp.sqrt(e**2 + worn_slope**2)),
+        Step(steep, slant / e),
+        Step(n_x, (e_x + worn_slope * u_y) / slant),
+        Step(n_y, (e_y - worn_slope * u_x) / slant),
+        Step(de_t, de_y * n_x - de_x * n_y),
+    ]
+
+
+def gap_by_angle(clearance: Clearance) -> list[Step]:
+    """That of a contour in the directions along e and across it, of rates `de_n` and `across`, of w and w′."""
+    return [
+        Step(delta, e - clearance.pair.c - worn),
+        Step(lean, worn_slope / e),
+        Step(steep, sp.sqrt(1 + lean**2)),
+        Step(deltadot, de_n - lean * across + worn_slope * omega_i),
+        Step(de_t, (across + lean * de_n) / steep),
+    ]
+
+
 def before_dry(clearance: Clearance) -> list[Step]:
     """Levers of the contact point, in the middle of the penetration, and the surfaces' slip."""
     pair = clearance.pair
     clipped = [Step(ratio, sp.Max(-1, sp.Min(1, deltadot / stored)))] if clearance.clip_ratio else []
+    if clearance.contour:
+        levers = [Step(a_j, pair.R_j - delta / (2 * steep)), Step(a_i, e / steep + a_j)]
+        return [*levers, Step(v_t, de_t + omega_j * a_j - omega_i * a_i), *clipped]
     return [
         Step(a_i, pair.R_i + delta / 2),
         Step(a_j, pair.R_j - delta / 2),
@@ -65,11 +113,22 @@ def before_dry(clearance: Clearance) -> list[Step]:
     ]
 
 
-def after_dry() -> list[Step]:
+def pressing(clearance: Clearance) -> list[Step]:
+    """The force along the normal of a contour, by which friction goes."""
+    return [Step(F_N, steep * _symbol("F_n"))] if clearance.contour else []
+
+
+def along_eccentricity(F_n: sp.Expr, tangential: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+    """The force of a contour along e and across it: −F_n of δ's gradient, and friction across that."""
+    return -F_n + tangential * lean / steep, F_n * lean + tangential / steep
+
+
+def after_dry(clearance: Clearance) -> list[Step]:
     """Moments about the centres of bearing i and journal j."""
     tangential = of_part(F_along_t, "dry")
+    aside = -worn_slope * _symbol("F_n") if clearance.contour else 0
     return [
-        Step(of_part(M_i, "dry"), -a_i * tangential),
+        Step(of_part(M_i, "dry"), -a_i * tangential + aside),
         Step(of_part(M_j, "dry"), a_j * tangential),
     ]
 
@@ -113,7 +172,7 @@ def blend(clearance: Clearance, closed: bool = False) -> list[Step]:
 def resultant(clearance: Clearance) -> list[Step]:
     """Force on the journal in ground axes and both moments, film and dry contact blended."""
     dry, film = clearance.normal is not None, clearance.film is not None
-    normal, radial = -_symbol("F_n"), _symbol("F_r")
+    normal, radial = -(F_N if clearance.contour else _symbol("F_n")), _symbol("F_r")
     steps: list[Step] = []
     if dry and film:
         steps += blend(clearance) if clearance.mixed is None else []  # a law is told by itself

@@ -14,6 +14,7 @@ from gudgeon.generator.equations.own_laws import check_numbers
 from gudgeon.generator.kinds.laws.built import build
 from gudgeon.generator.kinds.laws.law import MEAN_CLEARANCE, OWN, Law, LawInputs, PairSymbols, State, laws
 from gudgeon.generator.mechanism.mechanism import Bearing, Joint, LawUse, Play
+from gudgeon.generator.symbols.contours import contour_of
 from gudgeon.generator.symbols.numbers import Slots
 from gudgeon.generator.symbols.wholes import Whole
 from gudgeon.language.units import VELOCITY
@@ -44,6 +45,18 @@ class LawEquations:
 
 
 @dataclass(frozen=True)
+class Contour:
+    """`count` depths at equal angles in the bearing's frame: the array `table` of Parameters."""
+
+    table: str
+    count: int
+
+    def at(self, angle: sp.Expr, order: int) -> sp.Expr:
+        """How much deeper than its circle the bearing is at an angle, or a derivative of that."""
+        return contour_of(self.table, self.count, order, angle)
+
+
+@dataclass(frozen=True)
 class Clearance:
     """Bearing i on the first body, journal j on the second; e = r_j − r_i, all in ground axes."""
 
@@ -60,6 +73,7 @@ class Clearance:
     velocity_floor: sp.Expr
     clip_ratio: bool
     constants: Mapping[str, sp.Expr]  # what a report prints: K, S, …
+    contour: Contour | None = None
 
     @property
     def laws(self) -> tuple[LawEquations, ...]:
@@ -122,7 +136,14 @@ def make_clearance(joint: Joint, play: Play, geometry: Geometry, slots: Slots) -
     return Clearance(
         joint.name, joint, geometry.point(joint.first), geometry.point(joint.second),
         pair, normal, friction, film, transition, mixed, floor, contact.clip_ratio, constants,
+        _contour(joint, play, slots),
     )  # fmt: skip
+
+
+def _contour(joint: Joint, play: Play, slots: Slots) -> Contour | None:
+    if not play.contour:
+        return None
+    return Contour(slots.table(f"contour_{joint.name}", play.contour), len(play.contour))
 
 
 def _pair(name: str, bearing: Bearing, slots: Slots) -> PairSymbols:

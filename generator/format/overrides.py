@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gudgeon.errors import BadValueError, InputError, Location
-from gudgeon.generator.field import MAPPING, POINTS, RESULTS, SCALARS, VECTOR, Field
+from gudgeon.generator.field import DEPTHS, MAPPING, POINTS, RESULTS, SCALARS, VECTOR, Field
 from gudgeon.generator.format.sections import FILE
 from gudgeon.generator.format.shapes import OVERRIDE
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
@@ -79,6 +79,9 @@ def _put(node: Any, parts: list[str], text: Text, address: _Address, field: Fiel
     if field is not None and field.kind == POINTS:
         message = f"{address.text} is a number of a curve, which is a part of the compiled scene"
         raise BadValueError(message, None, "scale the curve by a parameter, or write another one into the file")
+    if field is not None and field.kind == DEPTHS:
+        message = f"{address.text} is a depth of a contour: it is no part of the file's structure"
+        raise BadValueError(message, None, "give it to the run: contour={joint: depths} of simulate")
     if isinstance(node, Items):
         if head not in _AXES or _AXES[head] >= len(node):
             raise address.unknown()

@@ -9,6 +9,7 @@ from collections.abc import Mapping
 
 from gudgeon.generator.field import (
     CORNERS,
+    DEPTHS,
     KINDS,
     LAW,
     OF_MOTION,
@@ -228,6 +229,10 @@ PLAY = record(
     "play", "the play in a joint",
     name_in("bearings", "bearing", "its measures"),
     name_in("contacts", "contact", "its laws"),
+    Field(
+        "contour", DEPTHS, "how much deeper than its circle the bearing is, at equal angles from its body's x axis on;"
+        " a number: so many, all 0, which a run sets", LENGTH, otherwise="a circle",
+    ),
 )  # fmt: skip
 
 _OF_MATERIAL = ("bearings.NAME.bearing_material", "bearings.NAME.journal_material", "bodies.NAME.shape.material")

@@ -12,7 +12,20 @@ from itertools import islice
 from typing import Any
 
 from gudgeon.errors import BadValueError, InputError, InputErrors, Location, MissingKeyError, UnknownKeyError
-from gudgeon.generator.field import CORNERS, KINDS, LAW, MAPPING, PLACE, POINTS, RECORD, RESULTS, SCALARS, VECTOR, Field
+from gudgeon.generator.field import (
+    CORNERS,
+    DEPTHS,
+    KINDS,
+    LAW,
+    MAPPING,
+    PLACE,
+    POINTS,
+    RECORD,
+    RESULTS,
+    SCALARS,
+    VECTOR,
+    Field,
+)
 from gudgeon.generator.format.sections import FILE, FORMAT, SECTIONS
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
 from gudgeon.language.suggestions import known_hint, nearest, unknown_name
@@ -96,6 +109,9 @@ def _findings(field: Field, node: Any, path: Path) -> Iterator[_Finding]:
         yield from _in_vector(node, path)
     elif field.kind == POINTS:
         yield from _in_points(node, path)
+    elif field.kind == DEPTHS:
+        if not all(isinstance(item, Text) for item in (node if isinstance(node, Items) else [node])):
+            yield _Finding(path, "depths at equal angles: [0 mm, 0.1 mm, …], or how many of them there are")
     elif field.kind == RESULTS:
         if not all(isinstance(item, Text) for item in (node if isinstance(node, Items) else [node])):
             yield _Finding(path, "a list of names of results: [S9.ay, A.F]")

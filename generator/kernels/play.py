@@ -20,10 +20,17 @@ from gudgeon.generator.solvers.contact_slopes import DEEP, dry_slopes, film_slop
 
 Statements = tuple[Statement, ...]
 # At e = 0 any direction will do for the normal: the force is isotropic there.
+_AT_CENTRE = {contact.n_x: sp.Integer(1), contact.n_y: sp.Integer(0)}
 _APART, _INVERSE = Test(contact.e, ">", (0.0,)), sp.Symbol("inverse_e", real=True)
 _GUARDED = {
     contact.n_x: Chosen(_APART, contact.e_x * _INVERSE, sp.Integer(1)),
     contact.n_y: Chosen(_APART, contact.e_y * _INVERSE, sp.Integer(0)),
+}
+_SLANTED = Test(contact.slant, ">", (0.0,))
+_GUARDED_OF_CONTOUR = {
+    contact.u_x: _GUARDED[contact.n_x],
+    contact.u_y: _GUARDED[contact.n_y],
+    contact.steep: Chosen(_APART, contact.slant * _INVERSE, sp.Integer(1)),
 }
 
 
@@ -35,6 +42,7 @@ class Pin:
     laws: Mapping[str, SharedCall]  # by role, as far as it has them
     gap: Statements
     before_dry: Statements = ()
+    pressing: Statements = ()  # between the normal law and friction
     after_dry: Statements = ()
     before_film: Statements = ()
     after_film: Statements = ()
@@ -61,12 +69,13 @@ def make_pin(model: Model, clearance: Clearance, shared: SharedFunctions) -> Pin
     name, film = clearance.name, clearance.film
 
     def held(steps: Sequence[Step]) -> Statements:
-        return _statements(model, steps, name)
+        return _statements(model, steps, name, _guards(clearance, steps))
 
     laws, parts = law_calls(model, clearance, shared), {}
     if clearance.normal is not None:
         parts["before_dry"] = held([unlatched(step) for step in contact.before_dry(clearance)])
-        parts["after_dry"] = held(contact.after_dry())
+        parts["pressing"] = held(contact.pressing(clearance))
+        parts["after_dry"] = held(contact.after_dry(clearance))
     if film is not None:
         parts["before_film"] = held(contact.before_film(clearance, film))
         parts["after_film"] = held(contact.after_film(film))
@@ -78,11 +87,26 @@ def make_pin(model: Model, clearance: Clearance, shared: SharedFunctions) -> Pin
     return Pin(clearance, laws, gap, corners=corners, **parts)
 
 
-def _statements(model: Model, steps: Sequence[Step], owner: str) -> Statements:
+def _guards(clearance: Clearance, steps: Sequence[Step]) -> Mapping[sp.Symbol, Chosen]:
+    """What stands for steps that are no number at the centre."""
+    if not clearance.contour:
+        return _GUARDED
+    value = {step.symbol: step.value for step in steps}
+    n = {s: Chosen(_SLANTED, value[s], other) for s, other in _AT_CENTRE.items() if s in value}
+    turning = value.get(contact.beta_rate)
+    if turning is not None:
+        away = (turning + contact.omega_i) * contact.e
+        n[contact.beta_rate] = Chosen(_APART, away * _INVERSE - contact.omega_i, -contact.omega_i)
+    return _GUARDED_OF_CONTOUR | n
+
+
+def _statements(
+    model: Model, steps: Sequence[Step], owner: str, guards: Mapping[sp.Symbol, Chosen]
+) -> Statements:
     """Steps with parameters read in place and corners as sides of switches."""
     statements = []
     for step in steps:
-        statements.append(Statement(step.symbol.name, _GUARDED.get(step.symbol) or in_place(model, step.value)))
+        statements.append(Statement(step.symbol.name, guards.get(step.symbol) or in_place(model, step.value)))
         if step.symbol == contact.e:
             statements.append(Statement("inverse_e", 1 / contact.e))
     (section,) = hold_sides(model.symbols.switches, owner, [Section("", tuple(statements))])

@@ -210,6 +210,7 @@ class Play:
     bearing: Bearing
     contact: Contact
     where: Location
+    contour: tuple[Quantity, ...] = ()  # depths at equal angles over the bearing's circumference
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import Any
 
@@ -11,7 +11,7 @@ from gudgeon.errors import BadValueError, CycleError, InputError, Location
 from gudgeon.generator.field import WORD
 from gudgeon.generator.format.sections import EVENT, IDEAL, SIMULATE
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.kinds.laws.law import called
+from gudgeon.generator.kinds.laws.law import called, laws
 from gudgeon.generator.mechanism.mechanism import GROUND, Bearing, Contact, EventSpec, Joint, Play, Quantity, SceneSpec
 from gudgeon.generator.reader.collector import Reader, ResultDimension
 from gudgeon.generator.reader.extends import parents_first
@@ -19,11 +19,14 @@ from gudgeon.generator.reader.fields import Around, read_fields
 from gudgeon.generator.reader.materials import Materials
 from gudgeon.generator.reader.parameters import dependency_order
 from gudgeon.generator.reader.result_names import LATER, ResultNames
-from gudgeon.generator.yaml.tree import Map, Text
+from gudgeon.generator.yaml.tree import Map, Text, kind_of
 from gudgeon.language.names import check_label
 from gudgeon.language.parser import at
 from gudgeon.language.suggestions import unknown_name
-from gudgeon.language.tree import Expr, Name, names
+from gudgeon.language.tree import Expr, Name, Number, names
+from gudgeon.language.units import LENGTH
+
+LEAST_SLOTS, MOST_SLOTS = 8, 512  # of a contour
 
 
 @dataclass(frozen=True)
@@ -98,7 +101,7 @@ def _scene(reader: Reader, name: Text, draft: _Draft, parts: Parts) -> SceneSpec
     play = {}
     for joint, use in draft.play.pairs():
         with reader.collect():
-            if (made := _play(joint, use, parts)) is not None:
+            if (made := _play(reader, joint, use, parts, f"scenes.{name}.play.{joint}")) is not None:
                 play[str(joint)] = made
     parameters = {}
     for key, text in draft.parameters.pairs():
@@ -117,7 +120,7 @@ def _scene(reader: Reader, name: Text, draft: _Draft, parts: Parts) -> SceneSpec
     return SceneSpec(str(name), play, parameters, simulate, name.where, draft.events, draft.peaks, materials)
 
 
-def _play(joint: Text, use: Map, parts: Parts) -> Play | None:
+def _play(reader: Reader, joint: Text, use: Map, parts: Parts, owner: str) -> Play | None:
     """The play in one joint; None if what it needs was told to be wrong elsewhere."""
     joints, bearing, contact = parts.root.part("joints"), use["bearing"], use["contact"]
     if joint not in joints:
@@ -135,7 +138,35 @@ def _play(joint: Text, use: Map, parts: Parts) -> Play | None:
         able = [name for name, other in parts.joints.items() if joint_types()[other.kind].may_have_play]
         hint = f"expected one of: {', '.join(able)}" if able else "there are no joints here that can"
         raise BadValueError(f"joint {joint} is a {kind.title}: it cannot have play", joint.where, hint)
-    return Play(parts.bearings[bearing], parts.contacts[contact], joint.where)
+    contour = _contour(reader, use, f"{owner}.contour") if "contour" in use else ()
+    if contour and parts.contacts[contact].film is not None:
+        told = f"the contour of {joint} is one with a film: the film's laws are those of a circle"
+        raise BadValueError(told, use.key("contour").where, "expected a contact without a film, or no contour")
+    normal = parts.contacts[contact].normal
+    if contour and normal and laws()[normal.law].rigid:
+        told = f"the contour of {joint} is one with {normal.law}: its blows are those of a circle"
+        raise BadValueError(told, use.key("contour").where, "expected a contact whose surfaces give, or no contour")
+    for depth in contour:
+        reader.require(depth, "<", parts.bearings[bearing].radius, "a contour's depth is smaller than the radius")
+    return Play(parts.bearings[bearing], parts.contacts[contact], joint.where, contour)
+
+
+def _contour(reader: Reader, use: Map, address: str) -> tuple[Quantity, ...]:
+    """Depths at equal angles; of a whole number so many that are 0."""
+    given, where = use["contour"], use.key("contour").where
+    if isinstance(given, Text):
+        count = int(given) if given.isdecimal() and given.isascii() and len(given) < 6 else 0
+        hint = f"expected a list of depths, or how many there are: {LEAST_SLOTS} to {MOST_SLOTS}, 128 say"
+    else:
+        count, hint = len(given), f"expected {LEAST_SLOTS} to {MOST_SLOTS} depths at equal angles"
+    if not LEAST_SLOTS <= count <= MOST_SLOTS:
+        told = f"{address} is {kind_of(given)}" if isinstance(given, Text) else f"{address} has {count} depths"
+        raise BadValueError(told, where, hint)
+    if isinstance(given, Text):
+        zero = Quantity(address, Number(0.0, "0"), LENGTH, where, kept=True)
+        return tuple(reader.keep(replace(zero, address=f"{address}.{k}")) for k in range(count))
+    read = (reader.quantity(text, f"{address}.{k}", LENGTH) for k, text in enumerate(given))
+    return tuple(reader.keep(replace(depth, kept=True)) for depth in read)
 
 
 def check_peaks(reader: Reader, scenes: Mapping[str, SceneSpec], known: ResultNames, outputs: Iterable[str]) -> None:

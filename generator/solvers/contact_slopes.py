@@ -1,7 +1,8 @@
 """How the force of a joint with play changes: the steps of contact.py and the laws, differentiated forward.
 
 Slopes are those of (F along n, F along t, M_i, M_j) by (e, δ̇, ė_t, ω_i, ω_j); templates/c/play/tangent.c.jinja turns
-them into ground axes.
+them into ground axes. Of a contour n and t are along e and across it, and so are the rates; its depth and slope are
+inputs too, by which contour_tangent.c.jinja knows what the angle does.
 """
 
 from __future__ import annotations
@@ -22,28 +23,39 @@ from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Chosen, Test
 
 INPUTS = (contact.e, contact.deltadot, contact.de_t, contact.omega_i, contact.omega_j)
+OF_CONTOUR = (contact.e, contact.de_n, contact.across, contact.omega_i, contact.omega_j, contact.worn,
+              contact.worn_slope)  # fmt: skip
 UNCLIPPED = sp.Symbol("unclipped", real=True)
 _DEEP = Test(contact.delta, ">", (0.0,))
 DEEP = Statement(contact.depth.name, Chosen(_DEEP, contact.delta, ZERO))
 _CLOSED = Test(sp.Symbol("latch->closed", real=True))
 _STORED = sp.Symbol("latch->deltadot_minus", real=True)
 _FORCE = sp.Symbol("latch->force", real=True)  # of surfaces that do not give
-_ARGUMENTS = (
-    *(Argument("double", symbol.name) for symbol in INPUTS), Argument("const Latch *", "latch"), PARAMETERS, *SIDES,
-    Argument("PinSlopes *", "out"),
-)  # fmt: skip
+
+
+def inputs(clearance: Clearance) -> tuple[sp.Symbol, ...]:
+    """What slopes are taken by."""
+    return OF_CONTOUR if clearance.contour else INPUTS
+
+
+def _arguments(clearance: Clearance) -> tuple[Argument, ...]:
+    given = (Argument("double", symbol.name) for symbol in inputs(clearance))
+    out = Argument("ContourSlopes *" if clearance.contour else "PinSlopes *", "out")
+    return (*given, Argument("const Latch *", "latch"), PARAMETERS, *SIDES, out)
 
 
 class _Slopes:
-    """One function: steps with their tangents by INPUTS."""
+    """One function: steps with their tangents by the inputs."""
 
     def __init__(self, model: Model, clearance: Clearance, part: str) -> None:
         self.model, self.clearance, self.part = model, clearance, part
+        by = "de_n, across" if clearance.contour else "deltadot, de_t"
+        also = ", depth and slope of the contour" * bool(clearance.contour)
         self.build = KernelBuilder(model.symbols, f"{part}_slopes_{clearance.name}", [
-            f"{part.capitalize()}: F along n and t, M_i, M_j, and their derivatives by e, deltadot, de_t, omega_i,",
-            "omega_j (forward differentiation of the same steps).",
+            f"{part.capitalize()}: F along n and t, M_i, M_j, and their derivatives by e, {by}, omega_i,",
+            f"omega_j{also} (forward differentiation of the same steps).",
         ])  # fmt: skip
-        self.tangents = Tangents(model.symbols, self.build, INPUTS, clearance.name, share_powers=True)
+        self.tangents = Tangents(model.symbols, self.build, inputs(clearance), clearance.name, share_powers=True)
 
     def section(self, title: str) -> None:
         self.build.section(title)
@@ -74,9 +86,9 @@ class _Slopes:
         for row, value in enumerate(values):
             self.build.out(f"out->value[{row}]", value)
             slopes: Tangent = self.tangents.gradient(value)
-            for column, base in enumerate(INPUTS):
+            for column, base in enumerate(inputs(self.clearance)):
                 self.build.out(f"out->slope[{row}][{column}]", slopes.get(base, ZERO))
-        return self.build.build(_ARGUMENTS, inline=True, prune=True)
+        return self.build.build(_arguments(self.clearance), inline=True, prune=True)
 
 
 def film_slopes(model: Model, clearance: Clearance, film: LawEquations) -> Kernel:
@@ -101,27 +113,35 @@ def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kern
     slopes = _Slopes(model, clearance, "dry")
     build, tangents = slopes.build, slopes.tangents
     slopes.section("penetration, ratio of velocities, slip")
-    slopes.step(contact.gap(clearance)[3])
+    for step in contact.gap_by_angle(clearance) if clearance.contour else [contact.gap(clearance)[3]]:
+        slopes.step(step)
     build.line(Statement(contact.depth.name, sp.Max(contact.delta, 0)))
-    tangents.know(contact.depth, {contact.e: build.local("depth_by_e", Chosen(_DEEP, sp.Integer(1), ZERO))})
+    deep = build.local("depth_by_e", Chosen(_DEEP, sp.Integer(1), ZERO))
+    tangents.know(contact.depth, {base: sign * deep for base, sign in tangents.of(contact.delta).items()})
     ratio = UNCLIPPED if clearance.clip_ratio else contact.ratio
     build.line(Statement(ratio.name, Chosen(_CLOSED, contact.deltadot / _STORED, sp.Integer(1))))
     slope = build.local("ratio_by_deltadot", Chosen(_CLOSED, 1 / _STORED, ZERO))
-    tangents.know(ratio, {contact.deltadot: slope})
+    tangents.know(ratio, {base: slope * rate for base, rate in tangents.of(contact.deltadot).items()})
     for step in contact.before_dry(clearance):
         slopes.step(unlatched(step))
     slopes.section("contact")
     further = [_FORCE if clearance.rigid else sp.Symbol(name, real=True) for name in normal.further]  # inputs as well
     F_n = slopes.law(normal, (contact.depth, contact.ratio, *further))["F_n"]
     tangential = contact.of_part(contact.F_along_t, "dry")
+    for step in contact.pressing(clearance):
+        slopes.step(step)
+    pressed = contact.F_N if clearance.contour else F_n
     if clearance.friction is not None:
         states = [sp.Symbol(f"latch->state[{k}]", real=True) for k in range(len(clearance.states))]  # as they are
-        force = slopes.law(clearance.friction, (F_n, contact.v_t, *states))["F_t"]
+        force = slopes.law(clearance.friction, (pressed, contact.v_t, *states))["F_t"]
     slopes.step(Step(tangential, ZERO if clearance.friction is None else force))
-    moments = contact.after_dry()
+    moments = contact.after_dry(clearance)
     for step in moments:
         slopes.step(step)
-    return slopes.finish([-F_n, tangential, *(step.symbol for step in moments)])
+    along = (-F_n, tangential)
+    if clearance.contour:
+        along = contact.along_eccentricity(F_n, tangential)
+    return slopes.finish([*along, *(step.symbol for step in moments)])
 
 
 def unlatched(step: Step) -> Step:

@@ -101,14 +101,15 @@ class Linearization:
         e = [build.local(f"e_{name}_{c}", x) for c, x in zip("xy", clearance.eccentricity, strict=True)]
         edot = [build.local(f"edot_{name}_{c}", x) for c, x in zip("xy", clearance.eccentricity_rate, strict=True)]
         given = (*clearance.eccentricity, *clearance.eccentricity_rate, clearance.first.omega, clearance.second.omega)
+        given += (clearance.first.theta,) if clearance.contour else ()
         slopes = self.symbols.unique(f"change_{name}")
-        build.line(Declare("double", slopes, (4, 6)))
+        build.line(Declare("double", slopes, (4, len(given))))
         build.line(Call(f"tangent_{name}", (*e, *edot, *given[4:], *acting_on(index)), (Place(slopes),)))
         inner = [self.tangents.gradient(x) for x in given]
         values = []
         for i, what in enumerate(("Fx", "Fy", "moment_first", "moment_second")):
             symbol = self._held(f"{name}_{what}", f"{out}.{what}")
-            places = {k: Place(f"{slopes}[{i}][{j}]") for j, k in enumerate(_BY) if inner[j]}
+            places = {k: Place(f"{slopes}[{i}][{j}]") for j, k in enumerate(_BY[: len(given)]) if inner[j]}
             by = [build.local(f"{name}_{what}_by_{k}", place) for k, place in places.items()]
             known = iter(by)
             pairs = {next(known): tangent for tangent in inner if tangent}
@@ -225,4 +226,4 @@ class Linearization:
                 self.parts.power_row[0, k] = self.parts.power_row.get((0, k), ZERO) + given.rate * mass
 
 
-_BY = ("e_x", "e_y", "de_x", "de_y", "omega_i", "omega_j")
+_BY = ("e_x", "e_y", "de_x", "de_y", "omega_i", "omega_j", "theta_i")

@@ -29,12 +29,13 @@ from gudgeon.generator.study.spec import (
     Written,
 )
 from gudgeon.generator.study.tree import plain, tree_of
+from gudgeon.generator.study.wear import read_wear
 from gudgeon.generator.yaml.tree import Map, Text, kind_of, parse_yaml
 from gudgeon.language.suggestions import unknown_name
 
 KEYS = (
     "format", "title", "mechanism", "scenes", "choices", "parameters", "zip", "draw", "starts", "t_end", "output",
-    "step", "method", "rtol", "stop", "windows", "measures", "keep", "parts", "claims",
+    "step", "method", "rtol", "stop", "wear", "windows", "measures", "keep", "parts", "claims",
 )  # fmt: skip
 WHOLE = ("format", "parts", "claims")  # of a file, not of its parts
 PART = tuple(key for key in KEYS if key not in WHOLE)
@@ -130,7 +131,7 @@ def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str], own
     found = StudyFile(
         file, str(title), mechanism, scenes, one, tuple(choices), fixed, tuple(axes), draw, starts, times["t_end"],
         times["output"], times["step"], windows, measures, keep, _method(reader, root), _rtol(reader, root),
-        _stop(reader, root), _said(root) | {"settings": dict(sorted(settings.items()))},
+        _stop(reader, root), _said(root) | {"settings": dict(sorted(settings.items()))}, read_wear(reader, root),
     )  # fmt: skip
     _check_names(reader, found, root)
     return found

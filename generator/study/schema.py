@@ -12,7 +12,18 @@ from gudgeon.generator.study.claim_spec import COUNTED
 from gudgeon.generator.study.claims import MOST_TEXT, TRIAL
 from gudgeon.generator.study.parts import MOST_COUNT, MOST_SEED
 from gudgeon.generator.study.read import MAX_TITLE, OF_SERIES, WINDOWED
-from gudgeon.generator.study.spec import DEVIATIONS, DRAWN, FORMAT, GEOMETRIC, LINEAR, NORMAL, STATISTICS, UNIFORM
+from gudgeon.generator.study.spec import (
+    DEVIATIONS,
+    DRAWN,
+    FORMAT,
+    GEOMETRIC,
+    LINEAR,
+    NORMAL,
+    STATISTICS,
+    UNIFORM,
+    WEAR_LAWS,
+)
+from gudgeon.generator.study.wear import MOST_ROUNDS
 from gudgeon.language.names import LABEL
 
 Json = dict[str, Any]
@@ -36,7 +47,7 @@ def schema() -> Json:
         "t_end": _NUMBER, "output": _NUMBER, "step": _NUMBER, "method": {"enum": [*OFFERED, KINEMATIC]},
         "rtol": _NUMBER, "stop": {"enum": [True, False, "true", "false"]},
         "windows": _map(_record({"from": _NUMBER, "to": _NUMBER}), LABEL), "measures": _map(_measure(), LABEL),
-        "keep": names,
+        "keep": names, "wear": _wear(),
     }  # fmt: skip
     parts = _map(_record(own), LABEL) | {"minProperties": 1}
     whole = {"format": {"const": FORMAT}, "parts": parts, "claims": _claims()}
@@ -68,6 +79,14 @@ def _draw() -> Json:
     spreads = _map({"anyOf": [normal, between]}) | {"minProperties": 1}
     own = {"count": _count(1), "seed": seed, "method": {"enum": list(DRAWN)}, "parameters": spreads}
     return _record(own, "count", "parameters")
+
+
+def _wear() -> Json:
+    numbers = dict.fromkeys(("k", "hardness", "scale"), _NUMBER)
+    joints = {"anyOf": [_TEXT, {"type": "array", "items": _TEXT, "minItems": 1}]}
+    rounds = {"type": "integer", "minimum": 1, "maximum": MOST_ROUNDS}
+    own = {"joints": joints, "rounds": rounds, "law": {"enum": list(WEAR_LAWS)}}
+    return _record(own | numbers, "joints", "rounds", "k")
 
 
 def _starts() -> Json:

@@ -23,6 +23,7 @@ STEPS = ("max_of_steps", "min_of_steps", "peak_of_steps")  # of a series over al
 DEVIATIONS = ("deviation", "deviation_of_steps")  # largest magnitude of a series less that of another scene
 CONTACTS = ("impacts", "first_impact", "impact_speed")  # of a joint's contacts that begin in a window
 JOINT = ("peak_force", "eccentricity")  # of a joint with play over all steps
+WEAR_LAWS = ("archard", "reye")
 WEAR = ("wear_depth", "wear_arc")  # of a joint with dry contact over all steps, of its bearing, for k/H = 1/Pa
 CROSSINGS = ("crossings", "first_crossing")  # of an event in a window
 STATISTICS = (*SAMPLES, *STEPS, *DEVIATIONS, *CONTACTS, *JOINT, *WEAR, *CROSSINGS)
@@ -127,6 +128,18 @@ class Measure:
 
 
 @dataclass(frozen=True)
+class WearRounds:
+    """What bearings with contours wear before the runs that are measured, by a law, `scale` runs each round."""
+
+    joints: tuple[Text, ...]
+    rounds: int
+    k: Text
+    hardness: Text | None
+    scale: Text | None
+    law: str
+
+
+@dataclass(frozen=True)
 class StudyFile:
     """All of a file; `said` is its tree as plain texts, by which two studies are compared."""
 
@@ -150,6 +163,7 @@ class StudyFile:
     rtol: Text | None
     stop: bool
     said: Mapping[str, Any]
+    wear: WearRounds | None = None
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ zero is structural and stays a zero. Derived numbers (inverse masses, K, S, …)
 from __future__ import annotations
 
 import copy
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import sympy as sp
@@ -54,6 +55,7 @@ class Slots:
         self.derived: dict[sp.Symbol, sp.Expr] = {}
         self.of_owner: dict[sp.Symbol, Owned] = {}  # of derived numbers those that one joint or element has
         self.signs: dict[str, str] = {}  # address -> ">" or "<": the sign to zero that the equations rely on
+        self.tables: dict[str, list[sp.Symbol]] = {}  # numbers that are an array of Parameters, by its name
         self._derived_by: dict[sp.Expr, sp.Symbol] = {}
         self._parameters, self._instead = scene.parameters, scene.instead
         for name in scene.parameters:
@@ -83,7 +85,7 @@ class Slots:
                 self._add(f"parameters.{last}", last, quantity)
         return self.entries[f"parameters.{name}"].symbol
 
-    def _add(self, address: str, wanted: str, quantity: Quantity) -> sp.Symbol:
+    def _add(self, address: str, wanted: str, quantity: Quantity, home: str = "p->{}") -> sp.Symbol:
         parts = {part.address: part for part in quantity.of}
 
         def symbol(path: str) -> sp.Expr:
@@ -98,7 +100,7 @@ class Slots:
             value = sp.Float(default, 17)
         short = "." not in wanted and not address.startswith("parameters.")  # gravity.y is no y
         shown = address if short else ""
-        symbol = self.symbols.new(wanted, "p->{}", address, shown=shown)
+        symbol = self.symbols.new(wanted, home, address, shown=shown)
         self.entries[address] = SlotEntry(symbol, address, value, default, quantity.dimension, (), quantity.value)
         return symbol
 
@@ -112,6 +114,22 @@ class Slots:
             self._add(quantity.address, rest or quantity.address, quantity)
         self.symbols.adopt(self.entries[quantity.address].symbol)
         return self.entries[quantity.address].symbol
+
+    def table(self, wanted: str, quantities: Sequence[Quantity]) -> str:
+        """Slots of several quantities as an array of Parameters; what it is called there."""
+        known = next((k for k, s in self.tables.items() if s[0] == self._slot(quantities[0])), "")
+        if not known:
+            known = self.symbols.unique(wanted)
+            self.tables[known] = [
+                self._add(own.address, f"{known}_{k}", own, f"p->{known}[{k}]") for k, own in enumerate(quantities)
+            ]
+        for symbol in self.tables[known]:
+            self.symbols.adopt(symbol)
+        return known
+
+    def _slot(self, quantity: Quantity) -> sp.Symbol | None:
+        entry = self.entries.get(quantity.address)
+        return entry.symbol if entry else None
 
     def constant(self, address: str, wanted: str, default: float, dimension: Dimension = DIMENSIONLESS) -> sp.Symbol:
         """A slot that no file names, such as the Baumgarte gains."""

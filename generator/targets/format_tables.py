@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from gudgeon.generator.field import (
     BODY,
     CORNERS,
+    DEPTHS,
     FLAG,
     KINDS,
     LAW,
@@ -85,6 +86,8 @@ def _holds(field: Field) -> str:
         return " or ".join(f"`{_word(value)}`" for value in field.values)
     if field.kind == POINTS:
         return "[[x, y], …], numbers"
+    if field.kind == DEPTHS:
+        return f"[number, …], {_unit(field.dimension)}; or how many"
     if field.kind == RESULTS:
         return "[NAME, …], names of results"
     if field.kind == NAME:

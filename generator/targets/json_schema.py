@@ -11,6 +11,7 @@ from typing import Any
 from gudgeon.generator.field import (
     BODY,
     CORNERS,
+    DEPTHS,
     FLAG,
     KINDS,
     LAW,
@@ -110,6 +111,7 @@ _SIMPLE: Mapping[str, Json] = {
     VECTOR: _reference("vector"),
     FLAG: _FLAG,
     POINTS: {"type": "array", "items": _list({"type": ["number", "string"]}, 2), "minItems": 2},
+    DEPTHS: {"type": ["array", "number", "string"], "items": {"type": ["number", "string"]}, "minItems": 8},
     RESULTS: {"type": ["array", "string", "null"], "items": {"type": "string"}},
     TEXT: {"type": ["string", "number"]},
     NAME: _reference("name"),

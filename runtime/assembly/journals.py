@@ -12,6 +12,7 @@ from gudgeon.contract.kernel_source import ClearanceInfo
 from gudgeon.errors import AssemblyError, SingularError
 from gudgeon.language.plot_units import told_apart
 from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.contours import contour_of, depth_at, widest
 
 FAR = 10.0  # times the most that it may be: an e that is longer was hardly meant in its unit
 ROUNDED = 1e-9  # of the clearance, that a start in contact may be off
@@ -52,14 +53,14 @@ def in_walls(linkage: Linkage, p: Array) -> Iterator[str]:
 
 
 def _places(linkage: Linkage, p: Array) -> Iterator[tuple[ClearanceInfo, float, float]]:
-    """Joints with play that the file's start says a place of, with |e| and c (m)."""
+    """Joints with play that the file's start says a place of, with |e| and c (m), the widest of a contour."""
     source = linkage.source
     if not source.start_apart:
         return
     values = linkage.start_values(p)[1][len(source.start_set) :]
     for joint in source.clearances:
         own = [x for row, x in zip(source.start_apart, values, strict=True) if row.rpartition(".")[0] == joint.name]
-        yield joint, float(np.linalg.norm(own)), float(p[joint.clearance])
+        yield joint, float(np.linalg.norm(own)), widest(source, p, joint)
 
 
 def parting(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array) -> tuple[str, ...]:
@@ -72,7 +73,7 @@ def parting(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, mem
     for number in joints:
         joint = compiled.source.clearances[number]
         rows, e = eccentricity(compiled, p, t, q, joint)
-        depth = math.hypot(*e) - float(p[joint.clearance])
+        depth = math.hypot(*e) - float(p[joint.clearance]) - _worn(compiled, p, q, joint, e)
         if depth > 0.0:
             with np.errstate(all="ignore"):  # a state of anybody's: the run itself tells what is not finite
                 by_v = -(e / math.hypot(*e)) @ compiled.closed_phi_q(t, q, p)[rows]  # ∂δ̇/∂v
@@ -81,6 +82,14 @@ def parting(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, mem
                 if deltadot <= 0.0 and _reads_onset(compiled, p, t, q, approach, memory, number):
                     told.append(_told(joint.name, depth, deltadot))
     return tuple(told)
+
+
+def _worn(compiled: CompiledModel, p: Array, q: Array, joint: ClearanceInfo, e: Array) -> float:
+    """How much deeper than its circle the bearing is where the journal lies, m."""
+    if (depths := contour_of(compiled.source, p, joint.name)) is None:
+        return 0.0
+    theta = q[compiled.source.bodies[joint.first].index + 2] if joint.first >= 0 else 0.0
+    return float(depth_at(depths, math.atan2(e[1], e[0]) - theta))
 
 
 def eccentricity(

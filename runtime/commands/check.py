@@ -21,6 +21,7 @@ from gudgeon.contract.methods import KINEMATIC
 from gudgeon.errors import AssemblyError, InputError, InputErrors, MissingKeyError
 from gudgeon.integrators.adaptive import begins_with
 from gudgeon.loading.find import derived, find_mechanism, read_bytes
+from gudgeon.model.contours import in_contours
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -106,6 +107,7 @@ def _facts(source: KernelSource) -> dict[str, int]:
         "non-zeros of Φ_q": source.story.jacobian,
         "joints with play": len(source.clearances),
         "numbers that can be set": len(source.slots),
+        **({"of them depths of contours": len(in_contours(source))} if source.contours else {}),
     }
     return facts | {_label(name): count for name, count in source.operations.items()}
 

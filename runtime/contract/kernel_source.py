@@ -13,6 +13,7 @@ from functools import cached_property
 from hashlib import sha256
 from typing import Any
 
+from gudgeon.contract.contour_info import ContourInfo
 from gudgeon.contract.ledger import Story
 from gudgeon.contract.methods import INTEGRATORS, KINEMATIC, NEED_SLOPES
 from gudgeon.contract.stored import as_text, complete, shorten, tuples
@@ -229,6 +230,7 @@ class KernelSource:
     rigid: tuple[str, ...] = ()  # joints with play whose surfaces do not give: Newton's restitution
     start_apart: tuple[str, ...] = ()  # rows of joints with play that the start holds apart, by e and its rate
     parts: tuple[PartInfo, ...] = ()  # all joints, drives and force elements: what is drawn
+    contours: tuple[ContourInfo, ...] = ()  # of joints with play whose bearings are no circles
     massless: tuple[str, ...] = ()  # bodies without mass or inertia: nothing is known that follows from masses
 
     @cached_property
@@ -278,7 +280,7 @@ class KernelSource:
             "bodies": BodyInfo, "points": PointInfo, "rows": RowInfo, "joints": JointInfo,
             "drives": DriveInfo, "clearances": ClearanceInfo, "start_rows": RowInfo,
             "slots": Slot, "conditions": Condition, "series": SeriesInfo, "events": EventInfo,
-            "written": WrittenInfo, "simulate_written": WrittenInfo, "parts": PartInfo,
+            "written": WrittenInfo, "simulate_written": WrittenInfo, "parts": PartInfo, "contours": ContourInfo,
         }  # fmt: skip
         for key, kind in kinds.items():
             data[key] = tuple(kind(**tuples(item)) for item in data.get(key, ()))

@@ -14,6 +14,7 @@ from gudgeon.contract.methods import NEED_SLOPES
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
 from gudgeon.language.tree import functions
 from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.contours import widest
 from gudgeon.model.steep import steep_force
 from gudgeon.model.written import CORNERED, of_time, rate_reason, reason, trees, undefined_here
 
@@ -235,7 +236,7 @@ def _too_deep(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> Solv
     _, deepest, own, name = max(
         (depth / min(own, 0.1 * float(p[joint.constants["R_i"]])), depth, own, joint.name)
         for joint, e in zip(compiled.source.clearances, e_max, strict=True)
-        for depth in [float(e - p[joint.clearance])]
+        for depth in [float(e) - widest(compiled.source, p, joint)]
         for own in [float(p[joint.constants["deepest"]]) if "deepest" in joint.constants else np.inf]
     )
     limit = f"{1e3 * own:.3g} mm, up to which its law of contact holds," if deepest > own else "a tenth of its radius,"

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 Array: TypeAlias = NDArray[np.float64]
 
-CLEARANCE_COLUMNS = ("Fx", "Fy", "Fn", "Ft", "ex", "ey", "e", "deltadot", "vt")
+CLEARANCE_COLUMNS = ("Fx", "Fy", "Fn", "Ft", "ex", "ey", "e", "deltadot", "vt", "delta")
 FIRST, SOON = 256, 5e-3  # samples of the first call of C; s that one is to take, or Ctrl-C would wait
 OUTPUTS = frozenset({"reactions", "torques", "series", "energy"})  # what one function of the scene computes
 
@@ -30,7 +30,7 @@ class Evaluation:
     multipliers: Array  # (N, m) λ
     reactions: Array  # (N, n_joints, 3) Fx, Fy, M on the second body at the joint's point, ground axes
     torques: Array  # (N, n_drives) torque (N·m) or force (N) of each drive
-    clearance: Array  # (N, n_clearances, 9) CLEARANCE_COLUMNS: force on the journal; Fn > 0 pushes it back
+    clearance: Array  # (N, n_clearances, 10) CLEARANCE_COLUMNS: force on the journal; Fn > 0 pushes it back
     series: Array  # (N, n_series) results of force elements
     friction: Array  # (N, n_frictions, 2) force on the second body along the direction, slip
     energy: Array  # (N, 2) kinetic, potential

@@ -8,6 +8,7 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.model.compiled import Array
+from gudgeon.model.contours import contour_of, narrowest
 
 _LENGTH = (1, 0, 0)  # exponents of m, kg, s
 LEAST_CLEARANCE = 64 * sys.float_info.epsilon  # times the size: from ten roundings down contacts are seen twice
@@ -37,17 +38,18 @@ def far_clearances(source: KernelSource, p: Array) -> Array:
 
     Where a journal lies in its bearing is a difference of coordinates, each of which is rounded to a share 2^-52.
     """
-    own = p[..., [joint.clearance for joint in source.clearances]]
-    return np.asarray(own < LEAST_CLEARANCE * mechanism_sizes(source, p)[..., np.newaxis])
+    return np.asarray(narrowest(source, p) < LEAST_CLEARANCE * mechanism_sizes(source, p)[..., np.newaxis])
 
 
 def far_clearance(source: KernelSource, p: Array) -> str:
     """What is said of the first of them in one run; "" where there is none."""
     for joint, is_far in zip(source.clearances, far_clearances(source, p).tolist(), strict=True):
         if is_far:
-            size = float(mechanism_sizes(source, p))
+            size, own = float(mechanism_sizes(source, p)), contour_of(source, p, joint.name)
+            c = float(p[joint.clearance]) + (0.0 if own is None else float(own.min()))
+            where = " at its contour" * (own is not None)
             return (
-                f"the clearance of {joint.name} is {p[joint.clearance]:g} m, below what doubles tell apart at the"
+                f"the clearance of {joint.name} is {c:g} m{where}, below what doubles tell apart at the"
                 f" mechanism's size ({size:.3g} m)\n  expected {LEAST_CLEARANCE * size:.2g} m at least; leave the joint"
                 " out of the scene's play for none"
             )

@@ -49,6 +49,7 @@ CLEARANCE = {
     "e": (6, "m", "eccentricity"),
     "deltadot": (7, "m/s", "rate of the penetration"),
     "vt": (8, "m/s", "slip of the journal's surface on the bearing's"),
+    "delta": (9, "m", "penetration: e less the radial clearance where the journal is"),
 }
 
 
@@ -201,7 +202,6 @@ def _clearances(source: KernelSource) -> Iterator[tuple[str, Series]]:
             yield f"{joint.name}.{name}", _of(unit, meaning + at, "clearance", k, column)
         force = Series("N", f"force on the journal, magnitude{at}", partial(_magnitude, name=joint.name), parts)
         yield f"{joint.name}.F", force
-        yield f"{joint.name}.delta", Series("m", f"penetration e − c{at}", partial(_penetration, joint=joint), parts)
         yield f"{joint.name}.eps", Series("", f"eccentricity ratio e/c{at}", partial(_ratio, joint=joint), parts)
         yield f"{joint.name}.state", _stored("", f"0 free, 1 impact, 2 contact{at}", "state", k)
         latched = _stored("m/s", f"rate of penetration at the last onset{at}", "memory", k)
@@ -214,10 +214,6 @@ def _states(source: KernelSource) -> Iterator[tuple[str, Series]]:
     for k, name in enumerate(source.states):
         if name:
             yield name, _stored("m", "inner state of the joint's law of friction", "memory", first + k)
-
-
-def _penetration(run: Result, joint: ClearanceInfo) -> Array:
-    return run[f"{joint.name}.e"] - run.p[joint.clearance]
 
 
 def _ratio(run: Result, joint: ClearanceInfo) -> Array:

@@ -79,6 +79,8 @@ def _joint(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
     own = run.impacts[run.impacts["joint"] == k]
     examined, deepest = _examined(run, joint.name), peak.e_max - c
     between = float(run.p[joint.constants.get("mean_clearance", joint.clearance)])  # rough surfaces: their means
+    if any(one.joint == joint.name for one in run.source.contours) and len(run.t):
+        deepest = float(run[f"{joint.name}.delta"].max())  # at the samples: how deep it is hangs on where
     found = {
         "c": c, "time": _shares(run, k, joint, own), "contacts": len(own),
         "still_closed": int(np.isnan(own["t_off"]).sum()), "approach": _spread(own["deltadot"]),

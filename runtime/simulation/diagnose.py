@@ -16,6 +16,7 @@ from gudgeon.contract.methods import ADAPTIVE, AUTO
 from gudgeon.integrators.rk4 import last_step
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.contours import widest
 from gudgeon.model.seams import seams
 from gudgeon.results.blows import first_force, piled_up
 from gudgeon.results.diagnostics import Diagnostics, Peak
@@ -141,7 +142,7 @@ def _outside(compiled: CompiledModel, p: Array, t0: float, q0: Array, peaks: Arr
     """Joints with play that went where their laws do not hold."""
     for joint, (_, _, e_max) in zip(compiled.source.clearances, peaks, strict=True):
         c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
-        deepest = float(e_max) - c
+        deepest = float(e_max) - widest(compiled.source, p, joint)
         if joint.film and not joint.dry and float(e_max) > THIN * c:
             yield (
                 f"{joint.name}: the film is squeezed out, e/c = {float(e_max) / c:.7g}: its law, singular at e = c, is"

@@ -18,6 +18,7 @@ from numpy.polynomial.legendre import leggauss
 
 from gudgeon.contract.methods import ADAPTIVE, AUTO
 from gudgeon.errors import BadValueError, GudgeonError
+from gudgeon.model.contours import contour_of, depth_at
 from gudgeon.results.diagnostics import Difference, Examined, IdealForce, JointExamined
 from gudgeon.results.report import default_watch
 from gudgeon.results.series import MOTION, rates
@@ -130,8 +131,14 @@ def _joint(run: Result, other: Result, k: int, joint: ClearanceInfo, at: Any, we
     e, force = other[f"{name}.e"][at], other[f"{name}.F"][at]
     parts = ((other[f"{name}.F{axis}"] * other[f"{name}.e{axis}"])[at] for axis in "xy")
     with np.errstate(invalid="ignore", divide="ignore"):
-        normal = np.where(e > 0.0, sum(parts) / e, 0.0) * other[f"{name}.deltadot"][at]  # W, by the forces
-    touching = (e > run.p[joint.clearance]) if joint.dry else np.zeros(len(at), bool)
+        along = sum(parts) / e
+        if (depths := contour_of(run.source, run.p, name)) is not None:  # of the force, what acts by the penetration
+            bearing = run.source.bodies[joint.first].name if joint.first >= 0 else None
+            theta = other[f"{bearing}.theta"][at] if bearing else 0.0
+            angle = np.arctan2(other[f"{name}.ey"][at], other[f"{name}.ex"][at]) - theta
+            along = -other[f"{name}.Fn"][at] / np.hypot(1.0, depth_at(depths, angle, 1) / e)
+        normal = np.where(e > 0.0, along, 0.0) * other[f"{name}.deltadot"][at]  # W, by the forces
+    touching = (other[f"{name}.delta"][at] > 0.0) if joint.dry else np.zeros(len(at), bool)
     slip = (other[f"{name}.Ft"] * other[f"{name}.vt"])[at]
     in_film = _film_power(other, joint)[at] if joint.film else np.zeros(len(at))
     found = [

@@ -12,6 +12,7 @@ import numpy as np
 
 from gudgeon.integrators.adaptive import integrated_angles
 from gudgeon.model.compiled import N_WORK, Array, CompiledModel
+from gudgeon.model.contours import contour_of, depth_at
 from gudgeon.model.parameters import without_baumgarte
 
 if TYPE_CHECKING:
@@ -32,6 +33,9 @@ class Flow:
         rows = [row.owner for row in source.start_rows]
         self.rows = [[k for k, owner in enumerate(rows) if owner == joint.name] for joint in source.clearances]
         self.play = [float(self.p[joint.clearance]) for joint in source.clearances]
+        self.depths = [contour_of(source, self.p, joint.name) for joint in source.clearances]
+        first = (joint.first for joint in source.clearances)
+        self.bearing = [source.bodies[body].index if body >= 0 else -1 for body in first]  # of x in q
 
     def reduced(self, t: float, full: Array) -> tuple[Array, Array]:
         """y (2m,), and the chain's (2, n_chain), of (q, q̇) of all bodies (2n,)."""
@@ -102,7 +106,16 @@ class Flow:
         rate = self.compiled.closed_phi_q(t, full[:n], self.p)[rows] @ full[n:]
         rate -= self.compiled.closed_nu(t, full[:n], self.p)[rows]
         length = float(np.hypot(*e))
-        return length - self.play[joint], float(e @ rate) / length
+        gap, approach = length - self.play[joint], float(e @ rate) / length
+        depths = self.depths[joint]
+        if depths is None:
+            return gap, approach
+        place = self.bearing[joint]
+        theta, omega = (full[place + 2], full[n + place + 2]) if place >= 0 else (0.0, 0.0)
+        angle = np.arctan2(-e[1], -e[0]) - theta
+        turning = float(e[0] * rate[1] - e[1] * rate[0]) / length**2 - omega
+        worn, slope = (float(depth_at(depths, angle, order)) for order in (0, 1))
+        return gap - worn, approach - slope * turning
 
     def pointers(self, *arrays: Array, written: bool = False) -> list[Any]:
         """C's views of arrays; an empty one is one number long."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,7 @@ from gudgeon.language.wanted import mapping, number_of, refuse, text
 from gudgeon.model.arrays import CODE, taken
 from gudgeon.model.choices import said, told_choices
 from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.contours import put
 from gudgeon.model.parameters import given_slots
 from gudgeon.results.results import State
 
@@ -131,10 +133,12 @@ def _changed(source: KernelSource, start: State) -> list[str]:
 
 
 def numbers(
-    compiled: CompiledModel, start: State | None, parameters: Mapping[str, Any] | None
+    compiled: CompiledModel, start: State | None, parameters: Mapping[str, Any] | None,
+    contour: Mapping[str, Array] = MappingProxyType({}),
 ) -> tuple[Array, Array, tuple[str, ...]]:
     """Values and mask of the slots, (n_slots,) each: the state's, and over them those given; what to say of it."""
     given, is_given = given_slots(compiled.source, parameters)
+    put(compiled.source, contour, given, is_given)
     if start is None:
         return given, is_given, told_choices(compiled.source, given, is_given)
     if not mapping(start.parameters, "start.parameters"):

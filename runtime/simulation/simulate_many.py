@@ -23,6 +23,7 @@ from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Problem, Progress
 from gudgeon.language.wanted import flag, function, is_whole, text, told
 from gudgeon.model.compiled import Array
+from gudgeon.model.contours import of_run, taken_contours
 from gudgeon.model.parameter_sets import ParameterSets, each_of, prepare_sets, rows_of
 from gudgeon.results.bare import Bare, bare
 from gudgeon.results.batch import Batch, States, as_failures, given_values, peaks_of
@@ -49,13 +50,14 @@ def simulate_many(
     simulation: Simulation, parameters: ParameterSets, t_end: Any, output: Any, method: str, rtol: float | str | None,
     step: Any, threads: int | None, progress: Progress | None, stop: bool, side_by_side: bool = True,
     start: State | Sequence[State] | None = None, keep: str | Iterable[str] = STATES,
-    peaks: Iterable[str | Rubbing] | None = None, against: Simulation | None = None,
+    peaks: Iterable[str | Rubbing] | None = None, against: Simulation | None = None, contour: Any = None,
 ) -> Batch:  # fmt: skip
     """See Simulation.simulate_many."""
     compiled, source = simulation.compiled, simulation.source
     names, against = wanted_peaks(source, peaks), check_beside(source, against)
     each = EachRun(compiled, t_end, output, step)
-    starts = _Starts(simulation, parameters, start, each)
+    worn = taken_contours(source, contour, runs=True)
+    starts = _Starts(simulation, parameters, start, each, worn)
     method, progress = text(method, "method"), function(progress, "progress")
     stop, side_by_side = flag(stop, "stop"), flag(side_by_side, "side_by_side")
     workers = available_threads() if threads is None else threads
@@ -133,9 +135,16 @@ class _Kept:
 class _Starts:
     """Numbers of all runs, (n_runs, n_slots), states from which they go on (none: from t = 0), what cannot begin."""
 
-    def __init__(self, simulation: Simulation, parameters: ParameterSets, start: Any, each: EachRun) -> None:
-        self.compiled = simulation.compiled
+    def __init__(
+        self, simulation: Simulation, parameters: ParameterSets, start: Any, each: EachRun, worn: dict[str, Array]
+    ) -> None:  # fmt: skip
+        self.compiled, self.worn = simulation.compiled, worn
         rows, self.bad = rows_of(parameters)
+        own = next((len(contour) for contour in worn.values() if contour.ndim == 2), len(rows))
+        if own != len(rows) and len(rows) > 1:
+            hint = "one contour, or one for every run"
+            raise BadValueError(f"contour has {own} rows for {len(rows)} runs", hint=hint)
+        rows = rows if own == len(rows) else rows * own
         runs = each.length(len(rows))
         self.states = own_each(simulation.source, start, runs)
         if len(rows) == 1:
@@ -147,7 +156,9 @@ class _Starts:
         self.given, self.is_given = each_of(rows, self._slots)
 
     def _slots(self, i: int, row: Mapping[str, Any]) -> tuple[Array, Array]:
-        given, is_given, remarks = numbers(self.compiled, self.states[i] if self.states else None, row)
+        given, is_given, remarks = numbers(
+            self.compiled, self.states[i] if self.states else None, row, of_run(self.worn, i)
+        )
         self.remarks.append(remarks)
         return given, is_given
 

@@ -23,6 +23,7 @@ from gudgeon.integrators.trajectory import Problem, Progress
 from gudgeon.language.wanted import flag, function, text
 from gudgeon.loading.find import Loading
 from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.contours import taken_contours
 from gudgeon.model.parameters import prepare, prepare_slots, without_baumgarte
 from gudgeon.simulation.arguments import MAX_STEPS, METHODS, end_of, method_of, output_times, step_of
 from gudgeon.simulation.beside import check_beside
@@ -127,6 +128,7 @@ class Simulation(Equations):
         parameters: Mapping[str, float | str] | None = None, start: State | None = None,
         progress: Progress | None = None, horizon: bool = False, stop: bool = True,
         peaks: Iterable[str | Rubbing] | None = None, against: Simulation | None = None,
+        contour: Mapping[str, ArrayLike] | None = None,
     ) -> Result:  # fmt: skip
         """Run the scene from t = 0 (or from `start`, the `final` of another run) to t_end (s).
 
@@ -148,6 +150,8 @@ class Simulation(Equations):
         `peaks`: names of series whose largest and smallest values over all steps, not over samples, are wanted, as
         `run.peak("S9.ay")`; None: those that the scene of the file names. `against`: another scene, with which
         `run.peak_error("S9.y")` tells of the series less that scene's, from t = 0, with the same numbers.
+        `contour`: {joint: depths (m)} by which bearings whose play has a `contour` in the file are deeper than their
+        circles, at as many equal angles as there, from the x axis of the bearing's body on.
 
         Raises InputError for arguments (ArrayError for arrays), AssemblyError for a start that does not close,
         SolverError when the equations cannot be solved; its `partial` is the result up to there.
@@ -159,11 +163,11 @@ class Simulation(Equations):
                 progress(0.0, "deriving the full formulation")
             return self.full.simulate(
                 t_end, output=output, method=method, rtol=rtol, step=step, parameters=parameters, start=start,
-                progress=progress, horizon=horizon, stop=stop, peaks=peaks, against=against,
+                progress=progress, horizon=horizon, stop=stop, peaks=peaks, against=against, contour=contour,
             )  # fmt: skip
         names, beside = wanted_peaks(self.source, peaks), check_beside(self.source, against)
         begin = None if start is None else own(self.source, start)
-        given, is_given, remarks = numbers(self.compiled, begin, parameters)
+        given, is_given, remarks = numbers(self.compiled, begin, parameters, taken_contours(self.source, contour))
         p, t0 = prepare_slots(self.compiled, given, is_given), 0.0 if begin is None else begin.t
         times = output_times(self.source, p, t0, end_of(self.source, t_end, p), output)
         if self.source.degrees_of_freedom < 0:
@@ -200,6 +204,7 @@ class Simulation(Equations):
         threads: int | None = None, progress: Progress | None = None, stop: bool = True, side_by_side: bool = True,
         start: State | Sequence[State] | None = None, keep: str | Iterable[str] = "states",
         peaks: Iterable[str | Rubbing] | None = None, against: Simulation | None = None,
+        contour: Mapping[str, ArrayLike] | None = None,
     ) -> Batch:  # fmt: skip
         """Run the scene with each of many parameter sets, in threads; arguments as in `simulate`.
 
@@ -218,6 +223,7 @@ class Simulation(Equations):
         `side_by_side`: whether runs of rk4 that have the same step and times may share vector registers, several in
         each thread; the numbers are the same without, and what that takes is compiled on its first use.
         `peaks`, `against`: as in `simulate`; `batch.peak("S9.ay")`. Such runs do not go side by side.
+        `contour`: as in `simulate`, one for all runs, or (n, depths) with a row for each.
 
         Raises InputError for arguments.
         """
@@ -225,7 +231,7 @@ class Simulation(Equations):
 
         return simulate_many(
             self, parameters, t_end, output, method, rtol, step, threads, progress, stop, side_by_side, start, keep,
-            peaks, against,
+            peaks, against, contour,
         )  # fmt: skip
 
     def lyapunov(

@@ -56,7 +56,7 @@ def wear(
     """
     check_own(simulation, run, "wear")
     asked = _asked(run, joint, points, since, until, contact)
-    rates = _rate(k, hardness, "k", "hardness"), _rate(
+    rates = rate_of(k, hardness, "k", "hardness"), rate_of(
         k if journal_k is None else journal_k,
         hardness if journal_hardness is None else journal_hardness, "journal_k", "journal_hardness",
     )  # fmt: skip
@@ -91,8 +91,8 @@ def check_rubs(clearances: Any, joint: Any) -> None:
         raise BadValueError(f"{joint} has a film alone: nothing wears", hint="expected a contact with a normal law")
 
 
-def _rate(k: Any, hardness: Any, k_name: str, name: str) -> float:
-    """k/H, 1/Pa."""
+def rate_of(k: Any, hardness: Any, k_name: str, name: str) -> float:
+    """k/H (1/Pa) of what `wear` is given."""
 
     def number(value: Any, what: str, exponents: tuple[int, int, int]) -> float:
         return positive(number_of_text(value, what, exponents) if isinstance(value, str) else value, what)
@@ -120,7 +120,6 @@ class Rubs:
         self.path, self.compiled, self.asked = Path(compiled, numbers), compiled, asked
         self.number = [one.name for one in compiled.source.clearances].index(asked.joint)
         self.joint = compiled.source.clearances[self.number]
-        self.c = float(numbers[0][self.joint.clearance])
         self.load, self.friction = np.zeros((2, asked.points)), np.zeros((2, asked.points))
         self.slip, self.first, self.last, self.seen = 0.0, np.nan, np.nan, 0
 
@@ -157,12 +156,13 @@ class Rubs:
         memory[:, :, states] += s * (x.memory[k + 1, states] - x.memory[k, states])[:, None]
         q_flat, v_flat, latched = (array.reshape(t.size, -1) for array in (q, v, memory))
         found = self.compiled.evaluate(t.ravel(), q_flat, v_flat, latched, self.path.p, parts=("clearance",))
-        _, _, F_n, F_t, e_x, e_y, e, _, v_t = (column.reshape(t.shape) for column in found.clearance[:, self.number].T)
-        w, touching = h * WEIGHTS, e > self.c
+        columns = (column.reshape(t.shape) for column in found.clearance[:, self.number].T)
+        _, _, F_n, F_t, e_x, e_y, e, _, v_t, delta = columns
+        w, touching = h * WEIGHTS, delta > 0.0
         slip = w * np.where(touching, np.abs(v_t), 0.0)
         loads = np.stack([slip * np.maximum(F_n, 0.0), slip * np.abs(F_t)]).reshape(2, -1)  # nothing is worn by a pull
         self.slip += float(slip.sum())
-        half = np.arccos(np.minimum(self.c / e, 1.0)).ravel() if self.asked.overlap else None
+        half = np.arccos(np.clip(1.0 - delta / e, -1.0, 1.0)).ravel() if self.asked.overlap else None
         for side, body in enumerate((self.joint.first, self.joint.second)):
             index = self.compiled.source.bodies[body].index if body >= 0 else -1
             angle = np.unwrap(np.arctan2(e_y, e_x), axis=1) - (q[:, :, index + 2] if body >= 0 else 0.0)

@@ -12,6 +12,7 @@ from typing import TypeAlias
 import numpy as np
 
 from gudgeon.language.plot_units import quantity
+from gudgeon.model.contours import widest
 from gudgeon.results.results import Result
 from gudgeon.studies.runs import NAN, Attempt, Error, Parameters, Setting, difference, size
 from gudgeon.studies.words import rough_share, seconds, share
@@ -155,7 +156,7 @@ def _penetrations(run: Result) -> list[tuple[float, float]]:
     found = []
     for joint, peak in zip(run.source.clearances, run.diagnostics.peaks, strict=True):
         radius = float(run.p[joint.constants["R_i"]]) if "R_i" in joint.constants else math.inf
-        found.append((peak.e_max - float(run.p[joint.clearance]), radius))
+        found.append((peak.e_max - widest(run.source, run.p, joint), radius))
     return found
 
 
@@ -180,6 +181,6 @@ def _lost_contact(run: Result) -> bool:
     """Whether any sample overlaps by more than rounding while no contact is latched."""
     for i, joint in enumerate(run.source.clearances):
         c = float(run.p[joint.clearance])
-        if bool(np.any((run[f"{joint.name}.e"] > c * (1 + 1e-9)) & (run.state[:, i] == 0))):
+        if bool(np.any((run[f"{joint.name}.delta"] > c * 1e-9) & (run.state[:, i] == 0))):
             return True
     return False

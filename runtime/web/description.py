@@ -49,6 +49,7 @@ def description(compiled: CompiledModel, seen_step: float | None = None) -> str:
         "evaluation_pivots": source.pivots,
         "angles": integrated_angles(source).tolist(), "sizes": size_places(source),
         "clearances": [[joint.name, joint.clearance] for joint in source.clearances],
+        **({"contours": {one.joint: [one.first, one.count] for one in source.contours}} if source.contours else {}),
         "film": any(joint.film for joint in source.clearances), "beyond": compiled.beyond,
         "rtol": RTOL, "felt_by_films": FELT_BY_FILMS, "reach": REACH,
         "memory": source.n_memory, "events": [[event.name, event.action] for event in source.events],
@@ -78,7 +79,7 @@ def _widths(source: KernelSource) -> dict[str, int]:
     """Columns of what gudgeon_evaluate fills, in its order."""
     return {
         "a": len(source.coordinates), "multipliers": len(source.rows), "reactions": 3 * len(source.joints),
-        "torques": len(source.drives), "clearance": 9 * len(source.clearances), "series": len(source.series),
+        "torques": len(source.drives), "clearance": 10 * len(source.clearances), "series": len(source.series),
         "friction": 2 * len(source.frictions), "energy": 2, "power": 3, "drift": 2,
     }  # fmt: skip
 
@@ -93,7 +94,7 @@ def _unknown(source: KernelSource) -> list[str]:
 
 def _columns(source: KernelSource) -> Iterator[tuple[str, list[Any]]]:
     """Series that are a column of an array: [unit, array, column]; others follow from these (simulator.js)."""
-    widths = {"reactions": 3, "clearance": 9, "friction": 2}
+    widths = {"reactions": 3, "clearance": 10, "friction": 2}
     for name, series in catalogue(source).items():
         if series.stored is not None:
             yield name, [series.unit, *series.stored]

@@ -94,7 +94,10 @@ class Session {
     /* What is said of statuses here: of journals that are too deep which one, and how deep. */
     get told() {
         const peaks = this.memory.view(this.report_at[3], 3 * this.width.state), {about, p} = this.sim;
-        const depths = about.clearances.map(([name, k], i) => [peaks[3 * i + 2] - p[k], name]);
+        const depths = about.clearances.map(([name, k], i) => {
+            const [first, count] = about.contours?.[name] ?? [0, 0], worn = Math.max(0, ...p.slice(first, first + count));
+            return [peaks[3 * i + 2] - p[k] - worn, name];
+        });
         const [depth, name] = depths.sort(([a], [b]) => b - a)[0] ?? [];
         const deep = `the journal of ${name} lies ${Number((1e3 * depth).toPrecision(3))} mm deep in its bearing, beyond a`
             + " tenth of its radius";

@@ -16,6 +16,7 @@ from gudgeon.language.plot_units import drawn, pretty
 from gudgeon.language.quantities import number_of_text
 from gudgeon.language.units import TIME, UNITS, dimension
 from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.contours import in_contours
 from gudgeon.model.parameters import prepare
 from gudgeon.simulation.simulation import Simulation
 
@@ -37,7 +38,8 @@ def groups(simulation: Simulation, p: Array) -> list[dict[str, Any]]:
     """Sections of numbers, the parameters first: [{title, numbers: [{k, name, unit, factor, low, high}]}]."""
     source, units = simulation.source, _Units(simulation)
     size, found = mechanism_size(simulation.compiled, p), dict[str, list[dict[str, Any]]]()
-    for k, slot in enumerate(source.slots):
+    worn = in_contours(source)
+    for k, slot in ((k, slot) for k, slot in enumerate(source.slots) if k not in worn):
         section, _, name = slot.address.partition(".")
         told: dict[str, Any] = {"k": k, "name": name or section}
         if not slot.words:

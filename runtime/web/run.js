@@ -113,10 +113,8 @@ class Run {
             const [x, y] = [`${owner}.Fx`, `${owner}.Fy`];
             add(`${owner}.F`, "N", () => each((i) => Math.hypot(this.series(x)[i], this.series(y)[i])));
         }
-        for (const [name, k] of clearances) {
-            add(`${name}.delta`, "m", () => this.series(`${name}.e`).map((e) => e - this.p[k]));
+        for (const [name, k] of clearances)
             add(`${name}.eps`, "", () => this.series(`${name}.e`).map((e) => e / this.p[k]));
-        }
         if (columns["energy.kinetic"]) add("energy.residual", "J", () => this.residual());
         for (const [name, [unit, tree]] of Object.entries(outputs))
             add(name, unit, () => each((i) => valueOf(tree, (path) => this.named(path, i))));

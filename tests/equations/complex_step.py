@@ -37,6 +37,21 @@ def _angle(y: complex, x: complex) -> complex:
     return complex(np.arctan2(y.real, x.real), turn)
 
 
+def _hermite(depths: Sequence[complex], angle: complex) -> list[complex]:
+    """A contour and its slope: the polynomial of degree five with central differences at both of its ends."""
+    count = len(depths)
+    x = angle * count / (2.0 * np.pi)
+    k = int(np.floor(x.real))
+    a, b, c, d = (depths[(k + shift) % count] for shift in (-1, 0, 1, 2))
+    ends = [[(y - x) / 2, x - 2 * m + y] for x, m, y in ((a, b, c), (b, c, d))]
+    rows = [[np.prod(range(n - order + 1, n + 1)) * s ** max(n - order, 0) * (n >= order) for n in range(6)]
+            for s in (0.0, 1.0) for order in range(3)]  # fmt: skip
+    power = np.linalg.solve(np.array(rows, float), np.array([b, *ends[0], c, *ends[1]]))
+    s = x - k
+    slope = sum(n * power[n] * s ** (n - 1) for n in range(1, 6)) * count / (2.0 * np.pi)
+    return [complex(sum(power[n] * s**n for n in range(6))), complex(slope)]
+
+
 _CORNERS: Mapping[type, tuple[str, Callable[..., Any]]] = {
     sp.Max: ("corner_max", _greatest),
     sp.Min: ("corner_min", _least),
@@ -89,7 +104,8 @@ class ComplexStep:
         film = joint.constants.get("film_clearance", joint.pair.c)
         transition = sp.Integer(0) if joint.transition is None else joint.transition
         return (*joint.eccentricity, *joint.eccentricity_rate, joint.first.omega, joint.second.omega, joint.pair.c,
-                joint.pair.R_i, joint.pair.R_j, film, transition, *joint.first.arm, *joint.second.arm)  # fmt: skip
+                joint.pair.R_i, joint.pair.R_j, film, transition, joint.first.theta, *joint.first.arm,
+                *joint.second.arm)  # fmt: skip
 
     def __call__(self, t: complex, y: Complex, memory: Sequence[float] | np.ndarray) -> Complex:
         """(q̇, q̈, powers), (2n + 3,)."""
@@ -131,17 +147,22 @@ class ComplexStep:
 
     def _pin(self, joint: Clearance, geometry: Complex, stored: float, v: Complex, g: Complex) -> complex:
         """Adds the joint's force to g; its power."""
-        ex, ey, ux, uy, w_i, w_j, c, R_i, R_j, film, e_0, *arms = geometry
+        ex, ey, ux, uy, w_i, w_j, c, R_i, R_j, film, e_0, theta, *arms = geometry
         e = np.sqrt(ex**2 + ey**2)
         e = -e if e.real == 0.0 and e.imag < 0.0 else e
         n_x, n_y = (ex / e, ey / e) if e != 0.0 else (1.0, 0.0)
         speeds = (ux * n_x + uy * n_y, uy * n_x - ux * n_y, w_i, w_j)
-        delta, total = e - c, np.zeros(4, dtype=complex)
+        worn = [0.0 + 0j, 0.0 + 0j]
+        if joint.contour:
+            table = [complex(self._numbers[s]) for s in self.model.slots.tables[joint.contour.table]]
+            worn = _hermite(table, _angle(ey, ex) - theta)
+        delta, total = e - c - worn[0], np.zeros(4, dtype=complex)
         share = 1.0 if joint.film is None else self._share(joint, delta, e_0) if delta.real > 0.0 else 0.0
         if joint.normal is None:
             share = 0.0
         elif delta.real > 0.0:
-            total += share * self._dry(joint, delta, R_i, R_j, speeds, stored)
+            dry = self._dry(joint, delta, R_i, R_j, speeds, stored)
+            total += share * (self._on_contour(joint, delta, R_j, e, worn[1], speeds, stored) if joint.contour else dry)
         if joint.film is not None and complex(share).real < 1.0:
             total += (1.0 - share) * self._film(joint, joint.film, e, film, speeds)
         force = (total[0] * n_x - total[1] * n_y, total[0] * n_y + total[1] * n_x)
@@ -174,6 +195,28 @@ class ComplexStep:
         if joint.friction is not None:
             (tangential,) = self._law(joint.friction, normal, v_t + w_j * a_j - w_i * a_i)
         return np.array([-normal, tangential, -a_i * tangential, a_j * tangential])
+
+    def _on_contour(
+        self, joint: Clearance, delta: complex, R_j: complex, e: complex, slope: complex, speeds: Any, stored: float
+    ) -> Complex:  # fmt: skip
+        """Along e and across it: −F_n by δ's gradient, friction across that at the middle of the penetration."""
+        v_n, v_t, w_i, w_j = speeds
+        assert joint.normal is not None
+        gradient = np.array([1.0, -slope / e])
+        steep = np.sqrt(gradient @ gradient)
+        rate = gradient @ np.array([v_n, v_t]) + slope * w_i
+        normal, tangent = gradient / steep, np.array([slope / e, 1.0]) / steep
+        ratio = 1.0 + 0j if np.isnan(stored) else rate / stored
+        (force,) = self._law(joint.normal, delta, ratio, *[rate] * len(joint.normal.further))
+        arm_j = (R_j - delta / steep / 2) * normal  # from the journal's centre to where both touch
+        arm_i = arm_j + np.array([e, 0.0])
+        spin_i, spin_j = (w * np.array([-arm[1], arm[0]]) for w, arm in ((w_i, arm_i), (w_j, arm_j)))
+        along = 0.0
+        if joint.friction is not None:
+            (along,) = self._law(joint.friction, steep * force, (np.array([v_n, v_t]) + spin_j - spin_i) @ tangent)
+        total = along * tangent - force * gradient
+        moments = (sign * (arm[0] * total[1] - arm[1] * total[0]) for sign, arm in ((-1, arm_i), (1, arm_j)))
+        return np.array([*total, *moments])
 
     def _film(self, joint: Clearance, film: LawEquations, e: complex, c: complex, speeds: Any) -> Complex:
         v_n, v_t, w_i, w_j = speeds

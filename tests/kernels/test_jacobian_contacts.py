@@ -172,3 +172,27 @@ def test_a_law_of_the_rate_itself(scene: str) -> None:
     for rate in (0.3, -0.02, -2.0):
         for memory in ((NAN, NAN), (0.02, NAN)):
             subject.compare(0.0, journal_at(subject, (0.3 * C, -1.05 * C), (0.0, -rate), 2.0), np.array(memory))
+
+
+@pytest.mark.parametrize("law", ["lankarani_nikravesh, restitution: 0.9", "kelvin_voigt, stiffness: 1e7, damping: 2e3"])
+@pytest.mark.parametrize("latched", [NAN, 0.02])
+def test_a_bearing_that_is_no_circle(law: str, latched: float) -> None:
+    """A contour of 16 depths, steep and turning with its body: exact by the angle, the bearing's too, with friction."""
+    subject, rng = on_contour(law), np.random.default_rng(16)
+    for _ in range(4):
+        turn, depth = rng.uniform(0.0, 2.0 * np.pi), C + rng.uniform(30e-6, 60e-6)
+        e, rate = (depth * np.cos(turn), depth * np.sin(turn)), tuple(rng.uniform(-0.05, 0.05, 2))
+        y = journal_at(subject, e, rate, float(rng.uniform(-20.0, 20.0)))
+        J = subject.compare(0.0, y, np.array([latched, NAN]))
+        bearing = subject.model.clearances[0].first.body
+        assert bearing is not None and np.abs(J[subject.n : 2 * subject.n, bearing.index + 2]).max() > 1e3
+
+
+@cache
+def on_contour(law: str) -> Subject:
+    """The dry press, joint A's bearing 0 to 25 µm deeper than its circle."""
+    text = PRESS.replace(b"{A: {bearing: pin, contact: dry}", b"{A: {bearing: pin, contact: dry, contour: 16}")
+    text = text.replace(b"lankarani_nikravesh, restitution: 0.9, geometry: external", law.encode())
+    depths = np.random.default_rng(3).uniform(0.0, 25e-6, 16)
+    values = {f"scenes.dry.play.A.contour.{k}": float(x) for k, x in enumerate(depths)}
+    return make(text, "press", "dry", values)

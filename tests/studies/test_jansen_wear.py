@@ -21,7 +21,7 @@ def test_it_is_read_whole() -> None:
     claims = read_studies(FILE.read_bytes(), str(FILE)).claims
     values = {str(one.name): str(one.value) for one in claims.numbers}
     assert values == {"N1": "48 N", "N2": "104 N", "N3": "426 N", "N4": "10 deg", "N5": "10 deg"}
-    assert [str(one.name) for one in claims.trends if one.not_computed] == ["T8"]
+    assert not any(one.not_computed for one in claims.trends)
     jsonschema = pytest.importorskip("jsonschema")
     study = YAML(typ="safe").load(FILE.read_text(encoding="utf-8"))
     assert not list(jsonschema.Draft202012Validator(schema()).iter_errors(study))

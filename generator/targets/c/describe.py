@@ -8,6 +8,7 @@ from types import MappingProxyType
 
 import sympy as sp
 
+from gudgeon.contract.contour_info import ContourInfo
 from gudgeon.contract.kernel_source import (
     BodyInfo,
     ClearanceInfo,
@@ -83,7 +84,7 @@ def describe(
         start_apart=tuple(model.all_rows[k].name for k, _, _ in apart_rows(model)),
         peaks=tuple(map(str, model.scene.peaks)), written=tuple(_written(model)),
         simulate_written=tuple(_simulate_written(model)), states=_states(model), story=story, lanes=lanes,
-        parts=tuple(_parts(mechanism)), rigid=model.rigid,
+        parts=tuple(_parts(mechanism)), rigid=model.rigid, contours=tuple(_contours(model)),
     )  # fmt: skip
 
 
@@ -204,6 +205,14 @@ def _clearances(model: Model, place: Mapping[sp.Symbol, int], body_of: Mapping[s
         )
         for c in model.clearances
     )  # fmt: skip
+
+
+def _contours(model: Model) -> Iterator[ContourInfo]:
+    place = {entry.symbol: k for k, entry in enumerate(model.slots.entries.values())}
+    for clearance in model.clearances:
+        if clearance.contour:
+            first = model.slots.tables[clearance.contour.table][0]
+            yield ContourInfo(clearance.name, place[first], clearance.contour.count)
 
 
 def _simulate(model: Model) -> dict[str, float]:

@@ -20,11 +20,17 @@ def parameter_fields(slots: Slots) -> list[tuple[str, str]]:
     """Name and comment of each field, in the order of the struct."""
     known: dict[sp.Symbol, Dimension | None] = {}
     fields = []
+    inner = {symbol for table in slots.tables.values() for symbol in table[1:]}
+    sizes = {table[0]: f"{name}[{len(table)}]" for name, table in slots.tables.items()}
     for entry in slots.entries.values():
         known[entry.symbol] = entry.dimension
+        if entry.symbol in inner:
+            continue
         turn = entry.address.endswith(".theta") and entry.dimension == DIMENSIONLESS
         unit = "rad" if turn else _unit_of_law(entry.address) or unit_text(entry.dimension)
-        fields.append((slots.field(entry.symbol), comment_text(f"{entry.address}, {unit}")))
+        name = sizes.get(entry.symbol, slots.field(entry.symbol))
+        address = entry.address.rpartition(".")[0] if entry.symbol in sizes else entry.address
+        fields.append((name, comment_text(f"{address}, {unit}")))
     for symbol, value in slots.derived.items():
         known[symbol] = _dimension(value, known)
         own = known[symbol]

@@ -5,12 +5,16 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Callable, Mapping, Sequence
 
-from gudgeon.generator.equations.play import Clearance
+from gudgeon.generator.equations.contact_steps import beta_i
+from gudgeon.generator.equations.play import Clearance, Contour
 from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.program import Methods
 from gudgeon.generator.kernels.shared import SharedCall
+from gudgeon.generator.solvers.contact_slopes import OF_CONTOUR
 from gudgeon.generator.solvers.newton import Newton
 from gudgeon.generator.targets.c import functions
+from gudgeon.generator.targets.c.play import CONTOURS
+from gudgeon.generator.targets.c.printer import expression
 
 Render = Callable[..., str]  # template name, substitutions -> text
 
@@ -46,12 +50,27 @@ def tangent_code(pins: Sequence[Pin], methods: Methods, render: Render) -> str:
     if not pins:
         return ""
     blending = _BLENDING if any(pin.has_transition for pin in pins) else ""
-    parts = [render("play/pin_slopes.c.jinja", blending=blending), *map(functions.kernel, methods.sloping)]
+    contours = any(pin.clearance.contour for pin in pins)
+    parts = [CONTOURS * contours + render("play/pin_slopes.c.jinja", blending=blending)]
+    parts += [render("play/contour_slopes.c.jinja")] * contours
+    parts += map(functions.kernel, methods.sloping)
     for clearance in (pin.clearance for pin in pins):
+        if clearance.contour:
+            parts.append(_of_contour(clearance, clearance.contour, methods.slopes[clearance.name]["dry"], render))
+            continue
         c = f"p->{clearance.pair.c}"
         slopes = _slopes(clearance, c, methods.slopes[clearance.name])
         parts.append(render("play/tangent.c.jinja", joint=clearance.name, c=c, slopes=slopes))
     return "\n".join(parts)
+
+
+def _of_contour(clearance: Clearance, contour: Contour, dry: SharedCall, render: Render) -> str:
+    given = [symbol.name for symbol in OF_CONTOUR]
+    return render(
+        "play/contour_tangent.c.jinja", joint=clearance.name, c=f"p->{clearance.pair.c}",
+        worn=[expression(contour.at(beta_i, order)) for order in range(3)],
+        unread="g" in functions.unread_sides([dry]), call=functions.shared_call(dry, (*given, "latch"), ("&F",)),
+    )  # fmt: skip
 
 
 def _slopes(clearance: Clearance, c: str, calls: Mapping[str, SharedCall]) -> str:

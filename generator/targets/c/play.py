@@ -17,9 +17,11 @@ from gudgeon.generator.targets.c.layout import broken
 Render = Callable[..., str]  # template name, substitutions -> text
 
 _ARGUMENTS = (
-    "double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,\n"
+    "double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,%s\n"
     "    const Latch *latch, const Parameters *p, const double *side, double *g, Clearance *out"
 )
+_OF_CONTOUR = ("e", "steep", "worn_slope")  # what its dry contact is given besides
+CONTOURS = '#include "engine/scene/contour.h"\n\n'
 _STORE = """\
     *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
         .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
@@ -45,7 +47,8 @@ def clearances_code(program: Program, render: Render) -> str:
     """The laws, then each joint's own functions; nothing where no joint has play."""
     states = program.model.law_states
     pins = (clearance_code(pin, render, states) for pin in program.pins)
-    return "\n".join([*map(functions.kernel, program.laws), *pins])
+    head = CONTOURS * any(pin.clearance.contour is not None for pin in program.pins)
+    return head + "\n".join([*map(functions.kernel, program.laws), *pins])
 
 
 def clearance_code(pin: Pin, render: Render, states: int) -> str:
@@ -61,7 +64,8 @@ def pin_functions(pin: Pin, render: Render, states: int) -> Iterator[PinFunction
     if clearance.film is not None:
         yield _film(pin, render, states)
     text = render(
-        _template(pin), joint=joint, arguments=_ARGUMENTS, gap=_lines(pin.gap), share=_lines(pin.share),
+        _template(pin), joint=joint, arguments=_ARGUMENTS % (" double theta_i," * bool(clearance.contour)),
+        further="".join(f", {name}" for name in _further(pin)), gap=_lines(pin.gap), share=_lines(pin.share),
         rigid=clearance.rigid, closed="latch->closed" if clearance.rigid else _CLOSED,
         store=_store(clearance, states), told=_shared_by(clearance),
         law=_law_of_share(clearance), first=pin.corners.start, last=pin.corners.stop,
@@ -94,6 +98,8 @@ def _dry(pin: Pin, render: Render, states: int) -> PinFunction:
     ratio = "unclipped" if clearance.clip_ratio else "ratio"
     calls = _calls_of_dry(pin, "max_of(delta, 0.0)", "double", True)
     steps: dict[str, Any] = {"before": _lines(pin.before_dry), "after": _lines(pin.after_dry)}
+    steps["along"] = "-F_N" if clearance.contour else "-F_n"
+    steps["further"] = "".join(f", double {name}" for name in _further(pin))
     laws = [pin.laws[role] for role in ("normal", "friction") if role in pin.laws]
     steps["unread"] = functions.unread_sides(laws, (*pin.before_dry, *pin.after_dry))
     steps |= {"law": _texts(calls), "rates": _braced("rate", clearance, states)}
@@ -101,6 +107,10 @@ def _dry(pin: Pin, render: Render, states: int) -> PinFunction:
     own: Stores = [(f"    const double {ratio} = {_RATIO};", ratio), *functions.one_by_one(pin.before_dry)]
     own += [*((code, local) for code, local in calls if local), *functions.one_by_one(pin.after_dry)]
     return PinFunction(f"dry_{joint}", text, own)
+
+
+def _further(pin: Pin) -> tuple[str, ...]:
+    return _OF_CONTOUR if pin.clearance.contour else ()
 
 
 def _film(pin: Pin, render: Render, states: int) -> PinFunction:
@@ -134,11 +144,14 @@ def _calls_of_dry(pin: Pin, delta: str, number: str, sides: bool) -> list[tuple[
     given: Sequence[str] = [delta, "ratio", *pin.given("latch->")]
     normal = functions.shared_call(pin.laws["normal"], given, ("&F_n",), sides)
     found = [(f"{number} F_n;", ""), (normal, "F_n")]
+    pressed = "F_N" if pin.pressing else "F_n"
+    pressing = zip(functions.one_by_one(pin.pressing), pin.pressing, strict=True)
+    found += [(code.strip(), step.target) for (code, _), step in pressing]
     if "friction" in pin.laws:
         states = range(len(pin.clearance.states))
         given, told = [f"latch->state[{k}]" for k in states], [f"&rate[{k}]" for k in states]
         results = ("&F_along_t_dry", *told)
-        friction = functions.shared_call(pin.laws["friction"], ("F_n", "v_t", *given), results, sides)
+        friction = functions.shared_call(pin.laws["friction"], (pressed, "v_t", *given), results, sides)
         found.append((f"{number} F_along_t_dry{f', rate[{len(states)}]' if states else ''};", ""))
         found.append((friction, "F_along_t_dry"))
     else:

@@ -11,6 +11,7 @@ from sympy.printing.c import C99CodePrinter
 
 from gudgeon.generator.ir.readable import Readable, share_of_pi
 from gudgeon.generator.ir.values import Chosen, Given, Place, Sum, Test, Threshold, Value
+from gudgeon.generator.symbols.contours import ContourOf
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
 
 _PLAIN = Readable(())
@@ -156,6 +157,10 @@ class CPrinter(C99CodePrinter):
 
     def _print_KnotsOf(self, expr: KnotsOf) -> str:
         return f"knots({c_name(expr.name)}, {self._print(expr.args[1])})"
+
+    def _print_ContourOf(self, expr: ContourOf) -> str:
+        """From contours.py."""
+        return f"contour({self.called(f'p->{expr.table}')}, {expr.count}, {expr.order}, {self._print(expr.args[3])})"
 
     def _print_ModOf(self, expr: sp.Expr) -> str:
         """From periods.py."""

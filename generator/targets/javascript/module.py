@@ -18,8 +18,8 @@ from gudgeon.generator.kernels import closed_linkage
 from gudgeon.generator.kernels.driven_chains import DIRECTIONS, RATES, STEP, THIRD
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kernels.reduced import DYNAMICS
-from gudgeon.generator.targets.javascript.play import MOTION, joint_functions
-from gudgeon.generator.targets.javascript.printer import PRELUDE, arguments, function
+from gudgeon.generator.targets.javascript.play import joint_functions, motion
+from gudgeon.generator.targets.javascript.printer import CONTOUR, PRELUDE, arguments, function
 
 _OF_STATES = (
     "reduce_state", "reduce_accelerations", "expand", "closures", "closure_rates", DYNAMICS, "reduced_project",
@@ -58,8 +58,12 @@ def equations_script(program: Program) -> str:
         "called": _called(program), "states": model.law_states, "bodies": [body.name for body in model.bodies],
         "closing": _closing(program),
     }  # fmt: skip
+    if model.slots.tables:
+        place_of = {symbol: k for k, symbol in enumerate(model.slots.members())}
+        told["tables"] = {name: [place_of[own[0]], len(own)] for name, own in model.slots.tables.items()}
+    prelude = PRELUDE + CONTOUR * bool(model.slots.tables)
     parts = ", ".join(f"{key}: {json.dumps(value, separators=(',', ':'))}" for key, value in told.items())
-    return (f"const gudgeonEquations = (() => {{\n{PRELUDE}const functions = {{\n{text},\n}};\n"
+    return (f"const gudgeonEquations = (() => {{\n{prelude}const functions = {{\n{text},\n}};\n"
             f"return {{{parts}, functions}};\n}})();\n")  # fmt: skip
 
 
@@ -110,7 +114,7 @@ def _motion(model: Model, index: int) -> list[str]:
     """Locals of `play` that hold the motion in a joint."""
     taken = {symbol.name for symbol in model.symbols.info}
     first = next(word for word in ("play", "joint", "with_play") if not any(one.startswith(word) for one in taken))
-    return [f"{first}_{index + 1}_{symbol.name}" for symbol in MOTION]
+    return [f"{first}_{index + 1}_{symbol.name}" for symbol in motion(model.clearances[index])]
 
 
 def play_kernel(model: Model) -> Kernel:
@@ -120,6 +124,7 @@ def play_kernel(model: Model) -> Kernel:
         build.section(f"joint {clearance.name}")
         turning = clearance.first.omega, clearance.second.omega
         values = (*clearance.eccentricity, *clearance.eccentricity_rate, *turning)
+        values += (clearance.first.theta,) if clearance.contour else ()
         for name, value in zip(_motion(model, i), values, strict=True):
             build.line(Statement(name, sp.sympify(value)))
     return build.build((*STATE, PARAMETERS))

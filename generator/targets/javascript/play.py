@@ -7,7 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+import sympy as sp
+
 from gudgeon.generator.equations import contact_steps as contact
+from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.ir.readable import Readable, lines
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.kernels.play import Pin
@@ -18,6 +21,7 @@ MOTION = (contact.e_x, contact.e_y, contact.de_x, contact.de_y, contact.omega_i,
 BLENDED = ("n", "t", "M_i", "M_j")  # members of a force that film and dry contact share
 _NOTHING = "{n: 0, t: 0, M_i: 0, M_j: 0}"
 _DRY = ("delta", "deltadot", "de_t", "omega_i", "omega_j", "latch", "p", "of")
+_OF_CONTOUR = ("e", "steep", "worn_slope")
 _FILM = ("e", "deltadot", "de_t", "omega_i", "omega_j", "p", "of")
 
 
@@ -29,10 +33,21 @@ def joint_functions(own: Pin, read: set[str]) -> list[str]:
     """
     joint, found = own.clearance.name, []
     if own.clearance.normal is not None:
-        found.append(_function(f"dry_{joint}", _DRY, _dry(own, read)))
+        found.append(_function(f"dry_{joint}", _given(own), _dry(own, read)))
     if own.clearance.film is not None:
         found.append(_function(f"film_{joint}", _FILM, _film(own, read)))
-    return [*found, _function(f"clearance_{joint}", (*map(str, MOTION), "latch", "p", "of"), _clearance(own, read))]
+    given = (*map(str, motion(own.clearance)), "latch", "p", "of")
+    return [*found, _function(f"clearance_{joint}", given, _clearance(own, read))]
+
+
+def motion(clearance: Clearance) -> tuple[sp.Symbol, ...]:
+    """What a joint's function is given of the motion."""
+    return (*MOTION, contact.theta_i) if clearance.contour else MOTION
+
+
+def _given(own: Pin) -> tuple[str, ...]:
+    """To its dry contact."""
+    return (*_DRY[:5], *_OF_CONTOUR, *_DRY[5:]) if own.clearance.contour else _DRY
 
 
 def _function(name: str, given: Iterable[str], body: Iterable[str]) -> str:
@@ -44,13 +59,15 @@ def _dry(own: Pin, read: set[str]) -> list[str]:
     before, after = _Part(own.before_dry, read), _Part(own.after_dry, read)
     body = [f"const {ratio} = latch.closed ? deltadot / latch.deltadot_minus : 1;", *before.text]
     body += _call(own.laws["normal"], ("max_of(delta, 0)", "ratio", *own.given("latch.")), ("F_n",), read)
+    pressing = _Part(own.pressing, read)
+    pressed, body = "F_N" if own.pressing else "F_n", [*body, *pressing.text]
     if "friction" in own.laws:
         states = (f"latch.state[{k}]" for k in range(len(own.clearance.states)))
-        body += _call(own.laws["friction"], ("F_n", "v_t", *states), ("F_along_t_dry",), read)
+        body += _call(own.laws["friction"], (pressed, "v_t", *states), ("F_along_t_dry",), read)
     else:
         body.append("const F_along_t_dry = 0;")
-    stored = [ratio, *before.locals, "F_n", "F_along_t_dry", *after.locals]
-    return [*body, *after.text, _store(f"dry_{own.clearance.name}", stored), _force("-F_n", "dry")]
+    stored = [ratio, *before.locals, "F_n", *pressing.locals, "F_along_t_dry", *after.locals]
+    return [*body, *after.text, _store(f"dry_{own.clearance.name}", stored), _force(f"-{pressed}", "dry")]
 
 
 def _film(own: Pin, read: set[str]) -> list[str]:
@@ -65,7 +82,8 @@ def _clearance(own: Pin, read: set[str]) -> list[str]:
     """The normal, then what acts; where both do, what the dry contact has of the force is blended with the film's."""
     joint = own.clearance.name
     gap, share = _Part(own.gap, read), _Part(own.share, read)
-    dry, film = (f"functions.{part}_{joint}({', '.join(given)})" for part, given in (("dry", _DRY), ("film", _FILM)))
+    parts = (("dry", _given(own)), ("film", _FILM))
+    dry, film = (f"functions.{part}_{joint}({', '.join(given)})" for part, given in parts)
     body = [*gap.text, _store(f"clearance_{joint}", gap.locals)]
     if own.clearance.film is None:
         acts = "latch.closed" if own.clearance.rigid else "delta > 0"

@@ -28,6 +28,7 @@ from gudgeon.generator.ir.statements import (
 )
 from gudgeon.generator.ir.values import Place, Test
 from gudgeon.generator.kernels.shared import CORNER
+from gudgeon.generator.symbols.contours import ContourOf
 from gudgeon.generator.symbols.curves import CurveOf, c_name
 from gudgeon.generator.targets.c.printer import CPrinter, Text
 
@@ -46,6 +47,16 @@ const turned = ({n, t, M_i, M_j}, n_x, n_y, of) => Object.assign(of, {
     force: {Fx: n * n_x - t * n_y, Fy: n * n_y + t * n_x, F_n: n, F_t: t, moment_first: M_i, moment_second: M_j},
 });
 const period_side = (a, b) => sin(PI * a / b);
+"""
+CONTOUR = """\
+const contour = (depth, order, angle) => {
+    const count = depth.length, turns = angle / (2 * PI), x = count * (turns - Math.floor(turns));
+    const k = Math.min(Math.floor(x), count - 1), s = x - k, per = count / (2 * PI);
+    const [a, b, c, d] = [-1, 0, 1, 2].map((i) => depth[(k + i + count) % count]);
+    const slope = 0.5 * (c - a), bend = (a - b) + (c - b), rest = 3 * (c - b) + (a - d);
+    if (order === 0) return b + s * (slope + s * (0.5 * bend + s * rest * (1.5 + s * (s - 2.5))));
+    return per * (slope + s * (bend + s * rest * (4.5 + s * (5 * s - 10))));
+};
 """
 _WORDS = frozenset({
     "abstract", "arguments", "await", "async", "boolean", "byte", "catch", "class", "debugger", "delete", "eval",
@@ -86,6 +97,10 @@ class JavaScriptPrinter(CPrinter):
         raise ValueError(f"a curve, {c_name(expr.name)}, has no counterpart in JavaScript")
 
     _print_CurveOn = _print_KnotsOf = _print_CurveOf
+
+    def _print_ContourOf(self, expr: ContourOf) -> str:
+        """From contours.py; its depths are an array of p."""
+        return f"contour(p.{expr.table}, {expr.order}, {self._print(expr.args[3])})"
 
     def _print_Pick(self, expr: sp.Expr) -> str:
         return name(super()._print_Pick(expr))

@@ -13,7 +13,8 @@ const gudgeonValues = (() => {
 
     /* p by the names of its numbers. */
     function named(p) {
-        return Object.fromEntries(Object.entries(equations.numbers).map(([name, k]) => [name, p[k]]));
+        const tables = Object.entries(equations.tables ?? {}).map(([name, [k, n]]) => [name, p.slice(k, k + n)]);
+        return Object.fromEntries([...Object.entries(equations.numbers).map(([name, k]) => [name, p[k]]), ...tables]);
     }
 
     /* What a function of the equations gives at the state: its locals and arrays, computed once. */

@@ -107,6 +107,8 @@ class JointWithPlay:
     def steps(self, equations: LawEquations) -> list[Step]:
         """The law's own equations; a result that is the number zero is left out."""
         own = {sp.Symbol(name, real=True): self.result(equations, name) for name in equations.steps}
+        if self.clearance.contour and equations.law.role == "friction":
+            own[sp.Symbol("F_n", real=True)] = contact.F_N
         return [
             Step(self.result(equations, name), sp.sympify(value).xreplace(own))
             for name, value in equations.steps.items()
@@ -156,7 +158,7 @@ def play_sections(model: Model, notation: Notation, found: Functions) -> list[Se
 
 
 def _alike(a: Play, b: Play) -> bool:
-    return a.bearing == b.bearing and a.contact == b.contact
+    return a is b or (a.bearing == b.bearing and a.contact == b.contact and not a.contour and not b.contour)
 
 
 def _geometry(joint: JointWithPlay, first: bool) -> list[Block]:
@@ -174,7 +176,22 @@ def _geometry(joint: JointWithPlay, first: bool) -> list[Block]:
         "the eccentricity goes from the bearing's centre to the journal's."
     )
     own: list[Block] = [equation(symbol, expand(value), notation, [joint.of]) for symbol, value in steps]
+    if clearance.contour:
+        own += _contour(joint)
     return [lead, *own, *(joint.shown(contact.gap(clearance)) if first else [])]
+
+
+def _contour(joint: JointWithPlay) -> Iterator[Block]:
+    """The bearing's angle, and what W is."""
+    clearance = joint.clearance
+    assert clearance.contour
+    yield equation(contact.theta_i, joint.notation.expand(clearance.first.theta), joint.notation, [joint.of])
+    yield paragraph(
+        f"The bearing is no circle: W is how much deeper it is, {clearance.contour.count} depths at equal angles from "
+        f"the x axis of {clearance.joint.first.body} on, between them polynomials of degree five with two continuous "
+        "derivatives. F acts along the gradient of ", Name(r"\delta", "δ"), ", whose length is ",
+        joint.notation.math(contact.steep), ": an elastic force keeps the energy."
+    )  # fmt: skip
 
 
 def _contact_sections(joint: JointWithPlay) -> list[Section]:
@@ -243,8 +260,9 @@ def _dry(joint: JointWithPlay) -> list[Block]:
         paragraph("There is no friction:"),
         equation(contact.of_part(contact.F_along_t, "dry"), sp.Integer(0), joint.notation),
     ]  # fmt: skip
+    friction = [*joint.shown(contact.pressing(clearance)), *friction]
     return [impact, *joint.shown(contact.before_dry(clearance)), *_law(joint, "normal"), *friction,
-            *joint.shown(contact.after_dry())]  # fmt: skip
+            *joint.shown(contact.after_dry(clearance))]  # fmt: skip
 
 
 def _mixed(joint: JointWithPlay) -> list[Block]:

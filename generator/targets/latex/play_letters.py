@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import sympy as sp
 
 from gudgeon.generator.equations.contact_steps import (
+    F_N,
     F_along_n,
     F_along_t,
     F_x,
@@ -15,6 +16,8 @@ from gudgeon.generator.equations.contact_steps import (
     M_j,
     a_i,
     a_j,
+    beta_i,
+    beta_rate,
     de_t,
     de_x,
     de_y,
@@ -31,10 +34,17 @@ from gudgeon.generator.equations.contact_steps import (
     omega_j,
     ratio,
     share,
+    slant,
+    steep,
     stored,
+    theta_i,
+    u_x,
+    u_y,
     v_t,
     w_n,
     w_t,
+    worn,
+    worn_slope,
 )
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.kinds.laws.law import HELD
@@ -50,6 +60,9 @@ NAMES: Mapping[sp.Symbol, Name] = {
     stored: Name(r"\dot{\delta}^{-}", "δ̇⁻"), a_i: letter("a", "i"), a_j: letter("a", "j"), v_t: letter("v", "t"),
     epsilon: letter("epsilon"), w_n: letter("w", "n"), w_t: letter("w", "t"), share: letter("b"),
     F_along_n: letter("F", "e"), F_x: letter("F", "x"), F_y: letter("F", "y"),
+    theta_i: letter("theta", "i"), beta_i: letter("beta", "i"), u_x: letter("u", "x"), u_y: letter("u", "y"),
+    worn: letter("w"), worn_slope: Name("w'", "w'"), beta_rate: letter("beta", "i", dots=1), slant: letter("r"),
+    steep: letter("s"), F_N: letter("F", "N"),
     sp.Symbol("F_n", real=True): letter("F", "n"), sp.Symbol("F_r", real=True): letter("F", "r"),
     sp.Symbol(HELD[0], real=True): letter("lambda"),
 }  # fmt: skip

@@ -70,10 +70,11 @@ def law_plot(found: Functions, joints: Sequence[str], role: str, law: Law) -> li
 
 def _numbers(found: Functions) -> Mapping[str, float]:
     """Every number of a run by its field, at its default."""
-    p = SimpleNamespace()
+    tables = found.model.slots.tables
+    p = SimpleNamespace(**{name: [0.0] * len(table) for name, table in tables.items()})
     count = len(found.model.slots.entries)
     _callable(closed_linkage.prepare_kernel(found.model))([0.0] * count, [False] * count, p)
-    return {name: float(value) for name, value in vars(p).items()}
+    return {name: float(value) for name, value in vars(p).items() if name not in tables}
 
 
 def _callable(kernel: Kernel) -> Any:

@@ -13,6 +13,7 @@ from sympy.printing.latex import LatexPrinter
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
+from gudgeon.generator.symbols.contours import ContourOf
 from gudgeon.generator.symbols.curves import CurveOf
 from gudgeon.generator.targets.latex.letters import Name
 
@@ -85,6 +86,9 @@ class TextPrinter(_InOrder, StrPrinter):
         return f"({self._print(expr.args[0])})"
 
     _print_Share = _print_Whole
+
+    def _print_ContourOf(self, expr: ContourOf) -> str:
+        return f"W{_PRIME * expr.order}({self._print(expr.args[3])})"
 
     def _print_CurveOf(self, expr: CurveOf) -> str:
         return f"{expr.name}{_PRIME * expr.order}({self._print(expr.args[2])})"
@@ -166,6 +170,10 @@ class TexPrinter(_InOrder, LatexPrinter):
             return mantissa
         power = f"10^{{{int(exponent)}}}"
         return power if mantissa == "1" else rf"{mantissa} \cdot {power}"
+
+    def _print_ContourOf(self, expr: ContourOf, exp: str | None = None) -> str:
+        text = rf"W{_PRIME * expr.order}\left({self._print(expr.args[3])}\right)"
+        return rf"\left({text}\right)^{{{exp}}}" if exp else text
 
     def _print_CurveOf(self, expr: CurveOf, exp: str | None = None) -> str:
         name = expr.name.replace("_", r"\_")

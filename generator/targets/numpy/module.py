@@ -20,7 +20,7 @@ from gudgeon.generator.kernels.closed_linkage import apart_rows
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.targets.numpy.curves import with_curves
 from gudgeon.generator.targets.numpy.layout import WIDTH, docstring, remark
-from gudgeon.generator.targets.numpy.play import pin
+from gudgeon.generator.targets.numpy.play import CONTOUR, pin
 from gudgeon.generator.targets.numpy.printer import function
 from gudgeon.language.quantities import number_of_text
 from gudgeon.language.suggestions import unknown, unknown_name
@@ -61,7 +61,8 @@ class ClosedLinkage:
         return self._prepared(follow | found) if follow else p
 
     def _prepared(self, found: Mapping[str, float]) -> SimpleNamespace:
-        addresses, p = self.model.slots.entries, SimpleNamespace()
+        addresses = self.model.slots.entries
+        p = SimpleNamespace(**{name: [0.0] * len(table) for name, table in self.model.slots.tables.items()})
         values = [found.get(address, 0.0) for address in addresses]
         self.functions["prepare"](values, [address in found for address in addresses], p)
         return p
@@ -142,7 +143,8 @@ class NumPyModel(ClosedLinkage):
 
     def __init__(self, program: Program) -> None:
         super().__init__(program.model)
-        laws = [*map(function, program.laws), *map(pin, program.pins)]
+        contours = [CONTOUR] * any(own.clearance.contour is not None for own in program.pins)
+        laws = [*contours, *map(function, program.laws), *map(pin, program.pins)]
         parts = [*_thresholds(program.dynamics), *laws, function(program.dynamics)]
         self.program = program
         text = "\n\n\n".join(parts) + "\n"

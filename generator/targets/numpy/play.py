@@ -8,6 +8,19 @@ from gudgeon.generator.targets.numpy.layout import assigned, code, docstring, in
 from gudgeon.generator.targets.numpy.printer import lines, name
 
 _DRY = ("F_n", "F_along_t_dry", "M_i_dry", "M_j_dry")
+CONTOUR = '''\
+def contour(depth, order, angle):
+    """Depths at equal angles, polynomials of degree five between them; of order 1 and 2 its derivatives."""
+    count = len(depth)
+    x = count*(angle/(2*np.pi) - np.floor(angle/(2*np.pi)))
+    k = min(int(x), count - 1)
+    a, b, c, d = (depth[(k + shift) % count] for shift in (-1, 0, 1, 2))
+    s, slope, bend, rest = x - k, 0.5*(c - a), (a - b) + (c - b), 3*(c - b) + (a - d)
+    if order == 0:
+        return b + s*(slope + s*(0.5*bend + s*rest*(1.5 + s*(s - 2.5))))
+    if order == 1:
+        return count/(2*np.pi)*(slope + s*(bend + s*rest*(4.5 + s*(5*s - 10))))
+    return (count/(2*np.pi))**2*(bend + s*rest*(9 + s*(20*s - 30)))'''
 _FILM = ("F_r", "F_along_t_film", "M_i_film", "M_j_film")
 
 
@@ -28,7 +41,8 @@ def pin(own: Pin) -> str:
     body += ["out.Fx, out.Fy = F[0]*n_x - F[1]*n_y, F[0]*n_y + F[1]*n_x", "out.F_n, out.F_t, out.v_t = F[0], F[1], v_t",
              "out.ex, out.ey, out.e, out.deltadot, out.delta = e_x, e_y, e, deltadot, delta",
              "out.moment_first, out.moment_second, out.power = F[2], F[3], 0.0"]  # fmt: skip
-    head = f"def clearance_{joint}(e_x, e_y, de_x, de_y, omega_i, omega_j, latch, p, out):"
+    turned = ", theta_i" if clearance.contour else ""
+    head = f"def clearance_{joint}(e_x, e_y, de_x, de_y, omega_i, omega_j{turned}, latch, p, out):"
     return "\n".join([*code(head), *indented(body)])
 
 
@@ -36,12 +50,14 @@ def _dry(own: Pin) -> list[str]:
     """At δ > 0; before an onset is accepted the impact velocity is that of the moment: ratio 1."""
     ratio, states = "unclipped" if own.clearance.clip_ratio else "ratio", range(len(own.clearance.states))
     given, told = [f"latch.state[{k}]" for k in states], [f"out.state_rate[{k}]" for k in states]
-    rubs = _call(own.laws["friction"], "F_n", "v_t", *given) if "friction" in own.laws else "0.0"
+    pressed = "F_N" if own.pressing else "F_n"
+    rubs = _call(own.laws["friction"], pressed, "v_t", *given) if "friction" in own.laws else "0.0"
     return [
         f"{ratio} = deltadot / latch.deltadot_minus if latch.closed else 1.0", *lines(own.before_dry),
         *assigned("F_n", _call(own.laws["normal"], "delta", "ratio", *own.given("latch.")), is_call=True),
+        *lines(own.pressing),
         *assigned(", ".join(["F_along_t_dry", *told]), rubs, is_call=True),
-        *lines(own.after_dry), f"F = -F_n, {', '.join(_DRY[1:])}",
+        *lines(own.after_dry), f"F = -{pressed}, {', '.join(_DRY[1:])}",
     ]  # fmt: skip
 
 

@@ -26,6 +26,7 @@ from gudgeon.generator.ir.statements import (
     When,
 )
 from gudgeon.generator.ir.values import Chosen, Given, Place, Sum, Test, Threshold, Value
+from gudgeon.generator.symbols.contours import ContourOf
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
 from gudgeon.generator.targets.numpy.layout import assigned, code, docstring, indented, remark
 
@@ -123,6 +124,10 @@ class NumPyPrinter(PythonCodePrinter):
             return self.called(self.of.branches[expr])
         side, a, b = map(self._print, expr.args)
         return f"np.where({side} < 0, {b}, {a})"
+
+    def _print_ContourOf(self, expr: ContourOf) -> str:
+        """From contours.py."""
+        return f"contour(p.{expr.table}, {expr.order}, {self._print(expr.args[3])})"
 
     def _print_CurveOf(self, expr: CurveOf) -> str:
         return f"curve({c_name(expr.name)}, {expr.order}, {self._print(expr.args[2])})"

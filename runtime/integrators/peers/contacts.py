@@ -81,7 +81,7 @@ class Contacts:
         n = self.compiled.n
         memory = np.broadcast_to(self.memory, (len(t), self.count))
         found = self.compiled.evaluate(t, y[:, :n], y[:, n : 2 * n], memory, self.p).clearance
-        return View(found[..., 6] - self.c, found[..., 7], np.hypot(found[..., 2], found[..., 3]), found[..., 6])
+        return View(found[..., 9], found[..., 7], np.hypot(found[..., 2], found[..., 3]), found[..., 6])
 
     def begin(self, t: float, y: Array, onsets: Callable[[], Array]) -> None:
         """A start inside contact is in contact; contacts of an earlier run go on. `onsets` gives their δ̇⁻."""

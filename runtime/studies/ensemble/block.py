@@ -22,11 +22,13 @@ from gudgeon.studies.ensemble.measures import ROUNDING, Spans, measured, rubs_of
 from gudgeon.studies.ensemble.notes import Note, gathered, guesses, merged
 from gudgeon.studies.ensemble.numbers import key_of, of_runs, slot_of
 from gudgeon.studies.ensemble.origins import at_samples, of_steps, origin_of
+from gudgeon.studies.ensemble.wearing import worn
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Measure
     from gudgeon.integrators.trajectory import Progress
     from gudgeon.results.batch import Batch
+    from gudgeon.simulation.wear_loop import Wearing
 
 
 @dataclass(frozen=True)
@@ -42,6 +44,8 @@ class Wanted:
     method: str
     rtol: float | None
     stop: bool
+    wear: Wearing | None = None
+    rounds: int = 0  # of wear before the runs that are measured
 
 
 @dataclass(frozen=True, eq=False)
@@ -203,10 +207,15 @@ def _run(simulation: Simulation, job: Job, table: Table, runs: Array, progress: 
     parameters: Any = {name: list(map(_plain, values[runs])) for name, values in table.columns.items()}
     source, step = simulation.source, None if table.step is None else table.step[runs]
     origin, lookers = of_steps(wanted.measures, source), rubs_of(wanted.measures, source)
+    common: dict[str, Any] = {
+        "method": method_in(source, wanted.method), "rtol": wanted.rtol if source.degrees_of_freedom else None,
+        "step": step, "threads": job.threads, "stop": wanted.stop,
+    }  # fmt: skip
+    parameters = parameters or [{}] * len(runs)
+    contour = worn(simulation, wanted.wear, wanted.rounds, parameters, ends, common)
     batch = simulation.simulate_many(
-        parameters or [{}] * len(runs), t_end, output=output, method=method_in(source, wanted.method),
-        rtol=wanted.rtol if source.degrees_of_freedom else None, step=step, threads=job.threads, progress=progress,
-        stop=wanted.stop, keep=series_of(wanted.measures, wanted.keep, source),
+        parameters, t_end, output=output, **common, progress=progress,
+        contour=contour, keep=series_of(wanted.measures, wanted.keep, source),
         peaks=(*steps_of(wanted.measures, source), *lookers), against=origin_of(job, origin) if origin else None,
     )  # fmt: skip
     if batch.interrupted:

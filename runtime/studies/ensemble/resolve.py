@@ -29,6 +29,7 @@ from gudgeon.studies.ensemble.measures import check_origin, meaning, series_of, 
 from gudgeon.studies.ensemble.numbers import check_expression, in_si, known_slot, real, slot_of, values
 from gudgeon.studies.ensemble.plan import Coordinate, Deviations, Dimension, Part, Plan
 from gudgeon.studies.ensemble.points import NORMAL, deviations, shares, spread_over
+from gudgeon.studies.ensemble.wearing import wearing_of
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Deviation, Draw, Starts, StudyFile
@@ -215,7 +216,9 @@ def _wanted(study: StudyFile, parts: Sequence[Part]) -> Wanted:
                for name, window in study.windows.items()}  # fmt: skip
     t_end, output, step = (None if one is None else one.expr for one in (study.t_end, study.output, study.step))
     keep, method = tuple(map(str, study.keep)), str(study.method)
-    return Wanted(t_end, output, step, windows, study.measures, keep, method, rtol, study.stop)
+    wear = wearing_of(study.wear, [part.simulation.source for part in parts]) if study.wear else None
+    rounds = study.wear.rounds if study.wear else 0
+    return Wanted(t_end, output, step, windows, study.measures, keep, method, rtol, study.stop, wear, rounds)
 
 
 def _check_method(study: StudyFile, source: KernelSource, rtol: float | None) -> None:

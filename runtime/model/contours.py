@@ -1,0 +1,102 @@
+"""Contours of bearings: depths that a run has, by joint, and how deep a bearing is at an angle."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gudgeon.contract.kernel_source import ClearanceInfo, KernelSource
+from gudgeon.errors import BadValueError, UnknownNameError
+from gudgeon.language.wanted import mapping, told
+from gudgeon.model.arrays import taken
+
+Array = NDArray[np.float64]
+Contours = Mapping[str, ArrayLike]
+_WANTED = "{joint: depths (m) at equal angles}"
+
+
+def taken_contours(source: KernelSource, contour: Any, runs: bool = False) -> dict[str, Array]:
+    """Depths of the joints that are given, (n,) each, n as many as the file has there; with `runs` (N, n) too.
+
+    Raises UnknownNameError for a joint without a contour, ArrayError for another number of depths, BadValueError for
+    different numbers of runs.
+    """
+    known, found = {one.joint: one for one in source.contours}, dict[str, Array]()
+    for joint, depths in mapping(contour, "contour", _WANTED).items():
+        if joint not in known:
+            hint = f"joints with a contour: {', '.join(known)}" if known else "contour: 128 in the play of a joint"
+            raise UnknownNameError(f"contour: no contour at {told(joint)}", hint=hint)
+        many = runs and np.ndim(depths) == 2
+        shape = (None, known[joint].count) if many else (known[joint].count,)
+        found[joint] = taken(depths, f"contour[{joint!r}]", shape, finite=True)
+    rows = {joint: len(own) for joint, own in found.items() if own.ndim == 2}
+    if len(set(rows.values())) > 1 or 0 in rows.values():
+        several = ", ".join(f"{joint} has {count}" for joint, count in rows.items())
+        raise BadValueError(f"contour: rows of runs: {several}", hint="one contour, or one for every run")
+    return found
+
+
+def of_run(contours: Mapping[str, Array], i: int) -> dict[str, Array]:
+    """Those of run i."""
+    return {joint: own[i] if own.ndim == 2 else own for joint, own in contours.items()}
+
+
+def put(source: KernelSource, contour: Mapping[str, Array], given: Array, is_given: NDArray[Any]) -> None:
+    """Depths (n,) by joint among values and mask of the slots, (n_slots,) each. BadValueError for one given twice."""
+    for one in source.contours:
+        if one.joint in contour:
+            own = slice(one.first, one.first + one.count)
+            if is_given[own].any():
+                raise BadValueError(f"the contour of {one.joint} is given twice: by addresses too", hint="give it once")
+            given[own], is_given[own] = contour[one.joint], True
+
+
+def contour_of(source: KernelSource, p: Array, joint: str) -> Array | None:
+    """Depths (..., n) that p (..., n_slots + n_derived) has; None of a joint whose bearing is a circle."""
+    for one in source.contours:
+        if one.joint == joint:
+            return np.asarray(p[..., one.first : one.first + one.count])
+    return None
+
+
+def widest(source: KernelSource, p: Array, joint: ClearanceInfo) -> float:
+    """The radial clearance (m) of a joint with play, of a contour at its deepest place."""
+    depths, c = contour_of(source, p, joint.name), float(p[joint.clearance])
+    return c if depths is None else c + float(depths.max())
+
+
+def depth_at(depths: ArrayLike, angle: ArrayLike, order: int = 0) -> Any:
+    """The contour through depths (n,), m, at angles (rad) in the bearing's frame, or its first or second derivative.
+
+    As engine/scene/contour.h has it: polynomials of degree five whose ends have slopes and second derivatives by
+    central differences.
+    """
+    w, count = np.asarray(depths, float), len(np.asarray(depths))
+    turns = np.asarray(angle, float) / (2.0 * np.pi)
+    x = count * (turns - np.floor(turns))
+    k = np.minimum(x.astype(int), count - 1)
+    a, b, c, d = (w[(k + shift) % count] for shift in (-1, 0, 1, 2))
+    s, slope, bend, rest = x - k, 0.5 * (c - a), (a - b) + (c - b), 3.0 * (c - b) + (a - d)
+    per_angle = count / (2.0 * np.pi)
+    if order == 0:
+        return b + s * (slope + s * (0.5 * bend + s * rest * (1.5 + s * (s - 2.5))))
+    if order == 1:
+        return per_angle * (slope + s * (bend + s * rest * (4.5 + s * (5.0 * s - 10.0))))
+    return per_angle**2 * (bend + s * rest * (9.0 + s * (20.0 * s - 30.0)))
+
+
+def narrowest(source: KernelSource, p: Array) -> Array:
+    """Radial clearances (m), of contours at their shallowest, (..., n_clearances) of p (..., n_slots + n_derived)."""
+    own = p[..., [joint.clearance for joint in source.clearances]]
+    for one in source.contours:
+        place = next(k for k, joint in enumerate(source.clearances) if joint.name == one.joint)
+        own[..., place] += p[..., one.first : one.first + one.count].min(axis=-1)
+    return own
+
+
+def in_contours(source: KernelSource) -> frozenset[int]:
+    """Slots that are depths of contours: a run sets them together."""
+    return frozenset(k for one in source.contours for k in range(one.first, one.first + one.count))
