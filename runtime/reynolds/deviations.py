@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -52,6 +52,10 @@ class Deviation:
         off = self.law_force - self.force
         return np.asarray(np.hypot(off[..., 0], off[..., 1]) / largest)
 
+    def of(self, law: str, **keys: float | str | bool) -> Deviation:
+        """Another law, with its other keys, at the same states; what the solver found of them is not sought again."""
+        return replace(self, law=law, law_force=_by_law(law, self.l_over_d, self.eps, self.motion, keys))
+
     def plot(self, ax: Axes | None = None) -> Axes:
         """The share in percent as a map; needs matplotlib."""
         from gudgeon.reynolds.plot import deviation_map
@@ -69,16 +73,34 @@ def deviation(
     `table` takes them. keys: the law's other keys, numbers in SI; the viscosity is given.
     """
     ratio = number(l_over_d, "l_over_d")
-    own = Bearing(RADIUS, 2.0 * RADIUS * ratio, CLEARANCE, VISCOSITY)
+    own = _bearing(ratio)
     at, alpha = taken(eps, "eps", (None,), finite=True), taken(motion, "motion", (None,), finite=True)
     if not at.size or not alpha.size or at.min() <= 0.0 or at.max() >= 1.0:
         raise BadValueError("eps and motion: expected at least one each, eps above 0 and below 1")
-    unit = VISCOSITY * RADIUS**3 * own.length / CLEARANCE**2
-    closing, turning = np.cos(alpha) + 0.0 * at[:, None], np.sin(alpha) + 0.0 * at[:, None]
-    by_law = law_force(law, own, keys)(at[:, None] + 0.0 * closing, closing, -turning)
-    omega_s = 2.0 * turning / at[:, None]
-    found = table(own, at[:, None], closing, omega_s, cavitation=cavitation, groove=groove, cells=cells)
-    return Deviation(law, ratio, cavitation, at, alpha, found.force / unit, by_law / unit, found.error / unit)
+    by_law = _by_law(law, ratio, at, alpha, keys)
+    eps, closing, turning = _states(at, alpha)
+    found = table(own, eps, closing, 2.0 * turning / eps, cavitation=cavitation, groove=groove, cells=cells)
+    unit = _unit(own)
+    return Deviation(law, ratio, cavitation, at, alpha, found.force / unit, by_law, found.error / unit)
+
+
+def _bearing(l_over_d: float) -> Bearing:
+    return Bearing(RADIUS, 2.0 * RADIUS * l_over_d, CLEARANCE, VISCOSITY)
+
+
+def _unit(own: Bearing) -> float:
+    return VISCOSITY * RADIUS**3 * own.length / CLEARANCE**2
+
+
+def _states(eps: Array, motion: Array) -> tuple[Array, Array, Array]:
+    """(n, 1) ε, (n, m) ε̇ and ½ ε ω_s at W = 1/s."""
+    return eps[:, None], np.cos(motion) + 0.0 * eps[:, None], np.sin(motion) + 0.0 * eps[:, None]
+
+
+def _by_law(law: str, l_over_d: float, eps: Array, motion: Array, keys: Mapping[str, float | str | bool]) -> Array:
+    """(n, m, 2) over μ R³ L/c²."""
+    own, (at, closing, turning) = _bearing(l_over_d), _states(eps, motion)
+    return law_force(law, own, keys)(at + 0.0 * closing, closing, -turning) / _unit(own)
 
 
 def law_force(name: str, bearing: Bearing, keys: Mapping[str, float | str | bool]) -> LawForce:
