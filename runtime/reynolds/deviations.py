@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gudgeon.errors import BadValueError, LawError, MissingKeyError, UnknownKeyError
+from gudgeon.errors import BadValueError, MissingKeyError, UnknownKeyError
 from gudgeon.language.suggestions import unknown_name
 from gudgeon.model.arrays import taken
 from gudgeon.reynolds.bearing import Bearing, number
@@ -105,10 +105,9 @@ def _by_law(law: str, l_over_d: float, eps: Array, motion: Array, keys: Mapping[
 
 def law_force(name: str, bearing: Bearing, keys: Mapping[str, float | str | bool]) -> LawForce:
     """The law's (…, 2) F_r and F_t (N) as a function of ε, w_n and w_t (1/s)."""
-    import sympy as sp
-
-    from gudgeon.generator.kinds.laws.built import build
-    from gudgeon.generator.kinds.laws.law import VARIABLES, LawInputs, PairSymbols, called
+    from gudgeon.generator.kinds.laws.alone import alone
+    from gudgeon.generator.kinds.laws.built import PAIR
+    from gudgeon.generator.kinds.laws.law import called
 
     known = called("film")
     if name not in known:
@@ -119,35 +118,18 @@ def law_force(name: str, bearing: Bearing, keys: Mapping[str, float | str | bool
     given = {own.name: values.get(own.name, own.default) for own in law.fields}
     if lacking := [own.name for own in law.fields if own.required and given[own.name] is None]:
         raise MissingKeyError(f"film law {name}: {lacking[0]} is missing")
-    numbers = {own.name: sp.Float(number(x, own.name)) for own in law.parameters if (x := given[own.name]) is not None}
+    numbers = {own.name: number(x, own.name) for own in law.parameters if (x := given[own.name]) is not None}
     chosen: dict[str, Any] = {own.name: given[own.name] for own in law.options} | dict(law.also.get(name, {}))
     for own in law.options:
         if chosen[own.name] not in own.values:
             expected = " or ".join(map(str, own.values))
             raise BadValueError(f"film law {name}: {own.name} is {chosen[own.name]!r}: expected {expected}")
     r, c = bearing.radius, bearing.clearance
-    pair = PairSymbols(*(sp.Float(x) for x in (r + c, r, c, bearing.length, 1e11, 0.3, 1e11, 0.3)))
-    symbols = {x: sp.Symbol(x, real=True) for x in VARIABLES["film"]}
-    steps = build(law, LawInputs(numbers, chosen, pair, symbols, lambda _, expression, __: expression))
-    return _evaluated(name, list(symbols.values()), steps)
-
-
-def _evaluated(name: str, symbols: list[Any], steps: Mapping[str, Any]) -> LawForce:
-    import sympy as sp
-
-    known, functions = list(symbols), []
-    for step, expression in steps.items():
-        functions.append((step, sp.lambdify(known, expression, "numpy")))
-        known.append(sp.Symbol(step, real=True))
+    pair = dict(zip(PAIR, (r + c, r, c, bearing.length, 1e11, 0.3, 1e11, 0.3), strict=True))
+    function = alone(law, numbers, chosen, pair)
 
     def force(eps: Array, w_n: Array, w_t: Array) -> Array:
-        values, found = [eps, w_n, w_t], {}
-        for step, function in functions:
-            try:
-                found[step] = function(*values) + 0.0 * eps
-            except (NameError, TypeError) as error:
-                raise LawError(f"film law {name}: {step} cannot be computed here: {error}") from error
-            values.append(found[step])
+        found = function(eps, w_n, w_t)
         return np.stack([found["F_r"], found["F_t"]], axis=-1)
 
     return force
