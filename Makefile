@@ -72,7 +72,7 @@ generated: setup  ## derive and write generated/ anew for every shipped mechanis
 deviations: setup  ## docs/film_deviation.png and its table, each film law beside the solver of Reynolds' equation
 	@.venv/bin/python tools/deviations.py
 
-tables: setup  ## the tables of docs/format.md, from the declarations of the fields
+tables: setup  ## the tables of docs/format.md, the laws of docs/laws.md, from their declarations
 	@.venv/bin/python tools/tables.py
 
 setup:

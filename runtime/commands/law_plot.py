@@ -100,6 +100,11 @@ def _chosen(law: Law, name: str, settings: Mapping[str, float | str]) -> Chosen:
     return Chosen(law, name, numbers, options, ", ".join(told))
 
 
+def chosen_numbers(law: Law) -> dict[str, float]:
+    """Its numbers under its own name where nothing is set: defaults, else what is usual; SI."""
+    return dict(_chosen(law, law.name, {}).numbers)
+
+
 def _unit(own: Field) -> str:
     from gudgeon.language.units import si_unit
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shlex
 import subprocess
 import sys
@@ -17,6 +18,7 @@ from gudgeon.generator.field import NUMBER
 from gudgeon.generator.kinds.laws.law import RESULTS, Law, called, house
 from gudgeon.generator.targets.latex.document import Equation
 from gudgeon.generator.targets.latex.law import GIVEN, forms, in_a_line
+from gudgeon.generator.targets.latex.law_page import laws_page
 from gudgeon.generator.targets.latex.letters import of_latex
 from tests.equations.one_law import PAIR, Evaluator
 from tests.kinds.own import example, forgotten
@@ -176,3 +178,12 @@ def test_bristles_that_have_gone_far_slide() -> None:
 def test_what_cannot_be_drawn(line: str, told: str, call: Gudgeon) -> None:
     done = call("laws", *shlex.split(line))
     assert done.exit_code == 2 and told in done.stderr, done.output
+
+
+def test_the_page_of_laws_is_current() -> None:
+    """`make tables` writes it, a heading a law."""
+    page = (Path(__file__).resolve().parents[2] / "docs" / "laws.md").read_text("utf-8")
+    assert page.partition("<!-- Below: `make tables`. -->\n\n")[2] == laws_page()
+    assert re.findall(r"^### `(\w+)`$", page, re.MULTILINE) == [
+        law.name for role in RESULTS for law in house().values() if law.role == role
+    ]  # fmt: skip
