@@ -221,7 +221,9 @@ def test_a_joint_without_states_beside_one_with_them(tmp_path: Path) -> None:
     """No word of the compiler, and every bit comes back from a file."""
     mixed = loader(tmp_path)(MIXED, "m")
     (tmp_path / "c").mkdir()
-    compile_c(COMPILERS[0], write(mixed.source, tmp_path / "c"), [*FLAGS, "-c", "-o", "scene.o"])
+    scene = write(mixed.source, tmp_path / "c")
+    for file in (scene, scene.with_name("lanes.c")):
+        compile_c(COMPILERS[0], file, [*FLAGS, "-c", "-o", "scene.o"])
     run = mixed.simulate(0.01, output=50, method="dop853", rtol=1e-6)
     run.save(tmp_path / "mixed.nc")
     again = Result.load(tmp_path / "mixed.nc")

@@ -47,5 +47,6 @@ def _pin(pin: Pin, render: Callable[..., str], states: int) -> str:
     return render(
         "play/lane_pin.c.jinja", joint=clearance.name, dry=clearance.normal is not None,
         film=clearance.film is not None, ratio_name="unclipped" if clearance.clip_ratio else "ratio",
-        rates=braced("rate", clearance, states, "all_of(0.0)"), states=states, **parts,
+        rates=braced("rate", clearance, states, "all_of(0.0)"), still=braced("", clearance, states, "all_of(0.0)"),
+        states=states, **parts,
     )  # fmt: skip
