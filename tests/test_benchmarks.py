@@ -20,12 +20,13 @@ if "benchmarks" not in sys.modules:  # the root stays off sys.path, so the folde
     spec.submodule_search_locations = [str(Path(__file__).resolve().parents[1] / "benchmarks")]
     sys.modules["benchmarks"] = importlib.util.module_from_spec(spec)
 
-from benchmarks import callgrind, rhs
+from benchmarks import callgrind, laws, rhs
 from benchmarks.peers import cvode_sweep, ideal, press  # noqa: E402
 from benchmarks.peers.reference import ONSETS  # noqa: E402
 from benchmarks.race import page as race_page
 from benchmarks.race import record as race_record
 from benchmarks.race.record import time_to  # noqa: E402
+from gudgeon.generator.kinds.laws.law import house
 from tests.programs import needs_compiler
 
 
@@ -163,3 +164,15 @@ def test_the_peers_of_the_sweep_are_the_runs_of_the_sweep() -> None:
     assert second == press.work("lubricated")
     geometry = first.press.geometry
     assert (first.press.clearance, geometry.omega1, geometry.omega4) == (3e-4, math.pi, -math.pi)
+
+
+def test_every_law_has_states_to_be_timed_at() -> None:
+    for law in house().values():
+        assert set(law.variables) - {state.name for state in law.states} <= set(laws.DRAWN)
+
+
+@needs_compiler
+def test_a_law_is_timed_by_itself(tmp_path: Path) -> None:
+    """The program compiles, sums what is a number, and the law takes longer than nothing."""
+    own, nothing = laws.timed(house()["ocvirk"], tmp_path)
+    assert 0.0 < nothing < own

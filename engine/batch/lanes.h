@@ -140,6 +140,9 @@ static inline Lanes real_sqrt(Lanes x) { return lanes_sqrt(x); }
 /* As Latch, Memory, PinForce, Clearance, Aside of a single run. */
 typedef struct {
     Lanes closed, deltadot_minus;
+#if LAW_STATES
+    Lanes state[LAW_STATES];
+#endif
 } LaneLatch;
 
 typedef struct {
@@ -150,10 +153,16 @@ typedef struct {
 
 typedef struct {
     Lanes n, t, M_i, M_j;
+#if LAW_STATES
+    Lanes state_rate[LAW_STATES];
+#endif
 } LanePinForce;
 
 typedef struct {
     Lanes Fx, Fy, F_n, F_t, e, deltadot, delta, moment_first, moment_second, power;
+#if LAW_STATES
+    Lanes state_rate[LAW_STATES];
+#endif
 } LaneClearance;
 
 typedef struct {

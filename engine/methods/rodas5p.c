@@ -107,6 +107,7 @@ static int rodas5p_try(Run *run, double h, const Parameters *p, Step *step)
     step->t = run->t, step->h = h, step->dense_ready = 0;
     forget_stages(step);
     if (!run->linear_ready) {
+        show_states(&run->memory, run->y);
         const int lost = linearize_state(run->t, run->y, &run->memory, p, run->dy + N_X, &run->aside, &run->linear);
         if (lost)
             return lost;

@@ -3,21 +3,14 @@
  */
 #include "run.h"
 
-/* Where the inner states of a law are in what is integrated. */
-enum { FIRST_STATE = 2 * N_X + N_WORK };
+#include "../both/states.h"
 
 /* Laws read their states where they read the latch; what they say of their rates follows the works. */
 static int motion_of_laws(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside)
 {
-#if LAW_STATES
-    for (int k = 0; k < N_STATES; k++)
-        memory->latch[k / LAW_STATES].state[k % LAW_STATES] = y[FIRST_STATE + k];
-#endif
+    show_states(memory, y);
     const int status = motion(t, y, memory, p, dy, aside);
-#if LAW_STATES
-    for (int k = 0; k < N_STATES; k++)
-        dy[FIRST_STATE + k] = aside->clearance[k / LAW_STATES].state_rate[k % LAW_STATES];
-#endif
+    rates_of_states(aside, dy);
     return status;
 }
 

@@ -154,12 +154,9 @@ class Program:
 
     @property
     def has_lanes(self) -> bool:
-        """Whether runs go side by side: not where constraints come and go by run, nor with inner states of laws, nor
-
-        with contours, whose tables are those of the runs.
-        """
+        """Whether runs go side by side: not where rows come and go by run, nor with contours, which each has."""
         contours = any(clearance.contour for clearance in self.model.clearances)
-        alone = self.model.rows_change or self.model.law_states or contours
+        alone = self.model.rows_change or contours
         return self.methods is not None and self.tree is not None and not (self.tree.chains or alone)
 
 

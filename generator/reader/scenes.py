@@ -117,7 +117,10 @@ def _scene(reader: Reader, name: Text, draft: _Draft, parts: Parts) -> SceneSpec
     for address, text in draft.materials.pairs():
         with reader.collect():
             materials[str(address)] = parts.materials.chosen(address, text)
-    return SceneSpec(str(name), play, parameters, simulate, name.where, draft.events, draft.peaks, materials)
+    scene = SceneSpec(str(name), play, parameters, simulate, name.where, draft.events, draft.peaks, materials)
+    with reader.collect():
+        _check_contours(scene, draft.play)
+    return scene
 
 
 def _play(reader: Reader, joint: Text, use: Map, parts: Parts, owner: str) -> Play | None:
@@ -181,11 +184,20 @@ def check_peaks(reader: Reader, scenes: Mapping[str, SceneSpec], known: ResultNa
                     known.check_play(text, scene.name, scene.play)
 
 
+def _check_contours(scene: SceneSpec, uses: Map) -> None:
+    """Slopes by the angle in a bearing and by inner states of laws are not derived together."""
+    with_contour = [joint for joint, play in scene.play.items() if play.contour]
+    if with_contour and (states := sorted(_inner_states(scene))):
+        told = f"scene {scene.name} has a contour beside a law with an inner state ({states[0]})"
+        where = uses[with_contour[0]].key("contour").where
+        raise BadValueError(told, where, "expected friction without an inner state, or no contour")
+
+
 def _inner_states(scene: SceneSpec) -> set[str]:
     """Results that laws of friction of a scene bring with them: A.z."""
     used = {joint: play.contact.friction for joint, play in scene.play.items()}
-    laws = called("friction")
-    return {f"{joint}.{state.name}" for joint, use in used.items() if use for state in laws[use.law].states}
+    known = called("friction")
+    return {f"{joint}.{state.name}" for joint, use in used.items() if use for state in known[use.law].states}
 
 
 def _check_cycles(name: Text, own: Mapping[str, Quantity], parts: Parts) -> None:

@@ -1,8 +1,9 @@
 """How the force of a joint with play changes: the steps of contact.py and the laws, differentiated forward.
 
-Slopes are those of (F along n, F along t, M_i, M_j) by (e, δ̇, ė_t, ω_i, ω_j); templates/c/play/tangent.c.jinja turns
-them into ground axes. Of a contour n and t are along e and across it, and so are the rates; its depth and slope are
-inputs too, by which contour_tangent.c.jinja knows what the angle does.
+Slopes are those of (F along n, F along t, M_i, M_j) by (e, δ̇, ė_t, ω_i, ω_j), of laws with inner states also those of
+their rates and by the states; templates/c/play/tangent.c.jinja turns them into ground axes. Of a contour n and t are
+along e and across it, and so are the rates; its depth and slope are inputs too, by which contour_tangent.c.jinja knows
+what the angle does.
 """
 
 from __future__ import annotations
@@ -54,8 +55,11 @@ class _Slopes:
         self.build = KernelBuilder(model.symbols, f"{part}_slopes_{clearance.name}", [
             f"{part.capitalize()}: F along n and t, M_i, M_j, and their derivatives by e, {by}, omega_i,",
             f"omega_j{also} (forward differentiation of the same steps).",
+            *["Behind them the rates of inner states, and derivatives by these."] * bool(model.law_states),
         ])  # fmt: skip
-        self.tangents = Tangents(model.symbols, self.build, inputs(clearance), clearance.name, share_powers=True)
+        self.states = tuple(sp.Symbol(f"state_{k}", real=True) for k in range(model.law_states))
+        self.inputs = (*inputs(clearance), *self.states)
+        self.tangents = Tangents(model.symbols, self.build, self.inputs, clearance.name, share_powers=True)
 
     def section(self, title: str) -> None:
         self.build.section(title)
@@ -81,12 +85,12 @@ class _Slopes:
         return results
 
     def finish(self, values: Sequence[sp.Expr]) -> Kernel:
-        """Writes (F along n, F along t, M_i, M_j) and their slopes."""
+        """Writes (F along n, F along t, M_i, M_j) and their slopes, then rates of inner states; 0 where it has none."""
         self.section("results")
-        for row, value in enumerate(values):
+        for row, value in enumerate([*values, *[ZERO] * (4 + len(self.states) - len(values))]):
             self.build.out(f"out->value[{row}]", value)
             slopes: Tangent = self.tangents.gradient(value)
-            for column, base in enumerate(inputs(self.clearance)):
+            for column, base in enumerate(self.inputs):
                 self.build.out(f"out->slope[{row}][{column}]", slopes.get(base, ZERO))
         return self.build.build(_arguments(self.clearance), inline=True, prune=True)
 
@@ -131,17 +135,20 @@ def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kern
     for step in contact.pressing(clearance):
         slopes.step(step)
     pressed = contact.F_N if clearance.contour else F_n
+    rubbed: dict[str, sp.Symbol] = {}
     if clearance.friction is not None:
-        states = [sp.Symbol(f"latch->state[{k}]", real=True) for k in range(len(clearance.states))]  # as they are
-        force = slopes.law(clearance.friction, (pressed, contact.v_t, *states))["F_t"]
-    slopes.step(Step(tangential, ZERO if clearance.friction is None else force))
+        own = [build.local("bent", sp.Symbol(f"latch->state[{k}]", real=True)) for k in range(len(clearance.states))]
+        for state, base in zip(own, slopes.states, strict=False):
+            tangents.know(state, {base: sp.Integer(1)})
+        rubbed = slopes.law(clearance.friction, (pressed, contact.v_t, *own))
+    slopes.step(Step(tangential, rubbed.pop("F_t", ZERO)))
     moments = contact.after_dry(clearance)
     for step in moments:
         slopes.step(step)
     along = (-F_n, tangential)
     if clearance.contour:
         along = contact.along_eccentricity(F_n, tangential)
-    return slopes.finish([*along, *(step.symbol for step in moments)])
+    return slopes.finish([*along, *(step.symbol for step in moments), *rubbed.values()])
 
 
 def unlatched(step: Step) -> Step:

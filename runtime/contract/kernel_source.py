@@ -251,15 +251,14 @@ class KernelSource:
     @property
     def explicit(self) -> bool:
         """Whether only the explicit methods in C run it: what a law does has no slopes."""
-        return bool(self.states or self.rigid)
+        return bool(self.rigid)
 
     @property
     def no_slopes(self) -> str:
         """Why there is no Jacobian; "" where there is one."""
         if self.methods == (KINEMATIC,):
             return "without a degree of freedom nothing is integrated"
-        held = f"the contact in {self.rigid[0]} comes and goes, a constraint (newton_restitution)" if self.rigid else ""
-        return held or ("a law has an inner state, whose slopes are not derived" if self.states else "")
+        return f"the contact in {self.rigid[0]} comes and goes, a constraint (newton_restitution)" if self.rigid else ""
 
     @property
     def methods(self) -> tuple[str, ...]:

@@ -118,8 +118,9 @@ def method_of(source: KernelSource, method: str, fixed: bool) -> str:
             f"{-dof} constraint rows more than coordinates: constraints are redundant or contradict each other\n"
             "  remove a drive or a joint; `gudgeon check -v` lists the rows"
         )
-    sloped = KINEMATIC not in source.methods and not source.explicit  # no slopes, no peers
-    fitting = (*source.methods, ADAPTIVE, *driver.NAMES) if sloped else source.methods
+    fitting = source.methods
+    if KINEMATIC not in fitting and not source.explicit:
+        fitting = (*fitting, ADAPTIVE, *(() if source.states else driver.NAMES))  # peers integrate no inner states
     if method == "auto":
         return fitting[0] if len(fitting) == 1 or fixed else AUTO[0] if source.explicit else ADAPTIVE
     if method not in METHODS:
@@ -130,8 +131,9 @@ def method_of(source: KernelSource, method: str, fixed: bool) -> str:
         if source.rigid:
             why = source.no_slopes
         elif source.states:
-            why = f"a law has an inner state ({next(filter(None, source.states))}), by which no slope is taken"
-        fit = f"{' and '.join(source.methods)} {'fits' if len(source.methods) == 1 else 'fit'} it"
+            why = f"a law has an inner state ({next(filter(None, source.states))}), which peers do not integrate"
+        *others, last = source.methods
+        fit = f"{', '.join(others)} and {last} fit it" if others else f"{last} fits it"
         raise BadValueError(f"method {method!r} does not fit: {why}; use auto ({fit})")
     return method
 

@@ -88,7 +88,7 @@ def test_the_page_is_current() -> None:
     tool = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(tool)
     text = PAGE.read_text(encoding="utf-8")
-    assert tool.page(text) == text
+    assert tool.page(text, tool.PAGES["format.md"]()) == text
     assert text.count("\n| ") > 100
 
 

@@ -48,7 +48,7 @@ scenes:
   m: {play: {A: {bearing: p, contact: c}, B: {bearing: p, contact: d}}}
   worn:
     play:
-      A: {bearing: p, contact: c}
+      A: {bearing: p, contact: e}
       B: {bearing: p, contact: e, contour: [0, 20 um, 5 um, 0, 0, 30 um, 9 um, 0]}
 """
 OWN = ("m", "worn")

@@ -45,13 +45,15 @@ def newton_code(newton: Newton, render: Render) -> str:
     )  # fmt: skip
 
 
-def tangent_code(pins: Sequence[Pin], methods: Methods, render: Render) -> str:
-    """`tangent_<joint>` of every joint with play, behind the derivatives that they share."""
+def tangent_code(pins: Sequence[Pin], methods: Methods, render: Render, states: int) -> str:
+    """`tangent_<joint>` of every joint with play, behind the derivatives that they share; `states` of laws each has."""
     if not pins:
         return ""
     blending = _BLENDING if any(pin.has_transition for pin in pins) else ""
     contours = any(pin.clearance.contour for pin in pins)
-    parts = [CONTOURS * contours + render("play/pin_slopes.c.jinja", blending=blending)]
+    sizes = {"rows": 4 + states, "columns": 5 + states}
+    shared = render("play/pin_slopes.c.jinja", blending=blending.replace("k < 5", f"k < {5 + states}"), **sizes)
+    parts = [CONTOURS * contours + shared]
     parts += [render("play/contour_slopes.c.jinja")] * contours
     parts += map(functions.kernel, methods.sloping)
     for clearance in (pin.clearance for pin in pins):
@@ -60,7 +62,7 @@ def tangent_code(pins: Sequence[Pin], methods: Methods, render: Render) -> str:
             continue
         c = f"p->{clearance.pair.c}"
         slopes = _slopes(clearance, c, methods.slopes[clearance.name])
-        parts.append(render("play/tangent.c.jinja", joint=clearance.name, c=c, slopes=slopes))
+        parts.append(render("play/tangent.c.jinja", joint=clearance.name, c=c, slopes=slopes, **sizes))
     return "\n".join(parts)
 
 

@@ -1,0 +1,73 @@
+"""docs/laws.md: every law of force from its declaration, as `gudgeon laws NAME` prints it, in Markdown."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+from gudgeon.generator.field import NUMBER, Field
+from gudgeon.generator.kinds.laws.law import RESULTS, Law, house
+from gudgeon.generator.targets.format_tables import condition
+from gudgeon.generator.targets.latex.document import Equation, sentence
+from gudgeon.generator.targets.latex.law import GIVEN, Form, forms, in_a_line
+from gudgeon.generator.targets.latex.letters import of_latex
+from gudgeon.generator.targets.latex.play import as_word, sign_of
+from gudgeon.language.plot_units import pretty
+from gudgeon.language.units import si_unit
+
+_HEADS = {"normal": "The normal force", "friction": "Friction", "film": "Oil films"}
+
+
+def laws_page() -> str:
+    """All laws, a heading a role and a law."""
+    found = []
+    for role in RESULTS:
+        some = [law for law in house().values() if law.role == role]
+        found += [f"## {_HEADS[role]}", ""]
+        found += [line for law in some for line in _of_law(law)]
+    return "\n".join(found)
+
+
+def _of_law(law: Law) -> Iterator[str]:
+    yield from (f"### `{law.name}`", "", f"{sentence(law.title)}", "")
+    if law.also:
+        yield from (f"Also as {', '.join(f'`{name}`' for name in law.also)}.", "")
+    first, *others = forms(law, law.name)
+    yield from _block(first.equations)
+    for form in others:
+        yield from _choice(form)
+    if law.states:
+        told = "; ".join(f"{of_latex(state.name).text} is the {state.meaning}, 0 at each onset" for state in law.states)
+        yield from (f"{told}.", "")
+    yield from _table(law.fields)
+    yield from (f"**Valid**: {sentence(law.validity)}", "", f"**Source**: {law.reference or law.source}.", "")
+
+
+def _choice(form: Form) -> Iterator[str]:
+    """What differs by it: one equation in a line, more as they stand."""
+    told = ", ".join(key if value == GIVEN else f"{key}: {as_word(value)}" for key, value in form.chosen.items())
+    if len(form.equations) == 1:
+        yield from (f"With `{told}`: `{in_a_line(form.equations[0])}`.", "")
+    elif form.equations:
+        yield from (f"With `{told}`:", "", *_block(form.equations))
+
+
+def _block(equations: Iterable[Equation]) -> Iterator[str]:
+    yield from ("```text", *map(in_a_line, equations), "```", "")
+
+
+def _table(fields: Sequence[Field]) -> Iterator[str]:
+    yield from ("| key | letter | unit | condition | without it | meaning |", "|" + "---|" * 6)
+    for own in fields:
+        cells = _number(own) if own.kind == NUMBER else _option(own)
+        yield "| " + " | ".join(cell.replace("|", "\\|") for cell in (f"`{own.name}`", *cells, own.meaning)) + " |"
+    yield ""
+
+
+def _number(own: Field) -> tuple[str, ...]:
+    unit = "any" if own.dimension is None else pretty(si_unit(own.dimension))
+    default = "needed" if own.required else own.otherwise if own.default is None else f"{own.default:g}"
+    return of_latex(sign_of(own)).text, unit, condition(own), default
+
+
+def _option(own: Field) -> tuple[str, ...]:
+    return "", "", " or ".join(f"`{as_word(value)}`" for value in own.values), f"`{as_word(own.choice)}`"
