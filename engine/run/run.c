@@ -2,6 +2,7 @@
  * A run: the right-hand side with its questions, what is watched at accepted states, its begin.
  */
 #include "run.h"
+#include "../both/one.h"
 
 /* Where the inner states of a law are in what is integrated. */
 enum { FIRST_STATE = 2 * N_X + N_WORK };

@@ -6,7 +6,6 @@
 #define GUDGEON_RUN_H
 #include "asked.h"
 #include "../scene/events.h"
-#include "../both/one.h"
 
 enum {
     N_IMPACTS = 256, MAX_PARTS = 50
@@ -58,6 +57,24 @@ typedef struct {
     double rate[AT_LEAST_ONE(N_CLEARANCES)][2];   /* smallest and largest d delta/dt of the stages */
 } Step;
 
+/*
+ * The step that is tried now, until one is accepted (step_length.c): its length, the first one, what was left of the
+ * run, how far from zero its times are; whether by the stiff method, whether one was refused, how often it did not
+ * resolve something, whether both methods were given up.
+ */
+typedef struct {
+    double h, longest, left, far;
+    int open, stiff, again, shortened, given_up;
+} Attempt;
+
+/* Where samples go: their times, their rows, and how many are stored. */
+typedef struct {
+    long n, *done;
+    const double *t;
+    double *y, *latched;
+    signed char *state;
+} Samples;
+
 /* States that Python fetches (tape.c); nobody wants any: NULL. */
 typedef struct {
     double *rows;
@@ -103,6 +120,7 @@ typedef struct {
     const Method *method;
     int crossed, skip, automatic, votes, patience, since, stuck, crawl, linear_ready;
     Linear linear;
+    Attempt attempt;
     Step step;
 } Run;
 
