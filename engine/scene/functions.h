@@ -78,40 +78,17 @@ static inline double of_bits(uint64_t bits)
     return x;
 }
 
-/* x rounded to 26 bits: products of two such numbers are exact, and what is left of 1 - e is as small as e. */
-static inline double upper_half(double x) { return of_bits((bits_of(x) + 0x4000000u) & 0xfffffffff8000000u); }
-
-/* log x, the rest beyond its rounding in `rest`; x is normal and positive. */
-static inline double log_in_parts(double x, double *rest)
-{
-    const uint64_t from = 0x3fe6100000000000u, bits = bits_of(x) - from;
-    const double *part = log_table[bits >> 45 & 127], k = (double)((int64_t)bits >> 52);
-    const double z = of_bits(bits_of(x) - (bits & 0xfff0000000000000u)), z_high = upper_half(z);
-    const double r_high = z_high * part[0] - 1.0, r_low = (z - z_high) * part[0], r = r_high + r_low;
-    const double r_rest = r_high - r + r_low;
-    const double sum = k * 0x1.62e42fefa38p-1 + part[1], near = sum + r;
-    const double r_top = upper_half(r_high), r_bottom = r_high - r_top + r_low; /* the square of the first is exact */
-    const double half = -0.5 * r, square = r * half, half_top = -0.5 * r_top, square_top = r_top * half_top;
-    const double high = near + square_top;
-    const double series = r * square * (-2.0 / 3.0 + r * 0.5
-        + square * (0.8 + r * (-2.0 / 3.0) + square * (-8.0 / 7.0 + r)));
-    const double low = k * 0x1.ef35793c7673p-45 + part[2] + (sum - near + r) + r_rest + r_bottom * (half + half_top)
-        + (near - high + square_top) + series;
-    *rest = high - (high + low) + low;
-    return high + low;
-}
-
-/* e^(x + rest) for |x| < 700 and a small rest. */
-static inline double exp_of_parts(double x, double rest)
-{
-    const double shift = 6755399441055744.0, shifted = x * 0x1.71547652b82fep7 + shift, k = shifted - shift;
-    const double r = x - k * 0x1.62e42fefcp-8 + k * 0x1.c610ca86c3899p-44 + rest, square = r * r;
-    const uint64_t whole = bits_of(shifted);
-    const double *part = exp_table[whole & 127], power = of_bits(bits_of(part[0]) + (whole >> 7 << 52));
-    const double less = part[1] + r + square * (0.5 + r * (1.0 / 6.0))
-        + square * square * (1.0 / 24.0 + r * (1.0 / 120.0));
-    return power + power * less;
-}
+#define PARTS_OF double
+#define PARTS_BITS uint64_t
+#define PARTS_NAMED(name) name
+#define PARTS_POWER(bits) ((double)((int64_t)(bits) >> 52))
+#define PARTS_ENTRY(table, bits, k) table[(bits) & 127][k]
+#include "parts.h"
+#undef PARTS_OF
+#undef PARTS_BITS
+#undef PARTS_NAMED
+#undef PARTS_POWER
+#undef PARTS_ENTRY
 
 static inline int is_normal(double x) { return x >= DBL_MIN && x <= DBL_MAX; }
 

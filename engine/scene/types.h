@@ -37,6 +37,8 @@ typedef struct {
     int stop, hold; /* not wanted any more; what is under way comes to its end first */
 } Asked;
 
+int ask_now(Asked *x);
+
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {
     int closed;

@@ -21,7 +21,7 @@ from gudgeon.assembly.start import assemble
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators import adaptive, lanes, rk4
 from gudgeon.integrators.failure import INTERRUPTED, NOT_FINITE, STOPPED, failure
-from gudgeon.integrators.lanes import NEW, NOT_CLOSED, OVER, Lanes
+from gudgeon.integrators.lanes import NEW, NOT_CLOSED, OVER, Flow, Lanes, numbers_of
 from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, fetch_impacts, no_states, told_apart
 from gudgeon.integrators.steps import Look, Tape
 from gudgeon.integrators.times import Times
@@ -58,8 +58,10 @@ class Runs:
 
         self.compiled, self.method, self.times, self.threads, self.over = compiled, method, times, threads, over
         n, N, size, nc = len(p), times.most, 2 * compiled.n + N_WORK, max(len(compiled.source.clearances), 1)
-        self.lanes = Lanes(compiled) if side_by_side and lanes.wanted(compiled, method, step) else None
-        self.n, self.abreast = n, self.lanes.count if self.lanes else 1
+        beside = side_by_side and lanes.wanted(compiled, method, step)
+        self.lanes = Lanes(compiled) if beside and method == "rk4" else None
+        self.flow = Flow(compiled) if beside and method != "rk4" else None
+        self.n, self.abreast = n, (self.lanes or self.flow).count if beside else 1
         places = threads * self.abreast if over else n
         scale, least = adaptive.tolerances(compiled, p, rtol)
         self.arrays: dict[str, NDArray[Any]] = {
@@ -97,7 +99,7 @@ class Runs:
 
     def __getstate__(self) -> dict[str, Any]:
         """What is over: arrays and lists, without what C worked on."""
-        return self.__dict__ | {"struct": None, "lanes": None, "over": None, "looks": ()}
+        return self.__dict__ | {"struct": None, "lanes": None, "flow": None, "over": None, "looks": ()}
 
     def let_go(self) -> None:
         """Samples that `over` has taken what it wanted of."""
@@ -182,7 +184,7 @@ class Runs:
 
     def _in_threads(self, progress: Progress | None, wanted: range | list[int], ctrl_c: CtrlC) -> None:
         portion = max(1, min(PORTION, len(wanted) // (8 * self.threads)))
-        portion = math.ceil(portion / self.abreast) * self.abreast
+        portion = math.ceil(portion / self.abreast) * self.abreast if self.lanes else portion
         portions = deque(wanted[k : k + portion] for k in range(0, len(wanted), portion))
         with ThreadPoolExecutor(self.threads, thread_name_prefix="gudgeon") as pool:
             try:
@@ -205,6 +207,9 @@ class Runs:
         if tape:
             tape.lay(self.compiled.pointer(memories[0], "void *"))
         while portions and not self.stopping:
+            if self.flow and not tape and (beside := self.flow.begins(self)):
+                beside.flow(self, numbers_of(self, portions), memories, worker * self.abreast)
+                return
             try:
                 portion = portions.popleft()
             except IndexError:  # another thread was quicker
@@ -224,11 +229,19 @@ class Runs:
         if self.lanes and len(group) >= lanes.LEAST and not self.stopping:
             self.lanes.together(self, group, memories)
         for k, i in enumerate(group):
-            self._alone(i, i + 1, memories[k], tape)
-            if self.over and self.arrays["phase"][i] == OVER and self.arrays["status"][i] != NOT_CLOSED:
-                if self.method != "rk4":
-                    self._take_back(i)
-                self.over(self, i)
+            self.to_its_end(i, memories[k], tape)
+
+    def to_its_end(self, i: int, memory: NDArray[np.uint8], tape: Tape | None = None) -> None:
+        """Run i alone from where it is, if it is not over."""
+        self._alone(i, i + 1, memory, tape)
+        self.is_over(i)
+
+    def is_over(self, i: int) -> None:
+        """Run i came to its end in a place that others may take: what is wanted of it is taken, unless it is yet to begin."""
+        if self.over and self.arrays["phase"][i] == OVER and self.arrays["status"][i] != NOT_CLOSED:
+            if self.method != "rk4":
+                self._take_back(i)
+            self.over(self, i)
 
     def _alone(self, first: int, end: int, memory: NDArray[np.uint8], tape: Tape | None) -> None:
         """Runs one after the other, from where they are to their ends."""
