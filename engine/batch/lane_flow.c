@@ -50,7 +50,13 @@ static void gather(Flow *flow, int k, Lanes *h)
     for (int i = 0; i < N_CLEARANCES; i++) {
         x->memory.latch[i].closed[k] = run->memory.latch[i].closed;
         x->memory.latch[i].deltadot_minus[k] = run->memory.latch[i].deltadot_minus;
+        x->aside.clearance[i].Fx[k] = run->aside.clearance[i].Fx;
+        x->aside.clearance[i].Fy[k] = run->aside.clearance[i].Fy;
+        x->aside.clearance[i].moment_first[k] = run->aside.clearance[i].moment_first;
+        x->aside.clearance[i].moment_second[k] = run->aside.clearance[i].moment_second;
     }
+    for (int i = 0; i < N_LOOPS; i++)
+        x->aside.lambda[i][k] = run->aside.lambda[i];
     for (int i = 0; i < N_SWITCHES; i++)
         x->memory.side[i][k] = run->memory.side[i];
     for (int i = 0; i < N_USER_EVENTS; i++)
@@ -107,16 +113,20 @@ static void scatter_step(const Flow *flow, int k, int stages, Step *step)
 }
 
 /* What lane k has found goes to its run. */
-static void scatter(const Flow *flow, int k)
+static void scatter(const Flow *flow, int k, int stiff)
 {
     Run *run = flow->run[k];
     Step *step = &run->step;
-    const int stages = DOP853_STAGES;
+    const int stages = stiff ? RODAS5P_STAGES : DOP853_STAGES;
     step->t = flow->step.t[k];
     step->h = flow->step.h[k];
     step->error = flow->step.error[k];
     step->dense_ready = 0;
     run->evaluations += stages - 1;
+    if (stiff && !run->linear_ready) {
+        run->jacobians++;
+        run->linear_ready = ELSEWHERE;
+    }
     if (!flow->step.taken[k])
         return;
     run->evaluations++;
@@ -133,19 +143,19 @@ static int leaves(Flow *flow, int k, int happened)
 }
 
 /* One step of these lanes is tried. Returns whether Python is to be told of a run. */
-static int try_together(Flow *flow, const int *wanted, int *lists)
+static int try_together(Flow *flow, int stiff, const int *wanted, int *lists)
 {
     Lanes h;
     int some = 0;
     for (int k = 0; k < LANES; k++)
         gather(flow, k, &h);
-    try_lanes(&flow->x, h, &flow->p, &flow->step);
+    try_lanes(&flow->x, stiff, h, &flow->p, &flow->step);
     for (int k = 0; k < LANES; k++) {
         if (!wanted[k])
             continue;
         const int lost = flow->step.lost[k] != 0;
         if (!lost)
-            scatter(flow, k);
+            scatter(flow, k, stiff);
         const int happened = flow->one->goes_on(flow->b, flow->number[k], lost ? UNTRIED : TRIED, flow->run[k]);
         *lists |= happened == LISTS;
         some |= leaves(flow, k, happened);
@@ -163,8 +173,8 @@ static int advance(Flow *flow, int *lists)
             count[stiff] += wanted[stiff][k];
         }
     for (int stiff = 0; stiff < 2; stiff++) {
-        if (count[stiff] > 1 && !stiff) {
-            some |= try_together(flow, wanted[stiff], lists);
+        if (count[stiff] > 1) {
+            some |= try_together(flow, stiff, wanted[stiff], lists);
             continue;
         }
         for (int k = 0; k < LANES; k++) {

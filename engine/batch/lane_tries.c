@@ -73,13 +73,26 @@ static int finish_step(LaneRun *run, LaneStep *step, const LaneParameters *p)
     return 0;
 }
 
+/* As make_linear of rodas5p.c. */
+static int make_linear(LaneRun *run, Lanes hg, const LaneParameters *p)
+{
+    linearize(run->t, run->y, run->y + N_X, &run->memory, p, run->dy + N_X, &run->aside, &run->linear,
+        &run->memory.rare);
+    newton_factor(hg, &run->linear, &run->memory.rare);
+    return 0;
+}
+
 #include "../both/dop853.h"
+#include "../both/rodas5p.h"
 
 /* A step of length h of all lanes; where it is neither accepted nor lost its error alone tells. */
-static void try_lanes(LaneRun *run, Lanes h, const LaneParameters *p, LaneStep *step)
+static void try_lanes(LaneRun *run, int stiff, Lanes h, const LaneParameters *p, LaneStep *step)
 {
     run->memory.rare = (LaneBits){0};
-    dop853_try(run, h, p, step);
+    if (stiff)
+        rodas5p_try(run, h, p, step);
+    else
+        dop853_try(run, h, p, step);
     step->lost |= run->memory.rare & step->taken;
     step->taken &= ~step->lost;
 }

@@ -109,8 +109,6 @@ static inline Lanes lanes_sqrt(Lanes x)
         return y; \
     }
 LANE_AFTER_LANE_OF_TWO(atan2)
-LANE_AFTER_LANE(sin)
-LANE_AFTER_LANE(cos)
 LANE_AFTER_LANE(tan)
 LANE_AFTER_LANE(asin)
 LANE_AFTER_LANE(acos)
@@ -119,7 +117,7 @@ LANE_AFTER_LANE(sinh)
 LANE_AFTER_LANE(cosh)
 LANE_AFTER_LANE(tanh)
 
-/* As exp_of, log_of, power_of of scene/functions.h; what is beyond their ranges goes to the library lane by lane. */
+/* As sine_of, cosine_of, exp_of, log_of, power_of of scene/functions.h; what is beyond their ranges goes to the library lane by lane. */
 typedef unsigned long long LaneWords __attribute__((vector_size(8 * LANES)));
 static inline LaneWords lanes_bits_of(Lanes x) { return (LaneWords)x; }
 static inline Lanes lanes_of_bits(LaneWords bits) { return (Lanes)bits; }
@@ -141,6 +139,28 @@ static inline Lanes lanes_entries(const double *table, int width, LaneWords bits
 #undef PARTS_NAMED
 #undef PARTS_POWER
 #undef PARTS_ENTRY
+
+static inline Lanes lanes_sin(Lanes x)
+{
+    Lanes r, rest;
+    const LaneBits fits = lanes_fabs(x) < TURN_LIMIT, k = (LaneBits)lanes_quarters(x, &r, &rest);
+    Lanes found = pick((k & 1) != 0, lanes_cosine_near(r, rest), lanes_sine_near(r, rest));
+    found = pick((k & 2) != 0, -found, found);
+    for (int i = 0; any_of(~fits) && i < LANES; i++)
+        found[i] = fits[i] ? found[i] : sin(x[i]);
+    return found;
+}
+
+static inline Lanes lanes_cos(Lanes x)
+{
+    Lanes r, rest;
+    const LaneBits fits = lanes_fabs(x) < TURN_LIMIT, k = (LaneBits)lanes_quarters(x, &r, &rest);
+    Lanes found = pick((k & 1) != 0, lanes_sine_near(r, rest), lanes_cosine_near(r, rest));
+    found = pick(((k + 1) & 2) != 0, -found, found);
+    for (int i = 0; any_of(~fits) && i < LANES; i++)
+        found[i] = fits[i] ? found[i] : cos(x[i]);
+    return found;
+}
 
 static inline LaneBits lanes_is_normal(Lanes x) { return (x >= DBL_MIN) & (x <= DBL_MAX); }
 
@@ -303,6 +323,7 @@ typedef struct {
     Lanes t, y[N_Y], dy[N_Y], weight[N_Y], accept, stability;
     LaneMemory memory;
     LaneAside aside;
+    LaneLinear linear;
 } LaneRun;
 
 /* As Step; lanes in which it is accepted, and in which the single runs are to try it. */

@@ -33,7 +33,8 @@ typedef struct {
 /* A step that was tried: contacts and the sides of corners are held while it is made. */
 enum {
     N_MARGINS = N_CLEARANCES + N_SWITCHES + N_FRICTIONS + N_USER_EVENTS, /* what may end a step, in this order */
-    N_STAGES = 16, N_DENSE = 7, N_LOOKS = 16
+    N_STAGES = 16, N_DENSE = 7, N_LOOKS = 16,
+    HERE = 1, ELSEWHERE = 2 /* where the equations of a step are linearized: in the run, in a lane; 0: not yet */
 };
 
 typedef struct Method Method; /* methods.c */

@@ -16,54 +16,6 @@
 
 static const double TURN_LIMIT = 1e5; /* rad; larger angles go to the library's functions, which take all care */
 
-/* x = k pi/2 + r + rest: as sines.h does it for several, with what r is rounded by; the last bits of k. */
-static inline int quarters(double x, double *r, double *rest)
-{
-    const double shift = 6755399441055744.0, k = x * 0.63661977236758134308 + shift - shift;
-    const double first = x - k * 1.57079632673412561417, part = k * 6.07710050630396597660e-11, second = first - part;
-    const double last = k * 2.02226624879595063154e-21;
-    *r = second - last;
-    *rest = second - *r - last + (first - second - part);
-    return (int)k & 3;
-}
-
-static inline double sine_near(double r, double rest)
-{
-    const double z = r * r, cube = z * r;
-    const double high = 8.33333333332248946124e-03 + z * (-1.98412698298579493134e-04 + z * (2.75573137070700676789e-06
-        + z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
-    return r - (z * (0.5 * rest - cube * high) - rest - cube * -1.66666666666666324348e-01);
-}
-
-static inline double cosine_near(double r, double rest)
-{
-    const double z = r * r, half = 0.5 * z, less = 1.0 - half;
-    const double high = z * (4.16666666666666019037e-02 + z * (-1.38888888888741095749e-03
-        + z * (2.48015872894767294178e-05 + z * (-2.75573143513906633035e-07 + z * (2.08757232129817482790e-09
-        + z * -1.13596475577881948265e-11)))));
-    return less + (1.0 - less - half + (z * high - r * rest));
-}
-
-static inline double sine_of(double x)
-{
-    if (!(fabs(x) < TURN_LIMIT))
-        return sin(x);
-    double r, rest;
-    const int k = quarters(x, &r, &rest);
-    const double found = k & 1 ? cosine_near(r, rest) : sine_near(r, rest);
-    return k & 2 ? -found : found;
-}
-
-static inline double cosine_of(double x)
-{
-    if (!(fabs(x) < TURN_LIMIT))
-        return cos(x);
-    double r, rest;
-    const int k = quarters(x, &r, &rest);
-    const double found = k & 1 ? sine_near(r, rest) : cosine_near(r, rest);
-    return (k + 1) & 2 ? -found : found;
-}
-
 static inline uint64_t bits_of(double x)
 {
     uint64_t bits;
@@ -89,6 +41,26 @@ static inline double of_bits(uint64_t bits)
 #undef PARTS_NAMED
 #undef PARTS_POWER
 #undef PARTS_ENTRY
+
+static inline double sine_of(double x)
+{
+    if (!(fabs(x) < TURN_LIMIT))
+        return sin(x);
+    double r, rest;
+    const uint64_t k = quarters(x, &r, &rest);
+    const double found = k & 1 ? cosine_near(r, rest) : sine_near(r, rest);
+    return k & 2 ? -found : found;
+}
+
+static inline double cosine_of(double x)
+{
+    if (!(fabs(x) < TURN_LIMIT))
+        return cos(x);
+    double r, rest;
+    const uint64_t k = quarters(x, &r, &rest);
+    const double found = k & 1 ? sine_near(r, rest) : cosine_near(r, rest);
+    return (k + 1) & 2 ? -found : found;
+}
 
 static inline int is_normal(double x) { return x >= DBL_MIN && x <= DBL_MAX; }
 

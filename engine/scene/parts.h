@@ -1,4 +1,33 @@
-/* Text of functions: logarithm and exponential in parts (functions.h), of a number or of several side by side. */
+/* Text of functions: sine, logarithm, exponential in parts (functions.h), of a number or of several side by side. */
+/* x = k pi/2 + r + rest: as sines.h does it, with what r is rounded by; the last bits of k. */
+static inline PARTS_BITS PARTS_NAMED(quarters)(PARTS_OF x, PARTS_OF *r, PARTS_OF *rest)
+{
+    const double shift = 6755399441055744.0;
+    const PARTS_OF shifted = x * 0.63661977236758134308 + shift, k = shifted - shift;
+    const PARTS_OF first = x - k * 1.57079632673412561417, part = k * 6.07710050630396597660e-11, second = first - part;
+    const PARTS_OF last = k * 2.02226624879595063154e-21;
+    *r = second - last;
+    *rest = second - *r - last + (first - second - part);
+    return PARTS_NAMED(bits_of)(shifted) & 3;
+}
+
+static inline PARTS_OF PARTS_NAMED(sine_near)(PARTS_OF r, PARTS_OF rest)
+{
+    const PARTS_OF z = r * r, cube = z * r;
+    const PARTS_OF high = 8.33333333332248946124e-03 + z * (-1.98412698298579493134e-04 + z * (2.75573137070700676789e-06
+        + z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
+    return r - (z * (0.5 * rest - cube * high) - rest - cube * -1.66666666666666324348e-01);
+}
+
+static inline PARTS_OF PARTS_NAMED(cosine_near)(PARTS_OF r, PARTS_OF rest)
+{
+    const PARTS_OF z = r * r, half = 0.5 * z, less = 1.0 - half;
+    const PARTS_OF high = z * (4.16666666666666019037e-02 + z * (-1.38888888888741095749e-03
+        + z * (2.48015872894767294178e-05 + z * (-2.75573143513906633035e-07 + z * (2.08757232129817482790e-09
+        + z * -1.13596475577881948265e-11)))));
+    return less + (1.0 - less - half + (z * high - r * rest));
+}
+
 /* x rounded to 26 bits: products of two such numbers are exact, and what is left of 1 - e is as small as e. */
 static inline PARTS_OF PARTS_NAMED(upper_half)(PARTS_OF x)
 {

@@ -78,7 +78,7 @@ def _newton(pins: Sequence[Pin], methods: Methods, render: Render) -> str:
     slopes += map(lanes_printer.kernel, methods.sloping)
     for clearance in (pin.clearance for pin in pins):
         slopes.append(_tangent(clearance, methods.slopes[clearance.name], render))
-    of_state = map(lanes_printer.motion_kernel, (newton.linearize, newton.factor))
+    of_state = map(lanes_printer.watched_kernel, (newton.linearize, newton.factor))
     return "\n".join([*slopes, *of_state, *map(lanes_printer.kernel, (newton.substitute, newton.solve))])
 
 

@@ -178,10 +178,9 @@ def statements(items: Sequence[Statement]) -> str:
 
 def kernel(item: Kernel) -> str:
     """The function for vectors. It returns nothing; lanes that it cannot do are set in `rare`."""
-    grouped = lane_by_lane(item)
     kept = (
         Section(section.title, tuple(x for x in section.statements if not isinstance(x, _LEFT_OUT)))
-        for section in grouped.sections
+        for section in item.sections
     )
     arguments = tuple(Argument(_TYPES.get(a.type, a.type), a.name) for a in item.arguments)
     sections = tuple(section for section in kept if section.statements)
@@ -192,5 +191,10 @@ def kernel(item: Kernel) -> str:
 
 
 def motion_kernel(item: Kernel) -> str:
+    """A kernel whose sines a single run has in vectors too, and which may meet something rare."""
+    return watched_kernel(lane_by_lane(item))
+
+
+def watched_kernel(item: Kernel) -> str:
     """A kernel that may meet something rare."""
     return kernel(replace(item, arguments=(*item.arguments, _RARE)))
