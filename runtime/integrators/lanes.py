@@ -29,7 +29,7 @@ NEW, OVER = 0, 2  # phases of a run
 NOT_CLOSED = -9  # status: the start is left to the search in Python
 NONE = -1  # in place of the number of a run
 ALL_OVER, LISTS = 0, 1  # what a call returns
-LEAST = 2  # runs that are worth a vector
+LEAST, FEW = 2, 16  # runs that are worth a vector: of rk4, of methods that choose their step
 MOST = 8  # lanes that a vector may have
 WORTH = 6.0  # s that a batch may still take, by the pace so far, from which on its library is worth being compiled
 HELD = "held_lanes.c"  # for methods that choose their step
@@ -103,15 +103,15 @@ class Flow:
     """The lanes of a batch by a method that chooses its step, from when on they are worth it."""
 
     def __init__(self, compiled: CompiledModel) -> None:
-        self.compiled, self.count = compiled, MOST
-        self.began, self.lanes = time.perf_counter(), None if WORTH and not _is_compiled(compiled) else Lanes(compiled, True)
-        self._lock = Lock()
+        self.compiled, self.count, self._lock = compiled, MOST, Lock()
+        self.lanes = Lanes(compiled, held=True) if not WORTH or _is_compiled(compiled) else None
+        self.began = time.perf_counter()
 
     def begins(self, runs: Runs) -> Lanes | None:
         """The lanes, if what is left is worth them; one thread compiles, the others go on meanwhile."""
         if self.lanes is None and self._is_worth(runs) and self._lock.acquire(blocking=False):
             try:
-                self.lanes = self.lanes or Lanes(self.compiled, True)
+                self.lanes = self.lanes or Lanes(self.compiled, held=True)
             finally:
                 self._lock.release()
         return self.lanes
@@ -157,5 +157,5 @@ def _fetch(runs: Runs, i: int, memory: NDArray[np.uint8]) -> None:
 
 def wanted(compiled: CompiledModel, method: str, steps: Array) -> bool:
     """Whether a batch has runs that may go side by side."""
-    together = method != "rk4" or bool((steps[1:] == steps[:-1]).any())
-    return together and bool(compiled.source.lanes) and len(steps) >= LEAST
+    together = bool((steps[1:] == steps[:-1]).any()) if method == "rk4" else len(steps) >= FEW
+    return together and bool(compiled.source.lanes)

@@ -151,8 +151,8 @@ class LaneLines(functions.Lines):
             case RunNumbers():
                 return ["const LaneParameters *const p = lin->p;"]
             case Sides():
-                held = "held_sides(memory)" if item.held else "NULL"
-                told = {"": [], "nobody": ["Lanes g[N_SWITCHES + 1];"], "aside": ["Lanes *const g = told_sides(aside);"]}
+                held, own = "held_sides(memory)" if item.held else "NULL", "Lanes g[N_SWITCHES + 1];"
+                told = {"": [], "nobody": [own], "aside": ["Lanes *const g = told_sides(aside);"]}
                 return [f"const Lanes *const side = {held};", *told[item.told]]
             case Largest():
                 name = f"*{item.target}"
