@@ -197,7 +197,7 @@ static int enter(Flow *flow, int k)
         b->status[i] = flow->one->begin(b, i, flow->run[k]);
         b->phase[i] = b->status[i] ? OVER : BEGUN;
     }
-    return leaves(flow, k, b->phase[i] == OVER ? RUN_OVER : flow->one->goes_on(b, i, AT_REST, flow->run[k]));
+    return leaves(flow, k, b->phase[i] == OVER ? RUN_OVER : flow->one->goes_on(b, i, NOT_YET, flow->run[k]));
 }
 
 static int count_of(const Flow *flow)

@@ -222,7 +222,7 @@ static int next_single(const Batch *b, long i, int tried, void *memory)
     const Parameters *p = (const Parameters *)(b->p_motion + i * b->numbers);
     const Samples out = samples_of(b, i);
     int status = 0;
-    if (tried != AT_REST) {
+    if (tried != NOT_YET) {
         run->step.method = run->method;
         if (!is_settled(run, tried == TRIED ? 0 : try_step(run, p, &run->step), p, &run->step, &status))
             return GOES_ON;

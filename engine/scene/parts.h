@@ -14,8 +14,8 @@ static inline PARTS_BITS PARTS_NAMED(quarters)(PARTS_OF x, PARTS_OF *r, PARTS_OF
 static inline PARTS_OF PARTS_NAMED(sine_near)(PARTS_OF r, PARTS_OF rest)
 {
     const PARTS_OF z = r * r, cube = z * r;
-    const PARTS_OF high = 8.33333333332248946124e-03 + z * (-1.98412698298579493134e-04 + z * (2.75573137070700676789e-06
-        + z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
+    const PARTS_OF high = 8.33333333332248946124e-03 + z * (-1.98412698298579493134e-04
+        + z * (2.75573137070700676789e-06 + z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
     return r - (z * (0.5 * rest - cube * high) - rest - cube * -1.66666666666666324348e-01);
 }
 
@@ -44,7 +44,8 @@ static inline PARTS_OF PARTS_NAMED(log_in_parts)(PARTS_OF x, PARTS_OF *rest)
     const PARTS_OF r_high = z_high * c - 1.0, r_low = (z - z_high) * c, r = r_high + r_low;
     const PARTS_OF r_rest = r_high - r + r_low;
     const PARTS_OF sum = k * 0x1.62e42fefa38p-1 + less, near = sum + r;
-    const PARTS_OF r_top = PARTS_NAMED(upper_half)(r_high), r_bottom = r_high - r_top + r_low; /* the square of the first is exact */
+    const PARTS_OF r_top = PARTS_NAMED(upper_half)(r_high); /* its square is exact */
+    const PARTS_OF r_bottom = r_high - r_top + r_low;
     const PARTS_OF half = -0.5 * r, square = r * half, half_top = -0.5 * r_top, square_top = r_top * half_top;
     const PARTS_OF high = near + square_top;
     const PARTS_OF series = r * square * (-2.0 / 3.0 + r * 0.5
