@@ -1,4 +1,4 @@
-"""Runs by methods that choose their step, side by side: bit for bit what each is alone, whatever others do meanwhile."""
+"""Runs by methods that choose their step, side by side: each bit for bit as alone, whatever others do meanwhile."""
 
 from __future__ import annotations
 
