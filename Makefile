@@ -5,7 +5,7 @@ ARGS ?=
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help run study study-jansen checks test test-all lint types fuzz bench race map stress peers generated tables setup setup-test clean
+.PHONY: help run study study-jansen checks test test-all lint types fuzz bench race map stress peers generated deviations tables setup setup-test clean
 .NOTPARALLEL:
 
 help:  ## this list
@@ -68,6 +68,9 @@ peers: setup  ## scikit-sundae, for the methods sundials:*; the next `bench` inc
 generated: setup  ## derive and write generated/ anew for every shipped mechanism
 	@.venv/bin/python tools/regenerate.py
 	@sh tools/setup all
+
+deviations: setup  ## docs/film_deviation.png and its table, each film law beside the solver of Reynolds' equation
+	@.venv/bin/python tools/deviations.py
 
 tables: setup  ## the tables of docs/format.md, from the declarations of the fields
 	@.venv/bin/python tools/tables.py

@@ -35,6 +35,7 @@ from gudgeon.commands.options import (
     Pages,
     Peaks,
     Picture,
+    Plot,
     Quick,
     Range,
     Report,
@@ -153,14 +154,16 @@ def equations(file: File, target: Pages, scene: ScenesOfPages = None, laws: Laws
 
 @app.command("laws")
 @told
-def force_laws(name: LawName = None, json: Json = False, laws: Laws = None) -> int:
-    """List the laws of contact, friction and film; of one its equations, keys, validity and reference.
+def force_laws(
+    name: LawName = None, plot: Plot = None, set_: Set = None, json: Json = False, laws: Laws = None
+) -> int:  # fmt: skip
+    """List the laws of contact, friction and film; of one its equations, keys, validity and reference, or its plot.
 
-    Example: gudgeon laws flores
+    Example: gudgeon laws flores --plot flores.svg --set restitution=.5
     """
-    from gudgeon.commands.laws import show_laws
+    from gudgeon.commands.laws import Asked, show_laws
 
-    return show_laws(name, json)
+    return show_laws(Asked(name, json, plot, tuple(set_ or ())))
 
 
 @app.command()

@@ -20,6 +20,9 @@ static inline long rows_of(const Batch *b, long i) { return b->place[i] * b->sam
 /* A joint's latch (closed: 0 or 1), the sides of events: what the kernels and rk4 remember. */
 typedef struct {
     double closed, deltadot_minus;
+#if LAW_STATES
+    double state[LAW_STATES];
+#endif
 } MovingLatch;
 
 /* What is carried from one step of rk4 to the next, of one run; of several side by side: LaneRun of lanes.h. */

@@ -75,6 +75,10 @@ static void scatter_aside(const LaneAside *x, int k, Aside *aside)
             .F_t = from->F_t[k], .ex = from->ex[k], .ey = from->ey[k], .e = from->e[k],
             .deltadot = from->deltadot[k], .v_t = from->v_t[k], .moment_first = from->moment_first[k],
             .moment_second = from->moment_second[k], .delta = from->delta[k], .power = from->power[k]};
+#if LAW_STATES
+        for (int j = 0; j < LAW_STATES; j++)
+            aside->clearance[i].state_rate[j] = from->state_rate[j][k];
+#endif
     }
     for (int i = 0; i < N_SWITCHES; i++)
         aside->g[i] = x->g[i][k];

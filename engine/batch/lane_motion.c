@@ -22,12 +22,17 @@ static LaneBits not_finite(const Lanes *a, const Lanes *b, int n)
     return ~(lanes_fabs(sum) <= DBL_MAX);
 }
 
+#include "../both/states.h"
+
 static int rates(LaneRun *run, Lanes t, const Lanes *y, const LaneParameters *p, Lanes *dy, LaneAside *aside)
 {
 #if !HELD
     run->evaluations += 1.0;
 #endif
-    return motion(t, y, &run->memory, p, dy, aside);
+    show_states(run, y);
+    motion(t, y, &run->memory, p, dy, aside);
+    rates_of_states(aside, dy);
+    return 0;
 }
 
 static LaneBits can_close(LaneRun *run, LaneBits open, Lanes t, const Lanes *y, const LaneParameters *p, Lanes *dq,

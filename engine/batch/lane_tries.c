@@ -76,6 +76,7 @@ static int finish_step(LaneRun *run, LaneStep *step, const LaneParameters *p)
 /* As make_linear of rodas5p.c. */
 static int make_linear(LaneRun *run, Lanes hg, const LaneParameters *p)
 {
+    show_states(run, run->y);
     linearize(run->t, run->y, run->y + N_X, &run->memory, p, run->dy + N_X, &run->aside, &run->linear,
         &run->memory.rare);
     newton_factor(hg, &run->linear, &run->memory.rare);

@@ -103,6 +103,9 @@ static inline Lanes real_sqrt(Lanes x) { return lanes_sqrt(x); }
 /* As Latch, Memory, PinForce, Clearance, Aside, Linear of a single run. */
 typedef struct {
     Lanes closed, deltadot_minus;
+#if LAW_STATES
+    Lanes state[LAW_STATES];
+#endif
 } LaneLatch;
 
 typedef struct {
@@ -116,12 +119,18 @@ typedef struct {
 
 typedef struct {
     Lanes n, t, M_i, M_j, v_t;
+#if LAW_STATES
+    Lanes state_rate[LAW_STATES];
+#endif
 } LanePinForce;
 
 typedef struct {
     Lanes Fx, Fy, F_n, F_t, e, deltadot, delta, moment_first, moment_second, power;
 #if HELD
     Lanes ex, ey, v_t;
+#endif
+#if LAW_STATES
+    Lanes state_rate[LAW_STATES];
 #endif
 } LaneClearance;
 

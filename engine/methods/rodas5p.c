@@ -7,6 +7,7 @@
 static int make_linear(Run *run, double hg, const Parameters *p)
 {
     if (run->linear_ready != HERE) {
+        show_states(run, run->y);
         const int lost = linearize_state(run->t, run->y, &run->memory, p, run->dy + N_X, &run->aside, &run->linear);
         if (lost)
             return lost;

@@ -4,32 +4,17 @@
 #include "run.h"
 #include "../both/one.h"
 
-/* Where the inner states of a law are in what is integrated. */
-enum { FIRST_STATE = 2 * N_X + N_WORK };
-
-#if LAW_STATES
-/* Laws read their states where they read the latch; what they say of their rates follows the works. */
-static int motion_with_states(Run *run, double t, const double *y, const Parameters *p, double *dy, Aside *aside)
-{
-    for (int k = 0; k < N_STATES; k++)
-        run->memory.latch[k / LAW_STATES].state[k % LAW_STATES] = y[FIRST_STATE + k];
-    const int status = motion(t, y, &run->memory, p, dy, aside);
-    for (int k = 0; k < N_STATES; k++)
-        dy[FIRST_STATE + k] = aside->clearance[k / LAW_STATES].state_rate[k % LAW_STATES];
-    return status;
-}
-#endif
+#include "../both/states.h"
 
 static int rates(Run *run, double t, const double *y, const Parameters *p, double *dy, Aside *aside)
 {
     run->evaluations++;
     if (given_up(&run->asked))
         return STOPPED;
-#if LAW_STATES
-    return motion_with_states(run, t, y, p, dy, aside);
-#else
-    return motion(t, y, &run->memory, p, dy, aside);
-#endif
+    show_states(run, y);
+    const int status = motion(t, y, &run->memory, p, dy, aside);
+    rates_of_states(aside, dy);
+    return status;
 }
 
 #include "../both/watch.h"

@@ -1,13 +1,13 @@
 /*
- * x = -column of R1_q, R1_v, R2_q, R2_v (columns 0 ... 2 N_X - 1) or of R1_t, R2_t (2 N_X); 0 if all
- * are zero.
+ * x = -column of the residuals R by what is integrated (columns 0 ... N_Y - 1) or by t (N_Y); 0 if all are zero, as by
+ * the works, on which nothing depends.
  */
 static int residual_column(const Linear *lin, int column, const double *gain, double stick, double *x)
 {
     int found = 0;
     for (int i = 0; i < N_NODES; i++)
         x[i] = 0.0;
-    for (int i = 0; i < N_RESIDUAL && column < 2 * N_X; i++) {
+    for (int i = 0; i < N_RESIDUAL && column < N_Y; i++) {
         const LinearEntry *at = &residual_entries[i];
         if (at->column == column) {
             x[at->row] -= at->sign * lin->value[at->value];
@@ -22,14 +22,17 @@ static int residual_column(const Linear *lin, int column, const double *gain, do
             found = 1;
         }
     }
-    for (int i = 0; i < N_RESIDUAL_T && column == 2 * N_X; i++) {
+    for (int i = 0; i < N_RESIDUAL_T && column == N_Y; i++) {
         x[residual_t_entries[i].row] -= residual_t_entries[i].sign * lin->value[residual_t_entries[i].value];
         found = 1;
     }
     return found;
 }
 
-/* The column of the Jacobian that follows from x, the change of accelerations and multipliers; `out` has a stride. */
+/*
+ * The column of the Jacobian that follows from x, the change of accelerations, multipliers and rates of inner states;
+ * `out` has a stride.
+ */
 static void jacobian_column(const Linear *lin, int column, const double *x, double *out, long stride)
 {
     for (int k = 0; k < N_X; k++) {
@@ -38,6 +41,8 @@ static void jacobian_column(const Linear *lin, int column, const double *x, doub
     }
     for (int w = 0; w < N_WORK; w++)
         out[(2 * N_X + w) * stride] = 0.0;
+    for (int k = 0; k < N_STATES; k++)
+        out[(FIRST_STATE + k) * stride] = x[N_NODES - N_STATES + k];
     for (int i = 0; i < N_POWER_ROW; i++) {
         const LinearEntry *at = &power_row_entries[i];
         out[(2 * N_X + at->row) * stride] += at->sign * lin->value[at->value] * x[at->column];
@@ -47,7 +52,7 @@ static void jacobian_column(const Linear *lin, int column, const double *x, doub
         if (at->column == column)
             out[(2 * N_X + at->row) * stride] += at->sign * lin->value[at->value];
     }
-    for (int i = 0; i < N_POWER_T && column == 2 * N_X; i++) {
+    for (int i = 0; i < N_POWER_T && column == N_Y; i++) {
         const LinearEntry *at = &power_t_entries[i];
         out[(2 * N_X + at->row) * stride] += at->sign * lin->value[at->value];
     }
@@ -61,7 +66,7 @@ static int linearized(double t, const double *y, const double *memory, const Par
     double dy[N_Y];
     read_memory(memory, &now);
 #if N_CHAIN
-    seat_chains(t, y + N_Y, &now, p); /* what lies behind the state is where to look for them */
+    seat_chains(t, y + FIRST_STATE, &now, p); /* what lies behind the works is where to look for them */
 #endif
     int status = motion(t, y, &now, p, dy, &aside);
     if (!status)
@@ -71,7 +76,7 @@ static int linearized(double t, const double *y, const double *memory, const Par
 
 /*
  * J = df/dy, row by row (N_Y x N_Y), and f_t of the state equation: a linear solve a column, with the factors of the
- * KKT matrix. Contacts, corners and modes of friction stay as they are.
+ * KKT matrix. Contacts, corners and modes of friction stay as they are. Inner states are read from `memory` alone.
  */
 int gudgeon_jacobian(double t, const double *y, const double *memory, const double *p, double *J, double *f_t)
 {
@@ -80,15 +85,12 @@ int gudgeon_jacobian(double t, const double *y, const double *memory, const doub
     const int status = linearized(t, y, memory, (const Parameters *)p, 0.0, &lin);
     if (status)
         return status;
-    for (int column = 0; column <= 2 * N_X; column++) {
+    for (int column = 0; column <= N_Y; column++) {
         double x[N_NODES];
         if (residual_column(&lin, column, gain, stick_gain((const Parameters *)p), x))
             newton_substitute(&lin, x);
-        jacobian_column(&lin, column, x, column < 2 * N_X ? J + column : f_t, column < 2 * N_X ? N_Y : 1);
+        jacobian_column(&lin, column, x, column < N_Y ? J + column : f_t, column < N_Y ? N_Y : 1);
     }
-    for (int k = 0; k < N_Y; k++) /* nothing depends on the works */
-        for (int w = 0; w < N_WORK; w++)
-            J[k * N_Y + 2 * N_X + w] = 0.0;
     return 0;
 }
 

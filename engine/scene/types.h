@@ -16,7 +16,8 @@ enum {
     N_MEMORY = N_CLEARANCES + N_FRICTIONS + N_STATES,
     N_WORK = 3,                        /* work of drives, of force elements, of clearance forces */
     N_S = 2 * N_Q + N_WORK,            /* state of all bodies: q, v, works */
-    N_Y = 2 * N_X + N_WORK + N_STATES  /* state that is integrated */
+    N_Y = 2 * N_X + N_WORK + N_STATES, /* state that is integrated */
+    FIRST_STATE = 2 * N_X + N_WORK     /* where inner states are in it */
 };
 
 /* Statuses of a run that is no longer wanted, or no longer advances, ...; positive ones are pivots, 0 is well. */

@@ -30,7 +30,7 @@ def scene_notes(model: Model) -> tuple[str, ...]:
     elif not any(c.film for c in model.clearances):
         notes.append("no film: dry contact only")
     if states := [f"{c.name}.{state.name}" for c in model.clearances for state in c.states]:
-        notes.append(f"inner states of laws, {', '.join(states)}: no slope is taken by them, so no rodas5p, no peers")
+        notes.append(f"inner states of laws, {', '.join(states)}: integrated with the motion, which peers do not do")
     if all(component == 0 for component in model.gravity):
         notes.append("no gravity: no weight terms")
     jumps = jumping_drives(model)

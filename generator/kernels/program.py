@@ -154,9 +154,8 @@ class Program:
 
     @property
     def has_lanes(self) -> bool:
-        """Whether runs go side by side: where friction may stick, rows come and go by run; nor with inner states."""
-        alone = self.model.frictions or self.model.law_states
-        return self.methods is not None and self.tree is not None and not (self.tree.chains or alone)
+        """Whether runs go side by side: where friction may stick, rows come and go by run."""
+        return self.methods is not None and self.tree is not None and not (self.tree.chains or self.model.frictions)
 
 
 def make_program(model: Model, formulation: str = "reduced") -> Program:

@@ -1,7 +1,7 @@
 """How the force of a joint with play changes: the steps of contact.py and the laws, differentiated forward.
 
-Slopes are those of (F along n, F along t, M_i, M_j) by (e, δ̇, ė_t, ω_i, ω_j); templates/c/play/tangent.c.jinja turns
-them into ground axes.
+Slopes are those of (F along n, F along t, M_i, M_j) by (e, δ̇, ė_t, ω_i, ω_j), of laws with inner states also those of
+their rates and by the states; templates/c/play/tangent.c.jinja turns them into ground axes.
 """
 
 from __future__ import annotations
@@ -41,8 +41,12 @@ class _Slopes:
         self.build = KernelBuilder(model.symbols, f"{part}_slopes_{clearance.name}", [
             f"{part.capitalize()}: F along n and t, M_i, M_j, and their derivatives by e, deltadot, de_t, omega_i,",
             "omega_j (forward differentiation of the same steps).",
+            *["Behind them the rates of inner states, and derivatives by these."] * bool(model.law_states),
         ])  # fmt: skip
-        self.tangents = Tangents(model.symbols, self.build, INPUTS, clearance.name, share_powers=True)
+        self.states = tuple(sp.Symbol(f"state_{k}", real=True) for k in range(model.law_states))
+        self.tangents = Tangents(
+            model.symbols, self.build, (*INPUTS, *self.states), clearance.name, share_powers=True
+        )  # fmt: skip
 
     def section(self, title: str) -> None:
         self.build.section(title)
@@ -68,12 +72,12 @@ class _Slopes:
         return results
 
     def finish(self, values: Sequence[sp.Expr]) -> Kernel:
-        """Writes (F along n, F along t, M_i, M_j) and their slopes."""
+        """Writes (F along n, F along t, M_i, M_j) and their slopes, then rates of inner states; 0 where it has none."""
         self.section("results")
-        for row, value in enumerate(values):
+        for row, value in enumerate([*values, *[ZERO] * (4 + len(self.states) - len(values))]):
             self.build.out(f"out->value[{row}]", value)
             slopes: Tangent = self.tangents.gradient(value)
-            for column, base in enumerate(INPUTS):
+            for column, base in enumerate((*INPUTS, *self.states)):
                 self.build.out(f"out->slope[{row}][{column}]", slopes.get(base, ZERO))
         return self.build.build(_ARGUMENTS, inline=True, prune=True)
 
@@ -113,14 +117,17 @@ def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kern
     further = [sp.Symbol(name, real=True) for name in normal.further]  # inputs of this function as well
     F_n = slopes.law(normal, (DEPTH, contact.ratio, *further))["F_n"]
     tangential = contact.of_part(contact.F_along_t, "dry")
+    rubbed: dict[str, sp.Symbol] = {}
     if clearance.friction is not None:
-        states = [sp.Symbol(f"latch->state[{k}]", real=True) for k in range(len(clearance.states))]  # as they are
-        force = slopes.law(clearance.friction, (F_n, contact.v_t, *states))["F_t"]
-    slopes.step(Step(tangential, ZERO if clearance.friction is None else force))
+        own = [build.local("bent", sp.Symbol(f"latch->state[{k}]", real=True)) for k in range(len(clearance.states))]
+        for state, base in zip(own, slopes.states, strict=False):
+            tangents.know(state, {base: sp.Integer(1)})
+        rubbed = slopes.law(clearance.friction, (F_n, contact.v_t, *own))
+    slopes.step(Step(tangential, rubbed.pop("F_t", ZERO)))
     moments = contact.after_dry()
     for step in moments:
         slopes.step(step)
-    return slopes.finish([-F_n, tangential, *(step.symbol for step in moments)])
+    return slopes.finish([-F_n, tangential, *(step.symbol for step in moments), *rubbed.values()])
 
 
 def unlatched(step: Step) -> Step:

@@ -9,7 +9,8 @@ and are held, this collects the structural non-zeros of R1_q, R1_v, R1_t, R2_t a
     R2_v = 2α Φ_q + V,    R2_q = β² Φ_q + Q
 
 where Φ_q itself is taken out. Friction that may stick is a row as well, v = J q̇ − speed = 0 with β = 0; its
-multiplier is zero while it slips. Powers P are those of the works that are integrated with the motion.
+multiplier is zero while it slips. Powers P are those of the works that are integrated with the motion. An inner
+state z of a law is R3 = ż − Z = 0; forces, powers and Z have slopes by it (R1_z, P_z, R3_z).
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ from gudgeon.generator.solvers.kkt import friction_mode
 from gudgeon.generator.symbols.symbols import Symbols
 
 ZERO = sp.Integer(0)
-Pair = tuple[int, int]  # node (coordinates, then rows, then frictions), column (coordinate)
+Pair = tuple[int, int]  # node (coordinates, then rows, frictions, inner states), column (coordinate or state)
 N_WORK = 3
 
 
@@ -45,9 +46,11 @@ class Parts:
     phi_q: dict[Pair, sp.Expr] = field(default_factory=dict)
     by_q: dict[Pair, sp.Expr] = field(default_factory=dict)  # R1_q, Q
     by_v: dict[Pair, sp.Expr] = field(default_factory=dict)  # R1_v, V
+    by_z: dict[Pair, sp.Expr] = field(default_factory=dict)  # R1_z, R3_z
     by_t: dict[int, sp.Expr] = field(default_factory=dict)
     power_q: dict[Pair, sp.Expr] = field(default_factory=dict)
     power_v: dict[Pair, sp.Expr] = field(default_factory=dict)
+    power_z: dict[Pair, sp.Expr] = field(default_factory=dict)
     power_row: dict[Pair, sp.Expr] = field(default_factory=dict)
     power_t: dict[int, sp.Expr] = field(default_factory=dict)
 
@@ -61,7 +64,12 @@ class Linearization:
         self.n, self.m = len(system.q), len(system.rows)
         self.t = system.model.t
         self.q, self.v = ({s: k for k, s in enumerate(group)} for group in (system.q, system.v))
-        self.tangents = Tangents(self.symbols, build, (*system.q, *system.v, self.t))
+        self.states = self.model.law_states  # of each joint with play, as in C
+        self.z = {
+            self._held(f"{c.name}_{state.name}", f"memory->latch[{i}].state[{k}]"): i * self.states + k
+            for i, c in enumerate(self.model.clearances) for k, state in enumerate(c.states)
+        }  # fmt: skip
+        self.tangents = Tangents(self.symbols, build, (*system.q, *system.v, *self.z, self.t))
         for known in system.known:  # functions of t
             for symbol, rate in ((known.q, known.rate), (known.rate, known.second), (known.second, known.third)):
                 self.tangents.know(symbol, {self.t: rate})
@@ -71,6 +79,7 @@ class Linearization:
             self._held(f"held_lambda_{row.name}", f"aside->lambda[{r}]") for r, row in enumerate(system.rows)
         ]
         self.sticks: list[sp.Symbol] = []  # 1 in stick, 0 in slip
+        self.rates: list[sp.Expr] = []  # of the inner states
         self.powers: list[sp.Expr] = [ZERO] * N_WORK
 
     def derive(self) -> Parts:
@@ -88,6 +97,8 @@ class Linearization:
         self._rows()
         self._frictions(residual)
         self._coordinates(residual)
+        for place, rate in zip(self.z.values(), self.rates, strict=True):
+            self._split(self.n + self.m + len(self.system.frictions) + place, -rate, 1)
         self._power_parts()
         return self.parts
 
@@ -102,20 +113,24 @@ class Linearization:
         edot = [build.local(f"edot_{name}_{c}", x) for c, x in zip("xy", clearance.eccentricity_rate, strict=True)]
         given = (*clearance.eccentricity, *clearance.eccentricity_rate, clearance.first.omega, clearance.second.omega)
         slopes = self.symbols.unique(f"change_{name}")
-        build.line(Declare("double", slopes, (4, 6)))
+        build.line(Declare("double", slopes, (4 + self.states, 6 + self.states)))
         build.line(Call(f"tangent_{name}", (*e, *edot, *given[4:], *acting_on(index)), (Place(slopes),)))
-        inner = [self.tangents.gradient(x) for x in given]
+        own = [state for state, place in self.z.items() if place // self.states == index] if self.states else []
+        inner = [self.tangents.gradient(x) for x in (*given, *own)]
+        by_what = (*_BY, *(state.name for state in own))
         values = []
-        for i, what in enumerate(("Fx", "Fy", "moment_first", "moment_second")):
+        results = ["Fx", "Fy", "moment_first", "moment_second", *(f"state_rate[{k}]" for k in range(len(own)))]
+        for i, what in enumerate(results):
             symbol = self._held(f"{name}_{what}", f"{out}.{what}")
-            places = {k: Place(f"{slopes}[{i}][{j}]") for j, k in enumerate(_BY) if inner[j]}
-            by = [build.local(f"{name}_{what}_by_{k}", place) for k, place in places.items()]
+            places = {k: Place(f"{slopes}[{i}][{j}]") for j, k in enumerate(by_what) if inner[j]}
+            by = [build.local(f"{symbol.name}_by_{k}", place) for k, place in places.items()]
             known = iter(by)
             pairs = {next(known): tangent for tangent in inner if tangent}
             self.tangents.know(symbol, self.tangents.sum(pairs.items()))
             values.append(symbol)
+        self.rates += values[4:]
         moments = [x if end.body is not None else ZERO for x, end in zip(
-            values[2:], (clearance.first, clearance.second), strict=True)]  # fmt: skip
+            values[2:4], (clearance.first, clearance.second), strict=True)]  # fmt: skip
         self.powers[2] += clearance.power(values[:2], clearance.eccentricity_rate, moments)
         return clearance.on_points(values[:2], moments)
 
@@ -150,7 +165,7 @@ class Linearization:
     def _split(self, node: int, value: sp.Expr, sign: int, v_only: bool = False) -> None:
         """Derivatives of one residual into the parts."""
         tangent = self.tangents.gradient(value)
-        for part, place in ((self.parts.by_v, self.v), (self.parts.by_q, self.q)):
+        for part, place in ((self.parts.by_v, self.v), (self.parts.by_q, self.q), (self.parts.by_z, self.z)):
             if place is self.v or not v_only:
                 part |= {(node, k): sign * x for k, x in self._of(tangent, place).items()}
         if not v_only and self.t in tangent:
@@ -214,6 +229,7 @@ class Linearization:
             tangent = self.tangents.gradient(power)
             self.parts.power_q |= {(w, k): value for k, value in self._of(tangent, self.q).items()}
             self.parts.power_v |= {(w, k): value for k, value in self._of(tangent, self.v).items()}
+            self.parts.power_z |= {(w, k): value for k, value in self._of(tangent, self.z).items()}
             if self.t in tangent:
                 self.parts.power_t[w] = tangent[self.t]
         for r, row in enumerate(self.system.rows):

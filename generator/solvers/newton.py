@@ -1,16 +1,20 @@
 """Newton's matrix of the equations of motion, and the solution of (I/η − J) u = r + s f_t, as kernels.
 
-J is the Jacobian of y' = f(t, y) with y = (q, v, works) and η = h γ of the method. Eliminating u_q = η (r_q + u_v)
-leaves, with the parts of linearization.py and κ = 1 + 2αη + β²η² (1 + 2αη for a stick),
+J is the Jacobian of y' = f(t, y) with y = (q, v, works, inner states z) and η = h γ of the method. Eliminating
+u_q = η (r_q + u_v) leaves, with the parts of linearization.py and κ = 1 + 2αη + β²η² (1 + 2αη for a stick),
 
     [M + η R1_v + η² R1_q   Φ_qᵀ] [u_v ]   [ η (M r_v − η R1_q r_q − s R1_t)                         ]
     [Φ_q + η/κ (V + η Q)    0   ] [η μ ] = [ η/κ (Φ_q (r_v − η β² r_q) − η Q r_q − s R2_t)           ]
 
-    u_w = η (r_w + P_q u_q + P_v u_v + P_λ μ + s P_t),   μ the multipliers' own change.
+    u_w = η (r_w + P_q u_q + P_v u_v + P_z u_z + P_λ μ + s P_t),   μ the multipliers' own change.
 
-At η = 0 the matrix is the KKT matrix. It is factorized as L U without pivoting in an order chosen on its
-symmetric pattern, a row only after the coordinates in it. E. Hairer, G. Wanner, Solving Ordinary Differential
-Equations II, Springer (1996), IV.8 and VII.
+Where laws have inner states, u_z is unknown as well: the first rows have η R1_z u_z beside what is above, and
+
+    (1 + η R3_z) u_z + η (R3_v + η R3_q) u_v = η (r_z − η R3_q r_q − s R3_t).
+
+At η = 0 the matrix is the KKT matrix, with 1 in the rows of z. It is factorized as L U without pivoting in an order
+chosen on its symmetric pattern, inner states first, a row only after the coordinates in it. E. Hairer, G. Wanner,
+Solving Ordinary Differential Equations II, Springer (1996), IV.8 and VII.
 """
 
 from __future__ import annotations
@@ -25,16 +29,15 @@ from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.differentiation import Tangents
 from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, Section, with_sides
 from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE
-from gudgeon.generator.ir.statements import Call, Declare, Guard, Return, RunNumbers, Statement
+from gudgeon.generator.ir.statements import Call, Declare, Return, RunNumbers, Statement
 from gudgeon.generator.ir.stored_values import Pool
-from gudgeon.generator.ir.values import Chosen, Place, Test
-from gudgeon.generator.solvers.kkt import SINGULAR, is_simple
+from gudgeon.generator.ir.values import Place
+from gudgeon.generator.solvers.factors import ETA, ETA_ROW, ETA_STICK, Factors
+from gudgeon.generator.solvers.kkt import is_simple
 from gudgeon.generator.solvers.linearization import N_WORK, Linearization, Pair, Parts
 from gudgeon.generator.sparsity.elimination import choose_elimination
-from gudgeon.generator.symbols.corners import Size
 
 ZERO = sp.Integer(0)
-ETA, ETA_ROW, ETA_STICK = (sp.Symbol(name, real=True) for name in ("eta", "eta_row", "eta_stick"))
 
 
 class Newton:
@@ -43,9 +46,11 @@ class Newton:
     def __init__(self, system: System) -> None:
         self.system, self.model = system, system.model
         self.n, self.m = len(system.q), len(system.rows)
-        self.nodes = self.n + self.m + len(system.frictions)
+        self.first_state = self.n + self.m + len(system.frictions)
+        states = [f"{c.name}.{k}" for c in self.model.clearances for k in range(self.model.law_states)]
+        self.nodes = self.first_state + len(states)
         named = [row.name for row in system.rows] + [friction.name for friction in system.frictions]
-        self.names = [q.name for q in system.q] + [name.replace(".", "_") for name in named]
+        self.names = [q.name for q in system.q] + [name.replace(".", "_") for name in named + states]
         self.values = Pool(system.model.symbols, "lin->value")
         self.factors = Pool(system.model.symbols, "lin->lu")
         self.lin = Argument("const Linear *", "lin")
@@ -82,31 +87,35 @@ class Newton:
         def keep(value: sp.Expr, name: str) -> sp.Expr:
             return self.values.keep(build, tangents.shared(value), name)
 
-        def pooled(what: str, part: Mapping[Pair, sp.Expr], rows: Sequence[str]) -> dict[Pair, sp.Expr]:
-            return {(i, j): keep(value, f"{what}_{rows[i]}_{self.names[j]}") for (i, j), value in part.items()}
+        def pooled(
+            what: str, part: Mapping[Pair, sp.Expr], rows: Sequence[str], columns: Sequence[str] = self.names
+        ) -> dict[Pair, sp.Expr]:
+            return {(i, j): keep(value, f"{what}_{rows[i]}_{columns[j]}") for (i, j), value in part.items()}
 
+        states = self.names[self.first_state :]
         works = [str(w) for w in range(N_WORK)]
         return Parts(
             pooled("mass", parts.mass, self.names), pooled("phi", parts.phi_q, self.names),
             pooled("by_q", parts.by_q, self.names), pooled("by_v", parts.by_v, self.names),
+            pooled("by_z", parts.by_z, self.names, states),
             {k: keep(x, f"by_t_{self.names[k]}") for k, x in parts.by_t.items()},
             pooled("power_q", parts.power_q, works), pooled("power_v", parts.power_v, works),
-            pooled("power", parts.power_row, works),
+            pooled("power_z", parts.power_z, works, states), pooled("power", parts.power_row, works),
             {w: keep(x, f"power_t_{w}") for w, x in parts.power_t.items()},
         )  # fmt: skip
 
     def _tables(self, build: KernelBuilder) -> dict[str, list[tuple[int, int, int, int]]]:
-        """Where each part is in `lin->value`: (row, column, index, sign); columns of q, then of v."""
-        parts, n = self.parts, self.n
+        """Where each part is in `lin->value`: (row, column, index, sign); columns are those of y."""
+        parts, n, z = self.parts, self.n, 2 * self.n + N_WORK
 
         def table(part: Mapping[Pair, sp.Expr], first: int = 0) -> list[tuple[int, int, int, int]]:
             return [(i, first + k, *self.values.place(build, value)) for (i, k), value in part.items()]
 
         return {
             "phi_q": table(parts.phi_q),
-            "residual": table(parts.by_q) + table(parts.by_v, n),
+            "residual": table(parts.by_q) + table(parts.by_v, n) + table(parts.by_z, z),
             "residual_t": table({(node, 0): value for node, value in parts.by_t.items()}),
-            "power": table(parts.power_q) + table(parts.power_v, n),
+            "power": table(parts.power_q) + table(parts.power_v, n) + table(parts.power_z, z),
             "power_row": table(parts.power_row),
             "power_t": table({(w, 0): value for w, value in parts.power_t.items()}),
         }
@@ -115,20 +124,27 @@ class Newton:
         """The matrix, by (row, column); both triangles."""
         parts = self.parts
         self._scales(build, {self._scale(node) for node, _ in {**parts.by_v, **parts.by_q}})
+        first = self.first_state
         build.section("matrix")
         entries: dict[Pair, sp.Expr] = dict(parts.mass)
         for node, k in sorted({*parts.by_v, *parts.by_q, *parts.phi_q}):
             place = node, k
             change = parts.by_v.get(place, ZERO) + ETA * parts.by_q.get(place, ZERO)
             value = parts.mass.get(place, ZERO) if node < self.n else parts.phi_q.get(place, ZERO)
-            value += self._scale(node) * change
-            name = f"n_{self.names[node]}__{self.names[k]}"
-            entries[place] = value if is_simple(value) else build.local(name, value)
+            entries[place] = self._entry(build, place, value + self._scale(node) * change)
+        entries |= {(k, k): sp.Integer(1) for k in range(first, self.nodes)}
+        for (node, state), by in parts.by_z.items():
+            place = node, first + state
+            entries[place] = self._entry(build, place, sp.Integer(node == place[1]) + ETA * by)
         return entries | {(k, node): value for (node, k), value in parts.phi_q.items()}
+
+    def _entry(self, build: KernelBuilder, place: Pair, value: sp.Expr) -> sp.Expr:
+        name = f"n_{self.names[place[0]]}__{self.names[place[1]]}"
+        return value if is_simple(value) else build.local(name, value)
 
     def _scale(self, node: int) -> sp.Symbol:
         """What a row's change is multiplied by."""
-        if node < self.n:
+        if node < self.n or node >= self.first_state:
             return ETA
         return ETA_ROW if node < self.n + self.m else ETA_STICK
 
@@ -145,16 +161,18 @@ class Newton:
 
     def _factor(self) -> Kernel:
         """L U of the matrix, L with unit diagonal; what is neither number nor known is stored in `lin->lu`."""
+        states = range(self.first_state, self.nodes)
+        more = ", inner states" if states else ""
         build = self._builder("newton_factor", [
             "L U of Newton's matrix at eta = h gamma (0: the KKT matrix), L with unit diagonal. Returns 0, or the",
-            "number of the node (coordinates, rows, sticks; from 1) whose pivot vanished or is not finite.",
+            f"number of the node (coordinates, rows, sticks{more}; from 1) whose pivot vanished or is not finite.",
         ])  # fmt: skip
         entries = self._entries(build)
         pattern = [{j for j in range(self.nodes) if j != i and ((i, j) in entries or (j, i) in entries)}
                    for i in range(self.nodes)]  # fmt: skip
-        self.elimination = choose_elimination(tuple(map(frozenset, pattern)), self.n, self.n + self.m)
+        self.elimination = choose_elimination(tuple(map(frozenset, pattern)), self.n, self.n + self.m, first=states)
         build.section("L U")
-        factors = _Factors(self, build, entries)
+        factors = Factors(self, build, entries)
         for k in self.elimination.order:
             factors.eliminate(k, self.elimination.structure[k])
         self.lower, self.upper, self.inverse = factors.lower, factors.upper, factors.inverse
@@ -191,10 +209,12 @@ class Newton:
         return self._build(build, (self.lin, Argument("double *", "x")))
 
     def _solve(self) -> Kernel:
-        """From r (2n + works) to u."""
+        """From r (2n + works + inner states) to u."""
         n, parts = self.n, self.parts
+        states = range(self.first_state, self.nodes)
         build = self._builder("newton_solve", [
-            "(1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works.",
+            "(1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works"
+            f"{', inner states' if states else ''}.",
         ])  # fmt: skip
         self._scales(build, {self._scale(node) for node in range(self.nodes)})
         build.section("right-hand side")
@@ -212,6 +232,8 @@ class Newton:
             b[i].append(-ETA * value * r_q[k])
         for i, value in parts.by_t.items():
             b[i].append(-sp.Symbol("s") * value)
+        for i in range(self.first_state, self.nodes):
+            b[i].append(sp.Symbol(f"r[{self._behind(i)}]"))
         for i, terms in enumerate(b):
             build.out(f"x[{i}]", self._scale(i) * sp.Add(*terms))
         build.line(Call("newton_substitute", (Place("lin"),), (Place("x"),)))
@@ -219,68 +241,26 @@ class Newton:
         for k in range(n):
             build.out(f"u[{k}]", ETA * (r_q[k] + sp.Symbol(f"x[{k}]")))
             build.out(f"u[{n + k}]", sp.Symbol(f"x[{k}]"))
+        for i in range(self.first_state, self.nodes):
+            build.out(f"u[{self._behind(i)}]", sp.Symbol(f"x[{i}]"))
         for w in range(N_WORK):
             build.out(f"u[{2 * n + w}]", self._work(w))
         arguments = (self.lin, Argument("double", "eta"), Argument("double", "s"), Argument("const double *", "r"),
                      Argument("double *", "u"))  # fmt: skip
         return self._build(build, arguments)
 
+    def _behind(self, state: int) -> int:
+        """Where a node that is an inner state is in y."""
+        return 2 * self.n + N_WORK + state - self.first_state
+
     def _work(self, w: int) -> sp.Expr:
         """u_w; x holds u_v, that is η (δa + r_v), and η μ behind it."""
         parts, n = self.parts, self.n
         terms = [sp.Symbol(f"r[{2 * n + w}]"), sp.Symbol("s") * parts.power_t.get(w, ZERO)]
-        for part, first in ((parts.power_q, 0), (parts.power_v, n)):
+        for part, first in ((parts.power_q, 0), (parts.power_v, n), (parts.power_z, 2 * n + N_WORK)):
             terms += [value * sp.Symbol(f"u[{first + k}]") for (i, k), value in part.items() if i == w]
         changes = [ZERO]
         for (i, node), value in parts.power_row.items():
             before = ETA * sp.Symbol(f"r[{n + node}]") if node < n else ZERO
             changes += [value * (sp.Symbol(f"x[{node}]") - before)] if i == w else []
         return ETA * sp.Add(*terms) + sp.Add(*changes)
-
-
-class _Factors:
-    """L, U and inverse pivots as they come, column by column."""
-
-    def __init__(self, newton: Newton, build: KernelBuilder, entries: Mapping[Pair, sp.Expr]) -> None:
-        self.newton, self.build, self.entries = newton, build, entries
-        self.lower: dict[Pair, sp.Expr] = {}  # (later, earlier)
-        self.upper: dict[Pair, sp.Expr] = {}  # (earlier, later)
-        self.inverse: dict[int, sp.Expr] = {}
-        self._before: dict[int, list[int]] = {k: [] for k in range(newton.nodes)}
-
-    def eliminate(self, k: int, later: Sequence[int]) -> None:
-        """Pivot k, its column of L and its row of U."""
-        self.inverse[k] = self._pivot(k)
-        names = self.newton.names
-        for i in later:
-            shared = [j for j in self._before[k] if (i, j) in self.lower]
-            column = self.entries.get((i, k), ZERO) - self._products(i, k, shared)
-            row = self.entries.get((k, i), ZERO) - self._products(k, i, shared)
-            self.lower[i, k] = self._kept(f"l_{names[i]}__{names[k]}", column * self.inverse[k])
-            self.upper[k, i] = self._kept(f"u_{names[k]}__{names[i]}", row)
-            self._before[i].append(k)
-
-    def _products(self, i: int, k: int, shared: Sequence[int]) -> sp.Expr:
-        return sp.Add(*(self.lower[i, j] * self.upper[j, k] for j in shared))
-
-    def _pivot(self, k: int) -> sp.Expr:
-        """1/pivot; what is left of a row is compared with what it would be if it were independent of the others."""
-        newton, build, name = self.newton, self.build, self.newton.names[k]
-        own = self.entries.get((k, k), ZERO)
-        if not self._before[k] and own in newton.model.masses:
-            return newton.model.slots.derive(f"inverse_{own}", 1 / own, "1/M")
-        first = [j for j in self._before[k] if j < newton.n or k < newton.n]
-        others = [j for j in self._before[k] if j not in first]
-        scale = build.local(f"scale_{name}", own - self._products(k, k, first))
-        pivot = build.local(f"pivot_{name}", scale - self._products(k, k, others)) if others else scale
-        size = own if k < newton.n else scale
-        stick = newton.sticks[k - newton.n - newton.m] if k >= newton.n + newton.m else None
-        sticks = Test(stick, "!=", (0.0,)) if stick is not None else None
-        build.line(Guard(Test(pivot, ">", (SINGULAR, Size(size)), size=True), k + 1, only=sticks))
-        # a row that slips is switched off: its multiplier is zero
-        value = 1 / pivot if sticks is None else Chosen(sticks, 1 / pivot, ZERO)
-        return newton.factors.adopt(build, build.local(f"inverse_pivot_{name}", value))
-
-    def _kept(self, name: str, value: sp.Expr) -> sp.Expr:
-        own = is_simple(value) and not value.free_symbols & {ETA, ETA_ROW, ETA_STICK}  # not what every call is given
-        return self.newton.factors.adopt(self.build, value if own else self.build.local(name, value))

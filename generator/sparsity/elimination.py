@@ -35,14 +35,17 @@ class Elimination:
 
 
 def choose_elimination(
-    pattern: Pattern, coordinates: int, last: int | None = None, pairs: Mapping[int, int] = NO_PAIRS
-) -> Elimination:
+    pattern: Pattern, coordinates: int, last: int | None = None, pairs: Mapping[int, int] = NO_PAIRS,
+    first: range = range(0),
+) -> Elimination:  # fmt: skip
     """The cheapest of a few greedy orders; nodes below `coordinates` are coordinates, the others rows.
 
     Nodes from `last` on come after all the others. Rows in `pairs` (each with its partner, in the same
     coordinates) may go as soon as two of their coordinates are gone: their 2 × 2 pivot then vanishes where two
-    links are in one line, so that the caller must look at it.
+    links are in one line, so that the caller must look at it. Those in `first`, behind all others, go before them.
     """
+    if first:
+        return _behind(first, pattern, coordinates, last, pairs)
     end = len(pattern) if last is None else last
 
     def degree(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
@@ -71,6 +74,25 @@ def choose_elimination(
         _eliminate(pattern, coordinates, key, which) for which in (NO_PAIRS, pairs)[: 1 + bool(pairs)] for key in keys
     ]
     return min(candidates, key=lambda e: e.cost)
+
+
+def _behind(
+    first: range, pattern: Pattern, coordinates: int, last: int | None, pairs: Mapping[int, int]
+) -> Elimination:
+    """The nodes in `first` in their order, then the others, whose graph is what those leave."""
+    graph = [set(near) for near in pattern]
+    columns = dict[int, set[int]]()
+    for node in first:
+        columns[node] = {k for k in graph[node] if k not in columns}
+        for k in columns[node]:
+            graph[k] |= columns[node] - {k}
+    left = tuple(frozenset(near.difference(first)) for near in graph[: first.start])
+    rest = choose_elimination(left, coordinates, last, pairs)
+    order = (*first, *rest.order)
+    place = {node: k for k, node in enumerate(order)}
+    structure = {node: tuple(sorted(columns[node], key=place.__getitem__)) for node in first} | rest.structure
+    products = sum(len(c) * (len(c) + 3) // 2 for c in columns.values())
+    return Elimination(order, structure, rest.products + products, rest.depth + 1)
 
 
 def _eliminate(

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gudgeon.commands.common import check_file, need_suffix, settings
+from gudgeon.errors import BadValueError
 from gudgeon.language.shown import one_line, plain_console, visible
 from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.units import si_unit
@@ -17,16 +21,39 @@ if TYPE_CHECKING:
 WIDTH = 100  # columns of what is printed
 
 
-def show_laws(name: str | None, as_json: bool) -> int:
-    """A table of all laws, or all about one. Raises UnknownNameError, and LawError for a law of the user's own."""
+@dataclass(frozen=True)
+class Asked:
+    """The command line, as typed."""
+
+    name: str | None
+    as_json: bool
+    plot: Path | None
+    settings: tuple[str, ...]
+
+
+def show_laws(asked: Asked) -> int:
+    """A table of all laws, all about one, or its plot.
+
+    Raises UnknownNameError, BadValueError for options that do not go together, LawError for a law of the user's own.
+    """
+    name = asked.name
+    if asked.settings and asked.plot is None or asked.plot is not None and (name is None or asked.as_json):
+        raise BadValueError("--plot draws one law, --set its numbers: gudgeon laws flores --plot flores.svg")
     if name is None:
-        if as_json:
+        if asked.as_json:
             print(_json(_listed()))
         else:
             _print()
         return 0
     law = _law(name)
-    if as_json:
+    if asked.plot is not None:
+        from gudgeon.commands.law_plot import SUFFIXES, plot_law
+
+        need_suffix(asked.plot, SUFFIXES)
+        check_file("--plot", asked.plot)
+        plot_law(law, name, asked.plot, settings(asked.settings))
+        return 0
+    if asked.as_json:
         print(_json(_told(law, name)))
         return 0
     from gudgeon.generator.targets.latex.law import law_text

@@ -80,6 +80,12 @@ Laws = Annotated[
     list[str] | None,
     typer.Option("--laws", metavar="FILE.py", help="A force law of your own: the file is run as Python; repeatable."),
 ]
+Plot = Annotated[
+    Path | None,
+    typer.Option(
+        "--plot", parser=a_file, metavar="PATH", help="Draw it: x.svg, .png or .pdf; its numbers by --set mu=.2."
+    ),
+]
 LawName = Annotated[str | None, typer.Argument(metavar="[NAME]", help="Of a law, or what else it is called.")]
 # of what teaches
 Name = Annotated[str, typer.Argument(metavar="NAME", help="Of the mechanism; the file is NAME.yaml.")]

@@ -14,7 +14,7 @@ from hashlib import sha256
 from typing import Any
 
 from gudgeon.contract.ledger import Story
-from gudgeon.contract.methods import INTEGRATORS, KINEMATIC, NEED_SLOPES
+from gudgeon.contract.methods import INTEGRATORS, KINEMATIC
 from gudgeon.contract.stored import as_text, complete, shorten
 
 HEADER = "model.h"
@@ -250,15 +250,13 @@ class KernelSource:
         """Why there is no Jacobian; "" where there is one."""
         if self.methods == (KINEMATIC,):
             return "without a degree of freedom nothing is integrated"
-        return "a law has an inner state, whose slopes are not derived" if self.states else ""
+        return ""
 
     @property
     def methods(self) -> tuple[str, ...]:
         """What runs this scene: the integrators, or where nothing is left to be integrated the other one."""
         integrates = self.degrees_of_freedom or self.clearances or self.frictions
-        if not integrates:
-            return (KINEMATIC,)
-        return tuple(name for name in INTEGRATORS if not (self.states and name in NEED_SLOPES))
+        return INTEGRATORS if integrates else (KINEMATIC,)
 
     def to_json(self) -> str:
         """Readable JSON; the same source gives the same bytes."""

@@ -108,7 +108,7 @@ def begins_with(source: KernelSource) -> str:
     """The first method of `auto`: a film is stiff from rest on (physics.md, section 6)."""
     if KINEMATIC in source.methods:
         return KINEMATIC
-    return AUTO[any(joint.film for joint in source.clearances) and not source.states]
+    return AUTO[any(joint.film for joint in source.clearances)]
 
 
 def choice_of(compiled: CompiledModel, method: str) -> tuple[int, int]:

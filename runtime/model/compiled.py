@@ -169,14 +169,16 @@ class CompiledModel:
         return out
 
     def jacobian(self, t: float, y: ArrayLike, p: ArrayLike, memory: ArrayLike | None = None) -> tuple[Array, Array]:
-        """∂f/∂y, (2n + 3, 2n + 3), and ∂f/∂t, (2n + 3,), of `rhs` f at y = (q, q̇), exact; SI.
+        """∂f/∂y, (2n + 3 + k, 2n + 3 + k), and ∂f/∂t, (2n + 3 + k,), of `rhs` f at y = (q, q̇), exact; SI.
 
-        Contacts, the sides of corners and the modes of friction are those of this state. Raises SingularError
-        where rows depend on each other, ValueError where nothing is integrated.
+        Behind q̈ and the powers are the rates of the k inner states that laws have, and behind the works the states;
+        what they are is in `memory`, as in a sample. Contacts, the sides of corners and the modes of friction are those
+        of this state. Raises SingularError where rows depend on each other, ValueError where nothing is integrated.
         """
         if why := self.source.no_slopes:
             raise ValueError(f"this scene has no Jacobian: {why}")
-        J, f_t = np.empty((2 * self.n + N_WORK,) * 2), np.empty(2 * self.n + N_WORK)
+        size = 2 * self.n + N_WORK + len(self.source.states)
+        J, f_t = np.empty((size, size)), np.empty(size)
         status = self.lib.gudgeon_jacobian(time(t), *self._point(y, memory, p), self._out(J), self._out(f_t))
         self.check_node(status, t)
         return J, f_t
@@ -184,10 +186,10 @@ class CompiledModel:
     def newton(
         self, t: float, y: ArrayLike, p: ArrayLike, eta: float, s: float, r: ArrayLike, memory: ArrayLike | None = None
     ) -> Array:
-        """u, (2n + 3,), with u/η − J u = r + s f_t: a linear solve as the implicit methods do it."""
+        """u, (2n + 3 + k,), with u/η − J u = r + s f_t: a linear solve as the implicit methods do it."""
         if why := self.source.no_slopes:
             raise ValueError(f"this scene has no Jacobian: {why}")
-        u = np.empty(2 * self.n + N_WORK)
+        u = np.empty(2 * self.n + N_WORK + len(self.source.states))
         right, eta, s = self.pointer(taken(r, "r", u.shape)), number_of(eta, "eta"), number_of(s, "s")
         status = self.lib.gudgeon_newton(time(t), *self._point(y, memory, p), eta, s, right, self._out(u))
         self.check_node(status, t)
@@ -198,7 +200,7 @@ class CompiledModel:
         s = self.source
         self.check_pivot(status, t)
         if status < 0:
-            names = (*s.coordinates, *(row.name for row in s.rows), *s.frictions)
+            names = (*s.coordinates, *(row.name for row in s.rows), *s.frictions, *s.states)
             self.check_pivot(-status, t, names)
 
     def evaluate(

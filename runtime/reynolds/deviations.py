@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gudgeon.errors import BadValueError, LawError, MissingKeyError, UnknownKeyError
+from gudgeon.errors import BadValueError, MissingKeyError, UnknownKeyError
 from gudgeon.language.suggestions import unknown_name
 from gudgeon.model.arrays import taken
 from gudgeon.reynolds.bearing import Bearing, number
@@ -52,6 +52,10 @@ class Deviation:
         off = self.law_force - self.force
         return np.asarray(np.hypot(off[..., 0], off[..., 1]) / largest)
 
+    def of(self, law: str, **keys: float | str | bool) -> Deviation:
+        """Another law, with its other keys, at the same states; what the solver found of them is not sought again."""
+        return replace(self, law=law, law_force=_by_law(law, self.l_over_d, self.eps, self.motion, keys))
+
     def plot(self, ax: Axes | None = None) -> Axes:
         """The share in percent as a map; needs matplotlib."""
         from gudgeon.reynolds.plot import deviation_map
@@ -69,24 +73,41 @@ def deviation(
     `table` takes them. keys: the law's other keys, numbers in SI; the viscosity is given.
     """
     ratio = number(l_over_d, "l_over_d")
-    own = Bearing(RADIUS, 2.0 * RADIUS * ratio, CLEARANCE, VISCOSITY)
+    own = _bearing(ratio)
     at, alpha = taken(eps, "eps", (None,), finite=True), taken(motion, "motion", (None,), finite=True)
     if not at.size or not alpha.size or at.min() <= 0.0 or at.max() >= 1.0:
         raise BadValueError("eps and motion: expected at least one each, eps above 0 and below 1")
-    unit = VISCOSITY * RADIUS**3 * own.length / CLEARANCE**2
-    closing, turning = np.cos(alpha) + 0.0 * at[:, None], np.sin(alpha) + 0.0 * at[:, None]
-    by_law = law_force(law, own, keys)(at[:, None] + 0.0 * closing, closing, -turning)
-    omega_s = 2.0 * turning / at[:, None]
-    found = table(own, at[:, None], closing, omega_s, cavitation=cavitation, groove=groove, cells=cells)
-    return Deviation(law, ratio, cavitation, at, alpha, found.force / unit, by_law / unit, found.error / unit)
+    by_law = _by_law(law, ratio, at, alpha, keys)
+    eps, closing, turning = _states(at, alpha)
+    found = table(own, eps, closing, 2.0 * turning / eps, cavitation=cavitation, groove=groove, cells=cells)
+    unit = _unit(own)
+    return Deviation(law, ratio, cavitation, at, alpha, found.force / unit, by_law, found.error / unit)
+
+
+def _bearing(l_over_d: float) -> Bearing:
+    return Bearing(RADIUS, 2.0 * RADIUS * l_over_d, CLEARANCE, VISCOSITY)
+
+
+def _unit(own: Bearing) -> float:
+    return VISCOSITY * RADIUS**3 * own.length / CLEARANCE**2
+
+
+def _states(eps: Array, motion: Array) -> tuple[Array, Array, Array]:
+    """(n, 1) ε, (n, m) ε̇ and ½ ε ω_s at W = 1/s."""
+    return eps[:, None], np.cos(motion) + 0.0 * eps[:, None], np.sin(motion) + 0.0 * eps[:, None]
+
+
+def _by_law(law: str, l_over_d: float, eps: Array, motion: Array, keys: Mapping[str, float | str | bool]) -> Array:
+    """(n, m, 2) over μ R³ L/c²."""
+    own, (at, closing, turning) = _bearing(l_over_d), _states(eps, motion)
+    return law_force(law, own, keys)(at + 0.0 * closing, closing, -turning) / _unit(own)
 
 
 def law_force(name: str, bearing: Bearing, keys: Mapping[str, float | str | bool]) -> LawForce:
     """The law's (…, 2) F_r and F_t (N) as a function of ε, w_n and w_t (1/s)."""
-    import sympy as sp
-
-    from gudgeon.generator.kinds.laws.built import build
-    from gudgeon.generator.kinds.laws.law import VARIABLES, LawInputs, PairSymbols, called
+    from gudgeon.generator.kinds.laws.alone import alone
+    from gudgeon.generator.kinds.laws.built import PAIR
+    from gudgeon.generator.kinds.laws.law import called
 
     known = called("film")
     if name not in known:
@@ -97,35 +118,18 @@ def law_force(name: str, bearing: Bearing, keys: Mapping[str, float | str | bool
     given = {own.name: values.get(own.name, own.default) for own in law.fields}
     if lacking := [own.name for own in law.fields if own.required and given[own.name] is None]:
         raise MissingKeyError(f"film law {name}: {lacking[0]} is missing")
-    numbers = {own.name: sp.Float(number(x, own.name)) for own in law.parameters if (x := given[own.name]) is not None}
+    numbers = {own.name: number(x, own.name) for own in law.parameters if (x := given[own.name]) is not None}
     chosen: dict[str, Any] = {own.name: given[own.name] for own in law.options} | dict(law.also.get(name, {}))
     for own in law.options:
         if chosen[own.name] not in own.values:
             expected = " or ".join(map(str, own.values))
             raise BadValueError(f"film law {name}: {own.name} is {chosen[own.name]!r}: expected {expected}")
     r, c = bearing.radius, bearing.clearance
-    pair = PairSymbols(*(sp.Float(x) for x in (r + c, r, c, bearing.length, 1e11, 0.3, 1e11, 0.3)))
-    symbols = {x: sp.Symbol(x, real=True) for x in VARIABLES["film"]}
-    steps = build(law, LawInputs(numbers, chosen, pair, symbols, lambda _, expression, __: expression))
-    return _evaluated(name, list(symbols.values()), steps)
-
-
-def _evaluated(name: str, symbols: list[Any], steps: Mapping[str, Any]) -> LawForce:
-    import sympy as sp
-
-    known, functions = list(symbols), []
-    for step, expression in steps.items():
-        functions.append((step, sp.lambdify(known, expression, "numpy")))
-        known.append(sp.Symbol(step, real=True))
+    pair = dict(zip(PAIR, (r + c, r, c, bearing.length, 1e11, 0.3, 1e11, 0.3), strict=True))
+    function = alone(law, numbers, chosen, pair)
 
     def force(eps: Array, w_n: Array, w_t: Array) -> Array:
-        values, found = [eps, w_n, w_t], {}
-        for step, function in functions:
-            try:
-                found[step] = function(*values) + 0.0 * eps
-            except (NameError, TypeError) as error:
-                raise LawError(f"film law {name}: {step} cannot be computed here: {error}") from error
-            values.append(found[step])
+        found = function(eps, w_n, w_t)
         return np.stack([found["F_r"], found["F_t"]], axis=-1)
 
     return force

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.contract.kernel_source import KernelSource, Slot
-from gudgeon.contract.methods import ADAPTIVE, AUTO, CHOOSING, KINEMATIC
+from gudgeon.contract.methods import ADAPTIVE, CHOOSING, KINEMATIC
 from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.integrators import adaptive, kinematic, rk4
 from gudgeon.integrators.peers import driver
@@ -118,18 +118,20 @@ def method_of(source: KernelSource, method: str, fixed: bool) -> str:
             f"{-dof} constraint rows more than coordinates: constraints are redundant or contradict each other\n"
             "  remove a drive or a joint; `gudgeon check -v` lists the rows"
         )
-    stateless = KINEMATIC not in source.methods and not source.states  # inner states of laws: no slopes, no peers
-    fitting = (*source.methods, ADAPTIVE, *driver.NAMES) if stateless else source.methods
+    fitting = source.methods if KINEMATIC in source.methods else (*source.methods, ADAPTIVE)
+    if len(fitting) > 1 and not source.states:  # which peers do not integrate
+        fitting = (*fitting, *driver.NAMES)
     if method == "auto":
-        return fitting[0] if len(fitting) == 1 or fixed else AUTO[0] if source.states else ADAPTIVE
+        return fitting[0] if len(fitting) == 1 or fixed else ADAPTIVE
     if method not in METHODS:
         offered = ", ".join(name for name in METHODS if name != ADAPTIVE)  # a name of ours for what auto runs
         raise BadValueError(f"method {method!r}: expected auto, {offered}")
     if method not in fitting:
         why = f"this scene has {dof} degree{'' if dof == 1 else 's'} of freedom"
         if source.states:
-            why = f"a law has an inner state ({next(filter(None, source.states))}), by which no slope is taken"
-        fit = f"{' and '.join(source.methods)} {'fits' if len(source.methods) == 1 else 'fit'} it"
+            why = f"a law has an inner state ({next(filter(None, source.states))}), which peers do not integrate"
+        *others, last = source.methods
+        fit = f"{', '.join(others)} and {last} fit it" if others else f"{last} fits it"
         raise BadValueError(f"method {method!r} does not fit: {why}; use auto ({fit})")
     return method
 

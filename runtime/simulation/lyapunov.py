@@ -48,6 +48,8 @@ def no_tangent(source: KernelSource) -> str:
     """Why the Jacobian does not say all of how neighbours move; "" where it does."""
     if source.no_slopes:
         return source.no_slopes
+    if source.states:
+        return f"a law has an inner state, {next(filter(None, source.states))}, which is no coordinate"
     if source.frictions:
         return f"{source.frictions[0]} sticks and slips: its rows come and go"
     if source.rate_jumps:

@@ -44,7 +44,7 @@ def description(compiled: CompiledModel, seen_step: float | None = None) -> str:
         "slots": [_slot(slot) for slot in source.slots], "derived": source.derived,
         "conditions": [asdict(condition) for condition in conditions(source)],
         "gains": [place[name] for name in GAINS if name in place],
-        "methods": _methods(source), "begins": begins_with(source), "automatic": not source.states,
+        "methods": _methods(source), "begins": begins_with(source),
         "pivots": source.motion_pivots, "start_pivots": source.start_pivots,
         "evaluation_pivots": source.pivots,
         "angles": integrated_angles(source).tolist(), "sizes": size_places(source),

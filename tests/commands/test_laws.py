@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import json
+import shlex
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from gudgeon.commands.law_plot import figure_of
 from gudgeon.generator.field import NUMBER
 from gudgeon.generator.kinds.laws.law import RESULTS, Law, called, house
 from gudgeon.generator.targets.latex.document import Equation
@@ -126,3 +129,50 @@ def test_a_law_of_ones_own(call: Gudgeon, tmp_path: Path) -> None:
 def test_a_misspelt_name_is_told_with_the_nearest(call: Gudgeon) -> None:
     done = call("laws", "florres")
     assert done.exit_code == 2 and "unknown law 'florres'" in done.stderr and "did you mean 'flores'?" in done.stderr
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_law_is_drawn(name: str, call: Gudgeon, tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    done = call("laws", name, "--plot", "law.svg")
+    assert done.exit_code == 0, done.output
+    text = (tmp_path / "law.svg").read_text("utf-8")
+    assert "<svg" in text and text.count('id="line2d_') > 2
+
+
+def lines_of(name: str, **numbers: float | str) -> list[np.ndarray]:
+    """x and y as drawn."""
+    return [np.array(line.get_data()) for line in figure_of(law_of(name), name, numbers).axes[0].lines]
+
+
+def test_what_is_drawn_is_the_law() -> None:
+    """In the units of its axes: Kelvin and Voigt's lines, Brown and McPhee's peak, Ocvirk's steady force."""
+    x, y = lines_of("kelvin_voigt", stiffness=1e8, damping=2e3)[0]  # µm, N, approached at .1 m/s
+    np.testing.assert_allclose(y, 1e8 * 1e-6 * x + 200.0, rtol=1e-12)
+    x, y = lines_of("brown_mcphee", mu=0.2, mu_s=0.5, v0="2 mm/s")[0]
+    assert y[np.argmin(abs(x + 2.0))] == pytest.approx(0.2 * np.tanh(4.0) + 0.3, rel=1e-3)
+    (eps, radial), (_, along), *_ = lines_of("ocvirk", viscosity=0.1)
+    unit, square = 0.1 * 9.9e-3 * 0.02**3 / 1e-8, 1.0 - eps**2
+    np.testing.assert_allclose(radial, unit * eps**2 / square**2, rtol=1e-9)
+    np.testing.assert_allclose(along, np.pi * unit * eps / (4.0 * square**1.5), rtol=1e-9)
+
+
+def test_bristles_that_have_gone_far_slide() -> None:
+    """Fastest, after .1 mm at about that slip: LuGre's steady −F_n g, Dahl's Coulomb force."""
+    _, (v_t, force) = lines_of("lugre", mu=0.1, mu_s=0.3, v_s=0.01)  # mm/s
+    steady = 0.1 + 0.2 * np.exp(-9.0)
+    assert force[np.argmax(v_t)] == pytest.approx(-steady, rel=0.01)
+    _, (v_t, force) = lines_of("dahl", mu=0.1, presliding="20 um")
+    assert force[np.argmax(v_t)] == pytest.approx(-0.1, rel=0.01)
+
+
+@pytest.mark.parametrize(("line", "told"), [
+    ("lugre --plot x.svg --set viscosity=1", "unknown key of lugre 'viscosity'"),
+    ("flores --plot x.svg --set restitution=1.5", "restitution is 1.5: expected <= 1"),
+    ("flores --plot x.svg --set geometry=round", "'round'"), ("flores --set restitution=.5", "--plot draws one law"),
+    ("--plot x.svg", "--plot draws one law"), ("flores --json --plot x.svg", "--plot draws one law"),
+    ("flores --plot x.txt", ".svg"), ("dahl --plot x.svg --set 'presliding=2 s'", "presliding"),
+])  # fmt: skip
+def test_what_cannot_be_drawn(line: str, told: str, call: Gudgeon) -> None:
+    done = call("laws", *shlex.split(line))
+    assert done.exit_code == 2 and told in done.stderr, done.output

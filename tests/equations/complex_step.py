@@ -15,7 +15,6 @@ import sympy as sp
 from gudgeon.generator.equations.contact_steps import EPSILON_MAX
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations
-from gudgeon.generator.kinds.laws.law import RESULTS
 from tests.equations.models import defaults
 
 STICK = 50.0  # 1/s, the default gain of a stick (baumgarte.stick)
@@ -50,7 +49,8 @@ _CORNERS: Mapping[type, tuple[str, Callable[..., Any]]] = {
 class ComplexStep:
     """f of y' = f(t, y), y = (q, v), of one scene; `values` are slots by address that differ from their defaults.
 
-    `memory` holds δ̇⁻ of each joint with play (NaN: none yet), then the mode of each friction.
+    `memory` holds δ̇⁻ of each joint with play (NaN: none yet), then the mode of each friction, then inner states of
+    laws, as many of each joint.
     """
 
     def __init__(self, model: Model, values: Mapping[str, float] | None = None) -> None:
@@ -91,9 +91,18 @@ class ComplexStep:
         return (*joint.eccentricity, *joint.eccentricity_rate, joint.first.omega, joint.second.omega, joint.pair.c,
                 joint.pair.R_i, joint.pair.R_j, film, transition, *joint.first.arm, *joint.second.arm)  # fmt: skip
 
-    def __call__(self, t: complex, y: Complex, memory: Sequence[float] | np.ndarray) -> Complex:
-        """(q̇, q̈, powers), (2n + 3,)."""
+    def bent(self, memory: Sequence[float] | np.ndarray) -> np.ndarray:
+        """Inner states of laws, (joints, states)."""
+        joints, each = len(self._joints), self.model.law_states
+        return np.asarray(memory[len(memory) - each * joints :], dtype=float).reshape(joints, each)
+
+    def __call__(
+        self, t: complex, y: Complex, memory: Sequence[float] | np.ndarray, z: np.ndarray | None = None
+    ) -> Complex:
+        """(q̇, q̈, powers, rates of inner states z), (2n + 3 + states,); z is that of `memory` unless it is given."""
         model, n, m = self.model, self.n, len(self.model.rows)
+        z = self.bent(memory) if z is None else z
+        bending = np.zeros(z.shape, dtype=complex)
         q, v = np.asarray(y[:n], dtype=complex), np.asarray(y[n : 2 * n], dtype=complex)
         rows = self._rows(complex(t), q, v)
         phi, phi_q, rest = rows[:m], rows[m : m + m * n].reshape(m, n), rows[m + m * n :]
@@ -101,10 +110,10 @@ class ComplexStep:
         values = self._forces(complex(t), q, v)
         masses, g, power, (alpha, beta) = values[:n], values[n : 2 * n].copy(), values[2 * n], values[2 * n + 1 :]
         powers = np.array([0.0, power, 0.0], dtype=complex)
-        for joint, function, stored in zip(model.clearances, self._joints, memory, strict=False):
-            powers[2] += self._pin(joint, function(complex(t), q, v), stored, v, g)
+        for k, (joint, function) in enumerate(zip(model.clearances, self._joints, strict=True)):
+            powers[2] += self._pin(joint, function(complex(t), q, v), memory[k], v, g, z[k], bending[k])
         sticks, right = [], [gamma - 2 * alpha * (phi_q @ v - nu) - beta**2 * phi]
-        for function, mode in zip(self._slips, memory[len(model.clearances) :], strict=False):
+        for function, mode in zip(self._slips, memory[len(model.clearances) :], strict=False):  # then inner states
             *row, rate, slip, speed, kinetic = function(complex(t), q, v)
             if mode == 0.0:
                 sticks.append((np.array(row), slip + speed))
@@ -118,19 +127,25 @@ class ComplexStep:
         x = np.linalg.solve(kkt, np.concatenate([g, *right]))
         powers[0] = -x[n : n + m] @ nu
         powers[1] -= sum(force * speed for force, (_, speed) in zip(x[n + m :], sticks, strict=True))
-        return np.concatenate([v, x[:n], powers])
+        return np.concatenate([v, x[:n], powers, bending.ravel()])
 
     def jacobian(self, t: float, y: np.ndarray, memory: Sequence[float] | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """∂f/∂y by (q, v), (2n + 3, 2n), and ∂f/∂t."""
-        columns = []
+        """∂f/∂y by (q, v) and inner states, (2n + 3 + states, 2n + states), and ∂f/∂t."""
+        columns, z = [], self.bent(memory)
         for k in range(2 * self.n):
             moved = y.astype(complex)
             moved[k] += 1j * STEP
             columns.append(self(t, moved, memory).imag / STEP)
+        for place in np.ndindex(z.shape):
+            bent = z.astype(complex)
+            bent[place] += 1j * STEP
+            columns.append(self(t, y, memory, bent).imag / STEP)
         return np.array(columns).T, self(t + 1j * STEP, y, memory).imag / STEP
 
-    def _pin(self, joint: Clearance, geometry: Complex, stored: float, v: Complex, g: Complex) -> complex:
-        """Adds the joint's force to g; its power."""
+    def _pin(
+        self, joint: Clearance, geometry: Complex, stored: float, v: Complex, g: Complex, z: Complex, bending: Complex
+    ) -> complex:
+        """Adds the joint's force to g and fills in the rates of its inner states z; its power."""
         ex, ey, ux, uy, w_i, w_j, c, R_i, R_j, film, e_0, *arms = geometry
         e = np.sqrt(ex**2 + ey**2)
         e = -e if e.real == 0.0 and e.imag < 0.0 else e
@@ -141,7 +156,7 @@ class ComplexStep:
         if joint.normal is None:
             share = 0.0
         elif delta.real > 0.0:
-            total += share * self._dry(joint, delta, R_i, R_j, speeds, stored)
+            total += share * self._dry(joint, delta, (R_i, R_j), speeds, stored, z, bending)
         if joint.film is not None and share.real < 1.0:
             total += (1.0 - share) * self._film(joint, joint.film, e, film, speeds)
         force = (total[0] * n_x - total[1] * n_y, total[0] * n_y + total[1] * n_x)
@@ -156,8 +171,10 @@ class ComplexStep:
                 power += moment * v[k + 2]
         return complex(power)
 
-    def _dry(self, joint: Clearance, delta: complex, R_i: complex, R_j: complex, speeds: Any, stored: float) -> Complex:
-        v_n, v_t, w_i, w_j = speeds
+    def _dry(
+        self, joint: Clearance, delta: complex, radii: Any, speeds: Any, stored: float, z: Complex, bending: Complex
+    ) -> Complex:
+        (R_i, R_j), (v_n, v_t, w_i, w_j) = radii, speeds
         assert joint.normal is not None
         ratio = 1.0 + 0j if np.isnan(stored) else v_n / stored
         if joint.clip_ratio:
@@ -166,7 +183,9 @@ class ComplexStep:
         (normal,) = self._law(joint.normal, delta, ratio, *[v_n] * len(joint.normal.further))
         tangential = 0.0
         if joint.friction is not None:
-            (tangential,) = self._law(joint.friction, normal, v_t + w_j * a_j - w_i * a_i)
+            own = len(joint.states)
+            rubbed = self._law(joint.friction, normal, v_t + w_j * a_j - w_i * a_i, *z[:own])
+            tangential, bending[:own] = rubbed[0], rubbed[1:]
         return np.array([-normal, tangential, -a_i * tangential, a_j * tangential])
 
     def _film(self, joint: Clearance, film: LawEquations, e: complex, c: complex, speeds: Any) -> Complex:
@@ -187,6 +206,6 @@ class ComplexStep:
             for name, step in equations.steps.items():
                 value = self.model.symbols.explicit(sp.sympify(step)).xreplace(known)
                 known[sp.Symbol(name, real=True)] = value
-            results = [known[sp.Symbol(name, real=True)] for name in RESULTS[equations.law.role]]
+            results = [known[sp.Symbol(name, real=True)] for name in equations.law.results]
             self._laws[id(equations)] = self._lambda(list(equations.variables), results)
         return self._laws[id(equations)](*(complex(x) for x in state))

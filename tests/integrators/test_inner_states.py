@@ -22,6 +22,7 @@ from tests.targets_c.test_c_compiles import COMPILERS, FLAGS, compile_c, write
 
 pytestmark = needs_compiler
 COULOMB = "{law: modified_coulomb, mu: 0.15, v0: 1e-4 m/s, v1: 1e-3 m/s}"
+LUGRE = "{law: lugre, mu: 0.15, mu_s: 0.2, v_s: 1 cm/s, stiffness: 2e4 1/m, damping: 3 s/m}"
 PRESLIDING = 20e-6
 Press = Callable[..., Simulation]
 
@@ -73,9 +74,28 @@ def test_methods_and_formulations_agree(press: Press) -> None:
     exact = press().simulate(0.012, output=20, rtol=1e-12)
     others = [press("full").simulate(0.012, output=20, rtol=1e-12)]
     others += [press().simulate(0.012, output=20, method="rk4", step=1e-7)]
+    others += [press(way).simulate(0.012, output=20, method="rodas5p", rtol=1e-7) for way in ("reduced", "full")]
     for run in others:
         assert abs(run["S9.y"] - exact["S9.y"]).max() < 1e-9
         assert abs(run["A.z"] - exact["A.z"]).max() < 1e-3 * PRESLIDING
+
+
+@pytest.mark.parametrize("friction", [None, LUGRE])
+def test_runs_side_by_side(press: Press, tmp_path: Path, friction: str | None) -> None:
+    """To the last bit those of single runs, while journals come, bend, slide and go."""
+    scene = press()
+    if friction:
+        text = shipped_file("nine_bar_press").read_text(encoding="utf-8")
+        (tmp_path / "press.yaml").write_text(text.replace(COULOMB, friction), encoding="utf-8")
+        scene = gudgeon.load(tmp_path / "press.yaml", "dry")
+    c = np.linspace(2.5e-4, 5e-4, 8)
+    batch = scene.simulate_many({"c": c}, t_end=0.01, output=50, method="rk4", step=1e-6)
+    assert scene.source.lanes
+    for k, value in enumerate(c):
+        run = scene.simulate(0.01, output=50, method="rk4", step=1e-6, parameters={"c": value})
+        for name in ("A.z", "B.z", "S9.y", "A.Ft"):
+            assert (run[name] == batch[name][k]).all(), (k, name)
+    assert abs(batch["A.z"]).max() > 1e-6
 
 
 def test_a_run_goes_on_with_its_states(press: Press) -> None:
@@ -97,12 +117,53 @@ def test_batches_and_files_hold_them(press: Press, tmp_path: Path) -> None:
     assert (Result.load(tmp_path / "z.nc")["A.z"] == run["A.z"]).all()
 
 
-@pytest.mark.parametrize("method", ["rodas5p", "scipy:Radau"])
-def test_methods_that_need_slopes_are_refused(press: Press, method: str) -> None:
-    with pytest.raises(BadValueError, match=r"an inner state \(A\.z\).*rk4 and dop853 fit it"):
-        press().simulate(0.01, method=method)
-    with pytest.raises(ValueError, match="inner state"):
-        press("full").compiled.jacobian(0.0, np.zeros(48), press("full").p)
+def test_peers_do_not_integrate_them(press: Press) -> None:
+    with pytest.raises(BadValueError, match=r"an inner state \(A\.z\).*rk4, dop853 and rodas5p fit it"):
+        press().simulate(0.01, method="scipy:Radau")
+
+
+RUBBED = """
+parameters: {stiffness: 2e4 1/m}
+bodies: {j: {mass: 2 kg, inertia: 1e-4 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {A: {revolute: [ground.O, j.origin]}}
+forces: {load: {force: j.origin, value: [0, -20 N]}, turn: {torque: j, value: 0.05 N*m * sin(40 rad/s * t)}}
+materials: {s: {E: 207 GPa, nu: 0.3}}
+bearings:
+  p: {radius: 10 mm, clearance: 0.3 mm, length: 20 mm, bearing_material: s, journal_material: s}
+contacts:
+  c:
+    normal: {law: hertz, stiffness: 1e9, exponent: 1.5, restitution: 0.8, dissipation: flores}
+    friction: {law: lugre, mu: 0.15, mu_s: 0.2, v_s: 1 cm/s, stiffness: stiffness, damping: 3 s/m}
+start: {play: {A: {e: [0, -0.30759 mm], rate: [0, 0]}}}
+scenes: {m: {play: {A: {bearing: p, contact: c}}}}
+"""
+
+
+@pytest.mark.parametrize("formulation", ["reduced", "full"])
+def test_rodas5p_is_of_its_order(tmp_path: Path, formulation: str) -> None:
+    """A journal that lies in its bearing and is turned to and fro: fixed steps, of which none meets an onset."""
+    journal = loader(tmp_path, formulation)(RUBBED, "m")
+    exact = journal.simulate(0.008, output=4, method="dop853", rtol=1e-13)
+    assert (exact["A.state"] > 0).all() and abs(exact["A.z"][1:]).min() > 1e-8
+    off = [
+        abs(journal.simulate(0.008, output=4, method="rodas5p", step=h)["A.z"] - exact["A.z"]).max()
+        for h in (1.6e-4, 8e-5, 4e-5)
+    ]  # fmt: skip
+    orders = np.log2(np.divide(off[:-1], off[1:]))
+    assert (orders > 4.6).all(), (off, orders)
+
+
+def test_stiff_bristles_cost_rodas5p_little(tmp_path: Path) -> None:
+    """A hundred times as stiff: dop853 follows their own time, rodas5p the motion."""
+    journal = loader(tmp_path)(RUBBED, "m")
+    explicit, implicit, exact = (
+        journal.simulate(0.05, output=20, method=method, rtol=rtol, parameters={"stiffness": 2e7})
+        for method, rtol in (("dop853", 1e-6), ("rodas5p", 1e-6), ("rodas5p", 1e-11))
+    )
+    for run in (explicit, implicit):
+        assert abs(run["j.theta"] - exact["j.theta"]).max() < 1e-5 * abs(exact["j.theta"]).max()
+    assert implicit.diagnostics.right_hand_sides < 0.1 * explicit.diagnostics.right_hand_sides
 
 
 def test_a_class_reads_its_equation(press: Press) -> None:

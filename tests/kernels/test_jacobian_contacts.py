@@ -142,3 +142,31 @@ def test_a_law_of_the_rate_itself(scene: str) -> None:
     for rate in (0.3, -0.02, -2.0):
         for memory in ((NAN, NAN), (0.02, NAN)):
             subject.compare(0.0, journal_at(subject, (0.3 * C, -1.05 * C), (0.0, -rate), 2.0), np.array(memory))
+
+
+BRISTLES = {
+    "dahl": b"{law: dahl, mu: 0.15, presliding: 20 um}",
+    "lugre": b"{law: lugre, mu: 0.15, mu_s: 0.2, v_s: 1 cm/s, stiffness: 2e4 1/m, damping: 3 s/m}",
+}
+
+
+@pytest.mark.parametrize("scene", ["dry", "lubricated"])
+@pytest.mark.parametrize("law", BRISTLES)
+def test_a_law_with_an_inner_state(law: str, scene: str) -> None:
+    """Of forces by the state, of its rate by everything; A in contact, B beside it free, both; dry and blended."""
+    text = PRESS.replace(b"{law: modified_coulomb, mu: 0.15, v0: 1e-4 m/s, v1: 1e-3 m/s}", BRISTLES[law])
+    assert text != PRESS
+    subject, rng = make(text, "press", scene), np.random.default_rng(8)
+    for eps in (0.5, 1.0005, 1.05):
+        for spin in (-20.0, 0.0, 3.0):
+            y = journal_at(subject, (0.8 * eps * C, -0.6 * eps * C), tuple(rng.uniform(-0.05, 0.05, 2)), spin)
+            for latched in (NAN, 0.02):
+                memory = np.array([latched, NAN, *rng.uniform(-2e-5, 2e-5, 2)])
+                J = subject.compare(0.0, y, memory)
+                r = rng.normal(size=len(J)) * (abs(J).max(axis=1) + 1.0)
+                for eta in (1e-6, 1e-3):
+                    u = subject.library.newton(0.0, y, subject.p, eta, 0.0, r, memory)
+                    exact = np.linalg.solve(np.eye(len(J)) / eta - J, r)
+                    assert abs(u - exact).max() < 1e-8 * abs(exact).max()
+                assert J[subject.n : 2 * subject.n, -2].any() == (eps > 1.0)  # what bends in A moves the bodies
+                assert not J[:, -1].any() and not J[-1].any()  # B is free

@@ -95,10 +95,16 @@ def gear(t: Array) -> dict[str, Points]:
     return {"plate.link": L, "plate.brace": A, "leg.brace": B, "leg.head": T + (B - T) * 1.2 / 0.36}
 
 
+def slider_crank(t: Array) -> dict[str, Points]:
+    pin = 0.05 * np.exp(1j * np.pi / 30 * 5000 * t)
+    return {"crank.head": pin, "slider.origin": pin.real + np.sqrt(0.12**2 - pin.imag**2) + 0j}
+
+
 CLOSED: dict[str, tuple[Callable[[Array], dict[str, Points]], float]] = {
     "double_rocker": (chebyshev, 1.0), "scotch_yoke": (yoke, 0.2), "whitworth": (whitworth, 2.0),
     "peaucellier": (peaucellier, 2.0), "jansen_leg": (jansen, 1.0), "scissor_lift": (lift, 4.0),
     "toggle_clamp": (clamp, 2.0), "cylinder_boom": (boom, 6.0), "landing_gear": (gear, 2.0),
+    "flores_slider_crank": (slider_crank, 0.012),
 }  # fmt: skip
 
 

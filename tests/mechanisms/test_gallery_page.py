@@ -26,7 +26,7 @@ PARTS = r'viewBox="[^"]*"|id="(?:body|joint|drive|inset|force)-[^"]*"'
 
 def test_all_of_the_gallery_is_there() -> None:
     names = [name for _, name, _ in DRAWN]
-    assert len(names) == len(set(names)) == PAGE.count("\n## ") == PAGE.count("To learn: ") == 13
+    assert len(names) == len(set(names)) == PAGE.count("\n## ") == PAGE.count("To learn: ") == 14
     assert set(shipped()) - set(generated()) <= set(names)
     assert sorted(path.name for path in (DOCS / "gallery").iterdir()) == sorted(f"{name}.svg" for name in names)
 
@@ -68,3 +68,6 @@ def test_its_numbers() -> None:
     assert np.abs(np.r_[line[:1001], line[-1001:]]).max() == pytest.approx(0.39e-3, abs=5e-6)
     squeezer = gudgeon.load("andrews_squeezer", "short").simulate()["OF.theta"]
     assert np.ptp(squeezer) == pytest.approx(15.9, abs=0.05)
+    hit, soft = (gudgeon.load("flores_slider_crank", scene).simulate(rtol=1e-8) for scene in ("internal", "external"))
+    assert (hit.impacts[0]["F_peak"], soft.impacts[0]["F_peak"]) == pytest.approx((45.8e3, 24.1e3), abs=60)
+    assert (hit["wristpin.state"] == 2).mean() == pytest.approx(0.75, abs=0.03)

@@ -62,6 +62,26 @@ def test_the_map_is_drawn() -> None:
     assert "L/D = 1" in ax.get_title()
 
 
+def test_the_pages_table_is_of_every_law() -> None:
+    """`make deviations` writes it; looked at in one column."""
+    rows = re.findall(r"^\| `(\w+)`, ([\d.]+) \| .* \| .* \| ([\d.]+) % \| .* \| .* \|$", PAGE, re.MULTILINE)
+    assert sorted({law for law, _, _ in rows}) == sorted(called("film"))
+    solved = {ratio: deviation("ocvirk", float(ratio), eps=[0.5]) for ratio in {ratio for _, ratio, _ in rows}}
+    for law, ratio, shown in rows:
+        worst = 100.0 * float(solved[ratio].of(law).share.max())
+        assert worst == pytest.approx(float(shown), rel=0.01, abs=0.06), (law, ratio)
+
+
+def test_another_law_at_the_same_states() -> None:
+    how = {"eps": [0.3, 0.6], "motion": [0.4, 2.0], "cells": (64, 8)}
+    first = deviation("ocvirk", 0.5, **how)  # type: ignore[arg-type]
+    own = deviation("pinkus_sternlicht", 0.5, as_printed=True, **how)  # type: ignore[arg-type]
+    other = first.of("pinkus_sternlicht", as_printed=True)
+    assert (other.law_force == own.law_force).all() and (other.share == own.share).all() and other.law == own.law
+    with pytest.raises(InputError, match="did you mean 'ocvirk'"):
+        first.of("ocvirc")
+
+
 def test_the_page_prints_what_it_shows(capsys: pytest.CaptureFixture[str]) -> None:
     (code,) = re.findall(r"^```python\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
     (shown,) = re.findall(r"^```text\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)

@@ -1,6 +1,10 @@
 """The stiffness of two elastic surfaces by Hertz, from their radii and materials; both conventions of the curvature.
 
 K = 4/(3(σ_i + σ_j)) √(R_i R_j/(R_i ± R_j)),   σ = (1 − ν²)/E
+
+The 6.61e10 N/m^1.5 that the literature has for steel pins of 9.5 mm in holes of 10 mm is that of R_i − R_j, whatever
+sign stands in the formula beside it; R_i + R_j gives 1.06e10. The latter is the default, for it is what the paper that
+the press is taken from prints, and its golden figures follow; the former is the geometry of a pin in a hole.
 """
 
 from __future__ import annotations
@@ -12,7 +16,8 @@ from gudgeon.generator.kinds.laws.law import LawInputs
 
 GEOMETRY = word(
     "geometry",
-    "curvature of the pair: external R_i + R_j as the paper prints it, internal R_i - R_j for a pin in a hole",
+    "curvature of the pair: external R_i + R_j, as the press's paper prints it, hence the default; internal R_i - R_j,"
+    " of a pin in a hole (steel, 10 and 9.5 mm: 1.06e10 and 6.61e10 N/m^1.5, of which the literature has the second)",
     ("external", "internal"), "external",
 )  # fmt: skip
 

@@ -141,7 +141,7 @@ def _linearized(program: Program) -> str:
     methods = program.methods
     if methods is None:
         return ""
-    slopes = tangent_code(program.pins, methods, render)
+    slopes = tangent_code(program.pins, methods, render, program.model.law_states)
     return slopes + newton_code(methods.newton, render) + functions.kernel(methods.closing)
 
 

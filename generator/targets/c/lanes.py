@@ -14,7 +14,7 @@ from gudgeon.generator.targets.c import functions, lanes_printer
 from gudgeon.generator.targets.c.curves import curves_code
 from gudgeon.generator.targets.c.model_header import deepest
 from gudgeon.generator.targets.c.newton import STATE, own_axes
-from gudgeon.generator.targets.c.play import call_of_film, calls_of_dry
+from gudgeon.generator.targets.c.play import braced, call_of_film, calls_of_dry
 
 MAIN = "lanes.c"
 _WANTED = ("closures", "closure_rates", "reduced_dynamics", "closing_step")
@@ -37,12 +37,12 @@ def lanes_code(program: Program, render: Render) -> dict[str, str]:
     """The file: kernels as the single runs have them, before sines are put side by side."""
     assert program.tree and program.methods
     model = program.model
-    pins = [*map(lanes_printer.kernel, program.laws), *(_pin(pin, render) for pin in program.pins)]
+    pins = [*map(lanes_printer.kernel, program.laws), *(_pin(pin, render, model.law_states) for pin in program.pins)]
     kernels = (*program.tree.plain, program.methods.plain_closing)
     parameters = [model.slots.field(symbol) for symbol in model.slots.members()]
     wanted = [kernel for kernel in kernels if kernel.name in _WANTED]
     text = "\n".join([*pins, *map(lanes_printer.motion_kernel, wanted)])
-    newton = _newton(program.pins, program.methods, render)
+    newton = _newton(program.pins, program.methods, render, model.law_states)
     curves = bool(curves_code(model.scene.mechanism.curves, (text, newton)))
     return {MAIN: render(
         "lanes.c.jinja", parameters=parameters, deepest=_deepest(model), kernels=text, newton=newton,
@@ -55,8 +55,8 @@ def _deepest(model: Model) -> list[str]:
     return [lanes_printer.expression(in_place(model, deepest(clearance))) for clearance in model.clearances]
 
 
-def _pin(pin: Pin, render: Render) -> str:
-    """What happens round the laws of a joint."""
+def _pin(pin: Pin, render: Render, states: int) -> str:
+    """What happens round the laws of a joint; `states` of laws are as many for each."""
     clearance = pin.clearance
     steps = ("gap", "before_dry", "after_dry", "before_film", "after_film", "share")
     parts = {name: lanes_printer.statements(getattr(pin, name)) for name in steps}
@@ -67,24 +67,27 @@ def _pin(pin: Pin, render: Render) -> str:
     return render(
         "play/lane_pin.c.jinja", joint=clearance.name, dry=clearance.normal is not None,
         film=clearance.film is not None, ratio_name="unclipped" if clearance.clip_ratio else "ratio",
-        first=pin.corners.start, last=pin.corners.stop, **parts,
+        first=pin.corners.start, last=pin.corners.stop, states=states,
+        rates=braced("rate", clearance, states, "all_of(0.0)"), **parts,
     )  # fmt: skip
 
 
-def _newton(pins: Sequence[Pin], methods: Methods, render: Render) -> str:
+def _newton(pins: Sequence[Pin], methods: Methods, render: Render, states: int) -> str:
     """The equations of motion linearized and Newton's matrix: what newton.c has, without its tables."""
     newton = methods.newton
-    slopes = [own_axes(pins, render, "Lanes", "LaneSlopes") + _PICKING] if pins else []
+    picking = _PICKING.replace("i < 4", f"i < {4 + states}").replace("k < 5", f"k < {5 + states}")
+    slopes = [own_axes(pins, render, "Lanes", "LaneSlopes", states) + picking] if pins else []
     slopes += map(lanes_printer.kernel, methods.sloping)
     for clearance in (pin.clearance for pin in pins):
-        slopes.append(_tangent(clearance, methods.slopes[clearance.name], render))
+        slopes.append(_tangent(clearance, methods.slopes[clearance.name], render, states))
     of_state = map(lanes_printer.watched_kernel, (newton.linearize, newton.factor))
     return "\n".join([*slopes, *of_state, *map(lanes_printer.kernel, (newton.substitute, newton.solve))])
 
 
-def _tangent(clearance: Clearance, parts: Mapping[str, SharedCall], render: Render) -> str:
+def _tangent(clearance: Clearance, parts: Mapping[str, SharedCall], render: Render, states: int) -> str:
     """What acts in a joint, as in its own function."""
     given = {"film": (STATE, "out"), "dry": (STATE, "&dry"), "share": (("delta",), "share")}
     calls = {part: functions.shared_call(parts[part], what, (where,)) if part in parts else ""
              for part, (what, where) in given.items()}  # fmt: skip
-    return render("play/lane_tangent.c.jinja", joint=clearance.name, c=f"p->{clearance.pair.c}", **calls)
+    calls |= {"joint": clearance.name, "c": f"p->{clearance.pair.c}"}
+    return render("play/lane_tangent.c.jinja", rows=4 + states, columns=5 + states, **calls)

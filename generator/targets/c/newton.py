@@ -41,23 +41,25 @@ def newton_code(newton: Newton, render: Render) -> str:
     )  # fmt: skip
 
 
-def tangent_code(pins: Sequence[Pin], methods: Methods, render: Render) -> str:
-    """`tangent_<joint>` of every joint with play, behind the derivatives that they share."""
+def tangent_code(pins: Sequence[Pin], methods: Methods, render: Render, states: int) -> str:
+    """`tangent_<joint>` of every joint with play, behind the derivatives that they share; `states` of laws each has."""
     if not pins:
         return ""
-    parts = [own_axes(pins, render, "double", "PinSlopes"), *map(functions.kernel, methods.sloping)]
+    sizes = {"rows": 4 + states, "columns": 5 + states}
+    parts = [own_axes(pins, render, "double", "PinSlopes", states), *map(functions.kernel, methods.sloping)]
     for clearance in (pin.clearance for pin in pins):
         c = f"p->{clearance.pair.c}"
         slopes = _slopes(clearance, c, methods.slopes[clearance.name])
-        parts.append(render("play/tangent.c.jinja", joint=clearance.name, c=c, slopes=slopes))
+        parts.append(render("play/tangent.c.jinja", joint=clearance.name, c=c, slopes=slopes, **sizes))
     return "\n".join(parts)
 
 
-def own_axes(pins: Sequence[Pin], render: Render, number: str, type_: str) -> str:
+def own_axes(pins: Sequence[Pin], render: Render, number: str, type_: str, states: int) -> str:
     """What all joints' derivatives are put together by, of numbers or of vectors."""
-    blending = _BLENDING.replace("{number}", number).replace("{type}", type_)
-    some = any(pin.has_transition for pin in pins)
-    return render("play/pin_slopes.c.jinja", blending=blending if some else "", number=number, type=type_)
+    blending = _BLENDING.replace("{number}", number).replace("{type}", type_).replace("k < 5", f"k < {5 + states}")
+    shown = blending if any(pin.has_transition for pin in pins) else ""
+    given = {"number": number, "type": type_, "rows": 4 + states, "columns": 5 + states}
+    return render("play/pin_slopes.c.jinja", blending=shown, **given)
 
 
 def _slopes(clearance: Clearance, c: str, calls: Mapping[str, SharedCall]) -> str:

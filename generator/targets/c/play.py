@@ -74,7 +74,7 @@ def _dry(pin: Pin, render: Render, states: int) -> PinFunction:
     steps: dict[str, Any] = {"before": _lines(pin.before_dry), "after": _lines(pin.after_dry)}
     laws = [pin.laws[role] for role in ("normal", "friction") if role in pin.laws]
     steps["unread"] = functions.unread_sides(laws, (*pin.before_dry, *pin.after_dry))
-    steps |= {"law": _texts(calls), "rates": _braced("rate", clearance, states)}
+    steps |= {"law": _texts(calls), "rates": braced("rate", clearance, states)}
     text = render("play/dry.c.jinja", joint=joint, ratio=_RATIO, ratio_name=ratio, **steps)
     own: Stores = [(f"    const double {ratio} = {_RATIO};", ratio), *functions.one_by_one(pin.before_dry)]
     own += [*((code, local) for code, local in calls if local), *functions.one_by_one(pin.after_dry)]
@@ -85,20 +85,20 @@ def _film(pin: Pin, render: Render, states: int) -> PinFunction:
     calls, joint = _calls_of_film(pin, "double"), pin.clearance.name
     steps: dict[str, Any] = {"before": _lines(pin.before_film), "after": _lines(pin.after_film), "law": _texts(calls)}
     steps["unread"] = functions.unread_sides([pin.laws["film"]], (*pin.before_film, *pin.after_film))
-    text = render("play/film.c.jinja", joint=joint, rates=_braced("", pin.clearance, states), **steps)
+    text = render("play/film.c.jinja", joint=joint, rates=braced("", pin.clearance, states), **steps)
     own: Stores = [*functions.one_by_one(pin.before_film), *((code, local) for code, local in calls if local)]
     return PinFunction(f"film_{joint}", text, [*own, *functions.one_by_one(pin.after_film)])
 
 
 def _store(clearance: Clearance, states: int) -> str:
-    rates = _braced("F.state_rate", clearance, states)
+    rates = braced("F.state_rate", clearance, states)
     return _STORE % (f", .state_rate = {rates}" if rates else "")
 
 
-def _braced(array: str, clearance: Clearance, states: int) -> str:
-    """The rates of the inner states of its laws as an initializer, 0 where it has none; "" where no law has any."""
+def braced(array: str, clearance: Clearance, states: int, none: str = "0.0") -> str:
+    """Rates of the inner states of its laws as an initializer, `none` where it has none; "" where no law has any."""
     own = len(clearance.states) if array else 0
-    rates = [f"{array}[{k}]" if k < own else "0.0" for k in range(states)]
+    rates = [f"{array}[{k}]" if k < own else none for k in range(states)]
     return f"{{{', '.join(rates)}}}" if rates else ""
 
 
