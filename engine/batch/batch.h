@@ -6,7 +6,8 @@
 enum {
     NOT_CLOSED = -9,                      /* status, beside those of run.c: the start is left to Python */
     NEW = 0, BEGUN = 1, OVER = 2,         /* phase of a run */
-    ALL_OVER = 0, LISTS = 1, RUN_OVER = 2, GOES_ON = 3
+    ALL_OVER = 0, LISTS = 1, RUN_OVER = 2, GOES_ON = 3,
+    NOT_YET = 0, UNTRIED = 1, TRIED = 2   /* of a step: none is wanted yet; what others did of it */
 };
 
 #define GLANCE 0.02 /* s between two looks at whether the batch is ending */
@@ -46,6 +47,7 @@ typedef struct {
     void (*give)(const void *run, Moving *state);
     void (*take)(void *run, const Moving *state);
     int (*jumps)(const Batch *b, long i, double t0, double t1); /* whether a drive's rate does so between two times */
+    int (*goes_on)(const Batch *b, long i, int tried, void *run); /* to its next step: GOES_ON, LISTS or RUN_OVER */
 } Single;
 
 #endif

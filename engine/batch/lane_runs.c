@@ -3,7 +3,6 @@
  * left mirrors another: what fills it must not be rare.
  */
 #include "lane_calls.h"
-#include <time.h>
 
 typedef struct {
     const Batch *b;
@@ -174,13 +173,6 @@ static void advance(Side *side)
         single_steps(side, rare, &before);
 }
 
-static double seconds_now(void)
-{
-    struct timespec now;
-    timespec_get(&now, TIME_UTC);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 int gudgeon_lane_count(void) { return LANES; }
 
 /*
@@ -192,7 +184,7 @@ int gudgeon_lane_count(void) { return LANES; }
 int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number)
 {
     Side side = {.b = batch, .one = single, .run = run};
-    const double before = seconds_now();
+    const double before = lane_seconds();
     long left = side.b->limit;
     int entered = 0, together = 1;
     for (int k = 0; k < LANES; k++) {
@@ -217,7 +209,7 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
         scatter(&side, &side.x, k);
         side.b->t_last[side.number[k]] = side.x.t[k];
     }
-    const double share = (seconds_now() - before) / entered;
+    const double share = (lane_seconds() - before) / entered;
     for (int k = 0; k < LANES; k++) {
         if (number[k] >= 0)
             side.b->seconds[number[k]] += share;

@@ -173,16 +173,21 @@ static void take_state(void *memory, const Moving *state)
     }
 }
 
+static Samples samples_of(const Batch *b, long i)
+{
+    const long row = rows_of(b, i);
+    return (Samples){
+        .n = b->wanted[i], .done = b->done + i, .t = times_of(b, i), .y = b->y + row * N_S,
+        .latched = b->latched + row * AT_LEAST_ONE(N_MEMORY), .state = b->state + row * AT_LEAST_ONE(N_CLEARANCES)
+    };
+}
+
 /* Samples of the step that led from `before` to the present state; neither a contact nor an event was on the way. */
 static void samples_single(const Batch *b, long i, const Moving *before, void *memory)
 {
     Run *run = memory;
     const Parameters *p = (const Parameters *)(b->p_motion + i * b->numbers);
-    const long row = rows_of(b, i);
-    const Samples out = {
-        .n = b->wanted[i], .done = b->done + i, .t = times_of(b, i), .y = b->y + row * N_S,
-        .latched = b->latched + row * AT_LEAST_ONE(N_MEMORY), .state = b->state + row * AT_LEAST_ONE(N_CLEARANCES)
-    };
+    const Samples out = samples_of(b, i);
     Beginning from = {.t = before->t};
     for (int k = 0; k < N_Y; k++) {
         from.y[k] = before->y[k];
@@ -207,10 +212,37 @@ static int jumps_single(const Batch *b, long i, double t0, double t1)
 #endif
 }
 
+/*
+ * Run i to where its next step is to be tried, which is in run->attempt; of one that has been, in run->step, what
+ * follows comes first. One that others left untried is tried here.
+ */
+static int next_single(const Batch *b, long i, int tried, void *memory)
+{
+    Run *run = memory;
+    const Parameters *p = (const Parameters *)(b->p_motion + i * b->numbers);
+    const Samples out = samples_of(b, i);
+    int status = 0;
+    if (tried != NOT_YET) {
+        run->step.method = run->method;
+        if (!is_settled(run, tried == TRIED ? 0 : try_step(run, p, &run->step), p, &run->step, &status))
+            return GOES_ON;
+        run->attempt.open = 0;
+        if (!status)
+            status = take_step(run, p, &out);
+    }
+    if (!status && wants_step(run, 0, p, &out, &status))
+        return GOES_ON;
+    b->t_last[i] = run->t;
+    if (status == EVENTS_FULL)
+        return LISTS;
+    end_run(b, i, status, run);
+    return RUN_OVER;
+}
+
 const void *gudgeon_single(void)
 {
     static const Single single = {begin_single, steps_single, samples_single, end_single, give_state, take_state,
-        jumps_single};
+        jumps_single, next_single};
     return &single;
 }
 #endif

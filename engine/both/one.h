@@ -13,12 +13,14 @@
 #define AsideOf Aside
 #define ClearanceOf Clearance
 #define ParametersOf Parameters
+#define StepOf Step
 
 /* a where it is true, else b. */
 static inline double pick(int truth, double a, double b) { return truth ? a : b; }
 static inline int is_not(int truth) { return !truth; }
 static inline int any_of(int truth) { return truth != 0; }
 static inline int is_closed(const Latch *latch) { return latch->closed; }
+static inline double real_of(double x) { return x; }
 static inline double real_max(double x, double y) { return max_of(x, y); }
 static inline double real_abs(double x) { return fabs(x); }
 static inline double real_sqrt(double x) { return sqrt(x); }

@@ -47,103 +47,19 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
     return status ? status : check_contacts(run, p);
 }
 
-/* The side of what is watched and begins on a zero: that to which it goes. */
-static int leave_zeros(Run *run, const Parameters *p)
-{
-    int zeros = 0;
-    for (int i = 0; i < N_USER_EVENTS; i++)
-        zeros |= run->memory.event_side[i] == 0;
-    if (!zeros)
-        return 0;
-    double y[N_Y], dy[N_Y];
-    Aside aside;
-    const double h = 1e-6 * run->h;
-    for (int k = 0; k < N_Y; k++)
-        y[k] = run->y[k] + h * run->dy[k];
-    const int status = rates(run, run->t + h, y, p, dy, &aside);
-    for (int i = 0; i < N_USER_EVENTS; i++)
-        if (run->memory.event_side[i] == 0)
-            event_crosses(i, &run->memory.event_side[i], aside.event[i]);
-    return status;
-}
-
-/*
- * What a speed counts at least: a hundredth of what leads over the smallest length that matters in the shortest time
- * that the start's speeds and accelerations take for it. Only where these lead nowhere (a pulse is yet to come) the
- * run's own time has to tell.
- */
-static void floor_speeds(Run *run, double left)
-{
-    double rate = 0.0;
-    for (int k = 0; k < N_X; k++) {
-        const double least = run->least[is_angle[k]], a = fabs(run->dy[N_X + k]);
-        rate = max_of(rate, max_of(fabs(run->y[N_X + k]) / least, sqrt(a / least)));
-    }
-    for (int kind = 0; kind < 2; kind++)
-        run->speed_floor[kind] = run->least[kind] * (rate * left > 1e-3 ? 0.01 * rate : 1.0 / left);
-}
-
-/* The first right-hand side, with contacts, friction and sides as the start has them, held from now on. */
-static int begin_adaptive(Run *run, double left, const Parameters *p)
-{
-    int status = run->ready ? 0 : begin_run(run, p);
-    run->tick = min_of(1e-12, 1e-11 * left);
-    hold_sides(run);
-    if (!status)
-        status = settle_sides(run, -1, p);
-    floor_speeds(run, left);
-    note_speed(run);
-    run->turned_over = energy_scale(run, p);
-    weigh(run);
-#if N_CORNERS
-    if (!status)
-        status = pass_jumps_here(run, p); /* to the sides that hold there */
-#endif
-#if N_USER_EVENTS
-    if (!status)
-        status = begin_beyond(run, run->tick, p);
-#endif
-    if (!status && !(run->h > 0.0))
-        status = first_size(run, left, p);
-    return status ? status : leave_zeros(run, p);
-}
-
-/*
- * method: that begins, as gudgeon_method counts; automatic: whether it may change; scale (2 N_X): tolerances, those of
- * velocities a unit of speed; least: the smallest length (m) and angle (rad) that matter.
- */
-void gudgeon_adaptive_setup(void *memory, int method, int automatic, const double *scale, const double *least,
-    double fixed)
-{
-    Run *run = memory;
-    run->method = METHODS[method];
-    run->automatic = automatic;
-    run->patience = automatic && run->method->stiff ? 4 * PATIENCE : PATIENCE;
-    run->fixed = fixed;
-    run->error_before = 1e-4;
-    run->crossed = run->skip = -1;
-    run->accept = fixed > 0.0 ? INFINITY : 1.0;
-    for (int k = 0; k < 2 * N_X; k++)
-        run->inverse_scale[k] = 1.0 / scale[k];
-    run->work_scale = max_of(1e-10, WORKS * scale[2 * N_X - 1]); /* below it a sum of works is rounded */
-    run->least[0] = least[0];
-    run->least[1] = least[1];
-}
-
 /* Samples of the step before `t_new`, from its interpolant. */
-static int sample_step(Run *run, Step *step, double t_new, long n, const double *t, const Parameters *p,
-    double *y, double *latched, signed char *state, long *done)
+static int sample_step(Run *run, Step *step, double t_new, const Parameters *p, const Samples *out)
 {
     const long evaluations = run->evaluations;
-    while (*done < n && t[*done] < t_new) {
+    for (; *out->done < out->n && out->t[*out->done] < t_new; ++*out->done) {
+        const double t = out->t[*out->done];
         double now[N_Y];
         const int status = make_dense(run, p, step);
         if (status)
             return status;
-        interpolate(run, step, (t[*done] - step->t) / step->h, now);
-        project_state(run, t[*done], now, p);
-        store_sample(run, t[*done], now, p, *done, y, latched, state);
-        ++*done;
+        interpolate(run, step, (t - step->t) / step->h, now);
+        project_state(run, t, now, p);
+        store_sample(run, t, now, p, *out->done, out->y, out->latched, out->state);
     }
     run->evaluations = evaluations; /* samples are output, not integration */
     return 0;
@@ -207,7 +123,8 @@ static int event_of_step(Run *run, double t_end, const Parameters *p, Step *step
         if (h <= run->tick)
             break; /* it lies at the step's beginning, where no row is another one */
         run->h = h;
-        status = accepted_step(run, t_end, p, step);
+        open_attempt(run, t_end, p);
+        status = accepted_step(run, p, step);
         run->h = next;
         if (!status)
             *share = first_event(run, step, p, event);
@@ -219,74 +136,98 @@ static int event_of_step(Run *run, double t_end, const Parameters *p, Step *step
 }
 
 /*
+ * What comes before a step: the start, samples that are due. Whether a step is wanted (run->attempt has it) and not,
+ * as `last` says, to be left to another call; if not *status is 0, EVENTS_FULL, STOPPED, or what went wrong.
+ */
+static int wants_step(Run *run, int last, const Parameters *p, const Samples *out, int *status)
+{
+    const double t_end = out->t[out->n - 1];
+    const int begins = !run->memory.held && !run->attempt.open;
+    *status = begins ? begin_adaptive(run, t_end - run->t, p) : 0;
+    if (!*status && begins)
+        tape_jump(run, p);
+    run->tape.jumped |= begins;
+    if (run->attempt.open)
+        return !last; /* it was under way */
+    if (*status)
+        return 0;
+    for (; *out->done < out->n && out->t[*out->done] <= run->t; ++*out->done)
+        store_sample(run, run->t, run->y, p, *out->done, out->y, out->latched, out->state);
+    if (*out->done == out->n || last)
+        return 0;
+    if (run->asked.stop)
+        *status = STOPPED;
+    else if (lists_full(run))
+        *status = EVENTS_FULL;
+    else if (run->fixed <= 0.0 && stalls(run, t_end))
+        *status = STALLED;
+    else
+        open_attempt(run, t_end, p);
+    return !*status;
+}
+
+/*
+ * An accepted step, up to its first event: samples, and what changes at its end. Whatever it returns, the run is at
+ * the end of a whole step, with what changes there.
+ */
+static int take_step(Run *run, const Parameters *p, const Samples *out)
+{
+    const double t_end = out->t[out->n - 1];
+    Step *step = &run->step;
+    int event;
+    double share;
+    choose(run);
+    int status = event_of_step(run, t_end, p, step, &share, &event);
+    if (status || run->asked.stop)
+        return status ? status : STOPPED; /* what was found meanwhile means nothing */
+    const double t_whole = step->h == t_end - run->t ? t_end : run->t + step->h;
+    const double t_new = share < 1.0 ? run->t + share * step->h : t_whole;
+    /* what is so near is at the event */
+    const double close = event < 0 ? 0.0 : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2.0 * run->tick);
+    status = sample_step(run, step, t_new - close, p, out);
+    const int jumps = (event >= 0 && event < N_MARGINS - N_USER_EVENTS) || (N_CORNERS > 0 && t_new == t_end);
+    if (!status)
+        status = tape_step(run, step, share, jumps, p);
+    run->asked.hold = 1;
+#if N_CORNERS
+    const double drift = run->phi_dot_max;
+#endif
+    if (!status)
+        status = commit(run, step, share, t_new, event, p);
+    run->memory.held = 1;
+#if N_CORNERS
+    if (!status && run->t == t_end) {
+        run->phi_dot_max = drift; /* which branch a rate has at a jump's own time says nothing */
+        status = pass_jumps_here(run, p);
+    }
+#endif
+#if N_USER_EVENTS
+    if (!status && run->t == t_end)
+        status = end_on_zeros(run, run->tick, p);
+#endif
+    if (!status || status == ENDED)
+        tape_end(run, jumps, status == ENDED || run->t == t_end, p);
+    run->asked.hold = 0;
+    return status;
+}
+
+/*
  * Towards the last of n output times, at most `limit` steps: samples go to row `done` and on. Returns 0 (at the end,
- * or to be called again), EVENTS_FULL, STOPPED, or what went wrong. Whatever it returns, the run is at the end of a
- * whole step, with what changes there.
+ * or to be called again), EVENTS_FULL, STOPPED, or what went wrong.
  */
 int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const double *t, long limit,
     double *y, double *latched, signed char *state, long *done)
 {
     Run *run = memory;
     const Parameters *p = (const Parameters *)parameters;
-    const double t_end = t[n - 1];
-    const int begins = !run->memory.held;
-    int status = begins ? begin_adaptive(run, t_end - run->t, p) : 0;
-    if (!status && begins)
-        tape_jump(run, p);
-    run->tape.jumped |= begins;
-    for (long i = 0; !status; i++) {
-        while (*done < n && t[*done] <= run->t) {
-            store_sample(run, run->t, run->y, p, *done, y, latched, state);
-            ++*done;
-        }
-        if (*done == n || i == limit)
-            return 0;
-        if (run->asked.stop)
-            return STOPPED;
-        if (lists_full(run))
-            return EVENTS_FULL;
-        if (run->fixed <= 0.0 && stalls(run, t_end))
-            return STALLED;
-        Step *step = &run->step;
-        status = accepted_step(run, t_end, p, step);
+    const Samples out = {.n = n, .done = done, .t = t, .y = y, .latched = latched, .state = state};
+    int status;
+    for (long i = 0; wants_step(run, i == limit, p, &out, &status); i++) {
+        status = accepted_step(run, p, &run->step);
+        if (!status)
+            status = take_step(run, p, &out);
         if (status)
             break;
-        choose(run);
-        int event;
-        double share;
-        status = event_of_step(run, t_end, p, step, &share, &event);
-        if (status)
-            break;
-        if (run->asked.stop)
-            return STOPPED; /* what was found meanwhile means nothing */
-        const double t_whole = step->h == t_end - run->t ? t_end : run->t + step->h;
-        const double t_new = share < 1.0 ? run->t + share * step->h : t_whole;
-        /* what is so near is at the event */
-        const double close = event < 0 ? 0.0 : max_of(8.0 * DBL_EPSILON * fabs(t_new), 2.0 * run->tick);
-        status = sample_step(run, step, t_new - close, n, t, p, y, latched, state, done);
-        const int jumps = (event >= 0 && event < N_MARGINS - N_USER_EVENTS) || (N_CORNERS > 0 && t_new == t_end);
-        if (!status)
-            status = tape_step(run, step, share, jumps, p);
-        run->asked.hold = 1;
-#if N_CORNERS
-        const double drift = run->phi_dot_max;
-#endif
-        if (!status)
-            status = commit(run, step, share, t_new, event, p);
-        run->memory.held = 1;
-#if N_CORNERS
-        if (!status && run->t == t_end) {
-            run->phi_dot_max = drift; /* which branch a rate has at a jump's own time says nothing */
-            status = pass_jumps_here(run, p);
-        }
-#endif
-#if N_USER_EVENTS
-        if (!status && run->t == t_end)
-            status = end_on_zeros(run, run->tick, p);
-#endif
-        if (!status || status == ENDED)
-            tape_end(run, jumps, status == ENDED || run->t == t_end, p);
-        run->asked.hold = 0;
     }
     return status;
 }

@@ -13,14 +13,6 @@
 #include "no_friction_events.c"
 #endif
 
-/* Where samples go: their times, their rows, and how many are stored. */
-typedef struct {
-    long n, *done;
-    const double *t;
-    double *y, *latched;
-    signed char *state;
-} Samples;
-
 static void begin_step(Run *run)
 {
     Beginning *from = &run->from;

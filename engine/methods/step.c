@@ -126,6 +126,10 @@ static void pass_impulse(Run *run, const Parameters *p)
     run->y[2 * N_X] += kinetic_energy(run, p) - before;
 }
 
+/* Whether a step's error is no number; whether it is too large. */
+static int is_odd(const Run *run, double error) { return (void)run, !isfinite(error); }
+static int is_refused(const Run *run, const Step *step) { return step->error > run->accept; }
+
 /* The end of a step: projected, with its right-hand side. */
 static int finish_step(Run *run, Step *step, const Parameters *p)
 {

@@ -51,76 +51,108 @@ static void next_length(Run *run, const Step *step, int again, int whole)
         run->h = step->h * factor;
 }
 
-/* One accepted step towards t_end; the next step's length in run->h. Events are not looked for here. */
-static int accepted_step(Run *run, double t_end, const Parameters *p, Step *step)
+/* How long a step towards t_end is tried at first. */
+static void open_attempt(Run *run, double t_end, const Parameters *p)
 {
     const double left = t_end - run->t, far = max_of(min_of(fabs(t_end), LONG_RUN), fabs(run->t));
-    const double least = 16.0 * DBL_EPSILON * far;
     double h = run->fixed > 0.0 ? run->fixed : run->h;
-    int again = 0, shortened = 0, given_up = 0;
     if (run->skip >= 0 && run->fixed <= 0.0)
         h = min_of(h, run->pace);
     if (run->fixed <= 0.0)
         h = min_of(h, stride(run, NULL, p));
     if (h > left * (1.0 - 1e-9))
         h = left;
-    const double longest = h;
-    for (;;) {
-        const Method *method = step->method = run->method;
-        const int status = method->try(run, h, p, step);
-        if (status == STOPPED || (status && run->fixed > 0.0))
-            return status;
-        if (!status && step->error <= run->accept && !method->stiff && run->fixed <= 0.0
-            && run->stability > method->unstable) {
-            run->rejected++;
-            if (run->automatic && !given_up)
-                change_method(run);
-            else
-                h *= method->bounded / run->stability;
-            continue;
-        }
-        if (!status && step->error <= run->accept && run->fixed <= 0.0 && 1.5 * stride(run, step, p) < h) {
-            again = 1;
-            run->rejected++;
-            h *= 0.5;
-            continue;
-        }
-        if (!status && step->error <= run->accept && is_unresolved(run, step, p) && run->fixed <= 0.0
-            && shortened++ < SHORTENED) {
-            again = 1;
-            run->rejected++;
-            h *= 0.25;
-            continue;
-        }
-        const int wanted = !status && step->error <= run->accept && run->fixed <= 0.0;
-        const double pulse = wanted && h > FINE * far ? missed_pulse(run, step, p) : 0.0;
-        if (pulse > 0.0 && shortened++ < SHORTENED) {
-            again = 1;
-            run->rejected++;
-            h *= max_of(0.25, 0.5 * pulse);
-            continue;
-        }
-        if (!status && step->error <= run->accept) {
-            next_length(run, step, again, h < left);
-            /* so many steps on so short a way lead nowhere: speeds grow beyond all bounds (a dead centre) */
-            run->crawl = h < 256.0 * least ? run->crawl + 1 : 0;
-            return run->crawl > MAX_CRAWL ? TOO_SMALL : 0;
-        }
-        again = 1;
+    run->attempt = (Attempt){.h = h, .longest = h, .left = left, .far = far, .open = 1,
+        .stiff = run->method->stiff};
+}
+
+/* Another one, as long as attempt->h. */
+static int again(Run *run)
+{
+    run->attempt.stiff = run->method->stiff;
+    return 0;
+}
+
+/*
+ * Whether the step that was tried is accepted, `tried` being its status: 0 if not, with what is to be tried next in
+ * run->attempt. If so, the next one's length is in run->h; or *status is what went wrong. Events are not looked for.
+ */
+static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int *status)
+{
+    const Method *method = step->method;
+    Attempt *now = &run->attempt;
+    const int good = !tried && step->error <= run->accept, free = run->fixed <= 0.0;
+    const double least = 16.0 * DBL_EPSILON * now->far;
+    *status = tried;
+    if (tried == STOPPED || (tried && !free))
+        return 1;
+    if (good && !method->stiff && free && run->stability > method->unstable) {
         run->rejected++;
-        h *= status ? 0.25 : min_of(0.9, max_of(0.1, 0.9 * pow(step->error, -method->power)));
-        if (h > least)
-            continue;
-        if (N_SWITCHES > 0 && status == NOT_FINITE && run->memory.held) {
-            run->memory.held = 0; /* until the step is taken: beyond a corner its held branch may be no number */
-            h = longest;
-            continue;
-        }
-        if (!run->automatic || !method->stiff || given_up++)
-            return status ? status : TOO_SMALL;
-        change_method(run); /* its matrix is singular where rows depend on each other; the other one knows a way */
-        h = longest;
+        if (run->automatic && !now->given_up)
+            change_method(run);
+        else
+            now->h *= method->bounded / run->stability;
+        return again(run);
     }
+    if (good && free && 1.5 * stride(run, step, p) < now->h) {
+        now->again = 1;
+        run->rejected++;
+        now->h *= 0.5;
+        return again(run);
+    }
+    if (good && is_unresolved(run, step, p) && free && now->shortened++ < SHORTENED) {
+        now->again = 1;
+        run->rejected++;
+        now->h *= 0.25;
+        return again(run);
+    }
+    const double pulse = good && free && now->h > FINE * now->far ? missed_pulse(run, step, p) : 0.0;
+    if (pulse > 0.0 && now->shortened++ < SHORTENED) {
+        now->again = 1;
+        run->rejected++;
+        now->h *= max_of(0.25, 0.5 * pulse);
+        return again(run);
+    }
+    if (good) {
+        next_length(run, step, now->again, now->h < now->left);
+        /* so many steps on so short a way lead nowhere: speeds grow beyond all bounds (a dead centre) */
+        run->crawl = now->h < 256.0 * least ? run->crawl + 1 : 0;
+        *status = run->crawl > MAX_CRAWL ? TOO_SMALL : 0;
+        return 1;
+    }
+    now->again = 1;
+    run->rejected++;
+    now->h *= tried ? 0.25 : min_of(0.9, max_of(0.1, 0.9 * pow(step->error, -method->power)));
+    if (now->h > least)
+        return again(run);
+    if (N_SWITCHES > 0 && tried == NOT_FINITE && run->memory.held) {
+        run->memory.held = 0; /* until the step is taken: beyond a corner its held branch may be no number */
+        now->h = now->longest;
+        return again(run);
+    }
+    if (!run->automatic || !method->stiff || now->given_up++) {
+        *status = tried ? tried : TOO_SMALL;
+        return 1;
+    }
+    change_method(run); /* its matrix is singular where rows depend on each other; the other one knows a way */
+    now->h = now->longest;
+    return again(run);
+}
+
+static int try_step(Run *run, const Parameters *p, Step *step)
+{
+    step->method = run->method;
+    return run->method->try(run, run->attempt.h, p, step);
+}
+
+/* Steps as long as run->attempt has them, until one is accepted; 0, or what went wrong. */
+static int accepted_step(Run *run, const Parameters *p, Step *step)
+{
+    int status;
+    while (!is_settled(run, try_step(run, p, step), p, step, &status))
+        ;
+    run->attempt.open = 0;
+    return status;
 }
 
 /* A first step from the size of the motion's first two rates. */

@@ -6,7 +6,6 @@
 #define GUDGEON_RUN_H
 #include "asked.h"
 #include "../scene/events.h"
-#include "../both/one.h"
 
 #if N_RIGID
 #define MAX_PARTS 200 /* of a step of rk4, in which a contact may bounce again and again */
@@ -39,7 +38,8 @@ typedef struct {
 /* A step that was tried: contacts and the sides of corners are held while it is made. */
 enum {
     N_MARGINS = N_CLEARANCES + N_SWITCHES + N_FRICTIONS + N_USER_EVENTS, /* what may end a step, in this order */
-    N_STAGES = 16, N_DENSE = 7, N_LOOKS = 16
+    N_STAGES = 16, N_DENSE = 7, N_LOOKS = 16,
+    HERE = 1, ELSEWHERE = 2 /* where the equations of a step are linearized: in the run, in a lane; 0: not yet */
 };
 
 typedef struct Method Method; /* methods.c */
@@ -62,6 +62,24 @@ typedef struct {
     unsigned char near[AT_LEAST_ONE(N_WATCHED)], looked;
     double rate[AT_LEAST_ONE(N_CLEARANCES)][2];   /* smallest and largest d delta/dt of the stages */
 } Step;
+
+/*
+ * The step that is tried now, until one is accepted (step_length.c): its length, the first one, what was left of the
+ * run, how far from zero its times are; whether by the stiff method, whether one was refused, how often it did not
+ * resolve something, whether both methods were given up.
+ */
+typedef struct {
+    double h, longest, left, far;
+    int open, stiff, again, shortened, given_up;
+} Attempt;
+
+/* Where samples go: their times, their rows, and how many are stored. */
+typedef struct {
+    long n, *done;
+    const double *t;
+    double *y, *latched;
+    signed char *state;
+} Samples;
 
 /* States that Python fetches (tape.c); nobody wants any: NULL. */
 typedef struct {
@@ -108,6 +126,7 @@ typedef struct {
     const Method *method;
     int crossed, skip, automatic, votes, patience, since, stuck, crawl, linear_ready;
     Linear linear;
+    Attempt attempt;
     Step step;
 } Run;
 

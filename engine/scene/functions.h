@@ -16,54 +16,6 @@
 
 static const double TURN_LIMIT = 1e5; /* rad; larger angles go to the library's functions, which take all care */
 
-/* x = k pi/2 + r + rest: as sines.h does it for several, with what r is rounded by; the last bits of k. */
-static inline int quarters(double x, double *r, double *rest)
-{
-    const double shift = 6755399441055744.0, k = x * 0.63661977236758134308 + shift - shift;
-    const double first = x - k * 1.57079632673412561417, part = k * 6.07710050630396597660e-11, second = first - part;
-    const double last = k * 2.02226624879595063154e-21;
-    *r = second - last;
-    *rest = second - *r - last + (first - second - part);
-    return (int)k & 3;
-}
-
-static inline double sine_near(double r, double rest)
-{
-    const double z = r * r, cube = z * r;
-    const double high = 8.33333333332248946124e-03 + z * (-1.98412698298579493134e-04 + z * (2.75573137070700676789e-06
-        + z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
-    return r - (z * (0.5 * rest - cube * high) - rest - cube * -1.66666666666666324348e-01);
-}
-
-static inline double cosine_near(double r, double rest)
-{
-    const double z = r * r, half = 0.5 * z, less = 1.0 - half;
-    const double high = z * (4.16666666666666019037e-02 + z * (-1.38888888888741095749e-03
-        + z * (2.48015872894767294178e-05 + z * (-2.75573143513906633035e-07 + z * (2.08757232129817482790e-09
-        + z * -1.13596475577881948265e-11)))));
-    return less + (1.0 - less - half + (z * high - r * rest));
-}
-
-static inline double sine_of(double x)
-{
-    if (!(fabs(x) < TURN_LIMIT))
-        return sin(x);
-    double r, rest;
-    const int k = quarters(x, &r, &rest);
-    const double found = k & 1 ? cosine_near(r, rest) : sine_near(r, rest);
-    return k & 2 ? -found : found;
-}
-
-static inline double cosine_of(double x)
-{
-    if (!(fabs(x) < TURN_LIMIT))
-        return cos(x);
-    double r, rest;
-    const int k = quarters(x, &r, &rest);
-    const double found = k & 1 ? sine_near(r, rest) : cosine_near(r, rest);
-    return (k + 1) & 2 ? -found : found;
-}
-
 static inline uint64_t bits_of(double x)
 {
     uint64_t bits;
@@ -78,39 +30,36 @@ static inline double of_bits(uint64_t bits)
     return x;
 }
 
-/* x rounded to 26 bits: products of two such numbers are exact, and what is left of 1 - e is as small as e. */
-static inline double upper_half(double x) { return of_bits((bits_of(x) + 0x4000000u) & 0xfffffffff8000000u); }
+#define PARTS_OF double
+#define PARTS_BITS uint64_t
+#define PARTS_NAMED(name) name
+#define PARTS_POWER(bits) ((double)((int64_t)(bits) >> 52))
+#define PARTS_ENTRY(table, bits, k) table[(bits) & 127][k]
+#include "parts.h"
+#undef PARTS_OF
+#undef PARTS_BITS
+#undef PARTS_NAMED
+#undef PARTS_POWER
+#undef PARTS_ENTRY
 
-/* log x, the rest beyond its rounding in `rest`; x is normal and positive. */
-static inline double log_in_parts(double x, double *rest)
+static inline double sine_of(double x)
 {
-    const uint64_t from = 0x3fe6100000000000u, bits = bits_of(x) - from;
-    const double *part = log_table[bits >> 45 & 127], k = (double)((int64_t)bits >> 52);
-    const double z = of_bits(bits_of(x) - (bits & 0xfff0000000000000u)), z_high = upper_half(z);
-    const double r_high = z_high * part[0] - 1.0, r_low = (z - z_high) * part[0], r = r_high + r_low;
-    const double r_rest = r_high - r + r_low;
-    const double sum = k * 0x1.62e42fefa38p-1 + part[1], near = sum + r;
-    const double r_top = upper_half(r_high), r_bottom = r_high - r_top + r_low; /* the square of the first is exact */
-    const double half = -0.5 * r, square = r * half, half_top = -0.5 * r_top, square_top = r_top * half_top;
-    const double high = near + square_top;
-    const double series = r * square * (-2.0 / 3.0 + r * 0.5
-        + square * (0.8 + r * (-2.0 / 3.0) + square * (-8.0 / 7.0 + r)));
-    const double low = k * 0x1.ef35793c7673p-45 + part[2] + (sum - near + r) + r_rest + r_bottom * (half + half_top)
-        + (near - high + square_top) + series;
-    *rest = high - (high + low) + low;
-    return high + low;
+    if (!(fabs(x) < TURN_LIMIT))
+        return sin(x);
+    double r, rest;
+    const uint64_t k = quarters(x, &r, &rest);
+    const double found = k & 1 ? cosine_near(r, rest) : sine_near(r, rest);
+    return k & 2 ? -found : found;
 }
 
-/* e^(x + rest) for |x| < 700 and a small rest. */
-static inline double exp_of_parts(double x, double rest)
+static inline double cosine_of(double x)
 {
-    const double shift = 6755399441055744.0, shifted = x * 0x1.71547652b82fep7 + shift, k = shifted - shift;
-    const double r = x - k * 0x1.62e42fefcp-8 + k * 0x1.c610ca86c3899p-44 + rest, square = r * r;
-    const uint64_t whole = bits_of(shifted);
-    const double *part = exp_table[whole & 127], power = of_bits(bits_of(part[0]) + (whole >> 7 << 52));
-    const double less = part[1] + r + square * (0.5 + r * (1.0 / 6.0))
-        + square * square * (1.0 / 24.0 + r * (1.0 / 120.0));
-    return power + power * less;
+    if (!(fabs(x) < TURN_LIMIT))
+        return cos(x);
+    double r, rest;
+    const uint64_t k = quarters(x, &r, &rest);
+    const double found = k & 1 ? sine_near(r, rest) : cosine_near(r, rest);
+    return (k + 1) & 2 ? -found : found;
 }
 
 static inline int is_normal(double x) { return x >= DBL_MIN && x <= DBL_MAX; }

@@ -115,8 +115,7 @@ void drive_corner_ranges(Range t, const Parameters *p, Range *out);
 void time_terms(Range t, const Parameters *p, Range *out);
 #endif
 
-/* The memory of a sample (calls.c); what a long computation asks on its way (run/asked.c). */
+/* The memory of a sample (calls.c). */
 void read_memory(const double *sample, Memory *memory);
-int ask_now(Asked *x);
 
 #endif

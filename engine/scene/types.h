@@ -45,6 +45,8 @@ typedef struct {
 #define gives(i) ((void)(i), 1)
 #endif
 
+int ask_now(Asked *x);
+
 /* What a joint with play remembers: the impact velocity of its last onset. */
 typedef struct {
     int closed;

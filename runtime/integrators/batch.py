@@ -8,9 +8,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections import deque
 from collections.abc import Callable, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor, wait
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,9 +19,11 @@ from gudgeon.assembly.start import assemble
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators import adaptive, lanes, rk4
 from gudgeon.integrators.failure import INTERRUPTED, NOT_FINITE, STOPPED, failure
-from gudgeon.integrators.lanes import NEW, NOT_CLOSED, OVER, Lanes
+from gudgeon.integrators.lanes import NEW, NOT_CLOSED, OVER, Flow, Lanes
 from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, fetch_impacts, no_states, told_apart
 from gudgeon.integrators.steps import Look, Tape
+from gudgeon.integrators.threads import GLANCE as GLANCE
+from gudgeon.integrators.threads import in_threads
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Counts, Progress, Trajectory, no_events, plain
 from gudgeon.model.compiled import N_WORK, Array, CompiledModel
@@ -34,8 +34,6 @@ if TYPE_CHECKING:
     from gudgeon.results.results import State
 
 ALL_OVER, LISTS, RUN_OVER = 0, 1, 2  # what a call returns
-PORTION = 16  # runs handed out at once, at most
-GLANCE = 0.05  # s between two looks of the waiting thread
 
 
 def available_threads() -> int:
@@ -58,8 +56,10 @@ class Runs:
 
         self.compiled, self.method, self.times, self.threads, self.over = compiled, method, times, threads, over
         n, N, size, nc = len(p), times.most, 2 * compiled.n + N_WORK, max(len(compiled.source.clearances), 1)
-        self.lanes = Lanes(compiled) if side_by_side and lanes.wanted(compiled, method, step) else None
-        self.n, self.abreast = n, self.lanes.count if self.lanes else 1
+        beside = side_by_side and lanes.wanted(compiled, method, step)
+        self.lanes = Lanes(compiled) if beside and method == "rk4" else None
+        self.flow = Flow(compiled) if beside and method != "rk4" else None
+        self.n, self.abreast = n, max((each.count for each in (self.lanes, self.flow) if each), default=1)
         places = threads * self.abreast if over else n
         scale, least = adaptive.tolerances(compiled, p, rtol)
         self.arrays: dict[str, NDArray[Any]] = {
@@ -97,7 +97,7 @@ class Runs:
 
     def __getstate__(self) -> dict[str, Any]:
         """What is over: arrays and lists, without what C worked on."""
-        return self.__dict__ | {"struct": None, "lanes": None, "over": None, "looks": ()}
+        return self.__dict__ | {"struct": None, "lanes": None, "flow": None, "over": None, "looks": ()}
 
     def let_go(self) -> None:
         """Samples that `over` has taken what it wanted of."""
@@ -128,11 +128,11 @@ class Runs:
         """All of them. Ctrl-C ends them where they are."""
         with CtrlC() as ctrl_c:
             try:
-                self._in_threads(progress, range(self.n), ctrl_c)
+                in_threads(self, progress, range(self.n), ctrl_c)
                 left = self._not_closed()
                 if left:
                     again = [i for i in left if self._assemble(i, ctrl_c)]
-                    self._in_threads(progress, again, ctrl_c)
+                    in_threads(self, progress, again, ctrl_c)
                 ctrl_c.take()
             except KeyboardInterrupt:
                 self.interrupted = True
@@ -180,57 +180,19 @@ class Runs:
         self.arrays["started"][i] = 1
         return True
 
-    def _in_threads(self, progress: Progress | None, wanted: range | list[int], ctrl_c: CtrlC) -> None:
-        portion = max(1, min(PORTION, len(wanted) // (8 * self.threads)))
-        portion = math.ceil(portion / self.abreast) * self.abreast
-        portions = deque(wanted[k : k + portion] for k in range(0, len(wanted), portion))
-        with ThreadPoolExecutor(self.threads, thread_name_prefix="gudgeon") as pool:
-            try:
-                waiting: set[Future[None]] = {pool.submit(self._work, portions, k) for k in range(self.threads)}
-                while waiting:
-                    ended, waiting = wait(waiting, GLANCE)
-                    ctrl_c.take()
-                    for future in ended:
-                        future.result()
-                    if progress:
-                        progress(float(np.mean(self.arrays["phase"] == OVER)), "integrating")
-            except BaseException:
-                self.arrays["ending"][0] = 1
-                raise
+    def to_its_end(self, i: int, memory: NDArray[np.uint8], tape: Tape | None = None) -> None:
+        """Run i alone from where it is, if it is not over."""
+        self.alone(i, i + 1, memory, tape)
+        self.is_over(i)
 
-    def _work(self, portions: deque[range | list[int]], worker: int) -> None:
-        """One thread: portions of runs until none is left."""
-        memories = np.zeros((self.abreast, self.compiled.lib.gudgeon_run_size()), dtype=np.uint8)
-        tape = Tape(self.compiled) if self.looks else None
-        if tape:
-            tape.lay(self.compiled.pointer(memories[0], "void *"))
-        while portions and not self.stopping:
-            try:
-                portion = portions.popleft()
-            except IndexError:  # another thread was quicker
-                return
-            if self.lanes is None and self.over is None and isinstance(portion, range):
-                self._alone(portion.start, portion.stop, memories[0], tape)
-                continue
-            new = [i for i in portion if self.arrays["phase"][i] == NEW]
-            steps = self.arrays["step"]
-            for group in self.lanes.groups(new, steps, self.times) if self.lanes else [[i] for i in new]:
-                self._group(group, memories, worker * self.abreast, tape)
+    def is_over(self, i: int) -> None:
+        """What is wanted of run i, if it came to its end in a place that others may take."""
+        if self.over and self.arrays["phase"][i] == OVER and self.arrays["status"][i] != NOT_CLOSED:
+            if self.method != "rk4":
+                self._take_back(i)
+            self.over(self, i)
 
-    def _group(self, group: list[int], memories: NDArray[np.uint8], place: int, tape: Tape | None) -> None:
-        """Runs that go side by side as far as they do, and then each to its end."""
-        if self.over:
-            self.arrays["place"][group] = place + np.arange(len(group))
-        if self.lanes and len(group) >= lanes.LEAST and not self.stopping:
-            self.lanes.together(self, group, memories)
-        for k, i in enumerate(group):
-            self._alone(i, i + 1, memories[k], tape)
-            if self.over and self.arrays["phase"][i] == OVER and self.arrays["status"][i] != NOT_CLOSED:
-                if self.method != "rk4":
-                    self._take_back(i)
-                self.over(self, i)
-
-    def _alone(self, first: int, end: int, memory: NDArray[np.uint8], tape: Tape | None) -> None:
+    def alone(self, first: int, end: int, memory: NDArray[np.uint8], tape: Tape | None) -> None:
         """Runs one after the other, from where they are to their ends."""
         compiled, current = self.compiled, self.compiled.ffi.new("long *", first)
         run = compiled.pointer(memory, "void *")

@@ -1,12 +1,17 @@
-"""Runs of a batch side by side in vector registers (engine/batch/lanes.h): rk4 with one step for all.
+"""Runs of a batch side by side in vector registers (engine/batch/lanes.h): a lane each.
 
-Their library is compiled when a batch first asks for it. It moves runs on as far as they go together; what is then
-not over goes on alone, from where it is.
+With rk4 runs of the same step and times go together from start to end, as far as they do; what is then not over goes on
+alone, from where it is. With a method that chooses its step each run has its own, and a lane whose run is over takes
+the next one. Each kind has a library of its own, compiled when a batch first asks for it.
 """
 
 from __future__ import annotations
 
+import time
+from collections import deque
+from collections.abc import Iterator
 from dataclasses import replace
+from threading import Lock
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,24 +21,27 @@ from gudgeon.model.arrays import address
 from gudgeon.model.compiled import Array, CompiledModel
 
 if TYPE_CHECKING:
+    from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.integrators.batch import Runs
     from gudgeon.integrators.times import Times
 
 NEW, OVER = 0, 2  # phases of a run
 NOT_CLOSED = -9  # status: the start is left to the search in Python
 NONE = -1  # in place of the number of a run
-LEAST = 2  # runs that are worth a vector
+ALL_OVER, LISTS = 0, 1  # what a call returns
+LEAST, FEW = 2, 16  # runs that are worth a vector: of rk4, of methods that choose their step
+MOST = 8  # lanes that a vector may have
+WORTH = 6.0  # s that a batch may still take, by the pace so far, from which on its library is worth being compiled
+HELD = "held_lanes.c"  # for methods that choose their step
 
 
 class Lanes:
     """The library of a scene's runs side by side; `count` of them."""
 
-    def __init__(self, compiled: CompiledModel) -> None:
+    def __init__(self, compiled: CompiledModel, held: bool = False) -> None:
         from gudgeon.loading.build import compile_kernels
-        from gudgeon.loading.engine import lane_declarations
 
-        source = replace(compiled.source, main=compiled.source.lanes, cdef=lane_declarations())
-        module: Any = compile_kernels(source, portable=compiled.portable)
+        module: Any = compile_kernels(_source(compiled, held), portable=compiled.portable)
         self.lib, self.ffi = module.lib, module.ffi
         self.count = int(self.lib.gudgeon_lane_count())
         single = compiled.ffi.cast("uintptr_t", compiled.lib.gudgeon_single())
@@ -52,21 +60,102 @@ class Lanes:
 
     def together(self, runs: Runs, group: list[int], memories: NDArray[np.uint8]) -> None:
         """Moves these runs on, each in a row of `memories`, until none goes on with others."""
-        rows = [address(runs.compiled.ffi, memory) for memory in memories[: self.count]]
-        pointers = self.ffi.new("void *[]", [self.ffi.cast("void *", row) for row in rows])
-        number = self.ffi.new("long[]", [*group, *[NONE] * (self.count - len(group))])
-        batch = self.ffi.cast("void *", int(runs.compiled.ffi.cast("uintptr_t", runs.struct)))
-        listed = bool(runs.compiled.source.clearances or runs.compiled.source.events)
+        arguments, number = self._arguments(runs, memories)
+        number[0 : len(group)] = group
         goes_on = True
         while goes_on and not runs.stopping:
             before = list(number)
-            goes_on = bool(self.lib.gudgeon_lanes(batch, self.single, pointers, number))
+            goes_on = bool(self.lib.gudgeon_lanes(*arguments, number))
             for k, i in enumerate(group):
-                if listed and before[k] != NONE and runs.arrays["status"][i] != NOT_CLOSED:
-                    over = bool(runs.arrays["phase"][i] == OVER)
-                    runs.fetch(i, runs.compiled.pointer(memories[k], "void *"), over)
+                if before[k] != NONE:
+                    _fetch(runs, i, memories[k])
+
+    def flow(self, runs: Runs, supply: Iterator[int], memories: NDArray[np.uint8], place: int) -> None:
+        """All runs of `supply`, each in a row of `memories`; with `over` its samples go to `place` and that row."""
+        arguments, number = self._arguments(runs, memories)
+        status = LISTS
+        while status != ALL_OVER and not runs.stopping:
+            for k in range(self.count):
+                if number[k] == NONE and (i := next(supply, NONE)) != NONE:
+                    number[k] = i
+                    if runs.over:
+                        runs.arrays["place"][i] = place + k
+            before = list(number)
+            status = self.lib.gudgeon_lanes(*arguments, number)
+            for k, i in enumerate(before):
+                if i != NONE and (status == LISTS or number[k] == NONE):
+                    _fetch(runs, i, memories[k])
+                if i != NONE and number[k] == NONE:
+                    runs.is_over(i)
+        for k, i in enumerate(number):
+            if i != NONE:
+                runs.to_its_end(i, memories[k])
+
+    def _arguments(self, runs: Runs, memories: NDArray[np.uint8]) -> tuple[tuple[Any, ...], Any]:
+        """What C is given, and the numbers of runs: none yet."""
+        rows = [address(runs.compiled.ffi, memory) for memory in memories[: self.count]]
+        pointers = self.ffi.new("void *[]", [self.ffi.cast("void *", row) for row in rows])
+        batch = self.ffi.cast("void *", int(runs.compiled.ffi.cast("uintptr_t", runs.struct)))
+        return (batch, self.single, pointers), self.ffi.new("long[]", [NONE] * self.count)
+
+
+class Flow:
+    """The lanes of a batch by a method that chooses its step, from when on they are worth it."""
+
+    def __init__(self, compiled: CompiledModel) -> None:
+        self.compiled, self.count, self._lock = compiled, MOST, Lock()
+        self.lanes = Lanes(compiled, held=True) if not WORTH or _is_compiled(compiled) else None
+        self.began = time.perf_counter()
+
+    def begins(self, runs: Runs) -> Lanes | None:
+        """The lanes, if what is left is worth them; one thread compiles, the others go on meanwhile."""
+        if self.lanes is None and self._is_worth(runs) and self._lock.acquire(blocking=False):
+            try:
+                self.lanes = self.lanes or Lanes(self.compiled, held=True)
+            finally:
+                self._lock.release()
+        return self.lanes
+
+    def _is_worth(self, runs: Runs) -> bool:
+        over = int(np.count_nonzero(runs.arrays["phase"] == OVER))
+        return over > 0 and (time.perf_counter() - self.began) * (runs.n - over) / over > WORTH
+
+
+def numbers_of(runs: Runs, portions: deque[range | list[int]]) -> Iterator[int]:
+    """The runs of portions that are yet to begin, as long as there are any."""
+    while portions and not runs.stopping:
+        try:
+            portion = portions.popleft()
+        except IndexError:  # another thread was quicker
+            return
+        yield from (i for i in portion if runs.arrays["phase"][i] == NEW)
+
+
+def _source(compiled: CompiledModel, held: bool) -> KernelSource:
+    """What the library is compiled from."""
+    from gudgeon.loading.engine import lane_declarations
+
+    source = replace(compiled.source, main=compiled.source.lanes, cdef=lane_declarations())
+    if not held:
+        return source
+    text = f'#define HELD 1\n#include "{source.lanes}"\n'
+    return replace(source, main=HELD, files={**source.files, HELD: text})
+
+
+def _is_compiled(compiled: CompiledModel) -> bool:
+    from gudgeon.loading.build import is_compiled
+
+    return is_compiled(_source(compiled, True), portable=compiled.portable)
+
+
+def _fetch(runs: Runs, i: int, memory: NDArray[np.uint8]) -> None:
+    """The lists of a run, if it has any."""
+    listed = runs.compiled.source.clearances or runs.compiled.source.events
+    if listed and runs.arrays["status"][i] != NOT_CLOSED:
+        runs.fetch(i, runs.compiled.pointer(memory, "void *"), bool(runs.arrays["phase"][i] == OVER))
 
 
 def wanted(compiled: CompiledModel, method: str, steps: Array) -> bool:
     """Whether a batch has runs that may go side by side."""
-    return method == "rk4" and bool(compiled.source.lanes) and bool((steps[1:] == steps[:-1]).any())
+    together = bool((steps[1:] == steps[:-1]).any()) if method == "rk4" else len(steps) >= FEW
+    return together and bool(compiled.source.lanes)

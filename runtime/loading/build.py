@@ -59,6 +59,14 @@ def compile_kernels(
         return _modules.setdefault(key, module)
 
 
+def is_compiled(source: KernelSource, *, portable: bool = False) -> bool:
+    """Whether `compile_kernels` finds the library in the cache."""
+    cache, command = default_cache(), compiler.find_compiler()
+    flags = (*compiler.flags(portable), *compiler.link_flags())
+    key = library_key(source, command, flags, compiler.identity(command, cache), portable)
+    return key in _modules or cache.has("libraries", key)
+
+
 def library_key(
     source: KernelSource, command: tuple[str, ...], flags: tuple[str, ...], identity: str, portable: bool
 ) -> str:

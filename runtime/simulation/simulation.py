@@ -220,8 +220,8 @@ class Simulation(Equations):
         `keep`: names of series, ["S9.y", "A.F"], which are then evaluated as soon as a run is over: its states are let
         go, and memory is that of the series alone; of an empty list none is kept, but impacts, events and
         peaks are. A run of which one cannot be evaluated has failed.
-        `side_by_side`: whether runs of rk4 that have the same step and times may share vector registers, several in
-        each thread; the numbers are the same without, and what that takes is compiled on its first use.
+        `side_by_side`: whether runs may share vector registers, several in each thread, with rk4 those of the same
+        step and times; the numbers are the same without, and what that takes is compiled where it is worth it.
         `peaks`, `against`: as in `simulate`; `batch.peak("S9.ay")`. Such runs do not go side by side.
         `contour`: as in `simulate`, one for all runs, or (n, depths) with a row for each.
 

@@ -15,8 +15,8 @@ import numpy as np
 
 from gudgeon.assembly.followed import NOTED, tell_of_runs
 from gudgeon.errors import GudgeonError, SolverError
-from gudgeon.integrators.batch import GLANCE
 from gudgeon.integrators.failure import INTERRUPTED
+from gudgeon.integrators.threads import GLANCE
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import IMPACT_DTYPE, Counts, Progress, no_events
 from gudgeon.model.choices import said

@@ -13,6 +13,7 @@ import pytest
 import gudgeon
 from gudgeon.errors import BadValueError
 from gudgeon.generator.targets.latex import equations_tex
+from gudgeon.integrators import lanes
 from gudgeon.loading.shipped import shipped_file
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
@@ -81,7 +82,9 @@ def test_methods_and_formulations_agree(press: Press) -> None:
 
 
 @pytest.mark.parametrize("friction", [None, LUGRE])
-def test_runs_side_by_side(press: Press, tmp_path: Path, friction: str | None) -> None:
+def test_runs_side_by_side(
+    press: Press, tmp_path: Path, friction: str | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """To the last bit those of single runs, while journals come, bend, slide and go."""
     scene = press()
     if friction:
@@ -96,6 +99,15 @@ def test_runs_side_by_side(press: Press, tmp_path: Path, friction: str | None) -
         for name in ("A.z", "B.z", "S9.y", "A.Ft"):
             assert (run[name] == batch[name][k]).all(), (k, name)
     assert abs(batch["A.z"]).max() > 1e-6
+    monkeypatch.setattr(lanes, "WORTH", 0.0)
+    c = np.linspace(2.5e-4, 5e-4, 17)
+    for method in ("dop853", "rodas5p"):
+        batches = [scene.simulate_many({"c": c}, 0.008, output=30, method=method, rtol=1e-6, threads=1,
+                                       side_by_side=side) for side in (True, False)]  # fmt: skip
+        for name in ("A.z", "B.z", "S9.y", "A.Ft"):
+            assert batches[0][name].tobytes() == batches[1][name].tobytes(), (method, name)
+        for count in ("steps", "right_hand_sides", "jacobians"):
+            assert (batches[0].diagnostics[count] == batches[1].diagnostics[count]).all(), (method, count)
 
 
 def test_a_run_goes_on_with_its_states(press: Press) -> None:

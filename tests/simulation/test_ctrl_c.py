@@ -20,7 +20,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError, InputError, SolverError
-from gudgeon.integrators.batch import GLANCE
+from gudgeon.integrators.threads import GLANCE
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.mechanisms.n_four_bar import text as n_four_bar
 from gudgeon.model import evaluation

@@ -140,16 +140,16 @@ def test_events_of_runs_are_there(tmp_path: Path) -> None:
 
 
 def test_states_of_all_runs_are_never_there_at_once() -> None:
-    """60 runs of 1,501 samples: 27 coordinates and as many velocities would be 40 MB, two series are 1.5 MB."""
+    """120 runs of 1,501 samples: 27 coordinates and as many velocities would be 80 MB, two series are 3 MB."""
     tracemalloc.start()
     try:
         batch = press("lubricated").simulate_many(
-            {"c": np.linspace(4e-4, 8e-4, 60)}, 0.001, output=1500, keep=["S9.y", "A.F"], threads=2
+            {"c": np.linspace(4e-4, 8e-4, 120)}, 0.001, output=1500, keep=["S9.y", "A.F"], threads=2
         )
         _, most = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()
     assert not batch.failures and np.isfinite(batch["A.F"]).all()
-    states = 60 * 1501 * 2 * len(batch.source.coordinates) * 8
+    states = 120 * 1501 * 2 * len(batch.source.coordinates) * 8
     assert most < states / 3
     assert len(pickle.dumps(batch)) < states / 3

@@ -20,6 +20,7 @@ from gudgeon.loading.engine import declarations, include_flags, sizes
 from gudgeon.loading.shipped import generated, shipped_file
 
 FLAGS = ["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror", *include_flags()]
+HELD = ["-DHELD=0", "-DHELD=1"]  # runs side by side: of rk4, of methods that choose their step
 WIDTHS = ([], ["-mavx2"], ["-mavx512f"]) if platform.machine() in ("x86_64", "AMD64") else ([],)  # 2, 4, 8 lanes
 COMPILERS = [name for name in ("gcc", "clang") if shutil.which(name)]
 SCENES = [
@@ -115,8 +116,8 @@ def test_no_warning(compiler: str, name: str, scene: str, tmp_path: Path) -> Non
     (tmp_path / "loops.c").write_text('#include "engine/engine.c"\n', encoding="utf-8")
     compile_c(compiler, tmp_path / "loops.c", [*FLAGS, *engine, "-c", "-o", "loops.o"])
     if source.lanes:
-        for width in WIDTHS:
-            compile_c(compiler, tmp_path / source.lanes, [*FLAGS, *width, "-c", "-o", "lanes.o"])
+        for held, width in ((held, width) for held in HELD for width in WIDTHS):
+            compile_c(compiler, tmp_path / source.lanes, [*FLAGS, held, *width, "-c", "-o", "lanes.o"])
 
 
 @pytest.mark.parametrize(("name", "scene"), SCENES)
@@ -124,8 +125,8 @@ def test_no_warning_about_any_shipped_scene(name: str, scene: str, tmp_path: Pat
     """Of what one compiler sees without optimizing."""
     source = gudgeon.load(name, scene).source
     main = write(source, tmp_path)
-    for file in (main, *([tmp_path / source.lanes] if source.lanes else [])):
-        compile_c(COMPILERS[0], file, [*FLAGS, "-fsyntax-only"])
+    for file, held in ((main, HELD[0]), *((tmp_path / source.lanes, held) for held in HELD if source.lanes)):
+        compile_c(COMPILERS[0], file, [*FLAGS, held, "-fsyntax-only"])
 
 
 @pytest.mark.parametrize(("name", "scene"), [("nine_bar_press", "ideal"), ("nine_bar_press", "lubricated"),
@@ -163,7 +164,8 @@ def test_no_warning_under_any_option(option: str, tmp_path: Path) -> None:
     source = generate(file.read_bytes(), file.name, "lubricated", OPTIONS[option])
     main = write(source, tmp_path)
     compile_c(COMPILERS[0], main, [*FLAGS, "-c", "-o", "scene.o"])
-    compile_c(COMPILERS[0], tmp_path / source.lanes, [*FLAGS, "-c", "-o", "lanes.o"])
+    for held in HELD:
+        compile_c(COMPILERS[0], tmp_path / source.lanes, [*FLAGS, held, "-c", "-o", "lanes.o"])
 
 
 @pytest.mark.parametrize(("name", "scene"), MOST)

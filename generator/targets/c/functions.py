@@ -194,9 +194,9 @@ def one_by_one(items: Sequence[Statement]) -> list[tuple[str, Line]]:
     return [(writer.line(line), line) for section in own.sections for line in section.statements]
 
 
-def shared_call(call: SharedCall, given: Sequence[str], results: Sequence[str], sides: bool = True) -> str:
+def shared_call(call: SharedCall, given: Sequence[str], results: Sequence[str]) -> str:
     """A joint's call of a function that joints share."""
-    held = ["side", "g", str(call.corner)] if sides and call.corner is not None else []
+    held = ["side", "g", str(call.corner)] if call.corner is not None else []
     return f"{call.kernel.name}({', '.join([*given, *call.numbers, *held, *results])});"
 
 

@@ -1,33 +1,53 @@
-"""The C of runs side by side: which kernels and templates it is made of (rk4 in the reduced formulation)."""
+"""The C of runs side by side: which kernels and templates it is made of, in the reduced formulation."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 
 from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.kernels.play import Pin
-from gudgeon.generator.kernels.program import Program
+from gudgeon.generator.kernels.program import Methods, Program
+from gudgeon.generator.kernels.shared import SharedCall
 from gudgeon.generator.solvers.contact_slopes import in_place
-from gudgeon.generator.targets.c import lanes_printer
+from gudgeon.generator.targets.c import functions, lanes_printer
 from gudgeon.generator.targets.c.curves import curves_code
 from gudgeon.generator.targets.c.model_header import deepest
+from gudgeon.generator.targets.c.newton import STATE, own_axes
 from gudgeon.generator.targets.c.play import braced, call_of_film, calls_of_dry
 
 MAIN = "lanes.c"
 _WANTED = ("closures", "closure_rates", "reduced_dynamics", "closing_step")
+_PICKING = """
+/* Those of b where the mask is set. */
+static inline void pick_slopes(LaneSlopes *a, LaneBits mask, const LaneSlopes *b)
+{
+    for (int i = 0; i < 4; i++) {
+        a->value[i] = pick(mask, b->value[i], a->value[i]);
+        for (int k = 0; k < 5; k++)
+            a->slope[i][k] = pick(mask, b->slope[i][k], a->slope[i][k]);
+    }
+}
+"""
+
+Render = Callable[..., str]  # template name, substitutions -> text
 
 
-def lanes_code(program: Program, render: Callable[..., str]) -> dict[str, str]:
+def lanes_code(program: Program, render: Render) -> dict[str, str]:
     """The file: kernels as the single runs have them, before sines are put side by side."""
     assert program.tree and program.methods
     model = program.model
     pins = [*map(lanes_printer.kernel, program.laws), *(_pin(pin, render, model.law_states) for pin in program.pins)]
     kernels = (*program.tree.plain, program.methods.plain_closing)
-    wanted = [kernel for kernel in kernels if kernel.name in _WANTED]
     parameters = [model.slots.field(symbol) for symbol in model.slots.members()]
+    wanted = [kernel for kernel in kernels if kernel.name in _WANTED]
     text = "\n".join([*pins, *map(lanes_printer.motion_kernel, wanted)])
-    curves = bool(curves_code(model.scene.mechanism.curves, (text,)))
-    return {MAIN: render("lanes.c.jinja", parameters=parameters, deepest=_deepest(model), kernels=text, curves=curves)}
+    newton = _newton(program.pins, program.methods, render, model.law_states)
+    curves = bool(curves_code(model.scene.mechanism.curves, (text, newton)))
+    return {MAIN: render(
+        "lanes.c.jinja", parameters=parameters, deepest=_deepest(model), kernels=text, newton=newton,
+        curves=curves,
+    )}  # fmt: skip
 
 
 def _deepest(model: Model) -> list[str]:
@@ -35,18 +55,39 @@ def _deepest(model: Model) -> list[str]:
     return [lanes_printer.expression(in_place(model, deepest(clearance))) for clearance in model.clearances]
 
 
-def _pin(pin: Pin, render: Callable[..., str], states: int) -> str:
+def _pin(pin: Pin, render: Render, states: int) -> str:
     """What happens round the laws of a joint; `states` of laws are as many for each."""
     clearance = pin.clearance
     steps = ("gap", "before_dry", "after_dry", "before_film", "after_film", "share")
     parts = {name: lanes_printer.statements(getattr(pin, name)) for name in steps}
     if clearance.normal is not None:
-        parts["dry_law"] = calls_of_dry(pin, "lanes_max_of(delta, all_of(0.0))", "Lanes", sides=False)
+        parts["dry_law"] = calls_of_dry(pin, "lanes_max_of(delta, all_of(0.0))", "Lanes")
     if clearance.film is not None:
-        parts["film_law"] = call_of_film(pin, "Lanes", sides=False)
+        parts["film_law"] = call_of_film(pin, "Lanes")
     return render(
         "play/lane_pin.c.jinja", joint=clearance.name, dry=clearance.normal is not None,
         film=clearance.film is not None, ratio_name="unclipped" if clearance.clip_ratio else "ratio",
         rates=braced("rate", clearance, states, "all_of(0.0)"), still=braced("", clearance, states, "all_of(0.0)"),
-        states=states, **parts,
+        first=pin.corners.start, last=pin.corners.stop, states=states, **parts,
     )  # fmt: skip
+
+
+def _newton(pins: Sequence[Pin], methods: Methods, render: Render, states: int) -> str:
+    """The equations of motion linearized and Newton's matrix: what newton.c has, without its tables."""
+    newton = methods.newton
+    picking = _PICKING.replace("i < 4", f"i < {4 + states}").replace("k < 5", f"k < {5 + states}")
+    slopes = [own_axes(pins, render, "Lanes", "LaneSlopes", states) + picking] if pins else []
+    slopes += map(lanes_printer.kernel, methods.sloping)
+    for clearance in (pin.clearance for pin in pins):
+        slopes.append(_tangent(clearance, methods.slopes[clearance.name], render, states))
+    of_state = map(lanes_printer.watched_kernel, (newton.linearize, newton.factor))
+    return "\n".join([*slopes, *of_state, *map(lanes_printer.kernel, (newton.substitute, newton.solve))])
+
+
+def _tangent(clearance: Clearance, parts: Mapping[str, SharedCall], render: Render, states: int) -> str:
+    """What acts in a joint, as in its own function."""
+    given = {"film": (STATE, "out"), "dry": (STATE, "&dry"), "share": (("delta",), "share")}
+    calls = {part: functions.shared_call(parts[part], what, (where,)) if part in parts else ""
+             for part, (what, where) in given.items()}  # fmt: skip
+    calls |= {"joint": clearance.name, "c": f"p->{clearance.pair.c}"}
+    return render("play/lane_tangent.c.jinja", rows=4 + states, columns=5 + states, **calls)

@@ -14,23 +14,23 @@ import sympy as sp
 from gudgeon.generator.ir.branches import Branch
 from gudgeon.generator.ir.kernels import Argument, Kernel, Section
 from gudgeon.generator.ir.readable import lines, readable
-from gudgeon.generator.ir.signatures import SIDES
 from gudgeon.generator.ir.sine_pairs import lane_by_lane
 from gudgeon.generator.ir.statements import (
     Call,
+    Declare,
     Guard,
     Jump,
     Largest,
     Line,
     Rescue,
     Return,
+    RunNumbers,
     Sides,
     Sines,
     Statement,
     Status,
 )
 from gudgeon.generator.ir.values import Chosen, Place, Test, Value
-from gudgeon.generator.kernels.shared import CORNER
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
 from gudgeon.generator.targets.c import functions, printer
 from gudgeon.generator.targets.c.printer import Text
@@ -38,11 +38,12 @@ from gudgeon.generator.targets.c.printer import Text
 _TYPES = {
     "double": "Lanes", "const double": "const Lanes", "double *": "Lanes *", "const double *": "const Lanes *",
     "const Parameters *": "const LaneParameters *", "const Memory *": "const LaneMemory *", "Aside *": "LaneAside *",
+    "const Aside *": "const LaneAside *", "const Latch *": "const LaneLatch *", "Linear *": "LaneLinear *",
+    "const Linear *": "const LaneLinear *", "PinSlopes *": "LaneSlopes *",
 }  # fmt: skip
 _RARE = Argument("LaneBits *", "rare")
-_HELD = (Place("side"), Place("g"))  # rk4 holds no side
-# Lines of single runs that have no counterpart: what becomes of a vanished pivot, corners that are held.
-_LEFT_OUT = (Status, Jump, Rescue, Return, Sides)
+# Lines of single runs that have no counterpart: what becomes of a vanished pivot.
+_LEFT_OUT = (Status, Jump, Rescue, Return)
 
 
 class LanesPrinter(printer.CPrinter):
@@ -76,8 +77,8 @@ class LanesPrinter(printer.CPrinter):
         return f"pick({self._vector(expr.args[0])} >= 0.0, all_of(1.0), all_of(0.0))"
 
     def _print_SideOf(self, expr: sp.Expr) -> str:
-        """rk4 holds no side."""
-        return f"lanes_sign_of({self._vector(expr.args[1])})"
+        """As it is held, if it is."""
+        return f"lanes_side_of(side, g, {self.corner(int(expr.args[0]))}, {self._vector(expr.args[1])})"
 
     def _print_Magnitude(self, expr: sp.Expr) -> str:
         return f"(lanes_fabs({self._vector(expr.args[0])}) + 1e-150)"
@@ -123,8 +124,12 @@ class LaneLines(functions.Lines):
     def test(self, item: Test) -> str:
         """A mask; bounds are numbers where they can be."""
         plain = Text(self.printer)
+        if not item.relation:
+            return f"{plain.expression(item.value)} > 0.0"
         if not item.of_itself:
-            return plain.test(item)
+            bare = plain.test(replace(item, size=False))
+            return f"lanes_fabs({plain.expression(item.value)}){bare.removeprefix(plain.expression(item.value))}" \
+                if item.size else bare
         value = plain.expression(item.value)
         size = f"lanes_fabs({value})" if item.size else value
         return f"({size} > 0.0) & ({size} < INFINITY)"
@@ -138,9 +143,17 @@ class LaneLines(functions.Lines):
             case Guard(test=Test() as test, only=None):
                 return [f"*rare |= ~({self.test(test)});"]
             case Call():
-                passed = (x for x in (*item.given, *item.results) if x not in _HELD)
+                passed = (*item.given, *item.results)
                 given = [self.handed_over(x) if isinstance(x, Place) else self.expression(x) for x in passed]
                 return [f"{item.function}({', '.join(given)});"]
+            case Declare(type="double"):
+                return super()._lines(replace(item, type="Lanes"))
+            case RunNumbers():
+                return ["const LaneParameters *const p = lin->p;"]
+            case Sides():
+                held, own = "held_sides(memory)" if item.held else "NULL", "Lanes g[N_SWITCHES + 1];"
+                told = {"": [], "nobody": [own], "aside": ["Lanes *const g = told_sides(aside);"]}
+                return [f"const Lanes *const side = {held};", *told[item.told]]
             case Largest():
                 name = f"*{item.target}"
                 before = ["all_of(0.0)", *[name] * len(item.values)]
@@ -164,13 +177,12 @@ def statements(items: Sequence[Statement]) -> str:
 
 
 def kernel(item: Kernel) -> str:
-    """The function for vectors. It returns nothing and takes no sides; lanes that it cannot do are set in `rare`."""
-    grouped = lane_by_lane(item)
+    """The function for vectors. It returns nothing; lanes that it cannot do are set in `rare`."""
     kept = (
         Section(section.title, tuple(x for x in section.statements if not isinstance(x, _LEFT_OUT)))
-        for section in grouped.sections
+        for section in item.sections
     )
-    arguments = tuple(Argument(_TYPES.get(a.type, a.type), a.name) for a in item.arguments if a not in (*SIDES, CORNER))
+    arguments = tuple(Argument(_TYPES.get(a.type, a.type), a.name) for a in item.arguments)
     sections = tuple(section for section in kept if section.statements)
     lanes = replace(item, sections=sections, arguments=arguments, returns="void")
     told = any(isinstance(x, (Guard, Sines)) for section in sections for x in section.statements)
@@ -179,5 +191,10 @@ def kernel(item: Kernel) -> str:
 
 
 def motion_kernel(item: Kernel) -> str:
+    """A kernel whose sines a single run has in vectors too, and which may meet something rare."""
+    return watched_kernel(lane_by_lane(item))
+
+
+def watched_kernel(item: Kernel) -> str:
     """A kernel that may meet something rare."""
     return kernel(replace(item, arguments=(*item.arguments, _RARE)))

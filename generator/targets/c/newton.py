@@ -18,14 +18,14 @@ from gudgeon.generator.targets.c.printer import expression
 
 Render = Callable[..., str]  # template name, substitutions -> text
 
-_STATE = ("e", "deltadot", "de_t", "omega_i", "omega_j", "latch")
+STATE = ("e", "deltadot", "de_t", "omega_i", "omega_j", "latch")
 _CLOSED = "side ? latch->closed : delta > 0.0"
 _BLENDING = """
 /* F = share F + (1 - share) film, slopes as well; `share` with its derivative by e. */
-static inline void blend_slopes(PinSlopes *F, const PinSlopes *film, const double *share)
+static inline void blend_slopes({type} *F, const {type} *film, const {number} *share)
 {
     for (int i = 0; i < 4; i++) {
-        const double more = F->value[i] - film->value[i];
+        const {number} more = F->value[i] - film->value[i];
         F->value[i] = film->value[i] + share[0] * more;
         for (int k = 0; k < 5; k++)
             F->slope[i][k] = film->slope[i][k] + share[0] * (F->slope[i][k] - film->slope[i][k]);
@@ -49,11 +49,9 @@ def tangent_code(pins: Sequence[Pin], methods: Methods, render: Render, states: 
     """`tangent_<joint>` of every joint with play, behind the derivatives that they share; `states` of laws each has."""
     if not pins:
         return ""
-    blending = _BLENDING if any(pin.has_transition for pin in pins) else ""
     contours = any(pin.clearance.contour for pin in pins)
     sizes = {"rows": 4 + states, "columns": 5 + states}
-    shared = render("play/pin_slopes.c.jinja", blending=blending.replace("k < 5", f"k < {5 + states}"), **sizes)
-    parts = [CONTOURS * contours + shared]
+    parts = [CONTOURS * contours + own_axes(pins, render, "double", "PinSlopes", states)]
     parts += [render("play/contour_slopes.c.jinja")] * contours
     parts += map(functions.kernel, methods.sloping)
     for clearance in (pin.clearance for pin in pins):
@@ -75,11 +73,19 @@ def _of_contour(clearance: Clearance, contour: Contour, dry: SharedCall, render:
     )  # fmt: skip
 
 
+def own_axes(pins: Sequence[Pin], render: Render, number: str, type_: str, states: int) -> str:
+    """What all joints' derivatives are put together by, of numbers or of vectors."""
+    blending = _BLENDING.replace("{number}", number).replace("{type}", type_).replace("k < 5", f"k < {5 + states}")
+    shown = blending if any(pin.has_transition for pin in pins) else ""
+    given = {"number": number, "type": type_, "rows": 4 + states, "columns": 5 + states}
+    return render("play/pin_slopes.c.jinja", blending=shown, **given)
+
+
 def _slopes(clearance: Clearance, c: str, calls: Mapping[str, SharedCall]) -> str:
     """Which part acts, as in the joint's own function (clearance_*.c.jinja)."""
 
     def call(part: str, result: str, *given: str) -> str:
-        return functions.shared_call(calls[part], given or _STATE, (result,))
+        return functions.shared_call(calls[part], given or STATE, (result,))
 
     unread = functions.unread_sides(calls.values())
     if clearance.normal is None:

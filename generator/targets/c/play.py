@@ -96,7 +96,7 @@ def _law_of_share(clearance: Clearance) -> str:
 def _dry(pin: Pin, render: Render, states: int) -> PinFunction:
     joint, clearance = pin.clearance.name, pin.clearance
     ratio = "unclipped" if clearance.clip_ratio else "ratio"
-    calls = _calls_of_dry(pin, "max_of(delta, 0.0)", "double", True)
+    calls = _calls_of_dry(pin, "max_of(delta, 0.0)", "double")
     steps: dict[str, Any] = {"before": _lines(pin.before_dry), "after": _lines(pin.after_dry)}
     steps["along"] = "-F_N" if clearance.contour else "-F_n"
     steps["further"] = "".join(f", double {name}" for name in _further(pin))
@@ -114,7 +114,7 @@ def _further(pin: Pin) -> tuple[str, ...]:
 
 
 def _film(pin: Pin, render: Render, states: int) -> PinFunction:
-    calls, joint = _calls_of_film(pin, "double", True), pin.clearance.name
+    calls, joint = _calls_of_film(pin, "double"), pin.clearance.name
     steps: dict[str, Any] = {"before": _lines(pin.before_film), "after": _lines(pin.after_film), "law": _texts(calls)}
     steps["unread"] = functions.unread_sides([pin.laws["film"]], (*pin.before_film, *pin.after_film))
     text = render("play/film.c.jinja", joint=joint, rates=braced("", pin.clearance, states), **steps)
@@ -134,15 +134,15 @@ def braced(array: str, clearance: Clearance, states: int, none: str = "0.0") -> 
     return f"{{{', '.join(rates)}}}" if rates else ""
 
 
-def calls_of_dry(pin: Pin, delta: str, number: str, sides: bool = True) -> str:
+def calls_of_dry(pin: Pin, delta: str, number: str) -> str:
     """Normal force, of `delta`, then friction, if there is any."""
-    return _texts(_calls_of_dry(pin, delta, number, sides))
+    return _texts(_calls_of_dry(pin, delta, number))
 
 
-def _calls_of_dry(pin: Pin, delta: str, number: str, sides: bool) -> list[tuple[str, str]]:
+def _calls_of_dry(pin: Pin, delta: str, number: str) -> list[tuple[str, str]]:
     """Text, and the local that it fills, or ""."""
     given: Sequence[str] = [delta, "ratio", *pin.given("latch->")]
-    normal = functions.shared_call(pin.laws["normal"], given, ("&F_n",), sides)
+    normal = functions.shared_call(pin.laws["normal"], given, ("&F_n",))
     found = [(f"{number} F_n;", ""), (normal, "F_n")]
     pressed = "F_N" if pin.pressing else "F_n"
     pressing = zip(functions.one_by_one(pin.pressing), pin.pressing, strict=True)
@@ -151,24 +151,23 @@ def _calls_of_dry(pin: Pin, delta: str, number: str, sides: bool) -> list[tuple[
         states = range(len(pin.clearance.states))
         given, told = [f"latch->state[{k}]" for k in states], [f"&rate[{k}]" for k in states]
         results = ("&F_along_t_dry", *told)
-        friction = functions.shared_call(pin.laws["friction"], (pressed, "v_t", *given), results, sides)
+        friction = functions.shared_call(pin.laws["friction"], (pressed, "v_t", *given), results)
         found.append((f"{number} F_along_t_dry{f', rate[{len(states)}]' if states else ''};", ""))
         found.append((friction, "F_along_t_dry"))
     else:
         zero = "0.0" if number == "double" else "all_of(0.0)"
         found.append((f"const {number} F_along_t_dry = {zero}; /* no friction */", "F_along_t_dry"))
-        found += [("(void)v_t;", "")] * (number == "Lanes")
     return [(_wrapped(code), local) for code, local in found]
 
 
-def call_of_film(pin: Pin, number: str, sides: bool = True) -> str:
+def call_of_film(pin: Pin, number: str) -> str:
     """Its forces, and the torque of shear where that is read."""
-    return _texts(_calls_of_film(pin, number, sides))
+    return _texts(_calls_of_film(pin, number))
 
 
-def _calls_of_film(pin: Pin, number: str, sides: bool) -> list[tuple[str, str]]:
+def _calls_of_film(pin: Pin, number: str) -> list[tuple[str, str]]:
     results = ("&F_r", "&F_along_t_film", "&T0")
-    call = functions.shared_call(pin.laws["film"], ("epsilon", "w_n", "w_t"), results, sides)
+    call = functions.shared_call(pin.laws["film"], ("epsilon", "w_n", "w_t"), results)
     unread = "(void)T0; /* read only with shear */"
     found = [(f"{number} F_r, F_along_t_film, T0;", ""), (call, "F_r"), (unread, "")]
     return [(_wrapped(code), local) for code, local in found]

@@ -1,0 +1,248 @@
+/*
+ * Runs side by side by a method that chooses its step: each has time, length and error of its own. Steps are tried
+ * together, whatever follows from one (methods/adaptive.c) is its own run's. A lane whose run is over is free for
+ * another one, from the next call on.
+ */
+#include "lane_calls.h"
+
+typedef struct {
+    const Batch *b;
+    const Single *one;
+    Run *run[LANES];
+    long number[LANES]; /* -1: free */
+    LaneRun x;
+    LaneParameters p;
+    LaneStep step;
+} Flow;
+
+static int is_taken(const Flow *flow, int k) { return flow->number[k] >= 0; }
+
+/* What a free lane computes is another one's, so that it meets nothing odd. */
+static int mirrored(const Flow *flow, int k)
+{
+    for (int i = 0; i < LANES && !is_taken(flow, k); i++)
+        k = is_taken(flow, i) ? i : k;
+    return k;
+}
+
+static void gather_parameters(Flow *flow)
+{
+    for (int k = 0; k < LANES; k++) {
+        const double *p = flow->b->p_motion + flow->number[mirrored(flow, k)] * flow->b->numbers;
+        for (long j = 0; j < flow->b->numbers; j++)
+            ((Lanes *)&flow->p)[j][k] = p[j];
+    }
+}
+
+/* What a step of run k begins with; its length. */
+static void gather(Flow *flow, int k, Lanes *h)
+{
+    const Run *run = flow->run[mirrored(flow, k)];
+    LaneRun *x = &flow->x;
+    (*h)[k] = run->attempt.h;
+    x->t[k] = run->t;
+    x->accept[k] = run->accept;
+    for (int j = 0; j < N_Y; j++) {
+        x->y[j][k] = run->y[j];
+        x->dy[j][k] = run->dy[j];
+        x->weight[j][k] = run->weight[j];
+    }
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        x->memory.latch[i].closed[k] = run->memory.latch[i].closed;
+        x->memory.latch[i].deltadot_minus[k] = run->memory.latch[i].deltadot_minus;
+        x->aside.clearance[i].Fx[k] = run->aside.clearance[i].Fx;
+        x->aside.clearance[i].Fy[k] = run->aside.clearance[i].Fy;
+        x->aside.clearance[i].moment_first[k] = run->aside.clearance[i].moment_first;
+        x->aside.clearance[i].moment_second[k] = run->aside.clearance[i].moment_second;
+    }
+    for (int i = 0; i < N_LOOPS; i++)
+        x->aside.lambda[i][k] = run->aside.lambda[i];
+    for (int i = 0; i < N_SWITCHES; i++)
+        x->memory.side[i][k] = run->memory.side[i];
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        x->memory.event_side[i][k] = run->memory.event_side[i];
+}
+
+static void scatter_aside(const LaneAside *x, int k, Aside *aside)
+{
+    for (int i = 0; i < N_LOOPS; i++)
+        aside->lambda[i] = x->lambda[i][k];
+    for (int i = 0; i < N_WORK; i++)
+        aside->power[i] = x->power[i][k];
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const LaneClearance *from = &x->clearance[i];
+        aside->clearance[i] = (Clearance){.Fx = from->Fx[k], .Fy = from->Fy[k], .F_n = from->F_n[k],
+            .F_t = from->F_t[k], .ex = from->ex[k], .ey = from->ey[k], .e = from->e[k],
+            .deltadot = from->deltadot[k], .v_t = from->v_t[k], .moment_first = from->moment_first[k],
+            .moment_second = from->moment_second[k], .delta = from->delta[k], .power = from->power[k]};
+#if LAW_STATES
+        for (int j = 0; j < LAW_STATES; j++)
+            aside->clearance[i].state_rate[j] = from->state_rate[j][k];
+#endif
+    }
+    for (int i = 0; i < N_SWITCHES; i++)
+        aside->g[i] = x->g[i][k];
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        aside->event[i] = x->event[i][k];
+}
+
+/* A step that lane k accepts, as its own run would have made it. */
+static void scatter_step(const Flow *flow, int k, int stages, Step *step)
+{
+    const LaneStep *x = &flow->step;
+    for (int j = 0; j < N_Y; j++) {
+        step->y[j] = x->y[j][k];
+        step->dy[j] = x->dy[j][k];
+    }
+    for (int s = 0; s < stages; s++)
+        for (int j = 0; j < N_Y; j++)
+            step->k[s][j] = x->k[s][j][k];
+    step->n_seen = x->n_seen;
+    for (int s = 0; s < x->n_seen; s++) {
+        step->node[s] = x->node[s];
+        for (int j = 0; j < N_MARGINS; j++)
+            step->seen[s][j] = x->seen[s][j][k];
+    }
+    for (int j = 0; j < N_SWITCHES; j++)
+        step->passed[j] = 0;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        step->rate[i][0] = x->rate[i][0][k];
+        step->rate[i][1] = x->rate[i][1][k];
+    }
+    for (int j = 0; j < 2 * N_X && N_WATCHED > 0; j++) {
+        step->least[j] = x->least[j][k];
+        step->most[j] = x->most[j][k];
+    }
+    scatter_aside(&x->aside, k, &step->aside);
+}
+
+/* What lane k has found goes to its run. */
+static void scatter(const Flow *flow, int k, int stiff)
+{
+    Run *run = flow->run[k];
+    Step *step = &run->step;
+    const int stages = stiff ? RODAS5P_STAGES : DOP853_STAGES;
+    step->t = flow->step.t[k];
+    step->h = flow->step.h[k];
+    step->error = flow->step.error[k];
+    step->dense_ready = 0;
+    run->evaluations += stages - 1;
+    if (stiff && !run->linear_ready) {
+        run->jacobians++;
+        run->linear_ready = ELSEWHERE;
+    }
+    if (!flow->step.taken[k])
+        return;
+    run->evaluations++;
+    run->stability = flow->x.stability[k];
+    scatter_step(flow, k, stages, step);
+}
+
+/* Whether lane k is free from now on, what happened being one of those that Python is told of. */
+static int leaves(Flow *flow, int k, int happened)
+{
+    if (happened == RUN_OVER)
+        flow->number[k] = -1;
+    return happened != GOES_ON;
+}
+
+/* One step of these lanes is tried. Returns whether Python is to be told of a run. */
+static int try_together(Flow *flow, int stiff, const int *wanted, int *lists)
+{
+    Lanes h;
+    int some = 0;
+    for (int k = 0; k < LANES; k++)
+        gather(flow, k, &h);
+    try_lanes(&flow->x, stiff, h, &flow->p, &flow->step);
+    for (int k = 0; k < LANES; k++) {
+        if (!wanted[k])
+            continue;
+        const int lost = flow->step.lost[k] != 0;
+        if (!lost)
+            scatter(flow, k, stiff);
+        const int happened = flow->one->goes_on(flow->b, flow->number[k], lost ? UNTRIED : TRIED, flow->run[k]);
+        *lists |= happened == LISTS;
+        some |= leaves(flow, k, happened);
+    }
+    return some;
+}
+
+/* One step of each run, of several at once where they go by the same method. */
+static int advance(Flow *flow, int *lists)
+{
+    int some = 0, wanted[2][LANES], count[2] = {0, 0};
+    for (int k = 0; k < LANES; k++)
+        for (int stiff = 0; stiff < 2; stiff++) {
+            wanted[stiff][k] = is_taken(flow, k) && flow->run[k]->attempt.stiff == stiff;
+            count[stiff] += wanted[stiff][k];
+        }
+    for (int stiff = 0; stiff < 2; stiff++) {
+        if (count[stiff] > 1) {
+            some |= try_together(flow, stiff, wanted[stiff], lists);
+            continue;
+        }
+        for (int k = 0; k < LANES; k++) {
+            if (!wanted[stiff][k])
+                continue;
+            const int happened = flow->one->goes_on(flow->b, flow->number[k], UNTRIED, flow->run[k]);
+            *lists |= happened == LISTS;
+            some |= leaves(flow, k, happened);
+        }
+    }
+    return some;
+}
+
+/* Begins run k, or goes on with it, up to where it wants a step. */
+static int enter(Flow *flow, int k)
+{
+    const Batch *b = flow->b;
+    const long i = flow->number[k];
+    if (b->phase[i] == NEW) {
+        b->status[i] = flow->one->begin(b, i, flow->run[k]);
+        b->phase[i] = b->status[i] ? OVER : BEGUN;
+    }
+    return leaves(flow, k, b->phase[i] == OVER ? RUN_OVER : flow->one->goes_on(b, i, NOT_YET, flow->run[k]));
+}
+
+static int count_of(const Flow *flow)
+{
+    int count = 0;
+    for (int k = 0; k < LANES; k++)
+        count += is_taken(flow, k);
+    return count;
+}
+
+int gudgeon_lane_count(void) { return LANES; }
+
+/*
+ * Runs number[k] (LANES of them, -1: none), each in a memory of its own. Returns GOES_ON, to be called again, as soon
+ * as a run is over (number[k] is -1 then) or after `limit` steps of each; LISTS where the lists of one are full;
+ * ALL_OVER where not two are left, or the batch is ending: what is not over then goes on alone (gudgeon_many).
+ */
+int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number)
+{
+    Flow flow = {.b = batch, .one = single};
+    const double before = lane_seconds();
+    int some = 0, lists = 0, entered = 0;
+    for (int k = 0; k < LANES; k++) {
+        flow.run[k] = run[k];
+        flow.number[k] = number[k];
+        entered += number[k] >= 0;
+    }
+    for (int k = 0; k < LANES; k++)
+        if (is_taken(&flow, k))
+            some |= enter(&flow, k);
+    if (!some && count_of(&flow) > 1)
+        gather_parameters(&flow);
+    for (long left = flow.b->limit; !some && count_of(&flow) > 1 && left > 0 && !*flow.b->ending; left--)
+        some = advance(&flow, &lists);
+    const double share = (lane_seconds() - before) / (entered > 0 ? entered : 1);
+    for (int k = 0; k < LANES; k++) {
+        if (number[k] >= 0)
+            flow.b->seconds[number[k]] += share;
+        if (is_taken(&flow, k))
+            flow.b->t_last[flow.number[k]] = flow.run[k]->t;
+        number[k] = flow.number[k];
+    }
+    return lists ? LISTS : (some || count_of(&flow) > 1) && !*flow.b->ending ? GOES_ON : ALL_OVER;
+}

@@ -1,0 +1,173 @@
+/*
+ * Functions of vectors, lane by lane those of scene/numbers.h, scene/functions.h and of the library.
+ */
+#ifndef GUDGEON_LANE_FUNCTIONS_H
+#define GUDGEON_LANE_FUNCTIONS_H
+
+/* As max_of, min_of, sign_of: a NaN in x stays. */
+static inline Lanes lanes_max_of(Lanes x, Lanes y) { return pick(x < y, y, x); }
+static inline Lanes lanes_min_of(Lanes x, Lanes y) { return pick(x > y, y, x); }
+static inline Lanes lanes_sign_of(Lanes x) { return pick(x > 0.0, all_of(1.0), pick(x < 0.0, all_of(-1.0), x)); }
+static inline Lanes lanes_fabs(Lanes x) { return (Lanes)((LaneBits)x & 0x7fffffffffffffffLL); }
+
+/* As mod_of, mod_on, period_side. */
+static inline Lanes lanes_mod_of(Lanes a, Lanes b)
+{
+    for (int k = 0; k < LANES; k++)
+        a[k] = mod_of(a[k], b[k]);
+    return a;
+}
+static inline Lanes lanes_mod_on(Lanes a, Lanes b, Lanes side)
+{
+    for (int k = 0; k < LANES; k++)
+        a[k] = mod_on(a[k], b[k], side[k]);
+    return a;
+}
+static inline Lanes lanes_period_side(Lanes a, Lanes b)
+{
+    for (int k = 0; k < LANES; k++)
+        a[k] = period_side(a[k], b[k]);
+    return a;
+}
+
+/* As just_ahead, just_behind, finite_slope. */
+static inline Lanes lanes_just_ahead(Lanes x) { return x + 1e-9 * (1.0 + lanes_fabs(x)); }
+static inline Lanes lanes_just_behind(Lanes x) { return x - 1e-9 * (1.0 + lanes_fabs(x)); }
+static inline Lanes lanes_finite_slope(Lanes derivative, Lanes ahead, Lanes behind, Lanes way)
+{
+    return pick(lanes_fabs(derivative) < INFINITY, derivative, (ahead - behind) / way);
+}
+
+static inline Lanes lanes_sqrt(Lanes x)
+{
+#if defined(__GNUC__) && !defined(__clang__) && defined(__AVX512F__)
+    return (Lanes)__builtin_ia32_sqrtpd512_mask(x, x, (char)-1, 4);
+#elif defined(__GNUC__) && !defined(__clang__) && defined(__AVX__)
+    return (Lanes)__builtin_ia32_sqrtpd256(x);
+#elif defined(__GNUC__) && !defined(__clang__) && defined(__SSE2__)
+    return (Lanes)__builtin_ia32_sqrtpd(x);
+#else
+    Lanes y;
+    for (int k = 0; k < LANES; k++)
+        y[k] = sqrt(x[k]);
+    return y;
+#endif
+}
+
+#define LANE_AFTER_LANE(function) \
+    static inline Lanes lanes_##function(Lanes x) \
+    { \
+        Lanes y = {0.0}; \
+        for (int k = 0; k < LANES; k++) \
+            y[k] = function(x[k]); \
+        return y; \
+    }
+#define LANE_AFTER_LANE_OF_TWO(function) \
+    static inline Lanes lanes_##function(Lanes a, Lanes b) \
+    { \
+        Lanes y = {0.0}; \
+        for (int k = 0; k < LANES; k++) \
+            y[k] = function(a[k], b[k]); \
+        return y; \
+    }
+LANE_AFTER_LANE_OF_TWO(atan2)
+LANE_AFTER_LANE(tan)
+LANE_AFTER_LANE(asin)
+LANE_AFTER_LANE(acos)
+LANE_AFTER_LANE(atan)
+LANE_AFTER_LANE(sinh)
+LANE_AFTER_LANE(cosh)
+LANE_AFTER_LANE(tanh)
+
+/* As those of scene/functions.h; what is beyond their ranges goes to the library lane by lane. */
+typedef unsigned long long LaneWords __attribute__((vector_size(8 * LANES)));
+static inline LaneWords lanes_bits_of(Lanes x) { return (LaneWords)x; }
+static inline Lanes lanes_of_bits(LaneWords bits) { return (Lanes)bits; }
+static inline Lanes lanes_entries(const double *table, int width, LaneWords bits, int k)
+{
+    Lanes found = {0.0};
+    for (int lane = 0; lane < LANES; lane++)
+        found[lane] = table[(bits[lane] & 127) * (size_t)width + (size_t)k];
+    return found;
+}
+#define PARTS_OF Lanes
+#define PARTS_BITS LaneWords
+#define PARTS_NAMED(name) lanes_##name
+#define PARTS_POWER(bits) __builtin_convertvector((LaneBits)(bits) >> 52, Lanes)
+#define PARTS_ENTRY(table, bits, k) lanes_entries(table[0], sizeof table[0] / sizeof(double), bits, k)
+#include "../scene/parts.h"
+#undef PARTS_OF
+#undef PARTS_BITS
+#undef PARTS_NAMED
+#undef PARTS_POWER
+#undef PARTS_ENTRY
+
+static inline Lanes lanes_sin(Lanes x)
+{
+    Lanes r, rest;
+    const LaneBits fits = lanes_fabs(x) < TURN_LIMIT, k = (LaneBits)lanes_quarters(x, &r, &rest);
+    Lanes found = pick((k & 1) != 0, lanes_cosine_near(r, rest), lanes_sine_near(r, rest));
+    found = pick((k & 2) != 0, -found, found);
+    for (int i = 0; any_of(~fits) && i < LANES; i++)
+        found[i] = fits[i] ? found[i] : sin(x[i]);
+    return found;
+}
+
+static inline Lanes lanes_cos(Lanes x)
+{
+    Lanes r, rest;
+    const LaneBits fits = lanes_fabs(x) < TURN_LIMIT, k = (LaneBits)lanes_quarters(x, &r, &rest);
+    Lanes found = pick((k & 1) != 0, lanes_sine_near(r, rest), lanes_cosine_near(r, rest));
+    found = pick(((k + 1) & 2) != 0, -found, found);
+    for (int i = 0; any_of(~fits) && i < LANES; i++)
+        found[i] = fits[i] ? found[i] : cos(x[i]);
+    return found;
+}
+
+static inline LaneBits lanes_is_normal(Lanes x) { return (x >= DBL_MIN) & (x <= DBL_MAX); }
+
+static inline Lanes lanes_exp(Lanes x)
+{
+    const LaneBits fits = lanes_fabs(x) < 700.0;
+    Lanes found = lanes_exp_of_parts(pick(fits, x, all_of(0.0)), all_of(0.0));
+    for (int k = 0; any_of(~fits) && k < LANES; k++)
+        found[k] = fits[k] ? found[k] : exp(x[k]);
+    return found;
+}
+
+static inline Lanes lanes_log(Lanes x)
+{
+    const LaneBits fits = lanes_is_normal(x);
+    Lanes rest, found = lanes_log_in_parts(pick(fits, x, all_of(1.0)), &rest);
+    for (int k = 0; any_of(~fits) && k < LANES; k++)
+        found[k] = fits[k] ? found[k] : log(x[k]);
+    return found;
+}
+
+static inline Lanes lanes_pow(Lanes x, Lanes y)
+{
+    const LaneBits none = ((LaneBits)x == 0) & (y > 0.0); /* a contact's law where there is no contact */
+    const LaneBits normal = lanes_is_normal(x) & (lanes_fabs(y) < 0x1p60);
+    Lanes rest;
+    const Lanes log_x = lanes_log_in_parts(pick(normal, x, all_of(1.0)), &rest), x_high = lanes_upper_half(log_x);
+    const Lanes y_high = lanes_upper_half(y), high = y_high * x_high;
+    const LaneBits fits = normal & (lanes_fabs(high) < 690.0);
+    const Lanes less = (y - y_high) * x_high + y * (log_x - x_high + rest);
+    Lanes found = pick(none, all_of(0.0), lanes_exp_of_parts(pick(fits, high, all_of(0.0)), less));
+    for (int k = 0; any_of(~(fits | none)) && k < LANES; k++)
+        found[k] = (fits | none)[k] ? found[k] : pow(x[k], y[k]);
+    return found;
+}
+
+/* As scene/trigonometry.h; lanes whose angle is so large that there the library is asked are marked as rare. */
+static inline void sines_and_cosines(Lanes angle, Lanes *sine, Lanes *cosine, LaneBits *rare)
+{
+#define SINES_OF Lanes
+#define SINES_BITS LaneBits
+#include "../scene/sines.h"
+#undef SINES_OF
+#undef SINES_BITS
+    *rare |= ~small;
+}
+
+#endif

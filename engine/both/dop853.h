@@ -1,0 +1,155 @@
+/*
+ * A step of DOP853 that is tried: stages, error, end. Where it is not accepted it has no end.
+ */
+static const double dop853_node[] = {0.0, 0.05260015195876773, 0.0789002279381516, 0.1183503419072274,
+    0.2816496580927726, 0.3333333333333333, 0.25, 0.3076923076923077, 0.6512820512820513, 0.6, 0.8571428571428571,
+    1.0, 1.0, 0.1, 0.2, 0.7777777777777778};
+
+enum { DOP853_STAGES = 12 };
+
+/* y = y0 + h sum_j a_sj k_j for stage s. */
+static void dop853_stage(int s, Real h, const Real *y0, Real (*k)[N_Y], Real *y)
+{
+    switch (s) {
+    case 1:
+        for (int i = 0; i < N_Y; i++)
+            y[i] = y0[i] + h * (0.05260015195876773 * k[0][i]);
+        break;
+    case 2:
+        for (int i = 0; i < N_Y; i++)
+            y[i] = y0[i] + h * (0.0197250569845379 * k[0][i] + 0.0591751709536137 * k[1][i]);
+        break;
+    case 3:
+        for (int i = 0; i < N_Y; i++)
+            y[i] = y0[i] + h * (0.02958758547680685 * k[0][i] + 0.08876275643042054 * k[2][i]);
+        break;
+    case 4:
+        for (int i = 0; i < N_Y; i++)
+            y[i] = y0[i] + h * (0.2413651341592667 * k[0][i] - 0.8845494793282861 * k[2][i]
+                + 0.924834003261792 * k[3][i]);
+        break;
+    case 5:
+        for (int i = 0; i < N_Y; i++)
+            y[i] = y0[i] + h * (0.037037037037037035 * k[0][i] + 0.17082860872947386 * k[3][i]
+                + 0.12546768756682242 * k[4][i]);
+        break;
+    case 6:
+        for (int i = 0; i < N_Y; i++)
+            y[i] = y0[i] + h * (0.037109375 * k[0][i] + 0.17025221101954405 * k[3][i] + 0.06021653898045596 * k[4][i]
+                - 0.017578125 * k[5][i]);
+        break;
+    case 7:
+        for (int i = 0; i < N_Y; i++)
+            y[i] = y0[i] + h * (0.03709200011850479 * k[0][i] + 0.17038392571223998 * k[3][i]
+                + 0.10726203044637328 * k[4][i] - 0.015319437748624402 * k[5][i] + 0.008273789163814023 * k[6][i]);
+        break;
+    case 8:
+        for (int i = 0; i < N_Y; i++)
+            y[i] = y0[i] + h * (0.6241109587160757 * k[0][i] - 3.3608926294469414 * k[3][i]
+                - 0.868219346841726 * k[4][i] + 27.59209969944671 * k[5][i] + 20.154067550477894 * k[6][i]
+                - 43.48988418106996 * k[7][i]);
+        break;
+    case 9:
+        for (int i = 0; i < N_Y; i++)
+            y[i] = y0[i] + h * (0.47766253643826434 * k[0][i] - 2.4881146199716677 * k[3][i]
+                - 0.590290826836843 * k[4][i] + 21.230051448181193 * k[5][i] + 15.279233632882423 * k[6][i]
+                - 33.28821096898486 * k[7][i] - 0.020331201708508627 * k[8][i]);
+        break;
+    case 10:
+        for (int i = 0; i < N_Y; i++)
+            y[i] = y0[i] + h * (-0.9371424300859873 * k[0][i] + 5.186372428844064 * k[3][i]
+                + 1.0914373489967295 * k[4][i] - 8.149787010746927 * k[5][i] - 18.52006565999696 * k[6][i]
+                + 22.739487099350505 * k[7][i] + 2.4936055526796523 * k[8][i] - 3.0467644718982196 * k[9][i]);
+        break;
+    case 11:
+        for (int i = 0; i < N_Y; i++)
+            y[i] = y0[i] + h * (2.273310147516538 * k[0][i] - 10.53449546673725 * k[3][i]
+                - 2.0008720582248625 * k[4][i] - 17.9589318631188 * k[5][i] + 27.94888452941996 * k[6][i]
+                - 2.8589982771350235 * k[7][i] - 8.87285693353063 * k[8][i] + 12.360567175794303 * k[9][i]
+                + 0.6433927460157636 * k[10][i]);
+        break;
+    case 12:
+        for (int i = 0; i < N_Y; i++)
+            y[i] = y0[i] + h * (0.054293734116568765 * k[0][i] + 4.450312892752409 * k[5][i]
+                + 1.8915178993145003 * k[6][i] - 5.801203960010585 * k[7][i] + 0.3111643669578199 * k[8][i]
+                - 0.1521609496625161 * k[9][i] + 0.20136540080403034 * k[10][i] + 0.04471061572777259 * k[11][i]);
+        break;
+    case 13:
+        for (int i = 0; i < N_Y; i++)
+            y[i] = y0[i] + h * (0.056167502283047954 * k[0][i] + 0.25350021021662483 * k[6][i]
+                - 0.2462390374708025 * k[7][i] - 0.12419142326381637 * k[8][i] + 0.15329179827876568 * k[9][i]
+                + 0.00820105229563469 * k[10][i] + 0.007567897660545699 * k[11][i] - 0.008298 * k[12][i]);
+        break;
+    case 14:
+        for (int i = 0; i < N_Y; i++)
+            y[i] = y0[i] + h * (0.03183464816350214 * k[0][i] + 0.028300909672366776 * k[5][i]
+                + 0.053541988307438566 * k[6][i] - 0.05492374857139099 * k[7][i] - 0.00010834732869724932 * k[10][i]
+                + 0.0003825710908356584 * k[11][i] - 0.00034046500868740456 * k[12][i] + 0.1413124436746325 * k[13][i]);
+        break;
+    case 15:
+        for (int i = 0; i < N_Y; i++)
+            y[i] = y0[i] + h * (-0.42889630158379194 * k[0][i] - 4.697621415361164 * k[5][i]
+                + 7.683421196062599 * k[6][i] + 4.06898981839711 * k[7][i] + 0.3567271874552811 * k[8][i]
+                - 0.0013990241651590145 * k[12][i] + 2.9475147891527724 * k[13][i] - 9.15095847217987 * k[14][i]);
+        break;
+    }
+}
+
+/* Hairer's estimate from those of orders 5 and 3, the largest of all components. */
+static Real dop853_error(const RunOf *run, const StepOf *step)
+{
+    const Real (*k)[N_Y] = (const Real (*)[N_Y])step->k;
+    Real five = real_of(0.0), three = real_of(0.0);
+    for (int i = 0; i < N_Y; i++) {
+        const Real by = run->weight[i];
+        const Real of_5 = 0.01312004499419488 * k[0][i] - 1.2251564463762044 * k[5][i]
+            - 0.4957589496572502 * k[6][i] + 1.6643771824549864 * k[7][i] - 0.35032884874997366 * k[8][i]
+            + 0.3341791187130175 * k[9][i] + 0.08192320648511571 * k[10][i] - 0.022355307863886294 * k[11][i];
+        const Real of_3 = -0.18980075407240762 * k[0][i] + 4.450312892752409 * k[5][i]
+            + 1.8915178993145003 * k[6][i] - 5.801203960010585 * k[7][i] - 0.4226823213237919 * k[8][i]
+            - 0.1521609496625161 * k[9][i] + 0.20136540080403034 * k[10][i] + 0.02265179219836082 * k[11][i];
+        five = real_max(real_abs(of_5) * by, five);
+        three = real_max(real_abs(of_3) * by, three);
+    }
+    const Real both = five * five + 0.01 * three * three;
+    return pick(both > 0.0, real_abs(step->h) * five * five / real_sqrt(both), five);
+}
+
+static int dop853_try(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
+{
+    Real y[N_Y];
+    AsideOf aside;
+    step->t = run->t, step->h = h, step->dense_ready = 0;
+    forget_stages(step);
+    for (int i = 0; i < N_Y; i++)
+        step->k[0][i] = run->dy[i];
+    for (int s = 1; s < DOP853_STAGES; s++) {
+        dop853_stage(s, h, run->y, step->k, s + 1 < DOP853_STAGES ? y : step->y);
+        if (s + 1 == DOP853_STAGES)
+            for (int i = 0; i < N_Y; i++)
+                y[i] = step->y[i];
+        const int status = rates(run, run->t + dop853_node[s] * h, y, p, step->k[s], &aside);
+        if (status)
+            return status;
+        note_stage(run, step, &aside, dop853_node[s]);
+        note_state(step, y);
+    }
+    dop853_stage(DOP853_STAGES, h, run->y, step->k, step->y);
+    step->error = dop853_error(run, step);
+    if (is_odd(run, step->error))
+        return NOT_FINITE;
+    if (is_refused(run, step))
+        return 0;
+    /* rho h of the last two stages: beyond about 6 the step is bounded by stability */
+    Real change = real_of(0.0), way = real_of(0.0);
+    const int status_last = finish_step(run, step, p);
+    if (status_last)
+        return status_last;
+    for (int i = 0; i < 2 * N_X; i++) {
+        const Real by = run->weight[i];
+        change = real_max(real_abs(step->dy[i] - step->k[DOP853_STAGES - 1][i]) * by, change);
+        way = real_max(real_abs(step->y[i] - y[i]) * by, way);
+    }
+    run->stability = pick(way > 0.0, h * change / way, real_of(0.0));
+    return 0;
+}

@@ -1,0 +1,85 @@
+/*
+ * How a run by a method that chooses its step begins: tolerances, what counts as a speed, sides of what is watched.
+ */
+/* The side of what is watched and begins on a zero: that to which it goes. */
+static int leave_zeros(Run *run, const Parameters *p)
+{
+    int zeros = 0;
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        zeros |= run->memory.event_side[i] == 0;
+    if (!zeros)
+        return 0;
+    double y[N_Y], dy[N_Y];
+    Aside aside;
+    const double h = 1e-6 * run->h;
+    for (int k = 0; k < N_Y; k++)
+        y[k] = run->y[k] + h * run->dy[k];
+    const int status = rates(run, run->t + h, y, p, dy, &aside);
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        if (run->memory.event_side[i] == 0)
+            event_crosses(i, &run->memory.event_side[i], aside.event[i]);
+    return status;
+}
+
+/*
+ * What a speed counts at least: a hundredth of what leads over the smallest length that matters in the shortest time
+ * that the start's speeds and accelerations take for it. Only where these lead nowhere (a pulse is yet to come) the
+ * run's own time has to tell.
+ */
+static void floor_speeds(Run *run, double left)
+{
+    double rate = 0.0;
+    for (int k = 0; k < N_X; k++) {
+        const double least = run->least[is_angle[k]], a = fabs(run->dy[N_X + k]);
+        rate = max_of(rate, max_of(fabs(run->y[N_X + k]) / least, sqrt(a / least)));
+    }
+    for (int kind = 0; kind < 2; kind++)
+        run->speed_floor[kind] = run->least[kind] * (rate * left > 1e-3 ? 0.01 * rate : 1.0 / left);
+}
+
+/* The first right-hand side, with contacts, friction and sides as the start has them, held from now on. */
+static int begin_adaptive(Run *run, double left, const Parameters *p)
+{
+    int status = run->ready ? 0 : begin_run(run, p);
+    run->tick = min_of(1e-12, 1e-11 * left);
+    hold_sides(run);
+    if (!status)
+        status = settle_sides(run, -1, p);
+    floor_speeds(run, left);
+    note_speed(run);
+    run->turned_over = energy_scale(run, p);
+    weigh(run);
+#if N_CORNERS
+    if (!status)
+        status = pass_jumps_here(run, p); /* to the sides that hold there */
+#endif
+#if N_USER_EVENTS
+    if (!status)
+        status = begin_beyond(run, run->tick, p);
+#endif
+    if (!status && !(run->h > 0.0))
+        status = first_size(run, left, p);
+    return status ? status : leave_zeros(run, p);
+}
+
+/*
+ * method: that begins, as gudgeon_method counts; automatic: whether it may change; scale (2 N_X): tolerances, those of
+ * velocities a unit of speed; least: the smallest length (m) and angle (rad) that matter.
+ */
+void gudgeon_adaptive_setup(void *memory, int method, int automatic, const double *scale, const double *least,
+    double fixed)
+{
+    Run *run = memory;
+    run->method = METHODS[method];
+    run->automatic = automatic;
+    run->patience = automatic && run->method->stiff ? 4 * PATIENCE : PATIENCE;
+    run->fixed = fixed;
+    run->error_before = 1e-4;
+    run->crossed = run->skip = -1;
+    run->accept = fixed > 0.0 ? INFINITY : 1.0;
+    for (int k = 0; k < 2 * N_X; k++)
+        run->inverse_scale[k] = 1.0 / scale[k];
+    run->work_scale = max_of(1e-10, WORKS * scale[2 * N_X - 1]); /* below it a sum of works is rounded */
+    run->least[0] = least[0];
+    run->least[1] = least[1];
+}

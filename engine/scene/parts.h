@@ -1,0 +1,70 @@
+/* Text of functions: sine, logarithm, exponential in parts (functions.h), of a number or of several side by side. */
+/* x = k pi/2 + r + rest: as sines.h does it, with what r is rounded by; the last bits of k. */
+static inline PARTS_BITS PARTS_NAMED(quarters)(PARTS_OF x, PARTS_OF *r, PARTS_OF *rest)
+{
+    const double shift = 6755399441055744.0;
+    const PARTS_OF shifted = x * 0.63661977236758134308 + shift, k = shifted - shift;
+    const PARTS_OF first = x - k * 1.57079632673412561417, part = k * 6.07710050630396597660e-11, second = first - part;
+    const PARTS_OF last = k * 2.02226624879595063154e-21;
+    *r = second - last;
+    *rest = second - *r - last + (first - second - part);
+    return PARTS_NAMED(bits_of)(shifted) & 3;
+}
+
+static inline PARTS_OF PARTS_NAMED(sine_near)(PARTS_OF r, PARTS_OF rest)
+{
+    const PARTS_OF z = r * r, cube = z * r;
+    const PARTS_OF high = 8.33333333332248946124e-03 + z * (-1.98412698298579493134e-04
+        + z * (2.75573137070700676789e-06 + z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
+    return r - (z * (0.5 * rest - cube * high) - rest - cube * -1.66666666666666324348e-01);
+}
+
+static inline PARTS_OF PARTS_NAMED(cosine_near)(PARTS_OF r, PARTS_OF rest)
+{
+    const PARTS_OF z = r * r, half = 0.5 * z, less = 1.0 - half;
+    const PARTS_OF high = z * (4.16666666666666019037e-02 + z * (-1.38888888888741095749e-03
+        + z * (2.48015872894767294178e-05 + z * (-2.75573143513906633035e-07 + z * (2.08757232129817482790e-09
+        + z * -1.13596475577881948265e-11)))));
+    return less + (1.0 - less - half + (z * high - r * rest));
+}
+
+/* x rounded to 26 bits: products of two such numbers are exact, and what is left of 1 - e is as small as e. */
+static inline PARTS_OF PARTS_NAMED(upper_half)(PARTS_OF x)
+{
+    return PARTS_NAMED(of_bits)((PARTS_NAMED(bits_of)(x) + 0x4000000u) & 0xfffffffff8000000u);
+}
+
+/* log x, the rest beyond its rounding in `rest`; x is normal and positive. */
+static inline PARTS_OF PARTS_NAMED(log_in_parts)(PARTS_OF x, PARTS_OF *rest)
+{
+    const PARTS_BITS own = PARTS_NAMED(bits_of)(x), bits = own - 0x3fe6100000000000u;
+    const PARTS_OF c = PARTS_ENTRY(log_table, bits >> 45, 0), less = PARTS_ENTRY(log_table, bits >> 45, 1);
+    const PARTS_OF least = PARTS_ENTRY(log_table, bits >> 45, 2), k = PARTS_POWER(bits);
+    const PARTS_OF z = PARTS_NAMED(of_bits)(own - (bits & 0xfff0000000000000u)), z_high = PARTS_NAMED(upper_half)(z);
+    const PARTS_OF r_high = z_high * c - 1.0, r_low = (z - z_high) * c, r = r_high + r_low;
+    const PARTS_OF r_rest = r_high - r + r_low;
+    const PARTS_OF sum = k * 0x1.62e42fefa38p-1 + less, near = sum + r;
+    const PARTS_OF r_top = PARTS_NAMED(upper_half)(r_high); /* its square is exact */
+    const PARTS_OF r_bottom = r_high - r_top + r_low;
+    const PARTS_OF half = -0.5 * r, square = r * half, half_top = -0.5 * r_top, square_top = r_top * half_top;
+    const PARTS_OF high = near + square_top;
+    const PARTS_OF series = r * square * (-2.0 / 3.0 + r * 0.5
+        + square * (0.8 + r * (-2.0 / 3.0) + square * (-8.0 / 7.0 + r)));
+    const PARTS_OF low = k * 0x1.ef35793c7673p-45 + least + (sum - near + r) + r_rest + r_bottom * (half + half_top)
+        + (near - high + square_top) + series;
+    *rest = high - (high + low) + low;
+    return high + low;
+}
+
+/* e^(x + rest) for |x| < 700 and a small rest. */
+static inline PARTS_OF PARTS_NAMED(exp_of_parts)(PARTS_OF x, PARTS_OF rest)
+{
+    const double shift = 6755399441055744.0;
+    const PARTS_OF shifted = x * 0x1.71547652b82fep7 + shift, k = shifted - shift;
+    const PARTS_OF r = x - k * 0x1.62e42fefcp-8 + k * 0x1.c610ca86c3899p-44 + rest, square = r * r;
+    const PARTS_BITS whole = PARTS_NAMED(bits_of)(shifted), ahead = whole >> 7 << 52;
+    const PARTS_OF power = PARTS_NAMED(of_bits)(PARTS_NAMED(bits_of)(PARTS_ENTRY(exp_table, whole, 0)) + ahead);
+    const PARTS_OF less = PARTS_ENTRY(exp_table, whole, 1) + r + square * (0.5 + r * (1.0 / 6.0))
+        + square * square * (1.0 / 24.0 + r * (1.0 / 120.0));
+    return power + power * less;
+}

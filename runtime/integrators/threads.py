@@ -1,0 +1,75 @@
+"""Threads that work on the runs of a batch: each takes portions of them, and moves these on alone or side by side."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from concurrent.futures import Future, ThreadPoolExecutor, wait
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gudgeon.integrators.lanes import LEAST, NEW, OVER, numbers_of
+from gudgeon.integrators.steps import Tape
+from gudgeon.waiting.ctrl_c import CtrlC
+
+if TYPE_CHECKING:
+    from gudgeon.integrators.batch import Runs
+    from gudgeon.integrators.trajectory import Progress
+
+PORTION = 16  # runs handed out at once, at most
+GLANCE = 0.05  # s between two looks of the waiting thread
+
+
+def in_threads(runs: Runs, progress: Progress | None, wanted: range | list[int], ctrl_c: CtrlC) -> None:
+    """All wanted runs, to their ends. Ctrl-C ends them where they are."""
+    portion = max(1, min(PORTION, len(wanted) // (8 * runs.threads)))
+    portion = math.ceil(portion / runs.abreast) * runs.abreast if runs.lanes else portion
+    portions = deque(wanted[k : k + portion] for k in range(0, len(wanted), portion))
+    with ThreadPoolExecutor(runs.threads, thread_name_prefix="gudgeon") as pool:
+        try:
+            waiting: set[Future[None]] = {pool.submit(_work, runs, portions, k) for k in range(runs.threads)}
+            while waiting:
+                ended, waiting = wait(waiting, GLANCE)
+                ctrl_c.take()
+                for future in ended:
+                    future.result()
+                if progress:
+                    progress(float(np.mean(runs.arrays["phase"] == OVER)), "integrating")
+        except BaseException:
+            runs.arrays["ending"][0] = 1
+            raise
+
+
+def _work(runs: Runs, portions: deque[range | list[int]], worker: int) -> None:
+    """One thread: portions of runs until none is left."""
+    memories = np.zeros((runs.abreast, runs.compiled.lib.gudgeon_run_size()), dtype=np.uint8)
+    tape, place = Tape(runs.compiled) if runs.looks else None, worker * runs.abreast
+    if tape:
+        tape.lay(runs.compiled.pointer(memories[0], "void *"))
+    while portions and not runs.stopping:
+        if runs.flow and not tape and (beside := runs.flow.begins(runs)):
+            beside.flow(runs, numbers_of(runs, portions), memories, place)
+            return
+        try:
+            portion = portions.popleft()
+        except IndexError:  # another thread was quicker
+            return
+        if runs.lanes is None and runs.over is None and isinstance(portion, range):
+            runs.alone(portion.start, portion.stop, memories[0], tape)
+            continue
+        new = [i for i in portion if runs.arrays["phase"][i] == NEW]
+        steps = runs.arrays["step"]
+        for group in runs.lanes.groups(new, steps, runs.times) if runs.lanes else [[i] for i in new]:
+            _group(runs, group, memories, place, tape)
+
+
+def _group(runs: Runs, group: list[int], memories: NDArray[np.uint8], place: int, tape: Tape | None) -> None:
+    """Runs that go side by side as far as they do, and then each to its end."""
+    if runs.over:
+        runs.arrays["place"][group] = place + np.arange(len(group))
+    if runs.lanes and len(group) >= LEAST and not runs.stopping:
+        runs.lanes.together(runs, group, memories)
+    for k, i in enumerate(group):
+        runs.to_its_end(i, memories[k], tape)

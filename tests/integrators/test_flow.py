@@ -1,0 +1,147 @@
+"""Runs by methods that choose their step, side by side: each bit for bit as alone, whatever others do meanwhile."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import gudgeon
+from gudgeon.integrators import lanes
+from gudgeon.results.batch import Batch
+from tests.integrators.test_side_by_side import CASES, EVERY_KIND, FALL, Case, assert_same_batches, without_chain
+from tests.programs import needs_compiler
+from tests.simulation.test_many import assert_same
+
+pytestmark = needs_compiler
+COUNT = 19  # more than two vectors hold, divisible by no number of lanes
+
+
+class Seen:
+    """Runs that lanes have taken."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.taken: list[int] = []
+        plain = lanes.numbers_of
+
+        def numbers_of(*arguments: Any) -> Any:
+            for i in plain(*arguments):
+                self.taken.append(i)
+                yield i
+
+        monkeypatch.setattr("gudgeon.integrators.threads.numbers_of", numbers_of)
+
+
+@pytest.fixture(autouse=True)
+def at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """However short a batch is."""
+    monkeypatch.setattr(lanes, "WORTH", 0.0)
+
+
+def both(simulation: gudgeon.Simulation, sets: Any, t_end: float, **options: Any) -> tuple[Batch, Batch]:
+    """The batch as it is, and with its runs one after the other."""
+    options = {"output": 7, "threads": 1, **options}
+    return tuple(simulation.simulate_many(sets, t_end, side_by_side=side, **options) for side in (True, False))  # type: ignore[return-value]
+
+
+@pytest.mark.parametrize("case", CASES, ids=[f"{Path(case[0]).stem}-{case[1]}" for case in CASES])
+def test_each_run_is_bit_for_bit_that_made_alone(case: Case, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    mechanism, scene, (address, low, high), t_end, _ = case
+    if mechanism == EVERY_KIND:
+        mechanism = without_chain(tmp_path)
+    simulation, values = gudgeon.load(mechanism, scene=scene), np.linspace(low, high, COUNT)
+    for method, rtol in (("dop853", 1e-6), ("rodas5p", 1e-5), ("auto", 1e-9)):
+        seen = Seen(monkeypatch)
+        batch, singly = both(simulation, {address: values}, t_end, method=method, rtol=rtol)
+        assert not batch.failures and len({q.tobytes() for q in batch.q}) > 1
+        assert_same_batches(batch, singly)
+        for name in ("steps", "right_hand_sides", "rejected", "jacobians", "stiff_steps", "grazes"):
+            assert (batch.diagnostics[name] == singly.diagnostics[name]).all(), name
+        alone = simulation.simulate(t_end, output=7, method=method, rtol=rtol, parameters={address: values[3]})
+        assert_same(batch[3], alone)
+        assert set(seen.taken) == set(range(COUNT))  # twice where a start is left to Python
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_runs_of_all_lengths_with_series_of_their_own(threads: int) -> None:
+    """Lanes take the next run where one is over; samples are kept as series alone, so that places are taken again."""
+    press = gudgeon.load("nine_bar_press", "dry")
+    sets = {"omega": np.linspace(6.0, 30.0, COUNT)}
+    ends = np.linspace(0.002, 0.03, COUNT)[::-1]
+    batches = both(press, sets, ends, threads=threads, rtol=1e-6, output=23, keep=["S9.y", "A.F"])  # type: ignore[arg-type]
+    for name in ("t", "S9.y", "A.F"):
+        assert batches[0][name].tobytes() == batches[1][name].tobytes(), name
+    assert sum(map(len, batches[0].impacts)) > COUNT
+    assert [x.tobytes() for x in batches[0].impacts] == [x.tobytes() for x in batches[1].impacts]
+
+
+def test_a_given_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No error is looked at then; each run may have a step of its own."""
+    seen, press = Seen(monkeypatch), gudgeon.load("nine_bar_press", "lubricated")
+    steps = np.linspace(1e-4, 2e-4, COUNT)
+    batch, singly = both(press, {"c": np.linspace(3e-4, 8e-4, COUNT)}, 0.01, method="rodas5p", step=steps)
+    assert_same_batches(batch, singly)
+    assert len(seen.taken) == COUNT and not batch.failures
+
+
+def test_what_fails_leaves_the_others() -> None:
+    """A journal deep in a soft bearing, numbers that are none, a start that does not close."""
+    press = gudgeon.load("nine_bar_press", scene="dry")
+    sets: list[dict[str, Any]] = [{"omega": 30.0 + 0.1 * k} for k in range(COUNT)]
+    sets[2] |= {"materials.aluminium.E": 1e5}
+    sets[5] |= {"c": -1.0}
+    sets[11] |= {"bodies.L2.length": "5 m"}
+    batch, singly = both(press, sets, 0.05, rtol=1e-6)
+    assert [failure.run for failure in batch.failures] == [2, 5, 11]
+    assert_same_batches(batch, singly)
+
+
+def test_events_are_found_and_end_only_their_own_run(tmp_path: Path) -> None:
+    file = tmp_path / "fall.yaml"
+    file.write_text(FALL, encoding="utf-8")
+    gravity = np.linspace(1.0, 160.0, COUNT)
+    batch, singly = both(gudgeon.load(file), {"g": gravity}, 2.0, method="dop853")
+    assert batch.t_last == pytest.approx(np.minimum(np.sqrt(10.0 / gravity), 2.0), abs=1e-9) and not batch.failures
+    assert_same_batches(batch, singly)
+
+
+def test_ctrl_c_ends_runs_at_whole_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What was reached is the beginning of what would have been."""
+    press = gudgeon.load("nine_bar_press", "lubricated")
+    sets = {"c": np.linspace(3e-4, 8e-4, COUNT)}
+    whole = press.simulate_many(sets, 0.1, output=50, rtol=1e-6, threads=1)
+
+    def stop(share: float, _: str) -> None:
+        if share > 0.0:
+            raise KeyboardInterrupt
+
+    part = press.simulate_many(sets, 0.1, output=50, rtol=1e-6, threads=1, progress=stop)
+    assert part.interrupted or not part.failures
+    for i, samples in enumerate(part.samples.tolist()):
+        k = max(samples - 1, 0)  # the last one is where it was stopped
+        assert part.q[i, :k].tobytes() == whole.q[i, :k].tobytes()
+
+
+def test_the_library_is_made_where_it_is_worth_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not for what is over in a moment, nor for a few runs; from the middle of a batch on, if that takes its time."""
+    made: list[bool] = []
+    plain = lanes.Lanes.__init__
+
+    def init(own: lanes.Lanes, *arguments: Any, **options: Any) -> None:
+        made.append(True)
+        plain(own, *arguments, **options)
+
+    monkeypatch.setattr(lanes.Lanes, "__init__", init)
+    monkeypatch.setattr(lanes, "_is_compiled", lambda _: False)
+    press = gudgeon.load("nine_bar_press", "lubricated")
+    sets = {"c": np.linspace(3e-4, 8e-4, 4 * COUNT)}
+    monkeypatch.setattr(lanes, "WORTH", 1e9)
+    alone = press.simulate_many(sets, 0.01, output=3, threads=2)
+    press.simulate_many({"c": sets["c"][: lanes.FEW - 1]}, 0.01, output=3, threads=2)
+    assert not made
+    monkeypatch.setattr(lanes, "WORTH", 1e-9)
+    beside = press.simulate_many(sets, 0.01, output=3, threads=2)
+    assert made == [True]
+    assert_same_batches(beside, alone)
