@@ -14,7 +14,7 @@ from gudgeon.errors import GudgeonError
 from gudgeon.files.writing import read_regular, written
 from gudgeon.language.plot_units import quantity
 from gudgeon.results.batch import Array
-from gudgeon.studies.ensemble.judge import Cell, judged
+from gudgeon.studies.ensemble.judge import Cell, judged, together
 
 if TYPE_CHECKING:
     import pandas
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 FILE, TABLES = "claims.json", ("numbers", "trends")
 NOT_COMPUTED = "not computed"
+ODDS = ("probability", "low", "high", "chance")
 UNNAMED = ""  # the ensemble of runs that are in none
 
 
@@ -32,9 +33,10 @@ class Claimed(NamedTuple):
     """Two tables, a row for each claim and ensemble.
 
     numbers: claim, figure, says, measure, unit, printed, ensemble, n (runs), q25, median, q75 (SI), deviation (% of
-    the printed value), note. trends: claim, figure, says, ensemble, verdict ("holds", "fails", "undecided", "not
-    computed"), probability (the least of what it consists of), chance (that one run of each scene shows all of it),
-    agreed (whether all ensembles have the same verdict), note.
+    the printed value), note. trends: claim, figure, says, ensemble, verdict (of all ensembles together: "holds",
+    "fails", "undecided", "not computed"), alone (what this one by itself would say), probability (the least of what
+    it consists of) and its interval low to high, chance (that one run of each scene shows all of it), agreed (whether
+    no ensemble rules out what another one carries), note.
     """
 
     numbers: pandas.DataFrame
@@ -86,7 +88,7 @@ def _tables(rows: Mapping[str, Any]) -> list[pandas.DataFrame]:
     for name in ("printed", "q25", "median", "q75", "deviation"):
         if name in found[0]:
             found[0][name] = found[0][name].astype(float)  # null is NaN
-    for name in ("probability", "chance"):
+    for name in ODDS:
         if name in found[1]:
             found[1][name] = found[1][name].astype(float)
     return found
@@ -151,20 +153,22 @@ def _of_trend(known: KnownTrend, runs: _Finished) -> Iterator[dict[str, Any]]:
     common = {"claim": str(claim.name), "figure": claim.figure, "says": claim.says}
     if claim.not_computed:
         told = " ".join(filter(None, (claim.not_computed, claim.note)))
-        yield common | {"ensemble": UNNAMED, "verdict": NOT_COMPUTED, "probability": None, "chance": None,
-                        "agreed": True, "note": told}  # fmt: skip
+        yield common | {"ensemble": UNNAMED, "verdict": NOT_COMPUTED, "alone": NOT_COMPUTED,
+                        **dict.fromkeys(ODDS), "agreed": True, "note": told}  # fmt: skip
         return
     cells = list(dict.fromkeys(cell for check in known.checks for cell in check.cells))
     measures = list(dict.fromkeys(name for check in known.checks for name in check.measures))
+    certain = [cell for cell in cells if "start" not in runs.plans.each[cell.part].dims]
     each = {}
     for ensemble in runs.ensembles(cells):
         own = {cell: {name: runs.values(cell, name, ensemble) for name in measures if _has(runs, cell, name)}
                for cell in cells}  # fmt: skip
-        each[ensemble] = judged(known.checks, own)
-    agreed = len({one.verdict for one in each.values()}) == 1
+        each[ensemble] = judged(known.checks, own, certain)
+    whole, agreed = together(list(each.values()))
     for ensemble, one in each.items():
-        yield common | {"ensemble": ensemble, "verdict": one.verdict, "probability": _plain(one.probability),
-                        "chance": _plain(one.chance), "agreed": agreed, "note": claim.note}  # fmt: skip
+        odds = {name: _plain(getattr(one, name)) for name in ODDS}
+        yield common | {"ensemble": ensemble, "verdict": whole.verdict, "alone": one.verdict, **odds,
+                        "agreed": agreed, "note": claim.note}  # fmt: skip
 
 
 def _has(runs: _Finished, cell: Cell, measure: str) -> bool:

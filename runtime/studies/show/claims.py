@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from gudgeon.errors import GudgeonError
 from gudgeon.language.plot_units import scale
 from gudgeon.results.web_page import Section, lines, table
-from gudgeon.studies.show.pictures import Draw, gallery
+from gudgeon.studies.show.pictures import Draw, Pictures, gallery
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -22,7 +22,7 @@ LARGE = 30.0  # times the least, from which on an axis of values is logarithmic
 SHORT = 22  # characters of where a number was taken, that stand under it
 
 
-def claims_sections(study: Study) -> list[Section]:
+def claims_sections(study: Study, pictures: Pictures) -> list[Section]:
     """Published numbers with figures in their order, and trends; none of a study that claims nothing."""
     try:
         found = study.claims
@@ -31,7 +31,7 @@ def claims_sections(study: Study) -> list[Section]:
     numbers, trends = (list(_each(table.to_dict("records"))) for table in (found.numbers, found.trends))
     source = lines([found.source] * bool(found.source), "g-quiet")
     shown = [
-        ("Published numbers", _numbers(numbers) + gallery(_figures(numbers), "claims")),
+        ("Published numbers", _numbers(numbers) + gallery(_figures(numbers), "claims", pictures)),
         ("Published trends", _trends(trends)),
     ]
     return [(heading, source + inside) for heading, inside in shown if inside]
@@ -80,22 +80,36 @@ def _median(row: Row | None, factor: float, unit: str) -> str:
 
 
 def _trends(claims: list[list[Row]]) -> str:
-    """A row a claim: one verdict where all ensembles agree, else that of each."""
+    """A row a claim: the verdict of all ensembles together, or what each says where they contradict each other."""
     head = ["", "figure", "what", "verdict", "probability", "one run shows it", "note"]
-    told = "probability: that the next run shows it, the least of all that the trend says, ensemble by ensemble"
-    return table(head, map(_trend, claims), True) + lines([told] * bool(claims), "g-quiet")
+    told = ["probability: that the next run shows it, the least of all that the trend says, with the interval in which"
+            " it is known (5 % beyond each end), ensemble by ensemble; holds: all of the interval of all runs lies at"
+            " 0.8 or above, fails: at 1/3 or below, undecided: neither"]  # fmt: skip
+    return table(head, map(_trend, claims), True) + lines(told * bool(claims), "g-quiet")
 
 
 def _trend(rows: list[Row]) -> list[str]:
     first = rows[0]
-    each = ", ".join(f"{row['ensemble']} {row['verdict']}" for row in rows)
+    each = ", ".join(f"{row['ensemble']} {row['alone']}" for row in rows)
     verdict = str(first["verdict"]) if first["agreed"] else f"not agreed: {each}"
-    odds = (_odds(row[name] for row in rows) for name in ("probability", "chance"))
+    odds = _odds(map(_known, rows)), _odds(_share(row["chance"]) for row in rows)
     return [str(first["claim"]), str(first["figure"]), str(first["says"]), verdict, *odds, str(first["note"])]
 
 
-def _odds(values: Iterable[Any]) -> str:
-    shown = ["–" if _none(value) else f"{value:.2g}" for value in values]
+def _known(row: Row) -> str:
+    """A probability with its interval, where there is one."""
+    told = _share(row["probability"])
+    if _none(row["low"]) or row["low"] == row["high"]:
+        return told
+    return f"{told} ({_share(row['low'])} … {_share(row['high'])})"
+
+
+def _share(value: Any) -> str:
+    return "–" if _none(value) else f"{value:.2g}"
+
+
+def _odds(values: Iterable[str]) -> str:
+    shown = list(values)
     return shown[0] if len(set(shown)) == 1 else ", ".join(shown)
 
 
