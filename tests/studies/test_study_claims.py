@@ -148,7 +148,8 @@ claims:
   numbers:
     N1: {figure: Fig 1, part: grid, measure: x, at: {length: 100 cm, g: 9.81}, value: 2 m, note: twice ours}
     N2: {figure: Fig 1, part: noisy, measure: x, at: {length: 1.1 m}, value: 110 cm}
-    N3: {part: grid, measure: a, at: {length: 1 m, g: 1.62}, says: ours alone}
+    N3: {part: grid, measure: a, at: {length: 1 m, g: 1.62}, says: ours alone, beside: N4}
+    N4: {part: grid, measure: a, at: {length: 1 m, g: 9.81}}
   trends:
     T1: {says: x grows with length, part: grid, measure: x, grows_along: length}
     T2: {says: x grows with g, part: grid, measure: x, grows_along: g}
@@ -207,7 +208,9 @@ def test_numbers_beside_the_printed_ones(found: gudgeon.Study, tmp_path: Path) -
     x = found.parts["noisy"].dataset["x"].sel(ensemble="far")[1].values
     assert [far[name] for name in ("q25", "median", "q75")] == np.quantile(x, [0.25, 0.5, 0.75]).tolist()
     assert far["n"] == 16 and "length 1.1 m" in far["at"]
-    assert math.isnan(numbers.loc["N3", "printed"]) and math.isnan(numbers.loc["N3", "deviation"])
+    assert math.isnan(numbers.loc["N3", "printed"]) and math.isnan(numbers.loc["N4", "deviation"])
+    assert numbers.loc["N3", "deviation"] == pytest.approx(100 * (1.62 / 9.81 - 1), rel=1e-5)
+    assert numbers["beside"].tolist() == ["", "", "", "N4", ""]
     assert found.claims.source == "somebody, somewhere"
     again = gudgeon.load_study(found.folder).claims
     assert again.trends.equals(found.claims.trends) and again.numbers.equals(found.claims.numbers)
@@ -238,23 +241,26 @@ BAD = [  # in place of what, what; line and words of the message
     ("length: 100 cm", "length: 1 kg", "19:62", "a length"),
     ("value: 2 m,", "value: 2 kg,", "19:87", "a length"),
     ("{length: 100 cm, g: 9.81}", "{length: 100 cm}", "19:5", "say in at: which value of g (2)"),
-    ("measure: x, grows_along: g}", "measure: q, grows_along: g}", "24:53", "unknown measure 'q'"),
-    ("grows_along: g}", "grows_along: mass}", "24:69", "unknown coordinate"),
-    ("measure: x, grows_along: g}", "measure: x, grows_along: g, at: {g: 9.81}}", "24:69", "one value here"),
-    ("grows_along: g}", "falls_along: g}", "24:56", "falls_along"),
-    ("grows_along: g}", "grows_along: g, above: 3}", "24:9", "both grows_along and above"),
-    ("alike_along: g, within: 1e-3", "alike_along: g", "25:9", "has no within"),
-    ("than: {length: 1 m}, by", "than: {g: 9.81}, by", "26:34", "not about the same runs"),
-    ("near: -9.81 m/s^2", "near: -9.81 m", "29:40", "an acceleration"),
-    ("{bodies: 1,", "{bodeis: 1,", "31:31", "did you mean 'bodies'"),
-    ("not_computed: nobody", "above: 3, not_computed: nobody", "32:31", "expected one of both"),
-    ("more_than: drop", "more_than: [drop, x]", "33:58", "expected as many"),
-    ("from: {g: 9.81}, to", "to", "34:10", "has no from"),
-    ("all: [{measure: x, grows", "all: [{measure: x, says: q, grows", "35:42", "says"),
-    ("    T14:", "    T1:", "37:5", "given twice"),
-    ("    T14:", "    N1:", "37:5", "is there twice"),
+    ("measure: x, grows_along: g}", "measure: q, grows_along: g}", "25:53", "unknown measure 'q'"),
+    ("grows_along: g}", "grows_along: mass}", "25:69", "unknown coordinate"),
+    ("measure: x, grows_along: g}", "measure: x, grows_along: g, at: {g: 9.81}}", "25:69", "one value here"),
+    ("grows_along: g}", "falls_along: g}", "25:56", "falls_along"),
+    ("grows_along: g}", "grows_along: g, above: 3}", "25:9", "both grows_along and above"),
+    ("alike_along: g, within: 1e-3", "alike_along: g", "26:9", "has no within"),
+    ("than: {length: 1 m}, by", "than: {g: 9.81}, by", "27:34", "not about the same runs"),
+    ("near: -9.81 m/s^2", "near: -9.81 m", "30:40", "an acceleration"),
+    ("{bodies: 1,", "{bodeis: 1,", "32:31", "did you mean 'bodies'"),
+    ("not_computed: nobody", "above: 3, not_computed: nobody", "33:31", "expected one of both"),
+    ("more_than: drop", "more_than: [drop, x]", "34:58", "expected as many"),
+    ("from: {g: 9.81}, to", "to", "35:10", "has no from"),
+    ("all: [{measure: x, grows", "all: [{measure: x, says: q, grows", "36:42", "says"),
+    ("    T14:", "    T1:", "38:5", "given twice"),
+    ("    T14:", "    N1:", "38:5", "is there twice"),
     ("    N3:", "    3N:", "21:5", "letters, digits"),
     ("source: somebody, somewhere", "source: []", "17:11", "a list"),
+    ("says: ours alone, beside: N4", "beside: N9", "21:70", "unknown number 'N9'"),
+    ("says: ours alone, beside: N4", "beside: N1", "21:70", "expected a number of the same measure"),
+    ("says: ours alone, beside: N4", "value: 3, beside: N4", "21:72", "both value and beside"),
 ]  # fmt: skip
 
 
@@ -276,7 +282,7 @@ def test_all_mistakes_of_claims_at_once(tmp_path: Path) -> None:
         "-9.81 m/s^2", "-9.81 m"))  # fmt: skip
     with pytest.raises(InputErrors) as told:
         plans_of(path)
-    assert [str(error).split(":")[1] for error in told.value.errors] == ["19", "24", "29"], str(told.value)
+    assert [str(error).split(":")[1] for error in told.value.errors] == ["19", "25", "30"], str(told.value)
 
 
 def test_the_schema_takes_what_is_read() -> None:

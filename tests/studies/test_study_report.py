@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 from functools import partial
 from pathlib import Path
@@ -100,7 +101,7 @@ def test_claims_and_parts_are_shown_where_there_are_any(folder: Path) -> None:
            "unit": "m", "printed": 2.5e-3, "ensemble": "near", "n": 5, "q25": 1.9e-3, "median": 2e-3, "q75": 2.1e-3,
            "deviation": -20.0, "note": "a & b"}  # fmt: skip
     far = row | {"ensemble": "far", "median": 3e-3, "q25": 2e-3, "q75": 4e-3, "deviation": 20.0}
-    lone = row | {"claim": "N2", "ensemble": "", "n": 1, "figure": "", "printed": np.nan, "deviation": np.nan}
+    lone = row | {"claim": "N2", "ensemble": "", "n": 1, "figure": "", "printed": np.nan, "deviation": 4.21}
     trend = {"claim": "T1", "figure": "", "says": "it grows", "note": ""}
     judged = [trend | {"ensemble": name, "verdict": "undecided", "alone": alone, "probability": odds, "low": odds,
                        "high": high, "chance": 0.5, "agreed": False}
@@ -108,10 +109,11 @@ def test_claims_and_parts_are_shown_where_there_are_any(folder: Path) -> None:
     tables = pandas.DataFrame([row, far, lone]), pandas.DataFrame(judged)
     claims = SimpleNamespace(numbers=tables[0], trends=tables[1], source="a paper & more")
     whole: Any = SimpleNamespace(claims=claims, parts={"one": study, "two": study})
-    (heading, inside), (trends, judgement) = claims_sections(whole, Pictures())
-    assert (heading, trends) == ("Published numbers", "Published trends") and "&lt;i&gt;peak" in inside
+    (heading, inside), (trends, judgement), (ours, alone) = claims_sections(whole, Pictures())
+    assert (heading, trends, ours) == ("Published numbers", "Published trends", "Ours alone")
+    assert "&lt;i&gt;peak" in inside
     assert "<td>2.5 mm</td><td>2 mm (1.9 … 2.1)</td><td>3 mm (2 … 4)</td><td>−20.0 … +20.0 %</td>" in inside
-    assert "<td>–</td><td>2 mm</td><td></td>" in inside  # one run, in no ensemble
+    assert "<td>c 0.3 mm</td><td>one</td><td>2 mm, +4.2 %</td>" in alone  # in no ensemble, beside another
     assert inside.count("<figure>") == 1 and "Fig 3: peak" in inside and "not drawn" not in inside
     assert "not agreed: near holds, far fails" in judgement and "<td>0.9, 0.2 (0.2 … 0.3)</td><td>0.5</td>" in judgement
     assert "a paper &amp; more" in inside and "a &amp; b" in inside
@@ -144,6 +146,8 @@ def test_processes_draw_what_this_one_would(monkeypatch: pytest.MonkeyPatch) -> 
     monkeypatch.setattr(pictures, "available_threads", lambda: 1)
     here = shown.filled(places)
     monkeypatch.setattr(pictures, "available_threads", lambda: 2)
+    assert shown.filled(places) == here
+    monkeypatch.setattr(pictures, "_draw_all", lambda end, wanted: os._exit(1))  # a process that dies
     assert shown.filled(places) == here
     assert here.count("<svg") == pictures.MANY - 1 and "not drawn: nothing to draw" in here
 

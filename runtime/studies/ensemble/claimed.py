@@ -33,10 +33,10 @@ class Claimed(NamedTuple):
     """Two tables, a row for each claim and ensemble.
 
     numbers: claim, figure, says, measure, unit, printed, ensemble, n (runs), q25, median, q75 (SI), deviation (% of
-    the printed value), note. trends: claim, figure, says, ensemble, verdict (of all ensembles together: "holds",
-    "fails", "undecided", "not computed"), alone (what this one by itself would say), probability (the least of what
-    it consists of) and its interval low to high, chance (that one run of each scene shows all of it), agreed (whether
-    no ensemble rules out what another one carries), note.
+    the printed value, or of the median of the number that it stands beside), beside, note. trends: claim, figure, says,
+    ensemble, verdict (of all ensembles together: "holds", "fails", "undecided", "not computed"), alone (what this one
+    by itself would say), probability (the least of what it consists of) and its interval low to high, chance (that one
+    run of each scene shows all of it), agreed (whether no ensemble rules out what another one carries), note.
     """
 
     numbers: pandas.DataFrame
@@ -50,9 +50,9 @@ def write_claims(folder: Path, plans: Plans, known: Known, study: Study) -> None
         for name in (FILE, *(f"claims_{table}.csv" for table in TABLES)):
             (folder / name).unlink(missing_ok=True)
         return
-    runs = _Finished(plans, study)
+    runs, cells = _Finished(plans, study), {str(one.claim.name): one.cell for one in known.numbers}
     rows = {
-        "numbers": [row for one in known.numbers for row in _of_number(one, runs)],
+        "numbers": [row for one in known.numbers for row in _of_number(one, runs, cells)],
         "trends": [row for one in known.trends for row in _of_trend(one, runs)],
     }
     with written(folder / FILE) as file:
@@ -123,18 +123,23 @@ class _Finished:
         return np.asarray(found).ravel()
 
 
-def _of_number(known: KnownNumber, runs: _Finished) -> Iterator[dict[str, Any]]:
+def _of_number(known: KnownNumber, runs: _Finished, cells: Mapping[str, Cell]) -> Iterator[dict[str, Any]]:
     claim = known.claim
     for ensemble in runs.ensembles([known.cell]):
         values = runs.values(known.cell, str(claim.measure), ensemble)
         own = values[np.isfinite(values)]
         quartiles = np.quantile(own, [0.25, 0.5, 0.75]) if len(own) else np.full(3, np.nan)
-        off = 100.0 * (quartiles[1] / known.printed - 1.0) if known.printed else math.nan
+        base = known.printed
+        if claim.beside is not None:
+            others = runs.values(cells[claim.beside], str(claim.measure), ensemble)
+            base = float(np.median(others[np.isfinite(others)])) if np.isfinite(others).any() else math.nan
+        off = 100.0 * (quartiles[1] / base - 1.0) if base else math.nan
         yield {
             "claim": str(claim.name), "figure": claim.figure, "says": claim.says, "part": known.cell.part,
             "at": _at(runs.plans.each[known.cell.part], known.cell), "measure": str(claim.measure), "unit": known.unit,
             "printed": _plain(known.printed), "ensemble": ensemble, "n": len(own), "q25": _plain(quartiles[0]),
-            "median": _plain(quartiles[1]), "q75": _plain(quartiles[2]), "deviation": _plain(off), "note": claim.note,
+            "median": _plain(quartiles[1]), "q75": _plain(quartiles[2]), "deviation": _plain(off),
+            "beside": str(claim.beside or ""), "note": claim.note,
         }  # fmt: skip
 
 

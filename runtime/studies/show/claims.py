@@ -30,11 +30,13 @@ def claims_sections(study: Study, pictures: Pictures) -> list[Section]:
         return []
     numbers, trends = (list(_each(table.to_dict("records"))) for table in (found.numbers, found.trends))
     source = lines([found.source] * bool(found.source), "g-quiet")
+    printed = [rows for rows in numbers if not _none(rows[0]["printed"])]
     shown = [
-        ("Published numbers", _numbers(numbers) + gallery(_figures(numbers), "claims", pictures)),
+        ("Published numbers", _numbers(printed) + gallery(_figures(numbers), "claims", pictures)),
         ("Published trends", _trends(trends)),
+        ("Ours alone", _alone([rows for rows in numbers if _none(rows[0]["printed"])])),
     ]
-    return [(heading, source + inside) for heading, inside in shown if inside]
+    return [(heading, source * heading.startswith("Published") + inside) for heading, inside in shown if inside]
 
 
 def _each(rows: Iterable[Row]) -> Iterator[list[Row]]:
@@ -68,6 +70,21 @@ def _number(rows: list[Row], names: list[str]) -> list[str]:
     told = told.replace("-", "−")
     what = str(first["says"]) or ", ".join(filter(None, (str(first["measure"]), str(first["part"]), str(first["at"]))))
     return [str(first["claim"]), str(first["figure"]), what, printed, *cells, told, str(first["note"])]
+
+
+def _alone(claims: list[list[Row]]) -> str:
+    """What nobody has printed: a row for all measures of the same, off by so much from what they stand beside."""
+    measures = list(dict.fromkeys(str(rows[0]["measure"]) for rows in claims))
+    each: dict[tuple[str, str], dict[str, str]] = {}
+    for rows in claims:
+        first = rows[0]
+        factor, unit = scale(_size(rows), str(first["unit"]))
+        off = "" if _none(first["deviation"]) else f", {first['deviation']:+.1f} %".replace("-", "−")
+        what = str(first["says"] or first["at"]), str(first["part"])
+        each.setdefault(what, {})[str(first["measure"])] = _median(first, factor, unit) + off
+    told = ["median (quartiles), and how far it is off from the row that it stands beside"]
+    cells = ([*what, *(own.get(name, "") for name in measures)] for what, own in each.items())
+    return table(["what", "part", *measures], cells, True) + lines(told * bool(claims), "g-quiet")
 
 
 def _median(row: Row | None, factor: float, unit: str) -> str:
@@ -125,29 +142,36 @@ def _figures(claims: list[list[Row]]) -> Iterator[Draw]:
 
 def _drawn(claims: list[list[Row]], measure: str) -> Axes:
     """Medians with quartiles of each ensemble, what is printed as a black mark."""
+    import matplotlib
+
+    from gudgeon.results.plots import COLOURS, STYLE
     from gudgeon.results.run_plots import new_axes
 
     factor, unit = scale(max(map(_size, claims)), str(claims[0][0]["unit"]))
     names = _ensembles(claims) or [""]
-    ax = new_axes(5.6, 3.2)
-    for j, name in enumerate(names):
-        own = [(k, row) for k, rows in enumerate(claims) for row in rows
-               if row["ensemble"] in (name, "") and not _none(row["median"])]  # fmt: skip
-        at = [k + 0.16 * (j - 0.5 * (len(names) - 1)) for k, _ in own]
-        middle, low, high = ([row[part] * factor for _, row in own] for part in ("median", "q25", "q75"))
-        reach = [[m - q for m, q in zip(middle, low, strict=True)], [q - m for m, q in zip(middle, high, strict=True)]]
-        ax.errorbar(at, middle, reach, fmt="o", ms=3.5, capsize=2.0, lw=1.0, label=name or "ours")
-    printed = [rows[0]["printed"] * factor for rows in claims]
-    ax.plot(range(len(claims)), printed, "k_", ms=16, mew=1.6, label="printed")
-    ax.set_xticks(range(len(claims)), [_tick(rows[0]) for rows in claims], fontsize=7)
-    ax.set_xlim(-0.6, len(claims) - 0.4)
-    shown = [abs(value) for value in (*printed, *(row["median"] * factor for rows in claims for row in rows)) if value]
-    if shown and min(shown) > 0.0 and max(shown) > LARGE * min(shown):
-        ax.set_yscale("log")
-    else:
-        ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
-    ax.set_ylabel(f"{measure} [{unit}]" if unit else measure)
-    ax.legend(fontsize=7, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=len(names) + 1)
+    with matplotlib.rc_context(STYLE):
+        ax = new_axes(5.6, 3.2)
+        for j, name in enumerate(names):
+            own = [(k, row) for k, rows in enumerate(claims) for row in rows
+                   if row["ensemble"] in (name, "") and not _none(row["median"])]  # fmt: skip
+            at = [k + 0.16 * (j - 0.5 * (len(names) - 1)) for k, _ in own]
+            middle, low, high = ([row[part] * factor for _, row in own] for part in ("median", "q25", "q75"))
+            reach = [m - q for m, q in zip(middle, low, strict=True)], [q - m for m, q in zip(middle, high, strict=True)]
+            ax.errorbar(at, middle, reach, fmt="o", color=COLOURS[j % len(COLOURS)], ms=3.5, capsize=2.0, lw=1.0,
+                        label=name or "ours")  # fmt: skip
+        printed = [rows[0]["printed"] * factor for rows in claims]
+        ax.plot(range(len(claims)), printed, "k_", ms=16, mew=1.6, label="printed")
+        ax.set_xticks(range(len(claims)), [_tick(rows[0]) for rows in claims], fontsize=7)
+        ax.set_xlim(-0.6, len(claims) - 0.4)
+        ax.grid(False, axis="x")
+        ours = (row["median"] * factor for rows in claims for row in rows)
+        shown = [abs(value) for value in (*printed, *ours) if value]
+        if shown and min(shown) > 0.0 and max(shown) > LARGE * min(shown):
+            ax.set_yscale("log")
+        else:
+            ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
+        ax.set_ylabel(f"{measure} [{unit}]" if unit else measure)
+        ax.legend(fontsize=7, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=len(names) + 1)
     return ax
 
 

@@ -9,6 +9,7 @@ import sys
 import threading
 import warnings
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from multiprocessing import get_context
 from typing import TYPE_CHECKING, Any
 
@@ -17,12 +18,14 @@ from gudgeon.integrators.batch import available_threads
 from gudgeon.results.web_page import lines, text
 
 if TYPE_CHECKING:
+    from multiprocessing.connection import Connection
+
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 MOST_FIGURES = 40
 MANY = 12  # figures, from which on it is worth while to begin a process for them
-PORTION = 4  # figures that a process takes at a time
+FEW = 4  # figures, for which no core is taken
 _AROUND = re.compile(r"^.*?(?=<svg)|<metadata>.*?</metadata>|<!--.*?-->", re.DOTALL)
 _IDS = re.compile(r'(\bid="|xlink:href="#|url\(#)')
 _PLACE = re.compile(r"<!--picture (\d+)-->")
@@ -59,28 +62,47 @@ def gallery(drawn: Iterable[Draw], kind: str, pictures: Pictures) -> str:
     return f"<div class='g-figures'>{''.join(parts)}</div>{more}" if parts else ""
 
 
-_wanted: list[tuple[str, Callable[[], Any]]] = []  # of a page, for processes that begin with what this one has
-
-
 def _side_by_side(wanted: list[tuple[str, Callable[[], Any]]]) -> list[str]:
-    """All of them, in processes that are forked from this one, where it is alone in itself; else here."""
-    count = min(available_threads(), len(wanted) // PORTION)
-    forks = sys.platform == "linux" and threading.active_count() == 1
-    if count < 2 or len(wanted) < MANY or not forks:
-        return [_drawn(*one) for one in wanted]
-    _wanted[:] = wanted
+    """All of them: each core draws its share, in processes forked from this one where it is alone in itself."""
+    forks = sys.platform == "linux" and threading.active_count() == 1 and len(wanted) >= MANY
+    count = min(available_threads(), len(wanted) // FEW) if forks else 1
+    others = [_Other(wanted[k::count]) for k in range(1, count)]
+    drawn = [""] * len(wanted)
     try:
+        drawn[::count] = [_drawn(*one) for one in wanted[::count]]
+        for k, other in enumerate(others, 1):
+            drawn[k::count] = other.drawn()
+    finally:
+        for other in others:
+            other.process.kill()
+    return drawn
+
+
+class _Other:
+    """A process that draws some of them; where it dies, they are drawn here."""
+
+    def __init__(self, wanted: list[tuple[str, Callable[[], Any]]]) -> None:
+        self.wanted, context = wanted, get_context("fork")
+        self.end, begin = context.Pipe(duplex=False)
+        self.process = context.Process(target=_draw_all, args=(begin, wanted), daemon=True)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", DeprecationWarning)  # of threads of BLAS, which expect it
-            pool = get_context("fork").Pool(count, signal.signal, (signal.SIGINT, signal.SIG_IGN))
-        with pool:
-            return pool.map(_numbered, range(len(wanted)), PORTION)
-    finally:
-        _wanted.clear()
+            self.process.start()
+        begin.close()
+
+    def drawn(self) -> list[str]:
+        """Waits for it."""
+        try:
+            found: list[str] = self.end.recv()
+        except (EOFError, OSError):
+            return [_drawn(*one) for one in self.wanted]
+        return found
 
 
-def _numbered(k: int) -> str:
-    return _drawn(*_wanted[k])
+def _draw_all(end: Connection, wanted: list[tuple[str, Callable[[], Any]]]) -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the calling process's own
+    with suppress(Exception):  # what is no picture is told where it is drawn again
+        end.send([_drawn(*one) for one in wanted])
 
 
 def _drawn(name: str, draw: Callable[[], Axes]) -> str:

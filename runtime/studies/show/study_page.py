@@ -77,7 +77,9 @@ def sections(data: StudyData, pictures: Pictures, name: str = "study") -> Iterat
 
 def _about(parts: dict[str, StudyData]) -> str:
     attributes = next(iter(parts.values())).dataset.attrs
-    about = "; ".join(f"{name}: {_counts(data)}" if name else _counts(data) for name, data in parts.items())
+    runs, failed = (sum(getattr(data.study, name) for data in parts.values()) for name in ("runs", "failed"))
+    whole = f"{counted(runs, 'run')} in {len(parts)} parts, {failed or 'none'} failed"
+    about = whole if len(parts) > 1 else _counts(next(iter(parts.values())))
     versions = f"gudgeon {attributes['gudgeon']} · file {str(attributes['sha256'])[:12]}"
     return f"{about} · mechanism {attributes['mechanism']} · {versions}"
 
