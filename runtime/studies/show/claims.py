@@ -7,6 +7,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from gudgeon.errors import GudgeonError
 from gudgeon.language.plot_units import scale
 from gudgeon.results.web_page import Section, lines, table
@@ -155,8 +157,8 @@ def _drawn(claims: list[list[Row]], measure: str) -> Axes:
             own = [(k, row) for k, rows in enumerate(claims) for row in rows
                    if row["ensemble"] in (name, "") and not _none(row["median"])]  # fmt: skip
             at = [k + 0.16 * (j - 0.5 * (len(names) - 1)) for k, _ in own]
-            middle, low, high = ([row[part] * factor for _, row in own] for part in ("median", "q25", "q75"))
-            reach = [m - q for m, q in zip(middle, low, strict=True)], [q - m for m, q in zip(middle, high, strict=True)]
+            middle, low, high = (np.array([row[part] for _, row in own]) * factor for part in ("median", "q25", "q75"))
+            reach = middle - low, high - middle
             ax.errorbar(at, middle, reach, fmt="o", color=COLOURS[j % len(COLOURS)], ms=3.5, capsize=2.0, lw=1.0,
                         label=name or "ours")  # fmt: skip
         printed = [rows[0]["printed"] * factor for rows in claims]

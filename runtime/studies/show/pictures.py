@@ -75,6 +75,7 @@ def _side_by_side(wanted: list[tuple[str, Callable[[], Any]]]) -> list[str]:
     finally:
         for other in others:
             other.process.kill()
+            other.process.join()
     return drawn
 
 
