@@ -104,7 +104,8 @@ def test_a_motion_that_is_followed_alone_is_that_of_a_whole_run(monkeypatch: pyt
     study = CRANK | {"scenes": "dry", "keep": [], "measures": {
         "a": {"deviation": "slider.ax", "from": "ideal"}, "x": {"rms": "slider.x", "from": "ideal"}}}  # fmt: skip
     found = []
-    for follow in (origins._followed, lambda *arguments: {}):
+    ways: list[Any] = [origins._followed, lambda *arguments: {}]
+    for follow in ways:
         monkeypatch.setattr(origins, "_recent", origins.Recent())
         monkeypatch.setattr(origins, "_followed", follow)
         found.append(gudgeon.study(study).dataset)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -165,14 +166,16 @@ def test_a_study_that_comes_with_gudgeon_is_found_by_its_name(
 @needs_compiler
 def test_starts_may_be_more_or_others_than_the_file_says() -> None:
     """Deviations of the first ones are those of the file's seed; without any there is nothing to be said."""
-    study = {"mechanism": "pendulum", "t_end": 1e-3, "output": 1, "measures": {"x": {"final": "bob.x"}},
-             "starts": {"count": 3, "seed": 4, "relative": {"length": 0.1}}}  # fmt: skip
-    own, more, other = (gudgeon.study(study, **told).dataset for told in ({}, {"starts": 5}, {"seed": 5}))
+    starts: dict[str, Any] = {"count": 3, "seed": 4, "relative": {"length": 0.1}}
+    none = {"mechanism": "pendulum", "t_end": 1e-3, "output": 1, "measures": {"x": {"final": "bob.x"}}}
+    study = none | {"starts": starts}
+    own, more, other = (gudgeon.study(study, starts=count, seed=seed).dataset
+                        for count, seed in ((None, None), (5, None), (None, 5)))  # fmt: skip
     assert own.sizes["start"] == other.sizes["start"] == 3 and more.sizes["start"] == 5
     assert (more["x"][:3] == own["x"]).all() and (other["x"] != own["x"]).all()
-    said = gudgeon.study(study | {"starts": study["starts"] | {"seed": 5}}).dataset
+    said = gudgeon.study(none | {"starts": starts | {"seed": 5}}).dataset
     assert (said["x"] == other["x"]).all()
     with pytest.raises(InputError, match="no run has perturbed starts, whose count is given"):
-        gudgeon.study({name: value for name, value in study.items() if name != "starts"}, starts=3)
+        gudgeon.study(none, starts=3)
     with pytest.raises(InputError, match="starts"):
         gudgeon.study(study, starts=0)
