@@ -30,6 +30,7 @@ from gudgeon.commands.options import (
     Mark,
     Moment,
     Name,
+    OfStudy,
     OneScene,
     Out,
     Pages,
@@ -47,6 +48,8 @@ from gudgeon.commands.options import (
     Seed,
     Set,
     Sheet,
+    Starts,
+    StartSeed,
     StudyFile,
     Threads,
     Until,
@@ -168,14 +171,14 @@ def force_laws(
 
 @app.command()
 @told
-def new(name: Name, like: Like = None) -> int:
-    """Begin a mechanism file, NAME.yaml, with comments that explain it.
+def new(name: Name, like: Like = None, study: OfStudy = False) -> int:
+    """Begin a mechanism file, NAME.yaml, or a study's, with comments that explain it.
 
     Example: gudgeon new engine --like slider_crank
     """
-    from gudgeon.commands.new import new_mechanism
+    from gudgeon.commands.new import new_mechanism, new_study
 
-    return new_mechanism(name, like)
+    return new_study(name, like) if study else new_mechanism(name, like)
 
 
 @app.command()
@@ -281,7 +284,7 @@ def verdicts(
 def study(
     file: StudyFile, finished: Finished = None, out: Folder = None, json: Json = False, laws: Laws = None,
     threads: Threads = None, workers: Workers = None, dask: Cluster = None, restart: Restart = False, set_: Set = None,
-    runs: Runs = False,
+    runs: Runs = False, starts: Starts = None, seed: StartSeed = None,
 ) -> int:  # fmt: skip
     """Many runs of a mechanism, over grids, draws and perturbed starts, and what is measured of them: one dataset.
 
@@ -291,7 +294,7 @@ def study(
     """
     from gudgeon.commands.study import Request, study_file
 
-    return study_file(Request(file, out, threads, restart, tuple(set_ or ()), runs, json, finished, workers, dask))
+    return study_file(Request(file, out, threads, restart, set_, runs, json, finished, workers, dask, starts, seed))
 
 
 def main() -> None:

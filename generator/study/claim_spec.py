@@ -27,7 +27,10 @@ class Selection:
 
 @dataclass(frozen=True)
 class NumberClaim:
-    """A number that somebody published, beside a measure of ours; without a value ours alone is told."""
+    """A number that somebody published, beside a measure of ours; without a value ours alone is told.
+
+    `beside`: another one of these, of the same measure, from which ours is told to be off then.
+    """
 
     name: Text
     figure: str
@@ -36,6 +39,7 @@ class NumberClaim:
     value: Text | None
     says: str
     note: str
+    beside: Text | None = None
 
 
 @dataclass(frozen=True)

@@ -23,9 +23,10 @@ from gudgeon.generator.study.claim_spec import (
 )
 from gudgeon.generator.study.parts import check_keys, label, mapping, place_of, text, texts, whole
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
+from gudgeon.language.suggestions import unknown_name
 
 KEYS = ("source", "numbers", "trends")
-NUMBER = ("figure", "says", "measure", "part", "at", "value", "note")
+NUMBER = ("figure", "says", "measure", "part", "at", "value", "beside", "note")
 TOLD = ("says", "figure", "note")  # of a trend, whatever it is judged by
 COMMON = ("measure", "part", "at")
 MORE = {"grows_along": ("by",), "alike_along": ("within",), "spreads_along": ("more_than",), "larger": ("than", "by"),
@@ -54,6 +55,7 @@ def read_claims(reader: Reader, root: Map) -> Claims:
             with reader.collect():
                 trends.append(_trend(name, mapping(below, f"claims.trends.{name}", name)))
         _once(reader, [*(one.name for one in numbers), *(one.name for one in trends)])
+        _beside(reader, numbers)
         return Claims(source, tuple(numbers), tuple(trends))
     return Claims()
 
@@ -92,8 +94,26 @@ def _number(reader: Reader, name: Text, node: Map) -> NumberClaim:
         raise missing_key("measure", node.where, owner)
     measure = text(node["measure"], f"{owner}.measure", node.key("measure"), "the name of a measure")
     value = text(node["value"], f"{owner}.value", node.key("value"), "a number") if "value" in node else None
+    beside = text(node["beside"], f"{owner}.beside", node.key("beside"), "a name") if "beside" in node else None
+    if value is not None and beside is not None:
+        raise BadValueError(f"{owner} has both value and beside", node.key("beside").where, "expected one of both")
     figure, says, note = (_line(node, key, owner) for key in ("figure", "says", "note"))
-    return NumberClaim(name, figure, measure, _selection(node, owner, name), value, says, note)
+    return NumberClaim(name, figure, measure, _selection(node, owner, name), value, says, note, beside)
+
+
+def _beside(reader: Reader, numbers: Sequence[NumberClaim]) -> None:
+    """What a number stands beside is another one, of the same measure."""
+    measures = {str(one.name): one.measure for one in numbers}
+    for one in numbers:
+        with reader.collect():
+            other = one.beside
+            if other is None:
+                continue
+            if other not in measures:
+                raise unknown_name("number", other, list(measures), other.where)
+            if measures[other] != one.measure:
+                told = f"{other} is about {measures[other]}, {one.name} about {one.measure}"
+                raise BadValueError(told, other.where, "expected a number of the same measure")
 
 
 def _selection(node: Map, owner: str, where: Text) -> Selection:

@@ -100,7 +100,7 @@ def _claims() -> Json:
     """Numbers, and trends of one trial, of several, or of none."""
     at, texts = _map(_NUMBER), {"anyOf": [_TEXT, {"type": "array", "items": _TEXT, "minItems": 1}]}
     told = {key: {"type": "string", "maxLength": MOST_TEXT} for key in ("says", "figure", "note")}
-    number = _record(told | {"measure": _TEXT, "part": _TEXT, "at": at, "value": _NUMBER}, "measure")
+    number = _record(told | {"measure": _TEXT, "part": _TEXT, "at": at, "value": _NUMBER, "beside": _TEXT}, "measure")
     counts = {"type": "object", "properties": {name: {"type": "integer", "minimum": 0} for name in COUNTED},
               "additionalProperties": False}  # fmt: skip
     own: Json = dict.fromkeys(TRIAL, _NUMBER) | dict.fromkeys(("larger", "than", "from", "to", "at"), at)

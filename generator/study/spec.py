@@ -6,10 +6,10 @@ What a number's unit is, and whether a name exists, only the loaded scenes know 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
-from gudgeon.errors import Location
+from gudgeon.errors import BadValueError, Location
 from gudgeon.generator.study.claim_spec import Claims
 from gudgeon.generator.yaml.tree import Text
 from gudgeon.language.tree import Expr
@@ -165,6 +165,14 @@ class StudyFile:
     said: Mapping[str, Any]
     wear: WearRounds | None = None
 
+    def begun(self, count: int | None, seed: int | None) -> StudyFile:
+        """With another count or seed of its starts, if it has any."""
+        told = {name: str(value) for name, value in (("count", count), ("seed", seed)) if value is not None}
+        if self.starts is None or not told:
+            return self
+        starts = replace(self.starts, count=count or self.starts.count, seed=self.starts.seed if seed is None else seed)
+        return replace(self, starts=starts, said={**self.said, "starts": self.said["starts"] | told})
+
 
 @dataclass(frozen=True)
 class StudySet:
@@ -175,3 +183,11 @@ class StudySet:
     parts: Mapping[str, StudyFile]
     named: bool  # whether the file has parts
     claims: Claims
+
+    def begun(self, count: int | None, seed: int | None) -> StudySet:
+        """With so many perturbed starts, by another seed, in every part that has any. BadValueError where none has."""
+        told = [name for name, value in (("count", count), ("seed", seed)) if value is not None]
+        if told and not any(part.starts for part in self.parts.values()):
+            hint = "starts: in the file says which number is how far off"
+            raise BadValueError(f"no run has perturbed starts, whose {' and '.join(told)} is given", None, hint)
+        return replace(self, parts={name: part.begun(count, seed) for name, part in self.parts.items()})

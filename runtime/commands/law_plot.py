@@ -59,6 +59,8 @@ def figure_of(law: Law, name: str, settings: Mapping[str, float | str]) -> Figur
     """The law under one of its names, its numbers told above; errors as `plot_law`."""
     from gudgeon.results import plots  # says where matplotlib is missing
 
+    if law.rigid:
+        raise BadValueError(f"{name} has no curve: its force is whatever keeps surfaces apart that do not give")
     chosen = _chosen(law, name, settings)
     from matplotlib import rc_context
     from matplotlib.figure import Figure
@@ -216,4 +218,13 @@ def _film(ax: Axes, law: Function, chosen: Chosen) -> None:
     ax.set_title(f"{PAIR}; ω_s = 1 rad/s, or ε̇ = ±1 1/s")
 
 
-_DRAWN = {"normal": _normal, "friction": _friction, "film": _film}
+def _mixed(ax: Axes, law: Function, chosen: Chosen) -> None:
+    """The share of the dry contact over how deep the tips of the roughness lie in each other."""
+    deepest = 4.0 * sum(x for name, x in chosen.numbers.items() if name.startswith("roughness"))
+    delta = np.linspace(0.0, deepest, POINTS)
+    shares = iter([(law(delta)["share"], "of the dry contact; the film has the rest")])
+    _line(ax, delta, shares, ("δ", "m"), ("share", ""))
+    ax.set_title(PAIR)
+
+
+_DRAWN = {"normal": _normal, "friction": _friction, "film": _film, "mixed": _mixed}

@@ -1,16 +1,16 @@
-"""`gudgeon new`: a mechanism file to begin with, its comments included."""
+"""`gudgeon new`: a mechanism's file, or a study's, to begin with, its comments included."""
 
 from __future__ import annotations
 
 import re
 from pathlib import Path
 
-from gudgeon.errors import BadNameError, InputError
+from gudgeon.errors import BadNameError, BadValueError, InputError
 from gudgeon.files.writing import write_text
 from gudgeon.language.names import check_name
 from gudgeon.loading.shipped import room, shipped_file
 
-TEMPLATE = room("templates") / "new.yaml"
+TEMPLATE, OF_STUDY = (room("templates") / name for name in ("new.yaml", "study.yaml"))
 NAME = re.compile(r"^name: .*$", re.MULTILINE)
 
 
@@ -20,11 +20,9 @@ def new_mechanism(name: str, like: str | None) -> int:
     Raises BadNameError, UnknownNameError for `like`, InputError where something of that name stands already.
     """
     name = name.removesuffix(".yaml")
-    _check(name)
+    _check(name, "mechanism")
     source = TEMPLATE if like is None else shipped_file(like)
-    target = Path(f"{name}.yaml")
-    if target.is_symlink() or target.exists():
-        raise InputError(f"{target} is there already", hint="take another name, or another folder")
+    target = _free(name)
     text = NAME.sub(f"name: {name}", source.read_text(encoding="utf-8"), count=1)
     if like is not None:
         text = f"# Begun from {like}, which comes with gudgeon. What follows is told of that one.\n{text}"
@@ -34,10 +32,30 @@ def new_mechanism(name: str, like: str | None) -> int:
     return 0
 
 
-def _check(name: str) -> None:
+def new_study(name: str, like: str | None) -> int:
+    """Write NAME.yaml: a study of a shipped mechanism that explains itself. Raises as new_mechanism."""
+    if like is not None:
+        raise BadValueError("--like is of mechanisms", hint="gudgeon new NAME --study begins a study; then edit it")
+    name = name.removesuffix(".yaml")
+    _check(name, "study")
+    target = _free(name)
+    write_text(target, OF_STUDY.read_text(encoding="utf-8"))
+    print(f"wrote {target}")
+    print(f"next: gudgeon study {target} --runs, gudgeon study {target}, gudgeon study report {name}.study")
+    return 0
+
+
+def _free(name: str) -> Path:
+    target = Path(f"{name}.yaml")
+    if target.is_symlink() or target.exists():
+        raise InputError(f"{target} is there already", hint="take another name, or another folder")
+    return target
+
+
+def _check(name: str, what: str) -> None:
     """A name that a mechanism can have, and that stands in YAML as it is."""
     if name.endswith(".yml"):
         raise BadNameError(f"{name!r}: expected a name without .yaml", None, "the file is called after it")
-    check_name(name, "mechanism", None)
+    check_name(name, what, None)
     if name.lower() in ("true", "false", "null"):
-        raise BadNameError(f"{name!r} cannot name this mechanism: YAML takes it for a value", None, f"such as {name}1")
+        raise BadNameError(f"{name!r} cannot name this {what}: YAML takes it for a value", None, f"such as {name}1")

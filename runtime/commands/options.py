@@ -88,11 +88,12 @@ Plot = Annotated[
 ]
 LawName = Annotated[str | None, typer.Argument(metavar="[NAME]", help="Of a law, or what else it is called.")]
 # of what teaches
-Name = Annotated[str, typer.Argument(metavar="NAME", help="Of the mechanism; the file is NAME.yaml.")]
+Name = Annotated[str, typer.Argument(metavar="NAME", help="Of the mechanism or the study; the file is NAME.yaml.")]
 Like = Annotated[
     str | None,
     typer.Option("--like", metavar="NAME", help="A mechanism that comes with gudgeon: four_bar, jansen_leg …"),
 ]
+OfStudy = Annotated[bool, typer.Option("--study", help="A study in place of a mechanism: many runs, what is measured.")]
 Sheet = Annotated[Path, typer.Option("--out", "-o", parser=a_file, metavar="PATH", help="x.html, .tex, .txt or .md.")]
 Seed = Annotated[int, typer.Option("--seed", parser=whole(0), metavar="COUNT", help="Which numbers are drawn.")]
 Moment = Annotated[
@@ -143,7 +144,9 @@ Folder = Annotated[
     typer.Option("--out", parser=path, metavar="PATH", help="Folder of blocks, or the page. [default: NAME.study]"),
 ]
 StudyFile = Annotated[
-    str, typer.Argument(metavar="FILE", help="A study: a YAML file, docs/studies.md; or the word report, for a page.")
+    str,
+    typer.Argument(metavar="FILE", help="A study: a YAML file (docs/studies.md), or the name of one that comes with"
+                   " gudgeon, chen_2022 …; or the word report, for a page."),
 ]
 Finished = Annotated[str | None, typer.Argument(metavar="[FOLDER]", help="The finished study of that page.")]
 Threads = Annotated[
@@ -163,6 +166,12 @@ Cluster = Annotated[
 Restart = Annotated[bool, typer.Option("--restart", help="Begin anew, whatever the folder holds of a study.")]
 Report = Annotated[
     bool, typer.Option("--report", help="A page a scene: orbits, contacts, energy, trust. Runs each again.")
+]
+Starts = Annotated[
+    int | None, typer.Option("--starts", parser=whole(1), metavar="COUNT", help="So many perturbed starts of each run.")
+]
+StartSeed = Annotated[
+    int | None, typer.Option("--seed", parser=whole(0), metavar="COUNT", help="By which these starts are drawn.")
 ]
 Runs = Annotated[
     bool, typer.Option("--runs", help="Only tell how many runs, blocks, bytes and seconds, by a few on trial.")

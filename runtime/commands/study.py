@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -31,12 +32,14 @@ class Request:
     out: Path | None = None
     threads: int | None = None
     restart: bool = False
-    sets: tuple[str, ...] = ()
+    sets: Sequence[str] | None = None
     runs: bool = False
     json: bool = False
     finished: str | None = None  # the folder of which a page is wanted
     workers: int | None = None
     cluster: str | None = None
+    starts: int | None = None
+    seed: int | None = None
 
     @property
     def folder(self) -> Path:
@@ -68,11 +71,11 @@ def study_file(request: Request) -> int:
         return report_study(request.finished, request.out, request.json)
     if request.file == REPORT and not Path(REPORT).exists():
         raise BadValueError(f"study {REPORT}: of which study?", hint=f"gudgeon study {REPORT} NAME.study")
-    given = settings(request.sets)
+    given = settings(tuple(request.sets or ()))
     if not request.runs:
         check_folder("--out", request.folder)
     with status_line(quiet=request.json):
-        plans = plans_of(request.file, given)
+        plans = plans_of(request.file, given, request.starts, request.seed)
     if request.runs:
         estimates = {name: estimate(plan, request.threads) for name, plan in plans.each.items()}
         show_estimates(plans, estimates, request.json)

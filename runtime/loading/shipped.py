@@ -17,16 +17,21 @@ from gudgeon.errors import InputError, UnknownNameError
 PACKAGE = Path(__file__).parents[1]
 
 
-def room(name: str, package: Path = PACKAGE) -> Path:
-    """A folder of the package. Where `pip install -e` points into a clone, it lies beside runtime/ and not in it."""
+def room(name: str, package: Path = PACKAGE, beside: str = "") -> Path:
+    """A folder of the package. Where `pip install -e` points into a clone, it lies beside runtime/ and not in it.
+
+    `beside`: what it is called there, if not the same.
+    """
     inside = package / name
-    return inside if inside.is_dir() else package.parent / name
+    return inside if inside.is_dir() else package.parent / (beside or name)
 
 
 MECHANISMS = room("mechanisms")
 GALLERY = MECHANISMS / "gallery"
+STUDIES = room("study_files", beside="studies")
 GENERATED = room("generated")
 REST = "kernel.json"
+STUDY = b"format: gudgeon-study/"
 _TEXTS = (".c", ".h", ".md")
 
 
@@ -40,23 +45,41 @@ def generated() -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in MECHANISMS.glob("*.yaml")))
 
 
+def shipped_studies() -> dict[str, Path]:
+    """Files of the studies that come with gudgeon, by name; mechanisms that they bring along stand beside them."""
+    found = sorted(STUDIES.glob("*.yaml"))
+    return {path.stem: path.resolve() for path in found if STUDY in path.read_bytes()}
+
+
 def shipped_file(name: str) -> Path:
     """The file of a shipped mechanism. Raises UnknownNameError, which names the nearest and all.
 
     InputError where none are installed.
     """
     names = shipped()
-    if not names:
-        told = "this installation of gudgeon is not whole: it has no mechanisms"
-        raise InputError(told, hint="install it anew; in a clone `make run` or `sh tools/setup all,web` does it")
     if name in names:
         file = next(path for folder in (MECHANISMS, GALLERY) if (path := folder / f"{name}.yaml").exists())
         return file.resolve()  # an editable install holds links: show the real file
+    raise _unknown("mechanism", name, names)
+
+
+def shipped_study(name: str) -> Path:
+    """The file of a shipped study. Raises UnknownNameError, InputError as shipped_file."""
+    found = shipped_studies()
+    if name in found:
+        return found[name]
+    raise _unknown("study", name, tuple(found))
+
+
+def _unknown(what: str, name: str, names: tuple[str, ...]) -> InputError:
+    if not names:
+        told = f"this installation of gudgeon is not whole: it has no {what.replace('y', 'ie')}s"
+        return InputError(told, hint="install it anew; in a clone `make run` or `sh tools/setup all,web` does it")
     from difflib import get_close_matches
 
     near = get_close_matches(name, names, 1)
-    raise UnknownNameError(
-        f"no mechanism {name!r} comes with gudgeon" + (f"; did you mean {near[0]!r}?" if near else ""),
+    return UnknownNameError(
+        f"no {what} {name!r} comes with gudgeon" + (f"; did you mean {near[0]!r}?" if near else ""),
         hint=f"there are: {', '.join(names)}; a file of your own needs a '/' or '.yaml' in its name",
     )
 

@@ -36,16 +36,31 @@ class Flow:
         self.depths = [contour_of(source, self.p, joint.name) for joint in source.clearances]
         first = (joint.first for joint in source.clearances)
         self.bearing = [source.bodies[body].index if body >= 0 else -1 for body in first]  # of x in q
+        self._lasting()
+
+    def _lasting(self) -> None:
+        """Arrays that C reads and fills again and again, tens of thousands of times a run, with its views of them."""
+        compiled, m, size, p = self.compiled, self.m, self.m + self.chained, self.pointers(self.p)
+        self._full = np.zeros(compiled.n), np.zeros(compiled.n)
+        self._reduced = np.zeros(max(size, 1)), np.zeros(max(size, 1))
+        self._reduce = [*self.pointers(*self._full), *p, *self.pointers(*self._reduced, written=True)]
+        self._state = np.zeros(max(size, 1)), np.zeros(max(size, 1)), np.zeros(max(compiled.n_memory, 1))
+        self._a = np.zeros(max(m, 1))
+        others = np.zeros(len(compiled.source.closures) + 1), np.zeros(N_WORK)
+        self._rhs = [*self.pointers(*self._state), *p, *self.pointers(self._a, *others, written=True)]
+        of_node = np.zeros(2 * m + N_WORK + self.chained), self._state[2]
+        self._J, self._f_t = np.empty((2 * m + N_WORK,) * 2), np.empty(2 * m + N_WORK)
+        self._jacobian = [*self.pointers(*of_node), *p, *self.pointers(self._J, self._f_t, written=True)]
+        self._node, self._others = of_node[0], others  # C's views alone would not keep them
 
     def reduced(self, t: float, full: Array) -> tuple[Array, Array]:
         """y (2m,), and the chain's (2, n_chain), of (q, q̇) of all bodies (2n,)."""
         if not self.tree:
             return full.copy(), np.zeros((2, 0))
-        n, size = self.compiled.n, self.m + self.chained
-        q, v = np.zeros(max(size, 1)), np.zeros(max(size, 1))
-        given = self.pointers(full[:n].copy(), full[n:].copy(), self.p)
-        self.compiled.lib.gudgeon_reduce(t, *given, *self.pointers(q, v, written=True))
-        m = self.m
+        n, m, size = self.compiled.n, self.m, self.m + self.chained
+        (own_q, own_v), (q, v) = self._full, self._reduced
+        own_q[:], own_v[:], q[:], v[:] = full[:n], full[n:], 0.0, 0.0
+        self.compiled.lib.gudgeon_reduce(t, *self._reduce)
         return np.concatenate([q[:m], v[:m]]), np.stack([q[m:size], v[m:size]])
 
     def expanded(self, t: float, y: Array, chain: Array) -> Array:
@@ -65,22 +80,21 @@ class Flow:
         """ẏ, (2m,). Raises SingularError."""
         if not self.tree:
             return self.compiled.rhs(t, y, self.p, memory)[: 2 * self.m]
-        a, power = np.zeros(self.m), np.zeros(N_WORK)
-        multipliers = np.zeros(len(self.compiled.source.closures) + 1)
-        given = np.append(y[: self.m], chain[0]), np.append(y[self.m :], chain[1]), memory, self.p
-        out = self.pointers(a, multipliers, power, written=True)
-        status = self.compiled.lib.gudgeon_reduced_rhs(t, *self.pointers(*given), *out)
-        self.compiled.check_pivot(status, t, self.compiled.source.motion_pivots or None)
-        return np.concatenate([y[self.m :], a])
+        m, size, (q, v, held) = self.m, self.m + self.chained, self._state
+        q[:m], q[m:size], v[:m], v[m:size], held[: len(memory)] = y[:m], chain[0], y[m:], chain[1], memory
+        status = self.compiled.lib.gudgeon_reduced_rhs(t, *self._rhs)
+        if status:
+            self.compiled.check_pivot(status, t, self.compiled.source.motion_pivots or None)
+        return np.concatenate([y[m:], self._a[:m]])
 
     def slopes(self, t: float, y: Array, chain: Array, memory: Array) -> Array:
         """Slopes of the rates of (y, δ̇⁻, t) along these, (2m + n_clearances + 1) square; δ̇⁻ stays as it is."""
-        m, size = self.m, 2 * self.m + N_WORK
-        J, f_t, A = np.empty((size, size)), np.empty(size), np.zeros((2 * self.m + self.joints + 1,) * 2)
-        given = np.concatenate([y, np.zeros(N_WORK), chain[0]]), memory, self.p
-        status = self.compiled.lib.gudgeon_jacobian(t, *self.pointers(*given), *self.pointers(J, f_t, written=True))
+        m, node, J = self.m, self._node, self._J
+        A = np.zeros((2 * m + self.joints + 1,) * 2)
+        node[: 2 * m], node[2 * m + N_WORK :], self._state[2][: len(memory)] = y, chain[0], memory
+        status = self.compiled.lib.gudgeon_jacobian(t, *self._jacobian)
         self.compiled.check_node(status, t)
-        A[: 2 * m, : 2 * m], A[: 2 * m, -1] = J[: 2 * m, : 2 * m], f_t[: 2 * m]
+        A[: 2 * m, : 2 * m], A[: 2 * m, -1] = J[: 2 * m, : 2 * m], self._f_t[: 2 * m]
         for k in (k for k in range(self.joints) if np.isfinite(memory[k])):
             ends = []
             for share in (1.0 - NUDGE, 1.0 + NUDGE):

@@ -26,6 +26,22 @@ def test_the_template_is_valid_and_runs(call: Gudgeon, tmp_path: Path) -> None:
     assert text.count("#") > 15 and max(map(len, text.splitlines())) <= 120
 
 
+@needs_compiler
+def test_a_study_to_begin_with_runs(call: Gudgeon, tmp_path: Path) -> None:
+    """Its trends are judged too; and it explains itself."""
+    done = call("new", "play", "--study")
+    assert done.exit_code == 0 and "wrote play.yaml" in done.stdout and "gudgeon study play.yaml" in done.stdout
+    told = call("study", "play.yaml", "--starts", "2")
+    assert told.exit_code == 0 and "18 runs (c 3 × omega 3 × start 2)" in told.stdout and "2 trends" in told.stdout
+    text = (tmp_path / "play.yaml").read_text(encoding="utf-8")
+    assert text.count("#") > 12 and max(map(len, text.splitlines())) <= 120
+    for line, why in (("play --study", "is there already"), ("a --study --like four_bar", "--like is of mechanisms"),
+                      ("a-b --study", "a_b")):  # fmt: skip
+        refused = call("new", *line.split())
+        assert refused.exit_code == 2 and why in refused.stderr, refused.stderr
+    assert {name.split("/")[0] for name in written(tmp_path)} == {"play.yaml", "play.study"}
+
+
 def test_the_name_of_the_file_is_taken_as_that_of_the_mechanism(call: Gudgeon, tmp_path: Path) -> None:
     assert call("new", "mine.yaml").exit_code == 0 and written(tmp_path) == {"mine.yaml"}
     assert read_mechanism((tmp_path / "mine.yaml").read_bytes(), "mine.yaml").name == "mine"

@@ -6,6 +6,7 @@ import itertools
 import json
 import math
 from pathlib import Path
+from statistics import NormalDist
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ import gudgeon
 from gudgeon.errors import GudgeonError, InputError, InputErrors
 from gudgeon.generator.study.schema import schema
 from gudgeon.studies.ensemble import judge
-from gudgeon.studies.ensemble.judge import Cell, Check, Look, judged
+from gudgeon.studies.ensemble.judge import Cell, Check, Look, judged, together
 from gudgeon.studies.ensemble.study import plans_of
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
@@ -37,12 +38,60 @@ def test_the_probability_is_that_of_all_pairs() -> None:
     """Of 1, 2, 3 and 2, 4: (1,2) (1,4) (2,4) (3,4) rise, (2,2) is a tie, (3,2) falls."""
     found = judged([larger(A, B)], runs(a=[1, 2, 3], b=[2, 4]))
     assert (found.probability, found.chance, found.verdict) == (4 / 6, 4 / 6, "undecided")
-    assert judged([larger(B, A)], runs(a=[1, 2, 3], b=[2, 4])).verdict == "fails"  # 1 of 6
-    assert judged([larger(A, B)], runs(a=[1, 2, 3, 4, 5], b=[5])).verdict == "holds"  # 4 of 5
-    assert judged([larger(A, B)], runs(a=[1, 2, 3], b=[2])).verdict == "fails"  # 1 of 3
+    sure = [A, B]  # of runs that do not scatter the probability is known as it is
+    assert judged([larger(B, A)], runs(a=[1, 2, 3], b=[2, 4]), sure).verdict == "fails"  # 1 of 6
+    assert judged([larger(A, B)], runs(a=[1, 2, 3, 4, 5], b=[5]), sure).verdict == "holds"  # 4 of 5
+    assert judged([larger(A, B)], runs(a=[1, 2, 3], b=[2]), sure).verdict == "fails"  # 1 of 3
     assert judged([larger(A, B)], runs(a=[1, math.nan, 2], b=[3, math.nan])).probability == 1.0
     none = judged([larger(A, B)], runs(a=[1, 2], b=[math.nan]))
     assert math.isnan(none.probability) and none.verdict == "undecided" and math.isnan(none.chance)
+
+
+def below(number: float) -> Check:
+    return Check((A,), ("m",), lambda x: x(0, "m") < number)
+
+
+def test_an_interval_is_wilsons_where_a_check_is_of_single_runs() -> None:
+    """k of n show it: both ends solve |p − k/n| = z sqrt(p (1 − p)/n), with the n − 1 that the shares' variance has."""
+    found = judged([below(7)], runs(a=list(range(10))))
+    z = 1.6448536269514722
+    for p, side in ((found.low, 1), (found.high, -1)):
+        assert side * (0.7 - p) == pytest.approx(z * math.sqrt(p * (1 - p) / 9), rel=1e-12)
+    whole = judged([below(11)], runs(a=list(range(10))))
+    assert whole.low == pytest.approx(10 / (10 + z * z), rel=1e-12) and whole.high == 1.0  # no run without it
+
+
+@pytest.mark.parametrize(("p", "verdict"), [(0.8, "holds"), (1 / 3, "fails"), (0.9, "holds"), (0.5, "undecided")])
+def test_verdicts_are_no_matter_of_chance(p: float, verdict: str) -> None:
+    """Two normal cells of 32 runs, whose pairs rise with probability p = Φ(d/√2); 400 times three ensembles.
+
+    At a threshold the verdict of an ensemble is the one beyond it as seldom as the interval says, and seldom does one
+    ensemble carry what another rules out, wherever p lies.
+    """
+    rng, d, check = np.random.default_rng(8), math.sqrt(2.0) * NormalDist().inv_cdf(p), [larger(A, B)]
+    many = [[judged(check, {A: {"m": rng.normal(0, 1, 32)}, B: {"m": rng.normal(d, 1, 32)}}) for _ in range(3)]
+            for _ in range(400)]  # fmt: skip
+    alone = [one for three in many for one in three]
+    inside = np.mean([one.low <= p <= one.high for one in alone])
+    assert 0.87 <= inside <= 0.96, inside  # 0.9, and what 1200 of them scatter
+    if p in (0.8, 1 / 3):
+        assert np.mean([one.verdict == verdict for one in alone]) < 0.08
+    agree = np.mean([together(three)[1] for three in many])
+    assert agree > 0.97
+    same = np.mean([together(three)[0].verdict == verdict for three in many])
+    assert same > 0.8 if p in (0.9, 0.5) else same < 0.08, same
+
+
+def test_ensembles_that_contradict_each_other_decide_nothing() -> None:
+    rises, falls = (judged([larger(A, B)], runs(a=own, b=other)) for own, other in
+                    (([1.0] * 20, [2.0] * 20), ([2.0] * 20, [1.0] * 20)))  # fmt: skip
+    assert (rises.verdict, falls.verdict) == ("holds", "fails") and rises.denied == {"fails"}
+    whole, agreed = together([rises, rises, falls])
+    assert not agreed and whole.verdict == "undecided" and whole.probability == pytest.approx(2 / 3)
+    few = judged([larger(A, B)], runs(a=[1.0] * 4, b=[2.0] * 4))
+    assert few.verdict == "undecided"
+    whole, agreed = together([few, few, few])  # twelve say what four cannot
+    assert agreed and whole.verdict == "holds" and whole.low == pytest.approx(12 / (12 + 1.6448536269514722**2))
 
 
 def test_the_chance_is_that_single_runs_show_all_of_it() -> None:
@@ -93,13 +142,14 @@ parts:
   noisy:
     t_end: 1 ms
     parameters: {length: [1 m, 1.1 m, 1.2 m]}
-    starts: {count: 8, seed: 5, ensembles: {near: {relative: {length: 1e-6}}, far: {absolute: {length: 0.5 m}}}}
+    starts: {count: 16, seed: 5, ensembles: {near: {relative: {length: 1e-6}}, far: {absolute: {length: 0.5 m}}}}
 claims:
   source: somebody, somewhere
   numbers:
     N1: {figure: Fig 1, part: grid, measure: x, at: {length: 100 cm, g: 9.81}, value: 2 m, note: twice ours}
     N2: {figure: Fig 1, part: noisy, measure: x, at: {length: 1.1 m}, value: 110 cm}
-    N3: {part: grid, measure: a, at: {length: 1 m, g: 1.62}, says: ours alone}
+    N3: {part: grid, measure: a, at: {length: 1 m, g: 1.62}, says: ours alone, beside: N4}
+    N4: {part: grid, measure: a, at: {length: 1 m, g: 9.81}}
   trends:
     T1: {says: x grows with length, part: grid, measure: x, grows_along: length}
     T2: {says: x grows with g, part: grid, measure: x, grows_along: g}
@@ -130,7 +180,7 @@ def found(tmp_path_factory: pytest.TempPathFactory) -> gudgeon.Study:
 def test_a_pendulum_that_is_let_go_level(found: gudgeon.Study) -> None:
     """After a millisecond x = l, y ≈ −g t²/2 and its acceleration −g; what follows is told of each ensemble."""
     trends = found.claims.trends.set_index("claim")
-    verdicts = {name: tuple(dict.fromkeys(trends.loc[[name], "verdict"])) for name in trends.index.unique()}
+    verdicts = {name: tuple(dict.fromkeys(trends.loc[[name], "alone"])) for name in trends.index.unique()}
     holds, fails = ("holds",), ("fails",)
     assert verdicts == {
         "T1": holds, "T2": fails, "T3": holds, "T4": holds, "T5": ("holds", "undecided"), "T6": holds, "T7": holds,
@@ -138,6 +188,7 @@ def test_a_pendulum_that_is_let_go_level(found: gudgeon.Study) -> None:
         "T14": fails,
     }, verdicts  # fmt: skip
     assert trends.loc["T5", "ensemble"].tolist() == ["near", "far"] and not trends.loc["T5", "agreed"].any()
+    assert set(trends.loc["T5", "verdict"]) == {"undecided"} and set(trends.loc["T1":"T4", "agreed"]) == {True}
     assert trends.loc["T1", "ensemble"] == "" and trends.loc["T10", "note"] == "nobody measures a photograph"
     x = found.parts["noisy"].dataset["x"].sel(ensemble="far").values
     pairs = [np.mean(x[k + 1][None, :] > x[k][:, None]) for k in range(2)]
@@ -156,8 +207,10 @@ def test_numbers_beside_the_printed_ones(found: gudgeon.Study, tmp_path: Path) -
     far = numbers.loc["N2"].set_index("ensemble").loc["far"]
     x = found.parts["noisy"].dataset["x"].sel(ensemble="far")[1].values
     assert [far[name] for name in ("q25", "median", "q75")] == np.quantile(x, [0.25, 0.5, 0.75]).tolist()
-    assert far["n"] == 8 and "length 1.1 m" in far["at"]
-    assert math.isnan(numbers.loc["N3", "printed"]) and math.isnan(numbers.loc["N3", "deviation"])
+    assert far["n"] == 16 and "length 1.1 m" in far["at"]
+    assert math.isnan(numbers.loc["N3", "printed"]) and math.isnan(numbers.loc["N4", "deviation"])
+    assert numbers.loc["N3", "deviation"] == pytest.approx(100 * (1.62 / 9.81 - 1), rel=1e-5)
+    assert numbers["beside"].tolist() == ["", "", "", "N4", ""]
     assert found.claims.source == "somebody, somewhere"
     again = gudgeon.load_study(found.folder).claims
     assert again.trends.equals(found.claims.trends) and again.numbers.equals(found.claims.numbers)
@@ -188,23 +241,26 @@ BAD = [  # in place of what, what; line and words of the message
     ("length: 100 cm", "length: 1 kg", "19:62", "a length"),
     ("value: 2 m,", "value: 2 kg,", "19:87", "a length"),
     ("{length: 100 cm, g: 9.81}", "{length: 100 cm}", "19:5", "say in at: which value of g (2)"),
-    ("measure: x, grows_along: g}", "measure: q, grows_along: g}", "24:53", "unknown measure 'q'"),
-    ("grows_along: g}", "grows_along: mass}", "24:69", "unknown coordinate"),
-    ("measure: x, grows_along: g}", "measure: x, grows_along: g, at: {g: 9.81}}", "24:69", "one value here"),
-    ("grows_along: g}", "falls_along: g}", "24:56", "falls_along"),
-    ("grows_along: g}", "grows_along: g, above: 3}", "24:9", "both grows_along and above"),
-    ("alike_along: g, within: 1e-3", "alike_along: g", "25:9", "has no within"),
-    ("than: {length: 1 m}, by", "than: {g: 9.81}, by", "26:34", "not about the same runs"),
-    ("near: -9.81 m/s^2", "near: -9.81 m", "29:40", "an acceleration"),
-    ("{bodies: 1,", "{bodeis: 1,", "31:31", "did you mean 'bodies'"),
-    ("not_computed: nobody", "above: 3, not_computed: nobody", "32:31", "expected one of both"),
-    ("more_than: drop", "more_than: [drop, x]", "33:58", "expected as many"),
-    ("from: {g: 9.81}, to", "to", "34:10", "has no from"),
-    ("all: [{measure: x, grows", "all: [{measure: x, says: q, grows", "35:42", "says"),
-    ("    T14:", "    T1:", "37:5", "given twice"),
-    ("    T14:", "    N1:", "37:5", "is there twice"),
+    ("measure: x, grows_along: g}", "measure: q, grows_along: g}", "25:53", "unknown measure 'q'"),
+    ("grows_along: g}", "grows_along: mass}", "25:69", "unknown coordinate"),
+    ("measure: x, grows_along: g}", "measure: x, grows_along: g, at: {g: 9.81}}", "25:69", "one value here"),
+    ("grows_along: g}", "falls_along: g}", "25:56", "falls_along"),
+    ("grows_along: g}", "grows_along: g, above: 3}", "25:9", "both grows_along and above"),
+    ("alike_along: g, within: 1e-3", "alike_along: g", "26:9", "has no within"),
+    ("than: {length: 1 m}, by", "than: {g: 9.81}, by", "27:34", "not about the same runs"),
+    ("near: -9.81 m/s^2", "near: -9.81 m", "30:40", "an acceleration"),
+    ("{bodies: 1,", "{bodeis: 1,", "32:31", "did you mean 'bodies'"),
+    ("not_computed: nobody", "above: 3, not_computed: nobody", "33:31", "expected one of both"),
+    ("more_than: drop", "more_than: [drop, x]", "34:58", "expected as many"),
+    ("from: {g: 9.81}, to", "to", "35:10", "has no from"),
+    ("all: [{measure: x, grows", "all: [{measure: x, says: q, grows", "36:42", "says"),
+    ("    T14:", "    T1:", "38:5", "given twice"),
+    ("    T14:", "    N1:", "38:5", "is there twice"),
     ("    N3:", "    3N:", "21:5", "letters, digits"),
     ("source: somebody, somewhere", "source: []", "17:11", "a list"),
+    ("says: ours alone, beside: N4", "beside: N9", "21:70", "unknown number 'N9'"),
+    ("says: ours alone, beside: N4", "beside: N1", "21:70", "expected a number of the same measure"),
+    ("says: ours alone, beside: N4", "value: 3, beside: N4", "21:72", "both value and beside"),
 ]  # fmt: skip
 
 
@@ -226,7 +282,7 @@ def test_all_mistakes_of_claims_at_once(tmp_path: Path) -> None:
         "-9.81 m/s^2", "-9.81 m"))  # fmt: skip
     with pytest.raises(InputErrors) as told:
         plans_of(path)
-    assert [str(error).split(":")[1] for error in told.value.errors] == ["19", "24", "29"], str(told.value)
+    assert [str(error).split(":")[1] for error in told.value.errors] == ["19", "25", "30"], str(told.value)
 
 
 def test_the_schema_takes_what_is_read() -> None:

@@ -99,16 +99,30 @@ def test_a_scenes_deviation_from_itself_is_none(crank: gudgeon.Study) -> None:
     assert (own[["x", "v", "a"]].to_array() == 0.0).all() and own["force"].isnull().all()
 
 
+def test_a_motion_that_is_followed_alone_is_that_of_a_whole_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without works and events, samples of positions and velocities are the same, accelerations to rounding."""
+    study = CRANK | {"scenes": "dry", "keep": [], "measures": {
+        "a": {"deviation": "slider.ax", "from": "ideal"}, "x": {"rms": "slider.x", "from": "ideal"}}}  # fmt: skip
+    found = []
+    ways: list[Any] = [origins._followed, lambda *arguments: {}]
+    for follow in ways:
+        monkeypatch.setattr(origins, "_recent", origins.Recent())
+        monkeypatch.setattr(origins, "_followed", follow)
+        found.append(gudgeon.study(study).dataset)
+    assert (found[0]["x"] == found[1]["x"]).all() and float(found[0]["x"].min()) > 0.0
+    np.testing.assert_allclose(found[0]["a"], found[1]["a"], rtol=1e-12)
+
+
 def test_the_other_scene_is_run_once_for_its_own_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
     """Two speeds decide the ideal crank; clearances and starts, which it does not read, do not."""
     made: list[Array] = []
-    before = origins._made
+    before = origins._followed
 
     def count(job: Any, simulation: Any, alike: Any, runs: list[int], wanted: list[str]) -> Any:
         made.extend(alike.columns["parameters.omega"][runs])
         return before(job, simulation, alike, runs, wanted)
 
-    monkeypatch.setattr(origins, "_made", count)
+    monkeypatch.setattr(origins, "_followed", count)
     monkeypatch.setattr(origins, "_recent", origins.Recent())
     monkeypatch.setattr("gudgeon.studies.ensemble.resolve.BLOCK", 5)
     found = gudgeon.study(CRANK | {"scenes": "dry", "keep": []})

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 import gudgeon
-from gudgeon.errors import InputError, InputErrors, NotYamlError
+from gudgeon.errors import InputError, InputErrors, NotYamlError, UnknownNameError
 from gudgeon.generator.study.read import read_study
 from gudgeon.studies.ensemble.study import plans_of
 from tests.programs import needs_compiler
@@ -142,3 +143,39 @@ def test_a_link_out_of_the_folder_is_not_followed(tmp_path: Path) -> None:
     (study.parent / "p.yaml").unlink()
     (study.parent / "p.yaml").write_bytes((tmp_path / "there" / "p.yaml").read_bytes())
     assert plans_of(study).runs == 2
+
+
+@needs_compiler
+def test_a_study_that_comes_with_gudgeon_is_found_by_its_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As mechanisms are; a file of that name in the folder counts before it."""
+    monkeypatch.chdir(tmp_path)
+    plans = plans_of("lubricated_10000")
+    assert plans.each[""].runs == 10_000
+    with pytest.raises(UnknownNameError, match="did you mean 'chen_2022'"):
+        plans_of("chen_2023")
+    with pytest.raises(UnknownNameError, match="no study 'jansen_leg_play'"):  # a mechanism that one brings along
+        plans_of("jansen_leg_play")
+    with pytest.raises(InputError, match="cannot read"):
+        plans_of("chen_2022.yaml")
+    Path("lubricated_10000").write_text("format: gudgeon-study/1\nmechanism: pendulum\nmeasures: {x: {final: bob.x}}\n")
+    assert plans_of("lubricated_10000").each[""].runs == 1
+
+
+@needs_compiler
+def test_starts_may_be_more_or_others_than_the_file_says() -> None:
+    """Deviations of the first ones are those of the file's seed; without any there is nothing to be said."""
+    starts: dict[str, Any] = {"count": 3, "seed": 4, "relative": {"length": 0.1}}
+    none = {"mechanism": "pendulum", "t_end": 1e-3, "output": 1, "measures": {"x": {"final": "bob.x"}}}
+    study = none | {"starts": starts}
+    own, more, other = (gudgeon.study(study, starts=count, seed=seed).dataset
+                        for count, seed in ((None, None), (5, None), (None, 5)))  # fmt: skip
+    assert own.sizes["start"] == other.sizes["start"] == 3 and more.sizes["start"] == 5
+    assert (more["x"][:3] == own["x"]).all() and (other["x"] != own["x"]).all()
+    said = gudgeon.study(none | {"starts": starts | {"seed": 5}}).dataset
+    assert (said["x"] == other["x"]).all()
+    with pytest.raises(InputError, match="no run has perturbed starts, whose count is given"):
+        gudgeon.study(none, starts=3)
+    with pytest.raises(InputError, match="starts"):
+        gudgeon.study(study, starts=0)

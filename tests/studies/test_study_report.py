@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
 import re
+from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -19,7 +21,9 @@ pytest.importorskip("matplotlib")
 import gudgeon  # noqa: E402
 from gudgeon.cli import app  # noqa: E402
 from gudgeon.errors import GudgeonError  # noqa: E402
+from gudgeon.studies.show import pictures  # noqa: E402
 from gudgeon.studies.show.claims import claims_sections  # noqa: E402
+from gudgeon.studies.show.pictures import Pictures  # noqa: E402
 from gudgeon.studies.show.study_page import StudyReport  # noqa: E402
 from tests.programs import needs_compiler  # noqa: E402
 from tests.studies.test_study_plots import OSCILLATOR  # noqa: E402
@@ -97,19 +101,21 @@ def test_claims_and_parts_are_shown_where_there_are_any(folder: Path) -> None:
            "unit": "m", "printed": 2.5e-3, "ensemble": "near", "n": 5, "q25": 1.9e-3, "median": 2e-3, "q75": 2.1e-3,
            "deviation": -20.0, "note": "a & b"}  # fmt: skip
     far = row | {"ensemble": "far", "median": 3e-3, "q25": 2e-3, "q75": 4e-3, "deviation": 20.0}
-    lone = row | {"claim": "N2", "ensemble": "", "n": 1, "figure": "", "printed": np.nan, "deviation": np.nan}
+    lone = row | {"claim": "N2", "ensemble": "", "n": 1, "figure": "", "printed": np.nan, "deviation": 4.21}
     trend = {"claim": "T1", "figure": "", "says": "it grows", "note": ""}
-    judged = [trend | {"ensemble": name, "verdict": verdict, "probability": odds, "chance": 0.5, "agreed": False}
-              for name, verdict, odds in (("near", "holds", 0.9), ("far", "fails", 0.2))]  # fmt: skip
+    judged = [trend | {"ensemble": name, "verdict": "undecided", "alone": alone, "probability": odds, "low": odds,
+                       "high": high, "chance": 0.5, "agreed": False}
+              for name, alone, odds, high in (("near", "holds", 0.9, 0.9), ("far", "fails", 0.2, 0.3))]  # fmt: skip
     tables = pandas.DataFrame([row, far, lone]), pandas.DataFrame(judged)
     claims = SimpleNamespace(numbers=tables[0], trends=tables[1], source="a paper & more")
     whole: Any = SimpleNamespace(claims=claims, parts={"one": study, "two": study})
-    (heading, inside), (trends, judgement) = claims_sections(whole)
-    assert (heading, trends) == ("Published numbers", "Published trends") and "&lt;i&gt;peak" in inside
+    (heading, inside), (trends, judgement), (ours, alone) = claims_sections(whole, Pictures())
+    assert (heading, trends, ours) == ("Published numbers", "Published trends", "Ours alone")
+    assert "&lt;i&gt;peak" in inside
     assert "<td>2.5 mm</td><td>2 mm (1.9 … 2.1)</td><td>3 mm (2 … 4)</td><td>−20.0 … +20.0 %</td>" in inside
-    assert "<td>–</td><td>2 mm</td><td></td>" in inside  # one run, in no ensemble
+    assert "<td>c 0.3 mm</td><td>one</td><td>2 mm, +4.2 %</td>" in alone  # in no ensemble, beside another
     assert inside.count("<figure>") == 1 and "Fig 3: peak" in inside and "not drawn" not in inside
-    assert "not agreed: near holds, far fails" in judgement and "<td>0.9, 0.2</td><td>0.5</td>" in judgement
+    assert "not agreed: near holds, far fails" in judgement and "<td>0.9, 0.2 (0.2 … 0.3)</td><td>0.5</td>" in judgement
     assert "a paper &amp; more" in inside and "a &amp; b" in inside
     page = StudyReport(whole).to_html()
     check(page)
@@ -121,7 +127,29 @@ def test_claims_and_parts_are_shown_where_there_are_any(folder: Path) -> None:
             raise GudgeonError("none")
 
     nothing: Any = NoClaims()
-    assert claims_sections(nothing) == [] == claims_sections(study)
+    assert claims_sections(nothing, Pictures()) == [] == claims_sections(study, Pictures())
+
+
+def test_processes_draw_what_this_one_would(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same bytes; and where a figure cannot be drawn, that is told in its place."""
+    from gudgeon.results.run_plots import new_axes
+
+    def drawn(k: int) -> Any:
+        if k == 5:
+            raise GudgeonError("nothing to draw")
+        ax = new_axes(3.0, 2.0)
+        ax.plot([0.0, 1.0], [0.0, k])
+        return ax
+
+    shown = Pictures()
+    places = "".join(shown.place(f"p-{k}", partial(drawn, k)) for k in range(pictures.MANY))
+    monkeypatch.setattr(pictures, "available_threads", lambda: 1)
+    here = shown.filled(places)
+    monkeypatch.setattr(pictures, "available_threads", lambda: 2)
+    assert shown.filled(places) == here
+    monkeypatch.setattr(pictures, "_draw_all", lambda end, wanted: os._exit(1))  # a process that dies
+    assert shown.filled(places) == here
+    assert here.count("<svg") == pictures.MANY - 1 and "not drawn: nothing to draw" in here
 
 
 def test_the_command_writes_a_page(folder: Path, page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

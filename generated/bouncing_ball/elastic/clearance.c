@@ -1,8 +1,9 @@
 /*
  * Hertz contact with a choice of hysteresis damping.
  * Source: H. Hertz (1881); K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445.
- * Valid: a point or a line contact whose stiffness is known or that of spheres; small penetrations.
- * Options: dissipation: none.
+ * Valid: a point or a line contact whose stiffness is known or that of spheres; small penetrations; driven apart fast
+ * it would pull, and is 0 there unless it pulls.
+ * Options: dissipation: none, pulls: False.
  * stiffness: force at unit penetration, N/m^n; exponent: exponent of the penetration.
  */
 static inline void hertz_none(double delta, double ratio, double stiffness, double exponent, double *F_n_out)

@@ -1,13 +1,17 @@
 /*
- * The functions that rk4 needs, for several runs side by side (engine/batch/lanes.h): the same operations with vectors
- * for numbers. A library of its own, compiled when a batch first asks for it.
+ * The functions that methods need, for several runs side by side (engine/batch/lanes.h): the same operations with
+ * vectors for numbers. A library of its own, compiled when a batch first asks for it: as it is for rk4, with HELD for
+ * methods that choose their step.
  */
+#ifndef HELD
+#define HELD 0
+#endif
 #include "model.h"
 #include "engine/batch/batch.h"
 #include "engine/batch/lanes.h"
 
 /* Numbers of each run side by side, field by field those of Parameters in model.h: meanings, addresses, units too. */
-typedef struct {
+typedef struct LaneParameters {
     Lanes height;
     Lanes ball_mass;
     Lanes ball_inertia;
@@ -48,8 +52,9 @@ static inline Lanes lane_deepest(const LaneParameters *p, int i)
 /*
  * Hertz contact with a choice of hysteresis damping.
  * Source: H. Hertz (1881); K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445.
- * Valid: a point or a line contact whose stiffness is known or that of spheres; small penetrations.
- * Options: dissipation: none.
+ * Valid: a point or a line contact whose stiffness is known or that of spheres; small penetrations; driven apart fast
+ * it would pull, and is 0 there unless it pulls.
+ * Options: dissipation: none, pulls: False.
  * stiffness: force at unit penetration, N/m^n; exponent: exponent of the penetration.
  */
 static inline void hertz_none(Lanes delta, Lanes ratio, Lanes stiffness, Lanes exponent, Lanes *F_n_out)
@@ -60,8 +65,9 @@ static inline void hertz_none(Lanes delta, Lanes ratio, Lanes stiffness, Lanes e
 
 /* Dry contact in joint fall, as in clearance.c. */
 static inline LanePinForce dry_fall(Lanes delta, Lanes deltadot, Lanes de_t, Lanes omega_i, Lanes omega_j,
-    const LaneLatch *latch, const LaneParameters *p)
+    const LaneLatch *latch, const LaneParameters *p, const Lanes *side, Lanes *g)
 {
+    (void)side, (void)g;
     const Lanes ratio = pick(latch->closed > 0.0, deltadot / latch->deltadot_minus, all_of(1.0));
     const Lanes a_i = 0.5*delta + p->floor_radius;
     const Lanes a_j = -0.5*delta + p->R_j_floor;
@@ -69,15 +75,14 @@ static inline LanePinForce dry_fall(Lanes delta, Lanes deltadot, Lanes de_t, Lan
     Lanes F_n;
     hertz_none(lanes_max_of(delta, all_of(0.0)), ratio, p->elastic_normal_stiffness, p->elastic_normal_exponent, &F_n);
     const Lanes F_along_t_dry = all_of(0.0); /* no friction */
-    (void)v_t;
     const Lanes M_i_dry = -F_along_t_dry*a_i;
     const Lanes M_j_dry = F_along_t_dry*a_j;
-    return (LanePinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry};
+    return (LanePinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry, v_t};
 }
 
 /* Joint fall: what each lane does not have is passed over where no lane has it. */
 static void clearance_fall(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes omega_i, Lanes omega_j,
-    const LaneLatch *latch, const LaneParameters *p, LaneClearance *out)
+    const LaneLatch *latch, const LaneParameters *p, const Lanes *side, Lanes *g, LaneClearance *out)
 {
     const Lanes e = lanes_sqrt((e_x * e_x) + (e_y * e_y));
     const Lanes inverse_e = 1.0/e;
@@ -86,17 +91,21 @@ static void clearance_fall(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes o
     const Lanes delta = e - p->floor_clearance;
     const Lanes deltadot = de_x*n_x + de_y*n_y;
     const Lanes de_t = -de_x*n_y + de_y*n_x;
-    LanePinForce F = {all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0)};
-    const LaneBits touching = delta > 0.0;
+    LanePinForce F = {all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0)};
+    const LaneBits touching = is_touching(latch, delta);
     if (any_of(touching)) {
-        LanePinForce dry = dry_fall(delta, deltadot, de_t, omega_i, omega_j, latch, p);
+        LanePinForce dry = dry_fall(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
         F.n = pick(touching, dry.n, F.n);
         F.t = pick(touching, dry.t, F.t);
         F.M_i = pick(touching, dry.M_i, F.M_i);
         F.M_j = pick(touching, dry.M_j, F.M_j);
+        F.v_t = pick(touching, dry.v_t, F.v_t);
     }
     *out = (LaneClearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t, .e = e,
         .deltadot = deltadot, .delta = delta, .moment_first = F.M_i, .moment_second = F.M_j};
+#if HELD
+    out->ex = e_x, out->ey = e_y, out->v_t = F.v_t;
+#endif
 }
 
 /*
@@ -127,6 +136,10 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
 {
     (void)t, (void)rare;
+    /* corners: the sides that are held, if any */
+    const Lanes *const side = held_sides(memory);
+    Lanes *const g = told_sides(aside);
+
     /* coordinates, velocities, time */
     const Lanes ball_x = q[0];
     const Lanes ball_x_rate = v[0];
@@ -139,8 +152,8 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes e_fall_y = ball_y;
     const Lanes edot_fall_x = ball_x_rate;
     const Lanes edot_fall_y = ball_y_rate;
-    clearance_fall(e_fall_x, e_fall_y, edot_fall_x, edot_fall_y, all_of(0.0), ball_omega, &memory->latch[0], p,
-        &aside->clearance[0]);
+    clearance_fall(e_fall_x, e_fall_y, edot_fall_x, edot_fall_y, all_of(0.0), ball_omega, &memory->latch[0], p, side,
+        g, &aside->clearance[0]);
     const Lanes F_fall_x = aside->clearance[0].Fx;
     const Lanes F_fall_y = aside->clearance[0].Fy;
     const Lanes M_fall_second = aside->clearance[0].moment_second;
@@ -191,5 +204,373 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     *worst = all_of(0.0);
 }
 
+#if !HELD
 #include "engine/batch/lane_steps.c"
 #include "engine/batch/lane_runs.c"
+#else
+/*
+ * (F along n, F along t, M_i, M_j) of a joint with play and their derivatives by (e, deltadot, de_t, omega_i, omega_j).
+ */
+typedef struct {
+    Lanes value[4], slope[4][5];
+} LaneSlopes;
+
+/*
+ * As a share of the clearance: nearer to the centre the derivatives are those at the centre. There a force along the
+ * normal and the normal's own turning cancel, which leaves some DBL_EPSILON c/e of rounding.
+ */
+#define CENTRED 1e-8
+
+/*
+ * From n, t to ground axes. Where e moves by de = (along n, along t) = (x, y), n turns by y/e: F by F rotated, and
+ * deltadot, de_t by (de_t, -deltadot) y/e.
+ */
+static inline void in_ground_axes(const LaneSlopes *F, Lanes n_x, Lanes n_y, Lanes deltadot, Lanes de_t,
+    Lanes per_e, Lanes dF[4][6])
+{
+    Lanes by[4][6];
+    for (int i = 0; i < 4; i++) {
+        const Lanes *slope = F->slope[i];
+        by[i][0] = slope[0];
+        by[i][1] = (slope[1] * de_t - slope[2] * deltadot) * per_e;
+        by[i][2] = slope[1];
+        by[i][3] = slope[2];
+        dF[i][4] = slope[3];
+        dF[i][5] = slope[4];
+    }
+    by[0][1] -= F->value[1] * per_e;
+    by[1][1] += F->value[0] * per_e;
+    /* x and y apart: gcc 12 would fuse the pair's products and sums, which is not allowed */
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 4; k += 2)
+            dF[i][k] = by[i][k] * n_x - by[i][k + 1] * n_y;
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 4; k += 2)
+            dF[i][k + 1] = by[i][k] * n_y + by[i][k + 1] * n_x;
+    for (int k = 0; k < 6; k++) {
+        const Lanes along_n = dF[0][k], along_t = dF[1][k];
+        dF[0][k] = along_n * n_x - along_t * n_y;
+        dF[1][k] = along_n * n_y + along_t * n_x;
+    }
+}
+
+
+/* Those of b where the mask is set. */
+static inline void pick_slopes(LaneSlopes *a, LaneBits mask, const LaneSlopes *b)
+{
+    for (int i = 0; i < 4; i++) {
+        a->value[i] = pick(mask, b->value[i], a->value[i]);
+        for (int k = 0; k < 5; k++)
+            a->slope[i][k] = pick(mask, b->slope[i][k], a->slope[i][k]);
+    }
+}
+
+/*
+ * Dry: F along n and t, M_i, M_j, and their derivatives by e, deltadot, de_t, omega_i,
+ * omega_j (forward differentiation of the same steps).
+ */
+static inline void dry_slopes_hertz_none(Lanes e, Lanes deltadot, Lanes de_t, Lanes omega_i, Lanes omega_j,
+    const LaneLatch *latch, Lanes stiffness, Lanes exponent, Lanes R_i, Lanes R_j, Lanes c, LaneSlopes *out)
+{
+    (void)deltadot, (void)de_t, (void)omega_i, (void)omega_j, (void)latch;
+    /* penetration, ratio of velocities, slip */
+    const Lanes delta = e - c;
+    const Lanes depth = lanes_max_of(delta, all_of(0.0));
+    const Lanes depth_by_e = pick(delta > 0.0, all_of(1.0), all_of(0.0));
+    const Lanes a_i = 0.5*delta + R_i;
+    const Lanes a_j = -0.5*delta + R_j;
+
+    /* contact */
+    const Lanes power_depth = lanes_pow(depth, exponent - 1.0);
+    const Lanes F_n = depth*stiffness*power_depth;
+    const Lanes F_n_by_depth = exponent*stiffness*power_depth;
+    const Lanes F_n_by_e = F_n_by_depth*depth_by_e;
+    const Lanes F_along_t_dry = all_of(0.0);
+    const Lanes M_i_dry = -F_along_t_dry*a_i;
+    const Lanes M_i_dry_by_e = -0.5*F_along_t_dry;
+    const Lanes M_j_dry = F_along_t_dry*a_j;
+    const Lanes M_j_dry_by_e = -0.5*F_along_t_dry;
+
+    /* results */
+    out->value[0] = -F_n;
+    out->slope[0][0] = -F_n_by_e;
+    out->slope[0][1] = all_of(0.0);
+    out->slope[0][2] = all_of(0.0);
+    out->slope[0][3] = all_of(0.0);
+    out->slope[0][4] = all_of(0.0);
+    out->value[1] = F_along_t_dry;
+    out->slope[1][0] = all_of(0.0);
+    out->slope[1][1] = all_of(0.0);
+    out->slope[1][2] = all_of(0.0);
+    out->slope[1][3] = all_of(0.0);
+    out->slope[1][4] = all_of(0.0);
+    out->value[2] = M_i_dry;
+    out->slope[2][0] = M_i_dry_by_e;
+    out->slope[2][1] = all_of(0.0);
+    out->slope[2][2] = all_of(0.0);
+    out->slope[2][3] = all_of(0.0);
+    out->slope[2][4] = all_of(0.0);
+    out->value[3] = M_j_dry;
+    out->slope[3][0] = M_j_dry_by_e;
+    out->slope[3][1] = all_of(0.0);
+    out->slope[3][2] = all_of(0.0);
+    out->slope[3][3] = all_of(0.0);
+    out->slope[3][4] = all_of(0.0);
+}
+
+/* Joint fall, as in newton.c: what acts in no lane is passed over. */
+static void slopes_fall(Lanes e, Lanes deltadot, Lanes de_t, Lanes omega_i, Lanes omega_j, const LaneLatch *latch,
+    const LaneParameters *p, const Lanes *side, Lanes *g, LaneSlopes *out)
+{
+    (void)p, (void)side, (void)g;
+    *out = (LaneSlopes){0};
+    const LaneBits touching = is_closed(latch);
+    if (any_of(touching)) {
+        LaneSlopes dry;
+        dry_slopes_hertz_none(e, deltadot, de_t, omega_i, omega_j, latch, p->elastic_normal_stiffness,
+            p->elastic_normal_exponent, p->floor_radius, p->R_j_floor, p->floor_clearance, &dry);
+        pick_slopes(out, touching, &dry);
+    }
+}
+
+static void tangent_fall(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes omega_i, Lanes omega_j,
+    const LaneLatch *latch, const LaneParameters *p, const Lanes *side, Lanes *g, Lanes dF[4][6])
+{
+    LaneSlopes F;
+    const Lanes e = lanes_sqrt(e_x * e_x + e_y * e_y), inverse_e = 1.0 / e, n_x = e_x * inverse_e, n_y =
+        e_y * inverse_e;
+    const Lanes deltadot = de_x * n_x + de_y * n_y, de_t = de_y * n_x - de_x * n_y;
+    const LaneBits centred = ~(e > CENTRED * p->floor_clearance);
+    slopes_fall(e, deltadot, de_t, omega_i, omega_j, latch, p, side, g, &F);
+    in_ground_axes(&F, n_x, n_y, deltadot, de_t, inverse_e, dF);
+    if (!any_of(centred))
+        return;
+    /* at the centre each axis in turn is the normal */
+    Lanes there[4][6];
+    slopes_fall(e, de_x, de_y, omega_i, omega_j, latch, p, side, g, &F);
+    in_ground_axes(&F, all_of(1.0), all_of(0.0), de_x, de_y, all_of(0.0), there);
+    slopes_fall(e, de_y, -de_x, omega_i, omega_j, latch, p, side, g, &F);
+    there[0][1] = -F.slope[1][0];
+    there[1][1] = F.slope[0][0];
+    there[2][1] = F.slope[2][0];
+    there[3][1] = F.slope[3][0];
+    for (int i = 4; i < 4; i++)
+        there[i][1] = F.slope[i][0];
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 6; k++)
+            dF[i][k] = pick(centred, there[i][k], dF[i][k]);
+}
+
+/*
+ * The equations of motion linearized at a state, with the accelerations and multipliers that belong to it:
+ * non-zeros of M, Phi_q, and of the derivatives of both equations and of the powers by q, v, t.
+ */
+static void linearize(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory, const LaneParameters *p,
+    const Lanes *a, const LaneAside *aside, LaneLinear *lin, LaneBits *rare)
+{
+    (void)t, (void)a, (void)rare;
+    /* corners: the sides that are held, if any */
+    const Lanes *const side = held_sides(memory);
+    Lanes g[N_SWITCHES + 1];
+
+    /* coordinates, velocities, time */
+    const Lanes ball_x = q[0];
+    const Lanes ball_x_rate = v[0];
+    const Lanes ball_y = q[1];
+    const Lanes ball_y_rate = v[1];
+    const Lanes ball_omega = v[2];
+    const Lanes fall_Fx = aside->clearance[0].Fx;
+    const Lanes fall_Fy = aside->clearance[0].Fy;
+    const Lanes fall_moment_second = aside->clearance[0].moment_second;
+
+    /* clearance joint fall */
+    const Lanes e_fall_x = ball_x;
+    const Lanes e_fall_y = ball_y;
+    const Lanes edot_fall_x = ball_x_rate;
+    const Lanes edot_fall_y = ball_y_rate;
+    Lanes change_fall[4][6];
+    tangent_fall(e_fall_x, e_fall_y, edot_fall_x, edot_fall_y, all_of(0.0), ball_omega, &memory->latch[0], p, side, g,
+        change_fall);
+    const Lanes fall_Fx_by_e_x = change_fall[0][0];
+    const Lanes fall_Fx_by_e_y = change_fall[0][1];
+    const Lanes fall_Fx_by_de_x = change_fall[0][2];
+    const Lanes fall_Fx_by_de_y = change_fall[0][3];
+    const Lanes fall_Fx_by_omega_j = change_fall[0][5];
+    const Lanes fall_Fy_by_e_x = change_fall[1][0];
+    const Lanes fall_Fy_by_e_y = change_fall[1][1];
+    const Lanes fall_Fy_by_de_x = change_fall[1][2];
+    const Lanes fall_Fy_by_de_y = change_fall[1][3];
+    const Lanes fall_Fy_by_omega_j = change_fall[1][5];
+    const Lanes fall_moment_second_by_e_x = change_fall[3][0];
+    const Lanes fall_moment_second_by_e_y = change_fall[3][1];
+    const Lanes fall_moment_second_by_de_x = change_fall[3][2];
+    const Lanes fall_moment_second_by_de_y = change_fall[3][3];
+    const Lanes fall_moment_second_by_omega_j = change_fall[3][5];
+
+    /* results */
+    lin->value[0] = -fall_Fx_by_e_x;
+    lin->value[1] = -fall_Fx_by_e_y;
+    lin->value[2] = -fall_Fy_by_e_x;
+    lin->value[3] = -fall_Fy_by_e_y;
+    lin->value[4] = -fall_moment_second_by_e_x;
+    lin->value[5] = -fall_moment_second_by_e_y;
+    lin->value[6] = -fall_Fx_by_de_x;
+    lin->value[7] = -fall_Fx_by_de_y;
+    lin->value[8] = -fall_Fx_by_omega_j;
+    lin->value[9] = -fall_Fy_by_de_x;
+    lin->value[10] = -fall_Fy_by_de_y;
+    lin->value[11] = -fall_Fy_by_omega_j;
+    lin->value[12] = -fall_moment_second_by_de_x;
+    lin->value[13] = -fall_moment_second_by_de_y;
+    lin->value[14] = -fall_moment_second_by_omega_j;
+    lin->value[15] = ball_omega*fall_moment_second_by_e_x + ball_x_rate*fall_Fx_by_e_x + ball_y_rate*fall_Fy_by_e_x;
+    lin->value[16] = ball_omega*fall_moment_second_by_e_y + ball_x_rate*fall_Fx_by_e_y + ball_y_rate*fall_Fy_by_e_y;
+    lin->value[17] = ball_omega*fall_moment_second_by_omega_j + ball_x_rate*fall_Fx_by_omega_j
+        + ball_y_rate*fall_Fy_by_omega_j + fall_moment_second;
+    lin->value[18] = ball_omega*fall_moment_second_by_de_x + ball_x_rate*fall_Fx_by_de_x + ball_y_rate*fall_Fy_by_de_x
+        + fall_Fx;
+    lin->value[19] = ball_omega*fall_moment_second_by_de_y + ball_x_rate*fall_Fx_by_de_y + ball_y_rate*fall_Fy_by_de_y
+        + fall_Fy;
+    lin->p = p;
+}
+
+/*
+ * L U of Newton's matrix at eta = h gamma (0: the KKT matrix), L with unit diagonal. Returns 0, or the
+ * number of the node (coordinates, rows, sticks; from 1) whose pivot vanished or is not finite.
+ */
+static void newton_factor(Lanes eta, LaneLinear *lin, LaneBits *rare)
+{
+    /* numbers of the run */
+    const LaneParameters *const p = lin->p;
+
+    /* linearization */
+    const Lanes by_q_ball_x_ball_x = lin->value[0];
+    const Lanes by_q_ball_x_ball_y = lin->value[1];
+    const Lanes by_q_ball_y_ball_x = lin->value[2];
+    const Lanes by_q_ball_y_ball_y = lin->value[3];
+    const Lanes by_q_ball_theta_ball_x = lin->value[4];
+    const Lanes by_q_ball_theta_ball_y = lin->value[5];
+    const Lanes by_v_ball_x_ball_x = lin->value[6];
+    const Lanes by_v_ball_x_ball_y = lin->value[7];
+    const Lanes by_v_ball_x_ball_theta = lin->value[8];
+    const Lanes by_v_ball_y_ball_x = lin->value[9];
+    const Lanes by_v_ball_y_ball_y = lin->value[10];
+    const Lanes by_v_ball_y_ball_theta = lin->value[11];
+    const Lanes by_v_ball_theta_ball_x = lin->value[12];
+    const Lanes by_v_ball_theta_ball_y = lin->value[13];
+    const Lanes by_v_ball_theta_ball_theta = lin->value[14];
+
+    /* matrix */
+    const Lanes n_ball_x__ball_x = p->ball_mass + eta*(by_q_ball_x_ball_x*eta + by_v_ball_x_ball_x);
+    const Lanes n_ball_x__ball_y = eta*(by_q_ball_x_ball_y*eta + by_v_ball_x_ball_y);
+    const Lanes n_ball_x__ball_theta = by_v_ball_x_ball_theta*eta;
+    const Lanes n_ball_y__ball_x = eta*(by_q_ball_y_ball_x*eta + by_v_ball_y_ball_x);
+    const Lanes n_ball_y__ball_y = p->ball_mass + eta*(by_q_ball_y_ball_y*eta + by_v_ball_y_ball_y);
+    const Lanes n_ball_y__ball_theta = by_v_ball_y_ball_theta*eta;
+    const Lanes n_ball_theta__ball_x = eta*(by_q_ball_theta_ball_x*eta + by_v_ball_theta_ball_x);
+    const Lanes n_ball_theta__ball_y = eta*(by_q_ball_theta_ball_y*eta + by_v_ball_theta_ball_y);
+    const Lanes n_ball_theta__ball_theta = p->ball_inertia + by_v_ball_theta_ball_theta*eta;
+
+    /* L U */
+    const Lanes scale_ball_x = n_ball_x__ball_x;
+    *rare |= ~(lanes_fabs(scale_ball_x) > SINGULAR * lanes_fabs(n_ball_x__ball_x));
+    const Lanes inverse_pivot_ball_x = 1.0/scale_ball_x;
+    lin->lu[0] = inverse_pivot_ball_x;
+    const Lanes l_ball_y__ball_x = inverse_pivot_ball_x*n_ball_y__ball_x;
+    lin->lu[1] = l_ball_y__ball_x;
+    lin->lu[2] = n_ball_x__ball_y;
+    const Lanes l_ball_theta__ball_x = inverse_pivot_ball_x*n_ball_theta__ball_x;
+    lin->lu[3] = l_ball_theta__ball_x;
+    lin->lu[4] = n_ball_x__ball_theta;
+    const Lanes scale_ball_y = -l_ball_y__ball_x*n_ball_x__ball_y + n_ball_y__ball_y;
+    *rare |= ~(lanes_fabs(scale_ball_y) > SINGULAR * lanes_fabs(n_ball_y__ball_y));
+    const Lanes inverse_pivot_ball_y = 1.0/scale_ball_y;
+    lin->lu[5] = inverse_pivot_ball_y;
+    const Lanes l_ball_theta__ball_y = inverse_pivot_ball_y*(-l_ball_theta__ball_x*n_ball_x__ball_y
+        + n_ball_theta__ball_y);
+    lin->lu[6] = l_ball_theta__ball_y;
+    const Lanes u_ball_y__ball_theta = -l_ball_y__ball_x*n_ball_x__ball_theta + n_ball_y__ball_theta;
+    lin->lu[7] = u_ball_y__ball_theta;
+    const Lanes scale_ball_theta = -l_ball_theta__ball_x*n_ball_x__ball_theta
+        - l_ball_theta__ball_y*u_ball_y__ball_theta + n_ball_theta__ball_theta;
+    *rare |= ~(lanes_fabs(scale_ball_theta) > SINGULAR * lanes_fabs(n_ball_theta__ball_theta));
+    const Lanes inverse_pivot_ball_theta = 1.0/scale_ball_theta;
+    lin->lu[8] = inverse_pivot_ball_theta;
+}
+
+/*
+ * x (all nodes) holds b and becomes the solution of N x = b.
+ */
+static void newton_substitute(const LaneLinear *lin, Lanes *x)
+{
+    /* linearization */
+    const Lanes inverse_pivot_ball_x = lin->lu[0];
+    const Lanes l_ball_y__ball_x = lin->lu[1];
+    const Lanes n_ball_x__ball_y = lin->lu[2];
+    const Lanes l_ball_theta__ball_x = lin->lu[3];
+    const Lanes n_ball_x__ball_theta = lin->lu[4];
+    const Lanes inverse_pivot_ball_y = lin->lu[5];
+    const Lanes l_ball_theta__ball_y = lin->lu[6];
+    const Lanes u_ball_y__ball_theta = lin->lu[7];
+    const Lanes inverse_pivot_ball_theta = lin->lu[8];
+
+    /* forward */
+    const Lanes b_ball_x = x[0];
+    const Lanes b_ball_y = -b_ball_x*l_ball_y__ball_x + x[1];
+    const Lanes b_ball_theta = -b_ball_x*l_ball_theta__ball_x - b_ball_y*l_ball_theta__ball_y + x[2];
+
+    /* backward */
+    const Lanes x_ball_theta = b_ball_theta*inverse_pivot_ball_theta;
+    x[2] = x_ball_theta;
+    const Lanes x_ball_y = inverse_pivot_ball_y*(b_ball_y - u_ball_y__ball_theta*x_ball_theta);
+    x[1] = x_ball_y;
+    const Lanes x_ball_x = inverse_pivot_ball_x*(b_ball_x - n_ball_x__ball_theta*x_ball_theta
+        - n_ball_x__ball_y*x_ball_y);
+    x[0] = x_ball_x;
+}
+
+/*
+ * (1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works.
+ */
+static void newton_solve(const LaneLinear *lin, Lanes eta, Lanes s, const Lanes *r, Lanes *u)
+{
+    (void)s;
+    /* numbers of the run */
+    const LaneParameters *const p = lin->p;
+
+    /* linearization */
+    const Lanes by_q_ball_x_ball_x = lin->value[0];
+    const Lanes by_q_ball_x_ball_y = lin->value[1];
+    const Lanes by_q_ball_y_ball_x = lin->value[2];
+    const Lanes by_q_ball_y_ball_y = lin->value[3];
+    const Lanes by_q_ball_theta_ball_x = lin->value[4];
+    const Lanes by_q_ball_theta_ball_y = lin->value[5];
+    const Lanes power_q_2_ball_x = lin->value[15];
+    const Lanes power_q_2_ball_y = lin->value[16];
+    const Lanes power_v_2_ball_theta = lin->value[17];
+    const Lanes power_v_2_ball_x = lin->value[18];
+    const Lanes power_v_2_ball_y = lin->value[19];
+
+    /* right-hand side */
+    Lanes x[3];
+    x[0] = eta*(p->ball_mass*r[3] - by_q_ball_x_ball_x*eta*r[0] - by_q_ball_x_ball_y*eta*r[1]);
+    x[1] = eta*(p->ball_mass*r[4] - by_q_ball_y_ball_x*eta*r[0] - by_q_ball_y_ball_y*eta*r[1]);
+    x[2] = eta*(p->ball_inertia*r[5] - by_q_ball_theta_ball_x*eta*r[0] - by_q_ball_theta_ball_y*eta*r[1]);
+    newton_substitute(lin, x);
+
+    /* solution */
+    u[0] = eta*(r[0] + x[0]);
+    u[3] = x[0];
+    u[1] = eta*(r[1] + x[1]);
+    u[4] = x[1];
+    u[2] = eta*(r[2] + x[2]);
+    u[5] = x[2];
+    u[6] = eta*r[6];
+    u[7] = eta*r[7];
+    u[8] = eta*(power_q_2_ball_x*u[0] + power_q_2_ball_y*u[1] + power_v_2_ball_theta*u[5] + power_v_2_ball_x*u[3]
+        + power_v_2_ball_y*u[4] + r[8]);
+}
+
+#include "engine/batch/lane_tries.c"
+#include "engine/batch/lane_flow.c"
+#endif

@@ -1,13 +1,17 @@
 /*
- * The functions that rk4 needs, for several runs side by side (engine/batch/lanes.h): the same operations with vectors
- * for numbers. A library of its own, compiled when a batch first asks for it.
+ * The functions that methods need, for several runs side by side (engine/batch/lanes.h): the same operations with
+ * vectors for numbers. A library of its own, compiled when a batch first asks for it: as it is for rk4, with HELD for
+ * methods that choose their step.
  */
+#ifndef HELD
+#define HELD 0
+#endif
 #include "model.h"
 #include "engine/batch/batch.h"
 #include "engine/batch/lanes.h"
 
 /* Numbers of each run side by side, field by field those of Parameters in model.h: meanings, addresses, units too. */
-typedef struct {
+typedef struct LaneParameters {
     Lanes height;
     Lanes ball_mass;
     Lanes ball_inertia;
@@ -91,5 +95,70 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     *worst = all_of(0.0);
 }
 
+#if !HELD
 #include "engine/batch/lane_steps.c"
 #include "engine/batch/lane_runs.c"
+#else
+/*
+ * The equations of motion linearized at a state, with the accelerations and multipliers that belong to it:
+ * non-zeros of M, Phi_q, and of the derivatives of both equations and of the powers by q, v, t.
+ */
+static void linearize(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory, const LaneParameters *p,
+    const Lanes *a, const LaneAside *aside, LaneLinear *lin, LaneBits *rare)
+{
+    (void)t, (void)q, (void)v, (void)memory, (void)a, (void)aside, (void)rare;
+    /* results */
+    lin->p = p;
+}
+
+/*
+ * L U of Newton's matrix at eta = h gamma (0: the KKT matrix), L with unit diagonal. Returns 0, or the
+ * number of the node (coordinates, rows, sticks; from 1) whose pivot vanished or is not finite.
+ */
+static void newton_factor(Lanes eta, LaneLinear *lin, LaneBits *rare)
+{
+    (void)eta, (void)lin, (void)rare;
+    /* this scene has none */
+}
+
+/*
+ * x (all nodes) holds b and becomes the solution of N x = b.
+ */
+static void newton_substitute(const LaneLinear *lin, Lanes *x)
+{
+    /* numbers of the run */
+    const LaneParameters *const p = lin->p;
+
+    /* forward */
+    const Lanes b_ball_theta = x[0];
+
+    /* backward */
+    const Lanes x_ball_theta = b_ball_theta*p->inverse_ball_inertia;
+    x[0] = x_ball_theta;
+}
+
+/*
+ * (1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works.
+ */
+static void newton_solve(const LaneLinear *lin, Lanes eta, Lanes s, const Lanes *r, Lanes *u)
+{
+    (void)s;
+    /* numbers of the run */
+    const LaneParameters *const p = lin->p;
+
+    /* right-hand side */
+    Lanes x[1];
+    x[0] = p->ball_inertia*eta*r[1];
+    newton_substitute(lin, x);
+
+    /* solution */
+    u[0] = eta*(r[0] + x[0]);
+    u[1] = x[0];
+    u[2] = eta*r[2];
+    u[3] = eta*r[3];
+    u[4] = eta*r[4];
+}
+
+#include "engine/batch/lane_tries.c"
+#include "engine/batch/lane_flow.c"
+#endif

@@ -1,13 +1,17 @@
 /*
- * The functions that rk4 needs, for several runs side by side (engine/batch/lanes.h): the same operations with vectors
- * for numbers. A library of its own, compiled when a batch first asks for it.
+ * The functions that methods need, for several runs side by side (engine/batch/lanes.h): the same operations with
+ * vectors for numbers. A library of its own, compiled when a batch first asks for it: as it is for rk4, with HELD for
+ * methods that choose their step.
  */
+#ifndef HELD
+#define HELD 0
+#endif
 #include "model.h"
 #include "engine/batch/batch.h"
 #include "engine/batch/lanes.h"
 
 /* Numbers of each run side by side, field by field those of Parameters in model.h: meanings, addresses, units too. */
-typedef struct {
+typedef struct LaneParameters {
     Lanes par_g;
     Lanes length;
     Lanes bob_mass;
@@ -173,5 +177,162 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     *worst = lanes_max_of(all_of(0.0), lanes_fabs(phi_rod_length));
 }
 
+#if !HELD
 #include "engine/batch/lane_steps.c"
 #include "engine/batch/lane_runs.c"
+#else
+/*
+ * The equations of motion linearized at a state, with the accelerations and multipliers that belong to it:
+ * non-zeros of M, Phi_q, and of the derivatives of both equations and of the powers by q, v, t.
+ */
+static void linearize(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory, const LaneParameters *p,
+    const Lanes *a, const LaneAside *aside, LaneLinear *lin, LaneBits *rare)
+{
+    (void)t, (void)memory, (void)rare;
+    /* coordinates, velocities, time */
+    const Lanes bob_x = q[0];
+    const Lanes bob_x_rate = v[0];
+    const Lanes bob_y = q[1];
+    const Lanes bob_y_rate = v[1];
+    const Lanes a_bob_x = a[0];
+    const Lanes a_bob_y = a[1];
+    const Lanes held_lambda_rod_length = aside->lambda[0];
+
+    /* results */
+    lin->value[0] = 2.0*bob_x*p->rod_half_inverse_length;
+    lin->value[1] = 2.0*bob_y*p->rod_half_inverse_length;
+    lin->value[2] = 2.0*a_bob_x*p->rod_half_inverse_length + 2.0*bob_x_rate*p->rod_half_inverse_length*p->two_alpha;
+    lin->value[3] = 2.0*a_bob_y*p->rod_half_inverse_length + 2.0*bob_y_rate*p->rod_half_inverse_length*p->two_alpha;
+    lin->value[4] = 2.0*held_lambda_rod_length*p->rod_half_inverse_length;
+    lin->value[5] = 4.0*bob_x_rate*p->rod_half_inverse_length;
+    lin->value[6] = 4.0*bob_y_rate*p->rod_half_inverse_length;
+    lin->p = p;
+}
+
+/*
+ * L U of Newton's matrix at eta = h gamma (0: the KKT matrix), L with unit diagonal. Returns 0, or the
+ * number of the node (coordinates, rows, sticks; from 1) whose pivot vanished or is not finite.
+ */
+static void newton_factor(Lanes eta, LaneLinear *lin, LaneBits *rare)
+{
+    /* numbers of the run */
+    const LaneParameters *const p = lin->p;
+
+    /* linearization */
+    const Lanes phi_rod_length_bob_x = lin->value[0];
+    const Lanes phi_rod_length_bob_y = lin->value[1];
+    const Lanes by_q_rod_length_bob_x = lin->value[2];
+    const Lanes by_q_rod_length_bob_y = lin->value[3];
+    const Lanes by_q_bob_x_bob_x = lin->value[4];
+    const Lanes by_v_rod_length_bob_x = lin->value[5];
+    const Lanes by_v_rod_length_bob_y = lin->value[6];
+
+    /* eta/kappa */
+    const Lanes eta_row = eta/(eta*(p->beta_squared*eta + p->two_alpha) + 1.0);
+
+    /* matrix */
+    const Lanes n_bob_x__bob_x = p->bob_mass + by_q_bob_x_bob_x*(eta * eta);
+    const Lanes n_bob_y__bob_y = p->bob_mass + by_q_bob_x_bob_x*(eta * eta);
+    const Lanes n_rod_length__bob_x = eta_row*(by_q_rod_length_bob_x*eta + by_v_rod_length_bob_x)
+        + phi_rod_length_bob_x;
+    const Lanes n_rod_length__bob_y = eta_row*(by_q_rod_length_bob_y*eta + by_v_rod_length_bob_y)
+        + phi_rod_length_bob_y;
+
+    /* L U */
+    const Lanes scale_bob_x = n_bob_x__bob_x;
+    *rare |= ~(lanes_fabs(scale_bob_x) > SINGULAR * lanes_fabs(n_bob_x__bob_x));
+    const Lanes inverse_pivot_bob_x = 1.0/scale_bob_x;
+    lin->lu[0] = inverse_pivot_bob_x;
+    const Lanes l_rod_length__bob_x = inverse_pivot_bob_x*n_rod_length__bob_x;
+    lin->lu[1] = l_rod_length__bob_x;
+    const Lanes scale_bob_y = n_bob_y__bob_y;
+    *rare |= ~(lanes_fabs(scale_bob_y) > SINGULAR * lanes_fabs(n_bob_y__bob_y));
+    const Lanes inverse_pivot_bob_y = 1.0/scale_bob_y;
+    lin->lu[2] = inverse_pivot_bob_y;
+    const Lanes l_rod_length__bob_y = inverse_pivot_bob_y*n_rod_length__bob_y;
+    lin->lu[3] = l_rod_length__bob_y;
+    const Lanes scale_rod_length = -l_rod_length__bob_x*phi_rod_length_bob_x - l_rod_length__bob_y*phi_rod_length_bob_y;
+    *rare |= ~((lanes_fabs(scale_rod_length) > 0.0) & (lanes_fabs(scale_rod_length) < INFINITY));
+    const Lanes inverse_pivot_rod_length = 1.0/scale_rod_length;
+    lin->lu[4] = inverse_pivot_rod_length;
+}
+
+/*
+ * x (all nodes) holds b and becomes the solution of N x = b.
+ */
+static void newton_substitute(const LaneLinear *lin, Lanes *x)
+{
+    /* numbers of the run */
+    const LaneParameters *const p = lin->p;
+
+    /* linearization */
+    const Lanes phi_rod_length_bob_x = lin->value[0];
+    const Lanes phi_rod_length_bob_y = lin->value[1];
+    const Lanes inverse_pivot_bob_x = lin->lu[0];
+    const Lanes l_rod_length__bob_x = lin->lu[1];
+    const Lanes inverse_pivot_bob_y = lin->lu[2];
+    const Lanes l_rod_length__bob_y = lin->lu[3];
+    const Lanes inverse_pivot_rod_length = lin->lu[4];
+
+    /* forward */
+    const Lanes b_bob_theta = x[2];
+    const Lanes b_bob_x = x[0];
+    const Lanes b_bob_y = x[1];
+    const Lanes b_rod_length = -b_bob_x*l_rod_length__bob_x - b_bob_y*l_rod_length__bob_y + x[3];
+
+    /* backward */
+    const Lanes x_rod_length = b_rod_length*inverse_pivot_rod_length;
+    x[3] = x_rod_length;
+    const Lanes x_bob_y = inverse_pivot_bob_y*(b_bob_y - phi_rod_length_bob_y*x_rod_length);
+    x[1] = x_bob_y;
+    const Lanes x_bob_x = inverse_pivot_bob_x*(b_bob_x - phi_rod_length_bob_x*x_rod_length);
+    x[0] = x_bob_x;
+    const Lanes x_bob_theta = b_bob_theta*p->inverse_bob_inertia;
+    x[2] = x_bob_theta;
+}
+
+/*
+ * (1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works.
+ */
+static void newton_solve(const LaneLinear *lin, Lanes eta, Lanes s, const Lanes *r, Lanes *u)
+{
+    (void)s;
+    /* numbers of the run */
+    const LaneParameters *const p = lin->p;
+
+    /* linearization */
+    const Lanes phi_rod_length_bob_x = lin->value[0];
+    const Lanes phi_rod_length_bob_y = lin->value[1];
+    const Lanes by_q_rod_length_bob_x = lin->value[2];
+    const Lanes by_q_rod_length_bob_y = lin->value[3];
+    const Lanes by_q_bob_x_bob_x = lin->value[4];
+
+    /* eta/kappa */
+    const Lanes eta_row = eta/(eta*(p->beta_squared*eta + p->two_alpha) + 1.0);
+
+    /* right-hand side */
+    Lanes x[4];
+    const Lanes shifted_bob_x = -p->beta_squared*eta*r[0] + r[3];
+    const Lanes shifted_bob_y = -p->beta_squared*eta*r[1] + r[4];
+    x[0] = eta*(p->bob_mass*r[3] - by_q_bob_x_bob_x*eta*r[0]);
+    x[1] = eta*(p->bob_mass*r[4] - by_q_bob_x_bob_x*eta*r[1]);
+    x[2] = p->bob_inertia*eta*r[5];
+    x[3] = eta_row*(-by_q_rod_length_bob_x*eta*r[0] - by_q_rod_length_bob_y*eta*r[1]
+        + phi_rod_length_bob_x*shifted_bob_x + phi_rod_length_bob_y*shifted_bob_y);
+    newton_substitute(lin, x);
+
+    /* solution */
+    u[0] = eta*(r[0] + x[0]);
+    u[3] = x[0];
+    u[1] = eta*(r[1] + x[1]);
+    u[4] = x[1];
+    u[2] = eta*(r[2] + x[2]);
+    u[5] = x[2];
+    u[6] = eta*r[6];
+    u[7] = eta*r[7];
+    u[8] = eta*r[8];
+}
+
+#include "engine/batch/lane_tries.c"
+#include "engine/batch/lane_flow.c"
+#endif

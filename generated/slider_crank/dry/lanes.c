@@ -1,13 +1,17 @@
 /*
- * The functions that rk4 needs, for several runs side by side (engine/batch/lanes.h): the same operations with vectors
- * for numbers. A library of its own, compiled when a batch first asks for it.
+ * The functions that methods need, for several runs side by side (engine/batch/lanes.h): the same operations with
+ * vectors for numbers. A library of its own, compiled when a batch first asks for it: as it is for rk4, with HELD for
+ * methods that choose their step.
  */
+#ifndef HELD
+#define HELD 0
+#endif
 #include "model.h"
 #include "engine/batch/batch.h"
 #include "engine/batch/lanes.h"
 
 /* Numbers of each run side by side, field by field those of Parameters in model.h: meanings, addresses, units too. */
-typedef struct {
+typedef struct LaneParameters {
     Lanes omega;
     Lanes c;
     Lanes crank_mass;
@@ -80,9 +84,9 @@ static inline Lanes lane_deepest(const LaneParameters *p, int i)
  * exponent: exponent of the penetration; K: contact stiffness; hysteresis: hysteresis damping factor a.
  */
 static inline void lankarani_nikravesh(Lanes delta, Lanes ratio, Lanes exponent, Lanes K, Lanes hysteresis,
-    Lanes *F_n_out)
+    const Lanes *side, Lanes *g, int corner, Lanes *F_n_out)
 {
-    const Lanes side_1 = lanes_sign_of(hysteresis*ratio + 1.0);
+    const Lanes side_1 = lanes_side_of(side, g, corner, hysteresis*ratio + 1.0);
     const Lanes larger_1 = pick(side_1 < 0.0, all_of(0.0), hysteresis*ratio + 1.0);
     *F_n_out = lanes_pow(delta, exponent)*K*larger_1;
 }
@@ -93,14 +97,15 @@ static inline void lankarani_nikravesh(Lanes delta, Lanes ratio, Lanes exponent,
  * Valid: sliding; creeps below v1 where Coulomb's law would stick.
  * mu: coefficient of friction; v0: slip below which there is no friction; friction_slope: 1/(v1 - v0).
  */
-static inline void modified_coulomb(Lanes F_n, Lanes v_t, Lanes mu, Lanes v0, Lanes friction_slope, Lanes *F_t_out)
+static inline void modified_coulomb(Lanes F_n, Lanes v_t, Lanes mu, Lanes v0, Lanes friction_slope, const Lanes *side,
+    Lanes *g, int corner, Lanes *F_t_out)
 {
-    const Lanes side_1 = lanes_sign_of(-friction_slope*(-v0 - v_t) + 1.0);
+    const Lanes side_1 = lanes_side_of(side, g, corner, -friction_slope*(-v0 - v_t) + 1.0);
     const Lanes smaller_1 = pick(side_1 < 0.0, all_of(1.0), friction_slope*(-v0 - v_t));
-    const Lanes side_2 = lanes_sign_of(smaller_1);
-    const Lanes side_3 = lanes_sign_of(-friction_slope*(-v0 + v_t) + 1.0);
+    const Lanes side_2 = lanes_side_of(side, g, corner + 1, smaller_1);
+    const Lanes side_3 = lanes_side_of(side, g, corner + 2, -friction_slope*(-v0 + v_t) + 1.0);
     const Lanes smaller_2 = pick(side_3 < 0.0, all_of(1.0), friction_slope*(-v0 + v_t));
-    const Lanes side_4 = lanes_sign_of(smaller_2);
+    const Lanes side_4 = lanes_side_of(side, g, corner + 3, smaller_2);
     const Lanes larger_1 = pick(side_2 < 0.0, all_of(0.0), smaller_1);
     const Lanes larger_2 = pick(side_4 < 0.0, all_of(0.0), smaller_2);
     *F_t_out = -F_n*mu*(-larger_1 + larger_2);
@@ -108,25 +113,27 @@ static inline void modified_coulomb(Lanes F_n, Lanes v_t, Lanes mu, Lanes v0, La
 
 /* Dry contact in joint wristpin, as in clearance.c. */
 static inline LanePinForce dry_wristpin(Lanes delta, Lanes deltadot, Lanes de_t, Lanes omega_i, Lanes omega_j,
-    const LaneLatch *latch, const LaneParameters *p)
+    const LaneLatch *latch, const LaneParameters *p, const Lanes *side, Lanes *g)
 {
+    (void)side, (void)g;
     const Lanes ratio = pick(latch->closed > 0.0, deltadot / latch->deltadot_minus, all_of(1.0));
     const Lanes a_i = 0.5*delta + p->pin_radius;
     const Lanes a_j = -0.5*delta + p->R_j_pin;
     const Lanes v_t = -a_i*omega_i + a_j*omega_j + de_t;
     Lanes F_n;
     lankarani_nikravesh(lanes_max_of(delta, all_of(0.0)), ratio, p->dry_normal_exponent, p->dry_pin_K,
-        p->dry_pin_hysteresis, &F_n);
+        p->dry_pin_hysteresis, side, g, 0, &F_n);
     Lanes F_along_t_dry;
-    modified_coulomb(F_n, v_t, p->dry_friction_mu, p->dry_friction_v0, p->dry_pin_friction_slope, &F_along_t_dry);
+    modified_coulomb(F_n, v_t, p->dry_friction_mu, p->dry_friction_v0, p->dry_pin_friction_slope, side, g, 1,
+        &F_along_t_dry);
     const Lanes M_i_dry = -F_along_t_dry*a_i;
     const Lanes M_j_dry = F_along_t_dry*a_j;
-    return (LanePinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry};
+    return (LanePinForce){-F_n, F_along_t_dry, M_i_dry, M_j_dry, v_t};
 }
 
 /* Joint wristpin: what each lane does not have is passed over where no lane has it. */
 static void clearance_wristpin(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes omega_i, Lanes omega_j,
-    const LaneLatch *latch, const LaneParameters *p, LaneClearance *out)
+    const LaneLatch *latch, const LaneParameters *p, const Lanes *side, Lanes *g, LaneClearance *out)
 {
     const Lanes e = lanes_sqrt((e_x * e_x) + (e_y * e_y));
     const Lanes inverse_e = 1.0/e;
@@ -135,17 +142,25 @@ static void clearance_wristpin(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lan
     const Lanes delta = e - p->pin_clearance;
     const Lanes deltadot = de_x*n_x + de_y*n_y;
     const Lanes de_t = -de_x*n_y + de_y*n_x;
-    LanePinForce F = {all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0)};
-    const LaneBits touching = delta > 0.0;
+    silence(g, 0, 5); /* what does not act does not switch */
+    LanePinForce F = {all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0)};
+    const LaneBits touching = is_touching(latch, delta);
     if (any_of(touching)) {
-        LanePinForce dry = dry_wristpin(delta, deltadot, de_t, omega_i, omega_j, latch, p);
+        Lanes film_g[N_SWITCHES];
+        set_aside(g, film_g, 0, 5);
+        LanePinForce dry = dry_wristpin(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
         F.n = pick(touching, dry.n, F.n);
         F.t = pick(touching, dry.t, F.t);
         F.M_i = pick(touching, dry.M_i, F.M_i);
         F.M_j = pick(touching, dry.M_j, F.M_j);
+        F.v_t = pick(touching, dry.v_t, F.v_t);
+        put_together(g, film_g, 0, 5, touching, (LaneBits){0});
     }
     *out = (LaneClearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t, .e = e,
         .deltadot = deltadot, .delta = delta, .moment_first = F.M_i, .moment_second = F.M_j};
+#if HELD
+    out->ex = e_x, out->ey = e_y, out->v_t = F.v_t;
+#endif
 }
 
 /*
@@ -175,6 +190,10 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
 static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
     const LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
 {
+    /* corners: the sides that are held, if any */
+    const Lanes *const side = held_sides(memory);
+    Lanes *const g = told_sides(aside);
+
     /* coordinates, velocities, time */
     const Lanes cylinder_slide = q[0];
     const Lanes cylinder_slide_rate = v[0];
@@ -215,7 +234,7 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     const Lanes edot_wristpin_x = cylinder_slide_rate - rod_head_vx;
     const Lanes edot_wristpin_y = -rod_head_vy;
     clearance_wristpin(e_wristpin_x, e_wristpin_y, edot_wristpin_x, edot_wristpin_y, rod_omega, slider_omega,
-        &memory->latch[0], p, &aside->clearance[0]);
+        &memory->latch[0], p, side, g, &aside->clearance[0]);
     const Lanes F_wristpin_x = aside->clearance[0].Fx;
     const Lanes F_wristpin_y = aside->clearance[0].Fy;
     const Lanes M_wristpin_first = aside->clearance[0].moment_first;
@@ -264,5 +283,484 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     *worst = all_of(0.0);
 }
 
+#if !HELD
 #include "engine/batch/lane_steps.c"
 #include "engine/batch/lane_runs.c"
+#else
+/*
+ * (F along n, F along t, M_i, M_j) of a joint with play and their derivatives by (e, deltadot, de_t, omega_i, omega_j).
+ */
+typedef struct {
+    Lanes value[4], slope[4][5];
+} LaneSlopes;
+
+/*
+ * As a share of the clearance: nearer to the centre the derivatives are those at the centre. There a force along the
+ * normal and the normal's own turning cancel, which leaves some DBL_EPSILON c/e of rounding.
+ */
+#define CENTRED 1e-8
+
+/*
+ * From n, t to ground axes. Where e moves by de = (along n, along t) = (x, y), n turns by y/e: F by F rotated, and
+ * deltadot, de_t by (de_t, -deltadot) y/e.
+ */
+static inline void in_ground_axes(const LaneSlopes *F, Lanes n_x, Lanes n_y, Lanes deltadot, Lanes de_t,
+    Lanes per_e, Lanes dF[4][6])
+{
+    Lanes by[4][6];
+    for (int i = 0; i < 4; i++) {
+        const Lanes *slope = F->slope[i];
+        by[i][0] = slope[0];
+        by[i][1] = (slope[1] * de_t - slope[2] * deltadot) * per_e;
+        by[i][2] = slope[1];
+        by[i][3] = slope[2];
+        dF[i][4] = slope[3];
+        dF[i][5] = slope[4];
+    }
+    by[0][1] -= F->value[1] * per_e;
+    by[1][1] += F->value[0] * per_e;
+    /* x and y apart: gcc 12 would fuse the pair's products and sums, which is not allowed */
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 4; k += 2)
+            dF[i][k] = by[i][k] * n_x - by[i][k + 1] * n_y;
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 4; k += 2)
+            dF[i][k + 1] = by[i][k] * n_y + by[i][k + 1] * n_x;
+    for (int k = 0; k < 6; k++) {
+        const Lanes along_n = dF[0][k], along_t = dF[1][k];
+        dF[0][k] = along_n * n_x - along_t * n_y;
+        dF[1][k] = along_n * n_y + along_t * n_x;
+    }
+}
+
+
+/* Those of b where the mask is set. */
+static inline void pick_slopes(LaneSlopes *a, LaneBits mask, const LaneSlopes *b)
+{
+    for (int i = 0; i < 4; i++) {
+        a->value[i] = pick(mask, b->value[i], a->value[i]);
+        for (int k = 0; k < 5; k++)
+            a->slope[i][k] = pick(mask, b->slope[i][k], a->slope[i][k]);
+    }
+}
+
+/*
+ * Dry: F along n and t, M_i, M_j, and their derivatives by e, deltadot, de_t, omega_i,
+ * omega_j (forward differentiation of the same steps).
+ */
+static inline void dry_slopes_lankarani_nikravesh_modified_coulomb(Lanes e, Lanes deltadot, Lanes de_t, Lanes omega_i,
+    Lanes omega_j, const LaneLatch *latch, Lanes exponent, Lanes mu, Lanes v0, Lanes R_i, Lanes R_j, Lanes c, Lanes K,
+    Lanes hysteresis, Lanes friction_slope, const Lanes *side, Lanes *g, int corner, LaneSlopes *out)
+{
+    /* penetration, ratio of velocities, slip */
+    const Lanes delta = e - c;
+    const Lanes depth = lanes_max_of(delta, all_of(0.0));
+    const Lanes depth_by_e = pick(delta > 0.0, all_of(1.0), all_of(0.0));
+    const Lanes ratio = pick(latch->closed > 0.0, deltadot/latch->deltadot_minus, all_of(1.0));
+    const Lanes ratio_by_deltadot = pick(latch->closed > 0.0, 1.0/latch->deltadot_minus, all_of(0.0));
+    const Lanes a_i = 0.5*delta + R_i;
+    const Lanes a_j = -0.5*delta + R_j;
+    const Lanes v_t = -a_i*omega_i + a_j*omega_j + de_t;
+    const Lanes v_t_by_e = -0.5*omega_i - 0.5*omega_j;
+
+    /* contact */
+    const Lanes side_1 = lanes_side_of(side, g, corner, hysteresis*ratio + 1.0);
+    const Lanes power_depth = lanes_pow(depth, exponent - 1.0);
+    const Lanes larger_1 = pick(side_1 < 0.0, all_of(0.0), hysteresis*ratio + 1.0);
+    const Lanes F_n = depth*K*power_depth*larger_1;
+    const Lanes F_n_by_depth = exponent*K*power_depth*larger_1;
+    const Lanes branch_1 = pick(side_1 < 0.0, all_of(0.0), hysteresis);
+    const Lanes F_n_by_ratio = depth*K*power_depth*branch_1;
+    const Lanes F_n_by_e = F_n_by_depth*depth_by_e;
+    const Lanes F_n_by_deltadot = F_n_by_ratio*ratio_by_deltadot;
+    const Lanes side_2 = lanes_side_of(side, g, corner + 1, -friction_slope*(-v0 - v_t) + 1.0);
+    const Lanes smaller_1 = pick(side_2 < 0.0, all_of(1.0), friction_slope*(-v0 - v_t));
+    const Lanes side_3 = lanes_side_of(side, g, corner + 2, smaller_1);
+    const Lanes side_4 = lanes_side_of(side, g, corner + 3, -friction_slope*(-v0 + v_t) + 1.0);
+    const Lanes smaller_2 = pick(side_4 < 0.0, all_of(1.0), friction_slope*(-v0 + v_t));
+    const Lanes side_5 = lanes_side_of(side, g, corner + 4, smaller_2);
+    const Lanes larger_2 = pick(side_3 < 0.0, all_of(0.0), smaller_1);
+    const Lanes larger_3 = pick(side_5 < 0.0, all_of(0.0), smaller_2);
+    const Lanes F_t = -F_n*mu*(-larger_2 + larger_3);
+    const Lanes F_t_by_F_n = -mu*(-larger_2 + larger_3);
+    const Lanes branch_2 = pick(side_2 < 0.0, all_of(0.0), -friction_slope);
+    const Lanes branch_3 = pick(side_3 < 0.0, all_of(0.0), branch_2);
+    const Lanes branch_4 = pick(side_4 < 0.0, all_of(0.0), friction_slope);
+    const Lanes branch_5 = pick(side_5 < 0.0, all_of(0.0), branch_4);
+    const Lanes F_t_by_v_t = -F_n*mu*(-branch_3 + branch_5);
+    const Lanes F_t_by_e = F_n_by_e*F_t_by_F_n + F_t_by_v_t*v_t_by_e;
+    const Lanes F_t_by_deltadot = F_n_by_deltadot*F_t_by_F_n;
+    const Lanes F_t_by_omega_i = -F_t_by_v_t*a_i;
+    const Lanes F_t_by_omega_j = F_t_by_v_t*a_j;
+    const Lanes F_along_t_dry = F_t;
+    const Lanes M_i_dry = -F_along_t_dry*a_i;
+    const Lanes M_i_dry_by_e = -0.5*F_along_t_dry - F_t_by_e*a_i;
+    const Lanes M_i_dry_by_deltadot = -F_t_by_deltadot*a_i;
+    const Lanes M_i_dry_by_de_t = -F_t_by_v_t*a_i;
+    const Lanes M_i_dry_by_omega_i = -F_t_by_omega_i*a_i;
+    const Lanes M_i_dry_by_omega_j = -F_t_by_omega_j*a_i;
+    const Lanes M_j_dry = F_along_t_dry*a_j;
+    const Lanes M_j_dry_by_e = -0.5*F_along_t_dry + F_t_by_e*a_j;
+    const Lanes M_j_dry_by_deltadot = F_t_by_deltadot*a_j;
+    const Lanes M_j_dry_by_de_t = F_t_by_v_t*a_j;
+    const Lanes M_j_dry_by_omega_i = F_t_by_omega_i*a_j;
+    const Lanes M_j_dry_by_omega_j = F_t_by_omega_j*a_j;
+
+    /* results */
+    out->value[0] = -F_n;
+    out->slope[0][0] = -F_n_by_e;
+    out->slope[0][1] = -F_n_by_deltadot;
+    out->slope[0][2] = all_of(0.0);
+    out->slope[0][3] = all_of(0.0);
+    out->slope[0][4] = all_of(0.0);
+    out->value[1] = F_along_t_dry;
+    out->slope[1][0] = F_t_by_e;
+    out->slope[1][1] = F_t_by_deltadot;
+    out->slope[1][2] = F_t_by_v_t;
+    out->slope[1][3] = F_t_by_omega_i;
+    out->slope[1][4] = F_t_by_omega_j;
+    out->value[2] = M_i_dry;
+    out->slope[2][0] = M_i_dry_by_e;
+    out->slope[2][1] = M_i_dry_by_deltadot;
+    out->slope[2][2] = M_i_dry_by_de_t;
+    out->slope[2][3] = M_i_dry_by_omega_i;
+    out->slope[2][4] = M_i_dry_by_omega_j;
+    out->value[3] = M_j_dry;
+    out->slope[3][0] = M_j_dry_by_e;
+    out->slope[3][1] = M_j_dry_by_deltadot;
+    out->slope[3][2] = M_j_dry_by_de_t;
+    out->slope[3][3] = M_j_dry_by_omega_i;
+    out->slope[3][4] = M_j_dry_by_omega_j;
+}
+
+/* Joint wristpin, as in newton.c: what acts in no lane is passed over. */
+static void slopes_wristpin(Lanes e, Lanes deltadot, Lanes de_t, Lanes omega_i, Lanes omega_j, const LaneLatch *latch,
+    const LaneParameters *p, const Lanes *side, Lanes *g, LaneSlopes *out)
+{
+    (void)p, (void)side, (void)g;
+    *out = (LaneSlopes){0};
+    const LaneBits touching = is_closed(latch);
+    if (any_of(touching)) {
+        LaneSlopes dry;
+        dry_slopes_lankarani_nikravesh_modified_coulomb(e, deltadot, de_t, omega_i, omega_j, latch,
+            p->dry_normal_exponent, p->dry_friction_mu, p->dry_friction_v0, p->pin_radius, p->R_j_pin,
+            p->pin_clearance, p->dry_pin_K, p->dry_pin_hysteresis, p->dry_pin_friction_slope, side, g, 0, &dry);
+        pick_slopes(out, touching, &dry);
+    }
+}
+
+static void tangent_wristpin(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes omega_i, Lanes omega_j,
+    const LaneLatch *latch, const LaneParameters *p, const Lanes *side, Lanes *g, Lanes dF[4][6])
+{
+    LaneSlopes F;
+    const Lanes e = lanes_sqrt(e_x * e_x + e_y * e_y), inverse_e = 1.0 / e, n_x = e_x * inverse_e, n_y =
+        e_y * inverse_e;
+    const Lanes deltadot = de_x * n_x + de_y * n_y, de_t = de_y * n_x - de_x * n_y;
+    const LaneBits centred = ~(e > CENTRED * p->pin_clearance);
+    slopes_wristpin(e, deltadot, de_t, omega_i, omega_j, latch, p, side, g, &F);
+    in_ground_axes(&F, n_x, n_y, deltadot, de_t, inverse_e, dF);
+    if (!any_of(centred))
+        return;
+    /* at the centre each axis in turn is the normal */
+    Lanes there[4][6];
+    slopes_wristpin(e, de_x, de_y, omega_i, omega_j, latch, p, side, g, &F);
+    in_ground_axes(&F, all_of(1.0), all_of(0.0), de_x, de_y, all_of(0.0), there);
+    slopes_wristpin(e, de_y, -de_x, omega_i, omega_j, latch, p, side, g, &F);
+    there[0][1] = -F.slope[1][0];
+    there[1][1] = F.slope[0][0];
+    there[2][1] = F.slope[2][0];
+    there[3][1] = F.slope[3][0];
+    for (int i = 4; i < 4; i++)
+        there[i][1] = F.slope[i][0];
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 6; k++)
+            dF[i][k] = pick(centred, there[i][k], dF[i][k]);
+}
+
+/*
+ * The equations of motion linearized at a state, with the accelerations and multipliers that belong to it:
+ * non-zeros of M, Phi_q, and of the derivatives of both equations and of the powers by q, v, t.
+ */
+static void linearize(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory, const LaneParameters *p,
+    const Lanes *a, const LaneAside *aside, LaneLinear *lin, LaneBits *rare)
+{
+    (void)rare;
+    /* corners: the sides that are held, if any */
+    const Lanes *const side = held_sides(memory);
+    Lanes g[N_SWITCHES + 1];
+
+    /* coordinates, velocities, time */
+    const Lanes cylinder_slide = q[0];
+    const Lanes cylinder_slide_rate = v[0];
+    const Lanes rod_theta = q[1];
+    const Lanes rod_omega = v[1];
+    const Lanes a_rod_theta = a[1];
+    const Lanes wristpin_Fx = aside->clearance[0].Fx;
+    const Lanes wristpin_Fy = aside->clearance[0].Fy;
+    const Lanes wristpin_moment_first = aside->clearance[0].moment_first;
+
+    /* directions, arms, drives */
+    const Lanes motor_value = p->omega*t;
+    const Lanes motor_rate = p->omega;
+    const Lanes motor_acceleration = all_of(0.0);
+    const Lanes cos_theta_crank = lanes_cos(motor_value);
+    const Lanes sin_theta_crank = lanes_sin(motor_value);
+    const Lanes cos_theta_rod = lanes_cos(rod_theta);
+    const Lanes sin_theta_rod = lanes_sin(rod_theta);
+    const Lanes slider_omega = all_of(0.0);
+    const Lanes span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
+    const Lanes span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
+    const Lanes crank_head_vx = -motor_rate*span_crank_head_y;
+    const Lanes crank_head_vy = motor_rate*span_crank_head_x;
+    const Lanes span_rod_head_x = cos_theta_rod*p->rod_head_span_x;
+    const Lanes span_rod_head_y = p->rod_head_span_x*sin_theta_rod;
+    const Lanes rod_head_x = span_crank_head_x + span_rod_head_x;
+    const Lanes rod_head_vx = crank_head_vx - rod_omega*span_rod_head_y;
+    const Lanes rod_head_y = span_crank_head_y + span_rod_head_y;
+    const Lanes rod_head_vy = crank_head_vy + rod_omega*span_rod_head_x;
+    const Lanes cos_rod_less_crank = cos_theta_crank*cos_theta_rod + sin_theta_crank*sin_theta_rod;
+    const Lanes sin_rod_less_crank = cos_theta_crank*sin_theta_rod - cos_theta_rod*sin_theta_crank;
+    const Lanes dot_crank_rod = cos_rod_less_crank*p->inertia_crank_rod;
+    const Lanes cross_crank_rod = p->inertia_crank_rod*sin_rod_less_crank;
+
+    /* clearance joint wristpin */
+    const Lanes e_wristpin_x = cylinder_slide - rod_head_x;
+    const Lanes e_wristpin_y = -rod_head_y;
+    const Lanes edot_wristpin_x = cylinder_slide_rate - rod_head_vx;
+    const Lanes edot_wristpin_y = -rod_head_vy;
+    Lanes change_wristpin[4][6];
+    tangent_wristpin(e_wristpin_x, e_wristpin_y, edot_wristpin_x, edot_wristpin_y, rod_omega, slider_omega,
+        &memory->latch[0], p, side, g, change_wristpin);
+    const Lanes rod_head_x_2_by_time = -motor_rate*span_crank_head_y;
+    const Lanes rod_head_y_by_time = motor_rate*span_crank_head_x;
+    const Lanes rod_head_vx_by_rod_theta = -rod_omega*span_rod_head_x;
+    const Lanes rod_head_vx_by_time = -motor_acceleration*span_crank_head_y
+        - (motor_rate * motor_rate)*span_crank_head_x;
+    const Lanes rod_head_vy_by_rod_theta = -rod_omega*span_rod_head_y;
+    const Lanes rod_head_vy_by_time = motor_acceleration*span_crank_head_x
+        - (motor_rate * motor_rate)*span_crank_head_y;
+    const Lanes wristpin_Fx_by_e_x = change_wristpin[0][0];
+    const Lanes wristpin_Fx_by_e_y = change_wristpin[0][1];
+    const Lanes wristpin_Fx_by_de_x = change_wristpin[0][2];
+    const Lanes wristpin_Fx_by_de_y = change_wristpin[0][3];
+    const Lanes wristpin_Fx_by_omega_i = change_wristpin[0][4];
+    const Lanes wristpin_Fx_by_rod_theta = -rod_head_vx_by_rod_theta*wristpin_Fx_by_de_x
+        - rod_head_vy_by_rod_theta*wristpin_Fx_by_de_y - span_rod_head_x*wristpin_Fx_by_e_y
+        + span_rod_head_y*wristpin_Fx_by_e_x;
+    const Lanes wristpin_Fx_by_time = -rod_head_vx_by_time*wristpin_Fx_by_de_x
+        - rod_head_vy_by_time*wristpin_Fx_by_de_y - rod_head_x_2_by_time*wristpin_Fx_by_e_x
+        - rod_head_y_by_time*wristpin_Fx_by_e_y;
+    const Lanes wristpin_Fx_by_rod_omega = -span_rod_head_x*wristpin_Fx_by_de_y + span_rod_head_y*wristpin_Fx_by_de_x
+        + wristpin_Fx_by_omega_i;
+    const Lanes wristpin_Fy_by_e_x = change_wristpin[1][0];
+    const Lanes wristpin_Fy_by_e_y = change_wristpin[1][1];
+    const Lanes wristpin_Fy_by_de_x = change_wristpin[1][2];
+    const Lanes wristpin_Fy_by_de_y = change_wristpin[1][3];
+    const Lanes wristpin_Fy_by_omega_i = change_wristpin[1][4];
+    const Lanes wristpin_Fy_by_rod_theta = -rod_head_vx_by_rod_theta*wristpin_Fy_by_de_x
+        - rod_head_vy_by_rod_theta*wristpin_Fy_by_de_y - span_rod_head_x*wristpin_Fy_by_e_y
+        + span_rod_head_y*wristpin_Fy_by_e_x;
+    const Lanes wristpin_Fy_by_time = -rod_head_vx_by_time*wristpin_Fy_by_de_x
+        - rod_head_vy_by_time*wristpin_Fy_by_de_y - rod_head_x_2_by_time*wristpin_Fy_by_e_x
+        - rod_head_y_by_time*wristpin_Fy_by_e_y;
+    const Lanes wristpin_Fy_by_rod_omega = -span_rod_head_x*wristpin_Fy_by_de_y + span_rod_head_y*wristpin_Fy_by_de_x
+        + wristpin_Fy_by_omega_i;
+    const Lanes wristpin_moment_first_by_e_x = change_wristpin[2][0];
+    const Lanes wristpin_moment_first_by_e_y = change_wristpin[2][1];
+    const Lanes wristpin_moment_first_by_de_x = change_wristpin[2][2];
+    const Lanes wristpin_moment_first_by_de_y = change_wristpin[2][3];
+    const Lanes wristpin_moment_first_by_omega_i = change_wristpin[2][4];
+    const Lanes wristpin_moment_first_by_rod_theta = -rod_head_vx_by_rod_theta*wristpin_moment_first_by_de_x
+        - rod_head_vy_by_rod_theta*wristpin_moment_first_by_de_y - span_rod_head_x*wristpin_moment_first_by_e_y
+        + span_rod_head_y*wristpin_moment_first_by_e_x;
+    const Lanes wristpin_moment_first_by_time = -rod_head_vx_by_time*wristpin_moment_first_by_de_x
+        - rod_head_vy_by_time*wristpin_moment_first_by_de_y - rod_head_x_2_by_time*wristpin_moment_first_by_e_x
+        - rod_head_y_by_time*wristpin_moment_first_by_e_y;
+    const Lanes wristpin_moment_first_by_rod_omega = -span_rod_head_x*wristpin_moment_first_by_de_y
+        + span_rod_head_y*wristpin_moment_first_by_de_x + wristpin_moment_first_by_omega_i;
+    const Lanes wristpin_moment_second_by_e_x = change_wristpin[3][0];
+    const Lanes wristpin_moment_second_by_e_y = change_wristpin[3][1];
+    const Lanes wristpin_moment_second_by_de_x = change_wristpin[3][2];
+    const Lanes wristpin_moment_second_by_de_y = change_wristpin[3][3];
+    const Lanes wristpin_moment_second_by_omega_i = change_wristpin[3][4];
+    const Lanes wristpin_moment_second_by_rod_theta = -rod_head_vx_by_rod_theta*wristpin_moment_second_by_de_x
+        - rod_head_vy_by_rod_theta*wristpin_moment_second_by_de_y - span_rod_head_x*wristpin_moment_second_by_e_y
+        + span_rod_head_y*wristpin_moment_second_by_e_x;
+    const Lanes wristpin_moment_second_by_time = -rod_head_vx_by_time*wristpin_moment_second_by_de_x
+        - rod_head_vy_by_time*wristpin_moment_second_by_de_y - rod_head_x_2_by_time*wristpin_moment_second_by_e_x
+        - rod_head_y_by_time*wristpin_moment_second_by_e_y;
+    const Lanes wristpin_moment_second_by_rod_omega = -span_rod_head_x*wristpin_moment_second_by_de_y
+        + span_rod_head_y*wristpin_moment_second_by_de_x + wristpin_moment_second_by_omega_i;
+
+    /* coordinates */
+    const Lanes cross_crank_rod_by_time = -dot_crank_rod*motor_rate;
+    const Lanes dot_crank_rod_by_time = cross_crank_rod*motor_rate;
+
+    /* powers */
+    const Lanes span_crank_head_x_by_time = -motor_rate*span_crank_head_y;
+    const Lanes span_crank_head_y_by_time = motor_rate*span_crank_head_x;
+
+    /* results */
+    lin->value[0] = -wristpin_Fx_by_e_x;
+    lin->value[1] = -wristpin_Fx_by_rod_theta;
+    lin->value[2] = -cross_crank_rod*motor_acceleration + dot_crank_rod*(motor_rate * motor_rate)
+        - span_rod_head_x*wristpin_Fx + span_rod_head_x*wristpin_Fy_by_rod_theta
+        - span_rod_head_y*wristpin_Fx_by_rod_theta - span_rod_head_y*wristpin_Fy - wristpin_moment_first_by_rod_theta;
+    lin->value[3] = span_rod_head_x*wristpin_Fy_by_e_x - span_rod_head_y*wristpin_Fx_by_e_x
+        - wristpin_moment_first_by_e_x;
+    lin->value[4] = -wristpin_Fx_by_de_x;
+    lin->value[5] = -wristpin_Fx_by_rod_omega;
+    lin->value[6] = span_rod_head_x*wristpin_Fy_by_de_x - span_rod_head_y*wristpin_Fx_by_de_x
+        - wristpin_moment_first_by_de_x;
+    lin->value[7] = span_rod_head_x*wristpin_Fy_by_rod_omega - span_rod_head_y*wristpin_Fx_by_rod_omega
+        - wristpin_moment_first_by_rod_omega;
+    lin->value[8] = -wristpin_Fx_by_time;
+    lin->value[9] = 2.0*cross_crank_rod*motor_acceleration*motor_rate
+        + cross_crank_rod_by_time*(motor_rate * motor_rate) + dot_crank_rod_by_time*motor_acceleration
+        + span_rod_head_x*wristpin_Fy_by_time - span_rod_head_y*wristpin_Fx_by_time - wristpin_moment_first_by_time;
+    lin->value[10] = -a_rod_theta*cross_crank_rod*motor_rate - dot_crank_rod*motor_rate*(rod_omega * rod_omega)
+        + motor_rate*span_crank_head_x*wristpin_Fy_by_rod_theta - motor_rate*span_crank_head_y*wristpin_Fx_by_rod_theta;
+    lin->value[11] = motor_rate*span_crank_head_x*wristpin_Fy_by_e_x - motor_rate*span_crank_head_y*wristpin_Fx_by_e_x;
+    lin->value[12] = -rod_head_vx_by_rod_theta*wristpin_Fx - rod_head_vy*wristpin_Fy_by_rod_theta
+        - rod_head_vy_by_rod_theta*wristpin_Fy + rod_omega*wristpin_moment_first_by_rod_theta
+        + slider_omega*wristpin_moment_second_by_rod_theta + wristpin_Fx_by_rod_theta*(cylinder_slide_rate
+        - rod_head_vx);
+    lin->value[13] = -rod_head_vy*wristpin_Fy_by_e_x + rod_omega*wristpin_moment_first_by_e_x
+        + slider_omega*wristpin_moment_second_by_e_x + wristpin_Fx_by_e_x*(cylinder_slide_rate - rod_head_vx);
+    lin->value[14] = -2.0*cross_crank_rod*motor_rate*rod_omega + motor_rate*span_crank_head_x*wristpin_Fy_by_rod_omega
+        - motor_rate*span_crank_head_y*wristpin_Fx_by_rod_omega;
+    lin->value[15] = motor_rate*span_crank_head_x*wristpin_Fy_by_de_x
+        - motor_rate*span_crank_head_y*wristpin_Fx_by_de_x;
+    lin->value[16] = -rod_head_vy*wristpin_Fy_by_de_x + rod_omega*wristpin_moment_first_by_de_x
+        + slider_omega*wristpin_moment_second_by_de_x + wristpin_Fx
+        + wristpin_Fx_by_de_x*(cylinder_slide_rate - rod_head_vx);
+    lin->value[17] = -rod_head_vy*wristpin_Fy_by_rod_omega + rod_omega*wristpin_moment_first_by_rod_omega
+        + slider_omega*wristpin_moment_second_by_rod_omega - span_rod_head_x*wristpin_Fy + span_rod_head_y*wristpin_Fx
+        + wristpin_Fx_by_rod_omega*(cylinder_slide_rate - rod_head_vx) + wristpin_moment_first;
+    lin->value[18] = dot_crank_rod*motor_rate;
+    lin->value[19] = a_rod_theta*dot_crank_rod_by_time*motor_rate
+        - cross_crank_rod_by_time*motor_rate*(rod_omega * rod_omega)
+        + motor_acceleration*(a_rod_theta*dot_crank_rod - cross_crank_rod*(rod_omega * rod_omega)
+        + p->mass_motor_motor*motor_acceleration + span_crank_head_x*wristpin_Fy - span_crank_head_y*wristpin_Fx)
+        + motor_rate*span_crank_head_x*wristpin_Fy_by_time + motor_rate*span_crank_head_x_by_time*wristpin_Fy
+        - motor_rate*span_crank_head_y*wristpin_Fx_by_time - motor_rate*span_crank_head_y_by_time*wristpin_Fx;
+    lin->value[20] = -rod_head_vx_by_time*wristpin_Fx - rod_head_vy*wristpin_Fy_by_time
+        - rod_head_vy_by_time*wristpin_Fy + rod_omega*wristpin_moment_first_by_time
+        + slider_omega*wristpin_moment_second_by_time + wristpin_Fx_by_time*(cylinder_slide_rate - rod_head_vx);
+    lin->p = p;
+}
+
+/*
+ * L U of Newton's matrix at eta = h gamma (0: the KKT matrix), L with unit diagonal. Returns 0, or the
+ * number of the node (coordinates, rows, sticks; from 1) whose pivot vanished or is not finite.
+ */
+static void newton_factor(Lanes eta, LaneLinear *lin, LaneBits *rare)
+{
+    /* numbers of the run */
+    const LaneParameters *const p = lin->p;
+
+    /* linearization */
+    const Lanes by_q_cylinder_slide_cylinder_slide = lin->value[0];
+    const Lanes by_q_cylinder_slide_rod_theta = lin->value[1];
+    const Lanes by_q_rod_theta_rod_theta = lin->value[2];
+    const Lanes by_q_rod_theta_cylinder_slide = lin->value[3];
+    const Lanes by_v_cylinder_slide_cylinder_slide = lin->value[4];
+    const Lanes by_v_cylinder_slide_rod_theta = lin->value[5];
+    const Lanes by_v_rod_theta_cylinder_slide = lin->value[6];
+    const Lanes by_v_rod_theta_rod_theta = lin->value[7];
+
+    /* matrix */
+    const Lanes n_cylinder_slide__cylinder_slide = eta*(by_q_cylinder_slide_cylinder_slide*eta
+        + by_v_cylinder_slide_cylinder_slide) + p->slider_mass;
+    const Lanes n_cylinder_slide__rod_theta = eta*(by_q_cylinder_slide_rod_theta*eta + by_v_cylinder_slide_rod_theta);
+    const Lanes n_rod_theta__cylinder_slide = eta*(by_q_rod_theta_cylinder_slide*eta + by_v_rod_theta_cylinder_slide);
+    const Lanes n_rod_theta__rod_theta = eta*(by_q_rod_theta_rod_theta*eta + by_v_rod_theta_rod_theta)
+        + p->mass_rod_rod;
+
+    /* L U */
+    const Lanes scale_cylinder_slide = n_cylinder_slide__cylinder_slide;
+    *rare |= ~(lanes_fabs(scale_cylinder_slide) > SINGULAR * lanes_fabs(n_cylinder_slide__cylinder_slide));
+    const Lanes inverse_pivot_cylinder_slide = 1.0/scale_cylinder_slide;
+    lin->lu[0] = inverse_pivot_cylinder_slide;
+    const Lanes l_rod_theta__cylinder_slide = inverse_pivot_cylinder_slide*n_rod_theta__cylinder_slide;
+    lin->lu[1] = l_rod_theta__cylinder_slide;
+    lin->lu[2] = n_cylinder_slide__rod_theta;
+    const Lanes scale_rod_theta = -l_rod_theta__cylinder_slide*n_cylinder_slide__rod_theta + n_rod_theta__rod_theta;
+    *rare |= ~(lanes_fabs(scale_rod_theta) > SINGULAR * lanes_fabs(n_rod_theta__rod_theta));
+    const Lanes inverse_pivot_rod_theta = 1.0/scale_rod_theta;
+    lin->lu[3] = inverse_pivot_rod_theta;
+}
+
+/*
+ * x (all nodes) holds b and becomes the solution of N x = b.
+ */
+static void newton_substitute(const LaneLinear *lin, Lanes *x)
+{
+    /* linearization */
+    const Lanes inverse_pivot_cylinder_slide = lin->lu[0];
+    const Lanes l_rod_theta__cylinder_slide = lin->lu[1];
+    const Lanes n_cylinder_slide__rod_theta = lin->lu[2];
+    const Lanes inverse_pivot_rod_theta = lin->lu[3];
+
+    /* forward */
+    const Lanes b_cylinder_slide = x[0];
+    const Lanes b_rod_theta = -b_cylinder_slide*l_rod_theta__cylinder_slide + x[1];
+
+    /* backward */
+    const Lanes x_rod_theta = b_rod_theta*inverse_pivot_rod_theta;
+    x[1] = x_rod_theta;
+    const Lanes x_cylinder_slide = inverse_pivot_cylinder_slide*(b_cylinder_slide
+        - n_cylinder_slide__rod_theta*x_rod_theta);
+    x[0] = x_cylinder_slide;
+}
+
+/*
+ * (1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works.
+ */
+static void newton_solve(const LaneLinear *lin, Lanes eta, Lanes s, const Lanes *r, Lanes *u)
+{
+    /* numbers of the run */
+    const LaneParameters *const p = lin->p;
+
+    /* linearization */
+    const Lanes by_q_cylinder_slide_cylinder_slide = lin->value[0];
+    const Lanes by_q_cylinder_slide_rod_theta = lin->value[1];
+    const Lanes by_q_rod_theta_rod_theta = lin->value[2];
+    const Lanes by_q_rod_theta_cylinder_slide = lin->value[3];
+    const Lanes by_t_cylinder_slide = lin->value[8];
+    const Lanes by_t_rod_theta = lin->value[9];
+    const Lanes power_q_0_rod_theta = lin->value[10];
+    const Lanes power_q_0_cylinder_slide = lin->value[11];
+    const Lanes power_q_2_rod_theta = lin->value[12];
+    const Lanes power_q_2_cylinder_slide = lin->value[13];
+    const Lanes power_v_0_rod_theta = lin->value[14];
+    const Lanes power_v_0_cylinder_slide = lin->value[15];
+    const Lanes power_v_2_cylinder_slide = lin->value[16];
+    const Lanes power_v_2_rod_theta = lin->value[17];
+    const Lanes power_0_rod_theta = lin->value[18];
+    const Lanes power_t_0 = lin->value[19];
+    const Lanes power_t_2 = lin->value[20];
+
+    /* right-hand side */
+    Lanes x[2];
+    x[0] = eta*(-by_q_cylinder_slide_cylinder_slide*eta*r[0] - by_q_cylinder_slide_rod_theta*eta*r[1]
+        - by_t_cylinder_slide*s + r[2]*p->slider_mass);
+    x[1] = eta*(-by_q_rod_theta_cylinder_slide*eta*r[0] - by_q_rod_theta_rod_theta*eta*r[1] - by_t_rod_theta*s
+        + p->mass_rod_rod*r[3]);
+    newton_substitute(lin, x);
+
+    /* solution */
+    u[0] = eta*(r[0] + x[0]);
+    u[2] = x[0];
+    u[1] = eta*(r[1] + x[1]);
+    u[3] = x[1];
+    u[4] = eta*(power_q_0_cylinder_slide*u[0] + power_q_0_rod_theta*u[1] + power_t_0*s + power_v_0_cylinder_slide*u[2]
+        + power_v_0_rod_theta*u[3] + r[4]) + power_0_rod_theta*(-eta*r[3] + x[1]);
+    u[5] = eta*r[5];
+    u[6] = eta*(power_q_2_cylinder_slide*u[0] + power_q_2_rod_theta*u[1] + power_t_2*s + power_v_2_cylinder_slide*u[2]
+        + power_v_2_rod_theta*u[3] + r[6]);
+}
+
+#include "engine/batch/lane_tries.c"
+#include "engine/batch/lane_flow.c"
+#endif

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gudgeon.errors import LawError
 from gudgeon.generator.kinds.laws.built import build
-from gudgeon.generator.kinds.laws.law import FURTHER, Law, LawInputs, PairSymbols
+from gudgeon.generator.kinds.laws.law import Law, LawInputs, PairSymbols
 
 Results = dict[str, NDArray[np.float64]]
 
@@ -51,4 +51,4 @@ def alone(
 
 def reads_besides(law: Law) -> int:
     """How many variables stand between those of its role and its states."""
-    return len(FURTHER.get(law.role, ()))
+    return len(law.further)

@@ -14,7 +14,7 @@ from gudgeon.generator.targets.latex.play import as_word, sign_of
 from gudgeon.language.plot_units import pretty
 from gudgeon.language.units import si_unit
 
-_HEADS = {"normal": "The normal force", "friction": "Friction", "film": "Oil films"}
+_HEADS = {"normal": "The normal force", "friction": "Friction", "film": "Oil films", "mixed": "Mixed lubrication"}
 
 
 def laws_page() -> str:

@@ -14,7 +14,7 @@ from gudgeon.errors import GudgeonError
 from gudgeon.files.writing import read_regular, written
 from gudgeon.language.plot_units import quantity
 from gudgeon.results.batch import Array
-from gudgeon.studies.ensemble.judge import Cell, judged
+from gudgeon.studies.ensemble.judge import Cell, judged, together
 
 if TYPE_CHECKING:
     import pandas
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 FILE, TABLES = "claims.json", ("numbers", "trends")
 NOT_COMPUTED = "not computed"
+ODDS = ("probability", "low", "high", "chance")
 UNNAMED = ""  # the ensemble of runs that are in none
 
 
@@ -32,9 +33,10 @@ class Claimed(NamedTuple):
     """Two tables, a row for each claim and ensemble.
 
     numbers: claim, figure, says, measure, unit, printed, ensemble, n (runs), q25, median, q75 (SI), deviation (% of
-    the printed value), note. trends: claim, figure, says, ensemble, verdict ("holds", "fails", "undecided", "not
-    computed"), probability (the least of what it consists of), chance (that one run of each scene shows all of it),
-    agreed (whether all ensembles have the same verdict), note.
+    the printed value, or of the median of the number that it stands beside), beside, note. trends: claim, figure, says,
+    ensemble, verdict (of all ensembles together: "holds", "fails", "undecided", "not computed"), alone (what this one
+    by itself would say), probability (the least of what it consists of) and its interval low to high, chance (that one
+    run of each scene shows all of it), agreed (whether no ensemble rules out what another one carries), note.
     """
 
     numbers: pandas.DataFrame
@@ -48,9 +50,9 @@ def write_claims(folder: Path, plans: Plans, known: Known, study: Study) -> None
         for name in (FILE, *(f"claims_{table}.csv" for table in TABLES)):
             (folder / name).unlink(missing_ok=True)
         return
-    runs = _Finished(plans, study)
+    runs, cells = _Finished(plans, study), {str(one.claim.name): one.cell for one in known.numbers}
     rows = {
-        "numbers": [row for one in known.numbers for row in _of_number(one, runs)],
+        "numbers": [row for one in known.numbers for row in _of_number(one, runs, cells)],
         "trends": [row for one in known.trends for row in _of_trend(one, runs)],
     }
     with written(folder / FILE) as file:
@@ -86,7 +88,7 @@ def _tables(rows: Mapping[str, Any]) -> list[pandas.DataFrame]:
     for name in ("printed", "q25", "median", "q75", "deviation"):
         if name in found[0]:
             found[0][name] = found[0][name].astype(float)  # null is NaN
-    for name in ("probability", "chance"):
+    for name in ODDS:
         if name in found[1]:
             found[1][name] = found[1][name].astype(float)
     return found
@@ -121,18 +123,23 @@ class _Finished:
         return np.asarray(found).ravel()
 
 
-def _of_number(known: KnownNumber, runs: _Finished) -> Iterator[dict[str, Any]]:
+def _of_number(known: KnownNumber, runs: _Finished, cells: Mapping[str, Cell]) -> Iterator[dict[str, Any]]:
     claim = known.claim
     for ensemble in runs.ensembles([known.cell]):
         values = runs.values(known.cell, str(claim.measure), ensemble)
         own = values[np.isfinite(values)]
         quartiles = np.quantile(own, [0.25, 0.5, 0.75]) if len(own) else np.full(3, np.nan)
-        off = 100.0 * (quartiles[1] / known.printed - 1.0) if known.printed else math.nan
+        base = known.printed
+        if claim.beside is not None:
+            others = runs.values(cells[claim.beside], str(claim.measure), ensemble)
+            base = float(np.median(others[np.isfinite(others)])) if np.isfinite(others).any() else math.nan
+        off = 100.0 * (quartiles[1] / base - 1.0) if base else math.nan
         yield {
             "claim": str(claim.name), "figure": claim.figure, "says": claim.says, "part": known.cell.part,
             "at": _at(runs.plans.each[known.cell.part], known.cell), "measure": str(claim.measure), "unit": known.unit,
             "printed": _plain(known.printed), "ensemble": ensemble, "n": len(own), "q25": _plain(quartiles[0]),
-            "median": _plain(quartiles[1]), "q75": _plain(quartiles[2]), "deviation": _plain(off), "note": claim.note,
+            "median": _plain(quartiles[1]), "q75": _plain(quartiles[2]), "deviation": _plain(off),
+            "beside": str(claim.beside or ""), "note": claim.note,
         }  # fmt: skip
 
 
@@ -151,20 +158,22 @@ def _of_trend(known: KnownTrend, runs: _Finished) -> Iterator[dict[str, Any]]:
     common = {"claim": str(claim.name), "figure": claim.figure, "says": claim.says}
     if claim.not_computed:
         told = " ".join(filter(None, (claim.not_computed, claim.note)))
-        yield common | {"ensemble": UNNAMED, "verdict": NOT_COMPUTED, "probability": None, "chance": None,
-                        "agreed": True, "note": told}  # fmt: skip
+        yield common | {"ensemble": UNNAMED, "verdict": NOT_COMPUTED, "alone": NOT_COMPUTED,
+                        **dict.fromkeys(ODDS), "agreed": True, "note": told}  # fmt: skip
         return
     cells = list(dict.fromkeys(cell for check in known.checks for cell in check.cells))
     measures = list(dict.fromkeys(name for check in known.checks for name in check.measures))
+    certain = [cell for cell in cells if "start" not in runs.plans.each[cell.part].dims]
     each = {}
     for ensemble in runs.ensembles(cells):
         own = {cell: {name: runs.values(cell, name, ensemble) for name in measures if _has(runs, cell, name)}
                for cell in cells}  # fmt: skip
-        each[ensemble] = judged(known.checks, own)
-    agreed = len({one.verdict for one in each.values()}) == 1
+        each[ensemble] = judged(known.checks, own, certain)
+    whole, agreed = together(list(each.values()))
     for ensemble, one in each.items():
-        yield common | {"ensemble": ensemble, "verdict": one.verdict, "probability": _plain(one.probability),
-                        "chance": _plain(one.chance), "agreed": agreed, "note": claim.note}  # fmt: skip
+        odds = {name: _plain(getattr(one, name)) for name in ODDS}
+        yield common | {"ensemble": ensemble, "verdict": whole.verdict, "alone": one.verdict, **odds,
+                        "agreed": agreed, "note": claim.note}  # fmt: skip
 
 
 def _has(runs: _Finished, cell: Cell, measure: str) -> bool:

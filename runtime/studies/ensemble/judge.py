@@ -1,10 +1,16 @@
-"""What runs say of a claim: the probability that the next run of each scene shows it, over all combinations of runs."""
+"""What runs say of a claim: the probability that the next run of each scene shows it, over all combinations of runs.
+
+Of few runs it is known to an interval only. A verdict is what the interval carries: holds, where all of it lies at 0.8
+or above, fails, where all of it lies at 1/3 or below; what lies across, or between, is undecided. So ensembles of one
+distribution contradict each other as seldom as the intervals say, wherever the probability lies.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Container, Mapping, Sequence
+from dataclasses import dataclass, replace
+from statistics import NormalDist
 from typing import TypeAlias
 
 import numpy as np
@@ -13,6 +19,7 @@ from gudgeon.results.batch import Array
 
 HOLDS, FAILS = 0.8, 1.0 / 3.0  # probabilities from and up to which a claim holds, and fails
 MOST = 1 << 20  # combinations that are looked at, one by one; of more as many drawn ones
+DOUBT = 0.05  # probability that a verdict rests on chance: each end of an interval is passed by so many
 VERDICTS = ("holds", "fails", "undecided")
 
 
@@ -39,33 +46,76 @@ class Check:
 
 @dataclass(frozen=True)
 class Judged:
-    """A claim that consists of checks: the least of their probabilities, and that single runs show all of them."""
+    """A claim that consists of checks: the least of their probabilities, and that single runs show all of them.
+
+    `low`, `high`: the interval of that check. `denied`: verdicts that the intervals rule out.
+    """
 
     verdict: str
     probability: float
+    low: float
+    high: float
     chance: float
+    denied: frozenset[str]
+    estimates: tuple[Estimate, ...]  # of each check
 
 
-def judged(checks: Sequence[Check], runs: Runs) -> Judged:
-    """Holds where each check is likely, fails where one is unlikely.
+@dataclass(frozen=True)
+class Estimate:
+    """A probability as so many independent trials would tell it; without scatter these are infinitely many."""
+
+    p: float
+    trials: float
+
+    def bound(self, side: float, doubt: float = DOUBT) -> float:
+        """The end of the interval below (-1) or above (1) that is passed with a probability of `doubt`.
+
+        E. B. Wilson, J. Am. Stat. Assoc. 22, 1927.
+        """
+        n, z = self.trials, NormalDist().inv_cdf(1.0 - doubt)
+        if not math.isfinite(n) or math.isnan(self.p):
+            return self.p
+        middle, reach = self.p + z * z / (2.0 * n), z * math.sqrt(self.p * (1.0 - self.p) / n + (z / (2.0 * n)) ** 2)
+        return min(max((middle + side * reach) / (1.0 + z * z / n), 0.0), 1.0)
+
+
+def judged(checks: Sequence[Check], runs: Runs, certain: Container[Cell] = ()) -> Judged:
+    """Holds where each check is likely, fails where one is unlikely, as far as that is known.
 
     A probability is that of independent runs, one of each cell, estimated by all combinations of the runs that there
     are: of two cells by all pairs (H. B. Mann, D. R. Whitney, Ann. Math. Stat. 18, 1947), ties count as not larger.
-    NaN, and undecided, where a cell has no run with all of the measures.
+    NaN, and undecided, where a cell has no run with all of the measures. certain: cells whose runs do not scatter.
     """
     whole = _complete(checks, runs)
-    each = [_share([check], whole) for check in checks]
-    least = min(each, key=lambda p: -1.0 if math.isnan(p) else p, default=math.nan)
-    chance = math.prod(_share(group, whole) for group in _together(checks))
-    return Judged(verdict_of(each), least, chance)
+    chance = math.prod(_seen(group, whole)[0] for group in _together(checks))
+    return _of([_estimated(check, whole, certain) for check in checks], chance)
 
 
-def verdict_of(probabilities: Iterable[float]) -> str:
-    """Of all checks of a claim."""
-    each = list(probabilities)
-    if any(math.isnan(p) for p in each) or not each:
-        return "undecided"
-    return "fails" if min(each) <= FAILS else "holds" if min(each) >= HOLDS else "undecided"
+def together(each: Sequence[Judged]) -> tuple[Judged, bool]:
+    """What several ensembles say of one claim, and whether they agree: what one carries no other rules out.
+
+    Probabilities are means over the ensembles, and their trials add up; those that do not agree decide nothing.
+    """
+    mean = math.fsum(one.chance for one in each) / len(each)
+    both = _of([_mean(several) for several in zip(*(one.estimates for one in each), strict=True)], mean)
+    agreed = not any(one.verdict in other.denied for one in each for other in each)
+    return (both if agreed else replace(both, verdict="undecided")), agreed
+
+
+def _mean(several: Sequence[Estimate]) -> Estimate:
+    return Estimate(math.fsum(one.p for one in several) / len(several), math.fsum(one.trials for one in several))
+
+
+def _of(each: Sequence[Estimate], chance: float) -> Judged:
+    """All checks are likely where each is; that any of many is unlikely is sooner so by chance (Bonferroni)."""
+    if not each or any(math.isnan(one.p) for one in each):
+        return Judged("undecided", math.nan, math.nan, math.nan, chance, frozenset(), tuple(each))
+    low = min(one.bound(-1.0) for one in each)
+    high = min(one.bound(1.0, DOUBT / len(each)) for one in each)
+    least = min(each, key=lambda one: one.p)
+    verdict = "fails" if high <= FAILS else "holds" if low >= HOLDS else "undecided"
+    denied = frozenset(name for name, is_so in (("holds", high < HOLDS), ("fails", low > FAILS)) if is_so)
+    return Judged(verdict, least.p, least.bound(-1.0), least.bound(1.0), chance, denied, tuple(each))
 
 
 def _complete(checks: Sequence[Check], runs: Runs) -> Runs:
@@ -82,14 +132,29 @@ def _complete(checks: Sequence[Check], runs: Runs) -> Runs:
     return found
 
 
-def _share(checks: Sequence[Check], runs: Runs) -> float:
-    """Of the combinations of one run of each cell: how many show all of the checks."""
+def _estimated(check: Check, runs: Runs, certain: Container[Cell]) -> Estimate:
+    """As many trials as the shares of single runs of each cell vary like (W. Hoeffding, Ann. Math. Stat. 19, 1948)."""
+    p, shown, chosen = _seen([check], runs)
+    scattered = [own for cell, own in chosen.items() if cell not in certain]
+    if not scattered or math.isnan(p):
+        return Estimate(p, math.inf)
+    counts, variance = [], 0.0
+    for own in scattered:
+        seen = np.bincount(own)
+        shares = np.bincount(own, shown)[seen > 0] / seen[seen > 0]
+        counts.append(len(shares))
+        variance += float(np.var(shares, ddof=1)) / len(shares) if len(shares) > 1 else 0.0
+    return Estimate(p, min(p * (1.0 - p) / variance, sum(counts)) if variance > 0.0 else min(counts))
+
+
+def _seen(checks: Sequence[Check], runs: Runs) -> tuple[float, Array, dict[Cell, Array]]:
+    """Of the combinations of one run of each cell: the share that shows all of the checks, which do, which runs."""
     cells = list(dict.fromkeys(cell for check in checks for cell in check.cells))
     sizes = [len(next(iter(runs[cell].values()))) for cell in cells]
     if not all(sizes):
-        return math.nan
+        return math.nan, np.zeros(0), {}
     chosen = dict(zip(cells, _combinations(sizes), strict=True))
-    shown = np.array(True)
+    shown = np.ones(len(chosen[cells[0]]) if cells else 1, dtype=bool)
     for check in checks:
 
         def look(k: int, name: str, check: Check = check) -> Array:
@@ -97,7 +162,7 @@ def _share(checks: Sequence[Check], runs: Runs) -> float:
             return runs[cell][name][chosen[cell]]
 
         shown = shown & check.shows(look)
-    return float(np.mean(shown))
+    return float(np.mean(shown)), shown, chosen
 
 
 def _combinations(sizes: Sequence[int]) -> Sequence[Array]:

@@ -5,17 +5,23 @@ from __future__ import annotations
 import json
 from collections import OrderedDict
 from collections.abc import Iterable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from threading import Lock
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.errors import InputError
+from gudgeon.assembly.start import assemble
+from gudgeon.errors import GudgeonError, InputError
+from gudgeon.integrators.batch import available_threads
+from gudgeon.integrators.kinematic import along
 from gudgeon.language.tree import from_json, names
 from gudgeon.model.parameter_sets import each_of, prepare_sets
 from gudgeon.model.parameters import given_slots
+from gudgeon.results.bare import bare
 from gudgeon.results.batch import Array
+from gudgeon.results.batch_series import parts_of
 from gudgeon.results.series import catalogue
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.libraries import loaded, method_in
@@ -63,7 +69,8 @@ class Alike:
     """Runs of another scene, told apart by what decides them."""
 
     columns: Mapping[str, Array]  # its own numbers, (n,)
-    p: Array  # (n, ...), without what decides nothing
+    whole: Array  # p, (n, ...)
+    p: Array  # the same without what decides nothing
     t: tuple[Array, ...]  # samples of each
     step: Array | None
 
@@ -129,7 +136,8 @@ def _series(
     with _making:  # another block in another thread may be about to need the same ones
         held = {keys[i]: _recent.get(keys[i]) for i in good}
         missing = [i for i in {keys[i]: i for i in reversed(good)}.values() if held[keys[i]] is None]
-        for i, series in _made(job, simulation, alike, sorted(missing), wanted).items():
+        made = _followed(job, simulation, alike, sorted(missing), wanted)
+        for i, series in (made | _made(job, simulation, alike, sorted({*missing} - {*made}), wanted)).items():
             if isinstance(series, str):
                 for k in (k for k in good if keys[k] == keys[i]):
                     failures[runs[k]] = f"scene {simulation.source.scene}: {series}"
@@ -149,11 +157,39 @@ def _alike(simulation: Simulation, table: Table, runs: Array, times: list[Array]
     given, is_given = each_of(rows, lambda i, row: given_slots(source, row))
     p, _, _ = prepare_sets(simulation.compiled, given, is_given, False)
     step = table.step[runs] if table.step is not None and source.degrees_of_freedom else None
-    return Alike(columns, np.where(idle(source), 0.0, p), tuple(times), step)
+    return Alike(columns, p, np.where(idle(source), 0.0, p), tuple(times), step)
 
 
 def _plain(value: Any) -> float | str:
     return value if isinstance(value, str) else float(value)
+
+
+def _followed(
+    job: Job, simulation: Simulation, alike: Alike, runs: list[int], wanted: list[str]
+) -> dict[int, Mapping[str, Array] | str]:
+    """Series of runs that follow their drives, of the motion alone; the others, and what works tell, take a whole run.
+
+    Works are two thirds of such a run, for an energy balance that nobody reads here.
+    """
+    source, compiled, parts = simulation.source, simulation.compiled, parts_of(simulation.source, wanted)
+    if source.degrees_of_freedom or not runs:
+        return {}
+
+    def follow(i: int) -> Mapping[str, Array] | None:
+        t, p = alike.t[i], alike.whole[i]
+        try:
+            start = assemble(compiled, p)
+            q, v = along(compiled, p, t, start.q, start.v)
+            none = np.zeros((len(t), 0))
+            run = bare(source, compiled, p, t, q, v, np.full((len(t), 3), np.nan), none, none.astype(np.int8), parts)
+            found = {name: np.array(run[name]) for name in wanted} if np.isfinite(q).all() and t[0] == 0.0 else {}
+        except GudgeonError:  # the whole run says what it is
+            return None
+        return found if found and all(np.isfinite(values).all() for values in found.values()) else None
+
+    with ThreadPoolExecutor(job.threads or available_threads(), thread_name_prefix="gudgeon") as pool:
+        found = dict(zip(runs, pool.map(follow, runs), strict=True))
+    return {i: series for i, series in found.items() if series is not None}
 
 
 def _made(

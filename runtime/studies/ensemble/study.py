@@ -14,6 +14,7 @@ from gudgeon.contract.limits import MAX_BYTES
 from gudgeon.errors import InputError, InputErrors, in_a_line, shortened
 from gudgeon.files.reading import read_named
 from gudgeon.language.wanted import flag, function, mapping, path, whole
+from gudgeon.loading.shipped import shipped_study
 from gudgeon.studies.ensemble.claimed import write_claims
 from gudgeon.studies.ensemble.finished import Study, StudyOfParts
 from gudgeon.studies.ensemble.folder import DATASET, MANIFEST, StudyFolder, h5py_module, manifest, open_parts, parts_of
@@ -31,18 +32,24 @@ MOST_THREADS = 4096
 
 
 def plans_of(
-    study: str | os.PathLike[str] | Mapping[str, Any], settings: Mapping[str, float | str] | None = None
-) -> Plans:
-    """The plans of a study file or of a mapping, mechanisms loaded. Raises InputError."""
+    study: str | os.PathLike[str] | Mapping[str, Any], settings: Mapping[str, float | str] | None = None,
+    starts: int | None = None, seed: int | None = None,
+) -> Plans:  # fmt: skip
+    """The plans of a study, as `study` takes it, mechanisms loaded. Raises InputError."""
+    from gudgeon.generator.study.parts import MOST_COUNT, MOST_SEED
     from gudgeon.generator.study.read import read_studies
 
     h5py_module()
     given = {name: str(value) for name, value in mapping(settings, "settings").items()}
+    starts = None if starts is None else whole(starts, "starts", 1, MOST_COUNT)
+    seed = None if seed is None else whole(seed, "seed", 0, MOST_SEED)
     if isinstance(study, Mapping):
-        return _resolved(read_studies(study, "", given))
+        return _resolved(read_studies(study, "", given).begun(starts, seed))
     file = os.fspath(path(study, "study"))
+    if not (os.path.splitext(file)[1] or os.path.dirname(file) or os.path.lexists(file)):
+        file = str(shipped_study(file))
     data = read_named(file, MAX_BYTES, hint="name a YAML file that begins with format: gudgeon-study/1")
-    return _resolved(read_studies(data, file, given))
+    return _resolved(read_studies(data, file, given).begun(starts, seed))
 
 
 def _resolved(studies: StudySet) -> Plans:
@@ -71,22 +78,24 @@ def study(
     study: str | os.PathLike[str] | Mapping[str, Any], folder: str | os.PathLike[str] | None = None, *,
     threads: int | None = None, executor: Executor | distributed.Client | None = None,
     progress: Progress | None = None, restart: bool = False, settings: Mapping[str, float | str] | None = None,
+    starts: int | None = None, seed: int | None = None,
 ) -> Study:  # fmt: skip
     """Make all runs of a study, and what it measures of them.
 
-    study: a YAML file (docs/studies.md), or a mapping that says the same. folder: where finished blocks of runs go at
-    once; the same call goes on from what is there, whatever ended it, to the same dataset. None: a temporary folder,
-    which goes with the Study. threads: in each process, None for the cores there are (1 with an executor).
-    executor: any of concurrent.futures, or a Client of dask.distributed; its workers are given blocks and load their
-    own libraries. restart: begin anew. settings: {address: number or text} for all runs, over the study's own. A run
-    that fails is a row with its reason and NaN, and stops no other.
+    study: a YAML file (docs/studies.md), the name of one that comes with gudgeon, or a mapping that says the same.
+    folder: where finished blocks of runs go at once; the same call goes on from what is there, whatever ended it, to
+    the same dataset. None: a temporary folder, which goes with the Study. threads: in each process, None for the cores
+    there are (1 with an executor). executor: any of concurrent.futures, or a Client of dask.distributed; its workers
+    are given blocks and load their own libraries. restart: begin anew. settings: {address: number or text} for all
+    runs, over the study's own. starts, seed: another number of perturbed starts, or another seed of them, than the
+    study says. A run that fails is a row with its reason and NaN, and stops no other.
 
     Raises InputError, with its place, for a mistake in the study or a folder of another study; OutputError for a
     disk that takes no more. Ctrl-C is passed on: what is in the folder stays.
     """
     threads = None if threads is None else whole(threads, "threads", 1, MOST_THREADS)
     pool, progress = executor_of(executor), function(progress, "progress")
-    restart, plans = flag(restart, "restart"), plans_of(study, settings)
+    restart, plans = flag(restart, "restart"), plans_of(study, settings, starts, seed)
     if folder is None:
         kept = tempfile.TemporaryDirectory(prefix="gudgeon-study-")
         return run_plans(plans, Path(kept.name), threads, pool, progress, restart, kept)

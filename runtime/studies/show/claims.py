@@ -7,10 +7,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from gudgeon.errors import GudgeonError
 from gudgeon.language.plot_units import scale
 from gudgeon.results.web_page import Section, lines, table
-from gudgeon.studies.show.pictures import Draw, gallery
+from gudgeon.studies.show.pictures import Draw, Pictures, gallery
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -22,7 +24,7 @@ LARGE = 30.0  # times the least, from which on an axis of values is logarithmic
 SHORT = 22  # characters of where a number was taken, that stand under it
 
 
-def claims_sections(study: Study) -> list[Section]:
+def claims_sections(study: Study, pictures: Pictures) -> list[Section]:
     """Published numbers with figures in their order, and trends; none of a study that claims nothing."""
     try:
         found = study.claims
@@ -30,11 +32,13 @@ def claims_sections(study: Study) -> list[Section]:
         return []
     numbers, trends = (list(_each(table.to_dict("records"))) for table in (found.numbers, found.trends))
     source = lines([found.source] * bool(found.source), "g-quiet")
+    printed = [rows for rows in numbers if not _none(rows[0]["printed"])]
     shown = [
-        ("Published numbers", _numbers(numbers) + gallery(_figures(numbers), "claims")),
+        ("Published numbers", _numbers(printed) + gallery(_figures(numbers), "claims", pictures)),
         ("Published trends", _trends(trends)),
+        ("Ours alone", _alone([rows for rows in numbers if _none(rows[0]["printed"])])),
     ]
-    return [(heading, source + inside) for heading, inside in shown if inside]
+    return [(heading, source * heading.startswith("Published") + inside) for heading, inside in shown if inside]
 
 
 def _each(rows: Iterable[Row]) -> Iterator[list[Row]]:
@@ -70,6 +74,21 @@ def _number(rows: list[Row], names: list[str]) -> list[str]:
     return [str(first["claim"]), str(first["figure"]), what, printed, *cells, told, str(first["note"])]
 
 
+def _alone(claims: list[list[Row]]) -> str:
+    """What nobody has printed: a row for all measures of the same, off by so much from what they stand beside."""
+    measures = list(dict.fromkeys(str(rows[0]["measure"]) for rows in claims))
+    each: dict[tuple[str, str], dict[str, str]] = {}
+    for rows in claims:
+        first = rows[0]
+        factor, unit = scale(_size(rows), str(first["unit"]))
+        off = "" if _none(first["deviation"]) else f", {first['deviation']:+.1f} %".replace("-", "−")
+        what = str(first["says"] or first["at"]), str(first["part"])
+        each.setdefault(what, {})[str(first["measure"])] = _median(first, factor, unit) + off
+    told = ["median (quartiles), and how far it is off from the row that it stands beside"]
+    cells = ([*what, *(own.get(name, "") for name in measures)] for what, own in each.items())
+    return table(["what", "part", *measures], cells, True) + lines(told * bool(claims), "g-quiet")
+
+
 def _median(row: Row | None, factor: float, unit: str) -> str:
     if row is None:
         return ""
@@ -80,22 +99,36 @@ def _median(row: Row | None, factor: float, unit: str) -> str:
 
 
 def _trends(claims: list[list[Row]]) -> str:
-    """A row a claim: one verdict where all ensembles agree, else that of each."""
+    """A row a claim: the verdict of all ensembles together, or what each says where they contradict each other."""
     head = ["", "figure", "what", "verdict", "probability", "one run shows it", "note"]
-    told = "probability: that the next run shows it, the least of all that the trend says, ensemble by ensemble"
-    return table(head, map(_trend, claims), True) + lines([told] * bool(claims), "g-quiet")
+    told = ["probability: that the next run shows it, the least of all that the trend says, with the interval in which"
+            " it is known (5 % beyond each end), ensemble by ensemble; holds: all of the interval of all runs lies at"
+            " 0.8 or above, fails: at 1/3 or below, undecided: neither"]  # fmt: skip
+    return table(head, map(_trend, claims), True) + lines(told * bool(claims), "g-quiet")
 
 
 def _trend(rows: list[Row]) -> list[str]:
     first = rows[0]
-    each = ", ".join(f"{row['ensemble']} {row['verdict']}" for row in rows)
+    each = ", ".join(f"{row['ensemble']} {row['alone']}" for row in rows)
     verdict = str(first["verdict"]) if first["agreed"] else f"not agreed: {each}"
-    odds = (_odds(row[name] for row in rows) for name in ("probability", "chance"))
+    odds = _odds(map(_known, rows)), _odds(_share(row["chance"]) for row in rows)
     return [str(first["claim"]), str(first["figure"]), str(first["says"]), verdict, *odds, str(first["note"])]
 
 
-def _odds(values: Iterable[Any]) -> str:
-    shown = ["–" if _none(value) else f"{value:.2g}" for value in values]
+def _known(row: Row) -> str:
+    """A probability with its interval, where there is one."""
+    told = _share(row["probability"])
+    if _none(row["low"]) or row["low"] == row["high"]:
+        return told
+    return f"{told} ({_share(row['low'])} … {_share(row['high'])})"
+
+
+def _share(value: Any) -> str:
+    return "–" if _none(value) else f"{value:.2g}"
+
+
+def _odds(values: Iterable[str]) -> str:
+    shown = list(values)
     return shown[0] if len(set(shown)) == 1 else ", ".join(shown)
 
 
@@ -111,29 +144,36 @@ def _figures(claims: list[list[Row]]) -> Iterator[Draw]:
 
 def _drawn(claims: list[list[Row]], measure: str) -> Axes:
     """Medians with quartiles of each ensemble, what is printed as a black mark."""
+    import matplotlib
+
+    from gudgeon.results.plots import COLOURS, STYLE
     from gudgeon.results.run_plots import new_axes
 
     factor, unit = scale(max(map(_size, claims)), str(claims[0][0]["unit"]))
     names = _ensembles(claims) or [""]
-    ax = new_axes(5.6, 3.2)
-    for j, name in enumerate(names):
-        own = [(k, row) for k, rows in enumerate(claims) for row in rows
-               if row["ensemble"] in (name, "") and not _none(row["median"])]  # fmt: skip
-        at = [k + 0.16 * (j - 0.5 * (len(names) - 1)) for k, _ in own]
-        middle, low, high = ([row[part] * factor for _, row in own] for part in ("median", "q25", "q75"))
-        reach = [[m - q for m, q in zip(middle, low, strict=True)], [q - m for m, q in zip(middle, high, strict=True)]]
-        ax.errorbar(at, middle, reach, fmt="o", ms=3.5, capsize=2.0, lw=1.0, label=name or "ours")
-    printed = [rows[0]["printed"] * factor for rows in claims]
-    ax.plot(range(len(claims)), printed, "k_", ms=16, mew=1.6, label="printed")
-    ax.set_xticks(range(len(claims)), [_tick(rows[0]) for rows in claims], fontsize=7)
-    ax.set_xlim(-0.6, len(claims) - 0.4)
-    shown = [abs(value) for value in (*printed, *(row["median"] * factor for rows in claims for row in rows)) if value]
-    if shown and min(shown) > 0.0 and max(shown) > LARGE * min(shown):
-        ax.set_yscale("log")
-    else:
-        ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
-    ax.set_ylabel(f"{measure} [{unit}]" if unit else measure)
-    ax.legend(fontsize=7, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=len(names) + 1)
+    with matplotlib.rc_context(STYLE):
+        ax = new_axes(5.6, 3.2)
+        for j, name in enumerate(names):
+            own = [(k, row) for k, rows in enumerate(claims) for row in rows
+                   if row["ensemble"] in (name, "") and not _none(row["median"])]  # fmt: skip
+            at = [k + 0.16 * (j - 0.5 * (len(names) - 1)) for k, _ in own]
+            middle, low, high = (np.array([row[part] for _, row in own]) * factor for part in ("median", "q25", "q75"))
+            reach = middle - low, high - middle
+            ax.errorbar(at, middle, reach, fmt="o", color=COLOURS[j % len(COLOURS)], ms=3.5, capsize=2.0, lw=1.0,
+                        label=name or "ours")  # fmt: skip
+        printed = [rows[0]["printed"] * factor for rows in claims]
+        ax.plot(range(len(claims)), printed, "k_", ms=16, mew=1.6, label="printed")
+        ax.set_xticks(range(len(claims)), [_tick(rows[0]) for rows in claims], fontsize=7)
+        ax.set_xlim(-0.6, len(claims) - 0.4)
+        ax.grid(False, axis="x")
+        ours = (row["median"] * factor for rows in claims for row in rows)
+        shown = [abs(value) for value in (*printed, *ours) if value]
+        if shown and min(shown) > 0.0 and max(shown) > LARGE * min(shown):
+            ax.set_yscale("log")
+        else:
+            ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
+        ax.set_ylabel(f"{measure} [{unit}]" if unit else measure)
+        ax.legend(fontsize=7, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=len(names) + 1)
     return ax
 
 

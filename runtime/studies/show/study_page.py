@@ -15,7 +15,7 @@ from gudgeon.language.shown import one_line
 from gudgeon.results.web_page import Section, article, lines, page, table, text
 from gudgeon.studies.ensemble.notes import kind_of
 from gudgeon.studies.show.claims import claims_sections
-from gudgeon.studies.show.pictures import Draw, gallery
+from gudgeon.studies.show.pictures import Draw, Pictures, gallery
 from gudgeon.studies.show.study_data import MANY, StudyData
 from gudgeon.studies.words import counted
 
@@ -34,13 +34,14 @@ class StudyReport:
 
     def to_html(self) -> str:
         """The whole file; it asks for nothing from elsewhere."""
-        parts = _parts(self.study)
+        parts, pictures = _parts(self.study), Pictures()
         first = next(iter(parts.values()))
-        return page(first.title, _about(parts), _all(self.study, parts))
+        return pictures.filled(page(first.title, _about(parts), _all(self.study, parts, pictures)))
 
     def _repr_html_(self) -> str:
-        parts = _parts(self.study)
-        return article(_all(self.study, parts), f"<h1>{text(next(iter(parts.values())).title)}</h1>")
+        parts, pictures = _parts(self.study), Pictures()
+        title = f"<h1>{text(next(iter(parts.values())).title)}</h1>"
+        return pictures.filled(article(_all(self.study, parts, pictures), title))
 
 
 def _parts(study: Study) -> dict[str, StudyData]:
@@ -48,17 +49,17 @@ def _parts(study: Study) -> dict[str, StudyData]:
     return {name: StudyData(own) for name, own in (getattr(study, "parts", None) or {"": study}).items()}
 
 
-def _all(study: Study, parts: dict[str, StudyData]) -> Iterator[Section]:
+def _all(study: Study, parts: dict[str, StudyData], pictures: Pictures) -> Iterator[Section]:
     """Claims are of the whole, and first."""
-    yield from claims_sections(study)
+    yield from claims_sections(study, pictures)
     for name, data in parts.items():
         before = f"{name}: " if name else ""
         if name:
             yield f"Part {name}", lines([_counts(data)])
-        yield from ((before + heading, inside) for heading, inside in sections(data, name or "study"))
+        yield from ((before + heading, inside) for heading, inside in sections(data, pictures, name or "study"))
 
 
-def sections(data: StudyData, name: str = "study") -> Iterator[Section]:
+def sections(data: StudyData, pictures: Pictures, name: str = "study") -> Iterator[Section]:
     """Heading and HTML of each part; what is empty is left out of the page. `name`: of its pictures."""
     study = data.study
     yield "What varied", table(("", "over", "values", "unit", ""), _varied(data), True)
@@ -70,13 +71,15 @@ def sections(data: StudyData, name: str = "study") -> Iterator[Section]:
     except GudgeonError as error:
         yield "Figures", lines([str(error)])
         return
-    yield "Figures", gallery(_figures(data), f"{name}-measure")
-    yield "Series", gallery(_series(data), f"{name}-series")
+    yield "Figures", gallery(_figures(data), f"{name}-measure", pictures)
+    yield "Series", gallery(_series(data), f"{name}-series", pictures)
 
 
 def _about(parts: dict[str, StudyData]) -> str:
     attributes = next(iter(parts.values())).dataset.attrs
-    about = "; ".join(f"{name}: {_counts(data)}" if name else _counts(data) for name, data in parts.items())
+    runs, failed = (sum(getattr(data.study, name) for data in parts.values()) for name in ("runs", "failed"))
+    whole = f"{counted(runs, 'run')} in {len(parts)} parts, {failed or 'none'} failed"
+    about = whole if len(parts) > 1 else _counts(next(iter(parts.values())))
     versions = f"gudgeon {attributes['gudgeon']} · file {str(attributes['sha256'])[:12]}"
     return f"{about} · mechanism {attributes['mechanism']} · {versions}"
 
