@@ -67,7 +67,7 @@ static int is_refused(LaneRun *run, LaneStep *step)
 static int finish_step(LaneRun *run, LaneStep *step, const LaneParameters *p)
 {
     run->memory.rare |= not_finite(step->y, NULL, N_Y);
-    project_state(run, step->t + step->h, step->y, p);
+    project_rows(run, step->t + step->h, step->y, p);
     rates(run, step->t + step->h, step->y, p, step->dy, &step->aside);
     run->memory.rare |= not_finite(step->dy, NULL, N_Y);
     return 0;

@@ -20,7 +20,7 @@ typedef struct {
 } Answer;
 
 /* delta'' from e . e'' + e' . e' = e e'' + e'^2. */
-static double outward(const Clearance *joint)
+static double outward_rate(const Clearance *joint)
 {
     return (joint->half_square_rate - joint->deltadot * joint->deltadot) / joint->e;
 }
@@ -56,7 +56,7 @@ static int find_answer(RatesOf *rates_of, int size, double t, const double *y, M
         memory->latch[contacts->joint[k]].force = 0.0;
     int status = rates_of(t, y, memory, p, base, &aside);
     for (int k = 0; k < contacts->n; k++)
-        contacts->r[k] = outward(&aside.clearance[contacts->joint[k]]);
+        contacts->r[k] = outward_rate(&aside.clearance[contacts->joint[k]]);
     const double unit = unit_force(contacts, p);
     for (int j = 0; j < contacts->n && !status; j++) {
         Latch *latch = &memory->latch[contacts->joint[j]];
@@ -64,7 +64,7 @@ static int find_answer(RatesOf *rates_of, int size, double t, const double *y, M
         status = rates_of(t, y, memory, p, pushed, &aside);
         latch->force = 0.0;
         for (int k = 0; k < contacts->n; k++)
-            contacts->D[k][j] = (contacts->r[k] - outward(&aside.clearance[contacts->joint[k]])) / unit;
+            contacts->D[k][j] = (contacts->r[k] - outward_rate(&aside.clearance[contacts->joint[k]])) / unit;
         for (int k = 0; k < size; k++)
             contacts->way[j][k] = (pushed[k] - base[k]) / unit;
     }
