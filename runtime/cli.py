@@ -102,11 +102,10 @@ def run(
     """
     from gudgeon.commands.run import Request, run_scenes
 
-    request = Request(
+    return run_scenes(Request(
         file, tuple(scene or ()), tuple(set_ or ()), t_end, output, step, method, rtol, tuple(watch or ()), out,
         horizon, regenerate, json, formulation, verbose, tuple(peaks or ()), report,
-    )  # fmt: skip
-    return run_scenes(request)
+    ))  # fmt: skip
 
 
 @app.command()
@@ -157,9 +156,7 @@ def equations(file: File, target: Pages, scene: ScenesOfPages = None, laws: Laws
 
 @app.command("laws")
 @told
-def force_laws(
-    name: LawName = None, plot: Plot = None, set_: Set = None, json: Json = False, laws: Laws = None
-) -> int:  # fmt: skip
+def force_laws(name: LawName = None, plot: Plot = None, set_: Set = None, json: Json = False, laws: Laws = None) -> int:
     """List the laws of contact, friction and film; of one its equations, keys, validity and reference, or its plot.
 
     Example: gudgeon laws flores --plot flores.svg --set restitution=.5

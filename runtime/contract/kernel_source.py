@@ -263,9 +263,8 @@ class KernelSource:
     @property
     def methods(self) -> tuple[str, ...]:
         """What runs this scene: the integrators, or where nothing is left to be integrated the other one."""
-        if not (self.degrees_of_freedom or self.clearances or self.frictions):
-            return (KINEMATIC,)
-        return tuple(name for name in INTEGRATORS if not (self.explicit and name in NEED_SLOPES))
+        fitting = tuple(name for name in INTEGRATORS if not (self.explicit and name in NEED_SLOPES))
+        return fitting if self.degrees_of_freedom or self.clearances or self.frictions else (KINEMATIC,)
 
     def to_json(self) -> str:
         """Readable JSON; the same source gives the same bytes."""

@@ -25,8 +25,9 @@ from gudgeon.generator.targets.latex.document import (
 from gudgeon.generator.targets.latex.kinematics import equation
 from gudgeon.generator.targets.latex.letters import Name, letter, of_latex, word
 from gudgeon.generator.targets.latex.notation import Notation, distinct
-from gudgeon.generator.targets.latex.play import LAW_LETTERS, as_word, sign_of, step_name, told_states
+from gudgeon.generator.targets.latex.play import LAW_LETTERS, sign_of, step_name
 from gudgeon.generator.targets.latex.play_letters import NAMES, RATIO
+from gudgeon.generator.targets.latex.play_words import as_word, told_states
 from gudgeon.generator.targets.latex.render import render
 from gudgeon.language.plot_units import pretty
 from gudgeon.language.units import si_unit

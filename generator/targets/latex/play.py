@@ -18,11 +18,11 @@ from gudgeon.generator.targets.latex.document import Block, Section, Text, cells
 from gudgeon.generator.targets.latex.kinematics import equation
 from gudgeon.generator.targets.latex.letters import Name, letter, of_latex, word
 from gudgeon.generator.targets.latex.notation import Notation, distinct
+from gudgeon.generator.targets.latex.play_words import as_word, contour, onset, rigid, told_states
 from gudgeon.generator.targets.latex.plots import law_plot
 from gudgeon.generator.targets.latex.trace import Functions, Trace
 from gudgeon.generator.targets.latex.values import Values, as_written
 from gudgeon.language.plot_units import pretty
-from gudgeon.language.plot_units import quantity as in_unit
 from gudgeon.language.units import si_unit
 
 # What the laws call their abbreviations and constants, in the paper's letters.
@@ -177,21 +177,8 @@ def _geometry(joint: JointWithPlay, first: bool) -> list[Block]:
     )
     own: list[Block] = [equation(symbol, expand(value), notation, [joint.of]) for symbol, value in steps]
     if clearance.contour:
-        own += _contour(joint)
+        own += contour(joint)
     return [lead, *own, *(joint.shown(contact.gap(clearance)) if first else [])]
-
-
-def _contour(joint: JointWithPlay) -> Iterator[Block]:
-    """The bearing's angle, and what W is."""
-    clearance = joint.clearance
-    assert clearance.contour
-    yield equation(contact.theta_i, joint.notation.expand(clearance.first.theta), joint.notation, [joint.of])
-    yield paragraph(
-        f"The bearing is no circle: W is how much deeper it is, {clearance.contour.count} depths at equal angles from "
-        f"the x axis of {clearance.joint.first.body} on, between them polynomials of degree five with two continuous "
-        "derivatives. F acts along the gradient of ", Name(r"\delta", "δ"), ", whose length is ",
-        joint.notation.math(contact.steep), ": an elastic force keeps the energy."
-    )  # fmt: skip
 
 
 def _contact_sections(joint: JointWithPlay) -> list[Section]:
@@ -231,31 +218,9 @@ def _numbers(joint: JointWithPlay) -> list[Block]:
     return [*table(header, rows, (1,)), paragraph("From these follow once a run:"), *follow]
 
 
-def _rigid(joint: JointWithPlay, stored: Name) -> Block:
-    """What becomes of surfaces that do not give, where they meet and while they touch."""
-    assert joint.clearance.normal is not None
-    e, v_0 = (joint.notation.math(sp.sympify(joint.clearance.normal.numbers[n])) for n in ("restitution", "threshold"))
-    return paragraph(
-        "Its surfaces do not give. Where they meet at the rate ", stored, ", a blow along n parts them with ", e,
-        " times that, or leaves them together where that is less than ", v_0, "; all rows and contacts that are closed"
-        " bear it. A contact that is closed has the force ",
-        Name(r"\lambda \geq 0,\ \ddot{\delta} \leq 0,\ \lambda \ddot{\delta} = 0", "λ ≥ 0, δ̈ ≤ 0, λ δ̈ = 0"), ".",
-    )  # fmt: skip
-
-
-def _onset(joint: JointWithPlay, stored: Name) -> Block:
-    """When a contact acts, and what is kept of its onset."""
-    floor = joint.model.slots.entries[f"contacts.{joint.play.contact.name}.velocity_floor"].default
-    return paragraph(
-        "It acts while ", Name(r"\delta > 0", "δ > 0"), ". ", stored, " is the speed of approach at the onset, "
-        f"at least {in_unit(floor, 'm/s')}, kept until separation; before an onset is accepted ",
-        Name(r"\dot{\delta} / ", "δ̇ / "), stored, " counts as 1.",
-    )  # fmt: skip
-
-
 def _dry(joint: JointWithPlay) -> list[Block]:
     clearance, stored = joint.clearance, joint.notation.math(contact.stored)
-    impact = _rigid(joint, stored) if clearance.rigid else _onset(joint, stored)
+    impact = rigid(joint, stored) if clearance.rigid else onset(joint, stored)
     friction = _law(joint, "friction") if clearance.friction else [
         paragraph("There is no friction:"),
         equation(contact.of_part(contact.F_along_t, "dry"), sp.Integer(0), joint.notation),
@@ -286,17 +251,6 @@ def _law(joint: JointWithPlay, role: str) -> list[Block]:
     blocks += told_states(law)
     plot = law_plot(joint.found, joint.alike, role, law) if isinstance(joint.found, Trace) else []
     return [*blocks, *joint.shown(joint.steps(equations)), *plot]
-
-
-def told_states(law: Law) -> Iterator[Block]:
-    """What each inner state of a law is."""
-    for state in law.states:
-        told = f" is the {state.meaning}, 0 at each onset, and integrated with the motion while in contact."
-        yield paragraph(letter(state.name), told)
-
-
-def as_word(value: str | bool) -> str:
-    return str(value).lower() if isinstance(value, bool) else value
 
 
 def _share_in_g(joint: JointWithPlay) -> list[Block]:
