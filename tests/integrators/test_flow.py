@@ -86,6 +86,37 @@ def test_a_given_step(monkeypatch: pytest.MonkeyPatch) -> None:
     assert len(seen.taken) == COUNT and not batch.failures
 
 
+MIXED = """
+format: gudgeon/1
+name: mixed
+parameters: {load: 300 N}
+bodies: {journal: {mass: 0.2 kg, inertia: 1e-4 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {A: {revolute: [ground.O, journal.origin]}}
+forces: {down: {force: journal.origin, value: [0, -load]}}
+materials: {steel: {E: 207 GPa, nu: 0.3}}
+bearings: {pin: {radius: 10 mm, clearance: 0.1 mm, length: 20 mm, bearing_material: steel, journal_material: steel}}
+contacts:
+  oil:
+    normal: {law: hertz, restitution: 0.7}
+    friction: {law: modified_coulomb, mu: 0.1, v0: 1e-4 m/s, v1: 1e-3 m/s}
+    film: {law: ocvirk, viscosity: 1e-4 Pa*s}
+    mixed: {law: christensen, roughness: 0.5 um}
+scenes: {rough: {play: {A: {bearing: pin, contact: oil}}}}
+start: {play: {A: {e: [0.08 mm, 0], rate: [0.05, -0.8]}}, rates: {journal.omega: 20}}
+"""
+
+
+@pytest.mark.parametrize(("method", "more"), [("dop853", {}), ("rodas5p", {}), ("rk4", {"step": 1e-6})])
+def test_film_and_metal_that_share_a_load_by_a_law(method: str, more: dict[str, float], tmp_path: Path) -> None:
+    file = tmp_path / "mixed.yaml"
+    file.write_text(MIXED, encoding="utf-8")
+    loads = np.linspace(100.0, 900.0, COUNT)
+    batch, singly = both(gudgeon.load(file, "rough"), {"load": loads}, 0.004, method=method, **more)
+    assert_same_batches(batch, singly)
+    assert sum(map(len, batch.impacts)) > 0 and not batch.failures
+
+
 def test_what_fails_leaves_the_others() -> None:
     """A journal deep in a soft bearing, numbers that are none, a start that does not close."""
     press = gudgeon.load("nine_bar_press", scene="dry")
