@@ -88,10 +88,10 @@ def _check_parts(name: Text, node: Map) -> None:
             if part in node:
                 message = f"contact {name} has {part} but no normal law"
                 raise MissingKeyError(message, node[part].where, "expected the key 'normal'")
-    if "normal" in node and node["normal"].get("law") in _rigid():
+    if "normal" in node and isinstance(law := node["normal"].get("law"), Text) and law in _rigid():
         for part in ("film", "mixed", "friction", "velocity_floor", "clip_ratio"):
             if part in node:
-                law, hint = node["normal"]["law"], "expected a contact of this law alone: its surfaces do not give"
+                hint = "expected a contact of this law alone: its surfaces do not give"
                 raise BadValueError(f"contact {name} has {law} and {part}", node.key(part).where, hint)
     if "transition" in node and "mixed" in node:
         hint = "expected one: a length over which the film hands over, or a law by which film and contact share"

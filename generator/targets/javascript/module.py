@@ -60,7 +60,8 @@ def equations_script(program: Program) -> str:
     }  # fmt: skip
     if model.slots.tables:
         place_of = {symbol: k for k, symbol in enumerate(model.slots.members())}
-        told["tables"] = {name: [place_of[own[0]], len(own)] for name, own in model.slots.tables.items()}
+        first = {name: place_of[own[0]] for name, own in model.slots.tables.items()}
+        told["tables"] = {name: [first[name], first[name] + len(own)] for name, own in model.slots.tables.items()}
     prelude = PRELUDE + CONTOUR * bool(model.slots.tables)
     parts = ", ".join(f"{key}: {json.dumps(value, separators=(',', ':'))}" for key, value in told.items())
     return (f"const gudgeonEquations = (() => {{\n{prelude}const functions = {{\n{text},\n}};\n"

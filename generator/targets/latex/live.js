@@ -13,8 +13,10 @@ const gudgeonValues = (() => {
 
     /* p by the names of its numbers. */
     function named(p) {
-        const tables = Object.entries(equations.tables ?? {}).map(([name, [k, n]]) => [name, p.slice(k, k + n)]);
-        return Object.fromEntries([...Object.entries(equations.numbers).map(([name, k]) => [name, p[k]]), ...tables]);
+        const found = {}, {numbers, tables} = equations;
+        for (const name in numbers) found[name] = p[numbers[name]];
+        for (const name in tables) found[name] = p.slice(...tables[name]);
+        return found;
     }
 
     /* What a function of the equations gives at the state: its locals and arrays, computed once. */

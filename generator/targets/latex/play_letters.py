@@ -62,7 +62,7 @@ NAMES: Mapping[sp.Symbol, Name] = {
     F_along_n: letter("F", "e"), F_x: letter("F", "x"), F_y: letter("F", "y"),
     theta_i: letter("theta", "i"), beta_i: letter("beta", "i"), u_x: letter("u", "x"), u_y: letter("u", "y"),
     worn: letter("w"), worn_slope: Name("w'", "w'"), beta_rate: letter("beta", "i", dots=1), slant: letter("r"),
-    steep: letter("s"), F_N: letter("F", "N"),
+    steep: letter("zeta"), F_N: letter("F", "N"),
     sp.Symbol("F_n", real=True): letter("F", "n"), sp.Symbol("F_r", real=True): letter("F", "r"),
     sp.Symbol(HELD[0], real=True): letter("lambda"),
 }  # fmt: skip

@@ -24,7 +24,7 @@ def contour(joint: JointWithPlay) -> Iterator[Block]:
     assert clearance.contour
     yield equation(contact.theta_i, joint.notation.expand(clearance.first.theta), joint.notation, [joint.of])
     yield paragraph(
-        f"The bearing is no circle: W is how much deeper it is, {clearance.contour.count} depths at equal angles from "
+        f"The bearing is no circle: w is how much deeper it is, {clearance.contour.count} depths at equal angles from "
         f"the x axis of {clearance.joint.first.body} on, between them polynomials of degree five with two continuous "
         "derivatives. F acts along the gradient of ", Name(r"\delta", "δ"), ", whose length is ",
         joint.notation.math(contact.steep), ": an elastic force keeps the energy."

@@ -64,6 +64,7 @@ def mathml(latex: str) -> str:
         _read_signs(row)
         _without_rows(row)
     shown = tostring(whole, encoding="unicode").replace(" />", "/>").replace(r"\_", "_")
+    shown = shown.replace(' fence="true"', "")  # which changes nothing that is seen
     return shown.replace('"0.167em"', '".17em"')  # of a thin space there are hundreds on a page
 
 
