@@ -27,7 +27,7 @@ POINTS = 241
 STEEL = {"R_i": 10e-3, "R_j": 9.9e-3, "c": 0.1e-3, "L": 20e-3, "E_i": 207e9, "nu_i": 0.3, "E_j": 207e9, "nu_j": 0.3}
 PAIR = "steel, R_i = 10 mm, c = 0.1 mm, L = 20 mm"
 # What a number is taken to be that must be given and is not: by its name, else by its dimension (m, kg, s).
-USUAL = {"restitution": 0.9, "mu_s": 0.15, "v0": 1e-3, "decay": 5e-3}
+USUAL = {"restitution": 0.9, "roughness": 5e-7, "mu_s": 0.15, "v0": 1e-3, "decay": 5e-3}
 BY_DIMENSION = {
     (0, 0, 0): 0.1, (1, 0, 0): 2e-5, (1, 0, -1): 1e-2, (-1, 0, 0): 2e4, (-1, 0, 1): 3.0, (0, 1, -2): 1e8,
     (0, 1, -1): 2e3, (-1, 1, -1): 0.05, (-1, 1, -2): 1e9,
@@ -220,7 +220,7 @@ def _film(ax: Axes, law: Function, chosen: Chosen) -> None:
 
 def _mixed(ax: Axes, law: Function, chosen: Chosen) -> None:
     """The share of the dry contact over how deep the tips of the roughness lie in each other."""
-    deepest = 4.0 * sum(x for name, x in chosen.numbers.items() if name.startswith("roughness"))
+    deepest = 7.0 * sum(x for name, x in chosen.numbers.items() if name.startswith("roughness"))
     delta = np.linspace(0.0, deepest, POINTS)
     shares = iter([(law(delta)["share"], "of the dry contact; the film has the rest")])
     _line(ax, delta, shares, ("δ", "m"), ("share", ""))
