@@ -39,6 +39,9 @@ MASS = np.array([0.3, 0.3, 1.1e-3, 0.2, 0.2, 0.7e-3])
 NAN = float("nan")
 
 
+ROLES = ("normal", "friction", "film")
+
+
 def values(law: Law) -> dict[str, float]:
     """A number for every parameter that has no default, inside its bounds."""
     chosen: dict[str, float] = {}
@@ -54,9 +57,9 @@ def values(law: Law) -> dict[str, float]:
     return chosen
 
 
-def variants(role: str) -> list[str]:
-    """Every law of a role with every combination of its options, as YAML."""
-    found = []
+def variants(role: str) -> dict[str, bool]:
+    """Every law of a role with every combination of its options, as YAML; whether several are not the usual ones."""
+    found = {}
     for law in laws().values():
         if law.role == role:
             for choice in itertools.product(*(option.values for option in law.options)):
@@ -67,18 +70,14 @@ def variants(role: str) -> list[str]:
                     left_out = options if options[chosen] == default[chosen] else numbers
                     left_out.pop(chosen if left_out is options else number)
                 entries = {"law": law.name} | options | numbers
-                found.append("{" + ", ".join(f"{k}: {v}" for k, v in entries.items()) + "}")
-                if sum(options[name] != default[name] for name in options) > 1:
-                    RARE.add(found[-1])
+                text = "{" + ", ".join(f"{k}: {v}" for k, v in entries.items()) + "}"
+                found[text] = sum(options[name] != default[name] for name in options) > 1
     return found
-
-
-RARE: set[str] = set()  # laws with more than one option that is not the usual one: for `make test-all`
 
 
 def contacts() -> list[str]:
     """Contact entries: each normal law, each friction law, each film, with all their options."""
-    normal, friction, film = variants("normal"), variants("friction"), variants("film")
+    normal, friction, film = (list(variants(role)) for role in ROLES)
     found = [f"{{normal: {n}}}" for n in normal]
     found += [f"{{normal: {normal[0]}, friction: {f}}}" for f in friction]
     found += [f"{{normal: {normal[0]}, friction: {friction[0]}, film: {x}, transition: 5 um}}" for x in film]
@@ -103,6 +102,9 @@ def states(q0: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
     q[:, 4] += size * np.sin(angle)
     v[: count // 3] *= 0.01
     return q, v
+
+
+RARE = [law for role in ROLES for law, rare in variants(role).items() if rare]
 
 
 @pytest.mark.parametrize("contact", [

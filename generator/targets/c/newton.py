@@ -13,13 +13,12 @@ from gudgeon.generator.kernels.shared import SharedCall
 from gudgeon.generator.solvers.contact_slopes import OF_CONTOUR
 from gudgeon.generator.solvers.newton import Newton
 from gudgeon.generator.targets.c import functions
-from gudgeon.generator.targets.c.play import CONTOURS
+from gudgeon.generator.targets.c.play import CLOSED, CONTOURS
 from gudgeon.generator.targets.c.printer import expression
 
 Render = Callable[..., str]  # template name, substitutions -> text
 
 STATE = ("e", "deltadot", "de_t", "omega_i", "omega_j", "latch")
-_CLOSED = "side ? latch->closed : delta > 0.0"
 _BLENDING = """
 /* F = share F + (1 - share) film, slopes as well; `share` with its derivative by e. */
 static inline void blend_slopes({type} *F, const {type} *film, const {number} *share)
@@ -92,9 +91,9 @@ def _slopes(clearance: Clearance, c: str, calls: Mapping[str, SharedCall]) -> st
         return "\n".join(f"    {line}" for line in (*(f"(void){name};" for name in unread), call("film", "out")))
     lines = [*["(void)g;"] * ("g" in unread), f"const double delta = e - {c};"]
     if clearance.film is None:
-        lines += ["*out = (PinSlopes){0};", f"if ({_CLOSED})", f"    {call('dry', 'out')}"]
+        lines += ["*out = (PinSlopes){0};", f"if ({CLOSED})", f"    {call('dry', 'out')}"]
     else:
-        lines += [f"if (!({_CLOSED})) {{", f"    {call('film', 'out')}", "    return;", "}"]
+        lines += [f"if (!({CLOSED})) {{", f"    {call('film', 'out')}", "    return;", "}"]
         lines += [call("dry", "out"), "double share[2];", call("share", "share", "delta")]
         lines += ["if (share[0] < 1.0) {", "    PinSlopes film;", f"    {call('film', '&film')}"]
         lines += ["    blend_slopes(out, &film, share);", "}"]

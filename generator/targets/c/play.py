@@ -27,7 +27,7 @@ _STORE = """\
         .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
         .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0%s};"""
 _RATIO = "latch->closed ? deltadot / latch->deltadot_minus : 1.0"
-_CLOSED = "side ? latch->closed : delta > 0.0"
+CLOSED = "side ? latch->closed : delta > 0.0"
 _BLENDED = "        F.{0} += (1.0 - share) * (film.{0} - F.{0});"  # in play/clearance_transition.c.jinja
 
 
@@ -66,7 +66,7 @@ def pin_functions(pin: Pin, render: Render, states: int) -> Iterator[PinFunction
     text = render(
         _template(pin), joint=joint, arguments=_ARGUMENTS % (" double theta_i," * bool(clearance.contour)),
         further="".join(f", {name}" for name in _further(pin)), gap=_lines(pin.gap), share=_lines(pin.share),
-        rigid=clearance.rigid, closed="latch->closed" if clearance.rigid else _CLOSED,
+        rigid=clearance.rigid, closed="latch->closed" if clearance.rigid else CLOSED,
         store=_store(clearance, states), told=_shared_by(clearance),
         law=_law_of_share(clearance), first=pin.corners.start, last=pin.corners.stop,
     )  # fmt: skip
