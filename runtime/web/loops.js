@@ -68,7 +68,7 @@ class Session {
         const automatic = this.method === "adaptive", name = automatic ? about.begins : this.method;
         const text = new TextEncoder().encode(`${name}\0`), {memory, lib} = this;
         const method = lib.gudgeon_method(memory.bytes(text.length, text));
-        lib.gudgeon_adaptive_setup(this.struct, method, Number(automatic),
+        lib.gudgeon_adaptive_setup(this.struct, method, Number(automatic && about.automatic),
             memory.numbers(scale.length, scale), memory.numbers(2, [length, share]), this.step ?? 0);
     }
 
