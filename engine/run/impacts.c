@@ -138,8 +138,8 @@ static void jump(Run *run, const Answer *blow, const double *impulse, const doub
 }
 
 /*
- * Every joint that touches and closes at a rate gets its impulse, and with it every contact that is closed: one blow.
- * A parting that would be slower than the threshold is none. Nothing that friction can do has a part in it.
+ * Every joint that touches and closes at a rate gets its impulse, and with it each that rests, closed or not yet: one
+ * blow. A parting that would be slower than the threshold is none. Nothing that friction can do has a part in it.
  */
 static int strike(Run *run, const Parameters *p, int *struck)
 {
@@ -149,8 +149,8 @@ static int strike(Run *run, const Parameters *p, int *struck)
     *struck = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const double u = run->aside.clearance[i].deltadot;
-        const int meets_now = !gives(i) && touches(run, i, p) && u > resting(p, i);
-        if (!meets_now && !(!gives(i) && known.latch[i].closed && u >= -resting(p, i)))
+        const int meets_now = touches(run, i, p) && u > resting(p, i);
+        if (!meets_now && !(touches(run, i, p) && u >= -resting(p, i)))
             continue;
         const double back = restitution_of(p, i) * u;
         meeting[blow.n] = u;

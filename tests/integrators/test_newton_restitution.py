@@ -262,6 +262,20 @@ def test_a_contact_that_rests_takes_part_in_another_ones_blow(folder: Path, iner
         assert run["A.state"][-1] == run["B.state"][-1] == 2 and run["A.Fn"][-1] == pytest.approx(0.2 * 9.81, rel=1e-2)
 
 
+@pytest.mark.parametrize("gap", [0.0, 1e-9])
+@pytest.mark.parametrize("inertia", [3e-3, 5e-3])
+def test_what_rests_at_the_start_takes_part_in_the_first_blow(folder: Path, inertia: float, gap: float) -> None:
+    """0 ≤ Λ ⊥ D Λ − (u + e u) ≥ 0 of both, whether the other strikes at once or a moment later."""
+    m, half, u = 0.4, 0.1, 0.2
+    start = {"start.play.A.e.y": -5e-3, "start.play.B.e.y": -5e-3 + gap, "start.play.B.rate.y": -u}
+    run = made(folder, TWO).simulate(1e-7, parameters=start | {"bodies.bar.inertia": inertia}, output=2)
+    same, cross = 1 / m + half**2 / inertia, 1 / m - half**2 / inertia
+    impulse = max(0.0, -1.3 * u * cross / (same**2 - cross**2))  # where A is held
+    struck = (1.3 * u - cross * impulse) / same
+    down = -u / 2.0 + (impulse + struck) / m, -u / (2.0 * half) + (struck - impulse) * half / inertia
+    assert (run["bar.vy"][-1], run["bar.omega"][-1]) == pytest.approx(down, abs=1e-5)
+
+
 def test_batches_files_and_going_on_have_the_same_run(folder: Path, tmp_path: Path) -> None:
     simulation, address = made(folder, BALL), "contacts.hard.normal.restitution"
     given = np.array([0.3, 0.8, 1.0])
