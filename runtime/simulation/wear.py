@@ -23,6 +23,7 @@ from gudgeon.simulation.examine import as_it_was, check_own
 from gudgeon.simulation.wanted_peaks import Told
 
 if TYPE_CHECKING:
+    from gudgeon.contract.kernel_source import ClearanceInfo, KernelSource
     from gudgeon.integrators.trajectory import Progress
     from gudgeon.model.compiled import Array, CompiledModel
     from gudgeon.results.results import Result
@@ -44,6 +45,8 @@ def wear(
     progress: Progress | None = None,
 ) -> Wear:  # fmt: skip
     """What a joint with dry contact wears off in a run, over the circumferences of bearing and journal.
+
+    Where it has a film too, by what the touching surfaces bear: what the oil carries wears nothing.
 
     `k`: Archard's pure number with the softer surface's `hardness` (Pa, '1.2 GPa'); without one k/H itself,
     '1e-6 mm^3/N/m', in m³/(N·m). The journal's are the same unless given. `law`: "archard", k F_n s/H, or "reye",
@@ -69,7 +72,7 @@ def wear(
 
 
 def _asked(run: Result, joint: Any, points: Any, since: Any, until: Any, contact: Any) -> Rubbing:
-    check_rubs(run.source.clearances, joint)
+    check_rubs(run.source, joint)
     if text(contact, "contact") not in CONTACT:
         refuse("contact", contact, " or ".join(CONTACT))
     first, last = (float(run.t[0]), float(run.t[-1])) if len(run.t) else (0.0, 0.0)
@@ -81,14 +84,30 @@ def _asked(run: Result, joint: Any, points: Any, since: Any, until: Any, contact
     return Rubbing(joint, whole(points, "points", 8, MOST_POINTS), begin, end, contact == "overlap")
 
 
-def check_rubs(clearances: Any, joint: Any) -> None:
-    """UnknownNameError unless the joint has play, BadValueError unless its surfaces touch."""
-    own = [one for one in clearances if isinstance(joint, str) and one.name == joint]
+def check_rubs(source: KernelSource, joint: Any) -> None:
+    """UnknownNameError unless the joint has play, BadValueError unless it is known how its surfaces touch."""
+    own = [one for one in source.clearances if isinstance(joint, str) and one.name == joint]
     if not own:
-        hint = f"its joints with play: {', '.join(one.name for one in clearances) or 'none'}"
+        hint = f"its joints with play: {', '.join(one.name for one in source.clearances) or 'none'}"
         raise UnknownNameError(f"no wear of {told(joint)}: expected a joint with play", hint=hint)
     if not own[0].dry:
         raise BadValueError(f"{joint} has a film alone: nothing wears", hint="expected a contact with a normal law")
+    if not known_to_rub(source, own[0]):
+        told_of = f"no wear of {joint}: what its film bears is known where all laws are gudgeon's own"
+        raise BadValueError(told_of, hint=f"without {', '.join(name for name, _ in source.laws)}, or without the film")
+
+
+def known_to_rub(source: KernelSource, joint: ClearanceInfo) -> bool:
+    """Whether a joint's surfaces touch, and what they bear of its load is known: of a film only if it is gudgeon's."""
+    return joint.dry and not (joint.film and source.laws)
+
+
+def _without_oil(compiled: CompiledModel, p: Array) -> Array:
+    """The numbers of a run whose films bear nothing: all of gudgeon's are in proportion to the viscosity."""
+    slots = compiled.source.slots
+    values = p[: len(slots)].copy()
+    values[[s.address.startswith("contacts.") and s.address.endswith(".film.viscosity") for s in slots]] = 0.0
+    return compiled.prepare(values, np.ones(len(slots), dtype=bool))
 
 
 def rate_of(k: Any, hardness: Any, k_name: str, name: str) -> float:
@@ -120,6 +139,7 @@ class Rubs:
         self.path, self.compiled, self.asked = Path(compiled, numbers), compiled, asked
         self.number = [one.name for one in compiled.source.clearances].index(asked.joint)
         self.joint = compiled.source.clearances[self.number]
+        self.p = _without_oil(compiled, self.path.p) if self.joint.film else self.path.p
         self.load, self.friction = np.zeros((2, asked.points)), np.zeros((2, asked.points))
         self.slip, self.first, self.last, self.seen = 0.0, np.nan, np.nan, 0
 
@@ -155,7 +175,7 @@ class Rubs:
         states = slice(memory.shape[2] - len(self.compiled.source.states), None)
         memory[:, :, states] += s * (x.memory[k + 1, states] - x.memory[k, states])[:, None]
         q_flat, v_flat, latched = (array.reshape(t.size, -1) for array in (q, v, memory))
-        found = self.compiled.evaluate(t.ravel(), q_flat, v_flat, latched, self.path.p, parts=("clearance",))
+        found = self.compiled.evaluate(t.ravel(), q_flat, v_flat, latched, self.p, parts=("clearance",))
         columns = (column.reshape(t.shape) for column in found.clearance[:, self.number].T)
         _, _, F_n, F_t, e_x, e_y, e, _, v_t, delta = columns
         w, touching = h * WEIGHTS, delta > 0.0

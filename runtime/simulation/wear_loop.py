@@ -187,7 +187,7 @@ def _joints(simulation: Simulation, joints: str | Iterable[str]) -> tuple[str, .
     if not names:
         raise BadValueError(f"joints is {told(joints)}: expected a name or names", hint=", ".join(able))
     for joint in names:
-        check_rubs(simulation.source.clearances, joint)
+        check_rubs(simulation.source, joint)
         if joint not in able:
             hint = f"joints with one: {', '.join(able)}" if able else "write contour: 128 into its play"
             raise UnknownNameError(f"{joint} has no contour that wear could deepen", hint=hint)

@@ -221,6 +221,16 @@ def test_a_film_is_isotropic_at_the_centre_and_none_at_rest(name: str) -> None:
     assert max(np.abs(still[force]).max() for force in ("F_r", "F_t")) < 1e-140  # what keeps 0/0 away
 
 
+@pytest.mark.parametrize("name", sorted(n for n, law in house().items() if law.role == "film"))
+def test_a_film_is_in_proportion_to_its_viscosity(name: str) -> None:
+    """So that without viscosity what is left of a joint's force is what its surfaces bear (simulation/wear.py)."""
+    state = random(house()[name], 1000)
+    thin, thick, none = (vectors(name, "shear=True", ("viscosity", mu))(*state) for mu in (0.01, 0.03, 0.0))
+    for result in house()[name].results:
+        np.testing.assert_allclose(thick[result], 3.0 * thin[result], rtol=1e-12)
+        assert np.abs(thin[result]).max() > 0.0 and not np.any(none[result])
+
+
 CONTACTS = """
   c0: {normal: {law: hertz, restitution: 0.7, dissipation: zhiying_qishao}, friction: {law: coulomb, mu: 0.1, v0: 0.01}}
   c1:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 import gudgeon
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.results.wear import arc, spread
+from gudgeon.simulation.wear import check_rubs
 from tests.programs import needs_compiler
 
 R, C, L, M, G = 10e-3, 0.2e-3, 20e-3, 2.0, 9.81
@@ -120,6 +122,34 @@ def test_a_pendulums_bearing(tmp_path: Path) -> None:
     np.testing.assert_allclose(found.bearing.depth[inner], 8 * 1e-4 * force[inner] / (2e9 * L), rtol=0.03)
     assert found.bearing.depth[outer].max() == 0.0 and math.degrees(found.journal.arc()) < 3.0
     assert found.bearing.volume == pytest.approx(found.journal.volume, rel=1e-12, abs=0.0)
+
+
+OILED = RIG.replace("contacts: {", "contacts: {oiled: {normal: {law: hertz, stiffness: K, restitution: 1, dissipation: "
+                    "none}, friction: {law: coulomb, mu: 0.1, v0: 1e-6}, film: {law: ocvirk, viscosity: 0.02}, mixed: "
+                    "{law: christensen, roughness: 20 um}}, ") + f"""
+bodies: {{pin: {{mass: {M} kg, inertia: 1e-3}}}}
+joints: {{J: {{revolute: [ground.O, pin.origin]}}}}
+drives: {{turn: {{angle: pin, value: 50 rad/s * t}}}}
+start: {{play: {{J: {{e: [0, -{C}]}}}}}}
+scenes: {{loose: {{play: {{J: {{bearing: b, contact: oiled}}}}}}}}
+"""  # fmt: skip
+
+
+@needs_compiler
+def test_oil_wears_nothing(tmp_path: Path) -> None:
+    """A pin that rests on film and tips: k b F_n s/H of the tips' share b alone, and friction's work by it."""
+    (tmp_path / "rig.yaml").write_text(OILED, encoding="utf-8")
+    simulation = gudgeon.load(tmp_path / "rig.yaml", "loose")
+    run = simulation.simulate(0.5, output=10, method="rodas5p", rtol=1e-9)
+    delta, slip = float(run["J.delta"][-1]), float(run["J.vt"][-1]) * 0.1
+    ratio = 1.0 - delta / 120e-6
+    tips = (1.0 - ratio**4 * (35 - ratio * (84 - ratio * (70 - 20 * ratio)))) * 1e9 * delta**1.5
+    assert run["J.delta"][-3] == pytest.approx(delta, rel=1e-9) and 0.01 * M * G < tips < 0.7 * M * G
+    for law, share in (("archard", 1.0), ("reye", 0.1)):
+        found = gudgeon.wear(simulation, run, "J", k=1e-9, law=law, since=0.4)
+        assert found.journal.volume == pytest.approx(1e-9 * share * tips * slip, rel=1e-6, abs=0.0)
+    with pytest.raises(BadValueError, match="what its film bears is known where all laws are gudgeon's own"):
+        check_rubs(replace(run.source, laws=(("syrup", "0"),)), "J")
 
 
 @pytest.fixture(scope="module")

@@ -13,6 +13,7 @@ from gudgeon.results.batch import Array
 from gudgeon.results.series import catalogue
 from gudgeon.results.unknown import check_series
 from gudgeon.results.wear import Rubbing, arc
+from gudgeon.simulation.wear import known_to_rub
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Measure
@@ -50,7 +51,7 @@ def steps_of(measures: tuple[Measure, ...], source: KernelSource) -> list[str]:
 
 def rubs_of(measures: tuple[Measure, ...], source: KernelSource) -> tuple[Rubbing, ...]:
     """Joints whose rubbing over all steps is wanted."""
-    own = _joints(source, dry=True)
+    own = _joints(source, rubs=True)
     wanted = (str(one.of) for one in measures if one.statistic in WEAR)
     return tuple(Rubbing(name) for name in dict.fromkeys(wanted) if name in own)
 
@@ -90,8 +91,8 @@ def check_origin(measures: Iterable[Measure], source: KernelSource) -> None:
                 raise UnknownNameError(told, one.of.where, error.hint) from None
 
 
-def _joints(source: KernelSource, dry: bool = False) -> list[str]:
-    return [joint.name for joint in source.clearances if joint.dry or not dry]
+def _joints(source: KernelSource, rubs: bool = False) -> list[str]:
+    return [joint.name for joint in source.clearances if not rubs or known_to_rub(source, joint)]
 
 
 def _events(source: KernelSource) -> list[str]:
