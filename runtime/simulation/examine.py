@@ -25,9 +25,9 @@ from gudgeon.results.series import MOTION, rates
 from gudgeon.simulation.horizon import begin_of, repeated, settings_of
 
 if TYPE_CHECKING:
-    from gudgeon.contract.kernel_source import ClearanceInfo
+    from gudgeon.contract.kernel_source import ClearanceInfo, KernelSource
     from gudgeon.integrators.trajectory import Progress
-    from gudgeon.model.compiled import Array
+    from gudgeon.model.compiled import Array, CompiledModel
     from gudgeon.results.results import Result
     from gudgeon.results.wear import Rubbing
     from gudgeon.simulation.simulation import Simulation
@@ -86,8 +86,16 @@ def _joints(
     if other is None:
         notes.append(ANOTHER)
         return ()
-    at = np.searchsorted(other.t, t)
-    return tuple(_joint(run, other, k, joint, at, weights) for k, joint in enumerate(run.source.clearances))
+    at, joints = np.searchsorted(other.t, t), run.source.clearances
+    solid = other  # the same states, and of its joints' forces what the surfaces bear that touch
+    if any(joint.dry and joint.film for joint in joints) and not run.source.laws:
+        solid = replace(other, p=without_oil(simulation.compiled, other.p))
+    found = tuple(_joint(run, other, solid, k, joint, at, weights) for k, joint in enumerate(joints))
+    if [joint.film for joint in joints].count(True) != 1 or run.source.laws or run.source.rigid:
+        return found
+    rest = -float(weights @ other.evaluation.power[at, 2])  # its film took, the torque of its shear too, all the rest
+    rest -= sum(x for one in found for x in (one.taken - one.returned, one.friction) if math.isfinite(x))
+    return tuple(replace(one, film=rest) if math.isfinite(one.film) else one for one in found)
 
 
 def as_it_was(
@@ -125,11 +133,13 @@ def _points(run: Result) -> tuple[Array, Array]:
     return (middle[:, None] + half[:, None] * NODES).ravel(), (half[:, None] * WEIGHTS).ravel()
 
 
-def _joint(run: Result, other: Result, k: int, joint: ClearanceInfo, at: Any, weights: Array) -> JointExamined:
-    """Of `other`, the run once more, at its points `at`."""
+def _joint(
+    run: Result, other: Result, solid: Result, k: int, joint: ClearanceInfo, at: Any, weights: Array
+) -> JointExamined:
+    """Of `other`, the run once more, at its points `at`; `solid` has the forces of surfaces that touch."""
     name, span = joint.name, float(run.t[-1] - run.t[0])
     e, force = other[f"{name}.e"][at], other[f"{name}.F"][at]
-    parts = ((other[f"{name}.F{axis}"] * other[f"{name}.e{axis}"])[at] for axis in "xy")
+    parts = ((solid[f"{name}.F{axis}"] * other[f"{name}.e{axis}"])[at] for axis in "xy")
     with np.errstate(invalid="ignore", divide="ignore"):
         along = sum(parts) / e
         if (depths := contour_of(run.source, run.p, name)) is not None:  # of the force, what acts by the penetration
@@ -139,13 +149,14 @@ def _joint(run: Result, other: Result, k: int, joint: ClearanceInfo, at: Any, we
             along = -other[f"{name}.Fn"][at] / np.hypot(1.0, depth_at(depths, angle, 1) / e)
         normal = np.where(e > 0.0, along, 0.0) * other[f"{name}.deltadot"][at]  # W, by the forces
     touching = (other[f"{name}.delta"][at] > 0.0) if joint.dry else np.zeros(len(at), bool)
-    slip = (other[f"{name}.Ft"] * other[f"{name}.vt"])[at]
+    slip = (solid[f"{name}.Ft"] * other[f"{name}.vt"])[at]
     in_film = _film_power(other, joint)[at] if joint.film else np.zeros(len(at))
+    of_both = _film_power(solid, joint)[at] if solid is not other and joint.film else in_film
     found = [
         float(weights @ np.where(touching, power, 0.0))
         for power in (np.maximum(-normal, 0.0), np.maximum(normal, 0.0), -slip)
     ]
-    film = float(weights @ np.where(touching, 0.0, -in_film))
+    film = float(weights @ np.where(touching, of_both - in_film, -in_film))
     impacting = _until_turns(run, other, k, name) / span if joint.dry else math.nan
     rms = math.sqrt(float(weights @ force**2) / span)
     taken, returned, friction = found if joint.dry else (math.nan,) * 3
@@ -153,6 +164,19 @@ def _joint(run: Result, other: Result, k: int, joint: ClearanceInfo, at: Any, we
         name, impacting, rms, taken, returned, friction, film if joint.film else math.nan,
         *_restitution(run, other, k, name),
     )  # fmt: skip
+
+
+def known_to_rub(source: KernelSource, joint: ClearanceInfo) -> bool:
+    """Whether a joint's surfaces touch, and what they bear of its load is known: of a film only if it is gudgeon's."""
+    return joint.dry and not (joint.film and source.laws)
+
+
+def without_oil(compiled: CompiledModel, p: Array) -> Array:
+    """The numbers of a run whose films bear nothing: all of gudgeon's are in proportion to the viscosity."""
+    slots = compiled.source.slots
+    values = p[: len(slots)].copy()
+    values[[s.address.startswith("contacts.") and s.address.endswith(".film.viscosity") for s in slots]] = 0.0
+    return compiled.prepare(values, np.ones(len(slots), dtype=bool))
 
 
 def _until_turns(run: Result, other: Result, k: int, name: str) -> float:

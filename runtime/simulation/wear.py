@@ -19,11 +19,11 @@ from gudgeon.language.shown import one_line
 from gudgeon.language.wanted import number_of, positive, refuse, text, told, whole
 from gudgeon.results.wear import HOUR, LAWS, POINTS, Rubbed, Rubbing, Surface, Wear, bearing_of, middles, spread
 from gudgeon.simulation.between import Path
-from gudgeon.simulation.examine import as_it_was, check_own
+from gudgeon.simulation.examine import as_it_was, check_own, known_to_rub, without_oil
 from gudgeon.simulation.wanted_peaks import Told
 
 if TYPE_CHECKING:
-    from gudgeon.contract.kernel_source import ClearanceInfo, KernelSource
+    from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.integrators.trajectory import Progress
     from gudgeon.model.compiled import Array, CompiledModel
     from gudgeon.results.results import Result
@@ -97,19 +97,6 @@ def check_rubs(source: KernelSource, joint: Any) -> None:
         raise BadValueError(told_of, hint=f"without {', '.join(name for name, _ in source.laws)}, or without the film")
 
 
-def known_to_rub(source: KernelSource, joint: ClearanceInfo) -> bool:
-    """Whether a joint's surfaces touch, and what they bear of its load is known: of a film only if it is gudgeon's."""
-    return joint.dry and not (joint.film and source.laws)
-
-
-def _without_oil(compiled: CompiledModel, p: Array) -> Array:
-    """The numbers of a run whose films bear nothing: all of gudgeon's are in proportion to the viscosity."""
-    slots = compiled.source.slots
-    values = p[: len(slots)].copy()
-    values[[s.address.startswith("contacts.") and s.address.endswith(".film.viscosity") for s in slots]] = 0.0
-    return compiled.prepare(values, np.ones(len(slots), dtype=bool))
-
-
 def rate_of(k: Any, hardness: Any, k_name: str, name: str) -> float:
     """k/H (1/Pa) of what `wear` is given."""
 
@@ -139,7 +126,7 @@ class Rubs:
         self.path, self.compiled, self.asked = Path(compiled, numbers), compiled, asked
         self.number = [one.name for one in compiled.source.clearances].index(asked.joint)
         self.joint = compiled.source.clearances[self.number]
-        self.p = _without_oil(compiled, self.path.p) if self.joint.film else self.path.p
+        self.p = without_oil(compiled, self.path.p) if self.joint.film else self.path.p
         self.load, self.friction = np.zeros((2, asked.points)), np.zeros((2, asked.points))
         self.slip, self.first, self.last, self.seen = 0.0, np.nan, np.nan, 0
 

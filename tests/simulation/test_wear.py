@@ -125,8 +125,8 @@ def test_a_pendulums_bearing(tmp_path: Path) -> None:
 
 
 OILED = RIG.replace("contacts: {", "contacts: {oiled: {normal: {law: hertz, stiffness: K, restitution: 1, dissipation: "
-                    "none}, friction: {law: coulomb, mu: 0.1, v0: 1e-6}, film: {law: ocvirk, viscosity: 0.02}, mixed: "
-                    "{law: christensen, roughness: 20 um}}, ") + f"""
+                    "none}, friction: {law: coulomb, mu: 0.1, v0: 1e-6}, mixed: {law: christensen, roughness: 20 um}, "
+                    "film: {law: ocvirk, viscosity: 0.02, shear: true}}, ") + f"""
 bodies: {{pin: {{mass: {M} kg, inertia: 1e-3}}}}
 joints: {{J: {{revolute: [ground.O, pin.origin]}}}}
 drives: {{turn: {{angle: pin, value: 50 rad/s * t}}}}
@@ -148,6 +148,11 @@ def test_oil_wears_nothing(tmp_path: Path) -> None:
     for law, share in (("archard", 1.0), ("reye", 0.1)):
         found = gudgeon.wear(simulation, run, "J", k=1e-9, law=law, since=0.4)
         assert found.journal.volume == pytest.approx(1e-9 * share * tips * slip, rel=1e-6, abs=0.0)
+    (told,) = gudgeon.examine(simulation, run).diagnostics.examined.joints
+    total = -run["work.clearances"][-1]
+    assert told.taken - told.returned + told.friction + told.film == pytest.approx(total, rel=1e-6)
+    rubbed = gudgeon.wear(simulation, run, "J", k=1.0, law="reye").journal.volume
+    assert told.friction == pytest.approx(rubbed, rel=1e-5)
     with pytest.raises(BadValueError, match="what its film bears is known where all laws are gudgeon's own"):
         check_rubs(replace(run.source, laws=(("syrup", "0"),)), "J")
 

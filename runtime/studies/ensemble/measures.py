@@ -13,7 +13,7 @@ from gudgeon.results.batch import Array
 from gudgeon.results.series import catalogue
 from gudgeon.results.unknown import check_series
 from gudgeon.results.wear import Rubbing, arc
-from gudgeon.simulation.wear import known_to_rub
+from gudgeon.simulation.examine import known_to_rub
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Measure
