@@ -148,8 +148,9 @@ def test_oil_wears_nothing(tmp_path: Path) -> None:
     for law, share in (("archard", 1.0), ("reye", 0.1)):
         found = gudgeon.wear(simulation, run, "J", k=1e-9, law=law, since=0.4)
         assert found.journal.volume == pytest.approx(1e-9 * share * tips * slip, rel=1e-6, abs=0.0)
-    (told,) = gudgeon.examine(simulation, run).diagnostics.examined.joints
-    total = -run["work.clearances"][-1]
+    examined = gudgeon.examine(simulation, run).diagnostics.examined
+    assert examined is not None
+    (told,), total = examined.joints, -run["work.clearances"][-1]
     assert told.taken - told.returned + told.friction + told.film == pytest.approx(total, rel=1e-6)
     rubbed = gudgeon.wear(simulation, run, "J", k=1.0, law="reye").journal.volume
     assert told.friction == pytest.approx(rubbed, rel=1e-5)
