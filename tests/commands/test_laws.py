@@ -15,6 +15,7 @@ import pytest
 
 from gudgeon.commands.law_plot import figure_of
 from gudgeon.generator.field import NUMBER
+from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, FACTORS, SOURCES
 from gudgeon.generator.kinds.laws.law import RESULTS, Law, called, house
 from gudgeon.generator.targets.latex.document import Equation
 from gudgeon.generator.targets.latex.law import GIVEN, forms, in_a_line
@@ -22,6 +23,7 @@ from gudgeon.generator.targets.latex.law_page import laws_page
 from gudgeon.generator.targets.latex.letters import of_latex
 from tests.equations.one_law import PAIR, Evaluator
 from tests.kinds.own import example, forgotten
+from tests.oracles.dry import delivered
 from tests.pump import Gudgeon
 from tests.targets_latex.equations_reader import dots_apart, evaluate, rows, sections, width
 
@@ -113,6 +115,20 @@ def test_all_about_one(name: str, call: Gudgeon) -> None:
     for own in law.fields_as(name):
         assert own.name in (found if own.kind == NUMBER else " ".join(lines["Options"]))
     assert found[next(own.name for own in law.parameters)][1] == of_latex(law.parameters[0].symbol).text
+
+
+def test_dampings_are_cited(call: Gudgeon) -> None:
+    """Each is somebody's: under its own name that source alone, in the page what it delivers by the oracle."""
+    flores = " ".join(call("laws", "flores").stdout.split())
+    assert "soft materials in multibody dynamics" in flores and "Gonthier" not in flores
+    johnson = " ".join(call("laws", "johnson").stdout.split())
+    assert all(" ".join(source.split()) in johnson for source in SOURCES.values())
+    assert {*SOURCES} == {*DISSIPATION.values} - {"none"}
+    rows = dict(re.findall(r"^\| `(\w+)` \| .*? \| ([\d.]+ \| [\d.]+ \| [\d.]+) \|", laws_page(), re.MULTILINE))
+    for name, factor in FACTORS.items():
+        if name != "none":
+            expected = [delivered(float(factor(c_e))) for c_e in (0.9, 0.7, 0.5)]
+            assert [float(x) for x in rows[name].split(" | ")] == pytest.approx(expected, abs=5.1e-5), name
 
 
 def test_a_film_tells_its_shear_torque_and_what_is_nothing_without_it() -> None:
