@@ -178,6 +178,7 @@ def laws_of(source: KernelSource) -> list[dict[str, str]]:
     for comment in _COMMENT.findall(source.files.get("clearance.c", "")):
         if law := _LAW.match(" ".join(line.strip(" *") for line in comment.splitlines())):
             told = law.groupdict("")
+            told["options"] = re.sub(r": (True|False)\b", lambda flag: flag[0].lower(), told["options"])  # as in YAML
             found.setdefault((told["title"], told["options"]), told)
     return list(found.values())
 

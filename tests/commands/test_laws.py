@@ -179,6 +179,16 @@ def test_what_is_drawn_is_the_law() -> None:
     np.testing.assert_allclose(along, np.pi * unit * eps / (4.0 * square**1.5), rtol=1e-9)
 
 
+def test_curves_that_are_one_are_drawn_once() -> None:
+    """Without dissipation approach and parting are alike; with the usual restitution they lie apart by 1 ± a."""
+    assert len(lines_of("johnson", restitution=1.0)) == len(lines_of("liu", dissipation="none")) == 1
+    (_, closing), (_, resting), (_, parting) = lines_of("hertz")
+    np.testing.assert_allclose(closing, 1.15 * resting, rtol=1e-12)
+    np.testing.assert_allclose(parting, 0.85 * resting, rtol=1e-12)
+    titles = [figure_of(law_of(name), name, {}).axes[0].get_title() for name in ("hertz", "kelvin_voigt")]
+    assert ["m/s" in title for title in titles] == [False, True]
+
+
 def test_bristles_that_have_gone_far_slide() -> None:
     """Fastest, after .1 mm at about that slip: LuGre's steady −F_n g, Dahl's Coulomb force."""
     _, (v_t, force) = lines_of("lugre", mu=0.1, mu_s=0.3, v_s=0.01)  # mm/s
