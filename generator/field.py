@@ -88,6 +88,7 @@ class Field:
     nonzero: bool = False  # of a vector: not both components zero
     values: tuple[str | bool, ...] = ()  # of a word; a flag has (False, True)
     words: tuple[str, ...] = ()  # that may stand in place of a number
+    sources: Mapping[str, str] | None = None  # of words that are somebody's
     symbol: str = ""  # as in the literature, in LaTeX
     names: str = ""  # the section that a name is of
     fields: tuple[Field, ...] = ()
@@ -133,9 +134,11 @@ def vector(name: str, meaning: str, dimension: Dimension | None, **more: Any) ->
     return Field(name, VECTOR, meaning, dimension, **more)
 
 
-def word(name: str, meaning: str, words: Iterable[str], default: str) -> Field:
+def word(
+    name: str, meaning: str, words: Iterable[str], default: str, sources: Mapping[str, str] | None = None
+) -> Field:
     """One of some words."""
-    return Field(name, WORD, meaning, values=tuple(words), default=default)
+    return Field(name, WORD, meaning, values=tuple(words), default=default, sources=sources)
 
 
 def flag(name: str, meaning: str) -> Field:

@@ -64,7 +64,14 @@ def law_doc(equations: LawEquations) -> list[str]:
     """What a comment says of a law: title, source, validity, options."""
     law = equations.law
     chosen = [f"{name}: {value}" for name, value in equations.options.items()]
+    usual = {option.name: option.default for option in law.options}
+    whose = [
+        f"Of {value}: {source}."
+        for option in law.options
+        for value, source in (option.sources or {}).items()
+        if value == equations.options.get(option.name) != usual[option.name]
+    ]
     return [
         f"{law.title}.", f"Source: {law.source}.", f"Valid: {law.validity}.",
-        *([f"Options: {', '.join(chosen)}."] if chosen else []),
+        *([f"Options: {', '.join(chosen)}."] if chosen else []), *whose,
     ]  # fmt: skip

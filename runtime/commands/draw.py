@@ -18,6 +18,7 @@ from gudgeon.commands.common import at_numbers, check_addresses, check_file, cho
 from gudgeon.commands.progress import progress_bar, status_line
 from gudgeon.errors import AssemblyError, BadValueError, GudgeonError, SolverError, shortened
 from gudgeon.files.writing import write_bytes
+from gudgeon.language.plot_units import quantity
 from gudgeon.language.quantities import number_of_text
 from gudgeon.language.shown import path_text
 from gudgeon.loading.find import find_mechanism, read_bytes
@@ -120,7 +121,7 @@ def _moved(request: Request, at: float, wanted: Mapping[str, float | str]) -> Fi
 
 
 def _caption(title: str, scene: str, t: float) -> str:
-    return f"{title}: {scene}, t = {t:.6g} s"
+    return f"{title}: {scene}, t = {quantity(t, 's', 6)}"
 
 
 def _start(request: Request, file: Path, wanted: Mapping[str, float | str]) -> tuple[Figure, GudgeonError | None]:

@@ -33,6 +33,8 @@ BY_DIMENSION = {
     (0, 1, -1): 2e3, (-1, 1, -1): 0.05, (-1, 1, -2): 1e9,
 }  # fmt: skip
 DEEPEST, SPEED = 0.05, 0.1  # share of c; m/s, of an approach, and of a slip where the law names none
+RATIOS = {1.0: "approach", 0.0: "rest", -1.0: "parting"}
+SHOWN = {"restitution"}  # of which the default, 1, would draw the same curve thrice
 Function = Callable[..., Mapping[str, Any]]
 
 
@@ -94,7 +96,7 @@ def _chosen(law: Law, name: str, settings: Mapping[str, float | str]) -> Chosen:
                 told.append(f"{own.name}: {settings[own.name]}")
         elif (value := _number(own, settings)) is not None:
             numbers[own.name] = value
-            if own.required or own.name in settings:
+            if value != own.default or own.name in settings:
                 told.append(f"{own.name} = {quantity(value, _unit(own))}")
     for own in fields.values():
         for bound in own.bounds:
@@ -124,7 +126,7 @@ def _number(own: Field, settings: Mapping[str, float | str]) -> float | None:
     if own.name in settings:
         given = settings[own.name]
         return number_of_text(given, own.name, exponents or (0, 0, 0)) if isinstance(given, str) else float(given)
-    if own.default is not None or not own.required:
+    if own.name not in SHOWN and (own.default is not None or not own.required):
         return None if own.default is None else float(own.default)
     usual = USUAL.get(own.name, BY_DIMENSION.get(exponents) if exponents else None)
     if usual is None:
@@ -165,12 +167,14 @@ def _normal(ax: Axes, law: Function, chosen: Chosen) -> None:
 
     delta = np.linspace(0.0, DEEPEST * STEEL["c"], POINTS)
     further = [SPEED] * reads_besides(chosen.law)
-    lines = (
-        (law(delta, ratio, *(ratio * x for x in further))["F_n"], f"δ̇/δ̇⁻ = {ratio:g}".replace("-", "−"))
-        for ratio in (1.0, 0.0, -1.0)
-    )
-    _line(ax, delta, lines, ("δ", "m"), ("F_n", "N"))
-    ax.set_title(f"{PAIR}; approach at 1, parting at −1" + f" times {SPEED:g} m/s" * bool(further))
+    curves = {ratio: law(delta, ratio, *(ratio * x for x in further))["F_n"] for ratio in RATIOS}
+    same = np.array_equal(curves[1.0], curves[-1.0])
+    lines = [(curves[1.0], "approach and parting alike")] if same else [
+        (curve, f"{RATIOS[ratio]}, δ̇/δ̇⁻ = {ratio:g}".replace("-", "−")) for ratio, curve in curves.items()
+    ]  # fmt: skip
+    _line(ax, delta, iter(lines), ("δ", "m"), ("F_n", "N"))
+    by_speed = bool(further) and not np.array_equal(law(delta, 1.0, 0.0)["F_n"], curves[1.0])
+    ax.set_title(PAIR + f", δ̇⁻ = {SPEED:g} m/s" * by_speed)
 
 
 def _friction(ax: Axes, law: Function, chosen: Chosen) -> None:
@@ -223,8 +227,8 @@ def _mixed(ax: Axes, law: Function, chosen: Chosen) -> None:
     deepest = 7.0 * sum(x for name, x in chosen.numbers.items() if name.startswith("roughness"))
     delta = np.linspace(0.0, deepest, POINTS)
     shares = iter([(law(delta)["share"], "of the dry contact; the film has the rest")])
-    _line(ax, delta, shares, ("δ", "m"), ("share", ""))
-    ax.set_title(PAIR)
+    _line(ax, delta, shares, ("δ, how deep the tips lie in each other", "m"), ("share b", ""))
+    ax.set_title("share of the dry contact in force and moments")
 
 
 _DRAWN = {"normal": _normal, "friction": _friction, "film": _film, "mixed": _mixed}

@@ -125,7 +125,7 @@ def _key(own: Field) -> dict[str, Any]:
     told: dict[str, Any] = {"key": own.name, "kind": own.kind, "meaning": own.meaning, "required": own.required,
                             "default": own.default}  # fmt: skip
     if own.values:
-        return {**told, "values": [*own.values]}
+        return {**told, "values": [*own.values], "sources": dict(own.sources or {})}
     unit = None if own.dimension is None else si_unit(own.dimension)
     bounds = [[bound.relation, bound.limit] for bound in own.bounds]
     return {**told, "symbol": own.symbol, "unit": unit, "bounds": bounds, "otherwise": own.otherwise}

@@ -30,6 +30,22 @@ def place_of_word(value: Any, slot: Slot) -> float:
     return float(slot.words.index(value.strip()))
 
 
+def choice_of_a_law(source: KernelSource, address: str) -> tuple[str, str]:
+    """(message, hint) about the address of a contact's law or of one of its options, which C is made of; else ""."""
+    from gudgeon.generator.kinds.laws.law import called  # imports no SymPy
+
+    section, name, role, key = [*address.split("."), "", "", "", ""][:4]
+    contact = f"{section}.{name}."
+    if section != "contacts" or not any(slot.address.startswith(contact) for slot in source.slots):
+        return "", ""
+    if key not in ("law", *(option.name for law in called(role).values() for option in law.options)):
+        return "", ""
+    return f"{address} is a choice that C is made of, and no number that can be set", (
+        f"write a second contact, other: {{extends: {name}, {role}: {{{key}: …}}}}, and a scene with it, or a study's"
+        f' choices; in Python gudgeon.load(…, overrides={{"{address}": "…"}})'
+    )
+
+
 def said(slot: Slot, value: float) -> float | str:
     """What a slot's number is to be called: the word that it stands for, or itself. ValueError for no word's place."""
     if not slot.words:

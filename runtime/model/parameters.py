@@ -17,7 +17,7 @@ from gudgeon.contract.kernel_source import Condition, KernelSource, Slot
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.language.tree import from_json, names
 from gudgeon.language.wanted import mapping, number_of, whole_digits
-from gudgeon.model.choices import place_of_word
+from gudgeon.model.choices import choice_of_a_law, place_of_word
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.sizes import far_clearance
 
@@ -75,7 +75,7 @@ def as_parameter(source: KernelSource, address: str) -> tuple[str, str]:
     written = next((one for one in source.written if one.address == address), None)
     if written is None and address.removeprefix("outputs.") not in source.outputs:
         several = (_unplaced_journal(source, address), _only_material(source, address), _literal_zero(source, address),
-                 _of_motion(source, address))  # fmt: skip
+                 _of_motion(source, address), choice_of_a_law(source, address))  # fmt: skip
         return next((one for one in several if one[0]), ("", ""))
     key = address.rpartition(".")[2]
     told = f"{address} is an expression of t or motion, compiled as it stands: it is no number that can be set"

@@ -18,7 +18,7 @@ import numpy as np
 from gudgeon.drawing.picture import one_word_on_signs
 from gudgeon.errors import GudgeonError, shortened
 from gudgeon.files.writing import write_bytes
-from gudgeon.language.plot_units import drawn, label, scale
+from gudgeon.language.plot_units import drawn, label, quantity, scale
 from gudgeon.language.shown import in_figure, one_line
 from gudgeon.results import trace
 from gudgeon.results.series import rates
@@ -160,7 +160,7 @@ def _draw_mechanism(part: Any, run: Result) -> None:
 
     ax = part.add_subplot()
     draw_on(ax, start_sketch(run))
-    ax.set_title(f"t = {float(run.t[0]):.6g} s")
+    ax.set_title(f"t = {quantity(float(run.t[0]), 's', 6)}")
 
 
 def _draw_motion(

@@ -18,10 +18,13 @@ from gudgeon.results.diagnostics import Examined
 from gudgeon.results.report import finite
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from gudgeon.contract.kernel_source import ClearanceInfo, KernelSource
+    from gudgeon.generator.kinds.laws.law import Law
     from gudgeon.results.results import Array, Result
 
-SQUEEZE = 0.5  # of the mean rate of both surfaces: faster squeezing is not what a half film holds for
+SQUEEZE = 0.5  # of the mean rate of both surfaces: faster squeezing is not slow beside turning
 OFF = 0.02  # of the joints' work: a quadrature that misses more of it is told
 _COMMENT = re.compile(r"/\*\n(.*?)\n \*/", re.DOTALL)
 _LAW = re.compile(
@@ -175,6 +178,7 @@ def laws_of(source: KernelSource) -> list[dict[str, str]]:
     for comment in _COMMENT.findall(source.files.get("clearance.c", "")):
         if law := _LAW.match(" ".join(line.strip(" *") for line in comment.splitlines())):
             told = law.groupdict("")
+            told["options"] = re.sub(r": (True|False)\b", lambda flag: flag[0].lower(), told["options"])  # as in YAML
             found.setdefault((told["title"], told["options"]), told)
     return list(found.values())
 
@@ -187,13 +191,7 @@ def _warnings(run: Result, joints: dict[str, dict[str, Any]]) -> list[str]:
             f"in {d.ratio_outside} steps in contact δ̇/δ̇⁻ was outside ±1, {d.ratio_min:.3g} … {d.ratio_max:.3g}: damping"
             " laws are made for impacts that nothing drives on"
         )
-    for joint in (joint for joint in run.source.clearances if joint.film):
-        share = _squeezed(run, joint)
-        if share > 0.0:
-            found.append(
-                f"{joint.name}: in {100 * share:.3g} % of the time |ε̇| is over half the surfaces' mean rate: a half"
-                " film holds for |ω| ≫ |ε̇|"
-            )
+    found += [note for joint in run.source.clearances if joint.film for note in _beyond(run, joint)]
     energy = _energy(run) or {}
     known = not run.source.rigid  # what blows take is told nowhere else
     if known and abs(energy.get("not_told_apart", 0.0)) > OFF * max(abs(energy.get("clearances", 0.0)), 1e-300):
@@ -202,6 +200,45 @@ def _warnings(run: Result, joints: dict[str, dict[str, Any]]) -> list[str]:
             " force: its shear, or contacts that the second pass did not resolve"
         )
     return found
+
+
+def _beyond(run: Result, joint: ClearanceInfo) -> Iterator[str]:
+    """Where a film's law says that it is good for less than it was asked; of a law that is not known nothing."""
+    law = _film_law(run.source, joint)
+    if law is None:
+        return
+    low, high = law.limits.l_over_d
+    ratio = _l_over_d(run, joint)
+    if not low <= ratio <= high:
+        good = f"below {high:g}" if low == 0.0 else f"above {low:g}" if high == math.inf else f"{low:g} to {high:g}"
+        yield f"{joint.name}: L/D is {ratio:.3g}: {law.name} is good for L/D {good}"
+    epsilon = run[f"{joint.name}.e"] / float(run.p[joint.constants.get("film_clearance", joint.clearance)])
+    deep = float((epsilon > law.limits.epsilon).mean())
+    if deep > 0.0:
+        yield f"{joint.name}: at {100 * deep:.3g} % of the samples ε is over {law.limits.epsilon:g}, beyond {law.name}"
+    share = _squeezed(run, joint) if law.limits.slow_squeeze else 0.0
+    if share > 0.0:
+        yield (
+            f"{joint.name}: in {100 * share:.3g} % of the time |ε̇| is over half the surfaces' mean rate: {law.name}"
+            " holds for |ω| ≫ |ε̇|"
+        )
+
+
+def _film_law(source: KernelSource, joint: ClearanceInfo) -> Law | None:
+    """The law that the C of a joint's film calls."""
+    from gudgeon.generator.kinds.laws.law import called
+
+    body = re.search(rf" film_{re.escape(joint.name)}\(.*?\n}}", source.files.get("clearance.c", ""), re.DOTALL)
+    call = body and re.search(r"^\s+(\w+)\(epsilon, w_n, w_t", body[0], re.MULTILINE)
+    fitting = [law for law in called("film").values() if call and f"{call[1]}_".startswith(f"{law.name}_")]
+    return max(fitting, key=lambda law: len(law.name), default=None)
+
+
+def _l_over_d(run: Result, joint: ClearanceInfo) -> float:
+    """Length over diameter of the journal."""
+    bearing = run.source.slots[joint.constants["R_i"]].address.rpartition(".")[0]
+    length = run.p[run.source.place[f"{bearing}.length"]]
+    return float(length / (2.0 * run.p[joint.constants["R_j"]]))
 
 
 def _squeezed(run: Result, joint: ClearanceInfo) -> float:

@@ -109,6 +109,10 @@ class Wear:
     t: tuple[float, float]  # s, from and to
     title: str
 
+    def __repr__(self) -> str:
+        bearing, journal = (f"{surface.depth.max():.3g} m" for surface in (self.bearing, self.journal))
+        return f"<Wear of {self.joint} by {self.law}: bearing {bearing}, journal {journal} at most>"
+
     def to_xarray(self) -> xarray.Dataset:
         """Depths of both sides (m) over the angle (rad), volumes and arcs as attributes."""
         import xarray

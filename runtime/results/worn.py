@@ -50,6 +50,10 @@ class Worn:
     failures: Mapping[int, str]  # run -> why, in the round in which it failed
     title: str
 
+    def __repr__(self) -> str:
+        rounds, runs = next(iter(self.joints.values())).work.shape
+        return f"<Worn {', '.join(self.joints)} by {self.law}: {rounds} rounds of {runs} runs>"
+
     def to_xarray(self) -> xarray.Dataset:
         """Contours over round, joint, run and slot; depths over the cells; volumes, works and peak forces."""
         import xarray

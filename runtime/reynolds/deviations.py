@@ -52,6 +52,10 @@ class Deviation:
         off = self.law_force - self.force
         return np.asarray(np.hypot(off[..., 0], off[..., 1]) / largest)
 
+    def __repr__(self) -> str:
+        worst = f"{self.share.max():.2%} at most"
+        return f"<Deviation of {self.law} at L/D = {self.l_over_d:g}, {self.cavitation}: {worst}>"
+
     def of(self, law: str, **keys: float | str | bool) -> Deviation:
         """Another law, with its other keys, at the same states; what the solver found of them is not sought again."""
         return replace(self, law=law, law_force=_by_law(law, self.l_over_d, self.eps, self.motion, keys))

@@ -72,6 +72,10 @@ class Film:
         """|e|/c."""
         return math.hypot(*self.eccentricity) / self.bearing.clearance
 
+    def __repr__(self) -> str:
+        force = f"{math.hypot(*self.force):.4g} N at {math.degrees(self.attitude):.4g}°"
+        return f"<Film {self.cavitation}: ε = {self.eccentricity_ratio:.4g}, ω_s = {self.omega_s:.4g} rad/s, {force}>"
+
     def plot(self) -> Figure:
         """Pressure over the unrolled bearing, and in its middle plane round the journal; needs matplotlib."""
         from gudgeon.reynolds.plot import picture

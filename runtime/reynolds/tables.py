@@ -30,6 +30,9 @@ class Table:
     force: Array
     error: Array
 
+    def __repr__(self) -> str:
+        return f"<Table of the forces at {self.eps.shape} states>"
+
 
 def table(
     bearing: Bearing, eps: ArrayLike, eps_rate: ArrayLike = 0.0, omega_s: ArrayLike = 0.0, *,

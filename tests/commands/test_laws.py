@@ -15,6 +15,7 @@ import pytest
 
 from gudgeon.commands.law_plot import figure_of
 from gudgeon.generator.field import NUMBER
+from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, FACTORS, SOURCES
 from gudgeon.generator.kinds.laws.law import RESULTS, Law, called, house
 from gudgeon.generator.targets.latex.document import Equation
 from gudgeon.generator.targets.latex.law import GIVEN, forms, in_a_line
@@ -22,6 +23,7 @@ from gudgeon.generator.targets.latex.law_page import laws_page
 from gudgeon.generator.targets.latex.letters import of_latex
 from tests.equations.one_law import PAIR, Evaluator
 from tests.kinds.own import example, forgotten
+from tests.oracles.dry import delivered
 from tests.pump import Gudgeon
 from tests.targets_latex.equations_reader import dots_apart, evaluate, rows, sections, width
 
@@ -115,6 +117,20 @@ def test_all_about_one(name: str, call: Gudgeon) -> None:
     assert found[next(own.name for own in law.parameters)][1] == of_latex(law.parameters[0].symbol).text
 
 
+def test_dampings_are_cited(call: Gudgeon) -> None:
+    """Each is somebody's: under its own name that source alone, in the page what it delivers by the oracle."""
+    flores = " ".join(call("laws", "flores").stdout.split())
+    assert "soft materials in multibody dynamics" in flores and "Gonthier" not in flores
+    johnson = " ".join(call("laws", "johnson").stdout.split())
+    assert all(" ".join(source.split()) in johnson for source in SOURCES.values())
+    assert {*SOURCES} == {*DISSIPATION.values} - {"none"}
+    rows = dict(re.findall(r"^\| `(\w+)` \| .*? \| ([\d.]+ \| [\d.]+ \| [\d.]+) \|", laws_page(), re.MULTILINE))
+    for name, factor in FACTORS.items():
+        if name != "none":
+            expected = [delivered(float(factor(c_e))) for c_e in (0.9, 0.7, 0.5)]
+            assert [float(x) for x in rows[name].split(" | ")] == pytest.approx(expected, abs=5.1e-5), name
+
+
 def test_a_film_tells_its_shear_torque_and_what_is_nothing_without_it() -> None:
     first, *others = forms(law_of("pinkus_sternlicht"), "pinkus_sternlicht")
     assert [form.chosen for form in others if form.equations] == [{"as_printed": True}, {"shear": True}]
@@ -161,6 +177,16 @@ def test_what_is_drawn_is_the_law() -> None:
     unit, square = 0.1 * 9.9e-3 * 0.02**3 / 1e-8, 1.0 - eps**2
     np.testing.assert_allclose(radial, unit * eps**2 / square**2, rtol=1e-9)
     np.testing.assert_allclose(along, np.pi * unit * eps / (4.0 * square**1.5), rtol=1e-9)
+
+
+def test_curves_that_are_one_are_drawn_once() -> None:
+    """Without dissipation approach and parting are alike; with the usual restitution they lie apart by 1 ± a."""
+    assert len(lines_of("johnson", restitution=1.0)) == len(lines_of("liu", dissipation="none")) == 1
+    (_, closing), (_, resting), (_, parting) = lines_of("hertz")
+    np.testing.assert_allclose(closing, 1.15 * resting, rtol=1e-12)
+    np.testing.assert_allclose(parting, 0.85 * resting, rtol=1e-12)
+    titles = [figure_of(law_of(name), name, {}).axes[0].get_title() for name in ("hertz", "kelvin_voigt")]
+    assert ["m/s" in title for title in titles] == [False, True]
 
 
 def test_bristles_that_have_gone_far_slide() -> None:

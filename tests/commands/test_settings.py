@@ -190,3 +190,15 @@ def test_check_at_other_numbers(call: Gudgeon, pump: str) -> None:
     assert only.exit_code == 2 and "the file has only one material" in only.stderr
     other = call("check", pump, "--json", "--set", "bodies.rod.length=500")
     assert other.exit_code == 0 and json.loads(other.stdout)["valid"], other.output
+
+
+@pytest.mark.parametrize("key", ["law", "geometry"])
+def test_a_law_is_swapped_elsewhere(key: str, call: Gudgeon) -> None:
+    """`--set` has numbers; where a choice that C is made of can be changed is told, and Python has it there."""
+    address = f"contacts.dry.normal.{key}"
+    done = call("run", "slider_crank", "--scene", "dry", "--set", f"{address}=hertz")
+    told = " ".join(done.stderr.split())
+    assert done.exit_code == 2 and f"--set: {address} is a choice that C is made of" in told
+    assert f"other: {{extends: dry, normal: {{{key}: …}}}}" in told and f'overrides={{"{address}": "…"}}' in told
+    with pytest.raises(UnknownNameError, match="is a choice that C is made of"):
+        gudgeon.load("slider_crank", "dry").simulate(1e-4, parameters={address: 1.0})

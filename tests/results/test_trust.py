@@ -19,7 +19,7 @@ from typer.testing import CliRunner
 import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import BadValueError
-from gudgeon.generator.kinds.laws.law import laws
+from gudgeon.generator.kinds.laws.law import Limits, laws
 from gudgeon.generator.pipeline import generate
 from gudgeon.loading.find import find_mechanism
 from gudgeon.results.diagnostics import Diagnostics
@@ -170,6 +170,31 @@ def test_titles_are_text_and_a_page_needs_no_other(tmp_path: Path) -> None:
     assert not re.search(r"(src|href)=|url\(|@import|https?:", page)
     assert page == Result.load(files["damped"]).report().to_html()
     assert "no contact" not in Path(files["report ideal"]).read_text(encoding="utf-8")
+
+
+def test_films_say_where_they_are_left(press: tuple[Result, Result]) -> None:
+    """Of the law that the joint's C calls."""
+    run, _ = press
+    p = {slot.address: x for slot, x in zip(run.source.slots, run.p, strict=False)}
+    radius, c, length = (p[f"bearings.pin.{key}"] for key in ("radius", "clearance", "length"))
+    files = run.source.files["clearance.c"]
+    told = {}
+    for law in ("pinkus_sternlicht", "ocvirk", "finite_length"):
+        text = {**run.source.files, "clearance.c": files.replace("pinkus_sternlicht(", f"{law}(")}
+        found = replace(run, source=replace(run.source, files=text)).report().to_dict()["warnings"]
+        told[law] = [note for note in found if note.startswith("A: ")]
+    ratio = f"A: L/D is {length / (2 * (radius - c)):.3g}: "
+    assert told["pinkus_sternlicht"][0].startswith(ratio) and "ω" in told["pinkus_sternlicht"][1]
+    assert [note.startswith(ratio) for note in told["ocvirk"]] == [True] and not told["finite_length"]
+
+
+def test_films_that_grow_thin_are_told(press: tuple[Result, Result], monkeypatch: pytest.MonkeyPatch) -> None:
+    run, _ = press
+    film = run.p[run.source.clearances[0].constants["film_clearance"]]
+    law = replace(laws()["finite_length"], limits=Limits(epsilon=float(np.quantile(run["A.e"] / film, 0.75))))
+    monkeypatch.setattr("gudgeon.results.trust._film_law", lambda source, joint: law)
+    notes = [note for note in run.report().to_dict()["warnings"] if note.startswith("A: ")]
+    assert len(notes) == 1 and float(notes[0].split()[2]) == pytest.approx(25.0, abs=0.5)  # 401 samples
 
 
 LAWS = """

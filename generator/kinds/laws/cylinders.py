@@ -13,20 +13,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.field import Bound, Field, number, word
-from gudgeon.generator.kinds.laws.dissipation import DAMPINGS, PULLS, hysteresis
+from gudgeon.generator.field import Field
+from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, PULLS, RESTITUTION, hysteresis
 from gudgeon.generator.kinds.laws.elastic_pair import contact_modulus
 from gudgeon.generator.kinds.laws.law import DEEPEST, LawInputs
-from gudgeon.language.units import DIMENSIONLESS
 
-FIELDS: tuple[Field, ...] = (
-    number(
-        "restitution", "coefficient of restitution", DIMENSIONLESS,
-        symbol="c_e", default=1.0, bounds=(Bound(">", 0.0), Bound("<=", 1.0)),
-    ),
-    word("dissipation", "whose hysteresis damping factor", DAMPINGS, "hunt_crossley"),
-    PULLS,
-)  # fmt: skip
+FIELDS: tuple[Field, ...] = (RESTITUTION, DISSIPATION, PULLS)
 STEPS = 3  # of Newton's method
 _NEVER = 1e-150  # of 4 ΔR, below every penetration: ln is finite at δ = 0
 _END = 1e-9  # beyond the end, where no run goes on, ln(…) + k − 1 tends to 0, so that a stage's force is a number

@@ -6,11 +6,13 @@ a (1 + e) = ln[(1 + a)/(1 − a e)] whatever n, K and m (physics.md, section 3),
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from gudgeon.generator.field import flag
+from gudgeon.generator.field import Bound, flag, number, word
 from gudgeon.generator.kinds.laws.law import LawInputs
+from gudgeon.language.units import DIMENSIONLESS
 
 # name -> a(c_e)
 FACTORS: Mapping[str, Callable[[Any], Any]] = {
@@ -25,9 +27,35 @@ FACTORS: Mapping[str, Callable[[Any], Any]] = {
     "hu_guo": lambda c_e: 3 * (1 - c_e) / (2 * c_e),
 }
 
+SOURCES: Mapping[str, str] = {
+    "hunt_crossley": "K. H. Hunt, F. R. E. Crossley, Coefficient of restitution interpreted as damping in vibroimpact, "
+                     "Journal of Applied Mechanics 42 (1975) 440-445, doi 10.1115/1.3423596",
+    "herbert_mcwhannell": "R. G. Herbert, D. C. McWhannell, Shape and frequency composition of pulses from an impact "
+                          "pair, Journal of Engineering for Industry 99 (1977) 513-518",
+    "lee_wang": "T. W. Lee, A. C. Wang, On the dynamics of intermittent-motion mechanisms, part 1: dynamic model and "
+                "response, Journal of Mechanisms, Transmissions, and Automation in Design 105 (1983) 534-540",
+    "lankarani_nikravesh": "H. M. Lankarani, P. E. Nikravesh, A contact force model with hysteresis damping for impact "
+                           "analysis of multibody systems, Journal of Mechanical Design 112 (1990) 369-376, "
+                           "doi 10.1115/1.2912617",
+    "gonthier": "Y. Gonthier, J. McPhee, C. Lange, J.-C. Piedboeuf, A regularized contact model with asymmetric "
+                "damping and dwell-time dependent friction, Multibody System Dynamics 11 (2004) 209-233, "
+                "doi 10.1023/B:MUBO.0000029392.21648.bc",
+    "zhiying_qishao": "Z. Qin, Q. Lu, Analysis of impact process based on restitution coefficient, Journal of "
+                      "Dynamics and Control 4 (2006) 294-298",
+    "flores": "P. Flores, M. Machado, M. T. Silva, J. M. Martins, On the continuous contact force models for soft "
+              "materials in multibody dynamics, Multibody System Dynamics 25 (2011) 357-375, "
+              "doi 10.1007/s11044-010-9237-4",
+    "hu_guo": "S. Hu, X. Guo, A dissipative contact force model for impact analysis in multibody dynamics, Multibody "
+              "System Dynamics 35 (2015) 131-151, doi 10.1007/s11044-015-9453-z",
+    "exact": "a (1 + c_e) = ln[(1 + a)/(1 - a c_e)], which every factor a obeys with what it delivers, solved for a",
+}  # fmt: skip
 PULLS = flag("pulls", "as printed: the force may be below 0, and pulls the surfaces together while they part fast")
 EXACT = "exact"  # delivers the restitution that it is given
-DAMPINGS = (*FACTORS, EXACT)
+RESTITUTION = number(
+    "restitution", "coefficient of restitution", DIMENSIONLESS,
+    symbol="c_e", default=1.0, bounds=(Bound(">", 0.0), Bound("<=", 1.0)),
+)  # fmt: skip
+DISSIPATION = word("dissipation", "whose hysteresis damping factor", (*FACTORS, EXACT), "hunt_crossley", SOURCES)
 
 
 def hysteresis(s: LawInputs, factor: str) -> Any:
@@ -48,6 +76,16 @@ def hysteresis(s: LawInputs, factor: str) -> Any:
 def normal_force(s: LawInputs, K: Any, factor: str) -> Any:
     """K δⁿ (1 + a δ̇/δ̇⁻), never negative: what every law of Hertz's form with hysteresis damping is."""
     return K * s.variables["delta"] ** s.parameters["exponent"] * hysteresis(s, factor)
+
+
+def delivered(a: float) -> float:
+    """The restitution e of a free impact: a (1 + e) = ln[(1 + a)/(1 − a e)], a ≥ 0."""
+    from scipy.optimize import brentq
+
+    if a == 0.0:
+        return 1.0
+    whole = min(1.0, (1.0 - 1e-15) / a)
+    return float(brentq(lambda e: a * (1.0 + e) - math.log1p(a) + math.log1p(-a * e), 1e-12, whole, xtol=1e-15))
 
 
 def _solved(s: LawInputs, c_e: Any) -> Any:

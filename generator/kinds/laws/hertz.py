@@ -11,8 +11,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.field import Bound, number, word
-from gudgeon.generator.kinds.laws.dissipation import DAMPINGS, FACTORS, PULLS, normal_force
+from gudgeon.generator.field import Bound, number
+from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, FACTORS, PULLS, RESTITUTION, normal_force
 from gudgeon.generator.kinds.laws.elastic_pair import GEOMETRY, pair_stiffness
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.language.units import DIMENSIONLESS
@@ -31,9 +31,7 @@ LAW = Law(
     title="Hertz contact with a choice of hysteresis damping",
     source="H. Hertz (1881); K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445",
     reference="H. Hertz, Ueber die Beruehrung fester elastischer Koerper, Journal fuer die reine und angewandte "
-              "Mathematik 92 (1882) 156-171, doi 10.1515/crll.1882.92.156; K. H. Hunt, F. R. E. Crossley, Coefficient "
-              "of restitution interpreted as damping in vibroimpact, Journal of Applied Mechanics 42 (1975) 440-445, "
-              "doi 10.1115/1.3423596",
+              "Mathematik 92 (1882) 156-171, doi 10.1515/crll.1882.92.156",
     validity="a point or a line contact whose stiffness is known or that of spheres; small penetrations; "
              "driven apart fast it would pull, and is 0 there unless it pulls",
     fields=(
@@ -45,12 +43,7 @@ LAW = Law(
             "exponent", "exponent of the penetration", DIMENSIONLESS,
             symbol="n", default=1.5, bounds=(Bound(">=", 1.0),),
         ),
-        number(
-            "restitution", "coefficient of restitution", DIMENSIONLESS,
-            symbol="c_e", default=1.0, bounds=(Bound(">", 0.0), Bound("<=", 1.0)),
-        ),
-        word("dissipation", "whose hysteresis damping factor", DAMPINGS, "hunt_crossley"),
-        GEOMETRY, PULLS,
+        RESTITUTION, DISSIPATION, GEOMETRY, PULLS,
     ),
     build=build,
     also={name: {"dissipation": name} for name in FACTORS if name not in ("none", "lankarani_nikravesh")},

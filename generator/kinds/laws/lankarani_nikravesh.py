@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import Bound, number
-from gudgeon.generator.kinds.laws.dissipation import normal_force
+from gudgeon.generator.kinds.laws.dissipation import SOURCES, normal_force
 from gudgeon.generator.kinds.laws.elastic_pair import GEOMETRY, pair_stiffness
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
 from gudgeon.language.units import DIMENSIONLESS
@@ -26,8 +26,7 @@ LAW = Law(
     role="normal",
     title="Lankarani and Nikravesh: Hertz stiffness with hysteresis damping",
     source="H. M. Lankarani, P. E. Nikravesh, J. Mech. Design 112 (1990) 369-376",
-    reference="H. M. Lankarani, P. E. Nikravesh, A contact force model with hysteresis damping for impact analysis of "
-              "multibody systems, Journal of Mechanical Design 112 (1990) 369-376, doi 10.1115/1.2912617",
+    reference=SOURCES["lankarani_nikravesh"],
     validity="c_e near 1 (c_e = .9 delivers .91318); external spheres unless geometry is internal",
     fields=(
         number(

@@ -6,6 +6,7 @@ parameters and options, not its equations. Equations are built inside functions.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache
@@ -77,6 +78,15 @@ class State:
 
 
 @dataclass(frozen=True)
+class Limits:
+    """What of a film law's validity is numbers: a run's report holds a run against them."""
+
+    l_over_d: tuple[float, float] = (0.0, math.inf)
+    epsilon: float = 1.0
+    slow_squeeze: bool = False  # whether it follows its film only for |ω_s| ≫ |ε̇|
+
+
+@dataclass(frozen=True)
 class Law:
     """A force law. `build(inputs: LawInputs)` returns the role's RESULTS by name, as SymPy.
 
@@ -94,6 +104,7 @@ class Law:
     also: Mapping[str, Mapping[str, str]] = field(default_factory=dict)  # other names -> the choices that they make
     instead: Mapping[str, str] = field(default_factory=dict)  # a choice that says something only without a number
     reference: str = ""  # the source as far as it is sure: author, title, journal, year, doi
+    limits: Limits = Limits()  # of a film
     rigid: bool = False  # surfaces that do not give: impacts, and contacts that are constraints (engine/run/impacts.c)
 
     @property

@@ -10,11 +10,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.field import Bound, number, word
-from gudgeon.generator.kinds.laws.dissipation import DAMPINGS, PULLS, hysteresis
+from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, PULLS, RESTITUTION, hysteresis
 from gudgeon.generator.kinds.laws.elastic_pair import contact_modulus
 from gudgeon.generator.kinds.laws.law import Law, LawInputs
-from gudgeon.language.units import DIMENSIONLESS
 
 
 def build(s: LawInputs) -> dict[str, Any]:
@@ -36,12 +34,7 @@ LAW = Law(
     validity="a pin in a hole with parallel axes, penetrations up to some clearances; driven apart fast it would "
              "pull, and is 0 there unless it pulls",
     fields=(
-        number(
-            "restitution", "coefficient of restitution", DIMENSIONLESS,
-            symbol="c_e", default=1.0, bounds=(Bound(">", 0.0), Bound("<=", 1.0)),
-        ),
-        word("dissipation", "whose hysteresis damping factor", DAMPINGS, "hunt_crossley"),
-        PULLS,
+        RESTITUTION, DISSIPATION, PULLS,
     ),
     build=build,
 )  # fmt: skip

@@ -20,7 +20,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.laws.law import Law, LawInputs
+from gudgeon.generator.kinds.laws.law import Law, LawInputs, Limits
 from gudgeon.generator.kinds.laws.oil import CAVITATION, FIELDS, TINY, film_clearance, shear_torque
 
 
@@ -66,6 +66,7 @@ LAW = Law(
     reference="F. W. Ocvirk, Short-bearing approximation for full journal bearings, NACA Technical Note 2808 (1952), "
               "with squeeze: the half film lies where the pressure is above that of the ends",
     validity="short bearing (L/D < 1/2; at L/D = 1 it carries twice too much and more); epsilon capped at .9999",
+    limits=Limits(l_over_d=(0.0, 0.5)),
     fields=(*FIELDS, CAVITATION),
     build=build,
 )  # fmt: skip

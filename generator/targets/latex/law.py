@@ -119,7 +119,7 @@ def _document(law: Law, name: str) -> Document:
                          [_number(field) for field in own if field.kind == NUMBER], (5,)),
         "Options": [_option(field) for field in own if field.kind != NUMBER],
         "Validity": [paragraph(sentence(law.validity))],
-        "Reference": [paragraph(f"{law.reference or law.source}.")],
+        "Reference": _references(law, name),
     }  # fmt: skip
     found = {title: tuple(some) for title, some in blocks.items()}
     return Document(law.title, tuple(facts), tuple(Section(title, some) for title, some in found.items() if some))
@@ -155,6 +155,16 @@ def _number(own: Field) -> tuple[tuple[str | Name, ...], ...]:
 def _option(own: Field) -> Block:
     words = ", ".join(map(as_word, own.values))
     return paragraph(f"{own.name}: {words}; without it {as_word(own.choice)} ({own.meaning}).")
+
+
+def _references(law: Law, name: str) -> Iterator[Block]:
+    """Of the law, then of the words of its options that are somebody's: under another name of those that it chooses."""
+    yield paragraph(f"{law.reference or law.source}.")
+    made = law.also.get(name, {})
+    for own in law.options:
+        for value, source in (own.sources or {}).items():
+            if made.get(own.name, value) == value:
+                yield paragraph(f"{own.name}: {value}: {source}.")
 
 
 def _may_lack(own: Field) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 
 from gudgeon.generator.field import NUMBER, Field
+from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, EXACT, FACTORS, SOURCES, delivered
 from gudgeon.generator.kinds.laws.law import RESULTS, Law, house
 from gudgeon.generator.targets.format_tables import condition
 from gudgeon.generator.targets.latex.document import Equation, sentence
@@ -15,6 +16,7 @@ from gudgeon.generator.targets.latex.play_words import as_word
 from gudgeon.language.plot_units import pretty
 from gudgeon.language.units import si_unit
 
+ASKED = (0.9, 0.7, 0.5)  # coefficients of restitution
 _HEADS = {"normal": "The normal force", "friction": "Friction", "film": "Oil films", "mixed": "Mixed lubrication"}
 
 
@@ -25,7 +27,27 @@ def laws_page() -> str:
         some = [law for law in house().values() if law.role == role]
         found += [f"## {_HEADS[role]}", ""]
         found += [line for law in some for line in _of_law(law)]
+        found += _damping() if role == "normal" else ()
     return "\n".join(found)
+
+
+def _damping() -> Iterator[str]:
+    """The factors that several laws let one choose, once."""
+    yield from ("## The dissipation of a normal force", "")
+    yield (
+        "The factor a of 1 + a δ̇/δ̇⁻ in `esdu_78035`, `hertz`, `johnson` and `liu`, by `dissipation`, and the"
+        " restitution that a free impact then has, by a (1 + e) = ln[(1 + a)/(1 − a e)], for what c_e asks."
+    )
+    asked = " | ".join(f"c_e = {c_e:g}" for c_e in ASKED)
+    yield from ("", f"| `dissipation` | a | {asked} | source |", "|" + "---|" * 6)
+    first, *others = forms(house()["hertz"], "hertz")
+    written = {DISSIPATION.default: first} | {one.chosen.get(DISSIPATION.name): one for one in others}
+    for name in DISSIPATION.values:
+        a = next(in_a_line(one) for one in written[name].equations if one.left.text in ("a", "a_0"))
+        told = "what delivers c_e, by Newton's method from Hu and Guo's" if name == EXACT else f"`{a[4:]}`"
+        e = (f"{c_e if name == EXACT else delivered(float(FACTORS[str(name)](c_e))):.4f}" for c_e in ASKED)
+        yield f"| `{name}` | {told} | {' | '.join(e)} | {SOURCES.get(str(name), '')} |"
+    yield from ("", "`exact`, written out:", "", *_block(written[EXACT].equations))
 
 
 def _of_law(law: Law) -> Iterator[str]:
@@ -35,7 +57,10 @@ def _of_law(law: Law) -> Iterator[str]:
     first, *others = forms(law, law.name)
     yield from _block(first.equations)
     for form in others:
-        yield from _choice(form)
+        if DISSIPATION.name not in form.chosen:
+            yield from _choice(form)
+    if DISSIPATION in law.fields:
+        yield from ("With another `dissipation`: [below](#the-dissipation-of-a-normal-force).", "")
     if law.states:
         told = "; ".join(f"{of_latex(state.name).text} is the {state.meaning}, 0 at each onset" for state in law.states)
         yield from (f"{told}.", "")

@@ -244,13 +244,19 @@ def _law(joint: JointWithPlay, role: str) -> list[Block]:
         paragraph(f"{sentence(law.title)} Source: {source}. Valid: {law.validity}.", of=joint.of_law)
     ]
     blocks += [
-        paragraph(f"Option {option.name}: {as_word(equations.options[option.name])} ({option.meaning}).")
+        paragraph(f"Option {option.name}: {as_word(value)} ({option.meaning}).{_credit(option, value)}")
         for option in law.options
-        if option.name in equations.options  # one may say nothing beside a number
+        if (value := equations.options.get(option.name)) is not None  # one may say nothing beside a number
     ]
     blocks += told_states(law)
     plot = law_plot(joint.found, joint.alike, role, law) if isinstance(joint.found, Trace) else []
     return [*blocks, *joint.shown(joint.steps(equations)), *plot]
+
+
+def _credit(option: Field, value: str | bool) -> str:
+    """Whose a choice is, where that is told."""
+    source = (option.sources or {}).get(str(value))
+    return f" Source: {source}." if source else ""
 
 
 def _share_in_g(joint: JointWithPlay) -> list[Block]:
