@@ -98,9 +98,7 @@ def _chosen(law: Law, name: str, settings: Mapping[str, float | str]) -> Chosen:
             numbers[own.name] = value
             if value != own.default or own.name in settings:
                 told.append(f"{own.name} = {quantity(value, _unit(own))}")
-    for own in fields.values():
-        for bound in own.bounds:
-            _check(own, bound, numbers)
+    law.check(numbers)
     return Chosen(law, name, numbers, options, ", ".join(told))
 
 
@@ -140,15 +138,6 @@ def _option(own: Field, given: float | str) -> str | bool:
     if str(given) not in words:
         raise unknown_name(f"choice of {own.name}", str(given), tuple(words), None)
     return words[str(given)]
-
-
-def _check(own: Field, bound: Any, numbers: Mapping[str, float]) -> None:
-    from gudgeon.generator.field import RELATIONS
-
-    limit = numbers.get(bound.limit) if isinstance(bound.limit, str) else bound.limit
-    value = numbers.get(own.name)
-    if value is not None and limit is not None and not RELATIONS[bound.relation](value, limit):
-        raise BadValueError(f"{own.name} is {value:g}: expected {bound.relation} {bound.limit} ({own.meaning})")
 
 
 def _line(ax: Axes, x: Any, lines: Iterator[tuple[Any, str]], across: tuple[str, str], up: tuple[str, str]) -> None:

@@ -238,10 +238,13 @@ def _overflow(source: KernelSource, value: Mapping[str, float], k: int, number: 
 
 
 def conditions(source: KernelSource) -> tuple[Condition, ...]:
-    """Those of the file, and of Baumgarte's gains, which no file has: a negative one drives rows apart."""
+    """Those of the file, of Baumgarte's gains, which no file has, and of a least δ̇⁻ that the file left out."""
     gains = [slot.address for slot in source.slots if slot.address.startswith("baumgarte.")]
     asked = ((">=", 0.0, "a negative gain drives rows apart"), ("<=", MOST_GAIN, "its square is no number"))
-    return (*source.conditions, *(Condition(gain, *one) for gain in gains for one in asked))
+    floors = {slot.address for slot in source.slots if slot.address.endswith(".velocity_floor")}
+    left = sorted(floors - {condition.address for condition in source.conditions})
+    least = (Condition(floor, ">", 0.0, "the least impact velocity is positive") for floor in left)
+    return (*source.conditions, *(Condition(gain, *one) for gain in gains for one in asked), *least)
 
 
 def _said(value: float, unit: str) -> str:
@@ -262,9 +265,8 @@ def _by(source: KernelSource, condition: Condition, value: Mapping[str, float]) 
 
 def _range(source: KernelSource, address: str) -> str:
     """All that the conditions ask of a number: "> 0 and <= 1"."""
-    asked = [condition for condition in conditions(source) if condition.address == address]
-    told = (c.bound if isinstance(c.bound, str) else f"{c.bound:g}" for c in asked)
-    return " and ".join(f"{c.relation} {bound}" for c, bound in zip(asked, told, strict=True))
+    asked = [(c.relation, c.bound) for c in conditions(source) if c.address == address]
+    return " and ".join(f"{one} {bound if isinstance(bound, str) else f'{bound:g}'}" for one, bound in asked)
 
 
 def _literal_zero(source: KernelSource, address: str) -> tuple[str, str]:
@@ -288,10 +290,8 @@ def _unknown(name: str, source: KernelSource) -> UnknownNameError:
         return UnknownNameError(f"start.{start} of the file does not have {coordinate}", None, hint)
     near = difflib.get_close_matches(name, addresses(source), n=3)
     hint = f"did you mean {', '.join(dict.fromkeys(near))}?" if near else "see run.parameters for all addresses."
-    return UnknownNameError(
-        f"no run-time number has the address {name!r} in this scene", None,
-        f"{hint} Structural choices go to gudgeon.load(..., overrides={{...}}).",
-    )  # fmt: skip
+    hint += " Structural choices go to gudgeon.load(..., overrides={...})."
+    return UnknownNameError(f"no run-time number has the address {name!r} in this scene", None, hint)
 
 
 def value(text: str) -> float | str:

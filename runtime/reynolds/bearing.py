@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from numbers import Real
 
 from numpy.typing import ArrayLike
 
 from gudgeon.errors import BadValueError
+from gudgeon.language.wanted import is_whole, positive
 from gudgeon.model.arrays import taken
 
 CAVITATIONS = ("half_sommerfeld", "reynolds", "elrod_adams")
@@ -21,8 +20,9 @@ LARGEST = 2_000_000  # unknowns
 class Bearing:
     """A plain bearing and its journal, in SI.
 
-    radius: of the journal, m. length: m. clearance: radial, m; the curvature of the film is neglected, so it must be
-    below a tenth of the radius. viscosity: dynamic, Pa·s. Raises BadValueError for numbers that are none of this.
+    radius: of the journal, m. length: m, 1e-6 to 1e6 diameters. clearance: radial, m; the curvature of the film is
+    neglected, so it must be below a tenth of the radius. viscosity: dynamic, Pa·s. Raises BadValueError for numbers
+    that are none of this.
     """
 
     radius: float
@@ -32,13 +32,12 @@ class Bearing:
 
     def __post_init__(self) -> None:
         for field in fields(self):
-            value = number(getattr(self, field.name), field.name)
-            if value <= 0.0:
-                raise BadValueError(f"{field.name} is {value:g}: expected a number above 0")
-            object.__setattr__(self, field.name, value)
+            object.__setattr__(self, field.name, positive(getattr(self, field.name), field.name))
         if self.clearance >= 0.1 * self.radius:
             told = f"clearance is {self.clearance:g} m, radius {self.radius:g} m"
             raise BadValueError(f"{told}: expected a clearance below a tenth of the radius")
+        if not 1e-6 <= self.l_over_d <= 1e6:
+            raise BadValueError(f"length over diameter is {self.l_over_d:g}: expected 1e-6 to 1e6")
 
     @property
     def l_over_d(self) -> float:
@@ -49,13 +48,6 @@ class Bearing:
     def pressure_unit(self) -> float:
         """12 μ (R/c)², Pa·s: by it and a rate pressures are numbers of order one."""
         return 12.0 * self.viscosity * (self.radius / self.clearance) ** 2
-
-
-def number(value: object, name: str) -> float:
-    """A finite real number."""
-    if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
-        raise BadValueError(f"{name} is {value!r}: expected a finite number")
-    return float(value)
 
 
 def pair(values: ArrayLike, name: str) -> tuple[float, float]:
@@ -78,9 +70,9 @@ def choice(value: object, name: str, known: Sequence[str]) -> str:
 
 def cells_of(cells: object, sealed: bool) -> tuple[int, int]:
     """How many around, and how many from the middle to an end; both can be halved, for the error."""
-    if not isinstance(cells, Sequence) or len(cells) != 2 or not all(type(count) is int for count in cells):
+    if not isinstance(cells, Sequence) or len(cells) != 2 or not all(map(is_whole, cells)):
         raise BadValueError(f"cells is {cells!r}: expected two whole numbers, around and from the middle to an end")
-    around, along = cells
+    around, along = map(int, cells)
     if around < 32 or along < 4 or around % 4 or along % 4 or around * along > LARGEST:
         told = f"expected multiples of 4, at least (32, 4), of {LARGEST} cells at most"
         raise BadValueError(f"cells is ({around}, {along}): {told}")

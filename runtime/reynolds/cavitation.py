@@ -77,7 +77,16 @@ def _inverse(matrix: sparse.csr_matrix, right: Array, where: Flags) -> Array:
 def _factor(matrix: sparse.csr_matrix) -> Any:
     """An M-matrix of a symmetric pattern needs no pivots."""
     options = {"SymmetricMode": True}
-    return splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
+    return _split(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
+
+
+def _split(matrix: sparse.csr_matrix, **how: Any) -> Any:
+    """L U; where the gap all but closes, flows across it are lost beside the others."""
+    try:
+        return splu(matrix.tocsc(), **how)
+    except RuntimeError as error:  # SuperLU's word for a pivot of 0
+        told = "reynolds: the gap is too thin for doubles: less eccentricity may do, or other cells"
+        raise GudgeonError(told) from error
 
 
 def _reynolds(matrix: sparse.csr_matrix, closing: Array, free: Flags, carries: Flags) -> tuple[Array, Flags]:
@@ -114,7 +123,7 @@ def _carried_film(
         columns = matrix @ sparse.diags(pick) + carried @ sparse.diags(1.0 - pick)
         right = -(carried @ (pick + held))
         unknown = np.zeros(len(right))
-        unknown[free] = splu(columns[free][:, free].tocsc()).solve(right[free])
+        unknown[free] = _split(columns[free][:, free]).solve(right[free])
         p, filled = np.where(full, unknown, 0.0), np.where(full | ~free, 1.0, unknown)
         new = np.where(full, p > 0.0, filled > 1.0) & free
         if np.array_equal(new, full):

@@ -12,8 +12,10 @@ from numpy.typing import ArrayLike
 
 from gudgeon.errors import BadValueError, MissingKeyError, UnknownKeyError
 from gudgeon.language.suggestions import unknown_name
+from gudgeon.language.wanted import number_of, positive, text
 from gudgeon.model.arrays import taken
-from gudgeon.reynolds.bearing import Bearing, number
+from gudgeon.reynolds.bearing import Bearing
+from gudgeon.reynolds.film import check_finite
 from gudgeon.reynolds.grid import Array
 from gudgeon.reynolds.solver import CELLS
 from gudgeon.reynolds.tables import table
@@ -76,7 +78,7 @@ def deviation(
     l_over_d: length over diameter. eps: (n,) in (0, 1). motion: (m,) rad, see Deviation. cavitation, groove, cells: as
     `table` takes them. keys: the law's other keys, numbers in SI; the viscosity is given.
     """
-    ratio = number(l_over_d, "l_over_d")
+    ratio = positive(l_over_d, "l_over_d")
     own = _bearing(ratio)
     at, alpha = taken(eps, "eps", (None,), finite=True), taken(motion, "motion", (None,), finite=True)
     if not at.size or not alpha.size or at.min() <= 0.0 or at.max() >= 1.0:
@@ -104,7 +106,10 @@ def _states(eps: Array, motion: Array) -> tuple[Array, Array, Array]:
 def _by_law(law: str, l_over_d: float, eps: Array, motion: Array, keys: Mapping[str, float | str | bool]) -> Array:
     """(n, m, 2) over μ R³ L/c²."""
     own, (at, closing, turning) = _bearing(l_over_d), _states(eps, motion)
-    return law_force(law, own, keys)(at + 0.0 * closing, closing, -turning) / _unit(own)
+    with np.errstate(over="ignore", invalid="ignore"):
+        force = law_force(law, own, keys)(at + 0.0 * closing, closing, -turning) / _unit(own)
+    check_finite(force)
+    return force
 
 
 def law_force(name: str, bearing: Bearing, keys: Mapping[str, float | str | bool]) -> LawForce:
@@ -113,7 +118,7 @@ def law_force(name: str, bearing: Bearing, keys: Mapping[str, float | str | bool
     from gudgeon.generator.kinds.laws.built import PAIR
     from gudgeon.generator.kinds.laws.law import called
 
-    known = called("film")
+    known, name = called("film"), text(name, "law")
     if name not in known:
         raise unknown_name("film law", name, known, None)
     law, values = known[name], {"viscosity": bearing.viscosity, **keys}
@@ -122,10 +127,11 @@ def law_force(name: str, bearing: Bearing, keys: Mapping[str, float | str | bool
     given = {own.name: values.get(own.name, own.default) for own in law.fields}
     if lacking := [own.name for own in law.fields if own.required and given[own.name] is None]:
         raise MissingKeyError(f"film law {name}: {lacking[0]} is missing")
-    numbers = {own.name: number(x, own.name) for own in law.parameters if (x := given[own.name]) is not None}
+    numbers = {own.name: number_of(x, own.name) for own in law.parameters if (x := given[own.name]) is not None}
+    law.check(numbers)
     chosen: dict[str, Any] = {own.name: given[own.name] for own in law.options} | dict(law.also.get(name, {}))
     for own in law.options:
-        if chosen[own.name] not in own.values:
+        if not isinstance(chosen[own.name], (str, bool)) or chosen[own.name] not in own.values:
             expected = " or ".join(map(str, own.values))
             raise BadValueError(f"film law {name}: {own.name} is {chosen[own.name]!r}: expected {expected}")
     r, c = bearing.radius, bearing.clearance

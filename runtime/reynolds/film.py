@@ -6,6 +6,9 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from gudgeon.errors import BadValueError
 from gudgeon.reynolds.bearing import Bearing
 from gudgeon.reynolds.grid import Array
 
@@ -81,3 +84,9 @@ class Film:
         from gudgeon.reynolds.plot import picture
 
         return picture(self)
+
+
+def check_finite(*found: Array) -> None:
+    """Raises BadValueError where something overflowed."""
+    if not all(np.isfinite(some).all() for some in found):
+        raise BadValueError("the film's forces are no numbers: bearing and motion are too far from 1 for doubles")

@@ -79,16 +79,20 @@ def _spread(phi: Array, eps: float) -> Array:
 
 
 def _places(spread: Array, eps: float) -> Array:
-    """φ of `_spread`: Newton's method between bounds; both variables are never more than π apart."""
-    low, high, phi = spread - math.pi, spread + math.pi, spread.copy()
-    for _ in range(100):
+    """φ of `_spread`: Newton's method between bounds, which are halved where it does not halve its last step.
+
+    Both variables are never more than π apart; at ε → 1 the slope jumps so that Newton alone goes to and fro.
+    """
+    low, high, phi, last = spread - math.pi, spread + math.pi, spread.copy(), np.full_like(spread, ROUND)
+    for _ in range(200):
         off = _spread(phi, eps) - spread
         low, high = np.where(off < 0.0, phi, low), np.where(off > 0.0, phi, high)
-        new = phi - off / _density(phi, eps)
-        new = np.where((new <= low) | (new >= high), 0.5 * (low + high), new)
-        if float(np.max(abs(new - phi))) <= 1e-14 * float(np.max(abs(spread), initial=1.0)):
-            return np.asarray(new)
-        phi = new
+        step = -off / _density(phi, eps)
+        halved = (phi + step <= low) | (phi + step >= high) | (abs(step) > 0.5 * abs(last))
+        last = np.where(halved & (off != 0.0), 0.5 * (low + high) - phi, step)
+        phi = phi + last
+        if float(np.max(abs(last))) <= 1e-14 * float(np.max(abs(spread), initial=1.0)):
+            break
     return phi
 
 

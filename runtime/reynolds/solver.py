@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.errors import BadValueError
-from gudgeon.reynolds.bearing import CAVITATIONS, ENDS, Bearing, cells_of, check_eccentricity, choice, number, pair
+from gudgeon.language.wanted import instance, number_of
+from gudgeon.reynolds.bearing import CAVITATIONS, ENDS, Bearing, cells_of, check_eccentricity, choice, pair
 from gudgeon.reynolds.cavitation import Flags, Motion, Pressure, solved
 from gudgeon.reynolds.equation import Equation
-from gudgeon.reynolds.film import Film
+from gudgeon.reynolds.film import Film, check_finite
 from gudgeon.reynolds.grid import ROUND, Array, Grid, made
 
 CELLS = (192, 24)  # around, from the middle to an end
@@ -43,11 +44,12 @@ def solve(
 
     Raises BadValueError for what makes no sense, GudgeonError where an active set does not settle.
     """
+    instance(bearing, "bearing", Bearing)
     choice(cavitation, "cavitation", CAVITATIONS)
     sealed = choice(ends, "ends", ENDS) == "sealed"
     around, along = cells_of(cells, sealed)
     e, v = np.array(pair(eccentricity, "eccentricity")), np.array(pair(rate, "rate"))
-    turning = number(omega_journal, "omega_journal"), number(omega_bearing, "omega_bearing")
+    turning = number_of(omega_journal, "omega_journal"), number_of(omega_bearing, "omega_bearing")
     size = math.hypot(*e)
     check_eccentricity(size / bearing.clearance)
     n = _direction(e, v)
@@ -57,8 +59,11 @@ def solve(
     motion = Motion(float(v @ n) / c, (float(v @ t) - 0.5 * sum(turning) * size) / c, 0.5 * omega_s)
     at = _groove(groove, n, sealed, cavitation)
     problem = Problem(eps, bearing.l_over_d, sealed, cavitation, at, motion)
-    coarse, fine = refined(problem, around, along)
-    return _film(bearing, ends, e, n, omega_s, turning[0] - turning[1], fine, coarse)
+    with np.errstate(over="ignore", invalid="ignore"):
+        coarse, fine = refined(problem, around, along)
+        film = _film(bearing, ends, e, n, omega_s, turning[0] - turning[1], fine, coarse)
+    check_finite(film.force, film.pressure)
+    return film
 
 
 def _direction(e: Array, v: Array) -> Array:
@@ -76,7 +81,7 @@ def _groove(groove: Groove, n: Array, sealed: bool, cavitation: str) -> float | 
     if isinstance(groove, str):
         choice(groove, "groove", ("a direction in rad", WIDEST))
         return 0.0
-    phi = number(groove, "groove") - math.atan2(-n[1], -n[0])
+    phi = number_of(groove, "groove") - math.atan2(-n[1], -n[0])
     return math.remainder(phi, ROUND)
 
 

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.errors import BadValueError
+from gudgeon.language.wanted import instance
 from gudgeon.model.arrays import taken
 from gudgeon.reynolds.bearing import CAVITATIONS, ENDS, Bearing, cells_of, check_eccentricity, choice
 from gudgeon.reynolds.cavitation import Motion
 from gudgeon.reynolds.equation import Equation
+from gudgeon.reynolds.film import check_finite
 from gudgeon.reynolds.grid import Array
 from gudgeon.reynolds.solver import CELLS, WIDEST, Problem, refined
+
+MOST_STATES = 1_000_000  # a day of solving
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,29 +48,43 @@ def table(
     The three are broadcast together; all else is as `solve` takes it, a groove is None or "widest". States of one ε
     share their grid and flows, and what is asked twice is solved once.
     """
+    instance(bearing, "bearing", Bearing)
     choice(cavitation, "cavitation", CAVITATIONS)
     sealed = choice(ends, "ends", ENDS) == "sealed"
     around, along = cells_of(cells, sealed)
     if groove is not None:
         choice(groove, "groove", ("None", WIDEST))
-    given = [taken(x, name, finite=True) for x, name in ((eps, "eps"), (eps_rate, "eps_rate"), (omega_s, "omega_s"))]
+    states = _states(eps, eps_rate, omega_s)
+    at = 0.0 if sealed or groove or cavitation == "elrod_adams" else None
+    rows, back = np.unique(np.stack([x.ravel() for x in states], axis=1), axis=0, return_inverse=True)
+    back, unit = back.reshape(states[0].shape), bearing.pressure_unit * bearing.radius**2
+    force, error = np.zeros((len(rows), 2)), np.zeros(len(rows))
+    known: tuple[float, dict[int, Equation]] = (-1.0, {})
+    with np.errstate(over="ignore", invalid="ignore"):
+        for k, (e, closing, speed) in enumerate(rows.tolist()):
+            known = known if known[0] == e else (e, {})
+            motion = Motion(closing, -0.5 * e * speed, 0.5 * speed)
+            problem = Problem(e, bearing.l_over_d, sealed, cavitation, at, motion)
+            coarse, fine = refined(problem, around, along, known[1])
+            force[k], error[k] = unit * fine.force, unit * np.hypot(*(fine.force - coarse.force))
+    check_finite(force)
+    e_all, closing_all, speed_all = (x.copy() for x in states)
+    return Table(e_all, closing_all, speed_all, force[back], error[back])
+
+
+def _states(eps: ArrayLike, eps_rate: ArrayLike, omega_s: ArrayLike) -> tuple[Array, ...]:
+    """All three as views of one shape."""
+    asked = ((eps, "eps"), (eps_rate, "eps_rate"), (omega_s, "omega_s"))
+    given = [taken(x, name, finite=True, most=MOST_STATES) for x, name in asked]
     try:
-        states = np.broadcast_arrays(*given)
+        size = math.prod(np.broadcast_shapes(*(x.shape for x in given)))
     except ValueError:
         shapes = ", ".join(str(x.shape) for x in given)
         raise BadValueError(f"eps, eps_rate and omega_s have the shapes {shapes}: they do not go together") from None
+    if size > MOST_STATES:  # before any array of that size is made
+        raise BadValueError(f"eps, eps_rate and omega_s are {size} states together: expected {MOST_STATES} at most")
+    states = np.broadcast_arrays(*given)
     if (states[0] < 0.0).any():
         raise BadValueError(f"eps is {states[0].min():g}: expected no less than 0")
     check_eccentricity(float(states[0].max(initial=0.0)))
-    at = 0.0 if sealed or groove or cavitation == "elrod_adams" else None
-    rows, back = np.unique(np.stack([x.ravel() for x in states], axis=1), axis=0, return_inverse=True)
-    force, error = np.zeros((len(rows), 2)), np.zeros(len(rows))
-    known: tuple[float, dict[int, Equation]] = (-1.0, {})
-    for k, (e, closing, speed) in enumerate(rows.tolist()):
-        known = known if known[0] == e else (e, {})
-        motion = Motion(closing, -0.5 * e * speed, 0.5 * speed)
-        coarse, fine = refined(Problem(e, bearing.l_over_d, sealed, cavitation, at, motion), around, along, known[1])
-        force[k], error[k] = fine.force, np.hypot(*(fine.force - coarse.force))
-    unit, back = bearing.pressure_unit * bearing.radius**2, back.reshape(states[0].shape)
-    e_all, closing_all, speed_all = (x.copy() for x in states)
-    return Table(e_all, closing_all, speed_all, unit * force[back], unit * error[back])
+    return tuple(states)

@@ -17,7 +17,8 @@ from numpy.typing import ArrayLike
 
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.language.shown import one_line
-from gudgeon.language.wanted import number_of, positive, refuse, text, told, whole
+from gudgeon.language.wanted import function, number_of, positive, refuse, text, told, whole
+from gudgeon.language.wanted import names as joint_names
 from gudgeon.model.contours import contour_of, taken_contours
 from gudgeon.model.parameter_sets import ParameterSets, each_of, rows_of
 from gudgeon.model.parameters import given_slots
@@ -88,10 +89,11 @@ def wear_loop(
         -np.inf if since is None else number_of(since, "since"),
     )  # fmt: skip
     loop = Loop(simulation, wearing, taken_contours(simulation.source, contour, runs=True))
+    function(progress, "progress")
     count = whole(rounds, "rounds", 1, MOST_ROUNDS)
     for k_round in range(count):
         tick = None if progress is None else _share(progress, k_round, count)
-        loop.round(parameters or {}, t_end, progress=tick, **options)
+        loop.round({} if parameters is None else parameters, t_end, progress=tick, **options)
     return loop.found()
 
 
@@ -182,8 +184,8 @@ def smoothed(depth: Array, passes: int) -> Array:
 
 
 def _joints(simulation: Simulation, joints: str | Iterable[str]) -> tuple[str, ...]:
-    names = (joints,) if isinstance(joints, str) else tuple(joints) if isinstance(joints, Iterable) else ()
     able = [one.joint for one in simulation.source.contours]
+    names = tuple(joint_names(joints, "joints", "a name or names"))
     if not names:
         raise BadValueError(f"joints is {told(joints)}: expected a name or names", hint=", ".join(able))
     for joint in names:

@@ -96,6 +96,7 @@ def test_gains_are_both_gains(call: Gudgeon, pump: str) -> None:
     [
         ("gains=-1", "baumgarte.alpha is -1 1/s: a negative gain drives rows apart; expected >= 0 and <= 1e+150"),
         ("baumgarte.beta=1e300", "baumgarte.beta is 1e+300 1/s: its square is no number"),
+        ("contacts.dry.velocity_floor=0", "contacts.dry.velocity_floor is 0 m/s: the least impact velocity is"),
         ("gains=1e-320", "'1e-320' is out of range"), ("c=1e-306 mm", "'1e-306 mm' is out of range"),
         ("omega=1e-320rpm", "'1e-320 rpm' is out of range"),
         ("c=1e-18m", "the clearance of B is 1e-18 m, below what doubles tell apart at the mechanism's size (0.06 m)"),

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from gudgeon.errors import GudgeonError
 from gudgeon.reynolds import Bearing, Film, solve, table
 from tests.oracles import film, finite_bearing
 from tests.oracles.spectral_film import half_film
@@ -67,6 +68,22 @@ def test_half_film_against_fourier_series(state: tuple[float, float, float, floa
     off = [float(np.hypot(*(force - want))) for force, _ in found]
     assert off[1] < 1e-3 * np.hypot(*want) and off[1] < found[1][1]
     assert math.log2(off[0] / off[1]) == pytest.approx(2.0, abs=0.3)
+
+
+@pytest.mark.parametrize(("thin", "around"), [(1e-3, 768), (1e-4, 768), (1e-5, 512), (1e-6, 768)])
+def test_every_node_finds_its_place_where_the_gap_all_but_closes(thin: float, around: int) -> None:
+    """Half film of the long bearing in rotation; Newton alone left nodes far from where they belong."""
+    eps = 1.0 - thin
+    force, error = forces(eps, 0.0, 1.0, 1.0, ends="sealed", cavitation="half_sommerfeld", cells=(around, 4))
+    share = 6.0 / (2.0 + eps * eps)
+    exact = np.array([-share * 2.0 * eps * eps / (1.0 - eps * eps), share * math.pi * eps / math.sqrt(1.0 - eps * eps)])
+    assert np.hypot(*(force - exact)) < min(error, 3e-4 * np.hypot(*exact))
+
+
+def test_a_gap_too_thin_for_doubles_says_so() -> None:
+    own = bearing(1.0)
+    with pytest.raises(GudgeonError, match="too thin for doubles"):
+        solve(own, (own.clearance * (1.0 - 1e-10), 0.0), omega_journal=1.0, ends="sealed", groove=0.0, cells=(32, 4))
 
 
 @pytest.mark.parametrize(("eps", "sommerfeld", "attitude"), [

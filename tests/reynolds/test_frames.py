@@ -109,9 +109,10 @@ SHAPE = {"radius": 0.01, "length": 0.02, "clearance": 1e-5, "viscosity": 0.1}
 
 
 @pytest.mark.parametrize(("change", "told"), [
-    ({"length": -0.02}, "length is -0.02: expected a number above 0"), ({"radius": 0}, "above 0"),
-    ({"viscosity": math.nan}, "finite"), ({"clearance": "1e-5"}, "clearance is '1e-5'"), ({"viscosity": True}, "True"),
+    ({"length": -0.02}, "length is -0.02: expected a number above zero"), ({"radius": 0}, "above zero"),
+    ({"viscosity": math.nan}, "finite"), ({"clearance": "1e-5"}, "clearance: '1e-5'"), ({"viscosity": True}, "True"),
     ({"clearance": 2e-3}, "tenth of the radius"), ({"length": math.inf}, "finite"),
+    ({"radius": 10**400}, "radius"), ({"length": np.timedelta64(3, "s")}, "length"),
 ])  # fmt: skip
 def test_bearings_that_are_none(change: dict[str, Any], told: str) -> None:
     with pytest.raises(BadValueError, match=told):
@@ -125,10 +126,12 @@ def test_bearings_that_are_none(change: dict[str, Any], told: str) -> None:
     ({"cavitation": "gumbel"}, "half_sommerfeld, reynolds or elrod_adams"), ({"ends": None}, "open or sealed"),
     ({"groove": "top"}, "groove"), ({"groove": math.nan}, "groove"), ({"cells": (100, 10)}, "multiples of 4"),
     ({"cells": 100}, "cells"), ({"cells": (96.0, 12)}, "cells"), ({"cells": (2**20, 2**10)}, "2000000 cells"),
+    ({"omega_journal": 10**400}, "omega_journal"), ({"bearing": {"radius": 1.0}}, "bearing is dict"),
+    ({"omega_journal": 1e308, "cells": CELLS}, "too far from 1 for doubles"),
 ])  # fmt: skip
 def test_questions_that_are_none(change: dict[str, Any], told: str) -> None:
     with pytest.raises(BadValueError, match=told):
-        solve(BEARING, **{"eccentricity": (1e-6, 0.0), **change})
+        solve(**{"bearing": BEARING, "eccentricity": (1e-6, 0.0), **change})
 
 
 def test_tables_that_are_none() -> None:
@@ -137,6 +140,10 @@ def test_tables_that_are_none() -> None:
             table(BEARING, [0.5, eps], omega_s=1.0)
     with pytest.raises(BadValueError, match="do not go together"):
         table(BEARING, [0.5, 0.6], [1.0, 2.0, 3.0])
+    with pytest.raises(BadValueError, match="4000000 states together"):
+        table(BEARING, np.full((2000, 1), 0.5), np.zeros(2000))
+    with pytest.raises(BadValueError, match="bearing is None"):
+        table(None, 0.5)  # type: ignore[arg-type]
     with pytest.raises(ArrayError):
         table(BEARING, "half")
     with pytest.raises(BadValueError, match="groove"):

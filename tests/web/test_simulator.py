@@ -17,6 +17,7 @@ from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.description import description
 from gudgeon.web.module import simulator
 from gudgeon.web.page import carried
+from tests.integrators.test_newton_restitution import BALL, HEAD
 from tests.scenes import loader
 from tests.web.node import Answer, browser, in_browser, in_node, node
 
@@ -81,6 +82,20 @@ def test_slopes_of_contacts_are_the_native_ones(tmp_path: Path) -> None:
     native = engine.simulate(**options)
     assert len(native.impacts) > 3
     assert same_bits(found, native)
+
+
+@needs_node
+def test_surfaces_that_do_not_give_stay_with_the_explicit_method(tmp_path: Path) -> None:
+    """A stiff damper would send `auto` to the implicit one, whose slopes know of no blow."""
+    file, options = tmp_path / "stiff.yaml", {"t_end": 0.6, "output": 10}
+    damped = "forces: {oil: {rotational_spring_damper: [ball, ground], damping: 0.07 N*m*s}}\n"
+    file.write_text(HEAD + BALL.replace("start: {", "start: {rates: {ball.omega: 1 rad/s}, ") + damped)
+    engine = gudgeon.load(file, "hard")
+    found, refused = in_node(engine, tmp_path, [{"options": options}, {"options": options | {"method": "rodas5p"}}])
+    native = engine.simulate(**options)
+    assert native.diagnostics.rejected > 0 and len(native.impacts) == 1
+    assert found.counts["jacobians"] == 0 and same_bits(found, native)
+    assert "method is rodas5p: expected auto, rk4, dop853" in refused.error
 
 
 @needs_node

@@ -12,7 +12,8 @@ from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import Any
 
-from gudgeon.generator.field import NUMBER, Field
+from gudgeon.errors import BadValueError
+from gudgeon.generator.field import NUMBER, RELATIONS, Field
 from gudgeon.generator.kinds.discovery import declared
 
 
@@ -131,6 +132,15 @@ class Law:
     def options(self) -> tuple[Field, ...]:
         """Its structural choices: words, and flags with the values False and True."""
         return tuple(own for own in self.fields if own.kind != NUMBER)
+
+    def check(self, numbers: Mapping[str, float]) -> None:
+        """Raise BadValueError for a number, by its key, that the law's bounds forbid."""
+        for own in self.fields:
+            for bound in own.bounds if own.name in numbers else ():
+                value, limit = numbers[own.name], numbers.get(bound.limit, bound.limit)  # type: ignore[arg-type]
+                if not isinstance(limit, str) and not RELATIONS[bound.relation](value, limit):
+                    expected = f"expected {bound.relation} {bound.limit} ({own.meaning})"
+                    raise BadValueError(f"{own.name} is {value:g}: {expected}")
 
     def fields_as(self, name: str) -> tuple[Field, ...]:
         """The keys beside `law: name`: under another name its choices are made, and the restitution must be given."""
