@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import signal
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -26,11 +26,23 @@ from gudgeon.contract.kernel_source import (
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
 from gudgeon.results.diagnostics import Diagnostics, Peak
 from gudgeon.results.results import Result
+from tests import quick
 from tests.pump import TEXT, Gudgeon
 
 # A shell's background jobs ignore Ctrl-C, and so would tests of it and the programs that they start.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+quick.install()
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, Any, Any]:
+    """Fixtures of every scope are within it."""
+    as_users = item.get_closest_marker("optimized") is not None or "slow or" in item.config.option.markexpr
+    with quick.optimized(as_users):
+        return (yield)
+
 
 OMEGA, RADIUS, CLEARANCE = 2 * np.pi, 0.08, 0.3e-3
 FREE, IMPACT, CONTACT = 0, 1, 2

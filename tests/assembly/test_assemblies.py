@@ -268,13 +268,14 @@ def test_a_guessed_place_picks_the_branch(tmp_path: Path, guess: float, side: in
     assert ([f"piston.x begins {off} mm" in str(word.message) for word in told[:1]]) == [True] * bool(off)
 
 
+@pytest.mark.parametrize("n", [20, pytest.param(60, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("guess", ["coupler.x: 60 mm", "coupler.tip: [60 mm, 30 mm], rocker.theta: 1"])
-def test_the_assembly_nearest_to_the_guesses(guess: str, tmp_path: Path) -> None:
+def test_the_assembly_nearest_to_the_guesses(guess: str, n: int, tmp_path: Path) -> None:
     """Of the two places where the circles of the coupler's head meet the one nearer to all guesses is taken.
 
     Newton's steps from a guessed x led to the other one for a third of such guesses; beside a point an angle was lost.
     """
-    file, rng, n = tmp_path / "bars.yaml", np.random.default_rng(8), 60
+    file, rng = tmp_path / "bars.yaml", np.random.default_rng(8)
     file.write_text(f"""
 format: gudgeon/1
 name: bars

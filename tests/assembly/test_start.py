@@ -67,7 +67,7 @@ start: {guess: {b.theta: guess_b, c.theta: guess_c}}
 """
 
 
-@pytest.mark.parametrize("starts", [40, pytest.param(300, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("starts", [15, pytest.param(300, marks=pytest.mark.slow)])
 def test_start_near_a_fold_from_a_guess_anywhere(load: Load, starts: int) -> None:
     """b + D = c but for 10⁻²…10⁻⁹ of it, and guesses all round: closed every time, as the lengths say."""
     scene, rng = load(NEAR_A_FOLD), np.random.default_rng(11)
@@ -85,7 +85,7 @@ def test_start_near_a_fold_from_a_guess_anywhere(load: Load, starts: int) -> Non
         np.testing.assert_allclose(heads[0], heads[1], rtol=0.0, atol=1e-9)
 
 
-@pytest.mark.parametrize("guesses", [20, pytest.param(200, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("guesses", [8, pytest.param(200, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("unit", ["um", "mm", "m", "km"])
 def test_branch_nearest_the_guess_from_anywhere(load: Load, unit: str, guesses: int) -> None:
     """Guesses all round: assembled every time, on the nearer branch, within half a turn of the guess."""

@@ -191,7 +191,8 @@ def test_the_engine_is_written_once_beside_the_scenes(tmp_path: Path) -> None:
     assert texts == {name: before[name] for name in before if name.startswith("engine/") and not name.endswith(LIST)}
     flags = ["-std=c11", "-O1", "-ffp-contract=off", "-fPIC", "-shared", "-I.", "-I.."]
     for scene in ("ideal", "two_seconds"):
-        command = [*find_compiler(), *flags, "scene.c", "../engine/engine.c", "-lm", "-o", os.devnull]
+        made = str(tmp_path.with_name(f"{tmp_path.name}.so"))
+        command = [*find_compiler(), *flags, "scene.c", "../engine/engine.c", "-lm", "-o", made]
         done = subprocess.run(command, cwd=tmp_path / scene, capture_output=True, text=True)
         assert done.returncode == 0, done.stderr[:2000]
     emit_c("pendulum", tmp_path, ("ideal",))

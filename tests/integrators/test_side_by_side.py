@@ -73,9 +73,21 @@ def assert_same_batches(one: Batch, other: Batch) -> None:
 
 
 def without_chain(folder: Path) -> Path:
-    """Every kind, but for the drive that leaves a loop of it no freedom: driven chains go one by one."""
+    """Every kind, but for the drive that leaves a loop of it no freedom: driven chains go one by one.
+
+    Its guess is nearly closed: from the file's own, far from where the loop closes, each of some hundred runs would
+    search for a third of a second.
+    """
     file = folder / EVERY_KIND.name
-    lines = EVERY_KIND.read_text(encoding="utf-8").splitlines(keepends=True)
+    text = EVERY_KIND.read_text(encoding="utf-8")
+    closer = {
+        "S9.y: -290 mm": "S9.y: -263.067 mm", "L3.theta: 20 deg": "L3.theta: 10.3284 deg",
+        "rod.theta: 60 deg": "rod.theta: 30.2961 deg", "crank.theta: 5 deg": "crank.theta: -2.78625 deg",
+    }  # fmt: skip
+    for far, near in closer.items():
+        assert far in text
+        text = text.replace(far, near)
+    lines = text.splitlines(keepends=True)
     file.write_text("".join(line for line in lines if not line.lstrip().startswith("lift")), encoding="utf-8")
     return file
 
