@@ -89,7 +89,10 @@ def test_what_cannot_wear_is_refused(tmp_path: Path) -> None:
     for wrong in ({"k": 0.0}, {"rounds": 0}, {"law": "holm"}, {"scale": -1.0}, {"contact": "line"}, {"passes": -1}):
         with pytest.raises(gudgeon.InputError):
             gudgeon.wear_loop(simulation, "J", 0.01, **({"k": 1e-9, "rounds": 1} | wrong))
-    for odd in ({"parameters": np.zeros(0)}, {"progress": 3}, {"joints": np.array(3)}, {"joints": []}):
+    oddities: list[dict[str, Any]] = [
+        {"parameters": np.zeros(0)}, {"progress": 3}, {"joints": np.array(3)}, {"joints": []}
+    ]  # fmt: skip
+    for odd in oddities:
         with pytest.raises(gudgeon.InputError, match=next(iter(odd))):
             gudgeon.wear_loop(simulation, **({"joints": "J", "t_end": 0.01, "k": 1e-9, "rounds": 1} | odd))
     with pytest.raises(UnknownNameError, match="joint with play"):

@@ -87,7 +87,8 @@ def test_slopes_of_contacts_are_the_native_ones(tmp_path: Path) -> None:
 @needs_node
 def test_surfaces_that_do_not_give_stay_with_the_explicit_method(tmp_path: Path) -> None:
     """A stiff damper would send `auto` to the implicit one, whose slopes know of no blow."""
-    file, options = tmp_path / "stiff.yaml", {"t_end": 0.6, "output": 10}
+    file = tmp_path / "stiff.yaml"
+    options: dict[str, Any] = {"t_end": 0.6, "output": 10}
     damped = "forces: {oil: {rotational_spring_damper: [ball, ground], damping: 0.07 N*m*s}}\n"
     file.write_text(HEAD + BALL.replace("start: {", "start: {rates: {ball.omega: 1 rad/s}, ") + damped)
     engine = gudgeon.load(file, "hard")
