@@ -49,7 +49,8 @@ static double shrink(Run *run, const Step *step)
     Attempt *now = &run->attempt;
     double order = order_of(run, step);
     if (now->refused > now->h && isfinite(now->error) && now->error > step->error)
-        order = min_of(1.0 / step->method->power, max_of(2.0, log(now->error / step->error) / log(now->refused / now->h)));
+        order = min_of(1.0 / step->method->power,
+            max_of(2.0, log(now->error / step->error) / log(now->refused / now->h)));
     now->refused = now->h;
     now->error = step->error;
     return min_of(0.9, max_of(0.1, 0.9 * pow(step->error, -1.0 / order)));
@@ -58,8 +59,9 @@ static double shrink(Run *run, const Step *step)
 /* What would have fitted in place of the first step since something changed. */
 static void note_first(Run *run, const Step *step)
 {
+    const double fits = 0.9 * pow(max_of(1e-12, step->error), -1.0 / order_of(run, step));
     if (run->first)
-        *run->first = step->h * min_of(5.0, max_of(0.3, 0.9 * pow(max_of(1e-12, step->error), -1.0 / order_of(run, step))));
+        *run->first = step->h * min_of(5.0, max_of(0.3, fits));
     run->first = NULL;
 }
 

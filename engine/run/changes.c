@@ -2,7 +2,7 @@
  * What changes at an event: contacts begin and end, corners of laws and expressions change their side, friction its
  * mode; a drive whose rate jumps moves the linkage by an impulse.
  */
-#define ROUGH 3.5 /* power of a step's length that its error goes with where a contact begins: forces begin as delta^n */
+#define ROUGH 3.5 /* power of a first step's length that its error goes with, where forces begin as delta^n */
 
 /* Sides of all corners that act; the one that was just crossed keeps what it was given. */
 static int settle_sides(Run *run, int crossed, const Parameters *p)

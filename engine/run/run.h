@@ -64,9 +64,21 @@ typedef struct {
 } Step;
 
 /*
+ * Where a step has been looked at (roots.c): margins of the last so many shares, and the whole state at the last one at
+ * which the margin that was asked for was below zero. It holds while the step and what it holds fixed do.
+ */
+enum { N_LOOKED = 16 };
+typedef struct {
+    int n;
+    double share[N_LOOKED], margin[N_LOOKED][AT_LEAST_ONE(N_MARGINS)];
+    double beyond, y[N_Y], dy[N_Y];
+    Aside aside;
+} Looked;
+
+/*
  * The step that is tried now, until one is accepted (step_length.c): its length, the first one, what was left of the
- * run, how far from zero its times are, the last one that was refused and its error; whether by the stiff method, whether one was refused, how often it did not
- * resolve something, whether both methods were given up.
+ * run, how far from zero its times are, the last one that was refused and its error; whether by the stiff method,
+ * whether one was refused, how often it did not resolve something, whether both methods were given up.
  */
 typedef struct {
     double h, longest, left, far, refused, error;
@@ -131,6 +143,7 @@ typedef struct {
     Linear linear;
     Attempt attempt;
     Step step;
+    Looked looked;
 } Run;
 
 #if N_USER_EVENTS
