@@ -8,6 +8,7 @@ enum { MAX_STUCK = 200, MAX_CRAWL = 2000, PATIENCE = 8,
 #define LONG_RUN 1e4  /* s: an end further away than this says nothing about the shortest step that makes sense */
 #define WORTH 0.8     /* of a stiff step's length, that an explicit one must have to be cheaper */
 #define WORKS 10.0    /* times rtol, that the works of a step may err, as a share of the energy turned over */
+#define PAST 1.05    /* of the time to the end of a contact, that a step takes */
 #define SLACK 2.5     /* h rho below which the stiff method is not worth its price */
 
 /* The other method from now on. A return to the explicit one that did not last makes the next one harder. */
@@ -35,6 +36,35 @@ static void choose(Run *run)
         change_method(run);
 }
 
+/* Of which power of a step's length its error is: the method's, or less where something has just begun. */
+static double order_of(const Run *run, const Step *step)
+{
+    const double order = 1.0 / step->method->power;
+    return run->first && run->rough > 0.0 ? min_of(run->rough, order) : order;
+}
+
+/* A refused step's share to try next; of two in a row the errors themselves tell how they fall. */
+static double shrink(Run *run, const Step *step)
+{
+    Attempt *now = &run->attempt;
+    double order = order_of(run, step);
+    if (now->refused > now->h && isfinite(now->error) && now->error > step->error)
+        order = min_of(1.0 / step->method->power,
+            max_of(2.0, log(now->error / step->error) / log(now->refused / now->h)));
+    now->refused = now->h;
+    now->error = step->error;
+    return min_of(0.9, max_of(0.1, 0.9 * pow(step->error, -1.0 / order)));
+}
+
+/* What would have fitted in place of the first step since something changed. */
+static void note_first(Run *run, const Step *step)
+{
+    const double fits = 0.9 * pow(max_of(1e-12, step->error), -1.0 / order_of(run, step));
+    if (run->first)
+        *run->first = step->h * min_of(5.0, max_of(0.3, fits));
+    run->first = NULL;
+}
+
 /* The next step's length from an accepted one; `again`: after a rejection, `whole`: no output time cut it short. */
 static void next_length(Run *run, const Step *step, int again, int whole)
 {
@@ -44,11 +74,24 @@ static void next_length(Run *run, const Step *step, int again, int whole)
         factor = min_of(factor, 1.1 * step->method->bounded / run->stability);
     factor = min_of(again ? 1.0 : step->looked ? 2.0 : 6.0, max_of(0.3, factor));
     run->error_before = max_of(1e-4, error);
-    if (run->first)
-        *run->first = step->h;
-    run->first = NULL;
+    note_first(run, step);
     if (step->h * factor > run->h || (whole && run->skip < 0) || factor < 1.0)
         run->h = step->h * factor;
+}
+
+/*
+ * A step that ends close behind the end of a contact, if it would reach beyond: across it a force is no power series.
+ * What is left of the contact is told by its depth and rate.
+ */
+static double up_to_parting(const Run *run, double h)
+{
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Clearance *joint = &run->aside.clearance[i];
+        const double left = PAST * joint->delta / -joint->deltadot;
+        if (gives(i) && run->memory.latch[i].closed && joint->deltadot < 0.0 && left < h && left > 0.1 * h)
+            h = left;
+    }
+    return h;
 }
 
 /* How long a step towards t_end is tried at first. */
@@ -59,7 +102,7 @@ static void open_attempt(Run *run, double t_end, const Parameters *p)
     if (run->skip >= 0 && run->fixed <= 0.0)
         h = min_of(h, run->pace);
     if (run->fixed <= 0.0)
-        h = min_of(h, stride(run, NULL, p));
+        h = up_to_parting(run, min_of(h, stride(run, NULL, p)));
     if (h > left * (1.0 - 1e-9))
         h = left;
     run->attempt = (Attempt){.h = h, .longest = h, .left = left, .far = far, .open = 1,
@@ -122,7 +165,7 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
     }
     now->again = 1;
     run->rejected++;
-    now->h *= tried ? 0.25 : min_of(0.9, max_of(0.1, 0.9 * pow(step->error, -method->power)));
+    now->h *= tried ? 0.25 : shrink(run, step);
     if (now->h > least)
         return again(run);
     if (N_SWITCHES > 0 && tried == NOT_FINITE && run->memory.held) {
@@ -170,7 +213,8 @@ static int first_size(Run *run, double left, const Parameters *p)
         return status;
     for (int k = 0; k < 2 * N_X; k++)
         two = max_of(two, fabs(dy[k] - run->dy[k]) / h * run->weight[k]);
-    const double most = max_of(sqrt(two), one);
-    run->h = min_of(1e-2 * left, max_of(most > 0.0 ? pow(0.01, 0.125) / most : left, h));
+    /* in the time one / two rates change by themselves: so many tolerances are gone in it */
+    const double time = two > 0.0 ? one / two : left, way = max_of(1.0, time * one);
+    run->h = min_of(1e-2 * left, max_of(time * pow(way, -run->method->power), h));
     return 0;
 }

@@ -2,13 +2,31 @@
  * What changes at an event: contacts begin and end, corners of laws and expressions change their side, friction its
  * mode; a drive whose rate jumps moves the linkage by an impulse.
  */
+#define ROUGH 3.5 /* power of a first step's length that its error goes with, where forces begin as delta^n */
+
 /* Sides of all corners that act; the one that was just crossed keeps what it was given. */
 static int settle_sides(Run *run, int crossed, const Parameters *p)
 {
     return settle_at(run, run->t, run->y, run->dy, &run->aside, crossed, p);
 }
 
-/* A contact begins with no longer a step than the last one could begin with, free flight likewise. */
+/* What follows begins with a step as long as fitted when the like of it began before: *known, 0 if it never did. */
+static void begin_with(Run *run, double *known, double rough)
+{
+    if (*known > 0.0)
+        run->h = *known;
+    run->first = known;
+    run->rough = rough;
+}
+
+static int count_closed(const Run *run)
+{
+    int count = 0;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        count += run->memory.latch[i].closed;
+    return count;
+}
+
 static void cross_contact(Run *run, int i, double floor)
 {
     const int opens = run->memory.latch[i].closed;
@@ -16,9 +34,7 @@ static void cross_contact(Run *run, int i, double floor)
         open_joint(run, i, run->t);
     else
         close_joint(run, i, run->t, run->aside.clearance[i].deltadot, floor);
-    if (run->h_first[opens] > 0.0)
-        run->h = min_of(run->h, 2.0 * run->h_first[opens]);
-    run->first = &run->h_first[opens];
+    begin_with(run, &run->after_contact[count_closed(run)][opens], opens ? 0.0 : ROUGH);
     run->h_stiff = 0.0;
 }
 
@@ -28,8 +44,11 @@ static void cross(Run *run, int k, const Parameters *p)
         return; /* meet() sees to all of them */
     if (k < N_CLEARANCES)
         cross_contact(run, k, slowest_impact(p, k));
-    else if (k < N_CLEARANCES + N_SWITCHES)
-        run->memory.side[k - N_CLEARANCES] *= -1.0;
+    else if (k < N_CLEARANCES + N_SWITCHES) {
+        const int corner = k - N_CLEARANCES;
+        run->memory.side[corner] *= -1.0;
+        begin_with(run, &run->after_corner[corner][run->memory.side[corner] > 0.0], 0.0);
+    }
 }
 
 /* What works are measured by at the start: the energy of the motion, at least that of the speeds that count, J. */

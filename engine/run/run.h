@@ -64,12 +64,24 @@ typedef struct {
 } Step;
 
 /*
+ * Where a step has been looked at (roots.c): margins of the last so many shares, and the whole state at the last one at
+ * which the margin that was asked for was below zero. It holds while the step and what it holds fixed do.
+ */
+enum { N_LOOKED = 16 };
+typedef struct {
+    int n;
+    double share[N_LOOKED], margin[N_LOOKED][AT_LEAST_ONE(N_MARGINS)];
+    double beyond, y[N_Y], dy[N_Y];
+    Aside aside;
+} Looked;
+
+/*
  * The step that is tried now, until one is accepted (step_length.c): its length, the first one, what was left of the
- * run, how far from zero its times are; whether by the stiff method, whether one was refused, how often it did not
- * resolve something, whether both methods were given up.
+ * run, how far from zero its times are, the last one that was refused and its error; whether by the stiff method,
+ * whether one was refused, how often it did not resolve something, whether both methods were given up.
  */
 typedef struct {
-    double h, longest, left, far;
+    double h, longest, left, far, refused, error;
     int open, stiff, again, shortened, given_up;
 } Attempt;
 
@@ -116,7 +128,10 @@ typedef struct {
     long steps, evaluations, onsets, grazes, switches, rejected, jacobians, stiff_steps;
     double phi_max, phi_dot_max, ratio_min, ratio_max, ratio_outside;
     /* of methods that choose their step (adaptive.c) */
-    double h, fixed, accept, stability, error_before, h_first[2], *first, h_stiff, t_crossed, pace;
+    double h, fixed, accept, stability, error_before, h_stiff, t_crossed, pace;
+    /* lengths that fit a first step: after a contact begins or ends (others being closed), at a side of a corner; the
+     * one that the next step tells, and of which power of its length such a step's error is (0: the method's) */
+    double after_contact[N_CLEARANCES + 1][2], after_corner[AT_LEAST_ONE(N_SWITCHES)][2], *first, rough;
     double inverse_scale[2 * N_X + 1], least[2], speed[2], speed_floor[2];
     double weight[N_Y]; /* what errors are multiplied by: 1 / tolerance */
     double work_scale, turned_over; /* tolerance of works as a share of the energy (J) that was turned over so far */
@@ -128,6 +143,7 @@ typedef struct {
     Linear linear;
     Attempt attempt;
     Step step;
+    Looked looked;
 } Run;
 
 #if N_USER_EVENTS

@@ -15,6 +15,8 @@ static int make_dense(Run *run, const Parameters *p, Step *step)
     if (step->dense_ready)
         return 0;
     step->dense_ready = 1;
+    run->looked.n = 0;
+    run->looked.beyond = NAN;
     return step->method->dense(run, p, step);
 }
 
@@ -26,6 +28,12 @@ static void interpolate(const Run *run, const Step *step, double s, double *y)
 /* State, projected, and right-hand side at share s of the step. */
 static int state_at(Run *run, const Step *step, double s, const Parameters *p, double *y, double *dy, Aside *aside)
 {
+    if (s == run->looked.beyond) {
+        memcpy(y, run->looked.y, sizeof run->looked.y);
+        memcpy(dy, run->looked.dy, sizeof run->looked.dy);
+        *aside = run->looked.aside;
+        return 0;
+    }
     interpolate(run, step, s, y);
     const double t = step->t + s * step->h;
     project_state(run, t, y, p);
@@ -34,9 +42,24 @@ static int state_at(Run *run, const Step *step, double s, const Parameters *p, d
 
 static double margin_at(Run *run, const Step *step, double s, int k, const Parameters *p)
 {
+    Looked *looked = &run->looked;
     double y[N_Y], dy[N_Y];
     Aside aside;
-    return state_at(run, step, s, p, y, dy, &aside) ? NAN : margin(&run->memory, &aside, k);
+    for (int i = looked->n; i > 0 && i > looked->n - N_LOOKED; i--)
+        if (looked->share[(i - 1) % N_LOOKED] == s)
+            return looked->margin[(i - 1) % N_LOOKED][k];
+    if (state_at(run, step, s, p, y, dy, &aside))
+        return NAN;
+    const int slot = looked->n++ % N_LOOKED;
+    looked->share[slot] = s;
+    margins_of(&run->memory, &aside, looked->margin[slot]);
+    if (looked->margin[slot][k] < 0.0) {
+        looked->beyond = s;
+        memcpy(looked->y, y, sizeof y);
+        memcpy(looked->dy, dy, sizeof dy);
+        looked->aside = aside;
+    }
+    return looked->margin[slot][k];
 }
 
 /* Where the parabola x(f) through three points, or the line through two, meets f = 0. */
