@@ -94,7 +94,9 @@ def test_what_cannot_wear_is_refused(tmp_path: Path) -> None:
     ]  # fmt: skip
     for odd in oddities:
         with pytest.raises(gudgeon.InputError, match=next(iter(odd))):
-            gudgeon.wear_loop(simulation, **(dict[str, Any]({"joints": "J", "t_end": 0.01, "k": 1e-9, "rounds": 1} ) | odd))
+            gudgeon.wear_loop(
+                simulation, **(dict[str, Any]({"joints": "J", "t_end": 0.01, "k": 1e-9, "rounds": 1}) | odd)
+            )
     with pytest.raises(UnknownNameError, match="joint with play"):
         gudgeon.wear_loop(simulation, "O", 0.01, k=1e-9, rounds=1)
     with pytest.raises(BadValueError, match="twice"):
