@@ -17,6 +17,7 @@ from gudgeon.generator.study.spec import (
     CONTACTS,
     CROSSINGS,
     DEVIATIONS,
+    FOLLOWED,
     FORMAT,
     RESERVED,
     SAMPLES,
@@ -41,7 +42,7 @@ WHOLE = ("format", "parts", "claims")  # of a file, not of its parts
 PART = tuple(key for key in KEYS if key not in WHOLE)
 ALONE = ""  # the name of a study that is all of its file
 AUTO, MAX_TITLE = "auto", 200
-WINDOWED = (*SAMPLES, DEVIATIONS[0], *CONTACTS, *CROSSINGS)
+WINDOWED = (*SAMPLES, DEVIATIONS[0], *CONTACTS, *CROSSINGS, *FOLLOWED)
 OF_SERIES = (*SAMPLES, *STEPS, *DEVIATIONS)  # what may be less another scene's
 
 
@@ -229,7 +230,7 @@ def _measure(name: Text, node: Map, windows: Mapping[str, Window], root: Map) ->
         told = f"{owner} has {'no statistic' if not chosen else f'both {chosen[0]} and {chosen[1]}'}"
         raise BadValueError(told, name.where, f"expected one of: {', '.join(STATISTICS)}")
     (statistic,) = chosen
-    of = text(node[statistic], f"{owner}.{statistic}", statistic, "the name of a series, a joint or an event")
+    of = text(node[statistic], f"{owner}.{statistic}", statistic, "the name of a series, a joint or an event, or a section")
     window = ""
     if "window" in node:
         at = text(node["window"], f"{owner}.window", node.key("window"), "the name of a window")
