@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from gudgeon.errors import BadValueError, UnknownNameError
+from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
 from gudgeon.language.plot_units import drawn, label, pretty, scale
 from gudgeon.language.shown import one_line
 from gudgeon.language.suggestions import unknown
@@ -43,6 +44,23 @@ class StudyData:
         if text(name, "a measure", "the name of a measure") not in self.study.measures:
             raise unknown(f"the study has no measure {name!r}", name, self.study.measures)
         return self._picked(self.dataset[name], at)
+
+    def claimed(
+        self, name: str, over: str, by: str | None, at: Coords | None, axis: str
+    ) -> list[tuple[float, float, int]]:
+        """Numbers that the file claims of a measure of the runs at: place on the axis, value (SI), which line."""
+        try:
+            numbers = self.study.claims.numbers
+        except GudgeonError:  # it claims nothing
+            return []
+        own = numbers[(numbers["measure"] == name) & numbers["printed"].notna()].drop_duplicates("claim")
+        found, picked, places = self.dataset[name], dict[str, int](), self.axis(axis)[0]
+        for key, value in (at or {}).items():
+            dimension = self.dimension(found, key)
+            picked[dimension] = self.nearest(found, dimension, value)
+        each = [(json.loads(place), float(value)) for place, value in zip(own["place"], own["printed"], strict=True)]
+        return [(float(places[place[over]]), value, -1 if by is None else place.get(by, -1)) for place, value in each
+                if over in place and all(place.get(one, k) == k for one, k in picked.items())]  # fmt: skip
 
     def series(self, name: str, at: Coords | None = None) -> tuple[Any, Any]:
         """Times, (N,) where all runs have the same, else (…, N), and a kept series (…, N)."""

@@ -178,7 +178,7 @@ def _figures(data: StudyData) -> Iterator[Draw]:
         found = data.dataset[name]
         if not found.dims or not np.isfinite(found.values).any():
             continue
-        yield f"{name}: {_pooled(data, found)}", partial(plot.measure, name)
+        yield f"{name}: {_pooled(data, found)}", partial(plot.measure, name, published=True)
         varied = [str(one) for one in found.dims if one != "scene" and one not in MANY]
         if len(varied) < 2:
             continue
