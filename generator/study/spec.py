@@ -6,7 +6,7 @@ What a number's unit is, and whether a name exists, only the loaded scenes know 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from gudgeon.errors import BadValueError, Location
@@ -186,6 +186,7 @@ class StudySet:
     parts: Mapping[str, StudyFile]
     named: bool  # whether the file has parts
     claims: Claims
+    titles: Mapping[str, str] = field(default_factory=dict)  # of names, for people
 
     def begun(self, count: int | None, seed: int | None) -> StudySet:
         """With so many perturbed starts, by another seed, in every part that has any. BadValueError where none has."""

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.polynomial.legendre import leggauss
 
 from gudgeon.contract.methods import ADAPTIVE, AUTO
-from gudgeon.errors import BadValueError, GudgeonError
+from gudgeon.errors import GudgeonError
 from gudgeon.model.contours import contour_of, depth_at
 from gudgeon.results.diagnostics import Difference, Examined, IdealForce, JointExamined
 from gudgeon.results.report import default_watch

@@ -22,6 +22,7 @@ from gudgeon.language.wanted import refuse, text
 from gudgeon.model.parameters import prepare_slots
 from gudgeon.model.written import trees
 from gudgeon.results.lyapunov import Lyapunov
+from gudgeon.results.results import Result
 from gudgeon.simulation.arguments import end_of, seconds
 from gudgeon.simulation.flow import Flow
 from gudgeon.simulation.horizon import begin_of, check_own, settings_of
@@ -33,7 +34,7 @@ from gudgeon.simulation.twin import Twin
 
 if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Progress
-    from gudgeon.results.results import Result, State
+    from gudgeon.results.results import State
     from gudgeon.simulation.simulation import Simulation
 
 WAYS = ("auto", "tangent", "twin")
@@ -63,14 +64,17 @@ def no_tangent(source: KernelSource) -> str:
 
 
 def lyapunov(
-    simulation: Simulation, t_end: float | str | Result, section: str | float | None, by: str, skip: float | str,
+    simulation: Simulation, until: float | str | Result, section: str | float | None, by: str, skip: float | str,
     settings: dict[str, Any], parameters: Mapping[str, float | str] | None, start: State | None,
     progress: Progress | None,
 ) -> Lyapunov:  # fmt: skip
     """See Simulation.lyapunov."""
     source = simulation.source
-    if not isinstance(t_end, (str, float, int)) and hasattr(t_end, "diagnostics"):
-        t_end, start, settings = _of_run(simulation, t_end, parameters, start, settings)
+    t_end: float | str
+    if isinstance(until, Result):
+        t_end, start, settings = _of_run(simulation, until, parameters, start, settings)
+    else:
+        t_end = until
     if source.degrees_of_freedom <= 0:
         raise BadValueError("without a degree of freedom no difference can grow: drives determine the motion")
     why, settings = _way(source, text(by, "by")), _settings(settings)
@@ -101,7 +105,8 @@ def _of_run(
     """End, start and settings of a run; a tolerance is not its own, but what a neighbour needs."""
     check_own(simulation, run, "lyapunov")
     if parameters is not None or start is not None:
-        raise BadValueError("lyapunov of a run: it has its own start and numbers", hint="leave out parameters and start")
+        hint = "leave out parameters and start"
+        raise BadValueError("lyapunov of a run: it has its own start and numbers", hint=hint)
     usual = {name: value for name, value in settings_of(run)[0].items() if name in ("method", "step")}
     told = {name: value for name, value in settings.items() if value is not None and value != "auto"}
     return float(run.t[-1]), begin_of(run), settings | usual | told

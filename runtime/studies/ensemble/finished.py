@@ -16,6 +16,7 @@ from gudgeon.files.writing import written
 from gudgeon.language.wanted import names, path
 from gudgeon.studies.ensemble.claimed import Claimed, read_claims_of
 from gudgeon.studies.ensemble.folder import DATASET, h5py_module
+from gudgeon.studies.ensemble.names import Names, read_names
 
 if TYPE_CHECKING:
     import pandas
@@ -70,6 +71,11 @@ class Study:
             return read_claims_of(self.folder)
         found = self._whole.claims
         return found._replace(numbers=found.numbers[found.numbers["part"] == self.folder.name])
+
+    @cached_property
+    def names(self) -> Names:
+        """What people read in place of names and numbers."""
+        return read_names(self.folder) if self._whole is None else self._whole.names
 
     @property
     def tree(self) -> xarray.DataTree:

@@ -65,7 +65,7 @@ class StudyPlot:
             for (told, own), colour in zip(parts := self.data.split(found, by), cycle(len(parts)), strict=True):
                 _band(ax, x, quantiles(self.data.rows(own, over)) * factor, colour, told)
             _marks(ax, claimed, factor, cycle(len(parts)))
-            ax.set(xlabel=x_label, ylabel=label(one_line(name), unit))
+            ax.set(xlabel=x_label, ylabel=label(self.data.shown(name), unit))
             if ticks is not None:
                 ax.set_xticks(x, ticks)
             self._finish(ax, at, len(parts) > 1 or bool(claimed))
@@ -92,7 +92,7 @@ class StudyPlot:
             factor, unit = drawn(peak_of(found.values), found.attrs.get("units", ""))
             for (told, own), colour in zip(parts := self.data.split(found, by), cycle(len(parts)), strict=True):
                 _band(ax, t, quantiles(self.data.rows(own, found.dims[-1])) * factor, colour, told, 0.0)
-            ax.set(xlabel="share of the run" if share else "t [s]", ylabel=label(one_line(series), unit))
+            ax.set(xlabel="share of the run" if share else "t [s]", ylabel=label(self.data.shown(series), unit))
             self._finish(ax, at, len(parts) > 1)
         return ax
 
@@ -119,7 +119,7 @@ class StudyPlot:
             told = [word for word, _ in self.data.split(found, by)]
             for word, (f, rows), colour in zip(told, own, cycle(len(told)), strict=True):
                 _band(ax, f, quantiles(rows) * factor, colour, word, 0.0)
-            ax.set(xlabel="f [Hz]", ylabel=label(one_line(series), unit))
+            ax.set(xlabel="f [Hz]", ylabel=label(self.data.shown(series), unit))
             self._finish(ax, at, len(told) > 1)
         return ax
 
@@ -142,7 +142,7 @@ class StudyPlot:
         """One kept series over another, every run a curve, in the colour of its value of `by`."""
         (_, xs), (_, ys) = self.data.series(x, at), self.data.series(y, at)
         factor, unit = drawn(peak_of(xs.values), xs.attrs.get("units", ""))
-        return self._curves([(xs.values * factor, ys)], label(one_line(x), unit), y, by, at, ax)
+        return self._curves([(xs.values * factor, ys)], label(self.data.shown(x), unit), y, by, at, ax)
 
     def _curves(
         self, pairs: list[tuple[Any, Any]], x_label: str, name: str, by: str | None, at: Coords | None,
@@ -160,7 +160,7 @@ class StudyPlot:
                 rows = zip(own_x.reshape(-1, x.shape[-1]), own.values.reshape(-1, x.shape[-1]), strict=True)
                 for j, (xs, ys) in enumerate(rows):
                     ax.plot(xs, ys * factor, color=colour, lw=0.8, alpha=0.8, label=told if j == 0 else None)
-            ax.set(xlabel=x_label, ylabel=label(one_line(name), unit))
+            ax.set(xlabel=x_label, ylabel=label(self.data.shown(name), unit))
             self._finish(ax, at, len(parts) > 1)
         return ax
 
@@ -180,7 +180,7 @@ class StudyPlot:
                 drawn(peak_of(values), self.data.unit(name)) for name, values in ((x, xs), (y, ys))
             )
             ax.plot(xs * of_x, ys * of_y, ".", color=COLOURS[1], ms=3.0)
-            ax.set(xlabel=label(one_line(x), x_unit), ylabel=label(one_line(y), y_unit))
+            ax.set(xlabel=label(self.data.shown(x), x_unit), ylabel=label(self.data.shown(y), y_unit))
             self._finish(ax, at, False)
         return ax
 
@@ -199,7 +199,7 @@ class StudyPlot:
             ax = new_axes(6.4, 4.0) if ax is None else plain(ax)
             factor, unit = drawn(peak_of(ys), self.data.unit(series))
             ax.plot(xs, ys * factor, ".", color=COLOURS[1], ms=2.0)
-            ax.set(xlabel=x_label, ylabel=label(one_line(series), unit))
+            ax.set(xlabel=x_label, ylabel=label(self.data.shown(series), unit))
             if ticks is not None:
                 ax.set_xticks(x, ticks)
             self._finish(ax, at, False)
@@ -222,14 +222,14 @@ class StudyPlot:
                 which.set_label_text(told)
             ax.tick_params(axis="x", rotation=45 if middle.shape[1] > 6 else 0)
             ax.grid(False)
-            ax.figure.colorbar(image, ax=ax, label=label(one_line(name), unit))
+            ax.figure.colorbar(image, ax=ax, label=label(self.data.shown(name), unit))
             if middle.size <= SMALL:
                 _numbers(ax, middle * factor, image)
             self._finish(ax, at, False)
         return ax
 
     def _finish(self, ax: Axes, at: Coords | None, legend: bool) -> None:
-        picked = ", ".join(f"{one_line(str(name))} = {_said(value)}" for name, value in (at or {}).items())
+        picked = ", ".join(f"{self.data.shown(name)} = {_said(value)}" for name, value in (at or {}).items())
         ax.set_title(in_figure(": ".join(filter(None, (one_line(self.data.title), picked))), TITLE))
         if legend:
             ax.legend(fontsize=8)
