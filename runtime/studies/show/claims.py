@@ -28,11 +28,11 @@ SHORT = 22  # characters of where a number was taken, that stand under it
 
 def claims_sections(study: Study, parts: Mapping[str, StudyData], pictures: Pictures) -> list[Section]:
     """Published numbers with figures in their order, and trends; none of a study that claims nothing."""
-    told = _Told(parts)
     try:
         found = study.claims
     except GudgeonError:  # its file makes no claims
         return []
+    told = _Told(parts)
     numbers, trends = (list(_each(table.to_dict("records"))) for table in (found.numbers, found.trends))
     source = lines([found.source] * bool(found.source), "g-quiet")
     printed = [rows for rows in numbers if not _none(rows[0]["printed"])]
@@ -53,7 +53,9 @@ class _Told:
 
     def at(self, row: Row) -> str:
         """Where a number's scene lies."""
-        return self.parts[str(row["part"])].where(json.loads(str(row.get("place", "{}"))))
+        if "place" not in row:  # a folder that an earlier version judged
+            return str(row["at"])
+        return self.parts[str(row["part"])].where(json.loads(str(row["place"])))
 
     def what(self, row: Row) -> str:
         """A number in words: its own, or measure, part and place."""
@@ -85,7 +87,7 @@ def _numbers(claims: list[list[Row]], told: _Told) -> str:
 def _number(rows: list[Row], names: list[str], words: _Told) -> list[str]:
     first, own = rows[0], {str(row["ensemble"]): row for row in rows}
     factor, unit = scale(_size(rows), str(first["unit"]))
-    printed = "–" if _none(first["printed"]) else f"{first['printed'] * factor:.4g} {unit}".strip()
+    printed = "–" if _none(first["printed"]) else f"{first['printed'] * factor:.4g}\u00a0{unit}".strip()
     cells = [_median(own.get(name) or (rows[0] if len(rows) == 1 and k == 0 else None), factor, unit)
              for k, name in enumerate(names)]  # fmt: skip
     off = sorted(row["deviation"] for row in rows if not _none(row["deviation"]))
@@ -114,7 +116,7 @@ def _median(row: Row | None, factor: float, unit: str) -> str:
         return ""
     if _none(row["median"]):
         return "–"
-    middle = f"{row['median'] * factor:.4g} {unit}".strip()
+    middle = f"{row['median'] * factor:.4g}\u00a0{unit}".strip()
     return middle if row["n"] == 1 else f"{middle} ({row['q25'] * factor:.4g} … {row['q75'] * factor:.4g})"
 
 
