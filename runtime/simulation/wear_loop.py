@@ -161,8 +161,8 @@ class Loop:
         joints = {
             joint: WornJoint(
                 np.stack(self.contours[joint]), np.stack(self.depths[joint]), np.stack(self.works[joint]),
-                np.stack(self.peaks[joint]), *self.sizes[joint][:2], np.stack(self.journals[joint]),
-                self.sizes[joint][2],
+                np.stack(self.peaks[joint]), self.sizes[joint][0], self.sizes[joint][1],
+                np.stack(self.journals[joint]), self.sizes[joint][2],
             )
             for joint in wearing.joints
         }  # fmt: skip
