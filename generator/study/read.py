@@ -17,6 +17,7 @@ from gudgeon.generator.study.spec import (
     CONTACTS,
     CROSSINGS,
     DEVIATIONS,
+    FOLLOWED,
     FORMAT,
     RESERVED,
     SAMPLES,
@@ -28,6 +29,7 @@ from gudgeon.generator.study.spec import (
     Window,
     Written,
 )
+from gudgeon.generator.study.titles import read_titles
 from gudgeon.generator.study.tree import plain, tree_of
 from gudgeon.generator.study.wear import read_wear
 from gudgeon.generator.yaml.tree import Map, Text, kind_of, parse_yaml
@@ -35,13 +37,13 @@ from gudgeon.language.suggestions import unknown_name
 
 KEYS = (
     "format", "title", "mechanism", "scenes", "choices", "parameters", "zip", "draw", "starts", "t_end", "output",
-    "step", "method", "rtol", "stop", "wear", "windows", "measures", "keep", "parts", "claims",
+    "step", "method", "rtol", "stop", "wear", "windows", "measures", "keep", "parts", "claims", "titles",
 )  # fmt: skip
-WHOLE = ("format", "parts", "claims")  # of a file, not of its parts
+WHOLE = ("format", "parts", "claims", "titles")  # of a file, not of its parts
 PART = tuple(key for key in KEYS if key not in WHOLE)
 ALONE = ""  # the name of a study that is all of its file
 AUTO, MAX_TITLE = "auto", 200
-WINDOWED = (*SAMPLES, DEVIATIONS[0], *CONTACTS, *CROSSINGS)
+WINDOWED = (*SAMPLES, DEVIATIONS[0], *CONTACTS, *CROSSINGS, *FOLLOWED)
 OF_SERIES = (*SAMPLES, *STEPS, *DEVIATIONS)  # what may be less another scene's
 
 
@@ -61,18 +63,18 @@ def read_studies(
     root = parse_yaml(data, file, reader.errors) if isinstance(data, bytes) else tree_of(data)
     if not isinstance(root, Map):
         raise BadValueError(f"the study is {kind_of(root)}", hint="expected a mapping")
-    claims = Claims()
+    claims, titles = Claims(), dict[str, str]()
     try:
         _check_format(root, isinstance(data, bytes))
         found = {name: _read(reader, node, file, settings or {}, owner) for name, owner, node in _parts(reader, root)}
-        claims = read_claims(reader, root)
+        claims, titles = read_claims(reader, root), read_titles(reader, root, found)
     except EnoughErrors:
         found = {}
     reader.errors = list({str(error): error for error in reader.errors}.values())  # parts share what the file says
     reader.raise_errors()
     parts = {name: part for name, part in found.items() if part is not None}
     title = str(root["title"]) if "title" in root else ""
-    return StudySet(file, title, parts, "parts" in root, claims)
+    return StudySet(file, title, parts, "parts" in root, claims, titles)
 
 
 def _parts(reader: Reader, root: Map) -> Iterator[tuple[str, str, Map]]:
@@ -139,7 +141,7 @@ def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str], own
 
 def _said(root: Map) -> dict[str, Any]:
     """What decides the results: not what is claimed of them."""
-    return {key: said for key, said in plain(root).items() if key != "claims"}
+    return {key: said for key, said in plain(root).items() if key not in ("claims", "titles")}
 
 
 def _over(fixed: Mapping[Text, Text], settings: Mapping[str, str]) -> dict[Text, Text]:
@@ -229,7 +231,8 @@ def _measure(name: Text, node: Map, windows: Mapping[str, Window], root: Map) ->
         told = f"{owner} has {'no statistic' if not chosen else f'both {chosen[0]} and {chosen[1]}'}"
         raise BadValueError(told, name.where, f"expected one of: {', '.join(STATISTICS)}")
     (statistic,) = chosen
-    of = text(node[statistic], f"{owner}.{statistic}", statistic, "the name of a series, a joint or an event")
+    what = "the name of a series, a joint or an event, or a section"
+    of = text(node[statistic], f"{owner}.{statistic}", statistic, what)
     window = ""
     if "window" in node:
         at = text(node["window"], f"{owner}.window", node.key("window"), "the name of a window")

@@ -23,6 +23,7 @@ from gudgeon.generator.study.spec import (
     UNIFORM,
     WEAR_LAWS,
 )
+from gudgeon.generator.study.titles import MOST
 from gudgeon.generator.study.wear import MOST_ROUNDS
 from gudgeon.language.names import LABEL
 
@@ -50,7 +51,8 @@ def schema() -> Json:
         "keep": names, "wear": _wear(),
     }  # fmt: skip
     parts = _map(_record(own), LABEL) | {"minProperties": 1}
-    whole = {"format": {"const": FORMAT}, "parts": parts, "claims": _claims()}
+    titles = _map(_TEXT | {"maxLength": MOST})
+    whole = {"format": {"const": FORMAT}, "parts": parts, "claims": _claims(), "titles": titles}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": f"study file, {FORMAT}",

@@ -6,7 +6,7 @@ What a number's unit is, and whether a name exists, only the loaded scenes know 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from gudgeon.errors import BadValueError, Location
@@ -26,7 +26,10 @@ JOINT = ("peak_force", "eccentricity")  # of a joint with play over all steps
 WEAR_LAWS = ("archard", "reye")
 WEAR = ("wear_depth", "wear_arc")  # of a joint with dry contact over all steps, of its bearing, for k/H = 1/Pa
 CROSSINGS = ("crossings", "first_crossing")  # of an event in a window
-STATISTICS = (*SAMPLES, *STEPS, *DEVIATIONS, *CONTACTS, *JOINT, *WEAR, *CROSSINGS)
+FOLLOWED = (
+    "lyapunov", "lyapunov_error", "lyapunov_per_return", "believable", "motion", "motion_confidence",
+)  # of a neighbour of the run, or of its returns to a section, in a window
+STATISTICS = (*SAMPLES, *STEPS, *DEVIATIONS, *CONTACTS, *JOINT, *WEAR, *CROSSINGS, *FOLLOWED)
 RESERVED = (
     "run", "time", "t", "sample", "scene", "draw", "start", "ensemble", "failure", "t_last",
 )  # what a dataset has of its own
@@ -183,6 +186,7 @@ class StudySet:
     parts: Mapping[str, StudyFile]
     named: bool  # whether the file has parts
     claims: Claims
+    titles: Mapping[str, str] = field(default_factory=dict)  # of names, for people
 
     def begun(self, count: int | None, seed: int | None) -> StudySet:
         """With so many perturbed starts, by another seed, in every part that has any. BadValueError where none has."""

@@ -31,8 +31,12 @@ def drawn(size: float, unit: str) -> tuple[float, str]:
 
 def pretty(unit: str) -> str:
     """ "kg*m^2" as "kg·m²"."""
-    raised = re.sub(r"\^(-?[\d.]+)", lambda power: power.group(1).translate(_SUPERSCRIPTS), unit)
-    return raised.replace("*", "·")
+    return re.sub(r"\^(-?[\d.]+)", lambda power: raised(power.group(1)), unit).replace("*", "·")
+
+
+def raised(power: str) -> str:
+    """ "-2" as "⁻²"."""
+    return power.translate(_SUPERSCRIPTS)
 
 
 def label(name: str, unit: str) -> str:

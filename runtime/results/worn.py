@@ -27,6 +27,13 @@ class WornJoint:
     peak: Array  # (r, n) N, largest force
     radius: Array  # (n,) m
     length: Array  # (n,) m
+    journal: Array  # (r, n, points) m that a round wears off the journal, times `scale`, in the journal's own frame
+    journal_radius: Array  # (n,) m
+
+    @property
+    def journal_volume(self) -> Array:
+        """(r, n) m³ that each round wore off the journal; no contour is deeper by it."""
+        return np.asarray(self.journal.mean(axis=2) * 2.0 * np.pi * self.journal_radius * self.length)
 
     @property
     def volume(self) -> Array:
@@ -67,6 +74,8 @@ class Worn:
         columns = {
             "contour": (("joint", "state", "run", "slot"), contour, {"units": "m", "long_name": f"depth {told}"}),
             "depth": ((*of_round, "angle"), np.stack([one.depth for one in several]), {"units": "m"}),
+            "journal": ((*of_round, "angle"), np.stack([one.journal for one in several]), {"units": "m"}),
+            "journal_volume": (of_round, np.stack([one.journal_volume for one in several]), {"units": "m^3"}),
             "volume": (of_round, np.stack([one.volume for one in several]), {"units": "m^3"}),
             "work": (of_round, np.stack([one.work for one in several]), {"units": "N*m"}),
             "peak": (of_round, np.stack([one.peak for one in several]), {"units": "N"}),

@@ -17,12 +17,12 @@ import numpy as np
 from numpy.polynomial.legendre import leggauss
 
 from gudgeon.contract.methods import ADAPTIVE, AUTO
-from gudgeon.errors import BadValueError, GudgeonError
+from gudgeon.errors import GudgeonError
 from gudgeon.model.contours import contour_of, depth_at
 from gudgeon.results.diagnostics import Difference, Examined, IdealForce, JointExamined
 from gudgeon.results.report import default_watch
 from gudgeon.results.series import MOTION, rates
-from gudgeon.simulation.horizon import begin_of, repeated, settings_of
+from gudgeon.simulation.horizon import begin_of, check_own, repeated, settings_of
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import ClearanceInfo, KernelSource
@@ -50,12 +50,6 @@ def examine(
     differences, told = _differences(simulation, run, notes, progress)
     found = Examined(joints, _ideal(run, ideal, notes), differences, told, tuple(notes))
     return replace(run, diagnostics=replace(run.diagnostics, examined=found))
-
-
-def check_own(simulation: Simulation, run: Result, asked: str) -> None:
-    """BadValueError for a run of another scene, or a file of it that has no scene."""
-    if run.source.whole_sha256 != simulation.source.whole_sha256 or run.source.scene != simulation.source.scene:
-        raise BadValueError(f"{asked}: expected the simulation whose run it is")
 
 
 def _again(

@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from gudgeon.assembly.linkage import mechanism_size
-from gudgeon.errors import SolverError
+from gudgeon.errors import BadValueError, SolverError
 from gudgeon.integrators.adaptive import SMALLEST, lengths
 from gudgeon.integrators.projection import project
 from gudgeon.model.compiled import Array
@@ -128,6 +128,12 @@ def _path(simulation: Simulation, run: Result) -> Array:
 
 def _angles(run: Result) -> Any:
     return np.array([name.endswith(".theta") for name in run.source.coordinates])
+
+
+def check_own(simulation: Simulation, run: Result, asked: str) -> None:
+    """BadValueError for a run of another scene, or a file of it that has no scene."""
+    if run.source.whole_sha256 != simulation.source.whole_sha256 or run.source.scene != simulation.source.scene:
+        raise BadValueError(f"{asked}: expected the simulation whose run it is")
 
 
 def settings_of(run: Result) -> tuple[dict[str, Any], dict[str, Any]]:

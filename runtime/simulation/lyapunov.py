@@ -22,9 +22,10 @@ from gudgeon.language.wanted import refuse, text
 from gudgeon.model.parameters import prepare_slots
 from gudgeon.model.written import trees
 from gudgeon.results.lyapunov import Lyapunov
+from gudgeon.results.results import Result
 from gudgeon.simulation.arguments import end_of, seconds
 from gudgeon.simulation.flow import Flow
-from gudgeon.simulation.horizon import begin_of
+from gudgeon.simulation.horizon import begin_of, check_own, settings_of
 from gudgeon.simulation.neighbours import Neighbours
 from gudgeon.simulation.restart import numbers, own
 from gudgeon.simulation.returns import Returns
@@ -33,7 +34,7 @@ from gudgeon.simulation.twin import Twin
 
 if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Progress
-    from gudgeon.results.results import Result, State
+    from gudgeon.results.results import State
     from gudgeon.simulation.simulation import Simulation
 
 WAYS = ("auto", "tangent", "twin")
@@ -63,12 +64,17 @@ def no_tangent(source: KernelSource) -> str:
 
 
 def lyapunov(
-    simulation: Simulation, t_end: float | str, section: str | float | None, by: str, skip: float | str,
+    simulation: Simulation, until: float | str | Result, section: str | float | None, by: str, skip: float | str,
     settings: dict[str, Any], parameters: Mapping[str, float | str] | None, start: State | None,
     progress: Progress | None,
 ) -> Lyapunov:  # fmt: skip
     """See Simulation.lyapunov."""
     source = simulation.source
+    t_end: float | str
+    if isinstance(until, Result):
+        t_end, start, settings = _of_run(simulation, until, parameters, start, settings)
+    else:
+        t_end = until
     if source.degrees_of_freedom <= 0:
         raise BadValueError("without a degree of freedom no difference can grow: drives determine the motion")
     why, settings = _way(source, text(by, "by")), _settings(settings)
@@ -90,6 +96,20 @@ def lyapunov(
         "tangent" if why is None else "twin", why or "", np.array(t), np.array(growth),
         pair.unresolved / (t[-1] - t[0]), pair.merged, transverse, returns.section(), pair.state,
     )  # fmt: skip
+
+
+def _of_run(
+    simulation: Simulation, run: Result, parameters: Mapping[str, float | str] | None, start: State | None,
+    settings: dict[str, Any],
+) -> tuple[float, State, dict[str, Any]]:  # fmt: skip
+    """End, start and settings of a run; a tolerance is not its own, but what a neighbour needs."""
+    check_own(simulation, run, "lyapunov")
+    if parameters is not None or start is not None:
+        hint = "leave out parameters and start"
+        raise BadValueError("lyapunov of a run: it has its own start and numbers", hint=hint)
+    usual = {name: value for name, value in settings_of(run)[0].items() if name in ("method", "step")}
+    told = {name: value for name, value in settings.items() if value is not None and value != "auto"}
+    return float(run.t[-1]), begin_of(run), settings | usual | told
 
 
 def _intervals(

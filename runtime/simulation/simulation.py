@@ -235,8 +235,8 @@ class Simulation(Equations):
         )  # fmt: skip
 
     def lyapunov(
-        self, t_end: float | str, *, section: str | float | None = None, by: str = "auto", skip: float | str = 0.0,
-        method: str = "auto", rtol: float | str | None = None, step: float | str | None = None,
+        self, t_end: float | str | Result, *, section: str | float | None = None, by: str = "auto",
+        skip: float | str = 0.0, method: str = "auto", rtol: float | str | None = None, step: float | str | None = None,
         parameters: Mapping[str, float | str] | None = None, start: State | None = None,
         progress: Progress | None = None,
     ) -> Lyapunov:  # fmt: skip
@@ -247,7 +247,8 @@ class Simulation(Equations):
         `section`: an event of the file, or a period (s, '2*pi/omega'): the exponent per return too, and the kind of
         motion, `found.motion`. Where neither drives nor forces read t, differences along the motion are then taken
         away. `skip`: so long (s) the motion settles first. Of the rest a tenth is left out, in which the difference
-        turns. `method`, `rtol` (1e-12), `step`, `parameters`, `start`: as in `simulate`, of every run.
+        turns. `method`, `rtol` (1e-12), `step`, `parameters`, `start`: as in `simulate`, of every run. A run of this
+        simulation in place of t_end: the exponent of that run, from its first sample to its last, with its numbers.
         Raises BadValueError without a degree of freedom, and for arguments; SolverError, AssemblyError as `simulate`.
         """
         from gudgeon.simulation.lyapunov import lyapunov

@@ -19,7 +19,8 @@ from gudgeon.language.shown import one_line
 from gudgeon.language.wanted import number_of, positive, refuse, text, told, whole
 from gudgeon.results.wear import HOUR, LAWS, POINTS, Rubbed, Rubbing, Surface, Wear, bearing_of, middles, spread
 from gudgeon.simulation.between import Path
-from gudgeon.simulation.examine import as_it_was, check_own, known_to_rub, without_oil
+from gudgeon.simulation.examine import as_it_was, known_to_rub, without_oil
+from gudgeon.simulation.horizon import check_own
 from gudgeon.simulation.wanted_peaks import Told
 
 if TYPE_CHECKING:

@@ -2,8 +2,10 @@
 
 Each round runs the scene with the contours that the rounds before have left, and deepens the bearing where it was
 rubbed: Archard's depth over the cells of its circumference, or Reye's, times what a run stands for, is laid on the
-contour's slots. Sums stay those of the cells, so that what the contour is deeper is k/H ∫ F_n ds. The journal's wear
-goes all round it and changes no contour; laws keep the numbers of the file.
+contour's slots. Sums stay those of the cells, so that what the contour is deeper is k/H ∫ F_n ds. The journal's wear is
+told round by round, in its own frame, and changes no contour: at the angle φ of the bearing the gap would be wider by
+w(φ) + w_journal(φ − ψ), ψ the journal's angle in the bearing, which is one contour of the bearing only where ψ stands
+still or the journal is worn evenly. Laws keep the numbers of the file.
 """
 
 from __future__ import annotations
@@ -105,6 +107,7 @@ class Loop:
         self.slots = {one.joint: one.count for one in simulation.source.contours}
         self.contours: dict[str, list[Array]] = {joint: [] for joint in wearing.joints}
         self.depths: dict[str, list[Array]] = {joint: [] for joint in wearing.joints}
+        self.journals: dict[str, list[Array]] = {joint: [] for joint in wearing.joints}
         self.works: dict[str, list[Array]] = {joint: [] for joint in wearing.joints}
         self.peaks: dict[str, list[Array]] = {joint: [] for joint in wearing.joints}
         self.sizes: dict[str, Array] = {}
@@ -129,15 +132,17 @@ class Loop:
         if not self.contours[joint]:
             self.contours[joint].append(np.array(np.broadcast_to(self.given[joint], (n, slots))))
         depth, more = np.full((n, self.wearing.points), np.nan), np.full((n, slots), np.nan)
-        work = np.full(n, np.nan)
-        sizes = self.sizes.setdefault(joint, np.full((2, n), np.nan))
+        work, journal = np.full(n, np.nan), np.full_like(depth, np.nan)
+        sizes = self.sizes.setdefault(joint, np.full((3, n), np.nan))
         for i in (i for i in range(n) if i not in self.failures):
             rubbed = batch.rubbed[i][place]
             depth[i], more[i] = self.wearing.deeper(rubbed, slots)
             work[i] = (rubbed.load if self.wearing.law == LAWS[0] else rubbed.friction)[0].sum()
-            sizes[:, i] = rubbed.radii[0], rubbed.length
+            journal[i] = self.wearing.scale * rubbed.depth(1, self.wearing.law, self.wearing.rate)
+            sizes[:, i] = rubbed.radii[0], rubbed.length, rubbed.radii[1]
         own = [one.name for one in batch.source.clearances].index(joint)
         self.depths[joint].append(depth)
+        self.journals[joint].append(journal)
         self.works[joint].append(work)
         self.peaks[joint].append(np.where(np.isnan(work), np.nan, batch.peaks["F"][:, own]))
         self.contours[joint].append(self.contours[joint][-1] + more)
@@ -158,7 +163,8 @@ class Loop:
         joints = {
             joint: WornJoint(
                 np.stack(self.contours[joint]), np.stack(self.depths[joint]), np.stack(self.works[joint]),
-                np.stack(self.peaks[joint]), *self.sizes[joint],
+                np.stack(self.peaks[joint]), self.sizes[joint][0], self.sizes[joint][1],
+                np.stack(self.journals[joint]), self.sizes[joint][2],
             )
             for joint in wearing.joints
         }  # fmt: skip

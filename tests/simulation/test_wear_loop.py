@@ -42,6 +42,9 @@ def test_a_pin_sinks_into_its_bearing_as_archard_says(tmp_path: Path) -> None:
     np.testing.assert_allclose(joint.volume, np.tile(volume, (3, 1)), rtol=2e-3)
     np.testing.assert_allclose(joint.volume, found.rate * found.scale * joint.work, rtol=1e-12)
     np.testing.assert_allclose(np.diff(joint.contour_volume, axis=0), joint.volume, rtol=1e-9)
+    np.testing.assert_allclose(joint.journal_volume, joint.volume, rtol=1e-12)  # of the same load and slip
+    worn = (joint.journal > 0.01 * joint.journal.max(axis=2, keepdims=True)).mean(axis=2) * 2.0 * math.pi
+    np.testing.assert_allclose(worn, np.tile(OMEGA * turns * T_END, (3, 1)), atol=0.05)  # it turns on through its load
     below, area = 3 * SLOTS // 4, L * R * 2.0 * math.pi / SLOTS
     assert (joint.contour.argmax(axis=2)[1:] == below).all()
     np.testing.assert_allclose(joint.contour[:, :, below], np.arange(4)[:, None] * volume / area / 2.0, rtol=2e-3)

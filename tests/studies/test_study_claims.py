@@ -218,6 +218,20 @@ def test_numbers_beside_the_printed_ones(found: gudgeon.Study, tmp_path: Path) -
 
 
 @needs_compiler
+def test_published_numbers_are_marks(found: gudgeon.Study) -> None:
+    """N1 is 2 m at 1 m and 9.81 m/s²: on the line of that length, and nowhere where another one is picked."""
+    pytest.importorskip("matplotlib")
+    plot: Any = found.parts["grid"].plot
+    ax = plot.measure("x", "g", "length", published=True)
+    assert [line.get_xydata().tolist() for line in ax.lines if line.get_marker() == "*"] == [[[9.81, 2.0]]]
+    mark = next(line for line in ax.lines if line.get_marker() == "*")
+    assert mark.get_color() == ax.lines[1].get_color() != ax.lines[0].get_color()
+    assert len(plot.measure("x", "g", at={"length": 2.0}, published=True).lines) == 1
+    assert len(plot.measure("x", "g", at={"length": 1.0}, published=True).lines) == 2
+    assert found.parts["noisy"].claims.numbers["claim"].unique().tolist() == ["N2"]
+
+
+@needs_compiler
 def test_claims_decide_no_run(found: gudgeon.Study, tmp_path: Path, call: Gudgeon) -> None:
     """What is claimed may be edited: the runs that are there are judged again."""
     before = (found.folder / "grid" / "study.nc").stat().st_mtime_ns

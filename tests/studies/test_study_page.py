@@ -10,9 +10,12 @@ import numpy as np
 import pytest
 from ruamel.yaml import YAML
 
+import gudgeon
+from gudgeon.errors import InputError
 from gudgeon.generator.study.read import KEYS, read_study
 from gudgeon.generator.study.schema import schema
 from gudgeon.generator.study.spec import DRAWN, STATISTICS
+from gudgeon.studies.ensemble.names import as_people_write
 from gudgeon.studies.ensemble.resolve import BLOCK
 from tests.programs import needs_compiler
 
@@ -68,3 +71,32 @@ def test_what_it_quotes_is_read() -> None:
     assert len(quoted) == 4
     for text in quoted:
         read_study(f"format: gudgeon-study/1\nmechanism: pendulum\nkeep: [bob.x]\n{text}\n".encode(), "quoted.yaml")
+
+
+@needs_compiler
+def test_people_read_titles_and_numbers_as_they_are_written(tmp_path: Path) -> None:
+    """On the page, in a figure; a title of what the file has not is told at its place."""
+    own = {
+        "mechanism": "pendulum", "parameters": {"length": ["10 cm", "2e-1 m"], "g": [1.62, 9.81]}, "t_end": "1 ms",
+        "output": 4, "measures": {"low": {"min": "bob.y"}},
+        "titles": {"low": "lowest <place>", "length": "ℓ"},
+        "claims": {"numbers": {"N1": {"measure": "low", "at": {"length": "0.1 m", "g": 9.81}, "value": "1 mm"}}},
+    }  # fmt: skip
+    study = gudgeon.study(own, tmp_path / "s")
+    page = re.sub(r"<[^>]*>", " ", re.sub(r"<svg.*?</svg>", "", study.report().to_html(), flags=re.DOTALL))
+    assert "lowest &lt;place&gt;, ℓ = 10 cm, g = 9.81" in page and "10 cm, 2·10⁻¹ m" in page
+    assert gudgeon.load_study(tmp_path / "s").names.titles["length"] == "ℓ"
+    plot: Any = study.plot
+    ax = plot.measure("low", "length", "g")
+    assert [tick.get_text() for tick in ax.get_xticklabels()] == ["10 cm", "2·10⁻¹ m"]
+    assert ax.get_xlabel() == "ℓ" and ax.get_ylabel().startswith("lowest <place> [")
+    with pytest.raises(InputError, match=r"titles.lwo(.|\n)*did you mean 'low'"):
+        gudgeon.study(own | {"titles": {"lwo": "x"}})
+
+
+@pytest.mark.parametrize(("text", "shown"), [
+    ("3*pi rad/s", "3π rad/s"), ("0.6 mm", "0.6 mm"), ("1e-4 m/s", "10⁻⁴ m/s"), ("-9.81 m/s^2", "−9.81 m/s²"),
+    ("5 um", "5 µm"), ("9.81", ""), ("2*c", ""), ("aluminium", ""),
+])  # fmt: skip
+def test_a_number_as_people_write_it(text: str, shown: str) -> None:
+    assert as_people_write(text) == shown

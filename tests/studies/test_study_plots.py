@@ -129,3 +129,32 @@ def test_names_that_do_not_exist_are_told(study: gudgeon.Study) -> None:
             call(plots(study))
     with pytest.raises(BadValueError, match="does not vary"):
         plots(study).measure("fast", "scene")
+
+
+def test_spectra_have_the_amplitude_and_the_frequency(study: gudgeon.Study) -> None:
+    """x0 cos ωt over whole turns: all of it is in the line at ω/2π, which flattop reads to 0.1 %."""
+    ax: Any = plots(study).spectrum("load.x", "k", window="flattop", at={"way": 0})
+    assert len(ax.lines) == 3 and ax.get_xlabel() == "f [Hz]"
+    for line, k in zip(ax.lines, (100, 400, 900), strict=True):
+        f, amplitude = line.get_data()
+        assert abs(f[np.argmax(amplitude)] - np.sqrt(k) / (2 * np.pi)) <= 0.5 * (f[1] - f[0]) + 1e-12
+        x0 = float(np.median(study.dataset["x0"]))
+        assert amplitude[1:].max() == pytest.approx(x0, rel=0.15 if k == 100 else 0.02)  # three turns, and more
+    low = ax.collections[0].get_paths()[0].vertices[:, 1]
+    assert low.max() == pytest.approx(float(study.dataset["x0"].max()), rel=0.15)
+    with pytest.raises(BadValueError, match="window"):
+        plots(study).spectrum("load.x", window="none")
+
+
+def test_a_low_pass_of_every_run(study: gudgeon.Study) -> None:
+    """As scipy makes it of one run; Butterworth's gain 1/√(1 + (ω/ω_c)⁴) at twice its cutoff is 1/√17."""
+    from gudgeon.results.signals import low_pass
+
+    own = study.dataset["load.x"].isel(k=2, way=0)
+    cutoff = 30.0 / (4 * np.pi)
+    ax: Any = plots(study).low_pass("load.x", cutoff, "k", at={"way": 0})
+    assert len(ax.lines) == 27 and "low-pass 2.387" in ax.get_title()
+    t = study.dataset["time"].values
+    np.testing.assert_allclose(ax.lines[-1].get_ydata(), low_pass(t, own[-1].values, cutoff))
+    late = ax.lines[-1].get_ydata()[t > 1.0]
+    assert np.ptp(late) / 2 / float(study.dataset["x0"][-1]) == pytest.approx(1 / np.sqrt(17), rel=0.02)

@@ -24,6 +24,7 @@ from gudgeon.errors import GudgeonError  # noqa: E402
 from gudgeon.studies.show import pictures  # noqa: E402
 from gudgeon.studies.show.claims import claims_sections  # noqa: E402
 from gudgeon.studies.show.pictures import Pictures  # noqa: E402
+from gudgeon.studies.show.study_data import StudyData
 from gudgeon.studies.show.study_page import StudyReport  # noqa: E402
 from tests.programs import needs_compiler  # noqa: E402
 from tests.studies.test_study_plots import OSCILLATOR  # noqa: E402
@@ -109,11 +110,13 @@ def test_claims_and_parts_are_shown_where_there_are_any(folder: Path) -> None:
     tables = pandas.DataFrame([row, far, lone]), pandas.DataFrame(judged)
     claims = SimpleNamespace(numbers=tables[0], trends=tables[1], source="a paper & more")
     whole: Any = SimpleNamespace(claims=claims, parts={"one": study, "two": study})
-    (heading, inside), (trends, judgement), (ours, alone) = claims_sections(whole, Pictures())
+    parts = {name: StudyData(study) for name in whole.parts}
+    (heading, inside), (trends, judgement), (ours, alone) = claims_sections(whole, parts, Pictures())
     assert (heading, trends, ours) == ("Published numbers", "Published trends", "Ours alone")
     assert "&lt;i&gt;peak" in inside
-    assert "<td>2.5 mm</td><td>2 mm (1.9 … 2.1)</td><td>3 mm (2 … 4)</td><td>−20.0 … +20.0 %</td>" in inside
-    assert "<td>c 0.3 mm</td><td>one</td><td>2 mm, +4.2 %</td>" in alone  # in no ensemble, beside another
+    cells = "2.5 mm", "2 mm (1.9 … 2.1)", "3 mm (2 … 4)", "−20.0 … +20.0 %"
+    assert "".join(f"<td>{cell.replace(' mm', chr(160) + 'mm')}</td>" for cell in cells) in inside
+    assert "<td>c 0.3 mm</td><td>one</td><td>2\u00a0mm, +4.2 %</td>" in alone  # in no ensemble, beside another
     assert inside.count("<figure>") == 1 and "Fig 3: peak" in inside and "not drawn" not in inside
     assert "not agreed: near holds, far fails" in judgement and "<td>0.9, 0.2 (0.2 … 0.3)</td><td>0.5</td>" in judgement
     assert "a paper &amp; more" in inside and "a &amp; b" in inside
@@ -127,7 +130,7 @@ def test_claims_and_parts_are_shown_where_there_are_any(folder: Path) -> None:
             raise GudgeonError("none")
 
     nothing: Any = NoClaims()
-    assert claims_sections(nothing, Pictures()) == [] == claims_sections(study, Pictures())
+    assert claims_sections(nothing, parts, Pictures()) == [] == claims_sections(study, parts, Pictures())
 
 
 def test_processes_draw_what_this_one_would(monkeypatch: pytest.MonkeyPatch) -> None:

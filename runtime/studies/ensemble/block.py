@@ -17,6 +17,7 @@ from gudgeon.model.parameters import given_slots
 from gudgeon.results.batch import Array
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT, MOST_OUTPUT
 from gudgeon.simulation.simulation import Simulation
+from gudgeon.studies.ensemble.exponents import follow
 from gudgeon.studies.ensemble.libraries import loaded, method_in
 from gudgeon.studies.ensemble.measures import ROUNDING, Spans, measured, rubs_of, series_of, steps_of
 from gudgeon.studies.ensemble.notes import Note, gathered, guesses, merged
@@ -98,6 +99,7 @@ def run_block(job: Job, progress: Progress | None = None, simulation: Simulation
                 except InputError as error:
                     failures[i] = str(error)
     found.notes.append(off)
+    found.add(follow(simulation, job, table, failures, progress), failures)
     return found.block(failures)
 
 
@@ -251,6 +253,11 @@ class _Found:
         self.notes.append(gathered((self.job.first + int(runs[i]), noted[i]) for i in sorted(noted)))
         if self.job.wanted.keep:
             self.kept.append((runs, batch.t, batch.kept))  # the batch itself holds what C has stored
+
+    def add(self, values: Mapping[str, Array], failures: list[str]) -> None:
+        """Measures of all runs that are known by now; of runs that failed there is none."""
+        for name, own in (self.measures | dict(values)).items():
+            self.measures[name] = np.where([not told for told in failures], own, np.nan)
 
     def block(self, failures: list[str]) -> Block:
         """All of it."""

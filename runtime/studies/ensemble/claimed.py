@@ -32,8 +32,9 @@ UNNAMED = ""  # the ensemble of runs that are in none
 class Claimed(NamedTuple):
     """Two tables, a row for each claim and ensemble.
 
-    numbers: claim, figure, says, measure, unit, printed, ensemble, n (runs), q25, median, q75 (SI), deviation (% of
-    the printed value, or of the median of the number that it stands beside), beside, note. trends: claim, figure, says,
+    numbers: claim, figure, says, part, at, place (of its scene along each dimension, JSON), measure, unit, printed,
+    ensemble, n (runs), q25, median, q75 (SI), deviation (% of the printed value, or of the median of the number that it
+    stands beside), beside, note. trends: claim, figure, says,
     ensemble, verdict (of all ensembles together: "holds", "fails", "undecided", "not computed"), alone (what this one
     by itself would say), probability (the least of what it consists of) and its interval low to high, chance (that one
     run of each scene shows all of it), agreed (whether no ensemble rules out what another one carries), note.
@@ -134,9 +135,11 @@ def _of_number(known: KnownNumber, runs: _Finished, cells: Mapping[str, Cell]) -
             others = runs.values(cells[claim.beside], str(claim.measure), ensemble)
             base = float(np.median(others[np.isfinite(others)])) if np.isfinite(others).any() else math.nan
         off = 100.0 * (quartiles[1] / base - 1.0) if base else math.nan
+        plan = runs.plans.each[known.cell.part]
         yield {
             "claim": str(claim.name), "figure": claim.figure, "says": claim.says, "part": known.cell.part,
-            "at": _at(runs.plans.each[known.cell.part], known.cell), "measure": str(claim.measure), "unit": known.unit,
+            "at": _at(plan, known.cell), "place": json.dumps(dict(zip(_dims(plan), known.cell.index, strict=True))),
+            "measure": str(claim.measure), "unit": known.unit,
             "printed": _plain(known.printed), "ensemble": ensemble, "n": len(own), "q25": _plain(quartiles[0]),
             "median": _plain(quartiles[1]), "q75": _plain(quartiles[2]), "deviation": _plain(off),
             "beside": str(claim.beside or ""), "note": claim.note,
@@ -145,12 +148,17 @@ def _of_number(known: KnownNumber, runs: _Finished, cells: Mapping[str, Cell]) -
 
 def _at(plan: Plan, cell: Cell) -> str:
     """Where a cell lies: "scene dry, c 0.3 mm"."""
-    told, dims = [], [name for name in plan.dims if name not in ("ensemble", "start")]
-    for name, k in zip(dims, cell.index, strict=True):
+    told = []
+    for name, k in zip(_dims(plan), cell.index, strict=True):
         for one in (one for one in plan.coordinates if one.over == (name,)):
             value = one.values[k]
             told.append(f"{one.name} {value if isinstance(value, str) else quantity(float(value), one.unit, 6)}")
     return ", ".join(told)
+
+
+def _dims(plan: Plan) -> list[str]:
+    """Those that a cell has a place along."""
+    return [name for name in plan.dims if name not in ("ensemble", "start")]
 
 
 def _of_trend(known: KnownTrend, runs: _Finished) -> Iterator[dict[str, Any]]:

@@ -16,6 +16,7 @@ from gudgeon.files.writing import written
 from gudgeon.language.wanted import names, path
 from gudgeon.studies.ensemble.claimed import Claimed, read_claims_of
 from gudgeon.studies.ensemble.folder import DATASET, h5py_module
+from gudgeon.studies.ensemble.names import Names, read_names
 
 if TYPE_CHECKING:
     import pandas
@@ -30,8 +31,10 @@ _CHUNK = 1 << 20
 class Study:
     """A finished study in its folder; what is asked for is read from there."""
 
-    def __init__(self, folder: Path, keeps: tempfile.TemporaryDirectory[str] | None = None) -> None:
-        self.folder, self._keeps = folder, keeps
+    def __init__(
+        self, folder: Path, keeps: tempfile.TemporaryDirectory[str] | None = None, whole: Study | None = None
+    ) -> None:
+        self.folder, self._keeps, self._whole = folder, keeps, whole
 
     def __repr__(self) -> str:
         own = self.dataset["t_last"].sizes
@@ -62,9 +65,17 @@ class Study:
     def claims(self) -> Claimed:
         """What the file claims of the runs, judged by them: `claims.numbers` and `claims.trends`, two tables.
 
-        Raises GudgeonError where it claims nothing.
+        Of a part those numbers that are about it. Raises GudgeonError where it claims nothing.
         """
-        return read_claims_of(self.folder)
+        if self._whole is None:
+            return read_claims_of(self.folder)
+        found = self._whole.claims
+        return found._replace(numbers=found.numbers[found.numbers["part"] == self.folder.name])
+
+    @cached_property
+    def names(self) -> Names:
+        """What people read in place of names and numbers."""
+        return read_names(self.folder) if self._whole is None else self._whole.names
 
     @property
     def tree(self) -> xarray.DataTree:
@@ -138,7 +149,7 @@ class StudyOfParts(Study):
         self, folder: Path, parts: Sequence[str], keeps: tempfile.TemporaryDirectory[str] | None = None
     ) -> None:
         super().__init__(folder, keeps)
-        self._parts = {name: Study(folder / name, keeps) for name in parts}
+        self._parts = {name: Study(folder / name, keeps, self) for name in parts}
 
     def __repr__(self) -> str:
         told = ", ".join(f"{name} {part.runs}" for name, part in self._parts.items())

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.errors import UnknownNameError
+from gudgeon.errors import BadValueError, InputError, UnknownNameError
 from gudgeon.results.batch import Array
 from gudgeon.results.series import catalogue
 from gudgeon.results.unknown import check_series
 from gudgeon.results.wear import Rubbing, arc
 from gudgeon.simulation.examine import known_to_rub
+from gudgeon.studies.ensemble.exponents import FOLLOWED, KINDS_TOLD
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Measure
@@ -37,7 +38,7 @@ UNITS = {"impacts": "", "first_impact": "s", "impact_speed": "m/s", "peak_force"
 def series_of(measures: tuple[Measure, ...], keep: tuple[str, ...], source: KernelSource) -> list[str]:
     """Series whose samples a scene's runs must give."""
     known = catalogue(source)
-    others = (*OF_JOINTS, *CROSSINGS, *STEPS)
+    others = (*OF_JOINTS, *CROSSINGS, *STEPS, *FOLLOWED)
     wanted = [*(str(one.of) for one in measures if one.statistic not in others), *keep]
     return [name for name in dict.fromkeys(wanted) if name in known]
 
@@ -62,10 +63,12 @@ def unit_of(measure: Measure, source: KernelSource) -> str | None:
         return UNITS[measure.statistic] if measure.of in _joints(source, measure.statistic in WEAR) else None
     if measure.statistic in CROSSINGS:
         return UNITS[measure.statistic] if measure.of in _events(source) else None
+    if measure.statistic in FOLLOWED:
+        return FOLLOWED[measure.statistic] if source.degrees_of_freedom > 0 else None
     return catalogue(source)[measure.of].unit if measure.of in catalogue(source) else None
 
 
-def unknown_of(measure: Measure, source: KernelSource) -> UnknownNameError:
+def unknown_of(measure: Measure, source: KernelSource) -> InputError:
     """What is said of a measure of something that no scene has."""
     from gudgeon.language.suggestions import unknown_name
 
@@ -73,6 +76,9 @@ def unknown_of(measure: Measure, source: KernelSource) -> UnknownNameError:
         return unknown_name("joint with play", measure.of, _joints(source, measure.statistic in WEAR), measure.of.where)
     if measure.statistic in CROSSINGS:
         return unknown_name("event", measure.of, _events(source), measure.of.where)
+    if measure.statistic in FOLLOWED:
+        told = f"scene {source.scene} has no degree of freedom: no difference can grow"
+        return BadValueError(told, measure.of.where, "expected a scene whose drives do not decide all of the motion")
     try:
         check_series(source, [str(measure.of)])
     except UnknownNameError as error:
@@ -102,6 +108,7 @@ def _events(source: KernelSource) -> list[str]:
 def meaning(measure: Measure) -> str:
     """In a line: "peak of slider.ax in window last"."""
     told = f"{measure.statistic.replace('_', ' ')} of {measure.of}"
+    told = f"{told} ({KINDS_TOLD})" if measure.statistic == "motion" else told
     told = f"{told} from scene {measure.origin}" if measure.origin is not None else told
     return f"{told} in window {measure.window}" if measure.window else told
 
@@ -109,7 +116,7 @@ def meaning(measure: Measure) -> str:
 def measured(batch: Batch, measure: Measure, spans: Spans, origins: Origins) -> Array:
     """The values of all runs, (n,); NaN where a run has none. `origins`: what series are less than."""
     source, none = batch.source, np.full(len(batch), np.nan)
-    if unit_of(measure, source) is None:
+    if unit_of(measure, source) is None or measure.statistic in FOLLOWED:  # which exponents.py has
         return none
     begin, end = spans.get(measure.window, (None, None))
     begin = np.full(len(batch), -np.inf) if begin is None else begin

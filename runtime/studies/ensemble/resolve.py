@@ -24,6 +24,7 @@ from gudgeon.simulation.arguments import method_of
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.block import Job, Table, Wanted
+from gudgeon.studies.ensemble.exponents import check_followed
 from gudgeon.studies.ensemble.libraries import method_in
 from gudgeon.studies.ensemble.measures import check_origin, meaning, series_of, unit_of, unknown_of
 from gudgeon.studies.ensemble.numbers import check_expression, in_si, known_slot, real, slot_of, values
@@ -212,6 +213,8 @@ def _wanted(study: StudyFile, parts: Sequence[Part]) -> Wanted:
             if written is not None:
                 check_expression(source, written, dimension, more)
         _check_method(study, source, rtol)
+        if source.degrees_of_freedom > 0:
+            check_followed(study, source)
     windows = {name: tuple(None if end is None else end.expr for end in (window.begin, window.end))
                for name, window in study.windows.items()}  # fmt: skip
     t_end, output, step = (None if one is None else one.expr for one in (study.t_end, study.output, study.step))

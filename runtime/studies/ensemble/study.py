@@ -19,6 +19,7 @@ from gudgeon.studies.ensemble.claimed import write_claims
 from gudgeon.studies.ensemble.finished import Study, StudyOfParts
 from gudgeon.studies.ensemble.folder import DATASET, MANIFEST, StudyFolder, h5py_module, manifest, open_parts, parts_of
 from gudgeon.studies.ensemble.loop import finish
+from gudgeon.studies.ensemble.names import write_names
 from gudgeon.studies.ensemble.workers import executor_of
 
 if TYPE_CHECKING:
@@ -120,6 +121,7 @@ def run_plans(
             finish(opened, threads, executor, report if progress else None)
         done += plan.runs
     study = StudyOfParts(folder, list(plans.each), keeps) if plans.named else Study(folder, keeps)
+    write_names(folder, plans)
     if plans.claims is not None:
         write_claims(folder, plans, plans.claims, study)
     return study

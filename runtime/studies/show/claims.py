@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from functools import partial
@@ -18,27 +19,48 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from gudgeon.studies.ensemble.finished import Study
+    from gudgeon.studies.show.study_data import StudyData
 
 Row = Mapping[str, Any]  # of a table of claims: a claim and an ensemble
 LARGE = 30.0  # times the least, from which on an axis of values is logarithmic
 SHORT = 22  # characters of where a number was taken, that stand under it
 
 
-def claims_sections(study: Study, pictures: Pictures) -> list[Section]:
+def claims_sections(study: Study, parts: Mapping[str, StudyData], pictures: Pictures) -> list[Section]:
     """Published numbers with figures in their order, and trends; none of a study that claims nothing."""
     try:
         found = study.claims
     except GudgeonError:  # its file makes no claims
         return []
+    told = _Told(parts)
     numbers, trends = (list(_each(table.to_dict("records"))) for table in (found.numbers, found.trends))
     source = lines([found.source] * bool(found.source), "g-quiet")
     printed = [rows for rows in numbers if not _none(rows[0]["printed"])]
     shown = [
-        ("Published numbers", _numbers(printed) + gallery(_figures(numbers), "claims", pictures)),
-        ("Published trends", _trends(trends)),
-        ("Ours alone", _alone([rows for rows in numbers if _none(rows[0]["printed"])])),
+        ("Published numbers", _numbers(printed, told) + gallery(_figures(numbers, told), "claims", pictures)),
+        ("Published trends", _trends(trends, told)),
+        ("Ours alone", _alone([rows for rows in numbers if _none(rows[0]["printed"])], told)),
     ]
     return [(heading, source * heading.startswith("Published") + inside) for heading, inside in shown if inside]
+
+
+class _Told:
+    """Names and places of claims, for people."""
+
+    def __init__(self, parts: Mapping[str, StudyData]) -> None:
+        self.parts = parts
+        self.shown = next(iter(parts.values())).shown
+
+    def at(self, row: Row) -> str:
+        """Where a number's scene lies."""
+        if "place" not in row:  # a folder that an earlier version judged
+            return str(row["at"])
+        return self.parts[str(row["part"])].where(json.loads(str(row["place"])))
+
+    def what(self, row: Row) -> str:
+        """A number in words: its own, or measure, part and place."""
+        part = [self.shown(row["part"])] * bool(row["part"])
+        return str(row["says"]) or ", ".join(filter(None, (self.shown(row["measure"]), *part, self.at(row))))
 
 
 def _each(rows: Iterable[Row]) -> Iterator[list[Row]]:
@@ -53,28 +75,28 @@ def _ensembles(claims: list[list[Row]]) -> list[str]:
     return list(dict.fromkeys(str(row["ensemble"]) for rows in claims for row in rows if row["ensemble"]))
 
 
-def _numbers(claims: list[list[Row]]) -> str:
+def _numbers(claims: list[list[Row]], told: _Told) -> str:
     """A row a claim: median and quartiles of each ensemble, or of all runs where there is none."""
     names = _ensembles(claims) or [""]
-    head = ["", "figure", "what", "printed", *(f"ours, {name}" if name else "ours" for name in names), "off by", "note"]
-    told = ["ours: median (quartiles); off by: of the medians from what is printed"]
-    return table(head, (_number(rows, names) for rows in claims), True) + lines(told * bool(claims), "g-quiet")
+    ours = (f"ours, {told.shown(name)}" if name else "ours" for name in names)
+    head = ["", "figure", "what", "printed", *ours, "off by", "note"]
+    below = ["ours: median (quartiles); off by: of the medians from what is printed"]
+    return table(head, (_number(rows, names, told) for rows in claims), True) + lines(below * bool(claims), "g-quiet")
 
 
-def _number(rows: list[Row], names: list[str]) -> list[str]:
+def _number(rows: list[Row], names: list[str], words: _Told) -> list[str]:
     first, own = rows[0], {str(row["ensemble"]): row for row in rows}
     factor, unit = scale(_size(rows), str(first["unit"]))
-    printed = "–" if _none(first["printed"]) else f"{first['printed'] * factor:.4g} {unit}".strip()
+    printed = "–" if _none(first["printed"]) else f"{first['printed'] * factor:.4g}\u00a0{unit}".strip()
     cells = [_median(own.get(name) or (rows[0] if len(rows) == 1 and k == 0 else None), factor, unit)
              for k, name in enumerate(names)]  # fmt: skip
     off = sorted(row["deviation"] for row in rows if not _none(row["deviation"]))
     told = "" if not off else f"{off[0]:+.1f} %" if off[-1] - off[0] < 0.05 else f"{off[0]:+.1f} … {off[-1]:+.1f} %"
     told = told.replace("-", "−")
-    what = str(first["says"]) or ", ".join(filter(None, (str(first["measure"]), str(first["part"]), str(first["at"]))))
-    return [str(first["claim"]), str(first["figure"]), what, printed, *cells, told, str(first["note"])]
+    return [str(first["claim"]), str(first["figure"]), words.what(first), printed, *cells, told, str(first["note"])]
 
 
-def _alone(claims: list[list[Row]]) -> str:
+def _alone(claims: list[list[Row]], words: _Told) -> str:
     """What nobody has printed: a row for all measures of the same, off by so much from what they stand beside."""
     measures = list(dict.fromkeys(str(rows[0]["measure"]) for rows in claims))
     each: dict[tuple[str, str], dict[str, str]] = {}
@@ -82,11 +104,11 @@ def _alone(claims: list[list[Row]]) -> str:
         first = rows[0]
         factor, unit = scale(_size(rows), str(first["unit"]))
         off = "" if _none(first["deviation"]) else f", {first['deviation']:+.1f} %".replace("-", "−")
-        what = str(first["says"] or first["at"]), str(first["part"])
+        what = str(first["says"]) or words.at(first), words.shown(first["part"])
         each.setdefault(what, {})[str(first["measure"])] = _median(first, factor, unit) + off
     told = ["median (quartiles), and how far it is off from the row that it stands beside"]
     cells = ([*what, *(own.get(name, "") for name in measures)] for what, own in each.items())
-    return table(["what", "part", *measures], cells, True) + lines(told * bool(claims), "g-quiet")
+    return table(["what", "part", *map(words.shown, measures)], cells, True) + lines(told * bool(claims), "g-quiet")
 
 
 def _median(row: Row | None, factor: float, unit: str) -> str:
@@ -94,22 +116,22 @@ def _median(row: Row | None, factor: float, unit: str) -> str:
         return ""
     if _none(row["median"]):
         return "–"
-    middle = f"{row['median'] * factor:.4g} {unit}".strip()
+    middle = f"{row['median'] * factor:.4g}\u00a0{unit}".strip()
     return middle if row["n"] == 1 else f"{middle} ({row['q25'] * factor:.4g} … {row['q75'] * factor:.4g})"
 
 
-def _trends(claims: list[list[Row]]) -> str:
+def _trends(claims: list[list[Row]], words: _Told) -> str:
     """A row a claim: the verdict of all ensembles together, or what each says where they contradict each other."""
     head = ["", "figure", "what", "verdict", "probability", "one run shows it", "note"]
     told = ["probability: that the next run shows it, the least of all that the trend says, with the interval in which"
             " it is known (5 % beyond each end), ensemble by ensemble; holds: all of the interval of all runs lies at"
             " 0.8 or above, fails: at 1/3 or below, undecided: neither"]  # fmt: skip
-    return table(head, map(_trend, claims), True) + lines(told * bool(claims), "g-quiet")
+    return table(head, (_trend(rows, words) for rows in claims), True) + lines(told * bool(claims), "g-quiet")
 
 
-def _trend(rows: list[Row]) -> list[str]:
+def _trend(rows: list[Row], words: _Told) -> list[str]:
     first = rows[0]
-    each = ", ".join(f"{row['ensemble']} {row['alone']}" for row in rows)
+    each = ", ".join(f"{words.shown(row['ensemble'])} {row['alone']}" for row in rows)
     verdict = str(first["verdict"]) if first["agreed"] else f"not agreed: {each}"
     odds = _odds(map(_known, rows)), _odds(_share(row["chance"]) for row in rows)
     return [str(first["claim"]), str(first["figure"]), str(first["says"]), verdict, *odds, str(first["note"])]
@@ -132,17 +154,17 @@ def _odds(values: Iterable[str]) -> str:
     return shown[0] if len(set(shown)) == 1 else ", ".join(shown)
 
 
-def _figures(claims: list[list[Row]]) -> Iterator[Draw]:
+def _figures(claims: list[list[Row]], words: _Told) -> Iterator[Draw]:
     """A picture for each figure of the source and measure, in the source's order."""
     groups: dict[tuple[str, str], list[list[Row]]] = {}
     for rows in claims:
         if not _none(rows[0]["printed"]) and rows[0]["figure"]:
             groups.setdefault((str(rows[0]["figure"]), str(rows[0]["measure"])), []).append(rows)
     for (figure, measure), own in groups.items():
-        yield f"{figure}: {measure}, printed and ours", partial(_drawn, own, measure)
+        yield f"{figure}: {words.shown(measure)}, printed and ours", partial(_drawn, own, words)
 
 
-def _drawn(claims: list[list[Row]], measure: str) -> Axes:
+def _drawn(claims: list[list[Row]], words: _Told) -> Axes:
     """Medians with quartiles of each ensemble, what is printed as a black mark."""
     import matplotlib
 
@@ -150,6 +172,7 @@ def _drawn(claims: list[list[Row]], measure: str) -> Axes:
     from gudgeon.results.run_plots import new_axes
 
     factor, unit = scale(max(map(_size, claims)), str(claims[0][0]["unit"]))
+    measure = words.shown(claims[0][0]["measure"])
     names = _ensembles(claims) or [""]
     with matplotlib.rc_context(STYLE):
         ax = new_axes(5.6, 3.2)
@@ -160,10 +183,10 @@ def _drawn(claims: list[list[Row]], measure: str) -> Axes:
             middle, low, high = (np.array([row[part] for _, row in own]) * factor for part in ("median", "q25", "q75"))
             reach = middle - low, high - middle
             ax.errorbar(at, middle, reach, fmt="o", color=COLOURS[j % len(COLOURS)], ms=3.5, capsize=2.0, lw=1.0,
-                        label=name or "ours")  # fmt: skip
+                        label=words.shown(name) if name else "ours")  # fmt: skip
         printed = [rows[0]["printed"] * factor for rows in claims]
         ax.plot(range(len(claims)), printed, "k_", ms=16, mew=1.6, label="printed")
-        ax.set_xticks(range(len(claims)), [_tick(rows[0]) for rows in claims], fontsize=7)
+        ax.set_xticks(range(len(claims)), [_tick(rows[0], words) for rows in claims], fontsize=7)
         ax.set_xlim(-0.6, len(claims) - 0.4)
         ax.grid(False, axis="x")
         ours = (row["median"] * factor for rows in claims for row in rows)
@@ -177,8 +200,8 @@ def _drawn(claims: list[list[Row]], measure: str) -> Axes:
     return ax
 
 
-def _tick(row: Row) -> str:
-    at = str(row["at"])
+def _tick(row: Row, words: _Told) -> str:
+    at = words.at(row)
     return f"{row['claim']}\n{at}" if len(at) <= SHORT else str(row["claim"])
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from gudgeon.errors import BadValueError, UnknownNameError
+from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
 from gudgeon.language.plot_units import drawn, label, pretty, scale
 from gudgeon.language.shown import one_line
 from gudgeon.language.suggestions import unknown
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
 Coords: TypeAlias = Mapping[str, Any]
 SAMPLES, OWN_TIMES = ("time", "sample"), "t"
+MOST_TICKS, MOST_LETTERS = 8, 40  # values that stand at an axis; what is told of a place in a zip
 MANY = ("start", "draw", "ensemble")  # dimensions of which one asks the spread first
 
 
@@ -27,6 +29,13 @@ class StudyData:
     def __init__(self, study: Study) -> None:
         self.study, self.dataset = study, study.dataset
         self.title = str(self.dataset.attrs.get("title") or self.dataset.attrs.get("mechanism", ""))
+        self.names = study.names
+        values = self.names.values
+        self.texts = values.get(study.folder.name if "" not in values else "", {})  # numbers as the file has them
+
+    def shown(self, name: Any) -> str:
+        """A name, or its title, on one line."""
+        return one_line(self.names.titles.get(str(name), str(name)))
 
     @property
     def kept(self) -> tuple[str, ...]:
@@ -43,6 +52,25 @@ class StudyData:
         if text(name, "a measure", "the name of a measure") not in self.study.measures:
             raise unknown(f"the study has no measure {name!r}", name, self.study.measures)
         return self._picked(self.dataset[name], at)
+
+    def claimed(
+        self, name: str, over: str, by: str | None, at: Coords | None, axis: str
+    ) -> list[tuple[float, float, int]]:
+        """Numbers that the file claims of a measure of the runs at: place on the axis, value (SI), which line."""
+        try:
+            numbers = self.study.claims.numbers
+        except GudgeonError:  # it claims nothing
+            return []
+        if "place" not in numbers:  # nothing, or a folder that an earlier version judged
+            return []
+        own = numbers[(numbers["measure"] == name) & numbers["printed"].notna()].drop_duplicates("claim")
+        found, picked, places = self.dataset[name], dict[str, int](), self.axis(axis)[0]
+        for key, value in (at or {}).items():
+            dimension = self.dimension(found, key)
+            picked[dimension] = self.nearest(found, dimension, value)
+        each = [(json.loads(place), float(value)) for place, value in zip(own["place"], own["printed"], strict=True)]
+        return [(float(places[place[over]]), value, -1 if by is None else place.get(by, -1)) for place, value in each
+                if over in place and all(place.get(one, k) == k for one, k in picked.items())]  # fmt: skip
 
     def series(self, name: str, at: Coords | None = None) -> tuple[Any, Any]:
         """Times, (N,) where all runs have the same, else (…, N), and a kept series (…, N)."""
@@ -129,9 +157,10 @@ class StudyData:
         """Places of a coordinate's values, a label, and words for ticks where they are no numbers."""
         values = self.dataset[name].values
         if values.dtype.kind in "OU":
-            return np.arange(len(values)), one_line(name), [one_line(str(one)) for one in values]
+            return np.arange(len(values)), self.shown(name), [self.shown(one) for one in values]
         factor, shown = drawn(float(np.abs(values).max(initial=0.0)), self.unit(name))
-        return values * factor, label(one_line(name), shown), None
+        ticks = list(self.written(name)) if len(values) <= MOST_TICKS else []
+        return values * factor, label(self.shown(name), "" if ticks else shown), ticks or self._together(name)
 
     def place(self, found: Any, name: str, value: Any) -> float:
         """Where on that axis a value lies."""
@@ -144,12 +173,38 @@ class StudyData:
         """A word for each value, "0.3" or with `named` "c = 0.3 mm", and the dimension's label."""
         values = self.dataset[dimension].values
         if values.dtype.kind in "OU":
-            return [one_line(str(one)) for one in values], one_line(dimension)
+            return [self.shown(one) for one in values], self.shown(dimension)
+        if (words := self._together(dimension)) is not None:
+            return words, self.shown(dimension)
+        if written := self.written(dimension):
+            return [f"{self.shown(dimension)} = {one}" if named else one for one in written], self.shown(dimension)
         factor, unit = scale(float(np.abs(values).max(initial=0.0)), self.unit(dimension))
         words = [f"{float(value) * factor:.4g}" for value in values]
         if named:
-            words = [f"{one_line(dimension)} = {word} {unit}".strip() for word in words]
-        return words, label(one_line(dimension), unit)
+            words = [f"{self.shown(dimension)} = {word} {unit}".strip() for word in words]
+        return words, label(self.shown(dimension), unit)
+
+    def written(self, name: str) -> tuple[str, ...]:
+        """Values of a coordinate as the file has them, with their units; none where it has not."""
+        own = self.texts.get(name, ())
+        return own if len(own) == np.size(self.dataset[name].values) else ()
+
+    def _together(self, dimension: str) -> list[str] | None:
+        """Of a zip what its numbers are at each place, where that is short; None of another dimension."""
+        if not str(self.dataset[dimension].attrs.get("long_name", "")).startswith("place in zip"):
+            return None
+        columns: dict[tuple[str, ...], None] = {}
+        for name, one in self.dataset.coords.items():
+            if one.dims == (dimension,) and name != dimension and len(set(one.values.tolist())) > 1:
+                columns[tuple(self.written(str(name)) or map(self.shown, one.values))] = None
+        words = [", ".join(row) for row in zip(*columns, strict=True)]
+        short = bool(words) and max(map(len, words)) <= MOST_LETTERS and len(set(words)) == len(words)
+        return words if short else None
+
+    def where(self, place: Mapping[str, int]) -> str:
+        """A scene by its places: "c = 0.3 mm, ω = 2π rad/s"."""
+        own = ((name, k, self.labels(None, name, named=True)[0]) for name, k in place.items())
+        return ", ".join(words[k] for _, k, words in own)
 
     def sections(
         self, section: str, names: list[str], level: float, falling: bool, after: float, at: Coords | None

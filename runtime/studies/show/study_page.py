@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.errors import GudgeonError
-from gudgeon.language.plot_units import scale
-from gudgeon.language.shown import one_line
+from gudgeon.language.plot_units import label, scale
 from gudgeon.results.web_page import Section, article, lines, page, table, text
 from gudgeon.studies.ensemble.notes import kind_of
 from gudgeon.studies.show.claims import claims_sections
@@ -51,11 +50,11 @@ def _parts(study: Study) -> dict[str, StudyData]:
 
 def _all(study: Study, parts: dict[str, StudyData], pictures: Pictures) -> Iterator[Section]:
     """Claims are of the whole, and first."""
-    yield from claims_sections(study, pictures)
+    yield from claims_sections(study, parts, pictures)
     for name, data in parts.items():
-        before = f"{name}: " if name else ""
+        before = f"{data.shown(name)}: " if name else ""
         if name:
-            yield f"Part {name}", lines([_counts(data)])
+            yield f"Part {data.shown(name)}", lines([_counts(data)])
         yield from ((before + heading, inside) for heading, inside in sections(data, pictures, name or "study"))
 
 
@@ -86,7 +85,7 @@ def _about(parts: dict[str, StudyData]) -> str:
 
 def _counts(data: StudyData) -> str:
     study = data.study
-    sizes = " × ".join(f"{name} {size}" for name, size in data.dataset["t_last"].sizes.items())
+    sizes = " × ".join(f"{data.shown(name)} {size}" for name, size in data.dataset["t_last"].sizes.items())
     failed = f", {study.failed} failed" if study.failed else ", none failed"
     return f"{counted(study.runs, 'run')}{f' ({sizes})' if sizes else ''}{failed}"
 
@@ -95,15 +94,18 @@ def _varied(data: StudyData) -> Iterator[tuple[str, ...]]:
     for name, one in data.dataset.coords.items():
         if name in ("time", "sample"):
             continue
-        over = ", ".join(str(d) for d in one.dims) if one.dims != (name,) else ""
+        over = ", ".join(map(data.shown, one.dims)) if one.dims != (name,) else ""
         unit, told = str(one.attrs.get("units", "")), str(one.attrs.get("long_name", ""))
         values = np.ravel(one.values)
         if values.dtype.kind in "OU":
-            yield str(name), over, _listed([one_line(str(value)) for value in values]), "", told
+            yield data.shown(name), over, _listed([data.shown(value) for value in values]), "", told
+            continue
+        if written := data.written(str(name)):
+            yield data.shown(name), over, _listed(list(written)), "", told
             continue
         factor, shown = scale(float(np.abs(values).max(initial=0.0)), unit)
         words = [f"{float(value) * factor:.6g}" for value in values]
-        yield str(name), over, _listed(words, counting=values.dtype.kind == "i"), shown, told
+        yield data.shown(name), over, _listed(words, counting=values.dtype.kind == "i"), shown, told
 
 
 def _listed(words: list[str], counting: bool = False) -> str:
@@ -152,7 +154,7 @@ def _measures(data: StudyData) -> str:
                 continue
             rows.setdefault(key, []).append(_spread(values * factor, spread))
     head = [data.labels(data.dataset[names[0]], one)[1] for one in dims]
-    head += [f"{name} [{unit}]" if unit else name for name, unit in zip(names, units, strict=True)]
+    head += [label(data.shown(name), unit) for name, unit in zip(names, units, strict=True)]
     told = ["median (quartiles) over starts and draws; n: of so many runs, where others have no number"] * spread
     told += [f"{left} more rows are in the dataset"] * bool(left)
     return table(head, ([*key, *cells] for key, cells in rows.items())) + lines(told, "g-quiet")
@@ -178,7 +180,7 @@ def _figures(data: StudyData) -> Iterator[Draw]:
         found = data.dataset[name]
         if not found.dims or not np.isfinite(found.values).any():
             continue
-        yield f"{name}: {_pooled(data, found)}", partial(plot.measure, name)
+        yield f"{data.shown(name)}: {_pooled(data, found)}", partial(plot.measure, name, published=True)
         varied = [str(one) for one in found.dims if one != "scene" and one not in MANY]
         if len(varied) < 2:
             continue
@@ -186,14 +188,14 @@ def _figures(data: StudyData) -> Iterator[Draw]:
             at = {"scene": scene} if scene else {}
             if not np.isfinite(data.measure(name, at).values).any():
                 continue
-            yield f"{name}: median", partial(plot.heat_map, name, *varied[:2], at=at)
+            yield f"{data.shown(name)}: median", partial(plot.heat_map, name, *varied[:2], at=at)
 
 
 def _pooled(data: StudyData, found: Any) -> str:
     """Over which runs the statistics of a measure's figure go."""
     over = data.first(found)
     others = [str(one) for one in found.dims if one not in (over, data.lines(found, over))]
-    return f"median, quartiles and extremes over {', '.join(others)}" if others else "of each run"
+    return f"median, quartiles and extremes over {', '.join(map(data.shown, others))}" if others else "of each run"
 
 
 def _series(data: StudyData) -> Iterator[Draw]:
@@ -209,10 +211,10 @@ def _series(data: StudyData) -> Iterator[Draw]:
         runs = found.size // found.shape[-1]
         by = "scene" if "scene" in found.dims else None
         if t.ndim == 1:
-            told = f"{name}: median, quartiles and extremes of {counted(runs, 'run')}"
+            told = f"{data.shown(name)}: median, quartiles and extremes of {counted(runs, 'run')}"
             yield told, partial(plot.bands, name, by)
         elif data.shares(t) is not None:
-            told = f"{name}: median, quartiles and extremes of {counted(runs, 'run')}, each over its own length"
+            told = f"{data.shown(name)}: median, quartiles and extremes of {counted(runs, 'run')}, over shares"
             yield told, partial(plot.bands, name, by, share=True)
         elif runs <= MOST_CURVES:
-            yield f"{name}: {counted(runs, 'run')}", partial(plot.overlay, name, by)
+            yield f"{data.shown(name)}: {counted(runs, 'run')}", partial(plot.overlay, name, by)

@@ -15,10 +15,11 @@ import numpy as np
 from gudgeon.errors import BadValueError
 from gudgeon.language.plot_units import drawn, label, quantity
 from gudgeon.language.shown import in_figure, one_line
-from gudgeon.language.wanted import number_of
+from gudgeon.language.wanted import flag, number_of, positive
 from gudgeon.results.plots import COLOURS, IDEAL, STYLE, TITLE, cycle, peak_of
 from gudgeon.results.run_plots import new_axes, plain
 from gudgeon.studies.show.study_data import Coords, StudyData
+from gudgeon.studies.show.study_signals import filtered, spectra
 
 import matplotlib  # isort: skip  (plots.py says where it is missing)
 
@@ -40,32 +41,34 @@ class StudyPlot:
 
     def measure(
         self, name: str, over: str | None = None, by: str | None = None, *, at: Coords | None = None,
-        published: Mapping[Any, float] | None = None, ax: Axes | None = None,
+        published: Mapping[Any, float] | bool = False, ax: Axes | None = None,
     ) -> Axes:  # fmt: skip
         """A measure over what was varied (the first number), a line for each value of `by` (scenes).
 
-        Lines are medians of all other runs, bands their quartiles and extremes. published: {coordinate: value, SI},
-        marks of what others found.
+        Lines are medians of all other runs, bands their quartiles and extremes. published: marks of what others found,
+        {coordinate: value, SI}; True: the numbers that the study's file claims of these runs, in the lines' colours.
         """
         found = self.data.measure(name, at)
         axis = self.data.first(found) if over is None else over
         over = self.data.dimension(found, axis)
         by = self.data.lines(found, over) if by is None else self.data.dimension(found, by)
-        marks = {key: number_of(value, "published") for key, value in dict(published or {}).items()}
+        if isinstance(published, bool):
+            claimed = self.data.claimed(name, over, by, at, axis) if published else []
+        else:
+            marks = {key: number_of(value, "published") for key, value in dict(published or {}).items()}
+            claimed = [(self.data.place(found, axis, key), value, -1) for key, value in marks.items()]
         with matplotlib.rc_context(STYLE):
             ax = new_axes(5.6, 3.6) if ax is None else plain(ax)
             x, x_label, ticks = self.data.axis(axis)
-            most = [peak_of(found.values), *(abs(value) for value in marks.values())]
+            most = [peak_of(found.values), *(abs(value) for _, value, _ in claimed)]
             factor, unit = drawn(max(most), found.attrs.get("units", ""))
             for (told, own), colour in zip(parts := self.data.split(found, by), cycle(len(parts)), strict=True):
                 _band(ax, x, quantiles(self.data.rows(own, over)) * factor, colour, told)
-            if marks:
-                places = [self.data.place(found, axis, value) for value in marks]
-                ax.plot(places, np.array(list(marks.values())) * factor, "*", color=IDEAL, ms=9, label="published")
-            ax.set(xlabel=x_label, ylabel=label(one_line(name), unit))
+            _marks(ax, claimed, factor, cycle(len(parts)))
+            ax.set(xlabel=x_label, ylabel=label(self.data.shown(name), unit))
             if ticks is not None:
                 ax.set_xticks(x, ticks)
-            self._finish(ax, at, len(parts) > 1 or bool(marks))
+            self._finish(ax, at, len(parts) > 1 or bool(claimed))
         return ax
 
     def bands(
@@ -89,7 +92,7 @@ class StudyPlot:
             factor, unit = drawn(peak_of(found.values), found.attrs.get("units", ""))
             for (told, own), colour in zip(parts := self.data.split(found, by), cycle(len(parts)), strict=True):
                 _band(ax, t, quantiles(self.data.rows(own, found.dims[-1])) * factor, colour, told, 0.0)
-            ax.set(xlabel="share of the run" if share else "t [s]", ylabel=label(one_line(series), unit))
+            ax.set(xlabel="share of the run" if share else "t [s]", ylabel=label(self.data.shown(series), unit))
             self._finish(ax, at, len(parts) > 1)
         return ax
 
@@ -98,11 +101,48 @@ class StudyPlot:
         t, found = self.data.series(series, at)
         return self._curves([(t, found)], "t [s]", series, by, at, ax)
 
+    def spectrum(
+        self, series: str, by: str | None = None, *, window: str = "hann", at: Coords | None = None,
+        ax: Axes | None = None,
+    ) -> Axes:  # fmt: skip
+        """Amplitudes of a kept series over frequency (Hz), as `run.plot.spectrum` has them, for each value of `by`.
+
+        Median, quartiles and extremes of all its runs. BadValueError for samples that are not even, or for runs of one
+        value that have other times than each other.
+        """
+        t, found = self.data.series(series, at)
+        by = self.data.dimension(found, by) if by is not None else None
+        own = spectra(t, found, by, series, window)
+        with matplotlib.rc_context(STYLE):
+            ax = new_axes(8.0, 3.6) if ax is None else plain(ax)
+            factor, unit = drawn(max(peak_of(rows) for _, rows in own), found.attrs.get("units", ""))
+            told = [word for word, _ in self.data.split(found, by)]
+            for word, (f, rows), colour in zip(told, own, cycle(len(told)), strict=True):
+                _band(ax, f, quantiles(rows) * factor, colour, word, 0.0)
+            ax.set(xlabel="f [Hz]", ylabel=label(self.data.shown(series), unit))
+            self._finish(ax, at, len(told) > 1)
+        return ax
+
+    def low_pass(
+        self, series: str, cutoff: float, by: str | None = None, *, order: int = 2, causal: bool = True,
+        at: Coords | None = None, ax: Axes | None = None,
+    ) -> Axes:  # fmt: skip
+        """A kept series as an accelerometer shows it, behind a low-pass of Butterworth with −3 dB at `cutoff` (Hz).
+
+        Every run a curve, in the colour of its value of `by`; `order`, `causal`: as in `run.plot.low_pass`.
+        """
+        t, found = self.data.series(series, at)
+        left = filtered(t, found, positive(cutoff, "cutoff"), order, flag(causal, "causal"))
+        ax = self._curves([(t, left)], "t [s]", series, by, at, ax)
+        told = f"low-pass {cutoff:g} Hz, Butterworth of order {order}, {'causal' if causal else 'zero phase'}"
+        ax.set_title(in_figure(f"{ax.get_title()}: {told}", TITLE))
+        return ax
+
     def phase(self, x: str, y: str, by: str | None = None, *, at: Coords | None = None, ax: Axes | None = None) -> Axes:
         """One kept series over another, every run a curve, in the colour of its value of `by`."""
         (_, xs), (_, ys) = self.data.series(x, at), self.data.series(y, at)
         factor, unit = drawn(peak_of(xs.values), xs.attrs.get("units", ""))
-        return self._curves([(xs.values * factor, ys)], label(one_line(x), unit), y, by, at, ax)
+        return self._curves([(xs.values * factor, ys)], label(self.data.shown(x), unit), y, by, at, ax)
 
     def _curves(
         self, pairs: list[tuple[Any, Any]], x_label: str, name: str, by: str | None, at: Coords | None,
@@ -120,7 +160,7 @@ class StudyPlot:
                 rows = zip(own_x.reshape(-1, x.shape[-1]), own.values.reshape(-1, x.shape[-1]), strict=True)
                 for j, (xs, ys) in enumerate(rows):
                     ax.plot(xs, ys * factor, color=colour, lw=0.8, alpha=0.8, label=told if j == 0 else None)
-            ax.set(xlabel=x_label, ylabel=label(one_line(name), unit))
+            ax.set(xlabel=x_label, ylabel=label(self.data.shown(name), unit))
             self._finish(ax, at, len(parts) > 1)
         return ax
 
@@ -140,7 +180,7 @@ class StudyPlot:
                 drawn(peak_of(values), self.data.unit(name)) for name, values in ((x, xs), (y, ys))
             )
             ax.plot(xs * of_x, ys * of_y, ".", color=COLOURS[1], ms=3.0)
-            ax.set(xlabel=label(one_line(x), x_unit), ylabel=label(one_line(y), y_unit))
+            ax.set(xlabel=label(self.data.shown(x), x_unit), ylabel=label(self.data.shown(y), y_unit))
             self._finish(ax, at, False)
         return ax
 
@@ -159,7 +199,7 @@ class StudyPlot:
             ax = new_axes(6.4, 4.0) if ax is None else plain(ax)
             factor, unit = drawn(peak_of(ys), self.data.unit(series))
             ax.plot(xs, ys * factor, ".", color=COLOURS[1], ms=2.0)
-            ax.set(xlabel=x_label, ylabel=label(one_line(series), unit))
+            ax.set(xlabel=x_label, ylabel=label(self.data.shown(series), unit))
             if ticks is not None:
                 ax.set_xticks(x, ticks)
             self._finish(ax, at, False)
@@ -182,14 +222,14 @@ class StudyPlot:
                 which.set_label_text(told)
             ax.tick_params(axis="x", rotation=45 if middle.shape[1] > 6 else 0)
             ax.grid(False)
-            ax.figure.colorbar(image, ax=ax, label=label(one_line(name), unit))
+            ax.figure.colorbar(image, ax=ax, label=label(self.data.shown(name), unit))
             if middle.size <= SMALL:
                 _numbers(ax, middle * factor, image)
             self._finish(ax, at, False)
         return ax
 
     def _finish(self, ax: Axes, at: Coords | None, legend: bool) -> None:
-        picked = ", ".join(f"{one_line(str(name))} = {_said(value)}" for name, value in (at or {}).items())
+        picked = ", ".join(f"{self.data.shown(name)} = {_said(value)}" for name, value in (at or {}).items())
         ax.set_title(in_figure(": ".join(filter(None, (one_line(self.data.title), picked))), TITLE))
         if legend:
             ax.legend(fontsize=8)
@@ -210,6 +250,14 @@ def _band(ax: Axes, x: Any, five: Any, colour: str, told: str, size: float = 4.0
         ax.fill_between(x[order], low[order], high[order], color=colour, alpha=0.12, lw=0)
         ax.fill_between(x[order], q1[order], q3[order], color=colour, alpha=0.28, lw=0)
     ax.plot(x[order], middle[order], "-o" if size else "-", ms=size, color=colour, lw=1.1, label=told)
+
+
+def _marks(ax: Axes, claimed: list[tuple[float, float, int]], factor: float, colours: list[str]) -> None:
+    """What others found: place, value and line of each; −1: of no line."""
+    for k, (place, value, line) in enumerate(claimed):
+        own = IDEAL if line < 0 else colours[line]
+        told = "published" if k == 0 else None
+        ax.plot([place], [value * factor], "*", color=own, mec=IDEAL, mew=0.6, ms=9, label=told)
 
 
 def _numbers(ax: Axes, values: Any, image: Any) -> None:

@@ -1,0 +1,155 @@
+"""Measures that follow a neighbour of each run: Lyapunov exponents, until when a run may be believed, kinds of motion.
+
+What they are of is `run`, all of the motion, or a section: an event of the file, or a period by each run's own numbers.
+Measures of one section and window share what was followed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.errors import BadValueError, GudgeonError, InputError
+from gudgeon.integrators.adaptive import RTOL
+from gudgeon.integrators.batch import available_threads
+from gudgeon.language.parser import parse
+from gudgeon.language.units import TIME
+from gudgeon.results.batch import Array
+from gudgeon.results.motion import CHAOTIC, PERIODIC, QUASI, UNDECIDED
+from gudgeon.studies.ensemble.libraries import method_in
+from gudgeon.studies.ensemble.notes import guesses
+from gudgeon.studies.ensemble.numbers import check_expression, of_runs
+
+if TYPE_CHECKING:
+    from gudgeon.generator.study.spec import Measure, StudyFile
+    from gudgeon.integrators.trajectory import Progress
+    from gudgeon.results.lyapunov import Lyapunov
+    from gudgeon.simulation.simulation import Simulation
+    from gudgeon.studies.ensemble.block import Job, Table
+
+WHOLE = "run"  # in the place of a section
+OF_SECTION = ("lyapunov_per_return", "motion", "motion_confidence")
+FOLLOWED: Mapping[str, str] = {"lyapunov": "1/s", "lyapunov_error": "1/s", "believable": "s"} | dict.fromkeys(
+    OF_SECTION, ""
+)  # with their units
+KINDS: Mapping[str, float] = {QUASI: 0.0, CHAOTIC: -1.0, UNDECIDED: math.nan}  # a periodic motion is its period
+KINDS_TOLD = "its period in returns, 0: quasi-periodic, -1: chaotic, NaN: undecided"
+
+
+def check_followed(study: StudyFile, source: KernelSource) -> None:
+    """An InputError at its place for a section that a scene cannot have, or for what says nothing of the runs."""
+    for one in (one for one in study.measures if one.statistic in FOLLOWED):
+        where, owner = one.of.where, f"measures.{one.name}"
+        if study.wear is not None:
+            told = f"{owner}: a neighbour is followed beside circles, not beside contours that wear"
+            raise BadValueError(told, where, "leave out wear:, or this measure")
+        if one.statistic == "believable" and (study.step is not None or study.method == "rk4"):
+            told = f"{owner}: what a fixed step errs by is not known"
+            raise BadValueError(told, where, "expected a method that chooses its step, by rtol")
+        if one.of == WHOLE and one.statistic in OF_SECTION:
+            told = f"{owner}: {one.statistic.replace('_', ' ')} is of returns to a section"
+            raise BadValueError(told, where, "expected an event of the file, or a period: 2*pi/omega")
+        if one.of != WHOLE and not _is_event(one, source):
+            _check_period(one, source)
+
+
+def _is_event(measure: Measure, source: KernelSource) -> bool:
+    return measure.of in [event.name for event in source.events]
+
+
+def _check_period(measure: Measure, source: KernelSource) -> None:
+    from gudgeon.generator.study.spec import Written
+
+    written = Written(parse(measure.of, measure.of.where), measure.of)
+    try:
+        check_expression(source, written, TIME, {"t_end": TIME})
+    except InputError as error:
+        events = ", ".join(event.name for event in source.events) or "none"
+        hint = f"expected {WHOLE}, an event of scene {source.scene} ({events}), or a period: 2*pi/omega"
+        raise type(error)(error.message, error.where, hint) from None
+
+
+def follow(
+    simulation: Simulation, job: Job, table: Table, failures: list[str], progress: Progress | None
+) -> dict[str, Array]:
+    """Those measures of all runs that have not failed, (n,) by name; a neighbour that ends is why a run has failed."""
+    measures = [one for one in job.wanted.measures if one.statistic in FOLLOWED]
+    found = {one.name: np.full(job.n, np.nan) for one in measures}
+    if not measures or simulation.source.degrees_of_freedom <= 0:
+        return found
+    runs = [i for i in range(job.n) if not failures[i]]
+    each = _Each(simulation, job, table, progress)
+    with ThreadPoolExecutor(job.threads or available_threads(), thread_name_prefix="gudgeon") as pool:
+        for i, own in zip(runs, pool.map(lambda i: each(i, measures), runs), strict=True):
+            if isinstance(own, str):
+                failures[i] = own
+            else:
+                for name, value in own.items():
+                    found[name][i] = value
+    return found
+
+
+class _Each:
+    """One run's neighbour, section by section."""
+
+    def __init__(self, simulation: Simulation, job: Job, table: Table, progress: Progress | None) -> None:
+        self.simulation, self.job, self.table, self.progress = simulation, job, table, progress
+        self.error = RTOL if job.wanted.rtol is None else job.wanted.rtol
+
+    def __call__(self, i: int, measures: Sequence[Measure]) -> dict[str, float] | str:
+        """Values by name, or why there are none."""
+        followed: dict[tuple[str, str], Lyapunov] = {}
+        values = {}
+        with guesses(self.simulation.source, self.job.first):  # of the run itself they are told already
+            try:
+                for one in measures:
+                    key = (str(one.of), one.window)
+                    if key not in followed:
+                        followed[key] = self._lyapunov(i, one)
+                    values[one.name] = _value(one.statistic, followed[key], self.error)
+            except GudgeonError as error:
+                return f"{one.name}: {error}"
+        return values
+
+    def _lyapunov(self, i: int, measure: Measure) -> Lyapunov:
+        table, wanted, source = self.table, self.job.wanted, self.simulation.source
+        begin, end = (None if one is None else float(one[i]) for one in table.spans.get(measure.window, (None, None)))
+        last = float(table.t_end[i])
+        parameters = {name: value if isinstance(value, str) else float(value)
+                      for name, value in ((name, own[i]) for name, own in table.columns.items())}  # fmt: skip
+        return self.simulation.lyapunov(
+            last if end is None else min(end, last), section=self._section(i, measure), skip=max(begin or 0.0, 0.0),
+            method=method_in(source, wanted.method), rtol=wanted.rtol, parameters=parameters,
+            step=None if table.step is None else float(table.step[i]), progress=self._tell,
+        )  # fmt: skip
+
+    def _section(self, i: int, measure: Measure) -> str | float | None:
+        if measure.of == WHOLE:
+            return None
+        if _is_event(measure, self.simulation.source):
+            return str(measure.of)
+        expr, known = parse(measure.of, measure.of.where), {"t_end": self.table.t_end}
+        return float(of_runs(self.simulation.source, expr, self.table.p, known)[i])
+
+    def _tell(self, fraction: float, text: str) -> None:
+        """Who asked may end it; the runs themselves are done."""
+        if self.progress:
+            self.progress(1.0, text)
+
+
+def _value(statistic: str, found: Lyapunov, error: float) -> float:
+    if statistic == "believable":
+        return found.believable(error)
+    if statistic == "motion":
+        motion = found.motion
+        return float(motion.period) if motion.kind == PERIODIC else KINDS[motion.kind]
+    values: dict[str, Any] = {
+        "lyapunov": lambda: found.exponent, "lyapunov_error": lambda: found.uncertainty,
+        "lyapunov_per_return": lambda: found.per_return, "motion_confidence": lambda: found.motion.confidence,
+    }  # fmt: skip
+    return float(values[statistic]())

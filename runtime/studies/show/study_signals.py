@@ -1,0 +1,48 @@
+"""Spectra and low-passes of a study's kept series, run by run: runs that failed have none."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from gudgeon.errors import BadValueError
+from gudgeon.language.shown import one_line
+from gudgeon.results.signals import low_pass, spectrum
+
+
+def spectra(t: Any, found: Any, by: str | None, name: str, window: str) -> list[tuple[Any, Any]]:
+    """Frequencies (M,) and amplitudes (runs, M) of each value of `by`, or of all runs. BadValueError: see below."""
+    times = np.broadcast_to(t, found.shape)
+    values = [(times, found.values)]
+    if by is not None:
+        k = found.dims.index(by)
+        values = [(np.take(times, i, axis=k), np.take(found.values, i, axis=k)) for i in range(found.shape[k])]
+    return [_of_runs(*own, name, window) for own in values]
+
+
+def _of_runs(times: Any, values: Any, name: str, window: str) -> tuple[Any, Any]:
+    rows = [(t[good], x[good]) for t, x in _rows(times, values) if (good := np.isfinite(t) & np.isfinite(x)).any()]
+    if not rows:
+        return np.zeros(1), np.full((1, 1), np.nan)
+    first = rows[0][0]
+    if any(len(t) != len(first) or not np.allclose(t, first, rtol=0.0, atol=1e-9 * abs(first[-1])) for t, _ in rows):
+        told = f"{one_line(name)}: the runs have samples at different times, of which there is no common spectrum"
+        raise BadValueError(told, hint="pick runs with the same times (at=…), or name by= what their times follow")
+    each = [spectrum(first, x, window) for _, x in rows]
+    return each[0][0], np.array([amplitudes for _, amplitudes in each])
+
+
+def filtered(t: Any, found: Any, cutoff: float, order: int, causal: bool) -> Any:
+    """The same runs behind a low-pass; NaN where they have no samples."""
+    left = np.full(found.shape, np.nan)
+    for own, out in zip(_rows(np.broadcast_to(t, found.shape), found.values), _rows(left), strict=True):
+        good = np.isfinite(own[0]) & np.isfinite(own[1])
+        if good.any():
+            out[0][good] = low_pass(own[0][good], own[1][good], cutoff, order, causal)
+    return found.copy(data=left)
+
+
+def _rows(*arrays: Any) -> Any:
+    """(N,) of each array, run by run."""
+    return zip(*(one.reshape(-1, one.shape[-1]) for one in arrays), strict=True)
