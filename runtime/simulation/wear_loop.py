@@ -19,8 +19,7 @@ from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.language.shown import one_line
 from gudgeon.language.wanted import number_of, positive, refuse, text, told, whole
 from gudgeon.model.contours import contour_of, taken_contours
-from gudgeon.model.parameter_sets import ParameterSets, each_of, rows_of
-from gudgeon.model.parameters import given_slots
+from gudgeon.model.parameter_sets import ParameterSets, given_each, rows_of
 from gudgeon.results.wear import LAWS, POINTS, Rubbed, Rubbing
 from gudgeon.results.worn import Worn, WornJoint
 from gudgeon.simulation.wear import CONTACT, MOST_POINTS, check_rubs, rate_of
@@ -90,7 +89,7 @@ def wear_loop(
     loop = Loop(simulation, wearing, taken_contours(simulation.source, contour, runs=True))
     count = whole(rounds, "rounds", 1, MOST_ROUNDS)
     for k_round in range(count):
-        tick = None if progress is None else _share(progress, k_round, count)
+        tick = share(progress, k_round, count)
         loop.round(parameters or {}, t_end, progress=tick, **options)
     return loop.found()
 
@@ -144,7 +143,7 @@ class Loop:
     def _first(self, parameters: ParameterSets) -> None:
         """Contours of the first round, where none are given those of the file by the numbers of each run."""
         compiled, source = self.simulation.compiled, self.simulation.source
-        given, is_given = each_of(rows_of(parameters)[0], lambda _, row: given_slots(source, row))
+        given, is_given = given_each(source, rows_of(parameters)[0])
         for joint in self.wearing.joints:
             own = contour_of(source, compiled.prepare_each(given, is_given), joint)
             if own is not None:
@@ -196,6 +195,8 @@ def _joints(simulation: Simulation, joints: str | Iterable[str]) -> tuple[str, .
     return names
 
 
-def _share(progress: Progress, k: int, rounds: int) -> Progress:
+def share(progress: Progress | None, k: int, rounds: int) -> Progress | None:
     """Of round k among all."""
+    if progress is None:
+        return None
     return lambda fraction, words: progress((k + fraction) / rounds, f"round {k + 1} of {rounds}: {words}")
