@@ -35,6 +35,19 @@ void gudgeon_run_pace(const void *memory, double *gained, long *steps, long *end
     }
 }
 
+/* Whether the run goes on only when its lists and its tape have been fetched. */
+int gudgeon_run_full(const void *memory) { return lists_full(memory); }
+
+/* How many contacts, those that go on among them, and events the lists have. */
+int gudgeon_run_listed(const void *memory)
+{
+    const Run *run = memory;
+    int n = run->n_impacts + run->n_events;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        n += run->memory.latch[i].closed;
+    return n;
+}
+
 /* Fetches and empties the list of user events, with the states there as rows of samples. */
 int gudgeon_run_events(void *memory, double *t, int *event, double *y, double *latched, signed char *state)
 {

@@ -53,6 +53,8 @@ void gudgeon_run_sample(const void *memory, const double *p, double *y, double *
 void gudgeon_run_stop(void *memory, int stop);
 void gudgeon_run_asks(void *memory, int (*ask)(void *), void *whom, double every);
 void gudgeon_run_pace(const void *memory, double *gained, long *steps, long *ended);
+int gudgeon_run_full(const void *memory);
+int gudgeon_run_listed(const void *memory);
 int gudgeon_run_events(void *memory, double *t, int *event, double *y, double *latched, signed char *state);
 int gudgeon_run_impacts(void *memory, int last, double *numbers, int *joints);
 int gudgeon_method(const char *name);

@@ -76,8 +76,8 @@ class Runs:
         }  # fmt: skip
         self.arrays = {name: np.ascontiguousarray(array) for name, array in self.arrays.items()}
         self.struct = self._struct(math.isfinite(step[0]), stop)
-        self.impacts = [[np.zeros(0, IMPACT_DTYPE)] for _ in range(n)]
-        self.events = [[no_states(compiled)] for _ in range(n)]
+        none = np.zeros(0, IMPACT_DTYPE), no_states(compiled), no_events()
+        self.impacts, self.events, self.no_event = [[none[0]] for _ in range(n)], [[none[1]] for _ in range(n)], none[2]
         self.failures: dict[int, GudgeonError] = {}
         self.unfollowed: dict[int, dict[str, float]] = {}  # guesses, of runs that C could not close near them
         self.interrupted = False
@@ -209,6 +209,8 @@ class Runs:
 
     def fetch(self, i: int, run: Any, last: bool) -> None:
         """Takes over the lists of contacts and events of run i."""
+        if not self.compiled.lib.gudgeon_run_listed(run):
+            return
         self.impacts[i].append(fetch_impacts(self.compiled, run, last))
         self.events[i].append(fetch_events(self.compiled, run, self.times.of(i)))
 
@@ -231,7 +233,7 @@ class Runs:
     def events_of(self, i: int) -> NDArray[Any]:
         """EVENT_DTYPE, the user events of run i by time."""
         several = [each for each in self.events[i] if len(each)]
-        return plain(told_apart(self.compiled, np.concatenate(several))[0]) if several else no_events()
+        return plain(told_apart(self.compiled, np.concatenate(several))[0]) if several else self.no_event
 
     def counts(self, i: int) -> Counts:
         """Sums and maxima over the steps of run i."""

@@ -9,10 +9,13 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import replace
 from threading import Lock
 from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +26,7 @@ from gudgeon.model.compiled import Array, CompiledModel
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.integrators.batch import Runs
+    from gudgeon.integrators.steps import Tape
     from gudgeon.integrators.times import Times
 
 NEW, OVER = 0, 2  # phases of a run
@@ -33,6 +37,11 @@ LEAST, FEW = 2, 16  # runs that are worth a vector: of rk4, of methods that choo
 MOST = 8  # lanes that a vector may have
 WORTH = 6.0  # s that a batch may still take, by the pace so far, from which on its library is worth being compiled
 HELD = "held_lanes.c"  # for methods that choose their step
+_later: ContextVar[int] = ContextVar("runs of the same scene that are to come in other batches", default=0)
+
+
+_held: WeakKeyDictionary[CompiledModel, Lanes] = WeakKeyDictionary()  # for methods that choose their step
+_making = Lock()
 
 
 class Lanes:
@@ -70,8 +79,13 @@ class Lanes:
                 if before[k] != NONE:
                     _fetch(runs, i, memories[k])
 
-    def flow(self, runs: Runs, supply: Iterator[int], memories: NDArray[np.uint8], place: int) -> None:
-        """All runs of `supply`, each in a row of `memories`; with `over` its samples go to `place` and that row."""
+    def flow(
+        self, runs: Runs, supply: Iterator[int], memories: NDArray[np.uint8], tapes: Sequence[Tape], place: int
+    ) -> None:
+        """All runs of `supply`, each in a row of `memories`; with `over` its samples go to `place` and that row.
+
+        `tapes`: one a row, where somebody looks at all steps.
+        """
         arguments, number = self._arguments(runs, memories)
         status = LISTS
         while status != ALL_OVER and not runs.stopping:
@@ -84,12 +98,12 @@ class Lanes:
             status = self.lib.gudgeon_lanes(*arguments, number)
             for k, i in enumerate(before):
                 if i != NONE and (status == LISTS or number[k] == NONE):
-                    _fetch(runs, i, memories[k])
+                    _fetch(runs, i, memories[k], tapes[k] if tapes else None)
                 if i != NONE and number[k] == NONE:
                     runs.is_over(i)
         for k, i in enumerate(number):
             if i != NONE:
-                runs.to_its_end(i, memories[k])
+                runs.to_its_end(i, memories[k], tapes[k] if tapes else None)
 
     def _arguments(self, runs: Runs, memories: NDArray[np.uint8]) -> tuple[tuple[Any, ...], Any]:
         """What C is given, and the numbers of runs: none yet."""
@@ -103,22 +117,40 @@ class Flow:
     """The lanes of a batch by a method that chooses its step, from when on they are worth it."""
 
     def __init__(self, compiled: CompiledModel) -> None:
-        self.compiled, self.count, self._lock = compiled, MOST, Lock()
-        self.lanes = Lanes(compiled, held=True) if not WORTH or _is_compiled(compiled) else None
+        self.compiled, self.count, self.later = compiled, MOST, _later.get()
+        self.lanes = _held.get(compiled)
+        if self.lanes is None and (not WORTH or _is_compiled(compiled)):
+            self.lanes = _held_lanes(compiled)
         self.began = time.perf_counter()
 
     def begins(self, runs: Runs) -> Lanes | None:
         """The lanes, if what is left is worth them; one thread compiles, the others go on meanwhile."""
-        if self.lanes is None and self._is_worth(runs) and self._lock.acquire(blocking=False):
+        self.lanes = self.lanes or _held.get(self.compiled)  # another batch may have made them
+        if self.lanes is None and self._is_worth(runs) and _making.acquire(blocking=False):
             try:
-                self.lanes = self.lanes or Lanes(self.compiled, held=True)
+                self.lanes = self.lanes or _held_lanes(self.compiled)
             finally:
-                self._lock.release()
+                _making.release()
         return self.lanes
 
     def _is_worth(self, runs: Runs) -> bool:
         over = int(np.count_nonzero(runs.arrays["phase"] == OVER))
-        return over > 0 and (time.perf_counter() - self.began) * (runs.n - over) / over > WORTH
+        return over > 0 and (time.perf_counter() - self.began) * (runs.n + self.later - over) / over > WORTH
+
+
+@contextmanager
+def followed_by(runs: int) -> Iterator[None]:
+    """Batches here are a part of more: so many runs come behind them, for which a library may be worth it too."""
+    token = _later.set(runs)
+    try:
+        yield
+    finally:
+        _later.reset(token)
+
+
+def _held_lanes(compiled: CompiledModel) -> Lanes:
+    """Once a library, for all its batches."""
+    return _held.setdefault(compiled, _held.get(compiled) or Lanes(compiled, held=True))
 
 
 def numbers_of(runs: Runs, portions: deque[range | list[int]]) -> Iterator[int]:
@@ -148,11 +180,17 @@ def _is_compiled(compiled: CompiledModel) -> bool:
     return is_compiled(_source(compiled, True), portable=compiled.portable)
 
 
-def _fetch(runs: Runs, i: int, memory: NDArray[np.uint8]) -> None:
-    """The lists of a run, if it has any."""
+def _fetch(runs: Runs, i: int, memory: NDArray[np.uint8], tape: Tape | None = None) -> None:
+    """The lists of a run, if it has any, and of its tape the pieces that it has alone."""
     listed = runs.compiled.source.clearances or runs.compiled.source.events
-    if listed and runs.arrays["status"][i] != NOT_CLOSED:
-        runs.fetch(i, runs.compiled.pointer(memory, "void *"), bool(runs.arrays["phase"][i] == OVER))
+    if runs.arrays["status"][i] == NOT_CLOSED or not (listed or tape):
+        return
+    run, over = runs.compiled.pointer(memory, "void *"), bool(runs.arrays["phase"][i] == OVER)
+    if tape and (over or runs.compiled.lib.gudgeon_run_full(run)):
+        tape.look = runs.looks[i]
+        tape.fetch(run)
+    if listed:
+        runs.fetch(i, run, over)
 
 
 def wanted(compiled: CompiledModel, method: str, steps: Array) -> bool:

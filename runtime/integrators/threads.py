@@ -45,12 +45,13 @@ def in_threads(runs: Runs, progress: Progress | None, wanted: range | list[int],
 def _work(runs: Runs, portions: deque[range | list[int]], worker: int) -> None:
     """One thread: portions of runs until none is left."""
     memories = np.zeros((runs.abreast, runs.compiled.lib.gudgeon_run_size()), dtype=np.uint8)
-    tape, place = Tape(runs.compiled) if runs.looks else None, worker * runs.abreast
-    if tape:
-        tape.lay(runs.compiled.pointer(memories[0], "void *"))
+    tapes, place = [Tape(runs.compiled) for _ in memories] if runs.looks else [], worker * runs.abreast
+    for memory, own in zip(memories, tapes, strict=False):
+        own.lay(runs.compiled.pointer(memory, "void *"))
+    tape = tapes[0] if tapes else None
     while portions and not runs.stopping:
-        if runs.flow and not tape and (beside := runs.flow.begins(runs)):
-            beside.flow(runs, numbers_of(runs, portions), memories, place)
+        if runs.flow and (beside := runs.flow.begins(runs)):
+            beside.flow(runs, numbers_of(runs, portions), memories, tapes, place)
             return
         try:
             portion = portions.popleft()

@@ -63,7 +63,7 @@ def taken(
         array = np.array(values, order="C")  # rows or columns of another one
     else:
         array = _converted(values, name, shape, dtype, own, most)
-    if shape is not None and array.shape != shape:
+    if shape is not None and array.shape != shape and not _fits(array.shape, shape):
         _check_shape(array, name, shape)
     if finite and not np.isfinite(array).all():
         at = tuple(np.argwhere(~np.isfinite(array))[0].tolist())
@@ -76,10 +76,15 @@ def address(ffi: Any, array: NDArray[Any], kind: str = "void *") -> int:
     return int(ffi.cast("uintptr_t", pointer(ffi, array, kind, True)))
 
 
+def _fits(have: tuple[int, ...], shape: Shape) -> bool:
+    for wanted, own in zip(shape, have, strict=False):
+        if wanted is not None and wanted != own:
+            return False
+    return len(have) == len(shape)
+
+
 def _check_shape(array: NDArray[Any], name: str, shape: Shape) -> None:
-    if array.ndim != len(shape) or any(
-        wanted not in (None, have) for wanted, have in zip(shape, array.shape, strict=True)
-    ):
+    if not _fits(array.shape, shape):
         told = ", ".join("N" if size is None else str(size) for size in shape)
         raise ArrayError(f"{name} has shape {array.shape}, expected ({told}{',' * (len(shape) == 1)})")
 

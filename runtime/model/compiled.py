@@ -21,7 +21,7 @@ from gudgeon.errors import SingularError
 from gudgeon.language.wanted import number_of, time
 from gudgeon.model.arrays import FLAG, pointer, taken
 from gudgeon.model.choices import choices, filled_in
-from gudgeon.model.evaluation import PARTS, Evaluation, evaluate
+from gudgeon.model.evaluation import PARTS, Evaluation, evaluate, nothing
 from gudgeon.model.far_masses import far_masses
 
 Array: TypeAlias = NDArray[np.float64]
@@ -60,6 +60,11 @@ class CompiledModel:
         from gudgeon.model.written import trees
 
         return any("mod" in functions(tree) for _, tree in trees(self.source, ("drives",)))
+
+    @cached_property
+    def none(self) -> tuple[tuple[str, Array], ...]:
+        """An Evaluation of no samples, part by part."""
+        return nothing(self)
 
     @property
     def _module(self) -> Any:

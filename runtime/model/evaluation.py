@@ -55,13 +55,13 @@ def evaluate(
         _table(latched, "memory", N, compiled.n_memory)
     inputs = (("q", _table(q, "q", N, compiled.n)), ("v", _table(v, "v", N, compiled.n)), ("memory", latched))
     out = _room(compiled, N, parts)
-    failed, first, chunk = compiled.ffi.new("long *"), 0, FIRST
+    failed, first, chunk, none = compiled.ffi.new("long *"), 0, FIRST, compiled.ffi.NULL
     results, numbers = tuple(vars(out).values()), compiled.pointer(taken(p, "p", (compiled.n_p,)))  # in C's order
     while first < N:
         before, count = perf_counter(), min(chunk, N - first)
         rows = slice(first, first + count)
         given = [compiled.pointer(taken(values[rows], name, (count, None))) for name, values in inputs]
-        filled = [compiled.pointer(x[first:], written=True) if len(x) else compiled.ffi.NULL for x in results]
+        filled = [compiled.pointer(x[first:], written=True) if len(x) else none for x in results]
         status = compiled.lib.gudgeon_evaluate(count, compiled.pointer(time[rows]), *given, numbers, *filled, failed)
         if status:
             compiled.check_pivot(status, float(time[first + failed[0]]), p=p)
@@ -79,14 +79,19 @@ def around(t: Array) -> Array:
 
 def _room(compiled: CompiledModel, N: int, parts: Collection[str]) -> Evaluation:
     """What C fills; (0, ...) of a part that nobody wants."""
+    wanted = {*parts, *OUTPUTS} if not OUTPUTS.isdisjoint(parts) else parts
+    return Evaluation(*(np.empty((N, *none.shape[1:])) if name in wanted else none for name, none in compiled.none))
+
+
+def nothing(compiled: CompiledModel) -> tuple[tuple[str, Array], ...]:
+    """Of each part its name and what it is without a row."""
     s = compiled.source
     widths: dict[str, tuple[int, ...]] = {
         "a": (compiled.n,), "multipliers": (len(s.rows),), "reactions": (len(s.joints), 3),
         "torques": (len(s.drives),), "clearance": (len(s.clearances), len(CLEARANCE_COLUMNS)),
         "series": (len(s.series),), "friction": (len(s.frictions), 2), "energy": (2,), "power": (3,), "drift": (2,),
     }  # fmt: skip
-    wanted = {*parts, *OUTPUTS} if OUTPUTS & {*parts} else {*parts}
-    return Evaluation(**{name: np.empty((N if name in wanted else 0, *width)) for name, width in widths.items()})
+    return tuple((name, np.empty((0, *widths[name]))) for name in (field.name for field in fields(Evaluation)))
 
 
 def _mark_indeterminate(compiled: CompiledModel, out: Evaluation) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, TypeAlias
 
@@ -13,7 +15,7 @@ from gudgeon.errors import BadValueError
 from gudgeon.language.wanted import mapping, told
 from gudgeon.model.arrays import taken
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.parameters import RELATIONS, check, conditions, without_baumgarte
+from gudgeon.model.parameters import RELATIONS, check, conditions, given_slots, without_baumgarte
 from gudgeon.model.sizes import far_clearances
 
 Values: TypeAlias = float | str
@@ -31,13 +33,39 @@ def rows_of(parameters: ParameterSets) -> tuple[list[Mapping[str, Any]], dict[in
     if not rows:
         raise BadValueError("parameters: no run is asked for", hint="a mapping for every run, or {address: values}")
     for i, row in enumerate(rows):
-        odd = [name for name, x in row.items() if isinstance(x, (float, np.floating)) and not np.isfinite(x)]
+        odd = [name for name, x in row.items() if isinstance(x, (float, np.floating)) and not math.isfinite(x)]
         if odd and len(rows) > 1:
             bad[i] = BadValueError(f"{odd[0]}: {row[odd[0]]} is not a finite number")
             rows[i] = {name: value for name, value in row.items() if name not in odd}
     if len(bad) == len(rows):
         raise BadValueError(f"parameters: {bad[0]}")
     return rows, bad
+
+
+def given_each(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -> tuple[Array, Mask]:
+    """Values and mask of the slots that are given, (n_runs, n_slots) each; raises as `given_slots`."""
+    plain = plain_each(source, rows)
+    found: tuple[Array, Mask] = each_of(rows, lambda _, row: given_slots(source, row)) if plain is None else plain
+    return found
+
+
+def plain_each(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -> tuple[Array, Mask] | None:
+    """The same at once, where all runs are given the same slots as floats; None where each is to be read by itself."""
+    first, place = rows[0].keys(), source.place
+    at = [place.get(name, place.get(f"parameters.{name}", -1)) for name in first if isinstance(name, str)]
+    alike = all(row.keys() == first for row in rows) and len(at) == len(first)
+    if not alike or len({*at, -1}) <= len(at) or any(source.slots[k].words for k in at):
+        return None
+    values = [[row[name] for name in first] for row in rows]
+    if not all(type(x) in (float, np.float64) for row in values for x in row):
+        return None
+    numbers = np.array(values, dtype=float).reshape(len(rows), len(at))
+    size = np.abs(numbers)
+    if not ((size == 0.0) | ((size >= sys.float_info.min) & (size < math.inf))).all():
+        return None
+    given, mask = np.zeros((len(rows), len(place))), np.zeros((len(rows), len(place)), dtype=bool)
+    given[:, at], mask[:, at] = numbers, True
+    return given, mask
 
 
 def each_of(rows: Sequence[Mapping[str, Any]], slots: Callable[[int, Mapping[str, Any]], tuple[Array, Array]]) -> Any:

@@ -291,7 +291,7 @@ def peaks_of(peaks: Array, impacts: tuple[Array, ...]) -> Array:
     out = np.full(peaks.shape[:2], np.nan, dtype=PEAK_DTYPE)
     for k, name in enumerate(("F", "t", "e_max")):
         out[name] = peaks[:, :, k]
-    for i, contacts in enumerate(impacts):
+    for i, contacts in ((i, contacts) for i, contacts in enumerate(impacts) if len(contacts)):
         for joint in range(peaks.shape[1]):
             own = contacts[contacts["joint"] == joint]
             if len(own):

@@ -12,6 +12,7 @@ import numpy as np
 
 from gudgeon.errors import GudgeonError
 from gudgeon.integrators.batch import available_threads
+from gudgeon.language import tree
 from gudgeon.language.wanted import names as plain_names
 from gudgeon.results.bare import blank
 from gudgeon.results.results import Array, Result
@@ -38,6 +39,15 @@ def parts_of(source: KernelSource, names: Iterable[str]) -> frozenset[str]:
     """Of an Evaluation, all that these series need."""
     known = catalogue(source)
     return frozenset(part for name in names if name != "t" for part in known[name].parts)
+
+
+def reads_works(source: KernelSource, name: str) -> bool:
+    """Whether a series of a scene follows from works."""
+    own = catalogue(source)[name]
+    if name in source.outputs:
+        used = tree.names(tree.from_json(source.outputs[name]))
+        return any(reads_works(source, one.path) for one in used if one.path in catalogue(source))
+    return name == "energy.residual" or (own.stored is not None and own.stored[0] == "work")
 
 
 def check_kept(batch: Batch, names: Iterable[str]) -> None:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -14,8 +16,9 @@ from gudgeon.errors import SolverError
 from gudgeon.integrators.kinematic import along
 from gudgeon.integrators.steps import Steps
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
-from gudgeon.model.compiled import Array, CompiledModel, Evaluation
-from gudgeon.model.evaluation import around
+from gudgeon.model.compiled import N_WORK, Array, CompiledModel, Evaluation
+from gudgeon.model.evaluation import PARTS, around
+from gudgeon.results.batch_series import parts_of, reads_works
 from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.results import Result
 from gudgeon.results.series import catalogue
@@ -31,17 +34,25 @@ NONE = Diagnostics(
 
 
 class Path:
-    """The present block of a run: its states, of which the first two ended the block before."""
+    """The present block of a run: its states, of which the first two ended the block before.
 
-    def __init__(self, compiled: CompiledModel, numbers: tuple[Array, Array, Array]) -> None:
+    `names`: series that it will be asked for, so that no others are prepared; None: any.
+    """
+
+    def __init__(
+        self, compiled: CompiledModel, numbers: tuple[Array, Array, Array], names: Iterable[str] | None = None
+    ) -> None:
         self.compiled, self.source = compiled, compiled.source
         self.p, self.given, self.is_given = numbers  # as in a Result
         self.catalogue = catalogue(self.source)
+        own = self.catalogue.keys() if names is None else [name for name in names if name in self.catalogue]
+        self.parts = PARTS if names is None else parts_of(self.source, own) | {"a"}
+        self.works = any(reads_works(self.source, name) for name in own)
         self.exact = self.source.methods == (KINEMATIC,)
         self.first: Steps | None = None  # of the run: energies count from it
         self.lost = 0  # states without accelerations
         self.seen: dict[tuple[int, float, float], Result] = {}  # places that were looked at
-        self.nearest: tuple[int, Any] = (-1, None)  # k, rates between states k and k + 1
+        self.nearest: tuple[int, Any] = (-1, None)  # k, rates between states k and k + 1, with their integral
         self.powers: tuple[int, Any] = (-1, None)  # k, integrals of the powers between states k and k + 1
         self.steps: Steps
         self.run: Result
@@ -94,17 +105,18 @@ class Path:
             t = np.where(since > 4.0 * around(t), t - 2.0 * around(t), t)
         while True:
             try:
-                found = self.compiled.evaluate(t[good], x.q[good], x.v[good], x.memory[good], self.p)
+                states = (t, x.q, x.v, x.memory) if good.all() else (t[good], x.q[good], x.v[good], x.memory[good])
+                found = self.compiled.evaluate(*states, self.p, parts=self.parts)
                 break
             except SolverError as error:
                 left = good & (np.abs(t - error.time) > 4.0 * around(t))
                 good = left if (left != good).any() else np.zeros_like(good)
         if good.all():
             return found, good
-        whole = Evaluation(*(np.full((len(x), *part.shape[1:]), np.nan) for part in vars(found).values()))
-        for part, known in zip(vars(whole).values(), vars(found).values(), strict=True):
-            part[good] = known
-        return whole, good
+        whole = {name: np.full((len(x), *known.shape[1:]), np.nan) for name, known in vars(found).items()}
+        for name in self.parts:
+            whole[name][good] = getattr(found, name)
+        return Evaluation(**whole), good
 
     def _states(self, k: int, t: Array) -> Steps:
         """At times t (T,) between states k and k + 1, with the contacts of the first of them."""
@@ -115,7 +127,8 @@ class Path:
         states = slice(memory.shape[1] - len(self.source.states), None)
         memory[:, states] += s * (x.memory[k + 1, states] - x.memory[k, states])
         codes = np.repeat(x.state[k : k + 1], len(t), axis=0)
-        return Steps(t, q, v, self._works(k, s), memory, codes, s[:, 0] < 0.5)  # from where rates come
+        works = self._works(k, s) if self.works else np.full((len(t), N_WORK), np.nan)
+        return Steps(t, q, v, works, memory, codes, s[:, 0] < 0.5)  # from where rates come
 
     def _motion(self, k: int, t: Array, s: Array) -> tuple[Array, Array]:
         """q and q̇ (T, n) at times t and shares s (T, 1): polynomials, or what the drives say."""
@@ -123,15 +136,15 @@ class Path:
         if self.exact:
             q, v = along(self.compiled, self.p, np.concatenate([x.t[k : k + 1], t]), x.q[k], x.v[k])
             return q[1:], v[1:]
-        mid, half, rates = self._rates(k)
+        mid, half, rates, integral = self._rates(k)
         places = (np.concatenate([x.t[k : k + 2], t]) - mid) / half
-        way = half * legval(places, legint(rates)).T
+        way = half * legval(places, integral).T
         left = x.q[k + 1] - x.q[k] - (way[1] - way[0])  # what rates do not know of positions
         return x.q[k] + (way[2:] - way[0]) + s * left, legval(places[2:], rates).T
 
-    def _rates(self, k: int) -> tuple[float, float, Any]:
+    def _rates(self, k: int) -> tuple[float, float, Any, Any]:
         """Legendre coefficients of q̇ about a time, for so many seconds on both sides: through states k and k + 1 and
-        their neighbours where these help, which they do not beyond a kink of a force."""
+        their neighbours where these help, which they do not beyond a kink of a force; those of the integral."""
         if self.nearest[0] != k:
             h, a = np.diff(self.steps.t), self.run.a[1:]
             near = [
@@ -139,8 +152,9 @@ class Path:
                 for j, at in ((k - 1, k - 1), (k + 1, min(k + 2, len(h))))
             ]
             parts = {(k - (near[0] and i), k + 2 + (near[1] and j)) for i in (1, 0) for j in (1, 0)}
-            self.nearest = k, min((self._hermite(slice(*rows)) for rows in sorted(parts)), key=lambda one: one[0])[1:]
-        found: tuple[float, float, Any] = self.nearest[1]
+            best = min((self._hermite(slice(*rows)) for rows in sorted(parts)), key=lambda one: one[0])
+            self.nearest = k, (*best[1:], legint(best[3]))
+        found: tuple[float, float, Any, Any] = self.nearest[1]
         return found
 
     def _hermite(self, rows: slice) -> tuple[float, float, float, Any]:
@@ -149,7 +163,7 @@ class Path:
         t, n = x.t[rows], 2 * len(x.t[rows])
         mid, half = float(0.5 * (t[0] + t[-1])), float(0.5 * (t[-1] - t[0]))
         places = (t - mid) / half
-        matrix = np.concatenate([legvander(places, n - 1), legval(places, legder(np.eye(n))).T])
+        matrix = np.concatenate([legvander(places, n - 1), legval(places, _slopes(n)).T])
         found = np.linalg.solve(matrix, np.concatenate([x.v[rows], half * a[rows]]))
         last, before = np.abs(found[-1]).max(), np.abs(found[-2]).max()
         return float(last * min(1.0, last / max(before, 1e-300))), mid, half, found
@@ -167,3 +181,9 @@ class Path:
         left = x.work[k + 1] - x.work[k] - legval(1.0, self.powers[1])
         out: Array = x.work[k] + work + s * left
         return out
+
+
+@cache
+def _slopes(n: int) -> Any:
+    """Legendre coefficients of the derivatives of the first n polynomials of Legendre."""
+    return legder(np.eye(n))

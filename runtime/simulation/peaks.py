@@ -41,9 +41,9 @@ class Search:
         beside: Beside | None = None,
     ) -> None:  # fmt: skip
         self.names = tuple(names)
-        self.ours = Path(compiled, numbers)
+        self.ours = Path(compiled, numbers, self.names)
         self.beside = beside  # the scene against which errors are wanted
-        self.theirs = Path(beside.compiled, beside.numbers) if beside else None
+        self.theirs = Path(beside.compiled, beside.numbers, self.names) if beside else None
         self.kinds = [(name, False) for name in self.names]
         if beside:
             self.kinds += [(name, True) for name in self.names if name in beside.names]

@@ -24,7 +24,7 @@ from gudgeon.integrators.trajectory import Problem, Progress
 from gudgeon.language.wanted import flag, function, is_whole, text, told
 from gudgeon.model.compiled import Array
 from gudgeon.model.contours import of_run, taken_contours
-from gudgeon.model.parameter_sets import ParameterSets, each_of, prepare_sets, rows_of
+from gudgeon.model.parameter_sets import ParameterSets, each_of, plain_each, prepare_sets, rows_of
 from gudgeon.results.bare import Bare, bare
 from gudgeon.results.batch import Batch, States, as_failures, given_values, peaks_of
 from gudgeon.results.batch_series import STATES, parts_of, wanted_names
@@ -67,7 +67,8 @@ def simulate_many(
     series = _kept(source, keep)
     chosen = method_of(source, method, step is not None)
     tolerance = adaptive.tolerance(rtol, chosen, step is not None)
-    asked = Asked(chosen, tolerance, workers, progress, stop, side_by_side and not names, series, names, against)
+    beside = chosen != "rk4" or not names  # its lanes show nobody their steps
+    asked = Asked(chosen, tolerance, workers, progress, stop, side_by_side and beside, series, names, against)
     p, motion, bad = prepare_sets(compiled, starts.given, starts.is_given, chosen != "rk4")
     bad |= starts.bad | starts.unfit(p, bad)
     times = each.times(p, starts.t, bad)
@@ -152,8 +153,11 @@ class _Starts:
         if len(rows) != runs:
             each.length(len(rows))
         self.t = self.states[0].t if self.states else 0.0
-        self.remarks: list[tuple[str, ...]] = []
-        self.given, self.is_given = each_of(rows, self._slots)
+        plain = None if self.states or worn else plain_each(simulation.source, rows)  # then none chooses anything
+        self.remarks: list[tuple[str, ...]] = [()] * len(rows) if plain else []
+        self.given: Array
+        self.is_given: Any
+        self.given, self.is_given = plain or each_of(rows, self._slots)
 
     def _slots(self, i: int, row: Mapping[str, Any]) -> tuple[Array, Array]:
         given, is_given, remarks = numbers(

@@ -222,7 +222,7 @@ class Simulation(Equations):
         peaks are. A run of which one cannot be evaluated has failed.
         `side_by_side`: whether runs may share vector registers, several in each thread, with rk4 those of the same
         step and times; the numbers are the same without, and what that takes is compiled where it is worth it.
-        `peaks`, `against`: as in `simulate`; `batch.peak("S9.ay")`. Such runs do not go side by side.
+        `peaks`, `against`: as in `simulate`; `batch.peak("S9.ay")`. With rk4 such runs do not go side by side.
         `contour`: as in `simulate`, one for all runs, or (n, depths) with a row for each.
 
         Raises InputError for arguments.

@@ -124,7 +124,7 @@ class Rubs:
     """Whoever looks at the contacts of a joint over all steps of one run; `told` says what came of it."""
 
     def __init__(self, compiled: CompiledModel, asked: Rubbing, numbers: tuple[Array, Array, Array]) -> None:
-        self.path, self.compiled, self.asked = Path(compiled, numbers), compiled, asked
+        self.path, self.compiled, self.asked = Path(compiled, numbers, ()), compiled, asked
         self.number = [one.name for one in compiled.source.clearances].index(asked.joint)
         self.joint = compiled.source.clearances[self.number]
         self.p = without_oil(compiled, self.path.p) if self.joint.film else self.path.p

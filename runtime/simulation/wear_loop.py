@@ -22,8 +22,7 @@ from gudgeon.language.shown import one_line
 from gudgeon.language.wanted import function, number_of, positive, refuse, text, told, whole
 from gudgeon.language.wanted import names as joint_names
 from gudgeon.model.contours import contour_of, taken_contours
-from gudgeon.model.parameter_sets import ParameterSets, each_of, rows_of
-from gudgeon.model.parameters import given_slots
+from gudgeon.model.parameter_sets import ParameterSets, given_each, rows_of
 from gudgeon.results.wear import LAWS, POINTS, Rubbed, Rubbing
 from gudgeon.results.worn import Worn, WornJoint
 from gudgeon.simulation.wear import CONTACT, MOST_POINTS, check_rubs, rate_of
@@ -94,7 +93,7 @@ def wear_loop(
     function(progress, "progress")
     count = whole(rounds, "rounds", 1, MOST_ROUNDS)
     for k_round in range(count):
-        tick = None if progress is None else _share(progress, k_round, count)
+        tick = share(progress, k_round, count)
         loop.round({} if parameters is None else parameters, t_end, progress=tick, **options)
     return loop.found()
 
@@ -151,7 +150,7 @@ class Loop:
     def _first(self, parameters: ParameterSets) -> None:
         """Contours of the first round, where none are given those of the file by the numbers of each run."""
         compiled, source = self.simulation.compiled, self.simulation.source
-        given, is_given = each_of(rows_of(parameters)[0], lambda _, row: given_slots(source, row))
+        given, is_given = given_each(source, rows_of(parameters)[0])
         for joint in self.wearing.joints:
             own = contour_of(source, compiled.prepare_each(given, is_given), joint)
             if own is not None:
@@ -204,6 +203,8 @@ def _joints(simulation: Simulation, joints: str | Iterable[str]) -> tuple[str, .
     return names
 
 
-def _share(progress: Progress, k: int, rounds: int) -> Progress:
+def share(progress: Progress | None, k: int, rounds: int) -> Progress | None:
     """Of round k among all."""
+    if progress is None:
+        return None
     return lambda fraction, words: progress((k + fraction) / rounds, f"round {k + 1} of {rounds}: {words}")

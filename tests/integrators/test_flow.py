@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.integrators import lanes
+from gudgeon.integrators import lanes, steps
 from gudgeon.results.batch import Batch
 from tests.integrators.test_side_by_side import CASES, EVERY_KIND, FALL, Case, assert_same_batches, without_chain
 from tests.programs import needs_compiler
@@ -172,7 +172,22 @@ def test_the_library_is_made_where_it_is_worth_it(monkeypatch: pytest.MonkeyPatc
     alone = press.simulate_many(sets, 0.01, output=3, threads=2)
     press.simulate_many({"c": sets["c"][: lanes.FEW - 1]}, 0.01, output=3, threads=2)
     assert not made
-    monkeypatch.setattr(lanes, "WORTH", 1e-9)
-    beside = press.simulate_many(sets, 0.01, output=3, threads=2)
+    with lanes.followed_by(10**18):  # blocks of a study: what one takes is little, all of them are not
+        gudgeon.load("nine_bar_press", "lubricated").simulate_many(sets, 0.01, output=3, threads=2)
     assert made == [True]
+    monkeypatch.setattr(lanes, "WORTH", 1e-9)
+    for _ in range(2):  # once a library, whatever batches there are
+        beside = press.simulate_many(sets, 0.01, output=3, threads=2)
+        assert made == [True, True]
+    assert_same_batches(beside, alone)
+
+
+@pytest.mark.parametrize("rows", [4096, 300])
+def test_peaks_of_all_steps_are_those_of_runs_alone(rows: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each lane has a tape of its own, which is fetched where the run alone would stop for it: at 100 rows of 300."""
+    monkeypatch.setattr(steps, "ROWS", rows)
+    seen, press = Seen(monkeypatch), gudgeon.load("nine_bar_press", "dry")
+    beside, alone = both(press, {"omega": np.linspace(6.0, 30.0, COUNT)}, 0.02, rtol=1e-6, peaks=["S9.ay", "A.F"])
+    assert {*seen.taken} == {*range(COUNT)} and len({run[0].max for run in beside.extremes}) > COUNT / 2
+    assert beside.extremes == alone.extremes
     assert_same_batches(beside, alone)

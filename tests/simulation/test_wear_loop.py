@@ -12,6 +12,8 @@ import pytest
 import gudgeon
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.simulation.wear_loop import on_slots, smoothed
+from gudgeon.studies.ensemble.block import run_block
+from gudgeon.studies.ensemble.study import plans_of
 from tests.programs import needs_compiler
 from tests.simulation.test_wear import PENDULUM, TURNING, C, G, L, M, R
 
@@ -125,6 +127,9 @@ def test_a_study_measures_runs_on_what_was_worn(tmp_path: Path) -> None:
         run = simulation.simulate(0.1, output=5, parameters=one, contour={"J": own})
         assert found[k] == run["J.e"][-1]
     assert found[1] > found[0] > C
+    plan, told = plans_of(study).each[""], list[float]()
+    run_block(plan.job(plan.blocks[0], 1), lambda fraction, _: told.append(fraction), simulation)
+    assert told == sorted(told) and {1 / 3, 2 / 3, 1.0} <= {*told}  # a round of wear is told as the runs are
     for name, wrong, words in (("joints", "O", "no scene has"), ("k", "1 mm", "wear.k"), ("rounds", 0, "rounds")):
         with pytest.raises(gudgeon.InputError, match=words):
             gudgeon.study(study | {"wear": wear | {name: wrong}})

@@ -19,7 +19,7 @@ from scipy.stats import norm, qmc
 import gudgeon
 from gudgeon.errors import BadValueError, InputError
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.studies.ensemble import resolve
+from gudgeon.studies.ensemble import final, resolve
 from gudgeon.studies.ensemble.final import slabs
 from gudgeon.studies.ensemble.study import plans_of
 from tests.programs import needs_compiler
@@ -116,6 +116,7 @@ def test_an_executors_processes_make_the_same_dataset(crank: gudgeon.Study) -> N
 
 def test_blocks_and_threads_change_nothing(crank: gudgeon.Study, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(resolve, "BLOCK", 5)
+    monkeypatch.setattr(final, "TOGETHER", 0)  # each written to the file by itself
     told: list[float] = []
     found = gudgeon.study(CRANK, threads=1, progress=lambda fraction, text: told.append(fraction))
     assert told == sorted(told) and told[-1] == 1.0

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.errors import BadValueError, GudgeonError, InputError
+from gudgeon.integrators.lanes import followed_by
 from gudgeon.language.tree import Expr
 from gudgeon.model.default_step import scene_end, scene_number
-from gudgeon.model.parameter_sets import each_of, prepare_sets
-from gudgeon.model.parameters import given_slots
+from gudgeon.model.parameter_sets import given_each, prepare_sets
 from gudgeon.results.batch import Array
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT, MOST_OUTPUT
 from gudgeon.simulation.simulation import Simulation
@@ -65,6 +65,7 @@ class Job:
     absolute: Mapping[str, Array]
     wanted: Wanted
     threads: int | None
+    later: int = 0  # runs of the same scene behind these
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,7 +89,7 @@ def run_block(job: Job, progress: Progress | None = None, simulation: Simulation
     failures = [table.bad.get(i, "") for i in range(job.n)]
     good = np.array([i for i in range(job.n) if i not in table.bad], dtype=int)
     found = _Found(job, table)
-    with guesses(simulation.source, job.first) as off:
+    with guesses(simulation.source, job.first) as off, followed_by(job.later):
         try:
             if len(good):
                 found.take(good, _run(simulation, job, table, good, progress), failures)
@@ -144,7 +145,7 @@ class Table:
                     rows[i][name] = value
                 else:
                     self.bad.setdefault(i, f"{name} is {value}: expected a finite number")
-        given, is_given = each_of(rows, lambda i, row: given_slots(self.source, row))
+        given, is_given = given_each(self.source, rows)
         p, _, errors = prepare_sets(self.compiled, given, is_given, False)
         return p, errors
 
@@ -214,7 +215,7 @@ def _run(simulation: Simulation, job: Job, table: Table, runs: Array, progress: 
         "step": step, "threads": job.threads, "stop": wanted.stop,
     }  # fmt: skip
     parameters = parameters or [{}] * len(runs)
-    contour = worn(simulation, wanted.wear, wanted.rounds, parameters, ends, common)
+    contour, progress = worn(simulation, wanted.wear, wanted.rounds, parameters, ends, common, progress)
     batch = simulation.simulate_many(
         parameters, t_end, output=output, **common, progress=progress,
         contour=contour, keep=series_of(wanted.measures, wanted.keep, source),

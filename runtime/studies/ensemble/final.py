@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -18,6 +18,7 @@ from gudgeon.studies.ensemble.measures import meaning
 from gudgeon.studies.ensemble.notes import MOST, Note, kind_of, merged
 from gudgeon.studies.ensemble.plan import Coordinate, Plan
 
+TOGETHER = 1 << 20  # bytes of blocks that are written at once
 MOST_COORDINATES = 6  # that name a run
 MOST_KINDS, MOST_TEXT = 50, 50_000  # kinds of failures, characters of an attribute: HDF5 has no longer ones
 
@@ -35,6 +36,39 @@ def _blocks(folder: StudyFolder) -> Iterator[Block]:
         if block is None:
             raise LookupError(f"block {of.number} is gone")
         yield block
+
+
+def _joined(blocks: Iterable[Block]) -> Iterator[Block]:
+    """Neighbours as one, as long as they are few bytes: what is written to a file at once takes little longer."""
+    waiting, held = list[Block](), 0
+    for block in blocks:
+        if waiting and (held > TOGETHER or block.t.shape[-1] != waiting[0].t.shape[-1]):
+            yield _as_one(waiting)
+            waiting, held = [], 0
+        waiting.append(block)
+        held += _bytes(block)
+    if waiting:
+        yield _as_one(waiting)
+
+
+def _bytes(block: Block) -> int:
+    return sum(array.nbytes for array in (block.t_last, block.t, *block.measures.values(), *block.series.values()))
+
+
+def _as_one(blocks: Sequence[Block]) -> Block:
+    first = blocks[0]
+    if len(blocks) == 1:
+        return first
+    t = first.t
+    if t.ndim > 1 or not all(np.array_equal(one.t, t) for one in blocks):
+        t = np.concatenate([np.broadcast_to(one.t, (len(one.t_last), t.shape[-1])) for one in blocks])
+    measures, series = (
+        {name: np.concatenate([getattr(one, of)[name] for one in blocks]) for name in getattr(first, of)}
+        for of in ("measures", "series")
+    )
+    failures = tuple(told for one in blocks for told in one.failures)
+    t_last, notes = np.concatenate([one.t_last for one in blocks]), merged(one.notes for one in blocks)
+    return Block(first.number, first.first, measures, failures, t_last, t, series, notes)
 
 
 def _times(folder: StudyFolder) -> tuple[Array, bool]:
@@ -64,7 +98,7 @@ def _write(target: BinaryIO, folder: StudyFolder, t: Array, common: bool) -> Non
             told = ("time", "s", "time of the sample") if common else ("sample", "", "number of the sample")
             _coordinate(h5py, file, Coordinate(told[0], (told[0],), time, *told[1:]))
         variables = _variables(h5py, file, plan, len(t), common)
-        for block in _blocks(folder):
+        for block in _joined(_blocks(folder)):
             _fill(variables, plan, block, common)
             notes = merged((notes, block.notes))
             kinds.update(kind_of(told) for told in block.failures if told)

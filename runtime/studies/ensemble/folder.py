@@ -166,19 +166,17 @@ def h5py_module() -> Any:
 
 
 def image(block: Block, digest: str) -> bytes:
-    """A block as the bytes of an HDF5 file, every array with checksums."""
+    """A block as the bytes of an HDF5 file, every array with checksums; few arrays, for each takes its time."""
     h5py, memory = h5py_module(), io.BytesIO()
     with h5py.File(memory, "w") as file:
         file.attrs["digest"], file.attrs["number"] = digest, block.number
-        arrays = {"t_last": block.t_last, "t": block.t}
-        arrays |= {f"measures/{name}": values for name, values in block.measures.items()}
-        arrays |= {f"series/{name}": values for name, values in block.series.items()}
+        notes = {kind: (note.runs, note.run, note.text) for kind, note in block.notes.items()}
+        words = np.frombuffer(json.dumps((block.failures, notes)).encode(), np.uint8)
+        arrays = {"runs": np.array([block.t_last, *block.measures.values()]), "words": words}
+        if block.series:
+            arrays |= {"t": block.t, "series": np.array([*block.series.values()])}
         for name, values in arrays.items():
             file.create_dataset(name, data=values, **({"fletcher32": True} if values.size else {}))
-        notes = {kind: (note.runs, note.run, note.text) for kind, note in block.notes.items()}
-        for name, words in (("failures", block.failures), ("notes", notes)):
-            told = np.frombuffer(json.dumps(words).encode(), np.uint8)
-            file.create_dataset(name, data=told, fletcher32=True)
     return memory.getvalue()
 
 
@@ -189,19 +187,21 @@ def from_image(data: bytes, plan: Plan, number: int) -> Block | None:
     with h5py.File(io.BytesIO(data), "r") as file:
         if file.attrs["digest"] != plan.digest or file.attrs["number"] != number:
             return None
-        measures = {one.name: _array(file, f"measures/{one.name}", 1) for one in plan.wanted.measures}
-        series = {name: _array(file, f"series/{name}", 2) for name in plan.wanted.keep}
-        t_last, t = _array(file, "t_last", 1), np.asarray(file["t"], dtype=float)
-        failures, told = (json.loads(bytes(np.asarray(file[name], np.uint8))) for name in ("failures", "notes"))
+        names, keep = [one.name for one in plan.wanted.measures], plan.wanted.keep
+        t_last, *measures = _array(file, "runs", (1 + len(names), of.runs))
+        t, series = np.zeros(0), np.zeros((0, of.runs, 0))
+        if keep:
+            t, series = np.asarray(file["t"], dtype=float), _array(file, "series", (len(keep), of.runs, None))
+        failures, told = json.loads(bytes(np.asarray(file["words"], np.uint8)))
     notes = {kind: Note(*note) for kind, note in told.items()}
-    lengths = {len(x) for x in (*measures.values(), *series.values(), t_last, failures)}
-    if lengths != {of.runs} or not all(isinstance(told, str) for told in failures):
+    if len(failures) != of.runs or not all(isinstance(told, str) for told in failures):
         raise ValueError(f"block {number}: expected {of.runs} runs")
-    return Block(number, of.part * plan.each + of.first, measures, tuple(failures), t_last, t, series, notes)
+    taken = dict(zip(names, measures, strict=True)), dict(zip(keep, series, strict=True))
+    return Block(number, of.part * plan.each + of.first, taken[0], tuple(failures), t_last, t, taken[1], notes)
 
 
-def _array(file: Any, name: str, ndim: int) -> Any:
+def _array(file: Any, name: str, shape: tuple[int | None, ...]) -> Any:
     found = np.asarray(file[name], dtype=float)
-    if found.ndim != ndim:
-        raise ValueError(f"{name} has {found.ndim} dimensions")
+    if len(found.shape) != len(shape) or any(n not in (None, own) for n, own in zip(shape, found.shape, strict=True)):
+        raise ValueError(f"{name} has shape {found.shape}")
     return found

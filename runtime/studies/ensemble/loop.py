@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager, suppress
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Progress
     from gudgeon.studies.ensemble.plan import BlockOf
 
-SIDE_BY_SIDE = 2  # blocks at once here: while the last runs of one end and Python has the others, no core waits
+SIDE_BY_SIDE = 4  # blocks at once here, at most: while Python has one, and the last runs of another end, no core waits
 FUTILE = 3  # times that workers die one after the other, and no block is done
 
 
@@ -72,16 +73,24 @@ def finish(folder: StudyFolder, threads: int | None, executor: Executor | None, 
 
 
 def _here(folder: StudyFolder, missing: list[BlockOf], done: _Done, threads: int | None) -> None:
-    """In threads of this process; what ends the waiting ends all runs where they are."""
-    most, ended = SIDE_BY_SIDE if (threads or available_threads()) > 1 else 1, Event()
+    """In threads of this process; what ends the waiting ends all runs where they are.
+
+    Runs of a block that go side by side leave lanes empty at its end, once in each of its threads: it has few of them,
+    but for the last blocks, whose end nobody else's begin covers.
+    """
+    cores, ended = threads or available_threads(), Event()
+    most = min(cores + 1, SIDE_BY_SIDE) if cores > 1 else 1
+    last = {block.number for block in missing[-most:]}
 
     def run(block: BlockOf) -> Block:
+        own = cores if block.number in last or most == 1 else math.ceil(cores / (most - 1))
+
         def report(fraction: float, text: str) -> None:
             if ended.is_set():
                 raise KeyboardInterrupt
             done.shares[block.number] = fraction * block.runs
 
-        return run_block(folder.plan.job(block, threads), report, folder.plan.parts[block.part].simulation)
+        return run_block(folder.plan.job(block, own), report, folder.plan.parts[block.part].simulation)
 
     with ThreadPoolExecutor(most, thread_name_prefix="gudgeon") as pool:
         try:

@@ -154,11 +154,12 @@ def _worn(batch: Batch, measure: Measure) -> Array:
 
 
 def _contacts(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
-    joint, out = _joints(batch.source).index(measure.of), np.full(len(batch), np.nan)
-    for i, impacts in enumerate(batch.impacts):
+    joint, counted = _joints(batch.source).index(measure.of), measure.statistic == "impacts"
+    out = np.full(len(batch), 0.0 if counted else np.nan)
+    for i, impacts in ((i, impacts) for i, impacts in enumerate(batch.impacts) if len(impacts)):
         t_on = impacts["t_on"]
         own = impacts[(impacts["joint"] == joint) & (t_on >= begin[i]) & (t_on <= end[i])]
-        if measure.statistic == "impacts":
+        if counted:
             out[i] = len(own)
         elif len(own):
             out[i] = own["t_on"].min() if measure.statistic == "first_impact" else np.abs(own["deltadot"]).max()
@@ -166,11 +167,12 @@ def _contacts(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array
 
 
 def _crossings(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
-    number, out = _events(batch.source).index(measure.of), np.full(len(batch), np.nan)
-    for i, events in enumerate(batch.events):
+    number, counted = _events(batch.source).index(measure.of), measure.statistic == "crossings"
+    out = np.full(len(batch), 0.0 if counted else np.nan)
+    for i, events in ((i, events) for i, events in enumerate(batch.events) if len(events)):
         t = events["t"][events["event"] == number]
         t = t[(t >= begin[i]) & (t <= end[i])]
-        if measure.statistic == "crossings":
+        if counted:
             out[i] = len(t)
         elif len(t):
             out[i] = t.min()

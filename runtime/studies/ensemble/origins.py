@@ -17,8 +17,7 @@ from gudgeon.errors import GudgeonError, InputError
 from gudgeon.integrators.batch import available_threads
 from gudgeon.integrators.kinematic import along
 from gudgeon.language.tree import from_json, names
-from gudgeon.model.parameter_sets import each_of, prepare_sets
-from gudgeon.model.parameters import given_slots
+from gudgeon.model.parameter_sets import given_each, prepare_sets
 from gudgeon.results.bare import bare
 from gudgeon.results.batch import Array
 from gudgeon.results.batch_series import parts_of
@@ -154,7 +153,7 @@ def _alike(simulation: Simulation, table: Table, runs: Array, times: list[Array]
     source = simulation.source
     columns = {key: values[runs] for name, values in table.columns.items() if (key := key_of(source, name))}
     rows = [{name: _plain(values[i]) for name, values in columns.items()} for i in range(len(runs))]
-    given, is_given = each_of(rows, lambda i, row: given_slots(source, row))
+    given, is_given = given_each(source, rows)
     p, _, _ = prepare_sets(simulation.compiled, given, is_given, False)
     step = table.step[runs] if table.step is not None and source.degrees_of_freedom else None
     return Alike(columns, p, np.where(idle(source), 0.0, p), tuple(times), step)

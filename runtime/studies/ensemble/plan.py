@@ -121,9 +121,9 @@ class Plan:
     def job(self, block: BlockOf, threads: int | None) -> Job:
         """All that a process needs to run a block."""
         runs = np.arange(block.first, block.first + block.runs)
-        return self.job_of(block.number, block.part, runs, threads)
+        return self.job_of(block.number, block.part, runs, threads, self.each - block.first - block.runs)
 
-    def job_of(self, number: int, k: int, runs: Array, threads: int | None) -> Job:
+    def job_of(self, number: int, k: int, runs: Array, threads: int | None, later: int = 0) -> Job:
         """The same of any runs of a part."""
         part, shape = self.parts[k], tuple(one.length for one in self.numbers)
         index = np.unravel_index(runs, shape) if shape else ()
@@ -134,7 +134,7 @@ class Plan:
         relative, absolute = self._off(by_name, len(runs))
         return Job(
             part.mechanism, part.simulation.source.scene, part.overrides, part.sha256, number,
-            k * self.each + int(runs[0]), len(runs), columns, relative, absolute, self.wanted, threads,
+            k * self.each + int(runs[0]), len(runs), columns, relative, absolute, self.wanted, threads, later,
         )  # fmt: skip
 
     def _off(self, index: Mapping[str, Array], n: int) -> tuple[dict[str, Array], dict[str, Array]]:

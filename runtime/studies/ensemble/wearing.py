@@ -11,11 +11,12 @@ from gudgeon.errors import BadValueError, InputError, UnknownNameError
 from gudgeon.results.batch import Array
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.simulation.wear import rate_of
-from gudgeon.simulation.wear_loop import Loop, Wearing
+from gudgeon.simulation.wear_loop import Loop, Wearing, share
 from gudgeon.studies.ensemble.numbers import real
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import WearRounds
+    from gudgeon.integrators.trajectory import Progress
 
 
 def wearing_of(wear: WearRounds, sources: Sequence[KernelSource]) -> Wearing:
@@ -36,13 +37,17 @@ def wearing_of(wear: WearRounds, sources: Sequence[KernelSource]) -> Wearing:
 
 
 def worn(
-    simulation: Simulation, wearing: Wearing | None, rounds: int, parameters: Any, ends: Array, common: dict[str, Any]
-) -> dict[str, Array]:  # fmt: skip
-    """The contours that the rounds of wear leave of the runs, by joint; none where the scene has none that wears."""
+    simulation: Simulation, wearing: Wearing | None, rounds: int, parameters: Any, ends: Array, common: dict[str, Any],
+    progress: Progress | None,
+) -> tuple[dict[str, Array], Progress | None]:  # fmt: skip
+    """The contours that the rounds of wear leave of the runs, by joint; none where the scene has none that wears.
+
+    And what is left of the progress for the runs themselves: each round has as much of it.
+    """
     able = {one.joint for one in simulation.source.contours}
     if wearing is None or not able.intersection(wearing.joints):
-        return {}
+        return {}, progress
     loop = Loop(simulation, replace(wearing, joints=tuple(joint for joint in wearing.joints if joint in able)), {})
-    for _ in range(rounds):
-        loop.round(parameters, ends, **common)
-    return loop.given
+    for k in range(rounds):
+        loop.round(parameters, ends, progress=share(progress, k, rounds + 1), **common)
+    return loop.given, share(progress, rounds, rounds + 1)
