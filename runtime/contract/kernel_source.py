@@ -208,6 +208,7 @@ class KernelSource:
     lines: tuple[tuple[str, int], ...] = ()  # of the file, where joints and drives are
     states: tuple[str, ...] = ()  # inner states of laws, "A.z", as many a joint with play; "": none
     units: tuple[int, ...] = ()  # in which `main` is compiled, side by side, as PART in C counts them; none: whole
+    taylor: str = ""  # the file that has the Taylor series of the motion; "": there is none
     lanes: str = ""  # the file to compile for runs side by side; "": there is none
     cdef: str = ""  # what `main` declares where it is compiled alone; "": with the engine, by the engine's calls
     overrides: tuple[tuple[str, str | float | bool], ...] = ()  # of the file: (address, value), sorted (load)

@@ -16,6 +16,7 @@ from gudgeon.assembly.followed import tell_unfollowed
 from gudgeon.assembly.journals import parting
 from gudgeon.assembly.redundant_rows import check_start
 from gudgeon.assembly.start import Start, assemble
+from gudgeon.contract.methods import SMOOTH
 from gudgeon.errors import BadValueError, InputError, SolverError
 from gudgeon.integrators import adaptive
 from gudgeon.integrators.peers import driver as python_driver
@@ -59,6 +60,7 @@ class Simulation(Equations):
         self._overrides = dict(overrides or {})
         self._model: Model | None = None
         self._full: Simulation | None = None
+        self._smooth: Simulation | None = None
 
     def __repr__(self) -> str:
         joints, of = ", ".join(x.name for x in self.source.clearances), f"{self.source.mechanism}/{self.source.scene}"
@@ -89,6 +91,21 @@ class Simulation(Equations):
                                     overrides=self._overrides, portable=self.compiled.portable)  # fmt: skip
         return self._full
 
+    @property
+    def smooth(self) -> Simulation:
+        """The same scene with Taylor's method in its library, derived when first asked for.
+
+        BadValueError where the motion is not smooth; InputError if the file was edited since it was loaded.
+        """
+        if self.source.taylor:
+            return self
+        if self._smooth is None:
+            from gudgeon.simulation.from_file import load_bytes
+
+            self._smooth = load_bytes(self._loaded_bytes(), self.file, self.source.scene, formulation="taylor",
+                                      overrides=self._overrides, portable=self.compiled.portable)  # fmt: skip
+        return self._smooth
+
     def to_html(self) -> str:
         """The scene's page, HTML: its equations, and above them the mechanism running (gudgeon.web.page.write)."""
         from gudgeon.web.page import write
@@ -116,7 +133,7 @@ class Simulation(Equations):
 
     def __getstate__(self) -> dict[str, Any]:
         """What is derived is derived again where it is asked for."""
-        return self.__dict__ | {"_model": None, "_full": None}
+        return self.__dict__ | {"_model": None, "_full": None, "_smooth": None}
 
     def start(self, parameters: Mapping[str, float | str] | None = None) -> Start:
         """The assembled start at t = 0. Raises AssemblyError."""
@@ -162,6 +179,11 @@ class Simulation(Equations):
             if progress and self._full is None:
                 progress(0.0, "deriving the full formulation")
             return self.full.simulate(
+                t_end, output=output, method=method, rtol=rtol, step=step, parameters=parameters, start=start,
+                progress=progress, horizon=horizon, stop=stop, peaks=peaks, against=against, contour=contour,
+            )  # fmt: skip
+        if method in SMOOTH and not self.source.taylor:
+            return self.smooth.simulate(
                 t_end, output=output, method=method, rtol=rtol, step=step, parameters=parameters, start=start,
                 progress=progress, horizon=horizon, stop=stop, peaks=peaks, against=against, contour=contour,
             )  # fmt: skip

@@ -1,0 +1,196 @@
+"""Taylor series of a straight-line function: its statements at order 0, and what is left of them at each higher order.
+
+Where arguments are series in time every local is one too, and its coefficient of order k follows from those of its
+operands (A. Jorba, M. Zou, A software package for the numerical integration of ODEs by means of high-order Taylor
+methods, Experimental Mathematics 14, 2005, section 2.1). For c = a b it is c_k = a_0 b_k + b_0 a_k + S_k with the sum
+S_k = a_1 b_{k-1} + ... + a_{k-1} b_1; quotients, roots, powers, sines and their like are products too, of series and of
+their rates (series_rules.py). So a function becomes two: `values` at order 0, and `terms`, the same lines at every
+order k > 0, linear in coefficients of order k, with coefficients of order 0 and the sums S_k for numbers. The sums read
+lower orders alone: all of them are known before a line of order k is, and need no order among themselves.
+
+A linear system is solved by lines as well, so that loops which are closed by rows need nothing more: at order k the
+lines of its factors and substitutions solve for the coefficients of order k.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+
+import sympy as sp
+
+from gudgeon.generator.ir.kernels import Argument, Kernel, Section, without_unread
+from gudgeon.generator.ir.series_rules import ORDER, SUMS, VALUES, Factor, NoSeries, Product, Rules, at
+from gudgeon.generator.ir.signatures import PARAMETERS, STATE, ZERO
+from gudgeon.generator.ir.statements import Call, Guard, Jump, Line, Rescue, Return, Statement, Status
+from gudgeon.generator.ir.values import Place
+
+_DROPPED = (Status, Jump, Rescue)
+_DOC_VALUES = (
+    "Accelerations a and powers at a state, order 0 of their series, and what higher orders read of it.",
+    "Returns 0, or the number of the pivot that vanished.",
+)
+_DOC_TERMS = (
+    "Order k > 0 of the same: t, q, v, a and power are coefficients of order k, `at` has those of order 0, `sum` what",
+    "lower orders add to each product; share = 1/k. Told are the factors of the sums of higher orders.",
+)
+Titled = tuple[str, Line]  # a line and its section's title
+
+
+@dataclass(frozen=True)
+class Series:
+    """Both functions, what `values` keeps for `terms`, and the sums that stand in front of each order."""
+
+    values: Kernel
+    terms: Kernel
+    kept: tuple[str, ...]
+    products: tuple[Product, ...]
+
+
+def series_of(kernel: Kernel, wanted: Callable[[str], str], name: str) -> Series:
+    """The series of a function's results, which `wanted` gives their places ("": nobody wants it). Raises NoSeries."""
+    lines = _lines(kernel, wanted)
+    made = _Series(lines)
+    for title, line in lines:
+        made.line(title, line)
+    return made.finished(name)
+
+
+def _lines(kernel: Kernel, wanted: Callable[[str], str]) -> list[Titled]:
+    """Those that lead to what is wanted; what is stored elsewhere is no more than a local."""
+    lines: list[Titled] = []
+    for section in kernel.sections:
+        for line in section.statements:
+            if isinstance(line, Statement) and not line.local:
+                place = wanted(line.target)
+                line = replace(line, target=place) if place else replace(line, local=True)
+            if not isinstance(line, _DROPPED):
+                lines.append((section.title, line))
+    return _pruned(lines)
+
+
+class _Series(Rules):
+    """Line by line: lines of order 0 and of order k."""
+
+    def __init__(self, lines: Sequence[Titled]) -> None:
+        statements = [line for _, line in lines if isinstance(line, Statement)]
+        super().__init__({line.target for line in statements})
+        self._values: list[Titled] = []
+        self._terms: list[Titled] = []
+        self._stored: dict[str, sp.Symbol] = {}  # places that later lines read, by the locals that they are
+        self._own = {line.value: line.target for line in statements if isinstance(line.value, sp.Function)}
+        self._title = ""
+
+    def line(self, title: str, line: Line) -> None:
+        """The next one of the function."""
+        self._title = title
+        match line:
+            case Statement(value=Place() as place):
+                self._read(line, place)
+            case Statement(value=sp.Expr() as value):
+                self._assign(line, value.xreplace({s: self._stored.get(s.name, s) for s in value.free_symbols}))
+            case Guard(test=test) if not isinstance(test, Call):
+                self._values.append((title, replace(line, jumps=False)))
+            case Return():
+                pass
+            case _:
+                raise NoSeries(f"a {type(line).__name__.lower()} of the right-hand side is no expression")
+
+    def _read(self, line: Statement, place: Place) -> None:
+        if not line.local or place.base not in ("t", "q", "v", "p"):
+            raise NoSeries(f"{place.text} is no function of time and state")
+        self._values.append((self._title, line))
+        self._terms.append((self._title, line))
+        (self.numbers if place.base == "p" else self.moving).add(line.target)
+
+    def _assign(self, line: Statement, value: sp.Expr) -> None:
+        if line.local and line.target.isidentifier():
+            if line.target not in self.moving:  # else a function beside it has asked for it
+                self.define(line.target, value)
+            return
+        result = ZERO if self.is_fixed(value) else self.atom(value)
+        self._stored[line.target] = self.atom(value)
+        if not line.local:
+            self._values.append((self._title, replace(line, value=self._stored[line.target])))
+            self._terms.append((self._title, replace(line, value=result, comment="")))
+
+    def define(self, target: str, value: sp.Expr, moving: bool = False) -> sp.Symbol:
+        """A local of both functions, or of order 0 alone."""
+        symbol = sp.Symbol(target, real=True)
+        if self.is_fixed(value) and not moving:
+            self._values.append((self._title, Statement(target, value)))
+            return symbol
+        whole, self.known[value] = self.known.get(value), symbol
+        if whole is not None:  # the same under another name
+            self.known[value] = value = whole
+        named, term = self.lower(value, symbol)
+        self.moving.add(target)
+        self._values.append((self._title, Statement(target, named)))
+        self._terms.append((self._title, Statement(target, term)))
+        later, self.later = self.later, []
+        for name, expression in later:
+            self.define(name, expression)
+        return symbol
+
+    def beside(self, value: sp.Expr) -> sp.Symbol:
+        """Another function of the same argument, by the name that the function has for it, if any."""
+        if value in self.known:
+            return self.known[value]
+        return self.define(self._own.get(value) or self.unique(type(value).__name__), value)
+
+    def finished(self, name: str) -> Series:
+        """Both functions, without what nothing reads."""
+        products = list(self.products.values())
+        while True:
+            terms = _pruned([*self._terms, *_stores(products)])
+            read = {s.name for _, line in terms for e in line.expressions for s in e.free_symbols}
+            left = [product for product in products if f"{SUMS}->{product.name}" in read]
+            if len(left) == len(products):
+                break
+            products = left
+        front = f"{VALUES}->"
+        kept = tuple(sorted(x.removeprefix(front) for x in read if x.startswith(front)))
+        inverses = {name: 1 / b for name, b in self.inverses.items()}
+        keeps = [("values that higher orders read",
+                  Statement(f"{front}{x}", inverses.get(x, sp.Symbol(x, real=True)), False)) for x in kept]  # fmt: skip
+        values = _pruned([*self._values, *keeps])
+        of_values, of_terms = _arguments()
+        return Series(
+            Kernel(f"{name}_values", _DOC_VALUES, of_values, _sections([*values, ("", Return())]), "int"),
+            Kernel(f"{name}_terms", _DOC_TERMS, of_terms, _sections(terms)), kept, tuple(products),
+        )  # fmt: skip
+
+
+def _arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]]:
+    """Of both functions."""
+    rates = (Argument("double *", "a"), Argument("double *", "power"))
+    factors = (Argument("TaylorFactors *", "left"), Argument("TaylorFactors *", "right"))
+    order = (Argument("const double", ORDER.name), Argument("const double", "share"))
+    given = (Argument("const TaylorValues *", VALUES), Argument("const TaylorFactors *", SUMS))
+    values = (*STATE, PARAMETERS, Argument("TaylorValues *", VALUES), *rates)
+    return values, (*order, *STATE, PARAMETERS, *given, *rates, *factors)
+
+
+def _stores(products: Iterable[Product]) -> list[Titled]:
+    """What the sums of higher orders read."""
+
+    def store(side: str, product: Product, factor: Factor) -> Titled:
+        symbol = sp.Symbol(factor.name, real=True)
+        value = ORDER * symbol if factor.rate else symbol
+        return "factors of the sums of higher orders", Statement(f"{side}->{product.name}", value, False)
+
+    return [store(*one) for x in products for one in (("left", x, x.left), ("right", x, x.right))]
+
+
+def _pruned(lines: list[Titled]) -> list[Titled]:
+    left = {id(line) for line in without_unread([line for _, line in lines], set())}
+    return [item for item in lines if id(item[1]) in left]
+
+
+def _sections(lines: Iterable[Titled]) -> tuple[Section, ...]:
+    sections: list[tuple[str, list[Line]]] = []
+    for title, line in lines:
+        if not sections or sections[-1][0] != title:
+            sections.append((title, []))
+        sections[-1][1].append(line)
+    return tuple(Section(title, tuple(group)) for title, group in sections)
