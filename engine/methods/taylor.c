@@ -16,13 +16,17 @@ static int taylor_order(double share)
     return wanted > TAYLOR_ORDERS ? TAYLOR_ORDERS : wanted < TAYLOR_LEAST ? TAYLOR_LEAST : (int)wanted;
 }
 
-/* The longest step whose term of order k is no larger than the tolerance. */
-static double taylor_reach(const Run *run, int k)
+/* The longest step whose last two terms are no larger than the tolerance. */
+static double taylor_reach(const Run *run)
 {
-    double most = 0.0;
-    for (int i = 0; i < N_Y; i++)
-        most = max_of(most, fabs(run->series[k][i]) * run->weight[i]);
-    return most > 0.0 ? pow(most, -1.0 / k) : INFINITY;
+    const int n = run->order;
+    const double *last = run->series[n], *before = run->series[n - 1];
+    double most = 0.0, most_before = 0.0;
+    for (int i = 0; i < N_Y; i++) {
+        most = max_of(most, fabs(last[i]) * run->weight[i]);
+        most_before = max_of(most_before, fabs(before[i]) * run->weight[i]);
+    }
+    return exp(-max_of(log(most) / n, log(most_before) / (n - 1)));
 }
 
 /* The series at the state of the run, and how far it is good for; once for all steps that are tried there. */
@@ -34,9 +38,20 @@ static int taylor_expand(Run *run, const Parameters *p)
     if (status)
         return status;
     run->evaluations++;
-    run->reach = min_of(taylor_reach(run, n - 1), taylor_reach(run, n));
+    run->reach = taylor_reach(run);
     run->series_ready = 1;
     return 0;
+}
+
+/* The state so long after that of the run. */
+static void taylor_at(const Run *run, double h, double *y)
+{
+    for (int i = 0; i < N_Y; i++) {
+        double sum = run->series[run->order][i];
+        for (int k = run->order - 1; k >= 0; k--)
+            sum = run->series[k][i] + h * sum;
+        y[i] = sum;
+    }
 }
 
 static int taylor_try(Run *run, double h, const Parameters *p, Step *step)
@@ -46,40 +61,30 @@ static int taylor_try(Run *run, double h, const Parameters *p, Step *step)
         step->method = &dop853; /* links in one line: its right-hand sides know a way */
         return dop853_try(run, h, p, step);
     }
-    const int n = run->order;
     if (run->fixed <= 0.0 && h > run->reach)
         run->attempt.h = h = run->reach;
-    step->t = run->t, step->h = h, step->dense_ready = 1;
+    step->t = run->t, step->h = h, step->dense_ready = 0;
     forget_stages(step);
-    double power = h;
-    for (int k = 1; k <= TAYLOR_ORDERS; k++, power *= h)
-        for (int i = 0; i < N_Y; i++)
-            step->dense[k - 1][i] = k <= n ? run->series[k][i] * power : 0.0;
-    for (int i = 0; i < N_Y; i++) {
-        double sum = 0.0;
-        for (int k = n; k > 0; k--)
-            sum += step->dense[k - 1][i];
-        step->y[i] = run->y[i] + sum;
-    }
-    const double share = run->fixed > 0.0 ? 0.0 : h / run->reach;
-    step->error = pow(share, n);
+    taylor_at(run, h, step->y);
+    step->error = run->fixed > 0.0 ? 0.0 : h / run->reach; /* its root: accepted where it is one at most */
     run->stability = 0.0;
     return finish_step(run, step, p);
 }
 
+/* The series in shares of the step: who looks for bounds reads it. */
 static int taylor_dense(Run *run, const Parameters *p, Step *step)
 {
-    return (void)run, (void)p, (void)step, 0; /* it is there with the step */
+    double power = step->h;
+    (void)p;
+    for (int k = 1; k <= TAYLOR_ORDERS; k++, power *= step->h)
+        for (int i = 0; i < N_Y; i++)
+            step->dense[k - 1][i] = k <= run->order ? run->series[k][i] * power : 0.0;
+    return 0;
 }
 
 static void taylor_interpolate(const Run *run, const Step *step, double s, double *y)
 {
-    for (int i = 0; i < N_Y; i++) {
-        double sum = 0.0;
-        for (int k = run->order; k > 0; k--)
-            sum = s * (sum + step->dense[k - 1][i]);
-        y[i] = run->y[i] + sum;
-    }
+    taylor_at(run, s * step->h, y);
 }
 
 static const Method taylor = {.name = "taylor", .try = taylor_try, .dense = taylor_dense,

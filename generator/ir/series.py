@@ -20,8 +20,21 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from gudgeon.generator.ir.kernels import Argument, Kernel, Section, without_unread
-from gudgeon.generator.ir.series_rules import ORDER, SUMS, VALUES, Factor, NoSeries, Product, Rules, at
+from gudgeon.generator.ir.series_rules import (
+    NEXT,
+    ORDER,
+    SHARE,
+    SUMS,
+    VALUES,
+    WIDE,
+    Factor,
+    Gathered,
+    NoSeries,
+    Product,
+    Rules,
+)
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, ZERO
+from gudgeon.generator.ir.sine_pairs import side_by_side
 from gudgeon.generator.ir.statements import Call, Guard, Jump, Line, Rescue, Return, Statement, Status
 from gudgeon.generator.ir.values import Place
 
@@ -31,8 +44,9 @@ _DOC_VALUES = (
     "Returns 0, or the number of the pivot that vanished.",
 )
 _DOC_TERMS = (
-    "Order k > 0 of the same: t, q, v, a and power are coefficients of order k, `at` has those of order 0, `sum` what",
-    "lower orders add to each product; share = 1/k. Told are the factors of the sums of higher orders.",
+    "Order k > 0 of the same: t, q, v are coefficients of order k, `at` has those of order 0, `sum` what lower orders",
+    "add to each product; share = 1/k, next = 1/(k + 1). Told are coefficients of order k + 1 of what is integrated,",
+    "q_next, a and power, and the factors of the sums of higher orders.",
 )
 Titled = tuple[str, Line]  # a line and its section's title
 
@@ -77,6 +91,7 @@ class _Series(Rules):
         super().__init__({line.target for line in statements})
         self._values: list[Titled] = []
         self._terms: list[Titled] = []
+        self._next: list[Titled] = []  # coefficients of the next order of positions
         self._stored: dict[str, sp.Symbol] = {}  # places that later lines read, by the locals that they are
         self._own = {line.value: line.target for line in statements if isinstance(line.value, sp.Function)}
         self._title = ""
@@ -102,6 +117,9 @@ class _Series(Rules):
         self._values.append((self._title, line))
         self._terms.append((self._title, line))
         (self.numbers if place.base == "p" else self.moving).add(line.target)
+        if place.base == "v":
+            value = NEXT * sp.Symbol(line.target, real=True)
+            self._next.append(("results", Statement(f"q_next[{place.index}]", value, False)))
 
     def _assign(self, line: Statement, value: sp.Expr) -> None:
         if line.local and line.target.isidentifier():
@@ -112,7 +130,7 @@ class _Series(Rules):
         self._stored[line.target] = self.atom(value)
         if not line.local:
             self._values.append((self._title, replace(line, value=self._stored[line.target])))
-            self._terms.append((self._title, replace(line, value=result, comment="")))
+            self._terms.append((self._title, replace(line, value=result * NEXT, comment="")))
 
     def define(self, target: str, value: sp.Expr, moving: bool = False) -> sp.Symbol:
         """A local of both functions, or of order 0 alone."""
@@ -142,7 +160,7 @@ class _Series(Rules):
         """Both functions, without what nothing reads."""
         products = list(self.products.values())
         while True:
-            terms = _pruned([*self._terms, *_stores(products)])
+            terms = _pruned([*self._terms, *self._next, *_stores(products)])
             read = {s.name for _, line in terms for e in line.expressions for s in e.free_symbols}
             left = [product for product in products if f"{SUMS}->{product.name}" in read]
             if len(left) == len(products):
@@ -155,31 +173,57 @@ class _Series(Rules):
                   Statement(f"{front}{x}", inverses.get(x, sp.Symbol(x, real=True)), False)) for x in kept]  # fmt: skip
         values = _pruned([*self._values, *keeps])
         of_values, of_terms = _arguments()
+        of_zero = Kernel(f"{name}_values", _DOC_VALUES, of_values, _sections([*values, ("", Return())]), "int")
+        later = _sections(self._late_last(terms))
         return Series(
-            Kernel(f"{name}_values", _DOC_VALUES, of_values, _sections([*values, ("", Return())]), "int"),
-            Kernel(f"{name}_terms", _DOC_TERMS, of_terms, _sections(terms)), kept, tuple(products),
-        )  # fmt: skip
+            side_by_side(of_zero), Kernel(f"{name}_terms", _DOC_TERMS, of_terms, later), kept, tuple(products)
+        )
+
+    def _late_last(self, lines: Iterable[Titled]) -> list[Titled]:
+        """What is known last of a sum is added last, so that nothing waits for it that need not."""
+        depth: dict[str, int] = {}
+
+        def late(value: sp.Expr) -> int:
+            return max((depth.get(s.name, 0) for s in value.free_symbols), default=0)
+
+        ordered: list[Titled] = []
+        for title, line in lines:
+            if isinstance(line, Statement) and isinstance(line.value, sp.Expr):
+                depth[line.target] = 1 + late(line.value)
+                parts = sp.Add.make_args(line.value)
+                early = [x for x in parts if late(x) + 1 < depth[line.target]]
+                if line.local and 1 < len(early) < len(parts):
+                    known = sp.Symbol(self.unique(f"{line.target}_known"), real=True)
+                    ordered.append((title, Statement(known.name, sp.Add(*early))))
+                    rest = [x for x in parts if x not in early]
+                    line = replace(line, value=sp.Add(known, *rest))
+            ordered.append((title, line))
+        return ordered
 
 
 def _arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]]:
     """Of both functions."""
     rates = (Argument("double *", "a"), Argument("double *", "power"))
-    factors = (Argument("TaylorFactors *", "left"), Argument("TaylorFactors *", "right"))
-    order = (Argument("const double", ORDER.name), Argument("const double", "share"))
+    factors = (Argument("double *", "q_next"), Argument("Wide *", "left"), Argument("Wide *", "right"))
+    order = tuple(Argument("const double", symbol.name) for symbol in (ORDER, SHARE, NEXT))
     given = (Argument("const TaylorValues *", VALUES), Argument("const TaylorFactors *", SUMS))
     values = (*STATE, PARAMETERS, Argument("TaylorValues *", VALUES), *rates)
     return values, (*order, *STATE, PARAMETERS, *given, *rates, *factors)
 
 
-def _stores(products: Iterable[Product]) -> list[Titled]:
+def _stores(products: Sequence[Product]) -> list[Titled]:
     """What the sums of higher orders read."""
 
-    def store(side: str, product: Product, factor: Factor) -> Titled:
+    def value(factor: Factor) -> sp.Expr:
         symbol = sp.Symbol(factor.name, real=True)
-        value = ORDER * symbol if factor.rate else symbol
-        return "factors of the sums of higher orders", Statement(f"{side}->{product.name}", value, False)
+        return ORDER * symbol if factor.rate else symbol
 
-    return [store(*one) for x in products for one in (("left", x, x.left), ("right", x, x.right))]
+    title, lines = "factors of the sums of higher orders", list[Titled]()
+    for row, first in enumerate(range(0, len(products), WIDE)):
+        some = products[first : first + WIDE]
+        lines.append((title, Gathered(f"left[{row}]", tuple(value(x.left) for x in some))))
+        lines.append((title, Gathered(f"right[{row}]", tuple(value(x.right) for x in some))))
+    return lines
 
 
 def _pruned(lines: list[Titled]) -> list[Titled]:

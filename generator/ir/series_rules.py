@@ -13,8 +13,12 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from gudgeon.generator.ir.statements import Line
+
 VALUES, SUMS = "at", "sum"  # arguments: coefficients of order 0, sums S_k
 ORDER, SHARE = sp.Symbol("k", real=True), sp.Symbol("share", real=True)  # k, 1/k
+NEXT = sp.Symbol("next", real=True)  # 1/(k + 1)
+WIDE = 8  # products of a row
 _HALF = sp.Rational(1, 2)
 
 
@@ -37,6 +41,19 @@ class Product:
     name: str
     left: Factor
     right: Factor
+
+
+@dataclass(frozen=True)
+class Gathered(Line):
+    """So many numbers become a row of an array of vectors at once: what then reads the row has not to wait."""
+
+    target: str
+    values: tuple[sp.Expr, ...]
+
+    @property
+    def expressions(self) -> tuple[sp.Basic, ...]:
+        """The numbers."""
+        return self.values
 
 
 Lowered = tuple[sp.Expr, sp.Expr]  # a value at order 0 and at order k, both by names

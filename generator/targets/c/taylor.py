@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from gudgeon.generator.ir.series import Series
+from gudgeon.generator.ir.series_rules import WIDE
 from gudgeon.generator.targets.c import functions
 
 FILE = "taylor.c"
-_HEAD = """\
+_HEAD = f"""\
 /*
- * The Taylor series of the motion: its right-hand side at order 0, and at each higher order (engine/motion/taylor.h).
+ * The Taylor series of the motion: its right-hand side at order 0, and at each higher order (engine/motion/taylor.c).
  */
+typedef double Wide __attribute__((vector_size({8 * WIDE})));
 """
 
 
