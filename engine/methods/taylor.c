@@ -4,7 +4,7 @@
  * A. Jorba, M. Zou, A software package for the numerical integration of ODEs by means of high-order Taylor methods,
  * Experimental Mathematics 14 (2005), section 3.
  */
-#define TAYLOR_EFFORT 0.5 /* orders by e-fold of the tolerance */
+#define TAYLOR_EFFORT 0.7 /* orders by e-fold of the tolerance */
 enum { TAYLOR_LEAST = 4 };
 
 static const double taylor_heard[] = {0.0};

@@ -9,20 +9,31 @@ typedef union {
     Wide row[TAYLOR_ROWS];
 } TaylorSums;
 
-/* Of every product: left_1 right_{k-1} + ... + left_{k-1} right_1, two sums, of odd and of even terms. */
-static void taylor_sums(int k, Wide (*left)[TAYLOR_ROWS], Wide (*right)[TAYLOR_ROWS], Wide *sum)
+/*
+ * Of every product: left_1 right_{k-1} + ... + left_{k-1} right_1, and of order k + 1 what is known of it already: all
+ * but left_1 right_k and left_k right_1.
+ */
+static void taylor_sums(int k, Wide (*left)[TAYLOR_ROWS], Wide (*right)[TAYLOR_ROWS], Wide *sum, Wide *next)
 {
     for (int i = 0; i < TAYLOR_ROWS; i++) {
-        Wide odd = {0.0}, even = {0.0};
-        int j = 1;
-        for (; j + 1 < k; j += 2) {
-            odd += left[j][i] * right[k - j][i];
-            even += left[j + 1][i] * right[k - j - 1][i];
+        Wide now = {0.0}, then = {0.0}, before = right[k - 1][i];
+        now += left[1][i] * before;
+        for (int j = 2; j < k; j++) {
+            const Wide factor = left[j][i];
+            then += factor * before;
+            before = right[k - j][i];
+            now += factor * before;
         }
-        if (j < k)
-            odd += left[j][i] * right[k - j][i];
-        sum[i] = odd + even;
+        sum[i] = now;
+        next[i] = then;
     }
+}
+
+/* What was left open of an order. */
+static void taylor_rest(int k, Wide (*left)[TAYLOR_ROWS], Wide (*right)[TAYLOR_ROWS], Wide *sum)
+{
+    for (int i = 0; i < TAYLOR_ROWS; i++)
+        sum[i] += left[1][i] * right[k - 1][i] + left[k - 1][i] * right[1][i];
 }
 
 /*
@@ -33,7 +44,7 @@ int taylor_series(double t, const double *y, const Parameters *p, int order, dou
 {
     static _Thread_local Wide factors[2][TAYLOR_ORDERS][TAYLOR_ROWS];
     Wide (*const left)[TAYLOR_ROWS] = factors[0], (*const right)[TAYLOR_ROWS] = factors[1];
-    TaylorSums sum;
+    TaylorSums sum[2] = { {{0.0}} };
     TaylorValues at;
     for (int i = 0; i < N_Y; i++)
         c[0][i] = y[i];
@@ -44,8 +55,11 @@ int taylor_series(double t, const double *y, const Parameters *p, int order, dou
         c[1][i] = c[0][N_X + i];
     for (int k = 1; k < order; k++) {
         double *next = c[k + 1];
-        taylor_sums(k, left, right, sum.row);
-        taylor_terms(k, 1.0 / k, 1.0 / (k + 1), k == 1 ? 1.0 : 0.0, c[k], c[k] + N_X, p, &at, &sum.of, next + N_X,
+        if (k % 2 == 0)
+            taylor_sums(k, left, right, sum[0].row, sum[1].row);
+        else if (k > 1)
+            taylor_rest(k, left, right, sum[1].row);
+        taylor_terms(k, 1.0 / k, 1.0 / (k + 1), k == 1 ? 1.0 : 0.0, c[k], c[k] + N_X, p, &at, &sum[k % 2].of, next + N_X,
             next + 2 * N_X, next, left[k], right[k]);
     }
     return 0;

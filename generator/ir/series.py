@@ -29,6 +29,7 @@ from gudgeon.generator.ir.series_rules import (
     WIDE,
     Factor,
     Gathered,
+    Lowered,
     NoSeries,
     Product,
     Rules,
@@ -93,6 +94,7 @@ class _Series(Rules):
         self._terms: list[Titled] = []
         self._next: list[Titled] = []  # coefficients of the next order of positions
         self._stored: dict[str, sp.Symbol] = {}  # places that later lines read, by the locals that they are
+        self._turned = differences(statements)
         self._own = {line.value: line.target for line in statements if isinstance(line.value, sp.Function)}
         self._title = ""
 
@@ -141,7 +143,7 @@ class _Series(Rules):
         whole, self.known[value] = self.known.get(value), symbol
         if whole is not None:  # the same under another name
             self.known[value] = value = whole
-        named, term = self.lower(value, symbol)
+        named, term = self._of_difference(value, symbol) or self.lower(value, symbol)
         self.moving.add(target)
         self._values.append((self._title, Statement(target, named)))
         self._terms.append((self._title, Statement(target, term)))
@@ -149,6 +151,13 @@ class _Series(Rules):
         for name, expression in later:
             self.define(name, expression)
         return symbol
+
+    def _of_difference(self, value: sp.Expr, symbol: sp.Symbol) -> Lowered | None:
+        """The cosine or sine of a difference of angles, of which both are made: by its rate, not four products."""
+        if symbol.name not in self._turned:
+            return None
+        angle, partner, sign = self._turned[symbol.name]
+        return value, sign * self.by_rate(self.atom(angle), sp.Symbol(partner, real=True))
 
     def beside(self, value: sp.Expr) -> sp.Symbol:
         """Another function of the same argument, by the name that the function has for it, if any."""
@@ -158,14 +167,12 @@ class _Series(Rules):
 
     def finished(self, name: str) -> Series:
         """Both functions, without what nothing reads."""
-        products = list(self.products.values())
-        while True:
+        products, known = list[Product](), -1
+        while known < len(products):  # a sum that is read asks for its factors, and they for other sums
+            known = len(products)
             terms = _pruned([*self._terms, *self._next, *_stores(products)])
             read = {s.name for _, line in terms for e in line.expressions for s in e.free_symbols}
-            left = [product for product in products if f"{SUMS}->{product.name}" in read]
-            if len(left) == len(products):
-                break
-            products = left
+            products = [product for product in self.products.values() if f"{SUMS}->{product.name}" in read]
         front = f"{VALUES}->"
         kept = tuple(sorted(x.removeprefix(front) for x in read if x.startswith(front)))
         inverses = {name: 1 / b for name, b in self.inverses.items()}
@@ -199,6 +206,31 @@ class _Series(Rules):
                     line = replace(line, value=sp.Add(known, *rest))
             ordered.append((title, line))
         return ordered
+
+
+def differences(statements: Iterable[Statement]) -> dict[str, tuple[sp.Expr, str, int]]:
+    """Cosines and sines of a - b that are made of those of a and b: a - b, the other of the two, by which sign."""
+    turned = {line.target: line.value for line in statements if isinstance(line.value, (sp.cos, sp.sin))}
+    found: dict[sp.Expr, dict[type, str]] = {}
+    for line in statements:
+        parts = sp.Add.make_args(line.value) if line.local and isinstance(line.value, sp.Add) else ()
+        if len(parts) == 2 and all(s.name in turned for s in line.value.free_symbols):
+            whole = line.value.xreplace({s: turned[s.name] for s in line.value.free_symbols})
+            a, b = (sorted(angles, key=str) if len(angles := _angles(whole)) == 2 else (ZERO, ZERO))
+            for one, other in ((a, b), (b, a)):
+                for function in (sp.cos, sp.sin) if one != other else ():
+                    if whole == sp.expand_trig(function(one - other)):
+                        found.setdefault(one - other, {}).setdefault(function, line.target)
+    pairs: dict[str, tuple[sp.Expr, str, int]] = {}
+    for angle, both in found.items():
+        cosine, sine = both.get(sp.cos) or found.get(-angle, {}).get(sp.cos), both.get(sp.sin)
+        if cosine and sine:
+            pairs |= {cosine: (angle, sine, -1), sine: (angle, cosine, 1)}
+    return pairs
+
+
+def _angles(value: sp.Expr) -> set[sp.Expr]:
+    return {x.args[0] for x in value.atoms(sp.cos, sp.sin)}
 
 
 def _arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]]:

@@ -67,6 +67,7 @@ class Rules(ABC):
         self.products: dict[tuple[Factor, Factor], Product] = {}
         self.known: dict[sp.Expr, sp.Symbol] = {}  # expressions that have a name
         self.later: list[tuple[str, sp.Expr]] = []  # to be defined behind what is being defined
+        self.reciprocals: dict[sp.Symbol, sp.Symbol] = {}  # c by what it is 1 over: products with c are quotients
         self.inverses: dict[str, sp.Symbol] = {}  # 1/b_0 by name
         self._taken = taken
 
@@ -121,7 +122,8 @@ class Rules(ABC):
         fixed = sp.Mul(*(x for x in sp.Mul.make_args(value) if self.is_fixed(x)))
         moving = [x for x in sp.Mul.make_args(value) if not self.is_fixed(x)]
         below = [x for x in moving if x.is_Pow and x.exp.is_number and x.exp.is_negative]
-        above = self._parts([x for x in moving if x not in below])
+        below += [self.reciprocals[x] ** -1 for x in moving if x in self.reciprocals]
+        above = self._parts([x for x in moving if x not in below and x not in self.reciprocals])
         if below and above:
             a, b = self._one(above), self._one(self._parts([1 / x for x in below]))
             if fixed != 1 or whole is None:
@@ -163,6 +165,7 @@ class Rules(ABC):
         if n.is_Integer and n < -1:
             a, n = self.atom(value.base**-n), sp.Integer(-1)
         if n == -1:
+            self.reciprocals[whole] = a
             return 1 / a, self.quotient(sp.Integer(0), a, whole)
         if n == _HALF:
             summed = self.sum(Factor(whole.name), Factor(whole.name))
