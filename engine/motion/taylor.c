@@ -40,7 +40,7 @@ static void taylor_rest(int k, Wide (*left)[TAYLOR_ROWS], Wide (*right)[TAYLOR_R
  * c[k], k = 0 ... order: coefficients of what is integrated in powers of time from t on, where it is y. Returns 0, or
  * the number of the pivot that vanished.
  */
-int taylor_series(double t, const double *y, const Parameters *p, int order, double (*c)[N_Y])
+int taylor_series(double t, const double *y, const Parameters *p, int order, double (*c)[TAYLOR_Y])
 {
     static _Thread_local Wide factors[2][TAYLOR_ORDERS][TAYLOR_ROWS];
     Wide (*const left)[TAYLOR_ROWS] = factors[0], (*const right)[TAYLOR_ROWS] = factors[1];

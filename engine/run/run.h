@@ -134,7 +134,7 @@ typedef struct {
     Attempt attempt;
 #if TAYLOR
     int order, series_ready;                      /* of the series at the state; whether it is made */
-    double reach, series[TAYLOR_ORDERS + 1][N_Y]; /* the longest step that it is good for, s; its coefficients */
+    double reach, series[TAYLOR_ORDERS + 1][TAYLOR_Y]; /* the longest step that it is good for, s; its terms */
 #endif
     Step step;
 } Run;

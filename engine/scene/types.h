@@ -20,7 +20,10 @@ enum {
     FIRST_STATE = 2 * N_X + N_WORK     /* where inner states are in it */
 };
 
-enum { TAYLOR_ORDERS = 26 }; /* of a series, at most: what the smallest tolerance wants */
+enum {
+    TAYLOR_ORDERS = 26,                /* of a series, at most: what the smallest tolerance wants */
+    TAYLOR_Y = (N_Y + 7) / 8 * 8       /* numbers of an order: those of N_Y, in whole vectors */
+};
 
 /* Statuses of a run that is no longer wanted, or no longer advances, ...; positive ones are pivots, 0 is well. */
 enum {

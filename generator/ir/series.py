@@ -14,6 +14,7 @@ lines of its factors and substitutions solve for the coefficients of order k.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
@@ -196,14 +197,17 @@ class _Series(Rules):
         ordered: list[Titled] = []
         for title, line in lines:
             if isinstance(line, Statement) and isinstance(line.value, sp.Expr):
+                parts = sorted(sp.Add.make_args(line.value), key=late)
+                known = parts[:1]
+                for before, part in itertools.pairwise(parts if line.local else []):
+                    if late(part) > late(before) and len(known) > 1:
+                        name = self.unique(f"{line.target}_known")
+                        ordered.append((title, Statement(name, sp.Add(*known))))
+                        depth[name] = late(before)
+                        known = [sp.Symbol(name, real=True)]
+                    known.append(part)
                 depth[line.target] = 1 + late(line.value)
-                parts = sp.Add.make_args(line.value)
-                early = [x for x in parts if late(x) + 1 < depth[line.target]]
-                if line.local and 1 < len(early) < len(parts):
-                    known = sp.Symbol(self.unique(f"{line.target}_known"), real=True)
-                    ordered.append((title, Statement(known.name, sp.Add(*early))))
-                    rest = [x for x in parts if x not in early]
-                    line = replace(line, value=sp.Add(known, *rest))
+                line = replace(line, value=sp.Add(*known)) if line.local else line
             ordered.append((title, line))
         return ordered
 
