@@ -15,12 +15,12 @@ lines of its factors and substitutions solve for the coefficients of order k.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from gudgeon.generator.ir.kernels import Argument, Kernel, Section, without_unread
+from gudgeon.generator.ir.kernels import Argument, Kernel, Section, changed, without_unread
 from gudgeon.generator.ir.series_rules import (
     NEXT,
     ORDER,
@@ -34,6 +34,7 @@ from gudgeon.generator.ir.series_rules import (
     NoSeries,
     Product,
     Rules,
+    at,
 )
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, ZERO
 from gudgeon.generator.ir.sine_pairs import side_by_side
@@ -63,10 +64,24 @@ class Series:
     products: tuple[Product, ...]
 
 
-def series_of(kernel: Kernel, wanted: Callable[[str], str], name: str) -> Series:
+@dataclass(frozen=True)
+class Linear:
+    """A linear system A x = b within a function: A_0 x_k = b_k - A_1 x_{k-1} - ... - A_k x_0, by the factors of A_0.
+
+    `entries` of A by two nodes, the locals `loads` that are b and `unknowns` that are x by node; `title` of the section
+    that factorizes A: at higher orders nothing of it is left.
+    """
+
+    title: str
+    entries: Mapping[tuple[int, int], sp.Expr]
+    loads: Mapping[str, int]
+    unknowns: Mapping[int, sp.Symbol]
+
+
+def series_of(kernel: Kernel, wanted: Callable[[str], str], name: str, linear: Linear | None = None) -> Series:
     """The series of a function's results, which `wanted` gives their places ("": nobody wants it). Raises NoSeries."""
     lines = _lines(kernel, wanted)
-    made = _Series(lines)
+    made = _Series(lines, linear)
     for title, line in lines:
         made.line(title, line)
     return made.finished(name)
@@ -75,11 +90,18 @@ def series_of(kernel: Kernel, wanted: Callable[[str], str], name: str) -> Series
 def _lines(kernel: Kernel, wanted: Callable[[str], str]) -> list[Titled]:
     """Those that lead to what is wanted; what is stored elsewhere is no more than a local."""
     lines: list[Titled] = []
+    local: dict[sp.Basic, sp.Basic] = {}
     for section in kernel.sections:
         for line in section.statements:
+            line = changed(line, lambda value: value.xreplace(local))
             if isinstance(line, Statement) and not line.local:
-                place = wanted(line.target)
-                line = replace(line, target=place) if place else replace(line, local=True)
+                name = "".join(c if c.isalnum() else "_" for c in line.target)
+                local |= {sp.Symbol(line.target, real=real): sp.Symbol(name, real=True) for real in (True, None)}
+                if place := wanted(line.target):
+                    lines.append((section.title, replace(line, target=name, local=True)))
+                    line = replace(line, target=place, value=sp.Symbol(name, real=True))
+                else:
+                    line = replace(line, target=name, local=True)
             if not isinstance(line, _DROPPED):
                 lines.append((section.title, line))
     return _pruned(lines)
@@ -88,16 +110,15 @@ def _lines(kernel: Kernel, wanted: Callable[[str], str]) -> list[Titled]:
 class _Series(Rules):
     """Line by line: lines of order 0 and of order k."""
 
-    def __init__(self, lines: Sequence[Titled]) -> None:
+    def __init__(self, lines: Sequence[Titled], linear: Linear | None) -> None:
         statements = [line for _, line in lines if isinstance(line, Statement)]
         super().__init__({line.target for line in statements})
         self._values: list[Titled] = []
         self._terms: list[Titled] = []
         self._next: list[Titled] = []  # coefficients of the next order of positions
-        self._stored: dict[str, sp.Symbol] = {}  # places that later lines read, by the locals that they are
         self._turned = differences(statements)
         self._own = {line.value: line.target for line in statements if isinstance(line.value, sp.Function)}
-        self._title = ""
+        self._title, self._linear = "", linear
 
     def line(self, title: str, line: Line) -> None:
         """The next one of the function."""
@@ -106,7 +127,7 @@ class _Series(Rules):
             case Statement(value=Place() as place):
                 self._read(line, place)
             case Statement(value=sp.Expr() as value):
-                self._assign(line, value.xreplace({s: self._stored.get(s.name, s) for s in value.free_symbols}))
+                self._assign(line, value)
             case Guard(test=test) if not isinstance(test, Call):
                 self._values.append((title, replace(line, jumps=False)))
             case Return():
@@ -125,26 +146,28 @@ class _Series(Rules):
             self._next.append(("results", Statement(f"q_next[{place.index}]", value, False)))
 
     def _assign(self, line: Statement, value: sp.Expr) -> None:
-        if line.local and line.target.isidentifier():
-            if line.target not in self.moving:  # else a function beside it has asked for it
-                self.define(line.target, value)
-            return
-        result = ZERO if self.is_fixed(value) else self.atom(value)
-        self._stored[line.target] = self.atom(value)
         if not line.local:
-            self._values.append((self._title, replace(line, value=self._stored[line.target])))
-            self._terms.append((self._title, replace(line, value=result * NEXT, comment="")))
+            self._values.append((self._title, line))
+            result = ZERO if self.is_fixed(value) else value * NEXT
+            self._terms.append((self._title, replace(line, value=result, comment="")))
+        elif self._linear and self._title == self._linear.title:
+            self._values.append((self._title, line))
+        elif line.target not in self.moving:  # else a function beside it has asked for it
+            self.define(line.target, value)
 
     def define(self, target: str, value: sp.Expr, moving: bool = False) -> sp.Symbol:
         """A local of both functions, or of order 0 alone."""
         symbol = sp.Symbol(target, real=True)
-        if self.is_fixed(value) and not moving:
+        loads = self._linear.loads if self._linear else {}
+        if self.is_fixed(value) and not (moving or target in loads):
             self._values.append((self._title, Statement(target, value)))
             return symbol
-        whole, self.known[value] = self.known.get(value), symbol
-        if whole is not None:  # the same under another name
-            self.known[value] = value = whole
+        if target not in loads:  # which are equal at order 0 alone
+            value, whole = self.known.get(value, value), value
+            self.known.setdefault(whole, symbol)
         named, term = self._of_difference(value, symbol) or self.lower(value, symbol)
+        if self._linear and target in loads:
+            term -= self._carried(self._linear, loads[target])
         self.moving.add(target)
         self._values.append((self._title, Statement(target, named)))
         self._terms.append((self._title, Statement(target, term)))
@@ -152,6 +175,18 @@ class _Series(Rules):
         for name, expression in later:
             self.define(name, expression)
         return symbol
+
+    def _carried(self, linear: Linear, row: int) -> sp.Expr:
+        """A_1 x_{k-1} + ... + A_k x_0 of a row."""
+        parts = []
+        for column, x in linear.unknowns.items():
+            entry = linear.entries.get((row, column), linear.entries.get((column, row), ZERO))
+            if not self.is_fixed(entry):
+                moving = sp.Mul(*(a for a in sp.Mul.make_args(entry) if not self.is_fixed(a)))
+                name = self.atom(moving)
+                product = at(x) * name + self.sum(Factor(name.name), Factor(x.name))
+                parts.append(self.fixed(entry / moving) * product)
+        return sp.Add(*parts)
 
     def _of_difference(self, value: sp.Expr, symbol: sp.Symbol) -> Lowered | None:
         """The cosine or sine of a difference of angles, of which both are made: by its rate, not four products."""
