@@ -44,7 +44,7 @@ int taylor_series(double t, const double *y, const Parameters *p, int order, dou
 {
     static _Thread_local Wide factors[2][TAYLOR_ORDERS][TAYLOR_ROWS];
     Wide (*const left)[TAYLOR_ROWS] = factors[0], (*const right)[TAYLOR_ROWS] = factors[1];
-    TaylorSums sum[2] = { {{0.0}} };
+    TaylorSums sum[2] = {0};
     TaylorValues at;
     for (int i = 0; i < N_Y; i++)
         c[0][i] = y[i];

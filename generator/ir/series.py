@@ -14,13 +14,13 @@ lines of its factors and substitutions solve for the coefficients of order k.
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import sympy as sp
 
 from gudgeon.generator.ir.kernels import Argument, Kernel, Section, changed, without_unread
+from gudgeon.generator.ir.series_order import Titled, differences, late_last
 from gudgeon.generator.ir.series_rules import (
     NEXT,
     ORDER,
@@ -51,7 +51,6 @@ _DOC_TERMS = (
     "add to each product; share = 1/k, next = 1/(k + 1). Told are coefficients of order k + 1 of what is integrated,",
     "q_next, a and power, and the factors of the sums of higher orders.",
 )
-Titled = tuple[str, Line]  # a line and its section's title
 
 
 @dataclass(frozen=True)
@@ -93,7 +92,7 @@ def _lines(kernel: Kernel, wanted: Callable[[str], str]) -> list[Titled]:
     local: dict[sp.Basic, sp.Basic] = {}
     for section in kernel.sections:
         for line in section.statements:
-            line = changed(line, lambda value: value.xreplace(local))
+            line = _with(line, local)
             if isinstance(line, Statement) and not line.local:
                 name = "".join(c if c.isalnum() else "_" for c in line.target)
                 local |= {sp.Symbol(line.target, real=real): sp.Symbol(name, real=True) for real in (True, None)}
@@ -105,6 +104,10 @@ def _lines(kernel: Kernel, wanted: Callable[[str], str]) -> list[Titled]:
             if not isinstance(line, _DROPPED):
                 lines.append((section.title, line))
     return _pruned(lines)
+
+
+def _with(line: Line, local: Mapping[sp.Basic, sp.Basic]) -> Line:
+    return changed(line, lambda value: value.xreplace(local))
 
 
 class _Series(Rules):
@@ -217,59 +220,10 @@ class _Series(Rules):
         values = _pruned([*self._values, *keeps])
         of_values, of_terms = _arguments()
         of_zero = Kernel(f"{name}_values", _DOC_VALUES, of_values, _sections([*values, ("", Return())]), "int")
-        later = _sections(self._late_last(terms))
+        later = _sections(late_last(terms, self.unique))
         return Series(
             side_by_side(of_zero), Kernel(f"{name}_terms", _DOC_TERMS, of_terms, later), kept, tuple(products)
         )
-
-    def _late_last(self, lines: Iterable[Titled]) -> list[Titled]:
-        """What is known last of a sum is added last, so that nothing waits for it that need not."""
-        depth: dict[str, int] = {}
-
-        def late(value: sp.Expr) -> int:
-            return max((depth.get(s.name, 0) for s in value.free_symbols), default=0)
-
-        ordered: list[Titled] = []
-        for title, line in lines:
-            if isinstance(line, Statement) and isinstance(line.value, sp.Expr):
-                parts = sorted(sp.Add.make_args(line.value), key=late)
-                known = parts[:1]
-                for before, part in itertools.pairwise(parts if line.local else []):
-                    if late(part) > late(before) and len(known) > 1:
-                        name = self.unique(f"{line.target}_known")
-                        ordered.append((title, Statement(name, sp.Add(*known))))
-                        depth[name] = late(before)
-                        known = [sp.Symbol(name, real=True)]
-                    known.append(part)
-                depth[line.target] = 1 + late(line.value)
-                line = replace(line, value=sp.Add(*known)) if line.local else line
-            ordered.append((title, line))
-        return ordered
-
-
-def differences(statements: Iterable[Statement]) -> dict[str, tuple[sp.Expr, str, int]]:
-    """Cosines and sines of a - b that are made of those of a and b: a - b, the other of the two, by which sign."""
-    turned = {line.target: line.value for line in statements if isinstance(line.value, (sp.cos, sp.sin))}
-    found: dict[sp.Expr, dict[type, str]] = {}
-    for line in statements:
-        parts = sp.Add.make_args(line.value) if line.local and isinstance(line.value, sp.Add) else ()
-        if len(parts) == 2 and all(s.name in turned for s in line.value.free_symbols):
-            whole = line.value.xreplace({s: turned[s.name] for s in line.value.free_symbols})
-            a, b = (sorted(angles, key=str) if len(angles := _angles(whole)) == 2 else (ZERO, ZERO))
-            for one, other in ((a, b), (b, a)):
-                for function in (sp.cos, sp.sin) if one != other else ():
-                    if whole == sp.expand_trig(function(one - other)):
-                        found.setdefault(one - other, {}).setdefault(function, line.target)
-    pairs: dict[str, tuple[sp.Expr, str, int]] = {}
-    for angle, both in found.items():
-        cosine, sine = both.get(sp.cos) or found.get(-angle, {}).get(sp.cos), both.get(sp.sin)
-        if cosine and sine:
-            pairs |= {cosine: (angle, sine, -1), sine: (angle, cosine, 1)}
-    return pairs
-
-
-def _angles(value: sp.Expr) -> set[sp.Expr]:
-    return {x.args[0] for x in value.atoms(sp.cos, sp.sin)}
 
 
 def _arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]]:

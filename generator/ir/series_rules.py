@@ -250,5 +250,5 @@ _RULES: dict[type, Callable[[Rules, list[sp.Symbol], sp.Symbol], sp.Expr]] = {
     sp.atan: lambda rules, u, whole: rules.over(u[0], rules.atom(1 + u[0] ** 2), whole),
     sp.asin: lambda rules, u, whole: rules.over(u[0], rules.atom(sp.sqrt(1 - u[0] ** 2)), whole),
     sp.acos: lambda rules, u, whole: rules.over(-u[0], rules.atom(sp.sqrt(1 - u[0] ** 2)), whole),
-    sp.atan2: lambda rules, u, whole: _arc(rules, *u, whole),
+    sp.atan2: lambda rules, u, whole: _arc(rules, u[0], u[1], whole),
 }

@@ -32,4 +32,4 @@ AUTO = ("dop853", "rodas5p")  # what `auto` chooses from as it goes: the explici
 ADAPTIVE = "adaptive"  # a name of ours for that
 KINEMATIC = "kinematic"  # follows the rows where no freedom is left
 NEED_SLOPES = (*(method.name for method in METHODS if method.slopes), ADAPTIVE)
-OFFERED = ("auto", *CHOOSING, *SMOOTH, *(method.name for method in METHODS if method.fixed))  # where something is integrated
+OFFERED = ("auto", *CHOOSING, *SMOOTH, *(method.name for method in METHODS if method.fixed))  # to integrate

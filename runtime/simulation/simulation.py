@@ -84,27 +84,28 @@ class Simulation(Equations):
         """
         if self.source.formulation == "full":
             return self
-        if self._full is None:
-            from gudgeon.simulation.from_file import load_bytes
-
-            self._full = load_bytes(self._loaded_bytes(), self.file, self.source.scene, formulation="full",
-                                    overrides=self._overrides, portable=self.compiled.portable)  # fmt: skip
+        self._full = self._full or self._loaded_as("full")
         return self._full
 
-    @property
-    def smooth(self) -> Simulation:
-        """The same scene with Taylor's method in its library, derived when first asked for.
+    def of_method(self, method: str, progress: Progress | None = None) -> Simulation:
+        """The same scene as a method wants it: in absolute coordinates for cross-checks, with its series for `taylor`.
 
-        BadValueError where the motion is not smooth; InputError if the file was edited since it was loaded.
+        Derived when first asked for: BadValueError where the motion is not smooth, InputError as for `full`.
         """
-        if self.source.taylor:
-            return self
-        if self._smooth is None:
-            from gudgeon.simulation.from_file import load_bytes
+        if method in python_driver.NAMES and progress and self._full is None and self.source.formulation != "full":
+            progress(0.0, "deriving the full formulation")
+        if method in python_driver.NAMES:
+            return self.full
+        if method in SMOOTH and not self.source.taylor:
+            self._smooth = self._smooth or self._loaded_as(method)
+            return self._smooth
+        return self
 
-            self._smooth = load_bytes(self._loaded_bytes(), self.file, self.source.scene, formulation="taylor",
-                                      overrides=self._overrides, portable=self.compiled.portable)  # fmt: skip
-        return self._smooth
+    def _loaded_as(self, formulation: str) -> Simulation:
+        from gudgeon.simulation.from_file import load_bytes
+
+        return load_bytes(self._loaded_bytes(), self.file, self.source.scene, formulation=formulation,
+                          overrides=self._overrides, portable=self.compiled.portable)  # fmt: skip
 
     def to_html(self) -> str:
         """The scene's page, HTML: its equations, and above them the mechanism running (gudgeon.web.page.write)."""
@@ -158,6 +159,7 @@ class Simulation(Equations):
         - "dop853", "rodas5p": explicit of order 8, stiff of order 5, with `rtol` (1e-8): the error of a
           step as a share of the mechanism's size or, with play, of the clearance; with `step` they take it
           unchanged, without error control;
+        - "taylor": for smooth motion, its series, of an order that follows from `rtol`: tight tolerances cost little;
         - "scipy:DOP853", "sundials:cvode" and others: cross-checks (integrators/peers).
         `horizon`: run thrice more to find the time to which it can be trusted (horizon.py).
         `parameters`: {address or parameter name: float in SI or '0.5 mm'}, each number once. Where `start` is given,
@@ -175,15 +177,8 @@ class Simulation(Equations):
         """
         method, progress = text(method, "method"), function(progress, "progress")
         horizon, stop = flag(horizon, "horizon"), flag(stop, "stop")
-        if method in python_driver.NAMES and self.source.formulation != "full":
-            if progress and self._full is None:
-                progress(0.0, "deriving the full formulation")
-            return self.full.simulate(
-                t_end, output=output, method=method, rtol=rtol, step=step, parameters=parameters, start=start,
-                progress=progress, horizon=horizon, stop=stop, peaks=peaks, against=against, contour=contour,
-            )  # fmt: skip
-        if method in SMOOTH and not self.source.taylor:
-            return self.smooth.simulate(
+        if (fitting := self.of_method(method, progress)) is not self:
+            return fitting.simulate(
                 t_end, output=output, method=method, rtol=rtol, step=step, parameters=parameters, start=start,
                 progress=progress, horizon=horizon, stop=stop, peaks=peaks, against=against, contour=contour,
             )  # fmt: skip
