@@ -118,7 +118,9 @@ def blocks(record: Record) -> dict[str, str]:
     found = {"machine": facts(record), "bars": bars(record)}
     for work, measures in MEASURES.items():
         lines = facts(record, work)
-        for measure in measures:
+        if not record.entries(work):
+            lines += ["Not in the run that this page tells of: `make race` fills it in."]
+        for measure in measures if record.entries(work) else ():
             lines += ["", *table(record, work, measure)]
         found[work] = lines
     return {name: "\n".join(lines).strip() for name, lines in found.items()}
@@ -146,6 +148,8 @@ def draw(folder: Path, record: Record) -> None:
     from matplotlib.ticker import NullFormatter
 
     for work, measures in MEASURES.items():
+        if not record.entries(work):
+            continue
         unit, scale = UNITS.get(work, ("ms", 1e3))
         figure, axis = plt.subplots(figsize=(8.0, 4.6), layout="constrained")
         for name in record.entries(work):
