@@ -59,8 +59,8 @@ int taylor_series(double t, const double *y, const Parameters *p, int order, dou
             taylor_sums(k, left, right, sum[0].row, sum[1].row);
         else if (k > 1)
             taylor_rest(k, left, right, sum[1].row);
-        taylor_terms(k, 1.0 / k, 1.0 / (k + 1), k == 1 ? 1.0 : 0.0, c[k], c[k] + N_X, p, &at, &sum[k % 2].of, next + N_X,
-            next + 2 * N_X, next, left[k], right[k]);
+        taylor_terms(k, 1.0 / k, 1.0 / (k + 1), k == 1 ? 1.0 : 0.0, c[k], c[k] + N_X, p, &at, &sum[k % 2].of,
+            next + N_X, next + 2 * N_X, next, left[k], right[k]);
     }
     return 0;
 }
