@@ -14,6 +14,8 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.equations.masses import refuse_massless
 from gudgeon.generator.equations.model import Model, make_model
 from gudgeon.generator.kernels.program import make_program
+from gudgeon.generator.kernels.taylor import NAME as TAYLOR
+from gudgeon.generator.kernels.taylor import taylor_series
 from gudgeon.generator.mechanism.mechanism import Mechanism
 from gudgeon.generator.mechanism.scene import Scene, make_scene
 from gudgeon.generator.reading import Overrides, Seconds, read_scene, stage
@@ -75,9 +77,10 @@ def in_c(
 ) -> KernelSource:
     """The C of a model, with the names of everything in it."""
     with stage("functions", seconds):
-        program = make_program(model, formulation)
+        program = make_program(model, "full" if formulation == "full" else "reduced")
+        series = taylor_series(program) if formulation == TAYLOR else None
     with stage("C", seconds):
-        return emit(program, begun)
+        return emit(program, begun, series)
 
 
 def generate(

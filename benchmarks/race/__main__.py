@@ -1,6 +1,6 @@
 """The race: CPU time to reach a given error, gudgeon and its peers in one run of one process.
 
-    python -m benchmarks.race [--work andrews ideal dry lubricated sweep] [--write]
+    python -m benchmarks.race [--work andrews double links ideal dry lubricated sweep] [--write]
 
 Peers that are not installed (extra `bench`) are left out with a line. Every entry is swept over its tolerances (or
 steps); a time is the least of at least five repeats after a warm-up, integration only. The tables interpolate along a

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from importlib.util import find_spec
 from typing import Any
 
@@ -18,6 +18,7 @@ import gudgeon
 from benchmarks import many
 from benchmarks.peers import (
     andrews,
+    chains,
     cvode,
     cvode_sweep,
     dop853,
@@ -32,13 +33,15 @@ from benchmarks.peers import (
 
 BODIES = ("L1", "L2", "L3", "L4", "L6", "L7", "L8", "S9")
 TOLERANCES = tuple(10.0**-k for k in range(3, 13))
-WORKS = ("andrews", "ideal", "dry", "lubricated", "sweep")
+WORKS = ("andrews", "double", "links", "ideal", "dry", "lubricated", "sweep")
+CHAINS = {"double": 2, "links": 6}  # pendulums, of so many links
 RK4_STEPS = {
     "lubricated": (2e-5, 1e-5, 5e-6),
     "dry": (1e-5, 5e-6, 2e-6, 1e-6, 5e-7),
     "andrews": (2e-4, 1e-4, 5e-5, 2e-5, 1e-5),
 }
 EXUDYN_STEPS = (3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1.5e-7)  # below it rounding grows
+HEYOKA = tuple(10.0**-k for k in range(2, 16))
 CVODE_SWEEP = (1e-7, 1e-8)  # neighbours of a worst error of 1e-6
 SWEEP = (10, 20)  # clearances, speeds
 
@@ -174,7 +177,7 @@ def peer_sweep(rtol: float) -> Found:
 
 def entries() -> list[Entry]:
     """Everyone, gudgeon first in each work."""
-    return [*press_entries(), *andrews_entries(), *ideal_entries(), *sweep_entries()]
+    return [*press_entries(), *andrews_entries(), *chain_entries(), *ideal_entries(), *sweep_entries()]
 
 
 def own_methods(work: str) -> list[tuple[str, str, tuple[float, ...]]]:
@@ -207,12 +210,25 @@ def andrews_entries() -> list[Entry]:
         found.append(Entry("andrews", f"gudgeon {method}", own_andrews(method, control), values, (), method))
     return [
         *found,
+        Entry("andrews", "gudgeon taylor", own_andrews("taylor", "rtol"), TOLERANCES, (), "taylor"),
         Entry("andrews", "jitcode dop853", plain(dop853.jitcode, "angle"), TOLERANCES, jit),
         Entry("andrews", "SciPy DOP853", plain(dop853.scipy, "angle"), TOLERANCES, jit),
         Entry("andrews", "SciPy LSODA", plain(dop853.scipy_lsoda, "angle"), TOLERANCES, jit),
         Entry("andrews", "PyDy, DOP853", plain(pydy_andrews.run, "angle"), TOLERANCES[1:8], ("pydy", "Cython")),
         Entry("andrews", "Exudyn gen.-alpha", plain(exudyn_andrews.run, "angle"), EXUDYN_STEPS, ("exudyn",)),
     ]
+
+
+def chain_entries() -> list[Entry]:
+    """Pendulums of several links, smooth motion: Taylor's method beside heyoka's."""
+    found = []
+    for work, n in CHAINS.items():
+        for method in ("auto", "dop853", "taylor"):
+            run = plain(partial(chains.own, n, method), "angle")
+            found.append(Entry(work, f"gudgeon {method}", run, TOLERANCES, (), method))
+        run = plain(partial(chains.heyoka, n), "angle")
+        found.append(Entry(work, "heyoka", run, HEYOKA, ("heyoka",)))
+    return found
 
 
 def ideal_entries() -> list[Entry]:

@@ -13,11 +13,11 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from benchmarks.race.record import LEVELS, MEASURES, ONSET_LEVELS, Record, read
+from benchmarks.race.record import LEVELS, MEASURES, ONSET_LEVELS, SMOOTH, SMOOTH_LEVELS, Record, read
 
 FOLDER = Path(__file__).resolve().parents[1]
 CSV, FIGURES, PAGE = FOLDER / "race.csv", FOLDER / "figures", FOLDER.parent / "docs" / "race.md"
-UNITS = {"ideal": ("µs a sample", 1e6), "sweep": ("ms a run", 1e3)}
+UNITS = {"ideal": ("µs a sample", 1e6), "double": ("µs", 1e6), "links": ("µs", 1e6), "sweep": ("ms a run", 1e3)}
 DEFAULT = "gudgeon auto"  # what a user gets who names no method: it alone is held to the bars
 
 
@@ -87,7 +87,7 @@ def bars(record: Record) -> list[str]:
 
 def table(record: Record, work: str, measure: str) -> list[str]:
     """Time of every entry to each error, and over that of gudgeon as it comes."""
-    levels = ONSET_LEVELS if measure == "onset" else LEVELS
+    levels = ONSET_LEVELS if measure == "onset" else SMOOTH_LEVELS if work in SMOOTH else LEVELS
     unit, scale = UNITS.get(work, ("ms", 1e3))
     names = record.entries(work)
     base = next((n for n in names if n.startswith(DEFAULT)), next((n for n in names if record.is_own(work, n)), ""))
@@ -118,7 +118,9 @@ def blocks(record: Record) -> dict[str, str]:
     found = {"machine": facts(record), "bars": bars(record)}
     for work, measures in MEASURES.items():
         lines = facts(record, work)
-        for measure in measures:
+        if not record.entries(work):
+            lines += ["Not in the run that this page tells of: `make race` fills it in."]
+        for measure in measures if record.entries(work) else ():
             lines += ["", *table(record, work, measure)]
         found[work] = lines
     return {name: "\n".join(lines).strip() for name, lines in found.items()}
@@ -146,6 +148,8 @@ def draw(folder: Path, record: Record) -> None:
     from matplotlib.ticker import NullFormatter
 
     for work, measures in MEASURES.items():
+        if not record.entries(work):
+            continue
         unit, scale = UNITS.get(work, ("ms", 1e3))
         figure, axis = plt.subplots(figsize=(8.0, 4.6), layout="constrained")
         for name in record.entries(work):

@@ -15,6 +15,8 @@ from pathlib import Path
 
 MEASURES = {
     "andrews": ("angle",),
+    "double": ("angle",),
+    "links": ("angle",),
     "ideal": ("motion",),
     "dry": ("slider", "path", "onset"),
     "lubricated": ("slider", "path"),
@@ -22,7 +24,8 @@ MEASURES = {
 }
 LEVELS = (1e-4, 1e-6, 1e-8)
 ONSET_LEVELS = (1e-6, 1e-8, 1e-10)  # s
-PACKAGES = ("numpy", "scipy", "sympy", "cffi", "scikit-sundae", "jitcode", "exudyn", "pydy", "cython")
+SMOOTH, SMOOTH_LEVELS = ("double", "links"), (1e-6, 1e-8, 1e-10)
+PACKAGES = ("numpy", "scipy", "sympy", "cffi", "scikit-sundae", "jitcode", "heyoka", "exudyn", "pydy", "cython")
 COLUMNS = ("work", "entry", "own", "control", "seconds", "right_hand_sides")
 
 

@@ -26,6 +26,9 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
     run->stiff_steps += step->method->stiff;
     run->ended[event < 0 ? N_MARGINS : event]++;
     run->linear_ready = 0;
+#if TAYLOR
+    run->series_ready = 0;
+#endif
     note_speed(run);
     weigh(run);
     for (int i = 0; i < N_CLEARANCES; i++)

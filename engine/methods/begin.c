@@ -59,7 +59,11 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
 #endif
     if (!status && !(run->h > 0.0))
         status = first_size(run, left, p);
-    return status ? status : leave_zeros(run, p);
+    if (!status)
+        status = leave_zeros(run, p);
+    if (run->method->own_length)
+        run->h = left;
+    return status;
 }
 
 /*
@@ -82,4 +86,7 @@ void gudgeon_adaptive_setup(void *memory, int method, int automatic, const doubl
     run->work_scale = max_of(1e-10, WORKS * scale[2 * N_X - 1]); /* below it a sum of works is rounded */
     run->least[0] = least[0];
     run->least[1] = least[1];
+#if TAYLOR
+    run->order = taylor_order(scale[2 * N_X - 1]);
+#endif
 }

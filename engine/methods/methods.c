@@ -15,13 +15,22 @@ struct Method {
     int degree, turned;       /* of y0 + s (d0 + (1 - s) (d1 + s (d2 + ...))); bit k: d_k comes with 1 - s, not s */
     const double *heard;      /* shares of a step, in their order, at which its error hears of the equations */
     int n_heard;
+    int own_length;           /* whether a step that is tried is made as long as it may be */
 };
 #define COUNT_OF(table) ((int)(sizeof(table) / sizeof *(table)))
 
 #include "dop853.c"
 #include "rodas5p.c"
+#if TAYLOR
+#include "taylor.c"
+#endif
 
-static const Method *const METHODS[] = {&dop853, &rodas5p};
+static const Method *const METHODS[] = {
+    &dop853, &rodas5p,
+#if TAYLOR
+    &taylor,
+#endif
+};
 #define EXPLICIT (&dop853)  /* what the automatic choice is between */
 #define IMPLICIT (&rodas5p)
 

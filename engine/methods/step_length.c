@@ -65,9 +65,23 @@ static void note_first(Run *run, const Step *step)
     run->first = NULL;
 }
 
+/* By a method whose steps are as long as they may be: how far one may look ahead next. */
+static void next_own_length(Run *run, const Step *step, int again)
+{
+#if TAYLOR
+    run->h = again ? step->h : 8.0 * run->reach;
+#else
+    (void)run, (void)step, (void)again;
+#endif
+}
+
 /* The next step's length from an accepted one; `again`: after a rejection, `whole`: no output time cut it short. */
 static void next_length(Run *run, const Step *step, int again, int whole)
 {
+    if (step->method->own_length) {
+        next_own_length(run, step, again);
+        return;
+    }
     const double error = max_of(1e-12, step->error), power = step->method->power;
     double factor = 0.9 * pow(error, -0.8 * power) * pow(run->error_before, 0.2 * power);
     if (!step->method->stiff && run->stability > 1.0)

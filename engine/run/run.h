@@ -38,7 +38,12 @@ typedef struct {
 /* A step that was tried: contacts and the sides of corners are held while it is made. */
 enum {
     N_MARGINS = N_CLEARANCES + N_SWITCHES + N_FRICTIONS + N_USER_EVENTS, /* what may end a step, in this order */
-    N_STAGES = 16, N_DENSE = 7, N_LOOKS = 16,
+#if TAYLOR
+    N_DENSE = TAYLOR_ORDERS,
+#else
+    N_DENSE = 7,
+#endif
+    N_STAGES = 16, N_LOOKS = 16,
     HERE = 1, ELSEWHERE = 2 /* where the equations of a step are linearized: in the run, in a lane; 0: not yet */
 };
 
@@ -142,6 +147,10 @@ typedef struct {
     int crossed, skip, automatic, votes, patience, since, stuck, crawl, linear_ready;
     Linear linear;
     Attempt attempt;
+#if TAYLOR
+    int order, series_ready;                      /* of the series at the state; whether it is made */
+    double reach, series[TAYLOR_ORDERS + 1][TAYLOR_Y]; /* the longest step that it is good for, s; its terms */
+#endif
     Step step;
     Looked looked;
 } Run;

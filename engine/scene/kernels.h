@@ -73,6 +73,10 @@ int closing_of_state(double t, const double *y, Memory *memory, const Parameters
 /* An accepted state, with `aside` of motion() there: the largest |Phi| and |Phi_dot| so far; chains go on from it. */
 int accept_state(double t, const double *y, Memory *memory, const Parameters *p, const Aside *aside, double *phi_max,
     double *phi_dot_max);
+#if TAYLOR
+/* Coefficients c[0] ... c[order] of the motion's series in powers of time from a state on. */
+int taylor_series(double t, const double *y, const Parameters *p, int order, double (*c)[TAYLOR_Y]);
+#endif
 /* Newton's matrix: linearized at a state whose rates motion() told, factorized for a step, solved. */
 int linearize_state(double t, const double *y, Memory *memory, const Parameters *p, const double *a,
     const Aside *aside, Linear *lin);

@@ -30,6 +30,9 @@
 #include "../motion/tree_calls.c"
 #endif
 #endif
+#if TAYLOR && (!PART || PART == 2)
+#include "../motion/taylor.c"
+#endif
 #if INTEGRATES && (!PART || PART == 3)
 #include "jacobian.c"
 #endif

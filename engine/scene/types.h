@@ -20,6 +20,11 @@ enum {
     FIRST_STATE = 2 * N_X + N_WORK     /* where inner states are in it */
 };
 
+enum {
+    TAYLOR_ORDERS = 26,                /* of a series, at most: what the smallest tolerance wants */
+    TAYLOR_Y = (N_Y + 7) / 8 * 8       /* numbers of an order: those of N_Y, in whole vectors */
+};
+
 /* Statuses of a run that is no longer wanted, or no longer advances, ...; positive ones are pivots, 0 is well. */
 enum {
     NOT_FINITE = -2, EVENTS_FULL = -3, CHATTERING = -4, TOO_SMALL = -5, LOST = -6, ENDED = -7, OUTSIDE = -8,

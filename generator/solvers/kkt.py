@@ -23,6 +23,7 @@ from gudgeon.generator.sparsity.elimination import Elimination, choose_eliminati
 
 ZERO = sp.Integer(0)
 Entries = dict[tuple[int, int], sp.Expr]
+FACTORS = "L D L^T of the KKT matrix"  # title of a section
 
 # A row counts as dependent when less than this share of its pivot is left after elimination: the
 # share is the squared sine of the angle between the row and the others, rounding leaves some 1e-15.
@@ -102,7 +103,7 @@ class KKT:
 
     def factorize(self, build: KernelBuilder, jumps: bool = False, share: Threshold = SINGULAR) -> Factor:
         """Statements for L and 1/D; a pivot below its `share` returns its number, from 1, or `jumps` to a rescue."""
-        build.section("L D L^T of the KKT matrix")
+        build.section(FACTORS)
         L: Entries = {}
         W: Entries = {}  # entries before the division by their pivot
         inverse: dict[int, dict[int, sp.Expr]] = {}

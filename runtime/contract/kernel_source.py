@@ -1,7 +1,6 @@
 """What the generator hands to the runtime: C text and the names of everything in it.
 
-Nothing else crosses. It is stored as JSON, so that a warm start needs neither SymPy nor Jinja.
-All numbers in it are SI; all indices count from 0.
+Nothing else crosses. Stored as JSON: a warm start needs neither SymPy nor Jinja. Numbers are SI, indices from 0.
 """
 
 from __future__ import annotations
@@ -208,6 +207,7 @@ class KernelSource:
     lines: tuple[tuple[str, int], ...] = ()  # of the file, where joints and drives are
     states: tuple[str, ...] = ()  # inner states of laws, "A.z", as many a joint with play; "": none
     units: tuple[int, ...] = ()  # in which `main` is compiled, side by side, as PART in C counts them; none: whole
+    taylor: str = ""  # the file with the series of the motion, of a library with Taylor's method; "": it has none
     lanes: str = ""  # the file to compile for runs side by side; "": there is none
     cdef: str = ""  # what `main` declares where it is compiled alone; "": with the engine, by the engine's calls
     overrides: tuple[tuple[str, str | float | bool], ...] = ()  # of the file: (address, value), sorted (load)

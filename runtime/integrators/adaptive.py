@@ -3,7 +3,8 @@
 - `dop853`: explicit, order 8, dense output of order 7 (E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary
   Differential Equations I, 1993, section II.5).
 - `rodas5p`: Rosenbrock, order 5, L-stable, exact Jacobian, dense output of order 4 (G. Steinebach, BIT 63:27, 2023).
-- `auto`: both, by what the steps measure: explicit until h ρ(J) reaches its bound of stability for some
+- `taylor`: the motion's own series, of an order by the tolerance, for smooth motion (engine/methods/taylor.c).
+- `auto`: the first two, by what the steps measure: explicit until h ρ(J) reaches its bound of stability for some
   steps, stiff until h ρ(J) is so small that the explicit method would need no more steps.
 
 The error of a step is controlled component by component: lengths to rtol · L, angles to rtol · L/S, velocities

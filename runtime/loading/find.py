@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.limits import MAX_BYTES
+from gudgeon.contract.methods import SMOOTH
 from gudgeon.errors import BadValueError, InputError, LimitError
 from gudgeon.files.beside import read_beside
 from gudgeon.files.reading import read_named
@@ -90,9 +91,10 @@ def kernel_source(
 ) -> tuple[KernelSource, str]:
     """The C of a scene and where it came from: the cache, the committed files, or a derivation just made.
 
+    formulation: as `load` takes it, or the name of a method for smooth motion: the reduced one with that method.
     ahead: compiles what it is told of, while a derivation goes on.
     """
-    if formulation not in FORMULATIONS:
+    if formulation not in (*FORMULATIONS, *SMOOTH):
         raise BadValueError(f"unknown formulation {formulation!r}", hint=f"there are: {', '.join(FORMULATIONS)}")
     scene, overrides, cache = scene or DEFAULT_SCENE, overrides or {}, cache or default_cache()
     key = model_key(data, scene, overrides, formulation)
@@ -150,7 +152,7 @@ def derived(
         from gudgeon.generator.reading import counted_freedoms, has_loops, read_scene
 
         read = read_scene(data, str(file), scene, overrides, seconds)
-        if ahead and formulation == FORMULATIONS[0]:
+        if ahead and formulation != "full":
             ahead.foresee(counted_freedoms(read) > 0, has_loops(read), bool(read.events))
         start = perf_counter()
         whole(*GENERATOR)

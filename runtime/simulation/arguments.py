@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.contract.kernel_source import KernelSource, Slot
-from gudgeon.contract.methods import ADAPTIVE, AUTO, CHOOSING, KINEMATIC
+from gudgeon.contract.methods import ADAPTIVE, AUTO, CHOOSING, KINEMATIC, SMOOTH
 from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.integrators import adaptive, kinematic, rk4
 from gudgeon.integrators.peers import driver
@@ -19,7 +19,7 @@ from gudgeon.model.default_step import scene_end, scene_number, scene_step
 from gudgeon.model.parameters import number, spaced
 
 METHODS = {
-    "rk4": rk4.run, **dict.fromkeys((*CHOOSING, ADAPTIVE), adaptive.run), KINEMATIC: kinematic.run,
+    "rk4": rk4.run, **dict.fromkeys((*CHOOSING, *SMOOTH, ADAPTIVE), adaptive.run), KINEMATIC: kinematic.run,
     **dict.fromkeys(driver.NAMES, driver.run),
 }  # fmt: skip
 MAX_STEPS = 10**12
@@ -121,6 +121,8 @@ def method_of(source: KernelSource, method: str, fixed: bool) -> str:
     fitting = source.methods
     if KINEMATIC not in fitting and not source.explicit:
         fitting = (*fitting, ADAPTIVE, *(() if source.states else driver.NAMES))  # peers integrate no inner states
+    if source.taylor:
+        fitting = (*fitting, *SMOOTH)
     if method == "auto":
         return fitting[0] if len(fitting) == 1 or fixed else AUTO[0] if source.explicit else ADAPTIVE
     if method not in METHODS:

@@ -16,6 +16,7 @@ from gudgeon.assembly.followed import tell_unfollowed
 from gudgeon.assembly.journals import parting
 from gudgeon.assembly.redundant_rows import check_start
 from gudgeon.assembly.start import Start, assemble
+from gudgeon.contract.methods import SMOOTH
 from gudgeon.errors import BadValueError, InputError, SolverError
 from gudgeon.integrators import adaptive
 from gudgeon.integrators.peers import driver as python_driver
@@ -59,6 +60,7 @@ class Simulation(Equations):
         self._overrides = dict(overrides or {})
         self._model: Model | None = None
         self._full: Simulation | None = None
+        self._smooth: Simulation | None = None
 
     def __repr__(self) -> str:
         joints, of = ", ".join(x.name for x in self.source.clearances), f"{self.source.mechanism}/{self.source.scene}"
@@ -82,12 +84,28 @@ class Simulation(Equations):
         """
         if self.source.formulation == "full":
             return self
-        if self._full is None:
-            from gudgeon.simulation.from_file import load_bytes
-
-            self._full = load_bytes(self._loaded_bytes(), self.file, self.source.scene, formulation="full",
-                                    overrides=self._overrides, portable=self.compiled.portable)  # fmt: skip
+        self._full = self._full or self._loaded_as("full")
         return self._full
+
+    def of_method(self, method: str, progress: Progress | None = None) -> Simulation:
+        """The same scene as a method wants it: in absolute coordinates for cross-checks, with its series for `taylor`.
+
+        Derived when first asked for: BadValueError where the motion is not smooth, InputError as for `full`.
+        """
+        if method in python_driver.NAMES and progress and self._full is None and self.source.formulation != "full":
+            progress(0.0, "deriving the full formulation")
+        if method in python_driver.NAMES:
+            return self.full
+        if method in SMOOTH and not self.source.taylor:
+            self._smooth = self._smooth or self._loaded_as(method)
+            return self._smooth
+        return self
+
+    def _loaded_as(self, formulation: str) -> Simulation:
+        from gudgeon.simulation.from_file import load_bytes
+
+        return load_bytes(self._loaded_bytes(), self.file, self.source.scene, formulation=formulation,
+                          overrides=self._overrides, portable=self.compiled.portable)  # fmt: skip
 
     def to_html(self) -> str:
         """The scene's page, HTML: its equations, and above them the mechanism running (gudgeon.web.page.write)."""
@@ -116,7 +134,7 @@ class Simulation(Equations):
 
     def __getstate__(self) -> dict[str, Any]:
         """What is derived is derived again where it is asked for."""
-        return self.__dict__ | {"_model": None, "_full": None}
+        return self.__dict__ | {"_model": None, "_full": None, "_smooth": None}
 
     def start(self, parameters: Mapping[str, float | str] | None = None) -> Start:
         """The assembled start at t = 0. Raises AssemblyError."""
@@ -141,6 +159,7 @@ class Simulation(Equations):
         - "dop853", "rodas5p": explicit of order 8, stiff of order 5, with `rtol` (1e-8): the error of a
           step as a share of the mechanism's size or, with play, of the clearance; with `step` they take it
           unchanged, without error control;
+        - "taylor": for smooth motion, its series, of an order that follows from `rtol`: tight tolerances cost little;
         - "scipy:DOP853", "sundials:cvode" and others: cross-checks (integrators/peers).
         `horizon`: run thrice more to find the time to which it can be trusted (horizon.py).
         `parameters`: {address or parameter name: float in SI or '0.5 mm'}, each number once. Where `start` is given,
@@ -158,10 +177,8 @@ class Simulation(Equations):
         """
         method, progress = text(method, "method"), function(progress, "progress")
         horizon, stop = flag(horizon, "horizon"), flag(stop, "stop")
-        if method in python_driver.NAMES and self.source.formulation != "full":
-            if progress and self._full is None:
-                progress(0.0, "deriving the full formulation")
-            return self.full.simulate(
+        if (fitting := self.of_method(method, progress)) is not self:
+            return fitting.simulate(
                 t_end, output=output, method=method, rtol=rtol, step=step, parameters=parameters, start=start,
                 progress=progress, horizon=horizon, stop=stop, peaks=peaks, against=against, contour=contour,
             )  # fmt: skip

@@ -287,7 +287,7 @@ def arguments(group: str) -> tuple[Argument, ...]:
 GROUPS = (
     "pendulum model", "pendulum-full model", "ball model", "ball-full model", "crank model",
     *(f"pendulum {method}" for method in (*OWN, *CHECKS)), "pendulum-full auto", "ball auto", "ball rk4",
-    "ball rodas5p", "crank auto", "crank kinematic",
+    "ball rodas5p", "pendulum taylor", "crank auto", "crank kinematic",
 )  # fmt: skip
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from functools import cache
 from importlib import resources
 from typing import Any
@@ -11,10 +12,11 @@ import jinja2
 
 from gudgeon.contract.kernel_source import ENGINE_PART, HEADER, MAIN, KernelSource
 from gudgeon.generator.ir.kernels import Kernel
+from gudgeon.generator.ir.series import Series
 from gudgeon.generator.kernels import closed_linkage
 from gudgeon.generator.kernels.ledger import tell
 from gudgeon.generator.kernels.program import Program
-from gudgeon.generator.targets.c import functions, ranges_printer, readme
+from gudgeon.generator.targets.c import functions, ranges_printer, readme, taylor
 from gudgeon.generator.targets.c import lanes as lanes_code
 from gudgeon.generator.targets.c.curves import NAME as CURVES
 from gudgeon.generator.targets.c.curves import curves_code
@@ -31,18 +33,20 @@ Begun = Callable[[int, Mapping[str, str]], None]
 Texts = dict[str, Callable[[], str]]  # by file, printed when they are asked for
 
 
-def emit(program: Program, begun: Begun | None = None) -> KernelSource:
-    """The whole scene as C text with its description.
+def emit(program: Program, begun: Begun | None = None, series: Series | None = None) -> KernelSource:
+    """The whole scene as C text with its description; with a `series` there is Taylor's method, and no lanes.
 
     `begun` is told the engine, then each part of MAIN, with the files so far, as soon as these are all that it reads.
     """
     model = program.model
     prepare = closed_linkage.prepare_kernel(model)
     bounds = known_bounds(program)
-    files = {HEADER: within(render("model.h.jinja", **header_values(program, bounds)))}
+    files = {HEADER: within(render("model.h.jinja", **header_values(program, bounds, series)))}
     if begun:
         begun(ENGINE_PART, files)
     parts, shared = _parts(program, prepare, bounds), _shared(program)
+    if series:
+        parts[REDUCED][taylor.FILE] = lambda: taylor.taylor_code(series)
     files |= {MAIN: _main(parts, shared), **_printed(shared)}
     for number, texts in parts.items():
         files |= _printed(texts)
@@ -50,10 +54,11 @@ def emit(program: Program, begun: Begun | None = None) -> KernelSource:
             begun(number, files)
     if tables := curves_code(model.scene.mechanism.curves, files.values()):
         files |= {MAIN: _main(parts, [CURVES, *shared]), CURVES: tables}
-    if program.has_lanes:
+    if program.has_lanes and not series:
         files |= {name: within(text) for name, text in lanes_code.lanes_code(program, render).items()}
     files[readme.NAME] = readme.readme(program, files)
-    return described(program, files, () if CURVES in files else tuple(parts))
+    told = described(program, files, () if CURVES in files else tuple(parts))
+    return replace(told, taylor=taylor.FILE, lanes="") if series else told
 
 
 def described(program: Program, files: Mapping[str, str], units: tuple[int, ...] = ()) -> KernelSource:

@@ -10,6 +10,7 @@ import sympy as sp
 from gudgeon.generator.ir.branches import Branch
 from gudgeon.generator.ir.kernels import Argument, Kernel
 from gudgeon.generator.ir.readable import Readable, lines, readable
+from gudgeon.generator.ir.series_rules import Gathered
 from gudgeon.generator.ir.split import cut
 from gudgeon.generator.ir.statements import (
     Call,
@@ -95,6 +96,8 @@ class Lines(Text):
                 return largest or [f"{name} = 0.0;"]
             case LargestRow():
                 return self._largest_row(item)
+            case Gathered():
+                return [f"{item.target} = (Wide){{{', '.join(map(self.expression, item.values))}}};"]
             case Unread():
                 return [f"(void){self.printer.called(item.name)};"]
         return [_PLAIN[type(item)]]

@@ -24,6 +24,7 @@ _NUMERICS = {
     "positions.c": "no freedom is left: a step of Newton's method to the positions at a time, then velocities and "
                    "accelerations",
     "curves.c": "the file's curves: knots and coefficients of their pieces",
+    "taylor.c": "the motion's Taylor series, at order 0 and at every higher order (for `taylor`)",
     "watched.c": "bounds over ranges of time and state: of what a step must not miss",
     "lanes.c": "the same functions for several runs side by side in vectors; to the same bits",
     "scene.c": "all files together, with what the engine adds to them: this one is compiled",

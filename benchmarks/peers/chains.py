@@ -1,0 +1,158 @@
+"""Pendulums of two and of six links: smooth motion, as a user of heyoka writes it, and as a file of ours.
+
+Links of length l, mass m and moment of inertia J about their middles hang from each other, theta from the x axis:
+
+    sum_j c_ij cos(theta_i - theta_j) theta_j'' + c_ij sin(theta_i - theta_j) theta_j'^2 = -g w_i cos theta_i,
+
+c_ij = m l^2 (n - max(i, j) - 1/2) for i != j, c_ii = J + m l^2 (n - i - 3/4), w_i = m l (n - i - 1/2), i = 0 ... n - 1.
+heyoka is given accelerations by L D L^T of that matrix in its own expressions. Error: the largest of an
+angle at the end. Reference: Gragg's midpoint rule extrapolated to order 16, in long double, with another number of
+steps it is the same to 1e-15 (`python -m benchmarks.peers.chains`).
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterable
+from functools import cache, reduce
+from importlib import import_module
+from operator import add
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+import gudgeon
+
+LINKS = {"double pendulum": 2, "six links": 6}
+T_END = {2: 3.0, 6: 1.5}
+M, L, J, G = 1.0, 1.0, 0.1, 9.81
+STEPS = 200  # of the reference
+Measured = tuple[float, float, int]  # error, seconds of integration only, right-hand sides (-1: not told)
+
+
+def start(n: int) -> list[float]:
+    """Angles, then velocities."""
+    return [*(0.5 * k for k in range(n)), *[0.0] * n]
+
+
+def coefficients(n: int) -> tuple[np.ndarray, np.ndarray]:
+    """c (n, n) and w (n,)."""
+    i = np.arange(n)
+    c = M * L**2 * (n - np.maximum.outer(i, i) - 0.5)
+    np.fill_diagonal(c, J + M * L**2 * (n - i - 0.75))
+    return c, M * L * (n - i - 0.5)
+
+
+def accelerations(theta: Any, omega: Any, sin: Any, cos: Any) -> list[Any]:
+    """By L D L^T of the matrix, of numbers or of expressions."""
+    n = len(theta)
+    c, w = (some.tolist() for some in coefficients(n))
+    x = [-G * w[i] * cos(theta[i]) for i in range(n)]
+    for i in range(n):
+        for j in range(n):
+            if i != j:
+                x[i] = x[i] - c[i][j] * sin(theta[i] - theta[j]) * (omega[j] * omega[j])
+    low: dict[tuple[int, int], Any] = {}
+    own: list[Any] = []
+    for i in range(n):
+        row: list[Any] = []
+        for j in range(i):
+            row.append(c[i][j] * cos(theta[i] - theta[j]) - sum_of(row[k] * low[j, k] for k in range(j)))
+            low[i, j] = row[j] / own[j]
+        own.append(c[i][i] - sum_of(row[k] * low[i, k] for k in range(i)))
+        x[i] = x[i] - sum_of(low[i, k] * x[k] for k in range(i))
+    for i in reversed(range(n)):
+        x[i] = x[i] / own[i] - sum_of(low[k, i] * x[k] for k in range(i + 1, n))
+    return x
+
+
+def sum_of(terms: Iterable[Any]) -> Any:
+    """0.0 of nothing."""
+    return reduce(add, terms) if (terms := list(terms)) else 0.0
+
+
+@cache
+def reference(n: int, steps: int = STEPS) -> np.ndarray:
+    """Angles at the end, (n,)."""
+    y = np.array(start(n), dtype=np.longdouble)
+    h = np.longdouble(T_END[n]) / steps
+
+    def rate(y: np.ndarray) -> np.ndarray:
+        return np.array([*y[n:], *accelerations(y[:n], y[n:], np.sin, np.cos)], dtype=np.longdouble)
+
+    for _ in range(steps):
+        rows: list[list[np.ndarray]] = []
+        for count in range(2, 17, 2):
+            before, now, part = y, y + h / count * rate(y), h / count
+            for _ in range(count - 1):
+                before, now = now, before + 2 * part * rate(now)
+            row = [(before + now + part * rate(now)) / 2]
+            for k, last in enumerate(rows[-1] if rows else [], 1):
+                row.append(row[-1] + (row[-1] - last) / ((count / np.longdouble(count - 2 * k)) ** 2 - 1))
+            rows.append(row)
+        y = rows[-1][-1]
+    return y[:n].astype(float)
+
+
+@cache
+def heyoka_of(n: int, tolerance: float) -> Any:
+    """The compiled integrator."""
+    hy = import_module("heyoka")
+    theta, omega = hy.make_vars(*(f"theta{k}" for k in range(n))), hy.make_vars(*(f"omega{k}" for k in range(n)))
+    rates = [*omega, *accelerations(theta, omega, hy.sin, hy.cos)]
+    return hy.taylor_adaptive(list(zip([*theta, *omega], rates, strict=True)), start(n), tol=tolerance)
+
+
+def heyoka(n: int, tolerance: float) -> Measured:
+    """heyoka's Taylor method, its code made by LLVM."""
+    run = heyoka_of(n, tolerance)
+    run.time, run.state[:] = 0.0, start(n)
+    before = perf_counter()
+    run.propagate_until(T_END[n])
+    seconds = perf_counter() - before
+    return float(np.abs(run.state[:n] - reference(n)).max()), seconds, -1
+
+
+def written(n: int) -> str:
+    """The same as a file of ours."""
+    names = [f"L{k}" for k in range(n)]
+    joints = ["ground.O", *(f"{name}.head" for name in names)]
+    angles = ", ".join(f"{name}.theta: {value!r}" for name, value in zip(names, start(n), strict=False))
+    rates = ", ".join(f"{name}.omega: 0" for name in names)
+    return "\n".join([
+        "format: gudgeon/1", f"name: links_{n}", f"gravity: [0, -{G} m/s^2]", "bodies:",
+        *(f"  {name}: {{length: {L} m, mass: {M} kg, inertia: {J} kg*m^2}}" for name in names),
+        "ground: {O: [0, 0]}", "joints:",
+        *(f"  J{k}: {{revolute: [{joints[k]}, {name}.tail]}}" for k, name in enumerate(names)),
+        "start:", f"  set: {{{angles}}}", f"  rates: {{{rates}}}", "",
+    ])  # fmt: skip
+
+
+@cache
+def loaded(n: int) -> Any:
+    """Compiled."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder, "links.yaml")
+        file.write_text(written(n), encoding="utf-8")
+        simulation = gudgeon.load(file)
+        return {name: simulation.of_method(name) for name in ("dop853", "taylor")}
+
+
+def own(n: int, method: str, rtol: float) -> Measured:
+    """gudgeon."""
+    simulation = loaded(n)["taylor" if method == "taylor" else "dop853"]
+    run = simulation.simulate(T_END[n], output=1, method=method, rtol=rtol)
+    error = float(np.abs(run.q[-1][2::3] - reference(n)).max())
+    return error, run.diagnostics.seconds, run.diagnostics.right_hand_sides
+
+
+def main() -> None:
+    """How far the reference is from itself."""
+    for name, n in LINKS.items():
+        print(f"{name}: {np.abs(reference(n) - reference(n, STEPS * 3 // 2)).max():.1e}")
+
+
+if __name__ == "__main__":
+    main()

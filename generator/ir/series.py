@@ -1,0 +1,265 @@
+"""Taylor series of a straight-line function: its statements at order 0, and what is left of them at each higher order.
+
+Where arguments are series in time every local is one too, and its coefficient of order k follows from those of its
+operands (A. Jorba, M. Zou, A software package for the numerical integration of ODEs by means of high-order Taylor
+methods, Experimental Mathematics 14, 2005, section 2.1). For c = a b it is c_k = a_0 b_k + b_0 a_k + S_k with the sum
+S_k = a_1 b_{k-1} + ... + a_{k-1} b_1; quotients, roots, powers, sines and their like are products too, of series and of
+their rates (series_rules.py). So a function becomes two: `values` at order 0, and `terms`, the same lines at every
+order k > 0, linear in coefficients of order k, with coefficients of order 0 and the sums S_k for numbers. The sums read
+lower orders alone: all of them are known before a line of order k is, and need no order among themselves.
+
+A linear system is solved by lines as well, so that loops which are closed by rows need nothing more: at order k the
+lines of its factors and substitutions solve for the coefficients of order k.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import sympy as sp
+
+from gudgeon.generator.ir.kernels import Argument, Kernel, Section, changed, without_unread
+from gudgeon.generator.ir.series_order import Titled, differences, late_last
+from gudgeon.generator.ir.series_rules import (
+    NEXT,
+    ORDER,
+    SHARE,
+    SUMS,
+    VALUES,
+    WIDE,
+    Factor,
+    Gathered,
+    Lowered,
+    NoSeries,
+    Product,
+    Rules,
+    at,
+)
+from gudgeon.generator.ir.signatures import PARAMETERS, STATE, ZERO
+from gudgeon.generator.ir.sine_pairs import side_by_side
+from gudgeon.generator.ir.statements import Call, Guard, Jump, Line, Rescue, Return, Statement, Status
+from gudgeon.generator.ir.values import Place
+
+_DROPPED = (Status, Jump, Rescue)
+_DOC_VALUES = (
+    "Accelerations a and powers at a state, order 0 of their series, and what higher orders read of it.",
+    "Returns 0, or the number of the pivot that vanished.",
+)
+_DOC_TERMS = (
+    "Order k > 0 of the same: t, q, v are coefficients of order k, `at` has those of order 0, `sum` what lower orders",
+    "add to each product; share = 1/k, next = 1/(k + 1). Told are coefficients of order k + 1 of what is integrated,",
+    "q_next, a and power, and the factors of the sums of higher orders.",
+)
+
+
+@dataclass(frozen=True)
+class Series:
+    """Both functions, what `values` keeps for `terms`, and the sums that stand in front of each order."""
+
+    values: Kernel
+    terms: Kernel
+    kept: tuple[str, ...]
+    products: tuple[Product, ...]
+
+
+@dataclass(frozen=True)
+class Linear:
+    """A linear system A x = b within a function: A_0 x_k = b_k - A_1 x_{k-1} - ... - A_k x_0, by the factors of A_0.
+
+    `entries` of A by two nodes, the locals `loads` that are b and `unknowns` that are x by node; `title` of the section
+    that factorizes A: at higher orders nothing of it is left.
+    """
+
+    title: str
+    entries: Mapping[tuple[int, int], sp.Expr]
+    loads: Mapping[str, int]
+    unknowns: Mapping[int, sp.Symbol]
+
+
+def series_of(kernel: Kernel, wanted: Callable[[str], str], name: str, linear: Linear | None = None) -> Series:
+    """The series of a function's results, which `wanted` gives their places ("": nobody wants it). Raises NoSeries."""
+    lines = _lines(kernel, wanted)
+    made = _Series(lines, linear)
+    for title, line in lines:
+        made.line(title, line)
+    return made.finished(name)
+
+
+def _lines(kernel: Kernel, wanted: Callable[[str], str]) -> list[Titled]:
+    """Those that lead to what is wanted; what is stored elsewhere is no more than a local."""
+    lines: list[Titled] = []
+    local: dict[sp.Basic, sp.Basic] = {}
+    for section in kernel.sections:
+        for line in section.statements:
+            line = _with(line, local)
+            if isinstance(line, Statement) and not line.local:
+                name = "".join(c if c.isalnum() else "_" for c in line.target)
+                local |= {sp.Symbol(line.target, real=real): sp.Symbol(name, real=True) for real in (True, None)}
+                if place := wanted(line.target):
+                    lines.append((section.title, replace(line, target=name, local=True)))
+                    line = replace(line, target=place, value=sp.Symbol(name, real=True))
+                else:
+                    line = replace(line, target=name, local=True)
+            if not isinstance(line, _DROPPED):
+                lines.append((section.title, line))
+    return _pruned(lines)
+
+
+def _with(line: Line, local: Mapping[sp.Basic, sp.Basic]) -> Line:
+    return changed(line, lambda value: value.xreplace(local))
+
+
+class _Series(Rules):
+    """Line by line: lines of order 0 and of order k."""
+
+    def __init__(self, lines: Sequence[Titled], linear: Linear | None) -> None:
+        statements = [line for _, line in lines if isinstance(line, Statement)]
+        super().__init__({line.target for line in statements})
+        self._values: list[Titled] = []
+        self._terms: list[Titled] = []
+        self._next: list[Titled] = []  # coefficients of the next order of positions
+        self._turned = differences(statements)
+        self._own = {line.value: line.target for line in statements if isinstance(line.value, sp.Function)}
+        self._title, self._linear = "", linear
+
+    def line(self, title: str, line: Line) -> None:
+        """The next one of the function."""
+        self._title = title
+        match line:
+            case Statement(value=Place() as place):
+                self._read(line, place)
+            case Statement(value=sp.Expr() as value):
+                self._assign(line, value)
+            case Guard(test=test) if not isinstance(test, Call):
+                self._values.append((title, replace(line, jumps=False)))
+            case Return():
+                pass
+            case _:
+                raise NoSeries(f"a {type(line).__name__.lower()} of the right-hand side is no expression")
+
+    def _read(self, line: Statement, place: Place) -> None:
+        if not line.local or place.base not in ("t", "q", "v", "p"):
+            raise NoSeries(f"{place.text} is no function of time and state")
+        self._values.append((self._title, line))
+        self._terms.append((self._title, line))
+        (self.numbers if place.base == "p" else self.moving).add(line.target)
+        if place.base == "v":
+            value = NEXT * sp.Symbol(line.target, real=True)
+            self._next.append(("results", Statement(f"q_next[{place.index}]", value, False)))
+
+    def _assign(self, line: Statement, value: sp.Expr) -> None:
+        if not line.local:
+            self._values.append((self._title, line))
+            result = ZERO if self.is_fixed(value) else value * NEXT
+            self._terms.append((self._title, replace(line, value=result, comment="")))
+        elif self._linear and self._title == self._linear.title:
+            self._values.append((self._title, line))
+        elif line.target not in self.moving:  # else a function beside it has asked for it
+            self.define(line.target, value)
+
+    def define(self, target: str, value: sp.Expr, moving: bool = False) -> sp.Symbol:
+        """A local of both functions, or of order 0 alone."""
+        symbol = sp.Symbol(target, real=True)
+        loads = self._linear.loads if self._linear else {}
+        if self.is_fixed(value) and not (moving or target in loads):
+            self._values.append((self._title, Statement(target, value)))
+            return symbol
+        if target not in loads:  # which are equal at order 0 alone
+            value, whole = self.known.get(value, value), value
+            self.known.setdefault(whole, symbol)
+        named, term = self._of_difference(value, symbol) or self.lower(value, symbol)
+        if self._linear and target in loads:
+            term -= self._carried(self._linear, loads[target])
+        self.moving.add(target)
+        self._values.append((self._title, Statement(target, named)))
+        self._terms.append((self._title, Statement(target, term)))
+        later, self.later = self.later, []
+        for name, expression in later:
+            self.define(name, expression)
+        return symbol
+
+    def _carried(self, linear: Linear, row: int) -> sp.Expr:
+        """A_1 x_{k-1} + ... + A_k x_0 of a row."""
+        parts = []
+        for column, x in linear.unknowns.items():
+            entry = linear.entries.get((row, column), linear.entries.get((column, row), ZERO))
+            if not self.is_fixed(entry):
+                moving = sp.Mul(*(a for a in sp.Mul.make_args(entry) if not self.is_fixed(a)))
+                name = self.atom(moving)
+                product = at(x) * name + self.sum(Factor(name.name), Factor(x.name))
+                parts.append(self.fixed(entry / moving) * product)
+        return sp.Add(*parts)
+
+    def _of_difference(self, value: sp.Expr, symbol: sp.Symbol) -> Lowered | None:
+        """The cosine or sine of a difference of angles, of which both are made: by its rate, not four products."""
+        if symbol.name not in self._turned:
+            return None
+        angle, partner, sign = self._turned[symbol.name]
+        return value, sign * self.by_rate(self.atom(angle), sp.Symbol(partner, real=True))
+
+    def beside(self, value: sp.Expr) -> sp.Symbol:
+        """Another function of the same argument, by the name that the function has for it, if any."""
+        if value in self.known:
+            return self.known[value]
+        return self.define(self._own.get(value) or self.unique(type(value).__name__), value)
+
+    def finished(self, name: str) -> Series:
+        """Both functions, without what nothing reads."""
+        products, known = list[Product](), -1
+        while known < len(products):  # a sum that is read asks for its factors, and they for other sums
+            known = len(products)
+            terms = _pruned([*self._terms, *self._next, *_stores(products)])
+            read = {s.name for _, line in terms for e in line.expressions for s in e.free_symbols}
+            products = [product for product in self.products.values() if f"{SUMS}->{product.name}" in read]
+        front = f"{VALUES}->"
+        kept = tuple(sorted(x.removeprefix(front) for x in read if x.startswith(front)))
+        inverses = {name: 1 / b for name, b in self.inverses.items()}
+        keeps = [("values that higher orders read",
+                  Statement(f"{front}{x}", inverses.get(x, sp.Symbol(x, real=True)), False)) for x in kept]  # fmt: skip
+        values = _pruned([*self._values, *keeps])
+        of_values, of_terms = _arguments()
+        of_zero = Kernel(f"{name}_values", _DOC_VALUES, of_values, _sections([*values, ("", Return())]), "int")
+        later = _sections(late_last(terms, self.unique))
+        return Series(
+            side_by_side(of_zero), Kernel(f"{name}_terms", _DOC_TERMS, of_terms, later), kept, tuple(products)
+        )
+
+
+def _arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]]:
+    """Of both functions."""
+    rates = (Argument("double *", "a"), Argument("double *", "power"))
+    factors = (Argument("double *", "q_next"), Argument("Wide *", "left"), Argument("Wide *", "right"))
+    order = tuple(Argument("const double", symbol.name) for symbol in (ORDER, SHARE, NEXT))
+    given = (Argument("const TaylorValues *", VALUES), Argument("const TaylorFactors *", SUMS))
+    values = (*STATE, PARAMETERS, Argument("TaylorValues *", VALUES), *rates)
+    return values, (*order, *STATE, PARAMETERS, *given, *rates, *factors)
+
+
+def _stores(products: Sequence[Product]) -> list[Titled]:
+    """What the sums of higher orders read."""
+
+    def value(factor: Factor) -> sp.Expr:
+        symbol = sp.Symbol(factor.name, real=True)
+        return ORDER * symbol if factor.rate else symbol
+
+    title, lines = "factors of the sums of higher orders", list[Titled]()
+    for row, first in enumerate(range(0, len(products), WIDE)):
+        some = products[first : first + WIDE]
+        lines.append((title, Gathered(f"left[{row}]", tuple(value(x.left) for x in some))))
+        lines.append((title, Gathered(f"right[{row}]", tuple(value(x.right) for x in some))))
+    return lines
+
+
+def _pruned(lines: list[Titled]) -> list[Titled]:
+    left = {id(line) for line in without_unread([line for _, line in lines], set())}
+    return [item for item in lines if id(item[1]) in left]
+
+
+def _sections(lines: Iterable[Titled]) -> tuple[Section, ...]:
+    sections: list[tuple[str, list[Line]]] = []
+    for title, line in lines:
+        if not sections or sections[-1][0] != title:
+            sections.append((title, []))
+        sections[-1][1].append(line)
+    return tuple(Section(title, tuple(group)) for title, group in sections)

@@ -1,0 +1,83 @@
+"""Taylor series of the motion in coordinates of a tree: which scenes have them, and why others do not."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import sympy as sp
+
+from gudgeon.errors import BadValueError
+from gudgeon.generator.ir.kernels import KernelBuilder, without_unused
+from gudgeon.generator.ir.series import Linear, Series, series_of
+from gudgeon.generator.ir.series_rules import NoSeries
+from gudgeon.generator.kernels.dynamics import dynamics_kernel
+from gudgeon.generator.kernels.program import Program
+from gudgeon.generator.kernels.reduced import DYNAMICS, is_rescued
+from gudgeon.generator.reduction.reduction import TreeSystem
+from gudgeon.generator.solvers.kkt import FACTORS, KKT, ZERO, Factor
+
+NAME = "taylor"
+
+
+def taylor_series(program: Program) -> Series:
+    """Of accelerations and powers. Raises BadValueError where the motion is not smooth."""
+    try:
+        return _series(program)
+    except NoSeries as why:
+        raise BadValueError(f"method 'taylor' is for smooth motion: {why}", hint="use auto") from None
+
+
+def _series(program: Program) -> Series:
+    model, tree = program.model, program.tree
+    if tree is None or not program.integrates:
+        raise NoSeries("nothing is integrated in coordinates of a tree")
+    if model.clearances:
+        raise NoSeries(f"joint {model.clearances[0].name} has play, whose contacts come and go")
+    if model.frictions:
+        raise NoSeries(f"the friction of {model.frictions[0].name} may stick")
+    if tree.chains:
+        raise NoSeries("drives lead a chain of bodies through a loop of its own")
+    if model.symbols.switches.count or program.integrated.system.model.symbols.switches.count:
+        raise NoSeries("an expression has corners (where, abs, min, max, sign, mod, ramp)")
+    if program.integrated.jumps:
+        raise NoSeries("the rate of a drive may jump")
+    return _of_motion(tree.system)
+
+
+def _of_motion(system: TreeSystem) -> Series:
+    """The right-hand side again, its linear system told."""
+    symbols = system.model.symbols
+    symbols.freeze(False)
+    kkt = _Told(system, daring=is_rescued(system))
+    dynamics = without_unused(dynamics_kernel(system, kkt, DYNAMICS, stabilised=False, rescue=_nobody))
+    symbols.freeze()
+    diagonal = {(k, k): system.mass[k, k] for k in range(kkt.n) if (k, k) in system.mass}
+    linear = Linear(FACTORS, {**kkt.entry, **diagonal}, kkt.loads, kkt.unknowns)
+    return series_of(dynamics, _place, NAME, linear)
+
+
+class _Told(KKT):
+    """A system whose right-hand sides are locals, and whose unknowns are known afterwards, by node."""
+
+    loads: dict[str, int]
+    unknowns: dict[int, sp.Symbol]
+
+    def solve(
+        self, build: KernelBuilder, factor: Factor, b: Mapping[int, sp.Expr], prefix: str = ""
+    ) -> dict[int, sp.Expr]:
+        """The same, with both told."""
+        build.section("right-hand side")
+        named = {k: build.local(f"load_{self.names[k]}", b.get(k, ZERO)) for k in self.elimination.order}
+        self.loads = {symbol.name: k for k, symbol in named.items()}
+        x = super().solve(build, factor, named, prefix)
+        self.unknowns = {k: symbol for k, symbol in x.items() if symbol.is_Symbol}
+        return x
+
+
+def _nobody(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
+    """Mends a vanishing pivot: another method takes the step."""
+
+
+def _place(target: str) -> str:
+    """Where a result goes: what other functions tell of a state nobody wants here."""
+    return target.removeprefix("aside->") if target.startswith(("a[", "aside->power[")) else ""

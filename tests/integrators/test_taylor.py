@@ -1,0 +1,190 @@
+"""Taylor's method: coefficients of every operation, order, tight tolerances, loops, events, and what it refuses."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from pathlib import Path
+
+import mpmath
+import numpy as np
+import pytest
+import sympy as sp
+
+import gudgeon
+from gudgeon.errors import BadValueError
+from gudgeon.generator.ir.kernels import Kernel, Section
+from gudgeon.generator.ir.series import series_of
+from gudgeon.generator.ir.series_rules import Gathered, NoSeries
+from gudgeon.generator.ir.statements import Line, Statement
+from gudgeon.generator.ir.values import Place
+from gudgeon.simulation.simulation import Simulation
+from tests.integrators.test_methods import digits, observed_order, scene_of
+from tests.programs import needs_compiler
+
+HERE = Path(__file__).parent.parent
+T, X, Y, W = (sp.Symbol(name, real=True) for name in ("time", "x", "y", "w"))
+MOTION = ((0.3, 0.5, -0.2, 0.1), (0.7, -0.4, 0.3, 0.05))  # x and y as polynomials of time
+
+
+def coefficients(value: sp.Expr, orders: int) -> list[float]:
+    """Of an expression of time, x and y along MOTION, by both functions of its series."""
+    lines = (
+        Statement("time", Place("t")), Statement("x", Place("q[0]")), Statement("y", Place("q[1]")),
+        Statement("w", Place("p->w")), Statement("result", value),
+        Statement("a[0]", sp.Symbol("result", real=True), False),
+    )  # fmt: skip
+    made = series_of(Kernel("f", (), (), (Section("", lines),)), lambda target: target, "f")
+    names, rows = {"p->w": 0.6}, dict[tuple[str, int], list[float]]()
+    found: list[float] = []
+    for k in range(orders + 1):
+        known = {name: value for name, value in names.items() if k == 0 or "->" in name}
+        known |= {f"q[{i}]": float(c[k]) if k < len(c) else 0.0 for i, c in enumerate(MOTION)}
+        known |= {"t": float(k == 1), "k": k, "share": 1 / max(k, 1), "next": 1 / (k + 1)}
+        for i, product in enumerate(made.products):
+            left, right = (rows.get((side, i), []) for side in ("left", "right"))
+            known[f"sum->{product.name}"] = sum(left[j - 1] * right[k - j - 1] for j in range(1, k))
+        kernel = made.values if k == 0 else made.terms
+        for line in (line for section in kernel.sections for line in section.statements):
+            follow(line, known, rows)
+        found.append(known["a[0]"] * (k + 1 if k else 1))
+        names = names | known
+    return found
+
+
+def follow(line: Line, known: dict[str, float], rows: dict[tuple[str, int], list[float]]) -> None:
+    """What a line does, with numbers by their names."""
+    if isinstance(line, Gathered):
+        side, row = line.target.removesuffix("]").split("[")
+        for i, value in enumerate(line.values):
+            rows.setdefault((side, 8 * int(row) + i), []).append(number(value, known))
+    elif isinstance(line, Statement):
+        value = line.value
+        known[line.target] = known[value.text] if isinstance(value, Place) else number(value, known)
+
+
+def number(value: object, known: dict[str, float]) -> float:
+    """Of an expression."""
+    expression = sp.sympify(value)
+    return float(expression.evalf(25, subs={s: known[s.name] for s in expression.free_symbols}))
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        X * Y, X**2 * Y - T / Y, X / (1 + Y**2), sp.sqrt(2 + X * Y), (1 + X) ** W, Y**sp.Rational(-3, 2), X**7,
+        sp.sin(X * T) + sp.cos(Y), sp.tan(X) * sp.tanh(Y), sp.exp(-X * Y), sp.log(1 + X**2), sp.sinh(X) / sp.cosh(Y),
+        sp.asin(X * W), sp.acos(X / 2) + sp.atan(Y), sp.atan2(Y, X) + sp.atan2(X, W), 1 / sp.sqrt(X**2 + Y**2),
+        (sp.cos(X) * sp.cos(Y) + sp.sin(X) * sp.sin(Y)) / Y**3, sp.exp(sp.sin(X)) * (X + Y) * (X - Y) * (T + 2),
+    ],
+    ids=str,
+)  # fmt: skip
+def test_coefficients_of_every_operation(value: sp.Expr) -> None:
+    """Against derivatives by mpmath in 40 digits, to order 8."""
+    function = sp.lambdify((T, X, Y, W), value, "mpmath")
+    with mpmath.workdps(40):
+        x, y = ([mpmath.mpf(c) for c in reversed(some)] for some in MOTION)
+        exact = mpmath.taylor(
+            lambda t: function(t, mpmath.polyval(x, t), mpmath.polyval(y, t), mpmath.mpf(0.6)), 0, 8
+        )  # fmt: skip
+    assert coefficients(value, 8) == pytest.approx([float(c) for c in exact], rel=1e-12, abs=1e-13)
+
+
+def test_what_has_no_series_is_told() -> None:
+    for value, why in ((sp.Abs(X), "abs"), (X**Y, "exponent"), (sp.Max(X, Y), "max")):
+        with pytest.raises(NoSeries, match=why):
+            coefficients(value, 1)
+
+
+@needs_compiler
+@pytest.mark.parametrize("inside", [False, True])
+def test_a_series_as_long_as_1e_8_wants_has_order_14_at_least(inside: bool) -> None:
+    """Order ceil(1 - 0.7 ln 1e-8) with fixed steps, at their ends and between them; more where a step is no small part
+
+    of the way to the next pole, and shorter ones err by less than can be seen.
+    """
+    assert 14.0 < observed_order("swing", "taylor", 1.0, (16, 44, 14), inside) < 17.5
+
+
+@cache
+def swing() -> Simulation:
+    return scene_of("swing")
+
+
+@needs_compiler
+@pytest.mark.parametrize("rtol", [1e-5, 1e-8, 1e-11, 1e-13])
+def test_errors_follow_the_tolerance_at_every_output(rtol: float) -> None:
+    """Samples lie on the series themselves."""
+    times = np.sort(np.random.default_rng(3).uniform(0.0, 3.0, 300))
+    exact = swing().simulate(output=times, method="dop853", rtol=1e-14)
+    run = swing().simulate(output=times, method="taylor", rtol=rtol)
+    assert 1e-3 * rtol < abs(run.q - exact.q).max() < 300 * rtol
+    assert run.diagnostics.rejected == 0 and run.diagnostics.method == "taylor"
+
+
+@needs_compiler
+def test_energy_and_work_to_twelve_digits() -> None:
+    run = swing().simulate(10.0, output=10, method="taylor", rtol=1e-14)
+    assert run.diagnostics.energy_residual < 1e-12 * abs(run.work).max()
+
+
+@needs_compiler
+def test_loops_closed_by_rows() -> None:
+    """Andrews' squeezer: six rows, by the series of its multipliers; in a fifth of the steps of order 8."""
+    run = scene_of("andrews_squeezer").simulate(0.03, output=1, method="taylor", rtol=1e-13)
+    assert digits(run) > 11.5
+    assert run.diagnostics.steps < 80 and run.diagnostics.phi_max < 1e-15
+
+
+@pytest.mark.slow
+@needs_compiler
+def test_a_drive_and_its_works() -> None:
+    """The car axis: a driven angle asin(r sin(omega t)), a slot that turns with it, springs with roots."""
+    axis = scene_of("car_axis")
+    exact, run = (axis.simulate(3.0, output=20, method=method, rtol=1e-13) for method in ("dop853", "taylor"))
+    assert abs(run.q - exact.q).max() < 1e-11 and abs(run.work - exact.work).max() < 1e-11
+
+
+@pytest.mark.slow
+@needs_compiler
+def test_where_links_stand_in_one_line_another_method_takes_the_step() -> None:
+    """Four-bars of equal links pass singular positions; their couplers keep their direction."""
+    bars = scene_of("n_four_bar")
+    exact, run = (bars.simulate(5.0, output=50, method=method, rtol=1e-10) for method in ("dop853", "taylor"))
+    assert abs(run.q - exact.q).max() < 1e-6
+
+
+@needs_compiler
+def test_events_on_the_way(tmp_path: Path) -> None:
+    """A pendulum passes its lowest point: many crossings in few steps, each where its period says."""
+    text = (HERE.parent / "mechanisms/pendulum.yaml").read_text(encoding="utf-8")
+    file = tmp_path / "watched.yaml"
+    file.write_text(text + "\nevents:\n  lowest: {zero: bob.x}\n", encoding="utf-8")
+    run = gudgeon.load(file, scene="two_seconds").simulate(20.0, output=1, method="taylor", rtol=1e-12)
+    assert run.events["t"] == pytest.approx(np.arange(0.5, 20.0, 1.0), abs=1e-10)
+
+
+@needs_compiler
+def test_many_runs_are_the_same_as_single_ones() -> None:
+    masses = np.linspace(0.8, 1.2, 5)
+    batch = swing().simulate_many({"bodies.L1.mass": masses}, 1.0, output=3, method="taylor", rtol=1e-10)
+    for k, mass in enumerate(masses):
+        one = swing().simulate(1.0, output=3, method="taylor", rtol=1e-10, parameters={"bodies.L1.mass": mass})
+        assert (batch.q[k] == one.q).all() and (batch.v[k] == one.v).all()
+
+
+@pytest.mark.parametrize(
+    ("name", "scene", "why"),
+    [("slider_crank", "dry", "wristpin has play"), ("belt_block", "ideal", "friction of rub"),
+     ("four_bar", "ideal", "nothing is integrated")],
+)  # fmt: skip
+@needs_compiler
+def test_motion_that_is_not_smooth_is_refused(name: str, scene: str, why: str) -> None:
+    with pytest.raises(BadValueError, match=f"smooth motion: .*{why}"):
+        scene_of(name, scene).simulate(0.1, output=1, method="taylor")
+
+
+@needs_compiler
+def test_a_fixed_step_is_taken() -> None:
+    run = swing().simulate(1.0, output=1, method="taylor", step=0.05)
+    assert run.diagnostics.steps == 20 and math.isnan(run.diagnostics.last_step)
