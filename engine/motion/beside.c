@@ -5,8 +5,11 @@
  * a smooth function along the linkage's way through the state, known at places on either side where all is regular,
  * and a polynomial through these tells it here. As sparse as everywhere else, and without the rounding.
  */
-enum { SIDE_NODES = 5, WIDER = 4 };
-#define NODE_TURN 1e-2  /* rad, of the fastest angle: between the first places; then twice that, and so on */
+#include <string.h>
+
+enum { SIDE_NODES = TREE ? 5 : 6, WIDER = 4 };
+#define LARGEST_WAY 0.1 /* rad, of a stage back onto the constraints */
+#define NODE_TURN (TREE ? 1e-2 : 2e-2) /* rad, of the fastest angle: between the first places; then twice that, and so on */
 #define CONTINUED_TO 1e-7 /* share of the accelerations by which the last two polynomials may differ */
 
 /* Of Lagrange's polynomials through places -n ... -1, 1 ... n: their value at 0, for place k. */
@@ -113,32 +116,48 @@ static Memory with_usual_shares(const Memory *memory)
     return now;
 }
 
-int motion(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside)
+/* What is integrated, with what was found on the closed linkage or continued from beside it. */
+static int handed_over(const double *y, const Continued *at, double *dy, Aside *aside)
 {
-    const int status = motion_here(t, y, memory, p, dy, aside);
-    if (status != NEAR)
-        return status;
-    Continued at;
-    if (!continue_here(t, y, memory, p, &at)) {
-        Memory now = with_usual_shares(memory);
-        return motion_here(t, y, &now, p, dy, aside);
-    }
     for (int k = 0; k < N_X; k++) {
         dy[k] = y[N_X + k];
-        dy[N_X + k] = at.dy[N_X + k];
+        dy[N_X + k] = at->dy[N_X + k];
     }
     for (int k = 0; k < N_WORK; k++)
-        dy[2 * N_X + k] = aside->power[k] = at.dy[2 * N_X + k];
+        dy[2 * N_X + k] = aside->power[k] = at->dy[2 * N_X + k];
     for (int k = 0; k < N_LOOPS; k++)
-        aside->lambda[k] = at.lambda[k];
+        aside->lambda[k] = at->lambda[k];
     return 0;
+}
+
+int motion(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside)
+{
+    Continued at;
+    if (memory->way == CLOSES || memory->way == CLOSED) {
+        double there[N_Y];
+        memcpy(there, y, sizeof there);
+        if (!place_beside(t, there, memory, p, LARGEST_WAY, dy, aside)) {
+            for (int k = 0; k < N_X; k++)
+                dy[k] = y[N_X + k];
+            return 0;
+        }
+    }
+    const int status = motion_here(t, y, memory, p, dy, aside);
+    if (status != NEAR || memory->way == TELLS)
+        return memory->way == CLOSES && !status ? NEAR : status;
+    if (continue_here(t, y, memory, p, &at))
+        return handed_over(y, &at, dy, aside);
+    if (memory->way == CLOSES)
+        return NEAR;
+    Memory now = with_usual_shares(memory);
+    return motion_here(t, y, &now, p, dy, aside);
 }
 
 int closing_of_state(double t, const double *y, Memory *memory, const Parameters *p, double *dq, double *dv,
     double *worst)
 {
     int status = closing_here(t, y, memory, p, dq, dv, worst);
-    if (!status || memory->least_size <= VANISHING)
+    if (!status || memory->way == AS_EVER || memory->way == TELLS)
         return status;
     double dy[N_Y];
     Aside aside;

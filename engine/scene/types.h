@@ -85,6 +85,7 @@ typedef struct {
     signed char event_side[AT_LEAST_ONE(N_USER_EVENTS)]; /* of zero, where each expression was; 0: nowhere yet */
     int held;
     Asked *asked; /* NULL: nobody */
+    int way;                  /* what is done beside a singular position, one of those below */
     double least, least_size; /* share of a row, and of a joint's two, below which they are taken as dependent */
 #if N_CHAIN
     Chain chain, recent; /* at the last state that was accepted; where they were found last */
@@ -96,7 +97,14 @@ typedef struct {
 #else
 #define CONTINUES 0
 #endif
-#define NEARBY 1e-5 /* `least` of such a run: a position is singular within some 3e-3 rad */
+enum {
+    AT_ONCE, /* continued */
+    TELLS,   /* told as NEAR */
+    CLOSES,  /* everywhere on the closed linkage, and continued; NEAR where that cannot be had */
+    CLOSED,  /* the same, but as ever where that cannot be had */
+    AS_EVER  /* none is looked for */
+};
+#define NEARBY (TREE ? 1e-5 : 1e-4) /* `least` of such a run: the square of an angle to the position, or so */
 #define USUAL_SHARES .least = NEARLY_SINGULAR, .least_size = VANISHING
 
 /* Friction at one state: slip and its rate, surface speed, force on the second body along it, limit at stick. */
