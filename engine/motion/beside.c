@@ -12,15 +12,6 @@ enum { SIDE_NODES = TREE ? 5 : 6, WIDER = 4 };
 #define NODE_TURN (TREE ? 1e-2 : 2e-2) /* rad, of the fastest angle: between the first places; then twice that, and so on */
 #define CONTINUED_TO 1e-7 /* share of the accelerations by which the last two polynomials may differ */
 
-/* Of Lagrange's polynomials through places -n ... -1, 1 ... n: their value at 0, for place k. */
-static double weight_at(int n, int k)
-{
-    double weight = 1.0;
-    for (int j = 1; j <= n; j++)
-        weight *= j == k ? 0.5 : (double)(j * j) / (double)(j * j - k * k);
-    return weight;
-}
-
 /* A place on the way: closed, its right-hand side. 0, or why it is none; `far`: the longest way to there. */
 static int place_beside(double t, double *y, Memory *memory, const Parameters *p, double far, double *dy, Aside *aside)
 {
