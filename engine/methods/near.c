@@ -5,7 +5,7 @@
  * constraints; where that cannot be had, as if nobody had looked.
  */
 #if CONTINUES
-enum { MOST_SKIPPED = 6 }; /* its power of two: steps for which nobody looks, after as many that found nothing */
+enum { MOST_SKIPPED = 6 }; /* its power of two: steps for which nobody looks, once some were in vain */
 
 static void take_way(Run *run, int way)
 {
@@ -16,6 +16,13 @@ static void take_way(Run *run, int way)
 
 /* Before a step is tried. */
 static void first_way(Run *run) { take_way(run, run->unlooked ? AS_EVER : TELLS); }
+
+/* The same for rk4, whose lanes do not count. */
+static void first_way_of_fixed(Run *run)
+{
+    run->unlooked = TREE ? 0 : run->unlooked;
+    first_way(run);
+}
 
 /* Once it was, with this status: whether it is to be tried again, another way. */
 static int other_way(Run *run, int status)
@@ -37,7 +44,15 @@ static int other_way(Run *run, int status)
     }
     return 0;
 }
+/* After a step that others have tried, and that met none. */
+static void way_as_usual(Run *run)
+{
+    first_way(run);
+    other_way(run, 0);
+}
 #else
+static void way_as_usual(Run *run) { (void)run; }
+static void first_way_of_fixed(Run *run) { (void)run; }
 static void first_way(Run *run) { (void)run; }
 static int other_way(Run *run, int status) { return (void)run, (void)status, 0; }
 #endif

@@ -6,15 +6,12 @@
 #define TrialOf Trial
 #define Touched unsigned char
 #include "../both/rk4_trial.h"
-
 /* A step that is tried, past singular positions as well. */
 static int rk4_try(Run *run, double h, const Parameters *p, Trial *trial)
 {
     int status;
-    first_way(run);
-    do
-        status = rk4_trial(run, h, p, trial);
-    while (other_way(run, status));
+    for (first_way_of_fixed(run); other_way(run, status = rk4_trial(run, h, p, trial));)
+        ;
     return status;
 }
 

@@ -143,10 +143,8 @@ static int try_step(Run *run, const Parameters *p, Step *step)
 {
     step->method = run->method;
     int status;
-    first_way(run);
-    do
-        status = run->method->try(run, run->attempt.h, p, step);
-    while (other_way(run, status));
+    for (first_way(run); other_way(run, status = run->method->try(run, run->attempt.h, p, step));)
+        ;
     return status;
 }
 

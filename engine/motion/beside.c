@@ -9,7 +9,7 @@
 
 enum { SIDE_NODES = TREE ? 5 : 6, WIDER = 4 };
 #define LARGEST_WAY 0.1 /* rad, of a stage back onto the constraints */
-#define NODE_TURN (TREE ? 1e-2 : 2e-2) /* rad, of the fastest angle: between the first places; then twice that, and so on */
+#define NODE_TURN (TREE ? 1e-2 : 2e-2) /* rad, of the fastest angle, between places; then twice that, and so on */
 #define CONTINUED_TO 1e-7 /* share of the accelerations by which the last two polynomials may differ */
 
 /* A place on the way: closed, its right-hand side. 0, or why it is none; `far`: the longest way to there. */
@@ -77,7 +77,7 @@ static int continue_here(double t, const double *y, const Memory *memory, const 
         return 0;
     double turn = NODE_TURN;
     for (int wider = 0; wider < WIDER; wider++, turn *= 2.0) {
-        int status = 0;
+        int status = memory->asked && ask_now(memory->asked) ? STOPPED : 0;
         *sum = (Continued){0};
         for (int k = 1; k <= SIDE_NODES && !status; k++)
             for (int side = -1; side <= 1 && !status; side += 2) {
