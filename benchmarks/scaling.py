@@ -1,12 +1,13 @@
 """How derivation, emitted code, compiling and right-hand side grow with the number of joints: the N-four-bar.
 
     python -m benchmarks.scaling [--largest 64] [--long 40] [--formulation reduced full]
+    python -m benchmarks.scaling --largest 0 --long 0 --tight 5 10 20 40
 
 Prints for both formulations a row for each N and the exponent of each column, fitted over all N ≥ 4 on logarithmic
 axes (a straight line through the smallest systems would fit what is constant, the start of SymPy and gcc). Derive,
 emit and compile are processor time, ours and gcc's, so that other work on the machine hardly shows. `rhs` is the least
 time of a run of rk4 over its right-hand sides: closures, projection and all that a user pays for.
-`--long N` then runs N four-bars through their singular positions for 20 s.
+`--long N` then runs N four-bars through their singular positions for 20 s, `--tight` some of them by tolerance.
 """
 
 from __future__ import annotations
@@ -27,12 +28,14 @@ from gudgeon.loading.build import compile_kernels
 from gudgeon.loading.find import FORMULATIONS
 from gudgeon.mechanisms.n_four_bar import text as yaml_text
 from gudgeon.model.compiled import CompiledModel
+from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 
 COLUMNS = ("derive [s]", "emit [s]", "operations", "C [kB]", "compile [s]", "rhs [us]")
 BAR = 1.15  # the largest exponent that is asked for
 STEP, STEPS = 1e-3, 200
 GRAVITY, BAR_INERTIA = 9.81, 1.0 / 12.0
+TOLERANCES = (1e-6, 1e-9, 1e-11, 1e-12)
 DRIFT, PARALLEL = 1e-3, 1e-6  # J, rad: asked of the long run
 
 
@@ -91,12 +94,16 @@ def table(formulation: str, sizes: list[int]) -> None:
     print(f"asked: at most {BAR}; beyond it: {', '.join(beyond) or 'none'}")
 
 
-def long_run(n: int) -> None:
-    """20 s: the energy's drift and how parallel the cranks stay, through every singular position."""
+def loaded(n: int, formulation: str) -> Simulation:
+    """N four-bars."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / f"n_four_bar_{n}.yaml"
         file.write_text(yaml_text(n), encoding="utf-8")
-        run = gudgeon.load(file).simulate(20.0, output=2000)
+        return gudgeon.load(file, formulation=formulation)
+
+
+def drifts(run: Result, n: int) -> tuple[float, float]:
+    """The largest change of the energy, J, and angle between two cranks, rad."""
     bars = [f"crank{i}" for i in range(n + 1)] + [f"coupler{i}" for i in range(1, n + 1)]
     energy = sum(
         0.5 * (run[f"{bar}.vx"] ** 2 + run[f"{bar}.vy"] ** 2 + BAR_INERTIA * run[f"{bar}.omega"] ** 2)
@@ -104,8 +111,30 @@ def long_run(n: int) -> None:
         for bar in bars
     )
     cranks = np.stack([run[f"crank{i}.theta"] for i in range(n + 1)])
-    drift, apart = np.abs(energy - energy[0]).max(), np.abs(cranks - cranks[0]).max()
-    turned = float(np.ptp(cranks[0]) / (2.0 * np.pi))
+    return float(np.abs(energy - energy[0]).max()), float(np.abs(cranks - cranks[0]).max())
+
+
+def tight_runs(formulation: str, sizes: list[int]) -> None:
+    """20 s by tolerance: processor time of the thread that computes, the least of 3."""
+    print(f"\n{formulation}, 20 s\n{'rtol':>9}{'N':>5}{'s':>10}{'s/N':>12}{'steps':>9}{'rhs':>9}{'energy [J]':>12}")
+    simulations = {n: loaded(n, formulation) for n in sizes}
+    for rtol in TOLERANCES:
+        for n, simulation in simulations.items():
+            times = []
+            for _ in range(3):
+                before = time.thread_time()
+                run = simulation.simulate(20.0, output=200, rtol=rtol)
+                times.append(time.thread_time() - before)
+            d, (drift, _) = run.diagnostics, drifts(run, n)
+            print(f"{rtol:>9.0e}{n:>5}{min(times):>10.4f}{min(times) / n:>12.5f}", end="")
+            print(f"{d.steps:>9}{d.right_hand_sides:>9}{drift:>12.1e}", flush=True)
+
+
+def long_run(n: int) -> None:
+    """20 s: the energy's drift and how parallel the cranks stay, through every singular position."""
+    run = loaded(n, "reduced").simulate(20.0, output=2000)
+    drift, apart = drifts(run, n)
+    turned = float(np.ptp(run["crank0.theta"]) / (2.0 * np.pi))
     print(f"\nN = {n}, 20 s, {turned:.1f} turns, in {run.diagnostics.seconds:.2f} s: ", end="")
     print(f"energy drifts by {drift:.1e} J (asked {DRIFT:.0e}), ", end="")
     print(f"cranks parallel to {apart:.1e} rad (asked {PARALLEL:.0e})")
@@ -116,10 +145,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--largest", type=int, default=64)
     parser.add_argument("--long", type=int, default=40, help="0: leave it out")
+    parser.add_argument("--tight", nargs="+", type=int, default=[], metavar="N", help="20 s by tolerance")
     parser.add_argument("--formulation", nargs="+", choices=FORMULATIONS, default=["reduced", "full"])
     options = parser.parse_args()
     for formulation in options.formulation:
-        table(formulation, [n for n in (2, 4, 8, 16, 32, 64) if n <= options.largest])
+        if options.largest:
+            table(formulation, [n for n in (2, 4, 8, 16, 32, 64) if n <= options.largest])
+        if options.tight:
+            tight_runs(formulation, options.tight)
     if options.long:
         long_run(options.long)
 

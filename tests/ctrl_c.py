@@ -144,13 +144,12 @@ def large(folder: Path) -> list[Activity]:
         tied(matrix), rank(matrix), rank(np.vstack([matrix, matrix[:1]]))
 
     def check(run: object) -> None:
-        assert isinstance(run, Result) and run.diagnostics.interrupted and np.isfinite(run.q).all()
-        assert run.diagnostics.phi_max < 1e-6
+        assert run is None or isinstance(run, Result) and np.isfinite(run.q).all()
+        assert run is None or run.diagnostics.phi_max < 1e-6
 
     for formulation in ("full", "reduced"):
         bars = gudgeon.load(file, formulation=formulation)
-        run = partial(bars.simulate, 20.0, output=200, rtol=3e-11)
-        found.append(Activity(f"N=40 {formulation}", run, lambda run: check(run) if run is not None else None, 8.0))
+        found.append(Activity(f"N=40 {formulation}", partial(bars.simulate, 40.0, output=200, rtol=1e-12), check))
     found.append(Activity("N=40 start", partial(search, bars.compiled, bars.p), lambda _: None))
     return [*found, Activity("N=200", algebra, lambda _: None, 2.0)]
 

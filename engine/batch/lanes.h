@@ -115,6 +115,7 @@ typedef struct {
     Lanes side[AT_LEAST_ONE(N_SWITCHES)];
 #endif
     LaneBits rare; /* lanes whose step the single runs are to make */
+    Lanes least, least_size;
 } LaneMemory;
 
 typedef struct {

@@ -1,5 +1,5 @@
 /* What is integrated: coordinates of the tree, their rates, works. */
-IN_BOTH int motion(Real t, const Real *y, MemoryOf *memory, const ParametersOf *p, Real *dy, AsideOf *aside)
+IN_BOTH int MOTION(Real t, const Real *y, MemoryOf *memory, const ParametersOf *p, Real *dy, AsideOf *aside)
 {
     const int status = REDUCED_DYNAMICS(t, y, y + N_X, memory, p, dy + N_X, aside);
     for (int k = 0; k < N_X; k++)

@@ -3,7 +3,8 @@
 /* Accelerations and powers: those of the equations of motion. A status counts on behind the rows of `project`. */
 static int solve_motion(const Parameters *p, const Place *here, double *a, Aside *aside)
 {
-    const int status = dynamics(beyond_jump(here->t), here->q, here->v, &(Memory){.asked = here->asked}, p, a, aside);
+    const Memory memory = {.asked = here->asked, USUAL_SHARES};
+    const int status = dynamics(beyond_jump(here->t), here->q, here->v, &memory, p, a, aside);
     return status > 0 ? N_ROWS + status : status;
 }
 

@@ -73,6 +73,6 @@ static int begin(double t, const double *q, const double *v, const Parameters *p
     for (int k = 0; k < N_X; k++)
         here->s_second[k] = 0.0;
     here->phi = here->phi_dot = 0.0;
-    const int status = dynamics(t, q, v, &(Memory){.asked = here->asked}, p, here->a, &aside);
+    const int status = dynamics(t, q, v, &(Memory){.asked = here->asked, USUAL_SHARES}, p, here->a, &aside);
     return status > 0 ? N_LOOPS + status : status;
 }

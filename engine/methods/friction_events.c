@@ -31,12 +31,12 @@ static double friction_event(Run *run, double h, const Parameters *p, Trial *tri
     const double close = max_of(4.0 * DBL_EPSILON * fabs(run->t) / h, 1e-12);
     for (int i = 0; i < 60 && high - low > close; i++) {
         const double share = 0.5 * (low + high);
-        if (rk4_trial(run, share * h, p, trial))
+        if (rk4_try(run, share * h, p, trial))
             return -1.0;
         if (changed(run, &trial->aside, &value) < 0)
             low = share;
         else
             high = share;
     }
-    return rk4_trial(run, high * h, p, trial) ? -1.0 : high;
+    return rk4_try(run, high * h, p, trial) ? -1.0 : high;
 }

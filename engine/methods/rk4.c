@@ -6,6 +6,14 @@
 #define TrialOf Trial
 #define Touched unsigned char
 #include "../both/rk4_trial.h"
+/* A step that is tried, past singular positions as well. */
+static int rk4_try(Run *run, double h, const Parameters *p, Trial *trial)
+{
+    int status;
+    for (first_way_of_fixed(run); other_way(run, status = rk4_trial(run, h, p, trial));)
+        ;
+    return status;
+}
 
 #if N_FRICTIONS || N_RIGID
 #include "friction_events.c"
@@ -113,13 +121,13 @@ static double rk4_crossing(Run *run, int i, double h, const Parameters *p)
     Trial trial, far;
     while (high - low > close) {
         const double share = 0.5 * (low + high);
-        if (rk4_trial(run, share * h, p, &trial) || run->memory.event_side[i] * trial.aside.event[i] < 0.0)
+        if (rk4_try(run, share * h, p, &trial) || run->memory.event_side[i] * trial.aside.event[i] < 0.0)
             high = share;
         else
             low = share;
     }
     /* a pole, where it grows towards the place, is no zero */
-    const int failed = rk4_trial(run, high * h, p, &trial) || rk4_trial(run, (high + 64.0 * close) * h, p, &far);
+    const int failed = rk4_try(run, high * h, p, &trial) || rk4_try(run, (high + 64.0 * close) * h, p, &far);
     return !failed && fabs(trial.aside.event[i]) > 2.0 * fabs(far.aside.event[i]) ? INFINITY : high;
 }
 
@@ -141,7 +149,7 @@ static void rk4_note_event(Run *run, int i, double share, double h, const Parame
 {
 #if N_USER_EVENTS
     Trial at;
-    const int k = run->n_events, lost = rk4_trial(run, share * h, p, &at);
+    const int k = run->n_events, lost = rk4_try(run, share * h, p, &at);
     for (int j = 0; lost && j < N_Y; j++)
         at.y[j] = NAN;
     (void)note_event(run, i, run->t + share * h, at.y, p);
@@ -192,7 +200,7 @@ static int rk4_events(Run *run, double h, const Trial *trial, const Parameters *
     if (!isfinite(end))
         return 0;
     Trial last;
-    const int status = rk4_trial(run, end * h, p, &last);
+    const int status = rk4_try(run, end * h, p, &last);
     const int failed = status ? status : accept(run, end * h, run->t + end * h, &last, p, out);
     return failed ? failed : ENDED;
 }
@@ -219,7 +227,7 @@ static int rk4_step(Run *run, double h, double t_new, const Parameters *p, const
     run->steps++;
 #endif
     for (int part = 0; part < MAX_PARTS; part++) {
-        const int status = rk4_trial(run, h, p, &trial);
+        const int status = rk4_try(run, h, p, &trial);
         if (status)
             return status;
         const double share = friction_event(run, h, p, &trial);

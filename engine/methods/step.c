@@ -102,6 +102,7 @@ static int can_close(Run *run, int open, double t, const double *y, const Parame
 }
 
 #include "../both/project.h"
+#include "near.c"
 
 /* Back onto everything that is held. */
 static void project_state(Run *run, double t, double *y, const Parameters *p)

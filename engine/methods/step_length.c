@@ -199,7 +199,10 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
 static int try_step(Run *run, const Parameters *p, Step *step)
 {
     step->method = run->method;
-    return run->method->try(run, run->attempt.h, p, step);
+    int status;
+    for (first_way(run); other_way(run, status = run->method->try(run, run->attempt.h, p, step));)
+        ;
+    return status;
 }
 
 /* Steps as long as run->attempt has them, until one is accepted; 0, or what went wrong. */

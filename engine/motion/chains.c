@@ -3,8 +3,10 @@
  * method closes these loops, from where they were at the last state that was accepted: so the motion keeps its
  * branch, and the right-hand side stays a function of time and state.
  */
-enum { MAX_CHAIN_STEPS = 8, MAX_CHAIN_PARTS = 60 };
+enum { MAX_CHAIN_STEPS = 8, MAX_CHAIN_PARTS = 60, FLAT_NODES = 4 };
 #define CHAIN_REACH 0.1    /* rad, or share of the mechanism's size: a longer way to the root is made in parts */
+#define FLAT_TURN 1e-2     /* the same, of the fastest between places beside one where the chains are flat */
+#define FLAT_SMOOTH 1e-8   /* the same, that polynomials through these may differ */
 #define CHAIN_STRAIGHT 1e-3 /* the same, that positions may differ from what rates at both ends of a part tell */
 
 /*
@@ -52,16 +54,6 @@ static inline void note_chains(double t, const TreeState *at, Chain *place)
         place->q[k] = at->q[N_X + k];
     for (int k = 0; k < 2 * N_CHAIN; k++)
         place->v[k] = at->v[N_X + k];
-}
-
-/* The place of the chains from which they are followed, with third rates. */
-static int keep_chains(double t, const TreeState *at, Memory *memory, const Parameters *p)
-{
-    note_chains(t, at, &memory->chain);
-    const int status = chain_third(t, at->q, at->v, memory, p, memory->chain.v + 2 * N_CHAIN);
-    memory->chain.failed = status;
-    memory->recent = memory->chain;
-    return status;
 }
 
 /* Such a place again; its third rates are asked for where they are needed. */
@@ -128,6 +120,55 @@ static int follow_in_parts(double t, const Memory *memory, const Parameters *p, 
 }
 
 /*
+ * The chains at a time at which they lie flat, so that nothing closes them: smooth functions of time, from where they
+ * are before and after. Directions are asked for elsewhere; 0, or the number of a closure where they do not pass.
+ */
+static int pass_flat(double t, const Memory *memory, const Parameters *p, Chain *place)
+{
+    double fastest = 0.0, lower[N_CHAIN];
+    int status = memory->chain.failed;
+    for (int k = 0; k < N_CHAIN; k++)
+        fastest = max_of(fastest, fabs(memory->chain.v[k]) * chain_share(p, k));
+    if (status || !(fastest > 0.0))
+        return 1;
+    *place = (Chain){.t = t};
+    for (int i = 0; i < N_CHAIN; i++)
+        lower[i] = 0.0;
+    for (int j = 0; j < 2 * FLAT_NODES && !status; j++) {
+        const int k = j / 2 + 1;
+        const double when = t + (j % 2 ? -k : k) * FLAT_TURN / fastest;
+        TreeState at;
+        status = move_chains(when, &memory->chain, memory, p, &at) ? follow_in_parts(when, memory, p, &at) : 0;
+        if (!status)
+            status = chain_third(when, at.q, at.v, memory, p, at.v + N_X + 2 * N_CHAIN);
+        for (int i = 0; i < N_CHAIN && !status; i++) {
+            place->q[i] += weight_at(FLAT_NODES, k) * at.q[N_X + i];
+            lower[i] += k < FLAT_NODES ? weight_at(FLAT_NODES - 1, k) * at.q[N_X + i] : 0.0;
+        }
+        for (int i = 0; i < 3 * N_CHAIN && !status; i++)
+            place->v[i] += weight_at(FLAT_NODES, k) * at.v[N_X + i];
+    }
+    for (int i = 0; i < N_CHAIN && !status; i++)
+        status = !(fabs(place->q[i] - lower[i]) * chain_share(p, i) <= FLAT_SMOOTH);
+    return status;
+}
+
+/* The place of the chains from which they are followed, with third rates. */
+static int keep_chains(double t, const TreeState *at, Memory *memory, const Parameters *p)
+{
+    Chain place = {0}, flat;
+    note_chains(t, at, &place);
+    place.failed = chain_third(t, at->q, at->v, memory, p, place.v + 2 * N_CHAIN);
+    if (place.failed && !pass_flat(t, memory, p, &flat)) {
+        for (int k = N_CHAIN; k < N_LED; k++)
+            flat.q[k] = place.q[k];
+        place = flat;
+    }
+    memory->chain = memory->recent = place;
+    return place.failed;
+}
+
+/*
  * The chains at time t, as they were found there the last time, or from the last state that was accepted. Returns 0,
  * or the number of a closure that cannot follow.
  */
@@ -141,7 +182,15 @@ static inline int follow_chains(double t, const Memory *memory, const Parameters
         return 0;
     }
 #endif
-    return move_chains(t, &memory->chain, memory, p, at) ? follow_in_parts(t, memory, p, at) : 0;
+    if (!move_chains(t, &memory->chain, memory, p, at))
+        return 0;
+    const int status = follow_in_parts(t, memory, p, at);
+    Chain flat;
+    if (!status || pass_flat(t, memory, p, &flat))
+        return status;
+    recall_chains(&flat, at);
+    chain_directions(t, at->q, memory, p, at->q);
+    return 0;
 }
 
 /*

@@ -1,5 +1,5 @@
 /* What is integrated: coordinates of the tree that are free, their rates, works. Driven chains are evaluated. */
-int motion(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside)
+int motion_here(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside)
 {
     TreeState at;
     int status = tree_state(t, y, memory, p, &at);
@@ -66,7 +66,7 @@ void from_absolute(double t, const double *all, Memory *memory, const Parameters
         y[2 * N_X + k] = all[2 * N_Q + k];
 }
 
-int closing_of_state(double t, const double *y, Memory *memory, const Parameters *p, double *dq, double *dv,
+int closing_here(double t, const double *y, Memory *memory, const Parameters *p, double *dq, double *dv,
     double *worst)
 {
     TreeState at;

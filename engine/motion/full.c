@@ -1,5 +1,5 @@
 /* What is integrated: the state equation itself, in absolute coordinates. */
-int motion(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside)
+int motion_here(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside)
 {
     return state_equation(t, y, memory, p, dy, aside);
 }

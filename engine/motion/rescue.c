@@ -11,6 +11,14 @@ int solve_by_absolute(double t, const double *q, const double *v, const Memory *
     now.held = 0; /* corners of the scene have other numbers there */
     expand(t, q, v, p, all_q, all_v);
     const int status = dynamics(t, all_q, all_v, &now, p, all_a, &whole);
+    if (memory->least > NEARLY_SINGULAR && status == NEAR)
+        return NEAR;
+    if (memory->least > NEARLY_SINGULAR && status != STOPPED) { /* no singular position: as it would be solved anyway */
+        now = *memory;
+        now.least = NEARLY_SINGULAR;
+        now.least_size = VANISHING;
+        return reduced_dynamics(t, q, v, &now, p, a, aside);
+    }
     reduce_accelerations(t, all_q, all_v, all_a, p, a);
     tree_multipliers(whole.lambda, aside->lambda);
     return status;

@@ -4,6 +4,7 @@
 #include "../both/one.h"
 
 #define IN_BOTH
+#define MOTION motion_here
 #define REDUCED_DYNAMICS reduced_dynamics
 #define CLOSURES(t, q, memory, p, phi) closures(t, q, p, phi)
 #define CLOSURE_RATES(t, q, v, memory, p, phi_dot) closure_rates(t, q, v, p, phi_dot)

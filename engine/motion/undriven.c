@@ -1,7 +1,7 @@
 /*
  * Where no chains are driven the kernels read the state as it is: q, then v.
  */
-int closing_of_state(double t, const double *y, Memory *memory, const Parameters *p, double *dq, double *dv,
+int closing_here(double t, const double *y, Memory *memory, const Parameters *p, double *dq, double *dv,
     double *worst)
 {
     return closing_step(t, y, y + N_X, memory, p, dq, dv, worst);

@@ -249,6 +249,8 @@ void gudgeon_run_start(void *memory, const double *p, double t, const double *y,
     from_absolute(t, y, &run->memory, (const Parameters *)p, run->y);
     read_memory(latched, &run->memory);
     run->memory.asked = &run->asked;
+    if (CONTINUES)
+        run->memory.least = run->memory.least_size = NEARBY;
     for (int k = 0; k < N_STATES; k++) /* a run that begins: none yet */
         run->y[FIRST_STATE + k] = isnan(latched[N_MEMORY - N_STATES + k]) ? 0.0 : latched[N_MEMORY - N_STATES + k];
     for (int i = 0; i < N_CLEARANCES; i++)

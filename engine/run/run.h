@@ -115,6 +115,7 @@ typedef struct {
     double t, y[N_Y], dy[N_Y];
     Aside aside;
     Memory memory;
+    long unlooked, in_vain; /* of methods/near.c */
     Asked asked;
     Impact open[AT_LEAST_ONE(N_CLEARANCES)];      /* the contact going on in each joint */
     int compressing[AT_LEAST_ONE(N_CLEARANCES)];  /* from onset until the penetration first stops growing */

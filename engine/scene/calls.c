@@ -50,6 +50,8 @@ void read_memory(const double *sample, Memory *memory)
         memory->event_side[i] = 0;
     memory->held = 0;
     memory->asked = NULL;
+    memory->least = NEARLY_SINGULAR;
+    memory->least_size = VANISHING;
 }
 
 void gudgeon_prepare(const double *given, const unsigned char *is_given, double *p)

@@ -70,6 +70,10 @@ void to_absolute(double t, const double *y, const Memory *memory, const Paramete
 void from_absolute(double t, const double *all, Memory *memory, const Parameters *p, double *y);
 int closing_of_state(double t, const double *y, Memory *memory, const Parameters *p, double *dq, double *dv,
     double *worst);
+/* The same as they are computed at a state itself (NEAR: not there, but from both sides). */
+int motion_here(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside);
+int closing_here(double t, const double *y, Memory *memory, const Parameters *p, double *dq, double *dv,
+    double *worst);
 /* An accepted state, with `aside` of motion() there: the largest |Phi| and |Phi_dot| so far; chains go on from it. */
 int accept_state(double t, const double *y, Memory *memory, const Parameters *p, const Aside *aside, double *phi_max,
     double *phi_dot_max);

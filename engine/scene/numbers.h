@@ -90,4 +90,13 @@ static inline void turn_back(double *direction, double x)
     direction[1] = s - (c * sine + s * less);
 }
 
+/* Of Lagrange's polynomials through places -n ... -1, 1 ... n: their value at 0, for place k. */
+static inline double weight_at(int n, int k)
+{
+    double weight = 1.0;
+    for (int j = 1; j <= n; j++)
+        weight *= j == k ? 0.5 : (double)(j * j) / (double)(j * j - k * k);
+    return weight;
+}
+
 #endif

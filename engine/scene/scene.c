@@ -24,6 +24,11 @@
 #elif INTEGRATES
 #include "../motion/tree.c"
 #endif
+#if CONTINUES
+#include "../motion/beside.c"
+#elif INTEGRATES
+#include "../motion/at_once.c"
+#endif
 #if N_CHAIN
 #include "../motion/driven_calls.c"
 #elif TREE

@@ -125,6 +125,8 @@ int solve_dependent(double t, const double *q, const Parameters *p, const double
     double *a, double *lambda, int pivot, const Memory *memory)
 {
     static const double least[] = {NEARLY_SINGULAR, SINGULAR}, tolerance[] = {1e-3, 1e-6};
+    if (memory->least > NEARLY_SINGULAR)
+        return NEAR;
     Workspace *w = malloc(sizeof(Workspace));
     int status = pivot;
     for (int pass = 0; w && status && pass < 2; pass++) {

@@ -30,6 +30,7 @@ enum {
     NOT_FINITE = -2, EVENTS_FULL = -3, CHATTERING = -4, TOO_SMALL = -5, LOST = -6, ENDED = -7, OUTSIDE = -8,
     STOPPED = -10, STALLED = -11, UNBOUNDED = -12
 };
+enum { NEAR = -20 }; /* of functions: a pivot is so small that the motion is continued from both sides (beside.c) */
 
 /*
  * Whom a long computation asks now and then whether it is still wanted (asked.c): `ask` each `every` seconds, NULL:
@@ -89,10 +90,27 @@ typedef struct {
     signed char event_side[AT_LEAST_ONE(N_USER_EVENTS)]; /* of zero, where each expression was; 0: nowhere yet */
     int held;
     Asked *asked; /* NULL: nobody */
+    int way;                  /* what is done beside a singular position, one of those below */
+    double least, least_size; /* share of a row, and of a joint's two, below which they are taken as dependent */
 #if N_CHAIN
     Chain chain, recent; /* at the last state that was accepted; where they were found last */
 #endif
 } Memory;
+/* Where rows do not come and go, a run continues its motion from both sides of a singular position (beside.c). */
+#if INTEGRATES && N_LOOPS && !N_FRICTIONS && !N_RIGID
+#define CONTINUES 1
+#else
+#define CONTINUES 0
+#endif
+enum {
+    AT_ONCE, /* continued */
+    TELLS,   /* told as NEAR */
+    CLOSES,  /* everywhere on the closed linkage, and continued; NEAR where that cannot be had */
+    CLOSED,  /* the same, but as ever where that cannot be had */
+    AS_EVER  /* none is looked for */
+};
+#define NEARBY (TREE ? 1e-5 : 1e-4) /* `least` of such a run: the square of an angle to the position, or so */
+#define USUAL_SHARES .least = NEARLY_SINGULAR, .least_size = VANISHING
 
 /* Friction at one state: slip and its rate, surface speed, force on the second body along it, limit at stick. */
 typedef struct {

@@ -55,14 +55,15 @@ class Place:
 
 
 class Threshold(float):
-    """A number of a bound with the name under which every target writes it."""
+    """A number of a bound with the name under which every target writes it; C may read it from a `place` instead."""
 
     name: str
+    place: str
 
-    def __new__(cls, name: str, value: float) -> Threshold:
+    def __new__(cls, name: str, value: float, place: str = "") -> Threshold:
         """Of that value."""
         own = super().__new__(cls, value)
-        own.name = name
+        own.name, own.place = name, place
         return own
 
 
@@ -74,7 +75,11 @@ class Test:
     relation: str = ""  # ">", "!=", "=="; of ">" NaN fails
     bound: tuple[sp.Basic | float, ...] = ()
     size: bool = False
-    names: ClassVar[Names] = NONE
+
+    @property
+    def names(self) -> Names:
+        """Where thresholds are read."""
+        return frozenset(base_of(x.place) for x in self.bound if isinstance(x, Threshold) and x.place)
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:

@@ -14,7 +14,7 @@ from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, with_s
 from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE, ZERO, acting_on
 from gudgeon.generator.ir.statements import Call, Jump, Rescue, Return, Statement, Status, When
 from gudgeon.generator.ir.values import Place, Sum, Test
-from gudgeon.generator.solvers.kkt import KKT, NEARLY_SINGULAR, friction_mode
+from gudgeon.generator.solvers.kkt import KKT, LEAST, LEAST_SIZE, friction_mode
 
 _DOC = (
     "Accelerations a (n) and multipliers in `aside` at a state:",
@@ -49,7 +49,7 @@ def dynamics_kernel(
     b.update(_constraint_rhs(model, build, kkt, stabilised))
     b.update(slips)
     # where constraints come and go a vanishing pivot is told, not mended
-    factor = kkt.factorize(build) if model.rows_change else kkt.factorize(build, True, NEARLY_SINGULAR)
+    factor = kkt.factorize(build) if model.rows_change else kkt.factorize(build, True, LEAST, LEAST_SIZE)
     x = kkt.solve(build, factor, b)
     build.section("results")
     for k, _ in enumerate(system.q):

@@ -8,7 +8,7 @@ from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, with_s
 from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE
 from gudgeon.generator.ir.statements import Largest, Return
 from gudgeon.generator.ir.values import Place
-from gudgeon.generator.solvers.kkt import KKT, VANISHING
+from gudgeon.generator.solvers.kkt import KKT, LEAST_SIZE
 
 
 def projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple[Kernel, KKT]:
@@ -47,7 +47,7 @@ def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
         named = row.name.replace(".", "_")
         phi[kkt.n + r] = build.local(f"phi_{named}", row.phi)
         phi_dot[kkt.n + r] = build.local(f"phi_dot_{named}", row.phi_q_v - row.nu)
-    factor = kkt.factorize(build, share=VANISHING)  # nearer, rounding would be blown up
+    factor = kkt.factorize(build, share=LEAST_SIZE, size=LEAST_SIZE)  # nearer, rounding would be blown up
     x, u = kkt.solve(build, factor, phi, "dq_"), kkt.solve(build, factor, phi_dot, "dv_")
     build.section("results")
     for k, _ in enumerate(system.q):

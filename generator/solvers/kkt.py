@@ -37,6 +37,9 @@ VANISHING = Threshold("VANISHING", 1e-10)
 # The same for a pair of rows that goes before all of its coordinates: rounding grows by the inverse of the share,
 # and the other way to solve is exact.
 EARLY = Threshold("EARLY", 1e-5)
+# The same two where a run may ask for more: the memory of a state says how much (engine/motion/beside.c).
+LEAST = Threshold(NEARLY_SINGULAR.name, NEARLY_SINGULAR, "memory->least")
+LEAST_SIZE = Threshold(VANISHING.name, VANISHING, "memory->least_size")
 
 
 @dataclass(frozen=True)
@@ -101,8 +104,13 @@ class KKT:
                 blocks.append([k])
         return blocks
 
-    def factorize(self, build: KernelBuilder, jumps: bool = False, share: Threshold = SINGULAR) -> Factor:
-        """Statements for L and 1/D; a pivot below its `share` returns its number, from 1, or `jumps` to a rescue."""
+    def factorize(
+        self, build: KernelBuilder, jumps: bool = False, share: Threshold = SINGULAR, size: Threshold = VANISHING
+    ) -> Factor:
+        """Statements for L and 1/D; a pivot below its `share` returns its number, from 1, or `jumps` to a rescue.
+
+        `size`: the same of a joint's two rows together.
+        """
         build.section(FACTORS)
         L: Entries = {}
         W: Entries = {}  # entries before the division by their pivot
@@ -110,7 +118,7 @@ class KKT:
         earlier: dict[int, list[int]] = {k: [] for k in self.elimination.order}  # columns with an entry in row k
         count = 0
         for block in self.blocks:
-            inverse |= self._pivots(build, block, earlier, (L, W), (jumps, count), share)
+            inverse |= self._pivots(build, block, earlier, (L, W), (jumps, count), (share, size))
             count += sum(k >= self.n for k in block)
             later = [i for i in self.elimination.structure[block[-1]]]
             for i in later:
@@ -128,20 +136,20 @@ class KKT:
 
     def _pivots(
         self, build: KernelBuilder, block: Sequence[int], earlier: Mapping[int, Sequence[int]],
-        made: tuple[Entries, Entries], failing: tuple[bool, int], share: Threshold,
+        made: tuple[Entries, Entries], failing: tuple[bool, int], shares: tuple[Threshold, Threshold],
     ) -> dict[int, dict[int, sp.Expr]]:  # fmt: skip
         """D⁻¹ of a block; `made` are L and W, `failing` is whether that jumps and how many rows came before."""
         (L, W), (jumps, count) = made, failing
         if len(block) == 2:
-            return self._pair(build, block, earlier, made, failing, share)
+            return self._pair(build, block, earlier, made, failing, shares)
         (k,) = block
         if k < self.n:
             return {k: {k: self._coordinate_pivot(build, k, earlier[k], L, W)}}
-        return {k: {k: self._row_pivot(build, k, earlier[k], L, W, (jumps, count + 1), share)}}
+        return {k: {k: self._row_pivot(build, k, earlier[k], L, W, (jumps, count + 1), shares[0])}}
 
     def _pair(
         self, build: KernelBuilder, block: Sequence[int], earlier: Mapping[int, Sequence[int]],
-        made: tuple[Entries, Entries], failing: tuple[bool, int], share: Threshold,
+        made: tuple[Entries, Entries], failing: tuple[bool, int], shares: tuple[Threshold, Threshold],
     ) -> dict[int, dict[int, sp.Expr]]:  # fmt: skip
         """The inverse of a 2 × 2 block by its determinant; of rows, D is negative."""
         L, W = made
@@ -165,10 +173,10 @@ class KKT:
         determinant = build.local(f"determinant_{name[0]}__{name[1]}", own[0] * own[1] - cross**2)
         if rows:
             early = any(i < self.n for i in self.elimination.structure[second])
-            share = max(share, EARLY) if early else share
+            share = max(shares[0], EARLY) if early else shares[0]
             build.line(_guard(failing, 1, own[0], share, scale[0]))
             build.line(_guard(failing, 2, determinant, share, scale[1], own[0]))
-            self._look_for_vanishing(build, block, scale, (own[0], determinant), failing)
+            self._look_for_vanishing(build, block, scale, (own[0], determinant), (*failing, shares[1]))
         inverse = build.local(f"inverse_{name[0]}__{name[1]}", (-1 if rows else 1) / determinant)
         one, two = (build.local(f"inverse_pivot_{name[i]}", own[1 - i] * inverse) for i in range(2))
         both = build.local(f"inverse_cross_{name[0]}__{name[1]}", -cross * inverse)
@@ -176,7 +184,7 @@ class KKT:
 
     def _look_for_vanishing(
         self, build: KernelBuilder, block: Sequence[int], scale: Sequence[sp.Symbol],
-        found: tuple[sp.Expr, sp.Expr], failing: tuple[bool, int],
+        found: tuple[sp.Expr, sp.Expr], failing: tuple[bool, int, Threshold],
     ) -> None:  # fmt: skip
         """The pivots of a joint's x and y, `found` and their determinant, against the sum of their scales.
 
@@ -187,8 +195,9 @@ class KKT:
         if not self.system.in_tree or one.owner != two.owner or one.unit != two.unit:
             return
         size = build.local(f"size_{self.names[block[0]]}", scale[0] + scale[1])
-        build.line(_guard(failing, 1, found[0], VANISHING, size))
-        build.line(_guard(failing, 2, found[1], VANISHING, size, found[0]))
+        *failed, least = failing
+        build.line(_guard(failed, 1, found[0], least, size))
+        build.line(_guard(failed, 2, found[1], least, size, found[0]))
 
     def _coordinate_pivot(
         self, build: KernelBuilder, k: int, earlier: Sequence[int],
@@ -263,10 +272,10 @@ def friction_mode(build: KernelBuilder, name: str, index: int) -> tuple[sp.Symbo
     return stick, build.local(f"sign_{name}", Chosen(Test(mode, ">", (1.0,), size=True), ZERO, mode))
 
 
-def _guard(failing: tuple[bool, int], which: int, value: sp.Expr, *bound: sp.Expr | float) -> Guard:
+def _guard(failing: Sequence[int], which: int, value: sp.Expr, *bound: sp.Expr | float) -> Guard:
     """Pivot `which` of a block, behind so many rows, fails unless the value is above the bound."""
     jumps, count = failing
-    return Guard(Test(value, ">", bound), count + which, jumps)
+    return Guard(Test(value, ">", bound), count + which, bool(jumps))
 
 
 def is_simple(value: sp.Expr) -> bool:

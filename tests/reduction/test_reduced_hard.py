@@ -73,7 +73,6 @@ def test_sample_where_a_chain_is_flat(load: Load) -> None:
     assert max(np.abs(scene.phi(t, q)).max() for t, q in zip(run.t, run.q, strict=True)) < 1e-6
 
 
-@pytest.mark.xfail(strict=True, reason="an event on a chain's singular position ends the run; full passes it")
 def test_event_where_a_chain_is_flat(load: Load) -> None:
     """The crank's head falls through the line of the ground once a revolution, at 120/360 s and 480/360 s."""
     text = PARALLELOGRAM.format(start="60 deg") + "events: {down: {zero: a.head.y, direction: falling}}\n"

@@ -137,6 +137,62 @@ def test_flat_parallelogram_goes_on_as_its_rates_say(load: Load, driven: bool) -
     assert run["a.theta"][-1] > 10.0
 
 
+# A parallelogram with a pendulum on its coupler; all its bars lie in one line twice a turn, at 30 degrees.
+SLANTING = """
+gravity: [0, -9.81 m/s^2]
+bodies:
+  a: {length: 0.1 m, mass: 0.5 kg, inertia: 1e-3 kg*m^2}
+  b: {length: 0.3 m, mass: 0.5 kg, inertia: 3e-3 kg*m^2}
+  c: {length: 0.1 m, mass: 0.9 kg, inertia: 2e-3 kg*m^2}
+  arm: {length: 0.2 m, mass: 0.2 kg, inertia: 7e-4 kg*m^2}
+parameters: {angle: 30 deg}
+ground: {O: [0, 0], P: [0.3 m * cos(angle), 0.3 m * sin(angle)]}
+joints:
+  O: {revolute: [ground.O, a.tail]}
+  A: {revolute: [a.head, b.tail]}
+  B: {revolute: [b.head, c.head]}
+  C: {revolute: [c.tail, ground.P]}
+  E: {revolute: [b.com, arm.tail]}
+start:
+  set: {a.theta: 90 deg, arm.theta: -80 deg}
+  guess: {b.theta: 30 deg, c.theta: 90 deg}
+  rates: {a.omega: -20 rad/s}
+"""
+
+
+def slanting(formulation: str, folder: Path) -> gudgeon.Simulation:
+    file = folder / "slanting.yaml"
+    file.write_text("format: gudgeon/1\nname: slanting\n" + SLANTING, encoding="utf-8")
+    return gudgeon.load(file, formulation=formulation)
+
+
+def test_two_freedoms_through_singular_positions(tmp_path: Path) -> None:
+    """Six of them, which do not look symmetric to any row: both formulations, every method, energy and cost."""
+    found = {}
+    for formulation in ("reduced", "full"):
+        scene = slanting(formulation, tmp_path)
+        for method, rtol in (("auto", 1e-12), ("rodas5p", 1e-9)):
+            run = scene.simulate(1.0, output=50, method=method, rtol=rtol)
+            assert run.diagnostics.energy_residual < 100.0 * rtol, (formulation, method)  # of 2 J
+            assert np.ptp(run["a.theta"]) > 6.0 * np.pi
+            assert run["a.theta"] == pytest.approx(run["c.theta"], abs=1e-12)
+            found[formulation, method] = run
+        assert found[formulation, "auto"].diagnostics.right_hand_sides < 10_000
+    exact = found["reduced", "auto"]["arm.theta"]
+    assert found["full", "auto"]["arm.theta"] == pytest.approx(exact, abs=1e-10)
+    for formulation in ("reduced", "full"):
+        assert found[formulation, "rodas5p"]["arm.theta"] == pytest.approx(exact, abs=1e-7)
+
+
+def test_rk4_has_its_order_through_singular_positions(tmp_path: Path) -> None:
+    """Steps of which some lie across them."""
+    scene = slanting("reduced", tmp_path)
+    exact = scene.simulate(0.6, output=4, rtol=1e-12)["arm.theta"]
+    runs = [scene.simulate(0.6, output=4, method="rk4", step=h)["arm.theta"] for h in (4e-4, 2e-4)]
+    coarse, fine = (np.abs(run - exact).max() for run in runs)
+    assert fine < 1e-8 and np.log2(coarse / fine) > 3.5
+
+
 SLIDER_CRANK = """
 bodies:
   crank: {{length: 1 m, mass: 1 kg, inertia: 0.01 kg*m^2}}

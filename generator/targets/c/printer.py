@@ -241,7 +241,7 @@ class Text:
     def _factor(self, value: sp.Basic | float) -> str:
         """Of a bound: model.h has the names of thresholds."""
         if isinstance(value, Threshold):
-            return value.name
+            return value.place or value.name
         return repr(value) if isinstance(value, float) else self.expression(value)
 
 
