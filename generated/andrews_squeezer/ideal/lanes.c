@@ -293,7 +293,7 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
 static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
     const LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
 {
-    (void)t, (void)memory;
+    (void)t;
     /* coordinates, velocities, time */
     const Lanes OF_theta = q[0];
     const Lanes OF_omega = v[0];
@@ -408,8 +408,8 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     *rare |= ~((scale_H_x > 0.0) & (scale_H_x < INFINITY));
     *rare |= ~(determinant_H_x__H_y > EARLY * scale_H_y * scale_H_x);
     const Lanes size_H_x = scale_H_x + scale_H_y;
-    *rare |= ~(scale_H_x > VANISHING * size_H_x);
-    *rare |= ~(determinant_H_x__H_y > VANISHING * size_H_x * scale_H_x);
+    *rare |= ~(scale_H_x > memory->least_size * size_H_x);
+    *rare |= ~(determinant_H_x__H_y > memory->least_size * size_H_x * scale_H_x);
     const Lanes inverse_H_x__H_y = -1.0/determinant_H_x__H_y;
     const Lanes inverse_pivot_H_x = inverse_H_x__H_y*scale_H_y;
     const Lanes inverse_pivot_H_y = inverse_H_x__H_y*scale_H_x;
@@ -433,8 +433,8 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     *rare |= ~((scale_G_x > 0.0) & (scale_G_x < INFINITY));
     *rare |= ~(determinant_G_x__G_y > EARLY * scale_G_y * scale_G_x);
     const Lanes size_G_x = scale_G_x + scale_G_y;
-    *rare |= ~(scale_G_x > VANISHING * size_G_x);
-    *rare |= ~(determinant_G_x__G_y > VANISHING * size_G_x * scale_G_x);
+    *rare |= ~(scale_G_x > memory->least_size * size_G_x);
+    *rare |= ~(determinant_G_x__G_y > memory->least_size * size_G_x * scale_G_x);
     const Lanes inverse_G_x__G_y = -1.0/determinant_G_x__G_y;
     const Lanes inverse_pivot_G_x = inverse_G_x__G_y*scale_G_y;
     const Lanes inverse_pivot_G_y = inverse_G_x__G_y*scale_G_x;
@@ -471,10 +471,10 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
         - l_E3_y__OF_theta*span_OF_F_y;
     const Lanes determinant_E3_x__E3_y = -(pivot_E3_x__E3_y * pivot_E3_x__E3_y) + scale_E3_x*scale_E3_y;
     *rare |= ~((scale_E3_x > 0.0) & (scale_E3_x < INFINITY));
-    *rare |= ~(determinant_E3_x__E3_y > NEARLY_SINGULAR * scale_E3_y * scale_E3_x);
+    *rare |= ~(determinant_E3_x__E3_y > memory->least * scale_E3_y * scale_E3_x);
     const Lanes size_E3_x = scale_E3_x + scale_E3_y;
-    *rare |= ~(scale_E3_x > VANISHING * size_E3_x);
-    *rare |= ~(determinant_E3_x__E3_y > VANISHING * size_E3_x * scale_E3_x);
+    *rare |= ~(scale_E3_x > memory->least_size * size_E3_x);
+    *rare |= ~(determinant_E3_x__E3_y > memory->least_size * size_E3_x * scale_E3_x);
     const Lanes inverse_E3_x__E3_y = -1.0/determinant_E3_x__E3_y;
     const Lanes inverse_pivot_E3_x = inverse_E3_x__E3_y*scale_E3_y;
     const Lanes inverse_pivot_E3_y = inverse_E3_x__E3_y*scale_E3_x;
@@ -552,7 +552,7 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
 static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
     const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
 {
-    (void)t, (void)memory;
+    (void)t;
     /* coordinates, velocities, time */
     const Lanes OF_theta = q[0];
     const Lanes OF_omega = v[0];
@@ -660,10 +660,10 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
         - l_H_y__HE_theta*span_HE_H_y;
     const Lanes determinant_H_x__H_y = -(pivot_H_x__H_y * pivot_H_x__H_y) + scale_H_x*scale_H_y;
     *rare |= ~((scale_H_x > 0.0) & (scale_H_x < INFINITY));
-    *rare |= ~(determinant_H_x__H_y > VANISHING * scale_H_y * scale_H_x);
+    *rare |= ~(determinant_H_x__H_y > memory->least_size * scale_H_y * scale_H_x);
     const Lanes size_H_x = scale_H_x + scale_H_y;
-    *rare |= ~(scale_H_x > VANISHING * size_H_x);
-    *rare |= ~(determinant_H_x__H_y > VANISHING * size_H_x * scale_H_x);
+    *rare |= ~(scale_H_x > memory->least_size * size_H_x);
+    *rare |= ~(determinant_H_x__H_y > memory->least_size * size_H_x * scale_H_x);
     const Lanes inverse_H_x__H_y = -1.0/determinant_H_x__H_y;
     const Lanes inverse_pivot_H_x = inverse_H_x__H_y*scale_H_y;
     const Lanes inverse_pivot_H_y = inverse_H_x__H_y*scale_H_x;
@@ -713,10 +713,10 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
         + l_G_y__FE_theta*w_G_x__FE_theta + l_G_y__OF_theta*w_G_x__OF_theta;
     const Lanes determinant_G_x__G_y = -(pivot_G_x__G_y * pivot_G_x__G_y) + scale_G_x*scale_G_y;
     *rare |= ~((scale_G_x > 0.0) & (scale_G_x < INFINITY));
-    *rare |= ~(determinant_G_x__G_y > VANISHING * scale_G_y * scale_G_x);
+    *rare |= ~(determinant_G_x__G_y > memory->least_size * scale_G_y * scale_G_x);
     const Lanes size_G_x = scale_G_x + scale_G_y;
-    *rare |= ~(scale_G_x > VANISHING * size_G_x);
-    *rare |= ~(determinant_G_x__G_y > VANISHING * size_G_x * scale_G_x);
+    *rare |= ~(scale_G_x > memory->least_size * size_G_x);
+    *rare |= ~(determinant_G_x__G_y > memory->least_size * size_G_x * scale_G_x);
     const Lanes inverse_G_x__G_y = -1.0/determinant_G_x__G_y;
     const Lanes inverse_pivot_G_x = inverse_G_x__G_y*scale_G_y;
     const Lanes inverse_pivot_G_y = inverse_G_x__G_y*scale_G_x;
@@ -741,11 +741,11 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
         + l_E3_y__G_x*w_E3_x__G_x + l_E3_y__G_y*w_E3_x__G_y + l_E3_y__H_x*w_E3_x__H_x + l_E3_y__H_y*w_E3_x__H_y
         - l_E3_y__OF_theta*span_OF_F_y;
     const Lanes determinant_E3_x__E3_y = pivot_E3_x*pivot_E3_y - (pivot_E3_x__E3_y * pivot_E3_x__E3_y);
-    *rare |= ~(pivot_E3_x > VANISHING * scale_E3_x);
-    *rare |= ~(determinant_E3_x__E3_y > VANISHING * scale_E3_y * pivot_E3_x);
+    *rare |= ~(pivot_E3_x > memory->least_size * scale_E3_x);
+    *rare |= ~(determinant_E3_x__E3_y > memory->least_size * scale_E3_y * pivot_E3_x);
     const Lanes size_E3_x = scale_E3_x + scale_E3_y;
-    *rare |= ~(pivot_E3_x > VANISHING * size_E3_x);
-    *rare |= ~(determinant_E3_x__E3_y > VANISHING * size_E3_x * pivot_E3_x);
+    *rare |= ~(pivot_E3_x > memory->least_size * size_E3_x);
+    *rare |= ~(determinant_E3_x__E3_y > memory->least_size * size_E3_x * pivot_E3_x);
     const Lanes inverse_E3_x__E3_y = -1.0/determinant_E3_x__E3_y;
     const Lanes inverse_pivot_E3_x = inverse_E3_x__E3_y*pivot_E3_y;
     const Lanes inverse_pivot_E3_y = inverse_E3_x__E3_y*pivot_E3_x;

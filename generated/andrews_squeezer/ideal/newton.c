@@ -836,7 +836,7 @@ enum {
 int closing_step(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     double *dq, double *dv, double *worst)
 {
-    (void)t, (void)memory;
+    (void)t;
     /* coordinates, velocities, time */
     const double OF_theta = q[0];
     const double OF_omega = v[0];
@@ -938,12 +938,12 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
     const double determinant_H_x__H_y = -(pivot_H_x__H_y * pivot_H_x__H_y) + scale_H_x*scale_H_y;
     if (!(scale_H_x > 0.0 && scale_H_x < INFINITY))
         return 1;
-    if (!(determinant_H_x__H_y > VANISHING * scale_H_y * scale_H_x))
+    if (!(determinant_H_x__H_y > memory->least_size * scale_H_y * scale_H_x))
         return 2;
     const double size_H_x = scale_H_x + scale_H_y;
-    if (!(scale_H_x > VANISHING * size_H_x))
+    if (!(scale_H_x > memory->least_size * size_H_x))
         return 1;
-    if (!(determinant_H_x__H_y > VANISHING * size_H_x * scale_H_x))
+    if (!(determinant_H_x__H_y > memory->least_size * size_H_x * scale_H_x))
         return 2;
     const double inverse_H_x__H_y = -1.0/determinant_H_x__H_y;
     const double inverse_pivot_H_x = inverse_H_x__H_y*scale_H_y;
@@ -995,12 +995,12 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
     const double determinant_G_x__G_y = -(pivot_G_x__G_y * pivot_G_x__G_y) + scale_G_x*scale_G_y;
     if (!(scale_G_x > 0.0 && scale_G_x < INFINITY))
         return 3;
-    if (!(determinant_G_x__G_y > VANISHING * scale_G_y * scale_G_x))
+    if (!(determinant_G_x__G_y > memory->least_size * scale_G_y * scale_G_x))
         return 4;
     const double size_G_x = scale_G_x + scale_G_y;
-    if (!(scale_G_x > VANISHING * size_G_x))
+    if (!(scale_G_x > memory->least_size * size_G_x))
         return 3;
-    if (!(determinant_G_x__G_y > VANISHING * size_G_x * scale_G_x))
+    if (!(determinant_G_x__G_y > memory->least_size * size_G_x * scale_G_x))
         return 4;
     const double inverse_G_x__G_y = -1.0/determinant_G_x__G_y;
     const double inverse_pivot_G_x = inverse_G_x__G_y*scale_G_y;
@@ -1026,14 +1026,14 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
         + l_E3_y__G_x*w_E3_x__G_x + l_E3_y__G_y*w_E3_x__G_y + l_E3_y__H_x*w_E3_x__H_x + l_E3_y__H_y*w_E3_x__H_y
         - l_E3_y__OF_theta*span_OF_F_y;
     const double determinant_E3_x__E3_y = pivot_E3_x*pivot_E3_y - (pivot_E3_x__E3_y * pivot_E3_x__E3_y);
-    if (!(pivot_E3_x > VANISHING * scale_E3_x))
+    if (!(pivot_E3_x > memory->least_size * scale_E3_x))
         return 5;
-    if (!(determinant_E3_x__E3_y > VANISHING * scale_E3_y * pivot_E3_x))
+    if (!(determinant_E3_x__E3_y > memory->least_size * scale_E3_y * pivot_E3_x))
         return 6;
     const double size_E3_x = scale_E3_x + scale_E3_y;
-    if (!(pivot_E3_x > VANISHING * size_E3_x))
+    if (!(pivot_E3_x > memory->least_size * size_E3_x))
         return 5;
-    if (!(determinant_E3_x__E3_y > VANISHING * size_E3_x * pivot_E3_x))
+    if (!(determinant_E3_x__E3_y > memory->least_size * size_E3_x * pivot_E3_x))
         return 6;
     const double inverse_E3_x__E3_y = -1.0/determinant_E3_x__E3_y;
     const double inverse_pivot_E3_x = inverse_E3_x__E3_y*pivot_E3_y;

@@ -449,11 +449,11 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         goto dependent;
     }
     const double size_H_x = scale_H_x + scale_H_y;
-    if (!(scale_H_x > VANISHING * size_H_x)) {
+    if (!(scale_H_x > memory->least_size * size_H_x)) {
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_H_x__H_y > VANISHING * size_H_x * scale_H_x)) {
+    if (!(determinant_H_x__H_y > memory->least_size * size_H_x * scale_H_x)) {
         pivot = 2;
         goto dependent;
     }
@@ -486,11 +486,11 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         goto dependent;
     }
     const double size_G_x = scale_G_x + scale_G_y;
-    if (!(scale_G_x > VANISHING * size_G_x)) {
+    if (!(scale_G_x > memory->least_size * size_G_x)) {
         pivot = 3;
         goto dependent;
     }
-    if (!(determinant_G_x__G_y > VANISHING * size_G_x * scale_G_x)) {
+    if (!(determinant_G_x__G_y > memory->least_size * size_G_x * scale_G_x)) {
         pivot = 4;
         goto dependent;
     }
@@ -533,16 +533,16 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         pivot = 5;
         goto dependent;
     }
-    if (!(determinant_E3_x__E3_y > NEARLY_SINGULAR * scale_E3_y * scale_E3_x)) {
+    if (!(determinant_E3_x__E3_y > memory->least * scale_E3_y * scale_E3_x)) {
         pivot = 6;
         goto dependent;
     }
     const double size_E3_x = scale_E3_x + scale_E3_y;
-    if (!(scale_E3_x > VANISHING * size_E3_x)) {
+    if (!(scale_E3_x > memory->least_size * size_E3_x)) {
         pivot = 5;
         goto dependent;
     }
-    if (!(determinant_E3_x__E3_y > VANISHING * size_E3_x * scale_E3_x)) {
+    if (!(determinant_E3_x__E3_y > memory->least_size * size_E3_x * scale_E3_x)) {
         pivot = 6;
         goto dependent;
     }

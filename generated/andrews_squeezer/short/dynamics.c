@@ -231,7 +231,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_O_x__O_y > NEARLY_SINGULAR * scale_O_y * scale_O_x)) {
+    if (!(determinant_O_x__O_y > memory->least * scale_O_y * scale_O_x)) {
         pivot = 2;
         goto dependent;
     }
@@ -259,7 +259,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         pivot = 3;
         goto dependent;
     }
-    if (!(determinant_B_x__B_y > NEARLY_SINGULAR * scale_B_y * scale_B_x)) {
+    if (!(determinant_B_x__B_y > memory->least * scale_B_y * scale_B_x)) {
         pivot = 4;
         goto dependent;
     }
@@ -291,7 +291,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         pivot = 5;
         goto dependent;
     }
-    if (!(determinant_A5_x__A5_y > NEARLY_SINGULAR * scale_A5_y * scale_A5_x)) {
+    if (!(determinant_A5_x__A5_y > memory->least * scale_A5_y * scale_A5_x)) {
         pivot = 6;
         goto dependent;
     }
@@ -316,11 +316,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double pivot_G_x__G_y = arm_AG_G_y*l_G_y__AG_theta - arm_EG_G_y*l_G_y__EG_theta + l_G_y__A5_x*w_G_x__A5_x
         + l_G_y__A5_y*w_G_x__A5_y;
     const double determinant_G_x__G_y = pivot_G_x*pivot_G_y - (pivot_G_x__G_y * pivot_G_x__G_y);
-    if (!(pivot_G_x > NEARLY_SINGULAR * scale_G_x)) {
+    if (!(pivot_G_x > memory->least * scale_G_x)) {
         pivot = 7;
         goto dependent;
     }
-    if (!(determinant_G_x__G_y > NEARLY_SINGULAR * scale_G_y * pivot_G_x)) {
+    if (!(determinant_G_x__G_y > memory->least * scale_G_y * pivot_G_x)) {
         pivot = 8;
         goto dependent;
     }
@@ -352,7 +352,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         pivot = 9;
         goto dependent;
     }
-    if (!(determinant_A7_x__A7_y > NEARLY_SINGULAR * scale_A7_y * scale_A7_x)) {
+    if (!(determinant_A7_x__A7_y > memory->least * scale_A7_y * scale_A7_x)) {
         pivot = 10;
         goto dependent;
     }
@@ -377,11 +377,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double pivot_H_x__H_y = arm_AH_H_y*l_H_y__AH_theta - arm_HE_H_y*l_H_y__HE_theta + l_H_y__A7_x*w_H_x__A7_x
         + l_H_y__A7_y*w_H_x__A7_y;
     const double determinant_H_x__H_y = pivot_H_x*pivot_H_y - (pivot_H_x__H_y * pivot_H_x__H_y);
-    if (!(pivot_H_x > NEARLY_SINGULAR * scale_H_x)) {
+    if (!(pivot_H_x > memory->least * scale_H_x)) {
         pivot = 11;
         goto dependent;
     }
-    if (!(determinant_H_x__H_y > NEARLY_SINGULAR * scale_H_y * pivot_H_x)) {
+    if (!(determinant_H_x__H_y > memory->least * scale_H_y * pivot_H_x)) {
         pivot = 12;
         goto dependent;
     }
@@ -414,11 +414,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double pivot_F_x__F_y = arm_FE_F_y*l_F_y__FE_theta - arm_OF_F_y*l_F_y__OF_theta + l_F_y__O_x*w_F_x__O_x
         + l_F_y__O_y*w_F_x__O_y;
     const double determinant_F_x__F_y = pivot_F_x*pivot_F_y - (pivot_F_x__F_y * pivot_F_x__F_y);
-    if (!(pivot_F_x > NEARLY_SINGULAR * scale_F_x)) {
+    if (!(pivot_F_x > memory->least * scale_F_x)) {
         pivot = 13;
         goto dependent;
     }
-    if (!(determinant_F_x__F_y > NEARLY_SINGULAR * scale_F_y * pivot_F_x)) {
+    if (!(determinant_F_x__F_y > memory->least * scale_F_y * pivot_F_x)) {
         pivot = 14;
         goto dependent;
     }
@@ -461,11 +461,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double pivot_E3_x__E3_y = arm_BDE_E_y*l_E3_y__BDE_theta - arm_FE_E_y*l_E3_y__FE_theta
         + l_E3_y__B_x*w_E3_x__B_x + l_E3_y__B_y*w_E3_x__B_y + l_E3_y__F_x*w_E3_x__F_x + l_E3_y__F_y*w_E3_x__F_y;
     const double determinant_E3_x__E3_y = pivot_E3_x*pivot_E3_y - (pivot_E3_x__E3_y * pivot_E3_x__E3_y);
-    if (!(pivot_E3_x > NEARLY_SINGULAR * scale_E3_x)) {
+    if (!(pivot_E3_x > memory->least * scale_E3_x)) {
         pivot = 15;
         goto dependent;
     }
-    if (!(determinant_E3_x__E3_y > NEARLY_SINGULAR * scale_E3_y * pivot_E3_x)) {
+    if (!(determinant_E3_x__E3_y > memory->least * scale_E3_y * pivot_E3_x)) {
         pivot = 16;
         goto dependent;
     }
@@ -505,11 +505,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         + l_E4_y__E3_x*w_E4_x__E3_x + l_E4_y__E3_y*w_E4_x__E3_y + l_E4_y__F_x*w_E4_x__F_x + l_E4_y__F_y*w_E4_x__F_y
         + l_E4_y__G_x*w_E4_x__G_x + l_E4_y__G_y*w_E4_x__G_y;
     const double determinant_E4_x__E4_y = pivot_E4_x*pivot_E4_y - (pivot_E4_x__E4_y * pivot_E4_x__E4_y);
-    if (!(pivot_E4_x > NEARLY_SINGULAR * scale_E4_x)) {
+    if (!(pivot_E4_x > memory->least * scale_E4_x)) {
         pivot = 17;
         goto dependent;
     }
-    if (!(determinant_E4_x__E4_y > NEARLY_SINGULAR * scale_E4_y * pivot_E4_x)) {
+    if (!(determinant_E4_x__E4_y > memory->least * scale_E4_y * pivot_E4_x)) {
         pivot = 18;
         goto dependent;
     }
@@ -543,11 +543,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         + l_E6_y__E3_x*w_E6_x__E3_x + l_E6_y__E3_y*w_E6_x__E3_y + l_E6_y__E4_x*w_E6_x__E4_x + l_E6_y__E4_y*w_E6_x__E4_y
         + l_E6_y__F_x*w_E6_x__F_x + l_E6_y__F_y*w_E6_x__F_y + l_E6_y__H_x*w_E6_x__H_x + l_E6_y__H_y*w_E6_x__H_y;
     const double determinant_E6_x__E6_y = pivot_E6_x*pivot_E6_y - (pivot_E6_x__E6_y * pivot_E6_x__E6_y);
-    if (!(pivot_E6_x > NEARLY_SINGULAR * scale_E6_x)) {
+    if (!(pivot_E6_x > memory->least * scale_E6_x)) {
         pivot = 19;
         goto dependent;
     }
-    if (!(determinant_E6_x__E6_y > NEARLY_SINGULAR * scale_E6_y * pivot_E6_x)) {
+    if (!(determinant_E6_x__E6_y > memory->least * scale_E6_y * pivot_E6_x)) {
         pivot = 20;
         goto dependent;
     }

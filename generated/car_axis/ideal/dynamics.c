@@ -108,7 +108,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_foot_x__foot_y > NEARLY_SINGULAR * scale_foot_y * scale_foot_x)) {
+    if (!(determinant_foot_x__foot_y > memory->least * scale_foot_y * scale_foot_x)) {
         pivot = 2;
         goto dependent;
     }
@@ -137,11 +137,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         + l_bump__foot_x*w_slot_offset__foot_x + l_bump__foot_y*w_slot_offset__foot_y;
     const double determinant_slot_offset__bump = pivot_bump*pivot_slot_offset
         - (pivot_slot_offset__bump * pivot_slot_offset__bump);
-    if (!(pivot_slot_offset > NEARLY_SINGULAR * scale_slot_offset)) {
+    if (!(pivot_slot_offset > memory->least * scale_slot_offset)) {
         pivot = 3;
         goto dependent;
     }
-    if (!(determinant_slot_offset__bump > NEARLY_SINGULAR * scale_bump * pivot_slot_offset)) {
+    if (!(determinant_slot_offset__bump > memory->least * scale_bump * pivot_slot_offset)) {
         pivot = 4;
         goto dependent;
     }

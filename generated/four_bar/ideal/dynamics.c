@@ -120,7 +120,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_B0_x__B0_y > NEARLY_SINGULAR * scale_B0_y * scale_B0_x)) {
+    if (!(determinant_B0_x__B0_y > memory->least * scale_B0_y * scale_B0_x)) {
         pivot = 2;
         goto dependent;
     }
@@ -145,11 +145,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double pivot_B_x__B_y = -arm_coupler_head_y*l_B_y__coupler_theta + arm_rocker_head_y*l_B_y__rocker_theta
         + l_B_y__B0_x*w_B_x__B0_x + l_B_y__B0_y*w_B_x__B0_y;
     const double determinant_B_x__B_y = pivot_B_x*pivot_B_y - (pivot_B_x__B_y * pivot_B_x__B_y);
-    if (!(pivot_B_x > NEARLY_SINGULAR * scale_B_x)) {
+    if (!(pivot_B_x > memory->least * scale_B_x)) {
         pivot = 3;
         goto dependent;
     }
-    if (!(determinant_B_x__B_y > NEARLY_SINGULAR * scale_B_y * pivot_B_x)) {
+    if (!(determinant_B_x__B_y > memory->least * scale_B_y * pivot_B_x)) {
         pivot = 4;
         goto dependent;
     }
@@ -177,7 +177,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         pivot = 5;
         goto dependent;
     }
-    if (!(determinant_A0_x__A0_y > NEARLY_SINGULAR * scale_A0_y * scale_A0_x)) {
+    if (!(determinant_A0_x__A0_y > memory->least * scale_A0_y * scale_A0_x)) {
         pivot = 6;
         goto dependent;
     }
@@ -205,11 +205,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         + l_A_x__B_y*w_A_x__B_y + scale_A_x;
     const double pivot_motor__A_x = l_A_x__A0_x*w_motor__A0_x + l_A_x__A0_y*w_motor__A0_y + l_A_x__crank_theta;
     const double determinant_motor__A_x = pivot_A_x*pivot_motor - (pivot_motor__A_x * pivot_motor__A_x);
-    if (!(pivot_motor > NEARLY_SINGULAR * scale_motor)) {
+    if (!(pivot_motor > memory->least * scale_motor)) {
         pivot = 7;
         goto dependent;
     }
-    if (!(determinant_motor__A_x > NEARLY_SINGULAR * scale_A_x * pivot_motor)) {
+    if (!(determinant_motor__A_x > memory->least * scale_A_x * pivot_motor)) {
         pivot = 8;
         goto dependent;
     }
@@ -226,7 +226,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         + p->inverse_coupler_mass + p->inverse_crank_mass;
     const double pivot_A_y = l_A_y__A0_x*w_A_y__A0_x + l_A_y__A0_y*w_A_y__A0_y + l_A_y__A_x*w_A_y__A_x
         + l_A_y__B_x*w_A_y__B_x + l_A_y__B_y*w_A_y__B_y + l_A_y__motor*w_A_y__motor + scale_A_y;
-    if (!(pivot_A_y > NEARLY_SINGULAR * scale_A_y)) {
+    if (!(pivot_A_y > memory->least * scale_A_y)) {
         pivot = 9;
         goto dependent;
     }

@@ -222,16 +222,16 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_B_x__B_y > NEARLY_SINGULAR * scale_B_y * scale_B_x)) {
+    if (!(determinant_B_x__B_y > memory->least * scale_B_y * scale_B_x)) {
         pivot = 2;
         goto dependent;
     }
     const double size_B_x = scale_B_x + scale_B_y;
-    if (!(scale_B_x > VANISHING * size_B_x)) {
+    if (!(scale_B_x > memory->least_size * size_B_x)) {
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_B_x__B_y > VANISHING * size_B_x * scale_B_x)) {
+    if (!(determinant_B_x__B_y > memory->least_size * size_B_x * scale_B_x)) {
         pivot = 2;
         goto dependent;
     }

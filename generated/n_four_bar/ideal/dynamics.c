@@ -170,7 +170,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_O0_x__O0_y > NEARLY_SINGULAR * scale_O0_y * scale_O0_x)) {
+    if (!(determinant_O0_x__O0_y > memory->least * scale_O0_y * scale_O0_x)) {
         pivot = 2;
         goto dependent;
     }
@@ -198,7 +198,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         pivot = 3;
         goto dependent;
     }
-    if (!(determinant_O2_x__O2_y > NEARLY_SINGULAR * scale_O2_y * scale_O2_x)) {
+    if (!(determinant_O2_x__O2_y > memory->least * scale_O2_y * scale_O2_x)) {
         pivot = 4;
         goto dependent;
     }
@@ -227,11 +227,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double pivot_A0_x__A0_y = -arm_coupler1_head_y*l_A0_y__coupler1_theta
         - arm_crank0_head_y*l_A0_y__crank0_theta + l_A0_y__O0_x*w_A0_x__O0_x + l_A0_y__O0_y*w_A0_x__O0_y;
     const double determinant_A0_x__A0_y = pivot_A0_x*pivot_A0_y - (pivot_A0_x__A0_y * pivot_A0_x__A0_y);
-    if (!(pivot_A0_x > NEARLY_SINGULAR * scale_A0_x)) {
+    if (!(pivot_A0_x > memory->least * scale_A0_x)) {
         pivot = 5;
         goto dependent;
     }
-    if (!(determinant_A0_x__A0_y > NEARLY_SINGULAR * scale_A0_y * pivot_A0_x)) {
+    if (!(determinant_A0_x__A0_y > memory->least * scale_A0_y * pivot_A0_x)) {
         pivot = 6;
         goto dependent;
     }
@@ -260,11 +260,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double pivot_B2_x__B2_y = -arm_coupler2_head_y*l_B2_y__coupler2_theta
         + arm_crank2_head_y*l_B2_y__crank2_theta + l_B2_y__O2_x*w_B2_x__O2_x + l_B2_y__O2_y*w_B2_x__O2_y;
     const double determinant_B2_x__B2_y = pivot_B2_x*pivot_B2_y - (pivot_B2_x__B2_y * pivot_B2_x__B2_y);
-    if (!(pivot_B2_x > NEARLY_SINGULAR * scale_B2_x)) {
+    if (!(pivot_B2_x > memory->least * scale_B2_x)) {
         pivot = 7;
         goto dependent;
     }
-    if (!(determinant_B2_x__B2_y > NEARLY_SINGULAR * scale_B2_y * pivot_B2_x)) {
+    if (!(determinant_B2_x__B2_y > memory->least * scale_B2_y * pivot_B2_x)) {
         pivot = 8;
         goto dependent;
     }
@@ -294,7 +294,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         pivot = 9;
         goto dependent;
     }
-    if (!(determinant_O1_x__O1_y > NEARLY_SINGULAR * scale_O1_y * scale_O1_x)) {
+    if (!(determinant_O1_x__O1_y > memory->least * scale_O1_y * scale_O1_x)) {
         pivot = 10;
         goto dependent;
     }
@@ -330,11 +330,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         + arm_crank1_head_y*l_B1_y__crank1_theta + l_B1_y__A0_x*w_B1_x__A0_x + l_B1_y__A0_y*w_B1_x__A0_y
         + l_B1_y__O1_x*w_B1_x__O1_x + l_B1_y__O1_y*w_B1_x__O1_y;
     const double determinant_B1_x__B1_y = pivot_B1_x*pivot_B1_y - (pivot_B1_x__B1_y * pivot_B1_x__B1_y);
-    if (!(pivot_B1_x > NEARLY_SINGULAR * scale_B1_x)) {
+    if (!(pivot_B1_x > memory->least * scale_B1_x)) {
         pivot = 11;
         goto dependent;
     }
-    if (!(determinant_B1_x__B1_y > NEARLY_SINGULAR * scale_B1_y * pivot_B1_x)) {
+    if (!(determinant_B1_x__B1_y > memory->least * scale_B1_y * pivot_B1_x)) {
         pivot = 12;
         goto dependent;
     }
@@ -366,11 +366,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         - arm_crank1_head_y*l_A1_y__crank1_theta + l_A1_y__B1_x*w_A1_x__B1_x + l_A1_y__B1_y*w_A1_x__B1_y
         + l_A1_y__B2_x*w_A1_x__B2_x + l_A1_y__B2_y*w_A1_x__B2_y + l_A1_y__O1_x*w_A1_x__O1_x + l_A1_y__O1_y*w_A1_x__O1_y;
     const double determinant_A1_x__A1_y = pivot_A1_x*pivot_A1_y - (pivot_A1_x__A1_y * pivot_A1_x__A1_y);
-    if (!(pivot_A1_x > NEARLY_SINGULAR * scale_A1_x)) {
+    if (!(pivot_A1_x > memory->least * scale_A1_x)) {
         pivot = 13;
         goto dependent;
     }
-    if (!(determinant_A1_x__A1_y > NEARLY_SINGULAR * scale_A1_y * pivot_A1_x)) {
+    if (!(determinant_A1_x__A1_y > memory->least * scale_A1_y * pivot_A1_x)) {
         pivot = 14;
         goto dependent;
     }

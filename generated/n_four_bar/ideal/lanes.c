@@ -224,7 +224,7 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
 static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
     const LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
 {
-    (void)t, (void)memory;
+    (void)t;
     /* coordinates, velocities, time */
     const Lanes crank0_theta = q[0];
     const Lanes crank0_omega = v[0];
@@ -301,8 +301,8 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     *rare |= ~((scale_B2_x > 0.0) & (scale_B2_x < INFINITY));
     *rare |= ~(determinant_B2_x__B2_y > EARLY * scale_B2_y * scale_B2_x);
     const Lanes size_B2_x = scale_B2_x + scale_B2_y;
-    *rare |= ~(scale_B2_x > VANISHING * size_B2_x);
-    *rare |= ~(determinant_B2_x__B2_y > VANISHING * size_B2_x * scale_B2_x);
+    *rare |= ~(scale_B2_x > memory->least_size * size_B2_x);
+    *rare |= ~(determinant_B2_x__B2_y > memory->least_size * size_B2_x * scale_B2_x);
     const Lanes inverse_B2_x__B2_y = -1.0/determinant_B2_x__B2_y;
     const Lanes inverse_pivot_B2_x = inverse_B2_x__B2_y*scale_B2_y;
     const Lanes inverse_pivot_B2_y = inverse_B2_x__B2_y*scale_B2_x;
@@ -335,10 +335,10 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
         - l_B1_y__crank0_theta*span_crank0_head_y + l_B1_y__crank1_theta*span_crank1_head_y;
     const Lanes determinant_B1_x__B1_y = -(pivot_B1_x__B1_y * pivot_B1_x__B1_y) + scale_B1_x*scale_B1_y;
     *rare |= ~((scale_B1_x > 0.0) & (scale_B1_x < INFINITY));
-    *rare |= ~(determinant_B1_x__B1_y > NEARLY_SINGULAR * scale_B1_y * scale_B1_x);
+    *rare |= ~(determinant_B1_x__B1_y > memory->least * scale_B1_y * scale_B1_x);
     const Lanes size_B1_x = scale_B1_x + scale_B1_y;
-    *rare |= ~(scale_B1_x > VANISHING * size_B1_x);
-    *rare |= ~(determinant_B1_x__B1_y > VANISHING * size_B1_x * scale_B1_x);
+    *rare |= ~(scale_B1_x > memory->least_size * size_B1_x);
+    *rare |= ~(determinant_B1_x__B1_y > memory->least_size * size_B1_x * scale_B1_x);
     const Lanes inverse_B1_x__B1_y = -1.0/determinant_B1_x__B1_y;
     const Lanes inverse_pivot_B1_x = inverse_B1_x__B1_y*scale_B1_y;
     const Lanes inverse_pivot_B1_y = inverse_B1_x__B1_y*scale_B1_x;
@@ -406,7 +406,7 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
 static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
     const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
 {
-    (void)t, (void)memory;
+    (void)t;
     /* coordinates, velocities, time */
     const Lanes crank0_theta = q[0];
     const Lanes crank0_omega = v[0];
@@ -500,10 +500,10 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
         + l_B2_y__crank1_theta*w_B2_x__crank1_theta + l_B2_y__crank2_theta*span_crank2_head_y;
     const Lanes determinant_B2_x__B2_y = -(pivot_B2_x__B2_y * pivot_B2_x__B2_y) + scale_B2_x*scale_B2_y;
     *rare |= ~((scale_B2_x > 0.0) & (scale_B2_x < INFINITY));
-    *rare |= ~(determinant_B2_x__B2_y > VANISHING * scale_B2_y * scale_B2_x);
+    *rare |= ~(determinant_B2_x__B2_y > memory->least_size * scale_B2_y * scale_B2_x);
     const Lanes size_B2_x = scale_B2_x + scale_B2_y;
-    *rare |= ~(scale_B2_x > VANISHING * size_B2_x);
-    *rare |= ~(determinant_B2_x__B2_y > VANISHING * size_B2_x * scale_B2_x);
+    *rare |= ~(scale_B2_x > memory->least_size * size_B2_x);
+    *rare |= ~(determinant_B2_x__B2_y > memory->least_size * size_B2_x * scale_B2_x);
     const Lanes inverse_B2_x__B2_y = -1.0/determinant_B2_x__B2_y;
     const Lanes inverse_pivot_B2_x = inverse_B2_x__B2_y*scale_B2_y;
     const Lanes inverse_pivot_B2_y = inverse_B2_x__B2_y*scale_B2_x;
@@ -526,11 +526,11 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
         + l_B1_y__coupler1_theta*w_B1_x__coupler1_theta - l_B1_y__crank0_theta*span_crank0_head_y
         + l_B1_y__crank1_theta*span_crank1_head_y;
     const Lanes determinant_B1_x__B1_y = pivot_B1_x*pivot_B1_y - (pivot_B1_x__B1_y * pivot_B1_x__B1_y);
-    *rare |= ~(pivot_B1_x > VANISHING * scale_B1_x);
-    *rare |= ~(determinant_B1_x__B1_y > VANISHING * scale_B1_y * pivot_B1_x);
+    *rare |= ~(pivot_B1_x > memory->least_size * scale_B1_x);
+    *rare |= ~(determinant_B1_x__B1_y > memory->least_size * scale_B1_y * pivot_B1_x);
     const Lanes size_B1_x = scale_B1_x + scale_B1_y;
-    *rare |= ~(pivot_B1_x > VANISHING * size_B1_x);
-    *rare |= ~(determinant_B1_x__B1_y > VANISHING * size_B1_x * pivot_B1_x);
+    *rare |= ~(pivot_B1_x > memory->least_size * size_B1_x);
+    *rare |= ~(determinant_B1_x__B1_y > memory->least_size * size_B1_x * pivot_B1_x);
     const Lanes inverse_B1_x__B1_y = -1.0/determinant_B1_x__B1_y;
     const Lanes inverse_pivot_B1_x = inverse_B1_x__B1_y*pivot_B1_y;
     const Lanes inverse_pivot_B1_y = inverse_B1_x__B1_y*pivot_B1_x;

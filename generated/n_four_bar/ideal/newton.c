@@ -592,7 +592,7 @@ enum {
 int closing_step(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     double *dq, double *dv, double *worst)
 {
-    (void)t, (void)memory;
+    (void)t;
     /* coordinates, velocities, time */
     const double crank0_theta = q[0];
     const double crank0_omega = v[0];
@@ -683,12 +683,12 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
     const double determinant_B2_x__B2_y = -(pivot_B2_x__B2_y * pivot_B2_x__B2_y) + scale_B2_x*scale_B2_y;
     if (!(scale_B2_x > 0.0 && scale_B2_x < INFINITY))
         return 1;
-    if (!(determinant_B2_x__B2_y > VANISHING * scale_B2_y * scale_B2_x))
+    if (!(determinant_B2_x__B2_y > memory->least_size * scale_B2_y * scale_B2_x))
         return 2;
     const double size_B2_x = scale_B2_x + scale_B2_y;
-    if (!(scale_B2_x > VANISHING * size_B2_x))
+    if (!(scale_B2_x > memory->least_size * size_B2_x))
         return 1;
-    if (!(determinant_B2_x__B2_y > VANISHING * size_B2_x * scale_B2_x))
+    if (!(determinant_B2_x__B2_y > memory->least_size * size_B2_x * scale_B2_x))
         return 2;
     const double inverse_B2_x__B2_y = -1.0/determinant_B2_x__B2_y;
     const double inverse_pivot_B2_x = inverse_B2_x__B2_y*scale_B2_y;
@@ -712,14 +712,14 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
         + l_B1_y__coupler1_theta*w_B1_x__coupler1_theta - l_B1_y__crank0_theta*span_crank0_head_y
         + l_B1_y__crank1_theta*span_crank1_head_y;
     const double determinant_B1_x__B1_y = pivot_B1_x*pivot_B1_y - (pivot_B1_x__B1_y * pivot_B1_x__B1_y);
-    if (!(pivot_B1_x > VANISHING * scale_B1_x))
+    if (!(pivot_B1_x > memory->least_size * scale_B1_x))
         return 3;
-    if (!(determinant_B1_x__B1_y > VANISHING * scale_B1_y * pivot_B1_x))
+    if (!(determinant_B1_x__B1_y > memory->least_size * scale_B1_y * pivot_B1_x))
         return 4;
     const double size_B1_x = scale_B1_x + scale_B1_y;
-    if (!(pivot_B1_x > VANISHING * size_B1_x))
+    if (!(pivot_B1_x > memory->least_size * size_B1_x))
         return 3;
-    if (!(determinant_B1_x__B1_y > VANISHING * size_B1_x * pivot_B1_x))
+    if (!(determinant_B1_x__B1_y > memory->least_size * size_B1_x * pivot_B1_x))
         return 4;
     const double inverse_B1_x__B1_y = -1.0/determinant_B1_x__B1_y;
     const double inverse_pivot_B1_x = inverse_B1_x__B1_y*pivot_B1_y;

@@ -342,11 +342,11 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         goto dependent;
     }
     const double size_B2_x = scale_B2_x + scale_B2_y;
-    if (!(scale_B2_x > VANISHING * size_B2_x)) {
+    if (!(scale_B2_x > memory->least_size * size_B2_x)) {
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_B2_x__B2_y > VANISHING * size_B2_x * scale_B2_x)) {
+    if (!(determinant_B2_x__B2_y > memory->least_size * size_B2_x * scale_B2_x)) {
         pivot = 2;
         goto dependent;
     }
@@ -385,16 +385,16 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         pivot = 3;
         goto dependent;
     }
-    if (!(determinant_B1_x__B1_y > NEARLY_SINGULAR * scale_B1_y * scale_B1_x)) {
+    if (!(determinant_B1_x__B1_y > memory->least * scale_B1_y * scale_B1_x)) {
         pivot = 4;
         goto dependent;
     }
     const double size_B1_x = scale_B1_x + scale_B1_y;
-    if (!(scale_B1_x > VANISHING * size_B1_x)) {
+    if (!(scale_B1_x > memory->least_size * size_B1_x)) {
         pivot = 3;
         goto dependent;
     }
-    if (!(determinant_B1_x__B1_y > VANISHING * size_B1_x * scale_B1_x)) {
+    if (!(determinant_B1_x__B1_y > memory->least_size * size_B1_x * scale_B1_x)) {
         pivot = 4;
         goto dependent;
     }

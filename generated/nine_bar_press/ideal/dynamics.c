@@ -265,7 +265,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         pivot = 3;
         goto dependent;
     }
-    if (!(determinant_O6_x__O6_y > NEARLY_SINGULAR * scale_O6_y * scale_O6_x)) {
+    if (!(determinant_O6_x__O6_y > memory->least * scale_O6_y * scale_O6_x)) {
         pivot = 4;
         goto dependent;
     }
@@ -295,7 +295,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         pivot = 5;
         goto dependent;
     }
-    if (!(determinant_slider_y__slider_x > NEARLY_SINGULAR * scale_slider_x * scale_slider_y)) {
+    if (!(determinant_slider_y__slider_x > memory->least * scale_slider_x * scale_slider_y)) {
         pivot = 6;
         goto dependent;
     }
@@ -327,7 +327,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         pivot = 7;
         goto dependent;
     }
-    if (!(determinant_O1_x__O1_y > NEARLY_SINGULAR * scale_O1_y * scale_O1_x)) {
+    if (!(determinant_O1_x__O1_y > memory->least * scale_O1_y * scale_O1_x)) {
         pivot = 8;
         goto dependent;
     }
@@ -349,7 +349,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double l_A_y__O1_y = inverse_cross_O1_x__O1_y*w_A_y__O1_x + inverse_pivot_O1_y*w_A_y__O1_y;
     const double scale_crank1 = p->inverse_L1_inertia;
     const double pivot_crank1 = l_crank1__O1_x*w_crank1__O1_x + l_crank1__O1_y*w_crank1__O1_y + scale_crank1;
-    if (!(pivot_crank1 > NEARLY_SINGULAR * scale_crank1)) {
+    if (!(pivot_crank1 > memory->least * scale_crank1)) {
         pivot = 9;
         goto dependent;
     }
@@ -369,11 +369,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double pivot_A_x__A_y = -arm_L1_head_y*l_A_y__L1_theta - arm_L2_head_y*l_A_y__L2_theta
         + l_A_y__O1_x*w_A_x__O1_x + l_A_y__O1_y*w_A_x__O1_y + l_A_y__crank1*w_A_x__crank1;
     const double determinant_A_x__A_y = pivot_A_x*pivot_A_y - (pivot_A_x__A_y * pivot_A_x__A_y);
-    if (!(pivot_A_x > NEARLY_SINGULAR * scale_A_x)) {
+    if (!(pivot_A_x > memory->least * scale_A_x)) {
         pivot = 10;
         goto dependent;
     }
-    if (!(determinant_A_x__A_y > NEARLY_SINGULAR * scale_A_y * pivot_A_x)) {
+    if (!(determinant_A_x__A_y > memory->least * scale_A_y * pivot_A_x)) {
         pivot = 11;
         goto dependent;
     }
@@ -401,7 +401,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         pivot = 12;
         goto dependent;
     }
-    if (!(determinant_O4_x__O4_y > NEARLY_SINGULAR * scale_O4_y * scale_O4_x)) {
+    if (!(determinant_O4_x__O4_y > memory->least * scale_O4_y * scale_O4_x)) {
         pivot = 13;
         goto dependent;
     }
@@ -423,7 +423,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double l_B_y__O4_y = inverse_cross_O4_x__O4_y*w_B_y__O4_x + inverse_pivot_O4_y*w_B_y__O4_y;
     const double scale_crank4 = p->inverse_L4_inertia;
     const double pivot_crank4 = l_crank4__O4_x*w_crank4__O4_x + l_crank4__O4_y*w_crank4__O4_y + scale_crank4;
-    if (!(pivot_crank4 > NEARLY_SINGULAR * scale_crank4)) {
+    if (!(pivot_crank4 > memory->least * scale_crank4)) {
         pivot = 14;
         goto dependent;
     }
@@ -443,11 +443,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double pivot_B_x__B_y = -arm_L3_head_y*l_B_y__L3_theta - arm_L4_head_y*l_B_y__L4_theta
         + l_B_y__O4_x*w_B_x__O4_x + l_B_y__O4_y*w_B_x__O4_y + l_B_y__crank4*w_B_x__crank4;
     const double determinant_B_x__B_y = pivot_B_x*pivot_B_y - (pivot_B_x__B_y * pivot_B_x__B_y);
-    if (!(pivot_B_x > NEARLY_SINGULAR * scale_B_x)) {
+    if (!(pivot_B_x > memory->least * scale_B_x)) {
         pivot = 15;
         goto dependent;
     }
-    if (!(determinant_B_x__B_y > NEARLY_SINGULAR * scale_B_y * pivot_B_x)) {
+    if (!(determinant_B_x__B_y > memory->least * scale_B_y * pivot_B_x)) {
         pivot = 16;
         goto dependent;
     }
@@ -480,11 +480,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double pivot_Q6_x__Q6_y = arm_L6_head_y*l_Q6_y__L6_theta - arm_L7_head_y*l_Q6_y__L7_theta
         + l_Q6_y__O6_x*w_Q6_x__O6_x + l_Q6_y__O6_y*w_Q6_x__O6_y;
     const double determinant_Q6_x__Q6_y = pivot_Q6_x*pivot_Q6_y - (pivot_Q6_x__Q6_y * pivot_Q6_x__Q6_y);
-    if (!(pivot_Q6_x > NEARLY_SINGULAR * scale_Q6_x)) {
+    if (!(pivot_Q6_x > memory->least * scale_Q6_x)) {
         pivot = 17;
         goto dependent;
     }
-    if (!(determinant_Q6_x__Q6_y > NEARLY_SINGULAR * scale_Q6_y * pivot_Q6_x)) {
+    if (!(determinant_Q6_x__Q6_y > memory->least * scale_Q6_y * pivot_Q6_x)) {
         pivot = 18;
         goto dependent;
     }
@@ -527,11 +527,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double pivot_Q8_x__P2_x = -arm_L7_head_y*l_P2_x__L7_theta - p->inverse_L7_mass + l_P2_x__Q6_x*w_Q8_x__Q6_x
         + l_P2_x__Q6_y*w_Q8_x__Q6_y;
     const double determinant_Q8_x__P2_x = pivot_P2_x*pivot_Q8_x - (pivot_Q8_x__P2_x * pivot_Q8_x__P2_x);
-    if (!(pivot_Q8_x > NEARLY_SINGULAR * scale_Q8_x)) {
+    if (!(pivot_Q8_x > memory->least * scale_Q8_x)) {
         pivot = 19;
         goto dependent;
     }
-    if (!(determinant_Q8_x__P2_x > NEARLY_SINGULAR * scale_P2_x * pivot_Q8_x)) {
+    if (!(determinant_Q8_x__P2_x > memory->least * scale_P2_x * pivot_Q8_x)) {
         pivot = 20;
         goto dependent;
     }
@@ -571,11 +571,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double pivot_P2_y__P3_x = arm_L7_head_x*l_P3_x__L7_theta + l_P3_x__P2_x*w_P2_y__P2_x
         + l_P3_x__Q6_x*w_P2_y__Q6_x + l_P3_x__Q6_y*w_P2_y__Q6_y + l_P3_x__Q8_x*w_P2_y__Q8_x;
     const double determinant_P2_y__P3_x = pivot_P2_y*pivot_P3_x - (pivot_P2_y__P3_x * pivot_P2_y__P3_x);
-    if (!(pivot_P2_y > NEARLY_SINGULAR * scale_P2_y)) {
+    if (!(pivot_P2_y > memory->least * scale_P2_y)) {
         pivot = 21;
         goto dependent;
     }
-    if (!(determinant_P2_y__P3_x > NEARLY_SINGULAR * scale_P3_x * pivot_P2_y)) {
+    if (!(determinant_P2_y__P3_x > memory->least * scale_P3_x * pivot_P2_y)) {
         pivot = 22;
         goto dependent;
     }
@@ -610,11 +610,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         + l_Q8_y__P2_y*w_P3_y__P2_y + l_Q8_y__P3_x*w_P3_y__P3_x + l_Q8_y__Q6_x*w_P3_y__Q6_x + l_Q8_y__Q6_y*w_P3_y__Q6_y
         + l_Q8_y__Q8_x*w_P3_y__Q8_x;
     const double determinant_P3_y__Q8_y = pivot_P3_y*pivot_Q8_y - (pivot_P3_y__Q8_y * pivot_P3_y__Q8_y);
-    if (!(pivot_P3_y > NEARLY_SINGULAR * scale_P3_y)) {
+    if (!(pivot_P3_y > memory->least * scale_P3_y)) {
         pivot = 23;
         goto dependent;
     }
-    if (!(determinant_P3_y__Q8_y > NEARLY_SINGULAR * scale_Q8_y * pivot_P3_y)) {
+    if (!(determinant_P3_y__Q8_y > memory->least * scale_Q8_y * pivot_P3_y)) {
         pivot = 24;
         goto dependent;
     }

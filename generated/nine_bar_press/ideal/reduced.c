@@ -463,17 +463,17 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         pivot = 2;
         goto dependent;
     }
-    if (!(determinant_L2_head_L3_head_x__L2_head_L3_head_y > NEARLY_SINGULAR * scale_L2_head_L3_head_y
+    if (!(determinant_L2_head_L3_head_x__L2_head_L3_head_y > memory->least * scale_L2_head_L3_head_y
         * scale_L2_head_L3_head_x)) {
         pivot = 3;
         goto dependent;
     }
     const double size_L2_head_L3_head_x = scale_L2_head_L3_head_x + scale_L2_head_L3_head_y;
-    if (!(scale_L2_head_L3_head_x > VANISHING * size_L2_head_L3_head_x)) {
+    if (!(scale_L2_head_L3_head_x > memory->least_size * size_L2_head_L3_head_x)) {
         pivot = 2;
         goto dependent;
     }
-    if (!(determinant_L2_head_L3_head_x__L2_head_L3_head_y > VANISHING * size_L2_head_L3_head_x
+    if (!(determinant_L2_head_L3_head_x__L2_head_L3_head_y > memory->least_size * size_L2_head_L3_head_x
         * scale_L2_head_L3_head_x)) {
         pivot = 3;
         goto dependent;
@@ -508,20 +508,20 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
         + l_P2_y__L6_theta*w_P2_x__L6_theta + l_P2_y__L7_theta*span_L7_tail_y
         + l_P2_y__guide_offset*w_P2_x__guide_offset;
     const double determinant_P2_x__P2_y = pivot_P2_x*pivot_P2_y - (pivot_P2_x__P2_y * pivot_P2_x__P2_y);
-    if (!(pivot_P2_x > NEARLY_SINGULAR * scale_P2_x)) {
+    if (!(pivot_P2_x > memory->least * scale_P2_x)) {
         pivot = 4;
         goto dependent;
     }
-    if (!(determinant_P2_x__P2_y > NEARLY_SINGULAR * scale_P2_y * pivot_P2_x)) {
+    if (!(determinant_P2_x__P2_y > memory->least * scale_P2_y * pivot_P2_x)) {
         pivot = 5;
         goto dependent;
     }
     const double size_P2_x = scale_P2_x + scale_P2_y;
-    if (!(pivot_P2_x > VANISHING * size_P2_x)) {
+    if (!(pivot_P2_x > memory->least_size * size_P2_x)) {
         pivot = 4;
         goto dependent;
     }
-    if (!(determinant_P2_x__P2_y > VANISHING * size_P2_x * pivot_P2_x)) {
+    if (!(determinant_P2_x__P2_y > memory->least_size * size_P2_x * pivot_P2_x)) {
         pivot = 5;
         goto dependent;
     }

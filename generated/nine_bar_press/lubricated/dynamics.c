@@ -265,7 +265,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         pivot = 3;
         goto dependent;
     }
-    if (!(determinant_O1_x__O1_y > NEARLY_SINGULAR * scale_O1_y * scale_O1_x)) {
+    if (!(determinant_O1_x__O1_y > memory->least * scale_O1_y * scale_O1_x)) {
         pivot = 4;
         goto dependent;
     }
@@ -279,7 +279,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double l_crank1__O1_y = inverse_cross_O1_x__O1_y*w_crank1__O1_x + inverse_pivot_O1_y*w_crank1__O1_y;
     const double scale_crank1 = p->inverse_L1_inertia;
     const double pivot_crank1 = l_crank1__O1_x*w_crank1__O1_x + l_crank1__O1_y*w_crank1__O1_y + scale_crank1;
-    if (!(pivot_crank1 > NEARLY_SINGULAR * scale_crank1)) {
+    if (!(pivot_crank1 > memory->least * scale_crank1)) {
         pivot = 5;
         goto dependent;
     }
@@ -294,7 +294,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         pivot = 6;
         goto dependent;
     }
-    if (!(determinant_O4_x__O4_y > NEARLY_SINGULAR * scale_O4_y * scale_O4_x)) {
+    if (!(determinant_O4_x__O4_y > memory->least * scale_O4_y * scale_O4_x)) {
         pivot = 7;
         goto dependent;
     }
@@ -308,7 +308,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double l_crank4__O4_y = inverse_cross_O4_x__O4_y*w_crank4__O4_x + inverse_pivot_O4_y*w_crank4__O4_y;
     const double scale_crank4 = p->inverse_L4_inertia;
     const double pivot_crank4 = l_crank4__O4_x*w_crank4__O4_x + l_crank4__O4_y*w_crank4__O4_y + scale_crank4;
-    if (!(pivot_crank4 > NEARLY_SINGULAR * scale_crank4)) {
+    if (!(pivot_crank4 > memory->least * scale_crank4)) {
         pivot = 8;
         goto dependent;
     }
@@ -325,7 +325,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         pivot = 9;
         goto dependent;
     }
-    if (!(determinant_O6_x__O6_y > NEARLY_SINGULAR * scale_O6_y * scale_O6_x)) {
+    if (!(determinant_O6_x__O6_y > memory->least * scale_O6_y * scale_O6_x)) {
         pivot = 10;
         goto dependent;
     }
@@ -351,11 +351,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double pivot_slider_x__slider_y = -arm_L8_head_y*l_slider_y__L8_theta;
     const double determinant_slider_x__slider_y = pivot_slider_x*scale_slider_y
         - (pivot_slider_x__slider_y * pivot_slider_x__slider_y);
-    if (!(pivot_slider_x > NEARLY_SINGULAR * scale_slider_x)) {
+    if (!(pivot_slider_x > memory->least * scale_slider_x)) {
         pivot = 11;
         goto dependent;
     }
-    if (!(determinant_slider_x__slider_y > NEARLY_SINGULAR * scale_slider_y * pivot_slider_x)) {
+    if (!(determinant_slider_x__slider_y > memory->least * scale_slider_y * pivot_slider_x)) {
         pivot = 12;
         goto dependent;
     }
@@ -393,7 +393,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         pivot = 13;
         goto dependent;
     }
-    if (!(determinant_P2_x__P2_y > NEARLY_SINGULAR * scale_P2_y * scale_P2_x)) {
+    if (!(determinant_P2_x__P2_y > memory->least * scale_P2_y * scale_P2_x)) {
         pivot = 14;
         goto dependent;
     }
@@ -434,11 +434,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double pivot_P3_x__P3_y = -arm_L3_head_y*l_P3_y__L3_theta - arm_L7_head_y*l_P3_y__L7_theta
         + l_P3_y__P2_x*w_P3_x__P2_x + l_P3_y__P2_y*w_P3_x__P2_y;
     const double determinant_P3_x__P3_y = pivot_P3_x*pivot_P3_y - (pivot_P3_x__P3_y * pivot_P3_x__P3_y);
-    if (!(pivot_P3_x > NEARLY_SINGULAR * scale_P3_x)) {
+    if (!(pivot_P3_x > memory->least * scale_P3_x)) {
         pivot = 15;
         goto dependent;
     }
-    if (!(determinant_P3_x__P3_y > NEARLY_SINGULAR * scale_P3_y * pivot_P3_x)) {
+    if (!(determinant_P3_x__P3_y > memory->least * scale_P3_y * pivot_P3_x)) {
         pivot = 16;
         goto dependent;
     }
@@ -478,11 +478,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         + l_Q6_y__O6_x*w_Q6_x__O6_x + l_Q6_y__O6_y*w_Q6_x__O6_y + l_Q6_y__P2_x*w_Q6_x__P2_x + l_Q6_y__P2_y*w_Q6_x__P2_y
         + l_Q6_y__P3_x*w_Q6_x__P3_x + l_Q6_y__P3_y*w_Q6_x__P3_y;
     const double determinant_Q6_x__Q6_y = pivot_Q6_x*pivot_Q6_y - (pivot_Q6_x__Q6_y * pivot_Q6_x__Q6_y);
-    if (!(pivot_Q6_x > NEARLY_SINGULAR * scale_Q6_x)) {
+    if (!(pivot_Q6_x > memory->least * scale_Q6_x)) {
         pivot = 17;
         goto dependent;
     }
-    if (!(determinant_Q6_x__Q6_y > NEARLY_SINGULAR * scale_Q6_y * pivot_Q6_x)) {
+    if (!(determinant_Q6_x__Q6_y > memory->least * scale_Q6_y * pivot_Q6_x)) {
         pivot = 18;
         goto dependent;
     }
@@ -517,11 +517,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         + l_Q8_y__Q6_x*w_Q8_x__Q6_x + l_Q8_y__Q6_y*w_Q8_x__Q6_y + l_Q8_y__slider_x*w_Q8_x__slider_x
         + l_Q8_y__slider_y*w_Q8_x__slider_y;
     const double determinant_Q8_x__Q8_y = pivot_Q8_x*pivot_Q8_y - (pivot_Q8_x__Q8_y * pivot_Q8_x__Q8_y);
-    if (!(pivot_Q8_x > NEARLY_SINGULAR * scale_Q8_x)) {
+    if (!(pivot_Q8_x > memory->least * scale_Q8_x)) {
         pivot = 19;
         goto dependent;
     }
-    if (!(determinant_Q8_x__Q8_y > NEARLY_SINGULAR * scale_Q8_y * pivot_Q8_x)) {
+    if (!(determinant_Q8_x__Q8_y > memory->least * scale_Q8_y * pivot_Q8_x)) {
         pivot = 20;
         goto dependent;
     }

@@ -181,7 +181,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         + p->inverse_arm_mass + p->inverse_table_mass;
     const double pivot_pivot_x = p->inverse_table_mass*l_pivot_x__guide_offset
         - l_pivot_x__guide_angle*l_pivot_x__table_theta + scale_pivot_x;
-    if (!(pivot_pivot_x > NEARLY_SINGULAR * scale_pivot_x)) {
+    if (!(pivot_pivot_x > memory->least * scale_pivot_x)) {
         pivot = 5;
         goto dependent;
     }
@@ -197,11 +197,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double pivot_motor = l_motor__shaft_x*w_motor__shaft_x + scale_motor;
     const double pivot_shaft_y__motor = arm_crank_head_x*p->inverse_crank_inertia + l_motor__shaft_x*w_shaft_y__shaft_x;
     const double determinant_shaft_y__motor = pivot_motor*pivot_shaft_y - (pivot_shaft_y__motor * pivot_shaft_y__motor);
-    if (!(pivot_shaft_y > NEARLY_SINGULAR * scale_shaft_y)) {
+    if (!(pivot_shaft_y > memory->least * scale_shaft_y)) {
         pivot = 6;
         goto dependent;
     }
-    if (!(determinant_shaft_y__motor > NEARLY_SINGULAR * scale_motor * pivot_shaft_y)) {
+    if (!(determinant_shaft_y__motor > memory->least * scale_motor * pivot_shaft_y)) {
         pivot = 7;
         goto dependent;
     }
@@ -234,11 +234,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         + l_crankpin_x__pin_y*w_pin_x__pin_y;
     const double determinant_pin_x__crankpin_x = pivot_crankpin_x*pivot_pin_x
         - (pivot_pin_x__crankpin_x * pivot_pin_x__crankpin_x);
-    if (!(pivot_pin_x > NEARLY_SINGULAR * scale_pin_x)) {
+    if (!(pivot_pin_x > memory->least * scale_pin_x)) {
         pivot = 8;
         goto dependent;
     }
-    if (!(determinant_pin_x__crankpin_x > NEARLY_SINGULAR * scale_crankpin_x * pivot_pin_x)) {
+    if (!(determinant_pin_x__crankpin_x > memory->least * scale_crankpin_x * pivot_pin_x)) {
         pivot = 9;
         goto dependent;
     }
@@ -276,11 +276,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         + l_pivot_y__pin_x*w_crankpin_y__pin_x + l_pivot_y__pin_y*w_crankpin_y__pin_y;
     const double determinant_crankpin_y__pivot_y = pivot_crankpin_y*pivot_pivot_y
         - (pivot_crankpin_y__pivot_y * pivot_crankpin_y__pivot_y);
-    if (!(pivot_crankpin_y > NEARLY_SINGULAR * scale_crankpin_y)) {
+    if (!(pivot_crankpin_y > memory->least * scale_crankpin_y)) {
         pivot = 10;
         goto dependent;
     }
-    if (!(determinant_crankpin_y__pivot_y > NEARLY_SINGULAR * scale_pivot_y * pivot_crankpin_y)) {
+    if (!(determinant_crankpin_y__pivot_y > memory->least * scale_pivot_y * pivot_crankpin_y)) {
         pivot = 11;
         goto dependent;
     }

@@ -125,7 +125,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         pivot = 3;
         goto dependent;
     }
-    if (!(determinant_wristpin_x__wristpin_y > NEARLY_SINGULAR * scale_wristpin_y * scale_wristpin_x)) {
+    if (!(determinant_wristpin_x__wristpin_y > memory->least * scale_wristpin_y * scale_wristpin_x)) {
         pivot = 4;
         goto dependent;
     }
@@ -157,7 +157,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         pivot = 5;
         goto dependent;
     }
-    if (!(determinant_O_x__O_y > NEARLY_SINGULAR * scale_O_y * scale_O_x)) {
+    if (!(determinant_O_x__O_y > memory->least * scale_O_y * scale_O_x)) {
         pivot = 6;
         goto dependent;
     }
@@ -193,11 +193,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         + l_crankpin_y__wristpin_y*w_crankpin_x__wristpin_y;
     const double determinant_crankpin_x__crankpin_y = pivot_crankpin_x*pivot_crankpin_y
         - (pivot_crankpin_x__crankpin_y * pivot_crankpin_x__crankpin_y);
-    if (!(pivot_crankpin_x > NEARLY_SINGULAR * scale_crankpin_x)) {
+    if (!(pivot_crankpin_x > memory->least * scale_crankpin_x)) {
         pivot = 7;
         goto dependent;
     }
-    if (!(determinant_crankpin_x__crankpin_y > NEARLY_SINGULAR * scale_crankpin_y * pivot_crankpin_x)) {
+    if (!(determinant_crankpin_x__crankpin_y > memory->least * scale_crankpin_y * pivot_crankpin_x)) {
         pivot = 8;
         goto dependent;
     }
@@ -216,7 +216,7 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     const double scale_motor = p->inverse_crank_inertia;
     const double pivot_motor = l_motor__O_x*w_motor__O_x + l_motor__O_y*w_motor__O_y
         + l_motor__crankpin_x*w_motor__crankpin_x + l_motor__crankpin_y*w_motor__crankpin_y + scale_motor;
-    if (!(pivot_motor > NEARLY_SINGULAR * scale_motor)) {
+    if (!(pivot_motor > memory->least * scale_motor)) {
         pivot = 9;
         goto dependent;
     }

@@ -110,11 +110,11 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         + scale_pin_y;
     const double pivot_pin_x__pin_y = -arm_crank_head_y*l_pin_y__crank_theta + arm_rod_crankpin_y*l_pin_y__rod_theta;
     const double determinant_pin_x__pin_y = pivot_pin_x*pivot_pin_y - (pivot_pin_x__pin_y * pivot_pin_x__pin_y);
-    if (!(pivot_pin_x > NEARLY_SINGULAR * scale_pin_x)) {
+    if (!(pivot_pin_x > memory->least * scale_pin_x)) {
         pivot = 4;
         goto dependent;
     }
-    if (!(determinant_pin_x__pin_y > NEARLY_SINGULAR * scale_pin_y * pivot_pin_x)) {
+    if (!(determinant_pin_x__pin_y > memory->least * scale_pin_y * pivot_pin_x)) {
         pivot = 5;
         goto dependent;
     }
