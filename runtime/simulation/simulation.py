@@ -59,8 +59,7 @@ class Simulation(Equations):
         self.loading = loading  # where the kernels came from, and how long it took
         self._overrides = dict(overrides or {})
         self._model: Model | None = None
-        self._full: Simulation | None = None
-        self._smooth: Simulation | None = None
+        self._variants: dict[str, Simulation] = {}
 
     def __repr__(self) -> str:
         joints, of = ", ".join(x.name for x in self.source.clearances), f"{self.source.mechanism}/{self.source.scene}"
@@ -84,28 +83,28 @@ class Simulation(Equations):
         """
         if self.source.formulation == "full":
             return self
-        self._full = self._full or self._loaded_as("full")
-        return self._full
+        return self._loaded_as("full")
 
     def of_method(self, method: str, progress: Progress | None = None) -> Simulation:
         """The same scene as a method wants it: in absolute coordinates for cross-checks, with its series for `taylor`.
 
         Derived when first asked for: BadValueError where the motion is not smooth, InputError as for `full`.
         """
-        if method in python_driver.NAMES and progress and self._full is None and self.source.formulation != "full":
-            progress(0.0, "deriving the full formulation")
         if method in python_driver.NAMES:
+            if progress and "full" not in {*self._variants, self.source.formulation}:
+                progress(0.0, "deriving the full formulation")
             return self.full
-        if method in SMOOTH and not self.source.taylor:
-            self._smooth = self._smooth or self._loaded_as(method)
-            return self._smooth
-        return self
+        return self._loaded_as(method) if method in SMOOTH and not self.source.taylor else self
 
     def _loaded_as(self, formulation: str) -> Simulation:
         from gudgeon.simulation.from_file import load_bytes
 
-        return load_bytes(self._loaded_bytes(), self.file, self.source.scene, formulation=formulation,
-                          overrides=self._overrides, portable=self.compiled.portable)  # fmt: skip
+        if formulation not in self._variants:
+            self._variants[formulation] = load_bytes(
+                self._loaded_bytes(), self.file, self.source.scene, formulation=formulation, overrides=self._overrides,
+                portable=self.compiled.portable,
+            )  # fmt: skip
+        return self._variants[formulation]
 
     def to_html(self) -> str:
         """The scene's page, HTML: its equations, and above them the mechanism running (gudgeon.web.page.write)."""
@@ -134,7 +133,7 @@ class Simulation(Equations):
 
     def __getstate__(self) -> dict[str, Any]:
         """What is derived is derived again where it is asked for."""
-        return self.__dict__ | {"_model": None, "_full": None, "_smooth": None}
+        return self.__dict__ | {"_model": None, "_variants": {}}
 
     def start(self, parameters: Mapping[str, float | str] | None = None) -> Start:
         """The assembled start at t = 0. Raises AssemblyError."""
@@ -265,7 +264,7 @@ class Simulation(Equations):
         motion, `found.motion`. Where neither drives nor forces read t, differences along the motion are then taken
         away. `skip`: so long (s) the motion settles first. Of the rest a tenth is left out, in which the difference
         turns. `method`, `rtol` (1e-12), `step`, `parameters`, `start`: as in `simulate`, of every run. A run of this
-        simulation in place of t_end: the exponent of that run, from its first sample to its last, with its numbers.
+        simulation in place of t_end: the exponent of that run, from first sample to last, with its numbers.
         Raises BadValueError without a degree of freedom, and for arguments; SolverError, AssemblyError as `simulate`.
         """
         from gudgeon.simulation.lyapunov import lyapunov
