@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import sys
 from functools import cache as remember
-from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
 
 from gudgeon.errors import BadValueError, BuildError
@@ -15,9 +14,6 @@ from gudgeon.waiting.programs import Programs
 INSTALL_COMPILER = (
     "install one — Debian, Ubuntu: apt-get install gcc libc6-dev; Fedora: dnf install gcc; "
     "macOS: xcode-select --install — or name it in $CC"
-)
-INSTALL_HEADERS = (
-    "install Python's headers — Debian, Ubuntu: apt-get install python3-dev; Fedora: dnf install python3-devel"
 )
 
 # -O1, two passes of gcc's -O2, which keep registers across calls, and vectors for the methods' loops over components:
@@ -51,8 +47,8 @@ def flags(portable: bool) -> tuple[str, ...]:
 
 
 def link_flags() -> tuple[str, ...]:
-    """What makes objects a module of Python."""
-    return ("-bundle", "-undefined", "dynamic_lookup") if sys.platform == "darwin" else ("-shared",)
+    """What makes objects a library that can be opened."""
+    return ("-dynamiclib",) if sys.platform == "darwin" else ("-shared",)
 
 
 def find_compiler() -> tuple[str, ...]:
@@ -77,19 +73,8 @@ def find_compiler() -> tuple[str, ...]:
     raise BuildError(f"{wanted}\n  {INSTALL_COMPILER}")
 
 
-def include_folders() -> tuple[str, ...]:
-    """Where Python.h of the Python in use is. Raises BuildError if it is missing."""
-    import sysconfig
-
-    paths = sysconfig.get_paths()
-    folders = tuple(dict.fromkeys((paths["include"], paths["platinclude"])))
-    if not any(Path(folder, "Python.h").is_file() for folder in folders):
-        raise BuildError(f"Python.h was not found in {', '.join(folders)}\n  {INSTALL_HEADERS}")
-    return folders
-
-
 def identity(command: tuple[str, ...], cache: Cache) -> str:
-    """Compiler, its version, Python's binary interface, C library: what a library's key must hold.
+    """Compiler, its version, machine, C library: what a library's key must hold.
 
     Asking a compiler for its version takes longer than a warm start may: the answer is kept under the
     path, size and time of every program in the command.
@@ -100,7 +85,7 @@ def identity(command: tuple[str, ...], cache: Cache) -> str:
     stats = [os.stat(program) for program in programs]
     key = digest([*command, *(f"{p} {s.st_size} {s.st_mtime_ns}" for p, s in zip(programs, stats, strict=True))])
     entry = cache.fetch("compilers", key, lambda folder: _ask_version(command, folder))
-    return "\n".join([*command, (entry / "version").read_text(), *_binary_interface()])
+    return "\n".join([*command, (entry / "version").read_text(), *_machine()])
 
 
 def _ask_version(command: tuple[str, ...], folder: Path) -> None:
@@ -112,11 +97,9 @@ def _ask_version(command: tuple[str, ...], folder: Path) -> None:
     (folder / "version").write_text(answer or "unknown")
 
 
-def _binary_interface() -> tuple[str, ...]:
-    import _cffi_backend
-
+def _machine() -> tuple[str, ...]:
     libc = os.confstr("CS_GNU_LIBC_VERSION") if "CS_GNU_LIBC_VERSION" in os.confstr_names else ""
-    return EXTENSION_SUFFIXES[0], _cffi_backend.__version__, sys.platform, os.uname().machine, libc or ""
+    return sys.platform, os.uname().machine, libc or ""
 
 
 @remember

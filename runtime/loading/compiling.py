@@ -49,6 +49,5 @@ def finish(programs: Programs, process: subprocess.Popen[str], made: Path) -> Ex
     if process.returncode == -signal.SIGXFSZ:
         return OSError(errno.EFBIG, "the compiler was stopped by a limit on the size of files (ulimit -f)")
     first = "\n  ".join(said.splitlines()[:8]) or "it said nothing"
-    hint = f"\n  {compiler.INSTALL_HEADERS}" if "Python.h" in said else ""
     line = " ".join(map(str, process.args))  # type: ignore[arg-type]
-    return BuildError(f"the C compiler failed (exit status {process.returncode}):\n  {first}{hint}\n  called as {line}")
+    return BuildError(f"the C compiler failed (exit status {process.returncode}):\n  {first}\n  called as {line}")
