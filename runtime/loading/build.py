@@ -37,7 +37,7 @@ def compile_kernels(
     """
     cache = cache or default_cache()
     command = compiler.find_compiler()
-    flags = (*compiler.flags(portable), *compiler.link_flags())
+    flags = (*compiler.flags(portable, command), *compiler.link_flags())
     key = library_key(source, command, flags, compiler.identity(command, cache), portable)
     with _lock:
         if key in _libraries and not rebuild:
@@ -59,7 +59,7 @@ def compile_kernels(
 def is_compiled(source: KernelSource, *, portable: bool = False) -> bool:
     """Whether `compile_kernels` finds the library in the cache."""
     cache, command = default_cache(), compiler.find_compiler()
-    flags = (*compiler.flags(portable), *compiler.link_flags())
+    flags = (*compiler.flags(portable, command), *compiler.link_flags())
     key = library_key(source, command, flags, compiler.identity(command, cache), portable)
     return key in _libraries or cache.has("libraries", key)
 

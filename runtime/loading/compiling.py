@@ -24,8 +24,9 @@ FULL = {
 
 def unit_line(portable: bool, unit: Sequence[str], made: str) -> tuple[str, ...]:
     """The line for one unit of a library: what it shares with others stays inside."""
-    command = (*compiler.find_compiler(), *compiler.flags(portable), "-fvisibility=hidden", *include_flags())
-    return (*command, "-c", *unit, "-o", made)
+    command = compiler.find_compiler()
+    flags = (*compiler.flags(portable, command), "-fvisibility=hidden", *include_flags())
+    return (*command, *flags, "-c", *unit, "-o", made)
 
 
 def begin(programs: Programs, line: Sequence[str], folder: Path) -> subprocess.Popen[str]:

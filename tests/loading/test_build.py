@@ -11,6 +11,7 @@ import sys
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -233,8 +234,45 @@ def test_ctrl_c_ends_the_compilers_and_what_they_started(
 def test_no_compiler_names_what_to_install(cache: Cache, monkeypatch: pytest.MonkeyPatch, name: str, said: str) -> None:
     monkeypatch.setenv("PATH", "")
     monkeypatch.setenv("CC", name)
-    with pytest.raises(BuildError, match=f"(?s){said}.*apt-get install gcc.*xcode-select"):
+    monkeypatch.setitem(sys.modules, "ziglang", None)  # as if it were not installed
+    with pytest.raises(BuildError, match=f"(?s){said}.*apt-get install gcc.*xcode-select.*gudgeon\\[cc\\]"):
         compile_kernels(tiny())
+
+
+def test_the_wheel_is_a_compiler_where_there_is_none(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Behind those of the system, with the flags that it knows; what runs on this CPU alone stays out where asked."""
+    zig = tmp_path / "zig"
+    zig.touch(0o755)
+    monkeypatch.setitem(sys.modules, "ziglang", SimpleNamespace(__file__=str(tmp_path / "__init__.py")))
+    monkeypatch.setenv("CC", "")
+    monkeypatch.setenv("PATH", str(tmp_path / "bin"))
+    command = compiler.find_compiler()
+    assert command[:2] == (str(zig), "cc")
+    assert set(compiler.FLAGS) - set(compiler.flags(True, command)) == compiler.GCCS
+    assert "-ffp-contract=off" in compiler.flags(True, command) and not any(map(compiler.INEXACT.__contains__, command))
+    system = tmp_path / "bin" / "clang"
+    system.parent.mkdir()
+    system.touch(0o755)
+    assert compiler.find_compiler() == (str(system),) and compiler.flags(True, (str(system),)) == compiler.FLAGS
+    system.unlink()
+    zig.unlink()  # a wheel that is not whole
+    with pytest.raises(BuildError, match="no C compiler"):
+        compiler.find_compiler()
+
+
+@pytest.mark.slow
+def test_without_a_compiler_a_mechanism_runs_by_the_wheels(tmp_path: Path) -> None:
+    """The same motion as with the system's, to what another order of operations may do. A minute: zig's C library."""
+    pytest.importorskip("ziglang")
+    (tmp_path / "bin").mkdir()
+    code = "import gudgeon; print(*gudgeon.load('pendulum').simulate(0.5, output=3).q[-1])"
+    found = []
+    for place in (os.environ["PATH"], str(tmp_path / "bin")):
+        environment = {**os.environ, "PATH": place, "CC": "", "GUDGEON_CACHE": str(tmp_path / f"cache{len(found)}")}
+        done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
+        found.append([float(number) for number in done.stdout.split()])
+    assert (tmp_path / "cache1" / "zig").is_dir() and not (tmp_path / "cache0" / "zig").exists()
+    assert found[1] == pytest.approx(found[0], rel=1e-9, abs=1e-9)
 
 
 @pytest.mark.parametrize("option", ["-ffast-math", "-Ofast"])
