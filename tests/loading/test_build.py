@@ -266,7 +266,7 @@ def test_without_a_compiler_a_mechanism_runs_by_the_wheels(tmp_path: Path) -> No
     pytest.importorskip("ziglang")
     (tmp_path / "bin").mkdir()
     code = "import gudgeon; print(*gudgeon.load('pendulum').simulate(0.5, output=3).q[-1])"
-    found = []
+    found: list[list[float]] = []
     for place in (os.environ["PATH"], str(tmp_path / "bin")):
         environment = {**os.environ, "PATH": place, "CC": "", "GUDGEON_CACHE": str(tmp_path / f"cache{len(found)}")}
         done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
