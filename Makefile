@@ -65,7 +65,8 @@ stress: map
 peers: setup  ## scikit-sundae, for the methods sundials:*; the next `bench` includes them
 	@.venv/bin/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt scikit-sundae
 
-generated: setup  ## derive and write generated/ anew for every shipped mechanism
+generated: setup  ## derive and write generated/ anew for every shipped mechanism; what Python knows of calls.h
+	@.venv/bin/python tools/declared.py
 	@.venv/bin/python tools/regenerate.py
 	@sh tools/setup all
 

@@ -141,7 +141,7 @@ class NonFiniteError(SolverError):
 
 
 class BuildError(GudgeonError):
-    """The C code could not be compiled or loaded (compiler or Python.h missing, …)."""
+    """The C code could not be compiled or loaded (compiler missing, …)."""
 
 
 class MemoryShortage(GudgeonError):

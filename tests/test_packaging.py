@@ -66,7 +66,8 @@ def test_the_pinned_versions_are_those_in_use() -> None:
     assert wrong == {}
 
 
-BY_NAME = {"bench", "web", "dask"}  # extras that are asked for by name alone: not on every platform, large, or for few
+# Extras that are asked for by name alone: not on every platform, large, or for few.
+BY_NAME = {"bench", "web", "cc", "dask"}
 
 
 def test_all_holds_every_extra_of_a_user() -> None:

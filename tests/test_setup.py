@@ -41,10 +41,10 @@ def clone(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def setup(clone: Path, extras: str = "all") -> list[str]:
+def setup(clone: Path, extras: str = "all", **other: str) -> list[str]:
     """What python was asked to do this time."""
     (clone / "log").write_text("")
-    environment = {**os.environ, "CC": "sh", "VENV": ".venv"}
+    environment = {**os.environ, "CC": "sh", "VENV": ".venv", **other}
     subprocess.run(["sh", "tools/setup", extras], cwd=clone, env=environment, check=True, capture_output=True)
     return (clone / "log").read_text().splitlines()
 
@@ -64,6 +64,16 @@ def test_what_is_there_is_not_installed_again(clone: Path) -> None:
 def test_tests_hold_what_a_run_needs(clone: Path) -> None:
     setup(clone, "all,test")
     assert setup(clone, "all") == setup(clone, "all,test") == []
+
+
+def test_where_there_is_no_compiler_one_is_installed(clone: Path, tmp_path: Path) -> None:
+    tools = tmp_path / "tools-alone"
+    tools.mkdir()
+    for name in ("sh", "dirname", "cat", "cksum", "tr", "find", "sort", "grep", "uname", "mkdir", "rm"):
+        (tools / name).symlink_to(str(shutil.which(name)))
+    asked = setup(clone, CC="", PATH=str(tools))
+    assert [".[cc,all]" in line for line in links(asked)] == [True] and setup(clone, CC="", PATH=str(tools)) == []
+    assert ".[all]" in "".join(links(setup(clone)))  # one has come
 
 
 def test_another_install_on_top_is_noticed_and_mended(clone: Path) -> None:

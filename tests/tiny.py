@@ -5,6 +5,8 @@ from __future__ import annotations
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.ledger import Story
 
+SEEN = "#pragma GCC visibility push(default)\n"  # a library hides what does not say this
+
 
 def tiny(factor: int = 2, **changes: object) -> KernelSource:
     """A source whose library has `double scale(double)`, which multiplies by `factor`."""
@@ -14,7 +16,7 @@ def tiny(factor: int = 2, **changes: object) -> KernelSource:
         "title": "",
         "sha256": "0" * 64,
         "files": {
-            "tiny.c": '#include "tiny.h"\ndouble scale(double x) { return FACTOR * x; }\n',
+            "tiny.c": f'#include "tiny.h"\n{SEEN}double scale(double x) {{ return FACTOR * x; }}\n',
             "tiny.h": f"#define FACTOR {factor}\n",
         },
         "main": "tiny.c",

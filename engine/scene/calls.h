@@ -1,9 +1,12 @@
 /*
- * What is called from outside: Python reads these declarations too. Arrays are C-contiguous and of the lengths that
- * model.h has; parameters `p` are those that gudgeon_prepare makes; all numbers are SI.
+ * What is called from outside, and nothing else is seen there: Python reads these declarations too. Arrays are
+ * C-contiguous and of the lengths that model.h has; parameters `p` are those that gudgeon_prepare makes; all numbers
+ * are SI.
  */
 #ifndef GUDGEON_CALLS_H
 #define GUDGEON_CALLS_H
+
+#pragma GCC visibility push(protected)
 
 void gudgeon_prepare(const double *given, const unsigned char *is_given, double *p);
 void gudgeon_mass(const double *p, double *m);
@@ -113,5 +116,7 @@ int gudgeon_kinematic_events(void *memory, long n, const double *t, const double
     const double *v, double start, int stop, signed char *side, long capacity, double *at, int *event, long *found,
     long *done);
 #endif
+
+#pragma GCC visibility pop
 
 #endif

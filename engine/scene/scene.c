@@ -2,8 +2,8 @@
  * What is compiled together with the functions that were derived for a scene: scene.c includes it behind them, whole or
  * in parts (PART) that are compiled side by side: 1 the functions in all coordinates, 2 those in few, 3 the methods'.
  */
-#if !PART || PART == 1
 #include "calls.h"
+#if !PART || PART == 1
 #include "calls.c"
 #if N_ROWS && !N_FRICTIONS && !N_RIGID
 #include "singular.c"

@@ -50,8 +50,8 @@ class Lanes:
     def __init__(self, compiled: CompiledModel, held: bool = False) -> None:
         from gudgeon.loading.build import compile_kernels
 
-        module: Any = compile_kernels(_source(compiled, held), portable=compiled.portable)
-        self.lib, self.ffi = module.lib, module.ffi
+        library = compile_kernels(_source(compiled, held), portable=compiled.portable)
+        self.lib, self.ffi = library.lib, library.ffi
         self.count = int(self.lib.gudgeon_lane_count())
         single = compiled.ffi.cast("uintptr_t", compiled.lib.gudgeon_single())
         self.single = self.ffi.cast("void *", int(single))

@@ -21,7 +21,7 @@ signed sizeof static static_assert struct switch thread_local true typedef typeo
 unsigned void volatile while linux unix
 """
 
-# Functions, macros and types of the headers that emitted code and cffi's wrapper include.
+# Functions, macros and types of the headers that emitted code includes.
 _C_LIBRARY = """
 main NULL EOF NAN INFINITY HUGE_VAL errno assert offsetof size_t ptrdiff_t wchar_t
 int8_t int16_t int32_t int64_t uint8_t uint16_t uint32_t uint64_t intptr_t uintptr_t

@@ -14,8 +14,7 @@ from gudgeon.errors import GudgeonError
 from gudgeon.loading import compiler
 from gudgeon.loading.cache import Cache, default_cache
 from gudgeon.loading.compiling import unit_line
-from gudgeon.loading.engine import declarations, declared_for, usually_declared
-from gudgeon.loading.shared import Shared, engine_object, wrapper_object
+from gudgeon.loading.shared import Shared, engine_object
 from gudgeon.waiting.ctrl_c import CtrlC
 from gudgeon.waiting.programs import Programs
 
@@ -32,8 +31,7 @@ def own_lines(source: KernelSource, portable: bool) -> dict[str, tuple[str, ...]
 
 def shared_objects(source: KernelSource, portable: bool) -> list[Shared]:
     """What it has in common with others: no engine where C is compiled alone."""
-    wrapper = wrapper_object(declarations(source), portable)
-    return [wrapper] if source.cdef else [engine_object(source.files[HEADER], portable), wrapper]
+    return [] if source.cdef else [engine_object(source.files[HEADER], portable)]
 
 
 def _part(part: int, portable: bool) -> tuple[str, tuple[str, ...]]:
@@ -53,30 +51,19 @@ class Ahead:
         return self
 
     def begin(self, part: int, texts: Mapping[str, str]) -> None:
-        """A part of the scene of which these texts are there by now; with the engine, the wrapper."""
+        """A part of the scene, or the engine, of which these texts are there by now."""
         try:
             if part == ENGINE_PART:
                 self.begin_shared(engine_object(texts[HEADER], self._portable))
-                self.begin_shared(wrapper_object(declared_for(texts[HEADER]), self._portable))
             else:
                 self._begin(*_part(part, self._portable), texts)
         except (GudgeonError, OSError):
             return
 
-    def foresee(self, integrates: bool, has_loops: bool, has_events: bool) -> None:
-        """A scene in tree coordinates is on its way, of which this can be told from its file: most have one wrapper."""
-        try:
-            self.begin_shared(wrapper_object(usually_declared(integrates, has_loops, has_events), self._portable))
-        except (GudgeonError, OSError):
-            return
-
     def begin_shared(self, shared: Shared) -> None:
         """What the cache does not have yet. GudgeonError or OSError where it cannot be."""
-        if shared.name in self._begun and not self.is_under_way(shared.name, shared.line, shared.texts()):
-            self._programs.stop(self._begun.pop(shared.name)[2])  # foreseen, and it came otherwise
-            shutil.rmtree(self._place(shared.name))
         if shared.name not in self._begun and not shared.is_there(self._portable, self._cache or default_cache()):
-            self._begin(shared.name, shared.line, shared.texts())
+            self._begin(shared.name, shared.line, shared.texts)
 
     def _begin(self, name: str, line: tuple[str, ...], texts: Mapping[str, str]) -> None:
         folder = self._place(name)

@@ -1,4 +1,4 @@
-"""C text to a loaded library: cffi writes the wrapper, our own compiler command builds it, the cache keeps it.
+"""C text to an opened library: a compiler builds it, the cache keeps it, library.py opens it.
 
 On a hit nothing but `_cffi_backend` is imported: neither cffi's parser nor subprocess.
 """
@@ -6,11 +6,8 @@ On a hit nothing but `_cffi_backend` is imported: neither cffi's parser nor subp
 from __future__ import annotations
 
 import os
-from importlib.machinery import ExtensionFileLoader
-from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from threading import Lock
-from types import ModuleType
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BuildError
@@ -19,32 +16,32 @@ from gudgeon.loading.ahead import Ahead, own_lines, shared_objects
 from gudgeon.loading.cache import Cache, Make, default_cache, digest, private_cache, tell_once
 from gudgeon.loading.compiling import begin, finish
 from gudgeon.loading.engine import engine_digest
-from gudgeon.loading.shared import ASKS, MODULE
+from gudgeon.loading.library import Library, opened
 from gudgeon.waiting.programs import Programs
 from gudgeon.waiting.working import working
 
 LIBRARY = "kernels.so"
-_modules: dict[str, ModuleType] = {}
+_libraries: dict[str, Library] = {}
 _lock = Lock()
 
 
 def compile_kernels(
     source: KernelSource, *, portable: bool = False, rebuild: bool = False, cache: Cache | None = None,
     ahead: Ahead | None = None,
-) -> ModuleType:  # fmt: skip
-    """The library of a kernel source, compiled if the cache has none; the module has `ffi` and `lib`.
+) -> Library:  # fmt: skip
+    """The library of a kernel source, compiled if the cache has none.
 
     portable: no instructions that only this CPU has. rebuild: compile even if the cache has it.
     ahead: where parts of it may be under way already.
-    Raises BuildError if there is no compiler or no Python.h, or if the C does not compile or load.
+    Raises BuildError if there is no compiler, or if the C does not compile or load.
     """
     cache = cache or default_cache()
     command = compiler.find_compiler()
-    flags = (*compiler.flags(portable), *compiler.link_flags())
+    flags = (*compiler.flags(portable, command), *compiler.link_flags())
     key = library_key(source, command, flags, compiler.identity(command, cache), portable)
     with _lock:
-        if key in _modules and not rebuild:
-            return _modules[key]
+        if key in _libraries and not rebuild:
+            return _libraries[key]
 
     def build(folder: Path) -> None:
         with working(f"compiling {source.mechanism}, scene {source.scene}"), Ahead(portable, cache) as none:
@@ -52,19 +49,19 @@ def compile_kernels(
 
     entry = cache.fetch("libraries", key, build, renew=rebuild)
     try:
-        module = _open(entry)
+        library = _open(entry, source.cdef)
     except ImportError as error:  # whole, and yet it cannot be mapped
-        module = _open_elsewhere(key, entry, build, error)
+        library = _open_elsewhere(key, entry, source.cdef, build, error)
     with _lock:
-        return _modules.setdefault(key, module)
+        return _libraries.setdefault(key, library)
 
 
 def is_compiled(source: KernelSource, *, portable: bool = False) -> bool:
     """Whether `compile_kernels` finds the library in the cache."""
     cache, command = default_cache(), compiler.find_compiler()
-    flags = (*compiler.flags(portable), *compiler.link_flags())
+    flags = (*compiler.flags(portable, command), *compiler.link_flags())
     key = library_key(source, command, flags, compiler.identity(command, cache), portable)
-    return key in _modules or cache.has("libraries", key)
+    return key in _libraries or cache.has("libraries", key)
 
 
 def library_key(
@@ -73,22 +70,14 @@ def library_key(
     """Everything that decides the library's bytes or whether this machine can run them."""
     texts = [part for name in sorted(source.files) for part in (name, source.files[name])]
     cpu = "" if portable else compiler.cpu()
-    return digest(
-        ["library/5", source.main, source.cdef, ASKS, *command, *flags, identity, cpu, engine_digest(), *texts]
-    )
+    return digest(["library/6", source.main, source.cdef, *command, *flags, identity, cpu, engine_digest(), *texts])
 
 
-def _open(entry: Path) -> ModuleType:
-    path = str(entry / LIBRARY)
-    loader = ExtensionFileLoader(MODULE, path)
-    spec = spec_from_file_location(MODULE, path, loader=loader)
-    assert spec is not None  # a loader was given
-    module = module_from_spec(spec)
-    loader.exec_module(module)
-    return module
+def _open(entry: Path, cdef: str) -> Library:
+    return opened(entry / LIBRARY, cdef)
 
 
-def _open_elsewhere(key: str, entry: Path, build: Make, error: ImportError) -> ModuleType:
+def _open_elsewhere(key: str, entry: Path, cdef: str, build: Make, error: ImportError) -> Library:
     """The library from a temporary folder: a copy, or where that does not load either, built anew. Told."""
     private = private_cache()
     if not entry.is_relative_to(private.root):
@@ -99,7 +88,7 @@ def _open_elsewhere(key: str, entry: Path, build: Make, error: ImportError) -> M
         tell_once(f"the cache folder {root} {why}: {copied}. {do}.", f"{root}: run")
         for make, renew in ((lambda folder: _copy(entry, folder), False), (build, True)):
             try:
-                return _open(private.fetch("libraries", key, make, renew=renew))
+                return _open(private.fetch("libraries", key, make, renew=renew), cdef)
             except ImportError as again:
                 error = again
                 if _noexec(private.root):

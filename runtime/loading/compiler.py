@@ -4,20 +4,17 @@ from __future__ import annotations
 
 import os
 import sys
+from contextlib import suppress
 from functools import cache as remember
-from importlib.machinery import EXTENSION_SUFFIXES
 from pathlib import Path
 
 from gudgeon.errors import BadValueError, BuildError
-from gudgeon.loading.cache import Cache, digest
+from gudgeon.loading.cache import Cache, default_cache, digest
 from gudgeon.waiting.programs import Programs
 
 INSTALL_COMPILER = (
     "install one — Debian, Ubuntu: apt-get install gcc libc6-dev; Fedora: dnf install gcc; "
-    "macOS: xcode-select --install — or name it in $CC"
-)
-INSTALL_HEADERS = (
-    "install Python's headers — Debian, Ubuntu: apt-get install python3-dev; Fedora: dnf install python3-devel"
+    "macOS: xcode-select --install; a wheel of 100 MB: pip install 'gudgeon[cc]' — or name it in $CC"
 )
 
 # -O1, two passes of gcc's -O2, which keep registers across calls, and vectors for the methods' loops over components:
@@ -37,26 +34,36 @@ FLAGS = (
     "-Werror=implicit-function-declaration",  # else a name that a part does not know is a function of whole numbers
 )
 
+GCCS = frozenset(("-O1", "-fcaller-saves", "-fipa-ra", "-ftree-loop-vectorize"))  # clang's own passes: -O2
+# Of zig's clang: no checks, which it makes where no level of optimization is named, as for a link, and the CPU that all
+# have, where it takes this machine's; -march=native behind it still holds.
+ZIG = ("-fno-sanitize=undefined", "-mcpu=baseline")
+
 INEXACT = frozenset((
     "-ffast-math", "-Ofast", "-funsafe-math-optimizations", "-ffinite-math-only", "-fassociative-math",
     "-freciprocal-math", "-fno-signed-zeros",
 ))  # fmt: skip
 
 
-def flags(portable: bool) -> tuple[str, ...]:
-    """Compiler flags; `portable` leaves out what binds the library to this CPU."""
+def flags(portable: bool, command: tuple[str, ...] = ()) -> tuple[str, ...]:
+    """Compiler flags of this command; `portable` leaves out what binds the library to this CPU."""
     machine = os.uname().machine
     native = "-mcpu=native" if machine in ("arm64", "aarch64") else "-march=native"
-    return (*FLAGS, *(() if portable else (native,)))
+    named = ("-O2", *(flag for flag in FLAGS if flag not in GCCS)) if _is_zig(command) else FLAGS
+    return (*named, *(() if portable else (native,)))
+
+
+def _is_zig(command: tuple[str, ...]) -> bool:
+    return bool(command) and Path(command[0]).name == "zig"
 
 
 def link_flags() -> tuple[str, ...]:
-    """What makes objects a module of Python."""
-    return ("-bundle", "-undefined", "dynamic_lookup") if sys.platform == "darwin" else ("-shared",)
+    """What makes objects a library that can be opened."""
+    return ("-dynamiclib",) if sys.platform == "darwin" else ("-shared",)
 
 
 def find_compiler() -> tuple[str, ...]:
-    """The command: $CC (words of it may be options or a wrapper), or the first of cc, gcc, clang on PATH.
+    """The command: $CC (words of it may be options or a wrapper), the first of cc, gcc, clang on PATH, or zig's.
 
     Raises BuildError if there is none, BadValueError for a $CC that is no command.
     """
@@ -73,23 +80,25 @@ def find_compiler() -> tuple[str, ...]:
     for command in [named] if named else [["cc"], ["gcc"], ["clang"]]:
         if found := shutil.which(command[0]):
             return (os.path.abspath(found), *command[1:])  # it is run in other folders
+    if not named:
+        with suppress(ImportError):
+            return (str(zig()), "cc", *ZIG)
     wanted = f"the compiler in $CC, {named[0]!r}, was not found" if named else "no C compiler found (cc, gcc, clang)"
     raise BuildError(f"{wanted}\n  {INSTALL_COMPILER}")
 
 
-def include_folders() -> tuple[str, ...]:
-    """Where Python.h of the Python in use is. Raises BuildError if it is missing."""
-    import sysconfig
+def zig() -> Path:
+    """The compiler that comes as a wheel, with a C library and a linker. ImportError where it is not installed."""
+    import ziglang
 
-    paths = sysconfig.get_paths()
-    folders = tuple(dict.fromkeys((paths["include"], paths["platinclude"])))
-    if not any(Path(folder, "Python.h").is_file() for folder in folders):
-        raise BuildError(f"Python.h was not found in {', '.join(folders)}\n  {INSTALL_HEADERS}")
-    return folders
+    found = Path(ziglang.__file__).with_name("zig")
+    if not os.access(found, os.X_OK):
+        raise ImportError(f"{found} is no program")
+    return found
 
 
 def identity(command: tuple[str, ...], cache: Cache) -> str:
-    """Compiler, its version, Python's binary interface, C library: what a library's key must hold.
+    """Compiler, its version, machine, C library: what a library's key must hold.
 
     Asking a compiler for its version takes longer than a warm start may: the answer is kept under the
     path, size and time of every program in the command.
@@ -100,7 +109,7 @@ def identity(command: tuple[str, ...], cache: Cache) -> str:
     stats = [os.stat(program) for program in programs]
     key = digest([*command, *(f"{p} {s.st_size} {s.st_mtime_ns}" for p, s in zip(programs, stats, strict=True))])
     entry = cache.fetch("compilers", key, lambda folder: _ask_version(command, folder))
-    return "\n".join([*command, (entry / "version").read_text(), *_binary_interface()])
+    return "\n".join([*command, (entry / "version").read_text(), *_machine()])
 
 
 def _ask_version(command: tuple[str, ...], folder: Path) -> None:
@@ -112,11 +121,9 @@ def _ask_version(command: tuple[str, ...], folder: Path) -> None:
     (folder / "version").write_text(answer or "unknown")
 
 
-def _binary_interface() -> tuple[str, ...]:
-    import _cffi_backend
-
+def _machine() -> tuple[str, ...]:
     libc = os.confstr("CS_GNU_LIBC_VERSION") if "CS_GNU_LIBC_VERSION" in os.confstr_names else ""
-    return EXTENSION_SUFFIXES[0], _cffi_backend.__version__, sys.platform, os.uname().machine, libc or ""
+    return sys.platform, os.uname().machine, libc or ""
 
 
 @remember
@@ -138,5 +145,5 @@ def cpu() -> str:
 
 
 def plain() -> dict[str, str]:
-    """The environment for the compiler: its messages in English, because we read some of them."""
-    return {**os.environ, "LC_ALL": "C"}
+    """The environment for the compiler: messages in English, because we read some; where zig keeps its C library."""
+    return {"ZIG_GLOBAL_CACHE_DIR": str(default_cache().root / "zig"), **os.environ, "LC_ALL": "C"}

@@ -24,8 +24,9 @@ FULL = {
 
 def unit_line(portable: bool, unit: Sequence[str], made: str) -> tuple[str, ...]:
     """The line for one unit of a library: what it shares with others stays inside."""
-    command = (*compiler.find_compiler(), *compiler.flags(portable), "-fvisibility=hidden", *include_flags())
-    return (*command, "-c", *unit, "-o", made)
+    command = compiler.find_compiler()
+    flags = (*compiler.flags(portable, command), "-fvisibility=hidden", *include_flags())
+    return (*command, *flags, "-c", *unit, "-o", made)
 
 
 def begin(programs: Programs, line: Sequence[str], folder: Path) -> subprocess.Popen[str]:
@@ -49,6 +50,5 @@ def finish(programs: Programs, process: subprocess.Popen[str], made: Path) -> Ex
     if process.returncode == -signal.SIGXFSZ:
         return OSError(errno.EFBIG, "the compiler was stopped by a limit on the size of files (ulimit -f)")
     first = "\n  ".join(said.splitlines()[:8]) or "it said nothing"
-    hint = f"\n  {compiler.INSTALL_HEADERS}" if "Python.h" in said else ""
     line = " ".join(map(str, process.args))  # type: ignore[arg-type]
-    return BuildError(f"the C compiler failed (exit status {process.returncode}):\n  {first}{hint}\n  called as {line}")
+    return BuildError(f"the C compiler failed (exit status {process.returncode}):\n  {first}\n  called as {line}")

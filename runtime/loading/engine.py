@@ -51,13 +51,10 @@ def declared_for(header: str) -> str:
     return _with_sizes(CALLS.read_text(encoding="utf-8"), _sizes(header))
 
 
-def usually_declared(integrates: bool, has_loops: bool, has_events: bool) -> str:
-    """The same for most scenes in tree coordinates: whether a freedom is left, loops, events that are watched for."""
-    sizes = {
-        "TREE": 1, "RESCUED": has_loops, "N_CHAIN": 0, "INTEGRATES": integrates, "HAS_LANES": integrates,
-        "N_USER_EVENTS": has_events,
-    }  # fmt: skip
-    return _with_sizes(CALLS.read_text(encoding="utf-8"), sizes)
+def all_declarations() -> str:
+    """Of all scenes, and of libraries of lanes: what a library does not have is missed when it is asked for."""
+    lines = CALLS.read_text(encoding="utf-8").splitlines()
+    return "".join(f"{line}\n" for line in lines if not line.startswith("#")) + lane_declarations()
 
 
 def lane_declarations() -> str:

@@ -145,15 +145,13 @@ def derived(
 ) -> KernelSource:  # fmt: skip
     """The C of a scene, derived now; each stage notes its seconds where somebody wants them.
 
-    A mistake in the file is told, and what can be foreseen is being compiled, before SymPy is imported.
+    A mistake in the file is told before SymPy is imported.
     """
     with working(f"deriving {file.stem}, scene {scene}"):
         whole(*READER)
-        from gudgeon.generator.reading import counted_freedoms, has_loops, read_scene
+        from gudgeon.generator.reading import read_scene
 
         read = read_scene(data, str(file), scene, overrides, seconds)
-        if ahead and formulation != "full":
-            ahead.foresee(counted_freedoms(read) > 0, has_loops(read), bool(read.events))
         start = perf_counter()
         whole(*GENERATOR)
         from gudgeon.generator.pipeline import equations, in_c

@@ -10,8 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 from functools import cached_property
-from types import ModuleType
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,6 +23,9 @@ from gudgeon.model.choices import choices, filled_in
 from gudgeon.model.evaluation import PARTS, Evaluation, evaluate, nothing
 from gudgeon.model.far_masses import far_masses
 
+if TYPE_CHECKING:
+    from gudgeon.loading.library import Library
+
 Array: TypeAlias = NDArray[np.float64]
 
 N_WORK = 3  # works that are integrated with the motion
@@ -32,9 +34,9 @@ N_WORK = 3  # works that are integrated with the motion
 class CompiledModel:
     """The library of one scene. `p` is what `prepare` returns: slots, then derived numbers."""
 
-    def __init__(self, source: KernelSource, module: ModuleType, portable: bool = False) -> None:
+    def __init__(self, source: KernelSource, library: Library, portable: bool = False) -> None:
         self.source, self.portable = source, portable  # how its library was compiled, and others beside it will be
-        self.__dict__.update(lib=module.lib, ffi=module.ffi)
+        self.__dict__.update(lib=library.lib, ffi=library.ffi)
         self.n, self.n_p = len(source.coordinates), len(source.slots) + len(source.derived)
         self.n_memory = source.n_memory
         self._free = np.full(max(self.n_memory, 1), np.nan)
@@ -46,12 +48,12 @@ class CompiledModel:
     @cached_property
     def lib(self) -> Any:
         """The library's functions; of a pickled model when they are first asked for."""
-        return self._module.lib
+        return self._library.lib
 
     @cached_property
     def ffi(self) -> Any:
-        """cffi's view of the library."""
-        return self._module.ffi
+        """cffi's view of what the engine declares."""
+        return self._library.ffi
 
     @cached_property
     def beyond(self) -> bool:
@@ -67,7 +69,7 @@ class CompiledModel:
         return nothing(self)
 
     @property
-    def _module(self) -> Any:
+    def _library(self) -> Library:
         from gudgeon.loading.build import compile_kernels
 
         return compile_kernels(self.source, portable=self.portable)

@@ -63,12 +63,12 @@ def load_bytes(
             data, file, scene, overrides=overrides, formulation=formulation, regenerate=regenerate, ahead=ahead
         )
         have_source = perf_counter()
-        module = compile_kernels(source, portable=portable, rebuild=regenerate, ahead=ahead)
-    have_module = perf_counter()
+        library = compile_kernels(source, portable=portable, rebuild=regenerate, ahead=ahead)
+    have_library = perf_counter()
 
     whole(*RUNTIME)
     from gudgeon.model.compiled import CompiledModel
 
-    loading = Loading(origin, read - start, have_source - read, have_module - have_source, have_module - start)
-    compiled = CompiledModel(source, module, portable)
+    loading = Loading(origin, read - start, have_source - read, have_library - have_source, have_library - start)
+    compiled = CompiledModel(source, library, portable)
     return Simulation(compiled, file=file, overrides=dict(overrides or {}), loading=loading)

@@ -14,8 +14,7 @@ if TYPE_CHECKING:
     from gudgeon.model.compiled import CompiledModel
 
 EVERY = 0.05  # s between two questions
-NAME = "gudgeon_python_asks"
-_registered: dict[int, Any] = {}  # libraries by id; kept, so that no other one gets the same
+_functions: dict[int, tuple[Any, Any]] = {}  # by the id of what cffi knows, which is kept: no other gets the same
 
 
 class Asker:
@@ -51,9 +50,9 @@ class Asker:
 
 
 def _function(compiled: CompiledModel) -> Any:
-    """The function of a library that leads back to Python; an exception on the way there stops the run too."""
-    lib, ffi = compiled.lib, compiled.ffi
-    if id(lib) not in _registered:
+    """The function that leads from C back to Python; an exception on the way there stops the run too."""
+    ffi = compiled.ffi
+    if id(ffi) not in _functions:
 
         def keep(kind: object, error: BaseException | None, trace: TracebackType | None) -> None:
             """What a signal's handler raised just before or behind `answer` is of the one who was asked."""
@@ -61,6 +60,6 @@ def _function(compiled: CompiledModel) -> Any:
             if whom is not None and error is not None:
                 ffi.from_handle(whom).raised = error
 
-        ffi.def_extern(name=NAME, error=1, onerror=keep)(lambda whom: ffi.from_handle(whom).answer())
-        _registered[id(lib)] = lib
-    return getattr(lib, NAME)
+        asked = ffi.callback("int(void *)", lambda whom: ffi.from_handle(whom).answer(), error=1, onerror=keep)
+        _functions[id(ffi)] = ffi, asked
+    return _functions[id(ffi)][1]

@@ -14,7 +14,7 @@ from importlib import import_module
 RUNTIME = ("numpy", "gudgeon.simulation.simulation")
 READER = ("numpy", "ruamel.yaml", "gudgeon.generator.reading")
 GENERATOR = ("numpy", "mpmath", "sympy", "jinja2", "ruamel.yaml", "gudgeon.generator.pipeline")
-CFFI = ("cffi", "pycparser", "cffi.cparser", "cffi.recompiler")
+CFFI = ("cffi", "pycparser", "cffi.cparser")
 LOOK = 0.05  # s, after which a signal is looked for
 SPARSE = ("numpy", "scipy.sparse", "scipy.sparse.linalg")
 

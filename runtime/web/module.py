@@ -16,7 +16,7 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.errors import BadValueError, BuildError
 from gudgeon.loading.cache import Cache, default_cache, digest
-from gudgeon.loading.compiler import plain
+from gudgeon.loading.compiler import plain, zig
 from gudgeon.loading.compiling import finish
 from gudgeon.loading.engine import UNIT, declarations, engine_digest, include_flags
 from gudgeon.waiting.programs import Programs
@@ -48,8 +48,8 @@ def simulator(source: KernelSource, *, cache: Cache | None = None) -> bytes:
     """
     if source.cdef:
         raise BadValueError(f"{source.mechanism}/{source.scene} is no scene that the engine runs: it has no simulator")
-    zig, cache = _zig(), cache or default_cache()
-    line = [str(zig), "cc", *FLAGS, *_exports(source), *include_flags(), source.main, str(UNIT), "-o", MODULE]
+    found, cache = _zig(), cache or default_cache()
+    line = [str(found), "cc", *FLAGS, *_exports(source), *include_flags(), source.main, str(UNIT), "-o", MODULE]
     texts = [part for name in sorted(source.files) for part in (name, source.files[name])]
     key = digest(["web/1", version("ziglang"), *line[1:], engine_digest(), *texts])
 
@@ -63,13 +63,12 @@ def simulator(source: KernelSource, *, cache: Cache | None = None) -> bytes:
 def _zig() -> Path:
     """The compiler. BuildError where its wheel is not installed."""
     try:
-        import ziglang
+        return zig()
     except ImportError as error:
         raise BuildError(
             "a simulator for pages is compiled by zig, which is not installed\n"
             "  install it, a wheel of 100 MB: pip install 'gudgeon[web]'"
         ) from error
-    return Path(ziglang.__file__).with_name("zig")
 
 
 def _exports(source: KernelSource) -> list[str]:

@@ -203,7 +203,7 @@ def test_a_terminal_is_told_what_is_derived_and_compiled(
 ) -> None:
     """64 bars showed nothing for 9 s. The line is gone at the end; a warm start and a pipe have none."""
     monkeypatch.setenv("GUDGEON_CACHE", str(tmp_path / "cold"))
-    monkeypatch.setattr("gudgeon.loading.build._modules", {})  # another test of this process may have the library
+    monkeypatch.setattr("gudgeon.loading.build._libraries", {})  # another test of this process may have the library
     monkeypatch.setenv("TERM", "xterm")
     monkeypatch.setenv("NO_COLOR", "1")
 

@@ -56,11 +56,11 @@ from gudgeon import build
 from gudgeon.loading.cache import Cache
 from tests.tiny import tiny
 for _ in range(int(sys.argv[3])):
-    build._modules.clear()
+    build._libraries.clear()
     assert build.compile_kernels(tiny(7), cache=Cache(sys.argv[1] + "/cache")).lib.scale(1.0) == 7.0
 real, tries = build._build, []
 build._build = lambda *a: tries.append(a) or real(*a)
-build._modules.clear()
+build._libraries.clear()
 build.compile_kernels(tiny(7), cache=Cache(sys.argv[1] + "/cache"))
 print(len(tries))
 """

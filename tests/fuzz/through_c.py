@@ -15,7 +15,6 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any, cast
 
 import numpy as np
@@ -28,9 +27,9 @@ from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.language.tree import Expr, evaluate
 from gudgeon.loading.compiler import find_compiler
 from gudgeon.loading.engine import UNIT, declarations, include_flags
+from gudgeon.loading.library import opened
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.simulation.simulation import Simulation
-from gudgeon.waiting.asking import NAME
 from tests.fuzz.scenes import RandomFile, random_file
 from tests.reduction.reduced import Reduced
 
@@ -142,8 +141,6 @@ def check_syntax(source: KernelSource, folder: Path) -> None:
 
 def library(source: KernelSource, folder: Path, name: str) -> CompiledModel:
     """Compiled with all warnings on, and loaded; what it has no use for is not compiled."""
-    from cffi import FFI
-
     write(source, folder)
     text, told = f'#include "{source.main}"\n#include "engine/engine.c"\n', declarations(source)
     if source.formulation == "reduced":
@@ -157,31 +154,7 @@ def library(source: KernelSource, folder: Path, name: str) -> CompiledModel:
     (folder / "library.c").write_text(text, encoding="utf-8")
     file = folder / f"{name}.so"
     _compile([*WARNINGS, "-O1", "-fPIC", "-shared", *include_flags(), "library.c", "-o", file.name, "-lm"], folder)
-    ffi = FFI()
-    ffi.cdef(told)
-    return CompiledModel(source, cast(Any, SimpleNamespace(ffi=_Ffi(ffi), lib=_Library(ffi, ffi.dlopen(str(file))))))
-
-
-class _Ffi:
-    """Of a library that is opened as it is: what C calls back is made by `_Library`."""
-
-    def __init__(self, ffi: Any) -> None:
-        self._ffi = ffi
-
-    def def_extern(self, **_: Any) -> Any:
-        return lambda function: function
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._ffi, name)
-
-
-class _Library:
-    def __init__(self, ffi: Any, lib: Any) -> None:
-        self._lib = lib
-        setattr(self, NAME, ffi.callback("int(void *)", lambda whom: ffi.from_handle(whom).answer(), error=1))
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._lib, name)
+    return CompiledModel(source, opened(file, told))
 
 
 def _compile(flags: list[str], folder: Path) -> None:

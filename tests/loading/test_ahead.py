@@ -14,12 +14,9 @@ import pytest
 import gudgeon
 from gudgeon.contract.kernel_source import ENGINE_PART, KernelSource
 from gudgeon.errors import BuildError, InputError
-from gudgeon.generator.reading import counted_freedoms, has_loops, read_scene
 from gudgeon.loading import build, shared
 from gudgeon.loading.ahead import Ahead, own_lines, shared_objects
 from gudgeon.loading.cache import LIST, _seal
-from gudgeon.loading.engine import declared_for, usually_declared
-from gudgeon.loading.shipped import GENERATED, shipped_file
 from gudgeon.waiting.programs import Programs
 
 ROD = """\
@@ -36,7 +33,7 @@ start: {set: {rod.theta: 0.3}}
 @pytest.fixture(autouse=True)
 def own_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Where temporary folders and the cache are: `tmp` is empty at the end of each test. Nothing is loaded yet."""
-    monkeypatch.setattr(build, "_modules", {})
+    monkeypatch.setattr(build, "_libraries", {})
     (tmp_path / "tmp").mkdir()
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "tmp"))
     monkeypatch.setenv("GUDGEON_CACHE", str(tmp_path / "cache"))
@@ -67,45 +64,11 @@ def test_a_derivation_begins_it_and_the_library_takes_it(own_folders: Path, monk
     monkeypatch.setattr(Ahead, "take", noted)
     (own_folders / "rod.yaml").write_text(ROD)
     run = gudgeon.load(own_folders / "rod.yaml").simulate(t_end=0.5, output=3)
-    assert sorted(taken) == [ENGINE, "scene_1.o", "scene_2.o", "scene_3.o", "wrapper.o"]
+    assert sorted(taken) == [ENGINE, "scene_1.o", "scene_2.o", "scene_3.o"]
     assert list((own_folders / "tmp").iterdir()) == []
-    for name in ("begin", "foresee"):
-        monkeypatch.setattr(Ahead, name, lambda *given: None)
+    monkeypatch.setattr(Ahead, "begin", lambda *given: None)
     again = gudgeon.load(own_folders / "rod.yaml", regenerate=True).simulate(t_end=0.5, output=3)
-    assert len(taken) == 5 and (run["rod.theta"] == again["rod.theta"]).all()
-
-
-def test_what_is_foreseen_is_the_wrapper_of_most(own_folders: Path) -> None:
-    """Friction that may stick and chains that drives lead are found later."""
-    found = {}
-    for scene in sorted(GENERATED.glob("*/*/model.h")):
-        name, file = scene.parent.parent.name, shipped_file(scene.parent.parent.name)
-        read = read_scene(file.read_bytes(), str(file), scene.parent.name)
-        foreseen = usually_declared(counted_freedoms(read) > 0, has_loops(read), bool(read.events))
-        found[name, read.name] = foreseen == declared_for(scene.read_text())
-    assert len(found) > 15 and {name for name, same in found.items() if not same} == {
-        ("belt_block", "ideal"), ("shaker", "ideal"),
-    }  # fmt: skip
-
-
-@pytest.mark.parametrize("integrates", (True, False))
-def test_what_was_foreseen_and_came_otherwise_is_given_up(
-    own_folders: Path, monkeypatch: pytest.MonkeyPatch, integrates: bool
-) -> None:
-    """The rod has no loops, and with the wrapper of scenes that have some its library would not link."""
-    given_up: list[Any] = []
-
-    def foresee(early: Ahead, *asked: bool) -> None:
-        begun(early, integrates, True, True)
-        given_up.append(early._begun["wrapper.o"][2])
-
-    begun = Ahead.foresee
-    monkeypatch.setattr(Ahead, "foresee", foresee)
-    (own_folders / "rod.yaml").write_text(ROD)
-    assert gudgeon.load(own_folders / "rod.yaml").simulate(0.1, output=2).diagnostics.energy_residual < 1e-9
-    assert given_up[0].returncode is not None
-    assert len(list((own_folders / "cache" / "wrappers").iterdir())) == 1
-    assert list((own_folders / "tmp").iterdir()) == []
+    assert len(taken) == 4 and (run["rod.theta"] == again["rod.theta"]).all()
 
 
 def test_what_scenes_share_is_compiled_once(own_folders: Path) -> None:
@@ -116,7 +79,7 @@ def test_what_scenes_share_is_compiled_once(own_folders: Path) -> None:
         (own_folders / "rod.yaml").write_text(text)
         run = gudgeon.load(own_folders / "rod.yaml").simulate(t_end=0.1, output=3)
         assert run.diagnostics.energy_residual < 1e-9
-        assert len(list(engines.iterdir())) == number and len(list((own_folders / "cache/wrappers").iterdir())) == 1
+        assert len(list(engines.iterdir())) == number
 
 
 def test_what_does_not_link_is_compiled_again_where_that_is_asked_for(own_folders: Path) -> None:
@@ -127,7 +90,7 @@ def test_what_does_not_link_is_compiled_again_where_that_is_asked_for(own_folder
     (entry / ENGINE).write_bytes(b"no object")
     (entry / LIST).unlink()
     _seal(entry, entry)
-    build._modules.clear()
+    build._libraries.clear()
     (own_folders / "rod.yaml").write_text(ROD.replace("0.3, mass", "0.4, mass"))
     with pytest.raises(BuildError, match=ENGINE):
         gudgeon.load(own_folders / "rod.yaml")
@@ -152,7 +115,7 @@ def test_what_is_compiled_already_is_not_begun(own_folders: Path) -> None:
     source = pendulum()
     with Ahead(False) as early:
         early.begin(ENGINE_PART, source.files)
-        assert not early._begun and len(shared_objects(source, False)) == 2
+        assert not early._begun and len(shared_objects(source, False)) == 1
         early.begin(ENGINE_PART, {"model.h": source.files["model.h"].replace("#define N_Q 3 ", "#define N_Q 4 ")})
         assert list(early._begun) == [ENGINE]
     assert list((own_folders / "tmp").iterdir()) == []

@@ -44,7 +44,7 @@ def generator(monkeypatch: pytest.MonkeyPatch) -> list[tuple[bytes, str, str, Ma
         return tiny(scene=read[0], sha256=read[1])
 
     stands_in: dict[str, dict[str, Any]] = {
-        "reading": {"read_scene": read_scene, "counted_freedoms": None, "has_loops": None},
+        "reading": {"read_scene": read_scene},
         "pipeline": {"equations": lambda read, seconds: read, "in_c": in_c},
     }
     for name, functions in stands_in.items():

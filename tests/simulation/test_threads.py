@@ -55,9 +55,6 @@ class Watched:
         return self._noted(name, found) if name.startswith("gudgeon_") and callable(found) else found
 
     def _noted(self, name: str, function: Callable[..., Any]) -> Any:
-        if name == asking.NAME:
-            return function
-
         def call(*arguments: Any) -> Any:
             before = self.count[0]
             try:

@@ -133,7 +133,7 @@ def test_no_warning_about_any_shipped_scene(name: str, scene: str, tmp_path: Pat
                                              ("andrews_squeezer", "ideal"), ("belt_block", "ideal")])  # fmt: skip
 @pytest.mark.parametrize("formulation", ["reduced", "full"])
 def test_declarations_are_what_the_scene_defines(name: str, scene: str, formulation: str, tmp_path: Path) -> None:
-    """The wrapper is compiled apart and sees only what cffi is told: prototypes and structs must be the library's."""
+    """Python sees only what cffi is told: prototypes and structs must be the library's."""
     file = shipped_file(name)
     source = generate(file.read_bytes(), file.name, scene, None, formulation)
     write(source, tmp_path)

@@ -1,0 +1,68 @@
+"""What Python knows of a library's functions: declarations as cffi reads them, kept in a file that follows calls.h."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+from pathlib import Path
+
+import pytest
+from cffi import FFI
+
+import gudgeon
+from gudgeon.loading import declared, library
+from gudgeon.loading.engine import all_declarations, declarations
+from tests.programs import needs_compiler
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def test_what_is_kept_is_what_cffi_makes_of_the_engines_declarations() -> None:
+    """Of the file's own text, and of types and fields as cffi's parser sees them."""
+    spec = importlib.util.spec_from_file_location("declared_tool", ROOT / "tools" / "declared.py")
+    assert spec is not None and spec.loader is not None
+    tool = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(tool)
+    assert tool.FILE.read_text(encoding="utf-8") == tool.text()
+    parsed = FFI()
+    parsed.cdef(all_declarations())
+    kept, told = declared.ffi.typeof("Batch"), parsed.typeof("Batch")
+    assert [(name, field.offset, field.type.cname) for name, field in kept.fields] == [
+        (name, field.offset, field.type.cname) for name, field in told.fields
+    ]
+
+
+@needs_compiler
+@pytest.mark.parametrize("scene", ["pendulum", "four_bar"])
+def test_a_library_has_what_is_declared_and_misses_the_rest(scene: str) -> None:
+    simulation = gudgeon.load(scene)
+    lib = simulation.compiled.lib
+    wanted = set(re.findall(r"\b(gudgeon_\w+)\(", declarations(simulation.source)))
+    every = set(re.findall(r"\b(gudgeon_\w+)\(", all_declarations()))
+    assert wanted < every and {name for name in every if hasattr(lib, name)} == wanted
+    with pytest.raises(AttributeError, match="gudgeon_chains"):
+        lib.gudgeon_chains  # noqa: B018
+
+
+@needs_compiler
+def test_declarations_that_are_being_edited_are_parsed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not called as they were before."""
+    compiled = gudgeon.load("pendulum").compiled
+    file = next(each.file for each in _libraries() if each.lib is compiled.lib)
+    monkeypatch.setattr(declared, "OF", "another")
+    library._engines.cache_clear()
+    try:
+        parsed = library.opened(file)
+    finally:
+        monkeypatch.undo()
+        library._engines.cache_clear()
+    assert parsed.ffi is not declared.ffi and compiled.ffi is declared.ffi
+    for name in ("gudgeon_many", "gudgeon_evaluate"):
+        kept, told = (each.ffi.typeof(getattr(each.lib, name)).cname for each in (compiled, parsed))
+        assert kept == told
+
+
+def _libraries() -> list[library.Library]:
+    from gudgeon.loading.build import _libraries
+
+    return list(_libraries.values())
