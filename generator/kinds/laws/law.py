@@ -65,6 +65,8 @@ RESULTS: Mapping[str, tuple[str, ...]] = {
 MEAN_CLEARANCE = "mean_clearance"
 # What a normal law may derive: the penetration (m) beyond which it is none, where a run stops.
 DEEPEST = "deepest"
+# Of the clearance: where the stiffness of a force that is no power law is taken, for the default step.
+SECANT_DEPTH = 0.05
 
 
 @dataclass(frozen=True)
