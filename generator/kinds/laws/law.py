@@ -131,6 +131,11 @@ class Law:
         return tuple(own for own in self.fields if own.kind == NUMBER)
 
     @property
+    def expressions(self) -> tuple[Field, ...]:
+        """Those of its numbers that are expressions of a variable, which a run has no slot for."""
+        return tuple(own for own in self.parameters if own.varies)
+
+    @property
     def options(self) -> tuple[Field, ...]:
         """Its structural choices: words, and flags with the values False and True."""
         return tuple(own for own in self.fields if own.kind != NUMBER)
