@@ -83,8 +83,8 @@ def test_slopes_are_those_of_the_force(law: str, more: str) -> None:
     for depth in (1e-6, 4e-6, 6e-6, 2.3e-5):
         e, y = 1e-4 + depth, np.zeros(2 * subject.n)
         y[:2], y[subject.n : subject.n + 3] = (0.6 * e, -0.8 * e), (0.01, 0.03, 2.0)
-        for memory in ((NAN, NAN), (0.02, NAN)):
-            subject.compare(0.0, y, np.array(memory), 1e-9)
+        for memory in (NAN, 0.02):
+            subject.compare(0.0, y, np.array([memory]), 1e-9)
 
 
 WRONG = {
