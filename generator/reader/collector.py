@@ -155,7 +155,8 @@ class Reader:
                     if result is not None:
                         message = "'t' is time, and this force follows the penetration alone"
                         raise ExpressionError(message, place, f"expected delta and parameters; {hint}")
-                    raise ExpressionError("'t' is time, and this number is constant", place, f"expected parameters; {hint}")
+                    message = "'t' is time, and this number is constant"
+                    raise ExpressionError(message, place, f"expected parameters; {hint}")
                 found["t"] = TIME
             elif name.path in self.parameters:
                 found[name.path] = self.parameters[name.path]

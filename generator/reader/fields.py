@@ -8,7 +8,18 @@ from types import MappingProxyType
 from typing import Protocol
 
 from gudgeon.errors import BadValueError, InputError, JoinError, Location, MissingKeyError, UnknownKeyError
-from gudgeon.generator.field import BODY, FLAG, NUMBER, OF_MOTION, OF_PENETRATION, OF_RESULTS, VECTOR, WORD, Bound, Field
+from gudgeon.generator.field import (
+    BODY,
+    FLAG,
+    NUMBER,
+    OF_MOTION,
+    OF_PENETRATION,
+    OF_RESULTS,
+    VECTOR,
+    WORD,
+    Bound,
+    Field,
+)
 from gudgeon.generator.format.shapes import missing_key, unknown_key
 from gudgeon.generator.mechanism.mechanism import GROUND, PointRef, Quantity, Vector
 from gudgeon.generator.reader.collector import Reader, ResultDimension

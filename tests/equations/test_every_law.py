@@ -26,8 +26,10 @@ MU, MU_S = 0.12, 0.2
 DELTA = sp.Symbol("delta", real=True)
 USUAL = {"mu": MU, "mu_s": MU_S, "v0": 1e-3, "v1": 5e-3, "v_r": 1e-3, "v_s": 0.02, "decay": 5e-3, "viscosity": 0.1,
          "roughness": 1e-6, "restitution": 0.7, "presliding": 2e-5}  # fmt: skip
-NUMBERS: Mapping[str, Mapping[str, Any]] = {"kelvin_voigt": {"stiffness": 1e6, "damping": 50.0}, "lugre": {"stiffness": 2e4, "damping": 3.0},
-           "expression": {"force": 1e6 * DELTA + 1e15 * DELTA**3}}
+NUMBERS: Mapping[str, Mapping[str, Any]] = {
+    "kelvin_voigt": {"stiffness": 1e6, "damping": 50.0}, "lugre": {"stiffness": 2e4, "damping": 3.0},
+    "expression": {"force": 1e6 * DELTA + 1e15 * DELTA**3},
+}  # fmt: skip
 CORNERS: Mapping[str, tuple[type, Callable[..., Array]]] = {
     "corner_max": (sp.Max, lambda *x: reduce(np.maximum, x)), "corner_min": (sp.Min, lambda *x: reduce(np.minimum, x)),
     "corner_abs": (sp.Abs, np.abs), "corner_sign": (sp.sign, np.sign),

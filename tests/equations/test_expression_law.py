@@ -1,4 +1,4 @@
-"""A contact whose elastic force the file writes as an expression: what others of the same force do, and what it refuses."""
+"""A contact whose elastic force the file writes as an expression: what others of that force do, what is refused."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ bearings: {{b: {{radius: 10 mm, clearance: 0.1 mm, length: 5 mm, bearing_materia
 contacts: {{pad: {{normal: {{law: {law}, restitution: 0.8}}{more}}}}}
 scenes: {{dry: {{play: {{A: {{bearing: b, contact: pad}}}}}}}}
 """
-CUBIC = "expression, force: k1*delta + k3*delta**3, dissipation: exact"
+CUBIC = "expression, force: k1*delta + k3*delta**3, dissipation: flores"
 BENT = '"where(delta < d1, k1*delta, k1*d1 + 4*k1*(delta - d1))"'
 FILM = ", film: {law: ocvirk, viscosity: 0.05}, "
 MIXED = "mixed: {law: christensen, roughness: 1 um}"
@@ -46,19 +46,33 @@ def loaded(folder: Path, law: str, more: str = "", across: float = 0.02, **how: 
     return gudgeon.load(path, scene="dry", **how)
 
 
+def at_depth(n: int, depth: float) -> np.ndarray:
+    """The ball at a penetration, on its way, turning."""
+    e, y = 1e-4 + depth, np.zeros(2 * n)
+    y[:2], y[n : n + 3] = (0.6 * e, -0.8 * e), (0.01, 0.03, 2.0)
+    return y
+
+
 @needs_compiler
 @pytest.mark.parametrize("formulation", ["reduced", "full"])
 def test_it_is_hertz_where_its_force_is_that(formulation: str, tmp_path: Path) -> None:
-    """The same states to rounding, by methods without and with a Jacobian, friction rubbing."""
+    """The same rates to rounding, and states within the tolerance of methods without and with a Jacobian."""
     both = ["hertz, stiffness: k1*d1/d1**1.5, dissipation: flores",
             "expression, force: k1*d1*(delta/d1)**n, dissipation: flores"]  # fmt: skip
     scenes = [loaded(tmp_path, law, RUBS, formulation=formulation) for law in both]
     for method in ("dop853", "rodas5p"):
-        one, other = (scene.simulate(t_end=6e-4, method=method, rtol=1e-9) for scene in scenes)
-        assert len(one.impacts) == len(other.impacts) >= 2
+        one, other = (scene.simulate(t_end=9e-4, method=method, rtol=1e-9) for scene in scenes)
+        assert len(one.impacts) == len(other.impacts) >= 1
         for name in ("ball.vx", "ball.vy", "ball.omega", "A.Fn", "A.delta"):
             size = np.abs(one[name]).max()
-            np.testing.assert_allclose(other[name], one[name], rtol=0.0, atol=1e-10 * size, err_msg=name)
+            np.testing.assert_allclose(other[name], one[name], rtol=0.0, atol=1e-7 * size, err_msg=name)
+    one, other = (make(text(law, RUBS).encode(), "ball", "dry") for law in both)
+    for depth in np.geomspace(1e-9, 5e-5, 12):
+        y = at_depth(one.n, depth)
+        for memory in (np.array([NAN]), np.array([0.02])):
+            want = one.library.rhs(0.0, y, one.p, memory)
+            got = other.library.rhs(0.0, y, other.p, memory)
+            np.testing.assert_allclose(got, want, rtol=0.0, atol=1e-13 * np.abs(want).max())
 
 
 @needs_compiler
@@ -81,8 +95,7 @@ def test_slopes_are_those_of_the_force(law: str, more: str) -> None:
     """The Jacobian beside complex steps of the force, on both sides of a branch and of a knot."""
     subject = make(text(law, more).encode(), "ball", "dry")
     for depth in (1e-6, 4e-6, 6e-6, 2.3e-5):
-        e, y = 1e-4 + depth, np.zeros(2 * subject.n)
-        y[:2], y[subject.n : subject.n + 3] = (0.6 * e, -0.8 * e), (0.01, 0.03, 2.0)
+        y = at_depth(subject.n, depth)
         for memory in (NAN, 0.02):
             subject.compare(0.0, y, np.array([memory]), 1e-9)
 
@@ -124,9 +137,9 @@ def test_a_parameter_called_delta_is_told() -> None:
 
 @needs_compiler
 def test_numbers_of_a_run_are_those_of_its_force(tmp_path: Path) -> None:
-    """k1 four times is half the time of contact; a force that would jump is refused, and one too deep stops."""
+    """k1 four times is half the penetration; a force that would jump is refused, and one too deep stops."""
     law = "expression, force: k1*delta + F_0*(1 + delta/d1) + 0*hysteresis*d1*k1, dissipation: none, deepest: 80 um"
-    scene = loaded(tmp_path, law.replace("restitution: 0.8", "restitution: 1"))
+    scene = loaded(tmp_path, law)
     took = []
     for stiff in (1e7, 4e7):
         run = scene.simulate(t_end=1e-3, method="dop853", rtol=1e-10, parameters={"k1": stiff})

@@ -20,7 +20,8 @@ def alone(
 ) -> Callable[..., Results]:
     """Its results by name, SI, of arrays that broadcast: variables of its role, those that it reads besides, states.
 
-    numbers: by key, those that may be left out left out; an expression of a variable as SymPy. pair: R_i, R_j, c, L, E_i, nu_i, E_j, nu_j. What it reads
+    numbers: by key, those that may be left out left out; expressions of a variable as SymPy.
+    pair: R_i, R_j, c, L, E_i, nu_i, E_j, nu_j. What it reads
     besides is given whether it reads it or not. Raises LawError for what is not computed here.
     """
     import sympy as sp
