@@ -92,12 +92,18 @@ def test_exact_delivers_its_restitution_whatever_the_force(force: str, tmp_path:
     ("expression, force: pressed(delta)", FILM + MIXED),
 ])  # fmt: skip
 def test_slopes_are_those_of_the_force(law: str, more: str) -> None:
-    """The Jacobian beside complex steps of the force, on both sides of a branch and of a knot."""
+    """The Jacobian beside central differences of the right-hand side, on both sides of a branch and of a knot."""
     subject = make(text(law, more).encode(), "ball", "dry")
-    for depth in (1e-6, 4e-6, 6e-6, 2.3e-5):
-        y = at_depth(subject.n, depth)
-        for memory in (NAN, 0.02):
-            subject.compare(0.0, y, np.array([memory]), 1e-9)
+    n, memory, library = subject.n, np.array([0.02]), subject.library
+    for depth in (4e-6, 6e-6, 2.3e-5):
+        y = at_depth(n, depth)
+        J = library.jacobian(0.0, y, subject.p, memory)[0][n : 2 * n]
+        for column in (0, 1, n, n + 1):
+            step = np.zeros(2 * n)
+            step[column] = 1e-9 if column < n else 1e-6
+            ahead, behind = (library.rhs(0.0, y + way * step, subject.p, memory)[n : 2 * n] for way in (1.0, -1.0))
+            want = (ahead - behind) / (2.0 * step[column])
+            np.testing.assert_allclose(J[:, column], want, rtol=0.0, atol=1e-6 * np.abs(want).max())
 
 
 WRONG = {

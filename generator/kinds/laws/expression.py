@@ -45,7 +45,7 @@ LAW = Law(
     fields=(
         number(
             "force", "elastic force, an expression of the penetration delta, of parameters and of curves", FORCE,
-            symbol=r"f(\delta)", required=True, varies=OF_PENETRATION,
+            symbol="f", required=True, varies=OF_PENETRATION,
         ),
         number(
             DEEPEST, "penetration up to which the expression holds; a run that goes deeper stops", LENGTH,
