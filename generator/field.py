@@ -36,6 +36,7 @@ SCALARS = frozenset((NUMBER, WORD, FLAG, TEXT, NAME, BODY))
 OF_TIME = "t"
 OF_MOTION = "t, coordinates and velocities"
 OF_RESULTS = "t and anything that a result has"
+OF_PENETRATION = "delta"
 
 
 RELATIONS: Mapping[str, Callable[[float, float], bool]] = {

@@ -87,7 +87,7 @@ def _whose(law: Law) -> str:
 
 def check_numbers(law: Law, variables: tuple[sp.Symbol, ...], steps: Mapping[str, sp.Expr], slots: Slots) -> None:
     """Raise LawError where a force is no finite real number, with the numbers that the file gives."""
-    numbers = {symbol: np.float64(_number(slots, symbol)) for symbol in _constants(steps, slots)}
+    numbers = {symbol: np.float64(number_of(slots, symbol)) for symbol in _constants(steps, slots)}
     known, functions = [*numbers, *variables], {}
     for name, step in steps.items():
         functions[name] = sp.lambdify(known, step, "numpy")  # symbols of known names alone: build has looked
@@ -116,11 +116,11 @@ def _constants(steps: Mapping[str, sp.Expr], slots: Slots) -> set[sp.Symbol]:
     return {symbol for step in steps.values() for symbol in step.free_symbols if symbol in members}
 
 
-def _number(slots: Slots, symbol: sp.Symbol) -> float:
+def number_of(slots: Slots, symbol: sp.Symbol) -> float:
     """The file's own value of a number, or of what is derived from such."""
     for entry in slots.entries.values():
         if entry.symbol == symbol:
             return entry.default
     value = slots.derived[symbol]
-    number = value.xreplace({s: sp.Float(_number(slots, s), 17) for s in value.free_symbols})
+    number = value.xreplace({s: sp.Float(number_of(slots, s), 17) for s in value.free_symbols})
     return float(number) if number.is_real else math.nan

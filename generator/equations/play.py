@@ -8,11 +8,12 @@ from typing import TypeAlias
 
 import sympy as sp
 
+from gudgeon.generator.equations.force_law import force_of
 from gudgeon.generator.equations.geometry import Geometry, PointFrame
 from gudgeon.generator.equations.loads import PointLoad
-from gudgeon.generator.equations.own_laws import check_numbers
+from gudgeon.generator.equations.own_laws import check_numbers, number_of
 from gudgeon.generator.kinds.laws.built import build
-from gudgeon.generator.kinds.laws.law import MEAN_CLEARANCE, OWN, Law, LawInputs, PairSymbols, State, laws
+from gudgeon.generator.kinds.laws.law import DEEPEST, MEAN_CLEARANCE, OWN, Law, LawInputs, PairSymbols, State, laws
 from gudgeon.generator.mechanism.mechanism import Bearing, Joint, LawUse, Play
 from gudgeon.generator.symbols.contours import contour_of
 from gudgeon.generator.symbols.numbers import Slots
@@ -159,7 +160,11 @@ def _pair(name: str, bearing: Bearing, slots: Slots) -> PairSymbols:
 def _law(use: LawUse, pair: PairSymbols, slots: Slots, derive: Derive) -> LawEquations:
     law = laws()[use.law]
     variables = {name: sp.Symbol(name, real=True) for name in law.variables}
-    parameters = {name: slots.use(quantity) for name, quantity in use.quantities.items()}
+    forces = {own.name for own in law.expressions}
+    parameters = {name: slots.use(quantity) for name, quantity in use.quantities.items() if name not in forces}
+    for name in forces:
+        most = number_of(slots, parameters.get(DEEPEST, pair.c))
+        parameters[name] = force_of(use.quantities[name], variables["delta"], most, slots)
     derived: dict[str, sp.Expr] = {}
 
     def told(name: str, expression: sp.Expr, meaning: str) -> sp.Expr:

@@ -7,13 +7,13 @@ the order in which the terms of the first joint stand.
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import sympy as sp
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.equations.play import Clearance
+from gudgeon.generator.equations.play import Clearance, LawEquations
 from gudgeon.generator.ir.kernels import Argument, Kernel, Section
 from gudgeon.generator.ir.readable import NUMBERS
 from gudgeon.generator.ir.signatures import PARAMETERS, SIDES
@@ -76,6 +76,9 @@ def joint_numbers(model: Model, clearance: Clearance) -> dict[str, str]:
     named += [(name, value) for law in laws for name, value in law.derived.items()]
     named += [("transition", clearance.transition)]
     info = model.symbols.info
+    taken = {*(name for name, _ in named), *(name for law in laws for name in (*law.law.variables, *law.steps))}
+    for name, symbol in _of_file(model, laws):
+        named.append((f"{name}_of_file" if name in taken else name, symbol))
     fields: dict[str, str] = {}
     for name, symbol in named:
         if symbol in info and name not in fields.values():
@@ -84,6 +87,15 @@ def joint_numbers(model: Model, clearance: Clearance) -> dict[str, str]:
         if value.is_Pow and value.exp == -1 and value.base in info and info[value.base].home in fields:
             fields.setdefault(info[symbol].home, f"inverse_{fields[info[value.base].home]}")
     return fields
+
+
+def _of_file(model: Model, laws: Iterable[LawEquations]) -> Iterator[tuple[str, sp.Symbol]]:
+    """Parameters that stand in a law's own expression, by their names in the file's order."""
+    varying = [law.numbers[own.name] for law in laws for own in law.law.expressions]
+    used = set().union(*(value.free_symbols for value in varying))
+    for entry in model.slots.entries.values():
+        if entry.symbol in used:
+            yield model.slots.field(entry.symbol), entry.symbol
 
 
 def _called(kernel: Kernel, numbers: Mapping[str, str]) -> tuple[dict[str, str], list[str]]:

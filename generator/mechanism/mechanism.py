@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from gudgeon.errors import Location
 from gudgeon.language.curves import Curve
-from gudgeon.language.tree import Expr, Name, Number
+from gudgeon.language.tree import Expr, Name, Number, replaced
 from gudgeon.language.units import Dimension
 
 GROUND = "ground"
@@ -40,6 +40,12 @@ Vector = tuple[Quantity, Quantity]
 def following(address: str, of: Quantity, where: Location) -> Quantity:
     """The number at an address that is another one, unless it is given itself."""
     return Quantity(address, Name(of.address), of.dimension, where, (of,))
+
+
+def at_onset(force: Quantity) -> Quantity:
+    """What an expression of the penetration is at δ = 0, as a number of its own."""
+    value = replaced(force.value, "delta", Number(0.0, "0"))
+    return Quantity(f"{force.address}_at_0", value, force.dimension, force.where, kept=True)
 
 
 @dataclass(frozen=True)

@@ -145,14 +145,18 @@ class Reader:
     ) -> Mapping[str, Dimension | None]:
         """The dimension of every name in `expr`. Raises ExpressionError or UnknownNameError at the name."""
         for call in curve_calls(expr):
-            check_curve(call, at(where, call.offset), time)
+            check_curve(call, at(where, call.offset), time or result is not None)
         found: dict[str, Dimension | None] = {}
         for name in names(expr):
             place = at(where, name.offset)
             if name.path == "t":
                 if not time:
-                    hint = "expected parameters; time can stand in drives and outputs only"
-                    raise ExpressionError("'t' is time, and this number is constant", place, hint)
+                    hint = "time can stand in drives and outputs only"
+                    if result is not None:
+                        message = "'t' is time, and this force follows the penetration alone"
+                        raise ExpressionError(message, place, f"expected delta and parameters; {hint}")
+                    message = "'t' is time, and this number is constant"
+                    raise ExpressionError(message, place, f"expected parameters; {hint}")
                 found["t"] = TIME
             elif name.path in self.parameters:
                 found[name.path] = self.parameters[name.path]

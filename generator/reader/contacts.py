@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
-from gudgeon.errors import BadValueError, MissingKeyError, UnknownNameError
-from gudgeon.generator.field import LAW
+import math
+
+from gudgeon.errors import BadNameError, BadValueError, ExpressionError, MissingKeyError, UnknownNameError
+from gudgeon.generator.field import LAW, OF_PENETRATION
 from gudgeon.generator.format.sections import BEARING, CONTACT
 from gudgeon.generator.format.shapes import missing_key
 from gudgeon.generator.kinds.laws.law import OWN, called
 from gudgeon.generator.kinds.laws.registered import key_of
-from gudgeon.generator.mechanism.mechanism import Bearing, Contact, LawUse, Material
+from gudgeon.generator.mechanism.mechanism import Bearing, Contact, LawUse, Material, Quantity, at_onset
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.extends import parents_first
 from gudgeon.generator.reader.fields import Around, check_keys, field_names, read_fields
 from gudgeon.generator.reader.materials import ELASTIC, Materials
+from gudgeon.generator.reader.result_names import Penetration
 from gudgeon.generator.yaml.tree import Map, Text
 from gudgeon.language.names import check_label
+from gudgeon.language.parser import at
 from gudgeon.language.suggestions import known_hint
+from gudgeon.language.tree import Number, names
 
+NO_FORCE = 1e-9  # N, what rounding may leave of a force that is 0
 _ROLES = tuple(field.name for field in CONTACT.fields if field.kind == LAW)
 
 
@@ -108,6 +114,22 @@ def _check_parts(name: Text, node: Map) -> None:
             raise MissingKeyError(message, node[part].where, "expected the key 'film'")
 
 
+def _check_force(reader: Reader, force: Quantity) -> None:
+    """It follows the penetration, and is 0 without any: here, and with the numbers of every run."""
+    used = {name.path: at(force.where, name.offset) for name in names(force.value)}
+    if "delta" in reader.parameters and "delta" in used:
+        hint = "give the parameter another name"
+        raise BadNameError("'delta' is the penetration here, and a parameter of this file", used["delta"], hint)
+    if isinstance(force.value, Number) and math.isnan(force.value.value):
+        return  # told already
+    if "delta" not in used:
+        hint = "expected an expression such as 1e8 N/m * delta"
+        raise ExpressionError(f"{force.address} does not follow delta, the penetration", force.where, hint)
+    onset = reader.keep(at_onset(force))
+    for relation, bound in ((">=", -NO_FORCE), ("<=", NO_FORCE)):
+        reader.require(onset, relation, bound, "a force that is not 0 at delta = 0 would jump at every onset")
+
+
 def _rigid() -> set[str]:
     """Laws of surfaces that do not give."""
     return {name for name, law in called("normal").items() if law.rigid}
@@ -129,7 +151,12 @@ def _law_use(reader: Reader, address: str, role: str, node: Map) -> LawUse:
     if law.name in OWN:
         reader.laws[law.name] = key_of(law.name)
     mistyped = check_keys(reader, node, ["law", *field_names(fields)], address)
-    own = read_fields(reader, node, fields, Around(address, str(text), text.where, mistyped))
+    around = Around(address, str(text), text.where, mistyped, motion=Penetration(reader.parameters))
+    own = read_fields(reader, node, fields, around)
+    for field in fields:
+        if field.varies == OF_PENETRATION and field.name in own.quantities:
+            with reader.collect():
+                _check_force(reader, own.quantities[field.name])
     for choice, number in law.instead.items():
         if number in own.quantities:
             if choice in node:

@@ -8,7 +8,18 @@ from types import MappingProxyType
 from typing import Protocol
 
 from gudgeon.errors import BadValueError, InputError, JoinError, Location, MissingKeyError, UnknownKeyError
-from gudgeon.generator.field import BODY, FLAG, NUMBER, OF_MOTION, OF_RESULTS, VECTOR, WORD, Bound, Field
+from gudgeon.generator.field import (
+    BODY,
+    FLAG,
+    NUMBER,
+    OF_MOTION,
+    OF_PENETRATION,
+    OF_RESULTS,
+    VECTOR,
+    WORD,
+    Bound,
+    Field,
+)
 from gudgeon.generator.format.shapes import missing_key, unknown_key
 from gudgeon.generator.mechanism.mechanism import GROUND, PointRef, Quantity, Vector
 from gudgeon.generator.reader.collector import Reader, ResultDimension
@@ -181,8 +192,9 @@ def read_number(
     reader: Reader, text: Text, wanted: Field, address: str, motion: ResultDimension | None = None
 ) -> Quantity:
     """The number at an address as its field declares it; `motion` knows the names that one that `varies` may use."""
-    names = motion if wanted.varies in (OF_MOTION, OF_RESULTS) else None
-    return reader.quantity(text, address, wanted.dimension, time=bool(wanted.varies), result=names)
+    names = motion if wanted.varies in (OF_MOTION, OF_RESULTS, OF_PENETRATION) else None
+    time = wanted.varies not in ("", OF_PENETRATION)
+    return reader.quantity(text, address, wanted.dimension, time=time, result=names)
 
 
 def read_vector(

@@ -138,6 +138,22 @@ class MotionNames(ResultNames):
         return super().__call__(name, where)
 
 
+class Penetration:
+    """What the force of a contact may depend on."""
+
+    def __init__(self, parameters: Iterable[str]) -> None:
+        self._parameters = parameters
+
+    def __call__(self, name: Name, where: Location) -> Dimension | None:
+        """The dimension of delta. Raises ExpressionError for what else a contact has, UnknownNameError."""
+        if name.path == "delta":
+            return LENGTH
+        if "." in name.path or name.path in _PLAY:
+            hint = "expected delta, the penetration, and parameters; `dissipation` says what its rate does"
+            raise ExpressionError(f"{name.path!r} cannot stand in a force of the penetration", where, hint)
+        raise unknown_name("name", name.path, ("delta", *self._parameters), where)
+
+
 def _of_drive(drive: Drive) -> Mapping[str, Dimension]:
     """A drive of an angle needs a torque, a drive of a length a force."""
     turns = drive.kind == "angle" or drive.coordinate == "theta"

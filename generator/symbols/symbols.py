@@ -27,7 +27,7 @@ side side_of
 r Four FourBits sines_and_cosines many_sines_and_cosines turned_by_library
 expand reduce_state reduce_accelerations solve_by_absolute all_q all_v all_a s s_rate whole closure
 e_x e_y de_x de_y de_t omega_i omega_j n_x n_y stored a_i a_j share F_r T0 F_x F_y F_along_n F_along_t M_i M_j
-theta_i beta_i u_x u_y worn worn_slope worn_bend beta_rate slant steep F_N de_n across lean by_angle
+theta_i beta_i u_x u_y worn worn_slope worn_bend beta_rate slant steep F_N F_e de_n across lean by_angle
 eta eta_row eta_stick lin r s u x depth unclipped dF value slope film
 close_step arrive step rates worst factor_block solve_block
 Lanes LaneBits LaneParameters LaneRun LaneAside LaneLatch LanePinForce LaneClearance all_of any_of pick rare

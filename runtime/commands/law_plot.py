@@ -35,6 +35,8 @@ BY_DIMENSION = {
 DEEPEST, SPEED = 0.05, 0.1  # share of c; m/s, of an approach, and of a slip where the law names none
 RATIOS = {1.0: "approach", 0.0: "rest", -1.0: "parting"}
 SHOWN = {"restitution"}  # of which the default, 1, would draw the same curve thrice
+# What an elastic force is taken to be that the file of a mechanism would give.
+FORCE = "1e7 N/m * delta + 1e18 N/m^3 * delta**3"
 Function = Callable[..., Mapping[str, Any]]
 
 
@@ -44,7 +46,7 @@ class Chosen:
 
     law: Law
     name: str
-    numbers: Mapping[str, float]
+    numbers: Mapping[str, Any]
     options: Mapping[str, str | bool]
     told: str
 
@@ -87,13 +89,17 @@ def _chosen(law: Law, name: str, settings: Mapping[str, float | str]) -> Chosen:
             raise unknown_name(f"key of {name}", key, tuple(fields), None)
     made: Mapping[str, str | bool] = law.also.get(name, {})
     options = {own.name: made.get(own.name, own.choice) for own in law.options}
-    numbers: dict[str, float] = {}
+    numbers: dict[str, Any] = {}
     told = []
     for own in fields.values():
         if own in law.options:
             if own.name in settings:
                 options[own.name] = _option(own, settings[own.name])
                 told.append(f"{own.name}: {settings[own.name]}")
+        elif own.varies:
+            text = str(settings.get(own.name, FORCE))
+            numbers[own.name] = _of_variable(own, text)
+            told.append(f"{own.name} = {text}")
         elif (value := _number(own, settings)) is not None:
             numbers[own.name] = value
             if value != own.default or own.name in settings:
@@ -102,9 +108,28 @@ def _chosen(law: Law, name: str, settings: Mapping[str, float | str]) -> Chosen:
     return Chosen(law, name, numbers, options, ", ".join(told))
 
 
-def chosen_numbers(law: Law) -> dict[str, float]:
-    """Its numbers under its own name where nothing is set: defaults, else what is usual; SI."""
-    return dict(_chosen(law, law.name, {}).numbers)
+def chosen_numbers(law: Law) -> dict[str, float | str]:
+    """Its numbers under its own name where nothing is set: defaults, else what is usual; SI, an expression as text."""
+    return {**_chosen(law, law.name, {}).numbers, **dict.fromkeys((own.name for own in law.expressions), FORCE)}
+
+
+def _of_variable(own: Field, text: str) -> Any:
+    """An expression of the variable that the key names, as SymPy. Raises what it would raise in a file."""
+    import sympy as sp
+
+    from gudgeon.errors import Location
+    from gudgeon.generator.symbols.from_expressions import to_sympy
+    from gudgeon.language.parser import check_dimension, parse
+    from gudgeon.language.tree import names
+    from gudgeon.language.units import LENGTH
+
+    where = Location(f"value of {own.name}", 1, 1)
+    tree = parse(text.strip(), where)
+    for name in names(tree):
+        if name.path != own.varies:
+            raise unknown_name("name", name.path, (own.varies,), where)
+    check_dimension(tree, own.dimension, lambda _: LENGTH, where)
+    return to_sympy(tree, lambda path: sp.Symbol(path, real=True))
 
 
 def _unit(own: Field) -> str:

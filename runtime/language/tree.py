@@ -8,7 +8,7 @@ compiled model can compute its `outputs` without importing the generator.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -138,6 +138,20 @@ def names(expr: Expr) -> Iterator[Name]:
         case Call(arguments=arguments):
             for argument in arguments:
                 yield from names(argument)
+
+
+def replaced(expr: Expr, path: str, by: Expr) -> Expr:
+    """`expr` with another tree in place of a name."""
+    match expr:
+        case Name():
+            return by if expr.path == path else expr
+        case Unary(operand=operand):
+            return replace(expr, operand=replaced(operand, path, by))
+        case Binary(left=left, right=right):
+            return replace(expr, left=replaced(left, path, by), right=replaced(right, path, by))
+        case Call(arguments=arguments):
+            return replace(expr, arguments=tuple(replaced(argument, path, by) for argument in arguments))
+    return expr
 
 
 def calls(expr: Expr, function: str = "") -> Iterator[Call]:

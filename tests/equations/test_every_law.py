@@ -23,9 +23,13 @@ from tests.programs import needs_compiler
 MANY, PAIRS = 1_000_000, 20_000
 Array = np.ndarray
 MU, MU_S = 0.12, 0.2
+DELTA = sp.Symbol("delta", real=True)
 USUAL = {"mu": MU, "mu_s": MU_S, "v0": 1e-3, "v1": 5e-3, "v_r": 1e-3, "v_s": 0.02, "decay": 5e-3, "viscosity": 0.1,
          "roughness": 1e-6, "restitution": 0.7, "presliding": 2e-5}  # fmt: skip
-NUMBERS = {"kelvin_voigt": {"stiffness": 1e6, "damping": 50.0}, "lugre": {"stiffness": 2e4, "damping": 3.0}}
+NUMBERS: Mapping[str, Mapping[str, Any]] = {
+    "kelvin_voigt": {"stiffness": 1e6, "damping": 50.0}, "lugre": {"stiffness": 2e4, "damping": 3.0},
+    "expression": {"force": 1e6 * DELTA + 1e15 * DELTA**3},
+}  # fmt: skip
 CORNERS: Mapping[str, tuple[type, Callable[..., Array]]] = {
     "corner_max": (sp.Max, lambda *x: reduce(np.maximum, x)), "corner_min": (sp.Min, lambda *x: reduce(np.minimum, x)),
     "corner_abs": (sp.Abs, np.abs), "corner_sign": (sp.sign, np.sign),
@@ -36,9 +40,9 @@ class Vectors:
     """A law as a function of arrays: its steps by name; `corners` are the functions whose zeros part its branches."""
 
     def __init__(self, law: Law, options: Mapping[str, str | bool], changed: Mapping[str, float]) -> None:
-        known = {**USUAL, **NUMBERS.get(law.name, {}), **changed}
+        known: dict[str, Any] = {**USUAL, **NUMBERS.get(law.name, {}), **changed}
         needed = [own for own in law.parameters if own.required or own.default is not None]
-        numbers = {own.name: sp.Float(known.get(own.name, own.default or 0.0)) for own in needed}
+        numbers = {own.name: sp.sympify(known.get(own.name, own.default or 0.0)) for own in needed}
         self.symbols = [sp.Symbol(name, real=True) for name in law.variables]
         given = LawInputs(
             numbers, options, PairSymbols(**{k: sp.Float(v) for k, v in vars(PAIR).items()}),

@@ -16,18 +16,19 @@ Results = dict[str, NDArray[np.float64]]
 
 
 def alone(
-    law: Law, numbers: Mapping[str, float], options: Mapping[str, str | bool], pair: Mapping[str, float]
+    law: Law, numbers: Mapping[str, Any], options: Mapping[str, str | bool], pair: Mapping[str, float]
 ) -> Callable[..., Results]:
     """Its results by name, SI, of arrays that broadcast: variables of its role, those that it reads besides, states.
 
-    numbers: by key, those that may be left out left out. pair: R_i, R_j, c, L, E_i, nu_i, E_j, nu_j. What it reads
+    numbers: by key, those that may be left out left out; expressions of a variable as SymPy.
+    pair: R_i, R_j, c, L, E_i, nu_i, E_j, nu_j. What it reads
     besides is given whether it reads it or not. Raises LawError for what is not computed here.
     """
     import sympy as sp
 
     symbols = {name: sp.Symbol(name, real=True) for name in law.variables}
     given = LawInputs(
-        {name: sp.Float(x) for name, x in numbers.items()}, options,
+        {name: x if isinstance(x, sp.Expr) else sp.Float(x) for name, x in numbers.items()}, options,
         PairSymbols(**{name: sp.Float(x) for name, x in pair.items()}), symbols, lambda _, expression, __: expression,
     )  # fmt: skip
     known, functions = list(symbols.values()), []

@@ -8,7 +8,7 @@ import os
 import re
 import sys
 import uuid
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Set
 from contextlib import redirect_stdout
 from dataclasses import dataclass, replace
 from typing import Any
@@ -44,13 +44,15 @@ def build(law: Law, inputs: LawInputs) -> dict[str, Any]:
     for name in (*(own.name for own in law.parameters), *(state.name for state in law.states)):
         _need_name(law, name)
     given = {symbol for x in (*inputs.parameters.values(), *vars(inputs.pair).values()) for symbol in _symbols(x)}
+    given -= {*inputs.variables.values()}
+    written = frozenset(type(part) for x in inputs.parameters.values() for part in _parts(x))  # in the file: C has them
 
     def derive(name: Any, expression: Any, meaning: Any) -> Any:
         if not isinstance(name, str) or not isinstance(meaning, str):
             raise _error(law, f"derive({name!r}, …) wants a name, an expression and its meaning")
         _need_name(law, name)
         value = _value(law, f"derive({name!r}, …)", expression)
-        _check(law, f"derive({name!r}, …)", value, given, "its parameters and the pair's numbers alone")
+        _check(law, f"derive({name!r}, …)", value, given, "its parameters and the pair's numbers alone", written)
         made = inputs.derive(name, value, meaning)
         given.update(_symbols(made))
         return made
@@ -72,7 +74,7 @@ def build(law: Law, inputs: LawInputs) -> dict[str, Any]:
         if name in taken:
             raise _error(law, f"build returns {name!r}, which it is given", "call the abbreviation otherwise")
         found[name] = value = _value(law, name, step)
-        _check(law, name, value, known, f"{_offered(law)}, and abbreviations returned before")
+        _check(law, name, value, known, f"{_offered(law)}, and abbreviations returned before", written)
         if name not in results:
             known.add(sp.Symbol(name, real=True))
     return found
@@ -156,7 +158,7 @@ def _value(law: Law, what: str, value: Any) -> Any:
     return sp.sympify(value)
 
 
-def _check(law: Law, what: str, value: Any, known: set[Any], may: str) -> None:
+def _check(law: Law, what: str, value: Any, known: set[Any], may: str, written: Set[type]) -> None:
     """Raise LawError for a symbol that is not known, a function that C has not, what is not finite or not real."""
     import sympy as sp
 
@@ -171,7 +173,7 @@ def _check(law: Law, what: str, value: Any, known: set[Any], may: str) -> None:
             raise _error(law, f"{what} {why}: {sp.sstr(value)[:80]}", "expected a real number for every δ > 0")
         plain = part.is_Number or part.is_NumberSymbol or part.is_Symbol or part.is_Add or part.is_Mul or part.is_Pow
         together = type(part).__name__ == "Whole"  # what `whole` makes, in a room above
-        if not plain and not together and not isinstance(part, functions):
+        if not plain and not together and not isinstance(part, functions) and type(part) not in written:
             hint = f"expected + - * / **, sqrt, {', '.join(FUNCTIONS)}"
             raise _error(law, f"{what} uses {type(part).__name__}, which C is not given", hint)
 
@@ -189,6 +191,13 @@ def _error(law: Law, message: str, hint: str = "", place: Any = None) -> LawErro
 
 def _symbols(value: Any) -> set[Any]:
     return set(getattr(value, "free_symbols", ()))
+
+
+def _parts(value: Any) -> Iterable[Any]:
+    """Of an expression that the file gives; of a number nothing."""
+    import sympy as sp
+
+    return sp.preorder_traversal(value) if isinstance(value, sp.Expr) else ()
 
 
 def _real(name: str) -> Any:

@@ -65,6 +65,8 @@ RESULTS: Mapping[str, tuple[str, ...]] = {
 MEAN_CLEARANCE = "mean_clearance"
 # What a normal law may derive: the penetration (m) beyond which it is none, where a run stops.
 DEEPEST = "deepest"
+# Of the clearance: where the stiffness of a force that is no power law is taken, for the default step.
+SECANT_DEPTH = 0.05
 
 
 @dataclass(frozen=True)
@@ -127,6 +129,11 @@ class Law:
     def parameters(self) -> tuple[Field, ...]:
         """Its numbers: run-time slots `contacts.<contact>.<role>.<name>`."""
         return tuple(own for own in self.fields if own.kind == NUMBER)
+
+    @property
+    def expressions(self) -> tuple[Field, ...]:
+        """Those of its numbers that are expressions of a variable, which a run has no slot for."""
+        return tuple(own for own in self.parameters if own.varies)
 
     @property
     def options(self) -> tuple[Field, ...]:

@@ -35,8 +35,8 @@ def _damping() -> Iterator[str]:
     """The factors that several laws let one choose, once."""
     yield from ("## The dissipation of a normal force", "")
     yield (
-        "The factor a of 1 + a δ̇/δ̇⁻ in `esdu_78035`, `hertz`, `johnson` and `liu`, by `dissipation`, and the"
-        " restitution that a free impact then has, by a (1 + e) = ln[(1 + a)/(1 − a e)], for what c_e asks."
+        "The factor a of 1 + a δ̇/δ̇⁻ in `esdu_78035`, `expression`, `hertz`, `johnson` and `liu`, by `dissipation`,"
+        " and the restitution that a free impact then has, by a (1 + e) = ln[(1 + a)/(1 − a e)], for what c_e asks."
     )
     asked = " | ".join(f"c_e = {c_e:g}" for c_e in ASKED)
     yield from ("", f"| `dissipation` | a | {asked} | source |", "|" + "---|" * 6)

@@ -21,7 +21,7 @@ from gudgeon.generator.targets.latex.notation import Notation, distinct
 from gudgeon.generator.targets.latex.play_words import as_word, contour, onset, rigid, told_states
 from gudgeon.generator.targets.latex.plots import law_plot
 from gudgeon.generator.targets.latex.trace import Functions, Trace
-from gudgeon.generator.targets.latex.values import Values, as_written
+from gudgeon.generator.targets.latex.values import LONGEST, Values, as_written
 from gudgeon.language.plot_units import pretty
 from gudgeon.language.units import si_unit
 
@@ -31,7 +31,7 @@ LAW_LETTERS = {
     "friction_slope": letter("kappa"), "shear": letter("D", "0"), "T0": letter("D"),
     "spring": letter("K"), "damper": letter("D"), "mean_clearance": letter("c", "mean"), "share": letter("b"),
     "overlap": letter("l"), "deepest": letter("delta", "max"), "scale": letter("l"), "part": letter("y"),
-    "left": letter("x"),
+    "left": letter("x"), "F_e": letter("F", "el"),
 }  # fmt: skip
 _PAIR = (
     ("radius", "R_i", "bearing radius"),
@@ -206,7 +206,7 @@ def _numbers(joint: JointWithPlay) -> list[Block]:
     for quantity, sign, meaning in joint.numbers:
         entry = slots.entries.get(quantity.address)
         written = f"{as_written(quantity.value)} = " if entry is not None and entry.follows else ""
-        value: Text = ("0",) if entry is None else values.in_si(entry)
+        value: Text = (_apart(quantity),) if entry is None else values.in_si(entry)
         if entry is not None and entry.follows:
             value = written, joint.notation.math(sp.Float(entry.default, 17))
         called = of_latex(sign) if entry is None else joint.notation.math(entry.symbol)
@@ -216,6 +216,12 @@ def _numbers(joint: JointWithPlay) -> list[Block]:
     follow = [equation(s, joint.notation.expand(definitions[s]), joint.notation) for s in constants if s in definitions]
     header = cells("letter", "meaning", "address", "value in the file", "unit")
     return [*table(header, rows, (1,)), paragraph("From these follow once a run:"), *follow]
+
+
+def _apart(quantity: Quantity) -> str:
+    """What is no number of the run: 0, or an expression of the penetration, a long one where its equation stands."""
+    written = "0" if quantity.is_zero else as_written(quantity.value)
+    return written if len(written) <= LONGEST else "below"
 
 
 def _dry(joint: JointWithPlay) -> list[Block]:

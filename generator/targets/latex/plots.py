@@ -18,6 +18,7 @@ from gudgeon.generator.kinds.laws.law import Law
 from gudgeon.generator.targets.latex.document import Block, Picture
 from gudgeon.generator.targets.latex.pictures import svg
 from gudgeon.generator.targets.latex.trace import Functions
+from gudgeon.generator.targets.numpy.curves import with_curves
 from gudgeon.generator.targets.numpy.printer import function
 from gudgeon.language.plot_units import label, scale
 from gudgeon.language.units import VELOCITY
@@ -73,18 +74,19 @@ def _numbers(found: Functions) -> Mapping[str, float]:
     tables = found.model.slots.tables
     p = SimpleNamespace(**{name: [0.0] * len(table) for name, table in tables.items()})
     count = len(found.model.slots.entries)
-    _callable(closed_linkage.prepare_kernel(found.model))([0.0] * count, [False] * count, p)
+    _callable(found, closed_linkage.prepare_kernel(found.model))([0.0] * count, [False] * count, p)
     return {name: float(value) for name, value in vars(p).items() if name not in tables}
 
 
-def _callable(kernel: Kernel) -> Any:
+def _callable(found: Functions, kernel: Kernel) -> Any:
     names: dict[str, Any] = {"np": np}
-    exec(compile(function(kernel), "<law>", "exec"), names)
+    text = function(kernel)
+    exec(compile(with_curves(found.model.scene.mechanism.curves, text) + text, "<law>", "exec"), names)
     return names[kernel.name]
 
 
-def _called(call: SharedCall, p: Mapping[str, float], *given: Any) -> Any:
-    return _callable(call.kernel)(*given, *(p[number.removeprefix("p->")] for number in call.numbers))
+def _called(found: Functions, call: SharedCall, p: Mapping[str, float], *given: Any) -> Any:
+    return _callable(found, call.kernel)(*given, *(p[number.removeprefix("p->")] for number in call.numbers))
 
 
 def _value(found: Functions, p: Mapping[str, float], number: Any) -> float:
@@ -97,7 +99,7 @@ def _normal(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]
     curves = []
     for ratio in (1.0, 0.0, -1.0):
         further = [ratio * FAST] if pin.further else []
-        y = np.broadcast_to(_called(call, p, delta, ratio, *further), delta.shape)
+        y = np.broadcast_to(_called(found, call, p, delta, ratio, *further), delta.shape)
         curves.append(Curve(y, f"δ̇/δ̇⁻ = {ratio:g}" + (f", δ̇ = {ratio * FAST:g} m/s" if pin.further else "")))
     caption = "The normal force over the penetration, while the surfaces approach, rest and part"
     return Plot(delta, tuple(curves), ("δ", "m"), ("F_n", "N"), ("clearance", "delta"), caption)
@@ -109,14 +111,14 @@ def _friction(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, floa
     of_speed = {own.name for own in law.law.parameters if own.dimension == VELOCITY} if law else set()
     speeds = [_value(found, p, symbol) for name, symbol in numbers.items() if name in of_speed]
     v_t = np.linspace(-1.0, 1.0, 2 * POINTS) * 3.0 * (max(speeds, default=0.0) or FAST)
-    y = np.broadcast_to(_called(call, p, 1.0, v_t), v_t.shape)
+    y = np.broadcast_to(_called(found, call, p, 1.0, v_t), v_t.shape)
     caption = "Friction over the slip, for a normal force of 1 N"
     return Plot(v_t, (Curve(y, ""),), ("v_t", "m/s"), ("F_t/F_n", ""), ("dry", "v_t"), caption)
 
 
 def _film(found: Functions, pin: Pin, call: SharedCall, p: Mapping[str, float]) -> Plot:
     epsilon = np.linspace(0.0, 0.9, POINTS)
-    radial, along, *_ = _called(call, p, epsilon, 0.0 * epsilon, -0.5 * epsilon)
+    radial, along, *_ = _called(found, call, p, epsilon, 0.0 * epsilon, -0.5 * epsilon)
     curves = (Curve(np.broadcast_to(radial, epsilon.shape), "F_r"), Curve(np.broadcast_to(along, epsilon.shape), "F_t"))
     caption = "The film's forces over the eccentricity ratio, for surfaces that turn at 1 rad/s together and no squeeze"
     return Plot(epsilon, curves, ("ε", ""), ("F", "N"), ("film", "epsilon"), caption)

@@ -1,0 +1,57 @@
+"""Contact whose elastic force is an expression of the penetration that the file gives, with hysteresis damping.
+
+    F_n = F_e(δ) (1 + a δ̇/δ̇⁻),   F_e(0) = 0,   F_e ≥ 0
+
+never negative unless it `pulls`. What the factor a delivers hangs on no form of F_e: m δ̈ = −F_e (1 + a δ̇/δ̇⁻) is
+m v dv/(1 + a v/δ̇⁻) = −F_e dδ, whose right side is the same on the way in and on the way out. So every factor of
+dissipation.py may go with it, `exact` too. How the expression is read, and what is looked at: equations/force_law.py.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.field import OF_PENETRATION, Bound, number
+from gudgeon.generator.kinds.laws.dissipation import DISSIPATION, PULLS, RESTITUTION, hysteresis
+from gudgeon.generator.kinds.laws.law import DEEPEST, SECANT_DEPTH, Law, LawInputs
+from gudgeon.language.units import FORCE, LENGTH
+
+
+def build(s: LawInputs) -> dict[str, Any]:
+    """F_n (N), compressive, for δ > 0."""
+    import sympy as sp
+
+    force, delta = s.parameters["force"], s.variables["delta"]
+    deepest = s.parameters.get(DEEPEST)
+    if deepest is not None:
+        s.derive(DEEPEST, deepest, "penetration up to which the expression holds")
+    if force.has(delta):
+        depth = SECANT_DEPTH * s.pair.c
+        s.derive("spring", force.subs(delta, depth) / depth, "secant stiffness at a twentieth of the clearance")
+    F_e = sp.Symbol("F_e", real=True)
+    return {"F_e": force, "F_n": F_e * hysteresis(s, str(s.options["dissipation"]))}
+
+
+LAW = Law(
+    name="expression",
+    role="normal",
+    title="An elastic force as an expression of the penetration, with a choice of hysteresis damping",
+    source="the file; the damping as K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440-445",
+    reference="The elastic force is the file's own; its damping has the form of K. H. Hunt, F. R. E. Crossley, Journal "
+              "of Applied Mechanics 42 (1975) 440-445, doi 10.1115/1.3423596",
+    validity="what is known of the expression; it is 0 at no penetration, which every run asks of its numbers, and not "
+             "negative up to the clearance or `deepest`, which is looked at with the numbers of the file and of its "
+             "scenes; driven apart fast it would pull, and is 0 there unless it pulls",
+    fields=(
+        number(
+            "force", "elastic force, an expression of the penetration delta, of parameters and of curves", FORCE,
+            symbol="f", required=True, varies=OF_PENETRATION,
+        ),
+        number(
+            DEEPEST, "penetration up to which the expression holds; a run that goes deeper stops", LENGTH,
+            symbol=r"\delta_{\mathrm{max}}", bounds=(Bound(">", 0.0),), otherwise="a tenth of the bearing's radius",
+        ),
+        RESTITUTION, DISSIPATION, PULLS,
+    ),
+    build=build,
+)  # fmt: skip
