@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -40,7 +41,7 @@ def text(law: str, more: str = "", across: float = 0.02) -> str:
     return FILE.format(law=law, more=more, across=across)
 
 
-def loaded(folder: Path, law: str, more: str = "", across: float = 0.02, **how: str) -> gudgeon.Simulation:
+def loaded(folder: Path, law: str, more: str = "", across: float = 0.02, **how: Any) -> gudgeon.Simulation:
     path = folder / "ball.yaml"
     path.write_text(text(law, more, across))
     return gudgeon.load(path, scene="dry", **how)
