@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -40,7 +41,7 @@ def text(law: str, more: str = "", across: float = 0.02) -> str:
     return FILE.format(law=law, more=more, across=across)
 
 
-def loaded(folder: Path, law: str, more: str = "", across: float = 0.02, **how: str) -> gudgeon.Simulation:
+def loaded(folder: Path, law: str, more: str = "", across: float = 0.02, **how: Any) -> gudgeon.Simulation:
     path = folder / "ball.yaml"
     path.write_text(text(law, more, across))
     return gudgeon.load(path, scene="dry", **how)
@@ -66,12 +67,12 @@ def test_it_is_hertz_where_its_force_is_that(formulation: str, tmp_path: Path) -
         for name in ("ball.vx", "ball.vy", "ball.omega", "A.Fn", "A.delta"):
             size = np.abs(one[name]).max()
             np.testing.assert_allclose(other[name], one[name], rtol=0.0, atol=1e-7 * size, err_msg=name)
-    one, other = (make(text(law, RUBS).encode(), "ball", "dry") for law in both)
+    hertz, own = (make(text(law, RUBS).encode(), "ball", "dry") for law in both)
     for depth in np.geomspace(1e-9, 5e-5, 12):
-        y = at_depth(one.n, depth)
+        y = at_depth(hertz.n, depth)
         for memory in (np.array([NAN]), np.array([0.02])):
-            want = one.library.rhs(0.0, y, one.p, memory)
-            got = other.library.rhs(0.0, y, other.p, memory)
+            want = hertz.library.rhs(0.0, y, hertz.p, memory)
+            got = own.library.rhs(0.0, y, own.p, memory)
             np.testing.assert_allclose(got, want, rtol=0.0, atol=1e-13 * np.abs(want).max())
 
 
