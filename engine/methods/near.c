@@ -44,14 +44,15 @@ static int other_way(Run *run, int status)
     }
     return 0;
 }
+
 /* After a step that others have tried, and that met none. */
-static void way_as_usual(Run *run)
+static inline void way_as_usual(Run *run)
 {
     first_way(run);
     other_way(run, 0);
 }
 #else
-static void way_as_usual(Run *run) { (void)run; }
+static inline void way_as_usual(Run *run) { (void)run; }
 static void first_way_of_fixed(Run *run) { (void)run; }
 static void first_way(Run *run) { (void)run; }
 static int other_way(Run *run, int status) { return (void)run, (void)status, 0; }

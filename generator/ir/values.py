@@ -78,7 +78,9 @@ class Test:
 
     @property
     def names(self) -> Names:
-        """Where thresholds are read."""
+        """Where thresholds are read: not of a share of the value itself."""
+        if self.of_itself:
+            return NONE
         return frozenset(base_of(x.place) for x in self.bound if isinstance(x, Threshold) and x.place)
 
     @property

@@ -10,11 +10,12 @@ from gudgeon.errors import BadValueError
 from gudgeon.generator.ir.kernels import KernelBuilder, without_unused
 from gudgeon.generator.ir.series import Linear, Series, series_of
 from gudgeon.generator.ir.series_rules import NoSeries
+from gudgeon.generator.ir.values import Threshold
 from gudgeon.generator.kernels.dynamics import dynamics_kernel
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kernels.reduced import DYNAMICS, is_rescued
 from gudgeon.generator.reduction.reduction import TreeSystem
-from gudgeon.generator.solvers.kkt import FACTORS, KKT, ZERO, Factor
+from gudgeon.generator.solvers.kkt import FACTORS, KKT, SINGULAR, VANISHING, ZERO, Factor
 
 NAME = "taylor"
 
@@ -61,6 +62,13 @@ class _Told(KKT):
 
     loads: dict[str, int]
     unknowns: dict[int, sp.Symbol]
+
+    def factorize(
+        self, build: KernelBuilder, jumps: bool = False, share: Threshold = SINGULAR, size: Threshold = VANISHING
+    ) -> Factor:
+        """The same, by thresholds that no run changes: no memory is at hand."""
+        share, size = (Threshold(one.name, one) for one in (share, size))
+        return super().factorize(build, jumps, share, size)
 
     def solve(
         self, build: KernelBuilder, factor: Factor, b: Mapping[int, sp.Expr], prefix: str = ""

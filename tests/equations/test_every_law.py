@@ -262,8 +262,10 @@ CONTACTS = """
   c6:
     normal: {law: esdu_78035, restitution: 0.7}
     friction: {law: modified_coulomb, mu: 0.1, v0: 0.01, v1: 0.4}
+  c7:
+    normal: {law: expression, force: 1e6 N/m * delta + 1e15 N/m^3 * delta**3, restitution: 0.7}
 """
-COUNT, CLEARANCE = 7, 0.2e-3
+COUNT, CLEARANCE = 8, 0.2e-3
 DISCS = f"""
 format: gudgeon/1
 name: discs

@@ -40,6 +40,7 @@ NAN = float("nan")
 
 
 ROLES = ("normal", "friction", "film")
+FORCE = '"1e6 N/m * delta + 1e15 N/m^3 * delta**3"'
 
 
 def values(law: Law) -> dict[str, float]:
@@ -64,7 +65,7 @@ def variants(role: str) -> dict[str, bool]:
         if law.role == role:
             for choice in itertools.product(*(option.values for option in law.options)):
                 options = {o.name: str(v).lower() for o, v in zip(law.options, choice, strict=True)}
-                numbers = {k: repr(v) for k, v in values(law).items()}
+                numbers = {k: repr(v) for k, v in values(law).items()} | {f.name: FORCE for f in law.expressions}
                 default = {o.name: str(o.choice).lower() for o in law.options}
                 for chosen, number in law.instead.items():  # the number, or a choice other than the default
                     left_out = options if options[chosen] == default[chosen] else numbers
