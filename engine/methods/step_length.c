@@ -231,7 +231,7 @@ static int first_size(Run *run, double left, const Parameters *p)
     for (int k = 0; k < 2 * N_X; k++)
         two = max_of(two, fabs(dy[k] - run->dy[k]) / h * run->weight[k]);
     /* in the time one / two rates change by themselves: so many tolerances are gone in it */
-    const double time = two > 0.0 ? one / two : left, way = max_of(1.0, time * one);
-    run->h = min_of(1e-2 * left, max_of(time * pow(way, -run->method->power), h));
+    const double time = one / two, way = max_of(1.0, time * one);
+    run->h = two > 0.0 ? max_of(time * pow(way, -run->method->power), h) : 1e-2 * left;
     return 0;
 }

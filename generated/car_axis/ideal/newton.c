@@ -442,6 +442,7 @@ enum {
 int closing_step(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     double *dq, double *dv, double *worst)
 {
+    (void)memory;
     /* coordinates, velocities, time */
     const double axle_x = q[0];
     const double axle_x_rate = v[0];

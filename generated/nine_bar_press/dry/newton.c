@@ -1093,7 +1093,7 @@ enum {
 int closing_step(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     double *dq, double *dv, double *worst)
 {
-    (void)t;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const double L6_theta = q[0];
     const double L6_omega = v[0];

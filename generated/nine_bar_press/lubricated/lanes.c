@@ -652,7 +652,7 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
 static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
     const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
 {
-    (void)t;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const Lanes L6_theta = q[0];
     const Lanes L6_omega = v[0];

@@ -85,7 +85,7 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
 static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
     const LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
 {
-    (void)t;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const Lanes bob_x = q[0];
     const Lanes bob_x_rate = v[0];
@@ -133,7 +133,7 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
 static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
     const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
 {
-    (void)t;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const Lanes bob_x = q[0];
     const Lanes bob_x_rate = v[0];

@@ -190,7 +190,7 @@ enum {
 int closing_step(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     double *dq, double *dv, double *worst)
 {
-    (void)t;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const double bob_x = q[0];
     const double bob_x_rate = v[0];

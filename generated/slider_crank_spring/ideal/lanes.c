@@ -120,7 +120,7 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
 static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
     const LaneParameters *p, Lanes *a, LaneAside *aside, LaneBits *rare)
 {
-    (void)t;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const Lanes crank_theta = q[0];
     const Lanes crank_omega = v[0];
@@ -217,7 +217,7 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
 static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const LaneMemory *memory,
     const LaneParameters *p, Lanes *dq, Lanes *dv, Lanes *worst, LaneBits *rare)
 {
-    (void)t;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const Lanes crank_theta = q[0];
     const Lanes crank_omega = v[0];

@@ -344,7 +344,7 @@ enum {
 int closing_step(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
     double *dq, double *dv, double *worst)
 {
-    (void)t;
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const double crank_theta = q[0];
     const double crank_omega = v[0];
