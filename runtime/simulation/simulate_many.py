@@ -53,7 +53,7 @@ def simulate_many(
     peaks: Iterable[str | Rubbing] | None = None, against: Simulation | None = None, contour: Any = None,
 ) -> Batch:  # fmt: skip
     """See Simulation.simulate_many."""
-    simulation = simulation.of_method(method) if method in SMOOTH else simulation
+    simulation = simulation.of_method(method) if isinstance(method, str) and method in SMOOTH else simulation
     compiled, source = simulation.compiled, simulation.source
     names, against = wanted_peaks(source, peaks), check_beside(source, against)
     each = EachRun(compiled, t_end, output, step)

@@ -199,7 +199,8 @@ def test_every_law_is_printed(name: str, left_out: bool) -> None:
     """A new law needs nothing here: its steps, numbers, source and validity are in the document."""
     law = next(some[name] for role in RESULTS if name in (some := called(role)))
     needed = [own for own in law.fields_as(name) if own.kind == NUMBER and own.default is None]
-    given = [f"{own.name}: {(k + 1) * 0.1:.1f}" for k, own in enumerate(needed) if not (left_out and may_lack(own))]
+    kept = [(k, own) for k, own in enumerate(needed) if not (left_out and may_lack(own))]
+    given = [f"{own.name}: {'1 N/m * delta' if own.varies else f'{(k + 1) * 0.1:.1f}'}" for k, own in kept]
     own = f"{{{', '.join([f'law: {name}', *given])}}}"
     place = {"normal": NORMAL, "film": FILM, "mixed": "transition: 5 um"}
     own = f"mixed: {own}" if law.role == "mixed" else own
