@@ -1,6 +1,6 @@
 """The tables and figures of docs/race.md, made from benchmarks/race.csv and from nothing else.
 
-    python -m benchmarks.race_page          # after a race, or after a change of the page's text
+    python -m benchmarks.race.page          # after a race, or after a change of the page's text
 
 The page's own text stands outside the marks `<!-- race: name -->` … `<!-- end -->`; what is between them is written
 here, and a test compares it with the CSV.
