@@ -59,9 +59,10 @@ static double shrink(Run *run, const Step *step)
 /* What would have fitted in place of the first step since something changed. */
 static void note_first(Run *run, const Step *step)
 {
+    if (!run->first)
+        return;
     const double fits = 0.9 * pow(max_of(1e-12, step->error), -1.0 / order_of(run, step));
-    if (run->first)
-        *run->first = step->h * min_of(5.0, max_of(0.3, fits));
+    *run->first = step->h * min_of(5.0, max_of(0.3, fits));
     run->first = NULL;
 }
 
