@@ -13,11 +13,12 @@ from gudgeon.generator.ir.readable import Readable, share_of_pi
 from gudgeon.generator.ir.values import Chosen, Given, Place, Sum, Test, Threshold, Value
 from gudgeon.generator.symbols.contours import ContourOf
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
+from gudgeon.generator.targets.quick import Quick
 
 _PLAIN = Readable(())
 
 
-class CPrinter(C99CodePrinter):
+class CPrinter(Quick, C99CodePrinter):
     """C99 with doubles written to round-trip, small powers as products, NaN-keeping min and max.
 
     `of`: the function that is written, with what it calls its symbols and branches.
@@ -34,13 +35,13 @@ class CPrinter(C99CodePrinter):
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         return self.called(expr.name)
 
-    def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
+    def parenthesize(self, item: sp.Expr, level: float, strict: bool = False) -> str:
         """A number such as 0.5 needs no brackets; 2*PI/3 in a product does, for it is one number."""
         if item.is_Float and (share := share_of_pi(item)) and not share.is_one:
             return f"({self._print(item)})"
         if item.is_Rational and item.p > 0 and "/" not in (text := self._print(item)):
             return text
-        return str(super().parenthesize(item, level, strict))
+        return super().parenthesize(item, level, strict)
 
     def _print_Float(self, expr: sp.Float) -> str:
         share = share_of_pi(expr)

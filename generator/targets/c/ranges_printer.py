@@ -11,6 +11,7 @@ from gudgeon.generator.ir.readable import NUMBERS, readable
 from gudgeon.generator.ir.values import Value
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
 from gudgeon.generator.targets.c import functions, printer
+from gudgeon.generator.targets.quick import ordered_terms
 
 _TYPES = {"const double": "const Range", "const double *": "const Range *", "Aside *": "Range *"}
 _NAMES = {"aside": "out"}
@@ -43,7 +44,7 @@ class RangesPrinter(printer.CPrinter):
     def _print_Add(self, expr: sp.Expr, order: object = None) -> str:
         if not expr.free_symbols:
             return str(super()._print_Add(expr))
-        return self._chained("add", tuple(expr.as_ordered_terms()))
+        return self._chained("add", ordered_terms(expr))
 
     def _print_Mul(self, expr: sp.Expr) -> str:
         if not expr.free_symbols:

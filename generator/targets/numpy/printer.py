@@ -29,6 +29,7 @@ from gudgeon.generator.ir.values import Chosen, Given, Place, Sum, Test, Thresho
 from gudgeon.generator.symbols.contours import ContourOf
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
 from gudgeon.generator.targets.numpy.layout import assigned, code, docstring, indented, remark
+from gudgeon.generator.targets.quick import Quick
 
 _NAMES = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arctan2", "Max": "maximum", "Min": "minimum",
           "Abs": "abs", "Size": "abs"}  # fmt: skip
@@ -45,7 +46,7 @@ def name(text: str) -> str:
     return ".".join(words) + bracket + inner + closing + (name(tail) if tail else "")
 
 
-class NumPyPrinter(PythonCodePrinter):
+class NumPyPrinter(Quick, PythonCodePrinter):
     """Numbers and arrays alike: what C decides by a condition is chosen by np.where."""
 
     def __init__(self, of: Readable) -> None:
@@ -63,11 +64,11 @@ class NumPyPrinter(PythonCodePrinter):
         share = share_of_pi(expr)
         return share.text("np.pi") if share else repr(float(expr))
 
-    def parenthesize(self, item: sp.Expr, level: int, strict: bool = False) -> str:
+    def parenthesize(self, item: sp.Expr, level: float, strict: bool = False) -> str:
         """A share of π is one number."""
         if item.is_Float and (share := share_of_pi(item)) and not share.is_one:
             return f"({self._print(item)})"
-        return str(super().parenthesize(item, level, strict))
+        return super().parenthesize(item, level, strict)
 
     def _print_Mul(self, expr: sp.Mul) -> str:
         share = share_of_pi(expr)

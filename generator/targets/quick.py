@@ -1,0 +1,95 @@
+"""What SymPy's printers of code ask over and over, asked once: which method prints a class, in which order terms stand.
+
+The text is theirs to the letter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+from typing import Any
+
+import sympy as sp
+from sympy.core.exprtools import decompose_power
+from sympy.core.function import AppliedUndef
+from sympy.printing.precedence import precedence
+
+Method = Callable[..., str]
+
+
+class Quick:
+    """Before one of SymPy's printers of code among the bases of a class."""
+
+    def doprint(self, expr: sp.Expr) -> str:
+        """One expression, without a statement around it. Raises ValueError for one that the language has not."""
+        return self._print(sp.sympify(expr))
+
+    def _print(self, expr: Any, **settings: Any) -> str:
+        key = (type(self), type(expr))
+        if (method := _METHODS.get(key)) is None:
+            method = _METHODS[key] = _method(*key)
+        return method(self, expr, **settings)
+
+    def _print_not_supported(self, expr: sp.Expr) -> str:
+        raise ValueError(f"{type(self).__name__} does not know {expr}")
+
+    def _as_ordered_terms(self, expr: sp.Expr, order: str | None = None) -> list[sp.Expr]:
+        return list(ordered_terms(expr))
+
+    def parenthesize(self, item: sp.Expr, level: float, strict: bool = False) -> str:
+        """In brackets where it binds less than that."""
+        binds = _precedence(item)
+        return f"({self._print(item)})" if binds < level or (not strict and binds <= level) else self._print(item)
+
+
+_precedence = lru_cache(100_000)(precedence)
+_METHODS: dict[tuple[type, type], Method] = {}  # of printers, by the class that is printed
+
+
+def _method(printer: type, kind: type) -> Method:
+    """As SymPy finds it: the class's own, or that of the first of its bases; of functions by their own name alone."""
+    classes = kind.__mro__
+    if sp.Function in classes:
+        first = classes.index(sp.Function)
+        named = [c for c in classes[:first] if c.__name__ == kind.__name__ or c.__name__.endswith("Base")]
+        classes = (*named, *classes[first:])
+    if issubclass(kind, AppliedUndef):
+        classes = classes[classes.index(AppliedUndef) :]
+    for each in classes:
+        if method := getattr(printer, f"_print_{each.__name__}", None):
+            return method
+    raise ValueError(f"{printer.__name__} does not know {kind.__name__}")
+
+
+@lru_cache(20_000)
+def ordered_terms(total: sp.Expr) -> tuple[sp.Expr, ...]:
+    """Terms of a sum in the order in which SymPy prints them: by powers of what is in them, higher ones first."""
+    terms = total.args
+    if not total.is_Add or any(
+        isinstance(term, (sp.Number, sp.NumberSymbol)) or not term.is_commutative for term in terms
+    ):
+        return tuple(total.as_ordered_terms())
+    parts = {term: _powers(term) for term in terms}
+    bases = sorted({base for powers, _ in parts.values() for base in powers}, key=sp.default_sort_key)
+
+    def key(term: sp.Expr) -> tuple[list[int], bool, float, float]:
+        powers, number = parts[term]
+        return [-powers.get(base, 0) for base in bases], bool(number.imag), number.imag, number.real
+
+    return tuple(sorted(terms, key=key))
+
+
+def _powers(term: sp.Expr) -> tuple[dict[sp.Expr, int], complex]:
+    """Whole powers of what a term is a product of, and its number."""
+    number, rest = term.as_coeff_Mul()
+    size = complex(float(number)) if number.is_Rational or number.is_Float else complex(number)
+    powers = {}
+    for factor in sp.Mul.make_args(rest):
+        if factor.is_Symbol:
+            powers[factor] = 1
+        elif factor.is_number:
+            size *= complex(factor)
+        else:
+            base, power = decompose_power(factor)
+            powers[base] = power
+    return powers, size
