@@ -14,6 +14,7 @@ from gudgeon.errors import BuildError
 from gudgeon.loading import compiler
 from gudgeon.loading.ahead import Ahead, own_lines, shared_objects
 from gudgeon.loading.cache import Cache, Make, default_cache, digest, private_cache, tell_once
+from gudgeon.loading.carried import carried
 from gudgeon.loading.compiling import begin, finish
 from gudgeon.loading.engine import engine_digest
 from gudgeon.loading.library import Library, opened
@@ -29,14 +30,19 @@ def compile_kernels(
     source: KernelSource, *, portable: bool = False, rebuild: bool = False, cache: Cache | None = None,
     ahead: Ahead | None = None,
 ) -> Library:  # fmt: skip
-    """The library of a kernel source, compiled if the cache has none.
+    """The library of a kernel source, compiled if the cache has none; without a compiler what the wheel carries.
 
     portable: no instructions that only this CPU has. rebuild: compile even if the cache has it.
     ahead: where parts of it may be under way already.
     Raises BuildError if there is no compiler, or if the C does not compile or load.
     """
     cache = cache or default_cache()
-    command = compiler.find_compiler()
+    try:
+        command = compiler.find_compiler()
+    except BuildError:
+        if not rebuild and (found := carried(source)):
+            return found
+        raise
     flags = (*compiler.flags(portable, command), *compiler.link_flags())
     key = library_key(source, command, flags, compiler.identity(command, cache), portable)
     with _lock:
@@ -106,6 +112,13 @@ def _noexec(folder: Path) -> bool:
 
 def _copy(entry: Path, folder: Path) -> None:
     (folder / LIBRARY).write_bytes((entry / LIBRARY).read_bytes())
+
+
+def build_into(folder: Path, source: KernelSource, cache: Cache) -> Path:
+    """A library for any processor of the kind that $CC compiles for, which may be another than this machine's."""
+    with Ahead(True, cache) as none:
+        _build(source, folder, True, none, cache, False)
+    return folder / LIBRARY
 
 
 def _build(

@@ -87,6 +87,14 @@ def find_compiler() -> tuple[str, ...]:
     raise BuildError(f"{wanted}\n  {INSTALL_COMPILER}")
 
 
+def is_there() -> bool:
+    """Whether there is one."""
+    try:
+        return bool(find_compiler())
+    except BuildError:
+        return False
+
+
 def zig() -> Path:
     """The compiler that comes as a wheel, with a C library and a linker. ImportError where it is not installed."""
     import ziglang

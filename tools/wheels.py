@@ -1,0 +1,85 @@
+"""Wheels for platforms, which carry the kernels of the shipped mechanisms: with one no compiler is needed to run these.
+
+    python tools/wheels.py dist                       # x86-64 and ARM Linux, and the one for all other machines
+    python tools/wheels.py dist --machine aarch64     # one of them
+
+zig (`gudgeon[cc]`) compiles for every machine on any. What is carried runs on every processor of the kind, with glibc
+2.17 or later; where a compiler is found, gudgeon goes on compiling for the processor that it has.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import tomllib
+from pathlib import Path
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.loading import compiler
+from gudgeon.loading.build import build_into
+from gudgeon.loading.cache import Cache
+from gudgeon.loading.carried import CARRIED, file_name, platform
+from gudgeon.loading.shipped import read_generated
+
+ROOT = Path(__file__).resolve().parent.parent
+GLIBC = (2, 17)
+MACHINES = ("x86_64", "aarch64")
+MADE = ("pyproject.toml", "LICENSE", "README.md")  # beside the packages
+
+
+def sources(generated: Path) -> list[KernelSource]:
+    """Every scene whose C is kept."""
+    found = (read_generated(path.parent) for path in sorted(generated.glob("*/*/kernel.json")))
+    return [source for source in found if source is not None]
+
+
+def compile_for(machine: str, scenes: list[KernelSource], folder: Path) -> None:
+    """The libraries of scenes in a folder, for Linux on such machines."""
+    target = f"{machine}-linux-gnu.{GLIBC[0]}.{GLIBC[1]}"
+    os.environ["CC"] = " ".join([str(compiler.zig()), "cc", *compiler.ZIG, "-s", "-target", target])
+    folder.mkdir(parents=True)
+    with tempfile.TemporaryDirectory() as scratch:
+        cache = Cache(Path(scratch) / "cache")
+        for scene in scenes:
+            place = Path(scratch) / scene.mechanism / scene.scene
+            place.mkdir(parents=True)
+            shutil.copyfile(build_into(place, scene, cache), folder / file_name(scene))
+
+
+def make_wheel(out: Path, machine: str = "", scenes: list[KernelSource] | None = None) -> None:
+    """One wheel: for a machine's Linux with the kernels of these scenes, or for all machines without any."""
+    packages = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]["package-dir"]
+    with tempfile.TemporaryDirectory() as scratch:
+        copy = Path(scratch) / "house"
+        copy.mkdir()
+        for name in (*MADE, *packages.values()):
+            (shutil.copytree if (ROOT / name).is_dir() else shutil.copy)(ROOT / name, copy / name)
+        settings = {}
+        if machine:
+            compile_for(machine, scenes or [], copy / packages["gudgeon"] / CARRIED.name / platform("linux", machine))
+            settings["--build-option"] = f"--plat-name=manylinux_{GLIBC[0]}_{GLIBC[1]}_{machine}"
+        code = f"import setuptools.build_meta as b; b.build_wheel({str(out.resolve())!r}, {settings!r})"
+        made = subprocess.run([sys.executable, "-W", "ignore", "-c", code], cwd=copy, capture_output=True, text=True)
+        if made.returncode:
+            raise SystemExit(made.stderr)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("out", type=Path, help="the folder for the wheels")
+    parser.add_argument("--machine", choices=MACHINES, help="this machine's wheel alone")
+    arguments = parser.parse_args()
+    arguments.out.mkdir(parents=True, exist_ok=True)
+    scenes = sources(ROOT / "generated")
+    for machine in [arguments.machine] if arguments.machine else ["", *MACHINES]:
+        make_wheel(arguments.out, machine, scenes)
+    for path in sorted(arguments.out.glob("*.whl")):
+        print(f"{path.stat().st_size / 1e6:6.2f} MB  {path.name}")
+
+
+if __name__ == "__main__":
+    main()
