@@ -21,7 +21,7 @@ from gudgeon.generator.kernels.program import Program, make_program
 from gudgeon.generator.kernels.shared import SharedCall
 from gudgeon.generator.kinds.laws.law import RESULTS, Law, house
 from gudgeon.generator.pipeline import derive, in_c
-from gudgeon.generator.targets.c.functions import shared_call
+from gudgeon.generator.targets.c.functions import shared_call, statements
 from gudgeon.loading.compiler import find_compiler, flags
 from gudgeon.loading.engine import include_flags
 
@@ -88,9 +88,10 @@ int main(void)
 
 
 def contact(law: Law) -> str:
-    """A contact that has the law; friction rubs under a contact of Hertz's."""
+    """A contact that has the law; friction rubs under a contact of Hertz's, which a share blends with an oil film."""
     keys = "".join(f", {name}: {value!r}" for name, value in chosen_numbers(law).items())
-    below = "normal: {law: hertz, stiffness: 1e9}, " if law.role == "friction" else ""
+    below = "normal: {law: hertz, stiffness: 1e9}, " if law.role in ("friction", "mixed") else ""
+    below += "film: {law: ocvirk, viscosity: 0.1}, " if law.role == "mixed" else ""
     return f"{below}{law.role}: {{law: {law.name}{keys}}}"
 
 
@@ -100,8 +101,10 @@ def scene(law: Law) -> bytes:
 
 
 def call_of(program: Program, law: Law) -> tuple[str, list[str]]:
-    """The call in C, of `at`, and the variables that stand there."""
+    """The call in C, of `at`, and the variables that stand there; a share is lines within its joint's function."""
     pin = program.pins[0]
+    if law.role == "mixed":
+        return f"const double delta = at[0];\n{statements(pin.share)}\nout[0] = share;", ["delta"]
     own: SharedCall = pin.laws[law.role]
     names = [a.name for a in own.kernel.arguments if a.name in law.variables]
     results = [f"&out[{k}]" for k in range(len(law.results))]
@@ -138,8 +141,8 @@ def timed(law: Law, folder: Path) -> tuple[float, float]:
 
 
 def has_a_function(law: Law) -> bool:
-    """Shares of mixed lubrication stand within their joint's function; surfaces that do not give have no force law."""
-    return law.role != "mixed" and not law.rigid
+    """Surfaces that do not give have no force law: their force costs a right-hand side more for each closed contact."""
+    return not law.rigid
 
 
 def lines(names: list[str]) -> Iterator[str]:

@@ -60,57 +60,6 @@ static int answer_here(Run *run, const Parameters *p, Answer *contacts)
     return find_answer(motion_of_laws, N_Y, run->t, run->y, &run->memory, p, contacts);
 }
 
-/*
- * Positions and velocities of listed contacts at `gap` (m, each) and, where they are closed, without a rate of it: the
- * smallest change, measured by M.
- */
-static int seat(Run *run, double t, double *y, const Parameters *p, Answer *contacts, const double *gap)
-{
-    unsigned char closed[N_RIGID];
-    Memory now = run->memory;
-    for (int k = 0; k < contacts->n; k++) {
-        Latch *latch = &now.latch[contacts->joint[k]];
-        closed[k] = (unsigned char)latch->closed;
-        latch->closed = 1; /* that a force moves it */
-    }
-    for (int pass = 0; pass < 3; pass++) {
-        double dy[N_Y], depth[N_RIGID], rate[N_RIGID], x[N_RIGID], u[N_RIGID], worst = 0.0;
-        Aside aside;
-        int status = find_answer(motion_of_laws, N_Y, t, y, &now, p, contacts);
-        if (!status)
-            status = motion_of_laws(t, y, &now, p, dy, &aside);
-        run->evaluations += contacts->n + 2;
-        if (status)
-            return status;
-        for (int k = 0; k < contacts->n; k++) {
-            const Clearance *joint = &aside.clearance[contacts->joint[k]];
-            depth[k] = joint->delta + gap[k];
-            rate[k] = closed[k] ? joint->deltadot : 0.0;
-            worst = max_of(worst, fabs(depth[k]) / radial_clearance(p, contacts->joint[k]));
-        }
-        solve_part(contacts, NULL, depth, x);
-        solve_part(contacts, closed, rate, u);
-        for (int k = 0; k < contacts->n; k++)
-            for (int i = 0; i < N_X; i++) {
-                y[i] += contacts->way[k][N_X + i] * x[k];
-                y[N_X + i] += contacts->way[k][N_X + i] * u[k];
-            }
-        if (worst < 1e-14)
-            break;
-    }
-    return 0;
-}
-
-/* A state back onto e = c and no rate of it where contacts are closed. */
-static void hold_contacts(Run *run, double t, double *y, const Parameters *p)
-{
-    const double none[N_RIGID] = {0.0};
-    Answer contacts;
-    contacts.n = list_closed(&run->memory, contacts.joint);
-    if (contacts.n)
-        (void)seat(run, t, y, p, &contacts, none);
-}
-
 /* One line of the list that Python fetches; of a blow without a length F_peak is the impulse, N s. */
 static int list_contact(Run *run, const Impact *contact)
 {
@@ -121,7 +70,8 @@ static int list_contact(Run *run, const Impact *contact)
 }
 
 /* Impulses: what they change in the velocities, their work, and what is listed of them. */
-static void jump(Run *run, const Answer *blow, const double *impulse, const double *meeting, const Parameters *p)
+static void jump(Run *run, const Answer *blow, const double *impulse, const double *meeting, const Rub *rub,
+    const Parameters *p)
 {
     const double energy = kinetic_energy(run, p);
     double lost = 0.0;
@@ -133,17 +83,20 @@ static void jump(Run *run, const Answer *blow, const double *impulse, const doub
         for (int i = 0; i < N_X; i++)
             run->y[N_X + i] += blow->way[k][N_X + i] * impulse[k];
     }
+    lost += rub_off(rub, impulse, run->y);
     run->y[2 * N_X + 2] -= lost;
     run->y[2 * N_X] += kinetic_energy(run, p) - energy + lost; /* what drives hold moves on as before */
 }
 
 /*
  * Every joint that touches and closes at a rate gets its impulse, and with it each that rests, closed or not yet: one
- * blow. A parting that would be slower than the threshold is none. Nothing that friction can do has a part in it.
+ * blow. A parting that would be slower than the threshold is none. No friction has a part in it but that of the
+ * surfaces that meet (rubbing.c).
  */
 static int strike(Run *run, const Parameters *p, int *struck)
 {
     Answer blow = {0};
+    Rub rub;
     double meeting[N_RIGID], r[N_RIGID], impulse[N_RIGID];
     const Memory known = run->memory;
     *struck = 0;
@@ -161,12 +114,15 @@ static int strike(Run *run, const Parameters *p, int *struck)
     }
     for (int i = 0; i < N_FRICTIONS; i++)
         run->memory.mode[i] = 2.0; /* none: it has a force, not an impulse */
+    leave_out_friction(&run->memory);
     int status = *struck ? answer_here(run, p, &blow) : 0;
-    run->memory = known;
     status = !status && *struck ? complementary(&blow, r, impulse) : status;
+    status = !status && *struck ? rub_in_blow(run, &blow, meeting, impulse, p, &rub) : status;
+    run->memory = known;
     if (status || !*struck)
         return status;
-    jump(run, &blow, impulse, meeting, p);
+    jump(run, &blow, impulse, meeting, &rub, p);
+    see_slips(run, p);
     for (int k = 0; k < blow.n && !status; k++) {
         const int i = blow.joint[k];
         const Impact bounce = {run->t, run->t, max_of(meeting[k], 0.0), impulse[k], run->t, i};
@@ -215,9 +171,10 @@ static int settle_contacts(Run *run, int opens, const Parameters *p)
         if (rests[i])
             contacts.joint[contacts.n++] = i;
     }
+    see_slips(run, p);
     int status = contacts.n ? answer_here(run, p, &contacts) : 0;
     if (!status)
-        status = complementary(&contacts, contacts.r, force);
+        status = jams(&contacts, 1, p) ? JAMMED : complementary(&contacts, contacts.r, force);
     for (int k = 0; k < contacts.n && !status; k++)
         pushes[contacts.joint[k]] = force[k] > 0.0;
     for (int i = 0; i < N_CLEARANCES; i++)

@@ -125,7 +125,13 @@ static double kinetic_energy(const Run *run, const Parameters *p)
 #else
 #include "no_friction.c"
 #endif
+#if N_RUBBED
+#include "rubbing.c"
+#elif N_RIGID
+#include "no_rubbing.c"
+#endif
 #if N_RIGID
+#include "seats.c"
 #include "impacts.c"
 #else
 #include "no_impacts.c"

@@ -38,6 +38,9 @@ void read_memory(const double *sample, Memory *memory)
     for (int i = 0; i < N_CLEARANCES; i++) {
         memory->latch[i].closed = !isnan(sample[i]);
         memory->latch[i].deltadot_minus = sample[i];
+#if N_RUBBED
+        memory->latch[i].smooth = 0;
+#endif
     }
     for (int i = 0; i < N_FRICTIONS; i++)
         memory->mode[i] = sample[N_CLEARANCES + i];

@@ -139,6 +139,29 @@ static inline int complementary(const Answer *contacts, const double *r, double 
     return CHATTERING;
 }
 
+#if N_RUBBED
+/*
+ * A closed contact in which a normal force, by the friction that goes with it, brings the surfaces nearer (P. Painleve,
+ * 1895); `needed`: only where it is needed. Without friction no diagonal is negative.
+ */
+static int jams(const Answer *contacts, int needed, const Parameters *p)
+{
+    double m[N_Q], mass = 0.0;
+    mass_matrix(p, m);
+    for (int k = 0; k < N_Q; k += 3)
+        mass += m[k];
+    for (int k = 0; k < contacts->n; k++)
+        if (contacts->D[k][k] * mass < -DEPENDENT && (!needed || contacts->r[k] > 0.0))
+            return 1;
+    return 0;
+}
+#else
+static inline int jams(const Answer *contacts, int needed, const Parameters *p)
+{
+    return (void)contacts, (void)needed, (void)p, 0;
+}
+#endif
+
 /* The right-hand side with the forces that closed contacts need; they are left in `memory`. */
 static int rates_in_contact(RatesOf *rates_of, int size, double t, const double *y, Memory *memory,
     const Parameters *p, double *dy, Aside *aside)
@@ -150,6 +173,8 @@ static int rates_in_contact(RatesOf *rates_of, int size, double t, const double 
         const int status = find_answer(rates_of, size, t, y, memory, p, &contacts);
         if (status)
             return status;
+        if (jams(&contacts, 0, p))
+            return JAMMED;
         solve_part(&contacts, NULL, contacts.r, force);
         for (int k = 0; k < contacts.n; k++)
             memory->latch[contacts.joint[k]].force = force[k];

@@ -28,7 +28,7 @@ enum {
 /* Statuses of a run that is no longer wanted, or no longer advances, ...; positive ones are pivots, 0 is well. */
 enum {
     NOT_FINITE = -2, EVENTS_FULL = -3, CHATTERING = -4, TOO_SMALL = -5, LOST = -6, ENDED = -7, OUTSIDE = -8,
-    STOPPED = -10, STALLED = -11, UNBOUNDED = -12
+    STOPPED = -10, STALLED = -11, UNBOUNDED = -12, JAMMED = -13
 };
 enum { NEAR = -20 }; /* of functions: a pivot is so small that the motion is continued from both sides (beside.c) */
 
@@ -62,6 +62,10 @@ typedef struct {
 #endif
 #if N_RIGID
     double force; /* N, of surfaces that do not give: what keeps a closed contact closed (contact_forces.h) */
+#endif
+#if N_RUBBED
+    int smooth;   /* no friction but `along`: what a blow, or what puts a contact back, asks for */
+    double along; /* N, along t on the journal */
 #endif
 } Latch;
 

@@ -97,6 +97,11 @@ class Model:
         return tuple(clearance.name for clearance in self.clearances if clearance.rigid)
 
     @property
+    def rubbed(self) -> tuple[str, ...]:
+        """Those of them that have friction."""
+        return tuple(clearance.name for clearance in self.clearances if clearance.rigid and clearance.friction)
+
+    @property
     def rows_change(self) -> bool:
         """Whether constraints come and go with the motion: then a pivot that vanishes is told, not mended."""
         return bool(self.frictions or self.rigid)

@@ -95,10 +95,7 @@ def _check_parts(name: Text, node: Map) -> None:
                 message = f"contact {name} has {part} but no normal law"
                 raise MissingKeyError(message, node[part].where, "expected the key 'normal'")
     if "normal" in node and isinstance(law := node["normal"].get("law"), Text) and law in _rigid():
-        for part in ("film", "mixed", "friction", "velocity_floor", "clip_ratio"):
-            if part in node:
-                hint = "expected a contact of this law alone: its surfaces do not give"
-                raise BadValueError(f"contact {name} has {law} and {part}", node.key(part).where, hint)
+        _check_rigid(name, law, node)
     if "transition" in node and "mixed" in node:
         hint = "expected one: a length over which the film hands over, or a law by which film and contact share"
         raise BadValueError(f"contact {name} has both transition and mixed", node.key("mixed").where, hint)
@@ -112,6 +109,21 @@ def _check_parts(name: Text, node: Map) -> None:
         if part in node and "film" not in node:
             message = f"contact {name} has {called_so} but no film"
             raise MissingKeyError(message, node[part].where, "expected the key 'film'")
+
+
+def _check_rigid(name: Text, law: Text, node: Map) -> None:
+    """Raise unless what stands beside surfaces that do not give knows blows: friction that is F_n times a number."""
+    for part in ("film", "mixed", "velocity_floor", "clip_ratio"):
+        if part in node:
+            hint = "expected nothing but friction beside it: its surfaces do not give"
+            raise BadValueError(f"contact {name} has {law} and {part}", node.key(part).where, hint)
+    friction = node["friction"].get("law") if "friction" in node else None
+    rubs = called("friction").get(friction) if isinstance(friction, Text) else None
+    if isinstance(friction, Text) and rubs is not None and (rubs.states or rubs.name in OWN):
+        fit = sorted(other.name for other in called("friction").values() if not other.states and other.name not in OWN)
+        why = "a blow has no time in which bristles bend" if rubs.states else "blows need F_n times what the slip says"
+        hint = f"expected one of {', '.join(fit)}: {why}"
+        raise BadValueError(f"contact {name} has {law} and friction by {rubs.name}", friction.where, hint)
 
 
 def _check_force(reader: Reader, force: Quantity) -> None:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -147,3 +149,11 @@ def need_suffix(path: Path, suffixes: tuple[str, ...]) -> None:
     if path.suffix.lower() not in suffixes:
         ends = f"{', '.join(suffixes[:-1])} or {suffixes[-1]}"
         raise InputError(f"{shortened(path)}: expected a name that ends in {ends}")
+
+
+def have(what: str, *packages: str) -> bool:
+    """Whether the packages are installed that `what` is made with; a note on the error stream where not."""
+    missing = [package for package in packages if find_spec(package) is None]
+    if missing:
+        print(f"note: no {what}: {' and '.join(missing)} not installed", file=sys.stderr)
+    return not missing

@@ -166,8 +166,11 @@ def _option(own: Field, given: float | str) -> str | bool:
 
 
 def _line(ax: Axes, x: Any, lines: Iterator[tuple[Any, str]], across: tuple[str, str], up: tuple[str, str]) -> None:
-    """Curves in units that read well; no number is a gap."""
+    """Curves in units that read well; no number is a gap, and nothing but gaps a BadValueError."""
     found = [(np.where(np.isfinite(y), y, np.nan), told) for y, told in lines]
+    for y, told in found:
+        if np.isnan(y).all():
+            raise BadValueError(f"nothing to draw: with these numbers {told} is no finite number anywhere")
     wide, x_unit = scale(float(np.abs(x).max()), across[1])
     high, y_unit = scale(float(np.nanmax([np.nanmax(np.abs(y)) for y, _ in found])), up[1])
     for y, told in found:
@@ -218,7 +221,14 @@ def _to_and_fro(law: Function, of: Law, fastest: float, way: float) -> tuple[Any
         return [float(found[f"{state.name}_rate"]) for state in of.states]
 
     times = np.linspace(4.0 * np.pi, 6.0 * np.pi, 2 * POINTS) / omega
-    found = solve_ivp(rates, (0.0, times[-1]), [0.0] * len(of.states), "Radau", t_eval=times, rtol=1e-6, atol=1e-12)
+    none = [0.0] * len(of.states)
+    try:
+        found = solve_ivp(rates, (0.0, times[-1]), none, "Radau", t_eval=times, rtol=1e-6, atol=1e-12)
+    except ValueError:  # rates, or their slopes, overflow
+        found = None
+    if found is None or found.y.shape[1] < len(times):
+        names = ", ".join(state.name for state in of.states)
+        raise BadValueError(f"nothing to draw: with these numbers {names} cannot be followed; its rate overflows")
     v_t = fastest * np.cos(omega * times)
     return v_t, law(1.0, v_t, *found.y)["F_t"]
 
@@ -231,6 +241,8 @@ def _film(ax: Axes, law: Function, chosen: Chosen) -> None:
         (-turning["F_r"], "−F_r, turns"), (turning["F_t"], "F_t, turns"), (-closing["F_r"], "−F_r, gap closes"),
         (opening["F_r"], "F_r, gap opens"),
     ]  # fmt: skip
+    if not any((y > 0.0).any() for y, _ in lines):
+        raise BadValueError("nothing to draw: with these numbers all forces are 0")
     _line(ax, epsilon, iter(lines), ("ε", ""), ("F", "N"))
     ax.set_yscale("log")
     ax.set_title(f"{PAIR}; ω_s = 1 rad/s, or ε̇ = ±1 1/s")

@@ -5,13 +5,12 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from gudgeon.commands.common import check_addresses, check_folder, check_name, chosen_scenes, known_here, settings
+from gudgeon.commands.common import check_addresses, check_folder, check_name, chosen_scenes, have, known_here, settings
 from gudgeon.commands.origin import ORIGIN, check_origin, origin_of
 from gudgeon.commands.progress import progress_bar, status_line
 from gudgeon.errors import AssemblyError, GudgeonError, MemoryShortage, SolverError
@@ -239,7 +238,7 @@ def _reference(ideal: Simulation, run: Result, session: Session) -> Result:
 
 def _save(request: Request, runs: Mapping[str, Result], session: Session) -> None:
     """A NetCDF file a scene; what a full disk refuses goes to `session.unwritten`, and the others are written."""
-    if not _have("NetCDF files", "h5py"):
+    if not have("NetCDF files", "h5py"):
         return
     for scene, run in runs.items():
         path = result_path(request.out, run.source.mechanism, scene)
@@ -254,7 +253,7 @@ def _save(request: Request, runs: Mapping[str, Result], session: Session) -> Non
 
 def _draw(out: Path, runs: Mapping[str, Result], session: Session, watch: Sequence[str]) -> None:
     """One picture: it is smaller than results, and there may be room for it where there was none for them."""
-    if not _have("picture", "matplotlib"):
+    if not have("picture", "matplotlib"):
         return
     from gudgeon.results.plots import figure, save_figure
 
@@ -273,28 +272,25 @@ def result_path(out: Path, mechanism: str, scene: str) -> Path:
     return out / f"{mechanism}_{scene}.nc"
 
 
-def _have(what: str, *packages: str) -> bool:
-    missing = [package for package in packages if find_spec(package) is None]
-    if missing:
-        print(f"note: no {what}: {' and '.join(missing)} not installed", file=sys.stderr)
-    return not missing
-
-
 def _show(request: Request, source: KernelSource, reports: list[SceneReport], session: Session) -> None:
     """What was found and written: tables and notes, or JSON."""
     from gudgeon.language.shown import plain_console
+    from gudgeon.results.film_limits import beyond
     from gudgeon.results.report import as_json, tables
 
     if request.json:
         import json
 
-        document = {"mechanism": source.mechanism, "scenes": as_json(reports), "files": session.files}
+        scenes = {name: told | {"beyond": beyond(session.runs[name])} for name, told in as_json(reports).items()}
+        document = {"mechanism": source.mechanism, "scenes": scenes, "files": session.files}
         print(json.dumps(document, ensure_ascii=False, allow_nan=False, indent=1))
     else:
         console = plain_console(None if sys.stdout.isatty() else 200)
         for table in tables(source.title or source.mechanism, reports, console.width, request.verbose):
             console.print(table)
-        for note in dict.fromkeys(f"{r.scene}: {note}" for r in reports for note in r.diagnostics.notes):
+        runs = [(r.scene, session.runs[r.scene]) for r in reports]
+        told = [f"{name}: {note}" for name, run in runs for note in (*run.diagnostics.notes, *beyond(run))]
+        for note in dict.fromkeys(told):
             console.print(f"note: {visible(note)}")
         print("".join(f"wrote {path_text(path)}\n" for path in session.files.values()), end="")
     session.shown = True

@@ -19,6 +19,7 @@ from gudgeon.model.steep import steep_force
 from gudgeon.model.written import CORNERED, of_time, rate_reason, reason, trees, undefined_here
 
 NOT_FINITE, CHATTERING, TOO_SMALL, LOST, OUTSIDE, STOPPED, STALLED, UNBOUNDED = -2, -4, -5, -6, -8, -10, -11, -12
+JAMMED = -13
 INTERRUPTED = "interrupted before its end"
 NO_NUMBER = "end the run before that, or write it so that it is a number at every time, with its rates"
 NO_SLOPE = "method dop853 does without slopes; or write the force so that it has one there"
@@ -57,6 +58,11 @@ def failure(
         advice = GROWN if fast else advice
     if status == NOT_FINITE:
         return NonFiniteError(f"the motion is no longer finite at t = {t:.9g} s{fast}\n  {advice}", t)
+    if status == JAMMED:
+        return SolverError(
+            f"friction jams a contact of newton_restitution at t = {t:.9g} s: by it a normal force brings the surfaces "
+            "nearer (Painlevé)\n  less friction, or surfaces that give: another normal law", t
+        )  # fmt: skip
     if status == CHATTERING:
         return _chattering(compiled, t)
     if status == TOO_SMALL:

@@ -15,16 +15,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.results.diagnostics import Examined
+from gudgeon.results.film_limits import beyond
 from gudgeon.results.report import finite
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from gudgeon.contract.kernel_source import ClearanceInfo, KernelSource
-    from gudgeon.generator.kinds.laws.law import Law
     from gudgeon.results.results import Array, Result
 
-SQUEEZE = 0.5  # of the mean rate of both surfaces: faster squeezing is not slow beside turning
 OFF = 0.02  # of the joints' work: a quadrature that misses more of it is told
 _COMMENT = re.compile(r"/\*\n(.*?)\n \*/", re.DOTALL)
 _LAW = re.compile(
@@ -87,7 +84,8 @@ def _joint(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
     found = {
         "c": c, "time": _shares(run, k, joint, own), "contacts": len(own),
         "still_closed": int(np.isnan(own["t_off"]).sum()), "approach": _spread(own["deltadot"]),
-        "restitution": None, "peak": {"F": peak.F, "t": peak.t}, "rms": _rms(run, joint.name),
+        "restitution": None, "stiffness": _stiffness(run, joint), "asked": _asked(run, joint),
+        "free_impact": _free_impact(run, joint), "peak": {"F": peak.F, "t": peak.t}, "rms": _rms(run, joint.name),
         "rms_of": "samples", "ideal": None, "largest_e": peak.e_max,
         "penetration": max(deepest, 0.0) if joint.dry else math.nan,
         "penetration_share": max(deepest, 0.0) / c if joint.dry else math.nan,
@@ -104,6 +102,41 @@ def _joint(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
         if ideal.joint == joint.name:
             found["ideal"] = {"F": ideal.peak, "t": ideal.t_peak, "rms": ideal.rms}
     return found
+
+
+def _stiffness(run: Result, joint: ClearanceInfo) -> dict[str, Any] | None:
+    """K of the elastic force as its law has it, with its unit; of a line contact and a spring by length."""
+    for name in ("K", "spring"):
+        if name in joint.constants:
+            n = float(run.parameters.get(f"contacts.{_contact(run, joint)}.normal.exponent", 1.0))
+            unit = "N/m" if name == "spring" or n == 1.0 else f"N/m^{n:g}"
+            return {"K": float(run.p[joint.constants[name]]), "unit": unit}
+    return None
+
+
+def _contact(run: Result, joint: ClearanceInfo) -> str:
+    """The contact whose normal law it has; "" where that is not known: what follows from its numbers bears its name."""
+    source = run.source
+    named = [address.split(".")[1] for slot in source.slots if ".normal." in (address := slot.address)]
+    bearing = source.slots[joint.constants["R_i"]].address.split(".")[1]
+    for name, place in joint.constants.items():
+        if (k := place - len(source.slots)) >= 0:
+            fits = [contact for contact in named if source.derived[k] == f"{contact}_{bearing}_{name}"]
+            if fits:
+                return fits[0]
+    return named[0] if len({*named}) == 1 and len(source.clearances) == 1 else ""
+
+
+def _asked(run: Result, joint: ClearanceInfo) -> float | None:
+    found = run.parameters.get(f"contacts.{_contact(run, joint)}.normal.restitution")
+    return None if found is None else float(found)
+
+
+def _free_impact(run: Result, joint: ClearanceInfo) -> float | None:
+    """The restitution that its hysteresis damping delivers where nothing but the contact acts."""
+    from gudgeon.generator.kinds.laws.dissipation import delivered
+
+    return delivered(float(run.p[joint.constants["hysteresis"]])) if "hysteresis" in joint.constants else None
 
 
 def _examined(run: Result, joint: str) -> Any:
@@ -191,7 +224,7 @@ def _warnings(run: Result, joints: dict[str, dict[str, Any]]) -> list[str]:
             f"in {d.ratio_outside} steps in contact δ̇/δ̇⁻ was outside ±1, {d.ratio_min:.3g} … {d.ratio_max:.3g}: damping"
             " laws are made for impacts that nothing drives on"
         )
-    found += [note for joint in run.source.clearances if joint.film for note in _beyond(run, joint)]
+    found += beyond(run)
     energy = _energy(run) or {}
     known = not run.source.rigid  # what blows take is told nowhere else
     if known and abs(energy.get("not_told_apart", 0.0)) > OFF * max(abs(energy.get("clearances", 0.0)), 1e-300):
@@ -200,52 +233,3 @@ def _warnings(run: Result, joints: dict[str, dict[str, Any]]) -> list[str]:
             " force: its shear, or contacts that the second pass did not resolve"
         )
     return found
-
-
-def _beyond(run: Result, joint: ClearanceInfo) -> Iterator[str]:
-    """Where a film's law says that it is good for less than it was asked; of a law that is not known nothing."""
-    law = _film_law(run.source, joint)
-    if law is None:
-        return
-    low, high = law.limits.l_over_d
-    ratio = _l_over_d(run, joint)
-    if not low <= ratio <= high:
-        good = f"below {high:g}" if low == 0.0 else f"above {low:g}" if high == math.inf else f"{low:g} to {high:g}"
-        yield f"{joint.name}: L/D is {ratio:.3g}: {law.name} is good for L/D {good}"
-    epsilon = run[f"{joint.name}.e"] / float(run.p[joint.constants.get("film_clearance", joint.clearance)])
-    deep = float((epsilon > law.limits.epsilon).mean())
-    if deep > 0.0:
-        yield f"{joint.name}: at {100 * deep:.3g} % of the samples ε is over {law.limits.epsilon:g}, beyond {law.name}"
-    share = _squeezed(run, joint) if law.limits.slow_squeeze else 0.0
-    if share > 0.0:
-        yield (
-            f"{joint.name}: in {100 * share:.3g} % of the time |ε̇| is over half the surfaces' mean rate: {law.name}"
-            " holds for |ω| ≫ |ε̇|"
-        )
-
-
-def _film_law(source: KernelSource, joint: ClearanceInfo) -> Law | None:
-    """The law that the C of a joint's film calls."""
-    from gudgeon.generator.kinds.laws.law import called
-
-    body = re.search(rf" film_{re.escape(joint.name)}\(.*?\n}}", source.files.get("clearance.c", ""), re.DOTALL)
-    call = body and re.search(r"^\s+(\w+)\(epsilon, w_n, w_t", body[0], re.MULTILINE)
-    fitting = [law for law in called("film").values() if call and f"{call[1]}_".startswith(f"{law.name}_")]
-    return max(fitting, key=lambda law: len(law.name), default=None)
-
-
-def _l_over_d(run: Result, joint: ClearanceInfo) -> float:
-    """Length over diameter of the journal."""
-    bearing = run.source.slots[joint.constants["R_i"]].address.rpartition(".")[0]
-    length = run.p[run.source.place[f"{bearing}.length"]]
-    return float(length / (2.0 * run.p[joint.constants["R_j"]]))
-
-
-def _squeezed(run: Result, joint: ClearanceInfo) -> float:
-    """Share of the samples on the film at which its squeezing is not slow beside its turning."""
-    sides = [run.source.bodies[body].name for body in (joint.first, joint.second) if body >= 0]
-    turning = 0.5 * np.abs(sum(run[f"{name}.omega"] for name in sides))
-    c = float(run.p[joint.clearance])
-    on_film = run[f"{joint.name}.e"] < c
-    fast = np.abs(run[f"{joint.name}.deltadot"]) / c > SQUEEZE * turning
-    return float((fast & on_film).sum()) / max(int(on_film.sum()), 1)

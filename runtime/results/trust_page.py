@@ -74,6 +74,12 @@ def joint_rows(joint: Mapping[str, Any], asked: bool) -> Rows:
     rows = [("clearance c", quantity(joint["c"], "m")), ("share of the time", time)]
     still = f", {joint['still_closed']} to the end" if joint["still_closed"] else ""
     rows.append(("contacts", f"{joint['contacts']}{still}"))
+    if stiffness := joint["stiffness"]:
+        rows.append(("stiffness K of its law", f"{stiffness['K']:.4g} {stiffness['unit']}"))
+    if joint["asked"] is not None:
+        free = joint["free_impact"]
+        told = "" if free is None else f", of which a free impact delivers {free:.5g}"
+        rows.append(("restitution asked for", f"{joint['asked']:g}{told}"))
     if joint["approach"]:
         rows.append(("approach, least … median … largest", _range(joint["approach"], "m/s")))
         back = joint["restitution"]

@@ -204,6 +204,10 @@ def test_bristles_that_have_gone_far_slide() -> None:
     ("flores --plot x.svg --set geometry=round", "'round'"), ("flores --set restitution=.5", "--plot draws one law"),
     ("--plot x.svg", "--plot draws one law"), ("flores --json --plot x.svg", "--plot draws one law"),
     ("flores --plot x.txt", ".svg"), ("dahl --plot x.svg --set 'presliding=2 s'", "presliding"),
+    ("dahl --plot x.svg --set presliding=1e-300", "z cannot be followed; its rate overflows"),
+    ("lugre --plot x.svg --set v_s=1e300", "z cannot be followed"),
+    ("stribeck --plot x.svg --set v_s=1e300", "F_t/F_n is no finite number anywhere"),
+    ("ocvirk --plot x.svg --set extra_clearance=1e300", "all forces are 0"),
 ])  # fmt: skip
 def test_what_cannot_be_drawn(line: str, told: str, call: Gudgeon) -> None:
     done = call("laws", *shlex.split(line))

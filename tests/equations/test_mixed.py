@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -31,6 +32,16 @@ def test_christensens_share_is_the_area_in_which_heights_overlap() -> None:
     for ratio in np.linspace(-3.0, 3.0, 25):
         area = quad(lambda u: 35.0 / 96.0 * (1.0 - (u / 3.0) ** 2) ** 3, ratio, 3.0, epsabs=1e-14)[0]
         assert share("christensen", ratio) == pytest.approx(area, abs=1e-13)
+
+
+def test_christensens_share_is_good_to_rounding() -> None:
+    """Beside its polynomial in fractions: a difference of two shares is then as good as their distance lets it be."""
+    own = Evaluator("christensen", {"roughness": SIGMA})
+    for y in [*np.logspace(-7, -1, 60), *np.linspace(0.0, 1.0, 60)]:
+        deep = float(y) * 6.0 * SIGMA
+        x = Fraction(deep) / Fraction(6.0 * SIGMA)
+        exact = x**4 * (35 - x * (84 - x * (70 - 20 * x)))
+        assert own(deep)[0] == pytest.approx(float(exact), rel=2e-14, abs=0.0)  # that polynomial itself: 1e-14 of 1
 
 
 def test_christensens_heights_have_the_roughness_that_is_named() -> None:

@@ -312,7 +312,7 @@ def test_what_cannot_be_had_is_refused(folder: Path, tmp_path: Path) -> None:
     with pytest.raises(BadValueError, match=r"method 'rodas5p' does not fit: the contact in A .*newton_restitution"):
         made(folder, BALL).simulate(0.1, method="rodas5p")
     law = "{normal: {law: newton_restitution, restitution: 0.8}"
-    for part in ("friction: {law: coulomb, mu: 0.1, v0: 1e-3 m/s}", "velocity_floor: 1e-5 m/s"):
+    for part in ("film: {law: ocvirk, viscosity: 0.1 Pa*s}", "velocity_floor: 1e-5 m/s"):
         file = tmp_path / "refused.yaml"
         file.write_text(HEAD + BALL.replace(law, f"{law}, {part}"), encoding="utf-8")
         told = f":11:.*contact hard has newton_restitution and {part.partition(':')[0]}"

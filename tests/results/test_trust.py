@@ -23,6 +23,7 @@ from gudgeon.generator.kinds.laws.law import Limits, laws
 from gudgeon.generator.pipeline import generate
 from gudgeon.loading.find import find_mechanism
 from gudgeon.results.diagnostics import Diagnostics
+from gudgeon.results.film_limits import beyond
 from gudgeon.results.results import Result
 from gudgeon.results.trust import laws_of
 from tests.programs import needs_compiler
@@ -192,9 +193,41 @@ def test_films_that_grow_thin_are_told(press: tuple[Result, Result], monkeypatch
     run, _ = press
     film = run.p[run.source.clearances[0].constants["film_clearance"]]
     law = replace(laws()["finite_length"], limits=Limits(epsilon=float(np.quantile(run["A.e"] / film, 0.75))))
-    monkeypatch.setattr("gudgeon.results.trust._film_law", lambda source, joint: law)
+    monkeypatch.setattr("gudgeon.results.film_limits._film_law", lambda source, joint: law)
     notes = [note for note in run.report().to_dict()["warnings"] if note.startswith("A: ")]
     assert len(notes) == 1 and float(notes[0].split()[2]) == pytest.approx(25.0, abs=0.5)  # 401 samples
+    most = run.diagnostics.peak("A").e_max / film
+    assert notes[0].endswith(f"; it reaches {most:.4g}")
+    between = replace(law, limits=Limits(epsilon=1.01 * most))
+    monkeypatch.setattr("gudgeon.results.film_limits._film_law", lambda source, joint: between)
+    assert not beyond(run)
+    peaks = tuple(replace(peak, e_max=1.02 * peak.e_max) for peak in run.diagnostics.peaks)  # of steps, which see more
+    (note, *_) = beyond(replace(run, diagnostics=replace(run.diagnostics, peaks=peaks)))
+    assert note.startswith("A: between samples ε is over") and note.endswith(f"; it reaches {1.02 * most:.4g}")
+
+
+def test_a_run_at_the_command_line_tells_what_a_film_is_beyond(tmp_path: Path) -> None:
+    """Without a report: the press's films are finite ones, L/D = 40 mm/(2 · 14.7 mm), by a law of long ones."""
+    arguments = ["run", "nine_bar_press", "--scene", "lubricated", "--t-end", "1 ms", "--out", str(tmp_path)]
+    told = CliRunner().invoke(app, arguments)
+    assert told.exit_code == 0
+    for joint in "AB":
+        assert f"note: lubricated: {joint}: L/D is 1.36: pinkus_sternlicht is good for L/D above 4" in told.output
+    document = json.loads(CliRunner().invoke(app, [*arguments, "--json"]).stdout)
+    beyond = {name: scene["beyond"] for name, scene in document["scenes"].items()}
+    assert len(beyond["lubricated"]) >= 2 and beyond.get("ideal", []) == []
+
+
+def test_stiffness_and_what_its_damping_delivers_are_told(press: tuple[Result, Result]) -> None:
+    """K by physics.md section 3 from the file's materials and radii, c_e = .9 as asked, .91318 delivered."""
+    run, _ = press
+    joint = run.report().to_dict()["joints"]["A"]
+    sigma, outer, inner = 2.0 * (1.0 - 0.3**2) / 70e9, 15e-3, 14.7e-3
+    K_of = 4.0 / (3.0 * sigma) * math.sqrt(outer * inner / (outer + inner))
+    assert joint["stiffness"] == {"K": pytest.approx(K_of, rel=1e-12), "unit": "N/m^1.5"}
+    assert joint["asked"] == 0.9 and joint["free_impact"] == pytest.approx(0.91318, abs=5e-6)
+    text = str(run.report())
+    assert f"{K_of:.4g} N/m^1.5" in text and "0.9, of which a free impact delivers 0.91318" in text
 
 
 LAWS = """

@@ -3,8 +3,9 @@
     F = b F_dry + (1 − b) F_film,   b = ∫ from Λ to 3 of 35/96 (1 − (u/3)²)³ du,   Λ = 3 − δ/σ
 
 b is the share of the area in which the heights of both surfaces overlap, for Christensen's density of heights, which is
-nearly a normal one and ends at ±3 σ. With x = 1 − δ/(6σ) it is 1 − x⁴ (35 − 84 x + 70 x² − 20 x³): from 0 at Λ = 3
-to 1 at Λ = −3, three times differentiable at both; the film's share is exact where it is small and the film steep.
+nearly a normal one and ends at ±3 σ. With x = δ/(6σ) and y = 1 − x it is x⁴ (x³ + 7 x² y + 21 x y² + 35 y³): from 0
+at Λ = 3 to 1 at Λ = −3, three times differentiable at both. No term takes from another: it is good to rounding
+everywhere, and to its own where it is small.
 The contact's force is that of its own laws, the film's that of its own: what only dissipates does so together.
 H. Christensen, Proc. Instn Mech. Engrs 184 (1969) 1013–1026 (heights), 186 (1972) 421–430 (the share of the area).
 """
@@ -21,8 +22,9 @@ def build(s: LawInputs) -> dict[str, Any]:
     """The share of the dry contact, for δ > 0."""
     import sympy as sp
 
-    left = sp.Symbol("left", real=True)
-    return {"left": 1 - overlap(s, 3, -3), "share": 1 - left**4 * (35 - left * (84 - left * (70 - 20 * left)))}
+    gone, left = sp.symbols("gone left", real=True)
+    share = gone**4 * (gone**3 + left * (7 * gone**2 + left * (21 * gone + 35 * left)))
+    return {"gone": overlap(s, 3, -3), "left": 1 - gone, "share": share}
 
 
 LAW = Law(

@@ -27,13 +27,20 @@ FACTORS: Mapping[str, Callable[[Any], Any]] = {
     "hu_guo": lambda c_e: 3 * (1 - c_e) / (2 * c_e),
 }
 
+# Of those that were not read, and whose volume and pages nothing at hand confirms.
+_SECOND_HAND = (
+    "at second hand, not checked in print; listed in the review of M. Machado, P. Moreira, P. Flores, H. M. Lankarani, "
+    "Mechanism and Machine Theory 53 (2012) 99-121, doi 10.1016/j.mechmachtheory.2012.02.010"
+)
+
 SOURCES: Mapping[str, str] = {
     "hunt_crossley": "K. H. Hunt, F. R. E. Crossley, Coefficient of restitution interpreted as damping in vibroimpact, "
                      "Journal of Applied Mechanics 42 (1975) 440-445, doi 10.1115/1.3423596",
     "herbert_mcwhannell": "R. G. Herbert, D. C. McWhannell, Shape and frequency composition of pulses from an impact "
-                          "pair, Journal of Engineering for Industry 99 (1977) 513-518",
+                          f"pair, Journal of Engineering for Industry 99 (1977) 513-518, {_SECOND_HAND}",
     "lee_wang": "T. W. Lee, A. C. Wang, On the dynamics of intermittent-motion mechanisms, part 1: dynamic model and "
-                "response, Journal of Mechanisms, Transmissions, and Automation in Design 105 (1983) 534-540",
+                "response, Journal of Mechanisms, Transmissions, and Automation in Design 105 (1983) 534-540, "
+                f"{_SECOND_HAND}",
     "lankarani_nikravesh": "H. M. Lankarani, P. E. Nikravesh, A contact force model with hysteresis damping for impact "
                            "analysis of multibody systems, Journal of Mechanical Design 112 (1990) 369-376, "
                            "doi 10.1115/1.2912617",
@@ -41,7 +48,7 @@ SOURCES: Mapping[str, str] = {
                 "damping and dwell-time dependent friction, Multibody System Dynamics 11 (2004) 209-233, "
                 "doi 10.1023/B:MUBO.0000029392.21648.bc",
     "zhiying_qishao": "Z. Qin, Q. Lu, Analysis of impact process based on restitution coefficient, Journal of "
-                      "Dynamics and Control 4 (2006) 294-298",
+                      f"Dynamics and Control 4 (2006) 294-298, {_SECOND_HAND}",
     "flores": "P. Flores, M. Machado, M. T. Silva, J. M. Martins, On the continuous contact force models for soft "
               "materials in multibody dynamics, Multibody System Dynamics 25 (2011) 357-375, "
               "doi 10.1007/s11044-010-9237-4",

@@ -5,10 +5,17 @@
 
 with the impulse Λ (N s) and the force λ (N) along the normal. A bounce slower than the threshold v_0 ends at rest: the
 contact is closed. Several contacts at one time go by one linear complementarity problem: what is closed, or closes,
-takes part with all others. No force is tangential.
+takes part with all others. Friction beside it, F_t = −μ(v_t) F_n by its own law, acts with λ while a contact is closed.
+In a blow it has impulses P along t (engine/run/rubbing.c): with v the slip that the blow would leave if nothing parted,
+
+    friction: v⁺ = v + S P,   |P| ≤ μ(v) Λ,   P v⁺ ≤ 0,   v⁺ = 0 where |P| < μ(v) Λ
+
+and Λ changes with P so that each δ̇⁺ stays as it is. A blow then leaves e_n² of the energy of approach and part of that
+of slip: never more than there was, which Newton's and Coulomb's laws by the slip behind the blow do not warrant.
 I. Newton, Principia (1687), scholium to the laws of motion; J. J. Moreau, Unilateral contact and dry friction in finite
 freedom dynamics, in: Nonsmooth Mechanics and Applications (1988) 1–82; F. Pfeiffer, C. Glocker, Multibody Dynamics with
-Unilateral Contacts (1996).
+Unilateral Contacts (1996); A. Chatterjee, A. Ruina, A new algebraic rigid-body collision law based on impulse space
+considerations, Journal of Applied Mechanics 65 (1998) 939–951, doi 10.1115/1.2791938, with e_t = 0.
 """
 
 from __future__ import annotations
@@ -33,7 +40,9 @@ LAW = Law(
     reference="J. J. Moreau, Unilateral contact and dry friction in finite freedom dynamics, in: J. J. Moreau, P. D. "
               "Panagiotopoulos (eds.), Nonsmooth Mechanics and Applications, Springer (1988) 1-82, "
               "doi 10.1007/978-3-7091-2624-0_1; F. Pfeiffer, C. Glocker, Multibody Dynamics with Unilateral Contacts, "
-              "Wiley (1996)",
+              "Wiley (1996); friction in a blow: A. Chatterjee, A. Ruina, A new algebraic rigid-body collision law "
+              "based on impulse space considerations, Journal of Applied Mechanics 65 (1998) 939-951, "
+              "doi 10.1115/1.2791938",
     validity="a blow parts surfaces with e_n times their speed of approach, what is closed is a constraint that only "
              "pushes; blows are far shorter than all else in the motion, how hard they press is not told",
     fields=(

@@ -122,6 +122,8 @@ def _of_watch(program: Program, bounds: Kernel | None) -> Sizes:
     periods = any(switch.g.has(PeriodsOf) for some in systems for switch in some.symbols.switches.found.values())
     if model.rigid:
         sizes["N_RIGID"] = (len(model.rigid), "joints with play whose surfaces do not give")
+    if model.rubbed:
+        sizes["N_RUBBED"] = (len(model.rubbed), "of them, with friction")
     sizes |= {"PERIODS": (1, "mod begins anew within the motion")} if periods else {}
     contours = any(clearance.contour for clearance in model.clearances)
     return sizes | {"CONTOURS": (1, "bearings are no circles")} if contours else sizes

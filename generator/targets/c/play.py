@@ -27,6 +27,7 @@ _STORE = """\
         .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
         .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0%s};"""
 _RATIO = "latch->closed ? deltadot / latch->deltadot_minus : 1.0"
+_IN_BLOW = "if (latch->smooth)\n        F_along_t_dry = latch->along; /* a blow asks what it does */"
 CLOSED = "side ? latch->closed : delta > 0.0"
 _BLENDED = "        F.{0} += (1.0 - share) * (film.{0} - F.{0});"  # in play/clearance_transition.c.jinja
 
@@ -154,6 +155,8 @@ def _calls_of_dry(pin: Pin, delta: str, number: str) -> list[tuple[str, str]]:
         friction = functions.shared_call(pin.laws["friction"], (pressed, "v_t", *given), results)
         found.append((f"{number} F_along_t_dry{f', rate[{len(states)}]' if states else ''};", ""))
         found.append((friction, "F_along_t_dry"))
+        if pin.clearance.rigid:
+            found.append((_IN_BLOW, ""))
     else:
         zero = "0.0" if number == "double" else "all_of(0.0)"
         found.append((f"const {number} F_along_t_dry = {zero}; /* no friction */", "F_along_t_dry"))

@@ -31,7 +31,7 @@ LAW_LETTERS = {
     "friction_slope": letter("kappa"), "shear": letter("D", "0"), "T0": letter("D"),
     "spring": letter("K"), "damper": letter("D"), "mean_clearance": letter("c", "mean"), "share": letter("b"),
     "overlap": letter("l"), "deepest": letter("delta", "max"), "scale": letter("l"), "part": letter("y"),
-    "left": letter("x"), "F_e": letter("F", "el"),
+    "gone": letter("x"), "left": letter("y"), "F_e": letter("F", "el"),
 }  # fmt: skip
 _PAIR = (
     ("radius", "R_i", "bearing radius"),

@@ -35,10 +35,15 @@ def rigid(joint: JointWithPlay, stored: Name) -> Block:
     """What becomes of surfaces that do not give, where they meet and while they touch."""
     assert joint.clearance.normal is not None
     e, v_0 = (joint.notation.math(sp.sympify(joint.clearance.normal.numbers[n])) for n in ("restitution", "threshold"))
+    rubs = joint.clearance.friction is not None
+    along = (
+        "; then friction brings the slip to rest that the blow leaves if nothing parts, as far as its coefficient at "
+        "that slip times the impulse lets it, and no parting changes by that"
+    ) * rubs
     return paragraph(
         "Its surfaces do not give. Where they meet at the rate ", stored, ", a blow along n parts them with ", e,
         " times that, or leaves them together where that is less than ", v_0, "; all rows and contacts that are closed"
-        " bear it. A contact that is closed has the force ",
+        f" bear it{along}. A contact that is closed has the force ",
         Name(r"\lambda \geq 0,\ \ddot{\delta} \leq 0,\ \lambda \ddot{\delta} = 0", "λ ≥ 0, δ̈ ≤ 0, λ δ̈ = 0"), ".",
     )  # fmt: skip
 

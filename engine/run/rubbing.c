@@ -1,0 +1,212 @@
+/*
+ * Friction in blows between surfaces that do not give. The blow without friction has parted them as their restitution
+ * says. Impulses P along the surfaces bring to rest, as far as |P| <= mu Lambda lets them, the slips that a blow
+ * without any parting leaves (the plastic one), and normal impulses change with them so that no parting does:
+ * T+ = e^2 T_d + T_slip, of which friction only takes from the second. A. Chatterjee, A. Ruina, Journal of Applied
+ * Mechanics 65 (1998) 939-951, doi 10.1115/1.2791938, with e_t = 0; here of several contacts at once.
+ */
+enum { MOST_SWEEPS = 1000 };
+
+/* What impulses along the surfaces do in the contacts of a blow, and the slips that they find. */
+typedef struct {
+    int n;                         /* as many as the blow has */
+    double P[N_RIGID];             /* the impulses, N s */
+    double mu[N_RIGID];            /* F_t/F_n of the friction law, at the plastic slip */
+    double before[N_RIGID];        /* slip, m/s */
+    double plastic[N_RIGID];       /* slip behind the plastic blow, m/s */
+    double meet[N_RIGID][N_RIGID]; /* what P of the column adds to the rate of delta of the row, 1/kg */
+    double slip[N_RIGID][N_RIGID]; /* and to its slip */
+    double press[N_RIGID][N_RIGID]; /* the normal impulse that keeps partings as they are, each unit of P */
+    double way[N_RIGID][N_X];      /* velocities, each unit of P */
+} Rub;
+
+static void leave_out_friction(Memory *memory)
+{
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        memory->latch[i].smooth = 1;
+        memory->latch[i].along = 0.0;
+    }
+}
+
+/* Sides of corners at velocities that have jumped: what friction does in a closed contact hangs on them. */
+static void see_slips(Run *run, const Parameters *p)
+{
+    int changed = N_SWITCHES && run->memory.held;
+    for (int pass = 0; pass < 6 && changed; pass++) {
+        double dy[N_Y];
+        Aside aside;
+        changed = 0;
+        run->evaluations++;
+        if (motion_of_laws(run->t, run->y, &run->memory, p, dy, &aside))
+            return; /* whoever asks next is told */
+        for (int k = 0; k < N_SWITCHES; k++)
+            if (run->memory.side[k] * aside.g[k] < 0.0) {
+                run->memory.side[k] = -run->memory.side[k];
+                changed = 1;
+            }
+    }
+}
+
+/* F_t/F_n of each contact at velocities behind the plastic blow, and its slip there. */
+static int rub_at_slip(Run *run, const Answer *blow, const unsigned char *pushes, const double *meeting, double unit,
+    const Parameters *p, Rub *rub)
+{
+    double y[N_Y], dy[N_Y], stop[N_RIGID];
+    Memory now = run->memory;
+    Aside aside;
+    now.held = 0; /* corners of friction lie where this slip has them */
+    solve_part(blow, pushes, meeting, stop);
+    for (int i = 0; i < N_Y; i++)
+        y[i] = run->y[i];
+    for (int k = 0; k < blow->n; k++) {
+        now.latch[blow->joint[k]].smooth = 0;
+        now.latch[blow->joint[k]].force = unit;
+        for (int i = 0; i < N_X; i++)
+            y[N_X + i] += blow->way[k][N_X + i] * stop[k];
+    }
+    run->evaluations++;
+    const int status = motion_of_laws(run->t, y, &now, p, dy, &aside);
+    for (int k = 0; k < blow->n; k++) {
+        const Clearance *joint = &aside.clearance[blow->joint[k]];
+        rub->plastic[k] = joint->v_t;
+        rub->mu[k] = pushes[k] ? fabs(joint->F_t) / unit : 0.0;
+    }
+    return status;
+}
+
+/* What a unit of P in contact j does. */
+static int answer_along(Run *run, const Answer *blow, int j, const double *base, const Aside *before, double unit,
+    const Parameters *p, Rub *rub)
+{
+    double pushed[N_Y], y[N_Y];
+    Memory now = run->memory;
+    Aside aside;
+    now.latch[blow->joint[j]].along = unit;
+    run->evaluations += 2;
+    int status = motion_of_laws(run->t, run->y, &now, p, pushed, &aside);
+    now.latch[blow->joint[j]].along = 0.0;
+    for (int i = 0; i < N_Y; i++)
+        y[i] = run->y[i];
+    for (int i = 0; i < N_X; i++) {
+        rub->way[j][i] = (pushed[N_X + i] - base[N_X + i]) / unit;
+        y[N_X + i] += rub->way[j][i] * unit;
+    }
+    status = status ? status : motion_of_laws(run->t, y, &now, p, pushed, &aside);
+    for (int k = 0; k < blow->n; k++) {
+        const int i = blow->joint[k];
+        rub->meet[k][j] = (aside.clearance[i].deltadot - before->clearance[i].deltadot) / unit;
+        rub->slip[k][j] = (aside.clearance[i].v_t - before->clearance[i].v_t) / unit;
+    }
+    return status;
+}
+
+/* The largest |P| of a sign that mu times what then presses allows: `rest` presses without it, `own` a unit of it. */
+static double most_of(double mu, double rest, double own)
+{
+    if (rest <= 0.0)
+        return 0.0;
+    return mu * own < 1.0 ? mu * rest / (1.0 - mu * own) : INFINITY;
+}
+
+/*
+ * P of all contacts: one after the other brings its slip to rest or is at its limit, until none changes (Gauss and
+ * Seidel). Then all by one share, should a limit or the energy still ask for that: whatever comes, friction takes.
+ */
+static void share_out(const Answer *blow, const double *impulse, Rub *rub)
+{
+    const int n = blow->n;
+    double S[N_RIGID][N_RIGID], size = 0.0, change = INFINITY, share = 1.0, gone = 0.0, bent = 0.0;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            S[i][j] = rub->slip[i][j];
+            for (int k = 0; k < n; k++)
+                S[i][j] -= rub->meet[k][i] * rub->press[k][j];
+        }
+    for (int sweep = 0; sweep < MOST_SWEEPS && change > 1e-15 * size; sweep++) {
+        change = 0.0;
+        for (int i = 0; i < n; i++) {
+            double slip = rub->plastic[i], rest = impulse[i];
+            if (rub->mu[i] <= 0.0 || S[i][i] <= DEPENDENT * rub->slip[i][i])
+                continue;
+            for (int j = 0; j < n; j++) {
+                slip += j != i ? S[i][j] * rub->P[j] : 0.0;
+                rest += j != i ? rub->press[i][j] * rub->P[j] : 0.0;
+            }
+            const double way = slip > 0.0 ? -1.0 : 1.0;
+            const double most = most_of(rub->mu[i], rest, way * rub->press[i][i]);
+            const double next = way * min_of(fabs(slip) / S[i][i], most);
+            change = max_of(change, fabs(next - rub->P[i]));
+            size = max_of(size, fabs(next));
+            rub->P[i] = next;
+        }
+    }
+    for (int i = 0; i < n; i++) {
+        double more = 0.0;
+        for (int j = 0; j < n; j++) {
+            more += rub->press[i][j] * rub->P[j];
+            bent += rub->P[i] * S[i][j] * rub->P[j];
+        }
+        gone -= rub->P[i] * rub->plastic[i];
+        const double over = fabs(rub->P[i]) - rub->mu[i] * more;
+        if (rub->P[i] != 0.0 && over > rub->mu[i] * impulse[i])
+            share = min_of(share, rub->mu[i] * impulse[i] / over);
+        if (impulse[i] + share * more < 0.0)
+            share = min_of(share, impulse[i] / -more);
+    }
+    share = bent > 0.0 ? max_of(min_of(share, 2.0 * gone / bent), 0.0) : share;
+    for (int i = 0; i < n; i++)
+        rub->P[i] *= share;
+}
+
+/* Friction's part of a blow: its P, and what they change in the normal impulses of those that push. */
+static int rub_in_blow(Run *run, const Answer *blow, const double *meeting, double *impulse, const Parameters *p,
+    Rub *rub)
+{
+    double base[N_Y], mass[N_Q], unit = 0.0;
+    unsigned char pushes[N_RIGID];
+    Aside before;
+    *rub = (Rub){.n = blow->n};
+    for (int k = 0; k < blow->n; k++)
+        pushes[k] = impulse[k] > 0.0;
+    mass_matrix(p, mass);
+    for (int k = 0; k < N_Q; k += 3)
+        unit += mass[k];
+    for (int k = 0; k < blow->n; k++)
+        run->memory.latch[blow->joint[k]].force = 0.0;
+    run->evaluations++;
+    int status = motion_of_laws(run->t, run->y, &run->memory, p, base, &before);
+    status = status ? status : rub_at_slip(run, blow, pushes, meeting, unit, p, rub);
+    for (int j = 0; j < blow->n && !status; j++) {
+        double column[N_RIGID], more[N_RIGID];
+        rub->before[j] = before.clearance[blow->joint[j]].v_t;
+        if (rub->mu[j] <= 0.0)
+            continue;
+        status = answer_along(run, blow, j, base, &before, unit, p, rub);
+        for (int k = 0; k < blow->n; k++)
+            column[k] = rub->meet[k][j];
+        solve_part(blow, pushes, column, more);
+        for (int k = 0; k < blow->n; k++)
+            rub->press[k][j] = more[k];
+    }
+    if (status)
+        return status;
+    share_out(blow, impulse, rub);
+    for (int k = 0; k < blow->n; k++)
+        for (int j = 0; j < blow->n; j++)
+            impulse[k] = max_of(impulse[k] + rub->press[k][j] * rub->P[j], 0.0);
+    return 0;
+}
+
+/* What P adds to the velocities; the work (J) that it, and normal impulses by what it changes, take. */
+static double rub_off(const Rub *rub, const double *impulse, double *y)
+{
+    double lost = 0.0;
+    for (int j = 0; j < rub->n; j++) {
+        lost -= rub->P[j] * rub->before[j];
+        for (int k = 0; k < rub->n; k++)
+            lost += rub->P[j] * (impulse[k] * rub->meet[k][j] - 0.5 * rub->slip[k][j] * rub->P[k]);
+        for (int i = 0; i < N_X; i++)
+            y[N_X + i] += rub->way[j][i] * rub->P[j];
+    }
+    return lost;
+}

@@ -1,0 +1,52 @@
+/* Closed contacts of surfaces that do not give, put back onto e = c. */
+/*
+ * Positions and velocities of listed contacts at `gap` (m, each) and, where they are closed, without a rate of it: the
+ * smallest change, measured by M.
+ */
+static int seat(Run *run, double t, double *y, const Parameters *p, Answer *contacts, const double *gap)
+{
+    unsigned char closed[N_RIGID];
+    Memory now = run->memory;
+    leave_out_friction(&now);
+    for (int k = 0; k < contacts->n; k++) {
+        Latch *latch = &now.latch[contacts->joint[k]];
+        closed[k] = (unsigned char)latch->closed;
+        latch->closed = 1; /* that a force moves it */
+    }
+    for (int pass = 0; pass < 3; pass++) {
+        double dy[N_Y], depth[N_RIGID], rate[N_RIGID], x[N_RIGID], u[N_RIGID], worst = 0.0;
+        Aside aside;
+        int status = find_answer(motion_of_laws, N_Y, t, y, &now, p, contacts);
+        if (!status)
+            status = motion_of_laws(t, y, &now, p, dy, &aside);
+        run->evaluations += contacts->n + 2;
+        if (status)
+            return status;
+        for (int k = 0; k < contacts->n; k++) {
+            const Clearance *joint = &aside.clearance[contacts->joint[k]];
+            depth[k] = joint->delta + gap[k];
+            rate[k] = closed[k] ? joint->deltadot : 0.0;
+            worst = max_of(worst, fabs(depth[k]) / radial_clearance(p, contacts->joint[k]));
+        }
+        solve_part(contacts, NULL, depth, x);
+        solve_part(contacts, closed, rate, u);
+        for (int k = 0; k < contacts->n; k++)
+            for (int i = 0; i < N_X; i++) {
+                y[i] += contacts->way[k][N_X + i] * x[k];
+                y[N_X + i] += contacts->way[k][N_X + i] * u[k];
+            }
+        if (worst < 1e-14)
+            break;
+    }
+    return 0;
+}
+
+/* A state back onto e = c and no rate of it where contacts are closed. */
+static void hold_contacts(Run *run, double t, double *y, const Parameters *p)
+{
+    const double none[N_RIGID] = {0.0};
+    Answer contacts;
+    contacts.n = list_closed(&run->memory, contacts.joint);
+    if (contacts.n)
+        (void)seat(run, t, y, p, &contacts, none);
+}

@@ -1,0 +1,202 @@
+"""Friction between surfaces that do not give: blows against closed forms and an algebraic law, contacts that slide."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import gudgeon
+from gudgeon.errors import BadValueError, SolverError
+from gudgeon.simulation.simulation import Simulation
+from tests.programs import needs_compiler
+
+pytestmark = needs_compiler
+HEAD = """\
+format: gudgeon/1
+name: rubbed
+gravity: [0, -9.81 m/s^2]
+materials: {steel: {E: 206 GPa, nu: 0.3}}
+"""
+DISC = """\
+bodies: {disc: {mass: 0.092 kg, inertia: 7e-6 kg*m^2}}
+ground: {hole: [0, 0]}
+freedoms: 1
+joints: {A: {revolute: [ground.hole, disc.origin]}}
+start: {play: {A: {}}, set: {disc.theta: 0}, rates: {disc.omega: 0}}
+bearings: {wide: {radius: 1.014 m, clearance: 1 m, length: 10 mm, bearing_material: steel, journal_material: steel}}
+contacts:
+  hard:
+    normal: {law: newton_restitution, restitution: 0.8}
+    friction: {law: coulomb, mu: 0.2, v0: 1e-3 m/s}
+scenes: {hard: {play: {A: {bearing: wide, contact: hard}}, simulate: {t_end: 2 s, step: 1e-3 s}}}
+"""
+BAR = """\
+bodies: {bar: {mass: 0.4 kg, inertia: 5e-4 kg*m^2, points: {pin: [0, 0.12 m]}}}
+ground: {hole: [0, 0]}
+freedoms: 1
+joints: {A: {revolute: [ground.hole, bar.pin]}}
+start: {play: {A: {}}, set: {bar.theta: 0.7}, rates: {bar.omega: 0}}
+bearings: {hole: {radius: 15 mm, clearance: 5 mm, length: 10 mm, bearing_material: steel, journal_material: steel}}
+contacts:
+  hard:
+    normal: {law: newton_restitution, restitution: 0.6, threshold: 1e-3 m/s}
+    friction: {law: modified_coulomb, mu: 0.3, v0: 1e-4 m/s, v1: 1e-3 m/s}
+scenes: {hard: {play: {A: {bearing: hole, contact: hard}}, simulate: {t_end: 1 s, step: 1e-4 s}}}
+"""
+TWO = """\
+bodies: {bar: {mass: 0.4 kg, inertia: 3e-3 kg*m^2, points: {left: [-0.1 m, 0], right: [0.1 m, 0]}}}
+ground: {west: [-0.1 m, 0], east: [0.1 m, 0]}
+freedoms: 0
+joints: {A: {revolute: [ground.west, bar.left]}, B: {revolute: [ground.east, bar.right]}}
+start: {play: {A: {}, B: {}}}
+bearings: {hole: {radius: 15 mm, clearance: 5 mm, length: 10 mm, bearing_material: steel, journal_material: steel}}
+contacts:
+  hard: {normal: {law: newton_restitution, restitution: 0.6}, friction: {law: coulomb, mu: 0.4, v0: 1e-3 m/s}}
+  soft: {extends: hard, normal: {restitution: 0.3}}
+scenes:
+  hard:
+    play: {A: {bearing: hole, contact: hard}, B: {bearing: hole, contact: soft}}
+    simulate: {t_end: 1 s, step: 1e-4 s}
+"""
+g = 9.81
+
+
+@cache
+def made(folder: Path, text: str, formulation: str = "reduced") -> Simulation:
+    file = folder / f"rubbed_{abs(hash(text))}.yaml"
+    file.write_text(HEAD + text, encoding="utf-8")
+    return gudgeon.load(file, "hard", formulation=formulation)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("rubbed")
+
+
+def blow(u: float, slip: float, along: tuple[float, float, float], e: float, mu: float) -> tuple[float, float]:
+    """Chatterjee and Ruina's impulses (normal, along the slip) by their own words: P = (1 + e) P_I + k (P_II − P_I).
+
+    `along`: a normal impulse takes D of the approach u, one along the slip adds S to it and B to the approach.
+    """
+    D, S, B = along
+    plastic = np.array([u / D, 0.0])
+    stick = np.linalg.solve([[D, -B], [-B, S]], [u, -slip])
+    step, base = stick - plastic, (1.0 + e) * plastic
+    k = 1.0
+    sign = math.copysign(1.0, step[1])
+    most = mu * step[0] - sign * step[1]  # sign P_t <= mu P_n, with k: base + k step
+    if mu * (base[0] + step[0]) < sign * step[1]:
+        k = -mu * base[0] / most
+    P = base + k * step
+    return float(P[0]), float(P[1])
+
+
+@pytest.mark.parametrize("omega", [-70.0, 0.0, 63.0])
+@pytest.mark.parametrize("mu", [0.02, 0.2])
+def test_a_disc_leaves_a_wall_with_the_spin_that_friction_gives_it(folder: Path, omega: float, mu: float) -> None:
+    """Straight down, where normal and slip are apart: P = min(μ (1 + e) m u, m_t |v|), and then it rolls."""
+    m, J, R, e = 0.092, 7e-6, 0.014, 0.8
+    given = {"start.rates.disc.omega": omega, "contacts.hard.friction.mu": mu, "start.play.A.e.y": -0.9}
+    run = made(folder, DISC).simulate(0.2, parameters=given, output=2, stop=False)
+    u, slip = math.sqrt(2.0 * g * 0.1), R * omega
+    P = -math.copysign(min(mu * (1.0 + e) * m * u, abs(slip) / (1.0 / m + R * R / J)), slip)
+    assert run["disc.omega"][-1] == pytest.approx(omega + R * P / J, rel=1e-7, abs=1e-9)
+    assert run["disc.vx"][-1] == pytest.approx(P / m, rel=1e-7, abs=1e-9)
+    assert run["disc.vy"][-1] == pytest.approx(e * u - g * (0.2 - u / g), rel=1e-7)
+    assert run.impacts["F_peak"][0] == pytest.approx((1.0 + e) * m * u, rel=1e-7)
+    assert (abs(slip) / (1.0 / m + R * R / J) < mu * (1.0 + e) * m * u) == (omega == 0.0 or mu == 0.2)  # both kinds
+
+
+@pytest.mark.parametrize(("mu", "e"), [(0.05, 0.6), (0.3, 0.0), (0.3, 1.0), (2.0, 0.6)])
+def test_an_oblique_blow_is_that_of_its_law_and_takes_energy(folder: Path, mu: float, e: float) -> None:
+    """A bar's end in a hole, where friction presses or relieves: slides, and sticks with μ = 2."""
+    m, J, arm, R = 0.4, 5e-4, 0.12, 0.010
+    given = {"contacts.hard.friction.mu": mu, "contacts.hard.normal.restitution": e, "start.play.A.rate.x": 0.4}
+    simulation, short = made(folder, BAR), 1e-9
+    first = simulation.simulate(0.05, parameters=given, output=2).impacts[0]["t_on"]
+    run = simulation.simulate(output=[0.0, first - short, first + short], parameters=given, rtol=1e-12)
+    names = ("bar.vx", "bar.vy", "bar.omega")
+    before, after = (np.array([run[name][k] for name in names]) for k in (1, 2))
+    n = np.array([run["A.ex"][2], run["A.ey"][2]]) / run["A.e"][2]
+    tilt = run["bar.theta"][2]
+    at = arm * np.array([-math.sin(tilt), math.cos(tilt)]) + R * n  # of the contact, from the centre of mass
+    mass = np.diag([m, m, J])
+    rows = np.array([[*d, at[0] * d[1] - at[1] * d[0]] for d in (n, (-n[1], n[0]))])
+    G = rows @ np.linalg.solve(mass, rows.T)
+    u, slip = rows @ before
+    pushed, P = blow(u, slip, (G[0, 0], G[1, 1], G[0, 1]), e, mu)
+    expected = before + np.linalg.solve(mass, rows.T @ [-pushed, P])
+    np.testing.assert_allclose(after, expected, rtol=1e-6, atol=1e-6)
+    assert (rows @ after)[0] == pytest.approx(-e * u, abs=1e-6) and abs(P) <= mu * pushed * (1.0 + 1e-12)
+    energy = [0.5 * v @ mass @ v for v in (before, after)]
+    assert energy[1] < energy[0] * (1.0 - 1e-3)
+    assert (abs(P) < 0.999 * mu * pushed) == (mu == 2.0)
+
+
+@pytest.mark.parametrize(("method", "formulation"), [("dop853", "reduced"), ("dop853", "full"), ("rk4", "reduced")])
+def test_a_disc_slides_in_its_hole_until_it_rolls(folder: Path, method: str, formulation: str) -> None:
+    """It spins on the wall: R φ'' and ω' by the same law, as scipy integrates them."""
+    m, J, R, mu, v0, spin, end = 0.092, 7e-6, 0.014, 0.2, 1e-3, 200.0, 2.0
+    given = {"start.rates.disc.omega": spin, "start.play.A.e.y": -1.0}
+
+    def rates(_: float, y: Any) -> Any:
+        angle, speed, omega = y
+        F_n = m * (g * math.cos(angle) + speed * speed)  # e = 1 m
+        F_t = -mu * math.tanh((speed + R * omega) / v0) * F_n
+        return [speed, F_t / m - g * math.sin(angle), R * F_t / J]
+
+    t = np.linspace(0.0, end, 41)
+    expected = solve_ivp(rates, (0.0, end), [0.0, 0.0, spin], t_eval=t, rtol=1e-10, atol=1e-12, method="Radau").y
+    step: dict[str, Any] = {"step": 2e-4} if method == "rk4" else {"rtol": 1e-10}
+    run = made(folder, DISC, formulation).simulate(output=t, parameters=given, method=method, stop=False, **step)
+    np.testing.assert_allclose(np.arctan2(run["disc.x"], -run["disc.y"]), expected[0], atol=1e-6)
+    np.testing.assert_allclose(run["disc.omega"], expected[2], atol=1e-4)
+    assert (run["A.state"] == 2).all() and len(run.impacts) == 1
+    assert abs(run["A.vt"][1]) > 0.5 and abs(run["A.vt"][-1]) < 1e-3  # it slid, and rolls
+    assert run.diagnostics.energy_residual < 1e-6 * run.diagnostics.energy_turned_over
+
+
+def test_two_blows_at_once_and_all_that_follows_take_energy(folder: Path) -> None:
+    """Both ends strike while the bar moves along: no blow and no step gains, works balance, partings are as told."""
+    simulation = made(folder, TWO)
+    for along, mu in ((0.3, 0.4), (-0.3, 0.05), (0.05, 3.0)):
+        given = {"contacts.hard.friction.mu": mu, "contacts.soft.friction.mu": mu}
+        given |= {f"start.play.{joint}.rate.x": along for joint in "AB"}
+        run = simulation.simulate(0.3, parameters=given, output=3000, rtol=1e-10)
+        energy = run["energy.kinetic"] + run["energy.potential"]
+        scale = run.diagnostics.energy_turned_over
+        assert np.diff(energy).max() < 1e-9 * scale and energy[-1] - energy[0] < -0.05 * scale
+        assert run.diagnostics.energy_residual < 1e-8 * scale
+        assert max(run[f"{joint}.delta"].max() for joint in "AB") < 1e-12
+        assert len(run.impacts) >= 4
+        for joint in "AB":
+            closed = run[f"{joint}.state"] > 0
+            assert (np.abs(run[f"{joint}.Ft"][closed]) <= mu * run[f"{joint}.Fn"][closed] * (1.0 + 1e-12)).all()
+
+
+def test_friction_that_jams_a_contact_is_told(folder: Path) -> None:
+    """Painlevé's bar: dragged over a wall it is drawn into it where μ > (J/m + x²)/(x y): no force keeps it out."""
+    tilt = 0.7
+    given = {"contacts.hard.friction.mu": 8.0, "start.play.A.e.y": -5e-3, "start.play.A.rate.x": 0.2}
+    told = []
+    for way in (1.0, -1.0):
+        given |= {"start.set.bar.theta": way * tilt + math.pi, "start.play.A.rate.x": 0.2}
+        try:
+            made(folder, BAR).simulate(0.01, parameters=given)
+        except SolverError as error:
+            told.append(str(error))
+    assert len(told) == 1 and "friction jams a contact of newton_restitution at t = 0 s" in told[0]
+
+
+def test_friction_that_a_blow_does_not_know_is_refused(folder: Path) -> None:
+    file = folder / "bristles.yaml"
+    rubs = "friction: {law: dahl, mu: 0.2, presliding: 1 um}"
+    file.write_text(HEAD + DISC.replace("friction: {law: coulomb, mu: 0.2, v0: 1e-3 m/s}", rubs), encoding="utf-8")
+    with pytest.raises(BadValueError, match=r"bristles.yaml:14:21: .*newton_restitution and friction by dahl"):
+        gudgeon.load(file, "hard")
