@@ -61,6 +61,10 @@ static void gather(Flow *flow, int k, Lanes *h)
         x->memory.side[i][k] = run->memory.side[i];
     for (int i = 0; i < N_USER_EVENTS; i++)
         x->memory.event_side[i][k] = run->memory.event_side[i];
+#if TAYLOR
+    x->order = run->order;
+    x->fixed = run->fixed;
+#endif
 }
 
 static void scatter_aside(const LaneAside *x, int k, Aside *aside)
@@ -116,21 +120,43 @@ static void scatter_step(const Flow *flow, int k, int stages, Step *step)
     scatter_aside(&x->aside, k, &step->aside);
 }
 
-/* What lane k has found goes to its run. */
-static void scatter(const Flow *flow, int k, int stiff)
+/* What the trial of lane k has cost, as its own run would have counted it; what it is to know of it. Stages. */
+#if TAYLOR
+static int scatter_trial(const Flow *flow, int k, int stiff, Run *run)
 {
-    Run *run = flow->run[k];
-    Step *step = &run->step;
+    (void)stiff;
+    run->evaluations += !run->series_ready;
+    run->series_ready = ELSEWHERE;
+    run->series_lane = (const double *)flow->x.series + k;
+    run->series_lanes = LANES;
+    run->reach = flow->x.reach[k];
+    run->attempt.h = flow->step.h[k];
+    return 0;
+}
+#else
+static int scatter_trial(const Flow *flow, int k, int stiff, Run *run)
+{
     const int stages = stiff ? RODAS5P_STAGES : DOP853_STAGES;
-    step->t = flow->step.t[k];
-    step->h = flow->step.h[k];
-    step->error = flow->step.error[k];
-    step->dense_ready = 0;
+    (void)flow, (void)k;
     run->evaluations += stages - 1;
     if (stiff && !run->linear_ready) {
         run->jacobians++;
         run->linear_ready = ELSEWHERE;
     }
+    return stages;
+}
+#endif
+
+/* What lane k has found goes to its run. */
+static void scatter(const Flow *flow, int k, int stiff)
+{
+    Run *run = flow->run[k];
+    Step *step = &run->step;
+    step->t = flow->step.t[k];
+    step->h = flow->step.h[k];
+    step->error = flow->step.error[k];
+    step->dense_ready = 0;
+    const int stages = scatter_trial(flow, k, stiff, run);
     if (!flow->step.taken[k])
         return;
     run->evaluations++;

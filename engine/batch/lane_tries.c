@@ -73,6 +73,27 @@ static int finish_step(LaneRun *run, LaneStep *step, const LaneParameters *p)
     return 0;
 }
 
+#if TAYLOR
+#define SeriesRow Lanes
+#define SeriesPart Lanes
+#include "../both/series.h"
+#include "../both/taylor.h"
+
+/* As taylor_try of methods/taylor.c: links in one line are left to the single runs. */
+static int method_try(LaneRun *run, int stiff, Lanes h, const LaneParameters *p, LaneStep *step)
+{
+    TaylorValues at;
+    Lanes(*const c)[TAYLOR_Y] = run->series;
+    (void)stiff;
+    for (int i = 0; i < N_Y; i++)
+        c[0][i] = run->y[i];
+    taylor_values(run->t, run->y, run->y + N_X, p, &at, c[1] + N_X, c[1] + 2 * N_X, &run->memory.rare);
+    series_orders(p, &at, run->order, c);
+    run->memory.rare |= not_finite(c[run->order], NULL, N_Y);
+    run->reach = taylor_reach(run);
+    return taylor_step(run, h, p, step);
+}
+#else
 /* As make_linear of rodas5p.c. */
 static int make_linear(LaneRun *run, Lanes hg, const LaneParameters *p)
 {
@@ -86,14 +107,17 @@ static int make_linear(LaneRun *run, Lanes hg, const LaneParameters *p)
 #include "../both/dop853.h"
 #include "../both/rodas5p.h"
 
+static int method_try(LaneRun *run, int stiff, Lanes h, const LaneParameters *p, LaneStep *step)
+{
+    return stiff ? rodas5p_try(run, h, p, step) : dop853_try(run, h, p, step);
+}
+#endif
+
 /* A step of length h of all lanes; where it is neither accepted nor lost its error alone tells. */
 static void try_lanes(LaneRun *run, int stiff, Lanes h, const LaneParameters *p, LaneStep *step)
 {
     run->memory.rare = (LaneBits){0};
-    if (stiff)
-        rodas5p_try(run, h, p, step);
-    else
-        dop853_try(run, h, p, step);
+    method_try(run, stiff, h, p, step);
     step->lost |= run->memory.rare & step->taken;
     step->taken &= ~step->lost;
 }
