@@ -44,9 +44,17 @@ static void gather(Flow *flow, int k, Lanes *h)
     x->accept[k] = run->accept;
     for (int j = 0; j < N_Y; j++) {
         x->y[j][k] = run->y[j];
-        x->dy[j][k] = run->dy[j];
         x->weight[j][k] = run->weight[j];
     }
+#if TAYLOR
+    x->order = run->order;
+    x->fixed = run->fixed;
+#else
+    for (int j = 0; j < N_Y; j++)
+        x->dy[j][k] = run->dy[j];
+    for (int i = 0; i < N_LOOPS; i++)
+        x->aside.lambda[i][k] = run->aside.lambda[i];
+#endif
     for (int i = 0; i < N_CLEARANCES; i++) {
         x->memory.latch[i].closed[k] = run->memory.latch[i].closed;
         x->memory.latch[i].deltadot_minus[k] = run->memory.latch[i].deltadot_minus;
@@ -55,16 +63,10 @@ static void gather(Flow *flow, int k, Lanes *h)
         x->aside.clearance[i].moment_first[k] = run->aside.clearance[i].moment_first;
         x->aside.clearance[i].moment_second[k] = run->aside.clearance[i].moment_second;
     }
-    for (int i = 0; i < N_LOOPS; i++)
-        x->aside.lambda[i][k] = run->aside.lambda[i];
     for (int i = 0; i < N_SWITCHES; i++)
         x->memory.side[i][k] = run->memory.side[i];
     for (int i = 0; i < N_USER_EVENTS; i++)
         x->memory.event_side[i][k] = run->memory.event_side[i];
-#if TAYLOR
-    x->order = run->order;
-    x->fixed = run->fixed;
-#endif
 }
 
 static void scatter_aside(const LaneAside *x, int k, Aside *aside)

@@ -100,8 +100,8 @@ static inline Lanes real_max(Lanes x, Lanes y) { return lanes_max_of(x, y); }
 static inline Lanes real_min(Lanes x, Lanes y) { return lanes_min_of(x, y); }
 static inline Lanes real_abs(Lanes x) { return lanes_fabs(x); }
 static inline Lanes real_sqrt(Lanes x) { return lanes_sqrt(x); }
-static inline Lanes real_exp(Lanes x) { return lanes_exp(x); }
-static inline Lanes real_log(Lanes x) { return lanes_log(x); }
+static inline Lanes real_exp2(Lanes x) { return lanes_rough_exp2(x); }
+static inline Lanes real_log2(Lanes x) { return lanes_rough_log2(x); }
 
 /* As Latch, Memory, PinForce, Clearance, Aside, Linear of a single run. */
 typedef struct {

@@ -25,7 +25,7 @@ static inline double real_max(double x, double y) { return max_of(x, y); }
 static inline double real_min(double x, double y) { return min_of(x, y); }
 static inline double real_abs(double x) { return fabs(x); }
 static inline double real_sqrt(double x) { return sqrt(x); }
-static inline double real_exp(double x) { return exp(x); }
-static inline double real_log(double x) { return log(x); }
+static inline double real_exp2(double x) { return rough_exp2(x); }
+static inline double real_log2(double x) { return rough_log2(x); }
 
 #endif

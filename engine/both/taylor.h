@@ -14,7 +14,7 @@ static Real taylor_reach(const RunOf *run)
         most = real_max(most, real_abs(last[i]) * run->weight[i]);
         most_before = real_max(most_before, real_abs(before[i]) * run->weight[i]);
     }
-    return real_exp(-real_max(real_log(most) / n, real_log(most_before) / (n - 1)));
+    return real_exp2(-real_max(real_log2(most) / n, real_log2(most_before) / (n - 1)));
 }
 
 /* The state so long after that of the run: even powers and odd ones. */
