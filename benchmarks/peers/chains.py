@@ -173,11 +173,11 @@ def states(n: int) -> list[State]:
     return [replace(final, t=0.0, q=column, v=np.zeros(3 * n)) for column in q.T]
 
 
-def own_batch(n: int, rtol: float) -> Measured:
+def own_batch(n: int, method: str, rtol: float) -> Measured:
     """gudgeon's runs side by side, one thread; seconds a run."""
     with followed_by(10**9):  # its library is worth being compiled
-        batch = loaded(n)["taylor"].simulate_many(
-            {}, T_END[n], start=states(n), output=1, method="taylor", rtol=rtol, threads=1
+        batch = loaded(n)["taylor" if method == "taylor" else "dop853"].simulate_many(
+            {}, T_END[n], start=states(n), output=1, method=method, rtol=rtol, threads=1
         )  # fmt: skip
     error = float(np.abs(batch.q[:, -1, 2::3].T - reference(n, RUNS)).max())
     found = batch.diagnostics

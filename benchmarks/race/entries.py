@@ -228,8 +228,9 @@ def chain_entries() -> list[Entry]:
         for method in ("auto", "dop853", "taylor"):
             run = plain(partial(chains.own, n, method), "angle")
             found.append(Entry(work, f"gudgeon {method}", run, TOLERANCES, (), method))
-        run = plain(partial(chains.own_batch, n), "angle")
-        found.append(Entry(work, "gudgeon taylor, a batch", run, TOLERANCES, (), "taylor", chains.RUNS))
+        for method in ("auto", "taylor"):
+            run = plain(partial(chains.own_batch, n, method), "angle")
+            found.append(Entry(work, f"gudgeon {method}, a batch", run, TOLERANCES, (), method, chains.RUNS))
         for name, peer, runs in (("", chains.heyoka, 1), (", a batch", chains.heyoka_batch, chains.RUNS)):
             found.append(Entry(work, f"heyoka{name}", plain(partial(peer, n), "angle"), HEYOKA, HEYOKAS, "", runs))
     return found
