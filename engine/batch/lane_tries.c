@@ -4,19 +4,6 @@
  */
 #include "lane_motion.c"
 
-/* Not negative while things go on as they are, as margins_of of step.c. */
-static void note_margins(const LaneRun *run, const LaneAside *aside, Lanes *out)
-{
-    for (int i = 0; i < N_CLEARANCES; i++) {
-        const Lanes delta = aside->clearance[i].delta;
-        out[i] = pick(is_closed(&run->memory.latch[i]), delta, -delta);
-    }
-    for (int k = 0; k < N_SWITCHES; k++)
-        out[N_CLEARANCES + k] = run->memory.side[k] * aside->g[k];
-    for (int k = 0; k < N_USER_EVENTS; k++)
-        out[N_CLEARANCES + N_SWITCHES + k] = run->memory.event_side[k] * aside->event[k];
-}
-
 static void forget_stages(LaneStep *step)
 {
     step->n_seen = 0;
@@ -28,6 +15,40 @@ static void forget_stages(LaneStep *step)
         step->rate[i][0] = all_of(INFINITY);
         step->rate[i][1] = all_of(-INFINITY);
     }
+}
+
+/* From here on the step is that of the lanes which accept it. */
+static int is_refused(LaneRun *run, LaneStep *step)
+{
+    step->lost = run->memory.rare;
+    step->taken = ~(step->error > run->accept) & ~step->lost;
+    run->memory.rare = (LaneBits){0};
+    return !any_of(step->taken);
+}
+
+static int finish_step(LaneRun *run, LaneStep *step, const LaneParameters *p)
+{
+    run->memory.rare |= not_finite(step->y, NULL, N_Y);
+    project_rows(run, step->t + step->h, step->y, p);
+    rates(run, step->t + step->h, step->y, p, step->dy, &step->aside);
+    run->memory.rare |= not_finite(step->dy, NULL, N_Y);
+    return 0;
+}
+
+#if TAYLOR
+#include "lane_series.c"
+#else
+/* Not negative while things go on as they are, as margins_of of step.c. */
+static void note_margins(const LaneRun *run, const LaneAside *aside, Lanes *out)
+{
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Lanes delta = aside->clearance[i].delta;
+        out[i] = pick(is_closed(&run->memory.latch[i]), delta, -delta);
+    }
+    for (int k = 0; k < N_SWITCHES; k++)
+        out[N_CLEARANCES + k] = run->memory.side[k] * aside->g[k];
+    for (int k = 0; k < N_USER_EVENTS; k++)
+        out[N_CLEARANCES + N_SWITCHES + k] = run->memory.event_side[k] * aside->event[k];
 }
 
 static void note_stage(const LaneRun *run, LaneStep *step, const LaneAside *aside, double node)
@@ -55,46 +76,6 @@ static int is_odd(LaneRun *run, Lanes error)
     return 0;
 }
 
-/* From here on the step is that of the lanes which accept it. */
-static int is_refused(LaneRun *run, LaneStep *step)
-{
-    step->lost = run->memory.rare;
-    step->taken = ~(step->error > run->accept) & ~step->lost;
-    run->memory.rare = (LaneBits){0};
-    return !any_of(step->taken);
-}
-
-static int finish_step(LaneRun *run, LaneStep *step, const LaneParameters *p)
-{
-    run->memory.rare |= not_finite(step->y, NULL, N_Y);
-    project_rows(run, step->t + step->h, step->y, p);
-    rates(run, step->t + step->h, step->y, p, step->dy, &step->aside);
-    run->memory.rare |= not_finite(step->dy, NULL, N_Y);
-    return 0;
-}
-
-#if TAYLOR
-#define SeriesRow Lanes
-#define SeriesPart Lanes
-#include "../both/series.h"
-#include "../both/taylor.h"
-
-/* As taylor_try of methods/taylor.c: links in one line are left to the single runs. */
-static int method_try(LaneRun *run, int stiff, Lanes h, const LaneParameters *p, LaneStep *step)
-{
-    SeriesRow(*const factors)[TAYLOR_ORDERS][SERIES_ROWS] = series_factors();
-    TaylorValues at;
-    Lanes(*const c)[TAYLOR_Y] = run->series;
-    (void)stiff;
-    for (int i = 0; i < N_Y; i++)
-        c[0][i] = run->y[i];
-    taylor_values(run->t, run->y, run->y + N_X, p, &at, c[1] + N_X, c[1] + 2 * N_X, &run->memory.rare);
-    series_orders(p, &at, run->order, c, factors[0], factors[1]);
-    run->memory.rare |= not_finite(c[run->order], NULL, N_Y);
-    run->reach = taylor_reach(run);
-    return taylor_step(run, h, p, step);
-}
-#else
 /* As make_linear of rodas5p.c. */
 static int make_linear(LaneRun *run, Lanes hg, const LaneParameters *p)
 {

@@ -44,7 +44,7 @@ enum {
     N_DENSE = 7,
 #endif
     N_STAGES = 16, N_LOOKS = 16,
-    HERE = 1, ELSEWHERE = 2 /* where the equations of a step are linearized, its series made: in the run, in a lane; 0: not yet */
+    HERE = 1, ELSEWHERE = 2 /* where a step's equations are linearized, its series made: in the run, in a lane; 0: no */
 };
 
 typedef struct Method Method; /* methods.c */

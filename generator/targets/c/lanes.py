@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance
+from gudgeon.generator.ir.series import Series
 from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.program import Methods, Program
 from gudgeon.generator.kernels.shared import SharedCall
 from gudgeon.generator.solvers.contact_slopes import in_place
-from gudgeon.generator.ir.series import Series
 from gudgeon.generator.targets.c import functions, lanes_printer, taylor
 from gudgeon.generator.targets.c.curves import curves_code
 from gudgeon.generator.targets.c.model_header import deepest
@@ -46,10 +46,7 @@ def lanes_code(program: Program, render: Render, series: Series | None) -> dict[
     parameters = [model.slots.field(symbol) for symbol in model.slots.members()]
     wanted = [kernel for kernel in kernels if kernel.name in _WANTED]
     text = "\n".join([*pins, *map(lanes_printer.motion_kernel, wanted)])
-    if series:
-        methods = taylor.lanes_code(series)
-    else:
-        methods = _newton(program.pins, program.methods, render, model.law_states)
+    methods = taylor.lanes_code(series) if series else _newton(program.pins, program.methods, render, model.law_states)
     curves = bool(curves_code(model.scene.mechanism.curves, (text, methods)))
     return {MAIN: render(
         "lanes.c.jinja", parameters=parameters, deepest=_deepest(model), kernels=text, methods=methods,
