@@ -134,24 +134,24 @@ def equations() -> tuple[list[Any], list[tuple[Any, Any]]]:
     y, step = import_module("jitcode").y, Steps()
     q, v = [y(i) for i in range(7)], [y(i) for i in range(7, 14)]
     found = parts(import_module("symengine"), step, q, v)
-    return [*v, *_eliminate(step, found.blocks, found.m33, found.G, found.f, found.curve)], step.all
+    return [*v, *eliminate(step, found)], step.all
 
 
-def _eliminate(step: Steps, blocks: list[Any], m33: float, G: list[Any], f: list[Any], curve: list[Any]) -> list[Any]:
-    """q̈ from M's blocks, G, f and Ġ q̇: S λ = G M⁻¹ f + Ġ q̇ with S = G M⁻¹ Gᵀ = L D Lᵀ."""
-    inverse = []
-    for (i, j), (a, b, d) in blocks:
+def eliminate(step: Callable[[Any], Any], found: Parts) -> list[Any]:
+    """q̈: S λ = G M⁻¹ f + Ġ q̇ with S = G M⁻¹ Gᵀ = L D Lᵀ."""
+    G, inverse = found.G, []
+    for (i, j), (a, b, d) in found.blocks:
         r = step(1 / (a * d - b * b))
         inverse.append((i, j, step(d * r), step(-b * r), step(a * r)))
 
     def solve_mass(x: list[Any]) -> list[Any]:
-        out = [x[2] / m33 if k == 2 else 0 for k in range(7)]
+        out = [x[2] / found.m33 if k == 2 else 0 for k in range(7)]
         for i, j, a, b, d in inverse:
             out[i], out[j] = a * x[i] + b * x[j], b * x[i] + d * x[j]
         return [step(o) for o in out]
 
-    W, free, n = [solve_mass(row) for row in G], solve_mass(f), range(6)
-    x = [step(sum(G[i][k] * free[k] for k in range(7)) + curve[i]) for i in n]
+    W, free, n = [solve_mass(row) for row in G], solve_mass(found.f), range(6)
+    x = [step(sum(G[i][k] * free[k] for k in range(7)) + found.curve[i]) for i in n]
     S = [[step(sum(G[i][k] * W[j][k] for k in range(7))) if j <= i else 0 for j in n] for i in n]
     for k in n:
         r = step(1 / S[k][k])

@@ -5,36 +5,42 @@ Links of length l, mass m and moment of inertia J about their middles hang from 
     sum_j c_ij cos(theta_i - theta_j) theta_j'' + c_ij sin(theta_i - theta_j) theta_j'^2 = -g w_i cos theta_i,
 
 c_ij = m l^2 (n - max(i, j) - 1/2) for i != j, c_ii = J + m l^2 (n - i - 3/4), w_i = m l (n - i - 1/2), i = 0 ... n - 1.
-heyoka is given accelerations by L D L^T of that matrix in its own expressions. Error: the largest of an
-angle at the end. Reference: Gragg's midpoint rule extrapolated to order 16, in long double, with another number of
-steps it is the same to 1e-15 (`python -m benchmarks.peers.chains`).
+heyoka is given accelerations by L D L^T of that matrix in its own expressions. In a batch the first link of each run
+begins elsewhere. Error: the largest of an angle at the end, of all runs. Reference: Gragg's midpoint rule extrapolated
+to order 16, in long double, with another number of steps it is the same to 1e-15 (`python -m benchmarks.peers.chains`).
 """
 
 from __future__ import annotations
 
 import tempfile
 from collections.abc import Iterable
+from dataclasses import replace
 from functools import cache, reduce
 from importlib import import_module
 from operator import add
 from pathlib import Path
-from time import perf_counter
 from typing import Any
 
 import numpy as np
 
 import gudgeon
+from benchmarks.peers import heyoka_runs
+from gudgeon.integrators.lanes import followed_by
+from gudgeon.results.state import State
 
 LINKS = {"double pendulum": 2, "six links": 6}
 T_END = {2: 3.0, 6: 1.5}
 M, L, J, G = 1.0, 1.0, 0.1, 9.81
 STEPS = 200  # of the reference
+RUNS, SPREAD = 64, 1e-3  # of a batch; rad
 Measured = tuple[float, float, int]  # error, seconds of integration only, right-hand sides (-1: not told)
 
 
-def start(n: int) -> list[float]:
-    """Angles, then velocities."""
-    return [*(0.5 * k for k in range(n)), *[0.0] * n]
+def starts(n: int, runs: int = 1) -> np.ndarray:
+    """Angles, then velocities (2n, runs)."""
+    y = np.repeat([[0.5 * k] for k in range(n)] + [[0.0]] * n, runs, axis=1)
+    y[0] += SPREAD * np.arange(runs)
+    return y
 
 
 def coefficients(n: int) -> tuple[np.ndarray, np.ndarray]:
@@ -74,9 +80,9 @@ def sum_of(terms: Iterable[Any]) -> Any:
 
 
 @cache
-def reference(n: int, steps: int = STEPS) -> np.ndarray:
-    """Angles at the end, (n,)."""
-    y = np.array(start(n), dtype=np.longdouble)
+def reference(n: int, runs: int = 1, steps: int = STEPS) -> np.ndarray:
+    """Angles at the end, (n, runs)."""
+    y = starts(n, runs).astype(np.longdouble)
     h = np.longdouble(T_END[n]) / steps
 
     def rate(y: np.ndarray) -> np.ndarray:
@@ -97,29 +103,37 @@ def reference(n: int, steps: int = STEPS) -> np.ndarray:
 
 
 @cache
-def heyoka_of(n: int, tolerance: float) -> Any:
-    """The compiled integrator."""
-    hy = import_module("heyoka")
-    theta, omega = hy.make_vars(*(f"theta{k}" for k in range(n))), hy.make_vars(*(f"omega{k}" for k in range(n)))
-    rates = [*omega, *accelerations(theta, omega, hy.sin, hy.cos)]
-    return hy.taylor_adaptive(list(zip([*theta, *omega], rates, strict=True)), start(n), tol=tolerance)
+def heyoka_of(n: int, runs: int, tolerance: float) -> Any:
+    """The compiled integrator of so many runs."""
+    hy = import_module(heyoka_runs.NAME)
+    y = heyoka_runs.variables(*(f"{kind}{k}" for kind in ("theta", "omega") for k in range(n)))
+    rates = [*y[n:], *accelerations(y[:n], y[n:], hy.sin, hy.cos)]
+    start = starts(n, runs)
+    return heyoka_runs.integrator(y, rates, start if runs > 1 else start[:, 0], tolerance)
 
 
 def heyoka(n: int, tolerance: float) -> Measured:
-    """heyoka's Taylor method, its code made by LLVM."""
-    run = heyoka_of(n, tolerance)
-    run.time, run.state[:] = 0.0, start(n)
-    before = perf_counter()
-    run.propagate_until(T_END[n])
-    seconds = perf_counter() - before
-    return float(np.abs(run.state[:n] - reference(n)).max()), seconds, -1
+    """heyoka's Taylor method."""
+    run = heyoka_of(n, 1, tolerance)
+    seconds = heyoka_runs.timed(run, starts(n)[:, 0], T_END[n])
+    return float(np.abs(run.state[:n] - reference(n)[:, 0]).max()), seconds, -1
+
+
+def heyoka_batch(n: int, tolerance: float) -> Measured:
+    """RUNS of them, as many side by side as it recommends; seconds a run."""
+    width = heyoka_runs.beside()
+    run, seconds, error = heyoka_of(n, width, tolerance), 0.0, 0.0
+    for k in range(0, RUNS, width):
+        seconds += heyoka_runs.timed(run, starts(n, RUNS)[:, k : k + width], T_END[n])
+        error = max(error, float(np.abs(run.state[:n] - reference(n, RUNS)[:, k : k + width]).max()))
+    return error, seconds / RUNS, -1
 
 
 def written(n: int) -> str:
     """The same as a file of ours."""
     names = [f"L{k}" for k in range(n)]
     joints = ["ground.O", *(f"{name}.head" for name in names)]
-    angles = ", ".join(f"{name}.theta: {value!r}" for name, value in zip(names, start(n), strict=False))
+    angles = ", ".join(f"{name}.theta: {value!r}" for name, value in zip(names, starts(n)[:n, 0].tolist(), strict=True))
     rates = ", ".join(f"{name}.omega: 0" for name in names)
     return "\n".join([
         "format: gudgeon/1", f"name: links_{n}", f"gravity: [0, -{G} m/s^2]", "bodies:",
@@ -144,14 +158,36 @@ def own(n: int, method: str, rtol: float) -> Measured:
     """gudgeon."""
     simulation = loaded(n)["taylor" if method == "taylor" else "dop853"]
     run = simulation.simulate(T_END[n], output=1, method=method, rtol=rtol)
-    error = float(np.abs(run.q[-1][2::3] - reference(n)).max())
+    error = float(np.abs(run.q[-1][2::3] - reference(n)[:, 0]).max())
     return error, run.diagnostics.seconds, run.diagnostics.right_hand_sides
+
+
+@cache
+def states(n: int) -> list[State]:
+    """Those of a batch at t = 0: middles and angles of the links, at rest."""
+    final = loaded(n)["taylor"].simulate(T_END[n], output=1, method="taylor").final
+    angles = starts(n, RUNS)[:n]
+    joints = L * np.cumsum([np.cos(angles), np.sin(angles)], axis=1)
+    middles = joints - 0.5 * L * np.array([np.cos(angles), np.sin(angles)])
+    q = np.stack([*middles, angles], axis=1).reshape(3 * n, RUNS)
+    return [replace(final, t=0.0, q=column, v=np.zeros(3 * n)) for column in q.T]
+
+
+def own_batch(n: int, method: str, rtol: float) -> Measured:
+    """gudgeon's runs side by side, one thread; seconds a run."""
+    with followed_by(10**9):  # its library is worth being compiled
+        batch = loaded(n)["taylor" if method == "taylor" else "dop853"].simulate_many(
+            {}, T_END[n], start=states(n), output=1, method=method, rtol=rtol, threads=1
+        )  # fmt: skip
+    error = float(np.abs(batch.q[:, -1, 2::3].T - reference(n, RUNS)).max())
+    found = batch.diagnostics
+    return error, float(found["seconds"].mean()), round(float(found["right_hand_sides"].mean()))
 
 
 def main() -> None:
     """How far the reference is from itself."""
     for name, n in LINKS.items():
-        print(f"{name}: {np.abs(reference(n) - reference(n, STEPS * 3 // 2)).max():.1e}")
+        print(f"{name}: {np.abs(reference(n) - reference(n, steps=STEPS * 3 // 2)).max():.1e}")
 
 
 if __name__ == "__main__":

@@ -24,6 +24,7 @@ from benchmarks.peers import (
     dop853,
     exudyn_andrews,
     exudyn_press,
+    heyoka_runs,
     ideal,
     lsoda,
     press,
@@ -41,7 +42,7 @@ RK4_STEPS = {
     "andrews": (2e-4, 1e-4, 5e-5, 2e-5, 1e-5),
 }
 EXUDYN_STEPS = (3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1.5e-7)  # below it rounding grows
-HEYOKA = tuple(10.0**-k for k in range(2, 16))
+HEYOKA, HEYOKAS = tuple(10.0**-k for k in range(2, 16)), (heyoka_runs.NAME,)
 CVODE_SWEEP = (1e-7, 1e-8)  # neighbours of a worst error of 1e-6
 SWEEP = (10, 20)  # clearances, speeds
 
@@ -211,6 +212,7 @@ def andrews_entries() -> list[Entry]:
     return [
         *found,
         Entry("andrews", "gudgeon taylor", own_andrews("taylor", "rtol"), TOLERANCES, (), "taylor"),
+        Entry("andrews", "heyoka", plain(heyoka_runs.of_andrews, "angle"), HEYOKA[1:11], HEYOKAS),
         Entry("andrews", "jitcode dop853", plain(dop853.jitcode, "angle"), TOLERANCES, jit),
         Entry("andrews", "SciPy DOP853", plain(dop853.scipy, "angle"), TOLERANCES, jit),
         Entry("andrews", "SciPy LSODA", plain(dop853.scipy_lsoda, "angle"), TOLERANCES, jit),
@@ -220,14 +222,17 @@ def andrews_entries() -> list[Entry]:
 
 
 def chain_entries() -> list[Entry]:
-    """Pendulums of several links, smooth motion: Taylor's method beside heyoka's."""
+    """Pendulums of several links, smooth motion: Taylor's method beside heyoka's, single runs and batches."""
     found = []
     for work, n in CHAINS.items():
         for method in ("auto", "dop853", "taylor"):
             run = plain(partial(chains.own, n, method), "angle")
             found.append(Entry(work, f"gudgeon {method}", run, TOLERANCES, (), method))
-        run = plain(partial(chains.heyoka, n), "angle")
-        found.append(Entry(work, "heyoka", run, HEYOKA, ("heyoka",)))
+        for method in ("auto", "taylor"):
+            run = plain(partial(chains.own_batch, n, method), "angle")
+            found.append(Entry(work, f"gudgeon {method}, a batch", run, TOLERANCES, (), method, chains.RUNS))
+        for name, peer, runs in (("", chains.heyoka, 1), (", a batch", chains.heyoka_batch, chains.RUNS)):
+            found.append(Entry(work, f"heyoka{name}", plain(partial(peer, n), "angle"), HEYOKA, HEYOKAS, "", runs))
     return found
 
 

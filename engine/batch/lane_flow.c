@@ -44,9 +44,17 @@ static void gather(Flow *flow, int k, Lanes *h)
     x->accept[k] = run->accept;
     for (int j = 0; j < N_Y; j++) {
         x->y[j][k] = run->y[j];
-        x->dy[j][k] = run->dy[j];
         x->weight[j][k] = run->weight[j];
     }
+#if TAYLOR
+    x->order = run->order;
+    x->fixed = run->fixed;
+#else
+    for (int j = 0; j < N_Y; j++)
+        x->dy[j][k] = run->dy[j];
+    for (int i = 0; i < N_LOOPS; i++)
+        x->aside.lambda[i][k] = run->aside.lambda[i];
+#endif
     for (int i = 0; i < N_CLEARANCES; i++) {
         x->memory.latch[i].closed[k] = run->memory.latch[i].closed;
         x->memory.latch[i].deltadot_minus[k] = run->memory.latch[i].deltadot_minus;
@@ -55,8 +63,6 @@ static void gather(Flow *flow, int k, Lanes *h)
         x->aside.clearance[i].moment_first[k] = run->aside.clearance[i].moment_first;
         x->aside.clearance[i].moment_second[k] = run->aside.clearance[i].moment_second;
     }
-    for (int i = 0; i < N_LOOPS; i++)
-        x->aside.lambda[i][k] = run->aside.lambda[i];
     for (int i = 0; i < N_SWITCHES; i++)
         x->memory.side[i][k] = run->memory.side[i];
     for (int i = 0; i < N_USER_EVENTS; i++)
@@ -116,21 +122,43 @@ static void scatter_step(const Flow *flow, int k, int stages, Step *step)
     scatter_aside(&x->aside, k, &step->aside);
 }
 
-/* What lane k has found goes to its run. */
-static void scatter(const Flow *flow, int k, int stiff)
+/* What the trial of lane k has cost, as its own run would have counted it; what it is to know of it. Stages. */
+#if TAYLOR
+static int scatter_trial(const Flow *flow, int k, int stiff, Run *run)
 {
-    Run *run = flow->run[k];
-    Step *step = &run->step;
+    (void)stiff;
+    run->evaluations += !run->series_ready;
+    run->series_ready = ELSEWHERE;
+    run->series_lane = (const double *)flow->x.series + k;
+    run->series_lanes = LANES;
+    run->reach = flow->x.reach[k];
+    run->attempt.h = flow->step.h[k];
+    return 0;
+}
+#else
+static int scatter_trial(const Flow *flow, int k, int stiff, Run *run)
+{
     const int stages = stiff ? RODAS5P_STAGES : DOP853_STAGES;
-    step->t = flow->step.t[k];
-    step->h = flow->step.h[k];
-    step->error = flow->step.error[k];
-    step->dense_ready = 0;
+    (void)flow, (void)k;
     run->evaluations += stages - 1;
     if (stiff && !run->linear_ready) {
         run->jacobians++;
         run->linear_ready = ELSEWHERE;
     }
+    return stages;
+}
+#endif
+
+/* What lane k has found goes to its run. */
+static void scatter(const Flow *flow, int k, int stiff)
+{
+    Run *run = flow->run[k];
+    Step *step = &run->step;
+    step->t = flow->step.t[k];
+    step->h = flow->step.h[k];
+    step->error = flow->step.error[k];
+    step->dense_ready = 0;
+    const int stages = scatter_trial(flow, k, stiff, run);
     if (!flow->step.taken[k])
         return;
     run->evaluations++;

@@ -97,8 +97,11 @@ static inline void put_together(Lanes *g, const Lanes *film, int first, int last
 #define StepOf LaneStep
 static inline Lanes real_of(double x) { return all_of(x); }
 static inline Lanes real_max(Lanes x, Lanes y) { return lanes_max_of(x, y); }
+static inline Lanes real_min(Lanes x, Lanes y) { return lanes_min_of(x, y); }
 static inline Lanes real_abs(Lanes x) { return lanes_fabs(x); }
 static inline Lanes real_sqrt(Lanes x) { return lanes_sqrt(x); }
+static inline Lanes real_exp2(Lanes x) { return lanes_rough_exp2(x); }
+static inline Lanes real_log2(Lanes x) { return lanes_rough_log2(x); }
 
 /* As Latch, Memory, PinForce, Clearance, Aside, Linear of a single run. */
 typedef struct {
@@ -169,7 +172,13 @@ typedef struct {
     Lanes t, y[N_Y], dy[N_Y], weight[N_Y], accept, stability;
     LaneMemory memory;
     LaneAside aside;
+#if TAYLOR
+    int order;    /* the same in all lanes: a batch has one tolerance */
+    double fixed; /* whether steps are: s, 0 */
+    Lanes reach, series[TAYLOR_ORDERS + 1][TAYLOR_Y];
+#else
     LaneLinear linear;
+#endif
 } LaneRun;
 
 /* As Step; lanes in which it is accepted, and in which the single runs are to try it. */

@@ -22,7 +22,10 @@ static inline int any_of(int truth) { return truth != 0; }
 static inline int is_closed(const Latch *latch) { return latch->closed; }
 static inline double real_of(double x) { return x; }
 static inline double real_max(double x, double y) { return max_of(x, y); }
+static inline double real_min(double x, double y) { return min_of(x, y); }
 static inline double real_abs(double x) { return fabs(x); }
 static inline double real_sqrt(double x) { return sqrt(x); }
+static inline double real_exp2(double x) { return rough_exp2(x); }
+static inline double real_log2(double x) { return rough_log2(x); }
 
 #endif

@@ -16,52 +16,21 @@ static int taylor_order(double share)
     return wanted > TAYLOR_ORDERS ? TAYLOR_ORDERS : wanted < TAYLOR_LEAST ? TAYLOR_LEAST : (int)wanted;
 }
 
-/* The longest step whose last two terms are no larger than the tolerance. */
-static double taylor_reach(const Run *run)
-{
-    const int n = run->order;
-    const double *last = run->series[n], *before = run->series[n - 1];
-    double most = 0.0, most_before = 0.0;
-    for (int i = 0; i < N_Y; i++) {
-        most = max_of(most, fabs(last[i]) * run->weight[i]);
-        most_before = max_of(most_before, fabs(before[i]) * run->weight[i]);
-    }
-    return exp(-max_of(log(most) / n, log(most_before) / (n - 1)));
-}
+typedef double SeriesPart __attribute__((vector_size(64), aligned(8)));
+#include "../both/taylor.h"
 
 /* The series at the state of the run, and how far it is good for; once for all steps that are tried there. */
 static int taylor_expand(Run *run, const Parameters *p)
 {
-    if (run->series_ready)
+    if (run->series_ready == HERE)
         return 0;
     const int n = run->order, status = taylor_series(run->t, run->y, p, n, run->series);
     if (status)
         return status;
-    run->evaluations++;
+    run->evaluations += run->series_ready != ELSEWHERE;
     run->reach = taylor_reach(run);
-    run->series_ready = 1;
+    run->series_ready = HERE;
     return 0;
-}
-
-/* The state so long after that of the run: even powers and odd ones, components side by side. */
-static void taylor_at(const Run *run, double h, double *y)
-{
-    typedef double Side __attribute__((vector_size(64), aligned(8)));
-    const int top = run->order - run->order % 2;
-    const double square = h * h;
-    double all[TAYLOR_Y];
-    for (int i = 0; i < TAYLOR_Y; i += 8) {
-        Side even = *(const Side *)(run->series[top] + i), odd = {0.0};
-        if (top < run->order)
-            odd = *(const Side *)(run->series[top + 1] + i);
-        for (int k = top - 2; k >= 0; k -= 2) {
-            even = *(const Side *)(run->series[k] + i) + square * even;
-            odd = *(const Side *)(run->series[k + 1] + i) + square * odd;
-        }
-        *(Side *)(all + i) = even + h * odd;
-    }
-    for (int i = 0; i < N_Y; i++)
-        y[i] = all[i];
 }
 
 static int taylor_try(Run *run, double h, const Parameters *p, Step *step)
@@ -71,14 +40,21 @@ static int taylor_try(Run *run, double h, const Parameters *p, Step *step)
         step->method = &dop853; /* links in one line: its right-hand sides know a way */
         return dop853_try(run, h, p, step);
     }
-    if (run->fixed <= 0.0 && h > run->reach)
-        run->attempt.h = h = run->reach;
-    step->t = run->t, step->h = h, step->dense_ready = 0;
-    forget_stages(step);
-    taylor_at(run, h, step->y);
-    step->error = run->fixed > 0.0 ? 0.0 : h / run->reach; /* its root: accepted where it is one at most */
-    run->stability = 0.0;
-    return finish_step(run, step, p);
+    const int ended = taylor_step(run, h, p, step);
+    run->attempt.h = step->h;
+    return ended;
+}
+
+/* The series of a step that was tried in a lane: all that is wanted of it is an end, until somebody looks inside. */
+static void taylor_fetch(Run *run)
+{
+    const double *from = run->series_lane;
+    if (run->series_ready != ELSEWHERE)
+        return;
+    for (int k = 0; k <= run->order; k++)
+        for (int i = 0; i < N_Y; i++)
+            run->series[k][i] = from[(k * TAYLOR_Y + i) * run->series_lanes];
+    run->series_ready = HERE;
 }
 
 /* The series in shares of the step: who looks for bounds reads it. */
@@ -86,6 +62,7 @@ static int taylor_dense(Run *run, const Parameters *p, Step *step)
 {
     double power = step->h;
     (void)p;
+    taylor_fetch(run);
     for (int k = 1; k <= TAYLOR_ORDERS; k++, power *= step->h)
         for (int i = 0; i < N_Y; i++)
             step->dense[k - 1][i] = k <= run->order ? run->series[k][i] * power : 0.0;

@@ -44,7 +44,7 @@ enum {
     N_DENSE = 7,
 #endif
     N_STAGES = 16, N_LOOKS = 16,
-    HERE = 1, ELSEWHERE = 2 /* where the equations of a step are linearized: in the run, in a lane; 0: not yet */
+    HERE = 1, ELSEWHERE = 2 /* where a step's equations are linearized, its series made: in the run, in a lane; 0: no */
 };
 
 typedef struct Method Method; /* methods.c */
@@ -149,7 +149,9 @@ typedef struct {
     Linear linear;
     Attempt attempt;
 #if TAYLOR
-    int order, series_ready;                      /* of the series at the state; whether it is made */
+    int order, series_ready;                      /* of the series at the state; where it is made, as linear_ready */
+    const double *series_lane;                    /* ELSEWHERE: its terms, of which each is so many numbers further */
+    int series_lanes;
     double reach, series[TAYLOR_ORDERS + 1][TAYLOR_Y]; /* the longest step that it is good for, s; its terms */
 #endif
     Step step;

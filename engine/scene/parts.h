@@ -68,3 +68,20 @@ static inline PARTS_OF PARTS_NAMED(exp_of_parts)(PARTS_OF x, PARTS_OF rest)
         + square * square * (1.0 / 24.0 + r * (1.0 / 120.0));
     return power + power * less;
 }
+
+/* log2 x of a positive number and 2^x to 1e-4, for what decides how long a step is. */
+static inline PARTS_OF PARTS_NAMED(rough_log2)(PARTS_OF x)
+{
+    const PARTS_BITS own = PARTS_NAMED(bits_of)(x), bits = own - 0x3fe6a09e00000000u; /* z from 1/sqrt 2 to sqrt 2 */
+    const PARTS_OF z = PARTS_NAMED(of_bits)(own - (bits & 0xfff0000000000000u)), s = (z - 1.0) / (z + 1.0);
+    return PARTS_POWER(bits) + s * (2.8853900817779268 + s * s * 0.9617966939259756);
+}
+
+static inline PARTS_OF PARTS_NAMED(rough_exp2)(PARTS_OF x)
+{
+    const double shift = 6755399441055744.0;
+    const PARTS_OF shifted = x + shift, r = x - (shifted - shift);
+    const PARTS_OF part = 1.0 + r * (0.6931471805599453 + r * (0.2402265069591007 + r * (0.0555041086648216
+        + r * 0.0096181291076285)));
+    return PARTS_NAMED(of_bits)(PARTS_NAMED(bits_of)(part) + (PARTS_NAMED(bits_of)(shifted) << 52));
+}

@@ -37,7 +37,6 @@ from gudgeon.generator.ir.series_rules import (
     at,
 )
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, ZERO
-from gudgeon.generator.ir.sine_pairs import side_by_side
 from gudgeon.generator.ir.statements import Call, Guard, Jump, Line, Rescue, Return, Statement, Status
 from gudgeon.generator.ir.values import Place
 
@@ -55,7 +54,10 @@ _DOC_TERMS = (
 
 @dataclass(frozen=True)
 class Series:
-    """Both functions, what `values` keeps for `terms`, and the sums that stand in front of each order."""
+    """Both functions, what `values` keeps for `terms`, and the sums that stand in front of each order.
+
+    Sines of `values` are not put side by side yet.
+    """
 
     values: Kernel
     terms: Kernel
@@ -221,9 +223,7 @@ class _Series(Rules):
         of_values, of_terms = _arguments()
         of_zero = Kernel(f"{name}_values", _DOC_VALUES, of_values, _sections([*values, ("", Return())]), "int")
         later = _sections(late_last(terms, self.unique))
-        return Series(
-            side_by_side(of_zero), Kernel(f"{name}_terms", _DOC_TERMS, of_terms, later), kept, tuple(products)
-        )
+        return Series(of_zero, Kernel(f"{name}_terms", _DOC_TERMS, of_terms, later), kept, tuple(products))
 
 
 def _arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]]:

@@ -20,6 +20,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon.contract.methods import SMOOTH
 from gudgeon.loading.compiler import is_there
 from gudgeon.model.arrays import address
 from gudgeon.model.compiled import Array, CompiledModel
@@ -195,6 +196,7 @@ def _fetch(runs: Runs, i: int, memory: NDArray[np.uint8], tape: Tape | None = No
 
 
 def wanted(compiled: CompiledModel, method: str, steps: Array) -> bool:
-    """Whether a batch has runs that may go side by side."""
+    """Whether a batch has runs that may go side by side: what has Taylor's method has lanes for no other."""
     together = bool((steps[1:] == steps[:-1]).any()) if method == "rk4" else len(steps) >= FEW
-    return together and bool(compiled.source.lanes) and is_there()
+    fits = bool(compiled.source.lanes) and (method in SMOOTH) == bool(compiled.source.taylor)
+    return together and fits and is_there()

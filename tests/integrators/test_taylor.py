@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import mpmath
 import numpy as np
@@ -18,9 +19,14 @@ from gudgeon.generator.ir.series import series_of
 from gudgeon.generator.ir.series_rules import Gathered, NoSeries
 from gudgeon.generator.ir.statements import Line, Statement
 from gudgeon.generator.ir.values import Place
+from gudgeon.integrators import lanes
+from gudgeon.results.batch import Batch
 from gudgeon.simulation.simulation import Simulation
+from tests.integrators.test_flow import COUNT, Seen, both
 from tests.integrators.test_methods import digits, observed_order, scene_of
+from tests.integrators.test_side_by_side import assert_same_batches
 from tests.programs import needs_compiler
+from tests.simulation.test_many import assert_same
 
 HERE = Path(__file__).parent.parent
 T, X, Y, W = (sp.Symbol(name, real=True) for name in ("time", "x", "y", "w"))
@@ -155,22 +161,56 @@ def test_where_links_stand_in_one_line_another_method_takes_the_step() -> None:
 
 
 @needs_compiler
-def test_events_on_the_way(tmp_path: Path) -> None:
-    """A pendulum passes its lowest point: many crossings in few steps, each where its period says."""
+def test_events_on_the_way(at_once: Seen, tmp_path: Path) -> None:
+    """A pendulum passes its lowest point: many crossings in few steps, each where its period says; in lanes too."""
     text = (HERE.parent / "mechanisms/pendulum.yaml").read_text(encoding="utf-8")
     file = tmp_path / "watched.yaml"
     file.write_text(text + "\nevents:\n  lowest: {zero: bob.x}\n", encoding="utf-8")
-    run = gudgeon.load(file, scene="two_seconds").simulate(20.0, output=1, method="taylor", rtol=1e-12)
+    pendulum = gudgeon.load(file, scene="two_seconds")
+    run = pendulum.simulate(20.0, output=1, method="taylor", rtol=1e-12)
     assert run.events["t"] == pytest.approx(np.arange(0.5, 20.0, 1.0), abs=1e-10)
+    lengths = np.linspace(0.5, 1.5, COUNT)
+    batch = assert_same_in_lanes(pendulum, {"length": lengths}, 5.0, at_once, rtol=1e-12)
+    for length, events in zip(lengths, batch.events, strict=True):
+        assert events["t"] == pytest.approx(np.sqrt(length) * np.arange(0.5, 5.0 / np.sqrt(length), 1.0), abs=1e-10)
+
+
+@pytest.fixture
+def at_once(monkeypatch: pytest.MonkeyPatch) -> Seen:
+    """Runs go side by side however short their batch is; those that do."""
+    monkeypatch.setattr(lanes, "WORTH", 0.0)
+    return Seen(monkeypatch)
+
+
+def assert_same_in_lanes(simulation: Simulation, sets: Any, t_end: Any, seen: Seen, **options: Any) -> Batch:
+    """A batch whose runs went side by side, bit by bit what they are one after the other, its counts too."""
+    batch, singly = both(simulation, sets, t_end, method="taylor", **options)
+    assert_same_batches(batch, singly)
+    for name in ("steps", "right_hand_sides", "rejected"):
+        assert (batch.diagnostics[name] == singly.diagnostics[name]).all(), name
+    assert set(seen.taken) == set(range(COUNT)) and not batch.failures
+    assert len({q.tobytes() for q in batch.q}) == COUNT
+    return batch
 
 
 @needs_compiler
-def test_many_runs_are_the_same_as_single_ones() -> None:
-    masses = np.linspace(0.8, 1.2, 5)
-    batch = swing().simulate_many({"bodies.L1.mass": masses}, 1.0, output=3, method="taylor", rtol=1e-10)
-    for k, mass in enumerate(masses):
-        one = swing().simulate(1.0, output=3, method="taylor", rtol=1e-10, parameters={"bodies.L1.mass": mass})
-        assert (batch.q[k] == one.q).all() and (batch.v[k] == one.v).all()
+def test_many_runs_are_the_same_as_single_ones(at_once: Seen) -> None:
+    """Of several lengths: lanes take the next run where one is over."""
+    masses, ends = np.linspace(0.8, 1.2, COUNT), np.linspace(0.3, 1.5, COUNT)[::-1]
+    batch = assert_same_in_lanes(swing(), {"bodies.L1.mass": masses}, ends, at_once, rtol=1e-10)
+    for k in (3, 11):
+        one = swing().simulate(ends[k], output=7, method="taylor", rtol=1e-10, parameters={"bodies.L1.mass": masses[k]})
+        assert_same(batch[k], one)
+    steps = np.linspace(0.02, 0.05, COUNT)
+    assert_same_in_lanes(swing(), {"bodies.L1.mass": masses}, 0.5, at_once, step=steps)
+
+
+@pytest.mark.slow
+@needs_compiler
+def test_loops_and_singular_positions_in_lanes(at_once: Seen) -> None:
+    """Where a pivot vanishes in a lane, its own run takes the step, by another method."""
+    bars, gravity = scene_of("n_four_bar"), np.linspace(-12.0, -3.0, COUNT)
+    assert_same_in_lanes(bars, {"gravity.y": gravity}, 1.0, at_once, rtol=1e-8)
 
 
 @pytest.mark.parametrize(

@@ -19,6 +19,7 @@ from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.loading.engine import declarations, include_flags, sizes
 from gudgeon.loading.shipped import generated, shipped_file
 
+METHODS = Path(__file__).parents[1] / "mechanisms" / "methods"
 FLAGS = ["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror", *include_flags()]
 HELD = ["-DHELD=0", "-DHELD=1"]  # runs side by side: of rk4, of methods that choose their step
 WIDTHS = ([], ["-mavx2"], ["-mavx512f"]) if platform.machine() in ("x86_64", "AMD64") else ([],)  # 2, 4, 8 lanes
@@ -166,6 +167,15 @@ def test_no_warning_under_any_option(option: str, tmp_path: Path) -> None:
     compile_c(COMPILERS[0], main, [*FLAGS, "-c", "-o", "scene.o"])
     for held in HELD:
         compile_c(COMPILERS[0], tmp_path / source.lanes, [*FLAGS, held, "-c", "-o", "lanes.o"])
+
+
+def test_no_warning_where_there_is_taylors_method(tmp_path: Path) -> None:
+    """Which shipped scenes have only when it is asked for."""
+    file = METHODS / "swing.yaml"
+    source = generate(file.read_bytes(), file.name, "ideal", None, "taylor")
+    compile_c(COMPILERS[0], write(source, tmp_path), [*FLAGS, "-c", "-o", "scene.o"])
+    for width in WIDTHS:
+        compile_c(COMPILERS[0], tmp_path / source.lanes, [*FLAGS, HELD[1], *width, "-c", "-o", "lanes.o"])
 
 
 @pytest.mark.parametrize(("name", "scene"), MOST)

@@ -34,7 +34,7 @@ Texts = dict[str, Callable[[], str]]  # by file, printed when they are asked for
 
 
 def emit(program: Program, begun: Begun | None = None, series: Series | None = None) -> KernelSource:
-    """The whole scene as C text with its description; with a `series` there is Taylor's method, and no lanes.
+    """The whole scene as C text with its description; with a `series` there is Taylor's method.
 
     `begun` is told the engine, then each part of MAIN, with the files so far, as soon as these are all that it reads.
     """
@@ -54,11 +54,11 @@ def emit(program: Program, begun: Begun | None = None, series: Series | None = N
             begun(number, files)
     if tables := curves_code(model.scene.mechanism.curves, files.values()):
         files |= {MAIN: _main(parts, [CURVES, *shared]), CURVES: tables}
-    if program.has_lanes and not series:
-        files |= {name: within(text) for name, text in lanes_code.lanes_code(program, render).items()}
+    if program.has_lanes:
+        files |= {name: within(text) for name, text in lanes_code.lanes_code(program, render, series).items()}
     files[readme.NAME] = readme.readme(program, files)
     told = described(program, files, () if CURVES in files else tuple(parts))
-    return replace(told, taylor=taylor.FILE, lanes="") if series else told
+    return replace(told, taylor=taylor.FILE) if series else told
 
 
 def described(program: Program, files: Mapping[str, str], units: tuple[int, ...] = ()) -> KernelSource:

@@ -14,6 +14,7 @@ import sympy as sp
 from gudgeon.generator.ir.branches import Branch
 from gudgeon.generator.ir.kernels import Argument, Kernel, Section
 from gudgeon.generator.ir.readable import lines, readable
+from gudgeon.generator.ir.series_rules import WIDE, Gathered
 from gudgeon.generator.ir.sine_pairs import lane_by_lane
 from gudgeon.generator.ir.statements import (
     Call,
@@ -39,7 +40,7 @@ _TYPES = {
     "double": "Lanes", "const double": "const Lanes", "double *": "Lanes *", "const double *": "const Lanes *",
     "const Parameters *": "const LaneParameters *", "const Memory *": "const LaneMemory *", "Aside *": "LaneAside *",
     "const Aside *": "const LaneAside *", "const Latch *": "const LaneLatch *", "Linear *": "LaneLinear *",
-    "const Linear *": "const LaneLinear *", "PinSlopes *": "LaneSlopes *",
+    "const Linear *": "const LaneLinear *", "PinSlopes *": "LaneSlopes *", "Wide *": "Lanes *",
 }  # fmt: skip
 _RARE = Argument("LaneBits *", "rare")
 # Lines of single runs that have no counterpart: what becomes of a vanished pivot.
@@ -160,6 +161,9 @@ class LaneLines(functions.Lines):
                 largest = [f"{name} = lanes_max_of({old}, lanes_fabs({self.expression(x)}));"
                            for old, x in zip(before, item.values, strict=False)]
                 return largest or [f"{name} = all_of(0.0);"]
+            case Gathered():
+                array, row = item.target.removesuffix("]").split("[")
+                return [f"{array}[{WIDE * int(row) + i}] = {self.expression(x)};" for i, x in enumerate(item.values)]
             case Sines():
                 return super()._lines(item)
         raise ValueError(f"a line of a kernel that has no counterpart for vectors: {item}")

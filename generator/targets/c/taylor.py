@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from gudgeon.generator.ir.series import Series
 from gudgeon.generator.ir.series_rules import WIDE
-from gudgeon.generator.targets.c import functions
+from gudgeon.generator.ir.sine_pairs import side_by_side
+from gudgeon.generator.targets.c import functions, lanes_printer
 
 FILE = "taylor.c"
 _HEAD = f"""\
@@ -19,12 +20,22 @@ typedef double Wide __attribute__((vector_size({8 * WIDE})));
 
 def taylor_code(series: Series) -> str:
     """The whole file."""
+    kernels = (functions.kernel(side_by_side(series.values)), functions.kernel(series.terms))
+    return "\n".join([_HEAD, _structs(series, "double"), *kernels])
+
+
+def lanes_code(series: Series) -> str:
+    """The same for several runs side by side."""
+    kernels = (lanes_printer.motion_kernel(series.values), lanes_printer.kernel(series.terms))
+    return "\n".join([_structs(series, "Lanes"), *kernels])
+
+
+def _structs(series: Series, number: str) -> str:
     products = [product.name for product in series.products]
-    sizes = _struct("Factors of products, or their sums over lower orders.", "TaylorFactors", products)
-    values = _struct("Coefficients of order 0.", "TaylorValues", series.kept)
-    return "\n".join([_HEAD, values, sizes, functions.kernel(series.values), functions.kernel(series.terms)])
+    factors = _struct("Factors of products, or their sums over lower orders.", "TaylorFactors", products, number)
+    return "\n".join([_struct("Coefficients of order 0.", "TaylorValues", series.kept, number), factors])
 
 
-def _struct(meaning: str, name: str, fields: Sequence[str]) -> str:
-    lines = [f"/* {meaning} */", "typedef struct {", *(f"    double {field};" for field in fields or ["none"])]
+def _struct(meaning: str, name: str, fields: Sequence[str], number: str) -> str:
+    lines = [f"/* {meaning} */", "typedef struct {", *(f"    {number} {field};" for field in fields or ["none"])]
     return "\n".join([*lines, f"}} {name};", ""])

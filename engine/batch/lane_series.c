@@ -1,0 +1,23 @@
+/*
+ * A step by the motion's own series, tried for several runs (methods/taylor.c).
+ */
+#define SeriesRow Lanes
+#define SeriesPart Lanes
+#include "../both/series.h"
+#include "../both/taylor.h"
+
+/* As taylor_try: links in one line are left to the single runs. */
+static int method_try(LaneRun *run, int stiff, Lanes h, const LaneParameters *p, LaneStep *step)
+{
+    SeriesRow(*const factors)[TAYLOR_ORDERS][SERIES_ROWS] = series_factors();
+    TaylorValues at;
+    Lanes(*const c)[TAYLOR_Y] = run->series;
+    (void)stiff;
+    for (int i = 0; i < N_Y; i++)
+        c[0][i] = run->y[i];
+    taylor_values(run->t, run->y, run->y + N_X, p, &at, c[1] + N_X, c[1] + 2 * N_X, &run->memory.rare);
+    series_orders(p, &at, run->order, c, factors[0], factors[1]);
+    run->memory.rare |= not_finite(c[run->order], NULL, N_Y);
+    run->reach = taylor_reach(run);
+    return taylor_step(run, h, p, step);
+}
