@@ -21,6 +21,7 @@ pytest.importorskip("matplotlib")
 import gudgeon  # noqa: E402
 from gudgeon.cli import app  # noqa: E402
 from gudgeon.errors import GudgeonError  # noqa: E402
+from gudgeon.studies.ensemble.claimed import Claimed  # noqa: E402
 from gudgeon.studies.show import pictures  # noqa: E402
 from gudgeon.studies.show.claims import claims_sections  # noqa: E402
 from gudgeon.studies.show.pictures import Pictures  # noqa: E402
@@ -68,7 +69,7 @@ def test_a_page_has_the_studys_numbers(folder: Path, page: str) -> None:
     assert study.failed == 10 and "30 runs (k 2 × bodies.load.mass 3 × start 5), 10 failed" in page
     assert page == gudgeon.load_study(folder).report().to_html()  # the same bytes, without a date
     q1, middle, q3 = np.quantile(study.dataset["fast"].values[1, 0], (0.25, 0.5, 0.75))
-    assert f"<td>{middle:.5g} ({q1:.4g} … {q3:.4g})</td>" in page
+    assert f"<td>{middle:.4g} ({q1:.4g} … {q3:.4g})</td>" in page
     assert "<td>10</td>" in page and "k = 100 kg/s²" in page  # of what, and the first of them
     assert f"gudgeon {gudgeon.__version__}" in page
 
@@ -108,7 +109,7 @@ def test_claims_and_parts_are_shown_where_there_are_any(folder: Path) -> None:
                        "high": high, "chance": 0.5, "agreed": False}
               for name, alone, odds, high in (("near", "holds", 0.9, 0.9), ("far", "fails", 0.2, 0.3))]  # fmt: skip
     tables = pandas.DataFrame([row, far, lone]), pandas.DataFrame(judged)
-    claims = SimpleNamespace(numbers=tables[0], trends=tables[1], source="a paper & more")
+    claims = Claimed(*tables, "a paper & more")
     whole: Any = SimpleNamespace(claims=claims, parts={"one": study, "two": study})
     parts = {name: StudyData(study) for name in whole.parts}
     (heading, inside), (trends, judgement), (ours, alone) = claims_sections(whole, parts, Pictures())

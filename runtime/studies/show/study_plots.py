@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 
 QUARTILES = (0.0, 0.25, 0.5, 0.75, 1.0)
 SMALL = 80  # cells of a map beside which numbers can be read
+BESIDE = 0.5  # share of the room of a word in which its dots stand side by side
+AXIS, LINE = 60, 22  # letters that fit side by side under a figure; letters of a line there
 
 
 class StudyPlot:
@@ -45,7 +47,7 @@ class StudyPlot:
     ) -> Axes:  # fmt: skip
         """A measure over what was varied (the first number), a line for each value of `by` (scenes).
 
-        Lines are medians of all other runs, bands their quartiles and extremes. published: marks of what others found,
+        Lines are medians of all other runs, bands their quartiles and extremes; over words dots and bars. published: marks of what others found,
         {coordinate: value, SI}; True: the numbers that the study's file claims of these runs, in the lines' colours.
         """
         found = self.data.measure(name, at)
@@ -62,12 +64,16 @@ class StudyPlot:
             x, x_label, ticks = self.data.axis(axis)
             most = [peak_of(found.values), *(abs(value) for _, value, _ in claimed)]
             factor, unit = drawn(max(most), found.attrs.get("units", ""))
-            for (told, own), colour in zip(parts := self.data.split(found, by), cycle(len(parts)), strict=True):
-                _band(ax, x, quantiles(self.data.rows(own, over)) * factor, colour, told)
+            parts, course = self.data.split(found, by), self.data.is_course(axis)
+            for k, ((told, own), colour) in enumerate(zip(parts, cycle(len(parts)), strict=True)):
+                five = quantiles(self.data.rows(own, over)) * factor
+                if course:
+                    _band(ax, x, five, colour, told)
+                else:
+                    _bars(ax, x + BESIDE * (k - 0.5 * (len(parts) - 1)) / len(parts), five, colour, told)
             _marks(ax, claimed, factor, cycle(len(parts)))
             ax.set(xlabel=x_label, ylabel=label(self.data.shown(name), unit))
-            if ticks is not None:
-                ax.set_xticks(x, ticks)
+            _ticks(ax, x, ticks)
             self._finish(ax, at, len(parts) > 1 or bool(claimed))
         return ax
 
@@ -200,8 +206,7 @@ class StudyPlot:
             factor, unit = drawn(peak_of(ys), self.data.unit(series))
             ax.plot(xs, ys * factor, ".", color=COLOURS[1], ms=2.0)
             ax.set(xlabel=x_label, ylabel=label(self.data.shown(series), unit))
-            if ticks is not None:
-                ax.set_xticks(x, ticks)
+            _ticks(ax, x, ticks)
             self._finish(ax, at, False)
         return ax
 
@@ -216,11 +221,10 @@ class StudyPlot:
             ax = new_axes(5.8, 4.2) if ax is None else plain(ax)
             factor, unit = drawn(peak_of(middle), found.attrs.get("units", ""))
             image = ax.imshow(middle * factor, origin="lower", aspect="auto", cmap="viridis")
-            for which, name_of in ((ax.xaxis, x), (ax.yaxis, y)):
-                words, told = self.data.labels(found, name_of)
-                which.set_ticks(range(len(words)), words)
-                which.set_label_text(told)
-            ax.tick_params(axis="x", rotation=45 if middle.shape[1] > 6 else 0)
+            (words, x_label), (others, y_label) = (self.data.labels(found, name_of) for name_of in (x, y))
+            _ticks(ax, np.arange(len(words)), words)
+            ax.set_yticks(range(len(others)), [in_figure(word, LINE) for word in others])
+            ax.set(xlabel=x_label, ylabel=y_label)
             ax.grid(False)
             ax.figure.colorbar(image, ax=ax, label=label(self.data.shown(name), unit))
             if middle.size <= SMALL:
@@ -252,6 +256,27 @@ def _band(ax: Axes, x: Any, five: Any, colour: str, told: str, size: float = 4.0
     ax.plot(x[order], middle[order], "-o" if size else "-", ms=size, color=colour, lw=1.1, label=told)
 
 
+def _bars(ax: Axes, x: Any, five: Any, colour: str, told: str) -> None:
+    """The same where no line goes from one to the next: the median a dot, bars of quartiles and of extremes."""
+    low, q1, middle, q3, high = five
+    ax.vlines(x, low, high, color=colour, alpha=0.35, lw=1.2)
+    ax.vlines(x, q1, q3, color=colour, alpha=0.6, lw=3.5)
+    ax.plot(x, middle, "o", ms=5.0, color=colour, label=told)
+    ax.margins(x=0.5 / max(len(x), 1))
+
+
+def _ticks(ax: Axes, x: Any, ticks: list[str] | None) -> None:
+    """Words at an axis, long ones on lines, aslant where they would not fit."""
+    if ticks is None:
+        return
+    lines = [in_figure(word, LINE) for word in ticks]
+    ax.set_xticks(x, lines)
+    if sum(max(map(len, word.split("\n")), default=0) + 2 for word in lines) > AXIS:
+        ax.tick_params(axis="x", rotation=30.0, labelsize=7)
+        for word in ax.get_xticklabels():
+            word.set(ha="right", rotation_mode="anchor")
+
+
 def _marks(ax: Axes, claimed: list[tuple[float, float, int]], factor: float, colours: list[str]) -> None:
     """What others found: place, value and line of each; −1: of no line."""
     for k, (place, value, line) in enumerate(claimed):
@@ -266,7 +291,7 @@ def _numbers(ax: Axes, values: Any, image: Any) -> None:
         if np.isfinite(value):
             bright = np.dot(image.cmap(image.norm(value))[:3], (0.299, 0.587, 0.114)) > 0.55
             colour = "#111111" if bright else "white"
-            ax.text(column, row, f"{value:.3g}", ha="center", va="center", fontsize=7.5, color=colour)
+            ax.text(column, row, f"{value:.3g}" if abs(value) < 1000.0 else f"{value:.0f}", ha="center", va="center", fontsize=7.5, color=colour)
 
 
 def _said(value: Any) -> str:
