@@ -134,6 +134,33 @@ def test_claims_and_parts_are_shown_where_there_are_any(folder: Path) -> None:
     assert claims_sections(nothing, parts, Pictures()) == [] == claims_sections(study, parts, Pictures())
 
 
+def test_claims_stand_under_headings_and_where_the_source_has_them(folder: Path) -> None:
+    """What is drawn without a number is in its place; a heading takes its own; nothing stands in an empty column."""
+    study = gudgeon.load_study(folder)
+    row = {"claim": "N1", "figure": "Fig 3", "says": "", "part": "", "at": "one place", "measure": "far", "unit": "rad",
+           "printed": 0.5, "ensemble": "near", "n": 5, "q25": 0.1, "median": 0.2, "q75": 0.3, "deviation": -60.0,
+           "note": "", "heading": ""}  # fmt: skip
+    other = row | {"ensemble": "wide", "deviation": -60.04}
+    drawn_only = row | {"claim": "D1", "printed": np.nan, "deviation": np.nan, "ensemble": "", "n": 1}
+    ours = drawn_only | {"claim": "U1", "figure": "", "says": "not so", "note": "why", "heading": "Not <printed>"}
+    trend = {"claim": "X1", "figure": "", "says": "it holds", "note": "", "heading": "Not <printed>", "ensemble": "",
+             "verdict": "holds", "alone": "holds", "probability": 1.0, "low": 1.0, "high": 1.0, "chance": 1.0,
+             "agreed": True}  # fmt: skip
+    claims = Claimed(pandas.DataFrame([row, other, drawn_only, ours]), pandas.DataFrame([trend]), "")
+    whole: Any = SimpleNamespace(claims=claims, parts={"": study})
+    pictures = Pictures()
+    (heading, inside), (own, below) = claims_sections(whole, {"": StudyData(study)}, pictures)
+    assert (heading, own) == ("Published numbers", "Not <printed>")
+    assert inside.index("<td>N1</td>") < inside.index("<td>D1</td>") and "<td>28.65°</td>" in inside
+    assert "<td>−60.0 %</td>" in inside and ">note</th>" not in inside  # both round to it
+    assert "<td>not so</td>" in below and "<td>why</td>" in below and "<td>it holds</td>" in below
+    ((_, draw),) = pictures.wanted
+    ax: Any = draw()
+    assert [word.get_text() for word in ax.get_xticklabels()] == ["N1\none place", "D1\none place"]
+    labels = [word.get_text() for word in ax.get_legend().get_texts()]
+    assert sorted(labels) == ["near", "ours, one run", "printed", "wide"]
+
+
 def test_processes_draw_what_this_one_would(monkeypatch: pytest.MonkeyPatch) -> None:
     """The same bytes; and where a figure cannot be drawn, that is told in its place."""
     from gudgeon.results.run_plots import new_axes

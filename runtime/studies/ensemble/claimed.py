@@ -16,6 +16,7 @@ from gudgeon.files.writing import read_regular, written
 from gudgeon.language.plot_units import quantity
 from gudgeon.results.batch import Array
 from gudgeon.studies.ensemble.judge import Cell, judged, together
+from gudgeon.studies.words import counted
 
 if TYPE_CHECKING:
     import pandas
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 FILE, TABLES = "claims.json", ("numbers", "trends")
 NOT_COMPUTED = "not computed"
 ODDS = ("probability", "low", "high", "chance")
-SHORT = {"holds": "hold", "fails": "fail"}  # of several
+VERDICTS = {"holds": "hold", "fails": "fail", "undecided": "undecided", NOT_COMPUTED: NOT_COMPUTED}  # of several: so
 UNNAMED = ""  # the ensemble of runs that are in none
 
 
@@ -50,17 +51,19 @@ class Claimed(NamedTuple):
         """In a line each: how many trends hold, those under a heading apart, and how far printed numbers are off."""
         told = []
         each = self.trends.drop_duplicates("claim") if len(self.trends) else self.trends
-        headings = each["heading"] if "heading" in each else [UNNAMED] * len(each)
+        headings = list(each["heading"]) if "heading" in each else [UNNAMED] * len(each)
         for heading in dict.fromkeys(headings):
-            own = each[[one == heading for one in headings]]
-            counts = Counter(own["verdict"]).most_common()
-            whole = f"{len(own)} trend{'s' * (len(own) != 1)}{f' of “{heading}”' if heading else ''}"
-            told.append(f"{whole}: {', '.join(f'{count} {one if count == 1 else SHORT.get(one, one)}' for one, count in counts)}")
+            counts = Counter(each["verdict"][[one == heading for one in headings]])
+            found = ((counts[one], one, many) for one, many in VERDICTS.items() if counts[one])
+            words = (f"{count} {many if count > 1 else one}" for count, one, many in found)
+            of = f" of “{heading}”" if heading else ""
+            told.append(f"{counted(counts.total(), 'trend')}{of}: {', '.join(words)}")
         printed = self.numbers[self.numbers["printed"].notna()] if len(self.numbers) else self.numbers
         if len(printed):
             off = printed["deviation"].abs().groupby(printed["claim"]).median()
-            words = f"{off.median():.0f}" if off.median() >= 100.0 else f"{off.median():.3g}"
-            told.append(f"{len(off)} printed numbers: half of our medians are within {words} % of them")
+            share = f"{off.median():.0f} %" if off.median() >= 100.0 else f"{off.median():.3g} %"
+            shown = f"ours are off by {share} or less for half of them" if len(off) > 1 else f"ours is off by {share}"
+            told.append(f"{counted(len(off), 'printed number')}: {shown}")
         return told
 
 

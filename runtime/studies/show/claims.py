@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 
 Row = Mapping[str, Any]  # of a table of claims: a claim and an ensemble
 LARGE = 30.0  # times the least, from which on an axis of values is logarithmic
-SHORT = 22  # characters of where a number was taken, that stand under it
+SHORT, MOST_LINES = 22, 4  # characters of a line of where a number was taken, and lines, that stand under it
+NOTE = "note"
 NUMBERS, TRENDS, ALONE = "Published numbers", "Published trends", "Ours alone"  # headings of what says none
 
 
@@ -80,6 +81,11 @@ class _Told:
             return str(row["at"])
         return self.parts[str(row["part"])].where(json.loads(str(row["place"])))
 
+    def scene(self, row: Row) -> str:
+        """The scene of a number's part where it has but one, else nothing."""
+        found = self.parts[str(row["part"])].dataset.coords.get("scene") if str(row["part"]) in self.parts else None
+        return self.shown(found.item()) if found is not None and not found.ndim else ""
+
     def what(self, row: Row) -> str:
         """A number in words: its own, or measure, part and place."""
         part = [self.shown(row["part"])] * bool(row["part"])
@@ -105,7 +111,7 @@ def _numbers(claims: list[list[Row]], told: _Told) -> str:
     head = ["", "figure", "what", "printed", *ours, "off by", "note"]
     below = ["ours: median (quartiles); off by: of the medians from what is printed"]
     every = (_number(rows, names, told, *_unit(_alike(claims, rows))) for rows in claims)
-    return table(head, every, True) + lines(below * bool(claims), "g-quiet")
+    return _filled(head, every) + lines(below * bool(claims), "g-quiet")
 
 
 def _alike(claims: list[list[Row]], one: list[Row]) -> list[list[Row]]:
@@ -120,7 +126,7 @@ def _unit(claims: list[list[Row]]) -> tuple[float, str]:
 
 def _number(rows: list[Row], names: list[str], words: _Told, factor: float, unit: str) -> list[str]:
     first, own = rows[0], {str(row["ensemble"]): row for row in rows}
-    printed = "–" if _none(first["printed"]) else f"{first['printed'] * factor:.4g}\u00a0{unit}".strip()
+    printed = "–" if _none(first["printed"]) else _with(first["printed"] * factor, unit)
     cells = [_median(own.get(name) or (rows[0] if len(rows) == 1 and k == 0 else None), factor, unit)
              for k, name in enumerate(names)]  # fmt: skip
     off = sorted(row["deviation"] for row in rows if not _none(row["deviation"]))
@@ -139,10 +145,12 @@ def _alone(claims: list[list[Row]], words: _Told) -> str:
         factor, unit = units[str(first["measure"])]
         off = "" if _none(first["deviation"]) else f", {first['deviation']:+.1f} %".replace("-", "−")
         what = str(first["says"]) or words.at(first), words.shown(first["part"])
-        each.setdefault(what, {})[str(first["measure"])] = _median(first, factor, unit) + off
+        own = each.setdefault(what, {})
+        own[str(first["measure"])] = _median(first, factor, unit) + off
+        own[NOTE] = "; ".join(filter(None, (own.get(NOTE), str(first.get("note") or ""))))
     told = ["median (quartiles), and how far it is off from the row that it stands beside"]
-    cells = ([*what, *(own.get(name, "") for name in measures)] for what, own in each.items())
-    return table(["what", "part", *map(words.shown, measures)], cells, True) + lines(told * bool(claims), "g-quiet")
+    cells = ([*what, *(own.get(name, "") for name in (*measures, NOTE))] for what, own in each.items())
+    return _filled(["what", "part", *map(words.shown, measures), NOTE], cells) + lines(told * bool(claims), "g-quiet")
 
 
 def _median(row: Row | None, factor: float, unit: str) -> str:
@@ -150,8 +158,20 @@ def _median(row: Row | None, factor: float, unit: str) -> str:
         return ""
     if _none(row["median"]):
         return "–"
-    middle = f"{row['median'] * factor:.4g}\u00a0{unit}".strip()
+    middle = _with(row["median"] * factor, unit)
     return middle if row["n"] == 1 else f"{middle} ({row['q25'] * factor:.4g} … {row['q75'] * factor:.4g})"
+
+
+def _with(value: float, unit: str) -> str:
+    """With its unit on the same line, a degree at its number."""
+    return f"{value:.4g}{'' if unit == '°' else chr(160)}{unit}".strip()
+
+
+def _filled(head: list[str], rows: Iterable[list[str]]) -> str:
+    """A table without the columns in which nothing stands."""
+    every = list(rows)
+    kept = [k for k, name in enumerate(head) if not name or any(row[k] for row in every)]
+    return table([head[k] for k in kept], ([row[k] for k in kept] for row in every), True)
 
 
 def _trends(claims: list[list[Row]], words: _Told) -> str:
@@ -160,7 +180,7 @@ def _trends(claims: list[list[Row]], words: _Told) -> str:
     told = ["probability: that the next run shows it, the least of all that the trend says, with the interval in which"
             " it is known (5 % beyond each end), ensemble by ensemble; holds: all of the interval of all runs lies at"
             " 0.8 or above, fails: at 1/3 or below, undecided: neither"]  # fmt: skip
-    return table(head, (_trend(rows, words) for rows in claims), True) + lines(told * bool(claims), "g-quiet")
+    return _filled(head, (_trend(rows, words) for rows in claims)) + lines(told * bool(claims), "g-quiet")
 
 
 def _trend(rows: list[Row], words: _Told) -> list[str]:
@@ -211,18 +231,21 @@ def _drawn(claims: list[list[Row]], words: _Told) -> Axes:
     names = _ensembles(claims) or [""]
     with matplotlib.rc_context(STYLE):
         ax = new_axes(5.6, 3.2)
-        for j, name in enumerate(names):
+        for j, name in enumerate([*names, *[""] * (names != [""])]):  # and what is in no ensemble
             own = [(k, row) for k, rows in enumerate(claims) for row in rows
-                   if row["ensemble"] in (name, "") and not _none(row["median"])]  # fmt: skip
-            at = [k + 0.16 * (j - 0.5 * (len(names) - 1)) for k, _ in own]
+                   if row["ensemble"] == name and not _none(row["median"])]  # fmt: skip
+            if not own:
+                continue
+            at = [k + 0.16 * (j - 0.5 * (len(names) - 1)) * bool(name) for k, _ in own]
             middle, low, high = (np.array([row[part] for _, row in own]) * factor for part in ("median", "q25", "q75"))
             reach = middle - low, high - middle
             ax.errorbar(at, middle, reach, fmt="o", color=COLOURS[j % len(COLOURS)], ms=3.5, capsize=2.0, lw=1.0,
-                        label=words.shown(name) if name else "ours")  # fmt: skip
+                        label=words.shown(name) if name else "ours" if names == [""] else "ours, one run")  # fmt: skip
         printed = [rows[0]["printed"] * factor for rows in claims if not _none(rows[0]["printed"])]
         places = [k for k, rows in enumerate(claims) if not _none(rows[0]["printed"])]
         ax.plot(places, printed, "k_", ms=16, mew=1.6, label="printed" if printed else None)
-        ax.set_xticks(range(len(claims)), [_tick(rows[0], words) for rows in claims], fontsize=7)
+        scenes = len({str(rows[0]["part"]) for rows in claims}) > 1
+        ax.set_xticks(range(len(claims)), [_tick(rows[0], words, scenes) for rows in claims], fontsize=7)
         ax.set_xlim(-0.6, len(claims) - 0.4)
         ax.grid(False, axis="x")
         ours = (row["median"] * factor for rows in claims for row in rows if not _none(row["median"]))
@@ -232,13 +255,15 @@ def _drawn(claims: list[list[Row]], words: _Told) -> Axes:
         else:
             ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
         ax.set_ylabel(f"{measure} [{unit}]" if unit else measure)
-        ax.legend(fontsize=7, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=len(names) + 1)
+        ax.legend(fontsize=7, frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=len(names) + 2)
     return ax
 
 
-def _tick(row: Row, words: _Told) -> str:
-    at = words.at(row)
-    return f"{row['claim']}\n{at}" if len(at) <= SHORT else str(row["claim"])
+def _tick(row: Row, words: _Told, scenes: bool) -> str:
+    """Which claim it is, at which values, a line each; and in which scene, where there are several."""
+    at = words.at(row).split(", ")
+    told = at if max(map(len, at)) <= SHORT and len(at) <= MOST_LINES else []
+    return "\n".join(filter(None, (str(row["claim"]), words.scene(row) if scenes else "", *told)))
 
 
 def _size(rows: list[Row]) -> float:

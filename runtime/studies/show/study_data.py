@@ -215,7 +215,10 @@ class StudyData:
             if one.dims == (dimension,) and name != dimension and len(set(one.values.tolist())) > 1:
                 columns.setdefault(tuple(self.written(str(name)) or map(self.shown, one.values)), self.shown(name))
         whole = [", ".join(row) for row in zip(*columns, strict=True)]
-        for words, most in ((whole, MOST_LETTERS if len(columns) < MANY_COLUMNS else 0), (_changes(columns), MOST_SAID)):
+        for words, most in (
+            (whole, MOST_LETTERS if len(columns) < MANY_COLUMNS else 0),
+            (changes(columns), MOST_SAID),
+        ):
             if words and max(map(len, words)) <= most and len(set(words)) == len(words):
                 return words
         return None
@@ -252,13 +255,15 @@ class StudyData:
         return pretty(self.unit(name))
 
 
-def _changes(columns: Mapping[tuple[str, ...], str]) -> list[str]:
+def changes(columns: Mapping[tuple[str, ...], str]) -> list[str]:
     """What differs at each place of a zip from what most of its places have; none where a number has no such value."""
     usual = {column: Counter(column).most_common(1)[0] for column in columns}
     if any(2 * count <= len(column) for column, (_, count) in usual.items()):
         return []
     places = range(len(next(iter(columns), ())))
-    own = [[f"{name} = {column[k]}" for column, name in columns.items() if column[k] != usual[column][0]] for k in places]
+    own = [
+        [f"{name} = {column[k]}" for column, name in columns.items() if column[k] != usual[column][0]] for k in places
+    ]
     return [", ".join(told) or "unchanged" for told in own]
 
 

@@ -210,7 +210,8 @@ def _figures(data: StudyData) -> Iterator[Draw]:
             at = {"scene": scene} if scene else {}
             if not np.isfinite(data.measure(name, at).values).any():
                 continue
-            yield f"{data.shown(name)}: median{f', {data.shown(scene)}' if scene else ''}", partial(plot.heat_map, name, *varied[:2], at=at)
+            told = ", ".join(filter(None, (f"{data.shown(name)}: median", data.shown(scene))))
+            yield told, partial(plot.heat_map, name, *varied[:2], at=at)
 
 
 def _pooled(data: StudyData, found: Any) -> str:

@@ -10,7 +10,6 @@ from gudgeon.errors import BadValueError
 from gudgeon.language.shown import one_line
 from gudgeon.results.signals import low_pass, spectrum
 
-
 NEAR = 0.01  # of the time between two samples: so far apart, samples are of the same time
 
 
