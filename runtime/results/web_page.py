@@ -29,7 +29,8 @@ STYLE = """
   white-space: nowrap; }
 .g-report :is(td, th):first-child { text-align: left; }
 .g-report .g-words :is(td, th) { text-align: left; white-space: normal; min-width: 4rem; max-width: 30rem; }
-@media (max-width: 40rem) { .g-report .g-words :is(td, th):nth-child(n + 3) { min-width: 7.5rem; }
+@media (max-width: 40rem) { .g-report .g-words :is(td, th):nth-child(n + 2) { min-width: 7rem; }
+  .g-report .g-words :is(td, th):first-child { min-width: 2.5rem; }
   .g-report .g-words :is(td, th):last-child { min-width: 14rem; } }
 .g-report .g-pairs td { white-space: normal; }
 .g-report .g-beside > div { min-width: 0; max-width: 100%; }

@@ -76,7 +76,7 @@ def test_over_words_there_are_bars_and_no_line(study: gudgeon.Study) -> None:
 
 def test_a_long_zip_is_told_by_what_differs() -> None:
     """From what most of its places have; by all of its numbers where there is no such value."""
-    columns = {("1 kg", "1 kg", "2 kg", "1 kg"): "m", ("3 N", "3 N", "3 N", "5 N"): "F"}
+    columns: dict[tuple[str, ...], str] = {("1 kg", "1 kg", "2 kg", "1 kg"): "m", ("3 N", "3 N", "3 N", "5 N"): "F"}
     assert changes(columns) == ["unchanged", "unchanged", "m = 2 kg", "F = 5 N"]
     assert changes(columns | {("a", "a", "b", "b"): "c"}) == []
 
