@@ -29,7 +29,8 @@ class Selection:
 class NumberClaim:
     """A number that somebody published, beside a measure of ours; without a value ours alone is told.
 
-    `beside`: another one of these, of the same measure, from which ours is told to be off then.
+    `beside`: another one of these, of the same measure, from which ours is told to be off then. `heading`: under which
+    it stands on a page.
     """
 
     name: Text
@@ -40,6 +41,7 @@ class NumberClaim:
     says: str
     note: str
     beside: Text | None = None
+    heading: str = ""
 
 
 @dataclass(frozen=True)
@@ -66,6 +68,7 @@ class TrendClaim:
     trials: tuple[Trial, ...]
     not_computed: str
     note: str
+    heading: str = ""
 
 
 @dataclass(frozen=True)

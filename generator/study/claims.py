@@ -21,20 +21,19 @@ from gudgeon.generator.study.claim_spec import (
     TrendClaim,
     Trial,
 )
-from gudgeon.generator.study.parts import check_keys, label, mapping, place_of, text, texts, whole
+from gudgeon.generator.study.parts import check_keys, label, line, mapping, place_of, text, texts, whole
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
 from gudgeon.language.suggestions import unknown_name
 
 KEYS = ("source", "numbers", "trends")
-NUMBER = ("figure", "says", "measure", "part", "at", "value", "beside", "note")
-TOLD = ("says", "figure", "note")  # of a trend, whatever it is judged by
+NUMBER = ("figure", "says", "measure", "part", "at", "value", "beside", "note", "heading")
+TOLD = ("says", "figure", "note", "heading")  # of a trend, whatever it is judged by
 COMMON = ("measure", "part", "at")
 MORE = {"grows_along": ("by",), "alike_along": ("within",), "spreads_along": ("more_than",), "larger": ("than", "by"),
         "most_lowered": ("from", "to"), "exceeds": ("by",), "near": ("within",)}  # fmt: skip
 NEEDED = {"alike_along": "within", "spreads_along": "more_than", "larger": "than", "near": "within"}
 TRIAL = tuple(dict.fromkeys((*KINDS, *COMMON, *(key for keys in MORE.values() for key in keys))))
 TREND = (*TOLD, *TRIAL, "all", "not_computed")
-MOST_TEXT = 1000
 
 
 def read_claims(reader: Reader, root: Map) -> Claims:
@@ -46,7 +45,7 @@ def read_claims(reader: Reader, root: Map) -> Claims:
         check_keys(reader, node, KEYS, "claims")
         source = ""
         with reader.collect():
-            source = _line(node, "source", "claims")
+            source = line(node, "source", "claims")
         numbers, trends = list[NumberClaim](), list[TrendClaim]()
         for name, below in _each(reader, node, "numbers"):
             with reader.collect():
@@ -74,19 +73,6 @@ def _once(reader: Reader, names: Sequence[Text]) -> None:
             reader.errors.append(BadNameError(f"claim {str(name)[:60]!r} is there twice", name.where, f"once: {first}"))
 
 
-def _line(node: Map, key: str, owner: str) -> str:
-    """Words for people, on as many lines as YAML folds."""
-    if key not in node:
-        return ""
-    found = node[key]
-    if not isinstance(found, Text) or found.is_nothing:
-        raise BadValueError(f"{owner}.{key} is {kind_of(found)}", place_of(found, node.key(key)), "expected a text")
-    told = " ".join(found.split())
-    if len(told) > MOST_TEXT or not told.isprintable():
-        raise BadValueError(f"{owner}.{key} has {len(told)} characters", found.where, f"at most {MOST_TEXT}, visible")
-    return told
-
-
 def _number(reader: Reader, name: Text, node: Map) -> NumberClaim:
     owner = f"claims.numbers.{name}"
     label(name, "claim")
@@ -97,8 +83,8 @@ def _number(reader: Reader, name: Text, node: Map) -> NumberClaim:
     beside = text(node["beside"], f"{owner}.beside", node.key("beside"), "a name") if "beside" in node else None
     if value is not None and beside is not None:
         raise BadValueError(f"{owner} has both value and beside", node.key("beside").where, "expected one of both")
-    figure, says, note = (_line(node, key, owner) for key in ("figure", "says", "note"))
-    return NumberClaim(name, figure, measure, _selection(node, owner, name), value, says, note, beside)
+    figure, says, note, heading = (line(node, key, owner) for key in ("figure", "says", "note", "heading"))
+    return NumberClaim(name, figure, measure, _selection(node, owner, name), value, says, note, beside, heading)
 
 
 def _beside(reader: Reader, numbers: Sequence[NumberClaim]) -> None:
@@ -139,16 +125,16 @@ def _other(node: Map, key: str, owner: str, base: Selection) -> Selection:
 def _trend(name: Text, node: Map) -> TrendClaim:
     owner = f"claims.trends.{name}"
     label(name, "claim")
-    figure, says, note = (_line(node, key, owner) for key in ("figure", "says", "note"))
+    figure, says, note, heading = (line(node, key, owner) for key in ("figure", "says", "note", "heading"))
     if strange := [key for key in node.names() if key not in TREND]:
         raise unknown_key(strange[0], TREND, owner)
-    why = _line(node, "not_computed", owner)
+    why = line(node, "not_computed", owner)
     own = Map.make([(key, below) for key, below in node.pairs() if key not in TOLD], node.where)
     if why:
         if extra := [key for key in own.names() if key != "not_computed"]:
             raise BadValueError(f"{owner} is not computed, and has {extra[0]}", extra[0].where, "expected one of both")
-        return TrendClaim(name, figure, says, (), why, note)
-    return TrendClaim(name, figure, says, tuple(_trials(name, own, owner)), "", note)
+        return TrendClaim(name, figure, says, (), why, note, heading)
+    return TrendClaim(name, figure, says, tuple(_trials(name, own, owner)), "", note, heading)
 
 
 def _trials(name: Text, node: Map, owner: str) -> list[Trial]:

@@ -16,6 +16,7 @@ from gudgeon.language.parser import parse
 from gudgeon.language.suggestions import known_hint, nearest
 
 MOST_COUNT, MOST_SEED = 1_000_000, 2**63 - 1
+MOST_TEXT = 1000  # characters of words for people
 _WHOLE = re.compile(r"0|[1-9][0-9]{0,18}")
 
 
@@ -47,6 +48,21 @@ def text(node: Any, owner: str, where: Any, what: str = "a number or a text") ->
         told = "stands on several lines" if isinstance(node, Text) and not node.one_line else f"is {kind_of(node)}"
         raise BadValueError(f"{owner} {told}", place_of(node, where), f"expected {what}")
     return node
+
+
+def line(node: Map, key: str, owner: str) -> str:
+    """Words for people, on as many lines as YAML folds; "" where there are none. Raises BadValueError."""
+    return words(node[key], f"{owner}.{key}", node.key(key)) if key in node else ""
+
+
+def words(found: Any, owner: str, where: Any) -> str:
+    """The same of what stands there."""
+    if not isinstance(found, Text) or found.is_nothing:
+        raise BadValueError(f"{owner} is {kind_of(found)}", place_of(found, where), "expected a text")
+    told = " ".join(found.split())
+    if len(told) > MOST_TEXT or not told.isprintable():
+        raise BadValueError(f"{owner} has {len(told)} characters", found.where, f"at most {MOST_TEXT}, visible")
+    return told
 
 
 def texts(node: Any, owner: str, where: Any, what: str) -> tuple[Text, ...]:

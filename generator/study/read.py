@@ -29,7 +29,7 @@ from gudgeon.generator.study.spec import (
     Window,
     Written,
 )
-from gudgeon.generator.study.titles import read_titles
+from gudgeon.generator.study.titles import read_about, read_titles
 from gudgeon.generator.study.tree import plain, tree_of
 from gudgeon.generator.study.wear import read_wear
 from gudgeon.generator.yaml.tree import Map, Text, kind_of, parse_yaml
@@ -38,8 +38,9 @@ from gudgeon.language.suggestions import unknown_name
 KEYS = (
     "format", "title", "mechanism", "scenes", "choices", "parameters", "zip", "draw", "starts", "t_end", "output",
     "step", "method", "rtol", "stop", "wear", "windows", "measures", "keep", "parts", "claims", "titles",
+    "about",
 )  # fmt: skip
-WHOLE = ("format", "parts", "claims", "titles")  # of a file, not of its parts
+WHOLE = ("format", "parts", "claims", "titles", "about")  # of a file, not of its parts
 PART = tuple(key for key in KEYS if key not in WHOLE)
 ALONE = ""  # the name of a study that is all of its file
 AUTO, MAX_TITLE = "auto", 200
@@ -63,18 +64,19 @@ def read_studies(
     root = parse_yaml(data, file, reader.errors) if isinstance(data, bytes) else tree_of(data)
     if not isinstance(root, Map):
         raise BadValueError(f"the study is {kind_of(root)}", hint="expected a mapping")
-    claims, titles = Claims(), dict[str, str]()
+    claims, titles, about = Claims(), dict[str, str](), tuple[str, ...]()
     try:
         _check_format(root, isinstance(data, bytes))
         found = {name: _read(reader, node, file, settings or {}, owner) for name, owner, node in _parts(reader, root)}
         claims, titles = read_claims(reader, root), read_titles(reader, root, found)
+        about = read_about(reader, root)
     except EnoughErrors:
         found = {}
     reader.errors = list({str(error): error for error in reader.errors}.values())  # parts share what the file says
     reader.raise_errors()
     parts = {name: part for name, part in found.items() if part is not None}
     title = str(root["title"]) if "title" in root else ""
-    return StudySet(file, title, parts, "parts" in root, claims, titles)
+    return StudySet(file, title, parts, "parts" in root, claims, titles, about)
 
 
 def _parts(reader: Reader, root: Map) -> Iterator[tuple[str, str, Map]]:
@@ -141,7 +143,7 @@ def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str], own
 
 def _said(root: Map) -> dict[str, Any]:
     """What decides the results: not what is claimed of them."""
-    return {key: said for key, said in plain(root).items() if key not in ("claims", "titles")}
+    return {key: said for key, said in plain(root).items() if key not in ("claims", "titles", "about")}
 
 
 def _over(fixed: Mapping[Text, Text], settings: Mapping[str, str]) -> dict[Text, Text]:

@@ -9,8 +9,8 @@ from typing import Any
 
 from gudgeon.contract.methods import KINEMATIC, OFFERED
 from gudgeon.generator.study.claim_spec import COUNTED
-from gudgeon.generator.study.claims import MOST_TEXT, TRIAL
-from gudgeon.generator.study.parts import MOST_COUNT, MOST_SEED
+from gudgeon.generator.study.claims import TOLD, TRIAL
+from gudgeon.generator.study.parts import MOST_COUNT, MOST_SEED, MOST_TEXT
 from gudgeon.generator.study.read import MAX_TITLE, OF_SERIES, WINDOWED
 from gudgeon.generator.study.spec import (
     DEVIATIONS,
@@ -52,7 +52,7 @@ def schema() -> Json:
     }  # fmt: skip
     parts = _map(_record(own), LABEL) | {"minProperties": 1}
     titles = _map(_TEXT | {"maxLength": MOST})
-    whole = {"format": {"const": FORMAT}, "parts": parts, "claims": _claims(), "titles": titles}
+    whole = {"format": {"const": FORMAT}, "parts": parts, "claims": _claims(), "titles": titles, "about": _about()}
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": f"study file, {FORMAT}",
@@ -98,10 +98,15 @@ def _starts() -> Json:
     return _record(own | sizes | {"ensembles": _map(_record(sizes), LABEL)}, "count")
 
 
+def _about() -> Json:
+    told = {"type": "string", "minLength": 1, "maxLength": MOST_TEXT}
+    return {"anyOf": [told, {"type": "array", "items": told, "minItems": 1}]}
+
+
 def _claims() -> Json:
     """Numbers, and trends of one trial, of several, or of none."""
     at, texts = _map(_NUMBER), {"anyOf": [_TEXT, {"type": "array", "items": _TEXT, "minItems": 1}]}
-    told = {key: {"type": "string", "maxLength": MOST_TEXT} for key in ("says", "figure", "note")}
+    told = {key: {"type": "string", "maxLength": MOST_TEXT} for key in TOLD}
     number = _record(told | {"measure": _TEXT, "part": _TEXT, "at": at, "value": _NUMBER, "beside": _TEXT}, "measure")
     counts = {"type": "object", "properties": {name: {"type": "integer", "minimum": 0} for name in COUNTED},
               "additionalProperties": False}  # fmt: skip

@@ -187,6 +187,7 @@ class StudySet:
     named: bool  # whether the file has parts
     claims: Claims
     titles: Mapping[str, str] = field(default_factory=dict)  # of names, for people
+    about: tuple[str, ...] = ()  # paragraphs, for people
 
     def begun(self, count: int | None, seed: int | None) -> StudySet:
         """With so many perturbed starts, by another seed, in every part that has any. BadValueError where none has."""

@@ -1,4 +1,4 @@
-"""What people read in place of a study's names: `titles:` of a file."""
+"""What people read of a study beside its names: `titles:` in place of them, `about:` above all of it."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping
 
 from gudgeon.errors import BadValueError
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.study.parts import mapping, text
+from gudgeon.generator.study.parts import mapping, text, words
 from gudgeon.generator.study.spec import StudyFile
-from gudgeon.generator.yaml.tree import Map
+from gudgeon.generator.yaml.tree import Items, Map
 from gudgeon.language.suggestions import unknown_name
 
 MOST = 80  # characters
@@ -30,6 +30,17 @@ def read_titles(reader: Reader, root: Map, parts: Mapping[str, StudyFile | None]
                     raise BadValueError(f"titles.{name} has {len(told)} characters", told.where, hint)
                 found[str(name)] = str(told)
     return found
+
+
+def read_about(reader: Reader, root: Map) -> tuple[str, ...]:
+    """Paragraphs: a text, or a list of them."""
+    with reader.collect():
+        if "about" not in root:
+            return ()
+        found = root["about"]
+        every = list(found) if isinstance(found, Items) and found else [found]
+        return tuple(words(one, "about", root.key("about")) for one in every)
+    return ()
 
 
 def _names(part: StudyFile) -> Iterator[str]:

@@ -20,6 +20,8 @@ from gudgeon.language.wanted import told
 
 Array: TypeAlias = NDArray[Any]
 
+OTHERWISE = "the scene's is"  # in remarks on what is chosen
+
 
 def place_of_word(value: Any, slot: Slot) -> float:
     """The number of a slot that has words. Raises UnknownNameError with the nearest, BadValueError for no name."""
@@ -80,7 +82,12 @@ def filled_in(source: KernelSource, chosen: Iterable[int], given: Array, is_give
 def told_choices(source: KernelSource, given: Array, is_given: Array) -> tuple[str, ...]:
     """A remark on what a run chooses otherwise than its scene does."""
     return tuple(
-        f"{slot.address} is {said(slot, float(given[k]))} (the scene's is {said(slot, slot.default)})"
+        f"{slot.address} is {said(slot, float(given[k]))} ({OTHERWISE} {said(slot, slot.default)})"
         for k, slot in ((k, source.slots[k]) for k in np.flatnonzero(is_given).tolist())
         if slot.words and given[k] != slot.default
     )
+
+
+def tells_choice(text: str) -> bool:
+    """Whether a remark is one of these."""
+    return f" ({OTHERWISE} " in text

@@ -11,6 +11,7 @@ from html import escape
 from gudgeon.language.shown import one_line, visible
 
 Section = tuple[str, str]  # heading, text; what is under it, HTML
+_PLACE = "chapter-"  # of a heading to which a link goes
 
 STYLE = """
 .g-report { --ink: #1c1c1e; --paper: #fff; --quiet: #62656a; --line: #d9dce0; --panel: #f5f6f7; --accent: #0067a8;
@@ -28,13 +29,16 @@ STYLE = """
   white-space: nowrap; }
 .g-report :is(td, th):first-child { text-align: left; }
 .g-report .g-words :is(td, th) { text-align: left; white-space: normal; min-width: 4rem; max-width: 30rem; }
-@media (max-width: 40rem) { .g-report .g-words :is(td, th):nth-child(n + 3) { min-width: 7.5rem; }
+@media (max-width: 40rem) { .g-report .g-words :is(td, th):nth-child(n + 2) { min-width: 7rem; }
+  .g-report .g-words :is(td, th):first-child { min-width: 2.5rem; }
   .g-report .g-words :is(td, th):last-child { min-width: 14rem; } }
 .g-report .g-pairs td { white-space: normal; }
 .g-report .g-beside > div { min-width: 0; max-width: 100%; }
 .g-report th { font-weight: 600; border-bottom: 1px solid var(--line); }
 .g-report tbody tr + tr td { border-top: 1px solid var(--line); }
 .g-report .g-quiet { color: var(--quiet); }
+.g-report .g-contents ul { list-style: none; padding: 0; columns: 16rem; font-size: .92em; }
+.g-report .g-contents a { color: var(--accent); text-decoration: none; }
 .g-report .g-warning { border-left: 3px solid var(--second); padding-left: .7rem; }
 .g-report figure { margin: .6rem 0; break-inside: avoid; }
 .g-report figcaption { color: var(--quiet); font-size: .9em; }
@@ -60,15 +64,21 @@ body {{ margin: 0; }} body > .g-report {{ max-width: 68rem; margin: 0 auto; padd
 """
 
 
-def page(title: str, about: str, sections: Iterable[Section]) -> str:
-    """The whole file. `title` and `about` are text."""
+def page(title: str, about: str, sections: Iterable[Section], chapters: Iterable[str] = ()) -> str:
+    """The whole file. `title` and `about` are text; chapters: headings to which links stand at its beginning."""
     head = f"<h1>{text(title)}</h1><p class='g-quiet'>{escape(visible(about))}</p>"
-    return PAGE.format(title=text(title), article=article(sections, head))
+    every = [(name, inside) for name, inside in sections if inside]
+    linked = [name for name in dict.fromkeys(chapters) if any(name == own for own, _ in every)]
+    links = "".join(f'<li><a href="#{_PLACE}{k}">{escape(visible(name))}</a></li>' for k, name in enumerate(linked))
+    contents = f"<nav class='g-contents'><ul>{links}</ul></nav>" if links else ""
+    return PAGE.format(title=text(title), article=article(every, head + contents, linked))
 
 
-def article(sections: Iterable[Section], head: str = "") -> str:
+def article(sections: Iterable[Section], head: str = "", linked: Sequence[str] = ()) -> str:
     """What a notebook shows: the same without the rest of a page."""
-    parts = [f"<section><h2>{escape(visible(name))}</h2>{inside}</section>" for name, inside in sections if inside]
+    places = {name: f' id="{_PLACE}{k}"' for k, name in enumerate(linked)}
+    parts = [f"<section{places.pop(name, '')}><h2>{escape(visible(name))}</h2>{inside}</section>"
+             for name, inside in sections if inside]  # fmt: skip
     return f"<article class='g-report'><style>{STYLE}</style>{head}{''.join(parts)}</article>"
 
 

@@ -18,6 +18,7 @@ from gudgeon.model.parameters import prepare
 from gudgeon.results.batch import Batch
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.axes import axis, typed
+from gudgeon.studies.ensemble.notes import gathered
 from gudgeon.studies.show.map_words import value
 
 STEEL, BRONZE = (206e9, 0.3, 7850.0), (110e9, 0.34, 8800.0)
@@ -131,6 +132,8 @@ def test_a_scene_a_run_and_the_file_say_the_same(scenes: Scenes) -> None:
         np.testing.assert_array_equal(run.q, runs[0].q)
         assert run.impacts.tobytes() == runs[0].impacts.tobytes()
     assert f"{JOURNAL} is bronze (the scene's is steel)" in runs[0].diagnostics.notes
+    told = [note.text for note in gathered([(0, (*runs[0].diagnostics.notes, "another"))]).values()]
+    assert "another" in told and JOURNAL not in " ".join(told)  # a study's coordinates say what it chooses
     assert all(run.parameters[JOURNAL] == "bronze" and run.parameters[HOLE] == "steel" for run in runs)
 
 

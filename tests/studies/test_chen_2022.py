@@ -36,6 +36,25 @@ def test_the_schema_takes_it() -> None:
 
 
 @needs_compiler
+def test_geometry_bounds_the_position_error_by_1_98_c() -> None:
+    """Pins of A and B off by e: Φ_q δq = e in their rows, and δy is largest where each e points its worst way."""
+    ideal = gudgeon.load("nine_bar_press")
+    run, closed = ideal.simulate(1.0, output=100), ideal.model.numpy()
+    rows = [2 * list(yaml_joints()).index(name) for name in ("A", "B")]
+    y = [name.name for name in ideal.model.q].index("S9_y")
+    most = 0.0
+    for t, q in zip(run.t, run.q, strict=True):
+        own = np.linalg.inv(closed.phi_q(t, q, closed.prepare()))[y]
+        most = max(most, sum(float(np.hypot(own[k], own[k + 1])) for k in rows))
+    assert most == pytest.approx(1.98, abs=0.005)
+
+
+def yaml_joints() -> list[str]:
+    """All but the last have two rows of Φ, in this order."""
+    return list(YAML(typ="safe").load((FILE.parents[1] / "mechanisms" / "nine_bar_press.yaml").read_text())["joints"])
+
+
+@needs_compiler
 def test_the_films_forces_are_near_the_papers(tmp_path: Path) -> None:
     """At 3π and 0.6 mm peaks are within 16 % of theirs: 18.61 and 15.18 N; the rest of the study is left out here."""
     study = YAML(typ="safe").load(FILE.read_text(encoding="utf-8"))

@@ -165,7 +165,7 @@ claims:
     T12: {part: grid, measure: a, most_lowered: x, from: {g: 9.81}, to: {g: 1.62}}
     T13: {part: grid, all: [{measure: x, grows_along: length}, {measure: x, larger: {part: noisy, length: 1.2 m},
           than: {g: 1.62, length: 1 m}}]}
-    T14: {part: grid, measure: x, above: 1.5 m, at: {length: 1 m}}
+    T14: {part: grid, measure: x, above: 1.5 m, at: {length: 1 m}, heading: ours}
 """
 
 
@@ -211,6 +211,9 @@ def test_numbers_beside_the_printed_ones(found: gudgeon.Study, tmp_path: Path) -
     assert math.isnan(numbers.loc["N3", "printed"]) and math.isnan(numbers.loc["N4", "deviation"])
     assert numbers.loc["N3", "deviation"] == pytest.approx(100 * (1.62 / 9.81 - 1), rel=1e-5)
     assert numbers["beside"].tolist() == ["", "", "", "N4", ""]
+    off = sorted(abs(numbers.loc["N2", "deviation"]))  # of N2, with two ensembles, the median; N3 is beside another one
+    told = f"2 printed numbers: ours are off by {(50.0 + sum(off) / 2) / 2:.3g} % or less for half of them"
+    assert found.claims.totals()[-1] == told
     assert found.claims.source == "somebody, somewhere"
     again = gudgeon.load_study(found.folder).claims
     assert again.trends.equals(found.claims.trends) and again.numbers.equals(found.claims.numbers)
@@ -242,7 +245,9 @@ def test_claims_decide_no_run(found: gudgeon.Study, tmp_path: Path, call: Gudgeo
     assert (found.folder / "grid" / "study.nc").stat().st_mtime_ns == before
     done = call("study", str(path), "--out", str(found.folder), "--json")
     assert len(json.loads(done.output)["claims"]["trends"]) == len(again.claims.trends)
-    assert "14 trends" in call("study", str(path), "--out", str(found.folder)).output
+    totals = ["13 trends: 8 hold, 2 fail, 2 undecided, 1 not computed", "1 trend of “ours”: 1 holds"]
+    assert again.claims.totals()[:2] == totals
+    assert "\n".join(again.claims.totals()) in call("study", str(path), "--out", str(found.folder)).output
     with pytest.raises(GudgeonError, match="makes no claims"):
         _ = gudgeon.study({"mechanism": "pendulum", "t_end": 1e-3, "output": 1, "keep": ["bob.x"]}).claims
 

@@ -60,8 +60,11 @@ def test_the_schema_takes_its_file_and_refuses_others() -> None:
     ]  # fmt: skip
     for own in wrong:
         assert list(check.iter_errors(study | own)), own
-    quoted = {"draw": {"count": 3, "method": "sobol", "parameters": {"c": {"mean": 1, "std": "1 mm"}}},
-              "zip": {"run": {"c": [1, 2]}}, "choices": {"a.b": ["x"], "law": {"one": {"a.b": 1}}}}
+    quoted = {
+        "draw": {"count": 3, "method": "sobol", "parameters": {"c": {"mean": 1, "std": "1 mm"}}},
+        "zip": {"run": {"c": [1, 2]}},
+        "choices": {"a.b": ["x"], "law": {"one": {"a.b": 1}}},
+    }
     assert not list(check.iter_errors(study | quoted))
 
 
@@ -79,19 +82,24 @@ def test_people_read_titles_and_numbers_as_they_are_written(tmp_path: Path) -> N
     own = {
         "mechanism": "pendulum", "parameters": {"length": ["10 cm", "2e-1 m"], "g": [1.62, 9.81]}, "t_end": "1 ms",
         "output": 4, "measures": {"low": {"min": "bob.y"}},
-        "titles": {"low": "lowest <place>", "length": "ℓ"},
+        "titles": {"low": "lowest <place>", "length": "ℓ"}, "about": ["a pendulum & more", "in two\nparagraphs"],
         "claims": {"numbers": {"N1": {"measure": "low", "at": {"length": "0.1 m", "g": 9.81}, "value": "1 mm"}}},
     }  # fmt: skip
     study = gudgeon.study(own, tmp_path / "s")
     page = re.sub(r"<[^>]*>", " ", re.sub(r"<svg.*?</svg>", "", study.report().to_html(), flags=re.DOTALL))
     assert "lowest &lt;place&gt;, ℓ = 10 cm, g = 9.81" in page and "10 cm, 2·10⁻¹ m" in page
-    assert gudgeon.load_study(tmp_path / "s").names.titles["length"] == "ℓ"
+    assert page.index("In short") < page.index("a pendulum &amp; more") < page.index("1 printed number:")
+    names = gudgeon.load_study(tmp_path / "s").names
+    assert names.titles["length"] == "ℓ" and names.about == ("a pendulum & more", "in two paragraphs")
     plot: Any = study.plot
     ax = plot.measure("low", "length", "g")
     assert [tick.get_text() for tick in ax.get_xticklabels()] == ["10 cm", "2·10⁻¹ m"]
     assert ax.get_xlabel() == "ℓ" and ax.get_ylabel().startswith("lowest <place> [")
     with pytest.raises(InputError, match=r"titles.lwo(.|\n)*did you mean 'low'"):
         gudgeon.study(own | {"titles": {"lwo": "x"}})
+    for about, told in (([], "a list"), ({}, "a mapping"), ("x" * 1001, "1001 characters")):
+        with pytest.raises(InputError, match=f"about (is|has) {told}"):
+            gudgeon.study(own | {"about": about})
 
 
 @pytest.mark.parametrize(("text", "shown"), [

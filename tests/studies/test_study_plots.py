@@ -12,7 +12,8 @@ pytest.importorskip("matplotlib")
 
 import gudgeon  # noqa: E402
 from gudgeon.errors import BadValueError, UnknownNameError  # noqa: E402
-from gudgeon.studies.show.study_data import crossings  # noqa: E402
+from gudgeon.studies.show.study_data import changes, crossings  # noqa: E402
+from gudgeon.studies.show.study_signals import alike  # noqa: E402
 from tests.programs import needs_compiler  # noqa: E402
 
 pytestmark = needs_compiler
@@ -59,6 +60,34 @@ def test_a_measure_over_a_parameter_has_quartiles(study: gudgeon.Study) -> None:
     low = ax.collections[1].get_paths()[0].vertices[:, 1]
     assert low.min() == pytest.approx(np.quantile(study.dataset["fast"].values[0, 0], 0.25))
     assert ax.lines[2].get_xydata().tolist() == [[250.0, 3.0]]
+
+
+def test_over_words_there_are_bars_and_no_line(study: gudgeon.Study) -> None:
+    """A zip's places have no order: medians are dots, bars reach from quartile to quartile and from end to end."""
+    ax = plots(study).measure("fast", "way", at={"k": 400})
+    assert ax.lines[0].get_linestyle() == "None"
+    rows = study.dataset["fast"].values[1]
+    expected = np.quantile(rows, (0.0, 1.0, 0.25, 0.75), axis=1).T
+    ends = [[bar[:, 1] for bar in bars.get_segments()] for bars in ax.collections]
+    np.testing.assert_allclose(np.hstack(ends), expected)
+    np.testing.assert_allclose(ax.lines[0].get_ydata(), np.median(rows, axis=1))
+    assert [word.get_text() for word in ax.get_xticklabels()] == ["1 kg", "4 kg"]
+
+
+def test_a_long_zip_is_told_by_what_differs() -> None:
+    """From what most of its places have; by all of its numbers where there is no such value."""
+    columns: dict[tuple[str, ...], str] = {("1 kg", "1 kg", "2 kg", "1 kg"): "m", ("3 N", "3 N", "3 N", "5 N"): "F"}
+    assert changes(columns) == ["unchanged", "unchanged", "m = 2 kg", "F = 5 N"]
+    assert changes(columns | {("a", "a", "b", "b"): "c"}) == []
+
+
+def test_samples_a_hundredth_apart_are_alike() -> None:
+    """Ends that follow a number a millionth off; amplitudes of such runs stand over the same frequencies."""
+    t = np.linspace(0.0, 2.0, 401)
+    assert alike(np.array([t, t * (1 + 2e-6), t])) and alike(np.array([t, t * (1 + 2.4e-5)]))
+    assert not alike(np.array([t, t * (1 + 2.6e-5)])) and not alike(np.array([t, np.append(t[:-1], np.nan)]))
+    stopped = np.where(t < 1.0, t, np.nan)
+    assert alike(np.array([stopped, stopped]))
 
 
 def test_bands_are_quantiles_by_hand(study: gudgeon.Study) -> None:

@@ -21,6 +21,7 @@ pytest.importorskip("matplotlib")
 import gudgeon  # noqa: E402
 from gudgeon.cli import app  # noqa: E402
 from gudgeon.errors import GudgeonError  # noqa: E402
+from gudgeon.studies.ensemble.claimed import Claimed  # noqa: E402
 from gudgeon.studies.show import pictures  # noqa: E402
 from gudgeon.studies.show.claims import claims_sections  # noqa: E402
 from gudgeon.studies.show.pictures import Pictures  # noqa: E402
@@ -68,7 +69,7 @@ def test_a_page_has_the_studys_numbers(folder: Path, page: str) -> None:
     assert study.failed == 10 and "30 runs (k 2 × bodies.load.mass 3 × start 5), 10 failed" in page
     assert page == gudgeon.load_study(folder).report().to_html()  # the same bytes, without a date
     q1, middle, q3 = np.quantile(study.dataset["fast"].values[1, 0], (0.25, 0.5, 0.75))
-    assert f"<td>{middle:.5g} ({q1:.4g} … {q3:.4g})</td>" in page
+    assert f"<td>{middle:.4g} ({q1:.4g} … {q3:.4g})</td>" in page
     assert "<td>10</td>" in page and "k = 100 kg/s²" in page  # of what, and the first of them
     assert f"gudgeon {gudgeon.__version__}" in page
 
@@ -108,7 +109,7 @@ def test_claims_and_parts_are_shown_where_there_are_any(folder: Path) -> None:
                        "high": high, "chance": 0.5, "agreed": False}
               for name, alone, odds, high in (("near", "holds", 0.9, 0.9), ("far", "fails", 0.2, 0.3))]  # fmt: skip
     tables = pandas.DataFrame([row, far, lone]), pandas.DataFrame(judged)
-    claims = SimpleNamespace(numbers=tables[0], trends=tables[1], source="a paper & more")
+    claims = Claimed(*tables, "a paper & more")
     whole: Any = SimpleNamespace(claims=claims, parts={"one": study, "two": study})
     parts = {name: StudyData(study) for name in whole.parts}
     (heading, inside), (trends, judgement), (ours, alone) = claims_sections(whole, parts, Pictures())
@@ -131,6 +132,33 @@ def test_claims_and_parts_are_shown_where_there_are_any(folder: Path) -> None:
 
     nothing: Any = NoClaims()
     assert claims_sections(nothing, parts, Pictures()) == [] == claims_sections(study, parts, Pictures())
+
+
+def test_claims_stand_under_headings_and_where_the_source_has_them(folder: Path) -> None:
+    """What is drawn without a number is in its place; a heading takes its own; nothing stands in an empty column."""
+    study = gudgeon.load_study(folder)
+    row = {"claim": "N1", "figure": "Fig 3", "says": "", "part": "", "at": "one place", "measure": "far", "unit": "rad",
+           "printed": 0.5, "ensemble": "near", "n": 5, "q25": 0.1, "median": 0.2, "q75": 0.3, "deviation": -60.0,
+           "note": "", "heading": ""}  # fmt: skip
+    other = row | {"ensemble": "wide", "deviation": -60.04}
+    drawn_only = row | {"claim": "D1", "printed": np.nan, "deviation": np.nan, "ensemble": "", "n": 1}
+    ours = drawn_only | {"claim": "U1", "figure": "", "says": "not so", "note": "why", "heading": "Not <printed>"}
+    trend = {"claim": "X1", "figure": "", "says": "it holds", "note": "", "heading": "Not <printed>", "ensemble": "",
+             "verdict": "holds", "alone": "holds", "probability": 1.0, "low": 1.0, "high": 1.0, "chance": 1.0,
+             "agreed": True}  # fmt: skip
+    claims = Claimed(pandas.DataFrame([row, other, drawn_only, ours]), pandas.DataFrame([trend]), "")
+    whole: Any = SimpleNamespace(claims=claims, parts={"": study})
+    pictures = Pictures()
+    (heading, inside), (own, below) = claims_sections(whole, {"": StudyData(study)}, pictures)
+    assert (heading, own) == ("Published numbers", "Not <printed>")
+    assert inside.index("<td>N1</td>") < inside.index("<td>D1</td>") and "<td>28.65°</td>" in inside
+    assert "<td>−60.0 %</td>" in inside and ">note</th>" not in inside  # both round to it
+    assert "<td>not so</td>" in below and "<td>why</td>" in below and "<td>it holds</td>" in below
+    ((_, draw),) = pictures.wanted
+    ax: Any = draw()
+    assert [word.get_text() for word in ax.get_xticklabels()] == ["N1\none place", "D1\none place"]
+    labels = [word.get_text() for word in ax.get_legend().get_texts()]
+    assert sorted(labels) == ["near", "ours, one run", "printed", "wide"]
 
 
 def test_processes_draw_what_this_one_would(monkeypatch: pytest.MonkeyPatch) -> None:

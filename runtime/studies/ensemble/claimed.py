@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -15,6 +16,7 @@ from gudgeon.files.writing import read_regular, written
 from gudgeon.language.plot_units import quantity
 from gudgeon.results.batch import Array
 from gudgeon.studies.ensemble.judge import Cell, judged, together
+from gudgeon.studies.words import counted
 
 if TYPE_CHECKING:
     import pandas
@@ -26,6 +28,7 @@ if TYPE_CHECKING:
 FILE, TABLES = "claims.json", ("numbers", "trends")
 NOT_COMPUTED = "not computed"
 ODDS = ("probability", "low", "high", "chance")
+VERDICTS = {"holds": "hold", "fails": "fail", "undecided": "undecided", NOT_COMPUTED: NOT_COMPUTED}  # of several: so
 UNNAMED = ""  # the ensemble of runs that are in none
 
 
@@ -34,7 +37,7 @@ class Claimed(NamedTuple):
 
     numbers: claim, figure, says, part, at, place (of its scene along each dimension, JSON), measure, unit, printed,
     ensemble, n (runs), q25, median, q75 (SI), deviation (% of the printed value, or of the median of the number that it
-    stands beside), beside, note. trends: claim, figure, says,
+    stands beside), beside, note, heading (under which a page has it). trends: claim, figure, says, heading,
     ensemble, verdict (of all ensembles together: "holds", "fails", "undecided", "not computed"), alone (what this one
     by itself would say), probability (the least of what it consists of) and its interval low to high, chance (that one
     run of each scene shows all of it), agreed (whether no ensemble rules out what another one carries), note.
@@ -43,6 +46,25 @@ class Claimed(NamedTuple):
     numbers: pandas.DataFrame
     trends: pandas.DataFrame
     source: str
+
+    def totals(self) -> list[str]:
+        """In a line each: how many trends hold, those under a heading apart, and how far printed numbers are off."""
+        told = []
+        each = self.trends.drop_duplicates("claim") if len(self.trends) else self.trends
+        headings = list(each["heading"]) if "heading" in each else [UNNAMED] * len(each)
+        for heading in dict.fromkeys(headings):
+            counts = Counter(each["verdict"][[one == heading for one in headings]])
+            found = ((counts[one], one, many) for one, many in VERDICTS.items() if counts[one])
+            words = (f"{count} {many if count > 1 else one}" for count, one, many in found)
+            of = f" of “{heading}”" if heading else ""
+            told.append(f"{counted(counts.total(), 'trend')}{of}: {', '.join(words)}")
+        printed = self.numbers[self.numbers["printed"].notna()] if len(self.numbers) else self.numbers
+        if len(printed):
+            off = printed["deviation"].abs().groupby(printed["claim"]).median()
+            share = f"{off.median():.0f} %" if off.median() >= 100.0 else f"{off.median():.3g} %"
+            shown = f"ours are off by {share} or less for half of them" if len(off) > 1 else f"ours is off by {share}"
+            told.append(f"{counted(len(off), 'printed number')}: {shown}")
+        return told
 
 
 def write_claims(folder: Path, plans: Plans, known: Known, study: Study) -> None:
@@ -142,7 +164,7 @@ def _of_number(known: KnownNumber, runs: _Finished, cells: Mapping[str, Cell]) -
             "measure": str(claim.measure), "unit": known.unit,
             "printed": _plain(known.printed), "ensemble": ensemble, "n": len(own), "q25": _plain(quartiles[0]),
             "median": _plain(quartiles[1]), "q75": _plain(quartiles[2]), "deviation": _plain(off),
-            "beside": str(claim.beside or ""), "note": claim.note,
+            "beside": str(claim.beside or ""), "note": claim.note, "heading": claim.heading,
         }  # fmt: skip
 
 
@@ -163,7 +185,7 @@ def _dims(plan: Plan) -> list[str]:
 
 def _of_trend(known: KnownTrend, runs: _Finished) -> Iterator[dict[str, Any]]:
     claim = known.claim
-    common = {"claim": str(claim.name), "figure": claim.figure, "says": claim.says}
+    common = {"claim": str(claim.name), "figure": claim.figure, "says": claim.says, "heading": claim.heading}
     if claim.not_computed:
         told = " ".join(filter(None, (claim.not_computed, claim.note)))
         yield common | {"ensemble": UNNAMED, "verdict": NOT_COMPUTED, "alone": NOT_COMPUTED,

@@ -1,4 +1,4 @@
-"""What people read of a study: titles of its names, and numbers as the file writes them; beside its runs, in JSON."""
+"""What people read of a study: words on it, titles of its names, numbers as the file writes them; in JSON."""
 
 from __future__ import annotations
 
@@ -19,10 +19,14 @@ _QUANTITY = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+))(?:[eE]([-+]?\d+))?\s*(\*\s*p
 
 
 class Names(NamedTuple):
-    """titles: {name: title}. values: {part: {coordinate: (text, …)}}, of numbers that all have a unit in the file."""
+    """titles: {name: title}. values: {part: {coordinate: (text, …)}}, of numbers that all have a unit in the file.
+
+    about: paragraphs on the whole.
+    """
 
     titles: Mapping[str, str]
     values: Mapping[str, Mapping[str, tuple[str, ...]]]
+    about: tuple[str, ...] = ()
 
 
 NONE = Names({}, {})
@@ -49,7 +53,7 @@ def names_of(plans: Plans) -> Names:
             every |= {str(name): tuple(map(str, own.texts)) for name, own in axis.columns.items() if not own.count}
         shown = {name: tuple(map(as_people_write, texts)) for name, texts in every.items()}
         values[part] = {name: texts for name, texts in shown.items() if texts and all(texts)}
-    return Names(plans.file.titles, values)
+    return Names(plans.file.titles, values, plans.file.about)
 
 
 def write_names(folder: Path, plans: Plans) -> None:
@@ -66,6 +70,7 @@ def read_names(folder: Path) -> Names:
         titles = {str(name): str(title) for name, title in found.get("titles", {}).items()}
         values = {part: {name: tuple(map(str, texts)) for name, texts in own.items()}
                   for part, own in found.get("values", {}).items()}  # fmt: skip
+        about = tuple(map(str, found.get("about", ())))
     except (OSError, ValueError, AttributeError, TypeError):
         return NONE
-    return Names(titles, values)
+    return Names(titles, values, about)

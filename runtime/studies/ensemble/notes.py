@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from gudgeon.assembly.followed import LISTED, NOTED, nearer_text, off_text
+from gudgeon.model.choices import tells_choice
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -34,8 +35,9 @@ def kind_of(told: str) -> str:
 
 
 def gathered(told: Iterable[tuple[int, Sequence[str]]]) -> dict[str, Note]:
-    """Of runs with their notes."""
-    return merged({kind_of(text): Note(1, run, text)} for run, texts in told for text in texts)
+    """Of runs with their notes, without what a study has them choose: coordinates say that."""
+    own = ((run, text) for run, texts in told for text in texts if not tells_choice(text))
+    return merged({kind_of(text): Note(1, run, text)} for run, text in own)
 
 
 def merged(several: Iterable[Mapping[str, Note]]) -> dict[str, Note]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -107,18 +106,15 @@ def _show_study(plan: Plan, found: Study) -> None:
 
 def _show_claims(found: Study) -> None:
     """Which trends hold, of many only how many, and how far numbers are off."""
-    numbers, trends, _ = found.claims
+    claims = found.claims
+    trends = claims.trends
     if len(trends):
         told = {name: own["verdict"].iloc[0] if own["agreed"].all() else "not the same in all ensembles"
                 for name, own in trends.groupby("claim", sort=False)}  # fmt: skip
         if len(told) <= MOST_TRENDS:
             says = trends.drop_duplicates("claim").set_index("claim")["says"]
             print("\n".join(f"{name} {verdict}: {visible(str(says[name]))}" for name, verdict in told.items()))
-        counts = Counter(told.values()).most_common()
-        print(f"{len(told)} trends: " + ", ".join(f"{count} {name}" for name, count in counts))
-    if len(numbers) and numbers["printed"].notna().any():
-        off = numbers["deviation"].abs().groupby(numbers["claim"]).median()
-        print(f"{numbers['claim'].nunique()} numbers: half of the medians within {off.median():.3g} % of the printed")
+    print("\n".join(map(visible, claims.totals())))
     print(f"wrote {path_text(Path(found.folder) / FILE)}")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -13,6 +14,7 @@ from gudgeon.language.plot_units import drawn, label, pretty, scale
 from gudgeon.language.shown import one_line
 from gudgeon.language.suggestions import unknown
 from gudgeon.language.wanted import flag, number_of, text, told
+from gudgeon.studies.show.study_signals import alike
 
 if TYPE_CHECKING:
     from gudgeon.studies.ensemble.finished import Study
@@ -20,6 +22,7 @@ if TYPE_CHECKING:
 Coords: TypeAlias = Mapping[str, Any]
 SAMPLES, OWN_TIMES = ("time", "sample"), "t"
 MOST_TICKS, MOST_LETTERS = 8, 40  # values that stand at an axis; what is told of a place in a zip
+MANY_COLUMNS, MOST_SAID = 4, 60  # numbers of a zip of which differences are told in place of all; their letters
 MANY = ("start", "draw", "ensemble")  # dimensions of which one asks the spread first
 
 
@@ -81,9 +84,9 @@ class StudyData:
             return self.dataset["time"].values, found
         t = self._picked(self.dataset[OWN_TIMES], at).values
         rows = t.reshape(-1, t.shape[-1])
-        alike = rows[np.isfinite(rows[:, 0])]
-        if len(alike) and (np.isclose(alike, alike[0], rtol=1e-12, equal_nan=True)).all():
-            return alike[0], found
+        rows = rows[np.isfinite(rows[:, 0])]
+        if len(rows) and alike(rows):
+            return rows[0], found
         return t, found
 
     def shares(self, t: Any) -> Any:
@@ -124,12 +127,23 @@ class StudyData:
         return int(np.abs(values - number_of(value, dimension)).argmin())
 
     def first(self, found: Any) -> str:
-        """What a measure is drawn over if nobody says: the first dimension that is a number's, else the first."""
+        """What a measure is drawn over if nobody says: the first dimension that is a number's, else one of words.
+
+        Starts and draws have no order: only of a measure that has nothing else.
+        """
         dims = [str(one) for one in found.dims]
         numbers = [one for one in dims if one not in MANY and self._is_number(one)]
         if not dims:
             raise BadValueError("the study has one run here: there is nothing to draw it over")
-        return next(iter(numbers), next((one for one in dims if one != "scene"), dims[0]))
+        words = [one for one in dims if one not in MANY]
+        return next(iter(numbers), next((one for one in words if one != "scene"), next(iter(words), dims[0])))
+
+    def is_course(self, name: str) -> bool:
+        """Whether a coordinate's values follow each other, as those of a number: a line may go through them."""
+        return self._is_number(name) and name not in MANY and not self._is_zip(name)
+
+    def _is_zip(self, name: str) -> bool:
+        return str(self.dataset[name].attrs.get("long_name", "")).startswith("place in zip")
 
     def _is_number(self, dimension: str) -> bool:
         return self.dataset[dimension].values.dtype.kind in "fiu"
@@ -190,16 +204,24 @@ class StudyData:
         return own if len(own) == np.size(self.dataset[name].values) else ()
 
     def _together(self, dimension: str) -> list[str] | None:
-        """Of a zip what its numbers are at each place, where that is short; None of another dimension."""
-        if not str(self.dataset[dimension].attrs.get("long_name", "")).startswith("place in zip"):
+        """Of a zip what its numbers are at each place, or what differs there from most of its places.
+
+        None of another dimension, and where neither is short.
+        """
+        if not self._is_zip(dimension):
             return None
-        columns: dict[tuple[str, ...], None] = {}
+        columns: dict[tuple[str, ...], str] = {}
         for name, one in self.dataset.coords.items():
             if one.dims == (dimension,) and name != dimension and len(set(one.values.tolist())) > 1:
-                columns[tuple(self.written(str(name)) or map(self.shown, one.values))] = None
-        words = [", ".join(row) for row in zip(*columns, strict=True)]
-        short = bool(words) and max(map(len, words)) <= MOST_LETTERS and len(set(words)) == len(words)
-        return words if short else None
+                columns.setdefault(tuple(self.written(str(name)) or map(self.shown, one.values)), self.shown(name))
+        whole = [", ".join(row) for row in zip(*columns, strict=True)]
+        for words, most in (
+            (whole, MOST_LETTERS if len(columns) < MANY_COLUMNS else 0),
+            (changes(columns), MOST_SAID),
+        ):
+            if words and max(map(len, words)) <= most and len(set(words)) == len(words):
+                return words
+        return None
 
     def where(self, place: Mapping[str, int]) -> str:
         """A scene by its places: "c = 0.3 mm, ω = 2π rad/s"."""
@@ -231,6 +253,18 @@ class StudyData:
     def shown_unit(self, name: str) -> str:
         """For people."""
         return pretty(self.unit(name))
+
+
+def changes(columns: Mapping[tuple[str, ...], str]) -> list[str]:
+    """What differs at each place of a zip from what most of its places have; none where a number has no such value."""
+    usual = {column: Counter(column).most_common(1)[0] for column in columns}
+    if any(2 * count <= len(column) for column, (_, count) in usual.items()):
+        return []
+    places = range(len(next(iter(columns), ())))
+    own = [
+        [f"{name} = {column[k]}" for column, name in columns.items() if column[k] != usual[column][0]] for k in places
+    ]
+    return [", ".join(told) or "unchanged" for told in own]
 
 
 def crossings(t: Any, through: Any, others: list[Any], level: float, falling: bool, after: float) -> list[Any]:

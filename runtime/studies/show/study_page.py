@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.errors import GudgeonError
-from gudgeon.language.plot_units import label, scale
+from gudgeon.language.plot_units import drawn, label
 from gudgeon.results.web_page import Section, article, lines, page, table, text
 from gudgeon.studies.ensemble.notes import kind_of
 from gudgeon.studies.show.claims import claims_sections
@@ -35,7 +35,9 @@ class StudyReport:
         """The whole file; it asks for nothing from elsewhere."""
         parts, pictures = _parts(self.study), Pictures()
         first = next(iter(parts.values()))
-        return pictures.filled(page(first.title, _about(parts), _all(self.study, parts, pictures)))
+        every = list(_all(self.study, parts, pictures))
+        chapters = _chapters(every, parts) if len(parts) > 1 else ()
+        return pictures.filled(page(first.title, _about(parts), every, chapters))
 
     def _repr_html_(self) -> str:
         parts, pictures = _parts(self.study), Pictures()
@@ -49,13 +51,31 @@ def _parts(study: Study) -> dict[str, StudyData]:
 
 
 def _all(study: Study, parts: dict[str, StudyData], pictures: Pictures) -> Iterator[Section]:
-    """Claims are of the whole, and first."""
+    """Claims are of the whole, and first, below what the file says of itself."""
+    yield "In short", lines([*next(iter(parts.values())).names.about, *_totals(study)])
     yield from claims_sections(study, parts, pictures)
     for name, data in parts.items():
         before = f"{data.shown(name)}: " if name else ""
         if name:
-            yield f"Part {data.shown(name)}", lines([_counts(data)])
+            yield _part(data, name), lines([_counts(data)])
         yield from ((before + heading, inside) for heading, inside in sections(data, pictures, name or "study"))
+
+
+def _part(data: StudyData, name: str) -> str:
+    return f"Part {data.shown(name)}"
+
+
+def _chapters(every: list[Section], parts: dict[str, StudyData]) -> list[str]:
+    """Of headings those that are of the whole, and the first of each part."""
+    of_parts = [_part(data, name) for name, data in parts.items()]
+    return [name for name, _ in every[: [name for name, _ in every].index(of_parts[0])]] + of_parts
+
+
+def _totals(study: Study) -> list[str]:
+    try:
+        return study.claims.totals()
+    except GudgeonError:  # its file makes no claims
+        return []
 
 
 def sections(data: StudyData, pictures: Pictures, name: str = "study") -> Iterator[Section]:
@@ -103,16 +123,17 @@ def _varied(data: StudyData) -> Iterator[tuple[str, ...]]:
         if written := data.written(str(name)):
             yield data.shown(name), over, _listed(list(written)), "", told
             continue
-        factor, shown = scale(float(np.abs(values).max(initial=0.0)), unit)
-        words = [f"{float(value) * factor:.6g}" for value in values]
-        yield data.shown(name), over, _listed(words, counting=values.dtype.kind == "i"), shown, told
+        factor, shown = drawn(float(np.abs(values).max(initial=0.0)), unit)
+        few = len(values) <= SHOWN_VALUES and not (values.dtype.kind == "i" and len(values) > 2)
+        ends = values if few or not values.size else np.array([values.min(), values.max()])
+        words = [f"{float(value) * factor + 0.0:.6g}" for value in ends]
+        listed = ", ".join(words) if few else f"{' … '.join(words)}, {len(values)} of them"
+        yield data.shown(name), over, listed, shown, told
 
 
-def _listed(words: list[str], counting: bool = False) -> str:
-    """All of few; of many the ends."""
-    if len(words) <= SHOWN_VALUES and not (counting and len(words) > 2):
-        return ", ".join(words)
-    return f"{words[0]} … {words[-1]}, {len(words)} of them"
+def _listed(words: list[str]) -> str:
+    """All of few; of many the first and the last."""
+    return ", ".join(words) if len(words) <= SHOWN_VALUES else f"{words[0]} … {words[-1]}, {len(words)} of them"
 
 
 def _failures(data: StudyData) -> Iterator[tuple[str, ...]]:
@@ -145,7 +166,7 @@ def _measures(data: StudyData) -> str:
         shape = data.dataset[name]
         dims = [str(one) for one in shape.dims if one not in MANY]
         spread = any(one in MANY for one in shape.dims)
-        factor, unit = scale(float(np.nanmax(np.abs(np.nan_to_num(shape.values)), initial=0.0)), data.unit(name))
+        factor, unit = drawn(float(np.nanmax(np.abs(np.nan_to_num(shape.values)), initial=0.0)), data.unit(name))
         units.append(unit)
         for at, values in data.spreads(name):
             key = tuple(at.values())
@@ -155,7 +176,8 @@ def _measures(data: StudyData) -> str:
             rows.setdefault(key, []).append(_spread(values * factor, spread))
     head = [data.labels(data.dataset[names[0]], one)[1] for one in dims]
     head += [label(data.shown(name), unit) for name, unit in zip(names, units, strict=True)]
-    told = ["median (quartiles) over starts and draws; n: of so many runs, where others have no number"] * spread
+    over = [data.shown(one) for one in data.dataset[names[0]].dims if one in MANY]
+    told = [f"median (quartiles) over {', '.join(over)}; n: the number of these runs, where some have none"] * spread
     told += [f"{left} more rows are in the dataset"] * bool(left)
     return table(head, ([*key, *cells] for key, cells in rows.items())) + lines(told, "g-quiet")
 
@@ -168,7 +190,7 @@ def _spread(values: Any, spread: bool) -> str:
         return f"{own[0]:.5g}"
     q1, middle, q3 = np.quantile(own, (0.25, 0.5, 0.75))
     less = f" n = {own.size}" if own.size < values.size else ""
-    return f"{middle:.5g} ({q1:.4g} … {q3:.4g}){less}"
+    return f"{middle:.4g} ({q1:.4g} … {q3:.4g}){less}"
 
 
 def _figures(data: StudyData) -> Iterator[Draw]:
@@ -188,7 +210,8 @@ def _figures(data: StudyData) -> Iterator[Draw]:
             at = {"scene": scene} if scene else {}
             if not np.isfinite(data.measure(name, at).values).any():
                 continue
-            yield f"{data.shown(name)}: median", partial(plot.heat_map, name, *varied[:2], at=at)
+            told = ", ".join(filter(None, (f"{data.shown(name)}: median", data.shown(scene))))
+            yield told, partial(plot.heat_map, name, *varied[:2], at=at)
 
 
 def _pooled(data: StudyData, found: Any) -> str:

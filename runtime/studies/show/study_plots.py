@@ -6,7 +6,6 @@ number's values. NaN, of runs that failed, is in no statistic.
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -16,8 +15,9 @@ from gudgeon.errors import BadValueError
 from gudgeon.language.plot_units import drawn, label, quantity
 from gudgeon.language.shown import in_figure, one_line
 from gudgeon.language.wanted import flag, number_of, positive
-from gudgeon.results.plots import COLOURS, IDEAL, STYLE, TITLE, cycle, peak_of
+from gudgeon.results.plots import COLOURS, STYLE, TITLE, cycle, peak_of
 from gudgeon.results.run_plots import new_axes, plain
+from gudgeon.studies.show.bands import LINE, band, bars, marks, numbers, quantiles, ticks_at
 from gudgeon.studies.show.study_data import Coords, StudyData
 from gudgeon.studies.show.study_signals import filtered, spectra
 
@@ -25,12 +25,11 @@ import matplotlib  # isort: skip  (plots.py says where it is missing)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from numpy.typing import ArrayLike
 
     from gudgeon.studies.ensemble.finished import Study
 
-QUARTILES = (0.0, 0.25, 0.5, 0.75, 1.0)
 SMALL = 80  # cells of a map beside which numbers can be read
+BESIDE = 0.5  # share of the room of a word in which its dots stand side by side
 
 
 class StudyPlot:
@@ -45,7 +44,8 @@ class StudyPlot:
     ) -> Axes:  # fmt: skip
         """A measure over what was varied (the first number), a line for each value of `by` (scenes).
 
-        Lines are medians of all other runs, bands their quartiles and extremes. published: marks of what others found,
+        Lines are medians of all other runs, bands their quartiles and extremes; over words, zips and starts dots and
+        bars. published: marks of what others found,
         {coordinate: value, SI}; True: the numbers that the study's file claims of these runs, in the lines' colours.
         """
         found = self.data.measure(name, at)
@@ -55,19 +55,24 @@ class StudyPlot:
         if isinstance(published, bool):
             claimed = self.data.claimed(name, over, by, at, axis) if published else []
         else:
-            marks = {key: number_of(value, "published") for key, value in dict(published or {}).items()}
-            claimed = [(self.data.place(found, axis, key), value, -1) for key, value in marks.items()]
+            stars = {key: number_of(value, "published") for key, value in dict(published or {}).items()}
+            claimed = [(self.data.place(found, axis, key), value, -1) for key, value in stars.items()]
         with matplotlib.rc_context(STYLE):
             ax = new_axes(5.6, 3.6) if ax is None else plain(ax)
             x, x_label, ticks = self.data.axis(axis)
             most = [peak_of(found.values), *(abs(value) for _, value, _ in claimed)]
             factor, unit = drawn(max(most), found.attrs.get("units", ""))
-            for (told, own), colour in zip(parts := self.data.split(found, by), cycle(len(parts)), strict=True):
-                _band(ax, x, quantiles(self.data.rows(own, over)) * factor, colour, told)
-            _marks(ax, claimed, factor, cycle(len(parts)))
+            parts, course = self.data.split(found, by), self.data.is_course(axis)
+            for k, ((told, own), colour) in enumerate(zip(parts, cycle(len(parts)), strict=True)):
+                five = quantiles(self.data.rows(own, over)) * factor
+                if course:
+                    band(ax, x, five, colour, told)
+                else:
+                    ax.set_xlim(x.min() - 0.5, x.max() + 0.5)
+                    bars(ax, x + BESIDE * (k - 0.5 * (len(parts) - 1)) / len(parts), five, colour, told)
+            marks(ax, claimed, factor, cycle(len(parts)))
             ax.set(xlabel=x_label, ylabel=label(self.data.shown(name), unit))
-            if ticks is not None:
-                ax.set_xticks(x, ticks)
+            ticks_at(ax, x, ticks)
             self._finish(ax, at, len(parts) > 1 or bool(claimed))
         return ax
 
@@ -91,7 +96,7 @@ class StudyPlot:
             ax = new_axes(8.0, 3.6) if ax is None else plain(ax)
             factor, unit = drawn(peak_of(found.values), found.attrs.get("units", ""))
             for (told, own), colour in zip(parts := self.data.split(found, by), cycle(len(parts)), strict=True):
-                _band(ax, t, quantiles(self.data.rows(own, found.dims[-1])) * factor, colour, told, 0.0)
+                band(ax, t, quantiles(self.data.rows(own, found.dims[-1])) * factor, colour, told, 0.0)
             ax.set(xlabel="share of the run" if share else "t [s]", ylabel=label(self.data.shown(series), unit))
             self._finish(ax, at, len(parts) > 1)
         return ax
@@ -118,7 +123,7 @@ class StudyPlot:
             factor, unit = drawn(max(peak_of(rows) for _, rows in own), found.attrs.get("units", ""))
             told = [word for word, _ in self.data.split(found, by)]
             for word, (f, rows), colour in zip(told, own, cycle(len(told)), strict=True):
-                _band(ax, f, quantiles(rows) * factor, colour, word, 0.0)
+                band(ax, f, quantiles(rows) * factor, colour, word, 0.0)
             ax.set(xlabel="f [Hz]", ylabel=label(self.data.shown(series), unit))
             self._finish(ax, at, len(told) > 1)
         return ax
@@ -200,8 +205,7 @@ class StudyPlot:
             factor, unit = drawn(peak_of(ys), self.data.unit(series))
             ax.plot(xs, ys * factor, ".", color=COLOURS[1], ms=2.0)
             ax.set(xlabel=x_label, ylabel=label(self.data.shown(series), unit))
-            if ticks is not None:
-                ax.set_xticks(x, ticks)
+            ticks_at(ax, x, ticks)
             self._finish(ax, at, False)
         return ax
 
@@ -216,15 +220,14 @@ class StudyPlot:
             ax = new_axes(5.8, 4.2) if ax is None else plain(ax)
             factor, unit = drawn(peak_of(middle), found.attrs.get("units", ""))
             image = ax.imshow(middle * factor, origin="lower", aspect="auto", cmap="viridis")
-            for which, name_of in ((ax.xaxis, x), (ax.yaxis, y)):
-                words, told = self.data.labels(found, name_of)
-                which.set_ticks(range(len(words)), words)
-                which.set_label_text(told)
-            ax.tick_params(axis="x", rotation=45 if middle.shape[1] > 6 else 0)
+            (words, x_label), (others, y_label) = (self.data.labels(found, name_of) for name_of in (x, y))
+            ticks_at(ax, np.arange(len(words)), words)
+            ax.set_yticks(range(len(others)), [in_figure(word, LINE) for word in others])
+            ax.set(xlabel=x_label, ylabel=y_label)
             ax.grid(False)
             ax.figure.colorbar(image, ax=ax, label=label(self.data.shown(name), unit))
             if middle.size <= SMALL:
-                _numbers(ax, middle * factor, image)
+                numbers(ax, middle * factor, image)
             self._finish(ax, at, False)
         return ax
 
@@ -233,40 +236,6 @@ class StudyPlot:
         ax.set_title(in_figure(": ".join(filter(None, (one_line(self.data.title), picked))), TITLE))
         if legend:
             ax.legend(fontsize=8)
-
-
-def quantiles(rows: ArrayLike, which: tuple[float, ...] = QUARTILES) -> Any:
-    """(len(which), …) over the first axis, NaN left out; NaN where there is nothing else."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RuntimeWarning)  # all NaN: that is what it says
-        return np.nanquantile(np.where(np.isfinite(rows), rows, np.nan), which, axis=0)
-
-
-def _band(ax: Axes, x: Any, five: Any, colour: str, told: str, size: float = 4.0) -> None:
-    """Extremes, quartiles and the median; where there is one run alone its line."""
-    low, q1, middle, q3, high = five
-    order = np.argsort(x, kind="stable")
-    if not np.array_equal(low, high, equal_nan=True):
-        ax.fill_between(x[order], low[order], high[order], color=colour, alpha=0.12, lw=0)
-        ax.fill_between(x[order], q1[order], q3[order], color=colour, alpha=0.28, lw=0)
-    ax.plot(x[order], middle[order], "-o" if size else "-", ms=size, color=colour, lw=1.1, label=told)
-
-
-def _marks(ax: Axes, claimed: list[tuple[float, float, int]], factor: float, colours: list[str]) -> None:
-    """What others found: place, value and line of each; −1: of no line."""
-    for k, (place, value, line) in enumerate(claimed):
-        own = IDEAL if line < 0 else colours[line]
-        told = "published" if k == 0 else None
-        ax.plot([place], [value * factor], "*", color=own, mec=IDEAL, mew=0.6, ms=9, label=told)
-
-
-def _numbers(ax: Axes, values: Any, image: Any) -> None:
-    """In each cell, dark on what is bright."""
-    for (row, column), value in np.ndenumerate(values):
-        if np.isfinite(value):
-            bright = np.dot(image.cmap(image.norm(value))[:3], (0.299, 0.587, 0.114)) > 0.55
-            colour = "#111111" if bright else "white"
-            ax.text(column, row, f"{value:.3g}", ha="center", va="center", fontsize=7.5, color=colour)
 
 
 def _said(value: Any) -> str:

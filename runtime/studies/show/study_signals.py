@@ -10,6 +10,15 @@ from gudgeon.errors import BadValueError
 from gudgeon.language.shown import one_line
 from gudgeon.results.signals import low_pass, spectrum
 
+NEAR = 0.01  # of the time between two samples: so far apart, samples are of the same time
+
+
+def alike(rows: Any) -> bool:
+    """Whether runs, (runs, N) times, have samples at the same times: ends that follow a number a millionth off do."""
+    first = rows[0]
+    step = np.nanmin(np.diff(first)) if np.isfinite(first).sum() > 1 else 0.0
+    return bool(np.isclose(rows, first, rtol=1e-12, atol=NEAR * abs(float(step)), equal_nan=True).all())
+
 
 def spectra(t: Any, found: Any, by: str | None, name: str, window: str) -> list[tuple[Any, Any]]:
     """Frequencies (M,) and amplitudes (runs, M) of each value of `by`, or of all runs. BadValueError: see below."""
@@ -26,7 +35,7 @@ def _of_runs(times: Any, values: Any, name: str, window: str) -> tuple[Any, Any]
     if not rows:
         return np.zeros(1), np.full((1, 1), np.nan)
     first = rows[0][0]
-    if any(len(t) != len(first) or not np.allclose(t, first, rtol=0.0, atol=1e-9 * abs(first[-1])) for t, _ in rows):
+    if any(len(t) != len(first) for t, _ in rows) or not alike(np.array([t for t, _ in rows])):
         told = f"{one_line(name)}: the runs have samples at different times, of which there is no common spectrum"
         raise BadValueError(told, hint="pick runs with the same times (at=…), or name by= what their times follow")
     each = [spectrum(first, x, window) for _, x in rows]
