@@ -17,6 +17,7 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError
+from gudgeon.integrators.adaptive import tolerance
 from gudgeon.language.tree import functions, names
 from gudgeon.language.wanted import refuse, text
 from gudgeon.model.parameters import prepare_slots
@@ -26,7 +27,7 @@ from gudgeon.results.results import Result
 from gudgeon.simulation.arguments import end_of, seconds
 from gudgeon.simulation.flow import Flow
 from gudgeon.simulation.horizon import begin_of, check_own, settings_of
-from gudgeon.simulation.neighbours import Neighbours
+from gudgeon.simulation.neighbours import NEAR, Neighbours
 from gudgeon.simulation.restart import numbers, own
 from gudgeon.simulation.returns import Returns
 from gudgeon.simulation.tangent import Tangent
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
 
 WAYS = ("auto", "tangent", "twin")
 RTOL = 1e-12  # of the runs, unless told otherwise: far below what neighbours are apart
+LOOSEST = 1e-10  # of twins: where only one of both takes another step, they part by what steps err by
 LOOKED = 1000  # samples by which the motion is measured
 INTERVALS = 60  # of the time, and once a period at least
 SHORTEST = 2.0**-12  # of an interval
@@ -77,7 +79,8 @@ def lyapunov(
         t_end = until
     if source.degrees_of_freedom <= 0:
         raise BadValueError("without a degree of freedom no difference can grow: drives determine the motion")
-    why, settings = _way(source, text(by, "by")), _settings(settings)
+    why = _way(source, text(by, "by"))
+    settings = _settings(settings, why is not None)
     begin = _settled(simulation, skip, settings, parameters, start)
     looked = simulation.simulate(t_end, output=LOOKED, stop=False, peaks=(), progress=progress, **begin, **settings)
     if looked.diagnostics.interrupted:
@@ -144,11 +147,21 @@ def _way(source: KernelSource, by: str) -> str | None:
     return None if by == "tangent" or (by == "auto" and not why) else why
 
 
-def _settings(settings: dict[str, Any]) -> dict[str, Any]:
-    """Arguments of simulate for all runs."""
+def _settings(settings: dict[str, Any], is_twin: bool) -> dict[str, Any]:
+    """Arguments of simulate for all runs. Raises BadValueError for a tolerance that twins would see."""
     given = {name: value for name, value in settings.items() if value is not None}
-    fixed = given.get("step") is not None or given.get("method") == "rk4"
-    return given if fixed or "rtol" in given else given | {"rtol": RTOL}
+    if given.get("step") is not None or given.get("method") == "rk4":
+        return given
+    given = {"rtol": RTOL} | given
+    if is_twin and tolerance(given["rtol"], "auto", False) > LOOSEST:
+        told = f"rtol is {given['rtol']}: a twin is {NEAR:g} apart, and would measure what steps err by"
+        raise BadValueError(told, hint=f"expected {LOOSEST:g} or less; without one it is {RTOL:g}")
+    return given
+
+
+def neighbours_rtol(source: KernelSource, rtol: float | None) -> float | None:
+    """The tolerance of runs beside a neighbour, where that of others is `rtol`: no looser than a twin may have it."""
+    return min(rtol, LOOSEST) if rtol is not None and no_tangent(source) else rtol
 
 
 def _settled(

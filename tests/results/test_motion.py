@@ -44,6 +44,28 @@ def test_a_turn_by_the_golden_section_is_quasi_periodic() -> None:
     assert classify(turning(3.0 / 7.0), 1.0, 0.0, 1e-3).period == 7
 
 
+def henon(a: float, x: float, count: int) -> tuple[np.ndarray, float, float]:
+    """Points of x ← 1 − a x² + y, y ← .3 x, the exponent by its tangent, and a standard error of ten blocks."""
+    y, z, points, logs = 0.0, np.array([1.0, 0.0]), [], []
+    for _ in range(500 + count):
+        z = np.array([[-2.0 * a * x, 1.0], [0.3, 0.0]]) @ z
+        x, y = 1.0 - a * x * x + y, 0.3 * x
+        points.append((x, y))
+        logs.append(math.log(np.linalg.norm(z)))
+        z /= np.linalg.norm(z)
+    blocks = np.array(logs[500:]).reshape(10, -1).mean(axis=1)
+    return np.array(points[500:]), float(blocks.mean()), float(np.std(blocks, ddof=1) / math.sqrt(10.0))
+
+
+def test_chaos_in_narrow_bands_is_no_torus() -> None:
+    """Hénon's map at a = 1.06: points go from band to band in turn, λ = .046; at 1.4 (λ = .419) there is one band."""
+    for x in (-0.09, -0.05, 0.0, 0.03, 0.06, 0.1):
+        points, rate, error = henon(1.06, x, 150)
+        assert classify(points, 1.0, rate, error).kind in ("undecided", "chaotic")
+        points, rate, error = henon(1.4, x, 150)
+        assert abs(rate - 0.419) < 4.0 * error and classify(points, 1.0, rate, error).kind == "chaotic"
+
+
 def test_what_signs_do_not_agree_on_is_undecided() -> None:
     """Random points that do not grow apart, turns that do, too few points, and an exponent of either sign."""
     draws = np.random.default_rng(3).standard_normal((600, 1))

@@ -82,6 +82,44 @@ def test_verdicts_are_no_matter_of_chance(p: float, verdict: str) -> None:
     assert same > 0.8 if p in (0.9, 0.5) else same < 0.08, same
 
 
+def test_runs_of_the_same_deviations_are_fewer_trials() -> None:
+    """Start by start one cell rises where the other falls: both know the same 32 draws, not 64; 600 times at 0.8."""
+    rng, d, check = np.random.default_rng(1), math.sqrt(2.0) * NormalDist().inv_cdf(0.8), [larger(A, B)]
+    draws = rng.normal(0, 1, (600, 32))
+    found = [judged(check, {A: {"m": own}, B: {"m": d - own}}) for own in draws]
+    assert np.mean([one.verdict == "holds" for one in found]) < 0.08
+    assert 0.87 <= np.mean([one.low <= 0.8 <= one.high for one in found]) <= 0.96
+    gone = draws[0].copy()
+    gone[3] = math.nan  # what is left keeps its place
+    left, whole = judged(check, {A: {"m": gone}, B: {"m": d - draws[0]}}), found[0]
+    assert left.estimates[0].trials == pytest.approx(whole.estimates[0].trials, rel=0.1)
+
+
+def test_runs_that_all_ensembles_have_count_once() -> None:
+    """12 runs of one cell beside 32 of three ensembles; 600 times at 0.8, and all of a few runs."""
+    rng, d, check = np.random.default_rng(1), math.sqrt(2.0) * NormalDist().inv_cdf(0.8), [larger(A, B)]
+    held = 0
+    for _ in range(600):
+        b = rng.normal(d, 1, 12)
+        each = [judged(check, {A: {"m": rng.normal(0, 1, 32)}, B: {"m": b}}, again=[B]) for _ in range(3)]
+        held += together(each)[0].verdict == "holds"
+    assert held < 0.08 * 600
+    few = [judged(check, runs(a=[1.0] * 40, b=[2.0] * 4), again=[B])] * 3
+    assert together(few)[0].verdict == "undecided" and together(few)[0].low == few[0].low
+
+
+def test_nothing_is_surer_than_what_all_runs_show() -> None:
+    """Of 8 and 8 all pairs rise; then all but one do, whose shares scatter like those of more trials."""
+    for side, verdict in ((1.0, "holds"), (-1.0, "fails")):
+        a, b = side * np.arange(8.0), side * np.arange(8.5, 16.0)
+        whole = judged([larger(A, B)], {A: {"m": a}, B: {"m": b}})
+        b[0] = side * 6.5
+        one_less = judged([larger(A, B)], {A: {"m": a}, B: {"m": b}})
+        assert abs(whole.probability - one_less.probability) == 1 / 64 and one_less.estimates[0].trials > 8
+        assert one_less.low <= whole.low if side > 0 else one_less.high >= whole.high
+        assert whole.verdict == one_less.verdict or whole.verdict == verdict
+
+
 def test_ensembles_that_contradict_each_other_decide_nothing() -> None:
     rises, falls = (judged([larger(A, B)], runs(a=own, b=other)) for own, other in
                     (([1.0] * 20, [2.0] * 20), ([2.0] * 20, [1.0] * 20)))  # fmt: skip

@@ -14,7 +14,7 @@ from gudgeon.errors import InputError
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.study import plans_of
 from tests.programs import needs_compiler
-from tests.simulation.test_lyapunov import DUFFING, LINEAR, on_a_rail
+from tests.simulation.test_lyapunov import DUFFING, LINEAR, RAIL, on_a_rail
 
 pytestmark = needs_compiler
 
@@ -70,6 +70,27 @@ def test_kinds_of_motion_once_a_period(own: dict[str, Any]) -> None:
     }).dataset  # fmt: skip
     np.testing.assert_allclose(found["per"], -found["d"] / 2 * 2 * np.pi / 5.0, rtol=0.02)
     assert (found["kind"] == 1.0).all() and (found["sure"] >= 0.8).all()
+
+
+def test_a_run_is_followed_to_where_it_ended(tmp_path: Path) -> None:
+    """From x0 on a hill of stiffness −k it comes to x = 1 m after acosh(1/x0)/√k, and ends there or is braked for good.
+
+    By a twin, for the force jumps, whose tolerance is its own, however loose that of the runs is.
+    """
+    text = RAIL.format(parameters="k: 4 N/m, x0: 1e-6 m", force="where(m.x < 1 m, k*m.x, m.x * 0 N/m - m.vx * 5 kg/s)")
+    path = tmp_path / "edge.yaml"
+    path.write_text(text.replace("events: {", "events: {edge: {zero: m.x - 1 m, action: stop}, "), encoding="utf-8")
+    measures = {"rate": {"lyapunov": "run"}, "far": {"believable": "run"}, "kind": {"motion": "9 s"},
+                "late": {"lyapunov": "run", "window": "late"}}  # fmt: skip
+    wanted = {"mechanism": str(path), "t_end": "20 s", "output": 10, "rtol": 1e-6, "measures": measures,
+              "windows": {"late": {"from": "10 s"}}}  # fmt: skip
+    stopped, on = gudgeon.study(wanted), gudgeon.study(wanted | {"stop": False}).dataset
+    ended = stopped.dataset
+    assert float(ended["t_last"]) == pytest.approx(math.acosh(1e6) / 2.0, rel=1e-5) and not stopped.failed
+    assert float(ended["rate"]) == pytest.approx(2.0, rel=0.02)
+    assert float(ended["far"]) == pytest.approx(math.log(0.25e6) / float(ended["rate"]), rel=1e-12)
+    assert math.isnan(float(ended["late"])) and math.isnan(float(ended["kind"]))
+    assert float(on["t_last"]) == 20.0 and float(on["rate"]) < 0.0 and math.isfinite(float(on["late"]))
 
 
 def test_a_run_in_place_of_a_time(rail: Simulation) -> None:

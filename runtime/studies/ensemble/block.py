@@ -19,9 +19,9 @@ from gudgeon.simulation.arguments import DEFAULT_OUTPUT, MOST_OUTPUT
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.exponents import follow
 from gudgeon.studies.ensemble.libraries import loaded, method_in
-from gudgeon.studies.ensemble.measures import ROUNDING, Spans, measured, rubs_of, series_of, steps_of
+from gudgeon.studies.ensemble.measures import Spans, measured, rubs_of, series_of, steps_of
 from gudgeon.studies.ensemble.notes import Note, gathered, guesses, merged
-from gudgeon.studies.ensemble.numbers import key_of, of_runs, slot_of
+from gudgeon.studies.ensemble.numbers import ROUNDING, key_of, of_runs, slot_of
 from gudgeon.studies.ensemble.origins import at_samples, of_steps, origin_of
 from gudgeon.studies.ensemble.wearing import worn
 
@@ -100,7 +100,7 @@ def run_block(job: Job, progress: Progress | None = None, simulation: Simulation
                 except InputError as error:
                     failures[i] = str(error)
     found.notes.append(off)
-    found.add(follow(simulation, job, table, failures, progress), failures)
+    found.add(follow(simulation, job, table, found.t_last, failures, progress), failures)
     return found.block(failures)
 
 

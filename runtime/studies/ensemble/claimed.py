@@ -129,6 +129,10 @@ class _Finished:
         names = [name for part in dict.fromkeys(cell.part for cell in cells) for name in self._named(part)]
         return list(dict.fromkeys(names)) or [UNNAMED]
 
+    def own(self, cell: Cell, ensembles: list[str]) -> bool:
+        """Whether a cell has runs of its own for each of these."""
+        return len(ensembles) < 2 or set(ensembles) <= set(self._named(cell.part))
+
     def _named(self, part: str) -> list[str]:
         plan = self.plans.each[part]
         return [str(name) for one in plan.coordinates if one.name == "ensemble" for name in one.values]
@@ -194,11 +198,12 @@ def _of_trend(known: KnownTrend, runs: _Finished) -> Iterator[dict[str, Any]]:
     cells = list(dict.fromkeys(cell for check in known.checks for cell in check.cells))
     measures = list(dict.fromkeys(name for check in known.checks for name in check.measures))
     certain = [cell for cell in cells if "start" not in runs.plans.each[cell.part].dims]
-    each = {}
-    for ensemble in runs.ensembles(cells):
+    each, ensembles = {}, runs.ensembles(cells)
+    again = [cell for cell in cells if not runs.own(cell, ensembles)]
+    for ensemble in ensembles:
         own = {cell: {name: runs.values(cell, name, ensemble) for name in measures if _has(runs, cell, name)}
                for cell in cells}  # fmt: skip
-        each[ensemble] = judged(known.checks, own, certain)
+        each[ensemble] = judged(known.checks, own, certain, again)
     whole, agreed = together(list(each.values()))
     for ensemble, one in each.items():
         odds = {name: _plain(getattr(one, name)) for name in ODDS}

@@ -21,9 +21,10 @@ from gudgeon.language.parser import parse
 from gudgeon.language.units import TIME
 from gudgeon.results.batch import Array
 from gudgeon.results.motion import CHAOTIC, PERIODIC, QUASI, UNDECIDED
+from gudgeon.simulation.lyapunov import neighbours_rtol
 from gudgeon.studies.ensemble.libraries import method_in
 from gudgeon.studies.ensemble.notes import guesses
-from gudgeon.studies.ensemble.numbers import check_expression, of_runs
+from gudgeon.studies.ensemble.numbers import ROUNDING, check_expression, of_runs
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Measure, StudyFile
@@ -75,15 +76,18 @@ def _check_period(measure: Measure, source: KernelSource) -> None:
 
 
 def follow(
-    simulation: Simulation, job: Job, table: Table, failures: list[str], progress: Progress | None
+    simulation: Simulation, job: Job, table: Table, t_last: Array, failures: list[str], progress: Progress | None
 ) -> dict[str, Array]:
-    """Those measures of all runs that have not failed, (n,) by name; a neighbour that ends is why a run has failed."""
+    """Those measures of all runs that have not failed, (n,) by name; a neighbour that ends is why a run has failed.
+
+    `t_last` (n,) s: where each run ended, at an event or as it was meant to.
+    """
     measures = [one for one in job.wanted.measures if one.statistic in FOLLOWED]
     found = {one.name: np.full(job.n, np.nan) for one in measures}
     if not measures or simulation.source.degrees_of_freedom <= 0:
         return found
     runs = [i for i in range(job.n) if not failures[i]]
-    each = _Each(simulation, job, table, progress)
+    each = _Each(simulation, job, table, t_last, progress)
     with ThreadPoolExecutor(job.threads or available_threads(), thread_name_prefix="gudgeon") as pool:
         for i, own in zip(runs, pool.map(lambda i: each(i, measures), runs), strict=True):
             if isinstance(own, str):
@@ -97,13 +101,18 @@ def follow(
 class _Each:
     """One run's neighbour, section by section."""
 
-    def __init__(self, simulation: Simulation, job: Job, table: Table, progress: Progress | None) -> None:
+    def __init__(
+        self, simulation: Simulation, job: Job, table: Table, t_last: Array, progress: Progress | None
+    ) -> None:
         self.simulation, self.job, self.table, self.progress = simulation, job, table, progress
         self.error = RTOL if job.wanted.rtol is None else job.wanted.rtol
+        self.rtol = neighbours_rtol(simulation.source, job.wanted.rtol)
+        is_cut = t_last < table.t_end * (1.0 - ROUNDING)
+        self.t_last = np.where(is_cut, t_last, table.t_end)
 
     def __call__(self, i: int, measures: Sequence[Measure]) -> dict[str, float] | str:
         """Values by name, or why there are none."""
-        followed: dict[tuple[str, str], Lyapunov] = {}
+        followed: dict[tuple[str, str], Lyapunov | None] = {}
         values = {}
         with guesses(self.simulation.source, self.job.first):  # of the run itself they are told already
             try:
@@ -116,15 +125,19 @@ class _Each:
                 return f"{one.name}: {error}"
         return values
 
-    def _lyapunov(self, i: int, measure: Measure) -> Lyapunov:
+    def _lyapunov(self, i: int, measure: Measure) -> Lyapunov | None:
+        """None: the run ended before the window began, or sooner than it could return."""
         table, wanted, source = self.table, self.job.wanted, self.simulation.source
         begin, end = (None if one is None else float(one[i]) for one in table.spans.get(measure.window, (None, None)))
-        last = float(table.t_end[i])
+        last, section = float(self.t_last[i]), self._section(i, measure)
+        shortest = section if isinstance(section, float) else 0.0
+        if last < table.t_end[i] and last - max(begin or 0.0, 0.0) <= shortest:
+            return None
         parameters = {name: value if isinstance(value, str) else float(value)
                       for name, value in ((name, own[i]) for name, own in table.columns.items())}  # fmt: skip
         return self.simulation.lyapunov(
-            last if end is None else min(end, last), section=self._section(i, measure), skip=max(begin or 0.0, 0.0),
-            method=method_in(source, wanted.method), rtol=wanted.rtol, parameters=parameters,
+            last if end is None else min(end, last), section=section, skip=max(begin or 0.0, 0.0),
+            method=method_in(source, wanted.method), rtol=self.rtol, parameters=parameters,
             step=None if table.step is None else float(table.step[i]), progress=self._tell,
         )  # fmt: skip
 
@@ -142,7 +155,9 @@ class _Each:
             self.progress(1.0, text)
 
 
-def _value(statistic: str, found: Lyapunov, error: float) -> float:
+def _value(statistic: str, found: Lyapunov | None, error: float) -> float:
+    if found is None:
+        return math.nan
     if statistic == "believable":
         return found.believable(error)
     if statistic == "motion":

@@ -7,6 +7,7 @@ distribution contradict each other as seldom as the intervals say, wherever the 
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -20,6 +21,7 @@ from gudgeon.results.batch import Array
 HOLDS, FAILS = 0.8, 1.0 / 3.0  # probabilities from and up to which a claim holds, and fails
 MOST = 1 << 20  # combinations that are looked at, one by one; of more as many drawn ones
 DOUBT = 0.05  # probability that a verdict rests on chance: each end of an interval is passed by so many
+PLACES = ""  # in the place of a measure: which runs of a cell have all that is asked of it
 VERDICTS = ("holds", "fails", "undecided")
 
 
@@ -62,39 +64,55 @@ class Judged:
 
 @dataclass(frozen=True)
 class Estimate:
-    """A probability as so many independent trials would tell it; without scatter these are infinitely many."""
+    """A probability as so many independent trials would tell it; without scatter these are infinitely many.
+
+    `runs`: of the cell that has fewest. `again`, `again_runs`: trials and runs of those cells alone whose runs are the
+    same in every ensemble.
+    """
 
     p: float
     trials: float
+    runs: float = math.inf
+    again: float = math.inf
+    again_runs: float = math.inf
 
     def bound(self, side: float, doubt: float = DOUBT) -> float:
-        """The end of the interval below (-1) or above (1) that is passed with a probability of `doubt`.
+        """The end of the interval below (-1) or above (1) that is passed with a probability of about `doubt`.
 
-        E. B. Wilson, J. Am. Stat. Assoc. 22, 1927.
+        E. B. Wilson, J. Am. Stat. Assoc. 22, 1927. Nothing is surer than what all of the runs show, or none.
         """
-        n, z = self.trials, NormalDist().inv_cdf(1.0 - doubt)
-        if not math.isfinite(n) or math.isnan(self.p):
+        if not math.isfinite(self.trials) or math.isnan(self.p):
             return self.p
-        middle, reach = self.p + z * z / (2.0 * n), z * math.sqrt(self.p * (1.0 - self.p) / n + (z / (2.0 * n)) ** 2)
-        return min(max((middle + side * reach) / (1.0 + z * z / n), 0.0), 1.0)
+        ends = _wilson(self.p, self.trials, side, doubt), _wilson(0.5 - 0.5 * side, self.runs, side, doubt)
+        return max(ends) if side > 0 else min(ends)
 
 
-def judged(checks: Sequence[Check], runs: Runs, certain: Container[Cell] = ()) -> Judged:
+def _wilson(p: float, n: float, side: float, doubt: float) -> float:
+    z = NormalDist().inv_cdf(1.0 - doubt)
+    middle, reach = p + z * z / (2.0 * n), z * math.sqrt(p * (1.0 - p) / n + (z / (2.0 * n)) ** 2)
+    return min(max((middle + side * reach) / (1.0 + z * z / n), 0.0), 1.0)
+
+
+def judged(
+    checks: Sequence[Check], runs: Runs, certain: Container[Cell] = (), again: Container[Cell] = ()
+) -> Judged:  # fmt: skip
     """Holds where each check is likely, fails where one is unlikely, as far as that is known.
 
     A probability is that of independent runs, one of each cell, estimated by all combinations of the runs that there
     are: of two cells by all pairs (H. B. Mann, D. R. Whitney, Ann. Math. Stat. 18, 1947), ties count as not larger.
-    NaN, and undecided, where a cell has no run with all of the measures. certain: cells whose runs do not scatter.
+    NaN, and undecided, where a cell has no run with all of the measures. certain: cells whose runs do not scatter;
+    again: cells whose runs are those of other ensembles too.
     """
     whole = _complete(checks, runs)
     chance = math.prod(_seen(group, whole)[0] for group in _together(checks))
-    return _of([_estimated(check, whole, certain) for check in checks], chance)
+    return _of([_estimated(check, whole, certain, again) for check in checks], chance)
 
 
 def together(each: Sequence[Judged]) -> tuple[Judged, bool]:
     """What several ensembles say of one claim, and whether they agree: what one carries no other rules out.
 
-    Probabilities are means over the ensembles, and their trials add up; those that do not agree decide nothing.
+    Probabilities are means over the ensembles, and their trials add up, but for runs that several of them have;
+    ensembles that do not agree decide nothing.
     """
     mean = math.fsum(one.chance for one in each) / len(each)
     both = _of([_mean(several) for several in zip(*(one.estimates for one in each), strict=True)], mean)
@@ -103,7 +121,13 @@ def together(each: Sequence[Judged]) -> tuple[Judged, bool]:
 
 
 def _mean(several: Sequence[Estimate]) -> Estimate:
-    return Estimate(math.fsum(one.p for one in several) / len(several), math.fsum(one.trials for one in several))
+    """Variances of what each ensemble has for itself, 1/trials - 1/again, shrink as ensembles are many."""
+    p, again = (math.fsum(values) / len(several) for values in zip(*((x.p, x.again) for x in several), strict=True))
+    rests = [1.0 / one.trials - 1.0 / one.again for one in several]
+    alone = math.inf if min(rests) <= 0.0 else math.fsum(1.0 / rest for rest in rests)
+    trials = math.inf if alone == again == math.inf else 1.0 / (1.0 / alone + 1.0 / again)
+    again_runs = min(one.again_runs for one in several)
+    return Estimate(p, trials, min(math.fsum(one.runs for one in several), again_runs), again, again_runs)
 
 
 def _of(each: Sequence[Estimate], chance: float) -> Judged:
@@ -128,23 +152,52 @@ def _complete(checks: Sequence[Check], runs: Runs) -> Runs:
     for cell, measures in asked.items():
         own = {name: runs[cell][name] for name in measures}
         good = np.logical_and.reduce([np.isfinite(values) for values in own.values()])
-        found[cell] = {name: values[good] for name, values in own.items()}
+        found[cell] = {name: values[good] for name, values in own.items()} | {PLACES: np.flatnonzero(good)}
     return found
 
 
-def _estimated(check: Check, runs: Runs, certain: Container[Cell]) -> Estimate:
+def _estimated(check: Check, runs: Runs, certain: Container[Cell], again: Container[Cell]) -> Estimate:
     """As many trials as the shares of single runs of each cell vary like (W. Hoeffding, Ann. Math. Stat. 19, 1948)."""
     p, shown, chosen = _seen([check], runs)
-    scattered = [own for cell, own in chosen.items() if cell not in certain]
-    if not scattered or math.isnan(p):
+    shares = {cell: _shares(own, shown, runs[cell][PLACES]) for cell, own in chosen.items() if cell not in certain}
+    if not shares or math.isnan(p):
         return Estimate(p, math.inf)
-    counts, variance = [], 0.0
-    for own in scattered:
-        seen = np.bincount(own)
-        shares = np.bincount(own, shown)[seen > 0] / seen[seen > 0]
-        counts.append(len(shares))
-        variance += float(np.var(shares, ddof=1)) / len(shares) if len(shares) > 1 else 0.0
-    return Estimate(p, min(p * (1.0 - p) / variance, sum(counts)) if variance > 0.0 else min(counts))
+    most = sum(int(np.isfinite(own).sum()) for own in shares.values())
+    several = [own for cell, own in shares.items() if cell in again]
+    return Estimate(p, *_trials(p, list(shares.values()), most), *_trials(p, several, most))
+
+
+def _shares(chosen: Array, shown: Array, places: Array) -> Array:
+    """Of each run of a cell the share of its combinations that shows it; NaN where the run is not there."""
+    found, seen = np.full(int(places.max()) + 1, np.nan), np.bincount(chosen, minlength=len(places))
+    with np.errstate(invalid="ignore"):
+        found[places] = np.bincount(chosen, shown, len(places)) / seen
+    return found
+
+
+def _trials(p: float, shares: Sequence[Array], most: int) -> tuple[float, float]:
+    """Independent trials, and runs of the cell that has fewest, of a probability with these shares of its cells.
+
+    Runs of two cells may have the same deviations: where their shares go the same way, their variances add up to more.
+    """
+    if not shares:
+        return math.inf, math.inf
+    counts = [int(np.isfinite(own).sum()) for own in shares]
+    variance = math.fsum(_covariance(own, own) for own in shares)
+    if variance <= 0.0:
+        return min(counts), min(counts)
+    variance += max(2.0 * math.fsum(_covariance(a, b) for a, b in itertools.combinations(shares, 2)), 0.0)
+    return min(p * (1.0 - p) / variance, most), min(counts)
+
+
+def _covariance(a: Array, b: Array) -> float:
+    """Of two means, of what has the same place in both."""
+    counts, length = (np.isfinite(a).sum(), np.isfinite(b).sum()), min(len(a), len(b))
+    both = np.isfinite(a[:length]) & np.isfinite(b[:length])
+    n = int(both.sum())
+    if n < 2:
+        return 0.0
+    return float(np.cov(a[:length][both], b[:length][both])[0, 1]) * n / float(counts[0] * counts[1])
 
 
 def _seen(checks: Sequence[Check], runs: Runs) -> tuple[float, Array, dict[Cell, Array]]:

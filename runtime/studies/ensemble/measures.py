@@ -15,6 +15,7 @@ from gudgeon.results.unknown import check_series
 from gudgeon.results.wear import Rubbing, arc
 from gudgeon.simulation.examine import known_to_rub
 from gudgeon.studies.ensemble.exponents import FOLLOWED, KINDS_TOLD
+from gudgeon.studies.ensemble.numbers import ROUNDING
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Measure
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
 
 Origins: TypeAlias = Mapping[str, Mapping[str, Array]]  # scene -> series of runs, (n, N) each, at their own samples
 Spans: TypeAlias = Mapping[str, tuple[Array | None, ...]]  # window -> begin and end (s) of each run, None: its own
-ROUNDING = 1e-12  # of a time: a sample this near to the end of a window lies in it
 
 STEPS: Mapping[str, str] = {
     "max_of_steps": "max", "min_of_steps": "min", "peak_of_steps": "abs", "deviation_of_steps": "abs",

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from gudgeon.generator.yaml.tree import Text
 
 GEOMETRIC = "geometric"
+ROUNDING = 1e-12  # of a time: a sample this near to the end of a window lies in it
 
 
 def slot_of(source: KernelSource, name: str) -> Slot | None:
