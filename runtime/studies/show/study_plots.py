@@ -15,7 +15,7 @@ import numpy as np
 from gudgeon.errors import BadValueError
 from gudgeon.language.plot_units import drawn, label, quantity
 from gudgeon.language.shown import in_figure, one_line
-from gudgeon.language.wanted import flag, number_of, positive
+from gudgeon.language.wanted import flag, number_of, positive, refuse
 from gudgeon.results.plots import COLOURS, IDEAL, STYLE, TITLE, cycle, peak_of
 from gudgeon.results.run_plots import new_axes, plain
 from gudgeon.studies.show.study_data import Coords, StudyData
@@ -52,10 +52,12 @@ class StudyPlot:
         axis = self.data.first(found) if over is None else over
         over = self.data.dimension(found, axis)
         by = self.data.lines(found, over) if by is None else self.data.dimension(found, by)
+        if by == over:
+            raise BadValueError(f"over and by are both {by}", hint="a line for each value of another dimension")
         if isinstance(published, bool):
             claimed = self.data.claimed(name, over, by, at, axis) if published else []
         else:
-            marks = {key: number_of(value, "published") for key, value in dict(published or {}).items()}
+            marks = {key: number_of(value, "published") for key, value in _pairs(published).items()}
             claimed = [(self.data.place(found, axis, key), value, -1) for key, value in marks.items()]
         with matplotlib.rc_context(STYLE):
             ax = new_axes(5.6, 3.6) if ax is None else plain(ax)
@@ -81,7 +83,7 @@ class StudyPlot:
         BadValueError for runs with other times (or shares) than each other.
         """
         t, found = self.data.series(series, at)
-        if share:
+        if flag(share, "share"):
             t = self.data.shares(np.broadcast_to(t, found.shape))
         if t is None or t.ndim > 1:
             told = f"{series}: the runs have samples at different times, of which there are no bands"
@@ -132,7 +134,8 @@ class StudyPlot:
         Every run a curve, in the colour of its value of `by`; `order`, `causal`: as in `run.plot.low_pass`.
         """
         t, found = self.data.series(series, at)
-        left = filtered(t, found, positive(cutoff, "cutoff"), order, flag(causal, "causal"))
+        cutoff = positive(cutoff, "cutoff")
+        left = filtered(t, found, cutoff, order, flag(causal, "causal"))
         ax = self._curves([(t, left)], "t [s]", series, by, at, ax)
         told = f"low-pass {cutoff:g} Hz, Butterworth of order {order}, {'causal' if causal else 'zero phase'}"
         ax.set_title(in_figure(f"{ax.get_title()}: {told}", TITLE))
@@ -267,6 +270,14 @@ def _numbers(ax: Axes, values: Any, image: Any) -> None:
             bright = np.dot(image.cmap(image.norm(value))[:3], (0.299, 0.587, 0.114)) > 0.55
             colour = "#111111" if bright else "white"
             ax.text(column, row, f"{value:.3g}", ha="center", va="center", fontsize=7.5, color=colour)
+
+
+def _pairs(published: Any) -> dict[Any, Any]:
+    """Coordinates and numbers. BadValueError for anything else."""
+    try:
+        return dict(published or {})
+    except (TypeError, ValueError):
+        refuse("published", published, "{coordinate: number}, or True")
 
 
 def _said(value: Any) -> str:
