@@ -61,7 +61,7 @@ def read_studies(
     Raises an InputError at file:line:column, or InputErrors with all that are wrong.
     """
     reader = Reader(file)
-    root = parse_yaml(data, file, reader.errors) if isinstance(data, bytes) else tree_of(data)
+    root = parse_yaml(data, file, reader.errors, FORMAT) if isinstance(data, bytes) else tree_of(data)
     if not isinstance(root, Map):
         raise BadValueError(f"the study is {kind_of(root)}", hint="expected a mapping")
     claims, titles, about = Claims(), dict[str, str](), tuple[str, ...]()

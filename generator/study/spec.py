@@ -61,6 +61,12 @@ class Axis:
     columns: Mapping[Text, Numbers]
     grouped: bool = False  # of `zip`: the dimension's name is no number's
 
+    @property
+    def length(self) -> int:
+        """How many values it has."""
+        numbers = next(iter(self.columns.values()))
+        return numbers.count or len(numbers.texts)
+
 
 @dataclass(frozen=True)
 class Spread:

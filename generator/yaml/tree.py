@@ -95,7 +95,9 @@ class Items(list[Any]):
 Node: TypeAlias = Text | Map | Items
 
 
-def parse_yaml(data: bytes, file: str, twice: list[InputError] | None = None) -> Map:
+def parse_yaml(
+    data: bytes, file: str, twice: list[InputError] | None = None, begins: str = "gudgeon/1"
+) -> Map:  # fmt: skip
     """The mapping that a file holds.
 
     Raises NotYamlError, LimitError, or UnknownKeyError for a key that is given twice; these go to `twice`, if given.
@@ -114,12 +116,10 @@ def parse_yaml(data: bytes, file: str, twice: list[InputError] | None = None) ->
         twice += composer.duplicates
     elif composer.duplicates:
         raise composer.duplicates[0] if len(composer.duplicates) == 1 else InputErrors(composer.duplicates)
+    hint = f"expected a mapping that begins with format: {begins}"
     if root is None or isinstance(root, Text) and root.is_nothing:
-        raise NotYamlError(
-            "the file is empty", Location(file, 1, 1), "expected a mapping that begins with format: gudgeon/1"
-        )
+        raise NotYamlError("the file is empty", Location(file, 1, 1), hint)
     if not isinstance(root, Map):
-        hint = "expected a mapping that begins with format: gudgeon/1"
         raise NotYamlError(f"the file holds {kind_of(root)}", root.where, hint)
     return root
 

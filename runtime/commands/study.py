@@ -92,7 +92,7 @@ def study_file(request: Request) -> int:
 
 
 def _interrupted(plans: Plans, folder: Path) -> None:
-    every = [(StudyFolder(folder / name, plan), plan.blocks) for name, plan in plans.each.items()]
-    there = sum(opened.has(block.number) for opened, blocks in every for block in blocks)
-    told = f"{there} of {sum(len(blocks) for _, blocks in every)} blocks of runs are in {path_text(folder)}"
+    every = sum(len(plan.blocks) for plan in plans.each.values())
+    there = min(every, sum(StudyFolder(folder / name, plan).there() for name, plan in plans.each.items()))
+    told = f"{there} of {every} blocks of runs are in {path_text(folder)}"
     print(f"interrupted: {told}; the same command goes on from there", file=sys.stderr)

@@ -22,7 +22,7 @@ from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.sizes import far_clearance
 
 # a number as files have it, in ASCII digits without '_'; what float() takes beyond that is no number here either
-_NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
+_NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
 # such a number where a file is sure to take it: whole parts begin with one zero at most, exponents are below 400
 _MANTISSA, _EXPONENT = r"[0-9]{1,400}\.?[0-9]{0,400}|\.[0-9]{1,400}", r"[eE][-+]?[0-3]?[0-9]{1,2}"
 _PLAIN = re.compile(rf"[-+]?(?!0[0-9])(?P<mantissa>{_MANTISSA})(?:{_EXPONENT})?")

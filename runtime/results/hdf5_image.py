@@ -12,9 +12,8 @@ merely damages the file does not.
 from __future__ import annotations
 
 import io
-import threading
 import zlib
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -22,6 +21,8 @@ from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
+
+from gudgeon.waiting.apart import apart
 
 Array: TypeAlias = NDArray[Any]
 
@@ -68,7 +69,7 @@ class Table:
 
 def pieces(tables: Sequence[Table]) -> Iterator[Any]:
     """The bytes of a file with these tables, piece by piece in their order, its seal last."""
-    image, places = _apart(partial(_lay_out, tables))
+    image, places = apart(partial(_lay_out, tables))
     total = at = 0
     for offset, values in sorted(places, key=lambda place: place[0]):
         for piece in (image.between(at, offset), np.ascontiguousarray(values).data.cast("B")):
@@ -132,32 +133,6 @@ class _Image(io.RawIOBase):
         nothing, first = bytes(PAGE), begin // PAGE
         pages = (self._pages.get(page, nothing) for page in range(first, -(-end // PAGE)))
         return b"".join(pages)[begin - first * PAGE : end - first * PAGE]
-
-
-def _apart(work: Callable[[], Any]) -> Any:
-    """What `work` returns or raises, called in another thread.
-
-    Ctrl-C is raised here at once and the thread ends on its own, for it has nothing but memory. Not by Thread.join:
-    one that a signal interrupts may leave its lock taken, and the next never returns.
-    """
-    ended: list[tuple[Any, BaseException | None]] = []
-    gate = threading.Lock()
-    gate.acquire()
-
-    def call() -> None:
-        try:
-            ended.append((work(), None))
-        except BaseException as error:
-            ended.append((None, error))
-        gate.release()
-
-    threading.Thread(target=call).start()
-    while not ended:
-        gate.acquire(timeout=0.05)
-    result, error = ended[0]
-    if error is not None:
-        raise error
-    return result
 
 
 def _lay_out(tables: Sequence[Table]) -> tuple[_Image, list[tuple[int, Array]]]:

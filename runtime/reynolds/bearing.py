@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields
 from numpy.typing import ArrayLike
 
 from gudgeon.errors import BadValueError
-from gudgeon.language.wanted import is_whole, positive
+from gudgeon.language.wanted import is_whole, positive, told
 from gudgeon.model.arrays import taken
 
 CAVITATIONS = ("half_sommerfeld", "reynolds", "elrod_adams")
@@ -34,8 +34,8 @@ class Bearing:
         for field in fields(self):
             object.__setattr__(self, field.name, positive(getattr(self, field.name), field.name))
         if self.clearance >= 0.1 * self.radius:
-            told = f"clearance is {self.clearance:g} m, radius {self.radius:g} m"
-            raise BadValueError(f"{told}: expected a clearance below a tenth of the radius")
+            much = f"clearance is {self.clearance:g} m, radius {self.radius:g} m"
+            raise BadValueError(f"{much}: expected a clearance below a tenth of the radius")
         if not 1e-6 <= self.l_over_d <= 1e6:
             raise BadValueError(f"length over diameter is {self.l_over_d:g}: expected 1e-6 to 1e6")
 
@@ -58,22 +58,22 @@ def pair(values: ArrayLike, name: str) -> tuple[float, float]:
 
 def check_eccentricity(ratio: float) -> None:
     if ratio >= 1.0:
-        told = f"the eccentricity is {ratio:.6g} times the clearance: expected less than 1"
-        raise BadValueError(told, hint="beyond it there is no film")
+        much = f"the eccentricity is {ratio:.6g} times the clearance: expected less than 1"
+        raise BadValueError(much, hint="beyond it there is no film")
 
 
 def choice(value: object, name: str, known: Sequence[str]) -> str:
     if not isinstance(value, str) or value not in known:
-        raise BadValueError(f"{name} is {value!r}: expected {', '.join(known[:-1])} or {known[-1]}")
+        raise BadValueError(f"{name} is {told(value)}: expected {', '.join(known[:-1])} or {known[-1]}")
     return value
 
 
 def cells_of(cells: object, sealed: bool) -> tuple[int, int]:
     """How many around, and how many from the middle to an end; both can be halved, for the error."""
     if not isinstance(cells, Sequence) or len(cells) != 2 or not all(map(is_whole, cells)):
-        raise BadValueError(f"cells is {cells!r}: expected two whole numbers, around and from the middle to an end")
+        raise BadValueError(f"cells is {told(cells)}: expected two whole numbers, around and from the middle to an end")
     around, along = map(int, cells)
     if around < 32 or along < 4 or around % 4 or along % 4 or around * along > LARGEST:
-        told = f"expected multiples of 4, at least (32, 4), of {LARGEST} cells at most"
-        raise BadValueError(f"cells is ({around}, {along}): {told}")
+        wanted = f"expected multiples of 4, at least (32, 4), of {LARGEST} cells at most"
+        raise BadValueError(f"cells is ({around}, {along}): {wanted}")
     return around, (0 if sealed else along)

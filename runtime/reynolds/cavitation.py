@@ -22,10 +22,12 @@ from scipy.sparse.linalg import splu
 from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.reynolds.equation import Equation
 from gudgeon.reynolds.grid import Array
+from gudgeon.waiting.apart import apart
 
 Flags = NDArray[np.bool_]
 STEPS = 1000  # of an active set that only grows, at worst by a cell a step; from a coarser grid it takes a few
 TRIES = 100  # of one that may come and go
+LONG = 20_000  # unknowns whose factorization Ctrl-C is not to wait for, some .1 s
 
 
 @dataclass(frozen=True)
@@ -82,8 +84,11 @@ def _factor(matrix: sparse.csr_matrix) -> Any:
 
 def _split(matrix: sparse.csr_matrix, **how: Any) -> Any:
     """L U; where the gap all but closes, flows across it are lost beside the others."""
+    columns = matrix.tocsc()
     try:
-        return splu(matrix.tocsc(), **how)
+        if columns.shape[0] < LONG:
+            return splu(columns, **how)
+        return apart(lambda: splu(columns, **how))
     except RuntimeError as error:  # SuperLU's word for a pivot of 0
         told = "reynolds: the gap is too thin for doubles: less eccentricity may do, or other cells"
         raise GudgeonError(told) from error

@@ -27,6 +27,7 @@ from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.errors import BadValueError, SolverError
 from gudgeon.integrators.adaptive import SMALLEST, lengths
 from gudgeon.integrators.projection import project
+from gudgeon.language.wanted import instance
 from gudgeon.model.compiled import Array
 
 if TYPE_CHECKING:
@@ -131,7 +132,12 @@ def _angles(run: Result) -> Any:
 
 
 def check_own(simulation: Simulation, run: Result, asked: str) -> None:
-    """BadValueError for a run of another scene, or a file of it that has no scene."""
+    """BadValueError for a run of another scene, or a file of it that has no scene, and for what is neither."""
+    from gudgeon.results.results import Result
+    from gudgeon.simulation.simulation import Simulation
+
+    instance(simulation, "simulation", Simulation)
+    instance(run, "run", Result)
     if run.source.whole_sha256 != simulation.source.whole_sha256 or run.source.scene != simulation.source.scene:
         raise BadValueError(f"{asked}: expected the simulation whose run it is")
 

@@ -150,7 +150,7 @@ def _way(source: KernelSource, by: str) -> str | None:
 def _settings(settings: dict[str, Any], is_twin: bool) -> dict[str, Any]:
     """Arguments of simulate for all runs. Raises BadValueError for a tolerance that twins would see."""
     given = {name: value for name, value in settings.items() if value is not None}
-    if given.get("step") is not None or given.get("method") == "rk4":
+    if given.get("step") is not None or str(given.get("method")) == "rk4":
         return given
     given = {"rtol": RTOL} | given
     if is_twin and tolerance(given["rtol"], "auto", False) > LOOSEST:
@@ -172,7 +172,8 @@ def _settled(
     state = None if start is None else own(simulation.source, start)
     given, is_given, _ = numbers(simulation.compiled, state, parameters)
     p = prepare_slots(simulation.compiled, given, is_given)
-    wait = seconds("skip", end_of(simulation.source, skip, p) or 0.0)
+    found = end_of(simulation.source, skip, p)
+    wait = seconds("skip", 0.0 if found is None else found)
     if not (math.isfinite(wait) and wait >= 0.0):
         raise BadValueError(f"skip is {wait:g} s: expected a time of zero or more")
     arguments: dict[str, Any] = {"start": start, "parameters": parameters}

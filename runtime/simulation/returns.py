@@ -91,7 +91,8 @@ def _wanted(run: Result, section: str | float | None) -> tuple[str, float]:
     if isinstance(section, str) and section in events:
         return section, 0.0
     try:
-        period = seconds("section", end_of(run.source, section, run.p) or 0.0)
+        found = end_of(run.source, section, run.p)
+        period = seconds("section", 0.0 if found is None else found)
     except InputError as error:
         if isinstance(section, str) and section.isidentifier():
             run.events_of(section)  # UnknownNameError names the nearest

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.language.shown import one_line
-from gudgeon.language.wanted import function, number_of, positive, refuse, text, told, whole
+from gudgeon.language.wanted import function, instance, number_of, positive, refuse, text, told, whole
 from gudgeon.language.wanted import names as joint_names
 from gudgeon.model.contours import contour_of, taken_contours
 from gudgeon.model.parameter_sets import ParameterSets, given_each, rows_of
@@ -79,7 +79,9 @@ def wear_loop(
     A run that fails goes no further. Raises UnknownNameError for a joint without a contour, BadValueError for numbers.
     Ctrl-C is passed on.
     """
-    names = _joints(simulation, joints)
+    from gudgeon.simulation.simulation import Simulation
+
+    names = _joints(instance(simulation, "simulation", Simulation), joints)
     if text(law, "law") not in LAWS:
         refuse("law", law, " or ".join(LAWS))
     if text(contact, "contact") not in CONTACT:

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import math
+import os
+import signal
+from threading import Event, Thread, current_thread, main_thread
 
 import numpy as np
 import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from gudgeon.errors import BadValueError
+from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.reynolds import Bearing, Film, solve
+from gudgeon.reynolds import cavitation as cavitations
 
 BEARING = Bearing(radius=15e-3, length=30e-3, clearance=30e-6, viscosity=0.03)
 E, RATE, OMEGA = (12e-6, -14e-6), (4e-4, 3e-4), 120.0  # ε̇ is positive or, for the opposite rate, negative
@@ -29,6 +33,30 @@ def test_what_comes_in_goes_out(cavitation: str, groove: object, rate: tuple[flo
     assert abs(one.balance) < 1e-13 * LARGE
     assert one.leakage > 1e-3 * LARGE and (one.taken_up != 0.0) == (cavitation == "elrod_adams" and any(rate))
     assert not one.pressure[:, [0, -1]].any() and (one.pressure >= 0.0).all()
+
+
+def test_ctrl_c_does_not_wait_for_a_factorization(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Which another thread is in the middle of, for as long as a large one; what it raises itself is told as ever."""
+    begun, over = list[Thread](), Event()
+
+    def long(*_: object, **__: object) -> None:
+        begun.append(current_thread())
+        os.kill(os.getpid(), signal.SIGINT)
+        over.wait(60.0)
+
+    def singular(*_: object, **__: object) -> None:
+        raise RuntimeError
+
+    monkeypatch.setattr(cavitations, "LONG", 0)
+    monkeypatch.setattr(cavitations, "splu", long)
+    with pytest.raises(KeyboardInterrupt):
+        film("reynolds")
+    alive = begun[0].is_alive()
+    over.set()
+    assert alive and begun[0] is not main_thread()
+    monkeypatch.setattr(cavitations, "splu", singular)
+    with pytest.raises(GudgeonError, match="too thin for doubles"):
+        film("reynolds")
 
 
 @pytest.mark.parametrize("cavitation", ["half_sommerfeld", "reynolds", "elrod_adams"])

@@ -56,6 +56,12 @@ def test_a_unit_may_follow_its_number_at_once() -> None:
     ]  # fmt: skip
 
 
+def test_a_long_text_is_looked_at_once() -> None:
+    """Not once for each pair of its digits, which a million of them would not end in years."""
+    for text in ("9" * 10**6, "1." + "0" * 10**6 + "!", "1" + " " * 10**6 + "2"):
+        assert spaced(text) == text
+
+
 def test_a_scene_without_freedom_takes_any_tolerance() -> None:
     """Nothing is integrated: a loop over scenes need not know it."""
     press = gudgeon.load("nine_bar_press")

@@ -11,7 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import gudgeon
-from gudgeon.errors import BadValueError, UnknownNameError
+from gudgeon.errors import BadValueError, InputError, UnknownNameError
 from gudgeon.simulation.flow import Flow
 from gudgeon.simulation.horizon import begin_of
 from gudgeon.simulation.lyapunov import no_tangent
@@ -222,6 +222,10 @@ def test_what_cannot_be_given_is_refused(duffing: Simulation) -> None:
         duffing.lyapunov(1.0, section="down")
     with pytest.raises(BadValueError, match="a period within the run"):
         duffing.lyapunov(1.0, section=2.0)
+    for name in ("skip", "section", "method"):
+        odd: dict[str, Any] = {name: np.zeros(2)}
+        with pytest.raises(InputError, match=name):
+            duffing.lyapunov(1.0, **odd)
     with pytest.raises(BadValueError, match="no section"):
         _ = duffing.lyapunov(1.0).motion
     assert no_tangent(duffing.source) == ""

@@ -217,5 +217,8 @@ def test_what_cannot_be_is_refused(crank: tuple[gudgeon.Simulation, gudgeon.Resu
                   {"k": 1.0, "since": 0.2}, {"k": 1.0, "contact": "line"}, {"k": 1.0, "points": 3}):  # fmt: skip
         with pytest.raises(gudgeon.InputError):
             gudgeon.wear(simulation, run, "wristpin", **wrong)
+    for one, other in ((simulation, "run"), ("rig", run)):
+        with pytest.raises(BadValueError, match="expected a (Result|Simulation)"):
+            gudgeon.wear(one, other, "wristpin", k=1.0)  # type: ignore[arg-type]
     with pytest.raises(BadValueError, match="whose run it is"):
         gudgeon.wear(gudgeon.load("bouncing_ball", "elastic"), run, "wristpin", k=1.0)

@@ -102,6 +102,8 @@ def test_what_cannot_wear_is_refused(tmp_path: Path) -> None:
             gudgeon.wear_loop(
                 simulation, **(dict[str, Any]({"joints": "J", "t_end": 0.01, "k": 1e-9, "rounds": 1}) | odd)
             )
+    with pytest.raises(BadValueError, match="expected a Simulation"):
+        gudgeon.wear_loop("rig", "J", 0.01, k=1e-9, rounds=1)  # type: ignore[arg-type]
     with pytest.raises(UnknownNameError, match="joint with play"):
         gudgeon.wear_loop(simulation, "O", 0.01, k=1e-9, rounds=1)
     with pytest.raises(BadValueError, match="twice"):

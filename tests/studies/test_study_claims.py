@@ -333,6 +333,22 @@ def test_a_mistake_is_told_at_its_place(old: str, new: str, place: str, words: s
 
 
 @needs_compiler
+def test_a_claim_compares_no_more_than_can_be_judged() -> None:
+    """Any two of 500 values are 124 750 pairs; the same values one by one are few, a million of them too many."""
+    study: dict[str, Any] = {"mechanism": "pendulum", "measures": {"x": {"final": "bob.x"}}}
+    for count, kind, words in ((500, "alike_along", "more than 100000 pairs"), (500, "grows_along", ""),
+                               (10**6, "grows_along", "1000000 values")):  # fmt: skip
+        trend = {"says": "?", "measure": "x", kind: "g"} | ({"within": 0.1} if kind == "alike_along" else {})
+        row = {"from": 1, "to": 2, "count": count}
+        given = study | {"parameters": {"g": row}, "claims": {"source": "s", "trends": {"T": trend}}}
+        if not words:
+            assert plans_of(given).runs == count
+            continue
+        with pytest.raises(InputError, match=words):
+            plans_of(given)
+
+
+@needs_compiler
 def test_all_mistakes_of_claims_at_once(tmp_path: Path) -> None:
     path = tmp_path / "s.yaml"
     path.write_text(TEXT.replace("value: 2 m", "value: 2 kg").replace("grows_along: g", "grows_along: q").replace(

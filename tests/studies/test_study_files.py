@@ -27,6 +27,8 @@ windows:
 measures:
   y: {final: bob.y, window: late}
 """
+OPTIONS = f"{{{', '.join(f'o{k}: {{bodies.bob.mass: {k + 1}}}' for k in range(9))}}}"
+ROW = "{from: 1, to: 2, count: 100000}"
 BAD = [  # in place of what, what; line:column and words of the message
     ("gudgeon-study/1", "gudgeon/1", "1:1", "expected gudgeon-study/1"),
     ("mechanism:", "mechansim:", "2:1", "did you mean 'mechanism'"),
@@ -42,6 +44,8 @@ BAD = [  # in place of what, what; line:column and words of the message
     ("[9.81, 20]", "{from: 1, to: 2}", "4:6", "has no count"),
     ("[9.81, 20]", "{from: 1, to: 2, count: 1}", "4:30", "a whole number from 2"),
     ("[9.81, 20]", "{from: 1, to: 2, count: 1e9}", "4:30", "a whole number from 2"),
+    ("[9.81, 20]", "{from: -1e308, to: 1e308, count: 3}", "4:25", "beyond the largest double"),
+    ("[9.81, 20]", f"{ROW}\n  length: {ROW}", "4:3", "10000000000 runs"),
     ("[9.81, 20]", "{from: -1, to: 2, count: 3, spacing: geometric}", "4:13", "both ends positive"),
     ("[9.81, 20]", "{from: 1, to: 2, count: 3, spacing: log}", "4:42", "linear, geometric"),
     ("  g:", "  G:", "4:3", "did you mean 'g'"),
@@ -80,6 +84,8 @@ BAD = [  # in place of what, what; line:column and words of the message
     ("t_end: 1 s", "starts: {count: 3, relative: {g: 0}}", "5:34", "positive"),
     ("t_end: 1 s", "starts: {count: 3, relative: {q: 1}}", "5:31", "unknown number 'q'"),
     ("t_end: 1 s", "starts: {count: 3, absolute: {length: 1 kg}}", "5:39", "a length"),
+    ("t_end: 1 s", "draw: {count: 3, parameters: {length: {from: -1e308, to: 1e308}}}", "5:58", "largest double"),
+    ("t_end: 1 s", f"choices: {{{', '.join(f'c{k}: {OPTIONS}' for k in range(5))}}}", "5:11", "59049 scenes"),
     ("t_end: 1 s", "choices: {bodies.bob.masss: [1 kg]}", "5:30", "masss"),
     ("t_end: 1 s", "choices: {heavy: {a: {bodies.bob.mass: -1 kg}}}", "5:40", "positive"),
     ("t_end: 1 s", f"title: {'x' * 201}", "5:8", "at most 200"),
@@ -115,6 +121,8 @@ def test_what_is_no_study(tmp_path: Path, call: Gudgeon) -> None:
     for text in ("", "- a", "a: [", "a: &x [*x]"):
         with pytest.raises(NotYamlError):
             read_study(text.encode(), "s.yaml")
+    with pytest.raises(NotYamlError, match="begins with format: gudgeon-study/1"):
+        read_study(b"- a", "s.yaml")
     for study in ({}, {"mechanism": 3}, {"mechanism": "pendulum", "keep": [object()]}, 3, None):
         with pytest.raises(InputError):
             gudgeon.study(study)  # type: ignore[arg-type]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -158,6 +159,20 @@ def test_names_that_do_not_exist_are_told(study: gudgeon.Study) -> None:
             call(plots(study))
     with pytest.raises(BadValueError, match="does not vary"):
         plots(study).measure("fast", "scene")
+    with pytest.raises(UnknownNameError, match="kept no series 'load.y'"):
+        study.to_dataframe("load.y")
+
+
+def test_odd_arguments_are_told(study: gudgeon.Study) -> None:
+    odd: list[tuple[str, tuple[Any, ...], dict[str, Any]]] = [
+        ("measure", ("fast",), {"at": "k"}), ("bands", ("load.x",), {"at": np.zeros(2)}),
+        ("measure", ("fast", "k"), {"published": 2}), ("measure", ("fast", "k"), {"published": "k"}),
+        ("measure", ("fast", "k", "k"), {}), ("bands", ("load.x",), {"share": np.zeros(2)}),
+    ]  # fmt: skip
+    for name, given, options in odd:
+        with pytest.raises(BadValueError, match=next(iter(options), "over and by")):
+            getattr(study.plot, name)(*given, **options)
+    assert "0.333333 Hz" in plots(study).low_pass("load.x", Fraction(1, 3)).get_title()
 
 
 def test_spectra_have_the_amplitude_and_the_frequency(study: gudgeon.Study) -> None:

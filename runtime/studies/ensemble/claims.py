@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import reduce
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from gudgeon.results.batch import Array
 from gudgeon.studies.ensemble.judge import Cell, Check, Look
 from gudgeon.studies.ensemble.numbers import real
 from gudgeon.studies.ensemble.plan import Coordinate, Plan, Plans
+from gudgeon.studies.ensemble.selected import Selected, few
 
 if TYPE_CHECKING:
     from gudgeon.generator.yaml.tree import Text
@@ -54,28 +55,6 @@ class Known:
     trends: tuple[KnownTrend, ...] = ()
 
 
-@dataclass(frozen=True, eq=False)
-class Selected:
-    """Which places along each dimension of a part a selection leaves, starts left out."""
-
-    part: str
-    plan: Plan
-    places: Mapping[str, tuple[int, ...]]
-
-    def cells(self, fixed: Mapping[str, int]) -> Iterator[tuple[tuple[Any, ...], Cell]]:
-        """All of them, with the values of their dimensions that are not fixed."""
-        for index in itertools.product(*([fixed[name]] if name in fixed else own for name, own in self.places.items())):
-            free = [(name, k) for name, k in zip(self.places, index, strict=True) if self._is_free(name, fixed)]
-            yield tuple((name, self._value(name, k)) for name, k in free), Cell(self.part, index)
-
-    def _is_free(self, name: str, fixed: Mapping[str, int]) -> bool:
-        return name not in fixed and len(self.places[name]) > 1
-
-    def _value(self, name: str, k: int) -> Any:
-        found = next((one for one in self.plan.coordinates if one.name == name and one.over == (name,)), None)
-        return k if found is None else found.values[k].item() if hasattr(found.values[k], "item") else found.values[k]
-
-
 def known_claims(plans: Plans) -> Known:
     """Raises InputErrors with all that do not fit the runs, each at its place."""
     claims, errors = plans.file.claims, list[InputError]()
@@ -87,7 +66,8 @@ def known_claims(plans: Plans) -> Known:
             errors.append(error)
     for trend in claims.trends:
         try:
-            trends.append(KnownTrend(trend, tuple(check for one in trend.trials for check in _checks(plans, one))))
+            every = (check for one in trend.trials for check in _checks(plans, one))
+            trends.append(KnownTrend(trend, few(every, trend.name)))
         except InputError as error:
             errors.append(error)
     if errors:
@@ -139,7 +119,7 @@ def _select(plans: Plans, selection: Selection) -> Selected:
             places[one.over[0]] = tuple(k for k in places[one.over[0]] if k in own)
         if not own or one.over and not places[one.over[0]]:
             raise BadValueError(f"no run has {name} {str(value)[:60]!r}", value.where, _values_told(one))
-    return Selected(part, plan, {name: own for name, own in places.items() if name not in STARTS})
+    return Selected(part, plan, {name: own for name, own in places.items() if name not in STARTS}, selection.where)
 
 
 def _coordinate(plan: Plan, name: Text) -> Coordinate:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from gudgeon.errors import GudgeonError
 from gudgeon.files.writing import written
+from gudgeon.language.suggestions import unknown
 from gudgeon.language.wanted import names, path
 from gudgeon.studies.ensemble.claimed import Claimed, read_claims_of
 from gudgeon.studies.ensemble.folder import DATASET, h5py_module
@@ -114,6 +115,10 @@ class Study:
     def to_dataframe(self, series: Iterable[str] | str = ()) -> pandas.DataFrame:
         """A row a run: what was varied, all measures, `failure`; SI. With names of kept series a row a sample."""
         asked = names(series, "series", "a list of names of kept series")
+        for name in asked:
+            if name not in self.dataset.data_vars or name in (*self.measures, "t_last", "failure", "t"):
+                kept = tuple(str(one) for one in self.dataset.data_vars if "." in str(one))
+                raise unknown(f"the study kept no series {name!r}", name, kept)
         times = ["t"] if asked and "t" in self.dataset else []
         found = self.dataset[[*times, *asked]] if asked else self.dataset[[*self.measures, "t_last", "failure"]]
         if not found.sizes:

@@ -58,13 +58,13 @@ class StudyFolder:
     def _begin(self, restart: bool) -> None:
         there = sorted(name for name in os.listdir(self.path) if name != LOCK)
         before = manifest(self.path)
-        for name in there:
-            if PART.fullmatch(name):  # of a process that was killed
-                (self.path / name).unlink(missing_ok=True)
         foreign = [name for name in there if not (_BLOCK.fullmatch(name) or PART.fullmatch(name))]
         if before is None and foreign:
             told = f"{shortened(self.path)} is no folder of a study: it holds {foreign[0]}"
             raise InputError(told, hint="name another folder")
+        for name in there:
+            if PART.fullmatch(name):  # of a process that was killed
+                (self.path / name).unlink(missing_ok=True)
         blocks = [part.block for part in self.plan.parts]
         if before is not None and not restart:
             if before.get("said") != self.plan.said:
@@ -83,6 +83,13 @@ class StudyFolder:
     def has(self, number: int) -> bool:
         """Whether a block is there, whole, and of this plan."""
         return self.read(number) is not None
+
+    def there(self) -> int:
+        """How many files of blocks there are, unread: what is told of a study that was interrupted."""
+        try:
+            return sum(bool(_BLOCK.fullmatch(name)) for name in os.listdir(self.path))
+        except OSError:
+            return 0
 
     def write(self, block: Block) -> None:
         """One file, whole on the disk when this returns. Raises OutputError."""

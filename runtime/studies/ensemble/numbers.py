@@ -100,9 +100,16 @@ def values(numbers: Numbers, slot: Slot, again: bool) -> Array:
         raise BadValueError(told, numbers.texts[0].where, "expected both ends positive, or both negative")
     if first == last:
         raise BadValueError(f"a row from {first:g} to {last:g}", numbers.texts[1].where, "expected two ends")
-    if numbers.spacing == GEOMETRIC:
-        return np.asarray(np.geomspace(first, last, numbers.count))
-    return np.asarray(np.linspace(first, last, numbers.count))
+    row = np.geomspace if numbers.spacing == GEOMETRIC else np.linspace
+    with np.errstate(over="ignore", invalid="ignore"):
+        return within_doubles(np.asarray(row(first, last, numbers.count)), numbers.texts[1])
+
+
+def within_doubles(values: Array, text: Text) -> Array:
+    """Values between two ends, or BadValueError at the second where doubles do not reach."""
+    if not np.isfinite(values).all():
+        raise BadValueError("the values between are beyond the largest double", text.where, "expected ends closer by")
+    return values
 
 
 def check_expression(source: KernelSource, written: Written, wanted: Dimension, more: Mapping[str, Dimension]) -> None:

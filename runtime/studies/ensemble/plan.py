@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from gudgeon.errors import BadValueError
 from gudgeon.results.batch import Array
 from gudgeon.studies.ensemble.block import Job, Wanted
 
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from gudgeon.studies.ensemble.claims import Known
 
 FOLDER_FORMAT = "gudgeon-study-folder/1"
+MOST_RUNS, MOST_STRUCTURES = 100_000_000, 10_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,6 +184,25 @@ class Plans:
     def runs(self) -> int:
         """Of all parts."""
         return sum(plan.runs for plan in self.each.values())
+
+
+def check_size(study: StudyFile) -> None:
+    """BadValueError for more runs or structures than are ever made, at the longest dimension, before any is loaded."""
+    structures = [(len(study.scenes), study.scenes[0].where)]
+    structures += [(len(choice.options), choice.where) for choice in study.choices]
+    numbers = [(axis.length, axis.where) for axis in study.axes]
+    numbers += [(study.draw.count, next(iter(study.draw.numbers)).where)] if study.draw else []
+    if study.starts:
+        of = next(name for own in study.starts.ensembles.values() for name in own)
+        numbers.append((study.starts.count * len(study.starts.ensembles), of.where))
+    loaded, runs = math.prod(n for n, _ in structures), math.prod(n for n, _ in [*structures, *numbers])
+    for found, most, several, what in (
+        (loaded, MOST_STRUCTURES, structures, "scenes with their choices, a library each"),
+        (runs, MOST_RUNS, [*structures, *numbers], "runs"),
+    ):  # fmt: skip
+        if found > most:
+            where = max(several, key=lambda one: one[0])[1]
+            raise BadValueError(f"the study has {found} {what}", where, f"expected {most:.0e} at most")
 
 
 def _digest(told: Any) -> str:

@@ -27,8 +27,8 @@ from gudgeon.studies.ensemble.block import Job, Table, Wanted
 from gudgeon.studies.ensemble.exponents import check_followed
 from gudgeon.studies.ensemble.libraries import method_in
 from gudgeon.studies.ensemble.measures import check_origin, meaning, series_of, unit_of, unknown_of
-from gudgeon.studies.ensemble.numbers import check_expression, in_si, known_slot, real, slot_of, values
-from gudgeon.studies.ensemble.plan import Coordinate, Deviations, Dimension, Part, Plan
+from gudgeon.studies.ensemble.numbers import check_expression, in_si, known_slot, real, slot_of, values, within_doubles
+from gudgeon.studies.ensemble.plan import Coordinate, Deviations, Dimension, Part, Plan, check_size
 from gudgeon.studies.ensemble.points import NORMAL, deviations, shares, spread_over
 from gudgeon.studies.ensemble.wearing import wearing_of
 
@@ -36,7 +36,6 @@ if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Deviation, Draw, Starts, StudyFile
     from gudgeon.generator.yaml.tree import Text
 
-MOST_RUNS = 100_000_000
 BLOCK = 128  # runs of a block at most
 BYTES = 1 << 26  # of states and series of a block, about
 LOOKED_AT = 64  # runs of a part whose samples are counted for that
@@ -44,6 +43,7 @@ LOOKED_AT = 64  # runs of a part whose samples are counted for that
 
 def resolve(study: StudyFile) -> Plan:
     """Load every structure, check every name. Raises an InputError at its place in the study's file."""
+    check_size(study)
     structure, coordinates = _structure(study)
     parts = tuple(_parts(study, structure))
     sources = [part.simulation.source for part in parts]
@@ -58,8 +58,6 @@ def resolve(study: StudyFile) -> Plan:
         study, tuple(structure), (*numbers, *starts), fixed, off, tuple(coordinates), parts, wanted,
         _units(study, sources), tuple(_notes(study, sources)),
     )  # fmt: skip
-    if plan.runs > MOST_RUNS:
-        raise BadValueError(f"the study has {plan.runs} runs", hint=f"expected {MOST_RUNS:.0e} at most")
     return replace(plan, parts=tuple(replace(part, block=_block(plan, k)) for k, part in enumerate(parts)))
 
 
@@ -152,7 +150,8 @@ def _drawn(draw: Draw, sources: Sequence[KernelSource]) -> dict[str, Any]:
             raise BadValueError(f"from {first:g} to {second:g} {slot.unit}", where, "expected from < to")
         if spread.kind not in (NORMAL, "uniform") and not first > 0.0:
             raise BadValueError(f"a geometric spread from {first:g}", spread.ends[0].where, "expected positive ends")
-        found[str(name)] = spread_over(spread, first, second, points[:, k])
+        with np.errstate(over="ignore", invalid="ignore"):
+            found[str(name)] = within_doubles(spread_over(spread, first, second, points[:, k]), spread.ends[1])
     return found
 
 

@@ -13,7 +13,7 @@ from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
 from gudgeon.language.plot_units import drawn, label, pretty, scale
 from gudgeon.language.shown import one_line
 from gudgeon.language.suggestions import unknown
-from gudgeon.language.wanted import flag, number_of, text, told
+from gudgeon.language.wanted import flag, mapping, number_of, text, told
 from gudgeon.studies.show.study_signals import alike
 
 if TYPE_CHECKING:
@@ -99,7 +99,7 @@ class StudyData:
         return own[0] if np.allclose(own, own[0], rtol=0.0, atol=1e-9) else None
 
     def _picked(self, found: Any, at: Coords | None) -> Any:
-        for name, value in (at or {}).items():
+        for name, value in mapping(at, "at", "expected {coordinate: value}").items():
             dimension = self.dimension(found, name)
             found = found.isel({dimension: self.nearest(found, dimension, value)})
         return found
@@ -121,7 +121,7 @@ class StudyData:
         values = self.dataset[dimension].values if dimension in self.dataset.coords else np.arange(len(found))
         if values.dtype.kind in "OU":
             words = [str(one) for one in values]
-            if value not in words:
+            if not isinstance(value, str) or value not in words:
                 raise unknown(f"{dimension} has no {told(value)}", str(value), tuple(words))
             return words.index(value)
         return int(np.abs(values - number_of(value, dimension)).argmin())

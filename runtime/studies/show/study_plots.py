@@ -14,7 +14,7 @@ import numpy as np
 from gudgeon.errors import BadValueError
 from gudgeon.language.plot_units import drawn, label, quantity
 from gudgeon.language.shown import in_figure, one_line
-from gudgeon.language.wanted import flag, number_of, positive
+from gudgeon.language.wanted import flag, number_of, positive, refuse
 from gudgeon.results.plots import COLOURS, STYLE, TITLE, cycle, peak_of
 from gudgeon.results.run_plots import new_axes, plain
 from gudgeon.studies.show.bands import LINE, band, bars, marks, numbers, quantiles, ticks_at
@@ -52,10 +52,12 @@ class StudyPlot:
         axis = self.data.first(found) if over is None else over
         over = self.data.dimension(found, axis)
         by = self.data.lines(found, over) if by is None else self.data.dimension(found, by)
+        if by == over:
+            raise BadValueError(f"over and by are both {by}", hint="a line for each value of another dimension")
         if isinstance(published, bool):
             claimed = self.data.claimed(name, over, by, at, axis) if published else []
         else:
-            stars = {key: number_of(value, "published") for key, value in dict(published or {}).items()}
+            stars = {key: number_of(value, "published") for key, value in _pairs(published).items()}
             claimed = [(self.data.place(found, axis, key), value, -1) for key, value in stars.items()]
         with matplotlib.rc_context(STYLE):
             ax = new_axes(5.6, 3.6) if ax is None else plain(ax)
@@ -86,7 +88,7 @@ class StudyPlot:
         BadValueError for runs with other times (or shares) than each other.
         """
         t, found = self.data.series(series, at)
-        if share:
+        if flag(share, "share"):
             t = self.data.shares(np.broadcast_to(t, found.shape))
         if t is None or t.ndim > 1:
             told = f"{series}: the runs have samples at different times, of which there are no bands"
@@ -137,7 +139,8 @@ class StudyPlot:
         Every run a curve, in the colour of its value of `by`; `order`, `causal`: as in `run.plot.low_pass`.
         """
         t, found = self.data.series(series, at)
-        left = filtered(t, found, positive(cutoff, "cutoff"), order, flag(causal, "causal"))
+        cutoff = positive(cutoff, "cutoff")
+        left = filtered(t, found, cutoff, order, flag(causal, "causal"))
         ax = self._curves([(t, left)], "t [s]", series, by, at, ax)
         told = f"low-pass {cutoff:g} Hz, Butterworth of order {order}, {'causal' if causal else 'zero phase'}"
         ax.set_title(in_figure(f"{ax.get_title()}: {told}", TITLE))
@@ -236,6 +239,14 @@ class StudyPlot:
         ax.set_title(in_figure(": ".join(filter(None, (one_line(self.data.title), picked))), TITLE))
         if legend:
             ax.legend(fontsize=8)
+
+
+def _pairs(published: Any) -> dict[Any, Any]:
+    """Coordinates and numbers. BadValueError for anything else."""
+    try:
+        return dict(published or {})
+    except (TypeError, ValueError):
+        refuse("published", published, "{coordinate: number}, or True")
 
 
 def _said(value: Any) -> str:
