@@ -81,7 +81,8 @@ def test_a_run_is_followed_to_where_it_ended(tmp_path: Path) -> None:
     path = tmp_path / "edge.yaml"
     path.write_text(text.replace("events: {", "events: {edge: {zero: m.x - 1 m, action: stop}, "), encoding="utf-8")
     measures = {"rate": {"lyapunov": "run"}, "far": {"believable": "run"}, "kind": {"motion": "9 s"},
-                "late": {"lyapunov": "run", "window": "late"}}  # fmt: skip
+                "late": {"lyapunov": "run", "window": "late"}, "ups": {"crossings": "up", "window": "late"},
+                "edges": {"crossings": "edge"}}  # fmt: skip
     wanted = {"mechanism": str(path), "t_end": "20 s", "output": 10, "rtol": 1e-6, "measures": measures,
               "windows": {"late": {"from": "10 s"}}}  # fmt: skip
     stopped, on = gudgeon.study(wanted), gudgeon.study(wanted | {"stop": False}).dataset
@@ -91,6 +92,8 @@ def test_a_run_is_followed_to_where_it_ended(tmp_path: Path) -> None:
     assert float(ended["far"]) == pytest.approx(math.log(0.25e6) / float(ended["rate"]), rel=1e-12)
     assert math.isnan(float(ended["late"])) and math.isnan(float(ended["kind"]))
     assert float(on["t_last"]) == 20.0 and float(on["rate"]) < 0.0 and math.isfinite(float(on["late"]))
+    assert float(ended["edges"]) == float(on["edges"]) == 1.0  # and in a window that a run did not come to:
+    assert math.isnan(float(ended["ups"])) and float(on["ups"]) == 0.0
 
 
 def test_a_run_in_place_of_a_time(rail: Simulation) -> None:

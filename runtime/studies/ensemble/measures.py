@@ -155,12 +155,12 @@ def _worn(batch: Batch, measure: Measure) -> Array:
 
 def _contacts(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
     joint, counted = _joints(batch.source).index(measure.of), measure.statistic == "impacts"
-    out = np.full(len(batch), 0.0 if counted else np.nan)
+    out = _none(batch, counted, begin)
     for i, impacts in ((i, impacts) for i, impacts in enumerate(batch.impacts) if len(impacts)):
         t_on = impacts["t_on"]
         own = impacts[(impacts["joint"] == joint) & (t_on >= begin[i]) & (t_on <= end[i])]
         if counted:
-            out[i] = len(own)
+            out[i] += len(own)
         elif len(own):
             out[i] = own["t_on"].min() if measure.statistic == "first_impact" else np.abs(own["deltadot"]).max()
     return out
@@ -168,15 +168,21 @@ def _contacts(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array
 
 def _crossings(batch: Batch, measure: Measure, begin: Array, end: Array) -> Array:
     number, counted = _events(batch.source).index(measure.of), measure.statistic == "crossings"
-    out = np.full(len(batch), 0.0 if counted else np.nan)
+    out = _none(batch, counted, begin)
     for i, events in ((i, events) for i, events in enumerate(batch.events) if len(events)):
         t = events["t"][events["event"] == number]
         t = t[(t >= begin[i]) & (t <= end[i])]
         if counted:
-            out[i] = len(t)
+            out[i] += len(t)
         elif len(t):
             out[i] = t.min()
     return out
+
+
+def _none(batch: Batch, counted: bool, begin: Array) -> Array:
+    """Of runs in which nothing happened, (n,): 0 where that is counted, but for those that ended before the window."""
+    seen = np.asarray(batch.t_last) * (1.0 + ROUNDING) >= begin
+    return np.where(seen & counted, 0.0, np.nan)
 
 
 def _inside(t: Array, x: Array, begin: Array, end: Array) -> Array:
