@@ -208,6 +208,28 @@ def test_two_blows_at_once_and_all_that_follows_take_energy(folder: Path) -> Non
             assert (np.abs(run[f"{joint}.Ft"][closed]) <= mu * run[f"{joint}.Fn"][closed] * (1.0 + 1e-12)).all()
 
 
+def test_no_blow_gains_energy_whatever_meets(folder: Path) -> None:
+    """Both ends of a bar strike, or rest and are struck, at random speeds, restitutions, coefficients and inertias."""
+    simulation, rng, ran = made(folder, TWO), np.random.default_rng(17), 0
+    for _ in range(60):
+        given = {"bodies.bar.inertia": 10.0 ** rng.uniform(-3.5, -2.0)}
+        sideways, deep, mu = rng.uniform(-1.0, 1.0), rng.choice([-5e-3, -4.9e-3]), rng.uniform(0.0, 1.0)
+        for joint, contact in (("A", "hard"), ("B", "soft")):
+            given |= {f"start.play.{joint}.rate.x": sideways, f"start.play.{joint}.rate.y": rng.uniform(-1.0, 1.0)}
+            given |= {f"start.play.{joint}.e.y": deep, f"contacts.{contact}.friction.mu": mu}
+            given[f"contacts.{contact}.normal.restitution"] = rng.uniform(0.0, 1.0)
+        try:
+            run = simulation.simulate(0.02, parameters=given, output=100, rtol=1e-9)
+        except SolverError as error:
+            assert "jams" in str(error)
+            continue
+        energy, ran = run["energy.kinetic"] + run["energy.potential"], ran + 1
+        scale = run.diagnostics.energy_turned_over + abs(energy[0])
+        assert np.diff(energy).max() < 1e-13 * scale and run.diagnostics.energy_residual < 1e-7 * scale
+        assert all(run[f"{joint}.delta"].max() < 1e-12 for joint in "AB")
+    assert ran > 50
+
+
 def test_beside_friction_that_sticks_and_a_drive(folder: Path) -> None:
     """Blows with friction in two joints, a stick and a drive that turns round: formulations agree, works balance."""
     rubs = CRANK.replace("restitution: 0.5}", "restitution: 0.5}, friction: {law: coulomb, mu: 0.15, v0: 1e-3 m/s}")
