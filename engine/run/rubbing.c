@@ -1,9 +1,10 @@
 /*
  * Friction in blows between surfaces that do not give. The blow without friction has parted them as their restitution
- * says. Impulses P along the surfaces bring to rest, as far as |P| <= mu Lambda lets them, the slips that a blow
- * without any parting leaves (the plastic one), and normal impulses change with them so that no parting does:
- * T+ = e^2 T_d + T_slip, of which friction only takes from the second. A. Chatterjee, A. Ruina, Journal of Applied
- * Mechanics 65 (1998) 939-951, doi 10.1115/1.2791938, with e_t = 0; here of several contacts at once.
+ * says. Impulses P along the surfaces bring the slip behind it to rest as far as |P| <= mu Lambda lets them; normal
+ * impulses change with them so that no parting does. Let v be the slip that a blow without any parting leaves: P adds
+ * P v + P S P/2 to the kinetic energy, and is made less where that would be more than nothing. A. Chatterjee,
+ * A. Ruina, Journal of Applied Mechanics 65 (1998) 939-951, doi 10.1115/1.2791938, whose e_t within -1 and 1 this
+ * chooses; here of several contacts at once.
  */
 enum { MOST_SWEEPS = 1000 };
 
@@ -11,9 +12,10 @@ enum { MOST_SWEEPS = 1000 };
 typedef struct {
     int n;                         /* as many as the blow has */
     double P[N_RIGID];             /* the impulses, N s */
-    double mu[N_RIGID];            /* F_t/F_n of the friction law, at the plastic slip */
     double before[N_RIGID];        /* slip, m/s */
-    double plastic[N_RIGID];       /* slip behind the plastic blow, m/s */
+    double plastic[N_RIGID];       /* slip behind a blow without any parting or friction, m/s */
+    double after[N_RIGID];         /* slip behind the blow as it is, without friction, m/s */
+    double mu[N_RIGID];            /* F_t/F_n of the friction law there */
     double meet[N_RIGID][N_RIGID]; /* what P of the column adds to the rate of delta of the row, 1/kg */
     double slip[N_RIGID][N_RIGID]; /* and to its slip */
     double press[N_RIGID][N_RIGID]; /* the normal impulse that keeps partings as they are, each unit of P */
@@ -47,29 +49,28 @@ static void see_slips(Run *run, const Parameters *p)
     }
 }
 
-/* F_t/F_n of each contact at velocities behind the plastic blow, and its slip there. */
-static int rub_at_slip(Run *run, const Answer *blow, const unsigned char *pushes, const double *meeting, double unit,
-    const Parameters *p, Rub *rub)
+/* Slips behind normal impulses, and F_t/F_n of the friction laws there. */
+static int slips_behind(Run *run, const Answer *blow, const double *impulse, double unit, const Parameters *p,
+    double *slip, double *mu)
 {
-    double y[N_Y], dy[N_Y], stop[N_RIGID];
+    double y[N_Y], dy[N_Y];
     Memory now = run->memory;
     Aside aside;
     now.held = 0; /* corners of friction lie where this slip has them */
-    solve_part(blow, pushes, meeting, stop);
     for (int i = 0; i < N_Y; i++)
         y[i] = run->y[i];
     for (int k = 0; k < blow->n; k++) {
         now.latch[blow->joint[k]].smooth = 0;
         now.latch[blow->joint[k]].force = unit;
         for (int i = 0; i < N_X; i++)
-            y[N_X + i] += blow->way[k][N_X + i] * stop[k];
+            y[N_X + i] += blow->way[k][N_X + i] * impulse[k];
     }
     run->evaluations++;
     const int status = motion_of_laws(run->t, y, &now, p, dy, &aside);
     for (int k = 0; k < blow->n; k++) {
         const Clearance *joint = &aside.clearance[blow->joint[k]];
-        rub->plastic[k] = joint->v_t;
-        rub->mu[k] = pushes[k] ? fabs(joint->F_t) / unit : 0.0;
+        slip[k] = joint->v_t;
+        mu[k] = impulse[k] > 0.0 ? fabs(joint->F_t) / unit : 0.0;
     }
     return status;
 }
@@ -125,7 +126,7 @@ static void share_out(const Answer *blow, const double *impulse, Rub *rub)
     for (int sweep = 0; sweep < MOST_SWEEPS && change > 1e-15 * size; sweep++) {
         change = 0.0;
         for (int i = 0; i < n; i++) {
-            double slip = rub->plastic[i], rest = impulse[i];
+            double slip = rub->after[i], rest = impulse[i];
             if (rub->mu[i] <= 0.0 || S[i][i] <= DEPENDENT * rub->slip[i][i])
                 continue;
             for (int j = 0; j < n; j++) {
@@ -162,7 +163,7 @@ static void share_out(const Answer *blow, const double *impulse, Rub *rub)
 static int rub_in_blow(Run *run, const Answer *blow, const double *meeting, double *impulse, const Parameters *p,
     Rub *rub)
 {
-    double base[N_Y], mass[N_Q], unit = 0.0;
+    double base[N_Y], mass[N_Q], stop[N_RIGID], none[N_RIGID], unit = 0.0;
     unsigned char pushes[N_RIGID];
     Aside before;
     *rub = (Rub){.n = blow->n};
@@ -175,7 +176,9 @@ static int rub_in_blow(Run *run, const Answer *blow, const double *meeting, doub
         run->memory.latch[blow->joint[k]].force = 0.0;
     run->evaluations++;
     int status = motion_of_laws(run->t, run->y, &run->memory, p, base, &before);
-    status = status ? status : rub_at_slip(run, blow, pushes, meeting, unit, p, rub);
+    solve_part(blow, pushes, meeting, stop);
+    status = status ? status : slips_behind(run, blow, stop, unit, p, rub->plastic, none);
+    status = status ? status : slips_behind(run, blow, impulse, unit, p, rub->after, rub->mu);
     for (int j = 0; j < blow->n && !status; j++) {
         double column[N_RIGID], more[N_RIGID];
         rub->before[j] = before.clearance[blow->joint[j]].v_t;

@@ -64,7 +64,8 @@ def figure_of(law: Law, name: str, settings: Mapping[str, float | str]) -> Figur
     from gudgeon.results import plots  # says where matplotlib is missing
 
     if law.rigid:
-        raise BadValueError(f"{name} has no curve: its force is whatever keeps surfaces apart that do not give")
+        raise BadValueError(f"{name} has no curve: its force is whatever keeps surfaces apart that do not give\n"
+                            f"  gudgeon laws {name} tells what it does")
     chosen = _chosen(law, name, settings)
     from matplotlib import rc_context
     from matplotlib.figure import Figure

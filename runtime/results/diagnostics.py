@@ -114,7 +114,7 @@ class Diagnostics:
     grazes: int
     phi_max: float  # max |Φ| over all accepted steps, m or rad
     phi_dot_max: float  # max |Φ̇|, m/s or rad/s
-    energy_residual: float  # max |T + V − T0 − V0 − W| over the stored samples, J
+    energy_residual: float  # max |T + V − T0 − V0 − (W − W0)| over the stored samples, J
     energy_turned_over: float  # J, what the residual is to be compared with
     ratio_min: float  # of δ̇/δ̇⁻ while latched
     ratio_max: float

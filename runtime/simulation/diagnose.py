@@ -59,7 +59,8 @@ def diagnose(
 def energy_balance(energy: Array, work: Array, look: Callable[[], object]) -> tuple[float, float]:
     """The largest residual of kinetic and potential energy (N, 2) and works (N, 3), and how much was turned over; J.
 
-    NaN where there is no sample. `look` is called now and then, and what it raises is passed on.
+    NaN where there is no sample. A blow at the very start has taken its work before the first one. `look` is called
+    now and then, and what it raises is passed on.
     """
     if not len(energy):  # not even the start has accelerations
         return math.nan, math.nan
@@ -67,7 +68,7 @@ def energy_balance(energy: Array, work: Array, look: Callable[[], object]) -> tu
     for first in range(0, len(energy), BLOCK):
         rows = slice(first, first + BLOCK)
         with np.errstate(invalid="ignore", over="ignore"):  # infinities: told by `unbalanced`
-            residual = energy[rows].sum(axis=1) - energy[0].sum() - work[rows].sum(axis=1)
+            residual = energy[rows].sum(axis=1) - energy[0].sum() - (work[rows].sum(axis=1) - work[0].sum())
         worst = float(np.maximum(worst, np.abs(residual).max()))  # NaN stays NaN
         turned += float(np.abs(np.diff(work[first : first + BLOCK + 1], axis=0)).sum())
         look()
@@ -124,9 +125,7 @@ def may_not_hold(source: KernelSource, p: Array, size: Array, phi_max: Array, gr
     return (phi_max > APART * size) | (grazes > 0) | (e_max > least * c).any(axis=1)
 
 
-def not_held(
-    compiled: CompiledModel, p: Array, t0: float, q0: Array, counts: Counts, peaks: Array
-) -> Iterator[str]:
+def not_held(compiled: CompiledModel, p: Array, t0: float, q0: Array, counts: Counts, peaks: Array) -> Iterator[str]:
     """What steps and peaks (n_clearances, 3) say against a run that began at q0: links apart, laws left."""
     if counts.phi_max > APART * mechanism_size(compiled, p):
         yield (

@@ -6,16 +6,16 @@
 with the impulse Λ (N s) and the force λ (N) along the normal. A bounce slower than the threshold v_0 ends at rest: the
 contact is closed. Several contacts at one time go by one linear complementarity problem: what is closed, or closes,
 takes part with all others. Friction beside it, F_t = −μ(v_t) F_n by its own law, acts with λ while a contact is closed.
-In a blow it has impulses P along t (engine/run/rubbing.c): with v the slip that the blow would leave if nothing parted,
+In a blow it has impulses P along t (engine/run/rubbing.c): with v the slip behind the blow without friction,
 
-    friction: v⁺ = v + S P,   |P| ≤ μ(v) Λ,   P v⁺ ≤ 0,   v⁺ = 0 where |P| < μ(v) Λ
+    friction: v⁺ = v + S P,   |P| ≤ μ(v) Λ,   v⁺ = 0 where |P| < μ(v) Λ,   P (v₀ + S P/2) ≤ 0
 
-and Λ changes with P so that each δ̇⁺ stays as it is. A blow then leaves e_n² of the energy of approach and part of that
-of slip: never more than there was, which Newton's and Coulomb's laws by the slip behind the blow do not warrant.
+where Λ changes with P so that each δ̇⁺ stays as it is, and S says so too. v₀ is the slip if nothing parted: the last is
+the energy that friction takes, and P is less where it would give some, as Newton's and Coulomb's laws together may.
 I. Newton, Principia (1687), scholium to the laws of motion; J. J. Moreau, Unilateral contact and dry friction in finite
 freedom dynamics, in: Nonsmooth Mechanics and Applications (1988) 1–82; F. Pfeiffer, C. Glocker, Multibody Dynamics with
 Unilateral Contacts (1996); A. Chatterjee, A. Ruina, A new algebraic rigid-body collision law based on impulse space
-considerations, Journal of Applied Mechanics 65 (1998) 939–951, doi 10.1115/1.2791938, with e_t = 0.
+considerations, Journal of Applied Mechanics 65 (1998) 939–951, doi 10.1115/1.2791938.
 """
 
 from __future__ import annotations
@@ -44,7 +44,8 @@ LAW = Law(
               "based on impulse space considerations, Journal of Applied Mechanics 65 (1998) 939-951, "
               "doi 10.1115/1.2791938",
     validity="a blow parts surfaces with e_n times their speed of approach, what is closed is a constraint that only "
-             "pushes; blows are far shorter than all else in the motion, how hard they press is not told",
+             "pushes; blows are far shorter than all else in the motion, how hard they press is not told; in a blow "
+             "friction brings slip to rest as far as mu times the impulse lets it, and energy is never gained",
     fields=(
         number(
             "restitution", "speed of parting by speed of approach", DIMENSIONLESS,

@@ -37,8 +37,8 @@ def rigid(joint: JointWithPlay, stored: Name) -> Block:
     e, v_0 = (joint.notation.math(sp.sympify(joint.clearance.normal.numbers[n])) for n in ("restitution", "threshold"))
     rubs = joint.clearance.friction is not None
     along = (
-        "; then friction brings the slip to rest that the blow leaves if nothing parts, as far as its coefficient at "
-        "that slip times the impulse lets it, and no parting changes by that"
+        "; friction then brings the slip behind it to rest, as far as its coefficient there times the impulse lets it"
+        " and energy is not gained, and no parting changes by that"
     ) * rubs
     return paragraph(
         "Its surfaces do not give. Where they meet at the rate ", stored, ", a blow along n parts them with ", e,
