@@ -20,6 +20,7 @@ study: setup  ## Chen, Gao and Wang's paper (studies/chen_2022.yaml): its runs, 
 
 study-jansen: setup  ## trends of a paper on a Jansen leg with play (studies/jansen_wear.yaml): forces, wear, under out/
 	@$(GUDGEON) study studies/jansen_wear.yaml --out out/jansen_wear.study $(ARGS)
+	@$(GUDGEON) study report out/jansen_wear.study
 
 checks: setup-test  ## the table (docs/checks.md) of what is checked against what, measured anew
 	@.venv/bin/python -m tests.checks

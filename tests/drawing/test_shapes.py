@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -24,6 +24,7 @@ def signed(outline: np.ndarray, place: np.ndarray) -> np.ndarray:
     return (edges[:, 0] * away[:, 1] - edges[:, 1] * away[:, 0]) / np.maximum(np.hypot(*edges.T), 1e-300)
 
 
+@settings(deadline=None)
 @given(PLACES)
 def test_a_plate_holds_each_of_its_points_with_a_margin(places: np.ndarray) -> None:
     """Discs of the radius about every point lie within, up to the sagitta of the arcs; the outline is no further off
@@ -36,6 +37,7 @@ def test_a_plate_holds_each_of_its_points_with_a_margin(places: np.ndarray) -> N
     np.testing.assert_allclose(away, radius, rtol=1e-12)  # each point of it is on an arc about a corner
 
 
+@settings(deadline=None)
 @given(PLACES)
 def test_the_hull_is_convex_and_holds_all(places: np.ndarray) -> None:
     corners = hull(list(places))
@@ -44,6 +46,7 @@ def test_the_hull_is_convex_and_holds_all(places: np.ndarray) -> None:
         assert min(signed(corners, place).min() for place in places) > -1e-9
 
 
+@settings(deadline=None)
 @given(
     arrays(float, (4,), elements=st.floats(-10, 10)), arrays(float, (2,), elements=st.floats(-10, 10)),
     arrays(float, (2,), elements=st.floats(0.1, 5)),
@@ -63,6 +66,7 @@ def test_boxes_that_overlap() -> None:
     assert overlapping(boxes, taken).tolist() == [[True, False, False], [False, False, True]]
 
 
+@settings(deadline=None)
 @given(st.floats(1e-9, 1e9))
 def test_round_numbers(most: float) -> None:
     found = round_number(most)

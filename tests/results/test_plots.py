@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 pytest.importorskip("matplotlib")
@@ -44,6 +44,7 @@ def test_the_picture_has_errors_forces_and_orbits(run: Result, ideal: Result, tm
     assert (int.from_bytes(header[16:20]), int.from_bytes(header[20:24])) == (1200, 900)
 
 
+@settings(deadline=None)
 @given(st.floats(-3, 3), st.floats(-1, 1))
 def test_an_axis_over_time_has_three_ticks_at_least(power: float, middle: float) -> None:
     ax: Any = Figure(figsize=(4, 2.5)).add_subplot()
@@ -106,6 +107,7 @@ def test_a_failed_write_leaves_the_older_picture(run: Result, tmp_path: Path, mo
     assert path.read_bytes() == b"older" and list(tmp_path.iterdir()) == [path]
 
 
+@settings(deadline=None)
 @given(st.floats(1e-11, 1e11), st.sampled_from(["m", "N", "m/s", "N*m", "J"]))
 def test_a_prefix_brings_a_number_near_one_and_does_not_change_it(size: float, unit: str) -> None:
     factor, text = scale(size, unit)
