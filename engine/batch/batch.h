@@ -48,6 +48,7 @@ typedef struct {
     void (*take)(void *run, const Moving *state);
     int (*jumps)(const Batch *b, long i, double t0, double t1); /* whether a drive's rate does so between two times */
     int (*goes_on)(const Batch *b, long i, int tried, void *run); /* to its next step: GOES_ON, LISTS or RUN_OVER */
+    long (*unseen)(const void *run); /* steps that it may make before it looks at its pace; 0 where each is told of */
 } Single;
 
 #endif

@@ -4,6 +4,7 @@
  * another one, from the next call on.
  */
 #include "lane_calls.h"
+#include "lane_quiet.c"
 
 typedef struct {
     const Batch *b;
@@ -13,6 +14,10 @@ typedef struct {
     LaneRun x;
     LaneParameters p;
     LaneStep step;
+    Lanes h; /* of the steps that come next */
+#if QUIET
+    Quiet quiet;
+#endif
 } Flow;
 
 static int is_taken(const Flow *flow, int k) { return flow->number[k] >= 0; }
@@ -35,11 +40,17 @@ static void gather_parameters(Flow *flow)
 }
 
 /* What a step of run k begins with; its length. */
-static void gather(Flow *flow, int k, Lanes *h)
+static void gather(Flow *flow, int k)
 {
     const Run *run = flow->run[mirrored(flow, k)];
     LaneRun *x = &flow->x;
-    (*h)[k] = run->attempt.h;
+#if QUIET
+    if (is_taken(flow, k) && flow->quiet.here[k])
+        return;
+    if (is_taken(flow, k))
+        keep(&flow->quiet, x, k, flow->b, flow->number[k], flow->one, run);
+#endif
+    flow->h[k] = run->attempt.h;
     x->t[k] = run->t;
     x->accept[k] = run->accept;
     for (int j = 0; j < N_Y; j++) {
@@ -174,18 +185,33 @@ static int leaves(Flow *flow, int k, int happened)
     return happened != GOES_ON;
 }
 
+/* Run k is where its lane is. */
+static void put_down(Flow *flow, int k)
+{
+#if QUIET
+    if (is_taken(flow, k) && flow->quiet.here[k])
+        tell(&flow->quiet, &flow->x, k, flow->h[k], flow->run[k]);
+#else
+    (void)flow, (void)k;
+#endif
+}
+
 /* One step of these lanes is tried. Returns whether Python is to be told of a run. */
 static int try_together(Flow *flow, int stiff, const int *wanted, int *lists)
 {
-    Lanes h;
     int some = 0;
+    LaneBits quiet = {0};
     for (int k = 0; k < LANES; k++)
-        gather(flow, k, &h);
-    try_lanes(&flow->x, stiff, h, &flow->p, &flow->step);
+        gather(flow, k);
+    try_lanes(&flow->x, stiff, flow->h, &flow->p, &flow->step);
+#if QUIET
+    quiet = take_quietly(&flow->quiet, &flow->x, &flow->step, &flow->h);
+#endif
     for (int k = 0; k < LANES; k++) {
-        if (!wanted[k])
+        if (!wanted[k] || quiet[k])
             continue;
         const int lost = flow->step.lost[k] != 0;
+        put_down(flow, k);
         if (!lost)
             scatter(flow, k, stiff);
         const int happened = flow->one->goes_on(flow->b, flow->number[k], lost ? UNTRIED : TRIED, flow->run[k]);
@@ -212,6 +238,7 @@ static int advance(Flow *flow, int *lists)
         for (int k = 0; k < LANES; k++) {
             if (!wanted[stiff][k])
                 continue;
+            put_down(flow, k);
             const int happened = flow->one->goes_on(flow->b, flow->number[k], UNTRIED, flow->run[k]);
             *lists |= happened == LISTS;
             some |= leaves(flow, k, happened);
@@ -266,6 +293,7 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
         some = advance(&flow, &lists);
     const double share = (lane_seconds() - before) / (entered > 0 ? entered : 1);
     for (int k = 0; k < LANES; k++) {
+        put_down(&flow, k);
         if (number[k] >= 0)
             flow.b->seconds[number[k]] += share;
         if (is_taken(&flow, k))

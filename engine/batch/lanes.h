@@ -176,6 +176,7 @@ typedef struct {
     int order;    /* the same in all lanes: a batch has one tolerance */
     double fixed; /* whether steps are: s, 0 */
     Lanes reach, series[TAYLOR_ORDERS + 1][TAYLOR_Y];
+    Lanes turned_over, work_scale, speed[2], speed_floor[2], least[2], inverse_scale[2 * N_X];
 #else
     LaneLinear linear;
 #endif

@@ -241,10 +241,16 @@ static int next_single(const Batch *b, long i, int tried, void *memory)
     return RUN_OVER;
 }
 
+static long unseen_single(const void *memory)
+{
+    const Run *run = memory;
+    return run->tape.rows || run->trace ? 0 : unseen_steps(&run->advance);
+}
+
 const void *gudgeon_single(void)
 {
     static const Single single = {begin_single, steps_single, samples_single, end_single, give_state, take_state,
-        jumps_single, next_single};
+        jumps_single, next_single, unseen_single};
     return &single;
 }
 #endif

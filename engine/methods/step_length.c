@@ -5,7 +5,6 @@
 enum { MAX_STUCK = 200, MAX_CRAWL = 2000, PATIENCE = 8,
     SHORTENED = 12 /* times, by four each: what a step does not resolve then is noise */ };
 #define FINE 1e-9     /* of a run: in a step as short nothing is looked for that is shorter still */
-#define LONG_RUN 1e4  /* s: an end further away than this says nothing about the shortest step that makes sense */
 #define WORTH 0.8     /* of a stiff step's length, that an explicit one must have to be cheaper */
 #define WORKS 10.0    /* times rtol, that the works of a step may err, as a share of the energy turned over */
 #define PAST 1.05    /* of the time to the end of a contact, that a step takes */
@@ -140,7 +139,7 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
     const Method *method = step->method;
     Attempt *now = &run->attempt;
     const int good = !tried && step->error <= run->accept, free = run->fixed <= 0.0;
-    const double least = 16.0 * DBL_EPSILON * now->far;
+    const double least = LEAST_LENGTH * now->far;
     *status = tried;
     if (tried == STOPPED || (tried && !free))
         return 1;
@@ -174,7 +173,7 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
     if (good) {
         next_length(run, step, now->again, now->h < now->left);
         /* so many steps on so short a way lead nowhere: speeds grow beyond all bounds (a dead centre) */
-        run->crawl = now->h < 256.0 * least ? run->crawl + 1 : 0;
+        run->crawl = now->h < CRAWL_LENGTH * now->far ? run->crawl + 1 : 0;
         *status = run->crawl > MAX_CRAWL ? TOO_SMALL : 0;
         return 1;
     }

@@ -97,3 +97,11 @@ int creeps(Pace *x, double t, double t_end)
     }
     return x->slow >= PACE_TIMES;
 }
+
+/* How often in a row creeps() will do no more than count. */
+long unseen_steps(const Pace *x)
+{
+    const long to_doubling = x->doubling.next - x->steps - 1;
+    const long to_look = x->steps % PACE_STEPS ? PACE_STEPS - x->steps % PACE_STEPS : 0;
+    return to_doubling < 0 ? 0 : to_doubling < to_look ? to_doubling : to_look;
+}

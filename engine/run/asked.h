@@ -26,6 +26,7 @@ typedef struct {
 double seconds_now(void);
 void set_asked(Asked *x, int (*ask)(void *), void *whom, double every);
 int creeps(Pace *x, double t, double t_end);
+long unseen_steps(const Pace *x);
 
 /* Once each right-hand side: whether to give up. */
 static inline int given_up(Asked *x) { return ++x->count > x->look && ask_now(x); }

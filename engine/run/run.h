@@ -47,6 +47,10 @@ enum {
     HERE = 1, ELSEWHERE = 2 /* where a step's equations are linearized, its series made: in the run, in a lane; 0: no */
 };
 
+#define LONG_RUN 1e4 /* s: an end further away than this says nothing about the shortest step that makes sense */
+#define LEAST_LENGTH (16.0 * DBL_EPSILON)   /* of how far from zero times are: no step is shorter */
+#define CRAWL_LENGTH (256.0 * LEAST_LENGTH) /* and so many shorter than this lead nowhere */
+
 typedef struct Method Method; /* methods.c */
 
 typedef struct {

@@ -186,7 +186,7 @@ def assert_same_in_lanes(simulation: Simulation, sets: Any, t_end: Any, seen: Se
     """A batch whose runs went side by side, bit by bit what they are one after the other, its counts too."""
     batch, singly = both(simulation, sets, t_end, method="taylor", **options)
     assert_same_batches(batch, singly)
-    for name in ("steps", "right_hand_sides", "rejected"):
+    for name in ("steps", "right_hand_sides", "rejected", "phi_max", "phi_dot_max"):
         assert (batch.diagnostics[name] == singly.diagnostics[name]).all(), name
     assert set(seen.taken) == set(range(COUNT)) and not batch.failures
     assert len({q.tobytes() for q in batch.q}) == COUNT
@@ -203,6 +203,16 @@ def test_many_runs_are_the_same_as_single_ones(at_once: Seen) -> None:
         assert_same(batch[k], one)
     steps = np.linspace(0.02, 0.05, COUNT)
     assert_same_in_lanes(swing(), {"bodies.L1.mass": masses}, 0.5, at_once, step=steps)
+
+
+@needs_compiler
+@pytest.mark.parametrize(("t_end", "output"), [(2.0, 3), (600.0, 1)])
+def test_steps_that_are_taken_in_lanes(t_end: float, output: int, at_once: Seen) -> None:
+    """Of which nothing but their ends is wanted; so many of them that a run looks at its pace meanwhile."""
+    pendulum = gudgeon.load(HERE / "mechanisms" / "valid" / "double_pendulum.yaml", scene="ideal")
+    sets = {"bodies.L1.mass": np.linspace(0.8, 1.2, COUNT)}
+    batch = assert_same_in_lanes(pendulum, sets, t_end, at_once, output=output, rtol=1e-6)
+    assert output > 1 or batch.diagnostics["steps"].min() > 4096
 
 
 @pytest.mark.slow

@@ -1,0 +1,105 @@
+/*
+ * Steps of which nothing but their ends is wanted: no sample lies in them, nobody watches, no row has to be closed. They
+ * are taken in the lanes, as take_step of methods/adaptive.c does it; its run is told of them together, before it is
+ * asked again.
+ */
+#define QUIET (TAYLOR && !N_LOOPS && !N_USER_EVENTS && !N_WATCHED && !N_TERMS && !N_CORNERS)
+
+#if QUIET
+#include "../both/weigh.h"
+
+/* Of each lane: the time of its run's next sample, its end; how far the last step taken here could have gone. */
+typedef struct {
+    Lanes sample, t_end, reach;
+    LaneBits open;                    /* whether steps may be taken here */
+    long steps[LANES], unseen[LANES]; /* that were taken; that may still be */
+    int here[LANES];                  /* whether the lane has the run's state */
+} Quiet;
+
+/* What is kept in lane k from its run, whose next step is in the lane. */
+static void keep(Quiet *quiet, LaneRun *x, int k, const Batch *b, long i, const Single *one, const Run *run)
+{
+    const double *t = times_of(b, i);
+    quiet->sample[k] = t[b->done[i]];
+    quiet->t_end[k] = t_end_of(b, i);
+    quiet->steps[k] = 0;
+    quiet->unseen[k] = run->fixed > 0.0 || run->attempt.again ? 0 : one->unseen(run);
+    quiet->open[k] = -(quiet->unseen[k] > 0);
+    quiet->here[k] = 1;
+    x->turned_over[k] = run->turned_over;
+    x->work_scale[k] = run->work_scale;
+    for (int kind = 0; kind < 2; kind++) {
+        x->speed[kind][k] = run->speed[kind];
+        x->speed_floor[kind][k] = run->speed_floor[kind];
+        x->least[kind][k] = run->least[kind];
+    }
+    for (int j = 0; j < 2 * N_X; j++)
+        x->inverse_scale[j][k] = run->inverse_scale[j];
+}
+
+/* As far as the times of a run's steps are from zero, as open_attempt has it. */
+static Lanes far_of(const Quiet *quiet, const LaneRun *x)
+{
+    return lanes_max_of(lanes_min_of(lanes_fabs(quiet->t_end), all_of(LONG_RUN)), lanes_fabs(x->t));
+}
+
+/* Takes the steps that were tried where nothing else is to be done, with the next ones' lengths; which these are. */
+static LaneBits take_quietly(Quiet *quiet, LaneRun *x, const LaneStep *step, Lanes *h)
+{
+    const Lanes t = x->t + step->h;
+    const LaneBits now = quiet->open & step->taken & (step->error <= x->accept) & (t < quiet->sample)
+        & (step->h < quiet->t_end - x->t) & (step->h >= CRAWL_LENGTH * far_of(quiet, x))
+        & ~not_finite(step->y, step->dy, N_Y);
+    for (int j = 2 * N_X; j < 2 * N_X + N_WORK; j++)
+        x->turned_over = pick(now, x->turned_over + lanes_fabs(step->y[j] - x->y[j]), x->turned_over);
+    for (int j = 0; j < N_Y; j++) {
+        x->y[j] = pick(now, step->y[j], x->y[j]);
+        x->dy[j] = pick(now, step->dy[j], x->dy[j]);
+    }
+    for (int j = 0; j < N_WORK; j++)
+        x->aside.power[j] = pick(now, step->aside.power[j], x->aside.power[j]);
+    x->t = pick(now, t, x->t);
+    note_speed(x);
+    weigh(x);
+    quiet->reach = pick(now, x->reach, quiet->reach);
+    const Lanes left = quiet->t_end - x->t, next = 8.0 * x->reach;
+    *h = pick(now, pick(next > left * (1.0 - 1e-9), left, next), *h);
+    for (int k = 0; k < LANES; k++) {
+        quiet->steps[k] -= now[k];
+        quiet->open[k] = -(quiet->steps[k] < quiet->unseen[k]);
+    }
+    return now;
+}
+
+/* Tells run k of the steps that were taken in its lane: it is where it wants the next one, of length h. */
+static void tell(Quiet *quiet, const LaneRun *x, int k, double h, Run *run)
+{
+    const long steps = quiet->steps[k];
+    quiet->here[k] = 0;
+    if (!steps)
+        return;
+    for (int j = 0; j < N_Y; j++) {
+        run->y[j] = x->y[j][k];
+        run->dy[j] = x->dy[j][k];
+        run->weight[j] = x->weight[j][k];
+    }
+    for (int j = 0; j < N_WORK; j++)
+        run->aside.power[j] = x->aside.power[j][k];
+    run->t = x->t[k];
+    run->turned_over = x->turned_over[k];
+    run->speed[0] = x->speed[0][k];
+    run->speed[1] = x->speed[1][k];
+    run->steps += steps;
+    run->evaluations += 2 * steps - !!run->series_ready;
+    run->ended[N_MARGINS] += steps;
+    run->advance.steps += steps;
+    run->since += (int)steps;
+    run->votes = run->stuck = run->crawl = run->linear_ready = run->series_ready = 0;
+    run->memory.held = 1;
+    run->stability = 0.0;
+    run->reach = quiet->reach[k];
+    run->h = 8.0 * run->reach;
+    run->attempt = (Attempt){.h = h, .longest = h, .left = quiet->t_end[k] - run->t, .far = far_of(quiet, x)[k],
+        .open = 1};
+}
+#endif
