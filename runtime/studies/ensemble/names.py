@@ -66,6 +66,6 @@ def read_names(folder: Path) -> Names:
         titles = {str(name): str(title) for name, title in found.get("titles", {}).items()}
         values = {part: {name: tuple(map(str, texts)) for name, texts in own.items()}
                   for part, own in found.get("values", {}).items()}  # fmt: skip
-    except (OSError, ValueError, AttributeError, TypeError):
+    except (OSError, ValueError, AttributeError, TypeError, RecursionError):
         return NONE
     return Names(titles, values)
