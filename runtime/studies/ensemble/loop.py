@@ -107,7 +107,12 @@ def _there(
     """By whoever the executor gives them to."""
 
     def submit(block: BlockOf) -> Future[Block]:
-        return executor.submit(run_block, folder.plan.job(block, threads or 1))
+        try:
+            return executor.submit(run_block, folder.plan.job(block, threads or 1))
+        except RuntimeError as error:  # one that was shut down, or that cannot
+            if is_lost(error):
+                raise
+            raise GudgeonError(f"the executor takes no work: {error or type(error).__name__}") from error
 
     _all(folder, missing, done, submit, lambda: room(executor))
 
