@@ -157,12 +157,21 @@ def test_a_damaged_dataset_is_refused_and_written_anew(tmp_path: Path, quiet: xr
         (tmp_path / "study.nc").write_bytes(data)
         with pytest.raises(InputError, match="cannot be read"):
             gudgeon.load_study(tmp_path)
-    (tmp_path / "study.nc").unlink()
-    xr.testing.assert_identical(gudgeon.study(STUDY, tmp_path).dataset, quiet)
+        xr.testing.assert_identical(gudgeon.study(STUDY, tmp_path).dataset, quiet)
+
+
+def test_a_manifest_that_is_none_is_refused(tmp_path: Path) -> None:
+    gudgeon.study(STUDY, tmp_path)
+    for text in ("[" * 100_000, "[]", '{"parts": 3}', '{"parts": {"a": 1}}', "NaN"):
+        (tmp_path / "study.json").write_text(text)
+        with pytest.raises(InputError):
+            gudgeon.load_study(tmp_path)
 
 
 def test_foreign_folders_stay_as_they_are(tmp_path: Path) -> None:
     (tmp_path / "thesis.tex").write_text("mine")
+    half = tmp_path / f".gudgeon-{'0' * 16}.part"  # what another command is about to write there
+    half.write_text("mine")
     for restart in (False, True):
         with pytest.raises(InputError, match="thesis.tex"):
             gudgeon.study(STUDY, tmp_path, restart=restart)
@@ -170,7 +179,7 @@ def test_foreign_folders_stay_as_they_are(tmp_path: Path) -> None:
         gudgeon.study(STUDY, tmp_path / "thesis.tex")
     with pytest.raises(InputError, match="no folder of a study"):
         gudgeon.load_study(tmp_path)
-    assert (tmp_path / "thesis.tex").read_text() == "mine"
+    assert (tmp_path / "thesis.tex").read_text() == half.read_text() == "mine"
 
 
 def test_one_writer(tmp_path: Path) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import signal
 from collections.abc import Callable
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
@@ -109,3 +109,8 @@ def test_a_cluster_that_is_none_is_told(call: Gudgeon, tmp_path: Path, monkeypat
         assert told.exit_code == 2 and "no scheduler answers" in told.output
     with pytest.raises(BadValueError, match="executor"):
         gudgeon.study(STUDY, executor="tcp://127.0.0.1:1")
+    with ThreadPoolExecutor(1) as over:
+        pass
+    for executor in (over, Executor()):
+        with pytest.raises(GudgeonError, match="the executor takes no work"):
+            gudgeon.study(STUDY, executor=executor)

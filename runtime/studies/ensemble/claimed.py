@@ -99,7 +99,7 @@ def claims_json(folder: Path) -> dict[str, Any] | None:
     try:
         data = read_regular(folder / FILE)
         found = None if data is None else json.loads(data)
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return None
     return found if isinstance(found, dict) and all(isinstance(found.get(name), list) for name in TABLES) else None
 

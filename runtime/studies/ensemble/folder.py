@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.errors import GudgeonError, InputError, shortened
+from gudgeon.errors import GudgeonError, InputError, in_a_line, shortened
 from gudgeon.files.writing import PART, read_regular, telling, written
 from gudgeon.language.names import LABEL
 from gudgeon.language.wanted import told
@@ -100,7 +100,7 @@ class StudyFolder:
     def read(self, number: int) -> Block | None:
         """A block as it was written; None where there is none, or a damaged one, which is run again."""
         path = self._file(number)
-        with suppress(OSError, ValueError, KeyError, TypeError):
+        with suppress(OSError, ValueError, KeyError, TypeError, RuntimeError):
             if (data := read_regular(path)) is not None:
                 return from_image(data, self.plan, number)
         return None
@@ -114,7 +114,7 @@ def manifest(folder: Path) -> dict[str, Any] | None:
     try:
         data = read_regular(folder / MANIFEST)
         found = None if data is None else json.loads(data)
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return None
     return found if isinstance(found, dict) else None
 
@@ -137,7 +137,27 @@ def open_parts(path: Path, parts: Sequence[str], restart: bool) -> None:
 def parts_of(found: Mapping[str, Any]) -> list[str]:
     """Names of the parts that a folder says it has; what is no name of one is left out."""
     named = found.get("parts")
-    return [name for name in named if isinstance(name, str) and re.fullmatch(LABEL, name)] if named else []
+    known = named if isinstance(named, list) else []
+    return [name for name in known if isinstance(name, str) and re.fullmatch(LABEL, name)]
+
+
+def check_dataset(folder: Path, plan: Any) -> None:
+    """InputError for a dataset that cannot be opened, or is of another plan than this one, by its digest."""
+    path = folder / DATASET
+    with readable(path), h5py_module().File(path, "r") as file:
+        own = file.attrs["plan"] == plan and len(file["failure"].shape) >= 0
+    if not own:
+        raise InputError(f"{shortened(path)} is of another study", hint="remove it: it is written anew")
+
+
+@contextmanager
+def readable(path: Path) -> Iterator[None]:
+    """What HDF5 says of a damaged file as an InputError."""
+    try:
+        yield
+    except (OSError, KeyError, ValueError, RuntimeError) as error:
+        told = f"{shortened(path)} cannot be read: {in_a_line(str(error))[:200]}"
+        raise InputError(told, hint="remove it: gudgeon study FILE --out FOLDER writes it anew") from error
 
 
 def _differences(before: Any, now: Any) -> list[str]:

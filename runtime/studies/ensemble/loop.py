@@ -10,11 +10,11 @@ from itertools import islice
 from threading import Event
 from typing import TYPE_CHECKING
 
-from gudgeon.errors import GudgeonError
+from gudgeon.errors import GudgeonError, InputError
 from gudgeon.integrators.batch import GLANCE, available_threads
 from gudgeon.studies.ensemble.block import Block, run_block
 from gudgeon.studies.ensemble.final import write_dataset
-from gudgeon.studies.ensemble.folder import DATASET, StudyFolder
+from gudgeon.studies.ensemble.folder import DATASET, StudyFolder, check_dataset
 from gudgeon.studies.ensemble.workers import Processes, is_lost, room
 
 if TYPE_CHECKING:
@@ -50,7 +50,9 @@ def finish(folder: StudyFolder, threads: int | None, executor: Executor | None, 
     while True:
         missing = [block for block in plan.blocks if not folder.has(block.number)]
         if not missing and (folder.path / DATASET).exists():
-            return
+            with suppress(InputError):  # a damaged one is written anew
+                check_dataset(folder.path, plan.identity)
+                return
         done = _Done(plan.runs, plan.runs - sum(block.runs for block in missing), progress)
         if done.done:  # a bar measures its speed from here on
             done.tell()
@@ -105,7 +107,12 @@ def _there(
     """By whoever the executor gives them to."""
 
     def submit(block: BlockOf) -> Future[Block]:
-        return executor.submit(run_block, folder.plan.job(block, threads or 1))
+        try:
+            return executor.submit(run_block, folder.plan.job(block, threads or 1))
+        except RuntimeError as error:  # one that was shut down, or that cannot
+            if is_lost(error):
+                raise
+            raise GudgeonError(f"the executor takes no work: {error or type(error).__name__}") from error
 
     _all(folder, missing, done, submit, lambda: room(executor))
 

@@ -71,6 +71,6 @@ def read_names(folder: Path) -> Names:
         values = {part: {name: tuple(map(str, texts)) for name, texts in own.items()}
                   for part, own in found.get("values", {}).items()}  # fmt: skip
         about = tuple(map(str, found.get("about", ())))
-    except (OSError, ValueError, AttributeError, TypeError):
+    except (OSError, ValueError, AttributeError, TypeError, RecursionError):
         return NONE
     return Names(titles, values, about)

@@ -11,13 +11,22 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.contract.limits import MAX_BYTES
-from gudgeon.errors import InputError, InputErrors, in_a_line, shortened
+from gudgeon.errors import InputError, InputErrors, shortened
 from gudgeon.files.reading import read_named
 from gudgeon.language.wanted import flag, function, mapping, path, whole
 from gudgeon.loading.shipped import shipped_study
 from gudgeon.studies.ensemble.claimed import write_claims
 from gudgeon.studies.ensemble.finished import Study, StudyOfParts
-from gudgeon.studies.ensemble.folder import DATASET, MANIFEST, StudyFolder, h5py_module, manifest, open_parts, parts_of
+from gudgeon.studies.ensemble.folder import (
+    DATASET,
+    MANIFEST,
+    StudyFolder,
+    check_dataset,
+    h5py_module,
+    manifest,
+    open_parts,
+    parts_of,
+)
 from gudgeon.studies.ensemble.loop import finish
 from gudgeon.studies.ensemble.names import write_names
 from gudgeon.studies.ensemble.workers import executor_of
@@ -139,13 +148,5 @@ def load_study(folder: str | os.PathLike[str]) -> Study:
     if not (place / DATASET).is_file():
         told = f"the study in {shortened(place)} is not finished"
         raise InputError(told, hint="gudgeon study FILE --out FOLDER goes on with it")
-    study, h5py = Study(place), h5py_module()
-    try:
-        with h5py.File(place / DATASET, "r") as file:
-            own = file.attrs["plan"] == found.get("plan") and len(file["failure"].shape) >= 0
-    except (OSError, KeyError, ValueError, RuntimeError) as error:
-        told = f"{shortened(place / DATASET)} cannot be read: {in_a_line(str(error))[:200]}"
-        raise InputError(told, hint="remove it: gudgeon study FILE --out FOLDER writes it anew") from error
-    if not own:
-        raise InputError(f"{shortened(place / DATASET)} is of another study", hint="remove it: it is written anew")
-    return study
+    check_dataset(place, found.get("plan"))
+    return Study(place)
