@@ -1,6 +1,9 @@
 # Each of these does its own set-up (tools/setup) and is quick when there is nothing left to do.
 GUDGEON := .venv/bin/gudgeon
 ARGS ?=
+# a file's tests share what they derive: one worker has them all
+PYTEST := bin/pytest -n 2 --dist loadfile -q
+MYPY := .venv/bin/mypy -p gudgeon && .venv/bin/mypy tests
 # compiled modules are kept, or each start would compile numpy and sympy anew
 unexport PYTHONDONTWRITEBYTECODE
 
@@ -25,14 +28,18 @@ study-jansen: setup  ## trends of a paper on a Jansen leg with play (studies/jan
 checks: setup-test  ## the table (docs/checks.md) of what is checked against what, measured anew
 	@.venv/bin/python -m tests.checks
 
-test: lint types  ## ruff, mypy and the tests
-	@.venv/bin/pytest -n 2 -q $(ARGS)
+test: lint  ## ruff, mypy and the tests; mypy beside them, on one core, and what it says at the end
+	@types=$$(mktemp); trap 'rm -f "$$types"' EXIT; \
+	($(MYPY)) >"$$types" 2>&1 & typing=$$!; \
+	.venv/$(PYTEST) $(ARGS); tested=$$?; \
+	wait $$typing; typed=$$?; cat "$$types"; \
+	[ $$typed -eq 0 ] && [ $$tested -eq 0 ]
 
 test-all: lint types  ## the slow tests too, and the others under every later Python that is installed
-	@.venv/bin/pytest -n 2 -q -m "slow or not slow" $(ARGS)
+	@.venv/$(PYTEST) -m "slow or not slow" $(ARGS)
 	@for python in python3.12 python3.13 python3.14; do \
 		if $$python -c "" 2>/dev/null; then \
-			VENV=.venv-$$python PYTHON=$$python sh tools/setup all,test && .venv-$$python/bin/pytest -n 2 -q $(ARGS) \
+			VENV=.venv-$$python PYTHON=$$python sh tools/setup all,test && .venv-$$python/$(PYTEST) $(ARGS) \
 			|| exit 1; \
 		fi; \
 	done
@@ -42,8 +49,7 @@ lint: setup-test
 	@.venv/bin/lint-imports
 
 types: setup-test
-	@.venv/bin/mypy -p gudgeon
-	@.venv/bin/mypy tests
+	@$(MYPY)
 
 fuzz: setup-test  ## mutated expressions and files; ARGS="--count 1000000"; guided by coverage where atheris is installed
 	@.venv/bin/python -m tests.fuzz expression $(ARGS)

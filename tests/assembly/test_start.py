@@ -86,7 +86,7 @@ def test_start_near_a_fold_from_a_guess_anywhere(load: Load, starts: int) -> Non
 
 
 @pytest.mark.parametrize("guesses", [8, pytest.param(200, marks=pytest.mark.slow)])
-@pytest.mark.parametrize("unit", ["um", "mm", "m", "km"])
+@pytest.mark.parametrize("unit", ["um", "km", *(pytest.param(unit, marks=pytest.mark.slow) for unit in ("mm", "m"))])
 def test_branch_nearest_the_guess_from_anywhere(load: Load, unit: str, guesses: int) -> None:
     """Guesses all round: assembled every time, on the nearer branch, within half a turn of the guess."""
     scene, rng = load(FOUR_BAR.format(unit=unit, rocker=0.8)), np.random.default_rng(3)

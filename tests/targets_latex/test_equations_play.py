@@ -113,7 +113,8 @@ def press_state(seed: int) -> tuple[float, np.ndarray, np.ndarray]:
 @needs_compiler
 @pytest.mark.parametrize(
     ("variant", "scene"),
-    [("as it is", "dry"), *((variant, "lubricated") for variant in VARIANTS), ("dry options", "dry")],
+    [("as it is", "dry"), *((variant, "lubricated") for variant in VARIANTS),
+     pytest.param("dry options", "dry", marks=pytest.mark.slow)],  # fmt: skip
 )
 def test_what_is_read_is_what_is_computed(variant: str, scene: str) -> None:
     """Forces on both journals and, through M a + Φ_qᵀ λ = g + Δg, every share in the generalized forces."""
