@@ -130,9 +130,12 @@ def _svg(ax: Axes, name: str) -> str:
 
 
 def _laid_out(figure: Figure) -> None:
-    """Once: `savefig` draws all of it a first time for that. Axes that stand alone need no more than a margin."""
+    """Once: `savefig` draws all of it a first time for that. Axes that stand alone need no more than a margin.
+
+    A rectangle, even that of the whole figure, has matplotlib measure all texts a second time, to the same end.
+    """
     if len(figure.axes) == 1:
-        figure.set_layout_engine("tight")
+        figure.set_layout_engine("tight", rect=None)
     engine = figure.get_layout_engine()
     if engine is not None:
         engine.execute(figure)
