@@ -212,7 +212,7 @@ def andrews_entries() -> list[Entry]:
     return [
         *found,
         Entry("andrews", "gudgeon taylor", own_andrews("taylor", "rtol"), TOLERANCES, (), "taylor"),
-        Entry("andrews", "heyoka", plain(heyoka_runs.of_andrews, "angle"), HEYOKA[1:11], HEYOKAS),
+        Entry("andrews", "heyoka", plain(heyoka_runs.of_andrews, "angle"), HEYOKA[1:9], HEYOKAS),
         Entry("andrews", "jitcode dop853", plain(dop853.jitcode, "angle"), TOLERANCES, jit),
         Entry("andrews", "SciPy DOP853", plain(dop853.scipy, "angle"), TOLERANCES, jit),
         Entry("andrews", "SciPy LSODA", plain(dop853.scipy_lsoda, "angle"), TOLERANCES, jit),

@@ -11,14 +11,20 @@ typedef struct {
     const Single *one;
     Run *run[LANES];
     long number[LANES]; /* -1: free */
-    LaneRun x;
     LaneParameters p;
-    LaneStep step;
     Lanes h; /* of the steps that come next */
 #if QUIET
     Quiet quiet;
 #endif
+    LaneRun x;
+    LaneStep step;
 } Flow;
+/* What is empty at first. */
+#if TAYLOR
+#define FLOW_BEGINS (offsetof(Flow, x) + offsetof(LaneRun, series))
+#else
+#define FLOW_BEGINS sizeof(Flow)
+#endif
 
 static int is_taken(const Flow *flow, int k) { return flow->number[k] >= 0; }
 
@@ -276,7 +282,9 @@ int gudgeon_lane_count(void) { return LANES; }
  */
 int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number)
 {
-    Flow flow = {.b = batch, .one = single};
+    Flow flow;
+    memset(&flow, 0, FLOW_BEGINS);
+    flow.b = batch, flow.one = single;
     const double before = lane_seconds();
     int some = 0, lists = 0, entered = 0;
     for (int k = 0; k < LANES; k++) {

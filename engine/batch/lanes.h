@@ -175,8 +175,8 @@ typedef struct {
 #if TAYLOR
     int order;    /* the same in all lanes: a batch has one tolerance */
     double fixed; /* whether steps are: s, 0 */
-    Lanes reach, series[TAYLOR_ORDERS + 1][TAYLOR_Y];
-    Lanes turned_over, work_scale, speed[2], speed_floor[2], least[2], inverse_scale[2 * N_X];
+    Lanes reach, turned_over, work_scale, speed[2], speed_floor[2], least[2], inverse_scale[2 * N_X];
+    Lanes series[TAYLOR_ORDERS + 1][TAYLOR_Y]; /* the last: it is filled where a step is tried, and costs most */
 #else
     LaneLinear linear;
 #endif

@@ -124,12 +124,12 @@ typedef struct {
     Impact open[AT_LEAST_ONE(N_CLEARANCES)];      /* the contact going on in each joint */
     int compressing[AT_LEAST_ONE(N_CLEARANCES)];  /* from onset until the penetration first stops growing */
     double F_peak[AT_LEAST_ONE(N_CLEARANCES)], t_peak[AT_LEAST_ONE(N_CLEARANCES)], e_max[AT_LEAST_ONE(N_CLEARANCES)];
-    Impact impacts[N_IMPACTS];
-    double event_t[N_IMPACTS];
+    Impact impacts[N_CLEARANCES ? N_IMPACTS : 1];
+    double event_t[N_USER_EVENTS ? N_IMPACTS : 1];
     unsigned char no_number[AT_LEAST_ONE(N_USER_EVENTS)];  /* whether an event was told to be none */
     double tick; /* s, to which times of events are told apart; less where the whole run is short */
     int pole; /* whether the event that ends a step is no zero but a pole */
-    int event[N_IMPACTS], n_events, stop; /* user events found; whether they may end the run */
+    int event[N_USER_EVENTS ? N_IMPACTS : 1], n_events, stop; /* user events found; whether they may end the run */
     int n_impacts, ready;
     TraceRow *trace; /* nobody wants one: NULL; the row that is being filled, of `trace_rows`, and steps in it */
     long trace_row, trace_rows, trace_steps, trace_stride;
