@@ -72,9 +72,12 @@ static inline double log_of(double x)
     return is_normal(x) ? log_in_parts(x, &rest) : log(x);
 }
 
+/* The powers of Hertz's force and of its slope take a root alone. */
 static inline double power_of(double x, double y)
 {
     if (is_normal(x) && fabs(y) < 0x1p60) {
+        if (y == 1.5 || y == 0.5)
+            return y == 1.5 ? x * sqrt(x) : sqrt(x);
         double rest;
         const double log_x = log_in_parts(x, &rest), x_high = upper_half(log_x), y_high = upper_half(y);
         const double high = y_high * x_high;
