@@ -1,7 +1,7 @@
 /*
- * Steps of which nothing but their ends is wanted: no sample lies in them, nobody watches, no row has to be closed. They
- * are taken in the lanes, as take_step of methods/adaptive.c does it; its run is told of them together, before it is
- * asked again.
+ * Steps of which nothing but their ends is wanted: no sample lies in them, nobody watches, no row has to be closed.
+ * They are taken in the lanes, as take_step of methods/adaptive.c does it; its run is told of them together, before it
+ * is asked again.
  */
 #define QUIET (TAYLOR && !N_LOOPS && !N_USER_EVENTS && !N_WATCHED && !N_TERMS && !N_CORNERS)
 

@@ -1,0 +1,181 @@
+/*
+ * What goes from a run to its lane before a step is tried, and back.
+ */
+#include "lane_quiet.c"
+
+typedef struct {
+    const Batch *b;
+    const Single *one;
+    Run *run[LANES];
+    long number[LANES]; /* -1: free */
+    LaneParameters p;
+    Lanes h; /* of the steps that come next */
+#if QUIET
+    Quiet quiet;
+#endif
+    LaneRun x;
+    LaneStep step;
+} Flow;
+/* What is empty at first. */
+#if TAYLOR
+#define FLOW_BEGINS (offsetof(Flow, x) + offsetof(LaneRun, series))
+#else
+#define FLOW_BEGINS sizeof(Flow)
+#endif
+
+static int is_taken(const Flow *flow, int k) { return flow->number[k] >= 0; }
+
+/* What a free lane computes is another one's, so that it meets nothing odd. */
+static int mirrored(const Flow *flow, int k)
+{
+    for (int i = 0; i < LANES && !is_taken(flow, k); i++)
+        k = is_taken(flow, i) ? i : k;
+    return k;
+}
+
+static void gather_parameters(Flow *flow)
+{
+    for (int k = 0; k < LANES; k++) {
+        const double *p = flow->b->p_motion + flow->number[mirrored(flow, k)] * flow->b->numbers;
+        for (long j = 0; j < flow->b->numbers; j++)
+            ((Lanes *)&flow->p)[j][k] = p[j];
+    }
+}
+
+/* What a step of run k begins with; its length. */
+static void gather(Flow *flow, int k)
+{
+    const Run *run = flow->run[mirrored(flow, k)];
+    LaneRun *x = &flow->x;
+#if QUIET
+    if (is_taken(flow, k) && flow->quiet.here[k])
+        return;
+    if (is_taken(flow, k))
+        keep(&flow->quiet, x, k, flow->b, flow->number[k], flow->one, run);
+#endif
+    flow->h[k] = run->attempt.h;
+    x->t[k] = run->t;
+    x->accept[k] = run->accept;
+    for (int j = 0; j < N_Y; j++) {
+        x->y[j][k] = run->y[j];
+        x->weight[j][k] = run->weight[j];
+    }
+#if TAYLOR
+    x->order = run->order;
+    x->fixed = run->fixed;
+#else
+    for (int j = 0; j < N_Y; j++)
+        x->dy[j][k] = run->dy[j];
+    for (int i = 0; i < N_LOOPS; i++)
+        x->aside.lambda[i][k] = run->aside.lambda[i];
+#endif
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        x->memory.latch[i].closed[k] = run->memory.latch[i].closed;
+        x->memory.latch[i].deltadot_minus[k] = run->memory.latch[i].deltadot_minus;
+        x->aside.clearance[i].Fx[k] = run->aside.clearance[i].Fx;
+        x->aside.clearance[i].Fy[k] = run->aside.clearance[i].Fy;
+        x->aside.clearance[i].moment_first[k] = run->aside.clearance[i].moment_first;
+        x->aside.clearance[i].moment_second[k] = run->aside.clearance[i].moment_second;
+    }
+    for (int i = 0; i < N_SWITCHES; i++)
+        x->memory.side[i][k] = run->memory.side[i];
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        x->memory.event_side[i][k] = run->memory.event_side[i];
+}
+
+static void scatter_aside(const LaneAside *x, int k, Aside *aside)
+{
+    for (int i = 0; i < N_LOOPS; i++)
+        aside->lambda[i] = x->lambda[i][k];
+    for (int i = 0; i < N_WORK; i++)
+        aside->power[i] = x->power[i][k];
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const LaneClearance *from = &x->clearance[i];
+        aside->clearance[i] = (Clearance){.Fx = from->Fx[k], .Fy = from->Fy[k], .F_n = from->F_n[k],
+            .F_t = from->F_t[k], .ex = from->ex[k], .ey = from->ey[k], .e = from->e[k],
+            .deltadot = from->deltadot[k], .v_t = from->v_t[k], .moment_first = from->moment_first[k],
+            .moment_second = from->moment_second[k], .delta = from->delta[k], .power = from->power[k]};
+#if LAW_STATES
+        for (int j = 0; j < LAW_STATES; j++)
+            aside->clearance[i].state_rate[j] = from->state_rate[j][k];
+#endif
+    }
+    for (int i = 0; i < N_SWITCHES; i++)
+        aside->g[i] = x->g[i][k];
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        aside->event[i] = x->event[i][k];
+}
+
+/* A step that lane k accepts, as its own run would have made it. */
+static void scatter_step(const Flow *flow, int k, int stages, Step *step)
+{
+    const LaneStep *x = &flow->step;
+    for (int j = 0; j < N_Y; j++) {
+        step->y[j] = x->y[j][k];
+        step->dy[j] = x->dy[j][k];
+    }
+    for (int s = 0; s < stages; s++)
+        for (int j = 0; j < N_Y; j++)
+            step->k[s][j] = x->k[s][j][k];
+    step->n_seen = x->n_seen;
+    for (int s = 0; s < x->n_seen; s++) {
+        step->node[s] = x->node[s];
+        for (int j = 0; j < N_MARGINS; j++)
+            step->seen[s][j] = x->seen[s][j][k];
+    }
+    for (int j = 0; j < N_SWITCHES; j++)
+        step->passed[j] = 0;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        step->rate[i][0] = x->rate[i][0][k];
+        step->rate[i][1] = x->rate[i][1][k];
+    }
+    for (int j = 0; j < 2 * N_X && N_WATCHED > 0; j++) {
+        step->least[j] = x->least[j][k];
+        step->most[j] = x->most[j][k];
+    }
+    scatter_aside(&x->aside, k, &step->aside);
+}
+
+/* What the trial of lane k has cost, as its own run would have counted it; what it is to know of it. Stages. */
+#if TAYLOR
+static int scatter_trial(const Flow *flow, int k, int stiff, Run *run)
+{
+    (void)stiff;
+    run->evaluations += !run->series_ready;
+    run->series_ready = ELSEWHERE;
+    run->series_lane = (const double *)flow->x.series + k;
+    run->series_lanes = LANES;
+    run->reach = flow->x.reach[k];
+    run->attempt.h = flow->step.h[k];
+    return 0;
+}
+#else
+static int scatter_trial(const Flow *flow, int k, int stiff, Run *run)
+{
+    const int stages = stiff ? RODAS5P_STAGES : DOP853_STAGES;
+    (void)flow, (void)k;
+    run->evaluations += stages - 1;
+    if (stiff && !run->linear_ready) {
+        run->jacobians++;
+        run->linear_ready = ELSEWHERE;
+    }
+    return stages;
+}
+#endif
+
+/* What lane k has found goes to its run. */
+static void scatter(const Flow *flow, int k, int stiff)
+{
+    Run *run = flow->run[k];
+    Step *step = &run->step;
+    step->t = flow->step.t[k];
+    step->h = flow->step.h[k];
+    step->error = flow->step.error[k];
+    step->dense_ready = 0;
+    const int stages = scatter_trial(flow, k, stiff, run);
+    if (!flow->step.taken[k])
+        return;
+    run->evaluations++;
+    run->stability = flow->x.stability[k];
+    scatter_step(flow, k, stages, step);
+}
