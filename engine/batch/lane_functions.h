@@ -148,19 +148,20 @@ static inline Lanes lanes_pow(Lanes x, Lanes y)
 {
     const LaneBits none = ((LaneBits)x == 0) & (y > 0.0); /* a contact's law where there is no contact */
     const LaneBits normal = lanes_is_normal(x) & (lanes_fabs(y) < 0x1p60);
-    const LaneBits plain = normal & ((y == 1.5) | (y == 0.5));
-    const Lanes root = lanes_sqrt(pick(plain, x, all_of(1.0))), by_root = pick(y == 1.5, x * root, root);
-    if (!any_of(~(plain | none)))
-        return pick(none, all_of(0.0), by_root);
+    const LaneBits of_root = (x > 1e-150) & (x < 1e150) & ((y == 1.5) | (y == 0.5));
+    const Lanes root = lanes_sqrt(pick(of_root, x, all_of(1.0)));
+    const Lanes by_root = pick(none, all_of(0.0), pick(y == 0.5, root, lanes_three_halves(x, root)));
+    if (!any_of(~(of_root | none)))
+        return by_root;
     Lanes rest;
     const Lanes log_x = lanes_log_in_parts(pick(normal, x, all_of(1.0)), &rest), x_high = lanes_upper_half(log_x);
     const Lanes y_high = lanes_upper_half(y), high = y_high * x_high;
     const LaneBits fits = normal & (lanes_fabs(high) < 690.0);
     const Lanes less = (y - y_high) * x_high + y * (log_x - x_high + rest);
-    Lanes found = pick(none, all_of(0.0), lanes_exp_of_parts(pick(fits, high, all_of(0.0)), less));
+    Lanes found = pick(of_root | none, by_root, lanes_exp_of_parts(pick(fits, high, all_of(0.0)), less));
     for (int k = 0; any_of(~(fits | none)) && k < LANES; k++)
         found[k] = (fits | none)[k] ? found[k] : pow(x[k], y[k]);
-    return pick(plain, by_root, found);
+    return found;
 }
 
 /* As scene/trigonometry.h; lanes whose angle is so large that there the library is asked are marked as rare. */

@@ -64,6 +64,9 @@ static inline double cosine_of(double x)
 
 static inline int is_normal(double x) { return x >= DBL_MIN && x <= DBL_MAX; }
 
+/* Powers 3/2 and 1/2, those of Hertz's force and of its slope, take a root alone. */
+static inline int is_of_root(double x, double y) { return x > 1e-150 && x < 1e150 && (y == 1.5 || y == 0.5); }
+
 static inline double exp_of(double x) { return fabs(x) < 700.0 ? exp_of_parts(x, 0.0) : exp(x); }
 
 static inline double log_of(double x)
@@ -72,12 +75,11 @@ static inline double log_of(double x)
     return is_normal(x) ? log_in_parts(x, &rest) : log(x);
 }
 
-/* The powers of Hertz's force and of its slope take a root alone. */
 static inline double power_of(double x, double y)
 {
+    if (is_of_root(x, y))
+        return y == 0.5 ? sqrt(x) : three_halves(x, sqrt(x));
     if (is_normal(x) && fabs(y) < 0x1p60) {
-        if (y == 1.5 || y == 0.5)
-            return y == 1.5 ? x * sqrt(x) : sqrt(x);
         double rest;
         const double log_x = log_in_parts(x, &rest), x_high = upper_half(log_x), y_high = upper_half(y);
         const double high = y_high * x_high;

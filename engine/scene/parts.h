@@ -34,6 +34,15 @@ static inline PARTS_OF PARTS_NAMED(upper_half)(PARTS_OF x)
     return PARTS_NAMED(of_bits)((PARTS_NAMED(bits_of)(x) + 0x4000000u) & 0xfffffffff8000000u);
 }
 
+/* x^(3/2), s being the root of x: with what that and the product are rounded by. */
+static inline PARTS_OF PARTS_NAMED(three_halves)(PARTS_OF x, PARTS_OF s)
+{
+    const PARTS_OF x_high = PARTS_NAMED(upper_half)(x), x_low = x - x_high, product = x * s;
+    const PARTS_OF s_high = PARTS_NAMED(upper_half)(s), s_low = s - s_high;
+    const PARTS_OF left = x - s_high * s_high - 2.0 * s_high * s_low - s_low * s_low;
+    return product + (x_high * s_high - product + x_high * s_low + x_low * s_high + x_low * s_low + 0.5 * s * left);
+}
+
 /* log x, the rest beyond its rounding in `rest`; x is normal and positive. */
 static inline PARTS_OF PARTS_NAMED(log_in_parts)(PARTS_OF x, PARTS_OF *rest)
 {

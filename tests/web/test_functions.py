@@ -64,7 +64,13 @@ def ranges(n: int) -> dict[str, list[tuple[Array, Array]]]:
     ]
     beside = np.rint(turns) * (np.pi / 2)  # sines or cosines that are nearly zero
     return {
-        "pow": [(wide, exponents), (1.0 + 0.02 * near, 3e4 * exponents / 9.0), (wide, np.full(n, 1.5)), *beside_one],
+        "pow": [
+            (wide, exponents),
+            (1.0 + 0.02 * near, 3e4 * exponents / 9.0),
+            (wide, np.full(n, 1.5)),
+            (wide, np.full(n, 0.5)),
+            *beside_one,
+        ],
         "exp": [(690.0 * near, exponents), (small, exponents)],
         "log": [(wide, exponents), (1.0 + 0.4 * near, exponents), (1.0 + near * small, exponents)],
         "sin": [(turns, exponents), (beside, exponents), (5.0 * near, exponents)],
