@@ -19,7 +19,7 @@ from gudgeon.simulation.arguments import DEFAULT_OUTPUT, MOST_OUTPUT
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.exponents import follow
 from gudgeon.studies.ensemble.libraries import loaded, method_in
-from gudgeon.studies.ensemble.measures import Spans, measured, rubs_of, series_of, steps_of
+from gudgeon.studies.ensemble.measures import Spans, measured, rubs_of, sampled, series_of, steps_of, within
 from gudgeon.studies.ensemble.notes import Note, gathered, guesses, merged
 from gudgeon.studies.ensemble.numbers import ROUNDING, key_of, of_runs, slot_of
 from gudgeon.studies.ensemble.origins import at_samples, of_steps, origin_of
@@ -201,10 +201,12 @@ def _plain(value: Any) -> float | str:
 def _run(simulation: Simulation, job: Job, table: Table, runs: Array, progress: Progress | None) -> Batch:
     """The batch of some runs of a job."""
     wanted, ends, counts = job.wanted, table.t_end[runs], table.output[runs].astype(int)
-    alike = len(set(counts.tolist())) == 1
+    spans = None if wanted.keep else sampled(wanted.measures, table.spans, runs)
+    alike = spans is None and len(set(counts.tolist())) == 1
     output: Any = int(counts[0])
     if not alike:
         output = [np.linspace(0.0, end, k + 1) for end, k in zip(ends, counts, strict=True)]
+        output = output if spans is None else [_read(t, *own) for t, *own in zip(output, *spans, strict=True)]
     same_end = len(set(ends.tolist())) == 1
     t_end: Any = None if not alike else float(ends[0]) if same_end else ends
     parameters: Any = {name: list(map(_plain, values[runs])) for name, values in table.columns.items()}
@@ -224,6 +226,11 @@ def _run(simulation: Simulation, job: Job, table: Table, runs: Array, progress: 
     if batch.interrupted:
         raise KeyboardInterrupt
     return batch
+
+
+def _read(t: Array, begin: float, end: float) -> Array:
+    """Samples of a run from `begin` to `end`, its start, and its end, to which it goes."""
+    return t[(t == 0.0) | (t == t[-1]) | within(t, begin, end)]
 
 
 class _Found:

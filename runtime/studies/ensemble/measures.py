@@ -185,11 +185,26 @@ def _none(batch: Batch, counted: bool, begin: Array) -> Array:
     return np.where(seen & counted, 0.0, np.nan)
 
 
+def sampled(measures: Iterable[Measure], spans: Spans, runs: Array) -> tuple[Array, Array] | None:
+    """From when to when samples of these runs are read, (n,) each; None where one is read from begin to end."""
+    windows = {one.window for one in measures if one.statistic in STATISTICS}
+    if not (windows and all(windows)):
+        return None
+    ends = [spans[str(window)] for window in windows]
+    begin = np.min([np.full(len(runs), -np.inf) if begin is None else begin[runs] for begin, _ in ends], axis=0)
+    return begin, np.max([np.full(len(runs), np.inf) if end is None else end[runs] for _, end in ends], axis=0)
+
+
+def within(t: Array, begin: Array | float, end: Array | float) -> Array:
+    """Which samples lie in a window."""
+    slack = ROUNDING * np.abs(t)
+    return np.asarray((t >= begin - slack) & (t <= end + slack))
+
+
 def _inside(t: Array, x: Array, begin: Array, end: Array) -> Array:
     """Which samples, (n, N), lie in each run's window."""
     with np.errstate(invalid="ignore"):
-        slack = ROUNDING * np.abs(t)
-        return np.asarray((t >= begin[:, None] - slack) & (t <= end[:, None] + slack) & ~np.isnan(x))
+        return within(t, begin[:, None], end[:, None]) & ~np.isnan(x)
 
 
 def _extreme(reduce: Callable[..., Array], outside: float, change: Callable[[Array], Array]) -> Callable[..., Array]:
