@@ -3,7 +3,7 @@
     python -m benchmarks.studies [--repeats 3]
 
 studies/lubricated_10000.yaml, and a tenth of it (fewer viscosities), each in a process of its own: the tenth by one
-thread and by two in turns, the least of each is told, beside two threads that only hash; the whole by two. `alone` is
+thread and by two in turns, the least of each is told, beside two threads that only hash; the whole by both. `alone` is
 the processor time of the same runs as one batch without samples; the rest is all that the study adds, series, measures
 and files. On a machine that does other things too, look at that ratio and at processor times. Memory is the most that a
 process had in all.
@@ -73,17 +73,16 @@ def main() -> None:
     if options.one:
         print(json.dumps(one(*options.one)))
         return
-    least, ratio = {1: math.inf, 2: math.inf}, 0.0
+    least, ratio = {of: {1: math.inf, 2: math.inf} for of in (TENTH, WHOLE)}, 0.0
     print("  threads    runs  failed   ms a run: wall    CPU  alone    MB: before  most")
-    for threads in (*(1, 2) * options.repeats, 0):
-        found = apart(TENTH, threads) if threads else apart(WHOLE, 2)
+    for of, threads in [(TENTH, 1), (TENTH, 2)] * options.repeats + [(WHOLE, 1), (WHOLE, 2)]:
+        found = apart(of, threads)
         each = [1e3 * found[name] / found["runs"] for name in ("wall", "cpu", "alone")]
         told = f"{each[0]:16.3f}{each[1]:7.3f}{each[2]:7.3f}{found['before']:14.0f}{found['most']:6.0f}"
-        print(f"  {threads or 2:7d}{found['runs']:8.0f}{found['failed']:8.0f}{told}", flush=True)
-        if threads:
-            least[threads], ratio = min(least[threads], found["wall"]), max(ratio, machine(1))
-    told = f"two threads are {least[1] / least[2]:.2f} times as fast as one; two that only hash: {ratio:.2f}"
-    print(f"  {told}")
+        print(f"  {threads:7d}{found['runs']:8.0f}{found['failed']:8.0f}{told}", flush=True)
+        least[of][threads], ratio = min(least[of][threads], found["wall"]), max(ratio, machine(1))
+    times = " and ".join(f"{least[of][1] / least[of][2]:.2f}" for of in (TENTH, WHOLE))
+    print(f"  two threads are {times} times as fast as one, of a tenth and of the whole; two that only hash: {ratio:.2f}")
 
 
 if __name__ == "__main__":
