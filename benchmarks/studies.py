@@ -82,7 +82,7 @@ def main() -> None:
         print(f"  {threads:7d}{found['runs']:8.0f}{found['failed']:8.0f}{told}", flush=True)
         least[of][threads], ratio = min(least[of][threads], found["wall"]), max(ratio, machine(1))
     times = " and ".join(f"{least[of][1] / least[of][2]:.2f}" for of in (TENTH, WHOLE))
-    print(f"  two threads are {times} times as fast as one, of a tenth and of the whole; two that only hash: {ratio:.2f}")
+    print(f"  two threads are {times} times as fast as one (a tenth, the whole); two that only hash: {ratio:.2f}")
 
 
 if __name__ == "__main__":
