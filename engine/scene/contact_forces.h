@@ -86,8 +86,8 @@ static int solve_part(const Answer *contacts, const unsigned char *part, const d
 {
     const int n = contacts->n;
     double A[N_RIGID][N_RIGID + 1];
-    int wedged = 0, order[N_RIGID], solved = 0;
-    unsigned char left[N_RIGID];
+    int wedged = 0, solved = 0, order[N_RIGID] = {0};
+    unsigned char left[N_RIGID] = {0};
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++)
             A[i][j] = contacts->D[i][j];
