@@ -209,6 +209,22 @@ def test_two_blows_at_once_and_all_that_follows_take_energy(folder: Path) -> Non
             assert (np.abs(run[f"{joint}.Ft"][closed]) <= mu * run[f"{joint}.Fn"][closed] * (1.0 + 1e-12)).all()
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_report_tells_the_restitution_of_what_meets_and_of_nothing_that_is_pressed(folder: Path) -> None:
+    """Each joint's own e_n, also where another one's blows press a contact that is closed and has no approach."""
+    simulation = made(folder, TWO)
+    run = simulation.simulate(0.3, parameters={f"start.play.{joint}.rate.x": 0.3 for joint in "AB"}, output=30)
+    assert (run.impacts["deltadot"] == 0.0).sum() > 5  # pressed only
+    blows = run.impacts[run.impacts["deltadot"] > 0.0]
+    assert blows["deltadot"].min() > 1e-10  # of the threshold 1e-4 m/s: slower is at rest
+    joints = gudgeon.examine(simulation, run).report().to_dict()["joints"]
+    for k, (joint, asked) in enumerate((("A", 0.6), ("B", 0.3))):
+        met = blows["deltadot"][blows["joint"] == k]
+        assert joints[joint]["approach"]["min"] == met.min() and joints[joint]["approach"]["max"] == met.max()
+        assert joints[joint]["restitution"]["median"] == pytest.approx(asked, abs=1e-9)
+        assert joints[joint]["restitution"]["max"] == pytest.approx(asked, abs=1e-9)
+
+
 def test_no_blow_gains_energy_whatever_meets(folder: Path) -> None:
     """Both ends of a bar strike, or rest and are struck, at random speeds, restitutions, coefficients and inertias."""
     simulation, rng, ran = made(folder, TWO), np.random.default_rng(17), 0
