@@ -163,7 +163,7 @@ static int wants_step(Run *run, int last, const Parameters *p, const Samples *ou
     else if (lists_full(run))
         *status = EVENTS_FULL;
     else if (run->fixed <= 0.0 && stalls(run, t_end))
-        *status = STALLED;
+        *status = what_ends(run, STALLED, p);
     else
         open_attempt(run, t_end, p);
     return !*status;

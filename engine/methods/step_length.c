@@ -174,7 +174,7 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
         next_length(run, step, now->again, now->h < now->left);
         /* so many steps on so short a way lead nowhere: speeds grow beyond all bounds (a dead centre) */
         run->crawl = now->h < CRAWL_LENGTH * now->far ? run->crawl + 1 : 0;
-        *status = run->crawl > MAX_CRAWL ? TOO_SMALL : 0;
+        *status = run->crawl > MAX_CRAWL ? what_ends(run, TOO_SMALL, p) : 0;
         return 1;
     }
     now->again = 1;
@@ -188,7 +188,7 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
         return again(run);
     }
     if (!run->automatic || !method->stiff || now->given_up++) {
-        *status = tried ? tried : TOO_SMALL;
+        *status = tried ? tried : what_ends(run, TOO_SMALL, p);
         return 1;
     }
     change_method(run); /* its matrix is singular where rows depend on each other; the other one knows a way */

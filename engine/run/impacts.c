@@ -125,7 +125,8 @@ static int strike(Run *run, const Parameters *p, int *struck)
     see_slips(run, p);
     for (int k = 0; k < blow.n && !status; k++) {
         const int i = blow.joint[k];
-        const Impact bounce = {run->t, run->t, max_of(meeting[k], 0.0), impulse[k], run->t, i};
+        const double u = meeting[k] > resting(p, i) ? meeting[k] : 0.0; /* it rests, and is pressed */
+        const Impact bounce = {run->t, run->t, u, impulse[k], run->t, i};
         if (impulse[k] > 0.0)
             status = list_contact(run, &bounce);
         run->onsets += impulse[k] > 0.0 && !known.latch[i].closed;

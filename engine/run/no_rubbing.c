@@ -3,6 +3,8 @@ typedef char Rub;
 
 static void leave_out_friction(Memory *memory) { (void)memory; }
 
+static int what_ends(const Run *run, int otherwise, const Parameters *p) { return (void)run, (void)p, otherwise; }
+
 static void see_slips(Run *run, const Parameters *p) { (void)run, (void)p; }
 
 static int rub_in_blow(Run *run, const Answer *blow, const double *meeting, double *impulse, const Parameters *p,

@@ -6,6 +6,7 @@
  * A. Ruina, Journal of Applied Mechanics 65 (1998) 939-951, doi 10.1115/1.2791938, whose e_t within -1 and 1 this
  * chooses; here of several contacts at once.
  */
+#define UNLIKE 10.0 /* times the forces without friction: theirs grow by nothing else */
 enum { MOST_SWEEPS = 1000 };
 
 /* What impulses along the surfaces do in the contacts of a blow, and the slips that they find. */
@@ -28,6 +29,31 @@ static void leave_out_friction(Memory *memory)
         memory->latch[i].smooth = 1;
         memory->latch[i].along = 0.0;
     }
+}
+
+/*
+ * What ends a run for which no step is small enough: contacts jam where friction lets their forces grow beyond all
+ * bounds, or leaves them none (F. Genot, B. Brogliato, European Journal of Mechanics A/Solids 18 (1999) 653-677).
+ */
+static int what_ends(const Run *run, int otherwise, const Parameters *p)
+{
+    double force[2][N_RIGID], most[2] = {0.0, 0.0};
+    int none = 0;
+    for (int smooth = 0; smooth < 2; smooth++) {
+        Memory now = run->memory;
+        Answer contacts;
+        contacts.n = list_closed(&now, contacts.joint);
+        if (smooth)
+            leave_out_friction(&now);
+        if (find_answer(motion_of_laws, N_Y, run->t, run->y, &now, p, &contacts))
+            return otherwise;
+        solve_part(&contacts, NULL, contacts.r, force[smooth]);
+        for (int k = 0; k < contacts.n; k++) {
+            most[smooth] = max_of(most[smooth], fabs(force[smooth][k]));
+            none |= smooth && force[0][k] == 0.0 && force[1][k] != 0.0; /* the others took all of D */
+        }
+    }
+    return none || most[0] > UNLIKE * most[1] ? JAMMED : otherwise;
 }
 
 /* Sides of corners at velocities that have jumped: what friction does in a closed contact hangs on them. */

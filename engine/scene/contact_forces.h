@@ -9,6 +9,12 @@
 enum { MOST_RATES = N_S > N_Y ? N_S : N_Y };
 #define DEPENDENT 1e-10 /* of D's diagonal: less is left of a contact that others hold already */
 
+#if N_RUBBED
+enum { RUBS = 1 };
+#else
+enum { RUBS = 0 };
+#endif
+
 typedef int RatesOf(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside);
 
 /* How contacts answer to a unit force in each of them. */
@@ -73,14 +79,15 @@ static int find_answer(RatesOf *rates_of, int size, double t, const double *y, M
 
 /*
  * D x = r in the contacts that take part (NULL: all), x = 0 in the others and in those that depend on what was solved
- * before (Gauss's elimination, the largest diagonal first).
+ * before (Gauss's elimination, the largest diagonal first). Returns whether a pivot is negative beside rounding:
+ * with friction only, for without it D is symmetric.
  */
-static void solve_part(const Answer *contacts, const unsigned char *part, const double *r, double *x)
+static int solve_part(const Answer *contacts, const unsigned char *part, const double *r, double *x)
 {
     const int n = contacts->n;
     double A[N_RIGID][N_RIGID + 1];
-    int order[N_RIGID], solved = 0;
-    unsigned char left[N_RIGID];
+    int wedged = 0, solved = 0, order[N_RIGID] = {0};
+    unsigned char left[N_RIGID] = {0};
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++)
             A[i][j] = contacts->D[i][j];
@@ -103,6 +110,8 @@ static void solve_part(const Answer *contacts, const unsigned char *part, const 
                 A[i][j] -= share * A[next][j];
         }
     }
+    for (int i = 0; i < n; i++)
+        wedged |= left[i] && A[i][i] < -DEPENDENT * fabs(contacts->D[i][i]);
     for (int k = solved - 1; k >= 0; k--) {
         const int i = order[k];
         double sum = A[i][n];
@@ -110,33 +119,37 @@ static void solve_part(const Answer *contacts, const unsigned char *part, const 
             sum -= A[i][order[l]] * x[order[l]];
         x[i] = sum / A[i][i];
     }
+    return wedged;
 }
 
 /*
  * x of the complementarity problem x >= 0, D x - r >= 0, x (D x - r) = 0: contacts are turned round one by one, the
  * least number first, until none pulls and none is violated (K. G. Murty, Linear Algebra Appl. 9 (1974) 65-108).
+ * Contacts that wedge together (JAMMED, if nothing else is found) are none that push together.
  */
 static inline int complementary(const Answer *contacts, const double *r, double *x)
 {
     unsigned char pushes[N_RIGID] = {0};
     double size = 0.0;
+    int some = 0;
     for (int k = 0; k < contacts->n; k++)
         size = max_of(size, fabs(r[k]));
     for (long i = 0; i < 1000L << (N_RIGID < 10 ? N_RIGID : 10); i++) {
         int turned = -1;
-        solve_part(contacts, pushes, r, x);
+        const int wedged = solve_part(contacts, pushes, r, x) && RUBS;
+        some |= wedged;
         for (int k = 0; k < contacts->n && turned < 0; k++) {
             double left = -r[k];
             for (int j = 0; j < contacts->n; j++)
                 left += contacts->D[k][j] * x[j];
-            if (pushes[k] ? x[k] * contacts->D[k][k] < -1e-14 * size : left < -1e-12 * size)
+            if (wedged ? pushes[k] : pushes[k] ? x[k] * contacts->D[k][k] < -1e-14 * size : left < -1e-12 * size)
                 turned = k;
         }
         if (turned < 0)
             return 0;
         pushes[turned] = !pushes[turned];
     }
-    return CHATTERING;
+    return some ? JAMMED : CHATTERING;
 }
 
 #if N_RUBBED
@@ -175,7 +188,8 @@ static int rates_in_contact(RatesOf *rates_of, int size, double t, const double 
             return status;
         if (jams(&contacts, 0, p))
             return JAMMED;
-        solve_part(&contacts, NULL, contacts.r, force);
+        if (solve_part(&contacts, NULL, contacts.r, force) && RUBS)
+            return JAMMED; /* each of them alone is not, together they wedge */
         for (int k = 0; k < contacts.n; k++)
             memory->latch[contacts.joint[k]].force = force[k];
     }

@@ -60,8 +60,9 @@ def failure(
         return NonFiniteError(f"the motion is no longer finite at t = {t:.9g} s{fast}\n  {advice}", t)
     if status == JAMMED:
         return SolverError(
-            f"friction jams a contact of newton_restitution at t = {t:.9g} s: by it a normal force brings the surfaces "
-            "nearer (Painlevé)\n  less friction, or surfaces that give: another normal law", t
+            f"friction jams a contact of newton_restitution at t = {t:.9g} s: by it normal forces bring the surfaces "
+            "nearer, or grow beyond all bounds (Painlevé)\n"
+            "  less friction, or surfaces that give: another normal law", t
         )  # fmt: skip
     if status == CHATTERING:
         return _chattering(compiled, t)

@@ -42,8 +42,8 @@ def _beyond(run: Result, joint: ClearanceInfo) -> Iterator[str]:
     share = _squeezed(run, joint) if law.limits.slow_squeeze else 0.0
     if share > 0.0:
         yield (
-            f"{joint.name}: in {100 * share:.3g} % of the time |ε̇| is over half the surfaces' mean rate: {law.name}"
-            " holds for |ω| ≫ |ε̇|"
+            f"{joint.name}: at {100 * share:.3g} % of the samples on the film |ε̇| is over half the surfaces' mean"
+            f" rate: {law.name} holds for |ω| ≫ |ε̇|"
         )
 
 

@@ -83,7 +83,7 @@ def _joint(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
         deepest = float(run[f"{joint.name}.delta"].max())  # at the samples: how deep it is hangs on where
     found = {
         "c": c, "time": _shares(run, k, joint, own), "contacts": len(own),
-        "still_closed": int(np.isnan(own["t_off"]).sum()), "approach": _spread(own["deltadot"]),
+        "still_closed": int(np.isnan(own["t_off"]).sum()), "approach": _spread(own["deltadot"][own["deltadot"] > 0.0]),
         "restitution": None, "stiffness": _stiffness(run, joint), "asked": _asked(run, joint),
         "free_impact": _free_impact(run, joint), "peak": {"F": peak.F, "t": peak.t}, "rms": _rms(run, joint.name),
         "rms_of": "samples", "ideal": None, "largest_e": peak.e_max,

@@ -84,7 +84,7 @@ def joint_rows(joint: Mapping[str, Any], asked: bool) -> Rows:
         rows.append(("approach, least … median … largest", _range(joint["approach"], "m/s")))
         back = joint["restitution"]
         known = back is not None and math.isfinite(back["median"])
-        none = "no contact ended" if back is not None else NOT_ASKED
+        none = "no contact that met at a rate ended" if back is not None else NOT_ASKED
         rows.append(("restitution delivered, the same", _range(back, "") if known else none))
     rows.append(("peak force", f"{quantity(joint['peak']['F'], 'N')} at {quantity(joint['peak']['t'], 's')}"))
     rows.append((f"RMS force, of {joint['rms_of']}", quantity(joint["rms"], "N")))

@@ -209,14 +209,18 @@ def _rate(run: Result, point: str, axis: int) -> Array:
 
 
 def _restitution(run: Result, other: Result, k: int, name: str) -> tuple[int, float, float, float, float, float]:
-    """How many contacts ended, and least, quartiles and largest of what they gave back of the approach's rate."""
+    """How many contacts ended, and least, quartiles and largest of what they gave back of the approach's rate.
+
+    Those that began at rest, as where another contact's blow presses one that is closed, give nothing back.
+    """
     own = run.impacts[run.impacts["joint"] == k]
     own = own[(own["t_off"] >= run.t[0]) & (own["t_off"] <= run.t[-1])]
+    ended, own = len(own), own[own["deltadot"] > 0.0]
     parting = -other[f"{name}.deltadot"][np.searchsorted(other.t, own["t_off"])]
     if not len(own):
-        return 0, math.nan, math.nan, math.nan, math.nan, math.nan
+        return ended, math.nan, math.nan, math.nan, math.nan, math.nan
     low, q1, middle, q3, high = map(float, np.quantile(parting / own["deltadot"], (0.0, 0.25, 0.5, 0.75, 1.0)))
-    return len(own), low, q1, middle, q3, high
+    return ended, low, q1, middle, q3, high
 
 
 def _ideal(run: Result, ideal: Simulation | Result | None, notes: list[str]) -> tuple[IdealForce, ...]:

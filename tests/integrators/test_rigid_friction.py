@@ -56,8 +56,9 @@ scenes:
   spring: {extends: hard, play: {A: {bearing: hole, contact: spring}}}
 """
 TWO = """\
+parameters: {drop: 0 m}
 bodies: {bar: {mass: 0.4 kg, inertia: 3e-3 kg*m^2, points: {left: [-0.1 m, 0], right: [0.1 m, 0]}}}
-ground: {west: [-0.1 m, 0], east: [0.1 m, 0]}
+ground: {west: [-0.1 m, -drop], east: [0.1 m, drop]}
 freedoms: 0
 joints: {A: {revolute: [ground.west, bar.left]}, B: {revolute: [ground.east, bar.right]}}
 start: {play: {A: {}, B: {}}}
@@ -208,6 +209,22 @@ def test_two_blows_at_once_and_all_that_follows_take_energy(folder: Path) -> Non
             assert (np.abs(run[f"{joint}.Ft"][closed]) <= mu * run[f"{joint}.Fn"][closed] * (1.0 + 1e-12)).all()
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_report_tells_the_restitution_of_what_meets_and_of_nothing_that_is_pressed(folder: Path) -> None:
+    """Each joint's own e_n, also where another one's blows press a contact that is closed and has no approach."""
+    simulation = made(folder, TWO)
+    run = simulation.simulate(0.3, parameters={f"start.play.{joint}.rate.x": 0.3 for joint in "AB"}, output=30)
+    assert (run.impacts["deltadot"] == 0.0).sum() > 5  # pressed only
+    blows = run.impacts[run.impacts["deltadot"] > 0.0]
+    assert blows["deltadot"].min() > 1e-10  # of the threshold 1e-4 m/s: slower is at rest
+    joints = gudgeon.examine(simulation, run).report().to_dict()["joints"]
+    for k, (joint, asked) in enumerate((("A", 0.6), ("B", 0.3))):
+        met = blows["deltadot"][blows["joint"] == k]
+        assert joints[joint]["approach"]["min"] == met.min() and joints[joint]["approach"]["max"] == met.max()
+        assert joints[joint]["restitution"]["median"] == pytest.approx(asked, abs=1e-9)
+        assert joints[joint]["restitution"]["max"] == pytest.approx(asked, abs=1e-9)
+
+
 def test_no_blow_gains_energy_whatever_meets(folder: Path) -> None:
     """Both ends of a bar strike, or rest and are struck, at random speeds, restitutions, coefficients and inertias."""
     simulation, rng, ran = made(folder, TWO), np.random.default_rng(17), 0
@@ -256,6 +273,37 @@ def test_friction_that_jams_a_contact_is_told(folder: Path) -> None:
         except SolverError as error:
             told.append(str(error))
     assert len(told) == 1 and "friction jams a contact of newton_restitution at t = 0 s" in told[0]
+
+
+def wedged(mu: tuple[float, float], tilt: float = 0.1) -> dict[str, float]:
+    """A bar of TWO that is held at both ends between the outer flanks of its holes, and moves down."""
+    x, y = 0.1 * math.cos(tilt) - 0.005, 0.1 * math.sin(tilt)
+    given = {"ground.west.x": -x, "ground.east.x": x, "drop": y}
+    for joint, contact, side, value in (("A", "hard", -1.0, mu[0]), ("B", "soft", 1.0, mu[1])):
+        given |= {f"start.play.{joint}.e.x": side * 0.005, f"start.play.{joint}.rate.y": -1.0}
+        given |= {f"contacts.{contact}.friction.mu": value, f"contacts.{contact}.normal.restitution": 0.0}
+    return given
+
+
+@pytest.mark.parametrize("formulation", ["reduced", "full"])
+def test_contacts_that_friction_wedges_together_are_told(folder: Path, formulation: str) -> None:
+    """Each pushes as m v²/c and levers let it; F_n = (v²/c) J / (l (2 l + (μ_B − μ_A) L)), none where that is < 0."""
+    tilt, a, R, J = 0.1, 0.1, 0.010, 3e-3
+    lever, arm = a * math.sin(tilt), a * math.cos(tilt) + R
+    simulation, most = made(folder, TWO, formulation), 0.1 + 2.0 * lever / arm
+    for mu in (0.1, 0.5 * most, 0.98 * most):
+        run = simulation.simulate(1e-6, parameters=wedged((mu, 0.1)), output=2)
+        expected = J / (0.005 * lever * (2.0 * lever + (0.1 - mu) * arm))
+        assert run["A.Fn"][0] == pytest.approx(expected, rel=1e-6)
+        assert run["B.Fn"][0] == pytest.approx(expected, rel=1e-6)
+    assert 0.4 * lever * (1.02 * most * arm - lever) < J  # alone either contact would part
+    with pytest.raises(SolverError, match="friction jams a contact of newton_restitution at t = 0 s"):
+        simulation.simulate(1e-6, parameters=wedged((1.02 * most, 0.1)), output=2)
+    moving = {f"start.play.{joint}.rate.{way}": v for joint in "AB" for way, v in (("x", 0.1), ("y", 1.0))}
+    with pytest.raises(SolverError, match=r"friction jams .* at t = 0\.01363\d* s: .* grow beyond all bounds"):
+        simulation.simulate(
+            0.05, parameters=wedged((0.7, 0.8)) | moving
+        )  # one slip ends, its friction no longer holds against the other's
 
 
 def test_friction_that_a_blow_does_not_know_is_refused(folder: Path) -> None:
