@@ -7,11 +7,13 @@ Sections are declared in generator/format/sections.py, the rest in the files of 
 from __future__ import annotations
 
 import operator
+import re
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from fractions import Fraction
 from typing import Any, NamedTuple
 
-from gudgeon.language.units import DIMENSIONLESS, Dimension
+from gudgeon.language.units import DIMENSIONLESS, FORCE, LENGTH, Dimension
 
 # what a field is
 NUMBER = "number"  # an expression with a dimension
@@ -84,6 +86,7 @@ class Field:
     default: float | str | bool | None = None  # what the reader fills in (SI)
     otherwise: str = ""  # what holds where nothing is written and nothing is filled in
     bounds: tuple[Bound, ...] = ()
+    per: str = ""  # of a force by a power of a length: the key whose number is the power, and says the dimension
     varies: str = ""  # what its expression may use besides parameters
     whole: bool = False  # of a number: 1, 2, 3
     nonzero: bool = False  # of a vector: not both components zero
@@ -123,6 +126,18 @@ class Field:
         kinds = self.kinds()
         chosen = [str(node["law"])] if self.kind == LAW and "law" in node else list(node)
         return tuple(f for kind in [k for k in chosen if k in kinds] or kinds for f in kinds[kind].fields)
+
+
+def with_dimensions(fields: Iterable[Field], written: Mapping[str, Any]) -> list[Field]:
+    """Of a field that says `per`, N/m^n: n is a number as `written`, or the default; any where a parameter says it."""
+    found = list(fields)
+    defaults = {own.name: str(own.default) for own in found}
+    for k, own in enumerate(found):
+        power = str(written.get(own.per, defaults[own.per])) if own.per else ""
+        if re.fullmatch(r"\d{1,3}(\.\d{1,9}|/[1-9])?", power):
+            dimension = FORCE / LENGTH ** Fraction(power)
+            found[k] = replace(own, dimension=dimension if dimension.has_halves_at_most else None)
+    return found
 
 
 def number(name: str, meaning: str, dimension: Dimension | None, **more: Any) -> Field:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from gudgeon.errors import BadNameError, BadValueError, ExpressionError, MissingKeyError, UnknownNameError
-from gudgeon.generator.field import LAW, OF_PENETRATION
+from gudgeon.generator.field import LAW, OF_PENETRATION, with_dimensions
 from gudgeon.generator.format.sections import BEARING, CONTACT
 from gudgeon.generator.format.shapes import missing_key
 from gudgeon.generator.kinds.laws.law import OWN, called
@@ -164,7 +164,7 @@ def _law_use(reader: Reader, address: str, role: str, node: Map) -> LawUse:
         reader.laws[law.name] = key_of(law.name)
     mistyped = check_keys(reader, node, ["law", *field_names(fields)], address)
     around = Around(address, str(text), text.where, mistyped, motion=Penetration(reader.parameters))
-    own = read_fields(reader, node, fields, around)
+    own = read_fields(reader, node, with_dimensions(fields, node), around)
     for field in fields:
         if field.varies == OF_PENETRATION and field.name in own.quantities:
             with reader.collect():

@@ -28,7 +28,7 @@ STEEL = {"R_i": 10e-3, "R_j": 9.9e-3, "c": 0.1e-3, "L": 20e-3, "E_i": 207e9, "nu
 PAIR = "steel, R_i = 10 mm, c = 0.1 mm, L = 20 mm"
 # What a number is taken to be that must be given and is not: by its name, else by its dimension (m, kg, s).
 USUAL = {"restitution": 0.9, "roughness": 5e-7, "mu_s": 0.15, "v0": 1e-3, "decay": 5e-3}
-BY_DIMENSION = {
+BY_DIMENSION: Mapping[tuple[float, ...], float] = {
     (0, 0, 0): 0.1, (1, 0, 0): 2e-5, (1, 0, -1): 1e-2, (-1, 0, 0): 2e4, (-1, 0, 1): 3.0, (0, 1, -2): 1e8,
     (0, 1, -1): 2e3, (-1, 1, -1): 0.05, (-1, 1, -2): 1e9,
 }  # fmt: skip
@@ -84,7 +84,9 @@ def figure_of(law: Law, name: str, settings: Mapping[str, float | str]) -> Figur
 
 
 def _chosen(law: Law, name: str, settings: Mapping[str, float | str]) -> Chosen:
-    fields = {own.name: own for own in law.fields_as(name)}
+    from gudgeon.generator.field import with_dimensions
+
+    fields = {own.name: own for own in with_dimensions(law.fields_as(name), settings)}
     for key in settings:
         if key not in fields:
             raise unknown_name(f"key of {name}", key, tuple(fields), None)
@@ -145,8 +147,8 @@ def _number(own: Field, settings: Mapping[str, float | str]) -> float | None:
     from gudgeon.language.quantities import number_of_text
 
     exponents = None
-    if own.dimension is not None and own.dimension.is_whole:
-        exponents = int(own.dimension.length), int(own.dimension.mass), int(own.dimension.time)
+    if own.dimension is not None:
+        exponents = float(own.dimension.length), float(own.dimension.mass), float(own.dimension.time)
     if own.name in settings:
         given = settings[own.name]
         return number_of_text(given, own.name, exponents or (0, 0, 0)) if isinstance(given, str) else float(given)

@@ -81,6 +81,7 @@ _WORDS: Mapping[Dimension, tuple[str, str]] = {
     TORQUE: ("a torque or an energy", "N*m"),
     POWER: ("a power", "W"),
     STIFFNESS: ("a stiffness", "N/m"),
+    FORCE / LENGTH ** Fraction(3, 2): ("a stiffness by Hertz", "N/m^1.5"),
     DAMPING: ("a damping coefficient", "N*s/m"),
     PRESSURE: ("a pressure", "Pa"),
     VISCOSITY: ("a viscosity", "Pa*s"),
@@ -146,6 +147,7 @@ _SYMBOLS: Mapping[str, Unit] = {
     "deg": _unit("1/180", DIMENSIONLESS, 1), "rev": _unit("2", DIMENSIONLESS, 1),
     "rpm": _unit("1/30", RATE, 1),
     "N": _unit("1", FORCE), "mN": _unit("1e-3", FORCE), "kN": _unit("1000", FORCE),
+    "MN": _unit("1e6", FORCE), "GN": _unit("1e9", FORCE), "mPa": _unit("1e-3", PRESSURE),
     "lbf": _unit("4.4482216152605", FORCE),
     "Pa": _unit("1", PRESSURE), "kPa": _unit("1e3", PRESSURE), "MPa": _unit("1e6", PRESSURE),
     "GPa": _unit("1e9", PRESSURE), "bar": _unit("1e5", PRESSURE),
@@ -155,7 +157,7 @@ _SYMBOLS: Mapping[str, Unit] = {
 }  # fmt: skip
 
 # Symbols that came later: a file may have parameters of these names, so that `3 N*ft` meant a product (tokens.py).
-LATER = frozenset(("inch", "ft", "gram", "grams", "lb", "lbf"))
+LATER = frozenset(("inch", "ft", "gram", "grams", "lb", "lbf", "mPa", "MN", "GN"))
 
 # What people write, and what is written here.
 OTHER_WORDS: Mapping[str, str] = {

@@ -11,6 +11,7 @@ from gudgeon.errors import (
     InputError,
     InputErrors,
     MissingKeyError,
+    UnitError,
     UnknownKeyError,
     UnknownNameError,
 )
@@ -201,6 +202,24 @@ def test_units_of_a_stiffness(unit: str) -> None:
     law = read(HERTZ, f"{{law: flores, restitution: 0.8, stiffness: 2 k{unit}}}")
     assert normal(law)[1]["stiffness"] == 2000.0  # type: ignore[index]
     read("name: plain\n", f"name: plain\nparameters: {{K: 1e9 {unit}}}\n")
+
+
+@pytest.mark.parametrize(
+    ("unit", "more"), [("N/m", ""), ("kg", ""), ("N/m^1.5", ", exponent: 2"), ("N/m", ", exponent: 3/2")]
+)
+def test_a_stiffness_by_another_power_than_the_exponent(unit: str, more: str) -> None:
+    """It would be taken as SI of the law's power, silently."""
+    error = refused(HERTZ, f"{{law: flores, restitution: 0.8, stiffness: ‸1e9 {unit}{more}}}")
+    assert type(error) is UnitError and "expected a" in error.message
+
+
+@pytest.mark.parametrize(
+    "more", ["N/m^2, exponent: 2", "N/m, exponent: 1.0", "N/m^1.5, exponent: 1.2", ", exponent: 2"]
+)
+def test_a_stiffness_by_the_power_of_its_exponent(more: str) -> None:
+    """1.2: no unit can be written for it, and none is asked for."""
+    law = read(HERTZ, f"{{law: flores, restitution: 0.8, stiffness: 1e9 {more}}}")
+    assert normal(law)[1]["stiffness"] == 1e9  # type: ignore[index]
 
 
 def test_none_is_no_law() -> None:

@@ -114,6 +114,16 @@ def test_numbers_are_given_as_for_a_run() -> None:
         model.prepare({"omega": "3 kg"})
 
 
+def test_a_stiffness_is_given_in_its_unit() -> None:
+    """The file writes a bare number: what its unit is the law's exponent says."""
+    model = load("bouncing_ball", "damped").model.numpy()
+    address = "contacts.damped.normal.stiffness"
+    name = printer.name(model.model.slots.entries[address].symbol.name)
+    assert getattr(model.prepare({address: "1e5 N/mm^1.5"}), name) == pytest.approx(1e5 * 1000**1.5, rel=1e-15)
+    with pytest.raises(UnitError, match=r"N/m\^1\.5"):
+        model.prepare({address: "1e5 N/mm"})
+
+
 def test_modes_of_friction_must_be_given() -> None:
     """Without them the compiled right-hand side has no number either: stick would be a guess."""
     simulation = load("belt_block", "ideal")

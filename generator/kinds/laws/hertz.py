@@ -37,7 +37,7 @@ LAW = Law(
     fields=(
         number(
             "stiffness", "force at unit penetration, N/m^n", None, symbol="K", bounds=(Bound(">", 0.0),),
-            otherwise="it follows from materials and radii",
+            per="exponent", otherwise="it follows from materials and radii",
         ),
         number(
             "exponent", "exponent of the penetration", DIMENSIONLESS,

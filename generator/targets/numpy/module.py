@@ -94,7 +94,7 @@ class ClosedLinkage:
                 found[address] = float(words.index(value.strip()))
                 continue
             of = entries[address].dimension
-            exponents = (int(of.length), int(of.mass), int(of.time)) if of.is_whole else (0, 0, 0)
+            exponents = float(of.length), float(of.mass), float(of.time)
             number = number_of_text(value, address, exponents) if isinstance(value, str) else value
             found[address] = number_of(number, address)
         return found
