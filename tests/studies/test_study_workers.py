@@ -107,6 +107,7 @@ def test_a_cluster_that_is_none_is_told(call: Gudgeon, tmp_path: Path, monkeypat
     for address in ("tcp://127.0.0.1:1", "nonsense://x", ""):
         told = call("study", "s.yaml", "--dask", address)
         assert told.exit_code == 2 and "no scheduler answers" in told.output
+    gudgeon.study(STUDY).save(tmp_path / "s.nc")  # by no lock of a cluster that does not answer
     with pytest.raises(BadValueError, match="executor"):
         gudgeon.study(STUDY, executor="tcp://127.0.0.1:1")
     with ThreadPoolExecutor(1) as over:

@@ -121,7 +121,7 @@ def _client(address: str) -> Iterator[Any]:
     try:
         if not address.strip():  # of that Client makes a cluster of its own
             raise ValueError("the address is empty")
-        client = Client(address, timeout=PATIENCE)
+        client = Client(address, timeout=PATIENCE, set_as_default=False)  # else what failed would be asked by others
     except (OSError, ValueError, TypeError) as error:
         told = f"--dask: no scheduler answers at {in_a_line(address)[:100]}: {in_a_line(str(error))[:200]}"
         raise InputError(told, hint="expected an address as `dask scheduler` prints it, tcp://HOST:8786") from error
