@@ -16,7 +16,7 @@ from gudgeon.loading.ahead import Ahead, own_lines, shared_objects
 from gudgeon.loading.cache import Cache, Make, default_cache, digest, private_cache, tell_once
 from gudgeon.loading.carried import carried
 from gudgeon.loading.compiling import begin, finish
-from gudgeon.loading.engine import engine_digest
+from gudgeon.loading.engine import engine_digest, own_texts
 from gudgeon.loading.library import Library, opened
 from gudgeon.waiting.programs import Programs
 from gudgeon.waiting.working import working
@@ -74,8 +74,7 @@ def library_key(
     source: KernelSource, command: tuple[str, ...], flags: tuple[str, ...], identity: str, portable: bool
 ) -> str:
     """Everything that decides the library's bytes or whether this machine can run them."""
-    texts = [part for name in sorted(source.files) for part in (name, source.files[name])]
-    cpu = "" if portable else compiler.cpu()
+    cpu, texts = "" if portable else compiler.cpu(), own_texts(source)
     return digest(["library/6", source.main, source.cdef, *command, *flags, identity, cpu, engine_digest(), *texts])
 
 

@@ -12,7 +12,7 @@ import sys
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.loading.cache import digest
-from gudgeon.loading.engine import engine_digest
+from gudgeon.loading.engine import engine_digest, own_texts
 from gudgeon.loading.library import Library, opened
 from gudgeon.loading.shipped import room
 
@@ -37,5 +37,4 @@ def platform(system: str, machine: str) -> str:
 
 def file_name(source: KernelSource) -> str:
     """By everything that it was compiled from."""
-    texts = [part for name in sorted(source.files) for part in (name, source.files[name])]
-    return digest(["carried/1", source.main, source.cdef, engine_digest(), *texts])[:32] + ".so"
+    return digest(["carried/1", source.main, source.cdef, engine_digest(), *own_texts(source)])[:32] + ".so"

@@ -36,6 +36,11 @@ def engine_digest() -> str:
     return digest([part for item in engine_files().items() for part in item])
 
 
+def own_texts(source: KernelSource) -> list[str]:
+    """Names and texts of a scene's own files, as keys of what is compiled from them hold them."""
+    return [part for name in sorted(source.files) for part in (name, source.files[name])]
+
+
 def include_flags() -> tuple[str, ...]:
     """The compiler's, for files that include "model.h" beside them and "engine/..."."""
     return ("-I.", f"-I{ENGINE.parent}")

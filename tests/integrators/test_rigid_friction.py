@@ -14,16 +14,10 @@ from scipy.integrate import solve_ivp
 import gudgeon
 from gudgeon.errors import BadValueError, SolverError
 from gudgeon.simulation.simulation import Simulation
-from tests.integrators.test_newton_restitution import CRANK
+from tests.integrators.test_newton_restitution import CRANK, HEAD
 from tests.programs import needs_compiler
 
 pytestmark = needs_compiler
-HEAD = """\
-format: gudgeon/1
-name: rubbed
-gravity: [0, -9.81 m/s^2]
-materials: {steel: {E: 206 GPa, nu: 0.3}}
-"""
 DISC = """\
 bodies: {disc: {mass: 0.092 kg, inertia: 7e-6 kg*m^2}}
 ground: {hole: [0, 0]}
