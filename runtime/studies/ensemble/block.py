@@ -81,6 +81,11 @@ class Block:
     series: Mapping[str, Array]  # (n, N)
     notes: Mapping[str, Note] = field(default_factory=dict)  # by their kind
 
+    @property
+    def nbytes(self) -> int:
+        """Memory of its arrays."""
+        return sum(array.nbytes for array in (self.t_last, self.t, *self.measures.values(), *self.series.values()))
+
 
 def run_block(job: Job, progress: Progress | None = None, simulation: Simulation | None = None) -> Block:
     """Run, measure, let go; without a simulation load it. KeyboardInterrupt where Ctrl-C ended a run."""

@@ -46,13 +46,9 @@ def _joined(blocks: Iterable[Block]) -> Iterator[Block]:
             yield _as_one(waiting)
             waiting, held = [], 0
         waiting.append(block)
-        held += _bytes(block)
+        held += block.nbytes
     if waiting:
         yield _as_one(waiting)
-
-
-def _bytes(block: Block) -> int:
-    return sum(array.nbytes for array in (block.t_last, block.t, *block.measures.values(), *block.series.values()))
 
 
 def _as_one(blocks: Sequence[Block]) -> Block:

@@ -8,6 +8,7 @@ import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
+from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 MANIFEST, DATASET, LOCK = "study.json", "study.nc", ".lock"
 _BLOCK = re.compile(r"block-[0-9]{6,9}\.nc")
 _MOST_TOLD = 6
+RECENT = 4 << 20  # bytes of blocks that are kept
 
 
 class StudyFolder:
@@ -35,6 +37,8 @@ class StudyFolder:
 
     def __init__(self, path: str | os.PathLike[str], plan: Plan) -> None:
         self.path, self.plan = Path(path), plan
+        self.recent: dict[int, Block] = {}  # written here, and read again for the dataset, as long as they are small
+        self.held = 0  # bytes of these
 
     @contextmanager
     def opened(self, restart: bool) -> Iterator[StudyFolder]:
@@ -96,10 +100,15 @@ class StudyFolder:
         data = image(block, self.plan.digest)
         with written(self._file(block.number), sync=True) as file:
             file.write(data)
+        if self.held + block.nbytes <= RECENT:
+            self.recent[block.number] = block
+            self.held += block.nbytes
 
     def read(self, number: int) -> Block | None:
         """A block as it was written; None where there is none, or a damaged one, which is run again."""
         path = self._file(number)
+        if number in self.recent and path.exists():
+            return self.recent[number]
         with suppress(OSError, ValueError, KeyError, TypeError, RuntimeError):
             if (data := read_regular(path)) is not None:
                 return from_image(data, self.plan, number)
@@ -183,6 +192,7 @@ def _flat(node: Any, key: str = "") -> Iterator[tuple[str, Any]]:
         yield key, node
 
 
+@cache
 def h5py_module() -> Any:
     """h5py, or what to install."""
     if not all(map(find_spec, ("h5py", "xarray", "h5netcdf"))):

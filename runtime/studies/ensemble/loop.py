@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Progress
     from gudgeon.studies.ensemble.plan import BlockOf
 
-SIDE_BY_SIDE = 4  # blocks at once here, at most: while Python has one, and the last runs of another end, no core waits
+SIDE_BY_SIDE = 4  # blocks at once here, at most: while Python has one, and the last runs of another end, cores work
 FUTILE = 3  # times that workers die one after the other, and no block is done
 
 
@@ -81,11 +81,11 @@ def _here(folder: StudyFolder, missing: list[BlockOf], done: _Done, threads: int
     but for the last blocks, whose end nobody else's begin covers.
     """
     cores, ended = threads or available_threads(), Event()
-    most = min(cores + 1, SIDE_BY_SIDE) if cores > 1 else 1
+    most = min(cores, SIDE_BY_SIDE)  # more threads than cores change places all the time, which costs more than it saves
     last = {block.number for block in missing[-most:]}
 
     def run(block: BlockOf) -> Block:
-        own = cores if block.number in last or most == 1 else math.ceil(cores / (most - 1))
+        own = cores if block.number in last else math.ceil(cores / most)
 
         def report(fraction: float, text: str) -> None:
             if ended.is_set():
@@ -121,22 +121,22 @@ def _all(
     folder: StudyFolder, missing: list[BlockOf], done: _Done, submit: Callable[[BlockOf], Future[Block]],
     most: Callable[[], int],
 ) -> None:  # fmt: skip
-    """Blocks are written as they come, and never more are out than there is room for."""
+    """Blocks are written as they come, and never more are out than there is room for: the next begin before that."""
     left = iter(missing)
     out: dict[Future[Block], BlockOf] = {}
     with _cancelled(out):
-        over: set[Future[Block]] | None = None
+        over: list[tuple[Future[Block], BlockOf]] = []
         while True:
-            if over is None or over:
+            if over or not out:
                 for block in islice(left, max(0, most() - len(out))):
                     out[submit(block)] = block
+            for future, block in sorted(over, key=lambda one: one[0].cancelled() or one[0].exception() is not None):
+                folder.write(future.result())  # what is good first: the others raise
+                done.add(block)
             if not out:
                 return
-            over = wait(out, GLANCE, return_when=FIRST_COMPLETED).done
-            for future in sorted(over, key=lambda one: one.cancelled() or one.exception() is not None):
-                folder.write(future.result())  # what is good first: the others raise
-                done.add(out.pop(future))
             done.tell()
+            over = [(future, out.pop(future)) for future in wait(out, GLANCE, return_when=FIRST_COMPLETED).done]
 
 
 @contextmanager
