@@ -81,7 +81,7 @@ def _here(folder: StudyFolder, missing: list[BlockOf], done: _Done, threads: int
     but for the last blocks, whose end nobody else's begin covers.
     """
     cores, ended = threads or available_threads(), Event()
-    most = min(cores, SIDE_BY_SIDE)  # more threads than cores change places all the time, which costs more than it saves
+    most = min(cores, SIDE_BY_SIDE)  # more threads than cores cost more than they save: they change places
     last = {block.number for block in missing[-most:]}
 
     def run(block: BlockOf) -> Block:
