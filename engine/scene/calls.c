@@ -172,3 +172,23 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
     }
     return 0;
 }
+
+/* The same at samples of several runs, one behind the other: counts[i] of run i, by its row of `numbers` numbers. */
+int gudgeon_evaluate_runs(long runs, const long *counts, const double *t, const double *q, const double *v,
+    const double *memory, const double *parameters, long numbers, double *a, double *lambda, double *reactions,
+    double *torques, double *clearance, double *series, double *friction, double *energy, double *power, double *drift,
+    long *failed)
+{
+#define FROM(array, width) ((array) ? (array) + first * (width) : NULL)
+    for (long i = 0, first = 0; i < runs; first += counts[i++]) {
+        const int status = gudgeon_evaluate(counts[i], t + first, q + first * N_Q, v + first * N_Q,
+            memory + first * N_MEMORY, parameters + i * numbers, FROM(a, N_Q), FROM(lambda, N_ROWS),
+            FROM(reactions, 3 * N_JOINTS), FROM(torques, N_DRIVES), FROM(clearance, 10 * N_CLEARANCES),
+            FROM(series, N_SERIES), FROM(friction, 2 * N_FRICTIONS), FROM(energy, 2), FROM(power, N_WORK),
+            FROM(drift, 2), failed);
+        if (status)
+            return status;
+    }
+    return 0;
+#undef FROM
+}

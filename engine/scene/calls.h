@@ -22,6 +22,10 @@ double gudgeon_time_rhs(long count, double t, const double *y, const double *mem
 int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *memory,
     const double *parameters, double *a, double *lambda, double *reactions, double *torques, double *clearance,
     double *series, double *friction, double *energy, double *power, double *drift, long *failed);
+int gudgeon_evaluate_runs(long runs, const long *counts, const double *t, const double *q, const double *v,
+    const double *memory, const double *parameters, long numbers, double *a, double *lambda, double *reactions,
+    double *torques, double *clearance, double *series, double *friction, double *energy, double *power, double *drift,
+    long *failed);
 #if TREE
 void gudgeon_expand(double t, const double *q, const double *v, const double *p, double *all_q, double *all_v);
 void gudgeon_reduce(double t, const double *all_q, const double *all_v, const double *p, double *q, double *v);

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from gudgeon.results.results import State
 
 ALL_OVER, LISTS, RUN_OVER = 0, 1, 2  # what a call returns
+TOGETHER = 4096  # samples of runs that are over, at most, that wait for one another: they are taken at once
 
 
 def available_threads() -> int:
@@ -44,13 +45,13 @@ def available_threads() -> int:
 class Runs:
     """Arrays by run, and by place where there are samples; what is not reached is NaN.
 
-    Each run has a place of its own for its samples or, with `over`, that of the thread which it goes on in: what
-    `over` does not take of a run that is over, once in that thread, is lost.
+    Each run has a place of its own for its samples or, with `over`, one of the thread which it goes on in: what `over`
+    does not take of runs that are over, some at once in that thread, is lost.
     """
 
     def __init__(
         self, compiled: CompiledModel, p: Array, motion: Array, times: Times, method: str, step: Array, rtol: float,
-        stop: bool, side_by_side: bool, threads: int, over: Callable[[Runs, int], None] | None = None,
+        stop: bool, side_by_side: bool, threads: int, over: Callable[[Runs, Sequence[int]], None] | None = None,
     ) -> None:  # fmt: skip
         from gudgeon.integrators.trajectory import IMPACT_DTYPE
 
@@ -60,7 +61,9 @@ class Runs:
         self.lanes = Lanes(compiled) if beside and method == "rk4" else None
         self.flow = Flow(compiled) if beside and method != "rk4" else None
         self.n, self.abreast = n, max((each.count for each in (self.lanes, self.flow) if each), default=1)
-        places = threads * self.abreast if over else n
+        spare = min(self.abreast, TOGETHER // N) if self.flow else 0  # of runs that are over, and not taken yet
+        self.places = self.abreast + spare  # of a thread
+        places = threads * self.places if over else n
         scale, least = adaptive.tolerances(compiled, p, rtol)
         self.arrays: dict[str, NDArray[Any]] = {
             "t": times.t, "wanted": times.count, "place": np.arange(n) % places, "p": p, "p_motion": motion,
@@ -183,14 +186,16 @@ class Runs:
     def to_its_end(self, i: int, memory: NDArray[np.uint8], tape: Tape | None = None) -> None:
         """Run i alone from where it is, if it is not over."""
         self.alone(i, i + 1, memory, tape)
-        self.is_over(i)
+        self.are_over([i])
 
-    def is_over(self, i: int) -> None:
-        """What is wanted of run i, if it came to its end in a place that others may take."""
-        if self.over and self.arrays["phase"][i] == OVER and self.arrays["status"][i] != NOT_CLOSED:
-            if self.method != "rk4":
-                self._take_back(i)
-            self.over(self, i)
+    def are_over(self, runs: Sequence[int]) -> None:
+        """What is wanted of those of these that came to their ends in places that others may take."""
+        x, odd = self.arrays, self.method != "rk4"
+        over = [i for i in runs if self.over and x["phase"][i] == OVER and x["status"][i] != NOT_CLOSED]
+        for i in over if odd else ():
+            self._take_back(i)
+        if self.over and over:
+            self.over(self, over)
 
     def alone(self, first: int, end: int, memory: NDArray[np.uint8], tape: Tape | None) -> None:
         """Runs one after the other, from where they are to their ends."""

@@ -84,25 +84,30 @@ class Lanes:
     def flow(
         self, runs: Runs, supply: Iterator[int], memories: NDArray[np.uint8], tapes: Sequence[Tape], place: int
     ) -> None:
-        """All runs of `supply`, each in a row of `memories`; with `over` its samples go to `place` and that row.
+        """All runs of `supply`, each in a row of `memories`; with `over` its samples go to a place from `place` on.
 
         `tapes`: one a row, where somebody looks at all steps.
         """
         arguments, number = self._arguments(runs, memories)
-        status = LISTS
+        free, waiting, status = [*range(place, place + runs.places)], list[int](), LISTS
         while status != ALL_OVER and not runs.stopping:
             for k in range(self.count):
                 if number[k] == NONE and (i := next(supply, NONE)) != NONE:
                     number[k] = i
                     if runs.over:
-                        runs.arrays["place"][i] = place + k
+                        runs.arrays["place"][i] = free.pop()
             before = list(number)
             status = self.lib.gudgeon_lanes(*arguments, number)
             for k, i in enumerate(before):
                 if i != NONE and (status == LISTS or number[k] == NONE):
                     _fetch(runs, i, memories[k], tapes[k] if tapes else None)
                 if i != NONE and number[k] == NONE:
-                    runs.is_over(i)
+                    waiting.append(i)
+            if len(free) < sum(number[k] == NONE for k in range(self.count)):
+                runs.are_over(waiting)
+                free += runs.arrays["place"][waiting].tolist()
+                waiting.clear()
+        runs.are_over(waiting)
         for k, i in enumerate(number):
             if i != NONE:
                 runs.to_its_end(i, memories[k], tapes[k] if tapes else None)

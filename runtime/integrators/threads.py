@@ -45,7 +45,7 @@ def in_threads(runs: Runs, progress: Progress | None, wanted: range | list[int],
 def _work(runs: Runs, portions: deque[range | list[int]], worker: int) -> None:
     """One thread: portions of runs until none is left."""
     memories = np.zeros((runs.abreast, runs.compiled.lib.gudgeon_run_size()), dtype=np.uint8)
-    tapes, place = [Tape(runs.compiled) for _ in memories] if runs.looks else [], worker * runs.abreast
+    tapes, place = [Tape(runs.compiled) for _ in memories] if runs.looks else [], worker * runs.places
     for memory, own in zip(memories, tapes, strict=False):
         own.lay(runs.compiled.pointer(memory, "void *"))
     tape = tapes[0] if tapes else None

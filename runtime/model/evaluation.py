@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+import math
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, fields
 from time import perf_counter
 from typing import TYPE_CHECKING, TypeAlias
@@ -68,6 +69,27 @@ def evaluate(
         first += count
         chunk = 4 * count if perf_counter() - before < SOON else max(1, count // 4)
         take()
+    _mark_indeterminate(compiled, out)
+    return out
+
+
+def evaluate_runs(
+    compiled: CompiledModel, counts: Sequence[int], t: Array, q: Array, v: Array, memory: Array, p: Array,
+    parts: Collection[str],
+) -> Evaluation:  # fmt: skip
+    """The same at few samples of several runs, one behind the other: counts[i] of run i, whose numbers are p[i]."""
+    N, time = sum(counts), t + around(t) if compiled.beyond else t
+    shapes = (("t", time, (N,)), ("q", q, (N, compiled.n)), ("v", v, (N, compiled.n)))
+    given = [compiled.pointer(taken(values, name, shape)) for name, values, shape in shapes]
+    given.append(compiled.pointer(taken(memory, "memory", (N, compiled.n_memory))))
+    numbers = compiled.pointer(taken(p, "p", (len(counts), compiled.n_p)))
+    out, failed = _room(compiled, N, parts), compiled.ffi.new("long *")
+    filled = [compiled.pointer(x, written=True) if len(x) else compiled.ffi.NULL for x in vars(out).values()]
+    of_each = compiled.ffi.new("long[]", counts)
+    status = compiled.lib.gudgeon_evaluate_runs(
+        len(counts), of_each, *given, numbers, compiled.n_p, *filled, failed
+    )  # fmt: skip
+    compiled.check_pivot(status, math.nan)
     _mark_indeterminate(compiled, out)
     return out
 

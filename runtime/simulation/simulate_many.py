@@ -25,9 +25,9 @@ from gudgeon.language.wanted import flag, function, is_whole, text, told
 from gudgeon.model.compiled import Array
 from gudgeon.model.contours import of_run, taken_contours
 from gudgeon.model.parameter_sets import ParameterSets, each_of, plain_each, prepare_sets, rows_of
-from gudgeon.results.bare import Bare, bare
+from gudgeon.results.bare import Bare
 from gudgeon.results.batch import Batch, States, as_failures, given_values, peaks_of
-from gudgeon.results.batch_series import STATES, parts_of, wanted_names
+from gudgeon.results.batch_series import STATES, wanted_names
 from gudgeon.results.results import Result, State
 from gudgeon.simulation.arguments import method_of
 from gudgeon.simulation.beside import check_beside
@@ -35,6 +35,7 @@ from gudgeon.simulation.conclusion import conclude
 from gudgeon.simulation.diagnose import may_not_hold, not_held
 from gudgeon.simulation.each_run import EachRun
 from gudgeon.simulation.hidden_jumps import any_in_batch
+from gudgeon.simulation.kept_series import KeptSeries, bare_of
 from gudgeon.simulation.restart import check_fits, numbers, off_constraints, own_each
 from gudgeon.simulation.single_runs import Asked, run_singly
 from gudgeon.simulation.wanted_peaks import Looker, Told, search_of, wanted_peaks
@@ -99,7 +100,7 @@ def _in_c(
 ) -> Batch:  # fmt: skip
     """Runs that go from start to end in C."""
     p, motion, steps = numbers
-    kept = None if asked.keep is None else _Kept(simulation.source, asked.keep, len(p), times)
+    kept = None if asked.keep is None else KeptSeries(simulation.source, asked.keep, len(p), times)
     runs = many.Runs(
         simulation.compiled, p, motion, times, asked.method, steps, asked.rtol, asked.stop, asked.side_by_side,
         asked.threads, kept,
@@ -113,25 +114,6 @@ def _in_c(
     told = [search.told() if search else Told() for search in searches]
     batch = _of_runs(_Results(simulation, runs, starts, asked.rtol, asked.stop, asked.method, told), kept)
     return replace(batch, seconds=time.perf_counter() - before, threads=asked.threads)
-
-
-class _Kept:
-    """Series of runs, computed as soon as a run is over: nobody needs its states any more."""
-
-    def __init__(self, source: KernelSource, names: tuple[str, ...], n: int, times: Times) -> None:
-        self.names, self.parts = names, parts_of(source, names)
-        self.arrays = {name: np.full((n, times.most), np.nan) for name in ("t", *names)}
-
-    def __call__(self, runs: many.Runs, i: int) -> None:
-        """Takes those of run i; where they cannot be computed, that is what it failed of."""
-        run = bare_of(runs, i, self.parts)
-        if run is None:
-            return
-        try:
-            for name in ("t", *self.names):
-                self.arrays[name][i, : len(run.t)] = run[name]
-        except SolverError as error:
-            runs.failures.setdefault(i, error)
 
 
 class _Starts:
@@ -249,16 +231,7 @@ class _Results:
         return bare_of(self.runs, i, parts)
 
 
-def bare_of(runs: many.Runs, i: int, parts: frozenset[str]) -> Bare | None:
-    """The samples of run i; None where there is none."""
-    if not runs.arrays["done"][i]:
-        return None
-    n, source, p = runs.compiled.n, runs.compiled.source, runs.arrays["p"][i]
-    t, y, memory, state = runs.samples(i)
-    return bare(source, runs.compiled, p, t, y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], memory, state, parts)
-
-
-def _of_runs(results: _Results, kept: _Kept | None) -> Batch:
+def _of_runs(results: _Results, kept: KeptSeries | None) -> Batch:
     """What C has stored, without a copy."""
     runs, source = results.runs, results.simulation.source
     x, n, y, joints = runs.arrays, results.simulation.compiled.n, runs.arrays["y"], len(source.clearances)

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.errors import GudgeonError, UnknownNameError
+from gudgeon.errors import GudgeonError, SingularError, UnknownNameError
 from gudgeon.results.batch import Batch
 from gudgeon.simulation.simulation import Simulation
 from tests.programs import needs_compiler
@@ -137,6 +137,27 @@ def test_events_of_runs_are_there(tmp_path: Path) -> None:
     same(Batch.load(tmp_path / "batch.nc"), batch, ("lift",))
     with pytest.raises(GudgeonError, match="not kept"):
         batch.at_events("rising")
+
+
+def test_a_sample_that_has_no_accelerations_is_a_failure_of_its_own_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of several runs that are evaluated at once nobody says which one it is."""
+    from gudgeon.simulation import kept_series
+
+    many, speeds = kept_series.evaluate_runs, np.linspace(20.0, 30.0, 17)
+    seen = list[int]()
+
+    def singular(compiled: Any, counts: list[int], *rest: Any) -> Any:
+        seen.append(len(counts))
+        assert many(compiled, counts, *rest).a.shape == (sum(counts), compiled.n)
+        raise SingularError("a pivot vanished", 0.0, "A.x")
+
+    monkeypatch.setattr(kept_series, "evaluate_runs", singular)
+    kept, whole = (
+        press("lubricated").simulate_many({"omega": speeds}, 0.004, output=9, keep=keep)
+        for keep in (["S9.ay"], "states")
+    )
+    assert seen and max(seen) > 1
+    same(kept, whole, ("S9.ay",))
 
 
 def test_states_of_all_runs_are_never_there_at_once() -> None:
