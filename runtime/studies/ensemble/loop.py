@@ -133,9 +133,9 @@ def _all(
             for future, block in sorted(over, key=lambda one: one[0].cancelled() or one[0].exception() is not None):
                 folder.write(future.result())  # what is good first: the others raise
                 done.add(block)
+            done.tell()
             if not out:
                 return
-            done.tell()
             over = [(future, out.pop(future)) for future in wait(out, GLANCE, return_when=FIRST_COMPLETED).done]
 
 
