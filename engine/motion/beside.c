@@ -134,8 +134,9 @@ int motion(double t, const double *y, Memory *memory, const Parameters *p, doubl
         }
     }
     const int status = motion_here(t, y, memory, p, dy, aside);
-    if (status != NEAR || memory->way == TELLS)
-        return memory->way == CLOSES && !status ? NEAR : status;
+    const int open = memory->way == CLOSES || memory->way == CLOSED; /* near enough that it cannot be closed */
+    if (memory->way == TELLS || (status != NEAR && (status || !open)))
+        return status;
     if (continue_here(t, y, memory, p, &at))
         return handed_over(y, &at, dy, aside);
     if (memory->way == CLOSES)
