@@ -7,10 +7,12 @@
  */
 #include <string.h>
 
-enum { SIDE_NODES = TREE ? 5 : 6, WIDER = 4 };
+enum { SIDE_NODES = TREE ? 5 : 6, WIDE = 2, WIDER = 4 };
 #define LARGEST_WAY 0.1 /* rad, of a stage back onto the constraints */
 #define NODE_TURN (TREE ? 1e-2 : 2e-2) /* rad, of the fastest angle, between places; then twice that, and so on */
 #define CONTINUED_TO 1e-7 /* share of the accelerations by which the last two polynomials may differ */
+#define WIDE_TURN 4e-2 /* the same where the motion is as smooth as that: rounding of far places is blown up less */
+#define WIDE_TO 1e-10
 
 /* A place on the way: closed, its right-hand side. 0, or why it is none; `far`: the longest way to there. */
 static int place_beside(double t, double *y, Memory *memory, const Parameters *p, double far, double *dy, Aside *aside)
@@ -55,7 +57,7 @@ static void add_place(int k, const double *y, const double *dy, const Aside *asi
 }
 
 /* Whether the polynomials of the last two degrees agree. */
-static int agrees(const double *y, const Continued *sum)
+static int agrees(const double *y, const Continued *sum, double to)
 {
     double most[2] = {0.0, 0.0}, apart[2] = {0.0, 0.0};
     for (int k = 0; k < N_X; k++) {
@@ -64,7 +66,7 @@ static int agrees(const double *y, const Continued *sum)
         most[kind] = max_of(most[kind], fabs(a) + (kind ? v * v : 0.0));
         apart[kind] = max_of(apart[kind], fabs(a - sum->lower[k]));
     }
-    return apart[0] <= CONTINUED_TO * most[0] && apart[1] <= CONTINUED_TO * most[1];
+    return apart[0] <= to * most[0] && apart[1] <= to * most[1];
 }
 
 /* The motion at a state beside a singular position, from both sides. Whether it can be had. */
@@ -75,8 +77,8 @@ static int continue_here(double t, const double *y, const Memory *memory, const 
         fastest = is_angle[k] ? max_of(fastest, fabs(y[N_X + k])) : fastest;
     if (!(fastest > 0.0 && fastest < INFINITY))
         return 0;
-    double turn = NODE_TURN;
-    for (int wider = 0; wider < WIDER; wider++, turn *= 2.0) {
+    for (int pass = -WIDE; pass < WIDER; pass++) {
+        const double turn = pass < 0 ? WIDE_TURN * ldexp(1.0, -WIDE - pass) : NODE_TURN * ldexp(1.0, pass);
         int status = memory->asked && ask_now(memory->asked) ? STOPPED : 0;
         *sum = (Continued){0};
         for (int k = 1; k <= SIDE_NODES && !status; k++)
@@ -90,7 +92,7 @@ static int continue_here(double t, const double *y, const Memory *memory, const 
                 status = place_beside(t + (N_DRIVES ? h : 0.0), there, &now, p, 0.5 * k * turn, dy, &aside);
                 add_place(k, there, dy, &aside, sum);
             }
-        if (!status && agrees(y, sum))
+        if (!status && agrees(y, sum, pass < 0 ? WIDE_TO : CONTINUED_TO))
             return 1;
         if (status == STOPPED)
             return 0;
