@@ -10,6 +10,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import AssemblyError, SingularError, SolverError
+from gudgeon.mechanisms import n_four_bar
 from tests.scenes import Load, loader
 
 
@@ -243,3 +244,17 @@ def test_through_singular_positions_at_any_tolerance(formulation: str, rtol: flo
         assert np.ptp(cranks[0]) > 2.0 * np.pi
         assert np.abs(cranks - cranks[0]).max() < 1e-10
         assert run.diagnostics.energy_residual < 1e-5
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("formulation", ["reduced", "full"])
+def test_many_loops_pass_singular_positions_in_as_many_steps_as_few(formulation: str, tmp_path: Path) -> None:
+    """All squares are flat at once, whatever their number: what a passage costs grows as the right-hand side does."""
+    evaluations = []
+    for n in (5, 20):
+        file = tmp_path / f"{n}.yaml"
+        file.write_text(n_four_bar.text(n), encoding="utf-8")
+        run = gudgeon.load(file, formulation=formulation).simulate(20.0, output=2, rtol=1e-12)
+        assert run.diagnostics.energy_residual < 1e-7  # of 10 (2 n + 1) J
+        evaluations.append(run.diagnostics.right_hand_sides)
+    assert evaluations[1] < 1.05 * evaluations[0]
