@@ -9,6 +9,8 @@ enum { MAX_STUCK = 200, MAX_CRAWL = 2000, PATIENCE = 8,
 #define WORKS 10.0    /* times rtol, that the works of a step may err, as a share of the energy turned over */
 #define PAST 1.05    /* of the time to the end of a contact, that a step takes */
 #define SLACK 2.5     /* h rho below which the stiff method is not worth its price */
+#define STEEPEST 30.0 /* power of a step's length, as which its error may be seen to grow */
+#define FADES 0.95    /* what is left of that power after a step */
 
 /* The other method from now on. A return to the explicit one that did not last makes the next one harder. */
 static void change_method(Run *run)
@@ -75,6 +77,19 @@ static void next_own_length(Run *run, const Step *step, int again)
 #endif
 }
 
+/*
+ * By which share a step may become longer, as errors were seen to grow from an accepted step to the longer one that was
+ * refused before it: of stiff motion that can be a far higher power than the method's, and would be refused again.
+ */
+static double share_as_seen(Run *run, const Step *step, int again)
+{
+    const Attempt *now = &run->attempt;
+    if (again && now->refused > step->h && isfinite(now->error) && now->error > step->error)
+        run->steep = min_of(STEEPEST, log(now->error / max_of(1e-12, step->error)) / log(now->refused / step->h));
+    run->steep *= FADES;
+    return run->steep * step->method->power > 1.0 ? 0.9 * pow(max_of(1e-12, step->error), -1.0 / run->steep) : INFINITY;
+}
+
 /* The next step's length from an accepted one; `again`: after a rejection, `whole`: no output time cut it short. */
 static void next_length(Run *run, const Step *step, int again, int whole)
 {
@@ -86,6 +101,7 @@ static void next_length(Run *run, const Step *step, int again, int whole)
     double factor = 0.9 * pow(error, -0.8 * power) * pow(run->error_before, 0.2 * power);
     if (!step->method->stiff && run->stability > 1.0)
         factor = min_of(factor, 1.1 * step->method->bounded / run->stability);
+    factor = min_of(factor, share_as_seen(run, step, again));
     factor = min_of(again ? 1.0 : step->looked ? 2.0 : 6.0, max_of(0.3, factor));
     run->error_before = max_of(1e-4, error);
     note_first(run, step);
