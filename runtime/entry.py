@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import codecs
 import errno
+import gc
 import os
 import signal
 import sys
@@ -46,6 +47,7 @@ def _run() -> None:
             main()
         finally:
             sys.stdout.flush()
+            gc.freeze()  # the process ends: what is left need not be looked through for garbage before that
     except KeyboardInterrupt:
         last_word()
         sys.exit(INTERRUPTED)

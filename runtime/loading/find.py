@@ -21,6 +21,7 @@ from gudgeon.language.wanted import mapping, number_of, path, text
 from gudgeon.loading.cache import Cache, default_cache, digest
 from gudgeon.loading.contents import contents
 from gudgeon.loading.shipped import PACKAGE, committed, room, shipped, shipped_file
+from gudgeon.waiting.collector import at_rest
 from gudgeon.waiting.imports import GENERATOR, READER, whole
 from gudgeon.waiting.working import working
 
@@ -147,7 +148,7 @@ def derived(
 
     A mistake in the file is told before SymPy is imported.
     """
-    with working(f"deriving {file.stem}, scene {scene}"):
+    with working(f"deriving {file.stem}, scene {scene}"), at_rest():  # nearly all that SymPy makes stays in its caches
         whole(*READER)
         from gudgeon.generator.reading import read_scene
 

@@ -6,10 +6,11 @@ and what is being imported comes to its end beside it.
 
 from __future__ import annotations
 
-import gc
 import sys
 import threading
 from importlib import import_module
+
+from gudgeon.waiting.collector import at_rest
 
 RUNTIME = ("numpy", "gudgeon.simulation.simulation")
 READER = ("numpy", "ruamel.yaml", "gudgeon.generator.reading")
@@ -33,16 +34,13 @@ def whole(*names: str) -> None:
 
 
 def _import(names: tuple[str, ...], failed: list[BaseException], done: threading.Event) -> None:
-    collects = gc.isenabled()
-    gc.disable()  # what modules make stays: to look through it again and again takes a tenth of their time
     try:
-        for name in names:
-            import_module(name)
+        with at_rest():  # what modules make stays: to look through it again and again takes a tenth of their time
+            for name in names:
+                import_module(name)
     except BaseException as error:
         failed.append(error)
     finally:
-        if collects:
-            gc.enable()
         done.set()
 
 
