@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import replace
 from time import perf_counter
 
 from gudgeon.generator.mechanism.scene import Scene, make_scene
@@ -19,6 +20,17 @@ def read_scene(
     """One scene of a mechanism file."""
     with stage("reading", seconds):
         return make_scene(read_mechanism(data, file, overrides), scene)
+
+
+def touches(data: bytes, file: str, scene: str, overrides: Overrides) -> bool:
+    """Whether overrides change anything that a scene is derived from. Raises InputError as read_scene does."""
+    with_them, without = (read_scene(data, file, scene, own) for own in (overrides, None))
+    return _alone(with_them) != _alone(without)
+
+
+def _alone(scene: Scene) -> Scene:
+    """Without the mechanism's other scenes."""
+    return replace(scene, mechanism=replace(scene.mechanism, scenes={}))
 
 
 @contextmanager

@@ -107,6 +107,10 @@ def kernel_source(
         if not (overrides or regenerate or formulation != FORMULATIONS[0]):
             source = committed(file.stem, scene, sha256(data).hexdigest())
         origin = "generated" if source else "derived"
+        if source is None and overrides and not _touches(data, file, scene, overrides):
+            source, origin = kernel_source(
+                data, file, scene, formulation=formulation, regenerate=regenerate, cache=cache, ahead=ahead
+            )
         if source is None:
             source = derived(data, file, scene, overrides, formulation, ahead=ahead)
         source = replace(source, overrides=tuple(sorted(overrides.items())))
@@ -124,6 +128,14 @@ def kernel_source(
         if (tables_now(source, file), laws_now(source)) != (source.tables, source.laws):  # edited meanwhile
             source = fetch(key, True)
     return source, origin
+
+
+def _touches(data: bytes, file: Path, scene: str, overrides: Overrides) -> bool:
+    """Whether overrides change what the scene is derived from: another scene's law, say, does not."""
+    whole(*READER)
+    from gudgeon.generator.reading import touches
+
+    return touches(data, str(file), scene, overrides)
 
 
 def tables_now(source: KernelSource, file: Path) -> tuple[tuple[str, str], ...]:

@@ -22,7 +22,7 @@ from gudgeon.contract.limits import MAX_BYTES
 from gudgeon.errors import BadValueError, InputError, LimitError, UnknownNameError
 from gudgeon.loading import shipped
 from gudgeon.loading.cache import Cache
-from gudgeon.loading.find import find_mechanism, generator_hash, kernel_source, model_key, read_bytes
+from gudgeon.loading.find import derived, find_mechanism, generator_hash, kernel_source, model_key, read_bytes
 from gudgeon.loading.shipped import PACKAGE, read_generated, room, shipped_file, write_generated
 from tests.tiny import tiny
 
@@ -44,7 +44,7 @@ def generator(monkeypatch: pytest.MonkeyPatch) -> list[tuple[bytes, str, str, Ma
         return tiny(scene=read[0], sha256=read[1])
 
     stands_in: dict[str, dict[str, Any]] = {
-        "reading": {"read_scene": read_scene},
+        "reading": {"read_scene": read_scene, "touches": lambda *_: True},
         "pipeline": {"equations": lambda read, seconds: read, "in_c": in_c},
     }
     for name, functions in stands_in.items():
@@ -160,6 +160,20 @@ def test_the_key_changes_with_every_question() -> None:
 
 def test_the_order_of_overrides_does_not_matter() -> None:
     assert model_key(DATA, "dry", {"a": 1.0, "b": 2.0}, "full") == model_key(DATA, "dry", {"b": 2.0, "a": 1.0}, "full")
+
+
+def test_overrides_that_a_scene_does_not_read_derive_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Another scene's law; and what is derived with them would be the same to the byte."""
+    file = find_mechanism("nine_bar_press")
+    data, law = read_bytes(file), {"contacts.oil.film.as_printed": "true"}
+    plainly = derived(data, file, "dry", law)
+    with monkeypatch.context() as patched:
+        patched.setattr("gudgeon.loading.find.derived", lambda *_, **__: pytest.fail("it was derived"))
+        source, origin = kernel_source(data, file, "dry", overrides=law, cache=Cache(tmp_path))
+        assert origin == "generated" and source.overrides == tuple(sorted(law.items()))
+        assert replace(source, overrides=()) == plainly
+        with pytest.raises(pytest.fail.Exception, match="it was derived"):
+            kernel_source(data, file, "lubricated", overrides=law, cache=Cache(tmp_path))
 
 
 @pytest.fixture
