@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import warnings
 from collections.abc import Callable, Iterable
@@ -18,8 +19,8 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 
 
 def complain(error: GudgeonError) -> None:
-    """Write `error: …` to stderr, in red if somebody looks."""
-    red, plain = ("\033[31m", "\033[0m") if sys.stderr.isatty() else ("", "")
+    """Write `error: …` to stderr, in red if somebody looks and NO_COLOR is not set (no-color.org)."""
+    red, plain = ("\033[31m", "\033[0m") if sys.stderr.isatty() and not os.environ.get("NO_COLOR") else ("", "")
     print(f"{red}error:{plain} {visible(error)}", file=sys.stderr)
 
 

@@ -106,3 +106,25 @@ def test_a_second_ctrl_c_while_python_ends_leaves_the_exit_code(tmp_path: Path) 
     words = ["check", "pendulum"]
     done = subprocess.run([sys.executable, "-c", code, *words], cwd=tmp_path, capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_as_a_module(tmp_path: Path) -> None:
+    """`python -m gudgeon`, where no script is on the path."""
+    line = [sys.executable, "-m", "gudgeon", "--version"]
+    done = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert done.stdout == f"gudgeon {gudgeon.__version__}\n"
+
+
+@pytest.mark.parametrize(("no_color", "red"), [(None, True), ("", True), ("1", False)])
+def test_errors_are_red_where_somebody_looks_and_wants_it(
+    no_color: str | None, red: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from gudgeon.commands.told import complain
+    from gudgeon.errors import GudgeonError
+
+    monkeypatch.delenv("NO_COLOR", raising=False)
+    if no_color is not None:
+        monkeypatch.setenv("NO_COLOR", no_color)
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
+    complain(GudgeonError("no"))
+    assert capsys.readouterr().err == ("\033[31merror:\033[0m no\n" if red else "error: no\n")
