@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -88,3 +89,15 @@ def test_names_that_no_layer_may_have(tmp_path: Path) -> None:
 def test_no_file_with_a_number_that_is_none(x: float) -> None:
     with pytest.raises(ValueError, match="not finite"):
         as_dxf([sketch("joint a", x=x)], [""])
+
+
+def test_without_ezdxf_it_is_told_what_to_install(
+    call: Gudgeon, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import gudgeon.drawing
+
+    monkeypatch.setitem(sys.modules, "ezdxf", None)
+    monkeypatch.delitem(sys.modules, "gudgeon.drawing.dxf")
+    monkeypatch.delattr(gudgeon.drawing, "dxf")
+    done = call("draw", "four_bar", "-o", "x.dxf")
+    assert done.exit_code == 1 and "gudgeon[plot,dxf]" in done.stderr and not (tmp_path / "x.dxf").exists()
