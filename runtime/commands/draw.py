@@ -26,8 +26,6 @@ from gudgeon.model.parameters import spaced
 from gudgeon.waiting.working import working
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from gudgeon.assembly.closure import Closure
     from gudgeon.drawing.posture import Posture
     from gudgeon.drawing.shapes import Sketch
@@ -35,7 +33,26 @@ if TYPE_CHECKING:
     from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
     from gudgeon.model.compiled import Array
 
-SUFFIXES = (".svg", ".png", ".pdf")
+SUFFIXES = (".svg", ".png", ".pdf", ".dxf")
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """Sketches side by side, a title each, and what stands above."""
+
+    sketches: Sequence[Sketch]
+    titles: Sequence[str]
+    caption: str
+
+    def as_bytes(self, suffix: str) -> bytes:
+        """A file of the kind that its suffix names."""
+        if suffix == ".dxf":
+            from gudgeon.drawing.dxf import as_dxf
+
+            return as_dxf(self.sketches, self.titles)
+        from gudgeon.drawing.picture import as_bytes, figure_of
+
+        return as_bytes(figure_of(self.sketches, self.titles, self.caption), suffix)
 
 
 @dataclass(frozen=True)
@@ -62,18 +79,19 @@ def draw_file(request: Request) -> int:
     check_file("--out", target)
     from gudgeon.results import plots  # noqa: F401  (says where matplotlib is missing)
 
+    if target.suffix.lower() == ".dxf":
+        from gudgeon.drawing import dxf  # noqa: F401  (says where ezdxf is missing)
+
     at = 0.0 if request.at is None else number_of_text(spaced(request.at), "--at", (0, 0, 1))
     if at < 0.0:
         raise BadValueError(f"--at is {at:g} s: the motion starts at 0 s", hint="take a time of the motion")
     with _drawable(target):
         if at > 0.0:
-            picture, failure = _moved(request, at, wanted), None
+            drawn, failure = _moved(request, at, wanted), None
         else:
             with status_line(), working(f"deriving {file.stem}, scene {request.scene}"):
-                picture, failure = _start(request, file, wanted)
-        from gudgeon.drawing.picture import as_bytes
-
-        data = as_bytes(picture, target.suffix.lower())
+                drawn, failure = _start(request, file, wanted)
+        data = drawn.as_bytes(target.suffix.lower())
     write_bytes(target, data)
     print(f"wrote {path_text(target)}")
     if failure is not None:
@@ -94,9 +112,8 @@ def _drawable(target: Path) -> Iterator[None]:
         raise GudgeonError(f"{told}\n  look for a length or a start that is far too large") from error
 
 
-def _moved(request: Request, at: float, wanted: Mapping[str, float | str]) -> Figure:
+def _moved(request: Request, at: float, wanted: Mapping[str, float | str]) -> Drawn:
     """At a time of the motion."""
-    from gudgeon.drawing.picture import figure_of
     from gudgeon.results.mechanism_plots import sketch_at
     from gudgeon.simulation.from_file import load
 
@@ -117,17 +134,16 @@ def _moved(request: Request, at: float, wanted: Mapping[str, float | str]) -> Fi
     if run.diagnostics.interrupted:
         raise KeyboardInterrupt
     source, t = run.source, float(run.t[-1])
-    return figure_of([sketch_at(run, t)], [""], _caption(source.title or source.mechanism, request.scene, t))
+    return Drawn([sketch_at(run, t)], [""], _caption(source.title or source.mechanism, request.scene, t))
 
 
 def _caption(title: str, scene: str, t: float) -> str:
     return f"{title}: {scene}, t = {quantity(t, 's', 6)}"
 
 
-def _start(request: Request, file: Path, wanted: Mapping[str, float | str]) -> tuple[Figure, GudgeonError | None]:
+def _start(request: Request, file: Path, wanted: Mapping[str, float | str]) -> tuple[Drawn, GudgeonError | None]:
     """At the start, or as near to it as the linkage closes; with what is wrong with it."""
     from gudgeon.assembly.closure import Closure
-    from gudgeon.drawing.picture import figure_of
     from gudgeon.generator.pipeline import closed_linkage
     from gudgeon.generator.reader.read import read_mechanism
 
@@ -144,8 +160,8 @@ def _start(request: Request, file: Path, wanted: Mapping[str, float | str]) -> t
     v, failure = _velocities(closure, q)
     if request.branches:
         sketches, titles = _assemblies(mechanism, closure, q)
-        return figure_of(sketches, titles, caption), failure
-    return figure_of(_sketches(mechanism, closure, [_posture(linkage, q, v)]), [""], caption), failure
+        return Drawn(sketches, titles, caption), failure
+    return Drawn(_sketches(mechanism, closure, [_posture(linkage, q, v)]), [""], caption), failure
 
 
 def _velocities(closure: Closure, q: Array) -> tuple[Array | None, AssemblyError | None]:
@@ -186,11 +202,10 @@ def _sketches(mechanism: Mechanism, closure: Closure, postures: Sequence[Posture
     return sketches
 
 
-def _open(mechanism: Mechanism, closure: Closure, q: Array, caption: str) -> tuple[Figure, GudgeonError]:
+def _open(mechanism: Mechanism, closure: Closure, q: Array, caption: str) -> tuple[Drawn, GudgeonError]:
     """As near to closing as it comes, with what does not reach."""
     from gudgeon.assembly.failures import not_closed
     from gudgeon.drawing.failures import gaps
-    from gudgeon.drawing.picture import figure_of
     from gudgeon.drawing.sketch import make_sketch
 
     failure = not_closed(closure, q)
@@ -199,7 +214,7 @@ def _open(mechanism: Mechanism, closure: Closure, q: Array, caption: str) -> tup
     posture = _posture(closure.linkage, q, None)  # type: ignore[arg-type]
     shapes, labels = gaps(closure, posture)
     sketch = make_sketch(posture, more=shapes, labels=labels)
-    return figure_of([sketch], [""], f"{caption}: it does not close"), failure
+    return Drawn([sketch], [""], f"{caption}: it does not close"), failure
 
 
 def _assemblies(mechanism: Mechanism, closure: Closure, q: Array) -> tuple[list[Sketch], list[str]]:

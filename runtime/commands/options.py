@@ -73,7 +73,7 @@ At = Annotated[str | None, typer.Option("--at", metavar="TIME", help="Simulate t
 Picture = Annotated[
     Path | None,
     typer.Option(
-        "--out", "-o", parser=a_file, metavar="PATH", help="x.svg, .png or .pdf. [default: out/NAME_SCENE.svg]"
+        "--out", "-o", parser=a_file, metavar="PATH", help="x.svg, .png, .pdf or .dxf. [default: out/NAME_SCENE.svg]"
     ),
 ]
 Laws = Annotated[

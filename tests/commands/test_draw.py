@@ -92,7 +92,7 @@ def test_masses_are_not_asked_for(call: Gudgeon, tmp_path: Path) -> None:
         ("four_bar --at 1e30s", "--at is 1e+30 s: expected 1e+18 s at most"),
         ("four_bar --at 1s --branches", "leave one of them out"),
         ("four_bar -o x.svg/", "this is a folder"),
-        ("four_bar -o x.gif", ".svg, .png or .pdf"),
+        ("four_bar -o x.gif", ".svg, .png, .pdf or .dxf"),
         ("four_baar", "four_bar"),
     ],
 )

@@ -1,0 +1,126 @@
+"""Sketches as a DXF file for CAD: lines and circles in millimetres, a layer for each body, joint, drive and force."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
+import numpy as np
+
+from gudgeon.drawing.roles import EDGES, NAMES, ROLES, colour_of
+from gudgeon.drawing.shapes import Disc, Line, Sketch
+from gudgeon.errors import GudgeonError
+from gudgeon.language.shown import one_line
+from gudgeon.model.compiled import Array
+
+try:
+    import ezdxf
+    from ezdxf.colors import rgb2int
+    from ezdxf.document import Drawing
+    from ezdxf.enums import TextEntityAlignment
+    from ezdxf.layouts import Modelspace
+except ImportError as error:
+    raise GudgeonError("DXF needs ezdxf: pip install 'gudgeon[plot,dxf]'") from error
+
+VERSION = "R2010"  # texts are UTF-8, lines have any colour
+SCALE = 1e3  # mm in a metre: what most CAD takes a bare number for
+MILLIMETRES = 4  # $INSUNITS
+FORBIDDEN = str.maketrans(dict.fromkeys('<>/\\":;?*|=`,', "_"))  # in names of layers
+LONGEST = 200  # letters of a layer's name; the format has room for 255
+APART = 0.1  # of the widest sketch, between two
+
+
+def as_dxf(sketches: Sequence[Sketch], titles: Sequence[str]) -> bytes:
+    """A DXF file (ASCII, R2010, $INSUNITS millimetres), the same bytes for the same sketches.
+
+    The first sketch has the ground's axes; others stand to its right with their titles. Errors: GudgeonError where
+    ezdxf is missing, ValueError where a coordinate is not finite.
+    """
+    with _no_dates():
+        document = ezdxf.new(VERSION, units=MILLIMETRES)
+        document.header["$MEASUREMENT"] = 1
+        space, layers = document.modelspace(), _Layers(document)
+        pitch = (1.0 + APART) * max(float(sketch.high[0] - sketch.low[0]) for sketch in sketches)
+        for k, (sketch, title) in enumerate(zip(sketches, titles, strict=True)):
+            moved = np.array([k * pitch, 0.0])
+            _draw(space, layers, sketch, moved)
+            if title:
+                at = moved + [sketch.low[0], sketch.high[1] + 2.0 * sketch.unit]
+                _text(space, title, at, sketch.unit, {"layer": layers("titles", 0)})
+        out = io.StringIO()
+        document.write(out)
+    return out.getvalue().encode(document.output_encoding)
+
+
+@contextmanager
+def _no_dates() -> Iterator[None]:
+    """Without times and random identifiers."""
+    before = ezdxf.options.write_fixed_meta_data_for_testing
+    ezdxf.options.write_fixed_meta_data_for_testing = True
+    try:
+        yield
+    finally:
+        ezdxf.options.write_fixed_meta_data_for_testing = before
+
+
+class _Layers:
+    """Names of layers by part: legal ones, and different ones for names that differ in capitals alone."""
+
+    def __init__(self, document: Drawing) -> None:
+        self._table, self._names = document.layers, dict[str, str]()
+
+    def __call__(self, part: str, tint: int) -> str:
+        if part not in self._names:
+            wanted = one_line(part).translate(FORBIDDEN)[:LONGEST].strip() or "drawing"
+            name, count = wanted, 1
+            while name in self._table:
+                count += 1
+                name = f"{wanted} {count}"
+            colour = EDGES[tint % len(EDGES)] if part.startswith("body ") else "#222222"
+            self._table.add(name, true_color=_colour(colour))
+            self._names[part] = name
+        return self._names[part]
+
+
+def _colour(code: str) -> int:
+    return rgb2int((int(code[1:3], 16), int(code[3:5], 16), int(code[5:7], 16)))
+
+
+def _draw(space: Modelspace, layers: _Layers, sketch: Sketch, moved: Array) -> None:
+    """Outlines in the order of painting; faces are left empty."""
+    for shape in sorted(sketch.shapes, key=lambda shape: ROLES[shape.role].order):
+        look: dict[str, str | int] = {"layer": layers(shape.part, shape.tint)}
+        edge = colour_of(ROLES[shape.role].edge, shape.tint)
+        if edge.startswith("#"):
+            look |= {"true_color": _colour(edge)}
+        if isinstance(shape, Disc):
+            centre, (radius, _) = _finite(shape.centre + moved, np.array([shape.radius, 0.0]))
+            space.add_circle(centre, radius, dxfattribs=look)
+        else:
+            _line(space, shape, moved, look)
+    for label in sketch.labels:
+        way = np.radians(label.way)
+        at = label.place + moved + (label.clear + sketch.unit) * np.array([np.cos(way), np.sin(way)])
+        colour = NAMES[label.role][0]
+        look = {"layer": layers(label.part, 0)}
+        if colour.startswith("#"):
+            look |= {"true_color": _colour(colour)}
+        _text(space, label.text, at, sketch.unit, look)
+
+
+def _line(space: Modelspace, shape: Line, moved: Array, look: dict[str, str | int]) -> None:
+    space.add_lwpolyline(_finite(*(shape.points + moved)), close=shape.closed, dxfattribs=look)
+
+
+def _text(space: Modelspace, text: str, at: Array, height: float, look: dict[str, str | int]) -> None:
+    ((x, y),) = _finite(at)
+    made = space.add_text(one_line(text), height=SCALE * height, dxfattribs=look)
+    made.set_placement((x, y), align=TextEntityAlignment.MIDDLE_LEFT)
+
+
+def _finite(*points: Array) -> list[tuple[float, float]]:
+    """Millimetres."""
+    if not np.isfinite(points).all():
+        raise ValueError("a coordinate is not finite")
+    return [(SCALE * float(x), SCALE * float(y)) for x, y in points]
