@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import json
 import re
 import shutil
 import subprocess
@@ -13,6 +14,9 @@ from importlib.metadata import version
 from pathlib import Path
 
 import pytest
+from ruamel.yaml import YAML
+
+import gudgeon
 
 ROOT = Path(__file__).parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
@@ -127,3 +131,18 @@ def test_what_is_asked_for_is_what_is_imported() -> None:
     assert asked(project["dependencies"]) - used == set()
     assert optional - used == BESIDE
     assert used - asked(project["dependencies"]) - optional == {"scikit-sundae", "_cffi_backend"}  # a peer; cffi's own
+
+
+def test_who_cites_is_told_the_version_and_the_licence_that_there_are() -> None:
+    """CITATION.cff, codemeta.json and the newest heading of CHANGELOG.md say what the package says."""
+    project = PROJECT["project"]
+    cited = YAML(typ="safe").load(ROOT / "CITATION.cff")
+    meta = json.loads((ROOT / "codemeta.json").read_text(encoding="utf-8"))
+    assert cited["version"] == meta["version"] == gudgeon.__version__
+    assert cited["title"] == meta["name"] == project["name"] and meta["description"] == project["description"]
+    assert cited["license"] == project["license"] and meta["license"].endswith("/" + project["license"])
+    assert [one["name"] for one in cited["authors"]] == [one["name"] for one in meta["author"]]
+    assert [one["name"] for one in project["authors"]] == [one["name"] for one in cited["authors"]]
+    assert cited["keywords"] == meta["keywords"] == project["keywords"]
+    newest = re.search(r"^## (\S+?),? ", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.M)
+    assert newest and newest[1] == gudgeon.__version__
