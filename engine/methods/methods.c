@@ -21,12 +21,18 @@ struct Method {
 
 #include "dop853.c"
 #include "rodas5p.c"
+#if IMPLICIT_STAGES
+#include "radau.c"
+#endif
 #if TAYLOR
 #include "taylor.c"
 #endif
 
 static const Method *const METHODS[] = {
     &dop853, &rodas5p,
+#if IMPLICIT_STAGES
+    &radau5, &radau9,
+#endif
 #if TAYLOR
     &taylor,
 #endif

@@ -115,6 +115,12 @@ typedef struct {
     int closed[AT_LEAST_ONE(N_CLEARANCES)], compressing[AT_LEAST_ONE(N_CLEARANCES)];
 } Beginning;
 
+/* Where the last step began, by whose motion the next one's is guessed, and how fast its stages were found. */
+typedef struct {
+    double t, y[N_Y], dy[N_Y], falls;
+    long steps;
+} Past;
+
 typedef struct {
     double t, y[N_Y], dy[N_Y];
     Aside aside;
@@ -151,6 +157,9 @@ typedef struct {
     const Method *method;
     int crossed, skip, automatic, votes, patience, since, stuck, crawl, linear_ready;
     Linear linear;
+#if IMPLICIT_STAGES
+    Past past, now;
+#endif
     Attempt attempt;
 #if TAYLOR
     int order, series_ready;                      /* of the series at the state; where it is made, as linear_ready */

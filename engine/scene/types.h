@@ -162,6 +162,16 @@ typedef struct {
     double lu[AT_LEAST_ONE(N_FACTORS)];   /* L, U and inverse pivots */
 } Linear;
 
+#if IMPLICIT_STAGES
+/* The same matrix at a complex h gamma. */
+typedef double _Complex Complex;
+typedef struct {
+    const Parameters *p;
+    const double *value;                  /* of the Linear that it is made of */
+    Complex lu[AT_LEAST_ONE(N_FACTORS)];
+} ComplexLinear;
+#endif
+
 /* Where a part of the linearization is in `value`. */
 typedef struct {
     int row, column, value, sign;

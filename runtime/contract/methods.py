@@ -23,6 +23,8 @@ METHODS = (
     Method("rk4", "s", fixed=True),
     Method("dop853", "o"),
     Method("rodas5p", "^", slopes=True),
+    Method("radau5", "v", slopes=True),
+    Method("radau9", ">", slopes=True),
     Method("taylor", "*", smooth=True),
 )  # fmt: skip
 SMOOTH = tuple(method.name for method in METHODS if method.smooth)

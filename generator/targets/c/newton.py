@@ -12,7 +12,7 @@ from gudgeon.generator.kernels.program import Methods
 from gudgeon.generator.kernels.shared import SharedCall
 from gudgeon.generator.solvers.contact_slopes import OF_CONTOUR
 from gudgeon.generator.solvers.newton import Newton
-from gudgeon.generator.targets.c import functions
+from gudgeon.generator.targets.c import complex_printer, functions
 from gudgeon.generator.targets.c.play import CLOSED, CONTOURS
 from gudgeon.generator.targets.c.printer import expression
 
@@ -42,6 +42,11 @@ def newton_code(newton: Newton, render: Render) -> str:
         tables=[(name, _table(entries)) for name, entries in newton.tables.items()],
         counts=[*counts, ("N_NODES", newton.nodes)],
     )  # fmt: skip
+
+
+def complex_code(newton: Newton) -> str:
+    """What of them a step with complex h gamma needs."""
+    return "\n".join(map(complex_printer.kernel, (newton.factor, newton.substitute, newton.solve)))
 
 
 def tangent_code(pins: Sequence[Pin], methods: Methods, render: Render, states: int) -> str:
