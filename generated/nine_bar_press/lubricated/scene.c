@@ -15,5 +15,6 @@
 #endif
 #if !PART || PART == 3
 #include "newton.c"
+#include "newton_complex.c"
 #endif
 #include "engine/scene/scene.c"
