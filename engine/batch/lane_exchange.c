@@ -42,10 +42,24 @@ static void gather_parameters(Flow *flow)
     }
 }
 
+#if IMPLICIT_STAGES && !TAYLOR
+static void gather_past(LaneRun *x, int k, Run *run)
+{
+    look_back(run);
+    x->last_h[k] = run->last_h;
+    x->falls[k] = run->falls;
+    x->goes_on[k] = -run->goes_on;
+    for (int j = 0; j < N_Y; j++) {
+        x->before_y[j][k] = run->before_y[j];
+        x->before_dy[j][k] = run->before_dy[j];
+    }
+}
+#endif
+
 /* What a step of run k begins with; its length. */
 static void gather(Flow *flow, int k)
 {
-    const Run *run = flow->run[mirrored(flow, k)];
+    Run *run = flow->run[mirrored(flow, k)];
     LaneRun *x = &flow->x;
 #if QUIET
     if (is_taken(flow, k) && flow->quiet.here[k])
@@ -68,6 +82,10 @@ static void gather(Flow *flow, int k)
         x->dy[j][k] = run->dy[j];
     for (int i = 0; i < N_LOOPS; i++)
         x->aside.lambda[i][k] = run->aside.lambda[i];
+#if IMPLICIT_STAGES
+    if (run->attempt.stiff > BY_RODAS5P)
+        gather_past(x, k, run);
+#endif
 #endif
     for (int i = 0; i < N_CLEARANCES; i++) {
         x->memory.latch[i].closed[k] = run->memory.latch[i].closed;
@@ -152,9 +170,15 @@ static int scatter_trial(const Flow *flow, int k, int stiff, Run *run)
 #else
 static int scatter_trial(const Flow *flow, int k, int stiff, Run *run)
 {
-    const int stages = stiff ? RODAS5P_STAGES : DOP853_STAGES;
+    const int stages = stiff == BY_RADAU9 ? 5 : stiff == BY_RADAU5 ? 3 : stiff ? RODAS5P_STAGES : DOP853_STAGES;
     (void)flow, (void)k;
     run->evaluations += stages - 1;
+#if IMPLICIT_STAGES
+    if (stiff > BY_RODAS5P) {
+        run->evaluations += (long)flow->x.asked[k] - stages + 1;
+        run->falls = flow->x.falls[k];
+    }
+#endif
     if (stiff && !run->linear_ready) {
         run->jacobians++;
         run->linear_ready = ELSEWHERE;

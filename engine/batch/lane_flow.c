@@ -53,13 +53,13 @@ static int try_together(Flow *flow, int stiff, const int *wanted, int *lists)
 /* One step of each run, of several at once where they go by the same method. */
 static int advance(Flow *flow, int *lists)
 {
-    int some = 0, wanted[2][LANES], count[2] = {0, 0};
+    int some = 0, wanted[KINDS][LANES], count[KINDS] = {0};
     for (int k = 0; k < LANES; k++)
-        for (int stiff = 0; stiff < 2; stiff++) {
+        for (int stiff = 0; stiff < KINDS; stiff++) {
             wanted[stiff][k] = is_taken(flow, k) && flow->run[k]->attempt.stiff == stiff;
             count[stiff] += wanted[stiff][k];
         }
-    for (int stiff = 0; stiff < 2; stiff++) {
+    for (int stiff = 0; stiff < KINDS; stiff++) {
         if (count[stiff] > 1) {
             some |= try_together(flow, stiff, wanted[stiff], lists);
             continue;

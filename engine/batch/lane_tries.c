@@ -89,8 +89,76 @@ static int make_linear(LaneRun *run, Lanes hg, const LaneParameters *p)
 #include "../both/dop853.h"
 #include "../both/rodas5p.h"
 
+#if IMPLICIT_STAGES
+/* As those of methods/radau.c. */
+static int make_pair(LaneRun *run, Lanes eta, Lanes eta_i, LaneComplexLinear *pair)
+{
+    pair->p = run->linear.p;
+    pair->value = run->linear.value;
+    newton_factor_complex(eta, eta_i, pair, &run->memory.rare);
+    return 0;
+}
+
+static void look_around(LaneRun *run) { (void)run; } /* gather_past has */
+
+static void count_rates(LaneRun *run, LaneBits active, int n)
+{
+    run->asked += pick(active, all_of(n), all_of(0.0));
+}
+
+static void begin_pass(LaneRun *run, LaneStep *step, LaneBits active, int n)
+{
+    count_rates(run, active, n);
+    step->n_seen = 0;
+    for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
+        step->least[k] = pick(active, all_of(INFINITY), step->least[k]);
+        step->most[k] = pick(active, all_of(-INFINITY), step->most[k]);
+    }
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        step->rate[i][0] = pick(active, all_of(INFINITY), step->rate[i][0]);
+        step->rate[i][1] = pick(active, all_of(-INFINITY), step->rate[i][1]);
+    }
+}
+
+/* What a lane sees that has found its stages stays as it is. */
+static void note_pass(LaneRun *run, LaneStep *step, LaneBits active, const Lanes *y, const LaneAside *aside, double node)
+{
+    Lanes margins[AT_LEAST_ONE(N_MARGINS)], *const seen = step->seen[step->n_seen];
+    note_margins(run, aside, margins);
+    for (int j = 0; j < N_MARGINS; j++)
+        seen[j] = pick(active, margins[j], seen[j]);
+    step->node[step->n_seen++] = node;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Lanes rate = aside->clearance[i].deltadot, *const old = step->rate[i];
+        const Lanes low = lanes_min_of(old[0], rate), high = lanes_max_of(old[1], rate);
+        step->rate[i][0] = pick(active, low, old[0]);
+        step->rate[i][1] = pick(active, high, old[1]);
+    }
+    for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
+        step->least[k] = pick(active, lanes_min_of(step->least[k], y[k]), step->least[k]);
+        step->most[k] = pick(active, lanes_max_of(step->most[k], y[k]), step->most[k]);
+    }
+}
+
+static int stages_lost(LaneRun *run, LaneStep *step, LaneBits lost)
+{
+    (void)step;
+    run->memory.rare |= lost;
+    return 0;
+}
+
+#include "../both/radau.h"
+#endif
+
 static int method_try(LaneRun *run, int stiff, Lanes h, const LaneParameters *p, LaneStep *step)
 {
+#if IMPLICIT_STAGES
+    run->asked = all_of(0.0);
+    if (stiff == BY_RADAU5)
+        return radau5_try(run, h, p, step);
+    if (stiff == BY_RADAU9)
+        return radau9_try(run, h, p, step);
+#endif
     return stiff ? rodas5p_try(run, h, p, step) : dop853_try(run, h, p, step);
 }
 #endif

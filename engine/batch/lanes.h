@@ -95,6 +95,7 @@ static inline void put_together(Lanes *g, const Lanes *film, int first, int last
 #define ClearanceOf LaneClearance
 #define ParametersOf LaneParameters
 #define StepOf LaneStep
+#define ComplexLinearOf LaneComplexLinear
 static inline Lanes real_of(double x) { return all_of(x); }
 static inline Lanes real_max(Lanes x, Lanes y) { return lanes_max_of(x, y); }
 static inline Lanes real_min(Lanes x, Lanes y) { return lanes_min_of(x, y); }
@@ -167,6 +168,14 @@ typedef struct {
     Lanes value[AT_LEAST_ONE(N_VALUES)], lu[AT_LEAST_ONE(N_FACTORS)];
 } LaneLinear;
 
+#if IMPLICIT_STAGES
+typedef struct {
+    const struct LaneParameters *p;
+    const Lanes *value;
+    Lanes lu[2 * AT_LEAST_ONE(N_FACTORS)];
+} LaneComplexLinear;
+#endif
+
 /* Of a run by a method that chooses its step: what a step that is tried begins with. */
 typedef struct {
     Lanes t, y[N_Y], dy[N_Y], weight[N_Y], accept, stability;
@@ -179,6 +188,10 @@ typedef struct {
     Lanes series[TAYLOR_ORDERS + 1][TAYLOR_Y]; /* the last: it is filled where a step is tried, and costs most */
 #else
     LaneLinear linear;
+#if IMPLICIT_STAGES
+    Lanes last_h, before_y[N_Y], before_dy[N_Y], falls, asked; /* asked: rates, of the step that is tried */
+    LaneBits goes_on;
+#endif
 #endif
 } LaneRun;
 

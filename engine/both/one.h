@@ -14,6 +14,7 @@
 #define ClearanceOf Clearance
 #define ParametersOf Parameters
 #define StepOf Step
+#define ComplexLinearOf ComplexLinear
 
 /* a where it is true, else b. */
 static inline double pick(int truth, double a, double b) { return truth ? a : b; }

@@ -23,7 +23,7 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
     run->stuck = event >= 0 && t_new - run->t < 1e-9 * step->h ? run->stuck + 1 : 0;
     run->t = t_new;
     run->steps++;
-    run->stiff_steps += step->method->stiff;
+    run->stiff_steps += !!step->method->stiff;
     run->ended[event < 0 ? N_MARGINS : event]++;
     run->linear_ready = 0;
 #if TAYLOR

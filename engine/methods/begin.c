@@ -67,7 +67,7 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
 }
 
 /*
- * method: that begins, as gudgeon_method counts; automatic: whether it may change; scale (2 N_X): tolerances, those of
+ * method: that begins, as gudgeon_method counts; automatic: whether it may change, and if so the stiff one; scale (2 N_X): tolerances, those of
  * velocities a unit of speed; least: the smallest length (m) and angle (rad) that matter.
  */
 void gudgeon_adaptive_setup(void *memory, int method, int automatic, const double *scale, const double *least,
@@ -75,7 +75,8 @@ void gudgeon_adaptive_setup(void *memory, int method, int automatic, const doubl
 {
     Run *run = memory;
     run->method = METHODS[method];
-    run->automatic = automatic;
+    run->automatic = automatic > 0;
+    run->implicit = METHODS[automatic];
     run->patience = automatic && run->method->stiff ? 4 * PATIENCE : PATIENCE;
     run->fixed = fixed;
     run->error_before = 1e-4;

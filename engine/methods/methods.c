@@ -10,7 +10,7 @@ struct Method {
     int (*dense)(Run *, const Parameters *, Step *);            /* makes the interpolant of an accepted one */
     void (*interpolate)(const Run *, const Step *, double share, double *y);
     double power;             /* of the error, that a step's length goes by: 1 / (order of the estimate + 1) */
-    int stiff;                /* whether it takes the Jacobian */
+    int stiff;                /* whether it takes the Jacobian: 0, or its kind (run.h) */
     double unstable, bounded; /* h rho beyond which no step is taken; at which stability bounds its steps */
     int degree, turned;       /* of y0 + s (d0 + (1 - s) (d1 + s (d2 + ...))); bit k: d_k comes with 1 - s, not s */
     const double *heard;      /* shares of a step, in their order, at which its error hears of the equations */
@@ -37,8 +37,7 @@ static const Method *const METHODS[] = {
     &taylor,
 #endif
 };
-#define EXPLICIT (&dop853)  /* what the automatic choice is between */
-#define IMPLICIT (&rodas5p)
+#define EXPLICIT (&dop853)  /* what the automatic choice is between, and the run's `implicit` */
 
 /* A method's number, as gudgeon_adaptive_setup takes it; -1: none has that name. */
 int gudgeon_method(const char *name)

@@ -19,7 +19,7 @@ static void change_method(Run *run)
     if (!stiff)
         run->patience = run->since > 400 ? PATIENCE : run->patience < 4096 ? 2 * run->patience : run->patience;
     run->h_stiff = stiff ? run->h : 0.0;
-    run->method = stiff ? EXPLICIT : IMPLICIT;
+    run->method = stiff ? EXPLICIT : run->implicit;
     run->votes = 0;
     run->since = 0;
 }

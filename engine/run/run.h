@@ -44,6 +44,7 @@ enum {
     N_DENSE = 7,
 #endif
     N_STAGES = 16, N_LOOKS = 16,
+    BY_RODAS5P = 1, BY_RADAU5, BY_RADAU9, KINDS, /* which stiff method a step is made by; 0: none */
     HERE = 1, ELSEWHERE = 2 /* where a step's equations are linearized, its series made: in the run, in a lane; 0: no */
 };
 
@@ -115,12 +116,6 @@ typedef struct {
     int closed[AT_LEAST_ONE(N_CLEARANCES)], compressing[AT_LEAST_ONE(N_CLEARANCES)];
 } Beginning;
 
-/* Where the last step began, by whose motion the next one's is guessed, and how fast its stages were found. */
-typedef struct {
-    double t, y[N_Y], dy[N_Y], falls;
-    long steps;
-} Past;
-
 typedef struct {
     double t, y[N_Y], dy[N_Y];
     Aside aside;
@@ -154,11 +149,15 @@ typedef struct {
     int rising[AT_LEAST_ONE(N_CLEARANCES)]; /* whether a joint's force rose at the end of the last step */
     Pace advance;
     long ended[N_MARGINS + 1]; /* steps that each margin ended, since the pace was taken */
-    const Method *method;
+    const Method *method, *implicit; /* which of the stiff ones `auto` takes */
     int crossed, skip, automatic, votes, patience, since, stuck, crawl, linear_ready;
     Linear linear;
 #if IMPLICIT_STAGES
-    Past past, now;
+    /* where this step and the one before began (past.h), how far they are apart; how fast iterations ended last */
+    Beginning now;
+    long seen_steps;
+    double before_t, before_y[N_Y], before_dy[N_Y], last_h, falls;
+    int goes_on;
 #endif
     Attempt attempt;
 #if TAYLOR
@@ -170,6 +169,10 @@ typedef struct {
     Step step;
     Looked looked;
 } Run;
+
+#if IMPLICIT_STAGES
+#include "past.h"
+#endif
 
 #if N_USER_EVENTS
 /* States at the user events of a run's list, as samples have them: they lie behind the Run. */

@@ -92,10 +92,9 @@ int newton_factor(double eta, Linear *lin);
 void newton_substitute(const Linear *lin, double *x);
 void newton_solve(const Linear *lin, double eta, double s, const double *r, double *u);
 #if IMPLICIT_STAGES
-/* The same at a complex step (methods/radau.c). */
-static inline double complex_size(Complex z) { return fabs(__real__ z) + fabs(__imag__ z); }
-int newton_factor_complex(Complex eta, ComplexLinear *lin);
-void newton_solve_complex(const ComplexLinear *lin, Complex eta, Complex s, const Complex *r, Complex *u);
+/* The same at complex eta, without f_t (both/radau.h). */
+int newton_factor_complex(double eta, double eta_i, ComplexLinear *lin);
+void newton_solve_complex(const ComplexLinear *lin, double eta, double eta_i, const double *r, double *u);
 #endif
 #else
 /* Positions: a step of Newton's method, and what follows where it has come to its end. */

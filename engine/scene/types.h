@@ -163,12 +163,11 @@ typedef struct {
 } Linear;
 
 #if IMPLICIT_STAGES
-/* The same matrix at a complex h gamma. */
-typedef double _Complex Complex;
+/* The same matrix at a complex h gamma: numbers are real and imaginary parts one behind the other. */
 typedef struct {
     const Parameters *p;
-    const double *value;                  /* of the Linear that it is made of */
-    Complex lu[AT_LEAST_ONE(N_FACTORS)];
+    const double *value; /* of the Linear that it is made of */
+    double lu[2 * AT_LEAST_ONE(N_FACTORS)];
 } ComplexLinear;
 #endif
 

@@ -21,11 +21,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
+from functools import cached_property
 
 import sympy as sp
 
 from gudgeon.generator.equations.model import stick_gain
 from gudgeon.generator.equations.system import System
+from gudgeon.generator.ir.complex_parts import at_complex
 from gudgeon.generator.ir.differentiation import Tangents
 from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, Section, with_sides
 from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE
@@ -58,6 +60,12 @@ class Newton:
         self.factor = self._factor()
         self.substitute = self._substitute()
         self.solve = self._solve()
+
+    @cached_property
+    def at_complex(self) -> tuple[Kernel, Kernel, Kernel]:
+        """The matrix at complex η and s = 0, factorized and solved."""
+        arrays = ("eta", "r", "u", "x", "lin->lu")
+        return tuple(at_complex(kernel, arrays, ("s",)) for kernel in (self.factor, self.substitute, self.solve))
 
     def _builder(self, name: str, doc: Sequence[str]) -> KernelBuilder:
         return KernelBuilder(self.model.symbols, name, doc)

@@ -116,7 +116,8 @@ def choice_of(compiled: CompiledModel, method: str) -> tuple[int, int]:
     """For gudgeon_adaptive_setup: C's number of the method that begins, and whether it may change."""
     automatic = method == ADAPTIVE
     name = begins_with(compiled.source) if automatic else method
-    return int(compiled.lib.gudgeon_method(name.encode())), int(automatic)
+    stiff = compiled.lib.gudgeon_method(AUTO[1].encode()) if automatic else 0
+    return int(compiled.lib.gudgeon_method(name.encode())), int(stiff)
 
 
 def lengths(compiled: CompiledModel, p: Array) -> tuple[Array, Array]:

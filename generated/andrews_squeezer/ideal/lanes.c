@@ -1615,6 +1615,1328 @@ static void newton_solve(const LaneLinear *lin, Lanes eta, Lanes s, const Lanes 
     u[16] = eta*r[16];
 }
 
+/*
+ * L U of Newton's matrix at eta = h gamma (0: the KKT matrix), L with unit diagonal. Returns 0, or the
+ * number of the node (coordinates, rows, sticks; from 1) whose pivot vanished or is not finite.
+ * At complex eta: real and imaginary parts one behind the other.
+ */
+static void newton_factor_complex(Lanes eta, Lanes eta_i, LaneComplexLinear *lin, LaneBits *rare)
+{
+    /* numbers of the run */
+    const LaneParameters *const p = lin->p;
+
+    /* linearization */
+    const Lanes mass_OF_theta_FE_theta = lin->value[0];
+    const Lanes mass_OF_theta_EG_theta = lin->value[1];
+    const Lanes mass_FE_theta_EG_theta = lin->value[2];
+    const Lanes mass_BDE_theta_HE_theta = lin->value[3];
+    const Lanes phi_G_x_OF_theta = lin->value[4];
+    const Lanes phi_G_x_AG_theta = lin->value[5];
+    const Lanes phi_G_x_FE_theta = lin->value[6];
+    const Lanes phi_G_x_EG_theta = lin->value[7];
+    const Lanes phi_G_y_OF_theta = lin->value[8];
+    const Lanes phi_G_y_AG_theta = lin->value[9];
+    const Lanes phi_G_y_FE_theta = lin->value[10];
+    const Lanes phi_G_y_EG_theta = lin->value[11];
+    const Lanes phi_H_x_BDE_theta = lin->value[12];
+    const Lanes phi_H_x_AH_theta = lin->value[13];
+    const Lanes phi_H_x_HE_theta = lin->value[14];
+    const Lanes phi_H_y_BDE_theta = lin->value[15];
+    const Lanes phi_H_y_AH_theta = lin->value[16];
+    const Lanes phi_H_y_HE_theta = lin->value[17];
+    const Lanes by_q_G_x_AG_theta = lin->value[18];
+    const Lanes by_q_G_x_EG_theta = lin->value[19];
+    const Lanes by_q_G_x_FE_theta = lin->value[20];
+    const Lanes by_q_G_x_OF_theta = lin->value[21];
+    const Lanes by_q_G_y_AG_theta = lin->value[22];
+    const Lanes by_q_G_y_EG_theta = lin->value[23];
+    const Lanes by_q_G_y_FE_theta = lin->value[24];
+    const Lanes by_q_G_y_OF_theta = lin->value[25];
+    const Lanes by_q_H_x_AH_theta = lin->value[26];
+    const Lanes by_q_H_x_BDE_theta = lin->value[27];
+    const Lanes by_q_H_x_HE_theta = lin->value[28];
+    const Lanes by_q_H_y_AH_theta = lin->value[29];
+    const Lanes by_q_H_y_BDE_theta = lin->value[30];
+    const Lanes by_q_H_y_HE_theta = lin->value[31];
+    const Lanes by_q_OF_theta_OF_theta = lin->value[32];
+    const Lanes by_q_OF_theta_EG_theta = lin->value[33];
+    const Lanes by_q_OF_theta_FE_theta = lin->value[34];
+    const Lanes by_q_BDE_theta_BDE_theta = lin->value[35];
+    const Lanes by_q_BDE_theta_HE_theta = lin->value[36];
+    const Lanes by_q_AG_theta_AG_theta = lin->value[37];
+    const Lanes by_q_AH_theta_AH_theta = lin->value[38];
+    const Lanes by_q_FE_theta_FE_theta = lin->value[39];
+    const Lanes by_q_FE_theta_EG_theta = lin->value[40];
+    const Lanes by_q_FE_theta_OF_theta = lin->value[41];
+    const Lanes by_q_HE_theta_BDE_theta = lin->value[42];
+    const Lanes by_q_HE_theta_HE_theta = lin->value[43];
+    const Lanes by_q_EG_theta_FE_theta = lin->value[44];
+    const Lanes by_q_EG_theta_EG_theta = lin->value[45];
+    const Lanes by_q_EG_theta_OF_theta = lin->value[46];
+    const Lanes by_v_G_x_AG_theta = lin->value[47];
+    const Lanes by_v_G_x_EG_theta = lin->value[48];
+    const Lanes by_v_G_x_FE_theta = lin->value[49];
+    const Lanes by_v_G_x_OF_theta = lin->value[50];
+    const Lanes by_v_G_y_AG_theta = lin->value[51];
+    const Lanes by_v_G_y_EG_theta = lin->value[52];
+    const Lanes by_v_G_y_FE_theta = lin->value[53];
+    const Lanes by_v_G_y_OF_theta = lin->value[54];
+    const Lanes by_v_H_x_AH_theta = lin->value[55];
+    const Lanes by_v_H_x_BDE_theta = lin->value[56];
+    const Lanes by_v_H_x_HE_theta = lin->value[57];
+    const Lanes by_v_H_y_AH_theta = lin->value[58];
+    const Lanes by_v_H_y_BDE_theta = lin->value[59];
+    const Lanes by_v_H_y_HE_theta = lin->value[60];
+    const Lanes by_v_OF_theta_EG_theta = lin->value[61];
+    const Lanes by_v_OF_theta_FE_theta = lin->value[62];
+    const Lanes by_v_BDE_theta_HE_theta = lin->value[63];
+    const Lanes by_v_FE_theta_EG_theta = lin->value[64];
+    const Lanes by_v_FE_theta_OF_theta = lin->value[65];
+    const Lanes by_v_HE_theta_BDE_theta = lin->value[66];
+    const Lanes by_v_EG_theta_FE_theta = lin->value[67];
+    const Lanes by_v_EG_theta_OF_theta = lin->value[68];
+
+    /* eta/kappa */
+    const Lanes factor_1 = p->beta_squared*eta + p->two_alpha;
+    const Lanes factor_2 = p->beta_squared*eta_i;
+    const Lanes divisor_1 = eta*factor_1 - eta_i*factor_2 + 1.0;
+    const Lanes divisor_2 = eta*factor_2 + eta_i*factor_1;
+    const Lanes divisor_3 = 1.0/((divisor_1 * divisor_1) + (divisor_2 * divisor_2));
+    const Lanes factor_3 = divisor_1*divisor_3;
+    const Lanes factor_4 = -divisor_2*divisor_3;
+    const Lanes eta_row = eta*factor_3 - eta_i*factor_4;
+    const Lanes eta_row_i = eta*factor_4 + eta_i*factor_3;
+
+    /* matrix */
+    const Lanes n_OF_theta__OF_theta = by_q_OF_theta_OF_theta*((eta * eta) - (eta_i * eta_i)) + p->mass_OF_OF;
+    const Lanes n_OF_theta__OF_theta_i = 2.0*by_q_OF_theta_OF_theta*eta*eta_i;
+    const Lanes factor_5 = by_q_OF_theta_FE_theta*eta + by_v_OF_theta_FE_theta;
+    const Lanes factor_6 = by_q_OF_theta_FE_theta*eta_i;
+    const Lanes n_OF_theta__FE_theta = eta*factor_5 - eta_i*factor_6 + mass_OF_theta_FE_theta;
+    const Lanes n_OF_theta__FE_theta_i = eta*factor_6 + eta_i*factor_5;
+    const Lanes factor_7 = by_q_OF_theta_EG_theta*eta + by_v_OF_theta_EG_theta;
+    const Lanes factor_8 = by_q_OF_theta_EG_theta*eta_i;
+    const Lanes n_OF_theta__EG_theta = eta*factor_7 - eta_i*factor_8 + mass_OF_theta_EG_theta;
+    const Lanes n_OF_theta__EG_theta_i = eta*factor_8 + eta_i*factor_7;
+    const Lanes n_BDE_theta__BDE_theta = by_q_BDE_theta_BDE_theta*((eta * eta) - (eta_i * eta_i)) + p->mass_BDE_BDE;
+    const Lanes n_BDE_theta__BDE_theta_i = 2.0*by_q_BDE_theta_BDE_theta*eta*eta_i;
+    const Lanes factor_9 = by_q_BDE_theta_HE_theta*eta + by_v_BDE_theta_HE_theta;
+    const Lanes factor_10 = by_q_BDE_theta_HE_theta*eta_i;
+    const Lanes n_BDE_theta__HE_theta = eta*factor_9 - eta_i*factor_10 + mass_BDE_theta_HE_theta;
+    const Lanes n_BDE_theta__HE_theta_i = eta*factor_10 + eta_i*factor_9;
+    const Lanes n_AG_theta__AG_theta = by_q_AG_theta_AG_theta*((eta * eta) - (eta_i * eta_i)) + p->mass_AG_AG;
+    const Lanes n_AG_theta__AG_theta_i = 2.0*by_q_AG_theta_AG_theta*eta*eta_i;
+    const Lanes n_AH_theta__AH_theta = by_q_AH_theta_AH_theta*((eta * eta) - (eta_i * eta_i)) + p->mass_AH_AH;
+    const Lanes n_AH_theta__AH_theta_i = 2.0*by_q_AH_theta_AH_theta*eta*eta_i;
+    const Lanes factor_11 = by_q_FE_theta_OF_theta*eta + by_v_FE_theta_OF_theta;
+    const Lanes factor_12 = by_q_FE_theta_OF_theta*eta_i;
+    const Lanes n_FE_theta__OF_theta = eta*factor_11 - eta_i*factor_12 + mass_OF_theta_FE_theta;
+    const Lanes n_FE_theta__OF_theta_i = eta*factor_12 + eta_i*factor_11;
+    const Lanes n_FE_theta__FE_theta = by_q_FE_theta_FE_theta*((eta * eta) - (eta_i * eta_i)) + p->mass_FE_FE;
+    const Lanes n_FE_theta__FE_theta_i = 2.0*by_q_FE_theta_FE_theta*eta*eta_i;
+    const Lanes factor_13 = by_q_FE_theta_EG_theta*eta + by_v_FE_theta_EG_theta;
+    const Lanes factor_14 = by_q_FE_theta_EG_theta*eta_i;
+    const Lanes n_FE_theta__EG_theta = eta*factor_13 - eta_i*factor_14 + mass_FE_theta_EG_theta;
+    const Lanes n_FE_theta__EG_theta_i = eta*factor_14 + eta_i*factor_13;
+    const Lanes factor_15 = by_q_HE_theta_BDE_theta*eta + by_v_HE_theta_BDE_theta;
+    const Lanes factor_16 = by_q_HE_theta_BDE_theta*eta_i;
+    const Lanes n_HE_theta__BDE_theta = eta*factor_15 - eta_i*factor_16 + mass_BDE_theta_HE_theta;
+    const Lanes n_HE_theta__BDE_theta_i = eta*factor_16 + eta_i*factor_15;
+    const Lanes n_HE_theta__HE_theta = by_q_HE_theta_HE_theta*((eta * eta) - (eta_i * eta_i)) + p->mass_HE_HE;
+    const Lanes n_HE_theta__HE_theta_i = 2.0*by_q_HE_theta_HE_theta*eta*eta_i;
+    const Lanes factor_17 = by_q_EG_theta_OF_theta*eta + by_v_EG_theta_OF_theta;
+    const Lanes factor_18 = by_q_EG_theta_OF_theta*eta_i;
+    const Lanes n_EG_theta__OF_theta = eta*factor_17 - eta_i*factor_18 + mass_OF_theta_EG_theta;
+    const Lanes n_EG_theta__OF_theta_i = eta*factor_18 + eta_i*factor_17;
+    const Lanes factor_19 = by_q_EG_theta_FE_theta*eta + by_v_EG_theta_FE_theta;
+    const Lanes factor_20 = by_q_EG_theta_FE_theta*eta_i;
+    const Lanes n_EG_theta__FE_theta = eta*factor_19 - eta_i*factor_20 + mass_FE_theta_EG_theta;
+    const Lanes n_EG_theta__FE_theta_i = eta*factor_20 + eta_i*factor_19;
+    const Lanes n_EG_theta__EG_theta = by_q_EG_theta_EG_theta*((eta * eta) - (eta_i * eta_i)) + p->mass_EG_EG;
+    const Lanes n_EG_theta__EG_theta_i = 2.0*by_q_EG_theta_EG_theta*eta*eta_i;
+    const Lanes factor_21 = by_q_G_x_OF_theta*eta + by_v_G_x_OF_theta;
+    const Lanes factor_22 = by_q_G_x_OF_theta*eta_i;
+    const Lanes n_G_x__OF_theta = eta_row*factor_21 - eta_row_i*factor_22 + phi_G_x_OF_theta;
+    const Lanes n_G_x__OF_theta_i = eta_row*factor_22 + eta_row_i*factor_21;
+    const Lanes factor_23 = by_q_G_x_AG_theta*eta + by_v_G_x_AG_theta;
+    const Lanes factor_24 = by_q_G_x_AG_theta*eta_i;
+    const Lanes n_G_x__AG_theta = eta_row*factor_23 - eta_row_i*factor_24 + phi_G_x_AG_theta;
+    const Lanes n_G_x__AG_theta_i = eta_row*factor_24 + eta_row_i*factor_23;
+    const Lanes factor_25 = by_q_G_x_FE_theta*eta + by_v_G_x_FE_theta;
+    const Lanes factor_26 = by_q_G_x_FE_theta*eta_i;
+    const Lanes n_G_x__FE_theta = eta_row*factor_25 - eta_row_i*factor_26 + phi_G_x_FE_theta;
+    const Lanes n_G_x__FE_theta_i = eta_row*factor_26 + eta_row_i*factor_25;
+    const Lanes factor_27 = by_q_G_x_EG_theta*eta + by_v_G_x_EG_theta;
+    const Lanes factor_28 = by_q_G_x_EG_theta*eta_i;
+    const Lanes n_G_x__EG_theta = eta_row*factor_27 - eta_row_i*factor_28 + phi_G_x_EG_theta;
+    const Lanes n_G_x__EG_theta_i = eta_row*factor_28 + eta_row_i*factor_27;
+    const Lanes factor_29 = by_q_G_y_OF_theta*eta + by_v_G_y_OF_theta;
+    const Lanes factor_30 = by_q_G_y_OF_theta*eta_i;
+    const Lanes n_G_y__OF_theta = eta_row*factor_29 - eta_row_i*factor_30 + phi_G_y_OF_theta;
+    const Lanes n_G_y__OF_theta_i = eta_row*factor_30 + eta_row_i*factor_29;
+    const Lanes factor_31 = by_q_G_y_AG_theta*eta + by_v_G_y_AG_theta;
+    const Lanes factor_32 = by_q_G_y_AG_theta*eta_i;
+    const Lanes n_G_y__AG_theta = eta_row*factor_31 - eta_row_i*factor_32 + phi_G_y_AG_theta;
+    const Lanes n_G_y__AG_theta_i = eta_row*factor_32 + eta_row_i*factor_31;
+    const Lanes factor_33 = by_q_G_y_FE_theta*eta + by_v_G_y_FE_theta;
+    const Lanes factor_34 = by_q_G_y_FE_theta*eta_i;
+    const Lanes n_G_y__FE_theta = eta_row*factor_33 - eta_row_i*factor_34 + phi_G_y_FE_theta;
+    const Lanes n_G_y__FE_theta_i = eta_row*factor_34 + eta_row_i*factor_33;
+    const Lanes factor_35 = by_q_G_y_EG_theta*eta + by_v_G_y_EG_theta;
+    const Lanes factor_36 = by_q_G_y_EG_theta*eta_i;
+    const Lanes n_G_y__EG_theta = eta_row*factor_35 - eta_row_i*factor_36 + phi_G_y_EG_theta;
+    const Lanes n_G_y__EG_theta_i = eta_row*factor_36 + eta_row_i*factor_35;
+    const Lanes factor_37 = by_q_H_x_BDE_theta*eta + by_v_H_x_BDE_theta;
+    const Lanes factor_38 = by_q_H_x_BDE_theta*eta_i;
+    const Lanes n_H_x__BDE_theta = eta_row*factor_37 - eta_row_i*factor_38 + phi_H_x_BDE_theta;
+    const Lanes n_H_x__BDE_theta_i = eta_row*factor_38 + eta_row_i*factor_37;
+    const Lanes factor_39 = by_q_H_x_AH_theta*eta + by_v_H_x_AH_theta;
+    const Lanes factor_40 = by_q_H_x_AH_theta*eta_i;
+    const Lanes n_H_x__AH_theta = eta_row*factor_39 - eta_row_i*factor_40 + phi_H_x_AH_theta;
+    const Lanes n_H_x__AH_theta_i = eta_row*factor_40 + eta_row_i*factor_39;
+    const Lanes factor_41 = by_q_H_x_HE_theta*eta + by_v_H_x_HE_theta;
+    const Lanes factor_42 = by_q_H_x_HE_theta*eta_i;
+    const Lanes n_H_x__HE_theta = eta_row*factor_41 - eta_row_i*factor_42 + phi_H_x_HE_theta;
+    const Lanes n_H_x__HE_theta_i = eta_row*factor_42 + eta_row_i*factor_41;
+    const Lanes factor_43 = by_q_H_y_BDE_theta*eta + by_v_H_y_BDE_theta;
+    const Lanes factor_44 = by_q_H_y_BDE_theta*eta_i;
+    const Lanes n_H_y__BDE_theta = eta_row*factor_43 - eta_row_i*factor_44 + phi_H_y_BDE_theta;
+    const Lanes n_H_y__BDE_theta_i = eta_row*factor_44 + eta_row_i*factor_43;
+    const Lanes factor_45 = by_q_H_y_AH_theta*eta + by_v_H_y_AH_theta;
+    const Lanes factor_46 = by_q_H_y_AH_theta*eta_i;
+    const Lanes n_H_y__AH_theta = eta_row*factor_45 - eta_row_i*factor_46 + phi_H_y_AH_theta;
+    const Lanes n_H_y__AH_theta_i = eta_row*factor_46 + eta_row_i*factor_45;
+    const Lanes factor_47 = by_q_H_y_HE_theta*eta + by_v_H_y_HE_theta;
+    const Lanes factor_48 = by_q_H_y_HE_theta*eta_i;
+    const Lanes n_H_y__HE_theta = eta_row*factor_47 - eta_row_i*factor_48 + phi_H_y_HE_theta;
+    const Lanes n_H_y__HE_theta_i = eta_row*factor_48 + eta_row_i*factor_47;
+    const Lanes factor_49 = by_q_G_x_OF_theta*eta + by_v_G_x_OF_theta;
+    const Lanes factor_50 = by_q_G_x_OF_theta*eta_i;
+    const Lanes n_E3_x__OF_theta = eta_row*factor_49 - eta_row_i*factor_50 + phi_G_x_OF_theta;
+    const Lanes n_E3_x__OF_theta_i = eta_row*factor_50 + eta_row_i*factor_49;
+    const Lanes factor_51 = -by_q_H_x_BDE_theta*eta - by_v_H_x_BDE_theta;
+    const Lanes factor_52 = -by_q_H_x_BDE_theta*eta_i;
+    const Lanes n_E3_x__BDE_theta = eta_row*factor_51 - eta_row_i*factor_52 - phi_H_x_BDE_theta;
+    const Lanes n_E3_x__BDE_theta_i = eta_row*factor_52 + eta_row_i*factor_51;
+    const Lanes factor_53 = by_q_G_x_FE_theta*eta + by_v_G_x_FE_theta;
+    const Lanes factor_54 = by_q_G_x_FE_theta*eta_i;
+    const Lanes n_E3_x__FE_theta = eta_row*factor_53 - eta_row_i*factor_54 + phi_G_x_FE_theta;
+    const Lanes n_E3_x__FE_theta_i = eta_row*factor_54 + eta_row_i*factor_53;
+    const Lanes factor_55 = by_q_G_y_OF_theta*eta + by_v_G_y_OF_theta;
+    const Lanes factor_56 = by_q_G_y_OF_theta*eta_i;
+    const Lanes n_E3_y__OF_theta = eta_row*factor_55 - eta_row_i*factor_56 + phi_G_y_OF_theta;
+    const Lanes n_E3_y__OF_theta_i = eta_row*factor_56 + eta_row_i*factor_55;
+    const Lanes factor_57 = -by_q_H_y_BDE_theta*eta - by_v_H_y_BDE_theta;
+    const Lanes factor_58 = -by_q_H_y_BDE_theta*eta_i;
+    const Lanes n_E3_y__BDE_theta = eta_row*factor_57 - eta_row_i*factor_58 - phi_H_y_BDE_theta;
+    const Lanes n_E3_y__BDE_theta_i = eta_row*factor_58 + eta_row_i*factor_57;
+    const Lanes factor_59 = by_q_G_y_FE_theta*eta + by_v_G_y_FE_theta;
+    const Lanes factor_60 = by_q_G_y_FE_theta*eta_i;
+    const Lanes n_E3_y__FE_theta = eta_row*factor_59 - eta_row_i*factor_60 + phi_G_y_FE_theta;
+    const Lanes n_E3_y__FE_theta_i = eta_row*factor_60 + eta_row_i*factor_59;
+
+    /* L U */
+    const Lanes scale_AG_theta = n_AG_theta__AG_theta;
+    const Lanes scale_AG_theta_i = n_AG_theta__AG_theta_i;
+    const Lanes size_1 = lanes_fabs(scale_AG_theta) + lanes_fabs(scale_AG_theta_i);
+    const Lanes size_2 = lanes_fabs(n_AG_theta__AG_theta) + lanes_fabs(n_AG_theta__AG_theta_i);
+    *rare |= ~(size_1 > SINGULAR * size_2);
+    const Lanes divisor_4 = 1.0/((scale_AG_theta * scale_AG_theta) + (scale_AG_theta_i * scale_AG_theta_i));
+    const Lanes inverse_pivot_AG_theta = divisor_4*scale_AG_theta;
+    const Lanes inverse_pivot_AG_theta_i = -divisor_4*scale_AG_theta_i;
+    lin->lu[0] = inverse_pivot_AG_theta;
+    lin->lu[1] = inverse_pivot_AG_theta_i;
+    const Lanes l_G_x__AG_theta = inverse_pivot_AG_theta*n_G_x__AG_theta - inverse_pivot_AG_theta_i*n_G_x__AG_theta_i;
+    const Lanes l_G_x__AG_theta_3_i = inverse_pivot_AG_theta*n_G_x__AG_theta_i
+        + inverse_pivot_AG_theta_i*n_G_x__AG_theta;
+    lin->lu[2] = l_G_x__AG_theta;
+    lin->lu[3] = l_G_x__AG_theta_3_i;
+    const Lanes l_G_y__AG_theta = inverse_pivot_AG_theta*n_G_y__AG_theta - inverse_pivot_AG_theta_i*n_G_y__AG_theta_i;
+    const Lanes l_G_y__AG_theta_3_i = inverse_pivot_AG_theta*n_G_y__AG_theta_i
+        + inverse_pivot_AG_theta_i*n_G_y__AG_theta;
+    lin->lu[4] = l_G_y__AG_theta;
+    lin->lu[5] = l_G_y__AG_theta_3_i;
+    const Lanes scale_AH_theta = n_AH_theta__AH_theta;
+    const Lanes scale_AH_theta_i = n_AH_theta__AH_theta_i;
+    const Lanes size_3 = lanes_fabs(scale_AH_theta) + lanes_fabs(scale_AH_theta_i);
+    const Lanes size_4 = lanes_fabs(n_AH_theta__AH_theta) + lanes_fabs(n_AH_theta__AH_theta_i);
+    *rare |= ~(size_3 > SINGULAR * size_4);
+    const Lanes divisor_5 = 1.0/((scale_AH_theta * scale_AH_theta) + (scale_AH_theta_i * scale_AH_theta_i));
+    const Lanes inverse_pivot_AH_theta = divisor_5*scale_AH_theta;
+    const Lanes inverse_pivot_AH_theta_i = -divisor_5*scale_AH_theta_i;
+    lin->lu[6] = inverse_pivot_AH_theta;
+    lin->lu[7] = inverse_pivot_AH_theta_i;
+    const Lanes l_H_x__AH_theta = inverse_pivot_AH_theta*n_H_x__AH_theta - inverse_pivot_AH_theta_i*n_H_x__AH_theta_i;
+    const Lanes l_H_x__AH_theta_3_i = inverse_pivot_AH_theta*n_H_x__AH_theta_i
+        + inverse_pivot_AH_theta_i*n_H_x__AH_theta;
+    lin->lu[8] = l_H_x__AH_theta;
+    lin->lu[9] = l_H_x__AH_theta_3_i;
+    const Lanes l_H_y__AH_theta = inverse_pivot_AH_theta*n_H_y__AH_theta - inverse_pivot_AH_theta_i*n_H_y__AH_theta_i;
+    const Lanes l_H_y__AH_theta_3_i = inverse_pivot_AH_theta*n_H_y__AH_theta_i
+        + inverse_pivot_AH_theta_i*n_H_y__AH_theta;
+    lin->lu[10] = l_H_y__AH_theta;
+    lin->lu[11] = l_H_y__AH_theta_3_i;
+    const Lanes scale_HE_theta = n_HE_theta__HE_theta;
+    const Lanes scale_HE_theta_i = n_HE_theta__HE_theta_i;
+    const Lanes size_5 = lanes_fabs(scale_HE_theta) + lanes_fabs(scale_HE_theta_i);
+    const Lanes size_6 = lanes_fabs(n_HE_theta__HE_theta) + lanes_fabs(n_HE_theta__HE_theta_i);
+    *rare |= ~(size_5 > SINGULAR * size_6);
+    const Lanes divisor_6 = 1.0/((scale_HE_theta * scale_HE_theta) + (scale_HE_theta_i * scale_HE_theta_i));
+    const Lanes inverse_pivot_HE_theta = divisor_6*scale_HE_theta;
+    const Lanes inverse_pivot_HE_theta_i = -divisor_6*scale_HE_theta_i;
+    lin->lu[12] = inverse_pivot_HE_theta;
+    lin->lu[13] = inverse_pivot_HE_theta_i;
+    const Lanes l_BDE_theta__HE_theta = inverse_pivot_HE_theta*n_BDE_theta__HE_theta
+        - inverse_pivot_HE_theta_i*n_BDE_theta__HE_theta_i;
+    const Lanes l_BDE_theta__HE_theta_3_i = inverse_pivot_HE_theta*n_BDE_theta__HE_theta_i
+        + inverse_pivot_HE_theta_i*n_BDE_theta__HE_theta;
+    lin->lu[14] = l_BDE_theta__HE_theta;
+    lin->lu[15] = l_BDE_theta__HE_theta_3_i;
+    lin->lu[16] = n_HE_theta__BDE_theta;
+    lin->lu[17] = n_HE_theta__BDE_theta_i;
+    const Lanes l_H_x__HE_theta = inverse_pivot_HE_theta*n_H_x__HE_theta - inverse_pivot_HE_theta_i*n_H_x__HE_theta_i;
+    const Lanes l_H_x__HE_theta_3_i = inverse_pivot_HE_theta*n_H_x__HE_theta_i
+        + inverse_pivot_HE_theta_i*n_H_x__HE_theta;
+    lin->lu[18] = l_H_x__HE_theta;
+    lin->lu[19] = l_H_x__HE_theta_3_i;
+    const Lanes l_H_y__HE_theta = inverse_pivot_HE_theta*n_H_y__HE_theta - inverse_pivot_HE_theta_i*n_H_y__HE_theta_i;
+    const Lanes l_H_y__HE_theta_3_i = inverse_pivot_HE_theta*n_H_y__HE_theta_i
+        + inverse_pivot_HE_theta_i*n_H_y__HE_theta;
+    lin->lu[20] = l_H_y__HE_theta;
+    lin->lu[21] = l_H_y__HE_theta_3_i;
+    const Lanes scale_BDE_theta = -l_BDE_theta__HE_theta*n_HE_theta__BDE_theta
+        + l_BDE_theta__HE_theta_3_i*n_HE_theta__BDE_theta_i + n_BDE_theta__BDE_theta;
+    const Lanes scale_BDE_theta_i = -l_BDE_theta__HE_theta*n_HE_theta__BDE_theta_i
+        - l_BDE_theta__HE_theta_3_i*n_HE_theta__BDE_theta + n_BDE_theta__BDE_theta_i;
+    const Lanes size_7 = lanes_fabs(scale_BDE_theta) + lanes_fabs(scale_BDE_theta_i);
+    const Lanes size_8 = lanes_fabs(n_BDE_theta__BDE_theta) + lanes_fabs(n_BDE_theta__BDE_theta_i);
+    *rare |= ~(size_7 > SINGULAR * size_8);
+    const Lanes divisor_7 = 1.0/((scale_BDE_theta * scale_BDE_theta) + (scale_BDE_theta_i * scale_BDE_theta_i));
+    const Lanes inverse_pivot_BDE_theta = divisor_7*scale_BDE_theta;
+    const Lanes inverse_pivot_BDE_theta_3_i = -divisor_7*scale_BDE_theta_i;
+    lin->lu[22] = inverse_pivot_BDE_theta;
+    lin->lu[23] = inverse_pivot_BDE_theta_3_i;
+    const Lanes factor_61 = -l_H_x__HE_theta*n_HE_theta__BDE_theta + l_H_x__HE_theta_3_i*n_HE_theta__BDE_theta_i
+        + n_H_x__BDE_theta;
+    const Lanes factor_62 = -l_H_x__HE_theta*n_HE_theta__BDE_theta_i - l_H_x__HE_theta_3_i*n_HE_theta__BDE_theta
+        + n_H_x__BDE_theta_i;
+    const Lanes l_H_x__BDE_theta = factor_61*inverse_pivot_BDE_theta - factor_62*inverse_pivot_BDE_theta_3_i;
+    const Lanes l_H_x__BDE_theta_2_i = factor_61*inverse_pivot_BDE_theta_3_i + factor_62*inverse_pivot_BDE_theta;
+    lin->lu[24] = l_H_x__BDE_theta;
+    lin->lu[25] = l_H_x__BDE_theta_2_i;
+    const Lanes u_BDE_theta__H_x = -l_BDE_theta__HE_theta*phi_H_x_HE_theta + phi_H_x_BDE_theta;
+    const Lanes u_BDE_theta__H_x_i = -l_BDE_theta__HE_theta_3_i*phi_H_x_HE_theta;
+    lin->lu[26] = u_BDE_theta__H_x;
+    lin->lu[27] = u_BDE_theta__H_x_i;
+    const Lanes factor_63 = -l_H_y__HE_theta*n_HE_theta__BDE_theta + l_H_y__HE_theta_3_i*n_HE_theta__BDE_theta_i
+        + n_H_y__BDE_theta;
+    const Lanes factor_64 = -l_H_y__HE_theta*n_HE_theta__BDE_theta_i - l_H_y__HE_theta_3_i*n_HE_theta__BDE_theta
+        + n_H_y__BDE_theta_i;
+    const Lanes l_H_y__BDE_theta = factor_63*inverse_pivot_BDE_theta - factor_64*inverse_pivot_BDE_theta_3_i;
+    const Lanes l_H_y__BDE_theta_2_i = factor_63*inverse_pivot_BDE_theta_3_i + factor_64*inverse_pivot_BDE_theta;
+    lin->lu[28] = l_H_y__BDE_theta;
+    lin->lu[29] = l_H_y__BDE_theta_2_i;
+    const Lanes u_BDE_theta__H_y = -l_BDE_theta__HE_theta*phi_H_y_HE_theta + phi_H_y_BDE_theta;
+    const Lanes u_BDE_theta__H_y_i = -l_BDE_theta__HE_theta_3_i*phi_H_y_HE_theta;
+    lin->lu[30] = u_BDE_theta__H_y;
+    lin->lu[31] = u_BDE_theta__H_y_i;
+    const Lanes l_E3_x__BDE_theta = inverse_pivot_BDE_theta*n_E3_x__BDE_theta
+        - inverse_pivot_BDE_theta_3_i*n_E3_x__BDE_theta_i;
+    const Lanes l_E3_x__BDE_theta_3_i = inverse_pivot_BDE_theta*n_E3_x__BDE_theta_i
+        + inverse_pivot_BDE_theta_3_i*n_E3_x__BDE_theta;
+    lin->lu[32] = l_E3_x__BDE_theta;
+    lin->lu[33] = l_E3_x__BDE_theta_3_i;
+    const Lanes l_E3_y__BDE_theta = inverse_pivot_BDE_theta*n_E3_y__BDE_theta
+        - inverse_pivot_BDE_theta_3_i*n_E3_y__BDE_theta_i;
+    const Lanes l_E3_y__BDE_theta_3_i = inverse_pivot_BDE_theta*n_E3_y__BDE_theta_i
+        + inverse_pivot_BDE_theta_3_i*n_E3_y__BDE_theta;
+    lin->lu[34] = l_E3_y__BDE_theta;
+    lin->lu[35] = l_E3_y__BDE_theta_3_i;
+    const Lanes scale_H_x = -l_H_x__AH_theta*phi_H_x_AH_theta - l_H_x__BDE_theta*u_BDE_theta__H_x
+        + l_H_x__BDE_theta_2_i*u_BDE_theta__H_x_i - l_H_x__HE_theta*phi_H_x_HE_theta;
+    const Lanes scale_H_x_3_i = -l_H_x__AH_theta_3_i*phi_H_x_AH_theta - l_H_x__BDE_theta*u_BDE_theta__H_x_i
+        - l_H_x__BDE_theta_2_i*u_BDE_theta__H_x - l_H_x__HE_theta_3_i*phi_H_x_HE_theta;
+    const Lanes size_9 = lanes_fabs(scale_H_x) + lanes_fabs(scale_H_x_3_i);
+    *rare |= ~((size_9 > 0.0) & (size_9 < INFINITY));
+    const Lanes divisor_8 = 1.0/((scale_H_x * scale_H_x) + (scale_H_x_3_i * scale_H_x_3_i));
+    const Lanes inverse_pivot_H_x = divisor_8*scale_H_x;
+    const Lanes inverse_pivot_H_x_3_i = -divisor_8*scale_H_x_3_i;
+    lin->lu[36] = inverse_pivot_H_x;
+    lin->lu[37] = inverse_pivot_H_x_3_i;
+    const Lanes factor_65 = -l_H_y__AH_theta*phi_H_x_AH_theta - l_H_y__BDE_theta*u_BDE_theta__H_x
+        + l_H_y__BDE_theta_2_i*u_BDE_theta__H_x_i - l_H_y__HE_theta*phi_H_x_HE_theta;
+    const Lanes factor_66 = -l_H_y__AH_theta_3_i*phi_H_x_AH_theta - l_H_y__BDE_theta*u_BDE_theta__H_x_i
+        - l_H_y__BDE_theta_2_i*u_BDE_theta__H_x - l_H_y__HE_theta_3_i*phi_H_x_HE_theta;
+    const Lanes l_H_y__H_x = factor_65*inverse_pivot_H_x - factor_66*inverse_pivot_H_x_3_i;
+    const Lanes l_H_y__H_x_i = factor_65*inverse_pivot_H_x_3_i + factor_66*inverse_pivot_H_x;
+    lin->lu[38] = l_H_y__H_x;
+    lin->lu[39] = l_H_y__H_x_i;
+    const Lanes u_H_x__H_y = -l_H_x__AH_theta*phi_H_y_AH_theta - l_H_x__BDE_theta*u_BDE_theta__H_y
+        + l_H_x__BDE_theta_2_i*u_BDE_theta__H_y_i - l_H_x__HE_theta*phi_H_y_HE_theta;
+    const Lanes u_H_x__H_y_i = -l_H_x__AH_theta_3_i*phi_H_y_AH_theta - l_H_x__BDE_theta*u_BDE_theta__H_y_i
+        - l_H_x__BDE_theta_2_i*u_BDE_theta__H_y - l_H_x__HE_theta_3_i*phi_H_y_HE_theta;
+    lin->lu[40] = u_H_x__H_y;
+    lin->lu[41] = u_H_x__H_y_i;
+    const Lanes factor_67 = inverse_pivot_H_x*l_E3_x__BDE_theta - inverse_pivot_H_x_3_i*l_E3_x__BDE_theta_3_i;
+    const Lanes factor_68 = inverse_pivot_H_x*l_E3_x__BDE_theta_3_i + inverse_pivot_H_x_3_i*l_E3_x__BDE_theta;
+    const Lanes l_E3_x__H_x = -factor_67*u_BDE_theta__H_x + factor_68*u_BDE_theta__H_x_i;
+    const Lanes l_E3_x__H_x_2_i = -factor_67*u_BDE_theta__H_x_i - factor_68*u_BDE_theta__H_x;
+    lin->lu[42] = l_E3_x__H_x;
+    lin->lu[43] = l_E3_x__H_x_2_i;
+    const Lanes u_H_x__E3_x = l_H_x__BDE_theta*phi_H_x_BDE_theta;
+    const Lanes u_H_x__E3_x_i = l_H_x__BDE_theta_2_i*phi_H_x_BDE_theta;
+    lin->lu[44] = u_H_x__E3_x;
+    lin->lu[45] = u_H_x__E3_x_i;
+    const Lanes factor_69 = inverse_pivot_H_x*l_E3_y__BDE_theta - inverse_pivot_H_x_3_i*l_E3_y__BDE_theta_3_i;
+    const Lanes factor_70 = inverse_pivot_H_x*l_E3_y__BDE_theta_3_i + inverse_pivot_H_x_3_i*l_E3_y__BDE_theta;
+    const Lanes l_E3_y__H_x = -factor_69*u_BDE_theta__H_x + factor_70*u_BDE_theta__H_x_i;
+    const Lanes l_E3_y__H_x_2_i = -factor_69*u_BDE_theta__H_x_i - factor_70*u_BDE_theta__H_x;
+    lin->lu[46] = l_E3_y__H_x;
+    lin->lu[47] = l_E3_y__H_x_2_i;
+    const Lanes u_H_x__E3_y = l_H_x__BDE_theta*phi_H_y_BDE_theta;
+    const Lanes u_H_x__E3_y_i = l_H_x__BDE_theta_2_i*phi_H_y_BDE_theta;
+    lin->lu[48] = u_H_x__E3_y;
+    lin->lu[49] = u_H_x__E3_y_i;
+    const Lanes scale_H_y = -l_H_y__AH_theta*phi_H_y_AH_theta - l_H_y__BDE_theta*u_BDE_theta__H_y
+        + l_H_y__BDE_theta_2_i*u_BDE_theta__H_y_i - l_H_y__HE_theta*phi_H_y_HE_theta;
+    const Lanes scale_H_y_3_i = -l_H_y__AH_theta_3_i*phi_H_y_AH_theta - l_H_y__BDE_theta*u_BDE_theta__H_y_i
+        - l_H_y__BDE_theta_2_i*u_BDE_theta__H_y - l_H_y__HE_theta_3_i*phi_H_y_HE_theta;
+    const Lanes pivot_H_y = -l_H_y__H_x*u_H_x__H_y + l_H_y__H_x_i*u_H_x__H_y_i + scale_H_y;
+    const Lanes pivot_H_y_i = -l_H_y__H_x*u_H_x__H_y_i - l_H_y__H_x_i*u_H_x__H_y + scale_H_y_3_i;
+    const Lanes size_10 = lanes_fabs(pivot_H_y) + lanes_fabs(pivot_H_y_i);
+    const Lanes size_11 = lanes_fabs(scale_H_y) + lanes_fabs(scale_H_y_3_i);
+    *rare |= ~(size_10 > SINGULAR * size_11);
+    const Lanes divisor_9 = 1.0/((pivot_H_y * pivot_H_y) + (pivot_H_y_i * pivot_H_y_i));
+    const Lanes inverse_pivot_H_y = divisor_9*pivot_H_y;
+    const Lanes inverse_pivot_H_y_3_i = -divisor_9*pivot_H_y_i;
+    lin->lu[50] = inverse_pivot_H_y;
+    lin->lu[51] = inverse_pivot_H_y_3_i;
+    const Lanes factor_71 = -l_E3_x__BDE_theta*u_BDE_theta__H_y + l_E3_x__BDE_theta_3_i*u_BDE_theta__H_y_i
+        - l_E3_x__H_x*u_H_x__H_y + l_E3_x__H_x_2_i*u_H_x__H_y_i;
+    const Lanes factor_72 = -l_E3_x__BDE_theta*u_BDE_theta__H_y_i - l_E3_x__BDE_theta_3_i*u_BDE_theta__H_y
+        - l_E3_x__H_x*u_H_x__H_y_i - l_E3_x__H_x_2_i*u_H_x__H_y;
+    const Lanes l_E3_x__H_y = factor_71*inverse_pivot_H_y - factor_72*inverse_pivot_H_y_3_i;
+    const Lanes l_E3_x__H_y_2_i = factor_71*inverse_pivot_H_y_3_i + factor_72*inverse_pivot_H_y;
+    lin->lu[52] = l_E3_x__H_y;
+    lin->lu[53] = l_E3_x__H_y_2_i;
+    const Lanes u_H_y__E3_x = l_H_y__BDE_theta*phi_H_x_BDE_theta - l_H_y__H_x*u_H_x__E3_x + l_H_y__H_x_i*u_H_x__E3_x_i;
+    const Lanes u_H_y__E3_x_i = l_H_y__BDE_theta_2_i*phi_H_x_BDE_theta - l_H_y__H_x*u_H_x__E3_x_i
+        - l_H_y__H_x_i*u_H_x__E3_x;
+    lin->lu[54] = u_H_y__E3_x;
+    lin->lu[55] = u_H_y__E3_x_i;
+    const Lanes factor_73 = -l_E3_y__BDE_theta*u_BDE_theta__H_y + l_E3_y__BDE_theta_3_i*u_BDE_theta__H_y_i
+        - l_E3_y__H_x*u_H_x__H_y + l_E3_y__H_x_2_i*u_H_x__H_y_i;
+    const Lanes factor_74 = -l_E3_y__BDE_theta*u_BDE_theta__H_y_i - l_E3_y__BDE_theta_3_i*u_BDE_theta__H_y
+        - l_E3_y__H_x*u_H_x__H_y_i - l_E3_y__H_x_2_i*u_H_x__H_y;
+    const Lanes l_E3_y__H_y = factor_73*inverse_pivot_H_y - factor_74*inverse_pivot_H_y_3_i;
+    const Lanes l_E3_y__H_y_2_i = factor_73*inverse_pivot_H_y_3_i + factor_74*inverse_pivot_H_y;
+    lin->lu[56] = l_E3_y__H_y;
+    lin->lu[57] = l_E3_y__H_y_2_i;
+    const Lanes u_H_y__E3_y = l_H_y__BDE_theta*phi_H_y_BDE_theta - l_H_y__H_x*u_H_x__E3_y + l_H_y__H_x_i*u_H_x__E3_y_i;
+    const Lanes u_H_y__E3_y_i = l_H_y__BDE_theta_2_i*phi_H_y_BDE_theta - l_H_y__H_x*u_H_x__E3_y_i
+        - l_H_y__H_x_i*u_H_x__E3_y;
+    lin->lu[58] = u_H_y__E3_y;
+    lin->lu[59] = u_H_y__E3_y_i;
+    const Lanes scale_EG_theta = n_EG_theta__EG_theta;
+    const Lanes scale_EG_theta_i = n_EG_theta__EG_theta_i;
+    const Lanes size_12 = lanes_fabs(scale_EG_theta) + lanes_fabs(scale_EG_theta_i);
+    const Lanes size_13 = lanes_fabs(n_EG_theta__EG_theta) + lanes_fabs(n_EG_theta__EG_theta_i);
+    *rare |= ~(size_12 > SINGULAR * size_13);
+    const Lanes divisor_10 = 1.0/((scale_EG_theta * scale_EG_theta) + (scale_EG_theta_i * scale_EG_theta_i));
+    const Lanes inverse_pivot_EG_theta = divisor_10*scale_EG_theta;
+    const Lanes inverse_pivot_EG_theta_i = -divisor_10*scale_EG_theta_i;
+    lin->lu[60] = inverse_pivot_EG_theta;
+    lin->lu[61] = inverse_pivot_EG_theta_i;
+    const Lanes l_OF_theta__EG_theta = inverse_pivot_EG_theta*n_OF_theta__EG_theta
+        - inverse_pivot_EG_theta_i*n_OF_theta__EG_theta_i;
+    const Lanes l_OF_theta__EG_theta_3_i = inverse_pivot_EG_theta*n_OF_theta__EG_theta_i
+        + inverse_pivot_EG_theta_i*n_OF_theta__EG_theta;
+    lin->lu[62] = l_OF_theta__EG_theta;
+    lin->lu[63] = l_OF_theta__EG_theta_3_i;
+    lin->lu[64] = n_EG_theta__OF_theta;
+    lin->lu[65] = n_EG_theta__OF_theta_i;
+    const Lanes l_FE_theta__EG_theta = inverse_pivot_EG_theta*n_FE_theta__EG_theta
+        - inverse_pivot_EG_theta_i*n_FE_theta__EG_theta_i;
+    const Lanes l_FE_theta__EG_theta_3_i = inverse_pivot_EG_theta*n_FE_theta__EG_theta_i
+        + inverse_pivot_EG_theta_i*n_FE_theta__EG_theta;
+    lin->lu[66] = l_FE_theta__EG_theta;
+    lin->lu[67] = l_FE_theta__EG_theta_3_i;
+    lin->lu[68] = n_EG_theta__FE_theta;
+    lin->lu[69] = n_EG_theta__FE_theta_i;
+    const Lanes l_G_x__EG_theta = inverse_pivot_EG_theta*n_G_x__EG_theta - inverse_pivot_EG_theta_i*n_G_x__EG_theta_i;
+    const Lanes l_G_x__EG_theta_3_i = inverse_pivot_EG_theta*n_G_x__EG_theta_i
+        + inverse_pivot_EG_theta_i*n_G_x__EG_theta;
+    lin->lu[70] = l_G_x__EG_theta;
+    lin->lu[71] = l_G_x__EG_theta_3_i;
+    const Lanes l_G_y__EG_theta = inverse_pivot_EG_theta*n_G_y__EG_theta - inverse_pivot_EG_theta_i*n_G_y__EG_theta_i;
+    const Lanes l_G_y__EG_theta_3_i = inverse_pivot_EG_theta*n_G_y__EG_theta_i
+        + inverse_pivot_EG_theta_i*n_G_y__EG_theta;
+    lin->lu[72] = l_G_y__EG_theta;
+    lin->lu[73] = l_G_y__EG_theta_3_i;
+    const Lanes scale_OF_theta = -l_OF_theta__EG_theta*n_EG_theta__OF_theta
+        + l_OF_theta__EG_theta_3_i*n_EG_theta__OF_theta_i + n_OF_theta__OF_theta;
+    const Lanes scale_OF_theta_i = -l_OF_theta__EG_theta*n_EG_theta__OF_theta_i
+        - l_OF_theta__EG_theta_3_i*n_EG_theta__OF_theta + n_OF_theta__OF_theta_i;
+    const Lanes size_14 = lanes_fabs(scale_OF_theta) + lanes_fabs(scale_OF_theta_i);
+    const Lanes size_15 = lanes_fabs(n_OF_theta__OF_theta) + lanes_fabs(n_OF_theta__OF_theta_i);
+    *rare |= ~(size_14 > SINGULAR * size_15);
+    const Lanes divisor_11 = 1.0/((scale_OF_theta * scale_OF_theta) + (scale_OF_theta_i * scale_OF_theta_i));
+    const Lanes inverse_pivot_OF_theta = divisor_11*scale_OF_theta;
+    const Lanes inverse_pivot_OF_theta_3_i = -divisor_11*scale_OF_theta_i;
+    lin->lu[74] = inverse_pivot_OF_theta;
+    lin->lu[75] = inverse_pivot_OF_theta_3_i;
+    const Lanes factor_75 = -l_FE_theta__EG_theta*n_EG_theta__OF_theta
+        + l_FE_theta__EG_theta_3_i*n_EG_theta__OF_theta_i + n_FE_theta__OF_theta;
+    const Lanes factor_76 = -l_FE_theta__EG_theta*n_EG_theta__OF_theta_i
+        - l_FE_theta__EG_theta_3_i*n_EG_theta__OF_theta + n_FE_theta__OF_theta_i;
+    const Lanes l_FE_theta__OF_theta = factor_75*inverse_pivot_OF_theta - factor_76*inverse_pivot_OF_theta_3_i;
+    const Lanes l_FE_theta__OF_theta_i = factor_75*inverse_pivot_OF_theta_3_i + factor_76*inverse_pivot_OF_theta;
+    lin->lu[76] = l_FE_theta__OF_theta;
+    lin->lu[77] = l_FE_theta__OF_theta_i;
+    const Lanes u_OF_theta__FE_theta = -l_OF_theta__EG_theta*n_EG_theta__FE_theta
+        + l_OF_theta__EG_theta_3_i*n_EG_theta__FE_theta_i + n_OF_theta__FE_theta;
+    const Lanes u_OF_theta__FE_theta_i = -l_OF_theta__EG_theta*n_EG_theta__FE_theta_i
+        - l_OF_theta__EG_theta_3_i*n_EG_theta__FE_theta + n_OF_theta__FE_theta_i;
+    lin->lu[78] = u_OF_theta__FE_theta;
+    lin->lu[79] = u_OF_theta__FE_theta_i;
+    const Lanes factor_77 = -l_G_x__EG_theta*n_EG_theta__OF_theta + l_G_x__EG_theta_3_i*n_EG_theta__OF_theta_i
+        + n_G_x__OF_theta;
+    const Lanes factor_78 = -l_G_x__EG_theta*n_EG_theta__OF_theta_i - l_G_x__EG_theta_3_i*n_EG_theta__OF_theta
+        + n_G_x__OF_theta_i;
+    const Lanes l_G_x__OF_theta = factor_77*inverse_pivot_OF_theta - factor_78*inverse_pivot_OF_theta_3_i;
+    const Lanes l_G_x__OF_theta_2_i = factor_77*inverse_pivot_OF_theta_3_i + factor_78*inverse_pivot_OF_theta;
+    lin->lu[80] = l_G_x__OF_theta;
+    lin->lu[81] = l_G_x__OF_theta_2_i;
+    const Lanes u_OF_theta__G_x = -l_OF_theta__EG_theta*phi_G_x_EG_theta + phi_G_x_OF_theta;
+    const Lanes u_OF_theta__G_x_i = -l_OF_theta__EG_theta_3_i*phi_G_x_EG_theta;
+    lin->lu[82] = u_OF_theta__G_x;
+    lin->lu[83] = u_OF_theta__G_x_i;
+    const Lanes factor_79 = -l_G_y__EG_theta*n_EG_theta__OF_theta + l_G_y__EG_theta_3_i*n_EG_theta__OF_theta_i
+        + n_G_y__OF_theta;
+    const Lanes factor_80 = -l_G_y__EG_theta*n_EG_theta__OF_theta_i - l_G_y__EG_theta_3_i*n_EG_theta__OF_theta
+        + n_G_y__OF_theta_i;
+    const Lanes l_G_y__OF_theta = factor_79*inverse_pivot_OF_theta - factor_80*inverse_pivot_OF_theta_3_i;
+    const Lanes l_G_y__OF_theta_2_i = factor_79*inverse_pivot_OF_theta_3_i + factor_80*inverse_pivot_OF_theta;
+    lin->lu[84] = l_G_y__OF_theta;
+    lin->lu[85] = l_G_y__OF_theta_2_i;
+    const Lanes u_OF_theta__G_y = -l_OF_theta__EG_theta*phi_G_y_EG_theta + phi_G_y_OF_theta;
+    const Lanes u_OF_theta__G_y_i = -l_OF_theta__EG_theta_3_i*phi_G_y_EG_theta;
+    lin->lu[86] = u_OF_theta__G_y;
+    lin->lu[87] = u_OF_theta__G_y_i;
+    const Lanes l_E3_x__OF_theta = inverse_pivot_OF_theta*n_E3_x__OF_theta
+        - inverse_pivot_OF_theta_3_i*n_E3_x__OF_theta_i;
+    const Lanes l_E3_x__OF_theta_3_i = inverse_pivot_OF_theta*n_E3_x__OF_theta_i
+        + inverse_pivot_OF_theta_3_i*n_E3_x__OF_theta;
+    lin->lu[88] = l_E3_x__OF_theta;
+    lin->lu[89] = l_E3_x__OF_theta_3_i;
+    const Lanes l_E3_y__OF_theta = inverse_pivot_OF_theta*n_E3_y__OF_theta
+        - inverse_pivot_OF_theta_3_i*n_E3_y__OF_theta_i;
+    const Lanes l_E3_y__OF_theta_3_i = inverse_pivot_OF_theta*n_E3_y__OF_theta_i
+        + inverse_pivot_OF_theta_3_i*n_E3_y__OF_theta;
+    lin->lu[90] = l_E3_y__OF_theta;
+    lin->lu[91] = l_E3_y__OF_theta_3_i;
+    const Lanes scale_FE_theta = -l_FE_theta__EG_theta*n_EG_theta__FE_theta
+        + l_FE_theta__EG_theta_3_i*n_EG_theta__FE_theta_i - l_FE_theta__OF_theta*u_OF_theta__FE_theta
+        + l_FE_theta__OF_theta_i*u_OF_theta__FE_theta_i + n_FE_theta__FE_theta;
+    const Lanes scale_FE_theta_i = -l_FE_theta__EG_theta*n_EG_theta__FE_theta_i
+        - l_FE_theta__EG_theta_3_i*n_EG_theta__FE_theta - l_FE_theta__OF_theta*u_OF_theta__FE_theta_i
+        - l_FE_theta__OF_theta_i*u_OF_theta__FE_theta + n_FE_theta__FE_theta_i;
+    const Lanes size_16 = lanes_fabs(scale_FE_theta) + lanes_fabs(scale_FE_theta_i);
+    const Lanes size_17 = lanes_fabs(n_FE_theta__FE_theta) + lanes_fabs(n_FE_theta__FE_theta_i);
+    *rare |= ~(size_16 > SINGULAR * size_17);
+    const Lanes divisor_12 = 1.0/((scale_FE_theta * scale_FE_theta) + (scale_FE_theta_i * scale_FE_theta_i));
+    const Lanes inverse_pivot_FE_theta = divisor_12*scale_FE_theta;
+    const Lanes inverse_pivot_FE_theta_3_i = -divisor_12*scale_FE_theta_i;
+    lin->lu[92] = inverse_pivot_FE_theta;
+    lin->lu[93] = inverse_pivot_FE_theta_3_i;
+    const Lanes factor_81 = -l_G_x__EG_theta*n_EG_theta__FE_theta + l_G_x__EG_theta_3_i*n_EG_theta__FE_theta_i
+        - l_G_x__OF_theta*u_OF_theta__FE_theta + l_G_x__OF_theta_2_i*u_OF_theta__FE_theta_i + n_G_x__FE_theta;
+    const Lanes factor_82 = -l_G_x__EG_theta*n_EG_theta__FE_theta_i - l_G_x__EG_theta_3_i*n_EG_theta__FE_theta
+        - l_G_x__OF_theta*u_OF_theta__FE_theta_i - l_G_x__OF_theta_2_i*u_OF_theta__FE_theta + n_G_x__FE_theta_i;
+    const Lanes l_G_x__FE_theta = factor_81*inverse_pivot_FE_theta - factor_82*inverse_pivot_FE_theta_3_i;
+    const Lanes l_G_x__FE_theta_2_i = factor_81*inverse_pivot_FE_theta_3_i + factor_82*inverse_pivot_FE_theta;
+    lin->lu[94] = l_G_x__FE_theta;
+    lin->lu[95] = l_G_x__FE_theta_2_i;
+    const Lanes u_FE_theta__G_x = -l_FE_theta__EG_theta*phi_G_x_EG_theta - l_FE_theta__OF_theta*u_OF_theta__G_x
+        + l_FE_theta__OF_theta_i*u_OF_theta__G_x_i + phi_G_x_FE_theta;
+    const Lanes u_FE_theta__G_x_i = -l_FE_theta__EG_theta_3_i*phi_G_x_EG_theta - l_FE_theta__OF_theta*u_OF_theta__G_x_i
+        - l_FE_theta__OF_theta_i*u_OF_theta__G_x;
+    lin->lu[96] = u_FE_theta__G_x;
+    lin->lu[97] = u_FE_theta__G_x_i;
+    const Lanes factor_83 = -l_G_y__EG_theta*n_EG_theta__FE_theta + l_G_y__EG_theta_3_i*n_EG_theta__FE_theta_i
+        - l_G_y__OF_theta*u_OF_theta__FE_theta + l_G_y__OF_theta_2_i*u_OF_theta__FE_theta_i + n_G_y__FE_theta;
+    const Lanes factor_84 = -l_G_y__EG_theta*n_EG_theta__FE_theta_i - l_G_y__EG_theta_3_i*n_EG_theta__FE_theta
+        - l_G_y__OF_theta*u_OF_theta__FE_theta_i - l_G_y__OF_theta_2_i*u_OF_theta__FE_theta + n_G_y__FE_theta_i;
+    const Lanes l_G_y__FE_theta = factor_83*inverse_pivot_FE_theta - factor_84*inverse_pivot_FE_theta_3_i;
+    const Lanes l_G_y__FE_theta_2_i = factor_83*inverse_pivot_FE_theta_3_i + factor_84*inverse_pivot_FE_theta;
+    lin->lu[98] = l_G_y__FE_theta;
+    lin->lu[99] = l_G_y__FE_theta_2_i;
+    const Lanes u_FE_theta__G_y = -l_FE_theta__EG_theta*phi_G_y_EG_theta - l_FE_theta__OF_theta*u_OF_theta__G_y
+        + l_FE_theta__OF_theta_i*u_OF_theta__G_y_i + phi_G_y_FE_theta;
+    const Lanes u_FE_theta__G_y_i = -l_FE_theta__EG_theta_3_i*phi_G_y_EG_theta - l_FE_theta__OF_theta*u_OF_theta__G_y_i
+        - l_FE_theta__OF_theta_i*u_OF_theta__G_y;
+    lin->lu[100] = u_FE_theta__G_y;
+    lin->lu[101] = u_FE_theta__G_y_i;
+    const Lanes factor_85 = -l_E3_x__OF_theta*u_OF_theta__FE_theta + l_E3_x__OF_theta_3_i*u_OF_theta__FE_theta_i
+        + n_E3_x__FE_theta;
+    const Lanes factor_86 = -l_E3_x__OF_theta*u_OF_theta__FE_theta_i - l_E3_x__OF_theta_3_i*u_OF_theta__FE_theta
+        + n_E3_x__FE_theta_i;
+    const Lanes l_E3_x__FE_theta = factor_85*inverse_pivot_FE_theta - factor_86*inverse_pivot_FE_theta_3_i;
+    const Lanes l_E3_x__FE_theta_3_i = factor_85*inverse_pivot_FE_theta_3_i + factor_86*inverse_pivot_FE_theta;
+    lin->lu[102] = l_E3_x__FE_theta;
+    lin->lu[103] = l_E3_x__FE_theta_3_i;
+    const Lanes u_FE_theta__E3_x = -l_FE_theta__OF_theta*phi_G_x_OF_theta + phi_G_x_FE_theta;
+    const Lanes u_FE_theta__E3_x_i = -l_FE_theta__OF_theta_i*phi_G_x_OF_theta;
+    lin->lu[104] = u_FE_theta__E3_x;
+    lin->lu[105] = u_FE_theta__E3_x_i;
+    const Lanes factor_87 = -l_E3_y__OF_theta*u_OF_theta__FE_theta + l_E3_y__OF_theta_3_i*u_OF_theta__FE_theta_i
+        + n_E3_y__FE_theta;
+    const Lanes factor_88 = -l_E3_y__OF_theta*u_OF_theta__FE_theta_i - l_E3_y__OF_theta_3_i*u_OF_theta__FE_theta
+        + n_E3_y__FE_theta_i;
+    const Lanes l_E3_y__FE_theta = factor_87*inverse_pivot_FE_theta - factor_88*inverse_pivot_FE_theta_3_i;
+    const Lanes l_E3_y__FE_theta_3_i = factor_87*inverse_pivot_FE_theta_3_i + factor_88*inverse_pivot_FE_theta;
+    lin->lu[106] = l_E3_y__FE_theta;
+    lin->lu[107] = l_E3_y__FE_theta_3_i;
+    const Lanes u_FE_theta__E3_y = -l_FE_theta__OF_theta*phi_G_y_OF_theta + phi_G_y_FE_theta;
+    const Lanes u_FE_theta__E3_y_i = -l_FE_theta__OF_theta_i*phi_G_y_OF_theta;
+    lin->lu[108] = u_FE_theta__E3_y;
+    lin->lu[109] = u_FE_theta__E3_y_i;
+    const Lanes scale_G_x = -l_G_x__AG_theta*phi_G_x_AG_theta - l_G_x__EG_theta*phi_G_x_EG_theta
+        - l_G_x__FE_theta*u_FE_theta__G_x + l_G_x__FE_theta_2_i*u_FE_theta__G_x_i - l_G_x__OF_theta*u_OF_theta__G_x
+        + l_G_x__OF_theta_2_i*u_OF_theta__G_x_i;
+    const Lanes scale_G_x_3_i = -l_G_x__AG_theta_3_i*phi_G_x_AG_theta - l_G_x__EG_theta_3_i*phi_G_x_EG_theta
+        - l_G_x__FE_theta*u_FE_theta__G_x_i - l_G_x__FE_theta_2_i*u_FE_theta__G_x - l_G_x__OF_theta*u_OF_theta__G_x_i
+        - l_G_x__OF_theta_2_i*u_OF_theta__G_x;
+    const Lanes size_18 = lanes_fabs(scale_G_x) + lanes_fabs(scale_G_x_3_i);
+    *rare |= ~((size_18 > 0.0) & (size_18 < INFINITY));
+    const Lanes divisor_13 = 1.0/((scale_G_x * scale_G_x) + (scale_G_x_3_i * scale_G_x_3_i));
+    const Lanes inverse_pivot_G_x = divisor_13*scale_G_x;
+    const Lanes inverse_pivot_G_x_3_i = -divisor_13*scale_G_x_3_i;
+    lin->lu[110] = inverse_pivot_G_x;
+    lin->lu[111] = inverse_pivot_G_x_3_i;
+    const Lanes factor_89 = -l_G_y__AG_theta*phi_G_x_AG_theta - l_G_y__EG_theta*phi_G_x_EG_theta
+        - l_G_y__FE_theta*u_FE_theta__G_x + l_G_y__FE_theta_2_i*u_FE_theta__G_x_i - l_G_y__OF_theta*u_OF_theta__G_x
+        + l_G_y__OF_theta_2_i*u_OF_theta__G_x_i;
+    const Lanes factor_90 = -l_G_y__AG_theta_3_i*phi_G_x_AG_theta - l_G_y__EG_theta_3_i*phi_G_x_EG_theta
+        - l_G_y__FE_theta*u_FE_theta__G_x_i - l_G_y__FE_theta_2_i*u_FE_theta__G_x - l_G_y__OF_theta*u_OF_theta__G_x_i
+        - l_G_y__OF_theta_2_i*u_OF_theta__G_x;
+    const Lanes l_G_y__G_x = factor_89*inverse_pivot_G_x - factor_90*inverse_pivot_G_x_3_i;
+    const Lanes l_G_y__G_x_i = factor_89*inverse_pivot_G_x_3_i + factor_90*inverse_pivot_G_x;
+    lin->lu[112] = l_G_y__G_x;
+    lin->lu[113] = l_G_y__G_x_i;
+    const Lanes u_G_x__G_y = -l_G_x__AG_theta*phi_G_y_AG_theta - l_G_x__EG_theta*phi_G_y_EG_theta
+        - l_G_x__FE_theta*u_FE_theta__G_y + l_G_x__FE_theta_2_i*u_FE_theta__G_y_i - l_G_x__OF_theta*u_OF_theta__G_y
+        + l_G_x__OF_theta_2_i*u_OF_theta__G_y_i;
+    const Lanes u_G_x__G_y_i = -l_G_x__AG_theta_3_i*phi_G_y_AG_theta - l_G_x__EG_theta_3_i*phi_G_y_EG_theta
+        - l_G_x__FE_theta*u_FE_theta__G_y_i - l_G_x__FE_theta_2_i*u_FE_theta__G_y - l_G_x__OF_theta*u_OF_theta__G_y_i
+        - l_G_x__OF_theta_2_i*u_OF_theta__G_y;
+    lin->lu[114] = u_G_x__G_y;
+    lin->lu[115] = u_G_x__G_y_i;
+    const Lanes factor_91 = -l_E3_x__FE_theta*u_FE_theta__G_x + l_E3_x__FE_theta_3_i*u_FE_theta__G_x_i
+        - l_E3_x__OF_theta*u_OF_theta__G_x + l_E3_x__OF_theta_3_i*u_OF_theta__G_x_i;
+    const Lanes factor_92 = -l_E3_x__FE_theta*u_FE_theta__G_x_i - l_E3_x__FE_theta_3_i*u_FE_theta__G_x
+        - l_E3_x__OF_theta*u_OF_theta__G_x_i - l_E3_x__OF_theta_3_i*u_OF_theta__G_x;
+    const Lanes l_E3_x__G_x = factor_91*inverse_pivot_G_x - factor_92*inverse_pivot_G_x_3_i;
+    const Lanes l_E3_x__G_x_2_i = factor_91*inverse_pivot_G_x_3_i + factor_92*inverse_pivot_G_x;
+    lin->lu[116] = l_E3_x__G_x;
+    lin->lu[117] = l_E3_x__G_x_2_i;
+    const Lanes u_G_x__E3_x = -l_G_x__FE_theta*u_FE_theta__E3_x + l_G_x__FE_theta_2_i*u_FE_theta__E3_x_i
+        - l_G_x__OF_theta*phi_G_x_OF_theta;
+    const Lanes u_G_x__E3_x_i = -l_G_x__FE_theta*u_FE_theta__E3_x_i - l_G_x__FE_theta_2_i*u_FE_theta__E3_x
+        - l_G_x__OF_theta_2_i*phi_G_x_OF_theta;
+    lin->lu[118] = u_G_x__E3_x;
+    lin->lu[119] = u_G_x__E3_x_i;
+    const Lanes factor_93 = -l_E3_y__FE_theta*u_FE_theta__G_x + l_E3_y__FE_theta_3_i*u_FE_theta__G_x_i
+        - l_E3_y__OF_theta*u_OF_theta__G_x + l_E3_y__OF_theta_3_i*u_OF_theta__G_x_i;
+    const Lanes factor_94 = -l_E3_y__FE_theta*u_FE_theta__G_x_i - l_E3_y__FE_theta_3_i*u_FE_theta__G_x
+        - l_E3_y__OF_theta*u_OF_theta__G_x_i - l_E3_y__OF_theta_3_i*u_OF_theta__G_x;
+    const Lanes l_E3_y__G_x = factor_93*inverse_pivot_G_x - factor_94*inverse_pivot_G_x_3_i;
+    const Lanes l_E3_y__G_x_2_i = factor_93*inverse_pivot_G_x_3_i + factor_94*inverse_pivot_G_x;
+    lin->lu[120] = l_E3_y__G_x;
+    lin->lu[121] = l_E3_y__G_x_2_i;
+    const Lanes u_G_x__E3_y = -l_G_x__FE_theta*u_FE_theta__E3_y + l_G_x__FE_theta_2_i*u_FE_theta__E3_y_i
+        - l_G_x__OF_theta*phi_G_y_OF_theta;
+    const Lanes u_G_x__E3_y_i = -l_G_x__FE_theta*u_FE_theta__E3_y_i - l_G_x__FE_theta_2_i*u_FE_theta__E3_y
+        - l_G_x__OF_theta_2_i*phi_G_y_OF_theta;
+    lin->lu[122] = u_G_x__E3_y;
+    lin->lu[123] = u_G_x__E3_y_i;
+    const Lanes scale_G_y = -l_G_y__AG_theta*phi_G_y_AG_theta - l_G_y__EG_theta*phi_G_y_EG_theta
+        - l_G_y__FE_theta*u_FE_theta__G_y + l_G_y__FE_theta_2_i*u_FE_theta__G_y_i - l_G_y__OF_theta*u_OF_theta__G_y
+        + l_G_y__OF_theta_2_i*u_OF_theta__G_y_i;
+    const Lanes scale_G_y_3_i = -l_G_y__AG_theta_3_i*phi_G_y_AG_theta - l_G_y__EG_theta_3_i*phi_G_y_EG_theta
+        - l_G_y__FE_theta*u_FE_theta__G_y_i - l_G_y__FE_theta_2_i*u_FE_theta__G_y - l_G_y__OF_theta*u_OF_theta__G_y_i
+        - l_G_y__OF_theta_2_i*u_OF_theta__G_y;
+    const Lanes pivot_G_y = -l_G_y__G_x*u_G_x__G_y + l_G_y__G_x_i*u_G_x__G_y_i + scale_G_y;
+    const Lanes pivot_G_y_i = -l_G_y__G_x*u_G_x__G_y_i - l_G_y__G_x_i*u_G_x__G_y + scale_G_y_3_i;
+    const Lanes size_19 = lanes_fabs(pivot_G_y) + lanes_fabs(pivot_G_y_i);
+    const Lanes size_20 = lanes_fabs(scale_G_y) + lanes_fabs(scale_G_y_3_i);
+    *rare |= ~(size_19 > SINGULAR * size_20);
+    const Lanes divisor_14 = 1.0/((pivot_G_y * pivot_G_y) + (pivot_G_y_i * pivot_G_y_i));
+    const Lanes inverse_pivot_G_y = divisor_14*pivot_G_y;
+    const Lanes inverse_pivot_G_y_3_i = -divisor_14*pivot_G_y_i;
+    lin->lu[124] = inverse_pivot_G_y;
+    lin->lu[125] = inverse_pivot_G_y_3_i;
+    const Lanes factor_95 = -l_E3_x__FE_theta*u_FE_theta__G_y + l_E3_x__FE_theta_3_i*u_FE_theta__G_y_i
+        - l_E3_x__G_x*u_G_x__G_y + l_E3_x__G_x_2_i*u_G_x__G_y_i - l_E3_x__OF_theta*u_OF_theta__G_y
+        + l_E3_x__OF_theta_3_i*u_OF_theta__G_y_i;
+    const Lanes factor_96 = -l_E3_x__FE_theta*u_FE_theta__G_y_i - l_E3_x__FE_theta_3_i*u_FE_theta__G_y
+        - l_E3_x__G_x*u_G_x__G_y_i - l_E3_x__G_x_2_i*u_G_x__G_y - l_E3_x__OF_theta*u_OF_theta__G_y_i
+        - l_E3_x__OF_theta_3_i*u_OF_theta__G_y;
+    const Lanes l_E3_x__G_y = factor_95*inverse_pivot_G_y - factor_96*inverse_pivot_G_y_3_i;
+    const Lanes l_E3_x__G_y_2_i = factor_95*inverse_pivot_G_y_3_i + factor_96*inverse_pivot_G_y;
+    lin->lu[126] = l_E3_x__G_y;
+    lin->lu[127] = l_E3_x__G_y_2_i;
+    const Lanes u_G_y__E3_x = -l_G_y__FE_theta*u_FE_theta__E3_x + l_G_y__FE_theta_2_i*u_FE_theta__E3_x_i
+        - l_G_y__G_x*u_G_x__E3_x + l_G_y__G_x_i*u_G_x__E3_x_i - l_G_y__OF_theta*phi_G_x_OF_theta;
+    const Lanes u_G_y__E3_x_i = -l_G_y__FE_theta*u_FE_theta__E3_x_i - l_G_y__FE_theta_2_i*u_FE_theta__E3_x
+        - l_G_y__G_x*u_G_x__E3_x_i - l_G_y__G_x_i*u_G_x__E3_x - l_G_y__OF_theta_2_i*phi_G_x_OF_theta;
+    lin->lu[128] = u_G_y__E3_x;
+    lin->lu[129] = u_G_y__E3_x_i;
+    const Lanes factor_97 = -l_E3_y__FE_theta*u_FE_theta__G_y + l_E3_y__FE_theta_3_i*u_FE_theta__G_y_i
+        - l_E3_y__G_x*u_G_x__G_y + l_E3_y__G_x_2_i*u_G_x__G_y_i - l_E3_y__OF_theta*u_OF_theta__G_y
+        + l_E3_y__OF_theta_3_i*u_OF_theta__G_y_i;
+    const Lanes factor_98 = -l_E3_y__FE_theta*u_FE_theta__G_y_i - l_E3_y__FE_theta_3_i*u_FE_theta__G_y
+        - l_E3_y__G_x*u_G_x__G_y_i - l_E3_y__G_x_2_i*u_G_x__G_y - l_E3_y__OF_theta*u_OF_theta__G_y_i
+        - l_E3_y__OF_theta_3_i*u_OF_theta__G_y;
+    const Lanes l_E3_y__G_y = factor_97*inverse_pivot_G_y - factor_98*inverse_pivot_G_y_3_i;
+    const Lanes l_E3_y__G_y_2_i = factor_97*inverse_pivot_G_y_3_i + factor_98*inverse_pivot_G_y;
+    lin->lu[130] = l_E3_y__G_y;
+    lin->lu[131] = l_E3_y__G_y_2_i;
+    const Lanes u_G_y__E3_y = -l_G_y__FE_theta*u_FE_theta__E3_y + l_G_y__FE_theta_2_i*u_FE_theta__E3_y_i
+        - l_G_y__G_x*u_G_x__E3_y + l_G_y__G_x_i*u_G_x__E3_y_i - l_G_y__OF_theta*phi_G_y_OF_theta;
+    const Lanes u_G_y__E3_y_i = -l_G_y__FE_theta*u_FE_theta__E3_y_i - l_G_y__FE_theta_2_i*u_FE_theta__E3_y
+        - l_G_y__G_x*u_G_x__E3_y_i - l_G_y__G_x_i*u_G_x__E3_y - l_G_y__OF_theta_2_i*phi_G_y_OF_theta;
+    lin->lu[132] = u_G_y__E3_y;
+    lin->lu[133] = u_G_y__E3_y_i;
+    const Lanes scale_E3_x = l_E3_x__BDE_theta*phi_H_x_BDE_theta - l_E3_x__FE_theta*u_FE_theta__E3_x
+        + l_E3_x__FE_theta_3_i*u_FE_theta__E3_x_i - l_E3_x__OF_theta*phi_G_x_OF_theta;
+    const Lanes scale_E3_x_3_i = l_E3_x__BDE_theta_3_i*phi_H_x_BDE_theta - l_E3_x__FE_theta*u_FE_theta__E3_x_i
+        - l_E3_x__FE_theta_3_i*u_FE_theta__E3_x - l_E3_x__OF_theta_3_i*phi_G_x_OF_theta;
+    const Lanes pivot_E3_x = -l_E3_x__G_x*u_G_x__E3_x + l_E3_x__G_x_2_i*u_G_x__E3_x_i - l_E3_x__G_y*u_G_y__E3_x
+        + l_E3_x__G_y_2_i*u_G_y__E3_x_i - l_E3_x__H_x*u_H_x__E3_x + l_E3_x__H_x_2_i*u_H_x__E3_x_i
+        - l_E3_x__H_y*u_H_y__E3_x + l_E3_x__H_y_2_i*u_H_y__E3_x_i + scale_E3_x;
+    const Lanes pivot_E3_x_2_i = -l_E3_x__G_x*u_G_x__E3_x_i - l_E3_x__G_x_2_i*u_G_x__E3_x - l_E3_x__G_y*u_G_y__E3_x_i
+        - l_E3_x__G_y_2_i*u_G_y__E3_x - l_E3_x__H_x*u_H_x__E3_x_i - l_E3_x__H_x_2_i*u_H_x__E3_x
+        - l_E3_x__H_y*u_H_y__E3_x_i - l_E3_x__H_y_2_i*u_H_y__E3_x + scale_E3_x_3_i;
+    const Lanes size_21 = lanes_fabs(pivot_E3_x) + lanes_fabs(pivot_E3_x_2_i);
+    const Lanes size_22 = lanes_fabs(scale_E3_x) + lanes_fabs(scale_E3_x_3_i);
+    *rare |= ~(size_21 > SINGULAR * size_22);
+    const Lanes divisor_15 = 1.0/((pivot_E3_x * pivot_E3_x) + (pivot_E3_x_2_i * pivot_E3_x_2_i));
+    const Lanes inverse_pivot_E3_x = divisor_15*pivot_E3_x;
+    const Lanes inverse_pivot_E3_x_3_i = -divisor_15*pivot_E3_x_2_i;
+    lin->lu[134] = inverse_pivot_E3_x;
+    lin->lu[135] = inverse_pivot_E3_x_3_i;
+    const Lanes factor_99 = l_E3_y__BDE_theta*phi_H_x_BDE_theta - l_E3_y__FE_theta*u_FE_theta__E3_x
+        + l_E3_y__FE_theta_3_i*u_FE_theta__E3_x_i - l_E3_y__G_x*u_G_x__E3_x + l_E3_y__G_x_2_i*u_G_x__E3_x_i
+        - l_E3_y__G_y*u_G_y__E3_x + l_E3_y__G_y_2_i*u_G_y__E3_x_i - l_E3_y__H_x*u_H_x__E3_x
+        + l_E3_y__H_x_2_i*u_H_x__E3_x_i - l_E3_y__H_y*u_H_y__E3_x + l_E3_y__H_y_2_i*u_H_y__E3_x_i
+        - l_E3_y__OF_theta*phi_G_x_OF_theta;
+    const Lanes factor_100 = l_E3_y__BDE_theta_3_i*phi_H_x_BDE_theta - l_E3_y__FE_theta*u_FE_theta__E3_x_i
+        - l_E3_y__FE_theta_3_i*u_FE_theta__E3_x - l_E3_y__G_x*u_G_x__E3_x_i - l_E3_y__G_x_2_i*u_G_x__E3_x
+        - l_E3_y__G_y*u_G_y__E3_x_i - l_E3_y__G_y_2_i*u_G_y__E3_x - l_E3_y__H_x*u_H_x__E3_x_i
+        - l_E3_y__H_x_2_i*u_H_x__E3_x - l_E3_y__H_y*u_H_y__E3_x_i - l_E3_y__H_y_2_i*u_H_y__E3_x
+        - l_E3_y__OF_theta_3_i*phi_G_x_OF_theta;
+    const Lanes l_E3_y__E3_x = -factor_100*inverse_pivot_E3_x_3_i + factor_99*inverse_pivot_E3_x;
+    const Lanes l_E3_y__E3_x_i = factor_100*inverse_pivot_E3_x + factor_99*inverse_pivot_E3_x_3_i;
+    lin->lu[136] = l_E3_y__E3_x;
+    lin->lu[137] = l_E3_y__E3_x_i;
+    const Lanes u_E3_x__E3_y = l_E3_x__BDE_theta*phi_H_y_BDE_theta - l_E3_x__FE_theta*u_FE_theta__E3_y
+        + l_E3_x__FE_theta_3_i*u_FE_theta__E3_y_i - l_E3_x__G_x*u_G_x__E3_y + l_E3_x__G_x_2_i*u_G_x__E3_y_i
+        - l_E3_x__G_y*u_G_y__E3_y + l_E3_x__G_y_2_i*u_G_y__E3_y_i - l_E3_x__H_x*u_H_x__E3_y
+        + l_E3_x__H_x_2_i*u_H_x__E3_y_i - l_E3_x__H_y*u_H_y__E3_y + l_E3_x__H_y_2_i*u_H_y__E3_y_i
+        - l_E3_x__OF_theta*phi_G_y_OF_theta;
+    const Lanes u_E3_x__E3_y_i = l_E3_x__BDE_theta_3_i*phi_H_y_BDE_theta - l_E3_x__FE_theta*u_FE_theta__E3_y_i
+        - l_E3_x__FE_theta_3_i*u_FE_theta__E3_y - l_E3_x__G_x*u_G_x__E3_y_i - l_E3_x__G_x_2_i*u_G_x__E3_y
+        - l_E3_x__G_y*u_G_y__E3_y_i - l_E3_x__G_y_2_i*u_G_y__E3_y - l_E3_x__H_x*u_H_x__E3_y_i
+        - l_E3_x__H_x_2_i*u_H_x__E3_y - l_E3_x__H_y*u_H_y__E3_y_i - l_E3_x__H_y_2_i*u_H_y__E3_y
+        - l_E3_x__OF_theta_3_i*phi_G_y_OF_theta;
+    lin->lu[138] = u_E3_x__E3_y;
+    lin->lu[139] = u_E3_x__E3_y_i;
+    const Lanes scale_E3_y = l_E3_y__BDE_theta*phi_H_y_BDE_theta - l_E3_y__FE_theta*u_FE_theta__E3_y
+        + l_E3_y__FE_theta_3_i*u_FE_theta__E3_y_i - l_E3_y__OF_theta*phi_G_y_OF_theta;
+    const Lanes scale_E3_y_3_i = l_E3_y__BDE_theta_3_i*phi_H_y_BDE_theta - l_E3_y__FE_theta*u_FE_theta__E3_y_i
+        - l_E3_y__FE_theta_3_i*u_FE_theta__E3_y - l_E3_y__OF_theta_3_i*phi_G_y_OF_theta;
+    const Lanes pivot_E3_y = -l_E3_y__E3_x*u_E3_x__E3_y + l_E3_y__E3_x_i*u_E3_x__E3_y_i - l_E3_y__G_x*u_G_x__E3_y
+        + l_E3_y__G_x_2_i*u_G_x__E3_y_i - l_E3_y__G_y*u_G_y__E3_y + l_E3_y__G_y_2_i*u_G_y__E3_y_i
+        - l_E3_y__H_x*u_H_x__E3_y + l_E3_y__H_x_2_i*u_H_x__E3_y_i - l_E3_y__H_y*u_H_y__E3_y
+        + l_E3_y__H_y_2_i*u_H_y__E3_y_i + scale_E3_y;
+    const Lanes pivot_E3_y_2_i = -l_E3_y__E3_x*u_E3_x__E3_y_i - l_E3_y__E3_x_i*u_E3_x__E3_y - l_E3_y__G_x*u_G_x__E3_y_i
+        - l_E3_y__G_x_2_i*u_G_x__E3_y - l_E3_y__G_y*u_G_y__E3_y_i - l_E3_y__G_y_2_i*u_G_y__E3_y
+        - l_E3_y__H_x*u_H_x__E3_y_i - l_E3_y__H_x_2_i*u_H_x__E3_y - l_E3_y__H_y*u_H_y__E3_y_i
+        - l_E3_y__H_y_2_i*u_H_y__E3_y + scale_E3_y_3_i;
+    const Lanes size_23 = lanes_fabs(pivot_E3_y) + lanes_fabs(pivot_E3_y_2_i);
+    const Lanes size_24 = lanes_fabs(scale_E3_y) + lanes_fabs(scale_E3_y_3_i);
+    *rare |= ~(size_23 > SINGULAR * size_24);
+    const Lanes divisor_16 = 1.0/((pivot_E3_y * pivot_E3_y) + (pivot_E3_y_2_i * pivot_E3_y_2_i));
+    const Lanes inverse_pivot_E3_y = divisor_16*pivot_E3_y;
+    const Lanes inverse_pivot_E3_y_3_i = -divisor_16*pivot_E3_y_2_i;
+    lin->lu[140] = inverse_pivot_E3_y;
+    lin->lu[141] = inverse_pivot_E3_y_3_i;
+}
+
+/*
+ * x (all nodes) holds b and becomes the solution of N x = b.
+ * At complex eta: real and imaginary parts one behind the other.
+ */
+static void newton_substitute_complex(const LaneComplexLinear *lin, Lanes *x)
+{
+    /* linearization */
+    const Lanes phi_G_x_OF_theta = lin->value[4];
+    const Lanes phi_G_x_AG_theta = lin->value[5];
+    const Lanes phi_G_x_EG_theta = lin->value[7];
+    const Lanes phi_G_y_OF_theta = lin->value[8];
+    const Lanes phi_G_y_AG_theta = lin->value[9];
+    const Lanes phi_G_y_EG_theta = lin->value[11];
+    const Lanes phi_H_x_BDE_theta = lin->value[12];
+    const Lanes phi_H_x_AH_theta = lin->value[13];
+    const Lanes phi_H_x_HE_theta = lin->value[14];
+    const Lanes phi_H_y_BDE_theta = lin->value[15];
+    const Lanes phi_H_y_AH_theta = lin->value[16];
+    const Lanes phi_H_y_HE_theta = lin->value[17];
+    const Lanes inverse_pivot_AG_theta = lin->lu[0];
+    const Lanes inverse_pivot_AG_theta_i = lin->lu[1];
+    const Lanes l_G_x__AG_theta = lin->lu[2];
+    const Lanes l_G_x__AG_theta_3_i = lin->lu[3];
+    const Lanes l_G_y__AG_theta = lin->lu[4];
+    const Lanes l_G_y__AG_theta_3_i = lin->lu[5];
+    const Lanes inverse_pivot_AH_theta = lin->lu[6];
+    const Lanes inverse_pivot_AH_theta_i = lin->lu[7];
+    const Lanes l_H_x__AH_theta = lin->lu[8];
+    const Lanes l_H_x__AH_theta_3_i = lin->lu[9];
+    const Lanes l_H_y__AH_theta = lin->lu[10];
+    const Lanes l_H_y__AH_theta_3_i = lin->lu[11];
+    const Lanes inverse_pivot_HE_theta = lin->lu[12];
+    const Lanes inverse_pivot_HE_theta_i = lin->lu[13];
+    const Lanes l_BDE_theta__HE_theta = lin->lu[14];
+    const Lanes l_BDE_theta__HE_theta_3_i = lin->lu[15];
+    const Lanes n_HE_theta__BDE_theta = lin->lu[16];
+    const Lanes n_HE_theta__BDE_theta_i = lin->lu[17];
+    const Lanes l_H_x__HE_theta = lin->lu[18];
+    const Lanes l_H_x__HE_theta_3_i = lin->lu[19];
+    const Lanes l_H_y__HE_theta = lin->lu[20];
+    const Lanes l_H_y__HE_theta_3_i = lin->lu[21];
+    const Lanes inverse_pivot_BDE_theta = lin->lu[22];
+    const Lanes inverse_pivot_BDE_theta_3_i = lin->lu[23];
+    const Lanes l_H_x__BDE_theta = lin->lu[24];
+    const Lanes l_H_x__BDE_theta_2_i = lin->lu[25];
+    const Lanes u_BDE_theta__H_x = lin->lu[26];
+    const Lanes u_BDE_theta__H_x_i = lin->lu[27];
+    const Lanes l_H_y__BDE_theta = lin->lu[28];
+    const Lanes l_H_y__BDE_theta_2_i = lin->lu[29];
+    const Lanes u_BDE_theta__H_y = lin->lu[30];
+    const Lanes u_BDE_theta__H_y_i = lin->lu[31];
+    const Lanes l_E3_x__BDE_theta = lin->lu[32];
+    const Lanes l_E3_x__BDE_theta_3_i = lin->lu[33];
+    const Lanes l_E3_y__BDE_theta = lin->lu[34];
+    const Lanes l_E3_y__BDE_theta_3_i = lin->lu[35];
+    const Lanes inverse_pivot_H_x = lin->lu[36];
+    const Lanes inverse_pivot_H_x_3_i = lin->lu[37];
+    const Lanes l_H_y__H_x = lin->lu[38];
+    const Lanes l_H_y__H_x_i = lin->lu[39];
+    const Lanes u_H_x__H_y = lin->lu[40];
+    const Lanes u_H_x__H_y_i = lin->lu[41];
+    const Lanes l_E3_x__H_x = lin->lu[42];
+    const Lanes l_E3_x__H_x_2_i = lin->lu[43];
+    const Lanes u_H_x__E3_x = lin->lu[44];
+    const Lanes u_H_x__E3_x_i = lin->lu[45];
+    const Lanes l_E3_y__H_x = lin->lu[46];
+    const Lanes l_E3_y__H_x_2_i = lin->lu[47];
+    const Lanes u_H_x__E3_y = lin->lu[48];
+    const Lanes u_H_x__E3_y_i = lin->lu[49];
+    const Lanes inverse_pivot_H_y = lin->lu[50];
+    const Lanes inverse_pivot_H_y_3_i = lin->lu[51];
+    const Lanes l_E3_x__H_y = lin->lu[52];
+    const Lanes l_E3_x__H_y_2_i = lin->lu[53];
+    const Lanes u_H_y__E3_x = lin->lu[54];
+    const Lanes u_H_y__E3_x_i = lin->lu[55];
+    const Lanes l_E3_y__H_y = lin->lu[56];
+    const Lanes l_E3_y__H_y_2_i = lin->lu[57];
+    const Lanes u_H_y__E3_y = lin->lu[58];
+    const Lanes u_H_y__E3_y_i = lin->lu[59];
+    const Lanes inverse_pivot_EG_theta = lin->lu[60];
+    const Lanes inverse_pivot_EG_theta_i = lin->lu[61];
+    const Lanes l_OF_theta__EG_theta = lin->lu[62];
+    const Lanes l_OF_theta__EG_theta_3_i = lin->lu[63];
+    const Lanes n_EG_theta__OF_theta = lin->lu[64];
+    const Lanes n_EG_theta__OF_theta_i = lin->lu[65];
+    const Lanes l_FE_theta__EG_theta = lin->lu[66];
+    const Lanes l_FE_theta__EG_theta_3_i = lin->lu[67];
+    const Lanes n_EG_theta__FE_theta = lin->lu[68];
+    const Lanes n_EG_theta__FE_theta_i = lin->lu[69];
+    const Lanes l_G_x__EG_theta = lin->lu[70];
+    const Lanes l_G_x__EG_theta_3_i = lin->lu[71];
+    const Lanes l_G_y__EG_theta = lin->lu[72];
+    const Lanes l_G_y__EG_theta_3_i = lin->lu[73];
+    const Lanes inverse_pivot_OF_theta = lin->lu[74];
+    const Lanes inverse_pivot_OF_theta_3_i = lin->lu[75];
+    const Lanes l_FE_theta__OF_theta = lin->lu[76];
+    const Lanes l_FE_theta__OF_theta_i = lin->lu[77];
+    const Lanes u_OF_theta__FE_theta = lin->lu[78];
+    const Lanes u_OF_theta__FE_theta_i = lin->lu[79];
+    const Lanes l_G_x__OF_theta = lin->lu[80];
+    const Lanes l_G_x__OF_theta_2_i = lin->lu[81];
+    const Lanes u_OF_theta__G_x = lin->lu[82];
+    const Lanes u_OF_theta__G_x_i = lin->lu[83];
+    const Lanes l_G_y__OF_theta = lin->lu[84];
+    const Lanes l_G_y__OF_theta_2_i = lin->lu[85];
+    const Lanes u_OF_theta__G_y = lin->lu[86];
+    const Lanes u_OF_theta__G_y_i = lin->lu[87];
+    const Lanes l_E3_x__OF_theta = lin->lu[88];
+    const Lanes l_E3_x__OF_theta_3_i = lin->lu[89];
+    const Lanes l_E3_y__OF_theta = lin->lu[90];
+    const Lanes l_E3_y__OF_theta_3_i = lin->lu[91];
+    const Lanes inverse_pivot_FE_theta = lin->lu[92];
+    const Lanes inverse_pivot_FE_theta_3_i = lin->lu[93];
+    const Lanes l_G_x__FE_theta = lin->lu[94];
+    const Lanes l_G_x__FE_theta_2_i = lin->lu[95];
+    const Lanes u_FE_theta__G_x = lin->lu[96];
+    const Lanes u_FE_theta__G_x_i = lin->lu[97];
+    const Lanes l_G_y__FE_theta = lin->lu[98];
+    const Lanes l_G_y__FE_theta_2_i = lin->lu[99];
+    const Lanes u_FE_theta__G_y = lin->lu[100];
+    const Lanes u_FE_theta__G_y_i = lin->lu[101];
+    const Lanes l_E3_x__FE_theta = lin->lu[102];
+    const Lanes l_E3_x__FE_theta_3_i = lin->lu[103];
+    const Lanes u_FE_theta__E3_x = lin->lu[104];
+    const Lanes u_FE_theta__E3_x_i = lin->lu[105];
+    const Lanes l_E3_y__FE_theta = lin->lu[106];
+    const Lanes l_E3_y__FE_theta_3_i = lin->lu[107];
+    const Lanes u_FE_theta__E3_y = lin->lu[108];
+    const Lanes u_FE_theta__E3_y_i = lin->lu[109];
+    const Lanes inverse_pivot_G_x = lin->lu[110];
+    const Lanes inverse_pivot_G_x_3_i = lin->lu[111];
+    const Lanes l_G_y__G_x = lin->lu[112];
+    const Lanes l_G_y__G_x_i = lin->lu[113];
+    const Lanes u_G_x__G_y = lin->lu[114];
+    const Lanes u_G_x__G_y_i = lin->lu[115];
+    const Lanes l_E3_x__G_x = lin->lu[116];
+    const Lanes l_E3_x__G_x_2_i = lin->lu[117];
+    const Lanes u_G_x__E3_x = lin->lu[118];
+    const Lanes u_G_x__E3_x_i = lin->lu[119];
+    const Lanes l_E3_y__G_x = lin->lu[120];
+    const Lanes l_E3_y__G_x_2_i = lin->lu[121];
+    const Lanes u_G_x__E3_y = lin->lu[122];
+    const Lanes u_G_x__E3_y_i = lin->lu[123];
+    const Lanes inverse_pivot_G_y = lin->lu[124];
+    const Lanes inverse_pivot_G_y_3_i = lin->lu[125];
+    const Lanes l_E3_x__G_y = lin->lu[126];
+    const Lanes l_E3_x__G_y_2_i = lin->lu[127];
+    const Lanes u_G_y__E3_x = lin->lu[128];
+    const Lanes u_G_y__E3_x_i = lin->lu[129];
+    const Lanes l_E3_y__G_y = lin->lu[130];
+    const Lanes l_E3_y__G_y_2_i = lin->lu[131];
+    const Lanes u_G_y__E3_y = lin->lu[132];
+    const Lanes u_G_y__E3_y_i = lin->lu[133];
+    const Lanes inverse_pivot_E3_x = lin->lu[134];
+    const Lanes inverse_pivot_E3_x_3_i = lin->lu[135];
+    const Lanes l_E3_y__E3_x = lin->lu[136];
+    const Lanes l_E3_y__E3_x_i = lin->lu[137];
+    const Lanes u_E3_x__E3_y = lin->lu[138];
+    const Lanes u_E3_x__E3_y_i = lin->lu[139];
+    const Lanes inverse_pivot_E3_y = lin->lu[140];
+    const Lanes inverse_pivot_E3_y_3_i = lin->lu[141];
+
+    /* forward */
+    const Lanes b_AG_theta = x[4];
+    const Lanes b_AG_theta_i = x[5];
+    const Lanes b_AH_theta = x[6];
+    const Lanes b_AH_theta_i = x[7];
+    const Lanes b_HE_theta = x[10];
+    const Lanes b_HE_theta_i = x[11];
+    const Lanes b_BDE_theta = -b_HE_theta*l_BDE_theta__HE_theta + b_HE_theta_i*l_BDE_theta__HE_theta_3_i + x[2];
+    const Lanes b_BDE_theta_i = -b_HE_theta*l_BDE_theta__HE_theta_3_i - b_HE_theta_i*l_BDE_theta__HE_theta + x[3];
+    const Lanes b_H_x = -b_AH_theta*l_H_x__AH_theta + b_AH_theta_i*l_H_x__AH_theta_3_i - b_BDE_theta*l_H_x__BDE_theta
+        + b_BDE_theta_i*l_H_x__BDE_theta_2_i - b_HE_theta*l_H_x__HE_theta + b_HE_theta_i*l_H_x__HE_theta_3_i + x[18];
+    const Lanes b_H_x_i = -b_AH_theta*l_H_x__AH_theta_3_i - b_AH_theta_i*l_H_x__AH_theta
+        - b_BDE_theta*l_H_x__BDE_theta_2_i - b_BDE_theta_i*l_H_x__BDE_theta - b_HE_theta*l_H_x__HE_theta_3_i
+        - b_HE_theta_i*l_H_x__HE_theta + x[19];
+    const Lanes b_H_y = -b_AH_theta*l_H_y__AH_theta + b_AH_theta_i*l_H_y__AH_theta_3_i - b_BDE_theta*l_H_y__BDE_theta
+        + b_BDE_theta_i*l_H_y__BDE_theta_2_i - b_HE_theta*l_H_y__HE_theta + b_HE_theta_i*l_H_y__HE_theta_3_i
+        - b_H_x*l_H_y__H_x + b_H_x_i*l_H_y__H_x_i + x[20];
+    const Lanes b_H_y_i = -b_AH_theta*l_H_y__AH_theta_3_i - b_AH_theta_i*l_H_y__AH_theta
+        - b_BDE_theta*l_H_y__BDE_theta_2_i - b_BDE_theta_i*l_H_y__BDE_theta - b_HE_theta*l_H_y__HE_theta_3_i
+        - b_HE_theta_i*l_H_y__HE_theta - b_H_x*l_H_y__H_x_i - b_H_x_i*l_H_y__H_x + x[21];
+    const Lanes b_EG_theta = x[12];
+    const Lanes b_EG_theta_i = x[13];
+    const Lanes b_OF_theta = -b_EG_theta*l_OF_theta__EG_theta + b_EG_theta_i*l_OF_theta__EG_theta_3_i + x[0];
+    const Lanes b_OF_theta_i = -b_EG_theta*l_OF_theta__EG_theta_3_i - b_EG_theta_i*l_OF_theta__EG_theta + x[1];
+    const Lanes b_FE_theta = -b_EG_theta*l_FE_theta__EG_theta + b_EG_theta_i*l_FE_theta__EG_theta_3_i
+        - b_OF_theta*l_FE_theta__OF_theta + b_OF_theta_i*l_FE_theta__OF_theta_i + x[8];
+    const Lanes b_FE_theta_i = -b_EG_theta*l_FE_theta__EG_theta_3_i - b_EG_theta_i*l_FE_theta__EG_theta
+        - b_OF_theta*l_FE_theta__OF_theta_i - b_OF_theta_i*l_FE_theta__OF_theta + x[9];
+    const Lanes b_G_x = -b_AG_theta*l_G_x__AG_theta + b_AG_theta_i*l_G_x__AG_theta_3_i - b_EG_theta*l_G_x__EG_theta
+        + b_EG_theta_i*l_G_x__EG_theta_3_i - b_FE_theta*l_G_x__FE_theta + b_FE_theta_i*l_G_x__FE_theta_2_i
+        - b_OF_theta*l_G_x__OF_theta + b_OF_theta_i*l_G_x__OF_theta_2_i + x[14];
+    const Lanes b_G_x_i = -b_AG_theta*l_G_x__AG_theta_3_i - b_AG_theta_i*l_G_x__AG_theta
+        - b_EG_theta*l_G_x__EG_theta_3_i - b_EG_theta_i*l_G_x__EG_theta - b_FE_theta*l_G_x__FE_theta_2_i
+        - b_FE_theta_i*l_G_x__FE_theta - b_OF_theta*l_G_x__OF_theta_2_i - b_OF_theta_i*l_G_x__OF_theta + x[15];
+    const Lanes b_G_y = -b_AG_theta*l_G_y__AG_theta + b_AG_theta_i*l_G_y__AG_theta_3_i - b_EG_theta*l_G_y__EG_theta
+        + b_EG_theta_i*l_G_y__EG_theta_3_i - b_FE_theta*l_G_y__FE_theta + b_FE_theta_i*l_G_y__FE_theta_2_i
+        - b_G_x*l_G_y__G_x + b_G_x_i*l_G_y__G_x_i - b_OF_theta*l_G_y__OF_theta + b_OF_theta_i*l_G_y__OF_theta_2_i
+        + x[16];
+    const Lanes b_G_y_i = -b_AG_theta*l_G_y__AG_theta_3_i - b_AG_theta_i*l_G_y__AG_theta
+        - b_EG_theta*l_G_y__EG_theta_3_i - b_EG_theta_i*l_G_y__EG_theta - b_FE_theta*l_G_y__FE_theta_2_i
+        - b_FE_theta_i*l_G_y__FE_theta - b_G_x*l_G_y__G_x_i - b_G_x_i*l_G_y__G_x - b_OF_theta*l_G_y__OF_theta_2_i
+        - b_OF_theta_i*l_G_y__OF_theta + x[17];
+    const Lanes b_E3_x = -b_BDE_theta*l_E3_x__BDE_theta + b_BDE_theta_i*l_E3_x__BDE_theta_3_i
+        - b_FE_theta*l_E3_x__FE_theta + b_FE_theta_i*l_E3_x__FE_theta_3_i - b_G_x*l_E3_x__G_x + b_G_x_i*l_E3_x__G_x_2_i
+        - b_G_y*l_E3_x__G_y + b_G_y_i*l_E3_x__G_y_2_i - b_H_x*l_E3_x__H_x + b_H_x_i*l_E3_x__H_x_2_i - b_H_y*l_E3_x__H_y
+        + b_H_y_i*l_E3_x__H_y_2_i - b_OF_theta*l_E3_x__OF_theta + b_OF_theta_i*l_E3_x__OF_theta_3_i + x[22];
+    const Lanes b_E3_x_i = -b_BDE_theta*l_E3_x__BDE_theta_3_i - b_BDE_theta_i*l_E3_x__BDE_theta
+        - b_FE_theta*l_E3_x__FE_theta_3_i - b_FE_theta_i*l_E3_x__FE_theta - b_G_x*l_E3_x__G_x_2_i - b_G_x_i*l_E3_x__G_x
+        - b_G_y*l_E3_x__G_y_2_i - b_G_y_i*l_E3_x__G_y - b_H_x*l_E3_x__H_x_2_i - b_H_x_i*l_E3_x__H_x
+        - b_H_y*l_E3_x__H_y_2_i - b_H_y_i*l_E3_x__H_y - b_OF_theta*l_E3_x__OF_theta_3_i - b_OF_theta_i*l_E3_x__OF_theta
+        + x[23];
+    const Lanes b_E3_y = -b_BDE_theta*l_E3_y__BDE_theta + b_BDE_theta_i*l_E3_y__BDE_theta_3_i - b_E3_x*l_E3_y__E3_x
+        + b_E3_x_i*l_E3_y__E3_x_i - b_FE_theta*l_E3_y__FE_theta + b_FE_theta_i*l_E3_y__FE_theta_3_i - b_G_x*l_E3_y__G_x
+        + b_G_x_i*l_E3_y__G_x_2_i - b_G_y*l_E3_y__G_y + b_G_y_i*l_E3_y__G_y_2_i - b_H_x*l_E3_y__H_x
+        + b_H_x_i*l_E3_y__H_x_2_i - b_H_y*l_E3_y__H_y + b_H_y_i*l_E3_y__H_y_2_i - b_OF_theta*l_E3_y__OF_theta
+        + b_OF_theta_i*l_E3_y__OF_theta_3_i + x[24];
+    const Lanes b_E3_y_i = -b_BDE_theta*l_E3_y__BDE_theta_3_i - b_BDE_theta_i*l_E3_y__BDE_theta - b_E3_x*l_E3_y__E3_x_i
+        - b_E3_x_i*l_E3_y__E3_x - b_FE_theta*l_E3_y__FE_theta_3_i - b_FE_theta_i*l_E3_y__FE_theta
+        - b_G_x*l_E3_y__G_x_2_i - b_G_x_i*l_E3_y__G_x - b_G_y*l_E3_y__G_y_2_i - b_G_y_i*l_E3_y__G_y
+        - b_H_x*l_E3_y__H_x_2_i - b_H_x_i*l_E3_y__H_x - b_H_y*l_E3_y__H_y_2_i - b_H_y_i*l_E3_y__H_y
+        - b_OF_theta*l_E3_y__OF_theta_3_i - b_OF_theta_i*l_E3_y__OF_theta + x[25];
+
+    /* backward */
+    const Lanes x_E3_y = b_E3_y*inverse_pivot_E3_y - b_E3_y_i*inverse_pivot_E3_y_3_i;
+    const Lanes x_E3_y_i = b_E3_y*inverse_pivot_E3_y_3_i + b_E3_y_i*inverse_pivot_E3_y;
+    x[24] = x_E3_y;
+    x[25] = x_E3_y_i;
+    const Lanes factor_1 = b_E3_x - u_E3_x__E3_y*x_E3_y + u_E3_x__E3_y_i*x_E3_y_i;
+    const Lanes factor_2 = b_E3_x_i - u_E3_x__E3_y*x_E3_y_i - u_E3_x__E3_y_i*x_E3_y;
+    const Lanes x_E3_x = factor_1*inverse_pivot_E3_x - factor_2*inverse_pivot_E3_x_3_i;
+    const Lanes x_E3_x_i = factor_1*inverse_pivot_E3_x_3_i + factor_2*inverse_pivot_E3_x;
+    x[22] = x_E3_x;
+    x[23] = x_E3_x_i;
+    const Lanes factor_3 = b_G_y - u_G_y__E3_x*x_E3_x + u_G_y__E3_x_i*x_E3_x_i - u_G_y__E3_y*x_E3_y
+        + u_G_y__E3_y_i*x_E3_y_i;
+    const Lanes factor_4 = b_G_y_i - u_G_y__E3_x*x_E3_x_i - u_G_y__E3_x_i*x_E3_x - u_G_y__E3_y*x_E3_y_i
+        - u_G_y__E3_y_i*x_E3_y;
+    const Lanes x_G_y = factor_3*inverse_pivot_G_y - factor_4*inverse_pivot_G_y_3_i;
+    const Lanes x_G_y_i = factor_3*inverse_pivot_G_y_3_i + factor_4*inverse_pivot_G_y;
+    x[16] = x_G_y;
+    x[17] = x_G_y_i;
+    const Lanes factor_5 = b_G_x - u_G_x__E3_x*x_E3_x + u_G_x__E3_x_i*x_E3_x_i - u_G_x__E3_y*x_E3_y
+        + u_G_x__E3_y_i*x_E3_y_i - u_G_x__G_y*x_G_y + u_G_x__G_y_i*x_G_y_i;
+    const Lanes factor_6 = b_G_x_i - u_G_x__E3_x*x_E3_x_i - u_G_x__E3_x_i*x_E3_x - u_G_x__E3_y*x_E3_y_i
+        - u_G_x__E3_y_i*x_E3_y - u_G_x__G_y*x_G_y_i - u_G_x__G_y_i*x_G_y;
+    const Lanes x_G_x = factor_5*inverse_pivot_G_x - factor_6*inverse_pivot_G_x_3_i;
+    const Lanes x_G_x_i = factor_5*inverse_pivot_G_x_3_i + factor_6*inverse_pivot_G_x;
+    x[14] = x_G_x;
+    x[15] = x_G_x_i;
+    const Lanes factor_7 = b_FE_theta - u_FE_theta__E3_x*x_E3_x + u_FE_theta__E3_x_i*x_E3_x_i - u_FE_theta__E3_y*x_E3_y
+        + u_FE_theta__E3_y_i*x_E3_y_i - u_FE_theta__G_x*x_G_x + u_FE_theta__G_x_i*x_G_x_i - u_FE_theta__G_y*x_G_y
+        + u_FE_theta__G_y_i*x_G_y_i;
+    const Lanes factor_8 = b_FE_theta_i - u_FE_theta__E3_x*x_E3_x_i - u_FE_theta__E3_x_i*x_E3_x
+        - u_FE_theta__E3_y*x_E3_y_i - u_FE_theta__E3_y_i*x_E3_y - u_FE_theta__G_x*x_G_x_i - u_FE_theta__G_x_i*x_G_x
+        - u_FE_theta__G_y*x_G_y_i - u_FE_theta__G_y_i*x_G_y;
+    const Lanes x_FE_theta = factor_7*inverse_pivot_FE_theta - factor_8*inverse_pivot_FE_theta_3_i;
+    const Lanes x_FE_theta_i = factor_7*inverse_pivot_FE_theta_3_i + factor_8*inverse_pivot_FE_theta;
+    x[8] = x_FE_theta;
+    x[9] = x_FE_theta_i;
+    const Lanes factor_9 = b_OF_theta - phi_G_x_OF_theta*x_E3_x - phi_G_y_OF_theta*x_E3_y
+        - u_OF_theta__FE_theta*x_FE_theta + u_OF_theta__FE_theta_i*x_FE_theta_i - u_OF_theta__G_x*x_G_x
+        + u_OF_theta__G_x_i*x_G_x_i - u_OF_theta__G_y*x_G_y + u_OF_theta__G_y_i*x_G_y_i;
+    const Lanes factor_10 = b_OF_theta_i - phi_G_x_OF_theta*x_E3_x_i - phi_G_y_OF_theta*x_E3_y_i
+        - u_OF_theta__FE_theta*x_FE_theta_i - u_OF_theta__FE_theta_i*x_FE_theta - u_OF_theta__G_x*x_G_x_i
+        - u_OF_theta__G_x_i*x_G_x - u_OF_theta__G_y*x_G_y_i - u_OF_theta__G_y_i*x_G_y;
+    const Lanes x_OF_theta = -factor_10*inverse_pivot_OF_theta_3_i + factor_9*inverse_pivot_OF_theta;
+    const Lanes x_OF_theta_i = factor_10*inverse_pivot_OF_theta + factor_9*inverse_pivot_OF_theta_3_i;
+    x[0] = x_OF_theta;
+    x[1] = x_OF_theta_i;
+    const Lanes factor_11 = b_EG_theta - n_EG_theta__FE_theta*x_FE_theta + n_EG_theta__FE_theta_i*x_FE_theta_i
+        - n_EG_theta__OF_theta*x_OF_theta + n_EG_theta__OF_theta_i*x_OF_theta_i - phi_G_x_EG_theta*x_G_x
+        - phi_G_y_EG_theta*x_G_y;
+    const Lanes factor_12 = b_EG_theta_i - n_EG_theta__FE_theta*x_FE_theta_i - n_EG_theta__FE_theta_i*x_FE_theta
+        - n_EG_theta__OF_theta*x_OF_theta_i - n_EG_theta__OF_theta_i*x_OF_theta - phi_G_x_EG_theta*x_G_x_i
+        - phi_G_y_EG_theta*x_G_y_i;
+    const Lanes x_EG_theta = factor_11*inverse_pivot_EG_theta - factor_12*inverse_pivot_EG_theta_i;
+    const Lanes x_EG_theta_i = factor_11*inverse_pivot_EG_theta_i + factor_12*inverse_pivot_EG_theta;
+    x[12] = x_EG_theta;
+    x[13] = x_EG_theta_i;
+    const Lanes factor_13 = b_H_y - u_H_y__E3_x*x_E3_x + u_H_y__E3_x_i*x_E3_x_i - u_H_y__E3_y*x_E3_y
+        + u_H_y__E3_y_i*x_E3_y_i;
+    const Lanes factor_14 = b_H_y_i - u_H_y__E3_x*x_E3_x_i - u_H_y__E3_x_i*x_E3_x - u_H_y__E3_y*x_E3_y_i
+        - u_H_y__E3_y_i*x_E3_y;
+    const Lanes x_H_y = factor_13*inverse_pivot_H_y - factor_14*inverse_pivot_H_y_3_i;
+    const Lanes x_H_y_i = factor_13*inverse_pivot_H_y_3_i + factor_14*inverse_pivot_H_y;
+    x[20] = x_H_y;
+    x[21] = x_H_y_i;
+    const Lanes factor_15 = b_H_x - u_H_x__E3_x*x_E3_x + u_H_x__E3_x_i*x_E3_x_i - u_H_x__E3_y*x_E3_y
+        + u_H_x__E3_y_i*x_E3_y_i - u_H_x__H_y*x_H_y + u_H_x__H_y_i*x_H_y_i;
+    const Lanes factor_16 = b_H_x_i - u_H_x__E3_x*x_E3_x_i - u_H_x__E3_x_i*x_E3_x - u_H_x__E3_y*x_E3_y_i
+        - u_H_x__E3_y_i*x_E3_y - u_H_x__H_y*x_H_y_i - u_H_x__H_y_i*x_H_y;
+    const Lanes x_H_x = factor_15*inverse_pivot_H_x - factor_16*inverse_pivot_H_x_3_i;
+    const Lanes x_H_x_i = factor_15*inverse_pivot_H_x_3_i + factor_16*inverse_pivot_H_x;
+    x[18] = x_H_x;
+    x[19] = x_H_x_i;
+    const Lanes factor_17 = b_BDE_theta + phi_H_x_BDE_theta*x_E3_x + phi_H_y_BDE_theta*x_E3_y - u_BDE_theta__H_x*x_H_x
+        + u_BDE_theta__H_x_i*x_H_x_i - u_BDE_theta__H_y*x_H_y + u_BDE_theta__H_y_i*x_H_y_i;
+    const Lanes factor_18 = b_BDE_theta_i + phi_H_x_BDE_theta*x_E3_x_i + phi_H_y_BDE_theta*x_E3_y_i
+        - u_BDE_theta__H_x*x_H_x_i - u_BDE_theta__H_x_i*x_H_x - u_BDE_theta__H_y*x_H_y_i - u_BDE_theta__H_y_i*x_H_y;
+    const Lanes x_BDE_theta = factor_17*inverse_pivot_BDE_theta - factor_18*inverse_pivot_BDE_theta_3_i;
+    const Lanes x_BDE_theta_i = factor_17*inverse_pivot_BDE_theta_3_i + factor_18*inverse_pivot_BDE_theta;
+    x[2] = x_BDE_theta;
+    x[3] = x_BDE_theta_i;
+    const Lanes factor_19 = b_HE_theta - n_HE_theta__BDE_theta*x_BDE_theta + n_HE_theta__BDE_theta_i*x_BDE_theta_i
+        - phi_H_x_HE_theta*x_H_x - phi_H_y_HE_theta*x_H_y;
+    const Lanes factor_20 = b_HE_theta_i - n_HE_theta__BDE_theta*x_BDE_theta_i - n_HE_theta__BDE_theta_i*x_BDE_theta
+        - phi_H_x_HE_theta*x_H_x_i - phi_H_y_HE_theta*x_H_y_i;
+    const Lanes x_HE_theta = factor_19*inverse_pivot_HE_theta - factor_20*inverse_pivot_HE_theta_i;
+    const Lanes x_HE_theta_i = factor_19*inverse_pivot_HE_theta_i + factor_20*inverse_pivot_HE_theta;
+    x[10] = x_HE_theta;
+    x[11] = x_HE_theta_i;
+    const Lanes factor_21 = b_AH_theta - phi_H_x_AH_theta*x_H_x - phi_H_y_AH_theta*x_H_y;
+    const Lanes factor_22 = b_AH_theta_i - phi_H_x_AH_theta*x_H_x_i - phi_H_y_AH_theta*x_H_y_i;
+    const Lanes x_AH_theta = factor_21*inverse_pivot_AH_theta - factor_22*inverse_pivot_AH_theta_i;
+    const Lanes x_AH_theta_i = factor_21*inverse_pivot_AH_theta_i + factor_22*inverse_pivot_AH_theta;
+    x[6] = x_AH_theta;
+    x[7] = x_AH_theta_i;
+    const Lanes factor_23 = b_AG_theta - phi_G_x_AG_theta*x_G_x - phi_G_y_AG_theta*x_G_y;
+    const Lanes factor_24 = b_AG_theta_i - phi_G_x_AG_theta*x_G_x_i - phi_G_y_AG_theta*x_G_y_i;
+    const Lanes x_AG_theta = factor_23*inverse_pivot_AG_theta - factor_24*inverse_pivot_AG_theta_i;
+    const Lanes x_AG_theta_i = factor_23*inverse_pivot_AG_theta_i + factor_24*inverse_pivot_AG_theta;
+    x[4] = x_AG_theta;
+    x[5] = x_AG_theta_i;
+}
+
+/*
+ * (1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works.
+ * At complex eta: real and imaginary parts one behind the other.
+ */
+static void newton_solve_complex(const LaneComplexLinear *lin, Lanes eta, Lanes eta_i, const Lanes *r, Lanes *u)
+{
+    /* numbers of the run */
+    const LaneParameters *const p = lin->p;
+
+    /* linearization */
+    const Lanes mass_OF_theta_FE_theta = lin->value[0];
+    const Lanes mass_OF_theta_EG_theta = lin->value[1];
+    const Lanes mass_FE_theta_EG_theta = lin->value[2];
+    const Lanes mass_BDE_theta_HE_theta = lin->value[3];
+    const Lanes phi_G_x_OF_theta = lin->value[4];
+    const Lanes phi_G_x_AG_theta = lin->value[5];
+    const Lanes phi_G_x_FE_theta = lin->value[6];
+    const Lanes phi_G_x_EG_theta = lin->value[7];
+    const Lanes phi_G_y_OF_theta = lin->value[8];
+    const Lanes phi_G_y_AG_theta = lin->value[9];
+    const Lanes phi_G_y_FE_theta = lin->value[10];
+    const Lanes phi_G_y_EG_theta = lin->value[11];
+    const Lanes phi_H_x_BDE_theta = lin->value[12];
+    const Lanes phi_H_x_AH_theta = lin->value[13];
+    const Lanes phi_H_x_HE_theta = lin->value[14];
+    const Lanes phi_H_y_BDE_theta = lin->value[15];
+    const Lanes phi_H_y_AH_theta = lin->value[16];
+    const Lanes phi_H_y_HE_theta = lin->value[17];
+    const Lanes by_q_G_x_AG_theta = lin->value[18];
+    const Lanes by_q_G_x_EG_theta = lin->value[19];
+    const Lanes by_q_G_x_FE_theta = lin->value[20];
+    const Lanes by_q_G_x_OF_theta = lin->value[21];
+    const Lanes by_q_G_y_AG_theta = lin->value[22];
+    const Lanes by_q_G_y_EG_theta = lin->value[23];
+    const Lanes by_q_G_y_FE_theta = lin->value[24];
+    const Lanes by_q_G_y_OF_theta = lin->value[25];
+    const Lanes by_q_H_x_AH_theta = lin->value[26];
+    const Lanes by_q_H_x_BDE_theta = lin->value[27];
+    const Lanes by_q_H_x_HE_theta = lin->value[28];
+    const Lanes by_q_H_y_AH_theta = lin->value[29];
+    const Lanes by_q_H_y_BDE_theta = lin->value[30];
+    const Lanes by_q_H_y_HE_theta = lin->value[31];
+    const Lanes by_q_OF_theta_OF_theta = lin->value[32];
+    const Lanes by_q_OF_theta_EG_theta = lin->value[33];
+    const Lanes by_q_OF_theta_FE_theta = lin->value[34];
+    const Lanes by_q_BDE_theta_BDE_theta = lin->value[35];
+    const Lanes by_q_BDE_theta_HE_theta = lin->value[36];
+    const Lanes by_q_AG_theta_AG_theta = lin->value[37];
+    const Lanes by_q_AH_theta_AH_theta = lin->value[38];
+    const Lanes by_q_FE_theta_FE_theta = lin->value[39];
+    const Lanes by_q_FE_theta_EG_theta = lin->value[40];
+    const Lanes by_q_FE_theta_OF_theta = lin->value[41];
+    const Lanes by_q_HE_theta_BDE_theta = lin->value[42];
+    const Lanes by_q_HE_theta_HE_theta = lin->value[43];
+    const Lanes by_q_EG_theta_FE_theta = lin->value[44];
+    const Lanes by_q_EG_theta_EG_theta = lin->value[45];
+    const Lanes by_q_EG_theta_OF_theta = lin->value[46];
+
+    /* eta/kappa */
+    const Lanes factor_1 = p->beta_squared*eta + p->two_alpha;
+    const Lanes factor_2 = p->beta_squared*eta_i;
+    const Lanes divisor_1 = eta*factor_1 - eta_i*factor_2 + 1.0;
+    const Lanes divisor_2 = eta*factor_2 + eta_i*factor_1;
+    const Lanes divisor_3 = 1.0/((divisor_1 * divisor_1) + (divisor_2 * divisor_2));
+    const Lanes factor_3 = divisor_1*divisor_3;
+    const Lanes factor_4 = -divisor_2*divisor_3;
+    const Lanes eta_row = eta*factor_3 - eta_i*factor_4;
+    const Lanes eta_row_i = eta*factor_4 + eta_i*factor_3;
+
+    /* right-hand side */
+    Lanes x[26];
+    const Lanes shifted_OF_theta = -p->beta_squared*(eta*r[0] - eta_i*r[1]) + r[14];
+    const Lanes shifted_OF_theta_i = -p->beta_squared*(eta*r[1] + eta_i*r[0]) + r[15];
+    const Lanes shifted_BDE_theta = -p->beta_squared*(eta*r[2] - eta_i*r[3]) + r[16];
+    const Lanes shifted_BDE_theta_i = -p->beta_squared*(eta*r[3] + eta_i*r[2]) + r[17];
+    const Lanes shifted_AG_theta = -p->beta_squared*(eta*r[4] - eta_i*r[5]) + r[18];
+    const Lanes shifted_AG_theta_i = -p->beta_squared*(eta*r[5] + eta_i*r[4]) + r[19];
+    const Lanes shifted_AH_theta = -p->beta_squared*(eta*r[6] - eta_i*r[7]) + r[20];
+    const Lanes shifted_AH_theta_i = -p->beta_squared*(eta*r[7] + eta_i*r[6]) + r[21];
+    const Lanes shifted_FE_theta = -p->beta_squared*(eta*r[8] - eta_i*r[9]) + r[22];
+    const Lanes shifted_FE_theta_i = -p->beta_squared*(eta*r[9] + eta_i*r[8]) + r[23];
+    const Lanes shifted_HE_theta = -p->beta_squared*(eta*r[10] - eta_i*r[11]) + r[24];
+    const Lanes shifted_HE_theta_i = -p->beta_squared*(eta*r[11] + eta_i*r[10]) + r[25];
+    const Lanes shifted_EG_theta = -p->beta_squared*(eta*r[12] - eta_i*r[13]) + r[26];
+    const Lanes shifted_EG_theta_i = -p->beta_squared*(eta*r[13] + eta_i*r[12]) + r[27];
+    const Lanes factor_5 = -by_q_OF_theta_EG_theta*(eta*r[12] - eta_i*r[13])
+        - by_q_OF_theta_FE_theta*(eta*r[8] - eta_i*r[9]) - by_q_OF_theta_OF_theta*(eta*r[0] - eta_i*r[1])
+        + p->mass_OF_OF*r[14] + mass_OF_theta_EG_theta*r[26] + mass_OF_theta_FE_theta*r[22];
+    const Lanes factor_6 = -by_q_OF_theta_EG_theta*(eta*r[13] + eta_i*r[12])
+        - by_q_OF_theta_FE_theta*(eta*r[9] + eta_i*r[8]) - by_q_OF_theta_OF_theta*(eta*r[1] + eta_i*r[0])
+        + p->mass_OF_OF*r[15] + mass_OF_theta_EG_theta*r[27] + mass_OF_theta_FE_theta*r[23];
+    x[0] = eta*factor_5 - eta_i*factor_6;
+    x[1] = eta*factor_6 + eta_i*factor_5;
+    const Lanes factor_7 = -by_q_BDE_theta_BDE_theta*(eta*r[2] - eta_i*r[3])
+        - by_q_BDE_theta_HE_theta*(eta*r[10] - eta_i*r[11]) + p->mass_BDE_BDE*r[16] + mass_BDE_theta_HE_theta*r[24];
+    const Lanes factor_8 = -by_q_BDE_theta_BDE_theta*(eta*r[3] + eta_i*r[2])
+        - by_q_BDE_theta_HE_theta*(eta*r[11] + eta_i*r[10]) + p->mass_BDE_BDE*r[17] + mass_BDE_theta_HE_theta*r[25];
+    x[2] = eta*factor_7 - eta_i*factor_8;
+    x[3] = eta*factor_8 + eta_i*factor_7;
+    const Lanes factor_9 = -by_q_AG_theta_AG_theta*(eta*r[4] - eta_i*r[5]) + p->mass_AG_AG*r[18];
+    const Lanes factor_10 = -by_q_AG_theta_AG_theta*(eta*r[5] + eta_i*r[4]) + p->mass_AG_AG*r[19];
+    x[4] = eta*factor_9 - eta_i*factor_10;
+    x[5] = eta*factor_10 + eta_i*factor_9;
+    const Lanes factor_11 = -by_q_AH_theta_AH_theta*(eta*r[6] - eta_i*r[7]) + p->mass_AH_AH*r[20];
+    const Lanes factor_12 = -by_q_AH_theta_AH_theta*(eta*r[7] + eta_i*r[6]) + p->mass_AH_AH*r[21];
+    x[6] = eta*factor_11 - eta_i*factor_12;
+    x[7] = eta*factor_12 + eta_i*factor_11;
+    const Lanes factor_13 = -by_q_FE_theta_EG_theta*(eta*r[12] - eta_i*r[13])
+        - by_q_FE_theta_FE_theta*(eta*r[8] - eta_i*r[9]) - by_q_FE_theta_OF_theta*(eta*r[0] - eta_i*r[1])
+        + p->mass_FE_FE*r[22] + mass_FE_theta_EG_theta*r[26] + mass_OF_theta_FE_theta*r[14];
+    const Lanes factor_14 = -by_q_FE_theta_EG_theta*(eta*r[13] + eta_i*r[12])
+        - by_q_FE_theta_FE_theta*(eta*r[9] + eta_i*r[8]) - by_q_FE_theta_OF_theta*(eta*r[1] + eta_i*r[0])
+        + p->mass_FE_FE*r[23] + mass_FE_theta_EG_theta*r[27] + mass_OF_theta_FE_theta*r[15];
+    x[8] = eta*factor_13 - eta_i*factor_14;
+    x[9] = eta*factor_14 + eta_i*factor_13;
+    const Lanes factor_15 = -by_q_HE_theta_BDE_theta*(eta*r[2] - eta_i*r[3])
+        - by_q_HE_theta_HE_theta*(eta*r[10] - eta_i*r[11]) + mass_BDE_theta_HE_theta*r[16] + p->mass_HE_HE*r[24];
+    const Lanes factor_16 = -by_q_HE_theta_BDE_theta*(eta*r[3] + eta_i*r[2])
+        - by_q_HE_theta_HE_theta*(eta*r[11] + eta_i*r[10]) + mass_BDE_theta_HE_theta*r[17] + p->mass_HE_HE*r[25];
+    x[10] = eta*factor_15 - eta_i*factor_16;
+    x[11] = eta*factor_16 + eta_i*factor_15;
+    const Lanes factor_17 = -by_q_EG_theta_EG_theta*(eta*r[12] - eta_i*r[13])
+        - by_q_EG_theta_FE_theta*(eta*r[8] - eta_i*r[9]) - by_q_EG_theta_OF_theta*(eta*r[0] - eta_i*r[1])
+        + p->mass_EG_EG*r[26] + mass_FE_theta_EG_theta*r[22] + mass_OF_theta_EG_theta*r[14];
+    const Lanes factor_18 = -by_q_EG_theta_EG_theta*(eta*r[13] + eta_i*r[12])
+        - by_q_EG_theta_FE_theta*(eta*r[9] + eta_i*r[8]) - by_q_EG_theta_OF_theta*(eta*r[1] + eta_i*r[0])
+        + p->mass_EG_EG*r[27] + mass_FE_theta_EG_theta*r[23] + mass_OF_theta_EG_theta*r[15];
+    x[12] = eta*factor_17 - eta_i*factor_18;
+    x[13] = eta*factor_18 + eta_i*factor_17;
+    const Lanes factor_19 = -by_q_G_x_AG_theta*(eta*r[4] - eta_i*r[5]) - by_q_G_x_EG_theta*(eta*r[12] - eta_i*r[13])
+        - by_q_G_x_FE_theta*(eta*r[8] - eta_i*r[9]) - by_q_G_x_OF_theta*(eta*r[0] - eta_i*r[1])
+        + phi_G_x_AG_theta*shifted_AG_theta + phi_G_x_EG_theta*shifted_EG_theta + phi_G_x_FE_theta*shifted_FE_theta
+        + phi_G_x_OF_theta*shifted_OF_theta;
+    const Lanes factor_20 = -by_q_G_x_AG_theta*(eta*r[5] + eta_i*r[4]) - by_q_G_x_EG_theta*(eta*r[13] + eta_i*r[12])
+        - by_q_G_x_FE_theta*(eta*r[9] + eta_i*r[8]) - by_q_G_x_OF_theta*(eta*r[1] + eta_i*r[0])
+        + phi_G_x_AG_theta*shifted_AG_theta_i + phi_G_x_EG_theta*shifted_EG_theta_i
+        + phi_G_x_FE_theta*shifted_FE_theta_i + phi_G_x_OF_theta*shifted_OF_theta_i;
+    x[14] = eta_row*factor_19 - eta_row_i*factor_20;
+    x[15] = eta_row*factor_20 + eta_row_i*factor_19;
+    const Lanes factor_21 = -by_q_G_y_AG_theta*(eta*r[4] - eta_i*r[5]) - by_q_G_y_EG_theta*(eta*r[12] - eta_i*r[13])
+        - by_q_G_y_FE_theta*(eta*r[8] - eta_i*r[9]) - by_q_G_y_OF_theta*(eta*r[0] - eta_i*r[1])
+        + phi_G_y_AG_theta*shifted_AG_theta + phi_G_y_EG_theta*shifted_EG_theta + phi_G_y_FE_theta*shifted_FE_theta
+        + phi_G_y_OF_theta*shifted_OF_theta;
+    const Lanes factor_22 = -by_q_G_y_AG_theta*(eta*r[5] + eta_i*r[4]) - by_q_G_y_EG_theta*(eta*r[13] + eta_i*r[12])
+        - by_q_G_y_FE_theta*(eta*r[9] + eta_i*r[8]) - by_q_G_y_OF_theta*(eta*r[1] + eta_i*r[0])
+        + phi_G_y_AG_theta*shifted_AG_theta_i + phi_G_y_EG_theta*shifted_EG_theta_i
+        + phi_G_y_FE_theta*shifted_FE_theta_i + phi_G_y_OF_theta*shifted_OF_theta_i;
+    x[16] = eta_row*factor_21 - eta_row_i*factor_22;
+    x[17] = eta_row*factor_22 + eta_row_i*factor_21;
+    const Lanes factor_23 = -by_q_H_x_AH_theta*(eta*r[6] - eta_i*r[7]) - by_q_H_x_BDE_theta*(eta*r[2] - eta_i*r[3])
+        - by_q_H_x_HE_theta*(eta*r[10] - eta_i*r[11]) + phi_H_x_AH_theta*shifted_AH_theta
+        + phi_H_x_BDE_theta*shifted_BDE_theta + phi_H_x_HE_theta*shifted_HE_theta;
+    const Lanes factor_24 = -by_q_H_x_AH_theta*(eta*r[7] + eta_i*r[6]) - by_q_H_x_BDE_theta*(eta*r[3] + eta_i*r[2])
+        - by_q_H_x_HE_theta*(eta*r[11] + eta_i*r[10]) + phi_H_x_AH_theta*shifted_AH_theta_i
+        + phi_H_x_BDE_theta*shifted_BDE_theta_i + phi_H_x_HE_theta*shifted_HE_theta_i;
+    x[18] = eta_row*factor_23 - eta_row_i*factor_24;
+    x[19] = eta_row*factor_24 + eta_row_i*factor_23;
+    const Lanes factor_25 = -by_q_H_y_AH_theta*(eta*r[6] - eta_i*r[7]) - by_q_H_y_BDE_theta*(eta*r[2] - eta_i*r[3])
+        - by_q_H_y_HE_theta*(eta*r[10] - eta_i*r[11]) + phi_H_y_AH_theta*shifted_AH_theta
+        + phi_H_y_BDE_theta*shifted_BDE_theta + phi_H_y_HE_theta*shifted_HE_theta;
+    const Lanes factor_26 = -by_q_H_y_AH_theta*(eta*r[7] + eta_i*r[6]) - by_q_H_y_BDE_theta*(eta*r[3] + eta_i*r[2])
+        - by_q_H_y_HE_theta*(eta*r[11] + eta_i*r[10]) + phi_H_y_AH_theta*shifted_AH_theta_i
+        + phi_H_y_BDE_theta*shifted_BDE_theta_i + phi_H_y_HE_theta*shifted_HE_theta_i;
+    x[20] = eta_row*factor_25 - eta_row_i*factor_26;
+    x[21] = eta_row*factor_26 + eta_row_i*factor_25;
+    const Lanes factor_27 = -by_q_G_x_FE_theta*(eta*r[8] - eta_i*r[9]) - by_q_G_x_OF_theta*(eta*r[0] - eta_i*r[1])
+        + by_q_H_x_BDE_theta*(eta*r[2] - eta_i*r[3]) + phi_G_x_FE_theta*shifted_FE_theta
+        + phi_G_x_OF_theta*shifted_OF_theta - phi_H_x_BDE_theta*shifted_BDE_theta;
+    const Lanes factor_28 = -by_q_G_x_FE_theta*(eta*r[9] + eta_i*r[8]) - by_q_G_x_OF_theta*(eta*r[1] + eta_i*r[0])
+        + by_q_H_x_BDE_theta*(eta*r[3] + eta_i*r[2]) + phi_G_x_FE_theta*shifted_FE_theta_i
+        + phi_G_x_OF_theta*shifted_OF_theta_i - phi_H_x_BDE_theta*shifted_BDE_theta_i;
+    x[22] = eta_row*factor_27 - eta_row_i*factor_28;
+    x[23] = eta_row*factor_28 + eta_row_i*factor_27;
+    const Lanes factor_29 = -by_q_G_y_FE_theta*(eta*r[8] - eta_i*r[9]) - by_q_G_y_OF_theta*(eta*r[0] - eta_i*r[1])
+        + by_q_H_y_BDE_theta*(eta*r[2] - eta_i*r[3]) + phi_G_y_FE_theta*shifted_FE_theta
+        + phi_G_y_OF_theta*shifted_OF_theta - phi_H_y_BDE_theta*shifted_BDE_theta;
+    const Lanes factor_30 = -by_q_G_y_FE_theta*(eta*r[9] + eta_i*r[8]) - by_q_G_y_OF_theta*(eta*r[1] + eta_i*r[0])
+        + by_q_H_y_BDE_theta*(eta*r[3] + eta_i*r[2]) + phi_G_y_FE_theta*shifted_FE_theta_i
+        + phi_G_y_OF_theta*shifted_OF_theta_i - phi_H_y_BDE_theta*shifted_BDE_theta_i;
+    x[24] = eta_row*factor_29 - eta_row_i*factor_30;
+    x[25] = eta_row*factor_30 + eta_row_i*factor_29;
+    newton_substitute_complex(lin, x);
+
+    /* solution */
+    const Lanes factor_31 = r[0] + x[0];
+    const Lanes factor_32 = r[1] + x[1];
+    u[0] = eta*factor_31 - eta_i*factor_32;
+    u[1] = eta*factor_32 + eta_i*factor_31;
+    u[14] = x[0];
+    u[15] = x[1];
+    const Lanes factor_33 = r[2] + x[2];
+    const Lanes factor_34 = r[3] + x[3];
+    u[2] = eta*factor_33 - eta_i*factor_34;
+    u[3] = eta*factor_34 + eta_i*factor_33;
+    u[16] = x[2];
+    u[17] = x[3];
+    const Lanes factor_35 = r[4] + x[4];
+    const Lanes factor_36 = r[5] + x[5];
+    u[4] = eta*factor_35 - eta_i*factor_36;
+    u[5] = eta*factor_36 + eta_i*factor_35;
+    u[18] = x[4];
+    u[19] = x[5];
+    const Lanes factor_37 = r[6] + x[6];
+    const Lanes factor_38 = r[7] + x[7];
+    u[6] = eta*factor_37 - eta_i*factor_38;
+    u[7] = eta*factor_38 + eta_i*factor_37;
+    u[20] = x[6];
+    u[21] = x[7];
+    const Lanes factor_39 = r[8] + x[8];
+    const Lanes factor_40 = r[9] + x[9];
+    u[8] = eta*factor_39 - eta_i*factor_40;
+    u[9] = eta*factor_40 + eta_i*factor_39;
+    u[22] = x[8];
+    u[23] = x[9];
+    const Lanes factor_41 = r[10] + x[10];
+    const Lanes factor_42 = r[11] + x[11];
+    u[10] = eta*factor_41 - eta_i*factor_42;
+    u[11] = eta*factor_42 + eta_i*factor_41;
+    u[24] = x[10];
+    u[25] = x[11];
+    const Lanes factor_43 = r[12] + x[12];
+    const Lanes factor_44 = r[13] + x[13];
+    u[12] = eta*factor_43 - eta_i*factor_44;
+    u[13] = eta*factor_44 + eta_i*factor_43;
+    u[26] = x[12];
+    u[27] = x[13];
+    u[28] = eta*r[28] - eta_i*r[29];
+    u[29] = eta*r[29] + eta_i*r[28];
+    const Lanes factor_45 = p->motor_value*u[14] + r[30];
+    const Lanes factor_46 = p->motor_value*u[15] + r[31];
+    u[30] = eta*factor_45 - eta_i*factor_46;
+    u[31] = eta*factor_46 + eta_i*factor_45;
+    u[32] = eta*r[32] - eta_i*r[33];
+    u[33] = eta*r[33] + eta_i*r[32];
+}
+
 #include "engine/batch/lane_tries.c"
 #include "engine/batch/lane_flow.c"
 #endif

@@ -1146,6 +1146,894 @@ static void newton_solve(const LaneLinear *lin, Lanes eta, Lanes s, const Lanes 
     u[12] = eta*r[12];
 }
 
+/*
+ * L U of Newton's matrix at eta = h gamma (0: the KKT matrix), L with unit diagonal. Returns 0, or the
+ * number of the node (coordinates, rows, sticks; from 1) whose pivot vanished or is not finite.
+ * At complex eta: real and imaginary parts one behind the other.
+ */
+static void newton_factor_complex(Lanes eta, Lanes eta_i, LaneComplexLinear *lin, LaneBits *rare)
+{
+    /* numbers of the run */
+    const LaneParameters *const p = lin->p;
+
+    /* linearization */
+    const Lanes mass_crank0_theta_coupler1_theta = lin->value[0];
+    const Lanes mass_crank1_theta_coupler2_theta = lin->value[1];
+    const Lanes phi_B2_x_crank1_theta = lin->value[2];
+    const Lanes phi_B2_x_crank2_theta = lin->value[3];
+    const Lanes phi_B2_x_coupler2_theta = lin->value[4];
+    const Lanes phi_B2_y_crank1_theta = lin->value[5];
+    const Lanes phi_B2_y_crank2_theta = lin->value[6];
+    const Lanes phi_B2_y_coupler2_theta = lin->value[7];
+    const Lanes phi_B1_x_crank0_theta = lin->value[8];
+    const Lanes phi_B1_x_coupler1_theta = lin->value[9];
+    const Lanes phi_B1_y_crank0_theta = lin->value[10];
+    const Lanes phi_B1_y_coupler1_theta = lin->value[11];
+    const Lanes by_q_B2_x_coupler2_theta = lin->value[12];
+    const Lanes by_q_B2_x_crank1_theta = lin->value[13];
+    const Lanes by_q_B2_x_crank2_theta = lin->value[14];
+    const Lanes by_q_B2_y_coupler2_theta = lin->value[15];
+    const Lanes by_q_B2_y_crank1_theta = lin->value[16];
+    const Lanes by_q_B2_y_crank2_theta = lin->value[17];
+    const Lanes by_q_B1_x_coupler1_theta = lin->value[18];
+    const Lanes by_q_B1_x_crank0_theta = lin->value[19];
+    const Lanes by_q_B1_y_coupler1_theta = lin->value[20];
+    const Lanes by_q_B1_y_crank0_theta = lin->value[21];
+    const Lanes by_q_crank0_theta_crank0_theta = lin->value[22];
+    const Lanes by_q_crank0_theta_coupler1_theta = lin->value[23];
+    const Lanes by_q_crank1_theta_crank1_theta = lin->value[24];
+    const Lanes by_q_crank1_theta_coupler2_theta = lin->value[25];
+    const Lanes by_q_crank2_theta_crank2_theta = lin->value[26];
+    const Lanes by_q_coupler1_theta_coupler1_theta = lin->value[27];
+    const Lanes by_q_coupler1_theta_crank0_theta = lin->value[28];
+    const Lanes by_q_coupler2_theta_coupler2_theta = lin->value[29];
+    const Lanes by_q_coupler2_theta_crank1_theta = lin->value[30];
+    const Lanes by_v_B2_x_coupler2_theta = lin->value[31];
+    const Lanes by_v_B2_x_crank1_theta = lin->value[32];
+    const Lanes by_v_B2_x_crank2_theta = lin->value[33];
+    const Lanes by_v_B2_y_coupler2_theta = lin->value[34];
+    const Lanes by_v_B2_y_crank1_theta = lin->value[35];
+    const Lanes by_v_B2_y_crank2_theta = lin->value[36];
+    const Lanes by_v_B1_x_coupler1_theta = lin->value[37];
+    const Lanes by_v_B1_x_crank0_theta = lin->value[38];
+    const Lanes by_v_B1_y_coupler1_theta = lin->value[39];
+    const Lanes by_v_B1_y_crank0_theta = lin->value[40];
+    const Lanes by_v_crank0_theta_coupler1_theta = lin->value[41];
+    const Lanes by_v_crank1_theta_coupler2_theta = lin->value[42];
+    const Lanes by_v_coupler1_theta_crank0_theta = lin->value[43];
+    const Lanes by_v_coupler2_theta_crank1_theta = lin->value[44];
+
+    /* eta/kappa */
+    const Lanes factor_1 = p->beta_squared*eta + p->two_alpha;
+    const Lanes factor_2 = p->beta_squared*eta_i;
+    const Lanes divisor_1 = eta*factor_1 - eta_i*factor_2 + 1.0;
+    const Lanes divisor_2 = eta*factor_2 + eta_i*factor_1;
+    const Lanes divisor_3 = 1.0/((divisor_1 * divisor_1) + (divisor_2 * divisor_2));
+    const Lanes factor_3 = divisor_1*divisor_3;
+    const Lanes factor_4 = -divisor_2*divisor_3;
+    const Lanes eta_row = eta*factor_3 - eta_i*factor_4;
+    const Lanes eta_row_i = eta*factor_4 + eta_i*factor_3;
+
+    /* matrix */
+    const Lanes n_crank0_theta__crank0_theta = by_q_crank0_theta_crank0_theta*((eta * eta) - (eta_i * eta_i))
+        + p->mass_crank0_crank0;
+    const Lanes n_crank0_theta__crank0_theta_i = 2.0*by_q_crank0_theta_crank0_theta*eta*eta_i;
+    const Lanes factor_5 = by_q_crank0_theta_coupler1_theta*eta + by_v_crank0_theta_coupler1_theta;
+    const Lanes factor_6 = by_q_crank0_theta_coupler1_theta*eta_i;
+    const Lanes n_crank0_theta__coupler1_theta = eta*factor_5 - eta_i*factor_6 + mass_crank0_theta_coupler1_theta;
+    const Lanes n_crank0_theta__coupler1_theta_i = eta*factor_6 + eta_i*factor_5;
+    const Lanes n_crank1_theta__crank1_theta = by_q_crank1_theta_crank1_theta*((eta * eta) - (eta_i * eta_i))
+        + p->mass_crank1_crank1;
+    const Lanes n_crank1_theta__crank1_theta_i = 2.0*by_q_crank1_theta_crank1_theta*eta*eta_i;
+    const Lanes factor_7 = by_q_crank1_theta_coupler2_theta*eta + by_v_crank1_theta_coupler2_theta;
+    const Lanes factor_8 = by_q_crank1_theta_coupler2_theta*eta_i;
+    const Lanes n_crank1_theta__coupler2_theta = eta*factor_7 - eta_i*factor_8 + mass_crank1_theta_coupler2_theta;
+    const Lanes n_crank1_theta__coupler2_theta_i = eta*factor_8 + eta_i*factor_7;
+    const Lanes n_crank2_theta__crank2_theta = by_q_crank2_theta_crank2_theta*((eta * eta) - (eta_i * eta_i))
+        + p->mass_crank2_crank2;
+    const Lanes n_crank2_theta__crank2_theta_i = 2.0*by_q_crank2_theta_crank2_theta*eta*eta_i;
+    const Lanes factor_9 = by_q_coupler1_theta_crank0_theta*eta + by_v_coupler1_theta_crank0_theta;
+    const Lanes factor_10 = by_q_coupler1_theta_crank0_theta*eta_i;
+    const Lanes n_coupler1_theta__crank0_theta = eta*factor_9 - eta_i*factor_10 + mass_crank0_theta_coupler1_theta;
+    const Lanes n_coupler1_theta__crank0_theta_i = eta*factor_10 + eta_i*factor_9;
+    const Lanes n_coupler1_theta__coupler1_theta = by_q_coupler1_theta_coupler1_theta*((eta * eta) - (eta_i * eta_i))
+        + p->mass_coupler1_coupler1;
+    const Lanes n_coupler1_theta__coupler1_theta_i = 2.0*by_q_coupler1_theta_coupler1_theta*eta*eta_i;
+    const Lanes factor_11 = by_q_coupler2_theta_crank1_theta*eta + by_v_coupler2_theta_crank1_theta;
+    const Lanes factor_12 = by_q_coupler2_theta_crank1_theta*eta_i;
+    const Lanes n_coupler2_theta__crank1_theta = eta*factor_11 - eta_i*factor_12 + mass_crank1_theta_coupler2_theta;
+    const Lanes n_coupler2_theta__crank1_theta_i = eta*factor_12 + eta_i*factor_11;
+    const Lanes n_coupler2_theta__coupler2_theta = by_q_coupler2_theta_coupler2_theta*((eta * eta) - (eta_i * eta_i))
+        + p->mass_coupler2_coupler2;
+    const Lanes n_coupler2_theta__coupler2_theta_i = 2.0*by_q_coupler2_theta_coupler2_theta*eta*eta_i;
+    const Lanes factor_13 = by_q_B2_x_crank1_theta*eta + by_v_B2_x_crank1_theta;
+    const Lanes factor_14 = by_q_B2_x_crank1_theta*eta_i;
+    const Lanes n_B2_x__crank1_theta = eta_row*factor_13 - eta_row_i*factor_14 + phi_B2_x_crank1_theta;
+    const Lanes n_B2_x__crank1_theta_i = eta_row*factor_14 + eta_row_i*factor_13;
+    const Lanes factor_15 = by_q_B2_x_crank2_theta*eta + by_v_B2_x_crank2_theta;
+    const Lanes factor_16 = by_q_B2_x_crank2_theta*eta_i;
+    const Lanes n_B2_x__crank2_theta = eta_row*factor_15 - eta_row_i*factor_16 + phi_B2_x_crank2_theta;
+    const Lanes n_B2_x__crank2_theta_i = eta_row*factor_16 + eta_row_i*factor_15;
+    const Lanes factor_17 = by_q_B2_x_coupler2_theta*eta + by_v_B2_x_coupler2_theta;
+    const Lanes factor_18 = by_q_B2_x_coupler2_theta*eta_i;
+    const Lanes n_B2_x__coupler2_theta = eta_row*factor_17 - eta_row_i*factor_18 + phi_B2_x_coupler2_theta;
+    const Lanes n_B2_x__coupler2_theta_i = eta_row*factor_18 + eta_row_i*factor_17;
+    const Lanes factor_19 = by_q_B2_y_crank1_theta*eta + by_v_B2_y_crank1_theta;
+    const Lanes factor_20 = by_q_B2_y_crank1_theta*eta_i;
+    const Lanes n_B2_y__crank1_theta = eta_row*factor_19 - eta_row_i*factor_20 + phi_B2_y_crank1_theta;
+    const Lanes n_B2_y__crank1_theta_i = eta_row*factor_20 + eta_row_i*factor_19;
+    const Lanes factor_21 = by_q_B2_y_crank2_theta*eta + by_v_B2_y_crank2_theta;
+    const Lanes factor_22 = by_q_B2_y_crank2_theta*eta_i;
+    const Lanes n_B2_y__crank2_theta = eta_row*factor_21 - eta_row_i*factor_22 + phi_B2_y_crank2_theta;
+    const Lanes n_B2_y__crank2_theta_i = eta_row*factor_22 + eta_row_i*factor_21;
+    const Lanes factor_23 = by_q_B2_y_coupler2_theta*eta + by_v_B2_y_coupler2_theta;
+    const Lanes factor_24 = by_q_B2_y_coupler2_theta*eta_i;
+    const Lanes n_B2_y__coupler2_theta = eta_row*factor_23 - eta_row_i*factor_24 + phi_B2_y_coupler2_theta;
+    const Lanes n_B2_y__coupler2_theta_i = eta_row*factor_24 + eta_row_i*factor_23;
+    const Lanes factor_25 = by_q_B1_x_crank0_theta*eta + by_v_B1_x_crank0_theta;
+    const Lanes factor_26 = by_q_B1_x_crank0_theta*eta_i;
+    const Lanes n_B1_x__crank0_theta = eta_row*factor_25 - eta_row_i*factor_26 + phi_B1_x_crank0_theta;
+    const Lanes n_B1_x__crank0_theta_i = eta_row*factor_26 + eta_row_i*factor_25;
+    const Lanes factor_27 = -by_q_B2_x_crank1_theta*eta - by_v_B2_x_crank1_theta;
+    const Lanes factor_28 = -by_q_B2_x_crank1_theta*eta_i;
+    const Lanes n_B1_x__crank1_theta = eta_row*factor_27 - eta_row_i*factor_28 - phi_B2_x_crank1_theta;
+    const Lanes n_B1_x__crank1_theta_i = eta_row*factor_28 + eta_row_i*factor_27;
+    const Lanes factor_29 = by_q_B1_x_coupler1_theta*eta + by_v_B1_x_coupler1_theta;
+    const Lanes factor_30 = by_q_B1_x_coupler1_theta*eta_i;
+    const Lanes n_B1_x__coupler1_theta = eta_row*factor_29 - eta_row_i*factor_30 + phi_B1_x_coupler1_theta;
+    const Lanes n_B1_x__coupler1_theta_i = eta_row*factor_30 + eta_row_i*factor_29;
+    const Lanes factor_31 = by_q_B1_y_crank0_theta*eta + by_v_B1_y_crank0_theta;
+    const Lanes factor_32 = by_q_B1_y_crank0_theta*eta_i;
+    const Lanes n_B1_y__crank0_theta = eta_row*factor_31 - eta_row_i*factor_32 + phi_B1_y_crank0_theta;
+    const Lanes n_B1_y__crank0_theta_i = eta_row*factor_32 + eta_row_i*factor_31;
+    const Lanes factor_33 = -by_q_B2_y_crank1_theta*eta - by_v_B2_y_crank1_theta;
+    const Lanes factor_34 = -by_q_B2_y_crank1_theta*eta_i;
+    const Lanes n_B1_y__crank1_theta = eta_row*factor_33 - eta_row_i*factor_34 - phi_B2_y_crank1_theta;
+    const Lanes n_B1_y__crank1_theta_i = eta_row*factor_34 + eta_row_i*factor_33;
+    const Lanes factor_35 = by_q_B1_y_coupler1_theta*eta + by_v_B1_y_coupler1_theta;
+    const Lanes factor_36 = by_q_B1_y_coupler1_theta*eta_i;
+    const Lanes n_B1_y__coupler1_theta = eta_row*factor_35 - eta_row_i*factor_36 + phi_B1_y_coupler1_theta;
+    const Lanes n_B1_y__coupler1_theta_i = eta_row*factor_36 + eta_row_i*factor_35;
+
+    /* L U */
+    const Lanes scale_crank2_theta = n_crank2_theta__crank2_theta;
+    const Lanes scale_crank2_theta_i = n_crank2_theta__crank2_theta_i;
+    const Lanes size_1 = lanes_fabs(scale_crank2_theta) + lanes_fabs(scale_crank2_theta_i);
+    const Lanes size_2 = lanes_fabs(n_crank2_theta__crank2_theta) + lanes_fabs(n_crank2_theta__crank2_theta_i);
+    *rare |= ~(size_1 > SINGULAR * size_2);
+    const Lanes divisor_4 = 1.0/((scale_crank2_theta * scale_crank2_theta)
+        + (scale_crank2_theta_i * scale_crank2_theta_i));
+    const Lanes inverse_pivot_crank2_theta = divisor_4*scale_crank2_theta;
+    const Lanes inverse_pivot_crank2_theta_i = -divisor_4*scale_crank2_theta_i;
+    lin->lu[0] = inverse_pivot_crank2_theta;
+    lin->lu[1] = inverse_pivot_crank2_theta_i;
+    const Lanes l_B2_x__crank2_theta = inverse_pivot_crank2_theta*n_B2_x__crank2_theta
+        - inverse_pivot_crank2_theta_i*n_B2_x__crank2_theta_i;
+    const Lanes l_B2_x__crank2_theta_3_i = inverse_pivot_crank2_theta*n_B2_x__crank2_theta_i
+        + inverse_pivot_crank2_theta_i*n_B2_x__crank2_theta;
+    lin->lu[2] = l_B2_x__crank2_theta;
+    lin->lu[3] = l_B2_x__crank2_theta_3_i;
+    const Lanes l_B2_y__crank2_theta = inverse_pivot_crank2_theta*n_B2_y__crank2_theta
+        - inverse_pivot_crank2_theta_i*n_B2_y__crank2_theta_i;
+    const Lanes l_B2_y__crank2_theta_3_i = inverse_pivot_crank2_theta*n_B2_y__crank2_theta_i
+        + inverse_pivot_crank2_theta_i*n_B2_y__crank2_theta;
+    lin->lu[4] = l_B2_y__crank2_theta;
+    lin->lu[5] = l_B2_y__crank2_theta_3_i;
+    const Lanes scale_crank0_theta = n_crank0_theta__crank0_theta;
+    const Lanes scale_crank0_theta_i = n_crank0_theta__crank0_theta_i;
+    const Lanes size_3 = lanes_fabs(scale_crank0_theta) + lanes_fabs(scale_crank0_theta_i);
+    const Lanes size_4 = lanes_fabs(n_crank0_theta__crank0_theta) + lanes_fabs(n_crank0_theta__crank0_theta_i);
+    *rare |= ~(size_3 > SINGULAR * size_4);
+    const Lanes divisor_5 = 1.0/((scale_crank0_theta * scale_crank0_theta)
+        + (scale_crank0_theta_i * scale_crank0_theta_i));
+    const Lanes inverse_pivot_crank0_theta = divisor_5*scale_crank0_theta;
+    const Lanes inverse_pivot_crank0_theta_i = -divisor_5*scale_crank0_theta_i;
+    lin->lu[6] = inverse_pivot_crank0_theta;
+    lin->lu[7] = inverse_pivot_crank0_theta_i;
+    const Lanes l_coupler1_theta__crank0_theta = inverse_pivot_crank0_theta*n_coupler1_theta__crank0_theta
+        - inverse_pivot_crank0_theta_i*n_coupler1_theta__crank0_theta_i;
+    const Lanes l_coupler1_theta__crank0_theta_3_i = inverse_pivot_crank0_theta*n_coupler1_theta__crank0_theta_i
+        + inverse_pivot_crank0_theta_i*n_coupler1_theta__crank0_theta;
+    lin->lu[8] = l_coupler1_theta__crank0_theta;
+    lin->lu[9] = l_coupler1_theta__crank0_theta_3_i;
+    lin->lu[10] = n_crank0_theta__coupler1_theta;
+    lin->lu[11] = n_crank0_theta__coupler1_theta_i;
+    const Lanes l_B1_x__crank0_theta = inverse_pivot_crank0_theta*n_B1_x__crank0_theta
+        - inverse_pivot_crank0_theta_i*n_B1_x__crank0_theta_i;
+    const Lanes l_B1_x__crank0_theta_3_i = inverse_pivot_crank0_theta*n_B1_x__crank0_theta_i
+        + inverse_pivot_crank0_theta_i*n_B1_x__crank0_theta;
+    lin->lu[12] = l_B1_x__crank0_theta;
+    lin->lu[13] = l_B1_x__crank0_theta_3_i;
+    const Lanes l_B1_y__crank0_theta = inverse_pivot_crank0_theta*n_B1_y__crank0_theta
+        - inverse_pivot_crank0_theta_i*n_B1_y__crank0_theta_i;
+    const Lanes l_B1_y__crank0_theta_3_i = inverse_pivot_crank0_theta*n_B1_y__crank0_theta_i
+        + inverse_pivot_crank0_theta_i*n_B1_y__crank0_theta;
+    lin->lu[14] = l_B1_y__crank0_theta;
+    lin->lu[15] = l_B1_y__crank0_theta_3_i;
+    const Lanes scale_coupler1_theta = -l_coupler1_theta__crank0_theta*n_crank0_theta__coupler1_theta
+        + l_coupler1_theta__crank0_theta_3_i*n_crank0_theta__coupler1_theta_i + n_coupler1_theta__coupler1_theta;
+    const Lanes scale_coupler1_theta_i = -l_coupler1_theta__crank0_theta*n_crank0_theta__coupler1_theta_i
+        - l_coupler1_theta__crank0_theta_3_i*n_crank0_theta__coupler1_theta + n_coupler1_theta__coupler1_theta_i;
+    const Lanes size_5 = lanes_fabs(scale_coupler1_theta) + lanes_fabs(scale_coupler1_theta_i);
+    const Lanes size_6 = lanes_fabs(n_coupler1_theta__coupler1_theta) + lanes_fabs(n_coupler1_theta__coupler1_theta_i);
+    *rare |= ~(size_5 > SINGULAR * size_6);
+    const Lanes divisor_6 = 1.0/((scale_coupler1_theta * scale_coupler1_theta)
+        + (scale_coupler1_theta_i * scale_coupler1_theta_i));
+    const Lanes inverse_pivot_coupler1_theta = divisor_6*scale_coupler1_theta;
+    const Lanes inverse_pivot_coupler1_theta_3_i = -divisor_6*scale_coupler1_theta_i;
+    lin->lu[16] = inverse_pivot_coupler1_theta;
+    lin->lu[17] = inverse_pivot_coupler1_theta_3_i;
+    const Lanes factor_37 = -l_B1_x__crank0_theta*n_crank0_theta__coupler1_theta
+        + l_B1_x__crank0_theta_3_i*n_crank0_theta__coupler1_theta_i + n_B1_x__coupler1_theta;
+    const Lanes factor_38 = -l_B1_x__crank0_theta*n_crank0_theta__coupler1_theta_i
+        - l_B1_x__crank0_theta_3_i*n_crank0_theta__coupler1_theta + n_B1_x__coupler1_theta_i;
+    const Lanes l_B1_x__coupler1_theta = factor_37*inverse_pivot_coupler1_theta
+        - factor_38*inverse_pivot_coupler1_theta_3_i;
+    const Lanes l_B1_x__coupler1_theta_3_i = factor_37*inverse_pivot_coupler1_theta_3_i
+        + factor_38*inverse_pivot_coupler1_theta;
+    lin->lu[18] = l_B1_x__coupler1_theta;
+    lin->lu[19] = l_B1_x__coupler1_theta_3_i;
+    const Lanes u_coupler1_theta__B1_x = -l_coupler1_theta__crank0_theta*phi_B1_x_crank0_theta
+        + phi_B1_x_coupler1_theta;
+    const Lanes u_coupler1_theta__B1_x_i = -l_coupler1_theta__crank0_theta_3_i*phi_B1_x_crank0_theta;
+    lin->lu[20] = u_coupler1_theta__B1_x;
+    lin->lu[21] = u_coupler1_theta__B1_x_i;
+    const Lanes factor_39 = -l_B1_y__crank0_theta*n_crank0_theta__coupler1_theta
+        + l_B1_y__crank0_theta_3_i*n_crank0_theta__coupler1_theta_i + n_B1_y__coupler1_theta;
+    const Lanes factor_40 = -l_B1_y__crank0_theta*n_crank0_theta__coupler1_theta_i
+        - l_B1_y__crank0_theta_3_i*n_crank0_theta__coupler1_theta + n_B1_y__coupler1_theta_i;
+    const Lanes l_B1_y__coupler1_theta = factor_39*inverse_pivot_coupler1_theta
+        - factor_40*inverse_pivot_coupler1_theta_3_i;
+    const Lanes l_B1_y__coupler1_theta_3_i = factor_39*inverse_pivot_coupler1_theta_3_i
+        + factor_40*inverse_pivot_coupler1_theta;
+    lin->lu[22] = l_B1_y__coupler1_theta;
+    lin->lu[23] = l_B1_y__coupler1_theta_3_i;
+    const Lanes u_coupler1_theta__B1_y = -l_coupler1_theta__crank0_theta*phi_B1_y_crank0_theta
+        + phi_B1_y_coupler1_theta;
+    const Lanes u_coupler1_theta__B1_y_i = -l_coupler1_theta__crank0_theta_3_i*phi_B1_y_crank0_theta;
+    lin->lu[24] = u_coupler1_theta__B1_y;
+    lin->lu[25] = u_coupler1_theta__B1_y_i;
+    const Lanes scale_coupler2_theta = n_coupler2_theta__coupler2_theta;
+    const Lanes scale_coupler2_theta_i = n_coupler2_theta__coupler2_theta_i;
+    const Lanes size_7 = lanes_fabs(scale_coupler2_theta) + lanes_fabs(scale_coupler2_theta_i);
+    const Lanes size_8 = lanes_fabs(n_coupler2_theta__coupler2_theta) + lanes_fabs(n_coupler2_theta__coupler2_theta_i);
+    *rare |= ~(size_7 > SINGULAR * size_8);
+    const Lanes divisor_7 = 1.0/((scale_coupler2_theta * scale_coupler2_theta)
+        + (scale_coupler2_theta_i * scale_coupler2_theta_i));
+    const Lanes inverse_pivot_coupler2_theta = divisor_7*scale_coupler2_theta;
+    const Lanes inverse_pivot_coupler2_theta_i = -divisor_7*scale_coupler2_theta_i;
+    lin->lu[26] = inverse_pivot_coupler2_theta;
+    lin->lu[27] = inverse_pivot_coupler2_theta_i;
+    const Lanes l_crank1_theta__coupler2_theta = inverse_pivot_coupler2_theta*n_crank1_theta__coupler2_theta
+        - inverse_pivot_coupler2_theta_i*n_crank1_theta__coupler2_theta_i;
+    const Lanes l_crank1_theta__coupler2_theta_3_i = inverse_pivot_coupler2_theta*n_crank1_theta__coupler2_theta_i
+        + inverse_pivot_coupler2_theta_i*n_crank1_theta__coupler2_theta;
+    lin->lu[28] = l_crank1_theta__coupler2_theta;
+    lin->lu[29] = l_crank1_theta__coupler2_theta_3_i;
+    lin->lu[30] = n_coupler2_theta__crank1_theta;
+    lin->lu[31] = n_coupler2_theta__crank1_theta_i;
+    const Lanes l_B2_x__coupler2_theta = inverse_pivot_coupler2_theta*n_B2_x__coupler2_theta
+        - inverse_pivot_coupler2_theta_i*n_B2_x__coupler2_theta_i;
+    const Lanes l_B2_x__coupler2_theta_3_i = inverse_pivot_coupler2_theta*n_B2_x__coupler2_theta_i
+        + inverse_pivot_coupler2_theta_i*n_B2_x__coupler2_theta;
+    lin->lu[32] = l_B2_x__coupler2_theta;
+    lin->lu[33] = l_B2_x__coupler2_theta_3_i;
+    const Lanes l_B2_y__coupler2_theta = inverse_pivot_coupler2_theta*n_B2_y__coupler2_theta
+        - inverse_pivot_coupler2_theta_i*n_B2_y__coupler2_theta_i;
+    const Lanes l_B2_y__coupler2_theta_3_i = inverse_pivot_coupler2_theta*n_B2_y__coupler2_theta_i
+        + inverse_pivot_coupler2_theta_i*n_B2_y__coupler2_theta;
+    lin->lu[34] = l_B2_y__coupler2_theta;
+    lin->lu[35] = l_B2_y__coupler2_theta_3_i;
+    const Lanes scale_crank1_theta = -l_crank1_theta__coupler2_theta*n_coupler2_theta__crank1_theta
+        + l_crank1_theta__coupler2_theta_3_i*n_coupler2_theta__crank1_theta_i + n_crank1_theta__crank1_theta;
+    const Lanes scale_crank1_theta_i = -l_crank1_theta__coupler2_theta*n_coupler2_theta__crank1_theta_i
+        - l_crank1_theta__coupler2_theta_3_i*n_coupler2_theta__crank1_theta + n_crank1_theta__crank1_theta_i;
+    const Lanes size_9 = lanes_fabs(scale_crank1_theta) + lanes_fabs(scale_crank1_theta_i);
+    const Lanes size_10 = lanes_fabs(n_crank1_theta__crank1_theta) + lanes_fabs(n_crank1_theta__crank1_theta_i);
+    *rare |= ~(size_9 > SINGULAR * size_10);
+    const Lanes divisor_8 = 1.0/((scale_crank1_theta * scale_crank1_theta)
+        + (scale_crank1_theta_i * scale_crank1_theta_i));
+    const Lanes inverse_pivot_crank1_theta = divisor_8*scale_crank1_theta;
+    const Lanes inverse_pivot_crank1_theta_3_i = -divisor_8*scale_crank1_theta_i;
+    lin->lu[36] = inverse_pivot_crank1_theta;
+    lin->lu[37] = inverse_pivot_crank1_theta_3_i;
+    const Lanes factor_41 = -l_B2_x__coupler2_theta*n_coupler2_theta__crank1_theta
+        + l_B2_x__coupler2_theta_3_i*n_coupler2_theta__crank1_theta_i + n_B2_x__crank1_theta;
+    const Lanes factor_42 = -l_B2_x__coupler2_theta*n_coupler2_theta__crank1_theta_i
+        - l_B2_x__coupler2_theta_3_i*n_coupler2_theta__crank1_theta + n_B2_x__crank1_theta_i;
+    const Lanes l_B2_x__crank1_theta = factor_41*inverse_pivot_crank1_theta - factor_42*inverse_pivot_crank1_theta_3_i;
+    const Lanes l_B2_x__crank1_theta_2_i = factor_41*inverse_pivot_crank1_theta_3_i
+        + factor_42*inverse_pivot_crank1_theta;
+    lin->lu[38] = l_B2_x__crank1_theta;
+    lin->lu[39] = l_B2_x__crank1_theta_2_i;
+    const Lanes u_crank1_theta__B2_x = -l_crank1_theta__coupler2_theta*phi_B2_x_coupler2_theta + phi_B2_x_crank1_theta;
+    const Lanes u_crank1_theta__B2_x_i = -l_crank1_theta__coupler2_theta_3_i*phi_B2_x_coupler2_theta;
+    lin->lu[40] = u_crank1_theta__B2_x;
+    lin->lu[41] = u_crank1_theta__B2_x_i;
+    const Lanes factor_43 = -l_B2_y__coupler2_theta*n_coupler2_theta__crank1_theta
+        + l_B2_y__coupler2_theta_3_i*n_coupler2_theta__crank1_theta_i + n_B2_y__crank1_theta;
+    const Lanes factor_44 = -l_B2_y__coupler2_theta*n_coupler2_theta__crank1_theta_i
+        - l_B2_y__coupler2_theta_3_i*n_coupler2_theta__crank1_theta + n_B2_y__crank1_theta_i;
+    const Lanes l_B2_y__crank1_theta = factor_43*inverse_pivot_crank1_theta - factor_44*inverse_pivot_crank1_theta_3_i;
+    const Lanes l_B2_y__crank1_theta_2_i = factor_43*inverse_pivot_crank1_theta_3_i
+        + factor_44*inverse_pivot_crank1_theta;
+    lin->lu[42] = l_B2_y__crank1_theta;
+    lin->lu[43] = l_B2_y__crank1_theta_2_i;
+    const Lanes u_crank1_theta__B2_y = -l_crank1_theta__coupler2_theta*phi_B2_y_coupler2_theta + phi_B2_y_crank1_theta;
+    const Lanes u_crank1_theta__B2_y_i = -l_crank1_theta__coupler2_theta_3_i*phi_B2_y_coupler2_theta;
+    lin->lu[44] = u_crank1_theta__B2_y;
+    lin->lu[45] = u_crank1_theta__B2_y_i;
+    const Lanes l_B1_x__crank1_theta = inverse_pivot_crank1_theta*n_B1_x__crank1_theta
+        - inverse_pivot_crank1_theta_3_i*n_B1_x__crank1_theta_i;
+    const Lanes l_B1_x__crank1_theta_3_i = inverse_pivot_crank1_theta*n_B1_x__crank1_theta_i
+        + inverse_pivot_crank1_theta_3_i*n_B1_x__crank1_theta;
+    lin->lu[46] = l_B1_x__crank1_theta;
+    lin->lu[47] = l_B1_x__crank1_theta_3_i;
+    const Lanes l_B1_y__crank1_theta = inverse_pivot_crank1_theta*n_B1_y__crank1_theta
+        - inverse_pivot_crank1_theta_3_i*n_B1_y__crank1_theta_i;
+    const Lanes l_B1_y__crank1_theta_3_i = inverse_pivot_crank1_theta*n_B1_y__crank1_theta_i
+        + inverse_pivot_crank1_theta_3_i*n_B1_y__crank1_theta;
+    lin->lu[48] = l_B1_y__crank1_theta;
+    lin->lu[49] = l_B1_y__crank1_theta_3_i;
+    const Lanes scale_B2_x = -l_B2_x__coupler2_theta*phi_B2_x_coupler2_theta
+        - l_B2_x__crank1_theta*u_crank1_theta__B2_x + l_B2_x__crank1_theta_2_i*u_crank1_theta__B2_x_i
+        - l_B2_x__crank2_theta*phi_B2_x_crank2_theta;
+    const Lanes scale_B2_x_3_i = -l_B2_x__coupler2_theta_3_i*phi_B2_x_coupler2_theta
+        - l_B2_x__crank1_theta*u_crank1_theta__B2_x_i - l_B2_x__crank1_theta_2_i*u_crank1_theta__B2_x
+        - l_B2_x__crank2_theta_3_i*phi_B2_x_crank2_theta;
+    const Lanes size_11 = lanes_fabs(scale_B2_x) + lanes_fabs(scale_B2_x_3_i);
+    *rare |= ~((size_11 > 0.0) & (size_11 < INFINITY));
+    const Lanes divisor_9 = 1.0/((scale_B2_x * scale_B2_x) + (scale_B2_x_3_i * scale_B2_x_3_i));
+    const Lanes inverse_pivot_B2_x = divisor_9*scale_B2_x;
+    const Lanes inverse_pivot_B2_x_3_i = -divisor_9*scale_B2_x_3_i;
+    lin->lu[50] = inverse_pivot_B2_x;
+    lin->lu[51] = inverse_pivot_B2_x_3_i;
+    const Lanes factor_45 = -l_B2_y__coupler2_theta*phi_B2_x_coupler2_theta - l_B2_y__crank1_theta*u_crank1_theta__B2_x
+        + l_B2_y__crank1_theta_2_i*u_crank1_theta__B2_x_i - l_B2_y__crank2_theta*phi_B2_x_crank2_theta;
+    const Lanes factor_46 = -l_B2_y__coupler2_theta_3_i*phi_B2_x_coupler2_theta
+        - l_B2_y__crank1_theta*u_crank1_theta__B2_x_i - l_B2_y__crank1_theta_2_i*u_crank1_theta__B2_x
+        - l_B2_y__crank2_theta_3_i*phi_B2_x_crank2_theta;
+    const Lanes l_B2_y__B2_x = factor_45*inverse_pivot_B2_x - factor_46*inverse_pivot_B2_x_3_i;
+    const Lanes l_B2_y__B2_x_i = factor_45*inverse_pivot_B2_x_3_i + factor_46*inverse_pivot_B2_x;
+    lin->lu[52] = l_B2_y__B2_x;
+    lin->lu[53] = l_B2_y__B2_x_i;
+    const Lanes u_B2_x__B2_y = -l_B2_x__coupler2_theta*phi_B2_y_coupler2_theta
+        - l_B2_x__crank1_theta*u_crank1_theta__B2_y + l_B2_x__crank1_theta_2_i*u_crank1_theta__B2_y_i
+        - l_B2_x__crank2_theta*phi_B2_y_crank2_theta;
+    const Lanes u_B2_x__B2_y_i = -l_B2_x__coupler2_theta_3_i*phi_B2_y_coupler2_theta
+        - l_B2_x__crank1_theta*u_crank1_theta__B2_y_i - l_B2_x__crank1_theta_2_i*u_crank1_theta__B2_y
+        - l_B2_x__crank2_theta_3_i*phi_B2_y_crank2_theta;
+    lin->lu[54] = u_B2_x__B2_y;
+    lin->lu[55] = u_B2_x__B2_y_i;
+    const Lanes factor_47 = inverse_pivot_B2_x*l_B1_x__crank1_theta - inverse_pivot_B2_x_3_i*l_B1_x__crank1_theta_3_i;
+    const Lanes factor_48 = inverse_pivot_B2_x*l_B1_x__crank1_theta_3_i + inverse_pivot_B2_x_3_i*l_B1_x__crank1_theta;
+    const Lanes l_B1_x__B2_x = -factor_47*u_crank1_theta__B2_x + factor_48*u_crank1_theta__B2_x_i;
+    const Lanes l_B1_x__B2_x_2_i = -factor_47*u_crank1_theta__B2_x_i - factor_48*u_crank1_theta__B2_x;
+    lin->lu[56] = l_B1_x__B2_x;
+    lin->lu[57] = l_B1_x__B2_x_2_i;
+    const Lanes u_B2_x__B1_x = l_B2_x__crank1_theta*phi_B2_x_crank1_theta;
+    const Lanes u_B2_x__B1_x_i = l_B2_x__crank1_theta_2_i*phi_B2_x_crank1_theta;
+    lin->lu[58] = u_B2_x__B1_x;
+    lin->lu[59] = u_B2_x__B1_x_i;
+    const Lanes factor_49 = inverse_pivot_B2_x*l_B1_y__crank1_theta - inverse_pivot_B2_x_3_i*l_B1_y__crank1_theta_3_i;
+    const Lanes factor_50 = inverse_pivot_B2_x*l_B1_y__crank1_theta_3_i + inverse_pivot_B2_x_3_i*l_B1_y__crank1_theta;
+    const Lanes l_B1_y__B2_x = -factor_49*u_crank1_theta__B2_x + factor_50*u_crank1_theta__B2_x_i;
+    const Lanes l_B1_y__B2_x_2_i = -factor_49*u_crank1_theta__B2_x_i - factor_50*u_crank1_theta__B2_x;
+    lin->lu[60] = l_B1_y__B2_x;
+    lin->lu[61] = l_B1_y__B2_x_2_i;
+    const Lanes u_B2_x__B1_y = l_B2_x__crank1_theta*phi_B2_y_crank1_theta;
+    const Lanes u_B2_x__B1_y_i = l_B2_x__crank1_theta_2_i*phi_B2_y_crank1_theta;
+    lin->lu[62] = u_B2_x__B1_y;
+    lin->lu[63] = u_B2_x__B1_y_i;
+    const Lanes scale_B2_y = -l_B2_y__coupler2_theta*phi_B2_y_coupler2_theta
+        - l_B2_y__crank1_theta*u_crank1_theta__B2_y + l_B2_y__crank1_theta_2_i*u_crank1_theta__B2_y_i
+        - l_B2_y__crank2_theta*phi_B2_y_crank2_theta;
+    const Lanes scale_B2_y_3_i = -l_B2_y__coupler2_theta_3_i*phi_B2_y_coupler2_theta
+        - l_B2_y__crank1_theta*u_crank1_theta__B2_y_i - l_B2_y__crank1_theta_2_i*u_crank1_theta__B2_y
+        - l_B2_y__crank2_theta_3_i*phi_B2_y_crank2_theta;
+    const Lanes pivot_B2_y = -l_B2_y__B2_x*u_B2_x__B2_y + l_B2_y__B2_x_i*u_B2_x__B2_y_i + scale_B2_y;
+    const Lanes pivot_B2_y_i = -l_B2_y__B2_x*u_B2_x__B2_y_i - l_B2_y__B2_x_i*u_B2_x__B2_y + scale_B2_y_3_i;
+    const Lanes size_12 = lanes_fabs(pivot_B2_y) + lanes_fabs(pivot_B2_y_i);
+    const Lanes size_13 = lanes_fabs(scale_B2_y) + lanes_fabs(scale_B2_y_3_i);
+    *rare |= ~(size_12 > SINGULAR * size_13);
+    const Lanes divisor_10 = 1.0/((pivot_B2_y * pivot_B2_y) + (pivot_B2_y_i * pivot_B2_y_i));
+    const Lanes inverse_pivot_B2_y = divisor_10*pivot_B2_y;
+    const Lanes inverse_pivot_B2_y_3_i = -divisor_10*pivot_B2_y_i;
+    lin->lu[64] = inverse_pivot_B2_y;
+    lin->lu[65] = inverse_pivot_B2_y_3_i;
+    const Lanes factor_51 = -l_B1_x__B2_x*u_B2_x__B2_y + l_B1_x__B2_x_2_i*u_B2_x__B2_y_i
+        - l_B1_x__crank1_theta*u_crank1_theta__B2_y + l_B1_x__crank1_theta_3_i*u_crank1_theta__B2_y_i;
+    const Lanes factor_52 = -l_B1_x__B2_x*u_B2_x__B2_y_i - l_B1_x__B2_x_2_i*u_B2_x__B2_y
+        - l_B1_x__crank1_theta*u_crank1_theta__B2_y_i - l_B1_x__crank1_theta_3_i*u_crank1_theta__B2_y;
+    const Lanes l_B1_x__B2_y = factor_51*inverse_pivot_B2_y - factor_52*inverse_pivot_B2_y_3_i;
+    const Lanes l_B1_x__B2_y_2_i = factor_51*inverse_pivot_B2_y_3_i + factor_52*inverse_pivot_B2_y;
+    lin->lu[66] = l_B1_x__B2_y;
+    lin->lu[67] = l_B1_x__B2_y_2_i;
+    const Lanes u_B2_y__B1_x = -l_B2_y__B2_x*u_B2_x__B1_x + l_B2_y__B2_x_i*u_B2_x__B1_x_i
+        + l_B2_y__crank1_theta*phi_B2_x_crank1_theta;
+    const Lanes u_B2_y__B1_x_i = -l_B2_y__B2_x*u_B2_x__B1_x_i - l_B2_y__B2_x_i*u_B2_x__B1_x
+        + l_B2_y__crank1_theta_2_i*phi_B2_x_crank1_theta;
+    lin->lu[68] = u_B2_y__B1_x;
+    lin->lu[69] = u_B2_y__B1_x_i;
+    const Lanes factor_53 = -l_B1_y__B2_x*u_B2_x__B2_y + l_B1_y__B2_x_2_i*u_B2_x__B2_y_i
+        - l_B1_y__crank1_theta*u_crank1_theta__B2_y + l_B1_y__crank1_theta_3_i*u_crank1_theta__B2_y_i;
+    const Lanes factor_54 = -l_B1_y__B2_x*u_B2_x__B2_y_i - l_B1_y__B2_x_2_i*u_B2_x__B2_y
+        - l_B1_y__crank1_theta*u_crank1_theta__B2_y_i - l_B1_y__crank1_theta_3_i*u_crank1_theta__B2_y;
+    const Lanes l_B1_y__B2_y = factor_53*inverse_pivot_B2_y - factor_54*inverse_pivot_B2_y_3_i;
+    const Lanes l_B1_y__B2_y_2_i = factor_53*inverse_pivot_B2_y_3_i + factor_54*inverse_pivot_B2_y;
+    lin->lu[70] = l_B1_y__B2_y;
+    lin->lu[71] = l_B1_y__B2_y_2_i;
+    const Lanes u_B2_y__B1_y = -l_B2_y__B2_x*u_B2_x__B1_y + l_B2_y__B2_x_i*u_B2_x__B1_y_i
+        + l_B2_y__crank1_theta*phi_B2_y_crank1_theta;
+    const Lanes u_B2_y__B1_y_i = -l_B2_y__B2_x*u_B2_x__B1_y_i - l_B2_y__B2_x_i*u_B2_x__B1_y
+        + l_B2_y__crank1_theta_2_i*phi_B2_y_crank1_theta;
+    lin->lu[72] = u_B2_y__B1_y;
+    lin->lu[73] = u_B2_y__B1_y_i;
+    const Lanes scale_B1_x = -l_B1_x__coupler1_theta*u_coupler1_theta__B1_x
+        + l_B1_x__coupler1_theta_3_i*u_coupler1_theta__B1_x_i - l_B1_x__crank0_theta*phi_B1_x_crank0_theta
+        + l_B1_x__crank1_theta*phi_B2_x_crank1_theta;
+    const Lanes scale_B1_x_3_i = -l_B1_x__coupler1_theta*u_coupler1_theta__B1_x_i
+        - l_B1_x__coupler1_theta_3_i*u_coupler1_theta__B1_x - l_B1_x__crank0_theta_3_i*phi_B1_x_crank0_theta
+        + l_B1_x__crank1_theta_3_i*phi_B2_x_crank1_theta;
+    const Lanes pivot_B1_x = -l_B1_x__B2_x*u_B2_x__B1_x + l_B1_x__B2_x_2_i*u_B2_x__B1_x_i - l_B1_x__B2_y*u_B2_y__B1_x
+        + l_B1_x__B2_y_2_i*u_B2_y__B1_x_i + scale_B1_x;
+    const Lanes pivot_B1_x_2_i = -l_B1_x__B2_x*u_B2_x__B1_x_i - l_B1_x__B2_x_2_i*u_B2_x__B1_x
+        - l_B1_x__B2_y*u_B2_y__B1_x_i - l_B1_x__B2_y_2_i*u_B2_y__B1_x + scale_B1_x_3_i;
+    const Lanes size_14 = lanes_fabs(pivot_B1_x) + lanes_fabs(pivot_B1_x_2_i);
+    const Lanes size_15 = lanes_fabs(scale_B1_x) + lanes_fabs(scale_B1_x_3_i);
+    *rare |= ~(size_14 > SINGULAR * size_15);
+    const Lanes divisor_11 = 1.0/((pivot_B1_x * pivot_B1_x) + (pivot_B1_x_2_i * pivot_B1_x_2_i));
+    const Lanes inverse_pivot_B1_x = divisor_11*pivot_B1_x;
+    const Lanes inverse_pivot_B1_x_3_i = -divisor_11*pivot_B1_x_2_i;
+    lin->lu[74] = inverse_pivot_B1_x;
+    lin->lu[75] = inverse_pivot_B1_x_3_i;
+    const Lanes factor_55 = -l_B1_y__B2_x*u_B2_x__B1_x + l_B1_y__B2_x_2_i*u_B2_x__B1_x_i - l_B1_y__B2_y*u_B2_y__B1_x
+        + l_B1_y__B2_y_2_i*u_B2_y__B1_x_i - l_B1_y__coupler1_theta*u_coupler1_theta__B1_x
+        + l_B1_y__coupler1_theta_3_i*u_coupler1_theta__B1_x_i - l_B1_y__crank0_theta*phi_B1_x_crank0_theta
+        + l_B1_y__crank1_theta*phi_B2_x_crank1_theta;
+    const Lanes factor_56 = -l_B1_y__B2_x*u_B2_x__B1_x_i - l_B1_y__B2_x_2_i*u_B2_x__B1_x - l_B1_y__B2_y*u_B2_y__B1_x_i
+        - l_B1_y__B2_y_2_i*u_B2_y__B1_x - l_B1_y__coupler1_theta*u_coupler1_theta__B1_x_i
+        - l_B1_y__coupler1_theta_3_i*u_coupler1_theta__B1_x - l_B1_y__crank0_theta_3_i*phi_B1_x_crank0_theta
+        + l_B1_y__crank1_theta_3_i*phi_B2_x_crank1_theta;
+    const Lanes l_B1_y__B1_x = factor_55*inverse_pivot_B1_x - factor_56*inverse_pivot_B1_x_3_i;
+    const Lanes l_B1_y__B1_x_i = factor_55*inverse_pivot_B1_x_3_i + factor_56*inverse_pivot_B1_x;
+    lin->lu[76] = l_B1_y__B1_x;
+    lin->lu[77] = l_B1_y__B1_x_i;
+    const Lanes u_B1_x__B1_y = -l_B1_x__B2_x*u_B2_x__B1_y + l_B1_x__B2_x_2_i*u_B2_x__B1_y_i - l_B1_x__B2_y*u_B2_y__B1_y
+        + l_B1_x__B2_y_2_i*u_B2_y__B1_y_i - l_B1_x__coupler1_theta*u_coupler1_theta__B1_y
+        + l_B1_x__coupler1_theta_3_i*u_coupler1_theta__B1_y_i - l_B1_x__crank0_theta*phi_B1_y_crank0_theta
+        + l_B1_x__crank1_theta*phi_B2_y_crank1_theta;
+    const Lanes u_B1_x__B1_y_i = -l_B1_x__B2_x*u_B2_x__B1_y_i - l_B1_x__B2_x_2_i*u_B2_x__B1_y
+        - l_B1_x__B2_y*u_B2_y__B1_y_i - l_B1_x__B2_y_2_i*u_B2_y__B1_y - l_B1_x__coupler1_theta*u_coupler1_theta__B1_y_i
+        - l_B1_x__coupler1_theta_3_i*u_coupler1_theta__B1_y - l_B1_x__crank0_theta_3_i*phi_B1_y_crank0_theta
+        + l_B1_x__crank1_theta_3_i*phi_B2_y_crank1_theta;
+    lin->lu[78] = u_B1_x__B1_y;
+    lin->lu[79] = u_B1_x__B1_y_i;
+    const Lanes scale_B1_y = -l_B1_y__coupler1_theta*u_coupler1_theta__B1_y
+        + l_B1_y__coupler1_theta_3_i*u_coupler1_theta__B1_y_i - l_B1_y__crank0_theta*phi_B1_y_crank0_theta
+        + l_B1_y__crank1_theta*phi_B2_y_crank1_theta;
+    const Lanes scale_B1_y_3_i = -l_B1_y__coupler1_theta*u_coupler1_theta__B1_y_i
+        - l_B1_y__coupler1_theta_3_i*u_coupler1_theta__B1_y - l_B1_y__crank0_theta_3_i*phi_B1_y_crank0_theta
+        + l_B1_y__crank1_theta_3_i*phi_B2_y_crank1_theta;
+    const Lanes pivot_B1_y = -l_B1_y__B1_x*u_B1_x__B1_y + l_B1_y__B1_x_i*u_B1_x__B1_y_i - l_B1_y__B2_x*u_B2_x__B1_y
+        + l_B1_y__B2_x_2_i*u_B2_x__B1_y_i - l_B1_y__B2_y*u_B2_y__B1_y + l_B1_y__B2_y_2_i*u_B2_y__B1_y_i + scale_B1_y;
+    const Lanes pivot_B1_y_2_i = -l_B1_y__B1_x*u_B1_x__B1_y_i - l_B1_y__B1_x_i*u_B1_x__B1_y
+        - l_B1_y__B2_x*u_B2_x__B1_y_i - l_B1_y__B2_x_2_i*u_B2_x__B1_y - l_B1_y__B2_y*u_B2_y__B1_y_i
+        - l_B1_y__B2_y_2_i*u_B2_y__B1_y + scale_B1_y_3_i;
+    const Lanes size_16 = lanes_fabs(pivot_B1_y) + lanes_fabs(pivot_B1_y_2_i);
+    const Lanes size_17 = lanes_fabs(scale_B1_y) + lanes_fabs(scale_B1_y_3_i);
+    *rare |= ~(size_16 > SINGULAR * size_17);
+    const Lanes divisor_12 = 1.0/((pivot_B1_y * pivot_B1_y) + (pivot_B1_y_2_i * pivot_B1_y_2_i));
+    const Lanes inverse_pivot_B1_y = divisor_12*pivot_B1_y;
+    const Lanes inverse_pivot_B1_y_3_i = -divisor_12*pivot_B1_y_2_i;
+    lin->lu[80] = inverse_pivot_B1_y;
+    lin->lu[81] = inverse_pivot_B1_y_3_i;
+}
+
+/*
+ * x (all nodes) holds b and becomes the solution of N x = b.
+ * At complex eta: real and imaginary parts one behind the other.
+ */
+static void newton_substitute_complex(const LaneComplexLinear *lin, Lanes *x)
+{
+    /* linearization */
+    const Lanes phi_B2_x_crank1_theta = lin->value[2];
+    const Lanes phi_B2_x_crank2_theta = lin->value[3];
+    const Lanes phi_B2_x_coupler2_theta = lin->value[4];
+    const Lanes phi_B2_y_crank1_theta = lin->value[5];
+    const Lanes phi_B2_y_crank2_theta = lin->value[6];
+    const Lanes phi_B2_y_coupler2_theta = lin->value[7];
+    const Lanes phi_B1_x_crank0_theta = lin->value[8];
+    const Lanes phi_B1_y_crank0_theta = lin->value[10];
+    const Lanes inverse_pivot_crank2_theta = lin->lu[0];
+    const Lanes inverse_pivot_crank2_theta_i = lin->lu[1];
+    const Lanes l_B2_x__crank2_theta = lin->lu[2];
+    const Lanes l_B2_x__crank2_theta_3_i = lin->lu[3];
+    const Lanes l_B2_y__crank2_theta = lin->lu[4];
+    const Lanes l_B2_y__crank2_theta_3_i = lin->lu[5];
+    const Lanes inverse_pivot_crank0_theta = lin->lu[6];
+    const Lanes inverse_pivot_crank0_theta_i = lin->lu[7];
+    const Lanes l_coupler1_theta__crank0_theta = lin->lu[8];
+    const Lanes l_coupler1_theta__crank0_theta_3_i = lin->lu[9];
+    const Lanes n_crank0_theta__coupler1_theta = lin->lu[10];
+    const Lanes n_crank0_theta__coupler1_theta_i = lin->lu[11];
+    const Lanes l_B1_x__crank0_theta = lin->lu[12];
+    const Lanes l_B1_x__crank0_theta_3_i = lin->lu[13];
+    const Lanes l_B1_y__crank0_theta = lin->lu[14];
+    const Lanes l_B1_y__crank0_theta_3_i = lin->lu[15];
+    const Lanes inverse_pivot_coupler1_theta = lin->lu[16];
+    const Lanes inverse_pivot_coupler1_theta_3_i = lin->lu[17];
+    const Lanes l_B1_x__coupler1_theta = lin->lu[18];
+    const Lanes l_B1_x__coupler1_theta_3_i = lin->lu[19];
+    const Lanes u_coupler1_theta__B1_x = lin->lu[20];
+    const Lanes u_coupler1_theta__B1_x_i = lin->lu[21];
+    const Lanes l_B1_y__coupler1_theta = lin->lu[22];
+    const Lanes l_B1_y__coupler1_theta_3_i = lin->lu[23];
+    const Lanes u_coupler1_theta__B1_y = lin->lu[24];
+    const Lanes u_coupler1_theta__B1_y_i = lin->lu[25];
+    const Lanes inverse_pivot_coupler2_theta = lin->lu[26];
+    const Lanes inverse_pivot_coupler2_theta_i = lin->lu[27];
+    const Lanes l_crank1_theta__coupler2_theta = lin->lu[28];
+    const Lanes l_crank1_theta__coupler2_theta_3_i = lin->lu[29];
+    const Lanes n_coupler2_theta__crank1_theta = lin->lu[30];
+    const Lanes n_coupler2_theta__crank1_theta_i = lin->lu[31];
+    const Lanes l_B2_x__coupler2_theta = lin->lu[32];
+    const Lanes l_B2_x__coupler2_theta_3_i = lin->lu[33];
+    const Lanes l_B2_y__coupler2_theta = lin->lu[34];
+    const Lanes l_B2_y__coupler2_theta_3_i = lin->lu[35];
+    const Lanes inverse_pivot_crank1_theta = lin->lu[36];
+    const Lanes inverse_pivot_crank1_theta_3_i = lin->lu[37];
+    const Lanes l_B2_x__crank1_theta = lin->lu[38];
+    const Lanes l_B2_x__crank1_theta_2_i = lin->lu[39];
+    const Lanes u_crank1_theta__B2_x = lin->lu[40];
+    const Lanes u_crank1_theta__B2_x_i = lin->lu[41];
+    const Lanes l_B2_y__crank1_theta = lin->lu[42];
+    const Lanes l_B2_y__crank1_theta_2_i = lin->lu[43];
+    const Lanes u_crank1_theta__B2_y = lin->lu[44];
+    const Lanes u_crank1_theta__B2_y_i = lin->lu[45];
+    const Lanes l_B1_x__crank1_theta = lin->lu[46];
+    const Lanes l_B1_x__crank1_theta_3_i = lin->lu[47];
+    const Lanes l_B1_y__crank1_theta = lin->lu[48];
+    const Lanes l_B1_y__crank1_theta_3_i = lin->lu[49];
+    const Lanes inverse_pivot_B2_x = lin->lu[50];
+    const Lanes inverse_pivot_B2_x_3_i = lin->lu[51];
+    const Lanes l_B2_y__B2_x = lin->lu[52];
+    const Lanes l_B2_y__B2_x_i = lin->lu[53];
+    const Lanes u_B2_x__B2_y = lin->lu[54];
+    const Lanes u_B2_x__B2_y_i = lin->lu[55];
+    const Lanes l_B1_x__B2_x = lin->lu[56];
+    const Lanes l_B1_x__B2_x_2_i = lin->lu[57];
+    const Lanes u_B2_x__B1_x = lin->lu[58];
+    const Lanes u_B2_x__B1_x_i = lin->lu[59];
+    const Lanes l_B1_y__B2_x = lin->lu[60];
+    const Lanes l_B1_y__B2_x_2_i = lin->lu[61];
+    const Lanes u_B2_x__B1_y = lin->lu[62];
+    const Lanes u_B2_x__B1_y_i = lin->lu[63];
+    const Lanes inverse_pivot_B2_y = lin->lu[64];
+    const Lanes inverse_pivot_B2_y_3_i = lin->lu[65];
+    const Lanes l_B1_x__B2_y = lin->lu[66];
+    const Lanes l_B1_x__B2_y_2_i = lin->lu[67];
+    const Lanes u_B2_y__B1_x = lin->lu[68];
+    const Lanes u_B2_y__B1_x_i = lin->lu[69];
+    const Lanes l_B1_y__B2_y = lin->lu[70];
+    const Lanes l_B1_y__B2_y_2_i = lin->lu[71];
+    const Lanes u_B2_y__B1_y = lin->lu[72];
+    const Lanes u_B2_y__B1_y_i = lin->lu[73];
+    const Lanes inverse_pivot_B1_x = lin->lu[74];
+    const Lanes inverse_pivot_B1_x_3_i = lin->lu[75];
+    const Lanes l_B1_y__B1_x = lin->lu[76];
+    const Lanes l_B1_y__B1_x_i = lin->lu[77];
+    const Lanes u_B1_x__B1_y = lin->lu[78];
+    const Lanes u_B1_x__B1_y_i = lin->lu[79];
+    const Lanes inverse_pivot_B1_y = lin->lu[80];
+    const Lanes inverse_pivot_B1_y_3_i = lin->lu[81];
+
+    /* forward */
+    const Lanes b_crank2_theta = x[4];
+    const Lanes b_crank2_theta_i = x[5];
+    const Lanes b_crank0_theta = x[0];
+    const Lanes b_crank0_theta_i = x[1];
+    const Lanes b_coupler1_theta = -b_crank0_theta*l_coupler1_theta__crank0_theta
+        + b_crank0_theta_i*l_coupler1_theta__crank0_theta_3_i + x[6];
+    const Lanes b_coupler1_theta_i = -b_crank0_theta*l_coupler1_theta__crank0_theta_3_i
+        - b_crank0_theta_i*l_coupler1_theta__crank0_theta + x[7];
+    const Lanes b_coupler2_theta = x[8];
+    const Lanes b_coupler2_theta_i = x[9];
+    const Lanes b_crank1_theta = -b_coupler2_theta*l_crank1_theta__coupler2_theta
+        + b_coupler2_theta_i*l_crank1_theta__coupler2_theta_3_i + x[2];
+    const Lanes b_crank1_theta_i = -b_coupler2_theta*l_crank1_theta__coupler2_theta_3_i
+        - b_coupler2_theta_i*l_crank1_theta__coupler2_theta + x[3];
+    const Lanes b_B2_x = -b_coupler2_theta*l_B2_x__coupler2_theta + b_coupler2_theta_i*l_B2_x__coupler2_theta_3_i
+        - b_crank1_theta*l_B2_x__crank1_theta + b_crank1_theta_i*l_B2_x__crank1_theta_2_i
+        - b_crank2_theta*l_B2_x__crank2_theta + b_crank2_theta_i*l_B2_x__crank2_theta_3_i + x[10];
+    const Lanes b_B2_x_i = -b_coupler2_theta*l_B2_x__coupler2_theta_3_i - b_coupler2_theta_i*l_B2_x__coupler2_theta
+        - b_crank1_theta*l_B2_x__crank1_theta_2_i - b_crank1_theta_i*l_B2_x__crank1_theta
+        - b_crank2_theta*l_B2_x__crank2_theta_3_i - b_crank2_theta_i*l_B2_x__crank2_theta + x[11];
+    const Lanes b_B2_y = -b_B2_x*l_B2_y__B2_x + b_B2_x_i*l_B2_y__B2_x_i - b_coupler2_theta*l_B2_y__coupler2_theta
+        + b_coupler2_theta_i*l_B2_y__coupler2_theta_3_i - b_crank1_theta*l_B2_y__crank1_theta
+        + b_crank1_theta_i*l_B2_y__crank1_theta_2_i - b_crank2_theta*l_B2_y__crank2_theta
+        + b_crank2_theta_i*l_B2_y__crank2_theta_3_i + x[12];
+    const Lanes b_B2_y_i = -b_B2_x*l_B2_y__B2_x_i - b_B2_x_i*l_B2_y__B2_x - b_coupler2_theta*l_B2_y__coupler2_theta_3_i
+        - b_coupler2_theta_i*l_B2_y__coupler2_theta - b_crank1_theta*l_B2_y__crank1_theta_2_i
+        - b_crank1_theta_i*l_B2_y__crank1_theta - b_crank2_theta*l_B2_y__crank2_theta_3_i
+        - b_crank2_theta_i*l_B2_y__crank2_theta + x[13];
+    const Lanes b_B1_x = -b_B2_x*l_B1_x__B2_x + b_B2_x_i*l_B1_x__B2_x_2_i - b_B2_y*l_B1_x__B2_y
+        + b_B2_y_i*l_B1_x__B2_y_2_i - b_coupler1_theta*l_B1_x__coupler1_theta
+        + b_coupler1_theta_i*l_B1_x__coupler1_theta_3_i - b_crank0_theta*l_B1_x__crank0_theta
+        + b_crank0_theta_i*l_B1_x__crank0_theta_3_i - b_crank1_theta*l_B1_x__crank1_theta
+        + b_crank1_theta_i*l_B1_x__crank1_theta_3_i + x[14];
+    const Lanes b_B1_x_i = -b_B2_x*l_B1_x__B2_x_2_i - b_B2_x_i*l_B1_x__B2_x - b_B2_y*l_B1_x__B2_y_2_i
+        - b_B2_y_i*l_B1_x__B2_y - b_coupler1_theta*l_B1_x__coupler1_theta_3_i
+        - b_coupler1_theta_i*l_B1_x__coupler1_theta - b_crank0_theta*l_B1_x__crank0_theta_3_i
+        - b_crank0_theta_i*l_B1_x__crank0_theta - b_crank1_theta*l_B1_x__crank1_theta_3_i
+        - b_crank1_theta_i*l_B1_x__crank1_theta + x[15];
+    const Lanes b_B1_y = -b_B1_x*l_B1_y__B1_x + b_B1_x_i*l_B1_y__B1_x_i - b_B2_x*l_B1_y__B2_x
+        + b_B2_x_i*l_B1_y__B2_x_2_i - b_B2_y*l_B1_y__B2_y + b_B2_y_i*l_B1_y__B2_y_2_i
+        - b_coupler1_theta*l_B1_y__coupler1_theta + b_coupler1_theta_i*l_B1_y__coupler1_theta_3_i
+        - b_crank0_theta*l_B1_y__crank0_theta + b_crank0_theta_i*l_B1_y__crank0_theta_3_i
+        - b_crank1_theta*l_B1_y__crank1_theta + b_crank1_theta_i*l_B1_y__crank1_theta_3_i + x[16];
+    const Lanes b_B1_y_i = -b_B1_x*l_B1_y__B1_x_i - b_B1_x_i*l_B1_y__B1_x - b_B2_x*l_B1_y__B2_x_2_i
+        - b_B2_x_i*l_B1_y__B2_x - b_B2_y*l_B1_y__B2_y_2_i - b_B2_y_i*l_B1_y__B2_y
+        - b_coupler1_theta*l_B1_y__coupler1_theta_3_i - b_coupler1_theta_i*l_B1_y__coupler1_theta
+        - b_crank0_theta*l_B1_y__crank0_theta_3_i - b_crank0_theta_i*l_B1_y__crank0_theta
+        - b_crank1_theta*l_B1_y__crank1_theta_3_i - b_crank1_theta_i*l_B1_y__crank1_theta + x[17];
+
+    /* backward */
+    const Lanes x_B1_y = b_B1_y*inverse_pivot_B1_y - b_B1_y_i*inverse_pivot_B1_y_3_i;
+    const Lanes x_B1_y_i = b_B1_y*inverse_pivot_B1_y_3_i + b_B1_y_i*inverse_pivot_B1_y;
+    x[16] = x_B1_y;
+    x[17] = x_B1_y_i;
+    const Lanes factor_1 = b_B1_x - u_B1_x__B1_y*x_B1_y + u_B1_x__B1_y_i*x_B1_y_i;
+    const Lanes factor_2 = b_B1_x_i - u_B1_x__B1_y*x_B1_y_i - u_B1_x__B1_y_i*x_B1_y;
+    const Lanes x_B1_x = factor_1*inverse_pivot_B1_x - factor_2*inverse_pivot_B1_x_3_i;
+    const Lanes x_B1_x_i = factor_1*inverse_pivot_B1_x_3_i + factor_2*inverse_pivot_B1_x;
+    x[14] = x_B1_x;
+    x[15] = x_B1_x_i;
+    const Lanes factor_3 = b_B2_y - u_B2_y__B1_x*x_B1_x + u_B2_y__B1_x_i*x_B1_x_i - u_B2_y__B1_y*x_B1_y
+        + u_B2_y__B1_y_i*x_B1_y_i;
+    const Lanes factor_4 = b_B2_y_i - u_B2_y__B1_x*x_B1_x_i - u_B2_y__B1_x_i*x_B1_x - u_B2_y__B1_y*x_B1_y_i
+        - u_B2_y__B1_y_i*x_B1_y;
+    const Lanes x_B2_y = factor_3*inverse_pivot_B2_y - factor_4*inverse_pivot_B2_y_3_i;
+    const Lanes x_B2_y_i = factor_3*inverse_pivot_B2_y_3_i + factor_4*inverse_pivot_B2_y;
+    x[12] = x_B2_y;
+    x[13] = x_B2_y_i;
+    const Lanes factor_5 = b_B2_x - u_B2_x__B1_x*x_B1_x + u_B2_x__B1_x_i*x_B1_x_i - u_B2_x__B1_y*x_B1_y
+        + u_B2_x__B1_y_i*x_B1_y_i - u_B2_x__B2_y*x_B2_y + u_B2_x__B2_y_i*x_B2_y_i;
+    const Lanes factor_6 = b_B2_x_i - u_B2_x__B1_x*x_B1_x_i - u_B2_x__B1_x_i*x_B1_x - u_B2_x__B1_y*x_B1_y_i
+        - u_B2_x__B1_y_i*x_B1_y - u_B2_x__B2_y*x_B2_y_i - u_B2_x__B2_y_i*x_B2_y;
+    const Lanes x_B2_x = factor_5*inverse_pivot_B2_x - factor_6*inverse_pivot_B2_x_3_i;
+    const Lanes x_B2_x_i = factor_5*inverse_pivot_B2_x_3_i + factor_6*inverse_pivot_B2_x;
+    x[10] = x_B2_x;
+    x[11] = x_B2_x_i;
+    const Lanes factor_7 = b_crank1_theta + phi_B2_x_crank1_theta*x_B1_x + phi_B2_y_crank1_theta*x_B1_y
+        - u_crank1_theta__B2_x*x_B2_x + u_crank1_theta__B2_x_i*x_B2_x_i - u_crank1_theta__B2_y*x_B2_y
+        + u_crank1_theta__B2_y_i*x_B2_y_i;
+    const Lanes factor_8 = b_crank1_theta_i + phi_B2_x_crank1_theta*x_B1_x_i + phi_B2_y_crank1_theta*x_B1_y_i
+        - u_crank1_theta__B2_x*x_B2_x_i - u_crank1_theta__B2_x_i*x_B2_x - u_crank1_theta__B2_y*x_B2_y_i
+        - u_crank1_theta__B2_y_i*x_B2_y;
+    const Lanes x_crank1_theta = factor_7*inverse_pivot_crank1_theta - factor_8*inverse_pivot_crank1_theta_3_i;
+    const Lanes x_crank1_theta_i = factor_7*inverse_pivot_crank1_theta_3_i + factor_8*inverse_pivot_crank1_theta;
+    x[2] = x_crank1_theta;
+    x[3] = x_crank1_theta_i;
+    const Lanes factor_9 = b_coupler2_theta - n_coupler2_theta__crank1_theta*x_crank1_theta
+        + n_coupler2_theta__crank1_theta_i*x_crank1_theta_i - phi_B2_x_coupler2_theta*x_B2_x
+        - phi_B2_y_coupler2_theta*x_B2_y;
+    const Lanes factor_10 = b_coupler2_theta_i - n_coupler2_theta__crank1_theta*x_crank1_theta_i
+        - n_coupler2_theta__crank1_theta_i*x_crank1_theta - phi_B2_x_coupler2_theta*x_B2_x_i
+        - phi_B2_y_coupler2_theta*x_B2_y_i;
+    const Lanes x_coupler2_theta = -factor_10*inverse_pivot_coupler2_theta_i + factor_9*inverse_pivot_coupler2_theta;
+    const Lanes x_coupler2_theta_i = factor_10*inverse_pivot_coupler2_theta + factor_9*inverse_pivot_coupler2_theta_i;
+    x[8] = x_coupler2_theta;
+    x[9] = x_coupler2_theta_i;
+    const Lanes factor_11 = b_coupler1_theta - u_coupler1_theta__B1_x*x_B1_x + u_coupler1_theta__B1_x_i*x_B1_x_i
+        - u_coupler1_theta__B1_y*x_B1_y + u_coupler1_theta__B1_y_i*x_B1_y_i;
+    const Lanes factor_12 = b_coupler1_theta_i - u_coupler1_theta__B1_x*x_B1_x_i - u_coupler1_theta__B1_x_i*x_B1_x
+        - u_coupler1_theta__B1_y*x_B1_y_i - u_coupler1_theta__B1_y_i*x_B1_y;
+    const Lanes x_coupler1_theta = factor_11*inverse_pivot_coupler1_theta - factor_12*inverse_pivot_coupler1_theta_3_i;
+    const Lanes x_coupler1_theta_i = factor_11*inverse_pivot_coupler1_theta_3_i
+        + factor_12*inverse_pivot_coupler1_theta;
+    x[6] = x_coupler1_theta;
+    x[7] = x_coupler1_theta_i;
+    const Lanes factor_13 = b_crank0_theta - n_crank0_theta__coupler1_theta*x_coupler1_theta
+        + n_crank0_theta__coupler1_theta_i*x_coupler1_theta_i - phi_B1_x_crank0_theta*x_B1_x
+        - phi_B1_y_crank0_theta*x_B1_y;
+    const Lanes factor_14 = b_crank0_theta_i - n_crank0_theta__coupler1_theta*x_coupler1_theta_i
+        - n_crank0_theta__coupler1_theta_i*x_coupler1_theta - phi_B1_x_crank0_theta*x_B1_x_i
+        - phi_B1_y_crank0_theta*x_B1_y_i;
+    const Lanes x_crank0_theta = factor_13*inverse_pivot_crank0_theta - factor_14*inverse_pivot_crank0_theta_i;
+    const Lanes x_crank0_theta_i = factor_13*inverse_pivot_crank0_theta_i + factor_14*inverse_pivot_crank0_theta;
+    x[0] = x_crank0_theta;
+    x[1] = x_crank0_theta_i;
+    const Lanes factor_15 = b_crank2_theta - phi_B2_x_crank2_theta*x_B2_x - phi_B2_y_crank2_theta*x_B2_y;
+    const Lanes factor_16 = b_crank2_theta_i - phi_B2_x_crank2_theta*x_B2_x_i - phi_B2_y_crank2_theta*x_B2_y_i;
+    const Lanes x_crank2_theta = factor_15*inverse_pivot_crank2_theta - factor_16*inverse_pivot_crank2_theta_i;
+    const Lanes x_crank2_theta_i = factor_15*inverse_pivot_crank2_theta_i + factor_16*inverse_pivot_crank2_theta;
+    x[4] = x_crank2_theta;
+    x[5] = x_crank2_theta_i;
+}
+
+/*
+ * (1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works.
+ * At complex eta: real and imaginary parts one behind the other.
+ */
+static void newton_solve_complex(const LaneComplexLinear *lin, Lanes eta, Lanes eta_i, const Lanes *r, Lanes *u)
+{
+    /* numbers of the run */
+    const LaneParameters *const p = lin->p;
+
+    /* linearization */
+    const Lanes mass_crank0_theta_coupler1_theta = lin->value[0];
+    const Lanes mass_crank1_theta_coupler2_theta = lin->value[1];
+    const Lanes phi_B2_x_crank1_theta = lin->value[2];
+    const Lanes phi_B2_x_crank2_theta = lin->value[3];
+    const Lanes phi_B2_x_coupler2_theta = lin->value[4];
+    const Lanes phi_B2_y_crank1_theta = lin->value[5];
+    const Lanes phi_B2_y_crank2_theta = lin->value[6];
+    const Lanes phi_B2_y_coupler2_theta = lin->value[7];
+    const Lanes phi_B1_x_crank0_theta = lin->value[8];
+    const Lanes phi_B1_x_coupler1_theta = lin->value[9];
+    const Lanes phi_B1_y_crank0_theta = lin->value[10];
+    const Lanes phi_B1_y_coupler1_theta = lin->value[11];
+    const Lanes by_q_B2_x_coupler2_theta = lin->value[12];
+    const Lanes by_q_B2_x_crank1_theta = lin->value[13];
+    const Lanes by_q_B2_x_crank2_theta = lin->value[14];
+    const Lanes by_q_B2_y_coupler2_theta = lin->value[15];
+    const Lanes by_q_B2_y_crank1_theta = lin->value[16];
+    const Lanes by_q_B2_y_crank2_theta = lin->value[17];
+    const Lanes by_q_B1_x_coupler1_theta = lin->value[18];
+    const Lanes by_q_B1_x_crank0_theta = lin->value[19];
+    const Lanes by_q_B1_y_coupler1_theta = lin->value[20];
+    const Lanes by_q_B1_y_crank0_theta = lin->value[21];
+    const Lanes by_q_crank0_theta_crank0_theta = lin->value[22];
+    const Lanes by_q_crank0_theta_coupler1_theta = lin->value[23];
+    const Lanes by_q_crank1_theta_crank1_theta = lin->value[24];
+    const Lanes by_q_crank1_theta_coupler2_theta = lin->value[25];
+    const Lanes by_q_crank2_theta_crank2_theta = lin->value[26];
+    const Lanes by_q_coupler1_theta_coupler1_theta = lin->value[27];
+    const Lanes by_q_coupler1_theta_crank0_theta = lin->value[28];
+    const Lanes by_q_coupler2_theta_coupler2_theta = lin->value[29];
+    const Lanes by_q_coupler2_theta_crank1_theta = lin->value[30];
+
+    /* eta/kappa */
+    const Lanes factor_1 = p->beta_squared*eta + p->two_alpha;
+    const Lanes factor_2 = p->beta_squared*eta_i;
+    const Lanes divisor_1 = eta*factor_1 - eta_i*factor_2 + 1.0;
+    const Lanes divisor_2 = eta*factor_2 + eta_i*factor_1;
+    const Lanes divisor_3 = 1.0/((divisor_1 * divisor_1) + (divisor_2 * divisor_2));
+    const Lanes factor_3 = divisor_1*divisor_3;
+    const Lanes factor_4 = -divisor_2*divisor_3;
+    const Lanes eta_row = eta*factor_3 - eta_i*factor_4;
+    const Lanes eta_row_i = eta*factor_4 + eta_i*factor_3;
+
+    /* right-hand side */
+    Lanes x[18];
+    const Lanes shifted_crank0_theta = -p->beta_squared*(eta*r[0] - eta_i*r[1]) + r[10];
+    const Lanes shifted_crank0_theta_i = -p->beta_squared*(eta*r[1] + eta_i*r[0]) + r[11];
+    const Lanes shifted_crank1_theta = -p->beta_squared*(eta*r[2] - eta_i*r[3]) + r[12];
+    const Lanes shifted_crank1_theta_i = -p->beta_squared*(eta*r[3] + eta_i*r[2]) + r[13];
+    const Lanes shifted_crank2_theta = -p->beta_squared*(eta*r[4] - eta_i*r[5]) + r[14];
+    const Lanes shifted_crank2_theta_i = -p->beta_squared*(eta*r[5] + eta_i*r[4]) + r[15];
+    const Lanes shifted_coupler1_theta = -p->beta_squared*(eta*r[6] - eta_i*r[7]) + r[16];
+    const Lanes shifted_coupler1_theta_i = -p->beta_squared*(eta*r[7] + eta_i*r[6]) + r[17];
+    const Lanes shifted_coupler2_theta = -p->beta_squared*(eta*r[8] - eta_i*r[9]) + r[18];
+    const Lanes shifted_coupler2_theta_i = -p->beta_squared*(eta*r[9] + eta_i*r[8]) + r[19];
+    const Lanes factor_5 = -by_q_crank0_theta_coupler1_theta*(eta*r[6] - eta_i*r[7])
+        - by_q_crank0_theta_crank0_theta*(eta*r[0] - eta_i*r[1]) + p->mass_crank0_crank0*r[10]
+        + mass_crank0_theta_coupler1_theta*r[16];
+    const Lanes factor_6 = -by_q_crank0_theta_coupler1_theta*(eta*r[7] + eta_i*r[6])
+        - by_q_crank0_theta_crank0_theta*(eta*r[1] + eta_i*r[0]) + p->mass_crank0_crank0*r[11]
+        + mass_crank0_theta_coupler1_theta*r[17];
+    x[0] = eta*factor_5 - eta_i*factor_6;
+    x[1] = eta*factor_6 + eta_i*factor_5;
+    const Lanes factor_7 = -by_q_crank1_theta_coupler2_theta*(eta*r[8] - eta_i*r[9])
+        - by_q_crank1_theta_crank1_theta*(eta*r[2] - eta_i*r[3]) + p->mass_crank1_crank1*r[12]
+        + mass_crank1_theta_coupler2_theta*r[18];
+    const Lanes factor_8 = -by_q_crank1_theta_coupler2_theta*(eta*r[9] + eta_i*r[8])
+        - by_q_crank1_theta_crank1_theta*(eta*r[3] + eta_i*r[2]) + p->mass_crank1_crank1*r[13]
+        + mass_crank1_theta_coupler2_theta*r[19];
+    x[2] = eta*factor_7 - eta_i*factor_8;
+    x[3] = eta*factor_8 + eta_i*factor_7;
+    const Lanes factor_9 = -by_q_crank2_theta_crank2_theta*(eta*r[4] - eta_i*r[5]) + p->mass_crank2_crank2*r[14];
+    const Lanes factor_10 = -by_q_crank2_theta_crank2_theta*(eta*r[5] + eta_i*r[4]) + p->mass_crank2_crank2*r[15];
+    x[4] = eta*factor_9 - eta_i*factor_10;
+    x[5] = eta*factor_10 + eta_i*factor_9;
+    const Lanes factor_11 = -by_q_coupler1_theta_coupler1_theta*(eta*r[6] - eta_i*r[7])
+        - by_q_coupler1_theta_crank0_theta*(eta*r[0] - eta_i*r[1]) + p->mass_coupler1_coupler1*r[16]
+        + mass_crank0_theta_coupler1_theta*r[10];
+    const Lanes factor_12 = -by_q_coupler1_theta_coupler1_theta*(eta*r[7] + eta_i*r[6])
+        - by_q_coupler1_theta_crank0_theta*(eta*r[1] + eta_i*r[0]) + p->mass_coupler1_coupler1*r[17]
+        + mass_crank0_theta_coupler1_theta*r[11];
+    x[6] = eta*factor_11 - eta_i*factor_12;
+    x[7] = eta*factor_12 + eta_i*factor_11;
+    const Lanes factor_13 = -by_q_coupler2_theta_coupler2_theta*(eta*r[8] - eta_i*r[9])
+        - by_q_coupler2_theta_crank1_theta*(eta*r[2] - eta_i*r[3]) + p->mass_coupler2_coupler2*r[18]
+        + mass_crank1_theta_coupler2_theta*r[12];
+    const Lanes factor_14 = -by_q_coupler2_theta_coupler2_theta*(eta*r[9] + eta_i*r[8])
+        - by_q_coupler2_theta_crank1_theta*(eta*r[3] + eta_i*r[2]) + p->mass_coupler2_coupler2*r[19]
+        + mass_crank1_theta_coupler2_theta*r[13];
+    x[8] = eta*factor_13 - eta_i*factor_14;
+    x[9] = eta*factor_14 + eta_i*factor_13;
+    const Lanes factor_15 = -by_q_B2_x_coupler2_theta*(eta*r[8] - eta_i*r[9])
+        - by_q_B2_x_crank1_theta*(eta*r[2] - eta_i*r[3]) - by_q_B2_x_crank2_theta*(eta*r[4] - eta_i*r[5])
+        + phi_B2_x_coupler2_theta*shifted_coupler2_theta + phi_B2_x_crank1_theta*shifted_crank1_theta
+        + phi_B2_x_crank2_theta*shifted_crank2_theta;
+    const Lanes factor_16 = -by_q_B2_x_coupler2_theta*(eta*r[9] + eta_i*r[8])
+        - by_q_B2_x_crank1_theta*(eta*r[3] + eta_i*r[2]) - by_q_B2_x_crank2_theta*(eta*r[5] + eta_i*r[4])
+        + phi_B2_x_coupler2_theta*shifted_coupler2_theta_i + phi_B2_x_crank1_theta*shifted_crank1_theta_i
+        + phi_B2_x_crank2_theta*shifted_crank2_theta_i;
+    x[10] = eta_row*factor_15 - eta_row_i*factor_16;
+    x[11] = eta_row*factor_16 + eta_row_i*factor_15;
+    const Lanes factor_17 = -by_q_B2_y_coupler2_theta*(eta*r[8] - eta_i*r[9])
+        - by_q_B2_y_crank1_theta*(eta*r[2] - eta_i*r[3]) - by_q_B2_y_crank2_theta*(eta*r[4] - eta_i*r[5])
+        + phi_B2_y_coupler2_theta*shifted_coupler2_theta + phi_B2_y_crank1_theta*shifted_crank1_theta
+        + phi_B2_y_crank2_theta*shifted_crank2_theta;
+    const Lanes factor_18 = -by_q_B2_y_coupler2_theta*(eta*r[9] + eta_i*r[8])
+        - by_q_B2_y_crank1_theta*(eta*r[3] + eta_i*r[2]) - by_q_B2_y_crank2_theta*(eta*r[5] + eta_i*r[4])
+        + phi_B2_y_coupler2_theta*shifted_coupler2_theta_i + phi_B2_y_crank1_theta*shifted_crank1_theta_i
+        + phi_B2_y_crank2_theta*shifted_crank2_theta_i;
+    x[12] = eta_row*factor_17 - eta_row_i*factor_18;
+    x[13] = eta_row*factor_18 + eta_row_i*factor_17;
+    const Lanes factor_19 = -by_q_B1_x_coupler1_theta*(eta*r[6] - eta_i*r[7])
+        - by_q_B1_x_crank0_theta*(eta*r[0] - eta_i*r[1]) + by_q_B2_x_crank1_theta*(eta*r[2] - eta_i*r[3])
+        + phi_B1_x_coupler1_theta*shifted_coupler1_theta + phi_B1_x_crank0_theta*shifted_crank0_theta
+        - phi_B2_x_crank1_theta*shifted_crank1_theta;
+    const Lanes factor_20 = -by_q_B1_x_coupler1_theta*(eta*r[7] + eta_i*r[6])
+        - by_q_B1_x_crank0_theta*(eta*r[1] + eta_i*r[0]) + by_q_B2_x_crank1_theta*(eta*r[3] + eta_i*r[2])
+        + phi_B1_x_coupler1_theta*shifted_coupler1_theta_i + phi_B1_x_crank0_theta*shifted_crank0_theta_i
+        - phi_B2_x_crank1_theta*shifted_crank1_theta_i;
+    x[14] = eta_row*factor_19 - eta_row_i*factor_20;
+    x[15] = eta_row*factor_20 + eta_row_i*factor_19;
+    const Lanes factor_21 = -by_q_B1_y_coupler1_theta*(eta*r[6] - eta_i*r[7])
+        - by_q_B1_y_crank0_theta*(eta*r[0] - eta_i*r[1]) + by_q_B2_y_crank1_theta*(eta*r[2] - eta_i*r[3])
+        + phi_B1_y_coupler1_theta*shifted_coupler1_theta + phi_B1_y_crank0_theta*shifted_crank0_theta
+        - phi_B2_y_crank1_theta*shifted_crank1_theta;
+    const Lanes factor_22 = -by_q_B1_y_coupler1_theta*(eta*r[7] + eta_i*r[6])
+        - by_q_B1_y_crank0_theta*(eta*r[1] + eta_i*r[0]) + by_q_B2_y_crank1_theta*(eta*r[3] + eta_i*r[2])
+        + phi_B1_y_coupler1_theta*shifted_coupler1_theta_i + phi_B1_y_crank0_theta*shifted_crank0_theta_i
+        - phi_B2_y_crank1_theta*shifted_crank1_theta_i;
+    x[16] = eta_row*factor_21 - eta_row_i*factor_22;
+    x[17] = eta_row*factor_22 + eta_row_i*factor_21;
+    newton_substitute_complex(lin, x);
+
+    /* solution */
+    const Lanes factor_23 = r[0] + x[0];
+    const Lanes factor_24 = r[1] + x[1];
+    u[0] = eta*factor_23 - eta_i*factor_24;
+    u[1] = eta*factor_24 + eta_i*factor_23;
+    u[10] = x[0];
+    u[11] = x[1];
+    const Lanes factor_25 = r[2] + x[2];
+    const Lanes factor_26 = r[3] + x[3];
+    u[2] = eta*factor_25 - eta_i*factor_26;
+    u[3] = eta*factor_26 + eta_i*factor_25;
+    u[12] = x[2];
+    u[13] = x[3];
+    const Lanes factor_27 = r[4] + x[4];
+    const Lanes factor_28 = r[5] + x[5];
+    u[4] = eta*factor_27 - eta_i*factor_28;
+    u[5] = eta*factor_28 + eta_i*factor_27;
+    u[14] = x[4];
+    u[15] = x[5];
+    const Lanes factor_29 = r[6] + x[6];
+    const Lanes factor_30 = r[7] + x[7];
+    u[6] = eta*factor_29 - eta_i*factor_30;
+    u[7] = eta*factor_30 + eta_i*factor_29;
+    u[16] = x[6];
+    u[17] = x[7];
+    const Lanes factor_31 = r[8] + x[8];
+    const Lanes factor_32 = r[9] + x[9];
+    u[8] = eta*factor_31 - eta_i*factor_32;
+    u[9] = eta*factor_32 + eta_i*factor_31;
+    u[18] = x[8];
+    u[19] = x[9];
+    u[20] = eta*r[20] - eta_i*r[21];
+    u[21] = eta*r[21] + eta_i*r[20];
+    u[22] = eta*r[22] - eta_i*r[23];
+    u[23] = eta*r[23] + eta_i*r[22];
+    u[24] = eta*r[24] - eta_i*r[25];
+    u[25] = eta*r[25] + eta_i*r[24];
+}
+
 #include "engine/batch/lane_tries.c"
 #include "engine/batch/lane_flow.c"
 #endif

@@ -1723,6 +1723,602 @@ static void newton_solve(const LaneLinear *lin, Lanes eta, Lanes s, const Lanes 
         + power_v_2_L7_theta*u[6] + r[12]);
 }
 
+/*
+ * L U of Newton's matrix at eta = h gamma (0: the KKT matrix), L with unit diagonal. Returns 0, or the
+ * number of the node (coordinates, rows, sticks; from 1) whose pivot vanished or is not finite.
+ * At complex eta: real and imaginary parts one behind the other.
+ */
+static void newton_factor_complex(Lanes eta, Lanes eta_i, LaneComplexLinear *lin, LaneBits *rare)
+{
+    /* numbers of the run */
+    const LaneParameters *const p = lin->p;
+
+    /* linearization */
+    const Lanes mass_L6_theta_L7_theta = lin->value[0];
+    const Lanes mass_L6_theta_L2_theta = lin->value[1];
+    const Lanes mass_L7_theta_L2_theta = lin->value[2];
+    const Lanes mass_L6_theta_L3_theta = lin->value[3];
+    const Lanes mass_L7_theta_L3_theta = lin->value[4];
+    const Lanes mass_L6_theta_L8_theta = lin->value[5];
+    const Lanes phi_guide_offset_L6_theta = lin->value[6];
+    const Lanes phi_guide_offset_L8_theta = lin->value[7];
+    const Lanes by_q_guide_offset_L6_theta = lin->value[8];
+    const Lanes by_q_guide_offset_L8_theta = lin->value[9];
+    const Lanes by_q_L6_theta_L6_theta = lin->value[10];
+    const Lanes by_q_L6_theta_L7_theta = lin->value[11];
+    const Lanes by_q_L6_theta_L2_theta = lin->value[12];
+    const Lanes by_q_L6_theta_L3_theta = lin->value[13];
+    const Lanes by_q_L6_theta_L8_theta = lin->value[14];
+    const Lanes by_q_L7_theta_L6_theta = lin->value[15];
+    const Lanes by_q_L7_theta_L7_theta = lin->value[16];
+    const Lanes by_q_L7_theta_L2_theta = lin->value[17];
+    const Lanes by_q_L7_theta_L3_theta = lin->value[18];
+    const Lanes by_q_L8_theta_L8_theta = lin->value[19];
+    const Lanes by_q_L8_theta_L6_theta = lin->value[20];
+    const Lanes by_q_L2_theta_L6_theta = lin->value[21];
+    const Lanes by_q_L2_theta_L7_theta = lin->value[22];
+    const Lanes by_q_L2_theta_L2_theta = lin->value[23];
+    const Lanes by_q_L3_theta_L6_theta = lin->value[24];
+    const Lanes by_q_L3_theta_L7_theta = lin->value[25];
+    const Lanes by_q_L3_theta_L3_theta = lin->value[26];
+    const Lanes by_v_guide_offset_L6_theta = lin->value[27];
+    const Lanes by_v_guide_offset_L8_theta = lin->value[28];
+    const Lanes by_v_L6_theta_L6_theta = lin->value[29];
+    const Lanes by_v_L6_theta_L7_theta = lin->value[30];
+    const Lanes by_v_L6_theta_L2_theta = lin->value[31];
+    const Lanes by_v_L6_theta_L3_theta = lin->value[32];
+    const Lanes by_v_L6_theta_L8_theta = lin->value[33];
+    const Lanes by_v_L7_theta_L6_theta = lin->value[34];
+    const Lanes by_v_L7_theta_L7_theta = lin->value[35];
+    const Lanes by_v_L7_theta_L2_theta = lin->value[36];
+    const Lanes by_v_L7_theta_L3_theta = lin->value[37];
+    const Lanes by_v_L8_theta_L6_theta = lin->value[38];
+    const Lanes by_v_L2_theta_L6_theta = lin->value[39];
+    const Lanes by_v_L2_theta_L7_theta = lin->value[40];
+    const Lanes by_v_L2_theta_L2_theta = lin->value[41];
+    const Lanes by_v_L3_theta_L6_theta = lin->value[42];
+    const Lanes by_v_L3_theta_L7_theta = lin->value[43];
+    const Lanes by_v_L3_theta_L3_theta = lin->value[44];
+
+    /* eta/kappa */
+    const Lanes factor_1 = p->beta_squared*eta + p->two_alpha;
+    const Lanes factor_2 = p->beta_squared*eta_i;
+    const Lanes divisor_1 = eta*factor_1 - eta_i*factor_2 + 1.0;
+    const Lanes divisor_2 = eta*factor_2 + eta_i*factor_1;
+    const Lanes divisor_3 = 1.0/((divisor_1 * divisor_1) + (divisor_2 * divisor_2));
+    const Lanes factor_3 = divisor_1*divisor_3;
+    const Lanes factor_4 = -divisor_2*divisor_3;
+    const Lanes eta_row = eta*factor_3 - eta_i*factor_4;
+    const Lanes eta_row_i = eta*factor_4 + eta_i*factor_3;
+
+    /* matrix */
+    const Lanes factor_5 = by_q_L6_theta_L6_theta*eta + by_v_L6_theta_L6_theta;
+    const Lanes factor_6 = by_q_L6_theta_L6_theta*eta_i;
+    const Lanes n_L6_theta__L6_theta = eta*factor_5 - eta_i*factor_6 + p->mass_L6_L6;
+    const Lanes n_L6_theta__L6_theta_i = eta*factor_6 + eta_i*factor_5;
+    const Lanes factor_7 = by_q_L6_theta_L7_theta*eta + by_v_L6_theta_L7_theta;
+    const Lanes factor_8 = by_q_L6_theta_L7_theta*eta_i;
+    const Lanes n_L6_theta__L7_theta = eta*factor_7 - eta_i*factor_8 + mass_L6_theta_L7_theta;
+    const Lanes n_L6_theta__L7_theta_i = eta*factor_8 + eta_i*factor_7;
+    const Lanes factor_9 = by_q_L6_theta_L8_theta*eta + by_v_L6_theta_L8_theta;
+    const Lanes factor_10 = by_q_L6_theta_L8_theta*eta_i;
+    const Lanes n_L6_theta__L8_theta = eta*factor_9 - eta_i*factor_10 + mass_L6_theta_L8_theta;
+    const Lanes n_L6_theta__L8_theta_i = eta*factor_10 + eta_i*factor_9;
+    const Lanes factor_11 = by_q_L6_theta_L2_theta*eta + by_v_L6_theta_L2_theta;
+    const Lanes factor_12 = by_q_L6_theta_L2_theta*eta_i;
+    const Lanes n_L6_theta__L2_theta = eta*factor_11 - eta_i*factor_12 + mass_L6_theta_L2_theta;
+    const Lanes n_L6_theta__L2_theta_i = eta*factor_12 + eta_i*factor_11;
+    const Lanes factor_13 = by_q_L6_theta_L3_theta*eta + by_v_L6_theta_L3_theta;
+    const Lanes factor_14 = by_q_L6_theta_L3_theta*eta_i;
+    const Lanes n_L6_theta__L3_theta = eta*factor_13 - eta_i*factor_14 + mass_L6_theta_L3_theta;
+    const Lanes n_L6_theta__L3_theta_i = eta*factor_14 + eta_i*factor_13;
+    const Lanes factor_15 = by_q_L7_theta_L6_theta*eta + by_v_L7_theta_L6_theta;
+    const Lanes factor_16 = by_q_L7_theta_L6_theta*eta_i;
+    const Lanes n_L7_theta__L6_theta = eta*factor_15 - eta_i*factor_16 + mass_L6_theta_L7_theta;
+    const Lanes n_L7_theta__L6_theta_i = eta*factor_16 + eta_i*factor_15;
+    const Lanes factor_17 = by_q_L7_theta_L7_theta*eta + by_v_L7_theta_L7_theta;
+    const Lanes factor_18 = by_q_L7_theta_L7_theta*eta_i;
+    const Lanes n_L7_theta__L7_theta = eta*factor_17 - eta_i*factor_18 + p->mass_L7_L7;
+    const Lanes n_L7_theta__L7_theta_i = eta*factor_18 + eta_i*factor_17;
+    const Lanes factor_19 = by_q_L7_theta_L2_theta*eta + by_v_L7_theta_L2_theta;
+    const Lanes factor_20 = by_q_L7_theta_L2_theta*eta_i;
+    const Lanes n_L7_theta__L2_theta = eta*factor_19 - eta_i*factor_20 + mass_L7_theta_L2_theta;
+    const Lanes n_L7_theta__L2_theta_i = eta*factor_20 + eta_i*factor_19;
+    const Lanes factor_21 = by_q_L7_theta_L3_theta*eta + by_v_L7_theta_L3_theta;
+    const Lanes factor_22 = by_q_L7_theta_L3_theta*eta_i;
+    const Lanes n_L7_theta__L3_theta = eta*factor_21 - eta_i*factor_22 + mass_L7_theta_L3_theta;
+    const Lanes n_L7_theta__L3_theta_i = eta*factor_22 + eta_i*factor_21;
+    const Lanes factor_23 = by_q_L8_theta_L6_theta*eta + by_v_L8_theta_L6_theta;
+    const Lanes factor_24 = by_q_L8_theta_L6_theta*eta_i;
+    const Lanes n_L8_theta__L6_theta = eta*factor_23 - eta_i*factor_24 + mass_L6_theta_L8_theta;
+    const Lanes n_L8_theta__L6_theta_i = eta*factor_24 + eta_i*factor_23;
+    const Lanes n_L8_theta__L8_theta = by_q_L8_theta_L8_theta*((eta * eta) - (eta_i * eta_i)) + p->mass_L8_L8;
+    const Lanes n_L8_theta__L8_theta_i = 2.0*by_q_L8_theta_L8_theta*eta*eta_i;
+    const Lanes factor_25 = by_q_L2_theta_L6_theta*eta + by_v_L2_theta_L6_theta;
+    const Lanes factor_26 = by_q_L2_theta_L6_theta*eta_i;
+    const Lanes n_L2_theta__L6_theta = eta*factor_25 - eta_i*factor_26 + mass_L6_theta_L2_theta;
+    const Lanes n_L2_theta__L6_theta_i = eta*factor_26 + eta_i*factor_25;
+    const Lanes factor_27 = by_q_L2_theta_L7_theta*eta + by_v_L2_theta_L7_theta;
+    const Lanes factor_28 = by_q_L2_theta_L7_theta*eta_i;
+    const Lanes n_L2_theta__L7_theta = eta*factor_27 - eta_i*factor_28 + mass_L7_theta_L2_theta;
+    const Lanes n_L2_theta__L7_theta_i = eta*factor_28 + eta_i*factor_27;
+    const Lanes factor_29 = by_q_L2_theta_L2_theta*eta + by_v_L2_theta_L2_theta;
+    const Lanes factor_30 = by_q_L2_theta_L2_theta*eta_i;
+    const Lanes n_L2_theta__L2_theta = eta*factor_29 - eta_i*factor_30 + p->mass_L2_L2;
+    const Lanes n_L2_theta__L2_theta_i = eta*factor_30 + eta_i*factor_29;
+    const Lanes factor_31 = by_q_L3_theta_L6_theta*eta + by_v_L3_theta_L6_theta;
+    const Lanes factor_32 = by_q_L3_theta_L6_theta*eta_i;
+    const Lanes n_L3_theta__L6_theta = eta*factor_31 - eta_i*factor_32 + mass_L6_theta_L3_theta;
+    const Lanes n_L3_theta__L6_theta_i = eta*factor_32 + eta_i*factor_31;
+    const Lanes factor_33 = by_q_L3_theta_L7_theta*eta + by_v_L3_theta_L7_theta;
+    const Lanes factor_34 = by_q_L3_theta_L7_theta*eta_i;
+    const Lanes n_L3_theta__L7_theta = eta*factor_33 - eta_i*factor_34 + mass_L7_theta_L3_theta;
+    const Lanes n_L3_theta__L7_theta_i = eta*factor_34 + eta_i*factor_33;
+    const Lanes factor_35 = by_q_L3_theta_L3_theta*eta + by_v_L3_theta_L3_theta;
+    const Lanes factor_36 = by_q_L3_theta_L3_theta*eta_i;
+    const Lanes n_L3_theta__L3_theta = eta*factor_35 - eta_i*factor_36 + p->mass_L3_L3;
+    const Lanes n_L3_theta__L3_theta_i = eta*factor_36 + eta_i*factor_35;
+    const Lanes factor_37 = by_q_guide_offset_L6_theta*eta + by_v_guide_offset_L6_theta;
+    const Lanes factor_38 = by_q_guide_offset_L6_theta*eta_i;
+    const Lanes n_guide_offset__L6_theta = eta_row*factor_37 - eta_row_i*factor_38 + phi_guide_offset_L6_theta;
+    const Lanes n_guide_offset__L6_theta_i = eta_row*factor_38 + eta_row_i*factor_37;
+    const Lanes factor_39 = by_q_guide_offset_L8_theta*eta + by_v_guide_offset_L8_theta;
+    const Lanes factor_40 = by_q_guide_offset_L8_theta*eta_i;
+    const Lanes n_guide_offset__L8_theta = eta_row*factor_39 - eta_row_i*factor_40 + phi_guide_offset_L8_theta;
+    const Lanes n_guide_offset__L8_theta_i = eta_row*factor_40 + eta_row_i*factor_39;
+
+    /* L U */
+    const Lanes scale_L8_theta = n_L8_theta__L8_theta;
+    const Lanes scale_L8_theta_i = n_L8_theta__L8_theta_i;
+    const Lanes size_1 = lanes_fabs(scale_L8_theta) + lanes_fabs(scale_L8_theta_i);
+    const Lanes size_2 = lanes_fabs(n_L8_theta__L8_theta) + lanes_fabs(n_L8_theta__L8_theta_i);
+    *rare |= ~(size_1 > SINGULAR * size_2);
+    const Lanes divisor_4 = 1.0/((scale_L8_theta * scale_L8_theta) + (scale_L8_theta_i * scale_L8_theta_i));
+    const Lanes inverse_pivot_L8_theta = divisor_4*scale_L8_theta;
+    const Lanes inverse_pivot_L8_theta_i = -divisor_4*scale_L8_theta_i;
+    lin->lu[0] = inverse_pivot_L8_theta;
+    lin->lu[1] = inverse_pivot_L8_theta_i;
+    const Lanes l_L6_theta__L8_theta = inverse_pivot_L8_theta*n_L6_theta__L8_theta
+        - inverse_pivot_L8_theta_i*n_L6_theta__L8_theta_i;
+    const Lanes l_L6_theta__L8_theta_3_i = inverse_pivot_L8_theta*n_L6_theta__L8_theta_i
+        + inverse_pivot_L8_theta_i*n_L6_theta__L8_theta;
+    lin->lu[2] = l_L6_theta__L8_theta;
+    lin->lu[3] = l_L6_theta__L8_theta_3_i;
+    lin->lu[4] = n_L8_theta__L6_theta;
+    lin->lu[5] = n_L8_theta__L6_theta_i;
+    const Lanes l_guide_offset__L8_theta = inverse_pivot_L8_theta*n_guide_offset__L8_theta
+        - inverse_pivot_L8_theta_i*n_guide_offset__L8_theta_i;
+    const Lanes l_guide_offset__L8_theta_3_i = inverse_pivot_L8_theta*n_guide_offset__L8_theta_i
+        + inverse_pivot_L8_theta_i*n_guide_offset__L8_theta;
+    lin->lu[6] = l_guide_offset__L8_theta;
+    lin->lu[7] = l_guide_offset__L8_theta_3_i;
+    const Lanes scale_L2_theta = n_L2_theta__L2_theta;
+    const Lanes scale_L2_theta_i = n_L2_theta__L2_theta_i;
+    const Lanes size_3 = lanes_fabs(scale_L2_theta) + lanes_fabs(scale_L2_theta_i);
+    const Lanes size_4 = lanes_fabs(n_L2_theta__L2_theta) + lanes_fabs(n_L2_theta__L2_theta_i);
+    *rare |= ~(size_3 > SINGULAR * size_4);
+    const Lanes divisor_5 = 1.0/((scale_L2_theta * scale_L2_theta) + (scale_L2_theta_i * scale_L2_theta_i));
+    const Lanes inverse_pivot_L2_theta = divisor_5*scale_L2_theta;
+    const Lanes inverse_pivot_L2_theta_i = -divisor_5*scale_L2_theta_i;
+    lin->lu[8] = inverse_pivot_L2_theta;
+    lin->lu[9] = inverse_pivot_L2_theta_i;
+    const Lanes l_L7_theta__L2_theta = inverse_pivot_L2_theta*n_L7_theta__L2_theta
+        - inverse_pivot_L2_theta_i*n_L7_theta__L2_theta_i;
+    const Lanes l_L7_theta__L2_theta_3_i = inverse_pivot_L2_theta*n_L7_theta__L2_theta_i
+        + inverse_pivot_L2_theta_i*n_L7_theta__L2_theta;
+    lin->lu[10] = l_L7_theta__L2_theta;
+    lin->lu[11] = l_L7_theta__L2_theta_3_i;
+    lin->lu[12] = n_L2_theta__L7_theta;
+    lin->lu[13] = n_L2_theta__L7_theta_i;
+    const Lanes l_L6_theta__L2_theta = inverse_pivot_L2_theta*n_L6_theta__L2_theta
+        - inverse_pivot_L2_theta_i*n_L6_theta__L2_theta_i;
+    const Lanes l_L6_theta__L2_theta_3_i = inverse_pivot_L2_theta*n_L6_theta__L2_theta_i
+        + inverse_pivot_L2_theta_i*n_L6_theta__L2_theta;
+    lin->lu[14] = l_L6_theta__L2_theta;
+    lin->lu[15] = l_L6_theta__L2_theta_3_i;
+    lin->lu[16] = n_L2_theta__L6_theta;
+    lin->lu[17] = n_L2_theta__L6_theta_i;
+    const Lanes scale_L7_theta = -l_L7_theta__L2_theta*n_L2_theta__L7_theta
+        + l_L7_theta__L2_theta_3_i*n_L2_theta__L7_theta_i + n_L7_theta__L7_theta;
+    const Lanes scale_L7_theta_i = -l_L7_theta__L2_theta*n_L2_theta__L7_theta_i
+        - l_L7_theta__L2_theta_3_i*n_L2_theta__L7_theta + n_L7_theta__L7_theta_i;
+    const Lanes size_5 = lanes_fabs(scale_L7_theta) + lanes_fabs(scale_L7_theta_i);
+    const Lanes size_6 = lanes_fabs(n_L7_theta__L7_theta) + lanes_fabs(n_L7_theta__L7_theta_i);
+    *rare |= ~(size_5 > SINGULAR * size_6);
+    const Lanes divisor_6 = 1.0/((scale_L7_theta * scale_L7_theta) + (scale_L7_theta_i * scale_L7_theta_i));
+    const Lanes inverse_pivot_L7_theta = divisor_6*scale_L7_theta;
+    const Lanes inverse_pivot_L7_theta_3_i = -divisor_6*scale_L7_theta_i;
+    lin->lu[18] = inverse_pivot_L7_theta;
+    lin->lu[19] = inverse_pivot_L7_theta_3_i;
+    const Lanes l_L3_theta__L7_theta = inverse_pivot_L7_theta*n_L3_theta__L7_theta
+        - inverse_pivot_L7_theta_3_i*n_L3_theta__L7_theta_i;
+    const Lanes l_L3_theta__L7_theta_i = inverse_pivot_L7_theta*n_L3_theta__L7_theta_i
+        + inverse_pivot_L7_theta_3_i*n_L3_theta__L7_theta;
+    lin->lu[20] = l_L3_theta__L7_theta;
+    lin->lu[21] = l_L3_theta__L7_theta_i;
+    lin->lu[22] = n_L7_theta__L3_theta;
+    lin->lu[23] = n_L7_theta__L3_theta_i;
+    const Lanes factor_41 = -l_L6_theta__L2_theta*n_L2_theta__L7_theta
+        + l_L6_theta__L2_theta_3_i*n_L2_theta__L7_theta_i + n_L6_theta__L7_theta;
+    const Lanes factor_42 = -l_L6_theta__L2_theta*n_L2_theta__L7_theta_i
+        - l_L6_theta__L2_theta_3_i*n_L2_theta__L7_theta + n_L6_theta__L7_theta_i;
+    const Lanes l_L6_theta__L7_theta = factor_41*inverse_pivot_L7_theta - factor_42*inverse_pivot_L7_theta_3_i;
+    const Lanes l_L6_theta__L7_theta_3_i = factor_41*inverse_pivot_L7_theta_3_i + factor_42*inverse_pivot_L7_theta;
+    lin->lu[24] = l_L6_theta__L7_theta;
+    lin->lu[25] = l_L6_theta__L7_theta_3_i;
+    const Lanes u_L7_theta__L6_theta = -l_L7_theta__L2_theta*n_L2_theta__L6_theta
+        + l_L7_theta__L2_theta_3_i*n_L2_theta__L6_theta_i + n_L7_theta__L6_theta;
+    const Lanes u_L7_theta__L6_theta_i = -l_L7_theta__L2_theta*n_L2_theta__L6_theta_i
+        - l_L7_theta__L2_theta_3_i*n_L2_theta__L6_theta + n_L7_theta__L6_theta_i;
+    lin->lu[26] = u_L7_theta__L6_theta;
+    lin->lu[27] = u_L7_theta__L6_theta_i;
+    const Lanes scale_L3_theta = -l_L3_theta__L7_theta*n_L7_theta__L3_theta
+        + l_L3_theta__L7_theta_i*n_L7_theta__L3_theta_i + n_L3_theta__L3_theta;
+    const Lanes scale_L3_theta_i = -l_L3_theta__L7_theta*n_L7_theta__L3_theta_i
+        - l_L3_theta__L7_theta_i*n_L7_theta__L3_theta + n_L3_theta__L3_theta_i;
+    const Lanes size_7 = lanes_fabs(scale_L3_theta) + lanes_fabs(scale_L3_theta_i);
+    const Lanes size_8 = lanes_fabs(n_L3_theta__L3_theta) + lanes_fabs(n_L3_theta__L3_theta_i);
+    *rare |= ~(size_7 > SINGULAR * size_8);
+    const Lanes divisor_7 = 1.0/((scale_L3_theta * scale_L3_theta) + (scale_L3_theta_i * scale_L3_theta_i));
+    const Lanes inverse_pivot_L3_theta = divisor_7*scale_L3_theta;
+    const Lanes inverse_pivot_L3_theta_3_i = -divisor_7*scale_L3_theta_i;
+    lin->lu[28] = inverse_pivot_L3_theta;
+    lin->lu[29] = inverse_pivot_L3_theta_3_i;
+    const Lanes factor_43 = -l_L6_theta__L7_theta*n_L7_theta__L3_theta
+        + l_L6_theta__L7_theta_3_i*n_L7_theta__L3_theta_i + n_L6_theta__L3_theta;
+    const Lanes factor_44 = -l_L6_theta__L7_theta*n_L7_theta__L3_theta_i
+        - l_L6_theta__L7_theta_3_i*n_L7_theta__L3_theta + n_L6_theta__L3_theta_i;
+    const Lanes l_L6_theta__L3_theta = factor_43*inverse_pivot_L3_theta - factor_44*inverse_pivot_L3_theta_3_i;
+    const Lanes l_L6_theta__L3_theta_3_i = factor_43*inverse_pivot_L3_theta_3_i + factor_44*inverse_pivot_L3_theta;
+    lin->lu[30] = l_L6_theta__L3_theta;
+    lin->lu[31] = l_L6_theta__L3_theta_3_i;
+    const Lanes u_L3_theta__L6_theta = -l_L3_theta__L7_theta*u_L7_theta__L6_theta
+        + l_L3_theta__L7_theta_i*u_L7_theta__L6_theta_i + n_L3_theta__L6_theta;
+    const Lanes u_L3_theta__L6_theta_i = -l_L3_theta__L7_theta*u_L7_theta__L6_theta_i
+        - l_L3_theta__L7_theta_i*u_L7_theta__L6_theta + n_L3_theta__L6_theta_i;
+    lin->lu[32] = u_L3_theta__L6_theta;
+    lin->lu[33] = u_L3_theta__L6_theta_i;
+    const Lanes scale_L6_theta = -l_L6_theta__L2_theta*n_L2_theta__L6_theta
+        + l_L6_theta__L2_theta_3_i*n_L2_theta__L6_theta_i - l_L6_theta__L3_theta*u_L3_theta__L6_theta
+        + l_L6_theta__L3_theta_3_i*u_L3_theta__L6_theta_i - l_L6_theta__L7_theta*u_L7_theta__L6_theta
+        + l_L6_theta__L7_theta_3_i*u_L7_theta__L6_theta_i - l_L6_theta__L8_theta*n_L8_theta__L6_theta
+        + l_L6_theta__L8_theta_3_i*n_L8_theta__L6_theta_i + n_L6_theta__L6_theta;
+    const Lanes scale_L6_theta_i = -l_L6_theta__L2_theta*n_L2_theta__L6_theta_i
+        - l_L6_theta__L2_theta_3_i*n_L2_theta__L6_theta - l_L6_theta__L3_theta*u_L3_theta__L6_theta_i
+        - l_L6_theta__L3_theta_3_i*u_L3_theta__L6_theta - l_L6_theta__L7_theta*u_L7_theta__L6_theta_i
+        - l_L6_theta__L7_theta_3_i*u_L7_theta__L6_theta - l_L6_theta__L8_theta*n_L8_theta__L6_theta_i
+        - l_L6_theta__L8_theta_3_i*n_L8_theta__L6_theta + n_L6_theta__L6_theta_i;
+    const Lanes size_9 = lanes_fabs(scale_L6_theta) + lanes_fabs(scale_L6_theta_i);
+    const Lanes size_10 = lanes_fabs(n_L6_theta__L6_theta) + lanes_fabs(n_L6_theta__L6_theta_i);
+    *rare |= ~(size_9 > SINGULAR * size_10);
+    const Lanes divisor_8 = 1.0/((scale_L6_theta * scale_L6_theta) + (scale_L6_theta_i * scale_L6_theta_i));
+    const Lanes inverse_pivot_L6_theta = divisor_8*scale_L6_theta;
+    const Lanes inverse_pivot_L6_theta_3_i = -divisor_8*scale_L6_theta_i;
+    lin->lu[34] = inverse_pivot_L6_theta;
+    lin->lu[35] = inverse_pivot_L6_theta_3_i;
+    const Lanes factor_45 = -l_guide_offset__L8_theta*n_L8_theta__L6_theta
+        + l_guide_offset__L8_theta_3_i*n_L8_theta__L6_theta_i + n_guide_offset__L6_theta;
+    const Lanes factor_46 = -l_guide_offset__L8_theta*n_L8_theta__L6_theta_i
+        - l_guide_offset__L8_theta_3_i*n_L8_theta__L6_theta + n_guide_offset__L6_theta_i;
+    const Lanes l_guide_offset__L6_theta = factor_45*inverse_pivot_L6_theta - factor_46*inverse_pivot_L6_theta_3_i;
+    const Lanes l_guide_offset__L6_theta_3_i = factor_45*inverse_pivot_L6_theta_3_i + factor_46*inverse_pivot_L6_theta;
+    lin->lu[36] = l_guide_offset__L6_theta;
+    lin->lu[37] = l_guide_offset__L6_theta_3_i;
+    const Lanes u_L6_theta__guide_offset = -l_L6_theta__L8_theta*phi_guide_offset_L8_theta + phi_guide_offset_L6_theta;
+    const Lanes u_L6_theta__guide_offset_i = -l_L6_theta__L8_theta_3_i*phi_guide_offset_L8_theta;
+    lin->lu[38] = u_L6_theta__guide_offset;
+    lin->lu[39] = u_L6_theta__guide_offset_i;
+    const Lanes scale_guide_offset = -l_guide_offset__L6_theta*u_L6_theta__guide_offset
+        + l_guide_offset__L6_theta_3_i*u_L6_theta__guide_offset_i - l_guide_offset__L8_theta*phi_guide_offset_L8_theta;
+    const Lanes scale_guide_offset_3_i = -l_guide_offset__L6_theta*u_L6_theta__guide_offset_i
+        - l_guide_offset__L6_theta_3_i*u_L6_theta__guide_offset
+        - l_guide_offset__L8_theta_3_i*phi_guide_offset_L8_theta;
+    const Lanes size_11 = lanes_fabs(scale_guide_offset) + lanes_fabs(scale_guide_offset_3_i);
+    *rare |= ~((size_11 > 0.0) & (size_11 < INFINITY));
+    const Lanes divisor_9 = 1.0/((scale_guide_offset * scale_guide_offset)
+        + (scale_guide_offset_3_i * scale_guide_offset_3_i));
+    const Lanes inverse_pivot_guide_offset = divisor_9*scale_guide_offset;
+    const Lanes inverse_pivot_guide_offset_3_i = -divisor_9*scale_guide_offset_3_i;
+    lin->lu[40] = inverse_pivot_guide_offset;
+    lin->lu[41] = inverse_pivot_guide_offset_3_i;
+}
+
+/*
+ * x (all nodes) holds b and becomes the solution of N x = b.
+ * At complex eta: real and imaginary parts one behind the other.
+ */
+static void newton_substitute_complex(const LaneComplexLinear *lin, Lanes *x)
+{
+    /* linearization */
+    const Lanes phi_guide_offset_L8_theta = lin->value[7];
+    const Lanes inverse_pivot_L8_theta = lin->lu[0];
+    const Lanes inverse_pivot_L8_theta_i = lin->lu[1];
+    const Lanes l_L6_theta__L8_theta = lin->lu[2];
+    const Lanes l_L6_theta__L8_theta_3_i = lin->lu[3];
+    const Lanes n_L8_theta__L6_theta = lin->lu[4];
+    const Lanes n_L8_theta__L6_theta_i = lin->lu[5];
+    const Lanes l_guide_offset__L8_theta = lin->lu[6];
+    const Lanes l_guide_offset__L8_theta_3_i = lin->lu[7];
+    const Lanes inverse_pivot_L2_theta = lin->lu[8];
+    const Lanes inverse_pivot_L2_theta_i = lin->lu[9];
+    const Lanes l_L7_theta__L2_theta = lin->lu[10];
+    const Lanes l_L7_theta__L2_theta_3_i = lin->lu[11];
+    const Lanes n_L2_theta__L7_theta = lin->lu[12];
+    const Lanes n_L2_theta__L7_theta_i = lin->lu[13];
+    const Lanes l_L6_theta__L2_theta = lin->lu[14];
+    const Lanes l_L6_theta__L2_theta_3_i = lin->lu[15];
+    const Lanes n_L2_theta__L6_theta = lin->lu[16];
+    const Lanes n_L2_theta__L6_theta_i = lin->lu[17];
+    const Lanes inverse_pivot_L7_theta = lin->lu[18];
+    const Lanes inverse_pivot_L7_theta_3_i = lin->lu[19];
+    const Lanes l_L3_theta__L7_theta = lin->lu[20];
+    const Lanes l_L3_theta__L7_theta_i = lin->lu[21];
+    const Lanes n_L7_theta__L3_theta = lin->lu[22];
+    const Lanes n_L7_theta__L3_theta_i = lin->lu[23];
+    const Lanes l_L6_theta__L7_theta = lin->lu[24];
+    const Lanes l_L6_theta__L7_theta_3_i = lin->lu[25];
+    const Lanes u_L7_theta__L6_theta = lin->lu[26];
+    const Lanes u_L7_theta__L6_theta_i = lin->lu[27];
+    const Lanes inverse_pivot_L3_theta = lin->lu[28];
+    const Lanes inverse_pivot_L3_theta_3_i = lin->lu[29];
+    const Lanes l_L6_theta__L3_theta = lin->lu[30];
+    const Lanes l_L6_theta__L3_theta_3_i = lin->lu[31];
+    const Lanes u_L3_theta__L6_theta = lin->lu[32];
+    const Lanes u_L3_theta__L6_theta_i = lin->lu[33];
+    const Lanes inverse_pivot_L6_theta = lin->lu[34];
+    const Lanes inverse_pivot_L6_theta_3_i = lin->lu[35];
+    const Lanes l_guide_offset__L6_theta = lin->lu[36];
+    const Lanes l_guide_offset__L6_theta_3_i = lin->lu[37];
+    const Lanes u_L6_theta__guide_offset = lin->lu[38];
+    const Lanes u_L6_theta__guide_offset_i = lin->lu[39];
+    const Lanes inverse_pivot_guide_offset = lin->lu[40];
+    const Lanes inverse_pivot_guide_offset_3_i = lin->lu[41];
+
+    /* forward */
+    const Lanes b_L8_theta = x[4];
+    const Lanes b_L8_theta_i = x[5];
+    const Lanes b_L2_theta = x[6];
+    const Lanes b_L2_theta_i = x[7];
+    const Lanes b_L7_theta = -b_L2_theta*l_L7_theta__L2_theta + b_L2_theta_i*l_L7_theta__L2_theta_3_i + x[2];
+    const Lanes b_L7_theta_i = -b_L2_theta*l_L7_theta__L2_theta_3_i - b_L2_theta_i*l_L7_theta__L2_theta + x[3];
+    const Lanes b_L3_theta = -b_L7_theta*l_L3_theta__L7_theta + b_L7_theta_i*l_L3_theta__L7_theta_i + x[8];
+    const Lanes b_L3_theta_i = -b_L7_theta*l_L3_theta__L7_theta_i - b_L7_theta_i*l_L3_theta__L7_theta + x[9];
+    const Lanes b_L6_theta = -b_L2_theta*l_L6_theta__L2_theta + b_L2_theta_i*l_L6_theta__L2_theta_3_i
+        - b_L3_theta*l_L6_theta__L3_theta + b_L3_theta_i*l_L6_theta__L3_theta_3_i - b_L7_theta*l_L6_theta__L7_theta
+        + b_L7_theta_i*l_L6_theta__L7_theta_3_i - b_L8_theta*l_L6_theta__L8_theta
+        + b_L8_theta_i*l_L6_theta__L8_theta_3_i + x[0];
+    const Lanes b_L6_theta_i = -b_L2_theta*l_L6_theta__L2_theta_3_i - b_L2_theta_i*l_L6_theta__L2_theta
+        - b_L3_theta*l_L6_theta__L3_theta_3_i - b_L3_theta_i*l_L6_theta__L3_theta - b_L7_theta*l_L6_theta__L7_theta_3_i
+        - b_L7_theta_i*l_L6_theta__L7_theta - b_L8_theta*l_L6_theta__L8_theta_3_i - b_L8_theta_i*l_L6_theta__L8_theta
+        + x[1];
+    const Lanes b_guide_offset = -b_L6_theta*l_guide_offset__L6_theta + b_L6_theta_i*l_guide_offset__L6_theta_3_i
+        - b_L8_theta*l_guide_offset__L8_theta + b_L8_theta_i*l_guide_offset__L8_theta_3_i + x[10];
+    const Lanes b_guide_offset_i = -b_L6_theta*l_guide_offset__L6_theta_3_i - b_L6_theta_i*l_guide_offset__L6_theta
+        - b_L8_theta*l_guide_offset__L8_theta_3_i - b_L8_theta_i*l_guide_offset__L8_theta + x[11];
+
+    /* backward */
+    const Lanes x_guide_offset = b_guide_offset*inverse_pivot_guide_offset
+        - b_guide_offset_i*inverse_pivot_guide_offset_3_i;
+    const Lanes x_guide_offset_i = b_guide_offset*inverse_pivot_guide_offset_3_i
+        + b_guide_offset_i*inverse_pivot_guide_offset;
+    x[10] = x_guide_offset;
+    x[11] = x_guide_offset_i;
+    const Lanes factor_1 = b_L6_theta - u_L6_theta__guide_offset*x_guide_offset
+        + u_L6_theta__guide_offset_i*x_guide_offset_i;
+    const Lanes factor_2 = b_L6_theta_i - u_L6_theta__guide_offset*x_guide_offset_i
+        - u_L6_theta__guide_offset_i*x_guide_offset;
+    const Lanes x_L6_theta = factor_1*inverse_pivot_L6_theta - factor_2*inverse_pivot_L6_theta_3_i;
+    const Lanes x_L6_theta_i = factor_1*inverse_pivot_L6_theta_3_i + factor_2*inverse_pivot_L6_theta;
+    x[0] = x_L6_theta;
+    x[1] = x_L6_theta_i;
+    const Lanes factor_3 = b_L3_theta - u_L3_theta__L6_theta*x_L6_theta + u_L3_theta__L6_theta_i*x_L6_theta_i;
+    const Lanes factor_4 = b_L3_theta_i - u_L3_theta__L6_theta*x_L6_theta_i - u_L3_theta__L6_theta_i*x_L6_theta;
+    const Lanes x_L3_theta = factor_3*inverse_pivot_L3_theta - factor_4*inverse_pivot_L3_theta_3_i;
+    const Lanes x_L3_theta_i = factor_3*inverse_pivot_L3_theta_3_i + factor_4*inverse_pivot_L3_theta;
+    x[8] = x_L3_theta;
+    x[9] = x_L3_theta_i;
+    const Lanes factor_5 = b_L7_theta - n_L7_theta__L3_theta*x_L3_theta + n_L7_theta__L3_theta_i*x_L3_theta_i
+        - u_L7_theta__L6_theta*x_L6_theta + u_L7_theta__L6_theta_i*x_L6_theta_i;
+    const Lanes factor_6 = b_L7_theta_i - n_L7_theta__L3_theta*x_L3_theta_i - n_L7_theta__L3_theta_i*x_L3_theta
+        - u_L7_theta__L6_theta*x_L6_theta_i - u_L7_theta__L6_theta_i*x_L6_theta;
+    const Lanes x_L7_theta = factor_5*inverse_pivot_L7_theta - factor_6*inverse_pivot_L7_theta_3_i;
+    const Lanes x_L7_theta_i = factor_5*inverse_pivot_L7_theta_3_i + factor_6*inverse_pivot_L7_theta;
+    x[2] = x_L7_theta;
+    x[3] = x_L7_theta_i;
+    const Lanes factor_7 = b_L2_theta - n_L2_theta__L6_theta*x_L6_theta + n_L2_theta__L6_theta_i*x_L6_theta_i
+        - n_L2_theta__L7_theta*x_L7_theta + n_L2_theta__L7_theta_i*x_L7_theta_i;
+    const Lanes factor_8 = b_L2_theta_i - n_L2_theta__L6_theta*x_L6_theta_i - n_L2_theta__L6_theta_i*x_L6_theta
+        - n_L2_theta__L7_theta*x_L7_theta_i - n_L2_theta__L7_theta_i*x_L7_theta;
+    const Lanes x_L2_theta = factor_7*inverse_pivot_L2_theta - factor_8*inverse_pivot_L2_theta_i;
+    const Lanes x_L2_theta_i = factor_7*inverse_pivot_L2_theta_i + factor_8*inverse_pivot_L2_theta;
+    x[6] = x_L2_theta;
+    x[7] = x_L2_theta_i;
+    const Lanes factor_9 = b_L8_theta - n_L8_theta__L6_theta*x_L6_theta + n_L8_theta__L6_theta_i*x_L6_theta_i
+        - phi_guide_offset_L8_theta*x_guide_offset;
+    const Lanes factor_10 = b_L8_theta_i - n_L8_theta__L6_theta*x_L6_theta_i - n_L8_theta__L6_theta_i*x_L6_theta
+        - phi_guide_offset_L8_theta*x_guide_offset_i;
+    const Lanes x_L8_theta = -factor_10*inverse_pivot_L8_theta_i + factor_9*inverse_pivot_L8_theta;
+    const Lanes x_L8_theta_i = factor_10*inverse_pivot_L8_theta + factor_9*inverse_pivot_L8_theta_i;
+    x[4] = x_L8_theta;
+    x[5] = x_L8_theta_i;
+}
+
+/*
+ * (1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works.
+ * At complex eta: real and imaginary parts one behind the other.
+ */
+static void newton_solve_complex(const LaneComplexLinear *lin, Lanes eta, Lanes eta_i, const Lanes *r, Lanes *u)
+{
+    /* numbers of the run */
+    const LaneParameters *const p = lin->p;
+
+    /* linearization */
+    const Lanes mass_L6_theta_L7_theta = lin->value[0];
+    const Lanes mass_L6_theta_L2_theta = lin->value[1];
+    const Lanes mass_L7_theta_L2_theta = lin->value[2];
+    const Lanes mass_L6_theta_L3_theta = lin->value[3];
+    const Lanes mass_L7_theta_L3_theta = lin->value[4];
+    const Lanes mass_L6_theta_L8_theta = lin->value[5];
+    const Lanes phi_guide_offset_L6_theta = lin->value[6];
+    const Lanes phi_guide_offset_L8_theta = lin->value[7];
+    const Lanes by_q_guide_offset_L6_theta = lin->value[8];
+    const Lanes by_q_guide_offset_L8_theta = lin->value[9];
+    const Lanes by_q_L6_theta_L6_theta = lin->value[10];
+    const Lanes by_q_L6_theta_L7_theta = lin->value[11];
+    const Lanes by_q_L6_theta_L2_theta = lin->value[12];
+    const Lanes by_q_L6_theta_L3_theta = lin->value[13];
+    const Lanes by_q_L6_theta_L8_theta = lin->value[14];
+    const Lanes by_q_L7_theta_L6_theta = lin->value[15];
+    const Lanes by_q_L7_theta_L7_theta = lin->value[16];
+    const Lanes by_q_L7_theta_L2_theta = lin->value[17];
+    const Lanes by_q_L7_theta_L3_theta = lin->value[18];
+    const Lanes by_q_L8_theta_L8_theta = lin->value[19];
+    const Lanes by_q_L8_theta_L6_theta = lin->value[20];
+    const Lanes by_q_L2_theta_L6_theta = lin->value[21];
+    const Lanes by_q_L2_theta_L7_theta = lin->value[22];
+    const Lanes by_q_L2_theta_L2_theta = lin->value[23];
+    const Lanes by_q_L3_theta_L6_theta = lin->value[24];
+    const Lanes by_q_L3_theta_L7_theta = lin->value[25];
+    const Lanes by_q_L3_theta_L3_theta = lin->value[26];
+    const Lanes power_q_0_L6_theta = lin->value[49];
+    const Lanes power_q_0_L7_theta = lin->value[50];
+    const Lanes power_q_0_L2_theta = lin->value[51];
+    const Lanes power_q_0_L3_theta = lin->value[52];
+    const Lanes power_q_2_L6_theta = lin->value[53];
+    const Lanes power_q_2_L7_theta = lin->value[54];
+    const Lanes power_q_2_L2_theta = lin->value[55];
+    const Lanes power_q_2_L3_theta = lin->value[56];
+    const Lanes power_v_0_L6_theta = lin->value[57];
+    const Lanes power_v_0_L7_theta = lin->value[58];
+    const Lanes power_v_0_L2_theta = lin->value[59];
+    const Lanes power_v_0_L3_theta = lin->value[60];
+    const Lanes power_v_2_L6_theta = lin->value[61];
+    const Lanes power_v_2_L7_theta = lin->value[62];
+    const Lanes power_v_2_L2_theta = lin->value[63];
+    const Lanes power_v_2_L3_theta = lin->value[64];
+
+    /* eta/kappa */
+    const Lanes factor_1 = p->beta_squared*eta + p->two_alpha;
+    const Lanes factor_2 = p->beta_squared*eta_i;
+    const Lanes divisor_1 = eta*factor_1 - eta_i*factor_2 + 1.0;
+    const Lanes divisor_2 = eta*factor_2 + eta_i*factor_1;
+    const Lanes divisor_3 = 1.0/((divisor_1 * divisor_1) + (divisor_2 * divisor_2));
+    const Lanes factor_3 = divisor_1*divisor_3;
+    const Lanes factor_4 = -divisor_2*divisor_3;
+    const Lanes eta_row = eta*factor_3 - eta_i*factor_4;
+    const Lanes eta_row_i = eta*factor_4 + eta_i*factor_3;
+
+    /* right-hand side */
+    Lanes x[12];
+    const Lanes shifted_L6_theta = -p->beta_squared*(eta*r[0] - eta_i*r[1]) + r[10];
+    const Lanes shifted_L6_theta_i = -p->beta_squared*(eta*r[1] + eta_i*r[0]) + r[11];
+    const Lanes shifted_L8_theta = -p->beta_squared*(eta*r[4] - eta_i*r[5]) + r[14];
+    const Lanes shifted_L8_theta_i = -p->beta_squared*(eta*r[5] + eta_i*r[4]) + r[15];
+    const Lanes factor_5 = -by_q_L6_theta_L2_theta*(eta*r[6] - eta_i*r[7])
+        - by_q_L6_theta_L3_theta*(eta*r[8] - eta_i*r[9]) - by_q_L6_theta_L6_theta*(eta*r[0] - eta_i*r[1])
+        - by_q_L6_theta_L7_theta*(eta*r[2] - eta_i*r[3]) - by_q_L6_theta_L8_theta*(eta*r[4] - eta_i*r[5])
+        + p->mass_L6_L6*r[10] + mass_L6_theta_L2_theta*r[16] + mass_L6_theta_L3_theta*r[18]
+        + mass_L6_theta_L7_theta*r[12] + mass_L6_theta_L8_theta*r[14];
+    const Lanes factor_6 = -by_q_L6_theta_L2_theta*(eta*r[7] + eta_i*r[6])
+        - by_q_L6_theta_L3_theta*(eta*r[9] + eta_i*r[8]) - by_q_L6_theta_L6_theta*(eta*r[1] + eta_i*r[0])
+        - by_q_L6_theta_L7_theta*(eta*r[3] + eta_i*r[2]) - by_q_L6_theta_L8_theta*(eta*r[5] + eta_i*r[4])
+        + p->mass_L6_L6*r[11] + mass_L6_theta_L2_theta*r[17] + mass_L6_theta_L3_theta*r[19]
+        + mass_L6_theta_L7_theta*r[13] + mass_L6_theta_L8_theta*r[15];
+    x[0] = eta*factor_5 - eta_i*factor_6;
+    x[1] = eta*factor_6 + eta_i*factor_5;
+    const Lanes factor_7 = -by_q_L7_theta_L2_theta*(eta*r[6] - eta_i*r[7])
+        - by_q_L7_theta_L3_theta*(eta*r[8] - eta_i*r[9]) - by_q_L7_theta_L6_theta*(eta*r[0] - eta_i*r[1])
+        - by_q_L7_theta_L7_theta*(eta*r[2] - eta_i*r[3]) + mass_L6_theta_L7_theta*r[10] + p->mass_L7_L7*r[12]
+        + mass_L7_theta_L2_theta*r[16] + mass_L7_theta_L3_theta*r[18];
+    const Lanes factor_8 = -by_q_L7_theta_L2_theta*(eta*r[7] + eta_i*r[6])
+        - by_q_L7_theta_L3_theta*(eta*r[9] + eta_i*r[8]) - by_q_L7_theta_L6_theta*(eta*r[1] + eta_i*r[0])
+        - by_q_L7_theta_L7_theta*(eta*r[3] + eta_i*r[2]) + mass_L6_theta_L7_theta*r[11] + p->mass_L7_L7*r[13]
+        + mass_L7_theta_L2_theta*r[17] + mass_L7_theta_L3_theta*r[19];
+    x[2] = eta*factor_7 - eta_i*factor_8;
+    x[3] = eta*factor_8 + eta_i*factor_7;
+    const Lanes factor_9 = -by_q_L8_theta_L6_theta*(eta*r[0] - eta_i*r[1])
+        - by_q_L8_theta_L8_theta*(eta*r[4] - eta_i*r[5]) + mass_L6_theta_L8_theta*r[10] + p->mass_L8_L8*r[14];
+    const Lanes factor_10 = -by_q_L8_theta_L6_theta*(eta*r[1] + eta_i*r[0])
+        - by_q_L8_theta_L8_theta*(eta*r[5] + eta_i*r[4]) + mass_L6_theta_L8_theta*r[11] + p->mass_L8_L8*r[15];
+    x[4] = eta*factor_9 - eta_i*factor_10;
+    x[5] = eta*factor_10 + eta_i*factor_9;
+    const Lanes factor_11 = -by_q_L2_theta_L2_theta*(eta*r[6] - eta_i*r[7])
+        - by_q_L2_theta_L6_theta*(eta*r[0] - eta_i*r[1]) - by_q_L2_theta_L7_theta*(eta*r[2] - eta_i*r[3])
+        + p->mass_L2_L2*r[16] + mass_L6_theta_L2_theta*r[10] + mass_L7_theta_L2_theta*r[12];
+    const Lanes factor_12 = -by_q_L2_theta_L2_theta*(eta*r[7] + eta_i*r[6])
+        - by_q_L2_theta_L6_theta*(eta*r[1] + eta_i*r[0]) - by_q_L2_theta_L7_theta*(eta*r[3] + eta_i*r[2])
+        + p->mass_L2_L2*r[17] + mass_L6_theta_L2_theta*r[11] + mass_L7_theta_L2_theta*r[13];
+    x[6] = eta*factor_11 - eta_i*factor_12;
+    x[7] = eta*factor_12 + eta_i*factor_11;
+    const Lanes factor_13 = -by_q_L3_theta_L3_theta*(eta*r[8] - eta_i*r[9])
+        - by_q_L3_theta_L6_theta*(eta*r[0] - eta_i*r[1]) - by_q_L3_theta_L7_theta*(eta*r[2] - eta_i*r[3])
+        + p->mass_L3_L3*r[18] + mass_L6_theta_L3_theta*r[10] + mass_L7_theta_L3_theta*r[12];
+    const Lanes factor_14 = -by_q_L3_theta_L3_theta*(eta*r[9] + eta_i*r[8])
+        - by_q_L3_theta_L6_theta*(eta*r[1] + eta_i*r[0]) - by_q_L3_theta_L7_theta*(eta*r[3] + eta_i*r[2])
+        + p->mass_L3_L3*r[19] + mass_L6_theta_L3_theta*r[11] + mass_L7_theta_L3_theta*r[13];
+    x[8] = eta*factor_13 - eta_i*factor_14;
+    x[9] = eta*factor_14 + eta_i*factor_13;
+    const Lanes factor_15 = -by_q_guide_offset_L6_theta*(eta*r[0] - eta_i*r[1])
+        - by_q_guide_offset_L8_theta*(eta*r[4] - eta_i*r[5]) + phi_guide_offset_L6_theta*shifted_L6_theta
+        + phi_guide_offset_L8_theta*shifted_L8_theta;
+    const Lanes factor_16 = -by_q_guide_offset_L6_theta*(eta*r[1] + eta_i*r[0])
+        - by_q_guide_offset_L8_theta*(eta*r[5] + eta_i*r[4]) + phi_guide_offset_L6_theta*shifted_L6_theta_i
+        + phi_guide_offset_L8_theta*shifted_L8_theta_i;
+    x[10] = eta_row*factor_15 - eta_row_i*factor_16;
+    x[11] = eta_row*factor_16 + eta_row_i*factor_15;
+    newton_substitute_complex(lin, x);
+
+    /* solution */
+    const Lanes factor_17 = r[0] + x[0];
+    const Lanes factor_18 = r[1] + x[1];
+    u[0] = eta*factor_17 - eta_i*factor_18;
+    u[1] = eta*factor_18 + eta_i*factor_17;
+    u[10] = x[0];
+    u[11] = x[1];
+    const Lanes factor_19 = r[2] + x[2];
+    const Lanes factor_20 = r[3] + x[3];
+    u[2] = eta*factor_19 - eta_i*factor_20;
+    u[3] = eta*factor_20 + eta_i*factor_19;
+    u[12] = x[2];
+    u[13] = x[3];
+    const Lanes factor_21 = r[4] + x[4];
+    const Lanes factor_22 = r[5] + x[5];
+    u[4] = eta*factor_21 - eta_i*factor_22;
+    u[5] = eta*factor_22 + eta_i*factor_21;
+    u[14] = x[4];
+    u[15] = x[5];
+    const Lanes factor_23 = r[6] + x[6];
+    const Lanes factor_24 = r[7] + x[7];
+    u[6] = eta*factor_23 - eta_i*factor_24;
+    u[7] = eta*factor_24 + eta_i*factor_23;
+    u[16] = x[6];
+    u[17] = x[7];
+    const Lanes factor_25 = r[8] + x[8];
+    const Lanes factor_26 = r[9] + x[9];
+    u[8] = eta*factor_25 - eta_i*factor_26;
+    u[9] = eta*factor_26 + eta_i*factor_25;
+    u[18] = x[8];
+    u[19] = x[9];
+    const Lanes factor_27 = power_q_0_L2_theta*u[6] + power_q_0_L3_theta*u[8] + power_q_0_L6_theta*u[0]
+        + power_q_0_L7_theta*u[2] + power_v_0_L2_theta*u[16] + power_v_0_L3_theta*u[18] + power_v_0_L6_theta*u[10]
+        + power_v_0_L7_theta*u[12] + r[20];
+    const Lanes factor_28 = power_q_0_L2_theta*u[7] + power_q_0_L3_theta*u[9] + power_q_0_L6_theta*u[1]
+        + power_q_0_L7_theta*u[3] + power_v_0_L2_theta*u[17] + power_v_0_L3_theta*u[19] + power_v_0_L6_theta*u[11]
+        + power_v_0_L7_theta*u[13] + r[21];
+    u[20] = eta*factor_27 - eta_i*factor_28;
+    u[21] = eta*factor_28 + eta_i*factor_27;
+    u[22] = eta*r[22] - eta_i*r[23];
+    u[23] = eta*r[23] + eta_i*r[22];
+    const Lanes factor_29 = power_q_2_L2_theta*u[6] + power_q_2_L3_theta*u[8] + power_q_2_L6_theta*u[0]
+        + power_q_2_L7_theta*u[2] + power_v_2_L2_theta*u[16] + power_v_2_L3_theta*u[18] + power_v_2_L6_theta*u[10]
+        + power_v_2_L7_theta*u[12] + r[24];
+    const Lanes factor_30 = power_q_2_L2_theta*u[7] + power_q_2_L3_theta*u[9] + power_q_2_L6_theta*u[1]
+        + power_q_2_L7_theta*u[3] + power_v_2_L2_theta*u[17] + power_v_2_L3_theta*u[19] + power_v_2_L6_theta*u[11]
+        + power_v_2_L7_theta*u[13] + r[25];
+    u[24] = eta*factor_29 - eta_i*factor_30;
+    u[25] = eta*factor_30 + eta_i*factor_29;
+}
+
 #include "engine/batch/lane_tries.c"
 #include "engine/batch/lane_flow.c"
 #endif

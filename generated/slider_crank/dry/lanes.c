@@ -761,6 +761,186 @@ static void newton_solve(const LaneLinear *lin, Lanes eta, Lanes s, const Lanes 
         + power_v_2_rod_theta*u[3] + r[6]);
 }
 
+/*
+ * L U of Newton's matrix at eta = h gamma (0: the KKT matrix), L with unit diagonal. Returns 0, or the
+ * number of the node (coordinates, rows, sticks; from 1) whose pivot vanished or is not finite.
+ * At complex eta: real and imaginary parts one behind the other.
+ */
+static void newton_factor_complex(Lanes eta, Lanes eta_i, LaneComplexLinear *lin, LaneBits *rare)
+{
+    /* numbers of the run */
+    const LaneParameters *const p = lin->p;
+
+    /* linearization */
+    const Lanes by_q_cylinder_slide_cylinder_slide = lin->value[0];
+    const Lanes by_q_cylinder_slide_rod_theta = lin->value[1];
+    const Lanes by_q_rod_theta_rod_theta = lin->value[2];
+    const Lanes by_q_rod_theta_cylinder_slide = lin->value[3];
+    const Lanes by_v_cylinder_slide_cylinder_slide = lin->value[4];
+    const Lanes by_v_cylinder_slide_rod_theta = lin->value[5];
+    const Lanes by_v_rod_theta_cylinder_slide = lin->value[6];
+    const Lanes by_v_rod_theta_rod_theta = lin->value[7];
+
+    /* matrix */
+    const Lanes factor_1 = by_q_cylinder_slide_cylinder_slide*eta + by_v_cylinder_slide_cylinder_slide;
+    const Lanes factor_2 = by_q_cylinder_slide_cylinder_slide*eta_i;
+    const Lanes n_cylinder_slide__cylinder_slide = eta*factor_1 - eta_i*factor_2 + p->slider_mass;
+    const Lanes n_cylinder_slide__cylinder_slide_i = eta*factor_2 + eta_i*factor_1;
+    const Lanes factor_3 = by_q_cylinder_slide_rod_theta*eta + by_v_cylinder_slide_rod_theta;
+    const Lanes factor_4 = by_q_cylinder_slide_rod_theta*eta_i;
+    const Lanes n_cylinder_slide__rod_theta = eta*factor_3 - eta_i*factor_4;
+    const Lanes n_cylinder_slide__rod_theta_i = eta*factor_4 + eta_i*factor_3;
+    const Lanes factor_5 = by_q_rod_theta_cylinder_slide*eta + by_v_rod_theta_cylinder_slide;
+    const Lanes factor_6 = by_q_rod_theta_cylinder_slide*eta_i;
+    const Lanes n_rod_theta__cylinder_slide = eta*factor_5 - eta_i*factor_6;
+    const Lanes n_rod_theta__cylinder_slide_i = eta*factor_6 + eta_i*factor_5;
+    const Lanes factor_7 = by_q_rod_theta_rod_theta*eta + by_v_rod_theta_rod_theta;
+    const Lanes factor_8 = by_q_rod_theta_rod_theta*eta_i;
+    const Lanes n_rod_theta__rod_theta = eta*factor_7 - eta_i*factor_8 + p->mass_rod_rod;
+    const Lanes n_rod_theta__rod_theta_i = eta*factor_8 + eta_i*factor_7;
+
+    /* L U */
+    const Lanes scale_cylinder_slide = n_cylinder_slide__cylinder_slide;
+    const Lanes scale_cylinder_slide_i = n_cylinder_slide__cylinder_slide_i;
+    const Lanes size_1 = lanes_fabs(scale_cylinder_slide) + lanes_fabs(scale_cylinder_slide_i);
+    const Lanes size_2 = lanes_fabs(n_cylinder_slide__cylinder_slide) + lanes_fabs(n_cylinder_slide__cylinder_slide_i);
+    *rare |= ~(size_1 > SINGULAR * size_2);
+    const Lanes divisor_1 = 1.0/((scale_cylinder_slide * scale_cylinder_slide)
+        + (scale_cylinder_slide_i * scale_cylinder_slide_i));
+    const Lanes inverse_pivot_cylinder_slide = divisor_1*scale_cylinder_slide;
+    const Lanes inverse_pivot_cylinder_slide_i = -divisor_1*scale_cylinder_slide_i;
+    lin->lu[0] = inverse_pivot_cylinder_slide;
+    lin->lu[1] = inverse_pivot_cylinder_slide_i;
+    const Lanes l_rod_theta__cylinder_slide = inverse_pivot_cylinder_slide*n_rod_theta__cylinder_slide
+        - inverse_pivot_cylinder_slide_i*n_rod_theta__cylinder_slide_i;
+    const Lanes l_rod_theta__cylinder_slide_i = inverse_pivot_cylinder_slide*n_rod_theta__cylinder_slide_i
+        + inverse_pivot_cylinder_slide_i*n_rod_theta__cylinder_slide;
+    lin->lu[2] = l_rod_theta__cylinder_slide;
+    lin->lu[3] = l_rod_theta__cylinder_slide_i;
+    lin->lu[4] = n_cylinder_slide__rod_theta;
+    lin->lu[5] = n_cylinder_slide__rod_theta_i;
+    const Lanes scale_rod_theta = -l_rod_theta__cylinder_slide*n_cylinder_slide__rod_theta
+        + l_rod_theta__cylinder_slide_i*n_cylinder_slide__rod_theta_i + n_rod_theta__rod_theta;
+    const Lanes scale_rod_theta_i = -l_rod_theta__cylinder_slide*n_cylinder_slide__rod_theta_i
+        - l_rod_theta__cylinder_slide_i*n_cylinder_slide__rod_theta + n_rod_theta__rod_theta_i;
+    const Lanes size_3 = lanes_fabs(scale_rod_theta) + lanes_fabs(scale_rod_theta_i);
+    const Lanes size_4 = lanes_fabs(n_rod_theta__rod_theta) + lanes_fabs(n_rod_theta__rod_theta_i);
+    *rare |= ~(size_3 > SINGULAR * size_4);
+    const Lanes divisor_2 = 1.0/((scale_rod_theta * scale_rod_theta) + (scale_rod_theta_i * scale_rod_theta_i));
+    const Lanes inverse_pivot_rod_theta = divisor_2*scale_rod_theta;
+    const Lanes inverse_pivot_rod_theta_i = -divisor_2*scale_rod_theta_i;
+    lin->lu[6] = inverse_pivot_rod_theta;
+    lin->lu[7] = inverse_pivot_rod_theta_i;
+}
+
+/*
+ * x (all nodes) holds b and becomes the solution of N x = b.
+ * At complex eta: real and imaginary parts one behind the other.
+ */
+static void newton_substitute_complex(const LaneComplexLinear *lin, Lanes *x)
+{
+    /* linearization */
+    const Lanes inverse_pivot_cylinder_slide = lin->lu[0];
+    const Lanes inverse_pivot_cylinder_slide_i = lin->lu[1];
+    const Lanes l_rod_theta__cylinder_slide = lin->lu[2];
+    const Lanes l_rod_theta__cylinder_slide_i = lin->lu[3];
+    const Lanes n_cylinder_slide__rod_theta = lin->lu[4];
+    const Lanes n_cylinder_slide__rod_theta_i = lin->lu[5];
+    const Lanes inverse_pivot_rod_theta = lin->lu[6];
+    const Lanes inverse_pivot_rod_theta_i = lin->lu[7];
+
+    /* forward */
+    const Lanes b_cylinder_slide = x[0];
+    const Lanes b_cylinder_slide_i = x[1];
+    const Lanes b_rod_theta = -b_cylinder_slide*l_rod_theta__cylinder_slide
+        + b_cylinder_slide_i*l_rod_theta__cylinder_slide_i + x[2];
+    const Lanes b_rod_theta_i = -b_cylinder_slide*l_rod_theta__cylinder_slide_i
+        - b_cylinder_slide_i*l_rod_theta__cylinder_slide + x[3];
+
+    /* backward */
+    const Lanes x_rod_theta = b_rod_theta*inverse_pivot_rod_theta - b_rod_theta_i*inverse_pivot_rod_theta_i;
+    const Lanes x_rod_theta_i = b_rod_theta*inverse_pivot_rod_theta_i + b_rod_theta_i*inverse_pivot_rod_theta;
+    x[2] = x_rod_theta;
+    x[3] = x_rod_theta_i;
+    const Lanes factor_1 = b_cylinder_slide - n_cylinder_slide__rod_theta*x_rod_theta
+        + n_cylinder_slide__rod_theta_i*x_rod_theta_i;
+    const Lanes factor_2 = b_cylinder_slide_i - n_cylinder_slide__rod_theta*x_rod_theta_i
+        - n_cylinder_slide__rod_theta_i*x_rod_theta;
+    const Lanes x_cylinder_slide = factor_1*inverse_pivot_cylinder_slide - factor_2*inverse_pivot_cylinder_slide_i;
+    const Lanes x_cylinder_slide_i = factor_1*inverse_pivot_cylinder_slide_i + factor_2*inverse_pivot_cylinder_slide;
+    x[0] = x_cylinder_slide;
+    x[1] = x_cylinder_slide_i;
+}
+
+/*
+ * (1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works.
+ * At complex eta: real and imaginary parts one behind the other.
+ */
+static void newton_solve_complex(const LaneComplexLinear *lin, Lanes eta, Lanes eta_i, const Lanes *r, Lanes *u)
+{
+    /* numbers of the run */
+    const LaneParameters *const p = lin->p;
+
+    /* linearization */
+    const Lanes by_q_cylinder_slide_cylinder_slide = lin->value[0];
+    const Lanes by_q_cylinder_slide_rod_theta = lin->value[1];
+    const Lanes by_q_rod_theta_rod_theta = lin->value[2];
+    const Lanes by_q_rod_theta_cylinder_slide = lin->value[3];
+    const Lanes power_q_0_rod_theta = lin->value[10];
+    const Lanes power_q_0_cylinder_slide = lin->value[11];
+    const Lanes power_q_2_rod_theta = lin->value[12];
+    const Lanes power_q_2_cylinder_slide = lin->value[13];
+    const Lanes power_v_0_rod_theta = lin->value[14];
+    const Lanes power_v_0_cylinder_slide = lin->value[15];
+    const Lanes power_v_2_cylinder_slide = lin->value[16];
+    const Lanes power_v_2_rod_theta = lin->value[17];
+    const Lanes power_0_rod_theta = lin->value[18];
+
+    /* right-hand side */
+    Lanes x[4];
+    const Lanes factor_1 = -by_q_cylinder_slide_cylinder_slide*(eta*r[0] - eta_i*r[1])
+        - by_q_cylinder_slide_rod_theta*(eta*r[2] - eta_i*r[3]) + r[4]*p->slider_mass;
+    const Lanes factor_2 = -by_q_cylinder_slide_cylinder_slide*(eta*r[1] + eta_i*r[0])
+        - by_q_cylinder_slide_rod_theta*(eta*r[3] + eta_i*r[2]) + r[5]*p->slider_mass;
+    x[0] = eta*factor_1 - eta_i*factor_2;
+    x[1] = eta*factor_2 + eta_i*factor_1;
+    const Lanes factor_3 = -by_q_rod_theta_cylinder_slide*(eta*r[0] - eta_i*r[1])
+        - by_q_rod_theta_rod_theta*(eta*r[2] - eta_i*r[3]) + p->mass_rod_rod*r[6];
+    const Lanes factor_4 = -by_q_rod_theta_cylinder_slide*(eta*r[1] + eta_i*r[0])
+        - by_q_rod_theta_rod_theta*(eta*r[3] + eta_i*r[2]) + p->mass_rod_rod*r[7];
+    x[2] = eta*factor_3 - eta_i*factor_4;
+    x[3] = eta*factor_4 + eta_i*factor_3;
+    newton_substitute_complex(lin, x);
+
+    /* solution */
+    const Lanes factor_5 = r[0] + x[0];
+    const Lanes factor_6 = r[1] + x[1];
+    u[0] = eta*factor_5 - eta_i*factor_6;
+    u[1] = eta*factor_6 + eta_i*factor_5;
+    u[4] = x[0];
+    u[5] = x[1];
+    const Lanes factor_7 = r[2] + x[2];
+    const Lanes factor_8 = r[3] + x[3];
+    u[2] = eta*factor_7 - eta_i*factor_8;
+    u[3] = eta*factor_8 + eta_i*factor_7;
+    u[6] = x[2];
+    u[7] = x[3];
+    const Lanes factor_9 = power_q_0_cylinder_slide*u[0] + power_q_0_rod_theta*u[2] + power_v_0_cylinder_slide*u[4]
+        + power_v_0_rod_theta*u[6] + r[8];
+    const Lanes factor_10 = power_q_0_cylinder_slide*u[1] + power_q_0_rod_theta*u[3] + power_v_0_cylinder_slide*u[5]
+        + power_v_0_rod_theta*u[7] + r[9];
+    u[8] = eta*factor_9 - eta_i*factor_10 + power_0_rod_theta*(-eta*r[6] + eta_i*r[7] + x[2]);
+    u[9] = eta*factor_10 + eta_i*factor_9 + power_0_rod_theta*(-eta*r[7] - eta_i*r[6] + x[3]);
+    u[10] = eta*r[10] - eta_i*r[11];
+    u[11] = eta*r[11] + eta_i*r[10];
+    const Lanes factor_11 = power_q_2_cylinder_slide*u[0] + power_q_2_rod_theta*u[2] + power_v_2_cylinder_slide*u[4]
+        + power_v_2_rod_theta*u[6] + r[12];
+    const Lanes factor_12 = power_q_2_cylinder_slide*u[1] + power_q_2_rod_theta*u[3] + power_v_2_cylinder_slide*u[5]
+        + power_v_2_rod_theta*u[7] + r[13];
+    u[12] = eta*factor_11 - eta_i*factor_12;
+    u[13] = eta*factor_12 + eta_i*factor_11;
+}
+
 #include "engine/batch/lane_tries.c"
 #include "engine/batch/lane_flow.c"
 #endif

@@ -585,6 +585,291 @@ static void newton_solve(const LaneLinear *lin, Lanes eta, Lanes s, const Lanes 
     u[6] = eta*r[6];
 }
 
+/*
+ * L U of Newton's matrix at eta = h gamma (0: the KKT matrix), L with unit diagonal. Returns 0, or the
+ * number of the node (coordinates, rows, sticks; from 1) whose pivot vanished or is not finite.
+ * At complex eta: real and imaginary parts one behind the other.
+ */
+static void newton_factor_complex(Lanes eta, Lanes eta_i, LaneComplexLinear *lin, LaneBits *rare)
+{
+    /* numbers of the run */
+    const LaneParameters *const p = lin->p;
+
+    /* linearization */
+    const Lanes mass_crank_theta_rod_theta = lin->value[0];
+    const Lanes phi_slider_offset_crank_theta = lin->value[1];
+    const Lanes phi_slider_offset_rod_theta = lin->value[2];
+    const Lanes by_q_slider_offset_crank_theta = lin->value[3];
+    const Lanes by_q_slider_offset_rod_theta = lin->value[4];
+    const Lanes by_q_crank_theta_crank_theta = lin->value[5];
+    const Lanes by_q_crank_theta_rod_theta = lin->value[6];
+    const Lanes by_q_rod_theta_crank_theta = lin->value[7];
+    const Lanes by_q_rod_theta_rod_theta = lin->value[8];
+    const Lanes by_v_slider_offset_crank_theta = lin->value[9];
+    const Lanes by_v_slider_offset_rod_theta = lin->value[10];
+    const Lanes by_v_crank_theta_crank_theta = lin->value[11];
+    const Lanes by_v_crank_theta_rod_theta = lin->value[12];
+    const Lanes by_v_rod_theta_crank_theta = lin->value[13];
+    const Lanes by_v_rod_theta_rod_theta = lin->value[14];
+
+    /* eta/kappa */
+    const Lanes factor_1 = p->beta_squared*eta + p->two_alpha;
+    const Lanes factor_2 = p->beta_squared*eta_i;
+    const Lanes divisor_1 = eta*factor_1 - eta_i*factor_2 + 1.0;
+    const Lanes divisor_2 = eta*factor_2 + eta_i*factor_1;
+    const Lanes divisor_3 = 1.0/((divisor_1 * divisor_1) + (divisor_2 * divisor_2));
+    const Lanes factor_3 = divisor_1*divisor_3;
+    const Lanes factor_4 = -divisor_2*divisor_3;
+    const Lanes eta_row = eta*factor_3 - eta_i*factor_4;
+    const Lanes eta_row_i = eta*factor_4 + eta_i*factor_3;
+
+    /* matrix */
+    const Lanes factor_5 = by_q_crank_theta_crank_theta*eta + by_v_crank_theta_crank_theta;
+    const Lanes factor_6 = by_q_crank_theta_crank_theta*eta_i;
+    const Lanes n_crank_theta__crank_theta = eta*factor_5 - eta_i*factor_6 + p->mass_crank_crank;
+    const Lanes n_crank_theta__crank_theta_i = eta*factor_6 + eta_i*factor_5;
+    const Lanes factor_7 = by_q_crank_theta_rod_theta*eta + by_v_crank_theta_rod_theta;
+    const Lanes factor_8 = by_q_crank_theta_rod_theta*eta_i;
+    const Lanes n_crank_theta__rod_theta = eta*factor_7 - eta_i*factor_8 + mass_crank_theta_rod_theta;
+    const Lanes n_crank_theta__rod_theta_i = eta*factor_8 + eta_i*factor_7;
+    const Lanes factor_9 = by_q_rod_theta_crank_theta*eta + by_v_rod_theta_crank_theta;
+    const Lanes factor_10 = by_q_rod_theta_crank_theta*eta_i;
+    const Lanes n_rod_theta__crank_theta = eta*factor_9 - eta_i*factor_10 + mass_crank_theta_rod_theta;
+    const Lanes n_rod_theta__crank_theta_i = eta*factor_10 + eta_i*factor_9;
+    const Lanes factor_11 = by_q_rod_theta_rod_theta*eta + by_v_rod_theta_rod_theta;
+    const Lanes factor_12 = by_q_rod_theta_rod_theta*eta_i;
+    const Lanes n_rod_theta__rod_theta = eta*factor_11 - eta_i*factor_12 + p->mass_rod_rod;
+    const Lanes n_rod_theta__rod_theta_i = eta*factor_12 + eta_i*factor_11;
+    const Lanes factor_13 = by_q_slider_offset_crank_theta*eta + by_v_slider_offset_crank_theta;
+    const Lanes factor_14 = by_q_slider_offset_crank_theta*eta_i;
+    const Lanes n_slider_offset__crank_theta = eta_row*factor_13 - eta_row_i*factor_14 + phi_slider_offset_crank_theta;
+    const Lanes n_slider_offset__crank_theta_i = eta_row*factor_14 + eta_row_i*factor_13;
+    const Lanes factor_15 = by_q_slider_offset_rod_theta*eta + by_v_slider_offset_rod_theta;
+    const Lanes factor_16 = by_q_slider_offset_rod_theta*eta_i;
+    const Lanes n_slider_offset__rod_theta = eta_row*factor_15 - eta_row_i*factor_16 + phi_slider_offset_rod_theta;
+    const Lanes n_slider_offset__rod_theta_i = eta_row*factor_16 + eta_row_i*factor_15;
+
+    /* L U */
+    const Lanes scale_crank_theta = n_crank_theta__crank_theta;
+    const Lanes scale_crank_theta_i = n_crank_theta__crank_theta_i;
+    const Lanes size_1 = lanes_fabs(scale_crank_theta) + lanes_fabs(scale_crank_theta_i);
+    const Lanes size_2 = lanes_fabs(n_crank_theta__crank_theta) + lanes_fabs(n_crank_theta__crank_theta_i);
+    *rare |= ~(size_1 > SINGULAR * size_2);
+    const Lanes divisor_4 = 1.0/((scale_crank_theta * scale_crank_theta) + (scale_crank_theta_i * scale_crank_theta_i));
+    const Lanes inverse_pivot_crank_theta = divisor_4*scale_crank_theta;
+    const Lanes inverse_pivot_crank_theta_i = -divisor_4*scale_crank_theta_i;
+    lin->lu[0] = inverse_pivot_crank_theta;
+    lin->lu[1] = inverse_pivot_crank_theta_i;
+    const Lanes l_rod_theta__crank_theta = inverse_pivot_crank_theta*n_rod_theta__crank_theta
+        - inverse_pivot_crank_theta_i*n_rod_theta__crank_theta_i;
+    const Lanes l_rod_theta__crank_theta_3_i = inverse_pivot_crank_theta*n_rod_theta__crank_theta_i
+        + inverse_pivot_crank_theta_i*n_rod_theta__crank_theta;
+    lin->lu[2] = l_rod_theta__crank_theta;
+    lin->lu[3] = l_rod_theta__crank_theta_3_i;
+    lin->lu[4] = n_crank_theta__rod_theta;
+    lin->lu[5] = n_crank_theta__rod_theta_i;
+    const Lanes l_slider_offset__crank_theta = inverse_pivot_crank_theta*n_slider_offset__crank_theta
+        - inverse_pivot_crank_theta_i*n_slider_offset__crank_theta_i;
+    const Lanes l_slider_offset__crank_theta_3_i = inverse_pivot_crank_theta*n_slider_offset__crank_theta_i
+        + inverse_pivot_crank_theta_i*n_slider_offset__crank_theta;
+    lin->lu[6] = l_slider_offset__crank_theta;
+    lin->lu[7] = l_slider_offset__crank_theta_3_i;
+    const Lanes scale_rod_theta = -l_rod_theta__crank_theta*n_crank_theta__rod_theta
+        + l_rod_theta__crank_theta_3_i*n_crank_theta__rod_theta_i + n_rod_theta__rod_theta;
+    const Lanes scale_rod_theta_i = -l_rod_theta__crank_theta*n_crank_theta__rod_theta_i
+        - l_rod_theta__crank_theta_3_i*n_crank_theta__rod_theta + n_rod_theta__rod_theta_i;
+    const Lanes size_3 = lanes_fabs(scale_rod_theta) + lanes_fabs(scale_rod_theta_i);
+    const Lanes size_4 = lanes_fabs(n_rod_theta__rod_theta) + lanes_fabs(n_rod_theta__rod_theta_i);
+    *rare |= ~(size_3 > SINGULAR * size_4);
+    const Lanes divisor_5 = 1.0/((scale_rod_theta * scale_rod_theta) + (scale_rod_theta_i * scale_rod_theta_i));
+    const Lanes inverse_pivot_rod_theta = divisor_5*scale_rod_theta;
+    const Lanes inverse_pivot_rod_theta_3_i = -divisor_5*scale_rod_theta_i;
+    lin->lu[8] = inverse_pivot_rod_theta;
+    lin->lu[9] = inverse_pivot_rod_theta_3_i;
+    const Lanes factor_17 = -l_slider_offset__crank_theta*n_crank_theta__rod_theta
+        + l_slider_offset__crank_theta_3_i*n_crank_theta__rod_theta_i + n_slider_offset__rod_theta;
+    const Lanes factor_18 = -l_slider_offset__crank_theta*n_crank_theta__rod_theta_i
+        - l_slider_offset__crank_theta_3_i*n_crank_theta__rod_theta + n_slider_offset__rod_theta_i;
+    const Lanes l_slider_offset__rod_theta = factor_17*inverse_pivot_rod_theta - factor_18*inverse_pivot_rod_theta_3_i;
+    const Lanes l_slider_offset__rod_theta_3_i = factor_17*inverse_pivot_rod_theta_3_i
+        + factor_18*inverse_pivot_rod_theta;
+    lin->lu[10] = l_slider_offset__rod_theta;
+    lin->lu[11] = l_slider_offset__rod_theta_3_i;
+    const Lanes u_rod_theta__slider_offset = -l_rod_theta__crank_theta*phi_slider_offset_crank_theta
+        + phi_slider_offset_rod_theta;
+    const Lanes u_rod_theta__slider_offset_i = -l_rod_theta__crank_theta_3_i*phi_slider_offset_crank_theta;
+    lin->lu[12] = u_rod_theta__slider_offset;
+    lin->lu[13] = u_rod_theta__slider_offset_i;
+    const Lanes scale_slider_offset = -l_slider_offset__crank_theta*phi_slider_offset_crank_theta
+        - l_slider_offset__rod_theta*u_rod_theta__slider_offset
+        + l_slider_offset__rod_theta_3_i*u_rod_theta__slider_offset_i;
+    const Lanes scale_slider_offset_3_i = -l_slider_offset__crank_theta_3_i*phi_slider_offset_crank_theta
+        - l_slider_offset__rod_theta*u_rod_theta__slider_offset_i
+        - l_slider_offset__rod_theta_3_i*u_rod_theta__slider_offset;
+    const Lanes size_5 = lanes_fabs(scale_slider_offset) + lanes_fabs(scale_slider_offset_3_i);
+    *rare |= ~((size_5 > 0.0) & (size_5 < INFINITY));
+    const Lanes divisor_6 = 1.0/((scale_slider_offset * scale_slider_offset)
+        + (scale_slider_offset_3_i * scale_slider_offset_3_i));
+    const Lanes inverse_pivot_slider_offset = divisor_6*scale_slider_offset;
+    const Lanes inverse_pivot_slider_offset_3_i = -divisor_6*scale_slider_offset_3_i;
+    lin->lu[14] = inverse_pivot_slider_offset;
+    lin->lu[15] = inverse_pivot_slider_offset_3_i;
+}
+
+/*
+ * x (all nodes) holds b and becomes the solution of N x = b.
+ * At complex eta: real and imaginary parts one behind the other.
+ */
+static void newton_substitute_complex(const LaneComplexLinear *lin, Lanes *x)
+{
+    /* linearization */
+    const Lanes phi_slider_offset_crank_theta = lin->value[1];
+    const Lanes inverse_pivot_crank_theta = lin->lu[0];
+    const Lanes inverse_pivot_crank_theta_i = lin->lu[1];
+    const Lanes l_rod_theta__crank_theta = lin->lu[2];
+    const Lanes l_rod_theta__crank_theta_3_i = lin->lu[3];
+    const Lanes n_crank_theta__rod_theta = lin->lu[4];
+    const Lanes n_crank_theta__rod_theta_i = lin->lu[5];
+    const Lanes l_slider_offset__crank_theta = lin->lu[6];
+    const Lanes l_slider_offset__crank_theta_3_i = lin->lu[7];
+    const Lanes inverse_pivot_rod_theta = lin->lu[8];
+    const Lanes inverse_pivot_rod_theta_3_i = lin->lu[9];
+    const Lanes l_slider_offset__rod_theta = lin->lu[10];
+    const Lanes l_slider_offset__rod_theta_3_i = lin->lu[11];
+    const Lanes u_rod_theta__slider_offset = lin->lu[12];
+    const Lanes u_rod_theta__slider_offset_i = lin->lu[13];
+    const Lanes inverse_pivot_slider_offset = lin->lu[14];
+    const Lanes inverse_pivot_slider_offset_3_i = lin->lu[15];
+
+    /* forward */
+    const Lanes b_crank_theta = x[0];
+    const Lanes b_crank_theta_i = x[1];
+    const Lanes b_rod_theta = -b_crank_theta*l_rod_theta__crank_theta + b_crank_theta_i*l_rod_theta__crank_theta_3_i
+        + x[2];
+    const Lanes b_rod_theta_i = -b_crank_theta*l_rod_theta__crank_theta_3_i - b_crank_theta_i*l_rod_theta__crank_theta
+        + x[3];
+    const Lanes b_slider_offset = -b_crank_theta*l_slider_offset__crank_theta
+        + b_crank_theta_i*l_slider_offset__crank_theta_3_i - b_rod_theta*l_slider_offset__rod_theta
+        + b_rod_theta_i*l_slider_offset__rod_theta_3_i + x[4];
+    const Lanes b_slider_offset_i = -b_crank_theta*l_slider_offset__crank_theta_3_i
+        - b_crank_theta_i*l_slider_offset__crank_theta - b_rod_theta*l_slider_offset__rod_theta_3_i
+        - b_rod_theta_i*l_slider_offset__rod_theta + x[5];
+
+    /* backward */
+    const Lanes x_slider_offset = b_slider_offset*inverse_pivot_slider_offset
+        - b_slider_offset_i*inverse_pivot_slider_offset_3_i;
+    const Lanes x_slider_offset_i = b_slider_offset*inverse_pivot_slider_offset_3_i
+        + b_slider_offset_i*inverse_pivot_slider_offset;
+    x[4] = x_slider_offset;
+    x[5] = x_slider_offset_i;
+    const Lanes factor_1 = b_rod_theta - u_rod_theta__slider_offset*x_slider_offset
+        + u_rod_theta__slider_offset_i*x_slider_offset_i;
+    const Lanes factor_2 = b_rod_theta_i - u_rod_theta__slider_offset*x_slider_offset_i
+        - u_rod_theta__slider_offset_i*x_slider_offset;
+    const Lanes x_rod_theta = factor_1*inverse_pivot_rod_theta - factor_2*inverse_pivot_rod_theta_3_i;
+    const Lanes x_rod_theta_i = factor_1*inverse_pivot_rod_theta_3_i + factor_2*inverse_pivot_rod_theta;
+    x[2] = x_rod_theta;
+    x[3] = x_rod_theta_i;
+    const Lanes factor_3 = b_crank_theta - n_crank_theta__rod_theta*x_rod_theta
+        + n_crank_theta__rod_theta_i*x_rod_theta_i - phi_slider_offset_crank_theta*x_slider_offset;
+    const Lanes factor_4 = b_crank_theta_i - n_crank_theta__rod_theta*x_rod_theta_i
+        - n_crank_theta__rod_theta_i*x_rod_theta - phi_slider_offset_crank_theta*x_slider_offset_i;
+    const Lanes x_crank_theta = factor_3*inverse_pivot_crank_theta - factor_4*inverse_pivot_crank_theta_i;
+    const Lanes x_crank_theta_i = factor_3*inverse_pivot_crank_theta_i + factor_4*inverse_pivot_crank_theta;
+    x[0] = x_crank_theta;
+    x[1] = x_crank_theta_i;
+}
+
+/*
+ * (1/eta - J) u = r + s f_t with the factors of newton_factor at the same eta; r, u: q, v, works.
+ * At complex eta: real and imaginary parts one behind the other.
+ */
+static void newton_solve_complex(const LaneComplexLinear *lin, Lanes eta, Lanes eta_i, const Lanes *r, Lanes *u)
+{
+    /* numbers of the run */
+    const LaneParameters *const p = lin->p;
+
+    /* linearization */
+    const Lanes mass_crank_theta_rod_theta = lin->value[0];
+    const Lanes phi_slider_offset_crank_theta = lin->value[1];
+    const Lanes phi_slider_offset_rod_theta = lin->value[2];
+    const Lanes by_q_slider_offset_crank_theta = lin->value[3];
+    const Lanes by_q_slider_offset_rod_theta = lin->value[4];
+    const Lanes by_q_crank_theta_crank_theta = lin->value[5];
+    const Lanes by_q_crank_theta_rod_theta = lin->value[6];
+    const Lanes by_q_rod_theta_crank_theta = lin->value[7];
+    const Lanes by_q_rod_theta_rod_theta = lin->value[8];
+    const Lanes power_q_1_crank_theta = lin->value[15];
+    const Lanes power_q_1_rod_theta = lin->value[16];
+    const Lanes power_v_1_crank_theta = lin->value[17];
+    const Lanes power_v_1_rod_theta = lin->value[18];
+
+    /* eta/kappa */
+    const Lanes factor_1 = p->beta_squared*eta + p->two_alpha;
+    const Lanes factor_2 = p->beta_squared*eta_i;
+    const Lanes divisor_1 = eta*factor_1 - eta_i*factor_2 + 1.0;
+    const Lanes divisor_2 = eta*factor_2 + eta_i*factor_1;
+    const Lanes divisor_3 = 1.0/((divisor_1 * divisor_1) + (divisor_2 * divisor_2));
+    const Lanes factor_3 = divisor_1*divisor_3;
+    const Lanes factor_4 = -divisor_2*divisor_3;
+    const Lanes eta_row = eta*factor_3 - eta_i*factor_4;
+    const Lanes eta_row_i = eta*factor_4 + eta_i*factor_3;
+
+    /* right-hand side */
+    Lanes x[6];
+    const Lanes shifted_crank_theta = -p->beta_squared*(eta*r[0] - eta_i*r[1]) + r[4];
+    const Lanes shifted_crank_theta_i = -p->beta_squared*(eta*r[1] + eta_i*r[0]) + r[5];
+    const Lanes shifted_rod_theta = -p->beta_squared*(eta*r[2] - eta_i*r[3]) + r[6];
+    const Lanes shifted_rod_theta_i = -p->beta_squared*(eta*r[3] + eta_i*r[2]) + r[7];
+    const Lanes factor_5 = -by_q_crank_theta_crank_theta*(eta*r[0] - eta_i*r[1])
+        - by_q_crank_theta_rod_theta*(eta*r[2] - eta_i*r[3]) + p->mass_crank_crank*r[4]
+        + mass_crank_theta_rod_theta*r[6];
+    const Lanes factor_6 = -by_q_crank_theta_crank_theta*(eta*r[1] + eta_i*r[0])
+        - by_q_crank_theta_rod_theta*(eta*r[3] + eta_i*r[2]) + p->mass_crank_crank*r[5]
+        + mass_crank_theta_rod_theta*r[7];
+    x[0] = eta*factor_5 - eta_i*factor_6;
+    x[1] = eta*factor_6 + eta_i*factor_5;
+    const Lanes factor_7 = -by_q_rod_theta_crank_theta*(eta*r[0] - eta_i*r[1])
+        - by_q_rod_theta_rod_theta*(eta*r[2] - eta_i*r[3]) + mass_crank_theta_rod_theta*r[4] + p->mass_rod_rod*r[6];
+    const Lanes factor_8 = -by_q_rod_theta_crank_theta*(eta*r[1] + eta_i*r[0])
+        - by_q_rod_theta_rod_theta*(eta*r[3] + eta_i*r[2]) + mass_crank_theta_rod_theta*r[5] + p->mass_rod_rod*r[7];
+    x[2] = eta*factor_7 - eta_i*factor_8;
+    x[3] = eta*factor_8 + eta_i*factor_7;
+    const Lanes factor_9 = -by_q_slider_offset_crank_theta*(eta*r[0] - eta_i*r[1])
+        - by_q_slider_offset_rod_theta*(eta*r[2] - eta_i*r[3]) + phi_slider_offset_crank_theta*shifted_crank_theta
+        + phi_slider_offset_rod_theta*shifted_rod_theta;
+    const Lanes factor_10 = -by_q_slider_offset_crank_theta*(eta*r[1] + eta_i*r[0])
+        - by_q_slider_offset_rod_theta*(eta*r[3] + eta_i*r[2]) + phi_slider_offset_crank_theta*shifted_crank_theta_i
+        + phi_slider_offset_rod_theta*shifted_rod_theta_i;
+    x[4] = eta_row*factor_9 - eta_row_i*factor_10;
+    x[5] = eta_row*factor_10 + eta_row_i*factor_9;
+    newton_substitute_complex(lin, x);
+
+    /* solution */
+    const Lanes factor_11 = r[0] + x[0];
+    const Lanes factor_12 = r[1] + x[1];
+    u[0] = eta*factor_11 - eta_i*factor_12;
+    u[1] = eta*factor_12 + eta_i*factor_11;
+    u[4] = x[0];
+    u[5] = x[1];
+    const Lanes factor_13 = r[2] + x[2];
+    const Lanes factor_14 = r[3] + x[3];
+    u[2] = eta*factor_13 - eta_i*factor_14;
+    u[3] = eta*factor_14 + eta_i*factor_13;
+    u[6] = x[2];
+    u[7] = x[3];
+    u[8] = eta*r[8] - eta_i*r[9];
+    u[9] = eta*r[9] + eta_i*r[8];
+    const Lanes factor_15 = power_q_1_crank_theta*u[0] + power_q_1_rod_theta*u[2] + power_v_1_crank_theta*u[4]
+        + power_v_1_rod_theta*u[6] + r[10];
+    const Lanes factor_16 = power_q_1_crank_theta*u[1] + power_q_1_rod_theta*u[3] + power_v_1_crank_theta*u[5]
+        + power_v_1_rod_theta*u[7] + r[11];
+    u[10] = eta*factor_15 - eta_i*factor_16;
+    u[11] = eta*factor_16 + eta_i*factor_15;
+    u[12] = eta*r[12] - eta_i*r[13];
+    u[13] = eta*r[13] + eta_i*r[12];
+}
+
 #include "engine/batch/lane_tries.c"
 #include "engine/batch/lane_flow.c"
 #endif

@@ -85,7 +85,9 @@ def _newton(pins: Sequence[Pin], methods: Methods, render: Render, states: int) 
     for clearance in (pin.clearance for pin in pins):
         slopes.append(_tangent(clearance, methods.slopes[clearance.name], render, states))
     of_state = map(lanes_printer.watched_kernel, (newton.linearize, newton.factor))
-    return "\n".join([*slopes, *of_state, *map(lanes_printer.kernel, (newton.substitute, newton.solve))])
+    factor, *solved = newton.at_complex
+    complex_ = [lanes_printer.watched_kernel(factor), *map(lanes_printer.kernel, solved)]
+    return "\n".join([*slopes, *of_state, *map(lanes_printer.kernel, (newton.substitute, newton.solve)), *complex_])
 
 
 def _tangent(clearance: Clearance, parts: Mapping[str, SharedCall], render: Render, states: int) -> str:

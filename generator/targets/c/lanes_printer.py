@@ -40,7 +40,9 @@ _TYPES = {
     "double": "Lanes", "const double": "const Lanes", "double *": "Lanes *", "const double *": "const Lanes *",
     "const Parameters *": "const LaneParameters *", "const Memory *": "const LaneMemory *", "Aside *": "LaneAside *",
     "const Aside *": "const LaneAside *", "const Latch *": "const LaneLatch *", "Linear *": "LaneLinear *",
-    "const Linear *": "const LaneLinear *", "PinSlopes *": "LaneSlopes *", "Wide *": "Lanes *",
+    "const Linear *": "const LaneLinear *",
+    "ComplexLinear *": "LaneComplexLinear *", "const ComplexLinear *": "const LaneComplexLinear *",
+    "PinSlopes *": "LaneSlopes *", "Wide *": "Lanes *",
 }  # fmt: skip
 _RARE = Argument("LaneBits *", "rare")
 # Lines of single runs that have no counterpart: what becomes of a vanished pivot.

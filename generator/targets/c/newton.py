@@ -12,7 +12,7 @@ from gudgeon.generator.kernels.program import Methods
 from gudgeon.generator.kernels.shared import SharedCall
 from gudgeon.generator.solvers.contact_slopes import OF_CONTOUR
 from gudgeon.generator.solvers.newton import Newton
-from gudgeon.generator.targets.c import complex_printer, functions
+from gudgeon.generator.targets.c import functions
 from gudgeon.generator.targets.c.play import CLOSED, CONTOURS
 from gudgeon.generator.targets.c.printer import expression
 
@@ -46,7 +46,7 @@ def newton_code(newton: Newton, render: Render) -> str:
 
 def complex_code(newton: Newton) -> str:
     """What of them a step with complex h gamma needs."""
-    return "\n".join(map(complex_printer.kernel, (newton.factor, newton.substitute, newton.solve)))
+    return "\n".join(map(functions.kernel, newton.at_complex))
 
 
 def tangent_code(pins: Sequence[Pin], methods: Methods, render: Render, states: int) -> str:

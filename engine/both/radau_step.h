@@ -1,0 +1,192 @@
+/*
+ * The same text for 3 and for 5 stages (radau.h).
+ */
+
+/* Guesses of the stages, less the beginning: as the last step's motion goes on, or as rates at the beginning lead. */
+static void RADAU(guess)(const RunOf *run, Real h, Real (*z)[N_Y])
+{
+    const Real H = run->last_h;
+    for (int i = 0; i < N_Y; i++) {
+        /* Hermite's cubic, beyond the end of the step before, which was H long */
+        const Real way = run->before_y[i] - run->y[i], d0 = H * run->before_dy[i], d1 = H * run->dy[i];
+        const Real two = 3.0 * way + d0 + 2.0 * d1, three = 2.0 * way + d0 + d1;
+        for (int s = 0; s < RADAU_STAGES; s++) {
+            const Real t = RADAU_TABLE.node[s] * h, x = t / H;
+            const Real led = i < N_X ? t * (run->dy[i] + 0.5 * t * run->dy[N_X + i]) : t * run->dy[i];
+            z[s][i] = pick(run->goes_on, x * (d1 + x * (two + x * three)), led);
+        }
+    }
+}
+
+/* One real system and the complex ones, factorized for a step. */
+static int RADAU(factor)(RunOf *run, Real h, ComplexLinearOf *pairs, const ParametersOf *p)
+{
+    int status = make_linear(run, h * (1.0 / RADAU_TABLE.gamma), p);
+    for (int k = 0; 2 * k + 1 < RADAU_STAGES && !status; k++) {
+        const double re = RADAU_TABLE.pair[k][0], im = RADAU_TABLE.pair[k][1], square = re * re + im * im;
+        status = make_pair(run, h * (re / square), h * (-im / square), &pairs[k]);
+    }
+    return status;
+}
+
+/* What an iteration adds to the stages z, from their rates f. */
+static void RADAU(change)(const RunOf *run, Real h, const ComplexLinearOf *pairs, Real (*f)[N_Y], Real (*z)[N_Y],
+    Real (*change)[N_Y])
+{
+    Real w[RADAU_STAGES][N_Y], r[RADAU_STAGES][N_Y], both[2 * N_Y], u[2 * N_Y];
+    const Real by = 1.0 / h;
+    for (int k = 0; k < RADAU_STAGES; k++) {
+        const double *row = RADAU_TABLE.from_stages[k];
+        for (int i = 0; i < N_Y; i++) {
+            r[k][i] = row[0] * f[0][i] + row[1] * f[1][i] + row[2] * f[2][i];
+            w[k][i] = row[0] * z[0][i] + row[1] * z[1][i] + row[2] * z[2][i];
+        }
+#if RADAU_STAGES > 3
+        for (int i = 0; i < N_Y; i++) {
+            r[k][i] += row[3] * f[3][i] + row[4] * f[4][i];
+            w[k][i] += row[3] * z[3][i] + row[4] * z[4][i];
+        }
+#endif
+        for (int i = 0; i < N_Y; i++)
+            w[k][i] *= by;
+    }
+    for (int i = 0; i < N_Y; i++)
+        r[0][i] -= RADAU_TABLE.gamma * w[0][i];
+    newton_solve(&run->linear, h * (1.0 / RADAU_TABLE.gamma), real_of(0.0), r[0], w[0]);
+    for (int k = 0; 2 * k + 1 < RADAU_STAGES; k++) {
+        const double re = RADAU_TABLE.pair[k][0], im = RADAU_TABLE.pair[k][1], square = re * re + im * im;
+        Real *const x = w[2 * k + 1], *const y = w[2 * k + 2];
+        for (int i = 0; i < N_Y; i++) {
+            both[2 * i] = r[2 * k + 1][i] - (re * x[i] - im * y[i]);
+            both[2 * i + 1] = r[2 * k + 2][i] - (re * y[i] + im * x[i]);
+        }
+        newton_solve_complex(&pairs[k], h * (re / square), h * (-im / square), both, u);
+        for (int i = 0; i < N_Y; i++) {
+            x[i] = u[2 * i];
+            y[i] = u[2 * i + 1];
+        }
+    }
+    for (int s = 0; s < RADAU_STAGES; s++) {
+        const double *row = RADAU_TABLE.to_stages[s];
+        for (int i = 0; i < N_Y; i++)
+            change[s][i] = row[0] * w[0][i] + row[1] * w[1][i] + row[2] * w[2][i];
+#if RADAU_STAGES > 3
+        for (int i = 0; i < N_Y; i++)
+            change[s][i] += row[3] * w[3][i] + row[4] * w[4][i];
+#endif
+    }
+}
+
+/* Rates f of the stages at z; where they are still looked for, what is seen there. */
+static int RADAU(rates)(RunOf *run, Real h, Truth active, Real (*z)[N_Y], const ParametersOf *p, StepOf *step,
+    Real (*f)[N_Y])
+{
+    Real y[N_Y];
+    AsideOf aside;
+    begin_pass(run, step, active, RADAU_STAGES);
+    for (int s = 0; s < RADAU_STAGES; s++) {
+        for (int i = 0; i < N_Y; i++)
+            y[i] = run->y[i] + z[s][i];
+        const int status = rates(run, run->t + RADAU_TABLE.node[s] * h, y, p, f[s], &aside);
+        if (status)
+            return status;
+        note_pass(run, step, active, y, &aside, RADAU_TABLE.node[s]);
+    }
+    return 0;
+}
+
+/* The stages of a step, in step->k; `lost`: where they were not found. */
+static int RADAU(stages)(RunOf *run, Real h, const ComplexLinearOf *pairs, const ParametersOf *p, StepOf *step,
+    Truth *lost)
+{
+    Real f[RADAU_STAGES][N_Y], change[RADAU_STAGES][N_Y], before = real_of(1.0);
+    Real falls = pick(run->falls > 0.0, run->falls, real_of(0.5));
+    Real (*const z)[N_Y] = step->k;
+    Truth active = is_not((Truth){0});
+    *lost = (Truth){0};
+    for (int pass = 0; pass < RADAU_PATIENCE && any_of(active); pass++) {
+        const int status = RADAU(rates)(run, h, active, z, p, step, f);
+        if (status)
+            return status;
+        RADAU(change)(run, h, pairs, f, z, change);
+        Real way = real_of(0.0);
+        for (int s = 0; s < RADAU_STAGES; s++)
+            for (int i = 0; i < N_Y; i++) {
+                z[s][i] = pick(active, z[s][i] + change[s][i], z[s][i]);
+                way = real_max(real_abs(change[s][i]) * run->weight[i], way);
+            }
+        way = pick(active, way, real_of(0.0));
+        if (is_odd(run, way))
+            return NOT_FINITE;
+        if (pass > 0) {
+            falls = pick(active, way / before, falls);
+            *lost |= active & is_not(falls < 0.9);
+            active &= falls < 0.9;
+        }
+        const Truth found = active & (falls * way <= RADAU_ENOUGH * (1.0 - falls));
+        run->falls = pick(found, real_max(falls, real_of(1e-3)), run->falls);
+        active &= is_not(found);
+        before = pick(active, way, real_of(1.0));
+    }
+    *lost |= active;
+    return 0;
+}
+
+/* The error of a step from rates at its beginning and from what its stages add: a size for each component. */
+static Real RADAU(error)(const RunOf *run, Real h, const Real *dy, const Real *bend, Real *r, Real *u)
+{
+    Real most = real_of(0.0);
+    for (int i = 0; i < N_Y; i++)
+        r[i] = dy[i] + bend[i];
+    newton_solve(&run->linear, h * (1.0 / RADAU_TABLE.gamma), real_of(0.0), r, u);
+    for (int i = 0; i < N_Y; i++)
+        most = real_max(real_abs(u[i]) * run->weight[i], most);
+    return most;
+}
+
+static int RADAU(try)(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
+{
+    const Real by = RADAU_TABLE.gamma / h;
+    Real r[N_Y], u[N_Y], bend[N_Y], change = real_of(0.0), way = real_of(0.0);
+    ComplexLinearOf pairs[RADAU_STAGES / 2];
+    Truth lost;
+    step->t = run->t, step->h = h, step->dense_ready = 0;
+    int status = RADAU(factor)(run, h, pairs, p);
+    if (status)
+        return status;
+    look_around(run);
+    RADAU(guess)(run, h, step->k);
+    status = RADAU(stages)(run, h, pairs, p, step, &lost);
+    if (status)
+        return status;
+    if (stages_lost(run, step, lost))
+        return 0;
+    for (int i = 0; i < N_Y; i++) {
+        bend[i] = real_of(0.0);
+        for (int s = 0; s < RADAU_STAGES; s++)
+            bend[i] += RADAU_TABLE.error[s] * step->k[s][i];
+        bend[i] *= by;
+        step->y[i] = run->y[i] + step->k[RADAU_STAGES - 1][i];
+    }
+    step->error = RADAU(error)(run, h, run->dy, bend, r, u);
+    for (int i = 0; i < 2 * N_X; i++) { /* J u = u/eta - r */
+        change = real_max(real_abs(by * u[i] - r[i]) * run->weight[i], change);
+        way = real_max(real_abs(u[i]) * run->weight[i], way);
+    }
+    run->stability = pick(way > 0.0, h * change / way, real_of(0.0));
+    const Truth large = step->error > run->accept;
+    if (any_of(large)) { /* once more, at a state that errs as much: less is left of what is stiff and not wrong */
+        Real y[N_Y], dy[N_Y];
+        AsideOf aside;
+        for (int i = 0; i < N_Y; i++)
+            y[i] = run->y[i] + u[i];
+        status = rates(run, run->t, y, p, dy, &aside);
+        if (status)
+            return status;
+        count_rates(run, large, 1);
+        step->error = pick(large, RADAU(error)(run, h, dy, bend, r, u), step->error);
+    }
+    if (is_odd(run, step->error))
+        return NOT_FINITE;
+    return is_refused(run, step) ? 0 : finish_step(run, step, p);
+}

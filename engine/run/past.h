@@ -1,0 +1,26 @@
+/*
+ * Where a run's step and the one before began: by their motion the next stages are guessed that are found by iterations.
+ */
+#ifndef GUDGEON_PAST_H
+#define GUDGEON_PAST_H
+
+/* Once a step, before it is tried; whether the motion goes on as it was, as run->goes_on. */
+static inline void look_back(Run *run)
+{
+    Beginning *now = &run->now;
+    if (run->seen_steps != run->steps || now->t != run->t) {
+        run->before_t = run->seen_steps == run->steps - 1 && run->steps > 0 ? now->t : run->t;
+        for (int i = 0; i < N_Y; i++) {
+            run->before_y[i] = now->y[i];
+            run->before_dy[i] = now->dy[i];
+            now->y[i] = run->y[i];
+            now->dy[i] = run->dy[i];
+        }
+        now->t = run->t;
+        run->seen_steps = run->steps;
+    }
+    run->last_h = run->t - run->before_t;
+    run->goes_on = run->last_h > 0.0 && !run->attempt.again;
+}
+
+#endif
