@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import Any
 
 from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.contract.methods import STAGES
 from gudgeon.generator.equations.masses import refuse_massless
 from gudgeon.generator.equations.model import Model, make_model
 from gudgeon.generator.kernels.program import make_program
@@ -77,7 +78,7 @@ def in_c(
 ) -> KernelSource:
     """The C of a model, with the names of everything in it."""
     with stage("functions", seconds):
-        program = make_program(model, "full" if formulation == "full" else "reduced")
+        program = make_program(model, "full" if formulation == "full" else "reduced", formulation == STAGES)
         series = taylor_series(program) if formulation == TAYLOR else None
     with stage("C", seconds):
         return emit(program, begun, series)

@@ -5,7 +5,7 @@
  * matrix. E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, Springer (1996), section IV.8; the same,
  * Stiff differential equations solved by Radau methods, J. Comput. Appl. Math. 111 (1999) 93-111.
  */
-enum { RADAU_MOST = 5, RADAU_PATIENCE = 10 };
+enum { RADAU_MOST = 5, RADAU_PATIENCE = 14 };
 #define RADAU_ENOUGH 3e-3 /* of a step's tolerance: how well its stages are found */
 
 /*

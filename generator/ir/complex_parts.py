@@ -95,8 +95,9 @@ class _Twin:
                 return [replace(line, value=real)]
             self.locals.add(line.target)
             return [replace(line, value=real), replace(line, target=line.target + IMAGINARY, value=imaginary)]
-        first, second = self._places(line.target) or (line.target, "")
-        return [replace(line, target=first, value=real), *([replace(line, target=second, value=imaginary)] * bool(second))]
+        if both := self._places(line.target):
+            return [replace(line, target=both[0], value=real), replace(line, target=both[1], value=imaginary)]
+        return [replace(line, value=real)]
 
     def _value(self, value: Value) -> tuple[Value, Value]:
         match value:

@@ -31,7 +31,7 @@ from gudgeon.generator.kernels.time_terms import time_terms_kernel
 from gudgeon.generator.reduction.driven_chains import Chain
 from gudgeon.generator.reduction.reduction import TreeSystem, reduce
 from gudgeon.generator.solvers.kkt import KKT
-from gudgeon.generator.solvers.newton import Newton
+from gudgeon.generator.solvers.newton import Newton, at_complex_step
 from gudgeon.generator.solvers.square_rows import SquareRows
 from gudgeon.generator.sparsity.matching import Block
 
@@ -91,13 +91,14 @@ class Methods:
     closing: Kernel
     plain_closing: Kernel
     gains: Mapping[str, sp.Expr]
+    at_complex: tuple[Kernel, ...] = ()  # Newton's factor, substitute and solve once more
 
     @property
     def kernels(self) -> tuple[Kernel, ...]:
         """Newton's, then the slopes."""
         newton = self.newton
         own = (newton.linearize, newton.factor, newton.substitute, newton.solve)
-        return (*own, *self.sloping)
+        return (*own, *self.sloping, *self.at_complex)
 
 
 @dataclass(frozen=True)
@@ -147,6 +148,11 @@ class Program:
         return self.methods is not None
 
     @property
+    def staged(self) -> bool:
+        """Whether methods have what they need to find their stages together."""
+        return bool(self.methods and self.methods.at_complex)
+
+    @property
     def right_hand_side(self) -> list[Kernel]:
         """In absolute coordinates; what is watched beside it where that is what is integrated."""
         watches = self.watched is not None and self.formulation == "full" and self.integrates
@@ -160,10 +166,11 @@ class Program:
         return self.methods is not None and self.tree is not None and not (self.tree.chains or alone)
 
 
-def make_program(model: Model, formulation: str = "reduced") -> Program:
+def make_program(model: Model, formulation: str = "reduced", staged: bool = False) -> Program:
     """Derives every function of a scene: what is integrated, or followed where no freedom is left, is the reduced
 
-    formulation, or with "full" the absolute one. Outputs and starts are absolute in both.
+    formulation, or with "full" the absolute one. Outputs and starts are absolute in both. `staged`: with what methods
+    need whose stages are found together; where there is a film, or all coordinates, they are there anyway.
     """
     model.symbols.freeze(False)
     integrates = bool(model.degrees_of_freedom or model.clearances or model.frictions)
@@ -184,7 +191,7 @@ def make_program(model: Model, formulation: str = "reduced") -> Program:
     program = Program(
         model, formulation, kkt, closed, dynamics, watched, tuple(laws.kernels), pins, tree, integrated,
         time_terms_kernel(dynamics),
-        methods=_methods(model, integrated) if integrates else None,
+        methods=_methods(model, integrated, staged or not integrated.reduced) if integrates else None,
         course=None if integrates else _course(model, kkt, integrated),
     )  # fmt: skip
     for owner in (model, integrated.system.model):
@@ -209,7 +216,7 @@ def _tree(model: Model, pivots: tuple[str, ...]) -> tuple[TreeFunctions, Integra
     return tree, Integrated(system, kkt, angles, True, watched, jumps, pivots, system.chain)
 
 
-def _methods(model: Model, integrated: Integrated) -> Methods:
+def _methods(model: Model, integrated: Integrated, staged: bool) -> Methods:
     sloping = SharedFunctions()
     slopes = {clearance.name: pin_slopes(model, clearance, sloping) for clearance in model.clearances}
     newton = Newton(integrated.system)
@@ -220,7 +227,9 @@ def _methods(model: Model, integrated: Integrated) -> Methods:
         gains["beta_squared"] = model.slots.derive("beta_squared", beta**2)
     closing = closing_kernel(integrated.system)
     finished = side_by_side(without_unused(closing)) if integrated.reduced else closing
-    return Methods(newton, slopes, tuple(sloping.kernels), finished, without_unused(closing), gains)
+    film = any(clearance.film is not None for clearance in model.clearances)
+    at_complex = at_complex_step(newton) if (staged or film) and not model.rigid else ()
+    return Methods(newton, slopes, tuple(sloping.kernels), finished, without_unused(closing), gains, at_complex)
 
 
 def _course(model: Model, kkt: KKT, integrated: Integrated) -> Course:

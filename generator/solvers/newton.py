@@ -21,7 +21,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property
 
 import sympy as sp
 
@@ -60,12 +59,6 @@ class Newton:
         self.factor = self._factor()
         self.substitute = self._substitute()
         self.solve = self._solve()
-
-    @cached_property
-    def at_complex(self) -> tuple[Kernel, Kernel, Kernel]:
-        """The matrix at complex η and s = 0, factorized and solved."""
-        arrays = ("eta", "r", "u", "x", "lin->lu")
-        return tuple(at_complex(kernel, arrays, ("s",)) for kernel in (self.factor, self.substitute, self.solve))
 
     def _builder(self, name: str, doc: Sequence[str]) -> KernelBuilder:
         return KernelBuilder(self.model.symbols, name, doc)
@@ -272,3 +265,9 @@ class Newton:
             before = ETA * sp.Symbol(f"r[{n + node}]") if node < n else ZERO
             changes += [value * (sp.Symbol(f"x[{node}]") - before)] if i == w else []
         return ETA * sp.Add(*terms) + sp.Add(*changes)
+
+
+def at_complex_step(newton: Newton) -> tuple[Kernel, ...]:
+    """Its matrix at complex η, factorized and solved where s is 0."""
+    arrays = ("eta", "r", "u", "x", "lin->lu")
+    return tuple(at_complex(kernel, arrays, ("s",)) for kernel in (newton.factor, newton.substitute, newton.solve))

@@ -14,7 +14,7 @@ from typing import Any
 
 from gudgeon.contract.contour_info import ContourInfo
 from gudgeon.contract.ledger import Story
-from gudgeon.contract.methods import INTEGRATORS, KINEMATIC, NEED_SLOPES
+from gudgeon.contract.methods import INTEGRATORS, KINEMATIC, NEED_SLOPES, STAGED
 from gudgeon.contract.stored import as_text, complete, shorten, tuples
 
 HEADER = "model.h"
@@ -208,6 +208,7 @@ class KernelSource:
     states: tuple[str, ...] = ()  # inner states of laws, "A.z", as many a joint with play; "": none
     units: tuple[int, ...] = ()  # in which `main` is compiled, side by side, as PART in C counts them; none: whole
     taylor: str = ""  # the file with the series of the motion, of a library with Taylor's method; "": it has none
+    stages: bool = False  # whether it has the matrices of methods whose stages are found together
     lanes: str = ""  # the file to compile for runs side by side; "": there is none
     cdef: str = ""  # what `main` declares where it is compiled alone; "": with the engine, by the engine's calls
     overrides: tuple[tuple[str, str | float | bool], ...] = ()  # of the file: (address, value), sorted (load)
@@ -263,7 +264,8 @@ class KernelSource:
     @property
     def methods(self) -> tuple[str, ...]:
         """What runs this scene: the integrators, or where nothing is left to be integrated the other one."""
-        fitting = tuple(name for name in INTEGRATORS if not (self.explicit and name in NEED_SLOPES))
+        there = (*INTEGRATORS, *(STAGED if self.stages else ()))
+        fitting = tuple(name for name in there if not (self.explicit and name in NEED_SLOPES))
         return fitting if self.degrees_of_freedom or self.clearances or self.frictions else (KINEMATIC,)
 
     def to_json(self) -> str:

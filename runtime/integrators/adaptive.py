@@ -4,8 +4,12 @@
   Differential Equations I, 1993, section II.5).
 - `rodas5p`: Rosenbrock, order 5, L-stable, exact Jacobian, dense output of order 4 (G. Steinebach, BIT 63:27, 2023).
 - `taylor`: the motion's own series, of an order by the tolerance, for smooth motion (engine/methods/taylor.c).
-- `auto`: the first two, by what the steps measure: explicit until h ρ(J) reaches its bound of stability for some
-  steps, stiff until h ρ(J) is so small that the explicit method would need no more steps.
+- `radau5`, `radau9`: Radau IIA of orders 5 and 9, L-stable, exact Jacobian, dense output of order 4
+  (engine/both/radau.h).
+- `auto`: the explicit one and a stiff one, by what the steps measure: explicit until h ρ(J) reaches its bound of
+  stability for some steps, stiff until h ρ(J) is so small that the explicit method would need no more steps. The stiff
+  one is `rodas5p`, in a scene with films `radau5`, at tolerances below FINE `radau9`: a film's force bends so much with
+  the journal's place that a method which is linear in each step has to take many.
 
 The error of a step is controlled component by component: lengths to rtol · L, angles to rtol · L/S, velocities
 to rtol times the largest speed of their kind so far. S is the mechanism's size; L is S in a scene without play
@@ -24,7 +28,7 @@ from numpy.typing import NDArray
 
 from gudgeon.assembly.linkage import angles
 from gudgeon.contract.kernel_source import KernelSource, Slot
-from gudgeon.contract.methods import ADAPTIVE, AUTO, CHOOSING, KINEMATIC
+from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, FINE, KINEMATIC, STAGED, STIFF
 from gudgeon.errors import BadValueError, InputError
 from gudgeon.integrators.failure import NOT_FINITE, failure
 from gudgeon.integrators.session import Session
@@ -45,7 +49,7 @@ def run(problem: Problem) -> Trajectory:
     session = Session(problem, problem.p_free)
     scale, least = tolerances(problem.compiled, problem.p, problem.rtol)
     fixed = 0.0 if math.isinf(problem.step) else problem.step
-    choice = choice_of(problem.compiled, problem.method)
+    choice = choice_of(problem.compiled, problem.method, problem.rtol)
     session.lib.gudgeon_adaptive_setup(session.run, *choice, session.pointer(scale), session.pointer(least), fixed)
     return session.drive(lambda: _all(session))
 
@@ -105,19 +109,32 @@ def tolerance(rtol: float | str | None, method: str, fixed: bool) -> float:
     return value
 
 
-def begins_with(source: KernelSource) -> str:
+def stiff_of(source: KernelSource, rtol: float) -> str:
+    """The stiff method of `auto`."""
+    return STAGED[rtol < FINE] if source.stages and _has_film(source) else STIFF
+
+
+def begins_with(source: KernelSource, rtol: float = RTOL) -> str:
     """The first method of `auto`: a film is stiff from rest on (physics.md, section 6)."""
     if KINEMATIC in source.methods:
         return KINEMATIC
-    return AUTO[any(joint.film for joint in source.clearances) and not source.explicit]
+    return stiff_of(source, rtol) if _has_film(source) and not source.explicit else EXPLICIT
 
 
-def choice_of(compiled: CompiledModel, method: str) -> tuple[int, int]:
-    """For gudgeon_adaptive_setup: C's number of the method that begins, and whether it may change."""
-    automatic = method == ADAPTIVE
-    name = begins_with(compiled.source) if automatic else method
-    stiff = compiled.lib.gudgeon_method(AUTO[1].encode()) if automatic else 0
-    return int(compiled.lib.gudgeon_method(name.encode())), int(stiff)
+def _has_film(source: KernelSource) -> bool:
+    return any(joint.film for joint in source.clearances)
+
+
+def choice_of(compiled: CompiledModel, method: str, rtol: float) -> tuple[int, int]:
+    """For gudgeon_adaptive_setup: C's numbers of the method that begins, and of the stiff one that it may change to;
+
+    0: it may not change.
+    """
+    if method != ADAPTIVE:
+        return int(compiled.lib.gudgeon_method(method.encode())), 0
+    names = begins_with(compiled.source, rtol), stiff_of(compiled.source, rtol)
+    first, stiff = (int(compiled.lib.gudgeon_method(name.encode())) for name in names)
+    return first, stiff
 
 
 def lengths(compiled: CompiledModel, p: Array) -> tuple[Array, Array]:
@@ -144,7 +161,6 @@ def tolerances(compiled: CompiledModel, p: Array, rtol: float) -> tuple[Array, A
     length, size = lengths(compiled, p)
     is_angle = integrated_angles(source)
     of_q = rtol * np.where(is_angle, (length / size)[..., None], length[..., None])
-    film = any(joint.film for joint in source.clearances)
-    of_v = np.minimum(rtol, FELT_BY_FILMS * length / size if film else rtol)
+    of_v = np.minimum(rtol, FELT_BY_FILMS * length / size if _has_film(source) else rtol)
     of_speed = np.broadcast_to(of_v[..., None], of_q.shape)
     return np.concatenate([of_q, of_speed], axis=-1), np.stack([length, length / size], axis=-1)

@@ -78,7 +78,7 @@ class Runs:
             "peaks": np.full((n, nc, 3), np.nan), "ending": np.zeros(1, np.intc),
         }  # fmt: skip
         self.arrays = {name: np.ascontiguousarray(array) for name, array in self.arrays.items()}
-        self.struct = self._struct(math.isfinite(step[0]), stop)
+        self.struct = self._struct(math.isfinite(step[0]), stop, rtol)
         none = np.zeros(0, IMPACT_DTYPE), no_states(compiled), no_events()
         self.impacts, self.events, self.no_event = [[none[0]] for _ in range(n)], [[none[1]] for _ in range(n)], none[2]
         self.failures: dict[int, GudgeonError] = {}
@@ -86,12 +86,12 @@ class Runs:
         self.interrupted = False
         self.looks: Sequence[Look | None] = ()  # a run each, where somebody looks at all steps
 
-    def _struct(self, fixed: bool, stop: bool) -> Any:
+    def _struct(self, fixed: bool, stop: bool, rtol: float) -> Any:
         struct = self.compiled.ffi.new("Batch *")
         explicit = self.method == "rk4"
         struct.samples, struct.apart, struct.numbers = self.times.most, self.times.apart, self.arrays["p"].shape[1]
         struct.limit = rk4.CHUNK if explicit else adaptive.CHUNK
-        struct.choice, struct.automatic = (-1, 0) if explicit else adaptive.choice_of(self.compiled, self.method)
+        struct.choice, struct.automatic = (-1, 0) if explicit else adaptive.choice_of(self.compiled, self.method, rtol)
         struct.fixed, struct.stop = int(fixed), int(stop)
         kinds = {"uint8": "unsigned char *", "int8": "signed char *", "int32": "int *", "int64": "long *"}
         for name, array in self.arrays.items():

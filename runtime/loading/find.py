@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.limits import MAX_BYTES
-from gudgeon.contract.methods import SMOOTH
+from gudgeon.contract.methods import SMOOTH, STAGES
 from gudgeon.errors import BadValueError, InputError, LimitError
 from gudgeon.files.beside import read_beside
 from gudgeon.files.reading import read_named
@@ -95,7 +95,7 @@ def kernel_source(
     formulation: as `load` takes it, or the name of a method for smooth motion: the reduced one with that method.
     ahead: compiles what it is told of, while a derivation goes on.
     """
-    if formulation not in (*FORMULATIONS, *SMOOTH):
+    if formulation not in (*FORMULATIONS, *SMOOTH, STAGES):
         raise BadValueError(f"unknown formulation {formulation!r}", hint=f"there are: {', '.join(FORMULATIONS)}")
     scene, overrides, cache = scene or DEFAULT_SCENE, overrides or {}, cache or default_cache()
     key = model_key(data, scene, overrides, formulation)

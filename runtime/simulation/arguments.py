@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.contract.kernel_source import KernelSource, Slot
-from gudgeon.contract.methods import ADAPTIVE, AUTO, CHOOSING, KINEMATIC, SMOOTH
+from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, KINEMATIC, SMOOTH
 from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.integrators import adaptive, kinematic, rk4
 from gudgeon.integrators.peers import driver
@@ -124,7 +124,7 @@ def method_of(source: KernelSource, method: str, fixed: bool) -> str:
     if source.taylor:
         fitting = (*fitting, *SMOOTH)
     if method == "auto":
-        return fitting[0] if len(fitting) == 1 or fixed else AUTO[0] if source.explicit else ADAPTIVE
+        return fitting[0] if len(fitting) == 1 or fixed else EXPLICIT if source.explicit else ADAPTIVE
     if method not in METHODS:
         offered = ", ".join(name for name in METHODS if name != ADAPTIVE)  # a name of ours for what auto runs
         raise BadValueError(f"method {method!r}: expected auto, {offered}")

@@ -12,7 +12,8 @@ from gudgeon.assembly.dead_centre import dependent_rows
 from gudgeon.assembly.journals import eccentricity
 from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.contract.methods import ADAPTIVE, AUTO
+from gudgeon.contract.methods import ADAPTIVE, EXPLICIT
+from gudgeon.integrators.adaptive import stiff_of
 from gudgeon.integrators.rk4 import last_step
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
@@ -41,7 +42,8 @@ def diagnose(
         used = max(last, min(used, duration))
     simulated = float(x.t[-1] - x.t[0]) if len(x.t) else 0.0
     if method == ADAPTIVE:
-        method = "+".join(AUTO) if 0 < counts.stiff_steps < counts.steps else AUTO[counts.stiff_steps > 0]
+        both = EXPLICIT, stiff_of(compiled.source, problem.rtol)
+        method = "+".join(both) if 0 < counts.stiff_steps < counts.steps else both[counts.stiff_steps > 0]
     return Diagnostics(
         method=method, step=used if math.isfinite(problem.step) else math.nan, steps=counts.steps,
         last_step=last if last != used else math.nan,

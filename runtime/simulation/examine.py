@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 
-from gudgeon.contract.methods import ADAPTIVE, AUTO
+from gudgeon.contract.methods import ADAPTIVE, CHOOSING
 from gudgeon.errors import GudgeonError
 from gudgeon.model.contours import contour_of, depth_at
 from gudgeon.results.diagnostics import Difference, Examined, IdealForce, JointExamined
@@ -106,7 +106,7 @@ def as_it_was(
 
 def _as_it_went(usual: dict[str, Any]) -> Iterator[dict[str, Any]]:
     """A run by "auto" is told by the one method that made all its steps, if one did."""
-    if usual["method"] in AUTO and "step" not in usual:
+    if usual["method"] in CHOOSING and "step" not in usual:
         yield usual | {"method": ADAPTIVE}
     yield usual
 

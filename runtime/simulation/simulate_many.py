@@ -13,7 +13,7 @@ import numpy as np
 from gudgeon.assembly.followed import tell_of_runs
 from gudgeon.assembly.journals import check_places, parting
 from gudgeon.assembly.redundant_rows import left_out
-from gudgeon.contract.methods import ADAPTIVE, INTEGRATORS, SMOOTH
+from gudgeon.contract.methods import ADAPTIVE, INTEGRATORS, ON_DEMAND
 from gudgeon.errors import AssemblyError, BadValueError, SolverError
 from gudgeon.integrators import adaptive
 from gudgeon.integrators import batch as many
@@ -54,7 +54,7 @@ def simulate_many(
     peaks: Iterable[str | Rubbing] | None = None, against: Simulation | None = None, contour: Any = None,
 ) -> Batch:  # fmt: skip
     """See Simulation.simulate_many."""
-    simulation = simulation.of_method(method) if isinstance(method, str) and method in SMOOTH else simulation
+    simulation = simulation.of_method(method) if isinstance(method, str) and method in ON_DEMAND else simulation
     compiled, source = simulation.compiled, simulation.source
     names, against = wanted_peaks(source, peaks), check_beside(source, against)
     each = EachRun(compiled, t_end, output, step)
@@ -76,7 +76,7 @@ def simulate_many(
     times = each.times(p, starts.t, bad)
     steps = each.lengths_of_steps(chosen, p, times, bad)
     bad |= each.bad
-    if chosen in (*INTEGRATORS, *SMOOTH, ADAPTIVE) and not left_out(compiled):
+    if chosen in (*INTEGRATORS, *ON_DEMAND, ADAPTIVE) and not left_out(compiled):
         good = np.delete(np.arange(len(p)), list(bad))
         ends = np.array([times.of(i)[-1] for i in good.tolist()])
         if not any_in_batch(source, p[good], starts.t, ends):  # else each run looks for its own

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from fnmatch import fnmatchcase
 from importlib.util import find_spec
 
-from gudgeon.contract.methods import CHOOSING, INTEGRATORS
+from gudgeon.contract.methods import CHOOSING, INTEGRATORS, STAGED
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.integrators.peers.sundials_steppers import INSTALL
@@ -38,7 +38,9 @@ def choice(simulation: Simulation, wanted: Sequence[str] | None, quick: bool) ->
     found, left_out = [], []
     for method in named:
         package = method.partition(":")[0]
-        fits = method in simulation.source.methods if method in CHOOSING else adaptive(simulation)
+        source, asked = simulation.source, method in STAGED and wanted is not usual
+        there = (*source.methods, *(STAGED if asked and not source.no_slopes else ()))
+        fits = method in there if method in CHOOSING else adaptive(simulation)
         if method in ADAPTIVE and not fits:
             continue
         if method in python_driver.NAMES and reason:

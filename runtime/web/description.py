@@ -16,7 +16,7 @@ from gudgeon.assembly.redundant_rows import OPEN, left_out
 from gudgeon.assembly.start import assemble
 from gudgeon.contract.kernel_source import KernelSource, PointInfo, Slot
 from gudgeon.contract.methods import KINEMATIC
-from gudgeon.integrators.adaptive import FELT_BY_FILMS, RTOL, begins_with, integrated_angles
+from gudgeon.integrators.adaptive import FELT_BY_FILMS, RTOL, begins_with, integrated_angles, stiff_of
 from gudgeon.integrators.kinematic import REACH
 from gudgeon.model.choices import said
 from gudgeon.model.compiled import CompiledModel
@@ -44,7 +44,8 @@ def description(compiled: CompiledModel, seen_step: float | None = None) -> str:
         "slots": [_slot(slot) for slot in source.slots], "derived": source.derived,
         "conditions": [asdict(condition) for condition in conditions(source)],
         "gains": [place[name] for name in GAINS if name in place],
-        "methods": _methods(source), "begins": begins_with(source), "automatic": not source.explicit,
+        "methods": _methods(source), "begins": begins_with(source), "stiff": stiff_of(source, RTOL),
+        "automatic": not source.explicit,
         "pivots": source.motion_pivots, "start_pivots": source.start_pivots,
         "evaluation_pivots": source.pivots,
         "angles": integrated_angles(source).tolist(), "sizes": size_places(source),

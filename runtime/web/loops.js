@@ -66,9 +66,11 @@ class Session {
         const of_q = about.angles.map((turns) => rtol * (turns ? share : length));
         const scale = [...of_q, ...about.angles.map(() => of_v)];
         const automatic = this.method === "adaptive", name = automatic ? about.begins : this.method;
-        const text = new TextEncoder().encode(`${name}\0`), {memory, lib} = this;
-        const method = lib.gudgeon_method(memory.bytes(text.length, text));
-        lib.gudgeon_adaptive_setup(this.struct, method, Number(automatic && about.automatic),
+        const {memory, lib} = this, number = (name) => {
+            const text = new TextEncoder().encode(`${name}\0`);
+            return lib.gudgeon_method(memory.bytes(text.length, text));
+        };
+        lib.gudgeon_adaptive_setup(this.struct, number(name), automatic && about.automatic ? number(about.stiff) : 0,
             memory.numbers(scale.length, scale), memory.numbers(2, [length, share]), this.step ?? 0);
     }
 

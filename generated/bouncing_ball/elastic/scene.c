@@ -15,6 +15,5 @@
 #endif
 #if !PART || PART == 3
 #include "newton.c"
-#include "newton_complex.c"
 #endif
 #include "engine/scene/scene.c"

@@ -12,7 +12,6 @@
 #endif
 #if !PART || PART == 3
 #include "newton.c"
-#include "newton_complex.c"
 #include "watched.c"
 #endif
 #include "engine/scene/scene.c"

@@ -32,7 +32,7 @@
 #define LARGEST_BLOCK 0     /* rows that are solved together */
 #define N_VALUES 7          /* of the linearized equations */
 #define N_FACTORS 5         /* of their factors L and U */
-#define IMPLICIT_STAGES 1   /* methods whose stages are solved together */
+#define IMPLICIT_STAGES 0   /* 1: there are methods that find their stages together */
 #define HAS_LANES 1         /* runs go side by side */
 #define N_CORNERS 0         /* corners of drives, whose rate jumps there */
 #define RATE_JUMPS 0        /* the rate of some drive may jump */

@@ -45,7 +45,7 @@ def describe(
     pivots: tuple[str, ...] = (), start_pivots: tuple[str, ...] = (),
     operations: Mapping[str, int] = MappingProxyType({}), tree: tuple[str, ...] = (), closures: tuple[str, ...] = (),
     motion_pivots: tuple[str, ...] = (), formulation: str = "full", story: Story = UNTOLD, lanes: str = "",
-    chain: Chain | None = None,
+    chain: Chain | None = None, stages: bool = False,
 ) -> KernelSource:  # fmt: skip
     """Everything that the runtime must know of a scene; the code's own facts are empty before it is emitted."""
     scene, mechanism = model.scene, model.scene.mechanism
@@ -56,7 +56,7 @@ def describe(
     start = mechanism.start
     return KernelSource(
         mechanism=mechanism.name, scene=scene.name, title=mechanism.title, sha256=mechanism.sha256,
-        files=files, main=main, units=units,
+        files=files, main=main, units=units, stages=stages,
         coordinates=tuple(model.symbols.info[q].meaning for q in model.q),
         bodies=tuple(BodyInfo(body.name, body.index) for body in model.bodies),
         points=_points(model, place, body_of),

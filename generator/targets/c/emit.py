@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from importlib import resources
 from typing import Any
 
@@ -23,7 +23,7 @@ from gudgeon.generator.targets.c.curves import curves_code
 from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.layout import within
 from gudgeon.generator.targets.c.model_header import header_values, known_bounds, of_joints
-from gudgeon.generator.targets.c.newton import complex_code, newton_code, tangent_code
+from gudgeon.generator.targets.c.newton import newton_code, tangent_code
 from gudgeon.generator.targets.c.play import clearances_code
 from gudgeon.generator.targets.c.reduced import reduced_code
 
@@ -76,6 +76,7 @@ def described(program: Program, files: Mapping[str, str], units: tuple[int, ...]
             course.groups if course else (),
         ),
         lanes=lanes_code.MAIN if program.has_lanes else "",
+        stages=program.staged,
     )  # fmt: skip
 
 
@@ -106,7 +107,9 @@ def _parts(program: Program, prepare: Kernel, bounds: Kernel | None) -> dict[int
     if course:
         parts[METHODS] = {"positions.c": lambda: _kernels(*course.kernels)}
     elif program.methods:
-        parts[METHODS] = {"newton.c": lambda: _linearized(program), "newton_complex.c": lambda: _at_complex(program)}
+        parts[METHODS] = {"newton.c": lambda: _linearized(program)}
+    if program.methods and program.staged:
+        parts[METHODS]["newton_complex.c"] = partial(_kernels, *program.methods.at_complex)
     if _bounded(program, bounds):
         parts[METHODS]["watched.c"] = lambda: _watched(program, bounds)
     return parts
@@ -148,11 +151,6 @@ def _linearized(program: Program) -> str:
         return ""
     slopes = tangent_code(program.pins, methods, render, program.model.law_states)
     return slopes + newton_code(methods.newton, render) + functions.kernel(methods.closing)
-
-
-def _at_complex(program: Program) -> str:
-    """Newton's matrix once more, for methods whose stages are solved together."""
-    return complex_code(program.methods.newton) if program.methods else ""
 
 
 def _bounded(program: Program, watched: Kernel | None) -> bool:

@@ -39,11 +39,12 @@ from gudgeon.generator.targets.c.printer import CPrinter, Text, comment_text
 
 # Functions that engine/scene/kernels.h declares: the engine calls them from a unit of its own.
 CALLED_BY_ENGINE = frozenset({
-    "prepare", "mass_matrix", "constraints", "jacobian", "velocity_rhs", "acceleration_rhs", "start_values", "dynamics",
-    "outputs", "expand", "reduce_state", "reduce_accelerations", "reduced_dynamics", "closures", "closure_rates",
-    "reduced_project", "closing_step", "linearize", "newton_factor", "newton_substitute", "newton_solve", "newton_factor_complex", "newton_solve_complex",
-    "chain_directions", "chain_step", "chain_rates", "chain_third", "chain_corners", "close_step", "arrive", "project",
-    "watched_functions", "watched_ranges", "time_terms", "drive_corners", "drive_corner_ranges",
+    "prepare", "mass_matrix", "constraints", "jacobian", "velocity_rhs", "acceleration_rhs", "start_values",
+    "dynamics", "outputs", "expand", "reduce_state", "reduce_accelerations", "reduced_dynamics", "closures",
+    "closure_rates", "reduced_project", "closing_step", "linearize", "newton_factor", "newton_substitute",
+    "newton_solve", "newton_factor_complex", "newton_solve_complex", "chain_directions", "chain_step",
+    "chain_rates", "chain_third", "chain_corners", "close_step", "arrive", "project", "watched_functions",
+    "watched_ranges", "time_terms", "drive_corners", "drive_corner_ranges",
 })  # fmt: skip
 
 _PLAIN: dict[type, str] = {

@@ -85,8 +85,8 @@ def _newton(pins: Sequence[Pin], methods: Methods, render: Render, states: int) 
     for clearance in (pin.clearance for pin in pins):
         slopes.append(_tangent(clearance, methods.slopes[clearance.name], render, states))
     of_state = map(lanes_printer.watched_kernel, (newton.linearize, newton.factor))
-    factor, *solved = newton.at_complex
-    complex_ = [lanes_printer.watched_kernel(factor), *map(lanes_printer.kernel, solved)]
+    factor, solved = methods.at_complex[:1], methods.at_complex[1:]
+    complex_ = [*map(lanes_printer.watched_kernel, factor), *map(lanes_printer.kernel, solved)]
     return "\n".join([*slopes, *of_state, *map(lanes_printer.kernel, (newton.substitute, newton.solve)), *complex_])
 
 

@@ -104,7 +104,7 @@ def _of_motion(program: Program) -> Sizes:
         "LARGEST_BLOCK": (_largest_block(program), "rows that are solved together"),
         "N_VALUES": (newton.values.size if newton else 0, "of the linearized equations"),
         "N_FACTORS": (newton.factors.size if newton else 0, "of their factors L and U"),
-        "IMPLICIT_STAGES": (int(newton is not None), "methods whose stages are solved together"),
+        "IMPLICIT_STAGES": (int(program.staged), "1: there are methods that find their stages together"),
         "HAS_LANES": (int(program.has_lanes), "runs go side by side"),
     }  # fmt: skip
 

@@ -44,11 +44,6 @@ def newton_code(newton: Newton, render: Render) -> str:
     )  # fmt: skip
 
 
-def complex_code(newton: Newton) -> str:
-    """What of them a step with complex h gamma needs."""
-    return "\n".join(map(functions.kernel, newton.at_complex))
-
-
 def tangent_code(pins: Sequence[Pin], methods: Methods, render: Render, states: int) -> str:
     """`tangent_<joint>` of every joint with play, behind the derivatives that they share; `states` of laws each has."""
     if not pins:

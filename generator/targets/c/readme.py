@@ -19,8 +19,9 @@ _EQUATIONS = {
     "reduced.c": "the same motion in few coordinates: there and back, and the accelerations that are integrated",
 }  # fmt: skip
 _NUMERICS = {
-    "newton.c": "derivatives of the equations of motion, Newton's matrix solved (for `rodas5p`), and a step onto the "
-                "constraints",
+    "newton.c": "derivatives of the equations of motion, Newton's matrix solved (for stiff methods), and a step onto "
+                "the constraints",
+    "newton_complex.c": "the same matrix at complex steps (for `radau5` and `radau9`)",
     "positions.c": "no freedom is left: a step of Newton's method to the positions at a time, then velocities and "
                    "accelerations",
     "curves.c": "the file's curves: knots and coefficients of their pieces",
