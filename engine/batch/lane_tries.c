@@ -140,9 +140,8 @@ static void note_pass(LaneRun *run, LaneStep *step, LaneBits active, const Lanes
     }
 }
 
-static int stages_lost(LaneRun *run, LaneStep *step, LaneBits lost)
+static int stages_lost(LaneRun *run, LaneBits lost)
 {
-    (void)step;
     run->memory.rare |= lost;
     return 0;
 }

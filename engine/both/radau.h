@@ -5,8 +5,10 @@
  * matrix. E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, Springer (1996), section IV.8; the same,
  * Stiff differential equations solved by Radau methods, J. Comput. Appl. Math. 111 (1999) 93-111.
  */
-enum { RADAU_MOST = 5, RADAU_PATIENCE = 14 };
-#define RADAU_ENOUGH 3e-3 /* of a step's tolerance: how well its stages are found */
+enum { RADAU_MOST = 5, RADAU_PATIENCE = 14, RADAU_STUBBORN = 60 };
+#define RADAU_ENOUGH 3e-3   /* of a step's tolerance: how well its stages are found */
+#define RADAU_ROUNDED 1e-14 /* of the state: what is left of a change by rounding */
+#define RADAU_NOISE 1e3     /* times that, at most, where rates are differences of large forces */
 
 /*
  * The inverse of Butcher's matrix is T diag(gamma, pairs) T^-1 in real form: behind the first, two columns of T and two

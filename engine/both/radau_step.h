@@ -102,9 +102,17 @@ static int RADAU(stages)(RunOf *run, Real h, const ComplexLinearOf *pairs, const
     Real f[RADAU_STAGES][N_Y], change[RADAU_STAGES][N_Y], before = real_of(1.0);
     Real falls = pick(run->falls > 0.0, run->falls, real_of(0.5));
     Real (*const z)[N_Y] = step->k;
+    /* nearer they cannot be told apart; where no error is looked at, nearly so near */
+    Real rounded = real_of(0.0);
+    for (int i = 0; i < N_Y; i++)
+        rounded = real_max(real_abs(run->y[i]) * run->weight[i], rounded);
+    rounded *= RADAU_ROUNDED;
+    const Real enough = real_max(pick(run->accept <= DBL_MAX, real_of(RADAU_ENOUGH), rounded), rounded);
     Truth active = is_not((Truth){0});
     *lost = (Truth){0};
-    for (int pass = 0; pass < RADAU_PATIENCE && any_of(active); pass++) {
+    const int controlled = any_of(run->accept <= DBL_MAX), patience = controlled ? RADAU_PATIENCE : RADAU_STUBBORN;
+    const double hope = controlled ? 0.9 : 2.0; /* a step that has to be made gets over a bad guess */
+    for (int pass = 0; pass < patience && any_of(active); pass++) {
         const int status = RADAU(rates)(run, h, active, z, p, step, f);
         if (status)
             return status;
@@ -118,12 +126,14 @@ static int RADAU(stages)(RunOf *run, Real h, const ComplexLinearOf *pairs, const
         way = pick(active, way, real_of(0.0));
         if (is_odd(run, way))
             return NOT_FINITE;
+        Truth found = active & (way <= rounded);
         if (pass > 0) {
-            falls = pick(active, way / before, falls);
-            *lost |= active & is_not(falls < 0.9);
-            active &= falls < 0.9;
+            falls = pick(active & is_not(found), way / before, falls);
+            found |= active & is_not(falls < 0.9) & (way <= RADAU_NOISE * rounded); /* it no longer falls */
+            *lost |= active & is_not(found | (falls < hope));
+            active &= found | (falls < hope);
         }
-        const Truth found = active & (falls * way <= RADAU_ENOUGH * (1.0 - falls));
+        found |= active & (falls * way <= enough * (1.0 - falls));
         run->falls = pick(found, real_max(falls, real_of(1e-3)), run->falls);
         active &= is_not(found);
         before = pick(active, way, real_of(1.0));
@@ -157,10 +167,10 @@ static int RADAU(try)(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
     look_around(run);
     RADAU(guess)(run, h, step->k);
     status = RADAU(stages)(run, h, pairs, p, step, &lost);
+    if (!status)
+        status = stages_lost(run, lost);
     if (status)
         return status;
-    if (stages_lost(run, step, lost))
-        return 0;
     for (int i = 0; i < N_Y; i++) {
         bend[i] = real_of(0.0);
         for (int s = 0; s < RADAU_STAGES; s++)

@@ -195,7 +195,7 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
     }
     now->again = 1;
     run->rejected++;
-    now->h *= tried ? 0.25 : shrink(run, step);
+    now->h *= tried == NOT_FOUND ? 0.5 : tried ? 0.25 : shrink(run, step);
     if (now->h > least)
         return again(run);
     if (N_SWITCHES > 0 && tried == NOT_FINITE && run->memory.held) {

@@ -28,7 +28,7 @@ enum {
 /* Statuses of a run that is no longer wanted, or no longer advances, ...; positive ones are pivots, 0 is well. */
 enum {
     NOT_FINITE = -2, EVENTS_FULL = -3, CHATTERING = -4, TOO_SMALL = -5, LOST = -6, ENDED = -7, OUTSIDE = -8,
-    STOPPED = -10, STALLED = -11, UNBOUNDED = -12, JAMMED = -13
+    STOPPED = -10, STALLED = -11, UNBOUNDED = -12, JAMMED = -13, NOT_FOUND = -14
 };
 enum { NEAR = -20 }; /* of functions: a pivot is so small that the motion is continued from both sides (beside.c) */
 

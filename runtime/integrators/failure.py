@@ -19,7 +19,7 @@ from gudgeon.model.steep import steep_force
 from gudgeon.model.written import CORNERED, of_time, rate_reason, reason, trees, undefined_here
 
 NOT_FINITE, CHATTERING, TOO_SMALL, LOST, OUTSIDE, STOPPED, STALLED, UNBOUNDED = -2, -4, -5, -6, -8, -10, -11, -12
-JAMMED = -13
+JAMMED, NOT_FOUND = -13, -14
 INTERRUPTED = "interrupted before its end"
 NO_NUMBER = "end the run before that, or write it so that it is a number at every time, with its rates"
 NO_SLOPE = "method dop853 does without slopes; or write the force so that it has one there"
@@ -63,6 +63,11 @@ def failure(
             f"friction jams a contact of newton_restitution at t = {t:.9g} s: by it normal forces bring the surfaces "
             "nearer, or grow beyond all bounds (Painlevé)\n"
             "  less friction, or surfaces that give: another normal law", t
+        )  # fmt: skip
+    if status == NOT_FOUND:
+        return SolverError(
+            f"the stages of {method}'s step were not found at t = {t:.9g} s: it leads too far\n"
+            "  a shorter step, or none: then it chooses its own", t
         )  # fmt: skip
     if status == CHATTERING:
         return _chattering(compiled, t)
