@@ -121,7 +121,8 @@ static void begin_pass(LaneRun *run, LaneStep *step, LaneBits active, int n)
 }
 
 /* What a lane sees that has found its stages stays as it is. */
-static void note_pass(LaneRun *run, LaneStep *step, LaneBits active, const Lanes *y, const LaneAside *aside, double node)
+static void note_pass(LaneRun *run, LaneStep *step, LaneBits active, const Lanes *y, const LaneAside *aside,
+    double node)
 {
     Lanes margins[AT_LEAST_ONE(N_MARGINS)], *const seen = step->seen[step->n_seen];
     note_margins(run, aside, margins);

@@ -1,7 +1,9 @@
 /*
  * A step of Radau IIA that is tried: collocation at 3 or 5 points, of order 5 or 9, L-stable. All stages are found
- * together by simplified Newton iterations, which a change of basis splits into one real and one or two complex systems,
- * each with the matrix of a single stage. The error is that of an embedded formula of order 3 or 5, filtered by the real
+ * together by simplified Newton iterations, which a change of basis splits into one real and one or two complex
+ * systems,
+ * each with the matrix of a single stage. The error is that of an embedded formula of order 3 or 5, filtered by the
+ * real
  * matrix. E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, Springer (1996), section IV.8; the same,
  * Stiff differential equations solved by Radau methods, J. Comput. Appl. Math. 111 (1999) 93-111.
  */
@@ -12,7 +14,8 @@ enum { RADAU_MOST = 5, RADAU_PATIENCE = 14, RADAU_STUBBORN = 60 };
 
 /*
  * The inverse of Butcher's matrix is T diag(gamma, pairs) T^-1 in real form: behind the first, two columns of T and two
- * rows of its inverse go with real and imaginary part of one number. `dense`: the collocation polynomial's coefficients.
+ * rows of its inverse go with real and imaginary part of one number. `dense`: the collocation polynomial's
+ * coefficients.
  */
 typedef struct {
     double node[RADAU_MOST], gamma, pair[RADAU_MOST / 2][2], to_stages[RADAU_MOST][RADAU_MOST],
@@ -38,9 +41,11 @@ static const RadauTable RADAU5 = {
 
 static const RadauTable RADAU9 = {
     .node = {0.057104196114517682, 0.27684301363812383, 0.58359043236891682, 0.86024013565621945, 1.0},
-    .gamma = 6.2867047517292766, .pair = {{5.7009532986717894, 3.2102656003085499}, {3.6556943254635723, 6.5437368993600773}},
+    .gamma = 6.2867047517292766, .pair = {{5.7009532986717894, 3.2102656003085499}, {3.6556943254635723,
+        6.5437368993600773}},
     .to_stages = {
-        {0.013576867344947943, -0.022957030510459029, -0.028039717785750821, -0.020484095635817654, 0.095347754580591448},
+        {0.013576867344947943, -0.022957030510459029, -0.028039717785750821, -0.020484095635817654,
+         0.095347754580591448},
         {0.0016179004017190875, -0.015337661498360326, 0.049417156853037054, 0.10034572903474212, -0.18866363836322287},
         {0.079157853347447208, 0.038796927997657902, 0.16360070740750234, -0.46107906808683589, 0.2054060907602518},
         {0.41225608268046145, 0.81520234256039813, 0.39936485577360505, 0.7557878044977225, 0.93348826066498872},
@@ -51,7 +56,8 @@ static const RadauTable RADAU9 = {
         {-4.305721989937646, 4.8499957047644041, 0.95736431984843714, 1.20934600304247, -0.52373174396766871},
         {2.6720932189174558, 2.2968077838795805, -1.5181801617297121, 0.52533009511572943, -0.13638930593214814},
         {1.8740299037199024, -1.9924828681719423, -0.5222078208040094, 0.59204928406897424, -0.22495888507839018}},
-    .error = {-4.4189977167963817, 0.57923485225667005, -0.19923756095346801, 0.094167483691945489, -0.031813168885493824},
+    .error = {-4.4189977167963817, 0.57923485225667005, -0.19923756095346801, 0.094167483691945489,
+        -0.031813168885493824},
     .dense = {
         {0.0, 0.0, 0.0, 0.0, 1.0},
         {27.780933944064637, -3.6414784980492132, 1.2525477211691187, -0.59200316718454287, -0.8},

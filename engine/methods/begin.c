@@ -67,8 +67,9 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
 }
 
 /*
- * method: that begins, as gudgeon_method counts; automatic: whether it may change, and if so the stiff one; scale (2 N_X): tolerances, those of
- * velocities a unit of speed; least: the smallest length (m) and angle (rad) that matter.
+ * method: that begins, as gudgeon_method counts; automatic: the stiff one that it may change to, 0: it may not change;
+ * scale (2 N_X): tolerances, those of velocities a unit of speed; least: the smallest length (m) and angle (rad) that
+ * matter.
  */
 void gudgeon_adaptive_setup(void *memory, int method, int automatic, const double *scale, const double *least,
     double fixed)

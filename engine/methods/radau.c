@@ -14,7 +14,11 @@ static void look_around(Run *run) { look_back(run); }
 static void count_rates(Run *run, int active, int n) { (void)run, (void)active, (void)n; }
 
 /* An iteration begins; what is seen at a stage of it. */
-static void begin_pass(Run *run, Step *step, int active, int n) { (void)run, (void)active, (void)n, forget_stages(step); }
+static void begin_pass(Run *run, Step *step, int active, int n)
+{
+    (void)run, (void)active, (void)n;
+    forget_stages(step);
+}
 
 static void note_pass(Run *run, Step *step, int active, const double *y, const Aside *aside, double node)
 {

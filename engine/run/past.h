@@ -1,5 +1,5 @@
 /*
- * Where a run's step and the one before began: by their motion the next stages are guessed that are found by iterations.
+ * Where a run's step and the one before began: by their motion stages are guessed that are found by iterations.
  */
 #ifndef GUDGEON_PAST_H
 #define GUDGEON_PAST_H

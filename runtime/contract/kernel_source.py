@@ -264,8 +264,7 @@ class KernelSource:
     @property
     def methods(self) -> tuple[str, ...]:
         """What runs this scene: the integrators, or where nothing is left to be integrated the other one."""
-        there = (*INTEGRATORS, *(STAGED if self.stages else ()))
-        fitting = tuple(name for name in there if not (self.explicit and name in NEED_SLOPES))
+        fitting = tuple(x for x in (*INTEGRATORS, *STAGED * self.stages) if not (self.explicit and x in NEED_SLOPES))
         return fitting if self.degrees_of_freedom or self.clearances or self.frictions else (KINEMATIC,)
 
     def to_json(self) -> str:
@@ -282,8 +281,7 @@ class KernelSource:
             "slots": Slot, "conditions": Condition, "series": SeriesInfo, "events": EventInfo,
             "written": WrittenInfo, "simulate_written": WrittenInfo, "parts": PartInfo, "contours": ContourInfo,
         }  # fmt: skip
-        for key, kind in kinds.items():
-            data[key] = tuple(kind(**tuples(item)) for item in data.get(key, ()))
+        data |= {key: tuple(kind(**tuples(item)) for item in data.get(key, ())) for key, kind in kinds.items()}
         for key, value in data.items():
             if isinstance(value, list) and key not in kinds:
                 data[key] = tuple(tuple(item) if isinstance(item, list) else item for item in value)

@@ -20,6 +20,12 @@ from gudgeon.model.written import CORNERED, of_time, rate_reason, reason, trees,
 
 NOT_FINITE, CHATTERING, TOO_SMALL, LOST, OUTSIDE, STOPPED, STALLED, UNBOUNDED = -2, -4, -5, -6, -8, -10, -11, -12
 JAMMED, NOT_FOUND = -13, -14
+TOLD = {
+    JAMMED: "friction jams a contact of newton_restitution at t = {t:.9g} s: by it normal forces bring the surfaces "
+    "nearer, or grow beyond all bounds (Painlevé)\n  less friction, or surfaces that give: another normal law",
+    NOT_FOUND: "the stages of {method}'s step were not found at t = {t:.9g} s: it leads too far\n"
+    "  a shorter step, or none: then it chooses its own",
+}
 INTERRUPTED = "interrupted before its end"
 NO_NUMBER = "end the run before that, or write it so that it is a number at every time, with its rates"
 NO_SLOPE = "method dop853 does without slopes; or write the force so that it has one there"
@@ -58,17 +64,8 @@ def failure(
         advice = GROWN if fast else advice
     if status == NOT_FINITE:
         return NonFiniteError(f"the motion is no longer finite at t = {t:.9g} s{fast}\n  {advice}", t)
-    if status == JAMMED:
-        return SolverError(
-            f"friction jams a contact of newton_restitution at t = {t:.9g} s: by it normal forces bring the surfaces "
-            "nearer, or grow beyond all bounds (Painlevé)\n"
-            "  less friction, or surfaces that give: another normal law", t
-        )  # fmt: skip
-    if status == NOT_FOUND:
-        return SolverError(
-            f"the stages of {method}'s step were not found at t = {t:.9g} s: it leads too far\n"
-            "  a shorter step, or none: then it chooses its own", t
-        )  # fmt: skip
+    if status in TOLD:
+        return SolverError(TOLD[status].format(method=method, t=t), t)
     if status == CHATTERING:
         return _chattering(compiled, t)
     if status == TOO_SMALL:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gudgeon.contract.kernel_source import KernelSource, Slot
-from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, KINEMATIC, SMOOTH
+from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, KINEMATIC, SMOOTH, STAGED, STAGES
 from gudgeon.errors import AssemblyError, BadValueError
 from gudgeon.integrators import adaptive, kinematic, rk4
 from gudgeon.integrators.peers import driver
@@ -108,6 +108,13 @@ def _check_end(what: str, t0: float, end: float, roundings: int) -> None:
             " numbers have no room for the times between",
             hint="times are in s",
         )
+
+
+def derived_for(source: KernelSource, method: str) -> str:
+    """What a scene is derived as once more for a method that this library does not have; "" where it has it."""
+    if method in STAGED:
+        return "" if source.stages or source.no_slopes else STAGES
+    return method if method in SMOOTH and not source.taylor else ""
 
 
 def method_of(source: KernelSource, method: str, fixed: bool) -> str:

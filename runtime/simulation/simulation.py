@@ -16,7 +16,6 @@ from gudgeon.assembly.followed import tell_unfollowed
 from gudgeon.assembly.journals import parting
 from gudgeon.assembly.redundant_rows import check_start
 from gudgeon.assembly.start import Start, assemble
-from gudgeon.contract.methods import SMOOTH, STAGED, STAGES
 from gudgeon.errors import BadValueError, InputError, SolverError
 from gudgeon.integrators import adaptive
 from gudgeon.integrators.peers import driver as python_driver
@@ -26,7 +25,7 @@ from gudgeon.loading.find import Loading
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import taken_contours
 from gudgeon.model.parameters import prepare, prepare_slots, without_baumgarte
-from gudgeon.simulation.arguments import MAX_STEPS, METHODS, end_of, method_of, output_times, step_of
+from gudgeon.simulation.arguments import MAX_STEPS, METHODS, derived_for, end_of, method_of, output_times, step_of
 from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude, contradicted, late
 from gudgeon.simulation.equations import Equations
@@ -94,9 +93,8 @@ class Simulation(Equations):
             if progress and "full" not in {*self._variants, self.source.formulation}:
                 progress(0.0, "deriving the full formulation")
             return self.full
-        if method in STAGED and not (self.source.stages or self.source.no_slopes):
-            return self._loaded_as(STAGES)
-        return self._loaded_as(method) if method in SMOOTH and not self.source.taylor else self
+        needed = derived_for(self.source, method)
+        return self._loaded_as(needed) if needed else self
 
     def _loaded_as(self, formulation: str) -> Simulation:
         from gudgeon.simulation.from_file import load_bytes
@@ -157,9 +155,8 @@ class Simulation(Equations):
         - "auto": "kinematic" where there is no degree of freedom; "rk4" where a `step` is given; else "adaptive",
           "dop853" while steps are bounded by accuracy and a stiff one while stability would (integrators/adaptive.py);
         - "rk4" with fixed `step` (s), of which only the last one is shorter; outputs lie on the interpolant;
-        - "dop853", "rodas5p", "radau5", "radau9": explicit of order 8, stiff of order 5, 5 and 9, with `rtol` (1e-8):
-          the error of a step as a share of the mechanism's size or, with play, of the clearance; with `step` they take
-          it unchanged, without error control;
+        - "dop853", "rodas5p", "radau5", "radau9": explicit of order 8, stiff of 5, 5, 9; `rtol` (1e-8) is the error of a
+          step as a share of the size or, with play, the clearance; with `step` they take it without error control;
         - "taylor": for smooth motion, its series, of an order that follows from `rtol`: tight tolerances cost little;
         - "scipy:DOP853", "sundials:cvode" and others: cross-checks (integrators/peers).
         `horizon`: run thrice more to find the time to which it can be trusted (horizon.py).
