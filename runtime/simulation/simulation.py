@@ -155,8 +155,8 @@ class Simulation(Equations):
         - "auto": "kinematic" where there is no degree of freedom; "rk4" where a `step` is given; else "adaptive",
           "dop853" while steps are bounded by accuracy and a stiff one while stability would (integrators/adaptive.py);
         - "rk4" with fixed `step` (s), of which only the last one is shorter; outputs lie on the interpolant;
-        - "dop853", "rodas5p", "radau5", "radau9": explicit of order 8, stiff of 5, 5, 9; `rtol` (1e-8) is the error of a
-          step as a share of the size or, with play, the clearance; with `step` they take it without error control;
+        - "dop853", "rodas5p", "radau5", "radau9": explicit of order 8, stiff of 5, 5, 9; `rtol` (1e-8) is the error of
+          a step as a share of the size or, with play, the clearance; with `step` they take it without error control;
         - "taylor": for smooth motion, its series, of an order that follows from `rtol`: tight tolerances cost little;
         - "scipy:DOP853", "sundials:cvode" and others: cross-checks (integrators/peers).
         `horizon`: run thrice more to find the time to which it can be trusted (horizon.py).
