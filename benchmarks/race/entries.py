@@ -31,6 +31,7 @@ from benchmarks.peers import (
     pydy_andrews,
     rk4,
 )
+from gudgeon.contract.methods import STAGED
 
 BODIES = ("L1", "L2", "L3", "L4", "L6", "L7", "L8", "S9")
 TOLERANCES = tuple(10.0**-k for k in range(3, 13))
@@ -183,7 +184,8 @@ def entries() -> list[Entry]:
 
 def own_methods(work: str) -> list[tuple[str, str, tuple[float, ...]]]:
     """gudgeon's methods, what controls them and its values; what a user gets who names none comes first."""
-    adaptive = [(method, "rtol", TOLERANCES) for method in ("auto", "dop853", "rodas5p")]
+    names = ("auto", "dop853", "rodas5p", *(STAGED if work == "lubricated" else ()))
+    adaptive = [(method, "rtol", TOLERANCES) for method in names]
     return [*adaptive, ("rk4", "step", RK4_STEPS[work])]
 
 
