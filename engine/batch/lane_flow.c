@@ -43,7 +43,8 @@ static int try_together(Flow *flow, int stiff, const int *wanted, int *lists)
         put_down(flow, k);
         if (!lost)
             scatter(flow, k, stiff);
-        const int happened = flow->one->goes_on(flow->b, flow->number[k], lost ? UNTRIED : TRIED, flow->run[k]);
+        const int tried = lost ? UNTRIED : flow->step.missed[k] ? MISSED : TRIED;
+        const int happened = flow->one->goes_on(flow->b, flow->number[k], tried, flow->run[k]);
         *lists |= happened == LISTS;
         some |= leaves(flow, k, happened);
     }

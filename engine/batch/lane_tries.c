@@ -20,8 +20,11 @@ static void forget_stages(LaneStep *step)
 /* From here on the step is that of the lanes which accept it. */
 static int is_refused(LaneRun *run, LaneStep *step)
 {
-    step->lost = run->memory.rare;
-    step->taken = ~(step->error > run->accept) & ~step->lost;
+#if IMPLICIT_STAGES && !TAYLOR
+    step->missed = run->missed;
+#endif
+    step->lost = run->memory.rare & ~step->missed;
+    step->taken = ~(step->error > run->accept) & ~step->lost & ~step->missed;
     run->memory.rare = (LaneBits){0};
     return !any_of(step->taken);
 }
@@ -143,7 +146,7 @@ static void note_pass(LaneRun *run, LaneStep *step, LaneBits active, const Lanes
 
 static int stages_lost(LaneRun *run, LaneBits lost)
 {
-    run->memory.rare |= lost;
+    run->missed = lost & ~run->memory.rare;
     return 0;
 }
 
@@ -154,6 +157,7 @@ static int method_try(LaneRun *run, int stiff, Lanes h, const LaneParameters *p,
 {
 #if IMPLICIT_STAGES
     run->asked = all_of(0.0);
+    run->missed = (LaneBits){0};
     if (stiff == BY_RADAU5)
         return radau5_try(run, h, p, step);
     if (stiff == BY_RADAU9)

@@ -190,12 +190,12 @@ typedef struct {
     LaneLinear linear;
 #if IMPLICIT_STAGES
     Lanes last_h, before_y[N_Y], before_dy[N_Y], falls, asked; /* asked: rates, of the step that is tried */
-    LaneBits goes_on;
+    LaneBits goes_on, missed;
 #endif
 #endif
 } LaneRun;
 
-/* As Step; lanes in which it is accepted, and in which the single runs are to try it. */
+/* As Step; lanes in which it is accepted, in which the single runs are to try it, whose stages were not found. */
 typedef struct {
     Lanes t, h, error, y[N_Y], dy[N_Y], k[N_STAGES][N_Y];
     LaneAside aside;
@@ -203,7 +203,7 @@ typedef struct {
     double node[N_STAGES];
     Lanes seen[N_STAGES][AT_LEAST_ONE(N_MARGINS)], rate[AT_LEAST_ONE(N_CLEARANCES)][2];
     Lanes least[2 * N_X + 1], most[2 * N_X + 1];
-    LaneBits taken, lost;
+    LaneBits taken, lost, missed;
 } LaneStep;
 #else
 #define Number Lanes

@@ -224,9 +224,10 @@ static int next_single(const Batch *b, long i, int tried, void *memory)
     int status = 0;
     if (tried != NOT_YET) {
         run->step.method = run->method;
-        if (tried == TRIED)
+        if (tried != UNTRIED)
             way_as_usual(run);
-        if (!is_settled(run, tried == TRIED ? 0 : try_step(run, p, &run->step), p, &run->step, &status))
+        const int found = tried == TRIED ? 0 : tried == MISSED ? NOT_FOUND : try_step(run, p, &run->step);
+        if (!is_settled(run, found, p, &run->step, &status))
             return GOES_ON;
         run->attempt.open = 0;
         if (!status)
