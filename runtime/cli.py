@@ -11,53 +11,7 @@ from typing import Annotated
 
 import typer
 
-from gudgeon.commands.options import (
-    At,
-    Axis,
-    Box,
-    Branches,
-    Cluster,
-    Csv,
-    End,
-    File,
-    Finished,
-    Folder,
-    Intervals,
-    Json,
-    LawName,
-    Laws,
-    Like,
-    Mark,
-    Moment,
-    Name,
-    OfStudy,
-    OneScene,
-    Out,
-    Pages,
-    Peaks,
-    Picture,
-    Plot,
-    Quick,
-    Range,
-    Report,
-    Rest,
-    Restart,
-    Runs,
-    Scenes,
-    ScenesOfPages,
-    Seed,
-    Set,
-    Sheet,
-    Starts,
-    StartSeed,
-    StudyFile,
-    Threads,
-    Until,
-    Version,
-    Watch,
-    Workers,
-    path,
-)
+from gudgeon.commands import options as opt
 from gudgeon.commands.told import tell_warnings, told
 from gudgeon.contract.methods import CHOOSING, KINEMATIC, OFFERED
 
@@ -71,28 +25,29 @@ app = typer.Typer(
 
 
 @app.callback()
-def _root(version: Version = False) -> None:
+def _root(version: opt.Version = False) -> None:
     pass
 
 
 @app.command()
 @told
 def run(
-    file: File, scene: Scenes = None, set_: Set = None, t_end: Until = None, output: Intervals = None,
+    file: opt.File, scene: opt.Scenes = None, set_: opt.Set = None, t_end: opt.Until = None,
+    output: opt.Intervals = None,
     step: Annotated[str | None, typer.Option(help="Fixed step, in s or with a unit: 5us; auto takes rk4.")] = None,
     method: Annotated[str, typer.Option(help=f"{', '.join(OFFERED)}, {KINEMATIC}, scipy:Radau …")] = "auto",
     rtol: Annotated[str | None, typer.Option(help=f"Tolerance of a step of auto, {', '.join(CHOOSING)}: 1e-8.")] = None,
-    watch: Watch = None, peaks: Peaks = None,
+    watch: opt.Watch = None, peaks: opt.Peaks = None,
     formulation: Annotated[
         str, typer.Option(help="reduced (coordinates of a tree), or full: absolute ones, rk4 with Baumgarte's gains.")
     ] = "reduced",
     horizon: Annotated[
         bool, typer.Option("--horizon", help="Run thrice more to find the time to which each trace can be trusted.")
     ] = False,
-    out: Out = Path("out"),
+    out: opt.Out = Path("out"),
     regenerate: Annotated[bool, typer.Option("--regenerate", help="Derive and compile again.")] = False,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Rows that need docs/methods.md too.")] = False,
-    report: Report = False, json: Json = False, laws: Laws = None,
+    report: opt.Report = False, json: opt.Json = False, laws: opt.Laws = None,
 ) -> int:  # fmt: skip
     """Simulate scenes and compare them with the ideal one: a table, a NetCDF file a scene, one picture.
 
@@ -111,9 +66,9 @@ def run(
 @app.command()
 @told
 def check(
-    file: File,
+    file: opt.File,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="A scene a table: unknowns, operations.")] = False,
-    branches: Branches = False, set_: Set = None, json: Json = False, laws: Laws = None,
+    branches: opt.Branches = False, set_: opt.Set = None, json: opt.Json = False, laws: opt.Laws = None,
 ) -> int:  # fmt: skip
     """Is a mechanism file valid, does it assemble, and what can move? Mistakes are told with line and column.
 
@@ -127,11 +82,11 @@ def check(
 @app.command()
 @told
 def emit(
-    file: File,
+    file: opt.File,
     folder: Annotated[
-        Path, typer.Option("--out", "-o", parser=path, metavar="PATH", help="Folder for the C files, one a scene.")
+        Path, typer.Option("--out", "-o", parser=opt.path, metavar="PATH", help="Folder for the C files, one a scene.")
     ],
-    scene: Scenes = None, laws: Laws = None,
+    scene: opt.Scenes = None, laws: opt.Laws = None,
 ) -> int:  # fmt: skip
     """Write the generated C, to be read or to be built into something else.
 
@@ -144,7 +99,7 @@ def emit(
 
 @app.command()
 @told
-def equations(file: File, target: Pages, scene: ScenesOfPages = None, laws: Laws = None) -> int:
+def equations(file: opt.File, target: opt.Pages, scene: opt.ScenesOfPages = None, laws: opt.Laws = None) -> int:
     """Write the equations of a scene as LaTeX, text, HTML or a notebook that derives and runs them.
 
     Example: gudgeon equations engine.yaml -o engine.tex --scene worn
@@ -156,7 +111,10 @@ def equations(file: File, target: Pages, scene: ScenesOfPages = None, laws: Laws
 
 @app.command("laws")
 @told
-def force_laws(name: LawName = None, plot: Plot = None, set_: Set = None, json: Json = False, laws: Laws = None) -> int:
+def force_laws(
+    name: opt.LawName = None, plot: opt.Plot = None, set_: opt.Set = None, json: opt.Json = False,
+    laws: opt.Laws = None,
+) -> int:  # fmt: skip
     """List the laws of contact, friction and film; of one its equations, keys, validity and reference, or its plot.
 
     Example: gudgeon laws flores --plot flores.svg --set restitution=.5
@@ -168,7 +126,7 @@ def force_laws(name: LawName = None, plot: Plot = None, set_: Set = None, json: 
 
 @app.command()
 @told
-def new(name: Name, like: Like = None, study: OfStudy = False) -> int:
+def new(name: opt.Name, like: opt.Like = None, study: opt.OfStudy = False) -> int:
     """Begin a mechanism file, NAME.yaml, or a study's, with comments that explain it.
 
     Example: gudgeon new engine --like slider_crank
@@ -178,11 +136,24 @@ def new(name: Name, like: Like = None, study: OfStudy = False) -> int:
     return new_study(name, like) if study else new_mechanism(name, like)
 
 
+@app.command("import")
+@told
+def import_(file: opt.Foreign, target: opt.Mechanism = None) -> int:
+    """Make a mechanism file of a linkage that was drawn or synthesized elsewhere.
+
+    Example: gudgeon import four_bar.json -o four_bar.yaml
+    """
+    from gudgeon.commands.import_ import import_linkage
+
+    return import_linkage(file, target)
+
+
 @app.command()
 @told
 def exercise(
-    file: File, target: Sheet, scene: OneScene = "ideal", seed: Seed = 1, at: Moment = None, laws: Laws = None
-) -> int:
+    file: opt.File, target: opt.Sheet, scene: opt.OneScene = "ideal", seed: opt.Seed = 1, at: opt.Moment = None,
+    laws: opt.Laws = None,
+) -> int:  # fmt: skip
     """Make an exercise sheet of a mechanism, and its solutions in a second file.
 
     Write Φ, count the freedoms, Φ_q at a position, γ, the force in a joint: numbers are drawn from the seed.
@@ -197,8 +168,8 @@ def exercise(
 @app.command()
 @told
 def draw(
-    file: File, scene: OneScene = "ideal", at: At = None, target: Picture = None, set_: Set = None,
-    branches: Branches = False, laws: Laws = None,
+    file: opt.File, scene: opt.OneScene = "ideal", at: opt.At = None, target: opt.Picture = None, set_: opt.Set = None,
+    branches: opt.Branches = False, laws: opt.Laws = None,
 ) -> int:  # fmt: skip
     """Draw a mechanism: bodies, joints, drives, forces, joints with play magnified.
 
@@ -214,7 +185,7 @@ def draw(
 @app.command()
 @told
 def schema(
-    study: Annotated[bool, typer.Option("--study", help="Of study files.")] = False, laws: Laws = None
+    study: Annotated[bool, typer.Option("--study", help="Of study files.")] = False, laws: opt.Laws = None
 ) -> int:
     """Print the JSON Schema of mechanism files, for editors that complete and check YAML.
 
@@ -228,13 +199,14 @@ def schema(
 @app.command()
 @told
 def bench(
-    file: File, scene: Scenes = None, set_: Set = None, t_end: End = None, out: Out = Path("out"), csv: Csv = None,
-    quick: Quick = False, mark: Mark = None,
+    file: opt.File, scene: opt.Scenes = None, set_: opt.Set = None, t_end: opt.End = None,
+    out: opt.Out = Path("out"), csv: opt.Csv = None,
+    quick: opt.Quick = False, mark: opt.Mark = None,
     methods: Annotated[
         list[str] | None,
         typer.Option("--methods", metavar="NAMES", help=f"Only these: {','.join(OFFERED)},scipy:*,sundials:cvode."),
     ] = None,
-    json: Json = False, laws: Laws = None,
+    json: opt.Json = False, laws: opt.Laws = None,
 ) -> int:  # fmt: skip
     """Run time against error with every method, for each scene: a table, a CSV file, a picture.
 
@@ -254,11 +226,12 @@ def bench(
 @app.command("map")
 @told
 def verdicts(
-    file: File, scene: Scenes = None, set_: Set = None,
+    file: opt.File, scene: opt.Scenes = None, set_: opt.Set = None,
     method: Annotated[str, typer.Option(help=f"{', '.join(OFFERED)}.")] = "auto",
-    at: Rest = None, axis: Axis = None, box: Box = None, range_: Range = None,
-    t_end: End = None, out: Out = Path("out"), csv: Csv = None, quick: Quick = False, mark: Mark = None,
-    json: Json = False, laws: Laws = None,
+    at: opt.Rest = None, axis: opt.Axis = None, box: opt.Box = None, range_: opt.Range = None,
+    t_end: opt.End = None, out: opt.Out = Path("out"), csv: opt.Csv = None, quick: opt.Quick = False,
+    mark: opt.Mark = None,
+    json: opt.Json = False, laws: opt.Laws = None,
 ) -> int:  # fmt: skip
     """Tolerance (rk4: step) × clearance, or what --axis or --box say: where is a run stable, where does it fail?
 
@@ -279,9 +252,11 @@ def verdicts(
 @app.command()
 @told
 def study(
-    file: StudyFile, finished: Finished = None, out: Folder = None, json: Json = False, laws: Laws = None,
-    threads: Threads = None, workers: Workers = None, dask: Cluster = None, restart: Restart = False, set_: Set = None,
-    runs: Runs = False, starts: Starts = None, seed: StartSeed = None,
+    file: opt.StudyFile, finished: opt.Finished = None, out: opt.Folder = None, json: opt.Json = False,
+    laws: opt.Laws = None,
+    threads: opt.Threads = None, workers: opt.Workers = None, dask: opt.Cluster = None, restart: opt.Restart = False,
+    set_: opt.Set = None,
+    runs: opt.Runs = False, starts: opt.Starts = None, seed: opt.StartSeed = None,
 ) -> int:  # fmt: skip
     """Many runs of a mechanism, over grids, draws and perturbed starts, and what is measured of them: one dataset.
 

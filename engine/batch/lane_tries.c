@@ -22,6 +22,8 @@ static int is_refused(LaneRun *run, LaneStep *step)
 {
 #if IMPLICIT_STAGES && !TAYLOR
     step->missed = run->missed;
+#else
+    step->missed = (LaneBits){0};
 #endif
     step->lost = run->memory.rare & ~step->missed;
     step->taken = ~(step->error > run->accept) & ~step->lost & ~step->missed;

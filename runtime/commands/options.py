@@ -186,3 +186,9 @@ Watch = Annotated[
     list[str] | None,
     typer.Option("--watch", "-w", metavar="NAME", help="What to compare with the ideal scene: S9.y, L1.head.x."),
 ]
+Foreign = Annotated[
+    Path, typer.Argument(parser=a_file, metavar="FILE", help="JSON of pylinkage, or a text with a link of PMKS+.")
+]
+Mechanism = Annotated[
+    Path | None, typer.Option("--out", "-o", parser=a_file, metavar="PATH", help="Where to; else NAME.yaml.")
+]

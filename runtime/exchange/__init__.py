@@ -1,0 +1,1 @@
+"""Linkages of other programs, read as mechanisms."""

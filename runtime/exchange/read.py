@@ -1,0 +1,43 @@
+"""Which program a file is of, and the mechanism file that is made of it."""
+
+from __future__ import annotations
+
+import json
+import os
+
+from gudgeon.contract.limits import MAX_BYTES
+from gudgeon.errors import InputError
+from gudgeon.exchange.linkage import Linkage
+from gudgeon.exchange.mechanism_yaml import mechanism_text
+from gudgeon.exchange.pmks import ADDRESS, of_pmks
+from gudgeon.exchange.pylinkage import of_pylinkage
+from gudgeon.files.reading import read_named
+
+KNOWN = "JSON of pylinkage (Linkage.to_json, mechanism_to_json), or a text with a link that PMKS+ shares"
+
+
+def read_linkage(file: str | os.PathLike[str]) -> Linkage:
+    """The linkage in a file of pylinkage or PMKS+. Raises InputError where it is neither, or holds what is not read."""
+    data = read_named(file, MAX_BYTES, hint=f"name a file: {KNOWN}")
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise InputError(f"{file} is no text", hint=f"expected {KNOWN}") from error
+    try:
+        if found := ADDRESS.search(text):
+            return of_pmks(found[1])
+        return of_pylinkage(_json(text))
+    except InputError as error:
+        raise InputError(f"{os.fspath(file)}: {error.message}", hint=error.hint) from error
+
+
+def mechanism_of(file: str | os.PathLike[str]) -> str:
+    """The text of gudgeon's own file for what is in it; what was not said there is told in its first lines."""
+    return mechanism_text(read_linkage(file))
+
+
+def _json(text: str) -> object:
+    try:
+        return json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise InputError("it is neither JSON nor a text with a link of PMKS+", hint=f"expected {KNOWN}") from error
