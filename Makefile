@@ -8,7 +8,7 @@ MYPY := .venv/bin/mypy -p gudgeon && .venv/bin/mypy tests
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help run study study-jansen checks test test-all lint types fuzz sanitize bench race map stress peers generated deviations tables setup setup-test clean
+.PHONY: help run study study-jansen checks test test-all lint types fuzz docs sanitize bench race map stress peers generated deviations tables setup setup-test clean
 .NOTPARALLEL:
 
 help:  ## this list
@@ -55,6 +55,10 @@ fuzz: setup-test  ## mutated expressions and files; ARGS="--count 1000000"; guid
 	@.venv/bin/python -m tests.fuzz expression $(ARGS)
 	@.venv/bin/python -m tests.fuzz reader $(ARGS)
 	@.venv/bin/python -m tests.fuzz compile $(if $(ARGS),$(ARGS),--count 300)
+
+docs:  ## the documentation as a site under build/site, its references from docstrings
+	@sh tools/setup all,site
+	@.venv/bin/python -m sphinx -W --keep-going -q -b html docs build/site && echo "wrote build/site/index.html"
 
 sanitize: setup-test  ## the C of every shipped scene under gcc's sanitizers: memory, undefined arithmetic, races. 15 minutes
 	@.venv/bin/python -m tests.sanitize $(ARGS)

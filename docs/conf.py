@@ -1,0 +1,38 @@
+"""The documentation as a site: `make docs`. Pages are the files beside this one, references come from docstrings."""
+
+from __future__ import annotations
+
+import re
+from importlib.metadata import version as installed
+
+project, author, version = "gudgeon", "gudgeon developers", installed("gudgeon")
+copyright = author
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.mathjax"]
+exclude_patterns = ["build"]
+html_theme = "furo"
+html_title = f"gudgeon {version}"
+html_static_path: list[str] = []
+html_extra_path: list[str] = []
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 3
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"  # signatures have them
+autodoc_preserve_defaults = True
+nitpicky = False
+suppress_warnings = ["docutils"]  # our docstrings are text, not reStructuredText: what looks like markup is none
+
+
+def as_text(app, what, name, obj, options, lines):  # type: ignore[no-untyped-def]
+    """Docstrings are plain: stars, bars and backticks in them stand for themselves, lists and indents stay."""
+    lines[:] = [re.sub(r"([*|\\_])", r"\\\1", line).replace("`", "``") for line in lines]
+
+
+def beyond(app, docname, source):  # type: ignore[no-untyped-def]
+    """A link to a file of the sources that is no page of the site is its name; pictures stay."""
+    source[0] = re.sub(r"(?<!!)\[([^\]]+)\]\(\.\./[^)]*\)", r"\1", source[0])
+
+
+def setup(app):  # type: ignore[no-untyped-def]
+    """Two hooks."""
+    app.connect("autodoc-process-docstring", as_text)
+    app.connect("source-read", beyond)
