@@ -8,7 +8,7 @@ MYPY := .venv/bin/mypy -p gudgeon && .venv/bin/mypy tests
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help run study study-jansen checks test test-all lint types fuzz docs sanitize bench race map stress peers generated deviations tables setup setup-test clean
+.PHONY: help run study study-jansen checks test test-all lint types fuzz docs sanitize mutate bench race map stress peers generated deviations tables setup setup-test clean
 .NOTPARALLEL:
 
 help:  ## this list
@@ -63,6 +63,9 @@ docs:  ## the documentation as a site under build/site, its references from docs
 sanitize: setup-test  ## the C of every shipped scene under gcc's sanitizers: memory, undefined arithmetic, races. 15 minutes
 	@.venv/bin/python -m tests.sanitize $(ARGS)
 	@.venv/bin/python -m tests.sanitize --threads $(ARGS)
+
+mutate: setup-test  ## mutants of equations, laws, reduction and methods: do their tests notice? ARGS="--count 40"
+	@.venv/bin/python -m tests.mutate $(ARGS)
 
 bench: setup  ## run time against error; one right-hand side beside the hand-written C
 	@$(GUDGEON) bench nine_bar_press --mark-step 0.1ms $(ARGS)

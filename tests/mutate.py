@@ -1,0 +1,157 @@
+"""Mutants of the equations, the laws, the reduction and the methods' numbers: do the tests that belong to them notice?
+
+    python -m tests.mutate [--count 40] [--seed 1] [--group constraints ...]
+
+Works in a clone of its own. A mutant is one change of one line: another operator or comparison, another whole number,
+a sign, the last digit of a method's coefficient. Which there are is drawn by the seed; for each the tests of its
+group run until one fails. What survives is printed, to be read: a test is missing there, or the change means nothing.
+"""
+
+from __future__ import annotations
+
+import argparse
+import io
+import os
+import random
+import re
+import subprocess
+import sys
+import tempfile
+import tokenize
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+SECONDS = 900.0  # of the tests of one mutant, at most: what runs longer was noticed
+GROUPS = {
+    "constraints": (
+        ("generator/equations/constraints.py", "generator/equations/geometry.py", "generator/kinds/joints/*.py"),
+        ("tests/equations", "tests/kernels/test_jacobian.py"),
+    ),
+    "dynamics": (
+        ("generator/kernels/dynamics.py", "generator/solvers/kkt.py", "generator/equations/loads.py",
+         "generator/equations/system.py"),
+        ("tests/equations", "tests/kernels", "tests/reduction/test_reduction.py"),
+    ),
+    "laws": (
+        ("generator/kinds/laws/*.py",),
+        ("tests/kinds", "tests/equations", "tests/integrators/test_impact.py",
+         "tests/integrators/test_film_settles.py"),
+    ),
+    "reduction": (("generator/reduction/*.py",), ("tests/reduction", "tests/kernels")),
+    "methods": (
+        ("engine/both/dop853.h", "engine/both/rodas5p.h", "engine/both/radau.h", "engine/methods/rodas5p.c"),
+        ("tests/integrators/test_radau.py", "tests/integrators/test_methods.py"),
+    ),
+}  # fmt: skip
+SWAPS = {"+": "-", "-": "+", "*": "/", "/": "*", "<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==",
+         "and": "or", "or": "and", "True": "False", "False": "True", "not": ""}  # fmt: skip
+COEFFICIENT = re.compile(r"\d\.\d{12,}")
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """One change: what stands from one place of a file to another becomes another text."""
+
+    group: str
+    file: str
+    line: int
+    start: int
+    end: int
+    text: str
+
+    def made(self, source: str) -> str:
+        """The whole file with it."""
+        lines = source.splitlines(keepends=True)
+        old = lines[self.line - 1]
+        lines[self.line - 1] = old[: self.start] + self.text + old[self.end :]
+        return "".join(lines)
+
+    def told(self, source: str) -> str:
+        """One line for people."""
+        line = source.splitlines()[self.line - 1]
+        change = f"{line[self.start : self.end]!r} -> {self.text!r}"
+        return f"{self.file}:{self.line}:{self.start + 1}: {change}: {line.strip()}"
+
+
+def of_python(group: str, file: str, source: str) -> Iterator[Mutant]:
+    """Operators, words and whole numbers; not in texts, annotations and imports."""
+    for token in tokenize.generate_tokens(io.StringIO(source).readline):
+        line = token.line.strip()
+        if line.startswith(("from ", "import ", "@", "def ", "class ")) or "->" in line:
+            continue
+        (row, start), (_, end) = token.start, token.end
+        if token.type in (tokenize.OP, tokenize.NAME) and token.string in SWAPS:
+            if token.string in "*" and re.search(r"\(\*|, \*|\[\*|\*\*", token.line[max(0, start - 2) : end + 1]):
+                continue  # an unpacking
+            yield Mutant(group, file, row, start, end, SWAPS[token.string])
+        elif token.type == tokenize.NUMBER and token.string.isdigit():
+            yield Mutant(group, file, row, start, end, str(int(token.string) + 1))
+
+
+def of_c(group: str, file: str, source: str) -> Iterator[Mutant]:
+    """Coefficients of methods, off by some 1e-6 of themselves."""
+    for row, line in enumerate(source.splitlines(), 1):
+        for found in COEFFICIENT.finditer(line):
+            at = found.start() + 8
+            digit = str((int(line[at]) + 3) % 10)
+            yield Mutant(group, file, row, at, at + 1, digit)
+
+
+def mutants(groups: list[str], count: int, seed: int) -> list[Mutant]:
+    """As many of each group, drawn."""
+    drawn = random.Random(seed)
+    found: list[Mutant] = []
+    for group in groups:
+        every: list[Mutant] = []
+        for pattern in GROUPS[group][0]:
+            for path in sorted(ROOT.glob(pattern)):
+                name, source = path.relative_to(ROOT).as_posix(), path.read_text(encoding="utf-8")
+                every += (of_python if path.suffix == ".py" else of_c)(group, name, source)
+        found += drawn.sample(every, min(len(every), -(-count // len(groups))))
+    return found
+
+
+def noticed(mutant: Mutant, folder: Path) -> bool:
+    """Whether a test of its group fails, or nothing can be imported any more."""
+    file = folder / mutant.file
+    source = file.read_text(encoding="utf-8")
+    file.write_text(mutant.made(source), encoding="utf-8")
+    command = [".venv/bin/pytest", "-q", "-x", "-n", "2", "--dist", "loadfile", "-p", "no:cacheprovider"]
+    environment = os.environ | {"GUDGEON_CACHE": str(folder / "build/mutants")}
+    try:
+        done = subprocess.run([*command, *GROUPS[mutant.group][1]], cwd=folder, env=environment, timeout=SECONDS,
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # fmt: skip
+        return done.returncode != 0
+    except subprocess.TimeoutExpired:
+        return True
+    finally:
+        file.write_text(source, encoding="utf-8")
+
+
+def main() -> int:
+    """Command line."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("--count", type=int, default=40)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--group", nargs="+", choices=GROUPS, default=list(GROUPS))
+    options = parser.parse_args()
+    survived: list[str] = []
+    drawn = mutants(options.group, options.count, options.seed)
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = Path(temporary) / "gudgeon"
+        subprocess.run(["git", "clone", "--quiet", str(ROOT), str(folder)], check=True)
+        subprocess.run(["sh", "tools/setup", "all,test"], cwd=folder, check=True)
+        for k, mutant in enumerate(drawn, 1):
+            seen = noticed(mutant, folder)
+            told = mutant.told((ROOT / mutant.file).read_text(encoding="utf-8"))
+            print(f"{k}/{len(drawn)} {'noticed ' if seen else 'SURVIVED'} {told}", flush=True)
+            survived += [] if seen else [told]
+    print(f"\n{len(drawn) - len(survived)} of {len(drawn)} were noticed")
+    print("\n".join(survived))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
