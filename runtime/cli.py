@@ -84,13 +84,15 @@ def check(
 def emit(
     file: opt.File,
     folder: Annotated[
-        Path, typer.Option("--out", "-o", parser=opt.path, metavar="PATH", help="Folder for the C files, one a scene.")
+        Path, typer.Option("--out", "-o", parser=opt.path, metavar="PATH", help="Folder for C, one a scene; or x.fmu.")
     ],
     scene: opt.Scenes = None, laws: opt.Laws = None,
 ) -> int:  # fmt: skip
-    """Write the generated C, to be read or to be built into something else.
+    """Write the generated C, to be read or to be built into something else; to x.fmu as an FMU (FMI 3.0) of a scene.
 
     Example: gudgeon emit engine.yaml -o c --scene worn
+
+    Example: gudgeon emit engine.yaml -o engine.fmu --scene worn
     """
     from gudgeon.commands.emit import emit_c
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from gudgeon.commands.common import check_folder, chosen_scenes
 from gudgeon.commands.progress import status_line
 from gudgeon.errors import InputError, shortened
-from gudgeon.files.writing import PART, Aside, read_regular
+from gudgeon.files.writing import PART, Aside, check_target, read_regular
 from gudgeon.language.shown import path_text
 from gudgeon.loading.engine import engine_files, engine_readme
 from gudgeon.loading.find import find_mechanism, kernel_source, read_bytes
@@ -23,7 +23,12 @@ _LINE = re.compile(r"([0-9a-f]{64})  ([A-Za-z0-9_][A-Za-z0-9_.]*)")  # a name is
 
 
 def emit_c(mechanism: str, folder: Path, wanted: tuple[str, ...]) -> int:
-    """Write `folder/<scene>/*` and `folder/engine/*`; nothing is written if any folder holds something else."""
+    """Write `folder/<scene>/*` and `folder/engine/*`; nothing is written if any folder holds something else.
+
+    A name that ends in .fmu is that of an FMU, of one scene.
+    """
+    if folder.suffix == ".fmu":
+        return _emit_fmu(mechanism, folder, wanted)
     check_folder("--out", folder)
     scenes, rooms = chosen_scenes(mechanism, wanted), _rooms()
     _refuse_one_folder(scenes)
@@ -45,6 +50,21 @@ def emit_c(mechanism: str, folder: Path, wanted: tuple[str, ...]) -> int:
         for room, texts in rooms.items():
             _write(folder / room, {name: text.encode() for name, text in texts.items()})
         print(f"wrote {path_text(folder / ENGINE)}: what all scenes share")
+    return 0
+
+
+def _emit_fmu(mechanism: str, target: Path, wanted: tuple[str, ...]) -> int:
+    scenes = chosen_scenes(mechanism, wanted or ("ideal",))
+    if len(scenes) != 1:
+        raise InputError(f"an FMU is of one scene, not of {len(scenes)}", hint="name one with --scene")
+    check_target(target)
+    from gudgeon.exchange.fmu import write_fmu
+    from gudgeon.simulation.from_file import load
+
+    with status_line():
+        simulation = load(mechanism, scene=scenes[0])
+        write_fmu(simulation, target)
+    print(f"wrote {path_text(target)}: FMI 3.0, Co-Simulation, scene {scenes[0]}")
     return 0
 
 

@@ -1,0 +1,102 @@
+/*
+ * Values of variables, and states of an instance that are kept and put back.
+ */
+FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference reference[], size_t n,
+    fmi3Float64 value[], size_t n_values)
+{
+    Model *m = instance;
+    if (n_values < n)
+        return fails(m, "there are fewer values than variables", 0);
+    for (size_t k = 0; k < n; k++) {
+        const fmi3ValueReference r = reference[k];
+        if (r == VR_TIME) {
+            value[k] = m->t;
+        } else if (r == VR_RTOL) {
+            value[k] = m->rtol;
+        } else if (r >= VR_PARAMETERS && r < VR_PARAMETERS + FMU_SLOTS_USED) {
+            const int i = (int)(r - VR_PARAMETERS);
+            value[k] = m->begun ? m->p[i] : m->is_given[i] ? m->given[i] : fmu_defaults[i];
+        } else if (r >= VR_OUTPUTS && r < VR_OUTPUTS + FMU_OUTPUTS) {
+            if (!m->begun && begin(m)) /* in initialization mode outputs are those of the start */
+                return fmi3Error;
+            const int status = follow(m);
+            if (status)
+                return fails(m, "a constraint row depends on others", status);
+            value[k] = value_of(m, fmu_outputs[r - VR_OUTPUTS][0], fmu_outputs[r - VR_OUTPUTS][1]);
+        } else {
+            return fails(m, "a variable that there is not", (int)r);
+        }
+    }
+    return fmi3OK;
+}
+
+FMI3_EXPORT fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference reference[], size_t n,
+    const fmi3Float64 value[], size_t n_values)
+{
+    Model *m = instance;
+    if (n_values < n)
+        return fails(m, "there are fewer values than variables", 0);
+    for (size_t k = 0; k < n; k++) {
+        const fmi3ValueReference r = reference[k];
+        if (r == VR_RTOL && value[k] >= 1e-14 && value[k] < 1.0) {
+            m->rtol = value[k];
+        } else if (r >= VR_PARAMETERS && r < VR_PARAMETERS + FMU_SLOTS_USED && isfinite(value[k])) {
+            const int i = (int)(r - VR_PARAMETERS);
+            m->given[i] = value[k];
+            m->is_given[i] = value[k] != fmu_defaults[i]; /* what follows from others goes on to follow */
+        } else {
+            return fails(m, "a variable that is none, that is not set, or a value that it does not take", (int)r);
+        }
+        m->begun = 0;
+    }
+    return fmi3OK;
+}
+
+/* A copy of everything: the run's struct holds no pointer to itself. */
+FMI3_EXPORT fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *state)
+{
+    const Model *m = instance;
+    if (!*state)
+        *state = malloc(sizeof(Model) + sizeof(double));
+    Model *copy = *state;
+    if (!copy)
+        return fails(m, "there is no memory", 0);
+    *copy = *m;
+    copy->run = NULL;
+    if (m->run) {
+        copy->run = malloc(m->size);
+        if (!copy->run)
+            return fails(m, "there is no memory", 0);
+        memcpy(copy->run, m->run, m->size);
+    }
+    return fmi3OK;
+}
+
+FMI3_EXPORT fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState state)
+{
+    Model *m = instance;
+    const Model *copy = state;
+    void *run = m->run;
+    if (copy->run && !run)
+        run = malloc(copy->size);
+    if (copy->run && !run)
+        return fails(m, "there is no memory", 0);
+    char *name = m->name;
+    *m = *copy;
+    m->name = name;
+    m->run = run;
+    if (copy->run)
+        memcpy(run, copy->run, copy->size);
+    return fmi3OK;
+}
+
+FMI3_EXPORT fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *state)
+{
+    (void)instance;
+    if (state && *state) {
+        free(((Model *)*state)->run);
+        free(*state);
+        *state = NULL;
+    }
+    return fmi3OK;
+}

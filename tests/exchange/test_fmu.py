@@ -1,0 +1,183 @@
+"""A scene as an FMU, in the hands of FMPy: valid, and the same motion as the native run."""
+
+from __future__ import annotations
+
+import io
+import re
+import zipfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import gudgeon
+from gudgeon.cli import app
+from gudgeon.errors import InputError
+from gudgeon.exchange.fmu import OUTPUTS, PARAMETERS, fmu_bytes, outputs, write_fmu
+from gudgeon.loading import compiler
+from tests.programs import needs_compiler
+
+fmpy = pytest.importorskip("fmpy")
+pytestmark = needs_compiler
+RTOL = 1e-10
+# Largest differences of a kind, over the largest of that kind in the run.
+KINDS = {"m": 1e-9, "rad": 1e-9, "m/s": 1e-9, "rad/s": 1e-9, "m/s^2": 1e-7, "rad/s^2": 1e-7, "N": 1e-7, "N*m": 1e-7,
+         "J": 1e-8, "": 1e-8}  # fmt: skip
+STOPPING = """
+format: gudgeon/1
+name: falling
+gravity: [0, -10 m/s^2]
+parameters: {low: 1.25 m}
+bodies: {weight: {mass: 2 kg, inertia: 1 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {rail: {translational: [ground.O, weight.origin], axis: [0, 1]}}
+events: {down: {zero: weight.y + low, direction: falling, action: stop}}
+"""
+
+
+@cache
+def scene(name: str, which: str) -> gudgeon.Simulation:
+    return gudgeon.load(name, scene=which)
+
+
+def written(simulation: gudgeon.Simulation, folder: Path) -> str:
+    write_fmu(simulation, folder / "scene.fmu")
+    return str(folder / "scene.fmu")
+
+
+@contextmanager
+def instance(fmu: str, t_end: float = 1.0, **numbers: float) -> Iterator[Any]:
+    """One, past its initialization."""
+    description, unpacked = fmpy.read_model_description(fmu), fmpy.extract(fmu)
+    place = {variable.name: variable.valueReference for variable in description.modelVariables}
+    slave = fmpy.fmi3.FMU3Slave(
+        guid=description.guid, unzipDirectory=unpacked, instanceName="one",
+        modelIdentifier=description.coSimulation.modelIdentifier,
+    )  # fmt: skip
+    slave.instantiate()
+    slave.enterInitializationMode(startTime=0.0, stopTime=t_end)
+    for name, value in numbers.items():
+        slave.setFloat64([place[name]], [value])
+    slave.exitInitializationMode()
+    slave.place = place
+    yield slave
+    slave.terminate()
+    slave.freeInstance()
+
+
+CASES: tuple[tuple[str, str, float, dict[str, float]], ...] = (
+    ("nine_bar_press", "lubricated", 0.1, {"parameters.c": 5e-4}), ("four_bar", "ideal", 0.5, {}),
+    ("four_bar", "ideal", 0.5, {"parameters.omega": 9.0}), ("pendulum", "ideal", 1.0, {"parameters.g": 3.7}),
+    ("nine_bar_press", "dry", 0.004, {}), ("shaker", "ideal", 0.3, {}), ("andrews_squeezer", "ideal", 0.03, {}),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "which", "t_end", "numbers"), CASES)
+def test_it_is_valid_and_moves_as_the_native_run(
+    name: str, which: str, t_end: float, numbers: dict[str, float], tmp_path: Path
+) -> None:
+    """All outputs at fifty communication points, with numbers of the run that differ from the file's."""
+    from fmpy.validation import validate_fmu
+
+    simulation = scene(name, which)
+    numbers = {k: v for k, v in numbers.items() if k in simulation.source.place}
+    fmu = written(simulation, tmp_path)
+    assert validate_fmu(fmu) == []
+    names = [one for one, *_ in outputs(simulation.source)]
+    found = fmpy.simulate_fmu(
+        fmu, stop_time=t_end, step_size=t_end / 50, output_interval=t_end / 50, relative_tolerance=RTOL,
+        start_values=numbers, output=names, fmi_type="CoSimulation",
+    )  # fmt: skip
+    run = simulation.simulate(output=found["time"], rtol=RTOL, parameters=numbers)
+    units = {one: unit for one, unit, *_ in outputs(simulation.source)}
+    largest: dict[str, float] = {}
+    for one in names:
+        largest[units[one]] = max(largest.get(units[one], 0.0), np.nanmax(np.abs(run[one]), initial=0.0))
+    compared = 0
+    for one in (one for one in names if not one.startswith(("Phi", "work"))):
+        known = np.isfinite(run[one])
+        assert (np.isfinite(found[one]) == known).all(), one
+        bound = KINDS.get(units[one], 1e-7) * max(largest[units[one]], 1e-6)
+        assert abs(found[one] - run[one])[known].max(initial=0.0) <= bound, one
+        compared += int(known.any())
+    assert compared >= 10
+
+
+def test_a_state_that_is_put_back_leads_on_to_the_same_bits(tmp_path: Path) -> None:
+    press = scene("nine_bar_press", "dry")
+    with instance(written(press, tmp_path), 0.02) as slave:
+        wanted = [slave.place[name] for name in ("S9.y", "A.ex", "B.F_n" if "B.F_n" in slave.place else "B.ey")]
+        for k in range(5):
+            slave.doStep(k * 1e-3, 1e-3)
+        kept = slave.getFMUState()
+        ways = []
+        for _ in range(2):
+            for k in range(5, 10):
+                slave.doStep(k * 1e-3, 1e-3)
+            ways.append(slave.getFloat64(wanted))
+            slave.setFMUState(kept)
+        slave.freeFMUState(kept)
+    assert ways[0] == ways[1]
+
+
+def test_an_event_that_stops_asks_to_terminate(tmp_path: Path) -> None:
+    file = tmp_path / "falling.yaml"
+    file.write_text(STOPPING, encoding="utf-8")
+    with instance(written(gudgeon.load(file), tmp_path)) as slave:
+        told = [slave.doStep(k * 0.1, 0.1)[1] for k in range(6)]
+        height = slave.getFloat64([slave.place["weight.y"]])[0]
+    assert told == [False] * 4 + [True] * 2  # after half a second
+    assert height == pytest.approx(-1.25, abs=1e-10)
+
+
+def test_what_cannot_be_is_refused(tmp_path: Path) -> None:
+    from fmpy.fmi1 import FMICallException
+    from fmpy.fmi3 import FMU3Slave
+
+    fmu = written(scene("pendulum", "ideal"), tmp_path)
+    description, unpacked = fmpy.read_model_description(fmu), fmpy.extract(fmu)
+    slave = FMU3Slave(
+        guid="{another}", unzipDirectory=unpacked, instanceName="one",
+        modelIdentifier=description.coSimulation.modelIdentifier,
+    )  # fmt: skip
+    with pytest.raises(Exception, match="instantiate"):
+        slave.instantiate(logMessage=lambda *_: None)
+    with instance(fmu) as slave:
+        for wrong in ((0.5, 0.1), (0.0, 0.0), (0.0, -0.1)):
+            with pytest.raises(FMICallException):
+                slave.doStep(*wrong)
+        with pytest.raises(FMICallException):
+            slave.setFloat64([OUTPUTS], [1.0])
+        with pytest.raises(FMICallException):
+            slave.setFloat64([PARAMETERS], [float("nan")])
+        with pytest.raises(FMICallException):
+            slave.getFloat64([OUTPUTS - 1])
+
+
+def test_sources_are_whole_and_the_archive_is_the_same_each_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where there is no compiler the sources go alone; all that is to be compiled is among them."""
+    pendulum = scene("pendulum", "ideal")
+    with zipfile.ZipFile(io.BytesIO(fmu_bytes(pendulum))) as archive:
+        whole = {name: archive.read(name) for name in archive.namelist()}
+    monkeypatch.setattr(compiler, "is_there", lambda: False)
+    first, again = fmu_bytes(pendulum), fmu_bytes(pendulum)
+    assert first == again
+    with zipfile.ZipFile(io.BytesIO(first)) as archive:
+        names = set(archive.namelist())
+        build = archive.read("sources/buildDescription.xml").decode()
+    assert names == {name for name in whole if not name.startswith("binaries/")} and len(whole) == len(names) + 1
+    units = re.findall(r'SourceFile name="(.*?)"', build)
+    assert units and {f"sources/{unit}" for unit in units} <= names
+
+
+def test_the_command(tmp_path: Path) -> None:
+    target = tmp_path / "press.fmu"
+    done = CliRunner().invoke(app, ["emit", "nine_bar_press", "--scene", "dry", "-o", str(target)])
+    assert done.exit_code == 0 and fmpy.read_model_description(str(target)).modelName == "nine_bar_press_dry"
+    two = ["emit", "nine_bar_press", "--scene", "dry", "--scene", "ideal", "-o", str(target)]
+    assert CliRunner().invoke(app, two).exit_code == InputError.exit_code
