@@ -130,6 +130,15 @@ def kernel_source(
     return source, origin
 
 
+def is_known(mechanism: str, scene: str, overrides: Overrides) -> bool:
+    """Whether the cache has the C of a scene, or there is no such file. Its own tables and laws are not looked at."""
+    try:
+        data = read_bytes(find_mechanism(mechanism))
+    except InputError:
+        return True
+    return default_cache().has("models", model_key(data, scene, overrides, FORMULATIONS[0]))
+
+
 def _touches(data: bytes, file: Path, scene: str, overrides: Overrides) -> bool:
     """Whether overrides change what the scene is derived from: another scene's law, say, does not."""
     whole(*READER)

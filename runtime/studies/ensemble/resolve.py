@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource, Slot
-from gudgeon.contract.limits import MAX_BYTES
 from gudgeon.errors import BadValueError, InputError
-from gudgeon.files.beside import read_beside
 from gudgeon.integrators import adaptive
 from gudgeon.language.units import DIMENSIONLESS, TIME
-from gudgeon.loading.find import find_mechanism
 from gudgeon.results.batch import Array
 from gudgeon.results.series import catalogue
 from gudgeon.results.unknown import check_series
@@ -30,6 +25,7 @@ from gudgeon.studies.ensemble.measures import check_origin, meaning, series_of, 
 from gudgeon.studies.ensemble.numbers import check_expression, in_si, known_slot, real, slot_of, values, within_doubles
 from gudgeon.studies.ensemble.plan import Coordinate, Deviations, Dimension, Part, Plan, check_size
 from gudgeon.studies.ensemble.points import NORMAL, deviations, shares, spread_over
+from gudgeon.studies.ensemble.structures import mechanism_of, origins, structures
 from gudgeon.studies.ensemble.wearing import wearing_of
 
 if TYPE_CHECKING:
@@ -71,32 +67,11 @@ def _structure(study: StudyFile) -> tuple[list[Dimension], list[Coordinate]]:
     return [Dimension(name, len(words)) for name, words, _ in named], found
 
 
-def mechanism_of(study: StudyFile) -> str:
-    """The shipped mechanism's name, or the path of a file; one that a study file names lies beside it or below."""
-    name = str(study.mechanism)
-    is_file = "/" in name or name.endswith((".yaml", ".yml"))
-    try:
-        if not is_file:
-            find_mechanism(name)
-            return name
-        if not study.file:
-            return str(Path(name).absolute())
-        read_beside(study.file, name, MAX_BYTES)
-        return str((Path(study.file).parent / name).absolute())
-    except InputError as error:
-        message = error.message.replace("the table ", "").replace("path to a table", "path to a mechanism")
-        hint = "expected a YAML file in the study's folder or below, or the name of a shipped mechanism"
-        raise type(error)(message, study.mechanism.where, error.hint if not is_file else hint) from None
-
-
 def _parts(study: StudyFile, structure: Sequence[Dimension]) -> Iterator[Part]:
     """Every combination of scene and options, loaded."""
     mechanism = mechanism_of(study)
-    choices = [list(choice.options.values()) for choice in study.choices]
-    for scene, chosen in itertools.product(study.scenes, itertools.product(*choices)):
-        texts = {address: text for own in chosen for address, text in own.items()}
-        overrides = tuple(sorted((address, str(text)) for address, text in texts.items()))
-        for origin in dict.fromkeys(one.origin for one in study.measures if one.origin is not None):
+    for scene, texts, overrides in structures(study):
+        for origin in origins(study):
             check_origin(study.measures, _load(mechanism, origin, texts, overrides).source)
         yield Part(_load(mechanism, scene, texts, overrides), mechanism, overrides)
 

@@ -65,18 +65,21 @@ def plans_of(
 def _resolved(studies: StudySet) -> Plans:
     """Mistakes of all parts at once, each once where parts share what the file says."""
     from gudgeon.studies.ensemble.claims import known_claims
+    from gudgeon.studies.ensemble.libraries import made_beside
     from gudgeon.studies.ensemble.plan import Plans
     from gudgeon.studies.ensemble.resolve import resolve
+    from gudgeon.studies.ensemble.structures import structures_of
 
     plans: dict[str, Plan] = {}
     errors: list[InputError] = []
-    for name, part in studies.parts.items():
-        try:
-            plans[name] = resolve(part)
-        except InputErrors as error:
-            errors += error.errors
-        except InputError as error:
-            errors.append(error)
+    with made_beside(structures_of(studies.parts.values())):
+        for name, part in studies.parts.items():
+            try:
+                plans[name] = resolve(part)
+            except InputErrors as error:
+                errors += error.errors
+            except InputError as error:
+                errors.append(error)
     different = list({str(error): error for error in errors}.values())
     if different:
         raise different[0] if len(different) == 1 else InputErrors(different)

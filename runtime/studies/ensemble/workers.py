@@ -97,7 +97,7 @@ def workers(count: int | None, cluster: str | None) -> Iterator[Executor | None]
     if count is not None and cluster is not None:
         raise InputError("--workers and --dask: a cluster has its own workers", hint="give one of them")
     if count is not None:
-        with Processes(count, _law_files()) as executor:
+        with Processes(count, law_files()) as executor:
             yield executor
     elif cluster is not None:
         with _client(cluster) as client:
@@ -106,7 +106,7 @@ def workers(count: int | None, cluster: str | None) -> Iterator[Executor | None]
         yield None
 
 
-def _law_files() -> tuple[str, ...]:
+def law_files() -> tuple[str, ...]:
     """Files of the laws that this process knows beside the house's."""
     module = sys.modules.get("gudgeon.generator.kinds.laws.registered")
     return () if module is None else tuple(origin.file for origin in module.ORIGINS.values() if origin.file)
