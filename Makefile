@@ -47,6 +47,7 @@ test-all: lint types  ## the slow tests too, and the others under every later Py
 lint: setup-test
 	@.venv/bin/ruff check .
 	@.venv/bin/lint-imports
+	@.venv/bin/codespell *.md docs engine generator runtime templates tools mechanisms studies benchmarks
 
 types: setup-test
 	@$(MYPY)
@@ -56,8 +57,8 @@ fuzz: setup-test  ## mutated expressions and files; ARGS="--count 1000000"; guid
 	@.venv/bin/python -m tests.fuzz reader $(ARGS)
 	@.venv/bin/python -m tests.fuzz compile $(if $(ARGS),$(ARGS),--count 300)
 
-docs:  ## the documentation as a site under build/site, its references from docstrings
-	@sh tools/setup all,site
+docs:  ## the documentation as a site under build/site: references from docstrings, the gallery's linkages running
+	@sh tools/setup all,web,site
 	@.venv/bin/python -m sphinx -W --keep-going -q -b html docs build/site && echo "wrote build/site/index.html"
 
 sanitize: setup-test  ## the C of every shipped scene under gcc's sanitizers: memory, undefined arithmetic, races. 15 minutes

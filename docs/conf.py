@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from importlib.metadata import version as installed
+from pathlib import Path
 
 project, author, version = "gudgeon", "gudgeon developers", installed("gudgeon")
 copyright = author
@@ -12,7 +15,7 @@ exclude_patterns = ["build"]
 html_theme = "furo"
 html_title = f"gudgeon {version}"
 html_static_path: list[str] = []
-html_extra_path: list[str] = []
+html_extra_path = ["../build/pages"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
 autodoc_member_order = "bysource"
@@ -32,7 +35,29 @@ def beyond(app, docname, source):  # type: ignore[no-untyped-def]
     source[0] = re.sub(r"(?<!!)\[([^\]]+)\]\(\.\./[^)]*\)", r"\1", source[0])
 
 
+WRITES = re.compile(r"^```sh\ngudgeon (equations .* -o (\w+\.html))\n```$", re.MULTILINE)
+RUNNING = r'\g<0>\n\n<p><a href="gallery/\g<2>">The page that it writes, on which this linkage runs</a></p>'
+
+
+def running(app, config):  # type: ignore[no-untyped-def]
+    """The gallery's pages, as its commands write them: `html_extra_path` takes them to the site."""
+    here = Path(__file__).parent
+    folder = here.parent / "build/pages/gallery"
+    folder.mkdir(parents=True, exist_ok=True)
+    for said, _ in WRITES.findall((here / "gallery.md").read_text("utf-8")):
+        line = [sys.executable, "-m", "gudgeon", *said.split()]
+        subprocess.run(line, cwd=folder, check=True, stdout=subprocess.DEVNULL)
+
+
+def linked(app, docname, source):  # type: ignore[no-untyped-def]
+    """Each command of the gallery with its page."""
+    if docname == "gallery":
+        source[0] = WRITES.sub(RUNNING, source[0])
+
+
 def setup(app):  # type: ignore[no-untyped-def]
-    """Two hooks."""
+    """What is done at which moment."""
+    app.connect("config-inited", running)  # before Sphinx looks whether the folder is there
+    app.connect("source-read", linked)
     app.connect("autodoc-process-docstring", as_text)
     app.connect("source-read", beyond)
