@@ -9,8 +9,8 @@
  */
 enum { RADAU_MOST = 5, RADAU_PATIENCE = 14, RADAU_STUBBORN = 60 };
 #define RADAU_ENOUGH 3e-3   /* of a step's tolerance: how well its stages are found */
-#define RADAU_ROUNDED 1e-14 /* of the state: what is left of a change by rounding */
-#define RADAU_NOISE 1e3     /* times that, at most, where rates are differences of large forces */
+#define RADAU_ROUNDED 4e-16 /* of the state: what is left of a change by rounding */
+#define RADAU_NOISE 2.5e4   /* times that, at most, where rates are differences of large forces */
 
 /*
  * The inverse of Butcher's matrix is T diag(gamma, pairs) T^-1 in real form: behind the first, two columns of T and two
