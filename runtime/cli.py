@@ -47,7 +47,7 @@ def run(
     out: opt.Out = Path("out"),
     regenerate: Annotated[bool, typer.Option("--regenerate", help="Derive and compile again.")] = False,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Rows that need docs/methods.md too.")] = False,
-    report: opt.Report = False, json: opt.Json = False, laws: opt.Laws = None,
+    report: opt.Report = False, json: opt.Json = False, laws: opt.Laws = None, quiet: opt.Quiet = False,
 ) -> int:  # fmt: skip
     """Simulate scenes and compare them with the ideal one: a table, a NetCDF file a scene, one picture.
 
@@ -69,6 +69,7 @@ def check(
     file: opt.File,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="A scene a table: unknowns, operations.")] = False,
     branches: opt.Branches = False, set_: opt.Set = None, json: opt.Json = False, laws: opt.Laws = None,
+    quiet: opt.Quiet = False,
 ) -> int:  # fmt: skip
     """Is a mechanism file valid, does it assemble, and what can move? Mistakes are told with line and column.
 
@@ -86,7 +87,7 @@ def emit(
     folder: Annotated[
         Path, typer.Option("--out", "-o", parser=opt.path, metavar="PATH", help="Folder for C, one a scene; or x.fmu.")
     ],
-    scene: opt.Scenes = None, laws: opt.Laws = None,
+    scene: opt.Scenes = None, laws: opt.Laws = None, quiet: opt.Quiet = False,
 ) -> int:  # fmt: skip
     """Write the generated C, to be read or to be built into something else; to x.fmu as an FMU (FMI 3.0) of a scene.
 
@@ -101,7 +102,9 @@ def emit(
 
 @app.command()
 @told
-def equations(file: opt.File, target: opt.Pages, scene: opt.ScenesOfPages = None, laws: opt.Laws = None) -> int:
+def equations(
+    file: opt.File, target: opt.Pages, scene: opt.ScenesOfPages = None, laws: opt.Laws = None, quiet: opt.Quiet = False
+) -> int:
     """Write the equations of a scene as LaTeX, text, HTML or a notebook that derives and runs them.
 
     Example: gudgeon equations engine.yaml -o engine.tex --scene worn
@@ -128,7 +131,7 @@ def force_laws(
 
 @app.command()
 @told
-def new(name: opt.Name, like: opt.Like = None, study: opt.OfStudy = False) -> int:
+def new(name: opt.Name, like: opt.Like = None, study: opt.OfStudy = False, quiet: opt.Quiet = False) -> int:
     """Begin a mechanism file, NAME.yaml, or a study's, with comments that explain it.
 
     Example: gudgeon new engine --like slider_crank
@@ -140,7 +143,7 @@ def new(name: opt.Name, like: opt.Like = None, study: opt.OfStudy = False) -> in
 
 @app.command("import")
 @told
-def import_(file: opt.Foreign, target: opt.Mechanism = None) -> int:
+def import_(file: opt.Foreign, target: opt.Mechanism = None, quiet: opt.Quiet = False) -> int:
     """Make a mechanism file of a linkage that was drawn or synthesized elsewhere.
 
     Example: gudgeon import four_bar.json -o four_bar.yaml
@@ -154,7 +157,7 @@ def import_(file: opt.Foreign, target: opt.Mechanism = None) -> int:
 @told
 def exercise(
     file: opt.File, target: opt.Sheet, scene: opt.OneScene = "ideal", seed: opt.Seed = 1, at: opt.Moment = None,
-    laws: opt.Laws = None,
+    laws: opt.Laws = None, quiet: opt.Quiet = False,
 ) -> int:  # fmt: skip
     """Make an exercise sheet of a mechanism, and its solutions in a second file.
 
@@ -171,7 +174,7 @@ def exercise(
 @told
 def draw(
     file: opt.File, scene: opt.OneScene = "ideal", at: opt.At = None, target: opt.Picture = None, set_: opt.Set = None,
-    branches: opt.Branches = False, laws: opt.Laws = None,
+    branches: opt.Branches = False, laws: opt.Laws = None, quiet: opt.Quiet = False,
 ) -> int:  # fmt: skip
     """Draw a mechanism: bodies, joints, drives, forces, joints with play magnified.
 
@@ -208,7 +211,7 @@ def bench(
         list[str] | None,
         typer.Option("--methods", metavar="NAMES", help=f"Only these: {','.join(OFFERED)},scipy:*,sundials:cvode."),
     ] = None,
-    json: opt.Json = False, laws: opt.Laws = None,
+    json: opt.Json = False, laws: opt.Laws = None, quiet: opt.Quiet = False,
 ) -> int:  # fmt: skip
     """Run time against error with every method, for each scene: a table, a CSV file, a picture.
 
@@ -233,7 +236,7 @@ def verdicts(
     at: opt.Rest = None, axis: opt.Axis = None, box: opt.Box = None, range_: opt.Range = None,
     t_end: opt.End = None, out: opt.Out = Path("out"), csv: opt.Csv = None, quick: opt.Quick = False,
     mark: opt.Mark = None,
-    json: opt.Json = False, laws: opt.Laws = None,
+    json: opt.Json = False, laws: opt.Laws = None, quiet: opt.Quiet = False,
 ) -> int:  # fmt: skip
     """Tolerance (rk4: step) × clearance, or what --axis or --box say: where is a run stable, where does it fail?
 
@@ -255,7 +258,7 @@ def verdicts(
 @told
 def study(
     file: opt.StudyFile, finished: opt.Finished = None, out: opt.Folder = None, json: opt.Json = False,
-    laws: opt.Laws = None,
+    laws: opt.Laws = None, quiet: opt.Quiet = False,
     threads: opt.Threads = None, workers: opt.Workers = None, dask: opt.Cluster = None, restart: opt.Restart = False,
     set_: opt.Set = None,
     runs: opt.Runs = False, starts: opt.Starts = None, seed: opt.StartSeed = None,

@@ -14,10 +14,15 @@ Report = Callable[[float, str], None]  # fraction done, a few words
 MEMORY = 600.0  # s that speed is measured over: blocks of a long study come minutes apart
 
 
+def looked_at() -> bool:
+    """Whether somebody may see it."""
+    return sys.stderr.isatty()
+
+
 @contextmanager
 def progress_bar(quiet: bool = False) -> Iterator[Callable[[str], Report | None]]:
     """Gives `bar(name)`, a callable for `simulate(progress=…)`, or None where nobody looks."""
-    if quiet or not sys.stderr.isatty():
+    if quiet or not looked_at():
         yield lambda name: None
         return
     shown: list[Any] = []  # rich's Progress, once the first piece of work is done
@@ -44,7 +49,7 @@ def progress_bar(quiet: bool = False) -> Iterator[Callable[[str], Report | None]
 @contextmanager
 def status_line(quiet: bool = False) -> Iterator[None]:
     """A line on stderr, while somebody looks, about the derivations and compilations that the block waits for."""
-    if quiet or not sys.stderr.isatty():
+    if quiet or not looked_at():
         yield
         return
     with working.told_to(_status):

@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import sys
 import warnings
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager, nullcontext, redirect_stdout
 from functools import wraps
 from typing import Any, TypeVar
 
@@ -27,14 +28,16 @@ def complain(error: GudgeonError) -> None:
 def told(command: Command) -> Command:
     """Our own errors are told in a line, without a traceback; others are bugs and keep theirs.
 
-    `laws` of a command are known before it begins.
+    `laws` of a command are known before it begins; of one that is `quiet` nothing is printed but warnings and errors.
     """
 
     @wraps(command)
     def wrapper(*args: Any, **kwargs: Any) -> None:
+        silence = silent() if kwargs.pop("quiet", False) else nullcontext()
         try:
             _know(kwargs.pop("laws", None) or ())
-            code = command(*args, **kwargs)
+            with silence:
+                code = command(*args, **kwargs)
         except (GudgeonError, MemoryError) as error:
             complain(known := error if isinstance(error, GudgeonError) else MemoryShortage(error))
             code = known.exit_code
@@ -45,6 +48,19 @@ def told(command: Command) -> Command:
             raise typer.Exit(code)
 
     return wrapper  # type: ignore[return-value]
+
+
+@contextmanager
+def silent() -> Iterator[None]:
+    """No result on stdout, and nothing on stderr of what is under way."""
+    from gudgeon.commands import progress
+
+    looked_at, progress.looked_at = progress.looked_at, lambda: False
+    try:
+        with open(os.devnull, "w", encoding="utf-8") as nothing, redirect_stdout(nothing):
+            yield
+    finally:
+        progress.looked_at = looked_at
 
 
 def _know(laws: Iterable[str]) -> None:

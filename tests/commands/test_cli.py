@@ -229,3 +229,17 @@ def test_a_terminal_is_told_what_is_derived_and_compiled(
     for anew, scene in ((equations, "worn"), (lambda: check_file(pump, True, False), "ideal")):
         assert f"deriving pump, scene {scene}" in shown(anew, Screen())
         assert shown(anew, io.StringIO()) == ""
+
+
+@needs_compiler
+@pytest.mark.parametrize("line", ["run PUMP --t-end 1ms --output 2 --scene ideal", "check PUMP", "draw PUMP -o x.svg"])
+def test_quiet_leaves_files_and_errors(line: str, call: Gudgeon, pump: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    words = line.replace("PUMP", pump).split()
+    assert call(*words).stdout
+    monkeypatch.setattr("gudgeon.commands.progress.looked_at", lambda: True)
+    files = {path.name for path in Path().rglob("*") if path.is_file()}
+    done = call(*words, "--quiet")
+    assert (done.exit_code, done.stdout, done.stderr) == (0, "", "")
+    assert {path.name for path in Path().rglob("*") if path.is_file()} == files
+    wrong = call(*words, "-q", "--laws", "none.py")
+    assert wrong.exit_code == 2 and not wrong.stdout and wrong.stderr.startswith("error: ")

@@ -7,7 +7,7 @@ import os
 import signal
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -57,11 +57,12 @@ def make() -> None:
     signal.signal(signal.SIGTERM, lambda *_: sys.exit())  # compilers and folders of what is under way go with it
     laws, structures = json.loads(sys.argv[1])
     begin_worker(laws)
-    for mechanism, scene, overrides in structures:
-        try:
-            load(mechanism, scene, overrides=dict(overrides))
-        except GudgeonError:
-            continue
+    try:
+        for mechanism, scene, overrides in structures:
+            with suppress(GudgeonError):
+                load(mechanism, scene, overrides=dict(overrides))
+    except SystemExit:
+        os._exit(1)  # Python takes .3 s to forget what SymPy made
 
 
 @lru_cache(maxsize=16)
