@@ -2,24 +2,15 @@
 
 from __future__ import annotations
 
-import importlib.machinery
-import importlib.util
 import json
 import math
 import re
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from tests.oracles import press_dense
-
-if "benchmarks" not in sys.modules:  # the root stays off sys.path, so the folder is made a package by name
-    spec = importlib.machinery.ModuleSpec("benchmarks", None, is_package=True)
-    spec.submodule_search_locations = [str(Path(__file__).resolve().parents[1] / "benchmarks")]
-    sys.modules["benchmarks"] = importlib.util.module_from_spec(spec)
-
+import tests.benches  # noqa: F401
 from benchmarks import callgrind, laws, rhs
 from benchmarks.peers import cvode_sweep, ideal, press  # noqa: E402
 from benchmarks.peers.reference import ONSETS  # noqa: E402
@@ -27,6 +18,7 @@ from benchmarks.race import page as race_page
 from benchmarks.race import record as race_record
 from benchmarks.race.record import time_to  # noqa: E402
 from gudgeon.generator.kinds.laws.law import house
+from tests.oracles import press_dense
 from tests.programs import needs_compiler
 
 

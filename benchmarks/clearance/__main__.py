@@ -1,0 +1,128 @@
+"""Published machines with play, run by two codes that share nothing, to nine digits of the clearance.
+
+    python -m benchmarks.clearance [NAME …] [--write]
+
+For each case a table tells to which time both agree, how well, and what the paper prints. `--write` keeps what was
+found: data/NAME.nc, and the table of README.md.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from time import process_time
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+import gudgeon
+from benchmarks.clearance.cases import Case, cases
+
+HERE = Path(__file__).resolve().parent
+PAGE, BEGIN, END = HERE / "README.md", "<!-- found: python -m benchmarks.clearance --write -->\n", "<!-- end -->\n"
+DIGITS = 1e-9  # of the clearance
+INTERVALS = 100
+FORMAT = "gudgeon-clearance/1"
+COLUMNS = "case", "until", "apart by", "first contacts", "peak forces printed", "and by these equations"
+HEAD = f"| {' | '.join(COLUMNS)} |\n|{'---|' * len(COLUMNS)}\n"
+
+
+@dataclass(frozen=True)
+class Found:
+    """Both runs of a case, and the sample to which they agree."""
+
+    case: Case
+    data: xr.Dataset
+    peaks: tuple[float, ...]  # N, of the first second by gudgeon, where the paper prints some
+
+    def row(self, name: str) -> str:
+        d = self.data
+        printed = ", ".join("–" if peak is None else f"{peak:g} N" for peak in self.case.peaks) or "–"
+        ours = ", ".join(f"{peak:.4g} N" for peak in self.peaks) or "–"
+        onsets = np.sort(d.onset.values[np.isfinite(d.onset.values)])
+        onsets = onsets[onsets <= d.attrs["horizon"]]
+        first = ", ".join(f"{1e3 * t:.6f}" for t in onsets[:3]) + " ms" if onsets.size else "none"
+        until, apart = 1e3 * d.attrs["horizon"], float(d.difference[d.time <= d.attrs["horizon"]].max())
+        return f"| [{name}](data/{name}.nc) | {until:g} ms | {apart:.0e} c | {first} | {printed} | {ours} |\n"
+
+
+def found(case: Case) -> Found:
+    """Run by both."""
+    simulation = gudgeon.load(case.file, case.scene)
+    method = "radau9" if case.is_film else "dop853"
+    run = simulation.simulate(case.t_end, output=INTERVALS, parameters=case.parameters, method=method, rtol=1e-13)
+    times = np.linspace(0.0, case.t_end, INTERVALS + 1)
+    second = case.second
+    _, e, force = second.run(second.start(np.array(case.guess)), times)
+    own = np.stack([np.stack([run[f"{joint}.ex"], run[f"{joint}.ey"]], -1) for joint in case.joints], 1)
+    difference = abs(own - e).max(axis=(1, 2)) / case.clearance
+    agree = np.flatnonzero(difference > DIGITS)
+    horizon = float(times[agree[0] - 1 if agree.size else -1])
+    most = max(map(len, second.onsets))
+    onset = np.full((len(case.joints), most), np.nan)
+    for k, began in enumerate(second.onsets):
+        onset[k, : len(began)] = began
+    data = xr.Dataset(
+        {"e": (("time", "joint", "axis"), e, {"units": "m", "long_name": "journal's centre from the bearing's"}),
+         "force": (("time", "joint", "axis"), force, {"units": "N", "long_name": "force on the journal"}),
+         "difference": ("time", difference, {"units": "1", "long_name": "largest difference of e by both codes, by c"}),
+         "onset": (("joint", "contact"), onset, {"units": "s", "long_name": "contacts begin"})},
+        {"time": ("time", times, {"units": "s"}), "joint": list(case.joints), "axis": ["x", "y"]},
+        {"format": FORMAT, "title": case.title, "source": case.source, "horizon": horizon, "clearance": case.clearance,
+         "mechanism": Path(case.file).name.removesuffix(".yaml"), "scene": case.scene, "parameters": told(case)},
+    )  # fmt: skip
+    return Found(case, data, peaks(case, simulation, method))
+
+
+def told(case: Case) -> str:
+    """What is not as the file has it."""
+    return ", ".join(f"{name} = {value!r}" for name, value in case.parameters.items())
+
+
+def peaks(case: Case, simulation: Any, method: str) -> tuple[float, ...]:
+    """Of the first second, as the paper has it; of dry contact it is one draw."""
+    if not case.peaks:
+        return ()
+    run = simulation.simulate(1.0, output=2, parameters=case.parameters, method=method, rtol=1e-10)
+    return tuple(run.diagnostics.peak(joint).F for joint in case.joints)
+
+
+def write(rows: dict[str, Found]) -> None:
+    """The data, and the table of those that are not left out."""
+    for name, one in rows.items():
+        (HERE / "data").mkdir(exist_ok=True)
+        packed = {key: {"zlib": True} for key in ("e", "force", "difference")}
+        one.data.to_netcdf(HERE / "data" / f"{name}.nc", engine="h5netcdf", encoding=packed)
+    head, rest = PAGE.read_text(encoding="utf-8").split(BEGIN)
+    table, tail = rest.split(END)
+    old = {line.split("]")[0].removeprefix("| ["): line for line in table.splitlines(keepends=True)[2:]}
+    lines = [rows[name].row(name) if name in rows else old[name] for name in cases() if name in rows or name in old]
+    PAGE.write_text(head + BEGIN + HEAD + "".join(lines) + END + tail, encoding="utf-8")
+
+
+def main() -> int:
+    """Command line."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    every = cases()
+    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(every))
+    parser.add_argument("--write", action="store_true")
+    options = parser.parse_args()
+    if unknown := set(options.names) - set(every):
+        parser.error(f"no case is called {', '.join(sorted(unknown))}; there are {', '.join(every)}")
+    rows = {}
+    print(HEAD, end="")
+    for name in options.names or every:
+        start = process_time()
+        rows[name] = found(every[name])
+        print(rows[name].row(name), end="", flush=True)
+        print(f"{name}: {process_time() - start:.1f} s", file=sys.stderr)
+    if options.write:
+        write(rows)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,267 @@
+"""The cases: a file for gudgeon, the same numbers written out again for the second code, and where they are from."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.clearance.second import Joint, Pin, Second
+from tests.oracles import dry
+from tests.oracles.linkage_joints import CoordinateDrive
+from tests.oracles.numpy_linkage import GROUND, Body, Drive, End, Linkage, Play, Revolute, Translational, Wave
+from tests.oracles.press_dense import Press
+
+HERE = Path(__file__).resolve().parent
+STUDIES = HERE.parents[1] / "studies"
+DEGREE = math.pi / 180.0
+
+
+@dataclass(frozen=True)
+class Case:
+    """A machine at its numbers. `file`, `scene`, `parameters`: as `gudgeon.load` and `simulate` take them.
+
+    joints: those with play, as the file calls them. t_end: s, of the samples. peaks: largest forces at the joints that
+    the paper prints of the first second, N.
+    """
+
+    title: str
+    source: str
+    file: str
+    scene: str
+    joints: tuple[str, ...]
+    t_end: float
+    guess: Sequence[float]
+    second: Second
+    peaks: tuple[float | None, ...] = ()
+    parameters: Mapping[str, float | str] = field(default_factory=dict)
+
+    @property
+    def clearance(self) -> float:
+        return self.second.joints[0].law.clearance
+
+    @property
+    def is_film(self) -> bool:
+        return self.second.joints[0].law.viscosity > 0.0
+
+
+class Chain:
+    """Bars by their index: ends in frames of their middles, and guesses of where they are."""
+
+    def __init__(self, lengths: Mapping[int, float]) -> None:
+        self.lengths = lengths
+
+    def tail(self, k: int) -> End:
+        return End(k, (-self.lengths[k] / 2.0, 0.0))
+
+    def head(self, k: int) -> End:
+        return End(k, (self.lengths[k] / 2.0, 0.0))
+
+    def middle(self, k: int, tail: tuple[float, float], degrees: float) -> list[float]:
+        angle = degrees * DEGREE
+        half = self.lengths[k] / 2.0
+        return [tail[0] + half * math.cos(angle), tail[1] + half * math.sin(angle), angle]
+
+
+def pin(at: tuple[float, float], end: End) -> Revolute:
+    """To the ground."""
+    return Revolute(End(GROUND, at), end)
+
+
+def press(speed: float, clearance: float, young: float, viscosity: float) -> tuple[Second, list[float]]:
+    """L1, L2, L3, L4, L6, L7, L8, S9; play between L1 and L2 (A), and between L4 and L3 (B)."""
+    data = Press().at_speed(speed)
+    g = data.geometry
+    links = Chain(dict(enumerate((g.l1, g.l2, g.l3, g.l4, g.l6, g.l7, g.l8))))
+    slider = End(7, (0.0, 0.0))
+    joints = (
+        pin((0.0, 0.0), links.tail(0)), pin((0.0, -g.l5), links.tail(3)), pin((g.hx, g.hy), links.tail(4)),
+        Revolute(links.head(1), links.tail(5)), Revolute(links.head(2), links.tail(5)),
+        Revolute(links.head(5), links.head(4)), Revolute(links.head(5), links.tail(6)),
+        Revolute(links.head(6), slider),
+        Translational(End(GROUND, (g.hx, g.hy)), slider, (0.0, 1.0), math.pi / 2.0),
+    )  # fmt: skip
+    drives = (Drive(0, GROUND, Wave(g.theta1, g.omega1)), Drive(3, GROUND, Wave(g.theta4, g.omega4)))
+    bodies = tuple(Body(m, j) for m, j in zip(data.mass, data.inertia, strict=True))
+    linkage = Linkage(bodies, joints, drives, (), (0.0, -data.gravity))
+    law = Pin(clearance=clearance, young=young, viscosity=viscosity)
+    ends = ((links.head(0), links.tail(1)), (links.head(3), links.tail(2)))
+    plays = [Joint(Play(one, two, law), law) for one, two in ends]
+    guess = [
+        *links.middle(0, (0.0, 0.0), -39.52), *links.middle(1, (0.06, -0.05), -39.5),
+        *links.middle(2, (-0.075, -0.327), 19.5), *links.middle(3, (0.0, -0.3), 199.47),
+        *links.middle(4, (0.5, 0.0), -90.0), *links.middle(5, (0.254, -0.21), 7.0),
+        *links.middle(6, (0.5, -0.18), -90.0), 0.5, -0.48, 90.0 * DEGREE,
+    ]  # fmt: skip
+    return Second(linkage, plays), guess
+
+
+def slider_crank(
+    masses: Sequence[float], inertias: Sequence[float], law: Pin, drive: Wave, gravity: float = 0.0
+) -> tuple[Second, list[float]]:
+    """Crank of 50 mm, rod of 120 mm, slider; play between rod and slider."""
+    links, slider = Chain({0: 0.05, 1: 0.12}), End(2, (0.0, 0.0))
+    joints = (
+        pin((0.0, 0.0), links.tail(0)), Revolute(links.head(0), links.tail(1)),
+        Translational(End(GROUND, (0.0, 0.0)), slider, (1.0, 0.0), 0.0),
+    )  # fmt: skip
+    bodies = tuple(Body(m, j) for m, j in zip(masses, inertias, strict=True))
+    linkage = Linkage(bodies, joints, (Drive(0, GROUND, drive),), (), (0.0, -gravity))
+    angle = drive.a
+    across = -math.asin(5.0 / 12.0 * math.sin(angle))
+    tip = (0.05 * math.cos(angle), 0.05 * math.sin(angle))
+    guess = [*links.middle(0, (0.0, 0.0), angle / DEGREE), *links.middle(1, tip, across / DEGREE),
+             tip[0] + 0.12 * math.cos(across), 0.0, 0.0]  # fmt: skip
+    return Second(linkage, [Joint(Play(links.head(1), slider, law), law)]), guess
+
+
+@dataclass(frozen=True)
+class Cosine:
+    """a + b cos(w t)."""
+
+    a: float
+    b: float
+    w: float
+
+    def value(self, t: float) -> float:
+        return self.a + self.b * math.cos(self.w * t)
+
+    def rate(self, t: float) -> float:
+        return -self.b * self.w * math.sin(self.w * t)
+
+    def acceleration(self, t: float) -> float:
+        return -self.b * self.w**2 * math.cos(self.w * t)
+
+
+def landing_gear() -> tuple[Second, list[float]]:
+    """Crosshead, link, plate, brace, leg; play between plate and brace (A), and between brace and leg (B)."""
+    links = Chain({1: 0.7, 3: 1.08, 4: 1.2})
+    crosshead, brace_on_leg = End(0, (0.0, 0.0)), End(4, (0.36 - 0.6, 0.0))
+    joints = (
+        Translational(End(GROUND, (0.0, 1.5)), crosshead, (0.0, 1.0), 0.0), Revolute(crosshead, links.tail(1)),
+        Revolute(links.head(1), End(2, (0.0, -0.514))), pin((1.0, 1.85), End(2, (0.0, 0.49))),
+        pin((1.45, 1.05), links.tail(4)),
+    )  # fmt: skip
+    bodies = (Body(7.66, 2.422e-2), Body(23.51, 1.137), Body(147.94, 12.98), Body(39.16, 4.291), Body(140.77, 10.76))
+    drives = (CoordinateDrive(0, 1, Cosine(1.5, 0.3, math.pi)),)
+    linkage = Linkage(bodies, joints, drives, (), (0.0, -9.8))
+    law = Pin(radius=0.01, clearance=0.05e-3, width=0.015, young=200e9, sign=-1, mu=0.2, v0=1e-3, v1=5e-2)
+    ends = ((End(2, (0.723, 0.0)), links.tail(3)), (links.head(3), brace_on_leg))
+    turned = -128.0 * DEGREE
+    plate = (1.0 + 0.49 * math.sin(turned), 1.85 - 0.49 * math.cos(turned))
+    at = (plate[0] + 0.723 * math.cos(turned), plate[1] + 0.723 * math.sin(turned))
+    guess = [0.0, 1.8, 0.0, *links.middle(1, (0.0, 1.8), 73.0), *plate, turned, *links.middle(3, at, -31.0),
+             *links.middle(4, (1.45, 1.05), -175.0)]  # fmt: skip
+    return Second(linkage, [Joint(Play(one, two, law), law) for one, two in ends]), guess
+
+
+def corners(pq: float, qr: float, pr: float, side: int) -> tuple[list[tuple[float, float]], float]:
+    """P, Q, R from the centroid, Q on the x axis from P, R on its left (1) or right (−1); the sum of squared sides."""
+    along = (pq**2 + pr**2 - qr**2) / (2.0 * pq)
+    raw = np.array([[0.0, 0.0], [pq, 0.0], [along, side * math.sqrt(pr**2 - along**2)]])
+    return [(float(x), float(y)) for x, y in raw - raw.mean(axis=0)], pq**2 + qr**2 + pr**2
+
+
+def jansen(pins: int) -> tuple[Second, list[float]]:
+    """m, j, k, upper, c, f, lower; play in one or both pins of the crank: m to j (X1) and m to k (X2)."""
+    length = {0: 0.15, 1: 0.5, 2: 0.619, 4: 0.393, 5: 0.394}
+    links = Chain(length)
+    upper, of_upper = corners(0.415, 0.558, 0.401, 1)
+    lower, of_lower = corners(0.367, 0.49, 0.657, -1)
+    mass = {0: 0.15, 1: 0.5, 2: 0.619, 3: 2.0, 4: 0.393, 5: 0.394, 6: 2.0}
+    inertia = {k: mass[k] * length[k] ** 2 / 12.0 for k in length}
+    inertia |= {3: 2.0 * of_upper / 36.0, 6: 2.0 * of_lower / 36.0}
+    y = (-0.38, -0.078)
+    joints = (
+        pin((0.0, 0.0), links.tail(0)), pin(y, End(3, upper[0])), Revolute(links.head(1), End(3, upper[1])),
+        pin(y, links.tail(4)), Revolute(links.head(2), links.head(4)), Revolute(End(3, upper[2]), links.tail(5)),
+        Revolute(links.head(5), End(6, lower[0])), Revolute(End(6, lower[1]), links.head(4)),
+    )  # fmt: skip
+    drives = (Drive(0, GROUND, Wave(0.0, 2.0 * math.pi)),)
+    linkage = Linkage(tuple(Body(mass[k], inertia[k]) for k in range(7)), joints, drives, (), (0.0, -9.81))
+    stiffness = dry.stiffness(0.01, 0.01 - 0.2e-3, (110e9, 207e9), (0.34, 0.3))  # steel in bronze
+    law = Pin(radius=0.01, clearance=0.2e-3, width=0.02, restitution=0.8, mu=0.1, v0=1e-3, v1=1e-2,
+              stiffness=stiffness)  # fmt: skip
+    linkage = replace(linkage, joints=(*joints, *(Revolute(links.head(0), links.tail(k)) for k in (1, 2)[pins:])))
+    plays = [Joint(Play(links.head(0), links.tail(k), law), law) for k in (1, 2)[:pins]]
+    return Second(linkage, plays), _jansen_guess(links, upper, lower, y)
+
+
+def _jansen_guess(
+    links: Chain, upper: Sequence[tuple[float, float]], lower: Sequence[tuple[float, float]], y: tuple[float, float]
+) -> list[float]:
+    """At θ = 0 of the crank: triangles as circles meet, where the file's own guess of angles leads."""
+
+    def meet(one: np.ndarray, first: float, two: np.ndarray, second: float, side: int) -> np.ndarray:
+        d = two - one
+        along = (d @ d + first**2 - second**2) / (2.0 * d @ d)
+        return one + along * d + side * math.sqrt(first**2 / (d @ d) - along**2) * np.array([-d[1], d[0]])
+
+    def angle(start: np.ndarray, end: np.ndarray) -> float:
+        return math.atan2(*(end - start)[::-1])
+
+    def triangle(at: np.ndarray, turned: float, own: Sequence[tuple[float, float]]) -> list[float]:
+        a = np.array([[math.cos(turned), -math.sin(turned)], [math.sin(turned), math.cos(turned)]])
+        return [*(at - a @ np.array(own[0])), turned]
+
+    x, fixed = np.array([0.15, 0.0]), np.array(y)
+    w, v = meet(x, 0.5, fixed, 0.415, -1), meet(x, 0.619, fixed, 0.393, 1)
+    u = meet(fixed, 0.401, w, 0.558, 1)
+    t = meet(u, 0.394, v, 0.367, -1)
+    return [
+        0.075, 0.0, 0.0, *((x + w) / 2.0), angle(x, w), *((x + v) / 2.0), angle(x, v),
+        *triangle(fixed, angle(fixed, w), upper), *((fixed + v) / 2.0), angle(fixed, v),
+        *((u + t) / 2.0), angle(u, t), *triangle(t, angle(t, v), lower),
+    ]  # fmt: skip
+
+
+CHEN = "X. Chen, S. Gao, T. Wang, Nonlinear Dynamics (2022), doi 10.1007/s11071-022-07478-4"
+FLORES = "P. Flores and others, Mechanism and Machine Theory 41 (2006) 247, doi 10.1016/j.mechmachtheory.2005.10.002"
+WORN = (
+    "Mechanism and Machine Theory 194 (2024) 105583, doi 10.1016/j.mechmachtheory.2024.105583, as "
+    "github.com/PanChuguang/ALGRM-Sim sets it"
+)
+GEAR, JANSEN = "github.com/PanChuguang/ALGRM-Sim: no paper is known to us", "arXiv 2606.25208 (2026)"
+
+
+def cases() -> dict[str, Case]:
+    """All of them, by name."""
+    found = {}
+    for name, scene, speed, c, young, t_end, peaks in (
+        ("press_dry", "dry", 2.0, 0.3e-3, 70e9, 40e-3, (159.3, 79.1)),
+        ("press_dry_wide", "dry", 2.0, 0.8e-3, 70e9, 60e-3, (None, 430.8)),  # 159.3 is that of 0.3 mm, printed again
+        ("press_dry_steel", "dry", 3.0, 0.5e-3, 206e9, 30e-3, (482.2, 540.7)),
+        ("press_lubricated", "lubricated", 3.0, 0.6e-3, 70e9, 0.1, (18.61, 15.18)),
+        ("press_lubricated_faster", "lubricated", 5.0, 0.6e-3, 70e9, 0.05, (46.0, 57.81)),
+        ("press_lubricated_fastest", "lubricated", 8.0, 0.6e-3, 70e9, 0.05, (170.5, 174.2)),
+    ):
+        second, guess = press(speed * math.pi, c, young, 0.1 if scene == "lubricated" else 0.0)
+        title = f"nine-bar press, {scene}, {speed:g}π rad/s, c {1e3 * c:g} mm, E {1e-9 * young:g} GPa"
+        steel = {f"bearings.pin.{part}_material": "steel_45" for part in ("bearing", "journal")} if young > 1e11 else {}
+        found[name] = Case(title, CHEN, "nine_bar_press", scene, ("A", "B"), t_end, guess, second, peaks,
+                           {"omega": speed * math.pi, "c": c, **steel})  # fmt: skip
+    for scene, sign in (("internal", -1), ("external", 1)):
+        law = Pin(radius=0.01, clearance=0.5e-3, width=0.02, young=207e9, sign=sign, mu=0.03, v0=1e-3, v1=1e-2)
+        drive = Wave(0.0, 5000.0 * math.pi / 30.0)
+        second, guess = slider_crank((0.3, 0.21, 0.14), (1e-4, 2.5e-4, 1e-4), law, drive)
+        title = f"slider-crank, 5000 rpm, c 0.5 mm, K of {scene} spheres"
+        found[f"slider_crank_{scene}"] = Case(title, FLORES, "flores_slider_crank", scene, ("wristpin",), 2e-3, guess,
+                                              second)  # fmt: skip
+    law = Pin(radius=0.01, clearance=0.05e-3, width=0.015, mu=0.02, v0=1e-3, v1=5e-2, exponent=2.0,
+              stiffness=2.31797e10)  # fmt: skip
+    second, guess = slider_crank((0.3, 0.087, 0.14), (1e-5, 4.8037e-4, 1e-2), law, Wave(math.pi / 6.0, math.pi))
+    found["slider_crank_worn"] = Case("slider-crank, 30 rpm, c 0.05 mm, K and exponent given", WORN,
+                                      str(HERE / "slider_crank_worn.yaml"), "worn", ("wristpin",), 0.2, guess,
+                                      second)  # fmt: skip
+    second, guess = landing_gear()
+    found["landing_gear"] = Case("landing-gear retraction, c 0.05 mm in two pins", GEAR, "landing_gear", "worn",
+                                 ("A", "B"), 20e-3, guess, second)  # fmt: skip
+    for name, joints in (("one", ("X1",)), ("two", ("X1", "X2"))):
+        second, guess = jansen(len(joints))
+        title = f"Jansen's leg, 60 rpm, c 0.2 mm in {name} of the crank's pins"
+        found[f"jansen_leg_{name}"] = Case(title, JANSEN, str(STUDIES / "jansen_leg_play.yaml"), name, joints, 40e-3,
+                                           guess, second)  # fmt: skip
+    return found

@@ -1,0 +1,206 @@
+"""The second code: absolute coordinates and multipliers in dense NumPy, SciPy's DOP853, contacts as events.
+
+It shares nothing with gudgeon: linkages are those of tests/oracles/numpy_linkage.py, journals those of journal.py.
+Where the force of a joint changes its formula (onset and end of contact, slips of v0 and v1) a step ends, and the next
+one begins with the other formula.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from tests.oracles import dry
+from tests.oracles.journal import Journal
+from tests.oracles.numpy_linkage import Linkage, Play, Revolute, Wrench, accelerations, place, rows
+
+STABLE = 100.0  # 1/s, Baumgarte's: what is left of Φ dies out
+FLOOR = 1e-6  # m/s: the least δ̇⁻ that an onset stores
+
+
+@dataclass(frozen=True)
+class Pin(Journal):
+    """A journal that may be in the middle of its bearing, of a given stiffness or its own, its film in doubles."""
+
+    stiffness: float = 0.0  # N/m^exponent; 0: that of its materials
+
+    def __call__(self, e: np.ndarray, rate: np.ndarray, omega_i: float, omega_j: float) -> Wrench:
+        least = 1e-13 * self.clearance
+        if float(np.hypot(*e)) > least:
+            return super().__call__(e, rate, omega_i, omega_j)
+        if not self.viscosity:
+            return Wrench(np.zeros(2), 0.0, 0.0)
+        speed = float(np.hypot(*rate))
+        return super().__call__(least * rate / speed if speed else np.array([least, 0.0]), rate, omega_i, omega_j)
+
+    def _dry(self, e: float, v_n: float, v_t: float, omega_i: float, omega_j: float) -> tuple[float, ...]:
+        delta = e - self.clearance
+        if delta <= 0.0 or not self.stiffness:
+            return super()._dry(e, v_n, v_t, omega_i, omega_j)
+        factor = dry.dissipation_factor(self.restitution)
+        normal = dry.normal_force(delta, v_n, self.stored, self.stiffness, self.exponent, factor)
+        arm_i, arm_j = self.radius + delta / 2.0, self.radius - self.clearance - delta / 2.0
+        tangential = dry.friction_force(v_t + omega_j * arm_j - omega_i * arm_i, normal, self.mu, self.v0, self.v1)
+        return -normal, tangential, -arm_i * tangential, arm_j * tangential
+
+    def _film(self, e: float, v_n: float, v_t: float, omega_i: float, omega_j: float) -> tuple[float, ...]:
+        c, eps, rate = self.clearance, e / self.clearance, v_n / self.clearance
+        turning = omega_i + omega_j - 2.0 * v_t / e
+        unit = 6.0 * self.viscosity * (self.radius - c) ** 3 * self.width / c**2
+        open_ = 1.0 - eps * eps
+        wedge = math.sqrt(open_ * ((0.5 * turning * eps) ** 2 + rate * rate))  # k ε |ε̇|
+        k = wedge / (eps * abs(rate)) if rate else math.inf
+        lost = 1.5 / (k + 1.5)
+        ratio = 1.0 + lost if rate > 0.0 else 1.0 - lost  # (k + 3)/(k + 3/2), or k/(k + 3/2)
+        radial = -unit / open_**1.5 * (4.0 * eps * wedge / (2.0 + eps * eps) + math.pi * rate * ratio)
+        tangential = unit * math.pi * eps * turning / ((2.0 + eps * eps) * math.sqrt(open_)) * ratio
+        return radial, tangential, -e * tangential, 0.0
+
+
+@dataclass
+class Joint:
+    """A joint with play on its way: `stored` is δ̇⁻, 0 where nothing touches; its slip lies between two corners."""
+
+    play: Play
+    law: Journal
+    stored: float = 0.0
+    sector: tuple[float, float] = (-math.inf, math.inf)
+
+    def now(self) -> Play:
+        return replace(self.play, law=replace(self.law, stored=self.stored))
+
+    def gap(self, q: np.ndarray, v: np.ndarray) -> tuple[float, float]:
+        """e − c, and its rate."""
+        one, two = place(self.play.first, q, v), place(self.play.second, q, v)
+        e, rate = two.r - one.r, two.v - one.v
+        size = float(np.hypot(*e))
+        return size - self.law.clearance, float(e @ rate) / size if size else 0.0
+
+    def slip(self, q: np.ndarray, v: np.ndarray) -> float:
+        """Of the journal's surface on the bearing's, in the middle of the penetration."""
+        one, two = place(self.play.first, q, v), place(self.play.second, q, v)
+        e, rate = two.r - one.r, two.v - one.v
+        size, law = float(np.hypot(*e)), self.law
+        half = (size - law.clearance) / 2.0
+        across = float(np.array([-e[1], e[0]]) @ rate) / size
+        return across + two.omega * (law.radius - law.clearance - half) - one.omega * (law.radius + half)
+
+    def settle(self, q: np.ndarray, v: np.ndarray) -> None:
+        """Between which corners the slip lies, or is about to."""
+        corners = [-math.inf, -self.law.v1, -self.law.v0, self.law.v0, self.law.v1, math.inf]
+        slip = self.slip(q, v)
+        k = next(i for i in range(5) if slip < corners[i + 1])
+        self.sector = corners[k], corners[k + 1]
+
+
+@dataclass
+class Second:
+    """A run of a machine: q (N, n), e (N, joints, 2) and the force on each journal (N, joints, 2) at its samples."""
+
+    linkage: Linkage
+    joints: list[Joint]
+    rtol: float = 1e-13
+    onsets: list[list[float]] = field(default_factory=list)
+    calls: int = 0
+
+    def __call__(self, t: float, y: np.ndarray) -> np.ndarray:
+        self.calls += 1
+        n = y.size // 2
+        linkage = replace(self.linkage, plays=tuple(joint.now() for joint in self.joints))
+        return np.concatenate([y[n:], accelerations(linkage, t, y[:n], y[n:], STABLE, STABLE)[0]])
+
+    def start(self, guess: np.ndarray) -> np.ndarray:
+        """Every journal in the middle of its bearing, moving as an ideal one does: Newton's method on all rows."""
+        pins = tuple(Revolute(joint.play.first, joint.play.second) for joint in self.joints)
+        ideal = replace(self.linkage, joints=(*self.linkage.joints, *pins))
+        q = np.array(guess, dtype=float)
+        for _ in range(60):
+            found = rows(ideal, 0.0, q, np.zeros(q.size))
+            q -= np.linalg.lstsq(found.phi_q, found.phi, rcond=None)[0]
+        found = rows(ideal, 0.0, q, np.zeros(q.size))
+        if abs(found.phi).max() > 1e-14:
+            raise ValueError("the linkage does not close from this guess")
+        return np.concatenate([q, np.linalg.solve(found.phi_q, found.nu)])
+
+    def run(self, y: np.ndarray, times: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Samples at `times`, which begin with 0."""
+        self.onsets = [[] for _ in self.joints]
+        t, n = 0.0, y.size // 2
+        samples = [(y[:n], *self._of(y[:n], y[n:]))]
+        for end in times[1:]:
+            while t < end:
+                t, y = self._piece(t, float(end), y)
+            samples.append((y[:n], *self._of(y[:n], y[n:])))
+        q, e, force = (np.array(column) for column in zip(*samples, strict=True))
+        return q, e, force
+
+    def _of(self, q: np.ndarray, v: np.ndarray) -> tuple[list[np.ndarray], list[np.ndarray]]:
+        eccentricities, forces = [], []
+        for joint in self.joints:
+            one, two = place(joint.play.first, q, v), place(joint.play.second, q, v)
+            eccentricities.append(two.r - one.r)
+            forces.append(joint.now().law(two.r - one.r, two.v - one.v, one.omega, two.omega).force)
+        return eccentricities, forces
+
+    def _piece(self, t: float, end: float, y: np.ndarray) -> tuple[float, np.ndarray]:
+        """To the next event, or to the end."""
+        n = y.size // 2
+        what = list(self._events(n))
+        found = solve_ivp(self, (t, end), y, "DOP853", events=[event for event, _ in what], rtol=self.rtol,
+                          atol=self.rtol * self._sizes(y))  # fmt: skip
+        if found.status < 0:
+            raise ValueError(found.message)
+        t, y = float(found.t[-1]), found.y[:, -1]
+        for (_, done), times in zip(what, found.t_events, strict=True):
+            if times.size:
+                done(t, y[:n], y[n:])
+        return t, y
+
+    def _sizes(self, y: np.ndarray) -> np.ndarray:
+        """1e-3 m, rad, m/s, rad/s: a journal's place is a thousandth of that of a body."""
+        return np.full(y.size, 1e-3)
+
+    def _events(self, n: int) -> Iterator[tuple[Any, Callable[[float, np.ndarray, np.ndarray], None]]]:
+        for k, joint in enumerate(self.joints):
+            touches = joint.stored > 0.0
+
+            def gap(t: float, y: np.ndarray, joint: Joint = joint) -> float:
+                return joint.gap(y[:n], y[n:])[0]
+
+            def change(t: float, q: np.ndarray, v: np.ndarray, k: int = k, joint: Joint = joint) -> None:
+                if joint.stored:
+                    joint.stored = 0.0
+                    return
+                joint.stored = max(joint.gap(q, v)[1], FLOOR)
+                self.onsets[k].append(t)
+                joint.settle(q, v)
+
+            yield _ending(gap, -1.0 if touches else 1.0), change
+            if not touches or not joint.law.mu:
+                continue
+            for corner, direction in zip(joint.sector, (-1.0, 1.0), strict=True):
+                if not math.isfinite(corner):
+                    continue
+
+                def slip(t: float, y: np.ndarray, joint: Joint = joint, corner: float = corner) -> float:
+                    return joint.slip(y[:n], y[n:]) - corner
+
+                def cross(
+                    t: float, q: np.ndarray, v: np.ndarray, joint: Joint = joint, corner: float = corner,
+                    direction: float = direction,
+                ) -> None:  # fmt: skip
+                    corners = [-math.inf, -joint.law.v1, -joint.law.v0, joint.law.v0, joint.law.v1, math.inf]
+                    at = corners.index(corner)
+                    joint.sector = (corner, corners[at + 1]) if direction > 0.0 else (corners[at - 1], corner)
+
+                yield _ending(slip, direction), cross
+
+
+def _ending(function: Callable[[float, np.ndarray], float], direction: float) -> Any:
+    function.terminal, function.direction = True, direction  # type: ignore[attr-defined]
+    return function
