@@ -23,6 +23,26 @@ FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueRefe
             if (status)
                 return fails(m, "a constraint row depends on others", status);
             value[k] = value_of(m, fmu_outputs[r - VR_OUTPUTS][0], fmu_outputs[r - VR_OUTPUTS][1]);
+#if FMU_EXCHANGE
+        } else if (r >= VR_STATES && r < VR_STATES + N_Y) {
+            if (!m->begun && begin(m))
+                return fmi3Error;
+            if (!m->exchange)
+                exchange_places(m);
+            value[k] = m->x[r - VR_STATES];
+        } else if ((r >= VR_RATES && r < VR_RATES + N_Y)
+            || (r >= VR_INDICATORS && r < VR_INDICATORS + N_CLEARANCES)) {
+            double dx[N_Y];
+            Aside aside;
+            if (!m->begun && begin(m))
+                return fmi3Error;
+            if (!m->exchange)
+                exchange_places(m);
+            const int status = exchange_rates(m, dx, &aside);
+            if (status)
+                return fails(m, "a constraint row depends on others", status);
+            value[k] = r < VR_INDICATORS ? dx[r - VR_RATES] : aside.clearance[r - VR_INDICATORS].delta;
+#endif
         } else {
             return fails(m, "a variable that there is not", (int)r);
         }
@@ -52,7 +72,7 @@ FMI3_EXPORT fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueRefe
     return fmi3OK;
 }
 
-/* A copy of everything: the run's struct holds no pointer to itself. */
+/* A copy of everything: neither the run's struct nor this one holds a pointer to itself. */
 FMI3_EXPORT fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState *state)
 {
     const Model *m = instance;
@@ -81,9 +101,11 @@ FMI3_EXPORT fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState state
         run = malloc(copy->size);
     if (copy->run && !run)
         return fails(m, "there is no memory", 0);
-    char *name = m->name;
+    const Model own = *m;
     *m = *copy;
-    m->name = name;
+    m->name = own.name;
+    m->environment = own.environment;
+    m->tell = own.tell;
     m->run = run;
     if (copy->run)
         memcpy(run, copy->run, copy->size);
@@ -98,5 +120,47 @@ FMI3_EXPORT fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState *sta
         free(*state);
         *state = NULL;
     }
+    return fmi3OK;
+}
+
+/* The bytes of an instance and of its run, for the same library. */
+FMI3_EXPORT fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState state, size_t *size)
+{
+    const Model *copy = state;
+    (void)instance;
+    *size = sizeof(Model) + (copy->run ? copy->size : 0);
+    return fmi3OK;
+}
+
+FMI3_EXPORT fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState state, uint8_t bytes[], size_t n)
+{
+    const Model *copy = state;
+    size_t size = 0;
+    fmi3SerializedFMUStateSize(instance, state, &size);
+    if (n < size)
+        return fails(instance, "there are fewer bytes than a state has", 0);
+    memcpy(bytes, copy, sizeof(Model));
+    if (copy->run)
+        memcpy(bytes + sizeof(Model), copy->run, copy->size);
+    return fmi3OK;
+}
+
+FMI3_EXPORT fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const uint8_t bytes[], size_t n,
+    fmi3FMUState *state)
+{
+    Model *copy = n < sizeof(Model) ? NULL : malloc(sizeof(Model));
+    *state = NULL;
+    if (!copy)
+        return fails(instance, "these are not the bytes of a state", 0);
+    memcpy(copy, bytes, sizeof(Model));
+    if (copy->run) { /* where it was is of no use: whether there was one */
+        copy->run = n == sizeof(Model) + copy->size ? malloc(copy->size) : NULL;
+        if (!copy->run) {
+            free(copy);
+            return fails(instance, "these are not the bytes of a state", 0);
+        }
+        memcpy(copy->run, bytes + sizeof(Model), copy->size);
+    }
+    *state = copy;
     return fmi3OK;
 }

@@ -1,7 +1,9 @@
-"""A scene as an FMU: FMI 3.0, Co-Simulation, its sources with it and a binary for this machine (engine/fmi).
+"""A scene as an FMU: FMI 3.0, its sources with it and a binary for this machine (engine/fmi).
 
-Parameters are the scene's numbers, outputs all series that are columns of what C computes. The engine's own loops
-integrate between communication points, each of which ends a step; contacts and events are located on the way.
+Parameters are the scene's numbers, outputs all series that are columns of what C computes. In co-simulation the
+engine's own loops integrate between communication points, each of which ends a step; contacts and events are located
+on the way. In model exchange the importer integrates: its states are the coordinates and velocities that the engine
+integrates, and the works; event indicators the penetrations of joints with play.
 https://fmi-standard.org/docs/3.0.2/
 """
 
@@ -14,34 +16,24 @@ import subprocess
 import sys
 import tempfile
 import zipfile
-from collections.abc import Iterator, Mapping, Sequence
-from fractions import Fraction
-from hashlib import sha256
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
-from xml.sax.saxutils import quoteattr
 
-from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import FINE
 from gudgeon.errors import BadValueError, BuildError
+from gudgeon.exchange.fmu_description import UNITS, build, description, kept_from_exchange, outputs, token
 from gudgeon.files.writing import write_bytes
 from gudgeon.integrators.adaptive import FELT_BY_FILMS, RTOL, begins_with, integrated_angles, stiff_of
 from gudgeon.integrators.kinematic import REACH
-from gudgeon.language.units import DIMENSIONLESS, parse_unit
 from gudgeon.loading import compiler
 from gudgeon.loading.engine import engine_files
 from gudgeon.model.parameters import GAINS
 from gudgeon.model.sizes import size_places
-from gudgeon.results.series import catalogue
 
 if TYPE_CHECKING:
     from gudgeon.simulation.simulation import Simulation
 
-TIME, TOLERANCE, PARAMETERS, OUTPUTS = 0, 1, 16, 1 << 20  # value references, as engine/fmi/fmi3.c has them
-PARTS = ("q", "v", "work", "memory", "a", "multipliers", "reactions", "torques", "clearance", "series", "friction",
-         "energy", "power", "drift")  # fmt: skip
-WIDTHS = {"reactions": 3, "clearance": 10, "friction": 2}
-UNITS = ("scene.c", "engine/engine.c", "engine/fmi/fmi3.c")  # what is compiled
 WHEN = (1980, 1, 1, 0, 0, 0)  # of files in the archive: the same bytes each time
 
 
@@ -58,8 +50,8 @@ def fmu_bytes(simulation: Simulation) -> bytes:
     name = re.sub(r"\W", "_", f"{source.mechanism}_{source.scene}", flags=re.ASCII)
     texts = {**source.files, **_engine(), "fmu.h": _header(simulation)}
     files = {
-        "modelDescription.xml": _description(source, name).encode(),
-        "sources/buildDescription.xml": _build(name).encode(),
+        "modelDescription.xml": description(source, name).encode(),
+        "sources/buildDescription.xml": build(name).encode(),
         **{f"sources/{path}": text.encode() for path, text in texts.items()},
     }
     if compiler.is_there():
@@ -97,31 +89,6 @@ def _binary(texts: Mapping[str, str]) -> bytes:
         return Path(folder, "made").read_bytes()
 
 
-def outputs(source: KernelSource) -> Iterator[tuple[str, str, int, int, str]]:
-    """Name, unit, part (−1: states of contacts), column, meaning of each series that is a column."""
-    open_ = {f"{name}.{last}" for name in source.indeterminate for last in ("Fx", "Fy", "M", "torque", "force")}
-    open_ |= {f"lambda.{row.name}" for row in source.rows if row.owner in source.indeterminate}
-    for name, series in catalogue(source).items():
-        if name in open_:
-            continue
-        if series.stored is not None:
-            part, column = series.stored
-        elif series.evaluated is not None:
-            part, index = series.evaluated
-            row, column = index if len(index) == 2 else (0, index[0])
-            column += row * WIDTHS.get(part, 0)
-        else:
-            continue
-        yield name, series.unit, -1 if part == "state" else PARTS.index(part), column, series.meaning
-
-
-def parameters(source: KernelSource) -> Iterator[tuple[int, str, str, float]]:
-    """Place, address, unit and default of each number that may be set; not those that are chosen by a word."""
-    for k, slot in enumerate(source.slots):
-        if not slot.words:
-            yield k, slot.address, slot.unit, slot.default
-
-
 def _header(simulation: Simulation) -> str:
     """fmu.h: what engine/fmi/fmi3.c must know."""
     source, compiled = simulation.source, simulation.compiled
@@ -139,7 +106,7 @@ def _header(simulation: Simulation) -> str:
         "FMU_FILM": int(any(joint.film for joint in source.clearances)), "FMU_FELT": repr(FELT_BY_FILMS),
         "FMU_BEYOND": int(bool(compiled.beyond)), "FMU_REACH": repr(REACH), "FMU_AUTOMATIC": int(not source.explicit),
         "FMU_BEGINS": f'"{begins}"', "FMU_STIFF": f'"{stiff}"', "FMU_BEGINS_FINE": f'"{begins_fine}"',
-        "FMU_STIFF_FINE": f'"{stiff_fine}"',
+        "FMU_STIFF_FINE": f'"{stiff_fine}"', "FMU_EXCHANGE": int(not kept_from_exchange(source)),
     }  # fmt: skip
     lines = ["/* What the FMU's functions must know of this scene. */", "#define FMU_AT_LEAST(n) ((n) > 0 ? (n) : 1)"]
     lines += [f"#define {name} {value}" for name, value in defines.items()]
@@ -159,74 +126,3 @@ def _table(kind: str, name: str, values: Sequence[object], more: str = "") -> st
     rows = [", ".join(cells[k : k + 8]) for k in range(0, len(cells), 8)]
     body = ",\n    ".join(rows)
     return f"static const {kind} {name}[]{more} = {{\n    {body}}};"
-
-
-def token(source: KernelSource) -> str:
-    """By which a library knows that a description is its own."""
-    parts = [source.mechanism, source.scene, *(part for item in sorted(source.files.items()) for part in item)]
-    return "{" + sha256("\0".join(parts).encode()).hexdigest()[:32] + "}"
-
-
-def _unit_name(unit: str) -> str:
-    return f" unit={quoteattr(unit)}" if unit else ""
-
-
-def _units(names: set[str]) -> list[str]:
-    """Each unit by exponents of m, kg and s; angles are told apart by their name."""
-    found = []
-    for name in sorted(names - {""}):
-        parsed = parse_unit(name)
-        of = parsed[0].dimension if parsed else DIMENSIONLESS
-        exponents = {"kg": of.mass, "m": of.length, "s": of.time, "rad": Fraction(name.startswith("rad"))}
-        base = "".join(f' {si}="{e}"' for si, e in exponents.items() if e)
-        whole = all(e.denominator == 1 for e in exponents.values())
-        found.append(f"    <Unit name={quoteattr(name)}>{f'<BaseUnit{base}/>' if whole else ''}</Unit>")
-    return found
-
-
-def _description(source: KernelSource, name: str) -> str:
-    """modelDescription.xml."""
-    told, numbers = list(outputs(source)), list(parameters(source))
-    units = {unit for _, unit, *_ in told} | {unit for _, _, unit, _ in numbers} | {"s"}
-    variables = [
-        f'    <Float64 name="time" valueReference="{TIME}" causality="independent" variability="continuous" unit="s"/>',
-        f'    <Float64 name="relative_tolerance" valueReference="{TOLERANCE}" causality="parameter" variability="fixed"'
-        f' start="{RTOL!r}" description="of a step; docs/methods.md of gudgeon says of what"/>',
-    ]
-    variables += [
-        f'    <Float64 name={quoteattr(address)} valueReference="{PARAMETERS + k}" causality="parameter"'
-        f' variability="fixed" start="{float(default)!r}"{_unit_name(unit)}/>'
-        for k, address, unit, default in numbers
-    ]
-    variables += [
-        f'    <Float64 name={quoteattr(series)} valueReference="{OUTPUTS + k}" causality="output"'
-        f' variability="continuous" initial="calculated"{_unit_name(unit)} description={quoteattr(meaning)}/>'
-        for k, (series, unit, _, _, meaning) in enumerate(told)
-    ]
-    structure = [f'    <Output valueReference="{OUTPUTS + k}"/>' for k in range(len(told))]
-    structure += [f'    <InitialUnknown valueReference="{OUTPUTS + k}"/>' for k in range(len(told))]
-    title = quoteattr(source.title or source.mechanism)
-    return "\n".join([
-        '<?xml version="1.0" encoding="UTF-8"?>',
-        f'<fmiModelDescription fmiVersion="3.0" modelName={quoteattr(name)} instantiationToken="{token(source)}"',
-        f'  description={title} generationTool="gudgeon" variableNamingConvention="flat">',
-        f'  <CoSimulation modelIdentifier="{name}" canHandleVariableCommunicationStepSize="true"',
-        '    canGetAndSetFMUState="true" canSerializeFMUState="false"/>',
-        "  <UnitDefinitions>", *_units(units), "  </UnitDefinitions>",
-        f'  <DefaultExperiment startTime="0" tolerance="{RTOL!r}"/>',
-        "  <ModelVariables>", *variables, "  </ModelVariables>",
-        "  <ModelStructure>", *structure, "  </ModelStructure>",
-        "</fmiModelDescription>", "",
-    ])  # fmt: skip
-
-
-def _build(name: str) -> str:
-    """sources/buildDescription.xml."""
-    return "\n".join([
-        '<?xml version="1.0" encoding="UTF-8"?>', '<fmiBuildDescription fmiVersion="3.0">',
-        f'  <BuildConfiguration modelIdentifier="{name}">',
-        '    <SourceFileSet language="C11" compilerOptions="-ffp-contract=off">',
-        *(f'      <SourceFile name="{unit}"/>' for unit in UNITS),
-        '      <IncludeDirectory name="."/>', "    </SourceFileSet>", '    <Library name="m" external="true"/>',
-        "  </BuildConfiguration>", "</fmiBuildDescription>", "",
-    ])  # fmt: skip

@@ -18,7 +18,8 @@ from typer.testing import CliRunner
 import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import InputError
-from gudgeon.exchange.fmu import OUTPUTS, PARAMETERS, fmu_bytes, outputs, write_fmu
+from gudgeon.exchange.fmu import fmu_bytes, write_fmu
+from gudgeon.exchange.fmu_description import OUTPUTS, PARAMETERS, outputs
 from gudgeon.loading import compiler
 from tests.programs import needs_compiler
 

@@ -1,0 +1,236 @@
+/*
+ * Model exchange: others integrate what the engine's loops do, coordinates of the tree (or of all bodies), their
+ * velocities and the works. Contacts begin and end as events, told by each penetration as an indicator; closed loops
+ * are put back onto their rows as an event, too, where they have drifted.
+ */
+#if FMU_EXCHANGE
+#define DRIFTS 1e-11 /* of the mechanism's size or 1 rad: how far rows may open before they are closed */
+
+/* Rates, and joints with play, at the present state. */
+static int exchange_rates(Model *m, double *dx, Aside *aside)
+{
+    Memory now = m->memory;
+    return motion(m->t, m->x, &now, (const Parameters *)m->p, dx, aside);
+}
+
+static void remember(Model *m) { read_memory(m->latched, &m->memory); }
+
+/* Absolute coordinates from what is integrated, or the other way in co-simulation. */
+static void exchange_places(Model *m)
+{
+    if (m->exchange) {
+        to_absolute(m->t, m->x, &m->memory, (const Parameters *)m->p, m->y);
+    } else {
+        remember(m);
+        from_absolute(m->t, m->y, &m->memory, (const Parameters *)m->p, m->x);
+    }
+}
+
+/* How far the rows are open; with `moves` the state is put back onto them. -1: a row depends on others. */
+static double closes(Model *m, int moves)
+{
+    double most = 0.0;
+    for (int pass = 0; pass < (moves ? 3 : 1) && N_LOOPS > 0; pass++) {
+        double dq[N_X], dv[N_X], worst;
+        Memory now = m->memory;
+        if (closing_of_state(m->t, m->x, &now, (const Parameters *)m->p, dq, dv, &worst))
+            return -1.0;
+        for (int k = 0; k < N_X; k++) {
+            most = fmax(most, fabs(dq[k]) / (fmu_is_angle[k] ? 1.0 : m->extent));
+            if (moves) {
+                m->x[k] -= dq[k];
+                m->x[N_X + k] -= dv[k];
+            }
+        }
+    }
+    return most;
+}
+
+/* Joints that touch from now on, or no longer. */
+static int switches(Model *m, int *changed)
+{
+    double dx[N_Y];
+    Aside aside;
+    const int status = exchange_rates(m, dx, &aside);
+    *changed = 0;
+    for (int i = 0; i < N_CLEARANCES && !status; i++) {
+        const int touches = !isnan(m->latched[i]), within = aside.clearance[i].delta >= 0.0;
+        if (touches == within)
+            continue;
+        const double least = slowest_impact((const Parameters *)m->p, i);
+        m->latched[i] = within ? fmax(aside.clearance[i].deltadot, least) : NAN;
+        m->state[i] = within ? 2 : 0;
+        *changed = 1;
+    }
+    remember(m);
+    return status;
+}
+
+FMI3_EXPORT fmi3Status fmi3EnterEventMode(fmi3Instance instance) { return (void)instance, fmi3OK; }
+FMI3_EXPORT fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance instance) { return (void)instance, fmi3OK; }
+
+FMI3_EXPORT fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *again, fmi3Boolean *terminate,
+    fmi3Boolean *nominals, fmi3Boolean *values, fmi3Boolean *timed, fmi3Float64 *next)
+{
+    Model *m = instance;
+    int changed = 0;
+    const double open = closes(m, 1);
+    const int status = switches(m, &changed);
+    *again = *terminate = *nominals = *timed = false;
+    *next = INFINITY;
+    *values = open != 0.0;
+    m->moved = 1;
+    return status ? fails(m, "the motion cannot be followed", status) : fmi3OK;
+}
+
+FMI3_EXPORT fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean no_return, fmi3Boolean *event,
+    fmi3Boolean *terminate)
+{
+    Model *m = instance;
+    (void)no_return;
+    *event = closes(m, 0) > DRIFTS;
+    *terminate = false;
+    return fmi3OK;
+}
+
+FMI3_EXPORT fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 t)
+{
+    Model *m = instance;
+    m->t = t;
+    m->moved = 1;
+    return fmi3OK;
+}
+
+static fmi3Status counted(const Model *m, size_t n, size_t wanted)
+{
+    return n == wanted ? fmi3OK : fails(m, "another number of values than there are", (int)n);
+}
+
+FMI3_EXPORT fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 x[], size_t n)
+{
+    Model *m = instance;
+    if (counted(m, n, N_Y))
+        return fmi3Error;
+    memcpy(m->x, x, sizeof m->x);
+    m->moved = 1;
+    return fmi3OK;
+}
+
+FMI3_EXPORT fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 x[], size_t n)
+{
+    const Model *m = instance;
+    if (counted(m, n, N_Y))
+        return fmi3Error;
+    memcpy(x, m->x, sizeof m->x);
+    return fmi3OK;
+}
+
+/* What may be left out where a step is too long: the importer takes a shorter one. */
+FMI3_EXPORT fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, fmi3Float64 dx[], size_t n)
+{
+    Model *m = instance;
+    Aside aside;
+    if (counted(m, n, N_Y))
+        return fmi3Error;
+    if (exchange_rates(m, dx, &aside))
+        return fmi3Discard;
+    for (int k = 0; k < N_Y; k++)
+        if (!isfinite(dx[k]))
+            return fmi3Discard;
+    return fmi3OK;
+}
+
+FMI3_EXPORT fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 z[], size_t n)
+{
+    Model *m = instance;
+    double dx[N_Y];
+    Aside aside;
+    if (counted(m, n, N_CLEARANCES))
+        return fmi3Error;
+    if (N_CLEARANCES && exchange_rates(m, dx, &aside))
+        return fmi3Discard;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        z[i] = aside.clearance[i].delta;
+    return fmi3OK;
+}
+
+FMI3_EXPORT fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, fmi3Float64 nominal[], size_t n)
+{
+    const Model *m = instance;
+    if (counted(m, n, N_Y))
+        return fmi3Error;
+    for (int k = 0; k < N_Y; k++)
+        nominal[k] = k < N_X ? (fmu_is_angle[k] ? m->least[1] : m->least[0]) : 1.0;
+    return fmi3OK;
+}
+
+FMI3_EXPORT fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, size_t *n)
+{
+    return (void)instance, *n = N_Y, fmi3OK;
+}
+
+FMI3_EXPORT fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *n)
+{
+    return (void)instance, *n = N_CLEARANCES, fmi3OK;
+}
+
+/* Rates by states: the exact Jacobian. Outputs by states: central differences along the seed. */
+FMI3_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[],
+    size_t n_unknowns, const fmi3ValueReference knowns[], size_t n_knowns, const fmi3Float64 seed[], size_t n_seed,
+    fmi3Float64 sensitivity[], size_t n_sensitivity)
+{
+    Model *m = instance;
+    double J[N_Y * N_Y], f_t[N_Y], along[N_Y] = {0.0}, kept[N_Y];
+    int rates = 0;
+    if (n_seed < n_knowns || n_sensitivity < n_unknowns)
+        return fails(m, "there are fewer values than variables", 0);
+    for (size_t k = 0; k < n_knowns; k++) {
+        if (knowns[k] < VR_STATES || knowns[k] >= VR_STATES + N_Y)
+            return fails(m, "derivatives by states are what there is", (int)knowns[k]);
+        along[knowns[k] - VR_STATES] += seed[k];
+    }
+    if (!m->exchange)
+        exchange_places(m);
+    for (size_t k = 0; k < n_unknowns; k++)
+        rates |= unknowns[k] >= VR_RATES && unknowns[k] < VR_RATES + N_Y;
+    if (rates && gudgeon_jacobian(m->t, m->x, m->latched, m->p, J, f_t))
+        return fails(m, "a constraint row depends on others", 0);
+    for (size_t k = 0; k < n_unknowns; k++) {
+        const fmi3ValueReference r = unknowns[k];
+        sensitivity[k] = 0.0;
+        if (r >= VR_RATES && r < VR_RATES + N_Y) {
+            for (int j = 0; j < N_Y; j++)
+                sensitivity[k] += J[(size_t)(r - VR_RATES) * N_Y + j] * along[j];
+            continue;
+        }
+        if (!m->exchange || r < VR_OUTPUTS || r >= VR_OUTPUTS + FMU_OUTPUTS)
+            return fails(m, "derivatives of rates and outputs are what there is", (int)r);
+        double most = 0.0, ends[2];
+        for (int j = 0; j < N_Y; j++)
+            most = fmax(most, fabs(along[j]) / (j < N_X ? (fmu_is_angle[j] ? m->least[1] : m->least[0]) : 1.0));
+        if (most == 0.0)
+            continue;
+        memcpy(kept, m->x, sizeof kept);
+        for (int side = 0; side < 2; side++) {
+            const double h = (side ? 1e-5 : -1e-5) / most;
+            for (int j = 0; j < N_Y; j++)
+                m->x[j] = kept[j] + h * along[j];
+            m->moved = 1;
+            const int status = follow(m);
+            memcpy(m->x, kept, sizeof kept);
+            m->moved = 1;
+            if (status)
+                return fails(m, "a constraint row depends on others", status);
+            ends[side] = value_of(m, fmu_outputs[r - VR_OUTPUTS][0], fmu_outputs[r - VR_OUTPUTS][1]);
+        }
+        sensitivity[k] = (ends[1] - ends[0]) * most / 2e-5;
+    }
+    return fmi3OK;
+}
+#else
+FMI3_NONE(fmi3EnterEventMode) FMI3_NONE(fmi3UpdateDiscreteStates) FMI3_NONE(fmi3EnterContinuousTimeMode)
+FMI3_NONE(fmi3CompletedIntegratorStep) FMI3_NONE(fmi3SetTime) FMI3_NONE(fmi3SetContinuousStates)
+FMI3_NONE(fmi3GetContinuousStateDerivatives) FMI3_NONE(fmi3GetEventIndicators) FMI3_NONE(fmi3GetContinuousStates)
+FMI3_NONE(fmi3GetNominalsOfContinuousStates) FMI3_NONE(fmi3GetNumberOfEventIndicators)
+FMI3_NONE(fmi3GetNumberOfContinuousStates) FMI3_NONE(fmi3GetDirectionalDerivative)
+#endif

@@ -1,0 +1,184 @@
+"""What FMI's descriptions say of a scene: variables and their places, units, states, what is compiled.
+
+https://fmi-standard.org/docs/3.0.2/
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from hashlib import sha256
+from xml.sax.saxutils import quoteattr
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.integrators.adaptive import RTOL, integrated_angles
+from gudgeon.language.units import DIMENSIONLESS, parse_unit
+from gudgeon.results.series import catalogue
+
+# value references, as engine/fmi/fmi3.c has them
+TIME, TOLERANCE, PARAMETERS, OUTPUTS, STATES, RATES, INDICATORS = 0, 1, 16, 1 << 20, 1 << 24, 1 << 25, 1 << 26
+PARTS = ("q", "v", "work", "memory", "a", "multipliers", "reactions", "torques", "clearance", "series", "friction",
+         "energy", "power", "drift")  # fmt: skip
+WIDTHS = {"reactions": 3, "clearance": 10, "friction": 2}
+UNITS = ("scene.c", "engine/engine.c", "engine/fmi/fmi3.c")  # what is compiled
+
+
+def outputs(source: KernelSource) -> Iterator[tuple[str, str, int, int, str]]:
+    """Name, unit, part (−1: states of contacts), column, meaning of each series that is a column."""
+    open_ = {f"{name}.{last}" for name in source.indeterminate for last in ("Fx", "Fy", "M", "torque", "force")}
+    open_ |= {f"lambda.{row.name}" for row in source.rows if row.owner in source.indeterminate}
+    for name, series in catalogue(source).items():
+        if name in open_:
+            continue
+        if series.stored is not None:
+            part, column = series.stored
+        elif series.evaluated is not None:
+            part, index = series.evaluated
+            row, column = index if len(index) == 2 else (0, index[0])
+            column += row * WIDTHS.get(part, 0)
+        else:
+            continue
+        yield name, series.unit, -1 if part == "state" else PARTS.index(part), column, series.meaning
+
+
+def parameters(source: KernelSource) -> Iterator[tuple[int, str, str, float]]:
+    """Place, address, unit and default of each number that may be set; not those that are chosen by a word."""
+    for k, slot in enumerate(source.slots):
+        if not slot.words:
+            yield k, slot.address, slot.unit, slot.default
+
+
+def kept_from_exchange(source: KernelSource) -> str:
+    """Why a scene goes into an FMU for co-simulation alone; "" if others may integrate it too."""
+    if source.degrees_of_freedom == 0:
+        return "no freedom is left: it follows its drives"
+    if source.frictions or source.rigid:
+        return f"{', '.join((*source.frictions, *source.rigid))}: modes that the engine's own loops switch"
+    if source.rate_jumps:
+        return f"impulses where the rate of {', '.join(source.rate_jumps)} jumps"
+    if source.states:
+        return f"inner states of laws ({', '.join(source.states)})"
+    if source.chain:
+        return "loops that drives alone determine"
+    return source.no_slopes
+
+
+def states(source: KernelSource) -> list[tuple[str, str]]:
+    """Name and unit of each state of model exchange: coordinates, their velocities, the works."""
+    if kept_from_exchange(source):
+        return []
+    names = source.tree if source.formulation == "reduced" else source.coordinates
+    angles = integrated_angles(source)
+    found = [(f"state.{name}", "rad" if angle else "m") for name, angle in zip(names, angles, strict=True)]
+    found += [(f"der(state.{name})", "rad/s" if angle else "m/s") for name, angle in zip(names, angles, strict=True)]
+    return found + [(f"state.work.{kind}", "J") for kind in ("drives", "forces", "clearances")]
+
+
+def token(source: KernelSource) -> str:
+    """By which a library knows that a description is its own."""
+    parts = [source.mechanism, source.scene, *(part for item in sorted(source.files.items()) for part in item)]
+    return "{" + sha256("\0".join(parts).encode()).hexdigest()[:32] + "}"
+
+
+def _rate(unit: str) -> str:
+    """Of a number of that unit."""
+    return {"J": "W", "m/s": "m/s^2", "rad/s": "rad/s^2"}.get(unit, f"{unit}/s")
+
+
+def _unit_name(unit: str) -> str:
+    return f" unit={quoteattr(unit)}" if unit else ""
+
+
+def _units(names: set[str]) -> list[str]:
+    """Each unit by exponents of m, kg and s; angles are told apart by their name."""
+    found = []
+    for name in sorted(names - {""}):
+        parsed = parse_unit(name)
+        of = parsed[0].dimension if parsed else DIMENSIONLESS
+        exponents = {"kg": of.mass, "m": of.length, "s": of.time, "rad": Fraction(name.startswith("rad"))}
+        base = "".join(f' {si}="{e}"' for si, e in exponents.items() if e)
+        whole = all(e.denominator == 1 for e in exponents.values())
+        found.append(f"    <Unit name={quoteattr(name)}>{f'<BaseUnit{base}/>' if whole else ''}</Unit>")
+    return found
+
+
+def _variables(source: KernelSource) -> Iterator[str]:
+    yield (
+        f'    <Float64 name="time" valueReference="{TIME}" causality="independent" variability="continuous" unit="s"/>'
+    )
+    yield (
+        f'    <Float64 name="relative_tolerance" valueReference="{TOLERANCE}" causality="parameter" variability="fixed"'
+        f' start="{RTOL!r}" description="of a step; docs/methods.md of gudgeon says of what"/>'
+    )
+    for k, address, unit, default in parameters(source):
+        yield (
+            f'    <Float64 name={quoteattr(address)} valueReference="{PARAMETERS + k}" causality="parameter"'
+            f' variability="fixed" start="{float(default)!r}"{_unit_name(unit)}/>'
+        )
+    for k, (name, unit, _, _, meaning) in enumerate(outputs(source)):
+        yield (
+            f'    <Float64 name={quoteattr(name)} valueReference="{OUTPUTS + k}" causality="output"'
+            f' variability="continuous" initial="calculated"{_unit_name(unit)} description={quoteattr(meaning)}/>'
+        )
+    for k, (name, unit) in enumerate(states(source)):
+        yield _local(name, STATES + k, unit)
+        yield _local(f"rate of {name}", RATES + k, _rate(unit), f' derivative="{STATES + k}"')
+    for k, name in enumerate(_indicators(source)):
+        yield _local(name, INDICATORS + k, "m")
+
+
+def _local(name: str, reference: int, unit: str, more: str = "") -> str:
+    return (
+        f'    <Float64 name={quoteattr(name)} valueReference="{reference}" causality="local" variability="continuous"'
+        f' initial="calculated"{more}{_unit_name(unit)}/>'
+    )
+
+
+def _indicators(source: KernelSource) -> list[str]:
+    """Of the contacts, in model exchange."""
+    return [] if kept_from_exchange(source) else [f"{joint.name}.indicator" for joint in source.clearances]
+
+
+def _structure(source: KernelSource) -> Iterator[str]:
+    told, integrated = len(list(outputs(source))), len(states(source))
+    found = {"Output": range(OUTPUTS, OUTPUTS + told), "ContinuousStateDerivative": range(RATES, RATES + integrated)}
+    for kind, places in found.items():
+        yield from (f'    <{kind} valueReference="{place}"/>' for place in places)
+    for places in (found["Output"], range(STATES, STATES + integrated), found["ContinuousStateDerivative"]):
+        yield from (f'    <InitialUnknown valueReference="{place}"/>' for place in places)
+    yield from (f'    <EventIndicator valueReference="{INDICATORS + k}"/>' for k in range(len(_indicators(source))))
+
+
+def description(source: KernelSource, name: str) -> str:
+    """modelDescription.xml."""
+    integrated = {unit for _, unit in states(source)}
+    units = {unit for _, unit, *_ in outputs(source)} | {unit for _, _, unit, _ in parameters(source)} | {"s"}
+    units |= integrated | {_rate(unit) for unit in integrated}
+    title = quoteattr(source.title or source.mechanism)
+    slopes = ' providesDirectionalDerivatives="true"'
+    return "\n".join([
+        '<?xml version="1.0" encoding="UTF-8"?>',
+        f'<fmiModelDescription fmiVersion="3.0" modelName={quoteattr(name)} instantiationToken="{token(source)}"',
+        f'  description={title} generationTool="gudgeon" variableNamingConvention="flat">',
+        *([f'  <ModelExchange modelIdentifier="{name}" needsCompletedIntegratorStep="true"',
+           f'    canGetAndSetFMUState="true" canSerializeFMUState="true"{slopes}/>'] if integrated else []),
+        f'  <CoSimulation modelIdentifier="{name}" canHandleVariableCommunicationStepSize="true"',
+        '    canGetAndSetFMUState="true" canSerializeFMUState="true"/>',
+        "  <UnitDefinitions>", *_units(units), "  </UnitDefinitions>",
+        f'  <DefaultExperiment startTime="0" tolerance="{RTOL!r}"/>',
+        "  <ModelVariables>", *_variables(source), "  </ModelVariables>",
+        "  <ModelStructure>", *_structure(source), "  </ModelStructure>",
+        "</fmiModelDescription>", "",
+    ])  # fmt: skip
+
+
+def build(name: str) -> str:
+    """sources/buildDescription.xml."""
+    return "\n".join([
+        '<?xml version="1.0" encoding="UTF-8"?>', '<fmiBuildDescription fmiVersion="3.0">',
+        f'  <BuildConfiguration modelIdentifier="{name}">',
+        '    <SourceFileSet language="C11" compilerOptions="-ffp-contract=off">',
+        *(f'      <SourceFile name="{unit}"/>' for unit in UNITS),
+        '      <IncludeDirectory name="."/>', "    </SourceFileSet>", '    <Library name="m" external="true"/>',
+        "  </BuildConfiguration>", "</fmiBuildDescription>", "",
+    ])  # fmt: skip
