@@ -8,7 +8,7 @@ MYPY := .venv/bin/mypy -p gudgeon && .venv/bin/mypy tests
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help run study study-jansen checks test test-all lint types fuzz docs sanitize mutate bench race map stress peers generated deviations tables setup setup-test clean
+.PHONY: help run study study-jansen checks test test-all lint types fuzz docs sanitize packages mutate bench race map stress peers generated deviations tables setup setup-test clean
 .NOTPARALLEL:
 
 help:  ## this list
@@ -64,6 +64,9 @@ docs:  ## the documentation as a site under build/site: references from docstrin
 sanitize: setup-test  ## the C of every shipped scene under gcc's sanitizers: memory, undefined arithmetic, races. 15 minutes
 	@.venv/bin/python -m tests.sanitize $(ARGS)
 	@.venv/bin/python -m tests.sanitize --threads $(ARGS)
+
+packages: setup-test  ## the wheel and the sdist, installed and run outside this folder under every Python that there is
+	@.venv/bin/python -m tests.packages $(ARGS)
 
 mutate: setup-test  ## mutants of equations, laws, reduction and methods: do their tests notice? ARGS="--count 40"
 	@.venv/bin/python -m tests.mutate $(ARGS)

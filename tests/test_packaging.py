@@ -17,6 +17,7 @@ import pytest
 from ruamel.yaml import YAML
 
 import gudgeon
+from tests.packages import PYTHONS
 
 ROOT = Path(__file__).parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
@@ -131,6 +132,13 @@ def test_what_is_asked_for_is_what_is_imported() -> None:
     assert asked(project["dependencies"]) - used == set()
     assert optional - used == BESIDE
     assert used - asked(project["dependencies"]) - optional == {"scikit-sundae", "_cffi_backend"}  # a peer; cffi's own
+
+
+def test_the_pythons_that_are_told_are_those_that_are_tried() -> None:
+    """By `make packages`, from the oldest that is asked for."""
+    told = re.findall(r"Python :: (3\.\d+)", "\n".join(PROJECT["project"]["classifiers"]))
+    assert [f"python{one}" for one in told] == list(PYTHONS)[: len(told)]
+    assert PROJECT["project"]["requires-python"] == f">={told[0]}"
 
 
 def test_who_cites_is_told_the_version_and_the_licence_that_there_are() -> None:

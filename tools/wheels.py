@@ -31,9 +31,9 @@ MACHINES = ("x86_64", "aarch64")
 MADE = ("pyproject.toml", "LICENSE", "README.md")  # beside the packages
 
 
-def sources(generated: Path) -> list[KernelSource]:
-    """Every scene whose C is kept."""
-    found = (read_generated(path.parent) for path in sorted(generated.glob("*/*/kernel.json")))
+def sources(generated: Path, mechanism: str = "*") -> list[KernelSource]:
+    """Every scene whose C is kept, of one mechanism or of all."""
+    found = (read_generated(path.parent) for path in sorted(generated.glob(f"{mechanism}/*/kernel.json")))
     return [source for source in found if source is not None]
 
 
@@ -72,9 +72,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("out", type=Path, help="the folder for the wheels")
     parser.add_argument("--machine", choices=MACHINES, help="this machine's wheel alone")
+    parser.add_argument("--mechanism", default="*", help="carry the scenes of this one alone")
     arguments = parser.parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
-    scenes = sources(ROOT / "generated")
+    scenes = sources(ROOT / "generated", arguments.mechanism)
     for machine in [arguments.machine] if arguments.machine else ["", *MACHINES]:
         make_wheel(arguments.out, machine, scenes)
     for path in sorted(arguments.out.glob("*.whl")):
