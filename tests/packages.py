@@ -62,8 +62,8 @@ def sdist(folder: Path) -> Path:
 
 def wheel(folder: Path) -> Path:
     """Of this machine, with the press compiled."""
-    carried = ["--machine", platform.machine(), "--mechanism", "nine_bar_press"]
-    subprocess.run([sys.executable, str(ROOT / "tools/wheels.py"), str(folder), *carried], check=True, capture_output=True)
+    carried = [str(folder), "--machine", platform.machine(), "--mechanism", "nine_bar_press"]
+    subprocess.run([sys.executable, str(ROOT / "tools/wheels.py"), *carried], check=True, capture_output=True)
     (made,) = folder.glob("*.whl")
     return made
 
