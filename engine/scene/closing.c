@@ -15,73 +15,111 @@ enum {
     N_NORMAL = N_START_ROWS > N_Q ? N_START_ROWS : N_Q, MAX_CLOSING = 60
 };
 
-/* Rows of the linearized system with what each must still give, columns over their weights; a normal matrix. */
+/* Rows of the linearized system with what each must still give, columns over their weights; a normal matrix, its upper
+ * half. */
 typedef struct {
     double size, reach, weight[N_Q], step[N_Q], placed[N_Q];
     double first[N_Q], beyond[N_Q], other[N_Q];
     double guess[N_GUESS + 1], set[N_SET + N_APART + 1], rates[N_RATES + N_APART + 1];
     double row[N_START_ROWS + 1][N_Q], rest[N_START_ROWS + 1];
-    double normal[N_NORMAL + 1][N_NORMAL + 1], right[N_NORMAL + 1];
+    double normal[N_NORMAL + 1][N_NORMAL + 1], whole[N_NORMAL + 1], right[N_NORMAL + 1];
     int dependent; /* rows that depend on others are left out: they close with them, or the rest says so */
     Asked *asked;
 } Closing;
 
-/* normal x = right by Cholesky's method, x in `right`; 1 where a pivot has (nearly) vanished, or nobody wants it. */
-static int solve_normal(Closing *w, int n)
+/* Where row r has something: a row of joints and drives meets a few coordinates of many. Returns how many. */
+static int places_of(const Closing *w, int r, short *place)
 {
+    int n = 0;
+    for (int k = 0; k < N_Q; k++)
+        if (w->row[r][k] != 0.0)
+            place[n++] = (short)k;
+    return n;
+}
+
+/*
+ * normal = U^T U by Cholesky's method, row by row, of its upper half, in place; 1 where a pivot has (nearly) vanished,
+ * or nobody wants it.
+ */
+static int factor_normal(Closing *w, int n)
+{
+    for (int k = 0; k < n; k++)
+        w->whole[k] = w->normal[k][k];
     for (int k = 0; k < n; k++) {
-        const double whole = w->normal[k][k];
+        double *u = w->normal[k];
         if (given_up(w->asked))
             return 1;
-        for (int i = k; i < n; i++) {
-            double sum = w->normal[i][k];
-            for (int j = 0; j < k; j++)
-                sum -= w->normal[i][j] * w->normal[k][j];
-            w->normal[i][k] = sum;
-        }
-        if (!isfinite(whole) || (!(w->normal[k][k] > 1e-12 * whole) && !w->dependent))
+        if (!isfinite(w->whole[k]) || (!(u[k] > 1e-12 * w->whole[k]) && !w->dependent))
             return 1;
-        if (!(w->normal[k][k] > 1e-12 * whole)) {
+        if (!(u[k] > 1e-12 * w->whole[k])) {
             for (int i = k; i < n; i++)
-                w->normal[i][k] = 0.0;
-            w->normal[k][k] = INFINITY; /* its x is 0 */
+                u[i] = 0.0;
+            u[k] = INFINITY; /* its x is 0 */
             continue;
         }
-        const double root = sqrt(w->normal[k][k]);
+        const double root = sqrt(u[k]);
         for (int i = k; i < n; i++)
-            w->normal[i][k] /= root;
-    }
-    for (int k = 0; k < n; k++) {
-        for (int j = 0; j < k; j++)
-            w->right[k] -= w->normal[k][j] * w->right[j];
-        w->right[k] /= w->normal[k][k];
-    }
-    for (int k = n - 1; k >= 0; k--) {
-        for (int j = k + 1; j < n; j++)
-            w->right[k] -= w->normal[j][k] * w->right[j];
-        w->right[k] /= w->normal[k][k];
+            u[i] /= root;
+        for (int i = k + 1; i < n; i++) {
+            const double factor = u[i];
+            double *below = w->normal[i];
+            for (int j = i; j < n && factor != 0.0; j++)
+                below[j] -= factor * u[j];
+        }
     }
     return 0;
 }
 
-/* The shortest step with row step = rest: step = row^T x, row row^T x = rest. */
-static int shortest_step(Closing *w, int rows)
+/* normal x = right from its factor, x in `right`. */
+static void solve_normal(Closing *w, int n)
 {
+    for (int k = 0; k < n; k++) {
+        const double *u = w->normal[k];
+        w->right[k] /= u[k];
+        for (int i = k + 1; i < n; i++)
+            w->right[i] -= u[i] * w->right[k];
+    }
+    for (int k = n - 1; k >= 0; k--) {
+        for (int j = k + 1; j < n; j++)
+            w->right[k] -= w->normal[k][j] * w->right[j];
+        w->right[k] /= w->normal[k][k];
+    }
+}
+
+/* row row^T and its factor. */
+static int factor_rows(Closing *w, int rows)
+{
+    short place[N_Q];
     for (int i = 0; i < rows; i++) {
-        w->right[i] = w->rest[i];
-        for (int j = 0; j <= i; j++) {
-            w->normal[i][j] = 0.0;
-            for (int k = 0; k < N_Q; k++)
-                w->normal[i][j] += w->row[i][k] * w->row[j][k];
+        const int n = places_of(w, i, place);
+        for (int j = i; j < rows; j++) {
+            double sum = 0.0;
+            for (int k = 0; k < n; k++)
+                sum += w->row[i][place[k]] * w->row[j][place[k]];
+            w->normal[i][j] = sum;
         }
     }
-    if (solve_normal(w, rows))
-        return 1;
-    for (int k = 0; k < N_Q; k++) {
+    return factor_normal(w, rows);
+}
+
+/* The shortest step with row step = rest, of rows whose factor is there: step = row^T x, row row^T x = rest. */
+static void step_of_rows(Closing *w, int rows)
+{
+    for (int i = 0; i < rows; i++)
+        w->right[i] = w->rest[i];
+    solve_normal(w, rows);
+    for (int k = 0; k < N_Q; k++)
         w->step[k] = 0.0;
-        for (int i = 0; i < rows; i++)
+    for (int i = 0; i < rows; i++)
+        for (int k = 0; k < N_Q; k++)
             w->step[k] += w->row[i][k] * w->right[i];
-    }
+}
+
+static int shortest_step(Closing *w, int rows)
+{
+    if (factor_rows(w, rows))
+        return 1;
+    step_of_rows(w, rows);
     return 0;
 }
 
@@ -89,21 +127,27 @@ static int shortest_step(Closing *w, int rows)
 static int nearest_step(Closing *w, int rows)
 {
     double trace = 0.0;
+    short place[N_Q];
     for (int i = 0; i < N_Q; i++) {
         w->right[i] = 0.0;
-        for (int k = 0; k < rows; k++)
-            w->right[i] += w->row[k][i] * w->rest[k];
-        for (int j = 0; j <= i; j++) {
+        for (int j = i; j < N_Q; j++)
             w->normal[i][j] = 0.0;
-            for (int k = 0; k < rows; k++)
-                w->normal[i][j] += w->row[k][i] * w->row[k][j];
+    }
+    for (int r = 0; r < rows; r++) {
+        const int n = places_of(w, r, place);
+        for (int i = 0; i < n; i++) {
+            w->right[place[i]] += w->row[r][place[i]] * w->rest[r];
+            for (int j = i; j < n; j++)
+                w->normal[place[i]][place[j]] += w->row[r][place[i]] * w->row[r][place[j]];
         }
-        trace += w->normal[i][i];
     }
     for (int i = 0; i < N_Q; i++)
+        trace += w->normal[i][i];
+    for (int i = 0; i < N_Q; i++)
         w->normal[i][i] += 1e-10 * trace + 1e-300;
-    if (solve_normal(w, N_Q))
+    if (factor_normal(w, N_Q))
         return 1;
+    solve_normal(w, N_Q);
     for (int k = 0; k < N_Q; k++)
         w->step[k] = w->right[k];
     return 0;
@@ -135,7 +179,8 @@ static void linearized_rows(Closing *w, double t, const double *q, const Paramet
     for (int r = 0; r < N_ALL_ROWS + N_SET; r++) {
         const int is_length = r < N_ALL_ROWS ? row_is_length[r] : set_place[r - N_ALL_ROWS] % 3 != 2;
         for (int k = 0; k < N_Q; k++)
-            w->row[r][k] /= w->weight[k] * (is_length ? w->size : 1.0);
+            if (w->row[r][k] != 0.0)
+                w->row[r][k] /= w->weight[k] * (is_length ? w->size : 1.0);
     }
     open_rows(w, t, q, p);
 }
@@ -165,7 +210,16 @@ static int place_angles(Closing *w, double t, const Parameters *p, double *q)
 /* Whether so much of the rows is none but rounding. */
 static int rows_closed(const Closing *w, double norm) { return norm < 1e-10 + 1e-14 * w->reach / w->size; }
 
-/* Newton with line search, positions put in first; ends where no step helps any more. */
+/* Whether nothing but rounding of the rows' terms is left: no step makes them better, or by luck only. */
+static int rows_rounded(const Closing *w, double norm)
+{
+    return norm <= DBL_EPSILON * sqrt(N_ALL_ROWS + N_SET) * w->reach / w->size;
+}
+
+/*
+ * Newton with line search, positions put in first; ends at rounding, or where no step helps any more. One step is
+ * taken however well the rows are closed: it tells whether they depend on each other.
+ */
 static int close_rows(Closing *w, double t, const Parameters *p, double *q)
 {
     double other[N_Q], share = 1.0;
@@ -178,7 +232,7 @@ static int close_rows(Closing *w, double t, const Parameters *p, double *q)
     for (int k = 0; k < N_Q; k++)
         q[k] += w->step[k] / w->weight[k];
     double norm = open_rows(w, t, q, p);
-    for (int i = 0; i < MAX_CLOSING && share > 1e-4; i++) {
+    for (int i = 0; i < MAX_CLOSING && share > 1e-4 && !(i > 0 && rows_rounded(w, norm)); i++) {
         linearized_rows(w, t, q, p);
         if (shortest_step(w, N_ALL_ROWS + N_SET))
             return 1;

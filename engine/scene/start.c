@@ -145,6 +145,8 @@ static int first_velocities(Closing *w, double t, const Parameters *p, const dou
         for (int r = 0; r < ROWS; r++) {
             most = max_of(most, fabs(w->rest[r]));
             for (int k = 0; k < N_Q; k++) {
+                if (w->row[r][k] == 0.0)
+                    continue;
                 w->rest[r] -= w->row[r][k] * v[k];
                 w->row[r][k] /= root[k];
             }
@@ -152,8 +154,9 @@ static int first_velocities(Closing *w, double t, const Parameters *p, const dou
         }
         if (pass == 3)
             break;
-        if (shortest_step(w, ROWS))
+        if (pass == 0 && factor_rows(w, ROWS)) /* the same rows in each */
             return 1;
+        step_of_rows(w, ROWS);
         for (int k = 0; k < N_Q; k++)
             v[k] += w->step[k] / root[k];
     }
