@@ -6,11 +6,25 @@
 #if FMU_EXCHANGE
 #define DRIFTS 1e-11 /* of the mechanism's size or 1 rad: how far rows may open before they are closed */
 
-/* Rates, and joints with play, at the present state. */
+/*
+ * Rates, and joints with play, at the present state. Between events contacts stay as they are, and so do corners of
+ * expressions, whose branches may lie apart: an importer's step sees one smooth function. Branches of contact laws
+ * meet, and are those of the state: a slip that stays by a corner would be an event again and again.
+ */
 static int exchange_rates(Model *m, double *dx, Aside *aside)
 {
-    Memory now = m->memory;
-    return motion(m->t, m->x, &now, (const Parameters *)m->p, dx, aside);
+    int status = 0, changed = 1;
+    for (int pass = 0; pass < 6 && changed && !status; pass++) {
+        Memory now = m->memory;
+        status = motion(m->t, m->x, &now, (const Parameters *)m->p, dx, aside);
+        changed = 0;
+        for (int k = 0; k < N_SWITCHES && now.held; k++)
+            if (meets[k] && now.side[k] * aside->g[k] < 0.0) {
+                m->memory.side[k] = -now.side[k];
+                changed = 1;
+            }
+    }
+    return status;
 }
 
 static void remember(Model *m) { read_memory(m->latched, &m->memory); }
@@ -46,23 +60,71 @@ static double closes(Model *m, int moves)
     return most;
 }
 
-/* Joints that touch from now on, or no longer. */
-static int switches(Model *m, int *changed)
+/* Indicator k of the state that `aside` is of; a corner that does not act is as far from its zero as it may be. */
+static double indicator_of(const Model *m, const Aside *aside, int k)
+{
+    if (k < N_CLEARANCES)
+        return aside->clearance[k].delta;
+    const int corner = fmu_jumps[k - N_CLEARANCES];
+    return isnan(aside->g[corner]) ? m->memory.side[corner] : aside->g[corner];
+}
+
+/* Functions of corners that are zero to the bit become what they are a moment later. */
+static int look_ahead(Model *m, const double *dx, Aside *aside)
+{
+    int status = 0, some = 0;
+    double x[N_Y], scrap[N_Y];
+    const double t = m->t, moment = 1e-9 * fmax(1e-3, fabs(t));
+    Aside later;
+    for (int k = 0; k < N_SWITCHES; k++)
+        some |= aside->g[k] == 0.0;
+    if (!some)
+        return 0;
+    memcpy(x, m->x, sizeof x);
+    for (int k = 0; k < 2 * N_X; k++)
+        m->x[k] += moment * dx[k];
+    m->t = t + moment;
+    status = exchange_rates(m, scrap, &later);
+    memcpy(m->x, x, sizeof x);
+    m->t = t;
+    for (int k = 0; k < N_SWITCHES && !status; k++)
+        if (aside->g[k] == 0.0)
+            aside->g[k] = later.g[k];
+    return status;
+}
+
+/* What begins here: joints that touch from now on, or no longer, and sides of corners, which may change others. */
+static int switches(Model *m)
 {
     double dx[N_Y];
     Aside aside;
-    const int status = exchange_rates(m, dx, &aside);
-    *changed = 0;
+    int status = exchange_rates(m, dx, &aside), changed = 1;
     for (int i = 0; i < N_CLEARANCES && !status; i++) {
-        const int touches = !isnan(m->latched[i]), within = aside.clearance[i].delta >= 0.0;
+        const Clearance *joint = &aside.clearance[i];
+        const int touches = !isnan(m->latched[i]);
+        /* importers come to zero itself: it is what it becomes */
+        const int within = joint->delta > 0.0 || (joint->delta == 0.0 && joint->deltadot >= 0.0);
         if (touches == within)
             continue;
         const double least = slowest_impact((const Parameters *)m->p, i);
-        m->latched[i] = within ? fmax(aside.clearance[i].deltadot, least) : NAN;
-        m->state[i] = within ? 2 : 0;
-        *changed = 1;
+        m->latched[i] = within ? fmax(joint->deltadot, least) : NAN;
+        m->state[i] = within; /* compressed until its penetration first stops growing, at a completed step */
     }
+    if (!status)
+        status = look_ahead(m, dx, &aside);
+    for (int k = 0; k < N_SWITCHES && !status; k++)
+        m->memory.side[k] = aside.g[k] < 0.0 ? -1.0 : 1.0;
     remember(m);
+    m->memory.held = 1;
+    for (int pass = 0; pass < 6 && changed && !status; pass++) {
+        status = exchange_rates(m, dx, &aside);
+        changed = 0;
+        for (int k = 0; k < N_SWITCHES && !status; k++)
+            if (m->memory.side[k] * aside.g[k] < 0.0) {
+                m->memory.side[k] = -m->memory.side[k];
+                changed = 1;
+            }
+    }
     return status;
 }
 
@@ -73,9 +135,8 @@ FMI3_EXPORT fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boole
     fmi3Boolean *nominals, fmi3Boolean *values, fmi3Boolean *timed, fmi3Float64 *next)
 {
     Model *m = instance;
-    int changed = 0;
+    const int status = switches(m); /* as the importer found it: closing may move what it located back across zero */
     const double open = closes(m, 1);
-    const int status = switches(m, &changed);
     *again = *terminate = *nominals = *timed = false;
     *next = INFINITY;
     *values = open != 0.0;
@@ -87,7 +148,13 @@ FMI3_EXPORT fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Bo
     fmi3Boolean *terminate)
 {
     Model *m = instance;
+    double dx[N_Y];
+    Aside aside;
     (void)no_return;
+    if (N_CLEARANCES && !exchange_rates(m, dx, &aside))
+        for (int i = 0; i < N_CLEARANCES; i++)
+            if (m->state[i] == 1 && aside.clearance[i].deltadot <= 0.0)
+                m->state[i] = 2;
     *event = closes(m, 0) > DRIFTS;
     *terminate = false;
     return fmi3OK;
@@ -145,12 +212,12 @@ FMI3_EXPORT fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64
     Model *m = instance;
     double dx[N_Y];
     Aside aside;
-    if (counted(m, n, N_CLEARANCES))
+    if (counted(m, n, N_INDICATORS))
         return fmi3Error;
-    if (N_CLEARANCES && exchange_rates(m, dx, &aside))
+    if (N_INDICATORS && exchange_rates(m, dx, &aside))
         return fmi3Discard;
-    for (int i = 0; i < N_CLEARANCES; i++)
-        z[i] = aside.clearance[i].delta;
+    for (int k = 0; k < N_INDICATORS; k++)
+        z[k] = indicator_of(m, &aside, k);
     return fmi3OK;
 }
 
@@ -171,7 +238,7 @@ FMI3_EXPORT fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, si
 
 FMI3_EXPORT fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *n)
 {
-    return (void)instance, *n = N_CLEARANCES, fmi3OK;
+    return (void)instance, *n = N_INDICATORS, fmi3OK;
 }
 
 /* Rates by states: the exact Jacobian. Outputs by states: central differences along the seed. */
