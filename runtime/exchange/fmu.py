@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.simulation.simulation import Simulation
 
+README = "README.md"
 WHEN = (1980, 1, 1, 0, 0, 0)  # of files in the archive: the same bytes each time
 
 
@@ -51,11 +52,13 @@ def fmu_bytes(simulation: Simulation) -> bytes:
     if source.contours or source.cdef:
         raise BadValueError("a scene whose bearings have contours does not go into an FMU: they are no numbers of it")
     name = re.sub(r"\W", "_", f"{source.mechanism}_{source.scene}", flags=re.ASCII)
-    texts = {**source.files, **_engine(), "fmu.h": _header(simulation)}
+    own = {path: text for path, text in source.files.items() if path not in (README, "lanes.c")}  # nobody calls those
+    texts = {**own, **_engine(), "fmu.h": _header(simulation)}
     files = {
         "modelDescription.xml": description(source, name).encode(),
         "sources/buildDescription.xml": build(name).encode(),
         **{f"sources/{path}": text.encode() for path, text in texts.items()},
+        f"sources/{README}": _readme(source, name, own).encode(),
     }
     if compiler.is_there():
         files[f"binaries/{_platform()}/{name}{'.dylib' if sys.platform == 'darwin' else '.so'}"] = _binary(texts)
@@ -64,6 +67,21 @@ def fmu_bytes(simulation: Simulation) -> bytes:
         for path, data in files.items():
             archive.writestr(zipfile.ZipInfo(path, WHEN), data, zipfile.ZIP_DEFLATED)
     return room.getvalue()
+
+
+def _readme(source: KernelSource, name: str, own: Mapping[str, str]) -> str:
+    """What is in `sources`: lines of the scene's own page for its files that are there."""
+    lines = [line for line in source.files.get(README, "").splitlines() if line.startswith("- `")]
+    told = [line for line in lines if line.split("`")[1] in own]
+    flags = "-O1 -std=c11 -ffp-contract=off -fPIC -shared -fvisibility=hidden -I."
+    return "\n".join([
+        f"# Sources of the FMU `{name}`", "",
+        f"C that gudgeon wrote for the mechanism `{source.mechanism}`, scene `{source.scene}`, and its engine. SI.", "",
+        *told, "- `fmu.h`: numbers, start and variables of this scene, as the FMU's functions read them",
+        "- `engine/fmi/fmi3.c`: these functions; the rest of `engine` are time loops, methods, contacts, events", "",
+        "In this folder, where the importer does not do it by `buildDescription.xml`:", "", "```",
+        f"cc {flags} {' '.join(UNITS)} -lm -o {name}.so", "```", "",
+    ])  # fmt: skip
 
 
 def _engine() -> dict[str, str]:

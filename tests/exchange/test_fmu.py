@@ -251,15 +251,34 @@ def test_sources_are_whole_and_the_archive_is_the_same_each_time(monkeypatch: py
     assert first == again
     with zipfile.ZipFile(io.BytesIO(first)) as archive:
         names = set(archive.namelist())
-        build = archive.read("sources/buildDescription.xml").decode()
+        build, page = (archive.read(f"sources/{name}").decode() for name in ("buildDescription.xml", "README.md"))
     assert names == {name for name in whole if not name.startswith("binaries/")} and len(whole) == len(names) + 1
     units = re.findall(r'SourceFile name="(.*?)"', build)
     assert units and {f"sources/{unit}" for unit in units} <= names
+    told = re.findall(r"^- `(.*?)`", page, re.MULTILINE)
+    assert {f"sources/{name}" for name in (*told, "buildDescription.xml")} <= names
+    assert {"model.h", "reduced.c", "fmu.h"} <= {*told} and " ".join(units) in page and "ROOT" not in page
 
 
-def test_the_command(tmp_path: Path) -> None:
-    target = tmp_path / "press.fmu"
-    done = CliRunner().invoke(app, ["emit", "nine_bar_press", "--scene", "dry", "-o", str(target)])
+def test_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What it says of the archive, without the library that other tests compile."""
+    monkeypatch.setattr(compiler, "is_there", lambda: False)
+    target = tmp_path / "press.FMU"
+
+    def emitted(*arguments: str) -> Any:
+        return CliRunner().invoke(app, ["emit", *arguments, "-o", str(target)])
+
+    done = emitted("nine_bar_press", "--scene", "dry")
     assert done.exit_code == 0 and fmpy.read_model_description(str(target)).modelName == "nine_bar_press_dry"
-    two = ["emit", "nine_bar_press", "--scene", "dry", "--scene", "ideal", "-o", str(target)]
-    assert CliRunner().invoke(app, two).exit_code == InputError.exit_code
+    assert "Co-Simulation and Model Exchange, scene dry" in done.output and "other scenes" not in done.output
+    assert "sources alone" in done.output
+    done = emitted("nine_bar_press")
+    assert "scene ideal\n" in done.output and "other scenes, by --scene: dry, lubricated" in done.output
+    assert "Co-Simulation alone (no freedom is left" in emitted("four_bar").output
+    assert emitted("nine_bar_press", "--scene", "dry", "--scene", "ideal").exit_code == InputError.exit_code
+
+
+def test_python_writes_the_same_archive(tmp_path: Path) -> None:
+    pendulum = scene("pendulum", "ideal")
+    gudgeon.write_fmu(pendulum, tmp_path / "pendulum.fmu")
+    assert (tmp_path / "pendulum.fmu").read_bytes() == archive(pendulum)
