@@ -29,7 +29,7 @@ typedef struct {
     Followed out;
 #if FMU_EXCHANGE
     int exchange; /* whether others integrate */
-    double x[N_Y], least[2], extent;
+    double x[N_Y], nominal[N_Y], extent;
     Memory memory;
 #endif
     size_t size;
@@ -62,6 +62,9 @@ static fmi3Status fails(const Model *m, const char *what, int status)
 #include "conditions.c"
 #if INTEGRATES
 static int advance(Model *m, double t);
+#endif
+#if FMU_EXCHANGE
+static int nominals_at_start(Model *m, const double *least);
 #endif
 
 /* Numbers of the run, the start that closes the linkage, and a run that begins there. */
@@ -126,11 +129,13 @@ static fmi3Status begin(Model *m)
     }
     m->ended = 0;
 #if FMU_EXCHANGE
-    memcpy(m->least, least, sizeof least);
     m->extent = size;
     memset(&m->memory, 0, sizeof m->memory);
     read_memory(m->latched, &m->memory);
     from_absolute(m->t, m->y, &m->memory, (const Parameters *)m->p, m->x);
+    const int odd = nominals_at_start(m, least);
+    if (odd)
+        return fails(m, "the motion cannot begin", odd);
 #endif
 #else
     m->size = gudgeon_course_size();

@@ -142,6 +142,24 @@ def contact(simulation: gudgeon.Simulation, folder: Path) -> Iterator[tuple[str,
         yield "AB"[onset["joint"]], onset["joint"], onset, states_there()
 
 
+def test_nominals_are_what_counts_in_the_motion(tmp_path: Path) -> None:
+    """Of angles c over the mechanism's size, of their velocities the largest so far, of works the kinetic energy."""
+    simulation = scene("nine_bar_press", "dry")
+    energy = simulation.simulate(0.001, output=2)["energy.kinetic"][0]
+    with model(written(simulation, tmp_path)) as made:
+        first, x = (vector(made, f"get{which}ContinuousStates", 13) for which in ("NominalsOf", ""))
+        assert first[:5] == pytest.approx(np.full(5, 6e-4), rel=1e-12)
+        assert first[5:10] == pytest.approx(np.full(5, abs(x[5:10]).max()), rel=1e-12)
+        assert first[10:] == pytest.approx(np.full(3, energy), rel=1e-9)
+        put(made, 0.0, [*x[:5], *(3.0 * x[5:10]), *x[10:]])
+        for changed in (True, False):
+            made.enterEventMode()
+            assert made.updateDiscreteStates()[2] == changed
+            made.enterContinuousTimeMode()
+        later, x = (vector(made, f"get{which}ContinuousStates", 13) for which in ("NominalsOf", ""))
+        assert later[5] == pytest.approx(abs(x[5:10]).max(), rel=1e-12) and later[5] > 2.0 * first[5]
+
+
 def put(made: Any, t: float, x: list[float]) -> None:
     made.setTime(t)
     made.setContinuousStates((c_double * len(x))(*x), len(x))
