@@ -55,7 +55,10 @@ static fmi3Status fails(const Model *m, const char *what, int status)
         : status == STALLED || status == TOO_SMALL ? ": no step is small enough"
         : status == NOT_FINITE || status == UNBOUNDED ? ": it is no longer finite"
         : status == JAMMED ? ": friction jams a contact" : "";
-    snprintf(text, sizeof text, "%s at t = %.9g s%s (status %d)", what, m->t, why, status);
+    if (status)
+        snprintf(text, sizeof text, "%s at t = %.9g s%s (status %d)", what, m->t, why, status);
+    else
+        snprintf(text, sizeof text, "%s at t = %.9g s", what, m->t);
     return refuses(m, text);
 }
 
