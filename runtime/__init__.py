@@ -24,6 +24,7 @@ if TYPE_CHECKING:
         SingularError,
         SolverError,
     )
+    from gudgeon.exchange.fmu import write_fmu
     from gudgeon.generator.kinds.laws.registered import register
     from gudgeon.results.batch import Batch
     from gudgeon.results.join import join
@@ -44,6 +45,7 @@ _HOME = {
     "wear": "simulation.wear",
     "wear_loop": "simulation.wear_loop",
     "join": "results.join",
+    "write_fmu": "exchange.fmu",
     "register": "generator.kinds.laws.registered",
     "study": "studies.ensemble.study",
     "load_study": "studies.ensemble.study",
@@ -85,6 +87,7 @@ __all__ = [
     "study",
     "wear",
     "wear_loop",
+    "write_fmu",
 ]
 
 

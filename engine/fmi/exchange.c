@@ -6,11 +6,71 @@
 #if FMU_EXCHANGE
 #define DRIFTS 1e-11 /* of the mechanism's size or 1 rad: how far rows may open before they are closed */
 
-/* Rates, and joints with play, at the present state. */
+/*
+ * Rates, and joints with play, at the present state. Between events contacts stay as they are, and so do corners of
+ * expressions, whose branches may lie apart: an importer's step sees one smooth function. Branches of contact laws
+ * meet, and are those of the state: a slip that stays by a corner would be an event again and again.
+ */
 static int exchange_rates(Model *m, double *dx, Aside *aside)
 {
-    Memory now = m->memory;
-    return motion(m->t, m->x, &now, (const Parameters *)m->p, dx, aside);
+    int status = 0, changed = 1;
+    for (int pass = 0; pass < 6 && changed && !status; pass++) {
+        Memory now = m->memory;
+        status = motion(m->t, m->x, &now, (const Parameters *)m->p, dx, aside);
+        changed = 0;
+        for (int k = 0; k < N_SWITCHES && now.held; k++)
+            if (meets[k] && now.side[k] * aside->g[k] < 0.0) {
+                m->memory.side[k] = -now.side[k];
+                changed = 1;
+            }
+    }
+    return status;
+}
+
+/* The largest velocity of a kind counts for all of it; of works the energy of the motion. 1: some are larger now. */
+static int note_nominals(Model *m)
+{
+    double mass[N_Q], all[N_S], energy = 0.0;
+    int more = 0;
+    mass_matrix((const Parameters *)m->p, mass);
+    to_absolute(m->t, m->x, &m->memory, (const Parameters *)m->p, all);
+    for (int k = 0; k < N_Q; k++)
+        energy += 0.5 * mass[k] * all[N_Q + k] * all[N_Q + k];
+    for (int k = N_X; k < N_Y; k++) {
+        double most = m->nominal[k];
+        for (int i = 0; i < N_X && k < 2 * N_X; i++)
+            if (fmu_is_angle[i] == fmu_is_angle[k - N_X])
+                most = fmax(most, fabs(m->x[N_X + i]));
+        most = k < 2 * N_X ? most : fmax(most, energy);
+        more |= most > m->nominal[k];
+        m->nominal[k] = most;
+    }
+    return more;
+}
+
+/*
+ * What counts as much, as in the engine's own runs (methods/begin.c): of coordinates the smallest length or angle that
+ * matters; of velocities at least a hundredth of what leads over that in the time that the start takes for it.
+ */
+static int nominals_at_start(Model *m, const double *least)
+{
+    double dx[N_Y], mass[N_Q], rate = 0.0, energy = 0.0;
+    Aside aside;
+    const int status = exchange_rates(m, dx, &aside);
+    for (int k = 0; k < N_X && !status; k++) {
+        const double way = least[fmu_is_angle[k]];
+        rate = fmax(rate, fmax(fabs(dx[k]) / way, sqrt(fabs(dx[N_X + k]) / way)));
+    }
+    rate = rate * (m->t_end - m->t) > 1e-3 ? 0.01 * rate : 1.0 / fmax(m->t_end - m->t, 1e-100);
+    mass_matrix((const Parameters *)m->p, mass);
+    for (int k = 0; k < N_Q; k++)
+        energy += 0.5 * mass[k] * least[k % 3 == 2] * rate * least[k % 3 == 2] * rate;
+    for (int k = 0; k < N_Y; k++) {
+        const double way = k < 2 * N_X ? least[fmu_is_angle[k % N_X]] : 0.0;
+        m->nominal[k] = k < N_X ? way : k < 2 * N_X ? way * rate : energy;
+    }
+    note_nominals(m);
+    return status;
 }
 
 static void remember(Model *m) { read_memory(m->latched, &m->memory); }
@@ -46,23 +106,71 @@ static double closes(Model *m, int moves)
     return most;
 }
 
-/* Joints that touch from now on, or no longer. */
-static int switches(Model *m, int *changed)
+/* Indicator k of the state that `aside` is of; a corner that does not act is as far from its zero as it may be. */
+static double indicator_of(const Model *m, const Aside *aside, int k)
+{
+    if (k < N_CLEARANCES)
+        return aside->clearance[k].delta;
+    const int corner = fmu_jumps[k - N_CLEARANCES];
+    return isnan(aside->g[corner]) ? m->memory.side[corner] : aside->g[corner];
+}
+
+/* Functions of corners that are zero to the bit become what they are a moment later. */
+static int look_ahead(Model *m, const double *dx, Aside *aside)
+{
+    int status = 0, some = 0;
+    double x[N_Y], scrap[N_Y];
+    const double t = m->t, moment = 1e-9 * fmax(1e-3, fabs(t));
+    Aside later;
+    for (int k = 0; k < N_SWITCHES; k++)
+        some |= aside->g[k] == 0.0;
+    if (!some)
+        return 0;
+    memcpy(x, m->x, sizeof x);
+    for (int k = 0; k < 2 * N_X; k++)
+        m->x[k] += moment * dx[k];
+    m->t = t + moment;
+    status = exchange_rates(m, scrap, &later);
+    memcpy(m->x, x, sizeof x);
+    m->t = t;
+    for (int k = 0; k < N_SWITCHES && !status; k++)
+        if (aside->g[k] == 0.0)
+            aside->g[k] = later.g[k];
+    return status;
+}
+
+/* What begins here: joints that touch from now on, or no longer, and sides of corners, which may change others. */
+static int switches(Model *m)
 {
     double dx[N_Y];
     Aside aside;
-    const int status = exchange_rates(m, dx, &aside);
-    *changed = 0;
+    int status = exchange_rates(m, dx, &aside), changed = 1;
     for (int i = 0; i < N_CLEARANCES && !status; i++) {
-        const int touches = !isnan(m->latched[i]), within = aside.clearance[i].delta >= 0.0;
+        const Clearance *joint = &aside.clearance[i];
+        const int touches = !isnan(m->latched[i]);
+        /* importers come to zero itself: it is what it becomes */
+        const int within = joint->delta > 0.0 || (joint->delta == 0.0 && joint->deltadot >= 0.0);
         if (touches == within)
             continue;
         const double least = slowest_impact((const Parameters *)m->p, i);
-        m->latched[i] = within ? fmax(aside.clearance[i].deltadot, least) : NAN;
-        m->state[i] = within ? 2 : 0;
-        *changed = 1;
+        m->latched[i] = within ? fmax(joint->deltadot, least) : NAN;
+        m->state[i] = within; /* compressed until its penetration first stops growing, at a completed step */
     }
+    if (!status)
+        status = look_ahead(m, dx, &aside);
+    for (int k = 0; k < N_SWITCHES && !status; k++)
+        m->memory.side[k] = aside.g[k] < 0.0 ? -1.0 : 1.0;
     remember(m);
+    m->memory.held = 1;
+    for (int pass = 0; pass < 6 && changed && !status; pass++) {
+        status = exchange_rates(m, dx, &aside);
+        changed = 0;
+        for (int k = 0; k < N_SWITCHES && !status; k++)
+            if (m->memory.side[k] * aside.g[k] < 0.0) {
+                m->memory.side[k] = -m->memory.side[k];
+                changed = 1;
+            }
+    }
     return status;
 }
 
@@ -73,10 +181,10 @@ FMI3_EXPORT fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boole
     fmi3Boolean *nominals, fmi3Boolean *values, fmi3Boolean *timed, fmi3Float64 *next)
 {
     Model *m = instance;
-    int changed = 0;
+    const int status = switches(m); /* as the importer found it: closing may move what it located back across zero */
     const double open = closes(m, 1);
-    const int status = switches(m, &changed);
-    *again = *terminate = *nominals = *timed = false;
+    *again = *terminate = *timed = false;
+    *nominals = !status && note_nominals(m);
     *next = INFINITY;
     *values = open != 0.0;
     m->moved = 1;
@@ -87,7 +195,13 @@ FMI3_EXPORT fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Bo
     fmi3Boolean *terminate)
 {
     Model *m = instance;
+    double dx[N_Y];
+    Aside aside;
     (void)no_return;
+    if (N_CLEARANCES && !exchange_rates(m, dx, &aside))
+        for (int i = 0; i < N_CLEARANCES; i++)
+            if (m->state[i] == 1 && aside.clearance[i].deltadot <= 0.0)
+                m->state[i] = 2;
     *event = closes(m, 0) > DRIFTS;
     *terminate = false;
     return fmi3OK;
@@ -145,12 +259,12 @@ FMI3_EXPORT fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64
     Model *m = instance;
     double dx[N_Y];
     Aside aside;
-    if (counted(m, n, N_CLEARANCES))
+    if (counted(m, n, N_INDICATORS))
         return fmi3Error;
-    if (N_CLEARANCES && exchange_rates(m, dx, &aside))
+    if (N_INDICATORS && exchange_rates(m, dx, &aside))
         return fmi3Discard;
-    for (int i = 0; i < N_CLEARANCES; i++)
-        z[i] = aside.clearance[i].delta;
+    for (int k = 0; k < N_INDICATORS; k++)
+        z[k] = indicator_of(m, &aside, k);
     return fmi3OK;
 }
 
@@ -159,8 +273,7 @@ FMI3_EXPORT fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, 
     const Model *m = instance;
     if (counted(m, n, N_Y))
         return fmi3Error;
-    for (int k = 0; k < N_Y; k++)
-        nominal[k] = k < N_X ? (fmu_is_angle[k] ? m->least[1] : m->least[0]) : 1.0;
+    memcpy(nominal, m->nominal, sizeof m->nominal);
     return fmi3OK;
 }
 
@@ -171,62 +284,10 @@ FMI3_EXPORT fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, si
 
 FMI3_EXPORT fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *n)
 {
-    return (void)instance, *n = N_CLEARANCES, fmi3OK;
+    return (void)instance, *n = N_INDICATORS, fmi3OK;
 }
 
-/* Rates by states: the exact Jacobian. Outputs by states: central differences along the seed. */
-FMI3_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[],
-    size_t n_unknowns, const fmi3ValueReference knowns[], size_t n_knowns, const fmi3Float64 seed[], size_t n_seed,
-    fmi3Float64 sensitivity[], size_t n_sensitivity)
-{
-    Model *m = instance;
-    double J[N_Y * N_Y], f_t[N_Y], along[N_Y] = {0.0}, kept[N_Y];
-    int rates = 0;
-    if (n_seed < n_knowns || n_sensitivity < n_unknowns)
-        return fails(m, "there are fewer values than variables", 0);
-    for (size_t k = 0; k < n_knowns; k++) {
-        if (knowns[k] < VR_STATES || knowns[k] >= VR_STATES + N_Y)
-            return fails(m, "derivatives by states are what there is", (int)knowns[k]);
-        along[knowns[k] - VR_STATES] += seed[k];
-    }
-    if (!m->exchange)
-        exchange_places(m);
-    for (size_t k = 0; k < n_unknowns; k++)
-        rates |= unknowns[k] >= VR_RATES && unknowns[k] < VR_RATES + N_Y;
-    if (rates && gudgeon_jacobian(m->t, m->x, m->latched, m->p, J, f_t))
-        return fails(m, "a constraint row depends on others", 0);
-    for (size_t k = 0; k < n_unknowns; k++) {
-        const fmi3ValueReference r = unknowns[k];
-        sensitivity[k] = 0.0;
-        if (r >= VR_RATES && r < VR_RATES + N_Y) {
-            for (int j = 0; j < N_Y; j++)
-                sensitivity[k] += J[(size_t)(r - VR_RATES) * N_Y + j] * along[j];
-            continue;
-        }
-        if (!m->exchange || r < VR_OUTPUTS || r >= VR_OUTPUTS + FMU_OUTPUTS)
-            return fails(m, "derivatives of rates and outputs are what there is", (int)r);
-        double most = 0.0, ends[2];
-        for (int j = 0; j < N_Y; j++)
-            most = fmax(most, fabs(along[j]) / (j < N_X ? (fmu_is_angle[j] ? m->least[1] : m->least[0]) : 1.0));
-        if (most == 0.0)
-            continue;
-        memcpy(kept, m->x, sizeof kept);
-        for (int side = 0; side < 2; side++) {
-            const double h = (side ? 1e-5 : -1e-5) / most;
-            for (int j = 0; j < N_Y; j++)
-                m->x[j] = kept[j] + h * along[j];
-            m->moved = 1;
-            const int status = follow(m);
-            memcpy(m->x, kept, sizeof kept);
-            m->moved = 1;
-            if (status)
-                return fails(m, "a constraint row depends on others", status);
-            ends[side] = value_of(m, fmu_outputs[r - VR_OUTPUTS][0], fmu_outputs[r - VR_OUTPUTS][1]);
-        }
-        sensitivity[k] = (ends[1] - ends[0]) * most / 2e-5;
-    }
-    return fmi3OK;
-}
+#include "slopes.c"
 #else
 FMI3_NONE(fmi3EnterEventMode) FMI3_NONE(fmi3UpdateDiscreteStates) FMI3_NONE(fmi3EnterContinuousTimeMode)
 FMI3_NONE(fmi3CompletedIntegratorStep) FMI3_NONE(fmi3SetTime) FMI3_NONE(fmi3SetContinuousStates)

@@ -87,9 +87,13 @@ FMI3_EXPORT fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Bo
     fmi3Float64 tolerance, fmi3Float64 start, fmi3Boolean has_stop, fmi3Float64 stop)
 {
     Model *m = instance;
+    if (m->phase != SETTING)
+        return refuses(m, "initialization mode is entered once, after instantiation or a reset");
+    m->phase = INITIALIZING;
+    m->begun = 0; /* outputs may have been asked for before */
     m->t = start;
     m->t_end = has_stop ? stop : start + TIME_CONSTANT;
-    if (has_tolerance && tolerance > 0.0 && tolerance < 1.0)
+    if (has_tolerance && tolerance > 0.0 && tolerance < 1.0 && !m->rtol_given)
         m->rtol = fmax(tolerance, 1e-14);
     return fmi3OK;
 }
@@ -97,7 +101,12 @@ FMI3_EXPORT fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Bo
 FMI3_EXPORT fmi3Status fmi3ExitInitializationMode(fmi3Instance instance)
 {
     Model *m = instance;
-    return m->begun ? fmi3OK : begin(m);
+    if (m->phase != INITIALIZING)
+        return refuses(m, "initialization mode was not entered");
+    if (!m->begun && begin(m))
+        return fmi3Error;
+    m->phase = RUNNING;
+    return fmi3OK;
 }
 
 FMI3_EXPORT fmi3Status fmi3Terminate(fmi3Instance instance) { return (void)instance, fmi3OK; }
@@ -107,7 +116,8 @@ FMI3_EXPORT fmi3Status fmi3Reset(fmi3Instance instance)
     Model *m = instance;
     memset(m->is_given, 0, sizeof m->is_given);
     m->rtol = FMU_RTOL;
-    m->begun = m->ended = 0;
+    m->begun = m->ended = m->rtol_given = 0;
+    m->phase = SETTING;
     m->t = 0.0;
     return fmi3OK;
 }
@@ -119,6 +129,8 @@ FMI3_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 t, fmi3Floa
     (void)no_return;
     *event_needed = *terminate = *early = false;
     *last = m->t;
+    if (m->phase != RUNNING)
+        return refuses(m, "a step is made after initialization");
     if (!(h > 0.0) || fabs(t - m->t) > 1e-9 * fmax(1.0, fabs(t)))
         return fails(m, "a step begins where the last one ended, and is longer than 0", 0);
     const double end = t + h;

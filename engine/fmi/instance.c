@@ -3,7 +3,9 @@
  */
 enum {
     VR_TIME = 0, VR_RTOL = 1, VR_PARAMETERS = 16, VR_OUTPUTS = 1 << 20, VR_STATES = 1 << 24, VR_RATES = 1 << 25,
-    VR_INDICATORS = 1 << 26, SLICE = 4000
+    VR_INDICATORS = 1 << 26, SLICE = 4000,
+    SETTING = 0, INITIALIZING, RUNNING, /* parameters are set in the first two */
+    N_INDICATORS = N_CLEARANCES + FMU_JUMPS /* in model exchange: contacts, corners whose branches may lie apart */
 };
 #define TIME_CONSTANT 1e3 /* s: an end that nobody has said */
 
@@ -20,27 +22,53 @@ typedef struct {
     double given[FMU_SLOTS], p[FMU_NUMBERS], motion[FMU_NUMBERS];
     unsigned char is_given[FMU_SLOTS];
     double t, t_end, rtol;
+    int phase, rtol_given; /* one of the enum's; whether the tolerance was set: an importer's own does not change it */
     double y[N_S], latched[FMU_AT_LEAST(N_MEMORY)], a[FMU_AT_LEAST(N_Q)];
     signed char state[FMU_AT_LEAST(N_CLEARANCES)];
     int moved, begun, ended; /* whether outputs are of another state; the run has begun; an event has ended it */
     Followed out;
 #if FMU_EXCHANGE
     int exchange; /* whether others integrate */
-    double x[N_Y], least[2], extent;
+    double x[N_Y], nominal[N_Y], extent;
     Memory memory;
 #endif
     size_t size;
     void *run;
 } Model;
 
-static fmi3Status fails(const Model *m, const char *what, int status)
+static fmi3Status refuses(const Model *m, const char *what)
 {
-    char text[300];
-    snprintf(text, sizeof text, "%s: %s at t = %.9g s (status %d)", m->name, what, m->t, status);
+    char text[700];
+    snprintf(text, sizeof text, "%s: %s", m->name, what);
     if (m->tell)
         m->tell(m->environment, fmi3Error, "logStatusError", text);
     return fmi3Error;
 }
+
+/* The sentence is for where a status is one of those of the engine's loops. */
+static fmi3Status fails(const Model *m, const char *what, int status)
+{
+    char text[600];
+    const char *why = status == OUTSIDE ? ": a journal lies deeper in its bearing than its contact law is good for"
+        : status == LOST ? ": a free journal lies outside its bearing"
+        : status == CHATTERING ? ": contacts, frictions or corners change without end"
+        : status == STALLED || status == TOO_SMALL ? ": no step is small enough"
+        : status == NOT_FINITE || status == UNBOUNDED ? ": it is no longer finite"
+        : status == JAMMED ? ": friction jams a contact" : "";
+    if (status)
+        snprintf(text, sizeof text, "%s at t = %.9g s%s (status %d)", what, m->t, why, status);
+    else
+        snprintf(text, sizeof text, "%s at t = %.9g s", what, m->t);
+    return refuses(m, text);
+}
+
+#include "conditions.c"
+#if INTEGRATES
+static int advance(Model *m, double t);
+#endif
+#if FMU_EXCHANGE
+static int nominals_at_start(Model *m, const double *least);
+#endif
 
 /* Numbers of the run, the start that closes the linkage, and a run that begins there. */
 static fmi3Status begin(Model *m)
@@ -49,6 +77,11 @@ static fmi3Status begin(Model *m)
     unsigned char projected[FMU_SLOTS];
     double still[FMU_SLOTS];
     gudgeon_prepare(m->given, m->is_given, m->p);
+    for (int k = 0; k < FMU_SIZES; k++)
+        size = fmax(size, fabs(m->p[fmu_sizes[k]]));
+    size = size > 0.0 ? size : 1.0;
+    if (!allowed(m, size))
+        return fmi3Error;
     memcpy(projected, m->is_given, sizeof projected);
     memcpy(still, m->given, sizeof still);
     for (int k = 0; k < FMU_GAINS; k++) {
@@ -56,9 +89,6 @@ static fmi3Status begin(Model *m)
         still[fmu_gains[k]] = 0.0;
     }
     gudgeon_prepare(still, projected, m->motion);
-    for (int k = 0; k < FMU_SIZES; k++)
-        size = fmax(size, fabs(m->p[fmu_sizes[k]]));
-    size = size > 0.0 ? size : 1.0;
     memset(m->y, 0, sizeof m->y);
     if (gudgeon_start(m->t, m->p, size, q, v, &residual)) { /* from where it closes with the file's numbers */
         int some = 0;
@@ -86,19 +116,30 @@ static fmi3Status begin(Model *m)
         scale[k] = m->rtol * (fmu_is_angle[k] ? least[1] : length);
         scale[N_X + k] = FMU_FILM ? fmin(m->rtol, FMU_FELT * least[1]) : m->rtol;
     }
+    const int fine = m->rtol < FMU_FINE;
+    double y[N_S], latched[FMU_AT_LEAST(N_MEMORY)];
+    memcpy(y, m->y, sizeof y);
+    memcpy(latched, m->latched, sizeof latched);
+    /* contacts and modes of friction that it begins with; then the run itself, whose lengths its end decides */
+    for (int start = 1; start >= 0; start--) {
+        gudgeon_run_start(m->run, m->motion, m->t, y, latched);
+        gudgeon_run_stop(m->run, !start);
+        gudgeon_adaptive_setup(m->run, gudgeon_method(fine ? FMU_BEGINS_FINE : FMU_BEGINS),
+            FMU_AUTOMATIC ? gudgeon_method(fine ? FMU_STIFF_FINE : FMU_STIFF) : 0, scale, least, 0.0);
+        const int status = start ? advance(m, m->t) : 0;
+        if (status)
+            return fails(m, "the motion cannot begin", status);
+    }
+    m->ended = 0;
 #if FMU_EXCHANGE
-    memcpy(m->least, least, sizeof least);
     m->extent = size;
     memset(&m->memory, 0, sizeof m->memory);
-    memset(m->state, 0, sizeof m->state);
     read_memory(m->latched, &m->memory);
     from_absolute(m->t, m->y, &m->memory, (const Parameters *)m->p, m->x);
+    const int odd = nominals_at_start(m, least);
+    if (odd)
+        return fails(m, "the motion cannot begin", odd);
 #endif
-    const int fine = m->rtol < FMU_FINE;
-    gudgeon_run_start(m->run, m->motion, m->t, m->y, m->latched);
-    gudgeon_run_stop(m->run, 1);
-    gudgeon_adaptive_setup(m->run, gudgeon_method(fine ? FMU_BEGINS_FINE : FMU_BEGINS),
-        FMU_AUTOMATIC ? gudgeon_method(fine ? FMU_STIFF_FINE : FMU_STIFF) : 0, scale, least, 0.0);
 #else
     m->size = gudgeon_course_size();
     m->run = calloc(1, m->size);

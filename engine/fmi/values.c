@@ -31,7 +31,7 @@ FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueRefe
                 exchange_places(m);
             value[k] = m->x[r - VR_STATES];
         } else if ((r >= VR_RATES && r < VR_RATES + N_Y)
-            || (r >= VR_INDICATORS && r < VR_INDICATORS + N_CLEARANCES)) {
+            || (r >= VR_INDICATORS && r < VR_INDICATORS + N_INDICATORS)) {
             double dx[N_Y];
             Aside aside;
             if (!m->begun && begin(m))
@@ -41,7 +41,7 @@ FMI3_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueRefe
             const int status = exchange_rates(m, dx, &aside);
             if (status)
                 return fails(m, "a constraint row depends on others", status);
-            value[k] = r < VR_INDICATORS ? dx[r - VR_RATES] : aside.clearance[r - VR_INDICATORS].delta;
+            value[k] = r < VR_INDICATORS ? dx[r - VR_RATES] : indicator_of(m, &aside, (int)(r - VR_INDICATORS));
 #endif
         } else {
             return fails(m, "a variable that there is not", (int)r);
@@ -58,14 +58,26 @@ FMI3_EXPORT fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueRefe
         return fails(m, "there are fewer values than variables", 0);
     for (size_t k = 0; k < n; k++) {
         const fmi3ValueReference r = reference[k];
-        if (r == VR_RTOL && value[k] >= 1e-14 && value[k] < 1.0) {
+        const int slot = r >= VR_PARAMETERS && r < VR_PARAMETERS + FMU_SLOTS_USED ? (int)(r - VR_PARAMETERS) : -1;
+        const char *name = r == VR_RTOL ? "relative_tolerance" : slot >= 0 ? fmu_slots[slot].address : NULL;
+        char text[400];
+        if (!name || (slot >= 0 && fmu_slots[slot].chosen))
+            return fails(m, "a variable that there is not, or that is not set", (int)r);
+        if (m->phase == RUNNING) { /* the motion goes on as it was */
+            snprintf(text, sizeof text, "%s is fixed: it is set before initialization ends", name);
+            return refuses(m, text);
+        }
+        if (slot < 0 ? !(value[k] >= 1e-14 && value[k] < 1.0) : !isfinite(value[k])) {
+            snprintf(text, sizeof text, "%s is %g: expected %s", name, value[k],
+                slot < 0 ? ">= 1e-14 and < 1" : "a finite number");
+            return refuses(m, text);
+        }
+        if (slot < 0) {
             m->rtol = value[k];
-        } else if (r >= VR_PARAMETERS && r < VR_PARAMETERS + FMU_SLOTS_USED && isfinite(value[k])) {
-            const int i = (int)(r - VR_PARAMETERS);
-            m->given[i] = value[k];
-            m->is_given[i] = value[k] != fmu_defaults[i]; /* what follows from others goes on to follow */
+            m->rtol_given = 1;
         } else {
-            return fails(m, "a variable that is none, that is not set, or a value that it does not take", (int)r);
+            m->given[slot] = value[k];
+            m->is_given[slot] = value[k] != fmu_defaults[slot]; /* what follows from others goes on to follow */
         }
         m->begun = 0;
     }

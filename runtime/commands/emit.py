@@ -13,6 +13,7 @@ from gudgeon.commands.progress import status_line
 from gudgeon.errors import InputError, shortened
 from gudgeon.files.writing import PART, Aside, check_target, read_regular
 from gudgeon.language.shown import path_text
+from gudgeon.loading import compiler
 from gudgeon.loading.engine import engine_files, engine_readme
 from gudgeon.loading.find import find_mechanism, kernel_source, read_bytes
 from gudgeon.loading.shipped import REST
@@ -27,7 +28,7 @@ def emit_c(mechanism: str, folder: Path, wanted: tuple[str, ...]) -> int:
 
     A name that ends in .fmu is that of an FMU, of one scene.
     """
-    if folder.suffix == ".fmu":
+    if folder.suffix.lower() == ".fmu":
         return _emit_fmu(mechanism, folder, wanted)
     check_folder("--out", folder)
     scenes, rooms = chosen_scenes(mechanism, wanted), _rooms()
@@ -59,12 +60,19 @@ def _emit_fmu(mechanism: str, target: Path, wanted: tuple[str, ...]) -> int:
         raise InputError(f"an FMU is of one scene, not of {len(scenes)}", hint="name one with --scene")
     check_target(target)
     from gudgeon.exchange.fmu import write_fmu
+    from gudgeon.exchange.fmu_description import kept_from_exchange
     from gudgeon.simulation.from_file import load
 
     with status_line():
         simulation = load(mechanism, scene=scenes[0])
         write_fmu(simulation, target)
-    print(f"wrote {path_text(target)}: FMI 3.0, Co-Simulation, scene {scenes[0]}")
+    why = kept_from_exchange(simulation.source)
+    kinds = f"Co-Simulation alone ({why})" if why else "Co-Simulation and Model Exchange"
+    print(f"wrote {path_text(target)}: FMI 3.0, {kinds}, scene {scenes[0]}")
+    if others := [scene for scene in chosen_scenes(mechanism, ()) if scene not in scenes and not wanted]:
+        print(f"other scenes, by --scene: {', '.join(others)}")
+    if not compiler.is_there():
+        print("no C compiler was found: it holds the sources alone, which importers compile")
     return 0
 
 

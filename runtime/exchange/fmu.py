@@ -3,13 +3,15 @@
 Parameters are the scene's numbers, outputs all series that are columns of what C computes. In co-simulation the
 engine's own loops integrate between communication points, each of which ends a step; contacts and events are located
 on the way. In model exchange the importer integrates: its states are the coordinates and velocities that the engine
-integrates, and the works; event indicators the penetrations of joints with play.
+integrates, and the works; event indicators the penetrations of joints with play, and corners of expressions. Numbers
+that the native run refuses are refused.
 https://fmi-standard.org/docs/3.0.2/
 """
 
 from __future__ import annotations
 
 import io
+import json
 import os
 import re
 import subprocess
@@ -22,18 +24,20 @@ from typing import TYPE_CHECKING
 
 from gudgeon.contract.methods import FINE
 from gudgeon.errors import BadValueError, BuildError
-from gudgeon.exchange.fmu_description import UNITS, build, description, kept_from_exchange, outputs, token
+from gudgeon.exchange.fmu_description import UNITS, build, description, jumps, kept_from_exchange, outputs, token
 from gudgeon.files.writing import write_bytes
 from gudgeon.integrators.adaptive import FELT_BY_FILMS, RTOL, begins_with, integrated_angles, stiff_of
 from gudgeon.integrators.kinematic import REACH
 from gudgeon.loading import compiler
 from gudgeon.loading.engine import engine_files
-from gudgeon.model.parameters import GAINS
+from gudgeon.model.parameters import GAINS, conditions, expected
 from gudgeon.model.sizes import size_places
 
 if TYPE_CHECKING:
+    from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.simulation.simulation import Simulation
 
+README = "README.md"
 WHEN = (1980, 1, 1, 0, 0, 0)  # of files in the archive: the same bytes each time
 
 
@@ -48,11 +52,13 @@ def fmu_bytes(simulation: Simulation) -> bytes:
     if source.contours or source.cdef:
         raise BadValueError("a scene whose bearings have contours does not go into an FMU: they are no numbers of it")
     name = re.sub(r"\W", "_", f"{source.mechanism}_{source.scene}", flags=re.ASCII)
-    texts = {**source.files, **_engine(), "fmu.h": _header(simulation)}
+    own = {path: text for path, text in source.files.items() if path not in (README, "lanes.c")}  # nobody calls those
+    texts = {**own, **_engine(), "fmu.h": _header(simulation)}
     files = {
         "modelDescription.xml": description(source, name).encode(),
         "sources/buildDescription.xml": build(name).encode(),
         **{f"sources/{path}": text.encode() for path, text in texts.items()},
+        f"sources/{README}": _readme(source, name, own).encode(),
     }
     if compiler.is_there():
         files[f"binaries/{_platform()}/{name}{'.dylib' if sys.platform == 'darwin' else '.so'}"] = _binary(texts)
@@ -61,6 +67,21 @@ def fmu_bytes(simulation: Simulation) -> bytes:
         for path, data in files.items():
             archive.writestr(zipfile.ZipInfo(path, WHEN), data, zipfile.ZIP_DEFLATED)
     return room.getvalue()
+
+
+def _readme(source: KernelSource, name: str, own: Mapping[str, str]) -> str:
+    """What is in `sources`: lines of the scene's own page for its files that are there."""
+    lines = [line for line in source.files.get(README, "").splitlines() if line.startswith("- `")]
+    told = [line for line in lines if line.split("`")[1] in own]
+    flags = "-O1 -std=c11 -ffp-contract=off -fPIC -shared -fvisibility=hidden -I."
+    return "\n".join([
+        f"# Sources of the FMU `{name}`", "",
+        f"C that gudgeon wrote for the mechanism `{source.mechanism}`, scene `{source.scene}`, and its engine. SI.", "",
+        *told, "- `fmu.h`: numbers, start and variables of this scene, as the FMU's functions read them",
+        "- `engine/fmi/fmi3.c`: these functions; the rest of `engine` are time loops, methods, contacts, events", "",
+        "In this folder, where the importer does not do it by `buildDescription.xml`:", "", "```",
+        f"cc {flags} {' '.join(UNITS)} -lm -o {name}.so", "```", "",
+    ])  # fmt: skip
 
 
 def _engine() -> dict[str, str]:
@@ -107,6 +128,7 @@ def _header(simulation: Simulation) -> str:
         "FMU_BEYOND": int(bool(compiled.beyond)), "FMU_REACH": repr(REACH), "FMU_AUTOMATIC": int(not source.explicit),
         "FMU_BEGINS": f'"{begins}"', "FMU_STIFF": f'"{stiff}"', "FMU_BEGINS_FINE": f'"{begins_fine}"',
         "FMU_STIFF_FINE": f'"{stiff_fine}"', "FMU_EXCHANGE": int(not kept_from_exchange(source)),
+        "FMU_CONDITIONS": len(conditions(source)), "FMU_JUMPS": len(jumps(source)),
     }  # fmt: skip
     lines = ["/* What the FMU's functions must know of this scene. */", "#define FMU_AT_LEAST(n) ((n) > 0 ? (n) : 1)"]
     lines += [f"#define {name} {value}" for name, value in defines.items()]
@@ -114,10 +136,38 @@ def _header(simulation: Simulation) -> str:
         _table("double", "fmu_defaults", [repr(float(slot.default)) for slot in source.slots]),
         _table("double", "fmu_start", [repr(float(x)) for x in (*start.q, *start.v)]),
         _table("int", "fmu_gains", gains), _table("int", "fmu_sizes", sizes), _table("int", "fmu_plays", plays),
-        _table("unsigned char", "fmu_is_angle", angles),
+        _table("unsigned char", "fmu_is_angle", angles), _table("int", "fmu_jumps", jumps(source)),
         _table("int", "fmu_outputs", [f"{{{part}, {column}}}" for part, column in places], "[2]"),
     ]  # fmt: skip
-    return "\n".join(lines) + "\n"
+    return "\n".join([*lines, *_conditions(source)]) + "\n"
+
+
+def _conditions(source: KernelSource) -> list[str]:
+    """Names of the numbers, and what conditions.c asks of them: relation to a number plus a sum of others."""
+    slots = [
+        f"{{{_quoted(slot.address)}, {_quoted(slot.unit)}, {int(slot.follows)}, {int(bool(slot.words))}}}"
+        for slot in source.slots
+    ]
+    rows: list[str] = []
+    bounds: list[int] = []
+    for one in conditions(source):
+        number = 0.0 if isinstance(one.bound, str) else float(one.bound)
+        told = _quoted(f"{one.message}; expected {expected(source, one.address)}")
+        place = source.place[one.address]
+        rows.append(f'{{{place}, {len(bounds)}, {len(one.addresses)}, "{one.relation}", {number!r}, {told}}}')
+        bounds += [source.place[address] for address in one.addresses]
+    return [
+        _table("struct { const char *address, *unit; int follows, chosen; }", "fmu_slots", slots or ['{"", "", 0, 0}']),
+        _table("struct { int slot, first, count; const char *relation; double bound; const char *message; }",
+               "fmu_conditions", rows or ['{0, 0, 0, "<", 0.0, ""}']),
+        _table("int", "fmu_bounds", bounds),
+        _table("char *const", "fmu_joints", [_quoted(joint.name) for joint in source.clearances]),
+    ]  # fmt: skip
+
+
+def _quoted(text: str) -> str:
+    """A text of C."""
+    return json.dumps(text, ensure_ascii=False)
 
 
 def _table(kind: str, name: str, values: Sequence[object], more: str = "") -> str:

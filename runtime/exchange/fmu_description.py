@@ -5,14 +5,17 @@ https://fmi-standard.org/docs/3.0.2/
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from fractions import Fraction
 from hashlib import sha256
 from xml.sax.saxutils import quoteattr
 
-from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.contract.kernel_source import HEADER, KernelSource
 from gudgeon.integrators.adaptive import RTOL, integrated_angles
 from gudgeon.language.units import DIMENSIONLESS, parse_unit
+from gudgeon.loading.engine import sizes
+from gudgeon.model.parameters import conditions, expected
 from gudgeon.results.series import catalogue
 
 # value references, as engine/fmi/fmi3.c has them
@@ -39,6 +42,17 @@ def outputs(source: KernelSource) -> Iterator[tuple[str, str, int, int, str]]:
         else:
             continue
         yield name, series.unit, -1 if part == "state" else PARTS.index(part), column, series.meaning
+
+
+def _bounds(source: KernelSource, address: str) -> str:
+    """Attributes of a parameter: what is expected of it, and bounds that it may take (FMI knows no others)."""
+    told = expected(source, address)
+    found = f" description={quoteattr(f'expected {told}')}" if told else ""
+    for name, relation, best in (("min", ">=", max), ("max", "<=", min)):
+        own = [c.bound for c in conditions(source) if c.address == address and c.relation == relation]
+        numbers = [bound for bound in own if not isinstance(bound, str)]
+        found += f' {name}="{best(numbers)!r}"' if numbers else ""
+    return found
 
 
 def parameters(source: KernelSource) -> Iterator[tuple[int, str, str, float]]:
@@ -108,12 +122,13 @@ def _variables(source: KernelSource) -> Iterator[str]:
     )
     yield (
         f'    <Float64 name="relative_tolerance" valueReference="{TOLERANCE}" causality="parameter" variability="fixed"'
-        f' start="{RTOL!r}" description="of a step; docs/methods.md of gudgeon says of what"/>'
+        f' min="1e-14" max="1.0" start="{RTOL!r}" description="of a step in co-simulation, in place of the tolerance'
+        ' that the importer asks for; docs/methods.md of gudgeon says of what"/>'
     )
     for k, address, unit, default in parameters(source):
         yield (
             f'    <Float64 name={quoteattr(address)} valueReference="{PARAMETERS + k}" causality="parameter"'
-            f' variability="fixed" start="{float(default)!r}"{_unit_name(unit)}/>'
+            f' variability="fixed" start="{float(default)!r}"{_unit_name(unit)}{_bounds(source, address)}/>'
         )
     for k, (name, unit, _, _, meaning) in enumerate(outputs(source)):
         yield (
@@ -123,8 +138,8 @@ def _variables(source: KernelSource) -> Iterator[str]:
     for k, (name, unit) in enumerate(states(source)):
         yield _local(name, STATES + k, unit)
         yield _local(f"rate of {name}", RATES + k, _rate(unit), f' derivative="{STATES + k}"')
-    for k, name in enumerate(_indicators(source)):
-        yield _local(name, INDICATORS + k, "m")
+    for k, (name, unit) in enumerate(indicators(source)):
+        yield _local(name, INDICATORS + k, unit)
 
 
 def _local(name: str, reference: int, unit: str, more: str = "") -> str:
@@ -134,9 +149,20 @@ def _local(name: str, reference: int, unit: str, more: str = "") -> str:
     )
 
 
-def _indicators(source: KernelSource) -> list[str]:
-    """Of the contacts, in model exchange."""
-    return [] if kept_from_exchange(source) else [f"{joint.name}.indicator" for joint in source.clearances]
+def jumps(source: KernelSource) -> list[int]:
+    """Corners of min, max, abs, sign, mod, … whose branches may lie apart: those of contact laws meet."""
+    if kept_from_exchange(source):
+        return []
+    meets = re.findall(r" meets\[\] = \{(.*?)\}", source.files[HEADER], re.DOTALL)[0].split(",")
+    return [k for k in range(sizes(source)["N_SWITCHES"]) if int(meets[k]) == 0]
+
+
+def indicators(source: KernelSource) -> list[tuple[str, str]]:
+    """Name and unit of each, in model exchange: penetrations, then functions whose signs tell sides of corners."""
+    if kept_from_exchange(source):
+        return []
+    corners = [(f"corner {k + 1}", "") for k in range(len(jumps(source)))]
+    return [(f"{joint.name}.indicator", "m") for joint in source.clearances] + corners
 
 
 def _structure(source: KernelSource) -> Iterator[str]:
@@ -146,7 +172,7 @@ def _structure(source: KernelSource) -> Iterator[str]:
         yield from (f'    <{kind} valueReference="{place}"/>' for place in places)
     for places in (found["Output"], range(STATES, STATES + integrated), found["ContinuousStateDerivative"]):
         yield from (f'    <InitialUnknown valueReference="{place}"/>' for place in places)
-    yield from (f'    <EventIndicator valueReference="{INDICATORS + k}"/>' for k in range(len(_indicators(source))))
+    yield from (f'    <EventIndicator valueReference="{INDICATORS + k}"/>' for k in range(len(indicators(source))))
 
 
 def description(source: KernelSource, name: str) -> str:

@@ -214,7 +214,7 @@ def check(source: KernelSource, p: Array) -> None:
                 f"{condition.address} is {_said(value[condition.address], unit)}{_by(source, condition, value)}:"
                 f" {condition.message}"
                 + (f" ({condition.bound} is {_said(bound, unit)})" if isinstance(condition.bound, str) else "")
-                + f"; expected {_range(source, condition.address)}"
+                + f"; expected {expected(source, condition.address)}"
             )
     for slot in source.slots:
         if not math.isfinite(value[slot.address]):
@@ -263,7 +263,7 @@ def _by(source: KernelSource, condition: Condition, value: Mapping[str, float]) 
     return f" with {', '.join(changed)}" if changed else ""
 
 
-def _range(source: KernelSource, address: str) -> str:
+def expected(source: KernelSource, address: str) -> str:
     """All that the conditions ask of a number: "> 0 and <= 1"."""
     asked = [(c.relation, c.bound) for c in conditions(source) if c.address == address]
     return " and ".join(f"{one} {bound if isinstance(bound, str) else f'{bound:g}'}" for one, bound in asked)

@@ -203,7 +203,8 @@ def _clearances(source: KernelSource) -> Iterator[tuple[str, Series]]:
         force = Series("N", f"force on the journal, magnitude{at}", partial(_magnitude, name=joint.name), parts)
         yield f"{joint.name}.F", force
         yield f"{joint.name}.eps", Series("", f"eccentricity ratio e/c{at}", partial(_ratio, joint=joint), parts)
-        yield f"{joint.name}.state", _stored("", f"0 free, 1 impact, 2 contact{at}", "state", k)
+        states = "0 free, 1 impact (until the penetration first stops growing), 2 contact"
+        yield f"{joint.name}.state", _stored("", f"{states}{at}", "state", k)
         latched = _stored("m/s", f"rate of penetration at the last onset{at}", "memory", k)
         yield f"{joint.name}.deltadot_minus", latched
 

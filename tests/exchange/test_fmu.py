@@ -17,8 +17,8 @@ from typer.testing import CliRunner
 
 import gudgeon
 from gudgeon.cli import app
-from gudgeon.errors import InputError
-from gudgeon.exchange.fmu import fmu_bytes, write_fmu
+from gudgeon.errors import BadValueError, InputError
+from gudgeon.exchange.fmu import fmu_bytes
 from gudgeon.exchange.fmu_description import OUTPUTS, PARAMETERS, outputs
 from gudgeon.loading import compiler
 from tests.programs import needs_compiler
@@ -46,14 +46,20 @@ def scene(name: str, which: str) -> gudgeon.Simulation:
     return gudgeon.load(name, scene=which)
 
 
+@cache
+def archive(simulation: gudgeon.Simulation) -> bytes:
+    """Compiled once: `scene` gives the same simulation each time."""
+    return fmu_bytes(simulation)
+
+
 def written(simulation: gudgeon.Simulation, folder: Path) -> str:
-    write_fmu(simulation, folder / "scene.fmu")
+    (folder / "scene.fmu").write_bytes(archive(simulation))
     return str(folder / "scene.fmu")
 
 
 @contextmanager
-def instance(fmu: str, t_end: float = 1.0, **numbers: float) -> Iterator[Any]:
-    """One, past its initialization."""
+def instance(fmu: str, t_end: float = 1.0, tolerance: float | None = None, **numbers: float) -> Iterator[Any]:
+    """One, past its initialization; FMPy prints what it says of errors."""
     description, unpacked = fmpy.read_model_description(fmu), fmpy.extract(fmu)
     place = {variable.name: variable.valueReference for variable in description.modelVariables}
     slave = fmpy.fmi3.FMU3Slave(
@@ -61,7 +67,9 @@ def instance(fmu: str, t_end: float = 1.0, **numbers: float) -> Iterator[Any]:
         modelIdentifier=description.coSimulation.modelIdentifier,
     )  # fmt: skip
     slave.instantiate()
-    slave.enterInitializationMode(startTime=0.0, stopTime=t_end)
+    if "relative_tolerance" in numbers:
+        slave.setFloat64([place["relative_tolerance"]], [numbers.pop("relative_tolerance")])
+    slave.enterInitializationMode(startTime=0.0, stopTime=t_end, tolerance=tolerance)
     for name, value in numbers.items():
         slave.setFloat64([place[name]], [value])
     slave.exitInitializationMode()
@@ -75,6 +83,7 @@ CASES: tuple[tuple[str, str, float, dict[str, float]], ...] = (
     ("nine_bar_press", "lubricated", 0.1, {"parameters.c": 5e-4}), ("four_bar", "ideal", 0.5, {}),
     ("four_bar", "ideal", 0.5, {"parameters.omega": 9.0}), ("pendulum", "ideal", 1.0, {"parameters.g": 3.7}),
     ("nine_bar_press", "dry", 0.004, {}), ("shaker", "ideal", 0.3, {}), ("andrews_squeezer", "ideal", 0.03, {}),
+    ("belt_block", "ideal", 0.5, {}),  # friction, whose mode is known from the start on
 )  # fmt: skip
 
 
@@ -126,6 +135,78 @@ def test_a_state_that_is_put_back_leads_on_to_the_same_bits(tmp_path: Path) -> N
     assert ways[0] == ways[1]
 
 
+def test_what_is_set_after_initialization_is_refused_and_changes_nothing(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from fmpy.fmi1 import FMICallException
+
+    ways = []
+    for disturbed in (False, True):
+        with instance(written(scene("nine_bar_press", "dry"), tmp_path), 0.02) as slave:
+            for k in range(8):
+                slave.doStep(k * 1e-3, 1e-3)
+                for name in ("parameters.c", "relative_tolerance") if disturbed and k == 6 else ():
+                    kept = slave.getFloat64([slave.place[name]])
+                    with pytest.raises(FMICallException):
+                        slave.setFloat64([slave.place[name]], [6e-4])
+                    assert f"{name} is fixed" in capsys.readouterr().out
+                    assert slave.getFloat64([slave.place[name]]) == kept
+            ways.append(slave.getFloat64([slave.place[name] for name in ("S9.y", "A.ex", "B.ey", "A.F_n")
+                                          if name in slave.place]))  # fmt: skip
+    assert ways[0] == ways[1]
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("parameters.c", -1e-4), ("parameters.c", 0.5), ("parameters.c", 1e-17), ("bodies.L1.mass", -1.0),
+        ("contacts.dry.normal.restitution", 1.5), ("contacts.dry.normal.restitution", 0.0),
+        ("contacts.dry.friction.v0", 1.0), ("bodies.L1.length", 1e200),
+    ],
+)  # fmt: skip
+def test_numbers_that_the_native_run_refuses_end_initialization(
+    name: str, value: float, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """In the same words, as far as units and names of parameters go."""
+    from fmpy.fmi1 import FMICallException
+
+    press = scene("nine_bar_press", "dry")
+    with pytest.raises(BadValueError) as native:
+        press.simulate(1e-3, parameters={name: value})
+    with pytest.raises(FMICallException, match="ExitInitializationMode"), instance(
+        written(press, tmp_path), **{name: value}
+    ):
+        pass
+    said = capsys.readouterr().out
+    if value < 1e100:  # of a number that overflows native runs say more
+        assert str(native.value).replace(" with c =", " with parameters.c =").split(" (")[0] in said
+    else:
+        assert "which follows from" in str(native.value) and "that follows from these parameters is inf" in said
+
+
+def test_bounds_are_in_the_description(tmp_path: Path) -> None:
+    described = fmpy.read_model_description(written(scene("nine_bar_press", "dry"), tmp_path))
+    named = {variable.name: variable for variable in described.modelVariables}
+    restitution, mu = named["contacts.dry.normal.restitution"], named["contacts.dry.friction.mu"]
+    assert (restitution.min, float(restitution.max)) == (None, 1.0)  # 0 itself is none
+    assert restitution.description == "expected > 0 and <= 1"
+    assert (float(mu.min), mu.max) == (0.0, None)
+
+
+def test_a_tolerance_that_is_set_wins(tmp_path: Path) -> None:
+    """Over the importer's, which is that of the description where nobody gave another."""
+    press = scene("nine_bar_press", "dry")
+    ends = []
+    for given in ({}, {"relative_tolerance": 1e-4}, {"relative_tolerance": 1e-11}):
+        with instance(written(press, tmp_path), 0.01, 1e-8, **given) as slave:
+            assert slave.getFloat64([slave.place["relative_tolerance"]]) == [given.get("relative_tolerance", 1e-8)]
+            slave.doStep(0.0, 0.01)
+            ends.append(slave.getFloat64([slave.place["A.ex"]])[0])
+    exact = press.simulate(0.01, output=2, rtol=1e-12)["A.ex"][-1]
+    errors = [abs(end - exact) for end in ends]
+    assert errors[2] < errors[0] < errors[1]
+
+
 def test_an_event_that_stops_asks_to_terminate(tmp_path: Path) -> None:
     file = tmp_path / "falling.yaml"
     file.write_text(STOPPING, encoding="utf-8")
@@ -170,15 +251,34 @@ def test_sources_are_whole_and_the_archive_is_the_same_each_time(monkeypatch: py
     assert first == again
     with zipfile.ZipFile(io.BytesIO(first)) as archive:
         names = set(archive.namelist())
-        build = archive.read("sources/buildDescription.xml").decode()
+        build, page = (archive.read(f"sources/{name}").decode() for name in ("buildDescription.xml", "README.md"))
     assert names == {name for name in whole if not name.startswith("binaries/")} and len(whole) == len(names) + 1
     units = re.findall(r'SourceFile name="(.*?)"', build)
     assert units and {f"sources/{unit}" for unit in units} <= names
+    told = re.findall(r"^- `(.*?)`", page, re.MULTILINE)
+    assert {f"sources/{name}" for name in (*told, "buildDescription.xml")} <= names
+    assert {"model.h", "reduced.c", "fmu.h"} <= {*told} and " ".join(units) in page and "ROOT" not in page
 
 
-def test_the_command(tmp_path: Path) -> None:
-    target = tmp_path / "press.fmu"
-    done = CliRunner().invoke(app, ["emit", "nine_bar_press", "--scene", "dry", "-o", str(target)])
+def test_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What it says of the archive, without the library that other tests compile."""
+    monkeypatch.setattr(compiler, "is_there", lambda: False)
+    target = tmp_path / "press.FMU"
+
+    def emitted(*arguments: str) -> Any:
+        return CliRunner().invoke(app, ["emit", *arguments, "-o", str(target)])
+
+    done = emitted("nine_bar_press", "--scene", "dry")
     assert done.exit_code == 0 and fmpy.read_model_description(str(target)).modelName == "nine_bar_press_dry"
-    two = ["emit", "nine_bar_press", "--scene", "dry", "--scene", "ideal", "-o", str(target)]
-    assert CliRunner().invoke(app, two).exit_code == InputError.exit_code
+    assert "Co-Simulation and Model Exchange, scene dry" in done.output and "other scenes" not in done.output
+    assert "sources alone" in done.output
+    done = emitted("nine_bar_press")
+    assert "scene ideal\n" in done.output and "other scenes, by --scene: dry, lubricated" in done.output
+    assert "Co-Simulation alone (no freedom is left" in emitted("four_bar").output
+    assert emitted("nine_bar_press", "--scene", "dry", "--scene", "ideal").exit_code == InputError.exit_code
+
+
+def test_python_writes_the_same_archive(tmp_path: Path) -> None:
+    pendulum = scene("pendulum", "ideal")
+    gudgeon.write_fmu(pendulum, tmp_path / "pendulum.fmu")
+    assert (tmp_path / "pendulum.fmu").read_bytes() == archive(pendulum)

@@ -19,16 +19,29 @@ from tests.programs import needs_compiler
 fmpy = pytest.importorskip("fmpy")
 pytestmark = needs_compiler
 
+SWITCHED = """
+format: gudgeon/1
+name: switched
+bodies: {block: {mass: 2 kg, inertia: 1 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {rail: {translational: [ground.O, block.origin], axis: [1, 0]}}
+forces: {pull: {force: block.origin, value: [-16 N * sign(block.x), 0]}}
+start: {set: {block.x: 1 m}}
+"""
+
 
 @contextmanager
-def model(fmu: str) -> Iterator[Any]:
-    """One that others integrate, past its initialization and its first event."""
+def model(fmu: str, c: float | None = None) -> Iterator[Any]:
+    """One that others integrate, past its initialization and its first event; `c` in place of its parameters.c."""
     description, unpacked = fmpy.read_model_description(fmu), fmpy.extract(fmu)
     made = fmpy.fmi3.FMU3Model(
         guid=description.guid, unzipDirectory=unpacked, instanceName="one",
         modelIdentifier=description.modelExchange.modelIdentifier,
     )  # fmt: skip
     made.instantiate()
+    for variable in description.modelVariables if c is not None else ():
+        if variable.name == "parameters.c":
+            made.setFloat64([variable.valueReference], [c])
     made.enterInitializationMode(startTime=0.0)
     made.exitInitializationMode()
     made.updateDiscreteStates()
@@ -111,32 +124,115 @@ def test_directional_derivatives(name: str, which: str, tmp_path: Path) -> None:
     assert abs(told - wanted[1]).max() <= 1e-7 * abs(wanted[1]).max() and abs(told).max() > 0.0
 
 
-def test_contacts_are_events(tmp_path: Path) -> None:
-    """An indicator is the penetration; a contact begins with the speed of its onset, and ends where it is free."""
-    simulation = scene("nine_bar_press", "dry")
+@contextmanager
+def contact(simulation: gudgeon.Simulation, folder: Path) -> Iterator[tuple[str, int, Any, Iterator[Any]]]:
+    """The first contact's joint and number, the row of its onset, and states before, within, late in, and behind it."""
     onset = simulation.simulate(0.008, output=2, rtol=1e-11).impacts[0]
-    run = simulation.simulate(output=[0.0, onset["t_on"] - 1e-9, onset["t_on"] + 1e-9, onset["t_off"] + 1e-9],
-                              rtol=1e-11)  # fmt: skip
-    place = {name: OUTPUTS + k for k, (name, *_) in enumerate(outputs(simulation.source))}
-    count, joint = len(states(simulation.source)), ("A", "B")[onset["joint"]]
-    with model(written(simulation, tmp_path)) as made, instance(written(simulation, tmp_path)) as slave:
-        marks, now = [], 0.0
-        for t in run.t[1:]:
-            slave.doStep(now, t - now)
-            now = t
-            x = slave.getFloat64([STATES + k for k in range(count)])
-            made.setTime(t)
-            made.setContinuousStates((c_double * count)(*x), count)
-            z = vector(made, "getEventIndicators", 2)
-            assert z[onset["joint"]] == made.getFloat64([INDICATORS + onset["joint"]])[0]
+    on, off = onset["t_on"], onset["t_off"]
+    with instance(written(simulation, folder), 0.02) as slave:
+
+        def states_there() -> Iterator[Any]:
+            now, count = 0.0, len(states(simulation.source))
+            for t in (on - 1e-9, on + 1e-9, 0.9 * off + 0.1 * on, off + 1e-9):
+                slave.doStep(now, t - now)
+                now = t
+                own = slave.getFloat64([slave.place[f"{'AB'[onset['joint']]}.state"]])[0]
+                yield t, slave.getFloat64([STATES + k for k in range(count)]), own
+
+        yield "AB"[onset["joint"]], onset["joint"], onset, states_there()
+
+
+def test_nominals_are_what_counts_in_the_motion(tmp_path: Path) -> None:
+    """Of angles c over the mechanism's size, of their velocities the largest so far, of works the kinetic energy."""
+    simulation = scene("nine_bar_press", "dry")
+    energy = simulation.simulate(0.001, output=2)["energy.kinetic"][0]
+    with model(written(simulation, tmp_path)) as made:
+        first, x = (vector(made, f"get{which}ContinuousStates", 13) for which in ("NominalsOf", ""))
+        assert first[:5] == pytest.approx(np.full(5, 6e-4), rel=1e-12)
+        assert first[5:10] == pytest.approx(np.full(5, abs(x[5:10]).max()), rel=1e-12)
+        assert first[10:] == pytest.approx(np.full(3, energy), rel=1e-9)
+        put(made, 0.0, [*x[:5], *(3.0 * x[5:10]), *x[10:]])
+        for changed in (True, False):
             made.enterEventMode()
-            made.updateDiscreteStates()
+            assert made.updateDiscreteStates()[2] == changed
             made.enterContinuousTimeMode()
-            remembered = made.getFloat64([place[f"{joint}.deltadot_minus"]])[0]
-            marks.append((z[onset["joint"]] > 0.0, remembered))
-    (before, _), (during, remembered), (after, gone) = marks
-    assert (before, during, after) == (False, True, False) and np.isnan(gone)
-    assert remembered == pytest.approx(onset["deltadot"], rel=1e-4)
+        later, x = (vector(made, f"get{which}ContinuousStates", 13) for which in ("NominalsOf", ""))
+        assert later[5] == pytest.approx(abs(x[5:10]).max(), rel=1e-12) and later[5] > 2.0 * first[5]
+
+
+def put(made: Any, t: float, x: list[float]) -> None:
+    made.setTime(t)
+    made.setContinuousStates((c_double * len(x))(*x), len(x))
+
+
+def event(made: Any) -> None:
+    made.enterEventMode()
+    made.updateDiscreteStates()
+    made.enterContinuousTimeMode()
+
+
+def test_contacts_are_events(tmp_path: Path) -> None:
+    """An indicator is the penetration; a contact begins with the speed of its onset, and ends where it is free.
+
+    It counts as an impact until a completed step no longer compresses it, as in the native run.
+    """
+    simulation = scene("nine_bar_press", "dry")
+    place = {name: OUTPUTS + k for k, (name, *_) in enumerate(outputs(simulation.source))}
+    marks = []
+    with contact(simulation, tmp_path) as (joint, k, onset, ways), model(written(simulation, tmp_path)) as made:
+        for t, x, own in ways:
+            put(made, t, x)
+            z = vector(made, "getEventIndicators", 2)
+            assert z[k] == made.getFloat64([INDICATORS + k])[0]
+            event(made)
+            made.completedIntegratorStep()
+            remembered, state = made.getFloat64([place[f"{joint}.{name}"] for name in ("deltadot_minus", "state")])
+            assert state == own
+            marks.append((z[k] > 0.0, state, remembered))
+    assert [mark[:2] for mark in marks] == [(False, 0), (True, 1), (True, 2), (False, 0)]
+    assert marks[1][2] == marks[2][2] == pytest.approx(onset["deltadot"], rel=1e-4) and np.isnan(marks[3][2])
+
+
+def test_an_event_located_at_zero_itself_counts(tmp_path: Path) -> None:
+    """Penetrations of 0.0 to the bit, which importers' searches come to: an approach begins, a retreat ends there."""
+    simulation = scene("nine_bar_press", "dry")
+    fmu, c = written(simulation, tmp_path), simulation.source.slots[simulation.source.place["parameters.c"]].default
+    with contact(simulation, tmp_path) as (joint, k, _, ways):
+        _, (t_on, x_on, _), within, (t_off, x_off, _) = ways
+    minus = OUTPUTS + [name for name, *_ in outputs(simulation.source)].index(f"{joint}.deltadot_minus")
+    for t, x, begins in ((t_on, x_on, True), (t_off, x_off, False)):
+        with model(fmu) as made:
+            put(made, t, x)
+            e = vector(made, "getEventIndicators", 2)[k] + c
+        with model(fmu, e) as made:
+            if not begins:
+                put(made, *within[:2])
+                event(made)
+                assert np.isfinite(made.getFloat64([minus])[0])
+            put(made, t, x)
+            assert vector(made, "getEventIndicators", 2)[k] == 0.0
+            event(made)
+            assert np.isfinite(made.getFloat64([minus])[0]) == begins
+
+
+def test_a_jump_of_a_force_is_an_event(tmp_path: Path) -> None:
+    """x'' = -8 sign(x) from rest at 1: parabolas of half a second to each zero, back after two."""
+    file = tmp_path / "switched.yaml"
+    file.write_text(SWITCHED, encoding="utf-8")
+    fmu = written(gudgeon.load(file), tmp_path)
+    found = fmpy.simulate_fmu(
+        fmu, stop_time=2.0, output_interval=0.04, relative_tolerance=1e-9, output=["block.x"],
+        fmi_type="ModelExchange", solver="CVode", record_events=False,
+    )  # fmt: skip
+    t = found["time"]
+    x = np.where(t < 0.5, 1 - 4 * t**2, np.where(t < 1.5, 4 * (t - 1) ** 2 - 1, 1 - 4 * (t - 2) ** 2))
+    assert len(t) == 51 and abs(found["block.x"] - x).max() < 1e-8
+    with model(fmu) as made:
+        for speed in (-4.0, 4.0):  # at zero to the bit: what comes next counts, however often it is asked
+            put(made, 0.5, [0.0, speed, 0.0, 0.0, 0.0])
+            for _ in range(2):
+                event(made)
+                assert vector(made, "getContinuousStateDerivatives", 5)[1] == pytest.approx(-2.0 * speed)
 
 
 def test_a_state_goes_through_bytes(tmp_path: Path) -> None:
