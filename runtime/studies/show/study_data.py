@@ -89,15 +89,6 @@ class StudyData:
             return rows[0], found
         return t, found
 
-    def shares(self, t: Any) -> Any:
-        """Samples as shares of their run, (N,), where all runs have the same; None where they do not."""
-        rows = t.reshape(-1, t.shape[-1])
-        rows = rows[np.isfinite(rows).all(axis=1)]
-        if not len(rows) or not (rows[:, -1] > rows[:, 0]).all():
-            return None
-        own = (rows - rows[:, :1]) / (rows[:, -1:] - rows[:, :1])
-        return own[0] if np.allclose(own, own[0], rtol=0.0, atol=1e-9) else None
-
     def _picked(self, found: Any, at: Coords | None) -> Any:
         for name, value in mapping(at, "at", "expected {coordinate: value}").items():
             dimension = self.dimension(found, name)

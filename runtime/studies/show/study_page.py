@@ -21,7 +21,7 @@ from gudgeon.studies.words import counted
 if TYPE_CHECKING:
     from gudgeon.studies.ensemble.finished import Study
 
-MOST_ROWS, MOST_CURVES, MOST_NUMBERS, MOST_SAMPLES = 500, 60, 30_000_000, 20_000
+MOST_ROWS, MOST_NUMBERS, MOST_SAMPLES = 500, 30_000_000, 20_000
 SHOWN_VALUES = 8  # of what varied, in full
 
 
@@ -222,7 +222,7 @@ def _pooled(data: StudyData, found: Any) -> str:
 
 
 def _series(data: StudyData) -> Iterator[Draw]:
-    """Bands where runs have the same times, else curves of the first ones."""
+    """Bands over time where runs have the same times, else over shares of each run."""
     from gudgeon.studies.show.study_plots import StudyPlot
 
     plot = StudyPlot(data.study)
@@ -233,11 +233,8 @@ def _series(data: StudyData) -> Iterator[Draw]:
         t, _ = data.series(name)
         runs = found.size // found.shape[-1]
         by = "scene" if "scene" in found.dims else None
-        if t.ndim == 1:
-            told = f"{data.shown(name)}: median, quartiles and extremes of {counted(runs, 'run')}"
-            yield told, partial(plot.bands, name, by)
-        elif data.shares(t) is not None:
-            told = f"{data.shown(name)}: median, quartiles and extremes of {counted(runs, 'run')}, over shares"
-            yield told, partial(plot.bands, name, by, share=True)
-        elif runs <= MOST_CURVES:
-            yield f"{data.shown(name)}: {counted(runs, 'run')}", partial(plot.overlay, name, by)
+        shares = t.ndim > 1
+        if shares and not (np.nan_to_num(t) > 0.0).any():  # nobody began
+            continue
+        told = f"{data.shown(name)}: median, quartiles and extremes of {counted(runs, 'run')}{', over shares' * shares}"
+        yield told, partial(plot.bands, name, by, share=shares)

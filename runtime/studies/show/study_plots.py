@@ -19,7 +19,7 @@ from gudgeon.results.plots import COLOURS, STYLE, TITLE, cycle, peak_of
 from gudgeon.results.run_plots import new_axes, plain
 from gudgeon.studies.show.bands import LINE, band, bars, marks, numbers, quantiles, ticks_at
 from gudgeon.studies.show.study_data import Coords, StudyData
-from gudgeon.studies.show.study_signals import filtered, spectra
+from gudgeon.studies.show.study_signals import filtered, over_shares, spectra
 
 import matplotlib  # isort: skip  (plots.py says where it is missing)
 
@@ -84,13 +84,15 @@ class StudyPlot:
     ) -> Axes:  # fmt: skip
         """A kept series over time: median, quartiles and extremes of all runs, or of each value of `by`.
 
-        share: over each run's own length, 0 to 1, where runs have as many samples at the same shares of it.
-        BadValueError for runs with other times (or shares) than each other.
+        share: over each run's own length, 0 to 1, at the shares of the run with the most samples; runs with others
+        lie on straight lines between theirs. BadValueError for runs with other times than each other, without share.
         """
         t, found = self.data.series(series, at)
         if flag(share, "share"):
-            t = self.data.shares(np.broadcast_to(t, found.shape))
-        if t is None or t.ndim > 1:
+            if (shares := over_shares(t, found)) is None:
+                raise BadValueError(f"{series}: no run has a length of which there are shares")
+            t, found = shares
+        if t.ndim > 1:
             told = f"{series}: the runs have samples at different times, of which there are no bands"
             raise BadValueError(told, hint="pick runs with the same times (at=…), share=True, or draw an overlay")
         by = self.data.dimension(found, by) if by is not None else None

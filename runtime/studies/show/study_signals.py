@@ -1,4 +1,4 @@
-"""Spectra and low-passes of a study's kept series, run by run: runs that failed have none."""
+"""A study's kept series, run by run: over shares of a run, spectra, low-passes; runs that failed have none."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from gudgeon.language.shown import one_line
 from gudgeon.results.signals import low_pass, spectrum
 
 NEAR = 0.01  # of the time between two samples: so far apart, samples are of the same time
+SAME = 1e-9  # of a run: so far apart, samples are at the same share of it
 
 
 def alike(rows: Any) -> bool:
@@ -18,6 +19,31 @@ def alike(rows: Any) -> bool:
     first = rows[0]
     step = np.nanmin(np.diff(first)) if np.isfinite(first).sum() > 1 else 0.0
     return bool(np.isclose(rows, first, rtol=1e-12, atol=NEAR * abs(float(step)), equal_nan=True).all())
+
+
+def over_shares(t: Any, found: Any) -> tuple[Any, Any] | None:
+    """Shares (M,) of the run, those of the one with the most samples, and all runs (…, M) there; None without any.
+
+    A run with other shares lies on straight lines between its own samples; beyond them it is NaN.
+    """
+    times = np.broadcast_to(t, found.shape).reshape(-1, found.shape[-1])
+    own = [_shares(row[np.isfinite(row)]) for row in times]
+    at = max(own, key=len, default=np.zeros(0))
+    if not len(at):
+        return None
+    left = np.full((len(own), len(at)), np.nan)
+    for out, x, row, told in zip(left, found.values.reshape(times.shape), times, own, strict=True):
+        y = x[np.isfinite(row)]
+        if len(told) == len(at) and np.allclose(told, at, rtol=0.0, atol=SAME):
+            out[:] = y
+        elif len(told) and (good := np.isfinite(y)).any():
+            out[:] = np.interp(at, told[good], y[good], left=np.nan, right=np.nan)
+    return at, found.isel({found.dims[-1]: slice(len(at))}).copy(data=left.reshape(*found.shape[:-1], len(at)))
+
+
+def _shares(t: Any) -> Any:
+    """Times of a run from 0 to 1; none of one that has no length."""
+    return (t - t[0]) / (t[-1] - t[0]) if len(t) > 1 and t[-1] > t[0] else np.zeros(0)
 
 
 def spectra(t: Any, found: Any, by: str | None, name: str, window: str) -> list[tuple[Any, Any]]:
