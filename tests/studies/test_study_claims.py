@@ -10,6 +10,7 @@ from statistics import NormalDist
 from typing import Any
 
 import numpy as np
+import pandas
 import pytest
 from ruamel.yaml import YAML
 
@@ -17,6 +18,7 @@ import gudgeon
 from gudgeon.errors import GudgeonError, InputError, InputErrors
 from gudgeon.generator.study.schema import schema
 from gudgeon.studies.ensemble import judge
+from gudgeon.studies.ensemble.claimed import Claimed
 from gudgeon.studies.ensemble.judge import Cell, Check, Look, judged, together
 from gudgeon.studies.ensemble.study import plans_of
 from tests.programs import needs_compiler
@@ -256,6 +258,20 @@ def test_numbers_beside_the_printed_ones(found: gudgeon.Study, tmp_path: Path) -
     again = gudgeon.load_study(found.folder).claims
     assert again.trends.equals(found.claims.trends) and again.numbers.equals(found.claims.numbers)
     assert (found.folder / "claims_trends.csv").read_text().count("\n") == len(again.trends) + 1
+
+
+@pytest.mark.parametrize(("medians", "off", "told"), [
+    ([2.0, 3.0], [5.0, -7.0], "2 printed numbers: ours are off by 6 % or less for half of them"),
+    ([2.0, math.nan], [5.0, math.nan], "2 printed numbers, 1 of them computed: ours is off by 5 %"),
+    ([math.nan, math.nan], [math.nan, math.nan], "2 printed numbers: none could be computed"),
+    ([math.nan], [math.nan], "1 printed number: none could be computed"),
+    ([2.0], [math.nan], "1 printed number: of a printed 0 ours is off by no share"),
+])  # fmt: skip
+def test_what_could_not_be_computed_is_off_by_nothing(medians: list[float], off: list[float], told: str) -> None:
+    """NaN, of runs that failed, is in no median of deviations."""
+    names = [f"N{k}" for k in range(len(off))]
+    numbers = pandas.DataFrame({"claim": names, "printed": 1.0, "median": medians, "deviation": off})
+    assert Claimed(numbers, pandas.DataFrame(), "").totals() == [told]
 
 
 @needs_compiler

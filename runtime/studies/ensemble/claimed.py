@@ -60,11 +60,23 @@ class Claimed(NamedTuple):
             told.append(f"{counted(counts.total(), 'trend')}{of}: {', '.join(words)}")
         printed = self.numbers[self.numbers["printed"].notna()] if len(self.numbers) else self.numbers
         if len(printed):
-            off = printed["deviation"].abs().groupby(printed["claim"]).median()
-            share = f"{off.median():.0f} %" if off.median() >= 100.0 else f"{off.median():.3g} %"
-            shown = f"ours are off by {share} or less for half of them" if len(off) > 1 else f"ours is off by {share}"
-            told.append(f"{counted(len(off), 'printed number')}: {shown}")
+            told.append(_off_by(printed))
         return told
+
+
+def _off_by(printed: pandas.DataFrame) -> str:
+    """How far printed numbers are off, of those that could be computed; from a printed 0 nothing is off by a share."""
+    each = printed.groupby("claim")
+    off = printed["deviation"].abs().groupby(printed["claim"]).median().dropna()
+    computed = int(each["median"].count().gt(0).sum())
+    numbers = counted(each.ngroups, "printed number")
+    if not computed:
+        return f"{numbers}: none could be computed"
+    of = numbers if computed == each.ngroups else f"{numbers}, {computed} of them computed"
+    if not len(off):
+        return f"{of}: of a printed 0 ours is off by no share"
+    share = f"{off.median():.0f} %" if off.median() >= 100.0 else f"{off.median():.3g} %"
+    return f"{of}: ours are off by {share} or less for half of them" if len(off) > 1 else f"{of}: ours is off by {share}"
 
 
 def write_claims(folder: Path, plans: Plans, known: Known, study: Study) -> None:
