@@ -285,6 +285,7 @@ def test_published_numbers_are_marks(found: gudgeon.Study) -> None:
     assert mark.get_color() == ax.lines[1].get_color() != ax.lines[0].get_color()
     assert len(plot.measure("x", "g", at={"length": 2.0}, published=True).lines) == 1
     assert len(plot.measure("x", "g", at={"length": 1.0}, published=True).lines) == 2
+    assert len(plot.measure("x", "g", published=True).lines) == 1  # a median of both lengths: N1 is about one
     assert found.parts["noisy"].claims.numbers["claim"].unique().tolist() == ["N2"]
 
 

@@ -76,7 +76,8 @@ def _off_by(printed: pandas.DataFrame) -> str:
     if not len(off):
         return f"{of}: of a printed 0 ours is off by no share"
     share = f"{off.median():.0f} %" if off.median() >= 100.0 else f"{off.median():.3g} %"
-    return f"{of}: ours are off by {share} or less for half of them" if len(off) > 1 else f"{of}: ours is off by {share}"
+    told = f"ours are off by {share} or less for half of them" if len(off) > 1 else f"ours is off by {share}"
+    return f"{of}: {told}"
 
 
 def write_claims(folder: Path, plans: Plans, known: Known, study: Study) -> None:

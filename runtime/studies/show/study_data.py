@@ -59,7 +59,10 @@ class StudyData:
     def claimed(
         self, name: str, over: str, by: str | None, at: Coords | None, axis: str
     ) -> list[tuple[float, float, int]]:
-        """Numbers that the file claims of a measure of the runs at: place on the axis, value (SI), which line."""
+        """Numbers that the file claims of a measure of the runs at: place on the axis, value (SI), which line.
+
+        None of one that is about fewer runs than are pooled there: beside a median of others it would say nothing.
+        """
         try:
             numbers = self.study.claims.numbers
         except GudgeonError:  # it claims nothing
@@ -72,8 +75,9 @@ class StudyData:
             dimension = self.dimension(found, key)
             picked[dimension] = self.nearest(found, dimension, value)
         each = [(json.loads(place), float(value)) for place, value in zip(own["place"], own["printed"], strict=True)]
+        pooled = {one for one, n in found.sizes.items() if n > 1 and one not in (over, by, *picked)}
         return [(float(places[place[over]]), value, -1 if by is None else place.get(by, -1)) for place, value in each
-                if over in place and all(place.get(one, k) == k for one, k in picked.items())]  # fmt: skip
+                if over in place and not pooled & {*place} and all(place.get(one, k) == k for one, k in picked.items())]
 
     def series(self, name: str, at: Coords | None = None) -> tuple[Any, Any]:
         """Times, (N,) where all runs have the same, else (…, N), and a kept series (…, N)."""

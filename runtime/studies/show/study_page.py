@@ -208,7 +208,7 @@ def _figures(data: StudyData) -> Iterator[Draw]:
             continue
         for scene in [str(one) for one in data.dataset["scene"].values] if "scene" in found.dims else [""]:
             at = {"scene": scene} if scene else {}
-            if not np.isfinite(data.measure(name, at).values).any():
+            if not np.nan_to_num(data.measure(name, at).values).any():  # nothing, or what is 0 everywhere
                 continue
             told = ", ".join(filter(None, (f"{data.shown(name)}: median", data.shown(scene))))
             yield told, partial(plot.heat_map, name, *varied[:2], at=at)

@@ -17,7 +17,7 @@ from gudgeon.language.shown import in_figure, one_line
 from gudgeon.language.wanted import flag, number_of, positive, refuse
 from gudgeon.results.plots import COLOURS, STYLE, TITLE, cycle, peak_of
 from gudgeon.results.run_plots import new_axes, plain
-from gudgeon.studies.show.bands import LINE, band, bars, marks, numbers, quantiles, ticks_at
+from gudgeon.studies.show.bands import LINE, band, bars, known, marks, numbers, quantiles, ticks_at
 from gudgeon.studies.show.study_data import Coords, StudyData
 from gudgeon.studies.show.study_signals import filtered, over_shares, spectra
 
@@ -45,8 +45,8 @@ class StudyPlot:
         """A measure over what was varied (the first number), a line for each value of `by` (scenes).
 
         Lines are medians of all other runs, bands their quartiles and extremes; over words, zips and starts dots and
-        bars. published: marks of what others found,
-        {coordinate: value, SI}; True: the numbers that the study's file claims of these runs, in the lines' colours.
+        bars. published: marks of what others found, {coordinate: value, SI}; True: the numbers that the study's file
+        claims of these runs, in the lines' colours, none of those that are about a part of what a median is of.
         """
         found = self.data.measure(name, at)
         axis = self.data.first(found) if over is None else over
@@ -168,8 +168,9 @@ class StudyPlot:
             for k, ((told, own), colour) in enumerate(zip(parts, cycle(len(parts)), strict=True)):
                 own_x = x if by is None else np.take(x, k, axis=found.dims.index(by))
                 rows = zip(own_x.reshape(-1, x.shape[-1]), own.values.reshape(-1, x.shape[-1]), strict=True)
+                called = known(own.values, told)
                 for j, (xs, ys) in enumerate(rows):
-                    ax.plot(xs, ys * factor, color=colour, lw=0.8, alpha=0.8, label=told if j == 0 else None)
+                    ax.plot(xs, ys * factor, color=colour, lw=0.8, alpha=0.8, label=called if j == 0 else None)
             ax.set(xlabel=x_label, ylabel=label(self.data.shown(name), unit))
             self._finish(ax, at, len(parts) > 1)
         return ax
@@ -239,7 +240,7 @@ class StudyPlot:
     def _finish(self, ax: Axes, at: Coords | None, legend: bool) -> None:
         picked = ", ".join(f"{self.data.shown(name)} = {_said(value)}" for name, value in (at or {}).items())
         ax.set_title(in_figure(": ".join(filter(None, (one_line(self.data.title), picked))), TITLE))
-        if legend:
+        if legend and ax.get_legend_handles_labels()[0]:
             ax.legend(fontsize=8)
 
 
