@@ -91,6 +91,13 @@ BAD = [  # in place of what, what; line:column and words of the message
     ("t_end: 1 s", f"title: {'x' * 201}", "5:8", "at most 200"),
     ("t_end: 1 s", 'title: "a\\0b"', "5:9", "can be seen"),
     ("t_end: 1 s", "output: 1 s", "5:9", "a pure number"),
+    ("t_end: 1 s", "t_end: 0 s", "5:8", "t_end is 0\n  expected a positive time"),
+    ("t_end: 1 s", "t_end: 1 s/0", "5:8", "a positive time"),
+    ("t_end: 1 s", "output: 0.4", "5:9", "a number of intervals from 1"),
+    ("t_end: 1 s", "output: 1e9", "5:9", "a number of intervals from 1"),
+    ("t_end: 1 s", "step: -1 ms", "5:7", "a positive time"),
+    ("from: t_end/2", "from: 2*t_end", "7:16", "goes from 2 s to 1 s"),
+    ("from: t_end/2", "to: -1 s", "7:14", "expected a part of the run"),
 ]  # fmt: skip
 
 

@@ -13,8 +13,8 @@ pytest.importorskip("matplotlib")
 
 import gudgeon  # noqa: E402
 from gudgeon.errors import BadValueError, UnknownNameError  # noqa: E402
-from gudgeon.studies.show.study_data import changes, crossings  # noqa: E402
-from gudgeon.studies.show.study_signals import alike, over_shares  # noqa: E402
+from gudgeon.studies.show.study_data import changes  # noqa: E402
+from gudgeon.studies.show.study_signals import alike, crossings, over_shares  # noqa: E402
 from tests.programs import needs_compiler  # noqa: E402
 
 pytestmark = needs_compiler

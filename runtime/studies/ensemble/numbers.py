@@ -17,6 +17,7 @@ from gudgeon.language.units import Dimension, dimension
 from gudgeon.model.choices import place_of_word
 from gudgeon.model.parameters import TOGETHER, addresses, given_slots, spaced
 from gudgeon.results.batch import Array
+from gudgeon.simulation.arguments import MOST_OUTPUT
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Numbers, Written
@@ -128,6 +129,21 @@ def check_expression(source: KernelSource, written: Written, wanted: Dimension, 
             place: Location = at(written.text.where, name.offset)
             raise unknown_name(f"name (in scene {source.scene})", name.path, known, place)
     check_dimension(written.expr, wanted, dimension_of, written.text.where)
+
+
+def constant(written: Written | None, known: Mapping[str, float]) -> float | None:
+    """The value of an expression that is the same in all runs: of numbers, and of what is known by name; else None."""
+    if written is None or any(name.path not in known for name in names(written.expr)):
+        return None
+    return float(evaluate(written.expr, known.get))
+
+
+def impossible(name: str, values: Array) -> tuple[Array, str]:
+    """Which values of t_end, step or (rounded) output no run can have, and what is expected."""
+    if name == "output":
+        expected = f"a number of intervals from 1 to {MOST_OUTPUT:.0e}"
+        return ~((values >= 1.0) & (values <= MOST_OUTPUT)), expected
+    return ~((values > 0.0) & np.isfinite(values)), "a positive time (s)"
 
 
 def of_runs(source: KernelSource, expr: Expr, p: Array, more: Mapping[str, Any]) -> Array:

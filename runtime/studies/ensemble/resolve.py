@@ -22,7 +22,18 @@ from gudgeon.studies.ensemble.block import Job, Table, Wanted
 from gudgeon.studies.ensemble.exponents import check_followed
 from gudgeon.studies.ensemble.libraries import method_in
 from gudgeon.studies.ensemble.measures import check_origin, meaning, series_of, unit_of, unknown_of
-from gudgeon.studies.ensemble.numbers import check_expression, in_si, known_slot, real, slot_of, values, within_doubles
+from gudgeon.studies.ensemble.numbers import (
+    ROUNDING,
+    check_expression,
+    constant,
+    impossible,
+    in_si,
+    known_slot,
+    real,
+    slot_of,
+    values,
+    within_doubles,
+)
 from gudgeon.studies.ensemble.plan import Coordinate, Deviations, Dimension, Part, Plan, check_size
 from gudgeon.studies.ensemble.points import NORMAL, deviations, shares, spread_over
 from gudgeon.studies.ensemble.structures import mechanism_of, origins, structures
@@ -189,6 +200,7 @@ def _wanted(study: StudyFile, parts: Sequence[Part]) -> Wanted:
         _check_method(study, source, rtol)
         if source.degrees_of_freedom > 0:
             check_followed(study, source)
+    _check_constants(study)
     windows = {name: tuple(None if end is None else end.expr for end in (window.begin, window.end))
                for name, window in study.windows.items()}  # fmt: skip
     t_end, output, step = (None if one is None else one.expr for one in (study.t_end, study.output, study.step))
@@ -196,6 +208,26 @@ def _wanted(study: StudyFile, parts: Sequence[Part]) -> Wanted:
     wear = wearing_of(study.wear, [part.simulation.source for part in parts]) if study.wear else None
     rounds = study.wear.rounds if study.wear else 0
     return Wanted(t_end, output, step, windows, study.measures, keep, method, rtol, study.stop, wear, rounds)
+
+
+def _check_constants(study: StudyFile) -> None:
+    """BadValueError at its place for an end, an output, a step or a window that no run can have."""
+    known: dict[str, float] = {}
+    for name, written in (("t_end", study.t_end), ("output", study.output), ("step", study.step)):
+        if written is None or (value := constant(written, known)) is None:
+            continue
+        wrong, expected = impossible(name, np.rint([value]) if name == "output" else np.array([value]))
+        if wrong.any():
+            raise BadValueError(f"{name} is {value:g}", written.text.where, f"expected {expected}")
+        known |= {name: value} if name == "t_end" else {}
+    last = known.get("t_end", np.inf)
+    for name, window in study.windows.items():
+        begin, end = (constant(one, known) for one in (window.begin, window.end))
+        begin, end = 0.0 if window.begin is None else begin, last if window.end is None else end
+        if begin is not None and end is not None and not (begin <= end and begin <= last * (1 + ROUNDING) and end >= 0):
+            of = window.begin or window.end
+            told = f"window {name} goes from {begin:g} s to {end:g} s"
+            raise BadValueError(told, of.text.where if of else None, f"expected a part of the run, to {last:g} s")
 
 
 def _check_method(study: StudyFile, source: KernelSource, rtol: float | None) -> None:

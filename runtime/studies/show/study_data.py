@@ -14,7 +14,7 @@ from gudgeon.language.plot_units import drawn, label, pretty, scale
 from gudgeon.language.shown import one_line
 from gudgeon.language.suggestions import unknown
 from gudgeon.language.wanted import flag, mapping, number_of, text, told
-from gudgeon.studies.show.study_signals import alike
+from gudgeon.studies.show.study_signals import alike, crossings
 
 if TYPE_CHECKING:
     from gudgeon.studies.ensemble.finished import Study
@@ -223,6 +223,22 @@ class StudyData:
         own = ((name, k, self.labels(None, name, named=True)[0]) for name, k in place.items())
         return ", ".join(words[k] for _, k, words in own)
 
+    def failures(self) -> Iterator[tuple[str, int, str]]:
+        """What runs failed of, how many, and of the first of these where it lies and all that it says."""
+        if not (kinds := self.study.failures):
+            return
+        found, first = self.dataset["failure"], self.study.first_failures
+        words = {str(one): self.labels(None, str(one), named=True)[0] for one in found.dims}
+        for kind, count in kinds.items():
+            if (run := first.get(kind)) is None:  # a folder of an earlier version
+                yield kind, count, ""
+                continue
+            place = dict(zip(words, np.unravel_index(run, found.shape), strict=True)) if words else {}
+            own = ((name, words[name][k]) for name, k in place.items())
+            at = ", ".join(word if " = " in word else f"{self.shown(name)} {word}" for name, word in own)
+            told = str(found.isel(place).values).partition("\n")[0]
+            yield kind, count, f"{at}: {told}" if at else told
+
     def sections(
         self, section: str, names: list[str], level: float, falling: bool, after: float, at: Coords | None
     ) -> list[tuple[tuple[int, ...], list[Any]]]:
@@ -260,31 +276,6 @@ def changes(columns: Mapping[tuple[str, ...], str]) -> list[str]:
         [f"{name} = {column[k]}" for column, name in columns.items() if column[k] != usual[column][0]] for k in places
     ]
     return [", ".join(told) or "unchanged" for told in own]
-
-
-def crossings(t: Any, through: Any, others: list[Any], level: float, falling: bool, after: float) -> list[Any]:
-    """Values of other series, (k,) each, where one rises (falls) through a level after a time.
-
-    Between samples all lie on PCHIP's monotone cubics.
-    """
-    from scipy.interpolate import PchipInterpolator
-
-    good = np.isfinite(t) & np.isfinite(through) & np.all([np.isfinite(own) for own in others], axis=0)
-    if good.sum() < 2:
-        return [np.zeros(0) for _ in others]
-    t, below = t[good], (through[good] - level) * (-1.0 if falling else 1.0)
-    path = PchipInterpolator(t, below)
-    starts = np.flatnonzero((below[:-1] < 0.0) & (below[1:] >= 0.0))
-    roots = path.roots(discontinuity=False, extrapolate=False)
-    at = np.array([_in_part(roots, t[k], t[k + 1]) for k in starts])
-    at = at[at >= after] if len(at) else at
-    return [PchipInterpolator(t, own[good])(at) for own in others]
-
-
-def _in_part(roots: Any, begin: float, end: float) -> float:
-    """The root between two samples; the later one where rounding lost it."""
-    own = roots[(roots >= begin) & (roots <= end)]
-    return float(own[0]) if len(own) else float(end)
 
 
 def _no_dimension(name: str, known: list[str]) -> UnknownNameError:

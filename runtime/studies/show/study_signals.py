@@ -1,4 +1,4 @@
-"""A study's kept series, run by run: over shares of a run, spectra, low-passes; runs that failed have none."""
+"""A study's kept series, run by run: over shares, spectra, low-passes, sections; runs that failed have none."""
 
 from __future__ import annotations
 
@@ -81,3 +81,28 @@ def filtered(t: Any, found: Any, cutoff: float, order: int, causal: bool) -> Any
 def _rows(*arrays: Any) -> Any:
     """(N,) of each array, run by run."""
     return zip(*(one.reshape(-1, one.shape[-1]) for one in arrays), strict=True)
+
+
+def crossings(t: Any, through: Any, others: list[Any], level: float, falling: bool, after: float) -> list[Any]:
+    """Values of other series, (k,) each, where one rises (falls) through a level after a time.
+
+    Between samples all lie on PCHIP's monotone cubics.
+    """
+    from scipy.interpolate import PchipInterpolator
+
+    good = np.isfinite(t) & np.isfinite(through) & np.all([np.isfinite(own) for own in others], axis=0)
+    if good.sum() < 2:
+        return [np.zeros(0) for _ in others]
+    t, below = t[good], (through[good] - level) * (-1.0 if falling else 1.0)
+    path = PchipInterpolator(t, below)
+    starts = np.flatnonzero((below[:-1] < 0.0) & (below[1:] >= 0.0))
+    roots = path.roots(discontinuity=False, extrapolate=False)
+    at = np.array([_in_part(roots, t[k], t[k + 1]) for k in starts])
+    at = at[at >= after] if len(at) else at
+    return [PchipInterpolator(t, own[good])(at) for own in others]
+
+
+def _in_part(roots: Any, begin: float, end: float) -> float:
+    """The root between two samples; the later one where rounding lost it."""
+    own = roots[(roots >= begin) & (roots <= end)]
+    return float(own[0]) if len(own) else float(end)
