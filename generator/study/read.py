@@ -7,6 +7,7 @@ from typing import Any
 
 from gudgeon.contract.methods import KINEMATIC, OFFERED
 from gudgeon.errors import BadNameError, BadValueError, MissingKeyError
+from gudgeon.generator.format.sections import FORMAT as MECHANISM
 from gudgeon.generator.format.shapes import missing_key, unknown_key
 from gudgeon.generator.reader.collector import EnoughErrors, Reader
 from gudgeon.generator.study.axes import read_choices, read_draw, read_parameters, read_starts
@@ -103,7 +104,10 @@ def _check_format(root: Map, needed: bool) -> None:
         if needed:
             raise MissingKeyError("no format", root.where, f"expected the key format: {FORMAT}")
     elif root["format"] != FORMAT:
-        raise BadValueError(f"format is {kind_of(root['format'])}", root.key("format").where, f"expected {FORMAT}")
+        is_mechanism = root["format"] == MECHANISM
+        more = "; this file is a mechanism, which `gudgeon run FILE` runs" if is_mechanism else ""
+        told = f"format is {kind_of(root['format'])}"
+        raise BadValueError(told, root.key("format").where, f"expected {FORMAT}{more}")
 
 
 def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str], owner: str) -> StudyFile | None:

@@ -30,7 +30,7 @@ measures:
 OPTIONS = f"{{{', '.join(f'o{k}: {{bodies.bob.mass: {k + 1}}}' for k in range(9))}}}"
 ROW = "{from: 1, to: 2, count: 100000}"
 BAD = [  # in place of what, what; line:column and words of the message
-    ("gudgeon-study/1", "gudgeon/1", "1:1", "expected gudgeon-study/1"),
+    ("gudgeon-study/1", "gudgeon/1", "1:1", "a mechanism, which `gudgeon run FILE` runs"),
     ("mechanism:", "mechansim:", "2:1", "did you mean 'mechanism'"),
     ("pendulum", "pendlum", "2:12", "pendulum"),
     ("pendulum", "../pendulum.yaml", "2:12", "study's folder or below"),
@@ -139,6 +139,10 @@ def test_what_is_no_study(tmp_path: Path, call: Gudgeon) -> None:
         gudgeon.study(deep)
     assert call("study", "nothing.yaml").exit_code == 2
     assert call("study", "pendulum").exit_code == 2
+    (tmp_path / "s.yaml").write_text(GOOD)
+    for command in ("run", "check"):
+        done = call(command, str(tmp_path / "s.yaml"))
+        assert done.exit_code == 2 and "s.yaml:1:9: " in done.output and "`gudgeon study FILE`" in done.output
 
 
 def test_a_mapping_is_told_by_its_addresses() -> None:
