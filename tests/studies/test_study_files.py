@@ -198,3 +198,25 @@ def test_starts_may_be_more_or_others_than_the_file_says() -> None:
         gudgeon.study(none, starts=3)
     with pytest.raises(InputError, match="starts"):
         gudgeon.study(study, starts=0)
+
+
+@needs_compiler
+def test_what_is_set_goes_over_rows_zips_and_draws() -> None:
+    """What goes together with it is as it was, drawn points too; titles of what is left out stay names."""
+    study: dict[str, Any] = {
+        "mechanism": "pendulum", "t_end": 1e-3, "output": 1, "measures": {"x": {"final": "bob.x"}},
+        "parameters": {"g": {"from": 1, "to": 9, "count": 3}},
+        "draw": {"count": 4, "seed": 3, "parameters": {"length": {"from": 1, "to": 2}, "bodies.bob.mass": {
+            "from": "1 kg", "to": "2 kg"}}}, "titles": {"g": "gravity"},
+    }  # fmt: skip
+    own, less = plans_of(study).each[""], plans_of(study, {"parameters.g": "3 m/s^2", "length": "5 m"}).each[""]
+    assert own.dims == ("g", "draw") and less.dims == ("draw",) and less.fixed == {"parameters.g": 3.0, "length": 5.0}
+    assert set(less.numbers[0].columns) == {"bodies.bob.mass"}
+    assert (less.numbers[0].columns["bodies.bob.mass"] == own.numbers[1].columns["bodies.bob.mass"]).all()
+    assert less.notes == ("g is set for all runs, over the 3 values that the file has for it",
+                          "length is set for all runs, over the 4 values that the file has for it")  # fmt: skip
+    assert plans_of(study, {"length": 5, "bodies.bob.mass": 3}).each[""].dims == ("g",)
+    both = {key: value for key, value in study.items() if key not in ("parameters", "draw", "titles")}
+    both["zip"] = {"pair": {"g": [1, 2], "length": [3, 4]}}
+    assert plans_of(both, {"g": 3}).each[""].dims == ("pair",)
+    assert plans_of(both, {"g": 3, "length": 1}).each[""].dims == ()

@@ -20,7 +20,7 @@ from gudgeon.results.batch import Array
 from gudgeon.simulation.arguments import MOST_OUTPUT
 
 if TYPE_CHECKING:
-    from gudgeon.generator.study.spec import Numbers, Written
+    from gudgeon.generator.study.spec import Numbers, StudyFile, Written
     from gudgeon.generator.yaml.tree import Text
 
 GEOMETRIC = "geometric"
@@ -144,6 +144,26 @@ def impossible(name: str, values: Array) -> tuple[Array, str]:
         expected = f"a number of intervals from 1 to {MOST_OUTPUT:.0e}"
         return ~((values >= 1.0) & (values <= MOST_OUTPUT)), expected
     return ~((values > 0.0) & np.isfinite(values)), "a positive time (s)"
+
+
+def check_constants(study: StudyFile) -> None:
+    """BadValueError at its place for an end, an output, a step or a window that no run can have."""
+    known: dict[str, float] = {}
+    for name, written in (("t_end", study.t_end), ("output", study.output), ("step", study.step)):
+        if written is None or (value := constant(written, known)) is None:
+            continue
+        wrong, expected = impossible(name, np.rint([value]) if name == "output" else np.array([value]))
+        if wrong.any():
+            raise BadValueError(f"{name} is {value:g}", written.text.where, f"expected {expected}")
+        known |= {name: value} if name == "t_end" else {}
+    last = known.get("t_end", np.inf)
+    for name, window in study.windows.items():
+        begin, end = (constant(one, known) for one in (window.begin, window.end))
+        begin, end = 0.0 if window.begin is None else begin, last if window.end is None else end
+        if begin is not None and end is not None and not (begin <= end and begin <= last * (1 + ROUNDING) and end >= 0):
+            of = window.begin or window.end
+            told = f"window {name} goes from {begin:g} s to {end:g} s"
+            raise BadValueError(told, of.text.where if of else None, f"expected a part of the run, to {last:g} s")
 
 
 def of_runs(source: KernelSource, expr: Expr, p: Array, more: Mapping[str, Any]) -> Array:
