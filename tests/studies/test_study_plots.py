@@ -173,6 +173,14 @@ def test_curves_and_phases_have_a_colour_a_value(study: gudgeon.Study, tmp_path:
     assert given is phase
 
 
+def test_a_number_of_a_draw_picks_the_run_that_is_nearest(study: gudgeon.Study) -> None:
+    x0 = study.dataset["x0"].values
+    for k in (0, 5, 8):
+        ax: Any = plots(study).overlay("load.x", at={"k": 390, "way": 1, "x0": float(x0[k]) + 1e-6})
+        np.testing.assert_array_equal(ax.lines[0].get_ydata(), study.dataset["load.x"].values[1, 1, k])
+        assert ax.get_title().endswith(f"k = 400 kg/s², way = 4 kg, x0 = {x0[k]:.4g} m"), ax.get_title()
+
+
 def test_names_that_do_not_exist_are_told(study: gudgeon.Study) -> None:
     for call in (
         lambda plot: plot.measure("fats"), lambda plot: plot.measure("fast", "kk"), lambda plot: plot.bands("load.y"),

@@ -73,7 +73,7 @@ class StudyData:
         found, picked, places = self.dataset[name], dict[str, int](), self.axis(axis)[0]
         for key, value in (at or {}).items():
             dimension = self.dimension(found, key)
-            picked[dimension] = self.nearest(found, dimension, value)
+            picked[dimension] = self.nearest(key, value)
         each = [(json.loads(place), float(value)) for place, value in zip(own["place"], own["printed"], strict=True)]
         pooled = {one for one, n in found.sizes.items() if n > 1 and one not in (over, by, *picked)}
         return [(float(places[place[over]]), value, -1 if by is None else place.get(by, -1)) for place, value in each
@@ -96,7 +96,7 @@ class StudyData:
     def _picked(self, found: Any, at: Coords | None) -> Any:
         for name, value in mapping(at, "at", "expected {coordinate: value}").items():
             dimension = self.dimension(found, name)
-            found = found.isel({dimension: self.nearest(found, dimension, value)})
+            found = found.isel({dimension: self.nearest(name, value)})
         return found
 
     def dimension(self, found: Any, name: str) -> str:
@@ -111,15 +111,15 @@ class StudyData:
             raise BadValueError(f"{name} does not vary over the runs that are shown")
         raise _no_dimension(name, known)
 
-    def nearest(self, found: Any, dimension: str, value: Any) -> int:
-        """The place of a coordinate's value: that word, or the nearest number."""
-        values = self.dataset[dimension].values if dimension in self.dataset.coords else np.arange(len(found))
+    def nearest(self, name: str, value: Any) -> int:
+        """The place of a coordinate's value along its dimension: that word, or the nearest number."""
+        values = self.dataset[name].values
         if values.dtype.kind in "OU":
             words = [str(one) for one in values]
             if not isinstance(value, str) or value not in words:
-                raise unknown(f"{dimension} has no {told(value)}", str(value), tuple(words))
+                raise unknown(f"{name} has no {told(value)}", str(value), tuple(words))
             return words.index(value)
-        return int(np.abs(values - number_of(value, dimension)).argmin())
+        return int(np.abs(values - number_of(value, name)).argmin())
 
     def first(self, found: Any) -> str:
         """What a measure is drawn over if nobody says: the first dimension that is a number's, else one of words.
@@ -171,11 +171,11 @@ class StudyData:
         ticks = list(self.written(name)) if len(values) <= MOST_TICKS else []
         return values * factor, label(self.shown(name), "" if ticks else shown), ticks or self._together(name)
 
-    def place(self, found: Any, name: str, value: Any) -> float:
+    def place(self, name: str, value: Any) -> float:
         """Where on that axis a value lies."""
         values = self.dataset[name].values
         if values.dtype.kind in "OU":
-            return float(self.nearest(found, name, value))
+            return float(self.nearest(name, value))
         return number_of(value, name) * drawn(float(np.abs(values).max(initial=0.0)), self.unit(name))[0]
 
     def labels(self, found: Any, dimension: str, named: bool = False) -> tuple[list[str], str]:
@@ -197,6 +197,11 @@ class StudyData:
         """Values of a coordinate as the file has them, with their units; none where it has not."""
         own = self.texts.get(name, ())
         return own if len(own) == np.size(self.dataset[name].values) else ()
+
+    def at(self, name: str, value: Any) -> str:
+        """The runs that are picked by a coordinate: "scene = without oil", or the nearest number as the file has it."""
+        word = self.labels(None, name, named=True)[0][self.nearest(name, value)]
+        return word if word.startswith(f"{self.shown(name)} = ") else f"{self.shown(name)} = {word}"
 
     def _together(self, dimension: str) -> list[str] | None:
         """Of a zip what its numbers are at each place, or what differs there from most of its places.

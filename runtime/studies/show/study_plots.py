@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.errors import BadValueError
-from gudgeon.language.plot_units import drawn, label, quantity
+from gudgeon.language.plot_units import drawn, label
 from gudgeon.language.shown import in_figure, one_line
 from gudgeon.language.wanted import flag, number_of, positive, refuse
 from gudgeon.results.plots import COLOURS, STYLE, TITLE, cycle, peak_of
@@ -58,7 +58,7 @@ class StudyPlot:
             claimed = self.data.claimed(name, over, by, at, axis) if published else []
         else:
             stars = {key: number_of(value, "published") for key, value in _pairs(published).items()}
-            claimed = [(self.data.place(found, axis, key), value, -1) for key, value in stars.items()]
+            claimed = [(self.data.place(axis, key), value, -1) for key, value in stars.items()]
         with matplotlib.rc_context(STYLE):
             ax = new_axes(5.6, 3.6) if ax is None else plain(ax)
             x, x_label, ticks = self.data.axis(axis)
@@ -238,7 +238,7 @@ class StudyPlot:
         return ax
 
     def _finish(self, ax: Axes, at: Coords | None, legend: bool) -> None:
-        picked = ", ".join(f"{self.data.shown(name)} = {_said(value)}" for name, value in (at or {}).items())
+        picked = ", ".join(self.data.at(name, value) for name, value in (at or {}).items())
         ax.set_title(in_figure(": ".join(filter(None, (one_line(self.data.title), picked))), TITLE))
         if legend and ax.get_legend_handles_labels()[0]:
             ax.legend(fontsize=8)
@@ -250,7 +250,3 @@ def _pairs(published: Any) -> dict[Any, Any]:
         return dict(published or {})
     except (TypeError, ValueError):
         refuse("published", published, "{coordinate: number}, or True")
-
-
-def _said(value: Any) -> str:
-    return one_line(value) if isinstance(value, str) else quantity(float(value), "")
