@@ -74,6 +74,7 @@ def check_shape(root: Map) -> Checked:
     raise errors[0] if len(errors) == 1 else InputErrors(errors)
 
 
+STUDIES = "gudgeon-study/"  # begins the format of files that are read elsewhere
 _NEEDED = frozenset(field.name for field in FILE.fields if field.required)
 _MAY_BE_EMPTY = frozenset(field.name for field in FILE.fields if not field.required and field.kind not in SCALARS)
 
@@ -84,7 +85,9 @@ def check_format(root: Map) -> None:
     if found is None:
         raise MissingKeyError("no format", root.where, f"expected the key format: {FORMAT}")
     if found != FORMAT:
-        raise BadValueError(f"format is {kind_of(found)}", found.where, f"expected {FORMAT}")
+        is_study = isinstance(found, Text) and found.startswith(STUDIES)
+        more = "; this file is a study, whose runs `gudgeon study FILE` makes" if is_study else ""
+        raise BadValueError(f"format is {kind_of(found)}", found.where, f"expected {FORMAT}{more}")
 
 
 @dataclass(frozen=True)

@@ -100,7 +100,7 @@ def read_draw(reader: Reader, root: Map) -> Draw | None:
             for key in drawn.names():
                 dimension_name(key, "parameter")
             numbers = {key: _spread(reader, key, below) for key, below in drawn.pairs()}
-            return Draw(count, seed(node, "draw"), method, numbers)
+            return Draw(count, seed(node, "draw"), method, numbers, tuple(map(str, numbers)))
     return None
 
 

@@ -7,12 +7,14 @@ from typing import Any
 
 from gudgeon.contract.methods import KINEMATIC, OFFERED
 from gudgeon.errors import BadNameError, BadValueError, MissingKeyError
+from gudgeon.generator.format.sections import FORMAT as MECHANISM
 from gudgeon.generator.format.shapes import missing_key, unknown_key
 from gudgeon.generator.reader.collector import EnoughErrors, Reader
 from gudgeon.generator.study.axes import read_choices, read_draw, read_parameters, read_starts
 from gudgeon.generator.study.claim_spec import Claims
 from gudgeon.generator.study.claims import read_claims
 from gudgeon.generator.study.parts import check_keys, label, mapping, text, texts, word, written
+from gudgeon.generator.study.settings import short, varied
 from gudgeon.generator.study.spec import (
     CONTACTS,
     CROSSINGS,
@@ -103,15 +105,17 @@ def _check_format(root: Map, needed: bool) -> None:
         if needed:
             raise MissingKeyError("no format", root.where, f"expected the key format: {FORMAT}")
     elif root["format"] != FORMAT:
-        raise BadValueError(f"format is {kind_of(root['format'])}", root.key("format").where, f"expected {FORMAT}")
+        is_mechanism = root["format"] == MECHANISM
+        more = "; this file is a mechanism, which `gudgeon run FILE` runs" if is_mechanism else ""
+        told = f"format is {kind_of(root['format'])}"
+        raise BadValueError(told, root.key("format").where, f"expected {FORMAT}{more}")
 
 
 def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str], owner: str) -> StudyFile | None:
     if not check_keys(reader, root, KEYS if owner == "the study" else PART, owner, ("mechanism",)):
         return None
-    fixed, axes = read_parameters(reader, root)
-    draw, starts, choices = read_draw(reader, root), read_starts(reader, root), read_choices(reader, root)
-    fixed = _over(fixed, settings)
+    numbers = varied(*read_parameters(reader, root), read_draw(reader, root), settings)
+    starts, choices = read_starts(reader, root), read_choices(reader, root)
     title = mechanism = Text.make("", root.where)
     one, scenes = True, (*[Text.make("ideal", root.where)],)
     with reader.collect():
@@ -133,9 +137,10 @@ def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str], own
             hint = "expected measures: {peak: {peak: slider.ax}}, or keep: [slider.x]"
             raise MissingKeyError(f"{owner} measures nothing and keeps nothing", root.where, hint)
     found = StudyFile(
-        file, str(title), mechanism, scenes, one, tuple(choices), fixed, tuple(axes), draw, starts, times["t_end"],
-        times["output"], times["step"], windows, measures, keep, _method(reader, root), _rtol(reader, root),
-        _stop(reader, root), _said(root) | {"settings": dict(sorted(settings.items()))}, read_wear(reader, root),
+        file, str(title), mechanism, scenes, one, tuple(choices), numbers.fixed, numbers.axes, numbers.draw, starts,
+        times["t_end"], times["output"], times["step"], windows, measures, keep, _method(reader, root),
+        _rtol(reader, root), _stop(reader, root), _said(root) | {"settings": dict(sorted(settings.items()))},
+        read_wear(reader, root), numbers.left_out,
     )  # fmt: skip
     _check_names(reader, found, root)
     return found
@@ -144,14 +149,6 @@ def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str], own
 def _said(root: Map) -> dict[str, Any]:
     """What decides the results: not what is claimed of them."""
     return {key: said for key, said in plain(root).items() if key not in ("claims", "titles", "about")}
-
-
-def _over(fixed: Mapping[Text, Text], settings: Mapping[str, str]) -> dict[Text, Text]:
-    """The file's own numbers under those of --set; a parameter may be called with its section or without."""
-    given = {name.removeprefix("parameters.") for name in settings}
-    kept = {key: value for key, value in fixed.items() if key.removeprefix("parameters.") not in given}
-    own = tree_of({f"--set {name}": value for name, value in settings.items()})
-    return kept | {Text.make(key.removeprefix("--set "), key.where): value for key, value in own.items()}
 
 
 def _once(names: tuple[Text, ...], what: str) -> tuple[Text, ...]:
@@ -273,12 +270,12 @@ def _check_names(reader: Reader, study: StudyFile, root: Map) -> None:
     addresses += list(study.draw.numbers) if study.draw else []
     seen: dict[str, Text] = {}
     for key in addresses:
-        short = str(key).removeprefix("parameters.")
-        if short in seen:
+        called = short(str(key))
+        if called in seen:
             with reader.collect():
                 told = f"{str(key)[:60]!r} is said twice"
-                raise BadNameError(told, key.where, f"expected once; the first is at {seen[short].where}")
-        seen.setdefault(short, key)
+                raise BadNameError(told, key.where, f"expected once; the first is at {seen[called].where}")
+        seen.setdefault(called, key)
     groups = [Text.make(axis.name, axis.where) for axis in study.axes if axis.grouped]
     names = [*groups, *(Text.make(choice.name, choice.where) for choice in study.choices)]
     names += [key for key in root.part("measures").names()] if isinstance(root.get("measures"), Map) else []

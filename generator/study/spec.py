@@ -84,6 +84,7 @@ class Draw:
     seed: int
     method: str
     numbers: Mapping[Text, Spread]
+    names: tuple[str, ...]  # of all that the file draws: the points of one are the same where another one is set
 
 
 @dataclass(frozen=True)
@@ -173,6 +174,7 @@ class StudyFile:
     stop: bool
     said: Mapping[str, Any]
     wear: WearRounds | None = None
+    left_out: tuple[Axis, ...] = ()  # what varies in the file, and is set for all runs
 
     def begun(self, count: int | None, seed: int | None) -> StudyFile:
         """With another count or seed of its starts, if it has any."""

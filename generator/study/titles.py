@@ -51,7 +51,7 @@ def _names(part: StudyFile) -> Iterator[str]:
     yield from map(str, part.draw.numbers if part.draw else ())
     for choice in part.choices:
         yield from (choice.name, *choice.options)
-    for axis in part.axes:
+    for axis in (*part.axes, *part.left_out):
         yield axis.name
         for name, numbers in axis.columns.items():
             yield from map(str, (name, *numbers.texts))

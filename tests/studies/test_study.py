@@ -21,6 +21,7 @@ from gudgeon.errors import BadValueError, InputError
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble import final, resolve
 from gudgeon.studies.ensemble.final import slabs
+from gudgeon.studies.ensemble.notes import kind_of
 from gudgeon.studies.ensemble.study import plans_of
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
@@ -285,6 +286,21 @@ def test_failures_are_rows_with_their_reason(
     assert done.exit_code == 0 and "4 of 6 runs failed" in done.output, done.output
     document = json.loads(call("study", "s.yaml", "--json", "--out", "s.study").output)
     assert document["failed"] == 4 and document["measures"]["x"]["nan"] == 4
+    told = dict(zip(found.failures, found.first_failures.values(), strict=True))
+    assert sorted(told.values()) == [1, 2] == [int(np.argmax(found.dataset["failure"].values.ravel() != "")), 2]
+    late = "t_end is -0.002 with this run's numbers: expected a positive time (s)"
+    assert f"    the first: c = 0.1 mm, omega = −300 rpm: {late}" in done.output
+    assert f"c = 0.1 mm, omega = −300 rpm: {late}" in document["first_failures"].values()
+
+
+@pytest.mark.parametrize(("told", "kind"), [
+    ("a.R is -0.0001 m with omega = 15.7 1/s, c = -1e-4 m: it is positive", "a.R is … m: it is positive"),
+    ("a.R is 2 m with c = 3 m: it is positive\n more", "a.R is … m: it is positive"),
+    ("rod12.a = 3.5e+02 m/s^2, -2 1/s^-2 and 11/s", "rod12.a = … m/s^2, … 1/s^-2 and …/s"),
+])  # fmt: skip
+def test_runs_that_failed_of_the_same_are_one_kind(told: str, kind: str) -> None:
+    """Without the numbers of each; digits of names and units stay."""
+    assert kind_of(told) == kind
 
 
 def test_a_run_that_leaves_its_laws_domain_is_a_row_up_to_there() -> None:
@@ -323,7 +339,8 @@ measures: {x: {final: bob.x}}
     (tmp_path / "late.yaml").write_text(empty)  # of the second run it begins after its end
     done = call("study", "late.yaml")
     assert "1 of 2 runs failed" in done.output and "window late goes from" in done.output, done.output
-    assert call("study", "s.yaml", "--set", "g=3").exit_code == 2  # it is varied
+    done = call("study", "s.yaml", "--set", "g=3", "--out", "moon")  # over the row
+    assert done.exit_code == 0 and "1 runs (one run)" in done.output and "note: g is set" in done.output, done.output
     assert call("study", "s.yaml", "--set", "lenght=3").exit_code == 2
 
 

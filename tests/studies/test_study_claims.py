@@ -10,6 +10,7 @@ from statistics import NormalDist
 from typing import Any
 
 import numpy as np
+import pandas
 import pytest
 from ruamel.yaml import YAML
 
@@ -17,6 +18,7 @@ import gudgeon
 from gudgeon.errors import GudgeonError, InputError, InputErrors
 from gudgeon.generator.study.schema import schema
 from gudgeon.studies.ensemble import judge
+from gudgeon.studies.ensemble.claimed import Claimed
 from gudgeon.studies.ensemble.judge import Cell, Check, Look, judged, together
 from gudgeon.studies.ensemble.study import plans_of
 from tests.programs import needs_compiler
@@ -258,6 +260,20 @@ def test_numbers_beside_the_printed_ones(found: gudgeon.Study, tmp_path: Path) -
     assert (found.folder / "claims_trends.csv").read_text().count("\n") == len(again.trends) + 1
 
 
+@pytest.mark.parametrize(("medians", "off", "told"), [
+    ([2.0, 3.0], [5.0, -7.0], "2 printed numbers: ours are off by 6 % or less for half of them"),
+    ([2.0, math.nan], [5.0, math.nan], "2 printed numbers, 1 of them computed: ours is off by 5 %"),
+    ([math.nan, math.nan], [math.nan, math.nan], "2 printed numbers: none could be computed"),
+    ([math.nan], [math.nan], "1 printed number: none could be computed"),
+    ([2.0], [math.nan], "1 printed number: of a printed 0 ours is off by no share"),
+])  # fmt: skip
+def test_what_could_not_be_computed_is_off_by_nothing(medians: list[float], off: list[float], told: str) -> None:
+    """NaN, of runs that failed, is in no median of deviations."""
+    names = [f"N{k}" for k in range(len(off))]
+    numbers = pandas.DataFrame({"claim": names, "printed": 1.0, "median": medians, "deviation": off})
+    assert Claimed(numbers, pandas.DataFrame(), "").totals() == [told]
+
+
 @needs_compiler
 def test_published_numbers_are_marks(found: gudgeon.Study) -> None:
     """N1 is 2 m at 1 m and 9.81 m/s²: on the line of that length, and nowhere where another one is picked."""
@@ -269,6 +285,7 @@ def test_published_numbers_are_marks(found: gudgeon.Study) -> None:
     assert mark.get_color() == ax.lines[1].get_color() != ax.lines[0].get_color()
     assert len(plot.measure("x", "g", at={"length": 2.0}, published=True).lines) == 1
     assert len(plot.measure("x", "g", at={"length": 1.0}, published=True).lines) == 2
+    assert len(plot.measure("x", "g", published=True).lines) == 1  # a median of both lengths: N1 is about one
     assert found.parts["noisy"].claims.numbers["claim"].unique().tolist() == ["N2"]
 
 

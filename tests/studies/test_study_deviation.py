@@ -29,7 +29,7 @@ CRANK: dict[str, Any] = {
         "least": {"min_of_steps": "slider.ax", "from": "ideal"},
         "force": {"peak_force": "wristpin"},
     },
-    "keep": ["slider.x", "slider.vx"],
+    "keep": ["slider.x", "slider.vx"], "titles": {"dry": "loose"},
 }  # fmt: skip
 
 
@@ -161,3 +161,18 @@ def test_mistakes_are_told_at_their_place(measure: str, place: str, words: str, 
     with pytest.raises(InputError) as told:
         plans_of(path)
     assert str(told.value).startswith(f"{path}:{place}: ") and words in str(told.value), str(told.value)
+
+
+def test_what_has_no_number_stands_in_no_legend_and_zeros_have_no_map(crank: gudgeon.Study) -> None:
+    """The ideal scene has no force in a pin with play, and deviates from itself by nothing."""
+    pytest.importorskip("matplotlib")
+    from gudgeon.studies.show.study_data import StudyData
+    from gudgeon.studies.show.study_page import _figures
+
+    plot: Any = crank.plot
+    for ax, told in ((plot.measure("force", "c"), ["loose"]), (plot.measure("x", "c"), ["ideal", "loose"])):
+        assert [word.get_text() for word in ax.get_legend().get_texts()] == told
+    maps = [told for told, _ in _figures(StudyData(crank)) if told.startswith(("x:", "least:")) and "quart" not in told]
+    assert sorted(maps) == ["least: median, loose", "x: median, loose"]
+    title = plot.heat_map("x", "c", "omega", at={"scene": "dry"}).get_title()
+    assert " ".join(title.split()).endswith(": scene = loose")

@@ -30,7 +30,7 @@ measures:
 OPTIONS = f"{{{', '.join(f'o{k}: {{bodies.bob.mass: {k + 1}}}' for k in range(9))}}}"
 ROW = "{from: 1, to: 2, count: 100000}"
 BAD = [  # in place of what, what; line:column and words of the message
-    ("gudgeon-study/1", "gudgeon/1", "1:1", "expected gudgeon-study/1"),
+    ("gudgeon-study/1", "gudgeon/1", "1:1", "a mechanism, which `gudgeon run FILE` runs"),
     ("mechanism:", "mechansim:", "2:1", "did you mean 'mechanism'"),
     ("pendulum", "pendlum", "2:12", "pendulum"),
     ("pendulum", "../pendulum.yaml", "2:12", "study's folder or below"),
@@ -91,6 +91,13 @@ BAD = [  # in place of what, what; line:column and words of the message
     ("t_end: 1 s", f"title: {'x' * 201}", "5:8", "at most 200"),
     ("t_end: 1 s", 'title: "a\\0b"', "5:9", "can be seen"),
     ("t_end: 1 s", "output: 1 s", "5:9", "a pure number"),
+    ("t_end: 1 s", "t_end: 0 s", "5:8", "t_end is 0\n  expected a positive time"),
+    ("t_end: 1 s", "t_end: 1 s/0", "5:8", "a positive time"),
+    ("t_end: 1 s", "output: 0.4", "5:9", "a number of intervals from 1"),
+    ("t_end: 1 s", "output: 1e9", "5:9", "a number of intervals from 1"),
+    ("t_end: 1 s", "step: -1 ms", "5:7", "a positive time"),
+    ("from: t_end/2", "from: 2*t_end", "7:16", "goes from 2 s to 1 s"),
+    ("from: t_end/2", "to: -1 s", "7:14", "expected a part of the run"),
 ]  # fmt: skip
 
 
@@ -132,6 +139,10 @@ def test_what_is_no_study(tmp_path: Path, call: Gudgeon) -> None:
         gudgeon.study(deep)
     assert call("study", "nothing.yaml").exit_code == 2
     assert call("study", "pendulum").exit_code == 2
+    (tmp_path / "s.yaml").write_text(GOOD)
+    for command in ("run", "check"):
+        done = call(command, str(tmp_path / "s.yaml"))
+        assert done.exit_code == 2 and "s.yaml:1:9: " in done.output and "`gudgeon study FILE`" in done.output
 
 
 def test_a_mapping_is_told_by_its_addresses() -> None:
@@ -187,3 +198,25 @@ def test_starts_may_be_more_or_others_than_the_file_says() -> None:
         gudgeon.study(none, starts=3)
     with pytest.raises(InputError, match="starts"):
         gudgeon.study(study, starts=0)
+
+
+@needs_compiler
+def test_what_is_set_goes_over_rows_zips_and_draws() -> None:
+    """What goes together with it is as it was, drawn points too; titles of what is left out stay names."""
+    study: dict[str, Any] = {
+        "mechanism": "pendulum", "t_end": 1e-3, "output": 1, "measures": {"x": {"final": "bob.x"}},
+        "parameters": {"g": {"from": 1, "to": 9, "count": 3}},
+        "draw": {"count": 4, "seed": 3, "parameters": {"length": {"from": 1, "to": 2}, "bodies.bob.mass": {
+            "from": "1 kg", "to": "2 kg"}}}, "titles": {"g": "gravity"},
+    }  # fmt: skip
+    own, less = plans_of(study).each[""], plans_of(study, {"parameters.g": "3 m/s^2", "length": "5 m"}).each[""]
+    assert own.dims == ("g", "draw") and less.dims == ("draw",) and less.fixed == {"parameters.g": 3.0, "length": 5.0}
+    assert set(less.numbers[0].columns) == {"bodies.bob.mass"}
+    assert (less.numbers[0].columns["bodies.bob.mass"] == own.numbers[1].columns["bodies.bob.mass"]).all()
+    assert less.notes == ("g is set for all runs, over the 3 values that the file has for it",
+                          "length is set for all runs, over the 4 values that the file has for it")  # fmt: skip
+    assert plans_of(study, {"length": 5, "bodies.bob.mass": 3}).each[""].dims == ("g",)
+    both = {key: value for key, value in study.items() if key not in ("parameters", "draw", "titles")}
+    both["zip"] = {"pair": {"g": [1, 2], "length": [3, 4]}}
+    assert plans_of(both, {"g": 3}).each[""].dims == ("pair",)
+    assert plans_of(both, {"g": 3, "length": 1}).each[""].dims == ()

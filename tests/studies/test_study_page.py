@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from pathlib import Path
 from typing import Any
@@ -15,8 +16,9 @@ from gudgeon.errors import InputError
 from gudgeon.generator.study.read import KEYS, read_study
 from gudgeon.generator.study.schema import schema
 from gudgeon.generator.study.spec import DRAWN, STATISTICS
-from gudgeon.studies.ensemble.names import as_people_write
+from gudgeon.studies.ensemble.names import as_people_write, names_of
 from gudgeon.studies.ensemble.resolve import BLOCK
+from gudgeon.studies.ensemble.study import plans_of
 from tests.programs import needs_compiler
 
 jsonschema = pytest.importorskip("jsonschema")
@@ -94,6 +96,8 @@ def test_people_read_titles_and_numbers_as_they_are_written(tmp_path: Path) -> N
     plot: Any = study.plot
     ax = plot.measure("low", "length", "g")
     assert [tick.get_text() for tick in ax.get_xticklabels()] == ["10 cm", "2·10⁻¹ m"]
+    assert plot.measure("low", "g", at={"length": 0.19}).get_title().endswith(": ℓ = 2·10⁻¹ m")
+    assert study.claims.numbers["at"].tolist() == ["length 0.1 m, g 9.81 m/s²"]  # as the claim writes it
     assert ax.get_xlabel() == "ℓ" and ax.get_ylabel().startswith("lowest <place> [")
     with pytest.raises(InputError, match=r"titles.lwo(.|\n)*did you mean 'low'"):
         gudgeon.study(own | {"titles": {"lwo": "x"}})
@@ -104,7 +108,27 @@ def test_people_read_titles_and_numbers_as_they_are_written(tmp_path: Path) -> N
 
 @pytest.mark.parametrize(("text", "shown"), [
     ("3*pi rad/s", "3π rad/s"), ("0.6 mm", "0.6 mm"), ("1e-4 m/s", "10⁻⁴ m/s"), ("-9.81 m/s^2", "−9.81 m/s²"),
+    ("pi rad/s", "π rad/s"), ("-pi rad/s", "−π rad/s"), ("pi", ""), ("pin rad/s", ""),
     ("5 um", "5 µm"), ("9.81", ""), ("2*c", ""), ("aluminium", ""),
 ])  # fmt: skip
 def test_a_number_as_people_write_it(text: str, shown: str) -> None:
     assert as_people_write(text) == shown
+
+
+@pytest.mark.parametrize(("row", "shown"), [
+    ({"from": "60 rpm", "to": "2.4e2 rpm", "count": 3}, ("60 rpm", "150 rpm", "2.4·10² rpm")),
+    ({"from": "pi rad/s", "to": "8*pi rad/s", "count": 4, "spacing": "geometric"},
+     ("π rad/s", "2π rad/s", "4π rad/s", "8π rad/s")),
+    ({"from": "60 rpm", "to": "8*pi rad/s", "count": 3}, ()), ({"from": 1, "to": "60 rpm", "count": 3}, ()),
+])  # fmt: skip
+@needs_compiler
+def test_a_row_is_shown_in_the_unit_of_its_ends(row: dict[str, Any], shown: tuple[str, ...]) -> None:
+    """What is between is that of the runs; without a unit that both have in SI."""
+    study = {"mechanism": "slider_crank", "parameters": {"omega": row}, "measures": {"x": {"max": "slider.x"}}}
+    plans = plans_of(study)
+    assert names_of(plans).values[""].get("omega", ()) == shown
+    for text, omega in zip(shown, plans.each[""].numbers[0].columns["omega"], strict=False):
+        told = text.replace("2.4·10²", "240").replace("π", "*pi")
+        number, _, unit = told.partition(" ")
+        value = float(number.removesuffix("*pi") or 1) * (math.pi if "pi" in told else 1.0)
+        assert value * {"rpm": math.pi / 30, "rad/s": 1.0}[unit] == pytest.approx(omega, rel=1e-6)

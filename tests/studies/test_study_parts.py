@@ -129,5 +129,8 @@ def test_the_command(tmp_path: Path, call: Gudgeon) -> None:
     assert done.exit_code == 0 and "part lengths:" in done.output, done.output
     document = json.loads(call("study", "s.yaml", "--json").output)
     assert document["runs"] == 5 and set(document["parts"]["lengths"]["measures"]) == {"x"}
-    done = call("study", "s.yaml", "--set", "length=3 m")  # one part varies it
-    assert done.exit_code == 2 and "is said twice" in done.output
+    done = call("study", "s.yaml", "--set", "length=3 m", "--out", "t.study")  # one part varies it
+    assert done.exit_code == 0 and "note: length is set for all runs, over the 3 values that the file" in done.output
+    parts = gudgeon.load_study(tmp_path / "t.study").parts
+    assert parts["planets"].runs == 2 and parts["lengths"].dataset["x"].dims == ()
+    assert all(one.dataset["length"].values == 3.0 for one in parts.values())

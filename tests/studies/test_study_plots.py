@@ -13,8 +13,8 @@ pytest.importorskip("matplotlib")
 
 import gudgeon  # noqa: E402
 from gudgeon.errors import BadValueError, UnknownNameError  # noqa: E402
-from gudgeon.studies.show.study_data import changes, crossings  # noqa: E402
-from gudgeon.studies.show.study_signals import alike  # noqa: E402
+from gudgeon.studies.show.study_data import changes  # noqa: E402
+from gudgeon.studies.show.study_signals import alike, crossings, over_shares  # noqa: E402
 from tests.programs import needs_compiler  # noqa: E402
 
 pytestmark = needs_compiler
@@ -101,6 +101,29 @@ def test_bands_are_quantiles_by_hand(study: gudgeon.Study) -> None:
     assert sorted(quartiles[at, 1])[:: len(at) - 1] == pytest.approx([rows[2, 123], rows[6, 123]])
 
 
+def test_bands_over_shares_are_of_the_same_share_of_each_run(tmp_path: Path) -> None:
+    """One turn of x = 1 + x0 cos ωt at 314, 157 and 105 samples: one line, to what chords leave of an arc; from any."""
+    (tmp_path / "mass.yaml").write_text(OSCILLATOR, encoding="utf-8")
+    turn: Any = gudgeon.study({
+        "mechanism": str(tmp_path / "mass.yaml"),
+        "parameters": {"k": [400, 100, 900], "bodies.load.mass": ["1 kg", -1]}, "t_end": "2*pi*sqrt(1 kg/k)",
+        "output": "t_end/2 ms", "keep": ["load.x"],
+    })  # fmt: skip
+    assert turn.dataset.sizes["sample"] == 315 and turn.failed == 3
+    atol = 0.1 * (2 * np.pi / 105) ** 2 / 8 + 1e-9
+    for at, samples in (({}, 315), ({"k": 900}, 106)):
+        line = turn.plot.bands("load.x", share=True, at=at).lines[0]
+        s, x = line.get_data()
+        assert len(s) == samples and s[0] == 0.0 and s[-1] == 1.0
+        np.testing.assert_allclose(x, 1.0 + 0.1 * np.cos(2 * np.pi * s), atol=atol)
+    found: Any = over_shares(turn.dataset["t"].values, turn.dataset["load.x"])
+    runs = found[1].values
+    assert np.ptp(runs[:, 0], axis=0).max() < 2 * atol and np.isnan(runs[:, 1]).all()
+    with pytest.raises(BadValueError, match="no run has a length"):
+        turn.plot.bands("load.x", share=True, at={"bodies.load.mass": -1})
+    assert "over shares" in turn.report().to_html()
+
+
 def test_a_map_of_two_dimensions_is_its_medians(study: gudgeon.Study) -> None:
     ax = plots(study).heat_map("far", "x0", "k", at={"way": 1})
     (image,) = ax.images
@@ -148,6 +171,14 @@ def test_curves_and_phases_have_a_colour_a_value(study: gudgeon.Study, tmp_path:
     phase.figure.savefig(tmp_path / "x.png")
     given = plots(study).bands("load.x", "k", ax=phase)
     assert given is phase
+
+
+def test_a_number_of_a_draw_picks_the_run_that_is_nearest(study: gudgeon.Study) -> None:
+    x0 = study.dataset["x0"].values
+    for k in (0, 5, 8):
+        ax: Any = plots(study).overlay("load.x", at={"k": 390, "way": 1, "x0": float(x0[k]) + 1e-6})
+        np.testing.assert_array_equal(ax.lines[0].get_ydata(), study.dataset["load.x"].values[1, 1, k])
+        assert ax.get_title().endswith(f"k = 400 kg/s², way = 4 kg, x0 = {x0[k]:.4g} m"), ax.get_title()
 
 
 def test_names_that_do_not_exist_are_told(study: gudgeon.Study) -> None:

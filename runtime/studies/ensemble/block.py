@@ -15,13 +15,13 @@ from gudgeon.language.tree import Expr
 from gudgeon.model.default_step import scene_end, scene_number
 from gudgeon.model.parameter_sets import given_each, prepare_sets
 from gudgeon.results.batch import Array
-from gudgeon.simulation.arguments import DEFAULT_OUTPUT, MOST_OUTPUT
+from gudgeon.simulation.arguments import DEFAULT_OUTPUT
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.exponents import follow
 from gudgeon.studies.ensemble.libraries import loaded, method_in
 from gudgeon.studies.ensemble.measures import Spans, measured, rubs_of, sampled, series_of, steps_of, within
 from gudgeon.studies.ensemble.notes import Note, gathered, guesses, merged
-from gudgeon.studies.ensemble.numbers import ROUNDING, key_of, of_runs, slot_of
+from gudgeon.studies.ensemble.numbers import ROUNDING, impossible, key_of, of_runs, slot_of
 from gudgeon.studies.ensemble.origins import at_samples, of_steps, origin_of
 from gudgeon.studies.ensemble.wearing import worn
 
@@ -127,7 +127,7 @@ class Table:
         self.step: Array | None = None
         if wanted.step is not None and self.source.degrees_of_freedom:
             self.step = of_runs(self.source, wanted.step, self.p, known)
-            self._refuse(~((self.step > 0.0) & np.isfinite(self.step)), self.step, "step", "a positive time (s)")
+            self._refuse("step", self.step)
         self.spans = self._windows(wanted.windows, known)
 
     def _off(self, job: Job) -> dict[str, Array]:
@@ -168,14 +168,15 @@ class Table:
             found[name] = tuple(own)
         return found
 
-    def _refuse(self, wrong: Array, values: Array, name: str, expected: str) -> None:
+    def _refuse(self, name: str, values: Array) -> None:
+        wrong, expected = impossible(name, values)
         for i in np.flatnonzero(wrong).tolist():
             self.bad.setdefault(i, f"{name} is {values[i]:g} with this run's numbers: expected {expected}")
 
     def _ends(self, expr: Expr | None) -> Array:
         if expr is not None:
             found = of_runs(self.source, expr, self.p, {})
-            self._refuse(~((found > 0.0) & np.isfinite(found)), found, "t_end", "a positive time (s)")
+            self._refuse("t_end", found)
             return found
         return self._of_scene(lambda p: scene_end(self.source, p))
 
@@ -184,8 +185,7 @@ class Table:
         if expr is None:
             return self._of_scene(lambda p: scene_number(self.source, "output", p, DEFAULT_OUTPUT))
         found = np.rint(of_runs(self.source, expr, self.p, more))
-        expected = f"a number of intervals from 1 to {MOST_OUTPUT:.0e}"
-        self._refuse(~((found >= 1.0) & (found <= MOST_OUTPUT)), found, "output", expected)
+        self._refuse("output", found)
         return found
 
     def _of_scene(self, value: Any) -> Array:

@@ -16,6 +16,7 @@ from gudgeon.files.writing import read_regular, written
 from gudgeon.language.plot_units import quantity
 from gudgeon.results.batch import Array
 from gudgeon.studies.ensemble.judge import Cell, judged, together
+from gudgeon.studies.ensemble.names import as_people_write, names_of
 from gudgeon.studies.words import counted
 
 if TYPE_CHECKING:
@@ -60,11 +61,24 @@ class Claimed(NamedTuple):
             told.append(f"{counted(counts.total(), 'trend')}{of}: {', '.join(words)}")
         printed = self.numbers[self.numbers["printed"].notna()] if len(self.numbers) else self.numbers
         if len(printed):
-            off = printed["deviation"].abs().groupby(printed["claim"]).median()
-            share = f"{off.median():.0f} %" if off.median() >= 100.0 else f"{off.median():.3g} %"
-            shown = f"ours are off by {share} or less for half of them" if len(off) > 1 else f"ours is off by {share}"
-            told.append(f"{counted(len(off), 'printed number')}: {shown}")
+            told.append(_off_by(printed))
         return told
+
+
+def _off_by(printed: pandas.DataFrame) -> str:
+    """How far printed numbers are off, of those that could be computed; from a printed 0 nothing is off by a share."""
+    each = printed.groupby("claim")
+    off = printed["deviation"].abs().groupby(printed["claim"]).median().dropna()
+    computed = int(each["median"].count().gt(0).sum())
+    numbers = counted(each.ngroups, "printed number")
+    if not computed:
+        return f"{numbers}: none could be computed"
+    of = numbers if computed == each.ngroups else f"{numbers}, {computed} of them computed"
+    if not len(off):
+        return f"{of}: of a printed 0 ours is off by no share"
+    share = f"{off.median():.0f} %" if off.median() >= 100.0 else f"{off.median():.3g} %"
+    told = f"ours are off by {share} or less for half of them" if len(off) > 1 else f"ours is off by {share}"
+    return f"{of}: {told}"
 
 
 def write_claims(folder: Path, plans: Plans, known: Known, study: Study) -> None:
@@ -73,7 +87,8 @@ def write_claims(folder: Path, plans: Plans, known: Known, study: Study) -> None
         for name in (FILE, *(f"claims_{table}.csv" for table in TABLES)):
             (folder / name).unlink(missing_ok=True)
         return
-    runs, cells = _Finished(plans, study), {str(one.claim.name): one.cell for one in known.numbers}
+    runs = _Finished(plans, study, names_of(plans).values)
+    cells = {str(one.claim.name): one.cell for one in known.numbers}
     rows = {
         "numbers": [row for one in known.numbers for row in _of_number(one, runs, cells)],
         "trends": [row for one in known.trends for row in _of_trend(one, runs)],
@@ -120,8 +135,8 @@ def _tables(rows: Mapping[str, Any]) -> list[pandas.DataFrame]:
 class _Finished:
     """Measures of a study's runs, cell by cell and ensemble by ensemble."""
 
-    def __init__(self, plans: Plans, study: Study) -> None:
-        self.plans, self.study = plans, study
+    def __init__(self, plans: Plans, study: Study, written: Mapping[str, Mapping[str, tuple[str, ...]]]) -> None:
+        self.plans, self.study, self.written = plans, study, written
         self.held: dict[tuple[str, str], Array] = {}
 
     def ensembles(self, cells: list[Cell]) -> list[str]:
@@ -164,7 +179,8 @@ def _of_number(known: KnownNumber, runs: _Finished, cells: Mapping[str, Cell]) -
         plan = runs.plans.each[known.cell.part]
         yield {
             "claim": str(claim.name), "figure": claim.figure, "says": claim.says, "part": known.cell.part,
-            "at": _at(plan, known.cell), "place": json.dumps(dict(zip(_dims(plan), known.cell.index, strict=True))),
+            "at": _at(plan, known, runs.written[known.cell.part]),
+            "place": json.dumps(dict(zip(_dims(plan), known.cell.index, strict=True))),
             "measure": str(claim.measure), "unit": known.unit,
             "printed": _plain(known.printed), "ensemble": ensemble, "n": len(own), "q25": _plain(quartiles[0]),
             "median": _plain(quartiles[1]), "q75": _plain(quartiles[2]), "deviation": _plain(off),
@@ -172,13 +188,14 @@ def _of_number(known: KnownNumber, runs: _Finished, cells: Mapping[str, Cell]) -
         }  # fmt: skip
 
 
-def _at(plan: Plan, cell: Cell) -> str:
-    """Where a cell lies: "scene dry, c 0.3 mm"."""
-    told = []
-    for name, k in zip(_dims(plan), cell.index, strict=True):
+def _at(plan: Plan, known: KnownNumber, written: Mapping[str, tuple[str, ...]]) -> str:
+    """Where a number's cell lies, as the claim or the file writes it: "scene dry, c 0.3 mm"."""
+    told, own = [], {str(name): as_people_write(str(text)) for name, text in known.claim.selection.at.items()}
+    for name, k in zip(_dims(plan), known.cell.index, strict=True):
         for one in (one for one in plan.coordinates if one.over == (name,)):
             value = one.values[k]
-            told.append(f"{one.name} {value if isinstance(value, str) else quantity(float(value), one.unit, 6)}")
+            said = value if isinstance(value, str) else quantity(float(value), one.unit, 6)
+            told.append(f"{one.name} {own.get(one.name) or written.get(one.name, {k: said})[k]}")
     return ", ".join(told)
 
 

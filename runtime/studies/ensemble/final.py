@@ -83,6 +83,7 @@ def _times(folder: StudyFolder) -> tuple[Array, bool]:
 def _write(target: BinaryIO, folder: StudyFolder, t: Array, common: bool) -> None:
     h5py, plan = h5py_module(), folder.plan
     kinds: Counter[str] = Counter()
+    first: dict[str, int] = {}
     notes: dict[str, Note] = {}
     with h5py.File(target, "w", libver=("earliest", "v110")) as file:
         _about(file, plan)
@@ -97,12 +98,16 @@ def _write(target: BinaryIO, folder: StudyFolder, t: Array, common: bool) -> Non
         for block in _joined(_blocks(folder)):
             _fill(variables, plan, block, common)
             notes = merged((notes, block.notes))
-            kinds.update(kind_of(told) for told in block.failures if told)
+            for run, why in enumerate(block.failures, block.first):
+                if why:
+                    kinds[kind := kind_of(why)] += 1
+                    first.setdefault(kind, run)
         frequent = sorted(notes.values(), key=lambda note: (-note.runs, note.run, note.text))[:MOST]
         lines = (*plan.notes, *(_noted(plan, note) for note in frequent))
         file.attrs["notes"] = "\n".join(lines)[: MOST_TEXT // 4]
         file.attrs["failed"] = sum(kinds.values())
-        file.attrs["failure_kinds"] = json.dumps(dict(kinds.most_common(MOST_KINDS)))
+        file.attrs["failure_kinds"] = json.dumps(often := dict(kinds.most_common(MOST_KINDS)))
+        file.attrs["failure_first"] = json.dumps([first[kind] for kind in often])
 
 
 def _noted(plan: Plan, note: Note) -> str:

@@ -100,6 +100,11 @@ class Study:
         return dict(json.loads(self.dataset.attrs["failure_kinds"]))
 
     @property
+    def first_failures(self) -> dict[str, int]:
+        """The first run that failed of each of these, counted as `dataset["failure"].values.flat` does."""
+        return dict(zip(self.failures, json.loads(self.dataset.attrs.get("failure_first", "[]")), strict=False))
+
+    @property
     def notes(self) -> tuple[str, ...]:
         """What is to be known of it, each once."""
         return tuple(filter(None, str(self.dataset.attrs["notes"]).split("\n")))

@@ -8,14 +8,20 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
 from gudgeon.files.writing import read_regular, written
 from gudgeon.language.plot_units import pretty, raised
+from gudgeon.studies.ensemble.numbers import GEOMETRIC
 
 if TYPE_CHECKING:
+    from gudgeon.generator.study.spec import Numbers
     from gudgeon.studies.ensemble.plan import Plans
 
 FILE = "names.json"
+_PI = re.compile(r"^([-+]?)(?:pi|π)(?=\s)")  # alone, without a number before it
 _QUANTITY = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+))(?:[eE]([-+]?\d+))?\s*(\*\s*pi|\*?\s*π)?\s+([A-Za-zµΩ°][^\s()]*)")
+MOST_IN_A_ROW, NOTHING = 1000, 1e-12  # values of which texts are made; of the largest one: so small a value is 0
 
 
 class Names(NamedTuple):
@@ -32,16 +38,36 @@ class Names(NamedTuple):
 NONE = Names({}, {})
 
 
+def _quantity(text: str) -> re.Match[str] | None:
+    """Number, power of ten, π and unit; "pi rad/s" has the number 1."""
+    return _QUANTITY.fullmatch(_PI.sub(r"\g<1>1*pi", text.strip()))
+
+
 def as_people_write(text: str) -> str:
     """ "3*pi rad/s" as "3π rad/s"; "" of what is no number with a unit."""
-    found = _QUANTITY.fullmatch(text.strip())
+    found = _quantity(text)
     if found is None:
         return ""
     number, power, pi, unit = found.groups()
+    number = number[:-1] if pi and number in ("1", "-1") and not power else number
     if power:
         number = f"10{raised(str(int(power)))}" if float(number) == 1.0 else f"{number}·10{raised(str(int(power)))}"
     shown = pretty(re.sub(r"^u(?=[a-zA-Z])", "µ", unit))
     return f"{number.replace('-', '−')}{'π' if pi else ''} {shown}"
+
+
+def _in_a_row(numbers: Numbers) -> tuple[str, ...]:
+    """Values from one text to another one in the unit of both; none where that is none, or not the same."""
+    ends = [_quantity(text) for text in numbers.texts]
+    of = {(bool(end[3]), end[4]) for end in ends if end}
+    if None in ends or len(of) > 1 or numbers.count > MOST_IN_A_ROW:
+        return ()
+    ((pi, unit),) = of
+    first, last = (float(f"{end[1]}e{end[2] or 0}") for end in ends if end)
+    row = (np.geomspace if numbers.spacing == GEOMETRIC else np.linspace)(first, last, numbers.count)
+    row[np.abs(row) < NOTHING * np.abs(row).max()] = 0.0
+    between = (f"{value:.6g}{'*pi' if pi else ''} {unit}" for value in row[1:-1])
+    return str(numbers.texts[0]), *between, str(numbers.texts[1])
 
 
 def names_of(plans: Plans) -> Names:
@@ -50,7 +76,8 @@ def names_of(plans: Plans) -> Names:
     for part, plan in plans.each.items():
         every: dict[str, tuple[str, ...]] = {str(name): (str(text),) for name, text in plan.study.fixed.items()}
         for axis in plan.study.axes:
-            every |= {str(name): tuple(map(str, own.texts)) for name, own in axis.columns.items() if not own.count}
+            every |= {str(name): _in_a_row(own) if own.count else tuple(map(str, own.texts))
+                      for name, own in axis.columns.items()}  # fmt: skip
         shown = {name: tuple(map(as_people_write, texts)) for name, texts in every.items()}
         values[part] = {name: texts for name, texts in shown.items() if texts and all(texts)}
     return Names(plans.file.titles, values, plans.file.about)

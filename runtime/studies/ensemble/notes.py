@@ -16,7 +16,9 @@ if TYPE_CHECKING:
 
     from gudgeon.contract.kernel_source import KernelSource
 
-_NUMBER = re.compile(r"(?<![A-Za-z_])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+# not the digits of a name or of a unit: S9, m/s^2, 1/s
+_NUMBER = re.compile(r"(?<![\w.^])(?<!\^-)(?!1/[^\W\d_])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+_WITH = re.compile(r" with [\w.]+ = [^:]*(?=:)")  # the numbers of one run
 MOST = 50  # kinds that are told
 
 
@@ -31,7 +33,7 @@ class Note:
 
 def kind_of(told: str) -> str:
     """The first line of what is told of a run without its numbers: the same of many."""
-    return _NUMBER.sub("…", told.partition("\n")[0])[:200]
+    return _NUMBER.sub("…", _WITH.sub("", told.partition("\n")[0]))[:200]
 
 
 def gathered(told: Iterable[tuple[int, Sequence[str]]]) -> dict[str, Note]:

@@ -17,9 +17,10 @@ from gudgeon.language.units import Dimension, dimension
 from gudgeon.model.choices import place_of_word
 from gudgeon.model.parameters import TOGETHER, addresses, given_slots, spaced
 from gudgeon.results.batch import Array
+from gudgeon.simulation.arguments import MOST_OUTPUT
 
 if TYPE_CHECKING:
-    from gudgeon.generator.study.spec import Numbers, Written
+    from gudgeon.generator.study.spec import Numbers, StudyFile, Written
     from gudgeon.generator.yaml.tree import Text
 
 GEOMETRIC = "geometric"
@@ -128,6 +129,41 @@ def check_expression(source: KernelSource, written: Written, wanted: Dimension, 
             place: Location = at(written.text.where, name.offset)
             raise unknown_name(f"name (in scene {source.scene})", name.path, known, place)
     check_dimension(written.expr, wanted, dimension_of, written.text.where)
+
+
+def constant(written: Written | None, known: Mapping[str, float]) -> float | None:
+    """The value of an expression that is the same in all runs: of numbers, and of what is known by name; else None."""
+    if written is None or any(name.path not in known for name in names(written.expr)):
+        return None
+    return float(evaluate(written.expr, known.get))
+
+
+def impossible(name: str, values: Array) -> tuple[Array, str]:
+    """Which values of t_end, step or (rounded) output no run can have, and what is expected."""
+    if name == "output":
+        expected = f"a number of intervals from 1 to {MOST_OUTPUT:.0e}"
+        return ~((values >= 1.0) & (values <= MOST_OUTPUT)), expected
+    return ~((values > 0.0) & np.isfinite(values)), "a positive time (s)"
+
+
+def check_constants(study: StudyFile) -> None:
+    """BadValueError at its place for an end, an output, a step or a window that no run can have."""
+    known: dict[str, float] = {}
+    for name, written in (("t_end", study.t_end), ("output", study.output), ("step", study.step)):
+        if written is None or (value := constant(written, known)) is None:
+            continue
+        wrong, expected = impossible(name, np.rint([value]) if name == "output" else np.array([value]))
+        if wrong.any():
+            raise BadValueError(f"{name} is {value:g}", written.text.where, f"expected {expected}")
+        known |= {name: value} if name == "t_end" else {}
+    last = known.get("t_end", np.inf)
+    for name, window in study.windows.items():
+        begin, end = (constant(one, known) for one in (window.begin, window.end))
+        begin, end = 0.0 if window.begin is None else begin, last if window.end is None else end
+        if begin is not None and end is not None and not (begin <= end and begin <= last * (1 + ROUNDING) and end >= 0):
+            of = window.begin or window.end
+            told = f"window {name} goes from {begin:g} s to {end:g} s"
+            raise BadValueError(told, of.text.where if of else None, f"expected a part of the run, to {last:g} s")
 
 
 def of_runs(source: KernelSource, expr: Expr, p: Array, more: Mapping[str, Any]) -> Array:

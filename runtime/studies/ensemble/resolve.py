@@ -22,11 +22,21 @@ from gudgeon.studies.ensemble.block import Job, Table, Wanted
 from gudgeon.studies.ensemble.exponents import check_followed
 from gudgeon.studies.ensemble.libraries import method_in
 from gudgeon.studies.ensemble.measures import check_origin, meaning, series_of, unit_of, unknown_of
-from gudgeon.studies.ensemble.numbers import check_expression, in_si, known_slot, real, slot_of, values, within_doubles
+from gudgeon.studies.ensemble.numbers import (
+    check_constants,
+    check_expression,
+    in_si,
+    known_slot,
+    real,
+    slot_of,
+    values,
+    within_doubles,
+)
 from gudgeon.studies.ensemble.plan import Coordinate, Deviations, Dimension, Part, Plan, check_size
 from gudgeon.studies.ensemble.points import NORMAL, deviations, shares, spread_over
 from gudgeon.studies.ensemble.structures import mechanism_of, origins, structures
 from gudgeon.studies.ensemble.wearing import wearing_of
+from gudgeon.studies.words import counted
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Deviation, Draw, Starts, StudyFile
@@ -113,9 +123,9 @@ def _numbers(study: StudyFile, sources: Sequence[KernelSource]) -> tuple[list[Di
 
 
 def _drawn(draw: Draw, sources: Sequence[KernelSource]) -> dict[str, Any]:
-    points = shares(draw.method, draw.count, len(draw.numbers), draw.seed)
+    points = shares(draw.method, draw.count, len(draw.names), draw.seed)
     found = {}
-    for k, (name, spread) in enumerate(draw.numbers.items()):
+    for name, spread in draw.numbers.items():
         slot = known_slot(sources, name)
         first, second = (real(text, slot) for text in spread.ends)
         where = spread.ends[1].where
@@ -126,7 +136,8 @@ def _drawn(draw: Draw, sources: Sequence[KernelSource]) -> dict[str, Any]:
         if spread.kind not in (NORMAL, "uniform") and not first > 0.0:
             raise BadValueError(f"a geometric spread from {first:g}", spread.ends[0].where, "expected positive ends")
         with np.errstate(over="ignore", invalid="ignore"):
-            found[str(name)] = within_doubles(spread_over(spread, first, second, points[:, k]), spread.ends[1])
+            own = spread_over(spread, first, second, points[:, draw.names.index(name)])
+            found[str(name)] = within_doubles(own, spread.ends[1])
     return found
 
 
@@ -189,6 +200,7 @@ def _wanted(study: StudyFile, parts: Sequence[Part]) -> Wanted:
         _check_method(study, source, rtol)
         if source.degrees_of_freedom > 0:
             check_followed(study, source)
+    check_constants(study)
     windows = {name: tuple(None if end is None else end.expr for end in (window.begin, window.end))
                for name, window in study.windows.items()}  # fmt: skip
     t_end, output, step = (None if one is None else one.expr for one in (study.t_end, study.output, study.step))
@@ -239,6 +251,10 @@ def _notes(study: StudyFile, sources: Sequence[KernelSource]) -> Iterator[str]:
     names = [*study.fixed, *(name for axis in study.axes for name in axis.columns)]
     names += [*study.draw.numbers] if study.draw else []
     names += [name for own in study.starts.ensembles.values() for name in own] if study.starts else []
+    for axis in study.left_out:
+        for name, numbers in axis.columns.items():
+            count = numbers.count or len(numbers.texts)
+            yield f"{name} is set for all runs, over the {counted(count, 'value')} that the file has for it"
     by_scene = {source.scene: source for source in sources}
     for name in dict.fromkeys(names):
         if lacking := [scene for scene, source in by_scene.items() if slot_of(source, str(name)) is None]:

@@ -100,8 +100,8 @@ def study(
     the same dataset. None: a temporary folder, which goes with the Study. threads: in each process, None for the cores
     there are (1 with an executor). executor: any of concurrent.futures, or a Client of dask.distributed; its workers
     are given blocks and load their own libraries. restart: begin anew. settings: {address: number or text} for all
-    runs, over the study's own. starts, seed: another number of perturbed starts, or another seed of them, than the
-    study says. A run that fails is a row with its reason and NaN, and stops no other.
+    runs, over the study's own, rows and draws too. starts, seed: another number of perturbed starts, or another seed
+    of them, than the study says. A run that fails is a row with its reason and NaN, and stops no other.
 
     Raises InputError, with its place, for a mistake in the study or a folder of another study; OutputError for a
     disk that takes no more. Ctrl-C is passed on: what is in the folder stays.

@@ -32,7 +32,7 @@ def band(ax: Axes, x: Any, five: Any, colour: str, told: str, size: float = 4.0)
     if not np.array_equal(low, high, equal_nan=True):
         ax.fill_between(x[order], low[order], high[order], color=colour, alpha=0.12, lw=0)
         ax.fill_between(x[order], q1[order], q3[order], color=colour, alpha=0.28, lw=0)
-    ax.plot(x[order], middle[order], "-o" if size else "-", ms=size, color=colour, lw=1.1, label=told)
+    ax.plot(x[order], middle[order], "-o" if size else "-", ms=size, color=colour, lw=1.1, label=known(middle, told))
 
 
 def bars(ax: Axes, x: Any, five: Any, colour: str, told: str) -> None:
@@ -40,7 +40,12 @@ def bars(ax: Axes, x: Any, five: Any, colour: str, told: str) -> None:
     low, q1, middle, q3, high = five
     ax.vlines(x, low, high, color=colour, alpha=0.35, lw=1.2)
     ax.vlines(x, q1, q3, color=colour, alpha=0.6, lw=3.5)
-    ax.plot(x, middle, "o", ms=5.0, color=colour, label=told)
+    ax.plot(x, middle, "o", ms=5.0, color=colour, label=known(middle, told))
+
+
+def known(values: Any, told: str) -> str | None:
+    """What a legend calls it; nothing where there is no number to be seen."""
+    return told if np.isfinite(values).any() else None
 
 
 def ticks_at(ax: Axes, x: Any, ticks: list[str] | None) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ from gudgeon.studies.ensemble.estimate import Estimate
 from gudgeon.studies.ensemble.finished import Study
 from gudgeon.studies.ensemble.folder import DATASET
 from gudgeon.studies.ensemble.plan import Plan, Plans
+from gudgeon.studies.show.study_data import StudyData
 from gudgeon.studies.show.tables import console, new_table, print_json
 from gudgeon.studies.words import seconds
 
@@ -80,7 +82,9 @@ def _study_json(plan: Plan, found: Study) -> dict[str, Any]:
     measures = {name: {"unit": unit, **row} for name, unit, row in _spread(plan, found)}
     return {
         "folder": str(found.folder), "dataset": str(found.folder / DATASET), "runs": found.runs,
-        "failed": found.failed, "failures": found.failures, "measures": measures, "notes": list(found.notes),
+        "failed": found.failed, "failures": found.failures,
+        "first_failures": {kind: told for kind, _, told in StudyData(found).failures()},
+        "measures": measures, "notes": list(found.notes),
     }  # fmt: skip
 
 
@@ -95,8 +99,8 @@ def _show_study(plan: Plan, found: Study) -> None:
         console().print(table)
     if found.failed:
         print(f"{found.failed} of {found.runs} runs failed:")
-        for kind, count in list(found.failures.items())[:MOST_KINDS]:
-            print(f"  {count} × {visible(kind)}")
+        for kind, count, told in itertools.islice(StudyData(found).failures(), MOST_KINDS):
+            print(f"  {count} × {visible(kind)}" + f"\n    the first: {visible(told)}" * bool(told))
         if (more := len(found.failures) - MOST_KINDS) > 0:
             print(f"  and {more} other reasons")
     for note in found.notes:

@@ -14,7 +14,7 @@ from gudgeon.language.plot_units import drawn, label, pretty, scale
 from gudgeon.language.shown import one_line
 from gudgeon.language.suggestions import unknown
 from gudgeon.language.wanted import flag, mapping, number_of, text, told
-from gudgeon.studies.show.study_signals import alike
+from gudgeon.studies.show.study_signals import alike, crossings
 
 if TYPE_CHECKING:
     from gudgeon.studies.ensemble.finished import Study
@@ -59,7 +59,10 @@ class StudyData:
     def claimed(
         self, name: str, over: str, by: str | None, at: Coords | None, axis: str
     ) -> list[tuple[float, float, int]]:
-        """Numbers that the file claims of a measure of the runs at: place on the axis, value (SI), which line."""
+        """Numbers that the file claims of a measure of the runs at: place on the axis, value (SI), which line.
+
+        None of one that is about fewer runs than are pooled there: beside a median of others it would say nothing.
+        """
         try:
             numbers = self.study.claims.numbers
         except GudgeonError:  # it claims nothing
@@ -70,10 +73,11 @@ class StudyData:
         found, picked, places = self.dataset[name], dict[str, int](), self.axis(axis)[0]
         for key, value in (at or {}).items():
             dimension = self.dimension(found, key)
-            picked[dimension] = self.nearest(found, dimension, value)
+            picked[dimension] = self.nearest(key, value)
         each = [(json.loads(place), float(value)) for place, value in zip(own["place"], own["printed"], strict=True)]
+        pooled = {one for one, n in found.sizes.items() if n > 1 and one not in (over, by, *picked)}
         return [(float(places[place[over]]), value, -1 if by is None else place.get(by, -1)) for place, value in each
-                if over in place and all(place.get(one, k) == k for one, k in picked.items())]  # fmt: skip
+                if over in place and not pooled & {*place} and all(place.get(one, k) == k for one, k in picked.items())]
 
     def series(self, name: str, at: Coords | None = None) -> tuple[Any, Any]:
         """Times, (N,) where all runs have the same, else (…, N), and a kept series (…, N)."""
@@ -89,19 +93,10 @@ class StudyData:
             return rows[0], found
         return t, found
 
-    def shares(self, t: Any) -> Any:
-        """Samples as shares of their run, (N,), where all runs have the same; None where they do not."""
-        rows = t.reshape(-1, t.shape[-1])
-        rows = rows[np.isfinite(rows).all(axis=1)]
-        if not len(rows) or not (rows[:, -1] > rows[:, 0]).all():
-            return None
-        own = (rows - rows[:, :1]) / (rows[:, -1:] - rows[:, :1])
-        return own[0] if np.allclose(own, own[0], rtol=0.0, atol=1e-9) else None
-
     def _picked(self, found: Any, at: Coords | None) -> Any:
         for name, value in mapping(at, "at", "expected {coordinate: value}").items():
             dimension = self.dimension(found, name)
-            found = found.isel({dimension: self.nearest(found, dimension, value)})
+            found = found.isel({dimension: self.nearest(name, value)})
         return found
 
     def dimension(self, found: Any, name: str) -> str:
@@ -116,15 +111,15 @@ class StudyData:
             raise BadValueError(f"{name} does not vary over the runs that are shown")
         raise _no_dimension(name, known)
 
-    def nearest(self, found: Any, dimension: str, value: Any) -> int:
-        """The place of a coordinate's value: that word, or the nearest number."""
-        values = self.dataset[dimension].values if dimension in self.dataset.coords else np.arange(len(found))
+    def nearest(self, name: str, value: Any) -> int:
+        """The place of a coordinate's value along its dimension: that word, or the nearest number."""
+        values = self.dataset[name].values
         if values.dtype.kind in "OU":
             words = [str(one) for one in values]
             if not isinstance(value, str) or value not in words:
-                raise unknown(f"{dimension} has no {told(value)}", str(value), tuple(words))
+                raise unknown(f"{name} has no {told(value)}", str(value), tuple(words))
             return words.index(value)
-        return int(np.abs(values - number_of(value, dimension)).argmin())
+        return int(np.abs(values - number_of(value, name)).argmin())
 
     def first(self, found: Any) -> str:
         """What a measure is drawn over if nobody says: the first dimension that is a number's, else one of words.
@@ -176,11 +171,11 @@ class StudyData:
         ticks = list(self.written(name)) if len(values) <= MOST_TICKS else []
         return values * factor, label(self.shown(name), "" if ticks else shown), ticks or self._together(name)
 
-    def place(self, found: Any, name: str, value: Any) -> float:
+    def place(self, name: str, value: Any) -> float:
         """Where on that axis a value lies."""
         values = self.dataset[name].values
         if values.dtype.kind in "OU":
-            return float(self.nearest(found, name, value))
+            return float(self.nearest(name, value))
         return number_of(value, name) * drawn(float(np.abs(values).max(initial=0.0)), self.unit(name))[0]
 
     def labels(self, found: Any, dimension: str, named: bool = False) -> tuple[list[str], str]:
@@ -202,6 +197,11 @@ class StudyData:
         """Values of a coordinate as the file has them, with their units; none where it has not."""
         own = self.texts.get(name, ())
         return own if len(own) == np.size(self.dataset[name].values) else ()
+
+    def at(self, name: str, value: Any) -> str:
+        """The runs that are picked by a coordinate: "scene = without oil", or the nearest number as the file has it."""
+        word = self.labels(None, name, named=True)[0][self.nearest(name, value)]
+        return word if word.startswith(f"{self.shown(name)} = ") else f"{self.shown(name)} = {word}"
 
     def _together(self, dimension: str) -> list[str] | None:
         """Of a zip what its numbers are at each place, or what differs there from most of its places.
@@ -227,6 +227,22 @@ class StudyData:
         """A scene by its places: "c = 0.3 mm, ω = 2π rad/s"."""
         own = ((name, k, self.labels(None, name, named=True)[0]) for name, k in place.items())
         return ", ".join(words[k] for _, k, words in own)
+
+    def failures(self) -> Iterator[tuple[str, int, str]]:
+        """What runs failed of, how many, and of the first of these where it lies and all that it says."""
+        if not (kinds := self.study.failures):
+            return
+        found, first = self.dataset["failure"], self.study.first_failures
+        words = {str(one): self.labels(None, str(one), named=True)[0] for one in found.dims}
+        for kind, count in kinds.items():
+            if (run := first.get(kind)) is None:  # a folder of an earlier version
+                yield kind, count, ""
+                continue
+            place = dict(zip(words, np.unravel_index(run, found.shape), strict=True)) if words else {}
+            own = ((name, words[name][k]) for name, k in place.items())
+            at = ", ".join(word if " = " in word else f"{self.shown(name)} {word}" for name, word in own)
+            told = str(found.isel(place).values).partition("\n")[0]
+            yield kind, count, f"{at}: {told}" if at else told
 
     def sections(
         self, section: str, names: list[str], level: float, falling: bool, after: float, at: Coords | None
@@ -265,31 +281,6 @@ def changes(columns: Mapping[tuple[str, ...], str]) -> list[str]:
         [f"{name} = {column[k]}" for column, name in columns.items() if column[k] != usual[column][0]] for k in places
     ]
     return [", ".join(told) or "unchanged" for told in own]
-
-
-def crossings(t: Any, through: Any, others: list[Any], level: float, falling: bool, after: float) -> list[Any]:
-    """Values of other series, (k,) each, where one rises (falls) through a level after a time.
-
-    Between samples all lie on PCHIP's monotone cubics.
-    """
-    from scipy.interpolate import PchipInterpolator
-
-    good = np.isfinite(t) & np.isfinite(through) & np.all([np.isfinite(own) for own in others], axis=0)
-    if good.sum() < 2:
-        return [np.zeros(0) for _ in others]
-    t, below = t[good], (through[good] - level) * (-1.0 if falling else 1.0)
-    path = PchipInterpolator(t, below)
-    starts = np.flatnonzero((below[:-1] < 0.0) & (below[1:] >= 0.0))
-    roots = path.roots(discontinuity=False, extrapolate=False)
-    at = np.array([_in_part(roots, t[k], t[k + 1]) for k in starts])
-    at = at[at >= after] if len(at) else at
-    return [PchipInterpolator(t, own[good])(at) for own in others]
-
-
-def _in_part(roots: Any, begin: float, end: float) -> float:
-    """The root between two samples; the later one where rounding lost it."""
-    own = roots[(roots >= begin) & (roots <= end)]
-    return float(own[0]) if len(own) else float(end)
 
 
 def _no_dimension(name: str, known: list[str]) -> UnknownNameError:

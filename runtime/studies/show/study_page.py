@@ -12,7 +12,6 @@ import numpy as np
 from gudgeon.errors import GudgeonError
 from gudgeon.language.plot_units import drawn, label
 from gudgeon.results.web_page import Section, article, lines, page, table, text
-from gudgeon.studies.ensemble.notes import kind_of
 from gudgeon.studies.show.claims import claims_sections
 from gudgeon.studies.show.pictures import Draw, Pictures, gallery
 from gudgeon.studies.show.study_data import MANY, StudyData
@@ -21,7 +20,7 @@ from gudgeon.studies.words import counted
 if TYPE_CHECKING:
     from gudgeon.studies.ensemble.finished import Study
 
-MOST_ROWS, MOST_CURVES, MOST_NUMBERS, MOST_SAMPLES = 500, 60, 30_000_000, 20_000
+MOST_ROWS, MOST_NUMBERS, MOST_SAMPLES = 500, 30_000_000, 20_000
 SHOWN_VALUES = 8  # of what varied, in full
 
 
@@ -82,7 +81,8 @@ def sections(data: StudyData, pictures: Pictures, name: str = "study") -> Iterat
     """Heading and HTML of each part; what is empty is left out of the page. `name`: of its pictures."""
     study = data.study
     yield "What varied", table(("", "over", "values", "unit", ""), _varied(data), True)
-    yield "Failed runs", table(("runs", "failed of", "the first of them"), _failures(data), True)
+    failed = ((str(count), kind, told) for kind, count, told in data.failures())
+    yield "Failed runs", table(("runs", "failed of", "the first of them"), failed, True)
     yield "Notes", lines(study.notes)
     yield "Measures", _measures(data)
     try:
@@ -134,26 +134,6 @@ def _varied(data: StudyData) -> Iterator[tuple[str, ...]]:
 def _listed(words: list[str]) -> str:
     """All of few; of many the first and the last."""
     return ", ".join(words) if len(words) <= SHOWN_VALUES else f"{words[0]} … {words[-1]}, {len(words)} of them"
-
-
-def _failures(data: StudyData) -> Iterator[tuple[str, ...]]:
-    """How many failed of what, and where the first of these lies."""
-    if not data.study.failed:
-        return
-    found = data.dataset["failure"]
-    values, first = np.ravel(found.values), dict[str, tuple[str, int]]()
-    for k in np.flatnonzero(values != ""):
-        first.setdefault(kind_of(str(values[k])), (str(values[k]), int(k)))
-    words = {str(one): data.labels(found, str(one), named=True)[0] for one in found.dims}
-    for kind, count in data.study.failures.items():
-        told, place = first.get(kind, ("", 0))
-        where = np.unravel_index(place, found.shape) if found.shape else ()
-        at = ", ".join(_named(str(one), words[str(one)][i]) for one, i in zip(found.dims, where, strict=True))
-        yield str(count), kind, f"{at}: {told.partition(chr(10))[0]}" if at else told.partition("\n")[0]
-
-
-def _named(dimension: str, word: str) -> str:
-    return word if " = " in word else f"{dimension} {word}"
 
 
 def _measures(data: StudyData) -> str:
@@ -208,7 +188,7 @@ def _figures(data: StudyData) -> Iterator[Draw]:
             continue
         for scene in [str(one) for one in data.dataset["scene"].values] if "scene" in found.dims else [""]:
             at = {"scene": scene} if scene else {}
-            if not np.isfinite(data.measure(name, at).values).any():
+            if not np.nan_to_num(data.measure(name, at).values).any():  # nothing, or what is 0 everywhere
                 continue
             told = ", ".join(filter(None, (f"{data.shown(name)}: median", data.shown(scene))))
             yield told, partial(plot.heat_map, name, *varied[:2], at=at)
@@ -222,7 +202,7 @@ def _pooled(data: StudyData, found: Any) -> str:
 
 
 def _series(data: StudyData) -> Iterator[Draw]:
-    """Bands where runs have the same times, else curves of the first ones."""
+    """Bands over time where runs have the same times, else over shares of each run."""
     from gudgeon.studies.show.study_plots import StudyPlot
 
     plot = StudyPlot(data.study)
@@ -233,11 +213,8 @@ def _series(data: StudyData) -> Iterator[Draw]:
         t, _ = data.series(name)
         runs = found.size // found.shape[-1]
         by = "scene" if "scene" in found.dims else None
-        if t.ndim == 1:
-            told = f"{data.shown(name)}: median, quartiles and extremes of {counted(runs, 'run')}"
-            yield told, partial(plot.bands, name, by)
-        elif data.shares(t) is not None:
-            told = f"{data.shown(name)}: median, quartiles and extremes of {counted(runs, 'run')}, over shares"
-            yield told, partial(plot.bands, name, by, share=True)
-        elif runs <= MOST_CURVES:
-            yield f"{data.shown(name)}: {counted(runs, 'run')}", partial(plot.overlay, name, by)
+        shares = t.ndim > 1
+        if shares and not (np.nan_to_num(t) > 0.0).any():  # nobody began
+            continue
+        told = f"{data.shown(name)}: median, quartiles and extremes of {counted(runs, 'run')}{', over shares' * shares}"
+        yield told, partial(plot.bands, name, by, share=shares)

@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.errors import BadValueError
-from gudgeon.language.plot_units import drawn, label, quantity
+from gudgeon.language.plot_units import drawn, label
 from gudgeon.language.shown import in_figure, one_line
 from gudgeon.language.wanted import flag, number_of, positive, refuse
 from gudgeon.results.plots import COLOURS, STYLE, TITLE, cycle, peak_of
 from gudgeon.results.run_plots import new_axes, plain
-from gudgeon.studies.show.bands import LINE, band, bars, marks, numbers, quantiles, ticks_at
+from gudgeon.studies.show.bands import LINE, band, bars, known, marks, numbers, quantiles, ticks_at
 from gudgeon.studies.show.study_data import Coords, StudyData
-from gudgeon.studies.show.study_signals import filtered, spectra
+from gudgeon.studies.show.study_signals import filtered, over_shares, spectra
 
 import matplotlib  # isort: skip  (plots.py says where it is missing)
 
@@ -45,8 +45,8 @@ class StudyPlot:
         """A measure over what was varied (the first number), a line for each value of `by` (scenes).
 
         Lines are medians of all other runs, bands their quartiles and extremes; over words, zips and starts dots and
-        bars. published: marks of what others found,
-        {coordinate: value, SI}; True: the numbers that the study's file claims of these runs, in the lines' colours.
+        bars. published: marks of what others found, {coordinate: value, SI}; True: the numbers that the study's file
+        claims of these runs, in the lines' colours, none of those that are about a part of what a median is of.
         """
         found = self.data.measure(name, at)
         axis = self.data.first(found) if over is None else over
@@ -58,7 +58,7 @@ class StudyPlot:
             claimed = self.data.claimed(name, over, by, at, axis) if published else []
         else:
             stars = {key: number_of(value, "published") for key, value in _pairs(published).items()}
-            claimed = [(self.data.place(found, axis, key), value, -1) for key, value in stars.items()]
+            claimed = [(self.data.place(axis, key), value, -1) for key, value in stars.items()]
         with matplotlib.rc_context(STYLE):
             ax = new_axes(5.6, 3.6) if ax is None else plain(ax)
             x, x_label, ticks = self.data.axis(axis)
@@ -84,13 +84,15 @@ class StudyPlot:
     ) -> Axes:  # fmt: skip
         """A kept series over time: median, quartiles and extremes of all runs, or of each value of `by`.
 
-        share: over each run's own length, 0 to 1, where runs have as many samples at the same shares of it.
-        BadValueError for runs with other times (or shares) than each other.
+        share: over each run's own length, 0 to 1, at the shares of the run with the most samples; runs with others
+        lie on straight lines between theirs. BadValueError for runs with other times than each other, without share.
         """
         t, found = self.data.series(series, at)
         if flag(share, "share"):
-            t = self.data.shares(np.broadcast_to(t, found.shape))
-        if t is None or t.ndim > 1:
+            if (shares := over_shares(t, found)) is None:
+                raise BadValueError(f"{series}: no run has a length of which there are shares")
+            t, found = shares
+        if t.ndim > 1:
             told = f"{series}: the runs have samples at different times, of which there are no bands"
             raise BadValueError(told, hint="pick runs with the same times (at=…), share=True, or draw an overlay")
         by = self.data.dimension(found, by) if by is not None else None
@@ -166,8 +168,9 @@ class StudyPlot:
             for k, ((told, own), colour) in enumerate(zip(parts, cycle(len(parts)), strict=True)):
                 own_x = x if by is None else np.take(x, k, axis=found.dims.index(by))
                 rows = zip(own_x.reshape(-1, x.shape[-1]), own.values.reshape(-1, x.shape[-1]), strict=True)
+                called = known(own.values, told)
                 for j, (xs, ys) in enumerate(rows):
-                    ax.plot(xs, ys * factor, color=colour, lw=0.8, alpha=0.8, label=told if j == 0 else None)
+                    ax.plot(xs, ys * factor, color=colour, lw=0.8, alpha=0.8, label=called if j == 0 else None)
             ax.set(xlabel=x_label, ylabel=label(self.data.shown(name), unit))
             self._finish(ax, at, len(parts) > 1)
         return ax
@@ -235,9 +238,9 @@ class StudyPlot:
         return ax
 
     def _finish(self, ax: Axes, at: Coords | None, legend: bool) -> None:
-        picked = ", ".join(f"{self.data.shown(name)} = {_said(value)}" for name, value in (at or {}).items())
+        picked = ", ".join(self.data.at(name, value) for name, value in (at or {}).items())
         ax.set_title(in_figure(": ".join(filter(None, (one_line(self.data.title), picked))), TITLE))
-        if legend:
+        if legend and ax.get_legend_handles_labels()[0]:
             ax.legend(fontsize=8)
 
 
@@ -247,7 +250,3 @@ def _pairs(published: Any) -> dict[Any, Any]:
         return dict(published or {})
     except (TypeError, ValueError):
         refuse("published", published, "{coordinate: number}, or True")
-
-
-def _said(value: Any) -> str:
-    return one_line(value) if isinstance(value, str) else quantity(float(value), "")
