@@ -50,6 +50,14 @@ def gudgeon_process(line: str, folder: Path, before: str = "", **environment: st
     )  # fmt: skip
 
 
+def test_help_waits_for_no_rich(tmp_path: Path) -> None:
+    """Most of .4 s went into laying it out; the same of a wrong option. With a table rich is there."""
+    told = "import atexit, sys; atexit.register(lambda: print('with rich' if 'rich' in sys.modules else 'plain'));"
+    for words, code, end in (("run --help", 0, "plain"), ("run --nope", 2, "plain"), ("laws", 0, "with rich")):
+        done = gudgeon_process(f"gudgeon {words}", tmp_path, told)
+        assert (done.returncode, done.stdout.splitlines()[-1]) == (code, end)
+
+
 @pytest.mark.parametrize("closed", [">&-", ">&- 2>&-", "<&- >&- 2>&-"])
 def test_streams_that_are_closed(closed: str, tmp_path: Path) -> None:
     done = gudgeon_process(f"gudgeon check pendulum {closed}", tmp_path)
