@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from importlib.util import find_spec
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gudgeon.files.room import check_disk, check_memory
@@ -20,7 +21,8 @@ if TYPE_CHECKING:
 def check_needs(request: Request, scenes: Mapping[str, tuple[Simulation, Array]]) -> None:
     """MemoryError where samples and all that follows from them do not fit, OutputError where their files do not.
 
-    scenes: each with its numbers. Files hold every series; a disk is not asked where no file is written.
+    scenes: each with its numbers. Files hold every series, and take the places of older ones, one after the other; a
+    disk is not asked where no file is written.
     """
     from gudgeon.results.series import catalogue
 
@@ -30,6 +32,14 @@ def check_needs(request: Request, scenes: Mapping[str, tuple[Simulation, Array]]
     most = f"{len(scenes)} scenes of {max(counts.values()):.0f} samples"
     each = {name: sample_bytes(one.compiled) + evaluated_bytes(one.compiled) for name, (one, _) in scenes.items()}
     check_memory(sum(counts[name] * each[name] for name in scenes), most)
-    files = sum(8.0 * counts[name] * (1 + len(catalogue(one.source))) for name, (one, _) in scenes.items())
     if find_spec("h5py"):
-        check_disk(request.out, files, f"the results, {most},")
+        files = [8.0 * counts[name] * (1 + len(catalogue(one.source))) for name, (one, _) in scenes.items()]
+        older = sum(_size(request.out, one.source.mechanism, name) for name, (one, _) in scenes.items())
+        check_disk(request.out, max(*files, sum(files) - older), f"the results, {most},")
+
+
+def _size(out: Path, mechanism: str, scene: str) -> int:
+    from gudgeon.commands.run import result_path
+
+    path = result_path(out, mechanism, scene)
+    return path.stat().st_size if path.is_file() else 0

@@ -52,10 +52,10 @@ def _check_blocks(plan: Plan, part: Part, cores: int) -> None:
 
 
 def _there(folder: Path) -> int:
-    """Bytes of the blocks that are there already; a dataset is written anew beside an older one."""
+    """Bytes of blocks and datasets that are there: of this study, which need not be made again, or to be removed."""
     found = 0
     for place, _, names in os.walk(folder):
         for name in names:
             with suppress(OSError):
-                found += os.stat(os.path.join(place, name)).st_size if name.startswith("block-") else 0
+                found += os.stat(os.path.join(place, name)).st_size
     return found
