@@ -12,14 +12,17 @@ from typing import Annotated
 import typer
 
 from gudgeon.commands import options as opt
+from gudgeon.commands.group import Commands
 from gudgeon.commands.told import tell_warnings, told
 from gudgeon.contract.methods import CHOOSING, KINEMATIC, OFFERED
 
 app = typer.Typer(
     name="gudgeon",
+    cls=Commands,
     help="Planar linkages whose joints may have play: from a YAML file to equations, C and a simulation.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
+    rich_markup_mode=None,  # rich takes .2 s to lay out a page of help, and to say which option there is not
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 

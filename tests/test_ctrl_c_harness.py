@@ -1,4 +1,4 @@
-"""`python -m tests.ctrl_c` runs, and what Ctrl-C leaves is right at each of its moments. Times are not looked at."""
+"""`python -m tests.ctrl_c` and `tests.ctrl_c_commands` run, and Ctrl-C leaves what is right. Nobody looks at times."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests import ctrl_c
+from tests import ctrl_c, ctrl_c_commands
 from tests.programs import needs_compiler
 
 
@@ -22,3 +22,10 @@ def test_every_activity_at_some_moments(
     made = [*ctrl_c.activities(tmp_path), *ctrl_c.large(tmp_path)]
     assert all([ctrl_c.measure(activity, 3, rng) for activity in made])
     assert capsys.readouterr().out.count("0 wrong") == len(made) > 15
+
+
+@needs_compiler
+@pytest.mark.slow
+def test_every_command_at_some_moments(capsys: pytest.CaptureFixture[str]) -> None:
+    assert ctrl_c_commands.main(["--moments", "4"]) == 0
+    assert capsys.readouterr().out.count(" 0 wrong\n") == len(ctrl_c_commands.COMMANDS)

@@ -13,6 +13,10 @@ import pytest
 from gudgeon.loading.shipped import committed, generated, read_generated, write_generated
 
 ROOT = Path(__file__).parents[1]
+STRANGE = {
+    "LC_ALL": "POSIX", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0", "TZ": "Pacific/Auckland",
+    "SOURCE_DATE_EPOCH": "315532800", "HOME": "/nowhere",
+}  # fmt: skip
 
 
 def contents(folder: Path) -> dict[str, bytes]:
@@ -22,13 +26,16 @@ def contents(folder: Path) -> dict[str, bytes]:
 
 @pytest.mark.parametrize("seed", ["1", *(pytest.param(seed, marks=pytest.mark.slow) for seed in ("0", "20231"))])
 def test_generating_again_gives_the_committed_bytes(tmp_path: Path, seed: str) -> None:
+    """In a process to which umask, locale, time zone, home, clock and the folder's name are strange."""
+    folder = tmp_path / "Käse & \"mein's\" {x} %s"
+    folder.mkdir()
     subprocess.run(
-        [sys.executable, str(ROOT / "tools" / "regenerate.py"), str(tmp_path)],
-        env={**os.environ, "PYTHONHASHSEED": seed},
+        [sys.executable, str(ROOT / "tools" / "regenerate.py"), str(folder)],
+        env={**os.environ, **STRANGE, "PYTHONHASHSEED": seed}, cwd=folder, umask=0o077,
         check=True,
         capture_output=True,
-    )
-    kept, now = contents(ROOT / "generated"), contents(tmp_path)
+    )  # fmt: skip
+    kept, now = contents(ROOT / "generated"), contents(folder)
     assert sorted(kept) == sorted(now), "run `make generated`"
     assert [name for name in kept if kept[name] != now[name]] == [], "run `make generated`"
 

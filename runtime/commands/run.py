@@ -13,6 +13,7 @@ import numpy as np
 from gudgeon.commands.common import check_addresses, check_folder, check_name, chosen_scenes, have, known_here, settings
 from gudgeon.commands.origin import ORIGIN, check_origin, origin_of
 from gudgeon.commands.progress import progress_bar, status_line
+from gudgeon.commands.run_needs import check_needs
 from gudgeon.errors import AssemblyError, GudgeonError, MemoryShortage, SolverError
 from gudgeon.language.shown import path_text, visible
 from gudgeon.language.suggestions import unknown
@@ -157,6 +158,7 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
     t_end, step = (None if text is None else value(text) for text in (request.t_end, request.step))
     own = {name: prepare(s.compiled, known_here(s.source, settings))[0] for name, s in simulations.items()}
     longest = max((scene_end(s.source, own[n]) for n, s in simulations.items() if n != IDEAL), default=T_END)
+    check_needs(request, {name: (simulation, own[name]) for name, simulation in simulations.items()})
     with progress_bar(quiet=request.json) as bar:
         for name in sorted(simulations, key=lambda name: name == IDEAL):
             simulation, until = simulations[name], t_end

@@ -20,8 +20,9 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 
 
 def complain(error: GudgeonError) -> None:
-    """Write `error: …` to stderr, in red if somebody looks and NO_COLOR is not set (no-color.org)."""
-    red, plain = ("\033[31m", "\033[0m") if sys.stderr.isatty() and not os.environ.get("NO_COLOR") else ("", "")
+    """Write `error: …` to stderr, in red on a terminal that has it, if NO_COLOR is not set (no-color.org)."""
+    is_plain = os.environ.get("NO_COLOR") or os.environ.get("TERM", "").lower() in ("dumb", "unknown")
+    red, plain = ("\033[31m", "\033[0m") if sys.stderr.isatty() and not is_plain else ("", "")
     print(f"{red}error:{plain} {visible(error)}", file=sys.stderr)
 
 

@@ -48,6 +48,9 @@ def as_dxf(sketches: Sequence[Sketch], titles: Sequence[str]) -> bytes:
             if title:
                 at = moved + [sketch.low[0], sketch.high[1] + 2.0 * sketch.unit]
                 _text(space, title, at, sketch.unit, {"layer": layers("titles", 0)})
+        known = document.classes
+        known.add_required_classes(document.dxfversion)
+        known.classes = dict(sorted(known.classes.items()))  # ezdxf takes them from sets, in an order by hash
         out = io.StringIO()
         document.write(out)
     return out.getvalue().encode(document.output_encoding)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gudgeon.files.room import check_memory
 from gudgeon.model.arrays import taken
 
 if TYPE_CHECKING:
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 Array: TypeAlias = NDArray[np.float64]
 
 CLEARANCE_COLUMNS = ("Fx", "Fy", "Fn", "Ft", "ex", "ey", "e", "deltadot", "vt", "delta")
+MANY = 10_000  # samples from which on it is asked whether there is memory for what follows from them
 FIRST, SOON = 256, 5e-3  # samples of the first call of C; s that one is to take, or Ctrl-C would wait
 OUTPUTS = frozenset({"reactions", "torques", "series", "energy"})  # what one function of the scene computes
 
@@ -102,6 +104,9 @@ def around(t: Array) -> Array:
 def _room(compiled: CompiledModel, N: int, parts: Collection[str]) -> Evaluation:
     """What C fills; (0, ...) of a part that nobody wants."""
     wanted = {*parts, *OUTPUTS} if not OUTPUTS.isdisjoint(parts) else parts
+    if N > MANY:
+        numbers = sum(math.prod(none.shape[1:]) for name, none in compiled.none if name in wanted)
+        check_memory(8.0 * N * numbers, f"what follows from {N} samples")
     return Evaluation(*(np.empty((N, *none.shape[1:])) if name in wanted else none for name, none in compiled.none))
 
 

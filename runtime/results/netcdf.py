@@ -12,12 +12,14 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gudgeon.errors import BadValueError, GudgeonError
+from gudgeon.files.room import check_disk
 from gudgeon.files.writing import written
 from gudgeon.language.wanted import mapping, text, told
 from gudgeon.language.wanted import path as named
@@ -174,6 +176,8 @@ def write(tables: Iterator[Table], path: str | os.PathLike[str]) -> None:
         for table in tables:
             found.append(table)
             ctrl_c.take()
+        size = sum(one.values.nbytes for table in found for one in table.variables)
+        check_disk(Path(path).parent, size, "it", path)
         with written(path) as file:
             for piece in pieces(found):
                 file.write(piece)

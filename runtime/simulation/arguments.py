@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, KINEMATIC, SMOOTH, STAGED, STAGES
 from gudgeon.errors import AssemblyError, BadValueError
+from gudgeon.files.room import check_memory
 from gudgeon.integrators import adaptive, kinematic, rk4
 from gudgeon.integrators.peers import driver
 from gudgeon.language.wanted import is_whole, told
@@ -69,6 +70,7 @@ def output_times(
     if isinstance(intervals, bool) or not 1 <= intervals <= MOST_OUTPUT:
         raise BadValueError(f"output is {told(intervals)}: expected {OUTPUT}")
     _check_end("t_end is", t0, end, 4 * int(intervals))
+    check_memory(2 * 8 * float(intervals), f"the times of {intervals} samples")
     return np.linspace(t0, end, int(intervals) + 1)
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from gudgeon.errors import BadValueError, InputError
+from gudgeon.files.room import check_memory
 from gudgeon.integrators.times import Times
 from gudgeon.language.quantities import holds_names
 from gudgeon.model.arrays import taken
@@ -66,8 +67,11 @@ class EachRun:
         same: dict[Any, Array] = {}
         for i in range(len(p)):
             own = None if i in left_out else self._of_run(i, p[i], t0, same)
-            if own is not None:
-                found[i] = own
+            if own is None:
+                continue
+            if len(found) == 1 and own is not next(iter(found.values())):  # a row for each is made of them
+                check_memory(2 * 8 * float(len(p)) * len(own), f"{len(p)} rows of times, {len(own)} each,")
+            found[i] = own
         if self.bad and not found:
             raise next(iter(self.bad.values()))
         return Times.of_runs(found or {0: np.array([t0])}, len(p))

@@ -25,9 +25,10 @@ from gudgeon.language.wanted import flag, function, is_whole, text, told
 from gudgeon.model.compiled import Array
 from gudgeon.model.contours import of_run, taken_contours
 from gudgeon.model.parameter_sets import ParameterSets, each_of, plain_each, prepare_sets, rows_of
+from gudgeon.model.room import check_room
 from gudgeon.results.bare import Bare
 from gudgeon.results.batch import Batch, States, as_failures, given_values, peaks_of
-from gudgeon.results.batch_series import STATES, wanted_names
+from gudgeon.results.batch_series import STATES, parts_of, wanted_names
 from gudgeon.results.results import Result, State
 from gudgeon.simulation.arguments import method_of
 from gudgeon.simulation.beside import check_beside
@@ -74,6 +75,7 @@ def simulate_many(
     p, motion, bad = prepare_sets(compiled, starts.given, starts.is_given, chosen != "rk4")
     bad |= starts.bad | starts.unfit(p, bad)
     times = each.times(p, starts.t, bad)
+    check_room(compiled, times.most, len(p), series, parts_of(source, series or ()), workers)
     steps = each.lengths_of_steps(chosen, p, times, bad)
     bad |= each.bad
     if chosen in (*INTEGRATORS, *ON_DEMAND, ADAPTIVE) and not left_out(compiled):

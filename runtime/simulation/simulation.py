@@ -25,6 +25,7 @@ from gudgeon.loading.find import Loading
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import taken_contours
 from gudgeon.model.parameters import prepare, prepare_slots, without_baumgarte
+from gudgeon.model.room import check_room
 from gudgeon.simulation.arguments import MAX_STEPS, METHODS, derived_for, end_of, method_of, output_times, step_of
 from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude, contradicted, late
@@ -171,7 +172,7 @@ class Simulation(Equations):
         circles, at as many equal angles as there, from the x axis of the bearing's body on.
 
         Raises InputError for arguments (ArrayError for arrays), AssemblyError for a start that does not close,
-        SolverError when the equations cannot be solved; its `partial` is the result up to there.
+        SolverError when equations cannot be solved (`partial`: up to there), MemoryError before more than fits.
         """
         method, progress = text(method, "method"), function(progress, "progress")
         horizon, stop = flag(horizon, "horizon"), flag(stop, "stop")
@@ -185,6 +186,7 @@ class Simulation(Equations):
         given, is_given, remarks = numbers(self.compiled, begin, parameters, taken_contours(self.source, contour))
         p, t0 = prepare_slots(self.compiled, given, is_given), 0.0 if begin is None else begin.t
         times = output_times(self.source, p, t0, end_of(self.source, t_end, p), output)
+        check_room(self.compiled, len(times))
         if self.source.degrees_of_freedom < 0:
             assemble(self.compiled, p)  # names the joints that contradict each other
         chosen = method_of(self.source, method, step is not None)
@@ -203,9 +205,8 @@ class Simulation(Equations):
             self.compiled, p, times, q, v, memory, h, progress, None if begin is None else begin.state,
             chosen, tolerance, without_baumgarte(self.compiled, given, is_given), stop, remarks,
         )  # fmt: skip
-        problem, jump = up_to_a_jump(problem)
         search = search_of(self.compiled, (p, given, is_given), tolerance, names, beside)
-        result = self._ran(problem, jump, given, is_given, search)
+        result = self._ran(*up_to_a_jump(problem), given, is_given, search)
         if horizon and not result.diagnostics.interrupted:
             from gudgeon.simulation.horizon import with_horizon
 
@@ -240,7 +241,7 @@ class Simulation(Equations):
         `peaks`, `against`: as in `simulate`; `batch.peak("S9.ay")`. With rk4 such runs do not go side by side.
         `contour`: as in `simulate`, one for all runs, or (n, depths) with a row for each.
 
-        Raises InputError for arguments.
+        Raises InputError for arguments, MemoryError as `simulate`.
         """
         from gudgeon.simulation.simulate_many import simulate_many
 

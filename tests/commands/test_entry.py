@@ -50,6 +50,14 @@ def gudgeon_process(line: str, folder: Path, before: str = "", **environment: st
     )  # fmt: skip
 
 
+def test_help_waits_for_no_rich(tmp_path: Path) -> None:
+    """Most of .4 s went into laying it out; the same of a wrong option. With a table rich is there."""
+    told = "import atexit, sys; atexit.register(lambda: print('with rich' if 'rich' in sys.modules else 'plain'));"
+    for words, code, end in (("run --help", 0, "plain"), ("run --nope", 2, "plain"), ("laws", 0, "with rich")):
+        done = gudgeon_process(f"gudgeon {words}", tmp_path, told)
+        assert (done.returncode, done.stdout.splitlines()[-1]) == (code, end)
+
+
 @pytest.mark.parametrize("closed", [">&-", ">&- 2>&-", "<&- >&- 2>&-"])
 def test_streams_that_are_closed(closed: str, tmp_path: Path) -> None:
     done = gudgeon_process(f"gudgeon check pendulum {closed}", tmp_path)
@@ -115,16 +123,39 @@ def test_as_a_module(tmp_path: Path) -> None:
     assert done.stdout == f"gudgeon {gudgeon.__version__}\n"
 
 
-@pytest.mark.parametrize(("no_color", "red"), [(None, True), ("", True), ("1", False)])
+@pytest.mark.parametrize(
+    ("no_color", "term", "red"),
+    [(None, "xterm", True), ("", "xterm", True), ("1", "xterm", False), (None, "dumb", False)],
+)
 def test_errors_are_red_where_somebody_looks_and_wants_it(
-    no_color: str | None, red: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    no_color: str | None, term: str, red: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     from gudgeon.commands.told import complain
     from gudgeon.errors import GudgeonError
 
     monkeypatch.delenv("NO_COLOR", raising=False)
+    monkeypatch.setenv("TERM", term)
     if no_color is not None:
         monkeypatch.setenv("NO_COLOR", no_color)
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
     complain(GudgeonError("no"))
     assert capsys.readouterr().err == ("\033[31merror:\033[0m no\n" if red else "error: no\n")
+
+
+@pytest.mark.parametrize("looked_at", [True, False])
+def test_a_bar_is_shown_on_a_terminal_alone(
+    looked_at: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """And not where a command is asked to be quiet, or for JSON."""
+    from gudgeon.commands.progress import progress_bar
+
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: looked_at, raising=False)
+    for quiet in (False, True):
+        with progress_bar(quiet) as bar:
+            report = bar("study")
+            assert (report is not None) == (looked_at and not quiet)
+            if report:
+                report(0.5, "3 of 6 runs")
+        out, err = capsys.readouterr()
+        assert out == "" and ("3 of 6 runs" in err) == (looked_at and not quiet)

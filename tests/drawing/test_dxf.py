@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from itertools import pairwise
 from pathlib import Path
@@ -49,6 +50,8 @@ def test_the_same_drawing_gives_the_same_bytes(call: Gudgeon, tmp_path: Path) ->
     for name in ("x.dxf", "Y.DXF"):
         assert call("draw", "four_bar", "-o", name).exit_code == 0
     assert (tmp_path / "x.dxf").read_bytes() == (tmp_path / "Y.DXF").read_bytes()
+    classes = re.findall(r"^CLASS\n +1\n(\w+)$", (tmp_path / "x.dxf").read_text(encoding="utf-8"), re.M)
+    assert classes == sorted(classes) and len(classes) > 5, "in an order that hangs on the seed of hashes"
 
 
 def test_assemblies_stand_side_by_side(call: Gudgeon, tmp_path: Path) -> None:

@@ -61,6 +61,8 @@ class Part:
     mechanism: str
     overrides: tuple[tuple[str, str], ...]
     block: int = 1  # runs a block
+    samples: float = 1.0  # of a run on average, by those that were looked at
+    most: float = 1.0  # of the one of these that has most
 
     @property
     def sha256(self) -> str:
@@ -111,6 +113,11 @@ class Plan:
     def runs(self) -> int:
         """All of them."""
         return self.each * len(self.parts)
+
+    @property
+    def count_of_blocks(self) -> int:
+        """How many they are, without a list of them."""
+        return sum(-(-self.each // part.block) for part in self.parts)
 
     @cached_property
     def blocks(self) -> tuple[BlockOf, ...]:

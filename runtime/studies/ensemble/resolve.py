@@ -64,7 +64,7 @@ def resolve(study: StudyFile) -> Plan:
         study, tuple(structure), (*numbers, *starts), fixed, off, tuple(coordinates), parts, wanted,
         _units(study, sources), tuple(_notes(study, sources)),
     )  # fmt: skip
-    return replace(plan, parts=tuple(replace(part, block=_block(plan, k)) for k, part in enumerate(parts)))
+    return replace(plan, parts=tuple(_in_blocks(plan, k) for k in range(len(parts))))
 
 
 def _structure(study: StudyFile) -> tuple[list[Dimension], list[Coordinate]]:
@@ -269,11 +269,13 @@ def _notes(study: StudyFile, sources: Sequence[KernelSource]) -> Iterator[str]:
             yield f"{name} is NaN in scene {', '.join(lacking)}, which has no such series"
 
 
-def _block(plan: Plan, k: int) -> int:
-    """Runs of a block of part k: few enough that their samples fit into BYTES, by those of some of its runs."""
+def _in_blocks(plan: Plan, k: int) -> Part:
+    """Part k in blocks of so few runs that their samples fit into BYTES, by those of some of its runs."""
     runs = np.unique(np.linspace(0, plan.each - 1, min(plan.each, LOOKED_AT)).astype(int))
     job: Job = plan.job_of(0, k, runs, None)
     counts = Table(plan.parts[k].simulation, job).output
-    samples = float(np.nanmax(counts, initial=1.0)) + 1.0
+    known = counts[~np.isnan(counts)] + 1.0
+    most, mean = (float(known.max()), float(known.mean())) if known.size else (2.0, 2.0)
     width = 2 + len(series_of(plan.wanted.measures, plan.wanted.keep, plan.parts[k].simulation.source))
-    return int(max(1, min(BLOCK, BYTES // (8 * width * max(samples, 1.0)))))
+    block = int(max(1, min(BLOCK, BYTES // (8 * width * max(most, 2.0)))))
+    return replace(plan.parts[k], block=block, samples=mean, most=most)

@@ -29,6 +29,7 @@ from gudgeon.studies.ensemble.folder import (
 )
 from gudgeon.studies.ensemble.loop import finish
 from gudgeon.studies.ensemble.names import write_names
+from gudgeon.studies.ensemble.needs import check_needs
 from gudgeon.studies.ensemble.workers import executor_of
 
 if TYPE_CHECKING:
@@ -120,6 +121,7 @@ def run_plans(
     progress: Progress | None = None, restart: bool = False, keeps: tempfile.TemporaryDirectory[str] | None = None,
 ) -> Study:  # fmt: skip
     """The study of a file in a folder, each part in one of its own."""
+    check_needs(plans, folder, threads, executor is None)
     if plans.named:
         open_parts(folder, list(plans.each), restart)
     done = 0

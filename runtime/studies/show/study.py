@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from gudgeon.files.room import in_bytes
 from gudgeon.language.shown import path_text, visible
 from gudgeon.studies.ensemble.claimed import FILE, claims_json
 from gudgeon.studies.ensemble.estimate import Estimate
@@ -41,7 +42,7 @@ def show_estimates(plans: Plans, found: Mapping[str, Estimate], json: bool) -> N
         _show_estimate(plan, found[name])
     if plans.named:
         size, spent = sum(one.bytes for one in found.values()), sum(one.seconds for one in found.values())
-        print(f"all parts: {plans.runs} runs, about {_bytes(size)} on disk, {_long(spent)}")
+        print(f"all parts: {plans.runs} runs, about {in_bytes(size)} on disk, {_long(spent)}")
 
 
 def _estimate_json(plan: Plan, found: Estimate) -> dict[str, Any]:
@@ -54,7 +55,7 @@ def _estimate_json(plan: Plan, found: Estimate) -> dict[str, Any]:
 
 def _show_estimate(plan: Plan, found: Estimate) -> None:
     print(f"{found.runs} runs ({visible(shape_text(plan))}) in {found.blocks} blocks")
-    print(f"about {_bytes(found.bytes)} on disk, {_long(found.seconds)} by {found.tried} runs on trial")
+    print(f"about {in_bytes(found.bytes)} on disk, {_long(found.seconds)} by {found.tried} runs on trial")
     if found.failed:
         print(f"{found.failed} of {found.tried} runs on trial failed: {visible(found.reasons[0])}")
     for note in plan.notes:
@@ -129,13 +130,6 @@ def _spread(plan: Plan, found: Study) -> Iterator[tuple[str, str, dict[str, Any]
         own = values[np.isfinite(values)]
         row = {key: float(np.quantile(own, q)) if own.size else float("nan") for key, q in QUANTILES.items()}
         yield name, plan.units[name], row | {"nan": int(values.size - own.size)}
-
-
-def _bytes(size: int) -> str:
-    for power, unit in ((9, "GB"), (6, "MB"), (3, "kB")):
-        if size >= 10**power:
-            return f"{size / 10**power:.3g} {unit}"
-    return f"{size} bytes"
 
 
 def _long(value: float) -> str:
