@@ -26,6 +26,8 @@ from tests.oracles.numpy_linkage import GROUND, TURN, forces, mass, place, rows
 
 SLIDES = (1.0, -1.0)  # signs of the slip behind a blow
 TOUCHING = 1e-10  # of the clearance
+SHORT = 1e-6  # s
+RESTING = 1e-9  # m/s
 
 
 class Gap(NamedTuple):
@@ -103,13 +105,18 @@ class Rigid(Second):
             on_journals.append(-pressed.get(k, 0.0) * (n + self.friction(k, gap.slip) * (TURN @ n)))
         return eccentricities, on_journals
 
+    def _stride(self, y: np.ndarray) -> float:
+        """What parts goes twice as far at most: no step is to lead away from a wall and back into it."""
+        free = [gap for i, gap in enumerate(self.gaps(*np.split(y, 2))) if i not in self.closed]
+        return max(SHORT, min((gap.delta / gap.rate for gap in free if gap.rate < 0.0), default=math.inf))
+
     def blow(self, t: float, q: np.ndarray, v: np.ndarray, touching: list[int]) -> np.ndarray:
         """Velocities behind it: normal impulses without friction first, then what friction changes."""
         gaps = self.gaps(q, v)
         pressed, smooth = next(
             (held, w) for held in subsets(touching)
             for w, normal, _ in [self._jump(t, q, v, gaps, held, {})]
-            if min(normal, default=0.0) >= 0.0 and all(gaps[k].row @ w < 1e-9 for k in touching)
+            if min(normal, default=0.0) >= 0.0 and all(gaps[k].row @ w < RESTING for k in touching)
         )  # fmt: skip
         ratio = {k: abs(self.friction(k, float(gaps[k].slip_row @ smooth))) for k in pressed}
         for way in product((0.0, *SLIDES), repeat=len(pressed)):  # 0: it sticks
@@ -145,7 +152,7 @@ class Rigid(Second):
 
     def settle(self, t: float, q: np.ndarray, v: np.ndarray, touching: list[int]) -> None:
         """Of what touches and does not part that is closed which has to push: λ ≥ 0, δ̈ ≤ 0."""
-        resting = [k for k in touching if abs(self.gaps(q, v)[k].rate) < 1e-9]
+        resting = [k for k in touching if abs(self.gaps(q, v)[k].rate) < RESTING]
         for held in subsets(resting):
             a, pressed = self.accelerations(t, q, v, held)
             gaps = self.gaps(q, v)
@@ -175,7 +182,8 @@ class Rigid(Second):
             def meets(t: float, q: np.ndarray, v: np.ndarray, k: int = k) -> None:
                 known, near = set(self.closed), [-TOUCHING * one.law.clearance for one in self.joints]
                 touching = [i for i, gap in enumerate(self.gaps(q, v)) if i in known or gap.delta >= near[i]]
-                v[:] = self.blow(t, q, v, touching)
+                while any(self.gaps(q, v)[i].rate > RESTING for i in touching):  # friction may bring others to meet
+                    v[:] = self.blow(t, q, v, touching)
                 self.settle(t, q, v, touching)
                 for i in sorted(self.closed - known):
                     self.onsets[i].append(t)

@@ -151,6 +151,7 @@ class Second:
         """To the next event, or to the end."""
         n = y.size // 2
         what = list(self._events(n))
+        end = min(end, t + self._stride(y))
         found = solve_ivp(self, (t, end), y, "DOP853", events=[event for event, _ in what], rtol=self.rtol,
                           atol=self.rtol * self._sizes(y))  # fmt: skip
         if found.status < 0:
@@ -160,6 +161,10 @@ class Second:
             if times.size:
                 done(t, y[:n], y[n:])
         return t, y
+
+    def _stride(self, y: np.ndarray) -> float:
+        """s, so far at most."""
+        return math.inf
 
     def _sizes(self, y: np.ndarray) -> np.ndarray:
         """1e-3 m, rad, m/s, rad/s: a journal's place is a thousandth of that of a body."""
