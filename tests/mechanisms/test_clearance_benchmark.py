@@ -52,6 +52,17 @@ def test_beside_rows_that_another_code_printed(name: str, case: Case) -> None:
         assert np.median(off[f"{joint}.Fn"]) < 6e-3 and off[f"{joint}.Fn"].max() < (0.04, 0.11, 0.1)[k]
 
 
+@needs_compiler
+def test_a_threshold_below_all_roundings_changes_nothing() -> None:
+    """1e-12 m/s where bodies go 20 m/s: a closed contact has a part in blows whatever its rate is rounded to."""
+    case = cases()["four_bar_tracking"]
+    simulation, address = gudgeon.load(case.file, case.scene), "contacts.rigid.normal.threshold"
+    run, low = (simulation.simulate(0.6, output=6, parameters={address: x}, rtol=1e-9) for x in (1e-4, 1e-12))
+    assert {*run.impacts["joint"]} == {0, 1, 2} and len(run.impacts) == 16
+    np.testing.assert_array_equal(low.q, run.q)
+    assert low.impacts.tobytes() == run.impacts.tobytes()
+
+
 def test_the_page_has_all_of_them() -> None:
     table = re.findall(r"^\| \[(\w+)\]\(data/(\w+)\.nc\)", PAGE, re.MULTILINE)
     assert [name for name, _ in table] == [file for _, file in table] == list(cases())
