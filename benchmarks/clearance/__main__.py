@@ -2,13 +2,14 @@
 
     python -m benchmarks.clearance [NAME …] [--write]
 
-For each case a table tells to which time both agree, how well, and what the paper prints. `--write` keeps what was
+For each case a table tells to which time both agree, how well, and what its source prints. `--write` keeps what was
 found: data/NAME.nc, and the table of README.md.
 """
 
 from __future__ import annotations
 
 import argparse
+import csv
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -26,7 +27,7 @@ PAGE, BEGIN, END = HERE / "README.md", "<!-- found: python -m benchmarks.clearan
 DIGITS = 1e-9  # of the clearance
 INTERVALS = 100
 FORMAT = "gudgeon-clearance/1"
-COLUMNS = "case", "until", "apart by", "first contacts", "peak forces printed", "and by these equations"
+COLUMNS = "case", "until", "apart by", "first contacts", "peak forces, or rows, printed", "and by these equations"
 HEAD = f"| {' | '.join(COLUMNS)} |\n|{'---|' * len(COLUMNS)}\n"
 
 
@@ -37,11 +38,14 @@ class Found:
     case: Case
     data: xr.Dataset
     peaks: tuple[float, ...]  # N, of the first second by gudgeon, where the paper prints some
+    off: str  # by how much printed rows are others
 
     def row(self, name: str) -> str:
         d = self.data
         printed = ", ".join("–" if peak is None else f"{peak:g} N" for peak in self.case.peaks) or "–"
-        ours = ", ".join(f"{peak:.4g} N" for peak in self.peaks) or "–"
+        ours = self.off or ", ".join(f"{peak:.4g} N" for peak in self.peaks) or "–"
+        if self.case.rows:
+            printed = f"[{self.case.rows}]({self.case.rows})"
         onsets = np.sort(d.onset.values[np.isfinite(d.onset.values)])
         onsets = onsets[onsets <= d.attrs["horizon"]]
         first = ", ".join(f"{1e3 * t:.6f}" for t in onsets[:3]) + " ms" if onsets.size else "none"
@@ -74,7 +78,7 @@ def found(case: Case) -> Found:
         {"format": FORMAT, "title": case.title, "source": case.source, "horizon": horizon, "clearance": case.clearance,
          "mechanism": Path(case.file).name.removesuffix(".yaml"), "scene": case.scene, "parameters": told(case)},
     )  # fmt: skip
-    return Found(case, data, peaks(case, simulation, method))
+    return Found(case, data, peaks(case, simulation, method), told_beside(case, simulation) if case.rows else "")
 
 
 def told(case: Case) -> str:
@@ -88,6 +92,33 @@ def peaks(case: Case, simulation: Any, method: str) -> tuple[float, ...]:
         return ()
     run = simulation.simulate(1.0, output=2, parameters=case.parameters, method=method, rtol=1e-10)
     return tuple(run.diagnostics.peak(joint).F for joint in case.joints)
+
+
+def beside(case: Case, simulation: Any) -> dict[str, np.ndarray]:
+    """Of each series of the printed rows how far it is off: of forces by their size, of journals by c."""
+    with open(HERE / case.rows, encoding="utf-8", newline="") as file:
+        lines = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    printed = {name: np.array([float(line[name]) for line in lines]) for name in lines[0]}
+    run = simulation.simulate(output=[0.0, *printed.pop("t")], parameters=case.parameters, rtol=1e-10)
+    off = {}
+    for name, column in printed.items():
+        own, kind = run[name][1:], name.rpartition(".")[2]
+        if kind in ("ex", "ey"):
+            off[name] = abs(own - 1e-3 * column) / case.clearance
+        else:
+            off[name] = abs(own - column) / np.where(column, abs(column), 1.0) if kind == "Fn" else abs(own - column)
+    return off
+
+
+def told_beside(case: Case, simulation: Any) -> str:
+    """In words: the median and, in brackets, the most by kinds of series."""
+    kinds: dict[str, list[np.ndarray]] = {}
+    for name, off in beside(case, simulation).items():
+        kind = name.rpartition(".")[2]
+        told = {"ex": "e {} c", "ey": "e {} c", "Fn": "Fn {} of itself", "omega": f"{name} {{}} rad/s"}
+        kinds.setdefault(told.get(kind, f"{name} {{}} rad"), []).append(off)
+    parts = (text.format(f"{np.median(off):.0e} ({np.max(off):.0e})") for text, off in kinds.items())
+    return f"off by, median (most): {', '.join(parts)}"
 
 
 def write(rows: dict[str, Found]) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.clearance.rigid import Rigid
 from benchmarks.clearance.second import Joint, Pin, Second
 from tests.oracles import dry
 from tests.oracles.linkage_joints import CoordinateDrive
@@ -25,7 +26,7 @@ class Case:
     """A machine at its numbers. `file`, `scene`, `parameters`: as `gudgeon.load` and `simulate` take them.
 
     joints: those with play, as the file calls them. t_end: s, of the samples. peaks: largest forces at the joints that
-    the paper prints of the first second, N.
+    the paper prints of the first second, N. rows: a file here of rows that a code prints, journals in mm.
     """
 
     title: str
@@ -38,6 +39,7 @@ class Case:
     second: Second
     peaks: tuple[float | None, ...] = ()
     parameters: Mapping[str, float | str] = field(default_factory=dict)
+    rows: str = ""
 
     @property
     def clearance(self) -> float:
@@ -218,11 +220,84 @@ def _jansen_guess(
     ]  # fmt: skip
 
 
+@dataclass(frozen=True)
+class Led:
+    """The torque that leads a crank along reach sin(pace t), of body 0, by the ideal four-bar at the crank's angle.
+
+    lengths: ground, crank, coupler, rocker (m), each of `mass` (kg); `rate` (1/s) and `gain` (N m s) of what is left.
+    """
+
+    lengths: tuple[float, float, float, float]
+    mass: float
+    gravity: float
+    reach: float
+    pace: float
+    rate: float
+    gain: float
+
+    def potential(self, q: np.ndarray) -> float:
+        return 0.0
+
+    def angles(self, theta: float) -> tuple[float, float]:
+        """Of the coupler (α) and the rocker (φ): by the half of φ's tangent, as textbooks close the loop."""
+        l0, l1, l2, l3 = self.lengths
+        k1, k2 = -2.0 * l1 * l3 * math.sin(theta), 2.0 * l3 * (l0 - l1 * math.cos(theta))
+        k3 = l0**2 + l1**2 - l2**2 + l3**2 - 2.0 * l0 * l1 * math.cos(theta)
+        phi = 2.0 * math.atan2(-k1 - math.sqrt(k1**2 + k2**2 - k3**2), k3 - k2)
+        up, across = l3 * math.sin(phi) - l1 * math.sin(theta), l0 + l3 * math.cos(phi) - l1 * math.cos(theta)
+        return math.atan2(up, across), phi
+
+    def torque(self, t: float, theta: float, omega: float) -> float:
+        _, l1, l2, l3 = self.lengths
+        alpha, phi = self.angles(theta)
+        sine, cosine = math.sin(alpha - phi), math.cos(alpha - phi)
+        a, b = l1 * math.sin(phi - theta) / (l2 * sine), l1 * math.sin(alpha - theta) / (l3 * sine)
+        da = (l1 * math.cos(phi - theta) * (b - 1.0) - l2 * cosine * a * (a - b)) / (l2 * sine)
+        db = (l1 * math.cos(alpha - theta) * (a - 1.0) - l3 * cosine * b * (a - b)) / (l3 * sine)
+        j = [self.mass * length**2 / 12.0 for length in (l1, l2, l3)]  # about the middle, a quarter of that at an end
+        p, cross = 0.5 * self.mass * l1 * l2, math.cos(alpha - theta)
+        inertia = 4.0 * (j[0] + j[1] * a**2 + j[2] * b**2) + self.mass * l1**2 + 2.0 * p * cross * a
+        curving = 4.0 * j[1] * a * da + 2.0 * j[2] * b * db  # of the rocker half of what it is, as in the source
+        curving += p * (cross * da + a * (1.0 - a) * math.sin(alpha - theta))
+        angle, w = self.pace * t, self.pace
+        e, rate = theta - self.reach * math.sin(angle), omega - self.reach * w * math.cos(angle)
+        weights = 1.5 * l1 * math.cos(theta) + 0.5 * l2 * a * math.cos(alpha) + 0.5 * l3 * b * math.cos(phi)
+        return (
+            inertia * (-self.reach * w**2 * math.sin(angle) - self.rate * rate)
+            + curving * omega * (omega - self.rate * e)
+            - self.gain * (rate + self.rate * e) + self.mass * self.gravity * weights
+        )  # fmt: skip
+
+    def forces(self, t: float, q: np.ndarray, v: np.ndarray) -> np.ndarray:
+        g = np.zeros(q.size)
+        g[2] = self.torque(t, q[2], v[2])
+        return g
+
+
+def four_bar() -> tuple[Rigid, list[float]]:
+    """Crank, coupler, rocker; rigid play between crank and coupler, coupler and rocker, rocker and ground."""
+    lengths = (3.0, 1.0, 4.0, 2.5)
+    links = Chain(dict(enumerate(lengths[1:])))
+    law = Pin(radius=0.06, clearance=5e-3, mu=0.1, v0=1e-3)
+    ends = ((links.tail(1), links.head(0)), (links.head(2), links.head(1)), (End(GROUND, (3.0, 0.0)), links.tail(2)))
+    led = Led(lengths, 1.0, 9.81, 6.0, 0.75 * 3.14159265, 10.0, 200.0)
+    bodies = tuple(Body(1.0, length**2 / 12.0) for length in lengths[1:])
+    linkage = Linkage(bodies, (pin((0.0, 0.0), links.tail(0)),), gravity=(0.0, -9.81), loads=(led,))
+    theta = 1.570823772407980
+    guess = [0.5 * math.cos(theta), 0.5 * math.sin(theta), theta, 1.876454585097650, 1.691962091335582,
+             0.3532842020624460, 3.0 + 0.3764686197082958, 1.191962183453451, 1.264872058968431]  # fmt: skip
+    return Rigid(linkage, [Joint(Play(one, two, law), law) for one, two in ends]), guess
+
+
 CHEN = "X. Chen, S. Gao, T. Wang, Nonlinear Dynamics (2022), doi 10.1007/s11071-022-07478-4"
 FLORES = "P. Flores and others, Mechanism and Machine Theory 41 (2006) 247, doi 10.1016/j.mechmachtheory.2005.10.002"
 WORN = (
     "Mechanism and Machine Theory 194 (2024) 105583, doi 10.1016/j.mechmachtheory.2024.105583, as "
     "github.com/PanChuguang/ALGRM-Sim sets it"
+)
+SICONOS = (
+    "Siconos, github.com/siconos/siconos, examples/Mechanics/FourBarLinkageWith3clearance; its numbers are those of "
+    "a paper's table that it does not name"
 )
 GEAR, JANSEN = "github.com/PanChuguang/ALGRM-Sim: no paper is known to us", "arXiv 2606.25208 (2026)"
 
@@ -264,4 +339,8 @@ def cases() -> dict[str, Case]:
         title = f"Jansen's leg, 60 rpm, c 0.2 mm in {name} of the crank's pins"
         found[f"jansen_leg_{name}"] = Case(title, JANSEN, str(STUDIES / "jansen_leg_play.yaml"), name, joints, 40e-3,
                                            guess, second)  # fmt: skip
+    rigid, guess = four_bar()
+    found["four_bar_tracking"] = Case("four-bar led by a torque, rigid, c 5 mm in three joints", SICONOS,
+                                      str(HERE / "four_bar_tracking.yaml"), "tracking", ("J1", "J2", "J3"), 1.0, guess,
+                                      rigid, rows="four_bar_tracking.csv")  # fmt: skip
     return found

@@ -131,15 +131,15 @@ class Second:
         """Samples at `times`, which begin with 0."""
         self.onsets = [[] for _ in self.joints]
         t, n = 0.0, y.size // 2
-        samples = [(y[:n], *self._of(y[:n], y[n:]))]
+        samples = [(y[:n], *self._of(0.0, y[:n], y[n:]))]
         for end in times[1:]:
             while t < end:
                 t, y = self._piece(t, float(end), y)
-            samples.append((y[:n], *self._of(y[:n], y[n:])))
+            samples.append((y[:n], *self._of(t, y[:n], y[n:])))
         q, e, force = (np.array(column) for column in zip(*samples, strict=True))
         return q, e, force
 
-    def _of(self, q: np.ndarray, v: np.ndarray) -> tuple[list[np.ndarray], list[np.ndarray]]:
+    def _of(self, t: float, q: np.ndarray, v: np.ndarray) -> tuple[list[np.ndarray], list[np.ndarray]]:
         eccentricities, forces = [], []
         for joint in self.joints:
             one, two = place(joint.play.first, q, v), place(joint.play.second, q, v)
@@ -151,6 +151,7 @@ class Second:
         """To the next event, or to the end."""
         n = y.size // 2
         what = list(self._events(n))
+        end = min(end, t + self._stride(y))
         found = solve_ivp(self, (t, end), y, "DOP853", events=[event for event, _ in what], rtol=self.rtol,
                           atol=self.rtol * self._sizes(y))  # fmt: skip
         if found.status < 0:
@@ -160,6 +161,10 @@ class Second:
             if times.size:
                 done(t, y[:n], y[n:])
         return t, y
+
+    def _stride(self, y: np.ndarray) -> float:
+        """s, so far at most."""
+        return math.inf
 
     def _sizes(self, y: np.ndarray) -> np.ndarray:
         """1e-3 m, rad, m/s, rad/s: a journal's place is a thousandth of that of a body."""
@@ -180,7 +185,7 @@ class Second:
                 self.onsets[k].append(t)
                 joint.settle(q, v)
 
-            yield _ending(gap, -1.0 if touches else 1.0), change
+            yield ending(gap, -1.0 if touches else 1.0), change
             if not touches or not joint.law.mu:
                 continue
             for corner, direction in zip(joint.sector, (-1.0, 1.0), strict=True):
@@ -198,9 +203,9 @@ class Second:
                     at = corners.index(corner)
                     joint.sector = (corner, corners[at + 1]) if direction > 0.0 else (corners[at - 1], corner)
 
-                yield _ending(slip, direction), cross
+                yield ending(slip, direction), cross
 
 
-def _ending(function: Callable[[float, np.ndarray], float], direction: float) -> Any:
+def ending(function: Callable[[float, np.ndarray], float], direction: float) -> Any:
     function.terminal, function.direction = True, direction  # type: ignore[attr-defined]
     return function

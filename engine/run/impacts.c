@@ -8,6 +8,7 @@
 #define TOUCHING 1e-10 /* of the clearance: surfaces that are no further apart touch */
 #define PARTED (16.0 * DBL_EPSILON) /* of how far out bodies are: so far apart surfaces are put that are to part */
 #define RESTING 1e-6   /* of the threshold: surfaces that close so slowly need no blow */
+#define ROUNDED (1024.0 * DBL_EPSILON) /* of how fast bodies are: rates of gaps that are no larger are roundings */
 enum { MOST_PASSES = 100 };
 
 /* Not negative while things go on as they are: the gap of a free joint, m, the force of a closed contact, N. */
@@ -52,7 +53,17 @@ static int used_up(const Run *run)
     return -1;
 }
 
-static double resting(const Parameters *p, int i) { return RESTING * threshold_of(p, i); }
+/* The rates, m/s, up to which a gap has none: of those that have just been made 0 roundings are left. */
+static double least_rate(const Run *run, const Parameters *p)
+{
+    double all[N_S], most = 0.0;
+    to_absolute(run->t, run->y, &run->memory, p, all);
+    for (int k = 0; k < N_Q; k++)
+        most = max_of(most, k % 3 < 2 ? fabs(all[N_Q + k]) : 0.0);
+    return ROUNDED * most;
+}
+
+static double resting(double least, const Parameters *p, int i) { return max_of(RESTING * threshold_of(p, i), least); }
 
 static int answer_here(Run *run, const Parameters *p, Answer *contacts)
 {
@@ -99,11 +110,12 @@ static int strike(Run *run, const Parameters *p, int *struck)
     Rub rub;
     double meeting[N_RIGID], r[N_RIGID], impulse[N_RIGID];
     const Memory known = run->memory;
+    const double least = least_rate(run, p);
     *struck = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const double u = run->aside.clearance[i].deltadot;
-        const int meets_now = touches(run, i, p) && u > resting(p, i);
-        if (!meets_now && !(touches(run, i, p) && u >= -resting(p, i)))
+        const int meets_now = touches(run, i, p) && u > resting(least, p, i);
+        if (!meets_now && !(touches(run, i, p) && u >= -resting(least, p, i)))
             continue;
         const double back = restitution_of(p, i) * u;
         meeting[blow.n] = u;
@@ -125,7 +137,7 @@ static int strike(Run *run, const Parameters *p, int *struck)
     see_slips(run, p);
     for (int k = 0; k < blow.n && !status; k++) {
         const int i = blow.joint[k];
-        const double u = meeting[k] > resting(p, i) ? meeting[k] : 0.0; /* it rests, and is pressed */
+        const double u = meeting[k] > resting(least, p, i) ? meeting[k] : 0.0; /* it rests, and is pressed */
         const Impact bounce = {run->t, run->t, u, impulse[k], run->t, i};
         if (impulse[k] > 0.0)
             status = list_contact(run, &bounce);
@@ -164,9 +176,11 @@ static int settle_contacts(Run *run, int opens, const Parameters *p)
     unsigned char rests[N_CLEARANCES], pushes[N_CLEARANCES] = {0};
     double force[N_RIGID];
     const Memory known = run->memory;
+    const double least = least_rate(run, p);
     Answer contacts = {0};
     for (int i = 0; i < N_CLEARANCES; i++) {
-        rests[i] = i != opens && touches(run, i, p) && fabs(run->aside.clearance[i].deltadot) <= threshold_of(p, i);
+        const double slow = max_of(threshold_of(p, i), least);
+        rests[i] = i != opens && touches(run, i, p) && fabs(run->aside.clearance[i].deltadot) <= slow;
         if (!gives(i))
             run->memory.latch[i].closed = rests[i];
         if (rests[i])
