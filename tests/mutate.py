@@ -2,9 +2,9 @@
 
     python -m tests.mutate [--count 40] [--seed 1] [--group constraints ...] [--only 3 17] [--processes 2]
 
-Works in a clone of its own. A mutant is one change of one line: another operator or comparison, another whole number,
+Works in a clone of its own, without generated/: shipped mechanisms are derived by what is mutated. A mutant is one change of one line: another operator or comparison, another whole number,
 a sign, the last digit of a method's coefficient. Which there are is drawn by the seed; for each the tests of its
-group run until one fails. What survives is printed, to be read: a test is missing there, or the change means nothing.
+group run until one fails, in their order. What survives is printed, to be read: a test is missing there, or the change means nothing.
 Those that were read and mean nothing are in MEANS_NOTHING, with the reason: they are told, not run and not counted.
 No group has a test that compares texts with kept ones (generated/, docs/): it would notice every change of a name.
 """
@@ -16,6 +16,7 @@ import io
 import os
 import random
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -24,33 +25,49 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).resolve().parents[1]
 SECONDS = 900.0  # of the tests of one mutant, at most: what runs longer was noticed
+
+
+def _tests(folder: str, *names: str) -> tuple[str, ...]:
+    return tuple(f"tests/{folder}/test_{name}.py" for name in names)
+
+
+# What is mutated, and the tests that belong to it: those first that are quick and likely to notice
 GROUPS = {
     "constraints": (
         ("generator/equations/constraints.py", "generator/equations/geometry.py", "generator/kinds/joints/*.py"),
-        ("tests/reader/test_read_kinds.py", "tests/reader/test_whole_format.py", "tests/equations",
-         "tests/kernels/test_jacobian.py", "tests/simulation/test_massless.py"),
+        (*_tests("equations", "derivation", "random_linkages"), *_tests("reader", "fields", "read_kinds"),
+         *_tests("kernels", "pivots", "jacobian"), *_tests("equations", "forces", "events", "roots"),
+         *_tests("reader", "whole_format"), *_tests("reduction", "reduction"), *_tests("simulation", "massless")),
     ),
     "dynamics": (
         ("generator/kernels/dynamics.py", "generator/solvers/kkt.py", "generator/equations/loads.py",
          "generator/equations/system.py"),
-        ("tests/equations", "tests/kernels", "tests/reduction/test_reduction.py", "tests/reduction/test_redundancy.py"),
+        (*_tests("kernels", "pivots"), *_tests("equations", "random_linkages", "forces", "events", "mixed"),
+         *_tests("reduction", "reduction", "redundancy"),
+         *_tests("kernels", "jacobian", "finite_drives", "finite_slopes", "far_quotients", "complex_parts", "parts",
+                 "wholes", "jacobian_contacts"),
+         *_tests("integrators", "friction", "newton_restitution")),
     ),
     "laws": (
         ("generator/kinds/laws/*.py",),
-        ("tests/kinds", "tests/equations", "tests/reynolds", "tests/reader/test_read_kinds.py",
-         "tests/integrators/test_impact.py", "tests/integrators/test_film_settles.py"),
+        (*_tests("reader", "fields"), *_tests("equations", "every_law", "friction_laws", "cylinders", "mixed",
+                                              "short_film", "expression_law"),
+         *_tests("reynolds", "finite_length", "closed_forms", "deviations", "frames"), *_tests("kinds", "own_laws"),
+         *_tests("integrators", "impact", "film_settles", "newton_restitution")),
     ),
     "reduction": (
         ("generator/reduction/*.py",),
-        ("tests/reduction", *(f"tests/kernels/test_{what}.py" for what in (
-            "complex_parts", "far_quotients", "finite_drives", "finite_slopes", "parts", "program", "tree_jacobian",
-            "wholes"))),  # not those of the full formulation alone
+        (*_tests("reduction", "reduction", "redundancy", "driven_chains", "reduced_hard", "story"),
+         *_tests("kernels", "tree_jacobian", "finite_drives", "far_quotients", "finite_slopes", "complex_parts", "parts",
+                 "wholes")),
     ),
     "methods": (
         ("engine/both/dop853.h", "engine/both/rodas5p.h", "engine/both/radau.h", "engine/methods/rodas5p.c"),
-        ("tests/integrators/test_radau.py", "tests/integrators/test_methods.py"),
+        _tests("integrators", "radau", "methods"),
     ),
 }  # fmt: skip
 SWAPS = {"+": "-", "-": "+", "*": "/", "/": "*", "<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==",
@@ -132,11 +149,14 @@ def noticed(mutant: Mutant, folder: Path, processes: int) -> bool:
     file = folder / mutant.file
     source = file.read_text(encoding="utf-8")
     file.write_text(mutant.made(source), encoding="utf-8")
-    command = [".venv/bin/pytest", "-q", "-x", "-n", str(processes), "--dist", "loadfile", "-p", "no:cacheprovider"]
+    command = [".venv/bin/pytest", "-q", "-x", "-n", str(processes), "--dist", "loadfile", "--no-loadscope-reorder",
+               "-p", "no:cacheprovider"]  # fmt: skip
     environment = os.environ | {"GUDGEON_CACHE": str(folder / "build/mutants")}
     try:
         done = subprocess.run([*command, *GROUPS[mutant.group][1]], cwd=folder, env=environment, timeout=SECONDS,
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # fmt: skip
+        if done.returncode in (pytest.ExitCode.USAGE_ERROR, pytest.ExitCode.NO_TESTS_COLLECTED):
+            raise FileNotFoundError(f"tests of {mutant.group}: {' '.join(GROUPS[mutant.group][1])}")
         return done.returncode != 0
     except subprocess.TimeoutExpired:
         return True
@@ -151,7 +171,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--group", nargs="+", choices=GROUPS, default=list(GROUPS))
     parser.add_argument("--only", nargs="+", type=int, help="of those that are drawn, by their numbers")
-    parser.add_argument("--processes", type=int, default=2, help="for the tests of one mutant")
+    parser.add_argument("--processes", type=int, default=2, help="for the tests of one mutant; 0: this one")
     options = parser.parse_args()
     survived, nothing, run = list[str](), list[str](), 0
     drawn = mutants(options.group, options.count, options.seed)
@@ -159,6 +179,7 @@ def main() -> int:
         folder = Path(temporary) / "gudgeon"
         subprocess.run(["git", "clone", "--quiet", str(ROOT), str(folder)], check=True)
         subprocess.run(["sh", "tools/setup", "all,test"], cwd=folder, check=True)
+        shutil.rmtree(folder / "generated")
         for k, mutant in enumerate(drawn, 1):
             if options.only and k not in options.only:
                 continue
