@@ -2,10 +2,11 @@
 
     python -m tests.mutate [--count 40] [--seed 1] [--group constraints ...] [--only 3 17] [--processes 2]
 
-Works in a clone of its own, without generated/: shipped mechanisms are derived by what is mutated. A mutant is one change of one line: another operator or comparison, another whole number,
-a sign, the last digit of a method's coefficient. Which there are is drawn by the seed; for each the tests of its
-group run until one fails, in their order. What survives is printed, to be read: a test is missing there, or the change means nothing.
-Those that were read and mean nothing are in MEANS_NOTHING, with the reason: they are told, not run and not counted.
+Works in a clone of its own, without generated/: shipped mechanisms are derived by what is mutated. A mutant is one
+change of one line: another operator or comparison, another whole number, a sign, the last digit of a method's
+coefficient. Which there are is drawn by the seed; for each the tests of its group run, in their order, until one fails.
+What survives is printed, to be read: a test is missing there, or the change means nothing. Those that were read and
+mean nothing are in MEANS_NOTHING, with the reason: they are told, not run and not counted.
 No group has a test that compares texts with kept ones (generated/, docs/): it would notice every change of a name.
 """
 
@@ -28,7 +29,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-SECONDS = 900.0  # of the tests of one mutant, at most: what runs longer was noticed
+SECONDS = 3600.0  # of the tests of one mutant, at most: what runs longer was noticed
 
 
 def _tests(folder: str, *names: str) -> tuple[str, ...]:
@@ -62,8 +63,8 @@ GROUPS = {
     "reduction": (
         ("generator/reduction/*.py",),
         (*_tests("reduction", "reduction", "redundancy", "driven_chains", "reduced_hard", "story"),
-         *_tests("kernels", "tree_jacobian", "finite_drives", "far_quotients", "finite_slopes", "complex_parts", "parts",
-                 "wholes")),
+         *_tests("kernels", "tree_jacobian", "finite_drives", "far_quotients", "finite_slopes", "complex_parts",
+                 "parts", "wholes")),
     ),
     "methods": (
         ("engine/both/dop853.h", "engine/both/rodas5p.h", "engine/both/radau.h", "engine/methods/rodas5p.c"),
@@ -149,8 +150,9 @@ def noticed(mutant: Mutant, folder: Path, processes: int) -> bool:
     file = folder / mutant.file
     source = file.read_text(encoding="utf-8")
     file.write_text(mutant.made(source), encoding="utf-8")
-    command = [".venv/bin/pytest", "-q", "-x", "-n", str(processes), "--dist", "loadfile", "--no-loadscope-reorder",
-               "-p", "no:cacheprovider"]  # fmt: skip
+    command = [".venv/bin/pytest", "-q", "-x", "-p", "no:cacheprovider"]
+    if processes > 1:
+        command += ["-n", str(processes), "--dist", "loadfile", "--no-loadscope-reorder"]
     environment = os.environ | {"GUDGEON_CACHE": str(folder / "build/mutants")}
     try:
         done = subprocess.run([*command, *GROUPS[mutant.group][1]], cwd=folder, env=environment, timeout=SECONDS,
@@ -171,7 +173,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--group", nargs="+", choices=GROUPS, default=list(GROUPS))
     parser.add_argument("--only", nargs="+", type=int, help="of those that are drawn, by their numbers")
-    parser.add_argument("--processes", type=int, default=2, help="for the tests of one mutant; 0: this one")
+    parser.add_argument("--processes", type=int, default=2, help="for the tests of one mutant")
     options = parser.parse_args()
     survived, nothing, run = list[str](), list[str](), 0
     drawn = mutants(options.group, options.count, options.seed)
