@@ -173,7 +173,7 @@ class KKT:
         determinant = build.local(f"determinant_{name[0]}__{name[1]}", own[0] * own[1] - cross**2)
         if rows:
             early = any(i < self.n for i in self.elimination.structure[second])
-            share = EARLY if early else shares[0]  # more than any of those
+            share = max(shares[0], EARLY) if early else shares[0]
             build.line(_guard(failing, 1, own[0], share, scale[0]))
             build.line(_guard(failing, 2, determinant, share, scale[1], own[0]))
             self._look_for_vanishing(build, block, scale, (own[0], determinant), (*failing, shares[1]))

@@ -36,6 +36,19 @@ def test_press_has_the_rows_of_the_source() -> None:
     assert len(dry.all_rows) == 24
 
 
+def test_an_arm_is_that_of_the_point_whose_name_it_has() -> None:
+    """A(θ) s, s from the body's centre of mass: documents say so by the name."""
+    model = press("ideal")
+    geometry = model.geometry
+    named = {symbol: of for symbol, of in geometry.turned.items() if of.point}
+    assert len(named) > 10
+    for symbol, of in named.items():
+        cos, sin = geometry.angle(geometry.bodies[of.body])
+        x, y = geometry.local[of.body, of.point]
+        want = cos * x - sin * y if of.axis == "x" else sin * x + cos * y
+        assert sp.expand(model.symbols.definitions[symbol] - want) == 0
+
+
 @pytest.mark.parametrize("which", MODELS)
 def test_jacobian_against_finite_differences(which: str | int) -> None:
     model, h = model_of(which), 1e-5
