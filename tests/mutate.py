@@ -77,8 +77,8 @@ SWAPS = {"+": "-", "-": "+", "*": "/", "/": "*", "<": "<=", "<=": "<", ">": ">="
 MEANS_NOTHING = {
     "generator/equations/geometry.py:39: '1' -> '2': ZERO, ONE = sp.Integer(0), sp.Integer(1)":
         "masses in place of none: another metric, in which a linkage without freedom closes to the same position",
-    "generator/equations/geometry.py:35: '0' -> '1': if twin is not None and s[0].could_extract_minus_sign():  # a bar's "
-    "tail is its head turned over":
+    "generator/equations/geometry.py:35: '0' -> '1': if twin is not None and s[0].could_extract_minus_sign():  # a "
+    "bar's tail is its head turned over":
         "which of two opposite arms has symbols, the other being their negatives",
     "generator/solvers/kkt.py:32: '0' -> '1': share = max(shares[0], EARLY) if early else shares[0]":
         "EARLY is more than either share",
