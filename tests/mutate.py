@@ -85,6 +85,8 @@ MEANS_NOTHING = {
     "generator/reduction/tree.py:12: '24' -> '25': SEARCHED = 24  # more coordinates than that: the tree is not "
     "improved by exchanges":
         "which tree is taken: every tree has the same motion",
+    "generator/reduction/tree.py:48: '1' -> '2': placed[other] = placed[body] + 1":
+        "where chains are cut, so which trees are among the candidates",
     "generator/reduction/geometry.py:37: 'or' -> 'and': return bool(value.is_Symbol or (-value).is_Symbol or "
     "value.is_Number)":
         "what is short gets a name of its own, and the same value",
