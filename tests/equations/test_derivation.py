@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 import sympy as sp
 
 from gudgeon.generator.equations.model import Model
+from gudgeon.generator.pipeline import derive
 from tests.equations.models import numeric, press, random_model, random_state
 from tests.oracles import ideal_press, numpy_linkage
 
@@ -33,6 +36,19 @@ def test_press_has_the_rows_of_the_source() -> None:
     assert len(dry.all_rows) == 24
 
 
+def test_an_arm_is_that_of_the_point_whose_name_it_has() -> None:
+    """A(θ) s, s from the body's centre of mass: documents say so by the name."""
+    model = press("ideal")
+    geometry = model.geometry
+    named = {symbol: of for symbol, of in geometry.turned.items() if of.point}
+    assert len(named) > 10
+    for symbol, of in named.items():
+        cos, sin = geometry.angle(geometry.bodies[of.body])
+        x, y = geometry.local[of.body, of.point]
+        want = cos * x - sin * y if of.axis == "x" else sin * x + cos * y
+        assert sp.expand(model.symbols.definitions[symbol] - want) == 0
+
+
 @pytest.mark.parametrize("which", MODELS)
 def test_jacobian_against_finite_differences(which: str | int) -> None:
     model, h = model_of(which), 1e-5
@@ -54,6 +70,33 @@ def test_right_hand_sides_against_complex_steps(which: str | int) -> None:
         later = t + 1j * h, q + 1j * h * v, v
         rate = phi_q(*later) @ v[:, None] - nu(*later)
         assert close(gamma(t, q, v), -rate.imag / h, 1e-12)
+
+
+# f of T = t/s, then f′ and f″ before and after T = ½
+Rates = Callable[[float], tuple[float, float]]
+CORNERS: dict[str, tuple[str, Rates, Rates]] = {
+    "size": ("abs(T - 0.5)", lambda x: (-1.0, 0.0), lambda x: (1.0, 0.0)),
+    "cubed": ("abs(T - 0.5)**3", lambda x: (-3 * (x - 0.5) ** 2, 3 - 6 * x), lambda x: (3 * (x - 0.5) ** 2, 6 * x - 3)),
+    "most": ("max(T**2, T/2)", lambda x: (0.5, 0.0), lambda x: (2 * x, 2.0)),
+    "least": ("min(T**2, T/2)", lambda x: (2 * x, 2.0), lambda x: (0.5, 0.0)),
+    "rises": ("ramp(t, 0.5 s, 1 s)", lambda x: (0.0, 0.0), lambda x: (1.0, 0.0)),
+    "parts": ("where(T < 0.5, T**2, T**3)", lambda x: (2 * x, 2.0), lambda x: (3 * x * x, 6 * x)),
+}
+
+
+def test_drives_with_corners_have_the_rates_of_the_side_that_they_are_on() -> None:
+    """ν and γ of a mass that is driven along each; |T − ½| at its corner has the rate that the motion goes on with."""
+    bodies = "".join(f"  {name}: {{mass: 1 kg, inertia: 1 kg*m^2}}\n" for name in CORNERS)
+    values = {name: form.replace("T", "(t/(1 s))") for name, (form, *_) in CORNERS.items()}
+    drives = "".join(f'  by_{n}: {{coordinate: {n}.x, value: "1 m*({value})"}}\n' for n, value in values.items())
+    text = f"format: gudgeon/1\nname: corners\nground: {{o: [0, 0]}}\nbodies:\n{bodies}drives:\n{drives}"
+    model = derive(text.encode(), "corners.yaml", "ideal").numpy()
+    p, rest = model.prepare(), np.zeros(model.n)
+    for T in (0.25, 0.4, 0.6, 0.75):
+        want = np.array([(before if T < 0.5 else after)(T) for _, before, after in CORNERS.values()])
+        assert close(model.nu(T, rest, p), want[:, 0], 1e-14)
+        assert close(model.gamma(T, rest, rest, p), want[:, 1], 1e-14)
+    assert model.nu(0.5, rest, p)[0] == 1.0
 
 
 @pytest.mark.parametrize("which", MODELS)

@@ -178,6 +178,24 @@ def test_the_press_has_five_angles_and_one_closure() -> None:
     assert source.operations["reduced_dynamics"] < 0.3 * source.operations["dynamics"]
 
 
+@pytest.mark.parametrize("pair", ["a.origin, b.origin", "b.origin, a.origin"])
+def test_two_slides_that_a_pin_couples_are_one_coordinate(pair: str) -> None:
+    """Which body has the slot decides the signs in its row: both go along with the one slide that is left, alike."""
+    text = f"""
+format: gudgeon/1
+name: slides
+bodies: {{a: {{mass: 1 kg, inertia: 0.1 kg*m^2}}, b: {{mass: 2 kg, inertia: 0.1 kg*m^2}}}}
+ground: {{O: [0, 0], P: [0, 1 m]}}
+joints:
+  low: {{translational: [ground.O, a.origin], axis: [1, 0]}}
+  high: {{translational: [ground.P, b.origin], axis: [1, 0]}}
+  pin: {{point_on_line: [{pair}], direction: [0, 1]}}
+"""
+    system = reduce(derive(text.encode(), "slides.yaml", "ideal"))
+    assert len(system.unknowns) == 1 and not system.rows
+    assert [[row.get(0, 0) for row in system.motions[body].jacobian] for body in "ab"] == [[1, 0, 0], [1, 0, 0]]
+
+
 def test_a_chain_is_cut_where_that_is_cheaper() -> None:
     """M of a hanging chain is full in its angles: a long one is cut, so that operations grow with its length."""
     operations = {}

@@ -141,8 +141,11 @@ def test_all_that_is_missing_is_told_at_once(tmp_path: Path, capsys: pytest.Capt
 
 
 def test_mass_without_inertia_asks_for_nothing_where_nothing_moves_by_forces(tmp_path: Path) -> None:
+    """And no mass of the others is a number of a run: it would change nothing."""
     file = stripped("mechanisms/slider_crank.yaml", tmp_path, "inertia", "rod")
-    assert gudgeon.load(file, scene="ideal").source.massless == ("rod",)
+    source = gudgeon.load(file, scene="ideal").source
+    assert source.massless == ("rod",)
+    assert not [slot.address for slot in source.slots if slot.address.endswith((".mass", ".inertia"))]
 
 
 def test_auto_without_a_mass_lacks_the_mass_alone(tmp_path: Path) -> None:
