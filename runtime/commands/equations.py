@@ -35,7 +35,7 @@ def write_equations(mechanism: str, target: Path, scenes: tuple[str, ...]) -> in
         raise BadValueError(told, hint="name a folder: -o pages/")
     (scene,) = chosen_scenes(mechanism, scenes or (DEFAULT,))
     with status_line(), working(f"deriving {find_mechanism(mechanism).stem}, scene {scene}"):
-        text = WRITERS[target.suffix.lower()](mechanism, scene)
+        text = WRITERS[target.suffix.lower()](mechanism, scene, target)
     if target == TERMINAL:
         print(text, end="")
         return 0
@@ -90,31 +90,40 @@ def _model(mechanism: str, scene: str) -> Model:
     return derive(read_bytes(file), str(file), scene)
 
 
-def _tex(mechanism: str, scene: str) -> str:
+def _tex(mechanism: str, scene: str, _target: Path) -> str:
     from gudgeon.generator.targets.latex import equations_tex
 
     return equations_tex(_model(mechanism, scene))
 
 
-def _text(mechanism: str, scene: str) -> str:
+def _text(mechanism: str, scene: str, _target: Path) -> str:
     from gudgeon.generator.targets.latex import equations_text
 
     return equations_text(_model(mechanism, scene))
 
 
-def _notebook(mechanism: str, scene: str) -> str:
+def _notebook(mechanism: str, scene: str, target: Path) -> str:
     from gudgeon.teaching.notebook import notebook
 
-    return notebook(_model(mechanism, scene), mechanism)
+    return notebook(_model(mechanism, scene), _from_beside(mechanism, target))
 
 
-def _page(mechanism: str, scene: str) -> str:
+def _from_beside(mechanism: str, target: Path) -> str:
+    """What `load` finds the mechanism by where the notebook is run: in its own folder."""
+    file = find_mechanism(mechanism)
+    if file.is_absolute():  # a shipped one has its name
+        return mechanism
+    found = os.path.relpath(file, target.parent)
+    return found if "/" in found or found.endswith((".yaml", ".yml")) else f"./{found}"
+
+
+def _page(mechanism: str, scene: str, _target: Path) -> str:
     from gudgeon.simulation.from_file import load
     from gudgeon.web.page import write
 
     return write(load(mechanism, scene))
 
 
-WRITERS: dict[str, Callable[[str, str], str]] = {
+WRITERS: dict[str, Callable[[str, str, Path], str]] = {
     ".tex": _tex, ".txt": _text, ".html": _page, ".ipynb": _notebook, "": _text,
 }  # fmt: skip
