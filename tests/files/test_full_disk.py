@@ -52,7 +52,7 @@ def test_a_disk_that_fills_loses_nothing(name: str, tmp_path: Path) -> None:
 TWICE = """
 import os, sys, pathlib
 sys.path.insert(0, sys.argv[2])
-from gudgeon import build
+from gudgeon.loading import build
 from gudgeon.loading.cache import Cache
 from tests.tiny import tiny
 for _ in range(int(sys.argv[3])):
