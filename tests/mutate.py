@@ -68,7 +68,7 @@ GROUPS = {
     ),
     "methods": (
         ("engine/both/dop853.h", "engine/both/rodas5p.h", "engine/both/radau.h", "engine/methods/rodas5p.c"),
-        _tests("integrators", "radau", "methods"),
+        _tests("integrators", "tables", "radau", "methods"),
     ),
 }  # fmt: skip
 SWAPS = {"+": "-", "-": "+", "*": "/", "/": "*", "<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==",
