@@ -171,7 +171,7 @@ def _rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
         ("Peak error against ideal, all steps", _extreme_rows(reports, True)),
         ("Peaks, all steps", _extreme_rows(reports, False)),
         ("Motion", _motion_rows(reports)),
-        (f"Peak force{'' if _played(reports) else ', of samples'}", _force_rows(reports)),
+        ("Peak force" if any(r.diagnostics.peaks for r in reports) else "Peak force, of samples", _force_rows(reports)),
         ("Peak of drives, of samples", _drive_rows(reports)),
         ("Joints with play", _play_rows(reports)),
         ("Events", _event_rows(reports)),
@@ -222,14 +222,10 @@ def _range(extreme: Extreme, scales: Mapping[str, float]) -> str:
     return f"{low:.5g} … {high:.5g} {text}".strip()
 
 
-def _played(reports: Sequence[SceneReport]) -> dict[str, None]:
-    """Joints that have play in any scene: their peaks are over all steps."""
-    return dict.fromkeys(peak.joint for report in reports for peak in report.diagnostics.peaks)
-
-
 def _force_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
     """At the joints that have play in any scene; where none has, at all joints."""
-    joints = _played(reports) or dict.fromkeys(joint for report in reports for joint in report.forces)
+    played = dict.fromkeys(peak.joint for report in reports for peak in report.diagnostics.peaks)
+    joints = played or dict.fromkeys(joint for report in reports for joint in report.forces)
     missing = (math.nan, math.nan)
     return [(joint, [_at(r.forces.get(joint, missing)[0], "N", r.forces.get(joint, missing)[1], r.scales)
                      for r in reports]) for joint in joints]  # fmt: skip
