@@ -82,6 +82,9 @@ MEANS_NOTHING = {
         "which of two opposite arms has symbols, the other being their negatives",
     "generator/solvers/kkt.py:32: '0' -> '1': share = max(shares[0], EARLY) if early else shares[0]":
         "EARLY is more than either share",
+    "generator/solvers/kkt.py:93: 'and' -> 'or': if row.owner == other.owner and r not in pairs and pattern[r] == "
+    "pattern[r + 1] and len(pattern[r]) > 2:":
+        "which rows are eliminated two by two: an order, what it costs",
     "generator/reduction/tree.py:12: '24' -> '25': SEARCHED = 24  # more coordinates than that: the tree is not "
     "improved by exchanges":
         "which tree is taken: every tree has the same motion",
