@@ -173,23 +173,29 @@ def without_line() -> list[str]:
     return [told for told, (file, line) in parts.items() if line not in (ROOT / file).read_text(encoding="utf-8")]
 
 
-def noticed(mutant: Mutant, folder: Path, processes: int) -> bool:
-    """Whether a test of its group fails, or nothing can be imported any more."""
-    file = folder / mutant.file
-    source = file.read_text(encoding="utf-8")
-    file.write_text(mutant.made(source), encoding="utf-8")
+def failed(group: str, folder: Path, processes: int) -> bool:
+    """Whether a test of the group does, or nothing can be imported. FileNotFoundError where there is no such test."""
     command = [".venv/bin/pytest", "-q", "-x", "-p", "no:cacheprovider"]
     if processes > 1:
         command += ["-n", str(processes), "--dist", "loadfile", "--no-loadscope-reorder"]
     environment = os.environ | {"GUDGEON_CACHE": str(folder / "build/mutants")}
     try:
-        done = subprocess.run([*command, *GROUPS[mutant.group][1]], cwd=folder, env=environment, timeout=SECONDS,
+        done = subprocess.run([*command, *GROUPS[group][1]], cwd=folder, env=environment, timeout=SECONDS,
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)  # fmt: skip
-        if done.returncode in (pytest.ExitCode.USAGE_ERROR, pytest.ExitCode.NO_TESTS_COLLECTED):
-            raise FileNotFoundError(f"tests of {mutant.group}: {' '.join(GROUPS[mutant.group][1])}")
-        return done.returncode != 0
     except subprocess.TimeoutExpired:
         return True
+    if done.returncode in (pytest.ExitCode.USAGE_ERROR, pytest.ExitCode.NO_TESTS_COLLECTED):
+        raise FileNotFoundError(f"tests of {group}: {' '.join(GROUPS[group][1])}")
+    return done.returncode != 0
+
+
+def noticed(mutant: Mutant, folder: Path, processes: int) -> bool:
+    """Whether a test of its group fails with it."""
+    file = folder / mutant.file
+    source = file.read_text(encoding="utf-8")
+    file.write_text(mutant.made(source), encoding="utf-8")
+    try:
+        return failed(mutant.group, folder, processes)
     finally:
         file.write_text(source, encoding="utf-8")
 
@@ -212,6 +218,10 @@ def main() -> int:
         subprocess.run(["git", "clone", "--quiet", str(ROOT), str(folder)], check=True)
         subprocess.run(["sh", "tools/setup", "all,test"], cwd=folder, check=True)
         shutil.rmtree(folder / "generated")
+        for group in options.group:
+            if failed(group, folder, options.processes):
+                raise SystemExit(f"tests of {group} fail without any mutant: {' '.join(GROUPS[group][1])}")
+            print(f"tests of {group} pass without a mutant", flush=True)
         for k, mutant in enumerate(drawn, 1):
             if options.only and k not in options.only:
                 continue
