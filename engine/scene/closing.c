@@ -217,12 +217,13 @@ static int rows_rounded(const Closing *w, double norm)
 }
 
 /*
- * Newton with line search, positions put in first; ends at rounding, or where no step helps any more. One step is
- * taken however well the rows are closed: it tells whether they depend on each other.
+ * Newton with line search, positions put in first; ends with the step that begins at rounding, or where none helps
+ * any more. One is taken however well the rows are closed: it tells whether they depend on each other.
  */
 static int close_rows(Closing *w, double t, const Parameters *p, double *q)
 {
     double other[N_Q], share = 1.0;
+    int last = 0;
     linearized_rows(w, t, q, p);
     for (int r = 0; r < N_ALL_ROWS + N_SET; r++)
         for (int k = 2; k < N_Q; k += 3)
@@ -232,7 +233,8 @@ static int close_rows(Closing *w, double t, const Parameters *p, double *q)
     for (int k = 0; k < N_Q; k++)
         q[k] += w->step[k] / w->weight[k];
     double norm = open_rows(w, t, q, p);
-    for (int i = 0; i < MAX_CLOSING && share > 1e-4 && !(i > 0 && rows_rounded(w, norm)); i++) {
+    for (int i = 0; i < MAX_CLOSING && share > 1e-4 && !last; i++) {
+        last = rows_rounded(w, norm);
         linearized_rows(w, t, q, p);
         if (shortest_step(w, N_ALL_ROWS + N_SET))
             return 1;
