@@ -210,20 +210,10 @@ static int place_angles(Closing *w, double t, const Parameters *p, double *q)
 /* Whether so much of the rows is none but rounding. */
 static int rows_closed(const Closing *w, double norm) { return norm < 1e-10 + 1e-14 * w->reach / w->size; }
 
-/* Whether nothing but rounding of the rows' terms is left: no step makes them better, or by luck only. */
-static int rows_rounded(const Closing *w, double norm)
-{
-    return norm <= DBL_EPSILON * sqrt(N_ALL_ROWS + N_SET) * w->reach / w->size;
-}
-
-/*
- * Newton with line search, positions put in first; ends with the step that begins at rounding, or where none helps
- * any more. One is taken however well the rows are closed: it tells whether they depend on each other.
- */
+/* Newton with line search, positions put in first; ends where no step helps any more. */
 static int close_rows(Closing *w, double t, const Parameters *p, double *q)
 {
     double other[N_Q], share = 1.0;
-    int last = 0;
     linearized_rows(w, t, q, p);
     for (int r = 0; r < N_ALL_ROWS + N_SET; r++)
         for (int k = 2; k < N_Q; k += 3)
@@ -233,8 +223,7 @@ static int close_rows(Closing *w, double t, const Parameters *p, double *q)
     for (int k = 0; k < N_Q; k++)
         q[k] += w->step[k] / w->weight[k];
     double norm = open_rows(w, t, q, p);
-    for (int i = 0; i < MAX_CLOSING && share > 1e-4 && !last; i++) {
-        last = rows_rounded(w, norm);
+    for (int i = 0; i < MAX_CLOSING && share > 1e-4; i++) {
         linearized_rows(w, t, q, p);
         if (shortest_step(w, N_ALL_ROWS + N_SET))
             return 1;
