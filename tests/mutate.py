@@ -93,6 +93,9 @@ MEANS_NOTHING = {
     "generator/reduction/geometry.py:37: 'or' -> 'and': return bool(value.is_Symbol or (-value).is_Symbol or "
     "value.is_Number)":
         "what is short gets a name of its own, and the same value",
+    "generator/reduction/geometry.py:59: 'or' -> 'and': return bool(value.is_Symbol or (-value).is_Symbol or "
+    "value.is_Number)":
+        "the same",
     "generator/reduction/geometry.py:60: '+' -> '-': rates[i] = self.motions.named_rate(names[2 + i], rates[i], "
     "moving)":
         "only a name",
