@@ -2,8 +2,6 @@
  * Numbers that a scene does not take, as runtime/model/parameters.py refuses them: bounds of the file's numbers, what
  * is not finite, clearances that doubles do not tell from none.
  */
-#define LEAST_CLEARANCE (64.0 * DBL_EPSILON) /* of the mechanism's size */
-
 static int holds(const char *relation, double value, double bound)
 {
     if (relation[1] == '=' && value == bound)
@@ -54,10 +52,10 @@ static int allowed(const Model *m, double size)
         return refuses(m, text), 0;
     }
     for (int k = 0; k < FMU_PLAYS; k++)
-        if (m->p[fmu_plays[k]] < LEAST_CLEARANCE * size) {
+        if (m->p[fmu_plays[k]] < FMU_LEAST_CLEARANCE * size) {
             snprintf(text, sizeof text, "the clearance of %s is %g m, below what doubles tell apart at the "
                 "mechanism's size (%.3g m); expected %.2g m at least", fmu_joints[k], m->p[fmu_plays[k]], size,
-                LEAST_CLEARANCE * size);
+                FMU_LEAST_CLEARANCE * size);
             return refuses(m, text), 0;
         }
     return 1;

@@ -230,13 +230,18 @@ FMI3_EXPORT fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3
     return fmi3OK;
 }
 
-FMI3_EXPORT fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 x[], size_t n)
+/* A number of each state. */
+static fmi3Status given(const Model *m, const double *own, fmi3Float64 value[], size_t n)
 {
-    const Model *m = instance;
     if (counted(m, n, N_Y))
         return fmi3Error;
-    memcpy(x, m->x, sizeof m->x);
+    memcpy(value, own, N_Y * sizeof *own);
     return fmi3OK;
+}
+
+FMI3_EXPORT fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 x[], size_t n)
+{
+    return given(instance, ((const Model *)instance)->x, x, n);
 }
 
 /* What may be left out where a step is too long: the importer takes a shorter one. */
@@ -270,11 +275,7 @@ FMI3_EXPORT fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64
 
 FMI3_EXPORT fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, fmi3Float64 nominal[], size_t n)
 {
-    const Model *m = instance;
-    if (counted(m, n, N_Y))
-        return fmi3Error;
-    memcpy(nominal, m->nominal, sizeof m->nominal);
-    return fmi3OK;
+    return given(instance, ((const Model *)instance)->nominal, nominal, n);
 }
 
 FMI3_EXPORT fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, size_t *n)

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 from gudgeon.files.room import check_disk, check_memory
 from gudgeon.model.default_step import scene_number
-from gudgeon.model.room import evaluated_bytes, sample_bytes
+from gudgeon.model.evaluation import evaluated_bytes
+from gudgeon.model.room import sample_bytes
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT
 
 if TYPE_CHECKING:

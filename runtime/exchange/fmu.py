@@ -31,7 +31,7 @@ from gudgeon.integrators.kinematic import REACH
 from gudgeon.loading import compiler
 from gudgeon.loading.engine import engine_files
 from gudgeon.model.parameters import GAINS, conditions, expected
-from gudgeon.model.sizes import size_places
+from gudgeon.model.sizes import LEAST_CLEARANCE, size_places
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
@@ -129,6 +129,7 @@ def _header(simulation: Simulation) -> str:
         "FMU_BEGINS": f'"{begins}"', "FMU_STIFF": f'"{stiff}"', "FMU_BEGINS_FINE": f'"{begins_fine}"',
         "FMU_STIFF_FINE": f'"{stiff_fine}"', "FMU_EXCHANGE": int(not kept_from_exchange(source)),
         "FMU_CONDITIONS": len(conditions(source)), "FMU_JUMPS": len(jumps(source)),
+        "FMU_LEAST_CLEARANCE": repr(LEAST_CLEARANCE),
     }  # fmt: skip
     lines = ["/* What the FMU's functions must know of this scene. */", "#define FMU_AT_LEAST(n) ((n) > 0 ? (n) : 1)"]
     lines += [f"#define {name} {value}" for name, value in defines.items()]

@@ -101,12 +101,16 @@ def around(t: Array) -> Array:
     return np.asarray(np.maximum(32.0 * np.finfo(float).eps * np.abs(t), 1e-100))
 
 
+def evaluated_bytes(compiled: CompiledModel, parts: Collection[str] | None = None) -> int:
+    """Of what follows from one sample; None: all of it."""
+    return 8 * sum(math.prod(none.shape[1:]) for name, none in compiled.none if parts is None or name in parts)
+
+
 def _room(compiled: CompiledModel, N: int, parts: Collection[str]) -> Evaluation:
     """What C fills; (0, ...) of a part that nobody wants."""
     wanted = {*parts, *OUTPUTS} if not OUTPUTS.isdisjoint(parts) else parts
     if N > MANY:
-        numbers = sum(math.prod(none.shape[1:]) for name, none in compiled.none if name in wanted)
-        check_memory(8.0 * N * numbers, f"what follows from {N} samples")
+        check_memory(float(N) * evaluated_bytes(compiled, wanted), f"what follows from {N} samples")
     return Evaluation(*(np.empty((N, *none.shape[1:])) if name in wanted else none for name, none in compiled.none))
 
 

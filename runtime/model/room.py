@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection
 
 from gudgeon.files.room import check_memory
 from gudgeon.model.compiled import N_WORK, CompiledModel
+from gudgeon.model.evaluation import evaluated_bytes
 
 OF_A_RUN = 1000  # bytes, about: a run's own lists and counts
 
@@ -16,11 +16,6 @@ def sample_bytes(compiled: CompiledModel) -> int:
     orders = 2 if compiled.source.degrees_of_freedom else 3
     numbers = 1 + orders * compiled.n + N_WORK + max(compiled.n_memory, 1)
     return 8 * numbers + max(len(compiled.source.clearances), 1)
-
-
-def evaluated_bytes(compiled: CompiledModel, parts: Collection[str] | None = None) -> int:
-    """Of what follows from one sample; None: all of it."""
-    return 8 * sum(math.prod(none.shape[1:]) for name, none in compiled.none if parts is None or name in parts)
 
 
 def check_room(
