@@ -6,6 +6,18 @@
 #if FMU_EXCHANGE
 #define DRIFTS 1e-11 /* of the mechanism's size or 1 rad: how far rows may open before they are closed */
 
+/* Corners that lie on their other side go there: those whose branches meet, or all. Whether there were any. */
+static int turn_crossed(Model *m, const Aside *aside, int all)
+{
+    int some = 0;
+    for (int k = 0; k < N_SWITCHES; k++)
+        if ((all || meets[k]) && m->memory.side[k] * aside->g[k] < 0.0) {
+            m->memory.side[k] = -m->memory.side[k];
+            some = 1;
+        }
+    return some;
+}
+
 /*
  * Rates, and joints with play, at the present state. Between events contacts stay as they are, and so do corners of
  * expressions, whose branches may lie apart: an importer's step sees one smooth function. Branches of contact laws
@@ -17,12 +29,7 @@ static int exchange_rates(Model *m, double *dx, Aside *aside)
     for (int pass = 0; pass < 6 && changed && !status; pass++) {
         Memory now = m->memory;
         status = motion(m->t, m->x, &now, (const Parameters *)m->p, dx, aside);
-        changed = 0;
-        for (int k = 0; k < N_SWITCHES && now.held; k++)
-            if (meets[k] && now.side[k] * aside->g[k] < 0.0) {
-                m->memory.side[k] = -now.side[k];
-                changed = 1;
-            }
+        changed = now.held && turn_crossed(m, aside, 0);
     }
     return status;
 }
@@ -164,12 +171,7 @@ static int switches(Model *m)
     m->memory.held = 1;
     for (int pass = 0; pass < 6 && changed && !status; pass++) {
         status = exchange_rates(m, dx, &aside);
-        changed = 0;
-        for (int k = 0; k < N_SWITCHES && !status; k++)
-            if (m->memory.side[k] * aside.g[k] < 0.0) {
-                m->memory.side[k] = -m->memory.side[k];
-                changed = 1;
-            }
+        changed = !status && turn_crossed(m, &aside, 1);
     }
     return status;
 }
