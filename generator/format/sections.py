@@ -266,6 +266,7 @@ START = record(
     mapping("play", "joints with play whose journals begin out of the middle, or move there", APART),
 )  # fmt: skip
 
+EXPRESSION = number("value", "what the name stands for", None, varies=OF_MOTION)
 OUTPUT = number("value", "what it is at each time", None, varies=OF_RESULTS)
 
 FILE = record(
@@ -276,6 +277,7 @@ FILE = record(
     vector("gravity", "acceleration, in ground axes", ACCELERATION, otherwise="none"),
     mapping("parameters", "numbers by name, for every expression", number("value", "the number", None)),
     mapping("curves", "curves by name", CURVE),
+    mapping("expressions", "expressions by name, which drives, forces, events and outputs may use", EXPRESSION),
     mapping("materials", "materials by name", MATERIAL),
     mapping("bodies", "bodies by name: one at least", BODY, required=True),
     mapping("ground", "points of the ground by name, in ground axes", POINT_OF_GROUND),

@@ -44,7 +44,7 @@ def following(address: str, of: Quantity, where: Location) -> Quantity:
 
 def at_onset(force: Quantity) -> Quantity:
     """What an expression of the penetration is at δ = 0, as a number of its own."""
-    value = replaced(force.value, "delta", Number(0.0, "0"))
+    value = replaced(force.value, {"delta": Number(0.0, "0")})
     return Quantity(f"{force.address}_at_0", value, force.dimension, force.where, kept=True)
 
 
@@ -273,6 +273,7 @@ class Mechanism:
     forces: Mapping[str, ForceElement] = field(default_factory=dict)
     freedoms: Quantity | None = None  # what the file says of the closed linkage
     curves: Mapping[str, Curve] = field(default_factory=dict)
+    expressions: Mapping[str, Quantity] = field(default_factory=dict)  # by name; their trees stand where they are used
     materials: Mapping[str, Material] = field(default_factory=dict)
     choices: Mapping[str, Choice] = field(default_factory=dict)  # by address
     tables: Mapping[str, str] = field(default_factory=dict)  # files beside this one -> sha256 of what was read

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass
 
 from gudgeon.errors import (
     BadNameError,
@@ -23,7 +24,7 @@ from gudgeon.language.curves import Curve
 from gudgeon.language.names import RESERVED
 from gudgeon.language.parser import at, check_dimension, parse
 from gudgeon.language.suggestions import unknown_name
-from gudgeon.language.tree import CurveCall, Expr, Name, Number, Unary, curve_calls, evaluate, names
+from gudgeon.language.tree import CurveCall, Expr, Name, Number, Unary, curve_calls, evaluate, names, replaced
 from gudgeon.language.units import DIMENSIONLESS, TIME, Dimension
 
 ResultDimension = Callable[[Name, Location], Dimension | None]  # None: fits any
@@ -31,6 +32,16 @@ ResultDimension = Callable[[Name, Location], Dimension | None]  # None: fits any
 
 REFUSED = re.compile(r"'(.+)' cannot name this (?:parameter|curve): ")  # what names.py says
 MOST_ERRORS = 50  # nobody reads more, and each costs a search for the nearest name
+
+
+@dataclass(frozen=True)
+class Named:
+    """An expression of the file that others use by its name."""
+
+    written: Expr
+    value: Expr  # without the names of others: their trees
+    dimension: Dimension | None  # None: it fits any
+    where: Location
 
 
 class EnoughErrors(Exception):
@@ -48,6 +59,7 @@ class Reader:
         self.vectors_not_zero: list[Vector] = []
         self.wholes: dict[str, str] = {}  # address -> what is counted
         self.curves: dict[str, Curve] = {}
+        self.expressions: dict[str, Named] = {}
         self.tables: dict[str, str] = {}  # files that curves were read from -> sha256
         self.laws: dict[str, str] = {}  # laws of the user's own -> their keys
         self.parameters: dict[str, Dimension | None] = {}  # None: defined without a unit
@@ -120,9 +132,13 @@ class Reader:
             parsed = self.parse(text, address)
             dimensions = self.check_names(parsed, text.where, time, result)
             found = check_dimension(parsed, expected, dimensions.get, text.where)
-            expr = parsed
+            expr = replaced(parsed, {name: named.value for name, named in self.expressions.items()})
             self._note_use(parsed, expected)
         return self.keep(Quantity(address, expr, found if found is not None else DIMENSIONLESS, text.where))
+
+    def numbers(self) -> dict[str, str]:
+        """What a name without a dot stands for: a parameter, an expression."""
+        return dict.fromkeys(self.parameters, "a parameter") | dict.fromkeys(self.expressions, "an expression")
 
     def keep(self, quantity: Quantity) -> Quantity:
         """Register a quantity under its address."""
@@ -138,7 +154,7 @@ class Reader:
             raise ExpressionError(
                 f"{address} stands on several lines", text.where, "expected an expression on one line"
             )
-        return parse(text, text.where, self.parameters, self.curves)
+        return parse(text, text.where, {**self.parameters, **self.expressions}, self.curves)
 
     def check_names(
         self, expr: Expr, where: Location, time: bool = False, result: ResultDimension | None = None
@@ -160,6 +176,9 @@ class Reader:
                 found["t"] = TIME
             elif name.path in self.parameters:
                 found[name.path] = self.parameters[name.path]
+            elif name.path in self.expressions:
+                self._check_expression(name.path, place, time, result)
+                found[name.path] = self.expressions[name.path].dimension
             elif result is not None:
                 found[name.path] = result(name, place)
             elif "." in name.path:
@@ -168,8 +187,32 @@ class Reader:
             elif name.path.lower() in ("time", "t"):
                 raise ExpressionError(f"{name.path!r} is no name here", place, "time is written t")
             else:
-                raise unknown_name("name", name.path, self.parameters, place)
+                raise unknown_name("name", name.path, (*self.parameters, *self.expressions), place)
         return found
+
+    def _check_expression(self, name: str, place: Location, time: bool, result: ResultDimension | None) -> None:
+        """Raise ExpressionError where an expression by name reads what may not be read here."""
+        if not time and result is None:
+            hint = "expected parameters; expressions can stand in drives, forces, events and outputs only"
+            raise ExpressionError(f"{name!r} is an expression, and this number is constant", place, hint)
+        for read in self._read_by(name):
+            if read in self.parameters or read == "t" and time:
+                continue
+            if read == "t" or result is None:
+                hint = f"expected {'t and parameters' if time else 'parameters'}"
+                raise ExpressionError(f"{name!r} reads {read}, which cannot stand here", place, hint)
+            result(Name(read), place)
+
+    def _read_by(self, name: str) -> Iterator[str]:
+        """What an expression by name is made of, with what its own names are made of."""
+        asked, waiting = {name}, [name]
+        while waiting:
+            for read in names(self.expressions[waiting.pop()].written):
+                if read.path not in self.expressions:
+                    yield read.path
+                elif read.path not in asked:
+                    asked.add(read.path)
+                    waiting.append(read.path)
 
     def _note_use(self, expr: Expr, expected: Dimension | None) -> None:
         """A parameter without a unit takes the dimension of the place where it stands alone."""

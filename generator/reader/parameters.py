@@ -60,7 +60,9 @@ def settle(reader: Reader, parameters: Mapping[str, Quantity]) -> dict[str, Quan
     return settled
 
 
-def dependency_order(trees: Mapping[str, Expr], places: Mapping[str, Location]) -> tuple[str, ...]:
+def dependency_order(
+    trees: Mapping[str, Expr], places: Mapping[str, Location], what: str = "parameters"
+) -> tuple[str, ...]:
     """Names so that each stands behind those that it uses. Raises CycleError, which names the cycle."""
     sorter = graphlib.TopologicalSorter(
         {name: [used.path for used in names(tree) if used.path in trees] for name, tree in trees.items()}
@@ -72,7 +74,7 @@ def dependency_order(trees: Mapping[str, Expr], places: Mapping[str, Location]) 
         first = min(range(len(cycle)), key=lambda i: places[cycle[i]])
         path = [*cycle[first:], *cycle[:first], cycle[first]]
         hint = "expected one of them to have a value of its own"
-        message = f"parameters defined through each other: {' → '.join(path)}"
+        message = f"{what} defined through each other: {' → '.join(path)}"
         raise CycleError(message, places[cycle[first]], hint) from None
 
 

@@ -17,6 +17,7 @@ from gudgeon.generator.reader.collector import EnoughErrors, Reader, ResultDimen
 from gudgeon.generator.reader.contacts import read_bearings, read_contacts
 from gudgeon.generator.reader.curves import read_curves
 from gudgeon.generator.reader.drives import read_drives
+from gudgeon.generator.reader.expressions import read_expressions, settle_expressions
 from gudgeon.generator.reader.fields import read_number, text_of
 from gudgeon.generator.reader.joints_and_forces import read_forces, read_joints
 from gudgeon.generator.reader.materials import Materials
@@ -56,20 +57,20 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
     namespace = Namespace()
     title, curves = _read_title(reader, root), read_curves(reader, root)
     parameters = read_parameters(reader, root.part("parameters"))
+    read_expressions(reader, root)
     gravity, materials = read_gravity(reader, root), Materials(reader, root.part("materials"))
     bodies, ground = read_bodies(reader, root, namespace, materials), read_ground(reader, root)
     places = Places(bodies, ground)
     joints = read_joints(reader, root, places, namespace)
     drives = read_drives(reader, root, places, namespace)
-    motion = MotionNames(places, (*root.part("joints"), *root.part("forces")), drives, parameters)
-    forces = read_forces(reader, root, places, namespace, motion)
+    motion = MotionNames(places, (*root.part("joints"), *root.part("forces")), drives, reader.numbers())
+    expressions, forces = settle_expressions(reader, motion), read_forces(reader, root, places, namespace, motion)
     start = read_start(reader, root, places)
     bearings, contacts = read_bearings(reader, root, materials), read_contacts(reader, root)
     events = read_events(reader, root.part("events"), "events", motion)
     scenes = read_scenes(reader, Parts(joints, bearings, contacts, parameters, events, root, motion, materials))
-    named = {name for section in ("joints", "drives", "forces") for name in root.part(section)}
-    unread = named - {*joints, *drives, *forces} | namespace.twice
-    known = ResultNames(places, joints, drives, forces, parameters, unread)
+    unread = {*root.part("joints"), *root.part("drives"), *root.part("forces")} - {*joints, *drives, *forces}
+    known = ResultNames(places, joints, drives, forces, reader.numbers(), unread | namespace.twice)
     outputs = _read_outputs(reader, root, namespace, known)
     check_peaks(reader, scenes, known, root.part("outputs"))
     check_values(reader, parameters, scenes)
@@ -89,7 +90,7 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
         sha256=sha256,
         forces=forces,
         freedoms=_read_freedoms(reader, root),
-        curves=curves,
+        curves=curves, expressions=expressions,
         materials=materials.known, choices=materials.choices,
         tables=reader.tables, laws=reader.laws,
     )

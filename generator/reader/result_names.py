@@ -45,6 +45,7 @@ _ACCELERATIONS = ("ax", "ay", "alpha")
 class ResultNames:
     """Dimensions of a mechanism's results. Names with play count too: a scene without it tells at run time.
 
+    `numbers` say of names without a dot what they are: a parameter, an expression.
     `unread` are joints, drives and forces whose own errors were told: their results are taken as they come.
     """
 
@@ -54,7 +55,7 @@ class ResultNames:
         joints: Iterable[str],
         drives: Mapping[str, Drive],
         forces: Mapping[str, ForceElement],
-        parameters: Iterable[str],
+        numbers: Mapping[str, str],
         unread: Iterable[str] = (),
     ) -> None:
         self._unread, self._joints = frozenset(unread), frozenset(joints)
@@ -66,7 +67,7 @@ class ResultNames:
         for name in places.ground:
             self.owners[f"{GROUND}.{name}"] = {"x": LENGTH, "y": LENGTH}
         self.owners |= dict.fromkeys(joints, {**_JOINT, **_PLAY})
-        self.parameters = parameters
+        self.numbers = numbers
 
     def __call__(self, name: Name, where: Location) -> Dimension | None:
         """The dimension of a name; None for one that fits any. Raises UnknownNameError at the part that is wrong."""
@@ -75,7 +76,7 @@ class ResultNames:
             return None
         if not dot:
             known = [path for path in self.paths() if path.partition(".")[0] == name.path]
-            raise unknown_name("name", name.path, known or self.parameters, where)
+            raise unknown_name("name", name.path, known or self.numbers, where)
         if owner not in self.owners:
             raise unknown_name("name", name.path, self.paths(), where)
         if last not in self.owners[owner]:
@@ -87,10 +88,10 @@ class ResultNames:
         """UnknownNameError for a name without a dot, which no series has but outputs: it tells the nearest series."""
         if "." in name:
             return
-        if name in self.parameters:
+        if name in self.numbers:
             alike = [path for path in self.paths() if path.rpartition(".")[2] == name]
             hint = f"expected {', '.join(alike[:6])}" if alike else "expected a result: L1.omega, A.F, drive.torque"
-            raise UnknownNameError(f"{str(name)!r} is a parameter, no series", name.where, hint)
+            raise UnknownNameError(f"{str(name)!r} is {self.numbers[name]}, no series", name.where, hint)
         owned = [path for path in self.paths() if path.partition(".")[0] == name]
         raise unknown_name("series", name, owned or [*outputs, *self.paths()], name.where)
 
@@ -114,9 +115,9 @@ class MotionNames(ResultNames):
     """What a force may depend on: coordinates and velocities; accelerations and forces follow from it."""
 
     def __init__(
-        self, places: Places, others: Iterable[str], drives: Mapping[str, Drive], parameters: Iterable[str]
+        self, places: Places, others: Iterable[str], drives: Mapping[str, Drive], numbers: Mapping[str, str]
     ) -> None:
-        super().__init__(places, (), {}, {}, parameters)
+        super().__init__(places, (), {}, {}, numbers)
         for total in _TOTALS:
             del self.owners[total]
         self.owners = {

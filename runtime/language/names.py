@@ -55,7 +55,7 @@ def check_name(name: str, what: str, where: Location | None) -> None:
     """Raise BadNameError unless `name` can name a thing: a free identifier of at most 64 characters."""
     check_label(name, what, where)
     reason = RESERVED.get(name) if what not in ("point", "mechanism") else None  # no expression has these alone
-    if what in ("parameter", "output", "curve"):  # the others stand in expressions with a dot only
+    if what in ("parameter", "output", "curve", "expression"):  # the others stand in expressions with a dot only
         reason = "it is a function of expressions" if name in FUNCTIONS else reason
         reason = "an expression takes it for no name" if name in WORDS else reason
     if what == "output" and name == "time":

@@ -30,7 +30,7 @@ MAX_LENGTH = 1000  # characters
 MAX_DEPTH = 50  # levels of the tree
 MAX_NODES = 300
 MAX_WEIGHT = 400  # nodes once functions are written out: nested smooth steps grow by powers
-_COPIES = {"smooth_step": 3, "mod": 2}  # of its arguments in the formula
+COPIES = {"smooth_step": 3, "mod": 2}  # of its arguments in the formula
 _COMPARISONS = ("<", "<=", ">", ">=")
 _STEP = "smooth_step(t, start, duration) goes from 0 to 1"
 _WRITTEN = {  # what calls look like
@@ -91,7 +91,7 @@ class _Parser:
         """Every node passes here, so that no tree grows beyond the bounds."""
         depth = 1 + max((self.depths[id(child)] for child in children), default=0)
         self.depths[id(expr)] = depth
-        weight = 1 + sum(self.weights[id(child)] for child in children) * _COPIES.get(getattr(expr, "function", ""), 1)
+        weight = 1 + sum(self.weights[id(child)] for child in children) * COPIES.get(getattr(expr, "function", ""), 1)
         self.weights[id(expr)] = weight
         self.kept.append(expr)
         self.bound(depth, expr.offset)
@@ -102,7 +102,7 @@ class _Parser:
 
     def bound(self, depth: int, offset: int) -> None:
         if depth > MAX_DEPTH:
-            hint = f"expected at most {MAX_DEPTH} levels; name a part of it as a parameter"
+            hint = f"expected at most {MAX_DEPTH} levels; name a part of it, as a parameter or in expressions:"
             raise LimitError("an expression nested too deeply", at(self.where, offset), hint)
 
     def sum(self, level: int) -> Expr:

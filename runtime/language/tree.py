@@ -140,17 +140,17 @@ def names(expr: Expr) -> Iterator[Name]:
                 yield from names(argument)
 
 
-def replaced(expr: Expr, path: str, by: Expr) -> Expr:
-    """`expr` with another tree in place of a name."""
+def replaced(expr: Expr, by: Mapping[str, Expr]) -> Expr:
+    """`expr` with other trees in place of names: the same object wherever a name stands."""
     match expr:
         case Name():
-            return by if expr.path == path else expr
+            return by.get(expr.path, expr)
         case Unary(operand=operand):
-            return replace(expr, operand=replaced(operand, path, by))
+            return replace(expr, operand=replaced(operand, by))
         case Binary(left=left, right=right):
-            return replace(expr, left=replaced(left, path, by), right=replaced(right, path, by))
+            return replace(expr, left=replaced(left, by), right=replaced(right, by))
         case Call(arguments=arguments):
-            return replace(expr, arguments=tuple(replaced(argument, path, by) for argument in arguments))
+            return replace(expr, arguments=tuple(replaced(argument, by) for argument in arguments))
     return expr
 
 

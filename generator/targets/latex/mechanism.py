@@ -23,6 +23,7 @@ def part_sections(model: Model, notation: Notation) -> list[Section]:
         *([Section("Ground", tuple(_ground(model, values)))] if model.scene.mechanism.ground else []),
         Section("Joints", tuple(_joints(model, values))),
         *([Section("Drives", tuple(_drives(model, notation)))] if model.scene.mechanism.drives else []),
+        *([Section("Expressions", tuple(_expressions(model)))] if model.scene.mechanism.expressions else []),
         *([Section("Curves", tuple(_curves(model)))] if model.scene.mechanism.curves else []),
         *([Section("Parameters", tuple(_parameters(model, notation, values)))] if model.scene.parameters else []),
     ]
@@ -114,17 +115,26 @@ def _drives(model: Model, notation: Notation) -> list[Block]:
 
 def driven_value(model: Model, notation: Notation, drive: str) -> str | Name:
     """What a drive prescribes, as a formula; as the file has it where that would not fit."""
+    called = model.scene.mechanism.expressions
     written, angle = model.scene.mechanism.drives[drive].value.value, model.constraints.drive_angles.get(drive)
     if angle is None:
-        return as_written(written)
+        return as_written(written, 0, called)
     formula = notation.math(notation.expand(model.symbols.explicit(model.symbols.definitions[angle[0]])))
-    return formula if len(formula.text) <= 2 * LONGEST else as_written(written)
+    return formula if len(formula.text) <= 2 * LONGEST else as_written(written, 0, called)
 
 
 def _curves(model: Model) -> list[Block]:
     """What an expression's curves are; f' and f'' are their derivatives."""
     rows = [cells(name, f"{curve.told()} (SI)") for name, curve in model.scene.mechanism.curves.items()]
     return table(cells("curve", "what it is"), rows, (1,))
+
+
+def _expressions(model: Model) -> list[Block]:
+    """What names stand for in the expressions of drives, forces, events and outputs."""
+    every = model.scene.mechanism.expressions
+    others = {name: {other: of for other, of in every.items() if other != name} for name in every}
+    rows = [cells(name, as_written(of.value, 0, others[name])) for name, of in every.items()]
+    return table(cells("expression", "stands for"), rows, (1,))
 
 
 def _parameters(model: Model, notation: Notation, values: Values) -> list[Block]:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from decimal import Decimal
+from types import MappingProxyType
 
 import sympy as sp
 
@@ -28,6 +30,7 @@ class Values:
 
     def __init__(self, model: Model, notation: Notation) -> None:
         self._slots, self._notation = model.slots, notation
+        self._called = model.scene.mechanism.expressions
         self._long: list[Block] = []  # what numbers follow, where it is longer than a cell is wide
 
     def cell(self, quantity: Quantity | None) -> Text:
@@ -35,7 +38,7 @@ class Values:
         if quantity is None:
             return ("",)
         if quantity.address not in self._slots.entries:
-            return ("0" if quantity.is_zero else as_written(quantity.value),)
+            return ("0" if quantity.is_zero else as_written(quantity.value, 0, self._called),)
         return self.slot(self._slots.entries[quantity.address])
 
     def slot(self, entry: SlotEntry) -> Text:
@@ -154,19 +157,21 @@ def si_unit_of(entry: SlotEntry) -> str:
     return si_unit(entry.dimension)
 
 
-def as_written(tree: Expr, around: int = 0) -> str:
-    """An expression of the file with its own numbers and units."""
+def as_written(tree: Expr, around: int = 0, called: Mapping[str, Quantity] = MappingProxyType({})) -> str:
+    """An expression of the file with its own numbers and units, and the names of the expressions that it uses."""
+    if (name := next((name for name, of in called.items() if of.value is tree), "")) and not isinstance(tree, Number):
+        return name
     match tree:
         case Number(value=value, text=text):
             return text or repr(value)
         case Unary(operand=operand):
-            text, own = f"-{as_written(operand, 3)}", 3
+            text, own = f"-{as_written(operand, 3, called)}", 3
         case Binary(operator=operator, left=left, right=right):
             own = _STRENGTH[operator]
             sides = (own + 1, own) if operator == "**" else (own, own + 1)
-            text = f"{as_written(left, sides[0])} {operator} {as_written(right, sides[1])}"
+            text = f"{as_written(left, sides[0], called)} {operator} {as_written(right, sides[1], called)}"
         case Call(function=function, arguments=arguments):
-            written = [as_written(a) for a in arguments]
+            written = [as_written(a, 0, called) for a in arguments]
             compared = [" < ".join(written[:2]), *written[2:]] if function == "where" else written
             return f"{function}({', '.join(compared)})"
         case _:
