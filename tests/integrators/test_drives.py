@@ -154,6 +154,7 @@ OUTRUN = "exp(exp(exp(t/(0.3 s))))*1 rad"
     ("reduced", "auto"), ("reduced", "dop853"), ("reduced", "rodas5p"), ("full", "auto"),
     *(pytest.param("full", method, marks=pytest.mark.slow) for method in ("dop853", "rodas5p")),
 ])  # fmt: skip
+@pytest.mark.optimized
 def test_a_drive_that_outruns_the_steps_ends_the_run(method: str, formulation: str, tmp_path: Path) -> None:
     """A driven crank with a pendulum on it; 10 million steps in 25 s had not ended such a run."""
     driven(PAIR, OUTRUN, tmp_path)
@@ -176,6 +177,7 @@ def test_a_drive_that_is_too_fast_for_any_step_is_named(method: str, tmp_path: P
         driven(beside, OUTRUN, tmp_path).simulate(1.0, method=method, step=step)
 
 
+@pytest.mark.optimized
 def test_a_chirp_is_followed(tmp_path: Path) -> None:
     """Its steps become ever shorter too, but twice as many of them gain more time each time: some 290 000 of them."""
     run = driven(PAIR, "1 rad * sin(40 * (t/(1 s))**3)", tmp_path).simulate(15.5, output=1, rtol=1e-6)

@@ -246,6 +246,7 @@ def test_a_batch_keeps_of_each_run_what_it_reached(options: dict[str, Any]) -> N
         check_kept(run, dry.simulate(t_end, output=2000, parameters=parameters, **one))
 
 
+@pytest.mark.optimized
 def test_a_run_that_no_longer_advances_ends(tmp_path: Path) -> None:
     """The printed sign of the film's force jumps where the journal turns back: steps get stuck there."""
     given = (MECHANISMS / "nine_bar_press.yaml").read_text(encoding="utf-8")
@@ -263,6 +264,7 @@ def test_a_run_that_no_longer_advances_ends(tmp_path: Path) -> None:
     [("1 rad/(t/(1 s) - 0.5)", 0.499, 0.5), ("1 rad * exp(exp(exp(t/(0.3 s))))", 0.2, 0.6),
      pytest.param("1 rad * tan(3*t/(1 s))", 0.52, 0.53, marks=pytest.mark.slow)],
 )  # fmt: skip
+@pytest.mark.optimized
 def test_a_drive_that_cannot_be_followed(value: str, least: float, most: float) -> None:
     told = r"no longer advances at t = (.|\n)*drive motor is at .* rad, its rate"
     with pytest.raises(SolverError, match=told) as caught:
