@@ -36,6 +36,7 @@ def scene(tmp_path_factory: pytest.TempPathFactory) -> Simulation:
     return loader(tmp_path_factory.mktemp("drives"))(text(list(FORMS)))
 
 
+@pytest.mark.optimized  # as the one that runs long, with which it shares the scene
 @pytest.mark.parametrize("u", [*MODERATE, *FAR])
 def test_rates_are_those_of_thirty_digits(scene: Simulation, u: float) -> None:
     """They are ∞/∞ or 0 · ∞ as they are written, from e^355 on: it was said that a root has no slope there."""
@@ -55,6 +56,7 @@ def test_rates_are_those_of_thirty_digits(scene: Simulation, u: float) -> None:
         assert abs(gamma[row]) == pytest.approx(abs(float(second)), rel=1e-9, abs=1e-6), name
 
 
+@pytest.mark.optimized
 @pytest.mark.parametrize("formulation", [pytest.param("full", marks=pytest.mark.slow), "reduced"])
 def test_without_freedom_the_linkage_follows(scene: Simulation, formulation: str) -> None:
     run = (scene.full if formulation == "full" else scene).simulate(10.0, output=4)
