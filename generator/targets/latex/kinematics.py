@@ -16,20 +16,12 @@ from gudgeon.generator.targets.latex.document import Block, Equation, Section, c
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import Notation, temporaries
 from gudgeon.generator.targets.latex.pictures import pattern
+from gudgeon.generator.targets.latex.theory import GAMMA, LAMBDA, NU, PHI, PHI_Q, indexed
 from gudgeon.generator.targets.latex.tokens import entry_token, owner_token, row_token
 
 WIDEST = 84  # characters of text that fit side by side in a joint's rows of Φ_q
 
 LONGEST = 400  # operations in one equation that a reader can be asked to read
-
-PHI, NU, GAMMA = Name(r"\Phi", "Φ"), Name(r"\nu", "ν"), Name(r"\gamma", "γ")
-LAMBDA, PHI_Q = Name(r"\lambda", "λ"), Name(r"\Phi_{q}", "Φ_q")
-
-
-def indexed(of: Name, index: int) -> Name:
-    """A component; they count from 1."""
-    return Name(f"{of.latex}_{{{index}}}", f"{of.text}_{index}")
-
 
 def equation(
     left: Name | sp.Expr, right: sp.Expr, notation: Notation, of: Sequence[str] = (), pick: str = "", value: str = ""
@@ -92,7 +84,7 @@ def _constants(model: Model, notation: Notation) -> Iterator[Block]:
     ]
     yield from shown
     if any("where(" in term.text for one in shown for term in one.terms):
-        yield paragraph("where(", Name("a < b, x, y", "a < b, x, y"), ") is x while a is less than b, else y.")
+        yield paragraph("where(…) is its second part while the comparison in front holds, else its third.")
     if any(notation.expand(value).has(sp.Heaviside) for row in model.rows for value in (row.nu, row.gamma)) or any(
         definition.has(sp.Heaviside) for definition in model.symbols.definitions.values()
     ):
