@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import json
 import math
 import operator
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import Condition, KernelSource, Slot
 from gudgeon.errors import BadValueError, UnknownNameError
+from gudgeon.language.suggestions import near
 from gudgeon.language.tree import from_json, names
 from gudgeon.language.wanted import mapping, number_of, whole_digits
 from gudgeon.model.choices import choice_of_a_law, place_of_word
@@ -288,8 +288,8 @@ def _unknown(name: str, source: KernelSource) -> UnknownNameError:
     if start in ("guess", "set", "rates") and name.startswith("start.") and coordinate.count(".") == 1:
         hint = f"expected one that the file's start has; gudgeon.load(..., overrides={{{name!r}: ...}}) brings it in"
         return UnknownNameError(f"start.{start} of the file does not have {coordinate}", None, hint)
-    near = difflib.get_close_matches(name, addresses(source), n=3)
-    hint = f"did you mean {', '.join(dict.fromkeys(near))}?" if near else "see run.parameters for all addresses."
+    found = near(name, addresses(source))
+    hint = f"did you mean {', '.join(found)}?" if found else "see run.parameters for all addresses."
     hint += " Structural choices go to gudgeon.load(..., overrides={...})."
     return UnknownNameError(f"no run-time number has the address {name!r} in this scene", None, hint)
 
