@@ -184,6 +184,22 @@ def test_friction_read_back_is_the_models() -> None:
     assert [known.get(f"Δg_{k}", 0.0) for k in range(1, 1 + q.size)] == pytest.approx(-4.0 * J * np.sign(slip))
 
 
+def test_masses_of_shapes_follow_from_what_the_tables_say() -> None:
+    """A density, whose a material is too, a thickness, widths and radii, lengths of sides."""
+    text = (VALID / "shapes.yaml").read_text(encoding="utf-8").replace("density: 2700 kg/m^3", "material: alloy")
+    text += "materials: {alloy: {E: 70 GPa, nu: 0.3, density: 2700 kg/m^3}}\n"
+    model = derive(text.encode(), "shapes.yaml", "ideal")
+    lines = sections(equations_text(model))["Bodies"]
+    known = numbers(lines)
+    of_rows = [cell.split(" = ") for row in rows(lines) for cell in row]
+    follow = {parts[0]: parts[1] for parts in of_rows if len(parts) == 3 and parts[0][:2] in ("m_", "I_")}
+    follow |= {left: right for left, right in equations(lines) if left[0] in "mI"}
+    assert {"m_rod", "I_rod", "I_crank", "I_link", "I_slider", "m_plate", "I_plate"} == follow.keys()
+    for left, right in follow.items():
+        assert value(right, known) == pytest.approx(known[left], rel=1e-4), left
+    assert known["ρ_alloy"] == 2700.0 and known["h_plate"] == 0.005
+
+
 def test_a_number_is_a_joints_own_by_what_it_is_and_not_by_its_name() -> None:
     """A joint called "inverse" does not take 1/M of a body; its own number is called after it."""
     text = SHIPPED.joinpath("pendulum.yaml").read_text(encoding="utf-8")

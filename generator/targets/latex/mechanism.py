@@ -40,7 +40,9 @@ def _bodies(model: Model, values: Values) -> list[Block]:
     return [
         paragraph(lead),
         *table(cells("body", "mass", "inertia", "length"), rows, of=of),
-        *table(cells("side", "length"), values.sides()),
+        *table(cells("side", "length"), values.of_bodies("sides")),
+        *table(cells("number of a shape", "value"), values.of_bodies("shape")),
+        *table(cells("material", "density"), values.densities()),
         *table(cells("point", "in the frame of its body"), points),
         *values.below(),
     ]

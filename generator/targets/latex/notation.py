@@ -21,6 +21,7 @@ LONG_CONSTANT = 4  # the same for what is computed once a run
 _ONE_LETTER = {
     "mass": "m", "inertia": "I", "length": "l", "radius": "R", "clearance": "c", "stiffness": "k", "damping": "d",
     "angle": "phi", "axis": "a", "direction": "u", "radii": "r",
+    "density": "rho", "thickness": "h", "bar": "b", "disc": "r",
 }  # fmt: skip
 _FREE = {"free_length": "l", "free_angle": "theta"}
 _TEMPORARY = {
@@ -161,13 +162,15 @@ def of_address(address: str) -> Name:
         case ["bodies", body, "sides", point, axis]:
             return letter({"x": "xi", "y": "eta"}[axis], body, point)
         case ["materials", material, constant]:
-            return letter(constant, material)
+            return letter(_letter_of(constant), material)
         case ["bearings", bearing, "length"]:
             return letter("L", bearing)
         case ["bearings", bearing, "bearing_material" | "journal_material" as role, constant]:
             return letter(constant, "j" if role == "journal_material" else "i", bearing)
-        case ["bodies", body, "shape", "material", constant]:
-            return letter(_letter_of(constant), body)
+        case ["bodies", body, "shape", "rectangle", axis]:
+            return letter({"x": "a", "y": "b"}[axis], body)
+        case ["bodies", body, "shape", *_, field]:
+            return letter(_letter_of(field), body)
         case ["contacts", contact, *rest]:
             return letter(rest[-1], contact)
         case ["start", _, body, coordinate]:

@@ -114,10 +114,18 @@ class Values:
         in_front = "" if digits == "1" else rf"{digits} \cdot "
         return Name(rf"{in_front}10^{{{int(power)}}}", f"{digits}e{power}")
 
-    def sides(self) -> list[tuple[Text, ...]]:
-        """Of bodies that are given by the lengths of their sides."""
+    def of_bodies(self, part: str) -> list[tuple[Text, ...]]:
+        """Numbers of bodies that are given by the lengths of their `sides`, or by their `shape`."""
         found = [(e, e.address.split(".")) for e in self._slots.entries.values() if e.address.startswith("bodies.")]
-        return [cells(f"{at[1]}.{at[3]}", self.slot(e)) for e, at in found if at[2:3] == ["sides"] and len(at) == 4]
+        return [
+            cells(f"{at[1]}.{'.'.join(at[3:])}", self.slot(e)) for e, at in found
+            if at[2] == part and not (e.words or part == "sides" and len(at) > 4)
+        ]  # fmt: skip
+
+    def densities(self) -> list[tuple[Text, ...]]:
+        """Of the materials of shapes."""
+        found = [(e, e.address.split(".")) for e in self._slots.entries.values() if not e.words]
+        return [cells(at[1], self.slot(e)) for e, at in found if at[0] == "materials" and at[2:] == ["density"]]
 
     def below(self) -> list[Block]:
         """The long ones since it was last asked, to stand below a table."""
