@@ -155,6 +155,16 @@ def test_jacobian_read_back_is_the_models(which: str) -> None:
     assert found == pytest.approx(numeric(model, model.Phi_q)(t, q, v), rel=1e-10, abs=1e-10)
 
 
+def test_gamma_is_sorted_by_products_of_angular_velocities() -> None:
+    """Nikravesh's translational joint: -2 θ̇ u · (ṙ_i - ṙ_j) and -θ̇² times the offset along u turned, no more."""
+    (gamma,) = (right for left, right in equations(read("zoo")["Constraints"]) if left == "γ_9")
+    rate = "θ\u0307_my_bar"
+    turning, sliding = gamma.split(f" + 2·{rate}·")
+    assert turning.startswith(f"{rate}^2·(") and rate not in turning.removeprefix(rate) + sliding
+    x, y = dots_apart("ẋ"), dots_apart("ẏ")
+    assert sliding == f"(u_x.my_bar·(-{x}_my_bar + {x}_S) + u_y.my_bar·(-{y}_my_bar + {y}_S))"
+
+
 @pytest.mark.parametrize("which", ["press ideal", "zoo", "slider ideal"])
 def test_masses_and_forces_read_back_are_the_models(which: str) -> None:
     model = model_of(which)

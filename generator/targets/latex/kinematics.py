@@ -16,6 +16,7 @@ from gudgeon.generator.targets.latex.document import Block, Equation, Section, c
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import Notation, temporaries
 from gudgeon.generator.targets.latex.pictures import pattern
+from gudgeon.generator.targets.latex.rates import by_rates
 from gudgeon.generator.targets.latex.theory import GAMMA, LAMBDA, NU, PHI, PHI_Q, indexed
 from gudgeon.generator.targets.latex.tokens import entry_token, owner_token, row_token
 
@@ -112,7 +113,9 @@ def _rows(model: Model, notation: Notation) -> list[Block]:
         blocks.append(paragraph(f"{title}, ", *_multipliers(rows), f"; {_named(rows)}:", of=of))
         blocks += [_phi(k, row, model, notation) for k, row in rows]
         blocks += _entries(rows, model, notation)
-        for letter, values in ((NU, [row.nu for _, row in rows]), (GAMMA, [row.gamma for _, row in rows])):
+        nu = [notation.expand(row.nu) for _, row in rows]
+        gamma = [by_rates(notation.expand(row.gamma), model) for _, row in rows]
+        for letter, values in ((NU, nu), (GAMMA, gamma)):
             blocks += _column(letter, [k for k, _ in rows], values, own, notation)
     return blocks
 
@@ -203,7 +206,7 @@ def _column(of: Name, numbers: Sequence[int], values: Sequence[sp.Expr], own: Ro
     """The components that are not zero, by their numbers."""
     name = "nu" if of is NU else "gamma"
     return [
-        shown(indexed(of, k), explicit, notation, [row_token(k), owner_token(own)], row_token(k), f"{name}.{k}")
+        shown(indexed(of, k), value, notation, [row_token(k), owner_token(own)], row_token(k), f"{name}.{k}")
         for k, value in zip(numbers, values, strict=True)
-        if (explicit := notation.expand(value)) != 0
+        if value != 0
     ]
