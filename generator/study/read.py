@@ -13,15 +13,15 @@ from gudgeon.generator.reader.collector import EnoughErrors, Reader
 from gudgeon.generator.study.axes import read_choices, read_draw, read_parameters, read_starts
 from gudgeon.generator.study.claim_spec import Claims
 from gudgeon.generator.study.claims import read_claims
+from gudgeon.generator.study.once import check_names
 from gudgeon.generator.study.parts import check_keys, label, mapping, text, texts, word, written
-from gudgeon.generator.study.settings import short, varied
+from gudgeon.generator.study.settings import varied
 from gudgeon.generator.study.spec import (
     CONTACTS,
     CROSSINGS,
     DEVIATIONS,
     FOLLOWED,
     FORMAT,
-    RESERVED,
     SAMPLES,
     STATISTICS,
     STEPS,
@@ -142,7 +142,7 @@ def _read(reader: Reader, root: Map, file: str, settings: Mapping[str, str], own
         _rtol(reader, root), _stop(reader, root), _said(root) | {"settings": dict(sorted(settings.items()))},
         read_wear(reader, root), numbers.left_out,
     )  # fmt: skip
-    _check_names(reader, found, root)
+    check_names(reader, found, root)
     return found
 
 
@@ -262,29 +262,3 @@ def _keep(reader: Reader, root: Map) -> tuple[Text, ...]:
         if "keep" in root and root["keep"] != []:
             return _once(texts(root["keep"], "keep", root.key("keep"), "names of series"), "series")
     return ()
-
-
-def _check_names(reader: Reader, study: StudyFile, root: Map) -> None:
-    """What the dataset will call something is called so once, and a number is varied or fixed once."""
-    addresses = [*study.fixed, *(key for axis in study.axes for key in axis.columns)]
-    addresses += list(study.draw.numbers) if study.draw else []
-    seen: dict[str, Text] = {}
-    for key in addresses:
-        called = short(str(key))
-        if called in seen:
-            with reader.collect():
-                told = f"{str(key)[:60]!r} is said twice"
-                raise BadNameError(told, key.where, f"expected once; the first is at {seen[called].where}")
-        seen.setdefault(called, key)
-    groups = [Text.make(axis.name, axis.where) for axis in study.axes if axis.grouped]
-    names = [*groups, *(Text.make(choice.name, choice.where) for choice in study.choices)]
-    names += [key for key in root.part("measures").names()] if isinstance(root.get("measures"), Map) else []
-    names += study.keep
-    used = {str(key): key for key in addresses}
-    for key in names:
-        own = key in RESERVED and not (key == "run" and key in groups)
-        if key in used or own:
-            with reader.collect():
-                first = f"the first is at {used[key].where}" if key in used else "the dataset has it as its own"
-                raise BadNameError(f"the name {str(key)[:60]!r} is taken", key.where, f"take another one: {first}")
-        used.setdefault(str(key), key)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,6 +19,7 @@ if TYPE_CHECKING:
     from gudgeon.generator.equations.model import Model
 
 TERMINAL, DEFAULT = Path("-"), "ideal"
+SUFFIXES = (".tex", ".txt", ".html", ".ipynb")
 
 
 def write_equations(mechanism: str, target: Path, scenes: tuple[str, ...]) -> int:
@@ -28,14 +28,14 @@ def write_equations(mechanism: str, target: Path, scenes: tuple[str, ...]) -> in
     if os.path.isdir(target) or not (target.suffix or target == TERMINAL):
         return _pages(mechanism, target, scenes)
     if target != TERMINAL:
-        need_suffix(target, tuple(suffix for suffix in WRITERS if suffix))
+        need_suffix(target, SUFFIXES)
         check_file("--out", target)
     if len(scenes) > 1:
         told = f"{path_text(target)} holds the equations of one scene, not of {', '.join(scenes)}"
         raise BadValueError(told, hint="name a folder: -o pages/")
     (scene,) = chosen_scenes(mechanism, scenes or (DEFAULT,))
     with status_line(), working(f"deriving {find_mechanism(mechanism).stem}, scene {scene}"):
-        text = WRITERS[target.suffix.lower()](mechanism, scene, target)
+        text = _written(mechanism, scene, target)
     if target == TERMINAL:
         print(text, end="")
         return 0
@@ -90,22 +90,22 @@ def _model(mechanism: str, scene: str) -> Model:
     return derive(read_bytes(file), str(file), scene)
 
 
-def _tex(mechanism: str, scene: str, _target: Path) -> str:
-    from gudgeon.generator.targets.latex import equations_tex
+def _written(mechanism: str, scene: str, target: Path) -> str:
+    """In the form that the target's suffix says; text without one."""
+    suffix = target.suffix.lower()
+    if suffix == ".html":
+        from gudgeon.simulation.from_file import load
+        from gudgeon.web.page import write
 
-    return equations_tex(_model(mechanism, scene))
+        return write(load(mechanism, scene))
+    from gudgeon.generator.targets.latex import equations_tex, equations_text
 
+    model = _model(mechanism, scene)
+    if suffix == ".ipynb":
+        from gudgeon.teaching.notebook import notebook
 
-def _text(mechanism: str, scene: str, _target: Path) -> str:
-    from gudgeon.generator.targets.latex import equations_text
-
-    return equations_text(_model(mechanism, scene))
-
-
-def _notebook(mechanism: str, scene: str, target: Path) -> str:
-    from gudgeon.teaching.notebook import notebook
-
-    return notebook(_model(mechanism, scene), _from_beside(mechanism, target))
+        return notebook(model, _from_beside(mechanism, target))
+    return equations_tex(model) if suffix == ".tex" else equations_text(model)
 
 
 def _from_beside(mechanism: str, target: Path) -> str:
@@ -115,15 +115,3 @@ def _from_beside(mechanism: str, target: Path) -> str:
         return mechanism
     found = os.path.relpath(file, target.parent)
     return found if "/" in found or found.endswith((".yaml", ".yml")) else f"./{found}"
-
-
-def _page(mechanism: str, scene: str, _target: Path) -> str:
-    from gudgeon.simulation.from_file import load
-    from gudgeon.web.page import write
-
-    return write(load(mechanism, scene))
-
-
-WRITERS: dict[str, Callable[[str, str, Path], str]] = {
-    ".tex": _tex, ".txt": _text, ".html": _page, ".ipynb": _notebook, "": _text,
-}  # fmt: skip

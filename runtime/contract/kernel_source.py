@@ -111,10 +111,8 @@ class SeriesInfo:
 
 @dataclass(frozen=True)
 class WrittenInfo:
-    """An expression of the file, of t or motion (a drive's, a force's, an event's) or of a scene's `simulate`.
-
-    `tree` is its JSON.
-    """
+    """What of the file is no number of a run: an expression of t or motion (a drive's, a force's, an event's) or of a
+    scene's `simulate`, as JSON; or a 0 that is written or left out."""
 
     address: str  # "drives.crank.value"
     tree: str

@@ -8,12 +8,20 @@ from collections.abc import Iterable
 from gudgeon.errors import Location, UnknownNameError
 
 
+def near(name: str, known: Iterable[str], most: int = 3, cutoff: float = 0.6) -> list[str]:
+    """The known names that `name` may stand for, the likeliest first; an address may lack its first parts."""
+    ends: dict[str, list[str]] = {}
+    for candidate in sorted(known, key=lambda name: (name.count("."), name)):
+        parts = candidate.lower().split(".")
+        for k in range(max(1, len(parts) - name.count("."))):
+            ends.setdefault(".".join(parts[k:]), []).append(candidate)
+    found = difflib.get_close_matches(name.lower(), ends, n=2 * most, cutoff=cutoff)
+    return list(dict.fromkeys(candidate for end in found for candidate in ends[end]))[:most]
+
+
 def nearest(name: str, known: Iterable[str], cutoff: float = 0.5) -> str | None:
     """The known name that `name` most likely stands for."""
-    candidates = sorted(known)
-    by_lower = {candidate.lower(): candidate for candidate in reversed(candidates)}
-    found = difflib.get_close_matches(name.lower(), by_lower, n=1, cutoff=cutoff)
-    return by_lower[found[0]] if found else None
+    return next(iter(near(name, known, 1, cutoff)), None)
 
 
 def known_hint(name: str, known: Iterable[str], most: int = 12) -> str:
@@ -37,11 +45,8 @@ def unknown(message: str, name: str, known: tuple[str, ...]) -> UnknownNameError
 
     Of many names those without a dot: the parameters, not every number of every body.
     """
-    import difflib
-
-    near = difflib.get_close_matches(name, known, n=3, cutoff=0.5)
-    if near:
-        return UnknownNameError(message, hint=f"nearest: {', '.join(near)}")
+    if found := near(name, known):
+        return UnknownNameError(message, hint=f"nearest: {', '.join(found)}")
     if len(known) <= 12:
         return UnknownNameError(message, hint=f"there are: {', '.join(known)}")
     short, address = [n for n in known if "." not in n], next((n for n in known if "." in n), "")

@@ -75,11 +75,11 @@ def _unknown(what: str, name: str, names: tuple[str, ...]) -> InputError:
     if not names:
         told = f"this installation of gudgeon is not whole: it has no {what.replace('y', 'ie')}s"
         return InputError(told, hint="install it anew; in a clone `make run` or `sh tools/setup all,web` does it")
-    from difflib import get_close_matches
+    from gudgeon.language.suggestions import nearest
 
-    near = get_close_matches(name, names, 1)
+    guess = nearest(name, names)
     return UnknownNameError(
-        f"no {what} {name!r} comes with gudgeon" + (f"; did you mean {near[0]!r}?" if near else ""),
+        f"no {what} {name!r} comes with gudgeon" + (f"; did you mean {guess!r}?" if guess else ""),
         hint=f"there are: {', '.join(names)}; a file of your own needs a '/' or '.yaml' in its name",
     )
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import json
 import math
 import operator
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import Condition, KernelSource, Slot
 from gudgeon.errors import BadValueError, UnknownNameError
+from gudgeon.language.suggestions import near
 from gudgeon.language.tree import from_json, names
 from gudgeon.language.wanted import mapping, number_of, whole_digits
 from gudgeon.model.choices import choice_of_a_law, place_of_word
@@ -30,6 +30,7 @@ _PLAIN = re.compile(rf"[-+]?(?!0[0-9])(?P<mantissa>{_MANTISSA})(?:{_EXPONENT})?"
 _GLUED = re.compile(rf"({_NUMBER})\s*(?![eE][-+]?[0-9])([A-Za-zµμ°].*)")
 GAINS = ("baumgarte.alpha", "baumgarte.beta")  # of rk4 in the full formulation, nobody else's
 TOGETHER = {"gains": GAINS}  # one name for several numbers
+ZERO = "0.0"  # a literal zero of the file, as JSON
 MOST_GAIN = 1e150  # 1/s: its square is a number
 FAR, MOST_TOLD = 60.0, 3  # powers of ten from 1, beyond which a number makes others overflow; how many are told
 RELATIONS = {">": operator.gt, ">=": operator.ge, "<": operator.lt, "<=": operator.le}
@@ -67,17 +68,19 @@ def addresses(source: KernelSource) -> list[str]:
 
 
 def as_parameter(source: KernelSource, address: str) -> tuple[str, str]:
-    """(message, hint) about an address that holds an expression of t or motion, and no number; "" for another one."""
+    """(message, hint) about an address that holds an expression of t or motion, or a 0; "" for another one."""
     if (found := _of_the_run(address))[0]:
         return found
     meant = (address, *(one.address for one in source.written if one.address.partition(".")[2] == address))
     address = meant[-1]  # "motor.value" too
     written = next((one for one in source.written if one.address == address), None)
     if written is None and address.removeprefix("outputs.") not in source.outputs:
-        several = (_unplaced_journal(source, address), _only_material(source, address), _literal_zero(source, address),
-                 _of_motion(source, address), choice_of_a_law(source, address))  # fmt: skip
+        several = (_unplaced_journal(source, address), _only_material(source, address), _of_motion(source, address),
+                   choice_of_a_law(source, address))  # fmt: skip
         return next((one for one in several if one[0]), ("", ""))
     key = address.rpartition(".")[2]
+    if written is not None and written.tree == ZERO:
+        return _literal_zero(address, key)
     told = f"{address} is an expression of t or motion, compiled as it stands: it is no number that can be set"
     return told, (
         f"a number in it can be, once it is a parameter: parameters: {{phase: … deg}}, {key}: phase + …,"
@@ -269,15 +272,11 @@ def expected(source: KernelSource, address: str) -> str:
     return " and ".join(f"{one} {bound if isinstance(bound, str) else f'{bound:g}'}" for one, bound in asked)
 
 
-def _literal_zero(source: KernelSource, address: str) -> tuple[str, str]:
-    """The same of a component of a vector whose other one may be a number: it is 0, or not there."""
-    owner, _, axis = address.rpartition(".")
-    vectors = {slot.address.rpartition(".")[0] for slot in source.slots}
-    vectors |= {point.name for point in source.points if point.body < 0}
-    if axis not in ("x", "y") or owner not in vectors or address in {slot.address for slot in source.slots}:
-        return "", ""
-    hint = f"write a parameter there (parameters: {{shift: 0 m}}, {axis}: shift) and set that"
-    return f"{address} is written as 0, which stands in no equation: it is no number that can be set", hint
+def _literal_zero(address: str, key: str) -> tuple[str, str]:
+    """The same of a 0: terms of it are not there."""
+    told = f"{address} is 0, written so or left out, and stands in no equation: it is no number that can be set"
+    hint = f"write a parameter there (parameters: {{own: 0 …}} with its unit, {key}: own) and set that"
+    return told, f"{hint}; or write another number than 0 there, which can be set, to 0 too"
 
 
 def _unknown(name: str, source: KernelSource) -> UnknownNameError:
@@ -288,8 +287,8 @@ def _unknown(name: str, source: KernelSource) -> UnknownNameError:
     if start in ("guess", "set", "rates") and name.startswith("start.") and coordinate.count(".") == 1:
         hint = f"expected one that the file's start has; gudgeon.load(..., overrides={{{name!r}: ...}}) brings it in"
         return UnknownNameError(f"start.{start} of the file does not have {coordinate}", None, hint)
-    near = difflib.get_close_matches(name, addresses(source), n=3)
-    hint = f"did you mean {', '.join(dict.fromkeys(near))}?" if near else "see run.parameters for all addresses."
+    found = near(name, addresses(source))
+    hint = f"did you mean {', '.join(found)}?" if found else "see run.parameters for all addresses."
     hint += " Structural choices go to gudgeon.load(..., overrides={...})."
     return UnknownNameError(f"no run-time number has the address {name!r} in this scene", None, hint)
 

@@ -9,11 +9,13 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from gudgeon.errors import GudgeonError
+from gudgeon.files.room import check_disk, check_memory
 from gudgeon.files.writing import written
 from gudgeon.language.wanted import names as plain_names
 from gudgeon.language.wanted import path as named
@@ -28,6 +30,7 @@ if TYPE_CHECKING:
 Columns: TypeAlias = "dict[str, Array]"  # name -> (rows,)
 
 ROWS = 4096  # of a CSV file that are text at once
+SOME = 64  # of a run, by which it is told how long a file will be
 DATE = 116  # bytes at the head of a MATLAB file in which SciPy puts the day
 MATLAB = b"MATLAB 5.0 MAT-file, written by gudgeon"
 LONGEST = 63  # characters of a name in MATLAB
@@ -65,6 +68,8 @@ def batch_dataframe(batch: Batch, names: Iterable[str] | None) -> pandas.DataFra
     from gudgeon.results.series import catalogue
 
     frames = _pandas()
+    columns_of = len(_wanted_of_batch(batch, names)) + len(batch.parameters) + 2
+    check_memory(2 * 8.0 * columns_of * _rows_of(batch), f"a table of {len(batch)} runs")
     parts = list(_runs(batch, names))
     columns = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]} if parts else {}
     units = {"t": "s"} | {name: series.unit for name, series in catalogue(batch.source).items()}
@@ -105,28 +110,41 @@ def _runs(batch: Batch, names: Iterable[str] | None) -> Iterator[Columns]:
         yield same | {"t": t} | own
 
 
+def _rows_of(batch: Batch) -> float:
+    """Samples of all runs that were reached."""
+    return float(batch.samples.sum())
+
+
 def csv(run: Result, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
     """See Result.to_csv."""
     series = wanted_series(run, names)
-    _write_csv(path, iter([{"t": run.t} | {name: run[name] for name in series}]))
+    _write_csv(path, iter([{"t": run.t} | {name: run[name] for name in series}]), len(run.t))
 
 
 def batch_csv(batch: Batch, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
     """See Batch.to_csv."""
-    _write_csv(path, _runs(batch, names))
+    _write_csv(path, _runs(batch, names), _rows_of(batch))
 
 
-def _write_csv(path: str | os.PathLike[str], parts: Iterator[Columns]) -> None:
-    """A line of names, then one a row; the shortest digits that are read back as the same number."""
+def _write_csv(path: str | os.PathLike[str], parts: Iterator[Columns], rows: float) -> None:
+    """A line of names, then one a row; the shortest digits that are read back as the same number.
+
+    OutputError, before more is written, where so many `rows`, as long as some of the first are, do not fit on the disk.
+    """
     with written(named(path, "path")) as file:
         for k, part in enumerate(parts):
-            if k == 0:
-                file.write((",".join(part) + "\n").encode())
             columns = list(part.values())
-            digits = _cell if any(column.dtype.kind in "OU" for column in columns) else repr
+            if k == 0:
+                some = _lines([column[:: max(1, len(column) // SOME)] for column in columns])
+                check_disk(Path(path).parent, rows * len("".join(some)) / max(1, len(some)), "it", path)
+                file.write((",".join(part) + "\n").encode())
             for first in range(0, len(columns[0]), ROWS):
-                block = zip(*(column[first : first + ROWS].tolist() for column in columns), strict=True)
-                file.write("".join(",".join(map(digits, row)) + "\n" for row in block).encode())
+                file.write("".join(_lines([column[first : first + ROWS] for column in columns])).encode())
+
+
+def _lines(columns: Sequence[Array]) -> list[str]:
+    digits = _cell if any(column.dtype.kind in "OU" for column in columns) else repr
+    return [",".join(map(digits, row)) + "\n" for row in zip(*(column.tolist() for column in columns), strict=True)]
 
 
 def _cell(value: object) -> str:
@@ -150,6 +168,8 @@ def batch_mat(batch: Batch, path: str | os.PathLike[str], names: Iterable[str] |
     wanted = _wanted_of_batch(batch, names)
     told = [("t", "s", "time"), *((name, known[name].unit, known[name].meaning) for name in wanted)]
     told += [(name, slots[name].unit, "given to each run") for name in batch.parameters]
+    size = 8.0 * (len(wanted) + 1) * len(batch) * batch.t.shape[-1]
+    check_memory(size, f"{len(wanted)} series of {len(batch)} runs")
     _write_mat(path, batch, told, series(batch, ["t", *wanted]) | dict(batch.parameters))
 
 
@@ -165,7 +185,9 @@ def _write_mat(
     for column, what in enumerate(("names", "units", "meanings")):
         found[what] = np.array([row[column] for row in told], dtype=object)
     found |= {"mechanism": of.source.mechanism, "scene": of.source.scene}
-    with written(named(path, "path")) as file:
+    path = named(path, "path")
+    check_disk(Path(path).parent, sum(float(column.nbytes) for column in columns.values()), "it", path)
+    with written(path) as file:
         savemat(file, found, long_field_names=True, oned_as="column")
         file.seek(0)
         file.write(MATLAB.ljust(DATE))  # the same run gives the same bytes

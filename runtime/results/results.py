@@ -121,10 +121,10 @@ class Result(Shown):
         """Times at which an event of the file happened, (k,), s. UnknownNameError names the nearest event."""
         names = [event.name for event in self.source.events]
         if text(name, "the name of an event") not in names:
-            import difflib
+            from gudgeon.language.suggestions import nearest
 
-            nearest = difflib.get_close_matches(name, names, n=1)
-            hint = f"did you mean {nearest[0]!r}?" if nearest else f"its events: {', '.join(names) or 'none'}"
+            guess = nearest(name, names)
+            hint = f"did you mean {guess!r}?" if guess else f"its events: {', '.join(names) or 'none'}"
             raise UnknownNameError(f"the scene {self.source.scene!r} has no event named {name!r}", hint=hint)
         times: Array = self.events["t"][self.events["event"] == names.index(name)]
         return times

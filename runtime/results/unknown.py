@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import UnknownNameError
+from gudgeon.language.suggestions import near
 from gudgeon.language.wanted import told
 from gudgeon.results.series import MASSLESS_HINT, catalogue, missing, without_masses
 
@@ -33,8 +33,8 @@ def unknown_series(
         return UnknownNameError(f"output {name!r} needs {lacking}, which scene {source.scene!r} lacks", hint=hint)
     if (why := without_masses(source)) and name in catalogue(replace(source, massless=())):
         return UnknownNameError(f"{name!r} is not known: {why}", hint=MASSLESS_HINT)
-    nearest = difflib.get_close_matches(str(name), known, n=3, cutoff=0.5)
-    hint = f"nearest: {', '.join(nearest)}" if nearest else "run.names lists all names"
+    found = near(name, known)
+    hint = f"nearest: {', '.join(found)}" if found else "run.names lists all names"
     return UnknownNameError(f"the scene {source.scene!r} has nothing named {name!r}", hint=hint)
 
 

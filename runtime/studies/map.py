@@ -20,7 +20,7 @@ from gudgeon.studies.axes import GAINS, Axis, axis, clearances
 from gudgeon.studies.box import Range, corners, judge_point, sobol
 from gudgeon.studies.runs import FIXED, NAN, Attempt, Parameters, Setting, Work, natural_step, round_numbers, window
 from gudgeon.studies.threads import Pool, Report
-from gudgeon.studies.verdicts import Cell, Limits, Status, judge, not_judged
+from gudgeon.studies.verdicts import Cell, Limits, Status, check_room, judge, not_judged
 
 LONG, SHORT = 300_000, 1_000_000  # steps of the two windows with the shortest step (of the reference)
 COARSEST = 200  # the longest step, of the shortest scene's
@@ -100,7 +100,7 @@ def verdict_map(
     `value`: the step or tolerance where neither axis is one. `t_long` (s) is the run over which a cell has to
     stay sane; `t_short` bounds the window in which a step is compared with a tenth of itself (see `window`);
     `parameters` as in `simulate`; `quick` takes a few pairs. After Ctrl-C what was judged until then, the rest
-    Status.MISSING. Raises BadValueError for a scene in which nothing is integrated, and for axes that do not fit.
+    Status.MISSING. Raises BadValueError where nothing is integrated or axes do not fit, MemoryError for too many cells.
     """
     _check(simulation)
     axes, method = listed(axes, "axes", Axis, "a list of Axis"), text(method, "method")
@@ -111,6 +111,7 @@ def verdict_map(
     simulation = simulation.full if full else simulation
     rows, columns = arrange(simulation, axes, method, given, quick)
     usual = Setting(method, value or (natural_step(simulation, given) if method in FIXED else USUAL))
+    check_room(len(rows.values) * len(columns.values))
     jobs = _jobs(simulation, rows, columns, usual, given)
     least = min(setting.value for job in jobs for setting in job.settings) if usual.fixed else math.inf
     t_long = t_long or min(plain_end(simulation.compiled, given), LONG * least) / (10 if quick else 1)
@@ -149,7 +150,7 @@ def verdict_box(
 ) -> VerdictBox:  # fmt: skip
     """Judge all corners of the box and `count` Sobol points; `addresses`: axes for names that are groups.
 
-    `quick`: over a tenth of the time. After Ctrl-C what was judged until then, the rest Status.MISSING.
+    `quick`: over a tenth of the time. Rest as for a map.
     """
     _check(simulation)
     ranges, count = listed(ranges, "ranges", Range, "a list of Range"), whole(count, "count", 0, MOST_POINTS)
@@ -170,6 +171,7 @@ def verdict_box(
     def one(point: Mapping[str, float], tick: Report) -> Cell:
         return judge_point(simulation, moved(point), t_long, setting, limits, LIMIT, tick)
 
+    check_room(2.0 ** len(ranges) + count)
     points = [*corners(ranges), *sobol(ranges, count)]
     for point in points:
         prepare(simulation.compiled, moved(point))

@@ -11,12 +11,14 @@ from typing import TypeAlias
 
 import numpy as np
 
+from gudgeon.files.room import check_memory
 from gudgeon.language.plot_units import quantity
 from gudgeon.model.contours import widest
 from gudgeon.results.results import Result
 from gudgeon.studies.runs import NAN, Attempt, Error, Parameters, Setting, difference, size
 from gudgeon.studies.words import rough_share, seconds, share
 
+OF_A_CELL = 2048  # bytes, about: its numbers, what it says, the job that it was
 Pair: TypeAlias = tuple[Attempt, Attempt]  # the same window with a setting and with a finer one
 
 
@@ -78,6 +80,11 @@ class Cell:
     def failed(self) -> bool:
         """Whether the method is to blame."""
         return self.status in (Status.INACCURATE, Status.DIVERGED)
+
+
+def check_room(cells: float) -> None:
+    """MemoryError where so many cells are more than there is memory for."""
+    check_memory(OF_A_CELL * cells, f"{cells:.0f} cells")
 
 
 def not_judged(parameters: Parameters, setting: Setting) -> Cell:

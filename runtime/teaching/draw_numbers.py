@@ -45,7 +45,8 @@ def draw_numbers(
     """Numbers with which the scene assembles and moves, the file's own where no others do.
 
     units: by address those that the file has, and what one is in SI ("rpm", 0.105); of others SI's are taken.
-    Raises BadValueError for `at`; AssemblyError, SolverError where even those do not.
+    The moment is one before the file's own events end the motion.
+    Raises BadValueError for `at`, behind such an event too; AssemblyError, SolverError where even those do not.
     """
     rng = np.random.default_rng(seed)
     moment = None if at is None else number_of_text(spaced(at), "--at", (0, 0, 1))
@@ -56,7 +57,11 @@ def draw_numbers(
         try:
             p = prepare(simulation.compiled, numbers)[0]
             t = moment if moment is not None else float(f"{share * scene_end(simulation.source, p):.2g}")
-            return _drawn(simulation, numbers, t, p)
+            run = _run(simulation, numbers, t)
+            if run.t[-1] < t:
+                t = _before_the_event(run, moment, share)
+                run = _run(simulation, numbers, t)
+            return _drawn(numbers, t, p, run)
         except (AssemblyError, SolverError, BadValueError) as error:
             failure = error
     assert failure is not None
@@ -98,16 +103,27 @@ def _changed(slot: Slot, factor: float, units: Mapping[str, tuple[str, float]]) 
     return "" if math.isclose(new * one, slot.default, rel_tol=1e-12) else f"{new:g} {unit}".rstrip()
 
 
-def _drawn(simulation: Simulation, numbers: dict[str, str], t: float, p: Array) -> Drawn:
-    """Raises SolverError where the run ends before t."""
+def _run(simulation: Simulation, numbers: dict[str, str], t: float) -> Result:
+    """To t, or to the event that ends it sooner; at 0 a moment of it."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        if t > 0.0:
-            run = simulation.simulate(t, output=1, parameters=numbers, peaks=(), stop=False)
-        else:
-            run = simulation.simulate(1e-9, output=1, parameters=numbers, peaks=(), stop=False)
+        run = simulation.simulate(t or 1e-9, output=1, parameters=numbers, peaks=(), stop=t > 0.0)
     if run.diagnostics.interrupted:
         raise KeyboardInterrupt
+    return run
+
+
+def _before_the_event(run: Result, moment: float | None, share: float) -> float:
+    """A moment before the event that ended a run. Raises BadValueError for one that was asked for behind it."""
+    end, last = float(run.t[-1]), run.source.events[run.events["event"][-1]]
+    if moment is None:
+        return float(f"{share * end:.2g}")
+    told = f"--at is {moment:g} s: event {last.name} (action: stop) ends the motion at {end:.6g} s"
+    raise BadValueError(told, hint=f"take a time before that, such as {share * end:.2g} s")
+
+
+def _drawn(numbers: dict[str, str], t: float, p: Array, run: Result) -> Drawn:
+    """Raises SolverError where the run ends before t."""
     k = -1 if t > 0.0 else 0
     q, v = run.q[k].copy(), run.v[k].copy()
     if not (np.isfinite(q).all() and np.isfinite(v).all()):

@@ -15,10 +15,12 @@ import sympy as sp
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.symbols.numbers import SlotEntry
 from gudgeon.generator.targets.latex.notation import Notation, make_notation
 from gudgeon.generator.targets.latex.printers import share_of_pi
+from gudgeon.generator.targets.latex.write import primes
 from gudgeon.language.shown import one_line
-from gudgeon.teaching.markdown import plain
+from gudgeon.teaching.markdown import block, plain
 from gudgeon.teaching.run_cells import run_cells
 from gudgeon.teaching.sympy_text import names_of, number_of_code, text_of
 
@@ -67,8 +69,11 @@ def _cells(model: Model, mechanism: str) -> Iterator[Cell]:
         ),
     )
     yield "code", _coordinates(model, notation, names)
-    yield "markdown", "## Numbers\n\nEvery number of the file that stands in an equation has a letter."
-    yield "code", _numbers(model, notation, names)
+    used = _used(model)
+    shown = (notation.math(symbol) for symbol in (*model.q, *model.v, *(entry.symbol for entry in used)))
+    told = ["## Numbers", "Every number of the file that stands in an equation has a letter."]
+    yield "markdown", "\n\n".join((*told, *map(block, primes(notation, shown))))
+    yield "code", _numbers(used, notation, names)
     yield from _constraints(model, names)
     if not scene.mechanism.bodies or not model.rows:
         yield "markdown", "Nothing holds the bodies: Φ has no row."
@@ -109,11 +114,15 @@ def _column(items: list[str]) -> str:
     return "\n    ".join(("sp.Matrix([", *(x.rstrip() for x in (*lines, line)))) + "\n])"
 
 
-def _numbers(model: Model, notation: Notation, names: dict[sp.Symbol, str]) -> str:
-    """Those that stand in Φ, M or g, at their defaults."""
+def _used(model: Model) -> list[SlotEntry]:
+    """Numbers that stand in Φ, M or g."""
     expressions = [*(row.phi for row in model.rows), *model.masses, *model.g]
     used = set().union(*(model.symbols.explicit(sp.sympify(e)).free_symbols for e in expressions))
-    entries = [entry for entry in model.slots.entries.values() if entry.symbol in used]
+    return [entry for entry in model.slots.entries.values() if entry.symbol in used]
+
+
+def _numbers(entries: list[SlotEntry], notation: Notation, names: dict[sp.Symbol, str]) -> str:
+    """At their defaults."""
     lines = [_defined(entry.symbol, notation, names) for entry in entries]
     values = [f"    {names[e.symbol]}: {_default(e.default)},  # {e.address}" for e in entries]
     return "\n".join((*lines, "", "numbers = {", *values, "}"))

@@ -22,10 +22,11 @@ from gudgeon.generator.targets.latex.document import (
     table,
 )
 from gudgeon.generator.targets.latex.letters import Name
-from gudgeon.generator.targets.latex.mechanism import driven_value, field_rows, part_sections, place, sketch_of
+from gudgeon.generator.targets.latex.mechanism import driven_value, field_rows, part_sections, place
 from gudgeon.generator.targets.latex.notation import Notation, make_notation
+from gudgeon.generator.targets.latex.sketches import sketch_of
 from gudgeon.generator.targets.latex.values import Values, unit_of
-from gudgeon.generator.targets.latex.write import with_paper
+from gudgeon.generator.targets.latex.write import with_letters, with_paper
 from gudgeon.language.shown import one_line
 from gudgeon.language.tree import Number
 
@@ -117,8 +118,9 @@ def make_sheets(subject: Subject, questions: Sequence[Question], seed: int) -> t
     asked = tuple(Section(f"{k}. {x.title}", x.asked) for k, x in enumerate(questions, 1))
     solved = tuple(_solved(k, question) for k, question in enumerate(questions, 1))
     last = Section("These numbers again", tuple(_again(subject)))
-    sheet = Document(f"Exercise: {title}", facts, with_paper((*given, *asked)))
-    sections = with_paper((*given, *sum(solved, ()), last))
+    notation = subject.notation
+    sheet = Document(f"Exercise: {title}", facts, with_paper(with_letters((*given, *asked), notation)))
+    sections = with_paper(with_letters((*given, *sum(solved, ()), last), notation))
     return sheet, replace(sheet, title=f"Solutions: {title}", sections=sections)
 
 

@@ -10,10 +10,12 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError, UnknownNameError
+from gudgeon.model.parameters import as_parameter
 from tests.programs import needs_compiler
 from tests.pump import TEXT, Gudgeon
 
 pytestmark = needs_compiler
+VALID = Path(__file__).parents[1] / "mechanisms" / "valid"
 
 
 @pytest.mark.parametrize("command", ["run", "bench", "map"])
@@ -42,8 +44,26 @@ def test_a_number_in_a_drive_is_set_as_a_parameter(pump: str) -> None:
 @pytest.mark.parametrize("address", ["ground.O.x", "ground.C.y", "joints.bore.axis.y"])
 def test_a_number_that_is_written_as_zero_is_told(address: str, call: Gudgeon, pump: str) -> None:
     done = call("run", pump, "--set", f"{address}=1")
-    assert done.exit_code == 2 and f"{address} is written as 0, which stands in no equation" in done.stderr
+    assert done.exit_code == 2 and f"{address} is 0, written so or left out, and stands in no equation" in done.stderr
     assert "write a parameter there" in done.stderr
+
+
+def test_a_zero_that_is_no_component_and_one_that_is_left_out(tmp_path: Path) -> None:
+    """A key of a force or of a law, with what to do: as a parameter it can be set."""
+    text = (VALID / "every_kind.yaml").read_text(encoding="utf-8")
+    source = gudgeon.load(VALID / "every_kind.yaml").source
+    for address in ("forces.coil.damping", "coil.damping"):
+        told, hint = as_parameter(source, address)
+        assert told.startswith("forces.coil.damping is 0, written so") and "damping: own) and set that" in hint
+    oiled = gudgeon.load("nine_bar_press", "lubricated").source
+    told, _ = as_parameter(oiled, "contacts.oil.film.extra_clearance")
+    assert told.startswith("contacts.oil.film.extra_clearance is 0, written so or left out,")
+    own = text.replace("free_length: 77.85 mm, damping: 0", "free_length: 77.85 mm, damping: own")
+    own = own.replace("parameters:\n", "parameters:\n  own: 0 N*s/m\n")
+    named = tmp_path / "named.yaml"
+    named.write_text(own, encoding="utf-8")
+    assert own.count("own: 0") == own.count(": own") == 1
+    assert as_parameter(gudgeon.load(named).source, "own") == ("", "")
 
 
 def test_a_result_of_the_motion_is_told_what_says_it(call: Gudgeon, pump: str) -> None:
@@ -176,7 +196,7 @@ def test_check_at_other_numbers(call: Gudgeon, pump: str) -> None:
     """A rod shorter than the crank does not close; one that is not there, or negative, is told as run tells it."""
     assert call("check", pump, "--set", "bodies.rod.length=90mm").exit_code == 0
     short = call("check", pump, "--set", "bodies.rod.length=5mm", "--set", "ground.C.y=0")
-    assert short.exit_code == 2 and "ground.C.y is written as 0" in short.stderr
+    assert short.exit_code == 2 and "ground.C.y is 0, written so" in short.stderr
     short = call("check", pump, "--set", "bodies.rod.length=5mm")
     assert short.exit_code == gudgeon.errors.AssemblyError.exit_code, short.output
     assert "rod" in short.stderr and "length" in short.stderr

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 import resource
 import subprocess
 import sys
@@ -20,6 +21,9 @@ from gudgeon.files.room import check_disk, check_memory, free_disk, free_memory,
 from gudgeon.model.evaluation import evaluated_bytes
 from gudgeon.model.room import sample_bytes
 from gudgeon.simulation.simulation import Simulation
+from gudgeon.studies.axes import axis
+from gudgeon.studies.box import Range
+from gudgeon.studies.map import verdict_box, verdict_map
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
 
@@ -148,6 +152,43 @@ def test_runs_that_do_not_fit_into_memory(pendulum: Simulation) -> None:
     ):  # fmt: skip
         with pytest.raises(MemoryError, match=told):
             begin()
+
+
+@needs_compiler
+@pytest.mark.usefixtures("small")
+def test_maps_of_more_cells_than_fit(pendulum: Simulation) -> None:
+    """A cell is two kilobytes: 460 × 1000 of them are more than nine tenths of a gigabyte, so are 19 edges' corners."""
+    axes = [axis(pendulum, "rtol", np.geomspace(1e-12, 1e-4, 460).tolist())]
+    axes.append(axis(pendulum, "g", np.linspace(1.0, 2.0, 1000).tolist()))
+    with pytest.raises(MemoryError, match=r"^460000 cells would take 942 MB, and 1 GB are free$"):
+        verdict_map(pendulum, axes)
+    edges = [Range(f"p{k}", 1.0, 2.0) for k in range(19)]
+    known = {edge.name: axis(pendulum, "g", (1.0, 2.0)) for edge in edges}
+    with pytest.raises(MemoryError, match="^524290 cells"):
+        verdict_box(pendulum, edges, 2, addresses=known)
+
+
+@needs_compiler
+def test_exports_that_do_not_fit(pendulum: Simulation, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """How long a CSV file will be is told by some of its lines, within a few percent; nothing is left of it."""
+    run, batch = pendulum.simulate(2.0, output=5000), pendulum.simulate_many([{}] * 3, 2.0, output=2000)
+    for of, rows in ((run, 5001), (batch, 6003)):
+        of.to_csv(tmp_path / "x.csv", ["swing"])
+        size = (tmp_path / "x.csv").stat().st_size
+        (tmp_path / "x.csv").unlink()
+        with monkeypatch.context() as full:
+            full.setattr(os, "statvfs", lambda path: Disk(5))
+            with pytest.raises(OutputError, match=r"x\.csv: No space left on device: it would take (\d+) kB") as told:
+                of.to_csv(tmp_path / "x.csv", ["swing"])
+            assert float(re.findall(r"take (\d+) kB", str(told.value))[0]) * 1e3 == pytest.approx(size, rel=0.05)
+            with pytest.raises(OutputError, match=r"x\.mat: No space left on device: it would take"):
+                of.to_mat(tmp_path / "x.mat", ["swing"])
+        assert not [*tmp_path.iterdir()] and size > 16 * rows
+    monkeypatch.setattr(room, "LEAST", 0)
+    monkeypatch.setattr(room, "free_memory", lambda: 1e5)
+    for export in (lambda: batch.to_mat(tmp_path / "x.mat", ["swing"]), lambda: batch.to_dataframe(["swing"])):
+        with pytest.raises(MemoryError, match="of 3 runs would take"):
+            export()
 
 
 @needs_compiler

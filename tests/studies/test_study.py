@@ -340,7 +340,7 @@ measures: {x: {final: bob.x}}
     done = call("study", "late.yaml")
     assert "1 of 2 runs failed" in done.output and "window late goes from" in done.output, done.output
     done = call("study", "s.yaml", "--set", "g=3", "--out", "moon")  # over the row
-    assert done.exit_code == 0 and "1 runs (one run)" in done.output and "note: g is set" in done.output, done.output
+    assert done.exit_code == 0 and "1 run" in done.output.splitlines() and "note: g is set" in done.output, done.output
     assert call("study", "s.yaml", "--set", "lenght=3").exit_code == 2
 
 

@@ -62,8 +62,8 @@ BAD = [  # in place of what, what; line:column and words of the message
     ("final: bob.y, window: late", "max_of_steps: bob.y, window: late", "9:36", "knows no window"),
     ("final: bob.y, window: late", "impacts: rod", "9:16", "unknown joint with play"),
     ("final: bob.y, window: late", "crossings: top", "9:18", "unknown event"),
-    ("y: {final", "run: {final", "9:3", "the name 'run' is taken"),
-    ("y: {final", "g: {final", "9:3", "the name 'g' is taken"),
+    ("y: {final", "run: {final", "9:3", "the name 'run' is taken, by the dataset itself"),
+    ("y: {final", "g: {final", "9:3", "the name 'g' is taken, by a number of the runs"),
     ("  y: {final: bob.y, window: late}", "  {}", "1:1", "measures nothing"),
     ("t_end: 1 s", "scenes: [ideal, idael]", "5:17", "idael"),
     ("t_end: 1 s", "scenes: [ideal, ideal]", "5:17", "twice"),
@@ -86,6 +86,8 @@ BAD = [  # in place of what, what; line:column and words of the message
     ("t_end: 1 s", "starts: {count: 3, absolute: {length: 1 kg}}", "5:39", "a length"),
     ("t_end: 1 s", "draw: {count: 3, parameters: {length: {from: -1e308, to: 1e308}}}", "5:58", "largest double"),
     ("t_end: 1 s", f"choices: {{{', '.join(f'c{k}: {OPTIONS}' for k in range(5))}}}", "5:11", "59049 scenes"),
+    ("t_end: 1 s", "choices: {g: [1, 2]}", "5:11", "choices: g varies what a number, at "),
+    ("t_end: 1 s", "choices: {moon: {a: {parameters.g: 1.6}}}", "5:11", "choices: moon, by g, varies what a number,"),
     ("t_end: 1 s", "choices: {bodies.bob.masss: [1 kg]}", "5:30", "masss"),
     ("t_end: 1 s", "choices: {heavy: {a: {bodies.bob.mass: -1 kg}}}", "5:40", "positive"),
     ("t_end: 1 s", f"title: {'x' * 201}", "5:8", "at most 200"),
@@ -99,6 +101,15 @@ BAD = [  # in place of what, what; line:column and words of the message
     ("from: t_end/2", "from: 2*t_end", "7:16", "goes from 2 s to 1 s"),
     ("from: t_end/2", "to: -1 s", "7:14", "expected a part of the run"),
 ]  # fmt: skip
+
+
+def test_what_a_choice_varies_is_not_set_for_all_runs(tmp_path: Path) -> None:
+    """Else its options, each with a library of its own, would all be the same."""
+    path = tmp_path / "s.yaml"
+    path.write_text(GOOD.replace("t_end: 1 s", "t_end: 1 s\nchoices: {bodies.bob.mass: [1 kg, 2 kg]}"))
+    words = "s.yaml:6:11: choices: bodies.bob.mass varies what --set bodies.bob.mass gives to all runs\n  leave one of"
+    with pytest.raises(InputError, match=words):
+        plans_of(path, {"bodies.bob.mass": "3 kg"})
 
 
 @pytest.mark.parametrize(("old", "new", "place", "words"), BAD, ids=[f"{k}" for k in range(len(BAD))])

@@ -100,5 +100,5 @@ def quantity(text: str) -> float | None:
     found = re.fullmatch(r"(-?(?:\d[\d.e+-]*°?|\d*π(?:/\d)?))(?: ([^\d\W].*))?", text)
     if found is None:
         return None
-    unit = (found[2] or "").replace("·", "*").replace("²", "^2")
+    unit = (found[2] or "").replace("·", "*").replace("²", "^2").replace("³", "^3")
     return value(found[1], {}) * (UNITS[unit][0] if unit else 1.0)

@@ -155,6 +155,16 @@ def test_jacobian_read_back_is_the_models(which: str) -> None:
     assert found == pytest.approx(numeric(model, model.Phi_q)(t, q, v), rel=1e-10, abs=1e-10)
 
 
+def test_gamma_is_sorted_by_products_of_angular_velocities() -> None:
+    """Nikravesh's translational joint: -2 θ̇ u · (ṙ_i - ṙ_j) and -θ̇² times the offset along u turned, no more."""
+    (gamma,) = (right for left, right in equations(read("zoo")["Constraints"]) if left == "γ_9")
+    rate = "θ\u0307_my_bar"
+    turning, sliding = gamma.split(f" + 2·{rate}·")
+    assert turning.startswith(f"{rate}^2·(") and rate not in turning.removeprefix(rate) + sliding
+    x, y = dots_apart("ẋ"), dots_apart("ẏ")
+    assert sliding == f"(u_x.my_bar·(-{x}_my_bar + {x}_S) + u_y.my_bar·(-{y}_my_bar + {y}_S))"
+
+
 @pytest.mark.parametrize("which", ["press ideal", "zoo", "slider ideal"])
 def test_masses_and_forces_read_back_are_the_models(which: str) -> None:
     model = model_of(which)
@@ -182,6 +192,22 @@ def test_friction_read_back_is_the_models() -> None:
     assert (known["v_rub"], known["γ_rub"]) == pytest.approx((slip, gamma), rel=1e-10)
     assert [known.get(f"J_rub.{k}", 0.0) for k in range(1, 1 + q.size)] == pytest.approx(J, rel=1e-10)
     assert [known.get(f"Δg_{k}", 0.0) for k in range(1, 1 + q.size)] == pytest.approx(-4.0 * J * np.sign(slip))
+
+
+def test_masses_of_shapes_follow_from_what_the_tables_say() -> None:
+    """A density, whose a material is too, a thickness, widths and radii, lengths of sides."""
+    text = (VALID / "shapes.yaml").read_text(encoding="utf-8").replace("density: 2700 kg/m^3", "material: alloy")
+    text += "materials: {alloy: {E: 70 GPa, nu: 0.3, density: 2700 kg/m^3}}\n"
+    model = derive(text.encode(), "shapes.yaml", "ideal")
+    lines = sections(equations_text(model))["Bodies"]
+    known = numbers(lines)
+    of_rows = [cell.split(" = ") for row in rows(lines) for cell in row]
+    follow = {parts[0]: parts[1] for parts in of_rows if len(parts) == 3 and parts[0][:2] in ("m_", "I_")}
+    follow |= {left: right for left, right in equations(lines) if left[0] in "mI"}
+    assert {"m_rod", "I_rod", "I_crank", "I_link", "I_slider", "m_plate", "I_plate"} == follow.keys()
+    for left, right in follow.items():
+        assert value(right, known) == pytest.approx(known[left], rel=1e-4), left
+    assert known["ρ_alloy"] == 2700.0 and known["h_plate"] == 0.005
 
 
 def test_a_number_is_a_joints_own_by_what_it_is_and_not_by_its_name() -> None:

@@ -13,7 +13,7 @@ import sympy as sp
 
 import gudgeon
 from gudgeon.commands.exercise import make
-from gudgeon.errors import Location, OutputError
+from gudgeon.errors import BadValueError, Location, OutputError
 from gudgeon.generator.pipeline import derive
 from gudgeon.generator.targets.latex import equations_tex, equations_text
 from gudgeon.generator.targets.latex.document import Document
@@ -342,3 +342,18 @@ def test_a_slider_of_a_share_of_pi_is_in_degrees(tmp_path: Path) -> None:
     p = np.array([slot.default for slot in simulation.source.slots])
     ((phase, *_), *_) = (section["numbers"] for section in groups(simulation, p))
     assert (phase["name"], phase["unit"]) == ("phase", "deg") and np.pi / 6 / phase["factor"] == pytest.approx(30)
+
+
+def test_moments_are_before_the_event_that_ends_the_motion(tmp_path: Path) -> None:
+    """The crank's 45 degrees take 0.125 s with the file's numbers; a scene runs for 1 s where it does not say."""
+    text = shipped_file("four_bar").read_text(encoding="utf-8")
+    file = tmp_path / "stopped.yaml"
+    file.write_text(f"{text}events: {{part: {{zero: crank.theta - 135 deg, action: stop}}}}\n", encoding="utf-8")
+    simulation = gudgeon.load(file)
+    crank = list(simulation.source.coordinates).index("crank.theta")
+    for seed in range(3):
+        drawn = draw_numbers(simulation, seed, None)
+        assert 0.0 < drawn.t == drawn.run.t[-1] and np.pi / 2 < drawn.q[crank] < np.radians(135)
+    assert draw_numbers(simulation, 1, "0.1 s").t == 0.1
+    with pytest.raises(BadValueError, match=r"--at is 0.2 s: event part \(action: stop\) ends the motion at 0.125 s"):
+        draw_numbers(simulation, 1, "0.2 s")

@@ -306,11 +306,14 @@ def test_numbers_beyond_all_prefixes_have_none(opened: Any, press: Path) -> None
 
 
 def test_what_is_wide_is_read_whole_on_a_phone_and_in_print(opened: Any, press: Path) -> None:
-    """No table or drawing scrolls sideways at 390 pixels; in print nothing is cut, nor shaded as if it were."""
+    """No table or drawing scrolls sideways at 390 pixels, nor any by a pixel up and down; in print nothing is cut, nor
+    shaded as if it were."""
     page = opened(press, PHONE).page
     page.add_style_tag(content="* { content-visibility: visible !important; }")
     cut = """(of) => [...document.querySelectorAll(of)].filter((one) => one.scrollWidth > one.clientWidth + 1).length"""
     assert page.evaluate(cut, "body > table, .sketch, .sketch pre") == 0
+    high = cut.replace("Width + 1", "Height").replace("Width", "Height")
+    assert page.evaluate(high, "body > :is(table, figure, .equation)") == 0
     page.emulate_media(media="print")
     shaded = """() => [...document.querySelectorAll("body > :is(table, pre, figure, .equation)")].filter((one) =>
         getComputedStyle(one).backgroundImage !== "none" || getComputedStyle(one).overflowX !== "visible").length"""

@@ -32,6 +32,7 @@ from gudgeon.generator.equations.notes import scene_notes
 from gudgeon.generator.kernels.closed_linkage import apart_rows
 from gudgeon.generator.kernels.outputs import element_series, kept_joints
 from gudgeon.generator.mechanism.mechanism import GROUND, Mechanism, PointRef, Quantity
+from gudgeon.generator.mechanism.quantities import quantities
 from gudgeon.generator.reduction.driven_chains import Chain
 from gudgeon.language.tree import names, to_json
 from gudgeon.language.units import Dimension
@@ -151,7 +152,7 @@ def _conditions(model: Model) -> tuple[Condition, ...]:
 
 
 def _written(model: Model) -> Iterator[WrittenInfo]:
-    """Expressions of t and motion, for what a run says of one that is no number."""
+    """Expressions of t and motion, and literal zeros, for what a run says of one that is no number."""
     mechanism, scene = model.scene.mechanism, model.scene
     found = [drive.value for drive in mechanism.drives.values()]
     for force in mechanism.forces.values():
@@ -160,6 +161,8 @@ def _written(model: Model) -> Iterator[WrittenInfo]:
     for quantity in found:
         if any(name.path == "t" or "." in name.path for name in names(quantity.value)):
             yield _info(quantity)
+    zeros = {one.address: one for one in quantities(scene) if one.is_zero and one.address not in model.slots.entries}
+    yield from map(_info, zeros.values())
 
 
 def _info(quantity: Quantity) -> WrittenInfo:

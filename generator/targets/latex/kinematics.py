@@ -16,20 +16,13 @@ from gudgeon.generator.targets.latex.document import Block, Equation, Section, c
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import Notation, temporaries
 from gudgeon.generator.targets.latex.pictures import pattern
+from gudgeon.generator.targets.latex.rates import by_rates
+from gudgeon.generator.targets.latex.theory import GAMMA, LAMBDA, NU, PHI, PHI_Q, indexed
 from gudgeon.generator.targets.latex.tokens import entry_token, owner_token, row_token
 
 WIDEST = 84  # characters of text that fit side by side in a joint's rows of Φ_q
 
 LONGEST = 400  # operations in one equation that a reader can be asked to read
-
-PHI, NU, GAMMA = Name(r"\Phi", "Φ"), Name(r"\nu", "ν"), Name(r"\gamma", "γ")
-LAMBDA, PHI_Q = Name(r"\lambda", "λ"), Name(r"\Phi_{q}", "Φ_q")
-
-
-def indexed(of: Name, index: int) -> Name:
-    """A component; they count from 1."""
-    return Name(f"{of.latex}_{{{index}}}", f"{of.text}_{index}")
-
 
 def equation(
     left: Name | sp.Expr, right: sp.Expr, notation: Notation, of: Sequence[str] = (), pick: str = "", value: str = ""
@@ -92,7 +85,7 @@ def _constants(model: Model, notation: Notation) -> Iterator[Block]:
     ]
     yield from shown
     if any("where(" in term.text for one in shown for term in one.terms):
-        yield paragraph("where(", Name("a < b, x, y", "a < b, x, y"), ") is x while a is less than b, else y.")
+        yield paragraph("where(…) is its second part while the comparison in front holds, else its third.")
     if any(notation.expand(value).has(sp.Heaviside) for row in model.rows for value in (row.nu, row.gamma)) or any(
         definition.has(sp.Heaviside) for definition in model.symbols.definitions.values()
     ):
@@ -120,7 +113,9 @@ def _rows(model: Model, notation: Notation) -> list[Block]:
         blocks.append(paragraph(f"{title}, ", *_multipliers(rows), f"; {_named(rows)}:", of=of))
         blocks += [_phi(k, row, model, notation) for k, row in rows]
         blocks += _entries(rows, model, notation)
-        for letter, values in ((NU, [row.nu for _, row in rows]), (GAMMA, [row.gamma for _, row in rows])):
+        nu = [notation.expand(row.nu) for _, row in rows]
+        gamma = [by_rates(notation.expand(row.gamma), model) for _, row in rows]
+        for letter, values in ((NU, nu), (GAMMA, gamma)):
             blocks += _column(letter, [k for k, _ in rows], values, own, notation)
     return blocks
 
@@ -211,7 +206,7 @@ def _column(of: Name, numbers: Sequence[int], values: Sequence[sp.Expr], own: Ro
     """The components that are not zero, by their numbers."""
     name = "nu" if of is NU else "gamma"
     return [
-        shown(indexed(of, k), explicit, notation, [row_token(k), owner_token(own)], row_token(k), f"{name}.{k}")
+        shown(indexed(of, k), value, notation, [row_token(k), owner_token(own)], row_token(k), f"{name}.{k}")
         for k, value in zip(numbers, values, strict=True)
-        if (explicit := notation.expand(value)) != 0
+        if value != 0
     ]

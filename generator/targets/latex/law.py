@@ -23,10 +23,9 @@ from gudgeon.generator.targets.latex.document import (
     table,
 )
 from gudgeon.generator.targets.latex.kinematics import equation
-from gudgeon.generator.targets.latex.letters import Name, letter, of_latex, word
-from gudgeon.generator.targets.latex.notation import Notation, distinct
-from gudgeon.generator.targets.latex.play import LAW_LETTERS, sign_of, step_name
-from gudgeon.generator.targets.latex.play_letters import NAMES, RATIO
+from gudgeon.generator.targets.latex.letters import Name, distinct, letter, of_latex, word
+from gudgeon.generator.targets.latex.notation import Notation
+from gudgeon.generator.targets.latex.play_letters import LAW_LETTERS, NAMES, RATIO, sign_of, step_name
 from gudgeon.generator.targets.latex.play_words import as_word, told_states
 from gudgeon.generator.targets.latex.render import render
 from gudgeon.language.plot_units import pretty

@@ -3,9 +3,11 @@ r"""Names of symbols as a class writes them: \theta_{\text{L7}} for LaTeX, θ_L7
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import groupby, takewhile
+
+import sympy as sp
 
 GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η",
@@ -71,6 +73,26 @@ def of_latex(latex: str) -> Name:
         word = "".join(takewhile(str.isalpha, part))
         text += known.get(f"\\{word}", "" if word in _FONTS else word) + part.removeprefix(word)
     return Name(latex, "".join(c for c in text if c not in "{}" and not c.isspace()))
+
+
+def distinct(wanted: Iterable[tuple[sp.Expr, Name]]) -> dict[sp.Symbol, Name]:
+    """A name of its own for each symbol: who comes first has the letter, others the name of their symbol in C."""
+    names: dict[sp.Symbol, Name] = {}
+    used: set[str] = set()
+    for symbol, name in wanted:
+        if not isinstance(symbol, sp.Symbol) or symbol in names:
+            continue
+        name = primed(letter(symbol.name) if name.text in used else name, used)
+        used.add(name.text)
+        names[symbol] = name
+    return names
+
+
+def primed(name: Name, used: Collection[str]) -> Name:
+    """A name with as many primes as make it another one than those that are used."""
+    while name.text in used:
+        name = Name(f"{{{name.latex}}}'", f"{name.text}'")
+    return name
 
 
 _FONTS = {"mathrm", "text", "mathit", "operatorname", "bar", "hat", "tilde"}

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import importlib
-import inspect
-
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism.mechanism import ForceElement, Joint, PointRef
 from gudgeon.generator.targets.latex.document import Block, Section, Sketch, Text, cells, paragraph, table
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import Notation
+from gudgeon.generator.targets.latex.sketches import sketch_of
 from gudgeon.generator.targets.latex.values import LONGEST, Values, as_written, si_unit_of
 from gudgeon.language.plot_units import pretty
 
@@ -43,7 +41,9 @@ def _bodies(model: Model, values: Values) -> list[Block]:
     return [
         paragraph(lead),
         *table(cells("body", "mass", "inertia", "length"), rows, of=of),
-        *table(cells("side", "length"), values.sides()),
+        *table(cells("side", "length"), values.of_bodies("sides")),
+        *table(cells("number of a shape", "value"), values.of_bodies("shape")),
+        *table(cells("material", "density"), values.densities()),
         *table(cells("point", "in the frame of its body"), points),
         *values.below(),
     ]
@@ -90,13 +90,6 @@ def field_rows(of: Joint | ForceElement, values: Values) -> list[tuple[Text, ...
 def place(ref: PointRef, joins: str) -> str:
     """A point by its name; the body alone where it is bodies that are joined."""
     return ref.body if joins == "bodies" else f"{ref.body}.{ref.point}"
-
-
-def sketch_of(folder: str, kind: str) -> list[str]:
-    """What the file of a joint type or force element says at its top: a line, then its sketch."""
-    doc = inspect.cleandoc(importlib.import_module(f"gudgeon.generator.kinds.{folder}.{kind}").__doc__ or "")
-    summary, _, rest = doc.partition("\n")
-    return [summary, *rest.strip("\n").splitlines()]
 
 
 def _drives(model: Model, notation: Notation) -> list[Block]:

@@ -8,11 +8,13 @@ from gudgeon.generator.equations.friction import Friction
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.targets.latex.document import Block, Equation, Section, Sketch, cells, paragraph, table
-from gudgeon.generator.targets.latex.kinematics import PHI_Q, equation, indexed
+from gudgeon.generator.targets.latex.kinematics import equation
 from gudgeon.generator.targets.latex.letters import Name, letter
-from gudgeon.generator.targets.latex.mechanism import field_rows, place, sketch_of
+from gudgeon.generator.targets.latex.mechanism import field_rows, place
 from gudgeon.generator.targets.latex.notation import Notation, temporaries
 from gudgeon.generator.targets.latex.pictures import assembled
+from gudgeon.generator.targets.latex.sketches import sketch_of
+from gudgeon.generator.targets.latex.theory import PHI_Q, indexed
 from gudgeon.generator.targets.latex.values import Values
 
 KKT = Equation(
@@ -59,7 +61,7 @@ def _elements(model: Model, notation: Notation) -> list[Block]:
     values, locals_of = Values(model, notation), temporaries(model)
     frictions = {friction.name: friction for friction in model.frictions}
     fields = [row for applied in model.elements.values() for row in field_rows(applied.element, values)]
-    blocks: list[Block] = table(cells("element", "field", "value"), fields)
+    blocks: list[Block] = [*table(cells("element", "field", "value"), fields), *values.below()]
     for name, applied in model.elements.items():
         own_type = element_types()[applied.element.kind]
         targets = " and ".join(place(target, own_type.targets) for target in applied.element.targets)
@@ -96,7 +98,7 @@ def _friction(model: Model, friction: Friction, notation: Notation) -> list[Bloc
     limit = notation.math(notation.expand(slip.static))
     return [
         equation(own.names[v], notation.expand(slip.v), notation),
-        paragraph("In stick v = 0 holds as a row of the equation of motion, with the entries"),
+        paragraph("In stick ", own.names[v], " = 0 holds as a row of the equation of motion, with the entries"),
         *row,
         equation(letter("gamma", name), notation.expand(friction.gamma), notation),
         paragraph("as long as the size of its multiplier is at most ", limit, "; in slip the force adds to g"),

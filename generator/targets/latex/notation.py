@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -11,8 +11,9 @@ import sympy as sp
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.far_quotients import for_readers
 from gudgeon.generator.symbols.symbols import Symbols
-from gudgeon.generator.targets.latex.letters import Name, letter, word
+from gudgeon.generator.targets.latex.letters import Name, letter, primed, word
 from gudgeon.generator.targets.latex.printers import TexPrinter, TextPrinter
+from gudgeon.generator.targets.latex.theory import theory
 
 LONG_DRIVE = 8  # operations beyond which a drive's value keeps a letter of its own
 LONG_CONSTANT = 4  # the same for what is computed once a run
@@ -20,6 +21,7 @@ LONG_CONSTANT = 4  # the same for what is computed once a run
 _ONE_LETTER = {
     "mass": "m", "inertia": "I", "length": "l", "radius": "R", "clearance": "c", "stiffness": "k", "damping": "d",
     "angle": "phi", "axis": "a", "direction": "u", "radii": "r",
+    "density": "rho", "thickness": "h", "bar": "b", "disc": "r",
 }  # fmt: skip
 _FREE = {"free_length": "l", "free_angle": "theta"}
 _TEMPORARY = {
@@ -30,6 +32,16 @@ _RATES = {"vx": ("x", 1), "vy": ("y", 1), "omega": ("theta", 1)}
 
 
 @dataclass(frozen=True)
+class GaveWay:
+    """What has a prime, since its letter is something else's."""
+
+    name: Name
+    what: str
+    letter: Name
+    other: str
+
+
+@dataclass(frozen=True)
 class Notation:
     """Names of symbols; `kept` are the derived ones that equations show by their own letter."""
 
@@ -37,6 +49,7 @@ class Notation:
     names: Mapping[sp.Symbol, Name]
     kept: frozenset[sp.Symbol]
     order: Mapping[sp.Symbol, int]  # coordinates and velocities by body: the order of a sum's terms
+    gave_way: tuple[GaveWay, ...] = ()  # in the order of the file
 
     def called(self, names: Mapping[sp.Symbol, Name]) -> Notation:
         """The same with some symbols called otherwise, as inside the section of a joint."""
@@ -73,27 +86,31 @@ class Notation:
 
 
 def make_notation(model: Model) -> Notation:
-    """The letters of physics.md for every symbol of a model; no two symbols share a name."""
+    """The letters of physics.md for every symbol of a model; no two symbols share a name, nor one of the theory's."""
     order = {s: body.index for body in model.bodies for s in (*body.q, *body.v)}
     for symbol in turned(model):  # behind the coordinates of their body
         order[symbol] = 1 + min(order[q] for q in model.symbols.rules[symbol])
-    return Notation(model.symbols, distinct(_names(model)), frozenset(_kept(model)), order)
+    names, gave_way = _apart(model)
+    return Notation(model.symbols, names, frozenset(_kept(model)), order, gave_way)
 
 
-def distinct(wanted: Iterable[tuple[sp.Expr, Name]]) -> dict[sp.Symbol, Name]:
-    """A name of its own for each symbol: who comes first has the letter, others the name of their symbol in C."""
+def _apart(model: Model) -> tuple[dict[sp.Symbol, Name], tuple[GaveWay, ...]]:
+    """A name of its own for each symbol: who comes behind another, or behind the theory, has primes."""
     names: dict[sp.Symbol, Name] = {}
-    used: set[str] = set()
-    for symbol, name in wanted:
-        if not isinstance(symbol, sp.Symbol) or symbol in names:
-            continue
-        if name.text in used:
-            name = letter(symbol.name)
-        while name.text in used:
-            name = Name(f"{{{name.latex}}}'", f"{name.text}'")
-        used.add(name.text)
-        names[symbol] = name
-    return names
+    used, gave_way = theory(model), list[GaveWay]()
+    for symbol, wanted in _names(model):
+        if isinstance(symbol, sp.Symbol) and symbol not in names:
+            names[symbol], what = primed(wanted, used), _what(model, symbol)
+            if names[symbol] != wanted:
+                gave_way.append(GaveWay(names[symbol], what, wanted, used[wanted.text]))
+            used[names[symbol].text] = what
+    return names, tuple(gave_way)
+
+
+def _what(model: Model, symbol: sp.Symbol) -> str:
+    """By its address in the file, or what it is."""
+    info = model.symbols.info.get(symbol)
+    return (info.meaning if info else "") or symbol.name
 
 
 def _names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
@@ -145,13 +162,15 @@ def of_address(address: str) -> Name:
         case ["bodies", body, "sides", point, axis]:
             return letter({"x": "xi", "y": "eta"}[axis], body, point)
         case ["materials", material, constant]:
-            return letter(constant, material)
+            return letter(_letter_of(constant), material)
         case ["bearings", bearing, "length"]:
             return letter("L", bearing)
         case ["bearings", bearing, "bearing_material" | "journal_material" as role, constant]:
             return letter(constant, "j" if role == "journal_material" else "i", bearing)
-        case ["bodies", body, "shape", "material", constant]:
-            return letter(_letter_of(constant), body)
+        case ["bodies", body, "shape", "rectangle", axis]:
+            return letter({"x": "a", "y": "b"}[axis], body)
+        case ["bodies", body, "shape", *_, field]:
+            return letter(_letter_of(field), body)
         case ["contacts", contact, *rest]:
             return letter(rest[-1], contact)
         case ["start", _, body, coordinate]:

@@ -11,13 +11,12 @@ from gudgeon.generator.equations.contact_steps import Step
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations
 from gudgeon.generator.field import Field
-from gudgeon.generator.kinds.laws.law import RESULTS, Law
-from gudgeon.generator.mechanism.mechanism import LawUse, Play, Quantity
+from gudgeon.generator.mechanism.mechanism import Play, Quantity
 from gudgeon.generator.targets.latex import play_letters as contact_names
 from gudgeon.generator.targets.latex.document import Block, Section, Text, cells, paragraph, sentence, table
 from gudgeon.generator.targets.latex.kinematics import equation
-from gudgeon.generator.targets.latex.letters import Name, letter, of_latex, word
-from gudgeon.generator.targets.latex.notation import Notation, distinct
+from gudgeon.generator.targets.latex.letters import Name, of_latex
+from gudgeon.generator.targets.latex.notation import Notation
 from gudgeon.generator.targets.latex.play_words import as_word, contour, onset, rigid, told_states
 from gudgeon.generator.targets.latex.plots import law_plot
 from gudgeon.generator.targets.latex.trace import Functions, Trace
@@ -25,14 +24,6 @@ from gudgeon.generator.targets.latex.values import LONGEST, Values, as_written
 from gudgeon.language.plot_units import pretty
 from gudgeon.language.units import si_unit
 
-# What the laws call their abbreviations and constants, in the paper's letters.
-LAW_LETTERS = {
-    "root": letter("s"), "factor": letter("f"), "hysteresis": letter("a"), "film_clearance": letter("c", "film"),
-    "friction_slope": letter("kappa"), "shear": letter("D", "0"), "T0": letter("D"),
-    "spring": letter("K"), "damper": letter("D"), "mean_clearance": letter("c", "mean"), "share": letter("b"),
-    "overlap": letter("l"), "deepest": letter("delta", "max"), "scale": letter("l"), "part": letter("y"),
-    "gone": letter("x"), "left": letter("y"), "F_e": letter("F", "el"),
-}  # fmt: skip
 _PAIR = (
     ("radius", "R_i", "bearing radius"),
     ("clearance", "c", "radial clearance"),
@@ -49,36 +40,8 @@ class JointWithPlay:
         self.of = f"joint-{clearance.name}"  # tokens
         self.of_law = [f"law-{self.play.contact.name}", self.of]
         self.alike = [name for name, play in model.scene.play.items() if _alike(play, self.play)]
-        self.notation = notation.called(distinct(self._names()))
+        self.notation = notation.called(contact_names.joint_letters(model, clearance))
         self.numbers = list(self._numbers())
-
-    def laws(self) -> Iterator[tuple[LawEquations, LawUse]]:
-        """The laws that this joint has, with their place in the file."""
-        contact_of, own = self.play.contact, self.clearance
-        yield from zip(own.laws, contact_of.laws, strict=True)
-
-    def _names(self) -> Iterator[tuple[sp.Symbol, Name]]:
-        pair, constants = self.clearance.pair, self.clearance.constants
-        yield from contact_names.names(self.clearance).items()
-        for symbol, sign in ((pair.c, "c"), (pair.R_i, "R_i"), (pair.R_j, "R_j"), (pair.L, "L")):
-            yield symbol, of_latex(sign)
-        for constant in ("E", "nu"):
-            i, j = getattr(pair, f"{constant}_i"), getattr(pair, f"{constant}_j")
-            yield from [(i, letter(constant))] if i == j else [(i, letter(constant, "i")), (j, letter(constant, "j"))]
-        if self.clearance.transition is not None:
-            yield self.clearance.transition, letter("e", "0")
-        for equations, use in self.laws():
-            for parameter, quantity in _given(equations, use):
-                yield self._slot(quantity), of_latex(sign_of(parameter))
-        for name, value in constants.items():
-            yield value, LAW_LETTERS.get(name) or word(name)
-        for equations, _ in self.laws():
-            for name in equations.steps:
-                yield self.result(equations, name), step_name(equations.law, name)
-
-    def _slot(self, quantity: Quantity) -> sp.Expr:
-        entry = self.model.slots.entries.get(quantity.address)
-        return sp.Integer(0) if entry is None else entry.symbol
 
     def _numbers(self) -> Iterator[tuple[Quantity, str, str]]:
         """Every number of this joint: quantity, letter if it has no slot, meaning."""
@@ -91,26 +54,19 @@ class JointWithPlay:
             name = self.model.scene.materials.get(f"bearings.{bearing.name}.{what}_material", material.name)
             yield material.numbers["E"], f"E{index}", f"modulus of elasticity of {name} ({what})"
             yield material.numbers["nu"], rf"\nu{index}", f"Poisson's ratio of {name} ({what})"
-        for equations, use in self.laws():
-            for parameter, quantity in _given(equations, use):
-                yield quantity, sign_of(parameter), parameter.meaning
+        for equations, use in contact_names.laws_of(self.model, self.clearance):
+            for parameter, quantity in contact_names.given(equations, use):
+                yield quantity, contact_names.sign_of(parameter), parameter.meaning
         if self.play.contact.transition is not None:
             yield self.play.contact.transition, "e_0", "width of the transition from film to dry contact"
 
-    @staticmethod
-    def result(equations: LawEquations, name: str) -> sp.Symbol:
-        """The symbol of a law's step; its tangential force belongs to its part of the joint."""
-        if name == "F_t" and name in RESULTS[equations.law.role]:
-            return contact.of_part(contact.F_along_t, "film" if equations.law.role == "film" else "dry")
-        return sp.Symbol(name, real=True)
-
     def steps(self, equations: LawEquations) -> list[Step]:
         """The law's own equations; a result that is the number zero is left out."""
-        own = {sp.Symbol(name, real=True): self.result(equations, name) for name in equations.steps}
+        own = {sp.Symbol(name, real=True): contact_names.result(equations, name) for name in equations.steps}
         if self.clearance.contour and equations.law.role == "friction":
             own[sp.Symbol("F_n", real=True)] = contact.F_N
         return [
-            Step(self.result(equations, name), sp.sympify(value).xreplace(own))
+            Step(contact_names.result(equations, name), sp.sympify(value).xreplace(own))
             for name, value in equations.steps.items()
             if value != 0
         ]
@@ -120,22 +76,6 @@ class JointWithPlay:
             equation(step.symbol, self.notation.expand(step.value), self.notation, self.of_law, self.of_law[0])
             for step in steps
         ]
-
-
-def _given(equations: LawEquations, use: LawUse) -> list[tuple[Field, Quantity]]:
-    """The numbers that a law has here: one that may follow from others is not there where the file leaves it out."""
-    return [(own, use.quantities[own.name]) for own in equations.law.parameters if own.name in use.quantities]
-
-
-def step_name(law: Law, name: str) -> Name:
-    """What an abbreviation or a result of a law is called; the rate of a state has its dot."""
-    rates = {f"{state.name}_rate": letter(state.name, dots=1) for state in law.states}
-    return (LAW_LETTERS | rates).get(name) or word(name)
-
-
-def sign_of(parameter: Field) -> str:
-    """A law's number in LaTeX: its symbol, or where it has none its name."""
-    return parameter.symbol or word(parameter.name).latex
 
 
 def play_sections(model: Model, notation: Notation, found: Functions) -> list[Section]:
@@ -205,17 +145,16 @@ def _numbers(joint: JointWithPlay) -> list[Block]:
     slots, values, rows = joint.model.slots, Values(joint.model, joint.notation), []
     for quantity, sign, meaning in joint.numbers:
         entry = slots.entries.get(quantity.address)
-        written = f"{as_written(quantity.value)} = " if entry is not None and entry.follows else ""
         value: Text = (_apart(quantity),) if entry is None else values.in_si(entry)
         if entry is not None and entry.follows:
-            value = written, joint.notation.math(sp.Float(entry.default, 17))
+            value = (*values.followed(entry), joint.notation.math(sp.Float(entry.default, 17)))
         called = of_latex(sign) if entry is None else joint.notation.math(entry.symbol)
         rows.append(cells(called, meaning, quantity.address, value, pretty(si_unit(quantity.dimension)) or "-"))
     definitions = joint.model.symbols.definitions
     constants = dict.fromkeys([joint.clearance.pair.R_j, *joint.clearance.constants.values()])
     follow = [equation(s, joint.notation.expand(definitions[s]), joint.notation) for s in constants if s in definitions]
     header = cells("letter", "meaning", "address", "value in the file", "unit")
-    return [*table(header, rows, (1,)), paragraph("From these follow once a run:"), *follow]
+    return [*table(header, rows, (1,)), *values.below(), paragraph("From these follow once a run:"), *follow]
 
 
 def _apart(quantity: Quantity) -> str:
@@ -243,7 +182,7 @@ def _mixed(joint: JointWithPlay) -> list[Block]:
 
 def _law(joint: JointWithPlay, role: str) -> list[Block]:
     """A law's equations with its source, validity and options."""
-    equations = next(equations for equations, _ in joint.laws() if equations.law.role == role)
+    equations = next(own for own in joint.clearance.laws if own.law.role == role)
     law = equations.law
     source = law.reference or law.source
     blocks: list[Block] = [

@@ -1,8 +1,8 @@
-"""Letters of the symbols that a joint with play is written in (generator/equations/contact_steps.py)."""
+"""Letters of a joint with play: of its steps (generator/equations/contact_steps.py), its numbers and its laws."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import sympy as sp
 
@@ -46,9 +46,12 @@ from gudgeon.generator.equations.contact_steps import (
     worn,
     worn_slope,
 )
-from gudgeon.generator.equations.play import Clearance
-from gudgeon.generator.kinds.laws.law import HELD
-from gudgeon.generator.targets.latex.letters import Name, letter
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.play import Clearance, LawEquations
+from gudgeon.generator.field import Field
+from gudgeon.generator.kinds.laws.law import HELD, RESULTS, Law
+from gudgeon.generator.mechanism.mechanism import LawUse, Quantity
+from gudgeon.generator.targets.latex.letters import Name, distinct, letter, of_latex, word
 
 # Parts of a joint with film and dry contact are told apart by d and f.
 _PARTS = {"dry": "d", "film": "f"}
@@ -66,6 +69,14 @@ NAMES: Mapping[sp.Symbol, Name] = {
     sp.Symbol("F_n", real=True): letter("F", "n"), sp.Symbol("F_r", real=True): letter("F", "r"),
     sp.Symbol(HELD[0], real=True): letter("lambda"),
 }  # fmt: skip
+# What the laws call their abbreviations and constants, in the paper's letters.
+LAW_LETTERS = {
+    "root": letter("s"), "factor": letter("f"), "hysteresis": letter("a"), "film_clearance": letter("c", "film"),
+    "friction_slope": letter("kappa"), "shear": letter("D", "0"), "T0": letter("D"),
+    "spring": letter("K"), "damper": letter("D"), "mean_clearance": letter("c", "mean"), "share": letter("b"),
+    "overlap": letter("l"), "deepest": letter("delta", "max"), "scale": letter("l"), "part": letter("y"),
+    "gone": letter("x"), "left": letter("y"), "F_e": letter("F", "el"),
+}  # fmt: skip
 RATIO, CLIPPED = Name(r"\frac{\dot{\delta}}{\dot{\delta}^{-}}", "(δ̇/δ̇⁻)"), letter("r")
 
 
@@ -79,3 +90,58 @@ def names(clearance: Clearance) -> dict[sp.Symbol, Name]:
         if len(parts) > 1:
             found[symbol] = letter(base, index)
     return found
+
+
+def joint_letters(model: Model, clearance: Clearance) -> dict[sp.Symbol, Name]:
+    """The letters of one joint's own sections: c, R_i, K, c_e stand for this joint's alone."""
+    return distinct(_wanted(model, clearance))
+
+
+def _wanted(model: Model, clearance: Clearance) -> Iterator[tuple[sp.Expr, Name]]:
+    pair, laws = clearance.pair, laws_of(model, clearance)
+    yield from names(clearance).items()
+    for symbol, sign in ((pair.c, "c"), (pair.R_i, "R_i"), (pair.R_j, "R_j"), (pair.L, "L")):
+        yield symbol, of_latex(sign)
+    for constant in ("E", "nu"):
+        i, j = getattr(pair, f"{constant}_i"), getattr(pair, f"{constant}_j")
+        yield from [(i, letter(constant))] if i == j else [(i, letter(constant, "i")), (j, letter(constant, "j"))]
+    if clearance.transition is not None:
+        yield clearance.transition, letter("e", "0")
+    for equations, use in laws:
+        for parameter, quantity in given(equations, use):
+            entry = model.slots.entries.get(quantity.address)
+            if entry is not None:
+                yield entry.symbol, of_latex(sign_of(parameter))
+    for name, value in clearance.constants.items():
+        yield value, LAW_LETTERS.get(name) or word(name)
+    for equations, _ in laws:
+        for name in equations.steps:
+            yield result(equations, name), step_name(equations.law, name)
+
+
+def laws_of(model: Model, clearance: Clearance) -> list[tuple[LawEquations, LawUse]]:
+    """The laws that a joint has, with their place in the file."""
+    return list(zip(clearance.laws, model.scene.play[clearance.name].contact.laws, strict=True))
+
+
+def given(equations: LawEquations, use: LawUse) -> list[tuple[Field, Quantity]]:
+    """The numbers that a law has here: one that may follow from others is not there where the file leaves it out."""
+    return [(own, use.quantities[own.name]) for own in equations.law.parameters if own.name in use.quantities]
+
+
+def result(equations: LawEquations, name: str) -> sp.Symbol:
+    """The symbol of a law's step; its tangential force belongs to its part of the joint."""
+    if name == "F_t" and name in RESULTS[equations.law.role]:
+        return of_part(F_along_t, "film" if equations.law.role == "film" else "dry")
+    return sp.Symbol(name, real=True)
+
+
+def step_name(law: Law, name: str) -> Name:
+    """What an abbreviation or a result of a law is called; the rate of a state has its dot."""
+    rates = {f"{state.name}_rate": letter(state.name, dots=1) for state in law.states}
+    return (LAW_LETTERS | rates).get(name) or word(name)
+
+
+def sign_of(parameter: Field) -> str:
+    """A law's number in LaTeX: its symbol, or where it has none its name."""
+    return parameter.symbol or word(parameter.name).latex

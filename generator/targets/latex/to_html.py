@@ -74,9 +74,10 @@ def _read_signs(part: Element) -> None:
 
 
 def _without_rows(part: Element) -> None:
-    """A row of one needs no row; an empty one in front of a sign says that the sign has two sides."""
+    """A row of one needs no row, nor does a style; an empty row in front of a sign says that the sign has two sides."""
     for k, inner in enumerate(part):
-        while inner.tag == "mrow" and len(inner) == 1 and not (inner.text or "").strip():
+        while inner.tag in ("mrow", "mstyle") and len(inner) == 1 and not (inner.text or "").strip():
+            inner[0].attrib = inner.attrib | inner[0].attrib
             inner = inner[0]
             part[k] = inner
 

@@ -7,8 +7,8 @@ asked of the functions themselves (generator/ir/dependence.py), never of their t
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from dataclasses import dataclass, fields, is_dataclass
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass
 from functools import partial
 
 from gudgeon.contract.kernel_source import KernelSource
@@ -22,7 +22,7 @@ from gudgeon.generator.ir.values import Place
 from gudgeon.generator.kernels import closed_linkage
 from gudgeon.generator.kernels.driven_chains import STEP
 from gudgeon.generator.kernels.program import Program, make_program
-from gudgeon.generator.mechanism.mechanism import Quantity
+from gudgeon.generator.mechanism.quantities import quantities
 from gudgeon.generator.targets.c import functions
 from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.emit import described, emit, file_names, render
@@ -270,25 +270,9 @@ def yaml_tokens(model: Model, found: Trace) -> dict[int, Marks]:
     for number, row in enumerate(model.rows, 1):
         tokens[where[row.kind][row.owner]] |= {row_token(number), *entries_of(model, number, row)}
     for play in model.scene.play.values():
-        for quantity in _quantities(play.contact):
+        for quantity in quantities(play.contact):
             tokens[quantity.where.line].add(f"law-{play.contact.name}")
-    for quantity in (*_quantities(mechanism), *model.scene.parameters.values()):
+    for quantity in (*quantities(mechanism), *model.scene.parameters.values()):
         if quantity.address in found.numbers:
             tokens[quantity.where.line] |= found.numbers[quantity.address]
     return {line: frozenset({f"yaml-{line}", *own}) for line, own in tokens.items()}
-
-
-def _quantities(part: object) -> Iterator[Quantity]:
-    """All numbers in a part of a mechanism."""
-    if isinstance(part, Quantity):
-        yield part
-        return
-    inner: Iterable[object] = ()
-    if is_dataclass(part):
-        inner = (getattr(part, one.name) for one in fields(part))
-    elif isinstance(part, Mapping):
-        inner = part.values()
-    elif isinstance(part, (tuple, list)):
-        inner = part
-    for one in inner:
-        yield from _quantities(one)

@@ -8,8 +8,10 @@ from types import MappingProxyType
 
 import sympy as sp
 
+from gudgeon.generator.equations.fields import VariableNames
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.mechanism.mechanism import Quantity, Vector
+from gudgeon.generator.symbols.from_expressions import quantity_to_sympy
 from gudgeon.generator.symbols.numbers import SlotEntry
 from gudgeon.generator.targets.latex.document import Block, Equation, Text, cells, paragraph
 from gudgeon.generator.targets.latex.letters import Name
@@ -29,17 +31,29 @@ class Values:
     """The numbers of a scene as table cells: letter, and value with what it follows."""
 
     def __init__(self, model: Model, notation: Notation) -> None:
-        self._slots, self._notation = model.slots, notation
-        self._called = model.scene.mechanism.expressions
+        self._model, self._slots, self._notation = model, model.slots, notation
         self._long: list[Block] = []  # what numbers follow, where it is longer than a cell is wide
 
     def cell(self, quantity: Quantity | None) -> Text:
-        """ "l = 80 mm", "y = −l_5 = −0.3 m", "0", what varies as it is written; nothing for no number."""
+        """ "l = 80 mm", "y = −l_5 = −0.3 m", "0", what varies as a formula; nothing for no number."""
         if quantity is None:
             return ("",)
         if quantity.address not in self._slots.entries:
-            return ("0" if quantity.is_zero else as_written(quantity.value, 0, self._called),)
+            return ("0",) if quantity.is_zero else self._varying(quantity)
         return self.slot(self._slots.entries[quantity.address])
+
+    def _varying(self, quantity: Quantity) -> Text:
+        """What hangs on time and motion, by names as the file has it; a long one has a letter, and stands below."""
+        notation, model = self._notation, self._model
+        written = as_written(quantity.value, 0, model.scene.mechanism.expressions)
+        if written != as_written(quantity.value):
+            return (written,)
+        value = notation.expand(quantity_to_sympy(quantity, VariableNames(model.geometry, model.t)))
+        if len((formula := notation.math(value)).text) <= 2 * LONGEST:
+            return (formula,)
+        left = of_address(quantity.address)
+        self._long.append(Equation(left, notation.terms(value)))
+        return (left,)
 
     def slot(self, entry: SlotEntry) -> Text:
         """Letter = value."""
@@ -49,7 +63,7 @@ class Values:
         """The default in the unit of the file; what follows others in SI, in front of it the expression."""
         if (measured := _measured(entry.written)) is not None:
             return self._with_unit(*measured)
-        return self._followed(entry) + self._with_unit(entry.default, si_unit_of(entry), exact=not entry.follows)
+        return self.followed(entry) + self._with_unit(entry.default, si_unit_of(entry), exact=not entry.follows)
 
     def in_si(self, entry: SlotEntry) -> Text:
         """The default in SI without its unit; in front of it what the file says, where that is something else."""
@@ -57,14 +71,14 @@ class Values:
         share = as_angle(entry.default) if angle and share_of_pi(entry.default) else None
         number = share or self._number(entry.default, exact=isinstance(written, Number))
         if written is None or entry.follows:
-            return (*self._followed(entry), number)
+            return (*self.followed(entry), number)
         if isinstance(written, Number):
             told = unit_of(written) not in ("", si_unit(entry.dimension), si_unit_of(entry))
         else:
             told = share is None
         return (f"{as_written(written)} = ", share or self._number(entry.default)) if told else (number,)
 
-    def _followed(self, entry: SlotEntry) -> Text:
+    def followed(self, entry: SlotEntry) -> Text:
         """What a number follows and a sign behind it; nothing where it is long, and stands below."""
         if not entry.follows:
             return ()
@@ -105,15 +119,23 @@ class Values:
         in_front = "" if digits == "1" else rf"{digits} \cdot "
         return Name(rf"{in_front}10^{{{int(power)}}}", f"{digits}e{power}")
 
-    def sides(self) -> list[tuple[Text, ...]]:
-        """Of bodies that are given by the lengths of their sides."""
+    def of_bodies(self, part: str) -> list[tuple[Text, ...]]:
+        """Numbers of bodies that are given by the lengths of their `sides`, or by their `shape`."""
         found = [(e, e.address.split(".")) for e in self._slots.entries.values() if e.address.startswith("bodies.")]
-        return [cells(f"{at[1]}.{at[3]}", self.slot(e)) for e, at in found if at[2:3] == ["sides"] and len(at) == 4]
+        return [
+            cells(f"{at[1]}.{'.'.join(at[3:])}", self.slot(e)) for e, at in found
+            if at[2] == part and not (e.words or part == "sides" and len(at) > 4)
+        ]  # fmt: skip
+
+    def densities(self) -> list[tuple[Text, ...]]:
+        """Of the materials of shapes."""
+        found = [(e, e.address.split(".")) for e in self._slots.entries.values() if not e.words]
+        return [cells(at[1], self.slot(e)) for e, at in found if at[0] == "materials" and at[2:] == ["density"]]
 
     def below(self) -> list[Block]:
         """The long ones since it was last asked, to stand below a table."""
         found, self._long = list(dict.fromkeys(self._long)), []
-        return [paragraph("What follows from other numbers:"), *found] if found else []
+        return [paragraph("In full:"), *found] if found else []
 
     def vector(self, vector: Vector) -> Text:
         """Both components; a zero beside a letter has its letter, though no equation needs it."""

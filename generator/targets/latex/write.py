@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from gudgeon.contract.kernel_source import KernelSource
@@ -11,20 +11,25 @@ from gudgeon.generator.equations.notes import scene_notes as notes
 from gudgeon.generator.targets.latex.document import (
     Block,
     Document,
+    Equation,
     Paragraph,
     Picture,
     Section,
     Sketch,
     Table,
+    Text,
+    cells,
     paragraph,
     sentence,
+    table,
 )
 from gudgeon.generator.targets.latex.kinematics import kinematics_sections
+from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.listings import listing_sections
 from gudgeon.generator.targets.latex.listings import scripts as own_scripts
 from gudgeon.generator.targets.latex.mechanism import part_sections
 from gudgeon.generator.targets.latex.motion import motion_sections
-from gudgeon.generator.targets.latex.notation import make_notation
+from gudgeon.generator.targets.latex.notation import Notation, make_notation
 from gudgeon.generator.targets.latex.play import play_sections
 from gudgeon.generator.targets.latex.reduction import reduction_sections
 from gudgeon.generator.targets.latex.render import render
@@ -52,7 +57,35 @@ def make_document(model: Model, found: Functions) -> Document:
         *([Section("Left out of this scene", tuple(paragraph(sentence(n)) for n in left_out))] if left_out else []),
     ]
     facts = (("mechanism ", mechanism.name, ", scene ", model.scene.name),)
-    return Document(one_line(mechanism.title or mechanism.name), facts, with_paper(sections))
+    return Document(one_line(mechanism.title or mechanism.name), facts, with_paper(with_letters(sections, notation)))
+
+
+def with_letters(sections: Sequence[Section], notation: Notation) -> tuple[Section, ...]:
+    """The sections; in front of them what has a prime there, and what its letter stands for without it."""
+    found = primes(notation, (name for section in sections for block in section.blocks for name in _names_in(block)))
+    return (Section("Letters", tuple(found)), *sections) if found else (*sections,)
+
+
+def primes(notation: Notation, shown: Iterable[Name]) -> list[Block]:
+    """What has a prime in formulas that are shown."""
+    text = " ".join(name.text for name in shown)
+    rows = [cells(own.name, own.what, own.letter, own.other) for own in notation.gave_way if own.name.text in text]
+    lead = paragraph("A prime tells apart what would have the letter of something else; it is no derivative:")
+    header = cells("letter", "what it is", "without the prime", "that is")
+    return [lead, *table(header, rows, (3,))] if rows else []
+
+
+def _names_in(block: Block) -> Iterator[Name]:
+    if isinstance(block, Equation):
+        yield from (block.left, *block.terms)
+    yield from (part for text in _texts(block) for part in text if isinstance(part, Name))
+
+
+def _texts(block: Block) -> list[Text]:
+    """Running text of a paragraph, cells of a table."""
+    if isinstance(block, Table):
+        return [cell for row in (block.header, *block.rows) for cell in row]
+    return [block.text] if isinstance(block, Paragraph) else []
 
 
 def with_paper(sections: Sequence[Section]) -> tuple[Section, ...]:
@@ -65,9 +98,7 @@ def _names_the_paper(block: Block) -> bool:
     """Whether a sketch, a sentence or a cell speaks of it."""
     if isinstance(block, (Sketch, Picture)):
         return any("the paper" in line for line in block.lines)
-    texts = [block.text] if isinstance(block, Paragraph) else []
-    texts += [cell for row in block.rows for cell in row] if isinstance(block, Table) else []
-    return any(isinstance(part, str) and "the paper" in part for text in texts for part in text)
+    return any(isinstance(part, str) and "the paper" in part for text in _texts(block) for part in text)
 
 
 def equations_tex(model: Model) -> str:

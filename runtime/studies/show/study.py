@@ -18,16 +18,17 @@ from gudgeon.studies.ensemble.folder import DATASET
 from gudgeon.studies.ensemble.plan import Plan, Plans
 from gudgeon.studies.show.study_data import StudyData
 from gudgeon.studies.show.tables import console, new_table, print_json
-from gudgeon.studies.words import seconds
+from gudgeon.studies.words import counted, seconds
 
 MOST_KINDS = 8
 MOST_TRENDS = 16  # that are told one by one
 QUANTILES = {"min": 0.0, "median": 0.5, "max": 1.0}
 
 
-def shape_text(plan: Plan) -> str:
-    """The dimensions: "scene 2 × c 5"."""
-    return " × ".join(f"{name} {length}" for name, length in zip(plan.dims, plan.shape, strict=True)) or "one run"
+def runs_text(plan: Plan, runs: int) -> str:
+    """How many, and the dimensions: "10 runs (scene 2 × c 5)", "1 run"."""
+    shape = " × ".join(f"{name} {length}" for name, length in zip(plan.dims, plan.shape, strict=True))
+    return counted(runs, "run") + f" ({visible(shape)})" * bool(shape)
 
 
 def show_estimates(plans: Plans, found: Mapping[str, Estimate], json: bool) -> None:
@@ -42,7 +43,7 @@ def show_estimates(plans: Plans, found: Mapping[str, Estimate], json: bool) -> N
         _show_estimate(plan, found[name])
     if plans.named:
         size, spent = sum(one.bytes for one in found.values()), sum(one.seconds for one in found.values())
-        print(f"all parts: {plans.runs} runs, about {in_bytes(size)} on disk, {_long(spent)}")
+        print(f"all parts: {counted(plans.runs, 'run')}, about {in_bytes(size)} on disk, {_long(spent)}")
 
 
 def _estimate_json(plan: Plan, found: Estimate) -> dict[str, Any]:
@@ -54,10 +55,10 @@ def _estimate_json(plan: Plan, found: Estimate) -> dict[str, Any]:
 
 
 def _show_estimate(plan: Plan, found: Estimate) -> None:
-    print(f"{found.runs} runs ({visible(shape_text(plan))}) in {found.blocks} blocks")
-    print(f"about {in_bytes(found.bytes)} on disk, {_long(found.seconds)} by {found.tried} runs on trial")
+    print(f"{runs_text(plan, found.runs)} in {counted(found.blocks, 'block')}")
+    print(f"about {in_bytes(found.bytes)} on disk, {_long(found.seconds)} by {counted(found.tried, 'run')} on trial")
     if found.failed:
-        print(f"{found.failed} of {found.tried} runs on trial failed: {visible(found.reasons[0])}")
+        print(f"{found.failed} of {counted(found.tried, 'run')} on trial failed: {visible(found.reasons[0])}")
     for note in plan.notes:
         print(f"note: {visible(note)}")
 
@@ -91,7 +92,7 @@ def _study_json(plan: Plan, found: Study) -> dict[str, Any]:
 
 def _show_study(plan: Plan, found: Study) -> None:
     spread = {name: (unit, row) for name, unit, row in _spread(plan, found)}
-    print(f"{found.runs} runs ({visible(shape_text(plan))})")
+    print(runs_text(plan, found.runs))
     if spread:
         table = new_table(["measure", *QUANTILES, "unit", "NaN"], ["measure", "unit"])
         for name, (unit, row) in spread.items():
@@ -99,7 +100,7 @@ def _show_study(plan: Plan, found: Study) -> None:
             table.add_row(visible(name), *numbers, unit, str(row["nan"]))
         console().print(table)
     if found.failed:
-        print(f"{found.failed} of {found.runs} runs failed:")
+        print(f"{found.failed} of {counted(found.runs, 'run')} failed:")
         for kind, count, told in itertools.islice(StudyData(found).failures(), MOST_KINDS):
             print(f"  {count} × {visible(kind)}" + f"\n    the first: {visible(told)}" * bool(told))
         if (more := len(found.failures) - MOST_KINDS) > 0:

@@ -1,0 +1,113 @@
+"""Letters that a scene's documents have of themselves, by what they tell; what a file names gives way to them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+import sympy as sp
+
+from gudgeon.generator.equations import contact_steps as contact
+from gudgeon.generator.equations.contact_steps import Step
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.play import Clearance
+from gudgeon.generator.kinds.forces.force_type import element_types
+from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.targets.latex.letters import Name, letter, of_latex
+from gudgeon.generator.targets.latex.play_letters import given, joint_letters, laws_of, names, result, sign_of
+from gudgeon.generator.targets.latex.sketches import letters_of, sketch_of
+
+PHI, NU, GAMMA = Name(r"\Phi", "Φ"), Name(r"\nu", "ν"), Name(r"\gamma", "γ")
+LAMBDA, PHI_Q = Name(r"\lambda", "λ"), Name(r"\Phi_{q}", "Φ_q")
+
+
+def indexed(of: Name, index: int) -> Name:
+    """A component; they count from 1."""
+    return Name(f"{of.latex}_{{{index}}}", f"{of.text}_{index}")
+
+
+def theory(model: Model) -> dict[str, str]:
+    """What each of these letters is, by its plain text."""
+    found: dict[str, str] = {}
+    for text, meaning in _letters(model):
+        found.setdefault(text, meaning)
+    found.pop("t", None)  # time everywhere
+    return found
+
+
+def _letters(model: Model) -> Iterator[tuple[str, str]]:
+    yield from (("n", "number of coordinates"), ("q", "coordinates"), ("x", "an axis"), ("y", "an axis"))
+    yield from (("M", "mass matrix"), ("g", "generalized forces"), ("a", "accelerations, in the C"))
+    yield from ((f"g_{k}", "a generalized force") for k in range(1, 1 + len(model.q)))
+    if model.rows:
+        yield from _of_rows(model)
+    values = [*(e for row in model.rows for e in (row.phi, row.nu, row.gamma)), *model.symbols.definitions.values()]
+    if any(sp.sympify(value).has(sp.Heaviside) for value in values):
+        yield "H", "unit step"
+    yield from ((name, "a curve of the file") for name in model.scene.mechanism.curves)
+    for clearance in model.clearances:
+        yield from ((text, f"a letter of joint {clearance.name} with play") for text in _of_play(model, clearance))
+    yield from _of_forces(model)
+    yield from ((letter("z", event.name).text, f"event {event.name}") for event in model.events)
+    for kind in dict.fromkeys(joint.kind for joint in model.scene.mechanism.joints.values()):
+        yield from _of_sketch("joints", kind, joint_types()[kind].title)
+
+
+def _of_rows(model: Model) -> Iterator[tuple[str, str]]:
+    for name, what in ((PHI, "constraints"), (LAMBDA, "multipliers"), (NU, "right sides of velocities"),
+                       (GAMMA, "right sides of accelerations")):  # fmt: skip
+        yield name.text, what
+        yield from ((indexed(name, k).text, f"one of the {what}") for k in range(1, 1 + len(model.rows)))
+    yield from ((f"Φ_{by}", "a derivative of the constraints") for by in ("q", "t", "qt", "tt"))
+
+
+def _of_forces(model: Model) -> Iterator[tuple[str, str]]:
+    for name, applied in model.elements.items():
+        if applied.loads.potential != 0:
+            yield letter("V", name).text, f"potential energy of {name}"
+    for friction in model.frictions:
+        for base in ("v", "gamma"):
+            yield letter(base, friction.name).text, f"slip of {friction.name}"
+        columns = (letter("J", friction.name, str(k)) for k in range(1, 1 + len(model.q)))
+        yield from ((name.text, f"slip of {friction.name}") for name in columns)
+    for kind in dict.fromkeys(applied.element.kind for applied in model.elements.values()):
+        yield from _of_sketch("forces", kind, element_types()[kind].title)
+
+
+def _of_sketch(folder: str, kind: str, title: str) -> Iterator[tuple[str, str]]:
+    return ((text, f"in the sketch: {title}") for text in letters_of(sketch_of(folder, kind)))
+
+
+def _of_play(model: Model, clearance: Clearance) -> Iterator[str]:
+    """Of its numbers, of its laws, and of those steps that it has."""
+    shown = {contact.stored, *_symbols(_steps(clearance))}
+    may_be = names(clearance)
+    yield from (name.text for symbol, name in joint_letters(model, clearance).items()
+                if symbol in shown or symbol not in may_be)  # fmt: skip
+    for equations, use in laws_of(model, clearance):
+        yield from (of_latex(sign_of(parameter)).text for parameter, _ in given(equations, use))
+    yield from ("i", "j", "n")
+    if clearance.normal is not None and clearance.film is not None:
+        yield from ("d", "f", "b")
+    if clearance.contour:
+        yield from ("W", "F", "w")
+
+
+def _steps(clearance: Clearance) -> Iterator[Step]:
+    yield from (Step(symbol, sp.Integer(0)) for symbol in (
+        contact.e_x, contact.e_y, contact.de_x, contact.de_y, contact.omega_i, contact.omega_j))  # fmt: skip
+    if clearance.contour:
+        yield Step(contact.theta_i, contact.steep)
+    yield from contact.gap(clearance)
+    if clearance.normal is not None:
+        yield from (*contact.before_dry(clearance), *contact.pressing(clearance), *contact.after_dry(clearance))
+    if clearance.film is not None:
+        yield from (*contact.before_film(clearance, clearance.film), *contact.after_film(clearance.film))
+    yield from contact.resultant(clearance)
+    for equations in clearance.laws:
+        yield from (Step(result(equations, name), sp.sympify(step)) for name, step in equations.steps.items())
+
+
+def _symbols(steps: Iterable[Step]) -> Iterator[sp.Symbol]:
+    for step in steps:
+        yield step.symbol
+        yield from sp.sympify(step.value).free_symbols
