@@ -365,7 +365,7 @@ def cases() -> dict[str, Case]:
         ("rotor_elastic", "Jeffcott's rotor in short journal bearings, run up by 500 Hz/s", NOWALD, "film",
          ("bearings",), 0.5, rotors.elastic_rotor()),
         ("rotor_floating_ring", "Jeffcott's rotor in floating-ring bearings, run up by 300 Hz/s", NOWALD, "films",
-         ("outer", "inner"), 1.8, rotors.floating_ring()),
+         ("outer", "inner"), 1.0, rotors.floating_ring()),
         ("engine_bearing", "engine's main bearing, 2000 rpm, under its load", MOBILITY, "film", ("main",), 0.12,
          rotors.engine_bearing()),
         ("rotor_stator", "unbalanced rotor against an elastic stator", STATOR, "rub", ("stator",), 40e-3,
