@@ -62,7 +62,7 @@ def found(case: Case) -> Found:
     second = case.second
     _, e, force = second.run(second.start(np.array(case.guess)), times)
     own = np.stack([np.stack([run[f"{joint}.ex"], run[f"{joint}.ey"]], -1) for joint in case.joints], 1)
-    difference = abs(own - e).max(axis=(1, 2)) / case.clearance
+    difference = (abs(own - e).max(axis=2) / case.clearances).max(axis=1)
     agree = np.flatnonzero(difference > DIGITS)
     horizon = float(times[agree[0] - 1 if agree.size else -1])
     most = max(map(len, second.onsets))
@@ -75,7 +75,8 @@ def found(case: Case) -> Found:
          "difference": ("time", difference, {"units": "1", "long_name": "largest difference of e by both codes, by c"}),
          "onset": (("joint", "contact"), onset, {"units": "s", "long_name": "contacts begin"})},
         {"time": ("time", times, {"units": "s"}), "joint": list(case.joints), "axis": ["x", "y"]},
-        {"format": FORMAT, "title": case.title, "source": case.source, "horizon": horizon, "clearance": case.clearance,
+        {"format": FORMAT, "title": case.title, "source": case.source, "horizon": horizon,
+         "clearance": case.clearance if len(set(case.clearances)) == 1 else case.clearances,
          "mechanism": Path(case.file).name.removesuffix(".yaml"), "scene": case.scene, "parameters": told(case)},
     )  # fmt: skip
     return Found(case, data, peaks(case, simulation, method), told_beside(case, simulation) if case.rows else "")

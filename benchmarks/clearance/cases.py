@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.clearance import rotors
 from benchmarks.clearance.rigid import Rigid
 from benchmarks.clearance.second import Joint, Pin, Second
 from tests.oracles import dry
@@ -44,6 +45,11 @@ class Case:
     @property
     def clearance(self) -> float:
         return self.second.joints[0].law.clearance
+
+    @property
+    def clearances(self) -> np.ndarray:
+        """Of each joint, m."""
+        return np.array([joint.law.clearance for joint in self.second.joints])
 
     @property
     def is_film(self) -> bool:
@@ -299,6 +305,16 @@ SICONOS = (
     "Siconos, github.com/siconos/siconos, examples/Mechanics/FourBarLinkageWith3clearance; its numbers are those of "
     "a paper's table that it does not name"
 )
+NOWALD = (
+    "G. Nowald, github.com/gerritnowald/transient_rotordynamic, after his dissertation, TU Darmstadt 2018, "
+    "https://tuprints.ulb.tu-darmstadt.de/8186"
+)
+STATOR = "github.com/nm96/MSc_project_code, after a model of van der Heijden"
+MOBILITY = (
+    "P. Flores, Journal bearings subjected to dynamic loads: the analytical mobility method (2006), as "
+    "github.com/ibell/pdsim sets it"
+)
+LOBO = "D. Lobo and others (LAVI, COPPE-UFRJ), github.com/LoboDM/Lateral-Torsional-drill-strin-dunamics"
 GEAR, JANSEN = "github.com/PanChuguang/ALGRM-Sim: no paper is known to us", "arXiv 2606.25208 (2026)"
 
 
@@ -343,4 +359,19 @@ def cases() -> dict[str, Case]:
     found["four_bar_tracking"] = Case("four-bar led by a torque, rigid, c 5 mm in three joints", SICONOS,
                                       str(HERE / "four_bar_tracking.yaml"), "tracking", ("J1", "J2", "J3"), 1.0, guess,
                                       rigid, rows="four_bar_tracking.csv")  # fmt: skip
+    for name, title, source, scene, joints, t_end, (second, guess) in (
+        ("rotor_rigid", "rigid rotor in short journal bearings, run up by 700 Hz/s", NOWALD, "film", ("bearings",), 0.7,
+         rotors.rigid_rotor()),
+        ("rotor_elastic", "Jeffcott's rotor in short journal bearings, run up by 500 Hz/s", NOWALD, "film",
+         ("bearings",), 0.5, rotors.elastic_rotor()),
+        ("rotor_floating_ring", "Jeffcott's rotor in floating-ring bearings, run up by 300 Hz/s", NOWALD, "films",
+         ("outer", "inner"), 1.0, rotors.floating_ring()),
+        ("engine_bearing", "engine's main bearing, 2000 rpm, under its load", MOBILITY, "film", ("main",), 0.12,
+         rotors.engine_bearing()),
+        ("rotor_stator", "unbalanced rotor against an elastic stator", STATOR, "rub", ("stator",), 40e-3,
+         rotors.rotor_and_stator()),
+        ("drill_collar", "drill collar in its borehole, 105 rpm, 135 kN on the bit", LOBO, "whirl", ("borehole",), 6.0,
+         rotors.drill_collar()),
+    ):  # fmt: skip
+        found[name] = Case(title, source, str(HERE / f"{name}.yaml"), scene, joints, t_end, guess, second)
     return found

@@ -105,6 +105,7 @@ class Second:
     linkage: Linkage
     joints: list[Joint]
     rtol: float = 1e-13
+    method: str = "DOP853"
     onsets: list[list[float]] = field(default_factory=list)
     calls: int = 0
 
@@ -152,7 +153,7 @@ class Second:
         n = y.size // 2
         what = list(self._events(n))
         end = min(end, t + self._stride(y))
-        found = solve_ivp(self, (t, end), y, "DOP853", events=[event for event, _ in what], rtol=self.rtol,
+        found = solve_ivp(self, (t, end), y, self.method, events=[event for event, _ in what], rtol=self.rtol,
                           atol=self.rtol * self._sizes(y))  # fmt: skip
         if found.status < 0:
             raise ValueError(found.message)
