@@ -11,7 +11,7 @@ import sympy as sp
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.targets.latex.document import Block, cells, paragraph, table
 from gudgeon.generator.targets.latex.letters import Name, letter
-from gudgeon.generator.targets.latex.rates import by_rates
+from gudgeon.generator.targets.latex.rates import gamma_of
 from gudgeon.teaching.abbreviations import abbreviations, letters_of
 from gudgeon.teaching.motion_questions import acceleration, force, indexed, position
 from gudgeon.teaching.sheet import LONGEST, Question, Subject
@@ -132,7 +132,7 @@ def _gamma(subject: Subject) -> Question:
     numbers, solved = dict[str, float](), _new_letters(subject, "gamma")
     for k, row in subject.rows:
         numbers[row.name] = float(values[k - 1])
-        gamma = by_rates(subject.notation.expand(row.gamma), subject.model)
+        gamma = gamma_of(row, subject.model, subject.notation)
         if gamma != 0 and sp.count_ops(gamma) <= LONGEST:
             formula = subject.equation(indexed("gamma", k), gamma)
             # cases never break

@@ -16,7 +16,7 @@ from gudgeon.generator.targets.latex.document import Block, Equation, Section, c
 from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import Notation, temporaries
 from gudgeon.generator.targets.latex.pictures import pattern
-from gudgeon.generator.targets.latex.rates import by_rates
+from gudgeon.generator.targets.latex.rates import gamma_of
 from gudgeon.generator.targets.latex.theory import GAMMA, LAMBDA, NU, PHI, PHI_Q, indexed
 from gudgeon.generator.targets.latex.tokens import entry_token, owner_token, row_token
 
@@ -114,7 +114,7 @@ def _rows(model: Model, notation: Notation) -> list[Block]:
         blocks += [_phi(k, row, model, notation) for k, row in rows]
         blocks += _entries(rows, model, notation)
         nu = [notation.expand(row.nu) for _, row in rows]
-        gamma = [by_rates(notation.expand(row.gamma), model) for _, row in rows]
+        gamma = [gamma_of(row, model, notation) for _, row in rows]
         for letter, values in ((NU, nu), (GAMMA, gamma)):
             blocks += _column(letter, [k for k, _ in rows], values, own, notation)
     return blocks

@@ -10,9 +10,17 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model
+from gudgeon.generator.targets.latex.notation import Notation
 
 MOST = 1000  # operations of what is sorted
+
+
+def gamma_of(row: Row, model: Model, notation: Notation) -> sp.Expr:
+    """γ of a row as documents write it; a drive's as it follows."""
+    value = notation.expand(row.gamma)
+    return by_rates(value, model) if row.kind == "joint" else value
 
 
 def by_rates(value: sp.Expr, model: Model) -> sp.Expr:
@@ -30,6 +38,9 @@ def by_rates(value: sp.Expr, model: Model) -> sp.Expr:
 
 def _forms(rest: sp.Expr, model: Model) -> Iterator[sp.Expr]:
     """Without common factors; by the axes of a direction that turns with a body, or by a body's sine and cosine."""
+    if not rest.is_Add:
+        yield rest
+        return
     yield sp.factor_terms(rest)
     turned = sorted((s for s in rest.free_symbols if s in model.geometry.turned), key=lambda s: s.name)
     axes = [s for s in turned if not model.geometry.turned[s].point]
