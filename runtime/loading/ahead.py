@@ -22,28 +22,37 @@ if TYPE_CHECKING:
     import subprocess
 
 
-def own_lines(source: KernelSource, portable: bool) -> dict[str, tuple[str, ...]]:
+def own_lines(source: KernelSource, portable: bool, quick: bool = False) -> dict[str, tuple[str, ...]]:
     """The compiler's lines for what is a scene's own, by the names of the objects."""
     if source.cdef or not source.units:
-        return {"scene.o": unit_line(portable, [source.main], "scene.o")}
-    return dict(_part(part, portable) for part in source.units)
+        return {"scene.o": unit_line(portable, [source.main], "scene.o", quick)}
+    return dict(_part(part, portable, quick) for part in source.units)
 
 
-def shared_objects(source: KernelSource, portable: bool) -> list[Shared]:
+def shared_objects(source: KernelSource, portable: bool, quick: bool, cache: Cache) -> list[Shared]:
     """What it has in common with others: no engine where C is compiled alone."""
-    return [] if source.cdef else [engine_object(source.files[HEADER], portable)]
+    return [] if source.cdef else [_engine(source.files[HEADER], portable, quick, cache)]
 
 
-def _part(part: int, portable: bool) -> tuple[str, tuple[str, ...]]:
+def _engine(header: str, portable: bool, quick: bool, cache: Cache) -> Shared:
+    """A quick library takes the optimized one too, where it is there."""
+    optimized = engine_object(header, portable)
+    return engine_object(header, portable, quick=not optimized.is_there(portable, cache)) if quick else optimized
+
+
+def _part(part: int, portable: bool, quick: bool) -> tuple[str, tuple[str, ...]]:
     name = f"scene_{part}.o"
-    return name, unit_line(portable, [f"-DPART={part}", MAIN], name)
+    return name, unit_line(portable, [f"-DPART={part}", MAIN], name, quick)
 
 
 class Ahead:
-    """A context that nothing survives. What cannot be begun here is told where the library is made."""
+    """A context that nothing survives. What cannot be begun here is told where the library is made.
 
-    def __init__(self, portable: bool, cache: Cache | None = None) -> None:
-        self._portable, self._cache, self._programs = portable, cache, Programs()
+    quick: parts are compiled without optimization (loading/behind.py).
+    """
+
+    def __init__(self, portable: bool, cache: Cache | None = None, quick: bool = False) -> None:
+        self._portable, self._cache, self._quick, self._programs = portable, cache, quick, Programs()
         self._folder: Path | None = None
         self._begun: dict[str, tuple[tuple[str, ...], dict[str, str], subprocess.Popen[str]]] = {}
 
@@ -54,9 +63,10 @@ class Ahead:
         """A part of the scene, or the engine, of which these texts are there by now."""
         try:
             if part == ENGINE_PART:
-                self.begin_shared(engine_object(texts[HEADER], self._portable))
+                cache = self._cache or default_cache()
+                self.begin_shared(_engine(texts[HEADER], self._portable, self._quick, cache))
             else:
-                self._begin(*_part(part, self._portable), texts)
+                self._begin(*_part(part, self._portable, self._quick), texts)
         except (GudgeonError, OSError):
             return
 

@@ -16,7 +16,7 @@ from gudgeon.contract.kernel_source import ENGINE_PART, KernelSource
 from gudgeon.errors import BuildError, InputError
 from gudgeon.loading import build, shared
 from gudgeon.loading.ahead import Ahead, own_lines, shared_objects
-from gudgeon.loading.cache import LIST, _seal
+from gudgeon.loading.cache import LIST, _seal, default_cache
 from gudgeon.waiting.programs import Programs
 
 ROD = """\
@@ -115,7 +115,7 @@ def test_what_is_compiled_already_is_not_begun(own_folders: Path) -> None:
     source = pendulum()
     with Ahead(False) as early:
         early.begin(ENGINE_PART, source.files)
-        assert not early._begun and len(shared_objects(source, False)) == 1
+        assert not early._begun and len(shared_objects(source, False, False, default_cache())) == 1
         early.begin(ENGINE_PART, {"model.h": source.files["model.h"].replace("#define N_Q 3 ", "#define N_Q 4 ")})
         assert list(early._begun) == [ENGINE]
     assert list((own_folders / "tmp").iterdir()) == []
