@@ -105,6 +105,11 @@ class Ahead:
         shutil.move(found, made)
         return True
 
+    @property
+    def is_busy(self) -> bool:
+        """Whether anything is under way."""
+        return bool(self._begun)
+
     def is_under_way(self, name: str, line: tuple[str, ...], texts: Mapping[str, str]) -> bool:
         """Whether `take` may have it."""
         if name not in self._begun:

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
 from gudgeon.files.trust import Untrusted
-from gudgeon.loading.cache import Cache, is_whole
+from gudgeon.loading.cache import LOCK_SECONDS, Cache, is_whole
 from gudgeon.loading.library import Functions, Library
 from gudgeon.waiting.ctrl_c import CtrlC
 
@@ -32,6 +32,8 @@ KIND = "quick"  # of entries of the cache: the library, and the source that the 
 SOURCE = "source.json"
 OTHER = "import sys; sys.path[:] = sys.argv[2:]; from gudgeon.loading.behind import make; make(sys.argv[1])"
 NICE = 5  # the run that goes on meanwhile is what somebody waits for
+MOST = 4  # processes at once: of many scenes in a row they would pile up
+_begun: list[subprocess.Popen[bytes]] = []  # by this process
 
 
 def is_allowed(cache: Cache) -> bool:
@@ -40,6 +42,8 @@ def is_allowed(cache: Cache) -> bool:
         return False
     if getattr(sys, "frozen", False) or not Path(sys.executable or "").name.startswith(("python", "pypy")):
         return False  # a program that has Python inside, and would begin anew
+    if sum(process.poll() is None for process in _begun) >= MOST:
+        return False
     there = next(folder for folder in (cache.root, *cache.root.parents) if os.path.exists(folder))
     return os.access(there, os.W_OK)
 
@@ -63,6 +67,7 @@ class Behind:
             self._process = subprocess.Popen(
                 line, stdin=nothing, stdout=nothing, stderr=nothing, start_new_session=True
             )
+            _begun.append(self._process)
         ctrl_c.take()
         return self._process is not None
 
@@ -94,10 +99,13 @@ class Behind:
 
 def make(told: str) -> None:
     """In the other process. What goes wrong is told by the next start, which compiles it where it can be seen."""
+    from filelock import FileLock
+
     from gudgeon.loading.build import compile_kernels
 
     root, quick, portable = json.loads(told)
     os.nice(NICE)
     if is_whole(Path(quick)):
         source = KernelSource.from_json(Path(quick, SOURCE).read_bytes().decode())
-        compile_kernels(source, portable=portable, cache=Cache(root))
+        with FileLock(Path(root, "locks", "behind.lock"), timeout=LOCK_SECONDS):  # one after the other
+            compile_kernels(source, portable=portable, cache=Cache(root))

@@ -18,6 +18,8 @@ from gudgeon.loading.cache import digest
 from gudgeon.loading.engine import all_declarations, lane_declarations
 from gudgeon.waiting.imports import CFFI, whole
 
+HASTE = "its optimized library was still being compiled when the run began: it takes less time from now on"
+
 
 @dataclass(frozen=True)
 class Library:
@@ -49,12 +51,20 @@ class Functions:
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
             raise AttributeError(name)
+        library = self._libraries[-1]
         try:
-            found = getattr(self._libraries[-1], name)
+            found = getattr(library, name)
         except FFI.error as error:
             raise AttributeError(str(error)) from None
         setattr(self, name, found)
+        if library is not self._libraries[-1]:  # another thread has called `become`
+            vars(self).pop(name, None)
         return found
+
+    @property
+    def haste(self) -> str:
+        """What is to be told of times that it takes: nothing, where no better one is being made."""
+        return HASTE if self._behind else ""
 
     def follow(self, behind: Better) -> None:
         """A better library of the same texts is being made."""
@@ -78,7 +88,7 @@ class Functions:
         """
         self._libraries.append(other._libraries[-1])
         for name in [name for name in vars(self) if not name.startswith("_")]:
-            delattr(self, name)
+            vars(self).pop(name, None)
 
 
 def opened(file: Path, cdef: str = "") -> Library:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 from time import perf_counter
+from typing import TYPE_CHECKING
 
 from gudgeon.language.wanted import flag, text
 from gudgeon.loading.ahead import Ahead
@@ -12,8 +13,10 @@ from gudgeon.loading.behind import is_allowed
 from gudgeon.loading.build import compile_kernels
 from gudgeon.loading.cache import default_cache
 from gudgeon.loading.find import Loading, Overrides, find_mechanism, kernel_source, override_values, read_bytes
-from gudgeon.simulation.simulation import Simulation
 from gudgeon.waiting.imports import RUNTIME, whole
+
+if TYPE_CHECKING:
+    from gudgeon.simulation.simulation import Simulation
 
 
 def load(
@@ -70,11 +73,14 @@ def load_bytes(
             data, file, scene, overrides=overrides, formulation=formulation, regenerate=regenerate, ahead=ahead
         )
         have_source = perf_counter()
+        if ahead.is_busy:
+            whole(*RUNTIME)  # while compilers are at work
         library = compile_kernels(source, portable=portable, rebuild=regenerate, ahead=ahead, quick=quick)
     have_library = perf_counter()
 
     whole(*RUNTIME)
     from gudgeon.model.compiled import CompiledModel
+    from gudgeon.simulation.simulation import Simulation
 
     loading = Loading(origin, read - start, have_source - read, have_library - have_source, have_library - start)
     compiled = CompiledModel(source, library, portable)

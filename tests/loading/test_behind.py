@@ -37,6 +37,7 @@ FAILS = "raise SystemExit(1)"
 def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Cache:
     """An empty one; nothing is loaded yet."""
     monkeypatch.setattr(build, "_libraries", {})
+    monkeypatch.setattr(behind, "_begun", [])
     monkeypatch.setenv("GUDGEON_CACHE", str(tmp_path / "cache"))
     monkeypatch.setenv("GUDGEON_QUICK", "1")
     return Cache(tmp_path / "cache")
@@ -107,10 +108,14 @@ def test_the_other_process_makes_it(cache: Cache) -> None:
     assert same(before, simulation.simulate(0.5, output=5)) and same(before, again.simulate(0.5, output=5))
 
 
-def test_where_the_other_process_is_killed_it_is_made_here() -> None:
+def test_where_the_other_process_is_killed_it_is_made_here(
+    cache: Cache, monkeypatch: pytest.MonkeyPatch
+) -> None:
     simulation = loaded()
     other = simulation.compiled.lib._behind
     assert isinstance(other, Behind) and other._process is not None
+    monkeypatch.setattr(behind, "MOST", 1)
+    assert not is_allowed(cache)  # a second one at the same time
     os.killpg(other._process.pid, signal.SIGKILL)
     simulation.compiled.lib.best()
     assert libraries(simulation) == 2 and simulation.simulate(0.1, output=2)
