@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import tempfile
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 from weakref import finalize
@@ -27,17 +29,6 @@ def own_lines(source: KernelSource, portable: bool, quick: bool = False) -> dict
     if source.cdef or not source.units:
         return {"scene.o": unit_line(portable, [source.main], "scene.o", quick)}
     return dict(_part(part, portable, quick) for part in source.units)
-
-
-def shared_objects(source: KernelSource, portable: bool, quick: bool, cache: Cache) -> list[Shared]:
-    """What it has in common with others: no engine where C is compiled alone."""
-    return [] if source.cdef else [_engine(source.files[HEADER], portable, quick, cache)]
-
-
-def _engine(header: str, portable: bool, quick: bool, cache: Cache) -> Shared:
-    """A quick library takes the optimized one too, where it is there."""
-    optimized = engine_object(header, portable)
-    return engine_object(header, portable, quick=not optimized.is_there(portable, cache)) if quick else optimized
 
 
 def _part(part: int, portable: bool, quick: bool) -> tuple[str, tuple[str, ...]]:
@@ -63,16 +54,38 @@ class Ahead:
         """A part of the scene, or the engine, of which these texts are there by now."""
         try:
             if part == ENGINE_PART:
-                cache = self._cache or default_cache()
-                self.begin_shared(_engine(texts[HEADER], self._portable, self._quick, cache))
+                self.begin_shared(self._engine(texts[HEADER], self._quick))
             else:
                 self._begin(*_part(part, self._portable, self._quick), texts)
         except (GudgeonError, OSError):
             return
 
+    def foresee(self, header: str) -> None:
+        """The engine, optimized, of a scene that may have this model.h: a core has nothing to do in the next second."""
+        if header and (os.cpu_count() or 1) > 1:
+            with suppress(GudgeonError, OSError):
+                self.begin_shared(engine_object(header, self._portable))
+
+    def shared_objects(self, source: KernelSource, quick: bool = False) -> list[Shared]:
+        """What it has in common with others: no engine where C is compiled alone."""
+        return [] if source.cdef else [self._engine(source.files[HEADER], quick)]
+
+    def _engine(self, header: str, quick: bool) -> Shared:
+        """A quick library takes the optimized one too, where it is there or was foreseen."""
+        engine = engine_object(header, self._portable)
+        foreseen = self.is_under_way(engine.name, engine.line, engine.texts)
+        if not quick or foreseen or engine.is_there(self._portable, self._cache or default_cache()):
+            return engine
+        return engine_object(header, self._portable, quick=True)
+
     def begin_shared(self, shared: Shared) -> None:
         """What the cache does not have yet. GudgeonError or OSError where it cannot be."""
-        if shared.name not in self._begun and not shared.is_there(self._portable, self._cache or default_cache()):
+        if self.is_under_way(shared.name, shared.line, shared.texts):
+            return
+        if shared.name in self._begun:  # it was foreseen wrongly
+            self._programs.stop(self._begun.pop(shared.name)[2])
+            shutil.rmtree(self._place(shared.name))
+        if not shared.is_there(self._portable, self._cache or default_cache()):
             self._begin(shared.name, shared.line, shared.texts)
 
     def _begin(self, name: str, line: tuple[str, ...], texts: Mapping[str, str]) -> None:

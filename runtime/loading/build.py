@@ -13,7 +13,7 @@ from threading import Lock
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BuildError
 from gudgeon.loading import compiler
-from gudgeon.loading.ahead import Ahead, own_lines, shared_objects
+from gudgeon.loading.ahead import Ahead, own_lines
 from gudgeon.loading.behind import KIND, SOURCE, Behind, is_allowed
 from gudgeon.loading.cache import Cache, Make, default_cache, digest, private_cache, tell_once
 from gudgeon.loading.carried import carried
@@ -176,7 +176,7 @@ def _build(
     early = {name for name, line in lines.items() if ahead.is_under_way(name, line, source.files)}
     with Programs() as programs:
         made = [(begin(programs, line, folder), name) for name, line in lines.items() if name not in early]
-        shared = shared_objects(source, portable, quick, cache)
+        shared = ahead.shared_objects(source, quick)
         for part in shared:
             ahead.begin_shared(part)
         objects = [str(part.fetch(portable, cache, ahead, renew)) for part in shared]
