@@ -83,7 +83,7 @@ def loaded(scenes: list[str]) -> dict[tuple[str, str], Simulation]:
     """Every scene with each convention."""
     return {
         (scene, geometry): gudgeon.load(
-            MECHANISM, scene=scene, overrides={"contacts.dry.normal.geometry": geometry}
+            MECHANISM, scene=scene, overrides={"contacts.dry.normal.geometry": geometry}, quick=False,
         )
         for scene in scenes for geometry in GEOMETRY
     }  # fmt: skip

@@ -107,7 +107,7 @@ def side_by_side(repeats: int) -> None:
     """Prints the time of a step and run of rk4, alone and beside others, taken in turns."""
     print("\n  rk4, one thread                 us a step and run: alone  side by side  ratio")
     for name, scene, columns, t_end, step in BESIDE:
-        simulation = gudgeon.load(name, scene=scene)
+        simulation = gudgeon.load(name, scene=scene, quick=False)
         parameters = {address: np.linspace(*ends, BATCH) for address, ends in columns.items()}
         found, samples = [math.inf, math.inf], [b"", b""]
         for _ in range(repeats + 1):  # the first compiles
@@ -161,7 +161,7 @@ def outside(repeats: int) -> None:
     print("\n  two threads against one          CPU ms: a run  besides  in a pool  in a batch  that only hash  "
           "waiting")
     for scene, t_end in (("lubricated", 1.0), ("dry", 0.2)):
-        _outside(gudgeon.load("nine_bar_press", scene=scene), t_end, repeats)
+        _outside(gudgeon.load("nine_bar_press", scene=scene, quick=False), t_end, repeats)
 
 
 def _outside(simulation: Simulation, t_end: float, repeats: int) -> None:
@@ -198,7 +198,7 @@ def _outside(simulation: Simulation, t_end: float, repeats: int) -> None:
 
 def series(repeats: int) -> None:
     """Prints what a series of many runs takes, in threads from the states, and one by one from whole results."""
-    simulation = gudgeon.load("nine_bar_press", scene="dry")
+    simulation = gudgeon.load("nine_bar_press", scene="dry", quick=False)
     batch = simulation.simulate_many({"c": np.linspace(3e-4, 8e-4, 1000)}, 0.02, output=200)
     print(f"\n  a series of {len(batch)} runs of {len(batch.t)} samples, ms: in threads  run by run   ratio")
     for name in ("S9.y", "S9.ay", "A.F"):
@@ -229,7 +229,7 @@ def main() -> None:
         for part in (part for part, wanted in parts.items() if wanted):
             part(options.repeats)
         return
-    simulation = gudgeon.load("nine_bar_press", scene="lubricated")
+    simulation = gudgeon.load("nine_bar_press", scene="lubricated", quick=False)
     parameters = grid(options.clearances, options.speeds)
     reference = run(simulation, parameters, method="rodas5p", rtol=1e-10)
     print(f"reference differs from the race's by {confirm(simulation):.1e} of the stroke")

@@ -74,14 +74,14 @@ class Work:
 
 def works() -> list[Work]:
     """The press dry (free, and at the first contact's peak), lubricated, and Andrews' squeezer."""
-    dry, oil = (gudgeon.load("nine_bar_press", scene=scene) for scene in ("dry", "lubricated"))
+    dry, oil = (gudgeon.load("nine_bar_press", scene=scene, quick=False) for scene in ("dry", "lubricated"))
     peak = float(dry.simulate(0.01).impacts[0]["t_peak"])
     peer = Press(common_point=True)  # contact forces act where gudgeon's do
     return [
         _at("press dry, free", dry, 0.005, peer),
         _at("press dry, contact", dry, peak, peer),
         _at("press lubricated", oil, 0.1, replace(peer, film=True)),
-        _at("Andrews", gudgeon.load("andrews_squeezer"), 0.01, None),
+        _at("Andrews", gudgeon.load("andrews_squeezer", quick=False), 0.01, None),
     ]
 
 

@@ -99,7 +99,7 @@ def loaded(n: int, formulation: str) -> Simulation:
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / f"n_four_bar_{n}.yaml"
         file.write_text(yaml_text(n), encoding="utf-8")
-        return gudgeon.load(file, formulation=formulation)
+        return gudgeon.load(file, formulation=formulation, quick=False)
 
 
 def drifts(run: Result, n: int) -> tuple[float, float]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import os
 import signal
 from collections.abc import Callable, Generator
 from dataclasses import dataclass, field, replace
@@ -35,6 +36,7 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 quick.install()
+os.environ["GUDGEON_QUICK"] = "0"  # nothing is compiled behind a test, or behind programs that it starts
 
 
 def pytest_collection_finish() -> None:

@@ -165,7 +165,7 @@ def activities(folder: Path) -> list[Activity]:
         text = (MECHANISMS / "four_bar.yaml").read_text(encoding="utf-8")
         file = folder / "cold.yaml"
         file.write_text(f"{text}# {next(number)}\n", encoding="utf-8")
-        gudgeon.load(file)
+        gudgeon.load(file, quick=False)
 
     def check_cache(_: object) -> None:
         text = (MECHANISMS / "four_bar.yaml").read_text(encoding="utf-8")

@@ -65,7 +65,7 @@ class Found:
 def begin(folder: Path, words: str) -> subprocess.Popen[str]:
     """The command, in a group of its own; Ctrl-C is not ignored there whatever it is here."""
     code = "from gudgeon.entry import main; main()"
-    environment = {**os.environ, "GUDGEON_CACHE": str(folder / "cache"), "MPLBACKEND": "agg"}
+    environment = {**os.environ, "GUDGEON_CACHE": str(folder / "cache"), "MPLBACKEND": "agg", "GUDGEON_QUICK": "0"}
     return subprocess.Popen(
         [sys.executable, "-c", code, *words.split()], cwd=folder / "here", env=environment, text=True,
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,

@@ -36,7 +36,7 @@ def cases(names: list[str]) -> Iterator[tuple[str, Arrays]]:
             continue
         for scene in read_mechanism(file.read_bytes(), file.name).scenes:
             for formulation in FORMULATIONS:
-                simulation = gudgeon.load(file, scene, formulation=formulation)
+                simulation = gudgeon.load(file, scene, formulation=formulation, quick=False)
                 for method in ("auto", *simulation.compiled.source.methods):
                     where = f"{file.stem}/{scene} {formulation} {method}"
                     yield where, _found(lambda s=simulation, m=method: _run(s, m))

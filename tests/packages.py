@@ -85,6 +85,7 @@ class Place:
     def run(self, command: Sequence[str], path: str = "") -> str:
         """What it prints; raises RuntimeError with what it said where it fails."""
         bare = {"HOME": str(self.home), "PATH": f"{self.folder / 'env/bin'}{path and ':' + path}", "LC_ALL": "C.UTF-8"}
+        bare["GUDGEON_QUICK"] = "0"  # nothing goes on where the folder is taken away
         program = str(self.folder / "env/bin" / command[0])
         line = [program, *command[1:]]
         done = subprocess.run(line, cwd=self.home, env=bare, capture_output=True, text=True, check=False)

@@ -66,8 +66,8 @@ def install() -> None:
     flags, load_bytes = compiler.flags, from_file.load_bytes
 
     @wraps(flags)
-    def decided_flags(portable: bool, command: tuple[str, ...] = ()) -> tuple[str, ...]:
-        found = flags(portable, command)
+    def decided_flags(portable: bool, command: tuple[str, ...] = (), quick: bool = False) -> tuple[str, ...]:
+        found = flags(portable, command, quick)
         return plain(found) if _QUICK.get() and not _ALL_OPTIMIZED.get() else found
 
     @wraps(load_bytes)

@@ -83,6 +83,7 @@ def watched(kind: str, cache: str, arguments: list[str]) -> tuple[int, list[str]
     """One process under a sanitizer: its exit status, and the lines that tell of something."""
     compiler = f"gcc -fsanitize={kind} -fno-omit-frame-pointer -g1"
     environment = os.environ | OPTIONS | {"CC": compiler, "LD_PRELOAD": runtime(kind), "GUDGEON_CACHE": cache}
+    environment["GUDGEON_QUICK"] = "0"
     command = [sys.executable, "-m", "tests.sanitize", "--within", *arguments]
     done = subprocess.run(command, env=environment, capture_output=True, text=True)
     lines = [line for line in done.stderr.splitlines() if SAID.search(line)]

@@ -55,7 +55,7 @@ class Found:
 
 def found(case: Case) -> Found:
     """Run by both."""
-    simulation = gudgeon.load(case.file, case.scene)
+    simulation = gudgeon.load(case.file, case.scene, quick=False)
     method = "radau9" if case.is_film else "dop853"
     run = simulation.simulate(case.t_end, output=INTERVALS, parameters=case.parameters, method=method, rtol=1e-13)
     times = np.linspace(0.0, case.t_end, INTERVALS + 1)

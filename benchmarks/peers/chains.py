@@ -150,7 +150,7 @@ def loaded(n: int) -> Any:
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "links.yaml")
         file.write_text(written(n), encoding="utf-8")
-        simulation = gudgeon.load(file)
+        simulation = gudgeon.load(file, quick=False)
         return {name: simulation.of_method(name) for name in ("dop853", "taylor")}
 
 

@@ -108,7 +108,7 @@ def plain(run: Plain, measure: str) -> Callable[[float], Found]:
 @cache
 def loaded(mechanism: str, scene: str) -> Any:
     """Compiled once."""
-    return gudgeon.load(mechanism, scene=scene)
+    return gudgeon.load(mechanism, scene=scene, quick=False)
 
 
 def own_press(name: str, method: str, control: str) -> Callable[[float], Found]:

@@ -214,6 +214,12 @@ static int take_step(Run *run, const Parameters *p, const Samples *out)
     return status;
 }
 
+/* The same method here: a run may have begun in another library of the same texts (runtime/loading/behind.py). */
+static const Method *own_method(const Method *method)
+{
+    return method ? METHODS[gudgeon_method(method->name)] : NULL;
+}
+
 /*
  * Towards the last of n output times, at most `limit` steps: samples go to row `done` and on. Returns 0 (at the end,
  * or to be called again), EVENTS_FULL, STOPPED, or what went wrong.
@@ -225,6 +231,9 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
     const Parameters *p = (const Parameters *)parameters;
     const Samples out = {.n = n, .done = done, .t = t, .y = y, .latched = latched, .state = state};
     int status;
+    run->method = own_method(run->method);
+    run->implicit = own_method(run->implicit);
+    run->step.method = own_method(run->step.method);
     for (long i = 0; wants_step(run, i == limit, p, &out, &status); i++) {
         status = accepted_step(run, p, &run->step);
         if (!status)

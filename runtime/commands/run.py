@@ -65,6 +65,7 @@ class Session:
     failures: dict[str, GudgeonError] = field(default_factory=dict)
     files: Files = field(default_factory=dict)  # what was written
     unwritten: list[GudgeonError] = field(default_factory=list)
+    haste: dict[str, str] = field(default_factory=dict)  # what each scene's library says of the times that it took
     shown: bool = False
     interrupted: bool = False
 
@@ -165,6 +166,7 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
             method = "auto" if name == IDEAL and len(simulations) > 1 else request.method
             if until is None:
                 until = scene_number(simulation.source, "t_end", own[name], longest if name == IDEAL else T_END)
+            session.haste[name] = simulation.compiled.lib.haste
             try:
                 run = simulation.simulate(
                     until, output=request.output, method=method, step=step,
@@ -282,7 +284,6 @@ def _show(request: Request, source: KernelSource, reports: list[SceneReport], se
 
     if request.json:
         import json
-
         scenes = {name: told | {"beyond": beyond(session.runs[name])} for name, told in as_json(reports).items()}
         document = {"mechanism": source.mechanism, "scenes": scenes, "files": session.files}
         print(json.dumps(document, ensure_ascii=False, allow_nan=False, indent=1))
@@ -292,6 +293,7 @@ def _show(request: Request, source: KernelSource, reports: list[SceneReport], se
             console.print(table)
         runs = [(r.scene, session.runs[r.scene]) for r in reports]
         told = [f"{name}: {note}" for name, run in runs for note in (*run.diagnostics.notes, *beyond(run))]
+        told += [f"{name}: {note}" for name, note in session.haste.items() if note and name in session.runs]
         for note in dict.fromkeys(told):
             console.print(f"note: {visible(note)}")
         print("".join(f"wrote {path_text(path)}\n" for path in session.files.values()), end="")

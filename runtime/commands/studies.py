@@ -114,7 +114,7 @@ def exit_code(loaded: Sequence[Simulation], found: Sequence[Measured], interrupt
 def load_scenes(request: Request) -> list[Simulation]:
     """All scenes, and their parameters checked once before anything runs."""
     with status_line(quiet=request.json):
-        loaded = [load(request.file, scene) for scene in chosen_scenes(request.file, request.scenes)]
+        loaded = [load(request.file, scene, quick=False) for scene in chosen_scenes(request.file, request.scenes)]
     check_addresses(request.parameters, request.file, [simulation.source for simulation in loaded])
     for simulation in loaded:
         prepare(simulation.compiled, request.of(simulation))

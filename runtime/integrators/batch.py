@@ -58,6 +58,8 @@ class Runs:
         self.compiled, self.method, self.times, self.threads, self.over = compiled, method, times, threads, over
         n, N, size, nc = len(p), times.most, 2 * compiled.n + N_WORK, max(len(compiled.source.clearances), 1)
         beside = side_by_side and lanes.wanted(compiled, method, step)
+        if beside:
+            compiled.lib.best()  # whose functions are called from within lanes, for all runs
         self.lanes = Lanes(compiled) if beside and method == "rk4" else None
         self.flow = Flow(compiled) if beside and method != "rk4" else None
         self.n, self.abreast = n, max((each.count for each in (self.lanes, self.flow) if each), default=1)
@@ -200,6 +202,7 @@ class Runs:
     def alone(self, first: int, end: int, memory: NDArray[np.uint8], tape: Tape | None) -> None:
         """Runs one after the other, from where they are to their ends."""
         compiled, current = self.compiled, self.compiled.ffi.new("long *", first)
+        compiled.lib.newest()
         run = compiled.pointer(memory, "void *")
         while True:  # what has begun is handed over even where the batch is ending
             status = compiled.lib.gudgeon_many(self.struct, run, current, end)

@@ -36,6 +36,7 @@ class _Way:
 
     def __init__(self, problem: Problem) -> None:
         self.problem, self.compiled, self.t = problem, problem.compiled, problem.t
+        self.compiled.lib.newest()
         self.q, self.v, self.a = (np.zeros((len(self.t), self.compiled.n)) for _ in range(3))
         self.work = np.zeros((len(self.t), 3))
         self.q[0], self.v[0], self.a[0] = problem.q, problem.v, np.nan
@@ -68,7 +69,8 @@ class _Way:
         return self.compiled.pointer(array, kind)
 
     def look(self) -> None:
-        """Between chunks or, asked by C, within one: takes Ctrl-C, moves the progress bar."""
+        """Between chunks or, asked by C, within one: takes Ctrl-C and a better library, moves the progress bar."""
+        self.compiled.lib.newest()
         self.problem.take()
         if self.problem.progress:
             t = self.problem.t

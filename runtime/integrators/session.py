@@ -107,6 +107,7 @@ class Session:
 
         self.problem, self.compiled = problem, problem.compiled
         self.lib, self.pointer = self.compiled.lib, self.compiled.pointer
+        self.lib.newest()
         n, nc, N = self.compiled.n, len(self.compiled.source.clearances), len(problem.t) + 1  # one for an early end
         self.n, self.nc = n, nc
         self.rows_done = np.zeros(1, dtype=np.int_)  # what C has filled, whatever happens in Python
@@ -141,7 +142,8 @@ class Session:
         return int(self.rows_done[0])
 
     def look(self) -> None:
-        """Between steps or, asked by C, within one: takes Ctrl-C, moves the progress bar."""
+        """Between steps or, asked by C, within one: takes Ctrl-C and a better library, moves the progress bar."""
+        self.lib.newest()
         self.problem.take()
         if self.problem.progress:
             t = self.problem.t

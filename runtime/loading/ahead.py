@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import tempfile
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 from weakref import finalize
@@ -22,28 +24,26 @@ if TYPE_CHECKING:
     import subprocess
 
 
-def own_lines(source: KernelSource, portable: bool) -> dict[str, tuple[str, ...]]:
+def own_lines(source: KernelSource, portable: bool, quick: bool = False) -> dict[str, tuple[str, ...]]:
     """The compiler's lines for what is a scene's own, by the names of the objects."""
     if source.cdef or not source.units:
-        return {"scene.o": unit_line(portable, [source.main], "scene.o")}
-    return dict(_part(part, portable) for part in source.units)
+        return {"scene.o": unit_line(portable, [source.main], "scene.o", quick)}
+    return dict(_part(part, portable, quick) for part in source.units)
 
 
-def shared_objects(source: KernelSource, portable: bool) -> list[Shared]:
-    """What it has in common with others: no engine where C is compiled alone."""
-    return [] if source.cdef else [engine_object(source.files[HEADER], portable)]
-
-
-def _part(part: int, portable: bool) -> tuple[str, tuple[str, ...]]:
+def _part(part: int, portable: bool, quick: bool) -> tuple[str, tuple[str, ...]]:
     name = f"scene_{part}.o"
-    return name, unit_line(portable, [f"-DPART={part}", MAIN], name)
+    return name, unit_line(portable, [f"-DPART={part}", MAIN], name, quick)
 
 
 class Ahead:
-    """A context that nothing survives. What cannot be begun here is told where the library is made."""
+    """A context that nothing survives. What cannot be begun here is told where the library is made.
 
-    def __init__(self, portable: bool, cache: Cache | None = None) -> None:
-        self._portable, self._cache, self._programs = portable, cache, Programs()
+    quick: parts are compiled without optimization (loading/behind.py).
+    """
+
+    def __init__(self, portable: bool, cache: Cache | None = None, quick: bool = False) -> None:
+        self._portable, self._cache, self._quick, self._programs = portable, cache, quick, Programs()
         self._folder: Path | None = None
         self._begun: dict[str, tuple[tuple[str, ...], dict[str, str], subprocess.Popen[str]]] = {}
 
@@ -54,15 +54,38 @@ class Ahead:
         """A part of the scene, or the engine, of which these texts are there by now."""
         try:
             if part == ENGINE_PART:
-                self.begin_shared(engine_object(texts[HEADER], self._portable))
+                self.begin_shared(self._engine(texts[HEADER], self._quick))
             else:
-                self._begin(*_part(part, self._portable), texts)
+                self._begin(*_part(part, self._portable, self._quick), texts)
         except (GudgeonError, OSError):
             return
 
+    def foresee(self, header: str) -> None:
+        """The engine, optimized, of a scene that may have this model.h: a core has nothing to do in the next second."""
+        if header and (os.cpu_count() or 1) > 1:
+            with suppress(GudgeonError, OSError):
+                self.begin_shared(engine_object(header, self._portable))
+
+    def shared_objects(self, source: KernelSource, quick: bool = False) -> list[Shared]:
+        """What it has in common with others: no engine where C is compiled alone."""
+        return [] if source.cdef else [self._engine(source.files[HEADER], quick)]
+
+    def _engine(self, header: str, quick: bool) -> Shared:
+        """A quick library takes the optimized one too, where it is there or was foreseen."""
+        engine = engine_object(header, self._portable)
+        foreseen = self.is_under_way(engine.name, engine.line, engine.texts)
+        if not quick or foreseen or engine.is_there(self._portable, self._cache or default_cache()):
+            return engine
+        return engine_object(header, self._portable, quick=True)
+
     def begin_shared(self, shared: Shared) -> None:
         """What the cache does not have yet. GudgeonError or OSError where it cannot be."""
-        if shared.name not in self._begun and not shared.is_there(self._portable, self._cache or default_cache()):
+        if self.is_under_way(shared.name, shared.line, shared.texts):
+            return
+        if shared.name in self._begun:  # it was foreseen wrongly
+            self._programs.stop(self._begun.pop(shared.name)[2])
+            shutil.rmtree(self._place(shared.name))
+        if not shared.is_there(self._portable, self._cache or default_cache()):
             self._begin(shared.name, shared.line, shared.texts)
 
     def _begin(self, name: str, line: tuple[str, ...], texts: Mapping[str, str]) -> None:
@@ -94,6 +117,11 @@ class Ahead:
             return False
         shutil.move(found, made)
         return True
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether anything is under way."""
+        return bool(self._begun)
 
     def is_under_way(self, name: str, line: tuple[str, ...], texts: Mapping[str, str]) -> bool:
         """Whether `take` may have it."""

@@ -6,13 +6,15 @@ On a hit nothing but `_cffi_backend` is imported: neither cffi's parser nor subp
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 from threading import Lock
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BuildError
 from gudgeon.loading import compiler
-from gudgeon.loading.ahead import Ahead, own_lines, shared_objects
+from gudgeon.loading.ahead import Ahead, own_lines
+from gudgeon.loading.behind import KIND, SOURCE, Behind, is_allowed
 from gudgeon.loading.cache import Cache, Make, default_cache, digest, private_cache, tell_once
 from gudgeon.loading.carried import carried
 from gudgeon.loading.compiling import begin, finish
@@ -28,12 +30,13 @@ _lock = Lock()
 
 def compile_kernels(
     source: KernelSource, *, portable: bool = False, rebuild: bool = False, cache: Cache | None = None,
-    ahead: Ahead | None = None,
+    ahead: Ahead | None = None, quick: bool = False,
 ) -> Library:  # fmt: skip
     """The library of a kernel source, compiled if the cache has none; without a compiler what the wheel carries.
 
     portable: no instructions that only this CPU has. rebuild: compile even if the cache has it.
-    ahead: where parts of it may be under way already.
+    ahead: where parts of it may be under way already. quick: where nothing is there yet, a library that is compiled
+    quickly may serve while the optimized one is made (behind.py).
     Raises BuildError if there is no compiler, or if the C does not compile or load.
     """
     cache = cache or default_cache()
@@ -46,20 +49,60 @@ def compile_kernels(
     flags = (*compiler.flags(portable, command), *compiler.link_flags())
     key = library_key(source, command, flags, compiler.identity(command, cache), portable)
     with _lock:
-        if key in _libraries and not rebuild:
-            return _libraries[key]
+        known = None if rebuild else _libraries.get(key)
+    if known:
+        if not quick:
+            known.lib.best()
+        return known
 
-    def build(folder: Path) -> None:
+    def build(folder: Path, quick: bool = False, ahead: Ahead | None = ahead) -> None:
         with working(f"compiling {source.mechanism}, scene {source.scene}"), Ahead(portable, cache) as none:
-            _build(source, folder, portable, ahead or none, cache, rebuild)
+            _build(source, folder, portable, ahead or none, cache, rebuild, quick)
 
-    entry = cache.fetch("libraries", key, build, renew=rebuild)
-    try:
-        library = _open(entry, source.cdef)
-    except ImportError as error:  # whole, and yet it cannot be mapped
-        library = _open_elsewhere(key, entry, source.cdef, build, error)
+    library = _quickly(source, portable, cache, key, build) if quick and not rebuild else None
+    if library is None:
+        entry = cache.fetch("libraries", key, build, renew=rebuild)
+        try:
+            library = _open(entry, source.cdef)
+        except ImportError as error:  # whole, and yet it cannot be mapped
+            library = _open_elsewhere(key, entry, source.cdef, build, error)
     with _lock:
         return _libraries.setdefault(key, library)
+
+
+def _quickly(
+    source: KernelSource, portable: bool, cache: Cache, key: str, build: Callable[..., None]
+) -> Library | None:  # fmt: skip
+    """A quick library in place of `key`, which another process makes now; None: that one is to be waited for.
+
+    Where there was a quick one before, the optimized one is under way, or did not come: this time it is seen why.
+    """
+    if not is_allowed(cache) or cache.holds("libraries", key):
+        return None
+    command = compiler.find_compiler()
+    flags = (*compiler.flags(portable, command, quick=True), *compiler.link_flags())
+    own = library_key(source, command, flags, compiler.identity(command, cache), portable)
+    if cache.holds(KIND, own):
+        return None
+
+    def quickly(folder: Path) -> None:
+        build(folder, True)
+        for name in source.files:
+            (folder / name).unlink()
+        (folder / SOURCE).write_bytes(source.to_json().encode())
+
+    entry = cache.fetch(KIND, own, quickly)
+    if not entry.is_relative_to(cache.root):
+        return None
+    behind = Behind(cache, key, lambda folder: build(folder, ahead=None), lambda entry: _open(entry, source.cdef))
+    try:
+        library = _open(entry, source.cdef)
+    except ImportError:  # told of the optimized one
+        return None
+    if not behind.begin(entry, portable):
+        return None
+    library.lib.follow(behind)
+    return library
 
 
 def is_compiled(source: KernelSource, *, portable: bool = False) -> bool:
@@ -116,12 +159,12 @@ def _copy(entry: Path, folder: Path) -> None:
 def build_into(folder: Path, source: KernelSource, cache: Cache) -> Path:
     """A library for any processor of the kind that $CC compiles for, which may be another than this machine's."""
     with Ahead(True, cache) as none:
-        _build(source, folder, True, none, cache, False)
+        _build(source, folder, True, none, cache, False, False)
     return folder / LIBRARY
 
 
 def _build(
-    source: KernelSource, folder: Path, portable: bool, ahead: Ahead, cache: Cache, renew: bool
+    source: KernelSource, folder: Path, portable: bool, ahead: Ahead, cache: Cache, renew: bool, quick: bool
 ) -> None:  # fmt: skip
     """Write the C files into the folder, compile there what is the scene's own, and link it with what scenes share.
 
@@ -129,11 +172,11 @@ def _build(
     """
     for name, text in source.files.items():
         (folder / name).write_text(text, encoding="utf-8")
-    lines = own_lines(source, portable)
+    lines = own_lines(source, portable, quick)
     early = {name for name, line in lines.items() if ahead.is_under_way(name, line, source.files)}
     with Programs() as programs:
         made = [(begin(programs, line, folder), name) for name, line in lines.items() if name not in early]
-        shared = shared_objects(source, portable)
+        shared = ahead.shared_objects(source, quick)
         for part in shared:
             ahead.begin_shared(part)
         objects = [str(part.fetch(portable, cache, ahead, renew)) for part in shared]

@@ -79,6 +79,10 @@ class Cache:
         except (OSError, Untrusted):
             return False
 
+    def holds(self, kind: str, key: str) -> bool:
+        """Whether there is such an entry, whole or not: one look."""
+        return (self.root / kind / key).exists()
+
     def _check(self, *folders: str) -> None:
         """Untrusted if what is in the cache or these folders of it may be another user's; they need not be there.
 

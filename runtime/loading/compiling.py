@@ -22,10 +22,10 @@ FULL = {
 }  # fmt: skip
 
 
-def unit_line(portable: bool, unit: Sequence[str], made: str) -> tuple[str, ...]:
+def unit_line(portable: bool, unit: Sequence[str], made: str, quick: bool = False) -> tuple[str, ...]:
     """The line for one unit of a library: what it shares with others stays inside."""
     command = compiler.find_compiler()
-    flags = (*compiler.flags(portable, command), "-fvisibility=hidden", *include_flags())
+    flags = (*compiler.flags(portable, command, quick), "-fvisibility=hidden", *include_flags())
     return (*command, *flags, "-c", *unit, "-o", made)
 
 

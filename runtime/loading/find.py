@@ -20,7 +20,7 @@ from gudgeon.files.reading import read_named
 from gudgeon.language.wanted import mapping, number_of, path, text
 from gudgeon.loading.cache import Cache, default_cache, digest
 from gudgeon.loading.contents import contents
-from gudgeon.loading.shipped import PACKAGE, committed, room, shipped, shipped_file
+from gudgeon.loading.shipped import PACKAGE, committed, committed_header, room, shipped, shipped_file
 from gudgeon.waiting.collector import at_rest
 from gudgeon.waiting.imports import GENERATOR, READER, whole
 from gudgeon.waiting.working import working
@@ -174,6 +174,8 @@ def derived(
         from gudgeon.generator.reading import read_scene
 
         read = read_scene(data, str(file), scene, overrides, seconds)
+        if ahead and formulation == FORMULATIONS[0]:  # a copy of a shipped file mostly has its numbers alone changed
+            ahead.foresee(committed_header(read.mechanism.name, scene))
         start = perf_counter()
         whole(*GENERATOR)
         from gudgeon.generator.pipeline import equations, in_c

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from _cffi_backend import FFI
 
@@ -17,6 +17,8 @@ from gudgeon.loading import declared
 from gudgeon.loading.cache import digest
 from gudgeon.loading.engine import all_declarations, lane_declarations
 from gudgeon.waiting.imports import CFFI, whole
+
+HASTE = "its optimized library was still being compiled when the run began: it takes less time from now on"
 
 
 @dataclass(frozen=True)
@@ -28,21 +30,65 @@ class Library:
     lib: Functions
 
 
+class Better(Protocol):
+    """A library that is being made (behind.py): both give it to `become`."""
+
+    def look(self, functions: Functions) -> bool:
+        """At once, if it is there; whether it is still to come."""
+
+    def wait(self, functions: Functions) -> None:
+        """When it is there."""
+
+
 class Functions:
     """The functions of a library by name, which release the GIL; one that it does not have is an AttributeError."""
 
+    _behind: Better | None = None
+
     def __init__(self, library: Any) -> None:
-        self._library = library
+        self._libraries = [library]  # the last one is called; others stay open, for a call may be in one
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
             raise AttributeError(name)
+        library = self._libraries[-1]
         try:
-            found = getattr(self._library, name)
+            found = getattr(library, name)
         except FFI.error as error:
             raise AttributeError(str(error)) from None
         setattr(self, name, found)
+        if library is not self._libraries[-1]:  # another thread has called `become`
+            vars(self).pop(name, None)
         return found
+
+    @property
+    def haste(self) -> str:
+        """What is to be told of times that it takes: nothing, where no better one is being made."""
+        return HASTE if self._behind else ""
+
+    def follow(self, behind: Better) -> None:
+        """A better library of the same texts is being made."""
+        self._behind = behind
+
+    def newest(self) -> None:
+        """Where a better one is being made: from now on that one, if it is there."""
+        if (behind := self._behind) and not behind.look(self):
+            self._behind = None
+
+    def best(self) -> None:
+        """The same when it is there: for what takes longer than a compiler does."""
+        if behind := self._behind:
+            behind.wait(self)
+            self._behind = None
+
+    def become(self, other: Functions) -> None:
+        """From the next call on those of another library of the same texts, also where a run is under way.
+
+        Structs are laid out alike, and tables of the library that a run began in stay where they are.
+        """
+        self._libraries.append(other._libraries[-1])
+        for name in [name for name in vars(self) if not name.startswith("_")]:
+            vars(self).pop(name, None)
 
 
 def opened(file: Path, cdef: str = "") -> Library:

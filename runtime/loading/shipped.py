@@ -11,7 +11,7 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
-from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.contract.kernel_source import HEADER, KernelSource
 from gudgeon.errors import InputError, UnknownNameError
 
 PACKAGE = Path(__file__).parents[1]
@@ -103,6 +103,16 @@ def read_generated(folder: Path) -> KernelSource | None:
     except (OSError, ValueError, TypeError, KeyError):  # absent, cut short, or written by another version
         return None
     return replace(rest, files=texts) if rest.main in texts else None
+
+
+def committed_header(mechanism: str, scene: str) -> str:
+    """The model.h that is committed for a scene, whatever bytes of YAML it was made from; "" where there is none."""
+    if not (mechanism.isidentifier() and scene.isidentifier()):
+        return ""
+    try:
+        return (GENERATED / mechanism / scene / HEADER).read_text(encoding="utf-8")
+    except (OSError, ValueError):
+        return ""
 
 
 def committed(mechanism: str, scene: str, sha256: str) -> KernelSource | None:

@@ -5,13 +5,18 @@ from __future__ import annotations
 import os
 from pathlib import Path
 from time import perf_counter
+from typing import TYPE_CHECKING
 
 from gudgeon.language.wanted import flag, text
 from gudgeon.loading.ahead import Ahead
+from gudgeon.loading.behind import is_allowed
 from gudgeon.loading.build import compile_kernels
+from gudgeon.loading.cache import default_cache
 from gudgeon.loading.find import Loading, Overrides, find_mechanism, kernel_source, override_values, read_bytes
-from gudgeon.simulation.simulation import Simulation
 from gudgeon.waiting.imports import RUNTIME, whole
+
+if TYPE_CHECKING:
+    from gudgeon.simulation.simulation import Simulation
 
 
 def load(
@@ -22,6 +27,7 @@ def load(
     formulation: str = "reduced",
     portable: bool = False,
     regenerate: bool = False,
+    quick: bool = True,
 ) -> Simulation:
     """A mechanism's scene, compiled and ready to simulate.
 
@@ -30,7 +36,9 @@ def load(
     overrides: values by address that may change the structure. portable: compile for any CPU of this
     kind. formulation: what is integrated, "reduced" (coordinates of a tree) or "full" (absolute ones, with the
     Jacobian of their state equation); results are the same. regenerate: derive and compile even if the
-    cache has both.
+    cache has both. quick: what was never compiled may begin with a library that takes a third of the time to make, and
+    runs up to three times as long, while a process behind this one makes the optimized one, with which runs go on as
+    soon as it is there; numbers are the same. False: the optimized one is waited for (as GUDGEON_QUICK=0 has it).
     Raises InputError if the file is wrong, BuildError if its C cannot be compiled.
     """
     start = perf_counter()
@@ -38,9 +46,10 @@ def load(
     scene = None if scene is None else text(scene, "scene", "the name of a scene")
     formulation = text(formulation, "formulation")
     portable, regenerate = flag(portable, "portable"), flag(regenerate, "regenerate")
+    quick = flag(quick, "quick") and not regenerate
     return load_bytes(
         read_bytes(file), file, scene, overrides=overrides, formulation=formulation, portable=portable,
-        regenerate=regenerate, start=start,
+        regenerate=regenerate, quick=quick, start=start,
     )  # fmt: skip
 
 
@@ -53,21 +62,25 @@ def load_bytes(
     formulation: str = "reduced",
     portable: bool = False,
     regenerate: bool = False,
+    quick: bool = False,
     start: float | None = None,
 ) -> Simulation:
     """`load` of the bytes of a file; `start`: when reading them began (perf_counter)."""
     read = perf_counter()
     start = read if start is None else start
-    with Ahead(portable) as ahead:
+    with Ahead(portable, quick=quick and is_allowed(default_cache())) as ahead:
         source, origin = kernel_source(
             data, file, scene, overrides=overrides, formulation=formulation, regenerate=regenerate, ahead=ahead
         )
         have_source = perf_counter()
-        library = compile_kernels(source, portable=portable, rebuild=regenerate, ahead=ahead)
+        if ahead.is_busy:
+            whole(*RUNTIME)  # while compilers are at work
+        library = compile_kernels(source, portable=portable, rebuild=regenerate, ahead=ahead, quick=quick)
     have_library = perf_counter()
 
     whole(*RUNTIME)
     from gudgeon.model.compiled import CompiledModel
+    from gudgeon.simulation.simulation import Simulation
 
     loading = Loading(origin, read - start, have_source - read, have_library - have_source, have_library - start)
     compiled = CompiledModel(source, library, portable)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 import tempfile
 from collections.abc import Mapping
@@ -15,7 +16,7 @@ import gudgeon
 from gudgeon.contract.kernel_source import ENGINE_PART, KernelSource
 from gudgeon.errors import BuildError, InputError
 from gudgeon.loading import build, shared
-from gudgeon.loading.ahead import Ahead, own_lines, shared_objects
+from gudgeon.loading.ahead import Ahead, own_lines
 from gudgeon.loading.cache import LIST, _seal
 from gudgeon.waiting.programs import Programs
 
@@ -115,10 +116,42 @@ def test_what_is_compiled_already_is_not_begun(own_folders: Path) -> None:
     source = pendulum()
     with Ahead(False) as early:
         early.begin(ENGINE_PART, source.files)
-        assert not early._begun and len(shared_objects(source, False)) == 1
+        assert not early._begun and len(early.shared_objects(source)) == 1
         early.begin(ENGINE_PART, {"model.h": source.files["model.h"].replace("#define N_Q 3 ", "#define N_Q 4 ")})
         assert list(early._begun) == [ENGINE]
     assert list((own_folders / "tmp").iterdir()) == []
+
+
+def test_the_engine_of_a_copy_is_begun_before_it_is_derived(
+    own_folders: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """That of the shipped scene of the same name, once; another linkage of that name gets its own in its place."""
+    begun: list[str] = []
+    begin = Ahead._begin
+
+    def noted(early: Ahead, name: str, line: Line, texts: Mapping[str, str]) -> None:
+        begun.append("derive" if name.startswith("scene") else name)
+        begin(early, name, line, texts)
+
+    monkeypatch.setattr(Ahead, "_begin", noted)
+    monkeypatch.setattr("os.cpu_count", lambda: 2)
+    shipped, file = gudgeon.load("pendulum"), own_folders / "own.yaml"
+    engines = own_folders / "cache" / "engines"
+    shutil.rmtree(engines)
+    begun.clear()
+    file.write_text(shipped.file.read_text().replace("title: ", "title: own "))
+    run = gudgeon.load(file).simulate(0.5, output=3)
+    assert begun[:2] == [ENGINE, "derive"] and begun.count(ENGINE) == 1
+    assert (run.q == shipped.simulate(0.5, output=3).q).all()
+    shutil.rmtree(engines)
+    found = []
+    for name, number in (("pendulum", 2), ("rod", 1)):
+        begun.clear()
+        file.write_text(ROD.replace("name: rod", f"name: {name}"))
+        found.append(gudgeon.load(file).simulate(0.5, output=3).q)
+        assert begun.count(ENGINE) == number and len(list(engines.iterdir())) == 1
+        shutil.rmtree(engines)
+    assert (found[0] == found[1]).all() and list((own_folders / "tmp").iterdir()) == []
 
 
 def test_what_cannot_be_compiled_is_told_by_the_library(own_folders: Path, monkeypatch: pytest.MonkeyPatch) -> None:

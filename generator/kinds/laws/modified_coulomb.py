@@ -10,6 +10,7 @@ slip alone, so it cannot hold stick.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 from gudgeon.generator.field import Bound, number
@@ -20,12 +21,18 @@ from gudgeon.language.units import VELOCITY
 
 def build(s: LawInputs) -> dict[str, Any]:
     """F_t (N) on the journal, along t."""
-    import sympy as sp
-
     v0, v1, v_t = s.parameters["v0"], s.parameters["v1"], s.variables["v_t"]
     slope = s.derive("friction_slope", 1 / (v1 - v0), "1/(v1 - v0)")
-    forward, backward = (sp.Max(sp.Min((v - v0) * slope, 1), 0) for v in (v_t, -v_t))
+    forward, backward = (_share((v - v0) * slope) for v in (v_t, -v_t))
     return {"F_t": -s.parameters["mu"] * (forward - backward) * s.variables["F_n"]}
+
+
+@lru_cache(64)
+def _share(x: Any) -> Any:
+    """x from 0 to 1. SymPy takes a while to compare it with both, and joints of one contact ask the same."""
+    import sympy as sp
+
+    return sp.Max(sp.Min(x, 1), 0)
 
 
 LAW = Law(

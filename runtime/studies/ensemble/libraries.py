@@ -60,7 +60,7 @@ def make() -> None:
     try:
         for mechanism, scene, overrides in structures:
             with suppress(GudgeonError):
-                load(mechanism, scene, overrides=dict(overrides))
+                load(mechanism, scene, overrides=dict(overrides), quick=False)
     except SystemExit:
         os._exit(1)  # Python takes .3 s to forget what SymPy made
 
@@ -68,7 +68,7 @@ def make() -> None:
 @lru_cache(maxsize=16)
 def loaded(mechanism: str, scene: str, overrides: tuple[tuple[str, str], ...], sha256: str) -> Simulation:
     """The library of a part, in a worker's own process. Raises InputError for a file that was edited since."""
-    found = load(mechanism, scene, overrides=dict(overrides))
+    found = load(mechanism, scene, overrides=dict(overrides), quick=False)
     if found.source.whole_sha256 != sha256:
         told = f"{mechanism} was edited after the study began"
         raise InputError(told, hint="put it back as it was, or begin anew with --restart")

@@ -88,7 +88,7 @@ def _parts(study: StudyFile, structure: Sequence[Dimension]) -> Iterator[Part]:
 
 def _load(mechanism: str, scene: Text, texts: Mapping[str, Text], overrides: tuple[tuple[str, str], ...]) -> Simulation:
     try:
-        return load(mechanism, str(scene), overrides=dict(overrides))
+        return load(mechanism, str(scene), overrides=dict(overrides), quick=False)
     except InputError as error:
         file = error.where.file if error.where else ""
         address = file.removeprefix("override of ")
