@@ -6,11 +6,12 @@ import math
 
 from gudgeon.errors import BadNameError, BadValueError, ExpressionError, MissingKeyError, UnknownNameError
 from gudgeon.generator.field import LAW, OF_PENETRATION, with_dimensions
-from gudgeon.generator.format.sections import BEARING, CONTACT
+from gudgeon.generator.format.measures import BEARING, GUIDE
+from gudgeon.generator.format.sections import CONTACT
 from gudgeon.generator.format.shapes import missing_key
 from gudgeon.generator.kinds.laws.law import OWN, called
 from gudgeon.generator.kinds.laws.registered import key_of
-from gudgeon.generator.mechanism.mechanism import Bearing, Contact, LawUse, Material, Quantity, at_onset
+from gudgeon.generator.mechanism.mechanism import Bearing, Contact, Guide, LawUse, Material, Quantity, at_onset
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.extends import parents_first
 from gudgeon.generator.reader.fields import Around, check_keys, field_names, read_fields
@@ -33,13 +34,36 @@ def read_bearings(reader: Reader, root: Map, materials: Materials) -> dict[str, 
         with reader.collect():
             check_label(name, "bearing", name.where)
         own = read_fields(reader, node, BEARING.fields, Around(f"bearings.{name}")).quantities
-        pair = []
-        for role in ("bearing_material", "journal_material"):
-            with reader.collect():
-                pair.append(Material(str(node[role]), materials.take(f"bearings.{name}.{role}", node[role], ELASTIC)))
+        pair = _materials(reader, node, f"bearings.{name}", ("bearing_material", "journal_material"), materials)
         if len(pair) == 2:
             found[str(name)] = Bearing(str(name), own["radius"], own["clearance"], own["length"], pair[0], pair[1])
     return found
+
+
+def read_guides(reader: Reader, root: Map, materials: Materials) -> dict[str, Guide]:
+    """All guides whose materials are known."""
+    found = {}
+    for name, node in root.part("guides").pairs():
+        with reader.collect():
+            check_label(name, "guide", name.where)
+        own = read_fields(reader, node, GUIDE.fields, Around(f"guides.{name}")).quantities
+        pair = _materials(reader, node, f"guides.{name}", ("guide_material", "slider_material"), materials)
+        if len(pair) == 2:
+            found[str(name)] = Guide(
+                str(name), own["gap"], own["half_length"], own["half_height"], own.get("corner_radius"), *pair
+            )
+    return found
+
+
+def _materials(
+    reader: Reader, node: Map, owner: str, roles: tuple[str, str], materials: Materials
+) -> list[Material]:  # fmt: skip
+    """Those of both parts, as far as they are known."""
+    pair = []
+    for role in roles:
+        with reader.collect():
+            pair.append(Material(str(node[role]), materials.take(f"{owner}.{role}", node[role], ELASTIC)))
+    return pair
 
 
 def read_contacts(reader: Reader, root: Map) -> dict[str, Contact]:

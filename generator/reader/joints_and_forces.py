@@ -40,7 +40,7 @@ def _in_scenes(joint: Text, root: Map) -> Mapping[str, str]:
     """What to write for a joint's play, which stands in scenes, by the keys that one may try."""
     bearing, contact = (next(iter(root.part(section)), name) for section, name in _PLAY)
     line = f"scenes: {{worn: {{play: {{{joint}: {{bearing: {bearing}, contact: {contact}}}}}}}}}"
-    return dict.fromkeys(("play", "clearance", "bearing", "contact"), f"play stands in scenes: {line}")
+    return dict.fromkeys(("play", "clearance", "bearing", "guide", "contact"), f"play stands in scenes: {line}")
 
 
 _PLAY = (("bearings", "pin"), ("contacts", "metal"))

@@ -14,7 +14,7 @@ from gudgeon.generator.mechanism.mechanism import Mechanism, Quantity
 from gudgeon.generator.reader.bodies import read_bodies, read_gravity, read_ground, read_start
 from gudgeon.generator.reader.checks import check_values
 from gudgeon.generator.reader.collector import EnoughErrors, Reader, ResultDimension
-from gudgeon.generator.reader.contacts import read_bearings, read_contacts
+from gudgeon.generator.reader.contacts import read_bearings, read_contacts, read_guides
 from gudgeon.generator.reader.curves import read_curves
 from gudgeon.generator.reader.drives import read_drives
 from gudgeon.generator.reader.fields import read_number, text_of
@@ -66,7 +66,8 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
     start = read_start(reader, root, places)
     bearings, contacts = read_bearings(reader, root, materials), read_contacts(reader, root)
     events = read_events(reader, root.part("events"), "events", motion)
-    scenes = read_scenes(reader, Parts(joints, bearings, contacts, parameters, events, root, motion, materials))
+    measures = {"bearing": bearings, "guide": read_guides(reader, root, materials)}
+    scenes = read_scenes(reader, Parts(joints, measures, contacts, parameters, events, root, motion, materials))
     named = {name for section in ("joints", "drives", "forces") for name in root.part(section)}
     unread = named - {*joints, *drives, *forces} | namespace.twice
     known = ResultNames(places, joints, drives, forces, parameters, unread)

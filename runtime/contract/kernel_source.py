@@ -133,7 +133,10 @@ class EventInfo:
 
 @dataclass(frozen=True)
 class ClearanceInfo:
-    """A joint with play: journal on the second body, bearing on the first."""
+    """A joint with play: journal on the second body, bearing on the first.
+
+    Of a guide each corner of its slider is one: "guide.front_upper".
+    """
 
     name: str
     first: int
@@ -143,6 +146,16 @@ class ClearanceInfo:
     film: bool
     clearance: int  # index into p of c
     constants: Mapping[str, int]  # name -> index into p of what is worth printing: K, S, radius …
+
+    @property
+    def joint(self) -> str:
+        """The file's joint."""
+        return self.name.partition(".")[0]
+
+    @property
+    def at_wall(self) -> bool:
+        """Whether it is a slider's corner at a wall of its guide."""
+        return "." in self.name
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,7 @@ class JointType:
     kind: str
     title: str
     fields: tuple[Field, ...]  # the keys beside its own, such as `axis` of a translational joint
-    may_have_play: bool
+    play: str  # what its play is that of, a key of a scene's `play`: "bearing", "guide", or "" where it can have none
     row_names: tuple[str, ...]  # one short name a row of Φ: the row is called "<joint>.<row name>"
     row_units: tuple[str, ...]  # "m" or "rad", a row each
     rows: Callable[..., list[Any]]

@@ -105,7 +105,7 @@ def _called(program: Program) -> dict[str, list[str]]:
     """Joints by the functions of clearance.c that act in them, in their order."""
     found: defaultdict[str, list[str]] = defaultdict(list)
     for pin in program.pins:
-        parts = (f"{part}_{pin.clearance.name}" for part in ("clearance", "dry", "film"))
+        parts = (f"{part}_{pin.clearance.label}" for part in ("clearance", "dry", "film"))
         for name in (*parts, *(call.kernel.name for call in pin.laws.values())):
             found[name].append(pin.clearance.name)
     return found
@@ -125,7 +125,7 @@ def play_kernel(model: Model) -> Kernel:
         build.section(f"joint {clearance.name}")
         turning = clearance.first.omega, clearance.second.omega
         values = (*clearance.eccentricity, *clearance.eccentricity_rate, *turning)
-        values += (clearance.first.theta,) if clearance.contour else ()
+        values += clearance.also
         for name, value in zip(_motion(model, i), values, strict=True):
             build.line(Statement(name, sp.sympify(value)))
     return build.build((*STATE, PARAMETERS))
