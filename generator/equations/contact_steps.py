@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from gudgeon.generator.equations.play import Clearance, Contour, LawEquations
 from gudgeon.generator.equations.places import Wall
+from gudgeon.generator.equations.play import Clearance, Contour, LawEquations
 from gudgeon.generator.kinds.laws.law import MEAN_CLEARANCE
 
 EPSILON_MAX = 0.9999  # the film is evaluated with its eccentricity ratio capped here

@@ -16,10 +16,8 @@ import sympy as sp
 from gudgeon.generator.equations.fields import JointFields
 from gudgeon.generator.equations.geometry import Geometry, PointFrame
 from gudgeon.generator.kinds.laws.law import PairSymbols
-from gudgeon.generator.mechanism.mechanism import GROUND, Bearing, Guide, Joint
+from gudgeon.generator.mechanism.mechanism import CORNERS, Bearing, Guide, Joint
 from gudgeon.generator.symbols.numbers import Slots
-
-CORNERS = {"front_upper": (1, 1), "front_lower": (1, -1), "rear_upper": (-1, 1), "rear_lower": (-1, -1)}
 
 
 @dataclass(frozen=True)

@@ -186,6 +186,12 @@ class Bearing:
     journal_material: Material
 
 
+# Of a slider: in front, along the axis (1), or behind; at the wall to the left of the axis (1), or to its right.
+CORNERS: Mapping[str, tuple[int, int]] = {
+    "front_upper": (1, 1), "front_lower": (1, -1), "rear_upper": (-1, 1), "rear_lower": (-1, -1),
+}  # fmt: skip
+
+
 @dataclass(frozen=True)
 class Guide:
     """A block between parallel walls: gap c on each side, half-length, half-height, radius of its corners if any."""

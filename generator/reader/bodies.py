@@ -21,7 +21,8 @@ from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import Number
 from gudgeon.language.units import DIMENSIONLESS, LENGTH
 
-_OF_JOURNAL = ("e", "rate")  # keys of a start in play; the others are a slider's
+_OF_JOURNAL = ("e", "rate")  # keys of a start in play
+_OF_SLIDER = ("offset", "tilt", "offset_rate", "tilt_rate")
 # `L1.x` is a coordinate of the body: a point of that name could not be told from it
 _COORDINATES = ("x", "y", "theta", "vx", "vy", "omega", "ax", "ay", "alpha")
 
@@ -121,9 +122,10 @@ def _journals(reader: Reader, root: Map) -> dict[str, JournalStart]:
             _check_apart(joint, node, slides)
             own = read_fields(reader, node, APART.fields, Around(address))
             if slides:
-                pairs = (("offset", "tilt"), ("offset_rate", "tilt_rate"))
-                parts = ((_kept_number(reader, own.quantities, name, address, joint) for name in pair) for pair in pairs)
-                found[str(joint)] = JournalStart(*((one, other) for one, other in parts))
+                offset, tilt, offset_rate, tilt_rate = (
+                    _kept_number(reader, own.quantities, name, address, joint) for name in _OF_SLIDER
+                )
+                found[str(joint)] = JournalStart((offset, tilt), (offset_rate, tilt_rate))
                 continue
             fields = (field for field in APART.fields if field.name in _OF_JOURNAL)
             e, rate = (_kept(reader, own.vectors, field, f"{address}.{field.name}", joint) for field in fields)

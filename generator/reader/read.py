@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from gudgeon.errors import BadValueError
 from gudgeon.generator.format.overrides import apply_overrides
 from gudgeon.generator.format.sections import OUTPUT, SECTIONS
-from gudgeon.generator.mechanism.mechanism import Mechanism, Quantity
+from gudgeon.generator.mechanism.mechanism import Bearing, Guide, Mechanism, Quantity
 from gudgeon.generator.reader.bodies import read_bodies, read_gravity, read_ground, read_start
 from gudgeon.generator.reader.checks import check_values
 from gudgeon.generator.reader.collector import EnoughErrors, Reader, ResultDimension
@@ -64,9 +64,11 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
     motion = MotionNames(places, (*root.part("joints"), *root.part("forces")), drives, parameters)
     forces = read_forces(reader, root, places, namespace, motion)
     start = read_start(reader, root, places)
-    bearings, contacts = read_bearings(reader, root, materials), read_contacts(reader, root)
+    measures: dict[str, Mapping[str, Bearing | Guide]] = {
+        "bearing": read_bearings(reader, root, materials), "guide": read_guides(reader, root, materials)
+    }  # fmt: skip
+    contacts = read_contacts(reader, root)
     events = read_events(reader, root.part("events"), "events", motion)
-    measures = {"bearing": bearings, "guide": read_guides(reader, root, materials)}
     scenes = read_scenes(reader, Parts(joints, measures, contacts, parameters, events, root, motion, materials))
     named = {name for section in ("joints", "drives", "forces") for name in root.part(section)}
     unread = named - {*joints, *drives, *forces} | namespace.twice

@@ -15,7 +15,7 @@ The names depend on the scene alone; nothing is computed before somebody asks (`
 from __future__ import annotations
 
 import weakref
-from collections.abc import Callable, Container, Iterator, Mapping
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from types import MappingProxyType
@@ -209,6 +209,25 @@ def _clearances(source: KernelSource) -> Iterator[tuple[str, Series]]:
         yield f"{joint.name}.deltadot_minus", latched
 
 
+def _guides(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    """Of a joint that touches at corners: the sum of their forces."""
+    corners: dict[str, list[int]] = {}
+    for k, joint in enumerate(source.clearances):
+        if joint.at_wall:
+            corners.setdefault(joint.joint, []).append(k)
+    for name, own in corners.items():
+        on, parts = f"force on the slider, {{}}: joint {name} with play, its corners", frozenset({"clearance"})
+        for column, axis in enumerate(("x in ground axes", "y in ground axes")):
+            total = partial(_sum, corners=own, column=column)
+            yield f"{name}.F{'xy'[column]}", Series("N", on.format(axis), total, parts)
+        yield f"{name}.F", Series("N", on.format("magnitude"), partial(_magnitude, name=name), parts)
+
+
+def _sum(run: Result, corners: Sequence[int], column: int) -> Array:
+    total: Array = run.evaluation.clearance[:, corners, column].sum(axis=1)
+    return total
+
+
 def _states(source: KernelSource) -> Iterator[tuple[str, Series]]:
     """Inner states of laws, as samples remember them."""
     first = len(source.clearances) + len(source.frictions)
@@ -273,7 +292,7 @@ def _drift(source: KernelSource) -> Iterator[tuple[str, Series]]:
 
 
 # what a scene has beside motion; without masses, what does not follow from motion
-_PARTS = (_joints, _clearances, _states, _drives, _elements, _frictions, _multipliers, _balance, _drift)
+_PARTS = (_joints, _clearances, _guides, _states, _drives, _elements, _frictions, _multipliers, _balance, _drift)
 _MOTION_ALONE = (_elements, _drift)
 
 
