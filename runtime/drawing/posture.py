@@ -65,8 +65,8 @@ class Posture:
 
     @cached_property
     def clearances(self) -> Mapping[str, ClearanceInfo]:
-        """Joints with play by name."""
-        return {joint.name: joint for joint in self.source.clearances}
+        """Joints with play by name: journals, whose play is a circle."""
+        return {joint.name: joint for joint in self.source.clearances if not joint.at_wall}
 
     def parts(self, section: str, *kinds: str) -> Iterator[PartInfo]:
         """Those of a section of the file, of these kinds or of all."""

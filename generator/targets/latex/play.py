@@ -12,13 +12,13 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations
 from gudgeon.generator.field import Field
 from gudgeon.generator.kinds.laws.law import RESULTS, Law
-from gudgeon.generator.mechanism.mechanism import LawUse, Play, Quantity
+from gudgeon.generator.mechanism.mechanism import Guide, LawUse, Play, Quantity
 from gudgeon.generator.targets.latex import play_letters as contact_names
 from gudgeon.generator.targets.latex.document import Block, Section, Text, cells, paragraph, sentence, table
 from gudgeon.generator.targets.latex.kinematics import equation
 from gudgeon.generator.targets.latex.letters import Name, letter, of_latex, word
 from gudgeon.generator.targets.latex.notation import Notation, distinct
-from gudgeon.generator.targets.latex.play_words import as_word, contour, onset, rigid, told_states
+from gudgeon.generator.targets.latex.play_words import as_word, contour, corner, onset, rigid, told_states
 from gudgeon.generator.targets.latex.plots import law_plot
 from gudgeon.generator.targets.latex.trace import Functions, Trace
 from gudgeon.generator.targets.latex.values import LONGEST, Values, as_written
@@ -33,6 +33,13 @@ LAW_LETTERS = {
     "overlap": letter("l"), "deepest": letter("delta", "max"), "scale": letter("l"), "part": letter("y"),
     "gone": letter("x"), "left": letter("y"), "F_e": letter("F", "el"),
 }  # fmt: skip
+_LETTERS_AT_WALL = (("c", "c"), ("R_i", "h_i"), ("R_j", r"\rho"))
+_GUIDE = (
+    ("gap", "c", "gap on each side"),
+    ("half_length", "a", "half the slider's length"),
+    ("half_height", "b", "half the slider's height"),
+    ("corner_radius", r"\rho", "radius of the slider's corners"),
+)
 _PAIR = (
     ("radius", "R_i", "bearing radius"),
     ("clearance", "c", "radial clearance"),
@@ -45,10 +52,10 @@ class JointWithPlay:
 
     def __init__(self, model: Model, clearance: Clearance, notation: Notation, found: Functions) -> None:
         self.model, self.clearance, self.found = model, clearance, found
-        self.play = model.scene.play[clearance.name]
-        self.of = f"joint-{clearance.name}"  # tokens
+        self.play = model.scene.play[clearance.joint.name]
+        self.of = f"joint-{clearance.joint.name}"  # tokens
         self.of_law = [f"law-{self.play.contact.name}", self.of]
-        self.alike = [name for name, play in model.scene.play.items() if _alike(play, self.play)]
+        self.alike = [c.label for c in model.clearances if _alike(model.scene.play[c.joint.name], self.play)]
         self.notation = notation.called(distinct(self._names()))
         self.numbers = list(self._numbers())
 
@@ -60,11 +67,18 @@ class JointWithPlay:
     def _names(self) -> Iterator[tuple[sp.Symbol, Name]]:
         pair, constants = self.clearance.pair, self.clearance.constants
         yield from contact_names.names(self.clearance).items()
-        for symbol, sign in ((pair.c, "c"), (pair.R_i, "R_i"), (pair.R_j, "R_j"), (pair.L, "L")):
-            yield symbol, of_latex(sign)
+        wall = self.clearance.wall
+        signs = _LETTERS_AT_WALL if wall else (("c", "c"), ("R_i", "R_i"), ("R_j", "R_j"), ("L", "L"))
+        pairs = [(getattr(pair, what), sign) for what, sign in signs]
+        for symbol, sign in (*pairs, *([(wall.rise, "h_j")] if wall else [])):
+            if symbol.is_Symbol:
+                yield symbol, of_latex(sign)
         for constant in ("E", "nu"):
             i, j = getattr(pair, f"{constant}_i"), getattr(pair, f"{constant}_j")
             yield from [(i, letter(constant))] if i == j else [(i, letter(constant, "i")), (j, letter(constant, "j"))]
+        if isinstance(self.play.bearing, Guide):
+            lengths = [(getattr(self.play.bearing, field), sign) for field, sign, _ in _GUIDE]
+            yield from ((self._slot(length), of_latex(sign)) for length, sign in lengths if length is not None)
         if self.clearance.transition is not None:
             yield self.clearance.transition, letter("e", "0")
         for equations, use in self.laws():
@@ -83,12 +97,16 @@ class JointWithPlay:
     def _numbers(self) -> Iterator[tuple[Quantity, str, str]]:
         """Every number of this joint: quantity, letter if it has no slot, meaning."""
         bearing = self.play.bearing
-        for field, sign, meaning in _PAIR:
-            yield getattr(bearing, field), sign, meaning
+        for field, sign, meaning in _GUIDE if isinstance(bearing, Guide) else _PAIR:
+            if (quantity := getattr(bearing, field)) is not None:
+                yield quantity, sign, meaning
         i, j = bearing.bearing_material, bearing.journal_material
-        pieces = [(i, "", "both")] if i == j else [(i, "_i", "bearing"), (j, "_j", "journal")]
+        section, *both = ("guides", "guide", "slider") if isinstance(bearing, Guide) else (
+            "bearings", "bearing", "journal"
+        )  # fmt: skip
+        pieces = [(i, "", "both")] if i == j else [(i, "_i", both[0]), (j, "_j", both[1])]
         for material, index, what in pieces if self.clearance.normal is not None else []:
-            name = self.model.scene.materials.get(f"bearings.{bearing.name}.{what}_material", material.name)
+            name = self.model.scene.materials.get(f"{section}.{bearing.name}.{what}_material", material.name)
             yield material.numbers["E"], f"E{index}", f"modulus of elasticity of {name} ({what})"
             yield material.numbers["nu"], rf"\nu{index}", f"Poisson's ratio of {name} ({what})"
         for equations, use in self.laws():
@@ -145,15 +163,19 @@ def play_sections(model: Model, notation: Notation, found: Functions) -> list[Se
     for clearance in model.clearances:
         joint = JointWithPlay(model, clearance, notation, found)
         twin = next((name for name, play in done.items() if _alike(play, joint.play)), None)
-        title = f"Joint {clearance.name} with play"
+        what = "Corner" if clearance.wall else "Joint"
+        title = f"{what} {clearance.name} with play"
         sections.append(Section(title, tuple(_geometry(joint, twin is None)), 1, [joint.of]))
         if twin is None:
             done[clearance.name] = joint.play
             sections += _contact_sections(joint)
         else:
-            text = f"Bearing and contact are those of joint {twin}; so are letters, laws and numbers."
-            sections.append(Section(f"Joint {clearance.name}: force", (paragraph(text),), 2))
-        sections.append(Section(f"Joint {clearance.name}: share in g", tuple(_share_in_g(joint)), 2))
+            whose = f"Guide and contact are those of corner {twin}" if clearance.wall else (
+                f"Bearing and contact are those of joint {twin}"
+            )  # fmt: skip
+            text = f"{whose}; so are letters, laws and numbers."
+            sections.append(Section(f"{what} {clearance.name}: force", (paragraph(text),), 2))
+        sections.append(Section(f"{what} {clearance.name}: share in g", tuple(_share_in_g(joint)), 2))
     return sections
 
 
@@ -171,10 +193,14 @@ def _geometry(joint: JointWithPlay, first: bool) -> list[Block]:
         (contact.omega_i, clearance.first.omega),
         (contact.omega_j, clearance.second.omega),
     ]
+    ends = f"{ref.first.body}.{ref.first.point}", f"{ref.second.body}.{ref.second.point}"
     lead = paragraph(
-        f"Bearing i is {ref.first.body}.{ref.first.point}, journal j is {ref.second.body}.{ref.second.point}; "
+        f"Bearing i is {ends[0]}, journal j is {ends[1]}; "
         "the eccentricity goes from the bearing's centre to the journal's."
     )
+    if clearance.wall:
+        lead = corner(clearance.name, *ends)
+        steps += zip((contact.n_x, contact.n_y), clearance.wall.normal, strict=True)
     own: list[Block] = [equation(symbol, expand(value), notation, [joint.of]) for symbol, value in steps]
     if clearance.contour:
         own += contour(joint)
@@ -183,21 +209,24 @@ def _geometry(joint: JointWithPlay, first: bool) -> list[Block]:
 
 def _contact_sections(joint: JointWithPlay) -> list[Section]:
     clearance, name = joint.clearance, joint.clearance.name
-    sections = [Section(f"Joint {name}: numbers", tuple(_numbers(joint)), 2)]
+    what = "Corner" if clearance.wall else "Joint"
+    sections = [Section(f"{what} {name}: numbers", tuple(_numbers(joint)), 2)]
     if clearance.normal is not None:
-        sections.append(Section(f"Joint {name}: dry contact", tuple(_dry(joint)), 2))
+        sections.append(Section(f"{what} {name}: dry contact", tuple(_dry(joint)), 2))
     if clearance.film is not None:
         blocks = [*joint.shown(contact.before_film(clearance, clearance.film)), *_law(joint, "film"),
                   *joint.shown(contact.after_film(clearance.film))]  # fmt: skip
-        sections.append(Section(f"Joint {name}: film", tuple(blocks), 2))
+        sections.append(Section(f"{what} {name}: film", tuple(blocks), 2))
     if clearance.mixed is not None:
-        sections.append(Section(f"Joint {name}: mixed lubrication", tuple(_mixed(joint)), 2))
-    lead = "At the centre any direction serves as n. Force on the journal, in ground axes"
+        sections.append(Section(f"{what} {name}: mixed lubrication", tuple(_mixed(joint)), 2))
+    lead = "Force on the slider, in ground axes, and the moment about the guide's point" if clearance.wall else (
+        "At the centre any direction serves as n. Force on the journal, in ground axes"
+    )  # fmt: skip
     if clearance.normal is not None and clearance.film is not None:
         over = "is the share above" if clearance.mixed else "goes from 0 to 1 over the transition"
         lead += f"; d marks the dry part, f the film, b {over}"
     blocks = [paragraph(lead + ":"), *joint.shown(contact.resultant(clearance))]
-    return [*sections, Section(f"Joint {name}: force", tuple(blocks), 2)]
+    return [*sections, Section(f"{what} {name}: force", tuple(blocks), 2)]
 
 
 def _numbers(joint: JointWithPlay) -> list[Block]:
@@ -212,7 +241,9 @@ def _numbers(joint: JointWithPlay) -> list[Block]:
         called = of_latex(sign) if entry is None else joint.notation.math(entry.symbol)
         rows.append(cells(called, meaning, quantity.address, value, pretty(si_unit(quantity.dimension)) or "-"))
     definitions = joint.model.symbols.definitions
-    constants = dict.fromkeys([joint.clearance.pair.R_j, *joint.clearance.constants.values()])
+    wall = joint.clearance.wall
+    own = [joint.clearance.pair.R_j, *([wall.rise] if wall else [])]
+    constants = dict.fromkeys([*own, *joint.clearance.constants.values()])
     follow = [equation(s, joint.notation.expand(definitions[s]), joint.notation) for s in constants if s in definitions]
     header = cells("letter", "meaning", "address", "value in the file", "unit")
     return [*table(header, rows, (1,)), paragraph("From these follow once a run:"), *follow]

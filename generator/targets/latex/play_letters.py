@@ -16,6 +16,7 @@ from gudgeon.generator.equations.contact_steps import (
     M_j,
     a_i,
     a_j,
+    along,
     beta_i,
     beta_rate,
     de_t,
@@ -59,7 +60,7 @@ NAMES: Mapping[sp.Symbol, Name] = {
     n_y: letter("n", "y"), delta: letter("delta"), deltadot: letter("delta", dots=1), de_t: letter("e", "t", dots=1),
     stored: Name(r"\dot{\delta}^{-}", "δ̇⁻"), a_i: letter("a", "i"), a_j: letter("a", "j"), v_t: letter("v", "t"),
     epsilon: letter("epsilon"), w_n: letter("w", "n"), w_t: letter("w", "t"), share: letter("b"),
-    F_along_n: letter("F", "e"), F_x: letter("F", "x"), F_y: letter("F", "y"),
+    F_along_n: letter("F", "e"), along: letter("e", "t"), F_x: letter("F", "x"), F_y: letter("F", "y"),
     theta_i: letter("theta", "i"), beta_i: letter("beta", "i"), u_x: letter("u", "x"), u_y: letter("u", "y"),
     worn: letter("w"), worn_slope: Name("w'", "w'"), beta_rate: letter("beta", "i", dots=1), slant: letter("r"),
     steep: letter("zeta"), F_N: letter("F", "N"),
@@ -78,4 +79,6 @@ def names(clearance: Clearance) -> dict[sp.Symbol, Name]:
             found[of_part(symbol, part)] = letter(base, index + _PARTS[part] if len(parts) > 1 else index)
         if len(parts) > 1:
             found[symbol] = letter(base, index)
+    if clearance.wall:
+        found |= {M_i: letter("M", "i"), of_part(M_i, "dry"): letter("M", "i", "t")}
     return found

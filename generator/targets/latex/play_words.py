@@ -31,6 +31,18 @@ def contour(joint: JointWithPlay) -> Iterator[Block]:
     )  # fmt: skip
 
 
+def corner(name: str, guide: str, slider: str) -> Block:
+    """Which corner of a slider it is, and what its letters mean."""
+    which = name.rpartition(".")[2]
+    front, upper = "front" in which, "upper" in which
+    return paragraph(
+        f"The guide i goes through {guide}, the slider j is in its middle at {slider}. This corner is"
+        f" {'in front, along' if front else 'at the rear, against'} the axis, at the wall to the"
+        f" {'left' if upper else 'right'} of it, whose outward normal is n; (e_x, e_y) leads from the guide's point to"
+        " the centre of the corner's radius, e is what that lies nearer to the wall than in the middle."
+    )
+
+
 def rigid(joint: JointWithPlay, stored: Name) -> Block:
     """What becomes of surfaces that do not give, where they meet and while they touch."""
     assert joint.clearance.normal is not None

@@ -115,15 +115,16 @@ class _Finder:
         for kernel in (*program.closed, program.dynamics, *in_tree):
             self._function(kernel)
         for pin in program.pins:
-            contact = self.model.scene.play[pin.clearance.name].contact.name
+            joint = pin.clearance.joint.name
+            contact = self.model.scene.play[joint].contact.name
             for call in pin.laws.values():
-                own = frozenset({f"law-{contact}", f"joint-{pin.clearance.name}"})
+                own = frozenset({f"law-{contact}", f"joint-{joint}"})
                 self._whole(functions.kernel(call.kernel), own)
                 self._note(call.kernel, {})
                 for number in call.numbers:
                     self.numbers[number] |= own
             for part in pin_functions(pin, render, self.model.law_states):
-                self._whole(part.text, frozenset({f"joint-{pin.clearance.name}"}))
+                self._whole(part.text, frozenset({f"joint-{joint}"}))
                 file, stored = find_within(part.text, part.stores, self.files)
                 for one in stored:
                     self._keep(file, one, f"law.{part.name}.{{}}".format)
