@@ -207,8 +207,8 @@ SIMULATE = record(
 
 PLAY = record(
     "play", "the play in a joint",
-    name_in("bearings", "bearing", "its measures, of a revolute joint", required=False),
-    name_in("guides", "guide", "its measures, of a translational joint", required=False),
+    name_in("bearings", "bearing", "its measures, of a revolute joint", False, either="guide", otherwise="a guide"),
+    name_in("guides", "guide", "its measures, of a translational joint", False, otherwise="a bearing"),
     name_in("contacts", "contact", "its laws"),
     Field(
         "contour", DEPTHS, "how much deeper than its circle the bearing is, at equal angles from its body's x axis on;"

@@ -135,9 +135,7 @@ class ForceElement:
 @dataclass(frozen=True)
 class JournalStart:
     """Where a journal begins: eccentricity and its rate in ground axes, "start.play.A.e.x"; all four are kept.
-
-    Of a slider with play they are offset and tilt in its guide, "start.play.A.offset", and their rates.
-    """
+    Of a slider they are its offset and tilt in its guide, "start.play.A.offset", and their rates."""
 
     e: Vector
     rate: Vector
@@ -186,12 +184,6 @@ class Bearing:
     journal_material: Material
 
 
-# Of a slider: in front, along the axis (1), or behind; at the wall to the left of the axis (1), or to its right.
-CORNERS: Mapping[str, tuple[int, int]] = {
-    "front_upper": (1, 1), "front_lower": (1, -1), "rear_upper": (-1, 1), "rear_lower": (-1, -1),
-}  # fmt: skip
-
-
 @dataclass(frozen=True)
 class Guide:
     """A block between parallel walls: gap c on each side, half-length, half-height, radius of its corners if any."""
@@ -235,8 +227,6 @@ class Contact:
 
 @dataclass(frozen=True)
 class Play:
-    """A joint's play: measures, of a revolute joint a bearing, of a translational one a guide, and laws."""
-
     bearing: Bearing | Guide
     contact: Contact
     where: Location

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 from gudgeon.errors import BadNameError, BadValueError, ExpressionError, MissingKeyError, UnknownNameError
 from gudgeon.generator.field import LAW, OF_PENETRATION, with_dimensions
@@ -27,7 +28,12 @@ NO_FORCE = 1e-9  # N, what rounding may leave of a force that is 0
 _ROLES = tuple(field.name for field in CONTACT.fields if field.kind == LAW)
 
 
-def read_bearings(reader: Reader, root: Map, materials: Materials) -> dict[str, Bearing]:
+def read_measures(reader: Reader, root: Map, materials: Materials) -> dict[str, Mapping[str, Bearing | Guide]]:
+    """Bearings and guides by name, by the key under which a scene's `play` names one."""
+    return {"bearing": _bearings(reader, root, materials), "guide": _guides(reader, root, materials)}
+
+
+def _bearings(reader: Reader, root: Map, materials: Materials) -> dict[str, Bearing]:
     """All bearings whose materials are known."""
     found = {}
     for name, node in root.part("bearings").pairs():
@@ -40,7 +46,7 @@ def read_bearings(reader: Reader, root: Map, materials: Materials) -> dict[str, 
     return found
 
 
-def read_guides(reader: Reader, root: Map, materials: Materials) -> dict[str, Guide]:
+def _guides(reader: Reader, root: Map, materials: Materials) -> dict[str, Guide]:
     """All guides whose materials are known."""
     found = {}
     for name, node in root.part("guides").pairs():

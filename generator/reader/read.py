@@ -10,11 +10,11 @@ from collections.abc import Mapping
 from gudgeon.errors import BadValueError
 from gudgeon.generator.format.overrides import apply_overrides
 from gudgeon.generator.format.sections import OUTPUT, SECTIONS
-from gudgeon.generator.mechanism.mechanism import Bearing, Guide, Mechanism, Quantity
+from gudgeon.generator.mechanism.mechanism import Mechanism, Quantity
 from gudgeon.generator.reader.bodies import read_bodies, read_gravity, read_ground, read_start
 from gudgeon.generator.reader.checks import check_values
 from gudgeon.generator.reader.collector import EnoughErrors, Reader, ResultDimension
-from gudgeon.generator.reader.contacts import read_bearings, read_contacts, read_guides
+from gudgeon.generator.reader.contacts import read_contacts, read_measures
 from gudgeon.generator.reader.curves import read_curves
 from gudgeon.generator.reader.drives import read_drives
 from gudgeon.generator.reader.fields import read_number, text_of
@@ -64,10 +64,7 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
     motion = MotionNames(places, (*root.part("joints"), *root.part("forces")), drives, parameters)
     forces = read_forces(reader, root, places, namespace, motion)
     start = read_start(reader, root, places)
-    measures: dict[str, Mapping[str, Bearing | Guide]] = {
-        "bearing": read_bearings(reader, root, materials), "guide": read_guides(reader, root, materials)
-    }  # fmt: skip
-    contacts = read_contacts(reader, root)
+    measures, contacts = read_measures(reader, root, materials), read_contacts(reader, root)
     events = read_events(reader, root.part("events"), "events", motion)
     scenes = read_scenes(reader, Parts(joints, measures, contacts, parameters, events, root, motion, materials))
     named = {name for section in ("joints", "drives", "forces") for name in root.part(section)}

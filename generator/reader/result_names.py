@@ -6,8 +6,8 @@ from collections.abc import Container, Iterable, Iterator, Mapping
 
 from gudgeon.errors import BadValueError, ExpressionError, Location, UnknownNameError
 from gudgeon.generator.kinds.forces.force_type import element_types
-from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.mechanism.mechanism import CORNERS, GROUND, Drive, ForceElement, Joint
+from gudgeon.generator.kinds.joints.joint_type import CORNERS, joint_types
+from gudgeon.generator.mechanism.mechanism import GROUND, Drive, ForceElement, Joint
 from gudgeon.generator.reader.places import Places
 from gudgeon.generator.yaml.tree import Text
 from gudgeon.language.suggestions import unknown_name

@@ -177,7 +177,7 @@ def _measured(joint: Text, use: Map, parts: Parts) -> str:
         raise BadValueError(f"joint {joint} is a {kind.title}: it cannot have play", joint.where, hint)
     for other in {"bearing", "guide"} - {kind.play}:
         if other in use:
-            told = f"joint {joint} is a {kind.title}, and its play is that of a {other}"
+            told = f"joint {joint} is a {kind.title}: a {kind.play} says what play it has, no {other}"
             raise BadValueError(told, use.key(other).where, f"expected {kind.play}: one of the file's {kind.play}s")
     if kind.play not in use:
         raise missing_key(kind.play, use.where, f"the play of {joint}")

@@ -8,7 +8,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from gudgeon.assembly.linkage import Linkage
-from gudgeon.contract.kernel_source import ClearanceInfo, KernelSource
+from gudgeon.contract.clearance_info import ClearanceInfo
+from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import AssemblyError, SingularError
 from gudgeon.language.plot_units import told_apart
 from gudgeon.model.compiled import Array, CompiledModel

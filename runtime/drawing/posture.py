@@ -9,7 +9,8 @@ from functools import cached_property
 import numpy as np
 
 from gudgeon.assembly.linkage import place_of
-from gudgeon.contract.kernel_source import BodyInfo, ClearanceInfo, KernelSource, PartInfo, PointInfo
+from gudgeon.contract.clearance_info import ClearanceInfo
+from gudgeon.contract.kernel_source import BodyInfo, KernelSource, PartInfo, PointInfo
 from gudgeon.errors import GudgeonError
 from gudgeon.model.compiled import Array
 

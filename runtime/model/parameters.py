@@ -135,8 +135,7 @@ def _unplaced_journal(source: KernelSource, address: str) -> tuple[str, str]:
     placed = any(slot.address.startswith(f"start.play.{joint}.") for slot in source.slots)
     if (start, play) != ("start", "play") or joint not in able or placed:
         return "", ""
-    centred = "offset: 0 mm" if able[joint] else "e: [0 mm, 0 mm]"
-    wanted = f"start: {{play: {{{joint}: {{{centred}}}}}}}"
+    wanted = f"start: {{play: {{{joint}: {{{'offset: 0 mm' if able[joint] else 'e: [0 mm, 0 mm]'}}}}}}}"
     return f"{address}: the file's start does not say where {joint} begins", f"write {wanted}, then it can be set"
 
 

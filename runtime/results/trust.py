@@ -19,7 +19,8 @@ from gudgeon.results.film_limits import beyond
 from gudgeon.results.report import finite
 
 if TYPE_CHECKING:
-    from gudgeon.contract.kernel_source import ClearanceInfo, KernelSource
+    from gudgeon.contract.clearance_info import ClearanceInfo
+    from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.results.results import Array, Result
 
 OFF = 0.02  # of the joints' work: a quadrature that misses more of it is told

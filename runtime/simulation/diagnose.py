@@ -11,7 +11,8 @@ import numpy as np
 from gudgeon.assembly.dead_centre import dependent_rows
 from gudgeon.assembly.journals import eccentricity
 from gudgeon.assembly.linkage import mechanism_size
-from gudgeon.contract.kernel_source import ClearanceInfo, KernelSource
+from gudgeon.contract.clearance_info import ClearanceInfo
+from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import ADAPTIVE, EXPLICIT
 from gudgeon.integrators.adaptive import stiff_of
 from gudgeon.integrators.rk4 import last_step

@@ -13,6 +13,11 @@ from typing import Any
 from gudgeon.generator.field import Field
 from gudgeon.generator.kinds.discovery import declared
 
+# Of a slider with play: in front, along the axis (1), or behind; at the wall to the left of the axis (1), or the right.
+CORNERS: Mapping[str, tuple[int, int]] = {
+    "front_upper": (1, 1), "front_lower": (1, -1), "rear_upper": (-1, 1), "rear_lower": (-1, -1),
+}  # fmt: skip
+
 
 @dataclass(frozen=True)
 class JointType:

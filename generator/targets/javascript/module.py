@@ -54,7 +54,7 @@ def equations_script(program: Program) -> str:
         "numbers": {one: k for k, one in enumerate(members) if one in read},
         "rows": [place[row.name] for row in model.rows], "names": [row.name for row in model.rows],
         "given": {kernel.name: arguments(kernel) for kernel in kernels},
-        "joints": {clearance.name: _motion(model, i) for i, clearance in enumerate(model.clearances)},
+        "joints": {clearance.label: _motion(model, i) for i, clearance in enumerate(model.clearances)},
         "called": _called(program), "states": model.law_states, "bodies": [body.name for body in model.bodies],
         "closing": _closing(program),
     }  # fmt: skip
@@ -107,7 +107,7 @@ def _called(program: Program) -> dict[str, list[str]]:
     for pin in program.pins:
         parts = (f"{part}_{pin.clearance.label}" for part in ("clearance", "dry", "film"))
         for name in (*parts, *(call.kernel.name for call in pin.laws.values())):
-            found[name].append(pin.clearance.name)
+            found[name].append(pin.clearance.label)
     return found
 
 

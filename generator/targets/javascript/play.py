@@ -89,7 +89,8 @@ def _clearance(own: Pin, read: set[str]) -> list[str]:
     body = [*gap.text, _store(f"clearance_{joint}", gap.locals)]
     if own.clearance.film is None:
         acts = "latch.closed" if own.clearance.rigid else "delta > 0"
-        return [*body, f"const F = {acts} ? {dry} : {_NOTHING};", _turned("F")]
+        at_wall = "{...F, M_i: F.M_i + along * F.n}" if own.clearance.wall else "F"
+        return [*body, f"const F = {acts} ? {dry} : {_NOTHING};", _turned(at_wall)]
     if own.clearance.normal is None:
         return [*body, _turned(film)]
     kept = ", ".join(share.locals)

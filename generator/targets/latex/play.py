@@ -14,16 +14,15 @@ from gudgeon.generator.field import Field
 from gudgeon.generator.kinds.laws.law import RESULTS, Law
 from gudgeon.generator.mechanism.mechanism import Guide, LawUse, Play, Quantity
 from gudgeon.generator.targets.latex import play_letters as contact_names
-from gudgeon.generator.targets.latex.document import Block, Section, Text, cells, paragraph, sentence, table
+from gudgeon.generator.targets.latex.document import Block, Section, paragraph, sentence
 from gudgeon.generator.targets.latex.kinematics import equation
 from gudgeon.generator.targets.latex.letters import Name, letter, of_latex, word
 from gudgeon.generator.targets.latex.notation import Notation, distinct
+from gudgeon.generator.targets.latex.play_numbers import numbers
 from gudgeon.generator.targets.latex.play_words import as_word, contour, corner, onset, rigid, told_states
 from gudgeon.generator.targets.latex.plots import law_plot
+from gudgeon.generator.targets.latex.tokens import joint_tokens
 from gudgeon.generator.targets.latex.trace import Functions, Trace
-from gudgeon.generator.targets.latex.values import LONGEST, Values, as_written
-from gudgeon.language.plot_units import pretty
-from gudgeon.language.units import si_unit
 
 # What the laws call their abbreviations and constants, in the paper's letters.
 LAW_LETTERS = {
@@ -53,8 +52,8 @@ class JointWithPlay:
     def __init__(self, model: Model, clearance: Clearance, notation: Notation, found: Functions) -> None:
         self.model, self.clearance, self.found = model, clearance, found
         self.play = model.scene.play[clearance.joint.name]
-        self.of = f"joint-{clearance.joint.name}"  # tokens
-        self.of_law = [f"law-{self.play.contact.name}", self.of]
+        self.of = joint_tokens(clearance)
+        self.of_law = [f"law-{self.play.contact.name}", *self.of]
         self.alike = [c.label for c in model.clearances if _alike(model.scene.play[c.joint.name], self.play)]
         self.notation = notation.called(distinct(self._names()))
         self.numbers = list(self._numbers())
@@ -165,7 +164,7 @@ def play_sections(model: Model, notation: Notation, found: Functions) -> list[Se
         twin = next((name for name, play in done.items() if _alike(play, joint.play)), None)
         what = "Corner" if clearance.wall else "Joint"
         title = f"{what} {clearance.name} with play"
-        sections.append(Section(title, tuple(_geometry(joint, twin is None)), 1, [joint.of]))
+        sections.append(Section(title, tuple(_geometry(joint, twin is None)), 1, joint.of))
         if twin is None:
             done[clearance.name] = joint.play
             sections += _contact_sections(joint)
@@ -194,14 +193,14 @@ def _geometry(joint: JointWithPlay, first: bool) -> list[Block]:
         (contact.omega_j, clearance.second.omega),
     ]
     ends = f"{ref.first.body}.{ref.first.point}", f"{ref.second.body}.{ref.second.point}"
-    lead = paragraph(
+    lead: Block = paragraph(
         f"Bearing i is {ends[0]}, journal j is {ends[1]}; "
         "the eccentricity goes from the bearing's centre to the journal's."
     )
     if clearance.wall:
         lead = corner(clearance.name, *ends)
         steps += zip((contact.n_x, contact.n_y), clearance.wall.normal, strict=True)
-    own: list[Block] = [equation(symbol, expand(value), notation, [joint.of]) for symbol, value in steps]
+    own: list[Block] = [equation(symbol, expand(value), notation, joint.of) for symbol, value in steps]
     if clearance.contour:
         own += contour(joint)
     return [lead, *own, *(joint.shown(contact.gap(clearance)) if first else [])]
@@ -210,7 +209,7 @@ def _geometry(joint: JointWithPlay, first: bool) -> list[Block]:
 def _contact_sections(joint: JointWithPlay) -> list[Section]:
     clearance, name = joint.clearance, joint.clearance.name
     what = "Corner" if clearance.wall else "Joint"
-    sections = [Section(f"{what} {name}: numbers", tuple(_numbers(joint)), 2)]
+    sections = [Section(f"{what} {name}: numbers", tuple(numbers(joint)), 2)]
     if clearance.normal is not None:
         sections.append(Section(f"{what} {name}: dry contact", tuple(_dry(joint)), 2))
     if clearance.film is not None:
@@ -227,32 +226,6 @@ def _contact_sections(joint: JointWithPlay) -> list[Section]:
         lead += f"; d marks the dry part, f the film, b {over}"
     blocks = [paragraph(lead + ":"), *joint.shown(contact.resultant(clearance))]
     return [*sections, Section(f"{what} {name}: force", tuple(blocks), 2)]
-
-
-def _numbers(joint: JointWithPlay) -> list[Block]:
-    """The letters of this joint, and what follows from them once a run."""
-    slots, values, rows = joint.model.slots, Values(joint.model, joint.notation), []
-    for quantity, sign, meaning in joint.numbers:
-        entry = slots.entries.get(quantity.address)
-        written = f"{as_written(quantity.value)} = " if entry is not None and entry.follows else ""
-        value: Text = (_apart(quantity),) if entry is None else values.in_si(entry)
-        if entry is not None and entry.follows:
-            value = written, joint.notation.math(sp.Float(entry.default, 17))
-        called = of_latex(sign) if entry is None else joint.notation.math(entry.symbol)
-        rows.append(cells(called, meaning, quantity.address, value, pretty(si_unit(quantity.dimension)) or "-"))
-    definitions = joint.model.symbols.definitions
-    wall = joint.clearance.wall
-    own = [joint.clearance.pair.R_j, *([wall.rise] if wall else [])]
-    constants = dict.fromkeys([*own, *joint.clearance.constants.values()])
-    follow = [equation(s, joint.notation.expand(definitions[s]), joint.notation) for s in constants if s in definitions]
-    header = cells("letter", "meaning", "address", "value in the file", "unit")
-    return [*table(header, rows, (1,)), paragraph("From these follow once a run:"), *follow]
-
-
-def _apart(quantity: Quantity) -> str:
-    """What is no number of the run: 0, or an expression of the penetration, a long one where its equation stands."""
-    written = "0" if quantity.is_zero else as_written(quantity.value)
-    return written if len(written) <= LONGEST else "below"
 
 
 def _dry(joint: JointWithPlay) -> list[Block]:
@@ -311,5 +284,5 @@ def _share_in_g(joint: JointWithPlay) -> list[Block]:
         )  # fmt: skip
         for k, share in enumerate(shares, point.body.index + 1):
             left = Name(rf"\Delta g_{{{k}}}", f"Δg_{k}")
-            blocks.append(equation(left, sp.expand(notation.expand(share)), notation, [joint.of]))
+            blocks.append(equation(left, sp.expand(notation.expand(share)), notation, joint.of))
     return blocks

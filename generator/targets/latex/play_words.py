@@ -22,7 +22,7 @@ def contour(joint: JointWithPlay) -> Iterator[Block]:
     """The bearing's angle, and what W is."""
     clearance = joint.clearance
     assert clearance.contour
-    yield equation(contact.theta_i, joint.notation.expand(clearance.first.theta), joint.notation, [joint.of])
+    yield equation(contact.theta_i, joint.notation.expand(clearance.first.theta), joint.notation, joint.of)
     yield paragraph(
         f"The bearing is no circle: w is how much deeper it is, {clearance.contour.count} depths at equal angles from "
         f"the x axis of {clearance.joint.first.body} on, between them polynomials of degree five with two continuous "
