@@ -70,7 +70,7 @@ def _sizes(program: Program) -> str:
     left = f"{_count(system.q, 'coordinate')}, {_count(system.rows, 'row')}"
     return (
         f"{_count(model.bodies, 'body', 'bodies')} with {_count(model.q, 'coordinate')}, "
-        f"{_count(model.rows, 'row')} of constraints, {_count(model.clearances, 'joint')} with play. "
+        f"{_count(model.rows, 'row')} of constraints, {_count({c.joint.name for c in model.clearances}, 'joint')} with play. "
         f"What is integrated: {left if program.integrates else 'nothing, for drives say all'}."
     )
 
