@@ -83,6 +83,16 @@ scenes:
   bristles: {play: {way: {guide: slot, contact: bristles}}, simulate: {t_end: 60 ms}}
   hard: {play: {way: {guide: slot, contact: hard}}, simulate: {t_end: 0.2 s}}
 """
+FRAME = """\
+gravity: [0, -9.81 m/s^2]
+parameters: {lift: 0 mm}
+bodies: {frame: {mass: 0.5 kg, inertia: 2e-4 kg*m^2}}
+ground: {O: [10 mm, 0]}
+joints: {way: {translational: [frame.origin, ground.O], axis: [1, 0]}}
+start: {set: {frame.x: 10 mm}, play: {way: {offset: lift}}}
+contacts: {soft: {normal: {law: hertz, stiffness: 3e8, restitution: 1, dissipation: none}}}
+scenes: {soft: {play: {way: {guide: slot, contact: soft}}, simulate: {t_end: 10 ms}}}
+"""
 A, B, RHO, C = 0.03, 0.012, 0.002, 2e-4
 M, J, COM, G = 0.5, 2e-4, (4e-3, -3e-3), 9.81
 
@@ -129,6 +139,19 @@ def test_a_block_lies_on_its_lower_wall_as_the_closed_form_says(folder: Path, fo
     np.testing.assert_allclose(run["way.front_lower.Fn"] + run["way.rear_lower.Fn"], M * G, rtol=1e-9)
     assert run["way.front_upper.F"].max() == run["way.rear_upper.F"].max() == 0.0
     assert run["way.Fy"][-1] == pytest.approx(M * G, rel=1e-9)
+
+
+@pytest.mark.parametrize("formulation", ["reduced", "full"])
+def test_a_guide_hangs_on_a_slider_that_is_fixed(folder: Path, formulation: str) -> None:
+    """Both upper corners are the ground's, and carry half of the frame each on its upper wall."""
+    depth = (M * G / 2.0 / 3e8) ** (1.0 / 1.5)
+    simulation = made(folder, FRAME, "soft", formulation)
+    run = simulation.simulate(1e-3, parameters={"parameters.lift": C + depth}, rtol=1e-10)
+    assert run["frame.y"][0] == pytest.approx(-C - depth, rel=1e-12)
+    assert abs(run.a / [G, G, G / A]).max() < 1e-8
+    for corner in ("front_upper", "rear_upper"):
+        assert run[f"way.{corner}.Fn"] == pytest.approx(M * G / 2.0, rel=1e-8)
+    assert run["way.front_lower.F"].max() == run["way.rear_lower.F"].max() == 0.0
 
 
 @pytest.mark.parametrize("formulation", ["reduced", "full"])
@@ -265,6 +288,18 @@ def test_slopes_in_tree_coordinates(folder: Path) -> None:
         h = 2e-8 if k < tree.n else 1e-4 * max(1.0, abs(tree.y[k]))
         found = slope(lambda x, k=k: tree.rates(tree.t, tree.y + x * np.eye(len(tree.y))[k]), h)
         assert abs(J[:, k] - found) / scale == pytest.approx(0.0, abs=1e-5)
+
+
+def test_equations_in_numpy_are_those_in_c(folder: Path) -> None:
+    simulation = made(folder, ARM, "elastic")
+    run = simulation.simulate(2e-3, output=40)
+    own, compiled = simulation.model.numpy(), simulation.compiled
+    p, given = own.prepare(), compiled.prepare(*np.zeros((2, len(compiled.source.slots))))
+    assert (run.state > 0).any()
+    for t, q, v, latched in zip(run.t, run.q, run.v, run.memory, strict=True):
+        found = own.dynamics(t, q, v, p, latched)
+        wanted = compiled.rhs(t, np.concatenate([q, v]), given, latched)[6:12]
+        np.testing.assert_allclose(found.a, wanted, rtol=1e-9, atol=1e-9 * abs(wanted).max())
 
 
 def test_many_runs_are_the_single_ones(folder: Path) -> None:
