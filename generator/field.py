@@ -84,6 +84,7 @@ class Field:
     dimension: Dimension | None = DIMENSIONLESS  # None: any, or another key says which
     required: bool = False
     default: float | str | bool | None = None  # what the reader fills in (SI)
+    either: str = ""  # the key of which it is needed, or this one
     otherwise: str = ""  # what holds where nothing is written and nothing is filled in
     bounds: tuple[Bound, ...] = ()
     per: str = ""  # of a force by a power of a length: the key whose number is the power, and says the dimension
@@ -167,9 +168,9 @@ def body_or_ground(name: str, meaning: str) -> Field:
     return Field(name, BODY, meaning, default="ground")
 
 
-def name_in(names: str, name: str, meaning: str, required: bool = True) -> Field:
-    """A name of an entry of the section `names`."""
-    return Field(name, NAME, meaning, names=names, required=required)
+def name_in(names: str, name: str, meaning: str, required: bool = True, either: str = "", otherwise: str = "") -> Field:
+    """A name of an entry of the section `names`; where another key may stand in its place it is not `required`."""
+    return Field(name, NAME, meaning, names=names, required=required, either=either, otherwise=otherwise)
 
 
 def record(name: str, meaning: str, *fields: Field, required: bool = False) -> Field:

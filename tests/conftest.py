@@ -15,9 +15,9 @@ import pytest
 from typer.testing import CliRunner
 
 from gudgeon.cli import app
+from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import (
     BodyInfo,
-    ClearanceInfo,
     DriveInfo,
     JointInfo,
     KernelSource,

@@ -40,7 +40,7 @@ def call(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Gudgeon:
 
 
 def test_every_block_is_of_a_kind_that_is_tested() -> None:
-    assert len(blocks("c")) == len(blocks("diff")) == 1 and len(blocks("python")) == 2 and len(blocks("yaml")) == 4
+    assert len(blocks("c")) == len(blocks("diff")) == 1 and len(blocks("python")) == 2 and len(blocks("yaml")) == 5
     assert README.count("```") == 2 * sum(len(blocks(kind)) for kind in ("yaml", "sh", "python", "text", "c", "diff"))
     wanted = {"check", "draw", "run", "emit", "equations", "laws", "exercise", "bench", "map"}
     assert {shlex.split(line)[1] for line in COMMANDS} == wanted
@@ -101,6 +101,17 @@ contacts: {{dry: {{normal: {{law: hertz}}}}}}
     assert (run["A.ex"][0], run["A.ey"][0]) == pytest.approx((1e-4, -2e-4), abs=1e-15)
     assert run.parameters["bodies.disc.shape.material"] == "bronze"
     assert run.parameters["bodies.disc.mass"] == pytest.approx(8800 * 3.141592653589793 * 0.04**2 * 0.01, rel=1e-12)
+
+
+@needs_compiler
+def test_a_slider_has_play_as_it_says(tmp_path: Path) -> None:
+    """The engine with the example's guide: pressed sideways by the rod, its piston comes to the wall and is carried."""
+    (tmp_path / "engine.yaml").write_text(ENGINE.split("bearings:")[0] + blocks("yaml")[4], encoding="utf-8")
+    run = gudgeon.load(tmp_path / "engine.yaml", "worn").simulate(10e-3, output=10)
+    assert len(run.impacts) and run["piston.y"].max() < 0.11e-3 and "cylinder.front_upper.Fn" in run
+    assert run["cylinder.Fy"] == pytest.approx(sum(
+        run[f"cylinder.{end}_{wall}.Fy"] for end in ("front", "rear") for wall in ("upper", "lower")
+    ), abs=1e-12)  # fmt: skip
 
 
 @needs_compiler

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.clearance import rotors
+from benchmarks.clearance.guided import Guided
 from benchmarks.clearance.rigid import Rigid
 from benchmarks.clearance.second import Joint, Pin, Second
 from tests.oracles import dry
@@ -295,6 +296,23 @@ def four_bar() -> tuple[Rigid, list[float]]:
     return Rigid(linkage, [Joint(Play(one, two, law), law) for one, two in ends]), guess
 
 
+def slider_in_guide() -> tuple[Guided, list[float]]:
+    """Crank, rod, slider; let go at 150 rad/s with all on one line. Corners in gudgeon's order."""
+    lengths, speed = (0.153, 0.306), 150.0
+    links, slider = Chain(dict(enumerate(lengths))), End(2, (0.0, 0.0))
+    joints = (pin((0.0, 0.0), links.tail(0)), Revolute(links.head(0), links.tail(1)), Revolute(links.head(1), slider))
+    bodies = (Body(0.038, 7.4e-5), Body(0.038, 5.9e-4), Body(0.076, 2.7e-6))
+    linkage = Linkage(bodies, joints, gravity=(0.0, -9.81))
+    law = Pin(radius=0.026, clearance=1e-3, mu=0.01, v0=1e-3)
+    corners = [(front, upper) for front in (1, -1) for upper in (1, -1)]
+    plays = [Joint(Play(End(GROUND, (0.0, 0.0)), End(2, (0.05 * front, 0.025 * upper)), law), law)
+             for front, upper in corners]  # fmt: skip
+    start = [0.0765, 0.0, 0.0, 0.306, 0.0, 0.0, 0.459, 0.0, 0.0]
+    rates = [0.0, 0.0765 * speed, speed, 0.0, 0.0765 * speed, -0.5 * speed, 0.0, 0.0, 0.0]
+    upper = tuple(side for _, side in corners)
+    return Guided(linkage, plays, upper=upper, half=0.025, restitution=0.4), start + rates
+
+
 CHEN = "X. Chen, S. Gao, T. Wang, Nonlinear Dynamics (2022), doi 10.1007/s11071-022-07478-4"
 FLORES = "P. Flores and others, Mechanism and Machine Theory 41 (2006) 247, doi 10.1016/j.mechmachtheory.2005.10.002"
 WORN = (
@@ -315,6 +333,10 @@ MOBILITY = (
     "github.com/ibell/pdsim sets it"
 )
 LOBO = "D. Lobo and others (LAVI, COPPE-UFRJ), github.com/LoboDM/Lateral-Torsional-drill-strin-dunamics"
+GUIDE = (
+    "P. Flores, R. Leine, C. Glocker, Multibody System Dynamics 23 (2010) 165, doi 10.1007/s11044-009-9178-y, as "
+    "Siconos sets it: github.com/siconos/siconos, examples/Mechanics/SliderCrank"
+)
 GEAR, JANSEN = "github.com/PanChuguang/ALGRM-Sim: no paper is known to us", "arXiv 2606.25208 (2026)"
 
 
@@ -374,4 +396,9 @@ def cases() -> dict[str, Case]:
          rotors.drill_collar()),
     ):  # fmt: skip
         found[name] = Case(title, source, str(HERE / f"{name}.yaml"), scene, joints, t_end, guess, second)
+    guided, guess = slider_in_guide()
+    corners = tuple(f"guide.{end}_{wall}" for end in ("front", "rear") for wall in ("upper", "lower"))
+    found["slider_crank_guide"] = Case("slider-crank let go, rigid, 1 mm beside the slider in its guide", GUIDE,
+                                       str(HERE / "slider_crank_guide.yaml"), "free", corners, 0.2, guess,
+                                       guided, rows="slider_crank_guide.csv")  # fmt: skip
     return found

@@ -25,9 +25,13 @@ typedef struct {
     double way[N_RIGID][MOST_RATES];  /* rates that it adds, each unit a newton */
 } Answer;
 
-/* delta'' from e . e'' + e' . e' = e e'' + e'^2. */
+/* delta'' from e . e'' + e' . e' = e e'' + e'^2; of a corner at a wall it is known. */
 static double outward_rate(const Clearance *joint)
 {
+#ifdef WALLS
+    if (joint->at_wall)
+        return joint->half_square_rate;
+#endif
     return (joint->half_square_rate - joint->deltadot * joint->deltadot) / joint->e;
 }
 

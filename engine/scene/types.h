@@ -133,6 +133,9 @@ typedef struct {
 #endif
 #if N_RIGID
     double half_square_rate;             /* e . e'' + e' . e', m^2/s^2; where surfaces do not give */
+#ifdef WALLS
+    int at_wall;                         /* then half_square_rate is delta'' itself, m/s^2 */
+#endif
 #endif
 } Clearance;
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from gudgeon.generator.equations.places import Wall
 from gudgeon.generator.equations.play import Clearance, Contour, LawEquations
 from gudgeon.generator.kinds.laws.law import MEAN_CLEARANCE
 
@@ -40,6 +41,7 @@ theta_i, beta_i, u_x, u_y, worn, worn_slope = map(
     _symbol, ("theta_i", "beta_i", "u_x", "u_y", "worn", "worn_slope")
 )  # fmt: skip
 beta_rate, slant, steep, F_N = map(_symbol, ("beta_rate", "slant", "steep", "F_N"))
+along = _symbol("along")  # of a slider's corner: where it is along its guide
 de_n, across, lean = map(_symbol, ("de_n", "across", "lean"))  # rates along e and across it, w′/e
 
 
@@ -52,6 +54,8 @@ def gap(clearance: Clearance) -> list[Step]:
     """Eccentricity's length, normal, penetration and their rates; t is n turned by +90°."""
     if clearance.contour:
         return _gap_of_contour(clearance, clearance.contour)
+    if clearance.wall:
+        return _gap_at_wall(clearance, clearance.wall)
     return [
         Step(e, sp.sqrt(e_x**2 + e_y**2)),
         Step(n_x, e_x / e),
@@ -85,6 +89,26 @@ def _gap_of_contour(clearance: Clearance, contour: Contour) -> list[Step]:
         Step(n_y, (e_y - worn_slope * u_x) / slant),
         Step(de_t, de_y * n_x - de_x * n_y),
     ]
+
+
+def _gap_at_wall(clearance: Clearance, wall: Wall) -> list[Step]:
+    """Of a slider's corner at a wall of its guide, whose outward normal n turns with the guide: ṅ = ω_i t.
+
+    e_x, e_y lead from the guide's point to the centre of the corner's radius; e is what that lies nearer to the wall
+    than in the middle of the guide.
+    """
+    return [
+        Step(along, e_y * n_x - e_x * n_y),
+        Step(e, e_x * n_x + e_y * n_y - wall.rise),
+        Step(delta, e - clearance.pair.c),
+        Step(deltadot, de_x * n_x + de_y * n_y + omega_i * along),
+        Step(de_t, de_y * n_x - de_x * n_y),
+    ]
+
+
+def penetration(clearance: Clearance) -> Step:
+    """The penetration, of all but contours by e alone."""
+    return next(step for step in gap(clearance) if step.symbol == delta)
 
 
 def gap_by_angle(clearance: Clearance) -> list[Step]:
@@ -131,6 +155,11 @@ def after_dry(clearance: Clearance) -> list[Step]:
         Step(of_part(M_i, "dry"), -a_i * tangential + aside),
         Step(of_part(M_j, "dry"), a_j * tangential),
     ]
+
+
+def at_wall(F_n: sp.Expr) -> Step:
+    """The moment about the guide's point: what acts there, and the force along n by where the corner is."""
+    return Step(M_i, of_part(M_i, "dry") - along * F_n)
 
 
 def before_film(clearance: Clearance, film: LawEquations) -> list[Step]:
@@ -183,6 +212,7 @@ def resultant(clearance: Clearance) -> list[Step]:
     else:
         along = normal if dry else radial
     tangential = F_along_t if dry and film else of_part(F_along_t, "dry" if dry else "film")
+    steps += [at_wall(_symbol("F_n"))] if clearance.wall else []
     return [*steps, Step(F_x, along * n_x - tangential * n_y), Step(F_y, along * n_y + tangential * n_x)]
 
 
@@ -191,4 +221,6 @@ def moments(clearance: Clearance) -> tuple[sp.Symbol, sp.Symbol]:
     if clearance.normal is not None and clearance.film is not None:
         return M_i, M_j
     part = "film" if clearance.normal is None else "dry"
+    if clearance.wall:
+        return M_i, of_part(M_j, part)
     return of_part(M_i, part), of_part(M_j, part)

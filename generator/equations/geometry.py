@@ -189,6 +189,26 @@ class Geometry:
             self.turned[x], self.turned[y] = (Turned(body.name, point, axis, number) for axis in ("x", "y"))
         return self._turned[body.name, *s]
 
+    def beside(self, ref: PointRef, offset: tuple[sp.Expr, sp.Expr], wanted: str) -> PointFrame:
+        """The frame of what lies beside a named point, by an offset in its body's frame; `wanted` names it."""
+        s = self._beside(ref, offset, wanted)
+        if ref.body == GROUND:
+            return PointFrame(self, None, s)
+        body = self.bodies[ref.body]
+        return PointFrame(self, body, self.turn(body, s, f"arm_{wanted}"))
+
+    def _beside(self, ref: PointRef, offset: tuple[sp.Expr, sp.Expr], wanted: str) -> tuple[sp.Expr, sp.Expr]:
+        """The same from the centre of mass, or on the ground; the opposite of another one is its negative."""
+        if ref.body == GROUND:
+            of = self.ground_vector(self.mechanism.ground[ref.point]) if ref.point else (ZERO, ZERO)
+        else:
+            of = self.local[ref.body, ref.point]
+        x, y = (
+            more if own == 0 else self.slots.derive_signed(f"{wanted}_{axis}", own + more, "corner of a slider")
+            for axis, own, more in zip("xy", of, offset, strict=True)
+        )
+        return x, y
+
     def point(self, ref: PointRef) -> PointFrame:
         """The frame of a named point."""
         if ref.body == GROUND:

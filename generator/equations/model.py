@@ -20,7 +20,7 @@ from gudgeon.generator.equations.geometry import BodySymbols, Geometry
 from gudgeon.generator.equations.lettered import lettered
 from gudgeon.generator.equations.loads import AppliedElement, apply_element
 from gudgeon.generator.equations.own_laws import own_letters
-from gudgeon.generator.equations.play import Clearance, make_clearance
+from gudgeon.generator.equations.play import Clearance, make_clearances
 from gudgeon.generator.ir.finite_slopes import as_written
 from gudgeon.generator.mechanism.scene import Scene
 from gudgeon.generator.symbols.numbers import Slots
@@ -201,7 +201,11 @@ def make_model(scene: Scene) -> Model:
     )
     rows = [row for joint in mechanism.joints.values() for row in constraints.joint_rows(joint)]
     rows += [row for drive in mechanism.drives.values() for row in constraints.drive_rows(drive)]
-    clearances = [make_clearance(mechanism.joints[name], play, geometry, slots) for name, play in scene.play.items()]
+    clearances = [
+        clearance
+        for name, play in scene.play.items()
+        for clearance in make_clearances(mechanism.joints[name], play, geometry, slots)
+    ]
     gravity = geometry.ground_vector(mechanism.gravity) if mechanism.gravity else (sp.Integer(0), sp.Integer(0))
     elements = {e.name: apply_element(e, geometry, constraints.t) for e in mechanism.forces.values()}
     pairs = [(q, v) for body in geometry.bodies.values() for q, v in zip(body.q, body.v, strict=True)]

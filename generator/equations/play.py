@@ -12,9 +12,10 @@ from gudgeon.generator.equations.force_law import force_of
 from gudgeon.generator.equations.geometry import Geometry, PointFrame
 from gudgeon.generator.equations.loads import PointLoad
 from gudgeon.generator.equations.own_laws import check_numbers, number_of
+from gudgeon.generator.equations.places import Place, Wall, places_of
 from gudgeon.generator.kinds.laws.built import build
 from gudgeon.generator.kinds.laws.law import DEEPEST, MEAN_CLEARANCE, OWN, Law, LawInputs, PairSymbols, State, laws
-from gudgeon.generator.mechanism.mechanism import Bearing, Joint, LawUse, Play
+from gudgeon.generator.mechanism.mechanism import Joint, LawUse, Play
 from gudgeon.generator.symbols.contours import contour_of
 from gudgeon.generator.symbols.numbers import Slots
 from gudgeon.generator.symbols.wholes import Whole
@@ -59,9 +60,13 @@ class Contour:
 
 @dataclass(frozen=True)
 class Clearance:
-    """Bearing i on the first body, journal j on the second; e = r_j − r_i, all in ground axes."""
+    """Bearing i on the first body, journal j on the second; e = r_j − r_i, all in ground axes.
+
+    Of a guide each corner of its slider is one, "guide.front_upper"; `label` is its name in code.
+    """
 
     name: str
+    label: str
     joint: Joint
     first: PointFrame
     second: PointFrame
@@ -75,6 +80,7 @@ class Clearance:
     clip_ratio: bool
     constants: Mapping[str, sp.Expr]  # what a report prints: K, S, …
     contour: Contour | None = None
+    wall: Wall | None = None
 
     @property
     def laws(self) -> tuple[LawEquations, ...]:
@@ -90,6 +96,13 @@ class Clearance:
     def states(self) -> tuple[State, ...]:
         """Inner states of its laws: only those of friction have any so far."""
         return self.friction.law.states if self.friction else ()
+
+    @property
+    def also(self) -> tuple[sp.Expr, ...]:
+        """What its functions are given of the motion besides eccentricity, its rate and angular velocities."""
+        if self.wall is not None:
+            return self.wall.normal
+        return (self.first.theta,) if self.contour else ()
 
     @property
     def eccentricity(self) -> tuple[sp.Expr, sp.Expr]:
@@ -110,10 +123,16 @@ class Clearance:
         return F[0] * edot[0] + F[1] * edot[1] + turning
 
 
-def make_clearance(joint: Joint, play: Play, geometry: Geometry, slots: Slots) -> Clearance:
-    """The equations of one joint with play."""
+def make_clearances(joint: Joint, play: Play, geometry: Geometry, slots: Slots) -> list[Clearance]:
+    """The equations of one joint with play, at each place of contact."""
+    made = [_clearance(joint, play, slots, place) for place in places_of(joint, play.bearing, geometry, slots)]
+    return [replace(one, contour=_contour(joint, play, slots)) for one in made]
+
+
+def _clearance(joint: Joint, play: Play, slots: Slots, place: Place) -> Clearance:
+    """The equations at one place of contact."""
     constants: dict[str, sp.Expr] = {}
-    pair = _pair(joint.name, play.bearing, slots)
+    pair = place.pair
 
     def derive(name: str, expression: sp.Expr, meaning: str) -> sp.Expr:
         # named after what it is made of: joints with the same bearing and contact share it
@@ -121,7 +140,7 @@ def make_clearance(joint: Joint, play: Play, geometry: Geometry, slots: Slots) -
         constants[name] = slots.derive(wanted, expression, meaning)
         return constants[name]
 
-    def law(use: LawUse | None, of: PairSymbols = pair) -> LawEquations | None:
+    def law(use: LawUse | None, of: PairSymbols = place.of_laws) -> LawEquations | None:
         return None if use is None else _law(use, of, slots, derive)
 
     contact = play.contact
@@ -135,9 +154,8 @@ def make_clearance(joint: Joint, play: Play, geometry: Geometry, slots: Slots) -
     transition = slots.use(contact.transition) if contact.transition is not None else None
     constants["c"], constants["R_i"], constants["R_j"] = pair.c, pair.R_i, pair.R_j
     return Clearance(
-        joint.name, joint, geometry.point(joint.first), geometry.point(joint.second),
-        pair, normal, friction, film, transition, mixed, floor, contact.clip_ratio, constants,
-        _contour(joint, play, slots),
+        place.name, place.label, joint, place.first, place.second,
+        pair, normal, friction, film, transition, mixed, floor, contact.clip_ratio, constants, wall=place.wall,
     )  # fmt: skip
 
 
@@ -145,16 +163,6 @@ def _contour(joint: Joint, play: Play, slots: Slots) -> Contour | None:
     if not play.contour:
         return None
     return Contour(slots.table(f"contour_{joint.name}", play.contour), len(play.contour))
-
-
-def _pair(name: str, bearing: Bearing, slots: Slots) -> PairSymbols:
-    R_i, c = slots.use(bearing.radius), slots.use(bearing.clearance)
-    R_j = slots.derive(f"R_j_{bearing.name}", R_i - c, "journal radius")
-    i, j = bearing.bearing_material.numbers, bearing.journal_material.numbers
-    return PairSymbols(
-        R_i, R_j, c, slots.use(bearing.length),
-        slots.use(i["E"]), slots.use(i["nu"]), slots.use(j["E"]), slots.use(j["nu"]),
-    )  # fmt: skip
 
 
 def _law(use: LawUse, pair: PairSymbols, slots: Slots, derive: Derive) -> LawEquations:

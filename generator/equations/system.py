@@ -89,6 +89,13 @@ class System:
         )
         return x - theta * arm_y - omega**2 * arm_x, y + theta * arm_x - omega**2 * arm_y
 
+    def turning(self, point: PointFrame, a: Mapping[int, sp.Expr]) -> sp.Expr:
+        """θ̈ of a point's body at accelerations a of the coordinates."""
+        if point.body is None:
+            return ZERO
+        motion = self.motions[point.body.name]
+        return sp.Add(*(entry * a[k] for k, entry in motion.jacobian[2].items()), motion.bias[2])
+
 
 def absolute(model: Model) -> System:
     """The system in the model's own coordinates, three a body."""

@@ -30,6 +30,7 @@ from gudgeon.generator.field import (
     vector,
     word,
 )
+from gudgeon.generator.format.measures import BEARING, GUIDE
 from gudgeon.generator.kinds.drives import DRIVES
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
@@ -153,27 +154,6 @@ BODY = record(
     SHAPE,
 )  # fmt: skip
 
-BEARING = record(
-    "bearing", "a pin in a hole",
-    number(
-        "radius", "radius of the hole", LENGTH, required=True,
-        bounds=(Bound(">", 0.0, "a bearing's radius is positive"),),
-    ),
-    number(
-        "clearance", "radial clearance: radius of the hole − radius of the pin", LENGTH, required=True,
-        bounds=(
-            Bound(">", 0.0, "a clearance is positive"),
-            Bound("<", "radius", "a clearance is smaller than the bearing's radius"),
-        ),
-    ),
-    number(
-        "length", "length of the pin in the hole", LENGTH, required=True,
-        bounds=(Bound(">", 0.0, "a bearing's length is positive"),),
-    ),
-    name_in("materials", "bearing_material", "of the hole"),
-    name_in("materials", "journal_material", "of the pin"),
-)  # fmt: skip
-
 CONTACT = record(
     "contact", "what happens between journal and bearing: a normal law, a film, or both",
     name_in("contacts", "extends", "contact whose keys it has where it has none of its own", required=False),
@@ -227,7 +207,8 @@ SIMULATE = record(
 
 PLAY = record(
     "play", "the play in a joint",
-    name_in("bearings", "bearing", "its measures"),
+    name_in("bearings", "bearing", "its measures, of a revolute joint", False, either="guide", otherwise="a guide"),
+    name_in("guides", "guide", "its measures, of a translational joint", False, otherwise="a bearing"),
     name_in("contacts", "contact", "its laws"),
     Field(
         "contour", DEPTHS, "how much deeper than its circle the bearing is, at equal angles from its body's x axis on;"
@@ -235,7 +216,10 @@ PLAY = record(
     ),
 )  # fmt: skip
 
-_OF_MATERIAL = ("bearings.NAME.bearing_material", "bearings.NAME.journal_material", "bodies.NAME.shape.material")
+_OF_MATERIAL = (
+    "bearings.NAME.bearing_material", "bearings.NAME.journal_material", "guides.NAME.guide_material",
+    "guides.NAME.slider_material", "bodies.NAME.shape.material",
+)  # fmt: skip
 SCENE = record(
     "scene", "which joints have play, and what goes with that",
     name_in("scenes", "extends", "scene whose entries it has besides its own", required=False),
@@ -251,9 +235,14 @@ SCENE = record(
 )  # fmt: skip
 
 APART = record(
-    "apart", "where the journal of a joint begins in its bearing, in scenes that give the joint play; in ground axes",
+    "apart", "where a joint begins in its play, in scenes that give it some: a journal in ground axes, a slider in its"
+    " guide",
     vector("e", "eccentricity: from the bearing's centre to the journal's", LENGTH, otherwise="none"),
     vector("rate", "the rate of the eccentricity", VELOCITY, otherwise="none"),
+    number("offset", "of a slider: how far its point is off the axis, to the axis' left", LENGTH, otherwise="none"),
+    number("tilt", "of a slider: angle by which it is turned in its guide", DIMENSIONLESS, otherwise="none"),
+    number("offset_rate", "the rate of the offset", VELOCITY, otherwise="none"),
+    number("tilt_rate", "the rate of the tilt", RATE, otherwise="none"),
 )
 START = record(
     "start", "how the motion begins: coordinates and velocities of centres of mass, in ground axes",
@@ -263,7 +252,7 @@ START = record(
     ),
     mapping("set", "coordinates that are held exactly", number("value", "where", None), keys=COORDINATES),
     mapping("rates", "velocities that drives leave free", number("value", "how fast", None), keys=RATES),
-    mapping("play", "joints with play whose journals begin out of the middle, or move there", APART),
+    mapping("play", "joints with play that begin out of the middle, or move there", APART),
 )  # fmt: skip
 
 EXPRESSION = number("value", "what the name stands for", None, varies=OF_MOTION)
@@ -291,6 +280,7 @@ FILE = record(
     mapping("forces", "force elements by name", Field("force", KINDS, "one kind and its keys", kinds=_forces)),
     START,
     mapping("bearings", "bearings by name", BEARING),
+    mapping("guides", "guides by name", GUIDE),
     mapping("contacts", "contacts by name", CONTACT),
     mapping("events", "events of every scene by name", EVENT),
     mapping("scenes", "scenes by name; ideal, without play, is always there", SCENE, given=(IDEAL,)),

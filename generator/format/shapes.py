@@ -125,7 +125,7 @@ def _findings(field: Field, node: Any, path: Path) -> Iterator[_Finding]:
         if not isinstance(node, Items) or len(node) != 3 or not all(isinstance(item, Text) for item in node):
             yield _Finding(path, "three points of the body: [P, Q, R]")
     elif not isinstance(node, Map):
-        needed = ", ".join(f"{below.name}: …" for below in field.fields if below.required)
+        needed = ", ".join(f"{below.name}: …" for below in field.fields if below.required or below.either)
         yield _Finding(path, f"a mapping: {{{needed}}}" if path and needed else "a mapping")
     elif field.kind == RECORD:
         for below in field.fields:

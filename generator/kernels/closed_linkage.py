@@ -78,7 +78,8 @@ def _jacobian_kernel(model: Model) -> Kernel:
 def apart_rows(model: Model) -> list[tuple[int, Quantity, Quantity]]:
     """Rows of Φ that the start holds apart: where they are, and the eccentricity e and its rate there.
 
-    Φ of such a joint is r_i − r_j = −e (physics.md, section 3), so that Φ + e = 0 and Φ_q v = ν − ė.
+    Φ of such a joint is r_i − r_j = −e (physics.md, section 3), so that Φ + e = 0 and Φ_q v = ν − ė. That of a slider
+    is its offset and its tilt, which are −e there (`start_kernel`).
     """
     given, found = model.scene.mechanism.start.play, []
     for name in model.scene.play:
@@ -90,15 +91,19 @@ def apart_rows(model: Model) -> list[tuple[int, Quantity, Quantity]]:
 def start_kernel(model: Model) -> Kernel:
     """The numbers of the file's `start`; behind those that are set, and their rates, those of journals."""
     start, apart = model.scene.mechanism.start, apart_rows(model)
+    slides = {c.joint.name for c in model.clearances if c.wall}
+    signs = [-1 if model.all_rows[k].owner in slides else 1 for k, _, _ in apart]
     groups = {
-        "guess": start.guess.values(),
-        "set": (*start.set.values(), *(e for _, e, _ in apart)),
-        "rates": (*start.rates.values(), *(rate for _, _, rate in apart)),
-    }
+        "guess": [(quantity, 1) for quantity in start.guess.values()],
+        "set": [*((quantity, 1) for quantity in start.set.values()),
+                *((e, sign) for (_, e, _), sign in zip(apart, signs, strict=True))],
+        "rates": [*((quantity, 1) for quantity in start.rates.values()),
+                  *((rate, sign) for (_, _, rate), sign in zip(apart, signs, strict=True))],
+    }  # fmt: skip
     build = KernelBuilder(model.symbols, "start_values", ["Values of the start's guess, set and rates."])
     build.section("start")
     for key, group in groups.items():
-        for k, quantity in enumerate(group):
-            build.out(f"{key}[{k}]", model.slots.use(quantity), quantity.address)
+        for k, (quantity, sign) in enumerate(group):
+            build.out(f"{key}[{k}]", sign * model.slots.use(quantity), quantity.address)
     arguments = (PARAMETERS, *(Argument("double *", key) for key in ("guess", "set", "rates")))
     return build.build(arguments)

@@ -8,6 +8,7 @@ import sympy as sp
 
 from gudgeon.generator.equations.loads import PointLoad
 from gudgeon.generator.equations.model import Model, stick_gain
+from gudgeon.generator.equations.places import Wall
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, with_sides
@@ -77,14 +78,13 @@ def _events(model: Model, build: KernelBuilder) -> None:
 
 def _clearance_call(build: KernelBuilder, index: int, clearance: Clearance) -> list[PointLoad]:
     """Calls the joint's force function; its result acts on both bodies."""
-    name, out = clearance.name, f"aside->clearance[{index}]"
-    build.section(f"clearance joint {name}")
+    name, out = clearance.label, f"aside->clearance[{index}]"
+    build.section(f"clearance joint {clearance.name}")
     e = [build.local(f"e_{name}_{axis}", value) for axis, value in zip("xy", clearance.eccentricity, strict=True)]
     edot = [
         build.local(f"edot_{name}_{axis}", value) for axis, value in zip("xy", clearance.eccentricity_rate, strict=True)
     ]
-    omegas = (clearance.first.omega, clearance.second.omega)
-    given = (*omegas, clearance.first.theta) if clearance.contour else omegas
+    given = (clearance.first.omega, clearance.second.omega, *clearance.also)
     build.line(Call(f"clearance_{name}", (*e, *edot, *given, *acting_on(index)), (Place(out),)))
     F = [build.local(f"F_{name}_{axis}", Place(f"{out}.F{axis}")) for axis in "xy"]
     moments = [
@@ -153,11 +153,24 @@ def _friction_forces(build: KernelBuilder, kkt: KKT, x: dict[int, sp.Expr]) -> N
 def _half_squares(build: KernelBuilder, system: System, x: Mapping[int, sp.Expr]) -> None:
     """Half the second rate of e · e in joints whose surfaces do not give: by it a run finds their forces."""
     for index, clearance in enumerate(system.model.clearances):
-        if clearance.rigid:
+        if clearance.rigid and clearance.wall:
+            outward = _outward_rate(system, clearance, clearance.wall, x)
+            build.out(f"aside->clearance[{index}].half_square_rate", outward, "at a wall delta'' itself")
+        elif clearance.rigid:
             second, first = (system.acceleration(point, x) for point in (clearance.second, clearance.first))
             e, edot = clearance.eccentricity, clearance.eccentricity_rate
             half = sp.Add(*(e[i] * (second[i] - first[i]) + edot[i] ** 2 for i in range(2)))
             build.out(f"aside->clearance[{index}].half_square_rate", half, "e . e'' + e' . e'")
+
+
+def _outward_rate(system: System, clearance: Clearance, wall: Wall, x: Mapping[int, sp.Expr]) -> sp.Expr:
+    """δ̈ at a wall of a guide: ë · n + ω̇_i along + 2 ω_i ė · t − ω_i² e · n, from δ̇ = ė · n + ω_i e · t."""
+    second, first = (system.acceleration(point, x) for point in (clearance.second, clearance.first))
+    (n_x, n_y), e, edot = wall.normal, clearance.eccentricity, clearance.eccentricity_rate
+    omega, turning = clearance.first.omega, system.turning(clearance.first, x)
+    along, sliding = e[1] * n_x - e[0] * n_y, edot[1] * n_x - edot[0] * n_y
+    straight = (second[0] - first[0]) * n_x + (second[1] - first[1]) * n_y
+    return straight + turning * along + omega * (2 * sliding - omega * (e[0] * n_x + e[1] * n_y))
 
 
 def _dependent_rows(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:

@@ -21,7 +21,7 @@ def law_calls(model: Model, clearance: Clearance, shared: SharedFunctions) -> di
         if law is not None:
             kernel = _law_kernel(model, clearance, law)
             numbers = joint_numbers(model, clearance)
-            found[law.law.role] = shared.call(kernel, numbers, clearance.name, _meanings(model, law))
+            found[law.law.role] = shared.call(kernel, numbers, clearance.label, _meanings(model, law))
     return found
 
 

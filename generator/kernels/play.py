@@ -90,7 +90,7 @@ def make_pin(model: Model, clearance: Clearance, shared: SharedFunctions) -> Pin
 def _guards(clearance: Clearance, steps: Sequence[Step]) -> Mapping[sp.Symbol, Chosen]:
     """What stands for steps that are no number at the centre."""
     if not clearance.contour:
-        return _GUARDED
+        return {} if clearance.wall else _GUARDED
     value = {step.symbol: step.value for step in steps}
     n = {s: Chosen(_SLANTED, value[s], other) for s, other in _AT_CENTRE.items() if s in value}
     turning = value.get(contact.beta_rate)
@@ -107,7 +107,7 @@ def _statements(
     statements = []
     for step in steps:
         statements.append(Statement(step.symbol.name, guards.get(step.symbol) or in_place(model, step.value)))
-        if step.symbol == contact.e:
+        if step.symbol == contact.e and guards:  # of what has a centre
             statements.append(Statement("inverse_e", 1 / contact.e))
     (section,) = hold_sides(model.symbols.switches, owner, [Section("", tuple(statements))])
     return tuple(item for item in section.statements if isinstance(item, Statement))
@@ -123,7 +123,7 @@ def pin_slopes(model: Model, clearance: Clearance, shared: SharedFunctions) -> d
     if len(own) == 2:
         own["share"] = share_slope(model, clearance)
     numbers = joint_numbers(model, clearance)
-    return {part: shared.call(replace(kernel, name=_slope_name(clearance, part)), numbers, clearance.name)
+    return {part: shared.call(replace(kernel, name=_slope_name(clearance, part)), numbers, clearance.label)
             for part, kernel in own.items()}  # fmt: skip
 
 

@@ -134,7 +134,8 @@ class ForceElement:
 
 @dataclass(frozen=True)
 class JournalStart:
-    """Where a journal begins: eccentricity and its rate in ground axes, "start.play.A.e.x"; all four are kept."""
+    """Where a journal begins: eccentricity and its rate in ground axes, "start.play.A.e.x"; all four are kept.
+    Of a slider they are its offset and tilt in its guide, "start.play.A.offset", and their rates."""
 
     e: Vector
     rate: Vector
@@ -184,6 +185,19 @@ class Bearing:
 
 
 @dataclass(frozen=True)
+class Guide:
+    """A block between parallel walls: gap c on each side, half-length, half-height, radius of its corners if any."""
+
+    name: str
+    gap: Quantity
+    half_length: Quantity
+    half_height: Quantity
+    corner_radius: Quantity | None
+    bearing_material: Material  # of the walls; of its numbers E and nu
+    journal_material: Material
+
+
+@dataclass(frozen=True)
 class LawUse:
     """A force law with its numbers; `law` names a file in generator/kinds/laws."""
 
@@ -213,7 +227,7 @@ class Contact:
 
 @dataclass(frozen=True)
 class Play:
-    bearing: Bearing
+    bearing: Bearing | Guide
     contact: Contact
     where: Location
     contour: tuple[Quantity, ...] = ()  # depths at equal angles over the bearing's circumference

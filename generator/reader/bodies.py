@@ -8,6 +8,7 @@ from dataclasses import replace
 from gudgeon.errors import BadNameError, BadValueError
 from gudgeon.generator.field import PLACE, Field
 from gudgeon.generator.format.sections import APART, BODY, POINT, POINT_OF_GROUND, SECTIONS, START
+from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism.mechanism import GROUND, Body, JournalStart, Quantity, Start, Vector
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import Around, read_fields, read_vector
@@ -20,6 +21,8 @@ from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import Number
 from gudgeon.language.units import DIMENSIONLESS, LENGTH
 
+_OF_JOURNAL = ("e", "rate")  # keys of a start in play
+_OF_SLIDER = ("offset", "tilt", "offset_rate", "tilt_rate")
 # `L1.x` is a coordinate of the body: a point of that name could not be told from it
 _COORDINATES = ("x", "y", "theta", "vx", "vy", "omega", "ax", "ay", "alpha")
 
@@ -115,10 +118,41 @@ def _journals(reader: Reader, root: Map) -> dict[str, JournalStart]:
                 hint = f"expected one of: {', '.join(able)}" if able else "expected scenes with play: no joint has any"
                 raise BadValueError(f"start.play.{joint}: no scene gives {joint} play", joint.where, hint)
             address = f"start.play.{joint}"
-            own = read_fields(reader, node, APART.fields, Around(address)).vectors
-            e, rate = (_kept(reader, own, field, f"{address}.{field.name}", joint) for field in APART.fields)
+            slides = _slides(root.part("joints")[joint])
+            _check_apart(joint, node, slides)
+            own = read_fields(reader, node, APART.fields, Around(address))
+            if slides:
+                offset, tilt, offset_rate, tilt_rate = (
+                    _kept_number(reader, own.quantities, name, address, joint) for name in _OF_SLIDER
+                )
+                found[str(joint)] = JournalStart((offset, tilt), (offset_rate, tilt_rate))
+                continue
+            fields = (field for field in APART.fields if field.name in _OF_JOURNAL)
+            e, rate = (_kept(reader, own.vectors, field, f"{address}.{field.name}", joint) for field in fields)
             found[str(joint)] = JournalStart(e, rate)
     return found
+
+
+def _slides(node: Map) -> bool:
+    """Whether a joint's play is that of a slider in its guide."""
+    return any(kind.play == "guide" and key in node for key, kind in joint_types().items())
+
+
+def _check_apart(joint: Text, node: Map, slides: bool) -> None:
+    """Raise for a journal's key of a slider, and the other way round."""
+    for key in node.names():
+        if (key in _OF_JOURNAL) == slides:
+            expected = [field.name for field in APART.fields if (field.name in _OF_JOURNAL) != slides]
+            what = "a slider in its guide" if slides else "a journal in its bearing"
+            hint = f"expected {', '.join(expected)}"
+            raise BadValueError(f"start.play.{joint}.{key}: {joint} has the play of {what}", key.where, hint)
+
+
+def _kept_number(reader: Reader, own: Mapping[str, Quantity], name: str, address: str, key: Text) -> Quantity:
+    """A number of the run; 0 where the file has none."""
+    dimension = next(field.dimension for field in APART.fields if field.name == name) or DIMENSIONLESS
+    zero = Quantity(f"{address}.{name}", Number(0.0, "0"), dimension, key.where)
+    return reader.keep(replace(own.get(name, zero), kept=True))
 
 
 def _kept(reader: Reader, own: Mapping[str, Vector], field: Field, address: str, key: Text) -> Vector:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 from gudgeon.errors import BadNameError, BadValueError, ExpressionError, MissingKeyError, UnknownNameError
 from gudgeon.generator.field import LAW, OF_PENETRATION, with_dimensions
-from gudgeon.generator.format.sections import BEARING, CONTACT
+from gudgeon.generator.format.measures import BEARING, GUIDE
+from gudgeon.generator.format.sections import CONTACT
 from gudgeon.generator.format.shapes import missing_key
 from gudgeon.generator.kinds.laws.law import OWN, called
 from gudgeon.generator.kinds.laws.registered import key_of
-from gudgeon.generator.mechanism.mechanism import Bearing, Contact, LawUse, Material, Quantity, at_onset
+from gudgeon.generator.mechanism.mechanism import Bearing, Contact, Guide, LawUse, Material, Quantity, at_onset
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.extends import parents_first
 from gudgeon.generator.reader.fields import Around, check_keys, field_names, read_fields
@@ -26,20 +28,48 @@ NO_FORCE = 1e-9  # N, what rounding may leave of a force that is 0
 _ROLES = tuple(field.name for field in CONTACT.fields if field.kind == LAW)
 
 
-def read_bearings(reader: Reader, root: Map, materials: Materials) -> dict[str, Bearing]:
+def read_measures(reader: Reader, root: Map, materials: Materials) -> dict[str, Mapping[str, Bearing | Guide]]:
+    """Bearings and guides by name, by the key under which a scene's `play` names one."""
+    return {"bearing": _bearings(reader, root, materials), "guide": _guides(reader, root, materials)}
+
+
+def _bearings(reader: Reader, root: Map, materials: Materials) -> dict[str, Bearing]:
     """All bearings whose materials are known."""
     found = {}
     for name, node in root.part("bearings").pairs():
         with reader.collect():
             check_label(name, "bearing", name.where)
         own = read_fields(reader, node, BEARING.fields, Around(f"bearings.{name}")).quantities
-        pair = []
-        for role in ("bearing_material", "journal_material"):
-            with reader.collect():
-                pair.append(Material(str(node[role]), materials.take(f"bearings.{name}.{role}", node[role], ELASTIC)))
+        pair = _materials(reader, node, f"bearings.{name}", ("bearing_material", "journal_material"), materials)
         if len(pair) == 2:
             found[str(name)] = Bearing(str(name), own["radius"], own["clearance"], own["length"], pair[0], pair[1])
     return found
+
+
+def _guides(reader: Reader, root: Map, materials: Materials) -> dict[str, Guide]:
+    """All guides whose materials are known."""
+    found = {}
+    for name, node in root.part("guides").pairs():
+        with reader.collect():
+            check_label(name, "guide", name.where)
+        own = read_fields(reader, node, GUIDE.fields, Around(f"guides.{name}")).quantities
+        pair = _materials(reader, node, f"guides.{name}", ("guide_material", "slider_material"), materials)
+        if len(pair) == 2:
+            found[str(name)] = Guide(
+                str(name), own["gap"], own["half_length"], own["half_height"], own.get("corner_radius"), *pair
+            )
+    return found
+
+
+def _materials(
+    reader: Reader, node: Map, owner: str, roles: tuple[str, str], materials: Materials
+) -> list[Material]:  # fmt: skip
+    """Those of both parts, as far as they are known."""
+    pair = []
+    for role in roles:
+        with reader.collect():
+            pair.append(Material(str(node[role]), materials.take(f"{owner}.{role}", node[role], ELASTIC)))
+    return pair
 
 
 def read_contacts(reader: Reader, root: Map) -> dict[str, Contact]:

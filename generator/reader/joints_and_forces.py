@@ -32,18 +32,20 @@ def read_joints(reader: Reader, root: Map, places: Places, namespace: Namespace)
         with reader.collect():
             namespace.add(name, "joint", name.where)
         with reader.collect():
-            joints[str(name)] = _joint(reader, name, node, places, _in_scenes(name, root))
+            joints[str(name)] = _joint(reader, name, node, places, _in_scenes(name, node, root))
     return joints
 
 
-def _in_scenes(joint: Text, root: Map) -> Mapping[str, str]:
+def _in_scenes(joint: Text, node: Map, root: Map) -> Mapping[str, str]:
     """What to write for a joint's play, which stands in scenes, by the keys that one may try."""
-    bearing, contact = (next(iter(root.part(section)), name) for section, name in _PLAY)
-    line = f"scenes: {{worn: {{play: {{{joint}: {{bearing: {bearing}, contact: {contact}}}}}}}}}"
-    return dict.fromkeys(("play", "clearance", "bearing", "contact"), f"play stands in scenes: {line}")
+    slides = any(kind.play == "guide" and key in node for key, kind in joint_types().items())
+    measured = "guide" if slides else "bearing"
+    measures, contact = (next(iter(root.part(f"{what}s")), _PLAY[what]) for what in (measured, "contact"))
+    line = f"scenes: {{worn: {{play: {{{joint}: {{{measured}: {measures}, contact: {contact}}}}}}}}}"
+    return dict.fromkeys(("play", "clearance", "bearing", "guide", "contact"), f"play stands in scenes: {line}")
 
 
-_PLAY = (("bearings", "pin"), ("contacts", "metal"))
+_PLAY = {"bearing": "pin", "guide": "way", "contact": "metal"}
 
 
 def _joint(reader: Reader, name: Text, node: Map, places: Places, elsewhere: Mapping[str, str]) -> Joint:

@@ -14,7 +14,7 @@ from gudgeon.generator.mechanism.mechanism import Mechanism, Quantity
 from gudgeon.generator.reader.bodies import read_bodies, read_gravity, read_ground, read_start
 from gudgeon.generator.reader.checks import check_values
 from gudgeon.generator.reader.collector import EnoughErrors, Reader, ResultDimension
-from gudgeon.generator.reader.contacts import read_bearings, read_contacts
+from gudgeon.generator.reader.contacts import read_contacts, read_measures
 from gudgeon.generator.reader.curves import read_curves
 from gudgeon.generator.reader.drives import read_drives
 from gudgeon.generator.reader.expressions import read_expressions, settle_expressions
@@ -66,9 +66,9 @@ def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
     motion = MotionNames(places, (*root.part("joints"), *root.part("forces")), drives, reader.numbers())
     expressions, forces = settle_expressions(reader, motion), read_forces(reader, root, places, namespace, motion)
     start = read_start(reader, root, places)
-    bearings, contacts = read_bearings(reader, root, materials), read_contacts(reader, root)
+    measures, contacts = read_measures(reader, root, materials), read_contacts(reader, root)
     events = read_events(reader, root.part("events"), "events", motion)
-    scenes = read_scenes(reader, Parts(joints, bearings, contacts, parameters, events, root, motion, materials))
+    scenes = read_scenes(reader, Parts(joints, measures, contacts, parameters, events, root, motion, materials))
     unread = {*root.part("joints"), *root.part("drives"), *root.part("forces")} - {*joints, *drives, *forces}
     known = ResultNames(places, joints, drives, forces, reader.numbers(), unread | namespace.twice)
     outputs = _read_outputs(reader, root, namespace, known)

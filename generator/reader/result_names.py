@@ -6,7 +6,8 @@ from collections.abc import Container, Iterable, Iterator, Mapping
 
 from gudgeon.errors import BadValueError, ExpressionError, Location, UnknownNameError
 from gudgeon.generator.kinds.forces.force_type import element_types
-from gudgeon.generator.mechanism.mechanism import GROUND, Drive, ForceElement
+from gudgeon.generator.kinds.joints.joint_type import CORNERS, joint_types
+from gudgeon.generator.mechanism.mechanism import GROUND, Drive, ForceElement, Joint
 from gudgeon.generator.reader.places import Places
 from gudgeon.generator.yaml.tree import Text
 from gudgeon.language.suggestions import unknown_name
@@ -33,6 +34,7 @@ _PLAY: Mapping[str, Dimension] = {
     "deltadot": VELOCITY, "vt": VELOCITY, "state": DIMENSIONLESS, "deltadot_minus": VELOCITY,
 }  # fmt: skip
 _ALWAYS = ("Fx", "Fy", "F")  # of a joint, with play or without
+_OF_CORNER: Mapping[str, Dimension] = {**{name: FORCE for name in _ALWAYS}, **_PLAY}
 _RESULTS_OF_PLAY = f"expected one of: {', '.join((*_ALWAYS, *_PLAY))}"
 _TOTALS: Mapping[str, Mapping[str, Dimension]] = {
     "energy": {"kinetic": TORQUE, "potential": TORQUE, "residual": TORQUE},
@@ -52,7 +54,7 @@ class ResultNames:
     def __init__(
         self,
         places: Places,
-        joints: Iterable[str],
+        joints: Mapping[str, Joint],
         drives: Mapping[str, Drive],
         forces: Mapping[str, ForceElement],
         numbers: Mapping[str, str],
@@ -66,7 +68,9 @@ class ResultNames:
         self.owners |= {name: dict(element_types()[force.kind].results) for name, force in forces.items()}
         for name in places.ground:
             self.owners[f"{GROUND}.{name}"] = {"x": LENGTH, "y": LENGTH}
-        self.owners |= dict.fromkeys(joints, {**_JOINT, **_PLAY})
+        guides = [name for name, joint in joints.items() if joint_types()[joint.kind].play == "guide"]
+        self.owners |= dict.fromkeys(joints, {**_JOINT, **_PLAY}) | dict.fromkeys(guides, _JOINT)
+        self.owners |= {f"{guide}.{corner}": _OF_CORNER for guide in guides for corner in CORNERS}
         self.numbers = numbers
 
     def __call__(self, name: Name, where: Location) -> Dimension | None:
@@ -98,8 +102,15 @@ class ResultNames:
     def check_play(self, name: Text, scene: str, play: Container[str]) -> None:
         """BadValueError for what a joint has in other scenes alone: with play, or without."""
         owner, _, last = name.rpartition(".")
+        joint, _, corner = owner.partition(".")
+        if joint in self._joints and corner in CORNERS and joint not in play:
+            hint = f"expected one of: {', '.join(f'{joint}.{one}' for one in _JOINT)}; or give it play there"
+            raise BadValueError(f"{name}: joint {joint} has no play in scene {scene}", name.where, hint)
         if owner not in self._joints or last in _ALWAYS:
             return
+        if owner in play and last in _JOINT and f"{owner}.{next(iter(CORNERS))}" in self.owners:
+            hint = f"expected one of: {', '.join(_ALWAYS)}; or of a corner: {', '.join(CORNERS)}"
+            raise BadValueError(f"{name}: joint {owner} has play in scene {scene}", name.where, hint)
         if owner in play and last in _JOINT:
             raise BadValueError(f"{name}: joint {owner} has play in scene {scene}", name.where, _RESULTS_OF_PLAY)
         if owner not in play and last in _PLAY:
@@ -117,7 +128,7 @@ class MotionNames(ResultNames):
     def __init__(
         self, places: Places, others: Iterable[str], drives: Mapping[str, Drive], numbers: Mapping[str, str]
     ) -> None:
-        super().__init__(places, (), {}, {}, numbers)
+        super().__init__(places, {}, {}, {}, numbers)
         for total in _TOTALS:
             del self.owners[total]
         self.owners = {

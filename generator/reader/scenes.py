@@ -10,12 +10,24 @@ from typing import Any
 from gudgeon.errors import BadValueError, CycleError, InputError, Location
 from gudgeon.generator.field import WORD
 from gudgeon.generator.format.sections import EVENT, IDEAL, SIMULATE
+from gudgeon.generator.format.shapes import missing_key
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.kinds.laws.law import called, laws
-from gudgeon.generator.mechanism.mechanism import GROUND, Bearing, Contact, EventSpec, Joint, Play, Quantity, SceneSpec
+from gudgeon.generator.mechanism.mechanism import (
+    GROUND,
+    Bearing,
+    Contact,
+    EventSpec,
+    Guide,
+    Joint,
+    Play,
+    Quantity,
+    SceneSpec,
+)
 from gudgeon.generator.reader.collector import Reader, ResultDimension
 from gudgeon.generator.reader.extends import parents_first
 from gudgeon.generator.reader.fields import Around, read_fields
+from gudgeon.generator.reader.guides import check_guide
 from gudgeon.generator.reader.materials import Materials
 from gudgeon.generator.reader.parameters import dependency_order
 from gudgeon.generator.reader.result_names import LATER, ResultNames
@@ -34,7 +46,7 @@ class Parts:
     """What scenes refer to; `root` is the file, which also names what could not be read."""
 
     joints: Mapping[str, Joint]
-    bearings: Mapping[str, Bearing]
+    measures: Mapping[str, Mapping[str, Bearing | Guide]]  # "bearing" and "guide": the file's by name
     contacts: Mapping[str, Contact]
     parameters: Mapping[str, Quantity]
     events: Mapping[str, EventSpec]
@@ -125,22 +137,24 @@ def _scene(reader: Reader, name: Text, draft: _Draft, parts: Parts) -> SceneSpec
 
 def _play(reader: Reader, joint: Text, use: Map, parts: Parts, owner: str) -> Play | None:
     """The play in one joint; None if what it needs was told to be wrong elsewhere."""
-    joints, bearing, contact = parts.root.part("joints"), use["bearing"], use["contact"]
+    joints, contact = parts.root.part("joints"), use["contact"]
     if joint not in joints:
         raise unknown_name("joint", joint, joints, joint.where)
     errors: list[InputError] = []
-    for what, text in (("bearing", bearing), ("contact", contact)):
-        if text not in (known := parts.root.part(f"{what}s")):
-            errors.append(unknown_name(what, text, known, text.where))
+    for what in ("bearing", "guide", "contact"):
+        if what in use and use[what] not in (known := parts.root.part(f"{what}s")):
+            errors.append(unknown_name(what, use[what], known, use[what].where))
     if errors:
         raise errors[0]
-    if joint not in parts.joints or bearing not in parts.bearings or contact not in parts.contacts:
+    if joint not in parts.joints:
         return None
-    kind = joint_types()[parts.joints[joint].kind]
-    if not kind.may_have_play:
-        able = [name for name, other in parts.joints.items() if joint_types()[other.kind].may_have_play]
-        hint = f"expected one of: {', '.join(able)}" if able else "there are no joints here that can"
-        raise BadValueError(f"joint {joint} is a {kind.title}: it cannot have play", joint.where, hint)
+    measured = _measured(joint, use, parts)
+    if use[measured] not in parts.measures[measured] or contact not in parts.contacts:
+        return None
+    bearing, law = parts.measures[measured][use[measured]], parts.contacts[contact]
+    if isinstance(bearing, Guide):
+        check_guide(str(joint), bearing, law, use)
+        return Play(bearing, law, joint.where)
     contour = _contour(reader, use, f"{owner}.contour") if "contour" in use else ()
     if contour and parts.contacts[contact].film is not None:
         told = f"the contour of {joint} is one with a film: the film's laws are those of a circle"
@@ -150,8 +164,24 @@ def _play(reader: Reader, joint: Text, use: Map, parts: Parts, owner: str) -> Pl
         told = f"the contour of {joint} is one with {normal.law}: its blows are those of a circle"
         raise BadValueError(told, use.key("contour").where, "expected a contact whose surfaces give, or no contour")
     for depth in contour:
-        reader.require(depth, "<", parts.bearings[bearing].radius, "a contour's depth is smaller than the radius")
-    return Play(parts.bearings[bearing], parts.contacts[contact], joint.where, contour)
+        reader.require(depth, "<", bearing.radius, "a contour's depth is smaller than the radius")
+    return Play(bearing, law, joint.where, contour)
+
+
+def _measured(joint: Text, use: Map, parts: Parts) -> str:
+    """The key of the joint's measures: what has play in such a joint, "bearing" or "guide"."""
+    kind = joint_types()[parts.joints[joint].kind]
+    if not kind.play:
+        able = [name for name, other in parts.joints.items() if joint_types()[other.kind].play]
+        hint = f"expected one of: {', '.join(able)}" if able else "there are no joints here that can"
+        raise BadValueError(f"joint {joint} is a {kind.title}: it cannot have play", joint.where, hint)
+    for other in {"bearing", "guide"} - {kind.play}:
+        if other in use:
+            told = f"joint {joint} is a {kind.title}: a {kind.play} says what play it has, no {other}"
+            raise BadValueError(told, use.key(other).where, f"expected {kind.play}: one of the file's {kind.play}s")
+    if kind.play not in use:
+        raise missing_key(kind.play, use.where, f"the play of {joint}")
+    return kind.play
 
 
 def _contour(reader: Reader, use: Map, address: str) -> tuple[Quantity, ...]:

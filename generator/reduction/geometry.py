@@ -274,6 +274,14 @@ class TreeGeometry(Geometry):
         """A(θ) s."""
         return self.motions.arm(self.frame_of[body.name], self.in_frame(body.name, s, wanted), wanted)
 
+    def beside(self, ref: PointRef, offset: Pair, wanted: str) -> TreePoint:
+        """The frame of what lies beside a named point, by an offset in its body's frame."""
+        s = self._beside(ref, offset, wanted)
+        if ref.body == GROUND:
+            return TreePoint(self, None, s, {(GROUND, ""): s}, s, (ZERO, ZERO))
+        names = (f"{wanted}_x", f"{wanted}_y", f"{wanted}_vx", f"{wanted}_vy")
+        return self._at(ref.body, s, wanted, names)
+
     def point(self, ref: PointRef) -> TreePoint:
         """The frame of a named point, made once."""
         key = ref.body, ref.point

@@ -18,7 +18,7 @@ from gudgeon.generator.equations.friction import make_friction
 from gudgeon.generator.equations.geometry import BodySymbols, PointFrame
 from gudgeon.generator.equations.loads import PointLoad, apply_element
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.equations.play import make_clearance
+from gudgeon.generator.equations.play import make_clearances
 from gudgeon.generator.equations.system import Given, Motion, System
 from gudgeon.generator.mechanism.mechanism import PointRef
 from gudgeon.generator.reduction.affine import CONSTANT, Affine, substitute
@@ -204,8 +204,9 @@ def _model(model: Model, geometry: TreeGeometry, constraints: TreeConstraints, r
     """The model as its kernels see it: the same scene on the geometry of the tree."""
     mechanism, symbols, t = model.scene.mechanism, geometry.symbols, constraints.t
     clearances = tuple(
-        make_clearance(mechanism.joints[name], play, geometry, geometry.slots)
+        clearance
         for name, play in model.scene.play.items()
+        for clearance in make_clearances(mechanism.joints[name], play, geometry, geometry.slots)
     )
     elements = {e.name: apply_element(e, geometry, t) for e in mechanism.forces.values()}
     pairs = [(c.q, c.v) for c in geometry.motions.coordinates.values() if c.acceleration is None]

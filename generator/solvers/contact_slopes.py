@@ -52,7 +52,7 @@ class _Slopes:
         self.model, self.clearance, self.part = model, clearance, part
         by = "de_n, across" if clearance.contour else "deltadot, de_t"
         also = ", depth and slope of the contour" * bool(clearance.contour)
-        self.build = KernelBuilder(model.symbols, f"{part}_slopes_{clearance.name}", [
+        self.build = KernelBuilder(model.symbols, f"{part}_slopes_{clearance.label}", [
             f"{part.capitalize()}: F along n and t, M_i, M_j, and their derivatives by e, {by}, omega_i,",
             f"omega_j{also} (forward differentiation of the same steps).",
             *["Behind them the rates of inner states, and derivatives by these."] * bool(model.law_states),
@@ -117,7 +117,7 @@ def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kern
     slopes = _Slopes(model, clearance, "dry")
     build, tangents = slopes.build, slopes.tangents
     slopes.section("penetration, ratio of velocities, slip")
-    for step in contact.gap_by_angle(clearance) if clearance.contour else [contact.gap(clearance)[3]]:
+    for step in contact.gap_by_angle(clearance) if clearance.contour else [contact.penetration(clearance)]:
         slopes.step(step)
     build.line(Statement(contact.depth.name, sp.Max(contact.delta, 0)))
     deep = build.local("depth_by_e", Chosen(_DEEP, sp.Integer(1), ZERO))
@@ -166,7 +166,7 @@ def in_place(model: Model, value: sp.Expr) -> sp.Expr:
 
 def share_slope(model: Model, clearance: Clearance) -> Kernel:
     """The share of the dry contact in the transition of a closed contact, and its derivative by e."""
-    build = KernelBuilder(model.symbols, f"share_slope_{clearance.name}", [
+    build = KernelBuilder(model.symbols, f"share_slope_{clearance.label}", [
         "The share of the dry contact between film and contact, and its derivative by e.",
     ])  # fmt: skip
     tangents = Tangents(model.symbols, build, (contact.delta,), clearance.name)

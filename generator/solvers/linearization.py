@@ -66,7 +66,7 @@ class Linearization:
         self.q, self.v = ({s: k for k, s in enumerate(group)} for group in (system.q, system.v))
         self.states = self.model.law_states  # of each joint with play, as in C
         self.z = {
-            self._held(f"{c.name}_{state.name}", f"memory->latch[{i}].state[{k}]"): i * self.states + k
+            self._held(f"{c.label}_{state.name}", f"memory->latch[{i}].state[{k}]"): i * self.states + k
             for i, c in enumerate(self.model.clearances) for k, state in enumerate(c.states)
         }  # fmt: skip
         self.tangents = Tangents(self.symbols, build, (*system.q, *system.v, *self.z, self.t))
@@ -107,18 +107,19 @@ class Linearization:
 
     def _clearance(self, index: int, clearance: Clearance) -> list[PointLoad]:
         """The joint's force as symbols, with their tangents from its own function."""
-        name, build, out = clearance.name, self.build, f"aside->clearance[{index}]"
-        build.section(f"clearance joint {name}")
+        name, build, out = clearance.label, self.build, f"aside->clearance[{index}]"
+        build.section(f"clearance joint {clearance.name}")
         e = [build.local(f"e_{name}_{c}", x) for c, x in zip("xy", clearance.eccentricity, strict=True)]
         edot = [build.local(f"edot_{name}_{c}", x) for c, x in zip("xy", clearance.eccentricity_rate, strict=True)]
         given = (*clearance.eccentricity, *clearance.eccentricity_rate, clearance.first.omega, clearance.second.omega)
-        given += (clearance.first.theta,) if clearance.contour else ()
+        given += clearance.also
         slopes = self.symbols.unique(f"change_{name}")
         build.line(Declare("double", slopes, (4 + self.states, len(given) + self.states)))
         build.line(Call(f"tangent_{name}", (*e, *edot, *given[4:], *acting_on(index)), (Place(slopes),)))
         own = [state for state, place in self.z.items() if place // self.states == index] if self.states else []
         inner = [self.tangents.gradient(x) for x in (*given, *own)]
-        by_what = (*_BY[: len(given)], *(state.name for state in own))
+        also = ("n_x", "n_y") if clearance.wall else ("theta_i",)
+        by_what = (*_BY, *also[: len(clearance.also)], *(state.name for state in own))
         values = []
         results = ["Fx", "Fy", "moment_first", "moment_second", *(f"state_rate[{k}]" for k in range(len(own)))]
         for i, what in enumerate(results):
@@ -242,4 +243,4 @@ class Linearization:
                 self.parts.power_row[0, k] = self.parts.power_row.get((0, k), ZERO) + given.rate * mass
 
 
-_BY = ("e_x", "e_y", "de_x", "de_y", "omega_i", "omega_j", "theta_i")
+_BY = ("e_x", "e_y", "de_x", "de_y", "omega_i", "omega_j")

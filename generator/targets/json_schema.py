@@ -130,6 +130,8 @@ def _record(field: Field) -> Json:
         elif below.kind == MAPPING:
             properties[below.name]["minProperties"] = 1
     made = _object(properties, _required(field.fields))
+    if either := [below for below in field.fields if below.either]:
+        made["oneOf"] = [{"required": [name]} for below in either for name in (below.name, below.either)]
     roles = [below.name for below in field.fields if below.kind == LAW]
     if roles:  # what a contact inherits it need not give itself
         made["if"] = {"required": ["extends"]}

@@ -28,13 +28,15 @@ def stuck(closure: Closure, matrix: Array, left: Array) -> AssemblyError:
     stuck = [name for name, share in zip(rows, tied(matrix), strict=True) if share > 1e-6]
     movers = [name for name in stuck if name in moving]
     rates = [name for name in stuck if name in source.start_rates]
-    play = {joint.name for joint in source.clearances}
+    play = {joint.joint: joint.at_wall for joint in source.clearances}
     closed = dict.fromkeys(row.owner for row in source.start_rows if row.name in stuck and row.owner in play)
     if rates and closed:
+        first = next(iter(closed))
+        key = "offset_rate" if play[first] else "rate"
         return AssemblyError(
             f"start.rates {', '.join(rates)} cannot be met: a start closes the joints with play"
             f" ({', '.join(closed)}), and then the linkage moves as its drives say\n"
-            f"  leave the rate out, say how journals move (start: {{play: {{{next(iter(closed))}: {{rate: [..]}}}}}}),"
+            f"  leave the rate out, say how journals move (start: {{play: {{{first}: {{{key}: ..}}}}}}),"
             " or begin from a State of your own: simulate(start=...)"
         )
     if len(movers) > 1:

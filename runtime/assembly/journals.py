@@ -8,11 +8,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from gudgeon.assembly.linkage import Linkage
-from gudgeon.contract.kernel_source import ClearanceInfo
+from gudgeon.contract.clearance_info import ClearanceInfo
+from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import AssemblyError, SingularError
 from gudgeon.language.plot_units import told_apart
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import contour_of, depth_at, widest
+from gudgeon.model.corners import corner_gap
 
 FAR = 10.0  # times the most that it may be: an e that is longer was hardly meant in its unit
 ROUNDED = 1e-9  # of the clearance, that a start in contact may be off
@@ -22,6 +24,9 @@ DEEPEST = 0.1  # of the radius, that a journal may lie in its bearing (`deepest`
 def check_places(linkage: Linkage, p: Array) -> None:
     """AssemblyError for a journal that the file's start lays deeper into its bearing than any law of contact holds."""
     for joint, e, c in _places(linkage, p):
+        if joint.at_wall:
+            _check_corner(linkage, p, joint, e - c)
+            continue
         if joint.name in linkage.source.rigid and e > c * (1.0 + ROUNDED):
             length, most = told_apart(1e3 * e, 1e3 * c)
             raise AssemblyError(
@@ -39,6 +44,21 @@ def check_places(linkage: Linkage, p: Array) -> None:
                 f"  write start.play.{joint.name}: {{e: [{1e3 * c / 2:.3g} mm, 0 mm]}}, or a share of a parameter, as"
                 f" 0.5*c{bare}"
             )
+
+
+def _check_corner(linkage: Linkage, p: Array, joint: ClearanceInfo, depth: float) -> None:
+    """The same of a slider's corner, `depth` (m) in its wall."""
+    rigid, c = joint.name in linkage.source.rigid, float(p[joint.clearance])
+    most = ROUNDED * c if rigid else DEEPEST * float(p[joint.constants["R_i"]])
+    if depth > most:
+        why = "the surfaces of this joint do not give (newton_restitution)" if rigid else (
+            f"deeper than {1e3 * most:.3g} mm, a tenth of half the guide's width, no law of contact holds"
+        )  # fmt: skip
+        raise AssemblyError(
+            f"start.play.{joint.joint} lays the corner {joint.name} {1e3 * depth:.3g} mm into its wall, beyond the gap"
+            f" of {1e3 * c:.4g} mm: {why}\n"
+            f"  write less offset or tilt: start.play.{joint.joint}: {{offset: {1e3 * c / 2:.3g} mm}}"
+        )
 
 
 def in_walls(linkage: Linkage, p: Array) -> Iterator[str]:
@@ -59,8 +79,24 @@ def _places(linkage: Linkage, p: Array) -> Iterator[tuple[ClearanceInfo, float, 
         return
     values = linkage.start_values(p)[1][len(source.start_set) :]
     for joint in source.clearances:
-        own = [x for row, x in zip(source.start_apart, values, strict=True) if row.rpartition(".")[0] == joint.name]
+        own = [x for row, x in zip(source.start_apart, values, strict=True) if row.rpartition(".")[0] == joint.joint]
+        if joint.at_wall:
+            if own:
+                yield joint, _corner_at(source, p, joint, -own[0], -own[1]), float(p[joint.clearance])
+            continue
         yield joint, float(np.linalg.norm(own)), widest(source, p, joint)
+
+
+def _corner_at(source: KernelSource, p: Array, joint: ClearanceInfo, offset: float, tilt: float) -> float:
+    """How much nearer to its wall than in the middle of the guide a corner is, m: offset of the slider (m), tilt."""
+    guide = source.slots[joint.clearance].address.rpartition(".")[0]
+    a, b, radius = (
+        float(p[source.place[address]]) if (address := f"{guide}.{what}") in source.place else 0.0
+        for what in ("half_length", "half_height", "corner_radius")
+    )
+    front, upper = (1.0 if word in joint.name.rpartition(".")[2] else -1.0 for word in ("front", "upper"))
+    across = offset + front * (a - radius) * math.sin(tilt)
+    return upper * across + (b - radius) * (math.cos(tilt) - 1.0)
 
 
 def parting(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array) -> tuple[str, ...]:
@@ -69,9 +105,12 @@ def parting(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, mem
     q, v (n,) at time t (s); memory (n_memory,): contacts that go on from another run know their onset.
     """
     joints = [k for k, joint in enumerate(compiled.source.clearances) if joint.dry and math.isnan(memory[k])]
-    told = []
+    told: list[str] = []
     for number in joints:
         joint = compiled.source.clearances[number]
+        if joint.at_wall:
+            told += _parting_corner(compiled, p, t, q, v, memory, number)
+            continue
         rows, e = eccentricity(compiled, p, t, q, joint)
         depth = math.hypot(*e) - float(p[joint.clearance]) - _worn(compiled, p, q, joint, e)
         if depth > 0.0:
@@ -82,6 +121,21 @@ def parting(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, mem
                 if deltadot <= 0.0 and _reads_onset(compiled, p, t, q, approach, memory, number):
                     told.append(_told(joint.name, depth, deltadot))
     return tuple(told)
+
+
+def _parting_corner(
+    compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array, number: int
+) -> Iterator[str]:
+    """The same of a slider's corner; δ̇ is linear in velocities."""
+    joint = compiled.source.clearances[number]
+    depth, deltadot = corner_gap(compiled, p, t, q, v, number)
+    if not (depth > 0.0 and deltadot <= 0.0):
+        return
+    steps = np.eye(len(v))
+    by_v = np.array([corner_gap(compiled, p, t, q, v + step, number)[1] - deltadot for step in steps])
+    approach = v + (1.0 - deltadot) / float(by_v @ by_v) * by_v  # δ̇ = 1 m/s
+    if _reads_onset(compiled, p, t, q, approach, memory, number):
+        yield _told(joint.name, depth, deltadot)
 
 
 def _worn(compiled: CompiledModel, p: Array, q: Array, joint: ClearanceInfo, e: Array) -> float:

@@ -25,7 +25,7 @@ OPEN = 1e-3  # rad, or share of the mechanism's size: a row left out that opens 
 def left_out(compiled: CompiledModel) -> list[int]:
     """Rows of the closed linkage that are neither kept nor those of a joint with play."""
     source = compiled.source
-    kept, with_play = {row.name for row in source.rows}, {joint.name for joint in source.clearances}
+    kept, with_play = {row.name for row in source.rows}, {joint.joint for joint in source.clearances}
     return [k for k, row in enumerate(source.start_rows) if row.name not in kept and row.owner not in with_play]
 
 

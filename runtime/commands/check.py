@@ -105,7 +105,7 @@ def _facts(source: KernelSource) -> dict[str, int]:
         "rows": len(source.rows),
         "degrees of freedom": source.degrees_of_freedom,
         "non-zeros of Φ_q": source.story.jacobian,
-        "joints with play": len(source.clearances),
+        "joints with play": len({joint.joint for joint in source.clearances}),
         "numbers that can be set": len(source.slots),
         **({"of them depths of contours": len(in_contours(source))} if source.contours else {}),
     }

@@ -12,6 +12,7 @@ from functools import cached_property
 from hashlib import sha256
 from typing import Any
 
+from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.contour_info import ContourInfo
 from gudgeon.contract.ledger import Story
 from gudgeon.contract.methods import INTEGRATORS, KINEMATIC, NEED_SLOPES, STAGED
@@ -127,20 +128,6 @@ class EventInfo:
     name: str
     action: str
     direction: str
-
-
-@dataclass(frozen=True)
-class ClearanceInfo:
-    """A joint with play: journal on the second body, bearing on the first."""
-
-    name: str
-    first: int
-    second: int
-    point: str  # the journal's point
-    dry: bool
-    film: bool
-    clearance: int  # index into p of c
-    constants: Mapping[str, int]  # name -> index into p of what is worth printing: K, S, radius …
 
 
 @dataclass(frozen=True)

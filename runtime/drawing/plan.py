@@ -63,7 +63,7 @@ def _places(posture: Posture) -> list[Array]:
             found += [posture.place(end) + shift for shift in radius * np.array([[1, 1], [-1, -1]])]
     for joint in posture.source.clearances:
         reach = float(posture.p[joint.clearance]) * np.array([[1, 1], [-1, -1]])
-        found += [posture.place(next(posture.parts_named(joint.name)).ends[0]) + shift for shift in reach]
+        found += [posture.place(next(posture.parts_named(joint.joint)).ends[0]) + shift for shift in reach]
     return found
 
 

@@ -9,7 +9,8 @@ from functools import cached_property
 import numpy as np
 
 from gudgeon.assembly.linkage import place_of
-from gudgeon.contract.kernel_source import BodyInfo, ClearanceInfo, KernelSource, PartInfo, PointInfo
+from gudgeon.contract.clearance_info import ClearanceInfo
+from gudgeon.contract.kernel_source import BodyInfo, KernelSource, PartInfo, PointInfo
 from gudgeon.errors import GudgeonError
 from gudgeon.model.compiled import Array
 
@@ -65,8 +66,8 @@ class Posture:
 
     @cached_property
     def clearances(self) -> Mapping[str, ClearanceInfo]:
-        """Joints with play by name."""
-        return {joint.name: joint for joint in self.source.clearances}
+        """Joints with play by name: journals, whose play is a circle."""
+        return {joint.name: joint for joint in self.source.clearances if not joint.at_wall}
 
     def parts(self, section: str, *kinds: str) -> Iterator[PartInfo]:
         """Those of a section of the file, of these kinds or of all."""

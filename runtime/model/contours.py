@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gudgeon.contract.kernel_source import ClearanceInfo, KernelSource
+from gudgeon.contract.clearance_info import ClearanceInfo
+from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.language.wanted import mapping, told
 from gudgeon.model.arrays import taken

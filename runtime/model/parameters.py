@@ -134,11 +134,11 @@ def _driven(source: KernelSource, body: str) -> str:
 def _unplaced_journal(source: KernelSource, address: str) -> tuple[str, str]:
     """The same of the eccentricity of a journal that the file's start does not name."""
     start, play, joint, *part = [*address.split("."), "", "", ""][:4]
-    able = {clearance.name for clearance in source.clearances}
+    able = {clearance.joint: clearance.at_wall for clearance in source.clearances}
     placed = any(slot.address.startswith(f"start.play.{joint}.") for slot in source.slots)
     if (start, play) != ("start", "play") or joint not in able or placed:
         return "", ""
-    wanted = f"start: {{play: {{{joint}: {{e: [0 mm, 0 mm]}}}}}}"
+    wanted = f"start: {{play: {{{joint}: {{{'offset: 0 mm' if able[joint] else 'e: [0 mm, 0 mm]'}}}}}}}"
     return f"{address}: the file's start does not say where {joint} begins", f"write {wanted}, then it can be set"
 
 

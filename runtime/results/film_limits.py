@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from gudgeon.contract.kernel_source import ClearanceInfo, KernelSource
+    from gudgeon.contract.clearance_info import ClearanceInfo
+    from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.generator.kinds.laws.law import Law
     from gudgeon.results.results import Result
 

@@ -124,7 +124,8 @@ def figure(runs: Mapping[str, Result], reference: Result | Mapping[str, Result],
         picture = Figure(figsize=(12, 9), dpi=100)
         picture.set_layout_engine("constrained", w_pad=0.06, h_pad=0.05, hspace=0.03, wspace=0.02)
         first = next(iter(runs.values()))
-        left, drawn, right = _parts(picture, len(played) if joints else 0, bool(first.source.parts))
+        journals = [name for name in joints if "." not in name]  # corners of a slider have no orbit
+        left, drawn, right = _parts(picture, len(played) if journals else 0, bool(first.source.parts))
         rows = 3 + len(joints)
         grid = left.add_gridspec(rows, max(1, len(watch)))
         for column, name in enumerate(watch):
@@ -135,7 +136,7 @@ def figure(runs: Mapping[str, Result], reference: Result | Mapping[str, Result],
         if drawn is not None:
             _draw_mechanism(drawn, first)
         if right is not None:
-            _draw_orbits(right, joints, played, colours)
+            _draw_orbits(right, journals, played, colours)
         _head(picture, shown, colours, bool(played))
     return picture
 

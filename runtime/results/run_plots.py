@@ -105,10 +105,10 @@ class Plot:
 
     def orbit(self, joint: str, ax: Axes | None = None) -> Axes:
         """Path of the journal's centre in its clearance circle, in units of the clearance."""
-        joints = [each.name for each in self.run.source.clearances]
+        joints = [each.name for each in self.run.source.clearances if not each.at_wall]
         if not isinstance(joint, str) or joint not in joints:
-            hint = f"its joints with play: {', '.join(joints) or 'none'}"
-            raise UnknownNameError(f"no orbit of {told(joint)}: expected a joint with play", hint=hint)
+            hint = f"its journals with play: {', '.join(joints) or 'none'}"
+            raise UnknownNameError(f"no orbit of {told(joint)}: expected a journal with play", hint=hint)
         with matplotlib.rc_context(STYLE):
             ax = new_axes(4.2, 4.4) if ax is None else plain(ax)
             draw_orbit(ax, self.run, joint, COLOURS[1], reach(self.run, joint))

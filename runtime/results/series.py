@@ -15,7 +15,7 @@ The names depend on the scene alone; nothing is computed before somebody asks (`
 from __future__ import annotations
 
 import weakref
-from collections.abc import Callable, Container, Iterator, Mapping
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from types import MappingProxyType
@@ -24,9 +24,11 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.contract.kernel_source import ClearanceInfo, JointInfo, KernelSource, PointInfo
+from gudgeon.contract.clearance_info import ClearanceInfo
+from gudgeon.contract.kernel_source import JointInfo, KernelSource
 from gudgeon.language import tree as expression_tree
 from gudgeon.language.output_units import unit_of
+from gudgeon.results.point_motion import point_motion
 
 if TYPE_CHECKING:
     from gudgeon.results.results import Result
@@ -149,26 +151,9 @@ def _points(source: KernelSource) -> Iterator[tuple[str, Series]]:
         for order in range(3 if point.body >= 0 else 1):  # a point of the ground rests
             for axis in range(2):
                 meaning = f"point {point.name}, {MOTION_WORDS[order]}{_AXES[axis]} in ground axes"
-                compute = partial(_point, point=point, axis=axis, order=order)
+                compute = partial(point_motion, point=point, axis=axis, order=order)
                 parts = frozenset({"a"} if order == 2 else ())
                 yield f"{point.name}.{MOTION[axis][order]}", Series(MOTION_UNITS[axis][order], meaning, compute, parts)
-
-
-def _point(run: Result, point: PointInfo, axis: int, order: int) -> Array:
-    """r_P = r + A(θ) s, its first and second time derivatives; s = (x, y) in the body's frame."""
-    x = point.sign_x * float(run.p[point.x]) if point.x >= 0 else 0.0
-    y = point.sign_y * float(run.p[point.y]) if point.y >= 0 else 0.0
-    if point.body < 0:
-        return np.full(run.t.shape, (x, y)[axis])
-    i = run.source.bodies[point.body].index
-    sin, cos = np.sin(run.q[:, i + 2]), np.cos(run.q[:, i + 2])
-    arm = (cos * x - sin * y, sin * x + cos * y)
-    turned = (-arm[1], arm[0])[axis]  # d arm / dθ
-    if order == 0:
-        return run.q[:, i + axis] + arm[axis]
-    if order == 1:
-        return run.v[:, i + axis] + run.v[:, i + 2] * turned
-    return run.a[:, i + axis] + run.a[:, i + 2] * turned - run.v[:, i + 2] ** 2 * arm[axis]
 
 
 def _joints(source: KernelSource) -> Iterator[tuple[str, Series]]:
@@ -207,6 +192,24 @@ def _clearances(source: KernelSource) -> Iterator[tuple[str, Series]]:
         yield f"{joint.name}.state", _stored("", f"{states}{at}", "state", k)
         latched = _stored("m/s", f"rate of penetration at the last onset{at}", "memory", k)
         yield f"{joint.name}.deltadot_minus", latched
+
+
+def _guides(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    """Of a joint that touches at corners: the sum of their forces."""
+    corners: dict[str, list[int]] = {}
+    for k, joint in enumerate(source.clearances):
+        if joint.at_wall:
+            corners.setdefault(joint.joint, []).append(k)
+    for name, own in corners.items():
+        on, parts = f"force on the slider, {{}}: joint {name} with play, its corners", frozenset({"clearance"})
+        for column, axis in enumerate("xy"):
+            total = partial(_sum, corners=own, column=column)
+            yield f"{name}.F{axis}", Series("N", on.format(f"{axis} in ground axes"), total, parts)
+        yield f"{name}.F", Series("N", on.format("magnitude"), partial(_magnitude, name=name), parts)
+
+
+def _sum(run: Result, corners: Sequence[int], column: int) -> Array:
+    return np.asarray(run.evaluation.clearance[:, corners, column].sum(axis=1))
 
 
 def _states(source: KernelSource) -> Iterator[tuple[str, Series]]:
@@ -273,7 +276,7 @@ def _drift(source: KernelSource) -> Iterator[tuple[str, Series]]:
 
 
 # what a scene has beside motion; without masses, what does not follow from motion
-_PARTS = (_joints, _clearances, _states, _drives, _elements, _frictions, _multipliers, _balance, _drift)
+_PARTS = (_joints, _clearances, _guides, _states, _drives, _elements, _frictions, _multipliers, _balance, _drift)
 _MOTION_ALONE = (_elements, _drift)
 
 

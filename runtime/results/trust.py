@@ -19,7 +19,8 @@ from gudgeon.results.film_limits import beyond
 from gudgeon.results.report import finite
 
 if TYPE_CHECKING:
-    from gudgeon.contract.kernel_source import ClearanceInfo, KernelSource
+    from gudgeon.contract.clearance_info import ClearanceInfo
+    from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.results.results import Array, Result
 
 OFF = 0.02  # of the joints' work: a quadrature that misses more of it is told
@@ -118,13 +119,13 @@ def _contact(run: Result, joint: ClearanceInfo) -> str:
     """The contact whose normal law it has; "" where that is not known: what follows from its numbers bears its name."""
     source = run.source
     named = [address.split(".")[1] for slot in source.slots if ".normal." in (address := slot.address)]
-    bearing = source.slots[joint.constants["R_i"]].address.split(".")[1]
+    bearing = source.slots[joint.clearance].address.split(".")[1]
     for name, place in joint.constants.items():
         if (k := place - len(source.slots)) >= 0:
             fits = [contact for contact in named if source.derived[k] == f"{contact}_{bearing}_{name}"]
             if fits:
                 return fits[0]
-    return named[0] if len({*named}) == 1 and len(source.clearances) == 1 else ""
+    return named[0] if len({*named}) == 1 and len({joint.joint for joint in source.clearances}) == 1 else ""
 
 
 def _asked(run: Result, joint: ClearanceInfo) -> float | None:

@@ -31,8 +31,9 @@ def sections(run: Result, found: Mapping[str, Any]) -> Iterator[Section]:
     """Heading and HTML of each part."""
     yield "What to know", lines(found["warnings"], "g-warning")
     for name, joint in found["joints"].items():
-        inside = f"{orbit_svg(run, name)}<div>{table(('', ''), joint_rows(joint, found['trust']['asked']))}</div>"
-        yield f"Joint {name}", f"<div class='g-beside'>{inside}</div>"
+        orbit = "" if "." in name else orbit_svg(run, name)  # of a journal, no corner of a slider
+        inside = f"{orbit}<div>{table(('', ''), joint_rows(joint, found['trust']['asked']))}</div>"
+        yield f"{'Corner' if '.' in name else 'Joint'} {name}", f"<div class='g-beside'>{inside}</div>"
     yield "Energy", table(("", ""), energy_rows(found))
     trust = found["trust"]
     yield "How far to believe it", table(("", ""), trust_rows(trust)) + lines(trust["notes"], "g-quiet")

@@ -11,6 +11,7 @@ import numpy as np
 from gudgeon.assembly.dead_centre import dependent_rows
 from gudgeon.assembly.journals import eccentricity
 from gudgeon.assembly.linkage import mechanism_size
+from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import ADAPTIVE, EXPLICIT
 from gudgeon.integrators.adaptive import stiff_of
@@ -18,6 +19,7 @@ from gudgeon.integrators.rk4 import last_step
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import widest
+from gudgeon.model.corners import corner_gap
 from gudgeon.model.seams import seams
 from gudgeon.results.blows import first_force, piled_up
 from gudgeon.results.diagnostics import Diagnostics, Peak
@@ -141,7 +143,7 @@ def not_held(compiled: CompiledModel, p: Array, t0: float, q0: Array, counts: Co
 
 def _outside(compiled: CompiledModel, p: Array, t0: float, q0: Array, peaks: Array) -> Iterator[str]:
     """Joints with play that went where their laws do not hold."""
-    for joint, (_, _, e_max) in zip(compiled.source.clearances, peaks, strict=True):
+    for k, (joint, (_, _, e_max)) in enumerate(zip(compiled.source.clearances, peaks, strict=True)):
         c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
         deepest = float(e_max) - widest(compiled.source, p, joint)
         if joint.film and not joint.dry and float(e_max) > THIN * c:
@@ -150,12 +152,21 @@ def _outside(compiled: CompiledModel, p: Array, t0: float, q0: Array, peaks: Arr
                 " capped there: a dry contact beyond it, or a thicker oil, keeps the surfaces apart"
             )
         if deepest > (most := min(DEEP_CLEARANCE * c, DEEP_RADIUS * radius)):
-            begun = np.hypot(*eccentricity(compiled, p, t0, q0, joint)[1]) - c > most
+            begun = _depth(compiled, p, t0, q0, k, joint) > most
+            into = "corner goes {} mm into its wall (gap" if joint.at_wall else "journal goes {} mm into its bearing (c"
             yield (
-                f"{joint.name}: the journal goes {1e3 * deepest:.3g} mm into its bearing (c {1e3 * c:.3g} mm, radius"
-                f" {1e3 * radius:.3g} mm): outside what contact laws hold for; "
+                f"{joint.name}: the {into.format(f'{1e3 * deepest:.3g}')} {1e3 * c:.3g} mm,"
+                f" {'half the width' if joint.at_wall else 'radius'} {1e3 * radius:.3g} mm): outside what contact laws"
+                " hold for; "
                 + ("it lies so deep from the start on" if begun else "a step too long does this too")
             )
+
+
+def _depth(compiled: CompiledModel, p: Array, t: float, q: Array, k: int, joint: ClearanceInfo) -> float:
+    """How deep joint k lies in its bearing, a corner in its wall, m."""
+    if joint.at_wall:
+        return corner_gap(compiled, p, t, q, np.zeros_like(q), k)[0]
+    return float(np.hypot(*eccentricity(compiled, p, t, q, joint)[1])) - float(p[joint.clearance])
 
 
 def _peaks(compiled: CompiledModel, trajectory: Trajectory) -> tuple[Peak, ...]:

@@ -25,7 +25,8 @@ from gudgeon.results.series import MOTION, rates
 from gudgeon.simulation.horizon import begin_of, check_own, repeated, settings_of
 
 if TYPE_CHECKING:
-    from gudgeon.contract.kernel_source import ClearanceInfo, KernelSource
+    from gudgeon.contract.clearance_info import ClearanceInfo
+    from gudgeon.contract.kernel_source import KernelSource
     from gudgeon.integrators.trajectory import Progress
     from gudgeon.model.compiled import Array, CompiledModel
     from gudgeon.results.results import Result

@@ -13,6 +13,7 @@ import numpy as np
 from gudgeon.integrators.adaptive import integrated_angles
 from gudgeon.model.compiled import N_WORK, Array, CompiledModel
 from gudgeon.model.contours import contour_of, depth_at
+from gudgeon.model.corners import corner_gap
 from gudgeon.model.parameters import without_baumgarte
 
 if TYPE_CHECKING:
@@ -116,6 +117,8 @@ class Flow:
     def gap(self, joint: int, t: float, y: Array, chain: Array) -> tuple[float, float]:
         """Penetration δ (m) and δ̇ (m/s) of a joint with play: its rows, were it closed, are ±e."""
         full, n, rows = self.expanded(t, y, chain), self.compiled.n, self.rows[joint]
+        if self.compiled.source.clearances[joint].at_wall:
+            return corner_gap(self.compiled, self.p, t, full[:n], full[n:], joint)
         e = self.compiled.closed_phi(t, full[:n], self.p)[rows]
         rate = self.compiled.closed_phi_q(t, full[:n], self.p)[rows] @ full[n:]
         rate -= self.compiled.closed_nu(t, full[:n], self.p)[rows]

@@ -91,6 +91,9 @@ def check_rubs(source: KernelSource, joint: Any) -> None:
     if not own:
         hint = f"its joints with play: {', '.join(one.name for one in source.clearances) or 'none'}"
         raise UnknownNameError(f"no wear of {told(joint)}: expected a joint with play", hint=hint)
+    if own[0].at_wall:
+        told_of = f"no wear of {joint}: a corner of a slider, and wear is told of bearings, over their circumference"
+        raise BadValueError(told_of, hint="expected a revolute joint with play")
     if not own[0].dry:
         raise BadValueError(f"{joint} has a film alone: nothing wears", hint="expected a contact with a normal law")
     if not known_to_rub(source, own[0]):

@@ -131,7 +131,7 @@ def _slots(source: KernelSource, name: str) -> list[int]:
 def _in_use(source: KernelSource, p: Array, slots: list[int]) -> list[int]:
     """Without the stiffness of materials that a run with p might choose and does not."""
     of = [(slot, said(slot, float(x))) for slot, x in zip(source.slots, p, strict=False) if slot.words]
-    of = [(slot, name) for slot, name in of if slot.address.startswith("bearings.")]
+    of = [(slot, name) for slot, name in of if slot.address.startswith(("bearings.", "guides."))]
     offered = {f"materials.{word}.E" for slot, _ in of for word in slot.words}
     chosen = {f"materials.{name}.E" for _, name in of}
     return slots if len(slots) < 2 else [k for k in slots if source.slots[k].address not in offered - chosen]

@@ -95,7 +95,7 @@ def _row(subject: Subject, left: Name, factors: Array, of: list[Name]) -> Equati
 def force(subject: Subject) -> Iterator[Question]:
     """The reaction of a joint; none without masses, or where redundancy leaves it open."""
     source, drawn, mechanism = subject.simulation.source, subject.drawn, subject.model.scene.mechanism
-    open_ = {*source.indeterminate, *(joint.name for joint in source.clearances)}
+    open_ = {*source.indeterminate, *(joint.joint for joint in source.clearances)}
     known = [row.owner for row in subject.model.rows if row.kind == "joint" and row.owner not in open_]
     known = [name for name in dict.fromkeys(known) if f"{name}.Fx" in drawn.run]
     if source.massless or not known:

@@ -151,9 +151,10 @@ def _gamma(subject: Subject) -> Question:
 def _play(subject: Subject) -> Iterator[Question]:
     """Where the journal of a joint with play is in its bearing."""
     drawn = subject.drawn
-    if not subject.model.clearances:
+    journals = [c.name for c in subject.model.clearances if c.wall is None]
+    if not journals:
         return
-    joint = subject.rng.permutation(np.array([c.name for c in subject.model.clearances], object))[0]
+    joint = subject.rng.permutation(np.array(journals, object))[0]
     ex, ey = (float(f"{drawn.run[f'{joint}.e{axis}'][-1]:.4g}") for axis in "xy")
     clearance = float(drawn.run.constants[f"{joint}.c"])
     e = float(np.hypot(ex, ey))

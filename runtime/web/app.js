@@ -33,7 +33,7 @@ class App {
     use(about, sim) {
         Object.assign(this, {about, sim});
         this.drawing = new Drawing(by("g-drawing"), this.settings, about);
-        this.orbits = about.clearances.map(([name, place]) => new Orbit(this, name, place));
+        this.orbits = about.clearances.filter(([name]) => !name.includes(".")).map(([name, place]) => new Orbit(this, name, place));
         by("g-orbits").replaceChildren(...this.orbits.map(({box}) => box));
     }
 

@@ -22,12 +22,12 @@ from gudgeon.simulation.simulation import Simulation
 
 SECTIONS = {
     "parameters": "Parameters", "bodies": "Bodies", "ground": "Ground", "gravity": "Gravity", "joints": "Joints",
-    "drives": "Drives", "forces": "Forces", "bearings": "Bearings", "contacts": "Contacts", "materials": "Materials",
-    "baumgarte": "Baumgarte's terms", "start": "Start",
+    "drives": "Drives", "forces": "Forces", "bearings": "Bearings", "guides": "Guides", "contacts": "Contacts",
+    "materials": "Materials", "baumgarte": "Baumgarte's terms", "start": "Start",
 }  # fmt: skip
 MORE, TURN = 4.0, 3.141592653589793  # how many times a positive number, how far an angle goes either way
 SMALL = 0.05  # share of the mechanism's size below which a length is none of its links
-STAY = ("bodies", "bearings", "contacts", "materials", "baumgarte")  # whose positive numbers keep their sign
+STAY = ("bodies", "bearings", "guides", "contacts", "materials", "baumgarte")  # whose positive numbers keep their sign
 HALVINGS = 30  # of what lies between a number and an end that is refused
 EDGE = 1e-3  # share of the range that a slider keeps from a bound that is out of reach
 WRITTEN = re.compile(r".*?(?:[\d.)]|\bpi)\s+([A-Za-zµΩ°%][\w*/^.()µ°-]*)$")  # "2*pi rad/s": the unit at its end

@@ -105,7 +105,7 @@ class ComplexStep:
         transition = sp.Integer(0) if joint.transition is None else joint.transition
         return (*joint.eccentricity, *joint.eccentricity_rate, joint.first.omega, joint.second.omega, joint.pair.c,
                 joint.pair.R_i, joint.pair.R_j, film, transition, joint.first.theta, *joint.first.arm,
-                *joint.second.arm)  # fmt: skip
+                *joint.second.arm, *(joint.wall.normal if joint.wall else ()))  # fmt: skip
 
     def bent(self, memory: Sequence[float] | np.ndarray) -> np.ndarray:
         """Inner states of laws, (joints, states)."""
@@ -163,6 +163,11 @@ class ComplexStep:
     ) -> complex:
         """Adds the joint's force to g and fills in the rates of its inner states z; its power."""
         ex, ey, ux, uy, w_i, w_j, c, R_i, R_j, film, e_0, theta, *arms = geometry
+        ends = ((joint.first, -1, arms[:2]), (joint.second, 1, arms[2:4]))
+        if joint.wall:
+            span, speed, normal = (np.array(pair) for pair in ((ex, ey), (ux, uy), arms[4:]))
+            total = self._at_wall(joint, span, speed, normal, (w_i, w_j), (R_i, R_j), stored, z, bending)
+            return self._acts(ends, total[:2], total[2:], speed, v, g)
         e = np.sqrt(ex**2 + ey**2)
         e = -e if e.real == 0.0 and e.imag < 0.0 else e
         n_x, n_y = (ex / e, ey / e) if e != 0.0 else (1.0, 0.0)
@@ -181,9 +186,13 @@ class ComplexStep:
         if joint.film is not None and complex(share).real < 1.0:
             total += (1.0 - share) * self._film(joint, joint.film, e, film, speeds)
         force = (total[0] * n_x - total[1] * n_y, total[0] * n_y + total[1] * n_x)
-        power = force[0] * ux + force[1] * uy
-        ends = ((joint.first, -1, total[2], arms[:2]), (joint.second, 1, total[3], arms[2:]))
-        for point, sign, moment, arm in ends:
+        return self._acts(ends, force, total[2:], (ux, uy), v, g)
+
+    @staticmethod
+    def _acts(ends: Any, force: Any, moments: Any, speed: Any, v: Complex, g: Complex) -> complex:
+        """Adds force and moments to g; their power."""
+        power = force[0] * speed[0] + force[1] * speed[1]
+        for (point, sign, arm), moment in zip(ends, moments, strict=True):
             if point.body is not None:
                 k = point.body.index
                 g[k] += sign * force[0]
@@ -234,6 +243,30 @@ class ComplexStep:
         if joint.friction is not None:
             (along,) = self._law(joint.friction, steep * force, (np.array([v_n, v_t]) + spin_j - spin_i) @ tangent)
         total = along * tangent - force * gradient
+        moments = (sign * (arm[0] * total[1] - arm[1] * total[0]) for sign, arm in ((-1, arm_i), (1, arm_j)))
+        return np.array([*total, *moments])
+
+    def _at_wall(
+        self, joint: Clearance, span: Complex, speed: Complex, normal: Complex, turning: Any, radii: Any, stored: float,
+        z: Complex, bending: Complex,
+    ) -> Complex:  # fmt: skip
+        """Of a disc on a straight wall: force in ground axes and moments, by the place where both touch."""
+        (R_i, R_j), (w_i, w_j), tangent = radii, turning, np.array([-normal[1], normal[0]])
+        delta = span @ normal - (R_i - R_j)
+        if delta.real <= 0.0:
+            return np.zeros(4, dtype=complex)
+        arm_j = (R_j - delta / 2) * normal
+        arm_i = span + arm_j
+        spin_i, spin_j = (w * np.array([-arm[1], arm[0]]) for w, arm in ((w_i, arm_i), (w_j, arm_j)))
+        meeting = speed + spin_j - spin_i
+        rate = meeting @ normal
+        ratio, along = 1.0 + 0j if np.isnan(stored) else rate / stored, 0.0
+        assert joint.normal is not None
+        (force,) = self._law(joint.normal, delta, ratio, *[rate] * len(joint.normal.further))
+        if joint.friction is not None:
+            own = len(joint.states)
+            along, *bending[:own] = self._law(joint.friction, force, meeting @ tangent, *z[:own])
+        total = along * tangent - force * normal
         moments = (sign * (arm[0] * total[1] - arm[1] * total[0]) for sign, arm in ((-1, arm_i), (1, arm_j)))
         return np.array([*total, *moments])
 

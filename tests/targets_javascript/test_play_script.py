@@ -51,7 +51,17 @@ scenes:
       A: {bearing: p, contact: e}
       B: {bearing: p, contact: e, contour: [0, 20 um, 5 um, 0, 0, 30 um, 9 um, 0]}
 """
-OWN = ("m", "worn")
+SLOT = """
+bodies: {j: {mass: 0.2 kg, inertia: 1e-5 kg*m^2}, k: {mass: 0.2 kg, inertia: 1e-5 kg*m^2, com: [1 mm, 2 mm]}}
+ground: {O: [0, 0]}
+joints: {A: {revolute: [ground.O, j.origin]}, S: {translational: [j.origin, k.origin], axis: [2, 1]}}
+materials: {s: {E: 207 GPa, nu: 0.3}}
+guides: {g: {gap: 0.3 mm, half_length: 9 mm, half_height: 5 mm, guide_material: s, slider_material: s}}
+contacts:
+  c: {normal: {law: hertz, stiffness: 1e8, restitution: 0.8}, friction: {law: dahl, mu: 0.3, presliding: 20 um}}
+scenes: {slot: {play: {S: {guide: g, contact: c}}}}
+"""
+OWN = {"m": PINS, "worn": PINS, "slot": SLOT}
 SCENES = ("dry", "lubricated", *OWN)
 ASKED = """
 const live = require(process.argv[2]);
@@ -81,7 +91,7 @@ class Case:
 
 def derived(scene: str, folder: Path) -> tuple[Simulation, Trace]:
     if scene in OWN:
-        simulation = loader(folder)(PINS, scene)
+        simulation = loader(folder)(OWN[scene], scene)
         return simulation, trace(simulation.model)
     file = find_mechanism("nine_bar_press")
     return gudgeon.load("nine_bar_press", scene), trace(derive(file.read_bytes(), str(file), scene))
@@ -96,7 +106,7 @@ def case(request: Any, tmp_path_factory: pytest.TempPathFactory) -> Case:
     p = compiled.prepare(np.zeros(len(compiled.source.slots)), np.zeros(len(compiled.source.slots), dtype=bool))
     q = start.q + np.geomspace(2e-5, 2e-3, count)[:, None] * rng.uniform(-1.0, 1.0, compiled.n)
     v = start.v + rng.normal(0.0, 0.2, (count, compiled.n))
-    joints = [joint.name for joint in found.model.clearances]
+    joints = [joint.label for joint in found.model.clearances]
     memory = rng.uniform(-1.5e-5, 1.5e-5, (count, compiled.n_memory))
     memory[:, : len(joints)] = np.where(rng.random((count, len(joints))) < 0.5, np.nan, 0.3)
     table = compiled.evaluate(np.zeros(count), q, v, memory, p).clearance
@@ -118,7 +128,7 @@ def case(request: Any, tmp_path_factory: pytest.TempPathFactory) -> Case:
 
 def forces(case: Case, joint: str, told: dict[str, Any]) -> tuple[float, float]:
     """Along n and t, from the lines that say so last."""
-    pin = next(pin for pin in case.found.program.pins if pin.clearance.name == joint)
+    pin = next(pin for pin in case.found.program.pins if pin.clearance.label == joint)
     along = {role: f"law.{part}_{joint}.F_{of}" for role, part, of in (("normal", "dry", "n"), ("film", "film", "r"))}
     blended = told.get(f"law.clearance_{joint}.F.n")
     if blended is not None:

@@ -17,6 +17,8 @@ from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.description import description
 from gudgeon.web.module import simulator
 from gudgeon.web.page import carried
+from tests.integrators.test_guide import ARM
+from tests.integrators.test_guide import HEAD as GUIDED_HEAD
 from tests.integrators.test_newton_restitution import BALL, HEAD
 from tests.scenes import loader
 from tests.web.node import Answer, browser, in_browser, in_node, node
@@ -82,6 +84,17 @@ def test_slopes_of_contacts_are_the_native_ones(tmp_path: Path) -> None:
     native = engine.simulate(**options)
     assert len(native.impacts) > 3
     assert same_bits(found, native)
+
+
+@needs_node
+def test_a_slider_in_its_guide_and_the_sum_of_its_corners(tmp_path: Path) -> None:
+    file = tmp_path / "guided.yaml"
+    file.write_text(GUIDED_HEAD + ARM, encoding="utf-8")
+    engine, options = gudgeon.load(file, "elastic"), {"t_end": 0.01, "output": 20, "method": "dop853"}
+    native = engine.simulate(**options)  # type: ignore[arg-type]
+    (found,) = in_node(engine, tmp_path, [{"options": options, "names": [*native.names]}])
+    assert same_bits(found, native) and len(found.impacts) == len(native.impacts) > 3
+    check_series(found, native, 1e-13)
 
 
 @needs_node

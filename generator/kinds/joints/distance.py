@@ -25,7 +25,7 @@ JOINT = JointType(
     "distance",
     "constant distance (massless rod)",
     (number("length", "length of the rod", LENGTH, required=True, bounds=POSITIVE),),
-    False,
+    "",
     ("length",),
     ("m",),
     rows,

@@ -34,7 +34,7 @@ JOINT = JointType(
         body_or_ground("carrier", "what both wheels turn on"),
         flag("internal", "the second is a ring around the first"),
     ),
-    False,
+    "",
     ("mesh",),
     ("m",),
     rows,

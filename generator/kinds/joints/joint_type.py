@@ -13,6 +13,11 @@ from typing import Any
 from gudgeon.generator.field import Field
 from gudgeon.generator.kinds.discovery import declared
 
+# Of a slider with play: in front, along the axis (1), or behind; at the wall to the left of the axis (1), or the right.
+CORNERS: Mapping[str, tuple[int, int]] = {
+    "front_upper": (1, 1), "front_lower": (1, -1), "rear_upper": (-1, 1), "rear_lower": (-1, -1),
+}  # fmt: skip
+
 
 @dataclass(frozen=True)
 class JointType:
@@ -25,7 +30,7 @@ class JointType:
     kind: str
     title: str
     fields: tuple[Field, ...]  # the keys beside its own, such as `axis` of a translational joint
-    may_have_play: bool
+    play: str  # what its play is that of, a key of a scene's `play`: "bearing", "guide", or "" where it can have none
     row_names: tuple[str, ...]  # one short name a row of Φ: the row is called "<joint>.<row name>"
     row_units: tuple[str, ...]  # "m" or "rad", a row each
     rows: Callable[..., list[Any]]

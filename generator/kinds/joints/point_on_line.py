@@ -24,7 +24,7 @@ JOINT = JointType(
     "point_on_line",
     "point on a line (pin in slot)",
     (vector("direction", "direction in the second body's frame", DIMENSIONLESS, required=True, nonzero=True),),
-    False,
+    "",
     ("offset",),
     ("m",),
     rows,

@@ -23,7 +23,7 @@ JOINT = JointType(
     "revolute",
     "revolute joint",
     (),
-    True,
+    "bearing",
     ("x", "y"),
     ("m", "m"),
     rows,

@@ -22,7 +22,7 @@ JOINT = JointType(
     "rigid",
     "rigid joint",
     (number("angle", "θ_second − θ_first", DIMENSIONLESS, otherwise="0"),),
-    False,
+    "",
     ("x", "y", "angle"),
     ("m", "m", "rad"),
     rows,

@@ -30,7 +30,7 @@ JOINT = JointType(
         vector("axis", "direction of sliding in the first body's frame", DIMENSIONLESS, required=True, nonzero=True),
         number("angle", "θ_second − θ_first", DIMENSIONLESS, otherwise="the axis' direction"),
     ),
-    False,
+    "guide",
     ("offset", "angle"),
     ("m", "rad"),
     rows,

@@ -28,7 +28,8 @@ def pair_stiffness(s: LawInputs) -> Any:
 
     pair = s.pair
     other = pair.R_j if s.options["geometry"] == "external" else -pair.R_j
-    radius = sp.sqrt(pair.R_i * pair.R_j / (pair.R_i + other))
+    flat = pair.R_i == sp.oo  # a corner on a wall: R_i R_j/(R_i ± R_j) = R_j
+    radius = sp.sqrt(pair.R_j) if flat else sp.sqrt(pair.R_i * pair.R_j / (pair.R_i + other))
     if (pair.E_i, pair.nu_i) == (pair.E_j, pair.nu_j):
         K = sp.Rational(2, 3) * pair.E_i * radius / (1 - pair.nu_i**2)
     else:  # σ_i + σ_j times E_i, in wholes: two that hold the numbers of one material give its bits

@@ -36,4 +36,5 @@ LAW = Law(
              "run that goes deeper than 3.7 stops; driven apart fast it would pull, and is 0 there unless it pulls",
     fields=FIELDS,
     build=build,
+    in_hole=True,
 )  # fmt: skip

@@ -35,4 +35,5 @@ LAW = Law(
              "it pulls",
     fields=FIELDS,
     build=build,
+    in_hole=True,
 )  # fmt: skip

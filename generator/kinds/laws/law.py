@@ -19,7 +19,10 @@ from gudgeon.generator.kinds.discovery import declared
 
 @dataclass(frozen=True)
 class PairSymbols:
-    """Journal j in bearing i, as SymPy symbols: radii R_i, R_j, radial clearance c, length L, E and ν."""
+    """Journal j in bearing i, as SymPy symbols: radii R_i, R_j, radial clearance c, length L, E and ν.
+
+    A slider's corner at a wall of its guide: R_i = ∞, R_j the corner's radius, c the gap; there is no L.
+    """
 
     R_i: Any
     R_j: Any
@@ -108,6 +111,7 @@ class Law:
     instead: Mapping[str, str] = field(default_factory=dict)  # a choice that says something only without a number
     reference: str = ""  # the source as far as it is sure: author, title, journal, year, doi
     limits: Limits = Limits()  # of a film
+    in_hole: bool = False  # of a pin in a hole alone: it reads the radial clearance or the pin's length
     rigid: bool = False  # surfaces that do not give: impacts, and contacts that are constraints (engine/run/impacts.c)
 
     @property

@@ -37,4 +37,5 @@ LAW = Law(
         RESTITUTION, DISSIPATION, PULLS,
     ),
     build=build,
+    in_hole=True,
 )  # fmt: skip

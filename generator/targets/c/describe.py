@@ -8,10 +8,10 @@ from types import MappingProxyType
 
 import sympy as sp
 
+from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.contour_info import ContourInfo
 from gudgeon.contract.kernel_source import (
     BodyInfo,
-    ClearanceInfo,
     Condition,
     DriveInfo,
     EventInfo,

@@ -69,10 +69,10 @@ def _pin(pin: Pin, render: Render, states: int) -> str:
     if clearance.film is not None:
         parts["film_law"] = call_of_film(pin, "Lanes")
     return render(
-        "play/lane_pin.c.jinja", joint=clearance.name, dry=clearance.normal is not None,
+        "play/lane_pin.c.jinja", joint=clearance.label, dry=clearance.normal is not None,
         film=clearance.film is not None, ratio_name="unclipped" if clearance.clip_ratio else "ratio",
         rates=braced("rate", clearance, states, "all_of(0.0)"), still=braced("", clearance, states, "all_of(0.0)"),
-        first=pin.corners.start, last=pin.corners.stop, states=states, **parts,
+        first=pin.corners.start, last=pin.corners.stop, states=states, wall=bool(clearance.wall), **parts,
     )  # fmt: skip
 
 
@@ -83,17 +83,22 @@ def _newton(pins: Sequence[Pin], methods: Methods, render: Render, states: int) 
     slopes = [own_axes(pins, render, "Lanes", "LaneSlopes", states) + picking] if pins else []
     slopes += map(lanes_printer.kernel, methods.sloping)
     for clearance in (pin.clearance for pin in pins):
-        slopes.append(_tangent(clearance, methods.slopes[clearance.name], render, states))
+        slopes.append(_tangent(newton.system.model, clearance, methods.slopes[clearance.name], render, states))
     of_state = map(lanes_printer.watched_kernel, (newton.linearize, newton.factor))
     factor, solved = methods.at_complex[:1], methods.at_complex[1:]
     complex_ = [*map(lanes_printer.watched_kernel, factor), *map(lanes_printer.kernel, solved)]
     return "\n".join([*slopes, *of_state, *map(lanes_printer.kernel, (newton.substitute, newton.solve)), *complex_])
 
 
-def _tangent(clearance: Clearance, parts: Mapping[str, SharedCall], render: Render, states: int) -> str:
+def _tangent(
+    model: Model, clearance: Clearance, parts: Mapping[str, SharedCall], render: Render, states: int
+) -> str:  # fmt: skip
     """What acts in a joint, as in its own function."""
     given = {"film": (STATE, "out"), "dry": (STATE, "&dry"), "share": (("delta",), "share")}
     calls = {part: functions.shared_call(parts[part], what, (where,)) if part in parts else ""
              for part, (what, where) in given.items()}  # fmt: skip
-    calls |= {"joint": clearance.name, "c": f"p->{clearance.pair.c}"}
-    return render("play/lane_tangent.c.jinja", rows=4 + states, columns=5 + states, **calls)
+    calls |= {"joint": clearance.label, "c": f"p->{clearance.pair.c}"}
+    calls["rise"] = lanes_printer.expression(in_place(model, clearance.wall.rise)) if clearance.wall else ""
+    return render(
+        "play/lane_tangent.c.jinja", rows=4 + states, columns=5 + states, wall=bool(clearance.wall), **calls
+    )

@@ -126,8 +126,11 @@ def _of_watch(program: Program, bounds: Kernel | None) -> Sizes:
     if model.rubbed:
         sizes["N_RUBBED"] = (len(model.rubbed), "of them, with friction")
     sizes |= {"PERIODS": (1, "mod begins anew within the motion")} if periods else {}
-    contours = any(clearance.contour for clearance in model.clearances)
-    return sizes | {"CONTOURS": (1, "bearings are no circles")} if contours else sizes
+    if any(clearance.contour for clearance in model.clearances):
+        sizes["CONTOURS"] = (1, "bearings are no circles")
+    if any(clearance.wall for clearance in model.clearances):
+        sizes["WALLS"] = (1, "sliders have play in their guides: corners at walls")
+    return sizes
 
 
 def _of_start(program: Program) -> Sizes:

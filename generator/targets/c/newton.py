@@ -10,7 +10,7 @@ from gudgeon.generator.equations.play import Clearance, Contour
 from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.program import Methods
 from gudgeon.generator.kernels.shared import SharedCall
-from gudgeon.generator.solvers.contact_slopes import OF_CONTOUR
+from gudgeon.generator.solvers.contact_slopes import OF_CONTOUR, in_place
 from gudgeon.generator.solvers.newton import Newton
 from gudgeon.generator.targets.c import functions
 from gudgeon.generator.targets.c.play import CLOSED, CONTOURS
@@ -59,14 +59,20 @@ def tangent_code(pins: Sequence[Pin], methods: Methods, render: Render, states: 
             continue
         c = f"p->{clearance.pair.c}"
         slopes = _slopes(clearance, c, methods.slopes[clearance.name])
-        parts.append(render("play/tangent.c.jinja", joint=clearance.name, c=c, slopes=slopes, **sizes))
+        if clearance.wall:
+            rise = expression(in_place(methods.newton.system.model, clearance.wall.rise))
+            parts.append(
+                render("play/wall_tangent.c.jinja", joint=clearance.label, c=c, rise=rise, slopes=slopes, **sizes)
+            )
+            continue
+        parts.append(render("play/tangent.c.jinja", joint=clearance.label, c=c, slopes=slopes, **sizes))
     return "\n".join(parts)
 
 
 def _of_contour(clearance: Clearance, contour: Contour, dry: SharedCall, render: Render) -> str:
     given = [symbol.name for symbol in OF_CONTOUR]
     return render(
-        "play/contour_tangent.c.jinja", joint=clearance.name, c=f"p->{clearance.pair.c}",
+        "play/contour_tangent.c.jinja", joint=clearance.label, c=f"p->{clearance.pair.c}",
         worn=[expression(contour.at(beta_i, order)) for order in range(3)],
         unread="g" in functions.unread_sides([dry]), call=functions.shared_call(dry, (*given, "latch"), ("&F",)),
     )  # fmt: skip
@@ -77,7 +83,8 @@ def own_axes(pins: Sequence[Pin], render: Render, number: str, type_: str, state
     blending = _BLENDING.replace("{number}", number).replace("{type}", type_).replace("k < 5", f"k < {5 + states}")
     shown = blending if any(pin.has_transition for pin in pins) else ""
     given = {"number": number, "type": type_, "rows": 4 + states, "columns": 5 + states}
-    return render("play/pin_slopes.c.jinja", blending=shown, **given)
+    of_walls = render("play/wall_slopes.c.jinja", **given) if any(pin.clearance.wall for pin in pins) else ""
+    return render("play/pin_slopes.c.jinja", blending=shown, **given) + of_walls
 
 
 def _slopes(clearance: Clearance, c: str, calls: Mapping[str, SharedCall]) -> str:

@@ -24,8 +24,10 @@ _OF_CONTOUR = ("e", "steep", "worn_slope")  # what its dry contact is given besi
 CONTOURS = '#include "engine/scene/contour.h"\n\n'
 _STORE = """\
     *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
-        .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
-        .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0%s};"""
+        .ex = %s, .ey = %s, .e = e, .deltadot = deltadot, .v_t = F.v_t,
+        .moment_first = F.M_i%s, .moment_second = F.M_j, .delta = delta, .power = 0.0%s};"""
+_JOURNAL = ("e_x", "e_y", "")
+_AT_WALL = ("e * n_x", "e * n_y", " + along * F.n")  # of a slider's corner: along its wall's normal
 _RATIO = "latch->closed ? deltadot / latch->deltadot_minus : 1.0"
 _IN_BLOW = "if (latch->smooth)\n        F_along_t_dry = latch->along; /* a blow asks what it does */"
 CLOSED = "side ? latch->closed : delta > 0.0"
@@ -59,13 +61,13 @@ def clearance_code(pin: Pin, render: Render, states: int) -> str:
 
 def pin_functions(pin: Pin, render: Render, states: int) -> Iterator[PinFunction]:
     """Function by function: dry contact and film, as far as the joint has them, and what chooses between them."""
-    joint, clearance = pin.clearance.name, pin.clearance
+    joint, clearance = pin.clearance.label, pin.clearance
     if clearance.normal is not None:
         yield _dry(pin, render, states)
     if clearance.film is not None:
         yield _film(pin, render, states)
     text = render(
-        _template(pin), joint=joint, arguments=_ARGUMENTS % (" double theta_i," * bool(clearance.contour)),
+        _template(pin), joint=joint, arguments=_ARGUMENTS % _also(clearance),
         further="".join(f", {name}" for name in _further(pin)), gap=_lines(pin.gap), share=_lines(pin.share),
         rigid=clearance.rigid, closed="latch->closed" if clearance.rigid else CLOSED,
         store=_store(clearance, states), told=_shared_by(clearance),
@@ -74,6 +76,13 @@ def pin_functions(pin: Pin, render: Render, states: int) -> Iterator[PinFunction
     stores: Stores = [*functions.one_by_one(pin.gap), *functions.one_by_one(pin.share)]
     stores += [(_BLENDED.format(one), f"F.{one}") for one in ("n", "t", "M_i", "M_j") if pin.has_transition]
     yield PinFunction(f"clearance_{joint}", text, stores)
+
+
+def _also(clearance: Clearance) -> str:
+    """Arguments of a joint's function for what it is given of the motion besides (Clearance.also)."""
+    if clearance.wall:
+        return " double n_x, double n_y,"
+    return " double theta_i," * bool(clearance.contour)
 
 
 def _shared_by(clearance: Clearance) -> str:
@@ -95,7 +104,7 @@ def _law_of_share(clearance: Clearance) -> str:
 
 
 def _dry(pin: Pin, render: Render, states: int) -> PinFunction:
-    joint, clearance = pin.clearance.name, pin.clearance
+    joint, clearance = pin.clearance.label, pin.clearance
     ratio = "unclipped" if clearance.clip_ratio else "ratio"
     calls = _calls_of_dry(pin, "max_of(delta, 0.0)", "double")
     steps: dict[str, Any] = {"before": _lines(pin.before_dry), "after": _lines(pin.after_dry)}
@@ -115,7 +124,7 @@ def _further(pin: Pin) -> tuple[str, ...]:
 
 
 def _film(pin: Pin, render: Render, states: int) -> PinFunction:
-    calls, joint = _calls_of_film(pin, "double"), pin.clearance.name
+    calls, joint = _calls_of_film(pin, "double"), pin.clearance.label
     steps: dict[str, Any] = {"before": _lines(pin.before_film), "after": _lines(pin.after_film), "law": _texts(calls)}
     steps["unread"] = functions.unread_sides([pin.laws["film"]], (*pin.before_film, *pin.after_film))
     text = render("play/film.c.jinja", joint=joint, rates=braced("", pin.clearance, states), **steps)
@@ -125,7 +134,9 @@ def _film(pin: Pin, render: Render, states: int) -> PinFunction:
 
 def _store(clearance: Clearance, states: int) -> str:
     rates = braced("F.state_rate", clearance, states)
-    return _STORE % (f", .state_rate = {rates}" if rates else "")
+    own = _AT_WALL if clearance.wall else _JOURNAL
+    more = f", .state_rate = {rates}" if rates else ""
+    return _STORE % (*own, more + ", .at_wall = 1" * bool(clearance.wall and clearance.rigid))
 
 
 def braced(array: str, clearance: Clearance, states: int, none: str = "0.0") -> str:

@@ -67,10 +67,11 @@ def purposes(program: Program) -> dict[str, str]:
 
 def _sizes(program: Program) -> str:
     model, system = program.model, program.integrated.system
+    played = {clearance.joint.name for clearance in model.clearances}
     left = f"{_count(system.q, 'coordinate')}, {_count(system.rows, 'row')}"
     return (
         f"{_count(model.bodies, 'body', 'bodies')} with {_count(model.q, 'coordinate')}, "
-        f"{_count(model.rows, 'row')} of constraints, {_count(model.clearances, 'joint')} with play. "
+        f"{_count(model.rows, 'row')} of constraints, {_count(played, 'joint')} with play. "
         f"What is integrated: {left if program.integrates else 'nothing, for drives say all'}."
     )
 

@@ -54,7 +54,7 @@ def equations_script(program: Program) -> str:
         "numbers": {one: k for k, one in enumerate(members) if one in read},
         "rows": [place[row.name] for row in model.rows], "names": [row.name for row in model.rows],
         "given": {kernel.name: arguments(kernel) for kernel in kernels},
-        "joints": {clearance.name: _motion(model, i) for i, clearance in enumerate(model.clearances)},
+        "joints": {clearance.label: _motion(model, i) for i, clearance in enumerate(model.clearances)},
         "called": _called(program), "states": model.law_states, "bodies": [body.name for body in model.bodies],
         "closing": _closing(program),
     }  # fmt: skip
@@ -105,9 +105,9 @@ def _called(program: Program) -> dict[str, list[str]]:
     """Joints by the functions of clearance.c that act in them, in their order."""
     found: defaultdict[str, list[str]] = defaultdict(list)
     for pin in program.pins:
-        parts = (f"{part}_{pin.clearance.name}" for part in ("clearance", "dry", "film"))
+        parts = (f"{part}_{pin.clearance.label}" for part in ("clearance", "dry", "film"))
         for name in (*parts, *(call.kernel.name for call in pin.laws.values())):
-            found[name].append(pin.clearance.name)
+            found[name].append(pin.clearance.label)
     return found
 
 
@@ -125,7 +125,7 @@ def play_kernel(model: Model) -> Kernel:
         build.section(f"joint {clearance.name}")
         turning = clearance.first.omega, clearance.second.omega
         values = (*clearance.eccentricity, *clearance.eccentricity_rate, *turning)
-        values += (clearance.first.theta,) if clearance.contour else ()
+        values += clearance.also
         for name, value in zip(_motion(model, i), values, strict=True):
             build.line(Statement(name, sp.sympify(value)))
     return build.build((*STATE, PARAMETERS))

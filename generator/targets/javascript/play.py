@@ -31,7 +31,7 @@ def joint_functions(own: Pin, read: set[str]) -> list[str]:
     What one of them, and the laws that it calls, stores goes to `of` by the function's name: `of.dry_A.a_i`; the force
     in ground axes to `of.force`.
     """
-    joint, found = own.clearance.name, []
+    joint, found = own.clearance.label, []
     if own.clearance.normal is not None:
         found.append(_function(f"dry_{joint}", _given(own), _dry(own, read)))
     if own.clearance.film is not None:
@@ -42,6 +42,8 @@ def joint_functions(own: Pin, read: set[str]) -> list[str]:
 
 def motion(clearance: Clearance) -> tuple[sp.Symbol, ...]:
     """What a joint's function is given of the motion."""
+    if clearance.wall:
+        return (*MOTION, contact.n_x, contact.n_y)
     return (*MOTION, contact.theta_i) if clearance.contour else MOTION
 
 
@@ -67,7 +69,7 @@ def _dry(own: Pin, read: set[str]) -> list[str]:
     else:
         body.append("const F_along_t_dry = 0;")
     stored = [ratio, *before.locals, "F_n", *pressing.locals, "F_along_t_dry", *after.locals]
-    return [*body, *after.text, _store(f"dry_{own.clearance.name}", stored), _force(f"-{pressed}", "dry")]
+    return [*body, *after.text, _store(f"dry_{own.clearance.label}", stored), _force(f"-{pressed}", "dry")]
 
 
 def _film(own: Pin, read: set[str]) -> list[str]:
@@ -75,19 +77,20 @@ def _film(own: Pin, read: set[str]) -> list[str]:
     forces = ("F_r", "F_along_t_film", "T0")
     body = [*before.text, *_call(own.laws["film"], ("epsilon", "w_n", "w_t"), forces, read), *after.text]
     stored = [*before.locals, *forces, *after.locals]
-    return [*body, _store(f"film_{own.clearance.name}", stored), _force("F_r", "film")]
+    return [*body, _store(f"film_{own.clearance.label}", stored), _force("F_r", "film")]
 
 
 def _clearance(own: Pin, read: set[str]) -> list[str]:
     """The normal, then what acts; where both do, what the dry contact has of the force is blended with the film's."""
-    joint = own.clearance.name
+    joint = own.clearance.label
     gap, share = _Part(own.gap, read), _Part(own.share, read)
     parts = (("dry", _given(own)), ("film", _FILM))
     dry, film = (f"functions.{part}_{joint}({', '.join(given)})" for part, given in parts)
     body = [*gap.text, _store(f"clearance_{joint}", gap.locals)]
     if own.clearance.film is None:
         acts = "latch.closed" if own.clearance.rigid else "delta > 0"
-        return [*body, f"const F = {acts} ? {dry} : {_NOTHING};", _turned("F")]
+        at_wall = "{...F, M_i: F.M_i + along * F.n}" if own.clearance.wall else "F"
+        return [*body, f"const F = {acts} ? {dry} : {_NOTHING};", _turned(at_wall)]
     if own.clearance.normal is None:
         return [*body, _turned(film)]
     kept = ", ".join(share.locals)

@@ -20,8 +20,8 @@ LONG_CONSTANT = 4  # the same for what is computed once a run
 
 _ONE_LETTER = {
     "mass": "m", "inertia": "I", "length": "l", "radius": "R", "clearance": "c", "stiffness": "k", "damping": "d",
-    "angle": "phi", "axis": "a", "direction": "u", "radii": "r",
-    "density": "rho", "thickness": "h", "bar": "b", "disc": "r",
+    "angle": "phi", "axis": "a", "direction": "u", "radii": "r", "gap": "c", "half_length": "a", "half_height": "b",
+    "corner_radius": "rho", "density": "rho", "thickness": "h", "bar": "b", "disc": "r",
 }  # fmt: skip
 _FREE = {"free_length": "l", "free_angle": "theta"}
 _TEMPORARY = {
@@ -167,6 +167,8 @@ def of_address(address: str) -> Name:
             return letter("L", bearing)
         case ["bearings", bearing, "bearing_material" | "journal_material" as role, constant]:
             return letter(constant, "j" if role == "journal_material" else "i", bearing)
+        case ["guides", guide, "guide_material" | "slider_material" as role, constant]:
+            return letter(constant, "j" if role == "slider_material" else "i", guide)
         case ["bodies", body, "shape", "rectangle", axis]:
             return letter({"x": "a", "y": "b"}[axis], body)
         case ["bodies", body, "shape", *_, field]:

@@ -11,18 +11,17 @@ from gudgeon.generator.equations.contact_steps import Step
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations
 from gudgeon.generator.field import Field
-from gudgeon.generator.mechanism.mechanism import Play, Quantity
+from gudgeon.generator.mechanism.mechanism import Guide, Play, Quantity
 from gudgeon.generator.targets.latex import play_letters as contact_names
-from gudgeon.generator.targets.latex.document import Block, Section, Text, cells, paragraph, sentence, table
+from gudgeon.generator.targets.latex.document import Block, Section, paragraph, sentence
 from gudgeon.generator.targets.latex.kinematics import equation
-from gudgeon.generator.targets.latex.letters import Name, of_latex
+from gudgeon.generator.targets.latex.letters import Name
 from gudgeon.generator.targets.latex.notation import Notation
-from gudgeon.generator.targets.latex.play_words import as_word, contour, onset, rigid, told_states
+from gudgeon.generator.targets.latex.play_numbers import numbers
+from gudgeon.generator.targets.latex.play_words import as_word, contour, corner, onset, rigid, told_states
 from gudgeon.generator.targets.latex.plots import law_plot
+from gudgeon.generator.targets.latex.tokens import joint_tokens
 from gudgeon.generator.targets.latex.trace import Functions, Trace
-from gudgeon.generator.targets.latex.values import LONGEST, Values, as_written
-from gudgeon.language.plot_units import pretty
-from gudgeon.language.units import si_unit
 
 _PAIR = (
     ("radius", "R_i", "bearing radius"),
@@ -36,22 +35,26 @@ class JointWithPlay:
 
     def __init__(self, model: Model, clearance: Clearance, notation: Notation, found: Functions) -> None:
         self.model, self.clearance, self.found = model, clearance, found
-        self.play = model.scene.play[clearance.name]
-        self.of = f"joint-{clearance.name}"  # tokens
-        self.of_law = [f"law-{self.play.contact.name}", self.of]
-        self.alike = [name for name, play in model.scene.play.items() if _alike(play, self.play)]
+        self.play = model.scene.play[clearance.joint.name]
+        self.of = joint_tokens(clearance)
+        self.of_law = [f"law-{self.play.contact.name}", *self.of]
+        self.alike = [c.label for c in model.clearances if _alike(model.scene.play[c.joint.name], self.play)]
         self.notation = notation.called(contact_names.joint_letters(model, clearance))
         self.numbers = list(self._numbers())
 
     def _numbers(self) -> Iterator[tuple[Quantity, str, str]]:
         """Every number of this joint: quantity, letter if it has no slot, meaning."""
         bearing = self.play.bearing
-        for field, sign, meaning in _PAIR:
-            yield getattr(bearing, field), sign, meaning
+        for field, sign, meaning in contact_names.GUIDE if isinstance(bearing, Guide) else _PAIR:
+            if (quantity := getattr(bearing, field)) is not None:
+                yield quantity, sign, meaning
         i, j = bearing.bearing_material, bearing.journal_material
-        pieces = [(i, "", "both")] if i == j else [(i, "_i", "bearing"), (j, "_j", "journal")]
+        section, *both = ("guides", "guide", "slider") if isinstance(bearing, Guide) else (
+            "bearings", "bearing", "journal"
+        )  # fmt: skip
+        pieces = [(i, "", "both")] if i == j else [(i, "_i", both[0]), (j, "_j", both[1])]
         for material, index, what in pieces if self.clearance.normal is not None else []:
-            name = self.model.scene.materials.get(f"bearings.{bearing.name}.{what}_material", material.name)
+            name = self.model.scene.materials.get(f"{section}.{bearing.name}.{what}_material", material.name)
             yield material.numbers["E"], f"E{index}", f"modulus of elasticity of {name} ({what})"
             yield material.numbers["nu"], rf"\nu{index}", f"Poisson's ratio of {name} ({what})"
         for equations, use in contact_names.laws_of(self.model, self.clearance):
@@ -85,15 +88,19 @@ def play_sections(model: Model, notation: Notation, found: Functions) -> list[Se
     for clearance in model.clearances:
         joint = JointWithPlay(model, clearance, notation, found)
         twin = next((name for name, play in done.items() if _alike(play, joint.play)), None)
-        title = f"Joint {clearance.name} with play"
-        sections.append(Section(title, tuple(_geometry(joint, twin is None)), 1, [joint.of]))
+        what = "Corner" if clearance.wall else "Joint"
+        title = f"{what} {clearance.name} with play"
+        sections.append(Section(title, tuple(_geometry(joint, twin is None)), 1, joint.of))
         if twin is None:
             done[clearance.name] = joint.play
             sections += _contact_sections(joint)
         else:
-            text = f"Bearing and contact are those of joint {twin}; so are letters, laws and numbers."
-            sections.append(Section(f"Joint {clearance.name}: force", (paragraph(text),), 2))
-        sections.append(Section(f"Joint {clearance.name}: share in g", tuple(_share_in_g(joint)), 2))
+            whose = f"Guide and contact are those of corner {twin}" if clearance.wall else (
+                f"Bearing and contact are those of joint {twin}"
+            )  # fmt: skip
+            text = f"{whose}; so are letters, laws and numbers."
+            sections.append(Section(f"{what} {clearance.name}: force", (paragraph(text),), 2))
+        sections.append(Section(f"{what} {clearance.name}: share in g", tuple(_share_in_g(joint)), 2))
     return sections
 
 
@@ -111,11 +118,15 @@ def _geometry(joint: JointWithPlay, first: bool) -> list[Block]:
         (contact.omega_i, clearance.first.omega),
         (contact.omega_j, clearance.second.omega),
     ]
-    lead = paragraph(
-        f"Bearing i is {ref.first.body}.{ref.first.point}, journal j is {ref.second.body}.{ref.second.point}; "
+    ends = f"{ref.first.body}.{ref.first.point}", f"{ref.second.body}.{ref.second.point}"
+    lead: Block = paragraph(
+        f"Bearing i is {ends[0]}, journal j is {ends[1]}; "
         "the eccentricity goes from the bearing's centre to the journal's."
     )
-    own: list[Block] = [equation(symbol, expand(value), notation, [joint.of]) for symbol, value in steps]
+    if clearance.wall:
+        lead = corner(clearance.name, *ends)
+        steps += zip((contact.n_x, contact.n_y), clearance.wall.normal, strict=True)
+    own: list[Block] = [equation(symbol, expand(value), notation, joint.of) for symbol, value in steps]
     if clearance.contour:
         own += contour(joint)
     return [lead, *own, *(joint.shown(contact.gap(clearance)) if first else [])]
@@ -123,44 +134,24 @@ def _geometry(joint: JointWithPlay, first: bool) -> list[Block]:
 
 def _contact_sections(joint: JointWithPlay) -> list[Section]:
     clearance, name = joint.clearance, joint.clearance.name
-    sections = [Section(f"Joint {name}: numbers", tuple(_numbers(joint)), 2)]
+    what = "Corner" if clearance.wall else "Joint"
+    sections = [Section(f"{what} {name}: numbers", tuple(numbers(joint)), 2)]
     if clearance.normal is not None:
-        sections.append(Section(f"Joint {name}: dry contact", tuple(_dry(joint)), 2))
+        sections.append(Section(f"{what} {name}: dry contact", tuple(_dry(joint)), 2))
     if clearance.film is not None:
         blocks = [*joint.shown(contact.before_film(clearance, clearance.film)), *_law(joint, "film"),
                   *joint.shown(contact.after_film(clearance.film))]  # fmt: skip
-        sections.append(Section(f"Joint {name}: film", tuple(blocks), 2))
+        sections.append(Section(f"{what} {name}: film", tuple(blocks), 2))
     if clearance.mixed is not None:
-        sections.append(Section(f"Joint {name}: mixed lubrication", tuple(_mixed(joint)), 2))
-    lead = "At the centre any direction serves as n. Force on the journal, in ground axes"
+        sections.append(Section(f"{what} {name}: mixed lubrication", tuple(_mixed(joint)), 2))
+    lead = "Force on the slider, in ground axes, and the moment about the guide's point" if clearance.wall else (
+        "At the centre any direction serves as n. Force on the journal, in ground axes"
+    )  # fmt: skip
     if clearance.normal is not None and clearance.film is not None:
         over = "is the share above" if clearance.mixed else "goes from 0 to 1 over the transition"
         lead += f"; d marks the dry part, f the film, b {over}"
     blocks = [paragraph(lead + ":"), *joint.shown(contact.resultant(clearance))]
-    return [*sections, Section(f"Joint {name}: force", tuple(blocks), 2)]
-
-
-def _numbers(joint: JointWithPlay) -> list[Block]:
-    """The letters of this joint, and what follows from them once a run."""
-    slots, values, rows = joint.model.slots, Values(joint.model, joint.notation), []
-    for quantity, sign, meaning in joint.numbers:
-        entry = slots.entries.get(quantity.address)
-        value: Text = (_apart(quantity),) if entry is None else values.in_si(entry)
-        if entry is not None and entry.follows:
-            value = (*values.followed(entry), joint.notation.math(sp.Float(entry.default, 17)))
-        called = of_latex(sign) if entry is None else joint.notation.math(entry.symbol)
-        rows.append(cells(called, meaning, quantity.address, value, pretty(si_unit(quantity.dimension)) or "-"))
-    definitions = joint.model.symbols.definitions
-    constants = dict.fromkeys([joint.clearance.pair.R_j, *joint.clearance.constants.values()])
-    follow = [equation(s, joint.notation.expand(definitions[s]), joint.notation) for s in constants if s in definitions]
-    header = cells("letter", "meaning", "address", "value in the file", "unit")
-    return [*table(header, rows, (1,)), *values.below(), paragraph("From these follow once a run:"), *follow]
-
-
-def _apart(quantity: Quantity) -> str:
-    """What is no number of the run: 0, or an expression of the penetration, a long one where its equation stands."""
-    written = "0" if quantity.is_zero else as_written(quantity.value)
-    return written if len(written) <= LONGEST else "below"
+    return [*sections, Section(f"{what} {name}: force", tuple(blocks), 2)]
 
 
 def _dry(joint: JointWithPlay) -> list[Block]:
@@ -219,5 +210,5 @@ def _share_in_g(joint: JointWithPlay) -> list[Block]:
         )  # fmt: skip
         for k, share in enumerate(shares, point.body.index + 1):
             left = Name(rf"\Delta g_{{{k}}}", f"Δg_{k}")
-            blocks.append(equation(left, sp.expand(notation.expand(share)), notation, [joint.of]))
+            blocks.append(equation(left, sp.expand(notation.expand(share)), notation, joint.of))
     return blocks

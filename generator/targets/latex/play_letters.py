@@ -16,6 +16,7 @@ from gudgeon.generator.equations.contact_steps import (
     M_j,
     a_i,
     a_j,
+    along,
     beta_i,
     beta_rate,
     de_t,
@@ -50,7 +51,8 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations
 from gudgeon.generator.field import Field
 from gudgeon.generator.kinds.laws.law import HELD, RESULTS, Law
-from gudgeon.generator.mechanism.mechanism import LawUse, Quantity
+from gudgeon.generator.mechanism.mechanism import Guide, LawUse, Quantity
+from gudgeon.generator.symbols.numbers import SlotEntry
 from gudgeon.generator.targets.latex.letters import Name, distinct, letter, of_latex, word
 
 # Parts of a joint with film and dry contact are told apart by d and f.
@@ -62,7 +64,7 @@ NAMES: Mapping[sp.Symbol, Name] = {
     n_y: letter("n", "y"), delta: letter("delta"), deltadot: letter("delta", dots=1), de_t: letter("e", "t", dots=1),
     stored: Name(r"\dot{\delta}^{-}", "δ̇⁻"), a_i: letter("a", "i"), a_j: letter("a", "j"), v_t: letter("v", "t"),
     epsilon: letter("epsilon"), w_n: letter("w", "n"), w_t: letter("w", "t"), share: letter("b"),
-    F_along_n: letter("F", "e"), F_x: letter("F", "x"), F_y: letter("F", "y"),
+    F_along_n: letter("F", "e"), along: letter("e", "t"), F_x: letter("F", "x"), F_y: letter("F", "y"),
     theta_i: letter("theta", "i"), beta_i: letter("beta", "i"), u_x: letter("u", "x"), u_y: letter("u", "y"),
     worn: letter("w"), worn_slope: Name("w'", "w'"), beta_rate: letter("beta", "i", dots=1), slant: letter("r"),
     steep: letter("zeta"), F_N: letter("F", "N"),
@@ -77,6 +79,13 @@ LAW_LETTERS = {
     "overlap": letter("l"), "deepest": letter("delta", "max"), "scale": letter("l"), "part": letter("y"),
     "gone": letter("x"), "left": letter("y"), "F_e": letter("F", "el"),
 }  # fmt: skip
+_LETTERS_AT_WALL = (("c", "c"), ("R_i", "h_i"), ("R_j", r"\rho"))
+GUIDE = (
+    ("gap", "c", "gap on each side"),
+    ("half_length", "a", "half the slider's length"),
+    ("half_height", "b", "half the slider's height"),
+    ("corner_radius", r"\rho", "radius of the slider's corners"),
+)
 RATIO, CLIPPED = Name(r"\frac{\dot{\delta}}{\dot{\delta}^{-}}", "(δ̇/δ̇⁻)"), letter("r")
 
 
@@ -89,6 +98,8 @@ def names(clearance: Clearance) -> dict[sp.Symbol, Name]:
             found[of_part(symbol, part)] = letter(base, index + _PARTS[part] if len(parts) > 1 else index)
         if len(parts) > 1:
             found[symbol] = letter(base, index)
+    if clearance.wall:
+        found |= {M_i: letter("M", "i"), of_part(M_i, "dry"): letter("M", "i", "t")}
     return found
 
 
@@ -100,17 +111,23 @@ def joint_letters(model: Model, clearance: Clearance) -> dict[sp.Symbol, Name]:
 def _wanted(model: Model, clearance: Clearance) -> Iterator[tuple[sp.Expr, Name]]:
     pair, laws = clearance.pair, laws_of(model, clearance)
     yield from names(clearance).items()
-    for symbol, sign in ((pair.c, "c"), (pair.R_i, "R_i"), (pair.R_j, "R_j"), (pair.L, "L")):
-        yield symbol, of_latex(sign)
+    wall, play = clearance.wall, model.scene.play[clearance.joint.name]
+    signs = _LETTERS_AT_WALL if wall else (("c", "c"), ("R_i", "R_i"), ("R_j", "R_j"), ("L", "L"))
+    pairs = [(getattr(pair, what), sign) for what, sign in signs]
+    for symbol, sign in (*pairs, *([(wall.rise, "h_j")] if wall else [])):
+        if symbol.is_Symbol:
+            yield symbol, of_latex(sign)
     for constant in ("E", "nu"):
         i, j = getattr(pair, f"{constant}_i"), getattr(pair, f"{constant}_j")
         yield from [(i, letter(constant))] if i == j else [(i, letter(constant, "i")), (j, letter(constant, "j"))]
+    if isinstance(play.bearing, Guide):
+        lengths = ((getattr(play.bearing, field), sign) for field, sign, _ in GUIDE)
+        yield from ((slot.symbol, of_latex(sign)) for length, sign in lengths if (slot := _slot(model, length)))
     if clearance.transition is not None:
         yield clearance.transition, letter("e", "0")
     for equations, use in laws:
         for parameter, quantity in given(equations, use):
-            entry = model.slots.entries.get(quantity.address)
-            if entry is not None:
+            if entry := _slot(model, quantity):
                 yield entry.symbol, of_latex(sign_of(parameter))
     for name, value in clearance.constants.items():
         yield value, LAW_LETTERS.get(name) or word(name)
@@ -119,9 +136,13 @@ def _wanted(model: Model, clearance: Clearance) -> Iterator[tuple[sp.Expr, Name]
             yield result(equations, name), step_name(equations.law, name)
 
 
+def _slot(model: Model, quantity: Quantity | None) -> SlotEntry | None:
+    return None if quantity is None else model.slots.entries.get(quantity.address)
+
+
 def laws_of(model: Model, clearance: Clearance) -> list[tuple[LawEquations, LawUse]]:
     """The laws that a joint has, with their place in the file."""
-    return list(zip(clearance.laws, model.scene.play[clearance.name].contact.laws, strict=True))
+    return list(zip(clearance.laws, model.scene.play[clearance.joint.name].contact.laws, strict=True))
 
 
 def given(equations: LawEquations, use: LawUse) -> list[tuple[Field, Quantity]]:

@@ -22,13 +22,25 @@ def contour(joint: JointWithPlay) -> Iterator[Block]:
     """The bearing's angle, and what W is."""
     clearance = joint.clearance
     assert clearance.contour
-    yield equation(contact.theta_i, joint.notation.expand(clearance.first.theta), joint.notation, [joint.of])
+    yield equation(contact.theta_i, joint.notation.expand(clearance.first.theta), joint.notation, joint.of)
     yield paragraph(
         f"The bearing is no circle: w is how much deeper it is, {clearance.contour.count} depths at equal angles from "
         f"the x axis of {clearance.joint.first.body} on, between them polynomials of degree five with two continuous "
         "derivatives. F acts along the gradient of ", Name(r"\delta", "δ"), ", whose length is ",
         joint.notation.math(contact.steep), ": an elastic force keeps the energy."
     )  # fmt: skip
+
+
+def corner(name: str, guide: str, slider: str) -> Block:
+    """Which corner of a slider it is, and what its letters mean."""
+    which = name.rpartition(".")[2]
+    front, upper = "front" in which, "upper" in which
+    return paragraph(
+        f"The guide i goes through {guide}, the slider j is in its middle at {slider}. This corner is"
+        f" {'in front, along' if front else 'at the rear, against'} the axis, at the wall to the"
+        f" {'left' if upper else 'right'} of it, whose outward normal is n; (e_x, e_y) leads from the guide's point to"
+        " the centre of the corner's radius, e is what that lies nearer to the wall than in the middle."
+    )
 
 
 def rigid(joint: JointWithPlay, stored: Name) -> Block:

@@ -51,7 +51,7 @@ class Plot:
 
 def law_plot(found: Functions, joints: Sequence[str], role: str, law: Law) -> list[Block]:
     """The law of a role in some joints that share it, over its range; nothing of laws with inner states or none."""
-    pins = {pin.clearance.name: k for k, pin in enumerate(found.program.pins)}
+    pins = {pin.clearance.label: k for k, pin in enumerate(found.program.pins)}
     pin = found.program.pins[pins[joints[0]]]
     call = pin.laws.get(role)
     if call is None or law.states or law.rigid:

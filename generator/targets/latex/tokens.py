@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.play import Clearance
 
 
 def row_token(number: int) -> str:
@@ -32,3 +33,8 @@ def entries_of(model: Model, number: int, row: Row) -> Iterator[str]:
     """Tokens of a row's entries of Φ_q."""
     place = {q: k for k, q in enumerate(model.q, 1)}
     return (entry_token(number, place[q]) for q in row.phi_q)
+
+
+def joint_tokens(clearance: Clearance) -> list[str]:
+    """What lights up with it: the joint, and of a slider's corner that alone."""
+    return [*dict.fromkeys((f"joint-{clearance.label}", f"joint-{clearance.joint.name}"))]

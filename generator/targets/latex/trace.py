@@ -30,7 +30,7 @@ from gudgeon.generator.targets.c.lines import Stored, find, find_within, place_o
 from gudgeon.generator.targets.c.play import pin_functions
 from gudgeon.generator.targets.javascript.module import right_hand_sides, tree_functions
 from gudgeon.generator.targets.javascript.printer import name as name_of
-from gudgeon.generator.targets.latex.tokens import entries_of, entry_token, row_token, sum_token
+from gudgeon.generator.targets.latex.tokens import entries_of, entry_token, joint_tokens, row_token, sum_token
 from gudgeon.generator.targets.numpy.module import ClosedLinkage
 
 # Functions of the closed linkage by the letter of what they give: `constraints` gives phi[r].
@@ -115,15 +115,16 @@ class _Finder:
         for kernel in (*program.closed, program.dynamics, *in_tree):
             self._function(kernel)
         for pin in program.pins:
-            contact = self.model.scene.play[pin.clearance.name].contact.name
+            contact = self.model.scene.play[pin.clearance.joint.name].contact.name
+            lit = frozenset(joint_tokens(pin.clearance))
             for call in pin.laws.values():
-                own = frozenset({f"law-{contact}", f"joint-{pin.clearance.name}"})
+                own = frozenset({f"law-{contact}", *lit})
                 self._whole(functions.kernel(call.kernel), own)
                 self._note(call.kernel, {})
                 for number in call.numbers:
                     self.numbers[number] |= own
             for part in pin_functions(pin, render, self.model.law_states):
-                self._whole(part.text, frozenset({f"joint-{pin.clearance.name}"}))
+                self._whole(part.text, lit)
                 file, stored = find_within(part.text, part.stores, self.files)
                 for one in stored:
                     self._keep(file, one, f"law.{part.name}.{{}}".format)

@@ -26,8 +26,8 @@ _FILM = ("F_r", "F_along_t_film", "M_i_film", "M_j_film")
 
 def pin(own: Pin) -> str:
     """`clearance_<joint>`. A contact is closed where the journal is deeper than the bearing."""
-    joint, clearance = own.clearance.name, own.clearance
-    body = [*docstring([f"Force of joint {joint} on the journal, from the eccentricity e and its rate."])]
+    joint, clearance = own.clearance.label, own.clearance
+    body = [*docstring([f"Force of joint {clearance.name} on the journal, from the eccentricity e and its rate."])]
     body += lines(own.gap)
     if clearance.normal is None:
         body += [*_film(own), "F = F_r, F_along_t_film, M_i_film, M_j_film", "v_t = 0.0"]
@@ -38,10 +38,11 @@ def pin(own: Pin) -> str:
         body += [*_film(own), "F, v_t = (F_r, F_along_t_film, M_i_film, M_j_film), 0.0", "if delta > 0:"]
         body += indented([*_dry(own), *lines(own.share), "if share < 1:", f"    film = {', '.join(_FILM)}",
                           "    F = tuple(b + share*(a - b) for a, b in zip(F, film))"])  # fmt: skip
+    place, first = ("e*n_x, e*n_y", "F[2] + along*F[0]") if clearance.wall else ("e_x, e_y", "F[2]")
     body += ["out.Fx, out.Fy = F[0]*n_x - F[1]*n_y, F[0]*n_y + F[1]*n_x", "out.F_n, out.F_t, out.v_t = F[0], F[1], v_t",
-             "out.ex, out.ey, out.e, out.deltadot, out.delta = e_x, e_y, e, deltadot, delta",
-             "out.moment_first, out.moment_second, out.power = F[2], F[3], 0.0"]  # fmt: skip
-    turned = ", theta_i" if clearance.contour else ""
+             f"out.ex, out.ey, out.e, out.deltadot, out.delta = {place}, e, deltadot, delta",
+             f"out.moment_first, out.moment_second, out.power = {first}, F[3], 0.0"]  # fmt: skip
+    turned = ", n_x, n_y" if clearance.wall else ", theta_i" if clearance.contour else ""
     head = f"def clearance_{joint}(e_x, e_y, de_x, de_y, omega_i, omega_j{turned}, latch, p, out):"
     return "\n".join([*code(head), *indented(body)])
 

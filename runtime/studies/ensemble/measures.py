@@ -98,7 +98,9 @@ def check_origin(measures: Iterable[Measure], source: KernelSource) -> None:
 
 
 def _joints(source: KernelSource, rubs: bool = False) -> list[str]:
-    return [joint.name for joint in source.clearances if not rubs or known_to_rub(source, joint)]
+    return [
+        joint.name for joint in source.clearances if not rubs or known_to_rub(source, joint) and not joint.at_wall
+    ]
 
 
 def _events(source: KernelSource) -> list[str]:
