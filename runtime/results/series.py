@@ -72,11 +72,12 @@ _catalogues: dict[int, tuple[Any, Mapping[str, Series]]] = {}  # by the id of a 
 
 def catalogue(source: KernelSource) -> Mapping[str, Series]:
     """All the names of a scene in the order in which they are listed and stored; made once a source."""
-    key = id(source)
-    if key not in _catalogues:
-        lives = weakref.ref(source, lambda _: _catalogues.pop(key, None))
-        _catalogues[key] = lives, MappingProxyType(_made(source))
-    return _catalogues[key][1]
+    kept = _catalogues.get(id(source))
+    if kept is None or kept[0]() is not source:  # looked at here: a Ctrl-C in what a weakref calls would be lost
+        for key in [key for key, (lives, _) in list(_catalogues.items()) if lives() is None]:
+            _catalogues.pop(key, None)
+        kept = _catalogues[id(source)] = weakref.ref(source), MappingProxyType(_made(source))
+    return kept[1]
 
 
 def _made(source: KernelSource) -> dict[str, Series]:
