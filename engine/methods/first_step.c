@@ -71,18 +71,20 @@ static int fit_first(Run *run, double left, const Parameters *p)
     if (!run->first || run->fixed > 0.0 || run->method->own_length || (*run->first > 0.0 && !begins))
         return 0;
     run->onset_share = 0.0;
-    run->h = min_of(run->h, left);
-    for (int i = 1; i <= MAX_FITTED && run->h > 0.0; i++) {
+    for (int i = 1; i <= MAX_FITTED && left > 0.0; i++) {
+        const double h = min_of(run->h, left);
         double change, size, by = 0.1;
-        const int status = changes_within(run, run->h, p, &change, &size);
+        const int status = changes_within(run, h, p, &change, &size);
         if (status == STOPPED)
             return status;
-        if (!status && isfinite(change)) {
-            by = better_by(run, run->h, change, size, fits);
-            run->onset_share = change * pow(run->h, 2.0 - run->rough);
+        if (!status && isfinite(change + size)) {
+            by = better_by(run, h, change, size, fits);
+            run->onset_share = change * pow(h, 2.0 - run->rough);
         }
+        if (h < run->h && by >= 1.0)
+            break; /* to the run's end: more is not asked */
         by = min_of(begins || corner ? 1.0 : i < MAX_FITTED ? 30.0 : 3.0, max_of(1e-3, by));
-        run->h = min_of(by * run->h, left);
+        run->h = by * h;
         if (by > 0.3 && by < 3.0)
             break;
     }
