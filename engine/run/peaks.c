@@ -1,8 +1,9 @@
 /*
  * Peaks of the forces in joints with play between the ends of a step, from the interpolant.
  */
-enum { MAX_TOPS = 12 };
-#define TOP 1e-4 /* of a step: so near its place a force is its largest but for 1e-8 */
+enum { MAX_TOPS = 20 };
+#define TOP 1e-5    /* of a step: so near its place a force is its largest but for 1e-10 */
+#define AROUND 0.01 /* the same, within which it is a parabola to that */
 
 static void peak(Run *run, int i, double t, double F)
 {
@@ -36,6 +37,7 @@ static void inner_peak(Run *run, const Step *step, double share, int i, double b
     const Parameters *p)
 {
     double x[3] = {0.0, 0.5 * share, share}, f[3] = {before, force_at(run, step, 0.5 * share, i, p), after};
+    peak(run, i, step->t, before);
     for (int n = 0; n < MAX_TOPS; n++) {
         const double low = x[1] - x[0], high = x[2] - x[1], left = f[0] - f[1], right = f[2] - f[1];
         const double bend = right * low + left * high;
@@ -43,8 +45,10 @@ static void inner_peak(Run *run, const Step *step, double share, int i, double b
         if (bend < 0.0)
             top = x[1] - 0.5 * (right * low * low - left * high * high) / bend;
         top = min_of(x[2] - 0.1 * high, max_of(x[0] + 0.1 * low, top));
-        if (fabs(top - x[1]) < TOP * share)
+        if (fabs(top - x[1]) < TOP * share && max_of(low, high) < AROUND * share)
             break;
+        if (fabs(top - x[1]) < 0.1 * AROUND * share && max_of(low, high) >= AROUND * share)
+            top = low > high ? x[1] - 0.5 * AROUND * share : x[1] + 0.5 * AROUND * share; /* by nearer places */
         const double found = force_at(run, step, top, i, p);
         const int above = top > x[1], higher = found > f[1], end = above == higher ? 0 : 2;
         x[end] = higher ? x[1] : top;
