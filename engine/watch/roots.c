@@ -2,6 +2,7 @@
  * Where along a step a margin crosses zero: the step's interpolant, its roots, and dips that touch zero in between.
  */
 enum { ROOT_STEPS = 100, LOOKS = 16 };
+#define ACROSS 0.1 /* of the width of a zero, that one is looked at beyond it: what is late at each event adds up */
 #define SHALLOW 1e-13 /* m, or 1e-10 of the depth that ends the model: a graze without a force worth the name */
 
 /* How far below zero margin k lies without a meaning: m of a joint with play. */
@@ -157,7 +158,7 @@ static double root_width(const Run *run, const Step *step)
 static double root(Run *run, const Step *step, int k, double low, double at_low, double high, double at_high,
     const Parameters *p)
 {
-    const double close = root_width(run, step);
+    const double close = root_width(run, step), across = ACROSS * close;
     double before = INFINITY;
     Along at;
     along_step(run, step, k, &at);
@@ -165,9 +166,9 @@ static double root(Run *run, const Step *step, int k, double low, double at_low,
     note_along(&at, high, at_high);
     for (int i = 0; i < ROOT_STEPS && high - low > close; i++) {
         const double zero = guess_zero(&at, low, high);
-        if (fabs(zero - before) < 0.25 * close && high - zero < 0.75 * close)
+        if (fabs(zero - before) < across && high - zero < 2.0 * across)
             break;
-        double s = zero + 0.5 * close < high ? zero + 0.5 * close : zero - 0.5 * close;
+        double s = zero + across < high ? zero + across : zero - across;
         if (!(s > low) || i % 8 == 7)
             s = 0.5 * (low + high);
         const double now = margin_at(run, step, s, k, p);
