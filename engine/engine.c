@@ -31,6 +31,7 @@
 #include "run/peaks.c"
 #include "run/changes.c"
 #include "methods/step_length.c"
+#include "methods/first_step.c"
 #include "methods/begin.c"
 #include "methods/adaptive.c"
 #include "batch/many.c"

@@ -3,11 +3,22 @@
  */
 #include "lane_quiet.c"
 
+/*
+ * Where runs may go by one of several methods, more are under way than there are lanes: some share a lane, so that most
+ * lanes have one that goes by the method which most want.
+ */
+#if TAYLOR
+enum { ABREAST = LANES };
+#else
+enum { ABREAST = 4 * LANES };
+#endif
+
 typedef struct {
     const Batch *b;
     const Single *one;
-    Run *run[LANES];
-    long number[LANES]; /* -1: free */
+    Run *run[ABREAST];
+    long number[ABREAST]; /* -1: free */
+    int seated[LANES];    /* which one a lane has, of those that share it; -1: none yet */
     LaneParameters p;
     Lanes h; /* of the steps that come next */
 #if QUIET
@@ -23,23 +34,20 @@ typedef struct {
 #define FLOW_BEGINS sizeof(Flow)
 #endif
 
-static int is_taken(const Flow *flow, int k) { return flow->number[k] >= 0; }
+static int is_taken(const Flow *flow, int i) { return flow->number[i] >= 0; }
 
-/* What a free lane computes is another one's, so that it meets nothing odd. */
-static int mirrored(const Flow *flow, int k)
+/* Run i, whose numbers lane k has from now on: what nobody shares computes what another one does, so that it meets
+ * nothing odd. */
+static void seat(Flow *flow, int k, int i)
 {
-    for (int i = 0; i < LANES && !is_taken(flow, k); i++)
-        k = is_taken(flow, i) ? i : k;
-    return k;
-}
-
-static void gather_parameters(Flow *flow)
-{
-    for (int k = 0; k < LANES; k++) {
-        const double *p = flow->b->p_motion + flow->number[mirrored(flow, k)] * flow->b->numbers;
-        for (long j = 0; j < flow->b->numbers; j++)
-            ((Lanes *)&flow->p)[j][k] = p[j];
-    }
+    for (int other = 0; other < ABREAST && !is_taken(flow, i); other++)
+        i = is_taken(flow, other) ? other : i;
+    if (flow->seated[k] == i)
+        return;
+    const double *p = flow->b->p_motion + flow->number[i] * flow->b->numbers;
+    for (long j = 0; j < flow->b->numbers; j++)
+        ((Lanes *)&flow->p)[j][k] = p[j];
+    flow->seated[k] = i;
 }
 
 #if IMPLICIT_STAGES && !TAYLOR
@@ -59,7 +67,7 @@ static void gather_past(LaneRun *x, int k, Run *run)
 /* What a step of run k begins with; its length. */
 static void gather(Flow *flow, int k)
 {
-    Run *run = flow->run[mirrored(flow, k)];
+    Run *run = flow->run[flow->seated[k]];
     LaneRun *x = &flow->x;
 #if QUIET
     if (is_taken(flow, k) && flow->quiet.here[k])
@@ -190,7 +198,7 @@ static int scatter_trial(const Flow *flow, int k, int stiff, Run *run)
 /* What lane k has found goes to its run. */
 static void scatter(const Flow *flow, int k, int stiff)
 {
-    Run *run = flow->run[k];
+    Run *run = flow->run[flow->seated[k]];
     Step *step = &run->step;
     step->t = flow->step.t[k];
     step->h = flow->step.h[k];

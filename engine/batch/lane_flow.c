@@ -6,32 +6,59 @@
 #include "lane_calls.h"
 #include "lane_exchange.c"
 
-/* Whether lane k is free from now on, what happened being one of those that Python is told of. */
-static int leaves(Flow *flow, int k, int happened)
+/* Whether place i is free from now on, what happened being one of those that Python is told of. */
+static int leaves(Flow *flow, int i, int happened)
 {
     if (happened == RUN_OVER)
-        flow->number[k] = -1;
+        flow->number[i] = -1;
     return happened != GOES_ON;
 }
 
-/* Run k is where its lane is. */
-static void put_down(Flow *flow, int k)
+/* Run i is where its lane is. */
+static void put_down(Flow *flow, int i)
 {
 #if QUIET
-    if (is_taken(flow, k) && flow->quiet.here[k])
-        tell(&flow->quiet, &flow->x, k, flow->h[k], flow->run[k]);
+    if (is_taken(flow, i) && flow->quiet.here[i])
+        tell(&flow->quiet, &flow->x, i, flow->h[i], flow->run[i]);
 #else
-    (void)flow, (void)k;
+    (void)flow, (void)i;
 #endif
 }
 
-/* One step of these lanes is tried. Returns whether Python is to be told of a run. */
-static int try_together(Flow *flow, int stiff, const int *wanted, int *lists)
+/* Run i goes on to its next step. Returns whether Python is to be told of it. */
+static int go_on(Flow *flow, int i, int tried, int *lists)
 {
-    int some = 0;
+    const int happened = flow->one->goes_on(flow->b, flow->number[i], tried, flow->run[i]);
+    *lists |= happened == LISTS;
+    return leaves(flow, i, happened);
+}
+
+/* Whether run i wants a step by this method. */
+static int wants(const Flow *flow, int i, int stiff)
+{
+    return is_taken(flow, i) && flow->run[i]->attempt.stiff == stiff;
+}
+
+/* Seats a run in lane k that wants this method, that which sat there if it does; whether there is one. */
+static int seat_one(Flow *flow, int k, int stiff)
+{
+    const int last = flow->seated[k], own = last >= 0 && last % LANES == k && is_taken(flow, last);
+    int best = own ? last : k;
+    for (int i = k; i < ABREAST && !wants(flow, best, stiff); i += LANES)
+        best = wants(flow, i, stiff) || !is_taken(flow, best) ? i : best;
+    seat(flow, k, best);
+    return flow->seated[k] % LANES == k && wants(flow, flow->seated[k], stiff);
+}
+
+/* One step of one run in each lane is tried. Returns whether Python is to be told of a run. */
+static int try_together(Flow *flow, int stiff, int *lists)
+{
+    int some = 0, wanted[LANES];
     LaneBits quiet = {0};
-    for (int k = 0; k < LANES; k++)
+    for (int k = 0; k < LANES; k++) {
+        wanted[k] = seat_one(flow, k, stiff);
         gather(flow, k);
+    }
     try_lanes(&flow->x, stiff, flow->h, &flow->p, &flow->step);
 #if QUIET
     quiet = take_quietly(&flow->quiet, &flow->x, &flow->step, &flow->h);
@@ -43,65 +70,63 @@ static int try_together(Flow *flow, int stiff, const int *wanted, int *lists)
         put_down(flow, k);
         if (!lost)
             scatter(flow, k, stiff);
-        const int tried = lost ? UNTRIED : flow->step.missed[k] ? MISSED : TRIED;
-        const int happened = flow->one->goes_on(flow->b, flow->number[k], tried, flow->run[k]);
-        *lists |= happened == LISTS;
-        some |= leaves(flow, k, happened);
+        some |= go_on(flow, flow->seated[k], lost ? UNTRIED : flow->step.missed[k] ? MISSED : TRIED, lists);
     }
     return some;
 }
 
-/* One step of each run, of several at once where they go by the same method. */
+/*
+ * A step of runs that go by the method which the most lanes have one for: the others wait until theirs is that one.
+ * Each for itself where no two lanes have.
+ */
 static int advance(Flow *flow, int *lists)
 {
-    int some = 0, wanted[KINDS][LANES], count[KINDS] = {0};
-    for (int k = 0; k < LANES; k++)
-        for (int stiff = 0; stiff < KINDS; stiff++) {
-            wanted[stiff][k] = is_taken(flow, k) && flow->run[k]->attempt.stiff == stiff;
-            count[stiff] += wanted[stiff][k];
-        }
+    int some = 0, most = 0, count[KINDS] = {0};
     for (int stiff = 0; stiff < KINDS; stiff++) {
-        if (count[stiff] > 1) {
-            some |= try_together(flow, stiff, wanted[stiff], lists);
-            continue;
-        }
         for (int k = 0; k < LANES; k++) {
-            if (!wanted[stiff][k])
-                continue;
-            put_down(flow, k);
-            const int happened = flow->one->goes_on(flow->b, flow->number[k], UNTRIED, flow->run[k]);
-            *lists |= happened == LISTS;
-            some |= leaves(flow, k, happened);
+            int one = 0;
+            for (int i = k; i < ABREAST; i += LANES)
+                one |= wants(flow, i, stiff);
+            count[stiff] += one;
         }
+        most = count[stiff] > count[most] ? stiff : most;
+    }
+    if (count[most] > 1)
+        return try_together(flow, most, lists);
+    for (int i = 0; i < ABREAST; i++) {
+        if (!is_taken(flow, i))
+            continue;
+        put_down(flow, i);
+        some |= go_on(flow, i, UNTRIED, lists);
     }
     return some;
 }
 
-/* Begins run k, or goes on with it, up to where it wants a step. */
-static int enter(Flow *flow, int k)
+/* Begins the run of place i, or goes on with it, up to where it wants a step. */
+static int enter(Flow *flow, int i)
 {
     const Batch *b = flow->b;
-    const long i = flow->number[k];
-    if (b->phase[i] == NEW) {
-        b->status[i] = flow->one->begin(b, i, flow->run[k]);
-        b->phase[i] = b->status[i] ? OVER : BEGUN;
+    const long run = flow->number[i];
+    if (b->phase[run] == NEW) {
+        b->status[run] = flow->one->begin(b, run, flow->run[i]);
+        b->phase[run] = b->status[run] ? OVER : BEGUN;
     }
-    return leaves(flow, k, b->phase[i] == OVER ? RUN_OVER : flow->one->goes_on(b, i, NOT_YET, flow->run[k]));
+    return leaves(flow, i, b->phase[run] == OVER ? RUN_OVER : flow->one->goes_on(b, run, NOT_YET, flow->run[i]));
 }
 
 static int count_of(const Flow *flow)
 {
     int count = 0;
-    for (int k = 0; k < LANES; k++)
-        count += is_taken(flow, k);
+    for (int i = 0; i < ABREAST; i++)
+        count += is_taken(flow, i);
     return count;
 }
 
-int gudgeon_lane_count(void) { return LANES; }
+int gudgeon_lane_count(void) { return ABREAST; }
 
 /*
- * Runs number[k] (LANES of them, -1: none), each in a memory of its own. Returns GOES_ON, to be called again, as soon
- * as a run is over (number[k] is -1 then) or after `limit` steps of each; LISTS where the lists of one are full;
+ * Runs number[i] (ABREAST of them, -1: none), each in a memory of its own. Returns GOES_ON, to be called again, as soon
+ * as a run is over (number[i] is -1 then) or after `limit` steps of each; LISTS where the lists of one are full;
  * ALL_OVER where not two are left, or the batch is ending: what is not over then goes on alone (gudgeon_many).
  */
 int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number)
@@ -111,26 +136,26 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
     flow.b = batch, flow.one = single;
     const double before = lane_seconds();
     int some = 0, lists = 0, entered = 0;
-    for (int k = 0; k < LANES; k++) {
-        flow.run[k] = run[k];
-        flow.number[k] = number[k];
-        entered += number[k] >= 0;
+    for (int i = 0; i < ABREAST; i++) {
+        flow.run[i] = run[i];
+        flow.number[i] = number[i];
+        entered += number[i] >= 0;
     }
     for (int k = 0; k < LANES; k++)
-        if (is_taken(&flow, k))
-            some |= enter(&flow, k);
-    if (!some && count_of(&flow) > 1)
-        gather_parameters(&flow);
+        flow.seated[k] = -1;
+    for (int i = 0; i < ABREAST; i++)
+        if (is_taken(&flow, i))
+            some |= enter(&flow, i);
     for (long left = flow.b->limit; !some && count_of(&flow) > 1 && left > 0 && !*flow.b->ending; left--)
         some = advance(&flow, &lists);
     const double share = (lane_seconds() - before) / (entered > 0 ? entered : 1);
-    for (int k = 0; k < LANES; k++) {
-        put_down(&flow, k);
-        if (number[k] >= 0)
-            flow.b->seconds[number[k]] += share;
-        if (is_taken(&flow, k))
-            flow.b->t_last[flow.number[k]] = flow.run[k]->t;
-        number[k] = flow.number[k];
+    for (int i = 0; i < ABREAST; i++) {
+        put_down(&flow, i);
+        if (number[i] >= 0)
+            flow.b->seconds[number[i]] += share;
+        if (is_taken(&flow, i))
+            flow.b->t_last[flow.number[i]] = flow.run[i]->t;
+        number[i] = flow.number[i];
     }
     return lists ? LISTS : (some || count_of(&flow) > 1) && !*flow.b->ending ? GOES_ON : ALL_OVER;
 }

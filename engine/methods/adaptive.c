@@ -197,6 +197,8 @@ static int take_step(Run *run, const Parameters *p, const Samples *out)
 #endif
     if (!status)
         status = commit(run, step, share, t_new, event, p);
+    if (!status && event >= 0)
+        status = fit_first(run, t_end - run->t, p);
     run->memory.held = 1;
 #if N_CORNERS
     if (!status && run->t == t_end) {

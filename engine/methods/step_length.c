@@ -62,8 +62,11 @@ static void note_first(Run *run, const Step *step)
 {
     if (!run->first)
         return;
-    const double fits = 0.9 * pow(max_of(1e-12, step->error), -1.0 / order_of(run, step));
+    const double safe = run->rough > 0.0 ? 0.8 : 0.9;
+    const double fits = safe * pow(max_of(1e-12, step->error), -1.0 / order_of(run, step));
     *run->first = step->h * min_of(5.0, max_of(0.3, fits));
+    if (run->rough > 0.0 && run->onset_share > 0.0)
+        run->onset[!!step->method->stiff] = run->onset_share * pow(*run->first, run->rough - 1.0);
     run->first = NULL;
 }
 
@@ -229,25 +232,4 @@ static int accepted_step(Run *run, const Parameters *p, Step *step)
         ;
     run->attempt.open = 0;
     return status;
-}
-
-/* A first step from the size of the motion's first two rates. */
-static int first_size(Run *run, double left, const Parameters *p)
-{
-    double y[N_Y], dy[N_Y], one = 0.0, two = 0.0;
-    Aside aside;
-    for (int k = 0; k < 2 * N_X; k++)
-        one = max_of(one, fabs(run->dy[k]) * run->weight[k]);
-    double h = min_of(one > 0.0 ? 1.0 / one : INFINITY, 1e-2 * left);
-    for (int k = 0; k < N_Y; k++)
-        y[k] = run->y[k] + h * run->dy[k];
-    const int status = rates(run, run->t + h, y, p, dy, &aside);
-    if (status)
-        return status;
-    for (int k = 0; k < 2 * N_X; k++)
-        two = max_of(two, fabs(dy[k] - run->dy[k]) / h * run->weight[k]);
-    /* in the time one / two rates change by themselves: so many tolerances are gone in it */
-    const double time = one / two, way = max_of(1.0, time * one);
-    run->h = two > 0.0 ? max_of(time * pow(way, -run->method->power), h) : 1e-2 * left;
-    return 0;
 }

@@ -1,6 +1,10 @@
 /*
  * Peaks of the forces in joints with play between the ends of a step, from the interpolant.
  */
+enum { MAX_TOPS = 20 };
+#define TOP 1e-5    /* of a step: so near its place a force is its largest but for 1e-10 */
+#define AROUND 0.01 /* the same, within which it is a parabola to that */
+
 static void peak(Run *run, int i, double t, double F)
 {
     if (run->trace)
@@ -27,22 +31,30 @@ static double force_at(Run *run, const Step *step, double s, int i, const Parame
     return F;
 }
 
-/* The top of joint i's force inside a step up to `share`, by parabolas through three of its points. */
-static void inner_peak(Run *run, const Step *step, double share, int i, const Parameters *p)
+/* The top of joint i's force inside a step up to `share`, by parabolas through three of its places; at both ends it is
+ * known. */
+static void inner_peak(Run *run, const Step *step, double share, int i, double before, double after,
+    const Parameters *p)
 {
-    double s = 0.5 * share, best = force_at(run, step, s, i, p);
-    for (double width = 0.5 * share; width > 0.002 && best > 0.0; width *= 0.2) {
-        const double low = max_of(0.0, s - width), high = min_of(share, s + width), x = s - low, z = high - s;
-        const double left = force_at(run, step, low, i, p) - best, right = force_at(run, step, high, i, p) - best;
-        const double bend = right * x + left * z;
-        double top = left > right ? low : high;
+    double x[3] = {0.0, 0.5 * share, share}, f[3] = {before, force_at(run, step, 0.5 * share, i, p), after};
+    peak(run, i, step->t, before);
+    for (int n = 0; n < MAX_TOPS; n++) {
+        const double low = x[1] - x[0], high = x[2] - x[1], left = f[0] - f[1], right = f[2] - f[1];
+        const double bend = right * low + left * high;
+        double top = left > right ? x[0] : x[2];
         if (bend < 0.0)
-            top = min_of(high, max_of(low, s - 0.5 * (right * x * x - left * z * z) / bend));
+            top = x[1] - 0.5 * (right * low * low - left * high * high) / bend;
+        top = min_of(x[2] - 0.1 * high, max_of(x[0] + 0.1 * low, top));
+        if (fabs(top - x[1]) < TOP * share && max_of(low, high) < AROUND * share)
+            break;
+        if (fabs(top - x[1]) < 0.1 * AROUND * share && max_of(low, high) >= AROUND * share)
+            top = low > high ? x[1] - 0.5 * AROUND * share : x[1] + 0.5 * AROUND * share; /* by nearer places */
         const double found = force_at(run, step, top, i, p);
-        if (found > best || max_of(right, left) > 0.0) {
-            best = max_of(best, found);
-            s = found >= best ? top : left > right ? low : high;
-        }
+        const int above = top > x[1], higher = found > f[1], end = above == higher ? 0 : 2;
+        x[end] = higher ? x[1] : top;
+        f[end] = higher ? f[1] : found;
+        if (higher)
+            x[1] = top, f[1] = found;
     }
 }
 
@@ -105,7 +117,7 @@ static void inner_peaks(Run *run, Step *step, double share, const Parameters *p)
         const double slope = total_force(&aside.clearance[i]) - after[i];
         const int let_go = after[i] < 1e-6 * before[i]; /* where a law ceases to push: beyond it, held, it would pull */
         if ((near >> i % 16 & 1) && run->rising[i] && (slope < 0.0 || let_go) && make_dense(run, p, step) == 0)
-            inner_peak(run, step, share, i, p);
+            inner_peak(run, step, share, i, before[i], after[i], p);
         run->rising[i] = slope > 0.0 && !let_go;
     }
 }

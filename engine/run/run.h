@@ -143,6 +143,9 @@ typedef struct {
     /* lengths that fit a first step: after a contact begins or ends (others being closed), at a side of a corner; the
      * one that the next step tells, and of which power of its length such a step's error is (0: the method's) */
     double after_contact[N_CLEARANCES + 1][2], after_corner[AT_LEAST_ONE(N_SWITCHES)][2], *first, rough;
+    /* by how many tolerances straight motion misses an onset in a step that fits, explicit or stiff; for one of a
+     * second, as it is now */
+    double onset[2], onset_share;
     double inverse_scale[2 * N_X + 1], least[2], speed[2], speed_floor[2];
     double weight[N_Y]; /* what errors are multiplied by: 1 / tolerance */
     double work_scale, turned_over; /* tolerance of works as a share of the energy (J) that was turned over so far */

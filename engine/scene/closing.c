@@ -23,6 +23,8 @@ typedef struct {
     double guess[N_GUESS + 1], set[N_SET + N_APART + 1], rates[N_RATES + N_APART + 1];
     double row[N_START_ROWS + 1][N_Q], rest[N_START_ROWS + 1];
     double normal[N_NORMAL + 1][N_NORMAL + 1], whole[N_NORMAL + 1], right[N_NORMAL + 1];
+    short filled[N_NORMAL + 1][N_NORMAL + 1], n_filled[N_NORMAL + 1]; /* of a factor: where its row is not 0 */
+    short meets[N_Q][N_START_ROWS + 1], n_meets[N_Q];                 /* which rows meet a coordinate */
     int dependent; /* rows that depend on others are left out: they close with them, or the rest says so */
     Asked *asked;
 } Closing;
@@ -55,16 +57,23 @@ static int factor_normal(Closing *w, int n)
             for (int i = k; i < n; i++)
                 u[i] = 0.0;
             u[k] = INFINITY; /* its x is 0 */
+            w->n_filled[k] = 0;
             continue;
         }
         const double root = sqrt(u[k]);
+        short *place = w->filled[k];
+        int many = 0;
         for (int i = k; i < n; i++)
             u[i] /= root;
-        for (int i = k + 1; i < n; i++) {
-            const double factor = u[i];
-            double *below = w->normal[i];
-            for (int j = i; j < n && factor != 0.0; j++)
-                below[j] -= factor * u[j];
+        for (int i = k + 1; i < n; i++)
+            if (u[i] != 0.0)
+                place[many++] = (short)i;
+        w->n_filled[k] = (short)many;
+        for (int a = 0; a < many; a++) {
+            const double factor = u[place[a]];
+            double *below = w->normal[place[a]];
+            for (int b = a; b < many; b++)
+                below[place[b]] -= factor * u[place[b]];
         }
     }
     return 0;
@@ -76,28 +85,33 @@ static void solve_normal(Closing *w, int n)
     for (int k = 0; k < n; k++) {
         const double *u = w->normal[k];
         w->right[k] /= u[k];
-        for (int i = k + 1; i < n; i++)
-            w->right[i] -= u[i] * w->right[k];
+        for (int a = 0; a < w->n_filled[k]; a++)
+            w->right[w->filled[k][a]] -= u[w->filled[k][a]] * w->right[k];
     }
     for (int k = n - 1; k >= 0; k--) {
-        for (int j = k + 1; j < n; j++)
-            w->right[k] -= w->normal[k][j] * w->right[j];
+        for (int a = 0; a < w->n_filled[k]; a++)
+            w->right[k] -= w->normal[k][w->filled[k][a]] * w->right[w->filled[k][a]];
         w->right[k] /= w->normal[k][k];
     }
 }
 
-/* row row^T and its factor. */
+/* row row^T and its factor: only rows that meet a coordinate in common have a product. */
 static int factor_rows(Closing *w, int rows)
 {
-    short place[N_Q];
+    for (int k = 0; k < N_Q; k++)
+        w->n_meets[k] = 0;
     for (int i = 0; i < rows; i++) {
-        const int n = places_of(w, i, place);
-        for (int j = i; j < rows; j++) {
-            double sum = 0.0;
-            for (int k = 0; k < n; k++)
-                sum += w->row[i][place[k]] * w->row[j][place[k]];
-            w->normal[i][j] = sum;
-        }
+        for (int j = i; j < rows; j++)
+            w->normal[i][j] = 0.0;
+        for (int k = 0; k < N_Q; k++)
+            if (w->row[i][k] != 0.0)
+                w->meets[k][w->n_meets[k]++] = (short)i;
+    }
+    for (int k = 0; k < N_Q; k++) {
+        const short *row = w->meets[k];
+        for (int a = 0; a < w->n_meets[k]; a++)
+            for (int b = a; b < w->n_meets[k]; b++)
+                w->normal[row[a]][row[b]] += w->row[row[a]][k] * w->row[row[b]][k];
     }
     return factor_normal(w, rows);
 }

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,7 +25,7 @@ from gudgeon.integrators.steps import Look, Tape
 from gudgeon.integrators.threads import GLANCE as GLANCE
 from gudgeon.integrators.threads import in_threads
 from gudgeon.integrators.times import Times
-from gudgeon.integrators.trajectory import Counts, Progress, Trajectory, no_events, plain
+from gudgeon.integrators.trajectory import Counts, Progress, Trajectory, joined, no_events, plain
 from gudgeon.model.compiled import N_WORK, Array, CompiledModel
 from gudgeon.model.sizes import mechanism_sizes
 from gudgeon.waiting.ctrl_c import CtrlC
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from gudgeon.results.results import State
 
 ALL_OVER, LISTS, RUN_OVER = 0, 1, 2  # what a call returns
+AT_ONCE = 64  # runs whose samples are looked at together
 TOGETHER = 4096  # samples of runs that are over, at most, that wait for one another: they are taken at once
 
 
@@ -63,6 +64,8 @@ class Runs:
         self.lanes = Lanes(compiled) if beside and method == "rk4" else None
         self.flow = Flow(compiled) if beside and method != "rk4" else None
         self.n, self.abreast = n, max((each.count for each in (self.lanes, self.flow) if each), default=1)
+        if self.flow and over:
+            self.abreast = min(self.abreast, max(lanes.ALWAYS, TOGETHER // N))
         spare = min(self.abreast, TOGETHER // N) if self.flow else 0  # of runs that are over, and not taken yet
         self.places = self.abreast + spare  # of a thread
         places = threads * self.places if over else n
@@ -146,7 +149,7 @@ class Runs:
     def _judge(self) -> None:
         """Lists the runs that did not come to their ends, and marks what was not reached."""
         self._not_closed()
-        for i in range(self.n) if self.method != "rk4" and not self.over else ():
+        for i in self._not_finite() if self.method != "rk4" and not self.over else ():
             self._take_back(i)
         for i in np.flatnonzero(self.arrays["phase"] != OVER).tolist():
             self.failures[i] = SolverError(INTERRUPTED, float(self.arrays["t_last"][i]))
@@ -156,6 +159,13 @@ class Runs:
         for i, done in enumerate(self.arrays["done"].tolist() if not self.over else ()):
             if done < self.times.most:
                 self.arrays["y"][i, done:], self.arrays["latched"][i, done:] = np.nan, np.nan
+
+    def _not_finite(self) -> Iterator[int]:
+        """Runs among which are those that stored what is no number."""
+        y, n = self.arrays["y"], 2 * self.compiled.n
+        for first in range(0, self.n, AT_ONCE):
+            if not np.isfinite(y[first : first + AT_ONCE, :, :n]).all():
+                yield from range(first, min(first + AT_ONCE, self.n))
 
     def _take_back(self, i: int) -> None:
         """Samples of run i from the first on that is no number, as a single run does it."""
@@ -237,6 +247,14 @@ class Runs:
             return self.impacts[i][0]
         impacts = np.concatenate(several)
         return impacts[np.argsort(impacts["t_on"], kind="stable")]
+
+    def all_impacts(self) -> tuple[NDArray[Any], ...]:
+        """The same of all runs, views of one array."""
+        count = np.array([sum(map(len, several)) for several in self.impacts], np.int_)
+        impacts = joined(each for several in self.impacts for each in several)
+        impacts = impacts[np.lexsort((impacts["t_on"], np.repeat(np.arange(self.n), count)))]
+        ends = np.cumsum(count)
+        return tuple(impacts[a:b] for a, b in zip((ends - count).tolist(), ends.tolist(), strict=True))
 
     def events_of(self, i: int) -> NDArray[Any]:
         """EVENT_DTYPE, the user events of run i by time."""

@@ -36,7 +36,7 @@ NOT_CLOSED = -9  # status: the start is left to the search in Python
 NONE = -1  # in place of the number of a run
 ALL_OVER, LISTS = 0, 1  # what a call returns
 LEAST, FEW = 2, 16  # runs that are worth a vector: of rk4, of methods that choose their step
-MOST = 8  # lanes that a vector may have
+MOST, ALWAYS = 32, 8  # runs that may be under way side by side, several a lane; those that are, however many samples
 WORTH = 6.0  # s that a batch may still take, by the pace so far, from which on its library is worth being compiled
 HELD = "held_lanes.c"  # for methods that choose their step
 _later: ContextVar[int] = ContextVar("runs of the same scene that are to come in other batches", default=0)
@@ -91,7 +91,7 @@ class Lanes:
         arguments, number = self._arguments(runs, memories)
         free, waiting, status = [*range(place, place + runs.places)], list[int](), LISTS
         while status != ALL_OVER and not runs.stopping:
-            for k in range(self.count):
+            for k in range(min(self.count, len(memories))):
                 if number[k] == NONE and (i := next(supply, NONE)) != NONE:
                     number[k] = i
                     if runs.over:
@@ -103,7 +103,7 @@ class Lanes:
                     _fetch(runs, i, memories[k], tapes[k] if tapes else None)
                 if i != NONE and number[k] == NONE:
                     waiting.append(i)
-            if len(free) < sum(number[k] == NONE for k in range(self.count)):
+            if len(free) < sum(number[k] == NONE for k in range(min(self.count, len(memories)))):
                 runs.are_over(waiting)
                 free += runs.arrays["place"][waiting].tolist()
                 waiting.clear()
@@ -115,7 +115,9 @@ class Lanes:
     def _arguments(self, runs: Runs, memories: NDArray[np.uint8]) -> tuple[tuple[Any, ...], Any]:
         """What C is given, and the numbers of runs: none yet."""
         rows = [address(runs.compiled.ffi, memory) for memory in memories[: self.count]]
-        pointers = self.ffi.new("void *[]", [self.ffi.cast("void *", row) for row in rows])
+        pointers = self.ffi.new("void *[]", self.count)
+        for k, row in enumerate(rows):
+            pointers[k] = self.ffi.cast("void *", row)
         batch = self.ffi.cast("void *", int(runs.compiled.ffi.cast("uintptr_t", runs.struct)))
         return (batch, self.single, pointers), self.ffi.new("long[]", [NONE] * self.count)
 

@@ -15,9 +15,8 @@ from gudgeon.errors import GudgeonError
 from gudgeon.language.wanted import is_whole, refuse, text, told
 from gudgeon.model.choices import of_runs as chosen_of_runs
 from gudgeon.results.batch_series import kept_text, series, wanted_names
-from gudgeon.results.blows import first_force
 from gudgeon.results.diagnostics import Extremes
-from gudgeon.results.peaks import BatchPeaks, of_runs, run_columns
+from gudgeon.results.peaks import PEAK_DTYPE, BatchPeaks, of_runs, run_columns
 from gudgeon.results.results import Result
 from gudgeon.results.series import MOTION_UNITS, rates
 
@@ -29,8 +28,6 @@ if TYPE_CHECKING:
     from gudgeon.results.wear import Rubbed
 
 Array: TypeAlias = NDArray[Any]
-
-PEAK_DTYPE = np.dtype([(name, "f8") for name in ("F", "t", "e_max", "first_contact", "first_peak")])
 
 
 @dataclass(frozen=True, eq=False)
@@ -284,16 +281,3 @@ def given_values(source: KernelSource, p: Array, is_given: NDArray[np.bool_]) ->
 def as_failures(errors: Mapping[int, GudgeonError]) -> tuple[Failure, ...]:
     """By the number of the run."""
     return tuple(Failure(i, errors[i]) for i in sorted(errors))
-
-
-def peaks_of(peaks: Array, impacts: tuple[Array, ...]) -> Array:
-    """PEAK_DTYPE from F, t, e_max (n, n_clearances, 3) and the lists of contacts."""
-    out = np.full(peaks.shape[:2], np.nan, dtype=PEAK_DTYPE)
-    for k, name in enumerate(("F", "t", "e_max")):
-        out[name] = peaks[:, :, k]
-    for i, contacts in ((i, contacts) for i, contacts in enumerate(impacts) if len(contacts)):
-        for joint in range(peaks.shape[1]):
-            own = contacts[contacts["joint"] == joint]
-            if len(own):
-                out["first_contact"][i, joint], out["first_peak"][i, joint] = own["t_on"][0], first_force(own)
-    return out

@@ -1,6 +1,6 @@
 """Peaks of series: over all steps of a run, where they were asked for, `run.peak("S9.ay")`; over its samples.
 
-As columns of a file and as rows of a table.
+As columns of a file and as rows of a table. And the largest forces in joints with play of many runs.
 """
 
 from __future__ import annotations
@@ -8,12 +8,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError
+from gudgeon.integrators.trajectory import joined
+from gudgeon.results.blows import is_blow
 from gudgeon.results.diagnostics import Extremes
 from gudgeon.results.unknown import check_series
 
@@ -26,6 +29,7 @@ COLUMNS = {
     "max": ("", "largest value over all steps, SI"), "t_max": ("s", "its time"),
     "min": ("", "smallest value over all steps, SI"), "t_min": ("s", "its time"),
 }  # fmt: skip
+PEAK_DTYPE = np.dtype([(name, "f8") for name in ("F", "t", "e_max", "first_contact", "first_peak")])
 ENDS = ("max", "t_max", "min", "t_min")
 
 
@@ -140,3 +144,18 @@ def run_columns(runs: Sequence[Sequence[Extremes]]) -> Iterator[tuple[str, str, 
         for key in ENDS:
             values = np.array([getattr(x, key) if x else np.nan for x in found])
             yield f"{one[0]}.{'error' if one[2] else 'peak'}.{key}", "s" if key.startswith("t_") else one[1], values
+
+
+def peaks_of(peaks: Array, impacts: Sequence[NDArray[Any]]) -> NDArray[Any]:
+    """PEAK_DTYPE from F, t, e_max (n, n_clearances, 3) and the lists of contacts."""
+    out = np.full(peaks.shape[:2], np.nan, dtype=PEAK_DTYPE)
+    for k, name in enumerate(("F", "t", "e_max")):
+        out[name] = peaks[:, :, k]
+    contacts, runs = joined(impacts), np.repeat(np.arange(len(impacts)), [len(each) for each in impacts])
+    for joint in range(peaks.shape[1]):
+        own = np.flatnonzero(contacts["joint"] == joint)
+        run, first = np.unique(runs[own], return_index=True)
+        begun = contacts[own[first]]
+        out["first_contact"][run, joint] = begun["t_on"]
+        out["first_peak"][run, joint] = np.where(is_blow(begun), np.nan, begun["F_peak"])
+    return out

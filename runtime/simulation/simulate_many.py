@@ -27,8 +27,9 @@ from gudgeon.model.contours import of_run, taken_contours
 from gudgeon.model.parameter_sets import ParameterSets, each_of, plain_each, prepare_sets, rows_of
 from gudgeon.model.room import check_room
 from gudgeon.results.bare import Bare
-from gudgeon.results.batch import Batch, States, as_failures, given_values, peaks_of
+from gudgeon.results.batch import Batch, States, as_failures, given_values
 from gudgeon.results.batch_series import STATES, parts_of, wanted_names
+from gudgeon.results.peaks import peaks_of
 from gudgeon.results.results import Result, State
 from gudgeon.simulation.arguments import method_of
 from gudgeon.simulation.beside import check_beside
@@ -240,7 +241,7 @@ def _of_runs(results: _Results, kept: KeptSeries | None) -> Batch:
     states = States(y[:, :, :n], y[:, :, n : 2 * n], y[:, :, 2 * n :], x["state"][:, :, :joints])
     if kept:
         runs.let_go()
-    impacts = tuple(runs.impacts_of(i) for i in range(runs.n))
+    impacts = runs.all_impacts()
     numbers = {**counts_of_runs(x["counts"], x["residuals"]), "seconds": x["seconds"]}
     return Batch(
         source=source, t=runs.times.t, states=None if kept else states, samples=x["done"], t_last=x["t_last"],

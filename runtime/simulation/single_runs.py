@@ -22,8 +22,9 @@ from gudgeon.integrators.trajectory import IMPACT_DTYPE, Counts, Progress, no_ev
 from gudgeon.model.choices import said
 from gudgeon.model.compiled import Array
 from gudgeon.model.parameter_sets import Mask
-from gudgeon.results.batch import Batch, States, as_failures, given_values, peaks_of
+from gudgeon.results.batch import Batch, States, as_failures, given_values
 from gudgeon.results.diagnostics import Diagnostics
+from gudgeon.results.peaks import peaks_of
 from gudgeon.results.results import Result, State
 from gudgeon.waiting.ctrl_c import CtrlC
 

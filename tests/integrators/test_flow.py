@@ -16,7 +16,7 @@ from tests.programs import needs_compiler
 from tests.simulation.test_many import assert_same
 
 pytestmark = needs_compiler
-COUNT = 19  # more than two vectors hold, divisible by no number of lanes
+COUNT = lanes.MOST + 3  # more than are under way at once, divisible by no number of lanes
 
 
 class Seen:

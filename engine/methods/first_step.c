@@ -1,0 +1,92 @@
+/*
+ * How long a first step is: of a run, and after something changed.
+ */
+#define ONSET 500.0 /* tolerances of velocity, that straight motion into a contact misses it by in a step that fits */
+#define ONSET_STIFF 80.0
+#define RELAXED 2.0 /* share of the accelerations that straight motion changes in a step that fits: explicit, linear */
+#define RELAXED_STIFF 0.7
+#define CURVED 0.5  /* the same of motion without a contact that has begun */
+enum { MAX_FITTED = 3 };
+
+/* A first step from the size of the motion's first two rates. */
+static int first_size(Run *run, double left, const Parameters *p)
+{
+    double y[N_Y], dy[N_Y], one = 0.0, two = 0.0;
+    Aside aside;
+    for (int k = 0; k < 2 * N_X; k++)
+        one = max_of(one, fabs(run->dy[k]) * run->weight[k]);
+    double h = min_of(one > 0.0 ? 1.0 / one : INFINITY, 1e-2 * left);
+    for (int k = 0; k < N_Y; k++)
+        y[k] = run->y[k] + h * run->dy[k];
+    const int status = rates(run, run->t + h, y, p, dy, &aside);
+    if (status)
+        return status;
+    for (int k = 0; k < 2 * N_X; k++)
+        two = max_of(two, fabs(dy[k] - run->dy[k]) / h * run->weight[k]);
+    /* in the time one / two rates change by themselves: so many tolerances are gone in it */
+    const double time = one / two, way = max_of(1.0, time * one);
+    run->h = two > 0.0 ? max_of(time * pow(way, -run->method->power), h) : 1e-2 * left;
+    return 0;
+}
+
+/* How accelerations change over h of straight motion: in tolerances of velocity a second, and their size. */
+static int changes_within(Run *run, double h, const Parameters *p, double *change, double *size)
+{
+    double y[N_Y], dy[N_Y];
+    Aside aside;
+    for (int k = 0; k < N_Y; k++)
+        y[k] = run->y[k] + h * run->dy[k];
+    const int status = rates(run, run->t + h, y, p, dy, &aside);
+    *change = *size = 0.0;
+    for (int k = N_X; k < 2 * N_X && !status; k++) {
+        *change = max_of(*change, fabs(dy[k] - run->dy[k]) * run->weight[k]);
+        *size = max_of(*size, fabs(run->dy[k]) * run->weight[k]);
+    }
+    return status;
+}
+
+/*
+ * By which share a step of length h fits better, of which straight motion changes that much. An onset misses velocities
+ * by a power of the length, for forces begin as delta^n; elsewhere accelerations change in proportion to it, and what
+ * is less than a tolerance is no change.
+ */
+static double better_by(const Run *run, double h, double change, double size, double fits)
+{
+    const double missed = change * h;
+    if (!(missed > 0.0))
+        return INFINITY;
+    return run->rough > 0.0 ? pow(fits / missed, 1.0 / (run->rough - 1.0))
+        : max_of(fits * size / change, sqrt(1.0 / missed));
+}
+
+/*
+ * After an event: as long a step as fits what straight motion changes. Each onset is as fast as it is, by the
+ * tolerances that fitted the last one; of others the length is known once their like was there. left: to the run's end.
+ */
+static int fit_first(Run *run, double left, const Parameters *p)
+{
+    const int stiff = !!run->method->stiff, begins = run->rough > 0.0, corner = run->first >= &run->after_corner[0][0];
+    const double onset = run->onset[stiff] > 0.0 ? run->onset[stiff] : stiff ? ONSET_STIFF : ONSET;
+    const double fits = begins ? onset : !corner ? CURVED : stiff ? RELAXED_STIFF : RELAXED;
+    if (!run->first || run->fixed > 0.0 || run->method->own_length || (*run->first > 0.0 && !begins))
+        return 0;
+    run->onset_share = 0.0;
+    for (int i = 1; i <= MAX_FITTED && left > 0.0; i++) {
+        const double h = min_of(run->h, left);
+        double change, size, by = 0.1;
+        const int status = changes_within(run, h, p, &change, &size);
+        if (status == STOPPED)
+            return status;
+        if (!status && isfinite(change + size)) {
+            by = better_by(run, h, change, size, fits);
+            run->onset_share = change * pow(h, 2.0 - run->rough);
+        }
+        if (h < run->h && by >= 1.0)
+            break; /* to the run's end: more is not asked */
+        by = min_of(begins || corner ? 1.0 : i < MAX_FITTED ? 30.0 : 3.0, max_of(1e-3, by));
+        run->h = by * h;
+        if (by > 0.3 && by < 3.0)
+            break;
+    }
+    return 0;
+}
