@@ -123,8 +123,8 @@ static double guess_zero(const Along *at, double low, double high)
     return 0.5 * (low + high);
 }
 
-/* What is known of margin k along the step: its ends, its stages, where it was looked at. */
-static void along_step(const Run *run, const Step *step, int k, Along *at)
+/* What is known of margin k along the step: its ends, where it was looked at; about the same are its stages. */
+static void along_step(const Run *run, const Step *step, int k, int with_stages, Along *at)
 {
     const Looked *looked = &run->looked;
     at->n = 0;
@@ -132,7 +132,7 @@ static void along_step(const Run *run, const Step *step, int k, Along *at)
         note_along(at, looked->share[(i - 1) % N_LOOKED], looked->margin[(i - 1) % N_LOOKED][k]);
     note_along(at, 0.0, margin(&run->memory, &run->aside, k));
     note_along(at, 1.0, margin(&run->memory, &step->aside, k));
-    for (int i = 0; i < step->n_seen; i++)
+    for (int i = 0; i < (with_stages ? step->n_seen : 0); i++)
         note_along(at, step->node[i], step->seen[i][k]);
 }
 
@@ -140,7 +140,7 @@ static void along_step(const Run *run, const Step *step, int k, Along *at)
 static double about_where(const Run *run, const Step *step, int k, double low, double high)
 {
     Along at;
-    along_step(run, step, k, &at);
+    along_step(run, step, k, 1, &at);
     return guess_zero(&at, low, high);
 }
 
@@ -161,10 +161,12 @@ static double root(Run *run, const Step *step, int k, double low, double at_low,
     const double close = root_width(run, step), across = ACROSS * close;
     double before = INFINITY;
     Along at;
-    along_step(run, step, k, &at);
-    note_along(&at, low, at_low);
-    note_along(&at, high, at_high);
     for (int i = 0; i < ROOT_STEPS && high - low > close; i++) {
+        if (i < 2) { /* a stage's sign may be another than the interpolant's: it tells only where to look first */
+            along_step(run, step, k, i == 0, &at);
+            note_along(&at, low, at_low);
+            note_along(&at, high, at_high);
+        }
         const double zero = guess_zero(&at, low, high);
         if (fabs(zero - before) < across && high - zero < 2.0 * across)
             break;
@@ -175,9 +177,9 @@ static double root(Run *run, const Step *step, int k, double low, double at_low,
         note_along(&at, s, now);
         before = isfinite(now) ? zero : INFINITY; /* what is no number tells nothing of the zero */
         if (now >= 0.0)
-            low = s;
+            low = s, at_low = now;
         else
-            high = s;
+            high = s, at_high = now;
     }
     return high;
 }
