@@ -67,15 +67,14 @@ class Series:
     evaluated: tuple[str, tuple[int, ...]] | None = None  # the part of an Evaluation, and its column
 
 
-_catalogues: dict[int, tuple[Any, Mapping[str, Series]]] = {}  # by the id of a source, while that lives
+_catalogues: dict[int, tuple[Any, Mapping[str, Series]]] = {}  # by the id of a source; a callback would lose a Ctrl-C
 
 
 def catalogue(source: KernelSource) -> Mapping[str, Series]:
     """All the names of a scene in the order in which they are listed and stored; made once a source."""
-    kept = _catalogues.get(id(source))
-    if kept is None or kept[0]() is not source:  # looked at here: a Ctrl-C in what a weakref calls would be lost
-        for key in [key for key, (lives, _) in list(_catalogues.items()) if lives() is None]:
-            _catalogues.pop(key, None)
+    if (kept := _catalogues.get(id(source))) is None or kept[0]() is not source:
+        for gone in [key for key, (lives, _) in list(_catalogues.items()) if lives() is None]:
+            _catalogues.pop(gone, None)
         kept = _catalogues[id(source)] = weakref.ref(source), MappingProxyType(_made(source))
     return kept[1]
 

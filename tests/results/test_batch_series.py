@@ -99,6 +99,7 @@ def test_a_catalogue_is_made_once_a_source_and_goes_with_it() -> None:
     key = id(second.source)
     assert key in _catalogues
     second.__dict__.clear()  # the last one that knew it
+    catalogue(gudgeon.load("pendulum").source)  # whoever comes next sees that it is gone
     assert key not in _catalogues or _catalogues[key][0]() is not None
 
 
