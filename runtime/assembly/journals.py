@@ -65,9 +65,10 @@ def in_walls(linkage: Linkage, p: Array) -> Iterator[str]:
     """A remark on each journal that the file's start lays into its bearing's wall."""
     for joint, e, c in _places(linkage, p):
         if e > c and joint.name not in linkage.source.rigid:
+            wall = "its wall" if joint.at_wall else "its bearing's wall"
             so = "a run begins in contact" if joint.dry else "there is no film there"
             yield (
-                f"{joint.name} begins {1e6 * (e - c):.4g} µm inside its bearing's wall, e/c ="
+                f"{joint.name} begins {1e6 * (e - c):.4g} µm inside {wall}, e/c ="
                 f" {told_apart(e / c, 1.0, 3)[0]}: {so}"
             )
 
