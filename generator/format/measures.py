@@ -44,7 +44,7 @@ GUIDE = record(
         "corner_radius", "radius of the slider's corners, within its length and height", LENGTH, otherwise="sharp ones",
         bounds=(
             Bound(">", 0.0, "a corner's radius is positive"),
-            Bound("<=", "half_length", "a corner's radius is at most half the slider's length"),
+            Bound("<", "half_length", "a corner's radius is less than half the slider's length"),
             Bound("<=", "half_height", "a corner's radius is at most half the slider's height"),
         ),
     ),

@@ -23,6 +23,9 @@ DEEPEST = 0.1  # of the radius, that a journal may lie in its bearing (`deepest`
 
 def check_places(linkage: Linkage, p: Array) -> None:
     """AssemblyError for a journal that the file's start lays deeper into its bearing than any law of contact holds."""
+    for joint in linkage.source.clearances:
+        if joint.name.endswith(".front_upper"):
+            _check_turning(linkage, p, joint)
     for joint, e, c in _places(linkage, p):
         if joint.at_wall:
             _check_corner(linkage, p, joint, e - c)
@@ -43,6 +46,28 @@ def check_places(linkage: Linkage, p: Array) -> None:
                 " mm, and deeper in metal than a tenth of the bearing's radius no law of contact holds\n"
                 f"  write start.play.{joint.name}: {{e: [{1e3 * c / 2:.3g} mm, 0 mm]}}, or a share of a parameter, as"
                 f" 0.5*c{bare}"
+            )
+
+
+def _check_turning(linkage: Linkage, p: Array, joint: ClearanceInfo) -> None:
+    """AssemblyError for a slider that turns over in its guide, or begins so: a corner meets its own wall alone."""
+    source, c = linkage.source, float(p[joint.clearance])
+    guide, a, b, radius = _slider(source, p, joint)
+    reach = math.hypot(a - radius, b - radius) + radius
+    if reach <= b + c:
+        raise AssemblyError(
+            f"the slider of {guide} turns over in its guide: no point of it is further than {1e3 * reach:.4g} mm from"
+            f" its middle, and the walls are {1e3 * (b + c):.4g} mm from the guide's\n"
+            f"  a corner meets the wall on its own side alone: give {guide} more half_length, or less gap"
+        )
+    if source.start_apart:
+        values = linkage.start_values(p)[1][len(source.start_set) :]
+        named = dict(zip(source.start_apart, values, strict=True))
+        tilt = math.degrees(named.get(f"{joint.joint}.angle", 0.0))
+        if abs(tilt) >= 90.0:
+            raise AssemblyError(
+                f"start.play.{joint.joint}.tilt turns the slider by {abs(tilt):.4g} deg: a corner meets the wall on its"
+                " own side alone\n  write less than 90 deg, or the slider's axis the other way round"
             )
 
 
@@ -90,14 +115,20 @@ def _places(linkage: Linkage, p: Array) -> Iterator[tuple[ClearanceInfo, float, 
 
 def _corner_at(source: KernelSource, p: Array, joint: ClearanceInfo, offset: float, tilt: float) -> float:
     """How much nearer to its wall than in the middle of the guide a corner is, m: offset of the slider (m), tilt."""
+    _, a, b, radius = _slider(source, p, joint)
+    front, upper = (1.0 if word in joint.name.rpartition(".")[2] else -1.0 for word in ("front", "upper"))
+    across = offset + front * (a - radius) * math.sin(tilt)
+    return upper * across + (b - radius) * (math.cos(tilt) - 1.0)
+
+
+def _slider(source: KernelSource, p: Array, joint: ClearanceInfo) -> tuple[str, float, float, float]:
+    """A guide's address, half the slider's length and height and the radius of its corners, m."""
     guide = source.slots[joint.clearance].address.rpartition(".")[0]
     a, b, radius = (
         float(p[source.place[address]]) if (address := f"{guide}.{what}") in source.place else 0.0
         for what in ("half_length", "half_height", "corner_radius")
     )
-    front, upper = (1.0 if word in joint.name.rpartition(".")[2] else -1.0 for word in ("front", "upper"))
-    across = offset + front * (a - radius) * math.sin(tilt)
-    return upper * across + (b - radius) * (math.cos(tilt) - 1.0)
+    return guide, a, b, radius
 
 
 def parting(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array) -> tuple[str, ...]:

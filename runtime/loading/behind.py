@@ -73,10 +73,11 @@ class Behind:
 
     def look(self, functions: Functions) -> bool:
         """Takes the optimized library where it is there by now; whether it is still to come."""
-        if not self._lock.acquire(blocking=False):
+        lock = self._own_lock()
+        if not lock.acquire(blocking=False):
             return True  # another thread looks
         try:
-            over = os.getpid() == self._owner and self._process is not None and self._process.poll() is not None
+            over = self._process is not None and self._process.poll() is not None
             if not self._cache.holds("libraries", self._key):
                 return not over
             entry = self._cache.root / "libraries" / self._key
@@ -85,12 +86,18 @@ class Behind:
                     self._take(functions, entry)
             return False
         finally:
-            self._lock.release()
+            lock.release()
 
     def wait(self, functions: Functions) -> None:
         """The same when it is there; made here if the other process did not. BuildError."""
-        with self._lock:
+        with self._own_lock():
             self._take(functions, self._cache.fetch("libraries", self._key, self._build))
+
+    def _own_lock(self) -> Lock:
+        """In the child of a fork a new one: whoever held the other is not in it, and the process is not its own."""
+        if os.getpid() != self._owner:
+            self._owner, self._lock, self._process = os.getpid(), Lock(), None
+        return self._lock
 
     def _take(self, functions: Functions, entry: Path) -> None:
         with suppress(ImportError):  # the next start tells

@@ -155,7 +155,8 @@ class _Starts:
     def unfit(self, p: Array, bad: Mapping[int, Any]) -> dict[int, Any]:
         """Runs whose numbers leave rows open at the state that they go on from, or lay journals too deep."""
         found: dict[int, Any] = {}
-        placed = self.compiled.source.start_apart and not self.states
+        source = self.compiled.source
+        placed = (source.start_apart or any(one.at_wall for one in source.clearances)) and not self.states
         for i in range(len(p) if placed or self.states else 0):
             if i in bad:
                 continue

@@ -321,3 +321,16 @@ def test_a_run_goes_on_in_contact(folder: Path) -> None:
     assert (first.state[-1] > 0).sum() >= 2
     rest = simulation.simulate(5e-3, output=1, rtol=1e-11, start=first.final)
     np.testing.assert_allclose(rest.q[-1], whole.q[-1], atol=1e-9)
+
+
+@pytest.mark.parametrize(("numbers", "told"), [
+    ({"tilt": 3.0}, "tilt turns the slider by 171.9 deg"),
+    ({"tilt": -math.pi / 2}, "tilt turns the slider by 90 deg"),
+    ({"guides.slot.half_length": 6e-3, "guides.slot.half_height": 9e-3, "guides.slot.gap": 3e-3}, "turns over in its"),
+])  # fmt: skip
+def test_a_slider_that_turns_over_is_refused(numbers: dict[str, float], told: str, folder: Path) -> None:
+    """Its corners know the wall on their own side alone: it went through the other one without a word."""
+    block = made(folder, BLOCK, "soft")
+    with pytest.raises(AssemblyError, match=told):
+        block.simulate(1e-3, parameters=numbers)
+    assert told in str(block.simulate_many([{}, numbers], 1e-3).failures[0].error)

@@ -160,3 +160,14 @@ def test_a_process_is_left_behind_only_where_what_it_makes_is_kept(
     with monkeypatch.context() as now:
         now.setattr(sys, "frozen", True, raising=False)
         assert not is_allowed(cache)
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork")
+def test_a_fork_waits_for_no_thread_that_it_has_not(tmp_path: Path) -> None:
+    """A thread of the parent was compiling: its lock, held by nobody there, held the child for good."""
+    behind = Behind(Cache(tmp_path), "key", lambda _: None, lambda _: None)  # type: ignore[arg-type, return-value]
+    with behind._own_lock():
+        child = os.fork()
+        if child == 0:
+            os._exit(0 if behind._own_lock().acquire(timeout=20.0) else 1)
+        assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
