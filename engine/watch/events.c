@@ -115,51 +115,10 @@ static double earlier_event(Run *run, const Step *step, double first, const Para
     return first;
 }
 
-/* A margin that may end the step: shares at which it is not yet below zero and at which it is, where about between. */
-typedef struct {
-    int k;
-    double low, at_low, high, at_high, about;
-} Candidate;
-
-/* Whether margin k ends the step: it is below zero somewhere in it. */
-static int is_candidate(Run *run, Step *step, int k, const Parameters *p, Candidate *now)
-{
-    *now = (Candidate){.k = k, .at_low = margin(&run->memory, &run->aside, k)};
-    now->high = violated(run, step, k, p, &now->at_high);
-    if (now->high == 0.0 || make_dense(run, p, step))
-        return 0;
-    if (watched_as[k] >= 0 && step->from[watched_as[k]] > 0.0) {
-        const double from = step->from[watched_as[k]], value = margin_at(run, step, from, k, p);
-        if (value >= 0.0)
-            now->low = from, now->at_low = value;
-    }
-    for (int j = 1; j < 4 && !(now->at_low >= 0.0); j++) { /* begun on the wrong side: does it come back first? */
-        const double s = 0.25 * j * now->high, value = margin_at(run, step, s, k, p);
-        if (value >= 0.0)
-            now->low = s, now->at_low = value;
-    }
-    return 1;
-}
-
-/* The earliest first, as far as is known. */
-static void sort_candidates(const Run *run, const Step *step, Candidate *some, int n)
-{
-    for (int j = 0; j < n; j++) {
-        Candidate now = some[j];
-        int i = j;
-        now.about = now.at_low >= 0.0 ? about_where(run, step, now.k, now.low, now.high) : 0.0;
-        for (; i > 0 && some[i - 1].about > now.about; i--)
-            some[i] = some[i - 1];
-        some[i] = now;
-    }
-}
-
 /* The first share of the step at which one of the margins that count ends it, and which (-1: nothing, share 1). */
 static double first_counting(Run *run, Step *step, const Parameters *p, int *event)
 {
     double first = 1.0, least[AT_LEAST_ONE(N_MARGINS)];
-    Candidate some[AT_LEAST_ONE(N_MARGINS)];
-    int n = 0;
     *event = -1;
     margins_of(&run->memory, &step->aside, least);
     for (int i = 0; i < step->n_seen; i++)
@@ -167,20 +126,28 @@ static double first_counting(Run *run, Step *step, const Parameters *p, int *eve
             least[k] = step->seen[i][k] < least[k] ? step->seen[i][k] : least[k];
     for (int k = 0; k < N_MARGINS; k++) {
         const int quiet = k >= N_CLEARANCES && watched_as[k] < 0 && !(least[k] < 0.0);
-        if (!quiet && !is_passed(run, step, k))
-            n += is_candidate(run, step, k, p, &some[n]);
-    }
-    if (n > 1)
-        sort_candidates(run, step, some, n);
-    for (int i = 0; i < n; i++) { /* what comes later is seen not to have happened where the first one was found */
-        const Candidate *now = &some[i];
-        if (*event >= 0 && now->high > first && margin_at(run, step, first, now->k, p) >= 0.0)
+        if (quiet || is_passed(run, step, k))
             continue;
-        const double s = now->at_low >= 0.0
-            ? root(run, step, now->k, now->low, now->at_low, now->high, now->at_high, p) : 0.0;
+        double at_high, at_low = margin(&run->memory, &run->aside, k), low = 0.0;
+        double high = violated(run, step, k, p, &at_high);
+        if (high == 0.0 || make_dense(run, p, step))
+            continue;
+        if (watched_as[k] >= 0 && step->from[watched_as[k]] > 0.0) {
+            const double from = step->from[watched_as[k]], now = margin_at(run, step, from, k, p);
+            if (now >= 0.0)
+                low = from, at_low = now;
+        }
+        if (*event >= 0 && high > first && margin_at(run, step, first, k, p) >= 0.0)
+            continue; /* later than what was found */
+        for (int j = 1; j < 4 && !(at_low >= 0.0); j++) { /* begun on the wrong side: does it come back first? */
+            const double s = 0.25 * j * high, now = margin_at(run, step, s, k, p);
+            if (now >= 0.0)
+                low = s, at_low = now;
+        }
+        const double s = at_low >= 0.0 ? root(run, step, k, low, at_low, high, at_high, p) : 0.0;
         if (*event < 0 || s < first) {
             first = s;
-            *event = now->k;
+            *event = k;
         }
     }
     return *event < 0 ? first : earlier_event(run, step, first, p, event);

@@ -2,7 +2,6 @@
  * Where along a step a margin crosses zero: the step's interpolant, its roots, and dips that touch zero in between.
  */
 enum { ROOT_STEPS = 100, LOOKS = 16 };
-#define ACROSS 0.1 /* of the width of a zero, that one is looked at beyond it: what is late at each event adds up */
 #define SHALLOW 1e-13 /* m, or 1e-10 of the depth that ends the model: a graze without a force worth the name */
 
 /* How far below zero margin k lies without a meaning: m of a joint with play. */
@@ -63,85 +62,14 @@ static double margin_at(Run *run, const Step *step, double s, int k, const Param
     return looked->margin[slot][k];
 }
 
-/* Shares, ascending, and what a margin is there. */
-enum { NEAREST = 4, MOST_ALONG = N_STAGES + N_LOOKED + ROOT_STEPS + 4 };
-typedef struct {
-    int n;
-    double x[MOST_ALONG], f[MOST_ALONG];
-} Along;
-
-/* One more, unless its share is among them or its margin no number. */
-static void note_along(Along *at, double x, double f)
-{
-    int i = at->n;
-    while (i > 0 && at->x[i - 1] > x)
-        i--;
-    if (!isfinite(f) || (i > 0 && at->x[i - 1] == x) || at->n == MOST_ALONG)
-        return;
-    for (int j = at->n; j > i; j--)
-        at->x[j] = at->x[j - 1], at->f[j] = at->f[j - 1];
-    at->x[i] = x;
-    at->f[i] = f;
-    at->n++;
-}
-
-/* The polynomial x(f) through n places, at f = 0 (Neville). */
+/* Where the parabola x(f) through three points, or the line through two, meets f = 0. */
 static double inverse_zero(const double *x, const double *f, int n)
 {
-    double to[NEAREST];
-    for (int i = 0; i < n; i++)
-        to[i] = x[i];
-    for (int m = 1; m < n; m++)
-        for (int i = 0; i + m < n; i++)
-            to[i] = (f[i + m] * to[i] - f[i] * to[i + 1]) / (f[i + m] - f[i]);
-    return to[0];
-}
-
-/* Where the margin crosses zero between two shares of different signs, by places around, as far as it falls there. */
-static double guess_zero(const Along *at, double low, double high)
-{
-    int i = 0, j;
-    while (i + 1 < at->n && !(at->x[i] >= low && at->f[i] >= 0.0 && at->f[i + 1] < 0.0))
-        i++;
-    if (i + 1 >= at->n || at->x[i + 1] > high)
-        return 0.5 * (low + high);
-    for (j = i + 1; j - i + 1 < NEAREST;) {
-        const int left = i > 0 && at->f[i - 1] > at->f[i], right = j + 1 < at->n && at->f[j + 1] < at->f[j];
-        if (left && (!right || at->f[i - 1] <= -at->f[j + 1]))
-            i--;
-        else if (right)
-            j++;
-        else
-            break;
-    }
-    for (; j > i; j--) { /* of fewer, where they lead astray */
-        const double s = inverse_zero(at->x + i, at->f + i, j - i + 1);
-        if (s > low && s < high)
-            return s;
-        i += j - i > 1 && at->f[i] >= -at->f[j];
-    }
-    return 0.5 * (low + high);
-}
-
-/* What is known of margin k along the step: its ends, where it was looked at; about the same are its stages. */
-static void along_step(const Run *run, const Step *step, int k, int with_stages, Along *at)
-{
-    const Looked *looked = &run->looked;
-    at->n = 0;
-    for (int i = looked->n; i > 0 && i > looked->n - N_LOOKED; i--)
-        note_along(at, looked->share[(i - 1) % N_LOOKED], looked->margin[(i - 1) % N_LOOKED][k]);
-    note_along(at, 0.0, margin(&run->memory, &run->aside, k));
-    note_along(at, 1.0, margin(&run->memory, &step->aside, k));
-    for (int i = 0; i < (with_stages ? step->n_seen : 0); i++)
-        note_along(at, step->node[i], step->seen[i][k]);
-}
-
-/* About where margin k crosses zero between two shares, by what is known of it. */
-static double about_where(const Run *run, const Step *step, int k, double low, double high)
-{
-    Along at;
-    along_step(run, step, k, 1, &at);
-    return guess_zero(&at, low, high);
+    const double a = f[0], b = f[1], c = f[2];
+    const double line = x[0] - a * (x[1] - x[0]) / (b - a);
+    if (n < 3 || a == c || b == c)
+        return line;
+    return x[0] * b * c / ((a - b) * (a - c)) + x[1] * a * c / ((b - a) * (b - c)) + x[2] * a * b / ((c - a) * (c - b));
 }
 
 /* The share to which a zero is located: 4 ulp of the time, or a tick. */
@@ -151,35 +79,30 @@ static double root_width(const Run *run, const Step *step)
 }
 
 /*
- * A share at which margin k is below zero, next to the first one, from a bracket of it: by inverse interpolation, each
- * look a little across the zero that is expected; over as soon as a look tells what was told before it, or the bracket
- * is as narrow.
+ * The first share at which margin k is below zero, from a bracket of it: inverse interpolation, a look just across
+ * the root once it is known so well, and halving where neither helps.
  */
 static double root(Run *run, const Step *step, int k, double low, double at_low, double high, double at_high,
     const Parameters *p)
 {
-    const double close = root_width(run, step), across = ACROSS * close;
-    double before = INFINITY;
-    Along at;
+    const double close = root_width(run, step);
+    double x[3] = {low, high, 0.0}, f[3] = {at_low, at_high, 0.0};
     for (int i = 0; i < ROOT_STEPS && high - low > close; i++) {
-        if (i < 2) { /* a stage's sign may be another than the interpolant's: it tells only where to look first */
-            along_step(run, step, k, i == 0, &at);
-            note_along(&at, low, at_low);
-            note_along(&at, high, at_high);
-        }
-        const double zero = guess_zero(&at, low, high);
-        if (fabs(zero - before) < across && high - zero < 2.0 * across)
-            break;
-        double s = zero + across < high ? zero + across : zero - across;
-        if (!(s > low) || i % 8 == 7)
+        double s = inverse_zero(x, f, i + 2);
+        if (!(s > low && s < high) || i % 12 == 11)
             s = 0.5 * (low + high);
+        if (s - low < 2.0 * close)
+            s = min_of(low + 0.9 * (high - low), s + 0.75 * close);
+        else if (high - s < 2.0 * close)
+            s = max_of(high - 0.9 * (high - low), s - 0.75 * close);
         const double now = margin_at(run, step, s, k, p);
-        note_along(&at, s, now);
-        before = isfinite(now) ? zero : INFINITY; /* what is no number tells nothing of the zero */
         if (now >= 0.0)
-            low = s, at_low = now;
+            low = s;
         else
-            high = s, at_high = now;
+            high = s;
+        x[2] = x[1], f[2] = f[1];
+        x[1] = x[0], f[1] = f[0];
+        x[0] = s, f[0] = now;
     }
     return high;
 }
