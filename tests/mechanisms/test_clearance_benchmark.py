@@ -22,11 +22,11 @@ PAGE = (FOLDER / "README.md").read_text(encoding="utf-8")
 @needs_compiler
 @pytest.mark.parametrize(("name", "case"), cases().items())
 def test_nine_digits_to_the_horizon(name: str, case: Case) -> None:
-    """1e-12 where the numbers were made with 1e-13, so that the last digit has room."""
+    """At the tolerance that they were made with; three times the last digit, in which two machines may part."""
     wanted = xr.load_dataset(FOLDER / "data" / f"{name}.nc", engine="h5netcdf")
     method, samples = "radau9" if case.is_film else "dop853", wanted.sizes["time"] - 1
     simulation = gudgeon.load(case.file, case.scene)
-    run = simulation.simulate(case.t_end, output=samples, parameters=case.parameters, method=method, rtol=1e-12)
+    run = simulation.simulate(case.t_end, output=samples, parameters=case.parameters, method=method, rtol=1e-13)
     there = wanted.time.values <= wanted.attrs["horizon"]
     for k, joint in enumerate(case.joints):
         own = np.stack([run[f"{joint}.ex"], run[f"{joint}.ey"]], -1)
