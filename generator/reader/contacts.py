@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from gudgeon.errors import BadNameError, BadValueError, ExpressionError, MissingKeyError, UnknownNameError
-from gudgeon.generator.field import LAW, OF_PENETRATION, with_dimensions
+from gudgeon.generator.field import LAW, OF_PENETRATION, Field, with_dimensions
 from gudgeon.generator.format.measures import BEARING, GUIDE
 from gudgeon.generator.format.sections import CONTACT
 from gudgeon.generator.format.shapes import missing_key
@@ -30,35 +30,34 @@ _ROLES = tuple(field.name for field in CONTACT.fields if field.kind == LAW)
 
 def read_measures(reader: Reader, root: Map, materials: Materials) -> dict[str, Mapping[str, Bearing | Guide]]:
     """Bearings and guides by name, by the key under which a scene's `play` names one."""
-    return {"bearing": _bearings(reader, root, materials), "guide": _guides(reader, root, materials)}
-
-
-def _bearings(reader: Reader, root: Map, materials: Materials) -> dict[str, Bearing]:
-    """All bearings whose materials are known."""
-    found = {}
-    for name, node in root.part("bearings").pairs():
-        with reader.collect():
-            check_label(name, "bearing", name.where)
-        own = read_fields(reader, node, BEARING.fields, Around(f"bearings.{name}")).quantities
-        pair = _materials(reader, node, f"bearings.{name}", ("bearing_material", "journal_material"), materials)
-        if len(pair) == 2:
-            found[str(name)] = Bearing(str(name), own["radius"], own["clearance"], own["length"], pair[0], pair[1])
-    return found
-
-
-def _guides(reader: Reader, root: Map, materials: Materials) -> dict[str, Guide]:
-    """All guides whose materials are known."""
-    found = {}
-    for name, node in root.part("guides").pairs():
-        with reader.collect():
-            check_label(name, "guide", name.where)
-        own = read_fields(reader, node, GUIDE.fields, Around(f"guides.{name}")).quantities
-        pair = _materials(reader, node, f"guides.{name}", ("guide_material", "slider_material"), materials)
-        if len(pair) == 2:
-            found[str(name)] = Guide(
-                str(name), own["gap"], own["half_length"], own["half_height"], own.get("corner_radius"), *pair
+    return {
+        "bearing": {
+            name: Bearing(name, own["radius"], own["clearance"], own["length"], *pair)
+            for name, own, pair in _measured(
+                reader, root.part("bearings"), BEARING, ("bearing_material", "journal_material"), materials
             )
-    return found
+        },
+        "guide": {
+            name: Guide(name, own["gap"], own["half_length"], own["half_height"], own.get("corner_radius"), *pair)
+            for name, own, pair in _measured(
+                reader, root.part("guides"), GUIDE, ("guide_material", "slider_material"), materials
+            )
+        },
+    }
+
+
+def _measured(
+    reader: Reader, section: Map, of: Field, roles: tuple[str, str], materials: Materials
+) -> Iterator[tuple[str, Mapping[str, Quantity], list[Material]]]:
+    """All of a section whose materials are known, with their numbers."""
+    for name, node in section.pairs():
+        owner = f"{of.name}s.{name}"
+        with reader.collect():
+            check_label(name, of.name, name.where)
+        own = read_fields(reader, node, of.fields, Around(owner)).quantities
+        pair = _materials(reader, node, owner, roles, materials)
+        if len(pair) == 2:
+            yield str(name), own, pair
 
 
 def _materials(
