@@ -10,7 +10,7 @@ enum {
 #define TIME_CONSTANT 1e3 /* s: an end that nobody has said */
 
 typedef struct {
-    double a[FMU_AT_LEAST(N_Q)], multipliers[FMU_AT_LEAST(N_ROWS)], reactions[FMU_AT_LEAST(3 * N_JOINTS)],
+    double a[FMU_AT_LEAST(N_Q)], multipliers[FMU_AT_LEAST(N_ROWS)], reactions[FMU_AT_LEAST(3 * N_REACTIONS)],
         torques[FMU_AT_LEAST(N_DRIVES)], clearance[FMU_AT_LEAST(10 * N_CLEARANCES)],
         series[FMU_AT_LEAST(N_SERIES)], friction[FMU_AT_LEAST(2 * N_FRICTIONS)], energy[2], power[3], drift[2];
 } Followed;

@@ -113,6 +113,30 @@ double gudgeon_time_rhs(long count, double t, const double *y, const double *mem
     return sum;
 }
 
+#ifdef WALLS
+/*
+ * Of each guide with play the sum of its corners' forces on the slider, N, and their moment about the slider's point,
+ * N m: that is in the middle between the first corner and the last, which lie opposite each other.
+ */
+static void sum_corners(const Clearance *clearance, double *reaction)
+{
+    for (int k = 0; k < WALLS; k++, reaction += 3) {
+        const Clearance *own = clearance + first_corner[k];
+        double Fx = 0.0, Fy = 0.0, M = 0.0;
+        for (int i = 0; i < CORNERS; i++) {
+            Fx += own[i].Fx;
+            Fy += own[i].Fy;
+            M -= own[i].moment_first;
+        }
+        const double x = 0.5 * (own[0].from_x + own[CORNERS - 1].from_x);
+        const double y = 0.5 * (own[0].from_y + own[CORNERS - 1].from_y);
+        reaction[0] = Fx;
+        reaction[1] = Fy;
+        reaction[2] = M - (x * Fy - y * Fx);
+    }
+}
+#endif
+
 /*
  * Everything at n samples, but for arrays that are NULL; reactions, torques, series and energy belong together.
  * Returns 0 or the pivot that vanished, with the sample in `failed`.
@@ -149,8 +173,12 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
             drift[2 * i + 1] = max_of(fabs(aside.phi_dot[k]), drift[2 * i + 1]);
         }
         if (energy)
-            outputs(t[i], y, y + N_Q, p, aside.lambda, reactions + i * 3 * N_JOINTS, torques + i * N_DRIVES,
+            outputs(t[i], y, y + N_Q, p, aside.lambda, reactions + i * 3 * N_REACTIONS, torques + i * N_DRIVES,
                 series + i * N_SERIES, energy + 2 * i);
+#ifdef WALLS
+        if (energy)
+            sum_corners(aside.clearance, reactions + 3 * (i * N_REACTIONS + N_JOINTS));
+#endif
         for (int k = 0; friction && k < N_FRICTIONS; k++) {
             friction[(i * N_FRICTIONS + k) * 2] = aside.friction[k].force;
             friction[(i * N_FRICTIONS + k) * 2 + 1] = aside.friction[k].v;
@@ -160,7 +188,7 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
             double *out = clearance + (i * N_CLEARANCES + k) * 10;
             out[0] = joint->Fx;
             out[1] = joint->Fy;
-            out[2] = -joint->F_n; /* positive: pushes the journal back to the centre */
+            out[2] = -joint->F_n; /* positive: pushes the surfaces apart */
             out[3] = joint->F_t;
             out[4] = joint->ex;
             out[5] = joint->ey;
@@ -183,7 +211,7 @@ int gudgeon_evaluate_runs(long runs, const long *counts, const double *t, const 
     for (long i = 0, first = 0; i < runs; first += counts[i++]) {
         const int status = gudgeon_evaluate(counts[i], t + first, q + first * N_Q, v + first * N_Q,
             memory + first * N_MEMORY, parameters + i * numbers, FROM(a, N_Q), FROM(lambda, N_ROWS),
-            FROM(reactions, 3 * N_JOINTS), FROM(torques, N_DRIVES), FROM(clearance, 10 * N_CLEARANCES),
+            FROM(reactions, 3 * N_REACTIONS), FROM(torques, N_DRIVES), FROM(clearance, 10 * N_CLEARANCES),
             FROM(series, N_SERIES), FROM(friction, 2 * N_FRICTIONS), FROM(energy, 2), FROM(power, N_WORK),
             FROM(drift, 2), failed);
         if (status)

@@ -65,7 +65,7 @@ typedef struct {
 #endif
 #if N_RUBBED
     int smooth;   /* no friction but `along`: what a blow, or what puts a contact back, asks for */
-    double along; /* N, along t on the journal */
+    double along; /* N, along t on the second body */
 #endif
 } Latch;
 
@@ -121,13 +121,22 @@ typedef struct {
     double v, rate, speed, force, static_limit;
 } Friction;
 
-/* A joint with play at one state; the force acts on the second body (journal), ground axes. */
+#ifdef WALLS
+#define N_REACTIONS (N_JOINTS + WALLS)
+#else
+#define N_REACTIONS N_JOINTS
+#endif
+
+/* A joint with play at one state; the force acts on the second body (journal or slider), ground axes. */
 typedef struct {
     double Fx, Fy;                       /* N */
     double F_n, F_t;                     /* along n = e/|e| and along t = n turned by +90 degrees */
     double ex, ey, e, deltadot, v_t;     /* m, m/s */
     double moment_first, moment_second;  /* about each body's pin centre, N*m */
     double delta, power;                 /* m, W */
+#ifdef WALLS
+    double from_x, from_y;               /* from the guide's point to the centre of a corner's radius, m */
+#endif
 #if LAW_STATES
     double state_rate[LAW_STATES];       /* of the laws' inner states, each unit a second */
 #endif
@@ -139,7 +148,7 @@ typedef struct {
 #endif
 } Clearance;
 
-/* The force of a joint with play along n and t on the journal, moments about both pin centres, slip. */
+/* The force of a joint with play along n and t on the second body, moments about both bodies' points, slip. */
 typedef struct {
     double n, t, M_i, M_j, v_t;
 #if LAW_STATES

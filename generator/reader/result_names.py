@@ -108,10 +108,7 @@ class ResultNames:
             raise BadValueError(f"{name}: joint {joint} has no play in scene {scene}", name.where, hint)
         if owner not in self._joints or last in _ALWAYS:
             return
-        if owner in play and last in _JOINT and f"{owner}.{next(iter(CORNERS))}" in self.owners:
-            hint = f"expected one of: {', '.join(_ALWAYS)}; or of a corner: {', '.join(CORNERS)}"
-            raise BadValueError(f"{name}: joint {owner} has play in scene {scene}", name.where, hint)
-        if owner in play and last in _JOINT:
+        if owner in play and last in _JOINT and f"{owner}.{next(iter(CORNERS))}" not in self.owners:
             raise BadValueError(f"{name}: joint {owner} has play in scene {scene}", name.where, _RESULTS_OF_PLAY)
         if owner not in play and last in _PLAY:
             hint = f"expected one of: {', '.join(_JOINT)}; or give it play there"

@@ -229,6 +229,11 @@ class KernelSource:
         """Coordinates less constraint rows."""
         return len(self.coordinates) - len(self.rows)
 
+    @cached_property
+    def guides(self) -> tuple[str, ...]:
+        """Translational joints with play, whose sliders touch at corners."""
+        return tuple(dict.fromkeys(joint.joint for joint in self.clearances if joint.at_wall))
+
     @property
     def n_memory(self) -> int:
         """What a sample remembers: an impact velocity a joint with play, a mode a friction, then inner states."""

@@ -31,9 +31,9 @@ class Evaluation:
 
     a: Array  # (N, n) q̈
     multipliers: Array  # (N, m) λ
-    reactions: Array  # (N, n_joints, 3) Fx, Fy, M on the second body at the joint's point, ground axes
+    reactions: Array  # (N, n_joints + n_guides, 3) Fx, Fy, M on the second body at its point, ground axes
     torques: Array  # (N, n_drives) torque (N·m) or force (N) of each drive
-    clearance: Array  # (N, n_clearances, 10) CLEARANCE_COLUMNS: force on the journal; Fn > 0 pushes it back
+    clearance: Array  # (N, n_clearances, 10) CLEARANCE_COLUMNS: force on the second body; Fn > 0 pushes it back
     series: Array  # (N, n_series) results of force elements
     friction: Array  # (N, n_frictions, 2) force on the second body along the direction, slip
     energy: Array  # (N, 2) kinetic, potential
@@ -118,7 +118,7 @@ def nothing(compiled: CompiledModel) -> tuple[tuple[str, Array], ...]:
     """Of each part its name and what it is without a row."""
     s = compiled.source
     widths: dict[str, tuple[int, ...]] = {
-        "a": (compiled.n,), "multipliers": (len(s.rows),), "reactions": (len(s.joints), 3),
+        "a": (compiled.n,), "multipliers": (len(s.rows),), "reactions": (len(s.joints) + len(s.guides), 3),
         "torques": (len(s.drives),), "clearance": (len(s.clearances), len(CLEARANCE_COLUMNS)),
         "series": (len(s.series),), "friction": (len(s.frictions), 2), "energy": (2,), "power": (3,), "drift": (2,),
     }  # fmt: skip

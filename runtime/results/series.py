@@ -4,6 +4,7 @@
     L1.head.x .y     .vx .vy          .ax .ay              of a point
     A.Fx .Fy .F .M                                         of an ideal joint: on the second body, ground axes
     A.Fx .Fy .F .Fn .Ft .e .ex .ey .delta .eps .deltadot .vt .state .deltadot_minus      with play
+    way.front_upper.Fn …   way.Fx .Fy .F .M                the same of a slider's corner; of its guide their sum
     crank1.torque   lambda.A.x   energy.kinetic .potential .residual   work.drives .forces .clearances
     Phi.max   Phi_dot.max                                  how far the constraints are violated
     lift                                                   an output of the mechanism file
@@ -15,7 +16,7 @@ The names depend on the scene alone; nothing is computed before somebody asks (`
 from __future__ import annotations
 
 import weakref
-from collections.abc import Callable, Container, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 from types import MappingProxyType
@@ -25,7 +26,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.contract.clearance_info import ClearanceInfo
-from gudgeon.contract.kernel_source import JointInfo, KernelSource
+from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.language import tree as expression_tree
 from gudgeon.language.output_units import unit_of
 from gudgeon.results.point_motion import point_motion
@@ -40,6 +41,7 @@ MOTION = (("x", "vx", "ax"), ("y", "vy", "ay"), ("theta", "omega", "alpha"))
 MOTION_UNITS = (("m", "m/s", "m/s^2"), ("m", "m/s", "m/s^2"), ("rad", "rad/s", "rad/s^2"))
 MOTION_WORDS = ("", "velocity, ", "acceleration, ")
 
+REACTION = (("Fx", "N", "force, x"), ("Fy", "N", "force, y"), ("M", "N*m", "moment"))  # columns of Evaluation.reactions
 # columns of Evaluation.clearance: name -> (column, unit, meaning)
 CLEARANCE = {
     "Fx": (0, "N", "force on the journal, x in ground axes"),
@@ -52,6 +54,13 @@ CLEARANCE = {
     "deltadot": (7, "m/s", "rate of the penetration"),
     "vt": (8, "m/s", "slip of the journal's surface on the bearing's"),
     "delta": (9, "m", "penetration: e less the radial clearance where the journal is"),
+}
+# what these mean at a slider's corner, n the outward normal of its wall
+AT_WALL = {
+    "Fx": "force on the corner, x in ground axes", "Fy": "force on the corner, y in ground axes",
+    "F": "force on the corner, magnitude", "Fn": "normal force, against n", "Ft": "tangential force, along n turned by +90°",
+    "ex": "e n, x in ground axes", "ey": "e n, y in ground axes", "vt": "slip on its wall", "eps": "e by the gap",
+    "e": "how much nearer to its wall it is than with the slider in the middle", "delta": "penetration: e less the gap",
 }
 
 
@@ -158,17 +167,26 @@ def _points(source: KernelSource) -> Iterator[tuple[str, Series]]:
 
 def _joints(source: KernelSource) -> Iterator[tuple[str, Series]]:
     for k, joint in enumerate(source.joints):
-        on = f"joint {joint.name}, on {_body_name(source, joint)} at its point, ground axes"
-        for column, (name, unit, what) in enumerate(
-            (("Fx", "N", "reaction force, x"), ("Fy", "N", "reaction force, y"), ("M", "N*m", "reaction moment"))
-        ):
-            yield f"{joint.name}.{name}", _of(unit, f"{what}: {on}", "reactions", k, column)
-        magnitude = partial(_magnitude, name=joint.name)
-        yield f"{joint.name}.F", Series("N", f"reaction force, magnitude: {on}", magnitude, frozenset({"reactions"}))
+        on = f"joint {joint.name}, on {_body_name(source, joint.second)} at its point, ground axes"
+        yield from _reactions(joint.name, k, "reaction", on)
 
 
-def _body_name(source: KernelSource, joint: JointInfo) -> str:
-    return source.bodies[joint.second].name if joint.second >= 0 else "the ground"
+def _guides(source: KernelSource) -> Iterator[tuple[str, Series]]:
+    """Of a joint that touches at corners: the sum of their forces, as a joint without play has it."""
+    second = {joint.joint: _body_name(source, joint.second) for joint in source.clearances}
+    for k, name in enumerate(source.guides, len(source.joints)):
+        yield from _reactions(name, k, "contact", f"all corners of {name}, on {second[name]} at its point, ground axes")
+
+
+def _reactions(name: str, row: int, kind: str, on: str) -> Iterator[tuple[str, Series]]:
+    for column, (last, unit, what) in enumerate(REACTION):
+        yield f"{name}.{last}", _of(unit, f"{kind} {what}: {on}", "reactions", row, column)
+    magnitude = partial(_magnitude, name=name)
+    yield f"{name}.F", Series("N", f"{kind} force, magnitude: {on}", magnitude, frozenset({"reactions"}))
+
+
+def _body_name(source: KernelSource, body: int) -> str:
+    return source.bodies[body].name if body >= 0 else "the ground"
 
 
 def _evaluated(run: Result, part: str, index: tuple[int, ...]) -> Array:
@@ -182,34 +200,16 @@ def _magnitude(run: Result, name: str) -> Array:
 
 def _clearances(source: KernelSource) -> Iterator[tuple[str, Series]]:
     for k, joint in enumerate(source.clearances):
-        at, parts = f": joint {joint.name} with play", frozenset({"clearance"})
+        at, parts = f": {'corner' if joint.at_wall else 'joint'} {joint.name} with play", frozenset({"clearance"})
+        told = AT_WALL if joint.at_wall else {"F": "force on the journal, magnitude", "eps": "eccentricity ratio e/c"}
         for name, (column, unit, meaning) in CLEARANCE.items():
-            yield f"{joint.name}.{name}", _of(unit, meaning + at, "clearance", k, column)
-        force = Series("N", f"force on the journal, magnitude{at}", partial(_magnitude, name=joint.name), parts)
-        yield f"{joint.name}.F", force
-        yield f"{joint.name}.eps", Series("", f"eccentricity ratio e/c{at}", partial(_ratio, joint=joint), parts)
+            yield f"{joint.name}.{name}", _of(unit, told.get(name, meaning) + at, "clearance", k, column)
+        yield f"{joint.name}.F", Series("N", told["F"] + at, partial(_magnitude, name=joint.name), parts)
+        yield f"{joint.name}.eps", Series("", told["eps"] + at, partial(_ratio, joint=joint), parts)
         states = "0 free, 1 impact (until the penetration first stops growing), 2 contact"
         yield f"{joint.name}.state", _stored("", f"{states}{at}", "state", k)
         latched = _stored("m/s", f"rate of penetration at the last onset{at}", "memory", k)
         yield f"{joint.name}.deltadot_minus", latched
-
-
-def _guides(source: KernelSource) -> Iterator[tuple[str, Series]]:
-    """Of a joint that touches at corners: the sum of their forces."""
-    corners: dict[str, list[int]] = {}
-    for k, joint in enumerate(source.clearances):
-        if joint.at_wall:
-            corners.setdefault(joint.joint, []).append(k)
-    for name, own in corners.items():
-        on, parts = f"force on the slider, {{}}: joint {name} with play, its corners", frozenset({"clearance"})
-        for column, axis in enumerate("xy"):
-            total = partial(_sum, corners=own, column=column)
-            yield f"{name}.F{axis}", Series("N", on.format(f"{axis} in ground axes"), total, parts)
-        yield f"{name}.F", Series("N", on.format("magnitude"), partial(_magnitude, name=name), parts)
-
-
-def _sum(run: Result, corners: Sequence[int], column: int) -> Array:
-    return np.asarray(run.evaluation.clearance[:, corners, column].sum(axis=1))
 
 
 def _states(source: KernelSource) -> Iterator[tuple[str, Series]]:

@@ -79,8 +79,9 @@ def _slot(slot: Slot) -> dict[str, Any]:
 def _widths(source: KernelSource) -> dict[str, int]:
     """Columns of what gudgeon_evaluate fills, in its order."""
     return {
-        "a": len(source.coordinates), "multipliers": len(source.rows), "reactions": 3 * len(source.joints),
-        "torques": len(source.drives), "clearance": 10 * len(source.clearances), "series": len(source.series),
+        "a": len(source.coordinates), "multipliers": len(source.rows),
+        "reactions": 3 * (len(source.joints) + len(source.guides)), "torques": len(source.drives),
+        "clearance": 10 * len(source.clearances), "series": len(source.series),
         "friction": 2 * len(source.frictions), "energy": 2, "power": 3, "drift": 2,
     }  # fmt: skip
 

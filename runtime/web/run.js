@@ -113,13 +113,6 @@ class Run {
             const [x, y] = [`${owner}.Fx`, `${owner}.Fy`];
             add(`${owner}.F`, "N", () => each((i) => Math.hypot(this.series(x)[i], this.series(y)[i])));
         }
-        const joined = new Set(clearances.map(([name]) => name).filter((name) => name.includes(".")).map((name) => name.split(".")[0]));
-        for (const joint of joined) { // the sum of its corners
-            const own = clearances.map(([name]) => name).filter((name) => name.startsWith(`${joint}.`));
-            for (const axis of ["Fx", "Fy"])
-                add(`${joint}.${axis}`, "N", () => each((i) => own.reduce((sum, name) => sum + this.series(`${name}.${axis}`)[i], 0)));
-            add(`${joint}.F`, "N", () => each((i) => Math.hypot(this.series(`${joint}.Fx`)[i], this.series(`${joint}.Fy`)[i])));
-        }
         for (const [name, k] of clearances)
             add(`${name}.eps`, "", () => this.series(`${name}.e`).map((e) => e / this.p[k]));
         if (columns["energy.kinetic"]) add("energy.residual", "J", () => this.residual());

@@ -19,6 +19,7 @@ from gudgeon.generator.kernels.closed_linkage import apart_rows
 from gudgeon.generator.kernels.event_functions import ranges_kernel, reads_state
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kernels.time_terms import count_terms
+from gudgeon.generator.kinds.joints.joint_type import CORNERS
 from gudgeon.generator.kinds.laws.law import DEEPEST
 from gudgeon.generator.solvers.kkt import EARLY, KKT, NEARLY_SINGULAR, SINGULAR, VANISHING
 from gudgeon.generator.solvers.square_rows import SHARE
@@ -128,8 +129,9 @@ def _of_watch(program: Program, bounds: Kernel | None) -> Sizes:
     sizes |= {"PERIODS": (1, "mod begins anew within the motion")} if periods else {}
     if any(clearance.contour for clearance in model.clearances):
         sizes["CONTOURS"] = (1, "bearings are no circles")
-    if any(clearance.wall for clearance in model.clearances):
-        sizes["WALLS"] = (1, "sliders have play in their guides: corners at walls")
+    if corners := first_corners(model):
+        sizes["WALLS"] = (len(corners), "guides in which sliders have play: corners at walls")
+        sizes["CORNERS"] = (len(CORNERS), "of each slider")
     return sizes
 
 
@@ -143,6 +145,11 @@ def _of_start(program: Program) -> Sizes:
         "N_RATES": (len(start["rate_place"]), "velocities that it sets"),
     }  # fmt: skip
     return sizes | {"N_APART": (len(apart), "rows that it holds apart: eccentricities of journals")} if apart else sizes
+
+
+def first_corners(model: Model) -> list[int]:
+    """Of each guide with play the number of its first corner among joints with play; the others follow it."""
+    return [k for k, c in enumerate(model.clearances) if c.wall][:: len(CORNERS)]
 
 
 def known_bounds(program: Program) -> Kernel | None:
@@ -194,6 +201,8 @@ def _tables(program: Program, of_scene: Sizes) -> list[str]:
         tables |= {("int", "apart_row"): [k for k, _, _ in apart]}
     if model.rigid:
         tables |= {("unsigned char", "rigid_joint"): [int(c.rigid) for c in model.clearances]}
+    if corners := first_corners(model):
+        tables |= {("int", "first_corner"): corners}
     if program.integrates:
         tables |= _watched(program, of_scene) | {("int", "friction_of_pivot"): _friction_pivots(program.integrated.kkt)}
     return [_table(kind, name, values) for (kind, name), values in tables.items()]

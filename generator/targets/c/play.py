@@ -136,6 +136,7 @@ def _store(clearance: Clearance, states: int) -> str:
     rates = braced("F.state_rate", clearance, states)
     own = _AT_WALL if clearance.wall else _JOURNAL
     more = f", .state_rate = {rates}" if rates else ""
+    more += ",\n        .from_x = e_x, .from_y = e_y" * bool(clearance.wall)
     return _STORE % (*own, more + ", .at_wall = 1" * bool(clearance.wall and clearance.rigid))
 
 
