@@ -25,7 +25,7 @@ static inline Real outward(const ClearanceOf *joint)
 #endif
 }
 
-/* The largest eccentricity of joint i within a step of length h, where the journal turned back in it. */
+/* The largest eccentricity of joint i within a step of length h, where it turned back in it. */
 static inline void watch_turn(RunOf *run, int i, double h, const ClearanceOf *before, const ClearanceOf *after)
 {
     const Truth turned = (before->deltadot > 0.0) & (after->deltadot < 0.0);

@@ -58,7 +58,7 @@ static void inner_peak(Run *run, const Step *step, double share, int i, double b
     }
 }
 
-/* The largest eccentricity of joint i inside a step up to `share`, where the journal turns round in it. */
+/* The largest eccentricity of joint i inside a step up to `share`, where it turns round in it. */
 static void outermost(Run *run, Step *step, double share, int i, const Parameters *p)
 {
     Clearance low = run->aside.clearance[i], high = step->aside.clearance[i];
@@ -70,13 +70,14 @@ static void outermost(Run *run, Step *step, double share, int i, const Parameter
         const double s = from
             + (to - from) * cubic_top(outward(&low), h * low.deltadot, outward(&high), h * high.deltadot, &top);
         Aside aside;
-        if (top + round < 0.99 * run->e_max[i] || make_dense(run, p, step) || state_at(run, step, s, p, y, dy, &aside))
+        if (top + round < run->e_max[i] - 0.01 * fabs(run->e_max[i]) || make_dense(run, p, step)
+            || state_at(run, step, s, p, y, dy, &aside))
             return;
         const Clearance *now = &aside.clearance[i];
         if (run->trace)
             trace_place(run, i, step->t + s * step->h, now);
         run->e_max[i] = max_of(now->e, run->e_max[i]);
-        if (fabs(outward(now) - top) < 1e-9 * (top + round))
+        if (fabs(outward(now) - top) < 1e-9 * fabs(top + round))
             return;
         if (now->deltadot > 0.0)
             from = s, low = *now;

@@ -38,7 +38,7 @@ static int rates(Run *run, double t, const double *y, const Parameters *p, doubl
 #include "latches.c"
 #include "trace.c"
 
-/* A journal deeper in its bearing than a tenth of the radius: contact laws mean nothing there. */
+/* A journal deeper in its bearing, or a corner in its wall, than a tenth of the radius: contact laws mean nothing there. */
 static int outside_model(const Run *run, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
@@ -259,8 +259,10 @@ void gudgeon_run_start(void *memory, const double *p, double t, const double *y,
         run->memory.least = run->memory.least_size = NEARBY;
     for (int k = 0; k < N_STATES; k++) /* a run that begins: none yet */
         run->y[FIRST_STATE + k] = isnan(latched[N_MEMORY - N_STATES + k]) ? 0.0 : latched[N_MEMORY - N_STATES + k];
-    for (int i = 0; i < N_CLEARANCES; i++)
+    for (int i = 0; i < N_CLEARANCES; i++) {
         run->open[i] = (Impact){t, NAN, latched[i], 0.0, t, i};
+        run->e_max[i] = -INFINITY; /* of a slider's corner it may stay below 0 */
+    }
 }
 
 /* The codes with which an earlier run ended: whether a contact that goes on is still being compressed. */

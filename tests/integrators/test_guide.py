@@ -139,6 +139,10 @@ def test_a_block_lies_on_its_lower_wall_as_the_closed_form_says(folder: Path, fo
     np.testing.assert_allclose(run["way.front_lower.Fn"] + run["way.rear_lower.Fn"], M * G, rtol=1e-9)
     assert run["way.front_upper.F"].max() == run["way.rear_upper.F"].max() == 0.0
     assert run["way.Fy"][-1] == pytest.approx(M * G, rel=1e-9)
+    assert run["way.M"] == pytest.approx(M * G * x, rel=1e-8)  # about the slider's point, against its weight
+    for corner in ("front_upper", "rear_upper"):  # never nearer to its wall than in the middle
+        assert run.diagnostics.peak(f"way.{corner}").e_max == pytest.approx(run[f"way.{corner}.e"].max(), rel=1e-9)
+        assert run[f"way.{corner}.e"].max() < -C
 
 
 @pytest.mark.parametrize("formulation", ["reduced", "full"])
@@ -230,6 +234,9 @@ def test_a_slot_that_swings_against_an_oracle(folder: Path, method: str, formula
     found = np.stack([run[name] for name in names], axis=1)
     np.testing.assert_allclose(found[:, :4], expected[:, :4], atol=1e-6, rtol=0.0)
     np.testing.assert_allclose(found[:, 4:], expected[:, 4:], atol=2e-3, rtol=0.0)  # of 17 rad/s
+    wrench = np.stack([run[f"way.{name}"] for name in ("Fx", "Fy", "M")], axis=1)  # Newton and Euler: the block has it
+    moved = np.stack([0.3 * run["block.ax"], 0.3 * (run["block.ay"] + G), 8e-5 * run["block.alpha"]], axis=1)
+    np.testing.assert_allclose(wrench, moved, atol=1e-9 * abs(moved).max(), rtol=0.0)
     at = [ORACLE.contacts(y) for y in found]
     for k, corner in enumerate(("front_upper", "front_lower", "rear_upper", "rear_lower")):
         own = [one[k] for one in at]

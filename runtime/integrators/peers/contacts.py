@@ -63,6 +63,7 @@ class Contacts:
         self.open = [(np.nan, 0.0, np.nan)] * self.count  # onset, largest force, its time
         self.impacts: list[tuple[int, float, float, float, float, float]] = []
         self.peaks = np.zeros((self.count, 3))  # F, t, e_max
+        self.peaks[:, 2] = -np.inf
         self.onsets = self.ratio_outside = 0
         self.ratio = (np.inf, -np.inf)
 
