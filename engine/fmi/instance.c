@@ -49,8 +49,8 @@ static fmi3Status refuses(const Model *m, const char *what)
 static fmi3Status fails(const Model *m, const char *what, int status)
 {
     char text[600];
-    const char *why = status == OUTSIDE ? ": a journal lies deeper in its bearing than its contact law is good for"
-        : status == LOST ? ": a free journal lies outside its bearing"
+    const char *why = status == OUTSIDE ? ": a journal or corner lies deeper in its wall than its contact law is good for"
+        : status == LOST ? ": a free journal or corner lies outside its walls"
         : status == CHATTERING ? ": contacts, frictions or corners change without end"
         : status == STALLED || status == TOO_SMALL ? ": no step is small enough"
         : status == NOT_FINITE || status == UNBOUNDED ? ": it is no longer finite"

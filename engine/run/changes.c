@@ -183,7 +183,7 @@ static int pass_jumps_here(Run *run, const Parameters *p)
 }
 
 #endif
-/* A free journal never lies outside its bearing, whatever the method thought of its contact. */
+/* A free journal never lies outside its bearing, nor a free corner in its wall, whatever the method thought. */
 static int check_contacts(const Run *run, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES; i++)

@@ -38,7 +38,7 @@ static int rates(Run *run, double t, const double *y, const Parameters *p, doubl
 #include "latches.c"
 #include "trace.c"
 
-/* A journal deeper in its bearing, or a corner in its wall, than a tenth of the radius: contact laws mean nothing there. */
+/* A journal deeper in its bearing, or a corner in its wall, than a tenth of the radius: laws mean nothing there. */
 static int outside_model(const Run *run, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES; i++)

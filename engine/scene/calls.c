@@ -123,13 +123,13 @@ static void sum_corners(const Clearance *clearance, double *reaction)
     for (int k = 0; k < WALLS; k++, reaction += 3) {
         const Clearance *own = clearance + first_corner[k];
         double Fx = 0.0, Fy = 0.0, M = 0.0;
-        for (int i = 0; i < CORNERS; i++) {
+        for (int i = 0; i < SLIDER_CORNERS; i++) {
             Fx += own[i].Fx;
             Fy += own[i].Fy;
             M -= own[i].moment_first;
         }
-        const double x = 0.5 * (own[0].from_x + own[CORNERS - 1].from_x);
-        const double y = 0.5 * (own[0].from_y + own[CORNERS - 1].from_y);
+        const double x = 0.5 * (own[0].from_x + own[SLIDER_CORNERS - 1].from_x);
+        const double y = 0.5 * (own[0].from_y + own[SLIDER_CORNERS - 1].from_y);
         reaction[0] = Fx;
         reaction[1] = Fy;
         reaction[2] = M - (x * Fy - y * Fx);

@@ -29,6 +29,9 @@ def scene_notes(model: Model) -> tuple[str, ...]:
             notes.append("no degree of freedom: positions by Newton, nothing is integrated")
     elif not any(c.film for c in model.clearances):
         notes.append("no film: dry contact only")
+    options = {c.joint.name: c.normal.options for c in model.clearances if c.wall and c.normal}
+    for joint in (name for name, own in options.items() if own.get("geometry") == "internal"):
+        notes.append(f"geometry: internal says nothing in {joint}: its wall is flat, K is by the corner's radius")
     if states := [f"{c.name}.{state.name}" for c in model.clearances for state in c.states]:
         notes.append(f"inner states of laws, {', '.join(states)}: integrated with the motion, which peers do not do")
     if model.rigid:

@@ -83,6 +83,11 @@ class Clearance:
     wall: Wall | None = None
 
     @property
+    def kind(self) -> str:
+        """What comments call it: a joint, or one of a slider's corners."""
+        return "corner" if self.wall else "joint"
+
+    @property
     def laws(self) -> tuple[LawEquations, ...]:
         """The laws that it has."""
         return tuple(law for law in (self.normal, self.friction, self.film, self.mixed) if law is not None)

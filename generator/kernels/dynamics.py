@@ -79,7 +79,7 @@ def _events(model: Model, build: KernelBuilder) -> None:
 def _clearance_call(build: KernelBuilder, index: int, clearance: Clearance) -> list[PointLoad]:
     """Calls the joint's force function; its result acts on both bodies."""
     name, out = clearance.label, f"aside->clearance[{index}]"
-    build.section(f"clearance joint {clearance.name}")
+    build.section(f"clearance {clearance.kind} {clearance.name}")
     e = [build.local(f"e_{name}_{axis}", value) for axis, value in zip("xy", clearance.eccentricity, strict=True)]
     edot = [
         build.local(f"edot_{name}_{axis}", value) for axis, value in zip("xy", clearance.eccentricity_rate, strict=True)

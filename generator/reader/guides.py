@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from gudgeon.errors import BadValueError, MissingKeyError
 from gudgeon.generator.kinds.laws.law import called, laws
 from gudgeon.generator.mechanism.mechanism import Contact, Guide
@@ -27,5 +29,16 @@ def check_guide(joint: str, guide: Guide, contact: Contact, use: Map) -> None:
     if "geometry" in normal.options and guide.corner_radius is None:
         told = f"guide {guide.name} of {joint} has no corner_radius, from which {normal.law} takes its stiffness"
         able = any(own.name == "stiffness" for own in laws()[normal.law].fields)
-        also = f", or stiffness in contacts.{contact.name}.normal" if able else ""
-        raise MissingKeyError(told, use["guide"].where, f"expected corner_radius in guides.{guide.name}{also}")
+        also = "stiffness" if able else f"a law that needs none ({', '.join(sorted(_of_sharp_corners()))})"
+        hint = f"expected corner_radius in guides.{guide.name}, or {also} in contacts.{contact.name}.normal"
+        raise MissingKeyError(told, use["guide"].where, hint)
+
+
+def _of_sharp_corners() -> Iterator[str]:
+    """Laws of corners on walls that take no stiffness from radii, or one of the file instead."""
+    for name, law in laws().items():
+        if law.role == "normal" and not law.in_hole and law.name == name:
+            if "geometry" in law.instead:
+                yield f"{name} with {law.instead['geometry']}"
+            elif all(own.name != "geometry" for own in law.fields):
+                yield name

@@ -108,7 +108,7 @@ class Linearization:
     def _clearance(self, index: int, clearance: Clearance) -> list[PointLoad]:
         """The joint's force as symbols, with their tangents from its own function."""
         name, build, out = clearance.label, self.build, f"aside->clearance[{index}]"
-        build.section(f"clearance joint {clearance.name}")
+        build.section(f"clearance {clearance.kind} {clearance.name}")
         e = [build.local(f"e_{name}_{c}", x) for c, x in zip("xy", clearance.eccentricity, strict=True)]
         edot = [build.local(f"edot_{name}_{c}", x) for c, x in zip("xy", clearance.eccentricity_rate, strict=True)]
         given = (*clearance.eccentricity, *clearance.eccentricity_rate, clearance.first.omega, clearance.second.omega)

@@ -72,7 +72,9 @@ def failure(
         known = _closed_film(compiled, e_max, p, t) or _dead_centre(compiled, last, p, t)
         return known or SolverError(f"no step is small enough at t = {t:.9g} s{fast}\n  {advice}", t)
     if status == LOST:
-        return SolverError(f"a contact was lost at t = {t:.9g} s: a free journal lies outside its bearing", t)
+        lies = {True: "a free corner lies in its wall", False: "a free journal lies outside its bearing"}
+        which = sorted({lies[joint.at_wall] for joint in compiled.source.clearances}, reverse=True)
+        return SolverError(f"a contact was lost at t = {t:.9g} s: {', or '.join(which)}", t)
     if status == OUTSIDE:
         return _too_deep(compiled, e_max, p, t)
     if status == STOPPED:
@@ -242,18 +244,19 @@ def film(compiled: CompiledModel, e_max: Array, p: Array) -> str:
 
 def _too_deep(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> SolverError:
     """A journal a tenth of its bearing's radius or more inside the metal, or where its law of contact ends."""
-    _, deepest, own, name = max(
-        (depth / min(own, 0.1 * float(p[joint.constants["R_i"]])), depth, own, joint.name)
+    _, deepest, own, name, at_wall = max(
+        (depth / min(own, 0.1 * float(p[joint.constants["R_i"]])), depth, own, joint.name, joint.at_wall)
         for joint, e in zip(compiled.source.clearances, e_max, strict=True)
         for depth in [float(e) - widest(compiled.source, p, joint)]
         for own in [float(p[joint.constants["deepest"]]) if "deepest" in joint.constants else np.inf]
     )
-    limit = f"{1e3 * own:.3g} mm, up to which its law of contact holds," if deepest > own else "a tenth of its radius,"
+    tenth = "a tenth of half the guide's width," if at_wall else "a tenth of its radius,"
+    limit = f"{1e3 * own:.3g} mm, up to which its law of contact holds," if deepest > own else tenth
+    whose, where = (f"corner {name}", "its wall") if at_wall else (f"the journal of {name}", "its bearing")
+    laws, oil = ("laws of contact", "") if at_wall else ("laws of contact and film", ", a thicker oil")
     error = SolverError(
-        f"the journal of {name} lies {1e3 * deepest:.3g} mm deep in its bearing, beyond {limit} at"
-        f" t = {t:.9g} s\n"
-        "  laws of contact and film hold for far less: a stiffer material, a thicker oil or less speed, and in rk4 a"
-        " shorter step", t
+        f"{whose} lies {1e3 * deepest:.3g} mm deep in {where}, beyond {limit} at t = {t:.9g} s\n"
+        f"  {laws} hold for far less: a stiffer material{oil} or less speed, and in rk4 a shorter step", t
     )  # fmt: skip
     error.outside_model = True
     return error

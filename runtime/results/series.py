@@ -58,9 +58,9 @@ CLEARANCE = {
 # what these mean at a slider's corner, n the outward normal of its wall
 AT_WALL = {
     "Fx": "force on the corner, x in ground axes", "Fy": "force on the corner, y in ground axes",
-    "F": "force on the corner, magnitude", "Fn": "normal force, against n", "Ft": "tangential force, along n turned by +90°",
+    "F": "force on the corner, magnitude", "Fn": "normal force, against n", "Ft": "force along n turned by +90°",
     "ex": "e n, x in ground axes", "ey": "e n, y in ground axes", "vt": "slip on its wall", "eps": "e by the gap",
-    "e": "how much nearer to its wall it is than with the slider in the middle", "delta": "penetration: e less the gap",
+    "e": "how far it is nearer to its wall than in the middle of the guide", "delta": "penetration: e less the gap",
 }
 
 

@@ -7,8 +7,8 @@ const AT_ONCE = 2000; // steps between samples of a motion without a freedom, be
 const EVENTS_FULL = -3, ENDED = -7, EVENT_STOPS = 1; // statuses of engine/scene/types.h and kinematic/events.c
 const TOLD = {
     "-2": "the motion is no longer finite", "-4": "a friction or a corner of the forces changes its side without end",
-    "-5": "no step is small enough", "-6": "a contact was lost: a free journal lies outside its bearing",
-    "-8": "a journal is deeper in its bearing than contact laws hold", "-11": "the run no longer advances",
+    "-5": "no step is small enough", "-6": "a contact was lost: a free journal or corner lies outside its walls",
+    "-8": "a journal or corner is deeper in its wall than contact laws hold", "-11": "the run no longer advances",
     "-12": "the second rate of a drive grows beyond all bounds",
 };
 const KINEMATIC_TOLD = {
@@ -101,8 +101,9 @@ class Session {
             return [peaks[3 * i + 2] - p[k] - worn, name];
         });
         const [depth, name] = depths.sort(([a], [b]) => b - a)[0] ?? [];
-        const deep = `the journal of ${name} lies ${Number((1e3 * depth).toPrecision(3))} mm deep in its bearing, beyond a`
-            + " tenth of its radius";
+        const far = `${Number((1e3 * depth).toPrecision(3))} mm deep in its`, corner = name?.includes(".");
+        const deep = corner ? `corner ${name} lies ${far} wall, beyond a tenth of half the guide's width`
+            : `the journal of ${name} lies ${far} bearing, beyond a tenth of its radius`;
         return depths.length ? {...TOLD, "-8": deep} : TOLD;
     }
 

@@ -69,7 +69,7 @@ def _pin(pin: Pin, render: Render, states: int) -> str:
     if clearance.film is not None:
         parts["film_law"] = call_of_film(pin, "Lanes")
     return render(
-        "play/lane_pin.c.jinja", joint=clearance.label, dry=clearance.normal is not None,
+        "play/lane_pin.c.jinja", joint=clearance.label, kind=clearance.kind, dry=clearance.normal is not None,
         film=clearance.film is not None, ratio_name="unclipped" if clearance.clip_ratio else "ratio",
         rates=braced("rate", clearance, states, "all_of(0.0)"), still=braced("", clearance, states, "all_of(0.0)"),
         first=pin.corners.start, last=pin.corners.stop, states=states, wall=bool(clearance.wall), **parts,
@@ -97,7 +97,7 @@ def _tangent(
     given = {"film": (STATE, "out"), "dry": (STATE, "&dry"), "share": (("delta",), "share")}
     calls = {part: functions.shared_call(parts[part], what, (where,)) if part in parts else ""
              for part, (what, where) in given.items()}  # fmt: skip
-    calls |= {"joint": clearance.label, "c": f"p->{clearance.pair.c}"}
+    calls |= {"joint": clearance.label, "kind": clearance.kind.capitalize(), "c": f"p->{clearance.pair.c}"}
     calls["rise"] = lanes_printer.expression(in_place(model, clearance.wall.rise)) if clearance.wall else ""
     return render(
         "play/lane_tangent.c.jinja", rows=4 + states, columns=5 + states, wall=bool(clearance.wall), **calls

@@ -131,7 +131,7 @@ def _of_watch(program: Program, bounds: Kernel | None) -> Sizes:
         sizes["CONTOURS"] = (1, "bearings are no circles")
     if corners := first_corners(model):
         sizes["WALLS"] = (len(corners), "guides in which sliders have play: corners at walls")
-        sizes["CORNERS"] = (len(CORNERS), "of each slider")
+        sizes["SLIDER_CORNERS"] = (len(CORNERS), "of each slider")
     return sizes
 
 
@@ -267,6 +267,8 @@ def of_joints(model: Model) -> list[tuple[str, str, list[str]]]:
     told = dict(_OF_JOINTS)
     if any(DEEPEST in c.constants for c in model.clearances):
         told["deepest"] = told["deepest"].replace("radius.", "radius, or a law's own.")
+    if any(c.wall for c in model.clearances):
+        told["deepest"] = told["deepest"].replace("radius", "radius, of half a guide's width", 1)
     return [
         (told[name], name, [printer.expression(sp.sympify(x).xreplace(read)) for x in some])
         for name, some in values.items()

@@ -67,7 +67,7 @@ def pin_functions(pin: Pin, render: Render, states: int) -> Iterator[PinFunction
     if clearance.film is not None:
         yield _film(pin, render, states)
     text = render(
-        _template(pin), joint=joint, arguments=_ARGUMENTS % _also(clearance),
+        _template(pin), joint=joint, kind=clearance.kind, arguments=_ARGUMENTS % _also(clearance),
         further="".join(f", {name}" for name in _further(pin)), gap=_lines(pin.gap), share=_lines(pin.share),
         rigid=clearance.rigid, closed="latch->closed" if clearance.rigid else CLOSED,
         store=_store(clearance, states), told=_shared_by(clearance),
@@ -113,7 +113,7 @@ def _dry(pin: Pin, render: Render, states: int) -> PinFunction:
     laws = [pin.laws[role] for role in ("normal", "friction") if role in pin.laws]
     steps["unread"] = functions.unread_sides(laws, (*pin.before_dry, *pin.after_dry))
     steps |= {"law": _texts(calls), "rates": braced("rate", clearance, states)}
-    text = render("play/dry.c.jinja", joint=joint, ratio=_RATIO, ratio_name=ratio, **steps)
+    text = render("play/dry.c.jinja", joint=joint, kind=clearance.kind, ratio=_RATIO, ratio_name=ratio, **steps)
     own: Stores = [(f"    const double {ratio} = {_RATIO};", ratio), *functions.one_by_one(pin.before_dry)]
     own += [*((code, local) for code, local in calls if local), *functions.one_by_one(pin.after_dry)]
     return PinFunction(f"dry_{joint}", text, own)

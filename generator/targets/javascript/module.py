@@ -122,7 +122,7 @@ def play_kernel(model: Model) -> Kernel:
     """The eccentricity in each joint with play, its rate, how fast both bodies turn."""
     build = KernelBuilder(model.symbols, "play", ["Joints with play: eccentricity, its rate, angular velocities."])
     for i, clearance in enumerate(model.clearances):
-        build.section(f"joint {clearance.name}")
+        build.section(f"{clearance.kind} {clearance.name}")
         turning = clearance.first.omega, clearance.second.omega
         values = (*clearance.eccentricity, *clearance.eccentricity_rate, *turning)
         values += clearance.also

@@ -76,13 +76,13 @@ def of_latex(latex: str) -> Name:
 
 
 def distinct(wanted: Iterable[tuple[sp.Expr, Name]]) -> dict[sp.Symbol, Name]:
-    """A name of its own for each symbol: who comes first has the letter, others the name of their symbol in C."""
+    """A name of its own for each symbol: who comes first has the letter, others have primes."""
     names: dict[sp.Symbol, Name] = {}
     used: set[str] = set()
     for symbol, name in wanted:
         if not isinstance(symbol, sp.Symbol) or symbol in names:
             continue
-        name = primed(letter(symbol.name) if name.text in used else name, used)
+        name = primed(name, used)
         used.add(name.text)
         names[symbol] = name
     return names

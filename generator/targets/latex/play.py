@@ -11,6 +11,7 @@ from gudgeon.generator.equations.contact_steps import Step
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations
 from gudgeon.generator.field import Field
+from gudgeon.generator.kinds.laws.elastic_pair import GEOMETRY
 from gudgeon.generator.mechanism.mechanism import Guide, Play, Quantity
 from gudgeon.generator.targets.latex import play_letters as contact_names
 from gudgeon.generator.targets.latex.document import Block, Section, paragraph, sentence
@@ -88,7 +89,7 @@ def play_sections(model: Model, notation: Notation, found: Functions) -> list[Se
     for clearance in model.clearances:
         joint = JointWithPlay(model, clearance, notation, found)
         twin = next((name for name, play in done.items() if _alike(play, joint.play)), None)
-        what = "Corner" if clearance.wall else "Joint"
+        what = clearance.kind.capitalize()
         title = f"{what} {clearance.name} with play"
         sections.append(Section(title, tuple(_geometry(joint, twin is None)), 1, joint.of))
         if twin is None:
@@ -134,7 +135,7 @@ def _geometry(joint: JointWithPlay, first: bool) -> list[Block]:
 
 def _contact_sections(joint: JointWithPlay) -> list[Section]:
     clearance, name = joint.clearance, joint.clearance.name
-    what = "Corner" if clearance.wall else "Joint"
+    what = clearance.kind.capitalize()
     sections = [Section(f"{what} {name}: numbers", tuple(numbers(joint)), 2)]
     if clearance.normal is not None:
         sections.append(Section(f"{what} {name}: dry contact", tuple(_dry(joint)), 2))
@@ -183,6 +184,7 @@ def _law(joint: JointWithPlay, role: str) -> list[Block]:
         paragraph(f"Option {option.name}: {as_word(value)} ({option.meaning}).{_credit(option, value)}")
         for option in law.options
         if (value := equations.options.get(option.name)) is not None  # one may say nothing beside a number
+        and not (joint.clearance.wall and option is GEOMETRY)  # R_i → ∞
     ]
     blocks += told_states(law)
     plot = law_plot(joint.found, joint.alike, role, law) if isinstance(joint.found, Trace) else []
@@ -198,7 +200,7 @@ def _credit(option: Field, value: str | bool) -> str:
 def _share_in_g(joint: JointWithPlay) -> list[Block]:
     """Force and moment on both bodies, as what they add to g."""
     clearance, notation = joint.clearance, joint.notation
-    blocks: list[Block] = [paragraph("The joint adds to g, by the numbers of the coordinates:")]
+    blocks: list[Block] = [paragraph(f"The {clearance.kind} adds to g, by the numbers of the coordinates:")]
     # which letter holds the moment depends on the parts that the joint has
     moments = contact.moments(clearance)
     for point, sign, moment in ((clearance.first, -1, moments[0]), (clearance.second, 1, moments[1])):

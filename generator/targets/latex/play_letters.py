@@ -51,7 +51,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations
 from gudgeon.generator.field import Field
 from gudgeon.generator.kinds.laws.law import HELD, RESULTS, Law
-from gudgeon.generator.mechanism.mechanism import Guide, LawUse, Quantity
+from gudgeon.generator.mechanism.mechanism import LawUse, Quantity
 from gudgeon.generator.symbols.numbers import SlotEntry
 from gudgeon.generator.targets.latex.letters import Name, distinct, letter, of_latex, word
 
@@ -79,7 +79,7 @@ LAW_LETTERS = {
     "overlap": letter("l"), "deepest": letter("delta", "max"), "scale": letter("l"), "part": letter("y"),
     "gone": letter("x"), "left": letter("y"), "F_e": letter("F", "el"),
 }  # fmt: skip
-_LETTERS_AT_WALL = (("c", "c"), ("R_i", "h_i"), ("R_j", r"\rho"))
+_LETTERS_AT_WALL = (("c", "c"), ("R_i", "h_i"))  # lengths of the slider, which points of bodies have too, keep theirs
 GUIDE = (
     ("gap", "c", "gap on each side"),
     ("half_length", "a", "half the slider's length"),
@@ -98,6 +98,8 @@ def names(clearance: Clearance) -> dict[sp.Symbol, Name]:
             found[of_part(symbol, part)] = letter(base, index + _PARTS[part] if len(parts) > 1 else index)
         if len(parts) > 1:
             found[symbol] = letter(base, index)
+    if len(parts) < 2:
+        del found[share]
     if clearance.wall:
         found |= {M_i: letter("M", "i"), of_part(M_i, "dry"): letter("M", "i", "t")}
     return found
@@ -109,20 +111,16 @@ def joint_letters(model: Model, clearance: Clearance) -> dict[sp.Symbol, Name]:
 
 
 def _wanted(model: Model, clearance: Clearance) -> Iterator[tuple[sp.Expr, Name]]:
-    pair, laws = clearance.pair, laws_of(model, clearance)
+    pair, laws, wall = clearance.pair, laws_of(model, clearance), clearance.wall
     yield from names(clearance).items()
-    wall, play = clearance.wall, model.scene.play[clearance.joint.name]
     signs = _LETTERS_AT_WALL if wall else (("c", "c"), ("R_i", "R_i"), ("R_j", "R_j"), ("L", "L"))
     pairs = [(getattr(pair, what), sign) for what, sign in signs]
-    for symbol, sign in (*pairs, *([(wall.rise, "h_j")] if wall else [])):
+    for symbol, sign in pairs:
         if symbol.is_Symbol:
             yield symbol, of_latex(sign)
     for constant in ("E", "nu"):
         i, j = getattr(pair, f"{constant}_i"), getattr(pair, f"{constant}_j")
         yield from [(i, letter(constant))] if i == j else [(i, letter(constant, "i")), (j, letter(constant, "j"))]
-    if isinstance(play.bearing, Guide):
-        lengths = ((getattr(play.bearing, field), sign) for field, sign, _ in GUIDE)
-        yield from ((slot.symbol, of_latex(sign)) for length, sign in lengths if (slot := _slot(model, length)))
     if clearance.transition is not None:
         yield clearance.transition, letter("e", "0")
     for equations, use in laws:
@@ -130,7 +128,8 @@ def _wanted(model: Model, clearance: Clearance) -> Iterator[tuple[sp.Expr, Name]
             if entry := _slot(model, quantity):
                 yield entry.symbol, of_latex(sign_of(parameter))
     for name, value in clearance.constants.items():
-        yield value, LAW_LETTERS.get(name) or word(name)
+        if not (wall and value == pair.R_j):
+            yield value, LAW_LETTERS.get(name) or word(name)
     for equations, _ in laws:
         for name in equations.steps:
             yield result(equations, name), step_name(equations.law, name)

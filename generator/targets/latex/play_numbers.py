@@ -29,9 +29,7 @@ def numbers(joint: JointWithPlay) -> list[Block]:
         called = of_latex(sign) if entry is None else joint.notation.math(entry.symbol)
         rows.append(cells(called, meaning, quantity.address, value, pretty(si_unit(quantity.dimension)) or "-"))
     definitions = joint.model.symbols.definitions
-    wall = joint.clearance.wall
-    own = [joint.clearance.pair.R_j, *([wall.rise] if wall else [])]
-    constants = dict.fromkeys([*own, *joint.clearance.constants.values()])
+    constants = dict.fromkeys([joint.clearance.pair.R_j, *joint.clearance.constants.values()])
     follow = [equation(s, joint.notation.expand(definitions[s]), joint.notation) for s in constants if s in definitions]
     header = cells("letter", "meaning", "address", "value in the file", "unit")
     return [*table(header, rows, (1,)), *values.below(), paragraph("From these follow once a run:"), *follow]

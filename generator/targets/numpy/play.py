@@ -25,9 +25,12 @@ _FILM = ("F_r", "F_along_t_film", "M_i_film", "M_j_film")
 
 
 def pin(own: Pin) -> str:
-    """`clearance_<joint>`. A contact is closed where the journal is deeper than the bearing."""
+    """`clearance_<joint>`. A contact is closed where bodies overlap."""
     joint, clearance = own.clearance.label, own.clearance
-    body = [*docstring([f"Force of joint {clearance.name} on the journal, from the eccentricity e and its rate."])]
+    told = f"Force of joint {clearance.name} on the journal, from the eccentricity e and its rate."
+    if clearance.wall:
+        told = f"Force on corner {clearance.name}, from where it is, seen from the guide's point, and its rate."
+    body = [*docstring([told])]
     body += lines(own.gap)
     if clearance.normal is None:
         body += [*_film(own), "F = F_r, F_along_t_film, M_i_film, M_j_film", "v_t = 0.0"]

@@ -207,7 +207,7 @@ class _Driver:
         lost = self.contacts.end_of_step(self.t, self.y) if self.contacts.count else None
         if lost is not None:
             name = self.problem.compiled.source.clearances[lost].name
-            raise SolverError(f"a contact was lost at t = {self.t:.9g} s: a free journal of {name} is outside", self.t)
+            raise SolverError(f"a contact was lost at t = {self.t:.9g} s: {name}, free, is beyond its wall", self.t)
 
     def _go_on(self, event: bool, end: Array) -> None:
         """Restart, move the integrator onto the constraints, or leave it as it is."""
