@@ -9,12 +9,11 @@ import numpy as np
 
 from gudgeon.assembly.linkage import Linkage
 from gudgeon.contract.clearance_info import ClearanceInfo
-from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import AssemblyError, SingularError
 from gudgeon.language.plot_units import told_apart
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import contour_of, depth_at, widest
-from gudgeon.model.corners import corner_gap
+from gudgeon.model.corners import corner_at, corner_gap, slider_of
 
 FAR = 10.0  # times the most that it may be: an e that is longer was hardly meant in its unit
 ROUNDED = 1e-9  # of the clearance, that a start in contact may be off
@@ -52,7 +51,7 @@ def check_places(linkage: Linkage, p: Array) -> None:
 def _check_turning(linkage: Linkage, p: Array, joint: ClearanceInfo) -> None:
     """AssemblyError for a slider that turns over in its guide, or begins so: a corner meets its own wall alone."""
     source, c = linkage.source, float(p[joint.clearance])
-    guide, a, b, radius = _slider(source, p, joint)
+    guide, a, b, radius = slider_of(source, p, joint)
     reach = math.hypot(a - radius, b - radius) + radius
     if reach <= b + c:
         raise AssemblyError(
@@ -108,27 +107,9 @@ def _places(linkage: Linkage, p: Array) -> Iterator[tuple[ClearanceInfo, float, 
         own = [x for row, x in zip(source.start_apart, values, strict=True) if row.rpartition(".")[0] == joint.joint]
         if joint.at_wall:
             if own:
-                yield joint, _corner_at(source, p, joint, -own[0], -own[1]), float(p[joint.clearance])
+                yield joint, corner_at(source, p, joint, -own[0], -own[1]), float(p[joint.clearance])
             continue
         yield joint, float(np.linalg.norm(own)), widest(source, p, joint)
-
-
-def _corner_at(source: KernelSource, p: Array, joint: ClearanceInfo, offset: float, tilt: float) -> float:
-    """How much nearer to its wall than in the middle of the guide a corner is, m: offset of the slider (m), tilt."""
-    _, a, b, radius = _slider(source, p, joint)
-    front, upper = (1.0 if word in joint.name.rpartition(".")[2] else -1.0 for word in ("front", "upper"))
-    across = offset + front * (a - radius) * math.sin(tilt)
-    return upper * across + (b - radius) * (math.cos(tilt) - 1.0)
-
-
-def _slider(source: KernelSource, p: Array, joint: ClearanceInfo) -> tuple[str, float, float, float]:
-    """A guide's address, half the slider's length and height and the radius of its corners, m."""
-    guide = source.slots[joint.clearance].address.rpartition(".")[0]
-    a, b, radius = (
-        float(p[source.place[address]]) if (address := f"{guide}.{what}") in source.place else 0.0
-        for what in ("half_length", "half_height", "corner_radius")
-    )
-    return guide, a, b, radius
 
 
 def parting(compiled: CompiledModel, p: Array, t: float, q: Array, v: Array, memory: Array) -> tuple[str, ...]:

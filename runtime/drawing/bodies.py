@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from gudgeon.contract.kernel_source import PartInfo
+from gudgeon.drawing.guides import axes_of, gap_of
 from gudgeon.drawing.plan import Plan, axis_of
 from gudgeon.drawing.posture import GROUND, Posture, anchors, body_of, distinct
 from gudgeon.drawing.shapes import Disc, Label, Line, Shape, rectangle, rounded
@@ -19,13 +20,13 @@ SLOT, STRIP = 1.0, 0.55  # half widths: of a slotted link, of a bar that guides
 def bodies(posture: Posture, plan: Plan, loose: frozenset[str] = frozenset()) -> Iterator[Shape]:
     """Every body of a scene; `loose` ones in their own colour."""
     for tint, body in enumerate(posture.bodies):
-        role = "loose" if body in loose else "body"
-        yield from (Line(f"body {body}", role, outline, True, tint) for outline in _outlines(posture, plan, body))
+        for role, outline in _outlines(posture, plan, body):
+            yield Line(f"body {body}", "loose" if body in loose and role == "body" else role, outline, True, tint)
         yield from _marks(posture, plan, body, tint)
 
 
-def _outlines(posture: Posture, plan: Plan, body: str) -> Iterator[Array]:
-    """The link or plate, what guides others, blocks; each closed."""
+def _outlines(posture: Posture, plan: Plan, body: str) -> Iterator[tuple[str, Array]]:
+    """The link or plate, what guides others, blocks; each closed, with its role."""
     u, places = plan.unit, distinct(anchors(posture, body).values())
     guided, blocks = [], []
     for part in posture.parts("joints", "translational", "point_on_line"):
@@ -35,13 +36,16 @@ def _outlines(posture: Posture, plan: Plan, body: str) -> Iterator[Array]:
         if slider == body and part.kind == "translational":
             blocks.append(part)
     if not ((blocks or guided) and _is_held_once(posture, body)):
-        yield rounded(places, u if len(places) > 1 else 1.6 * u)
+        yield "body", rounded(places, u if len(places) > 1 else 1.6 * u)
     for part in guided:
         ends = guide_ends(posture, plan, part)
-        yield rounded(ends, (STRIP if part.kind == "translational" else SLOT + 0.55) * u)
+        if gap := gap_of(posture, part, u):
+            yield "guide", rounded(ends, BLOCK[1] * u + gap + 0.55 * u)
+            yield "channel", rounded(ends, BLOCK[1] * u + gap)
+        else:
+            yield "body", rounded(ends, (STRIP if part.kind == "translational" else SLOT + 0.55) * u)
     for part in blocks:
-        _, along, place = axis_of(posture, part)
-        yield rectangle(place, along, BLOCK[0] * u, BLOCK[1] * u)
+        yield "body", rectangle(axis_of(posture, part)[2], axes_of(posture, part)[1], BLOCK[0] * u, BLOCK[1] * u)
 
 
 def _is_held_once(posture: Posture, body: str) -> bool:

@@ -1,4 +1,4 @@
-"""Joints with play, magnified beside the mechanism: the journal in its bearing, where the run has it."""
+"""Joints with play, magnified beside the mechanism: journal in bearing, slider in guide, where the run has them."""
 
 from __future__ import annotations
 
@@ -6,14 +6,16 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from gudgeon.drawing.guides import corners, in_walls
 from gudgeon.drawing.plan import is_wide
-from gudgeon.drawing.posture import Posture
-from gudgeon.drawing.shapes import Disc, Label, Line, Shape
+from gudgeon.drawing.posture import Posture, body_of
+from gudgeon.drawing.shapes import Disc, Label, Line, Shape, rectangle, turned
 from gudgeon.language.plot_units import scale
 from gudgeon.model.compiled import Array
 
 DASHED = " (dashed: as far as the journal's centre may go)"
 RADIUS, JOURNAL = 5.0, 0.4  # of an inset's hole in units, and of the journal as a share of that
+LONG, HIGH, APART, WALL, DOT = 0.9, 0.34, 0.26, 0.06, 0.06  # halves of slider, gap, half a wall, a corner: the same
 
 
 def eccentricity(posture: Posture, joint: str) -> Array:
@@ -23,15 +25,16 @@ def eccentricity(posture: Posture, joint: str) -> Array:
 
 
 def in_contact(posture: Posture) -> frozenset[str]:
-    """Joints with play whose surfaces overlap, e ≥ c; those that have nothing but a film never touch."""
+    """Joints with play, and corners, whose surfaces overlap, e ≥ c; those that have nothing but a film never touch."""
     reach = {name: float(posture.p[joint.clearance]) for name, joint in posture.clearances.items() if joint.dry}
-    return frozenset(name for name, c in reach.items() if float(np.hypot(*eccentricity(posture, name))) >= c)
+    found = (name for name, c in reach.items() if float(np.hypot(*eccentricity(posture, name))) >= c)
+    return frozenset(found) | in_walls(posture)
 
 
 def magnification(posture: Posture, joint: str, unit: float) -> float:
-    """How many times larger than the drawing an inset is: two digits, so that the clearance circle fits."""
-    c = float(posture.p[posture.clearances[joint].clearance])
-    wanted = RADIUS * (1.0 - JOURNAL) * unit / c
+    """How many times larger than the drawing an inset is: two digits, so that clearance circle or gap fits."""
+    share = APART if joint in posture.guides else 1.0 - JOURNAL
+    wanted = RADIUS * share * unit / posture.play(joint)
     step = 10.0 ** (np.floor(np.log10(wanted)) - 1.0)
     return float(np.floor(wanted / step) * step)
 
@@ -43,29 +46,69 @@ def insets(
     """Of each joint with play its shapes, its name and its scale; below each other, to the right of the box, or where
     that is too low for it in rows below.
 
-    To scale are the gap and the eccentricity, not the radii. `touching`: joints whose surfaces are in contact, by a red
-    journal; `touched`: those that are not any more, but were since the picture before, by a red bearing.
+    To scale are the gap and the eccentricity, not the radii, nor a slider's lengths. `touching`: joints and corners
+    whose surfaces are in contact, red; `touched`: those that are not any more, but were since the picture before: a
+    red bearing or wall.
     """
     radius = RADIUS * unit
-    shown = [name for name in posture.clearances if not is_wide(posture, name, unit)]
+    played = dict.fromkeys(joint.joint for joint in posture.source.clearances)
+    shown = [name for name in played if not is_wide(posture, name, unit)]
     for joint, centre in zip(shown, _centres(len(shown), radius, low, high), strict=True):
-        c = float(posture.p[posture.clearances[joint].clearance])
-        times = magnification(posture, joint, unit)
-        e = eccentricity(posture, joint)
-        part, hole = f"inset {joint}", c * times + JOURNAL * radius
-        at = centre + times * e
-        shapes: list[Shape] = [
-            Disc(part, "touched" if joint in touched - touching else "bearing", centre, 1.16 * hole),
-            Disc(part, "hole", centre, hole),
-            Disc(part, "touching" if joint in touching else "journal", at, JOURNAL * radius),
-            Disc(part, "clearance", centre, c * times),
-            Line(part, "scale", np.array([centre, at])),
-        ]
+        c, times = posture.play(joint), magnification(posture, joint, unit)
+        one = _slider if joint in posture.guides else _journal
+        shapes, ratio, below = one(posture, joint, centre, radius, touching, touched - touching)
+        told = f"{joint} ×{times:g}, e/c = {ratio:.2f}"
         factor, text = scale(c, "m")
-        told = f"{joint} ×{times:g}, e/c = {float(np.hypot(*e)) / c:.2f}"
-        label = Label(part, "inset", told, centre - [0.0, 1.2 * hole], 0.0, 270.0)
-        note = f"{joint}: clearance {c * factor:.4g} {text}, drawn ×{times:g}"
-        yield shapes, label, f"{note}{DASHED}" if joint == shown[0] else note
+        what, each = ("gap", " on each side") if joint in posture.guides else ("clearance", "")
+        note = f"{joint}: {what} {c * factor:.4g} {text}{each}, drawn ×{times:g}"
+        dashed = DASHED * (joint == next((name for name in shown if name in posture.clearances), ""))
+        yield shapes, Label(f"inset {joint}", "inset", told, centre - [0.0, below], 0.0, 270.0), note + dashed
+
+
+def _journal(
+    posture: Posture, joint: str, centre: Array, radius: float, touching: frozenset[str], touched: frozenset[str]
+) -> tuple[list[Shape], float, float]:
+    """Shapes, e/c, and how far below its name stands."""
+    c, times = posture.play(joint), magnification(posture, joint, radius / RADIUS)
+    e = eccentricity(posture, joint)
+    part, hole = f"inset {joint}", c * times + JOURNAL * radius
+    at = centre + times * e
+    shapes: list[Shape] = [
+        Disc(part, "touched" if joint in touched else "bearing", centre, 1.16 * hole),
+        Disc(part, "hole", centre, hole),
+        Disc(part, "touching" if joint in touching else "journal", at, JOURNAL * radius),
+        Disc(part, "clearance", centre, c * times),
+        Line(part, "scale", np.array([centre, at])),
+    ]
+    return shapes, float(np.hypot(*e)) / c, 1.2 * hole
+
+
+def _slider(
+    posture: Posture, joint: str, centre: Array, radius: float, touching: frozenset[str], touched: frozenset[str]
+) -> tuple[list[Shape], float, float]:
+    """The same of a guide, along its axis: two walls, and the slider by its corners, as far from the walls as they are,
+    e/c of the one that is furthest out."""
+    c, times = posture.play(joint), magnification(posture, joint, radius / RADIUS)
+    of = next(posture.parts_named(joint))
+    along = posture.direction(of, "axis", body_of(of.ends[0]))
+    part, across, found = f"inset {joint}", turned(along), corners(posture, joint)
+    beyond = HIGH * radius + c * times + WALL * radius
+    shapes: list[Shape] = []
+    for side, word in ((1.0, "upper"), (-1.0, "lower")):
+        red = any(name in touched for name in found if word in name)
+        wall = rectangle(centre + side * beyond * across, along, 1.16 * radius, WALL * radius)
+        shapes.append(Line(part, "touched" if red else "bearing", wall, True))
+    places = {
+        name: centre + (LONG if "front" in name else -LONG) * radius * along
+        + (1.0 if "upper" in name else -1.0) * (HIGH * radius + times * e) * across
+        for name, e in found.items()
+    }  # fmt: skip
+    upper, lower = ([at for name, at in places.items() if word in name] for word in ("upper", "lower"))
+    shapes.append(Line(part, "journal", np.array([*upper, *reversed(lower)]), True))
+    for name, at in places.items():
+        shapes.append(Disc(part, "touching" if name in touching else "journal", at, DOT * radius))
+    below = 1.16 * abs(along[1]) * radius + abs(across[1]) * (beyond + WALL * radius) + 0.2 * radius
+    return shapes, max(found.values()) / c, float(below)
 
 
 def _centres(n: int, radius: float, low: Array, high: Array) -> Iterator[Array]:

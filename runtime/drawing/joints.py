@@ -8,6 +8,7 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import PartInfo
 from gudgeon.drawing.bodies import BLOCK, SLOT, guide_and_slider, guide_ends
+from gudgeon.drawing.guides import axes_of, gap_of
 from gudgeon.drawing.plan import Plan, axis_of, has_rail, is_wide
 from gudgeon.drawing.posture import GROUND, Posture, body_of
 from gudgeon.drawing.shapes import Disc, Label, Line, Shape, hatching, rectangle, rounded, turned, unit_vector
@@ -39,6 +40,7 @@ def names_of_joints(posture: Posture, plan: Plan, arcs: Mapping[str, float]) -> 
         if has_rail(part) and part.name in plan.ways:  # beyond the ground, where nothing slides
             x, y = plan.ways[part.name]
             clear, way = BLOCK[1] + 1.2, float(np.degrees(np.arctan2(y, x)))
+            clear += gap_of(posture, part, plan.unit) / plan.unit
         yield Label(f"joint {part.name}", "joint", part.name, place, clear * plan.unit, way)
 
 
@@ -70,21 +72,25 @@ def _revolute(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
     yield Disc(name, "pin", posture.place(part.ends[1]), PIN * u)
 
 
-def _rail(posture: Posture, plan: Plan, part: PartInfo, below: float) -> Iterator[Shape]:
-    """The ground under what slides on it, `below` its line, hatched on the far side, as far as it goes."""
+def _rail(posture: Posture, plan: Plan, part: PartInfo, below: float, side: float = 1.0) -> Iterator[Shape]:
+    """The ground under what slides on it, `below` its line (m), hatched on the far side, as far as it goes; or above
+    (`side` −1)."""
     on, along, _ = axis_of(posture, part)
+    if part.name in posture.guides:
+        along = axes_of(posture, part)[0]
     low, high = plan.travel[part.name]
-    more = (2.0 * BLOCK[0] + 0.4) * plan.unit * along
-    down = below * plan.unit * plan.ways[part.name]
-    a, b = on + low * along - more + down, on + high * along + more + down
+    more, way = (2.0 * BLOCK[0] + 0.4) * plan.unit * along, side * plan.ways[part.name]
+    a, b = on + low * along - more + below * way, on + high * along + more + below * way
     yield Line(f"joint {part.name}", "rail", np.array([a, b]))
-    for stroke in hatching(a, b, plan.ways[part.name], 0.95 * plan.unit):
+    for stroke in hatching(a, b, way, 0.95 * plan.unit):
         yield Line(f"joint {part.name}", "hatch", stroke)
 
 
 def _translational(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
     if part.name in plan.ways:
-        yield from _rail(posture, plan, part, BLOCK[1])
+        gap = gap_of(posture, part, plan.unit)
+        for side in (1.0, -1.0) if gap else (1.0,):
+            yield from _rail(posture, plan, part, BLOCK[1] * plan.unit + gap, side)
     else:  # the axis of the guide, where the block hides it
         a, b = guide_ends(posture, plan, part)
         yield Line(f"joint {part.name}", "axis", np.array([a, b]))
@@ -94,7 +100,7 @@ def _point_on_line(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Sha
     name, u, place = f"joint {part.name}", plan.unit, posture.place(part.ends[0])
     guide, slider = guide_and_slider(part)
     if guide == GROUND:
-        yield from _rail(posture, plan, part, ROLLER)
+        yield from _rail(posture, plan, part, ROLLER * u)
         yield Disc(name, "roller", place, ROLLER * u)
     else:
         _, along, _ = axis_of(posture, part)

@@ -54,7 +54,7 @@ def make_plan(postures: Sequence[Posture], start: Posture | None = None) -> Plan
 
 
 def _places(posture: Posture) -> list[Array]:
-    """All points that are drawn, rims of wheels, and how far journals may go."""
+    """All points that are drawn, rims of wheels, how far journals may go, and how long sliders with play are."""
     found = [place for body in posture.bodies for place in anchors(posture, body).values()]
     found += [posture.place(end) for part in posture.source.parts for end in part.ends if end in posture.points]
     for part in posture.parts("joints", "gear"):
@@ -62,7 +62,8 @@ def _places(posture: Posture) -> list[Array]:
             radius = posture.number(f"joints.{part.name}.radii.{axis}")
             found += [posture.place(end) + shift for shift in radius * np.array([[1, 1], [-1, -1]])]
     for joint in posture.source.clearances:
-        reach = float(posture.p[joint.clearance]) * np.array([[1, 1], [-1, -1]])
+        half = posture.slider(joint)[1] if joint.at_wall else posture.play(joint.name)
+        reach = half * np.array([[1, 1], [-1, -1]])
         found += [posture.place(next(posture.parts_named(joint.joint)).ends[0]) + shift for shift in reach]
     return found
 
@@ -83,7 +84,7 @@ def _unit(posture: Posture, places: Array) -> float:
 
 def is_wide(posture: Posture, joint: str, unit: float) -> bool:
     """Whether a joint's play is large enough to be seen as it is."""
-    return float(posture.p[posture.clearances[joint].clearance]) > WIDE * unit
+    return posture.play(joint) > WIDE * unit
 
 
 def axis_of(posture: Posture, part: PartInfo) -> tuple[Array, Array, Array]:

@@ -13,6 +13,7 @@ from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import BodyInfo, KernelSource, PartInfo, PointInfo
 from gudgeon.errors import GudgeonError
 from gudgeon.model.compiled import Array
+from gudgeon.model.corners import slider_of
 
 GROUND = "ground"
 OF_BODIES = ("gear", "rotational_spring_damper", "torque", "angle", "coordinate")  # kinds whose ends are whole bodies
@@ -69,6 +70,20 @@ class Posture:
         """Joints with play by name: journals, whose play is a circle."""
         return {joint.name: joint for joint in self.source.clearances if not joint.at_wall}
 
+    @cached_property
+    def guides(self) -> Mapping[str, tuple[ClearanceInfo, ...]]:
+        """Sliders with play in their guides by joint: their corners."""
+        corners = [one for one in self.source.clearances if one.at_wall]
+        return {name: tuple(one for one in corners if one.joint == name) for name in self.source.guides}
+
+    def play(self, joint: str) -> float:
+        """Radial clearance of a joint with play, of a guide the gap on each side, m."""
+        return float(self.p[next(one.clearance for one in self.source.clearances if one.joint == joint)])
+
+    def slider(self, joint: ClearanceInfo) -> tuple[str, float, float, float]:
+        """Of a corner's slider the guide's address, half its length and height and the radius of its corners, m."""
+        return slider_of(self.source, self.p, joint)
+
     def parts(self, section: str, *kinds: str) -> Iterator[PartInfo]:
         """Those of a section of the file, of these kinds or of all."""
         for part in self.source.parts:
@@ -108,6 +123,10 @@ class Posture:
     def number(self, address: str) -> float:
         """A number of the file, SI; 0 where nothing or a plain 0 is written."""
         return float(self.p[self._slots[address]]) if address in self._slots else 0.0
+
+    def has(self, address: str) -> bool:
+        """Whether the file says a number, 0 too."""
+        return address in self._slots or any(one.address == address for one in self.source.written)
 
     def direction(self, part: PartInfo, key: str, body: str) -> Array:
         """A part's vector in the axes of a body as a unit vector in ground axes, (2,)."""

@@ -216,6 +216,7 @@ def _candidates(posture: Posture, part: str) -> Iterator[Carrier]:
     yield from (Carrier(one, ("pair", other), -2) for one, other in permutations(points, 2))
     numbers = [k for address, k in place.items() for one in about
                if address.startswith(f"{one.section}.{one.name}.") and source.slots[k].unit == "m"]  # fmt: skip
+    numbers += [one.clearance for one in source.clearances if one.at_wall and one.joint in (x.name for x in about)]
     for k in dict.fromkeys(numbers):
         yield from (Carrier(point, turn, k) for turn in turns for point in points)
         yield from (Carrier(one, ("pair", other), k) for one, other in permutations(points, 2))

@@ -31,6 +31,8 @@ ROLES: Mapping[str, Role] = {
     "wheel": Role("edge", "tint", 0.9, 0.8, (6.0, 2.0, 1.0, 2.0)),
     "spoke": Role("edge", "", 0.8, 0.9),
     "rod": Role(INK, "", 1.6, 1.9),
+    "guide": Role("edge", "tint", 0.9, 1.92),
+    "channel": Role("edge", "white", 0.7, 1.94),
     "body": Role("edge", "tint", 0.9, 2.0),
     "loose": Role(WRONG, "#ffd5d0", 1.1, 2.0, (4.0, 2.0)),
     "axis": Role(GREY, "", 0.6, 2.2, (6.0, 2.0, 1.0, 2.0)),

@@ -6,6 +6,8 @@ import math
 
 import numpy as np
 
+from gudgeon.contract.clearance_info import ClearanceInfo
+from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import SingularError
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.evaluation import CLEARANCE_COLUMNS
@@ -27,3 +29,21 @@ def corner_gap(
     except SingularError:
         return math.nan, math.nan
     return float(found[_DEPTH]), float(found[_RATE])
+
+
+def corner_at(source: KernelSource, p: Array, joint: ClearanceInfo, offset: float, tilt: float) -> float:
+    """How much nearer to its wall than in the middle of the guide a corner is, m: offset of the slider (m), tilt."""
+    _, a, b, radius = slider_of(source, p, joint)
+    front, upper = (1.0 if word in joint.name.rpartition(".")[2] else -1.0 for word in ("front", "upper"))
+    across = offset + front * (a - radius) * math.sin(tilt)
+    return upper * across + (b - radius) * (math.cos(tilt) - 1.0)
+
+
+def slider_of(source: KernelSource, p: Array, joint: ClearanceInfo) -> tuple[str, float, float, float]:
+    """A guide's address, half the slider's length and height and the radius of its corners, m."""
+    guide = source.slots[joint.clearance].address.rpartition(".")[0]
+    a, b, radius = (
+        float(p[source.place[address]]) if (address := f"{guide}.{what}") in source.place else 0.0
+        for what in ("half_length", "half_height", "corner_radius")
+    )
+    return guide, a, b, radius

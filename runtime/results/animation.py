@@ -41,7 +41,7 @@ SUFFIXES = (".gif", ".mp4", ".html")
 COLOURS, STRIPE = 128, 6  # of a GIF; pixels, by which a colour of the drawing counts for its palette
 NAMED = 60  # characters of a title, beside which the time fits
 RATE, LONGEST = 25.0, 1000  # pictures a second, and pictures in all
-RED = "red journal: in contact now; red bearing: touched since the picture before"
+RED = "red journal or corner: in contact now; red bearing or wall: touched since the picture before"
 SLOW, QUICK, SHOWN = 2.0, 20.0, 6.0  # s: shorter and longer runs are shown within the last
 
 

@@ -20,7 +20,7 @@ from gudgeon.errors import GudgeonError, shortened
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.plot_units import drawn, label, quantity, scale
 from gudgeon.language.shown import in_figure, one_line
-from gudgeon.results import trace
+from gudgeon.results import force_panels, trace
 from gudgeon.results.series import rates
 
 try:
@@ -117,21 +117,22 @@ def figure(runs: Mapping[str, Result], reference: Result | Mapping[str, Result],
     references = dict(reference) if isinstance(reference, Mapping) else dict.fromkeys(played, reference)
     shown = played or dict(runs)
     colours = dict(zip(shown, cycle(len(shown)) if played else [IDEAL, *cycle(len(shown) - 1)], strict=True))
-    joints = list(dict.fromkeys(joint.name for run in played.values() for joint in run.source.clearances))[:4]
+    panels = force_panels.panels(played.values())
     followed = {name for one in watch for name in rates(one)}  # shown below what they are rates of
     watch = [name for name in dict.fromkeys(watch) if name not in followed][:2]
     with matplotlib.rc_context(STYLE):
         picture = Figure(figsize=(12, 9), dpi=100)
         picture.set_layout_engine("constrained", w_pad=0.06, h_pad=0.05, hspace=0.03, wspace=0.02)
-        first = next(iter(runs.values()))
-        journals = [name for name in joints if "." not in name]  # corners of a slider have no orbit
+        first, known = next(iter(runs.values())), {name for run in played.values() for name in run.names}
+        journals = [name.removesuffix(".F") for name, *_ in panels.values()
+                    if name.count(".") == 1 and f"{name[:-1]}ex" in known]  # fmt: skip
         left, drawn, right = _parts(picture, len(played) if journals else 0, bool(first.source.parts))
-        rows = 3 + len(joints)
+        rows = 3 + len(panels)
         grid = left.add_gridspec(rows, max(1, len(watch)))
         for column, name in enumerate(watch):
             _draw_motion(left, grid, column, shown, references if played else {}, name, colours)
-        forces = [left.add_subplot(grid[3 + k, :]) for k in range(len(joints))]
-        _draw_forces(forces, joints, played, references, colours)
+        forces = [left.add_subplot(grid[3 + k, :]) for k in range(len(panels))]
+        _draw_forces(forces, panels, played, references, colours)
         left.align_ylabels()
         if drawn is not None:
             _draw_mechanism(drawn, first)
@@ -187,26 +188,27 @@ def _draw_motion(
 
 
 def _draw_forces(
-    axes: Sequence[Axes], joints: Sequence[str], runs: Mapping[str, Result], references: Mapping[str, Result],
-    colours: Mapping[str, str],
+    axes: Sequence[Axes], panels: Mapping[str, Sequence[str]], runs: Mapping[str, Result],
+    references: Mapping[str, Result], colours: Mapping[str, str],
 ) -> None:  # fmt: skip
-    """One row a joint: its force in every scene, through the extremes of all steps and with their peak (▾), and the
-    ideal reaction over it."""
-    for ax, joint in zip(axes, joints, strict=True):
-        name = f"{joint}.F"
-        curves = [(*trace.force(run, joint), colours[scene], 0.8, "-") for scene, run in runs.items() if name in run]
-        ideal = max((r for r in references.values() if name in r), key=lambda r: r.t[-1], default=None)
+    """One row a panel: forces in every scene, with their peaks (▾), and the ideal reaction over them."""
+    for ax, (what, names) in zip(axes, panels.items(), strict=True):
+        known = [(scene, run, name) for scene, run in runs.items() for name in names if name in run]
+        curves = [(*force_panels.curve(run, name), colours[scene], 0.8, "-") for scene, run, name in known]
+        ideal = max((r for r in references.values() if names[0] in r), key=lambda r: r.t[-1], default=None)
         if ideal is not None:
-            curves.append((ideal.t, ideal[name], IDEAL, 1.0, "--"))
-        factor, text = scale(max((peak_of(values) for _, values, *_ in curves), default=0.0), "N")
+            curves.append((ideal.t, ideal[names[0]], IDEAL, 1.0, "--"))
+        most = max((peak_of(values) for _, values, *_ in curves), default=0.0)
+        factor, text = scale(most, known[0][1].unit(names[0]))
         for t, values, colour, width, dashes in curves:
             ax.plot(t, values * factor, color=colour, lw=width, ls=dashes)
-        for scene, run in runs.items():
+        for scene, run, name in known:
             mark_horizon(ax, run, colours[scene])
-            for peak in (peak for peak in run.diagnostics.peaks if peak.joint == joint):
-                ax.plot([peak.t], [peak.F * factor], "v", color=colours[scene], ms=4, clip_on=False)
-        ax.set_ylim(bottom=0)
-        _over_time(ax, label(f"force at {joint}", text), [t for t, *_ in curves], ax is axes[-1])
+            for at, peak in force_panels.peaks(run, name):
+                ax.plot([at], [peak * factor], "v", color=colours[scene], ms=4, clip_on=False)
+        if names[0].endswith(".F"):
+            ax.set_ylim(bottom=0)
+        _over_time(ax, label(what, text), [t for t, *_ in curves], ax is axes[-1])
 
 
 def _over_time(ax: Axes, text: str, times: Sequence[Any], last: bool) -> None:

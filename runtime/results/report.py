@@ -18,6 +18,7 @@ from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.peaks import Extreme, of_samples, table_rows
 from gudgeon.results.results import Result
 from gudgeon.results.series import MOTION_UNITS, drive_series, rates
+from gudgeon.results.trust_and_cost import cost_rows, trust_rows
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -41,6 +42,7 @@ class SceneReport:
     diagnostics: Diagnostics
     events: Mapping[str, tuple[float, ...]] = field(default_factory=dict)  # event -> its times
     drives: tuple[Extreme, ...] = ()  # torques and forces of the drives
+    guides: tuple[Extreme, ...] = ()  # force and moment of those with play; of an ideal scene of all
     constrained: bool = True  # whether rows are left that could open
     scales: Mapping[str, float] = field(default_factory=dict)  # unit -> how large such numbers are in this run
 
@@ -74,10 +76,14 @@ def compare(run: Result, reference: Result | None, watch: Sequence[str]) -> Scen
         forces[joint.name] = reaction.peak, reaction.t
     events = {event.name: tuple(run.events_of(event.name).tolist()) for event in run.source.events}
     driven = () if run.source.massless else drive_series(run.source)
-    drives = tuple(of_samples(name, run.unit(name), run.t, run[name]) for name in driven)
+    sliding = [joint.name for joint in run.source.joints if joint.kind == "translational" and not run.source.clearances]
+    guided = [f"{name}.{last}" for name in run.source.guides or sliding for last in "FM" if not run.source.massless]
+    drives, guides = (
+        tuple(of_samples(name, run.unit(name), run.t, run[name]) for name in names) for names in (driven, guided)
+    )
     rows = run.source.rows if run.source.formulation == "full" else run.source.closures
-    found = run.source.scene, motion, errors, forces, run.constants, run.diagnostics, events, drives
-    return SceneReport(*found, bool(rows) or run.diagnostics.phi_max > 0.0, _scales(run, forces, drives))
+    found = run.source.scene, motion, errors, forces, run.constants, run.diagnostics, events, drives, guides
+    return SceneReport(*found, bool(rows) or run.diagnostics.phi_max > 0.0, _scales(run, forces, (*drives, *guides)))
 
 
 def _scales(run: Result, forces: Mapping[str, tuple[float, float]], drives: Sequence[Extreme]) -> dict[str, float]:
@@ -104,6 +110,7 @@ def as_json(reports: Sequence[SceneReport]) -> dict[str, Any]:
             "errors": {e.name: asdict(e) for e in report.errors},
             "peak_forces": {joint: {"F": force, "t": t} for joint, (force, t) in report.forces.items()},
             "drives": {e.name: asdict(e) for e in report.drives},
+            "guides": {e.name: asdict(e) for e in report.guides},
             "peaks": {x.name: asdict(x) for x in report.diagnostics.extremes if not x.against},
             "peak_errors": {x.name: asdict(x) for x in report.diagnostics.extremes if x.against},
             "constants": dict(report.constants),
@@ -172,11 +179,12 @@ def _rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
         ("Peaks, all steps", _extreme_rows(reports, False)),
         ("Motion", _motion_rows(reports)),
         ("Peak force" if any(r.diagnostics.peaks for r in reports) else "Peak force, of samples", _force_rows(reports)),
-        ("Peak of drives, of samples", _drive_rows(reports)),
+        ("Peak of guides, of samples", _guide_rows(reports)),
+        ("Peak of drives, of samples", _peak_rows(reports, [report.drives for report in reports])),
         ("Joints with play", _play_rows(reports)),
         ("Events", _event_rows(reports)),
-        ("Trust", _trust_rows(reports)),
-        ("Cost", _cost_rows(reports)),
+        ("Trust", trust_rows(reports)),
+        ("Cost", cost_rows(reports)),
     ):
         kept = [(name, cells) for name, cells in part if any(cell not in ("", "–") for cell in cells)]
         rows += [(heading, []), *kept] if kept else []
@@ -188,7 +196,7 @@ def _at(value: float, unit: str, t: float, scales: Mapping[str, float]) -> str:
         return ZERO
     factor, text = drawn(value, unit)
     when = quantity(t, "s") if 0.0 < abs(t) < 1e-3 else f"{t:.4f} s"
-    return f"{value * factor:.4g} {text}".strip() + f" at {when}" if math.isfinite(t) else "–"
+    return f"{value * factor + 0.0:.4g} {text}".strip() + f" at {when}" if math.isfinite(t) else "–"
 
 
 def _is_noise(size: float, unit: str, scales: Mapping[str, float]) -> bool:
@@ -231,10 +239,19 @@ def _force_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
                      for r in reports]) for joint in joints]  # fmt: skip
 
 
-def _drive_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    found = [{e.name: _at(e.peak, e.unit, e.t, report.scales) for e in report.drives} for report in reports]
+def _guide_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+    """Of those that have play in any scene."""
+    played = {f"{peak.joint.partition('.')[0]}." for r in reports for peak in r.diagnostics.peaks if "." in peak.joint}
+    own = [tuple(e for e in report.guides if e.name[:-1] in played) for report in reports]
+    return _peak_rows(reports, own)
+
+
+def _peak_rows(
+    reports: Sequence[SceneReport], peaks: Sequence[tuple[Extreme, ...]]
+) -> list[tuple[str, list[str]]]:  # fmt: skip
+    found = [{e.name: _at(e.peak, e.unit, e.t, r.scales) for e in own} for r, own in zip(reports, peaks, strict=True)]
     known = {x.name for report in reports for x in report.diagnostics.extremes}  # over all steps, which is more
-    names = dict.fromkeys(e.name for report in reports for e in report.drives if e.name not in known)
+    names = dict.fromkeys(e.name for own in peaks for e in own if e.name not in known)
     return [(name, [cells.get(name, "–") for cells in found]) for name in names]
 
 
@@ -263,38 +280,3 @@ def _event_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
 
     names = dict.fromkeys(name for r in reports for name in r.events)
     return [(name, [cell(r.events.get(name)) for r in reports]) for name in names]
-
-
-def _trust_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    every = [report.diagnostics for report in reports]
-    play = [bool(d.peaks) for d in every]
-    ratio = [f"{d.ratio_min:.3g} … {d.ratio_max:.3g}" if math.isfinite(d.ratio_min) else "–" for d in every]
-    return [
-        ("max |Φ|", [f"{r.diagnostics.phi_max:.2e}" if r.constrained else "no row is left" for r in reports]),
-        ("max |Φ̇|", [f"{r.diagnostics.phi_dot_max:.2e}" if r.constrained else "–" for r in reports]),
-        ("energy residual", [quantity(d.energy_residual, "J", 3) for d in every]),
-        ("energy turned over", [quantity(d.energy_turned_over, "J", 3) for d in every]),
-        ("trusted until", [_until(d.horizon) for d in every]),
-        ("contacts that began", [str(d.onsets) if p else "–" for d, p in zip(every, play, strict=True)]),
-        ("grazes", [str(d.grazes) if p and d.grazes else "–" for d, p in zip(every, play, strict=True)]),
-        ("δ̇/δ̇⁻ while latched", ratio),
-        ("steps with it outside ±1", [str(d.ratio_outside) if math.isfinite(d.ratio_min) else "–" for d in every]),
-    ]
-
-
-def _until(horizon: float) -> str:
-    """See predictability.py; NaN: nobody asked."""
-    return "to the end" if horizon == math.inf else quantity(horizon, "s", 3)
-
-
-def _cost_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
-    every = [report.diagnostics for report in reports]
-    return [
-        ("method", [d.method for d in every]),
-        ("step", [quantity(d.step, "s") for d in every]),
-        ("last step", [quantity(d.last_step, "s") for d in every]),
-        ("tolerance of a step", [f"{d.rtol:.3g}" if math.isfinite(d.rtol) else "–" for d in every]),
-        ("steps", [f"{d.steps:,}" if d.steps else "–" for d in every]),
-        ("right-hand sides", [f"{d.right_hand_sides:,}" if d.right_hand_sides else "–" for d in every]),
-        ("s per simulated s", [f"{d.seconds_per_simulated_second:.3g}" for d in every]),
-    ]

@@ -16,6 +16,7 @@ import numpy as np
 
 from gudgeon.results.diagnostics import Examined
 from gudgeon.results.film_limits import beyond
+from gudgeon.results.peaks import of_samples
 from gudgeon.results.report import finite
 
 if TYPE_CHECKING:
@@ -44,7 +45,8 @@ class RunReport:
         return {
             "title": run.source.title, "mechanism": run.source.mechanism, "scene": run.source.scene,
             "t": [float(run.t[0]), float(run.t[-1])], "samples": len(run.t), "method": run.diagnostics.method,
-            "joints": joints, "energy": _energy(run), "trust": _trust(run), "laws": laws_of(run.source),
+            "joints": joints, "guides": {name: _guide(run, name) for name in run.source.guides},
+            "energy": _energy(run), "trust": _trust(run), "laws": laws_of(run.source),
             "warnings": [*run.diagnostics.notes, *_warnings(run, joints)],
         }  # fmt: skip
 
@@ -103,6 +105,12 @@ def _joint(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
         if ideal.joint == joint.name:
             found["ideal"] = {"F": ideal.peak, "t": ideal.t_peak, "rms": ideal.rms}
     return found
+
+
+def _guide(run: Result, name: str) -> dict[str, Any]:
+    """Force and moment on the slider of a guide with play, of samples."""
+    force, moment = (of_samples("", "", run.t, run[f"{name}.{last}"]) for last in "FM")
+    return {"F": force.peak, "t_F": force.t, "rms": _rms(run, name), "M": moment.peak, "t_M": moment.t}
 
 
 def _stiffness(run: Result, joint: ClearanceInfo) -> dict[str, Any] | None:

@@ -30,6 +30,8 @@ def page_of(run: Result, found: Mapping[str, Any]) -> str:
 def sections(run: Result, found: Mapping[str, Any]) -> Iterator[Section]:
     """Heading and HTML of each part."""
     yield "What to know", lines(found["warnings"], "g-warning")
+    for name, guide in found["guides"].items():
+        yield f"Guide {name}", table(("", ""), guide_rows(guide))
     for name, joint in found["joints"].items():
         orbit = "" if "." in name else orbit_svg(run, name)  # of a journal, no corner of a slider
         inside = f"{orbit}<div>{table(('', ''), joint_rows(joint, found['trust']['asked']))}</div>"
@@ -48,7 +50,9 @@ def sections(run: Result, found: Mapping[str, Any]) -> Iterator[Section]:
 def as_text(found: Mapping[str, Any]) -> str:
     """The same for a terminal."""
     parts: list[tuple[str, Rows]] = [("", [("", _about(found))])]
-    parts += [(f"joint {name}", joint_rows(one, found["trust"]["asked"])) for name, one in found["joints"].items()]
+    parts += [(f"guide {name}", guide_rows(one)) for name, one in found["guides"].items()]
+    parts += [(f"{'corner' if '.' in name else 'joint'} {name}", joint_rows(one, found["trust"]["asked"]))
+              for name, one in found["joints"].items()]
     parts += [("energy", energy_rows(found)), ("how far to believe it", trust_rows(found["trust"]))]
     told = [_title(found)]
     for heading, rows in parts:
@@ -100,6 +104,15 @@ def joint_rows(joint: Mapping[str, Any], asked: bool) -> Rows:
     if math.isfinite(joint["film_least"]):
         rows.append(("least film thickness", quantity(joint["film_least"], "m")))
     return rows + _work_rows(joint["work"], asked)
+
+
+def guide_rows(guide: Mapping[str, Any]) -> Rows:
+    """Name and cell."""
+    return [
+        ("force on the slider, peak of samples", f"{quantity(guide['F'], 'N')} at {quantity(guide['t_F'], 's')}"),
+        ("RMS force, of samples", quantity(guide["rms"], "N")),
+        ("moment on the slider, peak of samples", f"{quantity(guide['M'], 'N*m')} at {quantity(guide['t_M'], 's')}"),
+    ]
 
 
 def _work_rows(work: Mapping[str, float] | None, asked: bool) -> Rows:
