@@ -1,4 +1,4 @@
-"""The C of every shipped scene under the compiler's sanitizers: formulations, methods, batches, lanes, threads.
+"""The C of every shipped scene, and of play in a guide, under sanitizers: formulations, methods, batches, threads.
 
     python -m tests.sanitize [NAME ...] [--threads] [--quick]
 
@@ -27,6 +27,7 @@ from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.integrators import lanes
 
 MECHANISMS = Path(gudgeon.__file__).resolve().parents[1] / "mechanisms"
+ALSO = (MECHANISMS / "gallery" / "guided_slider_crank.yaml",)  # of the gallery what no other scene has
 KINDS = {"address,undefined": "libasan.so", "thread": "libtsan.so"}
 SAID = re.compile(r"runtime error|Sanitizer")
 OPTIONS = {"ASAN_OPTIONS": "detect_leaks=0", "TSAN_OPTIONS": "report_signal_unsafe=0"}  # Python never gives all back
@@ -101,7 +102,8 @@ def main() -> int:
     parser.add_argument("--quick", action="store_true", help="each method once")
     parser.add_argument("--within", action="store_true", help=argparse.SUPPRESS)
     options = parser.parse_args()
-    files = [file for file in sorted(MECHANISMS.glob("*.yaml")) if not options.names or file.stem in options.names]
+    every = (*sorted(MECHANISMS.glob("*.yaml")), *ALSO)
+    files = [file for file in every if not options.names or file.stem in options.names]
     if options.within:
         for file in files:
             made = exercise(file, 4 if options.threads else 1, options.quick or options.threads)

@@ -26,7 +26,7 @@ PARTS = r'viewBox="[^"]*"|id="(?:body|joint|drive|inset|force)-[^"]*"'
 
 def test_all_of_the_gallery_is_there() -> None:
     names = [name for _, name, _ in DRAWN]
-    assert len(names) == len(set(names)) == PAGE.count("\n## ") == PAGE.count("To learn: ") == 14
+    assert len(names) == len(set(names)) == PAGE.count("\n## ") == PAGE.count("To learn: ") == 15
     assert set(shipped()) - set(generated()) <= set(names)
     assert sorted(path.name for path in (DOCS / "gallery").iterdir()) == sorted(f"{name}.svg" for name in names)
 
@@ -71,3 +71,7 @@ def test_its_numbers() -> None:
     hit, soft = (gudgeon.load("flores_slider_crank", scene).simulate(rtol=1e-8) for scene in ("internal", "external"))
     assert (hit.impacts[0]["F_peak"], soft.impacts[0]["F_peak"]) == pytest.approx((45.8e3, 24.1e3), abs=60)
     assert (hit["wristpin.state"] == 2).mean() == pytest.approx(0.75, abs=0.03)
+    guided, free = gudgeon.load("guided_slider_crank", "elastic"), gudgeon.load("guided_slider_crank")
+    run, ideal = guided.simulate(rtol=1e-9), free.simulate()
+    assert (run.peak("guide.F").max, ideal["guide.F"].max()) == pytest.approx((7.3e3, 121), rel=5e-3)
+    assert np.abs(run["slider.x"] - ideal["slider.x"]).max() == pytest.approx(0.60e-3, abs=5e-6)
