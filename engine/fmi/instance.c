@@ -49,7 +49,7 @@ static fmi3Status refuses(const Model *m, const char *what)
 static fmi3Status fails(const Model *m, const char *what, int status)
 {
     char text[600];
-    const char *why = status == OUTSIDE ? ": a journal or corner lies deeper in its wall than its contact law is good for"
+    const char *why = status == OUTSIDE ? ": a journal or corner is deeper in its wall than its law is good for"
         : status == LOST ? ": a free journal or corner lies outside its walls"
         : status == CHATTERING ? ": contacts, frictions or corners change without end"
         : status == STALLED || status == TOO_SMALL ? ": no step is small enough"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,8 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import AssemblyError
+from gudgeon.language.shown import plain_console
+from gudgeon.results.report import compare, tables
 from gudgeon.simulation.simulation import Simulation
 from tests.equations.subjects import make
 from tests.kernels.test_tree_jacobian import Tree, slope
@@ -341,3 +344,28 @@ def test_a_slider_that_turns_over_is_refused(numbers: dict[str, float], told: st
     with pytest.raises(AssemblyError, match=told):
         block.simulate(1e-3, parameters=numbers)
     assert told in str(block.simulate_many([{}, numbers], 1e-3).failures[0].error)
+
+
+def test_force_and_moment_of_a_guide_are_shown(folder: Path) -> None:
+    """In the table of runs, in the figure, and in a run's report: at samples, as its corners' over all steps are."""
+    pytest.importorskip("matplotlib")
+    from gudgeon.results.plots import figure
+
+    run = made(folder, BLOCK, "rough").simulate(0.02, parameters={"parameters.lift": -C, "parameters.v": 0.8})
+    report = compare(run, None, ["block.x"])
+    (force, moment), at = report.guides, np.abs(run["way.M"]).argmax()
+    assert (force.name, moment.name) == ("way.F", "way.M") and force.peak == run["way.F"].max()
+    assert moment.peak == run["way.M"][at] and moment.t == run.t[at] and moment.peak != 0.0
+    console = plain_console(200)
+    with console.capture() as told:
+        for table in tables("", [report], 200):
+            console.print(table)
+    assert "way.M" in told.get() and "N·m" in told.get()
+    (ax,) = [ax for ax in _axes(figure({"rough": run}, {}, ["block.x"])) if "moment at way" in ax.get_ylabel()]
+    np.testing.assert_allclose(ax.lines[0].get_ydata(), 1e3 * run["way.M"], rtol=1e-14)  # mN m
+    assert "moment on the slider" in str(run.report()) and run.report().to_dict()["guides"]["way"]["M"] == moment.peak
+
+
+def _axes(picture: Any) -> Iterator[Any]:
+    for part in picture.subfigs or [picture]:
+        yield from part.axes if part is picture else _axes(part)

@@ -208,7 +208,7 @@ def test_a_slider_lies_on_its_guide_as_on_a_line_aside() -> None:
         front, rear = (f"guide.{end}_{wall}" for end in ("front", "rear"))
         lies = (found[f"{front}.state"] > 0) & (found[f"{rear}.state"] > 0)
         line = guided(found.t, aside)["slider.origin"]
-        assert 40 < lies.sum() and np.abs(point(found, "slider.origin") - line)[lies].max() < 1e-12
+        assert lies.sum() > 40 and np.abs(point(found, "slider.origin") - line)[lies].max() < 1e-12
         force = np.abs(found["guide.F"])[lies].max()
         assert np.abs(found["guide.F"] - ideal["guide.F"])[lies].max() < 0.03 * force
         assert np.abs(found["guide.M"])[lies].max() < 1e-9 * force * 0.05
