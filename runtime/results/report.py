@@ -52,11 +52,11 @@ def default_watch(reference: Result) -> tuple[str, ...]:
 
     A slider's coordinate is the one that moves further in the ideal scene: along its axis.
     """
-    found = []
-    for joint in reference.source.joints:
-        if joint.kind == "translational" and joint.first < 0:
-            body = reference.source.bodies[joint.second].name
-            found.append(max((f"{body}.x", f"{body}.y"), key=lambda name: float(np.ptp(reference[name]))))
+    found, source = [], reference.source
+    guided = [joint.second for joint in source.clearances if joint.at_wall and joint.first < 0]
+    for k in [joint.second for joint in source.joints if joint.kind == "translational" and joint.first < 0] + guided:
+        body = source.bodies[k].name
+        found.append(max((f"{body}.x", f"{body}.y"), key=lambda name: float(np.ptp(reference[name]))))
     last = reference.source.bodies[-1].name
     return tuple(dict.fromkeys(found)) or tuple(reference.source.outputs) or (f"{last}.theta",)
 
@@ -266,7 +266,8 @@ def _play_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
         rows.append((f"{joint} largest e", [quantity(p.e_max, "m", 5) if p else "–" for p in shown]))
         for name, (unit, what) in CONSTANTS.items():
             values = (report.constants.get(f"{joint}.{name}", math.nan) for report in reports)
-            rows.append((f"{joint} {what}", [quantity(value, unit) for value in values]))
+            told = what.replace("clearance", "gap") if "." in joint else what
+            rows.append((f"{joint} {told}", [quantity(value, unit) for value in values]))
     return rows
 
 

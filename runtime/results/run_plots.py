@@ -62,7 +62,8 @@ class Plot:
         run, panels = self.run, dict[str, list[str]]()
         joints = [joint.name for joint in run.source.clearances or run.source.joints]
         forces = {f"{joint}.F": trace.force(run, joint) for joint in joints}  # with the extremes of all steps
-        for name in wanted or (*default_watch(run), *drive_series(run.source), *forces):
+        guides = [f"{guide}.{last}" for guide in run.source.guides for last in "FM"]
+        for name in wanted or (*default_watch(run), *drive_series(run.source), *forces, *guides):
             panels.setdefault(run.unit(name), []).append(name)
         columns = 1 if len(panels) < 3 else 2
         rows = -(-len(panels) // columns)
@@ -98,10 +99,11 @@ class Plot:
         return ax
 
     def forces(self, ax: Axes | None = None) -> Axes:
-        """Magnitudes of the forces at the joints with play, with the extremes of all steps; in an ideal scene at all
-        joints."""
-        joints = self.run.source.clearances or self.run.source.joints
-        return self._curves({f"{joint.name}.F": trace.force(self.run, joint.name) for joint in joints}, ax)
+        """Magnitudes of the forces at the joints with play, with the extremes of all steps, and at samples of the sums
+        of a slider's corners; in an ideal scene at all joints."""
+        source = self.run.source
+        joints = [*(joint.name for joint in source.clearances or source.joints), *source.guides]
+        return self._curves({f"{joint}.F": trace.force(self.run, joint) for joint in joints}, ax)
 
     def orbit(self, joint: str, ax: Axes | None = None) -> Axes:
         """Path of the journal's centre in its clearance circle, in units of the clearance."""

@@ -85,11 +85,11 @@ def _joint(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
     if any(one.joint == joint.name for one in run.source.contours) and len(run.t):
         deepest = float(run[f"{joint.name}.delta"].max())  # at the samples: how deep it is hangs on where
     found = {
-        "c": c, "time": _shares(run, k, joint, own), "contacts": len(own),
+        "c": c, "corner": joint.at_wall, "time": _shares(run, k, joint, own), "contacts": len(own),
         "still_closed": int(np.isnan(own["t_off"]).sum()), "approach": _spread(own["deltadot"][own["deltadot"] > 0.0]),
         "restitution": None, "stiffness": _stiffness(run, joint), "asked": _asked(run, joint),
         "free_impact": _free_impact(run, joint), "peak": {"F": peak.F, "t": peak.t}, "rms": _rms(run, joint.name),
-        "rms_of": "samples", "ideal": None, "largest_e": peak.e_max,
+        "rms_of": "samples", "largest_e": peak.e_max,
         "penetration": max(deepest, 0.0) if joint.dry else math.nan,
         "penetration_share": max(deepest, 0.0) / c if joint.dry else math.nan,
         "film_least": max(between - peak.e_max, 0.0) if joint.film else math.nan, "work": None,
@@ -101,16 +101,21 @@ def _joint(run: Result, k: int, joint: ClearanceInfo) -> dict[str, Any]:
         damping = examined.taken - examined.returned
         found["work"] = {"taken": examined.taken, "returned": examined.returned, "damping": damping,
                          "friction": examined.friction, "film": examined.film}  # fmt: skip
-    for ideal in (run.diagnostics.examined or Examined()).ideal:
-        if ideal.joint == joint.name:
-            found["ideal"] = {"F": ideal.peak, "t": ideal.t_peak, "rms": ideal.rms}
-    return found
+    return found | {"ideal": _ideal(run, joint.name)}
 
 
 def _guide(run: Result, name: str) -> dict[str, Any]:
     """Force and moment on the slider of a guide with play, of samples."""
     force, moment = (of_samples("", "", run.t, run[f"{name}.{last}"]) for last in "FM")
-    return {"F": force.peak, "t_F": force.t, "rms": _rms(run, name), "M": moment.peak, "t_M": moment.t}
+    found = {"peak": {"F": force.peak, "t": force.t}, "rms": _rms(run, name), "M": {"peak": moment.peak, "t": moment.t}}
+    return found | {"ideal": _ideal(run, name)}
+
+
+def _ideal(run: Result, joint: str) -> dict[str, float] | None:
+    for ideal in (run.diagnostics.examined or Examined()).ideal:
+        if ideal.joint == joint:
+            return {"F": ideal.peak, "t": ideal.t_peak, "rms": ideal.rms}
+    return None
 
 
 def _stiffness(run: Result, joint: ClearanceInfo) -> dict[str, Any] | None:

@@ -31,7 +31,7 @@ def sections(run: Result, found: Mapping[str, Any]) -> Iterator[Section]:
     """Heading and HTML of each part."""
     yield "What to know", lines(found["warnings"], "g-warning")
     for name, guide in found["guides"].items():
-        yield f"Guide {name}", table(("", ""), guide_rows(guide))
+        yield f"Guide {name}", table(("", ""), guide_rows(guide, found["trust"]["asked"]))
     for name, joint in found["joints"].items():
         orbit = "" if "." in name else orbit_svg(run, name)  # of a journal, no corner of a slider
         inside = f"{orbit}<div>{table(('', ''), joint_rows(joint, found['trust']['asked']))}</div>"
@@ -50,8 +50,9 @@ def sections(run: Result, found: Mapping[str, Any]) -> Iterator[Section]:
 def as_text(found: Mapping[str, Any]) -> str:
     """The same for a terminal."""
     parts: list[tuple[str, Rows]] = [("", [("", _about(found))])]
-    parts += [(f"guide {name}", guide_rows(one)) for name, one in found["guides"].items()]
-    parts += [(f"{'corner' if '.' in name else 'joint'} {name}", joint_rows(one, found["trust"]["asked"]))
+    asked = found["trust"]["asked"]
+    parts += [(f"guide {name}", guide_rows(one, asked)) for name, one in found["guides"].items()]
+    parts += [(f"{'corner' if one['corner'] else 'joint'} {name}", joint_rows(one, asked))
               for name, one in found["joints"].items()]
     parts += [("energy", energy_rows(found)), ("how far to believe it", trust_rows(found["trust"]))]
     told = [_title(found)]
@@ -76,7 +77,7 @@ def joint_rows(joint: Mapping[str, Any], asked: bool) -> Rows:
     """Name and cell."""
     shares = ((name, joint["time"][name]) for name in ("free", "impacting", "contact", "film"))
     time = ", ".join(f"{name} {100 * x:.4g} %" for name, x in shares if x or name == "free")
-    rows = [("clearance c", quantity(joint["c"], "m")), ("share of the time", time)]
+    rows = [("gap c" if joint["corner"] else "clearance c", quantity(joint["c"], "m")), ("share of the time", time)]
     still = f", {joint['still_closed']} to the end" if joint["still_closed"] else ""
     rows.append(("contacts", f"{joint['contacts']}{still}"))
     if stiffness := joint["stiffness"]:
@@ -93,11 +94,7 @@ def joint_rows(joint: Mapping[str, Any], asked: bool) -> Rows:
         rows.append(("restitution delivered, the same", _range(back, "") if known else none))
     rows.append(("peak force", f"{quantity(joint['peak']['F'], 'N')} at {quantity(joint['peak']['t'], 's')}"))
     rows.append((f"RMS force, of {joint['rms_of']}", quantity(joint["rms"], "N")))
-    if ideal := joint["ideal"]:
-        rows.append(("ideal peak force", f"{quantity(ideal['F'], 'N')}{_times(joint['peak']['F'], ideal['F'])}"))
-        rows.append(("ideal RMS force", f"{quantity(ideal['rms'], 'N')}{_times(joint['rms'], ideal['rms'])}"))
-    else:
-        rows.append(("ideal forces", NOT_ASKED if not asked else "not known"))
+    rows += [] if joint["corner"] else _ideal_rows(joint, asked)  # of a guide the sum has one
     if math.isfinite(joint["penetration"]):
         told = f"{quantity(joint['penetration'], 'm')}, {joint['penetration_share']:.3g} c"
         rows.append(("deepest penetration", told if joint["penetration"] else "none"))
@@ -106,12 +103,23 @@ def joint_rows(joint: Mapping[str, Any], asked: bool) -> Rows:
     return rows + _work_rows(joint["work"], asked)
 
 
-def guide_rows(guide: Mapping[str, Any]) -> Rows:
+def guide_rows(guide: Mapping[str, Any], asked: bool) -> Rows:
     """Name and cell."""
+    peak, moment = guide["peak"], guide["M"]
     return [
-        ("force on the slider, peak of samples", f"{quantity(guide['F'], 'N')} at {quantity(guide['t_F'], 's')}"),
+        ("force on the slider, peak of samples", f"{quantity(peak['F'], 'N')} at {quantity(peak['t'], 's')}"),
         ("RMS force, of samples", quantity(guide["rms"], "N")),
-        ("moment on the slider, peak of samples", f"{quantity(guide['M'], 'N*m')} at {quantity(guide['t_M'], 's')}"),
+        ("moment on the slider, peak of samples", f"{quantity(moment['peak'], 'N*m')} at {quantity(moment['t'], 's')}"),
+        *_ideal_rows(guide, asked),
+    ]
+
+
+def _ideal_rows(joint: Mapping[str, Any], asked: bool) -> Rows:
+    if not (ideal := joint["ideal"]):
+        return [("ideal forces", NOT_ASKED if not asked else "not known")]
+    return [
+        ("ideal peak force", f"{quantity(ideal['F'], 'N')}{_times(joint['peak']['F'], ideal['F'])}"),
+        ("ideal RMS force", f"{quantity(ideal['rms'], 'N')}{_times(joint['rms'], ideal['rms'])}"),
     ]
 
 

@@ -237,7 +237,8 @@ def _ideal(run: Result, ideal: Simulation | Result | None, notes: list[str]) -> 
             notes.append(f"the ideal scene cannot be followed: {str(error).partition(chr(10))[0]}")
             return ()
     found = []
-    for name in (joint.name for joint in run.source.clearances if f"{joint.name}.F" in ideal.names):
+    played = dict.fromkeys(joint.joint for joint in run.source.clearances)
+    for name in (joint for joint in played if f"{joint}.F" in ideal.names):
         force = ideal[f"{name}.F"]
         if np.isfinite(force).all():
             at = int(force.argmax())
