@@ -76,13 +76,15 @@ def of_latex(latex: str) -> Name:
 
 
 def distinct(wanted: Iterable[tuple[sp.Expr, Name]]) -> dict[sp.Symbol, Name]:
-    """A name of its own for each symbol: who comes first has the letter, others have primes."""
+    """A name of its own for each symbol: who comes first has the letter, others the name of their symbol in C where
+    that is a word ("T0"), else primes ("contact_friction_v0")."""
     names: dict[sp.Symbol, Name] = {}
     used: set[str] = set()
     for symbol, name in wanted:
         if not isinstance(symbol, sp.Symbol) or symbol in names:
             continue
-        name = primed(name, used)
+        taken = name.text in used and "_" not in symbol.name
+        name = primed(letter(symbol.name) if taken else name, used)
         used.add(name.text)
         names[symbol] = name
     return names
