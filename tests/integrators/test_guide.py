@@ -13,6 +13,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import AssemblyError
+from gudgeon.exchange.fmu_description import outputs
 from gudgeon.language.shown import plain_console
 from gudgeon.results.report import compare, tables
 from gudgeon.simulation.simulation import Simulation
@@ -347,7 +348,7 @@ def test_a_slider_that_turns_over_is_refused(numbers: dict[str, float], told: st
 
 
 def test_force_and_moment_of_a_guide_are_shown(folder: Path) -> None:
-    """In the table of runs, in the figure, and in a run's report: at samples, as its corners' over all steps are."""
+    """In the table of runs, the figure, a run's report and an FMU: at samples, as its corners' over all steps are."""
     pytest.importorskip("matplotlib")
     from gudgeon.results.plots import figure
 
@@ -363,6 +364,7 @@ def test_force_and_moment_of_a_guide_are_shown(folder: Path) -> None:
     assert "way.M" in told.get() and "N·m" in told.get()
     (ax,) = [ax for ax in _axes(figure({"rough": run}, {}, ["block.x"])) if "moment at way" in ax.get_ylabel()]
     np.testing.assert_allclose(ax.lines[0].get_ydata(), 1e3 * run["way.M"], rtol=1e-14)  # mN m
+    assert {"way.Fx", "way.Fy", "way.M"} <= {name for name, *_ in outputs(run.source)}  # of an FMU
     shown = run.report()
     assert "moment on the slider" in str(shown) and shown.to_dict()["guides"]["way"]["M"]["peak"] == moment.peak
 
