@@ -48,8 +48,8 @@ def points(shape: Shape) -> Any:
 Box = tuple[Any, Any]
 
 
-def ran(name: str) -> tuple[Result, Rig, Plan, Box]:
-    run = gudgeon.load(name).simulate(SHORT.get(name, 1.0), output=120)
+def ran(name: str, scene: str = "ideal") -> tuple[Result, Rig, Plan, Box]:
+    run = gudgeon.load(name, scene).simulate(SHORT.get(name, 1.0), output=120)
     motion = postures_of(run, 13)
     plan = make_plan(motion)
     return run, make_rig(motion, plan), plan, room_of_all(motion, [plan])
@@ -77,6 +77,15 @@ def test_points_are_where_they_are_drawn(name: str) -> None:
     others = [replace(posture_at(run, float(run.t[k])), v=first) for k in rows]
     assert max(off(rig, posture, plan, box) for posture in others) < EXACT
     assert max(one.off for one in rig.shapes) < NEAR * rig.size
+
+
+def test_a_slider_with_play_is_carried_between_its_walls() -> None:
+    run, rig, plan, box = ran("guided_slider_crank", "hard")
+    others = [replace(posture_at(run, float(t)), v=run.v[0]) for t in run.t[5::9]]
+    assert np.ptp([posture.q[7] for posture in others]) > 1.9e-3  # from wall to wall
+    assert max(off(rig, posture, plan, box) for posture in others) < EXACT
+    numbers = prepare(gudgeon.load("guided_slider_crank", "hard").compiled, {"parameters.c": 2e-4})[0]
+    assert off(rig, replace(others[0], p=numbers), plan, box) < EXACT
 
 
 def test_a_length_moves_what_it_carries() -> None:
