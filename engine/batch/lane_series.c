@@ -2,6 +2,7 @@
  * A step by the motion's own series, tried for several runs (methods/taylor.c).
  */
 #define SeriesRow Lanes
+#define SeriesWide Lanes
 #define SeriesPart Lanes
 #include "../both/series.h"
 #include "../both/taylor.h"

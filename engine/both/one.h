@@ -6,6 +6,16 @@
 #ifndef GUDGEON_ONE_H
 #define GUDGEON_ONE_H
 
+enum { /* bytes that the processor holds side by side: longer vectors go through memory */
+#if defined __AVX512F__
+    REGISTER = 64
+#elif defined __AVX__
+    REGISTER = 32
+#else
+    REGISTER = 16
+#endif
+};
+
 #define Real double
 #define Truth int
 #define RunOf Run

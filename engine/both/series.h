@@ -1,13 +1,15 @@
 /*
  * Coefficients of the Taylor series of a motion. At each order the sums over lower orders of all products are made
  * first, for they need nothing of each other; what is left of an order is linear (the scene's own functions). Of one
- * run a SeriesRow is so many products side by side, in lanes it is one of so many runs.
+ * run a SeriesRow is so many products side by side as a register holds, and the scene's own functions fill a SeriesWide;
+ * in lanes both are one product of so many runs.
  */
 #define SERIES_APART __attribute__((noinline)) /* where a thread's own memory lies is found once, not at each order */
 
 enum {
     SERIES_PAIR = 2 * sizeof(SeriesRow), /* rows go in pairs: neither waits for the other's sums */
-    SERIES_ROWS = 2 * ((TAYLOR * sizeof(Real) + SERIES_PAIR - 1) / SERIES_PAIR)
+    SERIES_WHOLE = SERIES_PAIR > sizeof(SeriesWide) ? SERIES_PAIR : sizeof(SeriesWide),
+    SERIES_ROWS = (TAYLOR * sizeof(Real) + SERIES_WHOLE - 1) / SERIES_WHOLE * (SERIES_WHOLE / sizeof(SeriesRow))
 };
 
 typedef union {
@@ -60,8 +62,11 @@ SERIES_APART static void series_orders(const ParametersOf *p, const TaylorValues
             series_sums(k, left, right, sum[0].row, sum[1].row);
         else if (k > 1)
             series_rest(k, left, right, sum[1].row);
+        for (int i = 0; i < N_X; i++)
+            next[i] = c[k][N_X + i] * real_of(1.0 / (k + 1));
         taylor_terms(real_of(k), real_of(1.0 / k), real_of(1.0 / (k + 1)), real_of(k == 1 ? 1.0 : 0.0), c[k],
-            c[k] + N_X, p, at, &sum[k % 2].of, next + N_X, next + 2 * N_X, next, left[k], right[k]);
+            c[k] + N_X, p, at, &sum[k % 2].of, next + N_X, next + 2 * N_X, (SeriesWide *)left[k],
+            (SeriesWide *)right[k]);
     }
 }
 

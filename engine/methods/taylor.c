@@ -16,7 +16,7 @@ static int taylor_order(double share)
     return wanted > TAYLOR_ORDERS ? TAYLOR_ORDERS : wanted < TAYLOR_LEAST ? TAYLOR_LEAST : (int)wanted;
 }
 
-typedef double SeriesPart __attribute__((vector_size(64), aligned(8)));
+typedef double SeriesPart __attribute__((vector_size(REGISTER), aligned(8)));
 #include "../both/taylor.h"
 
 /* The series at the state of the run, and how far it is good for; once for all steps that are tried there. */

@@ -4,7 +4,8 @@
  */
 #include "../both/one.h"
 
-#define SeriesRow Wide
+#define SeriesWide Wide
+typedef double SeriesRow __attribute__((vector_size(REGISTER)));
 #include "../both/series.h"
 
 /*

@@ -47,8 +47,8 @@ _DOC_VALUES = (
 )
 _DOC_TERMS = (
     "Order k > 0 of the same: t, q, v are coefficients of order k, `at` has those of order 0, `sum` what lower orders",
-    "add to each product; share = 1/k, next = 1/(k + 1). Told are coefficients of order k + 1 of what is integrated,",
-    "q_next, a and power, and the factors of the sums of higher orders.",
+    "add to each product; share = 1/k, next = 1/(k + 1). Told are coefficients of order k + 1 of a and power (those of",
+    "q are v next), and the factors of the sums of higher orders.",
 )
 
 
@@ -120,7 +120,6 @@ class _Series(Rules):
         super().__init__({line.target for line in statements})
         self._values: list[Titled] = []
         self._terms: list[Titled] = []
-        self._next: list[Titled] = []  # coefficients of the next order of positions
         self._turned = differences(statements)
         self._own = {line.value: line.target for line in statements if isinstance(line.value, sp.Function)}
         self._title, self._linear = "", linear
@@ -146,9 +145,6 @@ class _Series(Rules):
         self._values.append((self._title, line))
         self._terms.append((self._title, line))
         (self.numbers if place.base == "p" else self.moving).add(line.target)
-        if place.base == "v":
-            value = NEXT * sp.Symbol(line.target, real=True)
-            self._next.append(("results", Statement(f"q_next[{place.index}]", value, False)))
 
     def _assign(self, line: Statement, value: sp.Expr) -> None:
         if not line.local:
@@ -211,7 +207,7 @@ class _Series(Rules):
         products, known = list[Product](), -1
         while known < len(products):  # a sum that is read asks for its factors, and they for other sums
             known = len(products)
-            terms = _pruned([*self._terms, *self._next, *_stores(products)])
+            terms = _pruned([*self._terms, *_stores(products)])
             read = {s.name for _, line in terms for e in line.expressions for s in e.free_symbols}
             products = [product for product in self.products.values() if f"{SUMS}->{product.name}" in read]
         front = f"{VALUES}->"
@@ -229,7 +225,7 @@ class _Series(Rules):
 def _arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]]:
     """Of both functions."""
     rates = (Argument("double *", "a"), Argument("double *", "power"))
-    factors = (Argument("double *", "q_next"), Argument("Wide *", "left"), Argument("Wide *", "right"))
+    factors = (Argument("Wide *", "left"), Argument("Wide *", "right"))
     order = tuple(Argument("const double", symbol.name) for symbol in (ORDER, SHARE, NEXT))
     given = (Argument("const TaylorValues *", VALUES), Argument("const TaylorFactors *", SUMS))
     values = (*STATE, PARAMETERS, Argument("TaylorValues *", VALUES), *rates)

@@ -14,7 +14,7 @@ _HEAD = f"""\
 /*
  * The Taylor series of the motion: its right-hand side at order 0, and at each higher order (engine/motion/taylor.c).
  */
-typedef double Wide __attribute__((vector_size({8 * WIDE})));
+typedef double Wide __attribute__((vector_size({8 * WIDE}), aligned(16)));
 """
 
 
