@@ -49,7 +49,7 @@ def pytest_collection_finish() -> None:
 def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, Any, Any]:
     """Fixtures of every scope are within it."""
     as_users = item.get_closest_marker("optimized") is not None or "slow or" in item.config.option.markexpr
-    with quick.optimized(as_users):
+    with quick.compiled(as_users, item.get_closest_marker("plain") is not None):
         return (yield)
 
 

@@ -169,9 +169,13 @@ static inline void sines_and_cosines(Lanes angle, Lanes *sine, Lanes *cosine, La
 {
 #define SINES_OF Lanes
 #define SINES_BITS LaneBits
+#define BITS_OF(x) ((LaneBits)(x))
+#define OF_BITS(x) ((Lanes)(x))
 #include "../scene/sines.h"
 #undef SINES_OF
 #undef SINES_BITS
+#undef BITS_OF
+#undef OF_BITS
     *rare |= ~small;
 }
 

@@ -1,9 +1,12 @@
-/* Text of a function: sine, cosine of `angle` (a vector SINES_OF, as integers SINES_BITS), `small` where they hold. */
+/*
+ * Text of a function: sine, cosine of `angle` (SINES_OF, a number or a vector), `small` where they hold. SINES_BITS:
+ * whole numbers that are as long; BITS_OF and OF_BITS take the same bits for the other.
+ */
     const double shift = 6755399441055744.0;
     const double half_1 = 1.57079632673412561417, half_2 = 6.07710050630396597660e-11;
     const double half_3 = 2.02226624879595063154e-21;
     const SINES_OF x = angle, shifted = x * 0.63661977236758134308 + shift, turns = shifted - shift;
-    const SINES_BITS quarter = (SINES_BITS)shifted, small = (x < TURN_LIMIT) & (x > -TURN_LIMIT);
+    const SINES_BITS quarter = BITS_OF(shifted), small = (x < TURN_LIMIT) & (x > -TURN_LIMIT);
     const SINES_OF r = ((x - turns * half_1) - turns * half_2) - turns * half_3;
     const SINES_OF z = r * r, w = z * z;
     const SINES_OF s_high = 8.33333333332248946124e-03
@@ -16,6 +19,6 @@
     const SINES_OF half = 0.5 * z, rest = 1.0 - half;
     const SINES_OF c = rest + (((1.0 - rest) - half) + z * c_high);
     /* odd quarters exchange sine and cosine; the sine has the sign of the half turn, the cosine the next quarter's */
-    const SINES_BITS odd = -(quarter & 1), s_bits = (SINES_BITS)s, c_bits = (SINES_BITS)c;
-    *sine = (SINES_OF)(((c_bits & odd) | (s_bits & ~odd)) ^ ((quarter & 2) << 62));
-    *cosine = (SINES_OF)(((s_bits & odd) | (c_bits & ~odd)) ^ (((quarter + 1) & 2) << 62));
+    const SINES_BITS odd = -(quarter & 1), s_bits = BITS_OF(s), c_bits = BITS_OF(c);
+    *sine = OF_BITS(((c_bits & odd) | (s_bits & ~odd)) ^ ((quarter & 2) << 62));
+    *cosine = OF_BITS(((s_bits & odd) | (c_bits & ~odd)) ^ (((quarter + 1) & 2) << 62));

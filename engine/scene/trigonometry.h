@@ -1,11 +1,11 @@
 /*
- * Sines and cosines of several angles at once, four side by side (vectors of gcc and clang; plain C elsewhere in
- * this file stays as it is where the processor has shorter ones). x = k pi/2 + r with |r| <= pi/4: k is what
- * remains of adding 1.5 2^52, pi/2 is subtracted in three parts, of which the first two times k are exact
- * (W. J. Cody, W. Waite, Software Manual for the Elementary Functions, 1980). Polynomials: the coefficients of
- * fdlibm (Sun Microsystems, 1993), errors below 2^-58. Results are within 1.5 units in the last place up to 100 rad,
- * within 2.4 up to 1e5; what r is rounded by is left out.
+ * Sines and cosines of several angles, four side by side in vectors of gcc and clang; other compilers take one after
+ * the other, by the same operations. x = k pi/2 + r with |r| <= pi/4: k is what remains of adding 1.5 2^52, pi/2 is
+ * subtracted in three parts, of which the first two times k are exact (W. J. Cody, W. Waite, Software Manual for the
+ * Elementary Functions, 1980). Polynomials: the coefficients of fdlibm (Sun Microsystems, 1993), errors below 2^-58.
+ * Results are within 1.5 units in the last place up to 100 rad, within 2.4 up to 1e5; what r is rounded by is left out.
  */
+#ifdef __GNUC__
 typedef double Four __attribute__((vector_size(32)));
 typedef long long FourBits __attribute__((vector_size(32)));
 
@@ -22,12 +22,43 @@ static inline void sines_and_cosines(const Four *angles, Four *sine, Four *cosin
     const Four angle = *angles;
 #define SINES_OF Four
 #define SINES_BITS FourBits
+#define BITS_OF(x) ((FourBits)(x))
+#define OF_BITS(x) ((Four)(x))
 #include "sines.h"
 #undef SINES_OF
 #undef SINES_BITS
+#undef BITS_OF
+#undef OF_BITS
     if (!(small[0] & small[1] & small[2] & small[3]))
         turned_by_library(angles, sine, cosine);
 }
+
+#else
+typedef double Four[4];
+
+static void sine_and_cosine(double angle, double *sine, double *cosine)
+{
+#define SINES_OF double
+#define SINES_BITS uint64_t
+#define BITS_OF bits_of
+#define OF_BITS of_bits
+#include "sines.h"
+#undef SINES_OF
+#undef SINES_BITS
+#undef BITS_OF
+#undef OF_BITS
+    if (!small) {
+        *sine = sin(angle);
+        *cosine = cos(angle);
+    }
+}
+
+static void sines_and_cosines(const Four *angles, Four *sine, Four *cosine)
+{
+    for (int k = 0; k < 4; k++)
+        sine_and_cosine((*angles)[k], &(*sine)[k], &(*cosine)[k]);
+}
+#endif
 
 /* Of n groups. */
 static inline void many_sines_and_cosines(int n, const Four *angle, Four *sine, Four *cosine)

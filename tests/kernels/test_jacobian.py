@@ -18,7 +18,7 @@ from tests.oracles.linkage_yaml import to_yaml
 from tests.oracles.random_mechanism import random_mechanism
 from tests.programs import needs_compiler
 
-pytestmark = needs_compiler
+pytestmark = [needs_compiler, pytest.mark.plain]
 
 # What shipped mechanisms do not have: corners in forces and drives, powers, a slip between two turning bodies.
 CORNERS = b"""

@@ -12,7 +12,7 @@ from gudgeon.loading.shipped import shipped_file
 from tests.equations.subjects import NAN, Subject, assert_columns, make, shipped_subject
 from tests.programs import needs_compiler
 
-pytestmark = needs_compiler
+pytestmark = [needs_compiler, pytest.mark.plain]
 PRESS = shipped_file("nine_bar_press").read_bytes()
 C = 0.3e-3  # clearance of the press
 OIL: dict[str, dict[str, object]] = {
