@@ -15,6 +15,7 @@ from gudgeon.commands import options as opt
 from gudgeon.commands.group import Commands
 from gudgeon.commands.told import tell_warnings, told
 from gudgeon.contract.methods import CHOOSING, KINEMATIC, OFFERED
+from gudgeon.language.deprecations import STRESS
 
 app = typer.Typer(
     name="gudgeon",
@@ -234,6 +235,7 @@ def bench(
 @app.command("map")
 @told
 def verdicts(
+    context: typer.Context,
     file: opt.File, scene: opt.Scenes = None, set_: opt.Set = None,
     method: Annotated[str, typer.Option(help=f"{', '.join(OFFERED)}.")] = "auto",
     at: opt.Rest = None, axis: opt.Axis = None, box: opt.Box = None, range_: opt.Range = None,
@@ -253,6 +255,8 @@ def verdicts(
     from gudgeon.commands.map import Asked, map_file
     from gudgeon.commands.studies import Request
 
+    if context.info_name == "stress":
+        typer.echo(f"warning: {STRESS}", err=True)
     request = Request(file, tuple(scene or ()), tuple(set_ or ()), t_end, out, csv, quick, mark, json)
     return map_file(request, Asked(method, at, tuple(axis or ()), box, tuple(range_ or ())))
 
