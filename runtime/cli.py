@@ -11,6 +11,7 @@ from typing import Annotated
 
 import typer
 
+from gudgeon.commands import completion
 from gudgeon.commands import options as opt
 from gudgeon.commands.group import Commands
 from gudgeon.commands.told import tell_warnings, told
@@ -39,7 +40,9 @@ def run(
     file: opt.File, scene: opt.Scenes = None, set_: opt.Set = None, t_end: opt.Until = None,
     output: opt.Intervals = None,
     step: Annotated[str | None, typer.Option(help="Fixed step, in s or with a unit: 5us; auto takes rk4.")] = None,
-    method: Annotated[str, typer.Option(help=f"{', '.join(OFFERED)}, {KINEMATIC}, scipy:Radau …")] = "auto",
+    method: Annotated[
+        str, typer.Option(help=f"{', '.join(OFFERED)}, {KINEMATIC}, scipy:Radau …", autocompletion=completion.methods)
+    ] = "auto",
     rtol: Annotated[str | None, typer.Option(help=f"Tolerance of a step of auto, {', '.join(CHOOSING)}: 1e-8.")] = None,
     watch: opt.Watch = None, peaks: opt.Peaks = None,
     formulation: Annotated[
@@ -237,7 +240,9 @@ def bench(
 def verdicts(
     context: typer.Context,
     file: opt.File, scene: opt.Scenes = None, set_: opt.Set = None,
-    method: Annotated[str, typer.Option(help=f"{', '.join(OFFERED)}.")] = "auto",
+    method: Annotated[
+        str, typer.Option(help=f"{', '.join(OFFERED)}.", autocompletion=completion.methods)
+    ] = "auto",
     at: opt.Rest = None, axis: opt.Axis = None, box: opt.Box = None, range_: opt.Range = None,
     t_end: opt.End = None, out: opt.Out = Path("out"), csv: opt.Csv = None, quick: opt.Quick = False,
     mark: opt.Mark = None,

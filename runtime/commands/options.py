@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from gudgeon.commands import completion
 from gudgeon.language.shown import visible
 
 
@@ -53,9 +54,19 @@ def _version(wanted: bool) -> None:
 
 
 Version = Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Print it.")]
-File = Annotated[str, typer.Argument(metavar="FILE", help="A YAML file, or the name of a shipped mechanism.")]
-Scenes = Annotated[list[str] | None, typer.Option("--scene", "-s", help="A scene; may be repeated. [default: all]")]
-OneScene = Annotated[str, typer.Option("--scene", "-s", help="Which scene.")]
+File = Annotated[
+    str,
+    typer.Argument(
+        metavar="FILE", help="A YAML file, or the name of a shipped mechanism.", autocompletion=completion.files
+    ),
+]
+Scenes = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--scene", "-s", help="A scene; may be repeated. [default: all]", autocompletion=completion.scenes
+    ),
+]
+OneScene = Annotated[str, typer.Option("--scene", "-s", help="Which scene.", autocompletion=completion.scenes)]
 Pages = Annotated[
     Path,
     typer.Option(
@@ -64,8 +75,12 @@ Pages = Annotated[
     ),
 ]  # fmt: skip
 ScenesOfPages = Annotated[
-    list[str] | None, typer.Option("--scene", "-s", help="A scene; in a folder several. [default: ideal; there all]")
-]
+    list[str] | None,
+    typer.Option(
+        "--scene", "-s", help="A scene; in a folder several. [default: ideal; there all]",
+        autocompletion=completion.scenes,
+    ),
+]  # fmt: skip
 Branches = Annotated[bool, typer.Option("--branches", help="Assemblies, and the guess that picks each.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON in SI units for a script, nothing else.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but warnings and errors.")]

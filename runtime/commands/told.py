@@ -34,7 +34,7 @@ def told(command: Command) -> Command:
 
     @wraps(command)
     def wrapper(*args: Any, **kwargs: Any) -> None:
-        silence = silent() if kwargs.pop("quiet", False) else nullcontext()
+        silence = silent(but_json=bool(kwargs.get("json"))) if kwargs.pop("quiet", False) else nullcontext()
         try:
             _know(kwargs.pop("laws", None) or ())
             with silence:
@@ -52,13 +52,16 @@ def told(command: Command) -> Command:
 
 
 @contextmanager
-def silent() -> Iterator[None]:
-    """No result on stdout, and nothing on stderr of what is under way."""
+def silent(but_json: bool) -> Iterator[None]:
+    """No result on stdout, but JSON where that is asked for, and nothing on stderr of what is under way."""
     from gudgeon.commands import progress
 
     looked_at, progress.looked_at = progress.looked_at, lambda: False
     try:
-        with open(os.devnull, "w", encoding="utf-8") as nothing, redirect_stdout(nothing):
+        with (
+            open(os.devnull, "w", encoding="utf-8") as nothing,
+            nullcontext() if but_json else redirect_stdout(nothing),
+        ):
             yield
     finally:
         progress.looked_at = looked_at

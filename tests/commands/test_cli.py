@@ -245,3 +245,6 @@ def test_quiet_leaves_files_and_errors(line: str, call: Gudgeon, pump: str, monk
     assert {path.name for path in Path().rglob("*") if path.is_file()} == files
     wrong = call(*words, "-q", "--laws", "none.py")
     assert wrong.exit_code == 2 and not wrong.stdout and wrong.stderr.startswith("error: ")
+    if words[0] != "draw":
+        told, quietly = (json.loads(call(*words, *more).stdout) for more in (["--json"], ["--json", "--quiet"]))
+        assert told.keys() == quietly.keys()

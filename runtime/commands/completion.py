@@ -1,0 +1,46 @@
+"""What a shell proposes when a user presses the tabulator: names of mechanisms, of their scenes, of methods."""
+
+from __future__ import annotations
+
+import os
+from contextlib import suppress
+from pathlib import Path
+
+import typer
+
+from gudgeon.contract.methods import OFFERED
+
+
+def files(incomplete: str) -> list[str]:
+    """Shipped mechanisms, YAML files, and folders to look for more."""
+    from gudgeon.loading.shipped import shipped
+
+    folder, _, begun = incomplete.rpartition("/")
+    found = [] if folder else [name for name in shipped() if name.startswith(begun)]
+    with suppress(OSError), os.scandir(f"{folder}/" if folder or incomplete.startswith("/") else ".") as entries:
+        for entry in entries:
+            if entry.name.startswith(begun) and not entry.name.startswith("."):
+                whole = incomplete.removesuffix(begun) + entry.name
+                if entry.is_dir():
+                    found.append(f"{whole}/")
+                elif entry.name.endswith((".yaml", ".yml")):
+                    found.append(whole)
+    return sorted(found)
+
+
+def scenes(context: typer.Context, incomplete: str) -> list[str]:
+    """Of the mechanism that stands before; none where it cannot be read."""
+    from gudgeon.generator.yaml.tree import parse_yaml
+    from gudgeon.loading.shipped import shipped, shipped_file
+
+    found = {"ideal"}
+    with suppress(Exception):
+        name = str(context.params.get("file") or context.args[0])  # behind an option without its value it is left over
+        path = shipped_file(name) if name in shipped() else Path(name)
+        found |= {str(scene) for scene in parse_yaml(path.read_bytes(), name).part("scenes").names()}
+    return sorted(scene for scene in found if scene.startswith(incomplete))
+
+
+def methods(incomplete: str) -> list[str]:
+    """By which a run may be integrated."""
+    return [method for method in OFFERED if method.startswith(incomplete)]
