@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import zipfile
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +18,8 @@ import gudgeon
 
 SAVED = sorted((Path(__file__).resolve().parents[1] / "data").glob("saved-*.zip"))
 G, HEIGHTS = 9.81, (1.0, 2.0)
-NEAR = {"rtol": 0.0, "atol": 1e-12}  # free fall is a polynomial of the second degree: methods have it to rounding
+# free fall is a polynomial of the second degree: methods have it to rounding
+near = partial(np.allclose, rtol=0.0, atol=1e-12)
 
 
 @pytest.fixture(scope="module", params=SAVED, ids=lambda path: path.stem)
@@ -38,9 +40,9 @@ def test_a_saved_result_is_what_it_was(folder: Path) -> None:
     """result.nc: six samples of a second, one impact."""
     run = gudgeon.Result.load(folder / "result.nc")
     fell = run.t <= math.sqrt(2.0 / G)
-    assert np.allclose(run.t, np.linspace(0.0, 1.0, 6), **NEAR) and fell.sum() == 3
-    assert np.allclose(run["ball.y"][fell], -G * run.t[fell] ** 2 / 2.0, **NEAR)
-    assert np.allclose(run["ball.vy"][fell], -G * run.t[fell], **NEAR)
+    assert near(run.t, np.linspace(0.0, 1.0, 6)) and fell.sum() == 3
+    assert near(run["ball.y"][fell], -G * run.t[fell] ** 2 / 2.0)
+    assert near(run["ball.vy"][fell], -G * run.t[fell])
     assert len(run.impacts) == 1 and (run.source.mechanism, run.source.scene) == ("bouncing_ball", "elastic")
     assert run.parameters["height"] == 1.0
 
@@ -49,13 +51,13 @@ def test_a_saved_batch_is_what_it_was(folder: Path) -> None:
     """batch.nc: two heights."""
     batch = gudgeon.Batch.load(folder / "batch.nc")
     expected = np.array(HEIGHTS)[:, None] - G * batch.t**2 / 2.0
-    assert np.allclose(batch.t, np.linspace(0.0, 0.4, 6), **NEAR)
-    assert np.allclose(batch["height_above_floor"], expected, **NEAR)
+    assert near(batch.t, np.linspace(0.0, 0.4, 6))
+    assert near(batch["height_above_floor"], expected)
 
 
 def test_a_saved_study_is_what_it_was(folder: Path) -> None:
     """study: the two heights once more, what is measured at the end and what was kept."""
     data = gudgeon.load_study(folder / "study").dataset.sel(scene="elastic")
     assert data["height"].values.tolist() == list(HEIGHTS)
-    assert np.allclose(data["y"], np.array(HEIGHTS) - G * 0.4**2 / 2.0, **NEAR)
-    assert np.allclose(data["ball.vy"], np.tile(-G * data["time"].values, (2, 1)), **NEAR)
+    assert near(data["y"], np.array(HEIGHTS) - G * 0.4**2 / 2.0)
+    assert near(data["ball.vy"], np.tile(-G * data["time"].values, (2, 1)))
