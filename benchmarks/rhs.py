@@ -15,7 +15,7 @@ import argparse
 import math
 import os
 import platform
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from importlib.util import find_spec
@@ -35,6 +35,8 @@ from tests.oracles.press_dense import Press
 BAR = 0.15  # µs that a reduced right-hand side may take
 ROUNDS, BATCH = 12, 20_000  # in which all take turns: the least tells the code from whatever else the machine does
 SHOWN = 3  # accelerations that are printed
+# Widest first, by the flag that Linux has for each
+VECTORS = {"avx512f": "AVX-512", "avx2": "AVX2", "avx": "AVX", "sse2": "SSE2", "sve": "SVE", "asimd": "Neon"}
 DENSE = "double press_seconds_per_rhs(const void *p, double t, const double *y, int batch, int repeats);"
 
 
@@ -181,13 +183,23 @@ def _dense(peer: Press, work: Work) -> callgrind.Call:
 
 
 def machine() -> str:
-    """The processor as it names itself, and how many cores there are; no names of hosts."""
-    model = platform.processor() or platform.machine()
+    """The processor as it names itself, how many cores there are and its widest vectors; no names of hosts."""
+    model, vectors = platform.processor() or platform.machine(), ""
     cpuinfo = Path("/proc/cpuinfo")
     if cpuinfo.exists():
-        lines = cpuinfo.read_text(encoding="utf-8", errors="replace").splitlines()
-        model = next((line.partition(":")[2].strip() for line in lines if line.startswith("model name")), model)
-    return f"{model}, {os.cpu_count()} cores"
+        told = dict(_told(line) for line in cpuinfo.read_text(encoding="utf-8", errors="replace").splitlines())
+        model, vectors = told.get("model name", model), widest(told.get("flags", told.get("Features", "")).split())
+    return f"{model}, {os.cpu_count()} cores" + f", {vectors}" * bool(vectors)
+
+
+def _told(line: str) -> tuple[str, str]:
+    name, _, value = line.partition(":")
+    return name.strip(), value.strip()
+
+
+def widest(flags: Sequence[str]) -> str:
+    """The widest vectors among a processor's flags, on which the best order of smooth motion depends; "" if unknown."""
+    return next((name for flag, name in VECTORS.items() if flag in flags), "")
 
 
 def _cell(value: float, width: int, digits: int = 0) -> str:

@@ -1,4 +1,4 @@
-"""The C of every shipped scene, and of play in a guide, under sanitizers: formulations, methods, batches, threads.
+"""The C of every shipped scene, the gallery's too, under sanitizers: formulations, methods, batches, threads.
 
     python -m tests.sanitize [NAME ...] [--threads] [--quick]
 
@@ -27,7 +27,7 @@ from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.integrators import lanes
 
 MECHANISMS = Path(gudgeon.__file__).resolve().parents[1] / "mechanisms"
-ALSO = (MECHANISMS / "gallery" / "guided_slider_crank.yaml",)  # of the gallery what no other scene has
+ALSO = tuple(sorted((MECHANISMS / "gallery").glob("*.yaml")))
 KINDS = {"address,undefined": "libasan.so", "thread": "libtsan.so"}
 SAID = re.compile(r"runtime error|Sanitizer")
 OPTIONS = {"ASAN_OPTIONS": "detect_leaks=0", "TSAN_OPTIONS": "report_signal_unsafe=0"}  # Python never gives all back

@@ -168,3 +168,10 @@ def test_a_law_is_timed_by_itself(tmp_path: Path) -> None:
     """The program compiles, sums what is a number, and the law takes longer than nothing."""
     own, nothing = laws.timed(house()["ocvirk"], tmp_path)
     assert 0.0 < nothing < own
+
+
+def test_the_widest_vectors_of_a_processor_are_told() -> None:
+    """By whole flags of Linux; "" where none is known."""
+    told = {"sse2 avx": "AVX", "sse2 avx avx2 fma": "AVX2", "avx2 avx512f avx512bw": "AVX-512", "asimd": "Neon",
+            "avx512_fp16 sse2x": ""}  # fmt: skip
+    assert {flags: rhs.widest(flags.split()) for flags in told} == told
