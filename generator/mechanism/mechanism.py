@@ -27,6 +27,7 @@ class Quantity:
     where: Location
     of: tuple[Quantity, ...] = ()  # numbers that `value` names by their addresses: it follows them
     kept: bool = False  # a number of the run even where it is written as 0
+    written: Expr | None = None  # of an expression by name: with the names of others, whose trees `value` has
 
     @property
     def is_zero(self) -> bool:

@@ -14,6 +14,11 @@ from gudgeon.generator.reader.parameters import parameter_values
 from gudgeon.language.tree import Binary, Call, Expr, Name, Number, Unary, calls, evaluate, names
 from gudgeon.language.units import si_unit
 
+EXPRESSIONS = "expressions."  # how the addresses of expressions by name begin
+FINITE = (
+    "expected finite numbers: is there a division by zero, a root of a negative number, or a curve beyond its ends?"
+)
+
 
 def check_values(reader: Reader, parameters: Mapping[str, Quantity], scenes: Mapping[str, SceneSpec]) -> None:
     """Collect a BadValueError at the place of each number that is not finite or breaks a condition."""
@@ -48,8 +53,7 @@ def _check_with(
 
     for address, value in values.items():
         if not math.isfinite(value) and not broken_is_told:
-            hint = "expected a finite number: is there a division by zero or a root of a negative number?"
-            complain(address, f"is {value}{context}", hint)
+            complain(address, f"is {value}{context}", FINITE)
         elif address in reader.wholes and math.isfinite(value) and value != math.floor(value):
             complain(address, f"is {value:.6g}{context}", f"expected a whole {reader.wholes[address]}")
     for address, quantity in reader.quantities.items():
@@ -74,22 +78,32 @@ def _tell(reader: Reader, wrong: Mapping[str, Sequence[tuple[str, str]]], own: M
     """Errors of (what, hint) by address; nothing of a number that is wrong because another is."""
     for address, told in wrong.items():
         quantity = reader.quantities[address]
-        if not _follows(quantity, wrong):
-            place = _place(quantity, own)
-            reader.errors += [BadValueError(f"{address} {message}", place, hint) for message, hint in told]
+        if not _follows(reader, quantity, wrong):
+            place, users = _place(quantity, own), _users(reader, address)
+            reader.errors += [BadValueError(f"{address} {message}{users}", place, hint) for message, hint in told]
 
 
-def _follows(quantity: Quantity, wrong: Container[str]) -> bool:
-    """Whether a number is wrong because another is."""
-    return any(part.address in wrong or _follows(part, wrong) for part in quantity.of)
+def _follows(reader: Reader, quantity: Quantity, wrong: Container[str]) -> bool:
+    """Whether a number is wrong because another is, or an expression by name that is a part of it."""
+    return any(part.address in wrong or _follows(reader, part, wrong) for part in quantity.of) or any(
+        f"{EXPRESSIONS}{name}" in wrong for name in reader.made_of.get(quantity.address, ())
+    )
+
+
+def _users(reader: Reader, address: str) -> str:
+    """Who uses an expression by name, in words; "" of another number."""
+    name = address.removeprefix(EXPRESSIONS)
+    users = [user for user, names in reader.made_of.items() if name in names and not user.startswith(EXPRESSIONS)]
+    if name == address or not users:
+        return ""
+    return f", and {users[0]} and {len(users) - 1} more use it" if len(users) > 1 else f", and {users[0]} uses it"
 
 
 def _wrong_part(quantity: Quantity, known: Mapping[str, float], is_known: bool) -> tuple[str, str]:
     """(message, hint) about a part of an expression that cannot be meant; "" where there is none."""
     wrong = None if is_known else _no_number_in(quantity.value, known)
     if wrong is not None:
-        hint = "expected finite numbers: is there a division by zero or a root of a negative number?"
-        return f"has a part that is {wrong}", hint
+        return f"has a part that is {wrong}", FINITE
     if (small := _lost_factor(quantity.value, known)) is not None:
         hint = "expected products and powers from 2.3e-308: (0.01*x)**161, not 0.01**161 * x**161"
         return f"has a part that is {small:g}, too small for its digits", hint

@@ -60,6 +60,8 @@ class Reader:
         self.wholes: dict[str, str] = {}  # address -> what is counted
         self.curves: dict[str, Curve] = {}
         self.expressions: dict[str, Named] = {}
+        self.expression_names: frozenset[str] = frozenset()  # of all that the file has, before any is read
+        self.made_of: dict[str, tuple[str, ...]] = {}  # address -> expressions by name that are parts of it
         self.tables: dict[str, str] = {}  # files that curves were read from -> sha256
         self.laws: dict[str, str] = {}  # laws of the user's own -> their keys
         self.parameters: dict[str, Dimension | None] = {}  # None: defined without a unit
@@ -74,6 +76,7 @@ class Reader:
             twice = (ANY_NAME,) if self.errors else ()  # a key given twice may stand for one that is missing now
             self.left_out = checked.left_out.union(twice)
             self.errors += checked.errors
+            self.expression_names = frozenset(map(str, checked.root.part("expressions")))
             return checked.root
         raise EnoughErrors  # nothing is left to read
 
@@ -133,6 +136,7 @@ class Reader:
             dimensions = self.check_names(parsed, text.where, time, result)
             found = check_dimension(parsed, expected, dimensions.get, text.where)
             expr = replaced(parsed, {name: named.value for name, named in self.expressions.items()})
+            self.made_of[address] = self.expressions_in(parsed)
             self._note_use(parsed, expected)
         return self.keep(Quantity(address, expr, found if found is not None else DIMENSIONLESS, text.where))
 
@@ -176,7 +180,7 @@ class Reader:
                 found["t"] = TIME
             elif name.path in self.parameters:
                 found[name.path] = self.parameters[name.path]
-            elif name.path in self.expressions:
+            elif name.path in self.expression_names:
                 self._check_expression(name.path, place, time, result)
                 found[name.path] = self.expressions[name.path].dimension
             elif result is not None:
@@ -193,7 +197,10 @@ class Reader:
     def _check_expression(self, name: str, place: Location, time: bool, result: ResultDimension | None) -> None:
         """Raise ExpressionError where an expression by name reads what may not be read here."""
         if not time and result is None:
-            hint = "expected parameters; expressions can stand in drives, forces, events and outputs only"
+            hint = (
+                "expected parameters: an expression by name may hold t and motion, and can stand in drives, forces,"
+                " events and outputs only"
+            )
             raise ExpressionError(f"{name!r} is an expression, and this number is constant", place, hint)
         for read in self._read_by(name):
             if read in self.parameters or read == "t" and time:
@@ -205,14 +212,17 @@ class Reader:
 
     def _read_by(self, name: str) -> Iterator[str]:
         """What an expression by name is made of, with what its own names are made of."""
-        asked, waiting = {name}, [name]
+        for one in self.expressions_in(Name(name)):
+            yield from (read.path for read in names(self.expressions[one].written) if read.path not in self.expressions)
+
+    def expressions_in(self, expr: Expr) -> tuple[str, ...]:
+        """Expressions by name that stand in another one, and those that stand in these."""
+        found, waiting = dict[str, None](), [expr]
         while waiting:
-            for read in names(self.expressions[waiting.pop()].written):
-                if read.path not in self.expressions:
-                    yield read.path
-                elif read.path not in asked:
-                    asked.add(read.path)
-                    waiting.append(read.path)
+            new = [x.path for x in names(waiting.pop()) if x.path in self.expressions and x.path not in found]
+            found |= dict.fromkeys(new)
+            waiting += [self.expressions[name].written for name in new]
+        return tuple(found)
 
     def _note_use(self, expr: Expr, expected: Dimension | None) -> None:
         """A parameter without a unit takes the dimension of the place where it stands alone."""

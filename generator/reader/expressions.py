@@ -56,8 +56,12 @@ def settle_expressions(reader: Reader, motion: ResultDimension) -> dict[str, Qua
             reader.expressions[name] = replace(one, written=_BROKEN)
             with reader.collect():
                 reader.expressions[name] = _settled(reader, one, motion)
+    for name, one in reader.expressions.items():
+        reader.made_of[f"expressions.{name}"] = reader.expressions_in(one.written)
     return {
-        name: Quantity(f"expressions.{name}", one.value, one.dimension or DIMENSIONLESS, one.where)
+        name: reader.keep(
+            Quantity(f"expressions.{name}", one.value, one.dimension or DIMENSIONLESS, one.where, written=one.written)
+        )
         for name, one in reader.expressions.items()
     }
 

@@ -6,7 +6,7 @@ import graphlib
 from collections.abc import Mapping
 from dataclasses import replace
 
-from gudgeon.errors import CycleError, InputError, Location
+from gudgeon.errors import CycleError, InputError, InputErrors, Location
 from gudgeon.generator.mechanism.mechanism import Quantity
 from gudgeon.generator.reader.collector import Reader, broken
 from gudgeon.generator.yaml.tree import Map
@@ -14,6 +14,8 @@ from gudgeon.language.dimension_check import check_dimension
 from gudgeon.language.names import check_name
 from gudgeon.language.tree import Expr, evaluate, names
 from gudgeon.language.units import DIMENSIONLESS, Dimension
+
+MOST_TOLD = 8  # names of a cycle
 
 
 def read_parameters(reader: Reader, section: Map) -> dict[str, Quantity]:
@@ -63,19 +65,30 @@ def settle(reader: Reader, parameters: Mapping[str, Quantity]) -> dict[str, Quan
 def dependency_order(
     trees: Mapping[str, Expr], places: Mapping[str, Location], what: str = "parameters"
 ) -> tuple[str, ...]:
-    """Names so that each stands behind those that it uses. Raises CycleError, which names the cycle."""
-    sorter = graphlib.TopologicalSorter(
-        {name: [used.path for used in names(tree) if used.path in trees] for name, tree in trees.items()}
-    )
-    try:
-        return tuple(sorter.static_order())
-    except graphlib.CycleError as error:
-        cycle = list(reversed(error.args[1]))[:-1]  # graphlib lists users first and the first one twice
-        first = min(range(len(cycle)), key=lambda i: places[cycle[i]])
-        path = [*cycle[first:], *cycle[:first], cycle[first]]
-        hint = "expected one of them to have a value of its own"
-        message = f"{what} defined through each other: {' → '.join(path)}"
-        raise CycleError(message, places[cycle[first]], hint) from None
+    """Names so that each stands behind those that it uses. Raises CycleError, or InputErrors of several cycles."""
+    uses = {name: [used.path for used in names(tree) if used.path in trees] for name, tree in trees.items()}
+    cycles: list[InputError] = []
+    while True:
+        try:
+            order = tuple(graphlib.TopologicalSorter(uses).static_order())
+            break
+        except graphlib.CycleError as error:
+            cycle = error.args[1][:0:-1]  # graphlib lists users first and the first one twice
+            cycles.append(_cycle_error(cycle, places, what))
+            uses = {name: [x for x in of if x not in cycle] for name, of in uses.items() if name not in cycle}
+    if cycles:
+        raise cycles[0] if len(cycles) == 1 else InputErrors(cycles)
+    return order
+
+
+def _cycle_error(cycle: list[str], places: Mapping[str, Location], what: str) -> CycleError:
+    """It begins where the file first names one of them; of a long one its first names are told."""
+    first = min(range(len(cycle)), key=lambda i: places[cycle[i]])
+    path = [*cycle[first:], *cycle[:first]]
+    if len(path) > MOST_TOLD:
+        path[MOST_TOLD - 1 :] = [f"… ({len(path) - MOST_TOLD + 1} more)"]
+    message = f"{what} defined through each other: {' → '.join([*path, cycle[first]])}"
+    return CycleError(message, places[cycle[first]], "expected one of them to have a value of its own")
 
 
 def parameter_values(parameters: Mapping[str, Quantity]) -> dict[str, float]:

@@ -193,6 +193,10 @@ class _Composer:
     def place(self, event: Any, shift: int = 0) -> Location:
         return Location(self.file, event.start_mark.line + 1, event.start_mark.column + 1 + shift)
 
+    def behind(self, key: Any) -> Location:
+        """Right behind the colon of a key."""
+        return Location(self.file, key.end_mark.line + 1, key.end_mark.column + 2)
+
     def count(self, nodes: int, event: Any) -> None:
         self.nodes += nodes
         if self.nodes > MAX_NODES:
@@ -250,6 +254,8 @@ class _Composer:
                 raise NotYamlError(f"{kind_of(key)} as a key", key.where, "expected a name as the key")
             below = next(self.events)
             value = self.node(self.events.whole(below, True) if event.flow_style else below, depth + 1)
+            if isinstance(value, Text) and not value and value.plain and not event.flow_style:
+                value.where = self.behind(inner)  # of nothing YAML knows the next thing's place
             if key == "<<":
                 raise UnknownKeyError("merge keys ('<<') are no part of the format", key.where, MERGED)
             if key in made:

@@ -75,7 +75,9 @@ def check_addresses(names: Iterable[str], file: str, sources: Sequence[KernelSou
         for source in sources:
             told, hint = as_parameter(source, name)
             if told:
-                place = next((Location(file, w.line, w.column) for w in source.written if w.address == name), None)
+                every = (*source.written, *source.expressions)
+                meant = (name, f"expressions.{name}")
+                place = next((Location(file, w.line, w.column) for w in every if w.address in meant), None)
                 raise UnknownNameError(f"--set: {told}", place, hint)
         raise unknown(f"--set: no scene has a number {name!r}", name, known)
 

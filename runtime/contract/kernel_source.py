@@ -189,6 +189,7 @@ class KernelSource:
     events: tuple[EventInfo, ...] = ()
     story: Story = Story()  # how the equations became what is integrated (check -v)
     written: tuple[WrittenInfo, ...] = ()
+    expressions: tuple[WrittenInfo, ...] = ()  # that the file has by name, and uses by it here too
     lines: tuple[tuple[str, int], ...] = ()  # of the file, where joints and drives are
     states: tuple[str, ...] = ()  # inner states of laws, "A.z", as many a joint with play; "": none
     units: tuple[int, ...] = ()  # in which `main` is compiled, side by side, as PART in C counts them; none: whole
@@ -269,7 +270,8 @@ class KernelSource:
             "bodies": BodyInfo, "points": PointInfo, "rows": RowInfo, "joints": JointInfo,
             "drives": DriveInfo, "clearances": ClearanceInfo, "start_rows": RowInfo,
             "slots": Slot, "conditions": Condition, "series": SeriesInfo, "events": EventInfo,
-            "written": WrittenInfo, "simulate_written": WrittenInfo, "parts": PartInfo, "contours": ContourInfo,
+            "written": WrittenInfo, "expressions": WrittenInfo, "simulate_written": WrittenInfo,
+            "parts": PartInfo, "contours": ContourInfo,
         }  # fmt: skip
         data |= {key: tuple(kind(**tuples(item)) for item in data.get(key, ())) for key, kind in kinds.items()}
         for key, value in data.items():

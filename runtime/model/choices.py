@@ -7,6 +7,7 @@ before C sees them, so that nothing is derived or compiled anew.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable
 from typing import Any, TypeAlias
 
@@ -16,6 +17,7 @@ from numpy.typing import NDArray
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.errors import BadValueError
 from gudgeon.language.suggestions import unknown_name
+from gudgeon.language.tree import from_json, names
 from gudgeon.language.wanted import told
 
 Array: TypeAlias = NDArray[Any]
@@ -45,6 +47,21 @@ def choice_of_a_law(source: KernelSource, address: str) -> tuple[str, str]:
     return f"{address} is a choice that C is made of, and no number that can be set", (
         f"write a second contact, other: {{extends: {name}, {role}: {{{key}: …}}}}, and a scene with it, or a study's"
         f' choices; in Python gudgeon.load(…, overrides={{"{address}": "…"}})'
+    )
+
+
+def expression_by_name(source: KernelSource, address: str) -> tuple[str, str]:
+    """The same of an expression that the file has by name."""
+    whole = f"expressions.{address.removeprefix('expressions.')}"
+    one = next((one for one in source.expressions if one.address == whole), None)
+    if one is None:
+        return "", ""
+    used = dict.fromkeys(name.path for name in names(from_json(json.loads(one.tree))))
+    known = {slot.address for slot in source.slots}
+    own = ", ".join(name for name in used if f"parameters.{name}" in known)
+    return f"{whole} is an expression, compiled as it stands: it is no number that can be set", (
+        (f"set what it is made of: {own}; " if own else "")
+        + "overrides= of gudgeon.load compiles anew with another expression"
     )
 
 

@@ -17,7 +17,7 @@ from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.language.suggestions import near
 from gudgeon.language.tree import from_json, names
 from gudgeon.language.wanted import mapping, number_of, whole_digits
-from gudgeon.model.choices import choice_of_a_law, place_of_word
+from gudgeon.model.choices import choice_of_a_law, expression_by_name, place_of_word
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.sizes import far_clearance
 
@@ -75,9 +75,8 @@ def as_parameter(source: KernelSource, address: str) -> tuple[str, str]:
     address = meant[-1]  # "motor.value" too
     written = next((one for one in source.written if one.address == address), None)
     if written is None and address.removeprefix("outputs.") not in source.outputs:
-        several = (_unplaced_journal(source, address), _only_material(source, address), _of_motion(source, address),
-                   choice_of_a_law(source, address))  # fmt: skip
-        return next((one for one in several if one[0]), ("", ""))
+        several = (expression_by_name, _unplaced_journal, _only_material, _of_motion, choice_of_a_law)
+        return next((words for one in several if (words := one(source, address))[0]), ("", ""))
     key = address.rpartition(".")[2]
     if written is not None and written.tree == ZERO:
         return _literal_zero(address, key)

@@ -15,20 +15,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource, WrittenInfo
-from gudgeon.language.tree import (
-    Binary,
-    Call,
-    CurveCall,
-    Expr,
-    Number,
-    Unary,
-    calls,
-    evaluate,
-    from_json,
-    names,
-    reached,
-)  # fmt: skip
+from gudgeon.language.tree import Binary, Call, Expr, calls, evaluate, from_json, names, reached
 from gudgeon.model.compiled import Array, CompiledModel, Evaluation
+from gudgeon.model.culprit import Values, culprit
 
 if TYPE_CHECKING:
     from gudgeon.results.results import Result
@@ -36,7 +25,6 @@ if TYPE_CHECKING:
 CORNERED = frozenset({"abs", "min", "max", "ramp", "sign", "where", "mod"})  # whose corners end steps
 _REACH = tuple(10.0**k for k in range(-13, -8))  # s, or share of the time: how far ahead of a state a reason may lie
 MOST_CORNERS = 64  # of a where, that are looked at one after the other
-Values = Callable[[str], float]
 
 
 def values_at(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> Values:
@@ -160,7 +148,7 @@ def _of_branches(source: KernelSource, p: Array, info: WrittenInfo, call: Call, 
     for k, (value, meant) in enumerate(((then, left <= right), (otherwise, left >= right))):
         if meant and not math.isfinite(value):
             place = f"line {info.line}, column {info.column}"
-            why = culprit(call.arguments[2 + k], values)
+            why = culprit(source, call.arguments[2 + k], values)
             corner = f"at t = {t:.9g} s, where its where changes over"
             return f"{info.address} ({place}): {corner}, a branch is {value}: {why}"
     return ""
@@ -222,7 +210,7 @@ def _odd(run: Result, name: str) -> str:
     if not wrong.any():
         return ""
     k, count = int(wrong.argmax()), int(wrong.sum())
-    why = culprit(tree, lambda path: float(parts[path][k]))
+    why = culprit(run.source, tree, lambda path: float(parts[path][k]))
     others = f"; it is none at {count} of {len(wrong)} samples" if count > 1 else ""
     return f"output {name} is no number ({values[k]}) at t = {run.t[k]:.9g} s: {why}{others}"
 
@@ -235,38 +223,5 @@ def _told(
         value = float(evaluate(tree, values))
         if not math.isfinite(value):
             place = f"line {info.line}, column {info.column}"
-            return f"{info.address} ({place}) is not finite at t = {t:.9g} s, {value}: {culprit(tree, values)}"
+            return f"{info.address} ({place}) is not finite at t = {t:.9g} s, {value}: {culprit(source, tree, values)}"
     return ""
-
-
-def culprit(tree: Expr, values: Values) -> str:
-    """The smallest part of an expression that is not finite while what it is made of is, in words."""
-    match tree:
-        case Unary(operand=operand):
-            parts: tuple[Expr, ...] = (operand,)
-        case Binary(left=left, right=right):
-            parts = (left, right)
-        case Call(function="where", arguments=(left, right, then, otherwise)):
-            picked = then if evaluate(left, values) < evaluate(right, values) else otherwise
-            parts = (left, right, picked)
-        case Call(arguments=parts):
-            pass
-        case _:
-            return "a number that is not finite"
-    numbers = [float(evaluate(part, values)) for part in parts]
-    for part, number in zip(parts, numbers, strict=True):
-        if not math.isfinite(number) and not isinstance(part, Number):
-            return culprit(part, values)
-    told = [f"{number:.12g}" for number in numbers]
-    match tree:
-        case Binary(operator="/"):
-            return f"{told[0]} divided by {told[1]}"
-        case Binary(operator="**"):
-            return f"the power {told[1]} of {told[0]}"
-        case Binary(operator=operator):
-            return f"{told[0]} {operator} {told[1]}"
-        case CurveCall(function=function, curve=curve):
-            return f"curve {function} {curve.outside(numbers[0])}"
-        case Call(function=function):
-            return f"{function} of {', '.join(told)}"
-    return "a number that is not finite"

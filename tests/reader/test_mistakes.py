@@ -158,7 +158,7 @@ MISTAKES: list[tuple[str, type[InputError], int, int]] = [
     ("unknown_section", UnknownKeyError, 18, 1),
     ("unknown_unit", UnitError, 10, 19),
     ("unlike_sum", UnitError, 10, 24),
-    ("value_missing", BadValueError, 7, 1),
+    ("value_missing", BadValueError, 6, 5),
     ("vector_of_three", BadValueError, 3, 10),
     ("viscosity_zero", BadValueError, 26, 65),
     ("wrong_unit", UnitError, 10, 29),

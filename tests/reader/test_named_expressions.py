@@ -4,14 +4,20 @@ from __future__ import annotations
 
 import re
 
+import numpy as np
 import pytest
 
+from gudgeon.commands.common import check_addresses
+from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import (
     BadNameError,
+    BadValueError,
     CycleError,
     ExpressionError,
     InputError,
+    InputErrors,
     LimitError,
+    Location,
     UnitError,
     UnknownNameError,
 )
@@ -19,6 +25,8 @@ from gudgeon.generator.pipeline import generate
 from gudgeon.generator.reader.expressions import DEEPEST, MOST
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.language.tree import names
+from gudgeon.model.parameters import as_parameter
+from gudgeon.model.written import reason
 
 LED = """\
 format: gudgeon/1
@@ -105,6 +113,12 @@ MISTAKES: list[tuple[str, str, type[InputError], str, str]] = [  # text, instead
     ("lift: h*ease(t/(2 s))", "lift: [1, 2]", InputError, "lift", "[1, 2]"),
     ("lift: h*ease(t/(2 s))", "lift: ", InputError, "no value", ""),
     ("lift: h*ease(t/(2 s))", "lift: h*ease(t/(2 s)", ExpressionError, "expected ')'", ""),
+    ("error: rod.theta - target", "error: rod.theta - target/(K - K)", BadValueError,
+     "expressions.error has a part that is inf, and forces.u.value and 3 more use it", "rod.theta"),
+    ("lift: h*ease(t/(2 s))", "lift: h*ease(pace/(-1 rad/s))*0 + h*sqrt(h - 30 mm)/sqrt(h)", BadValueError,
+     "expressions.lift is nan, and drives.up.value and 1 more use it", "h*ease"),
+    ("k: 2 1/s", "k: 2 1/s + rate/(1 rad)", ExpressionError, "'rate' is an expression, and this number", "rate/(1"),
+    ("lift: h*ease(t/(2 s))", "lift:", BadValueError, "expressions.lift has no value", ""),
 ]  # fmt: skip
 
 
@@ -119,6 +133,50 @@ def test_mistakes_are_told_where_they_are(text: str, by: str, error: type[InputE
     assert where is not None
     if at:
         assert wrong.splitlines()[where.line - 1][where.column - 1 :].startswith(at)
+
+
+def test_every_cycle_is_told_and_a_long_one_is_cut() -> None:
+    names = [f"a{k}" for k in range(40)]
+    ring = "".join(f"  {name}: {after}\n" for name, after in zip(names, [*names[1:], names[0]], strict=True))
+    with pytest.raises(InputErrors) as raised:
+        read_mechanism(LED.replace("  lift:", f"{ring}  b: 2*c\n  c: b + 1\n  lift:").encode(), "led.yaml")
+    assert [(type(e), e.message) for e in raised.value.errors] == [
+        (CycleError, "expressions defined through each other: a0 → a1 → a2 → a3 → a4 → a5 → a6 → … (33 more) → a0"),
+        (CycleError, "expressions defined through each other: b → c → b"),
+    ]
+
+
+def test_nothing_in_a_line_of_its_own_is_told_in_that_line() -> None:
+    wrong = LED.replace("  lift: h*ease(t/(2 s))\n", "  lift:\n")
+    with pytest.raises(BadValueError) as raised:
+        read_mechanism(wrong.encode(), "led.yaml")
+    where = raised.value.where
+    assert where is not None
+    assert wrong.splitlines()[where.line - 1] == "  lift:" and where.column == len("  lift:") + 1
+
+
+def test_what_is_no_number_in_a_run_is_told_where_it_stands() -> None:
+    bad = LED.replace("reach*sin(pace*t)", "sqrt(0.1 s - t)/sqrt(1 s)*reach*sin(pace*t)")
+    source = generate(bad.encode(), "led.yaml", "ideal")
+    p, n = np.array([slot.default for slot in source.slots]), np.zeros(len(source.coordinates))
+    place = re.escape(f"(line {line_of(bad, 'target:')}, column 11)")
+    told = f"forces.u.value .* is not finite at t = 0.2 s, nan: in expressions.target {place}, sqrt of -0.1$"
+    assert re.match(told, reason(source, p, 0.2, n, n))
+
+
+def test_an_expression_is_no_number_that_can_be_set() -> None:
+    source = KernelSource.from_json(generate(LED.encode(), "led.yaml", "ideal").to_json())
+    for name in ("expressions.rate", "rate"):
+        told, hint = as_parameter(source, name)
+        assert told == "expressions.rate is an expression, compiled as it stands: it is no number that can be set"
+        assert hint.startswith("set what it is made of: reach, pace;")
+    with pytest.raises(UnknownNameError) as raised:
+        check_addresses(["expressions.rate"], "led.yaml", [source])
+    assert raised.value.where == Location("led.yaml", line_of(LED, "rate:"), 9)
+
+
+def line_of(text: str, begins: str) -> int:
+    return next(k for k, line in enumerate(text.splitlines(), 1) if line.strip().startswith(begins))
 
 
 def chain(links: list[str]) -> str:

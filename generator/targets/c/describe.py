@@ -34,7 +34,7 @@ from gudgeon.generator.kernels.outputs import element_series, kept_joints
 from gudgeon.generator.mechanism.mechanism import GROUND, Mechanism, PointRef, Quantity
 from gudgeon.generator.mechanism.quantities import quantities
 from gudgeon.generator.reduction.driven_chains import Chain
-from gudgeon.language.tree import names, to_json
+from gudgeon.language.tree import Expr, names, to_json
 from gudgeon.language.units import Dimension
 
 UNTOLD = Story()
@@ -84,6 +84,7 @@ def describe(
         tables=tuple(mechanism.tables.items()), laws=tuple(sorted(mechanism.laws.items())),
         start_apart=tuple(model.all_rows[k].name for k, _, _ in apart_rows(model)),
         peaks=tuple(map(str, model.scene.peaks)), written=tuple(_written(model)),
+        expressions=tuple(_info(one, one.written) for one in mechanism.expressions.values()),
         simulate_written=tuple(_simulate_written(model)), states=_states(model), story=story, lanes=lanes,
         parts=tuple(_parts(mechanism)), rigid=model.rigid, contours=tuple(_contours(model)),
     )  # fmt: skip
@@ -165,9 +166,9 @@ def _written(model: Model) -> Iterator[WrittenInfo]:
     yield from map(_info, zeros.values())
 
 
-def _info(quantity: Quantity) -> WrittenInfo:
-    where = quantity.where
-    return WrittenInfo(quantity.address, json.dumps(to_json(quantity.value)), where.line, where.column)
+def _info(quantity: Quantity, tree: Expr | None = None) -> WrittenInfo:
+    where, tree = quantity.where, tree or quantity.value
+    return WrittenInfo(quantity.address, json.dumps(to_json(tree)), where.line, where.column)
 
 
 def _prepared(model: Model) -> list[sp.Symbol]:

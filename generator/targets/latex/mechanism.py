@@ -124,9 +124,7 @@ def _curves(model: Model) -> list[Block]:
 
 def _expressions(model: Model) -> list[Block]:
     """What names stand for in the expressions of drives, forces, events and outputs."""
-    every = model.scene.mechanism.expressions
-    others = {name: {other: of for other, of in every.items() if other != name} for name in every}
-    rows = [cells(name, as_written(of.value, 0, others[name])) for name, of in every.items()]
+    rows = [cells(name, as_written(of.written or of.value)) for name, of in model.scene.mechanism.expressions.items()]
     return table(cells("expression", "stands for"), rows, (1,))
 
 
