@@ -102,12 +102,14 @@ static double inverse_zero(Place a, Place b, Place c)
         + c.s * a.f * b.f / ((c.f - a.f) * (c.f - b.f));
 }
 
-/* A zero, between a bracket's ends, of the cubic that has their values and slopes and, where that helps, the value of a
- * third place too: of the polynomial of order 4 then. */
+/*
+ * A zero, between a bracket's ends, of the cubic that has their values and slopes and, where that helps, the value of a
+ * third place too: of the polynomial of order 4 then.
+ */
 static double hermite_zero(Place low, Place high, Place third)
 {
-    const double w = high.s - low.s, a = low.f, b = high.f - a, r = w * low.slope, c = 3.0 * b - 2.0 * r - w * high.slope,
-        d = r + w * high.slope - 2.0 * b, x = (third.s - low.s) / w, v = (1.0 - x) * x;
+    const double w = high.s - low.s, a = low.f, b = high.f - a, r = w * low.slope, r_end = w * high.slope;
+    const double c = 3.0 * b - 2.0 * r - r_end, d = r + r_end - 2.0 * b, x = (third.s - low.s) / w, v = (1.0 - x) * x;
     const double e = isfinite(third.f) && v != 0.0 ? (third.f - (a + x * (r + x * (c + x * d)))) / (v * v) : 0.0;
     double from = 0.0, to = 1.0, u = min_of(0.9, max_of(0.1, -a / b));
     for (int i = 0; i < 60 && to - from > DBL_EPSILON; i++) {
@@ -129,7 +131,8 @@ static double hermite_zero(Place low, Place high, Place third)
 
 static double guess_zero(Place low, Place high, Place third)
 {
-    return isfinite(low.f + low.slope + high.f + high.slope) ? hermite_zero(low, high, third) : inverse_zero(low, high, third);
+    const int known = isfinite(low.f + low.slope + high.f + high.slope);
+    return known ? hermite_zero(low, high, third) : inverse_zero(low, high, third);
 }
 
 /* The share to which a zero is located: 4 ulp of the time, or a tick. */
@@ -138,7 +141,7 @@ static double root_width(const Run *run, const Step *step)
     return max_of(4.0 * DBL_EPSILON * fabs(step->t), run->tick) / step->h;
 }
 
-/* Ends of a step, and of its stages that at which margin k is nearest to zero: it tells only where to look first. */
+/* Margin k at both ends of a step. */
 static Place begin_of(const Run *run, const Step *step, int k)
 {
     return (Place){0.0, margin(&run->memory, &run->aside, k), margin_slope(run, step, &run->aside, k)};
@@ -149,6 +152,7 @@ static Place end_of(const Run *run, const Step *step, int k)
     return (Place){1.0, margin(&run->memory, &step->aside, k), margin_slope(run, step, &step->aside, k)};
 }
 
+/* Of the stages that at which margin k is nearest to zero: it tells only where to look first. */
 static Place stage_between(const Step *step, int k, double low, double high)
 {
     Place best = {NAN, NAN, NAN};
