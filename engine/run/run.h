@@ -81,6 +81,7 @@ enum { N_LOOKED = 16 };
 typedef struct {
     int n;
     double share[N_LOOKED], margin[N_LOOKED][AT_LEAST_ONE(N_MARGINS)];
+    double slope[N_LOOKED][AT_LEAST_ONE(N_CLEARANCES)]; /* of those of joints with play, by shares */
     double beyond, y[N_Y], dy[N_Y];
     Aside aside;
 } Looked;

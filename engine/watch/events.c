@@ -92,21 +92,19 @@ static double violated(Run *run, Step *step, int k, const Parameters *p, double 
 static double earlier_event(Run *run, const Step *step, double first, const Parameters *p, int *event)
 {
     for (int again = 0; again < N_MARGINS && first > 0.0; again++) {
-        double y[N_Y], dy[N_Y], at_high = 0.0;
+        double y[N_Y], dy[N_Y];
         Aside aside;
         int found = -1;
         if (state_at(run, step, first, p, y, dy, &aside))
             return first;
-        for (int k = 0; k < N_MARGINS; k++) {
-            const double now = margin(&run->memory, &aside, k);
-            if (k != *event && !is_passed(run, step, k) && now < 0.0 && margin(&run->memory, &run->aside, k) >= 0.0) {
+        for (int k = 0; k < N_MARGINS; k++)
+            if (k != *event && !is_passed(run, step, k) && margin(&run->memory, &aside, k) < 0.0
+                && margin(&run->memory, &run->aside, k) >= 0.0)
                 found = k;
-                at_high = now;
-            }
-        }
         if (found < 0)
             return first;
-        const double s = root(run, step, found, 0.0, margin(&run->memory, &run->aside, found), first, at_high, p);
+        const Place high = place_at(run, step, first, found, p);
+        const double s = root(run, step, found, begin_of(run, step, found), high, p);
         if (!(s < first))
             return first;
         first = s;
@@ -115,10 +113,43 @@ static double earlier_event(Run *run, const Step *step, double first, const Para
     return first;
 }
 
+/* A margin that ends the step: places at which it is not yet below zero and at which it is; about where it crosses. */
+typedef struct {
+    int k;
+    Place low, high;
+    double about;
+} Candidate;
+
+/* Whether margin k is below zero somewhere in the step. */
+static int is_candidate(Run *run, Step *step, int k, const Parameters *p, Candidate *now)
+{
+    double at_high;
+    const double high = violated(run, step, k, p, &at_high);
+    if (high == 0.0 || make_dense(run, p, step))
+        return 0;
+    *now = (Candidate){k, begin_of(run, step, k), end_of(run, step, k), 0.0};
+    if (high < 1.0)
+        now->high = place_at(run, step, high, k, p);
+    if (watched_as[k] >= 0 && step->from[watched_as[k]] > 0.0) {
+        const Place from = place_at(run, step, step->from[watched_as[k]], k, p);
+        if (from.f >= 0.0)
+            now->low = from;
+    }
+    for (int j = 1; j < 4 && !(now->low.f >= 0.0); j++) { /* begun on the wrong side: does it come back first? */
+        const Place part = place_at(run, step, 0.25 * j * high, k, p);
+        if (part.f >= 0.0)
+            now->low = part;
+    }
+    now->about = now->low.f >= 0.0 ? about_where(step, k, now->low, now->high) : 0.0;
+    return 1;
+}
+
 /* The first share of the step at which one of the margins that count ends it, and which (-1: nothing, share 1). */
 static double first_counting(Run *run, Step *step, const Parameters *p, int *event)
 {
     double first = 1.0, least[AT_LEAST_ONE(N_MARGINS)];
+    Candidate some[AT_LEAST_ONE(N_MARGINS)];
+    int n = 0;
     *event = -1;
     margins_of(&run->memory, &step->aside, least);
     for (int i = 0; i < step->n_seen; i++)
@@ -126,28 +157,22 @@ static double first_counting(Run *run, Step *step, const Parameters *p, int *eve
             least[k] = step->seen[i][k] < least[k] ? step->seen[i][k] : least[k];
     for (int k = 0; k < N_MARGINS; k++) {
         const int quiet = k >= N_CLEARANCES && watched_as[k] < 0 && !(least[k] < 0.0);
-        if (quiet || is_passed(run, step, k))
+        Candidate now;
+        int i = n;
+        if (quiet || is_passed(run, step, k) || !is_candidate(run, step, k, p, &now))
             continue;
-        double at_high, at_low = margin(&run->memory, &run->aside, k), low = 0.0;
-        double high = violated(run, step, k, p, &at_high);
-        if (high == 0.0 || make_dense(run, p, step))
-            continue;
-        if (watched_as[k] >= 0 && step->from[watched_as[k]] > 0.0) {
-            const double from = step->from[watched_as[k]], now = margin_at(run, step, from, k, p);
-            if (now >= 0.0)
-                low = from, at_low = now;
-        }
-        if (*event >= 0 && high > first && margin_at(run, step, first, k, p) >= 0.0)
+        for (n++; i > 0 && some[i - 1].about > now.about; i--)
+            some[i] = some[i - 1];
+        some[i] = now;
+    }
+    for (int i = 0; i < n; i++) {
+        const Candidate *now = &some[i];
+        if (*event >= 0 && now->high.s > first && margin_at(run, step, first, now->k, p) >= 0.0)
             continue; /* later than what was found */
-        for (int j = 1; j < 4 && !(at_low >= 0.0); j++) { /* begun on the wrong side: does it come back first? */
-            const double s = 0.25 * j * high, now = margin_at(run, step, s, k, p);
-            if (now >= 0.0)
-                low = s, at_low = now;
-        }
-        const double s = at_low >= 0.0 ? root(run, step, k, low, at_low, high, at_high, p) : 0.0;
+        const double s = now->low.f >= 0.0 ? root(run, step, now->k, now->low, now->high, p) : 0.0;
         if (*event < 0 || s < first) {
             first = s;
-            *event = k;
+            *event = now->k;
         }
     }
     return *event < 0 ? first : earlier_event(run, step, first, p, event);

@@ -1,7 +1,7 @@
 /*
  * Where along a step a margin crosses zero: the step's interpolant, its roots, and dips that touch zero in between.
  */
-enum { ROOT_STEPS = 100, LOOKS = 16 };
+enum { QUICK = 6, LOOKS = 16 }; /* looks by which a zero is found as a rule; evenly along a step */
 #define SHALLOW 1e-13 /* m, or 1e-10 of the depth that ends the model: a graze without a force worth the name */
 
 /* How far below zero margin k lies without a meaning: m of a joint with play. */
@@ -40,36 +40,99 @@ static int state_at(Run *run, const Step *step, double s, const Parameters *p, d
     return rates(run, t, y, p, dy, aside);
 }
 
-static double margin_at(Run *run, const Step *step, double s, int k, const Parameters *p)
+/* By how much margin k grows per share of the step; NAN where a right-hand side does not tell. */
+static double margin_slope(const Run *run, const Step *step, const Aside *aside, int k)
+{
+    if (k >= N_CLEARANCES || (run->memory.latch[k].closed && !gives(k)))
+        return NAN;
+    return (run->memory.latch[k].closed ? step->h : -step->h) * aside->clearance[k].deltadot;
+}
+
+/* Where in run->looked all margins at share s are, looked at if they have not been; -1: it has none. */
+static int look_in(Run *run, const Step *step, double s, int k, const Parameters *p)
 {
     Looked *looked = &run->looked;
     double y[N_Y], dy[N_Y];
     Aside aside;
     for (int i = looked->n; i > 0 && i > looked->n - N_LOOKED; i--)
         if (looked->share[(i - 1) % N_LOOKED] == s)
-            return looked->margin[(i - 1) % N_LOOKED][k];
+            return (i - 1) % N_LOOKED;
     if (state_at(run, step, s, p, y, dy, &aside))
-        return NAN;
+        return -1;
     const int slot = looked->n++ % N_LOOKED;
     looked->share[slot] = s;
     margins_of(&run->memory, &aside, looked->margin[slot]);
+    for (int i = 0; i < N_CLEARANCES; i++)
+        looked->slope[slot][i] = margin_slope(run, step, &aside, i);
     if (looked->margin[slot][k] < 0.0) {
         looked->beyond = s;
         memcpy(looked->y, y, sizeof y);
         memcpy(looked->dy, dy, sizeof dy);
         looked->aside = aside;
     }
-    return looked->margin[slot][k];
+    return slot;
 }
 
-/* Where the parabola x(f) through three points, or the line through two, meets f = 0. */
-static double inverse_zero(const double *x, const double *f, int n)
+static double margin_at(Run *run, const Step *step, double s, int k, const Parameters *p)
 {
-    const double a = f[0], b = f[1], c = f[2];
-    const double line = x[0] - a * (x[1] - x[0]) / (b - a);
-    if (n < 3 || a == c || b == c)
+    const int slot = look_in(run, step, s, k, p);
+    return slot < 0 ? NAN : run->looked.margin[slot][k];
+}
+
+/* A margin at share s of a step, and its slope there; NAN where that is not known. */
+typedef struct {
+    double s, f, slope;
+} Place;
+
+static Place place_at(Run *run, const Step *step, double s, int k, const Parameters *p)
+{
+    const int slot = look_in(run, step, s, k, p);
+    if (slot < 0)
+        return (Place){s, NAN, NAN};
+    return (Place){s, run->looked.margin[slot][k], k < N_CLEARANCES ? run->looked.slope[slot][k] : NAN};
+}
+
+/* Where the parabola x(f) through three places, or the line through two, meets f = 0. */
+static double inverse_zero(Place a, Place b, Place c)
+{
+    const double line = a.s - a.f * (b.s - a.s) / (b.f - a.f);
+    if (!isfinite(c.f) || a.f == c.f || b.f == c.f)
         return line;
-    return x[0] * b * c / ((a - b) * (a - c)) + x[1] * a * c / ((b - a) * (b - c)) + x[2] * a * b / ((c - a) * (c - b));
+    return a.s * b.f * c.f / ((a.f - b.f) * (a.f - c.f)) + b.s * a.f * c.f / ((b.f - a.f) * (b.f - c.f))
+        + c.s * a.f * b.f / ((c.f - a.f) * (c.f - b.f));
+}
+
+/*
+ * A zero, between a bracket's ends, of the cubic that has their values and slopes and, where that helps, the value of a
+ * third place too: of the polynomial of order 4 then.
+ */
+static double hermite_zero(Place low, Place high, Place third)
+{
+    const double w = high.s - low.s, a = low.f, b = high.f - a, r = w * low.slope, r_end = w * high.slope;
+    const double c = 3.0 * b - 2.0 * r - r_end, d = r + r_end - 2.0 * b, x = (third.s - low.s) / w, v = (1.0 - x) * x;
+    const double e = isfinite(third.f) && v != 0.0 ? (third.f - (a + x * (r + x * (c + x * d)))) / (v * v) : 0.0;
+    double from = 0.0, to = 1.0, u = min_of(0.9, max_of(0.1, -a / b));
+    for (int i = 0; i < 60 && to - from > DBL_EPSILON; i++) {
+        const double back = 1.0 - u, bend = u * back;
+        const double f = a + u * (r + u * (c + u * d)) + e * bend * bend;
+        const double f_u = r + u * (2.0 * c + 3.0 * u * d) + 2.0 * e * bend * (back - u), before = u;
+        if (f >= 0.0)
+            from = u;
+        else
+            to = u;
+        u -= f / f_u;
+        if (!(u > from && u < to))
+            u = 0.5 * (from + to);
+        if (fabs(u - before) < 1e-14)
+            break;
+    }
+    return low.s + w * u;
+}
+
+static double guess_zero(Place low, Place high, Place third)
+{
+    const int known = isfinite(low.f + low.slope + high.f + high.slope);
+    return known ? hermite_zero(low, high, third) : inverse_zero(low, high, third);
 }
 
 /* The share to which a zero is located: 4 ulp of the time, or a tick. */
@@ -78,33 +141,63 @@ static double root_width(const Run *run, const Step *step)
     return max_of(4.0 * DBL_EPSILON * fabs(step->t), run->tick) / step->h;
 }
 
+/* Margin k at both ends of a step. */
+static Place begin_of(const Run *run, const Step *step, int k)
+{
+    return (Place){0.0, margin(&run->memory, &run->aside, k), margin_slope(run, step, &run->aside, k)};
+}
+
+static Place end_of(const Run *run, const Step *step, int k)
+{
+    return (Place){1.0, margin(&run->memory, &step->aside, k), margin_slope(run, step, &step->aside, k)};
+}
+
+/* Of the stages that at which margin k is nearest to zero: it tells only where to look first. */
+static Place stage_between(const Step *step, int k, double low, double high)
+{
+    Place best = {NAN, NAN, NAN};
+    for (int i = 0; i < step->n_seen; i++)
+        if (step->node[i] > low && step->node[i] < high && !(fabs(step->seen[i][k]) >= fabs(best.f)))
+            best = (Place){step->node[i], step->seen[i][k], NAN};
+    return best;
+}
+
+/* About where margin k crosses zero in a bracket of it. */
+static double about_where(const Step *step, int k, Place low, Place high)
+{
+    const double s = guess_zero(low, high, stage_between(step, k, low.s, high.s));
+    return s > low.s && s < high.s ? s : 0.5 * (low.s + high.s);
+}
+
 /*
- * The first share at which margin k is below zero, from a bracket of it: inverse interpolation, a look just across
- * the root once it is known so well, and halving where neither helps.
+ * The first share at which margin k is below zero, from a bracket of it, which looks make as narrow as zeros are told
+ * apart: at the zero of a polynomial through what is known, on the other side of it once that is known so well, and in
+ * the middle where looks do not halve the bracket.
  */
-static double root(Run *run, const Step *step, int k, double low, double at_low, double high, double at_high,
-    const Parameters *p)
+static double root(Run *run, const Step *step, int k, Place low, Place high, const Parameters *p)
 {
     const double close = root_width(run, step);
-    double x[3] = {low, high, 0.0}, f[3] = {at_low, at_high, 0.0};
-    for (int i = 0; i < ROOT_STEPS && high - low > close; i++) {
-        double s = inverse_zero(x, f, i + 2);
-        if (!(s > low && s < high) || i % 12 == 11)
-            s = 0.5 * (low + high);
-        if (s - low < 2.0 * close)
-            s = min_of(low + 0.9 * (high - low), s + 0.75 * close);
-        else if (high - s < 2.0 * close)
-            s = max_of(high - 0.9 * (high - low), s - 0.75 * close);
-        const double now = margin_at(run, step, s, k, p);
-        if (now >= 0.0)
-            low = s;
+    Place third = stage_between(step, k, low.s, high.s);
+    double width = 2.0, before = 2.0;
+    for (int i = 0; high.s - low.s > close; i++) {
+        double s = guess_zero(low, high, third);
+        if (!(s > low.s && s < high.s) || (i >= QUICK && high.s - low.s > 0.5 * before))
+            s = 0.5 * (low.s + high.s);
+        else if (s - low.s < 2.0 * close)
+            s = min_of(low.s + 0.9 * (high.s - low.s), s + 0.75 * close);
+        else if (high.s - s < 2.0 * close)
+            s = max_of(high.s - 0.9 * (high.s - low.s), s - 0.75 * close);
+        if (!(s > low.s && s < high.s))
+            break; /* nothing lies between */
+        before = width;
+        width = high.s - low.s;
+        const Place now = place_at(run, step, s, k, p);
+        if (now.f >= 0.0)
+            third = low, low = now;
         else
-            high = s;
-        x[2] = x[1], f[2] = f[1];
-        x[1] = x[0], f[1] = f[0];
-        x[0] = s, f[0] = now;
+            third = high, high = now;
     }
-    return high;
+    return high.s;
 }
 
 /*
