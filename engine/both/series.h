@@ -1,7 +1,7 @@
 /*
  * Coefficients of the Taylor series of a motion. At each order the sums over lower orders of all products are made
  * first, for they need nothing of each other; what is left of an order is linear (the scene's own functions). Of one
- * run a SeriesRow is so many products side by side as a register holds, and the scene's own functions fill a SeriesWide;
+ * run a SeriesRow is so many products as a register holds, and the scene's own functions fill a SeriesWide;
  * in lanes both are one product of so many runs.
  */
 #define SERIES_APART __attribute__((noinline)) /* where a thread's own memory lies is found once, not at each order */

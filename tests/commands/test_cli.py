@@ -18,6 +18,7 @@ from gudgeon.commands.check import check_file
 from gudgeon.commands.emit import emit_c
 from gudgeon.commands.equations import write_equations
 from gudgeon.commands.studies import Request, load_scenes
+from gudgeon.language.deprecations import STRESS
 from gudgeon.studies import map as maps
 from gudgeon.studies import stress
 from tests.programs import needs_compiler
@@ -176,12 +177,12 @@ def test_version_and_help(call: Gudgeon) -> None:
 
 
 def test_stress_is_another_name_of_map(call: Gudgeon, pump: str) -> None:
-    """Listed once, and the same: what it was called before."""
+    """Listed once, and the same but for a word on its end: what it was called before."""
     shown = call("--help").stdout
     assert " map " in shown and "stress" not in shown
     assert call("stress", "--help").stdout.splitlines()[4:] == call("map", "--help").stdout.splitlines()[4:]
     told = [call(name, pump, "--range", "c=1mm..2mm") for name in ("map", "stress")]
-    assert told[0].stderr == told[1].stderr and [done.exit_code for done in told] == [2, 2]
+    assert told[1].stderr == f"warning: {STRESS}\n{told[0].stderr}" and [done.exit_code for done in told] == [2, 2]
     assert (stress.stress, stress.stress_box) == (maps.verdict_map, maps.verdict_box)
 
 
