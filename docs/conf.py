@@ -37,15 +37,26 @@ def beyond(app, docname, source):  # type: ignore[no-untyped-def]
     source[0] = re.sub(r"(?<!!)\[([^\]]+)\]\(\.\./[^)]*\)", r"\1", source[0])
 
 
+def of_benchmarks(app, docname, source):  # type: ignore[no-untyped-def]
+    """The page of benchmarks is that of their folder, its links from here."""
+    if docname == "benchmarks":
+        text = (Path(__file__).parents[1] / "benchmarks/README.md").read_text("utf-8").partition("\n")[2]
+        text = text.replace("](figures/", "](../benchmarks/figures/").replace("](../docs/", "](")
+        text = re.sub(r"(?<!!)\[([^\]]+)\]\([\w-]+/[^)]*\)", r"\1", text)  # what is no page of the site
+        source[0] = source[0].partition("\n")[0] + "\n" + text
+
+
 WRITES = re.compile(r"^```sh\ngudgeon (equations .* -o (\w+\.html))\n```$", re.MULTILINE)
 RUNNING = r'\g<0>\n\n<p><a href="gallery/\g<2>">The page that it writes, on which this linkage runs</a></p>'
 
 
 def running(app, config):  # type: ignore[no-untyped-def]
-    """The gallery's pages, as its commands write them: `html_extra_path` takes them to the site."""
+    """The gallery's pages, as its commands write them: `html_extra_path` takes them to the site. Not with `-t text`."""
     here = Path(__file__).parent
     folder = here.parent / "build/pages/gallery"
     folder.mkdir(parents=True, exist_ok=True)
+    if app.tags.has("text"):
+        return
     for said, _ in WRITES.findall((here / "gallery.md").read_text("utf-8")):
         line = [sys.executable, "-m", "gudgeon", *said.split()]
         subprocess.run(line, cwd=folder, check=True, stdout=subprocess.DEVNULL)
@@ -61,5 +72,6 @@ def setup(app):  # type: ignore[no-untyped-def]
     """What is done at which moment."""
     app.connect("config-inited", running)  # before Sphinx looks whether the folder is there
     app.connect("source-read", linked)
+    app.connect("source-read", of_benchmarks)
     app.connect("autodoc-process-docstring", as_text)
     app.connect("source-read", beyond)
