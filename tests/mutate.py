@@ -1,4 +1,4 @@
-"""Mutants of the equations, the laws, the reduction and the methods' numbers: do the tests that belong to them notice?
+"""Mutants of equations, laws, reduction, methods' numbers, starts and results: do the tests that belong to them notice?
 
     python -m tests.mutate [--count 40] [--seed 1] [--group constraints ...] [--only 3 17] [--processes 2]
 
@@ -69,6 +69,18 @@ GROUPS = {
     "methods": (
         ("engine/both/dop853.h", "engine/both/rodas5p.h", "engine/both/radau.h", "engine/methods/rodas5p.c"),
         _tests("integrators", "tables", "radau", "methods"),
+    ),
+    "starts": (
+        ("runtime/assembly/closure.py", "runtime/assembly/followed.py", "runtime/assembly/mobility.py",
+         "runtime/assembly/journals.py", "runtime/assembly/redundant_rows.py"),
+        (*_tests("assembly", "start", "journals", "assemblies", "far_starts", "large"),
+         *_tests("simulation", "many_starts", "massless", "restart")),
+    ),
+    "results": (
+        ("runtime/results/series.py", "runtime/results/peaks.py", "runtime/results/wear.py",
+         "runtime/results/motion.py", "runtime/results/at_events.py", "runtime/model/arrays.py"),
+        (*_tests("results", "results", "reactions", "at_events", "motion", "batch_series", "drift"),
+         *_tests("model", "arrays", "array_forms"), *_tests("simulation", "peaks", "wear", "wear_loop")),
     ),
 }  # fmt: skip
 SWAPS = {"+": "-", "-": "+", "*": "/", "/": "*", "<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "==",
