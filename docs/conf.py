@@ -27,9 +27,16 @@ nitpicky = False
 suppress_warnings = ["docutils"]  # our docstrings are text, not reStructuredText: what looks like markup is none
 
 
+ARGUMENT = re.compile(r"(``)?[a-z_\\]+(``)?(, (``)?[a-z_\\]+(``)?)*( \([^)]*\))?: \S")
+
+
 def as_text(app, what, name, obj, options, lines):  # type: ignore[no-untyped-def]
-    """Docstrings are plain: stars, bars and backticks in them stand for themselves, lists and indents stay."""
-    lines[:] = [re.sub(r"([*|\\_])", r"\\\1", line).replace("`", "``") for line in lines]
+    """Docstrings are plain: stars, bars and backticks in them stand for themselves, lists and indents stay.
+
+    A line that begins with an argument's name and a colon is a paragraph of its own.
+    """
+    plain = [re.sub(r"([*|\\_])", r"\\\1", line).replace("`", "``") for line in lines]
+    lines[:] = [part for line in plain for part in (["", line] if ARGUMENT.match(line) else [line])]
 
 
 def beyond(app, docname, source):  # type: ignore[no-untyped-def]
