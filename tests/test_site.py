@@ -10,8 +10,9 @@ ROOT = Path(__file__).parents[1]
 
 
 def test_the_site_is_built_without_a_warning(tmp_path: Path) -> None:
-    line = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", "-t", "text", "-d", tmp_path / "kept"]
-    done = subprocess.run([*line, "-b", "html", ROOT / "docs", tmp_path], capture_output=True, text=True, check=False)
+    line = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", "-t", "text", "-b", "html"]
+    line += map(str, ("-d", tmp_path / "kept", ROOT / "docs", tmp_path))
+    done = subprocess.run(line, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     pages = {path.relative_to(ROOT / "docs").with_suffix(".html") for path in (ROOT / "docs").rglob("*.md")}
     assert all((tmp_path / page).is_file() for page in pages)
