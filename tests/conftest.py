@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis.internal.conjecture import providers
 from typer.testing import CliRunner
 
 from gudgeon.cli import app
@@ -34,6 +35,11 @@ from tests.pump import TEXT, Gudgeon
 # A shell's background jobs ignore Ctrl-C, and so would tests of it and the programs that they start.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+# Hypothesis draws, beside its own, constants of the modules that are loaded: what a test sees would depend on which
+# tests the same process ran before it.
+assert callable(providers._get_local_constants)
+providers._get_local_constants = providers.Constants  # an empty set of them
 
 quick.install()
 os.environ["GUDGEON_QUICK"] = "0"  # nothing is compiled behind a test, or behind programs that it starts

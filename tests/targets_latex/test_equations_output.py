@@ -20,7 +20,7 @@ from gudgeon.generator.pipeline import derive
 from gudgeon.generator.targets.latex import equations_html, equations_tex, equations_text, pictures, plots
 from gudgeon.generator.targets.latex.letters import letter, of_latex, word
 from gudgeon.generator.targets.latex.notation import make_notation
-from gudgeon.generator.targets.latex.tex_text import sketch_line, tex
+from gudgeon.generator.targets.latex.tex_text import _MATH, _SPECIAL, sketch_line, tex
 from tests.targets_latex.equations_reader import sections, width
 from tests.targets_latex.test_equations import SLIDER, WITH_ROWS, model_of
 
@@ -28,8 +28,8 @@ SHIPPED = resources.files("gudgeon.mechanisms")
 HOSTILE = r"\input{/etc/passwd} $x$ 100% {#1} a_b^c & ~ <script>alert('1')</script> <!-- \end{document}"
 # What may stand in escaped LaTeX: plain characters, escaped signs, commands without arguments, accents, short formulas.
 SAFE = re.compile(
-    r"(?:[A-Za-z0-9 .,;:!?'`()*+/=@\[\]~-]|\\[{}$&#%_]|\\(?:text[a-z]+|ss|o|O|ae|AE|oe|l|L|i)\{\}"
-    r"|\\[`'^~=.\"a-zA-Z]\{(?:[A-Za-z]|\\i\{\})\}|\$(?:\\[A-Za-z]+|[-{}^0-9]|\{|\})+\$)*"
+    r"(?:[A-Za-z0-9 .,;:!?'`()*+/=@\[\]~-]|\\[{}$&#%_]|\\(?:text[a-z]+|ldots|ss|o|O|ae|AE|oe|l|L|i)\{\}"
+    r"|\\rule\{1ex\}\{1ex\}|\\[`'^~=.\"a-zA-Z]\{(?:[A-Za-z]|\\i\{\})\}|\$(?:\\[A-Za-z]+|[-{}^0-9]|\{|\})+\$)*"
 )
 
 
@@ -55,6 +55,13 @@ def test_a_hostile_title_is_only_text() -> None:
 def test_any_text_becomes_harmless_latex(text: str) -> None:
     assert SAFE.fullmatch(tex(text)), tex(text)
     assert tex(text).isascii() and sketch_line(text).isascii()
+
+
+@pytest.mark.parametrize("sign", [*_SPECIAL, *_MATH])
+def test_every_sign_with_a_command_of_its_own(sign: str) -> None:
+    """Random text meets few of them."""
+    assert SAFE.fullmatch(tex(sign)), tex(sign)
+    assert tex(sign) and tex(sign).isascii() and tex(f"a{sign}b") == f"a{tex(sign)}b"
 
 
 @given(st.text(alphabet=st.characters(min_codepoint=32, max_codepoint=126), max_size=40))
