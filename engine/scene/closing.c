@@ -10,8 +10,8 @@
 static const int apart_row[] = {0};
 #endif
 
-#define HELD 1e-6      /* below this norm a factor serves the next steps too, as long as they close a tenth */
-#define ROUNDING 1e-14 /* of the norm, times how far from the origin the linkage is: no step helps */
+#define HELD_FROM 1e-6 /* below this norm a factor serves the next steps too, as long as they close a tenth */
+#define NO_MORE 1e-14   /* of the norm, times how far from the origin the linkage is: no step helps */
 
 enum {
     N_START_ROWS = N_ALL_ROWS + (N_SET > N_RATES ? N_SET : N_RATES),
@@ -304,7 +304,7 @@ static double distance(const Closing *w, const double *q)
 }
 
 /* Whether so much of the rows is none but rounding. */
-static int rows_closed(const Closing *w, double norm) { return norm < 1e-10 + ROUNDING * w->reach / w->size; }
+static int rows_closed(const Closing *w, double norm) { return norm < 1e-10 + NO_MORE * w->reach / w->size; }
 
 /*
  * Whether what Newton's steps lead to is no nearer to the guess than what is known: the last one left a small share of
@@ -347,7 +347,7 @@ static int close_rows(Closing *w, double t, const Parameters *p, double *q)
                 break;
         }
         if (!(share > (held ? 0.5 : 1e-4))) {
-            if (!held || norm < ROUNDING * w->reach / w->size)
+            if (!held || norm < NO_MORE * w->reach / w->size)
                 break;
             held = 0;
             continue;
@@ -357,7 +357,7 @@ static int close_rows(Closing *w, double t, const Parameters *p, double *q)
         if (share == 1.0 && is_no_nearer(w, q, left / norm))
             return 1;
         norm = left;
-        held = norm < HELD;
+        held = norm < HELD_FROM;
     }
     return !rows_closed(w, norm);
 }
