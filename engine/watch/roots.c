@@ -1,7 +1,7 @@
 /*
  * Where along a step a margin crosses zero: the step's interpolant, its roots, and dips that touch zero in between.
  */
-enum { QUICK = 6, LOOKS = 16 }; /* looks by which a zero is found as a rule; evenly along a step */
+enum { QUICK = 6, LOOKS = 8 }; /* looks by which a zero is found as a rule; evenly along a step */
 #define SHALLOW 1e-13 /* m, or 1e-10 of the depth that ends the model: a graze without a force worth the name */
 
 /* How far below zero margin k lies without a meaning: m of a joint with play. */
