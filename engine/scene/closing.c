@@ -11,7 +11,7 @@ static const int apart_row[] = {0};
 #endif
 
 #define HELD_FROM 1e-6 /* below this norm a factor serves the next steps too, as long as they close a tenth */
-#define NO_MORE 1e-14   /* of the norm, times how far from the origin the linkage is: no step helps */
+#define NO_MORE 1e-14   /* of the norm, times how far from the origin the linkage is: rounding, mostly */
 
 enum {
     N_START_ROWS = N_ALL_ROWS + (N_SET > N_RATES ? N_SET : N_RATES),
@@ -321,6 +321,7 @@ static int is_no_nearer(const Closing *w, const double *q, double share_left)
 /* Newton with line search, positions put in first; ends where no step helps any more, or leads to nothing nearer. */
 static int close_rows(Closing *w, double t, const Parameters *p, double *q)
 {
+    const double rounding = NO_MORE * w->reach / w->size;
     double other[N_Q];
     int held = 0; /* factor and rows are those of a place before */
     if (!w->all.n)
@@ -343,11 +344,11 @@ static int close_rows(Closing *w, double t, const Parameters *p, double *q)
             for (int k = 0; k < N_Q; k++)
                 other[k] = q[k] + share * (w->step[k] * w->over_weight[k]);
             left = open_rows(w, t, other, p);
-            if (left < (held ? 0.1 : 1.0 - 1e-4 * share) * norm)
+            if (left < (1.0 - 1e-4 * share) * norm)
                 break;
         }
         if (!(share > (held ? 0.5 : 1e-4))) {
-            if (!held || norm < NO_MORE * w->reach / w->size)
+            if (!held || norm < rounding)
                 break;
             held = 0;
             continue;
@@ -356,8 +357,8 @@ static int close_rows(Closing *w, double t, const Parameters *p, double *q)
             q[k] = other[k];
         if (share == 1.0 && is_no_nearer(w, q, left / norm))
             return 1;
+        held = left < HELD_FROM && (left < 0.1 * norm || left < rounding);
         norm = left;
-        held = norm < HELD_FROM;
     }
     return !rows_closed(w, norm);
 }

@@ -248,22 +248,23 @@ class Closure:
     def newton(self, q: Array) -> Array:
         """Newton with line search, positions put in first; as far as it gets."""
         q = q + self._step(q, self._scaled(q), ~self.is_angle)
-        at, held = q, False  # where the rows are linearized
+        at, held, rounding = q, False, ROUNDING * self.reach / self.size  # at: where the rows are linearized
         open_by = self._scaled(q)
         for _ in range(MAX_STEPS):
             step, share, norm = self._step(at, open_by), 1.0, float(np.linalg.norm(open_by))
             while share > (0.5 if held else 1e-4):
                 after = self._scaled(q + share * step)
-                if float(np.linalg.norm(after)) < (0.1 if held else 1.0 - 1e-4 * share) * norm:
+                if float(np.linalg.norm(after)) < (1.0 - 1e-4 * share) * norm:
                     break
                 share *= 0.5
             else:
-                if not held or norm < ROUNDING * self.reach / self.size:
+                if not held or norm < rounding:
                     break
                 at, held = q, False
                 continue
             q, open_by = q + share * step, after
-            held = float(np.linalg.norm(open_by)) < HELD
+            left = float(np.linalg.norm(open_by))
+            held = left < HELD and (left < 0.1 * norm or left < rounding)
             at = at if held else q
         return q
 
