@@ -100,7 +100,7 @@ static void close_state(Run *run, double t, double *y, const Parameters *p)
 }
 
 /* A drive whose rate jumps moves the linkage by an impulse; its work is counted. */
-static void pass_impulse(Run *run, const Parameters *p)
+static inline void pass_impulse(Run *run, const Parameters *p)
 {
     const double before = kinetic_energy(run, p);
     project_rows(run, run->t, run->y, p);

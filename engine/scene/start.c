@@ -35,8 +35,10 @@ static void begin_start(Closing *w, const Parameters *p)
         w->weight[guess_place[i]] = guess_place[i] % 3 == 2 ? 1.0 : 1.0 / w->size;
     for (int k = 0; k < N_Q; k++)
         w->over_weight[k] = 1.0 / w->weight[k];
-    for (int r = 0; r < N_ALL_ROWS + N_SET; r++)
-        w->over_row[r] = 1.0 / ((r < N_ALL_ROWS ? row_is_length[r] : set_place[r - N_ALL_ROWS] % 3 != 2) ? w->size : 1.0);
+    for (int r = 0; r < N_ALL_ROWS + N_SET; r++) {
+        const int is_length = r < N_ALL_ROWS ? row_is_length[r] : set_place[r - N_ALL_ROWS] % 3 != 2;
+        w->over_row[r] = is_length ? 1.0 / w->size : 1.0;
+    }
     w->nearest = INFINITY;
 }
 

@@ -145,7 +145,10 @@ class Closure:
         for mirrored in (found, beyond):
             mirrored[self.set_index] = self.set
             other = self.newton(self.place_angles(mirrored))
-            if self._counts(other) and self.distance(other := self.unwound(other)) < (1 - NEARER) * self.distance(first):
+            if not self._counts(other):
+                continue
+            other = self.unwound(other)
+            if self.distance(other) < (1.0 - NEARER) * self.distance(first):
                 first = other
         return first
 
