@@ -1,6 +1,6 @@
 /*
- * Steps that close linearized rows: the shortest one, by the normal matrix of rows that meet a few coordinates each, and
- * the one that leaves the least. Where anything is not 0 is known from Phi_q's entries.
+ * Steps that close linearized rows: the shortest one, by the normal matrix of rows that meet a few coordinates
+ * each, and the one that leaves the least. Where anything is not 0 is known from the entries of Phi_q.
  */
 #include "../run/asked.h"
 #include "calls.h"
