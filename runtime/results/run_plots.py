@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import io
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.errors import BadValueError, UnknownNameError
@@ -42,6 +44,7 @@ if TYPE_CHECKING:
 
 LEGEND = 1.2  # inches for a legend beside a drawing
 SERIES = "the name of a series, or a list of such names"
+_OF_A_PAGE = ContextVar("of_a_page", default=False)
 
 
 class Plot:
@@ -249,9 +252,19 @@ class ShownAxes(Axes):
         return shown() if shown is not None else None
 
 
+@contextmanager
+def of_a_page() -> Iterator[None]:
+    """Figures that are made in here are nobody's else: neither a window nor a notebook's cell shows them."""
+    token = _OF_A_PAGE.set(True)
+    try:
+        yield
+    finally:
+        _OF_A_PAGE.reset(token)
+
+
 def _figure(width: float, height: float) -> Figure:
     """A new figure: pyplot's, if the caller has imported it, so that plt.show() shows it."""
-    if (pyplot := sys.modules.get("matplotlib.pyplot")) is not None:
+    if (pyplot := sys.modules.get("matplotlib.pyplot")) is not None and not _OF_A_PAGE.get():
         made: Figure = pyplot.figure(figsize=(width, height), layout="constrained", FigureClass=ShownFigure)
         return made
     return ShownFigure(figsize=(width, height), layout="constrained")

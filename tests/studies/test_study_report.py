@@ -67,7 +67,11 @@ def check(page: str) -> list[ElementTree.Element]:
 def test_a_page_has_the_studys_numbers(folder: Path, page: str) -> None:
     study = gudgeon.load_study(folder)
     assert study.failed == 10 and "30 runs (k 2 × bodies.load.mass 3 × start 5), 10 failed" in page
+    from matplotlib import pyplot
+
+    kept = pyplot.get_fignums()
     assert page == gudgeon.load_study(folder).report().to_html()  # the same bytes, without a date
+    assert pyplot.get_fignums() == kept  # a page's figures are shown nowhere else
     q1, middle, q3 = np.quantile(study.dataset["fast"].values[1, 0], (0.25, 0.5, 0.75))
     assert f"<td>{middle:.4g} ({q1:.4g} … {q3:.4g})</td>" in page
     assert "<td>10</td>" in page and "k = 100 kg/s²" in page  # of what, and the first of them

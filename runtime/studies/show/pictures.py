@@ -108,8 +108,11 @@ def _draw_all(end: Connection, wanted: list[tuple[str, Callable[[], Any]]]) -> N
 
 def _drawn(name: str, draw: Callable[[], Axes]) -> str:
     """A picture; one that cannot be drawn is told."""
+    from gudgeon.results.run_plots import of_a_page
+
     try:
-        return _svg(draw(), name)
+        with of_a_page():
+            return _svg(draw(), name)
     except (GudgeonError, ValueError, ArithmeticError) as error:
         return lines([f"not drawn: {error}"], "g-quiet")
 
