@@ -1,0 +1,131 @@
+"""This checkout beside an earlier commit, in turns: cold starts and batches. Ratios hold on any machine.
+
+    python -m benchmarks.since COMMIT [--repeats 3]
+
+The commit is checked out and installed in a folder of its own. A cold start is a process with an empty cache and an
+edited copy of the file, from its begin to its first result, wall; a batch is processor time of `simulate_many` in one
+thread: dry presses of .05 s, clearances within 1 % and over clearance x speed, lubricated ones of .4 s. The least of
+--repeats is told. Both sides are measured by the same short programs, of calls that both have.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import os
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from time import perf_counter
+
+ROOT = Path(__file__).parents[1]
+COLD = (("four_bar", "ideal"), ("nine_bar_press", "ideal"), ("nine_bar_press", "dry"), ("nine_bar_press", "lubricated"))
+START = """
+import sys, gudgeon
+gudgeon.load(sys.argv[1], scene=sys.argv[2]).simulate(1e-3, output=2)
+print("done", flush=True)
+"""
+BATCHES = {
+    "dry, .05 s, c = .3 mm within 1 %": ("dry", "{'c': drawn}", 0.05),
+    "dry, .05 s, clearance x speed": ("dry", "{'c': c, 'omega': omega}", 0.05),
+    "lubricated, .4 s, c = .3 mm within 1 %": ("lubricated", "{'c': drawn[:1000]}", 0.4),
+}
+BATCH = """
+import sys
+from time import process_time
+import numpy as np, gudgeon
+drawn = 3e-4 * np.random.default_rng(0).uniform(0.99, 1.01, 4000)
+c, omega = (x.ravel() for x in np.meshgrid(np.linspace(0.3e-3, 0.8e-3, 50), np.pi * np.linspace(1.0, 8.0, 80)))
+columns = {columns}
+simulation = gudgeon.load("nine_bar_press", scene="{scene}")
+given = {{"l5": 0.25, "gravity.y": 0.0, "omega": 2.0 * np.pi, **columns}}
+for _ in range(2):  # what has to be compiled is, in the first
+    before = process_time()
+    simulation.simulate_many(given, {t_end}, output=2, rtol=1e-4, threads=1)
+    took = process_time() - before
+print(1e3 * took / len(columns["c"]))
+"""
+
+
+@contextmanager
+def checked_out(commit: str) -> Iterator[Path]:
+    """The commit, installed, in a folder that goes again."""
+    with tempfile.TemporaryDirectory() as folder:
+        place = Path(folder) / "gudgeon"
+        subprocess.run(["git", "worktree", "add", "--quiet", "--detach", str(place), commit], cwd=ROOT, check=True)
+        try:
+            subprocess.run(["sh", "tools/setup", "all,test"], cwd=place, check=True, stdout=subprocess.DEVNULL)
+            yield place
+        finally:
+            subprocess.run(["git", "worktree", "remove", "--force", str(place)], cwd=ROOT, check=True)
+
+
+def around(cache: str) -> Mapping[str, str]:
+    """The environment of a measured process."""
+    kept = {k: v for k, v in os.environ.items() if k not in ("PYTHONDONTWRITEBYTECODE", "PYTHONPATH", "GUDGEON_CACHE")}
+    return {**kept, "GUDGEON_CACHE": cache}
+
+
+def cold(place: Path, name: str, scene: str) -> float:
+    """From the start of a process to its first result, s."""
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        file = Path(folder) / f"{name}.yaml"
+        file.write_text((place / "mechanisms" / f"{name}.yaml").read_text(encoding="utf-8") + "\n# edited\n", "utf-8")
+        begin = perf_counter()
+        with subprocess.Popen(
+            [str(place / ".venv/bin/python"), "-c", START, str(file), scene], env=around(f"{folder}/cache"), cwd=place,
+            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+        ) as process:  # fmt: skip
+            told = process.stdout.readline() if process.stdout else ""
+            took = perf_counter() - begin
+        if told != "done\n":
+            raise SystemExit(f"{name}, {scene}: no result in {place}")
+        return took
+
+
+def batch(place: Path, scene: str, columns: str, t_end: float, cache: str) -> float:
+    """Processor time of a run, ms."""
+    program = BATCH.format(scene=scene, columns=columns, t_end=t_end)
+    done = subprocess.run(
+        [str(place / ".venv/bin/python"), "-c", program], env=around(cache), cwd=place, check=True, capture_output=True,
+        text=True,
+    )  # fmt: skip
+    return float(done.stdout)
+
+
+def main() -> None:
+    """Command line."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("commit")
+    parser.add_argument("--repeats", type=int, default=3)
+    options = parser.parse_args()
+    shutil.which("git") or parser.error("git is not installed")
+    with checked_out(options.commit) as before, tempfile.TemporaryDirectory() as caches:
+        places = {"before": before, "now": ROOT}
+        print(f"  {'':<44}{'before':>9}{'now':>9}{'ratio':>9}")
+        for name, scene in COLD:
+            least = dict.fromkeys(places, math.inf)
+            for k in range(options.repeats + 1):  # the first leaves Python's compiled modules behind
+                for side, place in places.items():
+                    took = cold(place, name, scene)
+                    least[side] = min(least[side], took) if k else math.inf
+            told(f"cold start, {name}, {scene}, s", least)
+        for title, (scene, columns, t_end) in BATCHES.items():
+            least = dict.fromkeys(places, math.inf)
+            for _ in range(options.repeats):
+                for side, place in places.items():
+                    least[side] = min(least[side], batch(place, scene, columns, t_end, f"{caches}/{side}"))
+            told(f"{title}, ms", least)
+
+
+def told(title: str, least: Mapping[str, float]) -> None:
+    """A line of the table."""
+    ratio = least["now"] / least["before"]
+    print(f"  {title:<44}{least['before']:9.3f}{least['now']:9.3f}{ratio:9.2f}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
