@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 
 import numpy as np
 
@@ -32,6 +32,12 @@ class Subject:
     def n(self) -> int:
         return self.library.n
 
+    @cached_property
+    def eccentricity(self) -> Callable[..., np.ndarray]:
+        """That of the first joint with play, and its rate, as a function of (t, q, v)."""
+        joint = self.model.clearances[0]
+        return self.exact.function((*joint.eccentricity, *joint.eccentricity_rate))
+
     def compare(self, t: float, y: np.ndarray, memory: np.ndarray, tolerance: float = 1e-10) -> np.ndarray:
         """Checks f, J and f_t; gives J."""
         f, works = self.library.rhs(t, y, self.p, memory), slice(2 * self.n, 2 * self.n + 3)
@@ -58,12 +64,19 @@ def assert_columns(got: np.ndarray, want: np.ndarray, n: int, tolerance: float) 
 
 def make(data: bytes, name: str, scene: str, values: Mapping[str, float] | None = None, **options: object) -> Subject:
     """A scene; `values` by slot, `options` change the file itself."""
-    model, library = _derived(data, name, scene, tuple(options.items()))
-    source = library.source
+    return _made(data, name, scene, tuple((values or {}).items()), tuple(options.items()))
+
+
+@cache
+def _made(
+    data: bytes, name: str, scene: str, pairs: tuple[tuple[str, float], ...], options: tuple[tuple[str, object], ...]
+) -> Subject:
+    model, library = _derived(data, name, scene, options)
+    source, values = library.source, dict(pairs)
     given, mask = np.zeros(len(source.slots)), np.zeros(len(source.slots), dtype=bool)
     for k, slot in enumerate(source.slots):
-        if slot.address in (values or {}):
-            given[k], mask[k] = (values or {})[slot.address], True
+        if slot.address in values:
+            given[k], mask[k] = values[slot.address], True
     return Subject(model, library, library.prepare(given, mask), ComplexStep(model, values))
 
 
