@@ -29,7 +29,13 @@ from gudgeon.loading.shipped import committed
 SHIPPED = Path(str(resources.files("gudgeon.mechanisms")))
 VALID = Path(__file__).resolve().parents[1] / "mechanisms" / "valid"
 FILES = {path.stem: path for folder in (VALID, SHIPPED) for path in sorted(folder.glob("*.yaml"))}
-SCENES = [(name, scene) for name, path in FILES.items() for scene in read_mechanism(path.read_bytes(), name).scenes]
+RARE = [("every_kind", "latest"), ("every_kind", "sooner")]
+RARE += [("press_as_designed", scene) for scene in ("ideal", "dry", "fast")]  # not far from others, and large
+SCENES = [
+    (name, scene) if (name, scene) not in RARE else pytest.param(name, scene, marks=pytest.mark.slow)
+    for name, path in FILES.items()
+    for scene in read_mechanism(path.read_bytes(), name).scenes
+]
 
 KERNELS = ("parameters.c", "constraints.c", "clearance.c", "dynamics.c", "reduced.c", "newton.c", "lanes.c")
 # What a reader stumbles over; in every file, or in what is printed from equations.

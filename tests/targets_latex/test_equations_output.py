@@ -22,9 +22,19 @@ from gudgeon.generator.targets.latex.letters import letter, of_latex, word
 from gudgeon.generator.targets.latex.notation import make_notation
 from gudgeon.generator.targets.latex.tex_text import _MATH, _SPECIAL, sketch_line, tex
 from tests.targets_latex.equations_reader import sections, width
-from tests.targets_latex.test_equations import SLIDER, WITH_ROWS, model_of
+from tests.targets_latex.test_equations import RANDOM, RARE, SLIDER, VALID, WITH_ROWS, model_of
 
 SHIPPED = resources.files("gudgeon.mechanisms")
+# the text of the others is read in test_equations.py
+PROSE = [
+    which if which not in (*RARE, "zoo") else pytest.param(which, marks=pytest.mark.slow)
+    for which in ("press ideal", "press dry", "press lubricated", "slider ideal", "slider oiled", "zoo", *RANDOM)
+]
+LARGE = ("nine_bar_press.yaml", "andrews_squeezer.yaml", "n_four_bar.yaml", "car_axis.yaml")
+FILES = [
+    name if name not in LARGE else pytest.param(name, marks=pytest.mark.slow)
+    for name in sorted(p.name for p in SHIPPED.iterdir() if p.name.endswith(".yaml"))
+]
 HOSTILE = r"\input{/etc/passwd} $x$ 100% {#1} a_b^c & ~ <script>alert('1')</script> <!-- \end{document}"
 # What may stand in escaped LaTeX: plain characters, escaped signs, commands without arguments, accents, short formulas.
 SAFE = re.compile(
@@ -39,7 +49,7 @@ def titled(model: Model, title: str) -> Model:
 
 
 def test_a_hostile_title_is_only_text() -> None:
-    model = titled(model_of("press ideal"), HOSTILE)
+    model = titled(model_of("slider ideal"), HOSTILE)
     source = equations_tex(model)
     assert r"\input" not in source and source.count(r"\end{document}") == 1
     (line,) = [line for line in source.splitlines() if line.startswith(r"{\Large")]
@@ -92,7 +102,7 @@ def test_latex_is_well_formed(which: str) -> None:
     assert not re.search(r"frac\{[^{}]*\}\{1\}", source)  # no integer as a fraction
 
 
-@pytest.mark.parametrize("which", WITH_ROWS)
+@pytest.mark.parametrize("which", PROSE)
 def test_prose_and_equations_stay_within_their_columns(which: str) -> None:
     for line in equations_text(model_of(which)).splitlines():
         if re.match(r" {8}\S|  (?!Φ )\S+ = |\S", line):
@@ -125,11 +135,11 @@ def test_letters() -> None:
 
 def test_the_same_bytes_under_another_hash_seed() -> None:
     code = (
-        "import hashlib, importlib.resources as r\n"
+        "import hashlib, pathlib\n"
         "from gudgeon.generator.pipeline import derive\n"
         "from gudgeon.generator.targets.latex import equations_tex, equations_text\n"
-        "data = r.files('gudgeon.mechanisms').joinpath('nine_bar_press.yaml').read_bytes()\n"
-        "m = derive(data, 'p.yaml', 'lubricated')\n"
+        f"data = pathlib.Path({str(VALID / 'slider_crank.yaml')!r}).read_bytes()\n"
+        "m = derive(data, 's.yaml', 'oiled')\n"
         "print(hashlib.sha256((equations_tex(m) + equations_text(m)).encode()).hexdigest())"
     )
     sums = {
@@ -141,7 +151,9 @@ def test_the_same_bytes_under_another_hash_seed() -> None:
     assert len(sums) == 1
 
 
-@pytest.mark.parametrize("which", ["press lubricated", "zoo"])
+@pytest.mark.parametrize(
+    "which", ["slider oiled", *(pytest.param(which, marks=pytest.mark.slow) for which in ("press lubricated", "zoo"))]
+)
 def test_html_is_self_contained_mathml(which: str) -> None:
     pytest.importorskip("latex2mathml")
     page = equations_html(model_of(which))
@@ -158,7 +170,7 @@ def test_html_tells_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setitem(sys.modules, "latex2mathml.converter", None)
     with pytest.raises(GudgeonError, match=r"gudgeon\[docs\]"):
-        equations_html(model_of("press ideal"))
+        equations_html(model_of("slider ideal"))
 
 
 def test_a_free_body_without_gravity() -> None:
@@ -177,7 +189,7 @@ def test_without_gravity_nothing_of_it_is_shown() -> None:
     assert "g_y" not in text and "9.81" not in text and "No gravity" in text
 
 
-@pytest.mark.parametrize("name", sorted(p.name for p in SHIPPED.iterdir() if p.name.endswith(".yaml")))
+@pytest.mark.parametrize("name", FILES)
 def test_every_shipped_mechanism_and_scene(name: str) -> None:
     data = SHIPPED.joinpath(name).read_bytes()
     first = derive(data, name, "ideal")

@@ -113,7 +113,9 @@ def press_state(seed: int) -> tuple[float, np.ndarray, np.ndarray]:
 @needs_compiler
 @pytest.mark.parametrize(
     ("variant", "scene"),
-    [("as it is", "dry"), *((variant, "lubricated") for variant in VARIANTS),
+    [("as it is", "dry"), ("film's options", "lubricated"), ("dry options", "lubricated"),
+     *(pytest.param(variant, "lubricated", marks=pytest.mark.slow)
+       for variant in ("as it is", "as printed", "no friction")),
      pytest.param("dry options", "dry", marks=pytest.mark.slow)],  # fmt: skip
 )
 def test_what_is_read_is_what_is_computed(variant: str, scene: str) -> None:
@@ -206,9 +208,9 @@ def test_every_law_is_printed(name: str, left_out: bool) -> None:
     place = {"normal": NORMAL, "film": FILM, "mixed": "transition: 5 um"}
     own = f"mixed: {own}" if law.role == "mixed" else own
     text = BOB.replace(place.get(law.role, FRICTION.split(": ", 1)[1].strip()), own)
-    if law.rigid:  # it stands alone
-        for other in (FRICTION, f"    film: {FILM}\n", "    transition: 5 um\n"):
-            text = text.replace(other, "")
+    film, transition = f"    film: {FILM}\n", "    transition: 5 um\n"
+    for other in {"normal": (FRICTION, film, transition), "friction": (film, transition)}.get(law.role, (FRICTION,)):
+        text = text.replace(other, "")  # which it does not need
     model = derive(text.encode(), "bob.yaml", "lubricated")
     written = equations_text(model)
     shown = " ".join(written.split())

@@ -20,6 +20,7 @@ import numpy as np
 import pytest
 
 from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.generator.equations.model import Model
 from gudgeon.generator.pipeline import derive, in_c
 from gudgeon.generator.targets.latex import equations_html
 from gudgeon.generator.targets.latex.trace import Trace, trace, yaml_tokens
@@ -28,21 +29,26 @@ from tests.web.node import browser
 
 FILE = resources.files("gudgeon.mechanisms").joinpath("nine_bar_press.yaml")
 ARRAYS = {"constraints": "phi", "velocity_rhs": "nu", "acceleration_rhs": "gamma_rows", "jacobian": "phi_q"}
-SCENES = ("ideal", "dry", "lubricated")
+SCENES = ("ideal", pytest.param("dry", marks=pytest.mark.slow), "lubricated")  # the last has what "dry" has
 FUNCTIONS: dict[str, Any] = {
     "cos": math.cos, "sin": math.sin, "sqrt": math.sqrt, "PI": math.pi, "fabs": abs, "max_of": max, "min_of": min,
 }  # fmt: skip
 
 
 @cache
+def model_of(scene: str) -> Model:
+    return derive(FILE.read_bytes(), str(FILE), scene)
+
+
+@cache
 def traced(scene: str) -> Trace:
-    return trace(derive(FILE.read_bytes(), str(FILE), scene))
+    return trace(model_of(scene))
 
 
 @cache
 def page(scene: str) -> str:
     pytest.importorskip("latex2mathml")
-    return equations_html(derive(FILE.read_bytes(), str(FILE), scene))
+    return equations_html(model_of(scene))
 
 
 class Numbers(dict[str, float]):
@@ -211,7 +217,7 @@ def carried(text: str) -> dict[str, Any]:
     return found
 
 
-@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize("scene", [pytest.param("ideal", marks=pytest.mark.slow), *SCENES[1:]])
 def test_a_page_is_well_formed_and_every_token_leads_somewhere(scene: str) -> None:
     text = page(scene)
     reader = Reader()
