@@ -12,10 +12,9 @@ import sympy as sp
 import gudgeon
 from gudgeon.errors import SolverError
 from gudgeon.generator.kinds.laws.law import LawInputs, PairSymbols, laws
-from gudgeon.loading.shipped import shipped_file
 from tests.equations.one_law import PAIR, Evaluator
 from tests.equations.subjects import NAN, make
-from tests.kernels.test_jacobian_contacts import journal_at
+from tests.kernels.test_jacobian_contacts import PRESS, journal_at
 from tests.oracles.dry import delivered
 from tests.programs import needs_compiler
 
@@ -86,7 +85,7 @@ def test_slope_by_the_implicit_function_theorem(law: str) -> None:
 @needs_compiler
 @pytest.mark.parametrize("law", sorted(CONSTANT))
 def test_jacobian_of_a_scene(law: str) -> None:
-    text = shipped_file("nine_bar_press").read_bytes().replace(b"lankarani_nikravesh", law.encode())
+    text = PRESS.replace(b"lankarani_nikravesh", law.encode())
     subject = make(text.replace(b", geometry: external", b""), "press", "dry")
     for depth in (1e-4, 0.02, 0.4):
         e = 0.3e-3 * (1.0 + depth)

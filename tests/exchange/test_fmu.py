@@ -79,6 +79,7 @@ def instance(fmu: str, t_end: float = 1.0, tolerance: float | None = None, **num
     slave.freeInstance()
 
 
+LARGE = (("nine_bar_press", "dry"), ("andrews_squeezer", "ideal"))
 CASES: tuple[tuple[str, str, float, dict[str, float]], ...] = (
     ("nine_bar_press", "lubricated", 0.1, {"parameters.c": 5e-4}), ("four_bar", "ideal", 0.5, {}),
     ("four_bar", "ideal", 0.5, {"parameters.omega": 9.0}), ("pendulum", "ideal", 1.0, {"parameters.g": 3.7}),
@@ -87,7 +88,10 @@ CASES: tuple[tuple[str, str, float, dict[str, float]], ...] = (
 )  # fmt: skip
 
 
-@pytest.mark.parametrize(("name", "which", "t_end", "numbers"), CASES)
+@pytest.mark.parametrize(
+    ("name", "which", "t_end", "numbers"),
+    [case if case[:2] not in LARGE else pytest.param(*case, marks=pytest.mark.slow) for case in CASES],
+)
 def test_it_is_valid_and_moves_as_the_native_run(
     name: str, which: str, t_end: float, numbers: dict[str, float], tmp_path: Path
 ) -> None:

@@ -8,7 +8,9 @@ from tests.fuzz.mutate import Mutator, run
 from tests.fuzz.targets import TARGETS, timed
 
 
-@pytest.mark.parametrize(("name", "count"), [("expression", 4000), ("reader", 400)])
+@pytest.mark.parametrize(
+    ("name", "count"), [("expression", 4000), ("reader", 150), pytest.param("reader", 400, marks=pytest.mark.slow)]
+)
 def test_some_inputs(name: str, count: int) -> None:
     target, tokens, seeds = TARGETS[name]
     assert run(lambda data: timed(target, data), seeds(), tokens, count) > 0

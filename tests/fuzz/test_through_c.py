@@ -12,7 +12,7 @@ from gudgeon.generator.symbols.corners import Magnitude, Switches
 from tests.fuzz.through_c import check_syntax, library, try_files
 
 
-@pytest.mark.parametrize("files", [60, pytest.param(300, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("files", [20, *(pytest.param(files, marks=pytest.mark.slow) for files in (60, 300))])
 def test_hundreds_of_files(files: int) -> None:
     """In one formulation each, in turn; some in both, with numbers, and run by every method."""
     tally = try_files(range(files), compared=files // 5, ran=files // 2)

@@ -72,8 +72,6 @@ COMPILED = [
     drive(f"sqrt({T})"),
     drive(f"asin(2 + {T})"),
     drive("smooth_step(" * 2 + T + ", 0.1, 1)" * 2),
-    drive("ramp(" * 3 + T + ", 0.1, 2)" * 3),
-    drive("sin(" * 15 + T + ")" * 15),
     drive(f"abs(sin({T})) + ramp(t, 0, 1 s) + min(t, 2 s) * max(t, 1 s) * 1 1/s * 1 1/s"),
     torque("a.theta * 1e300 * 1e300"),
     torque("(-1 - a.theta**2)**0.5 * log(-abs(a.theta))"),
@@ -81,6 +79,8 @@ COMPILED = [
     torque("abs(sign(a.theta)) * min(a.theta, max(a.theta, -a.theta)) * (a.theta + a.omega * 1 s)**24"),
 ]
 DEEPER = [
+    drive("ramp(" * 3 + T + ", 0.1, 2)" * 3),
+    drive("sin(" * 15 + T + ")" * 15),
     drive("ramp(" * 5 + T + ", 0.1, 2)" * 5),
     drive("sin(" * 40 + T + ")" * 40),
 ]

@@ -291,7 +291,14 @@ GROUPS = (
 )  # fmt: skip
 
 
-@pytest.mark.parametrize("group", GROUPS)
+# what they are sent through is what others of the same scene or the same method are sent through
+RARE = ("pendulum radau5", "pendulum rodas5p", "pendulum rk4", "pendulum scipy:LSODA", "pendulum scipy:BDF",
+        "pendulum-full auto", "crank auto")  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "group", [group if group not in RARE else pytest.param(group, marks=pytest.mark.slow) for group in GROUPS]
+)
 def test_the_same_numbers_give_the_same_bits(group: str) -> None:
     wrong = []
     for argument in arguments(group):

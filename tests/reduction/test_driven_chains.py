@@ -117,7 +117,13 @@ VARIANTS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", VARIANTS)
+RARE = ("as it is", "a cylinder", "a spring within", "friction within: it stays solved",
+        "a rate that jumps: it stays solved")  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "name", [name if name not in RARE else pytest.param(name, marks=pytest.mark.slow) for name in VARIANTS]
+)
 def test_trajectories_reactions_and_drives_of_all_coordinates(name: str, tmp_path: Path) -> None:
     """Both formulations from start to end; drives, joints within the chain, and the balance of energy."""
     changed, chain = VARIANTS[name]
@@ -136,7 +142,8 @@ def test_trajectories_reactions_and_drives_of_all_coordinates(name: str, tmp_pat
 
 
 @pytest.mark.parametrize(("name", "chain"), [
-    ("geared_chain", ("coupler", "rocker", "rod")), ("trammel", ("bar.x", "bar.y")),
+    pytest.param("geared_chain", ("coupler", "rocker", "rod"), marks=pytest.mark.slow),
+    ("trammel", ("bar.x", "bar.y")),
 ])  # fmt: skip
 def test_chains_in_a_row_and_of_lengths(name: str, chain: tuple[str, ...]) -> None:
     """One group drives the next through a gear; positions of a body that no other one places."""
@@ -197,7 +204,7 @@ def with_chain(text: str, seed: int) -> str:
     return text.replace("start: {guess: {", "start: {guess: {" + guess)
 
 
-@pytest.mark.parametrize("seed", [*range(4), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(4, 8))])
+@pytest.mark.parametrize("seed", [0, 3, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (1, 2, 4, 5, 6, 7))])
 def test_random_mechanisms_beside_a_driven_chain(seed: int) -> None:
     """Accelerations, powers and remaining multipliers at the start and at states around it."""
     text = with_chain(to_yaml(random_mechanism(seed)), seed)

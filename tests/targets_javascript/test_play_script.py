@@ -62,7 +62,7 @@ contacts:
 scenes: {slot: {play: {S: {guide: g, contact: c}}}}
 """
 OWN = {"m": PINS, "worn": PINS, "slot": SLOT}
-SCENES = ("dry", "lubricated", *OWN)
+SCENES = (pytest.param("dry", marks=pytest.mark.slow), "lubricated", *OWN)
 ASKED = """
 const live = require(process.argv[2]);
 live.take((() => {%s return gudgeonEquations;})());

@@ -49,7 +49,14 @@ def close(got: np.ndarray, want: np.ndarray, share: float) -> None:
     np.testing.assert_allclose(got, want, rtol=0, atol=share * max(np.abs(want).max(initial=0.0), 1e-300))
 
 
-@pytest.mark.parametrize(("name", "scene"), SCENES)
+LARGE = [("nine_bar_press", "dry"), ("andrews_squeezer", "ideal"), ("andrews_squeezer", "short"),
+         ("n_four_bar", "ideal"), ("car_axis", "ideal")]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("name", "scene"),
+    [case if case not in LARGE else pytest.param(*case, marks=pytest.mark.slow) for case in SCENES],
+)
 def test_shipped_scenes(name: str, scene: str) -> None:
     check(load(name, scene))
 
