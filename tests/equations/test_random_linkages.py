@@ -162,7 +162,7 @@ def test_random_linkage(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_the_random_linkages_have_everything() -> None:
     """Every joint, drive and element, loops and trees, in the part that always runs."""
-    cases = [random_mechanism(seed) for seed in range(ALWAYS)]
+    cases = [random_mechanism(seed) for seed in ALWAYS]
     kinds = {type(part).__name__ for case in cases for part in (*case.linkage.joints, *case.linkage.drives)}
     kinds |= {type(load).__name__ for case in cases for load in case.linkage.loads}
     assert kinds >= {"Revolute", "Translational", "Rigid", "Distance", "PointOnLine", "Gear", "Drive"}
