@@ -49,7 +49,7 @@ def duffing(tmp_path_factory: pytest.TempPathFactory) -> Simulation:
     return on_a_rail(tmp_path_factory.mktemp("duffing"), DUFFING)
 
 
-@pytest.mark.parametrize("by", ["tangent", "twin"])
+@pytest.mark.parametrize("by", [pytest.param("tangent", marks=pytest.mark.slow), "twin"])
 def test_linear_oscillators_to_a_percent(duffing: Simulation, by: str) -> None:
     """On a hill of stiffness −k: √(k/m). In a valley, damped: −d/2m, whatever the phase in which it ends."""
     hill = duffing.lyapunov(10.0, by=by, parameters=LINEAR | {"k": -4.0, "x0": 0.0})
@@ -195,7 +195,7 @@ def test_the_tangent_knows_that_a_contact_remembers_its_onset() -> None:
     np.testing.assert_allclose(found[[1, 4]], expected, rtol=1e-4)
 
 
-@pytest.mark.parametrize("scene", ["elastic", "damped"])
+@pytest.mark.parametrize("scene", [pytest.param("elastic", marks=pytest.mark.slow), "damped"])
 def test_twin_and_tangent_agree_over_impacts(scene: str) -> None:
     twin, tangent = (ball(scene).lyapunov(2.0, by=by) for by in ("twin", "tangent"))
     assert tangent.exponent == pytest.approx(twin.exponent, rel=0.01)
