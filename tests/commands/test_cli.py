@@ -8,21 +8,39 @@ import os
 import re
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 import pytest
 
 import gudgeon
+from gudgeon.commands import check
 from gudgeon.commands.check import check_file
 from gudgeon.commands.emit import emit_c
 from gudgeon.commands.equations import write_equations
 from gudgeon.commands.studies import Request, load_scenes
+from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.language.deprecations import STRESS
 from gudgeon.studies import map as maps
 from gudgeon.studies import stress
 from tests.programs import needs_compiler
 from tests.pump import TEXT, Gudgeon, written
+
+
+@pytest.fixture
+def derived_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """`check -v` derives each time; of the same bytes a test's second one is told of the first one's derivation."""
+    plain, known = check.derived, dict[tuple[bytes, str], tuple[KernelSource, dict[str, float]]]()
+
+    def derived(data: bytes, file: Path, scene: str, seconds: dict[str, float]) -> KernelSource:
+        if (data, scene) not in known:
+            known[data, scene] = plain(data, file, scene, seconds=seconds), seconds
+        seconds |= known[data, scene][1]
+        return known[data, scene][0]
+
+    monkeypatch.setattr(check, "derived", derived)
+
 
 CHECKED = """\
 valid: 3 bodies, 4 joints, 1 drive; scenes ideal, worn; degrees of freedom 0 (ideal), 2 (worn)
@@ -30,6 +48,7 @@ valid: 3 bodies, 4 joints, 1 drive; scenes ideal, worn; degrees of freedom 0 (id
 
 
 @needs_compiler
+@pytest.mark.usefixtures("derived_once")
 def test_check_counts_and_verbose_tells_of_each_scene(call: Gudgeon, pump: str) -> None:
     done = call("check", pump)
     assert (done.exit_code, done.stdout) == (0, CHECKED)
@@ -47,6 +66,7 @@ def test_check_counts_and_verbose_tells_of_each_scene(call: Gudgeon, pump: str) 
 
 
 @needs_compiler
+@pytest.mark.usefixtures("derived_once")
 def test_check_tells_the_story_of_the_reduction(call: Gudgeon) -> None:
     """The press turns round two driven cranks: five angles and one row of the guide are left of 24 and 20."""
     document = call("check", "nine_bar_press", "-v", "--json").stdout
@@ -72,8 +92,20 @@ def test_check_tells_the_story_of_the_reduction(call: Gudgeon) -> None:
 
 
 @needs_compiler
-def test_check_begins_a_new_table_where_a_line_is_full(call: Gudgeon, tmp_path: Path) -> None:
-    """Twelve scenes do not fit beside each other; none is cut off."""
+def test_check_begins_a_new_table_where_a_line_is_full(
+    call: Gudgeon, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Twelve scenes do not fit beside each other; none is cut off. They turn at their own speeds: one is derived."""
+    one, spent = tuple[KernelSource, ...](), dict[str, float]()
+
+    def derived(data: bytes, file: Path, scene: str, seconds: dict[str, float]) -> KernelSource:
+        nonlocal one
+        one = one or (plain(data, file, scene, seconds=spent),)
+        seconds |= spent
+        return replace(one[0], scene=scene)
+
+    plain = check.derived
+    monkeypatch.setattr(check, "derived", derived)
     scenes = [f"scene_number_{k}" for k in range(12)]
     listed = "".join(f"  {name}: {{parameters: {{omega: {k + 1} rad/s}}}}\n" for k, name in enumerate(scenes))
     head, _, tail = TEXT.partition("scenes:\n")

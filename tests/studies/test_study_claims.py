@@ -17,7 +17,7 @@ from ruamel.yaml import YAML
 import gudgeon
 from gudgeon.errors import GudgeonError, InputError, InputErrors
 from gudgeon.generator.study.schema import schema
-from gudgeon.studies.ensemble import judge
+from gudgeon.studies.ensemble import judge, selected
 from gudgeon.studies.ensemble.claimed import Claimed
 from gudgeon.studies.ensemble.judge import Cell, Check, Look, judged, together
 from gudgeon.studies.ensemble.study import plans_of
@@ -351,10 +351,14 @@ def test_a_mistake_is_told_at_its_place(old: str, new: str, place: str, words: s
 
 
 @needs_compiler
-def test_a_claim_compares_no_more_than_can_be_judged() -> None:
-    """Any two of 500 values are 124 750 pairs; the same values one by one are few, a million of them too many."""
+@pytest.mark.parametrize(("some", "most"), [
+    (50, 1000), pytest.param(500, selected.MOST_COMPARED, marks=pytest.mark.slow),
+])  # fmt: skip
+def test_a_claim_compares_no_more_than_can_be_judged(some: int, most: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Any two of 50 values are 1225 pairs, of 500 124 750; the same values one by one are few, a million too many."""
+    monkeypatch.setattr(selected, "MOST_COMPARED", most)
     study: dict[str, Any] = {"mechanism": "pendulum", "measures": {"x": {"final": "bob.x"}}}
-    for count, kind, words in ((500, "alike_along", "more than 100000 pairs"), (500, "grows_along", ""),
+    for count, kind, words in ((some, "alike_along", f"more than {most} pairs"), (some, "grows_along", ""),
                                (10**6, "grows_along", "1000000 values")):  # fmt: skip
         trend = {"says": "?", "measure": "x", kind: "g"} | ({"within": 0.1} if kind == "alike_along" else {})
         row = {"from": 1, "to": 2, "count": count}
