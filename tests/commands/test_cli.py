@@ -8,7 +8,6 @@ import os
 import re
 import sys
 from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -92,20 +91,8 @@ def test_check_tells_the_story_of_the_reduction(call: Gudgeon) -> None:
 
 
 @needs_compiler
-def test_check_begins_a_new_table_where_a_line_is_full(
-    call: Gudgeon, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Twelve scenes do not fit beside each other; none is cut off. They turn at their own speeds: one is derived."""
-    one, spent = tuple[KernelSource, ...](), dict[str, float]()
-
-    def derived(data: bytes, file: Path, scene: str, seconds: dict[str, float]) -> KernelSource:
-        nonlocal one
-        one = one or (plain(data, file, scene, seconds=spent),)
-        seconds |= spent
-        return replace(one[0], scene=scene)
-
-    plain = check.derived
-    monkeypatch.setattr(check, "derived", derived)
+def test_check_begins_a_new_table_where_a_line_is_full(call: Gudgeon, tmp_path: Path) -> None:
+    """Twelve scenes do not fit beside each other; none is cut off."""
     scenes = [f"scene_number_{k}" for k in range(12)]
     listed = "".join(f"  {name}: {{parameters: {{omega: {k + 1} rad/s}}}}\n" for k, name in enumerate(scenes))
     head, _, tail = TEXT.partition("scenes:\n")
