@@ -188,7 +188,7 @@ def test_a_corner_bounces_off_its_wall_by_newtons_law(folder: Path, formulation:
     assert run["energy.kinetic"][0] - run["energy.kinetic"][1] == pytest.approx(lost, rel=1e-8)
 
 
-@pytest.mark.parametrize("formulation", ["reduced", "full"])
+@pytest.mark.parametrize("formulation", ["reduced", pytest.param("full", marks=pytest.mark.slow)])
 def test_friction_stops_a_block_behind_its_closed_form_way(folder: Path, formulation: str) -> None:
     """(v² − v₁²)/(2 μ g), the loads of both corners in balance with friction below the centre of mass."""
     given = {"parameters.lift": -C, "parameters.v": 0.8}

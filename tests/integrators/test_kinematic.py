@@ -59,7 +59,7 @@ def test_hundred_revolutions_in_two_samples(load: Load) -> None:
     assert end[[2, 5, 8]] - start[[2, 5, 8]] == pytest.approx(200 * np.pi, abs=1e-9)
 
 
-@pytest.mark.parametrize("unit", ["mm", "m", "km"])
+@pytest.mark.parametrize("unit", [pytest.param("mm", marks=pytest.mark.slow), "m", "km"])
 def test_any_size_keeps_its_branch(load: Load, unit: str) -> None:
     """A pin on two rods whose far end is drawn out until the rods lie nearly flat: it stays above the line."""
     text = f"""

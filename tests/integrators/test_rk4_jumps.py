@@ -9,6 +9,7 @@ import pytest
 
 import gudgeon
 from gudgeon.loading.engine import sizes
+from tests.slow import slow_but
 
 HEAD = "format: gudgeon/1\nname: j\ngravity: [0, -9.81 m/s^2]\n"
 SLIDER = (
@@ -54,7 +55,7 @@ def scene(text: str, folder: Path, formulation: str = "reduced") -> gudgeon.Simu
 
 
 @pytest.mark.parametrize("formulation", ["reduced", pytest.param("full", marks=pytest.mark.slow)])
-@pytest.mark.parametrize("name", JUMPING)
+@pytest.mark.parametrize("name", slow_but(["abs", "nested", "crank"], JUMPING))
 def test_the_order_is_four_past_a_jump(name: str, formulation: str, tmp_path: Path) -> None:
     """It was one, and the work of the impulse was missing: 1.3 J of 6.9 J, whatever the step."""
     simulation = scene(JUMPING[name], tmp_path, formulation)

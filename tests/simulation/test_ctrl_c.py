@@ -231,7 +231,7 @@ def test_ctrl_c_in_a_dense_solve(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
         check_kept(bars.simulate(1.0, output=30, rtol=1e-12, progress=signal_at(number)), complete)
 
 
-@pytest.mark.parametrize("options", [{}, RK4, RK4 | {"side_by_side": False}])
+@pytest.mark.parametrize("options", [{}, RK4, pytest.param(RK4 | {"side_by_side": False}, marks=pytest.mark.slow)])
 def test_a_batch_keeps_of_each_run_what_it_reached(options: dict[str, Any]) -> None:
     sets = {"c": np.linspace(0.3e-3, 0.6e-3, 6)}
     dry, t_end = press("dry"), 1.0 if "step" in options else 60.0  # not over before it is interrupted
