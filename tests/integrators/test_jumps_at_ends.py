@@ -164,7 +164,7 @@ NESTED = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("value", slow_but(NESTED[::2], NESTED))
+@pytest.mark.parametrize("value", slow_but([*NESTED][::2], NESTED))
 def test_corners_within_corners_at_one_time(value: str, tmp_path: Path) -> None:
     """The rate of max was the sum of its arguments' where they meet; a sample held a branch that is neither."""
     formulation = "full" if len(value) % 2 else "reduced"
