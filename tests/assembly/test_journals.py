@@ -228,7 +228,7 @@ def test_an_override_brings_it_into_any_file(scenes: Scenes) -> None:
     np.testing.assert_allclose([run["A.ex"][-1], run["A.ey"][-1]], [1e-4, 1e-6], rtol=1e-9)
 
 
-@pytest.mark.parametrize("e", ["[0.02, 0]", "[0.5, 0.5]"])
+@pytest.mark.parametrize("e", ["[0.02, 0]", pytest.param("[0.5, 0.5]", marks=pytest.mark.slow)])
 def test_an_eccentricity_in_metres_by_mistake_is_told(e: str, scenes: Scenes) -> None:
     """It was a start that does not close, or a journal that lies deep at once: bare numbers are m."""
     file = scenes.file("metres", CRANK.replace("e: [out, 0.04 mm]", f"e: {e}"))

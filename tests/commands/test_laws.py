@@ -8,6 +8,7 @@ import shlex
 import subprocess
 import sys
 from collections.abc import Iterator, Sequence
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +26,7 @@ from tests.equations.one_law import PAIR, Evaluator
 from tests.kinds.own import example, forgotten
 from tests.oracles.dry import delivered
 from tests.pump import Gudgeon
+from tests.slow import slow_but
 from tests.targets_latex.equations_reader import dots_apart, evaluate, rows, sections, width
 
 NAMES = [name for role in RESULTS for name in called(role)]
@@ -33,6 +35,7 @@ STATES = {  # of what laws read, by the letter; z lies within what bristles take
     "w_t": 4.0, "held_force": 81.0,
 }  # fmt: skip
 NUMBERS = {"dahl": {"presliding": 1e-4}, "modified_coulomb": {"v0": 0.01, "v1": 0.05}}
+DRAWN = {"hertz", "expression", "lugre", "ocvirk", "christensen", "newton_restitution"}
 LETTERS = {"held_force": "λ", "delta": "δ", "deltadot": dots_apart("δ̇"), "epsilon": "ε"}
 NO_SYMPY = """
 import sys
@@ -40,6 +43,9 @@ from gudgeon.cli import app
 app(["laws"], standalone_mode=False)
 assert "sympy" not in sys.modules
 """
+
+
+page_of_laws = cache(laws_page)  # seconds
 
 
 @pytest.fixture(autouse=True)
@@ -124,7 +130,7 @@ def test_dampings_are_cited(call: Gudgeon) -> None:
     johnson = " ".join(call("laws", "johnson").stdout.split())
     assert all(" ".join(source.split()) in johnson for source in SOURCES.values())
     assert {*SOURCES} == {*DISSIPATION.values} - {"none"}
-    rows = dict(re.findall(r"^\| `(\w+)` \| .*? \| ([\d.]+ \| [\d.]+ \| [\d.]+) \|", laws_page(), re.MULTILINE))
+    rows = dict(re.findall(r"^\| `(\w+)` \| .*? \| ([\d.]+ \| [\d.]+ \| [\d.]+) \|", page_of_laws(), re.MULTILINE))
     for name, factor in FACTORS.items():
         if name != "none":
             expected = [delivered(float(factor(c_e))) for c_e in (0.9, 0.7, 0.5)]
@@ -150,7 +156,7 @@ def test_a_misspelt_name_is_told_with_the_nearest(call: Gudgeon) -> None:
     assert done.exit_code == 2 and "unknown law 'florres'" in done.stderr and "did you mean 'flores'?" in done.stderr
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", slow_but(DRAWN, NAMES))
 def test_every_law_is_drawn(name: str, call: Gudgeon, tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     done = call("laws", name, "--plot", "law.svg")
@@ -218,7 +224,7 @@ def test_what_cannot_be_drawn(line: str, told: str, call: Gudgeon) -> None:
 def test_the_page_of_laws_is_current() -> None:
     """`make tables` writes it, a heading a law."""
     page = (Path(__file__).resolve().parents[2] / "docs" / "laws.md").read_text("utf-8")
-    assert page.partition("<!-- Below: `make tables`. -->\n\n")[2] == laws_page()
+    assert page.partition("<!-- Below: `make tables`. -->\n\n")[2] == page_of_laws()
     assert re.findall(r"^### `(\w+)`$", page, re.MULTILINE) == [
         law.name for role in RESULTS for law in house().values() if law.role == role
     ]  # fmt: skip

@@ -10,12 +10,12 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError, UnknownNameError
+from gudgeon.loading.shipped import shipped_file
 from gudgeon.model.parameters import as_parameter
 from tests.programs import needs_compiler
 from tests.pump import TEXT, Gudgeon
 
 pytestmark = needs_compiler
-VALID = Path(__file__).parents[1] / "mechanisms" / "valid"
 
 
 @pytest.mark.parametrize("command", ["run", "bench", "map"])
@@ -50,17 +50,17 @@ def test_a_number_that_is_written_as_zero_is_told(address: str, call: Gudgeon, p
 
 def test_a_zero_that_is_no_component_and_one_that_is_left_out(tmp_path: Path) -> None:
     """A key of a force or of a law, with what to do: as a parameter it can be set."""
-    text = (VALID / "every_kind.yaml").read_text(encoding="utf-8")
-    source = gudgeon.load(VALID / "every_kind.yaml").source
+    text = shipped_file("slider_crank_spring").read_text(encoding="utf-8").replace("damping: 1 N*s/m", "damping: 0")
+    plain, named = tmp_path / "plain.yaml", tmp_path / "named.yaml"
+    plain.write_text(text, encoding="utf-8")
+    source = gudgeon.load(plain).source
     for address in ("forces.coil.damping", "coil.damping"):
         told, hint = as_parameter(source, address)
         assert told.startswith("forces.coil.damping is 0, written so") and "damping: own) and set that" in hint
     oiled = gudgeon.load("nine_bar_press", "lubricated").source
     told, _ = as_parameter(oiled, "contacts.oil.film.extra_clearance")
     assert told.startswith("contacts.oil.film.extra_clearance is 0, written so or left out,")
-    own = text.replace("free_length: 77.85 mm, damping: 0", "free_length: 77.85 mm, damping: own")
-    own = own.replace("parameters:\n", "parameters:\n  own: 0 N*s/m\n")
-    named = tmp_path / "named.yaml"
+    own = text.replace("damping: 0", "damping: own").replace("\nforces:", "\nparameters: {own: 0 N*s/m}\n\nforces:")
     named.write_text(own, encoding="utf-8")
     assert own.count("own: 0") == own.count(": own") == 1
     assert as_parameter(gudgeon.load(named).source, "own") == ("", "")

@@ -18,11 +18,13 @@ from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.integrators.projection import project, residuals
 from gudgeon.results.results import Result
 from tests.programs import needs_compiler
+from tests.slow import slow_but
 
 pytestmark = needs_compiler
 KNOWN: dict[str, dict[str, Any]] = json.loads(
     (Path(__file__).parent.parent / "data" / "reference_problems.json").read_text(encoding="utf-8")
 )
+
 HERE = python_driver.NAMES if find_spec("sksundae") else python_driver.SCIPY
 IMPLICIT = tuple(name for name in HERE if name.split(":")[1] in ("Radau", "BDF", "LSODA", "cvode"))
 
@@ -47,7 +49,7 @@ def test_pendulum(method: str) -> None:
     assert found.diagnostics.method == method and found.diagnostics.rtol == 1e-9
 
 
-@pytest.mark.parametrize("method", HERE)
+@pytest.mark.parametrize("method", slow_but(["scipy:DOP853", "scipy:LSODA", "scipy:RK45"], HERE))
 def test_smaller_tolerances_give_smaller_errors(method: str) -> None:
     want = reference("pendulum", None, 1.0)
     errors = [abs(run("pendulum", None, 1.0, method, rtol).q - want.q).max() for rtol in (1e-5, 1e-7, 1e-9)]
@@ -61,7 +63,7 @@ def test_a_drive_whose_rate_jumps_is_refused() -> None:
         jump.simulate(0.2, method="scipy:DOP853")
 
 
-@pytest.mark.parametrize("method", HERE)
+@pytest.mark.parametrize("method", slow_but(["scipy:DOP853"], HERE))
 def test_andrews_squeezer(method: str) -> None:
     """Against the published angles."""
     known = KNOWN["andrews_squeezer"]
@@ -70,7 +72,7 @@ def test_andrews_squeezer(method: str) -> None:
     assert angles == pytest.approx(known["angles"], rel=1e-7)
 
 
-@pytest.mark.parametrize("method", IMPLICIT)
+@pytest.mark.parametrize("method", slow_but(["scipy:LSODA"], IMPLICIT))
 def test_lubricated_press(method: str) -> None:
     """Stiff: the film's rate is 1e5 1/s. Positions to 1e-4 of the clearance of .3 mm, forces to 1e-4."""
     want = reference("nine_bar_press", "lubricated", 0.01)
@@ -81,7 +83,7 @@ def test_lubricated_press(method: str) -> None:
     assert found.diagnostics.jacobians > 0
 
 
-@pytest.mark.parametrize("method", HERE)
+@pytest.mark.parametrize("method", slow_but(["scipy:DOP853"], HERE))
 def test_first_contacts_of_the_dry_press(method: str) -> None:
     """Three contacts: onset and separation, impact velocity, peak force, against roots that other code finds."""
     rtol = 1e-9

@@ -72,7 +72,8 @@ def test_a_follower_is_where_its_cam_says(tmp_path: Path) -> None:
     assert np.abs(s(10.0 * found) - 9e-3).max() < 1e-12
 
 
-@pytest.mark.parametrize(("ends", "order"), [("natural", 1), ("not_a_knot", 1), ("clamped", 2), ("periodic", None)])
+@pytest.mark.parametrize(("ends", "order"), [("natural", 1),
+    pytest.param("not_a_knot", 1, marks=pytest.mark.slow), ("clamped", 2), ("periodic", None)])
 def test_a_cam_whose_end_does_not_meet_its_beginning_is_told(tmp_path: Path, ends: str, order: int | None) -> None:
     """By the run that passes there, and by check; the rate jumps by what SciPy's spline says."""
     text = CAM.replace("ends: periodic", f"ends: {ends}").replace("lift(omega * t)", "lift(mod(omega * t, 2*pi))")
@@ -129,7 +130,7 @@ def test_steps_end_at_knots_in_time(tmp_path: Path, method: str, within: float) 
     assert run["slug.x"][-1] == pytest.approx(want, abs=within)
 
 
-@pytest.mark.parametrize(("method", "left"), [("dop853", 1e-8), ("rodas5p", 1e-7)])
+@pytest.mark.parametrize(("method", "left"), [pytest.param("dop853", 1e-8, marks=pytest.mark.slow), ("rodas5p", 1e-7)])
 def test_knots_in_the_state_and_the_tangent_beyond(tmp_path: Path, method: str, left: float) -> None:
     """`left` of the energy (J): what an error of 1e-7 m/s at 3.5 m/s makes of .3 kg."""
     text = slug("-pull(slug.x)").replace("vx: 1 m/s", "vx: 5 m/s")

@@ -30,7 +30,8 @@ def driven(text: str, value: str, folder: Path) -> gudgeon.Simulation:
     return gudgeon.load(file)
 
 
-@pytest.mark.parametrize("value", ["hypot(t - 0.5 s, 0)", "((t - 0.5 s)**2)**0.5", "sqrt(t**2 - t * 1 s + 0.25 s^2)"])
+@pytest.mark.parametrize("value", ["hypot(t - 0.5 s, 0)", "((t - 0.5 s)**2)**0.5",
+    pytest.param("sqrt(t**2 - t * 1 s + 0.25 s^2)", marks=pytest.mark.slow)])
 def test_a_root_of_a_square_gives_the_impulse_of_abs(value: str, tmp_path: Path) -> None:
     ends = [
         driven(PAIR, f"5 rad/s * {of}", tmp_path).simulate(rtol=1e-11, output=[0.4999, 0.5001, 0.6])["b.omega"]
@@ -84,7 +85,7 @@ def test_at_the_start_too(tmp_path: Path) -> None:
 PAIR_AT = PAIR + "parameters: {t0: 0.5 s}\n"
 
 
-@pytest.mark.parametrize("method", ["auto", "rk4", "rodas5p"])
+@pytest.mark.parametrize("method", ["auto", "rk4", pytest.param("rodas5p", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("value", [
     "drives: {d: {angle: a, value: acos(cos((t - t0) / (1 s)))}}",
     "drives: {d: {angle: a, value: ((t0 - t)/(1 s))**(1/3)}}",
@@ -151,7 +152,8 @@ OUTRUN = "exp(exp(exp(t/(0.3 s))))*1 rad"
 
 
 @pytest.mark.parametrize(("formulation", "method"), [
-    ("reduced", "auto"), ("reduced", "dop853"), ("reduced", "rodas5p"), ("full", "auto"),
+    ("reduced", "auto"), pytest.param("reduced", "dop853", marks=pytest.mark.slow), ("reduced", "rodas5p"),
+    pytest.param("full", "auto", marks=pytest.mark.slow),
     *(pytest.param("full", method, marks=pytest.mark.slow) for method in ("dop853", "rodas5p")),
 ])  # fmt: skip
 @pytest.mark.optimized
@@ -188,8 +190,10 @@ def test_a_chirp_is_followed(tmp_path: Path) -> None:
 @pytest.mark.parametrize("output", [10, 77])  # with a sample at 0.5 s, and with none
 @pytest.mark.parametrize(("value", "told", "time"), [
     ("acos(cos(t/(1 s) - 0.5))", "its rate jumps by about 2", 0.5),
-    ("hypot(sin(t/(1 s) - 0.5), 1 - cos(t/(1 s) - 0.5))", "its rate jumps by about 2", 0.5),
-    ("asin(sin(t*3/(1 s) - 0.5))", "its rate jumps by about 6", 0.690265),
+    pytest.param(
+        "hypot(sin(t/(1 s) - 0.5), 1 - cos(t/(1 s) - 0.5))", "its rate jumps by about 2", 0.5, marks=pytest.mark.slow
+    ),
+    pytest.param("asin(sin(t*3/(1 s) - 0.5))", "its rate jumps by about 6", 0.690265, marks=pytest.mark.slow),
     ("atan2(sin(t*5/(1 s)), cos(t*5/(1 s)))", "it jumps by 6.283", 0.628319),
     ("sqrt(abs(t/(1 s) - 0.5))", "its rate is infinite", 0.5),
     ("((t/(1 s) - 0.5)**2)**(1/3)", "its rate is infinite", 0.5),
@@ -250,7 +254,8 @@ def test_without_freedom_an_unbounded_second_rate_is_passed(value: str, tmp_path
 
 @pytest.mark.parametrize("step", [1e-3, 1.1e-3])
 @pytest.mark.parametrize("value", [
-    "((t/(1 s) - 0.5)**2)**0.75", "max(0, t/(1 s) - 0.5)**1.5 * 1e-3", "max(0, 0.5 - t/(1 s))**1.5",
+    pytest.param("((t/(1 s) - 0.5)**2)**0.75", marks=pytest.mark.slow), "max(0, t/(1 s) - 0.5)**1.5 * 1e-3",
+    pytest.param("max(0, 0.5 - t/(1 s))**1.5", marks=pytest.mark.slow),
     "abs(t/(1 s) - 0.5)**0.5",
 ])  # fmt: skip
 def test_rk4_steps_over_no_unbounded_second_rate(value: str, step: float, tmp_path: Path) -> None:

@@ -152,7 +152,7 @@ events:
 """
 
 
-@pytest.mark.parametrize("method", ["dop853", "rodas5p"])
+@pytest.mark.parametrize("method", ["dop853", pytest.param("rodas5p", marks=pytest.mark.slow)])
 def test_events_of_periods_that_steps_leap_over(method: str, folder: Path) -> None:
     """A wheel turns freely, so that steps grow beyond every period: 40 drawn phases, each crossing by its closed form.
 
@@ -198,7 +198,7 @@ events:
 """
 
 
-@pytest.mark.parametrize("method", ["dop853", "rodas5p", "rk4"])
+@pytest.mark.parametrize("method", ["dop853", pytest.param("rodas5p", marks=pytest.mark.slow), "rk4"])
 def test_leaps_at_the_end_and_at_the_start_of_runs(method: str, folder: Path) -> None:
     """n periods to their end, then piece by piece: each leap happens once, at an end, as a zero does."""
     (folder / "leaps.yaml").write_text(LEAPS, encoding="utf-8")

@@ -84,7 +84,7 @@ def equilibrium(steady: Callable[[float], tuple[float, float]], load: float) -> 
     return eps, C * eps * np.array([tangential, radial]) / load
 
 
-@pytest.mark.parametrize("load", [300.0, 900.0])
+@pytest.mark.parametrize("load", [300.0, pytest.param(900.0, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("law", sorted(called("film")))
 def test_eccentricity_and_attitude_under_a_constant_load(rotor: Rotor, law: str, load: float) -> None:
     eps, place = equilibrium(STEADY.get(law) or fitted(law), load)

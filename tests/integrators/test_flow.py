@@ -11,9 +11,10 @@ import pytest
 import gudgeon
 from gudgeon.integrators import lanes, steps
 from gudgeon.results.batch import Batch
-from tests.integrators.test_side_by_side import CASES, EVERY_KIND, FALL, Case, assert_same_batches, without_chain
+from tests.integrators.test_side_by_side import APART, CASES, EVERY_KIND, FALL, Case, assert_same_batches, without_chain
 from tests.programs import needs_compiler
 from tests.simulation.test_many import assert_same
+from tests.slow import slow_but
 
 pytestmark = needs_compiler
 COUNT = lanes.MOST + 3  # more than are under way at once, divisible by no number of lanes
@@ -46,7 +47,7 @@ def both(simulation: gudgeon.Simulation, sets: Any, t_end: float, **options: Any
     return tuple(simulation.simulate_many(sets, t_end, side_by_side=side, **options) for side in (True, False))  # type: ignore[return-value]
 
 
-@pytest.mark.parametrize("case", CASES, ids=[f"{Path(case[0]).stem}-{case[1]}" for case in CASES])
+@pytest.mark.parametrize("case", slow_but(APART, CASES), ids=[f"{Path(case[0]).stem}-{case[1]}" for case in CASES])
 def test_each_run_is_bit_for_bit_that_made_alone(case: Case, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     mechanism, scene, (address, low, high), t_end, _ = case
     if mechanism == EVERY_KIND:

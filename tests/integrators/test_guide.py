@@ -129,7 +129,7 @@ def lying(K: float, n: float) -> tuple[float, float, float, float]:
     return tilt, offset, front, rear
 
 
-@pytest.mark.parametrize("formulation", ["reduced", "full"])
+@pytest.mark.parametrize("formulation", ["reduced", pytest.param("full", marks=pytest.mark.slow)])
 def test_a_block_lies_on_its_lower_wall_as_the_closed_form_says(folder: Path, formulation: str) -> None:
     tilt, offset, front, rear = lying(3e8, 1.5)
     simulation = made(folder, BLOCK, "soft", formulation)
@@ -162,7 +162,7 @@ def test_a_guide_hangs_on_a_slider_that_is_fixed(folder: Path, formulation: str)
     assert run["way.front_lower.F"].max() == run["way.rear_lower.F"].max() == 0.0
 
 
-@pytest.mark.parametrize("formulation", ["reduced", "full"])
+@pytest.mark.parametrize("formulation", ["reduced", pytest.param("full", marks=pytest.mark.slow)])
 def test_a_corner_bounces_off_its_wall_by_newtons_law(folder: Path, formulation: str) -> None:
     """Λ = (1 + e) u m J/(J + m l²), l how far in front of the centre of mass the corner meets its wall."""
     given = {"parameters.tilt": 2e-3, "parameters.up": 0.4, "parameters.turning": 1.5, "parameters.v": 0.3}
@@ -188,7 +188,7 @@ def test_a_corner_bounces_off_its_wall_by_newtons_law(folder: Path, formulation:
     assert run["energy.kinetic"][0] - run["energy.kinetic"][1] == pytest.approx(lost, rel=1e-8)
 
 
-@pytest.mark.parametrize("formulation", ["reduced", "full"])
+@pytest.mark.parametrize("formulation", ["reduced", pytest.param("full", marks=pytest.mark.slow)])
 def test_friction_stops_a_block_behind_its_closed_form_way(folder: Path, formulation: str) -> None:
     """(v² − v₁²)/(2 μ g), the loads of both corners in balance with friction below the centre of mass."""
     given = {"parameters.lift": -C, "parameters.v": 0.8}
@@ -227,7 +227,9 @@ def swung() -> tuple[Any, Any]:
 
 @pytest.mark.parametrize(
     ("method", "formulation"),
-    [("dop853", "reduced"), ("dop853", "full"), ("rodas5p", "reduced"), ("radau5", "full"), ("rk4", "reduced")],
+    [("dop853", "reduced"),
+    pytest.param("dop853", "full", marks=pytest.mark.slow),
+    ("rodas5p", "reduced"), ("radau5", "full"), ("rk4", "reduced")],
 )
 def test_a_slot_that_swings_against_an_oracle(folder: Path, method: str, formulation: str) -> None:
     t, expected = swung()
@@ -255,7 +257,7 @@ def accelerated(q: Any, v: Any, a: Any, h: float) -> np.ndarray:
     return np.array([delta for delta, *_ in ORACLE.contacts(np.array([x[2], x[3], x[4], x[5], *[0.0] * 4]))])
 
 
-@pytest.mark.parametrize("formulation", ["reduced", "full"])
+@pytest.mark.parametrize("formulation", ["reduced", pytest.param("full", marks=pytest.mark.slow)])
 def test_rigid_corners_stay_on_walls_that_swing(folder: Path, formulation: str) -> None:
     """δ̈ = 0 where closed, with ω̇ and ω of the guide in it; forces push, and what they take is in the works."""
     run = made(folder, ARM, "hard", formulation).simulate(0.15, output=300, rtol=1e-10)

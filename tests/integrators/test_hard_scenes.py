@@ -166,7 +166,7 @@ def test_contact_written_as_a_force(load: Load, method: str) -> None:
     assert v**2 / 2 + 0.981 * x + 1e6 / 2.5 * np.maximum(0, -x) ** 2.5 == pytest.approx(0.981 * 0.5, abs=1e-6)
 
 
-@pytest.mark.parametrize("method", ["auto", "rodas5p", "scipy:Radau"])
+@pytest.mark.parametrize("method", ["auto", "rodas5p", pytest.param("scipy:Radau", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("force", ["1 N / (a.x/(1 m))", "1 N * sqrt(a.x/(1 m) - 1)"])
 def test_motion_that_is_not_finite_at_the_start(load: Load, method: str, force: str) -> None:
     """1/0 and √−1 at t = 0 are errors of the solver, as with rk4."""

@@ -15,6 +15,7 @@ import pytest
 import gudgeon
 from gudgeon.generator.kinds.laws.dissipation import FACTORS, delivered
 from gudgeon.results.results import Result, State
+from tests.slow import slow_but
 
 SPEED, MASS, K = 4.42944691807002, 0.092, 1.4e8
 WEIGHTLESS = {"gravity.y": -1e-12}  # a literal zero would be another scene
@@ -62,7 +63,9 @@ def test_hunt_and_crossley_deliver(c_e: float, published: float) -> None:
     assert delivered(a) == pytest.approx(published, abs=5e-6)  # as reports and the page of laws tell it
 
 
-@pytest.mark.parametrize("name", [name for name in FACTORS if name != "none"])
+@pytest.mark.parametrize(
+    "name", slow_but(["flores", "lankarani_nikravesh"], [name for name in FACTORS if name != "none"])
+)
 def test_every_damping_factor_obeys_the_identity(name: str) -> None:
     overrides = {"contacts.damped.normal.dissipation": name}
     run = impact(gudgeon.load("bouncing_ball", "damped", overrides=overrides), 3e-3, 1e-7, restitution=0.7)

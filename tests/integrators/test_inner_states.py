@@ -37,7 +37,7 @@ def press(tmp_path_factory: pytest.TempPathFactory) -> Press:
     return cache(lambda formulation="reduced": gudgeon.load(file, "dry", formulation=formulation))
 
 
-@pytest.mark.parametrize("formulation", ["reduced", "full"])
+@pytest.mark.parametrize("formulation", ["reduced", pytest.param("full", marks=pytest.mark.slow)])
 def test_bristles_follow_the_slip(press: Press, formulation: str) -> None:
     """The force is the law's of the stored state, and between onsets the state obeys its equation."""
     fine = press(formulation).simulate(0.012, output=24000, rtol=1e-10)
@@ -81,7 +81,7 @@ def test_methods_and_formulations_agree(press: Press) -> None:
         assert abs(run["A.z"] - exact["A.z"]).max() < 1e-3 * PRESLIDING
 
 
-@pytest.mark.parametrize("friction", [None, LUGRE])
+@pytest.mark.parametrize("friction", [None, pytest.param(LUGRE, marks=pytest.mark.slow)])
 def test_runs_side_by_side(
     press: Press, tmp_path: Path, friction: str | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import gudgeon
+from tests.slow import slow_but
 
 CART = """format: gudgeon/1
 name: j
@@ -67,7 +68,9 @@ def by(method: str, step: float = 2e-3) -> dict[str, Any]:
 
 @pytest.mark.parametrize(
     ("value", "formulation"),
-    [(VALUES[0], "reduced"), (VALUES[0], "full"), (VALUES[1], "full"), (VALUES[2], "reduced"), (VALUES[3], "reduced")],
+    [(VALUES[0], "reduced"),
+    pytest.param(VALUES[0], "full", marks=pytest.mark.slow), (VALUES[1], "full"), (VALUES[2], "reduced"),
+    pytest.param(VALUES[3], "reduced", marks=pytest.mark.slow)],
 )
 def test_two_runs_with_the_jump_on_their_seam_are_one(value: str, formulation: str, tmp_path: Path) -> None:
     """The adaptive methods ended with the state before it, and 0.57 J were in neither run; rk4 right before it too."""
@@ -103,7 +106,8 @@ def test_a_sample_at_a_jump_holds_what_follows(value: str, formulation: str, tmp
 
 @pytest.mark.parametrize(
     ("value", "formulation"),
-    [("max(t, -t)*1 m/s", "reduced"), ("abs(t)*1 m/s", "full"), ("t*1 m/s + max(0 s, -t)*1 m/s", "full")],
+    [("max(t, -t)*1 m/s", "reduced"), ("abs(t)*1 m/s", "full"),
+    pytest.param("t*1 m/s + max(0 s, -t)*1 m/s", "full", marks=pytest.mark.slow)],
 )
 def test_a_start_at_a_jump_holds_what_follows(value: str, formulation: str, tmp_path: Path) -> None:
     """From t = 0 on all of these are t. Written one way, the start was an impulse of 0.61 J."""
@@ -116,7 +120,7 @@ def test_a_start_at_a_jump_holds_what_follows(value: str, formulation: str, tmp_
         assert run.diagnostics.energy_residual < 1e-6
 
 
-@pytest.mark.parametrize("formulation", ["reduced", "full"])
+@pytest.mark.parametrize("formulation", ["reduced", pytest.param("full", marks=pytest.mark.slow)])
 def test_two_drives_may_jump_at_once(formulation: str, tmp_path: Path) -> None:
     """By corners that are written otherwise: the impulse of the second one was none, and its work was missing."""
     simulation = scene(TWO, tmp_path, formulation)
@@ -160,7 +164,7 @@ NESTED = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("value", NESTED)
+@pytest.mark.parametrize("value", slow_but([*NESTED][::2], NESTED))
 def test_corners_within_corners_at_one_time(value: str, tmp_path: Path) -> None:
     """The rate of max was the sum of its arguments' where they meet; a sample held a branch that is neither."""
     formulation = "full" if len(value) % 2 else "reduced"
@@ -177,9 +181,12 @@ def test_corners_within_corners_at_one_time(value: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("value", "rate"),
-    [("max(T, 0.5*T)", 1.0), ("max(ramp(T, 0, 0.5), ramp(T, 0, 0.4))", 2.5), ("min(ramp(T, 0, 0.5), 2*T)", 2.0),
-     ("max(sin(T), T)", 1.0), ("max(sqrt(T**2), 0.6*T)", 1.0), ("max(T, -T)", 1.0), ("abs(T - T*T)", 1.0),
-     ("min(T, 20000*T**2)", 0.0), ("0.4 - 2*min(T, 0)", 0.0)],
+    [pytest.param("max(T, 0.5*T)", 1.0, marks=pytest.mark.slow),
+    pytest.param("max(ramp(T, 0, 0.5), ramp(T, 0, 0.4))", 2.5, marks=pytest.mark.slow),
+    ("min(ramp(T, 0, 0.5), 2*T)", 2.0),
+     ("max(sin(T), T)", 1.0), pytest.param("max(sqrt(T**2), 0.6*T)", 1.0, marks=pytest.mark.slow),
+     pytest.param("max(T, -T)", 1.0, marks=pytest.mark.slow), ("abs(T - T*T)", 1.0),
+     ("min(T, 20000*T**2)", 0.0), pytest.param("0.4 - 2*min(T, 0)", 0.0, marks=pytest.mark.slow)],
 )  # fmt: skip
 def test_a_start_at_a_tie_has_the_rates_that_follow(value: str, rate: float, tmp_path: Path) -> None:
     """And the file's own: an impulse out of nothing changed them, and the sum of both branches tore the start."""
@@ -194,7 +201,7 @@ def test_a_start_at_a_tie_has_the_rates_that_follow(value: str, rate: float, tmp
         assert run.diagnostics.energy_residual < 1e-6 and run.diagnostics.phi_dot_max < 1e-4
 
 
-@pytest.mark.parametrize("formulation", ["reduced", "full"])
+@pytest.mark.parametrize("formulation", ["reduced", pytest.param("full", marks=pytest.mark.slow)])
 @pytest.mark.parametrize(
     ("value", "rate"),
     [("min(2*T, T + 0.5)", 1.0), ("max(2*T, T + 0.5)", 2.0), ("max(sin(3*T - 1.5), 2*T - 1)", 3.0),

@@ -32,7 +32,8 @@ start: {{guess: {{b.theta: {guess_b}, c.theta: {guess_c}}}}}
 """
 
 
-@pytest.mark.parametrize("excess", [1e-2, 1e-3, 1e-4, 1e-5])
+@pytest.mark.parametrize("excess", [1e-2,
+    pytest.param(1e-3, marks=pytest.mark.slow), pytest.param(1e-4, marks=pytest.mark.slow), 1e-5])
 def test_branch_is_kept_near_a_change_point(load: Load, excess: float) -> None:
     """A parallelogram whose rocker is a little too long folds nearly flat: the coupler keeps its side."""
     text = FOUR_BAR.format(
@@ -58,7 +59,7 @@ def test_hundred_revolutions_in_two_samples(load: Load) -> None:
     assert end[[2, 5, 8]] - start[[2, 5, 8]] == pytest.approx(200 * np.pi, abs=1e-9)
 
 
-@pytest.mark.parametrize("unit", ["mm", "m", "km"])
+@pytest.mark.parametrize("unit", [pytest.param("mm", marks=pytest.mark.slow), "m", "km"])
 def test_any_size_keeps_its_branch(load: Load, unit: str) -> None:
     """A pin on two rods whose far end is drawn out until the rods lie nearly flat: it stays above the line."""
     text = f"""

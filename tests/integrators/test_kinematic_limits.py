@@ -46,7 +46,7 @@ LIMITS = {  # the rod stands across the guide: a sin = b; coupler and rocker in 
 }
 
 
-@pytest.mark.parametrize("formulation", ["reduced", "full"])
+@pytest.mark.parametrize("formulation", ["reduced", pytest.param("full", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("text", LIMITS)
 def test_a_limit_is_named_by_its_own_time(text: str, formulation: str, tmp_path: Path) -> None:
     """Not by the last sample before it, however far apart they are."""

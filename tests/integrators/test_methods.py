@@ -70,7 +70,7 @@ def test_rk4_has_order_4(inside: bool) -> None:
     assert observed_order("swing", "rk4", 1.0, (60, 4000, 12), inside) == pytest.approx(4.0, abs=0.15)
 
 
-@pytest.mark.parametrize("formulation", ["reduced", "full"])
+@pytest.mark.parametrize("formulation", ["reduced", pytest.param("full", marks=pytest.mark.slow)])
 def test_outputs_leave_the_steps_of_rk4_alone(formulation: str) -> None:
     """Steps as long as was asked for: the same bits, contacts and costs whatever is looked at in between."""
     press = gudgeon.load("nine_bar_press", "dry", formulation=formulation)
@@ -215,7 +215,9 @@ def test_constraints_hold_to_rounding() -> None:
 
 @pytest.mark.parametrize(
     ("beyond", "rtol", "off"),
-    [(1e-8, 1e-9, 1e-3), (1e-7, 1e-8, 1e-3), (1e-6, 1e-6, 3e-2), (1e-5, 1e-5, 0.2), (1e-5, 1e-9, 1e-4)],
+    [(1e-8, 1e-9, 1e-3),
+    pytest.param(1e-7, 1e-8, 1e-3, marks=pytest.mark.slow), pytest.param(1e-6, 1e-6, 3e-2, marks=pytest.mark.slow),
+    pytest.param(1e-5, 1e-5, 0.2, marks=pytest.mark.slow), (1e-5, 1e-9, 1e-4)],
 )
 def test_grazing_contacts_are_not_lost(beyond: float, rtol: float, off: float) -> None:
     """A puck on a spring turns round just beyond its bearing's clearance, 64 times in 2 s.

@@ -9,6 +9,7 @@ import pytest
 
 import gudgeon
 from gudgeon.loading.engine import sizes
+from tests.slow import slow_but
 
 HEAD = "format: gudgeon/1\nname: j\ngravity: [0, -9.81 m/s^2]\n"
 SLIDER = (
@@ -53,8 +54,8 @@ def scene(text: str, folder: Path, formulation: str = "reduced") -> gudgeon.Simu
     return gudgeon.load(file, formulation=formulation)
 
 
-@pytest.mark.parametrize("formulation", ["reduced", "full"])
-@pytest.mark.parametrize("name", JUMPING)
+@pytest.mark.parametrize("formulation", ["reduced", pytest.param("full", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("name", slow_but(["abs", "nested", "crank"], JUMPING))
 def test_the_order_is_four_past_a_jump(name: str, formulation: str, tmp_path: Path) -> None:
     """It was one, and the work of the impulse was missing: 1.3 J of 6.9 J, whatever the step."""
     simulation = scene(JUMPING[name], tmp_path, formulation)
@@ -93,7 +94,7 @@ def test_a_batch_is_that_of_single_runs(step: float, tmp_path: Path) -> None:
             assert getattr(batch[i], name).tobytes() == getattr(run, name).tobytes()
 
 
-@pytest.mark.parametrize("formulation", ["reduced", "full"])
+@pytest.mark.parametrize("formulation", ["reduced", pytest.param("full", marks=pytest.mark.slow)])
 def test_a_jump_tears_off_what_sticks(formulation: str, tmp_path: Path) -> None:
     """The plate lies on the cart; at 0.2137 s that jumps to 1 m/s, and friction speeds the plate up by 2 m/s^2."""
     text = """format: gudgeon/1
@@ -139,7 +140,7 @@ def test_a_jump_right_behind_a_step_that_is_rounded_beyond_it(tmp_path: Path) ->
 
 
 @pytest.mark.parametrize("law", ["where(PHASE < T/2, PHASE/T, 1 - PHASE/T)", "PHASE*(T - PHASE)/T**2"])
-@pytest.mark.parametrize("phase", ["mod(t, T)", "mod(-t, T)"])
+@pytest.mark.parametrize("phase", ["mod(t, T)", pytest.param("mod(-t, T)", marks=pytest.mark.slow)])
 def test_periods_that_begin_on_the_grid(law: str, phase: str, tmp_path: Path) -> None:
     """Bounds were rounded beyond the corner, or that belonged to the period before: 0.08 J of 0.3 J were wrong."""
     value = f'"0.05 m * {law.replace("PHASE", phase)}"'

@@ -16,6 +16,7 @@ from gudgeon.integrators.times import Times
 from gudgeon.results.batch import Batch
 from tests.programs import needs_compiler
 from tests.simulation.test_many import assert_same
+from tests.slow import slow_but
 
 pytestmark = needs_compiler
 HERE = Path(__file__).parent.parent / "mechanisms"
@@ -37,6 +38,7 @@ CASES: list[Case] = [
     (HERE / "valid" / "double_pendulum.yaml", "fast", ("c", 0.1e-3, 0.4e-3), 0.02, 1e-5),
     (EVERY_KIND, "ideal", ("parameters.k", 3000.0, 5000.0), 0.2, 1e-3),
 ]
+APART = [case for case in CASES if case[0] in ("nine_bar_press", "pendulum", EVERY_KIND) or case[1] == "fast"]
 
 
 class Seen:
@@ -92,7 +94,7 @@ def without_chain(folder: Path) -> Path:
     return file
 
 
-@pytest.mark.parametrize("case", CASES, ids=[f"{Path(case[0]).stem}-{case[1]}" for case in CASES])
+@pytest.mark.parametrize("case", slow_but(APART, CASES), ids=[f"{Path(case[0]).stem}-{case[1]}" for case in CASES])
 def test_each_run_is_bit_for_bit_that_made_alone(case: Case, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     mechanism, scene, (address, low, high), t_end, step = case
     if mechanism == EVERY_KIND:

@@ -203,7 +203,8 @@ def test_how_long_a_step_lasts_is_a_number_of_the_run(tmp_path: Path) -> None:
         ("where(t < 3.3*T, A*t/T, 1.0003*A*t/T)", True),
     ],
 )
-def test_corners_anywhere_on_the_grid_are_no_jumps(value: str, jumps: bool, tmp_path: Path) -> None:
+@pytest.mark.parametrize("drawn", [6, pytest.param(60, marks=pytest.mark.slow)])
+def test_corners_anywhere_on_the_grid_are_no_jumps(value: str, jumps: bool, drawn: int, tmp_path: Path) -> None:
     """Of periods at random 1 % had a corner just beside a place of the grid, which was taken for a jump by 1e-11."""
     cart = """
 parameters: {T: 0.1 s, A: 50 mm}
@@ -215,7 +216,7 @@ drives: {push: {coordinate: cart.x, value: "%s"}}
     scene, rng = loader(tmp_path)(cart % value), np.random.default_rng(1)
     period = [slot.address for slot in scene.source.slots].index("parameters.T")
     known = [(0.12213540426256936, t_end) for t_end in (1.0, 2.0, 5.0, 10.0)]  # all of them once, of min
-    for T, t_end in (*known, *rng.uniform((0.05, 2.0), (0.5, 5.0), (60, 2)).tolist()):
+    for T, t_end in (*known, *rng.uniform((0.05, 2.0), (0.5, 5.0), (drawn, 2)).tolist()):
         p = scene.p.copy()
         p[period] = T
         assert bool(hidden_jumps(scene.source, p, 0.0, t_end)) == jumps
@@ -248,7 +249,7 @@ drives: {motor: {coordinate: cart.x, value: "0.05 m * where(PHASE < T/2, PHASE/T
     np.testing.assert_allclose(np.abs(run["cart.vx"]), 0.05 / 0.3, rtol=1e-12)
 
 
-@pytest.mark.parametrize("formulation", ["reduced", "full"])
+@pytest.mark.parametrize("formulation", ["reduced", pytest.param("full", marks=pytest.mark.slow)])
 def test_steps_longer_than_periods_hold_none_of_them(formulation: str, tmp_path: Path) -> None:
     """A bob on a zigzagging cart: what drives it jumps in rate alone, so nothing bounds a step. It lost joules."""
     cart = """
@@ -276,7 +277,8 @@ drives: {motor: {coordinate: cart.x, value: "0.05 m * where(PHASE < T/2, PHASE/T
 
 
 @pytest.mark.parametrize(
-    ("law", "method"), [("where(t < 0.3 s, 1, sin(U)/U)", "rk4"), ("where(t < 0.3 s, sin(U)/U, 1)", "dop853")]
+    ("law", "method"), [("where(t < 0.3 s, 1, sin(U)/U)", "rk4"),
+    pytest.param("where(t < 0.3 s, sin(U)/U, 1)", "dop853", marks=pytest.mark.slow)]
 )
 def test_a_branch_that_is_no_number_at_its_own_corner_is_named(law: str, method: str, tmp_path: Path) -> None:
     """It was a second rate that grows beyond all bounds, or no step was small enough: rates are 0/0 in binary64."""

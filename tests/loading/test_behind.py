@@ -70,7 +70,7 @@ def same(a: Result, b: Result) -> bool:
 
 
 @pytest.mark.usefixtures("nobody")
-@pytest.mark.parametrize("method", ["rodas5p", "rk4"])
+@pytest.mark.parametrize("method", ["rodas5p", pytest.param("rk4", marks=pytest.mark.slow)])
 def test_a_run_goes_on_with_the_optimized_library(cache: Cache, method: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(adaptive, "CHUNK", 7)
     monkeypatch.setattr(rk4, "CHUNK", 7)

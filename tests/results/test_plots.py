@@ -70,7 +70,8 @@ def test_series_and_forces_of_one_run(run: Result, ideal: Result) -> None:
     assert [line.get_label() for line in run.plot.forces().lines] == ["A.F"]
 
 
-@pytest.mark.parametrize("scenes", [("ideal",), ("dry",), ("a", "b", "c", "d", "e", "f", "g")])
+@pytest.mark.parametrize("scenes", [("ideal",),
+    pytest.param(("dry",), marks=pytest.mark.slow), ("a", "b", "c", "d", "e", "f", "g")])
 def test_any_number_of_scenes_can_be_drawn(
     scenes: tuple[str, ...], make: Callable[..., Result], tmp_path: Path
 ) -> None:

@@ -24,7 +24,7 @@ def by_steps(steps: int) -> Result:
     return gudgeon.load("nine_bar_press", "dry").simulate(steps * step, output=steps, method="rk4", step=step)
 
 
-@pytest.mark.parametrize(("steps", "stride"), [(3000, 1), (5000, 2), (9001, 4)])
+@pytest.mark.parametrize(("steps", "stride"), [(3000, 1), pytest.param(5000, 2, marks=pytest.mark.slow), (9001, 4)])
 def test_rows_tell_the_extremes_of_their_steps(steps: int, stride: int) -> None:
     """Of 1, 2 or 4 steps each, as many as it takes to stay below the bound; none is forgotten."""
     run = by_steps(steps)

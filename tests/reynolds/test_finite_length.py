@@ -27,7 +27,8 @@ def states(count: int, top: float = 0.9999) -> tuple[Array, Array, Array]:
     return np.minimum(eps, top), size * np.cos(angle), size * np.sin(angle)
 
 
-@pytest.mark.parametrize("ratio", [0.25, 0.55, 1.05, 2.0])
+@pytest.mark.parametrize("ratio", [0.25,
+    pytest.param(0.55, marks=pytest.mark.slow), pytest.param(1.05, marks=pytest.mark.slow), 2.0])
 def test_within_a_percent_or_so_of_the_largest_force(ratio: float) -> None:
     """As its validity says; away from the points of tools/finite_length.py. Found: .7, .7, .5 and .8 %."""
     found = deviation("finite_length", ratio, eps=[0.1, 0.37, 0.65, 0.85, 0.95], motion=MOTION, cells=(96, 16))
@@ -62,7 +63,8 @@ def test_a_short_bearing_is_ocvirks(eps: float) -> None:
     assert np.hypot(*(got - want).T).max() < 0.01 * np.hypot(*want.T).max()
 
 
-@pytest.mark.parametrize("ratio", [0.05, 0.5, 1.36, 3.0, 8.0])
+@pytest.mark.parametrize("ratio", [0.05,
+    pytest.param(0.5, marks=pytest.mark.slow), 1.36, pytest.param(3.0, marks=pytest.mark.slow), 8.0])
 def test_the_force_is_the_gradient_of_a_potential(ratio: float) -> None:
     """−F·w = 2 V > 0, for every L/D, and ∂F_r/∂w_t = ∂F_t/∂w_n."""
     eps, w_n, w_t = states(10_000)

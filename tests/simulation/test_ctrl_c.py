@@ -85,7 +85,8 @@ def case(name: str, method: str) -> tuple[Simulation, dict[str, Any]]:
 @pytest.mark.parametrize(
     ("name", "method", "stride"),
     [("dry", "auto", 661), ("dry", "dop853", 509), ("dry", "rk4", 397), ("lubricated", "auto", 83),
-     ("lubricated", "rodas5p", 29), ("lubricated", "scipy:DOP853", 47), ("four_bar", "auto", 211)],
+     ("lubricated", "rodas5p", 29), ("lubricated", "scipy:DOP853", 331),
+     pytest.param("lubricated", "scipy:DOP853", 47, marks=pytest.mark.slow), ("four_bar", "auto", 211)],
 )  # fmt: skip
 def test_what_is_kept_is_the_whole_run_s(name: str, method: str, stride: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(asking, "EVERY", 0.0)
@@ -230,7 +231,7 @@ def test_ctrl_c_in_a_dense_solve(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
         check_kept(bars.simulate(1.0, output=30, rtol=1e-12, progress=signal_at(number)), complete)
 
 
-@pytest.mark.parametrize("options", [{}, RK4, RK4 | {"side_by_side": False}])
+@pytest.mark.parametrize("options", [{}, RK4, pytest.param(RK4 | {"side_by_side": False}, marks=pytest.mark.slow)])
 def test_a_batch_keeps_of_each_run_what_it_reached(options: dict[str, Any]) -> None:
     sets = {"c": np.linspace(0.3e-3, 0.6e-3, 6)}
     dry, t_end = press("dry"), 1.0 if "step" in options else 60.0  # not over before it is interrupted
@@ -261,7 +262,8 @@ def test_a_run_that_no_longer_advances_ends(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("value", "least", "most"),
-    [("1 rad/(t/(1 s) - 0.5)", 0.499, 0.5), ("1 rad * exp(exp(exp(t/(0.3 s))))", 0.2, 0.6),
+    [("1 rad/(t/(1 s) - 0.5)", 0.499, 0.5),
+    pytest.param("1 rad * exp(exp(exp(t/(0.3 s))))", 0.2, 0.6, marks=pytest.mark.slow),
      pytest.param("1 rad * tan(3*t/(1 s))", 0.52, 0.53, marks=pytest.mark.slow)],
 )  # fmt: skip
 @pytest.mark.optimized

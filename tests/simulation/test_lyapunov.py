@@ -49,7 +49,7 @@ def duffing(tmp_path_factory: pytest.TempPathFactory) -> Simulation:
     return on_a_rail(tmp_path_factory.mktemp("duffing"), DUFFING)
 
 
-@pytest.mark.parametrize("by", ["tangent", "twin"])
+@pytest.mark.parametrize("by", [pytest.param("tangent", marks=pytest.mark.slow), "twin"])
 def test_linear_oscillators_to_a_percent(duffing: Simulation, by: str) -> None:
     """On a hill of stiffness −k: √(k/m). In a valley, damped: −d/2m, whatever the phase in which it ends."""
     hill = duffing.lyapunov(10.0, by=by, parameters=LINEAR | {"k": -4.0, "x0": 0.0})
@@ -112,7 +112,8 @@ def test_returns_once_a_period(duffing: Simulation) -> None:
     assert torus.motion.kind == "quasi-periodic" and torus.sign == 0 and abs(torus.motion.K) < 0.2
 
 
-def test_a_section_without_a_clock_leaves_out_the_motion_itself(tmp_path: Path) -> None:
+@pytest.mark.parametrize("by", ["twin", pytest.param("tangent", marks=pytest.mark.slow)])
+def test_a_section_without_a_clock_leaves_out_the_motion_itself(by: str, tmp_path: Path) -> None:
     """Van der Pol's cycle: along it differences stay, from return to return they shrink by exp ∮ div f dt."""
     oscillator = on_a_rail(tmp_path, VAN_DER_POL)
 
@@ -127,11 +128,10 @@ def test_a_section_without_a_clock_leaves_out_the_motion_itself(tmp_path: Path) 
     multiplier = np.diff(known.y_events[0][-2:, 2])[0]
     along = oscillator.lyapunov(120.0, skip=40.0, by="twin", rtol=1e-10)
     assert abs(along.exponent) < 0.01 and not along.transverse
-    for by in ("tangent", "twin"):
-        across = oscillator.lyapunov(360.0, skip=40.0, by=by, section="up", rtol=1e-10)
-        assert across.transverse
-        assert across.per_return == pytest.approx(multiplier, rel=0.01)
-        assert (across.motion.kind, across.motion.period) == ("periodic", 1)
+    across = oscillator.lyapunov(360.0, skip=40.0, by=by, section="up", rtol=1e-10)
+    assert across.transverse
+    assert across.per_return == pytest.approx(multiplier, rel=0.01)
+    assert (across.motion.kind, across.motion.period) == ("periodic", 1)
 
 
 def ball(scene: str, folder: Path | None = None) -> Simulation:
@@ -195,7 +195,7 @@ def test_the_tangent_knows_that_a_contact_remembers_its_onset() -> None:
     np.testing.assert_allclose(found[[1, 4]], expected, rtol=1e-4)
 
 
-@pytest.mark.parametrize("scene", ["elastic", "damped"])
+@pytest.mark.parametrize("scene", [pytest.param("elastic", marks=pytest.mark.slow), "damped"])
 def test_twin_and_tangent_agree_over_impacts(scene: str) -> None:
     twin, tangent = (ball(scene).lyapunov(2.0, by=by) for by in ("twin", "tangent"))
     assert tangent.exponent == pytest.approx(twin.exponent, rel=0.01)

@@ -14,6 +14,7 @@ import gudgeon
 from gudgeon.commands.check import check_file
 from gudgeon.errors import MissingKeyError, UnknownNameError
 from gudgeon.results import results
+from tests.slow import slow_but
 
 ROOT = Path(__file__).resolve().parents[2]
 KINEMATIC = ("mechanisms/four_bar.yaml", "mechanisms/nine_bar_press.yaml", "mechanisms/slider_crank.yaml",
@@ -31,7 +32,7 @@ def stripped(name: str, tmp_path: Path, keys: str = "mass|inertia", body: str = 
     return file
 
 
-@pytest.mark.parametrize("name", KINEMATIC)
+@pytest.mark.parametrize("name", slow_but(KINEMATIC[:3], KINEMATIC))
 def test_the_motion_is_the_same_to_the_bit(name: str, tmp_path: Path) -> None:
     """But for the start's rates, which the metric of M rounds another way."""
     asked: dict[str, Any] = {"t_end": 0.1, "output": 200}
@@ -44,7 +45,7 @@ def test_the_motion_is_the_same_to_the_bit(name: str, tmp_path: Path) -> None:
         np.testing.assert_allclose(ours[0], theirs[0], rtol=0, atol=1e-14 * np.abs(theirs).max())
 
 
-@pytest.mark.parametrize("scale", [1e-6, 1e3])
+@pytest.mark.parametrize("scale", [1e-6, pytest.param(1e3, marks=pytest.mark.slow)])
 def test_small_and_large_machines(scale: float, tmp_path: Path) -> None:
     """What stands in place of inertias is as large as the machine: a crank's rates by a closed form."""
     text = f"""format: gudgeon/1

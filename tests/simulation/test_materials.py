@@ -151,7 +151,8 @@ def test_it_goes_on_and_is_kept(scenes: Scenes, tmp_path: Path) -> None:
     assert any(JOURNAL in note for note in back.diagnostics.notes)
 
 
-@pytest.mark.parametrize("options", [{"method": "rk4", "step": 1e-5}, {"method": "dop853"}, {"method": "scipy:DOP853"}])
+@pytest.mark.parametrize("options", [{"method": "rk4", "step": 1e-5},
+    pytest.param({"method": "dop853"}, marks=pytest.mark.slow), {"method": "scipy:DOP853"}])
 def test_a_column_of_names(scenes: Scenes, options: dict[str, Any], tmp_path: Path) -> None:
     names = np.array(["bronze", "steel", "glue", "bronze"])
     batch = scenes.dry.simulate_many({JOURNAL: names, SHAPE: ["foam", "steel", "bronze", "steel"]}, **options)

@@ -17,7 +17,7 @@ from ruamel.yaml import YAML
 import gudgeon
 from gudgeon.errors import GudgeonError, InputError, InputErrors
 from gudgeon.generator.study.schema import schema
-from gudgeon.studies.ensemble import judge
+from gudgeon.studies.ensemble import judge, selected
 from gudgeon.studies.ensemble.claimed import Claimed
 from gudgeon.studies.ensemble.judge import Cell, Check, Look, judged, together
 from gudgeon.studies.ensemble.study import plans_of
@@ -63,7 +63,8 @@ def test_an_interval_is_wilsons_where_a_check_is_of_single_runs() -> None:
     assert whole.low == pytest.approx(10 / (10 + z * z), rel=1e-12) and whole.high == 1.0  # no run without it
 
 
-@pytest.mark.parametrize(("p", "verdict"), [(0.8, "holds"), (1 / 3, "fails"), (0.9, "holds"), (0.5, "undecided")])
+@pytest.mark.parametrize(("p", "verdict"), [(0.8, "holds"), (1 / 3, "fails"),
+    pytest.param(0.9, "holds", marks=pytest.mark.slow), (0.5, "undecided")])
 def test_verdicts_are_no_matter_of_chance(p: float, verdict: str) -> None:
     """Two normal cells of 32 runs, whose pairs rise with probability p = Φ(d/√2); 400 times three ensembles.
 
@@ -350,10 +351,14 @@ def test_a_mistake_is_told_at_its_place(old: str, new: str, place: str, words: s
 
 
 @needs_compiler
-def test_a_claim_compares_no_more_than_can_be_judged() -> None:
-    """Any two of 500 values are 124 750 pairs; the same values one by one are few, a million of them too many."""
+@pytest.mark.parametrize(("some", "most"), [
+    (50, 1000), pytest.param(500, selected.MOST_COMPARED, marks=pytest.mark.slow),
+])  # fmt: skip
+def test_a_claim_compares_no_more_than_can_be_judged(some: int, most: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Any two of 50 values are 1225 pairs, of 500 124 750; the same values one by one are few, a million too many."""
+    monkeypatch.setattr(selected, "MOST_COMPARED", most)
     study: dict[str, Any] = {"mechanism": "pendulum", "measures": {"x": {"final": "bob.x"}}}
-    for count, kind, words in ((500, "alike_along", "more than 100000 pairs"), (500, "grows_along", ""),
+    for count, kind, words in ((some, "alike_along", f"more than {most} pairs"), (some, "grows_along", ""),
                                (10**6, "grows_along", "1000000 values")):  # fmt: skip
         trend = {"says": "?", "measure": "x", kind: "g"} | ({"within": 0.1} if kind == "alike_along" else {})
         row = {"from": 1, "to": 2, "count": count}

@@ -60,10 +60,11 @@ def test_exponents_of_hill_and_valley(own: dict[str, Any]) -> None:
     assert (data["rate"].attrs["units"], data["far"].attrs["units"]) == ("1/s", "s")
 
 
-def test_kinds_of_motion_once_a_period(own: dict[str, Any]) -> None:
+@pytest.mark.parametrize("damping", [[1.6], pytest.param([0.8, 1.6], marks=pytest.mark.slow)])
+def test_kinds_of_motion_once_a_period(damping: list[float], own: dict[str, Any]) -> None:
     """Forced and damped, transients gone, it repeats itself with the force: by −d/2m · 2π/ω a return."""
     found = gudgeon.study(own | {
-        "parameters": own["parameters"] | {"k": 4.0, "A": 7.5, "d": [0.8, 1.6]}, "t_end": "140*pi/w",
+        "parameters": own["parameters"] | {"k": 4.0, "A": 7.5, "d": damping}, "t_end": "140*pi/w",
         "windows": {"late": {"from": "20 s"}},
         "measures": {"kind": {"motion": "2*pi/w", "window": "late"}, "per": {"lyapunov_per_return": "2*pi/w"},
                      "sure": {"motion_confidence": "2*pi/w", "window": "late"}},

@@ -43,7 +43,8 @@ def killed(act: Callable[[], object]) -> int:
     return os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
 
 
-@pytest.mark.parametrize("moment", [0.0, 0.1, 1 / 6, 0.4, 0.5, 5 / 6, 1.0])
+@pytest.mark.parametrize("moment", [0.0, pytest.param(0.1, marks=pytest.mark.slow), 1 / 6,
+    pytest.param(0.4, marks=pytest.mark.slow), 0.5, pytest.param(5 / 6, marks=pytest.mark.slow), 1.0])
 def test_a_killed_study_goes_on_to_the_same_dataset(moment: float, tmp_path: Path, quiet: xr.Dataset) -> None:
     def kill(fraction: float, text: str) -> None:
         if fraction >= moment:

@@ -26,6 +26,7 @@ from gudgeon.results.postures import posture_at, postures_of  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
 from gudgeon.web.description import description  # noqa: E402
 from gudgeon.web.page import file_text  # noqa: E402
+from tests.slow import slow_but
 from tests.web.node import node  # noqa: E402
 
 SHORT = {"nine_bar_press": 0.1, "andrews_squeezer": 0.03}  # s of these; a second of the others
@@ -46,6 +47,7 @@ def points(shape: Shape) -> Any:
 
 
 Box = tuple[Any, Any]
+KINDS = ["andrews_squeezer", "belt_block", "car_axis", "nine_bar_press", "scotch_yoke", "slider_crank_spring"]
 
 
 def ran(name: str, scene: str = "ideal") -> tuple[Result, Rig, Plan, Box]:
@@ -68,7 +70,7 @@ def off(rig: Rig, posture: Posture, plan: Plan, box: Box) -> float:
     return worst / rig.size
 
 
-@pytest.mark.parametrize("name", shipped())
+@pytest.mark.parametrize("name", slow_but(KINDS, shipped()))
 def test_points_are_where_they_are_drawn(name: str) -> None:
     """At samples that the rig was not made from, arrows of drives in the sense that they had."""
     run, rig, plan, box = ran(name)
@@ -112,7 +114,8 @@ console.log(JSON.stringify(asked.postures.map(({q, p, loads}) => {
 
 
 @pytest.mark.skipif(node() is None, reason="Node is not installed")
-@pytest.mark.parametrize("name", ["slider_crank_spring", "andrews_squeezer", "car_axis"])
+@pytest.mark.parametrize("name", [
+    pytest.param("slider_crank_spring", marks=pytest.mark.slow), "andrews_squeezer", "car_axis"])
 def test_a_page_places_them_alike(name: str, tmp_path: Path) -> None:
     """drawing.js beside Carried.at; numbers are carried to 1e-11 of the size."""
     run, rig, *_ = ran(name)

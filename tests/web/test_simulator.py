@@ -21,6 +21,7 @@ from tests.integrators.test_guide import ARM
 from tests.integrators.test_guide import HEAD as GUIDED_HEAD
 from tests.integrators.test_newton_restitution import BALL, HEAD
 from tests.scenes import loader
+from tests.slow import slow_but
 from tests.web.node import Answer, browser, in_browser, in_node, node
 
 pytest.importorskip("ziglang", reason="the extra web is not installed: no compiler for pages")
@@ -62,7 +63,7 @@ def check_series(found: Answer, run: Result, share: float) -> None:
 
 
 @needs_node
-@pytest.mark.parametrize("scene", RUNS, ids="/".join)
+@pytest.mark.parametrize("scene", slow_but([*RUNS][:4], RUNS), ids="/".join)
 def test_numbers_are_those_of_the_native_run(scene: tuple[str, str], tmp_path: Path) -> None:
     simulation = gudgeon.load(*scene)
     native = [simulation.simulate(**options) for options in RUNS[scene]]
@@ -206,7 +207,7 @@ MOVED: dict[str, list[dict[str, float]]] = {
 
 
 @needs_node
-@pytest.mark.parametrize("name", MOVED)
+@pytest.mark.parametrize("name", slow_but(["four_bar"], MOVED))
 def test_a_start_that_only_python_finds_is_followed(name: str, tmp_path: Path) -> None:
     """Speeds and masses leave it; from other lengths the file's assembly is Python's, some per cent away."""
     simulation = (
@@ -372,7 +373,7 @@ FAR = {"half: {zero: crank.theta - 30 deg, action": "half: {zero: crank.theta - 
 
 
 @needs_node
-@pytest.mark.parametrize("scene", ["ideal", "stopped"])
+@pytest.mark.parametrize("scene", [pytest.param("ideal", marks=pytest.mark.slow), "stopped"])
 def test_few_samples_of_a_long_time_come_in_pieces(scene: str, tmp_path: Path) -> None:
     """A page freezes between two pieces: none of 50,000 steps to two samples has more than some thousand of them."""
     text = CRANK.replace("length: 80 mm", "length: 200 mm")
