@@ -80,10 +80,14 @@ static int rows_closed(const Closing *w, double norm) { return norm < 1e-10 + NO
  */
 static int is_no_nearer(const Closing *w, const double *q, double share_left)
 {
-    double step = 0.0;
-    for (int k = 0; k < N_Q; k++)
+    double step = 0.0, away = 0.0;
+    for (int k = 0; k < N_Q; k++) {
+        const double off = q[k] - w->placed[k], turns = k % 3 == 2 ? rint(off / (2.0 * PI)) : 0.0; /* see unwind() */
+        const double weighed = (off - 2.0 * PI * turns) * w->weight[k];
         step += w->step[k] * w->step[k];
-    return share_left < 0.1 && sqrt(distance(w, q)) - 4.0 * share_left * sqrt(step) > sqrt(w->nearest);
+        away += weighed * weighed;
+    }
+    return share_left < 0.1 && sqrt(away) - 4.0 * share_left * sqrt(step) > sqrt(w->nearest);
 }
 
 /* Newton with line search, positions put in first; ends where no step helps any more, or leads to nothing nearer. */
