@@ -61,7 +61,7 @@ docs:  ## the documentation as a site under build/site: references from docstrin
 	@sh tools/setup all,web,site
 	@.venv/bin/python -m sphinx -W --keep-going -q -b html docs build/site && echo "wrote build/site/index.html"
 
-sanitize: setup-test  ## the C of every shipped scene under gcc's sanitizers: memory, undefined arithmetic, races. 15 minutes
+sanitize: setup-test  ## the C of every shipped scene under gcc's sanitizers: memory, undefined arithmetic, races. An hour and more
 	@.venv/bin/python -m tests.sanitize $(ARGS)
 	@.venv/bin/python -m tests.sanitize --threads $(ARGS)
 
