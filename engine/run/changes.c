@@ -126,7 +126,6 @@ static int change_side(Run *run, int corner, const Parameters *p)
 #if N_CORNERS
     return change_drives(run, corner, p);
 #else
-    pass_impulse(run, p);
     return settle_sides(run, corner, p);
 #endif
 }

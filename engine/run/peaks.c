@@ -2,8 +2,8 @@
  * Peaks of the forces in joints with play between the ends of a step, from the interpolant.
  */
 enum { MAX_TOPS = 20 };
-#define TOP 1e-5    /* of a step: so near its place a force is its largest but for 1e-10 */
-#define AROUND 0.01 /* the same, within which it is a parabola to that */
+#define TOP 1e-5 /* of a step: so near its place a force is its largest but for 1e-10 */
+#define TOP_OF 0.1 /* of the root of the tolerance: but for a hundredth of that */
 
 static void peak(Run *run, int i, double t, double F)
 {
@@ -31,12 +31,20 @@ static double force_at(Run *run, const Step *step, double s, int i, const Parame
     return F;
 }
 
+/* So near its place, as a share of the step, is a top looked for: as the motion is known, and what a step of rk4 is. */
+static double top_width(const Run *run)
+{
+    const double tolerance = run->fixed > 0.0 ? 0.0 : 1.0 / run->inverse_scale[2 * N_X - 1];
+    return min_of(1e-3, max_of(TOP, TOP_OF * sqrt(tolerance)));
+}
+
 /* The top of joint i's force inside a step up to `share`, by parabolas through three of its places; at both ends it is
  * known. */
 static void inner_peak(Run *run, const Step *step, double share, int i, double before, double after,
     const Parameters *p)
 {
     double x[3] = {0.0, 0.5 * share, share}, f[3] = {before, force_at(run, step, 0.5 * share, i, p), after};
+    const double close = top_width(run) * share, around = sqrt(10.0 * close * share); /* a parabola within that */
     peak(run, i, step->t, before);
     for (int n = 0; n < MAX_TOPS; n++) {
         const double low = x[1] - x[0], high = x[2] - x[1], left = f[0] - f[1], right = f[2] - f[1];
@@ -45,10 +53,10 @@ static void inner_peak(Run *run, const Step *step, double share, int i, double b
         if (bend < 0.0)
             top = x[1] - 0.5 * (right * low * low - left * high * high) / bend;
         top = min_of(x[2] - 0.1 * high, max_of(x[0] + 0.1 * low, top));
-        if (fabs(top - x[1]) < TOP * share && max_of(low, high) < AROUND * share)
+        if (fabs(top - x[1]) < close && max_of(low, high) < around)
             break;
-        if (fabs(top - x[1]) < 0.1 * AROUND * share && max_of(low, high) >= AROUND * share)
-            top = low > high ? x[1] - 0.5 * AROUND * share : x[1] + 0.5 * AROUND * share; /* by nearer places */
+        if (fabs(top - x[1]) < 0.1 * around && max_of(low, high) >= around)
+            top = low > high ? x[1] - 0.5 * around : x[1] + 0.5 * around; /* by nearer places */
         const double found = force_at(run, step, top, i, p);
         const int above = top > x[1], higher = found > f[1], end = above == higher ? 0 : 2;
         x[end] = higher ? x[1] : top;

@@ -16,6 +16,12 @@ static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 
 /* How close (s) to the end t of a step of length h a sample is the end's own: both are sums of rounded numbers. */
 static inline double rounded(double t, double h) { return 8.0 * DBL_EPSILON * fabs(t) + 1e-12 * h; }
 
+#ifdef __wasm__ /* what a page carries: of what runs seldom rather little than fast */
+#define SELDOM __attribute__((minsize))
+#else
+#define SELDOM
+#endif
+
 /*
  * Time at which step i (0, 1, ...) of a fixed length ends, from t0 towards t_end; `h` is its length. The last one ends
  * at t_end and is the shorter for it. Steps from a multiple of their length end at multiples, so that a run that goes

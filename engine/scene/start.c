@@ -9,6 +9,7 @@
 #define FAR 0.5      /* rad: where a guessed angle turns further, a nearer configuration is sought (closure.py) */
 #define APART 0.2    /* the same of a guessed place, as a share of the size (followed.py) */
 #define MIRRORED 0.1 /* of both: where a guess is further off, what lies on its other side is looked at */
+#define NEARER 1e-5  /* by so much of its distance, at least, is another one nearer */
 
 /* How far from the origin (m) drives, the start's set and its guess ask bodies to be: the size, at least. */
 static double farthest_place(Closing *w, double t, const Parameters *p, const double *q)
@@ -32,6 +33,13 @@ static void begin_start(Closing *w, const Parameters *p)
         w->weight[k] = k % 3 == 2 ? 1e-2 : 1e-4 / w->size;
     for (int i = 0; i < N_GUESS && !GUESSED_POINTS; i++)
         w->weight[guess_place[i]] = guess_place[i] % 3 == 2 ? 1.0 : 1.0 / w->size;
+    for (int k = 0; k < N_Q; k++)
+        w->over_weight[k] = 1.0 / w->weight[k];
+    for (int r = 0; r < N_ALL_ROWS + N_SET; r++) {
+        const int is_length = r < N_ALL_ROWS ? row_is_length[r] : set_place[r - N_ALL_ROWS] % 3 != 2;
+        w->over_row[r] = is_length ? 1.0 / w->size : 1.0;
+    }
+    w->nearest = INFINITY;
 }
 
 /* The guess, and what rows in angles alone make of it. */
@@ -73,15 +81,6 @@ static int is_near(const Closing *w, const double *q)
     return near;
 }
 
-/* From the guess, by the weights of coordinates, squared. */
-static double distance(const Closing *w, const double *q)
-{
-    double sum = 0.0;
-    for (int k = 0; k < N_Q; k++)
-        sum += (q[k] - w->placed[k]) * w->weight[k] * (q[k] - w->placed[k]) * w->weight[k];
-    return sum;
-}
-
 /* Angles within half a turn of the guess; 1 where a row counts turns. */
 static int unwind(Closing *w, double t, const Parameters *p, double *q)
 {
@@ -107,6 +106,7 @@ static void nearer(Closing *w, double t, const Parameters *p, double *q)
         w->beyond[k] = 2.0 * w->placed[k] - q[k];
     }
     for (int all = 0; all < 2; all++) {
+        w->nearest = (1.0 - NEARER) * (1.0 - NEARER) * distance(w, q);
         for (int k = 0; k < N_Q; k++)
             w->other[k] = all ? w->beyond[k] : w->first[k];
         for (int i = 0; i < N_GUESS; i++)
@@ -114,52 +114,57 @@ static void nearer(Closing *w, double t, const Parameters *p, double *q)
         for (int i = 0; i < N_SET; i++)
             w->other[set_place[i]] = w->set[i];
         if (place_angles(w, t, p, w->other) || close_rows(w, t, p, w->other) || !is_near(w, w->other)
-            || unwind(w, t, p, w->other) || !(distance(w, w->other) < distance(w, q)))
+            || unwind(w, t, p, w->other) || !(distance(w, w->other) < w->nearest))
             continue;
         for (int k = 0; k < N_Q; k++)
             q[k] = w->other[k];
     }
 }
 
-/* Phi_q v = nu and the start's rates, least in the metric of M; refined twice. */
-static int first_velocities(Closing *w, double t, const Parameters *p, const double *q, double *v)
+/* Phi_q v = nu and the start's rates, least in the metric of M; refined twice. Steps are of v times the root of M. */
+SELDOM static int first_velocities(Closing *w, double t, const Parameters *p, const double *q, double *v)
 {
-    enum { ROWS = N_ALL_ROWS + N_RATES };
-    double root[N_Q], most = 0.0, worst = 0.0;
-    mass_matrix(p, root);
+    double over_root[N_Q], wanted[N_START_ROWS + 1], most = 0.0, worst = 0.0;
+    int place[N_Q];
+    mass_matrix(p, over_root);
     for (int k = 0; k < N_Q; k++) {
-        root[k] = sqrt(root[k]);
+        over_root[k] = 1.0 / sqrt(over_root[k]);
         v[k] = 0.0;
     }
+    rows_together(w, &w->some, N_ALL_ROWS + N_RATES, rate_place);
+    jacobian(t, q, p, &w->row[0][0]);
+    velocity_rhs(beyond_jump(t), q, p, wanted);
+    for (int k = 0; k < N_APART; k++)
+        wanted[apart_row[k]] -= w->rates[N_RATES + k];
+    for (int i = 0; i < N_RATES; i++) {
+        wanted[N_ALL_ROWS + i] = w->rates[i];
+        w->row[N_ALL_ROWS + i][rate_place[i]] = 1.0;
+    }
+    for (int r = 0; r < w->some.n; r++) {
+        const int n = places_of(r, rate_place, place);
+        for (int i = 0; i < n; i++)
+            w->row[r][place[i]] *= over_root[place[i]];
+        most = max_of(most, fabs(wanted[r]));
+    }
+    if (factor_rows(w, &w->some))
+        return 1;
     for (int pass = 0; pass <= 3; pass++) {
-        gudgeon_phi_q(t, q, (const double *)p, &w->row[0][0]);
-        velocity_rhs(beyond_jump(t), q, p, w->rest);
-        for (int k = 0; k < N_APART; k++)
-            w->rest[apart_row[k]] -= w->rates[N_RATES + k];
-        for (int i = 0; i < N_RATES; i++) {
-            w->rest[N_ALL_ROWS + i] = w->rates[i];
-            for (int k = 0; k < N_Q; k++)
-                w->row[N_ALL_ROWS + i][k] = k == rate_place[i] ? 1.0 : 0.0;
-        }
-        most = worst = 0.0;
-        for (int r = 0; r < ROWS; r++) {
-            most = max_of(most, fabs(w->rest[r]));
-            for (int k = 0; k < N_Q; k++) {
-                if (w->row[r][k] == 0.0)
-                    continue;
-                w->rest[r] -= w->row[r][k] * v[k];
-                w->row[r][k] /= root[k];
-            }
+        worst = 0.0;
+        for (int r = 0; r < w->some.n; r++) {
+            const int n = places_of(r, rate_place, place);
+            w->rest[r] = wanted[r];
+            for (int i = 0; i < n; i++)
+                w->rest[r] -= w->row[r][place[i]] * v[place[i]];
             worst = max_of(worst, fabs(w->rest[r]));
         }
         if (pass == 3)
             break;
-        if (pass == 0 && factor_rows(w, ROWS)) /* the same rows in each */
-            return 1;
-        step_of_rows(w, ROWS);
+        step_of_rows(w, &w->some);
         for (int k = 0; k < N_Q; k++)
-            v[k] += w->step[k] / root[k];
+            v[k] += w->step[k];
     }
+    for (int k = 0; k < N_Q; k++)
+        v[k] *= over_root[k];
     return !(worst <= 1e-10 * most);
 }
 

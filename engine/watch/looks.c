@@ -82,6 +82,28 @@ static int is_unresolved(Run *run, Step *step, const Parameters *p)
     return 0;
 }
 
+/* The least margin k around s, where it is `best`, within `width` to both sides; stops as soon as it is below zero. */
+static double dip(Run *run, const Step *step, int k, double *s, double width, double best, const Parameters *p)
+{
+    for (; width > 1e-6 && best >= shallow(p, k) && *s - width >= 0.0 && *s + width <= 1.0; width *= 0.5) {
+        const double left = margin_at(run, step, *s - width, k, p), right = margin_at(run, step, *s + width, k, p);
+        const double bend = left - 2.0 * best + right;
+        double at[3] = {*s - width, *s + width, *s}, value[3] = {left, right, best};
+        if (bend > 0.0) {
+            at[2] = min_of(at[1], max_of(at[0], *s + 0.5 * width * (left - right) / bend));
+            value[2] = margin_at(run, step, at[2], k, p);
+        }
+        for (int j = 0; j < 3; j++)
+            if (value[j] < best) {
+                best = value[j];
+                *s = at[j];
+            }
+        if (best > 8.0 * bend)
+            break; /* the parabola stays clear of zero */
+    }
+    return best;
+}
+
 /* The first look, or dip between looks, at which watched margin i is below zero; 0: none. */
 static double first_look(Run *run, const Step *step, int i, const Parameters *p, double *value)
 {

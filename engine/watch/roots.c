@@ -1,7 +1,7 @@
 /*
  * Where along a step a margin crosses zero: the step's interpolant, its roots, and dips that touch zero in between.
  */
-enum { QUICK = 6, LOOKS = 16 }; /* looks by which a zero is found as a rule; evenly along a step */
+enum { QUICK = 6, LOOKS = 8, MOST_LOWEST = 20 }; /* looks by which a zero is found as a rule; evenly along a step */
 #define SHALLOW 1e-13 /* m, or 1e-10 of the depth that ends the model: a graze without a force worth the name */
 
 /* How far below zero margin k lies without a meaning: m of a joint with play. */
@@ -214,46 +214,51 @@ static int may_graze(const Run *run, const Step *step, int i, double least)
         && nearest + (outward - inward) * step->h / 16.0 > 0.0;
 }
 
-/* The least margin k around s, where it is `best`, within `width` to both sides; stops as soon as it is below zero. */
-static double dip(Run *run, const Step *step, int k, double *s, double width, double best, const Parameters *p)
+/*
+ * The least margin k between two places of which the first falls and the second rises: at the lowest points of cubics
+ * through both, which take the place of one; stops where it is below zero, or surely is not.
+ */
+static double lowest(Run *run, const Step *step, int k, Place low, Place high, double *s, const Parameters *p)
 {
-    for (; width > 1e-6 && best >= shallow(p, k) && *s - width >= 0.0 && *s + width <= 1.0; width *= 0.5) {
-        const double left = margin_at(run, step, *s - width, k, p), right = margin_at(run, step, *s + width, k, p);
-        const double bend = left - 2.0 * best + right;
-        double at[3] = {*s - width, *s + width, *s}, value[3] = {left, right, best};
-        if (bend > 0.0) {
-            at[2] = min_of(at[1], max_of(at[0], *s + 0.5 * width * (left - right) / bend));
-            value[2] = margin_at(run, step, at[2], k, p);
-        }
-        for (int j = 0; j < 3; j++)
-            if (value[j] < best) {
-                best = value[j];
-                *s = at[j];
-            }
-        if (best > 8.0 * bend)
-            break; /* the parabola stays clear of zero */
+    const double least = shallow(p, k);
+    double best = min_of(low.f, high.f);
+    for (int i = 0; i < MOST_LOWEST && high.s - low.s > 1e-6; i++) {
+        const double w = high.s - low.s, mean = 3.0 * (high.f - low.f) / w;
+        const double c = mean - 2.0 * low.slope - high.slope, d = low.slope + high.slope - 2.0 / 3.0 * mean;
+        const double root = sqrt(max_of(0.0, c * c - 3.0 * d * low.slope)); /* slope + 2 c x + 3 d x^2 = 0 */
+        const double x = min_of(0.9, max_of(0.1, -low.slope / (c + root)));
+        const Place now = place_at(run, step, low.s + w * x, k, p);
+        if (!(now.f >= best))
+            best = now.f, *s = now.s;
+        if (!(best >= least))
+            break;
+        if (now.slope < 0.0)
+            low = now;
+        else
+            high = now;
+        if (now.f + (now.slope < 0.0 ? now.slope * (high.s - now.s) : now.slope * (low.s - now.s)) > least)
+            break; /* a convex one stays above its tangents */
     }
     return best;
 }
 
-/* The first of equally spaced looks, and of the dips between them, that finds margin k below zero; 0: none. */
+/* The first of equally spaced looks, and of the lowest places between them, that finds a free joint's margin k below
+ * zero; 0: none. */
 static double look_along(Run *run, const Step *step, int k, const Parameters *p, double *value)
 {
-    const double width = 1.0 / LOOKS;
-    double before = INFINITY, last = margin(&run->memory, &run->aside, k);
+    Place last = begin_of(run, step, k);
     for (int i = 1; i <= LOOKS; i++) {
-        const double now = i < LOOKS ? margin_at(run, step, i * width, k, p) : margin(&run->memory, &step->aside, k);
-        if (i > 1 && last < before && last <= now) {
-            double s = (i - 1) * width;
-            *value = dip(run, step, k, &s, width, last, p);
+        const Place now = i < LOOKS ? place_at(run, step, (double)i / LOOKS, k, p) : end_of(run, step, k);
+        if (last.slope < 0.0 && now.slope > 0.0) {
+            double s = now.s;
+            *value = lowest(run, step, k, last, now, &s, p);
             if (*value < shallow(p, k))
                 return s;
         }
-        if (now < (i < LOOKS ? shallow(p, k) : 0.0)) {
-            *value = now;
-            return i * width;
+        if (now.f < (i < LOOKS ? shallow(p, k) : 0.0)) {
+            *value = now.f;
+            return now.s;
         }
-        before = last;
         last = now;
     }
     return 0.0;

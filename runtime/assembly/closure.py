@@ -23,6 +23,8 @@ TRIES, MANY, MORE = 24, 60, 5  # from as many other angles; fewer with more coor
 AWAY = 1e3  # of how far drives and the start ask for: a body so far from the origin is lost
 CLOSED = 1e-10  # a residual above this share of the mechanism's size is no assembly,
 ROUNDING = 1e-14  # with this share of how far from the origin it is
+HELD = 1e-6  # below this norm a Jacobian serves the next steps too, as long as they close a tenth (closing.c)
+NEARER = 1e-5  # by so much of its distance, at least, is another configuration nearer
 
 # Weights of a coordinate in the norm of a Newton step: a guess is held most firmly.
 GUESSED, FREE_ANGLE, FREE_POSITION = 1.0, 1e-2, 1e-4
@@ -143,8 +145,11 @@ class Closure:
         for mirrored in (found, beyond):
             mirrored[self.set_index] = self.set
             other = self.newton(self.place_angles(mirrored))
-            if self._counts(other):
-                first = min(first, self.unwound(other), key=self.distance)
+            if not self._counts(other):
+                continue
+            other = self.unwound(other)
+            if self.distance(other) < (1.0 - NEARER) * self.distance(first):
+                first = other
         return first
 
     def distance(self, q: Array) -> float:
@@ -246,17 +251,24 @@ class Closure:
     def newton(self, q: Array) -> Array:
         """Newton with line search, positions put in first; as far as it gets."""
         q = q + self._step(q, self._scaled(q), ~self.is_angle)
+        at, held, rounding = q, False, ROUNDING * self.reach / self.size  # at: where the rows are linearized
         open_by = self._scaled(q)
         for _ in range(MAX_STEPS):
-            step, share, norm = self._step(q, open_by), 1.0, float(np.linalg.norm(open_by))
-            while share > 1e-4:
+            step, share, norm = self._step(at, open_by), 1.0, float(np.linalg.norm(open_by))
+            while share > (0.5 if held else 1e-4):
                 after = self._scaled(q + share * step)
                 if float(np.linalg.norm(after)) < (1.0 - 1e-4 * share) * norm:
                     break
                 share *= 0.5
             else:
-                break
+                if not held or norm < rounding:
+                    break
+                at, held = q, False
+                continue
             q, open_by = q + share * step, after
+            left = float(np.linalg.norm(open_by))
+            held = left < HELD and (left < 0.1 * norm or left < rounding)
+            at = at if held else q
         return q
 
     def place_angles(self, q: Array) -> Array:

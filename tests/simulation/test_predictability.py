@@ -95,6 +95,15 @@ def test_the_steps_of_a_longer_run_are_those_of_a_shorter_one(options: dict[str,
     assert short.q[:3].tobytes() == long.q[:3].tobytes() and short.v[:3].tobytes() == long.v[:3].tobytes()
 
 
+@compiled
+def test_nor_does_an_end_move_steps_that_it_would_have_cut_short() -> None:
+    """Flights between impacts take one step, which is refused at first as it reaches far beyond the next contact."""
+    pendulum = gudgeon.load(VALID / "double_pendulum.yaml", scene="fast")
+    short, long = (pendulum.simulate(output=[0.0, 0.1, 0.15, t_end]) for t_end in (0.2, 0.25))
+    assert len(short.impacts[short.impacts["t_on"] < 0.15]) > 20
+    assert short.q[:3].tobytes() == long.q[:3].tobytes() and short.v[:3].tobytes() == long.v[:3].tobytes()
+
+
 def with_horizon(run: Result, value: float) -> Result:
     return replace(run, diagnostics=replace(run.diagnostics, horizon=value))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from itertools import accumulate
 from typing import Any
 
 import sympy as sp
@@ -188,6 +189,7 @@ def _defines(values: Sizes) -> list[str]:
 def _tables(program: Program, of_scene: Sizes) -> list[str]:
     model, start = program.model, _start(program.model)
     place = {row.name: r for r, row in enumerate(model.all_rows)}
+    column = {q: k for k, q in enumerate(model.q)}
     tables: dict[tuple[str, str], Sequence[int]] = {
         ("signed char", "event_direction"): [SIGNS[event.direction] for event in model.events],
         ("unsigned char", "event_stops"): [int(event.action == "stop") for event in model.events],
@@ -195,6 +197,8 @@ def _tables(program: Program, of_scene: Sizes) -> list[str]:
         ("int", "rate_place"): start["rate_place"],
         ("unsigned char", "row_is_length"): [int(row.unit == "m") for row in model.all_rows],
         ("int", "kept_row"): [place[row.name] for row in model.rows],
+        ("int", "phi_q_first"): [0, *accumulate(len(row.phi_q) for row in model.all_rows)],
+        ("short", "phi_q_place"): [column[q] for row in model.all_rows for q in row.phi_q],
         ("unsigned char", "is_angle"): program.integrated.angles,
     }  # fmt: skip
     if apart := apart_rows(model):

@@ -1,0 +1,247 @@
+/*
+ * Steps that close linearized rows: the shortest one, by the normal matrix of rows that meet a few coordinates
+ * each, and the one that leaves the least. Where anything is not 0 is known from the entries of Phi_q.
+ */
+#include "../run/asked.h"
+#include "calls.h"
+
+#ifndef N_APART /* few starts say where journals are: Phi of these joints is -e, behind set, its rate behind rates */
+#define N_APART 0
+static const int apart_row[] = {0};
+#endif
+
+enum {
+    N_START_ROWS = N_ALL_ROWS + (N_SET > N_RATES ? N_SET : N_RATES),
+    N_NORMAL = N_START_ROWS > N_Q ? N_START_ROWS : N_Q
+};
+
+/* Rows that are solved together, those of the normal matrix: which of them meet a coordinate, where its factor is not
+ * 0. Of the first step coordinates take their place. */
+typedef struct {
+    int n;
+    short row[N_NORMAL + 1], meets[N_Q][N_START_ROWS + 1], n_meets[N_Q];
+    short filled[N_NORMAL + 1][N_NORMAL + 1], n_filled[N_NORMAL + 1];
+} System;
+
+/* Rows of the linearized system with what each must still give, columns over their weights; a normal matrix, its upper
+ * half, and the reciprocals of its factor's diagonal. */
+typedef struct {
+    double size, reach, weight[N_Q], step[N_Q], placed[N_Q];
+    double first[N_Q], beyond[N_Q], other[N_Q];
+    double guess[N_GUESS + 1], set[N_SET + N_APART + 1], rates[N_RATES + N_APART + 1];
+    double row[N_START_ROWS + 1][N_Q], rest[N_START_ROWS + 1], over_row[N_START_ROWS + 1], over_weight[N_Q];
+    double normal[N_NORMAL + 1][N_NORMAL + 1], over_pivot[N_NORMAL + 1], right[N_NORMAL + 1];
+    unsigned char has[N_NORMAL + 1][N_NORMAL + 1];
+    System first_step, all, some;
+    double nearest; /* what is as far as this from the guess, squared, is not looked for */
+    int dependent;  /* rows that depend on others are left out: they close with them, or the rest says so */
+    Asked *asked;
+} Closing;
+
+/* Where row r has something: a row of joints and drives meets a few coordinates of many, one of `set` its own. */
+static int places_of(int r, const int *own, int *place)
+{
+    int n = 0;
+    if (r >= N_ALL_ROWS)
+        place[n++] = own[r - N_ALL_ROWS];
+    else
+        for (int e = phi_q_first[r]; e < phi_q_first[r + 1]; e++)
+            place[n++] = phi_q_place[e];
+    return n;
+}
+
+/* Where the factor of a normal matrix is not 0, from where the matrix is not: `has`, above its diagonal. */
+SELDOM static void fill(Closing *w, System *of)
+{
+    for (int k = 0; k < of->n; k++) {
+        short *place = of->filled[k];
+        int many = 0;
+        for (int i = k + 1; i < of->n; i++)
+            if (w->has[k][i])
+                place[many++] = (short)i;
+        of->n_filled[k] = (short)many;
+        for (int a = 0; a < many; a++)
+            for (int b = a + 1; b < many; b++)
+                w->has[place[a]][place[b]] = 1;
+    }
+}
+
+static void clear_pattern(Closing *w, int n)
+{
+    for (int i = 0; i < n; i++)
+        for (int j = i; j < n; j++)
+            w->has[i][j] = 0;
+}
+
+/* Which rows meet where: only those with a coordinate in common have a product. `own`: of the rows behind all. */
+SELDOM static void find_meetings(Closing *w, System *of, const int *own)
+{
+    int place[N_Q];
+    for (int k = 0; k < N_Q; k++)
+        of->n_meets[k] = 0;
+    for (int i = 0; i < of->n; i++) {
+        const int n = places_of(of->row[i], own, place);
+        for (int a = 0; a < n; a++)
+            of->meets[place[a]][of->n_meets[place[a]]++] = (short)i;
+    }
+    clear_pattern(w, of->n);
+    for (int k = 0; k < N_Q; k++)
+        for (int a = 0; a < of->n_meets[k]; a++)
+            for (int b = a + 1; b < of->n_meets[k]; b++)
+                w->has[of->meets[k][a]][of->meets[k][b]] = 1;
+    fill(w, of);
+}
+
+/* Rows 0 ... n - 1. */
+static void rows_together(Closing *w, System *of, int n, const int *own)
+{
+    of->n = n;
+    for (int r = 0; r < n; r++)
+        of->row[r] = (short)r;
+    find_meetings(w, of, own);
+}
+
+/* A normal matrix without entries. */
+static void clear_normal(Closing *w, const System *of)
+{
+    for (int k = 0; k < of->n; k++) {
+        w->normal[k][k] = 0.0;
+        for (int a = 0; a < of->n_filled[k]; a++)
+            w->normal[k][of->filled[k][a]] = 0.0;
+    }
+}
+
+/*
+ * normal = U^T U by Cholesky's method, row by row, of its upper half, in place; 1 where a pivot has (nearly) vanished,
+ * or nobody wants it.
+ */
+SELDOM static int factor_normal(Closing *w, const System *of)
+{
+    double *whole = w->right; /* not yet in use */
+    for (int k = 0; k < of->n; k++)
+        whole[k] = w->normal[k][k];
+    for (int k = 0; k < of->n; k++) {
+        double *u = w->normal[k];
+        const short *place = of->filled[k];
+        const int many = of->n_filled[k], stands = u[k] > 1e-12 * whole[k];
+        if (given_up(w->asked))
+            return 1;
+        if (!isfinite(whole[k]) || (!stands && !w->dependent))
+            return 1;
+        const double over = stands ? 1.0 / sqrt(u[k]) : 0.0; /* 0: so is its x */
+        w->over_pivot[k] = over;
+        for (int a = 0; a < many; a++)
+            u[place[a]] *= over;
+        for (int a = 0; a < many; a++) {
+            const double factor = u[place[a]];
+            double *below = w->normal[place[a]];
+            for (int b = a; b < many; b++)
+                below[place[b]] -= factor * u[place[b]];
+        }
+    }
+    return 0;
+}
+
+/* normal x = right from its factor, x in `right`. */
+static void solve_normal(Closing *w, const System *of)
+{
+    for (int k = 0; k < of->n; k++) {
+        const double *u = w->normal[k];
+        w->right[k] *= w->over_pivot[k];
+        for (int a = 0; a < of->n_filled[k]; a++)
+            w->right[of->filled[k][a]] -= u[of->filled[k][a]] * w->right[k];
+    }
+    for (int k = of->n - 1; k >= 0; k--) {
+        for (int a = 0; a < of->n_filled[k]; a++)
+            w->right[k] -= w->normal[k][of->filled[k][a]] * w->right[of->filled[k][a]];
+        w->right[k] *= w->over_pivot[k];
+    }
+}
+
+/* row row^T and its factor. */
+static int factor_rows(Closing *w, const System *of)
+{
+    double entry[N_START_ROWS + 1];
+    clear_normal(w, of);
+    for (int k = 0; k < N_Q; k++) {
+        const short *those = of->meets[k];
+        const int n = of->n_meets[k];
+        for (int a = 0; a < n; a++)
+            entry[a] = w->row[of->row[those[a]]][k];
+        for (int a = 0; a < n; a++)
+            for (int b = a; b < n; b++)
+                w->normal[those[a]][those[b]] += entry[a] * entry[b];
+    }
+    return factor_normal(w, of);
+}
+
+/* The shortest step with row step = rest, of rows whose factor is there: step = row^T x, row row^T x = rest. */
+static void step_of_rows(Closing *w, const System *of)
+{
+    for (int i = 0; i < of->n; i++)
+        w->right[i] = w->rest[of->row[i]];
+    solve_normal(w, of);
+    for (int k = 0; k < N_Q; k++) {
+        w->step[k] = 0.0;
+        for (int a = 0; a < of->n_meets[k]; a++)
+            w->step[k] += w->row[of->row[of->meets[k][a]]][k] * w->right[of->meets[k][a]];
+    }
+}
+
+/* Which coordinates meet in a row: only those have an entry of row^T row. */
+static void find_pairs(Closing *w, System *of)
+{
+    int place[N_Q];
+    of->n = N_Q;
+    clear_pattern(w, N_Q);
+    for (int r = 0; r < N_ALL_ROWS + N_SET; r++) {
+        const int n = places_of(r, set_place, place);
+        for (int i = 0; i < n; i++)
+            for (int j = 0; j < n; j++)
+                w->has[place[i]][place[j]] = 1;
+    }
+    fill(w, of);
+}
+
+/* row^T row and row^T rest, of places alone. */
+static void add_rows(Closing *w, const System *of)
+{
+    int place[N_Q];
+    clear_normal(w, of);
+    for (int k = 0; k < N_Q; k++)
+        w->step[k] = 0.0;
+    for (int r = 0; r < N_ALL_ROWS + N_SET; r++) {
+        const int n = places_of(r, set_place, place);
+        for (int i = 0; i < n; i++) {
+            const int k = place[i];
+            if (k % 3 == 2)
+                continue;
+            w->step[k] += w->row[r][k] * w->rest[r];
+            for (int j = 0; j < n; j++)
+                if (place[j] % 3 != 2 && place[j] >= k)
+                    w->normal[k][place[j]] += w->row[r][k] * w->row[r][place[j]];
+        }
+    }
+}
+
+/* The step that leaves the least of `rest`, damped a little: where Newton begins, no more. Of places alone. */
+static int nearest_step(Closing *w)
+{
+    System *of = &w->first_step;
+    double trace = 0.0;
+    if (!of->n)
+        find_pairs(w, of);
+    add_rows(w, of);
+    for (int k = 0; k < N_Q; k++)
+        trace += w->normal[k][k];
+    for (int k = 0; k < N_Q; k++)
+        w->normal[k][k] += 1e-10 * trace + 1e-300;
+    if (factor_normal(w, of))
+        return 1;
+    for (int k = 0; k < N_Q; k++)
+        w->right[k] = w->step[k];
+    solve_normal(w, of);
+    for (int k = 0; k < N_Q; k++)
+        w->step[k] = w->right[k];
+    return 0;
+}
