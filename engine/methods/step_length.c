@@ -136,22 +136,16 @@ static void open_attempt(Run *run, double t_end, const Parameters *p)
         h = min_of(h, run->pace);
     if (run->fixed <= 0.0)
         h = up_to_parting(run, min_of(h, stride(run, NULL, p)));
-    const double uncut = h > left * (1.0 - 1e-9) && run->fixed <= 0.0 && isfinite(h) ? h : 0.0;
-    h = h > left * (1.0 - 1e-9) ? left : h;
-    run->attempt = (Attempt){.h = h, .longest = h, .left = left, .far = far, .uncut = uncut, .open = 1,
+    if (h > left * (1.0 - 1e-9))
+        h = left;
+    run->attempt = (Attempt){.h = h, .longest = h, .left = left, .far = far, .open = 1,
         .stiff = run->method->stiff};
 }
 
-/*
- * Another one, as long as attempt->h; where the run's end had cut the first one short, as long as without it: when a
- * run ends then moves none of its steps but the last.
- */
+/* Another one, as long as attempt->h. */
 static int again(Run *run)
 {
-    Attempt *now = &run->attempt;
-    if (now->uncut > 0.0)
-        *now = (Attempt){.h = now->uncut, .longest = now->uncut, .left = now->left, .far = now->far, .open = 1};
-    now->stiff = run->method->stiff;
+    run->attempt.stiff = run->method->stiff;
     return 0;
 }
 
@@ -193,11 +187,6 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
         now->again = 1;
         run->rejected++;
         now->h *= max_of(0.25, 0.5 * pulse);
-        return again(run);
-    }
-    if (good && free && now->h > now->left) {
-        now->again = 1;
-        now->h = now->longest = now->left;
         return again(run);
     }
     if (good) {

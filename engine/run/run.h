@@ -93,7 +93,6 @@ typedef struct {
  */
 typedef struct {
     double h, longest, left, far, refused, error;
-    double uncut; /* how long it would be if the run went on; 0: it does not reach the end, or was tried so */
     int open, stiff, again, shortened, given_up;
 } Attempt;
 

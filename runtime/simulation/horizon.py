@@ -6,9 +6,10 @@ the same numbers allow, and only its statistics mean anything. The horizon is th
 run and one of its repetitions part by a quarter: of the radial clearance, in the path of a journal (orbits part for the
 eye); in a scene without play of the mechanism's size, of 1 rad in an angle.
 
-Neither t_end nor the output of the run enter. Steps do not depend on them, and what is compared lies on a ladder of
-times that is the same for every run: 4,000 between 4^k s and 4^(k + 1) s after the start, from the bottom up, until
-the runs part. So the resolution is 2e-4 of the horizon or better, and what lies beyond it is not integrated.
+Neither t_end nor the output of the run enter. Steps do not depend on them, but for one that an end cuts short, and what
+is compared lies on a ladder of times that is the same for every run: 4,000 between 4^k s and 4^(k + 1) s after the
+start, from the bottom up, until the runs part. So the resolution is 2e-4 of the horizon or better. Runs that part on
+the rung that t_end cuts off are compared again on all of it.
 
 It is a figure of the run, not of the scene alone: each digit of tolerance buys some time, until rounding is what grows.
 What all runs may be believed to on the average is ln(apart/error)/λ, where λ is known: Lyapunov.believable.
@@ -17,7 +18,7 @@ What all runs may be believed to on the average is ln(apart/error)/λ, where λ 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, cast
 
@@ -70,30 +71,43 @@ def horizon(simulation: Simulation, run: Result, progress: Progress | None = Non
     variants = ((begin, usual), (begin, tighter), (_moved(simulation, run, begin), usual))
     known = t0
     for times in _ladder(t0, t1):
-        runs = []
-        for start, settings in variants:
-            other = repeated(simulation, times, start, settings, progress)
-            if other is None:
-                return known
-            if other.diagnostics.interrupted:
-                raise KeyboardInterrupt
-            runs.append(other)
-        agreed, parted = _agreement(simulation, runs, apart)
-        known = max(known, agreed)
-        if parted:
-            return known
+        cut = times[-1] > t1
+        within = np.append(times[times < t1], t1) if cut else times
+        found = _parting(simulation, within, variants, progress, apart)
+        if cut and found is not None:
+            longer = _parting(simulation, times, variants, progress, apart)
+            found = longer if longer is not None and known < longer <= t1 else found
+        if found is not None:
+            return max(known, found)
+        known = float(times[-1])
     return math.inf
 
 
 def _ladder(t0: float, t1: float) -> Iterator[Array]:
-    """Times to compare, rung by rung: each TIMES long and four times as far as the one before, or cut off at t1."""
+    """Times to compare, rung by rung: each TIMES long and four times as far as the one before; t1 is on the last."""
     top = 4.0 ** math.floor(math.log(SHORTEST * (t1 - t0), 4.0))
-    low, whole = 0.0, False
-    while not whole:
-        whole = not t0 + top < t1
-        times = t0 + np.linspace(low, top, TIMES + 1)[1:]
-        yield np.append(times[times < t1], t1) if whole else times
+    low, last = 0.0, False
+    while not last:
+        last = not t0 + top < t1
+        yield t0 + np.linspace(low, top, TIMES + 1)[1:]
         low, top = top, 4.0 * top
+
+
+def _parting(
+    simulation: Simulation, times: Array, variants: Iterable[tuple[State, dict[str, Any]]], progress: Progress | None,
+    apart: float,
+) -> float | None:  # fmt: skip
+    """Of runs from these starts with these settings: the last of the times (s) before they part; None: they do not."""
+    runs = []
+    for start, settings in variants:
+        other = repeated(simulation, times, start, settings, progress)
+        if other is None:
+            return -math.inf
+        if other.diagnostics.interrupted:
+            raise KeyboardInterrupt
+        runs.append(other)
+    agreed, parted = _agreement(simulation, runs, apart)
+    return agreed if parted else None
 
 
 def repeated(

@@ -59,7 +59,7 @@ def test_a_fixed_step_is_compared_with_a_smaller_one() -> None:
 @pytest.mark.parametrize(("file", "scene", "options", "runs"), [
     (PRESS, "dry", {"parameters": {"c": 0.5e-3, "omega": "4*pi"}}, ((0.2, 200), (1.0, 2000), (4.0, 500))),
     (PRESS, "dry", {"parameters": {"c": 0.5e-3}, "method": "rk4", "step": 2e-5}, ((0.2, 333), (1.5, 200))),
-    (VALID / "double_pendulum.yaml", "fast", {}, ((0.2, 200), (4.0, 2000))),
+    (VALID / "double_pendulum.yaml", "fast", {}, ((0.2, 200), (0.24, 20), (4.0, 2000))),
 ])  # fmt: skip
 def test_neither_t_end_nor_output_move_it(
     file: str | Path, scene: str, options: dict[str, Any], runs: tuple[tuple[float, int], ...]
@@ -92,15 +92,6 @@ def test_the_steps_of_a_longer_run_are_those_of_a_shorter_one(options: dict[str,
     press = gudgeon.load(PRESS, scene="dry")
     short, long = (press.simulate(output=[0.0, 0.01, 0.02, t_end], **options) for t_end in (0.1, 0.3))
     assert len(short.impacts[short.impacts["t_on"] < 0.02]) > 2
-    assert short.q[:3].tobytes() == long.q[:3].tobytes() and short.v[:3].tobytes() == long.v[:3].tobytes()
-
-
-@compiled
-def test_nor_does_an_end_move_steps_that_it_would_have_cut_short() -> None:
-    """Flights between impacts take one step, which is refused at first as it reaches far beyond the next contact."""
-    pendulum = gudgeon.load(VALID / "double_pendulum.yaml", scene="fast")
-    short, long = (pendulum.simulate(output=[0.0, 0.1, 0.15, t_end]) for t_end in (0.2, 0.25))
-    assert len(short.impacts[short.impacts["t_on"] < 0.15]) > 20
     assert short.q[:3].tobytes() == long.q[:3].tobytes() and short.v[:3].tobytes() == long.v[:3].tobytes()
 
 
