@@ -3,9 +3,9 @@
     python -m benchmarks.since COMMIT [--repeats 3]
 
 The commit is checked out and installed in a folder of its own. A cold start is a process with an empty cache and an
-edited copy of the file, from its begin to its first result, wall; a batch is processor time of `simulate_many` in one
-thread: dry presses of .05 s, clearances within 1 % and over clearance x speed, lubricated ones of .4 s. The least of
---repeats is told. Both sides are measured by the same short programs, of calls that both have.
+edited copy of the file, from its begin to its first result, wall; a batch (benchmarks/studies.py) is processor time of
+`simulate_many` in one thread. The least of --repeats is told. Both sides are measured by the same short programs, of
+calls that both have.
 """
 
 from __future__ import annotations
@@ -21,6 +21,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from time import perf_counter
 
+import numpy as np
+
+from benchmarks.studies import PRESS, Presses, presses
+
 ROOT = Path(__file__).parents[1]
 COLD = (("four_bar", "ideal"), ("nine_bar_press", "ideal"), ("nine_bar_press", "dry"), ("nine_bar_press", "lubricated"))
 START = """
@@ -28,23 +32,16 @@ import sys, gudgeon
 gudgeon.load(sys.argv[1], scene=sys.argv[2]).simulate(1e-3, output=2)
 print("done", flush=True)
 """
-BATCHES = {
-    "dry, .05 s, c = .3 mm within 1 %": ("dry", "{'c': drawn}", 0.05),
-    "dry, .05 s, clearance x speed": ("dry", "{'c': c, 'omega': omega}", 0.05),
-    "lubricated, .4 s, c = .3 mm within 1 %": ("lubricated", "{'c': drawn[:1000]}", 0.4),
-}
 BATCH = """
 import sys
 from time import process_time
 import numpy as np, gudgeon
-drawn = 3e-4 * np.random.default_rng(0).uniform(0.99, 1.01, 4000)
-c, omega = (x.ravel() for x in np.meshgrid(np.linspace(0.3e-3, 0.8e-3, 50), np.pi * np.linspace(1.0, 8.0, 80)))
-columns = {columns}
-simulation = gudgeon.load("nine_bar_press", scene="{scene}")
-given = {{"l5": 0.25, "gravity.y": 0.0, "omega": 2.0 * np.pi, **columns}}
+file, scene, t_end = sys.argv[1:]
+columns = dict(np.load(file))
+simulation = gudgeon.load("nine_bar_press", scene=scene)
 for _ in range(2):  # what has to be compiled is, in the first
     before = process_time()
-    simulation.simulate_many(given, {t_end}, output=2, rtol=1e-4, threads=1)
+    simulation.simulate_many(columns, float(t_end), output=2, rtol=1e-4, threads=1)
     took = process_time() - before
 print(1e3 * took / len(columns["c"]))
 """
@@ -86,12 +83,15 @@ def cold(place: Path, name: str, scene: str) -> float:
         return took
 
 
-def batch(place: Path, scene: str, columns: str, t_end: float, cache: str) -> float:
+def batch(place: Path, of: Presses, cache: str) -> float:
     """Processor time of a run, ms."""
-    program = BATCH.format(scene=scene, columns=columns, t_end=t_end)
+    file = Path(cache) / "columns.npz"
+    file.parent.mkdir(exist_ok=True)
+    runs = len(of.columns["c"])
+    np.savez(file, **{name: np.broadcast_to(value, runs) for name, value in (PRESS | of.columns).items()})
     done = subprocess.run(
-        [str(place / ".venv/bin/python"), "-c", program], env=around(cache), cwd=place, check=True, capture_output=True,
-        text=True,
+        [str(place / ".venv/bin/python"), "-c", BATCH, str(file), of.scene, str(of.t_end)], env=around(cache),
+        cwd=place, check=True, capture_output=True, text=True,
     )  # fmt: skip
     return float(done.stdout)
 
@@ -113,12 +113,12 @@ def main() -> None:
                     took = cold(place, name, scene)
                     least[side] = min(least[side], took) if k else math.inf
             told(f"cold start, {name}, {scene}, s", least)
-        for title, (scene, columns, t_end) in BATCHES.items():
+        for of in presses():
             least = dict.fromkeys(places, math.inf)
             for _ in range(options.repeats):
                 for side, place in places.items():
-                    least[side] = min(least[side], batch(place, scene, columns, t_end, f"{caches}/{side}"))
-            told(f"{title}, ms", least)
+                    least[side] = min(least[side], batch(place, of, f"{caches}/{side}"))
+            told(f"{of.title}, ms", least)
 
 
 def told(title: str, least: Mapping[str, float]) -> None:

@@ -24,6 +24,7 @@ import sys
 import tempfile
 from pathlib import Path
 from time import perf_counter, process_time
+from typing import NamedTuple
 
 import numpy as np
 from ruamel.yaml import YAML
@@ -34,6 +35,7 @@ from gudgeon.integrators import lanes
 from gudgeon.studies.ensemble.study import plans_of, run_plans
 
 FILE = Path(__file__).parents[1] / "studies" / "lubricated_10000.yaml"
+PRESS = {"l5": 0.25, "gravity.y": 0.0, "omega": 2.0 * np.pi}  # of all batches
 VISCOSITY, TENTH, WHOLE = "contacts.oil.film.viscosity", 2, 20  # how many of them
 
 
@@ -58,24 +60,37 @@ def one(viscosities: int, threads: int) -> dict[str, float]:
     return told | {"most": most()}
 
 
-def batches(repeats: int) -> None:
-    """Prints the processor time of runs in batches."""
+class Presses(NamedTuple):
+    """A batch of presses: what it is, its scene, parameters of each run, how long a run is (s)."""
+
+    title: str
+    scene: str
+    columns: dict[str, np.ndarray]
+    t_end: float
+
+
+def presses() -> list[Presses]:
+    """The batches that are measured."""
     drawn = 3e-4 * np.random.default_rng(0).uniform(0.99, 1.01, 4000)
     c, omega = (x.ravel() for x in np.meshgrid(np.linspace(0.3e-3, 0.8e-3, 50), np.pi * np.linspace(1.0, 8.0, 80)))
-    press = {"l5": 0.25, "gravity.y": 0.0, "omega": 2.0 * np.pi}
+    return [
+        Presses("dry, .05 s, c = .3 mm within 1 %", "dry", {"c": drawn}, 0.05),
+        Presses("dry, .05 s, clearance x speed", "dry", {"c": c, "omega": omega}, 0.05),
+        Presses("lubricated, .4 s, c = .3 mm within 1 %", "lubricated", {"c": drawn[:1000]}, 0.4),
+    ]
+
+
+def batches(repeats: int) -> None:
+    """Prints the processor time of runs in batches."""
     print("  nine_bar_press, rtol 1e-4                   runs   CPU ms a run: beside  alone")
-    for told, scene, columns, t_end in (
-        ("dry, .05 s, c = .3 mm within 1 %", "dry", {"c": drawn}, 0.05),
-        ("dry, .05 s, clearance x speed", "dry", {"c": c, "omega": omega}, 0.05),
-        ("lubricated, .4 s, c = .3 mm within 1 %", "lubricated", {"c": drawn[:1000]}, 0.4),
-    ):
+    for told, scene, columns, t_end in presses():
         simulation, n = gudgeon.load("nine_bar_press", scene=scene), len(columns["c"])
         least = {True: math.inf, False: math.inf}
         lanes.WORTH = 0.0  # however short a batch is
         for beside in (True, False) * (repeats + 1):  # the first ones compile
             before = process_time()
             simulation.simulate_many(
-                {**press, **columns}, t_end, output=2, rtol=1e-4, threads=1, side_by_side=beside,
+                {**PRESS, **columns}, t_end, output=2, rtol=1e-4, threads=1, side_by_side=beside,
             )  # fmt: skip
             least[beside] = min(least[beside], process_time() - before)
         print(f"  {told:<40} {n:7d}{1e3 * least[True] / n:22.3f}{1e3 * least[False] / n:7.3f}", flush=True)
