@@ -94,7 +94,8 @@ def emit(
     folder: Annotated[
         Path, typer.Option("--out", "-o", parser=opt.path, metavar="PATH", help="Folder for C, one a scene; or x.fmu.")
     ],
-    scene: opt.Scenes = None, laws: opt.Laws = None, quiet: opt.Quiet = False,
+    scene: opt.Scenes = None, files_as_json: opt.FilesJson = False, laws: opt.Laws = None,
+    quiet: opt.Quiet = False,
 ) -> int:  # fmt: skip
     """Write the generated C, to be read or to be built into something else; to x.fmu as an FMU (FMI 3.0) of a scene.
 
@@ -110,8 +111,9 @@ def emit(
 @app.command()
 @told
 def equations(
-    file: opt.File, target: opt.Pages, scene: opt.ScenesOfPages = None, laws: opt.Laws = None, quiet: opt.Quiet = False
-) -> int:
+    file: opt.File, target: opt.Pages, scene: opt.ScenesOfPages = None, files_as_json: opt.FilesJson = False,
+    laws: opt.Laws = None, quiet: opt.Quiet = False,
+) -> int:  # fmt: skip
     """Write the equations of a scene as LaTeX, text, HTML or a notebook that derives and runs them.
 
     Example: gudgeon equations engine.yaml -o engine.tex --scene worn
@@ -138,7 +140,10 @@ def force_laws(
 
 @app.command()
 @told
-def new(name: opt.Name, like: opt.Like = None, study: opt.OfStudy = False, quiet: opt.Quiet = False) -> int:
+def new(
+    name: opt.Name, like: opt.Like = None, study: opt.OfStudy = False, files_as_json: opt.FilesJson = False,
+    quiet: opt.Quiet = False,
+) -> int:  # fmt: skip
     """Begin a mechanism file, NAME.yaml, or a study's, with comments that explain it.
 
     Example: gudgeon new engine --like slider_crank
@@ -150,7 +155,9 @@ def new(name: opt.Name, like: opt.Like = None, study: opt.OfStudy = False, quiet
 
 @app.command("import")
 @told
-def import_(file: opt.Foreign, target: opt.Mechanism = None, quiet: opt.Quiet = False) -> int:
+def import_(
+    file: opt.Foreign, target: opt.Mechanism = None, files_as_json: opt.FilesJson = False, quiet: opt.Quiet = False
+) -> int:
     """Make a mechanism file of a linkage that was drawn or synthesized elsewhere.
 
     Example: gudgeon import four_bar.json -o four_bar.yaml
@@ -164,7 +171,7 @@ def import_(file: opt.Foreign, target: opt.Mechanism = None, quiet: opt.Quiet = 
 @told
 def exercise(
     file: opt.File, target: opt.Sheet, scene: opt.OneScene = "ideal", seed: opt.Seed = 1, at: opt.Moment = None,
-    laws: opt.Laws = None, quiet: opt.Quiet = False,
+    files_as_json: opt.FilesJson = False, laws: opt.Laws = None, quiet: opt.Quiet = False,
 ) -> int:  # fmt: skip
     """Make an exercise sheet of a mechanism, and its solutions in a second file.
 
@@ -181,7 +188,8 @@ def exercise(
 @told
 def draw(
     file: opt.File, scene: opt.OneScene = "ideal", at: opt.At = None, target: opt.Picture = None, set_: opt.Set = None,
-    branches: opt.Branches = False, laws: opt.Laws = None, quiet: opt.Quiet = False,
+    branches: opt.Branches = False, files_as_json: opt.FilesJson = False, laws: opt.Laws = None,
+    quiet: opt.Quiet = False,
 ) -> int:  # fmt: skip
     """Draw a mechanism: bodies, joints, drives, forces, joints with play magnified.
 

@@ -16,11 +16,11 @@ import numpy as np
 
 from gudgeon.commands.common import at_numbers, check_addresses, check_file, chosen_scenes, need_suffix, settings
 from gudgeon.commands.progress import progress_bar, status_line
+from gudgeon.commands.written import wrote
 from gudgeon.errors import AssemblyError, BadValueError, GudgeonError, SolverError, shortened
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.plot_units import quantity
 from gudgeon.language.quantities import number_of_text
-from gudgeon.language.shown import path_text
 from gudgeon.loading.find import find_mechanism, read_bytes
 from gudgeon.model.parameters import spaced
 from gudgeon.waiting.working import working
@@ -93,7 +93,7 @@ def draw_file(request: Request) -> int:
                 drawn, failure = _start(request, file, wanted)
         data = drawn.as_bytes(target.suffix.lower())
     write_bytes(target, data)
-    print(f"wrote {path_text(target)}")
+    wrote("picture", target)
     if failure is not None:
         raise failure
     return 0

@@ -10,9 +10,9 @@ from pathlib import Path
 
 from gudgeon.commands.common import check_folder, chosen_scenes
 from gudgeon.commands.progress import status_line
+from gudgeon.commands.written import note, wrote
 from gudgeon.errors import InputError, shortened
 from gudgeon.files.writing import PART, Aside, check_target, read_regular
-from gudgeon.language.shown import path_text
 from gudgeon.loading import compiler
 from gudgeon.loading.engine import engine_files, engine_readme
 from gudgeon.loading.find import find_mechanism, kernel_source, read_bytes
@@ -45,12 +45,12 @@ def emit_c(mechanism: str, folder: Path, wanted: tuple[str, ...]) -> int:
             source, _ = kernel_source(data, file, scene)
         texts = {**source.files, REST: replace(source, files={}).to_json() + "\n"}
         _write(folder / scene, {name: text.encode() for name, text in texts.items()})
-        print(f"wrote {path_text(folder / scene)}: {', '.join(texts)}")
+        wrote(scene, folder / scene, f": {', '.join(texts)}")
         needs_engine |= not source.cdef
     if needs_engine:
         for room, texts in rooms.items():
             _write(folder / room, {name: text.encode() for name, text in texts.items()})
-        print(f"wrote {path_text(folder / ENGINE)}: what all scenes share")
+        wrote(ENGINE, folder / ENGINE, ": what all scenes share")
     return 0
 
 
@@ -68,11 +68,11 @@ def _emit_fmu(mechanism: str, target: Path, wanted: tuple[str, ...]) -> int:
         write_fmu(simulation, target)
     why = kept_from_exchange(simulation.source)
     kinds = f"Co-Simulation alone ({why})" if why else "Co-Simulation and Model Exchange"
-    print(f"wrote {path_text(target)}: FMI 3.0, {kinds}, scene {scenes[0]}")
+    wrote("fmu", target, f": FMI 3.0, {kinds}, scene {scenes[0]}")
     if others := [scene for scene in chosen_scenes(mechanism, ()) if scene not in scenes and not wanted]:
-        print(f"other scenes, by --scene: {', '.join(others)}")
+        note(f"other scenes, by --scene: {', '.join(others)}")
     if not compiler.is_there():
-        print("no C compiler was found: it holds the sources alone, which importers compile")
+        note("no C compiler was found: it holds the sources alone, which importers compile")
     return 0
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from gudgeon.commands.common import check_file, chosen_scenes, need_suffix
 from gudgeon.commands.progress import status_line
+from gudgeon.commands.written import note, wrote
 from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.files.writing import write_text
 from gudgeon.language.shown import path_text
@@ -37,10 +38,10 @@ def write_equations(mechanism: str, target: Path, scenes: tuple[str, ...]) -> in
     with status_line(), working(f"deriving {find_mechanism(mechanism).stem}, scene {scene}"):
         text = _written(mechanism, scene, target)
     if target == TERMINAL:
-        print(text, end="")
+        note(text.removesuffix("\n"))
         return 0
     write_text(target, text)
-    print(f"wrote {path_text(target)}")
+    wrote("equations", target)
     if target.suffix.lower() == ".ipynb":
         _run_once(mechanism, scene, target)
     return 0
@@ -79,7 +80,7 @@ def _pages(mechanism: str, folder: Path, scenes: tuple[str, ...]) -> int:
                 text = write(load(mechanism, scene), files)
             folder.mkdir(parents=True, exist_ok=True)
             write_text(folder / file, text)
-            print(f"wrote {path_text(folder / file)}")
+            wrote(scene, folder / file)
     return 0
 
 

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from gudgeon.commands.common import check_file, chosen_scenes, need_suffix
 from gudgeon.commands.progress import status_line
+from gudgeon.commands.written import wrote
 from gudgeon.errors import AssemblyError, GudgeonError, SolverError
 from gudgeon.files.writing import Aside
-from gudgeon.language.shown import path_text
 from gudgeon.loading.find import find_mechanism, read_bytes
 from gudgeon.waiting.working import working
 
@@ -35,8 +35,8 @@ def write_exercise(mechanism: str, target: Path, scene: str, seed: int, at: str 
         for file, text in zip((target, solutions), texts, strict=True):
             aside.write(file.name, text.encode())
         aside.move()
-    for file in (target, solutions):
-        print(f"wrote {path_text(file)}")
+    wrote("exercise", target)
+    wrote("solutions", solutions)
     return 0
 
 

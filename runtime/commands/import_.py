@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from gudgeon.commands.written import note, wrote
 from gudgeon.errors import InputError
 from gudgeon.exchange.read import mechanism_of
 from gudgeon.files.writing import write_text
@@ -17,8 +18,8 @@ def import_linkage(file: Path, target: Path | None) -> int:
     if target.is_symlink() or target.exists():
         raise InputError(f"{target} is there already", hint="name another file with --out")
     write_text(target, text)
-    for note in (line for line in text.splitlines()[1:] if line.startswith("# ")):
-        print(note[2:])
-    print(f"wrote {target}")
-    print(f"next: gudgeon check {target} -v, gudgeon draw {target}, gudgeon run {target}")
+    for line in (line for line in text.splitlines()[1:] if line.startswith("# ")):
+        note(line[2:])
+    wrote("mechanism", target)
+    note(f"next: gudgeon check {target} -v, gudgeon draw {target}, gudgeon run {target}")
     return 0

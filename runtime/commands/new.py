@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from gudgeon.commands.written import note, wrote
 from gudgeon.errors import BadNameError, BadValueError, InputError
 from gudgeon.files.writing import write_text
 from gudgeon.language.names import check_name
@@ -27,8 +28,8 @@ def new_mechanism(name: str, like: str | None) -> int:
     if like is not None:
         text = f"# Begun from {like}, which comes with gudgeon. What follows is told of that one.\n{text}"
     write_text(target, text)
-    print(f"wrote {target}")
-    print(f"next: gudgeon check {target} -v, gudgeon draw {target}, gudgeon run {target}")
+    wrote("mechanism", target)
+    note(f"next: gudgeon check {target} -v, gudgeon draw {target}, gudgeon run {target}")
     return 0
 
 
@@ -40,8 +41,8 @@ def new_study(name: str, like: str | None) -> int:
     _check(name, "study")
     target = _free(name)
     write_text(target, OF_STUDY.read_text(encoding="utf-8"))
-    print(f"wrote {target}")
-    print(f"next: gudgeon study {target} --runs, gudgeon study {target}, gudgeon study report {name}.study")
+    wrote("study", target)
+    note(f"next: gudgeon study {target} --runs, gudgeon study {target}, gudgeon study report {name}.study")
     return 0
 
 

@@ -83,6 +83,7 @@ ScenesOfPages = Annotated[
 ]  # fmt: skip
 Branches = Annotated[bool, typer.Option("--branches", help="Assemblies, and the guess that picks each.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON in SI units for a script, nothing else.")]
+FilesJson = Annotated[bool, typer.Option("--json", help="Print JSON: which files were written, and notes.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print nothing but warnings and errors.")]
 Out = Annotated[Path, typer.Option("--out", parser=path, metavar="PATH", help="Folder for what is written.")]
 At = Annotated[str | None, typer.Option("--at", metavar="TIME", help="Simulate to there: 0.2s. [default: the start]")]

@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 
 import typer
 
+from gudgeon.commands.written import told_as_json
 from gudgeon.errors import GudgeonError, MemoryShortage
 from gudgeon.language.shown import visible
 from gudgeon.waiting.last_word import INTERRUPTED, last_word
@@ -29,15 +30,17 @@ def complain(error: GudgeonError) -> None:
 def told(command: Command) -> Command:
     """Our own errors are told in a line, without a traceback; others are bugs and keep theirs.
 
-    `laws` of a command are known before it begins; of one that is `quiet` nothing is printed but warnings and errors.
+    `laws` of a command are known before it begins, `files_as_json` has it list what it wrote; of one that is `quiet`
+    nothing is printed but warnings and errors.
     """
 
     @wraps(command)
     def wrapper(*args: Any, **kwargs: Any) -> None:
+        listed = told_as_json(kwargs.pop("files_as_json", False))
         silence = silent(but_json=bool(kwargs.get("json"))) if kwargs.pop("quiet", False) else nullcontext()
         try:
             _know(kwargs.pop("laws", None) or ())
-            with silence:
+            with listed, silence:
                 code = command(*args, **kwargs)
         except (GudgeonError, MemoryError) as error:
             complain(known := error if isinstance(error, GudgeonError) else MemoryShortage(error))

@@ -268,3 +268,18 @@ def test_quiet_leaves_files_and_errors(line: str, call: Gudgeon, pump: str, monk
     if words[0] != "draw":
         told, quietly = (json.loads(call(*words, *more).stdout) for more in (["--json"], ["--json", "--quiet"]))
         assert told.keys() == quietly.keys()
+
+
+@pytest.mark.parametrize(("line", "files"), [
+    ("new engine", {"mechanism": "engine.yaml"}), ("new many --study", {"study": "many.yaml"}),
+    ("draw PUMP -o x.svg", {"picture": "x.svg"}), ("emit PUMP -o c -s worn", {"worn": "c/worn", "engine": "c/engine"}),
+    ("equations PUMP -o x.txt -s worn", {"equations": "x.txt"}),
+])  # fmt: skip
+def test_files_that_are_written_are_told_as_json(line: str, files: dict[str, str], call: Gudgeon, pump: str) -> None:
+    done = call(*line.replace("PUMP", pump).split(), "--json")
+    told = json.loads(done.stdout)
+    assert done.exit_code == 0 and told["files"] == files and all(Path(name).exists() for name in files.values())
+    assert all(isinstance(note, str) for note in told["notes"])
+    more = ["--like", "x"] if line.startswith("new") else []
+    wrong = call(*line.replace("PUMP", "nowhere.yaml").split(), "--json", *more)
+    assert wrong.exit_code == 2 and not wrong.stdout and wrong.stderr.startswith("error: ")
