@@ -2,6 +2,7 @@
  * What changes at an event: contacts begin and end, corners of laws and expressions change their side, friction its
  * mode; a drive whose rate jumps moves the linkage by an impulse.
  */
+#define LEAST_LEAP 1e-3 /* of a tolerance of velocity: corners that change it less in a step are none that counts */
 #define ROUGH 3.5 /* power of a first step's length that its error goes with, where forces begin as delta^n */
 
 /* Sides of all corners that act; the one that was just crossed keeps what it was given. */
@@ -61,17 +62,29 @@ static double energy_scale(const Run *run, const Parameters *p)
     return sum;
 }
 
+/* By how many tolerances of velocity a second the other side's accelerations differ from those before. */
+static double leap(const Run *run, const double *before)
+{
+    double most = 0.0;
+    for (int k = 0; k < N_X; k++)
+        most = max_of(most, fabs(run->dy[N_X + k] - before[k]) * run->weight[N_X + k]);
+    return most;
+}
+
 /*
  * A motion that stays by a corner (a journal that hardly moves in its film) may cross it again and again. One that
  * comes back at once is not looked for in the next step, which is as short as the way between the crossings and
- * grows from there: the corner's branches meet, so that little is wrong with the held one so near.
+ * grows from there: the corner's branches meet, so that little is wrong with the held one so near. They do by their
+ * expressions, or but for rounding: what another side does in such a step is no tolerance by far.
  */
-static void pace_corner(Run *run, int corner)
+static void pace_corner(Run *run, int corner, const double *before)
 {
     const double way = run->t - run->t_crossed;
-    const int again = meets[corner] && run->crossed == corner && way < 1e-3 * run->h;
+    const double pace = 20.0 * max_of(100.0 * run->tick, max_of(run->pace, way));
+    const int met = meets[corner] || leap(run, before) * max_of(pace, run->h) < LEAST_LEAP;
+    const int again = met && run->crossed == corner && way < 1e-3 * run->h;
     run->skip = again ? corner : -1;
-    run->pace = again ? 20.0 * max_of(100.0 * run->tick, max_of(run->pace, way)) : 0.0;
+    run->pace = again ? pace : 0.0;
     run->crossed = corner;
     run->t_crossed = run->t;
 }
@@ -122,12 +135,15 @@ static int change_drives(Run *run, int corner, const Parameters *p)
 /* The side of a corner, and what the other one moves at once. */
 static int change_side(Run *run, int corner, const Parameters *p)
 {
-    pace_corner(run, corner);
+    double before[AT_LEAST_ONE(N_X)];
+    memcpy(before, run->dy + N_X, N_X * sizeof *before);
 #if N_CORNERS
-    return change_drives(run, corner, p);
+    const int status = change_drives(run, corner, p);
 #else
-    return settle_sides(run, corner, p);
+    const int status = settle_sides(run, corner, p);
 #endif
+    pace_corner(run, corner, before);
+    return status;
 }
 
 /*
