@@ -191,7 +191,11 @@ def as_written(tree: Expr, around: int = 0, called: Mapping[str, Quantity] = Map
         case Binary(operator=operator, left=left, right=right):
             own = _STRENGTH[operator]
             sides = (own + 1, own) if operator == "**" else (own, own + 1)
-            text = f"{as_written(left, sides[0], called)} {operator} {as_written(right, sides[1], called)}"
+            written = [as_written(side, around, called) for side, around in zip((left, right), sides, strict=True)]
+            for k, side in enumerate((left, right)):  # t / (1 s): a number and its unit are one
+                if (operator, k) in (("/", 1), ("**", 0)) and isinstance(side, Number) and unit_of(side):
+                    written[k] = f"({written[k]})"
+            text = f" {operator} ".join(written)
         case Call(function=function, arguments=arguments):
             written = [as_written(a, 0, called) for a in arguments]
             compared = [" < ".join(written[:2]), *written[2:]] if function == "where" else written
