@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from functools import cache
+from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -16,56 +13,23 @@ import pytest
 pytest.importorskip("matplotlib")
 
 from gudgeon.assembly.branches import find_assemblies  # noqa: E402
-from gudgeon.assembly.closure import Closure  # noqa: E402
 from gudgeon.assembly.mobility import find_mobility, free_motions  # noqa: E402
 from gudgeon.drawing.failures import freedoms, gaps  # noqa: E402
-from gudgeon.drawing.insets import eccentricity, magnification  # noqa: E402
 from gudgeon.drawing.labels import Names  # noqa: E402
 from gudgeon.drawing.picture import as_bytes, figure_of  # noqa: E402
 from gudgeon.drawing.plan import make_plan  # noqa: E402
 from gudgeon.drawing.posture import Posture  # noqa: E402
-from gudgeon.drawing.shapes import Disc, Label, Line, Sketch, unit_vector  # noqa: E402
+from gudgeon.drawing.shapes import Disc, Label, Line  # noqa: E402
 from gudgeon.drawing.sketch import make_sketch  # noqa: E402
 from gudgeon.errors import GudgeonError  # noqa: E402
-from gudgeon.generator.pipeline import closed_linkage  # noqa: E402
-from gudgeon.generator.reader.read import read_mechanism  # noqa: E402
-from gudgeon.model.compiled import Array  # noqa: E402
-from tests.integrators.test_guide import ARM, HEAD, ORACLE, C  # noqa: E402
+from tests.drawing.drawn import ROOT, boxes, drawn  # noqa: E402
 
-ROOT = Path(__file__).resolve().parents[2]
 FILES = [
     *sorted((ROOT / "mechanisms").rglob("*.yaml")),
     *sorted((ROOT / "tests/mechanisms/described").glob("*.yaml")),
     *(ROOT / f"tests/mechanisms/valid/{name}.yaml" for name in ("every_kind", "shapes")),
     *(ROOT / f"tests/mechanisms/methods/{name}.yaml" for name in ("geared_chain", "trammel")),
 ]
-
-
-@dataclass(frozen=True)
-class Drawn:
-    mechanism: Any
-    linkage: Any
-    closure: Closure
-    posture: Posture
-
-
-@cache
-def drawn(file: Path | str) -> Drawn:
-    """The last scene of a file (where it has play, one with it) at its start; of a text its own."""
-    text = file.encode() if isinstance(file, str) else file.read_bytes()
-    mechanism = read_mechanism(text, "drawn.yaml", None)
-    linkage, _ = closed_linkage(mechanism, list(mechanism.scenes)[-1])
-    closure = Closure(linkage, linkage.p, 0.0)
-    with np.errstate(all="ignore"):
-        q, _ = closure.nearest()
-    return Drawn(mechanism, linkage, closure, Posture(linkage.source, linkage.p, q))
-
-
-def boxes(picture: Any) -> Iterator[tuple[str, tuple[float, ...]]]:
-    for ax in picture.axes:
-        for artist in ax.get_children():
-            if isinstance(artist, Names):
-                yield from artist.boxes.items()
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
@@ -219,63 +183,6 @@ def test_what_may_move_is_told_by_arrows_along_it() -> None:
     }
 
 
-def test_a_journal_is_drawn_where_it_is_at_the_scale_that_is_told() -> None:
-    """Against the eccentricity that the start is given, and the clearance of the file."""
-    text = (ROOT / "mechanisms/slider_crank.yaml").read_text()
-    text = text.replace("start:\n", "start:\n  play: {wristpin: {e: [0.05 mm, -0.12 mm]}}\n")
-    posture = drawn(text).posture
-    e = eccentricity(posture, "wristpin")
-    assert e == pytest.approx([5e-5, -1.2e-4], abs=1e-12)
-    sketch = make_sketch(posture)
-    by_role = {s.role: s for s in sketch.of("inset wristpin") if isinstance(s, Disc)}
-    times = magnification(posture, "wristpin", sketch.unit)
-    assert by_role["journal"].centre - by_role["hole"].centre == pytest.approx(times * e)
-    assert by_role["clearance"].radius == pytest.approx(times * 2e-4)
-    assert by_role["hole"].radius - by_role["journal"].radius == pytest.approx(times * 2e-4)  # the gap is to scale
-    assert "touching" not in by_role
-    told = next(label.text for label in sketch.labels if label.part == "inset wristpin")
-    assert f"×{times:g}" in told and "e/c = 0.65" in told
-    assert any(f"×{times:g}" in note and "0.2 mm" in note for note in sketch.notes)
-
-
-@pytest.mark.parametrize(("share", "role"), [(0.999, "journal"), (1.001, "touching")])
-def test_a_journal_that_begins_in_the_wall_is_red(share: float, role: str) -> None:
-    """e = share · c, 3-4-5."""
-    text = (ROOT / "mechanisms/slider_crank.yaml").read_text()
-    x, y = 0.12 * share, -0.16 * share  # mm, of 0.2 mm
-    posture = drawn(text.replace("start:\n", f"start:\n  play: {{wristpin: {{e: [{x} mm, {y} mm]}}}}\n")).posture
-    assert {"journal", "touching"} & {s.role for s in make_sketch(posture).of("inset wristpin")} == {role}
-
-
-def test_a_slider_is_drawn_between_its_walls_where_it_is() -> None:
-    """A slot on an arm that is turned: corners' ways to their walls are the oracle's, at the told scale."""
-    text = (HEAD + ARM).replace("tilt_rate: 6 rad/s", "tilt: 2.5e-3, offset: 0.15 mm")
-    posture = drawn(text).posture
-    delta = [one[0] for one in ORACLE.contacts(np.array([posture.q[2], *posture.q[3:6], *[0.0] * 4]))]
-    assert sorted(np.sign(delta)) == [-1.0, -1.0, -1.0, 1.0]
-    sketch = make_sketch(posture)
-    times, up = magnification(posture, "way", sketch.unit), np.array([-np.sin(0.2), np.cos(0.2)])
-    shapes = sketch.of("inset way")
-    heights = [shape.points @ up for shape in shapes if isinstance(shape, Line) and shape.role == "bearing"]
-    discs = [shape for shape in shapes if isinstance(shape, Disc)]
-    for disc, depth, role in zip(discs, delta, ("touching", *["journal"] * 3), strict=True):
-        upper = disc in (discs[0], discs[2])
-        gap = heights[0].min() - disc.centre @ up if upper else disc.centre @ up - heights[1].max()
-        assert gap == pytest.approx(-times * depth, abs=1e-12) and disc.role == role
-    told = next(label.text for label in sketch.labels if label.part == "inset way")
-    assert f"×{times:g}" in told and f"e/c = {max(delta) / C + 1:.2f}" in told
-    assert any(f"×{times:g}" in note and "gap 0.2 mm on each side" in note for note in sketch.notes)
-    block = next(shape.points for shape in sketch.of("body block") if isinstance(shape, Line))
-    assert unit_vector(block[1] - block[0]) == pytest.approx([np.cos(0.2025), np.sin(0.2025)])
-    assert {"guide", "channel"} <= {shape.role for shape in sketch.of("body arm")}
-
-
-def test_a_play_as_large_as_the_mechanism_needs_no_inset() -> None:
-    sketch = make_sketch(drawn(ROOT / "mechanisms/bouncing_ball.yaml").posture)
-    (circle,) = [s for s in sketch.of("joint fall") if s.role == "clearance"]
-    assert isinstance(circle, Disc) and circle.radius == 1.0 and not sketch.of("inset fall")
-
-
 def test_assemblies_share_a_scale_and_differ_in_what_is_drawn() -> None:
     found = drawn(ROOT / "mechanisms/four_bar.yaml")
     closed = find_assemblies(found.linkage, found.linkage.p, found.posture.q, ())
@@ -298,96 +205,6 @@ def test_the_plan_of_a_motion_holds_all_of_it() -> None:
     assert (low, high) == pytest.approx((0.14, 0.19), abs=1e-9)
     rail = next(s for s in make_sketch(posture, plan).of("joint cylinder") if s.role == "rail")
     assert isinstance(rail, Line) and rail.points[0, 0] < 0.14 and rail.points[1, 0] > 0.19
-
-
-BELL = """format: gudgeon/1
-name: bell
-bodies:
-  push: {mass: 0.4 kg, inertia: 1e-4 kg*m^2}
-  link: {length: 90 mm, mass: 0.2 kg, inertia: auto}
-  bell: {mass: 0.8 kg, inertia: 2e-3 kg*m^2, points: {in: [0, 80 mm], out: [120 mm, 0]}}
-  strut: {length: 100 mm, mass: 0.25 kg, inertia: auto}
-  ram: {mass: 2 kg, inertia: 1e-3 kg*m^2}
-ground: {O: [0, 0], floor: [-120 mm, 80 mm], guide: [130 mm, 0]}
-joints:
-  rail: {translational: [ground.floor, push.origin], axis: [1, 0]}
-  a: {revolute: [push.origin, link.tail]}
-  b: {revolute: [link.head, bell.in]}
-  pivot: {revolute: [ground.O, bell.origin]}
-  c: {revolute: [bell.out, strut.tail]}
-  d: {revolute: [strut.head, ram.origin]}
-  column: {translational: [ground.guide, ram.origin], axis: [0, 1]}
-drives: {cam: {coordinate: push.x, value: PLACE}}
-forces: {load: {force: ram.origin, value: [0, -20 N]}}
-start: {guess: {link.x: -60 mm, link.y: 80 mm, ram.y: 100 mm, strut.head: [130 mm, 100 mm]}}
-"""
-
-
-def test_the_ground_stays_on_its_side_of_a_guide() -> None:
-    """Away from the ground's other points, wherever the motion is and whichever assembly it has."""
-    starts = [drawn(BELL.replace("PLACE", f"{x} mm")) for x in (-110, -90, -70)]
-    first = starts[0]
-    others = find_assemblies(first.linkage, first.linkage.p, first.posture.q, ())
-    assert len(others) > 1
-    postures = [start.posture for start in starts] + [replace(first.posture, q=one.q) for one in others]
-    for plan in (make_plan(postures), make_plan(postures[::-1]), *(make_plan([posture]) for posture in postures)):
-        assert plan.ways["rail"] == pytest.approx([0.0, 1.0], abs=1e-15)
-        assert plan.ways["column"] == pytest.approx([1.0, 0.0], abs=1e-15)
-
-
-TROLLEY = """format: gudgeon/1
-name: trolley
-bodies:
-  cart: {mass: 1 kg, inertia: 1e-3 kg*m^2}
-  arm: {length: 100 mm, mass: 1 kg, inertia: 1e-3 kg*m^2}
-ground: {O: [0, 0]}
-joints:
-  rail: {translational: [ground.O, cart.origin], axis: [1, 0]}
-  pin: {revolute: [cart.origin, arm.tail]}
-freedoms: 2
-start: {set: {cart.x: 0 m, arm.theta: ANGLE}}
-"""
-
-
-@pytest.mark.parametrize(("angle", "up"), [("-90 deg", 1.0), ("90 deg", -1.0), ("0 deg", -1.0)])
-def test_a_guide_alone_lies_away_from_what_it_carries_at_the_start(angle: str, up: float) -> None:
-    start = drawn(TROLLEY.replace("ANGLE", angle)).posture
-    swung = replace(start, q=start.q + [0.0, 0.0, 0.0, 0.0, 0.0, 2.0])
-    for plan in (make_plan([start]), make_plan([start, swung]), make_plan([swung], start)):
-        assert plan.ways["rail"] == pytest.approx([0.0, up], abs=1e-15)
-
-
-@pytest.mark.parametrize("rate", [-1.0, 0.0, 1.0])
-def test_a_drives_arrow_lies_away_from_the_ground_that_guides(rate: float) -> None:
-    """Below the block, whose ground is above, and the name below the arrow; it points where the body goes."""
-    posture = drawn(BELL.replace("PLACE", "-110 mm")).posture
-    sketch = make_sketch(replace(posture, v=np.full(len(posture.q), rate)))
-    block = np.vstack([s.points for s in sketch.of("body push") if isinstance(s, Line)])
-    shaft, head = (s.points for s in sketch.of("drive cam") if isinstance(s, Line))
-    assert max(shaft[:, 1].max(), head[:, 1].max()) < block[:, 1].min()
-    assert np.sign(shaft[1, 0] - shaft[0, 0]) == (-1.0 if rate < 0.0 else 1.0)
-    placed = named(sketch)
-    assert placed["drive cam"][3] < placed["body link"][1]
-
-
-def test_a_forces_name_is_beside_its_arrow() -> None:
-    """On the arrow's side of the guide's wall, nearer to it than half the arrow is long."""
-    posture = drawn(BELL.replace("PLACE", "-110 mm")).posture
-    sketch = make_sketch(replace(posture, loads={"load": (0.0, -20.0)}))
-    shaft, head = (s.points for s in sketch.of("force load") if isinstance(s, Line))
-    (wall,) = (s.points for s in sketch.of("joint column") if s.role == "rail" and isinstance(s, Line))
-    assert wall[0, 0] > shaft[0, 0]
-    left, low, right, high = named(sketch)["force load"]
-    assert right < wall[0, 0] and high > head[0, 1] and low < shaft[0, 1]
-    assert shaft[0, 0] - right < 0.5 * (shaft[0, 1] - head[0, 1])
-
-
-def named(sketch: Sketch) -> dict[str, Array]:
-    """Boxes of names (left, low, right, high) in metres."""
-    picture = figure_of([sketch], [""], "x")
-    picture.draw_without_rendering()
-    back = picture.axes[0].transData.inverted().transform
-    return {part: np.ravel(back(np.reshape(box, (2, 2)))) for part, box in boxes(picture)}
 
 
 def test_what_leads_to_a_name_begins_at_the_edge_of_what_is_named() -> None:
@@ -414,28 +231,3 @@ def test_what_an_earlier_version_wrote_is_told() -> None:
     posture = drawn(ROOT / "mechanisms/four_bar.yaml").posture
     with pytest.raises(GudgeonError, match="run the scene again"):
         Posture(replace(posture.source, parts=()), posture.p, posture.q)
-
-
-CAR = """
-format: gudgeon/1
-name: car
-freedoms: 1
-bodies: {car: {mass: 1 kg, inertia: 1e-3 kg*m^2}}
-ground: {O: [0, 0]}
-joints: {rail: {translational: [ground.O, car.origin], axis: [1, 0]}}
-forces: {spring: {spring_damper: [ground.O, car.origin], stiffness: 40 N/m, damping: 0.2 N*s/m, free_length: 0.1 m}}
-start: {guess: {car.x: 150 mm}}
-"""
-
-
-def test_a_spring_at_a_rails_own_point_has_its_wall_and_keeps_off_the_rail() -> None:
-    of = drawn(CAR)
-    plan = make_plan([of.posture])
-    sketch = make_sketch(of.posture, plan)
-    lines = [shape for shape in (*sketch.of("joint rail"), *sketch.of("force spring")) if isinstance(shape, Line)]
-    wires = [line for line in lines if line.part == "force spring"]
-    strokes = [line for line in wires if line.role == "hatch"]
-    assert len(strokes) > 2 and all(np.abs(stroke.points).max() < 3.0 * plan.unit for stroke in strokes)
-    rail = next(line for line in lines if line.role == "rail" and line not in wires).points[0, 1]
-    wire = np.vstack([line.points for line in wires if line.role in ("spring", "piston")])
-    assert rail < 0.0 and wire[:, 1].min() > rail
