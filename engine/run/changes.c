@@ -2,7 +2,7 @@
  * What changes at an event: contacts begin and end, corners of laws and expressions change their side, friction its
  * mode; a drive whose rate jumps moves the linkage by an impulse.
  */
-#define LEAST_LEAP 1e-3 /* of a tolerance of velocity: corners that change it less in a step are none that counts */
+#define LEAST_LEAP 1e-3 /* of a tolerance: a corner that changes less in a step is none that counts */
 #define ROUGH 3.5 /* power of a first step's length that its error goes with, where forces begin as delta^n */
 
 /* Sides of all corners that act; the one that was just crossed keeps what it was given. */
@@ -62,12 +62,12 @@ static double energy_scale(const Run *run, const Parameters *p)
     return sum;
 }
 
-/* By how many tolerances of velocity a second the other side's accelerations differ from those before. */
+/* By how many tolerances a second the other side's rates differ from those before. */
 static double leap(const Run *run, const double *before)
 {
     double most = 0.0;
-    for (int k = 0; k < N_X; k++)
-        most = max_of(most, fabs(run->dy[N_X + k] - before[k]) * run->weight[N_X + k]);
+    for (int k = 0; k < N_Y; k++)
+        most = max_of(most, fabs(run->dy[k] - before[k]) * run->weight[k]);
     return most;
 }
 
@@ -81,7 +81,7 @@ static void pace_corner(Run *run, int corner, const double *before)
 {
     const double way = run->t - run->t_crossed;
     const double pace = 20.0 * max_of(100.0 * run->tick, max_of(run->pace, way));
-    const int met = meets[corner] || leap(run, before) * max_of(pace, run->h) < LEAST_LEAP;
+    const int met = meets[corner] || (run->fixed <= 0.0 && leap(run, before) * max_of(pace, run->h) < LEAST_LEAP);
     const int again = met && run->crossed == corner && way < 1e-3 * run->h;
     run->skip = again ? corner : -1;
     run->pace = again ? pace : 0.0;
@@ -135,8 +135,8 @@ static int change_drives(Run *run, int corner, const Parameters *p)
 /* The side of a corner, and what the other one moves at once. */
 static int change_side(Run *run, int corner, const Parameters *p)
 {
-    double before[AT_LEAST_ONE(N_X)];
-    memcpy(before, run->dy + N_X, N_X * sizeof *before);
+    double before[N_Y];
+    memcpy(before, run->dy, sizeof before);
 #if N_CORNERS
     const int status = change_drives(run, corner, p);
 #else
