@@ -81,8 +81,8 @@ static void pace_corner(Run *run, int corner, const double *before)
 {
     const double way = run->t - run->t_crossed;
     const double pace = 20.0 * max_of(100.0 * run->tick, max_of(run->pace, way));
-    const int met = meets[corner] || (run->fixed <= 0.0 && leap(run, before) * max_of(pace, run->h) < LEAST_LEAP);
-    const int again = met && run->crossed == corner && way < 1e-3 * run->h;
+    const int again = run->crossed == corner && way < 1e-3 * run->h
+        && (meets[corner] || (run->fixed <= 0.0 && leap(run, before) * max_of(pace, run->h) < LEAST_LEAP));
     run->skip = again ? corner : -1;
     run->pace = again ? pace : 0.0;
     run->crossed = corner;

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gudgeon.commands.written import wrote
 from gudgeon.errors import BadValueError, MissingKeyError
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.plot_units import label, quantity, scale
-from gudgeon.language.shown import path_text
 from gudgeon.language.suggestions import unknown_name
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ def plot_law(law: Law, name: str, target: Path, settings: Mapping[str, float | s
     from gudgeon.drawing.picture import as_bytes
 
     write_bytes(target, as_bytes(figure_of(law, name, settings), target.suffix.lower()))
-    print(f"wrote {path_text(target)}")
+    wrote("plot", target)
 
 
 def figure_of(law: Law, name: str, settings: Mapping[str, float | str]) -> Figure:

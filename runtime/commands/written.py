@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -52,4 +51,6 @@ def told_as_json(wanted: bool) -> Iterator[None]:
     finally:
         _document = None
         if told.files or told.notes:
+            import json
+
             print(json.dumps({"files": told.files, "notes": told.notes}, ensure_ascii=False, indent=1))
