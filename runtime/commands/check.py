@@ -7,7 +7,6 @@ how long each stage of the derivation took. No line is longer than 100 columns.
 
 from __future__ import annotations
 
-import json
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
@@ -20,6 +19,7 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.errors import AssemblyError, InputError, InputErrors, MissingKeyError
 from gudgeon.integrators.adaptive import begins_with
+from gudgeon.language.shown import print_json
 from gudgeon.loading.find import derived, find_mechanism, read_bytes
 from gudgeon.model.contours import in_contours
 
@@ -47,7 +47,7 @@ def check_file(
     except InputError as error:
         if not as_json:
             raise
-        print(json.dumps({"valid": False, "errors": _errors(error)}, ensure_ascii=False, indent=1))
+        print_json({"valid": False, "errors": _errors(error)})
         return error.exit_code
     seconds: dict[str, dict[str, float]] = {scene: {} for scene in mechanism.scenes}
     with status_line(quiet=as_json):
@@ -56,7 +56,7 @@ def check_file(
             scene: derived(data, file, scene, seconds=seconds[scene]) for scene in mechanism.scenes if verbose
         }  # fmt: skip
     if as_json:
-        print(json.dumps(_document(mechanism, scenes, seconds, found), ensure_ascii=False, indent=1))
+        print_json(_document(mechanism, scenes, seconds, found))
         return _code(mechanism, found)
     print(_wrapped(story.verdict(mechanism, found), f"{_counts(mechanism)}; {story.summary(found)}"))
     for whose, remark in story.remarks(mechanism, found):

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.commands.common import check_file, need_suffix, settings
 from gudgeon.errors import BadValueError
-from gudgeon.language.shown import one_line, plain_console, visible
+from gudgeon.language.shown import one_line, plain_console, print_json, visible
 from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.units import si_unit
 
@@ -41,7 +40,7 @@ def show_laws(asked: Asked) -> int:
         raise BadValueError("--plot draws one law, --set its numbers: gudgeon laws flores --plot flores.svg")
     if name is None:
         if asked.as_json:
-            print(_json(_listed()))
+            print_json(_listed())
         else:
             _print()
         return 0
@@ -54,7 +53,7 @@ def show_laws(asked: Asked) -> int:
         plot_law(law, name, asked.plot, settings(asked.settings))
         return 0
     if asked.as_json:
-        print(_json(_told(law, name)))
+        print_json(_told(law, name))
         return 0
     from gudgeon.generator.targets.latex.law import law_text
 
@@ -129,7 +128,3 @@ def _key(own: Field) -> dict[str, Any]:
     unit = None if own.dimension is None else si_unit(own.dimension)
     bounds = [[bound.relation, bound.limit] for bound in own.bounds]
     return {**told, "symbol": own.symbol, "unit": unit, "bounds": bounds, "otherwise": own.otherwise}
-
-
-def _json(document: Mapping[str, Any]) -> str:
-    return json.dumps(document, ensure_ascii=False, indent=1)

@@ -15,7 +15,7 @@ from gudgeon.commands.origin import ORIGIN, check_origin, origin_of
 from gudgeon.commands.progress import progress_bar, status_line
 from gudgeon.commands.run_needs import check_needs
 from gudgeon.errors import AssemblyError, GudgeonError, MemoryShortage, SolverError
-from gudgeon.language.shown import path_text, visible
+from gudgeon.language.shown import path_text, print_json, visible
 from gudgeon.language.suggestions import unknown
 from gudgeon.model.default_step import T_END, scene_end, scene_number
 from gudgeon.model.parameters import prepare, value
@@ -283,10 +283,9 @@ def _show(request: Request, source: KernelSource, reports: list[SceneReport], se
     from gudgeon.results.report import as_json, tables
 
     if request.json:
-        import json
         scenes = {name: told | {"beyond": beyond(session.runs[name])} for name, told in as_json(reports).items()}
         document = {"mechanism": source.mechanism, "scenes": scenes, "files": session.files}
-        print(json.dumps(document, ensure_ascii=False, allow_nan=False, indent=1))
+        print_json(document)
     else:
         console = plain_console(None if sys.stdout.isatty() else 200)
         for table in tables(source.title or source.mechanism, reports, console.width, request.verbose):

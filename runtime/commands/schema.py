@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import json
+from gudgeon.language.shown import print_json
 
 
 def print_schema(study: bool = False) -> int:
@@ -12,5 +12,5 @@ def print_schema(study: bool = False) -> int:
     else:
         from gudgeon.generator.targets.json_schema import schema
 
-    print(json.dumps(schema(), indent=1, ensure_ascii=False))
+    print_json(schema())
     return 0

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from gudgeon.commands.common import check_file, check_folder, need_suffix, settings
 from gudgeon.commands.progress import progress_bar, status_line
+from gudgeon.commands.written import told_as_json, wrote
 from gudgeon.errors import BadValueError, shortened
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.shown import path_text
@@ -18,7 +19,6 @@ from gudgeon.studies.ensemble.plan import Plans
 from gudgeon.studies.ensemble.study import load_study, plans_of, run_plans
 from gudgeon.studies.ensemble.workers import workers
 from gudgeon.studies.show.study import show_estimates, show_studies
-from gudgeon.studies.show.tables import print_json
 
 INTERRUPTED, FAILED = 130, 1
 REPORT = "report"  # in the place of a file
@@ -54,11 +54,9 @@ def report_study(folder: str, out: Path | None, json: bool) -> int:
     check_file("--out", page)
     with status_line(quiet=json):
         found = load_study(folder).report().to_html()
-    write_bytes(page, found.encode())
-    if json:
-        print_json({"files": {"report": str(page)}})
-    else:
-        print(f"wrote {path_text(page)}")
+    with told_as_json(json):
+        write_bytes(page, found.encode())
+        wrote("report", page)
     return 0
 
 

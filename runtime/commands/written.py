@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from gudgeon.language.shown import path_text
+from gudgeon.language.shown import path_text, print_json
 
 
 @dataclass
@@ -51,6 +51,4 @@ def told_as_json(wanted: bool) -> Iterator[None]:
     finally:
         _document = None
         if told.files or told.notes:
-            import json
-
-            print(json.dumps({"files": told.files, "notes": told.notes}, ensure_ascii=False, indent=1))
+            print_json({"files": told.files, "notes": told.notes})

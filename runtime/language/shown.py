@@ -1,10 +1,11 @@
-"""Text of a file, of an error or of another program, shown as what it is: text.
+"""Text of a file, of an error or of another program, shown as what it is: text. And documents for other programs.
 
 On a terminal nothing of it is a command, a link, a colour or an emoji; in a figure nothing of it is mathematics.
 """
 
 from __future__ import annotations
 
+import math
 import textwrap
 import unicodedata
 from typing import TYPE_CHECKING, Any
@@ -52,3 +53,18 @@ def plain_console(width: int | None = None, **options: Any) -> Console:
     from rich.console import Console
 
     return Console(width=width, markup=False, emoji=False, highlight=False, **options)
+
+
+def print_json(document: dict[str, Any]) -> None:
+    """JSON without NaN or infinity, which it does not have: they are null."""
+    import json  # here: no help text needs it
+
+    print(json.dumps(_plain(document), ensure_ascii=False, allow_nan=False, indent=1))
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value

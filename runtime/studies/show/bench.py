@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.integrators.peers.driver import NAMES
-from gudgeon.language.shown import path_text
+from gudgeon.language.shown import path_text, print_json
 from gudgeon.studies.bench import TRUSTED, Row, SceneBench
 from gudgeon.studies.runs import NAN, Setting
-from gudgeon.studies.show.tables import console, new_table, print_json, write_files
+from gudgeon.studies.show.tables import console, new_table, write_files
 from gudgeon.studies.words import seconds, share
 
 if TYPE_CHECKING:

@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.language.shown import path_text
+from gudgeon.language.shown import path_text, print_json
 from gudgeon.studies.map import VerdictBox, VerdictMap
 from gudgeon.studies.show.map_words import compared, explain, value
-from gudgeon.studies.show.tables import console, new_table, print_json, write_files
+from gudgeon.studies.show.tables import console, new_table, write_files
 from gudgeon.studies.verdicts import Cell, Status
 from gudgeon.studies.words import seconds, share
 

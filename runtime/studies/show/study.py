@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 
 from gudgeon.files.room import in_bytes
-from gudgeon.language.shown import path_text, visible
+from gudgeon.language.shown import path_text, print_json, visible
 from gudgeon.studies.ensemble.claimed import FILE, claims_json
 from gudgeon.studies.ensemble.estimate import Estimate
 from gudgeon.studies.ensemble.finished import Study
 from gudgeon.studies.ensemble.folder import DATASET
 from gudgeon.studies.ensemble.plan import Plan, Plans
 from gudgeon.studies.show.study_data import StudyData
-from gudgeon.studies.show.tables import console, new_table, print_json
+from gudgeon.studies.show.tables import console, new_table
 from gudgeon.studies.words import counted, seconds
 
 MOST_KINDS = 8

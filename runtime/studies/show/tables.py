@@ -1,11 +1,9 @@
-"""What both commands print and write with: tables, CSV, JSON."""
+"""What both commands print and write with: tables, CSV."""
 
 from __future__ import annotations
 
 import csv
 import io
-import json
-import math
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from importlib.util import find_spec
@@ -75,16 +73,3 @@ def write_files(
         except OutputError as error:
             failed = failed or error
     return written, failed
-
-
-def print_json(document: dict[str, Any]) -> None:
-    """JSON without NaN or infinity, which it does not have: they are null."""
-    print(json.dumps(_plain(document), ensure_ascii=False, allow_nan=False, indent=1))
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _plain(item) for key, item in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_plain(item) for item in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
