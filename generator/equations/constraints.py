@@ -144,14 +144,21 @@ def rate_jumps(drive: Drive) -> bool:
     return bool(to_sympy(drive.value.value, lambda path: sp.Symbol(path, real=True)).has(sp.Abs))
 
 
+_WITH_CORNERS = (Pick, Upon, Apart, Largest, Smallest, sp.Abs, sp.Max, sp.Min, sp.sign, sp.Heaviside, sp.DiracDelta)
+
+
 def _rate(value: sp.Expr, t: sp.Symbol) -> sp.Expr:
     """d/dt with the corners of min, max and abs taken from one side, at the corner from behind it: no impulse there.
 
     Of max and min the rate is that of one of their arguments, also where several are equal.
     """
-    chosen = value.replace(Pick, lambda side, a, b: Pick(side.replace(sp.sign, Apart), a, b))
-    chosen = chosen.replace(sp.Abs, _plain).replace(sp.Max, Largest).replace(sp.Min, Smallest)
-    rate = partial(chosen, t).replace(sp.DiracDelta, lambda *_: sp.Integer(0))
+    if value.has(*_WITH_CORNERS):
+        value = value.replace(Pick, lambda side, a, b: Pick(side.replace(sp.sign, Apart), a, b))
+        value = value.replace(sp.Abs, _plain).replace(sp.Max, Largest).replace(sp.Min, Smallest)
+    rate = partial(value, t)
+    if not rate.has(*_WITH_CORNERS):
+        return rate
+    rate = rate.replace(sp.DiracDelta, lambda *_: sp.Integer(0))
     rate = rate.replace(Upon, sp.sign).replace(sp.sign, lambda x: 2 * sp.Heaviside(x) - 1)
     return rate.replace(Apart, sp.sign).replace(Largest, sp.Max).replace(Smallest, sp.Min)
 

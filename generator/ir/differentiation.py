@@ -18,6 +18,7 @@ from gudgeon.generator.ir.finite_slopes import finite_slope, flat_at_zero, has_d
 from gudgeon.generator.ir.kernels import KernelBuilder
 from gudgeon.generator.ir.reciprocals import base_name, is_division
 from gudgeon.generator.ir.statements import Statement
+from gudgeon.generator.symbols.derivatives import symbols_of
 from gudgeon.generator.symbols.symbols import Symbols
 
 Tangent = Mapping[sp.Symbol, sp.Expr]  # base symbol -> derivative by it; absent: zero
@@ -123,10 +124,10 @@ class Tangents:
 def partial(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
     """∂/∂by of smooth pieces; x^n gives n x^(n−1), not n x^n/x, which is 0/0 at 0."""
     if expression.is_Add:
-        return sp.Add(*(partial(term, by) for term in expression.args if by in term.free_symbols))
+        return sp.Add(*(partial(term, by) for term in expression.args if by in symbols_of(term)))
     if expression.is_Mul and by in expression.args:  # most terms are linear: SymPy's own way is slower
         rest = [factor for factor in expression.args if factor != by]
-        if not any(by in factor.free_symbols for factor in rest):
+        if not any(by in symbols_of(factor) for factor in rest):
             return sp.Mul(*rest)
     terms = {term: sp.Dummy(real=True) for term in overflowing(expression, by)}
     if terms and expression not in terms:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import sympy as sp
 
 from gudgeon.generator.ir.finite_slopes import Slope, without_slopes
+from gudgeon.generator.symbols.derivatives import derivative, symbols_of
 from gudgeon.generator.symbols.wholes import Share
 
 _GROWING = (sp.exp, sp.sinh, sp.cosh)
@@ -18,7 +19,7 @@ _FAR = 100  # decades from 1 beyond which a number's square, with what it is a f
 
 def far_terms(expression: sp.Expr, by: sp.Symbol) -> list[sp.Expr]:
     """The outermost terms that are differentiated in this way, or hold such derivatives."""
-    if by not in expression.free_symbols:
+    if by not in symbols_of(expression):
         return []
     if isinstance(expression, (Share, Slope)) or _is_squared(expression):
         return [expression]
@@ -41,7 +42,7 @@ def written(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
         outer = sp.diff(expression.func(inner), inner).xreplace({inner: Share(argument)})
         return outer * written(argument, by)
     named, back = expression.xreplace(terms), {dummy: term for term, dummy in terms.items()}
-    inner = (sp.diff(named, dummy) * written(term, by) for term, dummy in terms.items())
+    inner = (derivative(named, dummy) * written(term, by) for term, dummy in terms.items())
     return sp.Add(_plain(named, by), *inner).xreplace(back)
 
 
@@ -53,10 +54,10 @@ def for_readers(expression: sp.Expr) -> sp.Expr:
 
 def _plain(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
     """∂/∂by as SymPy writes it."""
-    derivative = sp.diff(expression, by)
+    rate = derivative(expression, by)
     if any(power.exp.free_symbols and power.base.has(by) for power in expression.atoms(sp.Pow)):
-        derivative = sp.powsimp(derivative, combine="exp")
-    return derivative
+        rate = sp.powsimp(rate, combine="exp")
+    return rate
 
 
 def _is_squared(power: sp.Expr) -> bool:

@@ -14,6 +14,7 @@ import sympy as sp
 from gudgeon.generator.ir.statements import Line, Rescue, Sides, Statement
 from gudgeon.generator.ir.values import Place, Value
 from gudgeon.generator.symbols.corners import SideOf, Switches
+from gudgeon.generator.symbols.derivatives import symbols_of
 from gudgeon.generator.symbols.symbols import Symbols
 
 
@@ -210,14 +211,14 @@ class KernelBuilder:
         """Definitions to compute (in the order in which they were made) and inputs to read."""
         info, definitions = self._symbols.info, self._symbols.definitions
         seen: set[sp.Symbol] = set()
-        waiting = [s for e in expressions for s in e.free_symbols]
+        waiting = [s for e in expressions for s in symbols_of(e)]
         while waiting:
             symbol = waiting.pop()
             if symbol in seen or symbol.name in declared or symbol not in info:
                 continue
             seen.add(symbol)
             if not info[symbol].home:
-                waiting.extend(definitions[symbol].free_symbols)
+                waiting.extend(symbols_of(definitions[symbol]))
         ordered = [symbol for symbol in info if symbol in seen]
         return [s for s in ordered if not info[s].home], [s for s in ordered if info[s].home]
 

@@ -13,6 +13,7 @@ from typing import ClassVar, TypeAlias
 import sympy as sp
 
 from gudgeon.generator.symbols.corners import SideOf, Size
+from gudgeon.generator.symbols.derivatives import symbols_of
 
 Names = frozenset[str]
 NONE: Names = frozenset()
@@ -25,9 +26,10 @@ def base_of(text: str) -> str:
     return text[: next((k for k, c in enumerate(text) if not (c.isalnum() or c == "_")), len(text))]
 
 
+@lru_cache(20_000)
 def names_in(value: sp.Basic) -> Names:
     """What an expression reads: locals, arguments in front of places; of a side what holds it and is told it."""
-    return frozenset(base_of(s.name) for s in value.free_symbols) | ({"side", "g"} if value.has(SideOf) else NONE)
+    return frozenset(base_of(s.name) for s in symbols_of(value)) | ({"side", "g"} if value.has(SideOf) else NONE)
 
 
 @dataclass(frozen=True)

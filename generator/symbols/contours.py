@@ -5,6 +5,8 @@ from __future__ import annotations
 import sympy as sp
 from sympy.core.symbol import Str
 
+from gudgeon.generator.symbols.derivatives import derivative
+
 _LAST = 2  # derivatives of a contour: the third jumps from slot to slot
 
 
@@ -31,7 +33,7 @@ class ContourOf(sp.Function):
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
         table, count, order, x = self.args
-        rate = sp.diff(x, s)
+        rate = derivative(x, s)
         return sp.Integer(0) if rate == 0 or order == _LAST else ContourOf(table, count, order + 1, x) * rate
 
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 import sympy as sp
 
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf
+from gudgeon.generator.symbols.derivatives import derivative
 from gudgeon.generator.symbols.periods import ModOf, ModOn, PeriodsOf
 
 
@@ -43,7 +44,7 @@ class Pick(sp.Function):
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
         """The derivative of the branch that is picked: that of the other may be infinite."""
         side, a, b = self.args
-        da, db = sp.diff(a, s), sp.diff(b, s)
+        da, db = derivative(a, s), derivative(b, s)
         return da if da == db else Pick(side, da, db)
 
 
@@ -70,7 +71,7 @@ class _Extreme(sp.Function):
     as_it_is: type[sp.Expr]
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
-        slopes = {x: sp.diff(x, s) for x in self.args}
+        slopes = {x: derivative(x, s) for x in self.args}
         ordered = sorted(self.args, key=lambda a: (a.is_Number, str(a)))
         value, slope = ordered[0], slopes[ordered[0]]
         for other in ordered[1:]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sympy as sp
 from sympy.core.symbol import Str
 
+from gudgeon.generator.symbols.derivatives import derivative
 from gudgeon.language.curves import HOLD, STOP, Curve
 
 _LAST = 3  # derivatives of a cubic: the third has jumps at the knots, and no derivative in between
@@ -28,7 +29,7 @@ class CurveOf(sp.Function):
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
         name, order, x = self.args
-        rate = sp.diff(x, s)
+        rate = derivative(x, s)
         return sp.Integer(0) if rate == 0 or order == _LAST else CurveOf(name, order + 1, x) * rate
 
 
@@ -41,7 +42,7 @@ class CurveOn(sp.Function):
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
         name, order, x, side = self.args
-        rate = sp.diff(x, s)
+        rate = derivative(x, s)
         return sp.Integer(0) if rate == 0 or order == _LAST else CurveOn(name, order + 1, x, side) * rate
 
 

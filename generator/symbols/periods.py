@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
+from gudgeon.generator.symbols.derivatives import derivative
 from gudgeon.language.tree import mod
 
 
@@ -13,8 +14,8 @@ class _Remainder(sp.Function):
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
         """That of a, less what b grows in each of the periods that are behind."""
         a, b = self.args[:2]
-        rate = sp.diff(b, s)
-        return sp.diff(a, s) - (0 if rate == 0 else rate * (a - self) / b)
+        rate = derivative(b, s)
+        return derivative(a, s) - (0 if rate == 0 else rate * (a - self) / b)
 
 
 class ModOf(_Remainder):

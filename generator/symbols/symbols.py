@@ -16,6 +16,7 @@ import sympy as sp
 
 from gudgeon.generator.kinds.laws.law import house
 from gudgeon.generator.symbols.corners import Switches
+from gudgeon.generator.symbols.derivatives import derivative, symbols_of
 from gudgeon.language.names import NOT_IN_CODE
 
 # What emitted code itself calls its functions, arguments and locals (tests/targets_c/test_names_in_c.py finds them).
@@ -184,20 +185,20 @@ class Symbols:
     def diff(self, expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
         """d expression / d by, through the derived symbols."""
         total = sp.Integer(0)
-        for symbol in sorted(expression.free_symbols, key=lambda s: s.name):
+        for symbol in sorted(symbols_of(expression), key=lambda s: s.name):
             inner = sp.Integer(1) if symbol == by else self.rules.get(symbol, {}).get(by)
             if inner is not None:
-                total += sp.diff(expression, symbol) * inner
+                total += derivative(expression, symbol) * inner
         return total
 
     def written_out(self, expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
         """The same through definitions, for a symbol that rules do not name: a rate that a drive prescribes."""
         total = sp.Integer(0)
-        for symbol in sorted(expression.free_symbols, key=lambda s: s.name):
+        for symbol in sorted(symbols_of(expression), key=lambda s: s.name):
             known = symbol != by and symbol in self.definitions
             inner = self.written_out(self.definitions[symbol], by) if known else sp.Integer(symbol == by)
             if inner != 0:
-                total += sp.diff(expression, symbol) * inner
+                total += derivative(expression, symbol) * inner
         return total
 
     def explicit(self, expression: sp.Expr) -> sp.Expr:

@@ -12,7 +12,7 @@ from typing import Any
 import sympy as sp
 from sympy.core.exprtools import decompose_power
 from sympy.core.function import AppliedUndef
-from sympy.printing.precedence import precedence
+from sympy.printing.precedence import PRECEDENCE, precedence
 
 Method = Callable[..., str]
 
@@ -33,6 +33,43 @@ class Quick:
     def _print_not_supported(self, expr: sp.Expr) -> str:
         raise ValueError(f"{type(self).__name__} does not know {expr}")
 
+    def _print_Add(self, expr: sp.Add, order: str | None = None) -> str:
+        text = ""
+        for term in ordered_terms(expr):
+            own = self._print(term)
+            minus = own.startswith("-") and not term.is_Add
+            own = own[1:] if minus else own
+            if term.is_Add or not (term.is_Mul or term.is_Symbol or term.is_Pow) and _precedence(term) < _SUM:
+                own = f"({own})"
+            text += f" {'-' if minus else '+'} {own}" if text else f"-{own}" if minus else own
+        return text
+
+    def _print_Mul(self, expr: sp.Mul) -> str:
+        """What is divided by stands behind, in brackets where it is several factors."""
+        number, rest = expr.as_coeff_Mul()
+        factors = list(rest.as_ordered_factors())
+        negative = number.is_extended_negative
+        if (size := -number if negative else number) is not sp.S.One:
+            factors.insert(0, size)
+        above, below = list[sp.Expr](), list[sp.Expr]()
+        bracketed = set[sp.Expr]()
+        for factor in factors:
+            if not (factor.is_Pow and factor.exp.is_Rational and factor.exp.is_negative):
+                above.append(factor)
+                continue
+            below.append(sp.Pow(factor.base, -factor.exp, evaluate=factor.exp is sp.S.NegativeOne))
+            if factor.exp is sp.S.NegativeOne and factor.base.is_Mul:
+                bracketed.add(factor.base)
+        binds = _UNARY_MINUS if negative and len(above) <= 1 else _precedence(expr)
+        text = "*".join([self.parenthesize(factor, binds) for factor in above]) if above else self._print(sp.S.One)
+        text = f"-{text}" if negative else text
+        if not below:
+            return text
+        binds = _precedence(expr)
+        divisors = [self.parenthesize(factor, binds) for factor in below]
+        divisors = [f"({own})" if factor in bracketed else own for own, factor in zip(divisors, below, strict=True)]
+        return f"{text}/{divisors[0]}" if len(below) == 1 else f"{text}/({'*'.join(divisors)})"
+
     def _as_ordered_terms(self, expr: sp.Expr, order: str | None = None) -> list[sp.Expr]:
         return list(ordered_terms(expr))
 
@@ -43,6 +80,8 @@ class Quick:
 
 
 _precedence = lru_cache(100_000)(precedence)
+_SUM = PRECEDENCE["Add"]
+_UNARY_MINUS = (PRECEDENCE["Pow"] + PRECEDENCE["Mul"]) / 2
 _METHODS: dict[tuple[type, type], Method] = {}  # of printers, by the class that is printed
 
 

@@ -34,6 +34,7 @@ from gudgeon.generator.ir.statements import (
 )
 from gudgeon.generator.ir.values import NONE, Place
 from gudgeon.generator.kernels.shared import CORNER, SharedCall
+from gudgeon.generator.symbols.derivatives import symbols_of
 from gudgeon.generator.targets.c.layout import WIDTH, broken
 from gudgeon.generator.targets.c.printer import CPrinter, Text, comment_text
 
@@ -224,7 +225,7 @@ def _touched(item: Kernel) -> frozenset[str]:
     """What its lines read and write, by what it is called there."""
     lines = [line for section in item.sections for line in section.statements]
     names = NONE.union(*(line.reads | line.writes for line in lines))
-    names |= {s.name for line in lines for x in line.expressions for s in x.free_symbols}
+    names |= {s.name for line in lines for x in line.expressions for s in symbols_of(x)}
     corner = NONE if item.first_corner is None else {CORNER.name}
     return names | corner | {item.names.get(name, name) for name in names}
 

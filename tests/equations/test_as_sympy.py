@@ -1,0 +1,70 @@
+"""What is computed here to save SymPy's time: the very expressions and texts that SymPy gives."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator
+
+import pytest
+import sympy as sp
+from sympy.printing.c import C99CodePrinter
+from sympy.printing.pycode import PythonCodePrinter
+
+from gudgeon.generator.symbols.corners import Pick
+from gudgeon.generator.symbols.derivatives import derivative, symbols_of
+from gudgeon.generator.targets.quick import Quick
+
+SYMBOLS = x, y, z = sp.symbols("x y z", real=True)
+NUMBERS = (*map(sp.Integer, (-3, -1, 2, 7)), sp.Rational(-1, 2), sp.Rational(3, 7), sp.Float(0.3), sp.Float(-1.5))
+POWERS = (*map(sp.Integer, (-3, -2, -1, 2, 3)), sp.Rational(1, 2), sp.Rational(-1, 2), sp.Rational(3, 2))
+
+
+def expressions(count: int) -> Iterator[sp.Expr]:
+    rng = random.Random(18)
+
+    def some(depth: int) -> sp.Expr:
+        if depth == 0 or rng.random() < 0.15:
+            return rng.choice(SYMBOLS)
+        kind = rng.choice(("sum", "product", "product", "power", "function"))
+        if kind == "power":
+            return some(depth - 1) ** rng.choice((*POWERS, y))
+        if kind == "function":
+            return rng.choice((sp.sin, sp.cos, sp.exp, sp.atan, sp.log))(some(depth - 1))
+        parts = [some(depth - 1) for _ in range(rng.randint(1, 3))] + [rng.choice(NUMBERS)] * rng.randint(0, 1)
+        return sp.Add(*parts) if kind == "sum" else sp.Mul(*parts)
+
+    while count:
+        made = some(4)
+        if not made.has(sp.nan, sp.zoo, sp.oo):
+            yield made
+            count -= 1
+
+
+@pytest.mark.parametrize(
+    "expression",
+    [sp.atan2(x * y, 3 - x), sp.Max(x, y * x), Pick(x - y, x**2, x * sp.sin(y)), sp.Abs(x * y) * x, 2 * (x + y),
+     sp.Mul(2, x + y * x, evaluate=False), x**x, sp.Heaviside(x - y) * x, sp.sqrt(x**2 + y**2) ** -3, sp.Integer(4)],
+    ids=str,
+)  # fmt: skip
+def test_derivatives_of_each_kind(expression: sp.Expr) -> None:
+    for symbol in SYMBOLS:
+        assert derivative(expression, symbol) == sp.diff(expression, symbol)
+
+
+def test_derivatives_and_symbols_of_random_expressions() -> None:
+    for expression in expressions(60):
+        assert symbols_of(expression) == expression.free_symbols
+        for symbol in SYMBOLS:
+            assert derivative(expression, symbol) == sp.diff(expression, symbol), (expression, symbol)
+
+
+@pytest.mark.parametrize("printer", [C99CodePrinter, PythonCodePrinter])
+def test_texts_of_random_expressions(printer: type[C99CodePrinter | PythonCodePrinter]) -> None:
+    quick = type("Printer", (Quick, printer), {})()
+    for expression in expressions(200):
+        if expression.has(sp.Float) and printer is PythonCodePrinter:
+            continue  # every printer of gudgeon writes these in its own way
+        assert quick.doprint(expression) == printer().doprint(expression)
+    for expression in (-1 / x, -x / (y * z), 1 / (x * (y + 1)), -(x + y), -2 / (x * y) ** 2, x / (y * sp.sqrt(z)),
+                       sp.Mul(x, 1 / sp.Mul(y, z, evaluate=False), evaluate=False)):  # fmt: skip
+        assert quick.doprint(expression) == printer().doprint(expression)
