@@ -118,7 +118,9 @@ def test_bits_are_those_of_a_page(values: Values, tmp_path: Path) -> None:
     zig, module = Path(ziglang.__file__).with_name("zig"), tmp_path / "functions.wasm"
     asked = ["-Wl,--export=values", *include_flags(), str(HERE / "functions.c"), "-o", str(module)]
     kept = {"ZIG_GLOBAL_CACHE_DIR": str(default_cache().root / "zig"), "ZIG_LOCAL_CACHE_DIR": str(tmp_path)}
-    subprocess.run([str(zig), "cc", *FLAGS, *asked], check=True, capture_output=True, env={**compiler.plain(), **kept})
+    # from the test's folder, as of a scene: from one that zig lies in it takes its C library for another, a minute more
+    line, env = [str(zig), "cc", *FLAGS, *asked], {**compiler.plain(), **kept}
+    subprocess.run(line, cwd=tmp_path, check=True, capture_output=True, env=env)
     for name, pairs in ranges(100_000).items():
         x, y = (np.concatenate(arrays) for arrays in zip(*pairs, strict=True))
         np.concatenate([x, y]).tofile(tmp_path / "in")
