@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -93,8 +94,11 @@ class Opened:
         return list(self.page.evaluate(told))
 
 
-@pytest.fixture
-def opened(chromium: Any) -> Iterator[Any]:
+Opening = Callable[..., Opened]
+
+
+@contextmanager
+def _contexts(chromium: Any) -> Iterator[Opening]:
     contexts: list[Any] = []
 
     def opening(file: Path, viewport: dict[str, int] = DESK, scheme: str = "light") -> Opened:
@@ -104,3 +108,17 @@ def opened(chromium: Any) -> Iterator[Any]:
     yield opening
     for context in contexts:
         context.close()
+
+
+@pytest.fixture
+def opened(chromium: Any) -> Iterator[Opening]:
+    """Opens pages of one test."""
+    with _contexts(chromium) as opening:
+        yield opening
+
+
+@pytest.fixture(scope="module")
+def opened_once(chromium: Any) -> Iterator[Opening]:
+    """Opens pages that the tests of a file share."""
+    with _contexts(chromium) as opening:
+        yield opening

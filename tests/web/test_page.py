@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,25 @@ import gudgeon  # noqa: E402
 from gudgeon.drawing.labels import overlapping  # noqa: E402
 from tests.pump import Gudgeon  # noqa: E402
 from tests.scenes import loader  # noqa: E402
-from tests.web.chromium import PHONE, C, written  # noqa: E402
+from tests.web.chromium import DESK, PHONE, C, Opened, written  # noqa: E402
+
+
+@pytest.fixture(scope="module")
+def seen_before(opened_once: Any, press: Path) -> Opened:
+    shown: Opened = opened_once(press)
+    return shown
+
+
+@pytest.fixture
+def seen(seen_before: Opened) -> Iterator[Opened]:
+    """The press's page, for tests that change no number of it: what they look at it with is put back."""
+    yield seen_before
+    page = seen_before.page
+    page.set_viewport_size(DESK)
+    page.emulate_media(media="screen", color_scheme="light")
+    page.evaluate("gudgeonApp.play(false); gudgeonApp.seek(0); scrollTo(0, 0)")
+    seen_before.wait()
+    assert seen_before.complaints == []
 
 
 def test_what_a_hand_moves_is_simulated_and_shown(opened: Any, press: Path) -> None:
@@ -67,17 +86,16 @@ def test_what_cannot_be_run_is_told(opened: Any, press: Path) -> None:
     assert shown.complaints == []
 
 
-def test_the_state_is_announced_at_each_sample(opened: Any, press: Path) -> None:
-    shown = opened(press)
-    heard = shown.page.evaluate("""new Promise((done) => {
+def test_the_state_is_announced_at_each_sample(seen: Opened) -> None:
+    heard = seen.page.evaluate("""new Promise((done) => {
         document.addEventListener("gudgeon:state", ({detail: {sim, run, k, t, q, v, p}}) =>
             done([sim === gudgeonApp.sim, run === gudgeonApp.run, k, t, q.length, v.length, p === run.p,
                 window.gudgeonState.k]), {once: true});
         gudgeonApp.seek(0.5);
     })""")
     assert heard == [True, True, 500, 0.5, 24, 24, True, 500]
-    assert shown.page.evaluate("document.querySelector('#g-drawing [data-of~=joint-A]') !== null")
-    assert shown.page.evaluate("document.querySelector('#g-drawing [data-of~=body-L1]') !== null")
+    assert seen.page.evaluate("document.querySelector('#g-drawing [data-of~=joint-A]') !== null")
+    assert seen.page.evaluate("document.querySelector('#g-drawing [data-of~=body-L1]') !== null")
 
 
 FRAMES = """() => new Promise((done) => {
@@ -89,7 +107,7 @@ FRAMES = """() => new Promise((done) => {
         last = now;
         slider.value = 500 + 300 * Math.sin(k / 30);
         slider.dispatchEvent(new Event("input"));
-        if (++k < 120) requestAnimationFrame(step);
+        if (++k < 40) requestAnimationFrame(step);
         else done(apart.sort((a, b) => a - b));
     };
     requestAnimationFrame(step);
@@ -118,10 +136,9 @@ NAMES = """() => [...Array(200).keys()].map((i) => {
 })"""
 
 
-def test_names_follow_and_lie_on_no_other(opened: Any, press: Path) -> None:
+def test_names_follow_and_lie_on_no_other(seen: Opened) -> None:
     """A turn of the press: each keeps its place beside what it names until another one is there."""
-    shown = opened(press)
-    told = np.array(shown.page.evaluate(NAMES))
+    told = np.array(seen.page.evaluate(NAMES))
     rounded = 0.2 * np.array([1.0, 1.0, -1.0, -1.0])  # places are written to a tenth
     middles = (told[..., :2] + told[..., 2:4]) / 2
     fixed = 0
@@ -133,12 +150,11 @@ def test_names_follow_and_lie_on_no_other(opened: Any, press: Path) -> None:
     beside = middles - told[..., 4:6]
     moves = (np.abs(np.diff(beside, axis=0)).max(axis=-1) > 0.3).sum()
     assert fixed > 0 and 0 < moves < 0.02 * beside[..., 0].size  # without following some would lie on others
-    assert shown.complaints == []
 
 
-def test_sizes(opened: Any, press: Path) -> None:
-    shown = opened(press, PHONE)
-    assert shown.page.evaluate("document.documentElement.scrollWidth") <= 390
+def test_sizes(seen: Opened, press: Path) -> None:
+    seen.page.set_viewport_size(PHONE)
+    assert seen.page.evaluate("document.documentElement.scrollWidth") <= 390
     assert press.stat().st_size < 400_000
 
 
@@ -148,10 +164,9 @@ LABELS = """() => [...document.querySelectorAll("#gudgeon-app :is(button, input,
 }).map((one) => one.outerHTML)"""
 
 
-def test_keys_reach_everything(opened: Any, press: Path) -> None:
+def test_keys_reach_everything(seen: Opened) -> None:
     """Each thing has a name; Tab goes through all in sight, and where it is can be seen."""
-    shown = opened(press)
-    page = shown.page
+    page = seen.page
     assert page.evaluate(LABELS) == []
     page.evaluate("document.getElementById('g-play').focus()")
     page.keyboard.press("Space")
@@ -160,9 +175,9 @@ def test_keys_reach_everything(opened: Any, press: Path) -> None:
     page.keyboard.press("Tab")
     at = page.evaluate("document.activeElement.id")
     page.keyboard.press("End")
-    shown.wait()
+    seen.wait()
     assert (at, page.evaluate("gudgeonApp.t")) == ("g-when", 1.0)
-    seen = set()
+    reached = set()
     for _ in range(60):
         page.keyboard.press("Tab")
         told = page.evaluate("""() => { const one = document.activeElement, look = getComputedStyle(one);
@@ -171,8 +186,8 @@ def test_keys_reach_everything(opened: Any, press: Path) -> None:
         if not told[3]:
             break
         assert told[1] == "solid" and told[2] == "2px", told
-        seen.add(told[0])
-    assert {"g-speed", "g-named", "g-forces", "g-run-method", "g-number-3", "g-add"} <= seen
+        reached.add(told[0])
+    assert {"g-speed", "g-named", "g-forces", "g-run-method", "g-number-3", "g-add"} <= reached
 
 
 # of each text its colour's contrast with what lies behind it (WCAG 2.2, 1.4.3), the worst first
@@ -199,44 +214,12 @@ CONTRAST = """() => {
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_text_stands_out(opened: Any, press: Path, scheme: str) -> None:
-    found = opened(press, scheme=scheme).page.evaluate(CONTRAST)
+def test_text_stands_out(seen: Opened, scheme: str) -> None:
+    seen.page.emulate_media(color_scheme=scheme)
+    seen.wait()
+    found = seen.page.evaluate(CONTRAST)
     assert len(found) > 150
     assert [one for one in found if one[0] < 4.5] == []
-
-
-def test_scenes_lead_to_each_other(opened: Any, tmp_path: Path, call: Gudgeon) -> None:
-    """A folder of pages: another scene begins with the numbers of this one, and computes what the compiled one does."""
-    assert call("equations", "slider_crank", "-o", "pages/").exit_code == 0
-    page = opened(tmp_path / "pages" / "slider_crank_ideal.html")
-    page.page.evaluate("gudgeonApp.panel.set('parameters.omega', 40)")
-    page.wait()
-    page.page.evaluate("gudgeonApp.seek(0.05)")
-    page.page.select_option("#g-scene", "dry")
-    page.page.wait_for_url("**/slider_crank_dry.html#*")
-    page.wait()
-    assert page.page.evaluate("[gudgeonApp.about.scene, gudgeonApp.t]") == ["dry", 0.05]
-    assert page.same_bits(gudgeon.load("slider_crank", "dry").simulate(parameters={"omega": 40.0}))
-    page.page.goto(
-        f"{page.page.url.partition('#')[0]}#parameters.omega=nan&parameters.c=&t=x&bodies.rod.mass=-1"
-        "&bodies.rad.mass=1&bodies.rad.mass=1&t=-5"
-    )
-    page.page.reload()
-    page.page.wait_for_function("document.getElementById('g-error').textContent")
-    assert page.page.evaluate("gudgeonApp.panel.given") == {"bodies.rod.mass": -1}
-    assert "bodies.rod.mass is -1 kg: a mass is positive; expected > 0 kg" in page.error()
-    assert page.page.inner_text("#g-note") == (
-        "Not taken from the link: parameters.omega = nan (expected a number), parameters.c = nothing"
-        " (expected a number), t = x (expected a number), bodies.rad.mass = 1 (this scene has no such number),"
-        f" t = -5 (the run has 0 to {page.page.evaluate('gudgeonApp.end')} s)."
-    )
-    assert page.same_bits(gudgeon.load("slider_crank", "dry").simulate())  # the file's numbers are what is shown
-    page.page.goto(f"{page.page.url.partition('#')[0]}#bodies.rod.mass=300 g&t=50 ms")
-    page.page.reload()
-    page.page.wait_for_function("window.gudgeonApp?.run?.p && Object.keys(gudgeonApp.panel.given).length")
-    page.wait()
-    assert page.page.evaluate("[gudgeonApp.panel.given, gudgeonApp.t]") == [{"bodies.rod.mass": 0.3}, 0.05]
-    assert page.page.inner_text("#g-note") == "" and page.complaints == []
 
 
 LONG = f"""
@@ -248,6 +231,41 @@ joints: {{O: {{revolute: [ground.O, crank.tail]}}}}
 drives: {{motor: {{angle: crank, value: 0.5 rad + omega*t}}}}
 scenes: {{s: {{simulate: {{t_end: 1 s, output: 50}}}}}}
 """
+
+
+def test_scenes_lead_to_each_other(opened: Any, tmp_path: Path, call: Gudgeon) -> None:
+    """A folder of pages: another scene begins with the numbers of this one, and computes what the compiled one does."""
+    native = loader(tmp_path)(LONG, "s")
+    assert call("equations", "attacked_0.yaml", "-o", "pages/").exit_code == 0
+    page = opened(tmp_path / "pages" / "attacked_0_ideal.html")
+    page.page.evaluate("gudgeonApp.panel.set('parameters.omega', 40)")
+    page.wait()
+    page.page.evaluate("gudgeonApp.seek(0.05)")
+    page.page.select_option("#g-scene", "s")
+    page.page.wait_for_url("**/attacked_0_s.html#*")
+    page.wait()
+    assert page.page.evaluate("[gudgeonApp.about.scene, gudgeonApp.t]") == ["s", 0.05]
+    assert page.same_bits(native.simulate(parameters={"omega": 40.0}))
+    page.page.goto(
+        f"{page.page.url.partition('#')[0]}#parameters.omega=nan&bodies.crank.inertia=&t=x&bodies.crank.mass=-1"
+        "&bodies.rad.mass=1&bodies.rad.mass=1&t=-5"
+    )
+    page.page.reload()
+    page.page.wait_for_function("document.getElementById('g-error').textContent")
+    assert page.page.evaluate("gudgeonApp.panel.given") == {"bodies.crank.mass": -1}
+    assert "bodies.crank.mass is -1 kg: a mass is positive; expected > 0 kg" in page.error()
+    assert page.page.inner_text("#g-note") == (
+        "Not taken from the link: parameters.omega = nan (expected a number), bodies.crank.inertia = nothing"
+        " (expected a number), t = x (expected a number), bodies.rad.mass = 1 (this scene has no such number),"
+        f" t = -5 (the run has 0 to {page.page.evaluate('gudgeonApp.end')} s)."
+    )
+    assert page.same_bits(native.simulate())  # the file's numbers are what is shown
+    page.page.goto(f"{page.page.url.partition('#')[0]}#bodies.crank.mass=300 g&t=50 ms")
+    page.page.reload()
+    page.page.wait_for_function("window.gudgeonApp?.run?.p && Object.keys(gudgeonApp.panel.given).length")
+    page.wait()
+    assert page.page.evaluate("[gudgeonApp.panel.given, gudgeonApp.t]") == [{"bodies.crank.mass": 0.3}, 0.05]
+    assert page.page.inner_text("#g-note") == "" and page.complaints == []
 
 
 def test_a_run_without_an_end_is_seen_and_stopped(opened: Any, tmp_path: Path) -> None:
@@ -277,15 +295,19 @@ def test_a_run_without_an_end_is_seen_and_stopped(opened: Any, tmp_path: Path) -
     assert shown.complaints == []
 
 
-def test_a_start_is_followed_from_the_file_s(opened: Any, tmp_path: Path) -> None:
-    """A slider of a mechanism of the gallery whose start Python searches for."""
+@pytest.fixture(scope="module")
+def pendulum(tmp_path_factory: pytest.TempPathFactory) -> Path:
     pytest.importorskip("ziglang")
-    leg = gudgeon.load("mechanisms/gallery/peaucellier.yaml")
-    shown = opened(written(tmp_path, leg))
+    return written(tmp_path_factory.mktemp("pendulum"), gudgeon.load("pendulum"))
+
+
+def test_a_start_is_followed_from_the_file_s(opened: Any, pendulum: Path) -> None:
+    """A slider of a mechanism whose start Python searches for."""
+    shown = opened(pendulum)
     assert "followed" not in shown.page.inner_text("#g-counts")
-    shown.page.evaluate("gudgeonApp.panel.set('parameters.L', 0.128)")
+    shown.page.evaluate("gudgeonApp.panel.set('parameters.length', 1.1)")
     shown.wait()
-    native = leg.simulate(parameters={"L": 0.128})
+    native = gudgeon.load("pendulum").simulate(parameters={"length": 1.1})
     assert shown.error() == ""
     for name in ("q", "v"):
         assert np.abs(shown.array(name) - np.ravel(getattr(native, name))).max() < 1e-9
@@ -305,11 +327,12 @@ def test_numbers_beyond_all_prefixes_have_none(opened: Any, press: Path) -> None
         assert page.locator("#g-values tr").first.locator("td").all_inner_texts() == told.split(" ")
 
 
-def test_what_is_wide_is_read_whole_on_a_phone_and_in_print(opened: Any, press: Path) -> None:
+def test_what_is_wide_is_read_whole_on_a_phone_and_in_print(seen: Opened) -> None:
     """No table or drawing scrolls sideways at 390 pixels, nor any by a pixel up and down; in print nothing is cut, nor
     shaded as if it were."""
-    page = opened(press, PHONE).page
-    page.add_style_tag(content="* { content-visibility: visible !important; }")
+    page = seen.page
+    page.set_viewport_size(PHONE)
+    style = page.add_style_tag(content="* { content-visibility: visible !important; }")
     cut = """(of) => [...document.querySelectorAll(of)].filter((one) => one.scrollWidth > one.clientWidth + 1).length"""
     assert page.evaluate(cut, "body > table, .sketch, .sketch pre") == 0
     high = cut.replace("Width + 1", "Height").replace("Width", "Height")
@@ -318,19 +341,21 @@ def test_what_is_wide_is_read_whole_on_a_phone_and_in_print(opened: Any, press: 
     shaded = """() => [...document.querySelectorAll("body > :is(table, pre, figure, .equation)")].filter((one) =>
         getComputedStyle(one).backgroundImage !== "none" || getComputedStyle(one).overflowX !== "visible").length"""
     assert page.evaluate(shaded) == 0
+    style.evaluate("(one) => one.remove()")
 
 
-def test_the_panel_s_foot_is_seen_and_traces_stand_below_the_drawing(opened: Any, press: Path) -> None:
-    page = opened(press, {"width": 1280, "height": 900}).page
+def test_the_panel_s_foot_is_seen_and_traces_stand_below_the_drawing(seen: Opened) -> None:
+    page = seen.page
+    page.set_viewport_size({"width": 1280, "height": 900})
     box = {of: page.locator(of).bounding_box() for of in (".g-reset", "#g-numbers", ".g-stage", ".g-traces")}
     assert box[".g-reset"]["y"] + box[".g-reset"]["height"] <= 900
     gap = box[".g-traces"]["y"] - box[".g-stage"]["y"] - box[".g-stage"]["height"]
     assert 0 <= gap < 40 < box["#g-numbers"]["height"]
 
 
-def test_print_has_no_controls(opened: Any, press: Path) -> None:
-    page = opened(press, scheme="dark").page
-    page.emulate_media(media="print")
+def test_print_has_no_controls(seen: Opened) -> None:
+    page = seen.page
+    page.emulate_media(media="print", color_scheme="dark")
     told = """[...document.querySelectorAll("#gudgeon-app :is(button, input, select, details)")]
         .filter((one) => one.getClientRects().length).map((one) => one.outerHTML)"""
     assert page.evaluate(told) == []
@@ -338,21 +363,19 @@ def test_print_has_no_controls(opened: Any, press: Path) -> None:
     assert page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
 
 
-def test_constraints_drift_where_nothing_holds_them(opened: Any, tmp_path: Path) -> None:
+def test_constraints_drift_where_nothing_holds_them(opened: Any, pendulum: Path) -> None:
     """The pendulum in all its coordinates by rk4: with gains less than without, not at all when reduced."""
-    pytest.importorskip("ziglang")
-    pendulum = gudgeon.load("pendulum")
-    shown = opened(written(tmp_path, pendulum))
-    page, place = shown.page, {slot.address: k for k, slot in enumerate(pendulum.source.slots)}
+    shown, native = opened(pendulum), gudgeon.load("pendulum")
+    page, place = shown.page, {slot.address: k for k, slot in enumerate(native.source.slots)}
     worst = "Math.max(...gudgeonApp.run.series('Phi.max').slice(-250))"
     page.select_option("#g-run-method", "rk4")
     shown.wait()
-    assert shown.error() == "" and shown.same_bits(pendulum.simulate(method="rk4"))  # its step is estimated
+    assert shown.error() == "" and shown.same_bits(native.simulate(method="rk4"))  # its step is estimated
     assert "estimated" in page.inner_text("#g-counts")
     page.fill("#g-run-t_end", "5000 ms")
     page.keyboard.press("Enter")
     shown.wait()
-    assert shown.same_bits(pendulum.simulate(5, method="rk4"))
+    assert shown.same_bits(native.simulate(5, method="rk4"))
     page.fill("#g-run-step", "0.01")
     page.keyboard.press("Enter")
     shown.wait()
@@ -367,7 +390,7 @@ def test_constraints_drift_where_nothing_holds_them(opened: Any, tmp_path: Path)
     held, free = drifts
     assert free > 10 * held > 1e-13
     gains = {"baumgarte.alpha": 0.0, "baumgarte.beta": 0.0}
-    assert shown.same_bits(pendulum.full.simulate(5, method="rk4", step=0.01, parameters=gains))
+    assert shown.same_bits(native.full.simulate(5, method="rk4", step=0.01, parameters=gains))
     assert shown.complaints == []
 
 

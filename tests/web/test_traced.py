@@ -12,6 +12,8 @@ import pytest
 pytest.importorskip("matplotlib")
 
 import gudgeon  # noqa: E402
+from gudgeon.results.results import Result  # noqa: E402
+from tests.web.chromium import Opened  # noqa: E402
 
 # the lit lines of C: file, text, value; seen one by one, because values are filled in where they are seen
 LINES = """async (token) => {
@@ -40,13 +42,24 @@ def number(text: str) -> float:
     return 0.0 if text == "≈ 0" else float(text.replace("·10", "e").translate(RAISED))
 
 
-def test_a_row_lights_its_lines_with_the_run_s_values(opened: Any, press: Path) -> None:
-    """Each row of Φ: the file, the row, its entries, γ, and lines of C, of which each has the value at this time."""
-    shown, native = opened(press, {"width": 1366, "height": 12000}), gudgeon.load("nine_bar_press", "lubricated")
-    page, run = shown.page, native.simulate(parameters={"c": "0.4 mm"})
+@pytest.fixture(scope="module")
+def typed(opened_once: Any, press: Path) -> tuple[Opened, Result]:
+    """A page on which all lit lines are seen, with a clearance of its own, and the native run with it."""
+    shown = opened_once(press, {"width": 1366, "height": 4000})
     shown.type_into(3, "0.4")
-    page.evaluate("(k) => gudgeonApp.seek(gudgeonApp.run.t[k])", SAMPLE)
+    return shown, gudgeon.load("nine_bar_press", "lubricated").simulate(parameters={"c": "0.4 mm"})
+
+
+def seek(shown: Opened, k: int) -> None:
+    shown.page.evaluate("(k) => gudgeonApp.seek(gudgeonApp.run.t[k])", k)
     shown.wait()
+
+
+def test_a_row_lights_its_lines_with_the_run_s_values(typed: tuple[Opened, Result]) -> None:
+    """Each row of Φ: the file, the row, its entries, γ, and lines of C, of which each has the value at this time."""
+    (shown, run), native = typed, gudgeon.load("nine_bar_press", "lubricated")
+    page = shown.page
+    seek(shown, SAMPLE)
     t, q, v = float(run.t[SAMPLE]), run.q[SAMPLE], run.v[SAMPLE]
     phi, gamma = native.compiled.phi(t, q, run.p), native.compiled.gamma(t, q, v, run.p)
     phi_q = native.compiled.phi_q(t, q, run.p)
@@ -65,12 +78,10 @@ def test_a_row_lights_its_lines_with_the_run_s_values(opened: Any, press: Path) 
     assert shown.complaints == []
 
 
-def test_a_law_s_lines_are_of_the_joint_that_is_lit(opened: Any, press: Path) -> None:
+def test_a_law_s_lines_are_of_the_joint_that_is_lit(typed: tuple[Opened, Result]) -> None:
     """Of the first where none is; what is not run at the time is told."""
-    shown = opened(press, {"width": 1366, "height": 12000})
-    shown.type_into(3, "0.4")
-    shown.page.evaluate("(k) => gudgeonApp.seek(gudgeonApp.run.t[k])", SAMPLE)
-    run = gudgeon.load("nine_bar_press", "lubricated").simulate(parameters={"c": "0.4 mm"})
+    shown, run = typed
+    seek(shown, SAMPLE)
     for token, joint in (("joint-A", "A"), ("joint-B", "B"), ("law-oil", "A")):
         lines = [(text, value) for file, text, value in shown.page.evaluate(LINES, token) if file == "clearance.c"]
         of = {text.split(" = ")[0].strip(): number(value) for text, value in lines if value not in ("", NOT_RUN)}
@@ -82,14 +93,13 @@ def test_a_law_s_lines_are_of_the_joint_that_is_lit(opened: Any, press: Path) ->
     assert f"{NOT_RUN}: not run" in told and shown.complaints == []
 
 
-def test_a_joint_s_state_is_marked_on_each_curve(opened: Any, press: Path) -> None:
+def test_a_joint_s_state_is_marked_on_each_curve(typed: tuple[Opened, Result]) -> None:
     """The film's two, at moments at which the eccentricity is within the plot; the dots lie on the curves."""
-    shown, found = opened(press, {"width": 1366, "height": 30000}), 0
+    (shown, run), found = typed, 0
+    shown.page.evaluate("[...document.querySelectorAll('g.now')].at(-1).closest('svg').scrollIntoView()")
     shown.wait()
-    run = gudgeon.load("nine_bar_press", "lubricated").simulate()
     for k in np.flatnonzero(run["A.e"] / run.parameters["c"] < 0.85)[:: len(run.t) // 6]:
-        shown.page.evaluate("(k) => gudgeonApp.seek(gudgeonApp.run.t[k])", int(k))
-        shown.wait()
+        seek(shown, int(k))
         for x, dots, curves in shown.page.evaluate(MARKS):
             assert len(dots) == len(curves) > 0
             found += 1
@@ -98,9 +108,8 @@ def test_a_joint_s_state_is_marked_on_each_curve(opened: Any, press: Path) -> No
     assert found >= 3
 
 
-def test_lines_of_parameters_have_the_numbers_that_were_typed(opened: Any, press: Path) -> None:
-    shown = opened(press, {"width": 1366, "height": 12000})
-    shown.type_into(3, "0.4")
+def test_lines_of_parameters_have_the_numbers_that_were_typed(typed: tuple[Opened, Result]) -> None:
+    shown, _ = typed
     lines = shown.page.evaluate(LINES, "joint-A")
     stored = [(text.split(" = ")[0], value) for _, text, value in lines if text.startswith("    p->") and " = " in text]
     told = {name.strip(): value for name, value in stored}
