@@ -34,7 +34,10 @@ RUNS: dict[tuple[str, str], list[dict[str, Any]]] = {
         {"t_end": 2, "output": 50, "method": "rk4", "step": 1e-3},
     ],
     ("four_bar", "ideal"): [{"t_end": 1, "output": 100}],
-    ("slider_crank", "dry"): [{"t_end": 0.2, "output": 100}, {"t_end": 0.02, "output": 20, "method": "rk4"}],
+    ("slider_crank", "dry"): [
+        {"t_end": 0.2, "output": 100}, {"t_end": 0.02, "output": 20, "method": "rk4"},
+        {"t_end": 0.02, "output": 20, "method": "rodas5p"},
+    ],
     ("nine_bar_press", "lubricated"): [
         {"t_end": 0.02, "output": 20, "method": "dop853"}, {"t_end": 0.01, "output": 9, "step": 5e-6},
     ],
@@ -76,6 +79,7 @@ def test_numbers_are_those_of_the_native_run(scene: tuple[str, str], tmp_path: P
         assert len(found.impacts) == len(run.impacts)
 
 
+@pytest.mark.slow  # those that are shipped are the native ones in the default run too
 @needs_node
 def test_slopes_of_contacts_are_the_native_ones(tmp_path: Path) -> None:
     """What implicit steps are solved with; derived here and now, with another mass."""
@@ -324,6 +328,7 @@ def test_rows_of_a_driven_scene_drift_with_the_square_of_time(tmp_path: Path) ->
 
 BODY = "mass: .1 kg, inertia: 1e-4 kg*m^2"
 SWING = f"""
+title: </script><script>alert(1)</script>
 bodies: {{bob: {{length: 1 m, {BODY}}}}}
 ground: {{O: [0, 0]}}
 gravity: [0, -9.81 m/s^2]
@@ -334,9 +339,10 @@ events:
   side: {{zero: bob.theta + 150 deg, direction: falling, action: stop}}
 """
 CRANK = f"""
+parameters: {{rod: 80 mm, half: 30 deg}}
 bodies:
   crank: {{length: 100 mm, {BODY}}}
-  rod: {{length: 80 mm, {BODY}}}
+  rod: {{length: rod, {BODY}}}
   block: {{{BODY}}}
 ground: {{O: [0, 0], G: [0, 0]}}
 joints:
@@ -348,9 +354,9 @@ drives: {{turn: {{angle: crank, value: -40 deg + 2 rad/s * t}}}}
 start: {{guess: {{rod.theta: 30 deg}}}}
 events:
   through: {{zero: crank.theta}}
-  half: {{zero: crank.theta - 30 deg}}
+  half: {{zero: crank.theta - half}}
 scenes:
-  stopped: {{events: {{half: {{zero: crank.theta - 30 deg, action: stop}}}}}}
+  stopped: {{events: {{half: {{zero: crank.theta - half, action: stop}}}}}}
 """
 
 
@@ -369,19 +375,16 @@ def test_events_are_noted_and_end_a_run(text: str, scene: str, tmp_path: Path) -
 
 
 LONG: dict[str, Any] = {"t_end": 2000.0, "output": 2}
-FAR = {"half: {zero: crank.theta - 30 deg, action": "half: {zero: crank.theta - 1000.5 rad, action"}
 
 
 @needs_node
-@pytest.mark.parametrize("scene", [pytest.param("ideal", marks=pytest.mark.slow), "stopped"])
+@pytest.mark.parametrize("scene", slow_but(["stopped"], ["ideal", "stopped"]))
 def test_few_samples_of_a_long_time_come_in_pieces(scene: str, tmp_path: Path) -> None:
     """A page freezes between two pieces: none of 50,000 steps to two samples has more than some thousand of them."""
-    text = CRANK.replace("length: 80 mm", "length: 200 mm")
-    for old, new in FAR.items():
-        text = text.replace(old, new)
-    simulation, asked = loader(tmp_path)(text, scene), LONG
-    native = simulation.simulate(**asked)
-    (found,) = in_node(simulation, tmp_path, [{"options": asked, "slices": True}])
+    simulation, asked = loader(tmp_path)(CRANK, scene), LONG
+    moved = {"rod": 0.2, "half": 1000.5}
+    native = simulation.simulate(parameters=moved, **asked)
+    (found,) = in_node(simulation, tmp_path, [{"parameters": moved, "options": asked, "slices": True}])
     assert found.error == "" and np.array_equal(found.arrays["t"], native.t)
     assert (native.t[-1] < 501.0) == (scene == "stopped")
     assert found.counts["steps"] / len(found.shares) < 3000 and list(found.shares) == sorted(found.shares)
@@ -393,16 +396,17 @@ def test_few_samples_of_a_long_time_come_in_pieces(scene: str, tmp_path: Path) -
 @needs_node
 def test_a_run_that_fails_gives_what_it_has(tmp_path: Path) -> None:
     """The rod is too short to let the crank turn on."""
-    simulation = loader(tmp_path)(CRANK)
+    simulation, never = loader(tmp_path)(CRANK, "stopped"), {"half": 3.0}
     with pytest.raises(SolverError) as caught:
-        simulation.simulate(**WHILE)
-    (found,) = in_node(simulation, tmp_path, [{"options": WHILE}])
+        simulation.simulate(parameters=never, **WHILE)
+    (found,) = in_node(simulation, tmp_path, [{"parameters": never, "options": WHILE}])
     told, _, t = found.error.removesuffix(" s").partition(": t = ")
     assert "singular" in told or "cannot follow" in told
     assert float(t) == pytest.approx(caught.value.time, rel=1e-8) and len(t) <= 11  # as it is written, 9 digits
     assert same_bits(found, caught.value.partial)
 
 
+@pytest.mark.slow  # test_page.py's lie on disk too
 @pytest.mark.skipif(browser() is None, reason="no Chromium is installed")
 def test_a_page_opened_from_disk_computes_the_same(tmp_path: Path) -> None:
     """One file, all in it; within the 400 kB that a page may have."""
@@ -419,6 +423,5 @@ def test_without_its_compiler_it_says_what_to_install(monkeypatch: pytest.Monkey
 
 
 def test_nothing_of_a_file_ends_the_element_that_carries_it(tmp_path: Path) -> None:
-    text = "title: </script><script>alert(1)</script>\n" + SWING
-    told = carried(loader(tmp_path)(text).compiled)
+    told = carried(loader(tmp_path)(SWING).compiled)
     assert told.count("</script>") == 3 and "alert(1)<" not in told
