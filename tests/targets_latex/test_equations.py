@@ -18,6 +18,7 @@ from gudgeon.generator.targets.latex.letters import Name, of_latex
 from gudgeon.generator.targets.latex.notation import make_notation
 from gudgeon.generator.targets.latex.to_html import mathml
 from tests.equations.models import numeric, random_model, random_state
+from tests.slow import slow_but
 from tests.targets_latex.equations_reader import (
     dots_apart,
     equations,
@@ -77,11 +78,8 @@ def model_of(which: str) -> Model:
     return derive(text.encode(), f"{name}.yaml", scene or "ideal")
 
 
-RARE = ("press ideal", "press dry", "random 2", "random 3")  # what they have is in the others too
-WITH_ROWS = [
-    which if which not in RARE else pytest.param(which, marks=pytest.mark.slow)
-    for which in ("press ideal", "press dry", "press lubricated", "slider ideal", "slider oiled", "zoo", *RANDOM)
-]
+EVERY = ("press ideal", "press dry", "press lubricated", "slider ideal", "slider oiled", "zoo", *RANDOM)
+WITH_ROWS = slow_but(["slider ideal", "slider oiled", "zoo", "random 1", "random 5"], EVERY)
 
 
 @cache
@@ -169,7 +167,7 @@ def test_gamma_is_sorted_by_products_of_angular_velocities() -> None:
     assert sliding == f"(u_x.my_bar·(-{x}_my_bar + {x}_S) + u_y.my_bar·(-{y}_my_bar + {y}_S))"
 
 
-@pytest.mark.parametrize("which", [pytest.param("press ideal", marks=pytest.mark.slow), "zoo", "slider ideal"])
+@pytest.mark.parametrize("which", slow_but(["zoo", "slider ideal"], ["press ideal", "zoo", "slider ideal"]))
 def test_masses_and_forces_read_back_are_the_models(which: str) -> None:
     model = model_of(which)
     t, q, v = random_state(model, 2)

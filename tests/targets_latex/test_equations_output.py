@@ -21,20 +21,19 @@ from gudgeon.generator.targets.latex import equations_html, equations_tex, equat
 from gudgeon.generator.targets.latex.letters import letter, of_latex, word
 from gudgeon.generator.targets.latex.notation import make_notation
 from gudgeon.generator.targets.latex.tex_text import _MATH, _SPECIAL, sketch_line, tex
+from tests.slow import slow_but
 from tests.targets_latex.equations_reader import sections, width
-from tests.targets_latex.test_equations import RANDOM, RARE, SLIDER, VALID, WITH_ROWS, model_of
+from tests.targets_latex.test_equations import EVERY, SLIDER, WITH_ROWS, model_of
+from tests.targets_latex.test_equations_play import BOB
 
 SHIPPED = resources.files("gudgeon.mechanisms")
 # the text of the others is read in test_equations.py
-PROSE = [
-    which if which not in (*RARE, "zoo") else pytest.param(which, marks=pytest.mark.slow)
-    for which in ("press ideal", "press dry", "press lubricated", "slider ideal", "slider oiled", "zoo", *RANDOM)
-]
-LARGE = ("nine_bar_press.yaml", "andrews_squeezer.yaml", "n_four_bar.yaml", "car_axis.yaml")
-FILES = [
-    name if name not in LARGE else pytest.param(name, marks=pytest.mark.slow)
-    for name in sorted(p.name for p in SHIPPED.iterdir() if p.name.endswith(".yaml"))
-]
+PROSE = slow_but(["slider oiled", "random 5"], EVERY)
+FILES = slow_but(  # a chain, play, friction, belts
+    [f"{name}.yaml" for name in ("slider_crank_spring", "bouncing_ball", "shaker", "belt_block")],
+    sorted(file.name for file in SHIPPED.iterdir() if file.name.endswith(".yaml")),
+)
+PENDULUM = SHIPPED.joinpath("pendulum.yaml").read_bytes()
 HOSTILE = r"\input{/etc/passwd} $x$ 100% {#1} a_b^c & ~ <script>alert('1')</script> <!-- \end{document}"
 # What may stand in escaped LaTeX: plain characters, escaped signs, commands without arguments, accents, short formulas.
 SAFE = re.compile(
@@ -49,7 +48,7 @@ def titled(model: Model, title: str) -> Model:
 
 
 def test_a_hostile_title_is_only_text() -> None:
-    model = titled(model_of("slider ideal"), HOSTILE)
+    model = titled(derive(PENDULUM, "pendulum.yaml", "ideal"), HOSTILE)
     source = equations_tex(model)
     assert r"\input" not in source and source.count(r"\end{document}") == 1
     (line,) = [line for line in source.splitlines() if line.startswith(r"{\Large")]
@@ -84,7 +83,7 @@ def test_ascii_is_kept_to_the_letter(text: str) -> None:
     assert back == text.replace('"', "''")
 
 
-@pytest.mark.parametrize("which", WITH_ROWS)
+@pytest.mark.parametrize("which", slow_but(["slider oiled", "zoo", "random 5"], EVERY))
 def test_latex_is_well_formed(which: str) -> None:
     source = equations_tex(model_of(which))
     assert source.isascii()
@@ -135,11 +134,10 @@ def test_letters() -> None:
 
 def test_the_same_bytes_under_another_hash_seed() -> None:
     code = (
-        "import hashlib, pathlib\n"
+        "import hashlib\n"
         "from gudgeon.generator.pipeline import derive\n"
         "from gudgeon.generator.targets.latex import equations_tex, equations_text\n"
-        f"data = pathlib.Path({str(VALID / 'slider_crank.yaml')!r}).read_bytes()\n"
-        "m = derive(data, 's.yaml', 'oiled')\n"
+        f"m = derive({BOB!r}.encode(), 'bob.yaml', 'lubricated')\n"
         "print(hashlib.sha256((equations_tex(m) + equations_text(m)).encode()).hexdigest())"
     )
     sums = {
@@ -151,9 +149,7 @@ def test_the_same_bytes_under_another_hash_seed() -> None:
     assert len(sums) == 1
 
 
-@pytest.mark.parametrize(
-    "which", ["slider oiled", *(pytest.param(which, marks=pytest.mark.slow) for which in ("press lubricated", "zoo"))]
-)
+@pytest.mark.parametrize("which", slow_but(["slider oiled"], ["slider oiled", "press lubricated", "zoo"]))
 def test_html_is_self_contained_mathml(which: str) -> None:
     pytest.importorskip("latex2mathml")
     page = equations_html(model_of(which))
@@ -170,7 +166,7 @@ def test_html_tells_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setitem(sys.modules, "latex2mathml.converter", None)
     with pytest.raises(GudgeonError, match=r"gudgeon\[docs\]"):
-        equations_html(model_of("slider ideal"))
+        equations_html(derive(PENDULUM, "pendulum.yaml", "ideal"))
 
 
 def test_a_free_body_without_gravity() -> None:
@@ -185,7 +181,7 @@ def test_a_free_body_without_gravity() -> None:
 
 
 def test_without_gravity_nothing_of_it_is_shown() -> None:
-    text = equations_text(derive(SLIDER.replace("gravity: [0, -9.81 m/s^2]\n", "").encode(), "s.yaml", "oiled"))
+    text = equations_text(derive(SLIDER.replace("gravity: [0, -9.81 m/s^2]\n", "").encode(), "s.yaml", "ideal"))
     assert "g_y" not in text and "9.81" not in text and "No gravity" in text
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.field import NUMBER, Field
-from gudgeon.generator.kinds.laws.law import RESULTS, called, laws
+from gudgeon.generator.kinds.laws.law import RESULTS, Law, called, laws
 from gudgeon.generator.pipeline import derive, in_c
 from gudgeon.generator.targets.latex import equations_tex, equations_text
 from gudgeon.loading.build import compile_kernels
@@ -18,6 +18,7 @@ from gudgeon.model.compiled import CompiledModel
 from tests.equations.models import numeric
 from tests.oracles import ideal_press
 from tests.programs import needs_compiler
+from tests.slow import slow_but
 from tests.targets_latex.equations_reader import dots_apart, equations, evaluate, numbers, rows, sections, state, value
 from tests.targets_latex.test_equations import PRESS
 
@@ -39,14 +40,17 @@ joints: {A: {revolute: [ground.O, bob.tail]}}
 )
 STORED = dots_apart("δ̇") + "⁻"
 # (text to replace in the press's file, by what)
+FILM_S = [(FILM, FILM[:-1] + ", shear: true, angular_velocity: relative, extra_clearance: 8 um}")]
+DRY_S = [
+    (NORMAL, NORMAL.replace("external", "internal") + "\n    clip_ratio: true"),
+    ("journal_material: aluminium", "journal_material: steel_45"),
+]
 VARIANTS = {
     "as it is": [],
     "as printed": [(FILM, FILM[:-1] + ", as_printed: true}")],
-    "film's options": [(FILM, FILM[:-1] + ", shear: true, angular_velocity: relative, extra_clearance: 8 um}")],
-    "dry options": [
-        (NORMAL, NORMAL.replace("external", "internal") + "\n    clip_ratio: true"),
-        ("journal_material: aluminium", "journal_material: steel_45"),
-    ],
+    "film's options": FILM_S,
+    "dry options": DRY_S,
+    "all options": FILM_S + DRY_S,
     "no friction": [(FRICTION, "")],
 }
 
@@ -65,8 +69,13 @@ def model_of(variant: str, scene: str) -> Model:
 
 
 @cache
+def text_of(variant: str, scene: str) -> str:
+    return equations_text(model_of(variant, scene))
+
+
+@cache
 def read(variant: str, scene: str) -> dict[str, list[str]]:
-    return sections(equations_text(model_of(variant, scene)))
+    return sections(text_of(variant, scene))
 
 
 @cache
@@ -110,17 +119,15 @@ def press_state(seed: int) -> tuple[float, np.ndarray, np.ndarray]:
     return 0.0, m.q[0] + rng.normal(0.0, 1.5e-4, 24), m.v[0] + rng.normal(0.0, 0.02, 24)
 
 
+COMPUTED = [("as it is", "dry"), ("dry options", "dry"), *((variant, "lubricated") for variant in VARIANTS)]
+
+
 @needs_compiler
-@pytest.mark.parametrize(
-    ("variant", "scene"),
-    [("as it is", "dry"), ("film's options", "lubricated"), ("dry options", "lubricated"),
-     *(pytest.param(variant, "lubricated", marks=pytest.mark.slow)
-       for variant in ("as it is", "as printed", "no friction")),
-     pytest.param("dry options", "dry", marks=pytest.mark.slow)],  # fmt: skip
-)
-def test_what_is_read_is_what_is_computed(variant: str, scene: str) -> None:
+@pytest.mark.plain
+@pytest.mark.parametrize("case", slow_but([("as it is", "dry"), ("all options", "lubricated")], COMPUTED), ids=" ".join)
+def test_what_is_read_is_what_is_computed(case: tuple[str, str]) -> None:
     """Forces on both journals and, through M a + Φ_qᵀ λ = g + Δg, every share in the generalized forces."""
-    model, document, (library, p) = model_of(variant, scene), read(variant, scene), library_of(variant, scene)
+    model, document, (library, p) = model_of(*case), read(*case), library_of(*case)
     phi_q, g = (numeric(model, matrix) for matrix in (model.Phi_q, model.g))
     mass, parts = library.mass(p), set()
     base = numbers([line for title in ("Bodies", "Ground") for line in document[title]])
@@ -145,7 +152,8 @@ def test_what_is_read_is_what_is_computed(variant: str, scene: str) -> None:
 
 def test_the_printed_sign_is_shown() -> None:
     """Parting surfaces: the paper's sign pushes where the film pulls; approaching ones do not differ."""
-    right, printed = read("as it is", "lubricated"), read("as printed", "lubricated")
+    right, printed = (sections(equations_text(derive(BOB.replace(FILM, film).encode(), "bob.yaml", "lubricated")))
+                      for film in (FILM, FILM[:-1] + ", as_printed: true}"))  # fmt: skip
     text = [" ".join(document["Joint A: film"]) for document in (right, printed)]
     assert "Option as_printed: false" in text[0] and "Option as_printed: true" in text[1]
     assert equations(right["Joint A: film"]) != equations(printed["Joint A: film"])
@@ -159,7 +167,7 @@ def test_the_printed_sign_is_shown() -> None:
 
 def test_an_ideal_scene_shows_no_force_law() -> None:
     document = read("as it is", "ideal")
-    text = equations_text(model_of("as it is", "ideal"))
+    text = text_of("as it is", "ideal")
     assert not [title for title in document if title.startswith("Joint ")]
     for word in ("δ", "ε", "Lankarani", "Coulomb", "Pinkus", "bearings.", "contacts."):
         assert word not in text
@@ -168,13 +176,13 @@ def test_an_ideal_scene_shows_no_force_law() -> None:
 
 
 def test_a_dry_scene_shows_no_film() -> None:
-    text = equations_text(model_of("as it is", "dry"))
+    text = text_of("as it is", "dry")
     assert "Lankarani" in text and "Pinkus" not in text and "viscosity" not in text and "No film" in text
 
 
 def test_every_number_of_a_law_is_in_its_table() -> None:
-    model = model_of("dry options", "lubricated")
-    lines = read("dry options", "lubricated")["Joint A: numbers"]
+    model = derive(BOB.encode(), "bob.yaml", "lubricated")
+    lines = sections(equations_text(model))["Joint A: numbers"]
     shown = {cells[2]: cells for cells in rows(lines) if len(cells) == 5}
     play = model.scene.play["A"]
     for use in (play.contact.normal, play.contact.friction, play.contact.film):
@@ -197,9 +205,7 @@ def may_lack(own: Field) -> bool:
     return own.kind == NUMBER and own.default is None and not own.required
 
 
-@pytest.mark.parametrize(("name", "left_out"), uses())
-def test_every_law_is_printed(name: str, left_out: bool) -> None:
-    """A new law needs nothing here: its steps, numbers, source and validity are in the document."""
+def bob_with(name: str, left_out: bool) -> tuple[Law, Model]:
     law = next(some[name] for role in RESULTS if name in (some := called(role)))
     needed = [own for own in law.fields_as(name) if own.kind == NUMBER and own.default is None]
     kept = [(k, own) for k, own in enumerate(needed) if not (left_out and may_lack(own))]
@@ -211,7 +217,13 @@ def test_every_law_is_printed(name: str, left_out: bool) -> None:
     film, transition = f"    film: {FILM}\n", "    transition: 5 um\n"
     for other in {"normal": (FRICTION, film, transition), "friction": (film, transition)}.get(law.role, (FRICTION,)):
         text = text.replace(other, "")  # which it does not need
-    model = derive(text.encode(), "bob.yaml", "lubricated")
+    return law, derive(text.encode(), "bob.yaml", "lubricated")
+
+
+@pytest.mark.parametrize(("name", "left_out"), uses())
+def test_every_law_is_printed(name: str, left_out: bool) -> None:
+    """A new law needs nothing here: its steps, numbers, source and validity are in the document."""
+    law, model = bob_with(name, left_out)
     written = equations_text(model)
     shown = " ".join(written.split())
     assert (law.reference or law.source) in shown and law.validity in shown
@@ -225,4 +237,11 @@ def test_every_law_is_printed(name: str, left_out: bool) -> None:
     for number in law.parameters:
         told = not (left_out and may_lack(number))
         assert (f"contacts.oil.{law.role}.{number.name}" in numbers_of) == told
-    assert equations_tex(model).isascii()
+
+
+ONE_OF_EACH = [(name, False) for name in ("liu", "brown_mcphee", "ocvirk", "greenwood_tripp")]
+
+
+@pytest.mark.parametrize("use", slow_but(ONE_OF_EACH, uses()))
+def test_every_law_is_plain_latex(use: tuple[str, bool]) -> None:
+    assert equations_tex(bob_with(*use)[1]).isascii()

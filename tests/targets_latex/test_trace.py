@@ -25,11 +25,12 @@ from gudgeon.generator.pipeline import derive, in_c
 from gudgeon.generator.targets.latex import equations_html
 from gudgeon.generator.targets.latex.trace import Trace, trace, yaml_tokens
 from tests.equations.models import random_state
+from tests.slow import slow_but
 from tests.web.node import browser
 
 FILE = resources.files("gudgeon.mechanisms").joinpath("nine_bar_press.yaml")
 ARRAYS = {"constraints": "phi", "velocity_rhs": "nu", "acceleration_rhs": "gamma_rows", "jacobian": "phi_q"}
-SCENES = ("ideal", pytest.param("dry", marks=pytest.mark.slow), "lubricated")  # the last has what "dry" has
+SCENES = slow_but(["lubricated"], ["ideal", "dry", "lubricated"])  # the last has what the others have
 FUNCTIONS: dict[str, Any] = {
     "cos": math.cos, "sin": math.sin, "sqrt": math.sqrt, "PI": math.pi, "fabs": abs, "max_of": max, "min_of": min,
 }  # fmt: skip
@@ -217,7 +218,7 @@ def carried(text: str) -> dict[str, Any]:
     return found
 
 
-@pytest.mark.parametrize("scene", [pytest.param("ideal", marks=pytest.mark.slow), *SCENES[1:]])
+@pytest.mark.parametrize("scene", SCENES)
 def test_a_page_is_well_formed_and_every_token_leads_somewhere(scene: str) -> None:
     text = page(scene)
     reader = Reader()
