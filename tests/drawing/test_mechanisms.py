@@ -23,6 +23,7 @@ from gudgeon.drawing.shapes import Disc, Label, Line  # noqa: E402
 from gudgeon.drawing.sketch import make_sketch  # noqa: E402
 from gudgeon.errors import GudgeonError  # noqa: E402
 from tests.drawing.drawn import ROOT, boxes, drawn  # noqa: E402
+from tests.slow import slow_but  # noqa: E402
 
 FILES = [
     *sorted((ROOT / "mechanisms").rglob("*.yaml")),
@@ -31,8 +32,11 @@ FILES = [
     *(ROOT / f"tests/mechanisms/methods/{name}.yaml" for name in ("geared_chain", "trammel")),
 ]
 
+CROWDED = "every_kind", "nine_bar_press", "shapes", "geared_chain", "car_axis", "slider_crank_spring", "belt_block"
+KINDS = [file for file in FILES if file.stem in CROWDED]
 
-@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+
+@pytest.mark.parametrize("file", slow_but(KINDS, FILES), ids=lambda file: file.stem)
 def test_everything_is_drawn_once_and_no_name_lies_on_another(file: Path) -> None:
     found = drawn(file)
     sketch = make_sketch(found.posture)

@@ -24,7 +24,7 @@ from gudgeon.loading import compiler
 from tests.programs import needs_compiler
 
 fmpy = pytest.importorskip("fmpy")
-pytestmark = needs_compiler
+pytestmark = [needs_compiler, pytest.mark.plain]
 RTOL = 1e-10
 # Largest differences of a kind, over the largest of that kind in the run.
 KINDS = {"m": 1e-9, "rad": 1e-9, "m/s": 1e-9, "rad/s": 1e-9, "m/s^2": 1e-7, "rad/s^2": 1e-7, "N": 1e-7, "N*m": 1e-7,
@@ -248,14 +248,14 @@ def test_what_cannot_be_is_refused(tmp_path: Path) -> None:
 def test_sources_are_whole_and_the_archive_is_the_same_each_time(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where there is no compiler the sources go alone; all that is to be compiled is among them."""
     pendulum = scene("pendulum", "ideal")
-    with zipfile.ZipFile(io.BytesIO(fmu_bytes(pendulum))) as archive:
-        whole = {name: archive.read(name) for name in archive.namelist()}
+    with zipfile.ZipFile(io.BytesIO(archive(pendulum))) as file:
+        whole = {*file.namelist()}
     monkeypatch.setattr(compiler, "is_there", lambda: False)
     first, again = fmu_bytes(pendulum), fmu_bytes(pendulum)
     assert first == again
-    with zipfile.ZipFile(io.BytesIO(first)) as archive:
-        names = set(archive.namelist())
-        build, page = (archive.read(f"sources/{name}").decode() for name in ("buildDescription.xml", "README.md"))
+    with zipfile.ZipFile(io.BytesIO(first)) as file:
+        names = set(file.namelist())
+        build, page = (file.read(f"sources/{name}").decode() for name in ("buildDescription.xml", "README.md"))
     assert names == {name for name in whole if not name.startswith("binaries/")} and len(whole) == len(names) + 1
     units = re.findall(r'SourceFile name="(.*?)"', build)
     assert units and {f"sources/{unit}" for unit in units} <= names

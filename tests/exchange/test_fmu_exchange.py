@@ -17,7 +17,7 @@ from tests.exchange.test_fmu import instance, scene, written
 from tests.programs import needs_compiler
 
 fmpy = pytest.importorskip("fmpy")
-pytestmark = needs_compiler
+pytestmark = [needs_compiler, pytest.mark.plain]
 
 SWITCHED = """
 format: gudgeon/1

@@ -19,6 +19,7 @@ from gudgeon.errors import OutputError  # noqa: E402
 from gudgeon.results import hdf5_image  # noqa: E402
 from gudgeon.results.netcdf import tables  # noqa: E402
 from gudgeon.results.results import Result, read  # noqa: E402
+from tests.slow import slow_but  # noqa: E402
 
 LIMITED = """
 import os, resource, sys
@@ -27,9 +28,9 @@ from gudgeon.errors import OutputError
 from gudgeon.results.results import read
 
 path = Path(sys.argv[1])
-run, older, told = read(path), path.read_bytes(), 0
-for k in range(50):
-    resource.setrlimit(resource.RLIMIT_FSIZE, (len(older) * k // 50, resource.RLIM_INFINITY))
+run, older, told, count = read(path), path.read_bytes(), 0, int(sys.argv[2])
+for k in range(count):
+    resource.setrlimit(resource.RLIMIT_FSIZE, (len(older) * k // count, resource.RLIM_INFINITY))
     try:
         run.save(path)
     except OutputError as error:
@@ -42,13 +43,13 @@ print(told)
 """
 
 
-def test_a_limit_of_fifty_sizes_kills_nothing(run: Result, tmp_path: Path) -> None:
+@pytest.mark.parametrize("count", slow_but([10], [10, 50]))
+def test_a_limit_of_many_sizes_kills_nothing(count: int, run: Result, tmp_path: Path) -> None:
     """In a process of its own, for HDF5 died at its end."""
     run.save(tmp_path / "run.nc")
-    done = subprocess.run(
-        [sys.executable, "-c", LIMITED, str(tmp_path / "run.nc")], capture_output=True, text=True, timeout=120
-    )
-    assert (done.returncode, done.stdout, done.stderr) == (0, "50\n", "")
+    line = [sys.executable, "-c", LIMITED, str(tmp_path / "run.nc"), str(count)]
+    done = subprocess.run(line, capture_output=True, text=True, timeout=120)
+    assert (done.returncode, done.stdout, done.stderr) == (0, f"{count}\n", "")
 
 
 @pytest.mark.slow
@@ -124,17 +125,18 @@ def interrupt_after(seconds: float, work: Callable[[], None]) -> bool:
     return False
 
 
-def test_an_interrupt_is_never_swallowed(run: Result, tmp_path: Path) -> None:
-    """Ctrl-C at fifty moments of a save: raised, the file the older or the new one, the next save works."""
+@pytest.mark.parametrize("count", slow_but([10], [10, 50]))
+def test_an_interrupt_is_never_swallowed(count: int, run: Result, tmp_path: Path) -> None:
+    """Ctrl-C at many moments of a save: raised, the file the older or the new one, the next save works."""
     path, stops = tmp_path / "run.nc", 0
     run.save(path)
     whole = path.read_bytes()
     begin = time.perf_counter()
     run.save(path)
     length = time.perf_counter() - begin
-    for k in range(50):
+    for k in range(count):
         path.write_bytes(b"older")
-        assert interrupt_after(length * k / 45, lambda: run.save(path))
+        assert interrupt_after(1.1 * length * k / count, lambda: run.save(path))
         assert path.read_bytes() in (b"older", whole) and os.listdir(tmp_path) == ["run.nc"]
         stops += path.read_bytes() == b"older"
     assert stops > 0

@@ -12,6 +12,7 @@ from gudgeon.generator.pipeline import derive
 from gudgeon.generator.targets.latex import equations_html, equations_tex, equations_text
 from gudgeon.generator.targets.latex.sketches import letters_of
 from gudgeon.teaching.notebook import notebook
+from tests.slow import slow_but
 from tests.targets_latex.equations_reader import NAME, rows, sections
 from tests.targets_latex.test_equations import SLIDER, model_of
 
@@ -60,7 +61,7 @@ def clash(scene: str, twin: bool = False) -> Model:
     return derive(re.sub(r"<(\w+)>", lambda m: called[m[1]], FILE).encode(), "clash.yaml", scene)
 
 
-@pytest.mark.parametrize("scene", PRIMED)
+@pytest.mark.parametrize("scene", slow_but(["ideal", "oiled"], PRIMED))
 def test_no_parameter_has_a_letter_of_the_document(scene: str) -> None:
     found = sections(equations_text(clash(scene)))
     letters = [cells[1] for cells in rows(found["Parameters"]) if cells[0] in NAMES]

@@ -15,6 +15,7 @@ from gudgeon.loading.shipped import shipped_file
 from gudgeon.teaching.notebook import notebook
 from tests.programs import missing, needs_compiler
 from tests.pump import Gudgeon
+from tests.slow import slow_but
 
 LINE = ("pdflatex", "-interaction=nonstopmode", "-halt-on-error")
 
@@ -32,22 +33,19 @@ def compiled(file: Path) -> str:
     return "\n".join(wide)
 
 
-@pytest.mark.parametrize(
-    ("name", "scene"),
-    [
-        ("nine_bar_press", "lubricated"), ("four_bar", "ideal"),
-        pytest.param("andrews_squeezer", "short", marks=pytest.mark.slow),
-        ("bouncing_ball", "damped"), ("toggle_clamp", "ideal"),
-    ],
-)  # fmt: skip
-def test_equations(name: str, scene: str, tmp_path: Path) -> None:
+LONG_TABLE, SMOOTH_STEP = ("nine_bar_press", "lubricated"), ("toggle_clamp", "ideal")
+SCENES = [LONG_TABLE, SMOOTH_STEP, ("four_bar", "ideal"), ("andrews_squeezer", "short"), ("bouncing_ball", "damped")]
+
+
+@pytest.mark.parametrize("of", slow_but([LONG_TABLE, SMOOTH_STEP], SCENES), ids="/".join)
+def test_equations(of: tuple[str, str], tmp_path: Path) -> None:
     """Neither a long table of numbers nor the second derivative of a smooth step runs off the page."""
-    file = tmp_path / "equations.tex"
+    (name, scene), file = of, tmp_path / "equations.tex"
     file.write_text(equations_tex(derive(shipped_file(name).read_bytes(), name, scene)), encoding="utf-8")
     assert compiled(file) == ""
 
 
-@pytest.mark.parametrize("name", ["four_bar", pytest.param("jansen_leg", marks=pytest.mark.slow), "scissor_lift"])
+@pytest.mark.parametrize("name", slow_but(["scissor_lift"], ["four_bar", "jansen_leg", "scissor_lift"]))
 def test_exercises(name: str, call: Gudgeon, tmp_path: Path) -> None:
     """Nothing runs off the page, plates by their sides neither; the sheet and its solutions have a drawing."""
     assert call("exercise", name, "-o", "sheet.tex", "--seed", "1").exit_code == 0
@@ -56,6 +54,7 @@ def test_exercises(name: str, call: Gudgeon, tmp_path: Path) -> None:
         assert file.read_text(encoding="ascii").count(r"\begin{tikzpicture}") == 1
 
 
+@pytest.mark.slow  # test_notebooks.py runs its cells here
 @needs_compiler
 def test_a_notebook_runs_in_a_kernel() -> None:
     nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
