@@ -24,6 +24,7 @@ from gudgeon.language.plot_units import PREFIXES, pretty, quantity, scale  # noq
 from gudgeon.results import plots  # noqa: E402
 from gudgeon.results.report import compare  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
+from tests.slow import slow_but  # noqa: E402
 
 
 def labels(picture: Any) -> list[str]:
@@ -44,7 +45,7 @@ def test_the_picture_has_errors_forces_and_orbits(run: Result, ideal: Result, tm
     assert (int.from_bytes(header[16:20]), int.from_bytes(header[20:24])) == (1200, 900)
 
 
-@settings(deadline=None)
+@settings(deadline=None, max_examples=30)
 @given(st.floats(-3, 3), st.floats(-1, 1))
 def test_an_axis_over_time_has_three_ticks_at_least(power: float, middle: float) -> None:
     ax: Any = Figure(figsize=(4, 2.5)).add_subplot()
@@ -70,8 +71,7 @@ def test_series_and_forces_of_one_run(run: Result, ideal: Result) -> None:
     assert [line.get_label() for line in run.plot.forces().lines] == ["A.F"]
 
 
-@pytest.mark.parametrize("scenes", [("ideal",),
-    pytest.param(("dry",), marks=pytest.mark.slow), ("a", "b", "c", "d", "e", "f", "g")])
+@pytest.mark.parametrize("scenes", slow_but([("ideal",)], [("ideal",), ("dry",), ("a", "b", "c", "d", "e", "f", "g")]))
 def test_any_number_of_scenes_can_be_drawn(
     scenes: tuple[str, ...], make: Callable[..., Result], tmp_path: Path
 ) -> None:

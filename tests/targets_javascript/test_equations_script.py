@@ -18,6 +18,7 @@ from gudgeon.generator.targets.latex.trace import trace
 from gudgeon.loading.find import find_mechanism
 from gudgeon.model.evaluation import CLEARANCE_COLUMNS
 from tests.equations.models import random_state
+from tests.slow import slow_but
 from tests.web.node import node
 
 LIVE = resources.files("gudgeon.generator.targets.latex").joinpath("live.js")
@@ -42,14 +43,14 @@ const answer = %s.map((state) => {
 console.log(JSON.stringify(answer));
 """
 PRESS = "nine_bar_press"
-CASES = [(PRESS, "lubricated"), (PRESS, "ideal"), ("slider_crank", "dry"), ("belt_block", "ideal")]
+KEPT = [(PRESS, "lubricated"), ("slider_crank", "dry"), ("belt_block", "ideal")]
 
 
 @pytest.mark.skipif(node() is None, reason="Node is not installed")
-@pytest.mark.parametrize(("mechanism", "scene"), CASES)
-def test_values_are_those_of_the_compiled_scene(mechanism: str, scene: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("of", slow_but(KEPT, [*KEPT, (PRESS, "ideal")]), ids="/".join)
+def test_values_are_those_of_the_compiled_scene(of: tuple[str, str], tmp_path: Path) -> None:
     """By the names that a page asks for; p is that of a run."""
-    program = node()
+    program, (mechanism, scene) = node(), of
     assert program
     file = find_mechanism(mechanism)
     found = trace(derive(file.read_bytes(), str(file), scene))

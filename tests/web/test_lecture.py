@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -54,11 +55,16 @@ def test_python_for_a_drift_runs(capsys: pytest.CaptureFixture[str]) -> None:
     assert 0.0 < projected < 1e-10 and 1e-16 < of_pendulum < 1e-4
 
 
-def test_forces_of_a_moment_and_what_rounding_leaves(opened: Any, tmp_path: Any) -> None:
-    """The longest arrow is the largest force of its sample; below 1e-9 of the largest of its kind nothing is told."""
+@pytest.fixture(scope="module")
+def page_of_four_bar(tmp_path_factory: pytest.TempPathFactory) -> Path:
     pytest.importorskip("ziglang")
+    return written(tmp_path_factory.mktemp("four_bar"), gudgeon.load("four_bar"))
+
+
+def test_forces_of_a_moment_and_what_rounding_leaves(opened: Any, page_of_four_bar: Path) -> None:
+    """The longest arrow is the largest force of its sample; below 1e-9 of the largest of its kind nothing is told."""
     four_bar = gudgeon.load("four_bar")
-    shown, run = opened(written(tmp_path, four_bar)), four_bar.simulate()
+    shown, run = opened(page_of_four_bar), four_bar.simulate()
     page, joints = shown.page, [joint.name for joint in four_bar.source.joints]
     page.check("#g-forces")
     for k in (137, 500):
@@ -85,11 +91,10 @@ ONE_SAMPLE = """() => {
 }"""
 
 
-def test_a_driven_page_keeps_its_rows_where_it_is_asked_to(opened: Any, tmp_path: Any) -> None:
+def test_a_driven_page_keeps_its_rows_where_it_is_asked_to(opened: Any, page_of_four_bar: Path) -> None:
     """Gains are shown where they act; Φ drifts without them. A guess that only Python follows; a run of one sample."""
-    pytest.importorskip("ziglang")
     four_bar = gudgeon.load("four_bar")
-    shown = opened(written(tmp_path, four_bar))
+    shown = opened(page_of_four_bar)
     page, place = shown.page, {slot.address: k for k, slot in enumerate(four_bar.source.slots)}
     worst = "Math.max(...gudgeonApp.run.series('Phi.max').slice(-250))"
     assert page.evaluate(f"{BOX}.hidden") and page.evaluate(worst) < 1e-14 and shown.same_bits(four_bar.simulate())

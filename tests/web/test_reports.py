@@ -9,6 +9,7 @@ import pytest
 
 import gudgeon
 from tests.programs import needs_compiler
+from tests.slow import slow_but
 from tests.web.chromium import DESK, PHONE
 
 pytestmark = needs_compiler
@@ -30,9 +31,12 @@ def pages(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
     return [folder / "run.html", folder / "study.html"]
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("size", [DESK, PHONE], ids=["desk", "phone"])
-def test_pages_fit_and_ask_for_nothing(chromium: Any, pages: list[Path], size: dict[str, int], scheme: str) -> None:
+DEVICES = [(DESK, "light"), (PHONE, "light"), (DESK, "dark"), (PHONE, "dark")]
+
+
+@pytest.mark.parametrize("device", slow_but([(DESK, "light"), (PHONE, "dark")], DEVICES))
+def test_pages_fit_and_ask_for_nothing(chromium: Any, pages: list[Path], device: tuple[dict[str, int], str]) -> None:
+    size, scheme = device
     context = chromium.new_context(viewport=size, color_scheme=scheme)
     for file in pages:
         page, asked, told = context.new_page(), list[str](), list[str]()
