@@ -47,10 +47,10 @@ KEPT = [(PRESS, "lubricated"), ("slider_crank", "dry"), ("belt_block", "ideal")]
 
 
 @pytest.mark.skipif(node() is None, reason="Node is not installed")
-@pytest.mark.parametrize("of", slow_but(KEPT, [*KEPT, (PRESS, "ideal")]), ids="/".join)
-def test_values_are_those_of_the_compiled_scene(of: tuple[str, str], tmp_path: Path) -> None:
+@pytest.mark.parametrize("case", slow_but(KEPT, [*KEPT, (PRESS, "ideal")]), ids="/".join)
+def test_values_are_those_of_the_compiled_scene(case: tuple[str, str], tmp_path: Path) -> None:
     """By the names that a page asks for; p is that of a run."""
-    program, (mechanism, scene) = node(), of
+    program, (mechanism, scene) = node(), case
     assert program
     file = find_mechanism(mechanism)
     found = trace(derive(file.read_bytes(), str(file), scene))
