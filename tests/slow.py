@@ -10,6 +10,11 @@ import pytest
 
 def slow_but(kept: Iterable[Any], every: Iterable[Any]) -> list[Any]:
     """All values for `parametrize`, in their order: what is not kept is marked. Each kept one must be there."""
+    return slow_rows_but([(value,) for value in kept], [(value,) for value in every])
+
+
+def slow_rows_but(kept: Iterable[tuple[Any, ...]], every: Iterable[tuple[Any, ...]]) -> list[Any]:
+    """The same where each is a row of values, for several arguments."""
     kept, every = list(kept), list(every)
-    assert all(value in every for value in kept), kept
-    return [value if value in kept else pytest.param(value, marks=pytest.mark.slow) for value in every]
+    assert all(row in every for row in kept), kept
+    return [pytest.param(*row, marks=[] if row in kept else pytest.mark.slow) for row in every]

@@ -10,6 +10,7 @@ import pytest
 import gudgeon
 from gudgeon.errors import AssemblyError
 from tests.scenes import Load, loader
+from tests.slow import slow_but, slow_rows_but
 
 
 @pytest.fixture
@@ -67,7 +68,7 @@ start: {guess: {b.theta: guess_b, c.theta: guess_c}}
 """
 
 
-@pytest.mark.parametrize("starts", [6, pytest.param(300, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("starts", [3, pytest.param(300, marks=pytest.mark.slow)])
 def test_start_near_a_fold_from_a_guess_anywhere(load: Load, starts: int) -> None:
     """b + D = c but for 10⁻²…10⁻⁹ of it, and guesses all round: closed every time, as the lengths say."""
     scene, rng = load(NEAR_A_FOLD), np.random.default_rng(11)
@@ -85,8 +86,8 @@ def test_start_near_a_fold_from_a_guess_anywhere(load: Load, starts: int) -> Non
         np.testing.assert_allclose(heads[0], heads[1], rtol=0.0, atol=1e-9)
 
 
-@pytest.mark.parametrize("guesses", [3, pytest.param(200, marks=pytest.mark.slow)])
-@pytest.mark.parametrize("unit", ["um", "km", *(pytest.param(unit, marks=pytest.mark.slow) for unit in ("mm", "m"))])
+@pytest.mark.parametrize("guesses", [2, pytest.param(200, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("unit", slow_but(["um", "km"], ["um", "mm", "m", "km"]))
 def test_branch_nearest_the_guess_from_anywhere(load: Load, unit: str, guesses: int) -> None:
     """Guesses all round: assembled every time, on the nearer branch, within half a turn of the guess."""
     scene, rng = load(FOUR_BAR.format(unit=unit, rocker=0.8)), np.random.default_rng(3)
@@ -130,14 +131,12 @@ def test_rate_that_agrees_with_a_drive(load: Load) -> None:
     assert load(text).start({"guess_c": 1.4}).v[2] == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize(
-    "part",
-    [
-        "joints: {rod: {distance: [{ends}], length: 2 mm}}",
-        "drives: {rod: {distance: [{ends}], value: 2 mm}}",
-    ],
-)
-@pytest.mark.parametrize("ends", ["ground.o, a.origin", "a.origin, ground.o"])
+RODS = [(part, ends) for ends in ("ground.o, a.origin", "a.origin, ground.o") for part in (
+    "joints: {rod: {distance: [{ends}], length: 2 mm}}", "drives: {rod: {distance: [{ends}], value: 2 mm}}"
+)]  # fmt: skip
+
+
+@pytest.mark.parametrize(("part", "ends"), slow_rows_but([RODS[0], RODS[3]], RODS))
 def test_rod_whose_ends_coincide_in_the_guess(load: Load, part: str, ends: str) -> None:
     """No guess puts the two ends of a rod into one point, where its row has no direction."""
     text = "bodies: {a: {mass: 1 kg, inertia: 1 kg*m^2}}\nground: {o: [0, 0]}\n" + part.replace("{ends}", ends) + "\n"

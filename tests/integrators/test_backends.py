@@ -63,7 +63,7 @@ def test_a_drive_whose_rate_jumps_is_refused() -> None:
         jump.simulate(0.2, method="scipy:DOP853")
 
 
-@pytest.mark.parametrize("method", slow_but(["scipy:DOP853"], HERE))
+@pytest.mark.parametrize("method", slow_but(["scipy:RK45"], HERE))
 def test_andrews_squeezer(method: str) -> None:
     """Against the published angles."""
     known = KNOWN["andrews_squeezer"]
@@ -83,7 +83,7 @@ def test_lubricated_press(method: str) -> None:
     assert found.diagnostics.jacobians > 0
 
 
-@pytest.mark.parametrize("method", slow_but(["scipy:DOP853"], HERE))
+@pytest.mark.parametrize("method", slow_but(["scipy:RK45"], HERE))
 def test_first_contacts_of_the_dry_press(method: str) -> None:
     """Three contacts: onset and separation, impact velocity, peak force, against roots that other code finds."""
     rtol = 1e-9
@@ -99,6 +99,7 @@ def test_first_contacts_of_the_dry_press(method: str) -> None:
     assert (found.state == want.state).all()
 
 
+@pytest.mark.slow
 def test_onsets_at_a_tight_tolerance() -> None:
     """To the 1e-12 s that both locate them to."""
     found, want = run("nine_bar_press", "dry", 0.009, "scipy:DOP853", 1e-12), reference("nine_bar_press", "dry", 0.009)
@@ -138,6 +139,7 @@ def test_an_unknown_name_is_told_what_there_is() -> None:
         assert name in str(told.value)
 
 
+@pytest.mark.plain
 def test_what_the_backends_refuse() -> None:
     with pytest.raises(BadValueError, match="dry_friction.*C methods"):
         gudgeon.load("belt_block").simulate(1.0, method="scipy:BDF")

@@ -12,6 +12,7 @@ import gudgeon
 from gudgeon.errors import AssemblyError, NonFiniteError, SolverError
 from tests import pump
 from tests.scenes import loader
+from tests.slow import slow_but, slow_rows_but
 
 PAIR = """format: gudgeon/1
 name: n
@@ -54,15 +55,15 @@ def test_the_work_of_a_jump_is_counted_where_nothing_is_free(value: str, tmp_pat
     assert run.diagnostics.energy_residual < 1e-9
 
 
-@pytest.mark.parametrize(
-    ("value", "rate"),
-    [
-        ("abs(acos(t / (1 s)))", lambda t: -1 / np.sqrt(1 - t**2)),
-        ("abs((t / (1 s) + 1)**0.3)", lambda t: 0.3 * (t + 1) ** -0.7),
-        ("abs(log(t / (1 s) + 0.5))", lambda t: np.sign(np.log(t + 0.5)) / (t + 0.5)),
-        ("atan2(1, abs(asin(t / (1 s))))", lambda t: -1 / (1 + np.arcsin(t) ** 2) / np.sqrt(1 - t**2)),
-    ],
-)
+COMPLEX: list[tuple[str, Callable[[np.ndarray], np.ndarray]]] = [
+    ("abs(acos(t / (1 s)))", lambda t: -1 / np.sqrt(1 - t**2)),
+    ("abs((t / (1 s) + 1)**0.3)", lambda t: 0.3 * (t + 1) ** -0.7),
+    ("abs(log(t / (1 s) + 0.5))", lambda t: np.sign(np.log(t + 0.5)) / (t + 0.5)),
+    ("atan2(1, abs(asin(t / (1 s))))", lambda t: -1 / (1 + np.arcsin(t) ** 2) / np.sqrt(1 - t**2)),
+]
+
+
+@pytest.mark.parametrize(("value", "rate"), slow_rows_but(COMPLEX[:3], COMPLEX))
 def test_abs_of_what_may_be_complex(value: str, rate: Callable[[np.ndarray], np.ndarray], tmp_path: Path) -> None:
     run = driven(ONE, value, tmp_path).simulate(0.9, output=np.array([0.0, 0.1, 0.3, 0.4, 0.6, 0.9]))
     np.testing.assert_allclose(run["a.omega"][1:], rate(run.t[1:]), rtol=1e-12)
@@ -149,14 +150,11 @@ def test_an_output_of_what_is_none_is_not_blamed(tmp_path: Path) -> None:
 
 
 OUTRUN = "exp(exp(exp(t/(0.3 s))))*1 rad"
+WAYS = [(formulation, method) for formulation in ("reduced", "full") for method in ("auto", "dop853", "rodas5p")]
 
 
-@pytest.mark.parametrize(("formulation", "method"), [
-    ("reduced", "auto"), pytest.param("reduced", "dop853", marks=pytest.mark.slow), ("reduced", "rodas5p"),
-    pytest.param("full", "auto", marks=pytest.mark.slow),
-    *(pytest.param("full", method, marks=pytest.mark.slow) for method in ("dop853", "rodas5p")),
-])  # fmt: skip
-@pytest.mark.optimized
+@pytest.mark.parametrize(("formulation", "method"), WAYS)
+@pytest.mark.slow
 def test_a_drive_that_outruns_the_steps_ends_the_run(method: str, formulation: str, tmp_path: Path) -> None:
     """A driven crank with a pendulum on it; 10 million steps in 25 s had not ended such a run."""
     driven(PAIR, OUTRUN, tmp_path)
@@ -179,7 +177,7 @@ def test_a_drive_that_is_too_fast_for_any_step_is_named(method: str, tmp_path: P
         driven(beside, OUTRUN, tmp_path).simulate(1.0, method=method, step=step)
 
 
-@pytest.mark.optimized
+@pytest.mark.slow
 def test_a_chirp_is_followed(tmp_path: Path) -> None:
     """Its steps become ever shorter too, but twice as many of them gain more time each time: some 290 000 of them."""
     run = driven(PAIR, "1 rad * sin(40 * (t/(1 s))**3)", tmp_path).simulate(15.5, output=1, rtol=1e-6)
@@ -187,17 +185,21 @@ def test_a_chirp_is_followed(tmp_path: Path) -> None:
     assert run.t[-1] == 15.5
 
 
-@pytest.mark.parametrize("output", [10, 77])  # with a sample at 0.5 s, and with none
-@pytest.mark.parametrize(("value", "told", "time"), [
+JUMPS = [
     ("acos(cos(t/(1 s) - 0.5))", "its rate jumps by about 2", 0.5),
-    pytest.param(
-        "hypot(sin(t/(1 s) - 0.5), 1 - cos(t/(1 s) - 0.5))", "its rate jumps by about 2", 0.5, marks=pytest.mark.slow
-    ),
-    pytest.param("asin(sin(t*3/(1 s) - 0.5))", "its rate jumps by about 6", 0.690265, marks=pytest.mark.slow),
+    ("hypot(sin(t/(1 s) - 0.5), 1 - cos(t/(1 s) - 0.5))", "its rate jumps by about 2", 0.5),
+    ("asin(sin(t*3/(1 s) - 0.5))", "its rate jumps by about 6", 0.690265),
     ("atan2(sin(t*5/(1 s)), cos(t*5/(1 s)))", "it jumps by 6.283", 0.628319),
     ("sqrt(abs(t/(1 s) - 0.5))", "its rate is infinite", 0.5),
     ("((t/(1 s) - 0.5)**2)**(1/3)", "its rate is infinite", 0.5),
-])  # fmt: skip
+]
+SAMPLED = [(*jump, output) for jump in JUMPS for output in (10, 77)]  # with a sample at 0.5 s, and with none
+
+
+@pytest.mark.parametrize(
+    ("value", "told", "time", "output"),
+    slow_rows_but([(*JUMPS[0], 77), (*JUMPS[3], 10), (*JUMPS[4], 10), (*JUMPS[4], 77)], SAMPLED),
+)
 def test_without_freedom_too_a_rate_that_is_none_ends_the_run(
     value: str, told: str, time: float, output: int, tmp_path: Path
 ) -> None:
@@ -209,8 +211,11 @@ def test_without_freedom_too_a_rate_that_is_none_ends_the_run(
     assert run.diagnostics.energy_residual < 1e-6 * max(1.0, run.diagnostics.energy_turned_over)
 
 
-@pytest.mark.parametrize("value", ["sqrt((t/(1 s))**2 - 2*t/(1 s)*{c} + {c}**2)", "sqrt((t/(1 s) - {c})**2)"])
-@pytest.mark.parametrize("c", [0.4, 0.2202])
+SQUARES = [(c, value) for c in (0.4, 0.2202)
+           for value in ("sqrt((t/(1 s))**2 - 2*t/(1 s)*{c} + {c}**2)", "sqrt((t/(1 s) - {c})**2)")]  # fmt: skip
+
+
+@pytest.mark.parametrize(("c", "value"), slow_rows_but([SQUARES[0], SQUARES[3]], SQUARES))
 def test_a_square_under_a_root_is_one_in_spite_of_rounding(c: float, value: str, tmp_path: Path) -> None:
     """It was said to jump by 2.7e-13, or its rate by 2."""
     run = driven(ONE, value.format(c=c), tmp_path).simulate(1.0, output=77)
@@ -252,19 +257,23 @@ def test_without_freedom_an_unbounded_second_rate_is_passed(value: str, tmp_path
     assert run.diagnostics.energy_residual < 1e-9
 
 
-@pytest.mark.parametrize("step", [1e-3, 1.1e-3])
-@pytest.mark.parametrize("value", [
-    pytest.param("((t/(1 s) - 0.5)**2)**0.75", marks=pytest.mark.slow), "max(0, t/(1 s) - 0.5)**1.5 * 1e-3",
-    pytest.param("max(0, 0.5 - t/(1 s))**1.5", marks=pytest.mark.slow),
+UNBOUNDED = [(value, step) for step in (1e-3, 1.1e-3) for value in (
+    "((t/(1 s) - 0.5)**2)**0.75", "max(0, t/(1 s) - 0.5)**1.5 * 1e-3", "max(0, 0.5 - t/(1 s))**1.5",
     "abs(t/(1 s) - 0.5)**0.5",
-])  # fmt: skip
+)]  # fmt: skip
+
+
+@pytest.mark.parametrize(("value", "step"), slow_rows_but([UNBOUNDED[1], UNBOUNDED[7]], UNBOUNDED))
 def test_rk4_steps_over_no_unbounded_second_rate(value: str, step: float, tmp_path: Path) -> None:
     """It was told to take smaller steps."""
     with pytest.raises(SolverError, match=r"beyond t = 0\.5 s: the second rate of drive d grows beyond all bounds"):
         driven(PAIR, value, tmp_path).simulate(1.0, output=10, method="rk4", step=step)
 
 
-@pytest.mark.parametrize("value", ["max(0, t/(1 s) - 0.5)**2.5", "max(0, t/(1 s) - 0.5)**2", "abs(sin(t * 50 rad/s))"])
+BOUNDED = ["max(0, t/(1 s) - 0.5)**2.5", "max(0, t/(1 s) - 0.5)**2", "abs(sin(t * 50 rad/s))"]
+
+
+@pytest.mark.parametrize("value", slow_but(BOUNDED[1:], BOUNDED))
 def test_rk4_steps_over_a_bounded_one(value: str, tmp_path: Path) -> None:
     runs = [driven(PAIR, value, tmp_path).simulate(1.0, output=1, method="rk4", step=h) for h in (0.1, 1e-4)]
     assert [run.t[-1] for run in runs] == [1.0, 1.0]

@@ -91,6 +91,7 @@ def test_a_given_step(monkeypatch: pytest.MonkeyPatch) -> None:
     assert len(seen.taken) == COUNT and not batch.failures
 
 
+OTHERS: list[tuple[str, dict[str, float]]] = [("rodas5p", {}), ("rk4", {"step": 1e-6})]
 MIXED = """
 format: gudgeon/1
 name: mixed
@@ -112,7 +113,9 @@ start: {play: {A: {e: [0.08 mm, 0], rate: [0.05, -0.8]}}, rates: {journal.omega:
 """
 
 
-@pytest.mark.parametrize(("method", "more"), [("dop853", {}), ("rodas5p", {}), ("rk4", {"step": 1e-6})])
+@pytest.mark.parametrize(
+    ("method", "more"), [("dop853", {}), *(pytest.param(*one, marks=pytest.mark.slow) for one in OTHERS)]
+)
 def test_film_and_metal_that_share_a_load_by_a_law(method: str, more: dict[str, float], tmp_path: Path) -> None:
     file = tmp_path / "mixed.yaml"
     file.write_text(MIXED, encoding="utf-8")
@@ -187,7 +190,7 @@ def test_the_library_is_made_where_it_is_worth_it(monkeypatch: pytest.MonkeyPatc
     assert_same_batches(beside, alone)
 
 
-@pytest.mark.parametrize("rows", [4096, 300])
+@pytest.mark.parametrize("rows", [pytest.param(4096, marks=pytest.mark.slow), 300])
 def test_peaks_of_all_steps_are_those_of_runs_alone(rows: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each lane has a tape of its own, which is fetched where the run alone would stop for it: at 100 rows of 300."""
     monkeypatch.setattr(steps, "ROWS", rows)

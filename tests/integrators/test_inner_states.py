@@ -37,6 +37,29 @@ def press(tmp_path_factory: pytest.TempPathFactory) -> Press:
     return cache(lambda formulation="reduced": gudgeon.load(file, "dry", formulation=formulation))
 
 
+TWO = """
+parameters: {c: 0.3 mm}
+bodies: {j: {mass: 0.2 kg, inertia: 1e-5 kg*m^2}, k: {mass: 0.2 kg, inertia: 1e-5 kg*m^2}}
+ground: {O: [0, 0], Q: [50 mm, 0]}
+joints: {A: {revolute: [ground.O, j.origin]}, B: {revolute: [j.origin, k.origin]}}
+forces:
+  load: {force: j.origin, value: [0, -8 N]}
+  other: {force: k.origin, value: [4 N, 20 N]}
+  turn: {torque: j, value: 1e-2 N*m}
+materials: {s: {E: 207 GPa, nu: 0.3}}
+bearings: {p: {radius: 10 mm, clearance: c, length: 20 mm, bearing_material: s, journal_material: s}}
+contacts:
+  c: {normal: {law: lankarani_nikravesh, restitution: 0.8}, friction: {law: dahl, mu: 0.15, presliding: 20 um}}
+scenes: {m: {play: {A: {bearing: p, contact: c}, B: {bearing: p, contact: c}}}}
+"""
+
+
+@pytest.fixture(scope="module")
+def two(tmp_path_factory: pytest.TempPathFactory) -> Simulation:
+    """A journal in a bearing, and another one in it."""
+    return loader(tmp_path_factory.mktemp("two"))(TWO, "m")
+
+
 @pytest.mark.parametrize("formulation", ["reduced", pytest.param("full", marks=pytest.mark.slow)])
 def test_bristles_follow_the_slip(press: Press, formulation: str) -> None:
     """The force is the law's of the stored state, and between onsets the state obeys its equation."""
@@ -54,14 +77,13 @@ def test_bristles_follow_the_slip(press: Press, formulation: str) -> None:
         np.testing.assert_allclose(rate, expected, atol=3e-3 * abs(expected).max())
 
 
-def test_the_functions_of_numpy_agree(press: Press) -> None:
+def test_the_functions_of_numpy_agree(two: Simulation) -> None:
     """Force and rate of the state, in contact and bent, as the compiled functions have them."""
-    simulation = press()
-    model, start, rng = simulation.model.numpy(), simulation.start(), np.random.default_rng(3)
+    model, start, rng = two.model.numpy(), two.start(), np.random.default_rng(3)
     p, bent = model.prepare(), np.array([[7e-6], [-1.2e-5]])
     q, v = start.q + rng.normal(0, 3e-4, start.q.size), start.v + rng.normal(0, 0.1, start.v.size)
     got = model.dynamics(0.1, q, v, p, [0.05, 0.2], states=bent)
-    want = simulation.compiled.rhs(0.1, np.concatenate([q, v]), simulation.p, memory=[0.05, 0.2, *bent.ravel()])
+    want = two.compiled.rhs(0.1, np.concatenate([q, v]), two.p, memory=[0.05, 0.2, *bent.ravel()])
     np.testing.assert_allclose(got.a, want[q.size : 2 * q.size], rtol=0, atol=1e-12 * abs(got.a).max())
     assert any(joint.delta > 0 for joint in got.clearance)
     for joint, (z,) in zip(got.clearance, bent, strict=True):
@@ -71,32 +93,33 @@ def test_the_functions_of_numpy_agree(press: Press) -> None:
         np.testing.assert_allclose(joint.F_t, -0.15 * -joint.F_n * z / PRESLIDING * in_contact, rtol=1e-13)
 
 
-def test_methods_and_formulations_agree(press: Press) -> None:
+@pytest.mark.parametrize("formulation", ["reduced", pytest.param("full", marks=pytest.mark.slow)])
+def test_methods_and_formulations_agree(press: Press, formulation: str) -> None:
     exact = press().simulate(0.012, output=20, rtol=1e-12)
-    others = [press("full").simulate(0.012, output=20, rtol=1e-12)]
-    others += [press().simulate(0.012, output=20, method="rk4", step=1e-7)]
-    others += [press(way).simulate(0.012, output=20, method="rodas5p", rtol=1e-7) for way in ("reduced", "full")]
-    for run in others:
+    others = [press(formulation).simulate(0.012, output=20, rtol=1e-12)]
+    others += [press(formulation).simulate(0.012, output=20, method="rk4", step=1e-7)]
+    others += [press(formulation).simulate(0.012, output=20, method="rodas5p", rtol=1e-7)]
+    for run in others[formulation == "reduced" :]:
         assert abs(run["S9.y"] - exact["S9.y"]).max() < 1e-9
         assert abs(run["A.z"] - exact["A.z"]).max() < 1e-3 * PRESLIDING
 
 
-@pytest.mark.parametrize("friction", [None, pytest.param(LUGRE, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("mechanism", ["two", *(pytest.param(x, marks=pytest.mark.slow) for x in ("press", LUGRE))])
 def test_runs_side_by_side(
-    press: Press, tmp_path: Path, friction: str | None, monkeypatch: pytest.MonkeyPatch
+    press: Press, two: Simulation, tmp_path: Path, mechanism: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """To the last bit those of single runs, while journals come, bend, slide and go."""
-    scene = press()
-    if friction:
+    scene, place = (two, "j.y") if mechanism == "two" else (press(), "S9.y")
+    if mechanism == LUGRE:
         text = shipped_file("nine_bar_press").read_text(encoding="utf-8")
-        (tmp_path / "press.yaml").write_text(text.replace(COULOMB, friction), encoding="utf-8")
+        (tmp_path / "press.yaml").write_text(text.replace(COULOMB, mechanism), encoding="utf-8")
         scene = gudgeon.load(tmp_path / "press.yaml", "dry")
     c = np.linspace(2.5e-4, 5e-4, 8)
     batch = scene.simulate_many({"c": c}, t_end=0.01, output=50, method="rk4", step=1e-6)
     assert scene.source.lanes
     for k, value in enumerate(c):
         run = scene.simulate(0.01, output=50, method="rk4", step=1e-6, parameters={"c": value})
-        for name in ("A.z", "B.z", "S9.y", "A.Ft"):
+        for name in ("A.z", "B.z", place, "A.Ft"):
             assert (run[name] == batch[name][k]).all(), (k, name)
     assert abs(batch["A.z"]).max() > 1e-6
     monkeypatch.setattr(lanes, "WORTH", 0.0)
@@ -104,7 +127,7 @@ def test_runs_side_by_side(
     for method in ("dop853", "rodas5p"):
         batches = [scene.simulate_many({"c": c}, 0.008, output=30, method=method, rtol=1e-6, threads=1,
                                        side_by_side=side) for side in (True, False)]  # fmt: skip
-        for name in ("A.z", "B.z", "S9.y", "A.Ft"):
+        for name in ("A.z", "B.z", place, "A.Ft"):
             assert batches[0][name].tobytes() == batches[1][name].tobytes(), (method, name)
         for count in ("steps", "right_hand_sides", "jacobians"):
             assert (batches[0].diagnostics[count] == batches[1].diagnostics[count]).all(), (method, count)
@@ -178,8 +201,8 @@ def test_stiff_bristles_cost_rodas5p_little(tmp_path: Path) -> None:
     assert implicit.diagnostics.right_hand_sides < 0.1 * explicit.diagnostics.right_hand_sides
 
 
-def test_a_class_reads_its_equation(press: Press) -> None:
-    text = equations_tex(press().model)
+def test_a_class_reads_its_equation(two: Simulation) -> None:
+    text = equations_tex(two.model)
     assert r"\eq{\dot{z}}{v_{t}" in text
     assert "is the deflection of the bristles, 0 at each onset" in text
 

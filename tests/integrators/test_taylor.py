@@ -210,7 +210,7 @@ def test_many_runs_are_the_same_as_single_ones(at_once: Seen) -> None:
 
 
 @needs_compiler
-@pytest.mark.parametrize(("t_end", "output"), [(2.0, 3), (600.0, 1)])
+@pytest.mark.parametrize(("t_end", "output"), [(2.0, 3), pytest.param(600.0, 1, marks=pytest.mark.slow)])
 def test_steps_that_are_taken_in_lanes(t_end: float, output: int, at_once: Seen) -> None:
     """Of which nothing but their ends is wanted; so many of them that a run looks at its pace meanwhile."""
     pendulum = gudgeon.load(HERE / "mechanisms" / "valid" / "double_pendulum.yaml", scene="ideal")

@@ -26,6 +26,7 @@ from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.results.results import Result, State
 from gudgeon.simulation.arguments import METHODS
 from tests.programs import needs_compiler
+from tests.slow import slow_but
 
 pytestmark = needs_compiler
 Numbers = np.ndarray[Any, Any]
@@ -216,7 +217,7 @@ def run_arguments(
     simulation: gudgeon.Simulation, method: str, times: Numbers, parameter: str, state: State
 ) -> Iterator[Argument]:
     """Of simulate and simulate_many with one method; the state is for `start`."""
-    options: dict[str, Any] = {"method": method} | ({"step": 2.0**-13} if method == "rk4" else {})
+    options: dict[str, Any] = {"method": method} | ({"step": 2.0**-11} if method == "rk4" else {})
     whole = np.arange(2.0)
     if "scipy" in method:  # slow: Python at each step
         options["rtol"], times = 1e-2, times / 16
@@ -291,14 +292,11 @@ GROUPS = (
 )  # fmt: skip
 
 
-# what they are sent through is what others of the same scene or the same method are sent through
-RARE = ("pendulum radau5", "pendulum rodas5p", "pendulum rk4", "pendulum scipy:LSODA", "pendulum scipy:BDF",
-        "pendulum-full auto", "crank auto")  # fmt: skip
+# what the others are sent through is what these are sent through
+DIFFERENT = (*GROUPS[:5], "pendulum auto", "pendulum scipy:DOP853", "ball auto", "ball rk4", "crank kinematic")
 
 
-@pytest.mark.parametrize(
-    "group", [group if group not in RARE else pytest.param(group, marks=pytest.mark.slow) for group in GROUPS]
-)
+@pytest.mark.parametrize("group", slow_but(DIFFERENT, GROUPS))
 def test_the_same_numbers_give_the_same_bits(group: str) -> None:
     wrong = []
     for argument in arguments(group):

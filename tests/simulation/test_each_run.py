@@ -36,7 +36,7 @@ OPTIONS: list[tuple[str, dict[str, Any]]] = [
 
 @pytest.mark.parametrize(("scene", "options"), OPTIONS)
 def test_an_end_that_follows_the_numbers_of_each_run(scene: str, options: dict[str, Any]) -> None:
-    part = 200.0 if "scipy" in options.get("method", "") else EIGHTH
+    part = 1000.0 if "scipy" in options.get("method", "") else EIGHTH
     batch = press(scene).simulate_many({"omega": SPEEDS}, f"2*pi/{part}/omega", output=9, threads=2, **options)
     assert not batch.failures and batch.t.shape == batch.times.shape == (5, 10)
     alone = {name: value for name, value in options.items() if name != "side_by_side"}

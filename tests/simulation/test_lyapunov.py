@@ -53,9 +53,9 @@ def duffing(tmp_path_factory: pytest.TempPathFactory) -> Simulation:
 def test_linear_oscillators_to_a_percent(duffing: Simulation, by: str) -> None:
     """On a hill of stiffness −k: √(k/m). In a valley, damped: −d/2m, whatever the phase in which it ends."""
     hill = duffing.lyapunov(10.0, by=by, parameters=LINEAR | {"k": -4.0, "x0": 0.0})
-    valley = duffing.lyapunov(80.0, by=by, parameters=LINEAR | {"k": 4.0, "d": 0.4})
+    valley = duffing.lyapunov(27.0, by=by, parameters=LINEAR | {"k": 4.0, "d": 1.2})
     assert hill.exponent == pytest.approx(2.0, rel=1e-3) and hill.by == by and hill.sign == 1
-    assert valley.exponent == pytest.approx(-0.2, rel=0.01) and valley.sign == -1
+    assert valley.exponent == pytest.approx(-0.6, rel=0.01) and valley.sign == -1
     assert valley.believable() == math.inf
     assert hill.believable(1e-8) == pytest.approx(math.log(0.25e8) / 2.0, rel=1e-3)
 
@@ -64,7 +64,7 @@ def test_constraints_are_kept_in_the_full_formulation(tmp_path: Path) -> None:
     """Neighbours leave neither the rail nor its direction: rows that nothing drives back would show as 0 or more."""
     rail = on_a_rail(tmp_path, DUFFING, formulation="full")
     for by in ("tangent", "twin"):
-        found = rail.lyapunov(20.0, by=by, parameters=LINEAR | {"k": 9.0, "d": 4.0})
+        found = rail.lyapunov(10.0, by=by, parameters=LINEAR | {"k": 9.0, "d": 4.0})
         assert found.exponent == pytest.approx(-2.0, rel=0.01)
 
 
