@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import warnings
 from pathlib import Path
@@ -166,7 +165,7 @@ def test_a_link_that_is_too_short_is_told_by_how_much(tmp_path: Path) -> None:
     x, y = CRANK * math.cos(ALPHA), CRANK * math.sin(ALPHA)
     missing = math.hypot(far - x, y) - COUPLER - ROCKER
     file = tmp_path / "four.yaml"
-    file.write_bytes(four_bar(ground="300 mm"))
+    file.write_bytes(four_bar(ground="300 mm").replace(b"tip: [50 mm, 20 mm]", b"tip: [500 mm, 20 mm]"))
     with pytest.raises(AssemblyError, match="line 1[0-9]") as told:
         gudgeon.load(file).start()
     assert f"coupler (100 mm) longer by {1e3 * missing:.4g} mm" in str(told.value)
@@ -183,11 +182,10 @@ def test_what_is_too_short_is_measured_between_points_that_joints_use(tmp_path: 
     bell = four_bar(ground="300 mm", joints=held).replace(b"length: 100 mm", b"com: [30 mm, 10 mm]")
     bell = bell.replace(b"tip: [50 mm", b"in: [0, 0], out: [80 mm, 60 mm], tip: [50 mm")
     file = tmp_path / "four.yaml"
-    for text, told in ((four_bar(ground="300 mm"), "coupler (100 mm)"), (bell, "coupler, in–out (100 mm)")):
-        file.write_bytes(text.replace(b"tip: [50 mm, 20 mm]", b"tip: [500 mm, 20 mm]"))
-        with pytest.raises(AssemblyError) as caught:
-            gudgeon.load(file).start()
-        assert f"{told} longer by {1e3 * missing:.4g} mm" in str(caught.value)
+    file.write_bytes(bell.replace(b"tip: [50 mm, 20 mm]", b"tip: [500 mm, 20 mm]"))
+    with pytest.raises(AssemblyError) as caught:
+        gudgeon.load(file).start()
+    assert f"coupler, in–out (100 mm) longer by {1e3 * missing:.4g} mm" in str(caught.value)
 
 
 def test_a_length_left_in_metres_is_named(tmp_path: Path) -> None:
@@ -350,6 +348,7 @@ def test_what_else_to_guess_of_jansens_leg(tmp_path: Path) -> None:
     assert told.scenes["ideal"].closed.freedoms == 0
 
 
+@pytest.mark.slow
 def test_the_link_that_is_told_has_its_own_length(tmp_path: Path) -> None:
     """A rod that does not reach down to the piston's line: it is told before anything is compiled."""
     file = tmp_path / "engine.yaml"

@@ -20,7 +20,7 @@ from gudgeon.results.results import Result
 from tests.programs import needs_compiler
 from tests.slow import slow_but
 
-pytestmark = needs_compiler
+pytestmark = [needs_compiler, pytest.mark.plain]
 KNOWN: dict[str, dict[str, Any]] = json.loads(
     (Path(__file__).parent.parent / "data" / "reference_problems.json").read_text(encoding="utf-8")
 )
@@ -139,7 +139,6 @@ def test_an_unknown_name_is_told_what_there_is() -> None:
         assert name in str(told.value)
 
 
-@pytest.mark.plain
 def test_what_the_backends_refuse() -> None:
     with pytest.raises(BadValueError, match="dry_friction.*C methods"):
         gudgeon.load("belt_block").simulate(1.0, method="scipy:BDF")

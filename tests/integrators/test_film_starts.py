@@ -11,7 +11,7 @@ import gudgeon
 from gudgeon.simulation.simulation import Simulation
 from tests.programs import needs_compiler
 
-pytestmark = needs_compiler
+pytestmark = [needs_compiler, pytest.mark.plain]
 BALL = """
 format: gudgeon/1
 name: film

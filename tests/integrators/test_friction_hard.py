@@ -92,8 +92,10 @@ def test_release_of_the_later_friction_overloads_the_earlier_one(load: Load) -> 
     assert begin == pytest.approx(0.6, abs=0.011)  # one at its limit, the other helping with what it has: 4 + 2 N
 
 
-@pytest.mark.parametrize("value", ["sin(2*pi*t/(1 s))",
-    pytest.param("1 - cos(2*pi*t/(1 s))", marks=pytest.mark.slow), "smooth_step(t, 0.2 s, 0.5 s)"])
+DRIVES = ["sin(2*pi*t/(1 s))", "1 - cos(2*pi*t/(1 s))", "smooth_step(t, 0.2 s, 0.5 s)"]
+
+
+@pytest.mark.parametrize("value", slow_but(DRIVES[:1], DRIVES))
 def test_driven_slip_passes_zero(load: Load, value: str) -> None:
     """A drive that turns round: friction follows the sign of its velocity, and where it rests nobody can tell."""
     text = f"""

@@ -236,7 +236,7 @@ scenes:
 """
 
 
-@pytest.mark.parametrize("method", ["dop853", "rodas5p"])
+@pytest.mark.parametrize("method", [pytest.param("dop853", marks=pytest.mark.slow), "rodas5p"])
 def test_momentum_of_three_bodies_in_flight(load: Load, method: str) -> None:
     """What a film, a contact and its friction do to one body they do back to the other: p and L stay."""
     run = load(FREE, "both").simulate(0.1, output=200, method=method, rtol=1e-10)

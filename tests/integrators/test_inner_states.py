@@ -152,9 +152,9 @@ def test_batches_and_files_hold_them(press: Press, tmp_path: Path) -> None:
     assert (Result.load(tmp_path / "z.nc")["A.z"] == run["A.z"]).all()
 
 
-def test_peers_do_not_integrate_them(press: Press) -> None:
+def test_peers_do_not_integrate_them(two: Simulation) -> None:
     with pytest.raises(BadValueError, match=r"an inner state \(A\.z\).*rk4, dop853, rodas5p, radau5 and radau9 fit it"):
-        press().simulate(0.01, method="scipy:Radau")
+        two.simulate(0.01, method="scipy:Radau")
 
 
 RUBBED = """

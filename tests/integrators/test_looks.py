@@ -98,7 +98,7 @@ def test_pulses_of_other_shapes(load: Load, force: str, impulse: Callable[[float
         assert run["a.vx"][-1] == pytest.approx(impulse(w), abs=2e-6)
 
 
-@pytest.mark.parametrize("output", [1, 100])
+@pytest.mark.parametrize("output", [1, pytest.param(100, marks=pytest.mark.slow)])
 def test_events_of_a_motion_that_is_driven(load: Load, output: int) -> None:
     """A drive that moves for a moment, whatever samples are asked for: its event, and the work that it gives back."""
     events = DIP + "\n  {half: {zero: a.x - 0.5 m}, back: {zero: a.vx, direction: falling}}"

@@ -16,6 +16,7 @@ from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 from tests.oracles.hung_bar import HungBar
 from tests.programs import needs_compiler
+from tests.slow import slow_rows_but
 
 pytestmark = needs_compiler
 HEAD = """\
@@ -155,8 +156,10 @@ def released(tilt: float = 0.7, end: float = 0.6) -> tuple[HungBar, Any, Any]:
     return bar, t, bar.run(y, end, t)
 
 
-@pytest.mark.parametrize(("method", "formulation"), [("dop853", "reduced"),
-    pytest.param("dop853", "full", marks=pytest.mark.slow), ("rk4", "reduced")])
+WAYS = [("dop853", "reduced"), ("dop853", "full"), ("rk4", "reduced")]
+
+
+@pytest.mark.parametrize(("method", "formulation"), slow_rows_but(WAYS[:1], WAYS))
 def test_a_bar_in_a_hole_against_an_oracle(folder: Path, method: str, formulation: str) -> None:
     """It falls, bounces ever faster, stays on the wall and swings there as a double pendulum does."""
     bar, t, expected = released()

@@ -14,7 +14,7 @@ from gudgeon.loading.shipped import room
 from tests.integrators.test_methods import LUBRICATED, observed_order, scene_of
 from tests.programs import needs_compiler
 
-pytestmark = needs_compiler
+pytestmark = [needs_compiler, pytest.mark.plain]
 TABLES = {"radau5": 3, "radau9": 5}
 
 

@@ -9,7 +9,7 @@ import pytest
 
 import gudgeon
 from gudgeon.loading.engine import sizes
-from tests.slow import slow_but
+from tests.slow import slow_but, slow_rows_but
 
 HEAD = "format: gudgeon/1\nname: j\ngravity: [0, -9.81 m/s^2]\n"
 SLIDER = (
@@ -55,7 +55,7 @@ def scene(text: str, folder: Path, formulation: str = "reduced") -> gudgeon.Simu
 
 
 @pytest.mark.parametrize("formulation", ["reduced", pytest.param("full", marks=pytest.mark.slow)])
-@pytest.mark.parametrize("name", slow_but(["abs", "nested", "crank"], JUMPING))
+@pytest.mark.parametrize("name", slow_but(["abs", "nested"], JUMPING))
 def test_the_order_is_four_past_a_jump(name: str, formulation: str, tmp_path: Path) -> None:
     """It was one, and the work of the impulse was missing: 1.3 J of 6.9 J, whatever the step."""
     simulation = scene(JUMPING[name], tmp_path, formulation)
@@ -119,8 +119,10 @@ def test_only_scenes_whose_drives_jump_look_for_it(tmp_path: Path) -> None:
         assert (sizes(source)["N_CORNERS"] > 0) == has == ("drive_corners" in source.files.get("watched.c", ""))
 
 
-@pytest.mark.parametrize("formulation", ["reduced", "full"])
-@pytest.mark.parametrize("value", ["min(late, t) * 1 m/s", "max(late, t) * 1 m/s"])
+BRANCHES = [(f"{pick}(late, t) * 1 m/s", formulation) for pick in ("min", "max") for formulation in ("reduced", "full")]
+
+
+@pytest.mark.parametrize(("value", "formulation"), slow_rows_but([BRANCHES[0], BRANCHES[3]], BRANCHES))
 def test_a_corner_at_a_parameter_exactly(value: str, formulation: str, tmp_path: Path) -> None:
     """Value and rate of the drive picked a branch each at the zero of `late - t`: "the motion is no longer finite"."""
     simulation = scene(SLIDER.replace("0.3 s", "0.2 s") + ON_SLIDER.format(value), tmp_path, formulation)
@@ -139,8 +141,11 @@ def test_a_jump_right_behind_a_step_that_is_rounded_beyond_it(tmp_path: Path) ->
     assert run.diagnostics.energy_residual < 3e-3
 
 
-@pytest.mark.parametrize("law", ["where(PHASE < T/2, PHASE/T, 1 - PHASE/T)", "PHASE*(T - PHASE)/T**2"])
-@pytest.mark.parametrize("phase", ["mod(t, T)", pytest.param("mod(-t, T)", marks=pytest.mark.slow)])
+LAWS = [(law, phase) for law in ("where(PHASE < T/2, PHASE/T, 1 - PHASE/T)", "PHASE*(T - PHASE)/T**2")
+        for phase in ("mod(t, T)", "mod(-t, T)")]  # fmt: skip
+
+
+@pytest.mark.parametrize(("law", "phase"), slow_rows_but(LAWS[:1], LAWS))
 def test_periods_that_begin_on_the_grid(law: str, phase: str, tmp_path: Path) -> None:
     """Bounds were rounded beyond the corner, or that belonged to the period before: 0.08 J of 0.3 J were wrong."""
     value = f'"0.05 m * {law.replace("PHASE", phase)}"'

@@ -135,6 +135,7 @@ def test_energy_and_work_to_twelve_digits() -> None:
 
 
 @needs_compiler
+@pytest.mark.plain
 def test_loops_closed_by_rows() -> None:
     """Andrews' squeezer: six rows, by the series of its multipliers; in a fifth of the steps of order 8."""
     run = scene_of("andrews_squeezer").simulate(0.03, output=1, method="taylor", rtol=1e-13)

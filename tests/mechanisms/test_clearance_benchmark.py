@@ -41,6 +41,7 @@ def test_nine_digits_to_the_horizon(name: str) -> None:
     assert np.all(wanted.attrs["clearance"] == case.clearances) and there.sum() > 30
 
 
+@pytest.mark.slow
 @needs_compiler
 def test_beside_rows_that_another_code_printed() -> None:
     """Siconos' time stepping is of first order: its own three published versions of θ part by 2.5e-4 rad, of F by 20 %.
@@ -90,6 +91,7 @@ def test_a_slider_in_its_guide_beside_siconos() -> None:
     assert np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx(1.0, abs=0.1)
 
 
+@pytest.mark.slow
 @needs_compiler
 def test_a_threshold_below_all_roundings_changes_nothing() -> None:
     """1e-12 m/s where bodies go 20 m/s: a closed contact has a part in blows whatever its rate is rounded to."""

@@ -12,6 +12,7 @@ from scipy.integrate import solve_ivp
 import gudgeon
 from tests.oracles import dry
 from tests.programs import needs_compiler
+from tests.slow import slow_but
 
 pytestmark = needs_compiler
 CRANK, ROD, OMEGA = 0.05, 0.12, 5000.0 * math.pi / 30.0
@@ -75,7 +76,7 @@ class TwoCoordinates:
         return end, state, max(float(np.hypot(*self.force(s, found.sol(s))[0])) for s in times)
 
 
-@pytest.mark.parametrize("scene", SIGN)
+@pytest.mark.parametrize("scene", slow_but(["internal"], SIGN))
 def test_the_first_contacts(scene: str) -> None:
     """Onset, approach, peak and separation of the first three, by another code in other coordinates."""
     K = dry.stiffness(R_I, R_I - C, (207e9, 207e9), (0.3, 0.3), SIGN[scene])

@@ -48,6 +48,7 @@ def test_a_drawing_is_what_its_command_writes(line: str, file: str, tmp_path: Pa
     assert re.findall(PARTS, shown) == re.findall(PARTS, now) != []
 
 
+@pytest.mark.slow
 def test_its_numbers() -> None:
     """Those that no other test of the gallery looks at."""
     crank = gudgeon.load("slider_crank").simulate(0.1, output=100)["slider.ax"]

@@ -85,15 +85,17 @@ def case(name: str, method: str) -> tuple[Simulation, dict[str, Any]]:
 
 STRIDES = [
     ("dry", "auto", 661), ("dry", "dop853", 509), ("dry", "rk4", 397), ("lubricated", "auto", 83),
-    ("lubricated", "rodas5p", 29), ("lubricated", "scipy:DOP853", 1201), ("lubricated", "scipy:DOP853", 47),
+    ("lubricated", "rodas5p", 29), ("lubricated", "scipy:DOP853", 47),
     ("four_bar", "auto", 211),
 ]  # fmt: skip
 
 
 RARE = [("dry", "dop853", 509), ("lubricated", "scipy:DOP853", 47)]
+USUAL = [one for one in STRIDES if one not in RARE]
+PLAIN = pytest.param("lubricated", "scipy:DOP853", 331, marks=pytest.mark.plain)
 
 
-@pytest.mark.parametrize(("name", "method", "stride"), slow_rows_but([one for one in STRIDES if one not in RARE], STRIDES))
+@pytest.mark.parametrize(("name", "method", "stride"), [*slow_rows_but(USUAL, STRIDES), PLAIN])
 def test_what_is_kept_is_the_whole_run_s(name: str, method: str, stride: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(asking, "EVERY", 0.0)
     simulation, options = case(name, method)

@@ -209,8 +209,8 @@ def test_operations_grow_by_the_dry_forces_of_the_joints_in_contact() -> None:
 @needs_compiler
 def test_command_writes_table_and_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     table = tmp_path / "found.csv"
-    arguments = ["bench", PENDULUM, "--scene", "ideal", "--quick", "--mark-step", "1ms", "--csv", str(table)]
-    app([*arguments, "--set", "gravity.y=-1"], standalone_mode=False)
+    arguments = ["bench", PENDULUM, "--scene", "ideal", "--quick", "--mark-step", "1ms", "--t-end", "0.3"]
+    app([*arguments, "--csv", str(table), "--set", "gravity.y=-1"], standalone_mode=False)
     with open(table, encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     steps = [float(row["step_s"]) for row in rows if row["method"] == "rk4"]

@@ -29,10 +29,10 @@ def test_it_is_read_whole() -> None:
 
 @needs_compiler
 def test_the_leg_is_jansens_at_every_phase() -> None:
-    """Ten times the gallery's: at each of 16 starts it is assembled as the other one gets there."""
+    """Ten times the gallery's: at each of 8 starts it is assembled as the other one gets there."""
     leg, other = gudgeon.load(FILE.with_name("jansen_leg_play.yaml")), gudgeon.load("jansen_leg")
-    turn = other.simulate(1.0, output=16)
-    for k in range(16):
-        start = leg.simulate(0.01, output=1, parameters={"phase": 2 * np.pi * k / 16})
+    turn = other.simulate(1.0, output=8)
+    for k in range(8):
+        start = leg.simulate(0.01, output=1, parameters={"phase": 2 * np.pi * k / 8})
         assert 0.1 * start["lower.R.x"][0] == pytest.approx(turn["lower.R.x"][k], abs=1e-9)
         assert 0.1 * start["lower.R.y"][0] == pytest.approx(turn["lower.R.y"][k], abs=1e-9)

@@ -23,6 +23,7 @@ from gudgeon.studies.ensemble.judge import Cell, Check, Look, judged, together
 from gudgeon.studies.ensemble.study import plans_of
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
+from tests.slow import slow_rows_but
 
 A, B, C, D = (Cell("", (k,)) for k in range(4))
 
@@ -63,8 +64,10 @@ def test_an_interval_is_wilsons_where_a_check_is_of_single_runs() -> None:
     assert whole.low == pytest.approx(10 / (10 + z * z), rel=1e-12) and whole.high == 1.0  # no run without it
 
 
-@pytest.mark.parametrize(("p", "verdict"), [(0.8, "holds"), (1 / 3, "fails"),
-    pytest.param(0.9, "holds", marks=pytest.mark.slow), (0.5, "undecided")])
+ODDS = [(0.8, "holds"), (1 / 3, "fails"), (0.9, "holds"), (0.5, "undecided")]
+
+
+@pytest.mark.parametrize(("p", "verdict"), slow_rows_but([(0.8, "holds"), (0.5, "undecided")], ODDS))
 def test_verdicts_are_no_matter_of_chance(p: float, verdict: str) -> None:
     """Two normal cells of 32 runs, whose pairs rise with probability p = Φ(d/√2); 400 times three ensembles.
 

@@ -23,6 +23,7 @@ from gudgeon.errors import GudgeonError, InputError, OutputError
 from gudgeon.studies.ensemble import loop
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
+from tests.slow import slow_but
 
 pytestmark = [needs_compiler, pytest.mark.usefixtures("blocks_of_one")]
 STUDY: dict[str, Any] = {
@@ -43,8 +44,7 @@ def killed(act: Callable[[], object]) -> int:
     return os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
 
 
-@pytest.mark.parametrize("moment", [0.0, pytest.param(0.1, marks=pytest.mark.slow), 1 / 6,
-    pytest.param(0.4, marks=pytest.mark.slow), 0.5, pytest.param(5 / 6, marks=pytest.mark.slow), 1.0])
+@pytest.mark.parametrize("moment", slow_but([1 / 6, 1.0], [0.0, 0.1, 1 / 6, 0.4, 0.5, 5 / 6, 1.0]))
 def test_a_killed_study_goes_on_to_the_same_dataset(moment: float, tmp_path: Path, quiet: xr.Dataset) -> None:
     def kill(fraction: float, text: str) -> None:
         if fraction >= moment:
@@ -74,8 +74,9 @@ def calls_until_killed(most: int, counted: list[int]) -> None:
     sys.setprofile(count)
 
 
-def test_killed_at_random_moments(tmp_path: Path, quiet: xr.Dataset) -> None:
-    """At ten calls of Python, wherever they are: loading, runs, the bytes of a block, the dataset; going on as well."""
+@pytest.mark.parametrize("kills", [4, pytest.param(10, marks=pytest.mark.slow)])
+def test_killed_at_random_moments(kills: int, tmp_path: Path, quiet: xr.Dataset) -> None:
+    """At so many calls of Python, wherever they are: loading, runs, a block's bytes, the dataset; going on as well."""
     counted = [0]
     calls_until_killed(0, counted)
     try:
@@ -84,7 +85,7 @@ def test_killed_at_random_moments(tmp_path: Path, quiet: xr.Dataset) -> None:
         sys.setprofile(None)
         threading.setprofile(None)
     rng, ends, there = np.random.default_rng(16), [], []
-    for k, moment in enumerate(rng.integers(1, counted[0], 10).tolist()):
+    for k, moment in enumerate(rng.integers(1, counted[0], kills).tolist()):
         folder = tmp_path / str(k // 2)  # each second one kills what went on from the first
 
         def act(folder: Path = folder, moment: int = moment) -> None:
@@ -95,7 +96,7 @@ def test_killed_at_random_moments(tmp_path: Path, quiet: xr.Dataset) -> None:
         there.append(len(list(folder.glob("block-*.nc"))))
         if k % 2:
             xr.testing.assert_identical(gudgeon.study(STUDY, folder).dataset, quiet)
-    assert ends.count(-signal.SIGKILL) >= 6 and len(set(there)) >= 3  # not all at one place
+    assert ends.count(-signal.SIGKILL) >= 0.6 * kills and len(set(there)) >= 0.3 * kills  # not all at one place
 
 
 def test_a_kill_as_the_dataset_is_written(tmp_path: Path, quiet: xr.Dataset, monkeypatch: pytest.MonkeyPatch) -> None:

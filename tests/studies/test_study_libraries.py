@@ -71,7 +71,8 @@ def test_the_other_process_makes_what_this_one_does_not_come_to(
     check_nothing_is_left(begun, tmp_path)
 
 
-@pytest.mark.parametrize("moment", slow_but([0.9], [0.1, 0.9, 1.3]))  # s, about: while it begins, derives, compiles, or has done
+# s, about: while it begins, derives, compiles, or has done
+@pytest.mark.parametrize("moment", slow_but([0.9], [0.1, 0.9, 1.3]))
 def test_it_ends_where_this_one_does(
     moment: float, begun: list[subprocess.Popen[str]], tmp_path: Path
 ) -> None:
@@ -82,6 +83,7 @@ def test_it_ends_where_this_one_does(
     check_nothing_is_left(begun, tmp_path)
 
 
+@pytest.mark.slow
 def test_the_same_dataset(begun: list[subprocess.Popen[str]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     beside = gudgeon.study(STUDY).dataset
     assert len(begun) == 1

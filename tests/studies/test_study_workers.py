@@ -38,6 +38,19 @@ def killing(victims: Callable[[], list[int]], times: int = 1) -> Callable[[float
     return progress
 
 
+def test_a_cluster(tmp_path: Path, quiet: xr.Dataset) -> None:
+    """Of threads of this process."""
+    from distributed import Client, LocalCluster
+
+    with (
+        LocalCluster(n_workers=1, processes=False, dashboard_address=None, silence_logs=50) as cluster,
+        Client(cluster) as client,
+    ):
+        found = gudgeon.study(STUDY, tmp_path, executor=client)
+    xr.testing.assert_identical(found.dataset, quiet)
+
+
+@pytest.mark.slow
 def test_a_cluster_one_of_whose_workers_is_killed(tmp_path: Path, quiet: xr.Dataset) -> None:
     """Its scheduler gives the blocks to another one."""
     from distributed import Client, LocalCluster
