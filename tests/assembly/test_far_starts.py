@@ -33,7 +33,7 @@ ASKS = (
 )
 
 
-@pytest.mark.parametrize("hangs", [False, True])
+@pytest.mark.parametrize("hangs", [pytest.param(False, marks=pytest.mark.slow), True])
 @pytest.mark.parametrize("ask", ASKS)
 @pytest.mark.parametrize(("written", "x"), [
     (-1e3, -1e3), (-1e3, 1e5), (-1e3, 1e8), *(pytest.param(x, x, marks=pytest.mark.slow) for x in (1e5, 1e8)),

@@ -14,6 +14,7 @@ from gudgeon.results.results import Result
 from tests.oracles import golden, ideal_press, press_dense
 from tests.oracles.ideal_press import PressData
 from tests.programs import needs_compiler
+from tests.slow import slow_but
 
 pytestmark = needs_compiler
 PRESS = "nine_bar_press"
@@ -66,7 +67,7 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("case", slow_but(["dry", "dry_steel"], CASES))
 def test_dry_press_reaches_the_golden_first_contacts(case: str) -> None:
     want, (overrides, numbers) = GOLDEN[case], CASES[case]
     press = gudgeon.load(PRESS, scene="dry", overrides=overrides)

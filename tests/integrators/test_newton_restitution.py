@@ -328,6 +328,7 @@ def test_what_cannot_be_had_is_refused(folder: Path, tmp_path: Path) -> None:
         made(folder, BALL).simulate(0.1, parameters={"start.play.A.e.x": 1.001})
 
 
+@pytest.mark.slow
 def test_with_friction_that_sticks_and_a_drive_that_turns_round(folder: Path) -> None:
     """Contacts, sticks and the impulse of a drive at once: formulations and methods agree, works balance."""
     reference = made(folder, CRANK).simulate(rtol=1e-11, output=300)

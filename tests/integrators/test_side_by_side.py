@@ -241,6 +241,7 @@ def test_only_runs_with_the_same_step_share_a_vector() -> None:
     assert own.groups([0, 1, 7], steps, same) == [[0, 1, 7]]
 
 
+@pytest.mark.slow
 def test_runs_with_steps_of_their_own_go_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     """Without a step rk4 takes one from each film and contact."""
     seen, simulation = Seen(monkeypatch), gudgeon.load(HERE / "valid" / "slider_crank.yaml", scene="oiled")

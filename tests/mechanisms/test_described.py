@@ -15,6 +15,7 @@ from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.results.results import Result
 from tests.mechanisms.circles import Array, Points, beside, meet, point
 from tests.programs import needs_compiler
+from tests.slow import slow_but
 
 pytestmark = needs_compiler
 HERE = Path(__file__).parent / "described"
@@ -53,7 +54,7 @@ CLOSED: dict[str, tuple[Callable[[Array], dict[str, Points]], float]] = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", slow_but(["stephenson"], FILES))
 def test_it_moves_as_its_circles_say(name: str) -> None:
     form, t_end = CLOSED[name]
     found = run(name, t_end)

@@ -221,6 +221,7 @@ def test_a_slider_lies_on_its_guide_as_on_a_line_aside() -> None:
     assert found.diagnostics.energy_residual < 1e-8 * found.diagnostics.energy_turned_over
 
 
+@pytest.mark.slow
 def test_worn_pins_of_the_landing_gear() -> None:
     """It begins in the middle of its clearances, falls into them under its weight, and stays with the ideal one."""
     worn = gudgeon.load("landing_gear", "worn").simulate(0.02, output=200)

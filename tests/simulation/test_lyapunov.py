@@ -60,6 +60,7 @@ def test_linear_oscillators_to_a_percent(duffing: Simulation, by: str) -> None:
     assert hill.believable(1e-8) == pytest.approx(math.log(0.25e8) / 2.0, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_constraints_are_kept_in_the_full_formulation(tmp_path: Path) -> None:
     """Neighbours leave neither the rail nor its direction: rows that nothing drives back would show as 0 or more."""
     rail = on_a_rail(tmp_path, DUFFING, formulation="full")

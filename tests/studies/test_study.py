@@ -109,6 +109,7 @@ def test_what_runs_say_of_themselves_is_told_once_with_how_many(monkeypatch: pyt
     assert found.notes == (f"3 of 4 runs, such as run 0 (c=1e-06): {own[0][0]}",)
 
 
+@pytest.mark.slow
 def test_an_executors_processes_make_the_same_dataset(crank: gudgeon.Study) -> None:
     with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
         found = gudgeon.study(CRANK, executor=pool)
