@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +18,7 @@ from gudgeon.generator.targets.c import printer
 from gudgeon.generator.targets.latex.printers import TexPrinter, TextPrinter
 from tests.programs import needs_compiler
 from tests.scenes import loader
+from tests.slow import slow_but
 
 pytestmark = needs_compiler
 AT = 0.25
@@ -43,28 +44,31 @@ def wanted(name: str, order: int) -> float:
         return float(mp.diff(FORMS[name][1], mp.mpf(AT), order, h=mp.mpf(10) ** -15))
 
 
-def block(beside: str) -> str:
-    """A cart driven along each form; `beside` hangs on the first one."""
+def block(beside: str, forms: Iterable[str]) -> str:
+    """A cart driven along each form; a bar hangs on the one of `beside`."""
     lines = ["ground: {o: [0, 0]}", "gravity: [0, -9.81]", "bodies:"]
-    lines += [f"  {name}: {{mass: 1 kg, inertia: 1 kg*m^2}}" for name in FORMS]
+    lines += [f"  {name}: {{mass: 1 kg, inertia: 1 kg*m^2}}" for name in forms]
     lines += ["  bar: {length: 1 m, mass: 1 kg, inertia: 1 kg*m^2}"] * bool(beside)
-    lines += ["joints:", *(f"  on_{n}: {{translational: [ground.o, {n}.origin], axis: [1, 0]}}" for n in FORMS)]
+    lines += ["joints:", *(f"  on_{n}: {{translational: [ground.o, {n}.origin], axis: [1, 0]}}" for n in forms)]
     lines += [f"  pin: {{revolute: [{beside}.origin, bar.tail]}}"] * bool(beside) + ["drives:"]
-    for name, (form, _) in FORMS.items():
-        value = re.sub(r"\bT\b", "(t/(1 s))", form)
+    for name in forms:
+        value = re.sub(r"\bT\b", "(t/(1 s))", FORMS[name][0])
         lines.append(f'  by_{name}: {{coordinate: {name}.x, value: "1 m*({value})"}}')
     return "\n".join(lines)
 
 
-@pytest.mark.parametrize(("beside", "formulation"), [
-    ("", "reduced"), ("hyperbolic", "full"),
-    *(pytest.param(*both, marks=pytest.mark.slow) for both in (("", "full"), ("hyperbolic", "reduced"))),
-])  # fmt: skip
-def test_drives_have_their_rates(beside: str, formulation: str, tmp_path: Path) -> None:
+CASES = [(beside, formulation, forms) for beside in ("", "hyperbolic") for formulation in ("reduced", "full")
+         for forms in (("hyperbolic", "root", "angle"), tuple(FORMS))]  # fmt: skip
+APART = [("", "reduced", tuple(FORMS)), ("hyperbolic", "full", ("hyperbolic", "root", "angle"))]
+
+
+@pytest.mark.parametrize("case", slow_but(APART, CASES), ids=lambda case: f"{case[0]}-{case[1]}-{len(case[2])}")
+def test_drives_have_their_rates(case: tuple[str, str, tuple[str, ...]], tmp_path: Path) -> None:
     """They were those of the numerators alone: .3395 m/s for .005543 m/s."""
-    simulation = loader(tmp_path)(block(beside))
+    beside, formulation, forms = case
+    simulation = loader(tmp_path)(block(beside, forms))
     run = (simulation.full if formulation == "full" else simulation).simulate(AT, output=1)
-    for name in FORMS:
+    for name in forms:
         for order, quantity in enumerate(("x", "vx", "ax")):
             found = float(run[f"{name}.{quantity}"][-1])
             assert found == pytest.approx(wanted(name, order), rel=1e-11, abs=1e-13), (name, quantity)

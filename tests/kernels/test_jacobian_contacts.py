@@ -13,6 +13,7 @@ from gudgeon.loading.shipped import shipped_file
 from gudgeon.simulation.simulation import Simulation
 from tests.equations.subjects import NAN, Subject, assert_columns, make
 from tests.programs import needs_compiler
+from tests.slow import slow_but
 
 pytestmark = [needs_compiler, pytest.mark.plain]
 SHIPPED = shipped_file("nine_bar_press").read_text(encoding="utf-8")
@@ -48,6 +49,8 @@ OIL: dict[str, dict[str, object]] = {
     "internal": {"contacts__oil__normal__geometry": "internal"},
     "clipped": {"contacts__oil__clip_ratio": True},
 }
+OIL["all but as printed"] = {key: x for name, one in OIL.items() if name != "as_printed" for key, x in one.items()}
+KEPT = "plain", "as_printed", "all but as printed"
 
 
 @cache
@@ -78,7 +81,7 @@ def journal_at(subject: Subject, e: tuple[float, float], rate: tuple[float, floa
     return y
 
 
-@pytest.mark.parametrize("option", OIL)
+@pytest.mark.parametrize("option", slow_but(KEPT, OIL))
 @pytest.mark.parametrize("eps", [1e-3, 0.1, 0.5, 0.9, 0.99, 0.99995, 1.0005, 1.01, 1.03])
 def test_film_transition_and_contact(option: str, eps: float) -> None:
     """Film at all eccentricities, its cap, the blend, beyond it: the journal comes, goes and whirls, latched or not."""
@@ -101,12 +104,14 @@ def mixed(law: str, film: str) -> Subject:
     return make(text.replace(b"pinkus_sternlicht", film.encode()), "press", "lubricated")
 
 
-@pytest.mark.parametrize(
-    ("law", "film", "first"), [("christensen", "finite_length", 3), ("greenwood_tripp", "ocvirk", 4)]
-)
+MIXED = ("christensen", "finite_length", 3), ("greenwood_tripp", "ocvirk", 4)
+
+
+@pytest.mark.parametrize("pair", slow_but(MIXED[1:], MIXED))  # test_every_law has the other one's slopes too
 @pytest.mark.parametrize("ratio", [60.0, 3.99, 2.5, 0.4, -1.0, -2.99, -3.5])
-def test_mixed_lubrication(law: str, film: str, first: int, ratio: float) -> None:
+def test_mixed_lubrication(pair: tuple[str, str, int], ratio: float) -> None:
     """At film thickness ratios above, in and below what its laws share, latched or not."""
+    law, film, first = pair
     subject, rng = mixed(law, film), np.random.default_rng(int(100.0 * (ratio + 4.0)))
     for memory in ((NAN, NAN), (0.02, NAN)):
         for _ in range(2):
@@ -181,18 +186,18 @@ def test_a_journal_at_rest_has_a_finite_jacobian(e: float) -> None:
     assert np.isfinite(f_t).all()
 
 
-def test_a_law_of_hertz_without_friction() -> None:
-    for dissipation in ("none", "flores"):
-        text = PRESS.replace(
-            b"lankarani_nikravesh, restitution: 0.9",
-            b"hertz, stiffness: 1e9, exponent: 1.3, restitution: 0.8, dissipation: " + dissipation.encode(),
-        ).replace(b", geometry: external", b"")
-        subject = make(text, "press", "dry")
-        for memory in ((NAN, NAN), (0.02, NAN)):
-            subject.compare(0.0, journal_at(subject, (0.0, 1.1 * C), (0.01, 0.03), 2.0), np.array(memory))
+@pytest.mark.parametrize("dissipation", slow_but(["flores"], ["none", "flores"]))
+def test_a_law_of_hertz_without_friction(dissipation: str) -> None:
+    text = PRESS.replace(
+        b"lankarani_nikravesh, restitution: 0.9",
+        b"hertz, stiffness: 1e9, exponent: 1.3, restitution: 0.8, dissipation: " + dissipation.encode(),
+    ).replace(b", geometry: external", b"")
+    subject = make(text, "press", "dry")
+    for memory in ((NAN, NAN), (0.02, NAN)):
+        subject.compare(0.0, journal_at(subject, (0.0, 1.1 * C), (0.01, 0.03), 2.0), np.array(memory))
 
 
-@pytest.mark.parametrize("scene", ["dry", "lubricated"])
+@pytest.mark.parametrize("scene", slow_but(["lubricated"], ["dry", "lubricated"]))
 def test_a_law_of_the_rate_itself(scene: str) -> None:
     """Kelvin and Voigt's: slopes by δ̇, pushing and let go, alone and in the transition from a film."""
     text = PRESS.replace(b"lankarani_nikravesh, restitution: 0.9", b"kelvin_voigt, stiffness: 1e7, damping: 2e3")
@@ -202,7 +207,10 @@ def test_a_law_of_the_rate_itself(scene: str) -> None:
             subject.compare(0.0, journal_at(subject, (0.3 * C, -1.05 * C), (0.0, -rate), 2.0), np.array(memory))
 
 
-@pytest.mark.parametrize("law", ["lankarani_nikravesh, restitution: 0.9", "kelvin_voigt, stiffness: 1e7, damping: 2e3"])
+LAWS = "lankarani_nikravesh, restitution: 0.9", "kelvin_voigt, stiffness: 1e7, damping: 2e3"
+
+
+@pytest.mark.parametrize("law", slow_but(LAWS[:1], LAWS))
 @pytest.mark.parametrize("latched", [NAN, 0.02])
 def test_a_bearing_that_is_no_circle(law: str, latched: float) -> None:
     """A contour of 16 depths, steep and turning with its body: exact by the angle, the bearing's too, with friction."""
@@ -232,13 +240,13 @@ BRISTLES = {
 }
 
 
-@pytest.mark.parametrize(
-    ("law", "scene"),
-    [("dahl", "dry"), ("lugre", "dry"), ("lugre", "lubricated"),
-     pytest.param("dahl", "lubricated", marks=pytest.mark.slow)],
-)  # fmt: skip
-def test_a_law_with_an_inner_state(law: str, scene: str) -> None:
+BENT = ("dahl", "dry"), ("lugre", "lubricated"), ("lugre", "dry"), ("dahl", "lubricated")
+
+
+@pytest.mark.parametrize("of", slow_but(BENT[:2], BENT), ids="-".join)
+def test_a_law_with_an_inner_state(of: tuple[str, str]) -> None:
     """Of forces by the state, of its rate by everything; A in contact, B beside it free, both; dry and blended."""
+    law, scene = of
     before = PRESS if scene == "dry" else SHIPPED.encode()  # its bodies tell how far a solve within the blend goes
     text = before.replace(b"{law: modified_coulomb, mu: 0.15, v0: 1e-4 m/s, v1: 1e-3 m/s}", BRISTLES[law])
     assert text != before

@@ -63,21 +63,24 @@ def test_refused(text: str, kind: type[InputError]) -> None:
     assert where is not None and where.line == 7  # the scene's, where it is the scene that divides by zero
 
 
-COMPILED = [
-    drive(f"{T} + (1/3)**1e14"),
-    drive(f"{T} * two**1000 * (2**-1000)**0.9"),
-    drive(f"{T} * 1e300 * 1e300 / 1e300"),
-    drive(f"(((({T} + 1)**24 + 1)**24 + 1)**24)**24"),  # overflows at once: the run will say so
-    drive(f"log({T})"),
-    drive(f"sqrt({T})"),
-    drive(f"asin(2 + {T})"),
-    drive("smooth_step(" * 2 + T + ", 0.1, 1)" * 2),
-    drive(f"abs(sin({T})) + ramp(t, 0, 1 s) + min(t, 2 s) * max(t, 1 s) * 1 1/s * 1 1/s"),
-    torque("a.theta * 1e300 * 1e300"),
-    torque("(-1 - a.theta**2)**0.5 * log(-abs(a.theta))"),
-    torque("a.theta**a.theta * exp(-a.theta**2)**2**2**2"),
-    torque("abs(sign(a.theta)) * min(a.theta, max(a.theta, -a.theta)) * (a.theta + a.omega * 1 s)**24"),
+DRIVES = [
+    f"{T} + (1/3)**1e14",
+    f"{T} * two**1000 * (2**-1000)**0.9",
+    f"{T} * 1e300 * 1e300 / 1e300",
+    f"(((({T} + 1)**24 + 1)**24 + 1)**24)**24",  # overflows at once: the run will say so
+    f"log({T})",
+    f"sqrt({T})",
+    f"asin(2 + {T})",
+    "smooth_step(" * 2 + T + ", 0.1, 1)" * 2,
+    f"abs(sin({T})) + ramp(t, 0, 1 s) + min(t, 2 s) * max(t, 1 s) * 1 1/s * 1 1/s",
 ]
+TORQUES = [
+    "a.theta * 1e300 * 1e300",
+    "(-1 - a.theta**2)**0.5 * log(-abs(a.theta))",
+    "a.theta**a.theta * exp(-a.theta**2)**2**2**2",
+    "abs(sign(a.theta)) * min(a.theta, max(a.theta, -a.theta)) * (a.theta + a.omega * 1 s)**24",
+]
+COMPILED = [*map(drive, DRIVES), *map(torque, TORQUES)]
 DEEPER = [
     drive("ramp(" * 3 + T + ", 0.1, 2)" * 3),
     drive("sin(" * 15 + T + ")" * 15),
@@ -86,7 +89,20 @@ DEEPER = [
 ]
 
 
-@pytest.mark.parametrize("texts", [COMPILED, pytest.param(DEEPER, marks=pytest.mark.slow)], ids=["each", "deeper"])
+def together() -> str:
+    """One file of them all: each drives a bar of its own, or turns the one that is free."""
+    bars = [f"b{k}" for k in range(len(DRIVES))]
+    lines = [*FILE.splitlines()[:3], "ground: {O: [0, 0]}", "bodies:"]
+    lines += [f"  {bar}: {{length: 1, mass: 1, inertia: 1}}" for bar in ("a", *bars)]
+    lines += ["joints:", *(f"  on_{bar}: {{revolute: [ground.O, {bar}.tail]}}" for bar in ("a", *bars))]
+    lines += ["drives:", *(f"  by_{k}: {{angle: b{k}, value: {value}}}" for k, value in enumerate(DRIVES))]
+    lines += ["forces:", *(f"  of_{k}: {{torque: a, value: 1 N*m * {value}}}" for k, value in enumerate(TORQUES))]
+    return "\n".join(lines)
+
+
+@pytest.mark.parametrize("texts", [
+    [together()], *(pytest.param(texts, marks=pytest.mark.slow) for texts in (COMPILED, DEEPER)),
+], ids=["together", "each", "deeper"])  # fmt: skip
 def test_compiled(texts: list[str], tmp_path: Path) -> None:
     units = []
     for number, text in enumerate(texts):

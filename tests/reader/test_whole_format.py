@@ -33,8 +33,9 @@ def test_emits_without_warnings(name: str, scene: str, tmp_path: Path) -> None:
     for file, text in source.files.items():
         (tmp_path / file).write_text(text, encoding="utf-8")
     flags = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", *include_flags()]
+    lanes = [source.lanes] if source.lanes else []
     done = subprocess.run(
-        [*find_compiler(), *flags, source.main], cwd=tmp_path, capture_output=True, text=True, check=False
+        [*find_compiler(), *flags, source.main, *lanes], cwd=tmp_path, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr[:2000]
 

@@ -18,6 +18,7 @@ from gudgeon.generator.pipeline import generate
 from gudgeon.generator.reader.read import read_mechanism
 from gudgeon.loading.engine import declarations, include_flags, sizes
 from gudgeon.loading.shipped import generated, shipped_file
+from tests.slow import slow_but
 
 METHODS, VALID = (Path(__file__).parents[1] / "mechanisms" / folder for folder in ("methods", "valid"))
 FLAGS = ["-std=c11", "-O1", "-Wall", "-Wextra", "-Werror", *include_flags()]
@@ -30,14 +31,9 @@ SCENES = [
     for name in generated()
     for scene in read_mechanism(shipped_file(name).read_bytes(), name, None).scenes
 ]
-# Each file of the engine at least once: play of every kind, friction, chains, a free motion, none; the others are slow.
-TYPICAL = {
-    ("nine_bar_press", "lubricated"), ("belt_block", "ideal"), ("shaker", "ideal"), ("four_bar", "ideal"),
-    ("bouncing_ball", "damped"),
-}  # fmt: skip
 WIDEST = ("nine_bar_press", "lubricated")  # under every width of vectors; the others under each of HELD
-LINTED = [scene if scene in TYPICAL - {WIDEST} else pytest.param(*scene, marks=pytest.mark.slow) for scene in SCENES]
-MOST = [scene if scene in TYPICAL else pytest.param(*scene, marks=pytest.mark.slow) for scene in SCENES]
+# Play, friction, a motion without freedom; chains and a ball, of which a short run enters no other file, are slow.
+TYPICAL = ("belt_block", "ideal"), ("four_bar", "ideal")
 
 # Reads p, then t, q, v of a start; prints how a short run went. The scene is included, not linked.
 INTEGRATE = r"""
@@ -110,9 +106,9 @@ def compile_c(compiler: str, file: Path, flags: Sequence[str], libraries: Sequen
 
 
 @pytest.mark.parametrize("compiler", COMPILERS)
-@pytest.mark.parametrize(("name", "scene"), LINTED)
-def test_no_warning(compiler: str, name: str, scene: str, tmp_path: Path) -> None:
-    source = gudgeon.load(name, scene).source
+@pytest.mark.parametrize("of", slow_but(TYPICAL, SCENES), ids="-".join)
+def test_no_warning(compiler: str, of: tuple[str, str], tmp_path: Path) -> None:
+    source = gudgeon.load(*of).source
     main = write(source, tmp_path)
     for part in ("0", *map(str, source.units)):
         compile_c(compiler, main, [*FLAGS, f"-DPART={part}", "-c", "-o", "scene.o"])
@@ -120,7 +116,7 @@ def test_no_warning(compiler: str, name: str, scene: str, tmp_path: Path) -> Non
     (tmp_path / "loops.c").write_text('#include "engine/engine.c"\n', encoding="utf-8")
     compile_c(compiler, tmp_path / "loops.c", [*FLAGS, *engine, "-c", "-o", "loops.o"])
     if source.lanes:
-        for held, width in LANES if (name, scene) == WIDEST else LANES[:: len(WIDTHS)]:
+        for held, width in LANES if of == WIDEST else LANES[:: len(WIDTHS)]:
             compile_c(compiler, tmp_path / source.lanes, [*FLAGS, held, *width, "-c", "-o", "lanes.o"])
 
 
@@ -165,14 +161,14 @@ OPTIONS: dict[str, dict[str, str | float | bool]] = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("option", OPTIONS)
+@pytest.mark.parametrize("option", slow_but(["as printed"], OPTIONS))  # test_whole_format compiles it as it is
 def test_no_warning_under_any_option(option: str, tmp_path: Path) -> None:
     file = VALID / "slider_crank.yaml"
     source = generate(file.read_bytes(), file.name, "oiled", OPTIONS[option])
     main = write(source, tmp_path)
     compile_c(COMPILERS[0], main, [*FLAGS, "-c", "-o", "scene.o"])
     assert source.lanes
-    for held, width in LANES if option == "as printed" else LANES[:: len(WIDTHS)]:
+    for held, width in LANES[:: len(WIDTHS)]:
         compile_c(COMPILERS[0], tmp_path / source.lanes, [*FLAGS, held, *width, "-c", "-o", "lanes.o"])
 
 
@@ -185,9 +181,9 @@ def test_no_warning_where_there_is_taylors_method(tmp_path: Path) -> None:
         compile_c(COMPILERS[0], tmp_path / source.lanes, [*FLAGS, HELD[1], *width, "-c", "-o", "lanes.o"])
 
 
-@pytest.mark.parametrize(("name", "scene"), MOST)
-def test_clean_under_the_sanitizers(name: str, scene: str, tmp_path: Path) -> None:
-    simulation = gudgeon.load(name, scene)
+@pytest.mark.parametrize("of", slow_but((WIDEST, *TYPICAL), SCENES), ids="-".join)
+def test_clean_under_the_sanitizers(of: tuple[str, str], tmp_path: Path) -> None:
+    simulation = gudgeon.load(*of)
     start = simulation.start()
     state = np.concatenate([simulation.p, start.q, start.v, np.zeros(3)])
     (tmp_path / "start.bin").write_bytes(state.tobytes())

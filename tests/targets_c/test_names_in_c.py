@@ -25,6 +25,7 @@ from gudgeon.language.names import NOT_IN_CODE, RESERVED, WORDS, check_name
 from gudgeon.language.tree import FUNCTIONS
 from gudgeon.loading.compiler import find_compiler
 from gudgeon.loading.engine import engine_files, include_flags
+from tests.slow import slow_but
 
 VALID = Path(__file__).resolve().parents[1] / "mechanisms" / "valid"
 HEADERS = ("Python.h", "math.h", "float.h", "limits.h", "stddef.h", "stdint.h", "stdlib.h", "string.h", "errno.h")
@@ -113,21 +114,24 @@ def with_parameters(names: Iterable[str]) -> bytes:
     ]).encode()  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("scene", "every"),
-    [("oiled", 4), *(pytest.param(scene, 1, marks=pytest.mark.slow) for scene in ("ideal", "oiled"))],
-)
-def test_parameters_named_as_emitted_code_and_macros(scene: str, every: int, tmp_path: Path) -> None:
-    """Each fourth of them always; all of them take a minute."""
+NAMED = ("oiled", 12), ("oiled", 1), ("ideal", 1)
+
+
+@pytest.mark.parametrize("of", slow_but(NAMED[:1], NAMED), ids="{0[0]}-{0[1]}".format)
+def test_parameters_named_as_emitted_code_and_macros(of: tuple[str, int], tmp_path: Path) -> None:
+    """Each twelfth of them always; all of them take a minute."""
+    scene, every = of
     names = vocabulary() | {name for name in TRIED if accepted(name)}
     assert {"aside", "max_of", "Parameters", "N_ROWS", "TREE", "Real", "LONG_RUN"} <= names
     told = {name for name in TRIED if accepted(name)} | {*sorted(names)[::every]}
     check_c(generate(with_parameters(told), "f", scene), tmp_path)
 
 
-def test_parameters_named_as_macros_of_the_headers(tmp_path: Path) -> None:
-    assert {"DBL_MAX", "FP_NAN", "INT_MAX", "Py_None"} <= macros()
-    check_c(generate(with_parameters(macros()), "f", "ideal"), tmp_path)
+@pytest.mark.parametrize("every", slow_but([6], [6, 1]))
+def test_parameters_named_as_macros_of_the_headers(every: int, tmp_path: Path) -> None:
+    known = {"DBL_MAX", "FP_NAN", "INT_MAX", "Py_None"}
+    assert known <= macros()
+    check_c(generate(with_parameters(known | {*sorted(macros())[::every]}), "f", "ideal"), tmp_path)
 
 
 def test_parameters_named_as_symbols_of_the_equations_do_not_change_a_number(tmp_path: Path) -> None:
@@ -186,20 +190,21 @@ outputs: {{{out}: {spring}.F + {wrist}.Fx}}
 """.encode()
 
 
-@settings(max_examples=12, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
-@given(names=distinct, points=st.lists(names_of_pieces.filter(accepted), min_size=2, max_size=2, unique=True))
-def test_names_that_meet_when_joined(
-    names: list[str], points: list[str], tmp_path_factory: pytest.TempPathFactory
-) -> None:
-    points = [f"{point}_" if point in COORDINATES else point for point in points]
-    source = generate(clashing(names, points), "f", "ideal")
-    check_c(source, tmp_path_factory.mktemp("clash"))
+@pytest.mark.parametrize("examples", slow_but([3], [3, 12]))
+def test_names_that_meet_when_joined(examples: int, tmp_path: Path) -> None:
+    @settings(max_examples=examples, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
+    @given(names=distinct, points=st.lists(names_of_pieces.filter(accepted), min_size=2, max_size=2, unique=True))
+    def compiles(names: list[str], points: list[str]) -> None:
+        points = [f"{point}_" if point in COORDINATES else point for point in points]
+        check_c(generate(clashing(names, points), "f", "ideal"), tmp_path)
+
+    compiles()
 
 
 THINGS = sorted(name for name in NOT_IN_CODE if len(name) <= 12 and name not in FUNCTIONS and name not in WORDS)
 
 
-@pytest.mark.parametrize("first", range(0, len(THINGS) - 13, 28))
+@pytest.mark.parametrize("first", slow_but([0, 84], range(0, len(THINGS) - 13, 28)))
 def test_things_named_as_what_c_has(first: int, tmp_path: Path) -> None:
     """C's keywords and library name bodies, joints, drives, forces, parameters and outputs, and the mechanism."""
     names = THINGS[first : first + 14]
