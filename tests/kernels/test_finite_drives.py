@@ -13,6 +13,7 @@ from gudgeon.simulation.simulation import Simulation
 from tests.kernels.test_finite_slopes import FAR, FORMS, MODERATE, WIDTH
 from tests.programs import needs_compiler
 from tests.scenes import loader
+from tests.slow import slow_but
 
 pytestmark = needs_compiler
 U = "((t/(1 s) - 5)/1e-3)"
@@ -36,7 +37,6 @@ def scene(tmp_path_factory: pytest.TempPathFactory) -> Simulation:
     return loader(tmp_path_factory.mktemp("drives"))(text(list(FORMS)))
 
 
-@pytest.mark.optimized  # as the one that runs long, with which it shares the scene
 @pytest.mark.parametrize("u", [*MODERATE, *FAR])
 def test_rates_are_those_of_thirty_digits(scene: Simulation, u: float) -> None:
     """They are ∞/∞ or 0 · ∞ as they are written, from e^355 on: it was said that a root has no slope there."""
@@ -56,19 +56,20 @@ def test_rates_are_those_of_thirty_digits(scene: Simulation, u: float) -> None:
         assert abs(gamma[row]) == pytest.approx(abs(float(second)), rel=1e-9, abs=1e-6), name
 
 
-@pytest.mark.optimized
-@pytest.mark.parametrize("formulation", [pytest.param("full", marks=pytest.mark.slow), "reduced"])
-def test_without_freedom_the_linkage_follows(scene: Simulation, formulation: str) -> None:
-    run = (scene.full if formulation == "full" else scene).simulate(10.0, output=4)
-    for name, (_, form) in FORMS.items():
-        wanted = [float(form((mp.mpf(t) - 5) / mp.mpf(WIDTH))) for t in (0.0, 2.5, 5.0, 7.5, 10.0)]
+@pytest.mark.parametrize("forms", slow_but([("step_up", "flat")], [("step_up", "flat"), tuple(FORMS)]), ids=len)
+@pytest.mark.parametrize("formulation", slow_but(["reduced"], ["full", "reduced"]))
+def test_without_freedom_the_linkage_follows(formulation: str, forms: tuple[str, ...], tmp_path: Path) -> None:
+    scene = loader(tmp_path, formulation)(text(list(forms)))
+    run = scene.simulate(10.0, output=4)
+    for name in forms:
+        wanted = [float(FORMS[name][1]((mp.mpf(t) - 5) / mp.mpf(WIDTH))) for t in (0.0, 2.5, 5.0, 7.5, 10.0)]
         assert run[f"{name}.x"] == pytest.approx(wanted, rel=1e-12, abs=1e-12), name
         assert np.isfinite(run[f"{name}.vx"]).all() and np.isfinite(run[f"{name}.ax"]).all(), name
     assert np.isfinite(run.diagnostics.energy_residual)
 
 
 @pytest.mark.parametrize("method", ["dop853", "rodas5p", "auto", "rk4"])
-@pytest.mark.parametrize("form", ["step_up", "bump", "twice"])
+@pytest.mark.parametrize("form", slow_but(["bump", "twice"], ["step_up", "bump", "twice"]))
 def test_what_hangs_on_it_is_integrated(tmp_path: Path, form: str, method: str) -> None:
     """In both formulations; eight runs of rk4 at once do as one alone, to the bit."""
     simulation = loader(tmp_path)(text([form], form))
@@ -82,7 +83,11 @@ def test_what_hangs_on_it_is_integrated(tmp_path: Path, form: str, method: str) 
         assert not many.failures and np.array_equal(many[7].q, runs[0].q)
 
 
-@pytest.mark.parametrize("value", ["1/(1 + exp(5000 - 1e4*abs(t/(1 s))))", "exp(-exp(max(500 - 1000*t/(1 s), -9)*10))"])
+CORNERS = [*(f"1/(1 + exp({half} - {2 * half}*abs(t/(1 s))))" for half in (800, 5000)),
+           "exp(-exp(max(500 - 1000*t/(1 s), -9)*10))"]  # fmt: skip
+
+
+@pytest.mark.parametrize("value", slow_but(CORNERS[::2], CORNERS))
 def test_corners_within_are_where_they_are(tmp_path: Path, value: str) -> None:
     """Not a little ahead and behind too."""
     block = f"""
