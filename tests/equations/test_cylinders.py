@@ -17,6 +17,7 @@ from tests.equations.subjects import NAN, make
 from tests.kernels.test_jacobian_contacts import PRESS, journal_at
 from tests.oracles.dry import delivered
 from tests.programs import needs_compiler
+from tests.slow import slow_but
 
 MODULUS = 1.0 / sum((1.0 - nu**2) / E for E, nu in ((PAIR.E_i, PAIR.nu_i), (PAIR.E_j, PAIR.nu_j)))
 CONSTANT = {"johnson": -1, "esdu_78035": 1}  # beside the logarithm
@@ -83,7 +84,7 @@ def test_slope_by_the_implicit_function_theorem(law: str) -> None:
 
 
 @needs_compiler
-@pytest.mark.parametrize("law", sorted(CONSTANT))
+@pytest.mark.parametrize("law", slow_but(["johnson"], sorted(CONSTANT)))
 def test_jacobian_of_a_scene(law: str) -> None:
     text = PRESS.replace(b"lankarani_nikravesh", law.encode())
     subject = make(text.replace(b", geometry: external", b""), "press", "dry")

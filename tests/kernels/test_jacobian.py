@@ -17,6 +17,7 @@ from tests.equations.subjects import GAINS, NAN, Subject, make, shipped_subject
 from tests.oracles.linkage_yaml import to_yaml
 from tests.oracles.random_mechanism import random_mechanism
 from tests.programs import needs_compiler
+from tests.slow import slow_but
 
 pytestmark = [needs_compiler, pytest.mark.plain]
 
@@ -54,11 +55,7 @@ INTEGRATED = [
     for scene in read_mechanism(shipped_file(name).read_bytes(), name, None).scenes
     if "rk4" in gudgeon.load(name, scene).source.methods
 ]
-# Large ones: what they have is in smaller ones too.
-LARGE = ("nine_bar_press", "andrews_squeezer", "n_four_bar", "car_axis", "slider_crank_spring")
-MOST = [case if case[0] not in LARGE else pytest.param(*case, marks=pytest.mark.slow) for case in INTEGRATED]
-# every kind of joint, drive and element
-SEEDS = [seed if seed in (0, 3, 4, 5) else pytest.param(seed, marks=pytest.mark.slow) for seed in range(12)]
+APART = [("slider_crank", "dry"), ("shaker", "ideal"), ("belt_block", "ideal"), ("bouncing_ball", "elastic")]
 
 
 @cache
@@ -77,15 +74,16 @@ def near_start(name: str, scene: str, subject: Subject, seed: int) -> tuple[np.n
 
 
 @pytest.mark.parametrize("gains", [50.0, 0.0])
-@pytest.mark.parametrize(("name", "scene"), MOST)
-def test_every_shipped_scene(name: str, scene: str, gains: float) -> None:
+@pytest.mark.parametrize("of", slow_but(APART, INTEGRATED), ids="-".join)
+def test_every_shipped_scene(of: tuple[str, str], gains: float) -> None:
+    name, scene = of
     subject = shipped_subject(name, scene, gains)
     for seed in range(5):
         y, memory = near_start(name, scene, subject, seed)
         subject.compare(0.1 + seed, y, memory[: max(subject.library.n_memory, 1)])
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("seed", slow_but([3, 4, 5], range(12)))  # every kind of joint, drive and element
 def test_random_linkages(seed: int) -> None:
     """Every joint, drive and element; states on the constraints, and near them."""
     case = random_mechanism(seed)
@@ -114,9 +112,10 @@ def corners(gains: float) -> Subject:
     return make(CORNERS, "corners", "ideal", dict.fromkeys(GAINS, gains))
 
 
-@pytest.mark.parametrize(("name", "scene"), MOST)
-def test_the_solve_against_a_dense_one(name: str, scene: str) -> None:
+@pytest.mark.parametrize("of", slow_but(APART, INTEGRATED), ids="-".join)
+def test_the_solve_against_a_dense_one(of: tuple[str, str]) -> None:
     """u/η − J u = r + s f_t from where nothing matters but 1/η to where it matters no more."""
+    name, scene = of
     subject = shipped_subject(name, scene)
     rng = np.random.default_rng(7)
     y, memory = near_start(name, scene, subject, 3)

@@ -16,6 +16,7 @@ from tests.equations.models import press, random_model, random_state
 from tests.equations.thirty_digits import Reference
 from tests.oracles import golden, ideal_press, numpy_linkage, press_dense
 from tests.programs import needs_compiler
+from tests.slow import slow_but
 
 pytestmark = needs_compiler
 SEEDS = (1, 3, 4, 6)
@@ -46,12 +47,7 @@ def close(got: np.ndarray, want: np.ndarray, relative: float) -> None:
     assert float(np.max(abs(got - want), initial=0.0)) <= relative * scale
 
 
-RARE: tuple[str | int, ...] = ("dry", "lubricated", 3)  # whose rows are among those of "ideal", and of 1
-
-
-@pytest.mark.parametrize(
-    "which", [one if one not in RARE else pytest.param(one, marks=pytest.mark.slow) for one in (*SCENES, *SEEDS)]
-)
+@pytest.mark.parametrize("which", slow_but(["ideal", 1, 4], (*SCENES, *SEEDS)))  # the other rows are among these
 def test_rows_against_thirty_digits(which: str | int) -> None:
     model, library, p = compiled(which)
     for seed in range(3):
@@ -67,9 +63,7 @@ def test_rows_against_thirty_digits(which: str | int) -> None:
         close(library.mass(p), reference.vector(model.M).diagonal(), 1e-12)
 
 
-@pytest.mark.parametrize(
-    "which", [one if one not in (3, "dry") else pytest.param(one, marks=pytest.mark.slow) for one in (*SCENES, *SEEDS)]
-)
+@pytest.mark.parametrize("which", slow_but(["ideal", "lubricated", 1, 4], (*SCENES, *SEEDS)))
 def test_dynamics_against_thirty_digits(which: str | int) -> None:
     """q̈ and λ; the random linkages at random states too, which do not satisfy their constraints."""
     model, library, p = compiled(which)
@@ -83,7 +77,7 @@ def test_dynamics_against_thirty_digits(which: str | int) -> None:
         close(library.rhs(t, np.concatenate([q, v]), p, memory or None)[:48][: 2 * q.size], np.r_[v, a], 1e-12)
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("seed", slow_but([1, 4], SEEDS))
 def test_dynamics_against_the_dense_oracle(seed: int) -> None:
     case, _ = random_model(seed)
     _, library, p = compiled(seed)
@@ -119,7 +113,7 @@ def test_press_against_the_dense_hand_written_one(scene: str, memory: tuple[floa
     assert 5 < touched < 35  # the states are of both kinds
 
 
-@pytest.mark.parametrize("seed", range(9))
+@pytest.mark.parametrize("seed", slow_but([1, 4, 5], range(9)))
 def test_reactions_and_torques_move_the_bodies(seed: int) -> None:
     """Newton and Euler, body by body: weight, reactions at the joints' points, torques give m a and J α."""
     case, _ = random_model(seed)

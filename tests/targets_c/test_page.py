@@ -25,17 +25,14 @@ from gudgeon.generator.targets.c.fields import unit_text
 from gudgeon.generator.targets.c.layout import WIDTH, broken, within
 from gudgeon.language import units
 from gudgeon.loading.shipped import committed
+from tests.slow import slow_but
 
 SHIPPED = Path(str(resources.files("gudgeon.mechanisms")))
 VALID = Path(__file__).resolve().parents[1] / "mechanisms" / "valid"
 FILES = {path.stem: path for folder in (VALID, SHIPPED) for path in sorted(folder.glob("*.yaml"))}
-RARE = [("every_kind", "latest"), ("every_kind", "sooner")]
-RARE += [("press_as_designed", scene) for scene in ("ideal", "dry", "fast")]  # not far from others, and large
-SCENES = [
-    (name, scene) if (name, scene) not in RARE else pytest.param(name, scene, marks=pytest.mark.slow)
-    for name, path in FILES.items()
-    for scene in read_mechanism(path.read_bytes(), name).scenes
-]
+SCENES = [(name, scene) for name, path in FILES.items() for scene in read_mechanism(path.read_bytes(), name).scenes]
+# not far from others, and large
+RARE = [*(("every_kind", scene) for scene in ("latest", "sooner")), *(of for of in SCENES if "designed" in of[0])]
 
 KERNELS = ("parameters.c", "constraints.c", "clearance.c", "dynamics.c", "reduced.c", "newton.c", "lanes.c")
 # What a reader stumbles over; in every file, or in what is printed from equations.
@@ -71,9 +68,10 @@ def c_files(name: str, scene: str) -> dict[str, str]:
     return {file: text for file, text in emitted(name, scene).files.items() if file.endswith((".c", ".h"))}
 
 
-@pytest.mark.parametrize(("name", "scene"), SCENES)
-def test_every_scene(name: str, scene: str) -> None:
+@pytest.mark.parametrize("of", slow_but([of for of in SCENES if of not in RARE], SCENES), ids="-".join)
+def test_every_scene(of: tuple[str, str]) -> None:
     """Each is printed once, and looked at for all."""
+    name, scene = of
     no_line_is_too_long(name, scene)
     no_blemish(name, scene)
     each_number_has_a_line_that_says_what_it_is(name, scene)
