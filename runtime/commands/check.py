@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 WIDTH = 100  # columns of what is printed
 HANGING = 14  # columns that what follows is set in by, at most
-MARGIN, GAP = 2, 3  # of a table, and between its columns
+MARGIN, GAP = 4, 3  # of a table, and between its columns
 CHECKS = ("scipy:*", "sundials:*")  # integrators of others, which fit wherever something is integrated
 
 
