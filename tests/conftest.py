@@ -197,6 +197,12 @@ def pump(tmp_path: Path) -> str:
 
 
 @pytest.fixture
+def no_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """`gudgeon run` draws nothing: a picture takes longer than a short run."""
+    monkeypatch.setattr("gudgeon.commands.run._draw", lambda *_: None)
+
+
+@pytest.fixture
 def call(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Gudgeon:
     """Runs `gudgeon …` in an empty folder."""
     monkeypatch.chdir(tmp_path)

@@ -115,6 +115,7 @@ def test_a_slider_has_play_as_it_says(tmp_path: Path) -> None:
 
 
 @needs_compiler
+@pytest.mark.usefixtures("no_pictures")
 @pytest.mark.parametrize("setting", dict.fromkeys(re.findall(r"--set ([\w.]+=[\w.]+|[\w.]+='[^']+')", README)))
 def test_settings_that_it_shows_are_taken(setting: str, call: Gudgeon) -> None:
     done = call(f"gudgeon run engine.yaml --scene ideal --t-end 0.001 --output 2 --set {setting}")

@@ -23,6 +23,7 @@ from gudgeon.commands.equations import write_equations
 from gudgeon.commands.studies import Request, load_scenes
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.language.deprecations import STRESS
+from gudgeon.loading.find import derived
 from gudgeon.loading.shipped import committed
 from gudgeon.studies import map as maps
 from gudgeon.studies import stress
@@ -33,16 +34,16 @@ from tests.pump import TEXT, Gudgeon, written
 @pytest.fixture
 def derived_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """`check -v` derives each time; of the same bytes a test's second one is told of the first one's derivation."""
-    plain, known = check.derived, dict[tuple[bytes, str], tuple[KernelSource, dict[str, float]]]()
+    known: dict[tuple[bytes, str], tuple[KernelSource, dict[str, float]]] = {}
 
-    def derived(data: bytes, file: Path, scene: str, seconds: dict[str, float]) -> KernelSource:
+    def once(data: bytes, file: Path, scene: str, seconds: dict[str, float]) -> KernelSource:
         if (data, scene) not in known:
             shipped = committed(file.stem, scene, sha256(data).hexdigest())  # the same: tests/test_generated.py
-            known[data, scene] = shipped or plain(data, file, scene, seconds=seconds), seconds
+            known[data, scene] = shipped or derived(data, file, scene, seconds=seconds), seconds
         seconds |= known[data, scene][1]
         return known[data, scene][0]
 
-    monkeypatch.setattr(check, "derived", derived)
+    monkeypatch.setattr(check, "derived", once)
 
 
 CHECKED = """\

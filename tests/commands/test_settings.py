@@ -15,7 +15,7 @@ from gudgeon.model.parameters import as_parameter
 from tests.programs import needs_compiler
 from tests.pump import TEXT, Gudgeon
 
-pytestmark = needs_compiler
+pytestmark = [needs_compiler, pytest.mark.usefixtures("no_pictures")]
 
 
 @pytest.mark.parametrize("command", ["run", "bench", "map"])
