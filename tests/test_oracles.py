@@ -128,6 +128,7 @@ def test_film_limits(eps: float, omega_s: float) -> None:
     assert film.gumbel_film(eps, 0.0, omega_s) == pytest.approx(steady, rel=1e-7)
 
 
+@pytest.mark.slow
 def test_the_long_film_overstates_a_finite_bearing() -> None:
     """Figures of docs/physics.md; a very long bearing carries what the long one does."""
     assert finite_bearing.overstated(0.9, False) == pytest.approx(1.44, abs=0.01)
@@ -233,6 +234,7 @@ def test_journal_leaves_no_couple(law: Journal, size: float) -> None:
     assert couple == pytest.approx(0.0, abs=1e-14 * max(1.0, float(np.hypot(*wrench.force))))
 
 
+@pytest.mark.slow
 @needs_compiler
 def test_golden_film_case_by_two_routes() -> None:
     """RK4 at 2e-5 s and Radau with its own step control: the same numbers as in golden.json."""

@@ -28,7 +28,7 @@ def blocks(language: str) -> list[str]:
 
 ENGINE = blocks("yaml")[0]
 COMMANDS = [line for block in blocks("sh") for line in block.splitlines()]
-QUICK = {"run": " --t-end 0.001 --output 20", "bench": " --quick", "map": " --quick"}
+QUICK = {"run": " --t-end 0.001 --output 20", "bench": " --quick --methods dop853", "map": " --quick"}
 
 
 @pytest.fixture

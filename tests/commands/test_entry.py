@@ -103,6 +103,7 @@ def test_signals_that_end_a_program_keep_what_was_computed(ending: str, tmp_path
     assert not list((tmp_path / "out").glob(".*"))
 
 
+@pytest.mark.slow
 @needs_compiler
 def test_a_second_ctrl_c_while_python_ends_leaves_the_exit_code(tmp_path: Path) -> None:
     gudgeon.load("pendulum", "ideal")

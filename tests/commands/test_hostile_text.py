@@ -28,7 +28,7 @@ TITLES = (
     "a\u202eb\u2066c", "a\nb\rc\x00",
 )  # fmt: skip
 
-SHOWN = [title for title in TITLES if title in ("a $^$ b", "$\\input{x}$", "\\$x$", "a\nb\rc\x00") or len(title) > 999]
+SHOWN = [title for title in TITLES if title in ("a $^$ b", "$\\input{x}$", "a\nb\rc\x00") or len(title) > 999]
 # all that the reader lets through, in one
 NASTY = "[/] [bold]x[/foo] [link=https://x]y[/link] a $^$ b :bomb: </title><b> %s {0} it's"
 TITLE = "A pump with a worn wrist pin"

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from gudgeon.results.results import Result
 from tests.programs import needs_compiler
@@ -38,6 +39,7 @@ def run(folder: Path, around: dict[str, str], umask: int) -> tuple[object, dict[
     return without_times(json.loads(found.stdout)), {name: np.asarray(result[name]) for name in result.names}
 
 
+@pytest.mark.slow
 def test_a_run_is_the_same_in_strange_surroundings(tmp_path: Path) -> None:
     folders = tmp_path / "here", tmp_path / "ölçüm & \"s\""
     for folder in folders:

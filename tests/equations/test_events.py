@@ -110,7 +110,7 @@ def values(source: KernelSource, driver: str, states: np.ndarray, folder: Path) 
     """What a driver prints of states (N, …) that it reads."""
     for name, text in {**source.files, "driver.c": driver}.items():
         (folder / name).write_text(text, encoding="utf-8")
-    command = [*find_compiler(), "-std=c11", "-O1", *include_flags(), "driver.c", "-o", "driver", "-lm"]
+    command = [*find_compiler(), "-std=c11", "-O0", *include_flags(), "driver.c", "-o", "driver", "-lm"]
     subprocess.run(command, cwd=folder, check=True, capture_output=True)
     text = "\n".join(" ".join(f"{x:.17g}" for x in state) for state in states)
     done = subprocess.run(["./driver"], cwd=folder, input=text, check=True, capture_output=True, text=True)

@@ -24,10 +24,10 @@ from tests.oracles.numpy_linkage import GROUND, Drive, End, Revolute, Translatio
 from tests.oracles.random_linkage import Case
 from tests.oracles.random_mechanism import near, random_mechanism
 from tests.programs import needs_compiler
+from tests.slow import slow_but
 
 pytestmark = needs_compiler
-ALWAYS, ALL = (0, 3, 4, 5, 8, 9), 500
-SEEDS = [seed if seed in ALWAYS else pytest.param(seed, marks=pytest.mark.slow) for seed in range(ALL)]
+ALWAYS, ALL = (3, 4, 5, 8), 500
 GAINS = (50.0, 50.0)  # Baumgarte's, the defaults
 NAN = np.full((1, 1), np.nan)
 
@@ -146,7 +146,7 @@ def check_energy(case: Case, library: CompiledModel) -> None:
     assert fine < 1e-6 * size
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("seed", slow_but(ALWAYS, range(ALL)))
 def test_random_linkage(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     case = random_mechanism(seed)
     library = compiled(case, monkeypatch)

@@ -6,12 +6,14 @@ import pytest
 
 from tests.fuzz.mutate import Mutator, run
 from tests.fuzz.targets import TARGETS, timed
+from tests.slow import slow_but
+
+SOME = ("expression", 1000), ("reader", 100), ("expression", 4000), ("reader", 400)
 
 
-@pytest.mark.parametrize(
-    ("name", "count"), [("expression", 4000), ("reader", 150), pytest.param("reader", 400, marks=pytest.mark.slow)]
-)
-def test_some_inputs(name: str, count: int) -> None:
+@pytest.mark.parametrize("of", slow_but(SOME[:2], SOME), ids="{0[0]}-{0[1]}".format)
+def test_some_inputs(of: tuple[str, int]) -> None:
+    name, count = of
     target, tokens, seeds = TARGETS[name]
     assert run(lambda data: timed(target, data), seeds(), tokens, count) > 0
 

@@ -17,6 +17,7 @@ from gudgeon.generator.ir.values import Chosen, Place
 from gudgeon.generator.kernels.program import make_program
 from gudgeon.generator.pipeline import derive
 from gudgeon.loading.shipped import shipped_file
+from tests.slow import slow_but
 
 ETA = complex(0.31, -0.42)
 SCENES = (("nine_bar_press", "lubricated"), ("slider_crank_spring", "ideal"), ("andrews_squeezer", "ideal"))
@@ -59,9 +60,9 @@ def kernels_of(name: str, scene: str) -> tuple[Kernel, Kernel, Kernel]:
     return newton.factor, newton.substitute, newton.solve
 
 
-@pytest.mark.parametrize(("name", "scene"), SCENES)
-def test_both_parts_are_those_of_the_complex_numbers(name: str, scene: str) -> None:
-    plain = kernels_of(name, scene)
+@pytest.mark.parametrize("of", slow_but(SCENES[:2], SCENES), ids="-".join)
+def test_both_parts_are_those_of_the_complex_numbers(of: tuple[str, str]) -> None:
+    plain = kernels_of(*of)
     twins = tuple(at_complex(kernel, ("eta", "r", "u", "x", "lin->lu"), ("s",)) for kernel in plain)
     one, two = Memory(eta=ETA, s=0.0), Memory(eta=ETA.real, eta_i=ETA.imag)
     sizes = {int(s.name[2:-1]) for line in plain[2].sections for x in line.statements for e in x.expressions

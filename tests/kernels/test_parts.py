@@ -20,12 +20,12 @@ from gudgeon.mechanisms.n_four_bar import text
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.simulation.simulation import Simulation
 from tests.programs import needs_compiler
+from tests.slow import slow_but
 
 WORKS = [
-    ("n_four_bar", "ideal", "reduced"), ("slider_crank", "dry", "reduced"), ("belt_block", "ideal", "reduced"),
-    pytest.param("nine_bar_press", "lubricated", "reduced", marks=pytest.mark.slow),
-    pytest.param("n_four_bar", "ideal", "full", marks=pytest.mark.slow),
-    pytest.param("andrews_squeezer", "ideal", "reduced", marks=pytest.mark.slow),
+    ("slider_crank", "dry", "reduced"), ("belt_block", "ideal", "reduced"), ("n_four_bar", "ideal", "reduced"),
+    ("n_four_bar", "ideal", "full"), ("nine_bar_press", "lubricated", "reduced"),
+    ("andrews_squeezer", "ideal", "reduced"),
 ]  # fmt: skip
 
 
@@ -45,13 +45,11 @@ def shorten(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @needs_compiler
-@pytest.mark.parametrize(("name", "scene", "formulation"), WORKS)
-def test_runs_are_the_same_bit_for_bit(
-    name: str, scene: str, formulation: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    whole = simulation(name, scene, formulation)
+@pytest.mark.parametrize("of", slow_but(WORKS[:2], WORKS), ids="-".join)
+def test_runs_are_the_same_bit_for_bit(of: tuple[str, str, str], monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = simulation(*of)
     shorten(monkeypatch)
-    cut = simulation(name, scene, formulation)
+    cut = simulation(*of)
     assert "_part_2(" in "".join(cut.source.files.values()) and whole.source.files != cut.source.files
     for method in ("dop853", "rodas5p"):
         one, two = (s.simulate(5e-3, output=5, method=method) for s in (whole, cut))

@@ -320,6 +320,7 @@ print(disc.loading.origin, *sys.modules)
 """
 
 
+@pytest.mark.slow
 @needs_compiler
 def test_a_warm_start_runs_the_file_and_imports_no_sympy(disc: Path) -> None:
     def start() -> tuple[str, set[str]]:

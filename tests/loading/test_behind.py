@@ -108,6 +108,7 @@ def test_the_other_process_makes_it(cache: Cache) -> None:
     assert same(before, simulation.simulate(0.5, output=5)) and same(before, again.simulate(0.5, output=5))
 
 
+@pytest.mark.slow
 def test_where_the_other_process_is_killed_it_is_made_here(
     cache: Cache, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -16,10 +16,11 @@ from gudgeon.loading.compiler import find_compiler
 from gudgeon.loading.engine import include_flags
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.simulation.simulation import Simulation
+from tests.slow import slow_but
 
 VALID = Path(__file__).resolve().parents[1] / "mechanisms" / "valid"
-SCENES = [("every_kind", "ideal"), ("press_as_designed", "fast"), ("slider_crank", "oiled"), ("shapes", "ideal"),
-          *(pytest.param("press_as_designed", scene, marks=pytest.mark.slow) for scene in ("ideal", "lubricated"))]
+SCENES = [("every_kind", "ideal"), ("slider_crank", "oiled"), ("shapes", "ideal"),
+          *(("press_as_designed", scene) for scene in ("fast", "ideal", "lubricated"))]
 
 
 @cache
@@ -27,9 +28,9 @@ def emitted(name: str, scene: str) -> KernelSource:
     return generate((VALID / f"{name}.yaml").read_bytes(), name, scene)
 
 
-@pytest.mark.parametrize(("name", "scene"), SCENES)
-def test_emits_without_warnings(name: str, scene: str, tmp_path: Path) -> None:
-    source = emitted(name, scene)
+@pytest.mark.parametrize("of", slow_but(SCENES[:3], SCENES), ids="-".join)
+def test_emits_without_warnings(of: tuple[str, str], tmp_path: Path) -> None:
+    source = emitted(*of)
     for file, text in source.files.items():
         (tmp_path / file).write_text(text, encoding="utf-8")
     flags = ["-std=c11", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", *include_flags()]
@@ -40,11 +41,10 @@ def test_emits_without_warnings(name: str, scene: str, tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr[:2000]
 
 
-@pytest.mark.parametrize(
-    ("name", "scene"), [("every_kind", "ideal"), ("press_as_designed", "fast"), ("shapes", "ideal")]
-)
-def test_assembles(name: str, scene: str) -> None:
+@pytest.mark.parametrize("of", slow_but(SCENES[:3:2], SCENES[:4]), ids="-".join)
+def test_assembles(of: tuple[str, str]) -> None:
     """Φ = 0 at the start, and Φ_q is its derivative there: a gear's carrier, a driven distance, all of it."""
+    name, scene = of
     source = emitted(name, scene)
     linkage = Simulation(CompiledModel(source, compile_kernels(source)), VALID / f"{name}.yaml")
     q, h = linkage.start().q, 1e-6

@@ -206,6 +206,7 @@ joints:
     assert [[row.get(0, 0) for row in system.motions[body].jacobian] for body in "ab"] == [[1, 0, 0], [1, 0, 0]]
 
 
+@pytest.mark.slow
 def test_a_chain_is_cut_where_that_is_cheaper() -> None:
     """M of a hanging chain is full in its angles: a long one is cut, so that operations grow with its length."""
     operations = {}
