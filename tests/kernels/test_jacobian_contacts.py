@@ -104,10 +104,11 @@ def mixed(law: str, film: str) -> Subject:
     return make(text.replace(b"pinkus_sternlicht", film.encode()), "press", "lubricated")
 
 
+# test_every_law has the slopes of the first pair too
 MIXED = ("christensen", "finite_length", 3), ("greenwood_tripp", "ocvirk", 4)
 
 
-@pytest.mark.parametrize("pair", slow_but(MIXED[1:], MIXED), ids="{0[0]}-{0[1]}".format)  # test_every_law has the other one's slopes too
+@pytest.mark.parametrize("pair", slow_but(MIXED[1:], MIXED), ids="{0[0]}-{0[1]}".format)
 @pytest.mark.parametrize("ratio", [60.0, 3.99, 2.5, 0.4, -1.0, -2.99, -3.5])
 def test_mixed_lubrication(pair: tuple[str, str, int], ratio: float) -> None:
     """At film thickness ratios above, in and below what its laws share, latched or not."""
