@@ -1,4 +1,4 @@
-"""What a shell proposes when a user presses the tabulator: names of mechanisms, of their scenes, of methods."""
+"""What a shell proposes when a user presses the tabulator: mechanisms, their scenes, methods, laws."""
 
 from __future__ import annotations
 
@@ -44,3 +44,10 @@ def scenes(context: typer.Context, incomplete: str) -> list[str]:
 def methods(incomplete: str) -> list[str]:
     """By which a run may be integrated."""
     return [method for method in OFFERED if method.startswith(incomplete)]
+
+
+def laws(incomplete: str) -> list[str]:
+    """Of contact, friction and film, by every name that they have."""
+    from gudgeon.generator.kinds.laws.law import RESULTS, called
+
+    return sorted(name for role in RESULTS for name in called(role) if name.startswith(incomplete))

@@ -103,7 +103,10 @@ Plot = Annotated[
         "--plot", parser=a_file, metavar="PATH", help="Draw it: x.svg, .png or .pdf; its numbers by --set mu=.2."
     ),
 ]
-LawName = Annotated[str | None, typer.Argument(metavar="[NAME]", help="Of a law, or what else it is called.")]
+LawName = Annotated[
+    str | None,
+    typer.Argument(metavar="[NAME]", help="Of a law, or what else it is called.", autocompletion=completion.laws),
+]
 # of what teaches
 Name = Annotated[str, typer.Argument(metavar="NAME", help="Of the mechanism or the study; the file is NAME.yaml.")]
 Like = Annotated[

@@ -31,4 +31,5 @@ def test_names_files_scenes_and_methods(tmp_path: Path, monkeypatch: pytest.Monk
     assert proposed("gudgeon run pump.yaml --scene w") == ["worn"]
     assert proposed("gudgeon run parts/pin.yaml --scene ") == ["ideal"]
     assert proposed("gudgeon run four_bar --method r") == ["rodas5p", "radau5", "radau9", "rk4"]
+    assert proposed("gudgeon laws f") == ["finite_length", "flores"]
     assert proposed("gudgeon exer") == ["exercise"]
