@@ -6,12 +6,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-import pytest
-
 ROOT = Path(__file__).parents[1]
 
 
-@pytest.mark.slow
 def test_the_site_is_built_without_a_warning(tmp_path: Path) -> None:
     line = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", "-t", "text", "-b", "html"]
     line += map(str, ("-d", tmp_path / "kept", ROOT / "docs", tmp_path))
