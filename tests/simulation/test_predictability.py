@@ -62,6 +62,9 @@ def test_a_fixed_step_is_compared_with_a_smaller_one() -> None:
     pytest.param(
         VALID / "double_pendulum.yaml", "fast", {}, ((0.2, 200), (0.24, 20), (4.0, 2000)), marks=pytest.mark.slow
     ),
+    pytest.param(
+        PRESS, "dry", {"parameters": {"c": 0.5e-3, "omega": "4*pi"}}, ((0.2, 200), (4.0, 500)), marks=pytest.mark.slow
+    ),
 ])  # fmt: skip
 def test_neither_t_end_nor_output_move_it(
     file: str | Path, scene: str, options: dict[str, Any], runs: tuple[tuple[float, int], ...]
