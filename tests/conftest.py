@@ -45,6 +45,11 @@ quick.install()
 os.environ["GUDGEON_QUICK"] = "0"  # nothing is compiled behind a test, or behind programs that it starts
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """What needs zig's C library first, which takes a minute, comes first: elsewhere two workers would wait for it."""
+    items.sort(key=lambda item: item.path.name != "test_functions.py")
+
+
 def pytest_collection_finish() -> None:
     """Modules and tests stay: what is looked for in them again and again takes a tenth of the time of a derivation."""
     gc.freeze()

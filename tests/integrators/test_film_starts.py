@@ -10,6 +10,7 @@ import pytest
 import gudgeon
 from gudgeon.simulation.simulation import Simulation
 from tests.programs import needs_compiler
+from tests.slow import slow_but
 
 pytestmark = [needs_compiler, pytest.mark.plain]
 BALL = """
@@ -40,7 +41,7 @@ def ball(tmp_path_factory: pytest.TempPathFactory) -> Simulation:
     return gudgeon.load(file, "oil")
 
 
-@pytest.mark.parametrize("method", ["auto", "dop853", "scipy:Radau"])
+@pytest.mark.parametrize("method", slow_but(["auto", "dop853"], ["auto", "dop853", "scipy:Radau"]))
 def test_out_of_the_metal_into_the_film(method: str, ball: Simulation) -> None:
     """The cap of ε was held as it was never looked at: no number, when the film began to act. rk4 holds nothing."""
     for ey in ("-0.312 mm", "-0.315 mm"):

@@ -264,6 +264,7 @@ def test_nobody_else_pays(monkeypatch: pytest.MonkeyPatch) -> None:
     press.simulate_many({"c": [3e-4]}, 1e-3, method="rk4", step=1e-5, output=2)
     address = belt.source.slots[0].address
     belt.simulate_many({address: [belt.source.slots[0].default] * 3}, 0.01, method="rk4", step=1e-3, output=2)
-    full = gudgeon.load("andrews_squeezer", formulation="full")
-    full.simulate_many({"bodies.OF.mass": [0.02, 0.03]}, 1e-4, method="rk4", step=1e-5, output=2)
+    full = gudgeon.load("pendulum", formulation="full")
+    slot = full.source.slots[0]
+    full.simulate_many({slot.address: [slot.default] * 2}, 1e-4, method="rk4", step=1e-5, output=2)
     assert not belt.source.lanes and not full.source.lanes

@@ -293,7 +293,7 @@ GROUPS = (
 
 
 # what the others are sent through is what these are sent through
-DIFFERENT = (*GROUPS[2:5], "pendulum scipy:DOP853", "ball auto", "ball rk4", "crank kinematic")
+DIFFERENT = (*GROUPS[2:5], "ball auto", "ball rk4", "crank kinematic")
 
 
 @pytest.mark.parametrize("group", slow_but(DIFFERENT, GROUPS))

@@ -165,7 +165,9 @@ def test_what_somebody_changed_is_looked_at(change: str, run: Result, path: Path
 WRONG: tuple[Any, ...] = (None, True, -1, 10**30, 1e308, "", "[/]", [], ["x"], [[1]], [None], {}, {"a": 1}, [{}])
 
 
-@pytest.mark.parametrize(("stored", "fewest"), [("in full", (150, 20)), ("short", (80, 10))])
+@pytest.mark.parametrize(
+    ("stored", "fewest"), [pytest.param("in full", (150, 20), marks=pytest.mark.slow), ("short", (80, 10))]
+)
 def test_a_source_of_other_types_is_refused_or_right(
     run: Result, path: Path, stored: str, fewest: tuple[int, int]
 ) -> None:

@@ -206,6 +206,7 @@ def test_films_that_grow_thin_are_told(press: tuple[Result, Result], monkeypatch
     assert note.startswith("A: between samples ε is over") and note.endswith(f"; it reaches {1.02 * most:.4g}")
 
 
+@pytest.mark.usefixtures("no_pictures")
 def test_a_run_at_the_command_line_tells_what_a_film_is_beyond(tmp_path: Path) -> None:
     """Without a report: the press's films are finite ones, L/D = 40 mm/(2 · 14.7 mm), by a law of long ones."""
     arguments = ["run", "nine_bar_press", "--scene", "lubricated", "--t-end", "1 ms", "--out", str(tmp_path)]

@@ -30,7 +30,7 @@ def press(scene: str = "dry") -> Simulation:
 OPTIONS: list[Any] = [
     ("dry", {"rtol": 1e-6}), ("dry", {"method": "dop853", "step": 1e-6}), ("dry", {"method": "rk4", "step": 5e-6}),
     ("dry", {"method": "rk4", "step": 5e-6, "side_by_side": False}), ("ideal", {}),
-    pytest.param("dry", {"method": "scipy:DOP853", "rtol": 1e-4}, marks=pytest.mark.plain),
+    pytest.param("dry", {"method": "scipy:DOP853", "rtol": 1e-4}, marks=[pytest.mark.plain, pytest.mark.slow]),
 ]  # fmt: skip
 
 

@@ -99,6 +99,7 @@ def test_ueda_s_oscillator_is_chaotic_as_published(duffing: Simulation) -> None:
     assert motion.kind == "chaotic" and motion.confidence > 0.8 and motion.K > 0.8 and motion.period == 0
 
 
+@pytest.mark.slow
 def test_returns_once_a_period(duffing: Simulation) -> None:
     """Linear and driven: damped it repeats the drive, undamped with half its frequency it returns to every second
     point, with √2 of it to none."""

@@ -35,6 +35,7 @@ def own(folder: Path, rail: Simulation) -> dict[str, Any]:
     return {"mechanism": str(folder / "rail.yaml"), "parameters": LINEAR | {"w": 5.0}, "output": 10}
 
 
+@pytest.mark.slow
 def test_exponents_of_hill_and_valley(own: dict[str, Any]) -> None:
     """√(k/m) on a hill of stiffness −k, −d/2m in a valley; a run that overflows is a row with its reason."""
     found = gudgeon.study(own | {

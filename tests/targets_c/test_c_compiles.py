@@ -181,7 +181,7 @@ def test_no_warning_where_there_is_taylors_method(tmp_path: Path) -> None:
         compile_c(COMPILERS[0], tmp_path / source.lanes, [*FLAGS, HELD[1], *width, "-c", "-o", "lanes.o"])
 
 
-@pytest.mark.parametrize("of", slow_but((WIDEST, ("shaker", "ideal"), *TYPICAL), SCENES), ids="-".join)
+@pytest.mark.parametrize("of", slow_but((WIDEST, *TYPICAL), SCENES), ids="-".join)
 def test_clean_under_the_sanitizers(of: tuple[str, str], tmp_path: Path) -> None:
     simulation = gudgeon.load(*of)
     start = simulation.start()

@@ -13,6 +13,7 @@ from gudgeon.generator.targets.c.curves import curves_code
 from gudgeon.language.curves import Curve, in_pairs, spline
 from gudgeon.loading.compiler import find_compiler
 from gudgeon.loading.engine import include_flags
+from tests.slow import slow_but
 
 _HEAD = """#include <math.h>
 #include <stddef.h>
@@ -43,7 +44,7 @@ def compiled(curve: Curve, folder: Path) -> ctypes.CDLL:
     return library
 
 
-@pytest.mark.parametrize("ends", ["natural", "periodic"])
+@pytest.mark.parametrize("ends", slow_but(["periodic"], ["natural", "periodic"]))
 def test_values_and_slopes_lie_within(ends: str, tmp_path: Path) -> None:
     rng = np.random.default_rng(7)
     x = np.cumsum(rng.uniform(0.3, 2.0, 8)).tolist()
