@@ -39,7 +39,7 @@ def written(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
         return expression.exp * expression * Share(written(expression.base, by) / expression.base)
     if expression in terms:
         (argument,), inner = expression.args, sp.Dummy(real=True)
-        outer = sp.diff(expression.func(inner), inner).xreplace({inner: Share(argument)})
+        outer = derivative(expression.func(inner), inner).xreplace({inner: Share(argument)})
         return outer * written(argument, by)
     named, back = expression.xreplace(terms), {dummy: term for term, dummy in terms.items()}
     inner = (derivative(named, dummy) * written(term, by) for term, dummy in terms.items())

@@ -9,6 +9,7 @@ from __future__ import annotations
 import sympy as sp
 
 from gudgeon.generator.symbols.corners import Largest, Pick, Smallest
+from gudgeon.generator.symbols.derivatives import derivative
 
 _SATURATING = (sp.exp, sp.tanh, sp.atan, sp.atan2)  # finite where their argument is not
 _GROWING = (sp.exp, sp.sinh, sp.cosh, sp.tan, sp.log)
@@ -24,7 +25,7 @@ class Slope(sp.Function):
 
     def _eval_derivative(self, s: sp.Symbol) -> sp.Expr:
         """Where d is finite."""
-        return sp.diff(self.args[0], s)
+        return derivative(self.args[0], s)
 
 
 class Upon(sp.Function):

@@ -20,9 +20,9 @@ def symbols_of(expression: sp.Basic) -> frozenset[sp.Symbol]:
 
 @lru_cache(50_000)
 def derivative(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
-    """As `sympy.diff` has it, sums term by term and products factor by factor, in a third of its time: that
+    """As `sympy.diff` has it, sums term by term and products factor by factor.
 
-    asks of every factor of every product whether it is differentiated by several variables, and how often.
+    That asks of every factor of every product whether it is differentiated by several variables, and how often.
     """
     if expression == by:
         return _ONE

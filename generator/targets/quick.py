@@ -60,18 +60,15 @@ class Quick:
             below.append(sp.Pow(factor.base, -factor.exp, evaluate=factor.exp is sp.S.NegativeOne))
             if factor.exp is sp.S.NegativeOne and factor.base.is_Mul:
                 bracketed.add(factor.base)
-        binds = _UNARY_MINUS if negative and len(above) <= 1 else _precedence(expr)
-        text = "*".join([self.parenthesize(factor, binds) for factor in above]) if above else self._print(sp.S.One)
+        binds = _precedence(expr)
+        alone = _UNARY_MINUS if negative and len(above) == 1 else binds
+        text = "*".join([self.parenthesize(factor, alone) for factor in above or [sp.S.One]])
         text = f"-{text}" if negative else text
         if not below:
             return text
-        binds = _precedence(expr)
         divisors = [self.parenthesize(factor, binds) for factor in below]
         divisors = [f"({own})" if factor in bracketed else own for own, factor in zip(divisors, below, strict=True)]
         return f"{text}/{divisors[0]}" if len(below) == 1 else f"{text}/({'*'.join(divisors)})"
-
-    def _as_ordered_terms(self, expr: sp.Expr, order: str | None = None) -> list[sp.Expr]:
-        return list(ordered_terms(expr))
 
     def parenthesize(self, item: sp.Expr, level: float, strict: bool = False) -> str:
         """In brackets where it binds less than that."""
