@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import warnings
 from pathlib import Path
@@ -340,12 +341,15 @@ def test_what_else_to_guess_of_jansens_leg(tmp_path: Path) -> None:
     text = JANSEN.read_text(encoding="utf-8")
     assert ", f.theta: -65 deg" in text
     file.write_text(text.replace(", f.theta: -65 deg", ""), encoding="utf-8")
+    told = assemble_scenes(read_mechanism(file.read_bytes(), "jansen.yaml"), branches=True)
+    assert len(told.assemblies) == 8 and len(told.alike) == 1
     output = CliRunner().invoke(app, ["check", str(file), "--branches"]).output
     assert "2 fit the start's guesses alike: guess f.theta too, -29.82 deg" in " ".join(output.split())
     assert "8 assemblies found" in output
-    told = assemble_scenes(read_mechanism(JANSEN.read_bytes(), "jansen.yaml"), branches=True)
-    assert len(told.assemblies) == 8 and not told.alike
-    assert told.scenes["ideal"].closed.freedoms == 0
+    document = json.loads(CliRunner().invoke(app, ["check", str(JANSEN), "--json"]).output)
+    assert document["assembled"]["ideal"]["degrees of freedom"] == 0
+    assert len(document["assemblies"]) == 8
+    assert "alike" not in CliRunner().invoke(app, ["check", str(JANSEN)]).output
 
 
 @pytest.mark.slow

@@ -12,6 +12,7 @@ import gudgeon
 from gudgeon.generator.study.read import read_studies
 from gudgeon.generator.study.schema import schema
 from tests.programs import needs_compiler
+from tests.slow import slow_but
 
 FILE = Path(__file__).parents[2] / "studies" / "jansen_wear.yaml"
 
@@ -28,11 +29,12 @@ def test_it_is_read_whole() -> None:
 
 
 @needs_compiler
-def test_the_leg_is_jansens_at_every_phase() -> None:
-    """Ten times the gallery's: at each of 8 starts it is assembled as the other one gets there."""
+@pytest.mark.parametrize("starts", slow_but([8], [8, 16]))
+def test_the_leg_is_jansens_at_every_phase(starts: int) -> None:
+    """Ten times the gallery's: at each of these starts it is assembled as the other one gets there."""
     leg, other = gudgeon.load(FILE.with_name("jansen_leg_play.yaml")), gudgeon.load("jansen_leg")
-    turn = other.simulate(1.0, output=8)
-    for k in range(8):
-        start = leg.simulate(0.01, output=1, parameters={"phase": 2 * np.pi * k / 8})
+    turn = other.simulate(1.0, output=starts)
+    for k in range(starts):
+        start = leg.simulate(0.01, output=1, parameters={"phase": 2 * np.pi * k / starts})
         assert 0.1 * start["lower.R.x"][0] == pytest.approx(turn["lower.R.x"][k], abs=1e-9)
         assert 0.1 * start["lower.R.y"][0] == pytest.approx(turn["lower.R.y"][k], abs=1e-9)
