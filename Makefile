@@ -1,8 +1,8 @@
 # Each of these does its own set-up (tools/setup) and is quick when there is nothing left to do.
 GUDGEON := .venv/bin/gudgeon
 ARGS ?=
-# a file's tests share what they derive: one worker has them all
-PYTEST := bin/pytest -n 2 --dist loadfile -q
+# a file's tests share what they derive: one worker has them all; their order is that of tests/conftest.py
+PYTEST := bin/pytest -n 2 --dist loadfile --no-loadscope-reorder -q
 MYPY := .venv/bin/mypy -p gudgeon && .venv/bin/mypy tests
 # compiled modules are kept, or each start would compile numpy and sympy anew
 unexport PYTHONDONTWRITEBYTECODE

@@ -5,13 +5,16 @@ from __future__ import annotations
 import gc
 import os
 import signal
+from collections import Counter
 from collections.abc import Callable, Generator
 from dataclasses import dataclass, field, replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+import typer.testing
 from hypothesis.internal.conjecture import providers
 from typer.testing import CliRunner
 
@@ -41,13 +44,22 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 assert callable(providers._get_local_constants)
 providers._get_local_constants = providers.Constants  # an empty set of them
 
+# The command line is made of its functions once, not at each call of it in a test.
+assert callable(typer.testing._get_command)
+typer.testing._get_command = cache(typer.testing._get_command)
+
 quick.install()
 os.environ["GUDGEON_QUICK"] = "0"  # nothing is compiled behind a test, or behind programs that it starts
+FIRST = ("test_functions.py", "test_generated.py", "test_site.py")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """What needs zig's C library first, which takes a minute, comes first: elsewhere two workers would wait for it."""
-    items.sort(key=lambda item: item.path.name != "test_functions.py")
+    """Files of many tests first, so that workers end together; before them what is long in one test.
+
+    What needs zig's C library, which takes a minute to build, is the very first: later two workers would wait for it.
+    """
+    tests = Counter(item.path for item in items)
+    items.sort(key=lambda item: (*(item.path.name != name for name in FIRST), -tests[item.path]))
 
 
 def pytest_collection_finish() -> None:

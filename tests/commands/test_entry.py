@@ -7,11 +7,16 @@ import os
 import signal
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any, cast
 
 import pytest
+import typer.main
+from typer.models import CommandInfo
 
 import gudgeon
+from gudgeon import cli
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
 
@@ -57,6 +62,30 @@ def test_help_waits_for_no_rich(tmp_path: Path) -> None:
     for words, code, end in (("run --help", 0, "plain"), ("run --nope", 2, "plain"), ("laws", 0, "with rich")):
         done = gudgeon_process(f"gudgeon {words}", tmp_path, told)
         assert (done.returncode, done.stdout.splitlines()[-1]) == (code, end)
+
+
+def test_of_a_command_that_is_asked_for_its_options_alone_are_read(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    read = list[str]()
+    made = typer.main.get_command_from_info
+
+    def noted(command_info: CommandInfo, **options: Any) -> Any:
+        read.append(cli.named(command_info, cast("Callable[..., object]", command_info.callback)))
+        return made(command_info, **options)
+
+    monkeypatch.setattr("typer.main.get_command_from_info", noted)
+    for arguments, wanted in (["map", "-h"], ["map"]), (["import", "-h"], ["import"]), (["-h"], ["run", "map"]):
+        read.clear()
+        monkeypatch.setattr("sys.argv", ["gudgeon", *arguments])
+        with pytest.raises(SystemExit) as ended:
+            cli.main()
+        assert ended.value.code == 0 and capsys.readouterr().out.startswith("Usage: gudgeon")
+        assert {*wanted} <= {*read} and (len(read) == 1) == (len(arguments) == 2)
+    monkeypatch.setattr("sys.argv", ["gudgeon", "rum"])
+    with pytest.raises(SystemExit):
+        cli.main()
+    assert "'run'" in capsys.readouterr().err  # is meant: all are known
 
 
 @pytest.mark.parametrize("closed", [

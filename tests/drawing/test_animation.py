@@ -187,8 +187,8 @@ def test_between_samples_red_is_what_is_drawn(crank: Result) -> None:
 def test_files(crank: Result, tmp_path: Path) -> None:
     assert crank.animate(tmp_path / "x.gif", seconds=0.3, rate=10) is None
     with Image.open(tmp_path / "x.gif") as film:  # few colours, those of a drawing among them: they stay what they are
-        assert film.n_frames == 3 and film.info["duration"] == 150  # type: ignore[attr-defined]
-        colours = {colour for _, colour in film.convert("RGB").getcolors(1 << 20)}  # type: ignore[union-attr]
+        assert film.n_frames == 3 and film.info["duration"] == 150
+        colours = {colour for _, colour in film.convert("RGB").getcolors(1 << 20)}
     wanted = (np.array(to_rgb(colour)) * 255.0 for colour in ("#ffffff", INK, TINTS[0]))
     assert all(min(np.abs(np.subtract(one, other)).max() for other in colours) < 8.0 for one in wanted)
     data = (tmp_path / "x.gif").read_bytes()
