@@ -6,18 +6,14 @@ Exit codes: 0 success, 1 a run failed, 2 bad input, 130 interrupted.
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable
-from copy import copy
 from pathlib import Path
 from typing import Annotated
 
 import typer
-from typer.models import CommandInfo
 
 from gudgeon.commands import completion
 from gudgeon.commands import options as opt
-from gudgeon.commands.group import Commands
+from gudgeon.commands.group import Commands, asked_for
 from gudgeon.commands.told import tell_warnings, told
 from gudgeon.contract.methods import CHOOSING, KINEMATIC, OFFERED
 from gudgeon.language.deprecations import STRESS
@@ -299,14 +295,6 @@ def study(
 
 
 def main() -> None:
-    """The command line. Where one command is asked for, the options of that one alone are read: all take 30 ms."""
+    """The command line."""
     tell_warnings()
-    asked = [one for one in app.registered_commands if one.callback and sys.argv[1:2] == [named(one, one.callback)]]
-    narrow = copy(app)
-    narrow.registered_commands = asked or app.registered_commands
-    narrow()
-
-
-def named(one: CommandInfo, callback: Callable[..., object]) -> str:
-    """What a command is called."""
-    return one.name or callback.__name__
+    asked_for(app)()

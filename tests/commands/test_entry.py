@@ -7,9 +7,8 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import pytest
 import typer.main
@@ -17,6 +16,7 @@ from typer.models import CommandInfo
 
 import gudgeon
 from gudgeon import cli
+from gudgeon.commands.group import name_of
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
 
@@ -71,7 +71,7 @@ def test_of_a_command_that_is_asked_for_its_options_alone_are_read(
     made = typer.main.get_command_from_info
 
     def noted(command_info: CommandInfo, **options: Any) -> Any:
-        read.append(cli.named(command_info, cast("Callable[..., object]", command_info.callback)))
+        read.append(name_of(command_info))
         return made(command_info, **options)
 
     monkeypatch.setattr("typer.main.get_command_from_info", noted)

@@ -19,7 +19,7 @@ from gudgeon.loading.find import find_mechanism
 from gudgeon.model.evaluation import CLEARANCE_COLUMNS
 from tests.equations.models import random_state
 from tests.slow import slow_but
-from tests.web.node import node
+from tests.web.node import needs_node, node
 
 LIVE = resources.files("gudgeon.generator.targets.latex").joinpath("live.js")
 ASKED = """
@@ -46,7 +46,7 @@ PRESS = "nine_bar_press"
 KEPT = [(PRESS, "lubricated"), ("slider_crank", "dry"), ("belt_block", "ideal")]
 
 
-@pytest.mark.skipif(node() is None, reason="Node is not installed")
+@needs_node
 @pytest.mark.parametrize("case", slow_but(KEPT, [*KEPT, (PRESS, "ideal")]), ids="/".join)
 def test_values_are_those_of_the_compiled_scene(case: tuple[str, str], tmp_path: Path) -> None:
     """By the names that a page asks for; p is that of a run."""

@@ -22,9 +22,9 @@ from gudgeon.model.evaluation import CLEARANCE_COLUMNS
 from gudgeon.simulation.simulation import Simulation
 from tests.programs import needs_compiler
 from tests.scenes import loader
-from tests.web.node import node
+from tests.web.node import needs_node, node
 
-pytestmark = [needs_compiler, pytest.mark.skipif(node() is None, reason="Node is not installed")]
+pytestmark = [needs_compiler, needs_node]
 LIVE = resources.files("gudgeon.generator.targets.latex").joinpath("live.js")
 PINS = """
 bodies: {j: {mass: 0.2 kg, inertia: 1e-5 kg*m^2}, k: {mass: 0.2 kg, inertia: 1e-5 kg*m^2}}

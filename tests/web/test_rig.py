@@ -27,7 +27,7 @@ from gudgeon.results.results import Result  # noqa: E402
 from gudgeon.web.description import description  # noqa: E402
 from gudgeon.web.page import file_text  # noqa: E402
 from tests.slow import slow_but
-from tests.web.node import node  # noqa: E402
+from tests.web.node import needs_node, node  # noqa: E402
 
 SHORT = {"nine_bar_press": 0.1, "andrews_squeezer": 0.03}  # s of these; a second of the others
 # what is not carried where lengths change too, and how far off it is then (share of the size): corners of plates whose
@@ -113,7 +113,7 @@ console.log(JSON.stringify(asked.postures.map(({q, p, loads}) => {
 """
 
 
-@pytest.mark.skipif(node() is None, reason="Node is not installed")
+@needs_node
 @pytest.mark.parametrize("name", [
     pytest.param("slider_crank_spring", marks=pytest.mark.slow), "andrews_squeezer", "car_axis"])
 def test_a_page_places_them_alike(name: str, tmp_path: Path) -> None:
