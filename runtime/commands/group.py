@@ -26,7 +26,7 @@ class Commands(TyperGroup):
 
 def name_of(one: CommandInfo) -> str:
     """What is typed to call it."""
-    return one.name or getattr(one.callback, "__name__", "")
+    return str(one.name or getattr(one.callback, "__name__", ""))
 
 
 def asked_for(app: Typer) -> Typer:
