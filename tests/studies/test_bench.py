@@ -220,7 +220,7 @@ def test_command_writes_table_and_picture(tmp_path: Path, capsys: pytest.Capture
     assert table.with_suffix(".png").stat().st_size > 10_000
     told = capsys.readouterr().out
     assert "observed order" in told and max(map(len, told.splitlines())) <= 100
-    app([*arguments, "--json"], standalone_mode=False)
+    app([*arguments, "--json", "--out", str(tmp_path)], standalone_mode=False)
     document = json.loads(capsys.readouterr().out)
     assert len(document["rows"]) == len(rows) and document["rows"][-1]["step_s"] is None
 
