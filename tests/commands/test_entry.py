@@ -19,6 +19,7 @@ from gudgeon import cli
 from gudgeon.commands.group import name_of
 from tests.programs import needs_compiler
 from tests.pump import Gudgeon
+from tests.slow import slow_but
 
 START = "from gudgeon.entry import main; main()"
 TERMINATED = """
@@ -88,8 +89,10 @@ def test_of_a_command_that_is_asked_for_its_options_alone_are_read(
     assert "'run'" in capsys.readouterr().err  # is meant: all are known
 
 
-@pytest.mark.parametrize("closed", [
-    pytest.param(">&-", marks=pytest.mark.slow), pytest.param(">&- 2>&-", marks=pytest.mark.slow), "<&- >&- 2>&-"])
+CLOSED = (">&-", ">&- 2>&-", "<&- >&- 2>&-")
+
+
+@pytest.mark.parametrize("closed", slow_but(CLOSED[2:], CLOSED))
 def test_streams_that_are_closed(closed: str, tmp_path: Path) -> None:
     done = gudgeon_process(f"gudgeon check pendulum {closed}", tmp_path)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
@@ -121,7 +124,7 @@ def test_what_an_encoding_lacks_is_escaped_as_in_json(call: Gudgeon, tmp_path: P
 
 
 @needs_compiler
-@pytest.mark.parametrize("ending", ["SIGTERM", pytest.param("SIGHUP", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("ending", slow_but(["SIGTERM"], ["SIGTERM", "SIGHUP"]))
 def test_signals_that_end_a_program_keep_what_was_computed(ending: str, tmp_path: Path) -> None:
     line = "gudgeon run pendulum --scene ideal --out out"
     gudgeon.load("pendulum", "ideal")  # compiled before: who asks without a pause waits for no compiler

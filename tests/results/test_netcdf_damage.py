@@ -17,6 +17,7 @@ h5py = pytest.importorskip("h5py")
 from gudgeon.errors import InputError  # noqa: E402
 from gudgeon.results.results import Result, read  # noqa: E402
 from tests.results.old_results import save_old  # noqa: E402
+from tests.slow import slow_rows_but  # noqa: E402
 
 Change: TypeAlias = Callable[[Any], object]
 
@@ -165,9 +166,10 @@ def test_what_somebody_changed_is_looked_at(change: str, run: Result, path: Path
 WRONG: tuple[Any, ...] = (None, True, -1, 10**30, 1e308, "", "[/]", [], ["x"], [[1]], [None], {}, {"a": 1}, [{}])
 
 
-@pytest.mark.parametrize(
-    ("stored", "fewest"), [pytest.param("in full", (150, 20), marks=pytest.mark.slow), ("short", (80, 10))]
-)
+AS_STORED = ("in full", (150, 20)), ("short", (80, 10))
+
+
+@pytest.mark.parametrize(("stored", "fewest"), slow_rows_but(AS_STORED[1:], AS_STORED))
 def test_a_source_of_other_types_is_refused_or_right(
     run: Result, path: Path, stored: str, fewest: tuple[int, int]
 ) -> None:

@@ -48,12 +48,9 @@ def test_exponents_of_hill_and_valley(own: dict[str, Any]) -> None:
     })  # fmt: skip
     data = found.dataset
     hill, valley = data.isel(case=0), data.isel(case=1)
-    assert float(hill["rate"]) == pytest.approx(2.0, rel=1e-3) and float(valley["rate"]) == pytest.approx(
-        -0.2, rel=0.01
-    )
-    assert float(hill["late"]) == pytest.approx(2.0, rel=1e-3) and float(valley["late"]) == pytest.approx(
-        -0.2, rel=0.01
-    )
+    for name in ("rate", "late"):
+        assert float(hill[name]) == pytest.approx(2.0, rel=1e-3)
+        assert float(valley[name]) == pytest.approx(-0.2, rel=0.01)
     assert float(hill["far"]) == pytest.approx(math.log(0.25 / 1e-9) / float(hill["rate"]), rel=1e-12)
     assert float(valley["far"]) == math.inf and float(valley["error"]) < 0.1
     assert found.failed == 1 and "no longer advances" in str(data["failure"][2].item())

@@ -26,7 +26,7 @@ from gudgeon.results.postures import posture_at, postures_of  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
 from gudgeon.web.description import description  # noqa: E402
 from gudgeon.web.page import file_text  # noqa: E402
-from tests.slow import slow_but
+from tests.slow import slow_but  # noqa: E402
 from tests.web.node import needs_node, node  # noqa: E402
 
 SHORT = {"nine_bar_press": 0.1, "andrews_squeezer": 0.03}  # s of these; a second of the others
@@ -113,9 +113,11 @@ console.log(JSON.stringify(asked.postures.map(({q, p, loads}) => {
 """
 
 
+LINKAGES = ("slider_crank_spring", "andrews_squeezer", "car_axis")
+
+
 @needs_node
-@pytest.mark.parametrize("name", [
-    pytest.param("slider_crank_spring", marks=pytest.mark.slow), "andrews_squeezer", "car_axis"])
+@pytest.mark.parametrize("name", slow_but(LINKAGES[1:], LINKAGES))
 def test_a_page_places_them_alike(name: str, tmp_path: Path) -> None:
     """drawing.js beside Carried.at; numbers are carried to 1e-11 of the size."""
     run, rig, *_ = ran(name)

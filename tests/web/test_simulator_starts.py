@@ -18,13 +18,12 @@ from tests.web.node import Answer, in_node, needs_node, same_bits
 
 pytest.importorskip("ziglang", reason="the extra web is not installed: no compiler for pages")
 
-WHILE: dict[str, Any] = {"t_end": 2.0, "output": 37}
-
 
 @needs_node
 def test_a_start_that_only_python_finds_holds_while_nothing_moves_it(tmp_path: Path) -> None:
     """The pendulum's: gravity leaves it, another length moves it, and so it is followed."""
-    pendulum, options = gudgeon.load("pendulum"), WHILE
+    pendulum = gudgeon.load("pendulum")
+    options: dict[str, Any] = {"t_end": 2.0, "output": 37}
     weaker, longer = in_node(pendulum, tmp_path, [
         {"parameters": {"g": 1.62}, "options": options}, {"parameters": {"length": 2.0}, "options": options},
     ])  # fmt: skip
