@@ -54,6 +54,10 @@ class Case:
 
 CHEN = "X. Chen, S. Gao, T. Wang, Nonlinear Dynamics (2022), doi 10.1007/s11071-022-07478-4"
 FLORES = "P. Flores and others, Mechanism and Machine Theory 41 (2006) 247, doi 10.1016/j.mechmachtheory.2005.10.002"
+FLORES_FILM = (
+    "P. Flores, J. Ambrósio, J. Claro, H. Lankarani, C. Koshy, Nonlinear Dynamics 56 (2009) 277, "
+    "doi 10.1007/s11071-008-9399-2"
+)
 WORN = (
     "Mechanism and Machine Theory 194 (2024) 105583, doi 10.1016/j.mechmachtheory.2024.105583, as "
     "github.com/PanChuguang/ALGRM-Sim sets it"
@@ -66,7 +70,10 @@ NOWALD = (
     "G. Nowald, github.com/gerritnowald/transient_rotordynamic, after his dissertation, TU Darmstadt 2018, "
     "https://tuprints.ulb.tu-darmstadt.de/8186"
 )
-STATOR = "github.com/nm96/MSc_project_code, after a model of van der Heijden"
+STATOR = (
+    "github.com/nm96/MSc_project_code, after a model of van der Heijden: a rotor with bearing clearance is that of "
+    "Journal of Nonlinear Science 5 (1995) 257, doi 10.1007/BF01212957"
+)
 MOBILITY = (
     "P. Flores, Journal bearings subjected to dynamic loads: the analytical mobility method (2006), as "
     "github.com/ibell/pdsim sets it"
@@ -76,7 +83,8 @@ GUIDE = (
     "P. Flores, R. Leine, C. Glocker, Multibody System Dynamics 23 (2010) 165, doi 10.1007/s11044-009-9178-y, as "
     "Siconos sets it: github.com/siconos/siconos, examples/Mechanics/SliderCrank"
 )
-GEAR, JANSEN = "github.com/PanChuguang/ALGRM-Sim: no paper is known to us", "arXiv 2606.25208 (2026)"
+GEAR = "github.com/PanChuguang/ALGRM-Sim: no paper is known to us"
+JANSEN = "arXiv 2606.25208 (2026), doi 10.48550/arXiv.2606.25208"
 
 
 def cases() -> dict[str, Case]:
@@ -102,6 +110,11 @@ def cases() -> dict[str, Case]:
         title = f"slider-crank, 5000 rpm, c 0.5 mm, K of {scene} spheres"
         found[f"slider_crank_{scene}"] = Case(title, FLORES, "flores_slider_crank", scene, ("wristpin",), 2e-3, guess,
                                               second)  # fmt: skip
+    law = Pin(radius=0.01, clearance=0.2e-3, width=0.04, viscosity=0.4)
+    second, guess = slider_crank((0.3, 0.21, 0.14), (1e-4, 2.5e-4, 1e-4), law, Wave(0.0, 5000.0 * math.pi / 30.0))
+    found["slider_crank_lubricated"] = Case("slider-crank, 5000 rpm, c 0.2 mm, a film of 400 cP", FLORES_FILM,
+                                            str(HERE / "slider_crank_lubricated.yaml"), "lubricated", ("wristpin",),
+                                            24e-3, guess, second)  # fmt: skip
     law = Pin(radius=0.01, clearance=0.05e-3, width=0.015, mu=0.02, v0=1e-3, v1=5e-2, exponent=2.0,
               stiffness=2.31797e10)  # fmt: skip
     second, guess = slider_crank((0.3, 0.087, 0.14), (1e-5, 4.8037e-4, 1e-2), law, Wave(math.pi / 6.0, math.pi))

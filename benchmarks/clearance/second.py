@@ -53,6 +53,8 @@ class Pin(Journal):
         turning = omega_i + omega_j - 2.0 * v_t / e
         unit = 6.0 * self.viscosity * (self.radius - c) ** 3 * self.width / c**2
         open_ = 1.0 - eps * eps
+        if open_ <= 0.0:  # a stage of a step that is too long: SciPy tries a shorter one
+            return math.nan, math.nan, math.nan, 0.0
         wedge = math.sqrt(open_ * ((0.5 * turning * eps) ** 2 + rate * rate))  # k ε |ε̇|
         k = wedge / (eps * abs(rate)) if rate else math.inf
         lost = 1.5 / (k + 1.5)
