@@ -42,7 +42,8 @@ GROUPS = {
         ("generator/equations/constraints.py", "generator/equations/geometry.py", "generator/kinds/joints/*.py"),
         (*_tests("equations", "derivation", "random_linkages"), *_tests("reader", "fields", "read_kinds"),
          *_tests("kernels", "pivots", "jacobian"), *_tests("equations", "forces", "events", "roots"),
-         *_tests("reader", "whole_format"), *_tests("reduction", "reduction"), *_tests("simulation", "massless")),
+         *_tests("reader", "whole_format"), *_tests("reduction", "reduction"), *_tests("simulation", "massless"),
+         *_tests("integrators", "guide")),
     ),
     "dynamics": (
         ("generator/kernels/dynamics.py", "generator/solvers/kkt.py", "generator/equations/loads.py",
@@ -51,7 +52,7 @@ GROUPS = {
          *_tests("reduction", "reduction", "redundancy"),
          *_tests("kernels", "jacobian", "finite_drives", "finite_slopes", "far_quotients", "complex_parts", "parts",
                  "wholes", "jacobian_contacts"),
-         *_tests("integrators", "friction", "newton_restitution")),
+         *_tests("integrators", "friction", "newton_restitution", "guide")),
     ),
     "laws": (
         ("generator/kinds/laws/*.py",),
@@ -92,6 +93,8 @@ MEANS_NOTHING = {
     "generator/equations/geometry.py:35: '0' -> '1': if twin is not None and s[0].could_extract_minus_sign():  # a "
     "bar's tail is its head turned over":
         "which of two opposite arms has symbols, the other being their negatives",
+    "generator/equations/geometry.py:188: '+' -> '-': number = 1 if point else 1 + sum(1 for _ in before)":
+        "how documents number the arms of a body",
     "generator/solvers/kkt.py:32: '0' -> '1': share = max(shares[0], EARLY) if early else shares[0]":
         "EARLY is more than either share",
     "generator/solvers/kkt.py:93: 'and' -> 'or': if row.owner == other.owner and r not in pairs and pattern[r] == "
