@@ -61,20 +61,19 @@ class Ahead:
             return
 
     def foresee(self, header: str) -> None:
-        """The engine, optimized, of a scene that may have this model.h: a core has nothing to do in the next second."""
+        """The engine of a scene that may have this model.h: a core has nothing to do in the next second."""
         if header and (os.cpu_count() or 1) > 1:
             with suppress(GudgeonError, OSError):
-                self.begin_shared(engine_object(header, self._portable))
+                self.begin_shared(self._engine(header, self._quick))
 
     def shared_objects(self, source: KernelSource, quick: bool = False) -> list[Shared]:
         """What it has in common with others: no engine where C is compiled alone."""
         return [] if source.cdef else [self._engine(source.files[HEADER], quick)]
 
     def _engine(self, header: str, quick: bool) -> Shared:
-        """A quick library takes the optimized one too, where it is there or was foreseen."""
+        """A quick library takes the optimized one too, where it is there."""
         engine = engine_object(header, self._portable)
-        foreseen = self.is_under_way(engine.name, engine.line, engine.texts)
-        if not quick or foreseen or engine.is_there(self._portable, self._cache or default_cache()):
+        if not quick or engine.is_there(self._portable, self._cache or default_cache()):
             return engine
         return engine_object(header, self._portable, quick=True)
 
