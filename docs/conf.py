@@ -24,7 +24,6 @@ autodoc_typehints_format = "short"
 python_maximum_signature_line_length = 100
 autodoc_preserve_defaults = True
 nitpicky = False
-suppress_warnings = ["docutils"]  # our docstrings are text, not reStructuredText: what looks like markup is none
 
 
 ARGUMENT = re.compile(r"(``)?[a-z_\\]+(``)?(, (``)?[a-z_\\]+(``)?)*( \([^)]*\))?: \S")
@@ -33,10 +32,13 @@ ARGUMENT = re.compile(r"(``)?[a-z_\\]+(``)?(, (``)?[a-z_\\]+(``)?)*( \([^)]*\))?
 def as_text(app, what, name, obj, options, lines):  # type: ignore[no-untyped-def]
     """Docstrings are plain: stars, bars and backticks in them stand for themselves, lists and indents stay.
 
-    A line that begins with an argument's name and a colon is a paragraph of its own.
+    A line that begins with an argument's name and a colon is a paragraph of its own, and so is a list.
     """
     plain = [re.sub(r"([*|\\_])", r"\\\1", line).replace("`", "``") for line in lines]
-    lines[:] = [part for line in plain for part in (["", line] if ARGUMENT.match(line) else [line])]
+    lines[:], listed = [], False
+    for line in plain:
+        was, listed = listed, line.startswith("- ") or (listed and line.startswith("  "))
+        lines += ["", line] if listed != was or ARGUMENT.match(line) else [line]
 
 
 def beyond(app, docname, source):  # type: ignore[no-untyped-def]
