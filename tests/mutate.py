@@ -100,6 +100,8 @@ MEANS_NOTHING = {
     "generator/solvers/kkt.py:93: 'and' -> 'or': if row.owner == other.owner and r not in pairs and pattern[r] == "
     "pattern[r + 1] and len(pattern[r]) > 2:":
         "which rows are eliminated two by two: an order, what it costs",
+    "generator/reduction/shared_points.py:73: '1' -> '2': crossing[other.name] = 1 if one in side else -1":
+        "of a share only the sign is printed",
     "generator/reduction/tree.py:12: '24' -> '25': SEARCHED = 24  # more coordinates than that: the tree is not "
     "improved by exchanges":
         "which tree is taken: every tree has the same motion",

@@ -72,6 +72,22 @@ def test_every_damping_factor_obeys_the_identity(name: str) -> None:
     assert identity(float(FACTORS[name](0.7)), run["ball.vy"][-1] / SPEED) == pytest.approx(0.0, abs=1e-7)
 
 
+# Of each damping factor, by hand: its value at c_e = 1/2, and how much it falls per c_e at 1, where the identity asks 3/2
+BY_HAND = {
+    "none": (0.0, 0.0), "hunt_crossley": (3 / 4, 3 / 2), "herbert_mcwhannell": (1.0, 3 / 2), "lee_wang": (3 / 8, 3 / 4),
+    "lankarani_nikravesh": (9 / 16, 3 / 2), "gonthier": (3 / 2, 2.0), "zhiying_qishao": (9 / 16 * math.e, 3 / 2),
+    "flores": (8 / 5, 8 / 5), "hu_guo": (3 / 2, 3 / 2),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", FACTORS)
+def test_damping_factors_are_those_of_their_authors(name: str) -> None:
+    factor, (at_half, slope) = FACTORS[name], BY_HAND[name]
+    assert float(factor(0.5)) == pytest.approx(at_half, rel=1e-14)
+    assert float(factor(1.0)) == 0.0
+    assert (factor(1.0 - 1e-6) - factor(1.0 + 1e-6)) / 2e-6 == pytest.approx(slope, rel=1e-8, abs=1e-15)
+
+
 @pytest.mark.parametrize("asked", [0.05, 0.5, 0.93])
 def test_the_exact_damping_delivers_what_is_asked(asked: float) -> None:
     simulation = gudgeon.load("bouncing_ball", "damped", overrides={"contacts.damped.normal.dissipation": "exact"})
