@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from gudgeon.commands.common import check_file, chosen_scenes, need_suffix
 from gudgeon.commands.progress import status_line
-from gudgeon.commands.written import note, wrote
+from gudgeon.commands.written import show, wrote
 from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.files.writing import write_text
 from gudgeon.language.shown import path_text
@@ -38,7 +38,7 @@ def write_equations(mechanism: str, target: Path, scenes: tuple[str, ...]) -> in
     with status_line(), working(f"deriving {find_mechanism(mechanism).stem}, scene {scene}"):
         text = _written(mechanism, scene, target)
     if target == TERMINAL:
-        note(text.removesuffix("\n"))
+        show("equations", text.removesuffix("\n"))
         return 0
     write_text(target, text)
     wrote("equations", target)

@@ -12,10 +12,11 @@ from gudgeon.language.shown import path_text, print_json
 
 @dataclass
 class Document:
-    """What JSON tells: names of files (and folders) by what they are, and notes."""
+    """What JSON tells: names of files (and folders) by what they are, notes, and what has no file but was asked for."""
 
     files: dict[str, str] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
+    texts: dict[str, str] = field(default_factory=dict)
 
 
 _document: Document | None = None  # of the command that is under way, where JSON is asked for
@@ -38,6 +39,14 @@ def note(text: str) -> None:
         _document.notes.append(text)
 
 
+def show(kind: str, text: str) -> None:
+    """What would have been written, where `-` was named: on the terminal as it is, in JSON under its kind."""
+    if _document is None:
+        print(text)
+    else:
+        _document.texts[kind] = text
+
+
 @contextmanager
 def told_as_json(wanted: bool) -> Iterator[None]:
     """What is told within is printed at the end, as JSON where that is wanted: what was written before an error too."""
@@ -50,5 +59,5 @@ def told_as_json(wanted: bool) -> Iterator[None]:
         yield
     finally:
         _document = None
-        if told.files or told.notes:
-            print_json({"files": told.files, "notes": told.notes})
+        if told.files or told.notes or told.texts:
+            print_json({"files": told.files, "notes": told.notes, **told.texts})

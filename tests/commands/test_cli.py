@@ -289,6 +289,9 @@ def test_files_that_are_written_are_told_as_json(line: str, files: dict[str, str
     told = json.loads(done.stdout)
     assert done.exit_code == 0 and told["files"] == files and all(Path(name).exists() for name in files.values())
     assert all(isinstance(note, str) for note in told["notes"])
+    if line.startswith("equations"):
+        shown = json.loads(call("equations", pump, "-o", "-", "-s", "worn", "--json").stdout)
+        assert shown == {"files": {}, "notes": [], "equations": Path("x.txt").read_text().removesuffix("\n")}
     more = ["--like", "x"] if line.startswith("new") else []
     wrong = call(*line.replace("PUMP", "nowhere.yaml").split(), "--json", *more)
     assert wrong.exit_code == 2 and not wrong.stdout and wrong.stderr.startswith("error: ")

@@ -72,7 +72,7 @@ def test_every_damping_factor_obeys_the_identity(name: str) -> None:
     assert identity(float(FACTORS[name](0.7)), run["ball.vy"][-1] / SPEED) == pytest.approx(0.0, abs=1e-7)
 
 
-# Of each damping factor, by hand: its value at c_e = 1/2, and how much it falls per c_e at 1, where the identity asks 3/2
+# Of each damping factor, by hand: its value at c_e = 1/2, and its fall per c_e at 1, where the identity asks for 3/2
 BY_HAND = {
     "none": (0.0, 0.0), "hunt_crossley": (3 / 4, 3 / 2), "herbert_mcwhannell": (1.0, 3 / 2), "lee_wang": (3 / 8, 3 / 4),
     "lankarani_nikravesh": (9 / 16, 3 / 2), "gonthier": (3 / 2, 2.0), "zhiying_qishao": (9 / 16 * math.e, 3 / 2),
