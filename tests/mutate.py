@@ -75,7 +75,7 @@ GROUPS = {
         ("runtime/assembly/closure.py", "runtime/assembly/followed.py", "runtime/assembly/mobility.py",
          "runtime/assembly/journals.py", "runtime/assembly/redundant_rows.py"),
         (*_tests("assembly", "start", "journals", "assemblies", "far_starts", "large"),
-         *_tests("simulation", "many_starts", "massless", "restart")),
+         *_tests("simulation", "many_starts", "massless", "restart"), *_tests("integrators", "guide")),
     ),
     "results": (
         ("runtime/results/series.py", "runtime/results/peaks.py", "runtime/results/wear.py",
@@ -93,14 +93,18 @@ MEANS_NOTHING = {
     "generator/equations/geometry.py:35: '0' -> '1': if twin is not None and s[0].could_extract_minus_sign():  # a "
     "bar's tail is its head turned over":
         "which of two opposite arms has symbols, the other being their negatives",
-    "generator/equations/geometry.py:188: '+' -> '-': number = 1 if point else 1 + sum(1 for _ in before)":
+    "generator/equations/geometry.py:40: '+' -> '-': number = 1 if point else 1 + sum(1 for _ in before)":
         "how documents number the arms of a body",
     "generator/solvers/kkt.py:32: '0' -> '1': share = max(shares[0], EARLY) if early else shares[0]":
         "EARLY is more than either share",
     "generator/solvers/kkt.py:93: 'and' -> 'or': if row.owner == other.owner and r not in pairs and pattern[r] == "
     "pattern[r + 1] and len(pattern[r]) > 2:":
         "which rows are eliminated two by two: an order, what it costs",
-    "generator/reduction/shared_points.py:73: '1' -> '2': crossing[other.name] = 1 if one in side else -1":
+    "generator/reduction/geometry.py:16: 'not' -> '': if not self.is_short(rates[i]):":
+        "what is short gets a name of its own, and the same value",
+    "runtime/assembly/closure.py:66: '4' -> '5': for _ in range(TRIES if len(guess) <= MANY else TRIES // 4):":
+        "how many starts are tried",
+    "generator/reduction/shared_points.py:63: '1' -> '2': crossing[other.name] = 1 if one in side else -1":
         "of a share only the sign is printed",
     "generator/reduction/tree.py:12: '24' -> '25': SEARCHED = 24  # more coordinates than that: the tree is not "
     "improved by exchanges":

@@ -28,6 +28,7 @@ def expect_closed_form(run: Result, tolerance: float = 1e-9) -> None:
     """lifter: x = 30 mm sin(w t); rising at sin = 25/30 with ẋ > 0, turn at ẋ = 0."""
     rising, turn = run.at_events("rising"), run.at_events("turn")
     assert (len(rising), len(turn)) == (3, 4)
+    assert repr(rising).startswith("3 states at 'rising': t = ") and repr(rising).endswith(" s")
     np.testing.assert_array_equal(rising.t, run.events_of("rising"))
     np.testing.assert_allclose(rising["follower.x"], TOP, rtol=0, atol=tolerance * STROKE)
     np.testing.assert_allclose(rising["lift"], 2 * TOP, rtol=0, atol=2 * tolerance * STROKE)
@@ -68,7 +69,7 @@ def test_the_state_at_the_event_that_ends_a_run_is_its_last_sample(tmp_path: Pat
     file.write_text(PUMP + "events: {reached: {zero: piston.x - 0.13, action: stop}}\n")
     run = gudgeon.load(file, "worn").simulate(0.1)
     at = run.at_events("reached")
-    assert len(at) == 1
+    assert len(at) == 1 and repr(at) == f"1 state at 'reached': t = {run.t[-1]:.6g} s"
     for name in run.names:
         np.testing.assert_allclose(at[name][0], run[name][-1], rtol=1e-9, atol=1e-9, err_msg=name)
 
