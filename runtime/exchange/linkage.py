@@ -61,6 +61,7 @@ class Linkage:
     lines: list[Line] = field(default_factory=list)
     drives: list[Drive] = field(default_factory=list)
     gravity: Point | None = None
+    measured: bool = False  # the file says the unit
     notes: list[str] = field(default_factory=list)
 
     def holding(self, *points: str) -> Body | None:

@@ -103,7 +103,7 @@ class _Writer:
         notes = list(dict.fromkeys(linkage.notes))
         if any(body.mass is None for body in linkage.bodies):
             notes.append(f"masses are not in it: bars of {LINE_MASS:g} kg/m stand for them")
-        if self.unit == "m" and linkage.gravity is None:
+        if not linkage.measured:
             notes.append("it has no units: lengths are taken for metres")
         told = "".join(f"# {note[0].upper()}{note[1:]}.\n" for note in notes)
         out = [HEAD.format(title=_comment(linkage.name), notes=told, name=_Names().of(linkage.name))]

@@ -16,28 +16,31 @@ ADDRESS = re.compile(r"https?://\S*pmks\S*?\?([\w.,~%-]+)")
 DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"
 PRISMATIC, INPUT, GROUNDED = 1, 2, 4  # of a joint's flags
 CLOCKWISE, GRAVITY = 1, 2  # of those in front
-LENGTHS = ("0.0254 m", "cm", "m")  # of the first digit of the units: inches, cm, m
+LENGTHS = ((0.0254, "m"), (1.0, "cm"), (1.0, "m"))  # of the first digit of the units: inches, cm, m
 PISTON = "P"
 
 
-def of_pmks(address: str) -> Linkage:
-    """A linkage from what stands behind the question mark. Raises InputError for what PMKS+ does not write."""
+def of_pmks(address: str, name: str = "pmks") -> Linkage:
+    """A linkage from what stands behind the question mark. Raises InputError for what PMKS+ does not write.
+
+    Inches, which are no unit of gudgeon's, become metres.
+    """
     head, _, rest = address.partition("..")
     parts = head.split(".")
     if len(parts) < 5:
         raise InputError("the address has too few parts", hint="take the whole link that Share gives")
     flags, _, whole, units, *joints = parts
-    linkage = Linkage("pmks", LENGTHS[min(_digit(units[:1] or "1"), len(LENGTHS) - 1)])
+    scale, unit = LENGTHS[min(_digit(units[:1] or "1"), len(LENGTHS) - 1)]
+    linkage = Linkage(name, unit, measured=True)
     inputs, sliders = set[str](), dict[str, float]()
     for joint in joints:
-        _joint(linkage, joint, inputs, sliders)
-    _scaled(linkage)
+        _joint(linkage, joint, inputs, sliders, scale)
     rpm = float(_integer(whole.split(",")[0]))
     settings = _packed(flags)
     rate = rpm * math.pi / 30.0 * (-1.0 if settings & CLOCKWISE else 1.0)
     links, _, forces = rest.partition("..")
     for link in filter(None, links.split(".")):
-        _link(linkage, link, inputs, sliders, rate)
+        _link(linkage, link, inputs, sliders, rate, scale)
     linkage.notes.append("its masses are taken for kg, moments of inertia for kg m^2")
     if settings & GRAVITY:
         linkage.gravity = 0.0, -9.81
@@ -70,13 +73,13 @@ def _decimal(text: str) -> float:
     return _integer(text) / 1000.0
 
 
-def _joint(linkage: Linkage, text: str, inputs: set[str], sliders: dict[str, float]) -> None:
+def _joint(linkage: Linkage, text: str, inputs: set[str], sliders: dict[str, float], scale: float) -> None:
     """Flags and id, name, x, y, angle (rad) of a slider's way."""
     cells = text.split(",")
     if len(cells) < 5 or len(cells[0]) < 2:
         raise InputError(f"{text!r} is no joint of PMKS+")
     flags, name = _digit(cells[0][0]), cells[0][1:]
-    linkage.positions[name] = _decimal(cells[2]), _decimal(cells[3])
+    linkage.positions[name] = scale * _decimal(cells[2]), scale * _decimal(cells[3])
     if flags & PRISMATIC:
         sliders[name] = _decimal(cells[4])
     if flags & GROUNDED:
@@ -85,16 +88,9 @@ def _joint(linkage: Linkage, text: str, inputs: set[str], sliders: dict[str, flo
         inputs.add(name)
 
 
-def _scaled(linkage: Linkage) -> None:
-    """Inches have no unit of gudgeon's: they become metres."""
-    number, _, unit = linkage.unit.partition(" ")
-    if unit:
-        for points in (linkage.positions, linkage.ground):
-            points |= {name: (float(number) * x, float(number) * y) for name, (x, y) in points.items()}
-        linkage.unit = unit
-
-
-def _link(linkage: Linkage, text: str, inputs: set[str], sliders: dict[str, float], rate: float) -> None:
+def _link(
+    linkage: Linkage, text: str, inputs: set[str], sliders: dict[str, float], rate: float, scale: float
+) -> None:  # fmt: skip
     """Whether it is a link of its own, its kind, id, name, mass, moment of inertia, centre of mass, colour, joints."""
     cells = text.split(",")
     if len(cells) < 9 or len(cells[0]) < 3:
@@ -111,7 +107,7 @@ def _link(linkage: Linkage, text: str, inputs: set[str], sliders: dict[str, floa
         _piston(linkage, joints, sliders, name, inputs)
         return
     joints.sort(key=lambda joint: joint not in inputs)
-    com = _decimal(cells[4]), _decimal(cells[5])
+    com = scale * _decimal(cells[4]), scale * _decimal(cells[5])
     body = Body(name, {joint: linkage.positions[joint] for joint in joints}, mass, inertia, com)
     linkage.bodies.append(body)
     if joints[0] in inputs and joints[0] in linkage.ground:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from pathlib import Path
 
 from gudgeon.contract.limits import MAX_BYTES
 from gudgeon.errors import InputError
@@ -25,7 +26,7 @@ def read_linkage(file: str | os.PathLike[str]) -> Linkage:
         raise InputError(f"{file} is no text", hint=f"expected {KNOWN}") from error
     try:
         if found := ADDRESS.search(text):
-            return of_pmks(found[1])
+            return of_pmks(found[1], Path(file).stem)
         return of_pylinkage(_json(text))
     except InputError as error:
         raise InputError(f"{os.fspath(file)}: {error.message}", hint=error.hint) from error

@@ -83,6 +83,20 @@ def test_a_shared_link_of_pmks(tmp_path: Path) -> None:
     assert [100.0 * run["BCD.x"][0], 100.0 * run["BCD.y"][0]] == pytest.approx(centroid, abs=3e-3)
 
 
+@needs_compiler
+def test_inches_are_centimetres_of_other_size(tmp_path: Path) -> None:
+    """All that is a length grows alike: points, lengths, centres of mass."""
+    file, sizes = tmp_path / "six_bar.txt", []
+    for units, unit in (("0", 0.0254), ("1", 0.01), ("2", 1.0)):
+        file.write_text(SIX_BAR.replace(".K,0.1", f".K,0.{units}"), encoding="utf-8")
+        text = mechanism_of(file)
+        assert "no units" not in text and "name: six_bar" in text
+        run = as_mechanism(text, tmp_path).simulate(0.01, output=2)
+        sizes.append(np.array([run[f"{body}.{axis}"][0] / unit for body in ("AB", "BCD", "FCG") for axis in "xy"]))
+    np.testing.assert_allclose(sizes[0], sizes[1], rtol=1e-9)
+    np.testing.assert_allclose(sizes[2], sizes[1], rtol=1e-9)
+
+
 def test_numbers_of_pmks() -> None:
     """To the base 64, a 0 in front for a negative one, thousandths."""
     joints = "4A,A,0wS,10,0.0B,B,_-,0,0.4C,C,0Fe,Fe,0"
