@@ -20,7 +20,8 @@ FMI3_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const
         exchange_places(m);
     for (size_t k = 0; k < n_unknowns; k++)
         rates |= unknowns[k] >= VR_RATES && unknowns[k] < VR_RATES + N_Y;
-    if (rates && gudgeon_jacobian(m->t, m->x, m->latched, m->p, J, f_t))
+    const double *p = TREE ? m->motion : m->p; /* rates in coordinates of a tree have no terms of Baumgarte's */
+    if (rates && gudgeon_jacobian(m->t, m->x, m->latched, p, J, f_t))
         return fails(m, "a constraint row depends on others", 0);
     for (size_t k = 0; k < n_unknowns; k++) {
         const fmi3ValueReference r = unknowns[k];
