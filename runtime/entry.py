@@ -24,6 +24,7 @@ def main() -> None:
     """The entry point of the command `gudgeon`."""
     _streams()
     is_the_program()
+    os.environ["MPLBACKEND"] = "agg"  # nothing is shown in a window, whatever is set
     ended: list[int] = []
 
     def terminate(number: int, _: object) -> None:

@@ -7,6 +7,7 @@ user wrote: `1e-4`, `on` and `012` mean what our expressions say, not what YAML 
 
 from __future__ import annotations
 
+import re
 from typing import Any, TypeAlias
 
 from ruamel.yaml import YAML
@@ -29,6 +30,9 @@ from gudgeon.generator.yaml.commas import Events
 MERGED = "write the keys out; a contact, or a scene, takes those of another one by extends: NAME"
 MAX_DEPTH = 24
 MAX_NODES = 20_000  # aliases counted as what they stand for
+MAX_TAG = 10_000  # characters: the time that ruamel takes for one grows with their square
+MOST_TWICE = 50  # keys given twice that are told
+_TAG = re.compile(rf"!\S{{{MAX_TAG}}}")
 # what ruamel raises on hostile text besides its own errors: "%YAML 1.13" fails an assertion
 _OF_RUAMEL = (ValueError, RecursionError, LookupError, AttributeError, TypeError, AssertionError, ArithmeticError)
 
@@ -105,17 +109,23 @@ def parse_yaml(
     if len(data) > MAX_BYTES:
         raise LimitError(f"a file of {len(data)} bytes", Location(file, 1, 1), f"expected at most {MAX_BYTES}")
     text = _decode(data, file)
+    if long := _TAG.search(text):
+        before = text[: long.start()]
+        where = Location(file, before.count("\n") + 1, len(before.rpartition("\n")[2]) + 1)
+        raise LimitError(f"a tag of more than {MAX_TAG} characters", where, "expected plain text, lists and mappings")
     composer = _Composer(text, file)
     try:
         root = composer.document()
     except YAMLError as error:
         raise _translate(error, text, file) from None
-    except _OF_RUAMEL as error:
-        raise NotYamlError(f"not YAML: {error}", Location(file, 1, 1)) from None
+    except _OF_RUAMEL:
+        hint = "look at what stands behind % and behind backslashes in double quotes"
+        raise NotYamlError("not YAML: a directive or an escape cannot be read", Location(file, 1, 1), hint) from None
     if twice is not None:
-        twice += composer.duplicates
+        twice += composer.duplicates[:MOST_TWICE]
     elif composer.duplicates:
-        raise composer.duplicates[0] if len(composer.duplicates) == 1 else InputErrors(composer.duplicates)
+        told = composer.duplicates[:MOST_TWICE]
+        raise told[0] if len(told) == 1 else InputErrors(told)
     hint = f"expected a mapping that begins with format: {begins}"
     if root is None or isinstance(root, Text) and root.is_nothing:
         raise NotYamlError("the file is empty", Location(file, 1, 1), hint)
@@ -163,7 +173,7 @@ def _translate(error: YAMLError, text: str, file: str) -> NotYamlError:
         begin = Location(file, error.context_mark.line + 1, error.context_mark.column + 1)
         context = f" ({error.context} that begins at {begin})"
     return NotYamlError(
-        f"not YAML: {problem}{context}", where, "a text that holds ': ', ' #' or begins with @ % ` needs quotes"
+        f"not YAML: {problem}{context}"[:500], where, "a text that holds ': ', ' #' or begins with @ % ` needs quotes"
     )
 
 
@@ -230,7 +240,7 @@ class _Composer:
     def alias(self, event: Any) -> Node:
         if event.anchor not in self.anchors:
             hint = "expected its anchor before it, and not around it"
-            raise NotYamlError(f"the alias *{event.anchor} has no anchor", self.place(event), hint)
+            raise NotYamlError(f"the alias *{event.anchor[:60]} has no anchor", self.place(event), hint)
         node = self.anchors[event.anchor]
         self.count(self.sizes[id(node)], event)
         return node

@@ -7,6 +7,7 @@ or the same bytes, moved, is the same mechanism; a result that notes nothing may
 from __future__ import annotations
 
 import mmap
+import os
 import re
 from hashlib import sha256
 from pathlib import Path
@@ -20,7 +21,7 @@ _NOTED = re.compile(rb"gudgeon-origin ([0-9a-f]{16}) ([0-9a-f]{16})")  # found w
 
 def origin_of(mechanism: str, digest: str) -> str:
     """Of a mechanism as it was named on the command line, and the digest of its bytes."""
-    place = sha256(str(find_mechanism(mechanism).resolve()).encode()).hexdigest()
+    place = sha256(os.fsencode(find_mechanism(mechanism).resolve())).hexdigest()
     return f"gudgeon-origin {place[:16]} {digest[:16]}"
 
 

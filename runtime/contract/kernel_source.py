@@ -83,7 +83,8 @@ class RowInfo:
 
 @dataclass(frozen=True)
 class JointInfo:
-    """A joint that is kept as a constraint; the reaction on the second body is at `point`."""
+    """A joint that is kept as a constraint; the reaction on the second body is at `point`, of a point on a line at the
+    first body's."""
 
     name: str
     kind: str

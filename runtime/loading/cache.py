@@ -81,7 +81,7 @@ class Cache:
 
     def holds(self, kind: str, key: str) -> bool:
         """Whether there is such an entry, whole or not: one look."""
-        return (self.root / kind / key).exists()
+        return os.path.exists(self.root / kind / key)  # False too where the system has no such long name
 
     def _check(self, *folders: str) -> None:
         """Untrusted if what is in the cache or these folders of it may be another user's; they need not be there.

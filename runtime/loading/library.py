@@ -96,7 +96,7 @@ def opened(file: Path, cdef: str = "") -> Library:
     ffi = _engines() if cdef in ("", lane_declarations()) else _parsed(cdef)
     try:
         return Library(file, ffi, Functions(ffi.dlopen(str(file))))
-    except OSError as error:
+    except (OSError, UnicodeEncodeError) as error:  # cffi takes a path as UTF-8
         raise ImportError(str(error)) from error
 
 

@@ -167,7 +167,8 @@ def _points(source: KernelSource) -> Iterator[tuple[str, Series]]:
 
 def _joints(source: KernelSource) -> Iterator[tuple[str, Series]]:
     for k, joint in enumerate(source.joints):
-        on = f"joint {joint.name}, on {_body_name(source, joint.second)} at its point, ground axes"
+        at = "its point" if joint.kind != "point_on_line" else f"the pin of {_body_name(source, joint.first)}"
+        on = f"joint {joint.name}, on {_body_name(source, joint.second)} at {at}, ground axes"
         yield from _reactions(joint.name, k, "reaction", on)
 
 

@@ -113,6 +113,15 @@ def test_check_begins_a_new_table_where_a_line_is_full(
     assert sum(heads, []) == ["ideal", *scenes, "worn"] and len(heads) > 1
 
 
+@pytest.mark.parametrize("contour", ["16", f"[{', '.join(['0 mm'] * 15)}, 0.01 mm]"])
+def test_check_and_draw_take_a_bearing_with_a_contour(contour: str, call: Gudgeon, pump: str) -> None:
+    text = Path(pump).read_text().replace("contact: dry}}", f"contact: dry, contour: {contour}}}}}")
+    Path("worn.yaml").write_text(text)
+    for line in ("check worn.yaml", "draw worn.yaml -s worn -o x.svg"):
+        done = call(*line.split())
+        assert (done.exit_code, done.stderr) == (0, ""), line
+
+
 def test_check_tells_the_place_of_every_mistake(call: Gudgeon, pump: str) -> None:
     broken = TEXT.replace("mass: 0.25 kg", "mass: -0.25 kg").replace("omega * t", "omegaa * t")
     Path(pump).write_text(broken)

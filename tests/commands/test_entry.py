@@ -107,6 +107,21 @@ def test_a_standard_output_without_room(tmp_path: Path) -> None:
         assert done.stderr == "error: cannot write standard output: No space left on device\n"
 
 
+WITHOUT = """\
+import sys
+sys.modules["matplotlib"] = None
+sys.argv = ["gudgeon", "draw", "four_bar", "-o", "x.svg"]
+from gudgeon.entry import main
+main()
+"""
+
+
+def test_a_package_that_is_not_installed_is_told_with_what_brings_it(tmp_path: Path) -> None:
+    done = subprocess.run([sys.executable, "-c", WITHOUT], cwd=tmp_path, capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == "error: this needs matplotlib: pip install 'gudgeon[plot]'\n"
+
+
 def test_a_reader_that_has_enough(tmp_path: Path) -> None:
     done = gudgeon_process("{ gudgeon schema; echo $? >&2; } | head -n 1", tmp_path)
     assert done.stdout == "{\n" and done.stderr in ("0\n", "1\n")

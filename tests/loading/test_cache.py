@@ -173,6 +173,13 @@ def test_a_folder_that_cannot_be_made_falls_back_with_a_warning(tmp_path: Path) 
     assert entry.is_relative_to(private_cache().root)
 
 
+def test_a_name_that_the_system_has_not_falls_back(tmp_path: Path) -> None:
+    cache = Cache(tmp_path / ("a" * 300))
+    assert not cache.holds("kind", "key") and not cache.has("kind", "key")
+    with pytest.warns(RuntimeWarning, match="GUDGEON_CACHE"):
+        assert is_whole(cache.fetch("kind", "key", Writer()))
+
+
 def test_a_limit_on_the_size_of_files_is_told_with_what_set_it(folder: Cache) -> None:
     def make(work: Path) -> None:
         raise OSError(errno.EFBIG, os.strerror(errno.EFBIG))

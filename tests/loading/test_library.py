@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import os
 import re
 from pathlib import Path
 
@@ -42,6 +43,17 @@ def test_a_library_has_what_is_declared_and_misses_the_rest(scene: str) -> None:
     assert wanted < every and {name for name in every if hasattr(lib, name)} == wanted
     with pytest.raises(AttributeError, match="gudgeon_chains"):
         lib.gudgeon_chains  # noqa: B018
+
+
+@needs_compiler
+def test_a_path_that_is_no_utf8_cannot_be_opened(tmp_path: Path) -> None:
+    """Told as what cannot be mapped is: the library is opened from another folder then."""
+    compiled = gudgeon.load("pendulum").compiled
+    file = next(each.file for each in _libraries() if each.lib is compiled.lib)
+    there = tmp_path / os.fsdecode(b"x\xff.so")
+    there.write_bytes(file.read_bytes())
+    with pytest.raises(ImportError):
+        library.opened(there)
 
 
 @needs_compiler

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from gudgeon.errors import InputError, LimitError, Location, NotYamlError
 from gudgeon.generator.reader.read import read_mechanism
-from gudgeon.generator.yaml.tree import MAX_BYTES, MAX_NODES, Map, Text, parse_yaml
+from gudgeon.generator.yaml.tree import MAX_BYTES, MAX_NODES, MAX_TAG, MOST_TWICE, Map, Text, parse_yaml
 
 
 def test_places_count_characters() -> None:
@@ -84,6 +84,29 @@ def test_alias_bomb_is_counted_not_expanded() -> None:
 def test_directives(text: str) -> None:
     with pytest.raises(NotYamlError):
         parse_yaml(text.encode(), "f")
+
+
+@pytest.mark.parametrize("text", ["%YAML 1." + "1" * 5000 + "\n---\na: 1", 'a: "\\U00110000"', 'a: "\\Uffffffff"'])
+def test_what_the_library_cannot_convert_is_told_in_our_words(text: str) -> None:
+    with pytest.raises(NotYamlError, match="a directive or an escape cannot be read") as told:
+        parse_yaml(text.encode(), "f")
+    assert len(str(told.value)) < 300
+
+
+@pytest.mark.parametrize("text", ["a: 1\nb: !" + "a" * 900_000 + " x", "a: 1\nb: !<" + "a" * 900_000 + "> x"])
+def test_a_long_tag_is_refused_before_it_is_read(text: str) -> None:
+    """The library's time for one grows with the square of its length: a minute for these."""
+    with pytest.raises(LimitError, match=f"a tag of more than {MAX_TAG} characters") as told:
+        parse_yaml(text.encode(), "f")
+    assert told.value.where == Location("f", 2, 4)
+
+
+def test_what_is_told_is_short() -> None:
+    with pytest.raises(NotYamlError, match="has no anchor") as alias:
+        parse_yaml(b"a: *" + b"a" * 900_000, "f")
+    twice: list[InputError] = []
+    parse_yaml(b"{" + b"a: 1, " * 3000 + b"b: 1}", "f", twice)
+    assert len(str(alias.value)) < 300 and len(twice) == MOST_TWICE
 
 
 def test_too_many_bytes() -> None:

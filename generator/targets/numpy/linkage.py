@@ -28,13 +28,16 @@ class NumPyLinkage:
         entries = [entry.symbol for entry in slots.entries.values()]  # the source's, then those that came behind it
         symbols = [*entries[:count], *list(slots.derived)[: len(source.derived)], *entries[count:]]
         self.names = [slots.field(symbol) for symbol in symbols]
-        self.p = np.array([getattr(self.defaults, name, np.nan) for name in self.names])
+        self.p = np.array([_number(self.defaults, name) for name in self.names])
 
     def numbers(self, p: Array) -> SimpleNamespace:
         """p by names; what only the functions' text derived keeps its default."""
         if p is self.p:
             return self.defaults
-        return SimpleNamespace(**vars(self.defaults) | dict(zip(self.names, np.asarray(p).tolist(), strict=True)))
+        values = dict(zip(self.names, np.asarray(p).tolist(), strict=True))
+        tables = self.closed.model.slots.tables
+        lists = {name: [values[f"{name}[{k}]"] for k in range(len(own))] for name, own in tables.items()}
+        return SimpleNamespace(**vars(self.defaults) | values | lists)
 
     def closed_phi(self, t: float, q: Array, p: Array) -> Array:
         """Φ(q, t), (m,)."""
@@ -55,3 +58,10 @@ class NumPyLinkage:
     def start_values(self, p: Array) -> tuple[Array, Array, Array]:
         """Guesses, exact values, rates of the file's start; behind the last two those of journals."""
         return self.closed.start_values(self.numbers(p))
+
+
+def _number(of: SimpleNamespace, name: str) -> float:
+    """One that has a name of its own, or an entry of a table, "contour_A[3]"; NaN where there is none."""
+    table, _, place = name.partition("[")
+    found = getattr(of, table, np.nan)
+    return float(found[int(place[:-1])] if place else found)
