@@ -23,6 +23,7 @@ autodoc_typehints = "signature"
 autodoc_typehints_format = "short"
 python_maximum_signature_line_length = 100
 autodoc_preserve_defaults = True
+autodoc_type_aliases = {"ArrayLike": "ArrayLike"}
 nitpicky = False
 
 
@@ -34,11 +35,17 @@ def as_text(app, what, name, obj, options, lines):  # type: ignore[no-untyped-de
 
     A line that begins with an argument's name and a colon is a paragraph of its own, and so is a list.
     """
-    plain = [re.sub(r"([*|\\_])", r"\\\1", line).replace("`", "``") for line in lines]
+    plain = [_plain(line) for line in lines]
     lines[:], listed = [], False
     for line in plain:
         was, listed = listed, line.startswith("- ") or (listed and line.startswith("  "))
         lines += ["", line] if listed != was or ARGUMENT.match(line) else [line]
+
+
+def _plain(line: str) -> str:
+    """What stands between backticks stays, of the rest what looks like markup stands for itself."""
+    parts = line.split("`")
+    return "``".join(part if k % 2 else re.sub(r"([*|\\_])", r"\\\1", part) for k, part in enumerate(parts))
 
 
 def beyond(app, docname, source):  # type: ignore[no-untyped-def]
@@ -46,13 +53,25 @@ def beyond(app, docname, source):  # type: ignore[no-untyped-def]
     source[0] = re.sub(r"(?<!!)\[([^\]]+)\]\(\.\./[^)]*\)", r"\1", source[0])
 
 
-def of_benchmarks(app, docname, source):  # type: ignore[no-untyped-def]
-    """The page of benchmarks is that of their folder, its links from here."""
-    if docname == "benchmarks":
-        text = (Path(__file__).parents[1] / "benchmarks/README.md").read_text("utf-8").partition("\n")[2]
-        text = text.replace("](figures/", "](../benchmarks/figures/").replace("](../docs/", "](")
-        text = re.sub(r"(?<!!)\[([^\]]+)\]\([\w-]+/[^)]*\)", r"\1", text)  # what is no page of the site
-        source[0] = source[0].partition("\n")[0] + "\n" + text
+# Pages whose text is another file's of the sources
+TAKEN = {"benchmarks": "benchmarks/README.md", "clearance": "benchmarks/clearance/README.md"}
+
+
+def taken(app, docname, source):  # type: ignore[no-untyped-def]
+    """The page of benchmarks, and that of machines with play, are those of their folders, their links from here."""
+    if docname not in TAKEN:
+        return
+    text = (Path(__file__).parents[1] / TAKEN[docname]).read_text("utf-8").partition("\n")[2]
+    text = text.replace("](figures/", "](../benchmarks/figures/").replace("](clearance/README.md)", "](clearance.md)")
+    text = re.sub(r"\]\((\.\./)+docs/", "](", text)
+    own = {f"{path.stem}.md" for path in Path(__file__).parent.glob("*.md")}
+
+    def shown(link: re.Match[str]) -> str:  # what is no page of the site is its name
+        target = link[2].partition("#")[0]
+        return link[0] if target in own or "://" in target else link[1]
+
+    text = re.sub(r"(?<!!)\[([^\]]+)\]\(([^)]*)\)", shown, text)
+    source[0] = source[0].partition("\n")[0] + "\n" + text
 
 
 WRITES = re.compile(r"^```sh\ngudgeon (equations .* -o (\w+\.html))\n```$", re.MULTILINE)
@@ -81,6 +100,6 @@ def setup(app):  # type: ignore[no-untyped-def]
     """What is done at which moment."""
     app.connect("config-inited", running)  # before Sphinx looks whether the folder is there
     app.connect("source-read", linked)
-    app.connect("source-read", of_benchmarks)
+    app.connect("source-read", taken)
     app.connect("autodoc-process-docstring", as_text)
     app.connect("source-read", beyond)
