@@ -8,7 +8,7 @@ MYPY := .venv/bin/mypy -p gudgeon && .venv/bin/mypy tests
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help run study study-jansen checks test test-all lint types fuzz docs sanitize packages mutate bench race map stress peers generated deviations tables setup setup-test clean
+.PHONY: help run study study-jansen checks test test-all lint types fuzz docs sanitize packages mutate coverage bench race map stress peers generated deviations tables setup setup-test clean
 .NOTPARALLEL:
 
 help:  ## this list
@@ -70,6 +70,10 @@ packages: setup-test  ## the wheel and the sdist, installed and run outside this
 
 mutate: setup-test  ## mutants of equations, laws, reduction and methods: do their tests notice? ARGS="--count 40"
 	@.venv/bin/python -m tests.mutate $(ARGS)
+
+coverage:  ## which lines the default tests run, those of the processes that they begin too. A half longer than make test
+	@sh tools/setup all,test,cover
+	@.venv/$(PYTEST) --cov --cov-report=term:skip-covered $(ARGS)
 
 bench: setup  ## run time against error; one right-hand side beside the hand-written C
 	@$(GUDGEON) bench nine_bar_press --mark-step 0.1ms $(ARGS)
