@@ -72,7 +72,7 @@ def test_the_pinned_versions_are_those_in_use() -> None:
 
 
 # Extras that are asked for by name alone: not on every platform, large, or for few.
-BY_NAME = {"bench", "web", "cc", "dask", "site"}
+BY_NAME = {"cover", "bench", "web", "cc", "dask", "site"}
 
 
 def test_all_holds_every_extra_of_a_user() -> None:
@@ -128,7 +128,7 @@ def test_what_is_asked_for_is_what_is_imported() -> None:
     project = PROJECT["project"]
     used = {PACKAGES.get(name, name) for name in imported("runtime") | imported("generator")}
     extras = project["optional-dependencies"]
-    optional = set().union(*(asked(extras[name]) for name in set(extras) - {"all", "test", "bench", "site"}))
+    optional = set().union(*(asked(extras[name]) for name in set(extras) - {"all", "test", "bench", "site", "cover"}))
     assert asked(project["dependencies"]) - used == set()
     assert optional - used == BESIDE
     assert used - asked(project["dependencies"]) - optional == {"scikit-sundae", "_cffi_backend"}  # a peer; cffi's own

@@ -167,9 +167,8 @@ def _points(source: KernelSource) -> Iterator[tuple[str, Series]]:
 
 def _joints(source: KernelSource) -> Iterator[tuple[str, Series]]:
     for k, joint in enumerate(source.joints):
-        at = "its point" if joint.kind != "point_on_line" else f"the pin of {_body_name(source, joint.first)}"
-        on = f"joint {joint.name}, on {_body_name(source, joint.second)} at {at}, ground axes"
-        yield from _reactions(joint.name, k, "reaction", on)
+        on = f"{_body_name(source, joint.second)} at {'the pin' if joint.kind == 'point_on_line' else 'its point'}"
+        yield from _reactions(joint.name, k, "reaction", f"joint {joint.name}, on {on}, ground axes")
 
 
 def _guides(source: KernelSource) -> Iterator[tuple[str, Series]]:
