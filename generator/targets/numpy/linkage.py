@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 
@@ -63,5 +64,5 @@ class NumPyLinkage:
 def _number(of: SimpleNamespace, name: str) -> float:
     """One that has a name of its own, or an entry of a table, "contour_A[3]"; NaN where there is none."""
     table, _, place = name.partition("[")
-    found = getattr(of, table, np.nan)
-    return float(found[int(place[:-1])] if place else found)
+    found: Any = getattr(of, table, np.nan)
+    return float(found[int(place[:-1])]) if place else float(found)
