@@ -92,7 +92,7 @@ static void enter(Side *side, int k)
     const Batch *b = side->b;
     const long i = side->number[k];
     if (b->phase[i] == NEW) {
-        b->status[i] = side->one->begin(b, i, side->run[k]);
+        b->status[i] = side->one->begin(b, i, side->number, LANES, side->run[k]);
         b->phase[i] = b->status[i] ? OVER : BEGUN;
         const int status = b->status[i] ? 0 : side->one->steps(b, i, 0, side->run[k]);
         if (status)
