@@ -196,8 +196,8 @@ typedef struct {
 } LaneRun;
 
 /*
- * As Step; lanes in which it is accepted, in which the single runs are to try it, whose stages were not found, that have
- * no interpolant where others do.
+ * As Step; lanes in which it is accepted, in which the single runs are to try it, whose stages were not found, that
+ * have no interpolant where others do.
  */
 typedef struct {
     Lanes t, h, error, y[N_Y], dy[N_Y], k[N_STAGES][N_Y];

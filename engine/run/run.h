@@ -45,7 +45,7 @@ enum {
 #endif
     N_STAGES = 16, N_LOOKS = 16,
     BY_RODAS5P = 1, BY_RADAU5, BY_RADAU9, KINDS, /* which stiff method a step is made by; 0: none */
-    HERE = 1, ELSEWHERE = 2 /* where a step's equations are linearized, its series, its interpolant made: in the run, in a lane; 0: no */
+    HERE = 1, ELSEWHERE = 2 /* where equations are linearized, series, interpolant made: in the run, in a lane; 0: no */
 };
 
 #define LONG_RUN 1e4 /* s: an end further away than this says nothing about the shortest step that makes sense */

@@ -112,8 +112,8 @@ int same_start(const Parameters *p, const Parameters *other)
 {
     return same_number(p->bob_mass, other->bob_mass)
         && same_number(p->bob_inertia, other->bob_inertia)
-        && same_number(p->rod_half_inverse_length, other->rod_half_inverse_length)
         && same_number(p->rod_length, other->rod_length)
+        && same_number(p->rod_half_inverse_length, other->rod_half_inverse_length)
         && same_number(p->set_bob_x, other->set_bob_x)
         && same_number(p->set_bob_theta, other->set_bob_theta)
         && same_number(p->rates_bob_omega, other->rates_bob_omega);

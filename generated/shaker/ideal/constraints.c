@@ -298,11 +298,11 @@ int same_start(const Parameters *p, const Parameters *other)
         && same_number(p->table_inertia, other->table_inertia)
         && same_number(p->arm_mass, other->arm_mass)
         && same_number(p->arm_inertia, other->arm_inertia)
+        && same_number(p->omega, other->omega)
         && same_number(p->crank_head_s_x, other->crank_head_s_x)
         && same_number(p->rod_head_s_x, other->rod_head_s_x)
         && same_number(p->table_points_top_y, other->table_points_top_y)
         && same_number(p->arm_head_s_x, other->arm_head_s_x)
-        && same_number(p->omega, other->omega)
         && same_number(p->guess_rod_theta, other->guess_rod_theta)
         && same_number(p->set_arm_theta, other->set_arm_theta);
 }

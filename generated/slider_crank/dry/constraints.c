@@ -225,9 +225,9 @@ int same_start(const Parameters *p, const Parameters *other)
         && same_number(p->rod_inertia, other->rod_inertia)
         && same_number(p->slider_mass, other->slider_mass)
         && same_number(p->slider_inertia, other->slider_inertia)
+        && same_number(p->omega, other->omega)
         && same_number(p->crank_head_s_x, other->crank_head_s_x)
         && same_number(p->rod_head_s_x, other->rod_head_s_x)
-        && same_number(p->omega, other->omega)
         && same_number(p->guess_rod_theta, other->guess_rod_theta)
         && same_number(p->guess_slider_x, other->guess_slider_x);
 }

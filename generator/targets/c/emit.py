@@ -148,9 +148,8 @@ def _parameters(program: Program, prepare: Kernel) -> str:
 
 def _closed(program: Program) -> str:
     """Functions of the closed linkage; where runs are integrated, which starts are the same."""
-    texts = {kernel.name: functions.kernel(kernel) for kernel in program.closed}
-    told = same_start(texts[name] for name in texts if name not in NOT_AT_START) if program.integrates else ""
-    return "\n".join(texts.values()) + told
+    at_start = (kernel for kernel in program.closed if kernel.name not in NOT_AT_START)
+    return _kernels(*program.closed) + (same_start(at_start) if program.integrates else "")
 
 
 def _linearized(program: Program) -> str:
