@@ -41,7 +41,7 @@ typedef struct {
 
 /* What one run does by itself, for those who move several at once. */
 typedef struct {
-    int (*begin)(const Batch *b, long i, void *run);
+    int (*begin)(const Batch *b, long i, const long *others, int n, void *run); /* others: beside it, -1: none */
     int (*steps)(const Batch *b, long i, long limit, void *run);
     void (*samples)(const Batch *b, long i, const Moving *before, void *run); /* of a step that is made */
     void (*end)(const Batch *b, long i, int status, void *run);

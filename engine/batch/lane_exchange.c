@@ -133,16 +133,17 @@ static void scatter_aside(const LaneAside *x, int k, Aside *aside)
 }
 
 /* A step that lane k accepts, as its own run would have made it. */
-static void scatter_step(const Flow *flow, int k, int stages, Step *step)
+static void scatter_step(const Flow *flow, int k, Step *step)
 {
     const LaneStep *x = &flow->step;
     for (int j = 0; j < N_Y; j++) {
         step->y[j] = x->y[j][k];
         step->dy[j] = x->dy[j][k];
     }
-    for (int s = 0; s < stages; s++)
-        for (int j = 0; j < N_Y; j++)
-            step->k[s][j] = x->k[s][j][k];
+    step->stages_lane = (const double *)x->k + k;
+    step->dense_lane = (const double *)x->dense + k;
+    step->dense_ready = x->dense_ready && !x->no_dense[k] ? ELSEWHERE : 0;
+    step->lanes = LANES;
     step->n_seen = x->n_seen;
     for (int s = 0; s < x->n_seen; s++) {
         step->node[s] = x->node[s];
@@ -162,9 +163,9 @@ static void scatter_step(const Flow *flow, int k, int stages, Step *step)
     scatter_aside(&x->aside, k, &step->aside);
 }
 
-/* What the trial of lane k has cost, as its own run would have counted it; what it is to know of it. Stages. */
+/* What the trial of lane k has cost, as its own run would have counted it; what it is to know of it. */
 #if TAYLOR
-static int scatter_trial(const Flow *flow, int k, int stiff, Run *run)
+static void scatter_trial(const Flow *flow, int k, int stiff, Run *run)
 {
     (void)stiff;
     run->evaluations += !run->series_ready;
@@ -173,10 +174,9 @@ static int scatter_trial(const Flow *flow, int k, int stiff, Run *run)
     run->series_lanes = LANES;
     run->reach = flow->x.reach[k];
     run->attempt.h = flow->step.h[k];
-    return 0;
 }
 #else
-static int scatter_trial(const Flow *flow, int k, int stiff, Run *run)
+static void scatter_trial(const Flow *flow, int k, int stiff, Run *run)
 {
     const int stages = stiff == BY_RADAU9 ? 5 : stiff == BY_RADAU5 ? 3 : stiff ? RODAS5P_STAGES : DOP853_STAGES;
     (void)flow, (void)k;
@@ -191,7 +191,6 @@ static int scatter_trial(const Flow *flow, int k, int stiff, Run *run)
         run->jacobians++;
         run->linear_ready = ELSEWHERE;
     }
-    return stages;
 }
 #endif
 
@@ -204,10 +203,10 @@ static void scatter(const Flow *flow, int k, int stiff)
     step->h = flow->step.h[k];
     step->error = flow->step.error[k];
     step->dense_ready = 0;
-    const int stages = scatter_trial(flow, k, stiff, run);
+    scatter_trial(flow, k, stiff, run);
     if (!flow->step.taken[k])
         return;
     run->evaluations++;
     run->stability = flow->x.stability[k];
-    scatter_step(flow, k, stages, step);
+    scatter_step(flow, k, step);
 }

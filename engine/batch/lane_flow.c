@@ -108,7 +108,7 @@ static int enter(Flow *flow, int i)
     const Batch *b = flow->b;
     const long run = flow->number[i];
     if (b->phase[run] == NEW) {
-        b->status[run] = flow->one->begin(b, run, flow->run[i]);
+        b->status[run] = flow->one->begin(b, run, flow->number, ABREAST, flow->run[i]);
         b->phase[run] = b->status[run] ? OVER : BEGUN;
     }
     return leaves(flow, i, b->phase[run] == OVER ? RUN_OVER : flow->one->goes_on(b, run, NOT_YET, flow->run[i]));

@@ -92,7 +92,7 @@ static void enter(Side *side, int k)
     const Batch *b = side->b;
     const long i = side->number[k];
     if (b->phase[i] == NEW) {
-        b->status[i] = side->one->begin(b, i, side->run[k]);
+        b->status[i] = side->one->begin(b, i, side->number, LANES, side->run[k]);
         b->phase[i] = b->status[i] ? OVER : BEGUN;
         const int status = b->status[i] ? 0 : side->one->steps(b, i, 0, side->run[k]);
         if (status)
@@ -190,9 +190,10 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
     for (int k = 0; k < LANES; k++) {
         side.number[k] = number[k];
         entered += number[k] >= 0;
+    }
+    for (int k = 0; k < LANES; k++)
         if (number[k] >= 0)
             enter(&side, k);
-    }
     mirror(&side);
     while ((together = count_of(&side) > 1 && 2 * side.rare <= side.made + 64 * LANES) && left > 0) {
         const long i = side.number[first_of(&side)];

@@ -169,6 +169,41 @@ static int method_try(LaneRun *run, int stiff, Lanes h, const LaneParameters *p,
 }
 #endif
 
+#if !TAYLOR
+/* In how many lanes something may end the step that they accept, as far as stages and its end tell. */
+static int count_ends(const LaneRun *run, const LaneStep *step)
+{
+    Lanes margins[AT_LEAST_ONE(N_MARGINS)];
+    LaneBits some = {0};
+    int count = 0;
+    note_margins(run, &step->aside, margins);
+    for (int j = 0; j < N_MARGINS; j++) {
+        some |= margins[j] < 0.0;
+        for (int s = 0; s < step->n_seen; s++)
+            some |= step->seen[s][j] < 0.0;
+    }
+    some &= step->taken;
+    for (int k = 0; k < LANES; k++)
+        count -= (int)some[k];
+    return count;
+}
+
+/* The interpolant of the explicit method, where more than one lane will ask for it; whatever is odd stays its run's. */
+static void make_dense(LaneRun *run, const LaneParameters *p, LaneStep *step)
+{
+    const LaneBits rare = run->memory.rare;
+    if (!any_of(step->taken) || count_ends(run, step) < 2)
+        return;
+    run->memory.rare = (LaneBits){0};
+    dop853_dense(run, p, step);
+    step->no_dense = run->memory.rare;
+    for (int k = 0; k < N_DENSE; k++)
+        step->no_dense |= not_finite(step->dense[k], NULL, N_Y);
+    step->dense_ready = 1;
+    run->memory.rare = rare;
+}
+#endif
+
 /* A step of length h of all lanes; where it is neither accepted nor lost its error alone tells. */
 static void try_lanes(LaneRun *run, int stiff, Lanes h, const LaneParameters *p, LaneStep *step)
 {
@@ -176,4 +211,8 @@ static void try_lanes(LaneRun *run, int stiff, Lanes h, const LaneParameters *p,
     method_try(run, stiff, h, p, step);
     step->lost |= run->memory.rare & step->taken;
     step->taken &= ~step->lost;
+#if !TAYLOR
+    if (!stiff)
+        make_dense(run, p, step);
+#endif
 }

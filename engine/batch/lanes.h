@@ -195,15 +195,19 @@ typedef struct {
 #endif
 } LaneRun;
 
-/* As Step; lanes in which it is accepted, in which the single runs are to try it, whose stages were not found. */
+/*
+ * As Step; lanes in which it is accepted, in which the single runs are to try it, whose stages were not found, that
+ * have no interpolant where others do.
+ */
 typedef struct {
     Lanes t, h, error, y[N_Y], dy[N_Y], k[N_STAGES][N_Y];
     LaneAside aside;
+    Lanes dense[N_DENSE][N_Y];
     int dense_ready, n_seen;
     double node[N_STAGES];
     Lanes seen[N_STAGES][AT_LEAST_ONE(N_MARGINS)], rate[AT_LEAST_ONE(N_CLEARANCES)][2];
     Lanes least[2 * N_X + 1], most[2 * N_X + 1];
-    LaneBits taken, lost, missed;
+    LaneBits taken, lost, missed, no_dense;
 } LaneStep;
 #else
 #define Number Lanes

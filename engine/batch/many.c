@@ -7,18 +7,39 @@
 
 static int is_ending(void *batch) { return *((const Batch *)batch)->ending; }
 
-static int start_run(const Batch *b, long i, Run *run)
+/* Whether run j, which has begun, was closed here from what run i begins with too. */
+static int begins_alike(const Batch *b, long i, long j)
 {
-    double *start = b->start + i * 2 * N_Q, y[N_S] = {0.0}, residual;
+    return j >= 0 && j != i && b->phase[j] != NEW && !b->started[j] && b->size[j] == b->size[i]
+        && times_of(b, j)[0] == times_of(b, i)[0]
+        && same_start((const Parameters *)(b->p + i * b->numbers), (const Parameters *)(b->p + j * b->numbers));
+}
+
+/* (q, v) of run i, closed: those of one of `n` others in this thread (-1: none), if it begins alike. */
+static int close_run(const Batch *b, long i, const long *others, int n, Asked *asked)
+{
+    double *start = b->start + i * 2 * N_Q, residual;
+    for (int k = 0; k < n; k++)
+        if (begins_alike(b, i, others[k])) {
+            memcpy(start, b->start + others[k] * 2 * N_Q, 2 * N_Q * sizeof(double));
+            return 0;
+        }
+    return close_start(times_of(b, i)[0], b->p + i * b->numbers, b->size[i], start, start + N_Q, &residual, asked);
+}
+
+static int start_run(const Batch *b, long i, const long *others, int n, Run *run)
+{
+    double *start = b->start + i * 2 * N_Q, y[N_S] = {0.0};
     Asked asked;
     set_asked(&asked, is_ending, (void *)b, GLANCE);
-    const double *p = b->p + i * b->numbers, t0 = times_of(b, i)[0];
-    if (!b->started[i] && close_start(t0, p, b->size[i], start, start + N_Q, &residual, &asked))
+    const double t0 = times_of(b, i)[0];
+    if (!b->started[i] && close_run(b, i, others, n, &asked))
         return asked.stop ? STOPPED : NOT_CLOSED;
     for (int k = 0; k < 2 * N_Q; k++)
         y[k] = start[k];
     const Tape tape = run->tape; /* of the thread, not of one run */
     gudgeon_run_start(run, b->p_motion + i * b->numbers, t0, y, b->remembered + i * AT_LEAST_ONE(N_MEMORY));
+    run->began = i + 1;
     gudgeon_run_tape(run, tape.rows, tape.capacity);
     gudgeon_run_codes(run, b->codes + i * AT_LEAST_ONE(N_CLEARANCES));
     gudgeon_run_stop(run, b->stop);
@@ -92,7 +113,8 @@ int gudgeon_many(const void *batch, void *memory, long *current, long end)
     for (; *current < end; ++*current) {
         const long i = *current;
         if (b->phase[i] == NEW && !*b->ending) {
-            b->status[i] = start_run(b, i, run);
+            const long before = run->began - 1;
+            b->status[i] = start_run(b, i, &before, 1, run);
             b->phase[i] = b->status[i] ? OVER : BEGUN;
         }
         if (b->phase[i] != BEGUN)
@@ -112,7 +134,11 @@ int gudgeon_many(const void *batch, void *memory, long *current, long end)
 }
 #if HAS_LANES
 
-static int begin_single(const Batch *b, long i, void *run) { return start_run(b, i, run); }
+static int begin_single(const Batch *b, long i, const long *others, int n, void *run)
+{
+    return start_run(b, i, others, n, run);
+}
+
 static int steps_single(const Batch *b, long i, long limit, void *run) { return advance(b, i, limit, run); }
 
 static void end_single(const Batch *b, long i, int status, void *run) { end_run(b, i, status, run); }

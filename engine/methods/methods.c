@@ -12,6 +12,7 @@ struct Method {
     double power;             /* of the error, that a step's length goes by: 1 / (order of the estimate + 1) */
     int stiff;                /* whether it takes the Jacobian: 0, or its kind (run.h) */
     double unstable, bounded; /* h rho beyond which no step is taken; at which stability bounds its steps */
+    int stages, more;         /* that a try makes, that its interpolant makes besides (batch/) */
     int degree, turned;       /* of y0 + s (d0 + (1 - s) (d1 + s (d2 + ...))); bit k: d_k comes with 1 - s, not s */
     const double *heard;      /* shares of a step, in their order, at which its error hears of the equations */
     int n_heard;

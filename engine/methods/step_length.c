@@ -218,6 +218,7 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
 static int try_step(Run *run, const Parameters *p, Step *step)
 {
     step->method = run->method;
+    step->stages_lane = NULL;
     int status;
     for (first_way(run); other_way(run, status = run->method->try(run, run->attempt.h, p, step));)
         ;

@@ -45,7 +45,7 @@ enum {
 #endif
     N_STAGES = 16, N_LOOKS = 16,
     BY_RODAS5P = 1, BY_RADAU5, BY_RADAU9, KINDS, /* which stiff method a step is made by; 0: none */
-    HERE = 1, ELSEWHERE = 2 /* where a step's equations are linearized, its series made: in the run, in a lane; 0: no */
+    HERE = 1, ELSEWHERE = 2 /* where equations are linearized, series, interpolant made: in the run, in a lane; 0: no */
 };
 
 #define LONG_RUN 1e4 /* s: an end further away than this says nothing about the shortest step that makes sense */
@@ -61,7 +61,10 @@ typedef struct {
     Aside aside;
     double k[N_STAGES][N_Y];                 /* rates or increments of the stages */
     double dense[N_DENSE][N_Y];
-    int dense_ready;
+    int dense_ready;                         /* HERE; ELSEWHERE: in dense_lane */
+    /* where others have tried it: stages and interpolant, of which each number is so many further; NULL: here */
+    const double *stages_lane, *dense_lane;
+    int lanes;
     int n_seen;                              /* stages so far, their nodes and margins */
     double node[N_STAGES], seen[N_STAGES][AT_LEAST_ONE(N_MARGINS)];
     double look[AT_LEAST_ONE(N_WATCHED)][N_LOOKS + 1]; /* margins of what is watched, evenly along the step (looks.c) */
@@ -136,6 +139,7 @@ typedef struct {
     TraceRow *trace; /* nobody wants one: NULL; the row that is being filled, of `trace_rows`, and steps in it */
     long trace_row, trace_rows, trace_steps, trace_stride;
     Tape tape;
+    long began; /* 1 + the run of a batch that this memory began last; 0: none */
     Beginning from; /* of rk4's step, where samples lie within it */
     long steps, evaluations, onsets, grazes, switches, rejected, jacobians, stiff_steps;
     double phi_max, phi_dot_max, ratio_min, ratio_max, ratio_outside;

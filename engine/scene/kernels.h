@@ -28,6 +28,9 @@ void jacobian(double t, const double *q, const Parameters *p, double *phi_q);
 void velocity_rhs(double t, const double *q, const Parameters *p, double *nu);
 void acceleration_rhs(double t, const double *q, const double *v, const Parameters *p, double *gamma_rows);
 void start_values(const Parameters *p, double *guess, double *set, double *rates);
+#if INTEGRATES
+int same_start(const Parameters *p, const Parameters *other);
+#endif
 /* Accelerations of all bodies and all that comes with them; results at a sample. */
 int dynamics(double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *a,
     Aside *aside);

@@ -13,6 +13,9 @@ static inline double max_of(double x, double y) { return x < y ? y : x; }
 static inline double min_of(double x, double y) { return x > y ? y : x; }
 static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }
 
+/* To the last bit; no number is the same as any. */
+static inline int same_number(double x, double y) { return x == y && !signbit(x) == !signbit(y); }
+
 /* How close (s) to the end t of a step of length h a sample is the end's own: both are sums of rounded numbers. */
 static inline double rounded(double t, double h) { return 8.0 * DBL_EPSILON * fabs(t) + 1e-12 * h; }
 

@@ -42,6 +42,7 @@ static int pass_corners(Run *run, Step *step, const Parameters *p)
         for (int k = 0; k < N_Y; k++)
             step->dy[k] = dy[k];
         step->aside = aside;
+        step->dense_ready = step->dense_ready == HERE ? HERE : 0; /* others made it with rates of this side */
         return 1;
     }
     for (int k = 0; k < N_SWITCHES; k++)
@@ -104,7 +105,8 @@ static double earlier_event(Run *run, const Step *step, double first, const Para
         if (found < 0)
             return first;
         const Place high = place_at(run, step, first, found, p);
-        const double s = root(run, step, found, begin_of(run, step, found), high, p);
+        const Place low = begin_of(run, step, found);
+        const double s = root(run, step, found, low, high, stage_guess(step, found, low, high), p);
         if (!(s < first))
             return first;
         first = s;
@@ -117,7 +119,7 @@ static double earlier_event(Run *run, const Step *step, double first, const Para
 typedef struct {
     int k;
     Place low, high;
-    double about;
+    double guess, about;
 } Candidate;
 
 /* Whether margin k is below zero somewhere in the step. */
@@ -127,7 +129,7 @@ static int is_candidate(Run *run, Step *step, int k, const Parameters *p, Candid
     const double high = violated(run, step, k, p, &at_high);
     if (high == 0.0 || make_dense(run, p, step))
         return 0;
-    *now = (Candidate){k, begin_of(run, step, k), end_of(run, step, k), 0.0};
+    *now = (Candidate){k, begin_of(run, step, k), end_of(run, step, k), 0.0, 0.0};
     if (high < 1.0)
         now->high = place_at(run, step, high, k, p);
     if (watched_as[k] >= 0 && step->from[watched_as[k]] > 0.0) {
@@ -140,7 +142,8 @@ static int is_candidate(Run *run, Step *step, int k, const Parameters *p, Candid
         if (part.f >= 0.0)
             now->low = part;
     }
-    now->about = now->low.f >= 0.0 ? about_where(step, k, now->low, now->high) : 0.0;
+    now->guess = now->low.f >= 0.0 ? stage_guess(step, k, now->low, now->high) : 0.0;
+    now->about = now->low.f >= 0.0 ? about_where(now->guess, now->low, now->high) : 0.0;
     return 1;
 }
 
@@ -169,7 +172,7 @@ static double first_counting(Run *run, Step *step, const Parameters *p, int *eve
         const Candidate *now = &some[i];
         if (*event >= 0 && now->high.s > first && margin_at(run, step, first, now->k, p) >= 0.0)
             continue; /* later than what was found */
-        const double s = now->low.f >= 0.0 ? root(run, step, now->k, now->low, now->high, p) : 0.0;
+        const double s = now->low.f >= 0.0 ? root(run, step, now->k, now->low, now->high, now->guess, p) : 0.0;
         if (*event < 0 || s < first) {
             first = s;
             *event = now->k;

@@ -10,13 +10,30 @@ static double shallow(const Parameters *p, int k)
     return k < N_CLEARANCES ? -min_of(SHALLOW, 1e-10 * deepest(p, k)) : 0.0;
 }
 
+/* What others have found of a step that they tried. */
+static void take_over(const double *lane, int lanes, int rows, double (*to)[N_Y])
+{
+    for (int k = 0; k < rows; k++)
+        for (int i = 0; i < N_Y; i++)
+            to[k][i] = lane[(k * N_Y + i) * lanes];
+}
+
 static int make_dense(Run *run, const Parameters *p, Step *step)
 {
-    if (step->dense_ready)
+    const int there = step->dense_ready == ELSEWHERE;
+    if (step->dense_ready == HERE)
         return 0;
-    step->dense_ready = 1;
+    step->dense_ready = HERE;
     run->looked.n = 0;
     run->looked.beyond = NAN;
+    if (there) {
+        take_over(step->dense_lane, step->lanes, N_DENSE, step->dense);
+        run->evaluations += step->method->more;
+        return 0;
+    }
+    if (step->stages_lane)
+        take_over(step->stages_lane, step->lanes, step->method->stages, step->k);
+    step->stages_lane = NULL;
     return step->method->dense(run, p, step);
 }
 
@@ -162,25 +179,30 @@ static Place stage_between(const Step *step, int k, double low, double high)
     return best;
 }
 
-/* About where margin k crosses zero in a bracket of it. */
-static double about_where(const Step *step, int k, Place low, Place high)
+/* Where margin k crosses zero in a bracket of it, as far as stages tell. */
+static double stage_guess(const Step *step, int k, Place low, Place high)
 {
-    const double s = guess_zero(low, high, stage_between(step, k, low.s, high.s));
-    return s > low.s && s < high.s ? s : 0.5 * (low.s + high.s);
+    return guess_zero(low, high, stage_between(step, k, low.s, high.s));
+}
+
+/* A guess within the bracket. */
+static double about_where(double guess, Place low, Place high)
+{
+    return guess > low.s && guess < high.s ? guess : 0.5 * (low.s + high.s);
 }
 
 /*
  * The first share at which margin k is below zero, from a bracket of it, which looks make as narrow as zeros are told
  * apart: at the zero of a polynomial through what is known, on the other side of it once that is known so well, and in
- * the middle where looks do not halve the bracket.
+ * the middle where looks do not halve the bracket. guess: stage_guess of the bracket.
  */
-static double root(Run *run, const Step *step, int k, Place low, Place high, const Parameters *p)
+static double root(Run *run, const Step *step, int k, Place low, Place high, double guess, const Parameters *p)
 {
     const double close = root_width(run, step);
     Place third = stage_between(step, k, low.s, high.s);
     double width = 2.0, before = 2.0;
     for (int i = 0; high.s - low.s > close; i++) {
-        double s = guess_zero(low, high, third);
+        double s = i ? guess_zero(low, high, third) : guess;
         if (!(s > low.s && s < high.s) || (i >= QUICK && high.s - low.s > 0.5 * before))
             s = 0.5 * (low.s + high.s);
         else if (s - low.s < 2.0 * close)

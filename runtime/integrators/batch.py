@@ -230,7 +230,8 @@ class Runs:
         if not self.compiled.lib.gudgeon_run_listed(run):
             return
         self.impacts[i].append(fetch_impacts(self.compiled, run, last))
-        self.events[i].append(fetch_events(self.compiled, run, self.times.of(i)))
+        if self.compiled.source.events:
+            self.events[i].append(fetch_events(self.compiled, run, self.times.of(i)))
 
     def _failure(self, i: int) -> GudgeonError:
         """What ended run i, as a single run says it."""

@@ -72,10 +72,10 @@ def fetch_impacts(compiled: CompiledModel, run: Any, last: bool) -> NDArray[Any]
     """IMPACT_DTYPE, the list of contacts of a struct, which is emptied; with `last` those that still go on too."""
     from gudgeon.integrators.trajectory import IMPACT_DTYPE
 
-    numbers, joints = np.zeros((N_IMPACTS, 5)), np.zeros(N_IMPACTS, dtype=np.intc)
+    numbers, joints = np.empty((N_IMPACTS, 5)), np.empty(N_IMPACTS, dtype=np.intc)
     lists = (compiled.pointer(numbers), compiled.pointer(joints, "int *"))
     count = compiled.lib.gudgeon_run_impacts(run, int(last), *lists)
-    fetched = np.zeros(count, dtype=IMPACT_DTYPE)
+    fetched = np.empty(count, dtype=IMPACT_DTYPE)
     if not count:
         return fetched
     fetched["joint"] = joints[:count]

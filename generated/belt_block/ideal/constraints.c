@@ -104,3 +104,11 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     energy[1] = 0.5*p->spring_stiffness*((-p->spring_free_length + spring_length)
         * (-p->spring_free_length + spring_length));
 }
+
+/* Whether a start with these numbers is that with the others: what closing the linkage reads. */
+int same_start(const Parameters *p, const Parameters *other)
+{
+    return same_number(p->block_mass, other->block_mass)
+        && same_number(p->block_inertia, other->block_inertia)
+        && same_number(p->set_block_x, other->set_block_x);
+}

@@ -94,3 +94,10 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
         + 0.5*p->ball_mass*(ball_vy * ball_vy);
     energy[1] = -p->ball_mass*ball_y*p->gravity_y;
 }
+
+/* Whether a start with these numbers is that with the others: what closing the linkage reads. */
+int same_start(const Parameters *p, const Parameters *other)
+{
+    return same_number(p->ball_mass, other->ball_mass)
+        && same_number(p->ball_inertia, other->ball_inertia);
+}

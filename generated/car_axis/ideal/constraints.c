@@ -231,3 +231,21 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
         * (-p->left_free_length + left_length)) - p->gravity_y*p->road_mass*road_y
         + 0.5*p->right_stiffness*((-p->right_free_length + right_length) * (-p->right_free_length + right_length));
 }
+
+/* Whether a start with these numbers is that with the others: what closing the linkage reads. */
+int same_start(const Parameters *p, const Parameters *other)
+{
+    return same_number(p->axle_mass, other->axle_mass)
+        && same_number(p->axle_inertia, other->axle_inertia)
+        && same_number(p->road_mass, other->road_mass)
+        && same_number(p->road_inertia, other->road_inertia)
+        && same_number(p->length, other->length)
+        && same_number(p->par_r, other->par_r)
+        && same_number(p->omega, other->omega)
+        && same_number(p->axle_head_s_x, other->axle_head_s_x)
+        && same_number(p->road_head_s_x, other->road_head_s_x)
+        && same_number(p->set_axle_y, other->set_axle_y)
+        && same_number(p->set_axle_theta, other->set_axle_theta)
+        && same_number(p->rates_axle_vy, other->rates_axle_vy)
+        && same_number(p->rates_axle_omega, other->rates_axle_omega);
+}

@@ -357,3 +357,31 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
         - p->crank0_mass*crank0_y*p->gravity_y - p->crank1_mass*crank1_y*p->gravity_y
         - p->crank2_mass*crank2_y*p->gravity_y;
 }
+
+/* Whether a start with these numbers is that with the others: what closing the linkage reads. */
+int same_start(const Parameters *p, const Parameters *other)
+{
+    return same_number(p->crank0_mass, other->crank0_mass)
+        && same_number(p->crank0_inertia, other->crank0_inertia)
+        && same_number(p->crank1_mass, other->crank1_mass)
+        && same_number(p->crank1_inertia, other->crank1_inertia)
+        && same_number(p->crank2_mass, other->crank2_mass)
+        && same_number(p->crank2_inertia, other->crank2_inertia)
+        && same_number(p->coupler1_mass, other->coupler1_mass)
+        && same_number(p->coupler1_inertia, other->coupler1_inertia)
+        && same_number(p->coupler2_mass, other->coupler2_mass)
+        && same_number(p->coupler2_inertia, other->coupler2_inertia)
+        && same_number(p->crank0_head_s_x, other->crank0_head_s_x)
+        && same_number(p->crank1_head_s_x, other->crank1_head_s_x)
+        && same_number(p->crank2_head_s_x, other->crank2_head_s_x)
+        && same_number(p->coupler1_head_s_x, other->coupler1_head_s_x)
+        && same_number(p->coupler2_head_s_x, other->coupler2_head_s_x)
+        && same_number(p->O1_x, other->O1_x)
+        && same_number(p->O2_x, other->O2_x)
+        && same_number(p->guess_crank1_theta, other->guess_crank1_theta)
+        && same_number(p->guess_crank2_theta, other->guess_crank2_theta)
+        && same_number(p->guess_coupler1_theta, other->guess_coupler1_theta)
+        && same_number(p->guess_coupler2_theta, other->guess_coupler2_theta)
+        && same_number(p->set_crank0_theta, other->set_crank0_theta)
+        && same_number(p->rates_crank0_omega, other->rates_crank0_omega);
+}

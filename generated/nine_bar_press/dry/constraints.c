@@ -479,3 +479,40 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
         - p->L4_mass*L4_y*p->gravity_y - p->L6_mass*L6_y*p->gravity_y - p->L7_mass*L7_y*p->gravity_y
         - p->L8_mass*L8_y*p->gravity_y - p->S9_mass*S9_y*p->gravity_y;
 }
+
+/* Whether a start with these numbers is that with the others: what closing the linkage reads. */
+int same_start(const Parameters *p, const Parameters *other)
+{
+    return same_number(p->L1_mass, other->L1_mass)
+        && same_number(p->L1_inertia, other->L1_inertia)
+        && same_number(p->L2_mass, other->L2_mass)
+        && same_number(p->L2_inertia, other->L2_inertia)
+        && same_number(p->L3_mass, other->L3_mass)
+        && same_number(p->L3_inertia, other->L3_inertia)
+        && same_number(p->L4_mass, other->L4_mass)
+        && same_number(p->L4_inertia, other->L4_inertia)
+        && same_number(p->L6_mass, other->L6_mass)
+        && same_number(p->L6_inertia, other->L6_inertia)
+        && same_number(p->L7_mass, other->L7_mass)
+        && same_number(p->L7_inertia, other->L7_inertia)
+        && same_number(p->L8_mass, other->L8_mass)
+        && same_number(p->L8_inertia, other->L8_inertia)
+        && same_number(p->S9_mass, other->S9_mass)
+        && same_number(p->S9_inertia, other->S9_inertia)
+        && same_number(p->omega, other->omega)
+        && same_number(p->omega4, other->omega4)
+        && same_number(p->L1_head_s_x, other->L1_head_s_x)
+        && same_number(p->L2_head_s_x, other->L2_head_s_x)
+        && same_number(p->L3_head_s_x, other->L3_head_s_x)
+        && same_number(p->L4_head_s_x, other->L4_head_s_x)
+        && same_number(p->L6_head_s_x, other->L6_head_s_x)
+        && same_number(p->L7_head_s_x, other->L7_head_s_x)
+        && same_number(p->L8_head_s_x, other->L8_head_s_x)
+        && same_number(p->O4_y, other->O4_y)
+        && same_number(p->O6_x, other->O6_x)
+        && same_number(p->guess_L2_theta, other->guess_L2_theta)
+        && same_number(p->guess_L3_theta, other->guess_L3_theta)
+        && same_number(p->guess_L6_theta, other->guess_L6_theta)
+        && same_number(p->guess_L7_theta, other->guess_L7_theta)
+        && same_number(p->guess_L8_theta, other->guess_L8_theta);
+}

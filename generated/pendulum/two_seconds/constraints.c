@@ -106,3 +106,15 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
         + 0.5*p->bob_mass*(bob_vy * bob_vy);
     energy[1] = -p->bob_mass*bob_y*p->gravity_y;
 }
+
+/* Whether a start with these numbers is that with the others: what closing the linkage reads. */
+int same_start(const Parameters *p, const Parameters *other)
+{
+    return same_number(p->bob_mass, other->bob_mass)
+        && same_number(p->bob_inertia, other->bob_inertia)
+        && same_number(p->rod_length, other->rod_length)
+        && same_number(p->rod_half_inverse_length, other->rod_half_inverse_length)
+        && same_number(p->set_bob_x, other->set_bob_x)
+        && same_number(p->set_bob_theta, other->set_bob_theta)
+        && same_number(p->rates_bob_omega, other->rates_bob_omega);
+}

@@ -286,3 +286,23 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
     energy[1] = -p->arm_mass*arm_y*p->gravity_y - p->crank_mass*crank_y*p->gravity_y - p->gravity_y*p->rod_mass*rod_y
         - p->gravity_y*p->table_mass*table_y;
 }
+
+/* Whether a start with these numbers is that with the others: what closing the linkage reads. */
+int same_start(const Parameters *p, const Parameters *other)
+{
+    return same_number(p->crank_mass, other->crank_mass)
+        && same_number(p->crank_inertia, other->crank_inertia)
+        && same_number(p->rod_mass, other->rod_mass)
+        && same_number(p->rod_inertia, other->rod_inertia)
+        && same_number(p->table_mass, other->table_mass)
+        && same_number(p->table_inertia, other->table_inertia)
+        && same_number(p->arm_mass, other->arm_mass)
+        && same_number(p->arm_inertia, other->arm_inertia)
+        && same_number(p->omega, other->omega)
+        && same_number(p->crank_head_s_x, other->crank_head_s_x)
+        && same_number(p->rod_head_s_x, other->rod_head_s_x)
+        && same_number(p->table_points_top_y, other->table_points_top_y)
+        && same_number(p->arm_head_s_x, other->arm_head_s_x)
+        && same_number(p->guess_rod_theta, other->guess_rod_theta)
+        && same_number(p->set_arm_theta, other->set_arm_theta);
+}

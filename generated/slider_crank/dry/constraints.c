@@ -215,3 +215,19 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
         + 0.5*p->slider_mass*(slider_vy * slider_vy);
     energy[1] = 0.0;
 }
+
+/* Whether a start with these numbers is that with the others: what closing the linkage reads. */
+int same_start(const Parameters *p, const Parameters *other)
+{
+    return same_number(p->crank_mass, other->crank_mass)
+        && same_number(p->crank_inertia, other->crank_inertia)
+        && same_number(p->rod_mass, other->rod_mass)
+        && same_number(p->rod_inertia, other->rod_inertia)
+        && same_number(p->slider_mass, other->slider_mass)
+        && same_number(p->slider_inertia, other->slider_inertia)
+        && same_number(p->omega, other->omega)
+        && same_number(p->crank_head_s_x, other->crank_head_s_x)
+        && same_number(p->rod_head_s_x, other->rod_head_s_x)
+        && same_number(p->guess_rod_theta, other->guess_rod_theta)
+        && same_number(p->guess_slider_x, other->guess_slider_x);
+}

@@ -204,3 +204,18 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
         + 0.5*p->rod_mass*(rod_vx * rod_vx) + 0.5*p->rod_mass*(rod_vy * rod_vy);
     energy[1] = 0.5*p->coil_stiffness*((-p->coil_free_length + coil_length) * (-p->coil_free_length + coil_length));
 }
+
+/* Whether a start with these numbers is that with the others: what closing the linkage reads. */
+int same_start(const Parameters *p, const Parameters *other)
+{
+    return same_number(p->crank_mass, other->crank_mass)
+        && same_number(p->crank_inertia, other->crank_inertia)
+        && same_number(p->rod_mass, other->rod_mass)
+        && same_number(p->rod_inertia, other->rod_inertia)
+        && same_number(p->crank_length, other->crank_length)
+        && same_number(p->rod_points_crankpin_x, other->rod_points_crankpin_x)
+        && same_number(p->guess_rod_theta, other->guess_rod_theta)
+        && same_number(p->guess_rod_x, other->guess_rod_x)
+        && same_number(p->set_crank_theta, other->set_crank_theta)
+        && same_number(p->rates_crank_omega, other->rates_crank_omega);
+}

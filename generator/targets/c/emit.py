@@ -26,8 +26,10 @@ from gudgeon.generator.targets.c.model_header import header_values, known_bounds
 from gudgeon.generator.targets.c.newton import newton_code, tangent_code
 from gudgeon.generator.targets.c.play import clearances_code
 from gudgeon.generator.targets.c.reduced import reduced_code
+from gudgeon.generator.targets.c.same_start import same_start
 
 CLEARANCES = "clearance.c"
+NOT_AT_START = ("acceleration_rhs", "outputs")  # of the closed linkage's functions
 ABSOLUTE, REDUCED, METHODS = 1, 2, 3  # the parts of MAIN, as PART in C counts them
 Begun = Callable[[int, Mapping[str, str]], None]
 Texts = dict[str, Callable[[], str]]  # by file, printed when they are asked for
@@ -98,7 +100,7 @@ def _parts(program: Program, prepare: Kernel, bounds: Kernel | None) -> dict[int
     parts: dict[int, Texts] = {
         ABSOLUTE: {
             "parameters.c": lambda: _parameters(program, prepare),
-            "constraints.c": lambda: _kernels(*program.closed),
+            "constraints.c": lambda: _closed(program),
             "dynamics.c": lambda: _kernels(*program.right_hand_side),
         }
     }
@@ -142,6 +144,12 @@ def _parameters(program: Program, prepare: Kernel) -> str:
     """All numbers, then those of joints with play by their place."""
     told = render("of_joints.c.jinja", of_joints=of_joints(program.model)) if program.pins else ""
     return _kernels(prepare) + told
+
+
+def _closed(program: Program) -> str:
+    """Functions of the closed linkage; where runs are integrated, which starts are the same."""
+    at_start = (kernel for kernel in program.closed if kernel.name not in NOT_AT_START)
+    return _kernels(*program.closed) + (same_start(at_start) if program.integrates else "")
 
 
 def _linearized(program: Program) -> str:
