@@ -10,7 +10,9 @@ static int is_ending(void *batch) { return *((const Batch *)batch)->ending; }
 /* Whether run j, which has begun, was closed here from what run i begins with too. */
 static int begins_alike(const Batch *b, long i, long j)
 {
-    return j >= 0 && j != i && b->phase[j] != NEW && !b->started[j] && b->size[j] == b->size[i]
+    const int is_closed = j >= 0 && j != i && b->phase[j] != NEW && b->status[j] != NOT_CLOSED
+        && b->status[j] != STOPPED;
+    return is_closed && !b->started[j] && b->size[j] == b->size[i]
         && times_of(b, j)[0] == times_of(b, i)[0]
         && same_start((const Parameters *)(b->p + i * b->numbers), (const Parameters *)(b->p + j * b->numbers));
 }
