@@ -8,7 +8,7 @@ MYPY := .venv/bin/mypy -p gudgeon && .venv/bin/mypy tests
 unexport PYTHONDONTWRITEBYTECODE
 
 .DEFAULT_GOAL := help
-.PHONY: help run study study-jansen checks test test-all lint types fuzz docs sanitize packages mutate coverage bench race map stress peers generated deviations tables setup setup-test clean
+.PHONY: help run study study-jansen checks test test-all lint types fuzz docs links sanitize packages mutate coverage bench race map stress peers generated deviations tables setup setup-test clean
 .NOTPARALLEL:
 
 help:  ## this list
@@ -60,6 +60,10 @@ fuzz: setup-test  ## mutated expressions and files; ARGS="--count 1000000"; guid
 docs:  ## the documentation as a site under build/site: references from docstrings, the gallery's linkages running
 	@sh tools/setup all,web,site
 	@.venv/bin/python -m sphinx -W --keep-going -q -b html docs build/site && echo "wrote build/site/index.html"
+
+links:  ## every link of the documentation that leads elsewhere is asked for; those within are seen to by make docs
+	@sh tools/setup all,web,site
+	@.venv/bin/python -m sphinx -q -b linkcheck -t text docs build/links && echo "every link leads somewhere"
 
 sanitize: setup-test  ## the C of every shipped scene under gcc's sanitizers: memory, undefined arithmetic, races. An hour and more
 	@.venv/bin/python -m tests.sanitize $(ARGS)

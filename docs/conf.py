@@ -8,7 +8,7 @@ import sys
 from importlib.metadata import version as installed
 from pathlib import Path
 
-project, author, version = "gudgeon", "gudgeon developers", installed("gudgeon")
+project, author, version = "gudgeon", "The gudgeon authors", installed("gudgeon")
 copyright = author
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.mathjax"]
 exclude_patterns = ["build"]

@@ -64,7 +64,7 @@ def found(case: Case) -> Found:
     own = np.stack([np.stack([run[f"{joint}.ex"], run[f"{joint}.ey"]], -1) for joint in case.joints], 1)
     difference = (abs(own - e).max(axis=2) / case.clearances).max(axis=1)
     agree = np.flatnonzero(difference > DIGITS)
-    horizon = float(times[agree[0] - 1 if agree.size else -1])
+    horizon = float(f"{times[agree[0] - 1 if agree.size else -1]:.12g}")
     most = max(map(len, second.onsets))
     onset = np.full((len(case.joints), most), np.nan)
     for k, began in enumerate(second.onsets):
