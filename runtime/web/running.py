@@ -50,6 +50,7 @@ def running_parts(simulation: Simulation, scenes: Mapping[str, str]) -> Parts:
         if error.__cause__ is None or not isinstance(error.__cause__, ImportError):
             raise
         told["recorded"], note = recorded(run, [*told["traces"], *told["values"]]), NO_SIMULATOR
+        warn(f"{note[0].lower()}{note[1:]}", stacklevel=outside())
     text = json.dumps(told, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
     carried += packed_element(PANEL, text.encode())
     title = one_line(simulation.source.title or simulation.source.mechanism)

@@ -109,17 +109,31 @@ def test_a_standard_output_without_room(tmp_path: Path) -> None:
 
 WITHOUT = """\
 import sys
-sys.modules["matplotlib"] = None
-sys.argv = ["gudgeon", "draw", "four_bar", "-o", "x.svg"]
+sys.modules[sys.argv[1]] = None
+sys.argv = ["gudgeon", *sys.argv[2:]]
 from gudgeon.entry import main
 main()
 """
 
 
+def without(package: str, line: str, folder: Path) -> subprocess.CompletedProcess[str]:
+    """The command where a package is not installed."""
+    words = [sys.executable, "-c", WITHOUT, package, *line.split()]
+    return subprocess.run(words, cwd=folder, capture_output=True, text=True)
+
+
 def test_a_package_that_is_not_installed_is_told_with_what_brings_it(tmp_path: Path) -> None:
-    done = subprocess.run([sys.executable, "-c", WITHOUT], cwd=tmp_path, capture_output=True, text=True)
+    done = without("matplotlib", "draw four_bar -o x.svg", tmp_path)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == "error: this needs matplotlib: pip install 'gudgeon[plot]'\n"
+
+
+@pytest.mark.slow
+@needs_compiler
+def test_a_page_that_was_written_without_its_compiler_is_told(tmp_path: Path) -> None:
+    done = without("ziglang", "equations four_bar -o x.html", tmp_path)
+    assert (done.returncode, done.stdout) == (0, "wrote x.html\n")
+    assert done.stderr.startswith("warning: this page carries one run") and "gudgeon[web]" in done.stderr
 
 
 def test_a_reader_that_has_enough(tmp_path: Path) -> None:
