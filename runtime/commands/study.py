@@ -70,6 +70,9 @@ def study_file(request: Request) -> int:
     if request.file == REPORT and not Path(REPORT).exists():
         raise BadValueError(f"study {REPORT}: of which study?", hint=f"gudgeon study {REPORT} NAME.study")
     given = settings(tuple(request.sets or ()))
+    if request.folder.suffix.lower() == ".html":
+        hint = f"name a folder; gudgeon study {REPORT} FOLDER --out {shortened(request.folder)} writes the page"
+        raise BadValueError(f"--out: {shortened(request.folder)} is a page's name, and a study is a folder", hint=hint)
     if not request.runs:
         check_folder("--out", request.folder)
     with status_line(quiet=request.json):

@@ -197,7 +197,8 @@ def test_the_command_writes_a_page(folder: Path, page: str, tmp_path: Path, monk
     assert told.exit_code == 0 and folder.with_suffix(".html").read_text(encoding="utf-8") == page
     for wrong, why in (
         (["report"], "of which study"), (["report", "none.study"], "no folder of a study"),
-        (["mass.yaml", "x"], "takes one file"), (["report", str(folder), "--out", "page.txt"], "ends in .html"),
+        (["mass.yaml", "x"], "takes one file"), (["mass.yaml", "--out", "x.html"], "a study is a folder"),
+        (["report", str(folder), "--out", "page.txt"], "ends in .html"),
     ):  # fmt: skip
         told = CliRunner().invoke(app, ["study", *wrong])
         assert told.exit_code == 2 and why in told.stderr, told.stderr
