@@ -104,6 +104,16 @@ MEANS_NOTHING = {
         "what is short gets a name of its own, and the same value",
     "runtime/assembly/closure.py:66: '4' -> '5': for _ in range(TRIES if len(guess) <= MANY else TRIES // 4):":
         "how many starts are tried",
+    "generator/kernels/dynamics.py:73: '0' -> '1': b: dict[int, sp.Expr] = {k: f for k, f in enumerate(forces) if f != "
+    "0}":
+        "a force that is 0 is written as 0",
+    "generator/reduction/geometry.py:99: '1' -> '2': parent, child, sign = (first, second, 1) if second.body == body "
+    "else (second, first, -1)":
+        "a slide's coordinate in another unit: the same motion",
+    "generator/reduction/tree.py:46: '+' -> '-': placed[other] = placed[body] + 1":
+        "where chains are cut, so which trees are among the candidates",
+    "runtime/assembly/followed.py:26: '+' -> '-': away = (away + np.pi) % (2.0 * np.pi) - np.pi if is_angle else away":
+        "the same remainder",
     "generator/reduction/shared_points.py:63: '1' -> '2': crossing[other.name] = 1 if one in side else -1":
         "of a share only the sign is printed",
     "generator/reduction/tree.py:12: '24' -> '25': SEARCHED = 24  # more coordinates than that: the tree is not "

@@ -13,6 +13,7 @@ import pytest
 from typer.testing import CliRunner
 
 import gudgeon
+from gudgeon.assembly.journals import check_places
 from gudgeon.assembly.search import search
 from gudgeon.cli import app
 from gudgeon.errors import AssemblyError, UnknownNameError
@@ -249,9 +250,29 @@ def test_a_journal_too_deep_is_refused_alike_alone_and_as_a_column(scenes: Scene
     columns = numbers([0.0, 0.0], [0.0, 0.0]) | {"start.play.A.e.x": [2.0 * most, most * (1.0 + 1e-7), 1e-5]}
     batch = scenes.free.simulate_many(columns, 1e-4)
     assert {failure.run: str(failure.error) for failure in batch.failures} == dict(enumerate(texts))
+    nearly = numbers([most * (1.0 - 1e-7), 0.0], [0.0, 0.0])
+    check_places(scenes.free.compiled, prepare(scenes.free.compiled, nearly)[0])  # so deep may it lie
     assert "2.6 mm long and may be 1.3 mm" in texts[0] and "bare number" not in texts[0]
     length, limit = re.findall(r"(\S+) mm long and may be (\S+) mm", texts[1])[0]
     assert float(length) > float(limit) == pytest.approx(1.3)
+
+
+def test_a_start_in_a_worn_place_of_a_bearing_that_is_turned(tmp_path: Path) -> None:
+    """5 µm are worn off at 67.5° of a plate that stands at 0.7 rad: 3 µm behind the circle is no contact there."""
+    file = tmp_path / "worn.yaml"
+    text = FREE.replace("bodies: {", "bodies: {plate: {mass: 1 kg, inertia: 1e-3 kg*m^2}, ")
+    plate = "joints: {P: {revolute: [ground.o, plate.origin]}, A: {revolute: [plate.origin,"
+    text = text.replace("joints: {A: {revolute: [ground.o,", plate)
+    text = text.replace("contact: dry}", "contact: dry, contour: 16}")
+    text = text.replace("start: {", "start: {set: {plate.theta: 0.7}, ")
+    file.write_text(text, encoding="utf-8")
+    simulation = gudgeon.load(file, "dry")
+    depths = np.where(np.arange(16) == 3, 5e-6, 0.0)
+    for angle, touches in ((67.5, False), (67.5 + 45.0, True), (67.5 - 90.0, True)):
+        turned = math.radians(angle) + 0.7
+        e = (C + 3e-6) * np.array([math.cos(turned), math.sin(turned)])
+        run = simulation.simulate(1e-9, output=2, parameters=numbers(e, [0.0, 0.0]), contour={"A": depths})
+        assert any("begins in contact" in note for note in run.diagnostics.notes) == touches, angle
 
 
 def test_check_tells_of_a_start_in_the_wall(scenes: Scenes) -> None:
