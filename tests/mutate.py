@@ -114,6 +114,9 @@ MEANS_NOTHING = {
         "where chains are cut, so which trees are among the candidates",
     "runtime/assembly/followed.py:26: '+' -> '-': away = (away + np.pi) % (2.0 * np.pi) - np.pi if is_angle else away":
         "the same remainder",
+    "runtime/model/arrays.py:91: 'not' -> '': elif type(values) is np.ndarray and values.dtype is dtype and "
+    "values.size <= most and not values.flags.c_contiguous:":
+        "which of two ways an array is copied on",
     "generator/reduction/shared_points.py:63: '1' -> '2': crossing[other.name] = 1 if one in side else -1":
         "of a share only the sign is printed",
     "generator/reduction/tree.py:12: '24' -> '25': SEARCHED = 24  # more coordinates than that: the tree is not "

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from gudgeon.results.motion import classify, zero_one
+from gudgeon.results.motion import DRAWS, classify, zero_one
 
 
 def logistic(r: float, count: int = 600) -> np.ndarray:
@@ -82,3 +82,18 @@ def test_the_0_1_test_is_that_of_gottwald_and_melbourne() -> None:
     assert zero_one(logistic(3.97, 2000)[:, 0]) > 0.95
     assert abs(zero_one(turning(math.sqrt(2.0), 2000)[:, 0])) < 0.1
     assert math.isnan(zero_one(np.arange(39.0)))
+
+
+def test_the_0_1_test_written_in_loops() -> None:
+    """In loops, as G. A. Gottwald and I. Melbourne (2009) have it: p, q, M(n), D(n), the median of correlations."""
+    x, found = logistic(3.97, 120)[:, 0], []
+    N, most = len(x), len(x) // 10
+    for c in np.random.default_rng(1).uniform(math.pi / 5, 4 * math.pi / 5, DRAWS):
+        p = [sum(x[j - 1] * math.cos(j * c) for j in range(1, n + 1)) for n in range(1, N + 1)]
+        q = [sum(x[j - 1] * math.sin(j * c) for j in range(1, n + 1)) for n in range(1, N + 1)]
+        D = []
+        for n in range(1, most + 1):
+            M = sum((p[j + n] - p[j]) ** 2 + (q[j + n] - q[j]) ** 2 for j in range(N - most)) / (N - most)
+            D.append(M - x.mean() ** 2 * (1.0 - math.cos(n * c)) / (1.0 - math.cos(c)))
+        found.append(np.corrcoef(range(1, most + 1), D)[0, 1])
+    assert zero_one(x) == pytest.approx(np.median(found), rel=1e-10)
