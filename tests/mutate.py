@@ -43,7 +43,7 @@ GROUPS = {
         (*_tests("equations", "derivation", "random_linkages"), *_tests("reader", "fields", "read_kinds"),
          *_tests("kernels", "pivots", "jacobian"), *_tests("equations", "forces", "events", "roots"),
          *_tests("reader", "whole_format"), *_tests("reduction", "reduction"), *_tests("simulation", "massless"),
-         *_tests("integrators", "guide")),
+         *_tests("integrators", "guide"), *_tests("results", "reactions")),
     ),
     "dynamics": (
         ("generator/kernels/dynamics.py", "generator/solvers/kkt.py", "generator/equations/loads.py",
@@ -59,7 +59,7 @@ GROUPS = {
         (*_tests("reader", "fields"), *_tests("equations", "every_law", "friction_laws", "cylinders", "mixed",
                                               "short_film", "expression_law"),
          *_tests("reynolds", "finite_length", "closed_forms", "deviations", "frames"), *_tests("kinds", "own_laws"),
-         *_tests("integrators", "impact", "film_settles", "newton_restitution")),
+         *_tests("integrators", "impact", "film_settles", "newton_restitution"), *_tests("assembly", "journals")),
     ),
     "reduction": (
         ("generator/reduction/*.py",),
