@@ -16,7 +16,6 @@ import sys
 from gudgeon.waiting.last_word import INTERRUPTED, is_the_program, last_word, nothing_more
 
 ENDING = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
-EXTRAS = {"matplotlib": "plot", "ezdxf": "dxf", "latex2mathml": "docs", "xarray": "xarray", "h5py": "xarray"}
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
 
@@ -54,9 +53,9 @@ def _run() -> None:
         last_word()
         sys.exit(INTERRUPTED)
     except ModuleNotFoundError as error:
-        if error.name not in EXTRAS:
+        if error.name != "matplotlib":  # others are missed, and named, where they are imported
             raise
-        print(f"error: this needs {error.name}: pip install 'gudgeon[{EXTRAS[error.name]}]'", file=sys.stderr)
+        print("error: this needs matplotlib: pip install 'gudgeon[plot]'", file=sys.stderr)
         sys.exit(2)
     except OSError as error:
         if error.filename is not None or error.errno not in (*FULL, errno.EPIPE):

@@ -110,9 +110,8 @@ def parse_yaml(
         raise LimitError(f"a file of {len(data)} bytes", Location(file, 1, 1), f"expected at most {MAX_BYTES}")
     text = _decode(data, file)
     if long := _TAG.search(text):
-        before = text[: long.start()]
-        where = Location(file, before.count("\n") + 1, len(before.rpartition("\n")[2]) + 1)
-        raise LimitError(f"a tag of more than {MAX_TAG} characters", where, "expected plain text, lists and mappings")
+        hint, where = "expected plain text, lists and mappings", _behind(text[: long.start()], file)
+        raise LimitError(f"a tag of more than {MAX_TAG} characters", where, hint)
     composer = _Composer(text, file)
     try:
         root = composer.document()
@@ -121,10 +120,10 @@ def parse_yaml(
     except _OF_RUAMEL:
         hint = "look at what stands behind % and behind backslashes in double quotes"
         raise NotYamlError("not YAML: a directive or an escape cannot be read", Location(file, 1, 1), hint) from None
+    told = composer.duplicates[:MOST_TWICE]
     if twice is not None:
-        twice += composer.duplicates[:MOST_TWICE]
-    elif composer.duplicates:
-        told = composer.duplicates[:MOST_TWICE]
+        twice += told
+    elif told:
         raise told[0] if len(told) == 1 else InputErrors(told)
     hint = f"expected a mapping that begins with format: {begins}"
     if root is None or isinstance(root, Text) and root.is_nothing:
@@ -149,17 +148,19 @@ def _decode(data: bytes, file: str) -> str:
     try:
         return data.decode("utf-8").removeprefix("\ufeff")
     except UnicodeDecodeError as error:
-        before = data[: error.start]
-        column = len(before.rpartition(b"\n")[2].decode("utf-8", "replace")) + 1
-        where = Location(file, before.count(b"\n") + 1, column)
+        where = _behind(data[: error.start].decode("utf-8"), file)
         raise NotYamlError(f"byte 0x{data[error.start]:02x} is no UTF-8", where, "expected a UTF-8 text file") from None
+
+
+def _behind(before: str, file: str) -> Location:
+    """The place right behind a text that a file begins with."""
+    return Location(file, before.count("\n") + 1, len(before.rpartition("\n")[2]) + 1)
 
 
 def _translate(error: YAMLError, text: str, file: str) -> NotYamlError:
     """ruamel's error in our words, with its place."""
     if isinstance(error, ReaderError):
-        before = text[: error.position]
-        where = Location(file, before.count("\n") + 1, len(before.rpartition("\n")[2]) + 1)
+        where = _behind(text[: error.position], file)
         return NotYamlError(f"character {text[error.position : error.position + 1]!r} is not allowed in YAML", where)
     if not isinstance(error, MarkedYAMLError):
         return NotYamlError(f"not YAML: {error}"[:500], Location(file, 1, 1))

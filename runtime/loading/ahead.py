@@ -6,7 +6,6 @@ import os
 import shutil
 import tempfile
 from collections.abc import Mapping
-from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 from weakref import finalize
@@ -63,8 +62,7 @@ class Ahead:
     def foresee(self, header: str) -> None:
         """The engine of a scene that may have this model.h: a core has nothing to do in the next second."""
         if header and (os.cpu_count() or 1) > 1:
-            with suppress(GudgeonError, OSError):
-                self.begin_shared(self._engine(header, self._quick))
+            self.begin(ENGINE_PART, {HEADER: header})
 
     def shared_objects(self, source: KernelSource, quick: bool = False) -> list[Shared]:
         """What it has in common with others: no engine where C is compiled alone."""
