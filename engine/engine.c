@@ -19,6 +19,7 @@
 #include "methods/rk4.c"
 #include "methods/methods.c"
 #include "watch/roots.c"
+#include "watch/grazes.c"
 #include "watch/pulses.c"
 #if !N_WATCHED
 #include "watch/no_watched.c"

@@ -142,14 +142,14 @@ static void scatter_step(const Flow *flow, int k, Step *step)
     }
     step->stages_lane = (const double *)x->k + k;
     step->dense_lane = (const double *)x->dense + k;
+    step->seen_lane = (const double *)x->seen + k;
     step->dense_ready = x->dense_ready && !x->no_dense[k] ? ELSEWHERE : 0;
     step->lanes = LANES;
     step->n_seen = x->n_seen;
-    for (int s = 0; s < x->n_seen; s++) {
+    for (int s = 0; s < x->n_seen; s++)
         step->node[s] = x->node[s];
-        for (int j = 0; j < N_MARGINS; j++)
-            step->seen[s][j] = x->seen[s][j][k];
-    }
+    for (int j = 0; j < N_MARGINS; j++)
+        step->lowest[j] = x->lowest[j][k];
     for (int j = 0; j < N_SWITCHES; j++)
         step->passed[j] = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {

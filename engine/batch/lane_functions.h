@@ -4,9 +4,31 @@
 #ifndef GUDGEON_LANE_FUNCTIONS_H
 #define GUDGEON_LANE_FUNCTIONS_H
 
-/* As max_of, min_of, sign_of: a NaN in x stays. */
-static inline Lanes lanes_max_of(Lanes x, Lanes y) { return pick(x < y, y, x); }
-static inline Lanes lanes_min_of(Lanes x, Lanes y) { return pick(x > y, y, x); }
+/* As max_of, min_of, sign_of: a NaN in x stays, and x of two equals, as in the second operand of these instructions. */
+static inline Lanes lanes_max_of(Lanes x, Lanes y)
+{
+#if defined(__GNUC__) && !defined(__clang__) && defined(__AVX512F__)
+    return (Lanes)__builtin_ia32_maxpd512_mask(y, x, x, (char)-1, 4);
+#elif defined(__GNUC__) && !defined(__clang__) && defined(__AVX__)
+    return (Lanes)__builtin_ia32_maxpd256(y, x);
+#elif defined(__GNUC__) && !defined(__clang__) && defined(__SSE2__)
+    return (Lanes)__builtin_ia32_maxpd(y, x);
+#else
+    return pick(x < y, y, x);
+#endif
+}
+static inline Lanes lanes_min_of(Lanes x, Lanes y)
+{
+#if defined(__GNUC__) && !defined(__clang__) && defined(__AVX512F__)
+    return (Lanes)__builtin_ia32_minpd512_mask(y, x, x, (char)-1, 4);
+#elif defined(__GNUC__) && !defined(__clang__) && defined(__AVX__)
+    return (Lanes)__builtin_ia32_minpd256(y, x);
+#elif defined(__GNUC__) && !defined(__clang__) && defined(__SSE2__)
+    return (Lanes)__builtin_ia32_minpd(y, x);
+#else
+    return pick(x > y, y, x);
+#endif
+}
 static inline Lanes lanes_sign_of(Lanes x) { return pick(x > 0.0, all_of(1.0), pick(x < 0.0, all_of(-1.0), x)); }
 static inline Lanes lanes_fabs(Lanes x) { return (Lanes)((LaneBits)x & 0x7fffffffffffffffLL); }
 

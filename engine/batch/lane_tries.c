@@ -7,6 +7,8 @@
 static void forget_stages(LaneStep *step)
 {
     step->n_seen = 0;
+    for (int k = 0; k < N_MARGINS; k++)
+        step->lowest[k] = all_of(INFINITY);
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
         step->least[k] = all_of(INFINITY);
         step->most[k] = all_of(-INFINITY);
@@ -56,14 +58,24 @@ static void note_margins(const LaneRun *run, const LaneAside *aside, Lanes *out)
         out[N_CLEARANCES + N_SWITCHES + k] = run->memory.event_side[k] * aside->event[k];
 }
 
+static Lanes square_of_force(const LaneAside *aside, int i)
+{
+    return aside->clearance[i].F_n * aside->clearance[i].F_n + aside->clearance[i].F_t * aside->clearance[i].F_t;
+}
+
 static void note_stage(const LaneRun *run, LaneStep *step, const LaneAside *aside, double node)
 {
-    note_margins(run, aside, step->seen[step->n_seen]);
+    Lanes *const seen = step->seen[step->n_seen];
+    note_margins(run, aside, seen);
+    for (int k = 0; k < N_MARGINS; k++)
+        step->lowest[k] = lanes_min_of(step->lowest[k], seen[k]);
     step->node[step->n_seen++] = node;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Lanes rate = aside->clearance[i].deltadot;
         step->rate[i][0] = lanes_min_of(step->rate[i][0], rate);
         step->rate[i][1] = lanes_max_of(step->rate[i][1], rate);
+        seen[N_MARGINS + i] = square_of_force(aside, i);
+        seen[N_MARGINS + N_CLEARANCES + i] = rate;
     }
 }
 
@@ -115,6 +127,8 @@ static void begin_pass(LaneRun *run, LaneStep *step, LaneBits active, int n)
 {
     count_rates(run, active, n);
     step->n_seen = 0;
+    for (int k = 0; k < N_MARGINS; k++)
+        step->lowest[k] = pick(active, all_of(INFINITY), step->lowest[k]);
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
         step->least[k] = pick(active, all_of(INFINITY), step->least[k]);
         step->most[k] = pick(active, all_of(-INFINITY), step->most[k]);
@@ -131,14 +145,18 @@ static void note_pass(LaneRun *run, LaneStep *step, LaneBits active, const Lanes
 {
     Lanes margins[AT_LEAST_ONE(N_MARGINS)], *const seen = step->seen[step->n_seen];
     note_margins(run, aside, margins);
-    for (int j = 0; j < N_MARGINS; j++)
+    for (int j = 0; j < N_MARGINS; j++) {
         seen[j] = pick(active, margins[j], seen[j]);
+        step->lowest[j] = pick(active, lanes_min_of(step->lowest[j], margins[j]), step->lowest[j]);
+    }
     step->node[step->n_seen++] = node;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Lanes rate = aside->clearance[i].deltadot, *const old = step->rate[i];
         const Lanes low = lanes_min_of(old[0], rate), high = lanes_max_of(old[1], rate);
         step->rate[i][0] = pick(active, low, old[0]);
         step->rate[i][1] = pick(active, high, old[1]);
+        seen[N_MARGINS + i] = pick(active, square_of_force(aside, i), seen[N_MARGINS + i]);
+        seen[N_MARGINS + N_CLEARANCES + i] = pick(active, rate, seen[N_MARGINS + N_CLEARANCES + i]);
     }
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
         step->least[k] = pick(active, lanes_min_of(step->least[k], y[k]), step->least[k]);
@@ -177,11 +195,8 @@ static int count_ends(const LaneRun *run, const LaneStep *step)
     LaneBits some = {0};
     int count = 0;
     note_margins(run, &step->aside, margins);
-    for (int j = 0; j < N_MARGINS; j++) {
-        some |= margins[j] < 0.0;
-        for (int s = 0; s < step->n_seen; s++)
-            some |= step->seen[s][j] < 0.0;
-    }
+    for (int j = 0; j < N_MARGINS; j++)
+        some |= (margins[j] < 0.0) | (step->lowest[j] < 0.0);
     some &= step->taken;
     for (int k = 0; k < LANES; k++)
         count -= (int)some[k];

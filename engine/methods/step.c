@@ -27,9 +27,18 @@ static void margins_of(const Memory *memory, const Aside *aside, double *out)
         out[k] = margin(memory, aside, k);
 }
 
+/* Margin k, or another number, of the i-th stage that was seen. */
+static double seen_at(const Step *step, int i, int k)
+{
+    return step->seen_lane ? step->seen_lane[(i * AT_LEAST_ONE(N_SEEN) + k) * step->lanes] : step->seen[i][k];
+}
+
 static void forget_stages(Step *step)
 {
     step->n_seen = 0;
+    step->seen_lane = NULL;
+    for (int k = 0; k < N_MARGINS; k++)
+        step->lowest[k] = INFINITY;
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
         step->least[k] = INFINITY;
         step->most[k] = -INFINITY;
@@ -45,12 +54,17 @@ static void forget_stages(Step *step)
 /* What a stage at `node` saw. */
 static void note_stage(const Run *run, Step *step, const Aside *aside, double node)
 {
-    margins_of(&run->memory, aside, step->seen[step->n_seen]);
+    double *const seen = step->seen[step->n_seen];
+    margins_of(&run->memory, aside, seen);
+    for (int k = 0; k < N_MARGINS; k++)
+        step->lowest[k] = seen[k] < step->lowest[k] ? seen[k] : step->lowest[k];
     step->node[step->n_seen++] = node;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &aside->clearance[i];
         step->rate[i][0] = min_of(step->rate[i][0], joint->deltadot);
         step->rate[i][1] = max_of(step->rate[i][1], joint->deltadot);
+        seen[N_MARGINS + i] = joint->F_n * joint->F_n + joint->F_t * joint->F_t;
+        seen[N_MARGINS + N_CLEARANCES + i] = joint->deltadot;
     }
 }
 

@@ -3,6 +3,7 @@
  */
 enum { MAX_TOPS = 20 };
 #define TOP 1e-5 /* of a step: so near its place a force is its largest but for 1e-10 */
+#define BENT 0.5 /* of the last chord's slope, that a parabola may change it by to tell the slope at its end */
 #define TOP_OF 0.1 /* of the root of the tolerance: but for a hundredth of that */
 
 static void peak(Run *run, int i, double t, double F)
@@ -95,13 +96,47 @@ static void outermost(Run *run, Step *step, double share, int i, const Parameter
 }
 
 /*
- * Peaks between the ends of a step: where a force near its largest so far rose at the start and falls at the end.
- * The slope at the end is told by a very short way along the motion.
+ * Whether joint i's force rises at a share of the step (1) or falls (-1): by the parabola of its square through the two
+ * last stages before; 0 where that bends too much to tell.
  */
+static int trend(const Step *step, double share, int i, double after)
+{
+    double s[2] = {-1.0, -1.0}, f[2] = {NAN, NAN};
+    for (int k = 0; k < step->n_seen; k++) {
+        const double node = step->node[k];
+        if (!(node < 0.99 * share && node > s[1]) || node == s[0])
+            continue;
+        const int last = node > s[0];
+        s[1] = last ? s[0] : node, f[1] = last ? f[0] : seen_at(step, k, N_MARGINS + i);
+        s[0] = last ? node : s[0], f[0] = last ? seen_at(step, k, N_MARGINS + i) : f[0];
+    }
+    const double slope = (after * after - f[0]) / (share - s[0]);
+    const double bend = (slope - (f[0] - f[1]) / (s[0] - s[1])) * (share - s[0]) / (share - s[1]);
+    return fabs(bend) < BENT * fabs(slope) ? (slope > 0.0) - (slope < 0.0) : 0;
+}
+
+/* Of joints where that does not tell: by a very short way along the motion. 0, or what went wrong. */
+static int trends_beyond(Run *run, const Step *step, double share, const double *after, int *trends,
+    const Parameters *p)
+{
+    double x[N_Y], dx[N_Y];
+    Aside aside;
+    const double e = 1e-4 * share * step->h;
+    for (int k = 0; k < N_Y; k++)
+        x[k] = step->y[k] + e * step->dy[k];
+    const int status = rates(run, step->t + share * step->h + e, x, p, dx, &aside);
+    for (int i = 0; i < N_CLEARANCES && !status; i++)
+        if (!trends[i])
+            trends[i] = total_force(&aside.clearance[i]) > after[i] ? 1 : -1;
+    return status;
+}
+
+/* Peaks between the ends of a step: where a force near its largest so far rose at the start and falls at the end. */
 static void inner_peaks(Run *run, Step *step, double share, const Parameters *p)
 {
+    enum { LOW = 2 }; /* a force that is no peak yet */
     double before[AT_LEAST_ONE(N_CLEARANCES)], after[AT_LEAST_ONE(N_CLEARANCES)];
-    int near = 0;
+    int trends[AT_LEAST_ONE(N_CLEARANCES)], unknown = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
         outermost(run, step, share, i, p);
         const Clearance *a = &run->aside.clearance[i], *b = &step->aside.clearance[i];
@@ -109,24 +144,17 @@ static void inner_peaks(Run *run, Step *step, double share, const Parameters *p)
         before[i] = total_force(a), after[i] = total_force(b);
         /* a contact's force may double in a step, a film's grows by some percent */
         const double share_of = run->memory.latch[i].closed ? 0.9 : 0.97;
-        const int looked = max_of(before[i], after[i]) > share_of * known && after[i] > 0.0;
-        run->rising[i] = looked ? run->rising[i] : 1;
-        near |= looked << i % 16;
+        const int near = max_of(before[i], after[i]) > share_of * known && after[i] > 0.0;
+        trends[i] = near ? trend(step, share, i, after[i]) : LOW;
+        unknown |= !trends[i];
     }
-    if (!near)
-        return;
-    double x[N_Y], dx[N_Y];
-    Aside aside;
-    const double e = 1e-4 * share * step->h;
-    for (int k = 0; k < N_Y; k++)
-        x[k] = step->y[k] + e * step->dy[k];
-    if (rates(run, step->t + share * step->h + e, x, p, dx, &aside))
+    if (unknown && trends_beyond(run, step, share, after, trends, p))
         return;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        const double slope = total_force(&aside.clearance[i]) - after[i];
         const int let_go = after[i] < 1e-6 * before[i]; /* where a law ceases to push: beyond it, held, it would pull */
-        if ((near >> i % 16 & 1) && run->rising[i] && (slope < 0.0 || let_go) && make_dense(run, p, step) == 0)
+        const int falls = trends[i] < 0 || (trends[i] != LOW && let_go);
+        if (falls && run->rising[i] && make_dense(run, p, step) == 0)
             inner_peak(run, step, share, i, before[i], after[i], p);
-        run->rising[i] = slope > 0.0 && !let_go;
+        run->rising[i] = !falls;
     }
 }

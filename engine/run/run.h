@@ -38,6 +38,7 @@ typedef struct {
 /* A step that was tried: contacts and the sides of corners are held while it is made. */
 enum {
     N_MARGINS = N_CLEARANCES + N_SWITCHES + N_FRICTIONS + N_USER_EVENTS, /* what may end a step, in this order */
+    N_SEEN = N_MARGINS + 2 * N_CLEARANCES, /* at a stage: these; of joints with play F^2, N^2, and deltadot, m/s */
 #if TAYLOR
     N_DENSE = TAYLOR_ORDERS,
 #else
@@ -62,11 +63,11 @@ typedef struct {
     double k[N_STAGES][N_Y];                 /* rates or increments of the stages */
     double dense[N_DENSE][N_Y];
     int dense_ready;                         /* HERE; ELSEWHERE: in dense_lane */
-    /* where others have tried it: stages and interpolant, of which each number is so many further; NULL: here */
-    const double *stages_lane, *dense_lane;
+    /* where others have tried it: stages, interpolant, what was seen, each number so many further; NULL: here */
+    const double *stages_lane, *dense_lane, *seen_lane;
     int lanes;
-    int n_seen;                              /* stages so far, their nodes and margins */
-    double node[N_STAGES], seen[N_STAGES][AT_LEAST_ONE(N_MARGINS)];
+    int n_seen;                              /* stages so far, their nodes, what they saw, the least margins of them */
+    double node[N_STAGES], seen[N_STAGES][AT_LEAST_ONE(N_SEEN)], lowest[AT_LEAST_ONE(N_MARGINS)];
     double look[AT_LEAST_ONE(N_WATCHED)][N_LOOKS + 1]; /* margins of what is watched, evenly along the step (looks.c) */
     unsigned char passed[AT_LEAST_ONE(N_SWITCHES)]; /* corners that this step crosses without harm */
     /* where a zero of what is watched was found, and its value behind it */

@@ -60,14 +60,10 @@ static int is_passed(const Run *run, const Step *step, int k)
 /* The stage at which margin k was smallest; -1: none was. */
 static int nearest_stage(const Step *step, int k)
 {
-    int nearest = -1;
-    double least = INFINITY;
-    for (int i = 0; i < step->n_seen; i++)
-        if (step->seen[i][k] < least) {
-            least = step->seen[i][k];
-            nearest = i;
-        }
-    return nearest;
+    int nearest = 0;
+    while (nearest < step->n_seen && seen_at(step, nearest, k) != step->lowest[k])
+        nearest++;
+    return nearest < step->n_seen ? nearest : -1;
 }
 
 /* The bracket's upper end for margin k: a share at which it is below zero; 0 if there is none. */
@@ -75,12 +71,11 @@ static double violated(Run *run, Step *step, int k, const Parameters *p, double 
 {
     if (watched_as[k] >= 0)
         return first_look(run, step, watched_as[k], p, value);
-    const double end = margin(&run->memory, &step->aside, k);
-    const int nearest = nearest_stage(step, k);
-    const double least = nearest < 0 ? INFINITY : step->seen[nearest][k], s = nearest < 0 ? 1.0 : step->node[nearest];
+    const double end = margin(&run->memory, &step->aside, k), least = step->lowest[k];
     if (k < N_CLEARANCES && may_graze(run, step, k, least) && make_dense(run, p, step) == 0)
         return look_along(run, step, k, p, value);
-    if (least < 0.0 && s < 1.0 && make_dense(run, p, step) == 0) {
+    const double s = least < 0.0 ? step->node[nearest_stage(step, k)] : 1.0;
+    if (s < 1.0 && make_dense(run, p, step) == 0) {
         *value = margin_at(run, step, s, k, p);
         if (*value < 0.0)
             return s;
@@ -105,8 +100,8 @@ static double earlier_event(Run *run, const Step *step, double first, const Para
         if (found < 0)
             return first;
         const Place high = place_at(run, step, first, found, p);
-        const Place low = begin_of(run, step, found);
-        const double s = root(run, step, found, low, high, stage_guess(step, found, low, high), p);
+        const Bracket of = bracket_of(step, found, begin_of(run, step, found), high);
+        const double s = root(run, step, found, of, guess_zero(&of), p);
         if (!(s < first))
             return first;
         first = s;
@@ -118,7 +113,7 @@ static double earlier_event(Run *run, const Step *step, double first, const Para
 /* A margin that ends the step: places at which it is not yet below zero and at which it is; about where it crosses. */
 typedef struct {
     int k;
-    Place low, high;
+    Bracket of;
     double guess, about;
 } Candidate;
 
@@ -129,37 +124,34 @@ static int is_candidate(Run *run, Step *step, int k, const Parameters *p, Candid
     const double high = violated(run, step, k, p, &at_high);
     if (high == 0.0 || make_dense(run, p, step))
         return 0;
-    *now = (Candidate){k, begin_of(run, step, k), end_of(run, step, k), 0.0, 0.0};
-    if (high < 1.0)
-        now->high = place_at(run, step, high, k, p);
+    Place low = begin_of(run, step, k);
     if (watched_as[k] >= 0 && step->from[watched_as[k]] > 0.0) {
         const Place from = place_at(run, step, step->from[watched_as[k]], k, p);
         if (from.f >= 0.0)
-            now->low = from;
+            low = from;
     }
-    for (int j = 1; j < 4 && !(now->low.f >= 0.0); j++) { /* begun on the wrong side: does it come back first? */
+    for (int j = 1; j < 4 && !(low.f >= 0.0); j++) { /* begun on the wrong side: does it come back first? */
         const Place part = place_at(run, step, 0.25 * j * high, k, p);
         if (part.f >= 0.0)
-            now->low = part;
+            low = part;
     }
-    now->guess = now->low.f >= 0.0 ? stage_guess(step, k, now->low, now->high) : 0.0;
-    now->about = now->low.f >= 0.0 ? about_where(now->guess, now->low, now->high) : 0.0;
+    now->k = k;
+    now->of = bracket_of(step, k, low, high < 1.0 ? place_at(run, step, high, k, p) : end_of(run, step, k));
+    now->guess = low.f >= 0.0 ? guess_zero(&now->of) : 0.0;
+    now->about = low.f >= 0.0 ? about_where(now->guess, &now->of) : 0.0;
     return 1;
 }
 
 /* The first share of the step at which one of the margins that count ends it, and which (-1: nothing, share 1). */
 static double first_counting(Run *run, Step *step, const Parameters *p, int *event)
 {
-    double first = 1.0, least[AT_LEAST_ONE(N_MARGINS)];
+    double first = 1.0;
     Candidate some[AT_LEAST_ONE(N_MARGINS)];
     int n = 0;
     *event = -1;
-    margins_of(&run->memory, &step->aside, least);
-    for (int i = 0; i < step->n_seen; i++)
-        for (int k = 0; k < N_MARGINS; k++)
-            least[k] = step->seen[i][k] < least[k] ? step->seen[i][k] : least[k];
     for (int k = 0; k < N_MARGINS; k++) {
-        const int quiet = k >= N_CLEARANCES && watched_as[k] < 0 && !(least[k] < 0.0);
+        const int quiet = k >= N_CLEARANCES && watched_as[k] < 0 && !(step->lowest[k] < 0.0)
+            && !(margin(&run->memory, &step->aside, k) < 0.0);
         Candidate now;
         int i = n;
         if (quiet || is_passed(run, step, k) || !is_candidate(run, step, k, p, &now))
@@ -170,9 +162,9 @@ static double first_counting(Run *run, Step *step, const Parameters *p, int *eve
     }
     for (int i = 0; i < n; i++) {
         const Candidate *now = &some[i];
-        if (*event >= 0 && now->high.s > first && margin_at(run, step, first, now->k, p) >= 0.0)
+        if (*event >= 0 && now->of.at[1].s > first && margin_at(run, step, first, now->k, p) >= 0.0)
             continue; /* later than what was found */
-        const double s = now->low.f >= 0.0 ? root(run, step, now->k, now->low, now->high, now->guess, p) : 0.0;
+        const double s = now->of.at[0].f >= 0.0 ? root(run, step, now->k, now->of, now->guess, p) : 0.0;
         if (*event < 0 || s < first) {
             first = s;
             *event = now->k;

@@ -17,8 +17,8 @@ static int may_vanish(const Run *run, const Step *step, int k, double *range)
     const double start = margin(&run->memory, &run->aside, k), end = margin(&run->memory, &step->aside, k);
     double least = min_of(start, end), most = max_of(start, end); /* the end may lie outside of the domain */
     for (int i = 0; i < step->n_seen; i++) {
-        least = min_of(least, step->seen[i][k]);
-        most = max_of(most, step->seen[i][k]);
+        least = min_of(least, seen_at(step, i, k));
+        most = max_of(most, seen_at(step, i, k));
     }
     *range = most - least;
     return least < *range;

@@ -1,7 +1,10 @@
 /*
- * Where along a step a margin crosses zero: the step's interpolant, its roots, and dips that touch zero in between.
+ * Where along a step a margin crosses zero: looks at the step's interpolant, its roots.
  */
-enum { QUICK = 6, LOOKS = 8, MOST_LOWEST = 20 }; /* looks by which a zero is found as a rule; evenly along a step */
+enum { QUICK = 6, MOST_PLACES = 4 }; /* looks by which a zero is found as a rule; places that tell where it is */
+#define AT_CONTACT 1e-4 /* of the tolerance: how well it is located */
+#define AT_CORNER 0.01   /* of the root of the tolerance */
+#define FAR_ENOUGH 1e-4 /* shares of a bracket, a third place from its ends: a nearer one tells of rounding */
 #define SHALLOW 1e-13 /* m, or 1e-10 of the depth that ends the model: a graze without a force worth the name */
 
 /* How far below zero margin k lies without a meaning: m of a joint with play. */
@@ -109,14 +112,16 @@ static Place place_at(Run *run, const Step *step, double s, int k, const Paramet
     return (Place){s, run->looked.margin[slot][k], k < N_CLEARANCES ? run->looked.slope[slot][k] : NAN};
 }
 
-/* Where the parabola x(f) through three places, or the line through two, meets f = 0. */
-static double inverse_zero(Place a, Place b, Place c)
+/* Where the polynomial s(f) through n places of different f meets f = 0 (Neville's scheme). */
+static double inverse_zero(const Place *place, int n)
 {
-    const double line = a.s - a.f * (b.s - a.s) / (b.f - a.f);
-    if (!isfinite(c.f) || a.f == c.f || b.f == c.f)
-        return line;
-    return a.s * b.f * c.f / ((a.f - b.f) * (a.f - c.f)) + b.s * a.f * c.f / ((b.f - a.f) * (b.f - c.f))
-        + c.s * a.f * b.f / ((c.f - a.f) * (c.f - b.f));
+    double s[MOST_PLACES];
+    for (int i = 0; i < n; i++)
+        s[i] = place[i].s;
+    for (int m = 1; m < n; m++)
+        for (int i = 0; i + m < n; i++)
+            s[i] = (place[i].f * s[i + 1] - place[i + m].f * s[i]) / (place[i].f - place[i + m].f);
+    return s[0];
 }
 
 /*
@@ -127,8 +132,8 @@ static double hermite_zero(Place low, Place high, Place third)
 {
     const double w = high.s - low.s, a = low.f, b = high.f - a, r = w * low.slope, r_end = w * high.slope;
     const double c = 3.0 * b - 2.0 * r - r_end, d = r + r_end - 2.0 * b, x = (third.s - low.s) / w, v = (1.0 - x) * x;
-    const double e = isfinite(third.f) && v != 0.0 ? (third.f - (a + x * (r + x * (c + x * d)))) / (v * v) : 0.0;
-    double from = 0.0, to = 1.0, u = min_of(0.9, max_of(0.1, -a / b));
+    const double e = isfinite(third.f) && fabs(v) > FAR_ENOUGH ? (third.f - (a + x * (r + x * (c + x * d)))) / (v * v) : 0.0;
+    double from = 0.0, to = 1.0, u = -a / b;
     for (int i = 0; i < 60 && to - from > DBL_EPSILON; i++) {
         const double back = 1.0 - u, bend = u * back;
         const double f = a + u * (r + u * (c + u * d)) + e * bend * bend;
@@ -140,16 +145,42 @@ static double hermite_zero(Place low, Place high, Place third)
         u -= f / f_u;
         if (!(u > from && u < to))
             u = 0.5 * (from + to);
-        if (fabs(u - before) < 1e-14)
-            break;
+        if (fabs(u - before) < 1e-9)
+            break; /* Newton's next step is its square */
     }
     return low.s + w * u;
 }
 
-static double guess_zero(Place low, Place high, Place third)
+/*
+ * What is known of a margin about a zero: a bracket of it, and places beside it, nearest first; what stages tell of
+ * them serves to know where to look first.
+ */
+typedef struct {
+    Place at[MOST_PLACES]; /* low, high, others */
+    int n;
+} Bracket;
+
+/* Where a polynomial through what is known has its zero; of values alone one through as many places as tell it. */
+static double guess_zero(const Bracket *of)
 {
-    const int known = isfinite(low.f + low.slope + high.f + high.slope);
-    return known ? hermite_zero(low, high, third) : inverse_zero(low, high, third);
+    const Place low = of->at[0], high = of->at[1];
+    if (isfinite(low.f + low.slope + high.f + high.slope))
+        return hermite_zero(low, high, of->n > 2 ? of->at[2] : (Place){NAN, NAN, NAN});
+    for (int n = of->n; n > 2; n--) {
+        const double s = inverse_zero(of->at, n);
+        if (s > low.s && s < high.s)
+            return s;
+    }
+    return inverse_zero(of->at, 2);
+}
+
+/* A place more, `at` of those that are known: what was there is known beside it. */
+static void narrow(Bracket *of, int at, Place now)
+{
+    of->n = of->n < MOST_PLACES ? of->n + 1 : MOST_PLACES;
+    of->at[3] = of->at[2];
+    of->at[2] = of->at[at];
+    of->at[at] = now;
 }
 
 /* The share to which a zero is located: 4 ulp of the time, or a tick. */
@@ -169,119 +200,76 @@ static Place end_of(const Run *run, const Step *step, int k)
     return (Place){1.0, margin(&run->memory, &step->aside, k), margin_slope(run, step, &step->aside, k)};
 }
 
-/* Of the stages that at which margin k is nearest to zero: it tells only where to look first. */
-static Place stage_between(const Step *step, int k, double low, double high)
+/* A bracket with those two of the stages in it at which margin k is nearest to zero. */
+static Bracket bracket_of(const Step *step, int k, Place low, Place high)
 {
-    Place best = {NAN, NAN, NAN};
-    for (int i = 0; i < step->n_seen; i++)
-        if (step->node[i] > low && step->node[i] < high && !(fabs(step->seen[i][k]) >= fabs(best.f)))
-            best = (Place){step->node[i], step->seen[i][k], NAN};
-    return best;
-}
-
-/* Where margin k crosses zero in a bracket of it, as far as stages tell. */
-static double stage_guess(const Step *step, int k, Place low, Place high)
-{
-    return guess_zero(low, high, stage_between(step, k, low.s, high.s));
+    Place nearest = {NAN, NAN, NAN}, next = nearest;
+    for (int i = 0; i < step->n_seen; i++) {
+        const Place now = {step->node[i], seen_at(step, i, k), NAN};
+        if (!(now.s > low.s && now.s < high.s && now.f == now.f))
+            continue;
+        if (!(fabs(now.f) >= fabs(nearest.f)))
+            next = nearest, nearest = now;
+        else if (!(fabs(now.f) >= fabs(next.f)))
+            next = now;
+    }
+    return (Bracket){{low, high, nearest, next}, 2 + (nearest.s == nearest.s) + (next.s == next.s)};
 }
 
 /* A guess within the bracket. */
-static double about_where(double guess, Place low, Place high)
+static double about_where(double guess, const Bracket *of)
 {
-    return guess > low.s && guess < high.s ? guess : 0.5 * (low.s + high.s);
+    const double low = of->at[0].s, high = of->at[1].s;
+    return guess > low && guess < high ? guess : 0.5 * (low + high);
 }
 
 /*
- * The first share at which margin k is below zero, from a bracket of it, which looks make as narrow as zeros are told
- * apart: at the zero of a polynomial through what is known, on the other side of it once that is known so well, and in
- * the middle where looks do not halve the bracket. guess: stage_guess of the bracket.
+ * How far behind its zero margin k may be found, as a share of a step: of a contact a share of the tolerance; of a
+ * corner, where branches meet, one of its root, for what the wrong branch does grows by the square of it; of all else
+ * as narrow as zeros are told apart.
  */
-static double root(Run *run, const Step *step, int k, Place low, Place high, double guess, const Parameters *p)
+static double reach_of(const Run *run, const Step *step, int k)
 {
-    const double close = root_width(run, step);
-    Place third = stage_between(step, k, low.s, high.s);
+    const double close = root_width(run, step), tolerance = 1.0 / run->inverse_scale[2 * N_X - 1];
+    const int corner = k - N_CLEARANCES;
+    if (run->fixed > 0.0 || watched_as[k] >= 0)
+        return close;
+    if (corner < 0)
+        return max_of(close, AT_CONTACT * tolerance);
+    return corner < N_SWITCHES && meets[corner] ? max_of(close, AT_CORNER * sqrt(tolerance)) : close;
+}
+
+/* Whether a place behind a zero is no further from it than that, as the margin falls there, or from `low` to there. */
+static int is_reached(Place low, Place now, double close)
+{
+    const double slope = isfinite(now.slope) ? now.slope : (now.f - low.f) / (now.s - low.s);
+    return now.f >= slope * close;
+}
+
+/*
+ * The first share at which margin k is below zero, from a bracket of it, which looks make narrow: at the zero of a
+ * polynomial through what is known, or a little behind it, on the other side of it once that is known so well, and in
+ * the middle where looks do not halve the bracket. guess: the first of these zeros.
+ */
+static double root(Run *run, const Step *step, int k, Bracket of, double guess, const Parameters *p)
+{
+    const double close = reach_of(run, step, k);
     double width = 2.0, before = 2.0;
-    for (int i = 0; high.s - low.s > close; i++) {
-        double s = i ? guess_zero(low, high, third) : guess;
-        if (!(s > low.s && s < high.s) || (i >= QUICK && high.s - low.s > 0.5 * before))
-            s = 0.5 * (low.s + high.s);
-        else if (s - low.s < 2.0 * close)
-            s = min_of(low.s + 0.9 * (high.s - low.s), s + 0.75 * close);
-        else if (high.s - s < 2.0 * close)
-            s = max_of(high.s - 0.9 * (high.s - low.s), s - 0.75 * close);
-        if (!(s > low.s && s < high.s))
+    for (int i = 0; of.at[1].s - of.at[0].s > close; i++) {
+        const double from = of.at[0].s, to = of.at[1].s;
+        double s = i ? guess_zero(&of) : guess;
+        if (!(s > from && s < to) || (i >= QUICK && to - from > 0.5 * before))
+            s = 0.5 * (from + to);
+        else
+            s += min_of((s - from < 2.0 * close ? 0.75 : 0.5) * close, 0.9 * (to - s));
+        if (!(s > from && s < to))
             break; /* nothing lies between */
         before = width;
-        width = high.s - low.s;
+        width = to - from;
         const Place now = place_at(run, step, s, k, p);
-        if (now.f >= 0.0)
-            third = low, low = now;
-        else
-            third = high, high = now;
+        if (now.f < 0.0 && is_reached(of.at[0], now, close))
+            return s;
+        narrow(&of, now.f >= 0.0 ? 0 : 1, now);
     }
-    return high.s;
-}
-
-/*
- * Whether a free joint may touch, leave and touch again between what was looked at: it turned round, so near that
- * the way between two looks (a quarter of the step at most) can hide the contact.
- */
-static int may_graze(const Run *run, const Step *step, int i, double least)
-{
-    const Clearance *before = &run->aside.clearance[i], *after = &step->aside.clearance[i];
-    const double outward = max_of(step->rate[i][1], max_of(after->deltadot, before->deltadot));
-    const double inward = min_of(step->rate[i][0], min_of(after->deltadot, before->deltadot));
-    const double nearest = max_of(-least, max_of(after->delta, before->delta));
-    return !run->memory.latch[i].closed && outward > 0.0 && inward < 0.0
-        && nearest + (outward - inward) * step->h / 16.0 > 0.0;
-}
-
-/*
- * The least margin k between two places of which the first falls and the second rises: at the lowest points of cubics
- * through both, which take the place of one; stops where it is below zero, or surely is not.
- */
-static double lowest(Run *run, const Step *step, int k, Place low, Place high, double *s, const Parameters *p)
-{
-    const double least = shallow(p, k);
-    double best = min_of(low.f, high.f);
-    for (int i = 0; i < MOST_LOWEST && high.s - low.s > 1e-6; i++) {
-        const double w = high.s - low.s, mean = 3.0 * (high.f - low.f) / w;
-        const double c = mean - 2.0 * low.slope - high.slope, d = low.slope + high.slope - 2.0 / 3.0 * mean;
-        const double root = sqrt(max_of(0.0, c * c - 3.0 * d * low.slope)); /* slope + 2 c x + 3 d x^2 = 0 */
-        const double x = min_of(0.9, max_of(0.1, -low.slope / (c + root)));
-        const Place now = place_at(run, step, low.s + w * x, k, p);
-        if (!(now.f >= best))
-            best = now.f, *s = now.s;
-        if (!(best >= least))
-            break;
-        if (now.slope < 0.0)
-            low = now;
-        else
-            high = now;
-        if (now.f + (now.slope < 0.0 ? now.slope * (high.s - now.s) : now.slope * (low.s - now.s)) > least)
-            break; /* a convex one stays above its tangents */
-    }
-    return best;
-}
-
-/* The first of equally spaced looks, and of the lowest places between them, that finds a free joint's margin k below
- * zero; 0: none. */
-static double look_along(Run *run, const Step *step, int k, const Parameters *p, double *value)
-{
-    Place last = begin_of(run, step, k);
-    for (int i = 1; i <= LOOKS; i++) {
-        const Place now = i < LOOKS ? place_at(run, step, (double)i / LOOKS, k, p) : end_of(run, step, k);
-        if (last.slope < 0.0 && now.slope > 0.0) {
-            double s = now.s;
-            *value = lowest(run, step, k, last, now, &s, p);
-            if (*value < shallow(p, k))
-                return s;
-        }
-        if (now.f < (i < LOOKS ? shallow(p, k) : 0.0)) {
-            *value = now.f;
-            return now.s;
-        }
-        last = now;
-    }
-    return 0.0;
+    return of.at[1].s;
 }
