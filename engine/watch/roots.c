@@ -132,7 +132,8 @@ static double hermite_zero(Place low, Place high, Place third)
 {
     const double w = high.s - low.s, a = low.f, b = high.f - a, r = w * low.slope, r_end = w * high.slope;
     const double c = 3.0 * b - 2.0 * r - r_end, d = r + r_end - 2.0 * b, x = (third.s - low.s) / w, v = (1.0 - x) * x;
-    const double e = isfinite(third.f) && fabs(v) > FAR_ENOUGH ? (third.f - (a + x * (r + x * (c + x * d)))) / (v * v) : 0.0;
+    const double less = third.f - (a + x * (r + x * (c + x * d))); /* than the cubic there */
+    const double e = isfinite(third.f) && fabs(v) > FAR_ENOUGH ? less / (v * v) : 0.0;
     double from = 0.0, to = 1.0, u = -a / b;
     for (int i = 0; i < 60 && to - from > DBL_EPSILON; i++) {
         const double back = 1.0 - u, bend = u * back;
