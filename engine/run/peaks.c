@@ -96,21 +96,22 @@ static void outermost(Run *run, Step *step, double share, int i, const Parameter
 }
 
 /*
- * Whether joint i's force rises at a share of the step (1) or falls (-1): by the parabola of its square through the two
- * last stages before; 0 where that bends too much to tell.
+ * Whether joint i's force rises at a share of an explicit step (1) or falls (-1): by the parabola through the two last
+ * stages before; 0 where that bends too much to tell. Stages of stiff methods lie too far from the motion.
  */
 static int trend(const Step *step, double share, int i, double after)
 {
     double s[2] = {-1.0, -1.0}, f[2] = {NAN, NAN};
-    for (int k = 0; k < step->n_seen; k++) {
+    for (int k = 0; k < step->n_seen && !step->method->stiff; k++) {
         const double node = step->node[k];
         if (!(node < 0.99 * share && node > s[1]) || node == s[0])
             continue;
         const int last = node > s[0];
-        s[1] = last ? s[0] : node, f[1] = last ? f[0] : seen_at(step, k, N_MARGINS + i);
-        s[0] = last ? node : s[0], f[0] = last ? seen_at(step, k, N_MARGINS + i) : f[0];
+        const double force = sqrt(seen_at(step, k, N_MARGINS + i));
+        s[1] = last ? s[0] : node, f[1] = last ? f[0] : force;
+        s[0] = last ? node : s[0], f[0] = last ? force : f[0];
     }
-    const double slope = (after * after - f[0]) / (share - s[0]);
+    const double slope = (after - f[0]) / (share - s[0]);
     const double bend = (slope - (f[0] - f[1]) / (s[0] - s[1])) * (share - s[0]) / (share - s[1]);
     return fabs(bend) < BENT * fabs(slope) ? (slope > 0.0) - (slope < 0.0) : 0;
 }

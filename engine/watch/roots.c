@@ -2,8 +2,8 @@
  * Where along a step a margin crosses zero: looks at the step's interpolant, its roots.
  */
 enum { QUICK = 6, MOST_PLACES = 4 }; /* looks by which a zero is found as a rule; places that tell where it is */
-#define AT_CONTACT 1e-4 /* of the tolerance: how well it is located */
-#define AT_CORNER 0.01   /* of the root of the tolerance */
+#define AT_CONTACT 1e-9 /* of a step, behind the begin of a contact; less where the tolerance's square is */
+#define AT_CORNER 0.01  /* of the root of the tolerance */
 #define FAR_ENOUGH 1e-4 /* shares of a bracket, a third place from its ends: a nearer one tells of rounding */
 #define SHALLOW 1e-13 /* m, or 1e-10 of the depth that ends the model: a graze without a force worth the name */
 
@@ -225,26 +225,26 @@ static double about_where(double guess, const Bracket *of)
 }
 
 /*
- * How far behind its zero margin k may be found, as a share of a step: of a contact a share of the tolerance; of a
- * corner, where branches meet, one of its root, for what the wrong branch does grows by the square of it; of all else
- * as narrow as zeros are told apart.
+ * How far behind its zero margin k may be found, as a share of a step: of a contact that gives the square of the
+ * tolerance, for forces may begin with a jump; of a corner, where branches meet, a share of its root, for what the
+ * wrong branch does grows by the square of it; 0 of all else: as near as zeros are told apart.
  */
-static double reach_of(const Run *run, const Step *step, int k)
+static double reach_of(const Run *run, int k)
 {
-    const double close = root_width(run, step), tolerance = 1.0 / run->inverse_scale[2 * N_X - 1];
+    const double tolerance = 1.0 / run->inverse_scale[2 * N_X - 1];
     const int corner = k - N_CLEARANCES;
     if (run->fixed > 0.0 || watched_as[k] >= 0)
-        return close;
+        return 0.0;
     if (corner < 0)
-        return max_of(close, AT_CONTACT * tolerance);
-    return corner < N_SWITCHES && meets[corner] ? max_of(close, AT_CORNER * sqrt(tolerance)) : close;
+        return gives(k) ? min_of(AT_CONTACT, tolerance * tolerance) : 0.0;
+    return corner < N_SWITCHES && meets[corner] ? AT_CORNER * sqrt(tolerance) : 0.0;
 }
 
 /* Whether a place behind a zero is no further from it than that, as the margin falls there, or from `low` to there. */
-static int is_reached(Place low, Place now, double close)
+static int is_reached(Place low, Place now, double reach)
 {
     const double slope = isfinite(now.slope) ? now.slope : (now.f - low.f) / (now.s - low.s);
-    return now.f >= slope * close;
+    return now.f >= slope * reach;
 }
 
 /*
@@ -254,21 +254,25 @@ static int is_reached(Place low, Place now, double close)
  */
 static double root(Run *run, const Step *step, int k, Bracket of, double guess, const Parameters *p)
 {
-    const double close = reach_of(run, step, k);
+    const double reach = reach_of(run, k), close = max_of(reach, root_width(run, step));
     double width = 2.0, before = 2.0;
     for (int i = 0; of.at[1].s - of.at[0].s > close; i++) {
         const double from = of.at[0].s, to = of.at[1].s;
         double s = i ? guess_zero(&of) : guess;
         if (!(s > from && s < to) || (i >= QUICK && to - from > 0.5 * before))
             s = 0.5 * (from + to);
-        else
-            s += min_of((s - from < 2.0 * close ? 0.75 : 0.5) * close, 0.9 * (to - s));
+        else if (s - from < 2.0 * close)
+            s = min_of(from + 0.9 * (to - from), s + 0.75 * close);
+        else if (reach > 0.0)
+            s += min_of(0.5 * reach, 0.9 * (to - s));
+        else if (to - s < 2.0 * close)
+            s = max_of(to - 0.9 * (to - from), s - 0.75 * close);
         if (!(s > from && s < to))
             break; /* nothing lies between */
         before = width;
         width = to - from;
         const Place now = place_at(run, step, s, k, p);
-        if (now.f < 0.0 && is_reached(of.at[0], now, close))
+        if (now.f < 0.0 && is_reached(of.at[0], now, reach))
             return s;
         narrow(&of, now.f >= 0.0 ? 0 : 1, now);
     }
