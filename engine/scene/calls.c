@@ -62,6 +62,13 @@ void gudgeon_prepare(const double *given, const unsigned char *is_given, double 
     prepare(given, is_given, (Parameters *)p);
 }
 
+/* The same of several runs, a row each. */
+void gudgeon_prepare_runs(long runs, long slots, const double *given, const unsigned char *is_given, double *p)
+{
+    for (long i = 0; i < runs; i++)
+        prepare(given + i * slots, is_given + i * slots, (Parameters *)p + i);
+}
+
 void gudgeon_mass(const double *p, double *m) { mass_matrix((const Parameters *)p, m); }
 
 void gudgeon_phi(double t, const double *q, const double *p, double *phi)

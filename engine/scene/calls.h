@@ -9,6 +9,7 @@
 #pragma GCC visibility push(protected)
 
 void gudgeon_prepare(const double *given, const unsigned char *is_given, double *p);
+void gudgeon_prepare_runs(long runs, long slots, const double *given, const unsigned char *is_given, double *p);
 void gudgeon_mass(const double *p, double *m);
 void gudgeon_phi(double t, const double *q, const double *p, double *phi);
 void gudgeon_phi_q(double t, const double *q, const double *p, double *phi_q);

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,7 +26,7 @@ from gudgeon.integrators.steps import Look, Tape
 from gudgeon.integrators.threads import GLANCE as GLANCE
 from gudgeon.integrators.threads import in_threads
 from gudgeon.integrators.times import Times
-from gudgeon.integrators.trajectory import Counts, Progress, Trajectory, joined, no_events, plain
+from gudgeon.integrators.trajectory import IMPACT_DTYPE, Counts, Progress, Trajectory, joined, no_events, plain
 from gudgeon.model.compiled import N_WORK, Array, CompiledModel
 from gudgeon.model.sizes import mechanism_sizes
 from gudgeon.waiting.ctrl_c import CtrlC
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
     from gudgeon.results.results import State
 
 ALL_OVER, LISTS, RUN_OVER = 0, 1, 2  # what a call returns
-AT_ONCE = 64  # runs whose samples are looked at together
+AT_ONCE = 64  # runs whose samples are looked at together, at least
 TOGETHER = 4096  # samples of runs that are over, at most, that wait for one another: they are taken at once
 
 
@@ -54,8 +55,6 @@ class Runs:
         self, compiled: CompiledModel, p: Array, motion: Array, times: Times, method: str, step: Array, rtol: float,
         stop: bool, side_by_side: bool, threads: int, over: Callable[[Runs, Sequence[int]], None] | None = None,
     ) -> None:  # fmt: skip
-        from gudgeon.integrators.trajectory import IMPACT_DTYPE
-
         self.compiled, self.method, self.times, self.threads, self.over = compiled, method, times, threads, over
         n, N, size, nc = len(p), times.most, 2 * compiled.n + N_WORK, max(len(compiled.source.clearances), 1)
         beside = side_by_side and lanes.wanted(compiled, method, step)
@@ -84,8 +83,9 @@ class Runs:
         }  # fmt: skip
         self.arrays = {name: np.ascontiguousarray(array) for name, array in self.arrays.items()}
         self.struct = self._struct(math.isfinite(step[0]), stop, rtol)
-        none = np.zeros(0, IMPACT_DTYPE), no_states(compiled), no_events()
-        self.impacts, self.events, self.no_event = [[none[0]] for _ in range(n)], [[none[1]] for _ in range(n)], none[2]
+        self.impacts: list[tuple[int, NDArray[Any]]] = []  # lists as they were fetched, with the run whose they are
+        self.events: dict[int, list[NDArray[Any]]] = {}  # of runs that have any, with states
+        self.contacts, self.cuts = np.zeros(0, IMPACT_DTYPE), np.zeros(n + 1, np.int_)  # once all are over: by run
         self.failures: dict[int, GudgeonError] = {}
         self.unfollowed: dict[int, dict[str, float]] = {}  # guesses, of runs that C could not close near them
         self.interrupted = False
@@ -144,28 +144,39 @@ class Runs:
                 ctrl_c.take()
             except KeyboardInterrupt:
                 self.interrupted = True
+            self._join()
             self._judge()
+
+    def _join(self) -> None:
+        """The contacts of all runs in one array, run by run and by their onset; those of run i begin at cuts[i]."""
+        runs = np.array([i for i, _ in self.impacts], np.int_)
+        order, several = np.argsort(runs, kind="stable"), [own for _, own in self.impacts]
+        contacts = joined(several[k] for k in order.tolist())
+        whose = np.repeat(runs[order], np.array([*map(len, several)], np.int_)[order])
+        by_onset = np.argsort(whose + 1j * contacts["t_on"], kind="stable")  # nearly so: no lexsort
+        self.contacts = contacts.view(f"V{contacts.itemsize}")[by_onset].view(IMPACT_DTYPE)  # whole rows
+        self.cuts, self.impacts = np.searchsorted(whose, np.arange(self.n + 1)), []
 
     def _judge(self) -> None:
         """Lists the runs that did not come to their ends, and marks what was not reached."""
+        x = self.arrays
         self._not_closed()
         for i in self._not_finite() if self.method != "rk4" and not self.over else ():
             self._take_back(i)
-        for i in np.flatnonzero(self.arrays["phase"] != OVER).tolist():
-            self.failures[i] = SolverError(INTERRUPTED, float(self.arrays["t_last"][i]))
-        for i in np.flatnonzero(~np.isin(self.arrays["status"], (0, ENDED))).tolist():
+        for i in np.flatnonzero(x["phase"] != OVER).tolist():
+            self.failures[i] = SolverError(INTERRUPTED, float(x["t_last"][i]))
+        for i in np.flatnonzero(~np.isin(x["status"], (0, ENDED))).tolist():
             if i not in self.failures:
                 self.failures[i] = self._failure(i)
-        for i, done in enumerate(self.arrays["done"].tolist() if not self.over else ()):
-            if done < self.times.most:
-                self.arrays["y"][i, done:], self.arrays["latched"][i, done:] = np.nan, np.nan
+        for i in np.flatnonzero(x["done"] < self.times.most).tolist() if not self.over else ():
+            x["y"][i, x["done"][i] :], x["latched"][i, x["done"][i] :] = np.nan, np.nan
 
     def _not_finite(self) -> Iterator[int]:
         """Runs among which are those that stored what is no number."""
-        y, n = self.arrays["y"], 2 * self.compiled.n
-        for first in range(0, self.n, AT_ONCE):
-            if not np.isfinite(y[first : first + AT_ONCE, :, :n]).all():
-                yield from range(first, min(first + AT_ONCE, self.n))
+        y, n, at_once = self.arrays["y"], 2 * self.compiled.n, max(AT_ONCE, TOGETHER // self.times.most)
+        for first in range(0, self.n, at_once):
+            if not np.isfinite(y[first : first + at_once, :, :n]).all():
+                yield from range(first, min(first + at_once, self.n))
 
     def _take_back(self, i: int) -> None:
         """Samples of run i from the first on that is no number, as a single run does it."""
@@ -229,9 +240,9 @@ class Runs:
         """Takes over the lists of contacts and events of run i."""
         if not self.compiled.lib.gudgeon_run_listed(run):
             return
-        self.impacts[i].append(fetch_impacts(self.compiled, run, last))
+        self.impacts.append((i, fetch_impacts(self.compiled, run, last)))
         if self.compiled.source.events:
-            self.events[i].append(fetch_events(self.compiled, run, self.times.of(i)))
+            self.events.setdefault(i, []).append(fetch_events(self.compiled, run, self.times.of(i)))
 
     def _failure(self, i: int) -> GudgeonError:
         """What ended run i, as a single run says it."""
@@ -243,24 +254,18 @@ class Runs:
 
     def impacts_of(self, i: int) -> NDArray[Any]:
         """IMPACT_DTYPE, the contacts of run i by their onset."""
-        several = [each for each in self.impacts[i] if len(each)]
-        if not several:
-            return self.impacts[i][0]
-        impacts = np.concatenate(several)
-        return impacts[np.argsort(impacts["t_on"], kind="stable")]
+        return self.contacts[self.cuts[i] : self.cuts[i + 1]].copy()
 
     def all_impacts(self) -> tuple[NDArray[Any], ...]:
         """The same of all runs, views of one array."""
-        count = np.array([sum(map(len, several)) for several in self.impacts], np.int_)
-        impacts = joined(each for several in self.impacts for each in several)
-        impacts = impacts[np.lexsort((impacts["t_on"], np.repeat(np.arange(self.n), count)))]
-        ends = np.cumsum(count)
-        return tuple(impacts[a:b] for a, b in zip((ends - count).tolist(), ends.tolist(), strict=True))
+        return tuple(self.contacts[a:b] for a, b in pairwise(self.cuts.tolist()))
 
-    def events_of(self, i: int) -> NDArray[Any]:
-        """EVENT_DTYPE, the user events of run i by time."""
-        several = [each for each in self.events[i] if len(each)]
-        return plain(told_apart(self.compiled, np.concatenate(several))[0]) if several else self.no_event
+    def all_events(self) -> tuple[NDArray[Any], ...]:
+        """EVENT_DTYPE, the user events of all runs by time."""
+        events = [no_events()] * self.n
+        for i, several in self.events.items():
+            events[i] = plain(told_apart(self.compiled, np.concatenate(several))[0])
+        return tuple(events)
 
     def counts(self, i: int) -> Counts:
         """Sums and maxima over the steps of run i."""
@@ -280,7 +285,8 @@ class Runs:
         """Run i as its method would hand it back."""
         compiled, n = self.compiled, self.compiled.n
         t, y, memory, state = self.samples(i)
-        error, (events, no_number) = self.failures.get(i), told_apart(compiled, np.concatenate(self.events[i]))
+        found = np.concatenate([no_states(compiled), *self.events.get(i, ())])
+        error, (events, no_number) = self.failures.get(i), told_apart(compiled, found)
         joints = len(compiled.source.clearances)
         return Trajectory(
             t, y[:, :n].copy(), y[:, n : 2 * n].copy(), None, memory.copy(), state.copy(), y[:, 2 * n :].copy(),

@@ -45,6 +45,12 @@ class Times:
         """Those of run i, (count[i],)."""
         return self.t[i, : self.count[i]] if self.t.ndim == 2 else self.t
 
+    def ends(self) -> Array:
+        """The last of each run, (n,); NaN where a run has none."""
+        if self.t.ndim == 1:
+            return np.full(len(self.count), self.t[-1])
+        return np.where(self.count > 0, self.t[np.arange(len(self.count)), self.count - 1], np.nan)
+
     def same(self, i: int, j: int) -> bool:
         """Whether two runs have the same."""
         return self.t.ndim == 1 or np.array_equal(self.of(i), self.of(j))

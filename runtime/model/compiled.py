@@ -8,7 +8,7 @@ is taken from the cache (or compiled) again when it is first asked for there.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 Array: TypeAlias = NDArray[np.float64]
 
 N_WORK = 3  # works that are integrated with the motion
+AT_ONCE = 1024  # runs whose numbers are made together: they stay near
 
 
 class CompiledModel:
@@ -94,16 +95,19 @@ class CompiledModel:
             values, mask = (values, mask) if last else filled_in(self.source, chosen, values, mask, p)
         return p
 
-    def prepare_each(self, given: Array, is_given: NDArray[np.generic]) -> Array:
-        """The same of n runs, (n, n_slots + n_derived), from values and mask (n, n_slots)."""
-        slots = len(self.source.slots)
-        values, mask = taken(given, "given", (None, slots)), taken(is_given, "is_given", (None, slots), dtype=FLAG)
-        if mask[:, list(self._choices)].any():
-            return np.array([self.prepare(*pair) for pair in zip(values, mask, strict=True)])
-        p = np.empty((len(values), self.n_p))
-        x, given_there, out = self.pointer(values), self.pointer(mask, "unsigned char *"), self._out(p)
-        for i in range(len(p)):
-            self.lib.gudgeon_prepare(x + i * slots, given_there + i * slots, out + i * self.n_p)
+    def prepare_each(self, given: Array, is_given: NDArray[np.generic], zero: Sequence[int] = ()) -> Array:
+        """The same of n runs, (n, n_slots + n_derived), from values and mask (n, n_slots); slots of `zero` are 0."""
+        slots, p = len(self.source.slots), np.empty((len(given), self.n_p))
+        chosen = is_given[:, list(self._choices)].any()
+        for rows in (slice(k, k + AT_ONCE) for k in range(0, len(p), AT_ONCE)):
+            values = np.array(taken(given[rows], "given", (None, slots)))
+            mask = np.array(taken(is_given[rows], "is_given", (None, slots), dtype=FLAG))
+            values[:, zero], mask[:, zero] = 0.0, True
+            if chosen:
+                p[rows] = [self.prepare(*pair) for pair in zip(values, mask, strict=True)]
+                continue
+            arguments = self.pointer(values), self.pointer(mask, "unsigned char *"), self._out(p[rows])
+            self.lib.gudgeon_prepare_runs(len(values), slots, *arguments)
         return p
 
     def mass(self, p: ArrayLike) -> Array:

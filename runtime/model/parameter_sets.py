@@ -5,25 +5,83 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.errors import BadValueError
+from gudgeon.contract.kernel_source import KernelSource, Slot
+from gudgeon.errors import BadValueError, InputError
 from gudgeon.language.wanted import mapping, told
 from gudgeon.model.arrays import taken
-from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.parameters import RELATIONS, check, conditions, given_slots, without_baumgarte
+from gudgeon.model.compiled import AT_ONCE, Array, CompiledModel
+from gudgeon.model.parameters import RELATIONS, check, conditions, given_slots, number, without_baumgarte
 from gudgeon.model.sizes import far_clearances
 
+FLOATS = (float, np.floating)  # what may be no number
 Values: TypeAlias = float | str
 ParameterSets: TypeAlias = Sequence[Mapping[str, Values]] | Mapping[str, Values | Sequence[Values] | ArrayLike] | Array
 Mask: TypeAlias = NDArray[np.bool_]
 
 
-def rows_of(parameters: ParameterSets) -> tuple[list[Mapping[str, Any]], dict[int, BadValueError]]:
+@dataclass(frozen=True)
+class Same:
+    """A column of one value that stands for all runs."""
+
+    value: Any
+
+
+Column: TypeAlias = Array | list[Any] | Same
+
+
+class Columns(Sequence[Mapping[str, Any]]):
+    """The mappings of n runs, each made when it is asked for: a column a name, without what a run leaves out."""
+
+    def __init__(self, columns: Mapping[str, Column], n: int) -> None:
+        self.columns, self.n = columns, n
+        self.left_out: dict[int, list[str]] = {}
+
+    def __len__(self) -> int:
+        return self.n
+
+    def __getitem__(self, key: Any) -> Any:
+        at = range(self.n)[key]
+        if isinstance(at, range):
+            return [self[i] for i in at]
+        out = self.left_out.get(at, ())
+        return {name: _of_run(one, at) for name, one in self.columns.items() if name not in out}
+
+    def leave_out(self) -> dict[int, BadValueError]:
+        """Leaves out numbers that are NaN or infinite; of each run that has any, what is said of the first."""
+        bad: dict[int, BadValueError] = {}
+        for name, one in self.columns.items():
+            for i in _odd(one, self.n):
+                self.left_out.setdefault(i, []).append(name)
+                bad.setdefault(i, BadValueError(f"{name}: {_of_run(one, i)} is not a finite number"))
+        return dict(sorted(bad.items()))
+
+
+def _of_run(one: Column, i: int) -> Any:
+    if isinstance(one, Same):
+        return one.value
+    return one.item(i) if isinstance(one, np.ndarray) else one[i]
+
+
+def _odd(one: Column, n: int) -> Iterable[int]:
+    """Which of n runs have a number there that is NaN or infinite."""
+    if isinstance(one, Same):
+        return range(n if _is_odd(one.value) else 0)
+    if isinstance(one, np.ndarray):
+        return list[int](np.flatnonzero(~np.isfinite(one)).tolist())
+    return [i for i, x in enumerate(one) if _is_odd(x)]
+
+
+def _is_odd(x: Any) -> bool:
+    return isinstance(x, FLOATS) and not math.isfinite(x)
+
+
+def rows_of(parameters: ParameterSets) -> tuple[Sequence[Mapping[str, Any]], dict[int, BadValueError]]:
     """A mapping for each run, and runs that have none: one of their numbers is NaN or infinite.
 
     `parameters`: a mapping for every run; or {address: one value, or one for every run}, as which a structured
@@ -32,11 +90,14 @@ def rows_of(parameters: ParameterSets) -> tuple[list[Mapping[str, Any]], dict[in
     rows, bad = _rows(parameters), dict[int, BadValueError]()
     if not rows:
         raise BadValueError("parameters: no run is asked for", hint="a mapping for every run, or {address: values}")
-    for i, row in enumerate(rows):
-        odd = [name for name, x in row.items() if isinstance(x, (float, np.floating)) and not math.isfinite(x)]
-        if odd and len(rows) > 1:
-            bad[i] = BadValueError(f"{odd[0]}: {row[odd[0]]} is not a finite number")
-            rows[i] = {name: value for name, value in row.items() if name not in odd}
+    if isinstance(rows, Columns):
+        bad = rows.leave_out()
+    elif len(rows) > 1:
+        floats = [x for row in rows for x in row.values() if isinstance(x, FLOATS)]
+        for i, row in enumerate(() if all(map(math.isfinite, floats)) else rows):
+            if odd := [name for name, x in row.items() if _is_odd(x)]:
+                bad[i] = BadValueError(f"{odd[0]}: {row[odd[0]]} is not a finite number")
+                rows[i] = {name: value for name, value in row.items() if name not in odd}
     if len(bad) == len(rows):
         raise BadValueError(f"parameters: {bad[0]}")
     return rows, bad
@@ -50,22 +111,43 @@ def given_each(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -> tuple
 
 
 def plain_each(source: KernelSource, rows: Sequence[Mapping[str, Any]]) -> tuple[Array, Mask] | None:
-    """The same at once, where all runs are given the same slots as floats; None where each is to be read by itself."""
+    """The same at once, where all runs are given the same slots as floats; None where each is to be read by itself.
+
+    In columns one value for all runs may be anything that stands for a number.
+    """
     first, place = rows[0].keys(), source.place
-    at = [place.get(name, place.get(f"parameters.{name}", -1)) for name in first if isinstance(name, str)]
-    alike = all(row.keys() == first for row in rows) and len(at) == len(first)
-    if not alike or len({*at, -1}) <= len(at) or any(source.slots[k].words for k in at):
+    if not isinstance(rows, Columns):
+        if not all(row.keys() == first for row in rows):
+            return None
+        rows = Columns({name: [row[name] for row in rows] for name in first}, len(rows))
+    at = [place.get(name, place.get(f"parameters.{name}", -1)) for name in rows.columns if isinstance(name, str)]
+    if len(at) < len(rows.columns) or len({*at, -1}) <= len(at) or any(source.slots[k].words for k in at):
         return None
-    values = [[row[name] for name in first] for row in rows]
-    if not all(type(x) in (float, np.float64) for row in values for x in row):
+    shape = (len(place), len(rows))  # memory of slots that nobody is given is never touched
+    given, mask = np.zeros(shape).T, np.zeros(shape, dtype=bool).T
+    for k, one in zip(at, rows.columns.values(), strict=True):
+        numbers = _plain(one, source.slots[k])
+        if numbers is None:
+            return None
+        given[:, k], mask[:, k] = numbers, True
+    for i, names in rows.left_out.items():
+        out = [k for k, name in zip(at, rows.columns, strict=True) if name in names]
+        given[i, out], mask[i, out] = 0.0, False
+    return (given, mask) if np.isfinite(given[:, at]).all() else None
+
+
+def _plain(one: Column, slot: Slot) -> Array | float | None:
+    """The numbers of a column, NaN and infinite ones too; None where they are to be read one by one."""
+    if isinstance(one, Same):
+        try:
+            return number(one.value, slot)
+        except InputError:
+            return None
+    if isinstance(one, list) and not {*map(type, one)} <= {float, np.float64}:
         return None
-    numbers = np.array(values, dtype=float).reshape(len(rows), len(at))
+    numbers = np.asarray(one, dtype=float)
     size = np.abs(numbers)
-    if not ((size == 0.0) | ((size >= sys.float_info.min) & (size < math.inf))).all():
-        return None
-    given, mask = np.zeros((len(rows), len(place))), np.zeros((len(rows), len(place)), dtype=bool)
-    given[:, at], mask[:, at] = numbers, True
-    return given, mask
+    return None if ((size > 0.0) & (size < sys.float_info.min)).any() else numbers
 
 
 def each_of(rows: Sequence[Mapping[str, Any]], slots: Callable[[int, Mapping[str, Any]], tuple[Array, Array]]) -> Any:
@@ -79,7 +161,7 @@ def each_of(rows: Sequence[Mapping[str, Any]], slots: Callable[[int, Mapping[str
     return np.array([given for given, _ in pairs]), np.array([mask for _, mask in pairs])
 
 
-def _rows(parameters: ParameterSets) -> list[Mapping[str, Any]]:
+def _rows(parameters: ParameterSets) -> list[Mapping[str, Any]] | Columns:
     if isinstance(parameters, np.ndarray) and parameters.dtype.names is not None:
         table: NDArray[Any] = np.atleast_1d(parameters)
         parameters = {name: table[name] for name in parameters.dtype.names}
@@ -88,32 +170,37 @@ def _rows(parameters: ParameterSets) -> list[Mapping[str, Any]]:
     if not isinstance(parameters, Mapping) and not hasattr(parameters, "items"):
         iterable = isinstance(parameters, Iterable) and not isinstance(parameters, (str, bytes, np.ndarray))
         rows: list[Any] = list(parameters) if iterable else [None]
-        if not all(isinstance(row, Mapping) for row in rows):
+        if not all(issubclass(kind, Mapping) for kind in {*map(type, rows)}):
             raise BadValueError("parameters: expected a mapping for every run, or one of columns: {address: values}")
         return rows
     parameters = mapping(parameters, "parameters", "a mapping for every run, or {address: values}")
-    columns = {name: column(f"parameters: {name}", values) for name, values in parameters.items()}
-    lengths = {name: len(column) for name, column in columns.items() if column is not None}
+    columns = {name: _column(f"parameters: {name}", values) for name, values in parameters.items()}
+    lengths = {name: len(column) for name, column in columns.items() if not isinstance(column, Same)}
     if len(set(lengths.values())) > 1:
         told = ", ".join(f"{name} has {length}" for name, length in lengths.items())
         raise BadValueError(f"parameters: columns of different lengths: {told}", hint="one value, or one for every run")
-    n = next(iter(lengths.values()), 1)
-    whole = {name: [parameters[name]] * n if column is None else column for name, column in columns.items()}
-    return [{name: column[i] for name, column in whole.items()} for i in range(n)]
+    found = Columns(columns, next(iter(lengths.values()), 1))
+    return list(found) if len(found) == 1 else found
 
 
 def column(name: str, values: Any) -> list[Any] | None:
     """The values of every run; None where one stands for all. Raises BadValueError, which begins with `name`."""
+    found = _column(name, values)
+    return None if isinstance(found, Same) else found.tolist() if isinstance(found, np.ndarray) else found
+
+
+def _column(name: str, values: Any) -> Column:
+    """The same as it is kept in Columns."""
     try:
         shape = () if isinstance(values, (str, bytes, Mapping, type)) else np.shape(values)
     except ValueError:  # rows of different lengths
         raise BadValueError(f"{name} is {told(values)}: expected one value for every run") from None
     if not shape:
-        return None
+        return Same(values)
     if len(shape) != 1:
         raise BadValueError(f"{name} has shape {shape}, expected one value for every run")
     if isinstance(values, np.ndarray):
-        return taken(values, name).tolist() if values.dtype.kind in "iuf" else values.tolist()
+        return taken(values, name) if values.dtype.kind in "iuf" else list[Any](values.tolist())
     return list(values)
 
 
@@ -128,7 +215,8 @@ def prepare_sets(
     p = compiled.prepare_each(given, is_given)
     motion = without_baumgarte(compiled, given, is_given) if free else p
     bad = {}
-    for i in np.flatnonzero(~_valid(compiled.source, p)).tolist():
+    valid = [_valid(compiled.source, p[k : k + AT_ONCE]) for k in range(0, len(p), AT_ONCE)]
+    for i in np.flatnonzero(~np.concatenate(valid)).tolist():
         try:
             check(compiled.source, p[i])
         except BadValueError as error:
@@ -137,8 +225,8 @@ def prepare_sets(
 
 
 def _valid(source: KernelSource, p: Array) -> Mask:
-    """What parameters.check asks for, of all runs at once, (n_runs,)."""
-    place = {slot.address: k for k, slot in enumerate(source.slots)}
+    """What parameters.check asks for, of several runs at once, (n_runs,)."""
+    place = source.place
     valid = np.asarray(np.isfinite(p).all(axis=1))
     for condition in conditions(source):
         several = [place[address] for address in condition.addresses]

@@ -199,9 +199,11 @@ def without_baumgarte(compiled: CompiledModel, given: Array, is_given: NDArray[n
     """p of a run, or of n, with both gains zero: for methods that project onto the constraints instead."""
     place = compiled.source.place
     gains = [place[name] for name in GAINS if name in place]
+    if given.ndim == 2:
+        return compiled.prepare_each(given, is_given, gains)
     values, mask = given.copy(), is_given.copy()
-    values[..., gains], mask[..., gains] = 0.0, True
-    return compiled.prepare(values, mask) if values.ndim == 1 else compiled.prepare_each(values, mask)
+    values[gains], mask[gains] = 0.0, True
+    return compiled.prepare(values, mask)
 
 
 def check(source: KernelSource, p: Array) -> None:

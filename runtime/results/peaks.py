@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError
-from gudgeon.integrators.trajectory import joined
 from gudgeon.results.blows import is_blow
 from gudgeon.results.diagnostics import Extremes
 from gudgeon.results.unknown import check_series
@@ -146,16 +145,16 @@ def run_columns(runs: Sequence[Sequence[Extremes]]) -> Iterator[tuple[str, str, 
             yield f"{one[0]}.{'error' if one[2] else 'peak'}.{key}", "s" if key.startswith("t_") else one[1], values
 
 
-def peaks_of(peaks: Array, impacts: Sequence[NDArray[Any]]) -> NDArray[Any]:
-    """PEAK_DTYPE from F, t, e_max (n, n_clearances, 3) and the lists of contacts."""
+def peaks_of(peaks: Array, contacts: NDArray[Any], count: NDArray[np.int_]) -> NDArray[Any]:
+    """PEAK_DTYPE from F, t, e_max (n, n_clearances, 3) and the contacts of all runs, so many of each."""
     out = np.full(peaks.shape[:2], np.nan, dtype=PEAK_DTYPE)
     for k, name in enumerate(("F", "t", "e_max")):
         out[name] = peaks[:, :, k]
-    contacts, runs = joined(impacts), np.repeat(np.arange(len(impacts)), [len(each) for each in impacts])
+    runs = np.repeat(np.arange(len(count)), count)
     for joint in range(peaks.shape[1]):
         own = np.flatnonzero(contacts["joint"] == joint)
-        run, first = np.unique(runs[own], return_index=True)
-        begun = contacts[own[first]]
+        own = own[np.flatnonzero(np.diff(runs[own], prepend=-1))]  # the first of each run
+        run, begun = runs[own], contacts[own]
         out["first_contact"][run, joint] = begun["t_on"]
         out["first_peak"][run, joint] = np.where(is_blow(begun), np.nan, begun["F_peak"])
     return out

@@ -103,9 +103,11 @@ class EachRun:
     def lengths_of_steps(self, method: str, p: Array, times: Times, left_out: dict[int, Any]) -> Array:
         """The step (s) of each run, (n,), infinite where the method chooses it; any of what is left out."""
         steps = np.full(len(p), 1.0 if method == "rk4" or self.step is not None else math.inf)
-        for i in range(len(p)):
-            if i in left_out or i in self.bad:
-                continue
+        own = [i for i in range(len(p) if steps[0] < math.inf else 0) if i not in left_out and i not in self.bad]
+        if self.step is not None and self.steps is None and times.t.ndim == 1 and own:
+            steps[own] = self._step_of(own[0], self.step, method, p[own[0]], float(times.t[-1] - times.t[0]))
+            return steps
+        for i in own:
             step, t = self.step if self.steps is None else self.steps[i], times.of(i)
             if told := "" if self.steps is None else _none(step, "step"):
                 self.bad[i] = BadValueError(told)

@@ -10,6 +10,7 @@ Where nothing is free there is no impulse to be left out, but near such a place 
 
 from __future__ import annotations
 
+from collections.abc import Container
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -71,16 +72,16 @@ def _looked_at(source: KernelSource, p: Array, t0: float, t1: float) -> list[Jum
     return sorted(found, key=lambda jump: jump.t)
 
 
-def any_in_batch(source: KernelSource, p: Array, t0: float, ends: Array) -> bool:
+def any_in_batch(source: KernelSource, p: Array, t0: float, ends: Array, left_out: Container[int] = ()) -> bool:
     """Whether a run of a batch meets one until its end, p (runs, numbers); the same drives are looked at once."""
     seen, breaking = set(), _that_may_break(source)
     for drive, tree in (*_that_may_hide(source), *breaking) if _integrates(source) else ():
         look = _first_break if (drive, tree) in breaking else _jumps
         used = {f"parameters.{name.path}" for name in names(tree)}
         columns = [k for k, slot in enumerate(source.slots) if slot.address in used]
-        for row, t1 in zip(p, ends.tolist(), strict=True):
+        for i, (row, t1) in enumerate(zip(p, ends.tolist(), strict=True)):
             key = (drive, t1, row[columns].tobytes())
-            if key in seen or not t1 > t0:
+            if key in seen or i in left_out or not t1 > t0:
                 continue
             seen.add(key)
             if any(jump.t > t0 for jump in look(source, row, tree, drive, t0, t1)):

@@ -79,11 +79,9 @@ def simulate_many(
     check_room(compiled, times.most, len(p), series, parts_of(source, series or ()), workers)
     steps = each.lengths_of_steps(chosen, p, times, bad)
     bad |= each.bad
-    if chosen in (*INTEGRATORS, *ON_DEMAND, ADAPTIVE) and not left_out(compiled):
-        good = np.delete(np.arange(len(p)), list(bad))
-        ends = np.array([times.of(i)[-1] for i in good.tolist()])
-        if not any_in_batch(source, p[good], starts.t, ends):  # else each run looks for its own
-            return _in_c(simulation, starts, (p, motion, steps), times, bad, asked)
+    together = chosen in (*INTEGRATORS, *ON_DEMAND, ADAPTIVE) and not left_out(compiled)
+    if together and not any_in_batch(source, p, starts.t, times.ends(), bad):  # else each run looks for its own
+        return _in_c(simulation, starts, (p, motion, steps), times, bad, asked)
     options: dict[str, Any] = {"method": method, "rtol": rtol, "stop": stop, "peaks": names, "against": against}
     given = [step] * len(p) if each.steps is None else each.steps
     own = [options | {"output": times.of(i), "step": given[i]} for i in range(len(p))]
@@ -113,7 +111,7 @@ def _in_c(
     runs.looks = searches = starts.searches(p, bad, asked)
     before = time.perf_counter()
     runs.run(asked.progress)
-    tell_of_runs(simulation.source, [runs.unfollowed.get(i, {}) for i in range(runs.n)])
+    tell_of_runs(simulation.source, [*runs.unfollowed.values(), *[{}] * (runs.n - len(runs.unfollowed))])
     told = [search.told() if search else Told() for search in searches]
     batch = _of_runs(_Results(simulation, runs, starts, asked.rtol, asked.stop, asked.method, told), kept)
     return replace(batch, seconds=time.perf_counter() - before, threads=asked.threads)
@@ -131,11 +129,11 @@ class _Starts:
         if own != len(rows) and len(rows) > 1:
             hint = "one contour, or one for every run"
             raise BadValueError(f"contour has {own} rows for {len(rows)} runs", hint=hint)
-        rows = rows if own == len(rows) else rows * own
+        rows = rows if own == len(rows) else list(rows) * own
         runs = each.length(len(rows))
         self.states = own_each(simulation.source, start, runs)
         if len(rows) == 1:
-            rows = rows * max(runs, len(self.states))
+            rows = list(rows) * max(runs, len(self.states))
         if len(rows) != runs:
             each.length(len(rows))
         self.t = self.states[0].t if self.states else 0.0
@@ -242,13 +240,12 @@ def _of_runs(results: _Results, kept: KeptSeries | None) -> Batch:
     states = States(y[:, :, :n], y[:, :, n : 2 * n], y[:, :, 2 * n :], x["state"][:, :, :joints])
     if kept:
         runs.let_go()
-    impacts = runs.all_impacts()
     numbers = {**counts_of_runs(x["counts"], x["residuals"]), "seconds": x["seconds"]}
     return Batch(
         source=source, t=runs.times.t, states=None if kept else states, samples=x["done"], t_last=x["t_last"],
-        parameters=given_values(source, x["p"], results.starts.is_given), impacts=impacts,
-        events=tuple(runs.events_of(i) for i in range(runs.n)),
-        peaks=peaks_of(x["peaks"][:, :joints], impacts), diagnostics=numbers, failures=as_failures(runs.failures),
+        parameters=given_values(source, x["p"], results.starts.is_given), impacts=runs.all_impacts(),
+        events=runs.all_events(), peaks=peaks_of(x["peaks"][:, :joints], runs.contacts, np.diff(runs.cuts)),
+        diagnostics=numbers, failures=as_failures(runs.failures),
         seconds=math.nan, threads=0, interrupted=runs.interrupted, result=results, kept=kept.arrays if kept else {},
         extremes=tuple(told.extremes for told in results.told),
         rubbed=tuple(told.rubbed for told in results.told),

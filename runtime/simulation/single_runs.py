@@ -18,7 +18,7 @@ from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators.failure import INTERRUPTED
 from gudgeon.integrators.threads import GLANCE
 from gudgeon.integrators.times import Times
-from gudgeon.integrators.trajectory import IMPACT_DTYPE, Counts, Progress, no_events
+from gudgeon.integrators.trajectory import IMPACT_DTYPE, Counts, Progress, joined, no_events
 from gudgeon.model.choices import said
 from gudgeon.model.compiled import Array
 from gudgeon.model.parameter_sets import Mask
@@ -178,7 +178,7 @@ def run_singly(
     tell_of_runs(source, runs.noted)
     found = [runs.left.get(i) for i in range(runs.n)]
     impacts = tuple(np.zeros(0, IMPACT_DTYPE) if run is None else run.impacts for run in found)
-    peaks = np.full((runs.n, len(source.clearances), 3), np.nan)
+    count, peaks = np.array([*map(len, impacts)], np.int_), np.full((runs.n, len(source.clearances), 3), np.nan)
     for i, run in runs.left.items():
         for k, peak in enumerate(run.diagnostics.peaks):
             peaks[i, k] = peak.F, peak.t, peak.e_max
@@ -187,8 +187,9 @@ def run_singly(
         source=source, t=times.t, states=states, samples=np.array([0 if run is None else len(run.t) for run in found]),
         t_last=np.array([t0 if run is None else run.t[-1] for run in found]),
         parameters=given_values(source, p, is_given), impacts=impacts,
-        events=tuple(no_events() if run is None else run.events for run in found), peaks=peaks_of(peaks, impacts),
-        diagnostics=runs.counts(), failures=as_failures(runs.errors), seconds=time.perf_counter() - before,
+        events=tuple(no_events() if run is None else run.events for run in found),
+        peaks=peaks_of(peaks, joined(impacts), count), diagnostics=runs.counts(), failures=as_failures(runs.errors),
+        seconds=time.perf_counter() - before,
         threads=asked.threads, interrupted=runs.interrupted, result=runs, kept=runs.kept,
         extremes=tuple(() if run is None else run.diagnostics.extremes for run in found),
         rubbed=tuple(() if run is None else run.diagnostics.rubbed for run in found),

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.model.parameter_sets import each_of, given_each, plain_each
-from gudgeon.model.parameters import given_slots
+from gudgeon.errors import InputError
+from gudgeon.model.compiled import AT_ONCE
+from gudgeon.model.parameter_sets import Columns, each_of, given_each, plain_each, rows_of
+from gudgeon.model.parameters import GAINS, given_slots, without_baumgarte
 from tests.programs import needs_compiler
 
 pytestmark = needs_compiler
@@ -32,3 +35,61 @@ def test_plain_numbers_are_read_at_once() -> None:
 @pytest.mark.parametrize("name", ALONE)
 def test_others_are_read_one_by_one(name: str) -> None:
     assert plain_each(gudgeon.load("nine_bar_press", "dry").source, ALONE[name]) is None
+
+
+CLEARANCES = [3e-4, 4e-4, 5e-4]
+COLUMNS: dict[str, tuple[dict[str, Any], bool]] = {  # and whether all runs are read at once
+    "floats": ({"c": CLEARANCES, "omega": -0.0}, True),
+    "arrays": ({"c": np.array(CLEARANCES), "omega": np.array([1, 2, 3]), "l5": np.array([0.2, 0.25, 0.3], "f4")}, True),
+    "one value of each kind": ({"c": "0.3 mm", "omega": 3, "l5": np.float32(0.25), "gravity.y": [0.0] * 3}, True),
+    "a view": ({"c": np.linspace(3e-4, 8e-4, 6)[::2]}, True),
+    "no numbers": ({"c": np.array([3e-4, np.nan, np.inf]), "omega": [1.0, -np.inf, 2.0], "l5": 0.25}, True),
+    "texts": ({"c": ["0.3 mm", "4e-4 m", 5e-4], "omega": [1.0, 2.0, np.nan]}, False),
+    "integers": ({"omega": [1, 2, 3], "c": np.array([3e-4, np.nan, 5e-4], "f4")}, False),
+    "too small": ({"omega": [1.0, 1e-310, 2.0]}, False), "too small for all": ({"c": CLEARANCES, "l5": 1e-310}, False),
+    "a truth": ({"c": CLEARANCES, "omega": True}, False), "none": ({"c": CLEARANCES, "omega": None}, False),
+    "an unknown name": ({"c": CLEARANCES, "clearance": 1.0}, False),
+    "several": ({"c": CLEARANCES, "gains": 3.0}, False), "twice": ({"c": CLEARANCES, "parameters.c": 3e-4}, False),
+}  # fmt: skip
+
+
+def told(read: Callable[[], tuple[Any, Any]]) -> tuple[Any, ...]:
+    """Values and mask, or what is said instead."""
+    try:
+        values, mask = read()
+    except InputError as error:
+        return type(error), str(error)
+    return values.tobytes(), mask.tobytes()
+
+
+@pytest.mark.parametrize("name", COLUMNS)
+def test_columns_are_read_as_their_rows_are(name: str) -> None:
+    """Of a mapping for each run nothing is known but these: numbers, runs that have none, words on mistakes."""
+    source, (columns, at_once) = gudgeon.load("nine_bar_press", "dry").source, COLUMNS[name]
+    whole = {key: one.tolist() if isinstance(one, np.ndarray) and one.ndim else one for key, one in columns.items()}
+    every = [{key: one[i] if isinstance(one, list) else one for key, one in whole.items()} for i in range(3)]
+    (rows, bad), (plain, plain_bad) = rows_of(columns), rows_of(every)
+    assert isinstance(rows, Columns) and isinstance(plain, list) and len(rows) == 3
+    assert [*rows] == plain and rows[-1] == plain[2] and rows[1:] == plain[1:]
+    assert [(i, str(error)) for i, error in bad.items()] == [(i, str(error)) for i, error in plain_bad.items()]
+    one_by_one = told(lambda: each_of(plain, lambda _, row: given_slots(source, row)))
+    assert told(lambda: given_each(source, rows)) == one_by_one == told(lambda: given_each(source, plain))
+    assert (plain_each(source, rows) is not None) == at_once
+
+
+def test_a_run_of_columns_that_there_is_not() -> None:
+    with pytest.raises(IndexError):
+        Columns({"c": [3e-4, 4e-4]}, 2)[2]
+
+
+@pytest.mark.parametrize("scene", ["dry", "lubricated"])
+def test_runs_prepared_together_are_those_prepared_alone(scene: str) -> None:
+    compiled = gudgeon.load("nine_bar_press", scene).compiled
+    columns: dict[str, Any] = {"c": np.linspace(3e-4, 5e-4, AT_ONCE + 3), "omega": 3.0, GAINS[0]: "5 1/s"}
+    given, is_given = given_each(compiled.source, rows_of(columns)[0])
+    before = given.tobytes(), is_given.tobytes()
+    together, free = compiled.prepare_each(given, is_given), without_baumgarte(compiled, given, is_given)
+    for i in (0, 1, AT_ONCE - 1, AT_ONCE, AT_ONCE + 2):
+        assert together[i].tobytes() == compiled.prepare(given[i], is_given[i]).tobytes()
+        assert free[i].tobytes() == without_baumgarte(compiled, given[i], is_given[i]).tobytes()
+    assert (given.tobytes(), is_given.tobytes()) == before and together.tobytes() != free.tobytes()

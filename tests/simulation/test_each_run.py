@@ -12,6 +12,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError, GudgeonError, InputError
+from gudgeon.integrators.times import Times
 from gudgeon.results.batch import Batch
 from gudgeon.simulation.simulation import Simulation
 from tests.programs import needs_compiler
@@ -79,6 +80,23 @@ def test_steps_of_each_run(method: str) -> None:
     assert batch.t.shape == (5,) and len({x.tobytes() for x in batch.q}) == 3
     for i, step in enumerate(steps):
         assert_same(batch[i], press().simulate(0.004, output=4, method=method, step=step, parameters={"c": 4e-4}))
+
+
+@pytest.mark.parametrize("method", ["rk4", "dop853"])
+def test_a_step_for_all_runs_is_that_of_each(method: str) -> None:
+    """Of runs with the same times it is read once; a run that is left out has none of its own."""
+    columns = {"c": [3e-4, -1.0, 4e-4]}
+    one, three = (press().simulate_many(columns, 0.002, output=2, method=method, step=h) for h in (5e-6, [5e-6] * 3))
+    assert one.q.tobytes() == three.q.tobytes() and one.failures == three.failures and len(one.failures) == 1
+    with pytest.raises(BadValueError, match="^step 1e-30 s means more than"):
+        press().simulate_many(columns, 0.002, output=2, method=method, step=1e-30)
+
+
+def test_ends_of_runs() -> None:
+    same = Times(np.array([0.0, 1.0, 2.0]), np.full(2, 3))
+    own = Times.of_runs({1: np.array([0.0, 3.0]), 2: np.array([0.0, 1.0, 4.0])}, 3)
+    np.testing.assert_array_equal(same.ends(), [2.0, 2.0])
+    np.testing.assert_array_equal(own.ends(), [np.nan, 3.0, 4.0])
 
 
 def test_a_number_that_is_none_fails_its_own_run() -> None:

@@ -14,7 +14,11 @@ from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.assembly.search import search
 from gudgeon.assembly.start import assemble
 from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
+from gudgeon.integrators.batch import Runs
+from gudgeon.integrators.trajectory import IMPACT_DTYPE
 from gudgeon.results.batch import Batch
+from gudgeon.results.blows import is_blow
+from gudgeon.results.peaks import peaks_of
 from gudgeon.results.results import Result
 from tests.programs import needs_compiler
 
@@ -80,6 +84,30 @@ def test_more_contacts_than_the_list_of_c_holds() -> None:
     batch = simulation.simulate_many({"height": [1e-3, 1.2e-3]}, 9.5, **options)
     assert len(batch.impacts[0]) > 300
     assert_same(batch[0], simulation.simulate(9.5, parameters={"height": 1e-3}, **options))
+
+
+def test_contacts_that_come_in_any_order_are_each_runs_own_by_onset() -> None:
+    """As threads fetch them: lists of several runs mixed, some out of order, equal onsets as they came."""
+    rng, runs = np.random.default_rng(5), Runs.__new__(Runs)
+    runs.n, runs.impacts, each = 9, [], [list[np.ndarray]() for _ in range(9)]
+    for i in rng.integers(0, 8, 60).tolist():
+        own = np.zeros(rng.integers(0, 4), IMPACT_DTYPE)
+        own["joint"], own["F_peak"] = rng.integers(0, 3, len(own)), rng.random(len(own))
+        own["t_on"] = len(each[i]) if i < 4 else rng.integers(0, 5, len(own))
+        own["t_off"] = own["t_on"] + rng.integers(0, 2, len(own))
+        runs.impacts.append((i, own))
+        each[i].append(own)
+    runs._join()
+    whole = [np.concatenate([np.zeros(0, IMPACT_DTYPE), *several]) for several in each]
+    expected = [contacts[np.argsort(contacts["t_on"], kind="stable")] for contacts in whole]
+    assert [x.tobytes() for x in runs.all_impacts()] == [x.tobytes() for x in expected]
+    assert [runs.impacts_of(i).tobytes() for i in range(9)] == [x.tobytes() for x in expected]
+    peaks = peaks_of(np.zeros((9, 4, 3)), runs.contacts, np.diff(runs.cuts))
+    for i, k in np.ndindex(9, 4):
+        first = expected[i][expected[i]["joint"] == k][:1]
+        force = np.where(is_blow(first), np.nan, first["F_peak"])
+        np.testing.assert_array_equal(peaks["first_contact"][i, k], first["t_on"][0] if len(first) else np.nan)
+        np.testing.assert_array_equal(peaks["first_peak"][i, k], force[0] if len(first) else np.nan)
 
 
 def test_a_run_that_fails_stops_no_other() -> None:
