@@ -19,14 +19,15 @@ from gudgeon.assembly.followed import unfollowed
 from gudgeon.assembly.start import assemble
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators import adaptive, lanes, rk4
+from gudgeon.integrators.contacts import Contacts
 from gudgeon.integrators.failure import INTERRUPTED, NOT_FINITE, STOPPED, failure
 from gudgeon.integrators.lanes import NEW, NOT_CLOSED, OVER, Flow, Lanes
-from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, fetch_impacts, no_states, told_apart
+from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, no_states, told_apart
 from gudgeon.integrators.steps import Look, Tape
 from gudgeon.integrators.threads import GLANCE as GLANCE
 from gudgeon.integrators.threads import in_threads
 from gudgeon.integrators.times import Times
-from gudgeon.integrators.trajectory import IMPACT_DTYPE, Counts, Progress, Trajectory, joined, no_events, plain
+from gudgeon.integrators.trajectory import IMPACT_DTYPE, Counts, Progress, Trajectory, no_events, plain
 from gudgeon.model.compiled import N_WORK, Array, CompiledModel
 from gudgeon.model.sizes import mechanism_sizes
 from gudgeon.waiting.ctrl_c import CtrlC
@@ -83,7 +84,7 @@ class Runs:
         }  # fmt: skip
         self.arrays = {name: np.ascontiguousarray(array) for name, array in self.arrays.items()}
         self.struct = self._struct(math.isfinite(step[0]), stop, rtol)
-        self.impacts: list[tuple[int, NDArray[Any]]] = []  # lists as they were fetched, with the run whose they are
+        self.fetched = Contacts(compiled)
         self.events: dict[int, list[NDArray[Any]]] = {}  # of runs that have any, with states
         self.contacts, self.cuts = np.zeros(0, IMPACT_DTYPE), np.zeros(n + 1, np.int_)  # once all are over: by run
         self.failures: dict[int, GudgeonError] = {}
@@ -144,18 +145,8 @@ class Runs:
                 ctrl_c.take()
             except KeyboardInterrupt:
                 self.interrupted = True
-            self._join()
+            self.contacts, self.cuts = self.fetched.joined(self.n)
             self._judge()
-
-    def _join(self) -> None:
-        """The contacts of all runs in one array, run by run and by their onset; those of run i begin at cuts[i]."""
-        runs = np.array([i for i, _ in self.impacts], np.int_)
-        order, several = np.argsort(runs, kind="stable"), [own for _, own in self.impacts]
-        contacts = joined(several[k] for k in order.tolist())
-        whose = np.repeat(runs[order], np.array([*map(len, several)], np.int_)[order])
-        by_onset = np.argsort(whose + 1j * contacts["t_on"], kind="stable")  # nearly so: no lexsort
-        self.contacts = contacts.view(f"V{contacts.itemsize}")[by_onset].view(IMPACT_DTYPE)  # whole rows
-        self.cuts, self.impacts = np.searchsorted(whose, np.arange(self.n + 1)), []
 
     def _judge(self) -> None:
         """Lists the runs that did not come to their ends, and marks what was not reached."""
@@ -238,10 +229,9 @@ class Runs:
 
     def fetch(self, i: int, run: Any, last: bool) -> None:
         """Takes over the lists of contacts and events of run i."""
-        if not self.compiled.lib.gudgeon_run_listed(run):
-            return
-        self.impacts.append((i, fetch_impacts(self.compiled, run, last)))
-        if self.compiled.source.events:
+        if self.compiled.source.clearances:
+            self.fetched.fetch(i, run, last)
+        if self.compiled.source.events and self.compiled.lib.gudgeon_run_listed(run):
             self.events.setdefault(i, []).append(fetch_events(self.compiled, run, self.times.of(i)))
 
     def _failure(self, i: int) -> GudgeonError:

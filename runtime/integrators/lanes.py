@@ -71,7 +71,7 @@ class Lanes:
 
     def together(self, runs: Runs, group: list[int], memories: NDArray[np.uint8]) -> None:
         """Moves these runs on, each in a row of `memories`, until none goes on with others."""
-        arguments, number = self._arguments(runs, memories)
+        arguments, rows, number = self._arguments(runs, memories)
         number[0 : len(group)] = group
         goes_on = True
         while goes_on and not runs.stopping:
@@ -79,7 +79,7 @@ class Lanes:
             goes_on = bool(self.lib.gudgeon_lanes(*arguments, number))
             for k, i in enumerate(group):
                 if before[k] != NONE:
-                    _fetch(runs, i, memories[k])
+                    _fetch(runs, i, rows[k])
 
     def flow(
         self, runs: Runs, supply: Iterator[int], memories: NDArray[np.uint8], tapes: Sequence[Tape], place: int
@@ -88,22 +88,23 @@ class Lanes:
 
         `tapes`: one a row, where somebody looks at all steps.
         """
-        arguments, number = self._arguments(runs, memories)
+        arguments, rows, number = self._arguments(runs, memories)
         free, waiting, status = [*range(place, place + runs.places)], list[int](), LISTS
+        empty = [*range(len(rows))]
         while status != ALL_OVER and not runs.stopping:
-            for k in range(min(self.count, len(memories))):
-                if number[k] == NONE and (i := next(supply, NONE)) != NONE:
+            for k in empty:
+                if (i := next(supply, NONE)) != NONE:
                     number[k] = i
                     if runs.over:
                         runs.arrays["place"][i] = free.pop()
             before = list(number)
             status = self.lib.gudgeon_lanes(*arguments, number)
-            for k, i in enumerate(before):
-                if i != NONE and (status == LISTS or number[k] == NONE):
-                    _fetch(runs, i, memories[k], tapes[k] if tapes else None)
-                if i != NONE and number[k] == NONE:
-                    waiting.append(i)
-            if len(free) < sum(number[k] == NONE for k in range(min(self.count, len(memories)))):
+            empty = [k for k, i in enumerate(number) if i == NONE and k < len(rows)]
+            for k in empty if status != LISTS else range(len(rows)):
+                if before[k] != NONE:
+                    _fetch(runs, before[k], rows[k], tapes[k] if tapes else None)
+            waiting += [before[k] for k in empty if before[k] != NONE]
+            if runs.over and len(free) < len(empty):
                 runs.are_over(waiting)
                 free += runs.arrays["place"][waiting].tolist()
                 waiting.clear()
@@ -112,14 +113,15 @@ class Lanes:
             if i != NONE:
                 runs.to_its_end(i, memories[k], tapes[k] if tapes else None)
 
-    def _arguments(self, runs: Runs, memories: NDArray[np.uint8]) -> tuple[tuple[Any, ...], Any]:
-        """What C is given, and the numbers of runs: none yet."""
-        rows = [address(runs.compiled.ffi, memory) for memory in memories[: self.count]]
+    def _arguments(self, runs: Runs, memories: NDArray[np.uint8]) -> tuple[tuple[Any, ...], list[Any], Any]:
+        """What C is given, the rows of `memories` that it uses as a run's own library knows them, and the numbers of
+        runs: none yet."""
+        rows = [runs.compiled.pointer(memory, "void *") for memory in memories[: self.count]]
         pointers = self.ffi.new("void *[]", self.count)
-        for k, row in enumerate(rows):
-            pointers[k] = self.ffi.cast("void *", row)
+        for k, memory in enumerate(memories[: self.count]):
+            pointers[k] = self.ffi.cast("void *", address(runs.compiled.ffi, memory))
         batch = self.ffi.cast("void *", int(runs.compiled.ffi.cast("uintptr_t", runs.struct)))
-        return (batch, self.single, pointers), self.ffi.new("long[]", [NONE] * self.count)
+        return (batch, self.single, pointers), rows, self.ffi.new("long[]", [NONE] * self.count)
 
 
 class Flow:
@@ -189,17 +191,15 @@ def _is_compiled(compiled: CompiledModel) -> bool:
     return is_compiled(_source(compiled, True), portable=compiled.portable)
 
 
-def _fetch(runs: Runs, i: int, memory: NDArray[np.uint8], tape: Tape | None = None) -> None:
+def _fetch(runs: Runs, i: int, run: Any, tape: Tape | None = None) -> None:
     """The lists of a run, if it has any, and of its tape the pieces that it has alone."""
-    listed = runs.compiled.source.clearances or runs.compiled.source.events
-    if runs.arrays["status"][i] == NOT_CLOSED or not (listed or tape):
+    if runs.arrays["status"][i] == NOT_CLOSED:
         return
-    run, over = runs.compiled.pointer(memory, "void *"), bool(runs.arrays["phase"][i] == OVER)
+    over = bool(runs.arrays["phase"][i] == OVER)
     if tape and (over or runs.compiled.lib.gudgeon_run_full(run)):
         tape.look = runs.looks[i]
         tape.fetch(run)
-    if listed:
-        runs.fetch(i, run, over)
+    runs.fetch(i, run, over)
 
 
 def wanted(compiled: CompiledModel, method: str, steps: Array) -> bool:

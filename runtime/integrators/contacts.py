@@ -1,0 +1,78 @@
+"""Contacts of the runs of a batch: each thread's lists as it fetches them, and all of them by run and onset."""
+
+from __future__ import annotations
+
+from threading import local
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gudgeon.integrators.session import N_IMPACTS
+from gudgeon.integrators.trajectory import IMPACT_DTYPE
+from gudgeon.model.compiled import CompiledModel
+
+BLOCK = 16 * N_IMPACTS  # contacts that have their room together
+NUMBERS = ("t_on", "t_off", "deltadot", "F_peak", "t_peak")  # of a contact, as C tells them
+
+
+class Contacts:
+    """What the threads of a batch have fetched; each has its own lists."""
+
+    def __init__(self, compiled: CompiledModel) -> None:
+        self.compiled, self.own, self.all = compiled, local(), list[_Fetched]()
+
+    def fetch(self, i: int, run: Any, last: bool) -> None:
+        """Takes over the list of run i, which is emptied; with `last` the contacts that still go on too."""
+        try:
+            fetched: _Fetched = self.own.fetched
+        except AttributeError:
+            fetched = self.own.fetched = _Fetched(self.compiled)
+            self.all.append(fetched)
+        fetched.fetch(i, run, last)
+
+    def joined(self, n: int) -> tuple[NDArray[Any], NDArray[np.int_]]:
+        """IMPACT_DTYPE, those of runs 0 to n - 1, run by run and by their onset; where each run's begin, (n + 1,)."""
+        runs = np.array([i for each in self.all for i in each.runs], np.int_)
+        counts = np.array([count for each in self.all for count in each.counts], np.int_)
+        begins, by_run = np.cumsum(counts) - counts, np.argsort(runs, kind="stable")
+        count, whose = counts[by_run], np.repeat(runs[by_run], counts[by_run])
+        row = np.repeat(begins[by_run] - (np.cumsum(count) - count), count) + np.arange(len(whose))
+        numbers = np.concatenate([np.zeros((0, 5)), *(block for each in self.all for block in each.numbers_of())])
+        joints = np.concatenate([np.zeros(0, np.intc), *(block for each in self.all for block in each.joints_of())])
+        row = row[np.argsort(whose + 1j * numbers[row, 0], kind="stable")]  # nearly so: no lexsort
+        contacts = np.empty(len(row), IMPACT_DTYPE)
+        contacts["joint"], numbers = joints[row], numbers[row]
+        for column, name in enumerate(NUMBERS):
+            contacts[name] = numbers[:, column]
+        return contacts, np.searchsorted(whose, np.arange(n + 1))
+
+
+class _Fetched:
+    """The lists of one thread, one behind the other: whose they are, how many contacts each has, these in blocks."""
+
+    def __init__(self, compiled: CompiledModel) -> None:
+        self.compiled, self.runs, self.counts = compiled, list[int](), list[int]()
+        self.full: list[tuple[NDArray[Any], NDArray[Any]]] = []
+        self._begin()
+
+    def _begin(self) -> None:
+        self.numbers, self.joints, self.n = np.empty((BLOCK, 5)), np.empty(BLOCK, np.intc), 0
+        pointer = self.compiled.pointer
+        self.to = pointer(self.numbers, written=True), pointer(self.joints, "int *", written=True)
+
+    def fetch(self, i: int, run: Any, last: bool) -> None:
+        if self.n + N_IMPACTS > BLOCK:
+            self.full.append((self.numbers[: self.n], self.joints[: self.n]))
+            self._begin()
+        numbers, joints = self.to
+        count = self.compiled.lib.gudgeon_run_impacts(run, last, numbers + 5 * self.n, joints + self.n)
+        self.runs.append(i)
+        self.counts.append(count)
+        self.n += count
+
+    def numbers_of(self) -> list[NDArray[Any]]:
+        return [*(numbers for numbers, _ in self.full), self.numbers[: self.n]]
+
+    def joints_of(self) -> list[NDArray[Any]]:
+        return [*(joints for _, joints in self.full), self.joints[: self.n]]
