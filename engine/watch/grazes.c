@@ -34,10 +34,10 @@ static int has_hump(const Penetration *all, int n, double h)
     for (int k = 1; k < n; k++) {
         const Penetration a = all[k - 1], b = all[k];
         const double way = h * (b.s - a.s), bend = a.rate - b.rate;
-        if (!(a.rate > 0.0 && b.rate < 0.0))
-            continue;
-        const double x = (b.delta - a.delta - b.rate * way) / bend;
-        if (max_of(a.delta, b.delta) + 0.25 * bend * way > 0.0 && (!(x > 0.0 && x < way) || a.delta + a.rate * x > 0.0))
+        const double x = (b.delta - a.delta - b.rate * way) / bend; /* where they meet, s behind the first */
+        const double top
+            = x > 0.0 && x < way ? a.delta + a.rate * x : max_of(a.delta, b.delta) + 0.25 * bend * way;
+        if (a.rate > 0.0 && b.rate < 0.0 && top > 0.0)
             return 1;
     }
     return 0;
