@@ -1,6 +1,6 @@
 """10,000 lubricated runs with summaries on disk: time a run and core, what a second core brings, memory.
 
-    python -m benchmarks.studies [--repeats 3] [--batches]
+    python -m benchmarks.studies [--repeats 3] [--batches | --large]
 
 studies/lubricated_10000.yaml, and a tenth of it (fewer viscosities), each in a process of its own: the tenth by one
 thread and by two in turns, the least of each is told, beside two threads that only hash; the whole by both. `alone` is
@@ -11,6 +11,9 @@ process had in all.
 --batches: batches without a study, one thread, processor time a run of whole calls, the least of --repeats: dry presses
 of .05 s at one speed, c = .3 mm within 1 %, and over clearance x speed; lubricated ones of .4 s. Side by side in vector
 registers and one after the other, in turns.
+
+--large: 100,000 presses in a batch on two threads, wall time of the whole call: dry ones of .05 s, lubricated ones of
+.4 s, each --repeats times.
 """
 
 from __future__ import annotations
@@ -36,6 +39,7 @@ from gudgeon.studies.ensemble.study import plans_of, run_plans
 
 FILE = Path(__file__).parents[1] / "studies" / "lubricated_10000.yaml"
 PRESS = {"l5": 0.25, "gravity.y": 0.0, "omega": 2.0 * np.pi}  # of all batches
+LARGE = {"dry": (0.05, 15.0), "lubricated": (0.4, 35.0)}  # batches of 100,000: how long a run is, what is asked, s
 VISCOSITY, TENTH, WHOLE = "contacts.oil.film.viscosity", 2, 20  # how many of them
 
 
@@ -60,6 +64,21 @@ def one(viscosities: int, threads: int) -> dict[str, float]:
     return told | {"most": most()}
 
 
+def drawn(runs: int) -> np.ndarray:
+    """So many clearances, m: .3 mm within 1 %."""
+    return 3e-4 * np.random.default_rng(0).uniform(0.99, 1.01, runs)
+
+
+def large(scene: str) -> float:
+    """Wall time of the whole call of a batch of 100,000 presses, s."""
+    simulation, t_end = gudgeon.load("nine_bar_press", scene=scene), LARGE[scene][0]
+    lanes.WORTH = 0.0  # compiled by the first few
+    for runs in (64, 100_000):
+        before = perf_counter()
+        simulation.simulate_many({**PRESS, "c": drawn(runs)}, t_end, output=2, rtol=1e-4, threads=2)
+    return perf_counter() - before
+
+
 class Presses(NamedTuple):
     """A batch of presses: what it is, its scene, parameters of each run, how long a run is (s)."""
 
@@ -71,12 +90,11 @@ class Presses(NamedTuple):
 
 def presses() -> list[Presses]:
     """The batches that are measured."""
-    drawn = 3e-4 * np.random.default_rng(0).uniform(0.99, 1.01, 4000)
     c, omega = (x.ravel() for x in np.meshgrid(np.linspace(0.3e-3, 0.8e-3, 50), np.pi * np.linspace(1.0, 8.0, 80)))
     return [
-        Presses("dry, .05 s, c = .3 mm within 1 %", "dry", {"c": drawn}, 0.05),
+        Presses("dry, .05 s, c = .3 mm within 1 %", "dry", {"c": drawn(4000)}, 0.05),
         Presses("dry, .05 s, clearance x speed", "dry", {"c": c, "omega": omega}, 0.05),
-        Presses("lubricated, .4 s, c = .3 mm within 1 %", "lubricated", {"c": drawn[:1000]}, 0.4),
+        Presses("lubricated, .4 s, c = .3 mm within 1 %", "lubricated", {"c": drawn(4000)[:1000]}, 0.4),
     ]
 
 
@@ -114,9 +132,13 @@ def main() -> None:
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--one", type=int, nargs=2, help=argparse.SUPPRESS)
     parser.add_argument("--batches", action="store_true", help="runs in batches, without a study")
+    parser.add_argument("--large", action="store_true", help="batches of 100,000 on two threads")
     options = parser.parse_args()
+    for scene, (t_end, most) in (*LARGE.items(),) * options.repeats if options.large else ():
+        print(f"  100,000 {scene} presses of {t_end} s: {large(scene):.1f} s (asked: at most {most:g})", flush=True)
     if options.batches:
         batches(options.repeats)
+    if options.batches or options.large:
         return
     if options.one:
         print(json.dumps(one(*options.one)))

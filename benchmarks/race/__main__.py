@@ -22,6 +22,7 @@ from benchmarks.race import record as race_record
 from benchmarks.race.entries import WORKS, Entry, Found, entries
 from benchmarks.race.record import MEASURES, Record, Row
 from benchmarks.rhs import machine
+from benchmarks.studies import LARGE, large
 from gudgeon.loading import compiler
 
 REPEATS = 5
@@ -83,7 +84,7 @@ def machine_facts() -> dict[str, str]:
 
 
 def work_facts(work: str) -> dict[str, str]:
-    """What a work is judged by: the peers' right-hand side and how well the reference is confirmed."""
+    """What a work is judged by: the peers' right-hand side and how well the reference is confirmed; large batches."""
     if work == "andrews":
         found = {}
         if find_spec("jitcode") is not None:
@@ -91,6 +92,11 @@ def work_facts(work: str) -> dict[str, str]:
         if find_spec("pydy") is not None and find_spec("Cython") is not None:
             found["right-hand side of PyDy"] = f"{pydy_andrews.seconds_per_rhs() * 1e6:.1f} µs"
         return found
+    if work == "sweep":
+        return {
+            f"100,000 {scene} presses of {t_end} s in a batch, two threads": f"{large(scene):.1f} s (asked: {most:g})"
+            for scene, (t_end, most) in LARGE.items()
+        }
     if work not in ("dry", "lubricated"):
         return {}
     gap, rhs = press.reference_gap(work), press.Kernel(press.work(work)).seconds_per_rhs * 1e6

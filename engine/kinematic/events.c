@@ -1,6 +1,6 @@
 /*
  * Events on the way of a kinematic motion: the way is gone again step by step, a step being halved until no expression
- * turns back in its parts, by their bounds (ranges.c). Where one has changed its sign over a part, the time is found by
+ * turns back in its parts, by their bounds (ranges.h). Where one has changed its sign over a part, the time is found by
  * bisection with Newton's method at every time that is tried.
  */
 enum { EVENT_STOPS = 1, DEEPEST = 36, MAX_VIEWS = 2000 };

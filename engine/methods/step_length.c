@@ -101,7 +101,7 @@ static void next_length(Run *run, const Step *step, int again, int whole)
         return;
     }
     const double error = max_of(1e-12, step->error), power = step->method->power;
-    double factor = 0.9 * pow(run->error_before / (error * error * error * error), 0.2 * power);
+    double factor = 0.9 * pow(error, -0.8 * power) * pow(run->error_before, 0.2 * power);
     if (!step->method->stiff && run->stability > 1.0)
         factor = min_of(factor, 1.1 * step->method->bounded / run->stability);
     factor = min_of(factor, share_as_seen(run, step, again));

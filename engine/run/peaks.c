@@ -3,7 +3,8 @@
  */
 enum { MAX_TOPS = 20 };
 #define TOP 1e-5 /* of a step: so near its place a force is its largest but for 1e-10 */
-#define BENT 0.5 /* of the last chord's slope, that a parabola may change it by to tell the slope at its end */
+#define BENT 0.25 /* of the last chord's slope, that a parabola may change it by to tell the slope at its end */
+#define CLEAR 0.1 /* of the force, that it changes by from the last stage on */
 #define TOP_OF 0.1 /* of the root of the tolerance: but for a hundredth of that */
 
 static void peak(Run *run, int i, double t, double F)
@@ -97,7 +98,8 @@ static void outermost(Run *run, Step *step, double share, int i, const Parameter
 
 /*
  * Whether joint i's force rises at a share of an explicit step (1) or falls (-1): by the parabola through the two last
- * stages before; 0 where that bends too much to tell. Stages of stiff methods lie too far from the motion.
+ * stages before; 0 where that bends too much to tell, or hardly changes. Stages of stiff methods lie too far from the
+ * motion.
  */
 static int trend(const Step *step, double share, int i, double after)
 {
@@ -113,7 +115,8 @@ static int trend(const Step *step, double share, int i, double after)
     }
     const double slope = (after - f[0]) / (share - s[0]);
     const double bend = (slope - (f[0] - f[1]) / (s[0] - s[1])) * (share - s[0]) / (share - s[1]);
-    return fabs(bend) < BENT * fabs(slope) ? (slope > 0.0) - (slope < 0.0) : 0;
+    const int clear = fabs(bend) < BENT * fabs(slope) && fabs(slope) * (share - s[0]) > CLEAR * after;
+    return clear ? (slope > 0.0) - (slope < 0.0) : 0;
 }
 
 /* Of joints where that does not tell: by a very short way along the motion. 0, or what went wrong. */
@@ -145,7 +148,7 @@ static void inner_peaks(Run *run, Step *step, double share, const Parameters *p)
         before[i] = total_force(a), after[i] = total_force(b);
         /* a contact's force may double in a step, a film's grows by some percent */
         const double share_of = run->memory.latch[i].closed ? 0.9 : 0.97;
-        const int near = max_of(before[i], after[i]) > share_of * known && after[i] > 0.0;
+        const int near = max_of(before[i], after[i]) > share_of * known && max_of(before[i], after[i]) > 0.0;
         trends[i] = near ? trend(step, share, i, after[i]) : LOW;
         unknown |= !trends[i];
     }

@@ -24,6 +24,7 @@ static int pass_corners(Run *run, Step *step, const Parameters *p)
     double dy[N_Y], most = 0.0;
     int crossed = 0;
     Aside aside;
+    step->harm = INFINITY;
     for (int k = 0; k < N_SWITCHES; k++) {
         const int margin_of = N_CLEARANCES + k;
         step->passed[k] = meets[k] && watched_as[margin_of] < 0 && margin(&run->memory, &step->aside, margin_of) < 0.0;
@@ -38,7 +39,9 @@ static int pass_corners(Run *run, Step *step, const Parameters *p)
         most = max_of(most, fabs(step->h * (dy[k] - step->dy[k])) * run->weight[k]);
     for (int k = FIRST_STATE; k < N_Y && !status; k++)
         most = max_of(most, fabs(step->h * (dy[k] - step->dy[k])) * run->weight[k]);
-    if (!status && all_finite(dy, N_Y) && most < HARMLESS) {
+    if (!status && all_finite(dy, N_Y))
+        step->harm = most;
+    if (step->harm < HARMLESS) {
         for (int k = 0; k < N_Y; k++)
             step->dy[k] = dy[k];
         step->aside = aside;
@@ -101,7 +104,7 @@ static double earlier_event(Run *run, const Step *step, double first, const Para
             return first;
         const Place high = place_at(run, step, first, found, p);
         const Bracket of = bracket_of(step, found, begin_of(run, step, found), high);
-        const double s = root(run, step, found, of, guess_zero(&of), p);
+        const double s = root(run, step, found, of, guess_zero(&of, telling(reach_of(run, step, found))), p);
         if (!(s < first))
             return first;
         first = s;
@@ -137,7 +140,7 @@ static int is_candidate(Run *run, Step *step, int k, const Parameters *p, Candid
     }
     now->k = k;
     now->of = bracket_of(step, k, low, high < 1.0 ? place_at(run, step, high, k, p) : end_of(run, step, k));
-    now->guess = low.f >= 0.0 ? guess_zero(&now->of) : 0.0;
+    now->guess = low.f >= 0.0 ? guess_zero(&now->of, telling(reach_of(run, step, k))) : 0.0;
     now->about = low.f >= 0.0 ? about_where(now->guess, &now->of) : 0.0;
     return 1;
 }

@@ -3,6 +3,14 @@
  */
 enum { LOOKS = 8, MOST_LOWEST = 20 }; /* evenly along a step; for the lowest place between two of them */
 
+#define SHALLOW 1e-13 /* m, or 1e-10 of the depth that ends the model: a graze without a force worth the name */
+
+/* How far below zero margin k lies without a meaning: m of a joint with play. */
+static double shallow(const Parameters *p, int k)
+{
+    return k < N_CLEARANCES ? -min_of(SHALLOW, 1e-10 * deepest(p, k)) : 0.0;
+}
+
 /* Of a free joint at a share of a step: penetration (m) and its rate (m/s). */
 typedef struct {
     double s, delta, rate;
@@ -27,8 +35,8 @@ static int penetrations(const Run *run, const Step *step, int i, Penetration *al
     return n;
 }
 
-/* Whether the penetration may reach zero between neighbours of which the first has it grow and the second fall: it
- * lies below their tangents, which meet above it. */
+/* Whether the penetration may reach zero between neighbours of which the first has it grow and the second fall: where it
+ * bends down throughout it lies below their tangents, and these below where they meet. */
 static int has_hump(const Penetration *all, int n, double h)
 {
     for (int k = 1; k < n; k++) {
@@ -43,8 +51,8 @@ static int has_hump(const Penetration *all, int n, double h)
     return 0;
 }
 
-/* Whether a free joint may touch, leave and touch again between what was looked at: it turned round, so near that the
- * way between two looks (a quarter of the step at most) can hide the contact. */
+/* Whether a free joint may touch and leave between what was looked at: it turned round, so near that the way between two
+ * looks can hide the contact. Stages of stiff methods lie too far from the motion to tell where. */
 static int may_graze(const Run *run, const Step *step, int i, double least)
 {
     const Clearance *before = &run->aside.clearance[i], *after = &step->aside.clearance[i];
@@ -54,12 +62,12 @@ static int may_graze(const Run *run, const Step *step, int i, double least)
     Penetration all[N_STAGES + 2];
     return !run->memory.latch[i].closed && outward > 0.0 && inward < 0.0
         && nearest + (outward - inward) * step->h / 16.0 > 0.0
-        && (!step->n_seen || has_hump(all, penetrations(run, step, i, all), step->h));
+        && (!step->n_seen || step->method->stiff || has_hump(all, penetrations(run, step, i, all), step->h));
 }
 
 /*
  * The least margin k between two places of which the first falls and the second rises: at the lowest points of cubics
- * through both, which take the place of one; stops where it is below zero, or surely is not.
+ * through both, which take the place of one; stops where it is so far below zero that it counts, or surely is not.
  */
 static double lowest(Run *run, const Step *step, int k, Place low, Place high, double *s, const Parameters *p)
 {
@@ -85,8 +93,8 @@ static double lowest(Run *run, const Step *step, int k, Place low, Place high, d
     return best;
 }
 
-/* The first of equally spaced looks, and of the lowest places between them, that finds a free joint's margin k below
- * zero; 0: none. */
+/* The first of equally spaced looks, and of the lowest places between them, that finds a free joint's margin k so
+ * far below zero that it counts; 0: none. */
 static double look_along(Run *run, const Step *step, int k, const Parameters *p, double *value)
 {
     Place last = begin_of(run, step, k);

@@ -1,6 +1,6 @@
 /*
  * Where the rate of a drive jumps, for rk4: corners of drives are functions of time alone, so that bounds over parts of
- * a step find the first zero of them (ranges.c), however many there are. It is located to neighbouring numbers: what is
+ * a step find the first zero of them (ranges.h), however many there are. It is located to neighbouring numbers: what is
  * computed up to the one before it sees one branch only, what begins at the one behind it the other.
  */
 enum { MOST_ENDS = 64, MOST_SEEN = 2000 };

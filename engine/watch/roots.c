@@ -2,16 +2,10 @@
  * Where along a step a margin crosses zero: looks at the step's interpolant, its roots.
  */
 enum { QUICK = 6, MOST_PLACES = 4 }; /* looks by which a zero is found as a rule; places that tell where it is */
-#define AT_CONTACT 1e-9 /* of a step, behind the begin of a contact; less where the tolerance's square is */
-#define AT_CORNER 0.01  /* of the root of the tolerance */
+#define AT_CONTACT 1e-9 /* of a step, behind the begin or end of a contact; less where the tolerance's square is */
+#define AT_CORNER 1e-4  /* of a step, behind a corner; less where the wrong branch does more in it than that: */
+#define NO_HARM 0.01    /* of the tolerance */
 #define FAR_ENOUGH 1e-4 /* shares of a bracket, a third place from its ends: a nearer one tells of rounding */
-#define SHALLOW 1e-13 /* m, or 1e-10 of the depth that ends the model: a graze without a force worth the name */
-
-/* How far below zero margin k lies without a meaning: m of a joint with play. */
-static double shallow(const Parameters *p, int k)
-{
-    return k < N_CLEARANCES ? -min_of(SHALLOW, 1e-10 * deepest(p, k)) : 0.0;
-}
 
 /* What others have found of a step that they tried. */
 static void take_over(const double *lane, int lanes, int rows, double (*to)[N_Y])
@@ -161,18 +155,13 @@ typedef struct {
     int n;
 } Bracket;
 
-/* Where a polynomial through what is known has its zero; of values alone one through as many places as tell it. */
-static double guess_zero(const Bracket *of)
+/* Where a polynomial through what is known has its zero; of values alone through so many places at most. */
+static double guess_zero(const Bracket *of, int places)
 {
     const Place low = of->at[0], high = of->at[1];
     if (isfinite(low.f + low.slope + high.f + high.slope))
         return hermite_zero(low, high, of->n > 2 ? of->at[2] : (Place){NAN, NAN, NAN});
-    for (int n = of->n; n > 2; n--) {
-        const double s = inverse_zero(of->at, n);
-        if (s > low.s && s < high.s)
-            return s;
-    }
-    return inverse_zero(of->at, 2);
+    return inverse_zero(of->at, of->n < places ? of->n : places);
 }
 
 /* A place more, `at` of those that are known: what was there is known beside it. */
@@ -225,11 +214,11 @@ static double about_where(double guess, const Bracket *of)
 }
 
 /*
- * How far behind its zero margin k may be found, as a share of a step: of a contact that gives the square of the
- * tolerance, for forces may begin with a jump; of a corner, where branches meet, a share of its root, for what the
- * wrong branch does grows by the square of it; 0 of all else: as near as zeros are told apart.
+ * How far behind its zero margin k may be found, as a share of a step: of a contact that gives at most the square of the
+ * tolerance, for forces may begin with a jump; of a corner, where branches meet, as far as the wrong one does no harm;
+ * 0 of all else: as near as zeros are told apart.
  */
-static double reach_of(const Run *run, int k)
+static double reach_of(const Run *run, const Step *step, int k)
 {
     const double tolerance = 1.0 / run->inverse_scale[2 * N_X - 1];
     const int corner = k - N_CLEARANCES;
@@ -237,8 +226,11 @@ static double reach_of(const Run *run, int k)
         return 0.0;
     if (corner < 0)
         return gives(k) ? min_of(AT_CONTACT, tolerance * tolerance) : 0.0;
-    return corner < N_SWITCHES && meets[corner] ? AT_CORNER * sqrt(tolerance) : 0.0;
+    return corner < N_SWITCHES && meets[corner] ? min_of(AT_CORNER, NO_HARM / step->harm) : 0.0;
 }
+
+/* How many places tell where a zero is: near one that is located to rounding a fourth tells of that alone. */
+static int telling(double reach) { return reach > 0.0 ? MOST_PLACES : MOST_PLACES - 1; }
 
 /* Whether a place behind a zero is no further from it than that, as the margin falls there, or from `low` to there. */
 static int is_reached(Place low, Place now, double reach)
@@ -254,11 +246,11 @@ static int is_reached(Place low, Place now, double reach)
  */
 static double root(Run *run, const Step *step, int k, Bracket of, double guess, const Parameters *p)
 {
-    const double reach = reach_of(run, k), close = max_of(reach, root_width(run, step));
+    const double reach = reach_of(run, step, k), close = max_of(reach, root_width(run, step));
     double width = 2.0, before = 2.0;
     for (int i = 0; of.at[1].s - of.at[0].s > close; i++) {
         const double from = of.at[0].s, to = of.at[1].s;
-        double s = i ? guess_zero(&of) : guess;
+        double s = i ? guess_zero(&of, telling(reach)) : guess;
         if (!(s > from && s < to) || (i >= QUICK && to - from > 0.5 * before))
             s = 0.5 * (from + to);
         else if (s - from < 2.0 * close)

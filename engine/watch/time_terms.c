@@ -1,6 +1,6 @@
 /*
  * Pulses: terms of the equations that hang on time alone, at rest wherever a step looks and active in between. Their
- * bounds over the gaps between its looks are known (ranges.c): where one goes beyond what both ends of a gap show by
+ * bounds over the gaps between its looks are known (ranges.h): where one goes beyond what both ends of a gap show by
  * more than a quarter of what the step has seen of it, that place is looked at.
  */
 enum { N_PLACES = 16, GAP_PARTS = 64, MAX_HARMLESS = 4 };

@@ -1,7 +1,7 @@
 /*
  * Corners of the user's expressions and user events along a step. The stages of a long step see next to nothing of a
  * function that swings or dips meanwhile; but the step's interpolant says between which bounds the state stays over
- * any part of it, so that the expressions have bounds there too (ranges.c). Parts over which one may be negative are
+ * any part of it, so that the expressions have bounds there too (ranges.h). Parts over which one may be negative are
  * halved until it is monotone there, or clear of zero: no zero of the interpolant is missed, however many.
  */
 enum { DEEPEST = 64, MAX_PARTS_SEEN = 2000 };

@@ -106,7 +106,7 @@ class Runs:
 
     def __getstate__(self) -> dict[str, Any]:
         """What is over: arrays and lists, without what C worked on."""
-        return self.__dict__ | {"struct": None, "lanes": None, "flow": None, "over": None, "looks": ()}
+        return self.__dict__ | {"struct": None, "lanes": None, "flow": None, "over": None, "looks": (), "fetched": None}
 
     def let_go(self) -> None:
         """Samples that `over` has taken what it wanted of."""
@@ -159,7 +159,10 @@ class Runs:
         for i in np.flatnonzero(~np.isin(x["status"], (0, ENDED))).tolist():
             if i not in self.failures:
                 self.failures[i] = self._failure(i)
-        for i in np.flatnonzero(x["done"] < self.times.most).tolist() if not self.over else ():
+        none, some = x["done"] == 0, (x["done"] > 0) & (x["done"] < self.times.most)
+        if not self.over:
+            x["y"][none], x["latched"][none] = np.nan, np.nan
+        for i in np.flatnonzero(some).tolist() if not self.over else ():
             x["y"][i, x["done"][i] :], x["latched"][i, x["done"][i] :] = np.nan, np.nan
 
     def _not_finite(self) -> Iterator[int]:

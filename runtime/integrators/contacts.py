@@ -32,19 +32,25 @@ class Contacts:
         fetched.fetch(i, run, last)
 
     def joined(self, n: int) -> tuple[NDArray[Any], NDArray[np.int_]]:
-        """IMPACT_DTYPE, those of runs 0 to n - 1, run by run and by their onset; where each run's begin, (n + 1,)."""
+        """IMPACT_DTYPE, those of runs 0 to n - 1, run by run and by their onset; where each run's begin, (n + 1,).
+
+        To be asked once: the lists are let go.
+        """
         runs = np.array([i for each in self.all for i in each.runs], np.int_)
         counts = np.array([count for each in self.all for count in each.counts], np.int_)
         begins, by_run = np.cumsum(counts) - counts, np.argsort(runs, kind="stable")
-        count, whose = counts[by_run], np.repeat(runs[by_run], counts[by_run])
-        row = np.repeat(begins[by_run] - (np.cumsum(count) - count), count) + np.arange(len(whose))
+        begins, counts = begins[by_run], counts[by_run]
+        whose = np.repeat(runs[by_run], counts)
+        row = np.repeat(begins - (np.cumsum(counts) - counts), counts) + np.arange(len(whose))
         numbers = np.concatenate([np.zeros((0, 5)), *(block for each in self.all for block in each.numbers_of())])
         joints = np.concatenate([np.zeros(0, np.intc), *(block for each in self.all for block in each.joints_of())])
-        row = row[np.argsort(whose + 1j * numbers[row, 0], kind="stable")]  # nearly so: no lexsort
+        self.all.clear()
+        # complex numbers are ordered by their real parts first; the rows nearly are, which a lexsort does not use
+        row = row[np.argsort(whose + 1j * numbers[row, 0], kind="stable")]
         contacts = np.empty(len(row), IMPACT_DTYPE)
-        contacts["joint"], numbers = joints[row], numbers[row]
+        contacts["joint"] = joints[row]
         for column, name in enumerate(NUMBERS):
-            contacts[name] = numbers[:, column]
+            contacts[name] = numbers[row, column]
         return contacts, np.searchsorted(whose, np.arange(n + 1))
 
 

@@ -1,9 +1,13 @@
-"""How near their zeros events are located: as the tolerance asks."""
+"""How near their zeros events are located, and that none is passed on the way: as the tolerance asks."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 
 import gudgeon
@@ -17,3 +21,43 @@ def test_a_contact_begins_as_near_its_zero_as_the_tolerance_asks(method: str, rt
     run = gudgeon.load("bouncing_ball", "elastic").simulate(0.46, output=1, method=method, rtol=rtol)
     (onset,) = run.impacts["t_on"]
     assert -1e-14 < onset - fall < max(min(1e-9, rtol**2) * fall, 1e-12)
+
+
+@pytest.mark.parametrize(("k", "rtol"), [(0, 1e-5), (2, 10**-5.5), (14, 1e-4), (18, 10**-4.75)])
+def test_a_graze_by_stages_that_lie_off_the_motion(k: int, rtol: float) -> None:
+    """A puck on a spring, 100 rad/s, swings along a diameter to c + 1e-7 m: x = a cos(100 t + phase) first meets −c."""
+    a, c, phase = 1e-3 + 1e-7, 1e-3, 0.4 + 0.1 * k
+    simulation = gudgeon.load(Path(__file__).parents[1] / "mechanisms/methods/graze.yaml", scene="loose")
+    still = simulation.simulate(1e-6, output=1, method="rk4", step=1e-6).final
+    q, v = np.array([a * math.cos(phase), 0.0, 0.0]), np.array([-100.0 * a * math.sin(phase), 0.0, 0.0])
+    start = replace(still, t=0.0, q=q, v=v, memory=np.array([np.nan]), state=np.zeros(1, dtype=np.int8))
+    run = simulation.simulate(0.04, output=1, method="rodas5p", rtol=rtol, start=start)
+    assert run.impacts["t_on"][0] == pytest.approx((math.acos(-c / a) - phase) / 100.0, abs=2e-5)
+
+
+def test_a_ramp_of_friction_as_thin_as_what_is_located() -> None:
+    """v1 is 1.7e-4 beyond v0: a corner may not be left so far behind that the next one is passed unseen."""
+    press, v0, omega = gudgeon.load("nine_bar_press", scene="dry"), 1.0795e-4, 17.6797912
+    thin: dict[str, Any] = {"contacts.dry.friction.v0": v0, "contacts.dry.friction.v1": v0 * (1.0 + 1.7311587756e-4)}
+    thin |= {"c": 0.37610387e-3, "omega": omega}
+    found, fine = (
+        press.simulate(0.004 + 0.03 / omega, output=1, method=method, rtol=rtol, parameters=thin)
+        for method, rtol in (("dop853", 1e-5), ("rodas5p", 1e-10))
+    )
+    assert abs(found.q[-1] - fine.q[-1]).max() < 1e-7
+    np.testing.assert_allclose(found.impacts["F_peak"], fine.impacts["F_peak"], rtol=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("c", "omega", "rtol", "t_end"),
+    [(0.43446480744e-3, 24.0942541, 1.44990907e-3, 0.0277814), (0.71056498e-3, 23.66564052, 1.55148980e-3, 0.0221572)],
+)
+def test_peaks_of_long_steps_are_no_lower_than_samples(c: float, omega: float, rtol: float, t_end: float) -> None:
+    """A step that leads from before a force's top to where it is 0, and one that ends behind a top just passed."""
+    press = gudgeon.load("nine_bar_press", scene="dry")
+    run = press.simulate(t_end, output=20_000, method="dop853", rtol=rtol, parameters={"c": c, "omega": omega})
+    assert len(run.impacts) > 5
+    for contact in run.impacts:
+        inside = (run.t >= contact["t_on"]) & (run.t <= contact["t_off"])
+        force = run[f"{'AB'[contact['joint']]}.F"][inside]
+        assert contact["F_peak"] > (1.0 - 1e-4) * force.max(initial=0.0)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -14,8 +16,11 @@ from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.assembly.search import search
 from gudgeon.assembly.start import assemble
 from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
+from gudgeon.integrators import contacts
 from gudgeon.integrators.batch import Runs
+from gudgeon.integrators.session import N_IMPACTS
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
+from gudgeon.model.compiled import CompiledModel
 from gudgeon.results.batch import Batch
 from gudgeon.results.blows import is_blow
 from gudgeon.results.peaks import peaks_of
@@ -86,20 +91,31 @@ def test_more_contacts_than_the_list_of_c_holds() -> None:
     assert_same(batch[0], simulation.simulate(9.5, parameters={"height": 1e-3}, **options))
 
 
-def test_contacts_that_come_in_any_order_are_each_runs_own_by_onset() -> None:
-    """As threads fetch them: lists of several runs mixed, some out of order, equal onsets as they came."""
-    rng, runs = np.random.default_rng(5), Runs.__new__(Runs)
-    runs.n, runs.impacts, each = 9, [], [list[np.ndarray]() for _ in range(9)]
+def test_contacts_that_come_in_any_order_are_each_runs_own_by_onset(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As threads fetch them, into blocks: lists of several runs mixed, some out of order, equal onsets as they came."""
+
+    def listed(run: np.ndarray, last: bool, numbers: Any, joints: Any) -> int:
+        for k, contact in enumerate(run):
+            joints[k] = contact["joint"]
+            numbers[5 * k : 5 * k + 5] = [float(contact[name]) for name in contacts.NUMBERS]
+        return len(run)
+
+    monkeypatch.setattr(contacts, "BLOCK", N_IMPACTS + 20)
+    lib, pointer = SimpleNamespace(gudgeon_run_impacts=listed), gudgeon.load("bouncing_ball", "damped").compiled.pointer
+    fetched = contacts.Contacts(cast(CompiledModel, SimpleNamespace(lib=lib, pointer=pointer)))
+    rng, runs, each = np.random.default_rng(5), Runs.__new__(Runs), [list[np.ndarray]() for _ in range(9)]
+    threads = [ThreadPoolExecutor(1), ThreadPoolExecutor(1)]
     for i in rng.integers(0, 8, 60).tolist():
         own = np.zeros(rng.integers(0, 4), IMPACT_DTYPE)
         own["joint"], own["F_peak"] = rng.integers(0, 3, len(own)), rng.random(len(own))
         own["t_on"] = len(each[i]) if i < 4 else rng.integers(0, 5, len(own))
         own["t_off"] = own["t_on"] + rng.integers(0, 2, len(own))
-        runs.impacts.append((i, own))
+        threads[i % 2].submit(fetched.fetch, i, own, True).result()
         each[i].append(own)
-    runs._join()
+    assert len(fetched.all) == 2 and all(own.full for own in fetched.all)
+    runs.contacts, runs.cuts = fetched.joined(9)
     whole = [np.concatenate([np.zeros(0, IMPACT_DTYPE), *several]) for several in each]
-    expected = [contacts[np.argsort(contacts["t_on"], kind="stable")] for contacts in whole]
+    expected = [own[np.argsort(own["t_on"], kind="stable")] for own in whole]
     assert [x.tobytes() for x in runs.all_impacts()] == [x.tobytes() for x in expected]
     assert [runs.impacts_of(i).tobytes() for i in range(9)] == [x.tobytes() for x in expected]
     peaks = peaks_of(np.zeros((9, 4, 3)), runs.contacts, np.diff(runs.cuts))

@@ -13,6 +13,7 @@ pytest.importorskip("matplotlib")
 
 import gudgeon  # noqa: E402
 from gudgeon.errors import BadValueError, UnknownNameError  # noqa: E402
+from gudgeon.studies.show import study_plots  # noqa: E402
 from gudgeon.studies.show.study_data import changes  # noqa: E402
 from gudgeon.studies.show.study_signals import alike, crossings, over_shares  # noqa: E402
 from tests.programs import needs_compiler  # noqa: E402
@@ -131,6 +132,14 @@ def test_a_map_of_two_dimensions_is_its_medians(study: gudgeon.Study) -> None:
     assert [tick.get_text() for tick in ax.get_yticklabels()] == ["100", "400", "900"]
     with pytest.raises(BadValueError, match="both x and y"):
         plots(study).heat_map("far", "k", "k")
+
+
+def test_a_map_has_words_where_there_is_room(study: gudgeon.Study, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(study_plots, "ROWS", 2)
+    monkeypatch.setattr(study_plots, "COLUMNS", 4)
+    ax = plots(study).heat_map("far", "x0", "k", at={"way": 1})
+    assert [tick.get_text() for tick in ax.get_yticklabels()] == ["100", "900"]
+    assert list(ax.get_xticks()) == [0, 3, 6] and len(ax.images[0].get_array()[0]) == 9
 
 
 def test_a_section_of_an_oscillator_is_a_point_a_run(study: gudgeon.Study) -> None:

@@ -48,6 +48,11 @@ def known(values: Any, told: str) -> str | None:
     return told if np.isfinite(values).any() else None
 
 
+def evenly(n: int, most: int) -> range:
+    """Every k-th of n places, so that there are no more than `most`: those that have words at an axis."""
+    return range(0, n, -(-n // most))
+
+
 def ticks_at(ax: Axes, x: Any, ticks: list[str] | None) -> None:
     """Words at an axis, long ones on lines, aslant where they would not fit."""
     if ticks is None:

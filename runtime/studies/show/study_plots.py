@@ -17,7 +17,7 @@ from gudgeon.language.shown import in_figure, one_line
 from gudgeon.language.wanted import flag, number_of, positive, refuse
 from gudgeon.results.plots import COLOURS, STYLE, TITLE, cycle, peak_of
 from gudgeon.results.run_plots import new_axes, plain
-from gudgeon.studies.show.bands import LINE, band, bars, known, marks, numbers, quantiles, ticks_at
+from gudgeon.studies.show.bands import LINE, band, bars, evenly, known, marks, numbers, quantiles, ticks_at
 from gudgeon.studies.show.study_data import Coords, StudyData
 from gudgeon.studies.show.study_signals import filtered, over_shares, spectra
 
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from gudgeon.studies.ensemble.finished import Study
 
 SMALL = 80  # cells of a map beside which numbers can be read
+COLUMNS, ROWS = 14, 24  # of a heat map, that have words at its axes
 BESIDE = 0.5  # share of the room of a word in which its dots stand side by side
 
 
@@ -227,8 +228,9 @@ class StudyPlot:
             factor, unit = drawn(peak_of(middle), found.attrs.get("units", ""))
             image = ax.imshow(middle * factor, origin="lower", aspect="auto", cmap="viridis")
             (words, x_label), (others, y_label) = (self.data.labels(found, name_of) for name_of in (x, y))
-            ticks_at(ax, np.arange(len(words)), words)
-            ax.set_yticks(range(len(others)), [in_figure(word, LINE) for word in others])
+            below, beside = evenly(len(words), COLUMNS), evenly(len(others), ROWS)
+            ticks_at(ax, below, [words[k] for k in below])
+            ax.set_yticks(beside, [in_figure(others[k], LINE) for k in beside])
             ax.set(xlabel=x_label, ylabel=y_label)
             ax.grid(False)
             ax.figure.colorbar(image, ax=ax, label=label(self.data.shown(name), unit))
