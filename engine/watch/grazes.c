@@ -35,8 +35,8 @@ static int penetrations(const Run *run, const Step *step, int i, Penetration *al
     return n;
 }
 
-/* Whether the penetration may reach zero between neighbours of which the first has it grow and the second fall: where it
- * bends down throughout it lies below their tangents, and these below where they meet. */
+/* Whether the penetration may reach zero between neighbours of which the first has it grow and the second fall: where
+ * it bends down throughout it lies below their tangents, and these below where they meet. */
 static int has_hump(const Penetration *all, int n, double h)
 {
     for (int k = 1; k < n; k++) {
@@ -51,8 +51,8 @@ static int has_hump(const Penetration *all, int n, double h)
     return 0;
 }
 
-/* Whether a free joint may touch and leave between what was looked at: it turned round, so near that the way between two
- * looks can hide the contact. Stages of stiff methods lie too far from the motion to tell where. */
+/* Whether a free joint may touch and leave between what was looked at: it turned round, so near that the way between
+ * two looks can hide the contact. Stages of stiff methods lie too far from the motion to tell where. */
 static int may_graze(const Run *run, const Step *step, int i, double least)
 {
     const Clearance *before = &run->aside.clearance[i], *after = &step->aside.clearance[i];

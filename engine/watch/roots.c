@@ -214,9 +214,9 @@ static double about_where(double guess, const Bracket *of)
 }
 
 /*
- * How far behind its zero margin k may be found, as a share of a step: of a contact that gives at most the square of the
- * tolerance, for forces may begin with a jump; of a corner, where branches meet, as far as the wrong one does no harm;
- * 0 of all else: as near as zeros are told apart.
+ * How far behind its zero margin k may be found, as a share of a step: of a contact that gives at most the square of
+ * the tolerance, for forces may begin with a jump; of a corner, where branches meet, as far as the wrong one does no
+ * harm; 0 of all else: as near as zeros are told apart.
  */
 static double reach_of(const Run *run, const Step *step, int k)
 {
