@@ -69,6 +69,19 @@ static int nearest_stage(const Step *step, int k)
     return nearest < step->n_seen ? nearest : -1;
 }
 
+/* The first stage at which margin k was below zero, where a later one, or the end, was not: it may cross more than
+ * once. 1: none. */
+static double first_dip(const Step *step, int k, double end)
+{
+    double first = 1.0, back = end >= 0.0 ? 1.0 : 0.0;
+    for (int i = 0; i < step->n_seen; i++) {
+        const double f = seen_at(step, i, k);
+        first = f < 0.0 ? min_of(first, step->node[i]) : first;
+        back = f >= 0.0 ? max_of(back, step->node[i]) : back;
+    }
+    return first < back ? first : 1.0;
+}
+
 /* The bracket's upper end for margin k: a share at which it is below zero; 0 if there is none. */
 static double violated(Run *run, Step *step, int k, const Parameters *p, double *value)
 {
@@ -77,11 +90,13 @@ static double violated(Run *run, Step *step, int k, const Parameters *p, double 
     const double end = margin(&run->memory, &step->aside, k), least = step->lowest[k];
     if (k < N_CLEARANCES && may_graze(run, step, k, least) && make_dense(run, p, step) == 0)
         return look_along(run, step, k, p, value);
-    const double s = least < 0.0 ? step->node[nearest_stage(step, k)] : 1.0;
-    if (s < 1.0 && make_dense(run, p, step) == 0) {
-        *value = margin_at(run, step, s, k, p);
+    const double at[] = {first_dip(step, k, end), least < 0.0 ? step->node[nearest_stage(step, k)] : 1.0};
+    for (int i = 0; i < 2; i++) {
+        if (at[i] >= 1.0 || make_dense(run, p, step))
+            continue;
+        *value = margin_at(run, step, at[i], k, p);
         if (*value < 0.0)
-            return s;
+            return at[i];
     }
     *value = end;
     return end < 0.0 ? 1.0 : 0.0;

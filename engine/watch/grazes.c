@@ -51,18 +51,22 @@ static int has_hump(const Penetration *all, int n, double h)
     return 0;
 }
 
-/* Whether a free joint may touch and leave between what was looked at: it turned round, so near that the way between
- * two looks can hide the contact. Stages of stiff methods lie too far from the motion to tell where. */
+/*
+ * Whether a free joint may touch and leave between what was looked at: it turned round, so near that the way between
+ * two looks can hide the contact. Stages lie beside the motion, those of stiff methods far from it: they are believed
+ * that it turned once only where it did so by both ends, inwards at first and outwards at last.
+ */
 static int may_graze(const Run *run, const Step *step, int i, double least)
 {
     const Clearance *before = &run->aside.clearance[i], *after = &step->aside.clearance[i];
     const double outward = max_of(step->rate[i][1], max_of(after->deltadot, before->deltadot));
     const double inward = min_of(step->rate[i][0], min_of(after->deltadot, before->deltadot));
     const double nearest = max_of(-least, max_of(after->delta, before->delta));
+    const int once = step->n_seen && !step->method->stiff && before->deltadot < 0.0 && after->deltadot > 0.0;
     Penetration all[N_STAGES + 2];
     return !run->memory.latch[i].closed && outward > 0.0 && inward < 0.0
         && nearest + (outward - inward) * step->h / 16.0 > 0.0
-        && (!step->n_seen || step->method->stiff || has_hump(all, penetrations(run, step, i, all), step->h));
+        && !(once && !has_hump(all, penetrations(run, step, i, all), step->h));
 }
 
 /*

@@ -1,10 +1,10 @@
 /*
- * Where along a step a margin crosses zero: looks at the step's interpolant, its roots.
+ * Where along a step a margin crosses zero: looks at the step's interpolant, and roots by what they have found.
  */
 enum { QUICK = 6, MOST_PLACES = 4 }; /* looks by which a zero is found as a rule; places that tell where it is */
 #define AT_CONTACT 1e-9 /* of a step, behind the begin or end of a contact; less where the tolerance's square is */
-#define AT_CORNER 1e-4  /* of a step, behind a corner; less where the wrong branch does more in it than that: */
-#define NO_HARM 0.01    /* of the tolerance */
+#define AT_CORNER 1e-4  /* of a step, behind a corner, at most */
+#define NO_HARM 0.01    /* of the tolerance, that its wrong branch may change a step by */
 #define FAR_ENOUGH 1e-4 /* shares of a bracket, a third place from its ends: a nearer one tells of rounding */
 
 /* What others have found of a step that they tried. */
