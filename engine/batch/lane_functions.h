@@ -5,30 +5,18 @@
 #define GUDGEON_LANE_FUNCTIONS_H
 
 /* As max_of, min_of, sign_of: a NaN in x stays, and x of two equals, as in the second operand of these instructions. */
-static inline Lanes lanes_max_of(Lanes x, Lanes y)
-{
 #if defined(__GNUC__) && !defined(__clang__) && defined(__AVX512F__)
-    return (Lanes)__builtin_ia32_maxpd512_mask(y, x, x, (char)-1, 4);
+#define EXTREME_OF(name, beyond) (Lanes)__builtin_ia32_##name##pd512_mask(y, x, x, (char)-1, 4)
 #elif defined(__GNUC__) && !defined(__clang__) && defined(__AVX__)
-    return (Lanes)__builtin_ia32_maxpd256(y, x);
+#define EXTREME_OF(name, beyond) (Lanes)__builtin_ia32_##name##pd256(y, x)
 #elif defined(__GNUC__) && !defined(__clang__) && defined(__SSE2__)
-    return (Lanes)__builtin_ia32_maxpd(y, x);
+#define EXTREME_OF(name, beyond) (Lanes)__builtin_ia32_##name##pd(y, x)
 #else
-    return pick(x < y, y, x);
+#define EXTREME_OF(name, beyond) pick(x beyond y, y, x)
 #endif
-}
-static inline Lanes lanes_min_of(Lanes x, Lanes y)
-{
-#if defined(__GNUC__) && !defined(__clang__) && defined(__AVX512F__)
-    return (Lanes)__builtin_ia32_minpd512_mask(y, x, x, (char)-1, 4);
-#elif defined(__GNUC__) && !defined(__clang__) && defined(__AVX__)
-    return (Lanes)__builtin_ia32_minpd256(y, x);
-#elif defined(__GNUC__) && !defined(__clang__) && defined(__SSE2__)
-    return (Lanes)__builtin_ia32_minpd(y, x);
-#else
-    return pick(x > y, y, x);
-#endif
-}
+static inline Lanes lanes_max_of(Lanes x, Lanes y) { return EXTREME_OF(max, <); }
+static inline Lanes lanes_min_of(Lanes x, Lanes y) { return EXTREME_OF(min, >); }
+#undef EXTREME_OF
 static inline Lanes lanes_sign_of(Lanes x) { return pick(x > 0.0, all_of(1.0), pick(x < 0.0, all_of(-1.0), x)); }
 static inline Lanes lanes_fabs(Lanes x) { return (Lanes)((LaneBits)x & 0x7fffffffffffffffLL); }
 

@@ -74,8 +74,8 @@ static void note_stage(const LaneRun *run, LaneStep *step, const LaneAside *asid
         const Lanes rate = aside->clearance[i].deltadot;
         step->rate[i][0] = lanes_min_of(step->rate[i][0], rate);
         step->rate[i][1] = lanes_max_of(step->rate[i][1], rate);
-        seen[N_MARGINS + i] = square_of_force(aside, i);
-        seen[N_MARGINS + N_CLEARANCES + i] = rate;
+        seen[SEEN_FORCES + i] = square_of_force(aside, i);
+        seen[SEEN_RATES + i] = rate;
     }
 }
 
@@ -155,8 +155,8 @@ static void note_pass(LaneRun *run, LaneStep *step, LaneBits active, const Lanes
         const Lanes low = lanes_min_of(old[0], rate), high = lanes_max_of(old[1], rate);
         step->rate[i][0] = pick(active, low, old[0]);
         step->rate[i][1] = pick(active, high, old[1]);
-        seen[N_MARGINS + i] = pick(active, square_of_force(aside, i), seen[N_MARGINS + i]);
-        seen[N_MARGINS + N_CLEARANCES + i] = pick(active, rate, seen[N_MARGINS + N_CLEARANCES + i]);
+        seen[SEEN_FORCES + i] = pick(active, square_of_force(aside, i), seen[SEEN_FORCES + i]);
+        seen[SEEN_RATES + i] = pick(active, rate, seen[SEEN_RATES + i]);
     }
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {
         step->least[k] = pick(active, lanes_min_of(step->least[k], y[k]), step->least[k]);

@@ -27,6 +27,9 @@ static void margins_of(const Memory *memory, const Aside *aside, double *out)
         out[k] = margin(memory, aside, k);
 }
 
+/* The tolerance of a step, as a share; 0 where its length is given. */
+static double tolerance_of(const Run *run) { return run->fixed > 0.0 ? 0.0 : 1.0 / run->inverse_scale[2 * N_X - 1]; }
+
 /* Margin k, or another number, of the i-th stage that was seen. */
 static double seen_at(const Step *step, int i, int k)
 {
@@ -63,8 +66,8 @@ static void note_stage(const Run *run, Step *step, const Aside *aside, double no
         const Clearance *joint = &aside->clearance[i];
         step->rate[i][0] = min_of(step->rate[i][0], joint->deltadot);
         step->rate[i][1] = max_of(step->rate[i][1], joint->deltadot);
-        seen[N_MARGINS + i] = joint->F_n * joint->F_n + joint->F_t * joint->F_t;
-        seen[N_MARGINS + N_CLEARANCES + i] = joint->deltadot;
+        seen[SEEN_FORCES + i] = joint->F_n * joint->F_n + joint->F_t * joint->F_t;
+        seen[SEEN_RATES + i] = joint->deltadot;
     }
 }
 

@@ -36,8 +36,7 @@ static double force_at(Run *run, const Step *step, double s, int i, const Parame
 /* So near its place, as a share of the step, is a top looked for: as the motion is known, and what a step of rk4 is. */
 static double top_width(const Run *run)
 {
-    const double tolerance = run->fixed > 0.0 ? 0.0 : 1.0 / run->inverse_scale[2 * N_X - 1];
-    return min_of(1e-3, max_of(TOP, TOP_OF * sqrt(tolerance)));
+    return min_of(1e-3, max_of(TOP, TOP_OF * sqrt(tolerance_of(run))));
 }
 
 /* The top of joint i's force inside a step up to `share`, by parabolas through three of its places; at both ends it is
@@ -109,7 +108,7 @@ static int trend(const Step *step, double share, int i, double after)
         if (!(node < 0.99 * share && node > s[1]) || node == s[0])
             continue;
         const int last = node > s[0];
-        const double force = sqrt(seen_at(step, k, N_MARGINS + i));
+        const double force = sqrt(seen_at(step, k, SEEN_FORCES + i));
         s[1] = last ? s[0] : node, f[1] = last ? f[0] : force;
         s[0] = last ? node : s[0], f[0] = last ? force : f[0];
     }

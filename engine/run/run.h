@@ -38,7 +38,8 @@ typedef struct {
 /* A step that was tried: contacts and the sides of corners are held while it is made. */
 enum {
     N_MARGINS = N_CLEARANCES + N_SWITCHES + N_FRICTIONS + N_USER_EVENTS, /* what may end a step, in this order */
-    N_SEEN = N_MARGINS + 2 * N_CLEARANCES, /* at a stage: these; of joints with play F^2, N^2, and deltadot, m/s */
+    /* at a stage: these; of joints with play F^2, N^2, from here on, and deltadot, m/s; so many in all */
+    SEEN_FORCES = N_MARGINS, SEEN_RATES = SEEN_FORCES + N_CLEARANCES, N_SEEN = SEEN_RATES + N_CLEARANCES,
 #if TAYLOR
     N_DENSE = TAYLOR_ORDERS,
 #else

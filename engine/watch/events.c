@@ -60,13 +60,13 @@ static int is_passed(const Run *run, const Step *step, int k)
     return corner >= 0 && corner < N_SWITCHES && (corner == run->skip || step->passed[corner]);
 }
 
-/* The stage at which margin k was smallest; -1: none was. */
-static int nearest_stage(const Step *step, int k)
+/* The stage at which margin k was lowest, if below zero; 1: none. */
+static double lowest_stage(const Step *step, int k)
 {
-    int nearest = 0;
-    while (nearest < step->n_seen && seen_at(step, nearest, k) != step->lowest[k])
-        nearest++;
-    return nearest < step->n_seen ? nearest : -1;
+    for (int i = 0; i < step->n_seen && step->lowest[k] < 0.0; i++)
+        if (seen_at(step, i, k) == step->lowest[k])
+            return step->node[i];
+    return 1.0;
 }
 
 /* The first stage at which margin k was below zero, where a later one, or the end, was not: it may cross more than
@@ -87,10 +87,10 @@ static double violated(Run *run, Step *step, int k, const Parameters *p, double 
 {
     if (watched_as[k] >= 0)
         return first_look(run, step, watched_as[k], p, value);
-    const double end = margin(&run->memory, &step->aside, k), least = step->lowest[k];
-    if (k < N_CLEARANCES && may_graze(run, step, k, least) && make_dense(run, p, step) == 0)
+    const double end = margin(&run->memory, &step->aside, k);
+    if (k < N_CLEARANCES && may_graze(run, step, k) && make_dense(run, p, step) == 0)
         return look_along(run, step, k, p, value);
-    const double at[] = {first_dip(step, k, end), least < 0.0 ? step->node[nearest_stage(step, k)] : 1.0};
+    const double at[] = {first_dip(step, k, end), lowest_stage(step, k)};
     for (int i = 0; i < 2; i++) {
         if (at[i] >= 1.0 || make_dense(run, p, step))
             continue;

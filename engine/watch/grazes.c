@@ -5,10 +5,10 @@ enum { LOOKS = 8, MOST_LOWEST = 20 }; /* evenly along a step; for the lowest pla
 
 #define SHALLOW 1e-13 /* m, or 1e-10 of the depth that ends the model: a graze without a force worth the name */
 
-/* How far below zero margin k lies without a meaning: m of a joint with play. */
+/* How far below zero a joint's margin lies without a meaning, m. */
 static double shallow(const Parameters *p, int k)
 {
-    return k < N_CLEARANCES ? -min_of(SHALLOW, 1e-10 * deepest(p, k)) : 0.0;
+    return -min_of(SHALLOW, 1e-10 * deepest(p, k));
 }
 
 /* Of a free joint at a share of a step: penetration (m) and its rate (m/s). */
@@ -23,7 +23,7 @@ static int penetrations(const Run *run, const Step *step, int i, Penetration *al
     all[0] = (Penetration){0.0, run->aside.clearance[i].delta, run->aside.clearance[i].deltadot};
     for (int k = 0; k < step->n_seen; k++) {
         const Penetration now
-            = {step->node[k], -seen_at(step, k, i), seen_at(step, k, N_MARGINS + N_CLEARANCES + i)};
+            = {step->node[k], -seen_at(step, k, i), seen_at(step, k, SEEN_RATES + i)};
         int at = n;
         if (!(now.s > 0.0 && now.s < 1.0))
             continue;
@@ -56,12 +56,12 @@ static int has_hump(const Penetration *all, int n, double h)
  * two looks can hide the contact. Stages lie beside the motion, those of stiff methods far from it: they are believed
  * that it turned once only where it did so by both ends, inwards at first and outwards at last.
  */
-static int may_graze(const Run *run, const Step *step, int i, double least)
+static int may_graze(const Run *run, const Step *step, int i)
 {
     const Clearance *before = &run->aside.clearance[i], *after = &step->aside.clearance[i];
     const double outward = max_of(step->rate[i][1], max_of(after->deltadot, before->deltadot));
     const double inward = min_of(step->rate[i][0], min_of(after->deltadot, before->deltadot));
-    const double nearest = max_of(-least, max_of(after->delta, before->delta));
+    const double nearest = max_of(-step->lowest[i], max_of(after->delta, before->delta));
     const int once = step->n_seen && !step->method->stiff && before->deltadot < 0.0 && after->deltadot > 0.0;
     Penetration all[N_STAGES + 2];
     return !run->memory.latch[i].closed && outward > 0.0 && inward < 0.0

@@ -85,7 +85,7 @@ static int is_unresolved(Run *run, Step *step, const Parameters *p)
 /* The least margin k around s, where it is `best`, within `width` to both sides; stops as soon as it is below zero. */
 static double dip(Run *run, const Step *step, int k, double *s, double width, double best, const Parameters *p)
 {
-    for (; width > 1e-6 && best >= shallow(p, k) && *s - width >= 0.0 && *s + width <= 1.0; width *= 0.5) {
+    for (; width > 1e-6 && best >= 0.0 && *s - width >= 0.0 && *s + width <= 1.0; width *= 0.5) {
         const double left = margin_at(run, step, *s - width, k, p), right = margin_at(run, step, *s + width, k, p);
         const double bend = left - 2.0 * best + right;
         double at[3] = {*s - width, *s + width, *s}, value[3] = {left, right, best};

@@ -220,7 +220,7 @@ static double about_where(double guess, const Bracket *of)
  */
 static double reach_of(const Run *run, const Step *step, int k)
 {
-    const double tolerance = 1.0 / run->inverse_scale[2 * N_X - 1];
+    const double tolerance = tolerance_of(run);
     const int corner = k - N_CLEARANCES;
     if (run->fixed > 0.0 || watched_as[k] >= 0)
         return 0.0;

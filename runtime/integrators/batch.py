@@ -159,10 +159,11 @@ class Runs:
         for i in np.flatnonzero(~np.isin(x["status"], (0, ENDED))).tolist():
             if i not in self.failures:
                 self.failures[i] = self._failure(i)
-        none, some = x["done"] == 0, (x["done"] > 0) & (x["done"] < self.times.most)
-        if not self.over:
-            x["y"][none], x["latched"][none] = np.nan, np.nan
-        for i in np.flatnonzero(some).tolist() if not self.over else ():
+        if self.over:
+            return
+        none = x["done"] == 0
+        x["y"][none], x["latched"][none] = np.nan, np.nan
+        for i in np.flatnonzero(~none & (x["done"] < self.times.most)).tolist():
             x["y"][i, x["done"][i] :], x["latched"][i, x["done"][i] :] = np.nan, np.nan
 
     def _not_finite(self) -> Iterator[int]:

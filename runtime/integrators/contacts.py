@@ -8,12 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.integrators.session import N_IMPACTS
-from gudgeon.integrators.trajectory import IMPACT_DTYPE
+from gudgeon.integrators.session import N_IMPACTS, as_impacts
 from gudgeon.model.compiled import CompiledModel
 
 BLOCK = 16 * N_IMPACTS  # contacts that have their room together
-NUMBERS = ("t_on", "t_off", "deltadot", "F_peak", "t_peak")  # of a contact, as C tells them
 
 
 class Contacts:
@@ -42,16 +40,13 @@ class Contacts:
         begins, counts = begins[by_run], counts[by_run]
         whose = np.repeat(runs[by_run], counts)
         row = np.repeat(begins - (np.cumsum(counts) - counts), counts) + np.arange(len(whose))
-        numbers = np.concatenate([np.zeros((0, 5)), *(block for each in self.all for block in each.numbers_of())])
-        joints = np.concatenate([np.zeros(0, np.intc), *(block for each in self.all for block in each.joints_of())])
+        blocks = [block for each in self.all for block in each.blocks()]
+        numbers = np.concatenate([np.zeros((0, 5)), *(numbers for numbers, _ in blocks)])
+        joints = np.concatenate([np.zeros(0, np.intc), *(joints for _, joints in blocks)])
         self.all.clear()
         # complex numbers are ordered by their real parts first; the rows nearly are, which a lexsort does not use
         row = row[np.argsort(whose + 1j * numbers[row, 0], kind="stable")]
-        contacts = np.empty(len(row), IMPACT_DTYPE)
-        contacts["joint"] = joints[row]
-        for column, name in enumerate(NUMBERS):
-            contacts[name] = numbers[row, column]
-        return contacts, np.searchsorted(whose, np.arange(n + 1))
+        return as_impacts(numbers[row], joints[row]), np.searchsorted(whose, np.arange(n + 1))
 
 
 class _Fetched:
@@ -69,7 +64,7 @@ class _Fetched:
 
     def fetch(self, i: int, run: Any, last: bool) -> None:
         if self.n + N_IMPACTS > BLOCK:
-            self.full.append((self.numbers[: self.n], self.joints[: self.n]))
+            self.full = self.blocks()
             self._begin()
         numbers, joints = self.to
         count = self.compiled.lib.gudgeon_run_impacts(run, last, numbers + 5 * self.n, joints + self.n)
@@ -77,8 +72,6 @@ class _Fetched:
         self.counts.append(count)
         self.n += count
 
-    def numbers_of(self) -> list[NDArray[Any]]:
-        return [*(numbers for numbers, _ in self.full), self.numbers[: self.n]]
-
-    def joints_of(self) -> list[NDArray[Any]]:
-        return [*(joints for _, joints in self.full), self.joints[: self.n]]
+    def blocks(self) -> list[tuple[NDArray[Any], NDArray[Any]]]:
+        """Numbers (n, 5) and joints (n,), as far as they are filled."""
+        return [*self.full, (self.numbers[: self.n], self.joints[: self.n])]

@@ -20,6 +20,7 @@ from gudgeon.waiting.asking import Asker
 
 EVENTS_FULL, ENDED, STOPPED = -3, -7, -10
 N_IMPACTS, N_COUNTS = 256, 9
+NUMBERS = ("t_on", "t_off", "deltadot", "F_peak", "t_peak")  # of a contact, as C tells them
 EPSILON = float(np.finfo(np.float64).eps)
 REPORT = ("steps", "right_hand_sides", "onsets", "grazes", "ratio_outside", "switches", "rejected", "jacobians",
           "stiff_steps")  # fmt: skip
@@ -70,18 +71,21 @@ def told_apart(compiled: CompiledModel, found: NDArray[Any]) -> tuple[NDArray[An
 
 def fetch_impacts(compiled: CompiledModel, run: Any, last: bool) -> NDArray[Any]:
     """IMPACT_DTYPE, the list of contacts of a struct, which is emptied; with `last` those that still go on too."""
-    from gudgeon.integrators.trajectory import IMPACT_DTYPE
-
     numbers, joints = np.empty((N_IMPACTS, 5)), np.empty(N_IMPACTS, dtype=np.intc)
     lists = (compiled.pointer(numbers), compiled.pointer(joints, "int *"))
     count = compiled.lib.gudgeon_run_impacts(run, int(last), *lists)
-    fetched = np.empty(count, dtype=IMPACT_DTYPE)
-    if not count:
-        return fetched
-    fetched["joint"] = joints[:count]
-    for column, name in enumerate(("t_on", "t_off", "deltadot", "F_peak", "t_peak")):
-        fetched[name] = numbers[:count, column]
-    return fetched
+    return as_impacts(numbers[:count], joints[:count])
+
+
+def as_impacts(numbers: Array, joints: NDArray[np.intc]) -> NDArray[Any]:
+    """IMPACT_DTYPE, contacts from their numbers (n, 5) and joints (n,) as C tells them."""
+    from gudgeon.integrators.trajectory import IMPACT_DTYPE
+
+    impacts = np.empty(len(joints), dtype=IMPACT_DTYPE)
+    impacts["joint"] = joints
+    for column, name in enumerate(NUMBERS):
+        impacts[name] = numbers[:, column]
+    return impacts
 
 
 def counts_of(counts: NDArray[Any], numbers: Array) -> Counts:

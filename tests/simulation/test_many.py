@@ -18,7 +18,7 @@ from gudgeon.assembly.start import assemble
 from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
 from gudgeon.integrators import contacts
 from gudgeon.integrators.batch import Runs
-from gudgeon.integrators.session import N_IMPACTS
+from gudgeon.integrators.session import N_IMPACTS, NUMBERS
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.results.batch import Batch
@@ -97,7 +97,7 @@ def test_contacts_that_come_in_any_order_are_each_runs_own_by_onset(monkeypatch:
     def listed(run: np.ndarray, last: bool, numbers: Any, joints: Any) -> int:
         for k, contact in enumerate(run):
             joints[k] = contact["joint"]
-            numbers[5 * k : 5 * k + 5] = [float(contact[name]) for name in contacts.NUMBERS]
+            numbers[5 * k : 5 * k + 5] = [float(contact[name]) for name in NUMBERS]
         return len(run)
 
     monkeypatch.setattr(contacts, "BLOCK", N_IMPACTS + 20)
