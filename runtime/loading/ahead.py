@@ -26,7 +26,8 @@ if TYPE_CHECKING:
 def own_lines(source: KernelSource, portable: bool, quick: bool = False) -> dict[str, tuple[str, ...]]:
     """The compiler's lines for what is a scene's own, by the names of the objects."""
     if source.cdef or not source.units:
-        return {"scene.o": unit_line(portable, [source.main], "scene.o", quick)}
+        unit = "lanes" if source.cdef else ""
+        return {"scene.o": unit_line(portable, [source.main], "scene.o", quick, unit)}
     return dict(_part(part, portable, quick) for part in source.units)
 
 

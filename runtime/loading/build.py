@@ -118,7 +118,8 @@ def library_key(
 ) -> str:
     """Everything that decides the library's bytes or whether this machine can run them."""
     cpu, texts = "" if portable else compiler.cpu(), own_texts(source)
-    return digest(["library/6", source.main, source.cdef, *command, *flags, identity, cpu, engine_digest(), *texts])
+    own = [source.main, source.cdef, *command, *flags, *(flag for more in compiler.MORE.values() for flag in more)]
+    return digest(["library/6", *own, identity, cpu, engine_digest(), *texts])
 
 
 def _open(entry: Path, cdef: str) -> Library:

@@ -33,6 +33,14 @@ FLAGS = (
     "-fno-math-errno",
     "-Werror=implicit-function-declaration",  # else a name that a part does not know is a function of whole numbers
 )
+# What is behind these for some units. The time loops are many small functions, which gain by being put into each other:
+# a tenth of a run with events; statements that stand apart stay apart, for gcc 12 makes one vector of a product's sum
+# and another's difference. Formulas of vectors side by side are long: what comes next while one is waited for is not
+# within the processor's sight.
+MORE = {
+    "loops": ("-O2", "-fno-tree-slp-vectorize"),
+    "lanes": ("-fschedule-insns", "-fschedule-insns2", "-fsched-pressure"),
+}
 
 GCCS = frozenset(("-O1", "-fcaller-saves", "-fipa-ra", "-ftree-loop-vectorize"))  # clang's own passes: -O2
 # Of zig's clang: no checks, which it makes where no level of optimization is named, as for a link, and the CPU that all
@@ -57,6 +65,11 @@ def flags(portable: bool, command: tuple[str, ...] = (), quick: bool = False) ->
     if quick or _is_zig(command):
         named = ("-O0" if quick else "-O2", *(flag for flag in FLAGS if flag not in GCCS))
     return (*named, *(() if portable else (native,)))
+
+
+def of_unit(flags: tuple[str, ...], unit: str) -> tuple[str, ...]:
+    """These flags for the time loops ("loops"), for runs side by side ("lanes"), for what is a scene's own ("")."""
+    return (*flags, *(MORE.get(unit, ()) if "-O1" in flags else ()))
 
 
 def _is_zig(command: tuple[str, ...]) -> bool:

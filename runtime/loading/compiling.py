@@ -22,11 +22,13 @@ FULL = {
 }  # fmt: skip
 
 
-def unit_line(portable: bool, unit: Sequence[str], made: str, quick: bool = False) -> tuple[str, ...]:
-    """The line for one unit of a library: what it shares with others stays inside."""
+def unit_line(
+    portable: bool, files: Sequence[str], made: str, quick: bool = False, unit: str = ""
+) -> tuple[str, ...]:  # fmt: skip
+    """The line for one unit of a library (compiler.of_unit): what it shares with others stays inside."""
     command = compiler.find_compiler()
-    flags = (*compiler.flags(portable, command, quick), "-fvisibility=hidden", *include_flags())
-    return (*command, *flags, "-c", *unit, "-o", made)
+    flags = compiler.of_unit(compiler.flags(portable, command, quick), unit)
+    return (*command, *flags, "-fvisibility=hidden", *include_flags(), "-c", *files, "-o", made)
 
 
 def begin(programs: Programs, line: Sequence[str], folder: Path) -> subprocess.Popen[str]:

@@ -58,5 +58,5 @@ def engine_object(header: str, portable: bool, quick: bool = False) -> Shared:
     """The time loops for a scene with this model.h, of which they read what stands in front of its numbers."""
     _, _, text = header.partition("#define GUDGEON_MODEL_H\n")
     read = text.partition(ENGINE_ENDS)[0]
-    line = unit_line(portable, [str(UNIT)], "engine.o", quick)
+    line = unit_line(portable, [str(UNIT)], "engine.o", quick, "loops")
     return Shared("engines", "engine.o", line, (read, engine_digest()), {HEADER: read})
