@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -21,6 +22,25 @@ def test_a_contact_begins_as_near_its_zero_as_the_tolerance_asks(method: str, rt
     run = gudgeon.load("bouncing_ball", "elastic").simulate(0.46, output=1, method=method, rtol=rtol)
     (onset,) = run.impacts["t_on"]
     assert -1e-14 < onset - fall < max(min(1e-9, rtol**2) * fall, 1e-12)
+
+
+@pytest.mark.parametrize("rtol", [1e-3, 1e-4, 1e-6])
+def test_a_force_that_begins_with_a_jump_is_missed_by_less_than_the_tolerance(rtol: float, tmp_path: Path) -> None:
+    """Contacts of 1e-4 s behind flights of .4 s, in a step or a few: what onsets are late by is no share of a flight.
+
+    Kelvin and Voigt, zeta = .3: e = exp(-(zeta/sqrt(1 - zeta^2)) (pi - 2 arcsin zeta)) at any speed, but for gravity.
+    """
+    stiffness, mass, zeta = 1.4e8, 0.092, 0.3
+    damping = 2.0 * zeta * math.sqrt(stiffness * mass)
+    law = f"{{law: kelvin_voigt, stiffness: {stiffness} N/m, damping: {damping} N*s/m}}"
+    text = Path(gudgeon.__file__).with_name("mechanisms").joinpath("bouncing_ball.yaml").read_text(encoding="utf-8")
+    file = tmp_path / "ball.yaml"
+    file.write_text(re.sub(r"normal: \{law: hertz.*dissipation: none\}", f"normal: {law}", text), encoding="utf-8")
+    ball = gudgeon.load(file, scene="elastic")
+    found, fine = (ball.simulate(1.1, output=1, rtol=tolerance).impacts["deltadot"] for tolerance in (rtol, 1e-10))
+    e = math.exp(-zeta / math.sqrt(1.0 - zeta**2) * (math.pi - 2.0 * math.asin(zeta)))
+    assert len(fine) == 3 and fine[1] / fine[0] == pytest.approx(e, rel=1e-3)
+    np.testing.assert_allclose(found, fine, rtol=3.0 * rtol)
 
 
 @pytest.mark.parametrize(("k", "rtol"), [(0, 1e-5), (2, 10**-5.5), (14, 1e-4), (18, 10**-4.75)])
