@@ -6,6 +6,8 @@
 #include "lane_calls.h"
 #include "lane_exchange.c"
 
+enum { TOLD = ABREAST / LANES }; /* runs that are told of at once: a call of Python's is as long as several steps */
+
 /* Whether place i is free from now on, what happened being one of those that Python is told of. */
 static int leaves(Flow *flow, int i, int happened)
 {
@@ -50,7 +52,7 @@ static int seat_one(Flow *flow, int k, int stiff)
     return flow->seated[k] % LANES == k && wants(flow, flow->seated[k], stiff);
 }
 
-/* One step of one run in each lane is tried. Returns whether Python is to be told of a run. */
+/* One step of one run in each lane is tried. Returns of how many runs Python is to be told. */
 static int try_together(Flow *flow, int stiff, int *lists)
 {
     int some = 0, wanted[LANES];
@@ -70,7 +72,7 @@ static int try_together(Flow *flow, int stiff, int *lists)
         put_down(flow, k);
         if (!lost)
             scatter(flow, k, stiff);
-        some |= go_on(flow, flow->seated[k], lost ? UNTRIED : flow->step.missed[k] ? MISSED : TRIED, lists);
+        some += go_on(flow, flow->seated[k], lost ? UNTRIED : flow->step.missed[k] ? MISSED : TRIED, lists);
     }
     return some;
 }
@@ -97,7 +99,7 @@ static int advance(Flow *flow, int *lists)
         if (!is_taken(flow, i))
             continue;
         put_down(flow, i);
-        some |= go_on(flow, i, UNTRIED, lists);
+        some += go_on(flow, i, UNTRIED, lists);
     }
     return some;
 }
@@ -126,7 +128,7 @@ int gudgeon_lane_count(void) { return ABREAST; }
 
 /*
  * Runs number[i] (ABREAST of them, -1: none), each in a memory of its own. Returns GOES_ON, to be called again, as soon
- * as a run is over (number[i] is -1 then) or after `limit` steps of each; LISTS where the lists of one are full;
+ * as some runs are over (number[i] is -1 then) or after `limit` steps of each; LISTS where the lists of one are full;
  * ALL_OVER where not two are left, or the batch is ending: what is not over then goes on alone (gudgeon_many).
  */
 int gudgeon_lanes(const void *batch, const void *single, void *const *run, long *number)
@@ -145,9 +147,12 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
         flow.seated[k] = -1;
     for (int i = 0; i < ABREAST; i++)
         if (is_taken(&flow, i))
-            some |= enter(&flow, i);
-    for (long left = flow.b->limit; !some && count_of(&flow) > 1 && left > 0 && !*flow.b->ending; left--)
-        some = advance(&flow, &lists);
+            some += enter(&flow, i);
+    for (long left = flow.b->limit; some < TOLD && !lists && left > 0 && !*flow.b->ending; left--) {
+        if (count_of(&flow) < 2)
+            break;
+        some += advance(&flow, &lists);
+    }
     const double share = (lane_seconds() - before) / (entered > 0 ? entered : 1);
     for (int i = 0; i < ABREAST; i++) {
         put_down(&flow, i);
