@@ -18,6 +18,7 @@ typedef struct {
     const Single *one;
     Run *run[ABREAST];
     long number[ABREAST]; /* -1: free */
+    int kind[ABREAST];    /* which method each wants its next step by; -1: none */
     int seated[LANES];    /* which one a lane has, of those that share it; -1: none yet */
     LaneParameters p;
     Lanes h; /* of the steps that come next */

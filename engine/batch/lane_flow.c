@@ -13,6 +13,7 @@ static int leaves(Flow *flow, int i, int happened)
 {
     if (happened == RUN_OVER)
         flow->number[i] = -1;
+    flow->kind[i] = happened == RUN_OVER ? -1 : flow->run[i]->attempt.stiff;
     return happened != GOES_ON;
 }
 
@@ -36,9 +37,17 @@ static int go_on(Flow *flow, int i, int tried, int *lists)
 }
 
 /* Whether run i wants a step by this method. */
-static int wants(const Flow *flow, int i, int stiff)
+static int wants(const Flow *flow, int i, int stiff) { return flow->kind[i] == stiff; }
+
+/* In how many lanes one does. */
+static int lanes_that_want(const Flow *flow, int stiff)
 {
-    return is_taken(flow, i) && flow->run[i]->attempt.stiff == stiff;
+    int some[LANES] = {0}, count = 0;
+    for (int i = 0; i < ABREAST; i++)
+        some[i % LANES] |= wants(flow, i, stiff);
+    for (int k = 0; k < LANES; k++)
+        count += some[k];
+    return count;
 }
 
 /* Seats a run in lane k that wants this method, that which sat there if it does; whether there is one. */
@@ -83,14 +92,9 @@ static int try_together(Flow *flow, int stiff, int *lists)
  */
 static int advance(Flow *flow, int *lists)
 {
-    int some = 0, most = 0, count[KINDS] = {0};
+    int some = 0, most = 0, count[KINDS];
     for (int stiff = 0; stiff < KINDS; stiff++) {
-        for (int k = 0; k < LANES; k++) {
-            int one = 0;
-            for (int i = k; i < ABREAST; i += LANES)
-                one |= wants(flow, i, stiff);
-            count[stiff] += one;
-        }
+        count[stiff] = lanes_that_want(flow, stiff);
         most = count[stiff] > count[most] ? stiff : most;
     }
     if (count[most] > 1)
@@ -141,6 +145,7 @@ int gudgeon_lanes(const void *batch, const void *single, void *const *run, long 
     for (int i = 0; i < ABREAST; i++) {
         flow.run[i] = run[i];
         flow.number[i] = number[i];
+        flow.kind[i] = -1;
         entered += number[i] >= 0;
     }
     for (int k = 0; k < LANES; k++)

@@ -2,11 +2,6 @@
  * Where along a step a margin crosses zero: looks at the step's interpolant, and roots by what they have found.
  */
 enum { QUICK = 6, MOST_PLACES = 4 }; /* looks by which a zero is found as a rule; places that tell where it is */
-#define AT_CONTACT 1e-6 /* of a step, behind the begin or end of a contact, at most */
-#define AT_FIRST 1e-9   /* the same of a first contact */
-#define BEFORE 0.3      /* tolerances of an impulse, that may be missed before a contact is found */
-#define AT_CORNER 1e-2  /* of a step, behind a corner, at most */
-#define NO_HARM 0.01    /* of the tolerance, that its wrong branch may change a step by */
 #define FAR_ENOUGH 1e-4 /* shares of a bracket, a third place from its ends: a nearer one tells of rounding */
 
 /* What others have found of a step that they tried. */
@@ -142,8 +137,8 @@ static double hermite_zero(Place low, Place high, Place third)
         u -= f / f_u;
         if (!(u > from && u < to))
             u = 0.5 * (from + to);
-        if (fabs(u - before) < 1e-9)
-            break; /* Newton's next step is its square */
+        if (fabs(u - before) < 1e-5) /* Newton's next step is its square */
+            break;
     }
     return low.s + w * u;
 }
@@ -173,12 +168,6 @@ static void narrow(Bracket *of, int at, Place now)
     of->at[3] = of->at[2];
     of->at[2] = of->at[at];
     of->at[at] = now;
-}
-
-/* The share to which a zero is located: 4 ulp of the time, or a tick. */
-static double root_width(const Run *run, const Step *step)
-{
-    return max_of(4.0 * DBL_EPSILON * fabs(step->t), run->tick) / step->h;
 }
 
 /* Margin k at both ends of a step. */
@@ -216,44 +205,8 @@ static double about_where(double guess, const Bracket *of)
     return guess > low && guess < high ? guess : 0.5 * (low + high);
 }
 
-/*
- * How far behind its zero the margin of a contact that gives may be found, as a share of a step. Forces may begin with
- * a jump: less than the tolerance of an impulse is missed, an impact being as long at least as the step with which one
- * began; where none has been, nothing is known of how long they are.
- */
-static double reach_of_contact(const Run *run, const Step *step, int k)
-{
-    const double tolerance = tolerance_of(run), late = min_of(AT_CONTACT, tolerance * sqrt(tolerance));
-    double known = INFINITY;
-    if (run->memory.latch[k].closed)
-        return late; /* the step is a part of the contact */
-    for (int i = 0; i <= N_CLEARANCES; i++)
-        known = run->after_contact[i][0] > 0.0 ? min_of(known, run->after_contact[i][0]) : known;
-    if (known == INFINITY)
-        return min_of(AT_FIRST, tolerance * tolerance);
-    return min_of(late, BEFORE * tolerance * known / step->h);
-}
-
-/*
- * How far behind its zero, which is about there, margin k may be found: of a corner, where branches meet, as far as the
- * wrong one does no harm, for what rates differ by grows with the way behind it, and what that does with the square. 0
- * of what is neither that nor a contact that gives: as near as zeros are told apart.
- */
-static double reach_of(const Run *run, const Step *step, int k, double about)
-{
-    const int corner = k - N_CLEARANCES;
-    if (run->fixed > 0.0 || watched_as[k] >= 0)
-        return 0.0;
-    if (corner < 0)
-        return gives(k) ? reach_of_contact(run, step, k) : 0.0;
-    return corner < N_SWITCHES && meets[corner] ? min_of(AT_CORNER, sqrt(NO_HARM * (1.0 - about) / step->harm)) : 0.0;
-}
-
 /* How many places tell where a zero is: near one that is located to rounding a fourth tells of that alone. */
-static int telling(const Run *run, const Step *step, int k)
-{
-    return reach_of(run, step, k, 0.5) > 0.0 ? MOST_PLACES : MOST_PLACES - 1;
-}
+static int telling(const Run *run, int k) { return MOST_PLACES - !may_lie_behind(run, k); }
 
 /* Whether a place behind a zero is no further from it than that, as the margin falls there, or from `low` to there. */
 static int is_reached(Place low, Place now, double reach)
@@ -270,7 +223,7 @@ static int is_reached(Place low, Place now, double reach)
 static double root(Run *run, const Step *step, int k, Bracket of, double guess, const Parameters *p)
 {
     const double reach = reach_of(run, step, k, about_where(guess, &of)), close = max_of(reach, root_width(run, step));
-    const int places = telling(run, step, k);
+    const int places = telling(run, k);
     double width = 2.0, before = 2.0;
     for (int i = 0; of.at[1].s - of.at[0].s > close; i++) {
         const double from = of.at[0].s, to = of.at[1].s;
