@@ -32,12 +32,13 @@ CALLED = (
 )
 DRIVEN = ("rhs",)  # and where its drives leave no freedom  # fmt: skip
 # No contraction to fused multiply-adds and no fast math, as of a library (loading/compiler.py). Loops stay loops: a
-# module is a tenth shorter. The stack is as large as programs have it; zig puts it first, so that what overflows it traps
-# instead of writing over numbers.
+# module is a tenth shorter. The stack is as large as programs have it; zig puts it first, so that what overflows it
+# traps instead of writing over numbers.
 FLAGS = (
     "-target", "wasm32-wasi", "-mexec-model=reactor", "-O2", "-fno-unroll-loops", "-msimd128", "-std=c11",
     "-ffp-contract=off", "-fno-math-errno", "-fno-sanitize=undefined", "-fvisibility=hidden",
-    "-Werror=implicit-function-declaration", "-s", "-Wl,--gc-sections", "-Wl,-z,stack-size=8388608", "-Wl,--export=malloc", "-Wl,--export=free",
+    "-Werror=implicit-function-declaration", "-s", "-Wl,--gc-sections", "-Wl,-z,stack-size=8388608",
+    "-Wl,--export=malloc", "-Wl,--export=free",
 )  # fmt: skip
 
 
