@@ -10,7 +10,7 @@ enum { MAX_STUCK = 200, MAX_CRAWL = 2000, PATIENCE = 8,
 #define PAST 1.05    /* of the time to the end of a contact, that a step takes */
 #define SLACK 2.5     /* h rho below which the stiff method is not worth its price */
 #define STEEPEST 30.0 /* power of a step's length, as which its error may be seen to grow */
-#define BEHIND 1.3    /* times what the error of the step that begins a contact says, for the one behind it */
+#define BEHIND 1.1    /* times what the error of the step that begins a contact says, for the one behind it */
 #define DEEP 1.5      /* times as deep as that, at most */
 #define FADES 0.95    /* what is left of that power after a step */
 

@@ -5,7 +5,7 @@
 #define AT_FIRST 1e-9   /* the same of a first contact */
 #define BEFORE 0.3      /* tolerances of an impulse, that may be missed before a contact is found */
 #define AT_CORNER 1e-2  /* of a step, behind a corner, at most */
-#define NO_HARM 0.01    /* of the tolerance, that its wrong branch may change a step by */
+#define NO_HARM 1e-4    /* of the tolerance, that its wrong branch may change a step by */
 
 /* The share to which a zero is located: 4 ulp of the time, or a tick. */
 static double root_width(const Run *run, const Step *step)
@@ -41,15 +41,15 @@ static double reach_of_contact(const Run *run, const Step *step, int k)
 }
 
 /*
- * How far behind its zero, which is about there, margin k may be found: of a corner, where branches meet, as far as the
- * wrong one does no harm, for what rates differ by grows with the way behind it, and what that does with the square. 0:
- * as near as zeros are told apart.
+ * How far behind its zero margin k may be found, which there falls by so much a share: of a corner, where branches meet,
+ * as far as the wrong one does no harm. Rates differ in proportion to the margin, and what that does grows with the
+ * square of the way: at the step's end they do so by what step->harm tells. 0: as near as zeros are told apart.
  */
-static double reach_of(const Run *run, const Step *step, int k, double about)
+static double reach_of(const Run *run, const Step *step, int k, double falls)
 {
     if (!may_lie_behind(run, k))
         return 0.0;
     if (k < N_CLEARANCES)
         return reach_of_contact(run, step, k);
-    return min_of(AT_CORNER, sqrt(NO_HARM * (1.0 - about) / step->harm));
+    return min_of(AT_CORNER, sqrt(NO_HARM * fabs(margin(&run->memory, &step->aside, k)) / (step->harm * falls)));
 }

@@ -205,6 +205,16 @@ static double about_where(double guess, const Bracket *of)
     return guess > low && guess < high ? guess : 0.5 * (low + high);
 }
 
+/* By how much a margin falls a share near its zero, which is about there: at most, as the places say that are known. */
+static double falls_by(const Bracket *of, double about)
+{
+    const double s = about_where(about, of);
+    double most = 0.0;
+    for (int i = 0; i < of->n; i++)
+        most = max_of(most, fabs(of->at[i].f / (of->at[i].s - s)));
+    return most;
+}
+
 /* How many places tell where a zero is: near one that is located to rounding a fourth tells of that alone. */
 static int telling(const Run *run, int k) { return MOST_PLACES - !may_lie_behind(run, k); }
 
@@ -222,12 +232,15 @@ static int is_reached(Place low, Place now, double reach)
  */
 static double root(Run *run, const Step *step, int k, Bracket of, double guess, const Parameters *p)
 {
-    const double reach = reach_of(run, step, k, about_where(guess, &of)), close = max_of(reach, root_width(run, step));
+    const double least = root_width(run, step);
     const int places = telling(run, k);
     double width = 2.0, before = 2.0;
-    for (int i = 0; of.at[1].s - of.at[0].s > close; i++) {
+    for (int i = 0;; i++) {
         const double from = of.at[0].s, to = of.at[1].s;
         double s = i ? guess_zero(&of, places) : guess;
+        const double reach = reach_of(run, step, k, falls_by(&of, s)), close = max_of(reach, least);
+        if (!(to - from > close))
+            break;
         if (!(s > from && s < to) || (i >= QUICK && to - from > 0.5 * before))
             s = 0.5 * (from + to);
         else if (s - from < 2.0 * close)
