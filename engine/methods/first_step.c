@@ -3,7 +3,7 @@
  */
 #define ONSET 500.0 /* tolerances of velocity, that straight motion into a contact misses it by in a step that fits */
 #define ONSET_STIFF 80.0
-#define RELAXED 1.0 /* share of the accelerations that straight motion changes in a step that fits: explicit, linear */
+#define RELAXED 2.0 /* share of the accelerations that straight motion changes in a step that fits: explicit, linear */
 #define RELAXED_STIFF 0.7
 #define CURVED 0.5  /* the same of motion without a contact that has begun */
 enum { MAX_FITTED = 3 };
@@ -45,9 +45,6 @@ static int changes_within(Run *run, double h, const Parameters *p, double *chang
     return status;
 }
 
-/* Whether what has changed is the side of a corner. */
-static int is_at_corner(const Run *run) { return run->first >= &run->after_corner[0][0]; }
-
 /*
  * By which share a step of length h fits better, of which straight motion changes that much. An onset misses velocities
  * by a power of the length, for forces begin as delta^n; elsewhere accelerations change in proportion to it, and what
@@ -58,19 +55,8 @@ static double better_by(const Run *run, double h, double change, double size, do
     const double missed = change * h;
     if (!(missed > 0.0))
         return INFINITY;
-    return run->rough > 0.0 ? rough_power(fits / missed, 1.0 / (run->rough - 1.0))
+    return run->rough > 0.0 ? pow(fits / missed, 1.0 / (run->rough - 1.0))
         : max_of(fits * size / change, sqrt(1.0 / missed));
-}
-
-/*
- * By which share the i-th guess at a first step, of length h, may become longer: an onset's and a stiff one at a corner
- * not at all, an explicit one there up to what steps are away from corners.
- */
-static double longest(const Run *run, double h, int i)
-{
-    if (run->rough > 0.0 || (is_at_corner(run) && run->method->stiff))
-        return 1.0;
-    return is_at_corner(run) ? max_of(1.0, run->usual / h) : i < MAX_FITTED ? 30.0 : 3.0;
 }
 
 /*
@@ -79,9 +65,9 @@ static double longest(const Run *run, double h, int i)
  */
 static int fit_first(Run *run, double left, const Parameters *p)
 {
-    const int stiff = !!run->method->stiff, begins = run->rough > 0.0;
+    const int stiff = !!run->method->stiff, begins = run->rough > 0.0, corner = run->first >= &run->after_corner[0][0];
     const double onset = run->onset[stiff] > 0.0 ? run->onset[stiff] : stiff ? ONSET_STIFF : ONSET;
-    const double fits = begins ? onset : !is_at_corner(run) ? CURVED : stiff ? RELAXED_STIFF : RELAXED;
+    const double fits = begins ? onset : !corner ? CURVED : stiff ? RELAXED_STIFF : RELAXED;
     if (!run->first || run->fixed > 0.0 || run->method->own_length || (*run->first > 0.0 && !begins))
         return 0;
     run->onset_share = 0.0;
@@ -93,11 +79,11 @@ static int fit_first(Run *run, double left, const Parameters *p)
             return status;
         if (!status && isfinite(change + size)) {
             by = better_by(run, h, change, size, fits);
-            run->onset_share = change * rough_power(h, 2.0 - run->rough);
+            run->onset_share = change * pow(h, 2.0 - run->rough);
         }
         if (h < run->h && by >= 1.0)
             break; /* to the run's end: more is not asked */
-        by = min_of(longest(run, h, i), max_of(1e-3, by));
+        by = min_of(begins || corner ? 1.0 : i < MAX_FITTED ? 30.0 : 3.0, max_of(1e-3, by));
         run->h = by * h;
         if (by > 0.3 && by < 3.0)
             break;

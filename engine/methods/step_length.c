@@ -10,8 +10,6 @@ enum { MAX_STUCK = 200, MAX_CRAWL = 2000, PATIENCE = 8,
 #define PAST 1.05    /* of the time to the end of a contact, that a step takes */
 #define SLACK 2.5     /* h rho below which the stiff method is not worth its price */
 #define STEEPEST 30.0 /* power of a step's length, as which its error may be seen to grow */
-#define BEHIND 1.1    /* times what the error of the step that begins a contact says, for the one behind it */
-#define DEEP 1.5      /* times as deep as that, at most */
 #define FADES 0.95    /* what is left of that power after a step */
 
 /* The other method from now on. A return to the explicit one that did not last makes the next one harder. */
@@ -46,9 +44,6 @@ static double order_of(const Run *run, const Step *step)
     return run->first && run->rough > 0.0 ? min_of(run->rough, order) : order;
 }
 
-/* x^n to 1e-4: lengths need no more. */
-static double rough_power(double x, double n) { return rough_exp2(n * rough_log2(x)); }
-
 /* A refused step's share to try next; of two in a row the errors themselves tell how they fall. */
 static double shrink(Run *run, const Step *step)
 {
@@ -59,7 +54,7 @@ static double shrink(Run *run, const Step *step)
             max_of(2.0, log(now->error / step->error) / log(now->refused / now->h)));
     now->refused = now->h;
     now->error = step->error;
-    return min_of(0.9, max_of(0.1, 0.9 * rough_power(step->error, -1.0 / order)));
+    return min_of(0.9, max_of(0.1, 0.9 * pow(step->error, -1.0 / order)));
 }
 
 /* What would have fitted in place of the first step since something changed. */
@@ -68,10 +63,10 @@ static void note_first(Run *run, const Step *step)
     if (!run->first)
         return;
     const double safe = run->rough > 0.0 ? 0.8 : 0.9;
-    const double fits = safe * rough_power(max_of(1e-12, step->error), -1.0 / order_of(run, step));
+    const double fits = safe * pow(max_of(1e-12, step->error), -1.0 / order_of(run, step));
     *run->first = step->h * min_of(5.0, max_of(0.3, fits));
     if (run->rough > 0.0 && run->onset_share > 0.0)
-        run->onset[!!step->method->stiff] = run->onset_share * rough_power(*run->first, run->rough - 1.0);
+        run->onset[!!step->method->stiff] = run->onset_share * pow(*run->first, run->rough - 1.0);
     run->first = NULL;
 }
 
@@ -95,8 +90,7 @@ static double share_as_seen(Run *run, const Step *step, int again)
     if (again && now->refused > step->h && isfinite(now->error) && now->error > step->error)
         run->steep = min_of(STEEPEST, log(now->error / max_of(1e-12, step->error)) / log(now->refused / step->h));
     run->steep *= FADES;
-    const double grows = max_of(1e-12, step->error);
-    return run->steep * step->method->power > 1.0 ? 0.9 * rough_power(grows, -1.0 / run->steep) : INFINITY;
+    return run->steep * step->method->power > 1.0 ? 0.9 * pow(max_of(1e-12, step->error), -1.0 / run->steep) : INFINITY;
 }
 
 /* The next step's length from an accepted one; `again`: after a rejection, `whole`: no output time cut it short. */
@@ -107,16 +101,12 @@ static void next_length(Run *run, const Step *step, int again, int whole)
         return;
     }
     const double error = max_of(1e-12, step->error), power = step->method->power;
-    double factor = 0.9 * rough_exp2(power * (0.2 * rough_log2(run->error_before) - 0.8 * rough_log2(error)));
+    double factor = 0.9 * pow(error, -0.8 * power) * pow(run->error_before, 0.2 * power);
     if (!step->method->stiff && run->stability > 1.0)
         factor = min_of(factor, 1.1 * step->method->bounded / run->stability);
     factor = min_of(factor, share_as_seen(run, step, again));
-    if (run->first && run->rough > 0.0 && !step->method->stiff)
-        factor = BEHIND * rough_power(error, -power); /* it began where forces do, from which the next one is away */
     factor = min_of(again ? 1.0 : step->looked ? 2.0 : 6.0, max_of(0.3, factor));
     run->error_before = max_of(1e-4, error);
-    if (!run->first || run->rough > 0.0)
-        run->usual = step->h;
     note_first(run, step);
     if (step->h * factor > run->h || (whole && run->skip < 0) || factor < 1.0)
         run->h = step->h * factor;
@@ -152,15 +142,6 @@ static void open_attempt(Run *run, double t_end, const Parameters *p)
         .stiff = run->method->stiff};
 }
 
-/* Whether a joint is by far deeper at a step's end than any law of contact holds: the run is to end nearer to that. */
-static int is_far_too_deep(const Run *run, const Step *step, const Parameters *p)
-{
-    int some = 0;
-    for (int i = 0; i < N_CLEARANCES; i++)
-        some |= run->memory.latch[i].closed && step->aside.clearance[i].delta > DEEP * deepest(p, i);
-    return some && step->h > FINE * run->attempt.far;
-}
-
 /* Another one, as long as attempt->h. */
 static int again(Run *run)
 {
@@ -189,7 +170,7 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
             now->h *= method->bounded / run->stability;
         return again(run);
     }
-    if (good && free && (1.5 * stride(run, step, p) < now->h || is_far_too_deep(run, step, p))) {
+    if (good && free && 1.5 * stride(run, step, p) < now->h) {
         now->again = 1;
         run->rejected++;
         now->h *= 0.5;

@@ -39,35 +39,12 @@ static double top_width(const Run *run)
     return min_of(1e-3, max_of(TOP, TOP_OF * sqrt(tolerance_of(run))));
 }
 
-/* About where joint i's force is largest inside a step up to `share`: by its stages, the middle where none tells. */
-static double likely_top(const Step *step, double share, int i, double before, double after)
-{
-    double x[3] = {0.0, NAN, share}, f[3] = {before, max_of(before, after), after};
-    for (int k = 0; k < step->n_seen && !step->method->stiff; k++) {
-        const double force = sqrt(seen_at(step, k, SEEN_FORCES + i));
-        if (step->node[k] > 0.1 * share && step->node[k] < 0.9 * share && force > f[1])
-            x[1] = step->node[k], f[1] = force;
-    }
-    if (!(x[1] > 0.0))
-        return 0.5 * share;
-    for (int k = 0; k < step->n_seen; k++) {
-        const double node = step->node[k], force = sqrt(seen_at(step, k, SEEN_FORCES + i));
-        const int end = node < x[1] - 0.1 * share && node > x[0] ? 0 : node > x[1] + 0.1 * share && node < x[2] ? 2 : 1;
-        if (end != 1)
-            x[end] = node, f[end] = force;
-    }
-    const double low = x[1] - x[0], high = x[2] - x[1], left = f[0] - f[1], right = f[2] - f[1];
-    const double top = x[1] - 0.5 * (right * low * low - left * high * high) / (right * low + left * high);
-    return top > x[0] && top < x[2] ? top : x[1];
-}
-
 /* The top of joint i's force inside a step up to `share`, by parabolas through three of its places; at both ends it is
  * known. */
 static void inner_peak(Run *run, const Step *step, double share, int i, double before, double after,
     const Parameters *p)
 {
-    const double likely = likely_top(step, share, i, before, after);
-    double x[3] = {0.0, likely, share}, f[3] = {before, force_at(run, step, likely, i, p), after};
+    double x[3] = {0.0, 0.5 * share, share}, f[3] = {before, force_at(run, step, 0.5 * share, i, p), after};
     const double close = top_width(run) * share, around = sqrt(10.0 * close * share); /* a parabola within that */
     peak(run, i, step->t, before);
     for (int n = 0; n < MAX_TOPS; n++) {

@@ -148,7 +148,6 @@ typedef struct {
     double phi_max, phi_dot_max, ratio_min, ratio_max, ratio_outside;
     /* of methods that choose their step (adaptive.c) */
     double h, fixed, accept, stability, error_before, steep, h_stiff, t_crossed, pace;
-    double usual; /* length of the last step that did not begin at a corner */
     /* lengths that fit a first step: after a contact begins or ends (others being closed), at a side of a corner; the
      * one that the next step tells, and of which power of its length such a step's error is (0: the method's) */
     double after_contact[N_CLEARANCES + 1][2], after_corner[AT_LEAST_ONE(N_SWITCHES)][2], *first, rough;

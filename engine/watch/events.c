@@ -74,7 +74,7 @@ static double lowest_stage(const Step *step, int k)
 static double first_dip(const Step *step, int k, double end)
 {
     double first = 1.0, back = end >= 0.0 ? 1.0 : 0.0;
-    for (int i = 0; i < step->n_seen && step->lowest[k] < 0.0; i++) {
+    for (int i = 0; i < step->n_seen; i++) {
         const double f = seen_at(step, i, k);
         first = f < 0.0 ? min_of(first, step->node[i]) : first;
         back = f >= 0.0 ? max_of(back, step->node[i]) : back;
@@ -119,7 +119,7 @@ static double earlier_event(Run *run, const Step *step, double first, const Para
             return first;
         const Place high = place_at(run, step, first, found, p);
         const Bracket of = bracket_of(step, found, begin_of(run, step, found), high);
-        const double s = root(run, step, found, of, guess_zero(&of, telling(run, found)), p);
+        const double s = root(run, step, found, of, guess_zero(&of, telling(reach_of(run, step, found))), p);
         if (!(s < first))
             return first;
         first = s;
@@ -155,7 +155,7 @@ static int is_candidate(Run *run, Step *step, int k, const Parameters *p, Candid
     }
     now->k = k;
     now->of = bracket_of(step, k, low, high < 1.0 ? place_at(run, step, high, k, p) : end_of(run, step, k));
-    now->guess = low.f >= 0.0 ? guess_zero(&now->of, telling(run, k)) : 0.0;
+    now->guess = low.f >= 0.0 ? guess_zero(&now->of, telling(reach_of(run, step, k))) : 0.0;
     now->about = low.f >= 0.0 ? about_where(now->guess, &now->of) : 0.0;
     return 1;
 }
