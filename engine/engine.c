@@ -18,6 +18,7 @@
 #endif
 #include "methods/rk4.c"
 #include "methods/methods.c"
+#include "watch/reach.c"
 #include "watch/roots.c"
 #include "watch/grazes.c"
 #include "watch/pulses.c"

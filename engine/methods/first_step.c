@@ -55,7 +55,7 @@ static double better_by(const Run *run, double h, double change, double size, do
     const double missed = change * h;
     if (!(missed > 0.0))
         return INFINITY;
-    return run->rough > 0.0 ? pow(fits / missed, 1.0 / (run->rough - 1.0))
+    return run->rough > 0.0 ? rough_power(fits / missed, 1.0 / (run->rough - 1.0))
         : max_of(fits * size / change, sqrt(1.0 / missed));
 }
 
@@ -79,7 +79,7 @@ static int fit_first(Run *run, double left, const Parameters *p)
             return status;
         if (!status && isfinite(change + size)) {
             by = better_by(run, h, change, size, fits);
-            run->onset_share = change * pow(h, 2.0 - run->rough);
+            run->onset_share = change * rough_power(h, 2.0 - run->rough);
         }
         if (h < run->h && by >= 1.0)
             break; /* to the run's end: more is not asked */

@@ -30,11 +30,20 @@ static void margins_of(const Memory *memory, const Aside *aside, double *out)
 /* The tolerance of a step, as a share; 0 where its length is given. */
 static double tolerance_of(const Run *run) { return run->fixed > 0.0 ? 0.0 : 1.0 / run->inverse_scale[2 * N_X - 1]; }
 
-/* Margin k, or another number, of the i-th stage that was seen. */
-static double seen_at(const Step *step, int i, int k)
+/* What the stages saw of one margin, or of another number: the first's, and how far apart the others' are. */
+typedef struct {
+    const double *first;
+    int apart;
+} Seen;
+
+static Seen seen_of(const Step *step, int k)
 {
-    return step->seen_lane ? step->seen_lane[(i * AT_LEAST_ONE(N_SEEN) + k) * step->lanes] : step->seen[i][k];
+    return step->seen_lane ? (Seen){step->seen_lane + k * step->lanes, AT_LEAST_ONE(N_SEEN) * step->lanes}
+        : (Seen){&step->seen[0][k], AT_LEAST_ONE(N_SEEN)};
 }
+
+/* That of the i-th stage that was seen. */
+static double seen_at(Seen of, int i) { return of.first[i * of.apart]; }
 
 static void forget_stages(Step *step)
 {

@@ -44,6 +44,9 @@ static double order_of(const Run *run, const Step *step)
     return run->first && run->rough > 0.0 ? min_of(run->rough, order) : order;
 }
 
+/* x^n to 1e-4: lengths need no more. */
+static double rough_power(double x, double n) { return rough_exp2(n * rough_log2(x)); }
+
 /* A refused step's share to try next; of two in a row the errors themselves tell how they fall. */
 static double shrink(Run *run, const Step *step)
 {
@@ -54,7 +57,7 @@ static double shrink(Run *run, const Step *step)
             max_of(2.0, log(now->error / step->error) / log(now->refused / now->h)));
     now->refused = now->h;
     now->error = step->error;
-    return min_of(0.9, max_of(0.1, 0.9 * pow(step->error, -1.0 / order)));
+    return min_of(0.9, max_of(0.1, 0.9 * rough_power(step->error, -1.0 / order)));
 }
 
 /* What would have fitted in place of the first step since something changed. */
@@ -63,10 +66,10 @@ static void note_first(Run *run, const Step *step)
     if (!run->first)
         return;
     const double safe = run->rough > 0.0 ? 0.8 : 0.9;
-    const double fits = safe * pow(max_of(1e-12, step->error), -1.0 / order_of(run, step));
+    const double fits = safe * rough_power(max_of(1e-12, step->error), -1.0 / order_of(run, step));
     *run->first = step->h * min_of(5.0, max_of(0.3, fits));
     if (run->rough > 0.0 && run->onset_share > 0.0)
-        run->onset[!!step->method->stiff] = run->onset_share * pow(*run->first, run->rough - 1.0);
+        run->onset[!!step->method->stiff] = run->onset_share * rough_power(*run->first, run->rough - 1.0);
     run->first = NULL;
 }
 
@@ -90,7 +93,8 @@ static double share_as_seen(Run *run, const Step *step, int again)
     if (again && now->refused > step->h && isfinite(now->error) && now->error > step->error)
         run->steep = min_of(STEEPEST, log(now->error / max_of(1e-12, step->error)) / log(now->refused / step->h));
     run->steep *= FADES;
-    return run->steep * step->method->power > 1.0 ? 0.9 * pow(max_of(1e-12, step->error), -1.0 / run->steep) : INFINITY;
+    const double grows = max_of(1e-12, step->error);
+    return run->steep * step->method->power > 1.0 ? 0.9 * rough_power(grows, -1.0 / run->steep) : INFINITY;
 }
 
 /* The next step's length from an accepted one; `again`: after a rejection, `whole`: no output time cut it short. */
@@ -101,7 +105,7 @@ static void next_length(Run *run, const Step *step, int again, int whole)
         return;
     }
     const double error = max_of(1e-12, step->error), power = step->method->power;
-    double factor = 0.9 * pow(error, -0.8 * power) * pow(run->error_before, 0.2 * power);
+    double factor = 0.9 * rough_exp2(power * (0.2 * rough_log2(run->error_before) - 0.8 * rough_log2(error)));
     if (!step->method->stiff && run->stability > 1.0)
         factor = min_of(factor, 1.1 * step->method->bounded / run->stability);
     factor = min_of(factor, share_as_seen(run, step, again));

@@ -103,12 +103,13 @@ static void outermost(Run *run, Step *step, double share, int i, const Parameter
 static int trend(const Step *step, double share, int i, double after)
 {
     double s[2] = {-1.0, -1.0}, f[2] = {NAN, NAN};
+    const Seen forces = seen_of(step, SEEN_FORCES + i);
     for (int k = 0; k < step->n_seen && !step->method->stiff; k++) {
         const double node = step->node[k];
         if (!(node < 0.99 * share && node > s[1]) || node == s[0])
             continue;
         const int last = node > s[0];
-        const double force = sqrt(seen_at(step, k, SEEN_FORCES + i));
+        const double force = sqrt(seen_at(forces, k));
         s[1] = last ? s[0] : node, f[1] = last ? f[0] : force;
         s[0] = last ? node : s[0], f[0] = last ? force : f[0];
     }

@@ -63,8 +63,9 @@ static int is_passed(const Run *run, const Step *step, int k)
 /* The stage at which margin k was lowest, if below zero; 1: none. */
 static double lowest_stage(const Step *step, int k)
 {
+    const Seen seen = seen_of(step, k);
     for (int i = 0; i < step->n_seen && step->lowest[k] < 0.0; i++)
-        if (seen_at(step, i, k) == step->lowest[k])
+        if (seen_at(seen, i) == step->lowest[k])
             return step->node[i];
     return 1.0;
 }
@@ -73,9 +74,10 @@ static double lowest_stage(const Step *step, int k)
  * once. 1: none. */
 static double first_dip(const Step *step, int k, double end)
 {
+    const Seen seen = seen_of(step, k);
     double first = 1.0, back = end >= 0.0 ? 1.0 : 0.0;
-    for (int i = 0; i < step->n_seen; i++) {
-        const double f = seen_at(step, i, k);
+    for (int i = 0; i < step->n_seen && step->lowest[k] < 0.0; i++) {
+        const double f = seen_at(seen, i);
         first = f < 0.0 ? min_of(first, step->node[i]) : first;
         back = f >= 0.0 ? max_of(back, step->node[i]) : back;
     }
@@ -119,7 +121,7 @@ static double earlier_event(Run *run, const Step *step, double first, const Para
             return first;
         const Place high = place_at(run, step, first, found, p);
         const Bracket of = bracket_of(step, found, begin_of(run, step, found), high);
-        const double s = root(run, step, found, of, guess_zero(&of, telling(reach_of(run, step, found))), p);
+        const double s = root(run, step, found, of, guess_zero(&of, telling(run, found)), p);
         if (!(s < first))
             return first;
         first = s;
@@ -155,7 +157,7 @@ static int is_candidate(Run *run, Step *step, int k, const Parameters *p, Candid
     }
     now->k = k;
     now->of = bracket_of(step, k, low, high < 1.0 ? place_at(run, step, high, k, p) : end_of(run, step, k));
-    now->guess = low.f >= 0.0 ? guess_zero(&now->of, telling(reach_of(run, step, k))) : 0.0;
+    now->guess = low.f >= 0.0 ? guess_zero(&now->of, telling(run, k)) : 0.0;
     now->about = low.f >= 0.0 ? about_where(now->guess, &now->of) : 0.0;
     return 1;
 }
@@ -164,12 +166,13 @@ static int is_candidate(Run *run, Step *step, int k, const Parameters *p, Candid
 static double first_counting(Run *run, Step *step, const Parameters *p, int *event)
 {
     double first = 1.0;
+    double at_end[AT_LEAST_ONE(N_MARGINS)];
     Candidate some[AT_LEAST_ONE(N_MARGINS)];
     int n = 0;
     *event = -1;
+    margins_of(&run->memory, &step->aside, at_end);
     for (int k = 0; k < N_MARGINS; k++) {
-        const int quiet = k >= N_CLEARANCES && watched_as[k] < 0 && !(step->lowest[k] < 0.0)
-            && !(margin(&run->memory, &step->aside, k) < 0.0);
+        const int quiet = k >= N_CLEARANCES && watched_as[k] < 0 && !(step->lowest[k] < 0.0) && !(at_end[k] < 0.0);
         Candidate now;
         int i = n;
         if (quiet || is_passed(run, step, k) || !is_candidate(run, step, k, p, &now))

@@ -19,11 +19,11 @@ typedef struct {
 /* The step's begin, its stages in the order of their nodes, its end. Returns how many. */
 static int penetrations(const Run *run, const Step *step, int i, Penetration *all)
 {
+    const Seen margins = seen_of(step, i), rates = seen_of(step, SEEN_RATES + i);
     int n = 1;
     all[0] = (Penetration){0.0, run->aside.clearance[i].delta, run->aside.clearance[i].deltadot};
     for (int k = 0; k < step->n_seen; k++) {
-        const Penetration now
-            = {step->node[k], -seen_at(step, k, i), seen_at(step, k, SEEN_RATES + i)};
+        const Penetration now = {step->node[k], -seen_at(margins, k), seen_at(rates, k)};
         int at = n;
         if (!(now.s > 0.0 && now.s < 1.0))
             continue;

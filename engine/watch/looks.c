@@ -16,9 +16,10 @@ static int may_vanish(const Run *run, const Step *step, int k, double *range)
 {
     const double start = margin(&run->memory, &run->aside, k), end = margin(&run->memory, &step->aside, k);
     double least = min_of(start, end), most = max_of(start, end); /* the end may lie outside of the domain */
+    const Seen seen = seen_of(step, k);
     for (int i = 0; i < step->n_seen; i++) {
-        least = min_of(least, seen_at(step, i, k));
-        most = max_of(most, seen_at(step, i, k));
+        least = min_of(least, seen_at(seen, i));
+        most = max_of(most, seen_at(seen, i));
     }
     *range = most - least;
     return least < *range;

@@ -2,9 +2,6 @@
  * Where along a step a margin crosses zero: looks at the step's interpolant, and roots by what they have found.
  */
 enum { QUICK = 6, MOST_PLACES = 4 }; /* looks by which a zero is found as a rule; places that tell where it is */
-#define AT_CONTACT 1e-9 /* of a step, behind the begin or end of a contact; less where the tolerance's square is */
-#define AT_CORNER 1e-4  /* of a step, behind a corner, at most */
-#define NO_HARM 0.01    /* of the tolerance, that its wrong branch may change a step by */
 #define FAR_ENOUGH 1e-4 /* shares of a bracket, a third place from its ends: a nearer one tells of rounding */
 
 /* What others have found of a step that they tried. */
@@ -140,8 +137,8 @@ static double hermite_zero(Place low, Place high, Place third)
         u -= f / f_u;
         if (!(u > from && u < to))
             u = 0.5 * (from + to);
-        if (fabs(u - before) < 1e-9)
-            break; /* Newton's next step is its square */
+        if (fabs(u - before) < 1e-5) /* Newton's next step is its square */
+            break;
     }
     return low.s + w * u;
 }
@@ -173,12 +170,6 @@ static void narrow(Bracket *of, int at, Place now)
     of->at[at] = now;
 }
 
-/* The share to which a zero is located: 4 ulp of the time, or a tick. */
-static double root_width(const Run *run, const Step *step)
-{
-    return max_of(4.0 * DBL_EPSILON * fabs(step->t), run->tick) / step->h;
-}
-
 /* Margin k at both ends of a step. */
 static Place begin_of(const Run *run, const Step *step, int k)
 {
@@ -194,8 +185,9 @@ static Place end_of(const Run *run, const Step *step, int k)
 static Bracket bracket_of(const Step *step, int k, Place low, Place high)
 {
     Place nearest = {NAN, NAN, NAN}, next = nearest;
+    const Seen seen = seen_of(step, k);
     for (int i = 0; i < step->n_seen; i++) {
-        const Place now = {step->node[i], seen_at(step, i, k), NAN};
+        const Place now = {step->node[i], seen_at(seen, i), NAN};
         if (!(now.s > low.s && now.s < high.s && now.f == now.f))
             continue;
         if (!(fabs(now.f) >= fabs(nearest.f)))
@@ -213,24 +205,18 @@ static double about_where(double guess, const Bracket *of)
     return guess > low && guess < high ? guess : 0.5 * (low + high);
 }
 
-/*
- * How far behind its zero margin k may be found, as a share of a step: of a contact that gives at most the square of
- * the tolerance, for forces may begin with a jump; of a corner, where branches meet, as far as the wrong one does no
- * harm; 0 of all else: as near as zeros are told apart.
- */
-static double reach_of(const Run *run, const Step *step, int k)
+/* By how much a margin falls a share near its zero, which is about there: at most, as the places say that are known. */
+static double falls_by(const Bracket *of, double about)
 {
-    const double tolerance = tolerance_of(run);
-    const int corner = k - N_CLEARANCES;
-    if (run->fixed > 0.0 || watched_as[k] >= 0)
-        return 0.0;
-    if (corner < 0)
-        return gives(k) ? min_of(AT_CONTACT, tolerance * tolerance) : 0.0;
-    return corner < N_SWITCHES && meets[corner] ? min_of(AT_CORNER, NO_HARM / step->harm) : 0.0;
+    const double s = about_where(about, of);
+    double most = 0.0;
+    for (int i = 0; i < of->n; i++)
+        most = max_of(most, fabs(of->at[i].f / (of->at[i].s - s)));
+    return most;
 }
 
 /* How many places tell where a zero is: near one that is located to rounding a fourth tells of that alone. */
-static int telling(double reach) { return reach > 0.0 ? MOST_PLACES : MOST_PLACES - 1; }
+static int telling(const Run *run, int k) { return MOST_PLACES - !may_lie_behind(run, k); }
 
 /* Whether a place behind a zero is no further from it than that, as the margin falls there, or from `low` to there. */
 static int is_reached(Place low, Place now, double reach)
@@ -246,11 +232,15 @@ static int is_reached(Place low, Place now, double reach)
  */
 static double root(Run *run, const Step *step, int k, Bracket of, double guess, const Parameters *p)
 {
-    const double reach = reach_of(run, step, k), close = max_of(reach, root_width(run, step));
+    const double least = root_width(run, step);
+    const int places = telling(run, k);
     double width = 2.0, before = 2.0;
-    for (int i = 0; of.at[1].s - of.at[0].s > close; i++) {
+    for (int i = 0;; i++) {
         const double from = of.at[0].s, to = of.at[1].s;
-        double s = i ? guess_zero(&of, telling(reach)) : guess;
+        double s = i ? guess_zero(&of, places) : guess;
+        const double reach = reach_of(run, step, k, falls_by(&of, s)), close = max_of(reach, least);
+        if (!(to - from > close))
+            break;
         if (!(s > from && s < to) || (i >= QUICK && to - from > 0.5 * before))
             s = 0.5 * (from + to);
         else if (s - from < 2.0 * close)
