@@ -41,9 +41,9 @@ static double reach_of_contact(const Run *run, const Step *step, int k)
 }
 
 /*
- * How far behind its zero margin k may be found, which there falls by so much a share: of a corner, where branches meet,
- * as far as the wrong one does no harm. Rates differ in proportion to the margin, and what that does grows with the
- * square of the way: at the step's end they do so by what step->harm tells. 0: as near as zeros are told apart.
+ * How far behind its zero margin k may be found, which there falls by so much a share: of a corner, where branches
+ * meet, as far as the wrong one does no harm. Rates differ in proportion to the margin, and what that does grows with
+ * the square of the way: at the step's end they do so by what step->harm tells. 0: as near as zeros are told apart.
  */
 static double reach_of(const Run *run, const Step *step, int k, double falls)
 {
