@@ -146,6 +146,14 @@ static int change_side(Run *run, int corner, const Parameters *p)
     return status;
 }
 
+/* A force that begins with a jump may be largest at its onset. */
+static void show_onsets(Run *run)
+{
+    for (int i = 0; i < N_CLEARANCES; i++)
+        if (run->memory.latch[i].closed && run->open[i].t_on == run->t && gives(i))
+            peak(run, i, run->t, total_force(&run->aside.clearance[i]));
+}
+
 /*
  * At an event: everything whose margin is used up changes, then the right-hand side is that of what follows. Where
  * that leads other user events across their zeros, these happen too: a step looks from where it begins.
@@ -160,6 +168,8 @@ static int change(Run *run, int event, const Parameters *p)
             cross(run, k, p);
     const int corner = event - N_CLEARANCES, friction = corner - N_SWITCHES, user_event = friction - N_FRICTIONS;
     int status = corner >= 0 && friction < 0 ? change_side(run, corner, p) : settle_sides(run, -1, p);
+    if (!status)
+        show_onsets(run);
     if (!status && friction >= 0 && user_event < 0)
         status = switch_friction(run, p);
     if (!status && user_event < 0)

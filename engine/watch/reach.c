@@ -1,9 +1,8 @@
 /*
  * How near its zero a margin is located: as near as the tolerance of the run asks.
  */
-#define AT_CONTACT 1e-6 /* of a step, behind the begin or end of a contact, at most */
-#define AT_FIRST 1e-9   /* the same of a first contact */
-#define BEFORE 0.3      /* tolerances of an impulse, that may be missed before a contact is found */
+#define AT_ONSET 1e-9   /* of a step, behind the begin of a contact, at most */
+#define AT_END 1e-6     /* the same behind its end */
 #define AT_CORNER 1e-2  /* of a step, behind a corner, at most */
 #define NO_HARM 1e-4    /* of the tolerance, that its wrong branch may change a step by */
 
@@ -24,20 +23,14 @@ static int may_lie_behind(const Run *run, int k)
 
 /*
  * How far behind its zero the margin of a contact that gives may be found, as a share of a step. Forces may begin with
- * a jump: less than the tolerance of an impulse is missed, an impact being as long at least as the step with which one
- * began; where none has been, nothing is known of how long they are.
+ * a jump, and how long a contact lasts is not known before it begins, nor by others: an onset is located as if it
+ * were a ten thousandth of the step that finds it. The step that finds an end is a part of the contact.
  */
-static double reach_of_contact(const Run *run, const Step *step, int k)
+static double reach_of_contact(const Run *run, int k)
 {
-    const double tolerance = tolerance_of(run), late = min_of(AT_CONTACT, tolerance * sqrt(tolerance));
-    double known = INFINITY;
-    if (run->memory.latch[k].closed)
-        return late; /* the step is a part of the contact */
-    for (int i = 0; i <= N_CLEARANCES; i++)
-        known = run->after_contact[i][0] > 0.0 ? min_of(known, run->after_contact[i][0]) : known;
-    if (known == INFINITY)
-        return min_of(AT_FIRST, tolerance * tolerance);
-    return min_of(late, BEFORE * tolerance * known / step->h);
+    const double tolerance = tolerance_of(run);
+    return run->memory.latch[k].closed ? min_of(AT_END, tolerance * sqrt(tolerance))
+        : min_of(AT_ONSET, tolerance * tolerance);
 }
 
 /*
@@ -50,6 +43,6 @@ static double reach_of(const Run *run, const Step *step, int k, double falls)
     if (!may_lie_behind(run, k))
         return 0.0;
     if (k < N_CLEARANCES)
-        return reach_of_contact(run, step, k);
+        return reach_of_contact(run, k);
     return min_of(AT_CORNER, sqrt(NO_HARM * fabs(margin(&run->memory, &step->aside, k)) / (step->harm * falls)));
 }

@@ -43,6 +43,45 @@ def test_a_force_that_begins_with_a_jump_is_missed_by_less_than_the_tolerance(rt
     np.testing.assert_allclose(found, fine, rtol=3.0 * rtol)
 
 
+BALLS = """format: gudgeon/1
+name: two_balls
+gravity: [0, -9.81 m/s^2]
+materials: {steel: {E: 206 GPa, nu: 0.3}}
+bodies: {soft: {mass: 1 kg, inertia: 1e-5 kg*m^2}, stiff: {mass: 1 g, inertia: 1e-5 kg*m^2}}
+ground: {p: [0, 0], q: [3, 0]}
+freedoms: 2
+joints: {a: {revolute: [ground.p, soft.origin]}, b: {revolute: [ground.q, stiff.origin]}}
+bearings:
+  A: {radius: 10 m, clearance: .3 m, length: 10 mm, bearing_material: steel, journal_material: steel}
+  B: {radius: 1.014 m, clearance: 1 m, length: 10 mm, bearing_material: steel, journal_material: steel}
+contacts:
+  rubber: {normal: {law: kelvin_voigt, stiffness: 1e3 N/m, damping: 6.3 N*s/m}}
+  hard: {normal: {law: kelvin_voigt, stiffness: STIFFNESS N/m, damping: DAMPING N*s/m}}
+scenes: {main: {play: {a: {bearing: A, contact: rubber}, b: {bearing: B, contact: hard}}, simulate: {t_end: 1.2 s}}}
+"""
+
+
+@pytest.mark.parametrize(("stiffness", "rtol"), [(1e7, 1e-3), (1e9, 1e-3), (1e9, 1e-4), (1e11, 1e-4)])
+def test_a_short_contact_is_found_in_time_whatever_was_before(stiffness: float, rtol: float, tmp_path: Path) -> None:
+    """A soft ball lands, then a light hard one, 1 m below: Kelvin and Voigt's force is D v at an onset, late or not.
+
+    zeta = .5: that is its largest, in the last and slowest contacts too, whose corner ends their first step.
+    """
+    mass, zeta, v = 1e-3, 0.5, math.sqrt(2.0 * 9.81)
+    damping = 2.0 * zeta * math.sqrt(stiffness * mass)
+    file = tmp_path / "balls.yaml"
+    file.write_text(BALLS.replace("STIFFNESS", str(stiffness)).replace("DAMPING", str(damping)), encoding="utf-8")
+    run = gudgeon.load(file, scene="main").simulate(1.2, output=1, rtol=rtol)
+    contacts = run.impacts[run.impacts["joint"] == 1]
+    e = math.exp(-zeta / math.sqrt(1.0 - zeta**2) * (math.pi - 2.0 * math.asin(zeta)))
+    late = 1e-9 * 0.5 * stiffness / damping  # a step of .5 s at most: what the force grows by, over itself
+    assert contacts["t_on"][0] == pytest.approx(math.sqrt(2.0 / 9.81), abs=0.5e-9)
+    assert contacts["F_peak"][0] == pytest.approx(damping * v, rel=late + rtol)
+    assert contacts["deltadot"][1] == pytest.approx(e * v, rel=3.0 * (late + rtol))
+    ended = contacts[np.isfinite(contacts["t_off"])]
+    assert len(ended) > 5 and (ended["F_peak"] > (1.0 - rtol) * damping * ended["deltadot"]).all()
+
+
 @pytest.mark.parametrize(("k", "rtol"), [(0, 1e-5), (2, 10**-5.5), (14, 1e-4), (18, 10**-4.75)])
 def test_a_graze_by_stages_that_lie_off_the_motion(k: int, rtol: float) -> None:
     """A puck on a spring, 100 rad/s, swings along a diameter to c + 1e-7 m: x = a cos(100 t + phase) first meets −c."""
