@@ -2,10 +2,10 @@
 
     python -m benchmarks.since COMMIT [--repeats 3]
 
-The commit is checked out and installed in a folder of its own. A cold start is a process with an empty cache and an
-edited copy of the file, from its begin to its first result, wall; a batch (benchmarks/studies.py) is processor time of
-`simulate_many` in one thread. The least of --repeats is told. Both sides are measured by the same short programs, of
-calls that both have.
+The commit is checked out and installed in a folder of its own, with the extras that are installed here. A cold start is
+a process with an empty cache and an edited copy of the file, from its begin to its first result, wall; a batch
+(benchmarks/studies.py) is processor time of `simulate_many` in one thread. The least of --repeats is told. Both sides
+are measured by the same short programs, of calls that both have.
 """
 
 from __future__ import annotations
@@ -51,12 +51,14 @@ print(1e3 * took / len(columns["c"]))
 
 @contextmanager
 def checked_out(commit: str) -> Iterator[Path]:
-    """The commit, installed, in a folder that goes again."""
+    """The commit, installed with the extras that this checkout has, in a folder that goes again."""
     with tempfile.TemporaryDirectory() as folder:
         place = Path(folder) / "gudgeon"
         subprocess.run(["git", "worktree", "add", "--quiet", "--detach", str(place), commit], cwd=ROOT, check=True)
         try:
-            subprocess.run(["sh", "tools/setup", "all,test"], cwd=place, check=True, stdout=subprocess.DEVNULL)
+            for stamp in sorted((ROOT / ".venv").glob("gudgeon-all*")):  # by the packages about them starts differ too
+                extras = stamp.name.removeprefix("gudgeon-")
+                subprocess.run(["sh", "tools/setup", extras], cwd=place, check=True, stdout=subprocess.DEVNULL)
             yield place
         finally:
             subprocess.run(["git", "worktree", "remove", "--force", str(place)], cwd=ROOT, check=True)
