@@ -24,6 +24,7 @@ from gudgeon.contract.methods import SMOOTH
 from gudgeon.loading.compiler import is_there
 from gudgeon.model.arrays import address
 from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.waiting.programs import until
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
@@ -139,7 +140,10 @@ class Flow:
         self.lanes = self.lanes or _held.get(self.compiled)  # another batch may have made them
         if self.lanes is None and self._is_worth(runs) and _making.acquire(blocking=False):
             try:
-                self.lanes = self.lanes or _held_lanes(self.compiled)
+                with until(lambda: runs.stopping):
+                    self.lanes = self.lanes or _held_lanes(self.compiled)
+            except KeyboardInterrupt:  # the batch is ending: who waits for it has taken Ctrl-C
+                return None
             finally:
                 _making.release()
         return self.lanes

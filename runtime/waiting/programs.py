@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import os
 import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,6 +15,21 @@ from gudgeon.waiting.ctrl_c import CtrlC
 
 if TYPE_CHECKING:
     import subprocess
+
+_given_up: ContextVar[Callable[[], bool] | None] = ContextVar("whether nobody waits any more", default=None)
+
+
+@contextmanager
+def until(given_up: Callable[[], bool]) -> Iterator[None]:
+    """Waiting for programs in this thread ends by KeyboardInterrupt once `given_up()` is true.
+
+    Python raises no signal's exception in another thread than the first one: it is told there by whoever took it.
+    """
+    token = _given_up.set(given_up)
+    try:
+        yield
+    finally:
+        _given_up.reset(token)
 
 
 class Programs:
@@ -37,16 +55,19 @@ class Programs:
         return process
 
     def wait(self, process: subprocess.Popen[str]) -> tuple[str, str]:
-        """Its output and errors, when it is over. KeyboardInterrupt within EVERY seconds of Ctrl-C."""
+        """Its output and errors, when it is over. KeyboardInterrupt within EVERY seconds of Ctrl-C, or of `until`."""
         import subprocess
 
         told: tuple[str, str] | None = None
+        given_up = _given_up.get()
         with CtrlC() as ctrl_c:
             while told is None:
                 try:
                     told = process.communicate(timeout=EVERY)
                 except subprocess.TimeoutExpired:
                     ctrl_c.take()
+                    if given_up and given_up():
+                        raise KeyboardInterrupt from None
         ctrl_c.take()  # one that came as the program ended
         return told
 

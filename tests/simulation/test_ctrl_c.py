@@ -7,19 +7,23 @@ events, first right-hand sides, dense solves.
 from __future__ import annotations
 
 import math
+import os
 import signal
+import sys
 import tempfile
 import threading
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError, InputError, SolverError
+from gudgeon.integrators import lanes
 from gudgeon.integrators.threads import GLANCE
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.mechanisms.n_four_bar import text as n_four_bar
@@ -29,6 +33,7 @@ from gudgeon.simulation import conclusion
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.waiting import asking
 from gudgeon.waiting.ctrl_c import CtrlC
+from gudgeon.waiting.programs import Programs
 from tests.programs import needs_compiler
 from tests.simulation.kept import check_kept
 from tests.slow import slow_rows_but
@@ -253,6 +258,29 @@ def test_a_batch_keeps_of_each_run_what_it_reached(options: dict[str, Any]) -> N
         assert "interrupted" in str(failure.error) and batch.t_last[failure.run] == run.t[-1]
         parameters = {"c": float(sets["c"][failure.run])}
         check_kept(run, dry.simulate(t_end, output=2000, parameters=parameters, **one))
+
+
+def test_what_a_batch_compiles_meanwhile_ends_with_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The compiler of runs side by side, in a thread of its own, is killed; what is over is kept."""
+    press, begun = gudgeon.load("nine_bar_press", scene="dry"), list[Any]()
+
+    def compiled(_: Any) -> lanes.Lanes:
+        with Programs() as programs:
+            begun.append(programs.begin([sys.executable, "-c", "import time; time.sleep(60)"], None, dict(os.environ)))
+            programs.wait(begun[0])
+        raise AssertionError("nobody had given it up")
+
+    def progress(_: float, __: str) -> None:
+        if begun:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(lanes, "WORTH", 1e-9)
+    monkeypatch.setattr(lanes, "_held", WeakKeyDictionary())
+    monkeypatch.setattr(lanes, "_is_compiled", lambda _: False)
+    monkeypatch.setattr(lanes, "_held_lanes", compiled)
+    batch = press.simulate_many({"c": np.full(40, 3e-4)}, 0.01, output=2, rtol=1e-4, threads=1, progress=progress)
+    assert batch.interrupted and begun[0].returncode == -signal.SIGKILL
+    assert 0 < (batch.samples == 3).sum() < 40
 
 
 @pytest.mark.slow
