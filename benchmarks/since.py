@@ -56,8 +56,8 @@ def checked_out(commit: str) -> Iterator[Path]:
         place = Path(folder) / "gudgeon"
         subprocess.run(["git", "worktree", "add", "--quiet", "--detach", str(place), commit], cwd=ROOT, check=True)
         try:
-            for stamp in sorted((ROOT / ".venv").glob("gudgeon-all*")):  # by the packages about them starts differ too
-                extras = stamp.name.removeprefix("gudgeon-")
+            here = {stamp.name.removeprefix("gudgeon-") for stamp in (ROOT / ".venv").glob("gudgeon-all*")}
+            for extras in sorted({"all,test"} | here):  # by the packages about them starts differ too
                 subprocess.run(["sh", "tools/setup", extras], cwd=place, check=True, stdout=subprocess.DEVNULL)
             yield place
         finally:

@@ -47,6 +47,9 @@ static double order_of(const Run *run, const Step *step)
 /* x^n to 1e-4: lengths need no more. */
 static double rough_power(double x, double n) { return rough_exp2(n * rough_log2(x)); }
 
+/* A step's error, in tolerances, from which a length can be told. */
+static double told_error(const Step *step) { return max_of(1e-12, step->error); }
+
 /* A refused step's share to try next; of two in a row the errors themselves tell how they fall. */
 static double shrink(Run *run, const Step *step)
 {
@@ -66,7 +69,7 @@ static void note_first(Run *run, const Step *step)
     if (!run->first)
         return;
     const double safe = run->rough > 0.0 ? 0.8 : 0.9;
-    const double fits = safe * rough_power(max_of(1e-12, step->error), -1.0 / order_of(run, step));
+    const double fits = safe * rough_power(told_error(step), -1.0 / order_of(run, step));
     *run->first = step->h * min_of(5.0, max_of(0.3, fits));
     if (run->rough > 0.0 && run->onset_share > 0.0)
         run->onset[!!step->method->stiff] = run->onset_share * rough_power(*run->first, run->rough - 1.0);
@@ -91,10 +94,9 @@ static double share_as_seen(Run *run, const Step *step, int again)
 {
     const Attempt *now = &run->attempt;
     if (again && now->refused > step->h && isfinite(now->error) && now->error > step->error)
-        run->steep = min_of(STEEPEST, log(now->error / max_of(1e-12, step->error)) / log(now->refused / step->h));
+        run->steep = min_of(STEEPEST, log(now->error / told_error(step)) / log(now->refused / step->h));
     run->steep *= FADES;
-    const double grows = max_of(1e-12, step->error);
-    return run->steep * step->method->power > 1.0 ? 0.9 * rough_power(grows, -1.0 / run->steep) : INFINITY;
+    return run->steep * step->method->power > 1.0 ? 0.9 * rough_power(told_error(step), -1.0 / run->steep) : INFINITY;
 }
 
 /* The next step's length from an accepted one; `again`: after a rejection, `whole`: no output time cut it short. */
@@ -104,7 +106,7 @@ static void next_length(Run *run, const Step *step, int again, int whole)
         next_own_length(run, step, again);
         return;
     }
-    const double error = max_of(1e-12, step->error), power = step->method->power;
+    const double error = told_error(step), power = step->method->power;
     double factor = 0.9 * rough_exp2(power * (0.2 * rough_log2(run->error_before) - 0.8 * rough_log2(error)));
     if (!step->method->stiff && run->stability > 1.0)
         factor = min_of(factor, 1.1 * step->method->bounded / run->stability);

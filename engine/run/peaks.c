@@ -156,9 +156,9 @@ static void inner_peaks(Run *run, Step *step, double share, const Parameters *p)
         return;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const int let_go = after[i] < 1e-6 * before[i]; /* where a law ceases to push: beyond it, held, it would pull */
-        const int falls = trends[i] < 0 || (trends[i] != LOW && let_go);
         const int turned = run->aside.clearance[i].F_n * step->aside.clearance[i].F_n < 0.0; /* it was none meanwhile */
-        if ((falls || (trends[i] != LOW && turned)) && run->rising[i] && make_dense(run, p, step) == 0)
+        const int near = trends[i] != LOW, falls = near && (trends[i] < 0 || let_go);
+        if (near && (falls || turned) && run->rising[i] && make_dense(run, p, step) == 0)
             inner_peak(run, step, share, i, before[i], after[i], p);
         run->rising[i] = !falls;
     }

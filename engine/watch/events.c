@@ -60,11 +60,11 @@ static int is_passed(const Run *run, const Step *step, int k)
     return corner >= 0 && corner < N_SWITCHES && (corner == run->skip || step->passed[corner]);
 }
 
-/* The stage at which margin k was lowest, if below zero; 1: none. */
+/* The stage at which margin k was lowest; 1: none. */
 static double lowest_stage(const Step *step, int k)
 {
     const Seen seen = seen_of(step, k);
-    for (int i = 0; i < step->n_seen && step->lowest[k] < 0.0; i++)
+    for (int i = 0; i < step->n_seen; i++)
         if (seen_at(seen, i) == step->lowest[k])
             return step->node[i];
     return 1.0;
@@ -76,7 +76,7 @@ static double first_dip(const Step *step, int k, double end)
 {
     const Seen seen = seen_of(step, k);
     double first = 1.0, back = end >= 0.0 ? 1.0 : 0.0;
-    for (int i = 0; i < step->n_seen && step->lowest[k] < 0.0; i++) {
+    for (int i = 0; i < step->n_seen; i++) {
         const double f = seen_at(seen, i);
         first = f < 0.0 ? min_of(first, step->node[i]) : first;
         back = f >= 0.0 ? max_of(back, step->node[i]) : back;
@@ -92,13 +92,13 @@ static double violated(Run *run, Step *step, int k, const Parameters *p, double 
     const double end = margin(&run->memory, &step->aside, k);
     if (k < N_CLEARANCES && may_graze(run, step, k) && make_dense(run, p, step) == 0)
         return look_along(run, step, k, p, value);
-    const double at[] = {first_dip(step, k, end), lowest_stage(step, k)};
-    for (int i = 0; i < 2; i++) {
-        if (at[i] >= 1.0 || make_dense(run, p, step))
+    for (int last = 0; last < 2 && step->lowest[k] < 0.0; last++) {
+        const double at = last ? lowest_stage(step, k) : first_dip(step, k, end);
+        if (at >= 1.0 || make_dense(run, p, step))
             continue;
-        *value = margin_at(run, step, at[i], k, p);
+        *value = margin_at(run, step, at, k, p);
         if (*value < 0.0)
-            return at[i];
+            return at;
     }
     *value = end;
     return end < 0.0 ? 1.0 : 0.0;

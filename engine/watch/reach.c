@@ -23,8 +23,9 @@ static int may_lie_behind(const Run *run, int k)
 
 /*
  * How far behind its zero the margin of a contact that gives may be found, as a share of a step. Forces may begin with
- * a jump, and how long a contact lasts is not known before it begins, nor by others: an onset is located as if it
- * were a ten thousandth of the step that finds it. The step that finds an end is a part of the contact.
+ * a jump, and how long a contact lasts is not known before it begins, nor by others: of one as short as the
+ * tolerance's share of the step that finds its onset, the tolerance is missed. The step that finds an end is a part of
+ * the contact.
  */
 static double reach_of_contact(const Run *run, int k)
 {
