@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -12,9 +11,8 @@ from hypothesis import strategies as st
 
 from gudgeon.errors import ExpressionError, InputError, LimitError, Location, UnitError
 from gudgeon.language.parser import MAX_LENGTH, check_dimension, parse
-from gudgeon.language.quantities import number_of_text
 from gudgeon.language.tree import FUNCTIONS, Binary, Call, Expr, Name, Number, Unary, evaluate, to_json
-from gudgeon.language.units import DIMENSIONLESS, LENGTH, MASS, RATE, TIME, VELOCITY, Dimension, dimension
+from gudgeon.language.units import LENGTH
 
 HERE = Location("file.yaml", 3, 10)
 PRECEDENCE = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 4}
@@ -273,67 +271,6 @@ def test_wide_expressions_are_bounded_too() -> None:
         parse(balanced(8), HERE)
 
 
-NAMES = {"t": TIME, "l": LENGTH, "m1": MASS, "omega": RATE, "free": None}
-
-
-def dimension_of(text: str, expected: Dimension | None = None) -> Dimension | None:
-    return check_dimension(parse(text, HERE), expected, NAMES.__getitem__, HERE)
-
-
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        ("80 mm", LENGTH),
-        ("l * omega", VELOCITY),
-        ("2 * l + 3", LENGTH),
-        ("l**2", dimension(2)),
-        ("sqrt(l**2 + (3 mm)**2)", LENGTH),
-        ("l**(1/2)", Dimension(Fraction(1, 2))),
-        ("l**-1", dimension(-1)),
-        ("atan2(l, 3 mm) + 5 deg", DIMENSIONLESS),
-        ("omega * t + 10 deg", DIMENSIONLESS),
-        ("smooth_step(t, 0, 0.5 s) * 90 deg", DIMENSIONLESS),
-        ("10 mm * sin(omega * t)", LENGTH),
-        ("min(l, 3 mm)", LENGTH),
-        ("abs(-m1)", MASS),
-        ("5", None),
-        ("free * l", None),
-        ("10 mm + free", LENGTH),
-        ("2*pi*t", None),  # a bare number beside t alone may be a rate
-    ],
-)
-def test_dimension(text: str, expected: Dimension | None) -> None:
-    assert dimension_of(text) == expected
-
-
-@pytest.mark.parametrize("text", ["3", "free", "free * l", "-3 * 2", "2*pi*t", "sin(2*pi*t) * 10 mm", "3 + 2 mm"])
-def test_bare_numbers_fit(text: str) -> None:
-    assert dimension_of(text, LENGTH) == LENGTH
-
-
-@pytest.mark.parametrize(
-    ("text", "expected", "message", "offset"),
-    [
-        ("142 mm", MASS, "expected a mass (kg), got a length (m)", 0),
-        ("2 * 3 mm", MASS, "expected a mass (kg), got a length (m)", 0),
-        ("omega", LENGTH, "expected a length (m), got a rate or an angular velocity (rad/s)", 0),
-        ("1 + l + m1", LENGTH, "cannot add: a length (m) and a mass (kg)", 8),
-        ("l - 2 * m1", LENGTH, "cannot subtract: a length (m) and a mass (kg)", 4),
-        ("l * sin(omega)", LENGTH, "sin expected a pure number or an angle (rad), got a rate", 8),
-        ("max(l, 3 kg)", LENGTH, "max of unlike quantities: a length (m) and a mass (kg)", 7),
-        ("2**(3 mm)", None, "an exponent is a pure number, got a length (m)", 4),
-        ("l**free", None, "the exponent of a length (m) is a plain number", 3),
-        ("l**0.123456", None, "the exponent of a length (m) is a plain number", 3),
-        ("l**1e300", None, "the exponent of a length (m) is a plain number", 3),
-    ],
-)
-def test_wrong_dimension(text: str, expected: Dimension | None, message: str, offset: int) -> None:
-    with pytest.raises(UnitError) as caught:
-        dimension_of(text, expected)
-    assert message in caught.value.message
-    assert caught.value.where == Location("file.yaml", 3, 10 + offset)
-
-
 @given(trees, st.integers(-3, 3))
 def test_scaling_the_unit_scales_the_value(tree: Expr, power: int) -> None:
     """`(tree) * 1 km^n` is 1000ⁿ times the tree, whatever the tree."""
@@ -341,38 +278,3 @@ def test_scaling_the_unit_scales_the_value(tree: Expr, power: int) -> None:
     assume(math.isfinite(value) and 1e-200 < abs(value) < 1e200 and power)
     scaled = number(parse(f"({write(tree)}) * 1 km^{power}", HERE))
     assert scaled == pytest.approx(value * 1000.0**power, rel=1e-14)
-
-
-@pytest.mark.parametrize(
-    ("text", "offset"), [("2m", 1), ("0.1m/s", 3), ("3 N*ft", 2), ("3 N/ft", 2), ("3 N m", 2), ("1 + 3 kg m", 6)]
-)
-def test_a_unit_that_may_be_a_parameter_is_refused(text: str, offset: int) -> None:
-    parse(text, HERE)
-    with pytest.raises(ExpressionError, match="can mean two things") as caught:
-        parse(text, HERE, ("m", "ft"))
-    assert caught.value.where == Location("file.yaml", 3, 10 + offset)
-
-
-def test_what_could_be_parsed_before_keeps_its_meaning() -> None:
-    for text in ("2 m", "3 N*m", "2 N * ft", "6 kg/m"):
-        assert to_json(parse(text, HERE, ("m", "ft"))) == to_json(parse(text, HERE))
-
-
-@pytest.mark.parametrize(
-    ("text", "hint"),
-    [("3 Nm", r"written N\*m here"), ("2 lbs", "written lb"), ("2 degrees", "written deg"), ("3 mm2", r"written mm\^2"),
-     ("3Nm", r"write 3 N\*m"), ("2 feet", "written ft"), ("3 kgm2", r"written kg\*m\^2"), ("a²", r"\*\*: x\*\*2")],
-)  # fmt: skip
-def test_units_called_otherwise(text: str, hint: str) -> None:
-    with pytest.raises(InputError, match=hint):
-        parse(text, HERE)
-
-
-def test_number_of_text() -> None:
-    assert number_of_text(" 0.5 mm ", "bearings.pin.clearance", (1, 0, 0)) == 0.0005
-    assert number_of_text("2*pi rad/s", "parameters.omega", (0, 0, -1)) == math.tau
-    assert number_of_text("-3e-4", "parameters.c", (1, 0, 0)) == -3e-4
-    assert number_of_text("0.5mm", "parameters.c", (1, 0, 0)) == 0.0005
-    for text in ("1 kg", "c", "", "0.5mmm", "2 * omega"):
-        with pytest.raises(InputError, match="value of parameters.c:1:"):
-            number_of_text(text, "parameters.c", (1, 0, 0))
