@@ -20,6 +20,7 @@
 #include "methods/methods.c"
 #include "watch/reach.c"
 #include "watch/roots.c"
+#include "methods/defect.c"
 #include "watch/grazes.c"
 #include "watch/pulses.c"
 #if !N_WATCHED
