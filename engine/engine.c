@@ -13,6 +13,7 @@
 #include "run/run.c"
 #include "run/report.c"
 #include "methods/step.c"
+#include "run/audit.c"
 #if N_CORNERS
 #include "watch/jumps.c"
 #endif
@@ -36,6 +37,7 @@
 #include "methods/step_length.c"
 #include "methods/first_step.c"
 #include "methods/begin.c"
+#include "methods/audit_step.c"
 #include "methods/adaptive.c"
 #include "batch/many.c"
 #else

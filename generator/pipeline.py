@@ -25,6 +25,7 @@ from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.emit import Begun, emit
 from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
 from gudgeon.generator.targets.numpy.module import ClosedLinkage, NumPyModel
+from gudgeon.generator.targets.numpy.reference import reference_values
 
 
 def derive(
@@ -81,7 +82,9 @@ def in_c(
         program = make_program(model, "full" if formulation == "full" else "reduced", formulation == STAGES)
         series = taylor_series(program) if formulation == TAYLOR else None
     with stage("C", seconds):
-        return emit(program, begun, series)
+        source = emit(program, begun, series)
+    with stage("reference values", seconds):
+        return replace(source, reference=reference_values(program, source))
 
 
 def generate(

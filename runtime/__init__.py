@@ -15,6 +15,7 @@ TYPE_CHECKING = False  # type checkers take it for true; `typing` would double t
 if TYPE_CHECKING:
     from gudgeon.errors import (
         AssemblyError,
+        AuditError,
         BuildError,
         CacheError,
         GudgeonError,
@@ -56,6 +57,7 @@ _HOME = {
     "GudgeonError": "errors",
     "InputError": "errors",
     "AssemblyError": "errors",
+    "AuditError": "errors",
     "SolverError": "errors",
     "SingularError": "errors",
     "NonFiniteError": "errors",
@@ -66,6 +68,7 @@ _HOME = {
 
 __all__ = [
     "AssemblyError",
+    "AuditError",
     "Batch",
     "BuildError",
     "CacheError",

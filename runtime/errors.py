@@ -140,6 +140,10 @@ class NonFiniteError(SolverError):
     """The state or the right-hand side is no longer finite."""
 
 
+class AuditError(SolverError):
+    """A check of the run's audit failed: the result contradicts an equation that the integration does not use."""
+
+
 class BuildError(GudgeonError):
     """The C code could not be compiled or loaded (compiler missing, …)."""
 

@@ -45,6 +45,7 @@ static int start_run(const Batch *b, long i, const long *others, int n, Run *run
     gudgeon_run_tape(run, tape.rows, tape.capacity);
     gudgeon_run_codes(run, b->codes + i * AT_LEAST_ONE(N_CLEARANCES));
     gudgeon_run_stop(run, b->stop);
+    gudgeon_run_audit(run, b->audit);
     gudgeon_run_asks(run, is_ending, (void *)b, GLANCE);
     if (b->choice >= 0)
         gudgeon_adaptive_setup(run, b->choice, b->automatic, b->scale + i * 2 * N_X, b->least + 2 * i,
@@ -92,6 +93,7 @@ static void end_run(const Batch *b, long i, int status, Run *run)
     b->status[i] = status;
     b->phase[i] = OVER;
     gudgeon_run_sample(run, b->p_motion + i * b->numbers, last, latched, state);
+    gudgeon_run_audited(run, b->audited + N_CHECKS * i, b->audited_t + N_CHECKS * i, b->audited_where + N_CHECKS * i);
     gudgeon_run_report(run, &t, b->counts + 9 * i, b->residuals + 4 * i, b->peaks + 3 * AT_LEAST_ONE(N_CLEARANCES) * i);
 }
 

@@ -5,6 +5,7 @@
 #ifndef GUDGEON_RUN_H
 #define GUDGEON_RUN_H
 #include "asked.h"
+#include "audit.h"
 #include "../scene/events.h"
 
 #if N_RIGID
@@ -179,6 +180,7 @@ typedef struct {
 #endif
     Step step;
     Looked looked;
+    Audit audit;
 } Run;
 
 #if IMPLICIT_STAGES

@@ -70,6 +70,8 @@ void gudgeon_adaptive_setup(void *memory, int method, int automatic, const doubl
     double fixed);
 int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const double *t, long limit,
     double *y, double *latched, signed char *state, long *done);
+void gudgeon_run_audit(void *memory, int level);
+int gudgeon_run_audited(const void *memory, double *worst, double *t, int *where);
 void gudgeon_run_report(const void *memory, double *t, long *counts, double *numbers, double *peaks);
 
 /*
@@ -79,6 +81,7 @@ void gudgeon_run_report(const void *memory, double *t, long *counts, double *num
 typedef struct {
     long samples, numbers, limit;         /* rows of a place; steps after which a call returns */
     int choice, automatic, stop;          /* of gudgeon_adaptive_setup, -1: rk4; whether events end a run */
+    int audit;                            /* level, as gudgeon_run_audit takes it */
     int fixed;                            /* whether methods that choose their step take a given one */
     double *t;
     long apart, *wanted, *place;          /* times of run i: wanted[i] of them from t + i * apart; 0: those of all */
@@ -95,6 +98,8 @@ typedef struct {
     double *t_last, *last, *seconds;      /* time and state at the end; spent in the time loop */
     long *counts;                         /* as gudgeon_run_report has them */
     double *residuals, *peaks;
+    double *audited, *audited_t;          /* as gudgeon_run_audited has them, N_CHECKS a run */
+    int *audited_where;
     const volatile int *ending;           /* not 0: all runs end where they are */
 } Batch;
 

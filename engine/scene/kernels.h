@@ -77,6 +77,10 @@ int closing_of_state(double t, const double *y, Memory *memory, const Parameters
 int motion_here(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside);
 int closing_here(double t, const double *y, Memory *memory, const Parameters *p, double *dq, double *dv,
     double *worst);
+#if TREE
+/* Accelerations (N_Q) by the equations of all bodies, at a state of the tree: for the audit. Returns a status. */
+int absolute_accelerations(double t, const double *y, const Memory *memory, const Parameters *p, double *a);
+#endif
 /* An accepted state, with `aside` of motion() there: the largest |Phi| and |Phi_dot| so far; chains go on from it. */
 int accept_state(double t, const double *y, Memory *memory, const Parameters *p, const Aside *aside, double *phi_max,
     double *phi_dot_max);

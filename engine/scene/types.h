@@ -28,7 +28,7 @@ enum {
 /* Statuses of a run that is no longer wanted, or no longer advances, ...; positive ones are pivots, 0 is well. */
 enum {
     NOT_FINITE = -2, EVENTS_FULL = -3, CHATTERING = -4, TOO_SMALL = -5, LOST = -6, ENDED = -7, OUTSIDE = -8,
-    STOPPED = -10, STALLED = -11, UNBOUNDED = -12, JAMMED = -13, NOT_FOUND = -14
+    STOPPED = -10, STALLED = -11, UNBOUNDED = -12, JAMMED = -13, NOT_FOUND = -14, AUDITED = -15
 };
 enum { NEAR = -20 }; /* of functions: a pivot is so small that the motion is continued from both sides (beside.c) */
 
@@ -49,6 +49,13 @@ typedef struct {
 #define gives(i) (!rigid_joint[i])
 #else
 #define gives(i) ((void)(i), 1)
+#endif
+
+/* Whether the law of joint i with play has a film: its force acts without a contact. */
+#if N_CLEARANCES
+#define has_film(i) (film_joint[i])
+#else
+#define has_film(i) ((void)(i), 0)
 #endif
 
 int ask_now(Asked *x);

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import MISSING, asdict, dataclass, fields
+from dataclasses import MISSING, asdict, dataclass, field, fields
 from functools import cached_property
 from hashlib import sha256
 from typing import Any
@@ -214,6 +214,7 @@ class KernelSource:
         parts = [self.sha256, *(f"{name} {digest}" for name, digest in self.beside)]
         return sha256("\n".join(parts).encode()).hexdigest() if len(parts) > 1 else self.sha256
 
+    reference: Mapping[str, Any] = field(default_factory=dict)  # values by the NumPy target (model/reference.py)
     peaks: tuple[str, ...] = ()  # series whose peaks over all steps the scene asks for
     rigid: tuple[str, ...] = ()  # joints with play whose surfaces do not give: Newton's restitution
     start_apart: tuple[str, ...] = ()  # rows of joints with play that the start holds apart, by e and its rate
@@ -289,5 +290,5 @@ def _defaults() -> dict[str, Any]:
         "rows", "joints", "drives", "clearances", "series", "start_rows", "start_guess", "start_set", "start_rates",
         "frictions", "pivots", "start_pivots", "rate_jumps", "indeterminate", "derived", "conditions", "notes",
     )  # fmt: skip
-    nothing: dict[str, Any] = {name: [] for name in lists} | {name: {} for name in ("files", "outputs", "simulate")}
+    nothing: dict[str, Any] = {name: [] for name in lists} | {name: {} for name in ("files", "outputs", "simulate", "reference")}
     return {"main": MAIN, **nothing, **plain, "story": {}}

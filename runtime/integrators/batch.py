@@ -17,10 +17,12 @@ from numpy.typing import NDArray
 
 from gudgeon.assembly.followed import unfollowed
 from gudgeon.assembly.start import assemble
+from gudgeon.contract.audit import CHECKS, Finding
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators import adaptive, lanes, rk4
+from gudgeon.integrators.audit import as_findings, audit_failure
 from gudgeon.integrators.contacts import Contacts
-from gudgeon.integrators.failure import INTERRUPTED, NOT_FINITE, STOPPED, failure
+from gudgeon.integrators.failure import AUDITED, INTERRUPTED, NOT_FINITE, STOPPED, failure
 from gudgeon.integrators.lanes import NEW, NOT_CLOSED, OVER, Flow, Lanes
 from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, no_states, told_apart
 from gudgeon.integrators.steps import Look, Tape
@@ -54,7 +56,7 @@ class Runs:
 
     def __init__(
         self, compiled: CompiledModel, p: Array, motion: Array, times: Times, method: str, step: Array, rtol: float,
-        stop: bool, side_by_side: bool, threads: int, over: Callable[[Runs, Sequence[int]], None] | None = None,
+        stop: bool, audit: int, side_by_side: bool, threads: int, over: Callable[[Runs, Sequence[int]], None] | None = None,
     ) -> None:  # fmt: skip
         self.compiled, self.method, self.times, self.threads, self.over = compiled, method, times, threads, over
         n, N, size, nc = len(p), times.most, 2 * compiled.n + N_WORK, max(len(compiled.source.clearances), 1)
@@ -80,10 +82,11 @@ class Runs:
             "done": np.zeros(n, np.int_), "status": np.zeros(n, np.intc),
             "t_last": np.full(n, np.nanmin(times.t)), "last": np.full((n, size), np.nan), "seconds": np.zeros(n),
             "counts": np.zeros((n, N_COUNTS), np.int_), "residuals": np.full((n, 4), np.nan),
-            "peaks": np.full((n, nc, 3), np.nan), "ending": np.zeros(1, np.intc),
+            "peaks": np.full((n, nc, 3), np.nan), "audited": np.zeros((n, len(CHECKS))),
+            "audited_t": np.zeros((n, len(CHECKS))), "audited_where": np.full((n, len(CHECKS)), -1, np.intc), "ending": np.zeros(1, np.intc),
         }  # fmt: skip
         self.arrays = {name: np.ascontiguousarray(array) for name, array in self.arrays.items()}
-        self.struct = self._struct(math.isfinite(step[0]), stop, rtol)
+        self.struct = self._struct(math.isfinite(step[0]), stop, audit, rtol)
         self.fetched = Contacts(compiled)
         self.events: dict[int, list[NDArray[Any]]] = {}  # of runs that have any, with states
         self.contacts, self.cuts = np.zeros(0, IMPACT_DTYPE), np.zeros(n + 1, np.int_)  # once all are over: by run
@@ -92,13 +95,13 @@ class Runs:
         self.interrupted = False
         self.looks: Sequence[Look | None] = ()  # a run each, where somebody looks at all steps
 
-    def _struct(self, fixed: bool, stop: bool, rtol: float) -> Any:
+    def _struct(self, fixed: bool, stop: bool, audit: int, rtol: float) -> Any:
         struct = self.compiled.ffi.new("Batch *")
         explicit = self.method == "rk4"
         struct.samples, struct.apart, struct.numbers = self.times.most, self.times.apart, self.arrays["p"].shape[1]
         struct.limit = rk4.CHUNK if explicit else adaptive.CHUNK
         struct.choice, struct.automatic = (-1, 0) if explicit else adaptive.choice_of(self.compiled, self.method, rtol)
-        struct.fixed, struct.stop = int(fixed), int(stop)
+        struct.fixed, struct.stop, struct.audit = int(fixed), int(stop), audit
         kinds = {"uint8": "unsigned char *", "int8": "signed char *", "int32": "int *", "int64": "long *"}
         for name, array in self.arrays.items():
             setattr(struct, name, self.compiled.pointer(array, kinds.get(array.dtype.name, "double *"), True))
@@ -240,11 +243,18 @@ class Runs:
 
     def _failure(self, i: int) -> GudgeonError:
         """What ended run i, as a single run says it."""
+        if self.arrays["status"][i] == AUDITED:
+            return audit_failure(self.findings(i))
         x = {name: self.arrays[name][i] for name in ("status", "t_last", "last", "peaks", "p_motion", "step")}
         advice = adaptive.ADVICE if self.method != "rk4" else rk4.ADVICE.format(float(x["step"]))
         joints = len(self.compiled.source.clearances)
         numbers = (int(x["status"]), float(x["t_last"]), advice, x["last"], x["peaks"][:joints, 2], x["p_motion"])
         return failure(self.compiled, self.method, *numbers, float(x["step"]) if self.method == "rk4" else 0.0)
+
+    def findings(self, i: int) -> tuple[Finding, ...]:
+        """What the audit of run i found."""
+        x = (self.arrays[name][i] for name in ("audited", "audited_t", "audited_where"))
+        return as_findings(self.compiled.source, *x)
 
     def impacts_of(self, i: int) -> NDArray[Any]:
         """IMPACT_DTYPE, the contacts of run i by their onset."""
@@ -287,5 +297,5 @@ class Runs:
             self.impacts_of(i), self.arrays["peaks"][i, :joints].copy(), self.counts(i),
             self.interrupted and error is not None, error if isinstance(error, SolverError) else None,
             seconds=float(self.arrays["seconds"][i]), events=plain(events),
-            event_states=events, no_number=plain(no_number),
+            event_states=events, no_number=plain(no_number), audit=self.findings(i),
         )  # fmt: skip

@@ -19,7 +19,7 @@ from gudgeon.model.steep import steep_force
 from gudgeon.model.written import CORNERED, of_time, rate_reason, reason, trees, undefined_here
 
 NOT_FINITE, CHATTERING, TOO_SMALL, LOST, OUTSIDE, STOPPED, STALLED, UNBOUNDED = -2, -4, -5, -6, -8, -10, -11, -12
-JAMMED, NOT_FOUND = -13, -14
+JAMMED, NOT_FOUND, AUDITED = -13, -14, -15
 TOLD = {
     JAMMED: "friction jams a contact of newton_restitution at t = {t:.9g} s: by it normal forces bring the surfaces "
     "nearer, or grow beyond all bounds (Painlevé)\n  less friction, or surfaces that give: another normal law",

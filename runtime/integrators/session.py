@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from gudgeon.errors import SolverError
 from gudgeon.integrators import trace
-from gudgeon.integrators.failure import FELT, STALLED, Pace, drives_at, failure, film, stalled, with_corners
+from gudgeon.integrators.audit import audit_failure, fetch_findings
+from gudgeon.integrators.failure import AUDITED, FELT, STALLED, Pace, drives_at, failure, film, stalled, with_corners
 from gudgeon.integrators.steps import Tape
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory, event_dtype, plain
 from gudgeon.model.compiled import N_WORK, Array, CompiledModel
@@ -128,6 +129,7 @@ class Session:
         p_run, y = self.pointer(self.p), self.pointer(start)
         self.lib.gudgeon_run_start(self.run, p_run, problem.t[0], y, self.pointer(latched))
         self.lib.gudgeon_run_stop(self.run, int(problem.stop))
+        self.lib.gudgeon_run_audit(self.run, problem.audit)
         self.trace = np.empty((trace.ROWS if nc else 0, trace.width(nc)))
         if nc:
             self.lib.gudgeon_run_trace(self.run, self.pointer(self.trace, written=True), len(self.trace))
@@ -246,6 +248,7 @@ class Session:
             self.state[: self.done, : self.nc], y[:, 2 * n :], impacts, peaks,
             counts_of(counts, numbers), interrupted, stopped, seconds=self.seconds,
             events=plain(events), event_states=events, no_number=plain(no_number), trace=self._trace(),
+            audit=fetch_findings(self.compiled, self.run) if self.problem.audit else (),
         )  # fmt: skip
 
     def _trace(self) -> trace.Trace | None:
@@ -258,6 +261,8 @@ class Session:
         y, memory, state = self.y[:1].copy(), self.memory[:1].copy(), self.state[:1].copy()
         out = (self.pointer(y), self.pointer(memory), self.pointer(state, "signed char *"))
         self.lib.gudgeon_run_sample(self.run, self.pointer(self.p), *out)
+        if status == AUDITED:
+            raise audit_failure(fetch_findings(self.compiled, self.run))
         _, _, _, peaks = self.report()
         if status == STALLED:
             self.close()

@@ -10,6 +10,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon.contract.audit import Finding
 from gudgeon.errors import SolverError
 from gudgeon.integrators.steps import Look
 from gudgeon.integrators.trace import Trace
@@ -67,6 +68,7 @@ class Problem:
     p_free: Array | None = None  # p without Baumgarte's terms, for methods that project
     stop: bool = True  # whether events may end the run; else they are recorded only
     remarks: tuple[str, ...] = ()  # on the start, which the run's notes say first
+    audit: int = 1  # level of the audit (contract/audit.py)
     look: Look | None = None  # is shown the states of all steps
     take: Callable[[], object] = lambda: None  # raises KeyboardInterrupt where Ctrl-C waits (asking.py)
 
@@ -114,4 +116,5 @@ class Trajectory:
     events: NDArray[Any] = field(default_factory=no_events)  # EVENT_DTYPE, by time
     event_states: NDArray[Any] | None = None  # event_dtype, the same with states; None: the method keeps none
     trace: Trace | None = None  # forces and paths from the steps; None: the method keeps none
+    audit: tuple[Finding, ...] = ()  # largest value of each check
     no_number: NDArray[Any] = field(default_factory=no_events)  # EVENT_DTYPE: from when on an event is no number

@@ -7,6 +7,7 @@ import math
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
+from gudgeon.contract.audit import Finding
 from gudgeon.errors import UnknownNameError
 from gudgeon.language.wanted import told
 from gudgeon.results.wear import Rubbed
@@ -132,6 +133,7 @@ class Diagnostics:
     horizon: float = float("nan")  # s, to which the trace can be trusted; inf: to the end, NaN: not asked
     extremes: tuple[Extremes, ...] = ()  # over all steps, of the series that `peaks` asked for
     examined: Examined | None = None  # by other runs, for a report; None: nobody asked
+    audit: tuple[Finding, ...] = ()  # largest value of each check, as a multiple of its limit; empty: switched off
     rubbed: tuple[Rubbed, ...] = ()  # by all steps, of joints whose wear was asked for; no file has it
 
     def peak(self, joint: str) -> Peak:
@@ -148,7 +150,7 @@ class Diagnostics:
         A float is written with as many digits as reading it back exactly needs.
         """
         data = asdict(replace(self, rubbed=()))
-        for name in ("extremes", "examined", "rubbed"):
+        for name in ("extremes", "examined", "audit", "rubbed"):
             if not data[name]:
                 del data[name]
         return json.dumps(_words(data), ensure_ascii=False, allow_nan=False)
@@ -159,12 +161,13 @@ class Diagnostics:
         data = json.loads(text)
         data["peaks"] = tuple(Peak(**_numbers(peak, Peak)) for peak in data["peaks"])
         data["extremes"] = tuple(Extremes(**_numbers(one, Extremes)) for one in data.get("extremes", ()))
+        data["audit"] = tuple(Finding(**_numbers(one, Finding)) for one in data.get("audit", ()))
         data["notes"] = tuple(data["notes"])
         data["examined"] = _examined(data["examined"]) if data.get("examined") else None
         return Diagnostics(**_numbers(data, Diagnostics))
 
     def __str__(self) -> str:
-        lists = ("peaks", "notes", "extremes", "examined", "rubbed")
+        lists = ("peaks", "notes", "extremes", "examined", "audit", "rubbed")
         rows = [f"{name:>30}  {value}" for name, value in asdict(replace(self, rubbed=())).items() if name not in lists]
         rows += [f"{'peak at ' + p.joint:>30}  {p.F:.6g} N at {p.t:.6g} s, e ≤ {p.e_max:.6g} m" for p in self.peaks]
         rows += [
@@ -172,6 +175,7 @@ class Diagnostics:
             f" {x.t_min:.6g} s, {x.max:.6g} {x.unit} at {x.t_max:.6g} s"
             for x in self.extremes
         ]
+        rows += [f"{'audit of ' + x.check:>30}  {x.worst:.3g} limits at {x.t:.6g} s {x.place}" for x in self.audit]
         return "\n".join([*rows, *(f"{'note':>30}  {note}" for note in self.notes)])
 
 

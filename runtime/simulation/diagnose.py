@@ -15,6 +15,7 @@ from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import ADAPTIVE, EXPLICIT
 from gudgeon.integrators.adaptive import stiff_of
+from gudgeon.integrators.audit import notes_of
 from gudgeon.integrators.rk4 import last_step
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
@@ -56,7 +57,7 @@ def diagnose(
         ratio_min=counts.ratio_min, ratio_max=counts.ratio_max, ratio_outside=counts.ratio_outside,
         peaks=_peaks(compiled, x), seconds=seconds,
         seconds_per_simulated_second=seconds / simulated if simulated > 0 else math.nan,
-        interrupted=x.interrupted, notes=_notes(compiled, problem, trajectory),
+        interrupted=x.interrupted, notes=_notes(compiled, problem, trajectory), audit=x.audit,
     )  # fmt: skip
 
 
@@ -114,6 +115,7 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
     notes += not_held(compiled, p, float(problem.t[0]), problem.q, counts, trajectory.peaks)
     if compiled.source.rigid:
         notes += piled_up([joint.name for joint in compiled.source.clearances], trajectory.impacts)
+    notes += notes_of(trajectory.audit)
     if compiled.source.indeterminate:
         notes.append(
             f"constraints are redundant: the reactions of {', '.join(compiled.source.indeterminate)} are not determined"

@@ -80,8 +80,10 @@ def load_bytes(
 
     whole(*RUNTIME)
     from gudgeon.model.compiled import CompiledModel
+    from gudgeon.model.reference import check_reference
     from gudgeon.simulation.simulation import Simulation
 
     loading = Loading(origin, read - start, have_source - read, have_library - have_source, have_library - start)
     compiled = CompiledModel(source, library, portable)
+    check_reference(compiled)
     return Simulation(compiled, file=file, overrides=dict(overrides or {}), loading=loading)

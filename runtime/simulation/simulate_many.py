@@ -31,7 +31,7 @@ from gudgeon.results.batch import Batch, States, as_failures, given_values
 from gudgeon.results.batch_series import STATES, parts_of, wanted_names
 from gudgeon.results.peaks import peaks_of
 from gudgeon.results.results import Result, State
-from gudgeon.simulation.arguments import method_of
+from gudgeon.simulation.arguments import audit_level, method_of
 from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude
 from gudgeon.simulation.diagnose import may_not_hold, not_held
@@ -54,6 +54,7 @@ def simulate_many(
     step: Any, threads: int | None, progress: Progress | None, stop: bool, side_by_side: bool = True,
     start: State | Sequence[State] | None = None, keep: str | Iterable[str] = STATES,
     peaks: Iterable[str | Rubbing] | None = None, against: Simulation | None = None, contour: Any = None,
+    audit: bool | str = True,
 ) -> Batch:  # fmt: skip
     """See Simulation.simulate_many."""
     simulation = simulation.of_method(method) if isinstance(method, str) and method in ON_DEMAND else simulation
@@ -63,7 +64,7 @@ def simulate_many(
     worn = taken_contours(source, contour, runs=True)
     starts = _Starts(simulation, parameters, start, each, worn)
     method, progress = text(method, "method"), function(progress, "progress")
-    stop, side_by_side = flag(stop, "stop"), flag(side_by_side, "side_by_side")
+    stop, side_by_side, level = flag(stop, "stop"), flag(side_by_side, "side_by_side"), audit_level(audit)
     workers = available_threads() if threads is None else threads
     if not is_whole(workers) or workers < 1:
         raise BadValueError(f"threads is {told(threads)}: expected a number of threads, 1 or more")
@@ -72,7 +73,7 @@ def simulate_many(
     chosen = method_of(source, method, step is not None)
     tolerance = adaptive.tolerance(rtol, chosen, step is not None)
     beside = chosen != "rk4" or not names  # its lanes show nobody their steps
-    asked = Asked(chosen, tolerance, workers, progress, stop, side_by_side and beside, series, names, against)
+    asked = Asked(chosen, tolerance, workers, progress, stop, side_by_side and beside, series, names, against, level)
     p, motion, bad = prepare_sets(compiled, starts.given, starts.is_given, chosen != "rk4")
     bad |= starts.bad | starts.unfit(p, bad)
     times = each.times(p, starts.t, bad)
@@ -83,6 +84,7 @@ def simulate_many(
     if together and not any_in_batch(source, p, starts.t, times.ends(), bad):  # else each run looks for its own
         return _in_c(simulation, starts, (p, motion, steps), times, bad, asked)
     options: dict[str, Any] = {"method": method, "rtol": rtol, "stop": stop, "peaks": names, "against": against}
+    options["audit"] = audit
     given = [step] * len(p) if each.steps is None else each.steps
     own = [options | {"output": times.of(i), "step": given[i]} for i in range(len(p))]
     return run_singly(simulation, (starts.given, starts.is_given, p), times, own, starts.states, bad, asked)
@@ -103,8 +105,8 @@ def _in_c(
     p, motion, steps = numbers
     kept = None if asked.keep is None else KeptSeries(simulation.source, asked.keep, len(p), times)
     runs = many.Runs(
-        simulation.compiled, p, motion, times, asked.method, steps, asked.rtol, asked.stop, asked.side_by_side,
-        asked.threads, kept,
+        simulation.compiled, p, motion, times, asked.method, steps, asked.rtol, asked.stop, asked.audit,
+        asked.side_by_side, asked.threads, kept,
     )  # fmt: skip
     runs.begin(starts.states)
     runs.leave_out(bad)

@@ -26,7 +26,16 @@ from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import taken_contours
 from gudgeon.model.parameters import prepare, prepare_slots, without_baumgarte
 from gudgeon.model.room import check_room
-from gudgeon.simulation.arguments import MAX_STEPS, METHODS, derived_for, end_of, method_of, output_times, step_of
+from gudgeon.simulation.arguments import (
+    MAX_STEPS,
+    METHODS,
+    audit_level,
+    derived_for,
+    end_of,
+    method_of,
+    output_times,
+    step_of,
+)  # fmt: skip
 from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude, contradicted, late
 from gudgeon.simulation.equations import Equations
@@ -146,7 +155,7 @@ class Simulation(Equations):
         parameters: Mapping[str, float | str] | None = None, start: State | None = None,
         progress: Progress | None = None, horizon: bool = False, stop: bool = True,
         peaks: Iterable[str | Rubbing] | None = None, against: Simulation | None = None,
-        contour: Mapping[str, ArrayLike] | None = None,
+        contour: Mapping[str, ArrayLike] | None = None, audit: bool | str = True,
     ) -> Result:  # fmt: skip
         """Run the scene from t = 0 (or from `start`, the `final` of another run) to t_end (s).
 
@@ -170,16 +179,18 @@ class Simulation(Equations):
         `run.peak_error("S9.y")` tells of the series less that scene's, from t = 0, with the same numbers.
         `contour`: {joint: depths (m)} by which bearings whose play has a `contour` in the file are deeper than their
         circles, at as many equal angles as there, from the x axis of the bearing's body on.
+        `audit`: True checks the result in the run by equations that the integration does not use (runtime/contract/
+        audit.py) and ends it with AuditError where one fails; "full" checks every step, False none.
 
         Raises InputError for arguments (ArrayError for arrays), AssemblyError for a start that does not close,
         SolverError when equations cannot be solved (`partial`: up to there), MemoryError before more than fits.
         """
         method, progress = text(method, "method"), function(progress, "progress")
-        horizon, stop = flag(horizon, "horizon"), flag(stop, "stop")
+        horizon, stop, level = flag(horizon, "horizon"), flag(stop, "stop"), audit_level(audit)
         if (fitting := self.of_method(method, progress)) is not self:
             return fitting.simulate(
                 t_end, output=output, method=method, rtol=rtol, step=step, parameters=parameters, start=start,
-                progress=progress, horizon=horizon, stop=stop, peaks=peaks, against=against, contour=contour,
+                progress=progress, horizon=horizon, stop=stop, peaks=peaks, against=against, contour=contour, audit=audit,
             )  # fmt: skip
         names, beside = wanted_peaks(self.source, peaks), check_beside(self.source, against)
         begin = None if start is None else own(self.source, start)
@@ -203,7 +214,7 @@ class Simulation(Equations):
         remarks += parting(self.compiled, p, t0, q, v, memory)
         problem = Problem(
             self.compiled, p, times, q, v, memory, h, progress, None if begin is None else begin.state,
-            chosen, tolerance, without_baumgarte(self.compiled, given, is_given), stop, remarks,
+            chosen, tolerance, without_baumgarte(self.compiled, given, is_given), stop, remarks, level,
         )  # fmt: skip
         search = search_of(self.compiled, (p, given, is_given), tolerance, names, beside)
         result = self._ran(*up_to_a_jump(problem), given, is_given, search)
@@ -220,7 +231,7 @@ class Simulation(Equations):
         threads: int | None = None, progress: Progress | None = None, stop: bool = True, side_by_side: bool = True,
         start: State | Sequence[State] | None = None, keep: str | Iterable[str] = "states",
         peaks: Iterable[str | Rubbing] | None = None, against: Simulation | None = None,
-        contour: Mapping[str, ArrayLike] | None = None,
+        contour: Mapping[str, ArrayLike] | None = None, audit: bool | str = True,
     ) -> Batch:  # fmt: skip
         """Run the scene with each of many parameter sets, in threads; arguments as in `simulate`.
 
@@ -247,7 +258,7 @@ class Simulation(Equations):
 
         return simulate_many(
             self, parameters, t_end, output, method, rtol, step, threads, progress, stop, side_by_side, start, keep,
-            peaks, against, contour,
+            peaks, against, contour, audit,
         )  # fmt: skip
 
     def lyapunov(

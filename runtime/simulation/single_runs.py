@@ -46,6 +46,7 @@ class Asked:
     keep: tuple[str, ...] | None  # series; None: states
     peaks: tuple[str | Rubbing, ...] = ()  # series whose peaks over all steps are wanted, and what rubs
     against: Simulation | None = None  # of those less this scene's
+    audit: int = 1  # level of the audit
 
 
 @dataclass(frozen=True, eq=False)

@@ -205,6 +205,8 @@ def _tables(program: Program, of_scene: Sizes) -> list[str]:
         tables |= {("int", "apart_row"): [k for k, _, _ in apart]}
     if model.rigid:
         tables |= {("unsigned char", "rigid_joint"): [int(c.rigid) for c in model.clearances]}
+    if model.clearances:
+        tables |= {("unsigned char", "film_joint"): [int(c.film is not None) for c in model.clearances]}
     if corners := first_corners(model):
         tables |= {("int", "first_corner"): corners}
     if program.integrates:

@@ -1,0 +1,89 @@
+/*
+ * The audit of a run inside its steps (run/audit.c): in some, drawn at random, and in those that end with an event or
+ * are much longer than the one before. At a place drawn there: defect of the dense output, gaps, branches. Where the
+ * draw fell, in addition: all rows, accelerations by the equations of all bodies, uncertainty of forces.
+ */
+#define AUDIT_LONGER 8.0 /* times the step before: such a step is always checked */
+#define AUDIT_DEFECT 1e4 /* tolerances that the dense output may miss the right-hand side by */
+/* steps between two that are drawn, in the mean; halvings that locate a zero; places inside a step */
+enum { AUDIT_MEAN = 24, AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4 };
+
+/* One place inside a step, up to the event that ends it. */
+static void check_inside(Run *run, Step *step, double theta, int drawn, const Parameters *p)
+{
+    Audit *audit = &run->audit;
+    const double t = step->t + theta * step->h;
+    double y[N_Y], dy[N_Y], rate[N_Y], defect = 0.0;
+    Aside aside;
+    if (make_dense(run, p, step) || state_at(run, step, theta, p, y, dy, &aside))
+        return; /* what lies beyond an event need not be computable */
+    interpolate_rates(step, theta, rate);
+    for (int k = 0; k < 2 * N_X; k++)
+        defect = max_of(defect, fabs(step->h * (rate[k] - dy[k])) * run->weight[k]);
+    if (!(run->fixed > 0.0))
+        record(audit, DEFECT_CHECK, defect, AUDIT_DEFECT, t, -1);
+    check_joints(run, t, &aside, p);
+    check_branches(run, step, t, &aside);
+    if (!drawn)
+        return;
+    check_rows(run, t, y, !RATE_JUMPS, p);
+    check_accelerations(run, t, y, dy, p);
+    check_forces(run, t, y, &aside, p);
+}
+
+/* Whether the value of event i changes its sign in a step at a zero, and not where it grows beyond all bounds. */
+static int has_zero(Run *run, Step *step, double share, int i, const Parameters *p)
+{
+    double low = 0.0, high = share, y[N_Y], dy[N_Y];
+    const double before = run->aside.event[i], after = step->aside.event[i];
+    double nearest = INFINITY;
+    Aside aside;
+    for (int n = 0; n < AUDIT_HALVINGS && make_dense(run, p, step) == 0; n++) {
+        const double middle = 0.5 * (low + high);
+        if (state_at(run, step, middle, p, y, dy, &aside))
+            return 0;
+        nearest = fabs(aside.event[i]);
+        if (aside.event[i] * before > 0.0)
+            low = middle;
+        else
+            high = middle;
+    }
+    return nearest < 0.01 * min_of(fabs(before), fabs(after));
+}
+
+/* Events whose expressions change their signs in a step, before it is taken; the one that ends it is recorded anyway. */
+static void find_zeros(Run *run, Step *step, double share, int event, const Parameters *p)
+{
+    Audit *audit = &run->audit;
+    for (int i = 0; i < N_USER_EVENTS; i++) {
+        const double before = run->aside.event[i], after = step->aside.event[i];
+        const double noise = AUDIT_NOISE * audit->event_scale[i];
+        audit->crossed[i] = share >= 1.0 && event != N_MARGINS - N_USER_EVENTS + i && before * after < 0.0
+            && fabs(before) > noise && fabs(after) > noise && event_direction[i] * after >= 0.0
+            && has_zero(run, step, share, i, p);
+    }
+}
+
+/* The inside of a step that is accepted up to `share`, before it is taken. */
+static void audit_step(Run *run, Step *step, double share, int event, const Parameters *p)
+{
+    Audit *audit = &run->audit;
+    const long evaluations = run->evaluations;
+    const double h = share * step->h;
+    const int is_longer = audit->last_h > 0.0 && h > AUDIT_LONGER * audit->last_h;
+    const int drawn = run->steps >= audit->due || audit->level == AUDIT_FULL;
+    const int always = (event >= 0 && event < N_MARGINS - N_USER_EVENTS) || is_longer;
+    if (!audit->level)
+        return;
+    const Memory memory = run->memory;
+    find_zeros(run, step, share, event, p);
+    const int places = audit->level == AUDIT_FULL || is_longer ? AUDIT_INSIDE : 1;
+    for (int k = 0; k < places && (drawn || always); k++)
+        check_inside(run, step, share * (k + draw(audit)) / places, drawn, p);
+    if (drawn)
+        audit->due = run->steps + 1 + (long)(2.0 * AUDIT_MEAN * draw(audit));
+    audit->last_h = h;
+    run->memory = memory;
+    run->evaluations = evaluations; /* a check is not integration */
+}
+

@@ -1,0 +1,266 @@
+/*
+ * The audit of a run: checks of accepted steps by equations that the integration does not use. Each check compares a
+ * value with a limit that follows from the tolerance. A value above AUDIT_FAILS limits ends the run (AUDITED).
+ *
+ * Here are the checks of one state; audit_state is called at the end of each step. methods/audit_step.c checks the
+ * inside of steps. The audit changes nothing but its own record.
+ */
+#define AUDIT_FAILS 10.0       /* multiples of a limit that end a run */
+#define AUDIT_DEPTH 10.0       /* tolerances that an open joint may penetrate */
+#define AUDIT_ROUNDING 1e-9    /* of the size, or speed: closer than this rows are not known */
+#define AUDIT_ACCELERATION 1e-6 /* of the largest term, that two ways to the accelerations may differ by */
+#define AUDIT_CLOSURE 1e-9     /* of the size: error of positions that accelerations must not depend on */
+#define AUDIT_NOISE 1e-9       /* of its largest magnitude, below which the sign of a function is rounding */
+#define AUDIT_FORCE 1e5        /* of a force, multiplied by rtol: the change by one tolerance in the state */
+#define AUDIT_FIXED 1e-8       /* the tolerance that stands in for that of a fixed step */
+enum { AUDIT_WRONG = 3 }; /* steps in a row that end on the wrong side of a switching function */
+
+/* A number in (0, 1) that looks random: the same in every run. */
+static double draw(Audit *audit)
+{
+    audit->random = audit->random * 1664525u + 1013904223u;
+    return ((audit->random >> 8) + 0.5) / 16777216.0;
+}
+
+static double audit_tolerance(const Run *run) { return run->fixed > 0.0 || run->inverse_scale[0] == 0.0 ? AUDIT_FIXED
+    : tolerance_of(run); }
+
+static void record(Audit *audit, int check, double value, double limit, double t, int where)
+{
+    AuditRecord *known = &audit->record[check];
+    const double multiple = value / max_of(limit, 1e-300);
+    if (!(multiple > known->worst) && multiple == multiple)
+        return;
+    *known = (AuditRecord){multiple == multiple ? multiple : INFINITY, t, where};
+    if (!(known->worst <= AUDIT_FAILS))
+        audit->status = AUDITED;
+}
+
+/* Positions, and with `rates` velocities, of all rows of the motion at a state. */
+static void check_rows(Run *run, double t, const double *y, int rates_too, const Parameters *p)
+{
+    Audit *audit = &run->audit;
+    double all[N_S], phi[AT_LEAST_ONE(N_ALL_ROWS)], nu[AT_LEAST_ONE(N_ALL_ROWS)];
+    double size = run->least[1] > 0.0 ? run->least[0] / run->least[1] : 0.0, speed = 0.0, turn = 0.0, far[2] = {0.0, 0.0};
+    const double rtol = audit_tolerance(run);
+    to_absolute(t, y, &run->memory, p, all);
+    for (int k = 0; k < N_Q; k++) {
+        far[k % 3 == 2] = max_of(far[k % 3 == 2], fabs(all[k]));
+        if (k % 3 == 2) {
+            turn = max_of(turn, fabs(all[N_Q + k]));
+            continue;
+        }
+        size = max_of(size, run->least[1] > 0.0 ? 0.0 : fabs(all[k]));
+        speed = max_of(speed, fabs(all[N_Q + k]));
+    }
+    constraints(t, all, p, phi);
+    for (int i = 0; i < N_ROWS; i++) {
+        const int row = kept_row[i], length = row_is_length[row];
+        const double play = length ? run->least[0] : run->least[1];
+        const double limit = max_of(rtol * play, AUDIT_ROUNDING * (length ? size + far[0] : 1.0 + far[1]));
+        record(audit, POSITION_CHECK, fabs(phi[row]), limit, t, row);
+    }
+    if (!rates_too)
+        return;
+    /* Phi_q v by differences of the rows themselves: no Jacobian is involved */
+    const double fast = max_of(max_of(speed, size * turn), 1e-300), ahead = 1e-5 * size / fast;
+    double near[2][AT_LEAST_ONE(N_ALL_ROWS)], q[N_Q];
+    for (int side = 0; side < 2; side++) {
+        for (int k = 0; k < N_Q; k++)
+            q[k] = all[k] + (side ? ahead : -ahead) * all[N_Q + k];
+        constraints(t, q, p, near[side]);
+    }
+    velocity_rhs(t, all, p, nu);
+    for (int i = 0; i < N_ROWS; i++) {
+        const int row = kept_row[i];
+        const double rate = 0.5 * (near[1][row] - near[0][row]) / ahead - nu[row];
+        const double scale = max_of(row_is_length[row] ? fast : fast / max_of(size, 1e-300), fabs(nu[row]));
+        const double most = row_is_length[row] ? far[0] + size * far[1] : far[1];
+        const double rounding = 4.0 * DBL_EPSILON * most / ahead;
+        record(audit, VELOCITY_CHECK, fabs(rate), max_of(rtol, 1e-8) * scale + rounding, t, row);
+    }
+}
+
+#if TREE
+/*
+ * States of all bodies about h (s) before and after a time, with velocities and accelerations `dy` as they are now.
+ * Returns the time between them, to the bit.
+ */
+static double states_near(const Run *run, double t, const double *y, const double *dy, double h, const Parameters *p,
+    double (*near)[N_S])
+{
+    const double before = t - h, after = t + h;
+    for (int side = 0; side < 2; side++) {
+        const double way = side ? after - t : before - t;
+        double state[N_Y];
+        for (int k = 0; k < N_X; k++) {
+            state[k] = y[k] + way * (y[N_X + k] + 0.5 * way * dy[N_X + k]);
+            state[N_X + k] = y[N_X + k] + way * dy[N_X + k];
+        }
+        for (int k = 2 * N_X; k < N_Y; k++)
+            state[k] = y[k];
+        to_absolute(side ? after : before, state, &run->memory, p, near[side]);
+    }
+    return after - before;
+}
+
+/* Whether rates are not those of the state itself, or positions that differ by AUDIT_CLOSURE change accelerations `a` of all bodies, by their scales, as much. */
+static int is_sensitive(Run *run, double t, const double *y, const double *a, const double *scale, double share,
+    const Parameters *p)
+{
+    double state[N_Y], other[N_Q], rate[N_Y];
+    Memory now = run->memory;
+    Aside aside;
+    if (motion_here(t, y, &now, p, rate, &aside))
+        return 1; /* near a singular position rates are continued from both sides of it */
+    const double size = run->least[1] > 0.0 ? run->least[0] / run->least[1] : 1.0;
+    for (int k = 0; k < N_Y; k++)
+        state[k] = y[k] + (k < N_X ? AUDIT_CLOSURE * (is_angle[k] ? 1.0 : size) * (2.0 * draw(&run->audit) - 1.0) : 0.0);
+    if (absolute_accelerations(t, state, &run->memory, p, other))
+        return 1;
+    for (int k = 0; k < N_Q; k++)
+        if (!(fabs(other[k] - a[k]) < 0.1 * share * max_of(scale[k % 3 == 2], 1e-300)))
+            return 1;
+    return 0;
+}
+#endif
+
+/*
+ * Accelerations `dy` of the tree against those that follow from the equations of all bodies. The tree's accelerations of
+ * all bodies are differences of velocities, (v(t + h) - v(t - h))/(2 h), which no function of accelerations makes. Where
+ * second differences say that h is too long, as near a singular position, h is shorter, or nothing is compared.
+ */
+static void check_accelerations(Run *run, double t, const double *y, const double *dy, const Parameters *p)
+{
+#if TREE
+    const double size = run->least[1] > 0.0 ? run->least[0] / run->least[1] : 1.0;
+    double a[N_Q], all[N_S], near[2][N_S], rate = 0.0, most[2] = {0.0, 0.0};
+    if (run->memory.way != AT_ONCE || absolute_accelerations(t, y, &run->memory, p, a))
+        return; /* near a singular position both lose digits */
+    to_absolute(t, y, &run->memory, p, all);
+    for (int k = 0; k < N_Q; k++) {
+        const double unit = k % 3 == 2 ? 1.0 : size;
+        rate = max_of(rate, max_of(fabs(all[N_Q + k]) / unit, sqrt(fabs(a[k]) / unit)));
+    }
+    for (int k = 2; k < N_Q; k += 3)
+        if (DBL_EPSILON * fabs(all[k]) > 1e-3 * AUDIT_ACCELERATION)
+            return; /* so large an angle has lost too many digits */
+    for (int k = 0; k < N_Q; k++)
+        most[k % 3 == 2] = max_of(most[k % 3 == 2], max_of(fabs(a[k]), rate * fabs(all[N_Q + k])));
+    for (double share = 1e-5; share > 1e-8 && rate > 0.0; share *= 0.03) {
+        const double h = share / rate;
+        double worst = 0.0, bend = 0.0;
+        int where = 0;
+        const double between = states_near(run, t, y, dy, h, p, near);
+        for (int k = 0; k < N_Q; k++) {
+            const double scale = max_of(most[k % 3 == 2], 1e-300);
+            const double before = near[0][N_Q + k], after = near[1][N_Q + k];
+            const double off = fabs(a[k] - (after - before) / between) / scale;
+            bend = max_of(bend, fabs(after - 2.0 * all[N_Q + k] + before) / h / scale);
+            if (!(off <= worst))
+                worst = off, where = k;
+        }
+        if (bend < 1e-4) {
+            if (worst > AUDIT_ACCELERATION && is_sensitive(run, t, y, a, most, worst, p))
+                return;
+            record(&run->audit, ACCELERATION_CHECK, worst, AUDIT_ACCELERATION, t, where);
+            return;
+        }
+    }
+#else
+    (void)run, (void)t, (void)y, (void)dy, (void)p;
+#endif
+}
+
+/* The change of each joint's force by an error of one tolerance in every coordinate and velocity, of random signs. */
+static void check_forces(Run *run, double t, const double *y, const Aside *at, const Parameters *p)
+{
+    double near[N_Y], dy[N_Y];
+    Aside aside;
+    if (!N_CLEARANCES || run->fixed > 0.0)
+        return;
+    for (int k = 0; k < N_Y; k++)
+        near[k] = y[k] + (k < 2 * N_X ? (draw(&run->audit) < 0.5 ? -1.0 : 1.0) / run->weight[k] : 0.0);
+    if (rates(run, t, near, p, dy, &aside))
+        return;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Clearance *a = &at->clearance[i], *b = &aside.clearance[i];
+        const double force = max_of(total_force(a), run->F_peak[i]);
+        const double change = sqrt((a->Fx - b->Fx) * (a->Fx - b->Fx) + (a->Fy - b->Fy) * (a->Fy - b->Fy));
+        if (gives(i) && force > 0.0)
+            record(&run->audit, FORCE_CHECK, change, min_of(1.0, AUDIT_FORCE * audit_tolerance(run)) * force, t, i);
+    }
+}
+
+/* Open joints at a state: neither penetration nor force. */
+static void check_joints(Run *run, double t, const Aside *aside, const Parameters *p)
+{
+    const double play = run->least[1] > 0.0 ? run->least[0] : 0.0;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Clearance *joint = &aside->clearance[i];
+        if (run->memory.latch[i].closed || run->fixed > 0.0 || !(play > 0.0))
+            continue;
+        const double limit = max_of(AUDIT_DEPTH * audit_tolerance(run) * play, 1e-9 * radial_clearance(p, i));
+        record(&run->audit, GAP_CHECK, max_of(joint->delta, 0.0), limit, t, i);
+    }
+}
+
+/* Branches that a step holds, at a state inside it: how far each function lies on the wrong side. */
+static void check_branches(Run *run, const Step *step, double t, const Aside *aside)
+{
+    for (int k = 0; k < N_SWITCHES; k++) {
+        const double g = run->memory.side[k] * aside->g[k];
+        run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(g));
+        if (!step->passed[k] && k != run->skip && !meets[k] && g < 0.0)
+            record(&run->audit, BRANCH_CHECK, -g, 1e-3 * run->audit.switch_scale[k], t, k);
+    }
+}
+
+/* The end of a step that was taken, before which `listed` events were recorded. Returns 0, or AUDITED. */
+static int audit_state(Run *run, int listed, const Parameters *p)
+{
+    Audit *audit = &run->audit;
+    if (!audit->level || (!TREE && run->least[1] == 0.0))
+        return 0; /* in rk4's absolute coordinates Baumgarte's terms let rows drift */
+    check_rows(run, run->t, run->y, 0, p);
+    for (int i = 0; i < N_CLEARANCES; i++)
+        if (gives(i) && !has_film(i))
+            record(audit, PULL_CHECK, run->memory.latch[i].closed ? max_of(run->aside.clearance[i].F_n, 0.0)
+                : total_force(&run->aside.clearance[i]), max_of(1e-6 * run->F_peak[i], 1e-300), run->t, i);
+    for (int k = 0; k < N_SWITCHES && run->memory.held; k++) {
+        const double g = run->memory.side[k] * run->aside.g[k], scale = audit->switch_scale[k];
+        audit->switch_scale[k] = max_of(scale, fabs(g));
+        audit->wrong[k] = (unsigned char)(g < -1e-3 * scale && k != run->skip ? min_of(audit->wrong[k] + 1, 100) : 0);
+        if (audit->wrong[k] >= AUDIT_WRONG)
+            record(audit, BRANCH_CHECK, -g, 1e-4 * audit->switch_scale[k], run->t, k);
+    }
+    for (int i = 0; i < N_USER_EVENTS; i++) {
+        int found = 0;
+        for (int k = listed; k < run->n_events; k++)
+            found |= run->event[k] == i;
+        if (audit->crossed[i] && !found)
+            record(audit, EVENT_CHECK, INFINITY, 1.0, run->t, i);
+        audit->event_scale[i] = max_of(audit->event_scale[i], fabs(run->aside.event[i]));
+        audit->crossed[i] = 0;
+    }
+    return audit->status;
+}
+
+void gudgeon_run_audit(void *memory, int level)
+{
+    ((Run *)memory)->audit = (Audit){.level = level, .random = 1u};
+    for (int k = 0; k < N_CHECKS; k++)
+        ((Run *)memory)->audit.record[k].where = -1;
+}
+
+/* Of each check the largest value as a multiple of its limit, its time, and where it was. Returns how many checks. */
+int gudgeon_run_audited(const void *memory, double *worst, double *t, int *where)
+{
+    const Run *run = memory;
+    for (int k = 0; k < N_CHECKS; k++) {
+        worst[k] = run->audit.record[k].worst;
+        t[k] = run->audit.record[k].t;
+        where[k] = run->audit.record[k].where;
+    }
+    return N_CHECKS;
+}

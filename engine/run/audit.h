@@ -1,0 +1,41 @@
+/*
+ * The record of a run's audit: of each check the largest value as a multiple of its limit, and where it was found.
+ * audit.c owns it: nothing else writes it but gudgeon_run_audit, which sets the level.
+ */
+#ifndef GUDGEON_AUDIT_H
+#define GUDGEON_AUDIT_H
+
+enum { AUDIT_OFF, AUDIT_ON, AUDIT_FULL };
+
+/* The checks, in the order of CHECKS in runtime/contract/audit.py. */
+enum {
+    DEFECT_CHECK,       /* the dense output against the right-hand side, between the ends of a step */
+    GAP_CHECK,          /* penetration of a joint that is not listed as in contact */
+    PULL_CHECK,         /* force of a joint that is not in contact */
+    POSITION_CHECK,     /* all rows of Phi of all bodies */
+    VELOCITY_CHECK,     /* all rows of Phi_q v - nu of all bodies */
+    ACCELERATION_CHECK, /* accelerations of the tree against those of all bodies */
+    BRANCH_CHECK,       /* branches of switching functions against their signs */
+    EVENT_CHECK,        /* events that were recorded against the signs of their expressions */
+    FORCE_CHECK,        /* change of a joint's force by an error of one tolerance in the state */
+    N_CHECKS
+};
+
+typedef struct {
+    double worst, t; /* multiple of the limit; s */
+    int where;       /* number of the joint, constraint row, body coordinate, switching function or event; -1: none */
+} AuditRecord;
+
+typedef struct {
+    int level, status;             /* one of those above; AUDITED once a check failed */
+    long due;                      /* number of steps at which a step is checked inside next */
+    unsigned random;               /* state of the generator that draws steps and places in them */
+    double last_h, t;              /* s, the length of the last step; the time up to which accepted states are checked */
+    double switch_scale[AT_LEAST_ONE(N_SWITCHES)], event_scale[AT_LEAST_ONE(N_USER_EVENTS)]; /* largest magnitudes */
+    unsigned char wrong[AT_LEAST_ONE(N_SWITCHES)];      /* steps in a row that ended on the wrong side */
+    signed char event_sign[AT_LEAST_ONE(N_USER_EVENTS)]; /* the last sign that was above rounding; 0: none yet */
+    unsigned char crossed[AT_LEAST_ONE(N_USER_EVENTS)]; /* whether the expression has a zero in the step */
+    AuditRecord record[N_CHECKS];
+} Audit;
+
+#endif

@@ -1,0 +1,102 @@
+"""Values of a scene's functions at a few states, computed by the NumPy target: what a compiled library is held against.
+
+They are stored with the emitted C, and the runtime compares them with the library that it loads
+(runtime/model/reference.py). NumPy's text and C's are printed from the same statements by different printers.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.generator.equations.model import Model
+from gudgeon.generator.kernels.outputs import element_series, kept_joints
+from gudgeon.generator.kernels.program import Program
+from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
+from gudgeon.generator.targets.numpy.module import NumPyModel, _defined
+from gudgeon.generator.targets.numpy.printer import function
+
+Array = NDArray[np.float64]
+MAX_COORDINATES = 300  # of larger linkages the text of Python takes longer to compile than the C
+N_STATES = 2  # all joints with play open; all closed
+SENSITIVE = 1e-8  # of the largest value: a change by NEARBY that disqualifies a state (a singular position)
+NEARBY = 1e-12
+CLOSINGS = 6  # steps of Gauss and Newton towards a closed linkage
+
+
+def reference_values(program: Program, source: KernelSource) -> dict[str, Any]:
+    """Return {"p": parameters, "states": [{t, q, v, memory, values}]} for the emitted `source`; {} for large linkages.
+
+    Numbers are SI; "values" has the arrays of an Evaluation by name, flat, and phi, nu, gamma and mass.
+    """
+    model = program.model
+    if len(model.q) > MAX_COORDINATES:
+        return {}
+    numpy = NumPyModel(program)
+    linkage, rng = NumPyLinkage(model, source, closed=numpy), np.random.default_rng(1)
+    plays = [abs(float(linkage.p[joint.clearance])) for joint in source.clearances]
+    outputs = _defined("import numpy as np\n\n\n" + function(program.closed[-1]) + "\n")["outputs"]
+    states = []
+    for k in range(N_STATES):
+        t = float(f"{0.05 + 0.3 * rng.uniform():.4f}")
+        q = _near_closed(numpy, t, linkage.defaults, min([1e-3, *plays]), rng)
+        v = np.array([float(f"{x:.4g}") for x in rng.normal(0.0, 0.3, len(q))])
+        latches = [0.1 if k and not model.rigid else np.nan] * len(model.clearances)
+        memory = latches, [1.0 - 2.0 * k] * len(model.frictions)
+        found, near = (
+            _values(model, numpy, outputs, linkage.defaults, (t, x, v), memory) for x in (q, q * (1.0 + NEARBY))
+        )
+        if found and near and all(_is_steady(found[name], near[name]) for name in found if name != "phi"):
+            flat = [*memory[0], *memory[1], *[0.0] * len(source.states)]
+            states.append({
+                "t": t, "q": q.tolist(), "v": v.tolist(), "memory": [None if x != x else x for x in flat],
+                "values": {name: _rounded(value) for name, value in found.items()},
+            })  # fmt: skip
+    return {"p": _rounded(linkage.p), "states": states}
+
+
+def _is_steady(value: Array, near: Array) -> bool:
+    """Whether values are numbers, and hardly depend on the last digits of the state."""
+    scale = max(float(np.abs(value).max(initial=0.0)), 1e-300)
+    return bool(np.isfinite(value).all() and (np.abs(near - value) <= SENSITIVE * scale).all())
+
+
+def _near_closed(numpy: NumPyModel, t: float, p: Any, play: float, rng: np.random.Generator) -> Array:
+    """Positions near a closed linkage, in seven digits: journals lie about where they touch."""
+    q = rng.uniform(0.1, 0.6, numpy.n)
+    for _ in range(CLOSINGS if numpy.m else 0):
+        phi, phi_q = numpy.phi(t, q, p), numpy.phi_q(t, q, p)
+        if not (np.isfinite(phi).all() and np.isfinite(phi_q).all()):
+            break
+        q = q - np.linalg.lstsq(phi_q, phi, rcond=1e-6)[0]
+    q = np.clip(q, -1e3, 1e3) + play * rng.normal(0.0, 1.0, numpy.n)
+    return np.array([float(f"{x:.7g}") for x in q])
+
+
+def _values(
+    model: Model, numpy: NumPyModel, outputs: Any, p: Any, at: tuple[float, Array, Array],
+    memory: tuple[list[float], list[float]],
+) -> dict[str, Array] | None:  # fmt: skip
+    """All functions at a state, by their names in Evaluation; None where a pivot vanishes."""
+    t, q, v = at
+    found = numpy.dynamics(t, q, v, p, *memory)
+    if found.status:
+        return None
+    values = {
+        "a": found.a, "multipliers": found.lambda_, "power": found.power, "phi": numpy.phi(t, q, p),
+        "nu": numpy.nu(t, q, p), "gamma": numpy.gamma(t, q, v, p), "mass": numpy.mass(p),
+        "clearance": np.array([[one.Fx, one.Fy] for one in found.clearance]).ravel(),
+    }  # fmt: skip
+    sizes = 3 * len(kept_joints(model)), len(model.scene.mechanism.drives), len(element_series(model)), 2
+    out = [np.zeros(size) for size in sizes]
+    with np.errstate(all="ignore"):
+        outputs(t, q.tolist(), v.tolist(), p, found.lambda_, *out)
+    return values | dict(zip(("reactions", "torques", "series", "energy"), out, strict=True))
+
+
+def _rounded(values: Array) -> list[float | None]:
+    """In seven digits: the last ones depend on the machine."""
+    return [float(f"{x:.7g}") if np.isfinite(x) else None for x in np.asarray(values, dtype=float).ravel()]

@@ -1,0 +1,40 @@
+"""The checks of a run's audit: their names, in C's order (engine/run/audit.h), and what each compares."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+LEVELS = {False: 0, True: 1, "full": 2}  # of the argument `audit`, as gudgeon_run_audit takes them
+FAILS = 10.0  # multiples of its limit at which a check ends the run; between 1 and this it is a note
+
+
+@dataclass(frozen=True)
+class Check:
+    """A check by its name; `compares` completes "the check of …"; `place` is what its number counts, "": nothing."""
+
+    name: str
+    compares: str
+    place: str = ""
+
+
+CHECKS = (
+    Check("defect", "the dense output against the equations of motion between the ends of a step"),
+    Check("gap", "open joints, which do not penetrate", "joint"),
+    Check("pull", "joint forces, which are zero without a contact and never pull", "joint"),
+    Check("position", "all constraint equations Φ = 0 of all bodies", "row"),
+    Check("velocity", "all velocity constraints Φ_q v = ν of all bodies", "row"),
+    Check("acceleration", "accelerations against the equations of motion of all bodies", "coordinate"),
+    Check("branch", "branches of switching functions against their signs", "switch"),
+    Check("event", "recorded events against the signs of their expressions", "event"),
+    Check("force", "joint forces against their change by an error of one tolerance", "joint"),
+)
+
+
+@dataclass(frozen=True)
+class Finding:
+    """The largest value of a check in a run."""
+
+    check: str
+    worst: float  # as a multiple of its limit
+    t: float  # s
+    place: str  # name of the joint, constraint row, coordinate or event; "": the whole linkage

@@ -1,0 +1,66 @@
+"""What C's audit of a run found (engine/run/audit.c), with names, as an error or as notes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gudgeon.contract.audit import CHECKS, FAILS, Check, Finding
+from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.errors import AuditError
+from gudgeon.model.compiled import Array, CompiledModel
+
+REMEDY = (
+    "the result cannot be trusted: compare with another method, a smaller rtol or formulation full; audit=False runs"
+    " without this check"
+)
+
+
+def fetch_findings(compiled: CompiledModel, run: Any) -> tuple[Finding, ...]:
+    """Return what the audit of a run's struct has found so far."""
+    worst, t = np.zeros(len(CHECKS)), np.zeros(len(CHECKS))
+    where = np.zeros(len(CHECKS), dtype=np.intc)
+    arrays = compiled.pointer(worst), compiled.pointer(t), compiled.pointer(where, "int *")
+    compiled.lib.gudgeon_run_audited(run, *arrays)
+    return as_findings(compiled.source, worst, t, where)
+
+
+def as_findings(source: KernelSource, worst: Array, t: Array, where: NDArray[np.intc]) -> tuple[Finding, ...]:
+    """Return the findings from values, times and places (n_checks,) as gudgeon_run_audited writes them."""
+    rows = zip(CHECKS, worst.tolist(), t.tolist(), where.tolist(), strict=True)
+    return tuple(Finding(check.name, value, at, _place(source, check, k)) for check, value, at, k in rows)
+
+
+def _place(source: KernelSource, check: Check, k: int) -> str:
+    if k < 0 or not check.place:
+        return ""
+    if check.place == "joint":
+        return source.clearances[k].name
+    if check.place == "row":
+        return source.start_rows[k].name
+    if check.place == "event":
+        return source.events[k].name
+    return source.coordinates[k] if check.place == "coordinate" else f"{check.place} {k}"
+
+
+def audit_failure(findings: tuple[Finding, ...]) -> AuditError:
+    """Return the error for a run that a check of its audit ended."""
+    worst = max(findings, key=lambda one: one.worst)
+    return AuditError(f"{describe(worst)}\n  {REMEDY}", worst.t)
+
+
+def notes_of(findings: tuple[Finding, ...]) -> tuple[str, ...]:
+    """Return a note for each check between its limit and the value that ends a run."""
+    return tuple(describe(one) for one in findings if 1.0 < one.worst <= FAILS)
+
+
+def describe(finding: Finding) -> str:
+    """Return a finding in words: the check, the value, the time and the place."""
+    check = next(one for one in CHECKS if one.name == finding.check)
+    place = f" at {check.place} {finding.place}" if finding.place else ""
+    return (
+        f"audit: check {check.name} of {check.compares} exceeds its limit {finding.worst:.3g} times at"
+        f" t = {finding.t:.9g} s{place}"
+    )

@@ -1,0 +1,64 @@
+"""A compiled library against values that the NumPy target computed when the scene was derived.
+
+The values are stored with the emitted C (generator/targets/numpy/reference.py). Both are printed from the same
+statements by different printers, so that a wrong line of C, a wrong compilation or a library of other texts is found
+before anything is simulated.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gudgeon.errors import AuditError
+
+if TYPE_CHECKING:
+    from gudgeon.model.compiled import Array, CompiledModel
+
+SHARE = 1e-6  # of the largest value of an array: stored values have seven digits
+EVALUATED = ("a", "multipliers", "reactions", "torques", "series", "energy", "power")
+
+
+def check_reference(compiled: CompiledModel) -> None:
+    """Compare the library's functions with the stored values. AuditError names the function that differs."""
+    reference = compiled.source.reference
+    if not reference:
+        return
+    slots = len(compiled.source.slots)
+    p = compiled.prepare(np.zeros(slots), np.zeros(slots, dtype=np.uint8))
+    for k, value in enumerate(reference["p"]):
+        _compare(compiled, "prepare", [value], p[k : k + 1], 0.0)
+    for state in reference["states"]:
+        values = state["values"]
+        for name, found in _library_values(compiled, state, p).items():
+            _compare(compiled, name, values[name], np.ravel(found), float(state["t"]))
+
+
+def _library_values(compiled: CompiledModel, state: dict[str, Any], p: Array) -> dict[str, Array]:
+    """The same functions of the library at a state."""
+    t, q, v = float(state["t"]), np.array(state["q"]), np.array(state["v"])
+    memory = np.array([np.nan if x is None else x for x in state["memory"]], dtype=float)
+    row = compiled.evaluate([t], [q], [v], memory[None, :], p, lambda: None)
+    found = {name: getattr(row, name) for name in EVALUATED}
+    found["clearance"] = row.clearance[:, :, :2]
+    found["phi"], found["nu"] = compiled.closed_phi(t, q, p), compiled.closed_nu(t, q, p)
+    found["gamma"], found["mass"] = compiled.closed_gamma(t, q, v, p), compiled.mass(p)
+    return found
+
+
+def _compare(compiled: CompiledModel, name: str, stored: list[float | None], found: Array, t: float) -> None:
+    """AuditError where values differ by more than their digits; what is not known on either side is left out."""
+    expected = np.array([np.nan if x is None else x for x in stored], dtype=float)
+    known = np.isfinite(expected) & (np.isfinite(found) if compiled.source.massless or compiled.source.indeterminate
+                                     else True)  # fmt: skip
+    scale = np.abs(expected[known]).max(initial=0.0)
+    off = np.abs(found[known] - expected[known])
+    if (off <= SHARE * scale + 1e-300).all():
+        return
+    k = int(np.flatnonzero(known)[np.nan_to_num(off, nan=np.inf).argmax()])
+    mechanism, scene = compiled.source.mechanism, compiled.source.scene
+    raise AuditError(
+        f"the compiled library of {mechanism}/{scene} is wrong: {name}[{k}] is {found[k]:.7g}, expected"
+        f" {expected[k]:.7g}\n  gudgeon.load(…, regenerate=True) or --regenerate compiles it anew", t
+    )  # fmt: skip
