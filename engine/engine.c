@@ -22,7 +22,7 @@
 #include "watch/reach.c"
 #include "watch/roots.c"
 #include "methods/defect.c"
-#include "watch/grazes.c"
+#include "watch/gaps.c"
 #include "watch/pulses.c"
 #if !N_WATCHED
 #include "watch/no_watched.c"
