@@ -290,5 +290,6 @@ def _defaults() -> dict[str, Any]:
         "rows", "joints", "drives", "clearances", "series", "start_rows", "start_guess", "start_set", "start_rates",
         "frictions", "pivots", "start_pivots", "rate_jumps", "indeterminate", "derived", "conditions", "notes",
     )  # fmt: skip
-    nothing: dict[str, Any] = {name: [] for name in lists} | {name: {} for name in ("files", "outputs", "simulate", "reference")}
+    mappings = ("files", "outputs", "simulate", "reference")
+    nothing: dict[str, Any] = {name: [] for name in lists} | {name: {} for name in mappings}
     return {"main": MAIN, **nothing, **plain, "story": {}}

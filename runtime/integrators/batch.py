@@ -56,7 +56,8 @@ class Runs:
 
     def __init__(
         self, compiled: CompiledModel, p: Array, motion: Array, times: Times, method: str, step: Array, rtol: float,
-        stop: bool, audit: int, side_by_side: bool, threads: int, over: Callable[[Runs, Sequence[int]], None] | None = None,
+        stop: bool, audit: int, side_by_side: bool, threads: int,
+        over: Callable[[Runs, Sequence[int]], None] | None = None,
     ) -> None:  # fmt: skip
         self.compiled, self.method, self.times, self.threads, self.over = compiled, method, times, threads, over
         n, N, size, nc = len(p), times.most, 2 * compiled.n + N_WORK, max(len(compiled.source.clearances), 1)
@@ -83,7 +84,8 @@ class Runs:
             "t_last": np.full(n, np.nanmin(times.t)), "last": np.full((n, size), np.nan), "seconds": np.zeros(n),
             "counts": np.zeros((n, N_COUNTS), np.int_), "residuals": np.full((n, 4), np.nan),
             "peaks": np.full((n, nc, 3), np.nan), "audited": np.zeros((n, len(CHECKS))),
-            "audited_t": np.zeros((n, len(CHECKS))), "audited_where": np.full((n, len(CHECKS)), -1, np.intc), "ending": np.zeros(1, np.intc),
+            "audited_t": np.zeros((n, len(CHECKS))), "audited_where": np.full((n, len(CHECKS)), -1, np.intc),
+            "ending": np.zeros(1, np.intc),
         }  # fmt: skip
         self.arrays = {name: np.ascontiguousarray(array) for name, array in self.arrays.items()}
         self.struct = self._struct(math.isfinite(step[0]), stop, audit, rtol)

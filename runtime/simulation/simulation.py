@@ -190,7 +190,8 @@ class Simulation(Equations):
         if (fitting := self.of_method(method, progress)) is not self:
             return fitting.simulate(
                 t_end, output=output, method=method, rtol=rtol, step=step, parameters=parameters, start=start,
-                progress=progress, horizon=horizon, stop=stop, peaks=peaks, against=against, contour=contour, audit=audit,
+                progress=progress, horizon=horizon, stop=stop, peaks=peaks, against=against, contour=contour,
+                audit=audit,
             )  # fmt: skip
         names, beside = wanted_peaks(self.source, peaks), check_beside(self.source, against)
         begin = None if start is None else own(self.source, start)
