@@ -48,7 +48,8 @@ def reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, ChainKernels
     projection, _ = projection_kernel(system, system.rows, "reduced_project")
     chains = ChainKernels(system, system.chain) if system.chain else None
     follows = len(system.q) == len(system.rows) and not (system.model.clearances or system.frictions)
-    watched = None if follows else watched_kernel(dynamics, system.model, chains.corners if chains else None)  # what is followed is not watched
+    corners = chains.corners if chains else None
+    watched = None if follows else watched_kernel(dynamics, system.model, corners)  # what is followed is not watched
     if watched and system.chain and reads_beyond(watched, len(system.q)):
         watched = None  # chains are closed by rates()
     kernels = (*_closures(system), dynamics, *([watched] if watched else []), projection)
