@@ -37,7 +37,8 @@ start: {guess: {rod.theta: 0.5, rocker.theta: 1.3}}
 """
 HANGS = ("ground:", "  arm: {length: 0.2 m, mass: 0.5 kg, inertia: 0.002 kg*m^2}\nground:"), (
     "  j4:", "  j5: {revolute: [rod.com, arm.tail]}\n  j4:")  # fmt: skip
-DRIVES: tuple[tuple[str, Callable[[np.ndarray], np.ndarray]], ...] = (
+Function = Callable[[np.ndarray], np.ndarray]
+DRIVES: tuple[tuple[str, Function], ...] = (
     ("abs(t/(1 s) - 0.5)**1.5", lambda t: abs(t - 0.5) ** 1.5),
     ("abs(t/(1 s) - 0.5)**1.2", lambda t: abs(t - 0.5) ** 1.2),
     ("sqrt(abs(t/(1 s) - 0.5)**3)", lambda t: abs(t - 0.5) ** 1.5),
@@ -67,8 +68,8 @@ def written(tmp_path: Path, value: str, *changes: tuple[str, str]) -> Path:
 
 @pytest.mark.parametrize("formulation", ["reduced", pytest.param("full", marks=pytest.mark.slow)])
 @pytest.mark.parametrize(("value", "of"), DRIVES)
-def test_a_linkage_follows(value: str, of: Callable[[np.ndarray], np.ndarray], formulation: str, tmp_path: Path) -> None:
-    """On grids with a sample at the instant and without one; works balance the energy, of an unbounded power roughly."""
+def test_a_linkage_follows(value: str, of: Function, formulation: str, tmp_path: Path) -> None:
+    """On grids with a sample at the instant and without; works balance the energy, of an unbounded power roughly."""
     scene = gudgeon.load(written(tmp_path, value), formulation=formulation)
     for n in (10, 37, 100, 500):
         run = scene.simulate(1.0, output=n)
