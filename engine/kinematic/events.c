@@ -60,7 +60,7 @@ static int locate(int i, const Parameters *p, double reach, double extent, View 
         if (status)
             return status;
         look(p, &mid);
-        if (isnan(b->event[i]) ? isnan(mid.event[i]) : mid.event[i] * b->event[i] > 0.0) {
+        if (isnan(b->event[i]) ? isnan(mid.event[i]) : have_same_sign(mid.event[i], b->event[i])) {
             high = middle;
             near = mid.event[i];
         } else {

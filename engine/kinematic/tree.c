@@ -1,4 +1,5 @@
 /* The closed linkage in tree coordinates. */
+#define MAX_BEND 0.05 /* rad, or share of the mechanism's size, that second rates may add to a first guess */
 
 /* Powers, accelerations of the tree. A status counts on behind the closures: it is that of the rescue, `dynamics`. */
 static int solve_motion(const Parameters *p, const Place *here, double *a, Aside *aside)
@@ -34,15 +35,27 @@ static int close_linkage(double t, const Parameters *p, double extent, Place *at
     return before < 1e-9 ? 0 : NEWTON_FAILED;
 }
 
-/* From one place to another near by: first guess s + h s' + h^2 s''/2. */
+/*
+ * Whether second rates lead further than a first guess may: near an instant at which a drive's second rate is unbounded
+ * they do not describe the motion over a whole step.
+ */
+static int is_unbounded(const Place *from, double h, double extent)
+{
+    double most = 0.0;
+    for (int k = 0; k < N_X; k++)
+        most = larger(most, fabs(0.5 * h * h * from->s_second[k]) / (is_angle[k] ? 1.0 : extent));
+    return !(most <= MAX_BEND);
+}
+
+/* From one place to another near by: first guess s + h s' + h^2 s''/2, or s + h s' where s'' is unbounded. */
 static int place_at(double t, const Parameters *p, double extent, const Place *from, Place *to, double *moved)
 {
-    const double h = t - from->t;
+    const double h = t - from->t, bend = is_unbounded(from, h, extent) ? 0.0 : 0.5 * h;
     *moved = 0.0;
     to->asked = from->asked;
     to->t = t;
     for (int k = 0; k < N_X; k++)
-        to->s[k] = from->s[k] + h * (from->s_rate[k] + 0.5 * h * from->s_second[k]);
+        to->s[k] = from->s[k] + h * (from->s_rate[k] + (bend != 0.0 ? bend * from->s_second[k] : 0.0));
     const double then = beyond_jump(t);
     const int status = close_linkage(then, p, extent, to, moved);
     return status ? status : arrive(then, to->s, to->s_rate, p, to->s_second, to->q, to->v, to->a, &to->phi_dot);

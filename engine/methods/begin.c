@@ -47,7 +47,7 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
         status = settle_sides(run, -1, p);
     floor_speeds(run, left);
     note_speed(run);
-    run->turned_over = energy_scale(run, p);
+    run->turned_over = max_of(energy_scale(run, p), MIN_RESOLVED / run->work_scale); /* weights are its inverse */
     weigh(run);
 #if N_CORNERS
     if (!status)

@@ -5,6 +5,7 @@
 #define ONSET_STIFF 80.0
 #define RELAXED 2.0 /* share of the accelerations that straight motion changes in a step that fits: explicit, linear */
 #define RELAXED_STIFF 0.7
+#define LONG_TIME 1e100 /* s: what takes longer to change does not change */
 #define CURVED 0.5  /* the same of motion without a contact that has begun */
 enum { MAX_FITTED = 3 };
 
@@ -23,8 +24,8 @@ static int first_size(Run *run, double left, const Parameters *p)
         return status;
     for (int k = 0; k < 2 * N_X; k++)
         two = max_of(two, fabs(dy[k] - run->dy[k]) / h * run->weight[k]);
-    /* in the time one / two rates change by themselves: so many tolerances are gone in it */
-    const double time = one / two, way = max_of(1.0, time * one);
+    /* in the time one / two rates change by themselves: so many tolerances are gone in it; two may be subnormal */
+    const double time = min_of(one / two, LONG_TIME), way = max_of(1.0, time * one);
     run->h = two > 0.0 ? max_of(time * pow(way, -run->method->power), h) : 1e-2 * left;
     return 0;
 }

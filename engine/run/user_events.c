@@ -40,7 +40,7 @@ static int note_leaps(Run *run, const double *before, const Parameters *p)
 {
     int status = 0;
     for (int i = 0; i < N_USER_EVENTS; i++)
-        if ((!before || !(before[i] * run->aside.event[i] > 0.0))
+        if ((!before || !have_same_sign(before[i], run->aside.event[i]))
             && event_crosses(i, &run->memory.event_side[i], run->aside.event[i])
             && note_event(run, i, run->t, run->y, p))
             status = ENDED;
@@ -68,7 +68,7 @@ static int look_beyond(Run *run, double tick, const Parameters *p, Aside *here, 
 /* Whether event i is beyond its zero right behind run->t: it leaps there, or goes on from no further than that. */
 static int is_beyond(const Run *run, int i, const Aside *here, const Aside *beyond)
 {
-    return here->event[i] * beyond->event[i] < 0.0 || fabs(here->event[i]) >= fabs(run->aside.event[i]);
+    return have_same_sign(here->event[i], -beyond->event[i]) || fabs(here->event[i]) >= fabs(run->aside.event[i]);
 }
 
 /*

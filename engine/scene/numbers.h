@@ -7,11 +7,16 @@
 #include "functions.h"
 
 #define PI 3.141592653589793
+/* Smaller numbers, among them the subnormal ones, may have fewer digits than others: no quotient of them is compared. */
+#define MIN_RESOLVED (DBL_MIN / DBL_EPSILON)
 
 /* min, max, sign that keep a NaN in x. */
 static inline double max_of(double x, double y) { return x < y ? y : x; }
 static inline double min_of(double x, double y) { return x > y ? y : x; }
 static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }
+
+/* Whether both are positive, or both negative: their product may be too small for a number. */
+static inline int have_same_sign(double x, double y) { return x > 0.0 ? y > 0.0 : x < 0.0 && y < 0.0; }
 
 /* To the last bit; no number is the same as any. */
 static inline int same_number(double x, double y) { return x == y && !signbit(x) == !signbit(y); }

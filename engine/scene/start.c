@@ -165,7 +165,7 @@ SELDOM static int first_velocities(Closing *w, double t, const Parameters *p, co
     }
     for (int k = 0; k < N_Q; k++)
         v[k] *= over_root[k];
-    return !(worst <= 1e-10 * most);
+    return !(worst <= 1e-10 * most + MIN_RESOLVED);
 }
 
 /* `size` of the mechanism (m) scales lengths. 0: q and v are the start, |Phi| at most `residual`; 1: see above. */

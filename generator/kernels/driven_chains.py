@@ -43,7 +43,7 @@ TOLD_SIDES = Section(HELD, (Sides(""),))
 
 
 class ChainKernels:
-    """The kernels of a system's chains; `corners`: whether what drives them has any."""
+    """The kernels of a system's chains; `corners`: the function that evaluates the switches of their drives, if any."""
 
     def __init__(self, system: System, chain: Chain) -> None:
         self.system, self.chain, self.symbols = system, chain, system.model.symbols
@@ -55,9 +55,8 @@ class ChainKernels:
         raw = [side_by_side(without_unused(kernel)) for kernel in self._all()]
         sides = [s.value for kernel in raw for section in kernel.sections for s in section.statements
                  if isinstance(s, Statement) and isinstance(s.value, SideOf)]  # fmt: skip
-        self.corners = bool(sides)
-        held = [with_sides(kernel) for kernel in raw]
-        self.kernels = [*held, self._corners(sides)] if sides else held
+        self.corners = self._corners(sides) if sides else None
+        self.kernels = [*map(with_sides, raw), *([self.corners] if self.corners else [])]
         self.size = self._extent() if any("." in name for name in chain.names) else ZERO
 
     def _all(self) -> list[Kernel]:

@@ -11,7 +11,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.ir.kernels import Kernel, Section
+from gudgeon.generator.ir.kernels import Kernel, Section, with_sides
 from gudgeon.generator.ir.statements import Line, Sides, Statement
 from gudgeon.generator.ir.values import Place
 from gudgeon.generator.symbols.corners import SideOf
@@ -24,14 +24,18 @@ _RANGES_DOC = ("Ranges of the scene's own corners and of what the user watches o
 _KNOWN_LATE = "aside"  # what reads this is known only once forces or accelerations are
 
 
-def watched_kernel(dynamics: Kernel, model: Model) -> Kernel | None:
-    """What a right-hand side's kernel computes of the scene's corners and events; None where that hangs on forces."""
+def watched_kernel(dynamics: Kernel, model: Model, chain_corners: Kernel | None = None) -> Kernel | None:
+    """What a right-hand side's kernel computes of the scene's corners and events; None where that hangs on forces.
+
+    `chain_corners`: the function that evaluates the switches of driven chains, which `dynamics` does not evaluate.
+    """
     corners = {switch.index for switch in model.symbols.switches.of("")}
     if not corners and not model.events:
         return None
-    outs = {s: out for section in dynamics.sections for s in section.statements
+    every = _merge_sections(chain_corners, dynamics)
+    outs = {s: out for section in every for s in section.statements
             if isinstance(s, Statement) and (out := _out(s, corners))}  # fmt: skip
-    by_target = {s.target: s for section in dynamics.sections for s in section.statements
+    by_target = {s.target: s for section in every for s in section.statements
                  if isinstance(s, Statement) and s.local}  # fmt: skip
     read: set[Statement] = set()
     waiting = list(outs.values())
@@ -41,17 +45,29 @@ def watched_kernel(dynamics: Kernel, model: Model) -> Kernel | None:
         waiting += found
     if any(_KNOWN_LATE in s.reads for s in read):
         return None
-    has_sides = any(isinstance(s.value, SideOf) for s in read)
     sections = []
-    for section in dynamics.sections:
-        lines: list[Line] = [line for line in section.statements if has_sides and isinstance(line, Sides)]
+    for section in every:
+        lines: list[Line] = []
         for s in section.statements:
             if isinstance(s, Statement):
                 lines += [line for line in (s if s in read else None, outs.get(s)) if line]
         if lines:
             sections.append(Section(section.title, tuple(lines)))
     arguments = tuple(a for a in dynamics.arguments if a.name != "a")
-    return replace(dynamics, name=NAME, doc=_DOC, arguments=arguments, sections=tuple(sections), returns="void")
+    watched = replace(dynamics, name=NAME, doc=_DOC, arguments=arguments, sections=tuple(sections), returns="void")
+    return with_sides(watched, "aside")
+
+
+def _merge_sections(*kernels: Kernel | None) -> list[Section]:
+    """The sections of several functions of one scene one after the other, each local once."""
+    known: set[str] = set()
+    merged = []
+    for kernel in kernels:
+        for section in kernel.sections if kernel else ():
+            new = tuple(line for line in section.statements if line.defines not in known)
+            merged.append(Section(section.title, new))
+        known |= {line.defines for section in merged for line in section.statements if line.defines}
+    return merged
 
 
 def ranges_kernel(watched: Kernel, corners: Sequence[int], events: int) -> Kernel:

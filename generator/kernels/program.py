@@ -203,9 +203,8 @@ def _tree(model: Model, pivots: tuple[str, ...]) -> tuple[TreeFunctions, Integra
     """The reduced formulation; `pivots`: rows through which a status of the absolute one counts."""
     system = reduce(model)
     around = tuple(side_by_side(without_unused(kernel)) for kernel in motion_kernels(model, system))
-    plain, kkt = reduced_kernels(system)
+    plain, kkt, chains = reduced_kernels(system)
     kernels, rescued = tuple(side_by_side(kernel) for kernel in plain), is_rescued(system)
-    chains = ChainKernels(system, system.chain) if system.chain else None
     tree = TreeFunctions(system, around, tuple(plain), kernels, rescued, chains)
     pivots = pivots if rescued else kkt.pivots
     if system.chain:

@@ -12,6 +12,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, without_unused
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE
 from gudgeon.generator.ir.statements import Jump, Rescue
+from gudgeon.generator.kernels.driven_chains import ChainKernels
 from gudgeon.generator.kernels.dynamics import dynamics_kernel
 from gudgeon.generator.kernels.event_functions import reads_beyond, watched_kernel
 from gudgeon.generator.kernels.projection import projection_kernel
@@ -37,17 +38,22 @@ def motion_kernels(model: Model, system: TreeSystem) -> list[Kernel]:
     return [_expand(system), *_reduce(model, system)]
 
 
-def reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT]:
-    """Closures, right-hand side and projection in tree coordinates, sines one by one; the order of the pivots."""
+def reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, ChainKernels | None]:
+    """Closures, right-hand side and projection in tree coordinates, sines one by one; the order of the pivots.
+
+    The kernels of the driven chains, if there are any, come last: their switches are watched along with the others.
+    """
     kkt = KKT(system, daring=is_rescued(system))
     dynamics = dynamics_kernel(system, kkt, DYNAMICS, _DOC, stabilised=False, rescue=_rescue)
     projection, _ = projection_kernel(system, system.rows, "reduced_project")
+    chains = ChainKernels(system, system.chain) if system.chain else None
     follows = len(system.q) == len(system.rows) and not (system.model.clearances or system.frictions)
-    watched = None if follows else watched_kernel(dynamics, system.model)  # what is followed is not watched
+    corners = chains.corners if chains else None
+    watched = None if follows else watched_kernel(dynamics, system.model, corners)  # what is followed is not watched
     if watched and system.chain and reads_beyond(watched, len(system.q)):
         watched = None  # chains are closed by rates()
     kernels = (*_closures(system), dynamics, *([watched] if watched else []), projection)
-    return [without_unused(kernel) for kernel in kernels], kkt
+    return [without_unused(kernel) for kernel in kernels], kkt, chains
 
 
 def _rescue(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:

@@ -12,6 +12,8 @@ from gudgeon.assembly.start import Start
 from gudgeon.errors import AssemblyError
 from gudgeon.model.compiled import Array
 
+MIN_RESOLVED = float(np.finfo(float).tiny / np.finfo(float).eps)  # smaller numbers may have fewer digits than others
+
 
 def search(linkage: Linkage, p: Array, t: float = 0.0) -> Start:
     """The start by all means there are. Raises AssemblyError with rows, joints and residual."""
@@ -52,6 +54,6 @@ def velocities(closure: Closure, q: Array) -> Array:
     for _ in range(2):  # once more for the rounding of the first solution
         v += smallest(matrix / root, target - matrix @ v) / root
     left = np.abs(matrix @ v - target)
-    if left.max(initial=0.0) > 1e-8 * float(np.abs(target).max(initial=0.0)):
+    if left.max(initial=0.0) > 1e-8 * float(np.abs(target).max(initial=0.0)) + MIN_RESOLVED:
         raise stuck(closure, matrix / root, left)
     return v

@@ -15,7 +15,7 @@ from gudgeon.errors import NonFiniteError, SingularError, SolverError
 from gudgeon.language.tree import functions
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import widest
-from gudgeon.model.steep import steep_force
+from gudgeon.model.steep import steep_force, unbounded_drive
 from gudgeon.model.written import CORNERED, of_time, rate_reason, reason, trees, undefined_here
 
 NOT_FINITE, CHATTERING, TOO_SMALL, LOST, OUTSIDE, STOPPED, STALLED, UNBOUNDED = -2, -4, -5, -6, -8, -10, -11, -12
@@ -51,13 +51,14 @@ def failure(
     if status in (UNBOUNDED, TOO_SMALL, NOT_FINITE) and (why := undefined_here(compiled.source, p, t, q, v, ahead)):
         return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)
     if status in (UNBOUNDED, TOO_SMALL) and (drive := unbounded_drive(compiled, p, t)):
-        told = f"the second rate of drive {drive} grows beyond all bounds there"
-        return SolverError(f"no step leads beyond t = {t:.9g} s: {told}\n  {BOUNDED}", t)
+        return _unbounded(drive, t)
     status = NOT_FINITE if status == UNBOUNDED else status
     if status in (NOT_FINITE, TOO_SMALL) or status > 0:
         why = reason(compiled.source, p, t, q, v, ahead)
         if why or (why := rate_reason(compiled, p, np.array([t, t + 1e-13 * max(1.0, abs(t))]), np.zeros_like(q))[0]):
             return NonFiniteError(f"{why}\n  {NO_NUMBER}", t)
+        if drive := unbounded_drive(compiled, p, t):
+            return _unbounded(drive, t)
         if method in NEED_SLOPES and (why := steep_force(compiled.source, p, t, q, v)):
             return NonFiniteError(f"{why}\n  {NO_SLOPE}", t)
         fast = drives_at(compiled, p, t, TOO_FAST)
@@ -82,6 +83,12 @@ def failure(
     if status == STALLED:
         return SolverError(f"the run no longer advances at t = {t:.9g} s{drives_at(compiled, p, t)}\n  {advice}", t)
     return _singular(compiled, status, t, advice, last, p, fast)
+
+
+def _unbounded(drive: str, t: float) -> SolverError:
+    """The error for a drive whose second rate is unbounded at t (s)."""
+    told = f"the second rate of drive {drive} grows beyond all bounds there"
+    return SolverError(f"no step leads beyond t = {t:.9g} s: {told}\n  {BOUNDED}", t)
 
 
 def _chattering(compiled: CompiledModel, t: float) -> SolverError:
@@ -138,19 +145,6 @@ class Pace:
     def needed(self) -> float:
         """Steps to the end, at this pace."""
         return self.left / max(self.gained, 1e-300) * self.steps
-
-
-def unbounded_drive(compiled: CompiledModel, p: Array, t: float) -> str:
-    """The drive whose second rate is far larger at a time than beside it; "": none."""
-    zero = np.zeros(compiled.n)
-    beside = 1e-4 * max(abs(t), 1e-9)
-    near = (t - 8 * np.spacing(t), np.nextafter(t, -np.inf), t, np.nextafter(t, np.inf), t + 8 * np.spacing(t))
-    at, apart = (
-        np.nan_to_num(np.abs([compiled.closed_gamma(float(s), zero, zero, p) for s in times]), nan=none).max(axis=0)
-        for times, none in ((near, np.inf), ((t - beside, t + beside), 0.0))
-    )
-    rows = [k for k, row in enumerate(compiled.source.start_rows) if row.kind == "drive" and at[k] > 100.0 * apart[k]]
-    return compiled.source.start_rows[max(rows, key=lambda k: at[k])].owner if rows else ""
 
 
 def drives_at(compiled: CompiledModel, p: Array, t: float, fast: float = 0.0) -> str:

@@ -1,18 +1,36 @@
-"""Which force has no finite slope at a state: methods that need the Jacobian cannot go on from there, others can."""
+"""Which force has no finite slope at a state, and which drive no bounded second rate at a time.
+
+Methods that need the Jacobian cannot go on from a force without a slope, others can.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
 
+import numpy as np
+
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.language.tree import Expr, evaluate, names
-from gudgeon.model.compiled import Array
+from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.written import Values, trees, values_at
 
 _SHORT = (1e-8, 1e-10, 1e-12)  # ways over which a rise is looked at, of a size of 1
 _STEEPER, _ROUNDING = 3.0, 1e-13  # how much each shorter way is steeper at least; what is no rise
 _JUMP = 0.9  # of the rise over the longest way, that one over the shortest has where it is a jump: of that methods know
+
+
+def unbounded_drive(compiled: CompiledModel, p: Array, t: float) -> str:
+    """The drive whose second rate is far larger at a time than beside it; "": none."""
+    zero = np.zeros(compiled.n)
+    beside = 1e-4 * max(abs(t), 1e-9)
+    near = (t - 8 * np.spacing(t), np.nextafter(t, -np.inf), t, np.nextafter(t, np.inf), t + 8 * np.spacing(t))
+    at, apart = (
+        np.nan_to_num(np.abs([compiled.closed_gamma(float(s), zero, zero, p) for s in times]), nan=none).max(axis=0)
+        for times, none in ((near, np.inf), ((t - beside, t + beside), 0.0))
+    )
+    rows = [k for k, row in enumerate(compiled.source.start_rows) if row.kind == "drive" and at[k] > 100.0 * apart[k]]
+    return compiled.source.start_rows[max(rows, key=lambda k: at[k])].owner if rows else ""
 
 
 def steep_force(source: KernelSource, p: Array, t: float, q: Array, v: Array) -> str:

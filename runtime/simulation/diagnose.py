@@ -22,6 +22,7 @@ from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import widest
 from gudgeon.model.corners import corner_gap
 from gudgeon.model.seams import seams
+from gudgeon.model.steep import unbounded_drive
 from gudgeon.results.blows import first_force, piled_up
 from gudgeon.results.diagnostics import Diagnostics, Peak
 from gudgeon.results.series import without_masses
@@ -111,6 +112,7 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
         notes.append(f"event {name} is no number (NaN) at t = {t:.9g} s: where it is none it has no zeros")
     if compiled.source.events and ":" in problem.method:
         notes.append(f"events are not watched by method {problem.method}")
+    notes += unbounded_sample(compiled, problem, trajectory)
     notes += seams(compiled.source, p, float(problem.t[0]), float(trajectory.t[-1]))
     notes += not_held(compiled, p, float(problem.t[0]), problem.q, counts, trajectory.peaks)
     if compiled.source.rigid:
@@ -122,6 +124,19 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
             " by rigid bodies (NaN)"
         )
     return tuple(notes)
+
+
+def unbounded_sample(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> Iterator[str]:
+    """A remark on the sample at which the second rate of a drive is unbounded, of a run without a degree of freedom."""
+    if compiled.source.methods != ("kinematic",) or not len(trajectory.t):
+        return
+    largest = np.abs(np.nan_to_num(trajectory.a, nan=math.inf)).max(axis=1)
+    t = float(trajectory.t[largest.argmax()])
+    if largest.max() > 100.0 * np.median(largest) and (drive := unbounded_drive(compiled, problem.p, t)):
+        yield (
+            f"the second rate of drive {drive} is unbounded at t = {t:.9g} s: accelerations, forces and torques of that"
+            " sample mean nothing: write the drive with powers of 2 and more, or take samples at other times"
+        )
 
 
 def may_not_hold(source: KernelSource, p: Array, size: Array, phi_max: Array, grazes: Array, peaks: Array) -> Any:
