@@ -6,10 +6,8 @@
  * Unilateral Contacts (1996).
  */
 #define TOUCHING 1e-10 /* of the clearance: surfaces that are no further apart touch */
-#define PARTED (16.0 * DBL_EPSILON) /* of how far out bodies are: so far apart surfaces are put that are to part */
-#define RESTING 1e-6   /* of the threshold: surfaces that close so slowly need no blow */
-#define ROUNDED (1024.0 * DBL_EPSILON) /* of how fast bodies are: rates of gaps that are no larger are roundings */
-enum { MOST_PASSES = 100 };
+#define STEADY 1e-8    /* two ratios of what successive passes take that differ by no more are one geometric ratio */
+enum { MAX_PASSES = 1000, LISTED_PASSES = 8 };
 
 /* Not negative while things go on as they are: the gap of a free joint, m, the force of a closed contact, N. */
 static double contact_margin(const Memory *memory, const Aside *aside, int i)
@@ -53,31 +51,30 @@ static int used_up(const Run *run)
     return -1;
 }
 
-/* The rates, m/s, up to which a gap has none: of those that have just been made 0 roundings are left. */
-static double least_rate(const Run *run, const Parameters *p)
-{
-    double all[N_S], most = 0.0;
-    to_absolute(run->t, run->y, &run->memory, p, all);
-    for (int k = 0; k < N_Q; k++)
-        most = max_of(most, k % 3 < 2 ? fabs(all[N_Q + k]) : 0.0);
-    return ROUNDED * most;
-}
-
-static double resting(double least, const Parameters *p, int i) { return max_of(RESTING * threshold_of(p, i), least); }
-
 static int answer_here(Run *run, const Parameters *p, Answer *contacts)
 {
     run->evaluations += 1 + contacts->n;
     return find_answer(motion_of_laws, N_Y, run->t, run->y, &run->memory, p, contacts);
 }
 
-/* One line of the list that Python fetches; of a blow without a length F_peak is the impulse, N s. */
+/* One row of the list that Python fetches; for an impact without a duration F_peak is the impulse, N s. */
 static int list_contact(Run *run, const Impact *contact)
 {
     if (run->n_impacts >= N_IMPACTS)
         return CHATTERING;
     run->impacts[run->n_impacts++] = *contact;
     return 0;
+}
+
+/* Lists an impact; with `add` its impulse is added to the last row of the same joint at this time, if there is one. */
+static int list_impact(Run *run, const Impact *impact, int add)
+{
+    for (int k = run->n_impacts - 1; k >= 0 && add && run->impacts[k].t_on == run->t; k--)
+        if (run->impacts[k].joint == impact->joint && run->impacts[k].t_off == run->t) {
+            run->impacts[k].F_peak += impact->F_peak;
+            return 0;
+        }
+    return list_contact(run, impact);
 }
 
 /* Impulses: what they change in the velocities, their work, and what is listed of them. */
@@ -102,36 +99,38 @@ static void jump(Run *run, const Answer *blow, const double *impulse, const doub
 /*
  * Every joint that touches and closes at a rate gets its impulse, and with it each that rests, closed or not yet: one
  * blow. A parting that would be slower than the threshold is none. No friction has a part in it but that of the
- * surfaces that meet (rubbing.c).
+ * surfaces that meet (rubbing.c). In the limit of a sequence of impacts every joint that touches takes part, with a
+ * restitution of 0. *approach: the sum of impulse times approach speed, J, 0 if no joint was struck.
  */
-static int strike(Run *run, const Parameters *p, int *struck)
+static int strike(Run *run, const Parameters *p, int pass, int limit, double *approach)
 {
     Answer blow = {0};
     Rub rub;
     double meeting[N_RIGID], r[N_RIGID], impulse[N_RIGID];
     const Memory known = run->memory;
-    const double least = least_rate(run, p);
-    *struck = 0;
+    const double least = least_rate(run, p), gap = least_gap(run, p);
+    int struck = 0;
+    *approach = 0.0;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const double u = run->aside.clearance[i].deltadot;
         const int meets_now = touches(run, i, p) && u > resting(least, p, i);
-        if (!meets_now && !(touches(run, i, p) && u >= -resting(least, p, i)))
+        if (!meets_now && !(touches(run, i, p) && (limit || u >= -resting(least, p, i))))
             continue;
-        const double back = restitution_of(p, i) * u;
+        const double back = limit ? 0.0 : restitution_of(p, i) * u;
         meeting[blow.n] = u;
-        r[blow.n] = meets_now && back > threshold_of(p, i) ? u + back : u;
+        r[blow.n] = meets_now && back > least_bounce(run, p, i, gap) ? u + back : u;
         blow.joint[blow.n++] = i;
         run->memory.latch[i].closed = 1;
-        *struck |= meets_now;
+        struck |= meets_now;
     }
     for (int i = 0; i < N_FRICTIONS; i++)
         run->memory.mode[i] = 2.0; /* none: it has a force, not an impulse */
     leave_out_friction(&run->memory);
-    int status = *struck ? answer_here(run, p, &blow) : 0;
-    status = !status && *struck ? complementary(&blow, r, impulse) : status;
-    status = !status && *struck ? rub_in_blow(run, &blow, meeting, impulse, p, &rub) : status;
+    int status = struck ? answer_here(run, p, &blow) : 0;
+    status = !status && struck ? complementary(&blow, r, impulse) : status;
+    status = !status && struck ? rub_in_blow(run, &blow, meeting, impulse, p, &rub) : status;
     run->memory = known;
-    if (status || !*struck)
+    if (status || !struck)
         return status;
     jump(run, &blow, impulse, meeting, &rub, p);
     see_slips(run, p);
@@ -140,7 +139,8 @@ static int strike(Run *run, const Parameters *p, int *struck)
         const double u = meeting[k] > resting(least, p, i) ? meeting[k] : 0.0; /* it rests, and is pressed */
         const Impact bounce = {run->t, run->t, u, impulse[k], run->t, i};
         if (impulse[k] > 0.0)
-            status = list_contact(run, &bounce);
+            status = list_impact(run, &bounce, pass >= LISTED_PASSES);
+        *approach += impulse[k] * u;
         run->onsets += impulse[k] > 0.0 && !known.latch[i].closed;
     }
     return status ? status : slip_after_blow(run, p);
@@ -200,18 +200,6 @@ static int settle_contacts(Run *run, int opens, const Parameters *p)
     return status;
 }
 
-/* The roundings between which a gap is none, m. */
-static double least_gap(const Run *run, const Parameters *p)
-{
-    double all[N_S], most = 0.0;
-    to_absolute(run->t, run->y, &run->memory, p, all);
-    for (int k = 0; k < N_Q; k++)
-        most = max_of(most, k % 3 < 2 ? fabs(all[k]) : 0.0);
-    for (int i = 0; i < N_CLEARANCES; i++)
-        most = max_of(most, radial_clearance(p, i));
-    return PARTED * most;
-}
-
 /* Closed contacts exactly at e = c, and what touches and parts a little apart: the next step looks for its return. */
 static int put_apart(Run *run, const Parameters *p)
 {
@@ -231,20 +219,37 @@ static int put_apart(Run *run, const Parameters *p)
 }
 
 /*
+ * Impacts until no surfaces meet. An impact may make other surfaces meet, and these the first ones again: a wedge. Two
+ * contacts with the Delassus operator D that strike in turn approach at x[n+1] = (1 + e) k x[n] - e x[n-1], where
+ * k = -D12/sqrt(D11 D22), x scaled by sqrt(D). If (1 + e) k < 2 sqrt(e) some x is negative: the sequence ends.
+ * Otherwise the x tend to a geometric sequence that never ends. Its limit has no approach left and the impulses that
+ * add up to this, sum = D^-1 u: the joint impact of all contacts that touch with e = 0, which is solved directly
+ * once the ratio is steady, or after MAX_PASSES.
+ */
+static int strike_all(Run *run, const Parameters *p)
+{
+    double sizes[5] = {0.0}; /* of the last passes, J */
+    int limit = 0, status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+    for (int pass = 0; pass < 2 * MAX_PASSES && !status; pass++) {
+        memmove(sizes, sizes + 1, sizeof sizes - sizeof *sizes);
+        status = strike(run, p, pass, limit, &sizes[4]);
+        if (status || !(sizes[4] > 0.0))
+            return status;
+        status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+        const double first = sizes[2] / sizes[0], second = sizes[4] / sizes[2]; /* every second: contacts may differ */
+        limit |= pass >= MAX_PASSES || (pass >= 4 && second < 1.0 && fabs(second - first) < STEADY * second);
+    }
+    return status ? status : CHATTERING;
+}
+
+/*
  * Where contacts may change: blows until none meets, then which contacts rest, then the right-hand side of what
  * follows. `event`: the margin that ended the step, -1 of none.
  */
 static int meet(Run *run, int event, const Parameters *p)
 {
     const int opens = event >= 0 && event < N_CLEARANCES && !gives(event) && run->memory.latch[event].closed;
-    int struck = 1, status = rates(run, run->t, run->y, p, run->dy, &run->aside);
-    for (int pass = 0; pass < MOST_PASSES && struck && !status; pass++) {
-        status = strike(run, p, &struck);
-        if (!status && struck)
-            status = rates(run, run->t, run->y, p, run->dy, &run->aside);
-    }
-    if (!status && struck)
-        return CHATTERING;
+    int status = strike_all(run, p);
     for (int pass = 0; pass < 2 && !status; pass++) { /* forces of stick follow those of contacts, and these them */
         status = settle_contacts(run, opens ? event : -1, p);
         if (!status)

@@ -132,6 +132,7 @@ static double kinetic_energy(const Run *run, const Parameters *p)
 #endif
 #if N_RIGID
 #include "seats.c"
+#include "resolution.c"
 #include "impacts.c"
 #else
 #include "no_impacts.c"
