@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -19,6 +19,7 @@ from gudgeon.errors import (
 )
 from gudgeon.generator.format.shapes import ANY_NAME, check_shape
 from gudgeon.generator.mechanism.mechanism import Condition, Quantity, Vector
+from gudgeon.generator.reader.unit_or_name import settle_reading
 from gudgeon.generator.yaml.tree import Map, Text
 from gudgeon.language.curves import Curve
 from gudgeon.language.names import RESERVED
@@ -42,6 +43,19 @@ class Named:
     value: Expr  # without the names of others: their trees
     dimension: Dimension | None  # None: it fits any
     where: Location
+
+
+@dataclass(frozen=True)
+class _Numbers(Container[str]):
+    """Names that stand for a number in the value at `address`: parameters and expressions, but the value's own name."""
+
+    reader: Reader
+    address: str
+    constant: bool
+
+    def __contains__(self, name: object) -> bool:
+        known = name in self.reader.parameters or name in self.reader.expressions and not self.constant
+        return known and self.address not in (f"parameters.{name}", f"expressions.{name}")
 
 
 class EnoughErrors(Exception):
@@ -132,8 +146,9 @@ class Reader:
         expr: Expr = broken(text)
         found = expected
         with self.collect():
-            parsed = self.parse(text, address)
+            parsed = self.parse(text, address, constant=not time and result is None)
             dimensions = self.check_names(parsed, text.where, time, result)
+            parsed = settle_reading(text, parsed, expected, dimensions.get, self.curves)
             found = check_dimension(parsed, expected, dimensions.get, text.where)
             expr = replaced(parsed, {name: named.value for name, named in self.expressions.items()})
             self.made_of[address] = self.expressions_in(parsed)
@@ -144,13 +159,20 @@ class Reader:
         """What a name without a dot stands for: a parameter, an expression."""
         return dict.fromkeys(self.parameters, "a parameter") | dict.fromkeys(self.expressions, "an expression")
 
+    def dimension_of_number(self, name: str) -> Dimension | None:
+        """Return the dimension of a parameter or an expression, None where it has or is known to have none."""
+        return self.expressions[name].dimension if name in self.expressions else self.parameters.get(name)
+
     def keep(self, quantity: Quantity) -> Quantity:
         """Register a quantity under its address."""
         self.quantities[quantity.address] = quantity
         return quantity
 
-    def parse(self, text: Text, address: str) -> Expr:
-        """The tree of a scalar. Raises what expressions.parse raises, and on nothing or several lines."""
+    def parse(self, text: Text, address: str, constant: bool = False) -> Expr:
+        """The tree of a scalar. Raises what expressions.parse raises, and on nothing or several lines.
+
+        `constant`: expressions by name cannot stand in it.
+        """
         self.texts.append(text)
         if text.is_nothing:
             raise BadValueError(f"{address} has no value", text.where, "expected a number or an expression")
@@ -158,7 +180,7 @@ class Reader:
             raise ExpressionError(
                 f"{address} stands on several lines", text.where, "expected an expression on one line"
             )
-        return parse(text, text.where, {**self.parameters, **self.expressions}, self.curves)
+        return parse(text, text.where, _Numbers(self, address, constant), self.curves)
 
     def check_names(
         self, expr: Expr, where: Location, time: bool = False, result: ResultDimension | None = None

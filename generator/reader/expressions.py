@@ -13,6 +13,7 @@ from gudgeon.errors import BadNameError, LimitError, Location
 from gudgeon.generator.mechanism.mechanism import Quantity
 from gudgeon.generator.reader.collector import Named, Reader, ResultDimension
 from gudgeon.generator.reader.parameters import dependency_order
+from gudgeon.generator.reader.unit_or_name import settle_reading
 from gudgeon.generator.yaml.tree import Map, Text
 from gudgeon.language.dimension_check import check_dimension
 from gudgeon.language.names import check_name
@@ -35,13 +36,15 @@ def read_expressions(reader: Reader, root: Map) -> None:
             _check_name(root, name)
         with reader.collect():
             trees[str(name)] = reader.parse(text, f"expressions.{name}")
-    places = {str(name): text.where for name, text in section.pairs()}
+    texts = {str(name): text for name, text in section.pairs()}
+    places = {name: text.where for name, text in texts.items()}
     order: Iterable[str] = ()
     with reader.collect():
         order = dependency_order(trees, places, "expressions")
     sizes: dict[str, tuple[int, int]] = {}
     for used in order:
         with reader.collect():
+            trees[used] = settle_reading(texts[used], trees[used], None, reader.dimension_of_number, reader.curves)
             sizes[used] = _size(used, trees[used], places[used], sizes)
             value = replaced(trees[used], {other: named.value for other, named in reader.expressions.items()})
             one = Named(trees[used], value, None, places[used])

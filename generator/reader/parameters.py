@@ -9,6 +9,7 @@ from dataclasses import replace
 from gudgeon.errors import CycleError, InputError, InputErrors, Location
 from gudgeon.generator.mechanism.mechanism import Quantity
 from gudgeon.generator.reader.collector import Reader, broken
+from gudgeon.generator.reader.unit_or_name import settle_reading
 from gudgeon.generator.yaml.tree import Map
 from gudgeon.language.dimension_check import check_dimension
 from gudgeon.language.names import check_name
@@ -32,10 +33,11 @@ def read_parameters(reader: Reader, section: Map) -> dict[str, Quantity]:
     order: tuple[str, ...] = tuple(trees)
     with reader.collect():
         order = dependency_order(trees, {str(name): text.where for name, text in section.pairs()})
-    places = {str(name): text.where for name, text in section.pairs()}
+    texts = {str(name): text for name, text in section.pairs()}
     for used in order:
         with reader.collect():
-            reader.parameters[used] = _dimension(used, trees[used], places[used], reader)
+            trees[used] = settle_reading(texts[used], trees[used], None, reader.parameters.get, {})
+            reader.parameters[used] = _dimension(used, trees[used], texts[used].where, reader)
     return {
         str(name): reader.keep(
             Quantity(f"parameters.{name}", trees[name], reader.parameters[name] or DIMENSIONLESS, text.where)

@@ -7,7 +7,7 @@ where it may be a rate (`sin(2*pi*t)`). A parameter that is defined without a un
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -15,7 +15,7 @@ import numpy as np
 
 from gudgeon.errors import Location, UnitError
 from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Name, Number, Unary, evaluate, names
-from gudgeon.language.units import DIMENSIONLESS, Dimension, describe, unit
+from gudgeon.language.units import DIMENSIONLESS, Dimension, describe, symbol_dimension, unit
 
 _MOST = 24  # bound on exponents: nothing in mechanics needs more
 
@@ -43,12 +43,36 @@ def check_dimension(
     `where` is the place of the expression's first character.
     Raises UnitError, which says what was found and what was expected in words and SI units.
     """
-    found = _Checker(dimension_of, where).of(expr)
-    if isinstance(found, _Flexible):
-        return expected
-    if expected is not None and found != expected:
-        raise UnitError(f"expected {describe(expected)}, got {describe(found)}", where, _of_a_divisor(expr, expected))
-    return found
+    try:
+        found = _Checker(dimension_of, where).of(expr)
+        if expected is not None and isinstance(found, Dimension) and found != expected:
+            message = f"expected {describe(expected)}, got {describe(found)}"
+            raise UnitError(message, where, _of_a_divisor(expr, expected))
+    except UnitError as error:
+        if not (shadowed := dict.fromkeys(names_over_units(expr))):
+            raise
+        are = [f"{name} is a name of this file here: the unit is written {name}^1" for name in shadowed]
+        raise UnitError(error.message, error.where, "; ".join([error.hint, *are] if error.hint else are)) from None
+    return expected if isinstance(found, _Flexible) else found
+
+
+def names_over_units(expr: Expr) -> Iterator[str]:
+    """Yield names that are symbols of units and factors after a number with a unit: `m` in `3 N/m`."""
+    match expr:
+        case Unary(operand=operand):
+            yield from names_over_units(operand)
+        case Binary(operator=operator, left=left, right=right):
+            yield from names_over_units(left)
+            yield from names_over_units(right)
+            if operator in ("*", "/") and isinstance(right, Name) and symbol_dimension(right.path) is not None:
+                while isinstance(left, Unary) or isinstance(left, Binary) and left.operator in ("*", "/"):
+                    of_name = isinstance(left, Binary) and isinstance(left.right, Name)
+                    left = left.operand if isinstance(left, Unary) else left.left if of_name else left.right
+                if isinstance(left, Number) and left.has_unit:
+                    yield right.path
+        case Call(arguments=arguments):
+            for argument in arguments:
+                yield from names_over_units(argument)
 
 
 def _of_a_divisor(expr: Expr, expected: Dimension) -> str:

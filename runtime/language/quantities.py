@@ -45,7 +45,7 @@ def number_of_names(
     Raises what the same text would raise in a file.
     """
     where = Location(f"value of {what}", 1, 1)
-    expr = parse(text.strip(), where)
+    expr = parse(text.strip(), where, known)
     for name in names(expr):
         if name.path not in known:
             raise unknown_name("name", name.path, known, where)

@@ -14,7 +14,7 @@ from gudgeon.errors import ExpressionError, InputError, Location, UnitError
 from gudgeon.language.names import WORDS
 from gudgeon.language.suggestions import nearest
 from gudgeon.language.tree import FUNCTIONS, Number
-from gudgeon.language.units import LATER, OTHER_WORDS, UNITS, Unit, factors, parse_unit, unit
+from gudgeon.language.units import OTHER_WORDS, UNITS, Unit, factors, parse_unit, unit
 from gudgeon.language.wanted import IN_RANGE
 
 _MAX_EXPONENT = 400  # decimal: beyond it no number is finite, and exact fractions grow without bound
@@ -60,7 +60,10 @@ class Token:
 
 
 class Tokenizer:
-    """Cuts text into tokens; a unit is part of its number. `parameters` are names that a unit may be taken for."""
+    """Cuts text into tokens; a unit is part of its number.
+
+    `parameters`: names of the file that may stand alone. In a product or a quotient they take precedence over units.
+    """
 
     def __init__(self, text: str, where: Location, parameters: Container[str] = ()) -> None:
         self.text, self.where, self.position, self.parameters = text, where, 0, parameters
@@ -102,7 +105,7 @@ class Tokenizer:
         value = Fraction(math.pi) if literal == "pi" else self._value(literal, start)
         found, end = self._unit(start)
         self.position = end
-        word = self.text[start + len(literal) : end].removeprefix(" ")
+        word = re.sub(r" *([*/]) *", r"\1", self.text[start + len(literal) : end].removeprefix(" "))
         text = f"{literal} {word}" if found else literal
         try:
             si = found.to_si(value) if found else float(value)
@@ -143,7 +146,7 @@ class Tokenizer:
         spaced = text[end : end + 1] == " "
         if not spaced and not text[end : end + 1].isalpha():
             return None, end
-        found = parse_unit(text, end + spaced)
+        found = parse_unit(text, end + spaced, self.parameters)
         if found:
             after = found[1]
             if re.match(r" *\*\*", text[after:]):
@@ -158,10 +161,10 @@ class Tokenizer:
         return None, end
 
     def _refuse_doubtful(self, start: int, begin: int, after: int) -> None:
-        """`2m`, `3 N m`, `3 N*ft` where m and ft are parameters: neither reading may be taken silently."""
+        """Raise ExpressionError for `2m` and `3 N m` where m is a name of the file: m may be meant as a factor."""
         written, spaced = self.text[start:after], self.text[begin - 1] == " "
         for before, symbol in factors(self.text[begin:after]):
-            doubtful = before == " " or symbol in LATER if before else not spaced
+            doubtful = before == " " if before else not spaced
             if doubtful and symbol in self.parameters:
                 number, word = self.text[start:begin], self.text[begin:after]
                 hint = f"write '… * {symbol}' for the parameter, '… * (1 {symbol})' for the unit"

@@ -140,6 +140,21 @@ def names(expr: Expr) -> Iterator[Name]:
                 yield from names(argument)
 
 
+def units(expr: Expr) -> Iterator[str]:
+    """Yield the unit of every number in `expr` that has one, as it is written."""
+    match expr:
+        case Number(text=text, has_unit=True):
+            yield text.partition(" ")[2]
+        case Unary(operand=operand):
+            yield from units(operand)
+        case Binary(left=left, right=right):
+            yield from units(left)
+            yield from units(right)
+        case Call(arguments=arguments):
+            for argument in arguments:
+                yield from units(argument)
+
+
 def replaced(expr: Expr, by: Mapping[str, Expr]) -> Expr:
     """`expr` with other trees in place of names: the same object wherever a name stands."""
     match expr:

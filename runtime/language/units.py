@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -156,9 +156,6 @@ _SYMBOLS: Mapping[str, Unit] = {
     "W": _unit("1", POWER), "kW": _unit("1e3", POWER),
 }  # fmt: skip
 
-# Symbols that came later: a file may have parameters of these names, so that `3 N*ft` meant a product (tokens.py).
-LATER = frozenset(("inch", "ft", "gram", "grams", "lb", "lbf", "mPa", "MN", "GN"))
-
 # What people write, and what is written here.
 OTHER_WORDS: Mapping[str, str] = {
     **dict.fromkeys(("inches", "Inch"), "in"), **dict.fromkeys(("foot", "feet"), "ft"),
@@ -180,38 +177,42 @@ _COMPOUNDS = """
 
 _FACTOR = re.compile(
     r"([A-Za-z\u00b5\u03bc]+)"
-    r"(?:\^(?P<power>-?(?:[1-9](?:\.5)?|0\.5)|\(-?[1-9]/2\))|(?P<raised>[\u00b2\u00b3]))?(?![\w^])"
+    r"(?:\^(?P<power>-?(?:[1-9](?:\.5)?|0\.5)|\(-?[1-9]/2\))|(?P<raised>[\u00b2\u00b3]))?(?![\w^]|\.[A-Za-z_])"
 )
 _RAISED = {"\u00b2": "2", "\u00b3": "3"}
-_TIMES = ("*", "\u00b7", "\u22c5")
+_BETWEEN = re.compile(r" *[*/\u00b7\u22c5] *| ")
+_CALLED = re.compile(r" *\(")
 _MOST_FACTORS = 8
 
 
-def parse_unit(text: str, start: int = 0) -> tuple[Unit, int] | None:
+def parse_unit(text: str, start: int = 0, names: Container[str] = ()) -> tuple[Unit, int] | None:
     """The longest unit that begins at text[start], and where it ends; None if none begins there.
 
     A unit is a listed symbol, or a product and quotient of such with powers from −9 to 9, halves too
     (`kg*m^2`, `kg m²`, `N*s/m`, `1/s`, `N/m^1.5`). What follows a `*` or `/` and is no listed symbol, or a
-    function's name with its `(`, is left to the expression: in `3 mm*c` the unit is mm. A space multiplies above
-    the `/` only: `N/m s` could be either.
+    function's name with its `(`, is left to the expression: in `3 mm*c` the unit is mm. So are the last factors that
+    are `names`: a name of the file takes precedence over a unit in a product. `m^1` is always a unit, `s.vx` never is.
+    A space multiplies above the `/` only: `N/m s` could be either.
     """
     divide = divided = text.startswith("1/", start)
     position = start + 2 if divide else start
-    total, found = Unit(Fraction(1), 0, DIMENSIONLESS), None
+    total, found, between = Unit(Fraction(1), 0, DIMENSIONLESS), None, ""
     for _ in range(_MOST_FACTORS):
         match = _FACTOR.match(text, position)
-        if not match or match[1] not in _SYMBOLS or found and text.startswith("(", match.end()):
+        if not match or match[1] not in _SYMBOLS or found and _CALLED.match(text, match.end()):
             break
+        is_name = bool(found) and match[0] in names and between in ("*", "/")
         power = Fraction((match["power"] or _RAISED.get(match["raised"]) or "1").strip("()"))
         raised = _raised(_SYMBOLS[match[1]], -power if divide else power)
         if raised is None:
             break
         total = Unit(total.factor * raised.factor, total.pi_power + raised.pi_power, total.dimension * raised.dimension)
-        found = total, match.end()
-        operator = text[match.end() : match.end() + 1]
-        if operator not in (*_TIMES, "/") and not (operator == " " and not divided):
+        found = found if is_name else (total, match.end())
+        operator = _BETWEEN.match(text, match.end())
+        between = (operator[0].strip() or " ") if operator else ""
+        if operator is None or between == " " and divided:
             break
-        divide, position = operator == "/", match.end() + 1
+        divide, position = between == "/", operator.end()
         divided = divided or divide
     return found
 
@@ -228,8 +229,13 @@ def _raised(of: Unit, power: Fraction) -> Unit | None:
 
 
 def factors(token: str) -> list[tuple[str, str]]:
-    """The symbols in a unit as it is written, each with the sign before it: "" of the first."""
-    return re.findall(r"([*/ \u00b7\u22c5]|^)(?:1/)?([A-Za-z\u00b5\u03bc]+)", token)
+    """Return the symbols without a power in a unit as it is written, each with the sign before it: "" of the first."""
+    return re.findall(r"([*/ \u00b7\u22c5]|^)(?:1/)?([A-Za-z\u00b5\u03bc]+)(?![\w^])", token)
+
+
+def symbol_dimension(name: str) -> Dimension | None:
+    """Return the dimension of the unit that has the symbol `name`, None if no unit has it."""
+    return _SYMBOLS[name].dimension if name in _SYMBOLS else None
 
 
 @lru_cache(maxsize=1024)

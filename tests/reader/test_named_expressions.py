@@ -115,7 +115,7 @@ MISTAKES: list[tuple[str, str, type[InputError], str, str]] = [  # text, instead
     ("lift: h*ease(t/(2 s))", "lift: h*ease(t/(2 s)", ExpressionError, "expected ')'", ""),
     ("error: rod.theta - target", "error: rod.theta - target/(K - K)", BadValueError,
      "expressions.error has a part that is inf, and forces.u.value and 3 more use it", "rod.theta"),
-    ("lift: h*ease(t/(2 s))", "lift: h*ease(pace/(-1 rad/s))*0 + h*sqrt(h - 30 mm)/sqrt(h)", BadValueError,
+    ("lift: h*ease(t/(2 s))", "lift: h*ease(pace/(-1 rad/s^1))*0 + h*sqrt(h - 30 mm)/sqrt(h)", BadValueError,
      "expressions.lift is nan, and drives.up.value and 1 more use it", "h*ease"),
     ("k: 2 1/s", "k: 2 1/s + rate/(1 rad)", ExpressionError, "'rate' is an expression, and this number", "rate/(1"),
     ("lift: h*ease(t/(2 s))", "lift:", BadValueError, "expressions.lift has no value", ""),

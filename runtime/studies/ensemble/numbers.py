@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource, Slot
-from gudgeon.errors import BadValueError, InputError, Location
+from gudgeon.errors import BadValueError, ExpressionError, InputError, Location
+from gudgeon.language.dimension_check import names_over_units
 from gudgeon.language.parser import at, check_dimension, parse
 from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import Expr, evaluate, names
@@ -128,7 +129,16 @@ def check_expression(source: KernelSource, written: Written, wanted: Dimension, 
             known = [*more, *addresses(source)]
             place: Location = at(written.text.where, name.offset)
             raise unknown_name(f"name (in scene {source.scene})", name.path, known, place)
+    _check_units(written, [*more, *(one.removeprefix("parameters.") for one in addresses(source))])
     check_dimension(written.expr, wanted, dimension_of, written.text.where)
+
+
+def _check_units(written: Written, known: Sequence[str]) -> None:
+    """Raise ExpressionError for a unit in a product that is also the name of a number: `2 rad/s` with a parameter s."""
+    text, by_name = written.text, parse(written.text, written.text.where, known)
+    for name in names_over_units(by_name) if by_name != written.expr else ():
+        told = f"{str(text)!r} can mean two things: {name} is a unit, and a number of the scene"
+        raise ExpressionError(told, text.where, f"write {name}^1 for the unit, ({name}) for the number")
 
 
 def constant(written: Written | None, known: Mapping[str, float]) -> float | None:
