@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
+import unicodedata
+from collections.abc import Hashable
+from itertools import islice
 
-from gudgeon.errors import InputError
-from gudgeon.exchange.linkage import Body, Linkage, Point
-from gudgeon.language.names import RESERVED
+from gudgeon.errors import BadNameError, InputError
+from gudgeon.exchange.linkage import Body, Drive, Linkage, Point
+from gudgeon.language.names import check_name
 
 LINE_MASS = 1.0  # kg/m, of bodies whose file says no mass
 ENDS = ("tail", "head")
+NOT_POINTS = (*ENDS, "origin", "com", "x", "y", "theta", "vx", "vy", "omega", "ax", "ay", "alpha")
+KINDS = ("body", "joint", "drive", "parameter")  # they share one set of names here
+MAX_WISH = 40  # characters of another program's name that are kept: a number, `_slot` or `_motor` follows
 HEAD = """\
 # {title}: read from a file of another program.
 {notes}format: gudgeon/1
@@ -20,79 +25,105 @@ name: {name}
 
 
 class _Names:
-    """Names that a mechanism file can have, one for each of theirs."""
+    """Names that things of certain kinds can have in a mechanism file, no two alike."""
 
-    def __init__(self, taken: Iterable[str] = ()) -> None:
-        self.found: dict[str, str] = {}
-        self.taken = {*RESERVED, *ENDS, *taken}
+    def __init__(self, *kinds: str) -> None:
+        self.kinds, self.found = kinds, dict[Hashable, str]()
+        self.used, self.tried = set[str](), dict[str, int]()
 
-    def of(self, name: str) -> str:
-        """Letters, digits and underlines, not met before."""
-        if name not in self.found:
-            plain = re.sub(r"\W", "_", name, flags=re.ASCII).strip("_") or "x"
-            plain = plain if plain[0].isalpha() else f"x{plain}"
-            free, k = plain, 2
-            while free in self.taken or free in self.found.values():
-                free, k = f"{plain}_{k}", k + 1
-            self.found[name] = free
-        return self.found[name]
+    def of(self, key: Hashable, wish: str) -> str:
+        """The name of a thing: as near to what is wished as the format allows."""
+        if key not in self.found:
+            latin = unicodedata.normalize("NFKD", wish[: 10 * MAX_WISH]).encode("ascii", "ignore").decode()
+            plain = re.sub(r"[\W_]+", "_", latin)[:MAX_WISH].strip("_")
+            if not self._is_legal(plain):
+                plain = f"x_{plain}".rstrip("_")
+            free, k = plain, self.tried.get(plain, 1)
+            while free in self.used or not self._is_legal(free):
+                k += 1
+                free = f"{plain}_{k}"
+            self.tried[plain] = k
+            self.used.add(free)
+            self.found[key] = free
+        return self.found[key]
+
+    def _is_legal(self, name: str) -> bool:
+        try:
+            for kind in self.kinds:
+                check_name(name, kind, None)
+        except BadNameError:
+            return False
+        return "point" not in self.kinds or name not in NOT_POINTS
 
 
 class _Writer:
     def __init__(self, linkage: Linkage) -> None:
         self.linkage, self.unit = linkage, linkage.unit
-        self.points, self.bodies = _Names(), _Names(["ground", "omega"])
-        self.parameters = [f"omega{'' if k == 0 else k + 1}" for k in range(len(linkage.drives))]
-        self.shapes = {body.name: _barred(body) for body in linkage.bodies}
+        self.points, self.names = _Names("point"), _Names(*KINDS)
+        self.shapes = {id(body): _barred(body) for body in linkage.bodies}
+        for body in linkage.bodies:
+            self.named(body)
+        self.rates = [self.names.of(("rate", k), "omega") for k in range(len(linkage.drives))]
+
+    def named(self, body: Body) -> str:
+        return self.names.of(id(body), body.name)
+
+    def point(self, point: str) -> str:
+        return self.points.of(point, point)
 
     def length(self, x: float) -> str:
         return f"{_number(x)} {self.unit}"
 
     def place(self, body: Body, point: str) -> str:
         """How a joint names a point of a body."""
-        names = list(body.local)
-        k = names.index(point)
-        return f"{self.bodies.of(body.name)}.{ENDS[k] if k < 2 else self.points.of(point)}"
+        ends = dict(zip(islice(body.local, 2), ENDS, strict=True))
+        return f"{self.named(body)}.{ends[point] if point in ends else self.point(point)}"
 
     def body(self, body: Body) -> str:
-        length, points, com = self.shapes[body.name]
+        length, points, com = self.shapes[id(body)]
         mass = body.mass if body.mass is not None else LINE_MASS * length * _metres(self.unit)
-        inertia = "auto" if body.inertia is None else f"{_number(body.inertia)} kg*m^2"
-        parts = [f"length: {self.length(length)}", f"mass: {_number(mass)} kg", f"inertia: {inertia}"]
+        inertia = body.inertia
+        if inertia is None and com is not None:  # "auto" is that of a bar whose centre of mass is in its middle
+            inertia = mass * (length * _metres(self.unit)) ** 2 / 12.0
+        inertias = "auto" if inertia is None else f"{_number(inertia)} kg*m^2"
+        parts = [f"length: {self.length(length)}", f"mass: {_number(mass)} kg", f"inertia: {inertias}"]
         if com is not None:
             parts.append(f"com: [{self.length(com[0])}, {self.length(com[1])}]")
         if points:
-            own = (f"{self.points.of(p)}: [{self.length(x)}, {self.length(y)}]" for p, (x, y) in points.items())
+            own = (f"{self.point(p)}: [{self.length(x)}, {self.length(y)}]" for p, (x, y) in points.items())
             parts.append(f"points: {{{', '.join(own)}}}")
-        return f"  {self.bodies.of(body.name)}: {{{', '.join(parts)}}}"
+        return f"  {self.named(body)}: {{{', '.join(parts)}}}"
 
     def joints(self) -> list[str]:
         """A revolute joint between a point's first body, or the ground, and every other one; pins in slots."""
-        lines, names = [], _Names()
-        for point in self.linkage.positions | {p: (0, 0) for body in self.linkage.bodies for p in body.local}:
-            holders = [self.place(body, point) for body in self.linkage.bodies if point in body.local]
+        lines = []
+        for point in self.linkage.points():
+            holders = [self.place(body, point) for body in self.linkage.holders.get(point, [])]
             if point in self.linkage.ground:
-                holders.insert(0, f"ground.{self.points.of(point)}")
+                holders.insert(0, f"ground.{self.point(point)}")
             for k, other in enumerate(holders[1:]):
-                name = names.of(point if k == 0 else f"{point}_{k + 1}")
+                name = self.names.of(("joint", point, k), point if k == 0 else f"{point}_{k + 1}")
                 lines.append(f"  {name}: {{revolute: [{holders[0]}, {other}]}}")
-        for line in self.linkage.lines:
-            body = self.linkage.holding(line.point)
+        for k, line in enumerate(self.linkage.lines):
+            body, carrier = self.linkage.holding(line.point), line.body
             if body is None:
-                raise InputError(f"point {line.point} keeps to a line, and no body holds it")
-            carrier = next((b for b in self.linkage.bodies if b.name == line.body), None)
-            on = self.place(carrier, line.through) if carrier else f"ground.{self.points.of(line.through)}"
+                raise InputError(f"joint {line.point}: it keeps to a line, and no link holds it")
+            on = self.place(carrier, line.through) if carrier else f"ground.{self.point(line.through)}"
             x, y = _turned(carrier, line.direction) if carrier else line.direction
             size = math.hypot(x, y)
+            if not size > 0.0:
+                raise InputError(f"joint {line.point}: the line to which it keeps has no direction")
             direction = f"[{_number(x / size)}, {_number(y / size)}]"
             points = f"[{self.place(body, line.point)}, {on}]"
-            lines.append(f"  {names.of(f'{line.point}_slot')}: {{point_on_line: {points}, direction: {direction}}}")
+            name = self.names.of(("line", k), f"{line.point}_slot")
+            lines.append(f"  {name}: {{point_on_line: {points}, direction: {direction}}}")
         return lines
 
-    def angle(self, body: Body) -> float | None:
+    def angle(self, body: Body | None) -> float | None:
         """In which a bar lies at first, rad; None: nobody says."""
-        first, second = list(body.local)[:2]
-        ends = [self.linkage.positions.get(point) for point in (first, second)]
+        if body is None:
+            return 0.0
+        ends = [self.linkage.positions.get(point) for point in islice(body.local, 2)]
         if None in ends:
             return None
         (x, y), (u, v) = ends  # type: ignore[misc]
@@ -105,41 +136,61 @@ class _Writer:
             notes.append(f"masses are not in it: bars of {LINE_MASS:g} kg/m stand for them")
         if not linkage.measured:
             notes.append("it has no units: lengths are taken for metres")
-        told = "".join(f"# {note[0].upper()}{note[1:]}.\n" for note in notes)
-        out = [HEAD.format(title=_comment(linkage.name), notes=told, name=_Names().of(linkage.name))]
+        told = "".join(f"# {note[0].upper()}{note[1:]}.\n" for note in map(_comment, notes))
+        name = _Names("mechanism").of("", linkage.name)
+        out = [HEAD.format(title=_comment(linkage.name), notes=told, name=name)]
         if linkage.gravity is not None:
             out.append(f"gravity: [{_number(linkage.gravity[0])}, {_number(linkage.gravity[1])} m/s^2]\n")
         if linkage.drives:
-            driven = zip(self.parameters, linkage.drives, strict=True)
+            driven = zip(self.rates, linkage.drives, strict=True)
             rates = (f"  {name}: {_number(drive.rate)} 1/s" for name, drive in driven)
             out += ["\nparameters:\n", *(f"{line}\n" for line in rates)]
         out += ["\nbodies:\n", *(f"{self.body(body)}\n" for body in linkage.bodies)]
-        if linkage.ground:
-            places = (f"{self.points.of(p)}: [{self.length(x)}, {self.length(y)}]" for p, (x, y) in self._ground())
+        joints = self.joints()
+        if ground := self._ground():
+            places = (f"{self.point(p)}: [{self.length(x)}, {self.length(y)}]" for p, (x, y) in ground)
             out += [f"\nground: {{{', '.join(places)}}}\n"]
-        if joints := self.joints():
+        if joints:
             out += ["\njoints:\n", *(f"{line}\n" for line in joints)]
         return "".join([*out, *self._motion()])
 
     def _ground(self) -> list[tuple[str, Point]]:
-        used = {p for body in self.linkage.bodies for p in body.local} | {line.through for line in self.linkage.lines}
+        used = {*self.linkage.holders, *(line.through for line in self.linkage.lines)}
         return [(p, place) for p, place in self.linkage.ground.items() if p in used]
 
     def _motion(self) -> list[str]:
         """Drives from where they stand, and where the other bodies are at first."""
-        out, driven = [], set[str]()
-        for name, drive in zip(self.parameters, self.linkage.drives, strict=True):
-            body = next(body for body in self.linkage.bodies if body.name == drive.body)
-            driven.add(body.name)
-            first = math.degrees(self.angle(body) or 0.0)
-            value = f"{_number(first)} deg + {name} * t"
-            out.append(f"  {self.bodies.of(body.name)}_motor: {{angle: {self.bodies.of(body.name)}, value: {value}}}\n")
+        out, driven = [], set[int]()
+        for k, (rate, drive) in enumerate(zip(self.rates, self.linkage.drives, strict=True)):
+            name, other = self.named(drive.body), drive.relative_to
+            target = f"[{name}, {self.named(other)}]" if other else name
+            if not other:
+                driven.add(id(drive.body))
+            motor = self.names.of(("drive", k), f"{name}_motor")
+            out.append(f"  {motor}: {{angle: {target}, value: {self._value(drive, rate)}}}\n")
         out = ["\ndrives:\n", *out] if out else []
         guesses = [
-            f"{self.bodies.of(body.name)}.theta: {_number(math.degrees(angle))} deg"
-            for body in self.linkage.bodies if body.name not in driven and (angle := self.angle(body)) is not None
+            f"{self.named(body)}.theta: {_number(math.degrees(angle))} deg"
+            for body in self.linkage.bodies if id(body) not in driven and (angle := self.angle(body)) is not None
         ]  # fmt: skip
         return [*out, *([f"\nstart:\n  guess: {{{', '.join(guesses)}}}\n"] if guesses else [])]
+
+    def _value(self, drive: Drive, rate: str) -> str:
+        """From where it stands at a constant rate; between the ends of an arc, a triangle wave."""
+        ends = self.angle(drive.body), self.angle(drive.relative_to)
+        first = 0.0 if None in ends else ends[0] - ends[1]  # type: ignore[operator]
+        if drive.arc is None:
+            return f"{_number(math.degrees(first))} deg + {rate} * t"
+        low, high = drive.arc
+        turns = math.ceil((low - first) / math.tau - 1e-9)
+        first = max(first + turns * math.tau, low)
+        if first > high + 1e-9:
+            raise InputError(
+                f"link {drive.body.name}: at {math.degrees(first):g}° it lies outside its arc from"
+                f" {math.degrees(low):g}° to {math.degrees(high):g}°"
+            )
+        to, width, over = (_number(math.degrees(x)) for x in (high, high - low, first - low))
+        return f"{to} deg - abs(mod({over} deg + {rate} * t, 2 * {width} deg) - {width} deg)"
 
 
 def mechanism_text(linkage: Linkage) -> str:
@@ -153,8 +204,6 @@ def _barred(body: Body) -> tuple[float, dict[str, Point], Point | None]:
     """Length of the bar of its first two points; the others, and its centre of mass, in the bar's axes."""
     (x, y), (u, v) = list(body.local.values())[:2]
     length = math.hypot(u - x, v - y)
-    if not length > 0.0:
-        raise InputError(f"link {body.name}: its first two joints are at one place")
 
     def seen(at: Point) -> Point:
         dx, dy = at[0] - x, at[1] - y
@@ -180,4 +229,4 @@ def _number(x: float) -> str:
 
 
 def _comment(text: str) -> str:
-    return "".join(c for c in text if c.isprintable())[:100]
+    return "".join(c for c in text if c.isprintable())[:200]

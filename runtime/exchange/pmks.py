@@ -1,23 +1,48 @@
-"""Shared links of PMKS+ (https://pmksplus.com), which hold the whole mechanism in their address.
+"""Links that PMKS+ (https://pmksplus.com) shares, which hold the whole mechanism in their address.
 
-Behind "?" stand, parted by dots, flags, decimal and whole settings, units, then a part for each joint, nothing, a part
-for each link, nothing, and forces. Numbers are in thousandths to the base 64; a 0 in front makes one negative.
+After "?" stand, separated by dots, flags, decimal and whole settings, units, then a part for each joint, nothing, a
+part for each link, nothing, and forces. Numbers are in thousandths to the base 64; a 0 in front makes one negative.
+Until June 2023 joints and links had no names, and a part with names by id could stand before the joints.
+Links from before April 2023 are plain text (exchange/pmks_before_2023.py).
 """
 
 from __future__ import annotations
 
 import math
-import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from urllib.parse import unquote
 
 from gudgeon.errors import InputError
-from gudgeon.exchange.linkage import Body, Drive, Line, Linkage
+from gudgeon.exchange.linkage import MAX_NUMBER, Body, Drive, Line, Linkage, Point
 
-ADDRESS = re.compile(r"https?://\S*pmks\S*?\?([\w.,~%-]+)")
-DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"
+DIGITS = {digit: k for k, digit in enumerate("0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-")}
+MAX_DIGITS = 12  # of a number
 PRISMATIC, INPUT, GROUNDED = 1, 2, 4  # of a joint's flags
 CLOCKWISE, GRAVITY = 1, 2  # of those in front
 LENGTHS = ((0.0254, "m"), (1.0, "cm"), (1.0, "m"))  # of the first digit of the units: inches, cm, m
-PISTON = "P"
+PISTON, ROOT = "P", "Y"
+
+
+@dataclass
+class Joints:
+    """What links of a mechanism of PMKS+ refer to: joints that are driven, and directions (rad) of sliders."""
+
+    inputs: list[str] = field(default_factory=list)
+    sliders: dict[str, float] = field(default_factory=dict)
+
+
+def address_in(text: str) -> str | None:
+    """What stands after the question mark of the first link of PMKS+ in a text; None where there is none."""
+    for word in text.split():
+        start = word.find("://")
+        host = word.find("pmks", start)
+        mark = word.find("?", host)
+        if start > 0 and host > 0 and mark > 0:
+            query = word[mark + 1 :]
+            end = min((at for at in map(query.find, "<>()[]\"'`") if at >= 0), default=len(query))
+            return unquote(query[:end])
+    return None
 
 
 def of_pmks(address: str, name: str = "pmks") -> Linkage:
@@ -25,46 +50,61 @@ def of_pmks(address: str, name: str = "pmks") -> Linkage:
 
     Inches, which are no unit of gudgeon's, become metres.
     """
-    head, _, rest = address.partition("..")
-    parts = head.split(".")
+    parts = address.split(".")
     if len(parts) < 5:
-        raise InputError("the address has too few parts", hint="take the whole link that Share gives")
-    flags, _, whole, units, *joints = parts
-    scale, unit = LENGTHS[min(_digit(units[:1] or "1"), len(LENGTHS) - 1)]
-    linkage = Linkage(name, unit, measured=True)
-    inputs, sliders = set[str](), dict[str, float]()
+        raise InputError("the link of PMKS+ has too few parts", hint="copy the whole link that Share gives")
+    flags, _, whole, units = parts[:4]
+    scale, unit = LENGTHS[min(_packed(units[:1] or "1"), len(LENGTHS) - 1)]
+    linkage, found = Linkage(name, unit, measured=True), Joints()
+    joints, links, forces = _sections(parts[4:])
     for joint in joints:
-        _joint(linkage, joint, inputs, sliders, scale)
-    rpm = float(_integer(whole.split(",")[0]))
+        _joint(linkage, joint, found, scale)
     settings = _packed(flags)
-    rate = rpm * math.pi / 30.0 * (-1.0 if settings & CLOCKWISE else 1.0)
-    links, _, forces = rest.partition("..")
-    for link in filter(None, links.split(".")):
-        _link(linkage, link, inputs, sliders, rate, scale)
+    rate = _integer(whole.partition(",")[0]) * math.pi / 30.0 * (-1.0 if settings & CLOCKWISE else 1.0)
+    _links(linkage, links, found, scale)
+    drive_inputs(linkage, found, rate)
     linkage.notes.append("its masses are taken for kg, moments of inertia for kg m^2")
     if settings & GRAVITY:
         linkage.gravity = 0.0, -9.81
-    if forces.strip(".") and "," in forces:
+    if any("," in force for force in forces):
         linkage.notes.append("forces of the file are left out")
     return linkage
 
 
-def _digit(text: str) -> int:
-    found = DIGITS.find(text)
-    if found < 0 or not text:
-        raise InputError(f"{text!r} is no digit of PMKS+")
-    return found
+def _sections(parts: Sequence[str]) -> tuple[list[str], list[str], list[str]]:
+    """Parts of joints, of links, of forces: an empty part ends each. Names by id, which old links have, are left."""
+    sections: list[list[str]] = [[]]
+    for part in parts:
+        if part:
+            sections[-1].append(part)
+        else:
+            sections.append([])
+    if not sections[0]:  # no names by id, or no joints
+        del sections[0]
+    elif len(sections) > 1:
+        first, held = sections[0][0].split(","), {cell for link in sections[1] for cell in link.split(",")}
+        if len(first) % 2 == 0 and first[0][1:] not in held:
+            del sections[0][0]
+    if len(sections) < 3 or not sections[0]:
+        raise InputError(
+            "the link of PMKS+ ends before its joints and links do", hint="copy the whole link that Share gives"
+        )
+    return sections[0], sections[1], sections[2]
 
 
 def _packed(text: str) -> int:
-    """Flags, a bit each."""
+    """Flags, a bit each; or the digits of a number."""
     total = 0
     for digit in text:
-        total = 64 * total + _digit(digit)
+        if digit not in DIGITS:
+            raise InputError(f"{digit!r} is no digit of PMKS+", hint="copy the whole link that Share gives")
+        total = 64 * total + DIGITS[digit]
     return total
 
 
 def _integer(text: str) -> int:
+    if len(text) > MAX_DIGITS:
+        raise InputError(f"{text[:MAX_DIGITS]}… has {len(text)} digits, expected at most {MAX_DIGITS}")
     total = _packed(text)
     return -total if len(text) > 1 and text[0] == "0" else total
 
@@ -73,55 +113,153 @@ def _decimal(text: str) -> float:
     return _integer(text) / 1000.0
 
 
-def _joint(linkage: Linkage, text: str, inputs: set[str], sliders: dict[str, float], scale: float) -> None:
-    """Flags and id, name, x, y, angle (rad) of a slider's way."""
+def _joint(linkage: Linkage, text: str, found: Joints, scale: float) -> None:
+    """Flags and id, name (not in old links), x, y, angle (rad) of a slider's way."""
     cells = text.split(",")
-    if len(cells) < 5 or len(cells[0]) < 2:
-        raise InputError(f"{text!r} is no joint of PMKS+")
-    flags, name = _digit(cells[0][0]), cells[0][1:]
-    linkage.positions[name] = scale * _decimal(cells[2]), scale * _decimal(cells[3])
+    if len(cells) == 4:
+        cells.insert(1, "")
+    if len(cells) != 5 or len(cells[0]) < 2:
+        raise InputError(f"{text[:60]!r} is no joint of PMKS+")
+    flags, name = _packed(cells[0][0]), cells[0][1:]
+    try:
+        x, y, angle = map(_decimal, cells[2:])
+    except InputError as error:
+        raise InputError(f"joint {name}: {error.message}", hint=error.hint) from error
+    place_joint(linkage, name, (scale * x, scale * y), bool(flags & GROUNDED))
     if flags & PRISMATIC:
-        sliders[name] = _decimal(cells[4])
-    if flags & GROUNDED:
-        linkage.ground[name] = linkage.positions[name]
+        found.sliders[name] = angle
     if flags & INPUT:
-        inputs.add(name)
+        found.inputs.append(name)
 
 
-def _link(
-    linkage: Linkage, text: str, inputs: set[str], sliders: dict[str, float], rate: float, scale: float
-) -> None:  # fmt: skip
-    """Whether it is a link of its own, its kind, id, name, mass, moment of inertia, centre of mass, colour, joints."""
+def place_joint(linkage: Linkage, name: str, place: Point, grounded: bool) -> None:
+    """Raises InputError for a name that another joint has."""
+    if name in linkage.positions:
+        raise InputError(f"two joints are called {name}")
+    linkage.positions[name] = place
+    if grounded:
+        linkage.ground[name] = place
+
+
+@dataclass
+class _Link:
+    """What a part says of a link. `parts`: those that are welded to form it."""
+
+    is_root: bool
+    kind: str
+    name: str
+    mass: float
+    inertia: float
+    com: Point
+    joints: list[str]
+    parts: list[str]
+
+
+def _read_link(text: str) -> _Link:
+    """Whether it is a link of its own, its kind, id, name (not in old links), mass, moment of inertia, centre of mass,
+    colour, joints, nothing, the links that are welded to form it."""
     cells = text.split(",")
-    if len(cells) < 9 or len(cells[0]) < 3:
-        raise InputError(f"{text!r} is no link of PMKS+")
-    if cells[0][0] == "N":  # welded into another one
-        return
-    kind, name = cells[0][1], cells[0][2:]
-    joints = cells[7 : cells.index("", 7) if "" in cells[7:] else None]
-    unknown = [joint for joint in joints if joint not in linkage.positions]
-    if unknown:
-        raise InputError(f"link {name}: no joint is called {unknown[0]}")
-    mass, inertia = _decimal(cells[2]) or None, _decimal(cells[3]) or None
-    if kind == PISTON:
-        _piston(linkage, joints, sliders, name, inputs)
-        return
-    joints.sort(key=lambda joint: joint not in inputs)
-    com = scale * _decimal(cells[4]), scale * _decimal(cells[5])
-    body = Body(name, {joint: linkage.positions[joint] for joint in joints}, mass, inertia, com)
-    linkage.bodies.append(body)
-    if joints[0] in inputs and joints[0] in linkage.ground:
-        linkage.drives.append(Drive(name, joints[0], rate))
+    colour = next((k for k in (5, 6) if len(cells) > k and _is_colour(cells[k])), 6)
+    head, numbers, rest = cells[0], cells[colour - 4 : colour], cells[colour + 1 :]
+    if len(head) < 3 or len(numbers) < 4 or "" not in rest:
+        raise InputError(f"{text[:60]!r} is no link of PMKS+")
+    try:
+        mass, inertia, x, y = map(_decimal, numbers)
+    except InputError as error:
+        raise InputError(f"link {head[2:]}: {error.message}", hint=error.hint) from error
+    end = rest.index("")
+    joints, parts = list(dict.fromkeys(rest[:end])), [part for part in rest[end:] if part]
+    return _Link(head[0] == ROOT, head[1], head[2:], mass, inertia, (x, y), joints, parts)
 
 
-def _piston(linkage: Linkage, joints: list[str], sliders: dict[str, float], name: str, inputs: set[str]) -> None:
+def _is_colour(text: str) -> bool:
+    return len(text) in (3, 6) and all(digit in "0123456789abcdefABCDEF" for digit in text)
+
+
+def _links(linkage: Linkage, texts: Sequence[str], found: Joints, scale: float) -> None:
+    links = [_read_link(text) for text in texts]
+    by_name = {link.name: link for link in links}
+    roots = [link for link in links if link.is_root]
+    if len({link.name for link in roots}) < len(roots):
+        name = next(link.name for link in roots if by_name[link.name] is not link)
+        raise InputError(f"two links are called {name}")
+    for link in roots:
+        refuse_unknown(linkage, link.name, link.joints)
+        if link.kind == PISTON:
+            _piston(linkage, link, found)
+            continue
+        if link.parts and not link.mass:
+            _weld(link, [by_name[part] for part in link.parts if part in by_name])
+        com = scale * link.com[0], scale * link.com[1]
+        add_link(linkage, link.name, link.joints, link.mass, link.inertia, com, found)
+
+
+def refuse_unknown(linkage: Linkage, name: str, joints: Sequence[str]) -> None:
+    """Raises InputError for a link of joints that are not there."""
+    for joint in joints:
+        if joint not in linkage.positions:
+            raise InputError(f"link {name}: no joint is called {joint}")
+
+
+def add_link(
+    linkage: Linkage, name: str, joints: Sequence[str], mass: float, inertia: float, com: Point, found: Joints
+) -> None:  # fmt: skip
+    """A body at its joints' positions; a mass or a moment of inertia of 0 is one that was not given."""
+    for what, value in (("mass", mass), ("moment of inertia", inertia)):
+        if not 0.0 <= value <= MAX_NUMBER:
+            raise InputError(f"link {name}: its {what} is {value:g}, expected a number above 0")
+    joints = sorted(joints, key=lambda joint: joint not in found.inputs)
+    places = {joint: linkage.positions[joint] for joint in joints}
+    linkage.add(Body(name, places, mass or None, inertia or None, com if mass else None))
+    if mass and not inertia:
+        linkage.notes.append("moments of inertia that are not in it are those of slender bars")
+
+
+def _weld(link: _Link, parts: Sequence[_Link]) -> None:
+    """Mass, centre of mass and moment of inertia of links that are welded together."""
+    link.mass = sum(part.mass for part in parts)
+    if not link.mass:
+        return
+    x, y = (sum(part.mass * part.com[k] for part in parts) / link.mass for k in (0, 1))
+    link.com = x, y
+    if all(part.inertia for part in parts):
+        squares = (part.mass * ((part.com[0] - x) ** 2 + (part.com[1] - y) ** 2) for part in parts)
+        link.inertia = sum(part.inertia for part in parts) + sum(squares)
+
+
+def drive_inputs(linkage: Linkage, found: Joints, rate: float) -> None:
+    """Each driven joint turns what it joins: links against the ground, or two links against each other."""
+    for joint in found.inputs:
+        bodies, grounded = linkage.holders.get(joint, []), joint in linkage.ground
+        if joint in found.sliders:
+            raise InputError(f"joint {joint}: a slider that is driven is not read", hint="leave the input out of it")
+        if grounded and bodies:
+            drives = [Drive(body, rate) for body in bodies]
+        elif not grounded and len(bodies) == 2:
+            drives = [Drive(bodies[1], rate, bodies[0])]
+            linkage.notes.append(f"the input at {joint} turns {bodies[1].name} relative to {bodies[0].name}")
+        else:
+            joined = "no link" if not bodies else "one link" if len(bodies) == 1 else f"{len(bodies)} links"
+            raise InputError(
+                f"joint {joint}: it is an input and joins {joined}, expected two links, or links and the ground",
+                hint="make it an input where two links meet, or at the ground",
+            )
+        for drive in drives:
+            if any(drive.body is one.body and drive.relative_to is one.relative_to for one in linkage.drives):
+                raise InputError(f"link {drive.body.name}: two inputs drive it", hint="keep one of them")
+        linkage.drives += drives
+
+
+def _piston(linkage: Linkage, link: _Link, found: Joints) -> None:
     """Its pin keeps to the way of its slider, which is fixed to the ground."""
-    way = next((joint for joint in joints if joint in sliders), None)
-    pin = next((joint for joint in joints if joint not in sliders), None)
-    if way is None or pin is None:
-        raise InputError(f"piston {name}: expected a slider and a pin")
-    if way in inputs:
-        raise InputError(f"piston {name}: a slider that is driven is not read", hint="drive it in gudgeon's file")
-    linkage.ground[way] = linkage.positions[way]
-    linkage.lines.append(Line(pin, way, None, (math.cos(sliders[way]), math.sin(sliders[way]))))
-    linkage.notes.append(f"the mass of piston {name} is left out: its pin runs in a slot")
+    ways = [joint for joint in link.joints if joint in found.sliders]
+    pins = [joint for joint in link.joints if joint not in found.sliders]
+    if len(ways) != 1 or len(pins) != 1:
+        raise InputError(f"piston {link.name}: expected a slider and a pin")
+    way, pin = ways[0], pins[0]
+    if way in found.inputs:
+        raise InputError(f"piston {link.name}: a slider that is driven is not read", hint="leave the input out of it")
+    if way not in linkage.ground:
+        raise InputError(f"piston {link.name}: a slider on a link that moves is not read", hint="ground the slider")
+    linkage.lines.append(Line(pin, way, None, (math.cos(found.sliders[way]), math.sin(found.sliders[way]))))
+    linkage.notes.append(f"the mass of piston {link.name} is left out: its pin runs in a slot")

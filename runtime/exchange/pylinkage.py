@@ -7,14 +7,17 @@ Neither has units, nor masses; a crank turns by an angle at each step of pylinka
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
+from graphlib import CycleError, TopologicalSorter
 from typing import Any
 
 from gudgeon.errors import InputError
-from gudgeon.exchange.linkage import Body, Drive, Line, Linkage, Point
+from gudgeon.exchange.linkage import MAX_NUMBER, Body, Drive, Line, Linkage, Point
 
 OLD = ("Static", "Crank", "Fixed", "Linear", "Prismatic", "Revolute")
 STEPPED = "pylinkage counts steps: the crank turns by one step's angle in a second"
+DRIVERS = ("driver", "arc_driver")
+_ARC = ("arc_start", "arc_end")
 Entry = Mapping[str, Any]
 
 
@@ -23,87 +26,129 @@ def of_pylinkage(data: Any) -> Linkage:
     joints = data.get("joints") if isinstance(data, dict) else None
     if not isinstance(joints, list) or not joints or not all(isinstance(joint, dict) for joint in joints):
         raise InputError("no joints in it", hint="save a Linkage or a Mechanism of pylinkage as JSON")
-    linkage = Linkage(str(data.get("name") or "linkage"))
-    if any(joint.get("type") in OLD for joint in joints):
+    linkage = Linkage(str(data.get("name") or "linkage")[:200])
+    if any(str(joint.get("type")) in OLD for joint in joints):
         _by_joints(linkage, joints)
     else:
         _by_links(linkage, joints, data.get("links"))
     return linkage
 
 
-def _number(entry: Entry, key: str) -> float:
+def _name(entry: Entry, key: str, what: str) -> str:
+    """How an entry is called. Raises InputError where it has no name."""
+    name = entry.get(key)
+    if isinstance(name, bool) or not isinstance(name, (str, int)) or name == "":
+        raise InputError(f"a {what} of type {entry.get('type')!r}: {key} is {_shown(name)}, expected a name")
+    return str(name)
+
+
+def _shown(value: Any) -> str:
+    return repr(value)[:40] if not isinstance(value, int) or abs(value) < MAX_NUMBER else "a number above 1e12"
+
+
+def _number(entry: Entry, key: str, whose: str) -> float:
+    """A number of an entry. Raises InputError where it is none of a linkage."""
     value = entry.get(key)
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-        raise InputError(f"joint {entry.get('name', entry.get('id'))}: {key} is {value!r}, expected a number")
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= MAX_NUMBER:
+        raise InputError(f"{whose}: {key} is {_shown(value)}, expected a number up to {MAX_NUMBER:g}")
     return float(value)
 
 
-def _position(entry: Entry, x: Any, y: Any) -> Point | None:
-    if x is None or y is None:
+def _length(entry: Entry, key: str, whose: str) -> float:
+    value = _number(entry, key, whose)
+    if not value > 0.0:
+        raise InputError(f"{whose}: {key} is {value:g}, expected a length above 0")
+    return value
+
+
+def _pair(value: Any, key: str, whose: str) -> Point | None:
+    """Two numbers; None where one of them is null, or the list is."""
+    if value is None:
         return None
-    return _number({**entry, "x": x}, "x"), _number({**entry, "y": y}, "y")
+    if not isinstance(value, list) or len(value) != 2:
+        raise InputError(f"{whose}: {key} is {_shown(value)}, expected two numbers")
+    if None in value:
+        return None
+    x, y = (_number({key: part}, key, whose) for part in value)
+    return x, y
 
 
 def _by_joints(linkage: Linkage, joints: Sequence[Entry]) -> None:
     """In an order in which each joint's parents come before it."""
-    known, waiting = set[str | None]([None]), list(joints)
-
-    def is_placed(parent: str | None) -> bool:
-        return parent in known or parent in linkage.ground
-
-    while waiting:
-        ready = [joint for joint in waiting if all(is_placed(_parent(linkage, joint, key)) for key in _PARENTS)]
-        if not ready:
-            names = ", ".join(str(joint.get("name")) for joint in waiting)
-            raise InputError(f"joints {names} hang on joints that are not in the file")
-        for joint in ready:
-            _one(linkage, joint)
-            known.add(str(joint.get("name")))
-        waiting = [joint for joint in waiting if joint not in ready]
+    by_name: dict[str, Entry] = {}
+    for joint in joints:
+        name = _name(joint, "name", "joint")
+        if name in by_name:
+            raise InputError(f"two joints are called {name}", hint="each joint needs a name of its own")
+        by_name[name] = joint
+    fixed = _Inline(linkage, by_name)
+    parents = {name: [_parent(fixed, name, joint, key) for key in _PARENTS] for name, joint in by_name.items()}
+    above = {name: {parent for parent in of if parent in by_name} for name, of in parents.items()}
+    for name, of in parents.items():
+        for parent in of:
+            if parent is not None and parent not in by_name and parent not in linkage.ground:
+                raise InputError(f"joint {name}: it hangs on {parent!r}, which is not in the file")
+    try:
+        for name in TopologicalSorter(above).static_order():
+            _one(linkage, name, by_name[name], parents[name])
+    except CycleError as error:
+        raise InputError(f"joints hang on each other: {', '.join(error.args[1])}"[:300]) from error
 
 
 _PARENTS = ("joint0", "joint1", "joint2")
 
 
-def _parent(linkage: Linkage, joint: Entry, key: str) -> str | None:
+class _Inline:
+    """Parents that stand within a joint: points of the ground, one for each place."""
+
+    def __init__(self, linkage: Linkage, used: Container[str]) -> None:
+        self.linkage, self.used, self.names = linkage, used, dict[Point, str]()
+
+    def name(self, place: Point) -> str:
+        if place not in self.names:
+            name = f"O{len(self.names) + 1}"
+            while name in self.used:
+                name += "_"
+            self.names[place] = name
+            self.linkage.ground[name] = self.linkage.positions[name] = place
+        return self.names[place]
+
+
+def _parent(fixed: _Inline, name: str, joint: Entry, key: str) -> str | None:
     """The name of a parent; one that stands within the joint is a point of the ground."""
     found = joint.get(key)
     if not isinstance(found, dict):
         return None
+    whose = f"joint {name}: {key}"
     if not found.get("inline"):
-        return str(found.get("ref"))
-    place = _number(found, "x"), _number(found, "y")
-    name = next((name for name, other in linkage.ground.items() if other == place), "")
-    if not name:
-        name = f"O{len(linkage.ground) + 1}"
-        linkage.ground[name] = linkage.positions[name] = place
-    return name
+        return _name({**found, "type": key}, "ref", f"parent of joint {name}")
+    return fixed.name((_number(found, "x", whose), _number(found, "y", whose)))
 
 
-def _one(linkage: Linkage, joint: Entry) -> None:
+def _one(linkage: Linkage, name: str, joint: Entry, parents: Sequence[str | None]) -> None:
     """What a joint adds."""
-    name, kind = str(joint.get("name")), joint.get("type")
-    at = _position(joint, joint.get("x"), joint.get("y"))
+    kind, whose = joint.get("type"), f"joint {name}"
+    at = _pair([joint.get("x"), joint.get("y")], "x, y", whose)
     if at is not None:
         linkage.positions[name] = at
-    parents = [_parent(linkage, joint, key) for key in _PARENTS]
     if kind == "Static":
         linkage.ground[name] = linkage.positions[name] = at or (0.0, 0.0)
     elif kind == "Crank":
-        first = _needed(name, parents[0])
-        linkage.bar(first, name, _number(joint, "distance"))
-        linkage.drives.append(Drive(linkage.bodies[-1].name, first, _number(joint, "angle")))
+        body = linkage.bar(_needed(name, parents[0]), name, _length(joint, "distance", whose))
+        if body is None:
+            raise InputError(f"{whose}: a crank that the ground holds")
+        linkage.drives.append(Drive(body, _number(joint, "angle", whose)))
         linkage.notes.append(STEPPED)
     elif kind == "Revolute":
         for key, parent in zip(("distance0", "distance1"), parents, strict=False):
-            linkage.bar(_needed(name, parent), name, _number(joint, key))
+            linkage.bar(_needed(name, parent), name, _length(joint, key, whose))
     elif kind == "Fixed":
-        _fixed(linkage, name, parents, _number(joint, "distance"), _number(joint, "angle"))
+        _fixed(linkage, name, parents, _number(joint, "distance", whose), _number(joint, "angle", whose))
     elif kind in ("Linear", "Prismatic"):
-        linkage.bar(_needed(name, parents[0]), name, _number(joint, "revolute_radius"))
+        linkage.bar(_needed(name, parents[0]), name, _length(joint, "revolute_radius", whose))
         _on_line(linkage, name, _needed(name, parents[1]), _needed(name, parents[2]))
     else:
-        raise InputError(f"joint {name}: {kind!r} is no joint of pylinkage; expected one of {', '.join(OLD)}")
+        raise InputError(f"{whose}: {_shown(kind)} is no joint of pylinkage; expected one of {', '.join(OLD)}")
 
 
 def _needed(name: str, parent: str | None) -> str:
@@ -119,7 +164,7 @@ def _fixed(linkage: Linkage, name: str, parents: Sequence[str | None], distance:
         body = Body("ground", linkage.ground)
         linkage.ground[name] = linkage.positions[name] = body.placed(first, second, distance, angle)
     elif holder := linkage.holding(first, second):
-        holder.local[name] = holder.placed(first, second, distance, angle)
+        linkage.hold(holder, name, holder.placed(first, second, distance, angle))
     else:
         raise InputError(
             f"joint {name}: it is fixed to {first} and {second}, which nothing holds at a distance",
@@ -128,60 +173,94 @@ def _fixed(linkage: Linkage, name: str, parents: Sequence[str | None], distance:
 
 
 def _on_line(linkage: Linkage, name: str, first: str, second: str) -> None:
+    """A point keeps to the line through two others, which the ground or a body holds."""
     if first in linkage.ground and second in linkage.ground:
-        (x, y), (u, v) = linkage.ground[first], linkage.ground[second]
-        linkage.lines.append(Line(name, first, None, (u - x, v - y)))
-    elif holder := linkage.holding(first, second):
-        (x, y), (u, v) = holder.local[first], holder.local[second]
-        linkage.lines.append(Line(name, first, holder.name, (u - x, v - y)))
+        held, body = linkage.ground, None
+    elif body := linkage.holding(first, second):
+        held = body.local
     else:
         raise InputError(f"joint {name}: its line leads through {first} and {second}, which no body holds")
+    (x, y), (u, v) = held[first], held[second]
+    linkage.lines.append(Line(name, first, body, (u - x, v - y)))
 
 
 def _by_links(linkage: Linkage, joints: Sequence[Entry], links: Any) -> None:
     """Joints at their positions, links that hold them there."""
     if not isinstance(links, list) or not all(isinstance(link, dict) for link in links):
         raise InputError("no links in it", hint="a Mechanism of pylinkage has joints and links")
+    named = [(_name(link, "id", "link"), link) for link in links]
+    if len(dict(named)) < len(named):
+        twice = next(name for name, link in named if dict(named)[name] is not link)
+        raise InputError(f"two links are called {twice}", hint="each link needs an id of its own")
+    held = {name: _held(link, name) for name, link in named}
+    # as pylinkage has it, what a link of the ground holds and where a motor sits is fixed, whatever its type says
+    fixed = {joint for name, link in named if link.get("type") == "ground" for joint in held[name]}
+    fixed |= {str(link.get("motor_joint")) for _, link in named if link.get("type") in DRIVERS}
+    trackers = [joint for joint in joints if joint.get("type") == "tracker"]
     for joint in joints:
-        name, place = str(joint.get("id")), joint.get("position")
-        at = _position(joint, *place) if isinstance(place, list) and len(place) == 2 else None
-        if at is not None:
-            linkage.positions[name] = at
-        elif joint.get("type") != "tracker":
-            raise InputError(f"joint {name}: it has no position, so that its links have no lengths")
-        if joint.get("type") == "ground" and at:
-            linkage.ground[name] = at
-    for link in links:
-        _link(linkage, link)
-    for joint in joints:
-        if joint.get("type") == "tracker":
-            parents = [str(joint.get("ref_joint1_id")), str(joint.get("ref_joint2_id"))]
-            _fixed(linkage, str(joint.get("id")), parents, _number(joint, "distance"), _number(joint, "angle"))
-        if joint.get("type") == "prismatic":
-            axis = joint.get("axis")
-            x, y = axis if isinstance(axis, list) and len(axis) == 2 else (1.0, 0.0)
-            name = str(joint.get("id"))
-            direction = _position({"id": name}, x, y)
-            through = joint.get("line_point")
-            place = _position({"id": name}, *through) if isinstance(through, list) and len(through) == 2 else None
-            linkage.ground[f"{name}_line"] = linkage.positions[name] if place is None else place
-            linkage.lines.append(Line(name, f"{name}_line", None, direction or (1.0, 0.0)))
+        if joint.get("type") != "tracker":
+            _place(linkage, joint, fixed)
+    tracked = {_name(joint, "id", "joint") for joint in trackers}
+    for name, link in named:
+        if link.get("type") != "ground":
+            _link(linkage, name, link, [joint for joint in held[name] if joint not in tracked])
+    for joint in trackers:
+        name = _name(joint, "id", "joint")
+        if name in linkage.positions or name in linkage.holders:
+            raise InputError(f"two joints are called {name}", hint="each joint needs an id of its own")
+        parents = [_name(joint, key, f"tracker {name}") for key in ("ref_joint1_id", "ref_joint2_id")]
+        whose = f"joint {name}"
+        _fixed(linkage, name, parents, _number(joint, "distance", whose), _number(joint, "angle", whose))
 
 
-def _link(linkage: Linkage, link: Entry) -> None:
-    name, kind = str(link.get("id")), link.get("type", "link")
-    points = [str(point) for point in link.get("joints", []) if str(point) in linkage.positions]
-    if kind == "ground" or len(points) < 2:
+def _place(linkage: Linkage, joint: Entry, fixed: set[str]) -> None:
+    """A joint that has a position; of a prismatic one the line to which it keeps."""
+    name = _name(joint, "id", "joint")
+    whose = f"joint {name}"
+    if name in linkage.positions:
+        raise InputError(f"two joints are called {name}", hint="each joint needs an id of its own")
+    at = _pair(joint.get("position"), "position", whose)
+    if at is None:
+        raise InputError(f"{whose}: it has no position, so that its links have no lengths")
+    linkage.positions[name] = at
+    if joint.get("type") == "ground" or name in fixed:
+        linkage.ground[name] = at
+    if joint.get("type") == "prismatic":
+        direction = _pair(joint.get("axis", [1.0, 0.0]), "axis", whose)
+        if direction is None or not math.hypot(*direction) > 0.0:
+            raise InputError(f"{whose}: axis is {_shown(joint.get('axis'))}, expected a direction")
+        through = f"{name}_line"
+        while through in linkage.positions or through in linkage.ground:
+            through += "_"
+        linkage.ground[through] = _pair(joint.get("line_point"), "line_point", whose) or at
+        linkage.lines.append(Line(name, through, None, direction))
+
+
+def _held(link: Entry, name: str) -> list[str]:
+    """The joints of a link, each once."""
+    joints = link.get("joints")
+    if not isinstance(joints, list):
+        raise InputError(f"link {name}: joints is {_shown(joints)}, expected a list of joints")
+    return list(dict.fromkeys(_name({"id": joint, "type": "link"}, "id", f"joint of link {name}") for joint in joints))
+
+
+def _link(linkage: Linkage, name: str, link: Entry, joints: list[str]) -> None:
+    """A body, and what drives it."""
+    whose, kind, motor = f"link {name}", link.get("type", "link"), str(link.get("motor_joint"))
+    for joint in joints:
+        if joint not in linkage.positions:
+            raise InputError(f"{whose}: no joint is called {joint}")
+    joints.sort(key=lambda joint: joint != motor)
+    body = linkage.add(Body(name, {joint: linkage.positions[joint] for joint in joints}))
+    if kind not in DRIVERS:
         return
+    if joints[0] != motor:
+        raise InputError(f"{whose}: it is driven at {motor}, expected one of its joints as motor_joint")
+    rate, arc = _number({"angular_velocity": math.tau / 360.0, **link}, "angular_velocity", whose), None
     if kind == "arc_driver":
-        raise InputError(
-            f"link {name}: a driver that turns back at the ends of an arc is not read",
-            hint="make it a driver, and write the drive's value as it is meant",
-        )
-    motor = str(link.get("motor_joint"))
-    points.sort(key=lambda point: point != motor)
-    linkage.bodies.append(Body(name, {point: linkage.positions[point] for point in points}))
-    if kind == "driver":
-        rate = _number({**link, "name": name}, "angular_velocity")
-        linkage.drives.append(Drive(name, points[0], rate))
-        linkage.notes.append(STEPPED)
+        low, high = (_number({"arc_start": 0.0, "arc_end": math.pi, **link}, key, whose) for key in _ARC)
+        if not high > low:
+            raise InputError(f"{whose}: its arc ends at {high:g} rad, where it begins or before ({low:g} rad)")
+        arc = low, high
+    linkage.drives.append(Drive(body, rate, None, arc))
+    linkage.notes.append(STEPPED)

@@ -7,10 +7,11 @@ import os
 from pathlib import Path
 
 from gudgeon.contract.limits import MAX_BYTES
-from gudgeon.errors import InputError
+from gudgeon.errors import InputError, InputErrors
 from gudgeon.exchange.linkage import Linkage
 from gudgeon.exchange.mechanism_yaml import mechanism_text
-from gudgeon.exchange.pmks import ADDRESS, of_pmks
+from gudgeon.exchange.pmks import address_in, of_pmks
+from gudgeon.exchange.pmks_before_2023 import BEGIN, of_old_pmks
 from gudgeon.exchange.pylinkage import of_pylinkage
 from gudgeon.files.reading import read_named
 
@@ -25,16 +26,29 @@ def read_linkage(file: str | os.PathLike[str]) -> Linkage:
     except UnicodeDecodeError as error:
         raise InputError(f"{file} is no text", hint=f"expected {KNOWN}") from error
     try:
-        if found := ADDRESS.search(text):
-            return of_pmks(found[1], Path(file).stem)
-        return of_pylinkage(_json(text))
+        address = None if text.lstrip()[:1] in ("{", "[") else address_in(text)
+        if address is None:
+            return of_pylinkage(_json(text))
+        return (of_old_pmks if address.startswith(BEGIN) else of_pmks)(address, Path(file).stem)
     except InputError as error:
         raise InputError(f"{os.fspath(file)}: {error.message}", hint=error.hint) from error
 
 
 def mechanism_of(file: str | os.PathLike[str]) -> str:
-    """The text of gudgeon's own file for what is in it; what was not said there is told in its first lines."""
-    return mechanism_text(read_linkage(file))
+    """The text of gudgeon's own file for what is in it; what was not said there is told in its first lines.
+
+    Raises InputError where the file is refused, or where the format refuses what is made of it.
+    """
+    from gudgeon.generator.reader.read import read_mechanism
+
+    linkage = read_linkage(file)
+    try:
+        text = mechanism_text(linkage)
+        read_mechanism(text.encode(), os.fspath(file))
+    except InputError as error:
+        first = error.errors[0] if isinstance(error, InputErrors) else error
+        raise InputError(f"{os.fspath(file)}: {first.message}", hint=first.hint) from error
+    return text
 
 
 def _json(text: str) -> object:
