@@ -32,7 +32,7 @@ static void check_inside(Run *run, Step *step, double theta, int drawn, const Pa
 }
 
 /* Whether the value of event i changes its sign in a step at a zero, and not where it grows beyond all bounds. */
-static int has_zero(Run *run, Step *step, double share, int i, const Parameters *p)
+static int event_has_zero(Run *run, Step *step, double share, int i, const Parameters *p)
 {
     double low = 0.0, high = share, y[N_Y], dy[N_Y];
     const double before = run->aside.event[i], after = step->aside.event[i];
@@ -60,7 +60,7 @@ static void find_zeros(Run *run, Step *step, double share, int event, const Para
         const double noise = AUDIT_NOISE * audit->event_scale[i];
         audit->crossed[i] = share >= 1.0 && event != N_MARGINS - N_USER_EVENTS + i && before * after < 0.0
             && fabs(before) > noise && fabs(after) > noise && event_direction[i] * after >= 0.0
-            && has_zero(run, step, share, i, p);
+            && event_has_zero(run, step, share, i, p);
     }
 }
 

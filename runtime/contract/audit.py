@@ -17,7 +17,7 @@ class Check:
     place: str = ""
 
 
-CHECKS = (
+CHECKS = (  # in C, at steps
     Check("defect", "the dense output against the equations of motion between the ends of a step"),
     Check("gap", "open joints, which do not penetrate", "joint"),
     Check("pull", "joint forces, which are zero without a contact and never pull", "joint"),
@@ -27,6 +27,14 @@ CHECKS = (
     Check("branch", "branches of switching functions against their signs", "switch"),
     Check("event", "recorded events against the signs of their expressions", "event"),
     Check("force", "joint forces against their change by an error of one tolerance", "joint"),
+)
+SAMPLE_CHECKS = (  # in Python, at samples and at the end (runtime/simulation/audit.py)
+    Check("energy", "the energy of the motion against the works of drives, forces and joints with play"),
+    Check("power", "reported accelerations, torques and forces against the change of energy"),
+    Check("torque", "reported drive torques against the power of the drives"),
+    Check("sample", "sampled forces of open joints, which are zero", "joint"),
+    Check("peak", "the peak of a joint's force against the largest force of its contacts", "joint"),
+    Check("rows", "all constraint equations at samples of a kinematic run", "row"),
 )
 
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.contract.audit import CHECKS, FAILS, Check, Finding
+from gudgeon.contract.audit import CHECKS, FAILS, SAMPLE_CHECKS, Check, Finding
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import AuditError
 from gudgeon.model.compiled import Array, CompiledModel
@@ -58,7 +58,7 @@ def notes_of(findings: tuple[Finding, ...]) -> tuple[str, ...]:
 
 def describe(finding: Finding) -> str:
     """Return a finding in words: the check, the value, the time and the place."""
-    check = next(one for one in CHECKS if one.name == finding.check)
+    check = next(one for one in (*CHECKS, *SAMPLE_CHECKS) if one.name == finding.check)
     place = f" at {check.place} {finding.place}" if finding.place else ""
     return (
         f"audit: check {check.name} of {check.compares} exceeds its limit {finding.worst:.3g} times at"

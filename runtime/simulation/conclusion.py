@@ -15,6 +15,7 @@ from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.written import with_odd_outputs
 from gudgeon.results.results import Result
+from gudgeon.simulation.audit import audit_samples
 from gudgeon.simulation.diagnose import diagnose, energy_balance, unbalanced
 from gudgeon.waiting.asking import EVERY
 from gudgeon.waiting.ctrl_c import CtrlC
@@ -49,6 +50,8 @@ def conclude(
     a = x.a
     if a is None and (evaluation is not None or failed):
         a = np.full_like(x.q, np.nan) if evaluation is None else evaluation.a
+    if evaluation is not None:
+        x = replace(x, audit=(*x.audit, *audit_samples(compiled, problem, x, evaluation, balance)))
     result = Result(
         compiled=compiled, source=compiled.source, p=problem.p, given=given, is_given=is_given, t=x.t, q=x.q, v=x.v,
         accelerations=a, state=x.state, memory=x.memory, work=x.work, impacts=x.impacts,

@@ -18,6 +18,7 @@ from gudgeon.assembly.redundant_rows import check_start
 from gudgeon.assembly.start import Start, assemble
 from gudgeon.errors import BadValueError, InputError, SolverError
 from gudgeon.integrators import adaptive
+from gudgeon.integrators.audit import audit_failure
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.integrators.trajectory import Problem, Progress
 from gudgeon.language.wanted import flag, function, text
@@ -36,6 +37,7 @@ from gudgeon.simulation.arguments import (
     output_times,
     step_of,
 )  # fmt: skip
+from gudgeon.simulation.audit import failed
 from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude, contradicted, late
 from gudgeon.simulation.equations import Equations
@@ -299,6 +301,8 @@ class Simulation(Equations):
             result, contradicts = contradicted(problem, trajectory, result)
             ended = trajectory.interrupted or trajectory.t[-1] < problem.t[-1]  # before the jump
             stopped = trajectory.stopped or contradicts or (None if ended else jump)
+            if stopped is None and failed(result.diagnostics.audit):
+                stopped = audit_failure(result.diagnostics.audit)
         result = late(ctrl_c, result)
         if stopped is not None:
             stopped.partial = result

@@ -67,6 +67,7 @@ static const int kept_row[] = {0};
 static const int phi_q_first[] = {0, 1, 2};
 static const short phi_q_place[] = {0, 1};
 static const unsigned char is_angle[] = {0, 0, 1};
+static const unsigned char film_joint[] = {0};
 static const short watched[] = {0};
 static const short watched_as[] = {-1, -1};
 static const unsigned char meets[] = {1};

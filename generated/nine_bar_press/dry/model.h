@@ -70,6 +70,7 @@ static const short phi_q_place[] = {0, 2, 1, 2, 9, 11, 10, 11, 0, 2, 3, 5, 1, 2,
     15, 17, 4, 5, 16, 17, 6, 8, 15, 17, 7, 8, 16, 17, 15, 17, 12, 14, 16, 17, 13, 14, 15, 17, 18, 20, 16, 17, 19, 20,
     12, 14, 13, 14, 18, 20, 21, 19, 20, 22, 21, 23, 2, 11};
 static const unsigned char is_angle[] = {1, 1, 1, 1, 1};
+static const unsigned char film_joint[] = {0, 0};
 static const short watched[] = {0};
 static const short watched_as[] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
 static const unsigned char meets[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};

@@ -67,6 +67,7 @@ static const int kept_row[] = {0, 1, 2, 3, 6, 7, 8};
 static const int phi_q_first[] = {0, 2, 4, 8, 12, 15, 18, 19, 20, 21};
 static const short phi_q_place[] = {0, 2, 1, 2, 0, 2, 3, 5, 1, 2, 4, 5, 3, 5, 6, 4, 5, 7, 7, 8, 2};
 static const unsigned char is_angle[] = {0, 1};
+static const unsigned char film_joint[] = {0};
 static const short watched[] = {0};
 static const short watched_as[] = {-1, -1, -1, -1, -1, -1};
 static const unsigned char meets[] = {1, 1, 1, 1, 1};
