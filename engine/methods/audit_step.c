@@ -1,12 +1,12 @@
 /*
- * The audit of a run inside its steps (run/audit.c): in some, drawn at random, and in those that end with an event or
- * are much longer than the one before. At a place drawn there: defect of the dense output, gaps, branches. Where the
- * draw fell, in addition: all rows, accelerations by the equations of all bodies, uncertainty of forces.
+ * The audit of a run inside its steps (run/audit.c): at a place drawn in some of them, at every event that ends one,
+ * and in those that are much longer than the one before: defect of the dense output, gaps, branches. Where the draw
+ * fell, in addition: all rows, accelerations by the equations of all bodies, uncertainty of forces.
  */
 #define AUDIT_LONGER 8.0 /* times the step before: such a step is always checked */
 #define AUDIT_DEFECT 1e4 /* tolerances that the dense output may miss the right-hand side by */
 /* steps between two that are drawn, in the mean; halvings that locate a zero; places inside a step */
-enum { AUDIT_MEAN = 24, AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4 };
+enum { AUDIT_MEAN = 128, AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4 };
 
 /* One place inside a step, up to the event that ends it. */
 static void check_inside(Run *run, Step *step, double theta, int drawn, const Parameters *p)
@@ -15,7 +15,13 @@ static void check_inside(Run *run, Step *step, double theta, int drawn, const Pa
     const double t = step->t + theta * step->h;
     double y[N_Y], dy[N_Y], rate[N_Y], defect = 0.0;
     Aside aside;
-    if (make_dense(run, p, step) || state_at(run, step, theta, p, y, dy, &aside))
+    if (make_dense(run, p, step))
+        return;
+    if (run->steps == 0) { /* a start off its constraints is projected by the first step alone */
+        interpolate(run, step, theta, y);
+        if (rates(run, t, y, p, dy, &aside))
+            return;
+    } else if (state_at(run, step, theta, p, y, dy, &aside))
         return; /* what lies beyond an event need not be computable */
     interpolate_rates(step, theta, rate);
     for (int k = 0; k < 2 * N_X; k++)
@@ -64,25 +70,31 @@ static void find_zeros(Run *run, Step *step, double share, int event, const Para
     }
 }
 
-/* The inside of a step that is accepted up to `share`, before it is taken. */
+/*
+ * The inside of a step that is accepted up to `share`, before it is taken. An event's state is known: it is checked
+ * without another right-hand side.
+ */
 static void audit_step(Run *run, Step *step, double share, int event, const Parameters *p)
 {
     Audit *audit = &run->audit;
+    if (!audit->level)
+        return;
     const long evaluations = run->evaluations;
     const double h = share * step->h;
     const int is_longer = audit->last_h > 0.0 && h > AUDIT_LONGER * audit->last_h;
     const int drawn = run->steps >= audit->due || audit->level == AUDIT_FULL;
-    const int always = (event >= 0 && event < N_MARGINS - N_USER_EVENTS) || is_longer;
-    if (!audit->level)
+    const int places = audit->level == AUDIT_FULL ? AUDIT_INSIDE : drawn || is_longer;
+    audit->last_h = h;
+    find_zeros(run, step, share, event, p);
+    if (!places && event < 0)
         return;
     const Memory memory = run->memory;
-    find_zeros(run, step, share, event, p);
-    const int places = audit->level == AUDIT_FULL || is_longer ? AUDIT_INSIDE : 1;
-    for (int k = 0; k < places && (drawn || always); k++)
+    if (event >= 0 && share < 1.0)
+        check_inside(run, step, share, 0, p);
+    for (int k = 0; k < places; k++)
         check_inside(run, step, share * (k + draw(audit)) / places, drawn, p);
     if (drawn)
         audit->due = run->steps + 1 + (long)(2.0 * AUDIT_MEAN * draw(audit));
-    audit->last_h = h;
     run->memory = memory;
     run->evaluations = evaluations; /* a check is not integration */
 }

@@ -11,9 +11,10 @@
 #define AUDIT_ACCELERATION 1e-6 /* of the largest term, that two ways to the accelerations may differ by */
 #define AUDIT_CLOSURE 1e-9     /* of the size: error of positions that accelerations must not depend on */
 #define AUDIT_NOISE 1e-9       /* of its largest magnitude, below which the sign of a function is rounding */
-#define AUDIT_FORCE 1e5        /* of a force, multiplied by rtol: the change by one tolerance in the state */
+#define AUDIT_FORCE 1e7        /* of a force, multiplied by rtol: the change by one tolerance in the state */
 #define AUDIT_FIXED 1e-8       /* the tolerance that stands in for that of a fixed step */
-enum { AUDIT_WRONG = 3 }; /* steps in a row that end on the wrong side of a switching function */
+/* steps in a row that end on the wrong side of a switching function; after which its magnitude is known */
+enum { AUDIT_WRONG = 3, AUDIT_SETTLED = 20 };
 
 /* A number in (0, 1) that looks random: the same in every run. */
 static double draw(Audit *audit)
@@ -34,6 +35,14 @@ static void record(Audit *audit, int check, double value, double limit, double t
     *known = (AuditRecord){multiple == multiple ? multiple : INFINITY, t, where};
     if (!(known->worst <= AUDIT_FAILS))
         audit->status = AUDITED;
+}
+
+/* The largest violation so far of the rows that each accepted step looks at: closures of the tree, or all rows. */
+static void check_closed(Run *run)
+{
+    const double limit = max_of(audit_tolerance(run) * run->least[0], AUDIT_ROUNDING * run->least[0] / run->least[1]);
+    if (run->least[1] > 0.0)
+        record(&run->audit, POSITION_CHECK, run->phi_max, limit, run->t, -1);
 }
 
 /* Positions, and with `rates` velocities, of all rows of the motion at a state. */
@@ -211,7 +220,7 @@ static void check_branches(Run *run, const Step *step, double t, const Aside *as
     for (int k = 0; k < N_SWITCHES; k++) {
         const double g = run->memory.side[k] * aside->g[k];
         run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(g));
-        if (!step->passed[k] && k != run->skip && !meets[k] && g < 0.0)
+        if (!step->passed[k] && k != run->skip && !meets[k] && g < 0.0 && run->steps > AUDIT_SETTLED)
             record(&run->audit, BRANCH_CHECK, -g, 1e-3 * run->audit.switch_scale[k], t, k);
     }
 }
@@ -220,13 +229,16 @@ static void check_branches(Run *run, const Step *step, double t, const Aside *as
 static int audit_state(Run *run, int listed, const Parameters *p)
 {
     Audit *audit = &run->audit;
+    (void)p;
     if (!audit->level || (!TREE && run->least[1] == 0.0))
         return 0; /* in rk4's absolute coordinates Baumgarte's terms let rows drift */
-    check_rows(run, run->t, run->y, 0, p);
+    check_closed(run);
+    if (N_CHAIN)
+        check_rows(run, run->t, run->y, 0, p);
     for (int i = 0; i < N_CLEARANCES; i++)
-        if (gives(i) && !has_film(i))
-            record(audit, PULL_CHECK, run->memory.latch[i].closed ? max_of(run->aside.clearance[i].F_n, 0.0)
-                : total_force(&run->aside.clearance[i]), max_of(1e-6 * run->F_peak[i], 1e-300), run->t, i);
+        if (!run->memory.latch[i].closed && gives(i) && !has_film(i))
+            record(audit, FREE_CHECK, total_force(&run->aside.clearance[i]), max_of(1e-6 * run->F_peak[i], 1e-300),
+                run->t, i);
     for (int k = 0; k < N_SWITCHES && run->memory.held; k++) {
         const double g = run->memory.side[k] * run->aside.g[k], scale = audit->switch_scale[k];
         audit->switch_scale[k] = max_of(scale, fabs(g));
@@ -248,7 +260,7 @@ static int audit_state(Run *run, int listed, const Parameters *p)
 
 void gudgeon_run_audit(void *memory, int level)
 {
-    ((Run *)memory)->audit = (Audit){.level = level, .random = 1u};
+    ((Run *)memory)->audit = (Audit){.level = level, .random = 1u, .due = 8};
     for (int k = 0; k < N_CHECKS; k++)
         ((Run *)memory)->audit.record[k].where = -1;
 }

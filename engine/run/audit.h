@@ -11,7 +11,7 @@ enum { AUDIT_OFF, AUDIT_ON, AUDIT_FULL };
 enum {
     DEFECT_CHECK,       /* the dense output against the right-hand side, between the ends of a step */
     GAP_CHECK,          /* penetration of a joint that is not listed as in contact */
-    PULL_CHECK,         /* force of a joint that is not in contact */
+    FREE_CHECK,         /* force of a joint that is not in contact */
     POSITION_CHECK,     /* all rows of Phi of all bodies */
     VELOCITY_CHECK,     /* all rows of Phi_q v - nu of all bodies */
     ACCELERATION_CHECK, /* accelerations of the tree against those of all bodies */
@@ -28,7 +28,7 @@ typedef struct {
 
 typedef struct {
     int level, status;             /* one of those above; AUDITED once a check failed */
-    long due;                      /* number of steps at which a step is checked inside next */
+    long due;                      /* number of steps after which a step is checked inside next */
     unsigned random;               /* state of the generator that draws steps and places in them */
     double last_h, t;              /* s, the length of the last step; the time up to which accepted states are checked */
     double switch_scale[AT_LEAST_ONE(N_SWITCHES)], event_scale[AT_LEAST_ONE(N_USER_EVENTS)]; /* largest magnitudes */

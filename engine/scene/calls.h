@@ -23,6 +23,8 @@ double gudgeon_time_rhs(long count, double t, const double *y, const double *mem
 int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, const double *memory,
     const double *parameters, double *a, double *lambda, double *reactions, double *torques, double *clearance,
     double *series, double *friction, double *energy, double *power, double *drift, long *failed);
+void gudgeon_audit_samples(long n, const double *t, const double *q, const double *v, const double *memory,
+    const double *parameters, double size, double *off);
 int gudgeon_evaluate_runs(long runs, const long *counts, const double *t, const double *q, const double *v,
     const double *memory, const double *parameters, long numbers, double *a, double *lambda, double *reactions,
     double *torques, double *clearance, double *series, double *friction, double *energy, double *power, double *drift,

@@ -20,7 +20,7 @@ class Check:
 CHECKS = (  # in C, at steps
     Check("defect", "the dense output against the equations of motion between the ends of a step"),
     Check("gap", "open joints, which do not penetrate", "joint"),
-    Check("pull", "joint forces, which are zero without a contact and never pull", "joint"),
+    Check("free", "joint forces without a contact, which are zero", "joint"),
     Check("position", "all constraint equations Φ = 0 of all bodies", "row"),
     Check("velocity", "all velocity constraints Φ_q v = ν of all bodies", "row"),
     Check("acceleration", "accelerations against the equations of motion of all bodies", "coordinate"),
@@ -34,7 +34,8 @@ SAMPLE_CHECKS = (  # in Python, at samples and at the end (runtime/simulation/au
     Check("torque", "reported drive torques against the power of the drives"),
     Check("sample", "sampled forces of open joints, which are zero", "joint"),
     Check("peak", "the peak of a joint's force against the largest force of its contacts", "joint"),
-    Check("rows", "all constraint equations at samples of a kinematic run", "row"),
+    Check("rows", "all constraint equations Φ = 0 of all bodies at samples"),
+    Check("rates", "all velocity constraints Φ_q v = ν of all bodies at samples"),
 )
 
 

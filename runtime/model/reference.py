@@ -32,7 +32,8 @@ def check_reference(compiled: CompiledModel) -> None:
     for state in reference["states"]:
         values = state["values"]
         for name, found in _library_values(compiled, state, p).items():
-            _compare(compiled, name, values[name], np.ravel(found), float(state["t"]))
+            own = np.ravel(found)[: len(values[name])]  # behind them guides with play, whose corners are added up
+            _compare(compiled, name, values[name], own, float(state["t"]))
 
 
 def _library_values(compiled: CompiledModel, state: dict[str, Any], p: Array) -> dict[str, Array]:

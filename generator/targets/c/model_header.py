@@ -196,6 +196,7 @@ def _tables(program: Program, of_scene: Sizes) -> list[str]:
         ("int", "guess_place"): start["guess_place"], ("int", "set_place"): start["set_place"],
         ("int", "rate_place"): start["rate_place"],
         ("unsigned char", "row_is_length"): [int(row.unit == "m") for row in model.all_rows],
+        ("int", "drive_row"): [place[name] for name in model.scene.mechanism.drives],
         ("int", "kept_row"): [place[row.name] for row in model.rows],
         ("int", "phi_q_first"): [0, *accumulate(len(row.phi_q) for row in model.all_rows)],
         ("short", "phi_q_place"): [column[q] for row in model.all_rows for q in row.phi_q],

@@ -15,6 +15,7 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kernels.outputs import element_series, kept_joints
 from gudgeon.generator.kernels.program import Program
+from gudgeon.generator.targets.numpy.curves import with_curves
 from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
 from gudgeon.generator.targets.numpy.module import NumPyModel, _defined
 from gudgeon.generator.targets.numpy.printer import function
@@ -38,10 +39,12 @@ def reference_values(program: Program, source: KernelSource) -> dict[str, Any]:
     numpy = NumPyModel(program)
     linkage, rng = NumPyLinkage(model, source, closed=numpy), np.random.default_rng(1)
     plays = [abs(float(linkage.p[joint.clearance])) for joint in source.clearances]
-    outputs = _defined("import numpy as np\n\n\n" + function(program.closed[-1]) + "\n")["outputs"]
+    text = function(program.closed[-1]) + "\n"
+    head = f"import numpy as np\n\n\n{with_curves(model.scene.mechanism.curves, text)}"
+    outputs = _defined(f"{head}{text}")["outputs"]
     states = []
     for k in range(N_STATES):
-        t = float(f"{0.05 + 0.3 * rng.uniform():.4f}")
+        t = float(f"{0.05 + 0.3 * rng.uniform():.9f}")
         q = _near_closed(numpy, t, linkage.defaults, min([1e-3, *plays]), rng)
         v = np.array([float(f"{x:.4g}") for x in rng.normal(0.0, 0.3, len(q))])
         latches = [0.1 if k and not model.rigid else np.nan] * len(model.clearances)
