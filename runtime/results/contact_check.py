@@ -1,0 +1,186 @@
+"""Independent check of the contacts of a run: `run.check()`.
+
+The penetration of every joint with play is computed in NumPy from positions of the bodies alone, at the samples of a
+run. Nothing of the engine that locates contacts is used. A joint must not penetrate outside a contact of
+`run.impacts`, must not carry a force there, and no peak may exceed the largest force of the listed contacts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gudgeon.contract.clearance_info import ClearanceInfo
+from gudgeon.contract.kernel_source import PointInfo
+from gudgeon.errors import SolverError
+from gudgeon.model.compiled import Array
+from gudgeon.model.contours import contour_of, depth_at
+from gudgeon.model.corners import slider_of
+
+if TYPE_CHECKING:
+    from gudgeon.results.results import Result
+
+DEPTH_TOL = 1e-9  # of the clearance, that a penetration outside a contact is rounding
+TIME_TOL = 1e-11  # of the span of a run, by which a sample may miss the end of a contact
+PEAK_TOL = 1e-3  # relative, by which a peak may exceed the largest force of the contacts
+
+
+@dataclass(frozen=True)
+class Fault:
+    """What contradicts the contacts of a run, in one joint over neighbouring samples.
+
+    kind: "penetration" or "force" outside every listed contact, "peak" above the largest force of the contacts.
+    """
+
+    kind: str
+    joint: str
+    t: float  # s, where it is largest
+    depth: float  # m, the largest penetration there
+    force: float  # N, the largest force there; NaN: not known
+
+    def __str__(self) -> str:
+        told = {"penetration": "lies in its wall outside every listed contact", "peak": "has a peak above every contact",
+                "force": "carries a force outside every listed contact"}  # fmt: skip
+        return f"joint {self.joint} {told[self.kind]} at t = {self.t:.9g} s: depth {self.depth:.3g} m, {self.force:.4g} N"
+
+
+@dataclass(frozen=True)
+class ContactCheck:
+    """The faults that were found, by time; `samples` tells at how many times the run was looked at."""
+
+    samples: int
+    faults: tuple[Fault, ...]
+    notes: tuple[str, ...] = ()
+
+    def __bool__(self) -> bool:
+        """True where nothing was found."""
+        return not self.faults
+
+    def __str__(self) -> str:
+        head = f"contacts checked at {self.samples} samples: {len(self.faults) or 'no'} faults"
+        return "\n".join([head, *self.notes, *map(str, self.faults)])
+
+    def raise_faults(self) -> None:
+        """Raise SolverError with joint, time and depth of every fault, if there is one."""
+        if self.faults:
+            raise SolverError(str(self))
+
+
+def penetrations(run: Result) -> Array:
+    """Penetration (N, n_clearances) at all samples, m, from positions of the bodies; negative: no contact."""
+    columns = [_at_wall(run, joint) if joint.at_wall else _in_bearing(run, joint) for joint in run.source.clearances]
+    return np.stack(columns, axis=1) if columns else np.zeros((len(run.t), 0))
+
+
+def check_samples(run: Result, peaks: Result | None = None) -> ContactCheck:
+    """Check the samples of a run against its contacts; `peaks`: the run whose peaks were asked for, None: the same."""
+    found: list[Fault] = []
+    delta = penetrations(run)
+    for k, joint in enumerate(run.source.clearances):
+        if not joint.dry:
+            continue
+        force = np.full(len(run.t), np.nan) if run.compiled is None or joint.film else run[f"{joint.name}.F"]
+        free = ~_in_contact(run, k)
+        limit = DEPTH_TOL * float(run.p[joint.clearance])
+        found += _excursions(run, joint, "penetration", free & (delta[:, k] > limit), delta[:, k], force)
+        found += _excursions(run, joint, "force", free & (delta[:, k] <= limit) & (force > 0.0), delta[:, k], force)
+        found += _peaks(peaks or run, k, joint)
+    return ContactCheck(len(run.t), tuple(sorted(found, key=lambda one: one.t)))
+
+
+def _in_contact(run: Result, k: int) -> Array:
+    """Whether each sample lies in a listed contact of joint k."""
+    own = run.impacts[run.impacts["joint"] == k]
+    slack = TIME_TOL * float(run.t[-1] - run.t[0])
+    inside = np.zeros(len(run.t) + 1, int)
+    ends = np.where(np.isnan(own["t_off"]), np.inf, own["t_off"])
+    np.add.at(inside, np.searchsorted(run.t, own["t_on"] - slack), 1)
+    np.add.at(inside, np.searchsorted(run.t, ends + slack, "right"), -1)
+    return np.cumsum(inside)[:-1] > 0
+
+
+def _excursions(
+    run: Result, joint: ClearanceInfo, kind: str, wrong: Array, delta: Array, force: Array
+) -> Iterator[Fault]:  # fmt: skip
+    """One fault for each series of neighbouring samples that are wrong."""
+    at = np.flatnonzero(wrong)
+    for part in np.split(at, np.flatnonzero(np.diff(at) > 1) + 1):
+        if len(part):
+            deepest = part[np.argmax(delta[part])] if kind == "penetration" else part[np.argmax(force[part])]
+            largest = float(force[part].max())
+            yield Fault(kind, joint.name, float(run.t[deepest]), float(delta[part].max()), largest)
+
+
+def _peaks(run: Result, k: int, joint: ClearanceInfo) -> Iterator[Fault]:
+    """A peak over all steps that no listed contact has; joints with a film have forces outside contacts."""
+    if joint.film or joint.name in run.source.rigid or joint.joint in run.source.rigid:
+        return
+    own = run.impacts[run.impacts["joint"] == k]
+    largest = float(own["F_peak"].max(initial=0.0))
+    told = [(one.max, one.t_max) for one in run.diagnostics.extremes if one.name == f"{joint.name}.F" and not one.against]
+    told += [(one.F, one.t) for one in run.diagnostics.peaks if one.joint == joint.name]
+    for F, t in told:
+        if F > largest * (1.0 + PEAK_TOL):
+            yield Fault("peak", joint.name, t, float("nan"), F)
+
+
+def _in_bearing(run: Result, joint: ClearanceInfo) -> Array:
+    """‖e‖ − c of a journal, of a bearing with a contour less its depth in the direction of e."""
+    first, second = _ends(run, joint)
+    ex, ey = (_points(run, second) - _points(run, first)).T
+    delta = np.hypot(ex, ey) - float(run.p[joint.clearance])
+    if (depths := contour_of(run.source, run.p, joint.name)) is not None:
+        delta -= depth_at(depths, np.arctan2(ey, ex) - _angle(run, joint.first))
+    return delta
+
+
+def _at_wall(run: Result, joint: ClearanceInfo) -> Array:
+    """Penetration of a slider's corner: how far it is nearer to its wall than in the middle of the guide, less the gap.
+
+    With the offset o of the slider across the guide, its tilt φ, half length a, half height b and corner radius r it is
+    ±(o ± (a − r) sin φ) + (b − r) (cos φ − 1).
+    """
+    first, second = _ends(run, joint)
+    place = run.source.place
+    numbers = {key: float(run.p[place[at]]) if (at := f"joints.{joint.joint}.{key}") in place else 0.0
+               for key in ("axis.x", "axis.y", "angle")}  # fmt: skip
+    direction = np.arctan2(numbers["axis.y"], numbers["axis.x"]) + _angle(run, joint.first)
+    turned = numbers["angle"] if f"joints.{joint.joint}.angle" in place or _written(run, joint) else None
+    mounted = np.arctan2(numbers["axis.y"], numbers["axis.x"]) if turned is None else turned
+    tilt = _angle(run, joint.second) - _angle(run, joint.first) - mounted
+    apart = _points(run, second) - _points(run, first)
+    offset = apart[:, 1] * np.cos(direction) - apart[:, 0] * np.sin(direction)
+    _, a, b, radius = slider_of(run.source, run.p, joint)
+    front, upper = (1.0 if word in joint.name.rpartition(".")[2] else -1.0 for word in ("front", "upper"))
+    e = upper * (offset + front * (a - radius) * np.sin(tilt)) + (b - radius) * (np.cos(tilt) - 1.0)
+    return np.asarray(e - float(run.p[joint.clearance]))
+
+
+def _written(run: Result, joint: ClearanceInfo) -> bool:
+    return any(one.address == f"joints.{joint.joint}.angle" for one in run.source.written)
+
+
+def _ends(run: Result, joint: ClearanceInfo) -> tuple[str, str]:
+    """The bearing's and the journal's points."""
+    part = next(one for one in run.source.parts if one.section == "joints" and one.name == joint.joint)
+    return part.ends[0], part.ends[1]
+
+
+def _angle(run: Result, body: int) -> Array:
+    return run.q[:, run.source.bodies[body].index + 2] if body >= 0 else np.zeros(len(run.t))
+
+
+def _points(run: Result, name: str) -> Array:
+    """Positions (N, 2) of a point, m."""
+    info: PointInfo | None = next((one for one in run.source.points if one.name == name), None)
+    if info is None:
+        return np.zeros((len(run.t), 2))
+    s = [sign * float(run.p[k]) if k >= 0 else 0.0 for sign, k in ((info.sign_x, info.x), (info.sign_y, info.y))]
+    if info.body < 0:
+        return np.tile(s, (len(run.t), 1))
+    at = run.source.bodies[info.body].index
+    cos, sin = np.cos(run.q[:, at + 2]), np.sin(run.q[:, at + 2])
+    return run.q[:, at : at + 2] + np.stack([cos * s[0] - sin * s[1], sin * s[0] + cos * s[1]], axis=1)

@@ -1,0 +1,266 @@
+"""Random machines whose contacts are checked: `python -m tests.random_contacts --count 1000 --seed 1`.
+
+Slider-cranks, four-bars and six-bars with play in one to four joints, on the crank side too; 100 to 6000 rpm, clearances
+of 0.02 to 1 mm, tolerances of 1e-4 to 1e-10, all methods, single runs, restarts and batches (in lanes). Each run is
+checked at 20,000 samples (gudgeon/results/contact_check.py), and what is found is counted by class. A class is compiled
+once; all of its machines differ by numbers alone.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import tempfile
+import time
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import gudgeon
+from gudgeon.results.contact_check import ContactCheck, check_samples
+
+SAMPLES = 20_000
+HEAD = """
+format: gudgeon/1
+name: {name}
+gravity: [0, -9.81]
+materials: {{steel: {{E: 207 GPa, nu: 0.3}}}}
+parameters: {{omega: 600 rpm, c: 0.1 mm, ce: 0.5, mu: 0.05{numbers}}}
+bearings: {{pin: {{radius: 10 mm, clearance: c, length: 20 mm, bearing_material: steel, journal_material: steel}}}}
+guides: {{way: {{gap: c, half_length: 20 mm, half_height: 10 mm, corner_radius: 1 mm, guide_material: steel, slider_material: steel}}}}
+contacts:
+  dry:
+    normal: {{law: {law}, restitution: ce, geometry: internal}}
+    friction: {{law: modified_coulomb, mu: mu, v0: 1e-3 m/s, v1: 1e-2 m/s}}
+scenes: {{dry: {{play: {{{play}}}}}}}
+"""
+SLIDER_CRANK = """
+bodies:
+  crank: {length: r, mass: m1, inertia: J1}
+  rod: {length: L, mass: m2, inertia: J2}
+  slider: {mass: m3, inertia: J3}
+ground: {O: [0, 0]}
+joints:
+  O: {revolute: [ground.O, crank.tail]}
+  crankpin: {revolute: [crank.head, rod.tail]}
+  wristpin: {revolute: [rod.head, slider.origin]}
+  cylinder: {translational: [ground.O, slider.origin], axis: [1, 0]}
+drives: {motor: {angle: crank, value: omega*t}}
+start: {guess: {rod.theta: 0, slider.x: r + L}}
+"""
+FOUR_BAR = """
+bodies:
+  crank: {length: r, mass: m1, inertia: J1}
+  rod: {length: L, mass: m2, inertia: J2}
+  rocker: {length: R, mass: m3, inertia: J3}
+ground: {O: [0, 0], C: [D, 0]}
+joints:
+  O: {revolute: [ground.O, crank.tail]}
+  crankpin: {revolute: [crank.head, rod.tail]}
+  B: {revolute: [rod.head, rocker.head]}
+  C: {revolute: [ground.C, rocker.tail]}
+drives: {motor: {angle: crank, value: omega*t}}
+start: {guess: {rod.theta: 1, rocker.theta: 2}}
+"""
+SIX_BAR = """
+bodies:
+  crank: {length: r, mass: m1, inertia: J1}
+  rod: {length: L, mass: m2, inertia: J2}
+  rocker: {length: R, mass: m3, inertia: J3}
+  link: {length: Q, mass: m4, inertia: J4}
+  slider: {mass: m5, inertia: J5}
+ground: {O: [0, 0], C: [D, 0]}
+joints:
+  O: {revolute: [ground.O, crank.tail]}
+  crankpin: {revolute: [crank.head, rod.tail]}
+  B: {revolute: [rod.head, rocker.head]}
+  C: {revolute: [ground.C, rocker.tail]}
+  P: {revolute: [rocker.head, link.tail]}
+  wristpin: {revolute: [link.head, slider.origin]}
+  cylinder: {translational: [ground.C, slider.origin], axis: [1, 0]}
+drives: {motor: {angle: crank, value: omega*t}}
+start: {guess: {rod.theta: 1, rocker.theta: 2, link.theta: 0, slider.x: D + Q}}
+"""
+KINDS = {"slider_crank": (SLIDER_CRANK, 3), "four_bar": (FOUR_BAR, 3), "six_bar": (SIX_BAR, 5)}
+CLASSES = tuple(
+    (kind, joints, law)
+    for kind, joints, law in (
+        ("slider_crank", "crankpin", "flores"), ("slider_crank", "wristpin", "lankarani_nikravesh"),
+        ("slider_crank", "crankpin wristpin", "hunt_crossley"), ("slider_crank", "O crankpin wristpin", "flores"),
+        ("slider_crank", "cylinder", "flores"), ("slider_crank", "crankpin cylinder", "flores"),
+        ("four_bar", "crankpin", "flores"), ("four_bar", "B", "lankarani_nikravesh"),
+        ("four_bar", "crankpin B C", "flores"), ("four_bar", "O crankpin B C", "hunt_crossley"),
+        ("six_bar", "crankpin", "flores"), ("six_bar", "B", "flores"), ("six_bar", "P wristpin", "flores"),
+    )
+)  # fmt: skip
+METHODS = ("auto", "auto", "auto", "dop853", "rodas5p", "radau5", "radau9", "rk4")
+
+
+@dataclass(frozen=True)
+class Machine:
+    """Numbers of one run of a class."""
+
+    parameters: dict[str, float]
+    t_end: float
+    method: str
+    rtol: float
+
+
+def text_of(kind: str, joints: str, law: str) -> str:
+    """The YAML of a class."""
+    body, masses = KINDS[kind]
+    sizes = {"r": "0.05 m", "L": "0.2 m", "R": "0.15 m", "D": "0.2 m", "Q": "0.3 m"}
+    numbers = "".join(f", {name}: {value}" for name, value in sizes.items() if f" {name}" in body or f"{name}," in body)
+    numbers += "".join(f", m{k}: 0.2 kg, J{k}: 1e-4 kg*m^2" for k in range(1, masses + 1))
+    play = ", ".join(f"{j}: {{{'guide: way' if j == 'cylinder' else 'bearing: pin'}, contact: dry}}" for j in joints.split())
+    name = f"{kind}_{joints.replace(' ', '_')}"
+    return HEAD.format(name=name, numbers=numbers, law=law, play=play) + body
+
+
+def drawn(kind: str, rng: np.random.Generator) -> Machine:
+    """A machine whose crank turns round, of a size of decimetres."""
+
+    def log(low: float, high: float) -> float:
+        return float(np.exp(rng.uniform(np.log(low), np.log(high))))
+
+    rpm, r = log(100.0, 6000.0), log(0.02, 0.06)
+    L = r * rng.uniform(2.2, 5.0)
+    omega = rpm * 2.0 * np.pi / 60.0
+    out = {"omega": omega, "c": log(2e-5, 1e-3), "ce": float(rng.choice([0.3, 0.5, 0.7, 0.9])),
+           "mu": float(rng.choice([0.0, 0.03, 0.1])), "r": r, "L": L}  # fmt: skip
+    if kind != "slider_crank":
+        D, R = r * rng.uniform(2.5, 4.0), r * rng.uniform(2.0, 3.5)
+        L = rng.uniform(max(D - R, R - D) + 1.3 * r, D + R - 1.3 * r)
+        out |= {"L": L, "D": D, "R": R} | _closed(r, L, R, D)
+        if kind == "six_bar":
+            Q = 2.0 * R * rng.uniform(1.0, 2.0)
+            x, y = D + R * np.cos(out["start.guess.rocker.theta"]), R * np.sin(out["start.guess.rocker.theta"])
+            reach = np.sqrt(Q * Q - y * y)
+            out |= {"Q": Q, "start.guess.slider.x": x + reach, "start.guess.link.theta": float(np.arctan2(-y, reach))}
+    lengths = [out.get(key) for key in ("r", "L", "R", "Q")]
+    for k in range(1, KINDS[kind][1] + 1):
+        m = log(0.03, 2.0)
+        long = (lengths[k - 1] if k <= 4 else None) or 0.05
+        out |= {f"m{k}": m, f"J{k}": m * long * long / 12.0 * rng.uniform(0.7, 2.0)}
+    turns, method = rng.uniform(0.5, 2.5), str(rng.choice(METHODS))
+    rtol = 10.0 ** float(rng.integers(-10, -3))
+    return Machine(out, float(turns * 2.0 * np.pi / omega), method, rtol)
+
+
+def _closed(r: float, L: float, R: float, D: float) -> dict[str, float]:
+    """The four-bar at crank angle 0 by the cosine rule, its start's guess."""
+    d = D - r
+    a = np.arccos((L * L + d * d - R * R) / (2.0 * L * d))
+    x, y = r + L * np.cos(a), L * np.sin(a)
+    return {"start.guess.rod.theta": float(a), "start.guess.rocker.theta": float(np.arctan2(y, x - D))}
+
+
+@dataclass
+class Counted:
+    """What the runs of a class came to."""
+
+    runs: int = 0
+    faulty: int = 0
+    phantom: int = 0
+    failed: int = 0
+    contacts: int = 0
+
+
+def checked(run: gudgeon.Result) -> tuple[ContactCheck, int]:
+    """The check of a run's samples, and how many of its contacts have no force though they last (phantoms)."""
+    own = run.impacts[run.impacts["t_off"] > run.impacts["t_on"]]
+    resolved = own["deltadot"] <= 1.0001e-6
+    return check_samples(run), int((resolved & (own["F_peak"] == 0.0)).sum())
+
+
+def runs_of(simulation: gudgeon.Simulation, machines: list[Machine], single: bool, restart: bool) -> Iterator[Any]:
+    """The runs of machines: each for itself, cut in two and continued, or all in a batch by the first's settings."""
+    if not single:
+        first = machines[0]
+        names = sorted({name for one in machines for name in one.parameters})
+        columns = {name: [one.parameters[name] for one in machines] for name in names}
+        ends = [one.t_end for one in machines]
+        out = [np.linspace(0.0, t, SAMPLES + 1) for t in ends]
+        how = {"step": [t / 20_000 for t in ends]} if first.method == "rk4" else {"rtol": first.rtol}
+        batch = simulation.simulate_many(columns, ends, output=out, method=first.method, threads=1, **how)
+        for i, one in enumerate(machines):
+            yield one, (batch.failures[i] if i in batch.failures else batch[i])
+        return
+    for one in machines:
+        how: dict[str, Any] = {"step": one.t_end / 20_000} if one.method == "rk4" else {"rtol": one.rtol}
+        try:
+            if restart:
+                half = simulation.simulate(0.37 * one.t_end, output=50, method=one.method, parameters=one.parameters, **how)
+                t = np.linspace(half.t[-1], one.t_end, SAMPLES + 1)
+                yield one, simulation.simulate(output=t, start=half.final, method=one.method, **how)
+                continue
+            yield one, simulation.simulate(one.t_end, output=SAMPLES, method=one.method, parameters=one.parameters, **how)
+        except gudgeon.GudgeonError as error:
+            yield one, error
+
+
+def campaign(count: int, seed: int, classes: str = "", show: int = 5, quiet: bool = False) -> dict[str, Counted]:
+    """So many machines over all classes; counts by class and way of running."""
+    rng, found = np.random.default_rng(seed), dict[str, Counted]()
+    kinds = [one for one in CLASSES if classes in " ".join(one)]
+    failures, shown = Counter[str](), 0
+    with tempfile.TemporaryDirectory() as folder:
+        for n, (kind, joints, law) in enumerate(kinds):
+            path = Path(folder) / f"{n}.yaml"
+            path.write_text(text_of(kind, joints, law))
+            simulation = gudgeon.load(path, "dry")
+            machines = [drawn(kind, rng) for _ in range(max(1, (count + n) // len(kinds)))]
+            done = 0
+            while done < len(machines):
+                way = ("single", "single", "single", "restart", "batch")[int(rng.integers(5))]
+                some = machines[done : done + (8 if way == "batch" else 1)]
+                done += len(some)
+                key = f"{kind} {joints} {way}"
+                own = found.setdefault(key, Counted())
+                for one, run in runs_of(simulation, some, way != "batch", way == "restart"):
+                    own.runs += 1
+                    if not hasattr(run, "impacts"):
+                        own.failed += 1
+                        failures[str(run)[:90]] += 1
+                        continue
+                    check, phantoms = checked(run)
+                    own.contacts += len(run.impacts)
+                    own.faulty += not check
+                    own.phantom += phantoms > 0
+                    if (not check or phantoms) and shown < show and not quiet:
+                        shown += 1
+                        print(f"  {key} {one}\n{check} phantoms {phantoms}", flush=True)
+            if not quiet:
+                print(kind, joints, f"{len(machines)} machines", flush=True)
+    if not quiet:
+        for told, k in failures.most_common(8):
+            print(f"failed {k}: {told}")
+    return found
+
+
+def main() -> int:
+    """Print counts by class; 1 where something was found."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--count", type=int, default=200)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--classes", default="", help="only classes whose words contain this")
+    parser.add_argument("--show", type=int, default=5, help="machines that are shown in full")
+    arguments = parser.parse_args()
+    begun = time.perf_counter()
+    found = campaign(arguments.count, arguments.seed, arguments.classes, arguments.show)
+    total = Counted()
+    for key, own in found.items():
+        print(f"{key:44s} runs {own.runs:5d}  contacts {own.contacts:7d}  with faults {own.faulty:4d}  with phantoms {own.phantom:4d}  failed {own.failed:3d}")
+        for name in vars(total):
+            setattr(total, name, getattr(total, name) + getattr(own, name))
+    print(f"{'all':44s} runs {total.runs:5d}  contacts {total.contacts:7d}  with faults {total.faulty:4d}  with phantoms {total.phantom:4d}  failed {total.failed:3d}")
+    print(f"{time.perf_counter() - begun:.0f} s")
+    return 1 if total.faulty or total.phantom else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
