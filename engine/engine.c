@@ -20,7 +20,7 @@
 #include "methods/methods.c"
 #include "watch/reach.c"
 #include "watch/roots.c"
-#include "watch/grazes.c"
+#include "watch/gaps.c"
 #include "watch/pulses.c"
 #if !N_WATCHED
 #include "watch/no_watched.c"

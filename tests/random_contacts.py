@@ -188,7 +188,10 @@ def runs_of(simulation: gudgeon.Simulation, machines: list[Machine], single: boo
         how = {"step": [t / 20_000 for t in ends]} if first.method == "rk4" else {"rtol": first.rtol}
         batch = simulation.simulate_many(columns, ends, output=out, method=first.method, threads=1, **how)
         for i, one in enumerate(machines):
-            yield one, (batch.failures[i] if i in batch.failures else batch[i])
+            try:
+                yield one, batch[i]
+            except gudgeon.GudgeonError as error:
+                yield one, error
         return
     for one in machines:
         how: dict[str, Any] = {"step": one.t_end / 20_000} if one.method == "rk4" else {"rtol": one.rtol}
@@ -223,7 +226,7 @@ def campaign(count: int, seed: int, classes: str = "", show: int = 5, quiet: boo
                 own = found.setdefault(key, Counted())
                 for one, run in runs_of(simulation, some, way != "batch", way == "restart"):
                     own.runs += 1
-                    if not hasattr(run, "impacts"):
+                    if isinstance(run, gudgeon.GudgeonError):
                         own.failed += 1
                         failures[str(run)[:90]] += 1
                         continue

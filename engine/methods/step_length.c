@@ -8,6 +8,7 @@ enum { MAX_STUCK = 200, MAX_CRAWL = 2000, PATIENCE = 8,
 #define WORTH 0.8     /* of a stiff step's length, that an explicit one must have to be cheaper */
 #define WORKS 10.0    /* times rtol, that the works of a step may err, as a share of the energy turned over */
 #define PAST 1.05    /* of the time to the end of a contact, that a step takes */
+#define FLIGHT 2.0    /* times that a journal takes to cross its bearing, that a step may take */
 #define SLACK 2.5     /* h rho below which the stiff method is not worth its price */
 #define STEEPEST 30.0 /* power of a step's length, as which its error may be seen to grow */
 #define FADES 0.95    /* what is left of that power after a step */
@@ -133,6 +134,17 @@ static double up_to_parting(const Run *run, double h)
     return h;
 }
 
+/* No longer than a journal takes that crosses its bearing as it leaves the wall, or a corner its guide. */
+static double within_flight(const Run *run, double h, const Parameters *p)
+{
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Clearance *joint = &run->aside.clearance[i];
+        if (gives(i) && !run->memory.latch[i].closed && joint->deltadot < 0.0)
+            h = min_of(h, FLIGHT * (2.0 * radial_clearance(p, i) + joint->delta) / -joint->deltadot);
+    }
+    return h;
+}
+
 /* How long a step towards t_end is tried at first. */
 static void open_attempt(Run *run, double t_end, const Parameters *p)
 {
@@ -141,7 +153,7 @@ static void open_attempt(Run *run, double t_end, const Parameters *p)
     if (run->skip >= 0 && run->fixed <= 0.0)
         h = min_of(h, run->pace);
     if (run->fixed <= 0.0)
-        h = up_to_parting(run, min_of(h, stride(run, NULL, p)));
+        h = within_flight(run, up_to_parting(run, min_of(h, stride(run, NULL, p))), p);
     if (h > left * (1.0 - 1e-9))
         h = left;
     run->attempt = (Attempt){.h = h, .longest = h, .left = left, .far = far, .open = 1,

@@ -1,6 +1,14 @@
 /*
  * Onsets and separations of joints with play, from gap and approach at both ends of a step.
  */
+#define SHALLOW 1e-13 /* m, or 1e-10 of the depth that ends the model: a graze without a force worth the name */
+
+/* How far below zero a joint's margin lies without a meaning, m. */
+static double shallow(const Parameters *p, int k)
+{
+    return -min_of(SHALLOW, 1e-10 * deepest(p, k));
+}
+
 /* Parameter s in [0, 1] at which the cubic through (d0, h r0) and (d1, h r1) crosses zero; its slope in `rate`. */
 static double crossing(double d0, double r0, double d1, double r1, double h, double *rate)
 {
@@ -64,7 +72,9 @@ static int update_latches(Run *run, double t, double h, const Clearance *before,
             run->grazes += !run->memory.latch[i].closed && touched[i] && d1 < 0.0;
             continue;
         }
-        if (!run->memory.latch[i].closed && d1 >= 0.0) {
+        /* a journal that leaves zero is free, whatever its penetration is rounded to */
+        const int touches = d1 >= 0.0 && (d1 > -shallow(p, i) || after[i].deltadot > 0.0);
+        if (!run->memory.latch[i].closed && touches) {
             const double s = d0 < 0.0 ? crossing(d0, before[i].deltadot, d1, after[i].deltadot, h, &rate) : 0.0;
             /* a run that begins in contact: at least as fast as its surfaces move (begin_in_contact) */
             close_joint(run, i, t + s * h, d0 < 0.0 ? rate : fabs(before[i].deltadot), slowest_impact(p, i));

@@ -84,14 +84,12 @@ static double first_dip(const Step *step, int k, double end)
     return first < back ? first : 1.0;
 }
 
-/* The bracket's upper end for margin k: a share at which it is below zero; 0 if there is none. */
+/* The bracket's upper end for margin k, of no joint whose rate is known: a share at which it is below zero; 0: none. */
 static double violated(Run *run, Step *step, int k, const Parameters *p, double *value)
 {
     if (watched_as[k] >= 0)
         return first_look(run, step, watched_as[k], p, value);
     const double end = margin(&run->memory, &step->aside, k);
-    if (k < N_CLEARANCES && may_graze(run, step, k) && make_dense(run, p, step) == 0)
-        return look_along(run, step, k, p, value);
     for (int last = 0; last < 2 && step->lowest[k] < 0.0; last++) {
         const double at = last ? lowest_stage(step, k) : first_dip(step, k, end);
         if (at >= 1.0 || make_dense(run, p, step))
@@ -114,8 +112,8 @@ static double earlier_event(Run *run, const Step *step, double first, const Para
         if (state_at(run, step, first, p, y, dy, &aside))
             return first;
         for (int k = 0; k < N_MARGINS; k++)
-            if (k != *event && !is_passed(run, step, k) && margin(&run->memory, &aside, k) < 0.0
-                && margin(&run->memory, &run->aside, k) >= 0.0)
+            if (k != *event && !is_passed(run, step, k) && !isfinite(begin_of(run, step, k).slope)
+                && margin(&run->memory, &aside, k) < 0.0 && margin(&run->memory, &run->aside, k) >= 0.0)
                 found = k;
         if (found < 0)
             return first;
@@ -141,24 +139,25 @@ typedef struct {
 static int is_candidate(Run *run, Step *step, int k, const Parameters *p, Candidate *now)
 {
     double at_high;
-    const double high = violated(run, step, k, p, &at_high);
+    Place low = begin_of(run, step, k), end = {0.0, NAN, NAN};
+    const int is_gap = isfinite(low.slope), some = is_gap && has_zero(run, step, k, p, &low, &end);
+    const double high = is_gap ? some * end.s : violated(run, step, k, p, &at_high);
     if (high == 0.0 || make_dense(run, p, step))
         return 0;
-    Place low = begin_of(run, step, k);
     if (watched_as[k] >= 0 && step->from[watched_as[k]] > 0.0) {
         const Place from = place_at(run, step, step->from[watched_as[k]], k, p);
         if (from.f >= 0.0)
             low = from;
     }
-    for (int j = 1; j < 4 && !(low.f >= 0.0); j++) { /* begun on the wrong side: does it come back first? */
+    for (int j = 1; j < 4 && !is_gap && !(low.f >= 0.0); j++) { /* begun on the wrong side: does it come back first? */
         const Place part = place_at(run, step, 0.25 * j * high, k, p);
         if (part.f >= 0.0)
             low = part;
     }
     now->k = k;
     now->of = bracket_of(step, k, low, high < 1.0 ? place_at(run, step, high, k, p) : end_of(run, step, k));
-    now->guess = low.f >= 0.0 ? guess_zero(&now->of, telling(run, k)) : 0.0;
-    now->about = low.f >= 0.0 ? about_where(now->guess, &now->of) : 0.0;
+    now->guess = low.f >= 0.0 ? guess_zero(&now->of, telling(run, k)) : low.s;
+    now->about = low.f >= 0.0 ? about_where(now->guess, &now->of) : low.s;
     return 1;
 }
 
@@ -185,7 +184,7 @@ static double first_counting(Run *run, Step *step, const Parameters *p, int *eve
         const Candidate *now = &some[i];
         if (*event >= 0 && now->of.at[1].s > first && margin_at(run, step, first, now->k, p) >= 0.0)
             continue; /* later than what was found */
-        const double s = now->of.at[0].f >= 0.0 ? root(run, step, now->k, now->of, now->guess, p) : 0.0;
+        const double s = now->of.at[0].f >= 0.0 ? root(run, step, now->k, now->of, now->guess, p) : now->of.at[0].s;
         if (*event < 0 || s < first) {
             first = s;
             *event = now->k;

@@ -1,0 +1,172 @@
+/*
+ * Contacts along a step: the first zero of a joint's margin (the gap of a free joint, the penetration of a closed
+ * contact), and the proof that the step is clear of zeros before it.
+ *
+ * Stages bound the margin of most steps: its second derivative by BEND_SAFETY times the largest that the rates of
+ * neighbouring stages show (bound_by_stages). Where that does not decide, the dense output is bisected (first_zero). On
+ * each part of it the margin is the cubic of values and rates at both ends within an error. That error is taken as the
+ * one that the cubic of the whole part before the bisection had in the middle; in theory the halves have a sixteenth of
+ * it. What is guaranteed: no zero of the dense output is missed, and none before the one that is found, as long as the
+ * error of a half is not larger than the one of the whole that was measured, on parts of at most a quarter of the step.
+ */
+enum { MAX_BISECTIONS = 48, MAX_SAMPLES = 400 /* of a joint and step: what they leave open is below rounding */ };
+
+#define BEND_SAFETY 2.0
+
+/* A part of a step: its end and how far the margin may lie beside the cubic between both ends. */
+typedef struct {
+    Place end;
+    double error;
+} Stretch;
+
+enum { CLEAR, FALLS, UNKNOWN }; /* no zero; one zero, through which the margin falls; neither is known */
+
+/*
+ * A margin and its rate at a penetration: of a journal half the difference of squares of clearance and eccentricity
+ * over the clearance, which unlike the eccentricity is smooth where the journal passes the middle.
+ */
+static Place margin_of(const Run *run, const Step *step, int i, double s, double delta, double rate, double c)
+{
+    const double sign = run->memory.latch[i].closed ? 1.0 : -1.0;
+#if defined WALLS || defined CONTOURS
+    (void)c;
+    return (Place){s, sign * delta, sign * step->h * rate};
+#else
+    return (Place){s, sign * delta * (1.0 + 0.5 * delta / c), sign * step->h * rate * (1.0 + delta / c)};
+#endif
+}
+
+/* Margin i at the begin of a step, at its stages in the order of their nodes, at its end. Returns how many. */
+static int margins_of_stages(const Run *run, const Step *step, int i, const Parameters *p, Place *all)
+{
+    const Seen margins = seen_of(step, i), rates = seen_of(step, SEEN_RATES + i);
+    const double c = radial_clearance(p, i), sign = run->memory.latch[i].closed ? 1.0 : -1.0;
+    const Clearance *begin = &run->aside.clearance[i], *end = &step->aside.clearance[i];
+    int n = 1;
+    all[0] = margin_of(run, step, i, 0.0, begin->delta, begin->deltadot, c);
+    for (int k = 0; k < step->n_seen; k++) {
+        const double node = step->node[k];
+        int at = n;
+        if (!(node > 0.0 && node < 1.0))
+            continue;
+        for (n++; all[at - 1].s > node; at--)
+            all[at] = all[at - 1];
+        all[at] = margin_of(run, step, i, node, sign * seen_at(margins, k), seen_at(rates, k), c);
+    }
+    all[n++] = margin_of(run, step, i, 1.0, end->delta, end->deltadot, c);
+    return n;
+}
+
+/*
+ * What the stages say of margin i. Between neighbours a and b with |f''| <= B it is at least min(f_a, f_b) - B w^2/8,
+ * and at least max(f_a + f'_a x - B x^2/2, f_b - f'_b (w - x) - B (w - x)^2/2), least where both parabolas meet.
+ */
+static int bound_by_stages(const Run *run, const Step *step, int i, const Parameters *p)
+{
+    Place all[N_STAGES + 2];
+    const int n = margins_of_stages(run, step, i, p, all);
+    const double least = shallow(p, i);
+    double bend = 0.0;
+    int falls = 0;
+    if (!(all[0].f >= least))
+        return UNKNOWN;
+    for (int k = 1; k < n; k++)
+        bend = max_of(bend, fabs(all[k].slope - all[k - 1].slope) / (all[k].s - all[k - 1].s));
+    bend *= BEND_SAFETY;
+    for (int k = 1; k < n; k++) {
+        const Place a = all[k - 1], b = all[k];
+        const double w = b.s - a.s, curve = bend * w;
+        const double x = (a.f - b.f + (b.slope + 0.5 * curve) * w) / (b.slope - a.slope + curve);
+        const double below_chord = min_of(a.f, b.f) - 0.125 * curve * w;
+        const double meet = x >= 0.0 && x <= w ? a.f + x * (a.slope - 0.5 * bend * x) : -INFINITY;
+        if (!falls && b.f >= 0.0 && max_of(below_chord, meet) >= least)
+            continue;
+        if (!(0.5 * (a.slope + b.slope + curve) < 0.0))
+            return UNKNOWN;
+        falls = 1;
+    }
+    return falls && all[n - 1].f < 0.0 ? FALLS : CLEAR;
+}
+
+/* The least of f + u (r + u (c + u d)) for u from 0 to 1/2. */
+static double least_of_cubic(double f, double r, double c, double d)
+{
+    const double root = sqrt(max_of(0.0, c * c - 3.0 * d * r)), u = c > 0.0 ? -r / (c + root) : (root - c) / (3.0 * d);
+    const double least = min_of(f, f + 0.5 * (r + 0.5 * (c + 0.5 * d)));
+    return u > 0.0 && u < 0.5 ? min_of(least, f + u * (r + u * (c + u * d))) : least;
+}
+
+/*
+ * What is known of a margin between two places, where it lies beside their cubic by 16 error u^2 (1 - u)^2 at most, as
+ * the error of Hermite's cubic does: its rate then by 3.1 error at most.
+ */
+static int bound_by_cubic(Place a, Place b, double error, double least)
+{
+    const double w = b.s - a.s, r = w * a.slope, r_end = w * b.slope, rise = b.f - a.f;
+    const double c = 3.0 * rise - 2.0 * r - r_end, d = r + r_end - 2.0 * rise, beside = 16.0 * error;
+    const int ends = b.f >= (b.s < 1.0 || b.slope > 0.0 ? least : 0.0);
+    if (ends && least_of_cubic(a.f, r, c - beside, d) >= least
+        && least_of_cubic(b.f, -r_end, c + 3.0 * d - beside, -d) >= least)
+        return CLEAR;
+    double steepest = max_of(r, r_end);
+    if (d < 0.0 && c > 0.0 && c < -3.0 * d)
+        steepest = max_of(steepest, r - c * c / (3.0 * d));
+    if (!(steepest + 3.1 * error < 0.0))
+        return UNKNOWN;
+    return ends ? CLEAR : FALLS;
+}
+
+/* The cubic's error in the middle, its value's and an eighth of its rate's: what the halves are allowed. */
+static double error_of_cubic(Place a, Place middle, Place b)
+{
+    const double w = b.s - a.s;
+    const double value = 0.5 * (a.f + b.f) + 0.125 * w * (a.slope - b.slope);
+    const double slope = 1.5 * (b.f - a.f) - 0.25 * w * (a.slope + b.slope);
+    return fabs(middle.f - value) + 0.125 * fabs(w * middle.slope - slope);
+}
+
+/* FALLS with the places between which margin k crosses zero for the first time, or CLEAR. */
+static int first_zero(Run *run, const Step *step, int k, const Parameters *p, Place *low, Place *high)
+{
+    const double least = shallow(p, k), close = 4.0 * root_width(run, step);
+    Stretch part[MAX_BISECTIONS + 1] = {{end_of(run, step, k), INFINITY}};
+    Place from = begin_of(run, step, k);
+    for (int n = 1, samples = 0; n > 0;) {
+        const Stretch now = part[n - 1];
+        const double w = now.end.s - from.s;
+        int found = from.f >= least ? bound_by_cubic(from, now.end, now.error, least) : FALLS;
+        if (found == UNKNOWN) {
+            const Place middle = w > close && n <= MAX_BISECTIONS && samples++ < MAX_SAMPLES
+                ? place_at(run, step, from.s + 0.5 * w, k, p) : (Place){0.0, NAN, NAN};
+            if (isfinite(middle.f)) {
+                const double error = w > 0.5 ? INFINITY : error_of_cubic(from, middle, now.end);
+                part[n - 1].error = error;
+                part[n] = (Stretch){middle, error};
+                n++;
+                continue;
+            }
+            found = now.end.f < (now.end.s < 1.0 ? least : 0.0) ? FALLS : CLEAR;
+        }
+        if (found == FALLS) {
+            *low = from;
+            *high = now.end;
+            return FALLS;
+        }
+        from = now.end;
+        n--;
+    }
+    return CLEAR;
+}
+
+/* Whether margin k of a joint with play has a zero in the step, and places that enclose the first one. */
+static int has_zero(Run *run, Step *step, int k, const Parameters *p, Place *low, Place *high)
+{
+    int found = bound_by_stages(run, step, k, p);
+    *low = begin_of(run, step, k);
+    *high = end_of(run, step, k);
+    if (found == UNKNOWN)
+        found = make_dense(run, p, step) ? high->f < 0.0 ? FALLS : CLEAR : first_zero(run, step, k, p, low, high);
+    if (low->f < 0.0 && low->f >= shallow(p, k) && low->slope > 0.0)
+        low->f = 0.0; /* rounded: it leaves zero */
+    return found == FALLS;
+}
