@@ -139,8 +139,9 @@ static double within_flight(const Run *run, double h, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &run->aside.clearance[i];
+        const double c = radial_clearance(p, i), way = max_of(c, 2.0 * c + joint->delta);
         if (gives(i) && !run->memory.latch[i].closed && joint->deltadot < 0.0)
-            h = min_of(h, FLIGHT * (2.0 * radial_clearance(p, i) + joint->delta) / -joint->deltadot);
+            h = min_of(h, FLIGHT * way / -joint->deltadot);
     }
     return h;
 }
