@@ -107,7 +107,12 @@ class Machine:
     parameters: dict[str, float]
     t_end: float
     method: str
-    rtol: float
+    rtol: float  # of rk4 the step, s, so that its ends are no samples
+
+    @property
+    def how(self) -> dict[str, float]:
+        """Tolerance or step, as `simulate` takes it."""
+        return {"step" if self.method == "rk4" else "rtol": self.rtol}
 
 
 def text_of(kind: str, joints: str, law: str) -> str:
@@ -121,7 +126,7 @@ def text_of(kind: str, joints: str, law: str) -> str:
     return HEAD.format(name=name, numbers=numbers, law=law, play=play) + body
 
 
-def drawn(kind: str, rng: np.random.Generator) -> Machine:
+def drawn(kind: str, rng: np.random.Generator, method: str = "") -> Machine:
     """A machine whose crank turns round, of a size of decimetres."""
 
     def log(low: float, high: float) -> float:
@@ -146,8 +151,8 @@ def drawn(kind: str, rng: np.random.Generator) -> Machine:
         m = log(0.03, 2.0)
         long = (lengths[k - 1] if k <= 4 else None) or 0.05
         out |= {f"m{k}": m, f"J{k}": m * long * long / 12.0 * rng.uniform(0.7, 2.0)}
-    turns, method = rng.uniform(0.5, 2.5), str(rng.choice(METHODS))
-    rtol = 10.0 ** float(rng.integers(-10, -3))
+    turns, method = rng.uniform(0.5, 2.5), method or str(rng.choice(METHODS))
+    rtol = 10.0 ** float(rng.integers(-10, -3)) if method != "rk4" else log(1e-6, 5e-6)
     return Machine(out, float(turns * 2.0 * np.pi / omega), method, rtol)
 
 
@@ -185,8 +190,7 @@ def runs_of(simulation: gudgeon.Simulation, machines: list[Machine], single: boo
         columns = {name: [one.parameters[name] for one in machines] for name in names}
         ends = [one.t_end for one in machines]
         out = [np.linspace(0.0, t, SAMPLES + 1) for t in ends]
-        how = {"step": [t / 20_000 for t in ends]} if first.method == "rk4" else {"rtol": first.rtol}
-        batch = simulation.simulate_many(columns, ends, output=out, method=first.method, threads=1, **how)
+        batch = simulation.simulate_many(columns, ends, output=out, method=first.method, threads=1, **first.how)
         for i, one in enumerate(machines):
             try:
                 yield one, batch[i]
@@ -194,19 +198,19 @@ def runs_of(simulation: gudgeon.Simulation, machines: list[Machine], single: boo
                 yield one, error
         return
     for one in machines:
-        how: dict[str, Any] = {"step": one.t_end / 20_000} if one.method == "rk4" else {"rtol": one.rtol}
+        settings: dict[str, Any] = {"method": one.method, "peaks": ()} | one.how
         try:
             if restart:
-                half = simulation.simulate(0.37 * one.t_end, output=50, method=one.method, parameters=one.parameters, **how)
+                half = simulation.simulate(0.37 * one.t_end, output=50, parameters=one.parameters, **settings)
                 t = np.linspace(half.t[-1], one.t_end, SAMPLES + 1)
-                yield one, simulation.simulate(output=t, start=half.final, method=one.method, **how)
+                yield one, simulation.simulate(output=t, start=half.final, **settings)
                 continue
-            yield one, simulation.simulate(one.t_end, output=SAMPLES, method=one.method, parameters=one.parameters, **how)
+            yield one, simulation.simulate(one.t_end, output=SAMPLES, parameters=one.parameters, **settings)
         except gudgeon.GudgeonError as error:
             yield one, error
 
 
-def campaign(count: int, seed: int, classes: str = "", show: int = 5, quiet: bool = False) -> dict[str, Counted]:
+def campaign(count: int, seed: int, classes: str = "", method: str = "", show: int = 5, quiet: bool = False) -> dict[str, Counted]:
     """So many machines over all classes; counts by class and way of running."""
     rng, found = np.random.default_rng(seed), dict[str, Counted]()
     kinds = [one for one in CLASSES if classes in " ".join(one)]
@@ -216,7 +220,7 @@ def campaign(count: int, seed: int, classes: str = "", show: int = 5, quiet: boo
             path = Path(folder) / f"{n}.yaml"
             path.write_text(text_of(kind, joints, law))
             simulation = gudgeon.load(path, "dry")
-            machines = [drawn(kind, rng) for _ in range(max(1, (count + n) // len(kinds)))]
+            machines = [drawn(kind, rng, method) for _ in range(max(1, (count + n) // len(kinds)))]
             done = 0
             while done < len(machines):
                 way = ("single", "single", "single", "restart", "batch")[int(rng.integers(5))]
@@ -251,10 +255,11 @@ def main() -> int:
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--classes", default="", help="only classes whose words contain this")
+    parser.add_argument("--method", default="", help="only this method")
     parser.add_argument("--show", type=int, default=5, help="machines that are shown in full")
     arguments = parser.parse_args()
     begun = time.perf_counter()
-    found = campaign(arguments.count, arguments.seed, arguments.classes, arguments.show)
+    found = campaign(arguments.count, arguments.seed, arguments.classes, arguments.method, arguments.show)
     total = Counted()
     for key, own in found.items():
         print(f"{key:44s} runs {own.runs:5d}  contacts {own.contacts:7d}  with faults {own.faulty:4d}  with phantoms {own.phantom:4d}  failed {own.failed:3d}")

@@ -13,13 +13,19 @@ static void close_state(LaneRun *run, Lanes t, Lanes *y, const LaneParameters *p
 #include "../both/watch.h"
 
 /*
- * Lanes in which a contact begins, ends or is touched within the step or goes too deep, or an event's expression
- * changes its side, is zero or no number.
+ * Lanes in which a contact begins, ends or is touched within the step, may be (as may_touch of methods/rk4_inside.c
+ * has it) or goes too deep, or an event's expression changes its side, is zero or no number.
  */
-static LaneBits happens(const LaneRun *run, const LaneTrial *trial, const LaneParameters *p)
+static LaneBits happens(const LaneRun *run, double h, const LaneTrial *trial, const LaneParameters *p)
 {
     LaneBits some = {0};
     for (int i = 0; i < N_CLEARANCES; i++) {
+        const LaneClearance *a = &run->aside.clearance[i], *b = &trial->aside.clearance[i];
+        const LaneBits turns = (a->deltadot > 0.0) & (b->deltadot < 0.0);
+        if (any_of(turns)) {
+            const Lanes x = (b->delta - a->delta - b->deltadot * h) / (a->deltadot - b->deltadot);
+            some |= turns & ~is_closed(&run->memory.latch[i]) & (a->delta + a->deltadot * x > 0.0);
+        }
         const Lanes delta = trial->aside.clearance[i].delta;
         const LaneBits closed = is_closed(&run->memory.latch[i]);
         some |= (closed & (delta < 0.0)) | (~closed & (trial->touched[i] | (delta >= 0.0)));
@@ -42,7 +48,7 @@ static LaneBits lane_step(LaneRun *run, double h, double t_new, const LaneParame
     const Lanes evaluations = run->evaluations;
     run->memory.rare = (LaneBits){0};
     rk4_trial(run, h, p, &trial);
-    run->memory.rare |= not_finite(trial.dy, trial.y, N_Y) | happens(run, &trial, p);
+    run->memory.rare |= not_finite(trial.dy, trial.y, N_Y) | happens(run, h, &trial, p);
     if (keep || any_of(run->memory.rare)) {
         *before = *run;
         before->evaluations = evaluations;

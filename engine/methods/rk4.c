@@ -21,61 +21,7 @@ static int rk4_try(Run *run, double h, const Parameters *p, Trial *trial)
 #include "no_friction_events.c"
 #endif
 
-static void begin_step(Run *run)
-{
-    Beginning *from = &run->from;
-    from->t = run->t;
-    for (int k = 0; k < N_Y; k++) {
-        from->y[k] = run->y[k];
-        from->dy[k] = run->dy[k];
-    }
-    for (int i = 0; i < N_CLEARANCES; i++) {
-        from->closed[i] = run->memory.latch[i].closed;
-        from->compressing[i] = run->compressing[i];
-    }
-}
-
-/* Latches and codes at time t within the step that began as `from` and led to the present state. */
-static void latches_at(const Run *run, const Beginning *from, double t, double *latched, signed char *state)
-{
-    for (int i = 0; i < N_CLEARANCES; i++) {
-        const Latch *latch = &run->memory.latch[i];
-        const int changed = !latch->closed != !from->closed[i];
-        const int since = latch->closed ? t >= run->open[i].t_on : !(t < run->open[i].t_off);
-        const int closed = changed && !since ? from->closed[i] : latch->closed;
-        const int compressing = changed && since ? run->compressing[i] : from->compressing[i];
-        latched[i] = closed ? latch->deltadot_minus : NAN;
-        state[i] = (signed char)(closed ? 2 - compressing : 0);
-    }
-}
-
-/*
- * Samples inside the step that began as `from` and led to the present state: the cubic through both ends with their
- * rates (C. Hermite, J. reine angew. Math. 84, 1878), which errs by O(h^4), on the constraints as ends of steps are.
- */
-static void sample_inside(Run *run, const Beginning *from, const Parameters *p, const Samples *out)
-{
-    enum { MEMORY = AT_LEAST_ONE(N_MEMORY), JOINTS = AT_LEAST_ONE(N_CLEARANCES) };
-    const double h = run->t - from->t, close = rounded(run->t, h);
-    for (; *out->done < out->n && out->t[*out->done] < run->t - close; ++*out->done) {
-        const double t = out->t[*out->done], s = (t - from->t) / h, u = 1.0 - s;
-        double now[N_Y];
-        for (int k = 0; k < N_Y; k++)
-            now[k] = u * u * ((1.0 + 2.0 * s) * from->y[k] + s * h * from->dy[k])
-                + s * s * ((3.0 - 2.0 * s) * run->y[k] - u * h * run->dy[k]);
-        close_state(run, t, now, p);
-        store_sample(run, t, now, p, *out->done, out->y, out->latched, out->state);
-        latches_at(run, from, t, out->latched + *out->done * MEMORY, out->state + *out->done * JOINTS);
-    }
-}
-
-/* Samples at the present state. */
-static void sample_here(const Run *run, double h, const Parameters *p, const Samples *out)
-{
-    for (; *out->done < out->n && out->t[*out->done] <= run->t + rounded(run->t, h); ++*out->done)
-        store_sample(run, run->t, run->y, p, *out->done, out->y, out->latched, out->state);
-}
-
+#include "rk4_inside.c"
 /*
  * Takes a trial as the new state, whole, if it is a number; latches follow from the gaps at both of its ends. Samples
  * on the way are stored.
@@ -85,8 +31,8 @@ static int accept(Run *run, double h, double t_new, const Trial *trial, const Pa
     if (!all_finite(trial->y, N_Y) || !all_finite(trial->dy, N_Y))
         return NOT_FINITE;
     const double t = run->t;
-    const int sampled = *out->done < out->n && out->t[*out->done] < t_new;
-    if (sampled)
+    const int sampled = *out->done < out->n && out->t[*out->done] < t_new, touches = may_touch(run, h, trial);
+    if (sampled || touches)
         begin_step(run);
     const Aside before = run->aside;
     run->t = t_new;
@@ -105,6 +51,8 @@ static int accept(Run *run, double h, double t_new, const Trial *trial, const Pa
     }
     if (!status)
         status = watch(run, p);
+    if (!status && touches)
+        locate_inside(run, &run->from, before.clearance, p);
     if (!status)
         tape_row(run, t_new, run->y, p);
     if (!status && sampled)
