@@ -1,6 +1,6 @@
 """Random machines whose contacts are checked: `python -m tests.random_contacts --count 1000 --seed 1`.
 
-Slider-cranks, four-bars and six-bars with play in one to four joints, on the crank side too; 100 to 6000 rpm,
+Slider-cranks, cams, four-bars, six-bars with play in one to four joints, on the crank side too; 100 to 6000 rpm,
 clearances of 0.02 to 1 mm, tolerances of 1e-4 to 1e-10, all methods, single runs, restarts and batches (in lanes). Each
 run is checked at 20,000 samples (gudgeon/results/contact_check.py), and what is found is counted by class. A class is
 compiled once; all of its machines differ by numbers alone.
@@ -87,7 +87,22 @@ joints:
 drives: {motor: {angle: crank, value: omega*t}}
 start: {guess: {rod.theta: 1, rocker.theta: 2, link.theta: 0, slider.x: D + Q}}
 """
-KINDS = {"slider_crank": (SLIDER_CRANK, 3), "four_bar": (FOUR_BAR, 3), "six_bar": (SIX_BAR, 5)}
+CAM = """
+bodies:
+  follower: {mass: m1, inertia: J1}
+  rod: {length: L, mass: m2, inertia: J2}
+  slider: {mass: m3, inertia: J3}
+ground: {O: [0, 0], W: [0, 0.6*L]}
+joints:
+  stem: {translational: [ground.W, follower.origin], axis: [0, 1]}
+  crankpin: {revolute: [follower.origin, rod.tail]}
+  wristpin: {revolute: [rod.head, slider.origin]}
+  cylinder: {translational: [ground.O, slider.origin], axis: [1, 0]}
+curves: {lift: {points: [[0, 0], [1, 0], [2, 0.6], [3, 1], [4, 0.8], [5, 0.2], [6.283185307179586, 0]], ends: periodic}}
+drives: {cam: {coordinate: follower.y, value: 0.5*L + r*lift(omega*t)}}
+start: {guess: {rod.theta: -30 deg, slider.x: 0.86*L}}
+"""
+KINDS = {"cam": (CAM, 3), "slider_crank": (SLIDER_CRANK, 3), "four_bar": (FOUR_BAR, 3), "six_bar": (SIX_BAR, 5)}
 CLASSES = tuple(
     (kind, joints, law)
     for kind, joints, law in (
@@ -96,6 +111,7 @@ CLASSES = tuple(
         ("slider_crank", "cylinder", "flores"), ("slider_crank", "crankpin cylinder", "flores"),
         ("four_bar", "crankpin", "flores"), ("four_bar", "B", "lankarani_nikravesh"),
         ("four_bar", "crankpin B C", "flores"), ("four_bar", "O crankpin B C", "hunt_crossley"),
+        ("cam", "crankpin", "flores"),
         ("six_bar", "crankpin", "flores"), ("six_bar", "B", "flores"), ("six_bar", "P wristpin", "flores"),
     )
 )  # fmt: skip
@@ -141,7 +157,9 @@ def drawn(kind: str, rng: np.random.Generator, method: str = "") -> Machine:
     omega = rpm * 2.0 * np.pi / 60.0
     out = {"omega": omega, "c": log(2e-5, 1e-3), "ce": float(rng.choice([0.3, 0.5, 0.7, 0.9])),
            "mu": float(rng.choice([0.0, 0.03, 0.1])), "r": r, "L": L}  # fmt: skip
-    if kind != "slider_crank":
+    if kind == "cam":
+        out["omega"] = omega = min(omega, 80.0)
+    if kind in ("four_bar", "six_bar"):
         D, R = r * rng.uniform(2.5, 4.0), r * rng.uniform(2.0, 3.5)
         L = rng.uniform(max(D - R, R - D) + 1.3 * r, D + R - 1.3 * r)
         out |= {"L": L, "D": D, "R": R} | _closed(r, L, R, D)

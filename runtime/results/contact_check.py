@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import PointInfo
@@ -70,7 +71,7 @@ class ContactCheck:
     def raise_faults(self) -> None:
         """Raise SolverError with joint, time and depth of every fault, if there is one."""
         if self.faults:
-            raise SolverError(str(self))
+            raise SolverError(str(self), self.faults[0].t)
 
 
 class Checked:
@@ -111,7 +112,7 @@ def check_samples(run: Result, peaks: Result | None = None) -> ContactCheck:
     return ContactCheck(len(run.t), tuple(sorted(found, key=lambda one: one.t)))
 
 
-def _in_contact(run: Result, k: int) -> Array:
+def _in_contact(run: Result, k: int) -> NDArray[np.bool_]:
     """Whether each sample lies in a listed contact of joint k."""
     own = run.impacts[run.impacts["joint"] == k]
     slack = TIME_TOL * float(run.t[-1] - run.t[0])
@@ -123,7 +124,7 @@ def _in_contact(run: Result, k: int) -> Array:
 
 
 def _excursions(
-    run: Result, joint: ClearanceInfo, kind: str, wrong: Array, delta: Array, force: Array
+    run: Result, joint: ClearanceInfo, kind: str, wrong: NDArray[np.bool_], delta: Array, force: Array
 ) -> Iterator[Fault]:  # fmt: skip
     """One fault for each series of neighbouring samples that are wrong."""
     at = np.flatnonzero(wrong)
