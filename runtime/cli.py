@@ -44,7 +44,7 @@ def run(
         str, typer.Option(help=f"{', '.join(OFFERED)}, {KINEMATIC}, scipy:Radau …", autocompletion=completion.methods)
     ] = "auto",
     rtol: Annotated[str | None, typer.Option(help=f"Tolerance of a step of auto, {', '.join(CHOOSING)}: 1e-8.")] = None,
-    watch: opt.Watch = None, peaks: opt.Peaks = None,
+    watch: opt.Watch = None, peaks: opt.Peaks = None, verify: opt.Verify = False,
     formulation: Annotated[
         str, typer.Option(help="reduced (coordinates of a tree), or full: absolute ones, rk4 with Baumgarte's gains.")
     ] = "reduced",
@@ -66,7 +66,7 @@ def run(
 
     return run_scenes(Request(
         file, tuple(scene or ()), tuple(set_ or ()), t_end, output, step, method, rtol, tuple(watch or ()), out,
-        horizon, regenerate, json, formulation, verbose, tuple(peaks or ()), report,
+        horizon, regenerate, json, formulation, verbose, tuple(peaks or ()), report, verify,
     ))  # fmt: skip
 
 

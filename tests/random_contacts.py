@@ -1,9 +1,9 @@
 """Random machines whose contacts are checked: `python -m tests.random_contacts --count 1000 --seed 1`.
 
-Slider-cranks, four-bars and six-bars with play in one to four joints, on the crank side too; 100 to 6000 rpm, clearances
-of 0.02 to 1 mm, tolerances of 1e-4 to 1e-10, all methods, single runs, restarts and batches (in lanes). Each run is
-checked at 20,000 samples (gudgeon/results/contact_check.py), and what is found is counted by class. A class is compiled
-once; all of its machines differ by numbers alone.
+Slider-cranks, cams, four-bars, six-bars with play in one to four joints, on the crank side too; 100 to 6000 rpm,
+clearances of 0.02 to 1 mm, tolerances of 1e-4 to 1e-10, all methods, single runs, restarts and batches (in lanes). Each
+run is checked at 20,000 samples (gudgeon/results/contact_check.py), and what is found is counted by class. A class is
+compiled once; all of its machines differ by numbers alone.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import tempfile
 import time
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +31,9 @@ gravity: [0, -9.81]
 materials: {{steel: {{E: 207 GPa, nu: 0.3}}}}
 parameters: {{omega: 600 rpm, c: 0.1 mm, ce: 0.5, mu: 0.05{numbers}}}
 bearings: {{pin: {{radius: 10 mm, clearance: c, length: 20 mm, bearing_material: steel, journal_material: steel}}}}
-guides: {{way: {{gap: c, half_length: 20 mm, half_height: 10 mm, corner_radius: 1 mm, guide_material: steel, slider_material: steel}}}}
+guides:
+  way: {{gap: c, half_length: 20 mm, half_height: 10 mm, corner_radius: 1 mm, guide_material: steel,
+        slider_material: steel}}
 contacts:
   dry:
     normal: {{law: {law}, restitution: ce, geometry: internal}}
@@ -85,7 +87,22 @@ joints:
 drives: {motor: {angle: crank, value: omega*t}}
 start: {guess: {rod.theta: 1, rocker.theta: 2, link.theta: 0, slider.x: D + Q}}
 """
-KINDS = {"slider_crank": (SLIDER_CRANK, 3), "four_bar": (FOUR_BAR, 3), "six_bar": (SIX_BAR, 5)}
+CAM = """
+bodies:
+  follower: {mass: m1, inertia: J1}
+  rod: {length: L, mass: m2, inertia: J2}
+  slider: {mass: m3, inertia: J3}
+ground: {O: [0, 0], W: [0, 0.6*L]}
+joints:
+  stem: {translational: [ground.W, follower.origin], axis: [0, 1]}
+  crankpin: {revolute: [follower.origin, rod.tail]}
+  wristpin: {revolute: [rod.head, slider.origin]}
+  cylinder: {translational: [ground.O, slider.origin], axis: [1, 0]}
+curves: {lift: {points: [[0, 0], [1, 0], [2, 0.6], [3, 1], [4, 0.8], [5, 0.2], [6.283185307179586, 0]], ends: periodic}}
+drives: {cam: {coordinate: follower.y, value: 0.5*L + r*lift(omega*t)}}
+start: {guess: {rod.theta: -30 deg, slider.x: 0.86*L}}
+"""
+KINDS = {"cam": (CAM, 3), "slider_crank": (SLIDER_CRANK, 3), "four_bar": (FOUR_BAR, 3), "six_bar": (SIX_BAR, 5)}
 CLASSES = tuple(
     (kind, joints, law)
     for kind, joints, law in (
@@ -94,9 +111,11 @@ CLASSES = tuple(
         ("slider_crank", "cylinder", "flores"), ("slider_crank", "crankpin cylinder", "flores"),
         ("four_bar", "crankpin", "flores"), ("four_bar", "B", "lankarani_nikravesh"),
         ("four_bar", "crankpin B C", "flores"), ("four_bar", "O crankpin B C", "hunt_crossley"),
+        ("cam", "crankpin", "flores"),
         ("six_bar", "crankpin", "flores"), ("six_bar", "B", "flores"), ("six_bar", "P wristpin", "flores"),
     )
 )  # fmt: skip
+WAYS, BATCH = ("single", "single", "single", "restart", "batch"), 8
 METHODS = ("auto", "auto", "auto", "dop853", "rodas5p", "radau5", "radau9", "rk4")
 
 
@@ -121,7 +140,8 @@ def text_of(kind: str, joints: str, law: str) -> str:
     sizes = {"r": "0.05 m", "L": "0.2 m", "R": "0.15 m", "D": "0.2 m", "Q": "0.3 m"}
     numbers = "".join(f", {name}: {value}" for name, value in sizes.items() if f" {name}" in body or f"{name}," in body)
     numbers += "".join(f", m{k}: 0.2 kg, J{k}: 1e-4 kg*m^2" for k in range(1, masses + 1))
-    play = ", ".join(f"{j}: {{{'guide: way' if j == 'cylinder' else 'bearing: pin'}, contact: dry}}" for j in joints.split())
+    pairs = {joint: "guide: way" if joint == "cylinder" else "bearing: pin" for joint in joints.split()}
+    play = ", ".join(f"{joint}: {{{pair}, contact: dry}}" for joint, pair in pairs.items())
     name = f"{kind}_{joints.replace(' ', '_')}"
     return HEAD.format(name=name, numbers=numbers, law=law, play=play) + body
 
@@ -137,7 +157,9 @@ def drawn(kind: str, rng: np.random.Generator, method: str = "") -> Machine:
     omega = rpm * 2.0 * np.pi / 60.0
     out = {"omega": omega, "c": log(2e-5, 1e-3), "ce": float(rng.choice([0.3, 0.5, 0.7, 0.9])),
            "mu": float(rng.choice([0.0, 0.03, 0.1])), "r": r, "L": L}  # fmt: skip
-    if kind != "slider_crank":
+    if kind == "cam":
+        out["omega"] = omega = min(omega, 80.0)
+    if kind in ("four_bar", "six_bar"):
         D, R = r * rng.uniform(2.5, 4.0), r * rng.uniform(2.0, 3.5)
         L = rng.uniform(max(D - R, R - D) + 1.3 * r, D + R - 1.3 * r)
         out |= {"L": L, "D": D, "R": R} | _closed(r, L, R, D)
@@ -174,6 +196,10 @@ class Counted:
     failed: int = 0
     contacts: int = 0
 
+    def __str__(self) -> str:
+        counts = f"runs {self.runs:6d}  contacts {self.contacts:8d}  with faults {self.faulty:4d}"
+        return f"{counts}  with phantoms {self.phantom:4d}  failed {self.failed:4d}"
+
 
 def checked(run: gudgeon.Result) -> tuple[ContactCheck, int]:
     """The check of a run's samples, and how many of its contacts have no force though they last (phantoms)."""
@@ -182,71 +208,78 @@ def checked(run: gudgeon.Result) -> tuple[ContactCheck, int]:
     return check_samples(run), int((resolved & (own["F_peak"] == 0.0)).sum())
 
 
-def runs_of(simulation: gudgeon.Simulation, machines: list[Machine], single: bool, restart: bool) -> Iterator[Any]:
+def runs_of(
+    simulation: gudgeon.Simulation, machines: list[Machine], way: str
+) -> Iterator[tuple[Machine, gudgeon.Result | gudgeon.GudgeonError]]:
     """The runs of machines: each for itself, cut in two and continued, or all in a batch by the first's settings."""
-    if not single:
+    if way == "batch":
         first = machines[0]
-        names = sorted({name for one in machines for name in one.parameters})
-        columns = {name: [one.parameters[name] for one in machines] for name in names}
+        columns = {name: [one.parameters[name] for one in machines] for name in first.parameters}
         ends = [one.t_end for one in machines]
-        out = [np.linspace(0.0, t, SAMPLES + 1) for t in ends]
-        batch = simulation.simulate_many(columns, ends, output=out, method=first.method, threads=1, **first.how)
-        for i, one in enumerate(machines):
-            try:
-                yield one, batch[i]
-            except gudgeon.GudgeonError as error:
-                yield one, error
-        return
-    for one in machines:
-        settings: dict[str, Any] = {"method": one.method, "peaks": ()} | one.how
+        times = [np.linspace(0.0, t, SAMPLES + 1) for t in ends]
+        batch = simulation.simulate_many(columns, ends, output=times, method=first.method, threads=1, **first.how)
+    for i, one in enumerate(machines):
         try:
-            if restart:
-                half = simulation.simulate(0.37 * one.t_end, output=50, parameters=one.parameters, **settings)
-                t = np.linspace(half.t[-1], one.t_end, SAMPLES + 1)
-                yield one, simulation.simulate(output=t, start=half.final, **settings)
-                continue
-            yield one, simulation.simulate(one.t_end, output=SAMPLES, parameters=one.parameters, **settings)
+            yield one, batch[i] if way == "batch" else _run(simulation, one, way)
         except gudgeon.GudgeonError as error:
             yield one, error
 
 
-def campaign(count: int, seed: int, classes: str = "", method: str = "", show: int = 5, quiet: bool = False) -> dict[str, Counted]:
-    """So many machines over all classes; counts by class and way of running."""
-    rng, found = np.random.default_rng(seed), dict[str, Counted]()
-    kinds = [one for one in CLASSES if classes in " ".join(one)]
-    failures, shown = Counter[str](), 0
-    with tempfile.TemporaryDirectory() as folder:
-        for n, (kind, joints, law) in enumerate(kinds):
-            path = Path(folder) / f"{n}.yaml"
-            path.write_text(text_of(kind, joints, law))
-            simulation = gudgeon.load(path, "dry")
-            machines = [drawn(kind, rng, method) for _ in range(max(1, (count + n) // len(kinds)))]
-            done = 0
-            while done < len(machines):
-                way = ("single", "single", "single", "restart", "batch")[int(rng.integers(5))]
-                some = machines[done : done + (8 if way == "batch" else 1)]
-                done += len(some)
-                key = f"{kind} {joints} {way}"
-                own = found.setdefault(key, Counted())
-                for one, run in runs_of(simulation, some, way != "batch", way == "restart"):
-                    own.runs += 1
-                    if isinstance(run, gudgeon.GudgeonError):
-                        own.failed += 1
-                        failures[str(run)[:90]] += 1
-                        continue
-                    check, phantoms = checked(run)
-                    own.contacts += len(run.impacts)
-                    own.faulty += not check
-                    own.phantom += phantoms > 0
-                    if (not check or phantoms) and shown < show and not quiet:
-                        shown += 1
-                        print(f"  {key} {one}\n{check} phantoms {phantoms}", flush=True)
-            if not quiet:
-                print(kind, joints, f"{len(machines)} machines", flush=True)
-    if not quiet:
-        for told, k in failures.most_common(8):
-            print(f"failed {k}: {told}")
-    return found
+def _run(simulation: gudgeon.Simulation, one: Machine, way: str) -> gudgeon.Result:
+    settings: dict[str, Any] = {"method": one.method, "parameters": one.parameters} | one.how
+    if way == "single":
+        return simulation.simulate(one.t_end, output=SAMPLES, **settings)
+    half = simulation.simulate(0.37 * one.t_end, output=50, **settings)
+    return simulation.simulate(output=np.linspace(half.t[-1], one.t_end, SAMPLES + 1), start=half.final, **settings)
+
+
+@dataclass
+class Campaign:
+    """Machines of all classes, and what they came to by class and way of running."""
+
+    rng: np.random.Generator
+    show: int = 5  # machines that are still to be shown in full
+    found: dict[str, Counted] = field(default_factory=dict)
+    failures: Counter[str] = field(default_factory=Counter)
+
+    def run(self, count: int, classes: str = "", method: str = "", quiet: bool = False) -> None:
+        """Draw and check so many machines of the classes whose words contain `classes`."""
+        kinds = [one for one in CLASSES if classes in " ".join(one)]
+        with tempfile.TemporaryDirectory() as folder:
+            for n, (kind, joints, law) in enumerate(kinds):
+                path = Path(folder) / f"{n}.yaml"
+                path.write_text(text_of(kind, joints, law))
+                simulation = gudgeon.load(path, "dry")
+                machines = [drawn(kind, self.rng, method) for _ in range(max(1, (count + n) // len(kinds)))]
+                while machines:
+                    way = WAYS[int(self.rng.integers(len(WAYS)))]
+                    some = machines[: BATCH if way == "batch" else 1]
+                    del machines[: len(some)]
+                    for one, run in runs_of(simulation, some, way):
+                        self.count(f"{kind} {joints} {way}", one, run)
+                if not quiet:
+                    print(kind, joints, flush=True)
+
+    def count(self, key: str, one: Machine, run: gudgeon.Result | gudgeon.GudgeonError) -> None:
+        """Check one run."""
+        own = self.found.setdefault(key, Counted())
+        own.runs += 1
+        if isinstance(run, gudgeon.GudgeonError):
+            own.failed += 1
+            self.failures[str(run)[:90]] += 1
+            return
+        check, phantoms = checked(run)
+        own.contacts += len(run.impacts)
+        own.faulty += not check
+        own.phantom += phantoms > 0
+        if (not check or phantoms) and self.show > 0:
+            self.show -= 1
+            print(f"  {key} {one}\n{check}\nphantoms {phantoms}", flush=True)
+
+    @property
+    def total(self) -> Counted:
+        """The counts of all classes together."""
+        return Counted(**{name: sum(vars(own)[name] for own in self.found.values()) for name in vars(Counted())})
 
 
 def main() -> int:
@@ -258,16 +291,14 @@ def main() -> int:
     parser.add_argument("--method", default="", help="only this method")
     parser.add_argument("--show", type=int, default=5, help="machines that are shown in full")
     arguments = parser.parse_args()
-    begun = time.perf_counter()
-    found = campaign(arguments.count, arguments.seed, arguments.classes, arguments.method, arguments.show)
-    total = Counted()
-    for key, own in found.items():
-        print(f"{key:44s} runs {own.runs:5d}  contacts {own.contacts:7d}  with faults {own.faulty:4d}  with phantoms {own.phantom:4d}  failed {own.failed:3d}")
-        for name in vars(total):
-            setattr(total, name, getattr(total, name) + getattr(own, name))
-    print(f"{'all':44s} runs {total.runs:5d}  contacts {total.contacts:7d}  with faults {total.faulty:4d}  with phantoms {total.phantom:4d}  failed {total.failed:3d}")
+    begun, campaign = time.perf_counter(), Campaign(np.random.default_rng(arguments.seed), arguments.show)
+    campaign.run(arguments.count, arguments.classes, arguments.method)
+    for key, own in [*campaign.found.items(), ("all", campaign.total)]:
+        print(f"{key:42s} {own}")
+    for text, count in campaign.failures.most_common(8):
+        print(f"failed {count}: {text}")
     print(f"{time.perf_counter() - begun:.0f} s")
-    return 1 if total.faulty or total.phantom else 0
+    return 1 if campaign.total.faulty or campaign.total.phantom else 0
 
 
 if __name__ == "__main__":

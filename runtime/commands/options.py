@@ -187,6 +187,9 @@ Restart = Annotated[bool, typer.Option("--restart", help="Begin anew, whatever t
 Report = Annotated[
     bool, typer.Option("--report", help="A page a scene: orbits, contacts, energy, trust. Runs each again.")
 ]
+Verify = Annotated[
+    bool, typer.Option("--verify", help="Check contacts at 20,000 times, by positions alone. Runs each again.")
+]
 Starts = Annotated[
     int | None, typer.Option("--starts", parser=whole(1), metavar="COUNT", help="So many perturbed starts of each run.")
 ]

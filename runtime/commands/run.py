@@ -54,6 +54,7 @@ class Request:
     verbose: bool = False
     peaks: tuple[str, ...] = ()  # beside those that scenes ask for
     report: bool = False
+    verify: bool = False
 
 
 @dataclass
@@ -76,7 +77,8 @@ def run_scenes(request: Request) -> int:
     check_folder("--out", request.out)
     names = dict.fromkeys([IDEAL, *chosen_scenes(request.file, request.scenes)])
     with status_line(quiet=request.json):
-        simulations = {name: _load(request, name) for name in names}
+        renew, how = request.regenerate, request.formulation
+        simulations = {name: load(request.file, name, regenerate=renew, formulation=how) for name in names}
     _check(request, wanted, simulations)
     for name, simulation in simulations.items():
         path = result_path(request.out, simulation.source.mechanism, name)
@@ -103,10 +105,6 @@ def run_scenes(request: Request) -> int:
         print(_interrupted(names, session), file=sys.stderr)
         return 130
     return max((error.exit_code for error in (*session.failures.values(), *session.unwritten)), default=0)
-
-
-def _load(request: Request, scene: str) -> Simulation:
-    return load(request.file, scene, regenerate=request.regenerate, formulation=request.formulation)
 
 
 def _interrupted(names: Iterable[str], session: Session) -> str:
@@ -192,13 +190,15 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
 
 def _hand_over(request: Request, simulations: Mapping[str, Simulation], session: Session) -> None:
     """Everything after the integration: the results are saved first, for nothing that follows may lose them."""
+    from gudgeon.commands.run_reports import verify, write_reports
     from gudgeon.results.report import compare, default_watch
 
+    if request.verify:
+        verify(session.runs, session.failures, request.json)
     runs = {scene: session.runs[scene] for scene in sorted(session.runs, key=lambda scene: scene != IDEAL)}
     _save(request, runs, session)
     _refer(simulations[IDEAL], session)
     if request.report:
-        from gudgeon.commands.run_reports import write_reports
 
         def save(some: Mapping[str, Result]) -> None:
             _save(request, some, session)

@@ -1,8 +1,12 @@
-"""`gudgeon run --report`: each scene run beside itself, its result saved again with what that told, and its page."""
+"""What `gudgeon run` does with a scene besides: `--verify` checks its contacts, `--report` writes its page.
+
+For a page each scene is run again, and its result is saved again with what that run showed.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,6 +23,22 @@ if TYPE_CHECKING:
 def report_path(out: Path, mechanism: str, scene: str) -> Path:
     """Where the page of a scene goes: beside its result."""
     return out / f"{mechanism}_{scene}.html"
+
+
+def verify(runs: dict[str, Result], failures: dict[str, GudgeonError], quiet: bool) -> None:
+    """Check the contacts of every run (Result.check); a run whose contacts are wrong goes to `failures` too."""
+    for scene, run in runs.items():
+        if not run.source.clearances:
+            continue
+        try:
+            with status_line(quiet=quiet):
+                found = run.check()
+            notes = (*run.diagnostics.notes, *found.notes, f"{len(found.faults) or 'no'} faults of contacts at"
+                     f" {found.samples} samples")  # fmt: skip
+            runs[scene] = replace(run, diagnostics=replace(run.diagnostics, notes=notes))
+            found.raise_faults()
+        except GudgeonError as error:
+            failures.setdefault(scene, error)
 
 
 def write_reports(

@@ -20,6 +20,7 @@ from gudgeon.errors import GudgeonError, SolverError, UnknownNameError
 from gudgeon.integrators.trajectory import no_events
 from gudgeon.language.wanted import text
 from gudgeon.model.choices import said
+from gudgeon.results.contact_check import Checked
 from gudgeon.results.diagnostics import Diagnostics, Extremes
 from gudgeon.results.shown import Shown
 from gudgeon.results.state import Array, State
@@ -39,7 +40,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(eq=False)
-class Result(Shown):
+class Result(Shown, Checked):
     """One run of N samples. `run["S9.y"]` is the (N,) series of that name (see `gudgeon.series`).
 
     It may be pickled and copied: what is stored and computed so far goes with it; other series are computed there,
@@ -162,11 +163,11 @@ class Result(Shown):
     def final(self) -> State:
         """The last sample as a state to restart from."""
         slots = zip(self.source.slots, self.given, self.is_given, strict=True)
-        overridden = {slot.address: said(slot, float(value)) for slot, value, is_given in slots if is_given}
+        overridden = {slot.address: said(slot, float(x)) for slot, x, is_given in slots if is_given}
         q, v, state, memory = (array[-1].copy() for array in (self.q, self.v, self.state, self.memory))
-        source, parameters = self.source, MappingProxyType(overridden)
+        source = self.source
         return State(
-            source.mechanism, source.scene, float(self.t[-1]), q, v, state, memory, parameters,
+            source.mechanism, source.scene, float(self.t[-1]), q, v, state, memory, MappingProxyType(overridden),
             source.whole_sha256, source.overrides, source.formulation, source.beside,
         )  # fmt: skip
 
@@ -183,10 +184,8 @@ class Result(Shown):
     @cached_property
     def a(self) -> Array:
         """q̈, (N, n); NaN where a sample has none."""
-        if self.accelerations is not None:
-            return self.accelerations
         try:
-            return self.evaluation.a
+            return self.evaluation.a if self.accelerations is None else self.accelerations
         except SolverError:
             return np.full_like(self.q, np.nan)
 
