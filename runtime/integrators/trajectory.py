@@ -115,3 +115,4 @@ class Trajectory:
     event_states: NDArray[Any] | None = None  # event_dtype, the same with states; None: the method keeps none
     trace: Trace | None = None  # forces and paths from the steps; None: the method keeps none
     no_number: NDArray[Any] = field(default_factory=no_events)  # EVENT_DTYPE: from when on an event is no number
+    change_points: tuple[int, float] = (0, float("nan"))  # samples at or near one, and the time of the first (s)
