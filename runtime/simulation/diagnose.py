@@ -114,8 +114,8 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
     passed, first = trajectory.change_points
     if passed and not without_masses(compiled.source):
         notes.append(
-            f"{passed} samples lie at or near a change point (the first at t = {first:.9g} s): positions, velocities and"
-            " accelerations pass on the smooth branch; forces and torques there are not determined by the rows"
+            f"{passed} samples lie at or near a change point (the first at t = {first:.9g} s): positions and rates"
+            " pass on the smooth branch; forces and torques there are not determined by the rows"
         )
     notes += unbounded_sample(compiled, problem, trajectory)
     notes += seams(compiled.source, p, float(problem.t[0]), float(trajectory.t[-1]))
