@@ -64,7 +64,7 @@ def _printed(entry: object) -> str:
 
 
 def _literal(value: object) -> str:
-    return repr(value) if not isinstance(value, bytes) else 'b"' + repr(value)[2:-1].replace('"', '\\"') + '"'
+    return repr(value) if not isinstance(value, bytes) else 'b"' + repr(value)[2:-1].replace('"', "\\x22") + '"'
 
 
 if __name__ == "__main__":

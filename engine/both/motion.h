@@ -2,6 +2,10 @@
 IN_BOTH int MOTION(Real t, const Real *y, MemoryOf *memory, const ParametersOf *p, Real *dy, AsideOf *aside)
 {
     const int status = REDUCED_DYNAMICS(t, y, y + N_X, memory, p, dy + N_X, aside);
+#ifdef N_IDLE
+    for (int i = 0; i < N_IDLE; i++)
+        aside->g[idle[i]] = real_of(NAN); /* they do not act */
+#endif
     for (int k = 0; k < N_X; k++)
         dy[k] = y[N_X + k];
     for (int k = 0; k < N_WORK; k++)

@@ -208,7 +208,7 @@ int gudgeon_kinematic_events(void *memory, long n, const double *t, const double
     for (*done = 0; *done < n; ++*done) {
         signed char sides[N_USER_EVENTS];
         View here = {.at.asked = &course->asked};
-        int status = begin(t[*done], q + *done * N_Q, v + *done * N_Q, p, &here.at);
+        int status = begin_near(t[*done], q + *done * N_Q, v + *done * N_Q, reach, extent, p, &here.at);
         if (status)
             return status;
         look(p, &here);

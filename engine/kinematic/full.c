@@ -18,7 +18,7 @@ static double turn_of(const double *x, double extent)
 }
 
 /* Newton on Phi(q, t) = 0 until the step no longer shrinks; `moved` is the way from the first guess. */
-static int close_linkage(double t, const Parameters *p, double extent, double *q, double *moved)
+static int close_linkage(double t, const Parameters *p, double extent, double *q, double *moved, double *left)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)], step[N_Q], before = INFINITY;
     for (int i = 0; i < MAX_NEWTON; i++) {
@@ -30,6 +30,7 @@ static int close_linkage(double t, const Parameters *p, double extent, double *q
         for (int k = 0; k < N_Q; k++)
             q[k] -= step[k];
         *moved += size;
+        *left = size;
         if (isnan(size))
             return NEWTON_FAILED;
         if (size < 1e-9 && (size >= 0.5 * before || size < 1e-15))
@@ -66,9 +67,10 @@ static int place_at(double t, const Parameters *p, double extent, const Place *f
     *moved = 0.0;
     to->asked = from->asked;
     to->t = t;
+    to->interpolated = 0;
     for (int k = 0; k < N_Q; k++)
         to->q[k] = from->q[k] + (t - from->t) * from->v[k];
-    const int status = close_linkage(beyond_jump(t), p, extent, to->q, moved);
+    const int status = close_linkage(beyond_jump(t), p, extent, to->q, moved, &to->left);
     return status ? status : velocities(beyond_jump(t), to->q, p, to->v);
 }
 
@@ -77,6 +79,8 @@ static int settle(const Parameters *p, Place *here)
 {
     double phi[AT_LEAST_ONE(N_ALL_ROWS)];
     Aside aside;
+    if (here->interpolated)
+        return 0;
     const int status = solve_motion(p, here, here->a, &aside);
     if (status)
         return status;
@@ -91,10 +95,14 @@ static int settle(const Parameters *p, Place *here)
 
 static int begin(double t, const double *q, const double *v, const Parameters *p, Place *here)
 {
+    double phi[AT_LEAST_ONE(N_ALL_ROWS)], step[N_Q];
     here->t = t;
+    here->interpolated = 0;
     for (int k = 0; k < N_Q; k++) {
         here->q[k] = q[k];
         here->v[k] = v[k];
     }
+    constraints(beyond_jump(t), q, p, phi);
+    here->left = project(beyond_jump(t), q, phi, p, step) ? INFINITY : 0.0; /* rows depend on each other there */
     return settle(p, here);
 }

@@ -11,6 +11,8 @@ enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, MAX_SPLITS = 400, PULSE_HALVINGS = 30
 typedef struct {
     Asked *asked;
     double t, q[N_Q], v[N_Q], a[N_Q], phi, phi_dot;
+    double left;      /* of Newton's method: its last step, rad or share of the mechanism's size */
+    int interpolated; /* at or near a change point (change_point.c) */
 #if POSITIONS_IN_TREE
     double s[N_X + 1], s_rate[N_X + 1], s_second[N_X + 1]; /* the same in tree coordinates */
 #endif
@@ -29,6 +31,8 @@ typedef struct {
     Pace pace;
     Place motion, work;
     int motion_begun, work_begun;
+    long passed;     /* samples that were interpolated at or near a change point */
+    double t_passed; /* the first of them, s */
     double *tape; /* rows of t, q, v at the ends of steps, which Python fetches; nobody wants any: NULL */
     long taped, capacity;
 } Course;
@@ -56,6 +60,14 @@ void gudgeon_course_pace(const void *memory, double *t, double *gained, long *st
     *gained = course->pace.gain;
     steps[0] = PACE_STEPS;
     steps[1] = course->pace.crawls;
+}
+
+/* How many samples so far were interpolated at or near a change point, and the time of the first, s. */
+long gudgeon_course_passed(const void *memory, double *t)
+{
+    const Course *course = memory;
+    *t = course->t_passed;
+    return course->passed;
 }
 
 /* Room for so many rows of the tape; NULL: none is wanted any more. */
@@ -109,6 +121,8 @@ static double bend_between(const Place *a, const Place *b, double extent)
     return larger(angles, lengths * share);
 }
 
+#include "change_point.c"
+
 #if N_TERMS
 static int only_wide_bounds(void *context, double share, int sure)
 {
@@ -139,7 +153,7 @@ static int step_on(Stride *stride, double t1, const Parameters *p, Place *here)
 {
     const double straight = 0.002 * stride->reach;
     for (;;) {
-        Place there;
+        Place there, passed;
         double moved = 0.0, bent = 0.0;
         if (given_up(here->asked))
             return STOPPED;
@@ -147,6 +161,11 @@ static int step_on(Stride *stride, double t1, const Parameters *p, Place *here)
         const int status = next > here->t ? place_at(next, p, stride->extent, here, &there, &moved) : NEWTON_FAILED;
         if (status == STOPPED)
             return status;
+        if ((status || (next == t1 && is_rough(&there))) && next > here->t
+            && !pass_change_point(next, stride->reach, stride->extent, p, here, &passed)) {
+            *here = passed;
+            return 0;
+        }
         const int near = !status && moved <= stride->reach;
         if (near)
             bent = bend_between(here, &there, stride->extent);
@@ -195,10 +214,13 @@ int gudgeon_kinematic(void *memory, long n, const double *t, const double *param
     *done = 0;
     for (long i = course->motion_begun; i <= n; i++) {
         here->asked = &course->asked;
-        const int status = i > 0 ? advance(course, t[i], p, here, steps) : begin(t[0], q, v, p, here);
+        const int status = i > 0 ? advance(course, t[i], p, here, steps)
+            : begin_near(t[0], q, v, course->reach, course->extent, p, here);
         if (status)
             return status;
         course->motion_begun = 1;
+        if (here->interpolated && !course->passed++)
+            course->t_passed = t[i];
         for (int k = 0; k < N_Q; k++) {
             if (i > 0) {
                 q[i * N_Q + k] = here->q[k];

@@ -16,6 +16,7 @@ static int solve_motion(const Parameters *p, const Place *here, double *a, Aside
 static int close_linkage(double t, const Parameters *p, double extent, Place *at, double *moved)
 {
     double step[N_X + 1], before = INFINITY;
+    at->left = 0.0;
     for (int i = 0; i < MAX_NEWTON; i++) {
         double size = 0.0;
         const int status = close_step(t, at->s, p, step, at->s_rate, &at->phi);
@@ -25,6 +26,7 @@ static int close_linkage(double t, const Parameters *p, double extent, Place *at
             size = larger(size, fabs(step[k]) / (is_angle[k] ? 1.0 : extent));
         if (isnan(size))
             return NEWTON_FAILED;
+        at->left = size;
         if (size < 4e-15 || (size < 1e-9 && size >= 0.5 * before))
             return 0;
         for (int k = 0; k < N_X; k++)
@@ -54,6 +56,7 @@ static int place_at(double t, const Parameters *p, double extent, const Place *f
     *moved = 0.0;
     to->asked = from->asked;
     to->t = t;
+    to->interpolated = 0;
     for (int k = 0; k < N_X; k++)
         to->s[k] = from->s[k] + h * (from->s_rate[k] + (bend != 0.0 ? bend * from->s_second[k] : 0.0));
     const double then = beyond_jump(t);
@@ -74,11 +77,14 @@ static int begin(double t, const double *q, const double *v, const Parameters *p
 {
     double step[N_X + 1], rates[N_X + 1];
     here->t = t;
+    here->left = 0.0;
+    here->interpolated = 0;
     reduce_state(t, q, v, p, here->s, here->s_rate);
     if (!close_step(beyond_jump(t), here->s, p, step, rates, &here->phi)
         && !arrive(beyond_jump(t), here->s, here->s_rate, p, here->s_second, here->q, here->v, here->a, &here->phi_dot))
         return 0;
     Aside aside;
+    here->left = INFINITY;
     for (int k = 0; k < N_Q; k++) {
         here->q[k] = q[k];
         here->v[k] = v[k];

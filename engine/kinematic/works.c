@@ -74,25 +74,27 @@ static double kinetic_energy_at(const Parameters *p, const Place *at)
  * The same, halved where velocities jump until nothing is left to halve: what kinetic energy gains there is the work
  * of the impulse with which the drives change the velocities. `halvings` are left for the whole step.
  */
-static int work_across(const Parameters *p, double extent, const Place *a, const Place *b, double least, int *halvings,
-    double *work)
+static int work_across(const Parameters *p, double reach, double extent, const Place *a, const Place *b, double least,
+    int *halvings, double *work)
 {
     double part[N_WORK] = {0.0}, moved;
     int jumped = 0;
     int status = work_between(p, extent, a, b, least, part, &jumped);
     const double t = a->t + 0.5 * (b->t - a->t);
+    const int wide = t > a->t && t < b->t;
     if (status == NO_NUMBER)
         work[0] = part[0];
-    if (status)
+    if ((status > 0 || status == NEWTON_FAILED) && wide && *halvings > 0)
+        jumped = 1; /* a node at a change point */
+    else if (status)
         return status;
-    const int wide = t > a->t && t < b->t;
     if (jumped && wide && *halvings > 0) {
         Place middle;
         --*halvings;
-        status = place_at(t, p, extent, a, &middle, &moved);
+        status = place_near(t, p, reach, extent, a, &middle, &moved);
         if (!status)
-            status = work_across(p, extent, a, &middle, least, halvings, work);
-        return status ? status : work_across(p, extent, &middle, b, least, halvings, work);
+            status = work_across(p, reach, extent, a, &middle, least, halvings, work);
+        return status ? status : work_across(p, reach, extent, &middle, b, least, halvings, work);
     }
     if (jumped && !wide)
         part[0] = kinetic_energy_at(p, b) - kinetic_energy_at(p, a);
@@ -106,13 +108,13 @@ static int work_across(const Parameters *p, double extent, const Place *a, const
 }
 
 /* Of one step; speeds that change by less than a billionth of what they are do not jump. */
-static int work_of_step(const Parameters *p, double extent, const Place *a, const Place *b, double *work)
+static int work_of_step(const Parameters *p, double reach, double extent, const Place *a, const Place *b, double *work)
 {
     int halvings = MAX_SPLITS;
     double speed = 0.0;
     for (int k = 0; k < N_Q; k++)
         speed = larger(speed, larger(turn(a->v, k, extent), turn(b->v, k, extent)));
-    return work_across(p, extent, a, b, 1e-12 + 1e-9 * speed, &halvings, work);
+    return work_across(p, reach, extent, a, b, 1e-12 + 1e-9 * speed, &halvings, work);
 }
 
 /* Works from the first of n + 1 samples on, (n + 1) x N_WORK, of which the first row is given. */
@@ -125,7 +127,7 @@ int gudgeon_kinematic_works(void *memory, long n, const double *t, const double 
     Place here = course->work;
     here.asked = &course->asked;
     *done = 0;
-    int status = course->work_begun ? 0 : begin(t[0], q, v, p, &here);
+    int status = course->work_begun ? 0 : begin_near(t[0], q, v, course->reach, extent, p, &here);
     for (long i = 0; i < n && !status; i++) {
         Stride stride = {course->reach, extent, t[i + 1] - t[i], 0};
         double *sum = work + (i + 1) * N_WORK;
@@ -135,7 +137,7 @@ int gudgeon_kinematic_works(void *memory, long n, const double *t, const double 
             const Place before = here;
             status = step_on(&stride, t[i + 1], p, &here);
             if (!status)
-                status = work_of_step(p, extent, &before, &here, sum);
+                status = work_of_step(p, course->reach, extent, &before, &here, sum);
         }
         *done = i + !status;
     }

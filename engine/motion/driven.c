@@ -8,6 +8,10 @@ int motion_here(double t, const double *y, Memory *memory, const Parameters *p, 
 #if !SMOOTH_CHAINS
     chain_corners(t, at.q, memory, p, aside->g);
 #endif
+#ifdef N_IDLE
+    for (int i = 0; i < N_IDLE; i++)
+        aside->g[idle[i]] = NAN; /* they do not act */
+#endif
     status = reduced_dynamics(t, at.q, at.v, memory, p, dy + N_X, aside);
     for (int k = 0; k < N_X; k++)
         dy[k] = y[N_X + k];

@@ -118,6 +118,7 @@ void gudgeon_course_tape(void *memory, double *rows, long capacity);
 long gudgeon_course_taped(void *memory);
 void gudgeon_course_again(void *memory);
 void gudgeon_course_pace(const void *memory, double *t, double *gained, long *steps);
+long gudgeon_course_passed(const void *memory, double *t);
 int gudgeon_kinematic(void *memory, long n, const double *t, const double *p, double *q, double *v, double *a,
     double *phi_max, double *phi_dot_max, long *steps, long *done);
 int gudgeon_kinematic_works(void *memory, long n, const double *t, const double *p, const double *q, const double *v,

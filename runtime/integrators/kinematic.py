@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon.assembly.branch_rates import branches_told
 from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
 from gudgeon.integrators.failure import NO_NUMBER, STALLED, STOPPED, Pace, drives_at, outgrown, overflowing, too_far
@@ -156,7 +157,14 @@ class _Way:
             return outgrown(pace, drives_at(self.compiled, self.problem.p, t)) if crawls else too_far(pace)
         if status == NO_NUMBER_THERE:
             return self._no_number(float(at[1]))
-        return _failure(self.problem, status, t)
+        return _failure(self.problem, status, t, self._place(t))
+
+    def _place(self, t: float) -> Array:
+        """Where the motion came to at t (s), from the last complete row."""
+        k = self.reached
+        if not self.begun or not t > self.t[k]:
+            return self.q[k]
+        return along(self.compiled, self.problem.p, np.array([self.t[k], t]), self.q[k], self.v[k])[0][1]
 
     def _no_number(self, t: float) -> SolverError:
         """A drive, a force or a rate of theirs is none at t (s), where a work was asked for."""
@@ -178,14 +186,15 @@ class _Way:
         """What is complete."""
         from gudgeon.integrators.trajectory import IMPACT_DTYPE
 
-        rows = slice(self.reached + 1)
+        rows, first = slice(self.reached + 1), np.zeros(1)
+        passed = self.compiled.lib.gudgeon_course_passed(self.pointer(self.course, "void *"), self.pointer(first))
         empty, t = np.zeros((self.reached + 1, 0)), self.t[rows].copy()
         events, lost = (no_events(), no_events()) if self.events is None else self.events.in_order()
         counts = Counts(int(self.longs[0]), 0, phi_max=float(self.maxima[0]), phi_dot_max=float(self.maxima[1]))
         return Trajectory(
             t, self.q[rows], self.v[rows], self.a[rows], empty, empty.astype(np.int8), self.work[rows],
             np.zeros(0, dtype=IMPACT_DTYPE), np.zeros((0, 3)), counts, interrupted, stopped, self.seconds,
-            events[events["t"] <= t[-1]], no_number=lost[lost["t"] <= t[-1]],
+            events[events["t"] <= t[-1]], no_number=lost[lost["t"] <= t[-1]], change_points=(passed, float(first[0])),
         )  # fmt: skip
 
 
@@ -223,8 +232,8 @@ def along(compiled: CompiledModel, p: Array, t: Array, q: Array, v: Array) -> tu
     return every_q, every_v
 
 
-def _failure(problem: Problem, status: int, t: float) -> SolverError:
-    """Why the motion cannot be followed beyond t (s)."""
+def _failure(problem: Problem, status: int, t: float, q: Array) -> SolverError:
+    """Why the motion cannot be followed beyond t (s), where it is at q (n,)."""
     if told := overflowing(problem.compiled, problem.p, t):
         return told
     later = problem.t[problem.t > t]
@@ -243,6 +252,13 @@ def _failure(problem: Problem, status: int, t: float) -> SolverError:
             t,
         )
     row = problem.compiled.source.start_pivots[status - 1]
+    if told := branches_told(problem.compiled, problem.p, t, q):
+        begun = t > float(problem.t[0])
+        remedy = "end the run before it" if begun else "give one of these rates in start.rates, or begin elsewhere"
+        return SingularError(
+            f"the linkage cannot be followed beyond t = {t:.12g} s: {told}{drives_at(problem.compiled, problem.p, t)}\n"
+            f"  the drives do not tell on which one it goes on: {remedy}", t, row
+        )  # fmt: skip
     return SingularError(
         f"the linkage cannot be followed beyond t = {t:.12g} s: it is singular there, the pivot of constraint row {row}"
         f" vanished{drives_at(problem.compiled, problem.p, t)}\n"

@@ -118,3 +118,4 @@ class Trajectory:
     trace: Trace | None = None  # forces and paths from the steps; None: the method keeps none
     audit: tuple[Finding, ...] = ()  # largest value of each check
     no_number: NDArray[Any] = field(default_factory=no_events)  # EVENT_DTYPE: from when on an event is no number
+    change_points: tuple[int, float] = (0, float("nan"))  # samples at or near one, and the time of the first (s)

@@ -112,6 +112,12 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
         notes.append(f"event {name} is no number (NaN) at t = {t:.9g} s: where it is none it has no zeros")
     if compiled.source.events and ":" in problem.method:
         notes.append(f"events are not watched by method {problem.method}")
+    passed, first = trajectory.change_points
+    if passed and not without_masses(compiled.source):
+        notes.append(
+            f"{passed} samples lie at or near a change point (the first at t = {first:.9g} s): positions and rates"
+            " pass on the smooth branch; forces and torques there are not determined by the rows"
+        )
     notes += unbounded_sample(compiled, problem, trajectory)
     notes += seams(compiled.source, p, float(problem.t[0]), float(trajectory.t[-1]))
     notes += not_held(compiled, p, float(problem.t[0]), problem.q, counts, trajectory.peaks)

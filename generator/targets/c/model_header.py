@@ -127,6 +127,8 @@ def _of_watch(program: Program, bounds: Kernel | None) -> Sizes:
         sizes["N_RIGID"] = (len(model.rigid), "joints with play whose surfaces do not give")
     if model.rubbed:
         sizes["N_RUBBED"] = (len(model.rubbed), "of them, with friction")
+    if idle := idle_switches(program):
+        sizes["N_IDLE"] = (len(idle), "of N_SWITCHES that what is integrated does not have")
     sizes |= {"PERIODS": (1, "mod begins anew within the motion")} if periods else {}
     if any(clearance.contour for clearance in model.clearances):
         sizes["CONTOURS"] = (1, "bearings are no circles")
@@ -167,6 +169,13 @@ def watched_corners(program: Program) -> list[int]:
     if program.integrates:
         return program.integrated.corners
     return sorted(switch.index for switch in program.model.symbols.switches.of(""))
+
+
+def idle_switches(program: Program) -> list[int]:
+    """Numbers of switches that the absolute formulation alone has: what is integrated does not evaluate them."""
+    own, every = program.integrated.system.model.symbols.switches, program.model.symbols.switches
+    used = {switch.index for switch in own.found.values()}
+    return [k for k in range(max(own.count, every.count)) if k not in used] if program.integrates else []
 
 
 def deepest(clearance: Clearance) -> sp.Expr:
@@ -210,6 +219,8 @@ def _tables(program: Program, of_scene: Sizes) -> list[str]:
         tables |= {("unsigned char", "film_joint"): [int(c.film is not None) for c in model.clearances]}
     if corners := first_corners(model):
         tables |= {("int", "first_corner"): corners}
+    if idle := idle_switches(program):
+        tables |= {("short", "idle"): idle}
     if program.integrates:
         tables |= _watched(program, of_scene) | {("int", "friction_of_pivot"): _friction_pivots(program.integrated.kkt)}
     return [_table(kind, name, values) for (kind, name), values in tables.items()]
