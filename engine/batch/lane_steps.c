@@ -11,6 +11,9 @@ static void close_state(LaneRun *run, Lanes t, Lanes *y, const LaneParameters *p
 #define Touched LaneBits
 #include "../both/rk4_trial.h"
 #include "../both/watch.h"
+#if N_USER_EVENTS
+#include "../both/speed.h"
+#endif
 
 /*
  * Lanes in which a contact begins, ends or is touched within the step, may be (as may_touch of methods/rk4_inside.c
@@ -57,6 +60,9 @@ static LaneBits lane_step(LaneRun *run, double h, double t_new, const LaneParame
         run->y[j] = trial.y[j];
         run->dy[j] = trial.dy[j];
     }
+#if N_USER_EVENTS
+    note_speed(run);
+#endif
     run->t = all_of(t_new);
     run->steps += 1.0;
     for (int i = 0; i < N_CLEARANCES; i++) {

@@ -171,6 +171,9 @@ static void give_state(const void *memory, Moving *state)
         state->open[i].F_peak = run->open[i].F_peak;
         state->open[i].t_peak = run->open[i].t_peak;
     }
+#if N_USER_EVENTS
+    memcpy(state->speed, run->speed, sizeof state->speed);
+#endif
     for (int i = 0; i < N_USER_EVENTS; i++)
         state->memory.event_side[i] = run->memory.event_side[i];
 }
@@ -190,6 +193,9 @@ static void take_state(void *memory, const Moving *state)
         run->y[k] = state->y[k];
         run->dy[k] = state->dy[k];
     }
+#if N_USER_EVENTS
+    memcpy(run->speed, state->speed, sizeof state->speed);
+#endif
     for (int i = 0; i < N_CLEARANCES; i++) { /* neither an onset nor a separation was among these steps */
         run->compressing[i] = state->compressing[i] != 0;
         run->aside.clearance[i].e = state->journal[i].e;

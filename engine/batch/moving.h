@@ -1,5 +1,8 @@
 /* Text of a struct: what is carried from one step of rk4 to the next, by the names that a run has for it. */
 Number t, steps, evaluations, y[N_Y], dy[N_Y];
+#if N_USER_EVENTS
+Number speed[2];
+#endif
 Number phi_max, phi_dot_max, ratio_min, ratio_max, ratio_outside;
 Number F_peak[AT_LEAST_ONE(N_CLEARANCES)], t_peak[AT_LEAST_ONE(N_CLEARANCES)], e_max[AT_LEAST_ONE(N_CLEARANCES)];
 struct {

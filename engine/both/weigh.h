@@ -1,11 +1,7 @@
 /*
  * What errors are measured by: speeds so far, and what follows from them.
  */
-static void note_speed(RunOf *run)
-{
-    for (int k = 0; k < N_X; k++)
-        run->speed[is_angle[k]] = real_max(run->speed[is_angle[k]], real_abs(run->y[N_X + k]));
-}
+#include "speed.h"
 
 /*
  * Tolerances of coordinates are given; those of velocities grow with the largest speed so far, those of works with

@@ -4,12 +4,10 @@
  * bisection with Newton's method at every time that is tried.
  */
 enum { EVENT_STOPS = 1, DEEPEST = 36, MAX_VIEWS = 2000 };
+#define ENOUGH 0.13 /* of a step, over which bounds tell whether they become narrower with it */
+#define ALIKE 1e4   /* uncertainties that bounds over a cubic may be wrong by */
 
-/* A place on the way with the values of what is watched. */
-typedef struct {
-    Place at;
-    double event[N_USER_EVENTS];
-} View;
+#include "uncertainty.c"
 
 /* What Python hands over: sides seen last, times and numbers of what was found, room for so many. */
 typedef struct {
@@ -21,6 +19,11 @@ typedef struct {
     int stop;     /* whether an event may end the run */
     unsigned char no_number[N_USER_EVENTS]; /* told to be none */
 } Log;
+
+/* A step before it is halved: its length, and how large the bounds of each expression are over it. */
+typedef struct {
+    double h, most[N_USER_EVENTS];
+} Whole;
 
 /* All the way to t1. */
 static int follow(double t1, const Parameters *p, double reach, double extent, Place *here, long *steps)
@@ -35,22 +38,14 @@ static int follow(double t1, const Parameters *p, double reach, double extent, P
     return 0;
 }
 
-static void look(const Parameters *p, View *view)
-{
-    Aside aside = {0};
-    double a[N_Q];
-    (void)solve_motion(p, &view->at, a, &aside); /* told before, where it cannot be solved */
-    for (int i = 0; i < N_USER_EVENTS; i++)
-        view->event[i] = aside.event[i];
-}
-
 /*
  * The time between a and b at which expression i comes to the side where it is at b, or to be no number as there;
  * whether it does so at a pole.
  */
 static int locate(int i, const Parameters *p, double reach, double extent, View a, const View *b, double *t, int *pole)
 {
-    double low = a.at.t, high = b->at.t, near = b->event[i];
+    double low = a.at.t, high = b->at.t;
+    View near = *b;
     const double width = high - low, close = max_of(1e-12 * width, 4.0 * DBL_EPSILON * fabs(high));
     while (high - low > close) {
         long steps = 0;
@@ -62,7 +57,7 @@ static int locate(int i, const Parameters *p, double reach, double extent, View 
         look(p, &mid);
         if (isnan(b->event[i]) ? isnan(mid.event[i]) : have_same_sign(mid.event[i], b->event[i])) {
             high = middle;
-            near = mid.event[i];
+            near = mid;
         } else {
             low = middle;
             a = mid;
@@ -73,7 +68,9 @@ static int locate(int i, const Parameters *p, double reach, double extent, View 
     *t = high;
     *pole = follow(high + 64.0 * close, p, reach, extent, &far.at, &steps) == 0;
     look(p, &far);
-    *pole = isinf(near) || (*pole && fabs(near) > 2.0 * fabs(far.event[i])); /* it grows towards the place */
+    /* it grows towards the place, to values that are larger than their uncertainty */
+    *pole = isinf(near.event[i])
+        || (*pole && fabs(near.event[i]) > 2.0 * fabs(far.event[i]) && resolved(&near, i, 0, extent, p) != 0.0);
     return 0;
 }
 
@@ -107,7 +104,7 @@ static int compare(Log *log, const View *a, const View *b, const Parameters *p, 
             if (full)
                 return full;
         }
-        if (!event_crosses(i, &log->side[i], b->event[i]))
+        if (!event_crosses(i, &log->side[i], resolved(b, i, log->side[i], extent, p)))
             continue;
         int status = locate(i, p, reach, extent, *a, b, &t, &pole);
         if (!status && !pole && t - log->start > 1e-12 * (b->at.t - a->at.t) + 16.0 * DBL_EPSILON * fabs(t))
@@ -125,11 +122,27 @@ static int compare(Log *log, const View *a, const View *b, const Parameters *p, 
 
 #if KNOWN_BOUNDS
 /*
+ * Whether expression i is zero between two places but for rounding, as a velocity that the linkage holds at zero: it is
+ * so at both, and its bounds are not far from that; or they, which do not know how its terms depend on each other,
+ * become narrower with the way, as those of a function do that hides nothing in it.
+ */
+static int is_held(const View *a, const View *b, int i, Range f, const Whole *whole, double extent, const Parameters *p)
+{
+    const double part = (b->at.t - a->at.t) / whole->h, most = max_of(-f.lo, f.hi);
+    double error[N_USER_EVENTS];
+    uncertainty(a, extent, p, error);
+    return fabs(a->event[i]) <= error[i]
+        && (most <= ALIKE * error[i] || (part < ENOUGH && most <= 4.0 * part * whole->most[i]))
+        && resolved(b, i, 0, extent, p) == 0.0;
+}
+
+/*
  * Whether every expression keeps its sign between two places or goes one way only: bounds over the cubic through both
  * (positions) and over its slope (velocities).
  */
-static int is_plain(const Place *a, const Place *b, const Parameters *p)
+static int is_plain(const View *from_view, const View *to_view, const Parameters *p, double extent, Whole *whole)
 {
+    const Place *a = &from_view->at, *b = &to_view->at;
     const double h = b->t - a->t;
     Range q[N_Q], v[N_Q], out[N_WATCHED];
     for (int k = 0; k < N_Q; k++) {
@@ -146,7 +159,10 @@ static int is_plain(const Place *a, const Place *b, const Parameters *p)
     watched_ranges((Range){a->t, b->t, h, h, 0}, q, v, &(Memory){0}, p, out);
     for (int i = 0; i < N_USER_EVENTS; i++) {
         const Range f = out[N_WATCHED - N_USER_EVENTS + i];
-        if (!is_empty(f) && !(f.lo >= 0.0) && !(f.hi <= 0.0) && (f.partly || !(f.down >= 0.0 || f.up <= 0.0)))
+        if (whole->h == h)
+            whole->most[i] = max_of(-f.lo, f.hi);
+        if (!is_empty(f) && !(f.lo >= 0.0) && !(f.hi <= 0.0) && (f.partly || !(f.down >= 0.0 || f.up <= 0.0))
+            && (f.partly || !is_held(from_view, to_view, i, f, whole, extent, p)))
             return 0;
     }
     return 1;
@@ -155,22 +171,22 @@ static int is_plain(const Place *a, const Place *b, const Parameters *p)
 #endif
 /* All events between two places, over parts in which no expression turns back. */
 static int compare_parts(Log *log, const View *a, const View *b, const Parameters *p, double reach, double extent,
-    int depth, int *left)
+    int depth, int *left, Whole *whole)
 {
 #if KNOWN_BOUNDS
-    if (depth < DEEPEST && --*left > 0 && !is_plain(&a->at, &b->at, p)) {
+    if (depth < DEEPEST && --*left > 0 && !is_plain(a, b, p, extent, whole)) {
         View middle = *a;
         long steps = 0;
         const double t = a->at.t + 0.5 * (b->at.t - a->at.t);
         int status = t > a->at.t && t < b->at.t ? follow(t, p, reach, extent, &middle.at, &steps) : NEWTON_FAILED;
         if (!status) {
             look(p, &middle);
-            status = compare_parts(log, a, &middle, p, reach, extent, depth + 1, left);
-            return status ? status : compare_parts(log, &middle, b, p, reach, extent, depth + 1, left);
+            status = compare_parts(log, a, &middle, p, reach, extent, depth + 1, left, whole);
+            return status ? status : compare_parts(log, &middle, b, p, reach, extent, depth + 1, left, whole);
         }
     }
 #else
-    (void)depth, (void)left;
+    (void)depth, (void)left, (void)whole;
 #endif
     return compare(log, a, b, p, reach, extent);
 }
@@ -185,8 +201,9 @@ static int search(Log *log, View *here, double t1, const Parameters *p, double r
         status = step_on(&stride, t1, p, &here->at);
         if (!status) {
             int left = MAX_VIEWS;
+            Whole whole = {.h = here->at.t - before.at.t};
             look(p, here);
-            status = compare_parts(log, &before, here, p, reach, extent, 0, &left);
+            status = compare_parts(log, &before, here, p, reach, extent, 0, &left, &whole);
         }
     }
     return status;
@@ -213,7 +230,7 @@ int gudgeon_kinematic_events(void *memory, long n, const double *t, const double
             return status;
         look(p, &here);
         for (int i = 0; i < N_USER_EVENTS; i++) {
-            (void)event_crosses(i, &side[i], side[i] ? 0.0 : here.event[i]); /* the first side */
+            (void)event_crosses(i, &side[i], side[i] ? 0.0 : resolved(&here, i, 0, extent, p)); /* the first side */
             sides[i] = side[i];
         }
         *found = log.found;

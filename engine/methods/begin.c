@@ -1,26 +1,26 @@
 /*
  * How a run by a method that chooses its step begins: tolerances, what counts as a speed, sides of what is watched.
  */
-/* The side of what is watched and begins on a zero: that to which it goes. */
+#if N_USER_EVENTS
+/* The side of what is watched and begins on a zero: that to which it goes, as soon as that is known. */
 static int leave_zeros(Run *run, const Parameters *p)
 {
-    int zeros = 0;
-    for (int i = 0; i < N_USER_EVENTS; i++)
-        zeros |= run->memory.event_side[i] == 0;
-    if (!zeros)
-        return 0;
-    double y[N_Y], dy[N_Y];
-    Aside aside;
-    const double h = 1e-6 * run->h;
-    for (int k = 0; k < N_Y; k++)
-        y[k] = run->y[k] + h * run->dy[k];
-    const int status = rates(run, run->t + h, y, p, dy, &aside);
-    for (int i = 0; i < N_USER_EVENTS; i++)
-        if (run->memory.event_side[i] == 0)
-            event_crosses(i, &run->memory.event_side[i], aside.event[i]);
-    return status;
+    for (double share = 1e-6; share < 0.1; share *= 100.0) {
+        double value[N_USER_EVENTS];
+        int zeros = 0;
+        for (int i = 0; i < N_USER_EVENTS; i++)
+            zeros |= run->memory.event_side[i] == 0;
+        const int status = zeros ? events_ahead(run, run->t, share * run->h, run->y, run->dy, p, value) : 0;
+        if (status || !zeros)
+            return share > 1e-6 ? 0 : status;
+        for (int i = 0; i < N_USER_EVENTS; i++)
+            if (run->memory.event_side[i] == 0)
+                event_crosses(i, &run->memory.event_side[i], value[i]);
+    }
+    return 0;
 }
 
+#endif
 /*
  * What a speed counts at least: a hundredth of what leads over the smallest length that matters in the shortest time
  * that the start's speeds and accelerations take for it. Only where these lead nowhere (a pulse is yet to come) the
@@ -59,8 +59,10 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
 #endif
     if (!status && !(run->h > 0.0))
         status = first_size(run, left, p);
+#if N_USER_EVENTS
     if (!status)
         status = leave_zeros(run, p);
+#endif
     if (run->method->own_length)
         run->h = left;
     return status;

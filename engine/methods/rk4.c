@@ -41,6 +41,9 @@ static int accept(Run *run, double h, double t_new, const Trial *trial, const Pa
         run->dy[j] = trial->dy[j];
     }
     run->aside = trial->aside;
+#if N_USER_EVENTS
+    note_speed(run);
+#endif
     int status = 0;
     run->asked.hold = 1;
     for (int i = 0; i < N_CLEARANCES; i++)
@@ -61,97 +64,7 @@ static int accept(Run *run, double h, double t_new, const Trial *trial, const Pa
     return status;
 }
 
-/* Share of h at which watched expression i first lies beyond zero, by halving: the step is tried again up to there. */
-static double rk4_crossing(Run *run, int i, double h, const Parameters *p)
-{
-    const double close = max_of(4.0 * DBL_EPSILON * fabs(run->t) / h, 1e-12);
-    double low = 0.0, high = 1.0;
-    Trial trial, far;
-    while (high - low > close) {
-        const double share = 0.5 * (low + high);
-        if (rk4_try(run, share * h, p, &trial) || run->memory.event_side[i] * trial.aside.event[i] < 0.0)
-            high = share;
-        else
-            low = share;
-    }
-    /* a pole, where it grows towards the place, is no zero */
-    const int failed = rk4_try(run, high * h, p, &trial) || rk4_try(run, (high + 64.0 * close) * h, p, &far);
-    return !failed && fabs(trial.aside.event[i]) > 2.0 * fabs(far.aside.event[i]) ? INFINITY : high;
-}
-
-/* Whether expression i, zero at the end of a trial, is beyond it at once: the end of a run counts as the way to it. */
-static int rk4_leaves_zero(Run *run, int i, double h, const Trial *trial, const Parameters *p)
-{
-    signed char side = run->memory.event_side[i];
-    double y[N_Y], dy[N_Y];
-    Aside aside;
-    if (trial->aside.event[i] != 0.0)
-        return 0;
-    for (int j = 0; j < N_Y; j++)
-        y[j] = trial->y[j] + 1e-6 * h * trial->dy[j];
-    return !rates(run, run->t + (1.0 + 1e-6) * h, y, p, dy, &aside) && event_crosses(i, &side, aside.event[i]);
-}
-
-/* User event i at a share of a step: the state is that of the step up to there, its contacts as the gaps are. */
-static void rk4_note_event(Run *run, int i, double share, double h, const Parameters *p)
-{
-#if N_USER_EVENTS
-    Trial at;
-    const int k = run->n_events, lost = rk4_try(run, share * h, p, &at);
-    for (int j = 0; lost && j < N_Y; j++)
-        at.y[j] = NAN;
-    (void)note_event(run, i, run->t + share * h, at.y, p);
-    for (int j = 0; j < N_CLEARANCES && k < N_IMPACTS && !lost; j++) {
-        const Clearance *gap = &at.aside.clearance[j];
-        double *latched = &event_states(run)->latched[k][j];
-        signed char *state = &event_states(run)->state[k][j];
-        if (!gives(j))
-            continue;
-        if (gap->delta <= 0.0) {
-            *latched = NAN;
-            *state = 0;
-        } else if (*state == 0) {
-            *latched = gap->deltadot;
-            *state = 1;
-        }
-    }
-#else
-    (void)run, (void)i, (void)share, (void)h, (void)p;
-#endif
-}
-
-/* User events on the way of a step; one that ends the run takes the step up to there. */
-static int rk4_events(Run *run, double h, const Trial *trial, const Parameters *p, const Samples *out)
-{
-    double share[AT_LEAST_ONE(N_USER_EVENTS)], end = INFINITY;
-    for (int i = 0; i < N_USER_EVENTS; i++) {
-        signed char side = run->memory.event_side[i];
-        share[i] = event_crosses(i, &side, trial->aside.event[i]) ? rk4_crossing(run, i, h, p) : INFINITY;
-        if (rk4_leaves_zero(run, i, h, trial, p)) {
-            share[i] = 1.0;
-            run->memory.event_side[i] *= -1;
-        }
-        if (isnan(trial->aside.event[i]))
-            note_no_number(run, i, run->t + h);
-        if (run->stop && event_stops[i])
-            end = min_of(end, share[i]);
-    }
-    if (run->asked.stop)
-        return STOPPED; /* what was found meanwhile means nothing */
-    run->asked.hold = 1;
-    for (int i = 0; i < N_USER_EVENTS; i++) {
-        event_crosses(i, &run->memory.event_side[i], trial->aside.event[i]);
-        if (share[i] <= end && isfinite(share[i]))
-            rk4_note_event(run, i, share[i], h, p);
-    }
-    run->asked.hold = 0;
-    if (!isfinite(end))
-        return 0;
-    Trial last;
-    const int status = rk4_try(run, end * h, p, &last);
-    const int failed = status ? status : accept(run, end * h, run->t + end * h, &last, p, out);
-    return failed ? failed : ENDED;
-}
+#include "rk4_events.c"
 
 /* From t to `end` and, rounded as a stage's time is, not beyond it: there another branch begins. */
 static inline double way_to(double t, double end)
@@ -173,6 +86,8 @@ static int rk4_step(Run *run, double h, double t_new, const Parameters *p, const
 {
     Trial trial;
     run->steps++;
+    if (t_new - run->t < h * (1.0 - 1e-9)) /* what is left of one in which lists were full */
+        h = t_new - run->t;
 #endif
     for (int part = 0; part < MAX_PARTS; part++) {
         const int status = rk4_try(run, h, p, &trial);
@@ -185,12 +100,16 @@ static int rk4_step(Run *run, double h, double t_new, const Parameters *p, const
             const int ended = rk4_events(run, h, &trial, p, out);
             return ended ? ended : accept(run, h, t_new, &trial, p, out);
         }
-        int failed = share < 0.0 ? NOT_FINITE : accept(run, share * h, run->t + share * h, &trial, p, out);
+        const int ended = share < 0.0 ? NOT_FINITE : rk4_events(run, share * h, &trial, p, out);
+        int failed = ended ? ended : accept(run, share * h, run->t + share * h, &trial, p, out);
         run->asked.hold = 1;
+        const Held before = held_before(run);
         if (!failed)
             failed = switch_friction(run, p);
         if (!failed)
             failed = meet(run, used_up(run), p);
+        if (!failed)
+            failed = note_arrivals(run, &before, 1e-4 * h, p);
         if (!failed)
             tape_jump(run, p);
         run->asked.hold = 0;
@@ -199,6 +118,8 @@ static int rk4_step(Run *run, double h, double t_new, const Parameters *p, const
         h = N_CORNERS ? way_to(run->t, t_new) : t_new - run->t;
         if (!(h > 0.0))
             return 0;
+        if (lists_full(run))
+            return EVENTS_FULL;
     }
     return CHATTERING;
 }
@@ -239,6 +160,7 @@ int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n,
         if (lists_full(run))
             return EVENTS_FULL;
         status = rk4_step(run, h, t_new, p, &out);
+        run->steps -= status == EVENTS_FULL;
 #if N_USER_EVENTS
         if (!status && t_new >= t[n - 1])
             status = end_on_zeros(run, min_of(1e-12, 1e-11 * (t[n - 1] - t[0])), p);

@@ -79,10 +79,8 @@ static int rk4_step(Run *run, double h, double t_new, const Parameters *p, const
         if (!status)
             status = pass_jump(run, after, apart, p);
         h = way_to(run->t, t_new);
-        if (!status && h > 0.0 && lists_full(run)) {
-            run->steps--;
+        if (!status && h > 0.0 && lists_full(run))
             return EVENTS_FULL;
-        }
         if (!status && h > 0.0 && run->asked.stop)
             return STOPPED;
     }

@@ -161,6 +161,7 @@ static void show_onsets(Run *run)
 static int change(Run *run, int event, const Parameters *p)
 {
     double before[AT_LEAST_ONE(N_USER_EVENTS)];
+    const Held held = held_before(run);
     for (int i = 0; i < N_USER_EVENTS; i++)
         before[i] = run->aside.event[i];
     for (int k = 0; k < N_CLEARANCES + N_SWITCHES; k++)
@@ -174,12 +175,12 @@ static int change(Run *run, int event, const Parameters *p)
         status = switch_friction(run, p);
     if (!status && user_event < 0)
         status = meet(run, event, p);
-    if (!status && user_event >= 0
-        && event_crosses(user_event, &run->memory.event_side[user_event], run->aside.event[user_event])
-        && !run->pole && note_event(run, user_event, run->t, run->y, p))
+    if (!status && user_event >= 0 && cross_zero(run, user_event) && !run->pole
+        && note_event(run, user_event, run->t, run->y, p))
         status = ENDED;
     const int ended = !status || status == ENDED ? note_leaps(run, before, p) : 0;
-    return ended ? ended : status;
+    const int held_now = !status || status == ENDED ? note_arrivals(run, &held, 1e-4 * run->h, p) : 0;
+    return ended ? ended : held_now ? held_now : status;
 }
 
 #if N_CORNERS

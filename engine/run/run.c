@@ -119,6 +119,11 @@ static double kinetic_energy(const Run *run, const Parameters *p)
 }
 
 #include "tape.c"
+#if N_WATCHED
+#include "uncertainty.c"
+#else
+#include "no_uncertainty.c"
+#endif
 #include "user_events.c"
 #if N_FRICTIONS
 #include "friction.c"
@@ -226,8 +231,10 @@ static int begin(Run *run, const Parameters *p)
     }
     if (!status)
         status = begin_contacts(run, p);
+    double value[AT_LEAST_ONE(N_USER_EVENTS)];
+    resolved_events(run, run->t, run->y, &run->aside, p, value);
     for (int i = 0; i < N_USER_EVENTS; i++) {
-        event_crosses(i, &run->memory.event_side[i], run->aside.event[i]);
+        event_crosses(i, &run->memory.event_side[i], value[i]);
         if (isnan(run->aside.event[i]) && !status)
             note_no_number(run, i, run->t);
     }

@@ -73,8 +73,9 @@ typedef struct {
     double look[AT_LEAST_ONE(N_WATCHED)][N_LOOKS + 1]; /* margins of what is watched, evenly along the step (looks.c) */
     unsigned char passed[AT_LEAST_ONE(N_SWITCHES)]; /* corners that this step crosses without harm */
     double harm; /* in tolerances, that the wrong branches of corners change it by at most; infinite: not known */
-    /* where a zero of what is watched was found, and its value behind it */
-    double from[AT_LEAST_ONE(N_WATCHED)], to[AT_LEAST_ONE(N_WATCHED)], below[AT_LEAST_ONE(N_WATCHED)];
+    /* where a zero of what is watched was found, its values before it and behind it */
+    double from[AT_LEAST_ONE(N_WATCHED)], to[AT_LEAST_ONE(N_WATCHED)];
+    double above[AT_LEAST_ONE(N_WATCHED)], below[AT_LEAST_ONE(N_WATCHED)];
     double least[2 * N_X + 1], most[2 * N_X + 1];   /* of the state at stages, where something is watched */
     unsigned char near[AT_LEAST_ONE(N_WATCHED)], looked;
     double rate[AT_LEAST_ONE(N_CLEARANCES)][2];   /* smallest and largest d delta/dt of the stages */

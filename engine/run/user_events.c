@@ -24,6 +24,14 @@ static int note_event(Run *run, int i, double t, const double *now, const Parame
 #endif
 }
 
+/* User event i has crossed its zero here: its side is the other one; whether that is a direction that counts. */
+static int cross_zero(Run *run, int i)
+{
+    const int to = -run->memory.event_side[i];
+    run->memory.event_side[i] = (signed char)to;
+    return event_direction[i] * to >= 0;
+}
+
 /* User event i is no number at time t: told once a run, in the list of events behind all of them. */
 static void note_no_number(Run *run, int i, double t)
 {
@@ -38,16 +46,48 @@ static void note_no_number(Run *run, int i, double t)
  */
 static int note_leaps(Run *run, const double *before, const Parameters *p)
 {
+    double value[AT_LEAST_ONE(N_USER_EVENTS)];
     int status = 0;
+    resolved_events(run, run->t, run->y, &run->aside, p, value);
     for (int i = 0; i < N_USER_EVENTS; i++)
-        if ((!before || !have_same_sign(before[i], run->aside.event[i]))
-            && event_crosses(i, &run->memory.event_side[i], run->aside.event[i])
+        if ((!before || !have_same_sign(before[i], value[i])) && event_crosses(i, &run->memory.event_side[i], value[i])
             && note_event(run, i, run->t, run->y, p))
             status = ENDED;
     return status;
 }
 
 #if N_USER_EVENTS
+/* Event functions `ahead` s beyond a state, straight on; 0 for those that are below their uncertainty there. */
+static int events_ahead(Run *run, double t, double ahead, const double *y, const double *dy, const Parameters *p, double *value)
+{
+    double there[N_Y], scrap[N_Y];
+    Aside aside;
+    for (int k = 0; k < N_Y; k++)
+        there[k] = y[k] + ahead * dy[k];
+    const int status = rates(run, t + ahead, there, p, scrap, &aside);
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        value[i] = 0.0;
+    if (!status)
+        resolved_events(run, t + ahead, there, &aside, p, value);
+    return status;
+}
+
+/*
+ * Whether event function i, of this value at the end of the run, is beyond zero: the value is larger than its
+ * uncertainty, or the function goes on to such values of the same sign. `tick`: to which times are located, s.
+ */
+static int goes_beyond(Run *run, int i, double value, double tick, const Parameters *p)
+{
+    double error[N_WATCHED], further[N_USER_EVENTS];
+    uncertainty(run, run->t, run->y, p, error);
+    if (!(fabs(value) <= error[N_WATCHED - N_USER_EVENTS + i]))
+        return 1;
+    for (double ahead = 1e3 * tick; ahead < 1e10 * tick; ahead *= 1e3)
+        if (!events_ahead(run, run->t, ahead, run->y, run->dy, p, further) && further[i] != 0.0)
+            return further[i] * value > 0.0;
+    return 0;
+}
+
 /*
  * What lies right behind run->t, as far as times are located (tick, s): on the sides that are held (`here`), and on
  * those of there, which are held from now on (`beyond`).
@@ -65,10 +105,14 @@ static int look_beyond(Run *run, double tick, const Parameters *p, Aside *here, 
     return status ? status : settle_at(run, run->t + h, y, dy, beyond, -1, p);
 }
 
-/* Whether event i is beyond its zero right behind run->t: it leaps there, or goes on from no further than that. */
+/*
+ * Whether event i is beyond its zero right behind run->t: it is there already, leaps there, or goes on from no further
+ * than that.
+ */
 static int is_beyond(const Run *run, int i, const Aside *here, const Aside *beyond)
 {
-    return have_same_sign(here->event[i], -beyond->event[i]) || fabs(here->event[i]) >= fabs(run->aside.event[i]);
+    return run->aside.event[i] * run->memory.event_side[i] < 0.0 || have_same_sign(here->event[i], -beyond->event[i])
+        || fabs(here->event[i]) >= fabs(run->aside.event[i]);
 }
 
 /*
@@ -86,7 +130,9 @@ static int end_on_zeros(Run *run, double tick, const Parameters *p)
     }
     run->memory = memory;
     for (int i = 0; i < N_USER_EVENTS; i++)
-        if (event_crosses(i, &run->memory.event_side[i], beyond.event[i]) && is_beyond(run, i, &here, &beyond)
+        if (is_beyond(run, i, &here, &beyond) && run->memory.event_side[i] * beyond.event[i] < 0.0
+            && goes_beyond(run, i, beyond.event[i], tick, p)
+            && event_crosses(i, &run->memory.event_side[i], beyond.event[i])
             && note_event(run, i, run->t, run->y, p))
             status = ENDED;
     return status;
@@ -106,4 +152,82 @@ static int begin_beyond(Run *run, double tick, const Parameters *p)
     return rates(run, run->t, run->y, p, run->dy, &run->aside);
 }
 
+#endif
+
+/*
+ * What is known before friction changes its mode, or a contact of surfaces that do not give begins: by these a function
+ * may be held at zero from then on.
+ */
+#if N_USER_EVENTS && (N_FRICTIONS || N_RIGID)
+typedef struct {
+    Memory memory;
+    double y[N_Y], dy[N_Y], event[N_USER_EVENTS];
+} Held;
+
+static Held held_before(const Run *run)
+{
+    Held before = {.memory = run->memory};
+    memcpy(before.y, run->y, sizeof before.y);
+    memcpy(before.dy, run->dy, sizeof before.dy);
+    memcpy(before.event, run->aside.event, sizeof before.event);
+    return before;
+}
+
+/* Whether friction sticks that did not, or a contact is closed that was not. */
+static int holds_more(const Memory *before, const Memory *now)
+{
+    int more = 0;
+    for (int i = 0; i < N_FRICTIONS; i++)
+        more |= now->mode[i] == 0.0 && before->mode[i] != 0.0;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        more |= !gives(i) && now->latch[i].closed && !before->latch[i].closed;
+    return more;
+}
+
+/*
+ * Event functions that are held at zero from now on have come to zero: that is an event, unless they had been there
+ * before, and from there they go to a side without crossing zero. Whether something is held is told by where it would
+ * be `ahead` s later, and where it would have been as things were. Returns ENDED where one of them ends the run.
+ */
+static int note_arrivals(Run *run, const Held *before, double ahead, const Parameters *p)
+{
+    double error[N_WATCHED], now[N_USER_EVENTS], then[N_USER_EVENTS];
+    const int more = holds_more(&before->memory, &run->memory);
+    int zeros = 0, status = 0;
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        zeros |= run->memory.event_side[i] == 0;
+    if (!more && !zeros)
+        return 0;
+    Memory memory = run->memory;
+    uncertainty(run, run->t, run->y, p, error);
+    (void)events_ahead(run, run->t, ahead, run->y, run->dy, p, now);
+    run->memory = before->memory;
+    (void)events_ahead(run, run->t, ahead, before->y, before->dy, p, then);
+    run->memory = memory;
+    for (int i = 0; i < N_USER_EVENTS; i++) {
+        signed char *side = &run->memory.event_side[i];
+        const double least = error[N_WATCHED - N_USER_EVENTS + i];
+        const int from = *side, moves = fabs(now[i]) > least + 0.01 * fabs(then[i]);
+        if (from == 0 && moves)
+            event_crosses(i, side, now[i]);
+        if (from == 0 || moves || !more || !(fabs(run->aside.event[i]) <= least))
+            continue;
+        const int comes = from * before->event[i] > least || from * then[i] < -least;
+        if (comes || from * then[i] > least)
+            *side = 0;
+        if (comes && event_direction[i] * from <= 0 && note_event(run, i, run->t, run->y, p))
+            status = ENDED;
+    }
+    return status;
+}
+#else
+typedef struct {
+    int none;
+} Held;
+
+static Held held_before(const Run *run) { return (void)run, (Held){0}; }
+static int note_arrivals(Run *run, const Held *before, double ahead, const Parameters *p)
+{
+    return (void)run, (void)before, (void)ahead, (void)p, 0;
+}
 #endif

@@ -102,6 +102,16 @@ static double violated(Run *run, Step *step, int k, const Parameters *p, double 
     return end < 0.0 ? 1.0 : 0.0;
 }
 
+/* Whether margin k, if it is watched, is larger than its uncertainty at a state. */
+static int is_resolved(Run *run, double t, const double *y, const Aside *aside, int k, const Parameters *p)
+{
+    double error[AT_LEAST_ONE(N_WATCHED)];
+    if (watched_as[k] < 0)
+        return 1;
+    uncertainty(run, t, y, p, error);
+    return !(fabs(margin(&run->memory, aside, k)) <= error[watched_as[k]]);
+}
+
 /* What was not seen at the stages but shows where an event was found crossed before it: the first of all. */
 static double earlier_event(Run *run, const Step *step, double first, const Parameters *p, int *event)
 {
@@ -113,7 +123,8 @@ static double earlier_event(Run *run, const Step *step, double first, const Para
             return first;
         for (int k = 0; k < N_MARGINS; k++)
             if (k != *event && !is_passed(run, step, k) && !isfinite(begin_of(run, step, k).slope)
-                && margin(&run->memory, &aside, k) < 0.0 && margin(&run->memory, &run->aside, k) >= 0.0)
+                && margin(&run->memory, &aside, k) < 0.0 && margin(&run->memory, &run->aside, k) >= 0.0
+                && is_resolved(run, step->t + first * step->h, y, &aside, k, p))
                 found = k;
         if (found < 0)
             return first;
@@ -146,9 +157,11 @@ static int is_candidate(Run *run, Step *step, int k, const Parameters *p, Candid
         return 0;
     if (watched_as[k] >= 0 && step->from[watched_as[k]] > 0.0) {
         const Place from = place_at(run, step, step->from[watched_as[k]], k, p);
-        if (from.f >= 0.0)
+        if (from.f >= 0.0 || step->above[watched_as[k]] >= 0.0)
             low = from;
     }
+    if (watched_as[k] >= 0 && step->above[watched_as[k]] >= 0.0) /* below zero by its uncertainty at most */
+        low.f = max_of(low.f, 0.0);
     for (int j = 1; j < 4 && !is_gap && !(low.f >= 0.0); j++) { /* begun on the wrong side: does it come back first? */
         const Place part = place_at(run, step, 0.25 * j * high, k, p);
         if (part.f >= 0.0)
@@ -194,14 +207,20 @@ static double first_counting(Run *run, Step *step, const Parameters *p, int *eve
 }
 
 /*
- * Whether margin k changes its sign at a pole and not at a zero: it grows towards the place where it was located.
- * One that jumps from one finite value to another is as large near it as far from it.
+ * Whether margin k changes its sign at a pole and not at a zero: it grows towards the place where it was located, to
+ * values that are larger than their uncertainty. One that jumps from one finite value to another is as large near it
+ * as far from it.
  */
 static int is_pole(Run *run, const Step *step, double share, int k, const Parameters *p)
 {
+    double y[N_Y], dy[N_Y];
+    Aside aside;
     const double near = margin_at(run, step, share, k, p);
     const double far = margin_at(run, step, share + 64.0 * root_width(run, step), k, p);
-    return isinf(near) || fabs(near) > 2.0 * fabs(far);
+    if (isinf(near) || !(fabs(near) > 2.0 * fabs(far)))
+        return isinf(near);
+    return state_at(run, step, share, p, y, dy, &aside)
+        || is_resolved(run, step->t + share * step->h, y, &aside, k, p);
 }
 
 /* The first share of the step at which something ends it, and what (-1: nothing, share 1). */

@@ -23,17 +23,14 @@ static void look_at(const Run *run, double t, const double *y, const Parameters 
     watched_functions(t, y, y + N_X, &run->memory, p, aside);
 }
 
+#include "held_at_zero.c"
+
 static void margins_at(Run *run, const Step *step, double s, const Parameters *p, double *out)
 {
     Aside aside = s < 1.0 ? run->aside : step->aside;
     if (s > 0.0 && s < 1.0) {
         double y[N_Y];
-#if WATCHES_STATE
-        interpolate(run, step, s, y);
-#else
-        for (int k = 0; k < N_Y; k++)
-            y[k] = run->y[k];
-#endif
+        watched_state(run, step, s, p, y);
         look_at(run, step->t + s * step->h, y, p, &aside);
     }
     for (int i = 0; i < N_WATCHED; i++)
@@ -123,15 +120,26 @@ static int verdict(Range f, double at_a, double at_b, double width, int small)
 }
 
 /* Verdicts on all margins over a part: 1 where the first is found, -1 where the part is to be halved. */
-static int judge(Run *run, Step *step, const Course *course, const Part *part, const double *at_b, int small,
+static int judge(Run *run, Step *step, const Course *course, const Part *part, double *at_b, int small, Noise *noise,
     const Parameters *p)
 {
     Range f[N_WATCHED];
     int found = 0;
+    const double width = part->b - part->a;
     margins_over(run, course, part->a, part->b, p, f);
     for (int i = 0; i < N_WATCHED; i++) {
         const int event = watched[i] - N_CLEARANCES - N_SWITCHES - N_FRICTIONS;
-        const int result = verdict(f[i], part->at_a[i], at_b[i], part->b - part->a, small);
+        int result = verdict(f[i], part->at_a[i], at_b[i], width, small);
+        if (width == 1.0)
+            noise->lowest[i] = f[i].lo;
+        if (result > 0 && is_noise(run, step, part->b, i, at_b[i], p)) {
+            at_b[i] = 0.0;
+            result = verdict(f[i], part->at_a[i], 0.0, width, small);
+        }
+        if (result < 0) {
+            find_noise(run, step, noise, p);
+            result = -!is_held_at_zero(noise, i, f[i], part->at_a[i], at_b[i], width);
+        }
         if (result < 0 || (f[i].partly && !small && event >= 0 && !run->no_number[event]))
             return -1;
         if (event >= 0 && isnan(at_b[i]))
@@ -139,6 +147,8 @@ static int judge(Run *run, Step *step, const Course *course, const Part *part, c
         if (result) {
             step->from[i] = part->a;
             step->to[i] = part->b;
+            step->above[i] = part->at_a[i] < 0.0 && is_noise(run, step, part->a, i, part->at_a[i], p)
+                ? 0.0 : part->at_a[i];
             step->below[i] = at_b[i];
             found = 1;
         }
@@ -148,7 +158,7 @@ static int judge(Run *run, Step *step, const Course *course, const Part *part, c
 
 #if WATCHES_STATE
 /* Whether no margin may be below zero anywhere between the stages of an explicit step: most are done with this. */
-static int is_clear(const Run *run, const Step *step, const Parameters *p)
+static int is_clear(Run *run, const Step *step, Noise *noise, const Parameters *p)
 {
     Range f[N_WATCHED], y[2 * N_X + 1] = { {0} };
     const Range t = {step->t, step->t + step->h, -INFINITY, INFINITY, 0};
@@ -158,9 +168,15 @@ static int is_clear(const Run *run, const Step *step, const Parameters *p)
         y[k] = (Range){least - beyond, most + beyond, -INFINITY, INFINITY, 0};
     }
     margins_of_ranges(run, t, y, p, f);
-    for (int i = 0; i < N_WATCHED; i++)
-        if (!(f[i].lo >= 0.0) || f[i].partly || margin(&run->memory, &step->aside, watched[i]) < 0.0)
+    for (int i = 0; i < N_WATCHED; i++) {
+        const double from = margin(&run->memory, &run->aside, watched[i]);
+        const double to = margin(&run->memory, &step->aside, watched[i]);
+        if (f[i].lo >= 0.0 && !f[i].partly && !(to < 0.0))
+            continue;
+        find_noise(run, step, noise, p);
+        if (!is_held_at_zero(noise, i, f[i], from, to, 1.0))
             return 0;
+    }
     return 1;
 }
 
@@ -170,12 +186,13 @@ static void look_inside(Run *run, Step *step, const Parameters *p)
 {
     Course course = {.t = step->t, .h = step->h};
     Part parts[DEEPEST + 2];
+    Noise noise = {0};
     const double close = root_width(run, step);
     int n = 1, seen = 0;
     for (int i = 0; i < N_WATCHED; i++)
         step->from[i] = step->to[i] = 0.0;
 #if WATCHES_STATE
-    if ((!step->method->stiff && is_clear(run, step, p)) || make_dense(run, p, step))
+    if ((!step->method->stiff && is_clear(run, step, &noise, p)) || make_dense(run, p, step))
         return;
     course_of(run, step, &course);
 #endif
@@ -188,7 +205,7 @@ static void look_inside(Run *run, Step *step, const Parameters *p)
         const double width = part->b - part->a;
         margins_at(run, step, part->b, p, at_b);
         const int small = width <= 4.0 * close || n > DEEPEST || ++seen > MAX_PARTS_SEEN;
-        const int result = judge(run, step, &course, part, at_b, small, p);
+        const int result = judge(run, step, &course, part, at_b, small, &noise, p);
         if (result > 0)
             return;
         if (result < 0) { /* its first half is looked at first */

@@ -1,0 +1,6 @@
+/* The largest speed so far, of lengths and of angles. */
+static void note_speed(RunOf *run)
+{
+    for (int k = 0; k < N_X; k++)
+        run->speed[is_angle[k]] = real_max(run->speed[is_angle[k]], real_abs(run->y[N_X + k]));
+}

@@ -1,0 +1,129 @@
+/*
+ * The uncertainty of event functions and switches: by how much rounding moves them, and what the state misses its
+ * constraints by. A function that is smaller has no sign: it keeps the branch that it had.
+ */
+#define ROUNDINGS 1024.0 /* ulp: rounding errors that a coordinate of the state collects on its way */
+#define LEFT 16.0        /* steps that close the linkage, as they are left over, that a state may be wrong by */
+#define AS_SEEN 16.0     /* times the differences that are seen, where rounding in a function may be all of them */
+
+/*
+ * Errors of the coordinates and velocities of a state y, each of its own kind: rounding of the largest of that kind,
+ * and the step that closes the linkage.
+ */
+static void rounding_errors(Run *run, double t, const double *y, const Parameters *p, double *error)
+{
+    double size[2] = {0.0, 1.0}, speed[2] = {run->speed[0], run->speed[1]}, dq[N_X + 1], dv[N_X + 1], worst;
+    for (int k = 0; k < N_X; k++) {
+        size[is_angle[k]] = max_of(size[is_angle[k]], fabs(y[k]));
+        speed[is_angle[k]] = max_of(speed[is_angle[k]], fabs(y[N_X + k]));
+    }
+    const int open = N_LOOPS > 0 && !closing_of_state(t, y, &run->memory, p, dq, dv, &worst);
+    for (int k = 0; k < N_X; k++) {
+        error[k] = ROUNDINGS * DBL_EPSILON * size[is_angle[k]];
+        error[N_X + k] = ROUNDINGS * DBL_EPSILON * (speed[is_angle[k]] + run->speed_floor[is_angle[k]]);
+        if (open && isfinite(dq[k]) && isfinite(dv[k])) {
+            error[k] += LEFT * fabs(dq[k]);
+            error[N_X + k] += LEFT * fabs(dv[k]);
+        }
+    }
+}
+
+#if N_FRICTIONS
+/*
+ * What is left of the slip of friction that sticks is an error of the velocities: those by which an impulse of the
+ * friction would stop it. Forces of both directions lead there; the others that stick stay at rest.
+ */
+static void add_stuck_slip(Run *run, double t, const double *y, const Parameters *p, double *error)
+{
+    Memory *memory = &run->memory;
+    for (int i = 0; i < N_FRICTIONS; i++) {
+        double dy[2][N_Y];
+        Aside aside[2];
+        int status = memory->mode[i] != 0.0;
+        for (int way = 0; way < 2 && !status; way++) {
+            memory->mode[i] = way ? 1.0 : -1.0;
+            status = rates(run, t, y, p, dy[way], &aside[way]);
+            memory->mode[i] = 0.0;
+        }
+        const double pushed = status ? 0.0 : aside[1].friction[i].rate - aside[0].friction[i].rate;
+        for (int k = N_X; k < 2 * N_X && pushed != 0.0; k++)
+            error[k] += fabs((dy[1][k] - dy[0][k]) * aside[0].friction[i].v / pushed);
+    }
+}
+#else
+static void add_stuck_slip(Run *run, double t, const double *y, const Parameters *p, double *error)
+{
+    (void)run, (void)t, (void)y, (void)p, (void)error;
+}
+#endif
+
+/* A watched function's value, whichever side it is on. */
+static double watched_value(const Aside *aside, int i)
+{
+    const int k = watched[i] - N_CLEARANCES;
+    return k < N_SWITCHES ? aside->g[k] : aside->event[k - N_SWITCHES - N_FRICTIONS];
+}
+
+/* By how much errors of the state change each watched function; 0 where they lead to a pole. */
+#if KNOWN_BOUNDS
+static void error_of_watched(Run *run, double t, const double *y, const double *error, const Parameters *p, double *out)
+{
+    Range state[2 * N_X + 1], f[N_WATCHED];
+    const double rounded = 4.0 * DBL_EPSILON * fabs(t);
+    for (int k = 0; k < 2 * N_X; k++)
+        state[k] = (Range){y[k] - error[k], y[k] + error[k], 0.0, 0.0, 0};
+    watched_ranges((Range){t - rounded, t + rounded, 0.0, 0.0, 0}, state, state + N_X, &run->memory, p, f);
+    for (int i = 0; i < N_WATCHED; i++)
+        out[i] = isfinite(f[i].hi - f[i].lo) ? 0.5 * (f[i].hi - f[i].lo) : 0.0;
+}
+#else
+/* No bounds are known: errors of some signs are tried, neighbours with the same one and with another. */
+static void error_of_watched(Run *run, double t, const double *y, const double *error, const Parameters *p, double *out)
+{
+    double now[N_Y], dy[N_Y];
+    Aside aside, other;
+    const int failed = rates(run, t, y, p, dy, &aside);
+    memcpy(now, y, sizeof now);
+    for (int i = 0; i < N_WATCHED; i++)
+        out[i] = 0.0;
+    for (int mask = 0; mask < 8 && !failed; mask = mask ? 2 * mask : 1) {
+        for (int k = 0; k < 2 * N_X; k++)
+            now[k] = y[k] + (k & mask ? -error[k] : error[k]) / AS_SEEN;
+        if (rates(run, t, now, p, dy, &other))
+            continue;
+        for (int i = 0; i < N_WATCHED; i++) {
+            const double change = AS_SEEN * fabs(watched_value(&other, i) - watched_value(&aside, i));
+            out[i] += isfinite(change) ? change : 0.0;
+        }
+    }
+}
+#endif
+
+/* By how much rounding and what the state misses its constraints by may move each watched function at a state. */
+static void uncertainty(Run *run, double t, const double *y, const Parameters *p, double *out)
+{
+    double error[2 * N_X + 1];
+    rounding_errors(run, t, y, p, error);
+    add_stuck_slip(run, t, y, p, error);
+    error_of_watched(run, t, y, error, p, out);
+}
+
+/*
+ * Event functions at a state; 0 for those that are below their uncertainty. Only where a sign is another one than that
+ * of `side` this is looked for.
+ */
+static void resolved_events(Run *run, double t, const double *y, const Aside *aside, const Parameters *p, double *value)
+{
+    double error[AT_LEAST_ONE(N_WATCHED)];
+    int differs = 0;
+    for (int i = 0; i < N_USER_EVENTS; i++) {
+        value[i] = aside->event[i];
+        differs |= !(run->memory.event_side[i] * value[i] > 0.0);
+    }
+    if (!differs)
+        return;
+    uncertainty(run, t, y, p, error);
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        if (fabs(value[i]) <= error[N_WATCHED - N_USER_EVENTS + i])
+            value[i] = 0.0;
+}
