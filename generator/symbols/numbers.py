@@ -164,6 +164,14 @@ class Slots:
         opposite = self._derived_by.get(-expression)
         return self.derive(wanted, expression, meaning, shown) if opposite is None else -opposite
 
+    def default(self, expression: sp.Expr) -> float:
+        """The value of a constant expression with every slot at its default."""
+        defaults = {entry.symbol: sp.Float(entry.default, 17) for entry in self.entries.values()}
+        value = sp.sympify(expression)
+        while value.free_symbols:
+            value = value.xreplace(self.derived).xreplace(defaults)
+        return float(value)
+
     def members(self) -> list[sp.Symbol]:
         """Every number of a run: slots, then what is derived."""
         return [*(entry.symbol for entry in self.entries.values()), *self.derived]
