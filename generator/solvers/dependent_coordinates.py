@@ -10,7 +10,7 @@ together, whose last pivot is n²/m.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 import sympy as sp
 
@@ -19,7 +19,6 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.system import System
 
 Pairs = Sequence[tuple[int, int]]  # coordinate, row
-SMALL_INERTIA = 1e-6  # of J and of m s² at a joint, as a fraction of m s² at the body's joint that is furthest away
 
 
 class DependentCoordinates:
@@ -29,14 +28,14 @@ class DependentCoordinates:
     depends on a coordinate that is placed after its own.
     """
 
-    def __init__(self, system: System, rows: Sequence[Row]) -> None:
+    def __init__(self, system: System, rows: Sequence[Row], avoided: frozenset[tuple[str, str]] = frozenset()) -> None:
+        """`avoided`: bodies and joints that place them only where nothing else does."""
         self.model: Model = system.model
-        self.rows = rows
+        self.rows, self._avoided = rows, avoided
         place = {q: k for k, q in enumerate(system.q)}
         self._entries = [{place[q]: entry for q, entry in row.phi_q.items()} for row in rows]
         self._constant = [self._with_constant_entry(entries) for entries in self._entries]
         self.groups: list[tuple[tuple[int, ...], int]] = []
-        self._reach = self._furthest()
         self._known: set[int] = set()
         self._used: set[int] = set()
         while self._place_pairs() or self._place_by_line() or self._place_freely():
@@ -83,36 +82,36 @@ class DependentCoordinates:
         self._used.add(r)
 
     def _best(self, ready: Pairs) -> Pairs:
-        """Joints that place x and y of a body which has inertia about them; then others."""
+        """Joints that place x and y of a body, before others."""
         owners = {(k, self.rows[r].owner) for k, r in ready}
         whole = {(k, r): all((j, self.rows[r].owner) in owners for j in _with_sibling(k)) for k, r in ready}
-        order = {pair: (self._is_light(*pair), not whole[pair]) for pair in ready}
-        return [pair for pair in ready if order[pair] == min(order.values())]
+        names = [body.name for body in self.model.bodies]
+        order = {(k, r): ((names[k // 3], self.rows[r].owner) in self._avoided, not whole[k, r]) for k, r in ready}
+        best = [pair for pair in ready if order[pair] == min(order.values())]
+        alone = bool(best) and order[best[0]][0]  # with one body that is placed others may be placed by it
+        return [(k, r) for k, r in best if not alone or k // 3 == best[0][0] // 3]
 
-    def _arms(self, row: Row) -> Iterator[tuple[str, float]]:
-        """Bodies of a joint, with the squared distance of its point from the centre of mass, at the defaults."""
-        joint = self.model.scene.mechanism.joints.get(row.owner)
-        local, default = self.model.geometry.local, self.model.slots.default
-        for ref in (joint.first, joint.second) if joint else ():
-            if (ref.body, ref.point) in local:
-                yield ref.body, sum(default(s) ** 2 for s in local[ref.body, ref.point])
+    def light_ends(self) -> set[tuple[str, str]]:
+        """Bodies with the joint that places them: those that turn freely, carry no other, and are light about it."""
+        joints, bodies = self.model.scene.mechanism.joints, self.model.bodies
+        placed = {(bodies[k // 3].name, owner) for (k, *_), r in self.groups
+                  if k % 3 < 2 and (owner := self.rows[r].owner) in joints}  # fmt: skip
+        ends = [(body, joints[owner]) for body, owner in placed]
+        carry = {joint.first.body if joint.second.body == body else joint.second.body for body, joint in ends}
+        turned = {bodies[k // 3].name for own, _ in self.groups for k in own if k % 3 == 2}
+        free = [(body, joint) for body, joint in ends if body not in carry | turned]
+        return {(body, joint.name) for body, joint in free if self.model.is_light(body, joint)}
 
-    def _furthest(self) -> dict[str, float]:
-        """The largest of these distances by body."""
-        reach: dict[str, float] = {}
-        for row in self.rows:
-            for body, square in self._arms(row):
-                reach[body] = max(reach.get(body, 0.0), square)
-        return reach
 
-    def _is_light(self, k: int, r: int) -> bool:
-        """Whether the body has hardly any inertia about the joint that would place it, at the defaults."""
-        body, default = self.model.bodies[k // 3], self.model.slots.default
-        arm = dict(self._arms(self.rows[r])).get(body.name)
-        if k % 3 == 2 or arm is None:
-            return False
-        least = SMALL_INERTIA * default(body.mass) * self._reach[body.name]
-        return default(body.inertia) + default(body.mass) * arm < least
+def place_bodies(system: System, rows: Sequence[Row]) -> DependentCoordinates:
+    """By joints about which the bodies have inertia, as far as there are others."""
+    avoided: set[tuple[str, str]] = set()
+    while True:
+        found = DependentCoordinates(system, rows, frozenset(avoided))
+        light = found.light_ends()
+        if light <= avoided:
+            return found
+        avoided |= light
 
 
 class FirstPivots:
@@ -123,7 +122,7 @@ class FirstPivots:
     """
 
     def __init__(self, system: System, rows: Sequence[Row]) -> None:
-        groups = [] if system.in_tree else DependentCoordinates(system, rows).groups
+        groups = [] if system.in_tree else place_bodies(system, rows).groups
         n = len(system.q)
         self.partner = {own[0]: n + r for own, r in reversed(groups) if len(own) == 1}
         self.order = [k for own, r in reversed(groups) for k in (own if len(own) == 1 else (*own, n + r))]

@@ -39,6 +39,8 @@ VANISHING = Threshold("VANISHING", 1e-10)
 # The same for a pair of rows that goes before all of its coordinates: rounding grows by the inverse of the share,
 # and the other way to solve is exact.
 EARLY = Threshold("EARLY", 1e-5)
+# Share of what turns with an angle that elimination must leave of its entry of M: rounding grows by the inverse.
+LIGHT_PIVOT = Threshold("LIGHT_PIVOT", 1e-6)
 # The same two where a run may ask for more: the memory of a state says how much (engine/motion/beside.c).
 LEAST = Threshold(NEARLY_SINGULAR.name, NEARLY_SINGULAR, "memory->least")
 LEAST_SIZE = Threshold(VANISHING.name, VANISHING, "memory->least_size")
@@ -86,6 +88,9 @@ class KKT:
         self.blocks = self._blocks()
         self.sticks: dict[int, sp.Symbol] = {}  # node -> 1 in stick, 0 in slip
         self.pivots = tuple(names[k - self.n] for k in self.elimination.order if k >= self.n)
+        self.turning = self._turning() if self.rows and not system.model.rows_change else {}
+        if not system.in_tree:
+            self.pivots += tuple(system.model.symbols.info[system.q[k]].meaning for k in self.turning)
 
     def _row_pairs(self, pattern: Sequence[frozenset[int]]) -> dict[int, int]:
         """Two rows of a joint in the same coordinates, of which there are more than two."""
@@ -111,6 +116,12 @@ class KKT:
             else:
                 blocks.append([k])
         return blocks
+
+    def _turning(self) -> dict[int, sp.Expr]:
+        """Angles that are pivots by themselves, with what turns with them if that is more than their entry of M."""
+        single = [k for block in self.blocks for k in block if block[-1] < self.n]
+        found = {k: self.system.turning_inertia(k) for k in single}
+        return {k: size for k, size in found.items() if size != 0 and size != self.system.mass[k, k]}
 
     def factorize(
         self, build: KernelBuilder, jumps: bool = False, share: Threshold = SINGULAR, size: Threshold = VANISHING
@@ -154,7 +165,7 @@ class KKT:
             return self._pair(build, block, earlier, made, failing, shares)
         (k,) = block
         if k < self.n:
-            return {k: {k: self._coordinate_pivot(build, k, earlier[k], L, W)}}
+            return {k: {k: self._coordinate_pivot(build, k, earlier[k], L, W, jumps)}}
         return {k: {k: self._row_pivot(build, k, earlier[k], L, W, (jumps, count + 1), shares[0])}}
 
     def _dependent(
@@ -200,6 +211,9 @@ class KKT:
             build.line(_guard(failing, 1, own[0], share, size[0]))
             build.line(_guard(failing, 2, determinant, share, size[1], own[0]))
             self._look_for_vanishing(build, block, scale, (own[0], determinant), (*failing, shares[1]))
+        elif failing[0]:
+            self._look_for_light(build, first, own[0])
+            self._look_for_light(build, second, determinant, own[0])
         inverse = build.local(f"inverse_{name[0]}__{name[1]}", (-1 if rows else 1) / determinant)
         one, two = (build.local(f"inverse_pivot_{name[i]}", own[1 - i] * inverse) for i in range(2))
         both = build.local(f"inverse_cross_{name[0]}__{name[1]}", -cross * inverse)
@@ -239,15 +253,28 @@ class KKT:
 
     def _coordinate_pivot(
         self, build: KernelBuilder, k: int, earlier: Sequence[int],
-        L: Mapping[tuple[int, int], sp.Expr], W: Mapping[tuple[int, int], sp.Expr],
+        L: Mapping[tuple[int, int], sp.Expr], W: Mapping[tuple[int, int], sp.Expr], jumps: bool,
     ) -> sp.Expr:  # fmt: skip
-        """1/D of a coordinate: of a mass alone it is a number of `prepare`."""
+        """1/D of a coordinate: of a mass alone it is a number of `prepare`. One that is too light `jumps`."""
         mass = self.system.mass[k, k]
+        if jumps and k in self.turning:
+            value = mass - sum((L[k, j] * W[k, j] for j in earlier), ZERO)
+            pivot = value if is_simple(value) else build.local(f"pivot_{self.names[k]}", value)
+            self._look_for_light(build, k, pivot)
+            constant = self.system.model.slots.is_constant(mass)
+            if earlier or not constant or self.system.model.slots.default(mass) <= 0.0:
+                return build.local(f"inverse_pivot_{self.names[k]}", 1 / pivot)
         if not earlier and self.system.model.slots.is_constant(mass):
             inverse: sp.Expr = self.system.model.slots.derive(f"inverse_{self._mass_name(mass, k)}", 1 / mass, "1/M")
             return inverse
         value = mass - sum((L[k, j] * W[k, j] for j in earlier), sp.Integer(0))
         return build.local(f"inverse_pivot_{self.names[k]}", 1 / value)
+
+    def _look_for_light(self, build: KernelBuilder, k: int, pivot: sp.Expr, *before: sp.Expr) -> None:
+        """An angle of which elimination leaves hardly any inertia jumps; `pivot` is its own times those `before`."""
+        if k in self.turning:
+            number = len(self.rows) + len(self.frictions) + 1 + list(self.turning).index(k)
+            build.line(Guard(Test(pivot, ">", (LIGHT_PIVOT, self.turning[k], *before)), number, True))
 
     def _mass_name(self, mass: sp.Expr, k: int) -> str:
         return mass.name if isinstance(mass, sp.Symbol) else f"mass_{self.names[k]}"

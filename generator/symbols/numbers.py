@@ -104,10 +104,10 @@ class Slots:
         self.entries[address] = SlotEntry(symbol, address, value, default, quantity.dimension, (), quantity.value)
         return symbol
 
-    def use(self, quantity: Quantity) -> sp.Expr:
-        """The slot of a quantity, or of what the scene has instead; 0 for a literal zero."""
+    def use(self, quantity: Quantity, zero: bool = False) -> sp.Expr:
+        """The slot of a quantity, or of what the scene has instead; 0 for a literal zero unless that may be a slot."""
         quantity = self._instead.get(quantity.address, quantity)
-        if quantity.is_zero:
+        if quantity.is_zero and not zero:
             return sp.Integer(0)
         if quantity.address not in self.entries:
             _, _, rest = quantity.address.partition(".")
