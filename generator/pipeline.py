@@ -20,7 +20,7 @@ from gudgeon.generator.kernels.taylor import taylor_series
 from gudgeon.generator.mechanism.mechanism import Mechanism
 from gudgeon.generator.mechanism.scene import Scene, make_scene
 from gudgeon.generator.reading import Overrides, Seconds, read_scene, stage
-from gudgeon.generator.redundancy import find_redundancy
+from gudgeon.generator.redundancy import find_redundancy, refuse_singular_masses
 from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.emit import Begun, emit
 from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
@@ -42,6 +42,7 @@ def equations(scene: Scene, seconds: Seconds | None = None) -> Model:
     with stage("rank of the rows", seconds):
         model = model.without(find_redundancy(model, describe(model)))
     refuse_massless(model)
+    refuse_singular_masses(model, describe(model))
     return model
 
 

@@ -11,11 +11,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from gudgeon.assembly.linkage import angles, mechanism_size
 from gudgeon.assembly.mobility import SAMPLES, check_freedoms, configurations, find_mobility
 from gudgeon.assembly.rank import RANK, rank, tied
 from gudgeon.assembly.search import search
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.errors import GudgeonError
+from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model, Redundancy
 from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
@@ -46,6 +47,44 @@ def find_redundancy(model: Model, source: KernelSource) -> Redundancy:
     if ranks[best] == len(kept):
         return Redundancy()
     return _name_rows([model.all_rows[r] for r in kept], matrices[best], ranks[best])
+
+
+def refuse_singular_masses(model: Model, source: KernelSource) -> None:
+    """Raise a BadValueError where bodies without moment of inertia can turn against nothing: M is singular there.
+
+    That is looked for at the start and near it; a motion that the rows determine needs no inertia.
+    """
+    bodies = model.scene.mechanism.bodies
+    light = {body.name: body.index + 2 for body in model.bodies if not model.slots.default(body.inertia)}
+    if not light or model.degrees_of_freedom <= 0:
+        return
+    numeric = NumPyLinkage(model, source)
+    names = {row.name for row in model.rows}
+    kept = [r for r, row in enumerate(model.all_rows) if row.name in names]
+    scale = np.where(angles(source), 1.0, mechanism_size(numeric, numeric.p))
+    try:
+        near = configurations(numeric, numeric.p, search(numeric, numeric.p).q, kept, SAMPLES)
+        heavy = numeric.mass(numeric.p) > 0.0
+        found = [_lightest_motion(numeric.closed_phi_q(0.0, q, numeric.p)[kept] * scale, heavy) for q in near]
+    except (GudgeonError, ArithmeticError, ValueError):  # as above
+        return
+    if all(share <= RANK for share, _ in found):
+        motion = found[-1][1]
+        name = max(light, key=lambda body: abs(motion[light[body]]))
+        where = bodies[name].inertia.where if bodies[name].inertia else bodies[name].where
+        raise BadValueError(
+            f"body {name} has no moment of inertia, and nothing else resists its turning: its motion is not determined",
+            where, f"expected bodies.{name}.inertia > 0, or its centre of mass (com) away from the joint about which it"
+            " turns, or a drive that turns it",
+        )  # fmt: skip
+
+
+def _lightest_motion(phi_q: Array, heavy: Array) -> tuple[float, Array]:
+    """Of the motions (n,) that the rows leave free that with the least share in coordinates which have mass."""
+    _, values, right = np.linalg.svd(phi_q) if len(phi_q) else (None, np.zeros(0), np.eye(len(heavy)))
+    free = right[int((values > RANK * values.max(initial=0.0)).sum()) :].T
+    _, shares, motions = np.linalg.svd(free[heavy])
+    return float(shares[-1]) if len(shares) == free.shape[1] else 0.0, free @ motions[-1]
 
 
 def _name_rows(rows: Sequence[Row], matrix: Array, independent: int) -> Redundancy:

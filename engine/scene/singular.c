@@ -5,14 +5,20 @@
  * with them. If they do not, only what is dependent to rounding is left out; if that does not agree
  * either, the constraints contradict each other and the pivot's number is returned. Rare, dense, and
  * out of the way of the fast path.
+ *
+ * Of a body whose moment of inertia is small beside m s^2, or 0, M is no measure: another one stands for it. What the
+ * rows leave free then follows from M along an orthonormal basis Z of it: Z^T M Z z = Z^T (g - M a) of the a so far.
  */
+#define LEAST_INERTIA 1e-3 /* of m s^2, s the longest arm of a joint: the least that a moment of inertia counts in the measure */
+
 typedef struct {
-    double basis[AT_LEAST_ONE(N_ROWS)][N_Q];             /* orthonormal rows found so far */
+    double basis[N_Q][N_Q];                              /* orthonormal rows found so far, then what they leave free */
     double row[AT_LEAST_ONE(N_ROWS)][N_Q];               /* rows of Phi_q M^(-1/2), what is left of them */
     double lower[AT_LEAST_ONE(N_ROWS)][AT_LEAST_ONE(N_ROWS)];          /* row i = sum over k of lower[i][k] basis[k] */
     double all[N_ALL_ROWS][N_Q], root[N_Q], y[N_Q], along[AT_LEAST_ONE(N_ROWS)], rest[AT_LEAST_ONE(N_ROWS)];
     double norm[AT_LEAST_ONE(N_ROWS)];
-    int order[AT_LEAST_ONE(N_ROWS)];
+    double share[N_Q], force[N_Q], free[N_Q][N_Q], z[N_Q]; /* M over the measure, M^(-1/2) g, Z^T M Z and its solution */
+    int order[AT_LEAST_ONE(N_ROWS)], light;
     Asked *asked;
 } Workspace;
 
@@ -68,6 +74,26 @@ static int independent_rows(Workspace *w, double least)
     return rank;
 }
 
+/* The measure instead of M in `root`, where moments of inertia are small; `light`: there are such. */
+static void measure(Workspace *w)
+{
+    for (int k = 0; k < N_Q; k++) {
+        double arm = 0.0, counts = w->root[k];
+        for (int i = 0; i < N_ROWS && k % 3 == 2; i++) {
+            const double *row = w->all[kept_row[i]];
+            if (row[k - 2] != 0.0 || row[k - 1] != 0.0)
+                arm = max_of(arm, row[k] * row[k]);
+        }
+        if (k % 3 == 2)
+            counts = max_of(counts, arm > 0.0 ? LEAST_INERTIA * w->root[k - 1] * arm : 1e-300);
+        w->share[k] = w->root[k] / counts;
+        w->light |= w->share[k] < 1.0;
+        w->free[0][k] = counts;
+    }
+    for (int k = 0; k < N_Q; k++)
+        w->root[k] = sqrt(w->free[0][k]);
+}
+
 /* Rows scaled by M^(-1/2), and what each must still give: rhs - Phi_q M^-1 g. */
 static void fill_workspace(Workspace *w, double t, const double *q, const Parameters *p, const double *force,
     const double *rhs)
@@ -75,9 +101,10 @@ static void fill_workspace(Workspace *w, double t, const double *q, const Parame
     *w = (Workspace){0};
     mass_matrix(p, w->root);
     jacobian(t, q, p, &w->all[0][0]);
+    measure(w);
     for (int k = 0; k < N_Q; k++) {
-        w->root[k] = sqrt(w->root[k]);
-        w->y[k] = force[k] / w->root[k];
+        w->force[k] = force[k] / w->root[k];
+        w->y[k] = w->light ? 0.0 : w->force[k];
     }
     for (int i = 0; i < N_ROWS; i++) {
         w->order[i] = i;
@@ -87,6 +114,77 @@ static void fill_workspace(Workspace *w, double t, const double *q, const Parame
         w->rest[i] = rhs[i] - dot(w->row[i], w->y);
         w->along[i] = fabs(rhs[i]) + sqrt(w->norm[i] * dot(w->y, w->y)); /* its size, for the comparison below */
     }
+}
+
+/* Basis vectors beyond `rank`: what is left of the coordinate of which most is left, one after the other. */
+static void complete_basis(Workspace *w, int rank)
+{
+    for (; rank < N_Q; rank++) {
+        double *next = w->basis[rank], most = -1.0;
+        int best = 0;
+        for (int j = 0; j < N_Q; j++) {
+            double left = 1.0;
+            for (int k = 0; k < rank; k++)
+                left -= w->basis[k][j] * w->basis[k][j];
+            if (left > most) {
+                most = left;
+                best = j;
+            }
+        }
+        for (int j = 0; j < N_Q; j++)
+            next[j] = j == best;
+        for (int pass = 0; pass < 2; pass++)
+            for (int k = 0; k < rank; k++) {
+                const double along = dot(next, w->basis[k]);
+                for (int j = 0; j < N_Q; j++)
+                    next[j] -= along * w->basis[k][j];
+            }
+        const double length = sqrt(dot(next, next));
+        for (int j = 0; j < N_Q; j++)
+            next[j] /= length;
+    }
+}
+
+/* y with what the rows leave free, and what the multipliers follow from; 0 where M is singular there. */
+static int add_free_motion(Workspace *w, int rank)
+{
+    complete_basis(w, rank);
+    for (int i = rank; i < N_Q; i++) { /* Z^T M Z and Z^T (g - M y), by Cholesky's method */
+        double *row = w->free[i];
+        w->z[i] = dot(w->basis[i], w->force);
+        for (int k = 0; k < N_Q; k++)
+            w->z[i] -= w->basis[i][k] * w->share[k] * w->y[k];
+        for (int j = rank; j <= i; j++) {
+            row[j] = 0.0;
+            for (int k = 0; k < N_Q; k++)
+                row[j] += w->basis[i][k] * w->share[k] * w->basis[j][k];
+        }
+        const double whole = row[i];
+        for (int j = rank; j <= i; j++) {
+            for (int k = rank; k < j; k++)
+                row[j] -= row[k] * w->free[j][k];
+            row[j] = j < i ? row[j] / w->free[j][j] : row[j];
+            w->z[i] -= j < i ? row[j] * w->z[j] : 0.0;
+        }
+        if (!(row[i] > 1e-14 * whole))
+            return 0;
+        row[i] = sqrt(row[i]);
+        w->z[i] /= row[i];
+    }
+    for (int i = N_Q - 1; i >= rank; i--) {
+        for (int j = i + 1; j < N_Q; j++)
+            w->z[i] -= w->free[j][i] * w->z[j];
+        w->z[i] /= w->free[i][i];
+        for (int k = 0; k < N_Q; k++)
+            w->y[k] += w->z[i] * w->basis[i][k];
+    }
+    for (int i = 0; i < rank; i++) {
+        double left = -dot(w->basis[i], w->force);
+        for (int k = 0; k < N_Q; k++)
+            left += w->basis[i][k] * w->share[k] * w->y[k];
+        w->rest[w->order[i]] = left;
+    }
+    return 1;
 }
 
 /* y and lambda by the rows that are independent to `least`; 1 if the others agree to `tolerance`, else 0 or STOPPED. */
@@ -106,6 +204,8 @@ static int solve_independent(Workspace *w, double least, double tolerance, doubl
         for (int j = 0; j < N_Q; j++)
             w->y[j] += along * w->basis[k][j];
     }
+    if (w->light && !add_free_motion(w, rank))
+        return 0;
     for (int i = 0; i < N_ROWS; i++)
         lambda[i] = 0.0;
     for (int k = rank - 1; k >= 0; k--) { /* backward: multipliers of the independent rows */

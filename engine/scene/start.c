@@ -9,6 +9,7 @@
 #define FAR 0.5      /* rad: where a guessed angle turns further, a nearer configuration is sought (closure.py) */
 #define APART 0.2    /* the same of a guessed place, as a share of the size (followed.py) */
 #define MIRRORED 0.1 /* of both: where a guess is further off, what lies on its other side is looked at */
+#define SMALL_INERTIA 1e-9 /* of m size^2: a moment of inertia below it counts as much (sizes.py) */
 #define NEARER 1e-5  /* by so much of its distance, at least, is another one nearer */
 
 /* How far from the origin (m) drives, the start's set and its guess ask bodies to be: the size, at least. */
@@ -121,16 +122,25 @@ static void nearer(Closing *w, double t, const Parameters *p, double *q)
     }
 }
 
+/* One over the root of the metric: of M, with moments of inertia that are not too small. */
+static void over_root_of_metric(const Closing *w, const Parameters *p, double *over_root)
+{
+    double m[N_Q];
+    mass_matrix(p, m);
+    for (int k = 0; k < N_Q; k++) {
+        const double least = k % 3 == 2 ? SMALL_INERTIA * m[k - 1] * w->size * w->size : 0.0;
+        over_root[k] = 1.0 / sqrt(max_of(m[k], least));
+    }
+}
+
 /* Phi_q v = nu and the start's rates, least in the metric of M; refined twice. Steps are of v times the root of M. */
 SELDOM static int first_velocities(Closing *w, double t, const Parameters *p, const double *q, double *v)
 {
     double over_root[N_Q], wanted[N_START_ROWS + 1], most = 0.0, worst = 0.0;
     int place[N_Q];
-    mass_matrix(p, over_root);
-    for (int k = 0; k < N_Q; k++) {
-        over_root[k] = 1.0 / sqrt(over_root[k]);
+    over_root_of_metric(w, p, over_root);
+    for (int k = 0; k < N_Q; k++)
         v[k] = 0.0;
-    }
     rows_together(w, &w->some, N_ALL_ROWS + N_RATES, rate_place);
     jacobian(t, q, p, &w->row[0][0]);
     velocity_rhs(beyond_jump(t), q, p, wanted);

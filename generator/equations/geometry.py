@@ -114,7 +114,7 @@ class Geometry:
         vx, vy, omega = (new(f"{name}_{c}", f"v[{index + k}]", f"{name}.{c}") for k, c in enumerate(rates))
         mass, inertia = ONE, ONE
         if not is_massless(self.mechanism) and body.mass and body.inertia:
-            mass, inertia = self.slots.use(body.mass), self.slots.use(body.inertia)
+            mass, inertia = self.slots.use(body.mass), self.slots.use(body.inertia, zero=True)
         return BodySymbols(name, index, x, y, theta, vx, vy, omega, mass, inertia)
 
     def _unit_inertia(self) -> sp.Expr:

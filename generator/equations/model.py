@@ -22,6 +22,7 @@ from gudgeon.generator.equations.loads import AppliedElement, apply_element
 from gudgeon.generator.equations.own_laws import own_letters
 from gudgeon.generator.equations.play import Clearance, make_clearances
 from gudgeon.generator.ir.finite_slopes import as_written
+from gudgeon.generator.mechanism.mechanism import Joint
 from gudgeon.generator.mechanism.scene import Scene
 from gudgeon.generator.symbols.numbers import Slots
 from gudgeon.generator.symbols.symbols import Symbols
@@ -36,6 +37,7 @@ class Redundancy:
     indeterminate: tuple[str, ...] = ()
 
 
+LIGHT_BODY = 1e-6  # of J + m s² summed over a body's joints: what it may have about one of them and be light there
 BAUMGARTE = 50.0  # 1/s, both gains (physics.md, section 1)
 
 
@@ -105,6 +107,25 @@ class Model:
     def rows_change(self) -> bool:
         """Whether constraints come and go with the motion: then a pivot that vanishes is told, not mended."""
         return bool(self.frictions or self.rigid)
+
+    def turning_inertia(self, body: str) -> sp.Expr:
+        """J + Σ m s² of a body, s from its centre of mass to the points of its joints."""
+        mechanism, local = self.scene.mechanism, self.geometry.local
+        ends = [end for joint in mechanism.joints.values() for end in (joint.first, joint.second)]
+        points = dict.fromkeys((end.body, end.point) for end in ends if end.body == body and (body, end.point) in local)
+        of = self.geometry.bodies[body]
+        return sp.Add(of.inertia, *(of.mass * s**2 for point in points for s in local[point]))
+
+    def is_light(self, body: str, joint: Joint | None) -> bool:
+        """Whether a body has hardly any moment of inertia about a joint, at the defaults: a mass lumped there.
+
+        No joint: about its centre of mass.
+        """
+        of, default = self.geometry.bodies[body], self.slots.default
+        ends = [end for end in (joint.first, joint.second) if end.body == body] if joint else []
+        arm = self.geometry.local.get((body, ends[0].point), ()) if ends else ()
+        about = of.inertia + sp.Add(*(of.mass * s**2 for s in arm))
+        return default(about) < LIGHT_BODY * default(self.turning_inertia(body))
 
     @cached_property
     def masses(self) -> tuple[sp.Expr, ...]:

@@ -67,6 +67,16 @@ class System:
     known: tuple[Known, ...] = field(default=(), kw_only=True)  # of driven chains (driven_chains.py)
     in_tree: ClassVar[bool] = False  # whether the coordinates are those of a tree
 
+    def turning_inertia(self, k: int) -> sp.Expr:
+        """What turns with coordinate k if it is an angle, else 0: J and m s² of its joints' points, s from the centre
+
+        of mass. A number of `prepare`, with which what elimination leaves of M is compared.
+        """
+        if k % 3 != 2:
+            return ZERO
+        name = self.model.bodies[k // 3].name
+        return self.model.slots.derive(f"{name}_turning", self.model.turning_inertia(name), "J and m s^2 of its joints")
+
     def generalized(self, loads: Sequence[PointLoad]) -> tuple[list[sp.Expr], dict[str, sp.Expr]]:
         """Generalized forces (n) of loads, and those on given coordinates by name: Jᵀ f at each point."""
         total = [ZERO] * len(self.q)

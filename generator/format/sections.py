@@ -138,8 +138,9 @@ BODY = record(
     "body", "a rigid body with its own frame; with a length a bar: its origin is the tail, its x points to the head",
     number("mass", "mass", MASS, otherwise=_WITHOUT, bounds=(Bound(">", 0.0, "a mass is positive"),)),
     number(
-        "inertia", "moment of inertia about the centre of mass; `auto`: of a slender bar, mass length²/12", INERTIA,
-        otherwise=_WITHOUT, words=("auto",), bounds=(Bound(">", 0.0, "a moment of inertia is positive"),),
+        "inertia", "moment of inertia about the centre of mass; `auto`: of a slender bar, mass length²/12; 0: a point",
+        INERTIA, otherwise=_WITHOUT, words=("auto",),
+        bounds=(Bound(">=", 0.0, "a moment of inertia is not negative"),),
     ),
     number(
         "length", "length of a bar, from tail to head", LENGTH, otherwise="it is no bar",

@@ -40,6 +40,14 @@ class TreeSystem(System):
     chain: Chain | None = None  # what the drives determine through loops (driven_chains.py)
     in_tree = True
 
+    def turning_inertia(self, k: int) -> sp.Expr:
+        """The same of all bodies that turn with an angle; of a slide 0."""
+        geometry, name = self.model.geometry, self.unknowns[k]
+        assert isinstance(geometry, TreeGeometry)
+        turns = {body: geometry.frame_of[body].turns.get(name, ZERO) for body in geometry.bodies}
+        total = sp.Add(*(c**2 * self.model.turning_inertia(body) for body, c in turns.items() if c != 0))
+        return self.model.slots.derive(f"{name.replace('.', '_')}_turning", total, "J and m s^2 of what turns with it")
+
     def generalized(self, loads: Sequence[PointLoad]) -> tuple[list[sp.Expr], dict[str, sp.Expr]]:
         """Generalized forces of loads; forces with the same lever are added first."""
         levers: dict[str, dict[tuple[sp.Expr, sp.Expr], list[sp.Expr]]] = {}

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 # operations: an entry of M with its velocity term, an entry of a closure's row, a product of the elimination
 PAIR, ENTRY, PRODUCT = 14, 4, 2
+LIGHT_END = 10**6  # a body at the end of a chain whose mass is lumped at the joint that carries it
 PLAIN = 5  # an entry of M with x or y of a body that moves freely
 
 
@@ -33,7 +34,8 @@ class Estimate:
     """Operations of a tree's right-hand side, counted from which coordinates meet where."""
 
     def __init__(self, model: Model, angles: Mapping[str, Affine], used: frozenset[str], hubs: Sequence[Hub]) -> None:
-        self.hubs = hubs
+        self.model, self.hubs = model, hubs
+        self._light: dict[tuple[str, str], bool] = {}  # by body and joint
         self.costs: dict[frozenset[tuple[str, str]], int] = {}  # by the joint that places each body
         body_of = {q: body.name for body in model.bodies for q in body.q}
         self.angles = angles
@@ -68,7 +70,20 @@ class Estimate:
                 near.append(keys)
                 for key in keys:
                     near[key] = near[key] | {len(near) - 1}
+        cost += LIGHT_END * len(self._light_ends(links))
         return cost + PRODUCT * choose_elimination(tuple(map(frozenset, near)), len(place)).cost
+
+    def _light_ends(self, links: tuple[Link, ...]) -> list[Link]:
+        """Links whose body carries no other and has hardly any inertia about its joint, or its own centre."""
+        carry = {link.parent for link in links}
+        ends = [link for link in links if link.body not in carry and set(self.angles[link.body]) == {link.body}]
+        return [link for link in ends if not link.slides and self._is_light(link)]
+
+    def _is_light(self, link: Link) -> bool:
+        key = link.body, link.joint.name if link.joint else ""
+        if key not in self._light:
+            self._light[key] = self.model.is_light(link.body, link.joint)
+        return self._light[key]
 
     def closing(self, links: tuple[Link, ...]) -> list[Joint]:
         """Pairs that the hubs need beside the tree's."""

@@ -3,7 +3,8 @@
 Its symbolic L D Lᵀ (generator/sparsity/elimination.py) becomes one named temporary an entry; entries that
 are a number or a single symbol are written in place. The pivots of coordinates are masses, or what
 elimination leaves of them; the pivot of a row is compared with what it would be if the row were
-independent of the others.
+independent of the others. In absolute coordinates most rows give a coordinate by others and go with it
+(dependent_coordinates.py).
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import KernelBuilder
 from gudgeon.generator.ir.statements import Guard
 from gudgeon.generator.ir.values import Chosen, Place, Test, Threshold
+from gudgeon.generator.solvers.dependent_coordinates import FirstPivots, is_unit
 from gudgeon.generator.sparsity.elimination import Elimination, choose_elimination
 
 ZERO = sp.Integer(0)
@@ -37,6 +39,8 @@ VANISHING = Threshold("VANISHING", 1e-10)
 # The same for a pair of rows that goes before all of its coordinates: rounding grows by the inverse of the share,
 # and the other way to solve is exact.
 EARLY = Threshold("EARLY", 1e-5)
+# Share of what turns with an angle that elimination must leave of its entry of M: rounding grows by the inverse.
+LIGHT_PIVOT = Threshold("LIGHT_PIVOT", 1e-6)
 # The same two where a run may ask for more: the memory of a state says how much (engine/motion/beside.c).
 LEAST = Threshold(NEARLY_SINGULAR.name, NEARLY_SINGULAR, "memory->least")
 LEAST_SIZE = Threshold(VANISHING.name, VANISHING, "memory->least_size")
@@ -75,12 +79,18 @@ class KKT:
             near[c].add(r)
         pattern = tuple(map(frozenset, near))
         pairs = self._row_pairs(pattern) if daring else {}
-        self.elimination: Elimination = choose_elimination(pattern, self.n, self.first_friction, pairs)
+        self.first = FirstPivots(system, self.rows)
+        self.elimination: Elimination = choose_elimination(
+            pattern, self.n, self.first_friction, pairs, self.first.order, self.first.partner
+        )
         names = [row.name for row in self.rows] + [friction.name for friction in self.frictions]
         self.names = [q.name for q in system.q] + [name.replace(".", "_") for name in names]
         self.blocks = self._blocks()
         self.sticks: dict[int, sp.Symbol] = {}  # node -> 1 in stick, 0 in slip
         self.pivots = tuple(names[k - self.n] for k in self.elimination.order if k >= self.n)
+        self.turning = self._turning() if self.rows and not system.model.rows_change else {}
+        if not system.in_tree:
+            self.pivots += tuple(system.model.symbols.info[system.q[k]].meaning for k in self.turning)
 
     def _row_pairs(self, pattern: Sequence[frozenset[int]]) -> dict[int, int]:
         """Two rows of a joint in the same coordinates, of which there are more than two."""
@@ -91,18 +101,27 @@ class KKT:
         return pairs
 
     def _blocks(self) -> list[list[int]]:
-        """Pivots that follow each other, both changed by elimination and coupled, two by two."""
+        """Pivots that follow each other, both changed by elimination and coupled, two by two; coordinates with rows."""
         order, structure = self.elimination.order, self.elimination.structure
         changed = {i for column in structure.values() for i in column}
         blocks: list[list[int]] = []
         for k in order:
             last = blocks[-1] if blocks else []
+            if k in self.first.partner.values():
+                last.append(k)
+                continue
             alike = len(last) == 1 and (last[0] < self.n) == (k < self.n) and {last[0], k} <= changed
             if alike and k < self.first_friction and structure[last[0]] == (k, *structure[k]):
                 last.append(k)
             else:
                 blocks.append([k])
         return blocks
+
+    def _turning(self) -> dict[int, sp.Expr]:
+        """Angles that are pivots by themselves, with what turns with them if that is more than their entry of M."""
+        single = [k for block in self.blocks for k in block if block[-1] < self.n]
+        found = {k: self.system.turning_inertia(k) for k in single}
+        return {k: size for k, size in found.items() if size != 0 and size != self.system.mass[k, k]}
 
     def factorize(
         self, build: KernelBuilder, jumps: bool = False, share: Threshold = SINGULAR, size: Threshold = VANISHING
@@ -140,12 +159,26 @@ class KKT:
     ) -> dict[int, dict[int, sp.Expr]]:  # fmt: skip
         """D⁻¹ of a block; `made` are L and W, `failing` is whether that jumps and how many rows came before."""
         (L, W), (jumps, count) = made, failing
+        if block[0] in self.first.partner:
+            return self._dependent(build, block, earlier, L, W)
         if len(block) == 2:
             return self._pair(build, block, earlier, made, failing, shares)
         (k,) = block
         if k < self.n:
-            return {k: {k: self._coordinate_pivot(build, k, earlier[k], L, W)}}
+            return {k: {k: self._coordinate_pivot(build, k, earlier[k], L, W, jumps)}}
         return {k: {k: self._row_pivot(build, k, earlier[k], L, W, (jumps, count + 1), shares[0])}}
+
+    def _dependent(
+        self, build: KernelBuilder, block: Sequence[int], earlier: Mapping[int, Sequence[int]],
+        L: Mapping[tuple[int, int], sp.Expr], W: Mapping[tuple[int, int], sp.Expr],
+    ) -> dict[int, dict[int, sp.Expr]]:  # fmt: skip
+        """D⁻¹ of a coordinate with its row: [m c; c 0]⁻¹ = [0 1/c; 1/c −m/c²] with the constant entry c."""
+        k, row = block
+        entry = self.entry[row, k]
+        over = entry if is_unit(entry) else self.system.model.slots.derive(f"inverse_{self.names[row]}", 1 / entry)
+        mass = self.system.mass[k, k] - sum((L[k, j] * W[k, j] for j in earlier[k]), ZERO)
+        mass = self._named(build, f"inertia_{self.names[k]}", mass)
+        return {k: {row: over}, row: {k: over, row: -mass if is_unit(entry) else -mass * over**2}}
 
     def _pair(
         self, build: KernelBuilder, block: Sequence[int], earlier: Mapping[int, Sequence[int]],
@@ -166,6 +199,7 @@ class KKT:
         name = [self.names[k] for k in block]
         scales = [left(k, k, lambda j: j < self.n) for k in block] if rows else []
         scale = [build.local(f"scale_{name[i]}", value) for i, value in enumerate(scales)]
+        size = [self._size(build, k, own) for k, own in zip(block, scale, strict=rows)]
         pivots = [left(k, k, lambda j: j >= self.n or not rows) for k in block]
         values = [own + of for own, of in zip(scale, pivots, strict=True)] if rows else pivots
         own = [self._named(build, f"pivot_{name[i]}", value) for i, value in enumerate(values)]
@@ -174,13 +208,31 @@ class KKT:
         if rows:
             early = any(i < self.n for i in self.elimination.structure[second])
             share = max(shares[0], EARLY) if early else shares[0]
-            build.line(_guard(failing, 1, own[0], share, scale[0]))
-            build.line(_guard(failing, 2, determinant, share, scale[1], own[0]))
+            build.line(_guard(failing, 1, own[0], share, size[0]))
+            build.line(_guard(failing, 2, determinant, share, size[1], own[0]))
             self._look_for_vanishing(build, block, scale, (own[0], determinant), (*failing, shares[1]))
+        elif failing[0]:
+            self._look_for_light(build, first, own[0])
+            self._look_for_light(build, second, determinant, own[0])
         inverse = build.local(f"inverse_{name[0]}__{name[1]}", (-1 if rows else 1) / determinant)
         one, two = (build.local(f"inverse_pivot_{name[i]}", own[1 - i] * inverse) for i in range(2))
         both = build.local(f"inverse_cross_{name[0]}__{name[1]}", -cross * inverse)
         return {first: {first: one, second: both}, second: {first: both, second: two}}
+
+    def _size(self, build: KernelBuilder, k: int, scale: sp.Symbol) -> sp.Symbol:
+        """What a row's pivot could be: in absolute coordinates not less than what the masses that it meets make of it.
+
+        Where links stand in one line a row that closes a loop may vanish as a whole, once coordinates that other rows
+        give are gone from it.
+        """
+        if self.system.in_tree or k in self.first.rows or k >= self.first_friction:
+            return scale
+        entries = self.rows[k - self.n].phi_q.items()
+        place = {q: j for j, q in enumerate(self.system.q)}
+        own = sp.Add(*(entry**2 / self.system.mass[place[q], place[q]] for q, entry in entries if place[q] % 3 < 2))
+        if self.system.model.slots.is_constant(own):
+            own = self.system.model.slots.derive(f"mobility_{self.names[k]}", own, "1/m of the bodies of a row")
+        return build.local(f"size_{self.names[k]}", scale + own) if own != 0 else scale
 
     def _look_for_vanishing(
         self, build: KernelBuilder, block: Sequence[int], scale: Sequence[sp.Symbol],
@@ -201,15 +253,28 @@ class KKT:
 
     def _coordinate_pivot(
         self, build: KernelBuilder, k: int, earlier: Sequence[int],
-        L: Mapping[tuple[int, int], sp.Expr], W: Mapping[tuple[int, int], sp.Expr],
+        L: Mapping[tuple[int, int], sp.Expr], W: Mapping[tuple[int, int], sp.Expr], jumps: bool,
     ) -> sp.Expr:  # fmt: skip
-        """1/D of a coordinate: of a mass alone it is a number of `prepare`."""
+        """1/D of a coordinate: of a mass alone it is a number of `prepare`. One that is too light `jumps`."""
         mass = self.system.mass[k, k]
+        if jumps and k in self.turning:
+            value = mass - sum((L[k, j] * W[k, j] for j in earlier), ZERO)
+            pivot = value if is_simple(value) else build.local(f"pivot_{self.names[k]}", value)
+            self._look_for_light(build, k, pivot)
+            constant = self.system.model.slots.is_constant(mass)
+            if earlier or not constant or self.system.model.slots.default(mass) <= 0.0:
+                return build.local(f"inverse_pivot_{self.names[k]}", 1 / pivot)
         if not earlier and self.system.model.slots.is_constant(mass):
             inverse: sp.Expr = self.system.model.slots.derive(f"inverse_{self._mass_name(mass, k)}", 1 / mass, "1/M")
             return inverse
         value = mass - sum((L[k, j] * W[k, j] for j in earlier), sp.Integer(0))
         return build.local(f"inverse_pivot_{self.names[k]}", 1 / value)
+
+    def _look_for_light(self, build: KernelBuilder, k: int, pivot: sp.Expr, *before: sp.Expr) -> None:
+        """An angle of which elimination leaves hardly any inertia jumps; `pivot` is its own times those `before`."""
+        if k in self.turning:
+            number = len(self.rows) + len(self.frictions) + 1 + list(self.turning).index(k)
+            build.line(Guard(Test(pivot, ">", (LIGHT_PIVOT, self.turning[k], *before)), number, True))
 
     def _mass_name(self, mass: sp.Expr, k: int) -> str:
         return mass.name if isinstance(mass, sp.Symbol) else f"mass_{self.names[k]}"
@@ -228,7 +293,7 @@ class KKT:
         if others:
             value = scale + sum((L[k, j] * W[k, j] for j in others), sp.Integer(0))
             pivot = build.local(f"pivot_{name}", value)
-        test, (jumps, number) = Test(pivot, ">", (least, scale)), failed
+        test, (jumps, number) = Test(pivot, ">", (least, self._size(build, k, scale))), failed
         if k < self.first_friction:
             build.line(Guard(test, number, jumps))
             return -build.local(f"inverse_pivot_{name}", 1 / pivot)

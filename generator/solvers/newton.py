@@ -13,8 +13,10 @@ Where laws have inner states, u_z is unknown as well: the first rows have η R1_
     (1 + η R3_z) u_z + η (R3_v + η R3_q) u_v = η (r_z − η R3_q r_q − s R3_t).
 
 At η = 0 the matrix is the KKT matrix, with 1 in the rows of z. It is factorized as L U without pivoting in an order
-chosen on its symmetric pattern, inner states first, a row only after the coordinates in it. E. Hairer, G. Wanner,
-Solving Ordinary Differential Equations II, Springer (1996), IV.8 and VII.
+chosen on its symmetric pattern, inner states first, a row only after the coordinates in it. A coordinate that a row
+gives by others (dependent_coordinates.py) is the unknown of that row, and its multiplier that of the coordinate's
+equation: both pivots are the constant entry. E. Hairer, G. Wanner, Solving Ordinary Differential Equations II,
+Springer (1996), IV.8 and VII.
 """
 
 from __future__ import annotations
@@ -33,6 +35,7 @@ from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE
 from gudgeon.generator.ir.statements import Call, Declare, Return, RunNumbers, Statement
 from gudgeon.generator.ir.stored_values import Pool
 from gudgeon.generator.ir.values import Place
+from gudgeon.generator.solvers.dependent_coordinates import FirstPivots
 from gudgeon.generator.solvers.factors import ETA, ETA_ROW, ETA_STICK, Factors
 from gudgeon.generator.solvers.kkt import is_simple
 from gudgeon.generator.solvers.linearization import N_WORK, Linearization, Pair, Parts
@@ -51,6 +54,9 @@ class Newton:
         states = [f"{c.name}.{k}" for c in self.model.clearances for k in range(self.model.law_states)]
         self.nodes = self.first_state + len(states)
         named = [row.name for row in system.rows] + [friction.name for friction in system.frictions]
+        self.first = FirstPivots(system, system.rows)
+        partner = self.first.partner
+        self.equation = {**partner, **{r: k for k, r in partner.items()}}  # by its unknown, if not its own
         self.names = [q.name for q in system.q] + [name.replace(".", "_") for name in named + states]
         self.values = Pool(system.model.symbols, "lin->value")
         self.factors = Pool(system.model.symbols, "lin->lu")
@@ -171,7 +177,10 @@ class Newton:
         entries = self._entries(build)
         pattern = [{j for j in range(self.nodes) if j != i and ((i, j) in entries or (j, i) in entries)}
                    for i in range(self.nodes)]  # fmt: skip
-        self.elimination = choose_elimination(tuple(map(frozenset, pattern)), self.n, self.n + self.m, first=states)
+        self.elimination = choose_elimination(
+            tuple(map(frozenset, pattern)), self.n, self.n + self.m, first=(*states, *self.first.order),
+            partner=self.first.partner,
+        )  # fmt: skip
         build.section("L U")
         factors = Factors(self, build, entries)
         for k in self.elimination.order:
@@ -200,7 +209,8 @@ class Newton:
         for i, j in self.lower:
             earlier[i].append(j)
         for k in order:
-            value = sp.Symbol(f"x[{k}]") - sp.Add(*(self.lower[k, j] * x[j] for j in earlier[k]))
+            i = self.equation.get(k, k)
+            value = sp.Symbol(f"x[{i}]") - sp.Add(*(self.lower[i, j] * x[j] for j in earlier[i]))
             x[k] = build.local(f"b_{self.names[k]}", value)
         build.section("backward")
         for k in reversed(order):

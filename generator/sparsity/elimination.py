@@ -36,16 +36,18 @@ class Elimination:
 
 def choose_elimination(
     pattern: Pattern, coordinates: int, last: int | None = None, pairs: Mapping[int, int] = NO_PAIRS,
-    first: range = range(0),
+    first: Sequence[int] = (), partner: Mapping[int, int] = NO_PAIRS,
 ) -> Elimination:  # fmt: skip
     """The cheapest of a few greedy orders; nodes below `coordinates` are coordinates, the others rows.
 
     Nodes from `last` on come after all the others. Rows in `pairs` (each with its partner, in the same
     coordinates) may go as soon as two of their coordinates are gone: their 2 × 2 pivot then vanishes where two
-    links are in one line, so that the caller must look at it. Those in `first`, behind all others, go before them.
+    links are in one line, so that the caller must look at it. Those in `first` go before all others, in their order;
+    one that has a `partner`, a row with a constant entry in it, goes together with that row.
     """
     if first:
-        return _behind(first, pattern, coordinates, last, pairs)
+        orders = (_in_order(first, pattern, coordinates, last, pairs, partner, eager) for eager in (False, True))
+        return min(orders if partner else [next(orders)], key=lambda e: e.cost)
     end = len(pattern) if last is None else last
 
     def degree(graph: Sequence[set[int]], node: int, wait: int) -> tuple[int, ...]:
@@ -76,23 +78,52 @@ def choose_elimination(
     return min(candidates, key=lambda e: e.cost)
 
 
-def _behind(
-    first: range, pattern: Pattern, coordinates: int, last: int | None, pairs: Mapping[int, int]
-) -> Elimination:
-    """The nodes in `first` in their order, then the others, whose graph is what those leave."""
+def _in_order(
+    first: Sequence[int], pattern: Pattern, coordinates: int, last: int | None, pairs: Mapping[int, int],
+    partner: Mapping[int, int], eager: bool,
+) -> Elimination:  # fmt: skip
+    """The nodes in `first` with their partners, then the others, whose graph is what those leave.
+
+    `eager`: a coordinate that is in none of the partners any more follows at once: along a chain of bodies from its
+    end, each is then coupled with the one that carries it only.
+    """
     graph = [set(near) for near in pattern]
     columns = dict[int, set[int]]()
+    rows, products = {*partner.values(), *(node for node in first if coordinates <= node < len(pattern))}, 0
     for node in first:
-        columns[node] = {k for k in graph[node] if k not in columns}
-        for k in columns[node]:
-            graph[k] |= columns[node] - {k}
-    left = tuple(frozenset(near.difference(first)) for near in graph[: first.start])
-    rest = choose_elimination(left, coordinates, last, pairs)
-    order = (*first, *rest.order)
+        products += _take(node, partner.get(node), graph, columns)
+        rows -= {node, partner.get(node)}
+        ready = sorted(columns[node]) if eager and (node in partner or node >= coordinates) else ()
+        for k in ready:
+            if k < coordinates and k not in partner and k not in columns and not graph[k] & rows:
+                products += _take(k, None, graph, columns)
+    left = [node for node in range(len(pattern)) if node not in columns]
+    number = {node: k for k, node in enumerate(left)}
+    rest = choose_elimination(
+        tuple(frozenset(number[k] for k in graph[node]) for node in left), sum(node < coordinates for node in left),
+        None if last is None else sum(node < last for node in left),
+        {number[r]: number[other] for r, other in pairs.items() if r in number and other in number},
+    )  # fmt: skip
+    order = (*columns, *(left[k] for k in rest.order))
     place = {node: k for k, node in enumerate(order)}
-    structure = {node: tuple(sorted(columns[node], key=place.__getitem__)) for node in first} | rest.structure
-    products = sum(len(c) * (len(c) + 3) // 2 for c in columns.values())
-    return Elimination(order, structure, rest.products + products, rest.depth + 1)
+    structure = {node: tuple(sorted(columns[node], key=place.__getitem__)) for node in columns}
+    structure |= {left[k]: tuple(left[i] for i in column) for k, column in rest.structure.items()}
+    alone = sum(node not in partner and node not in partner.values() for node in columns)
+    return Elimination(order, structure, rest.products + products, rest.depth + alone)
+
+
+def _take(node: int, partner: int | None, graph: Sequence[set[int]], columns: dict[int, set[int]]) -> int:
+    """Eliminates a node, with its partner: the partner's neighbours then meet those of both. Returns the products."""
+    gone = {node} if partner is None else {node, partner}
+    own = graph[node] - gone
+    through = own if partner is None else graph[partner] - gone
+    columns[node] = (own | through | gone) - {node}
+    if partner is not None:
+        columns[partner] = own | through
+    for k in own | through:
+        graph[k] -= gone
+        graph[k] |= (own | through if k in through else through) - {k}
+    return len(through) * (len(through) + 3) // 2 + (0 if partner is None else len(through) * len(own - through))
 
 
 def _eliminate(

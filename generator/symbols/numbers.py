@@ -104,10 +104,10 @@ class Slots:
         self.entries[address] = SlotEntry(symbol, address, value, default, quantity.dimension, (), quantity.value)
         return symbol
 
-    def use(self, quantity: Quantity) -> sp.Expr:
-        """The slot of a quantity, or of what the scene has instead; 0 for a literal zero."""
+    def use(self, quantity: Quantity, zero: bool = False) -> sp.Expr:
+        """The slot of a quantity, or of what the scene has instead; 0 for a literal zero unless that may be a slot."""
         quantity = self._instead.get(quantity.address, quantity)
-        if quantity.is_zero:
+        if quantity.is_zero and not zero:
             return sp.Integer(0)
         if quantity.address not in self.entries:
             _, _, rest = quantity.address.partition(".")
@@ -163,6 +163,14 @@ class Slots:
         """Like `derive`, but −s is written with the symbol of s, so that opposite arms are shared."""
         opposite = self._derived_by.get(-expression)
         return self.derive(wanted, expression, meaning, shown) if opposite is None else -opposite
+
+    def default(self, expression: sp.Expr) -> float:
+        """The value of a constant expression with every slot at its default."""
+        defaults = {entry.symbol: sp.Float(entry.default, 17) for entry in self.entries.values()}
+        value = sp.sympify(expression)
+        while value.free_symbols:
+            value = value.xreplace(self.derived).xreplace(defaults)
+        return float(value)
 
     def members(self) -> list[sp.Symbol]:
         """Every number of a run: slots, then what is derived."""

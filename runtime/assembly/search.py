@@ -11,6 +11,7 @@ from gudgeon.assembly.linkage import Linkage
 from gudgeon.assembly.start import Start
 from gudgeon.errors import AssemblyError
 from gudgeon.model.compiled import Array
+from gudgeon.model.sizes import metric
 
 MIN_RESOLVED = float(np.finfo(float).tiny / np.finfo(float).eps)  # smaller numbers may have fewer digits than others
 
@@ -49,7 +50,7 @@ def velocities(closure: Closure, q: Array) -> Array:
             f"the start has no velocities: the rate of {', '.join(rows) or 'the constraints'} is not finite at"
             f" t = {closure.t:g} s\n  a root or a power has no slope where it begins: begin with smooth_step or later"
         )
-    root = np.sqrt(closure.linkage.mass(closure.p))
+    root = np.sqrt(metric(closure.linkage.source, closure.p, closure.linkage.mass(closure.p)))
     v = np.zeros_like(q)
     for _ in range(2):  # once more for the rounding of the first solution
         v += smallest(matrix / root, target - matrix @ v) / root

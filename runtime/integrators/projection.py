@@ -6,6 +6,7 @@ import numpy as np
 
 from gudgeon.assembly.large import smallest
 from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.sizes import metric
 
 PASSES = 3  # Newton: the second one is at rounding already, from anywhere that an integrator leads to
 CLOSED = 1e-15  # m or rad: Φ that no further pass makes smaller
@@ -17,7 +18,7 @@ def project(compiled: CompiledModel, t: float, q: Array, v: Array, p: Array) -> 
     Where links are in line the rows depend on each other; the smallest solution of what is left is taken. What
     is not finite is handed back as it is.
     """
-    root = np.sqrt(compiled.mass(p))
+    root = np.sqrt(metric(compiled.source, p, compiled.mass(p)))
     for _ in range(PASSES):
         phi = compiled.phi(t, q, p)
         phi_q = compiled.phi_q(t, q, p)

@@ -241,7 +241,8 @@ class CompiledModel:
         """Raises SingularError for a status k > 0, with the row that the pivot belongs to; p: numbers to blame."""
         if status > 0:
             row = (pivots or self.source.pivots)[status - 1]
-            told = f"singular or non-finite at t = {t:.9g} s: the pivot of constraint row {row} vanished\n"
+            of = f"constraint row {row} vanished" if row not in self.source.coordinates else f"{row} is too small"
+            told = f"singular or non-finite at t = {t:.9g} s: the pivot of {of}\n"
             if p is not None and (masses := far_masses(self.source, self.mass(p))):
                 raise SingularError(f"{told}  {masses}", t, row)
             raise SingularError(

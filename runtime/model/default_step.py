@@ -17,6 +17,7 @@ from gudgeon.errors import BadValueError
 from gudgeon.language.tree import evaluate, from_json
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.parameters import prepare
+from gudgeon.model.sizes import metric
 
 T_END = 1.0  # s, of a scene that does not say
 SMOOTH = 2e-4  # of the run's length, at most
@@ -62,7 +63,7 @@ def scene_step(compiled: CompiledModel, p: Array, duration: float) -> float:
 def default_step(compiled: CompiledModel, p: Array, t_end: float) -> float:
     """The largest step (s) that all three scales allow."""
     bounds = [SMOOTH * t_end, 1e-3]
-    mass = compiled.mass(p)
+    mass = metric(compiled.source, p, compiled.mass(p))
     for joint in compiled.source.clearances:
         bodies = [compiled.source.bodies[b].index for b in (joint.first, joint.second) if b >= 0]
         inverse = sum(1.0 / mass[k] + 0.25 * _arm(compiled, p, k) ** 2 / mass[k + 2] for k in bodies)

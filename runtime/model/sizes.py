@@ -11,6 +11,7 @@ from gudgeon.model.compiled import Array
 from gudgeon.model.contours import contour_of, narrowest
 
 _LENGTH = (1, 0, 0)  # exponents of m, kg, s
+SMALL_INERTIA = 1e-9  # of m size^2: a moment of inertia below it counts as much in a measure of changes
 LEAST_CLEARANCE = 64 * sys.float_info.epsilon  # times the size: from ten roundings down contacts are seen twice
 
 
@@ -24,6 +25,17 @@ def mechanism_sizes(source: KernelSource, p: Array) -> Array:
         return np.ones(p.shape[:-1])
     size = np.abs(p[..., index]).max(axis=-1, initial=0.0)
     return np.where(size > 0.0, size, 1.0)
+
+
+def metric(source: KernelSource, p: Array, mass: Array) -> Array:
+    """What changes of the coordinates are measured by, (n,): the diagonal `mass` of M, its inertias not too small.
+
+    A point mass on a link has no moment of inertia: its motion is regular, M alone is no measure of it.
+    """
+    measure = np.array(mass)
+    least = SMALL_INERTIA * measure[1::3] * mechanism_sizes(source, p) ** 2
+    measure[2::3] = np.maximum(measure[2::3], least)
+    return measure
 
 
 def size_places(source: KernelSource) -> list[int]:

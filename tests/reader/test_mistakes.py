@@ -87,6 +87,7 @@ MISTAKES: list[tuple[str, type[InputError], int, int]] = [
     ("name_no_identifier", BadNameError, 17, 3),
     ("name_of_a_function", BadNameError, 32, 11),
     ("name_reserved", BadNameError, 17, 3),
+    ("negative_inertia", BadValueError, 11, 49),
     ("negative_mass", BadValueError, 11, 30),
     ("mixed_with_printed_film", BadValueError, 26, 99),
     ("mixed_without_film", MissingKeyError, 26, 30),
@@ -164,7 +165,6 @@ MISTAKES: list[tuple[str, type[InputError], int, int]] = [
     ("wrong_unit", UnitError, 10, 29),
     ("yaml_null", BadValueError, 10, 16),
     ("yaml_true", ExpressionError, 10, 16),
-    ("zero_inertia", BadValueError, 11, 49),
 ]
 
 # what was expected, or the nearest name, in the message of some of them
@@ -184,6 +184,7 @@ WORDS = {
     "clearance_too_large": "expected < bearings.pin.radius = 0.015 m",
     "clearance_too_large_in_scene": "in scene fast",
     "negative_mass": "-0.284 kg: a mass is positive",
+    "negative_inertia": "a moment of inertia is not negative",
     "event_at_rest_in_scene": "scenes.fast.events.top.zero never changes",
     "event_never_changes": "expected an expression of t, or of coordinates and velocities",
     "event_of_a_result": "a result that follows from the forces",

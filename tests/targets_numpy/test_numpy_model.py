@@ -181,7 +181,7 @@ def test_the_text_is_a_page(of: tuple[str, str]) -> None:
 
 
 def test_names_of_thresholds_and_pi() -> None:
-    text = load("slider_crank", "dry").model.numpy().source
+    text = load("slider_crank", "ideal").model.numpy().source
     assert "\nNEARLY_SINGULAR = 1e-08\n" in text and "> NEARLY_SINGULAR * " in text
     assert "else 20*np.pi  # parameters.omega\n" in text
     assert " - np.pi/2 " in load("nine_bar_press", "ideal").model.numpy().source

@@ -22,7 +22,7 @@ from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kernels.time_terms import count_terms
 from gudgeon.generator.kinds.joints.joint_type import CORNERS
 from gudgeon.generator.kinds.laws.law import DEEPEST
-from gudgeon.generator.solvers.kkt import EARLY, KKT, NEARLY_SINGULAR, SINGULAR, VANISHING
+from gudgeon.generator.solvers.kkt import EARLY, KKT, LIGHT_PIVOT, NEARLY_SINGULAR, SINGULAR, VANISHING
 from gudgeon.generator.solvers.square_rows import SHARE
 from gudgeon.generator.symbols.periods import PeriodsOf
 from gudgeon.generator.targets.c import printer
@@ -46,6 +46,7 @@ _THRESHOLDS: Sizes = {
         (NEARLY_SINGULAR, "where it nearly does"),
         (VANISHING, "where one of a joint's two rows vanishes: links in one line"),
         (EARLY, "of two rows that are solved before all of their coordinates"),
+        (LIGHT_PIVOT, "of what turns with an angle, where its inertia is too small for it"),
         (SHARE, "of as many rows as unknowns: the root of SINGULAR"),
     )
 }
@@ -255,7 +256,7 @@ def _meeting(model: Model, count: int) -> list[int]:
 def _friction_pivots(kkt: KKT) -> list[int]:
     """Which friction each pivot behind those of the rows belongs to."""
     names = [friction.name for friction in kkt.frictions]
-    return [names.index(pivot) for pivot in kkt.pivots[len(kkt.rows) :]]
+    return [names.index(pivot) for pivot in kkt.pivots[len(kkt.rows) : len(kkt.rows) + len(names)]]
 
 
 def _start(model: Model) -> dict[str, list[int]]:
