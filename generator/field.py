@@ -39,6 +39,7 @@ OF_TIME = "t"
 OF_MOTION = "t, coordinates and velocities"
 OF_RESULTS = "t and anything that a result has"
 OF_PENETRATION = "delta"
+OF_CAM_ANGLE = "phi"
 
 
 RELATIONS: Mapping[str, Callable[[float, float], bool]] = {

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from itertools import pairwise
 
 import sympy as sp
 
 from gudgeon.errors import Location
 from gudgeon.generator.equations.geometry import Geometry, PointFrame
 from gudgeon.generator.mechanism.mechanism import GROUND, ForceElement, Joint, PointRef, Quantity, Vector
+from gudgeon.generator.symbols.derivatives import derivative
 from gudgeon.generator.symbols.from_expressions import quantity_to_sympy
 from gudgeon.generator.symbols.numbers import Owned, Slots
 from gudgeon.language.tree import Name, names
@@ -50,6 +52,30 @@ class JointFields:
         """θ of the body that a body field names; 0 for the ground."""
         body = self._joint.options[name]
         return ZERO if body == GROUND else self._geometry.bodies[body].theta
+
+    def direction_on(self, name: str, body: str) -> tuple[sp.Expr, sp.Expr]:
+        """Return a unit vector field that is fixed in the body that the field `body` names, in ground axes."""
+        local, owner = self.direction(name), self._joint.options[body]
+        if owner == GROUND:
+            return local
+        return self._geometry.turn(self._geometry.bodies[owner], local, f"axis_{owner}")
+
+    def profile(self, name: str, cam: sp.Expr, carrier: sp.Expr) -> sp.Expr:
+        """Return the expression of phi = `cam` − `carrier` that a field holds, as a symbol that knows its slopes."""
+        symbols, phi, slots = self._geometry.symbols, sp.Dummy("phi", real=True), self._slots.entries
+        value = quantity_to_sympy(
+            self._joint.quantities[name], lambda path: phi if path == "phi" else slots[f"parameters.{path}"].symbol
+        )
+        found, turned = [], cam - carrier
+        for what in ("", "_slope", "_bend", "_third"):
+            text = f"{what[1:] or 'value'} of {self._joint.name}'s {name}"
+            found.append(symbols.define(f"{self._joint.name}_{name}{what}", value.xreplace({phi: turned}), "", text))
+            value = derivative(value, phi)
+        bases = sorted({s for angle in turned.free_symbols for s in symbols.rules.get(angle, (angle,))}, key=str)
+        rates = {base: rate for base in bases if (rate := symbols.diff(turned, base)) != 0}
+        for lower, upper in pairwise(found):
+            symbols.rules[lower] = {base: rate * upper for base, rate in rates.items()}
+        return found[0]
 
     def derive(self, name: str, expression: sp.Expr) -> sp.Expr:
         """A number that is computed once a run."""

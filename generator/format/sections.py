@@ -35,7 +35,7 @@ from gudgeon.generator.kinds.drives import DRIVES
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.kinds.laws.law import Law, called
-from gudgeon.language.curves import ENDS, EXTRAPOLATE, NATURAL, STOP
+from gudgeon.language.curves import ENDS, EXTRAPOLATE, INTERPOLATIONS, NATURAL, SPLINE, STOP
 from gudgeon.language.units import (
     ACCELERATION,
     DENSITY,
@@ -181,12 +181,16 @@ EVENT = record(
 )  # fmt: skip
 
 CURVE = record(
-    "curve", "a cubic spline through points, which expressions call as NAME(argument)",
+    "curve", "a cubic spline or monotone cubic through points, which expressions call as NAME(argument)",
     Field("points", POINTS, "points, x rising; this or a table", otherwise="the table's"),
     Field("table", TEXT, "CSV file with two columns, in the mechanism's folder or below", otherwise="the points"),
     Field("x", TEXT, "unit of x: mm, deg, s", otherwise="SI, of any dimension"),
     Field("y", TEXT, "unit of y", otherwise="SI, of any dimension"),
     word("ends", "what holds at both ends; periodic repeats, the last y is the first", ENDS, NATURAL),
+    word(
+        "interpolation", "spline: a continuous second derivative; monotone: no overshoot, dwells stay dwells",
+        INTERPOLATIONS, SPLINE,
+    ),
     word("extrapolate", "what holds outside the points: an error, the last value, or the tangent", EXTRAPOLATE, STOP),
 )  # fmt: skip
 

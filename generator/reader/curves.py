@@ -18,7 +18,7 @@ from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import Around, read_fields
 from gudgeon.generator.reader.tables import Row, read_table
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
-from gudgeon.language.curves import LEAST, PERIODIC, STOP, Curve, in_pairs, spline
+from gudgeon.language.curves import LEAST, MONOTONE, NOT_A_KNOT, PERIODIC, STOP, Curve, in_pairs, spline
 from gudgeon.language.names import check_name
 from gudgeon.language.units import DIMENSIONLESS, Unit, parse_unit, si_unit
 
@@ -68,9 +68,13 @@ def _curve(reader: Reader, name: Text, node: Map) -> Curve:
     if ends == PERIODIC and extrapolate != STOP:
         where = node["extrapolate"].where
         raise BadValueError(f"{owner} is periodic and goes on {extrapolate!r}", where, "leave extrapolate out")
+    interpolation = str(options["interpolation"])
+    if interpolation == MONOTONE and ends == NOT_A_KNOT:
+        hint = "expected natural, clamped or periodic"
+        raise BadValueError(f"{owner} is monotone with ends: not_a_knot", node["ends"].where, hint)
     x, y = _numbers(rows, 0, over), _numbers(rows, 1, of)
     _check(owner, ends, rows, x, y, name.where)
-    coefficients = spline(x, y, ends)
+    coefficients = spline(x, y, ends, interpolation)
     knots, coefficients = in_pairs(x, coefficients) if ends == PERIODIC else (x, coefficients)
     if not all(math.isfinite(c) for piece in coefficients for c in piece):
         hint = "expected points whose slopes are numbers: are two of them too close?"
@@ -78,7 +82,7 @@ def _curve(reader: Reader, name: Text, node: Map) -> Curve:
     return Curve(
         str(name), knots, coefficients, ends, extrapolate, over.dimension if over else None,
         of.dimension if of else None, _si_of(of), str(node["x"]) if over else "",
-        str(node["table"]) if "table" in node else "", len(x),
+        str(node["table"]) if "table" in node else "", interpolation, len(x),
     )  # fmt: skip
 
 

@@ -12,6 +12,7 @@ from gudgeon.generator.field import (
     BODY,
     FLAG,
     NUMBER,
+    OF_CAM_ANGLE,
     OF_MOTION,
     OF_PENETRATION,
     OF_RESULTS,
@@ -192,8 +193,8 @@ def read_number(
     reader: Reader, text: Text, wanted: Field, address: str, motion: ResultDimension | None = None
 ) -> Quantity:
     """The number at an address as its field declares it; `motion` knows the names that one that `varies` may use."""
-    names = motion if wanted.varies in (OF_MOTION, OF_RESULTS, OF_PENETRATION) else None
-    time = wanted.varies not in ("", OF_PENETRATION)
+    names = motion if wanted.varies in (OF_MOTION, OF_RESULTS, OF_PENETRATION, OF_CAM_ANGLE) else None
+    time = wanted.varies not in ("", OF_PENETRATION, OF_CAM_ANGLE)
     return reader.quantity(text, address, wanted.dimension, time=time, result=names)
 
 

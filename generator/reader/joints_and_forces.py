@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from gudgeon.errors import JoinError
-from gudgeon.generator.field import BODY
+from gudgeon.errors import BadNameError, BadValueError, ExpressionError, JoinError
+from gudgeon.generator.field import BODY, OF_CAM_ANGLE
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
-from gudgeon.generator.mechanism.mechanism import ForceElement, Joint
+from gudgeon.generator.mechanism.mechanism import ForceElement, Joint, Quantity
 from gudgeon.generator.reader.collector import Reader, ResultDimension
 from gudgeon.generator.reader.fields import (
     Around,
@@ -21,8 +21,11 @@ from gudgeon.generator.reader.fields import (
     refuse_same_body,
 )
 from gudgeon.generator.reader.places import Places
+from gudgeon.generator.reader.result_names import CamAngle
 from gudgeon.generator.yaml.tree import Map, Text
 from gudgeon.language.names import Namespace
+from gudgeon.language.parser import at
+from gudgeon.language.tree import Number, functions, names
 
 
 def read_joints(reader: Reader, root: Map, places: Places, namespace: Namespace) -> dict[str, Joint]:
@@ -55,13 +58,41 @@ def _joint(reader: Reader, name: Text, node: Map, places: Places, elsewhere: Map
     mistyped = check_keys(reader, node, [kind, *field_names(joint_type.fields)], owner, elsewhere)
     first, second = places_of(reader, node, kind, joint_type.joins, (2,), places)
     refuse_same_body(kind, (first, second))
-    values = read_fields(reader, node, joint_type.fields, Around(owner, mistyped=mistyped, places=places))
+    around = Around(owner, mistyped=mistyped, places=places, motion=CamAngle(reader.parameters))
+    values = read_fields(reader, node, joint_type.fields, around)
+    for field in joint_type.fields:
+        if field.varies == OF_CAM_ANGLE and field.name in values.quantities:
+            with reader.collect():
+                _check_profile(reader, values.quantities[field.name])
     for field in joint_type.fields:
         if field.kind == BODY and values.options.get(field.name) in (first.body, second.body):
             body = values.options[field.name]
             place = node[field.name].where if field.name in node else kind.where
             raise JoinError(f"{body} is one of the two bodies and their {field.name}", place, "expected a third one")
     return Joint(str(name), str(kind), first, second, values.quantities, values.vectors, values.words(), name.where)
+
+
+def _check_profile(reader: Reader, profile: Quantity) -> None:
+    """Raise unless a cam's profile is a function of phi without jumps of its slope."""
+    if isinstance(profile.value, Number) and profile.value.value != profile.value.value:
+        return  # NaN: an error was collected already
+    used = {name.path: at(profile.where, name.offset) for name in names(profile.value)}
+    if OF_CAM_ANGLE in reader.parameters and OF_CAM_ANGLE in used:
+        hint = "give the parameter another name"
+        raise BadNameError("'phi' is the cam's angle here, and a parameter of this file", used[OF_CAM_ANGLE], hint)
+    strange = next((path for path in used if path not in (OF_CAM_ANGLE, *reader.parameters)), None)
+    if strange is not None:
+        hint = "expected phi, the cam's angle, parameters and curves"
+        raise ExpressionError(f"{strange!r} cannot stand in the profile of a cam", profile.where, hint)
+    if OF_CAM_ANGLE not in used:
+        hint = "expected an expression such as 30 mm + lift(phi)"
+        raise ExpressionError(f"{profile.address} does not follow phi, the cam's angle", profile.where, hint)
+    if jumps := sorted(_ROUGH.intersection(functions(profile.value))):
+        hint = "expected curves (extrapolate: none, or ends: periodic) and smooth functions: the slope is a speed"
+        raise BadValueError(f"{profile.address} has a slope that may jump, by {jumps[0]}", profile.where, hint)
+
+
+_ROUGH = frozenset({"ramp", "abs", "min", "max", "sign", "where", "mod", "smooth_step"})
 
 
 def read_forces(

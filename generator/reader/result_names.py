@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Container, Iterable, Iterator, Mapping
 
 from gudgeon.errors import BadValueError, ExpressionError, Location, UnknownNameError
+from gudgeon.generator.field import OF_CAM_ANGLE
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import CORNERS, joint_types
 from gudgeon.generator.mechanism.mechanism import GROUND, Drive, ForceElement, Joint
@@ -161,6 +162,22 @@ class Penetration:
             hint = "expected delta, the penetration, and parameters; `dissipation` says what its rate does"
             raise ExpressionError(f"{name.path!r} cannot stand in a force of the penetration", where, hint)
         raise unknown_name("name", name.path, ("delta", *self._parameters), where)
+
+
+class CamAngle:
+    """What the profile of a cam may depend on."""
+
+    def __init__(self, parameters: Iterable[str]) -> None:
+        self._parameters = parameters
+
+    def __call__(self, name: Name, where: Location) -> Dimension | None:
+        """Return the dimension of phi. Raises ExpressionError for names of motion, UnknownNameError."""
+        if name.path == OF_CAM_ANGLE:
+            return DIMENSIONLESS
+        if "." in name.path:
+            hint = "expected phi, the cam's angle, parameters and curves"
+            raise ExpressionError(f"{name.path!r} cannot stand in the profile of a cam", where, hint)
+        raise unknown_name("name", name.path, (OF_CAM_ANGLE, *self._parameters), where)
 
 
 def _of_drive(drive: Drive) -> Mapping[str, Dimension]:

@@ -16,7 +16,8 @@ from gudgeon.model.compiled import Array
 from gudgeon.model.corners import slider_of
 
 GROUND = "ground"
-OF_BODIES = ("gear", "rotational_spring_damper", "torque", "angle", "coordinate")  # kinds whose ends are whole bodies
+# kinds whose ends are whole bodies
+OF_BODIES = ("gear", "rocker_cam", "rotational_spring_damper", "torque", "angle", "coordinate")
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,6 +1,8 @@
-"""Curves through points: cubic splines with continuous second derivatives, as coefficients and as numbers.
+"""Curves through points: cubic splines and monotone cubics, as coefficients and as numbers.
 
-C. de Boor, A Practical Guide to Splines (2001), chapter IV. Between knots k and k + 1 a curve is
+A spline has a continuous second derivative: C. de Boor, A Practical Guide to Splines (2001), chapter IV. A monotone
+cubic is C¹ and never beyond the points on either side: F. N. Fritsch, R. E. Carlson, SIAM J. Numer. Anal. 17 (1980)
+238–246; F. N. Fritsch, J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300–304. Between knots k and k + 1 a curve is
 y = c0 + h (c1 + h (c2 + h c3)) with h = x - x_k: all targets evaluate this, by Horner's rule and in this order.
 """
 
@@ -17,8 +19,10 @@ if TYPE_CHECKING:
     from gudgeon.language.units import Dimension
 
 NATURAL, CLAMPED, PERIODIC, NOT_A_KNOT = ENDS = ("natural", "clamped", "periodic", "not_a_knot")
+SPLINE, MONOTONE = INTERPOLATIONS = ("spline", "monotone")
 STOP, HOLD, LINE = EXTRAPOLATE = ("none", "hold", "line")
 LEAST = {NATURAL: 2, CLAMPED: 2, PERIODIC: 3, NOT_A_KNOT: 4}  # points
+_TOLD = {SPLINE: "cubic spline", MONOTONE: "monotone cubic"}
 MARGIN = 1e-9  # of the range: so far outside an argument may be by rounding
 
 
@@ -36,6 +40,7 @@ class Curve:
     unit: str | None = None  # SI, of the value: an angle's is rad
     over: str = ""  # the unit of x as the file has it; "": SI
     source: str = ""  # the file that the points came from
+    interpolation: str = SPLINE
     points: int = 0  # how many there were: a piece may have been halved (`in_pairs`)
 
     @property
@@ -76,10 +81,8 @@ class Curve:
         """What it is, in words."""
         ends = f"{self.ends.replace('_', '-')} ends"
         after = "repeated" if self.repeats else {STOP: "none", HOLD: "held", LINE: "straight on"}[self.extrapolate]
-        return (
-            f"cubic spline through {self.points} points{f' of {self.source}' * bool(self.source)}, {ends}, "
-            f"{self.range_text}, outside {after}"
-        )
+        points = f"{self.points} points{f' of {self.source}' * bool(self.source)}"
+        return f"{_TOLD[self.interpolation]} through {points}, {ends}, {self.range_text}, outside {after}"
 
     def end(self, order: int) -> float:
         """A derivative at the last knot."""
@@ -160,20 +163,56 @@ def _horner(c: Any, h: Any, order: int) -> Any:
     return 6.0 * c[3]
 
 
-def spline(x: Sequence[float], y: Sequence[float], ends: str) -> tuple[tuple[float, float, float, float], ...]:
-    """Coefficients of the cubic spline through points, (n, 4).
+def spline(
+    x: Sequence[float], y: Sequence[float], ends: str, interpolation: str = SPLINE
+) -> tuple[tuple[float, float, float, float], ...]:
+    """Coefficients of the cubic spline, or the monotone cubic, through points, (n, 4).
 
     natural: no second derivative at the ends; clamped: no slope there; not_a_knot: the first two pieces are one
     polynomial, and the last two; periodic: slope and second derivative of the end are those of the beginning.
+    Of a monotone cubic, natural: slopes at the ends by three points, not beyond what keeps it monotone.
     """
     h = [b - a for a, b in zip(x, x[1:], strict=False)]
     rises = [(b - a) / step for a, b, step in zip(y, y[1:], h, strict=False)]
-    slopes = _periodic(h, rises) if ends == PERIODIC else _open(h, rises, ends)
+    if interpolation == MONOTONE:
+        slopes = _monotone(h, rises, ends)
+    else:
+        slopes = _periodic(h, rises) if ends == PERIODIC else _open(h, rises, ends)
     return tuple(
         (y[k], slopes[k], (3.0 * rises[k] - 2.0 * slopes[k] - slopes[k + 1]) / h[k],
          (slopes[k] + slopes[k + 1] - 2.0 * rises[k]) / h[k] / h[k])
         for k in range(len(h))
     )  # fmt: skip
+
+
+def _monotone(h: Sequence[float], rises: Sequence[float], ends: str) -> list[float]:
+    """Slopes at the knots of a monotone cubic: weighted harmonic means of the rises on both sides, 0 at extremes."""
+    if ends == PERIODIC:
+        inner = [_mean(*of) for of in zip([h[-1], *h[:-1]], h, [rises[-1], *rises[:-1]], rises, strict=True)]
+        return [*inner, inner[0]]
+    inner = [_mean(*of) for of in zip(h, h[1:], rises, rises[1:], strict=False)]
+    if ends == CLAMPED:
+        return [0.0, *inner, 0.0]
+    if not inner:
+        return [rises[0], rises[0]]
+    first, last = _end_slope(*h[:2], *rises[:2]), _end_slope(*h[:-3:-1], *rises[:-3:-1])
+    return [first, *inner, last]
+
+
+def _mean(a: float, b: float, p: float, q: float) -> float:
+    """The slope between pieces of lengths a, b and rises p, q."""
+    if p * q <= 0.0:
+        return 0.0
+    w, v = 2.0 * b + a, b + 2.0 * a
+    return (w + v) / (w / p + v / q)
+
+
+def _end_slope(a: float, b: float, p: float, q: float) -> float:
+    """The slope at the end of the outer piece (a, p) by the parabola through it and its neighbour (b, q), limited."""
+    slope = ((2.0 * a + b) * p - a * q) / (a + b)
+    if slope * p <= 0.0:
+        return 0.0
+    return 3.0 * p if p * q <= 0.0 and abs(slope) > 3.0 * abs(p) else slope
 
 
 def _inner(a: float, b: float, p: float, q: float) -> tuple[float, float, float, float]:

@@ -87,6 +87,7 @@ def lyapunov(
         raise KeyboardInterrupt
     returns = Returns.of(looked, section)
     measure = Neighbours.of(looked, simulation.compiled)
+    _refuse_short(looked, measure)
     transverse = bool(returns.event) and not _clock(source)
     arguments = (simulation, measure, settings, begin_of(looked), transverse)
     pair = Twin(*arguments) if why is not None else Tangent(*arguments, Flow(simulation.compiled, looked))
@@ -99,6 +100,20 @@ def lyapunov(
         "tangent" if why is None else "twin", why or "", np.array(t), np.array(growth),
         pair.unresolved / (t[-1] - t[0]), pair.merged, transverse, returns.section(), pair.state,
     )  # fmt: skip
+
+
+def slow_tangent(source: KernelSource) -> str:
+    """Return why `auto` takes a twin although the tangent knows how neighbours move; "" where it does not."""
+    films = [joint.name for joint in source.clearances if joint.film]
+    return f"the film of {films[0]} is stiff: the mesh of the tangent is as fine as its steps" if films else ""
+
+
+def _refuse_short(run: Result, measure: Neighbours) -> None:
+    """Raise BadValueError for a span in which the motion hardly changes: no mean over it is a rate of growth."""
+    if measure.is_short(run):
+        span = float(run.t[-1] - run.t[0])
+        told = f"a span of {span:.3g} s is too short for a Lyapunov exponent: nothing turns or strikes in it"
+        raise BadValueError(told, hint="expected a span of several swings, turns or contacts: an exponent is a mean")
 
 
 def _of_run(
@@ -144,6 +159,7 @@ def _way(source: KernelSource, by: str) -> str | None:
     why = no_tangent(source)
     if by == "tangent" and why:
         raise BadValueError(f"no exponent by the tangent: {why}", hint='by="twin" takes a second run')
+    why = why or (slow_tangent(source) if by == "auto" else "")
     return None if by == "tangent" or (by == "auto" and not why) else why
 
 
@@ -161,7 +177,7 @@ def _settings(settings: dict[str, Any], is_twin: bool) -> dict[str, Any]:
 
 def neighbours_rtol(source: KernelSource, rtol: float | None) -> float | None:
     """The tolerance of runs beside a neighbour, where that of others is `rtol`: no looser than a twin may have it."""
-    return min(rtol, LOOSEST) if rtol is not None and no_tangent(source) else rtol
+    return min(rtol, LOOSEST) if rtol is not None and (no_tangent(source) or slow_tangent(source)) else rtol
 
 
 def _settled(

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from gudgeon.results.results import Result, State
 
 NEAR = 1e-6  # how far neighbours begin apart: far above what an integrator errs by, far below what is non-linear
+TURNED = 0.2  # of the rms acceleration: it changes by less in a span in which nothing turns
 DRAW = 1  # seed of the first difference
 
 
@@ -43,6 +44,18 @@ class Neighbours:
         crossing = 1.0 / speeds.max(initial=0.0) if speeds.max(initial=0.0) > 0.0 else 1.0
         of_q = np.where(angle, length / size, length)
         return Neighbours(compiled, run.p, np.concatenate([of_q, of_q / crossing]), size, crossing)
+
+    def is_short(self, run: Result) -> bool:
+        """Return whether a run is over before anything turns: it has no contact, does not cross the mechanism's size,
+        and ends before its accelerations could stop it (rms speed over rms acceleration), or before they change.
+        """
+        span, q = float(run.t[-1] - run.t[0]), self.weights[: self.n]
+        if span >= self.crossing or (run.impacts["t_on"] > run.t[0]).any():
+            return False
+        speed, acceleration, change = (
+            float(np.sqrt(np.mean(np.square(x / q)))) for x in (run.v, run.a, run.a - run.a.mean(axis=0))
+        )
+        return span * acceleration < speed or change <= TURNED * acceleration
 
     @property
     def n(self) -> int:

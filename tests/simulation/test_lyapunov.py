@@ -211,6 +211,17 @@ def test_the_tangent_goes_through_joints_with_play_and_friction() -> None:
     assert tangent.growth.sum() == pytest.approx(twin.growth.sum(), rel=0.02) and twin.growth.sum() > 3.0
 
 
+def test_films_are_followed_by_a_twin_and_spans_without_motion_are_refused() -> None:
+    """The tangent's mesh is as fine as a film is stiff: a tenth of a second of it takes minutes."""
+    press = gudgeon.load("nine_bar_press", scene="lubricated")
+    found = press.lyapunov(0.25)
+    assert found.by == "twin" and "the film of A is stiff" in found.why and found.exponent < 5.0
+    with pytest.raises(BadValueError, match=r"a span of 0\.01 s is too short"):
+        press.lyapunov(0.11, skip=0.1)
+    with pytest.raises(BadValueError, match="too short"):
+        gudgeon.load("pendulum").lyapunov(1e-3)
+
+
 def test_what_cannot_be_given_is_refused(duffing: Simulation) -> None:
     with pytest.raises(BadValueError, match="no difference can grow"):
         gudgeon.load("nine_bar_press").lyapunov(1.0)

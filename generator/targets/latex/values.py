@@ -10,6 +10,7 @@ import sympy as sp
 
 from gudgeon.generator.equations.fields import VariableNames
 from gudgeon.generator.equations.model import Model
+from gudgeon.generator.field import OF_CAM_ANGLE
 from gudgeon.generator.mechanism.mechanism import Quantity, Vector
 from gudgeon.generator.symbols.from_expressions import quantity_to_sympy
 from gudgeon.generator.symbols.numbers import SlotEntry
@@ -19,7 +20,7 @@ from gudgeon.generator.targets.latex.notation import Notation, of_address
 from gudgeon.generator.targets.latex.printers import LONG, as_angle, number_text, share_of_pi
 from gudgeon.language.output_units import angle_power
 from gudgeon.language.plot_units import pretty
-from gudgeon.language.tree import Binary, Call, Expr, Number, Unary
+from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, names
 from gudgeon.language.units import DIMENSIONLESS, RATE, si_unit
 
 LONGEST = 30  # characters of a formula in a cell
@@ -46,7 +47,8 @@ class Values:
         """What hangs on time and motion, by names as the file has it; a long one has a letter, and stands below."""
         notation, model = self._notation, self._model
         written = as_written(quantity.value, 0, model.scene.mechanism.expressions)
-        if written != as_written(quantity.value):
+        of_cam = any(name.path == OF_CAM_ANGLE for name in names(quantity.value))
+        if of_cam or written != as_written(quantity.value):
             return (written,)
         value = notation.expand(quantity_to_sympy(quantity, VariableNames(model.geometry, model.t)))
         if len((formula := notation.math(value)).text) <= 2 * LONGEST:

@@ -1,0 +1,46 @@
+r"""Cam with a translating follower: a point of the follower is where the cam's angle says.
+
+     |follower|  ^ axis (fixed in the carrier)
+     '---o----'  |
+       .---.   s(φ)       Φ = u · (r_Q − r_P) − s(φ),   φ = θ_cam − θ_carrier
+      ( cam )
+       '-o-'              u: the axis' unit vector; P: where the cam turns; Q: the follower's point
+
+The profile is an expression of φ, mostly a curve, continuous with its slope. The constraint does no work: with F the
+force on the follower along the axis the cam bears the torque F ds/dφ, as virtual work says. It holds both ways, as a
+grooved cam does; a follower that a spring closes stays on its cam where F > 0. A guide keeps the follower on its axis.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.field import OF_CAM_ANGLE, body_or_ground, number, vector
+from gudgeon.generator.kinds.joints.joint_type import JointType
+from gudgeon.language.units import DIMENSIONLESS, LENGTH
+
+
+def rows(first: Any, second: Any, fields: Any) -> list[Any]:
+    """One row: how far the follower's point is from its profile, along the axis (m)."""
+    u_x, u_y = fields.direction_on("axis", "carrier")
+    along = u_x * (second.x - first.x) + u_y * (second.y - first.y)
+    return [along - fields.profile("profile", first.theta, fields.body_angle("carrier"))]
+
+
+JOINT = JointType(
+    "cam",
+    "cam with a translating follower",
+    (
+        number(
+            "profile", "position of the follower's point along the axis, measured from the cam's point", LENGTH,
+            required=True, varies=OF_CAM_ANGLE,
+        ),
+        vector("axis", "direction of the lift in the carrier's frame", DIMENSIONLESS, required=True, nonzero=True),
+        body_or_ground("carrier", "what the cam turns on: phi is the cam's angle less its"),
+    ),
+    "",
+    ("lift",),
+    ("m",),
+    rows,
+    also=("follower", "disc_cam", "disk_cam", "plate_cam", "cam_follower"),
+)  # fmt: skip

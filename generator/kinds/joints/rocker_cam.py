@@ -1,0 +1,41 @@
+r"""Cam with an oscillating follower: the angle of a rocker is what the cam's angle says.
+
+        .---.     ___---  rocker
+       ( cam )---'  ψ     Φ = ψ − ψ(φ),   φ = θ_cam − θ_carrier,   ψ = θ_rocker − θ_carrier
+        '-o-'     o
+
+As of a translating follower (cam.py): with T the torque on the rocker the cam bears −T dψ/dφ.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gudgeon.generator.field import OF_CAM_ANGLE, body_or_ground, number
+from gudgeon.generator.kinds.joints.joint_type import JointType
+from gudgeon.language.units import DIMENSIONLESS
+
+
+def rows(first: Any, second: Any, fields: Any) -> list[Any]:
+    """One row: by how much the rocker's angle differs from its profile (rad)."""
+    carrier = fields.body_angle("carrier")
+    return [second.theta - carrier - fields.profile("profile", first.theta, carrier)]
+
+
+JOINT = JointType(
+    "rocker_cam",
+    "cam with an oscillating follower",
+    (
+        number(
+            "profile", "angle of the rocker, measured from the carrier", DIMENSIONLESS, required=True,
+            varies=OF_CAM_ANGLE,
+        ),
+        body_or_ground("carrier", "what both turn on: phi is the cam's angle less its"),
+    ),
+    "",
+    ("swing",),
+    ("rad",),
+    rows,
+    joins="bodies",
+    also=("oscillating_follower", "cam_rocker", "swinging_follower"),
+)  # fmt: skip
