@@ -19,7 +19,7 @@ from gudgeon.generator.equations.friction import Friction, make_friction
 from gudgeon.generator.equations.geometry import BodySymbols, Geometry
 from gudgeon.generator.equations.lettered import lettered
 from gudgeon.generator.equations.loads import AppliedElement, apply_element
-from gudgeon.generator.equations.own_laws import own_letters
+from gudgeon.generator.equations.own_laws import check_own_laws
 from gudgeon.generator.equations.play import Clearance, make_clearances
 from gudgeon.generator.ir.finite_slopes import as_written
 from gudgeon.generator.mechanism.mechanism import Joint
@@ -211,7 +211,8 @@ class Model:
 
 def make_model(scene: Scene) -> Model:
     """Derive one scene, joint by joint."""
-    mechanism, symbols = scene.mechanism, Symbols(own_letters(scene))
+    check_own_laws(scene)
+    mechanism, symbols = scene.mechanism, Symbols()
     slots = Slots(scene, symbols)
     geometry = Geometry(scene, symbols, slots)
     constraints = Constraints(geometry)

@@ -1,4 +1,4 @@
-"""Laws of the user's own in a scene: their names in the emitted C, and whether their forces are numbers."""
+"""Laws of the user's own in a scene: whether their names have one meaning, and their forces are numbers."""
 
 from __future__ import annotations
 
@@ -17,9 +17,7 @@ from gudgeon.generator.kinds.laws.registered import ORIGINS, check_name, prefix
 from gudgeon.generator.mechanism.mechanism import LawUse
 from gudgeon.generator.mechanism.scene import Scene
 from gudgeon.generator.symbols.numbers import Slots
-from gudgeon.generator.symbols.symbols import is_in_code
 
-_LETTERS = frozenset(("root", "W", "factor"))  # abbreviations of the house, which may be those of others
 # Where forces are looked at: δ (m), ratios, δ̇ (m/s); F_n (N), slip (m/s); ε, 1/s. A state is a deflection (m).
 _LOOKS: Mapping[str, tuple[float, ...]] = {
     "delta": (0.0, 1e-9, 1e-6, 1e-4), "ratio": (1.0, 0.3, 0.0, -0.4, -1.0), "deltadot": (1.0, 1e-3, 0.0, -1e-3, -1.0),
@@ -30,13 +28,8 @@ _STATE = (0.0, 1e-6, -1e-6)
 _UNITS = {"delta": "m", "deltadot": "m/s", "F_n": "N", "v_t": "m/s", "w_n": "1/s", "w_t": "1/s"}
 
 
-def own_letters(scene: Scene) -> frozenset[str]:
-    """What the scene's laws that are the user's own call their variables, results and abbreviations.
-
-    In emitted code nothing else may be called so. Raises LawError for a name that something else has there, and for
-    units that do not fit.
-    """
-    found: set[str] = set()
+def check_own_laws(scene: Scene) -> None:
+    """Raise LawError where a name in a user-defined law has two meanings, and for units that do not fit."""
     for play in scene.play.values():
         some = [(laws()[use.law], use) for use in play.contact.laws]
         if any(law.name in OWN for law, _ in some):
@@ -44,9 +37,7 @@ def own_letters(scene: Scene) -> frozenset[str]:
             for law, use in (one for one in some if one[0].name in OWN):
                 names[law.name].check()
                 check_units(law, use)
-                found |= {*names[law.name].locals, *law.variables, *law.results}
             _check_together([names[law.name] for law, _ in some if law.role != "film"])
-    return frozenset(found)
 
 
 class _Names:
@@ -59,18 +50,17 @@ class _Names:
         self.numbers = [*use.quantities, *made.derived]
 
     def check(self) -> None:
-        """Raise LawError for a name that the emitted C has for something else."""
-        reserved = {*PAIR, "transition", *itertools.chain(*VARIABLES.values(), *FURTHER.values(), *RESULTS.values())}
+        """Raise LawError for a name that is no identifier, or that the law is given for something else."""
+        given = {*PAIR, "transition", *itertools.chain(*VARIABLES.values(), *FURTHER.values(), *RESULTS.values())}
         every = [*self.locals, *self.numbers]
         for name in every:
             try:
                 check_name(name, "number or abbreviation")
             except LawError as error:
                 raise LawError(f"{_whose(self.law)}{error.message}", hint=error.hint) from None
-            taken = name in reserved or name not in _LETTERS and is_in_code(name)
-            if taken or every.count(name) > 1:
+            if name in given or every.count(name) > 1:
                 hint = "call the number, state or abbreviation otherwise; a number's `symbol` may be any letter"
-                raise LawError(f"{_whose(self.law)}the emitted C has {name!r} for something else", hint=hint)
+                raise LawError(f"{_whose(self.law)}{name!r} is given to the law for something else", hint=hint)
 
 
 def _check_together(dry: Sequence[_Names]) -> None:

@@ -14,7 +14,18 @@ from gudgeon.generator.equations.loads import PointLoad
 from gudgeon.generator.equations.own_laws import check_numbers, number_of
 from gudgeon.generator.equations.places import Place, Wall, places_of
 from gudgeon.generator.kinds.laws.built import build
-from gudgeon.generator.kinds.laws.law import DEEPEST, MEAN_CLEARANCE, OWN, Law, LawInputs, PairSymbols, State, laws
+from gudgeon.generator.kinds.laws.law import (
+    DEEPEST,
+    MEAN_CLEARANCE,
+    OWN,
+    RESULTS,
+    VARIABLES,
+    Law,
+    LawInputs,
+    PairSymbols,
+    State,
+    laws,
+)
 from gudgeon.generator.mechanism.mechanism import Joint, LawUse, Play
 from gudgeon.generator.symbols.contours import contour_of
 from gudgeon.generator.symbols.numbers import Slots
@@ -39,6 +50,11 @@ class LawEquations:
     steps: Mapping[str, sp.Expr]
     numbers: Mapping[str, sp.Expr]
     derived: Mapping[str, sp.Expr]
+
+    @property
+    def results(self) -> tuple[str, ...]:
+        """Names of the role's results, and of the rates of states, in `steps`."""
+        return tuple(letter_of(self.law, name) for name in self.law.results)
 
     @property
     def further(self) -> tuple[str, ...]:
@@ -190,4 +206,23 @@ def _law(use: LawUse, pair: PairSymbols, slots: Slots, derive: Derive) -> LawEqu
     own = tuple(symbol for name, symbol in variables.items() if name not in unread)
     if law.name in OWN:
         check_numbers(law, own, steps, slots)
-    return LawEquations(law, use.options, own, steps, parameters, derived)
+    equations = LawEquations(law, use.options, own, steps, parameters, derived)
+    return _with_its_names(equations) if law.name in OWN else equations
+
+
+def letter_of(law: Law, name: str) -> str:
+    """Return the identifier of what a law calls `name`: of a user-defined law one that nothing else has.
+
+    What the role names (`delta`, `F_n`) keeps its name. No fixed name has `__` in it, and neither has `made_name`.
+    """
+    fixed = {*VARIABLES[law.role], *law.further, *RESULTS[law.role]}
+    return f"{name}__" if law.name in OWN and name not in fixed else name
+
+
+def _with_its_names(equations: LawEquations) -> LawEquations:
+    """Return the equations of a user-defined law with its abbreviations and states under names of their own."""
+    law = equations.law
+    symbols = {sp.Symbol(name, real=True): sp.Symbol(letter_of(law, name), real=True)
+               for name in (*equations.steps, *(state.name for state in law.states))}  # fmt: skip
+    steps = {letter_of(law, name): value.xreplace(symbols) for name, value in equations.steps.items()}
+    return replace(equations, variables=tuple(symbols.get(s, s) for s in equations.variables), steps=steps)

@@ -96,7 +96,7 @@ def _lines(kernel: Kernel, wanted: Callable[[str], str]) -> list[Titled]:
         for line in section.statements:
             line = _with(line, local)
             if isinstance(line, Statement) and not line.local:
-                name = "".join(c if c.isalnum() else "_" for c in line.target)
+                name = "".join(c if c.isalnum() else "_" for c in line.target).strip("_")
                 local |= {sp.Symbol(line.target, real=real): sp.Symbol(name, real=True) for real in (True, None)}
                 if place := wanted(line.target):
                     lines.append((section.title, replace(line, target=name, local=True)))

@@ -85,7 +85,7 @@ def _clearance_call(build: KernelBuilder, index: int, clearance: Clearance) -> l
         build.local(f"edot_{name}_{axis}", value) for axis, value in zip("xy", clearance.eccentricity_rate, strict=True)
     ]
     given = (clearance.first.omega, clearance.second.omega, *clearance.also)
-    build.line(Call(f"clearance_{name}", (*e, *edot, *given, *acting_on(index)), (Place(out),)))
+    build.line(Call(f"clearance_{name}_", (*e, *edot, *given, *acting_on(index)), (Place(out),)))
     F = [build.local(f"F_{name}_{axis}", Place(f"{out}.F{axis}")) for axis in "xy"]
     moments = [
         ZERO if point.body is None else build.local(f"M_{name}_{which}", Place(f"{out}.moment_{which}"))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.equations.play import Clearance, LawEquations
+from gudgeon.generator.equations.play import Clearance, LawEquations, letter_of
 from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder
 from gudgeon.generator.ir.reciprocals import hoisted, with_reciprocals
 from gudgeon.generator.ir.signatures import PARAMETERS, SIDES
@@ -28,8 +28,9 @@ def law_calls(model: Model, clearance: Clearance, shared: SharedFunctions) -> di
 def _meanings(model: Model, equations: LawEquations) -> dict[str, str]:
     """Of the law's numbers, by the names that they have in it."""
     info = model.symbols.info
-    derived = {name: info[symbol].meaning for name, symbol in equations.derived.items() if symbol in info}
-    return derived | {parameter.name: parameter.meaning for parameter in equations.law.parameters}
+    law = equations.law
+    derived = {letter_of(law, name): info[one].meaning for name, one in equations.derived.items() if one in info}
+    return derived | {letter_of(law, parameter.name): parameter.meaning for parameter in law.parameters}
 
 
 def law_name(equations: LawEquations) -> str:
@@ -37,14 +38,13 @@ def law_name(equations: LawEquations) -> str:
     usual = {option.name: option.default for option in equations.law.options}
     chosen = {name: value for name, value in equations.options.items() if value != usual[name]}
     name = equations.law.name
-    name = f"own_{name}" if name in OWN else name  # whatever the user calls it, no function of the scene
-    return "_".join([name, *(name if value is True else str(value) for name, value in chosen.items())])
+    name = "_".join([name, *(option if value is True else str(value) for option, value in chosen.items())])
+    return f"own_{name}__" if equations.law.name in OWN else name  # whatever the user calls it, no other function
 
 
 def _law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> Kernel:
     """Abbreviations become locals, results `*F_…` pointers; the law says its source and validity."""
-    law = equations.law
-    results = law.results
+    results = equations.results
     build = KernelBuilder(model.symbols, law_name(equations), law_doc(equations))
     build.section("")
     for name, equation in equations.steps.items():
@@ -52,7 +52,6 @@ def _law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> 
         if name in results:
             build.out(f"*{name}_out", value)
         else:
-            # the law's own letters are reserved (symbols.py), so the local keeps its name
             build.line(Statement(name, value))
     variables = (Argument("double", symbol.name) for symbol in equations.variables)
     outs = (Argument("double *", f"{name}_out") for name in results)

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.equations.play import Clearance, LawEquations
+from gudgeon.generator.equations.play import Clearance, LawEquations, letter_of
 from gudgeon.generator.ir.kernels import Argument, Kernel, Section
 from gudgeon.generator.ir.readable import NUMBERS
 from gudgeon.generator.ir.signatures import PARAMETERS, SIDES
@@ -62,7 +62,7 @@ class SharedFunctions:
         key = (kernel.name, shared.arguments, *_contents(shared))
         if key not in self._known:
             taken = any(other.name == kernel.name for other in self.kernels)
-            self._known[key] = replace(shared, name=f"{kernel.name}_of_{joint}") if taken else shared
+            self._known[key] = replace(shared, name=f"{kernel.name}_of_{joint}_") if taken else shared
             self.kernels.append(self._known[key])
         return SharedCall(self._known[key], tuple(given), first)
 
@@ -70,10 +70,10 @@ class SharedFunctions:
 def joint_numbers(model: Model, clearance: Clearance) -> dict[str, str]:
     """What fields of Parameters are called in the equations of a joint with play, those of its laws first."""
     laws = clearance.laws
-    named = [(name, value) for law in laws for name, value in law.numbers.items()]
+    named = [(letter_of(law.law, name), value) for law in laws for name, value in law.numbers.items()]
     pair = clearance.pair
     named += [(name, getattr(pair, name)) for name in ("R_i", "R_j", "c", "L", "E_i", "nu_i", "E_j", "nu_j")]
-    named += [(name, value) for law in laws for name, value in law.derived.items()]
+    named += [(letter_of(law.law, name), value) for law in laws for name, value in law.derived.items()]
     named += [("transition", clearance.transition)]
     info = model.symbols.info
     taken = {*(name for name, _ in named), *(name for law in laws for name in (*law.law.variables, *law.steps))}

@@ -52,7 +52,7 @@ class _Slopes:
         self.model, self.clearance, self.part = model, clearance, part
         by = "de_n, across" if clearance.contour else "deltadot, de_t"
         also = ", depth and slope of the contour" * bool(clearance.contour)
-        self.build = KernelBuilder(model.symbols, f"{part}_slopes_{clearance.label}", [
+        self.build = KernelBuilder(model.symbols, f"{part}_slopes_{clearance.label}_", [
             f"{part.capitalize()}: F along n and t, M_i, M_j, and their derivatives by e, {by}, omega_i,",
             f"omega_j{also} (forward differentiation of the same steps).",
             *["Behind them the rates of inner states, and derivatives by these."] * bool(model.law_states),
@@ -79,7 +79,7 @@ class _Slopes:
             symbol, value = sp.Symbol(name, real=True), hoisted(self.model.slots, sp.sympify(equation))
             self.build.line(Statement(name, inner.shared(inner.held(value))))
             inner.know(symbol, inner.gradient(value, symbol))
-            if name in equations.law.results:
+            if name in equations.results:
                 results[name] = symbol
                 self.tangents.know(symbol, self.tangents.through(inner.of(symbol)))
         return results
@@ -166,7 +166,7 @@ def in_place(model: Model, value: sp.Expr) -> sp.Expr:
 
 def share_slope(model: Model, clearance: Clearance) -> Kernel:
     """The share of the dry contact in the transition of a closed contact, and its derivative by e."""
-    build = KernelBuilder(model.symbols, f"share_slope_{clearance.label}", [
+    build = KernelBuilder(model.symbols, f"share_slope_{clearance.label}_", [
         "The share of the dry contact between film and contact, and its derivative by e.",
     ])  # fmt: skip
     tangents = Tangents(model.symbols, build, (contact.delta,), clearance.name)

@@ -115,7 +115,7 @@ class Linearization:
         given += clearance.also
         slopes = self.symbols.unique(f"change_{name}")
         build.line(Declare("double", slopes, (4 + self.states, len(given) + self.states)))
-        build.line(Call(f"tangent_{name}", (*e, *edot, *given[4:], *acting_on(index)), (Place(slopes),)))
+        build.line(Call(f"tangent_{name}_", (*e, *edot, *given[4:], *acting_on(index)), (Place(slopes),)))
         own = [state for state, place in self.z.items() if place // self.states == index] if self.states else []
         inner = [self.tangents.gradient(x) for x in (*given, *own)]
         also = ("n_x", "n_y") if clearance.wall else ("theta_i",)

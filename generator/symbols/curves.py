@@ -69,4 +69,4 @@ def curve_of(curve: Curve, x: sp.Expr) -> sp.Expr:
 
 def c_name(name: str) -> str:
     """What the emitted functions call a curve."""
-    return f"CURVE_{name}"
+    return f"CURVE_{name}_"

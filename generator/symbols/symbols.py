@@ -3,6 +3,10 @@
 A derived symbol (`cos_theta_L7`, the arm `arm_L7_head_x`, a drive's `crank1_angle`) stands for an
 expression and knows its derivatives. Differentiation goes by the chain rule over these symbols, so
 that Φ_q and γ come out in the words of the geometry and need no search for common subexpressions.
+
+Names of two kinds meet in emitted code: those that are made here, of what a file calls its things, and fixed ones
+(arguments, the laws' letters, the engine, C). They are different by construction: a name that is made here ends in
+`_`, has no `__` in it, and no fixed name ends so.
 """
 
 from __future__ import annotations
@@ -10,58 +14,24 @@ from __future__ import annotations
 import re
 from collections.abc import Collection
 from dataclasses import dataclass
-from functools import cache
 
 import sympy as sp
 
-from gudgeon.generator.kinds.laws.law import house
 from gudgeon.generator.symbols.corners import Switches
 from gudgeon.generator.symbols.derivatives import derivative, symbols_of
-from gudgeon.language.names import NOT_IN_CODE
-
-# What emitted code itself calls its functions, arguments and locals (tests/targets_c/test_names_in_c.py finds them).
-_WORDS = """
-t q v y p g f b x a dy phi nu gamma e nx ny tx ty out given is_given latch memory pivot status scale aside
-delta deltadot ratio F_n F_t v_t epsilon w_n w_t root W factor rows force rhs powers dependent
-reactions torques series max_of min_of sign_of solve_dependent errno stdin stdout stderr signgam
-side side_of
-r Four FourBits sines_and_cosines many_sines_and_cosines turned_by_library
-expand reduce_state reduce_accelerations solve_by_absolute all_q all_v all_a s s_rate whole closure
-e_x e_y de_x de_y de_t omega_i omega_j n_x n_y stored a_i a_j share F_r T0 F_x F_y F_along_n F_along_t M_i M_j
-theta_i beta_i u_x u_y worn worn_slope worn_bend beta_rate slant steep F_N F_e de_n across lean by_angle
-eta eta_row eta_stick lin r s u x depth unclipped dF value slope film
-close_step arrive step rates worst factor_block solve_block
-Lanes LaneBits LaneParameters LaneRun LaneAside LaneLatch LanePinForce LaneClearance all_of any_of pick rare
-chain_step chain_rates chain_third chain_corners chain_directions row most bend
-finite_slope just_ahead just_behind
-sine_of cosine_of asine_of exp_of log_of power_of
-"""
-_TAKEN = (NOT_IN_CODE - {"time"}).union(_WORDS.split())  # each model has a symbol of that name first: t
 
 
-@cache
-def _letters() -> frozenset[str]:
-    """What the laws of the house call what they are given and what they give: their functions' own names."""
-    return frozenset(name for law in house().values() for name in (*law.variables, *law.results))
+def made_name(wanted: str) -> str:
+    """Return the identifier of what a file calls `wanted`: single underscores, the last one at its end.
+
+    No fixed name of the generator, of the engine or of a language has that form, so none can be equal to it.
+    """
+    return re.sub(r"[\W_]+", "_", wanted).strip("_") + "_"
 
 
-# Object-like macros of the C and Python headers: most have no small letter; `A_K` is short for the K of joint A.
-_MACRO = re.compile(
-    r"M_E|METH_O|[A-Z0-9]+_H|(?![A-Z0-9]+_[A-Z]$)[A-Z0-9_]+|N_[A-Z]|Py[A-Z_]\w*"
-    r"|M_(1_PI|2_PI|2_SQRT|E|LN|LOG|PI|SQRT)\w*|(PRI|SCN)[dioux]\w*|[LP]_(ctermid|cuserid|tmp)\w*"
-    r"|(sa|si|st|sched|math)_\w+"
-)
-# Functions that are called where a parameter of that name is a local; parts of a clearance joint's force.
-_FUNCTION = re.compile(
-    r"(angles|sines|cosines)_(\d+|of(_\d+)?)|(clearance|tangent)_\w+|\w*newton_substitute|side_\d+|lanes_\w+"
-    r"|(F_along_[nt]|M_[ij])_(dry|film)"
-)
-
-
-def is_in_code(name: str) -> bool:
-    """Whether emitted C has a name for something of its own; short ones in capitals, K or S, are nobody's macros."""
-    macro = len(name) > 2 and _MACRO.fullmatch(name)
-    return bool(name in _TAKEN or macro or _FUNCTION.fullmatch(name))
+def plain_name(symbol: sp.Symbol) -> str:
+    """Return what the file calls a symbol, as documents show it: its name without the ending of `made_name`."""
+    return str(symbol.name).rstrip("_")
 
 
 @dataclass(frozen=True)
@@ -76,14 +46,12 @@ class SymbolInfo:
 class Symbols:
     """All the symbols of one model, in the order in which they were made."""
 
-    def __init__(self, letters: Collection[str] = ()) -> None:
-        """`letters`: what the laws of the scene that are the user's own call their variables and abbreviations."""
+    def __init__(self) -> None:
         self.info: dict[sp.Symbol, SymbolInfo] = {}
         self.definitions: dict[sp.Symbol, sp.Expr] = {}
         self.rules: dict[sp.Symbol, dict[sp.Symbol, sp.Expr]] = {}
         self.switches = Switches()
         self._names: set[str] = set()
-        self._letters = frozenset(letters)
         self._shared: Symbols | None = None  # who else has the members of Parameters
         self._frozen = False
         self._numbered: dict[str, str] = {}  # names that others had before: what was wanted
@@ -94,7 +62,7 @@ class Symbols:
 
     def beside(self) -> Symbols:
         """Other symbols for other functions of the same library: they share the members of Parameters only."""
-        other = Symbols(self._letters)
+        other = Symbols()
         other._shared, other.switches = self, self.switches.beside()
         for symbol, info in self.info.items():
             if info.home.startswith("p->"):
@@ -110,16 +78,13 @@ class Symbols:
                 self.definitions[symbol] = self._shared.definitions[symbol]
 
     def unique(self, wanted: str) -> str:
-        """`wanted` as a C identifier that nothing else has."""
+        """Return `wanted` as an identifier that nothing else has in any target: see `made_name`."""
         assert not self._frozen, f"{wanted}: derived after the program was made"
-        name = re.sub(r"\W", "_", wanted)
-        taken = name in _TAKEN or name in _letters() or name in self._letters
-        if taken or _MACRO.fullmatch(name) or _FUNCTION.fullmatch(name):
-            name = f"par_{name}"
-        candidate, count = name, 1
+        name = candidate = made_name(wanted)
+        count = 1
         while candidate in self._names:
             count += 1
-            candidate = f"{name}_{count}"
+            candidate = f"{name}{count}_"
         self._names.add(candidate)
         if count > 1:
             self._numbered[candidate] = name
@@ -135,7 +100,7 @@ class Symbols:
             base = self._numbered[name]
             free = base not in taken and not self._is_member(base)
             found[name] = base if free else next(
-                called for k in range(2, len(used) + 3) if (called := f"{base}_{k}") not in taken
+                called for k in range(2, len(used) + 3) if (called := f"{base}{k}_") not in taken
             )  # fmt: skip
             taken.add(found[name])
         return {name: called for name, called in found.items() if name != called}

@@ -135,7 +135,8 @@ def _contact(run: Result, joint: ClearanceInfo) -> str:
     bearing = source.slots[joint.clearance].address.split(".")[1]
     for name, place in joint.constants.items():
         if (k := place - len(source.slots)) >= 0:
-            fits = [contact for contact in named if source.derived[k] == f"{contact}_{bearing}_{name}"]
+            own = {contact: re.sub("_+", "_", f"{contact}_{bearing}_{name}") for contact in named}
+            fits = [contact for contact in named if source.derived[k] == own[contact]]
             if fits:
                 return fits[0]
     return named[0] if len({*named}) == 1 and len({joint.joint for joint in source.clearances}) == 1 else ""

@@ -13,6 +13,7 @@ from sympy.printing.str import StrPrinter
 from gudgeon.errors import GudgeonError
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.far_quotients import for_readers
+from gudgeon.generator.symbols.symbols import plain_name
 from gudgeon.generator.targets.latex.printers import share_of_pi
 
 # what a notebook calls so itself
@@ -50,7 +51,7 @@ class Printer(StrPrinter):
         self._names = names
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
-        return self._names.get(expr, expr.name)
+        return self._names.get(expr, plain_name(expr))
 
     def _print_Float(self, expr: sp.Float) -> str:
         return number_of_code(float(expr))
@@ -114,7 +115,7 @@ def names_of(model: Model) -> dict[sp.Symbol, str]:
     symbols = (model.t, *model.q, *model.v, *(entry.symbol for entry in model.slots.entries.values()))
     names: dict[sp.Symbol, str] = {}
     for symbol in symbols:
-        name = "t" if symbol == model.t else symbol.name
+        name = "t" if symbol == model.t else plain_name(symbol)
         while symbol != model.t and (name in TAKEN or name.startswith(TAKEN_HEADS) or name in names.values()):
             name = f"its_{name}"
         names[symbol] = name

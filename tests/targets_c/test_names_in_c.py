@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import keyword
 import re
 import subprocess
 import sysconfig
@@ -21,7 +22,7 @@ from gudgeon.errors import BadNameError
 from gudgeon.generator.equations import contact_steps as contact
 from gudgeon.generator.kinds.laws.law import RESULTS, VARIABLES
 from gudgeon.generator.pipeline import generate
-from gudgeon.language.names import NOT_IN_CODE, RESERVED, WORDS, check_name
+from gudgeon.language.names import RESERVED, WORDS, check_name
 from gudgeon.language.tree import FUNCTIONS
 from gudgeon.loading.compiler import find_compiler
 from gudgeon.loading.engine import engine_files, include_flags
@@ -30,6 +31,29 @@ from tests.slow import slow_but
 VALID = Path(__file__).resolve().parents[1] / "mechanisms" / "valid"
 HEADERS = ("Python.h", "math.h", "float.h", "limits.h", "stddef.h", "stdint.h", "stdlib.h", "string.h", "errno.h")
 INCLUDES = "".join(f"#include <{header}>\n" for header in HEADERS)
+
+# Keywords of C11, C17 and C23, and of the GNU dialect:
+_C_KEYWORDS = """
+alignas alignof asm auto bool break case char complex const constexpr continue default do double else
+enum extern false float for goto if imaginary inline int long nullptr register restrict return short
+signed sizeof static static_assert struct switch thread_local true typedef typeof typeof_unqual union
+unsigned void volatile while linux unix
+"""
+
+# Functions, macros and types of the headers that emitted code includes.
+_C_LIBRARY = """
+main NULL EOF NAN INFINITY HUGE_VAL errno assert offsetof size_t ptrdiff_t wchar_t
+int8_t int16_t int32_t int64_t uint8_t uint16_t uint32_t uint64_t intptr_t uintptr_t
+FILE stdin stdout stderr printf fprintf sprintf snprintf scanf puts putchar getchar fopen fclose
+malloc calloc realloc free abort exit atexit system getenv qsort bsearch labs div rand srand
+memcpy memmove memset memcmp strlen strcpy strcat strcmp strncmp
+acos asin atan atan2 cos sin tan acosh asinh atanh cosh sinh tanh exp exp2 expm1 frexp ilogb ldexp
+log log10 log1p log2 logb modf scalbn scalbln cbrt fabs hypot pow sqrt erf erfc lgamma tgamma
+ceil floor nearbyint rint lrint lround round trunc fmod remainder remquo copysign nan nextafter
+nexttoward fdim fmax fmin fma isnan isinf isfinite isnormal signbit fpclassify
+time clock signal raise setjmp longjmp I
+"""
+NOT_IN_CODE = frozenset((*_C_LIBRARY.split(), *_C_KEYWORDS.split(), *keyword.kwlist))
 
 # names that people would try: locals of emitted code, C's own, and what looks like both
 _TRIED = """

@@ -48,7 +48,7 @@ ANYWHERE = {
     "something behind a comment that ends": r"\*/static",
     "a loop over nothing": r"int k = (\d+); k < \1;",
     "a number that is set and set again": r"(\*\w+) = (?:all_of\()?0\.0\)?;\n *\1 = ",
-    "a name that another has taken": r"\bp->par_[xy]\b|\b\w+_[xy]_2\b",
+    "a name that another has taken": r"\b\w+_[xy]_2_\b",
 }
 IN_KERNELS = {
     "a copy of an argument": r"const (?:double|Lanes|Range) (?:(\w+) = p->\1|\w+ = t);",

@@ -36,7 +36,7 @@ const answer = %s.map((state) => {
     const by = (kind) => rows.map((_, k) => live.value(`${kind}.${k + 1}`));
     return {all, phi: by("phi"), nu: by("nu"), gamma: by("gamma"),
         phi_q: rows.map((_, k) => state.q.map((_, i) => live.value(`phi_q.${k + 1}.${i + 1}`) ?? 0)),
-        rhs: equations.names.map((name) => live.value(`tmp.rhs.rhs_${name.replaceAll(".", "_")}`)),
+        rhs: equations.names.map((name) => live.value(`tmp.rhs.rhs_${name.replaceAll(".", "_")}_`)),
         numbers: state.p.map((_, k) => live.value(`tmp.p.${k + 1}`)),
         gap: %s.map((name) => live.value(`tmp.law.${name}`))};
 });
@@ -61,7 +61,7 @@ def test_values_are_those_of_the_compiled_scene(case: tuple[str, str], tmp_path:
     alpha, beta = (float(p[place[f"baumgarte.{name}"]]) for name in ("alpha", "beta"))
     states = [random_state(found.model, seed) for seed in range(4)]
     given = [{"t": t, "q": q.tolist(), "v": v.tolist(), "p": p.tolist()} for t, q, v in states]
-    gaps = [f"clearance_{joint.name}.{of}" for joint in found.model.clearances for of in ("delta", "deltadot")]
+    gaps = [f"clearance_{joint.name}_.{of}" for joint in found.model.clearances for of in ("delta", "deltadot")]
     script = ASKED % (equations_script(found.program), json.dumps(given), json.dumps(gaps))
     (tmp_path / "ask.js").write_text(script, encoding="utf-8")
     done = subprocess.run([program, str(tmp_path / "ask.js"), str(LIVE)], capture_output=True, text=True, timeout=60)

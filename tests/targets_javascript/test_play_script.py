@@ -129,13 +129,13 @@ def case(request: Any, tmp_path_factory: pytest.TempPathFactory) -> Case:
 def forces(case: Case, joint: str, told: dict[str, Any]) -> tuple[float, float]:
     """Along n and t, from the lines that say so last."""
     pin = next(pin for pin in case.found.program.pins if pin.clearance.label == joint)
-    along = {role: f"law.{part}_{joint}.F_{of}" for role, part, of in (("normal", "dry", "n"), ("film", "film", "r"))}
-    blended = told.get(f"law.clearance_{joint}.F.n")
+    along = {role: f"law.{part}_{joint}_.F_{of}" for role, part, of in (("normal", "dry", "n"), ("film", "film", "r"))}
+    blended = told.get(f"law.clearance_{joint}_.F.n")
     if blended is not None:
-        return blended, told[f"law.clearance_{joint}.F.t"]
+        return blended, told[f"law.clearance_{joint}_.F.t"]
     if "normal" in pin.laws and told[along["normal"]] is not None:
-        pressed = told.get(f"law.dry_{joint}.F_N", told[along["normal"]])
-        return -pressed, told[f"law.dry_{joint}.F_along_t_dry"]
+        pressed = told.get(f"law.dry_{joint}_.F_N", told[along["normal"]])
+        return -pressed, told[f"law.dry_{joint}_.F_along_t_dry"]
     if "film" in pin.laws:
         return told[along["film"]], told[f"law.{pin.laws['film'].kernel.name}.F_t_out"]
     return 0.0, 0.0
@@ -146,17 +146,18 @@ def test_forces_are_those_of_the_compiled_scene(case: Case) -> None:
     met = set()
     for joint, want in case.columns.items():
         for k, told in enumerate(row[joint] for row in case.told):
-            own = {name.rpartition(".")[2]: x for name, x in told.items() if name.startswith(f"law.clearance_{joint}.")}
+            front = f"law.clearance_{joint}_."
+            own = {name.rpartition(".")[2]: x for name, x in told.items() if name.startswith(front)}
             scale = float(np.abs(want["Fn"]).max())
             along_n, along_t = forces(case, joint, told)
             assert along_n == pytest.approx(-want["Fn"][k], rel=1e-11, abs=1e-13 * scale), (joint, k)
             assert along_t == pytest.approx(want["Ft"][k], rel=1e-9, abs=1e-13 * scale), (joint, k)
             assert own["e"] == pytest.approx(want["e"][k], rel=1e-9)
             assert own["deltadot"] == pytest.approx(want["deltadot"][k], rel=1e-9, abs=1e-12)
-            slip = told.get(f"law.dry_{joint}.v_t")
+            slip = told.get(f"law.dry_{joint}_.v_t")
             assert (slip or 0.0) == pytest.approx(want["vt"][k], rel=1e-9, abs=1e-12)
             closed = bool(np.isfinite(case.memory[k, list(case.columns).index(joint)]))
-            met.add((slip is not None, closed, told.get(f"law.clearance_{joint}.F.n") is not None))
+            met.add((slip is not None, closed, told.get(f"law.clearance_{joint}_.F.n") is not None))
     has_transition = any(pin.has_transition for pin in case.found.program.pins)
     assert {(False, False, False), (True, True, False), (True, False, False)} <= met
     assert has_transition == any(blended for _, _, blended in met)

@@ -152,14 +152,14 @@ def test_lit_lines_of_the_textbooks_function(scene: str) -> None:
         own = [(lines, target, value) for lines, target, value in code if not target.startswith("aside->lambda[")]
         name = row.name.replace(".", "_")
         alone = run(own, lit, state)
-        assert {f"phi_{name}", f"phi_dot_{name}", f"rhs_{name}"} <= set(alone)
+        assert {f"phi_{name}_", f"phi_dot_{name}_", f"rhs_{name}_"} <= set(alone)
         numbers = {s: state["p"][found.model.slots.field(s)] for s in found.model.slots.members()}
         at = {**dict(zip(found.model.q, state["q"], strict=True)), **numbers, found.model.t: state["t"]}
         explicit = found.model.symbols.definitions
         value = row.phi
         while free := {s: explicit[s] for s in value.free_symbols if s in explicit and s not in numbers}:
             value = value.xreplace(free)
-        assert alone[f"phi_{name}"] == pytest.approx(float(value.subs(at)), rel=1e-12, abs=1e-12)
+        assert alone[f"phi_{name}_"] == pytest.approx(float(value.subs(at)), rel=1e-12, abs=1e-12)
 
 
 @pytest.mark.parametrize("scene", SCENES)

@@ -113,7 +113,7 @@ def test_lines_of_parameters_have_the_numbers_that_were_typed(typed: tuple[Opene
     lines = shown.page.evaluate(LINES, "joint-A")
     stored = [(text.split(" = ")[0], value) for _, text, value in lines if text.startswith("    p->") and " = " in text]
     told = {name.strip(): value for name, value in stored}
-    assert number(told["p->c"]) == number(told["p->pin_clearance"]) == 4e-4
+    assert number(told["p->c_"]) == number(told["p->pin_clearance_"]) == 4e-4
     row = shown.page.locator(".equation[role=button]").first
     row.focus()
     shown.page.keyboard.press("Enter")

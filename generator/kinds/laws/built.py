@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import itertools
 import os
-import re
 import sys
 import uuid
 from collections.abc import Iterable, Iterator, Mapping, Set
@@ -16,16 +15,12 @@ from typing import Any
 from gudgeon.errors import LawError
 from gudgeon.generator.kinds.laws.law import Law, LawInputs, PairSymbols
 from gudgeon.generator.kinds.laws.registered import ORIGINS, place_in, prefix, told
-from gudgeon.language.names import NOT_IN_CODE
 
 PAIR = tuple(PairSymbols.__annotations__)
 FUNCTIONS = (
     "Abs", "Max", "Min", "sign", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh",
     "tanh",
 )  # fmt: skip
-# What the C functions of a law and of its slopes are given besides its variables and numbers, and tests of corners.
-_ARGUMENTS = frozenset(("e", "de_t", "omega_i", "omega_j", "latch", "p", "side", "g", "corner", "out"))
-_LOCAL = re.compile(r"(side|branch)_\d+|\w+_out")
 _CHOICES = 64  # combinations of a law's options and numbers that are tried
 
 
@@ -144,10 +139,10 @@ def _checked_names(law: Law, steps: Any) -> frozenset[str]:
 
 
 def _need_name(law: Law, name: str) -> None:
-    """Raise LawError for a keyword, which SymPy takes for a name and a compiler does not, or what is C's own there."""
-    if name in NOT_IN_CODE or name in _ARGUMENTS or _LOCAL.fullmatch(name):
-        hint = "call the number, state or abbreviation otherwise; a number's `symbol` may be any letter"
-        raise _error(law, f"the emitted C has {name!r} for something else", hint)
+    """Raise LawError for a name as only the generator makes them (symbols.py)."""
+    if name.endswith("_"):
+        hint = f"write {name.rstrip('_') or 'x'}; a number's `symbol` may be any letter"
+        raise _error(law, f"{name!r} ends in '_', as names of emitted code do", hint)
 
 
 def _value(law: Law, what: str, value: Any) -> Any:

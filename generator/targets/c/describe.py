@@ -72,7 +72,7 @@ def describe(
         start_pivots=start_pivots, indeterminate=model.redundancy.indeterminate,
         rate_jumps=tuple(drive.name for drive in model.scene.mechanism.drives.values() if rate_jumps(drive)),
         slots=tuple(_slots(model)),
-        derived=tuple(symbol.name for symbol in model.slots.derived),
+        derived=tuple(symbol.name.removesuffix("_") for symbol in model.slots.derived),
         conditions=_conditions(model),
         outputs={name: to_json(quantity.value) for name, quantity in mechanism.outputs.items()},
         simulate=_simulate(model),

@@ -18,6 +18,7 @@ from gudgeon.generator.kernels import closed_linkage
 from gudgeon.generator.kernels.driven_chains import DIRECTIONS, RATES, STEP, THIRD
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kernels.reduced import DYNAMICS
+from gudgeon.generator.symbols.symbols import made_name
 from gudgeon.generator.targets.javascript.play import joint_functions, motion
 from gudgeon.generator.targets.javascript.printer import CONTOUR, PRELUDE, arguments, function
 
@@ -96,7 +97,7 @@ def _closing(program: Program) -> list[int]:
 
 def right_hand_sides(dynamics: Kernel, model: Model) -> set[str]:
     """Locals of `dynamics` that the right-hand sides of the rows of its linear system hang on."""
-    names = {f"rhs_{row.name.replace('.', '_')}" for row in model.rows}
+    names = {made_name(f"rhs_{row.name}") for row in model.rows}
     found = slices(readable(dynamics), lambda line: frozenset({"rhs"} if line.target in names else ()))
     return {name for name in found.stored if name.isidentifier()}
 
@@ -105,7 +106,7 @@ def _called(program: Program) -> dict[str, list[str]]:
     """Joints by the functions of clearance.c that act in them, in their order."""
     found: defaultdict[str, list[str]] = defaultdict(list)
     for pin in program.pins:
-        parts = (f"{part}_{pin.clearance.label}" for part in ("clearance", "dry", "film"))
+        parts = (f"{part}_{pin.clearance.label}_" for part in ("clearance", "dry", "film"))
         for name in (*parts, *(call.kernel.name for call in pin.laws.values())):
             found[name].append(pin.clearance.label)
     return found

@@ -33,11 +33,11 @@ def joint_functions(own: Pin, read: set[str]) -> list[str]:
     """
     joint, found = own.clearance.label, []
     if own.clearance.normal is not None:
-        found.append(_function(f"dry_{joint}", _given(own), _dry(own, read)))
+        found.append(_function(f"dry_{joint}_", _given(own), _dry(own, read)))
     if own.clearance.film is not None:
-        found.append(_function(f"film_{joint}", _FILM, _film(own, read)))
+        found.append(_function(f"film_{joint}_", _FILM, _film(own, read)))
     given = (*map(str, motion(own.clearance)), "latch", "p", "of")
-    return [*found, _function(f"clearance_{joint}", given, _clearance(own, read))]
+    return [*found, _function(f"clearance_{joint}_", given, _clearance(own, read))]
 
 
 def motion(clearance: Clearance) -> tuple[sp.Symbol, ...]:
@@ -69,7 +69,7 @@ def _dry(own: Pin, read: set[str]) -> list[str]:
     else:
         body.append("const F_along_t_dry = 0;")
     stored = [ratio, *before.locals, "F_n", *pressing.locals, "F_along_t_dry", *after.locals]
-    return [*body, *after.text, _store(f"dry_{own.clearance.label}", stored), _force(f"-{pressed}", "dry")]
+    return [*body, *after.text, _store(f"dry_{own.clearance.label}_", stored), _force(f"-{pressed}", "dry")]
 
 
 def _film(own: Pin, read: set[str]) -> list[str]:
@@ -77,7 +77,7 @@ def _film(own: Pin, read: set[str]) -> list[str]:
     forces = ("F_r", "F_along_t_film", "T0")
     body = [*before.text, *_call(own.laws["film"], ("epsilon", "w_n", "w_t"), forces, read), *after.text]
     stored = [*before.locals, *forces, *after.locals]
-    return [*body, _store(f"film_{own.clearance.label}", stored), _force("F_r", "film")]
+    return [*body, _store(f"film_{own.clearance.label}_", stored), _force("F_r", "film")]
 
 
 def _clearance(own: Pin, read: set[str]) -> list[str]:
@@ -85,8 +85,8 @@ def _clearance(own: Pin, read: set[str]) -> list[str]:
     joint = own.clearance.label
     gap, share = _Part(own.gap, read), _Part(own.share, read)
     parts = (("dry", _given(own)), ("film", _FILM))
-    dry, film = (f"functions.{part}_{joint}({', '.join(given)})" for part, given in parts)
-    body = [*gap.text, _store(f"clearance_{joint}", gap.locals)]
+    dry, film = (f"functions.{part}_{joint}_({', '.join(given)})" for part, given in parts)
+    body = [*gap.text, _store(f"clearance_{joint}_", gap.locals)]
     if own.clearance.film is None:
         acts = "latch.closed" if own.clearance.rigid else "delta > 0"
         at_wall = "{...F, M_i: F.M_i + along * F.n}" if own.clearance.wall else "F"
@@ -97,7 +97,7 @@ def _clearance(own: Pin, read: set[str]) -> list[str]:
     blended = (f'own["F.{one}"] = F.{one} += (1 - share) * (film.{one} - F.{one});' for one in BLENDED)
     return [
         *body, f"if (!(delta > 0)) {_turned(film)}", *share.text,
-        f"const F = {dry}, own = Object.assign(of.clearance_{joint}, {{{kept}}});", "if (share < 1) {",
+        f"const F = {dry}, own = Object.assign(of.clearance_{joint}_, {{{kept}}});", "if (share < 1) {",
         f"    const film = {film};", *(f"    {line}" for line in blended), "}", _turned("F"),
     ]  # fmt: skip
 

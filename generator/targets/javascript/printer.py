@@ -58,21 +58,13 @@ const contour = (depth, order, angle) => {
     return per * (slope + s * (bend + s * rest * (4.5 + s * (5 * s - 10))));
 };
 """
-_WORDS = frozenset({
-    "abstract", "arguments", "await", "async", "boolean", "byte", "catch", "class", "debugger", "delete", "eval",
-    "export", "extends", "false", "final", "finally", "function", "implements", "import", "in", "instanceof",
-    "interface", "let", "new", "null", "of", "package", "private", "protected", "public", "super", "synchronized",
-    "this", "throw", "throws", "transient", "true", "try", "typeof", "undefined", "var", "with", "yield", "isFinite",
-    "Infinity", "NaN", "Math", "functions",
-})  # fmt: skip
 _SIDES = tuple(Place(argument.name) for argument in SIDES)
 _FILLED = "double *"  # the type of what a function returns by its arguments
 
 
 def name(text: str) -> str:
     """A local or place of C in JavaScript: `p->mass` is `p.mass`."""
-    plain = text.replace("->", ".").lstrip("*")
-    return f"{plain}_" if plain in _WORDS else plain
+    return text.replace("->", ".").lstrip("*")
 
 
 class JavaScriptPrinter(CPrinter):

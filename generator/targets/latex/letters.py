@@ -9,6 +9,8 @@ from itertools import groupby, takewhile
 
 import sympy as sp
 
+from gudgeon.generator.symbols.symbols import plain_name
+
 GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η",
     "theta": "θ", "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π",
@@ -83,8 +85,8 @@ def distinct(wanted: Iterable[tuple[sp.Expr, Name]]) -> dict[sp.Symbol, Name]:
     for symbol, name in wanted:
         if not isinstance(symbol, sp.Symbol) or symbol in names:
             continue
-        taken = name.text in used and "_" not in symbol.name
-        name = primed(letter(symbol.name) if taken else name, used)
+        taken = name.text in used and "_" not in plain_name(symbol)
+        name = primed(letter(plain_name(symbol)) if taken else name, used)
         used.add(name.text)
         names[symbol] = name
     return names

@@ -79,7 +79,7 @@ const gudgeonValues = (() => {
     function contact(joint) {
         const play = computed("play"), {functions, joints} = equations;
         const motion = joints[joint].map((name) => play[name]);
-        return known[`joint ${joint}`] ??= functions[`clearance_${joint}`](...motion, latch(joint), known.p, {});
+        return known[`joint ${joint}`] ??= functions[`clearance_${joint}_`](...motion, latch(joint), known.p, {});
     }
 
     /*

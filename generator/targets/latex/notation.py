@@ -10,7 +10,7 @@ import sympy as sp
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.far_quotients import for_readers
-from gudgeon.generator.symbols.symbols import Symbols
+from gudgeon.generator.symbols.symbols import Symbols, plain_name
 from gudgeon.generator.targets.latex.letters import Name, letter, primed, word
 from gudgeon.generator.targets.latex.printers import TexPrinter, TextPrinter
 from gudgeon.generator.targets.latex.theory import theory
@@ -110,7 +110,7 @@ def _apart(model: Model) -> tuple[dict[sp.Symbol, Name], tuple[GaveWay, ...]]:
 def _what(model: Model, symbol: sp.Symbol) -> str:
     """By its address in the file, or what it is."""
     info = model.symbols.info.get(symbol)
-    return (info.meaning if info else "") or symbol.name
+    return (info.meaning if info else "") or plain_name(symbol)
 
 
 def _names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
@@ -131,11 +131,11 @@ def _names(model: Model) -> Iterator[tuple[sp.Symbol, Name]]:
     for symbol in temporaries(model):
         yield symbol, _temporary(model.symbols.info[symbol].meaning)
     for symbol in spans(model):
-        yield symbol, _span(symbol.name)
+        yield symbol, _span(plain_name(symbol))
     for symbol in turned(model):
         of = model.geometry.turned.get(symbol)
         if of is None:
-            yield symbol, letter(symbol.name)
+            yield symbol, letter(plain_name(symbol))
         elif of.point:
             yield symbol, letter("s", of.axis, of.body, of.point)
         else:  # numbered from a body's second one on
@@ -194,7 +194,7 @@ def _constant(model: Model, symbol: sp.Symbol) -> Name:
     """A number that is computed once a run, by the joint or element for which it is."""
     of = model.slots.of_owner.get(symbol)
     if of is None:
-        return letter(symbol.name)
+        return letter(plain_name(symbol))
     return letter(_letter_of(of.what), *([of.axis] if of.axis else []), of.owner, hat=bool(of.axis))
 
 

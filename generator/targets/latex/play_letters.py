@@ -158,6 +158,7 @@ def result(equations: LawEquations, name: str) -> sp.Symbol:
 
 def step_name(law: Law, name: str) -> Name:
     """What an abbreviation or a result of a law is called; the rate of a state has its dot."""
+    name = name.removesuffix("__")  # of a user-defined law
     rates = {f"{state.name}_rate": letter(state.name, dots=1) for state in law.states}
     return (LAW_LETTERS | rates).get(name) or word(name)
 

@@ -15,6 +15,7 @@ from sympy.printing.str import StrPrinter
 
 from gudgeon.generator.symbols.contours import ContourOf
 from gudgeon.generator.symbols.curves import CurveOf
+from gudgeon.generator.symbols.symbols import plain_name
 from gudgeon.generator.targets.latex.letters import Name
 
 LONG = 70  # characters of text beyond which a term is written so that a line may break inside it
@@ -56,7 +57,7 @@ class TextPrinter(_InOrder, StrPrinter):
         ]
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
-        return self._names.get(expr, expr.name)
+        return self._names.get(expr, plain_name(expr))
 
     def _print_Float(self, expr: sp.Float) -> str:
         angle = as_angle(float(expr))

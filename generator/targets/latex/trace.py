@@ -23,6 +23,7 @@ from gudgeon.generator.kernels import closed_linkage
 from gudgeon.generator.kernels.driven_chains import STEP
 from gudgeon.generator.kernels.program import Program, make_program
 from gudgeon.generator.mechanism.quantities import quantities
+from gudgeon.generator.symbols.symbols import made_name
 from gudgeon.generator.targets.c import functions
 from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.emit import described, emit, file_names, render
@@ -204,7 +205,7 @@ class _Finder:
         rows = self.model.rows if function == "dynamics" else self.program.integrated.system.rows
         if place.index >= 0 and place.base in ("phi", "phi_dot", "out"):
             return self._row(rows[place.index].name)
-        name = next((row.name for row in rows if target == f"rhs_{row.name.replace('.', '_')}"), "")
+        name = next((row.name for row in rows if target == made_name(f"rhs_{row.name}")), "")
         return self._row(name)
 
     def _row(self, name: str) -> Marks:

@@ -46,7 +46,7 @@ def pin(own: Pin) -> str:
              f"out.ex, out.ey, out.e, out.deltadot, out.delta = {place}, e, deltadot, delta",
              f"out.moment_first, out.moment_second, out.power = {first}, F[3], 0.0"]  # fmt: skip
     turned = ", n_x, n_y" if clearance.wall else ", theta_i" if clearance.contour else ""
-    head = f"def clearance_{joint}(e_x, e_y, de_x, de_y, omega_i, omega_j{turned}, latch, p, out):"
+    head = f"def clearance_{joint}_(e_x, e_y, de_x, de_y, omega_i, omega_j{turned}, latch, p, out):"
     return "\n".join([*code(head), *indented(body)])
 
 
