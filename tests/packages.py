@@ -4,7 +4,8 @@
 
 Packages come out of a bare environment: a home of its own, a path with nothing but what was installed. From the wheel
 of this machine the press runs without a compiler, by what it carries; from the sdist, which is made into a wheel on
-the way, a linkage of its own goes through derivation and the compiler.
+the way, a linkage of its own goes through derivation and the compiler. Under the first Python every command is called
+once with the lowest versions that pyproject.toml allows (tests/minimum.py).
 """
 
 from __future__ import annotations
@@ -132,6 +133,10 @@ def main() -> int:
             place.install("--no-deps", "--force-reinstall", str(source))
             place.runs_with_one(compiler)
             print(f"{python}: {said}: the wheel without a compiler, the sdist with one", flush=True)
+        from tests.minimum import try_every_command
+
+        versions = try_every_command(asked[0], folder / "minimum", source, compiler)
+        print(f"{asked[0]}: every command with {versions}", flush=True)
     return 0
 
 

@@ -17,6 +17,9 @@ import pytest
 from ruamel.yaml import YAML
 
 import gudgeon
+from gudgeon.cli import app
+from gudgeon.commands.group import name_of
+from tests.minimum import CALLS
 from tests.packages import PYTHONS
 
 ROOT = Path(__file__).parents[1]
@@ -154,3 +157,14 @@ def test_who_cites_is_told_the_version_and_the_licence_that_there_are() -> None:
     assert cited["keywords"] == meta["keywords"] == project["keywords"]
     newest = re.search(r"^## (\S+?),? ", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.M)
     assert newest and newest[1] == gudgeon.__version__
+
+
+def test_every_dependency_has_a_lowest_version_that_is_tried() -> None:
+    """`make packages` installs it (tests/minimum.py) and calls each command that there is."""
+    lines = [sys.executable, str(ROOT / "tools/minimums.py"), *PROJECT["project"]["optional-dependencies"]]
+    lowest = dict(line.split("==") for line in subprocess.check_output(lines, text=True).splitlines())
+    pinned = pins()
+    for name, minimum in lowest.items():
+        numbers = [[int(part) for part in text.split(".")] for text in (minimum, pinned[normal(name)])]
+        assert numbers[0] <= numbers[1], f"{name} is pinned below its lowest version"
+    assert set(CALLS) == {name_of(one) for one in app.registered_commands if not one.hidden}

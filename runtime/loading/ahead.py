@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import shutil
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,6 +11,7 @@ from weakref import finalize
 
 from gudgeon.contract.kernel_source import ENGINE_PART, HEADER, MAIN, KernelSource
 from gudgeon.errors import GudgeonError
+from gudgeon.files.temporary import TemporaryFolder
 from gudgeon.loading import compiler
 from gudgeon.loading.cache import Cache, default_cache
 from gudgeon.loading.compiling import unit_line
@@ -99,8 +99,9 @@ class Ahead:
         """The folder of an object: a scene's parts read the same texts, the engine its own."""
         if self._folder is None:
             with CtrlC() as ctrl_c:  # none is made that nobody knows of
-                self._folder = Path(tempfile.mkdtemp(prefix="gudgeon-"))
-                self._clear = finalize(self, shutil.rmtree, self._folder, ignore_errors=True)  # at the latest
+                temporary = TemporaryFolder()
+                self._folder = temporary.path
+                self._clear = finalize(self, temporary.remove)  # at the latest
             ctrl_c.take()
         return self._folder / name.partition("_")[0]
 

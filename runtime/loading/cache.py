@@ -256,18 +256,18 @@ def _user_folder() -> str:
 def private_cache() -> Cache:
     """A folder of this process alone, removed when it ends."""
     import atexit
-    import shutil
-    import tempfile
+
+    from gudgeon.files.temporary import TemporaryFolder
 
     try:
-        root = tempfile.mkdtemp(prefix="gudgeon-")
+        folder = TemporaryFolder()
     except OSError as error:
         raise CacheError(f"neither the cache folder nor a temporary one can be written: {error}") from error
     owner = os.getpid()
 
     def remove() -> None:
         if os.getpid() == owner:  # not in a forked worker that ends before its parent
-            shutil.rmtree(root, ignore_errors=True)
+            folder.remove()
 
     atexit.register(remove)
-    return Cache(root, private=True)
+    return Cache(folder.path, private=True)
