@@ -5,6 +5,12 @@
 #define SeriesWide Lanes
 #define SeriesPart Lanes
 #include "../both/series.h"
+
+/* A step whose error is known only at its end is taken back where that is too large. */
+static void refuse_late(const LaneRun *run, LaneStep *step) { step->taken &= ~(step->error > run->accept); }
+
+static void forget_end(const LaneRun *run) { (void)run; }
+
 #include "../both/taylor.h"
 
 /* As taylor_try: links in one line are left to the single runs. */

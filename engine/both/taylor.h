@@ -4,7 +4,13 @@
  */
 enum { SERIES_PART = sizeof(SeriesPart) / sizeof(Real) };
 
-/* The longest step whose last two terms are no larger than the tolerance. */
+#define TAYLOR_DECAY 2.0 /* log2 of the factor by which a term may exceed the tolerance for each order more */
+enum { TAYLOR_DEFECT = 5 /* log2 of the defect, in tolerances, that the end of a step may have; less at low orders */ };
+
+/*
+ * The longest step whose last two terms are no larger than the tolerance. Symmetry may make them small, or zero: the
+ * defect at the end of the step shows that.
+ */
 static Real taylor_reach(const RunOf *run)
 {
     const int n = run->order;
@@ -17,36 +23,95 @@ static Real taylor_reach(const RunOf *run)
     return real_exp2(-real_max(real_log2(most) / n, real_log2(most_before) / (n - 1)));
 }
 
-/* The state so long after that of the run: even powers and odd ones. */
-static void taylor_at(const RunOf *run, Real h, Real *y)
+/* The same by all terms: each may exceed the tolerance by a fixed factor for each order more. */
+static Real taylor_reach_of_all(const RunOf *run)
+{
+    Real steepest = real_of(-INFINITY);
+    for (int k = 1; k <= run->order; k++) {
+        Real most = real_of(0.0);
+        for (int i = 0; i < N_Y; i++)
+            most = real_max(most, real_abs(run->series[k][i]) * run->weight[i]);
+        steepest = real_max(steepest, (real_log2(most) - TAYLOR_DECAY * (run->order - k)) / k);
+    }
+    return real_exp2(-steepest);
+}
+
+/* The state so long after that of the run, and its rate of change: even powers and odd ones, each with its slope. */
+static inline void taylor_both(const RunOf *run, Real h, Real *y, Real *rate)
 {
     const int top = run->order - run->order % 2;
     const Real square = h * h;
-    Real all[TAYLOR_Y];
+    Real all[TAYLOR_Y], slope[TAYLOR_Y];
     for (int i = 0; i < N_Y; i += SERIES_PART) {
-        SeriesPart even = *(const SeriesPart *)(run->series[top] + i), odd = {0.0};
+        SeriesPart even = *(const SeriesPart *)(run->series[top] + i), odd = {0.0}, even_slope = {0.0}, odd_slope = {0.0};
         if (top < run->order)
             odd = *(const SeriesPart *)(run->series[top + 1] + i);
         for (int k = top - 2; k >= 0; k -= 2) {
+            even_slope = even + square * even_slope;
+            odd_slope = odd + square * odd_slope;
             even = *(const SeriesPart *)(run->series[k] + i) + square * even;
             odd = *(const SeriesPart *)(run->series[k + 1] + i) + square * odd;
         }
         *(SeriesPart *)(all + i) = even + h * odd;
+        *(SeriesPart *)(slope + i) = odd + 2.0 * (h * even_slope + square * odd_slope);
     }
-    for (int i = 0; i < N_Y; i++)
+    for (int i = 0; i < N_Y; i++) {
         y[i] = all[i];
+        rate[i] = slope[i];
+    }
 }
 
-/* A step of length h, or of the longest that the series is good for: with a fixed one nobody asks. */
+/* The state alone. */
+static void taylor_at(const RunOf *run, Real h, Real *y)
+{
+    Real rate[N_Y];
+    taylor_both(run, h, y, rate);
+}
+
+/*
+ * The defect h |y' - f| of a step at its end, in the error norm of velocities: as a share of what it may be.
+ */
+static Real taylor_defect(const RunOf *run, const StepOf *step, const Real *rate)
+{
+    const int few = run->order - 4;
+    Real most = real_of(0.0);
+    for (int i = N_X; i < 2 * N_X; i++)
+        most = real_max(most, real_abs(step->h * (rate[i] - step->dy[i])) * run->weight[i]);
+    return most * (1.0 / (1 << (few < TAYLOR_DEFECT ? few : TAYLOR_DEFECT)));
+}
+
+/*
+ * A step of length h, or of the longest that the series is good for: with a fixed one nobody asks. Where its defect is
+ * too large, it is made once more with a length from all terms.
+ */
 static int taylor_step(RunOf *run, Real h, const ParametersOf *p, StepOf *step)
 {
     const int free = !(run->fixed > 0.0);
+    Real rate[N_Y], defect;
+    int status;
     if (free)
         h = real_min(h, run->reach);
-    step->t = run->t, step->h = h, step->dense_ready = 0;
+    step->t = run->t, step->dense_ready = 0;
     forget_stages(step);
-    taylor_at(run, h, step->y);
-    step->error = free ? h / run->reach : real_of(0.0); /* its root: accepted where it is one at most */
     run->stability = real_of(0.0);
-    return is_refused(run, step) ? 0 : finish_step(run, step, p);
+    for (int again = 0;; again = 1) {
+        step->h = h;
+        taylor_both(run, h, step->y, rate);
+        step->error = free ? h / run->reach : real_of(0.0); /* its root: accepted where it is one at most */
+        if (!again && is_refused(run, step))
+            return 0;
+        status = finish_step(run, step, p);
+        if (!free)
+            return status;
+        defect = status ? real_of(INFINITY) : taylor_defect(run, step, rate);
+        const Truth large = defect > 1.0;
+        if (again || !any_of(large))
+            break;
+        run->reach = pick(large, real_min(run->reach, taylor_reach_of_all(run)), run->reach);
+        h = real_min(h, run->reach);
+        forget_end(run);
+    }
+    step->error = real_max(step->error, defect);
+    refuse_late(run, step);
+    return status;
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -29,6 +30,7 @@ from tests.programs import needs_compiler
 from tests.simulation.test_many import assert_same
 
 HERE = Path(__file__).parent.parent
+Links = Callable[[int], Simulation]
 T, X, Y, W = (sp.Symbol(name, real=True) for name in ("time", "x", "y", "w"))
 MOTION = ((0.3, 0.5, -0.2, 0.1), (0.7, -0.4, 0.3, 0.05))  # x and y as polynomials of time
 
@@ -243,3 +245,64 @@ def test_motion_that_is_not_smooth_is_refused(name: str, scene: str, why: str) -
 def test_a_fixed_step_is_taken() -> None:
     run = swing().simulate(1.0, output=1, method="taylor", step=0.05)
     assert run.diagnostics.steps == 20 and math.isnan(run.diagnostics.last_step)
+
+
+@pytest.fixture(scope="module")
+def links(tmp_path_factory: pytest.TempPathFactory) -> Links:
+    """Chains of uniform links under gravity, at rest at angles a0, a1, ..."""
+
+    @cache
+    def chain(count: int) -> Simulation:
+        names = ["ground.O", *(f"L{k}.head" for k in range(count))]
+        bodies = "".join(f"  L{k}: {{length: 1 m, mass: 1 kg, inertia: 0.1 kg*m^2}}\n" for k in range(count))
+        joints = "".join(f"  J{k}: {{revolute: [{names[k]}, L{k}.tail]}}\n" for k in range(count))
+        angles = ", ".join(f"L{k}.theta: a{k}" for k in range(count))
+        rates = ", ".join(f"L{k}.omega: 0" for k in range(count))
+        file = tmp_path_factory.mktemp("chain") / "links.yaml"
+        file.write_text(
+            "format: gudgeon/1\nname: links\ngravity: [0, -9.81]\nground: {O: [0, 0]}\n"
+            f"parameters: {{{', '.join(f'a{k}: 0 rad' for k in range(count))}}}\nbodies:\n{bodies}joints:\n{joints}"
+            f"start: {{set: {{{angles}}}, rates: {{{rates}}}}}\n",
+            encoding="utf-8",
+        )
+        return gudgeon.load(file)
+
+    return chain
+
+
+@needs_compiler
+@pytest.mark.parametrize("rtol", [1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-9, 1e-12, 1e-14])
+@pytest.mark.parametrize("angle", [0.0, 1e-6, math.pi])
+def test_a_symmetric_start(links: Links, rtol: float, angle: float) -> None:
+    """At rest and horizontal only every fourth coefficient of the series is not zero. The energy bounds the speed."""
+    options: dict[str, Any] = {"output": 40, "parameters": {"a0": angle}}
+    run = links(1).simulate(10.0, method="taylor", rtol=rtol, **options)
+    exact = links(1).simulate(10.0, method="dop853", rtol=1e-13, **options)
+    assert abs(run["L0.theta"] - exact["L0.theta"]).max() < 100.0 * rtol + 1e-11
+    assert abs(run["L0.omega"]).max() < math.sqrt(9.81 / 0.35) * (1.0 + 100.0 * rtol)
+
+
+@needs_compiler
+def test_random_symmetric_starts(links: Links) -> None:
+    """Links at rest at multiples of a right angle, and a little beside them: energy is conserved."""
+    random = np.random.default_rng(15)
+    for rtol in (1e-3, 1e-4, 1e-5, 1e-7, 1e-9, 1e-10, 1e-13):
+        for _ in range(4):
+            angles = random.integers(-2, 3, 3) * 0.5 * math.pi + random.choice([0.0, 1e-12, 1e-6], 3)
+            parameters = {f"a{k}": float(angle) for k, angle in enumerate(angles)}
+            run = links(3).simulate(2.0, output=1, method="taylor", rtol=rtol, parameters=parameters)
+            assert run.diagnostics.energy_residual < 1e3 * rtol + 1e-12
+
+
+@needs_compiler
+def test_an_equilibrium_stays(links: Links) -> None:
+    """A link that hangs at rest: no term of its series counts, and the run stays within the tolerance."""
+    run = links(1).simulate(100.0, output=4, method="taylor", parameters={"a0": -0.5 * math.pi})
+    assert abs(run["L0.theta"] + 0.5 * math.pi).max() < 1e-8
+
+
+@needs_compiler
+def test_symmetric_starts_in_lanes(links: Links, at_once: Seen) -> None:
+    """A step that its defect refuses is made once more there as well, with the same bits."""
+    for rtol in (1e-2, 1e-4, 1e-9):
+        assert_same_in_lanes(links(1), {"bodies.L0.mass": np.linspace(0.8, 1.2, COUNT)}, 1.5, at_once, rtol=rtol)
