@@ -50,6 +50,7 @@
 #define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
 #define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
 #define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
+#define LIGHT_PIVOT 1e-06                     /* of what turns with an angle, where its inertia is too small for it */
 #define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
 typedef struct Parameters Parameters; /* every number of a run */
@@ -63,6 +64,7 @@ static const int guess_place[] = {5, 8, 11, 14, 17, 20};
 static const int set_place[] = {2};
 static const int rate_place[] = {0};
 static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+static const int drive_row[] = {0};
 static const int kept_row[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19};
 static const int phi_q_first[] = {0, 2, 4, 6, 8, 10, 12, 14, 16, 20, 24, 28, 32, 36, 40, 44, 48, 52, 56, 60, 64};
 static const short phi_q_place[] = {0, 2, 1, 2, 6, 8, 7, 8, 12, 14, 13, 14, 18, 20, 19, 20, 0, 2, 3, 5, 1, 2, 4, 5, 3,
@@ -78,121 +80,117 @@ static const int friction_of_pivot[] = {0};
 
 /* In SI: first the slots that a user may set, then what prepare() derives. */
 struct Parameters {
-    double OF_mass;  /* bodies.OF.mass, kg */
-    double OF_inertia;  /* bodies.OF.inertia, kg*m^2 */
-    double FE_mass;  /* bodies.FE.mass, kg */
-    double FE_inertia;  /* bodies.FE.inertia, kg*m^2 */
-    double BDE_mass;  /* bodies.BDE.mass, kg */
-    double BDE_inertia;  /* bodies.BDE.inertia, kg*m^2 */
-    double EG_mass;  /* bodies.EG.mass, kg */
-    double EG_inertia;  /* bodies.EG.inertia, kg*m^2 */
-    double AG_mass;  /* bodies.AG.mass, kg */
-    double AG_inertia;  /* bodies.AG.inertia, kg*m^2 */
-    double HE_mass;  /* bodies.HE.mass, kg */
-    double HE_inertia;  /* bodies.HE.inertia, kg*m^2 */
-    double AH_mass;  /* bodies.AH.mass, kg */
-    double AH_inertia;  /* bodies.AH.inertia, kg*m^2 */
-    double OF_points_O_x;  /* bodies.OF.points.O.x, m */
-    double OF_points_F_x;  /* bodies.OF.points.F.x, m */
-    double FE_points_E_x;  /* bodies.FE.points.E.x, m */
-    double FE_points_F_x;  /* bodies.FE.points.F.x, m */
-    double BDE_points_B_x;  /* bodies.BDE.points.B.x, m */
-    double BDE_points_B_y;  /* bodies.BDE.points.B.y, m */
-    double BDE_points_E_x;  /* bodies.BDE.points.E.x, m */
-    double BDE_points_E_y;  /* bodies.BDE.points.E.y, m */
-    double BDE_points_D_x;  /* bodies.BDE.points.D.x, m */
-    double BDE_points_D_y;  /* bodies.BDE.points.D.y, m */
-    double EG_points_G_y;  /* bodies.EG.points.G.y, m */
-    double EG_points_E_y;  /* bodies.EG.points.E.y, m */
-    double AG_points_A_x;  /* bodies.AG.points.A.x, m */
-    double AG_points_A_y;  /* bodies.AG.points.A.y, m */
-    double AG_points_G_x;  /* bodies.AG.points.G.x, m */
-    double AG_points_G_y;  /* bodies.AG.points.G.y, m */
-    double HE_points_H_x;  /* bodies.HE.points.H.x, m */
-    double HE_points_E_x;  /* bodies.HE.points.E.x, m */
-    double AH_points_A_x;  /* bodies.AH.points.A.x, m */
-    double AH_points_A_y;  /* bodies.AH.points.A.y, m */
-    double AH_points_H_x;  /* bodies.AH.points.H.x, m */
-    double AH_points_H_y;  /* bodies.AH.points.H.y, m */
-    double alpha;  /* baumgarte.alpha, 1/s */
-    double beta;  /* baumgarte.beta, 1/s */
-    double B_x;  /* ground.B.x, m */
-    double B_y;  /* ground.B.y, m */
-    double A_x;  /* ground.A.x, m */
-    double A_y;  /* ground.A.y, m */
-    double C_x;  /* ground.C.x, m */
-    double C_y;  /* ground.C.y, m */
-    double spring_stiffness;  /* forces.spring.stiffness, N/m */
-    double spring_free_length;  /* forces.spring.free_length, m */
-    double motor_value;  /* forces.motor.value, N*m */
-    double guess_FE_theta;  /* start.guess.FE.theta, rad */
-    double guess_BDE_theta;  /* start.guess.BDE.theta, rad */
-    double guess_EG_theta;  /* start.guess.EG.theta, rad */
-    double guess_AG_theta;  /* start.guess.AG.theta, rad */
-    double guess_HE_theta;  /* start.guess.HE.theta, rad */
-    double guess_AH_theta;  /* start.guess.AH.theta, rad */
-    double set_OF_theta;  /* start.set.OF.theta, rad */
-    double two_alpha;  /* 2 alpha, 1/s */
-    double beta_squared;  /* beta^2, 1/s^2 */
-    double inverse_OF_mass;  /* 1/M, 1/kg */
-    double inverse_BDE_mass;  /* 1/M, 1/kg */
-    double inverse_EG_mass;  /* 1/M, 1/kg */
-    double inverse_AG_mass;  /* 1/M, 1/kg */
-    double inverse_HE_mass;  /* 1/M, 1/kg */
-    double inverse_AH_mass;  /* 1/M, 1/kg */
-    double inverse_OF_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_FE_mass;  /* 1/M, 1/kg */
-    double inverse_BDE_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_EG_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_AG_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_HE_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_AH_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_FE_inertia;  /* 1/M, 1/(kg*m^2) */
-    double OF_com_span_x;  /* vector in its frame, m */
-    double BDE_com_span_x;  /* vector in its frame, m */
-    double BDE_com_span_y;  /* vector in its frame, m */
-    double AG_com_span_x;  /* vector in its frame, m */
-    double AG_com_span_y;  /* vector in its frame, m */
-    double AH_com_span_x;  /* vector in its frame, m */
-    double AH_com_span_y;  /* vector in its frame, m */
-    double OF_F_span_x;  /* vector in its frame, m */
-    double FE_com_span_x;  /* vector in its frame, m */
-    double BDE_E_span_x;  /* vector in its frame, m */
-    double BDE_E_span_y;  /* vector in its frame, m */
-    double HE_com_span_x;  /* vector in its frame, m */
-    double FE_E_span_x;  /* vector in its frame, m */
-    double EG_com_span_y;  /* vector in its frame, m */
-    double EG_G_span_y;  /* vector in its frame, m */
-    double AG_G_span_x;  /* vector in its frame, m */
-    double AG_G_span_y;  /* vector in its frame, m */
-    double HE_H_span_x;  /* vector in its frame, m */
-    double AH_H_span_x;  /* vector in its frame, m */
-    double AH_H_span_y;  /* vector in its frame, m */
-    double BDE_D_span_x;  /* vector in its frame, m */
-    double BDE_D_span_y;  /* vector in its frame, m */
-    double inertia_OF_OF;  /* sum of m w.w, kg*m^2 */
-    double inertia_OF_FE;  /* sum of m w.w, kg*m^2 */
-    double inertia_FE_FE;  /* sum of m w.w, kg*m^2 */
-    double inertia_BDE_BDE;  /* sum of m w.w, kg*m^2 */
-    double twist_OF_EG;  /* sum of m wxw, kg*m^2 */
-    double twist_FE_EG;  /* sum of m wxw, kg*m^2 */
-    double inertia_EG_EG;  /* sum of m w.w, kg*m^2 */
-    double inertia_AG_AG;  /* sum of m w.w, kg*m^2 */
-    double inertia_BDE_HE;  /* sum of m w.w, kg*m^2 */
-    double twist_BDE_HE;  /* sum of m wxw, kg*m^2 */
-    double inertia_HE_HE;  /* sum of m w.w, kg*m^2 */
-    double inertia_AH_AH;  /* sum of m w.w, kg*m^2 */
-    double mass_OF_OF;  /* constant of M, kg*m^2 */
-    double mass_FE_FE;  /* constant of M, kg*m^2 */
-    double mass_BDE_BDE;  /* constant of M, kg*m^2 */
-    double mass_EG_EG;  /* constant of M, kg*m^2 */
-    double mass_AG_AG;  /* constant of M, kg*m^2 */
-    double mass_HE_HE;  /* constant of M, kg*m^2 */
-    double mass_AH_AH;  /* constant of M, kg*m^2 */
-    double inverse_mass_AG_AG;  /* 1/M, 1/(kg*m^2) */
-    double inverse_mass_AH_AH;  /* 1/M, 1/(kg*m^2) */
-    double inverse_mass_HE_HE;  /* 1/M, 1/(kg*m^2) */
-    double inverse_mass_EG_EG;  /* 1/M, 1/(kg*m^2) */
+    double OF_mass_;  /* bodies.OF.mass, kg */
+    double OF_inertia_;  /* bodies.OF.inertia, kg*m^2 */
+    double FE_mass_;  /* bodies.FE.mass, kg */
+    double FE_inertia_;  /* bodies.FE.inertia, kg*m^2 */
+    double BDE_mass_;  /* bodies.BDE.mass, kg */
+    double BDE_inertia_;  /* bodies.BDE.inertia, kg*m^2 */
+    double EG_mass_;  /* bodies.EG.mass, kg */
+    double EG_inertia_;  /* bodies.EG.inertia, kg*m^2 */
+    double AG_mass_;  /* bodies.AG.mass, kg */
+    double AG_inertia_;  /* bodies.AG.inertia, kg*m^2 */
+    double HE_mass_;  /* bodies.HE.mass, kg */
+    double HE_inertia_;  /* bodies.HE.inertia, kg*m^2 */
+    double AH_mass_;  /* bodies.AH.mass, kg */
+    double AH_inertia_;  /* bodies.AH.inertia, kg*m^2 */
+    double OF_points_O_x_;  /* bodies.OF.points.O.x, m */
+    double OF_points_F_x_;  /* bodies.OF.points.F.x, m */
+    double FE_points_E_x_;  /* bodies.FE.points.E.x, m */
+    double FE_points_F_x_;  /* bodies.FE.points.F.x, m */
+    double BDE_points_B_x_;  /* bodies.BDE.points.B.x, m */
+    double BDE_points_B_y_;  /* bodies.BDE.points.B.y, m */
+    double BDE_points_E_x_;  /* bodies.BDE.points.E.x, m */
+    double BDE_points_E_y_;  /* bodies.BDE.points.E.y, m */
+    double BDE_points_D_x_;  /* bodies.BDE.points.D.x, m */
+    double BDE_points_D_y_;  /* bodies.BDE.points.D.y, m */
+    double EG_points_G_y_;  /* bodies.EG.points.G.y, m */
+    double EG_points_E_y_;  /* bodies.EG.points.E.y, m */
+    double AG_points_A_x_;  /* bodies.AG.points.A.x, m */
+    double AG_points_A_y_;  /* bodies.AG.points.A.y, m */
+    double AG_points_G_x_;  /* bodies.AG.points.G.x, m */
+    double AG_points_G_y_;  /* bodies.AG.points.G.y, m */
+    double HE_points_H_x_;  /* bodies.HE.points.H.x, m */
+    double HE_points_E_x_;  /* bodies.HE.points.E.x, m */
+    double AH_points_A_x_;  /* bodies.AH.points.A.x, m */
+    double AH_points_A_y_;  /* bodies.AH.points.A.y, m */
+    double AH_points_H_x_;  /* bodies.AH.points.H.x, m */
+    double AH_points_H_y_;  /* bodies.AH.points.H.y, m */
+    double alpha_;  /* baumgarte.alpha, 1/s */
+    double beta_;  /* baumgarte.beta, 1/s */
+    double B_x_;  /* ground.B.x, m */
+    double B_y_;  /* ground.B.y, m */
+    double A_x_;  /* ground.A.x, m */
+    double A_y_;  /* ground.A.y, m */
+    double C_x_;  /* ground.C.x, m */
+    double C_y_;  /* ground.C.y, m */
+    double spring_stiffness_;  /* forces.spring.stiffness, N/m */
+    double spring_free_length_;  /* forces.spring.free_length, m */
+    double motor_value_;  /* forces.motor.value, N*m */
+    double guess_FE_theta_;  /* start.guess.FE.theta, rad */
+    double guess_BDE_theta_;  /* start.guess.BDE.theta, rad */
+    double guess_EG_theta_;  /* start.guess.EG.theta, rad */
+    double guess_AG_theta_;  /* start.guess.AG.theta, rad */
+    double guess_HE_theta_;  /* start.guess.HE.theta, rad */
+    double guess_AH_theta_;  /* start.guess.AH.theta, rad */
+    double set_OF_theta_;  /* start.set.OF.theta, rad */
+    double BDE_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double EG_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double AG_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double HE_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double AH_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double OF_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double FE_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double two_alpha_;  /* 2 alpha, 1/s */
+    double beta_squared_;  /* beta^2, 1/s^2 */
+    double mobility_E3_x_;  /* 1/m of the bodies of a row, 1/kg */
+    double mobility_E4_x_;  /* 1/m of the bodies of a row, 1/kg */
+    double mobility_E6_x_;  /* 1/m of the bodies of a row, 1/kg */
+    double OF_com_span_x_;  /* vector in its frame, m */
+    double BDE_com_span_x_;  /* vector in its frame, m */
+    double BDE_com_span_y_;  /* vector in its frame, m */
+    double AG_com_span_x_;  /* vector in its frame, m */
+    double AG_com_span_y_;  /* vector in its frame, m */
+    double AH_com_span_x_;  /* vector in its frame, m */
+    double AH_com_span_y_;  /* vector in its frame, m */
+    double OF_F_span_x_;  /* vector in its frame, m */
+    double FE_com_span_x_;  /* vector in its frame, m */
+    double BDE_E_span_x_;  /* vector in its frame, m */
+    double BDE_E_span_y_;  /* vector in its frame, m */
+    double HE_com_span_x_;  /* vector in its frame, m */
+    double FE_E_span_x_;  /* vector in its frame, m */
+    double EG_com_span_y_;  /* vector in its frame, m */
+    double EG_G_span_y_;  /* vector in its frame, m */
+    double AG_G_span_x_;  /* vector in its frame, m */
+    double AG_G_span_y_;  /* vector in its frame, m */
+    double HE_H_span_x_;  /* vector in its frame, m */
+    double AH_H_span_x_;  /* vector in its frame, m */
+    double AH_H_span_y_;  /* vector in its frame, m */
+    double BDE_D_span_x_;  /* vector in its frame, m */
+    double BDE_D_span_y_;  /* vector in its frame, m */
+    double inertia_OF_OF_;  /* sum of m w.w, kg*m^2 */
+    double inertia_OF_FE_;  /* sum of m w.w, kg*m^2 */
+    double inertia_FE_FE_;  /* sum of m w.w, kg*m^2 */
+    double inertia_BDE_BDE_;  /* sum of m w.w, kg*m^2 */
+    double twist_OF_EG_;  /* sum of m wxw, kg*m^2 */
+    double twist_FE_EG_;  /* sum of m wxw, kg*m^2 */
+    double inertia_EG_EG_;  /* sum of m w.w, kg*m^2 */
+    double inertia_AG_AG_;  /* sum of m w.w, kg*m^2 */
+    double inertia_BDE_HE_;  /* sum of m w.w, kg*m^2 */
+    double twist_BDE_HE_;  /* sum of m wxw, kg*m^2 */
+    double inertia_HE_HE_;  /* sum of m w.w, kg*m^2 */
+    double inertia_AH_AH_;  /* sum of m w.w, kg*m^2 */
+    double mass_OF_OF_;  /* constant of M, kg*m^2 */
+    double mass_FE_FE_;  /* constant of M, kg*m^2 */
+    double mass_BDE_BDE_;  /* constant of M, kg*m^2 */
+    double mass_EG_EG_;  /* constant of M, kg*m^2 */
+    double mass_AG_AG_;  /* constant of M, kg*m^2 */
+    double mass_HE_HE_;  /* constant of M, kg*m^2 */
+    double mass_AH_AH_;  /* constant of M, kg*m^2 */
+    double inverse_mass_AG_AG_;  /* 1/M, 1/(kg*m^2) */
+    double inverse_mass_AH_AH_;  /* 1/M, 1/(kg*m^2) */
+    double inverse_mass_HE_HE_;  /* 1/M, 1/(kg*m^2) */
+    double inverse_mass_EG_EG_;  /* 1/M, 1/(kg*m^2) */
 };
 
 /* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */

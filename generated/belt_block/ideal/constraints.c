@@ -4,9 +4,9 @@
 void mass_matrix(const Parameters *p, double *m)
 {
     /* M */
-    m[0] = p->block_mass;
-    m[1] = p->block_mass;
-    m[2] = p->block_inertia;
+    m[0] = p->block_mass_;
+    m[1] = p->block_mass_;
+    m[2] = p->block_inertia_;
 }
 
 /*
@@ -16,12 +16,12 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
 {
     (void)t, (void)p;
     /* coordinates, velocities, time */
-    const double block_y = q[1];
-    const double block_theta = q[2];
+    const double block_y_ = q[1];
+    const double block_theta_ = q[2];
 
     /* rows */
-    phi[0] = block_y;  /* guide.offset, m */
-    phi[1] = block_theta;  /* guide.angle, rad */
+    phi[0] = block_y_;  /* guide.offset, m */
+    phi[1] = block_theta_;  /* guide.angle, rad */
 }
 
 /*
@@ -31,8 +31,8 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
 {
     (void)t, (void)q, (void)p;
     /* non-zeros */
-    phi_q[1] = 1.0;  /* d guide.offset / d block_y */
-    phi_q[5] = 1.0;  /* d guide.angle / d block_theta */
+    phi_q[1] = 1.0;  /* d guide.offset / d block_y_ */
+    phi_q[5] = 1.0;  /* d guide.angle / d block_theta_ */
 }
 
 /*
@@ -64,7 +64,7 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
 {
     (void)guess, (void)rates;
     /* start */
-    set[0] = p->set_block_x;  /* start.set.block.x */
+    set[0] = p->set_block_x_;  /* start.set.block.x */
 }
 
 /*
@@ -76,39 +76,39 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
 {
     (void)t, (void)torques;
     /* coordinates, velocities, time */
-    const double block_x = q[0];
-    const double block_y = q[1];
-    const double block_vx = v[0];
-    const double block_vy = v[1];
-    const double block_omega = v[2];
+    const double block_x_ = q[0];
+    const double block_y_ = q[1];
+    const double block_vx_ = v[0];
+    const double block_vy_ = v[1];
+    const double block_omega_ = v[2];
 
     /* directions, arms, drives */
-    const double spring_span_x = block_x - p->wall_x;
-    const double spring_length = sqrt((block_y * block_y) + (spring_span_x * spring_span_x));
-    const double spring_force = p->spring_stiffness*(-p->spring_free_length + spring_length);
+    const double spring_span_x_ = block_x_ - p->wall_x_;
+    const double spring_length_ = sqrt((block_y_ * block_y_) + (spring_span_x_ * spring_span_x_));
+    const double spring_force_ = p->spring_stiffness_*(-p->spring_free_length_ + spring_length_);
 
     /* multipliers */
-    const double multiplier_guide_offset = lambda[0];
-    const double multiplier_guide_angle = lambda[1];
+    const double multiplier_guide_offset_ = lambda[0];
+    const double multiplier_guide_angle_ = lambda[1];
 
     /* reactions */
     reactions[0] = 0.0;  /* guide.Fx */
-    reactions[1] = -multiplier_guide_offset;  /* guide.Fy */
-    reactions[2] = -multiplier_guide_angle;  /* guide.M */
-    series[0] = spring_force;  /* spring.F */
-    series[1] = spring_length;  /* spring.length */
+    reactions[1] = -multiplier_guide_offset_;  /* guide.Fy */
+    reactions[2] = -multiplier_guide_angle_;  /* guide.M */
+    series[0] = spring_force_;  /* spring.F */
+    series[1] = spring_length_;  /* spring.length */
 
     /* energy */
-    energy[0] = 0.5*p->block_inertia*(block_omega * block_omega) + 0.5*p->block_mass*(block_vx * block_vx)
-        + 0.5*p->block_mass*(block_vy * block_vy);
-    energy[1] = 0.5*p->spring_stiffness*((-p->spring_free_length + spring_length)
-        * (-p->spring_free_length + spring_length));
+    energy[0] = 0.5*p->block_inertia_*(block_omega_ * block_omega_) + 0.5*p->block_mass_*(block_vx_ * block_vx_)
+        + 0.5*p->block_mass_*(block_vy_ * block_vy_);
+    energy[1] = 0.5*p->spring_stiffness_*((-p->spring_free_length_ + spring_length_)
+        * (-p->spring_free_length_ + spring_length_));
 }
 
 /* Whether a start with these numbers is that with the others: what closing the linkage reads. */
 int same_start(const Parameters *p, const Parameters *other)
 {
-    return same_number(p->block_mass, other->block_mass)
-        && same_number(p->block_inertia, other->block_inertia)
-        && same_number(p->set_block_x, other->set_block_x);
+    return same_number(p->block_mass_, other->block_mass_)
+        && same_number(p->block_inertia_, other->block_inertia_)
+        && same_number(p->set_block_x_, other->set_block_x_);
 }

@@ -8,80 +8,71 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double block_x = q[0];
-    const double block_y = q[1];
-    const double block_theta = q[2];
-    const double block_vx = v[0];
-    const double block_vy = v[1];
-    const double block_omega = v[2];
+    const double block_x_ = q[0];
+    const double block_y_ = q[1];
+    const double block_theta_ = q[2];
+    const double block_vx_ = v[0];
+    const double block_vy_ = v[1];
+    const double block_omega_ = v[2];
 
     /* directions, arms, drives */
-    const double spring_span_x = block_x - p->wall_x;
-    const double spring_length = sqrt((block_y * block_y) + (spring_span_x * spring_span_x));
-    const double spring_force = p->spring_stiffness*(-p->spring_free_length + spring_length);
-    const double spring_pull = spring_force/spring_length;
+    const double spring_span_x_ = block_x_ - p->wall_x_;
+    const double spring_length_ = sqrt((block_y_ * block_y_) + (spring_span_x_ * spring_span_x_));
+    const double spring_force_ = p->spring_stiffness_*(-p->spring_free_length_ + spring_length_);
+    const double spring_pull_ = spring_force_/spring_length_;
 
     /* friction: slip, or stick as a row */
-    const double slip_rub = block_vx - p->rub_speed;
-    const double mode_rub = memory->mode[0];  /* 0 stick, 1 or -1 the sign of the slip, 2 held */
-    const double stick_rub = mode_rub == 0.0 ? 1.0 : 0.0;
-    const double sign_rub = fabs(mode_rub) > 1.0 ? 0.0 : mode_rub;
-    const double kinetic_rub = -p->rub_kinetic*sign_rub;
-    const double rhs_rub = -slip_rub*p->two_alpha_stick;
-    aside->friction[0].v = slip_rub;
-    aside->friction[0].static_limit = p->rub_static;
-    aside->friction[0].speed = p->rub_speed;
-    aside->friction[0].force = kinetic_rub;
+    const double slip_rub_ = block_vx_ - p->rub_speed_;
+    const double mode_rub_ = memory->mode[0];  /* 0 stick, 1 or -1 the sign of the slip, 2 held */
+    const double stick_rub_ = mode_rub_ == 0.0 ? 1.0 : 0.0;
+    const double sign_rub_ = fabs(mode_rub_) > 1.0 ? 0.0 : mode_rub_;
+    const double kinetic_rub_ = -p->rub_kinetic_*sign_rub_;
+    const double rhs_rub_ = -slip_rub_*p->two_alpha_stick_;
+    aside->friction[0].v = slip_rub_;
+    aside->friction[0].static_limit = p->rub_static_;
+    aside->friction[0].speed = p->rub_speed_;
+    aside->friction[0].force = kinetic_rub_;
 
     /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
-    const double phi_guide_offset = block_y;
-    const double phi_dot_guide_offset = block_vy;
-    const double rhs_guide_offset = -p->beta_squared*phi_guide_offset - phi_dot_guide_offset*p->two_alpha;
-    aside->phi[0] = phi_guide_offset;
-    aside->phi_dot[0] = phi_dot_guide_offset;
-    const double phi_guide_angle = block_theta;
-    const double phi_dot_guide_angle = block_omega;
-    const double rhs_guide_angle = -p->beta_squared*phi_guide_angle - phi_dot_guide_angle*p->two_alpha;
-    aside->phi[1] = phi_guide_angle;
-    aside->phi_dot[1] = phi_dot_guide_angle;
+    const double phi_guide_offset_ = block_y_;
+    const double phi_dot_guide_offset_ = block_vy_;
+    const double rhs_guide_offset_ = -p->beta_squared_*phi_guide_offset_ - phi_dot_guide_offset_*p->two_alpha_;
+    aside->phi[0] = phi_guide_offset_;
+    aside->phi_dot[0] = phi_dot_guide_offset_;
+    const double phi_guide_angle_ = block_theta_;
+    const double phi_dot_guide_angle_ = block_omega_;
+    const double rhs_guide_angle_ = -p->beta_squared_*phi_guide_angle_ - phi_dot_guide_angle_*p->two_alpha_;
+    aside->phi[1] = phi_guide_angle_;
+    aside->phi_dot[1] = phi_dot_guide_angle_;
 
     /* L D L^T of the KKT matrix */
-    const double scale_guide_offset = p->inverse_block_mass;
-    if (!(scale_guide_offset > 0.0 && scale_guide_offset < INFINITY))
-        return 1;
-    const double inverse_pivot_guide_offset = 1.0/scale_guide_offset;
-    const double scale_guide_angle = p->inverse_block_inertia;
-    if (!(scale_guide_angle > 0.0 && scale_guide_angle < INFINITY))
-        return 2;
-    const double inverse_pivot_guide_angle = 1.0/scale_guide_angle;
-    const double scale_rub = p->inverse_block_mass;
-    if (stick_rub != 0.0 && !(scale_rub > 0.0 && scale_rub < INFINITY))
+    const double scale_rub_ = p->inverse_block_mass_;
+    if (stick_rub_ != 0.0 && !(scale_rub_ > 0.0 && scale_rub_ < INFINITY))
         return 3;
-    const double inverse_pivot_rub = stick_rub != 0.0 ? 1.0/scale_rub : 0.0;
+    const double inverse_pivot_rub_ = stick_rub_ != 0.0 ? 1.0/scale_rub_ : 0.0;
 
     /* forward substitution */
-    const double z_block_x = kinetic_rub - spring_pull*spring_span_x;
-    const double z_block_y = -block_y*spring_pull;
-    const double z_guide_offset = -p->inverse_block_mass*z_block_y + rhs_guide_offset;
-    const double z_rub = -p->inverse_block_mass*z_block_x + rhs_rub;
+    const double z_block_y_ = -block_y_*spring_pull_;
+    const double z_block_x_ = kinetic_rub_ - spring_pull_*spring_span_x_;
+    const double z_rub_ = -p->inverse_block_mass_*z_block_x_ + rhs_rub_;
 
     /* backward substitution */
-    const double lambda_rub = -inverse_pivot_rub*z_rub;
-    const double lambda_guide_angle = -inverse_pivot_guide_angle*rhs_guide_angle;
-    const double acceleration_block_theta = -p->inverse_block_inertia*lambda_guide_angle;
-    const double lambda_guide_offset = -inverse_pivot_guide_offset*z_guide_offset;
-    const double acceleration_block_y = -p->inverse_block_mass*lambda_guide_offset + p->inverse_block_mass*z_block_y;
-    const double acceleration_block_x = -p->inverse_block_mass*lambda_rub + p->inverse_block_mass*z_block_x;
+    const double lambda_rub_ = -inverse_pivot_rub_*z_rub_;
+    const double acceleration_block_x_ = -p->inverse_block_mass_*lambda_rub_ + p->inverse_block_mass_*z_block_x_;
+    const double lambda_guide_angle_ = -p->block_inertia_*rhs_guide_angle_;
+    const double acceleration_block_theta_ = rhs_guide_angle_;
+    const double lambda_guide_offset_ = -p->block_mass_*rhs_guide_offset_ + z_block_y_;
+    const double acceleration_block_y_ = rhs_guide_offset_;
 
     /* results */
-    a[0] = acceleration_block_x;
-    a[1] = acceleration_block_y;
-    a[2] = acceleration_block_theta;
-    aside->lambda[0] = lambda_guide_offset;
-    aside->lambda[1] = lambda_guide_angle;
-    aside->friction[0].rate = acceleration_block_x;
-    if (stick_rub != 0.0)
-        aside->friction[0].force = -lambda_rub;  /* stick of rub */
+    a[0] = acceleration_block_x_;
+    a[1] = acceleration_block_y_;
+    a[2] = acceleration_block_theta_;
+    aside->lambda[0] = lambda_guide_offset_;
+    aside->lambda[1] = lambda_guide_angle_;
+    aside->friction[0].rate = acceleration_block_x_;
+    if (stick_rub_ != 0.0)
+        aside->friction[0].force = -lambda_rub_;  /* stick of rub */
     aside->power[0] = 0.0;
     aside->power[1] = aside->friction[0].force*(aside->friction[0].speed + aside->friction[0].v);
     aside->power[2] = 0.0;

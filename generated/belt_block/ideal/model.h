@@ -50,6 +50,7 @@
 #define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
 #define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
 #define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
+#define LIGHT_PIVOT 1e-06                     /* of what turns with an angle, where its inertia is too small for it */
 #define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
 typedef struct Parameters Parameters; /* every number of a run */
@@ -63,6 +64,7 @@ static const int guess_place[] = {0};
 static const int set_place[] = {0};
 static const int rate_place[] = {0};
 static const unsigned char row_is_length[] = {1, 0};
+static const int drive_row[] = {0};
 static const int kept_row[] = {0, 1};
 static const int phi_q_first[] = {0, 1, 2};
 static const short phi_q_place[] = {1, 2};
@@ -76,32 +78,31 @@ static const int friction_of_pivot[] = {0};
 
 /* In SI: first the slots that a user may set, then what prepare() derives. */
 struct Parameters {
-    double belt_speed;  /* parameters.belt_speed, m/s */
-    double start_at;  /* parameters.start_at, m */
-    double block_mass;  /* bodies.block.mass, kg */
-    double block_inertia;  /* bodies.block.inertia, kg*m^2 */
-    double alpha;  /* baumgarte.alpha, 1/s */
-    double beta;  /* baumgarte.beta, 1/s */
-    double guide_axis_x;  /* joints.guide.axis.x, 1 */
-    double wall_x;  /* ground.wall.x, m */
-    double spring_stiffness;  /* forces.spring.stiffness, N/m */
-    double spring_free_length;  /* forces.spring.free_length, m */
-    double rub_direction_x;  /* forces.rub.direction.x, 1 */
-    double rub_speed;  /* forces.rub.speed, m/s */
-    double rub_static;  /* forces.rub.static, N */
-    double rub_kinetic;  /* forces.rub.kinetic, N */
-    double set_block_x;  /* start.set.block.x, m */
-    double alpha_stick;  /* baumgarte.stick, 1/s */
-    double two_alpha_stick;  /* 2 alpha of a stick, 1/s */
-    double two_alpha;  /* 2 alpha, 1/s */
-    double beta_squared;  /* beta^2, 1/s^2 */
-    double inverse_block_mass;  /* 1/M, 1/kg */
-    double inverse_block_inertia;  /* 1/M, 1/(kg*m^2) */
+    double belt_speed_;  /* parameters.belt_speed, m/s */
+    double start_at_;  /* parameters.start_at, m */
+    double block_mass_;  /* bodies.block.mass, kg */
+    double block_inertia_;  /* bodies.block.inertia, kg*m^2 */
+    double alpha_;  /* baumgarte.alpha, 1/s */
+    double beta_;  /* baumgarte.beta, 1/s */
+    double guide_axis_x_;  /* joints.guide.axis.x, 1 */
+    double wall_x_;  /* ground.wall.x, m */
+    double spring_stiffness_;  /* forces.spring.stiffness, N/m */
+    double spring_free_length_;  /* forces.spring.free_length, m */
+    double rub_direction_x_;  /* forces.rub.direction.x, 1 */
+    double rub_speed_;  /* forces.rub.speed, m/s */
+    double rub_static_;  /* forces.rub.static, N */
+    double rub_kinetic_;  /* forces.rub.kinetic, N */
+    double set_block_x_;  /* start.set.block.x, m */
+    double alpha_stick_;  /* baumgarte.stick, 1/s */
+    double two_alpha_stick_;  /* 2 alpha of a stick, 1/s */
+    double two_alpha_;  /* 2 alpha, 1/s */
+    double beta_squared_;  /* beta^2, 1/s^2 */
+    double inverse_block_mass_;  /* 1/M, 1/kg */
 };
 
 /* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */
 static inline double baumgarte_two_alpha(const Parameters *p) { (void)p; return 0.0; }
 static inline double baumgarte_beta_squared(const Parameters *p) { (void)p; return 0.0; }
-static inline double stick_gain(const Parameters *p) { (void)p; return p->two_alpha_stick; }
+static inline double stick_gain(const Parameters *p) { (void)p; return p->two_alpha_stick_; }
 
 #endif

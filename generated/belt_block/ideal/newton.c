@@ -11,33 +11,33 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     double g[N_SWITCHES + 1];
 
     /* coordinates, velocities, time */
-    const double guide_slide = q[0];
-    const double guide_slide_rate = v[0];
+    const double guide_slide_ = q[0];
+    const double guide_slide_rate_ = v[0];
 
     /* directions, arms, drives */
-    const double spring_span_x = guide_slide - p->wall_x;
-    const double side_0 = side_of(side, g, 0, spring_span_x);
-    const double spring_length = side_0*spring_span_x;
-    const double spring_force = p->spring_stiffness*(-p->spring_free_length + spring_length);
-    const double spring_pull = spring_force/spring_length;
+    const double spring_span_x_ = guide_slide_ - p->wall_x_;
+    const double side_0 = side_of(side, g, 0, spring_span_x_);
+    const double spring_length_ = side_0*spring_span_x_;
+    const double spring_force_ = p->spring_stiffness_*(-p->spring_free_length_ + spring_length_);
+    const double spring_pull_ = spring_force_/spring_length_;
 
     /* friction: slip, or stick as a row */
-    const double mode_rub = memory->mode[0];  /* 0 stick, 1 or -1 the sign of the slip, 2 held */
-    const double stick_rub = mode_rub == 0.0 ? 1.0 : 0.0;
-    const double sign_rub = fabs(mode_rub) > 1.0 ? 0.0 : mode_rub;
-    const double held_force_rub = stick_rub != 0.0 ? aside->friction[0].force : 0.0;
+    const double mode_rub_ = memory->mode[0];  /* 0 stick, 1 or -1 the sign of the slip, 2 held */
+    const double stick_rub_ = mode_rub_ == 0.0 ? 1.0 : 0.0;
+    const double sign_rub_ = fabs(mode_rub_) > 1.0 ? 0.0 : mode_rub_;
+    const double held_force_rub_ = stick_rub_ != 0.0 ? aside->friction[0].force : 0.0;
 
     /* coordinates */
-    const double spring_force_by_guide_slide = side_0*p->spring_stiffness;
-    const double inverse_spring_length = 1.0/spring_length;
-    const double spring_pull_by_guide_slide = -(inverse_spring_length * inverse_spring_length)*side_0*spring_force
-        + inverse_spring_length*spring_force_by_guide_slide;
+    const double spring_force_by_guide_slide_ = side_0*p->spring_stiffness_;
+    const double inverse_spring_length_ = 1.0/spring_length_;
+    const double spring_pull_by_guide_slide_ = -(inverse_spring_length_ * inverse_spring_length_)*side_0*spring_force_
+        + inverse_spring_length_*spring_force_by_guide_slide_;
 
     /* results */
-    lin->value[0] = spring_pull + spring_pull_by_guide_slide*spring_span_x;
-    lin->value[1] = held_force_rub - p->rub_kinetic*sign_rub;
-    lin->value[2] = -guide_slide_rate*stick_rub;
-    lin->value[3] = stick_rub;
+    lin->value[0] = spring_pull_ + spring_pull_by_guide_slide_*spring_span_x_;
+    lin->value[1] = held_force_rub_ - p->rub_kinetic_*sign_rub_;
+    lin->value[2] = -guide_slide_rate_*stick_rub_;
+    lin->value[3] = stick_rub_;
     lin->value[4] = 1.0;
     lin->p = p;
 }
@@ -52,23 +52,23 @@ int newton_factor(double eta, Linear *lin)
     const Parameters *const p = lin->p;
 
     /* linearization */
-    const double by_q_guide_slide_guide_slide = lin->value[0];
-    const double is_stick_rub_2 = lin->value[3];
+    const double by_q_guide_slide_guide_slide_ = lin->value[0];
+    const double is_stick_rub_2_ = lin->value[3];
 
     /* matrix */
-    const double n_guide_slide__guide_slide = p->block_mass + by_q_guide_slide_guide_slide*(eta * eta);
+    const double n_guide_slide_guide_slide_ = p->block_mass_ + by_q_guide_slide_guide_slide_*(eta * eta);
 
     /* L U */
-    const double scale_guide_slide = n_guide_slide__guide_slide;
-    if (!(fabs(scale_guide_slide) > SINGULAR * fabs(n_guide_slide__guide_slide)))
+    const double scale_guide_slide_ = n_guide_slide_guide_slide_;
+    if (!(fabs(scale_guide_slide_) > SINGULAR * fabs(n_guide_slide_guide_slide_)))
         return 1;
-    const double inverse_pivot_guide_slide = 1.0/scale_guide_slide;
-    lin->lu[0] = inverse_pivot_guide_slide;
-    const double scale_rub = -inverse_pivot_guide_slide;
-    if (is_stick_rub_2 != 0.0 && !(scale_rub != 0.0 && isfinite(scale_rub)))
+    const double inverse_pivot_guide_slide_ = 1.0/scale_guide_slide_;
+    lin->lu[0] = inverse_pivot_guide_slide_;
+    const double scale_rub_ = -inverse_pivot_guide_slide_;
+    if (is_stick_rub_2_ != 0.0 && !(scale_rub_ != 0.0 && isfinite(scale_rub_)))
         return 2;
-    const double inverse_pivot_rub = is_stick_rub_2 != 0.0 ? 1.0/scale_rub : 0.0;
-    lin->lu[1] = inverse_pivot_rub;
+    const double inverse_pivot_rub_ = is_stick_rub_2_ != 0.0 ? 1.0/scale_rub_ : 0.0;
+    lin->lu[1] = inverse_pivot_rub_;
     return 0;
 }
 
@@ -78,18 +78,18 @@ int newton_factor(double eta, Linear *lin)
 void newton_substitute(const Linear *lin, double *x)
 {
     /* linearization */
-    const double inverse_pivot_guide_slide = lin->lu[0];
-    const double inverse_pivot_rub = lin->lu[1];
+    const double inverse_pivot_guide_slide_ = lin->lu[0];
+    const double inverse_pivot_rub_ = lin->lu[1];
 
     /* forward */
-    const double b_guide_slide = x[0];
-    const double b_rub = -b_guide_slide*inverse_pivot_guide_slide + x[1];
+    const double b_guide_slide_ = x[0];
+    const double b_rub_ = -b_guide_slide_*inverse_pivot_guide_slide_ + x[1];
 
     /* backward */
-    const double x_rub = b_rub*inverse_pivot_rub;
-    x[1] = x_rub;
-    const double x_guide_slide = inverse_pivot_guide_slide*(b_guide_slide - x_rub);
-    x[0] = x_guide_slide;
+    const double x_rub_ = b_rub_*inverse_pivot_rub_;
+    x[1] = x_rub_;
+    const double x_guide_slide_ = inverse_pivot_guide_slide_*(b_guide_slide_ - x_rub_);
+    x[0] = x_guide_slide_;
 }
 
 /*
@@ -102,16 +102,16 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
     const Parameters *const p = lin->p;
 
     /* linearization */
-    const double by_q_guide_slide_guide_slide = lin->value[0];
-    const double power_v_1_guide_slide = lin->value[1];
-    const double power_1_rub = lin->value[2];
+    const double by_q_guide_slide_guide_slide_ = lin->value[0];
+    const double power_v_1_guide_slide_ = lin->value[1];
+    const double power_1_rub_ = lin->value[2];
 
     /* eta/kappa */
-    const double eta_stick = eta/(eta*p->two_alpha_stick + 1.0);
+    const double eta_stick = eta/(eta*p->two_alpha_stick_ + 1.0);
 
     /* right-hand side */
     double x[2];
-    x[0] = eta*(p->block_mass*r[1] - by_q_guide_slide_guide_slide*eta*r[0]);
+    x[0] = eta*(p->block_mass_*r[1] - by_q_guide_slide_guide_slide_*eta*r[0]);
     x[1] = eta_stick*r[1];
     newton_substitute(lin, x);
 
@@ -119,7 +119,7 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
     u[0] = eta*(r[0] + x[0]);
     u[1] = x[0];
     u[2] = eta*r[2];
-    u[3] = eta*(power_v_1_guide_slide*u[1] + r[3]) + power_1_rub*x[1];
+    u[3] = eta*(power_v_1_guide_slide_*u[1] + r[3]) + power_1_rub_*x[1];
     u[4] = eta*r[4];
 }
 
@@ -160,14 +160,14 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
 {
     (void)t, (void)q, (void)v, (void)memory, (void)p;
     /* backward substitution */
-    const double dq_acceleration_guide_slide = 0.0;
+    const double dq_acceleration_guide_slide_ = 0.0;
 
     /* backward substitution */
-    const double dv_acceleration_guide_slide = 0.0;
+    const double dv_acceleration_guide_slide_ = 0.0;
 
     /* results */
-    dq[0] = dq_acceleration_guide_slide;
-    dv[0] = dv_acceleration_guide_slide;
+    dq[0] = dq_acceleration_guide_slide_;
+    dv[0] = dv_acceleration_guide_slide_;
     *worst = 0.0;
     return 0;
 }

@@ -5,22 +5,22 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 {
     (void)t, (void)p;
     /* coordinates, velocities, time */
-    const double guide_slide = q[0];
-    const double guide_slide_rate = v[0];
+    const double guide_slide_ = q[0];
+    const double guide_slide_rate_ = v[0];
 
     /* directions, arms, drives */
-    const double block_y = 0.0;
-    const double block_vy = 0.0;
-    const double block_theta = 0.0;
-    const double block_omega = 0.0;
+    const double block_y_ = 0.0;
+    const double block_vy_ = 0.0;
+    const double block_theta_ = 0.0;
+    const double block_omega_ = 0.0;
 
     /* bodies */
-    all_q[0] = guide_slide;
-    all_v[0] = guide_slide_rate;
-    all_q[1] = block_y;
-    all_v[1] = block_vy;
-    all_q[2] = block_theta;
-    all_v[2] = block_omega;
+    all_q[0] = guide_slide_;
+    all_v[0] = guide_slide_rate_;
+    all_q[1] = block_y_;
+    all_v[1] = block_vy_;
+    all_q[2] = block_theta_;
+    all_v[2] = block_omega_;
 }
 
 /*
@@ -30,12 +30,12 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 {
     (void)t, (void)p;
     /* coordinates, velocities, time */
-    const double block_x = q[0];
-    const double block_vx = v[0];
+    const double block_x_ = q[0];
+    const double block_vx_ = v[0];
 
     /* tree coordinates */
-    s[0] = block_x;  /* guide.slide */
-    s_rate[0] = block_vx;
+    s[0] = block_x_;  /* guide.slide */
+    s_rate[0] = block_vx_;
 }
 
 /*
@@ -70,47 +70,48 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     double *const g = aside->g;
 
     /* coordinates, velocities, time */
-    const double guide_slide = q[0];
-    const double guide_slide_rate = v[0];
+    const double guide_slide_ = q[0];
+    const double guide_slide_rate_ = v[0];
 
     /* directions, arms, drives */
-    const double spring_span_x = guide_slide - p->wall_x;
-    const double side_0 = side_of(side, g, 0, spring_span_x);
-    const double spring_length = side_0*spring_span_x;
-    const double spring_force = p->spring_stiffness*(-p->spring_free_length + spring_length);
-    const double spring_pull = spring_force/spring_length;
+    const double spring_span_x_ = guide_slide_ - p->wall_x_;
+    const double side_0 = side_of(side, g, 0, spring_span_x_);
+    const double spring_length_ = side_0*spring_span_x_;
+    const double spring_force_ = p->spring_stiffness_*(-p->spring_free_length_ + spring_length_);
+    const double spring_pull_ = spring_force_/spring_length_;
 
     /* friction: slip, or stick as a row */
-    const double slip_rub = guide_slide_rate - p->rub_speed;
-    const double mode_rub = memory->mode[0];  /* 0 stick, 1 or -1 the sign of the slip, 2 held */
-    const double stick_rub = mode_rub == 0.0 ? 1.0 : 0.0;
-    const double sign_rub = fabs(mode_rub) > 1.0 ? 0.0 : mode_rub;
-    const double kinetic_rub = -p->rub_kinetic*sign_rub;
-    const double rhs_rub = -slip_rub*p->two_alpha_stick;
-    aside->friction[0].v = slip_rub;
-    aside->friction[0].static_limit = p->rub_static;
-    aside->friction[0].speed = p->rub_speed;
-    aside->friction[0].force = kinetic_rub;
+    const double slip_rub_ = guide_slide_rate_ - p->rub_speed_;
+    const double mode_rub_ = memory->mode[0];  /* 0 stick, 1 or -1 the sign of the slip, 2 held */
+    const double stick_rub_ = mode_rub_ == 0.0 ? 1.0 : 0.0;
+    const double sign_rub_ = fabs(mode_rub_) > 1.0 ? 0.0 : mode_rub_;
+    const double kinetic_rub_ = -p->rub_kinetic_*sign_rub_;
+    const double rhs_rub_ = -slip_rub_*p->two_alpha_stick_;
+    aside->friction[0].v = slip_rub_;
+    aside->friction[0].static_limit = p->rub_static_;
+    aside->friction[0].speed = p->rub_speed_;
+    aside->friction[0].force = kinetic_rub_;
 
     /* L D L^T of the KKT matrix */
-    const double scale_rub = p->inverse_block_mass;
-    if (stick_rub != 0.0 && !(scale_rub > 0.0 && scale_rub < INFINITY))
+    const double scale_rub_ = p->inverse_block_mass_;
+    if (stick_rub_ != 0.0 && !(scale_rub_ > 0.0 && scale_rub_ < INFINITY))
         return 1;
-    const double inverse_pivot_rub = stick_rub != 0.0 ? 1.0/scale_rub : 0.0;
+    const double inverse_pivot_rub_ = stick_rub_ != 0.0 ? 1.0/scale_rub_ : 0.0;
 
     /* forward substitution */
-    const double z_guide_slide = kinetic_rub - spring_pull*spring_span_x;
-    const double z_rub = -p->inverse_block_mass*z_guide_slide + rhs_rub;
+    const double z_guide_slide_ = kinetic_rub_ - spring_pull_*spring_span_x_;
+    const double z_rub_ = -p->inverse_block_mass_*z_guide_slide_ + rhs_rub_;
 
     /* backward substitution */
-    const double lambda_rub = -inverse_pivot_rub*z_rub;
-    const double acceleration_guide_slide = -p->inverse_block_mass*lambda_rub + p->inverse_block_mass*z_guide_slide;
+    const double lambda_rub_ = -inverse_pivot_rub_*z_rub_;
+    const double acceleration_guide_slide_ = -p->inverse_block_mass_*lambda_rub_
+        + p->inverse_block_mass_*z_guide_slide_;
 
     /* results */
-    a[0] = acceleration_guide_slide;
-    aside->friction[0].rate = acceleration_guide_slide;
-    if (stick_rub != 0.0)
-        aside->friction[0].force = -lambda_rub;  /* stick of rub */
+    a[0] = acceleration_guide_slide_;
+    aside->friction[0].rate = acceleration_guide_slide_;
+    if (stick_rub_ != 0.0)
+        aside->friction[0].force = -lambda_rub_;  /* stick of rub */
     aside->power[0] = 0.0;
     aside->power[1] = aside->friction[0].force*(aside->friction[0].speed + aside->friction[0].v);
     aside->power[2] = 0.0;
@@ -125,11 +126,11 @@ void watched_functions(const double t, const double *q, const double *v, const M
 {
     (void)t, (void)v, (void)memory;
     /* coordinates, velocities, time */
-    const double guide_slide = q[0];
+    const double guide_slide_ = q[0];
 
     /* directions, arms, drives */
-    const double spring_span_x = guide_slide - p->wall_x;
-    aside->g[0] = spring_span_x;
+    const double spring_span_x_ = guide_slide_ - p->wall_x_;
+    aside->g[0] = spring_span_x_;
 }
 
 /*
@@ -141,9 +142,9 @@ int reduced_project(const double t, const double *q, const double *r, const Para
 {
     (void)t, (void)q, (void)r, (void)p;
     /* backward substitution */
-    const double step_acceleration_guide_slide = 0.0;
+    const double step_acceleration_guide_slide_ = 0.0;
 
     /* results */
-    x[0] = step_acceleration_guide_slide;
+    x[0] = step_acceleration_guide_slide_;
     return 0;
 }

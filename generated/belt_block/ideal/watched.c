@@ -6,9 +6,9 @@ void watched_ranges(const Range t, const Range *q, const Range *v, const Memory 
 {
     (void)t, (void)v, (void)memory;
     /* coordinates, velocities, time */
-    const Range guide_slide = q[0];
+    const Range guide_slide_ = q[0];
 
     /* directions, arms, drives */
-    const Range spring_span_x = range_add(guide_slide, range_times(only(-1.0), only(p->wall_x)));
-    out[0] = spring_span_x;
+    const Range spring_span_x_ = range_add(guide_slide_, range_times(only(-1.0), only(p->wall_x_)));
+    out[0] = spring_span_x_;
 }

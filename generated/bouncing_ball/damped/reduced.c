@@ -5,20 +5,20 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 {
     (void)t, (void)p;
     /* coordinates, velocities, time */
-    const double ball_x = q[0];
-    const double ball_x_rate = v[0];
-    const double ball_y = q[1];
-    const double ball_y_rate = v[1];
-    const double ball_theta = q[2];
-    const double ball_omega = v[2];
+    const double ball_x_ = q[0];
+    const double ball_x_rate_ = v[0];
+    const double ball_y_ = q[1];
+    const double ball_y_rate_ = v[1];
+    const double ball_theta_ = q[2];
+    const double ball_omega_ = v[2];
 
     /* bodies */
-    all_q[0] = ball_x;
-    all_v[0] = ball_x_rate;
-    all_q[1] = ball_y;
-    all_v[1] = ball_y_rate;
-    all_q[2] = ball_theta;
-    all_v[2] = ball_omega;
+    all_q[0] = ball_x_;
+    all_v[0] = ball_x_rate_;
+    all_q[1] = ball_y_;
+    all_v[1] = ball_y_rate_;
+    all_q[2] = ball_theta_;
+    all_v[2] = ball_omega_;
 }
 
 /*
@@ -28,20 +28,20 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 {
     (void)t, (void)p;
     /* coordinates, velocities, time */
-    const double ball_x = q[0];
-    const double ball_y = q[1];
-    const double ball_theta = q[2];
-    const double ball_vx = v[0];
-    const double ball_vy = v[1];
-    const double ball_omega = v[2];
+    const double ball_x_ = q[0];
+    const double ball_y_ = q[1];
+    const double ball_theta_ = q[2];
+    const double ball_vx_ = v[0];
+    const double ball_vy_ = v[1];
+    const double ball_omega_ = v[2];
 
     /* tree coordinates */
-    s[0] = ball_x;  /* ball.x */
-    s_rate[0] = ball_vx;
-    s[1] = ball_y;  /* ball.y */
-    s_rate[1] = ball_vy;
-    s[2] = ball_theta;  /* ball */
-    s_rate[2] = ball_omega;
+    s[0] = ball_x_;  /* ball.x */
+    s_rate[0] = ball_vx_;
+    s[1] = ball_y_;  /* ball.y */
+    s_rate[1] = ball_vy_;
+    s[2] = ball_theta_;  /* ball */
+    s_rate[2] = ball_omega_;
 }
 
 /*
@@ -76,36 +76,36 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     double *const g = aside->g;
 
     /* coordinates, velocities, time */
-    const double ball_x = q[0];
-    const double ball_x_rate = v[0];
-    const double ball_y = q[1];
-    const double ball_y_rate = v[1];
-    const double ball_omega = v[2];
+    const double ball_x_ = q[0];
+    const double ball_x_rate_ = v[0];
+    const double ball_y_ = q[1];
+    const double ball_y_rate_ = v[1];
+    const double ball_omega_ = v[2];
 
     /* clearance joint fall */
-    const double e_fall_x = ball_x;
-    const double e_fall_y = ball_y;
-    const double edot_fall_x = ball_x_rate;
-    const double edot_fall_y = ball_y_rate;
-    clearance_fall(e_fall_x, e_fall_y, edot_fall_x, edot_fall_y, 0, ball_omega, &memory->latch[0], p, side, g,
+    const double e_fall_x_ = ball_x_;
+    const double e_fall_y_ = ball_y_;
+    const double edot_fall_x_ = ball_x_rate_;
+    const double edot_fall_y_ = ball_y_rate_;
+    clearance_fall_(e_fall_x_, e_fall_y_, edot_fall_x_, edot_fall_y_, 0, ball_omega_, &memory->latch[0], p, side, g,
         &aside->clearance[0]);
-    const double F_fall_x = aside->clearance[0].Fx;
-    const double F_fall_y = aside->clearance[0].Fy;
-    const double M_fall_second = aside->clearance[0].moment_second;
-    aside->clearance[0].power = F_fall_x*edot_fall_x + F_fall_y*edot_fall_y + M_fall_second*ball_omega;
+    const double F_fall_x_ = aside->clearance[0].Fx;
+    const double F_fall_y_ = aside->clearance[0].Fy;
+    const double M_fall_second_ = aside->clearance[0].moment_second;
+    aside->clearance[0].power = F_fall_x_*edot_fall_x_ + F_fall_y_*edot_fall_y_ + M_fall_second_*ball_omega_;
 
     /* forward substitution */
-    const double z_ball_y = F_fall_y + p->weight_ball_y;
+    const double z_ball_y_ = F_fall_y_ + p->weight_ball_y_;
 
     /* backward substitution */
-    const double acceleration_ball_theta = M_fall_second*p->inverse_ball_inertia;
-    const double acceleration_ball_y = p->inverse_ball_mass*z_ball_y;
-    const double acceleration_ball_x = F_fall_x*p->inverse_ball_mass;
+    const double acceleration_ball_theta_ = M_fall_second_*p->inverse_ball_inertia_;
+    const double acceleration_ball_y_ = p->inverse_ball_mass_*z_ball_y_;
+    const double acceleration_ball_x_ = F_fall_x_*p->inverse_ball_mass_;
 
     /* results */
-    a[0] = acceleration_ball_x;
-    a[1] = acceleration_ball_y;
-    a[2] = acceleration_ball_theta;
+    a[0] = acceleration_ball_x_;
+    a[1] = acceleration_ball_y_;
+    a[2] = acceleration_ball_theta_;
     aside->power[0] = 0.0;
     aside->power[1] = 0.0;
     aside->power[2] = aside->clearance[0].power;
@@ -121,13 +121,13 @@ int reduced_project(const double t, const double *q, const double *r, const Para
 {
     (void)t, (void)q, (void)r, (void)p;
     /* backward substitution */
-    const double step_acceleration_ball_theta = 0.0;
-    const double step_acceleration_ball_y = 0.0;
-    const double step_acceleration_ball_x = 0.0;
+    const double step_acceleration_ball_theta_ = 0.0;
+    const double step_acceleration_ball_y_ = 0.0;
+    const double step_acceleration_ball_x_ = 0.0;
 
     /* results */
-    x[0] = step_acceleration_ball_x;
-    x[1] = step_acceleration_ball_y;
-    x[2] = step_acceleration_ball_theta;
+    x[0] = step_acceleration_ball_x_;
+    x[1] = step_acceleration_ball_y_;
+    x[2] = step_acceleration_ball_theta_;
     return 0;
 }

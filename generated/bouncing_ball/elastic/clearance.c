@@ -18,18 +18,18 @@ static inline void hertz_none(double delta, double ratio, double stiffness, doub
  * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
  * linear and angular momentum are conserved to rounding. F_n < 0 pushes the journal back.
  */
-static inline PinForce dry_fall(double delta, double deltadot, double de_t, double omega_i, double omega_j,
+static inline PinForce dry_fall_(double delta, double deltadot, double de_t, double omega_i, double omega_j,
     const Latch *latch, const Parameters *p, const double *side, double *g)
 {
     (void)side;
     (void)g;
     /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
     const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
-    const double a_i = 0.5*delta + p->floor_radius;
-    const double a_j = -0.5*delta + p->R_j_floor;
+    const double a_i = 0.5*delta + p->floor_radius_;
+    const double a_j = -0.5*delta + p->R_j_floor_;
     const double v_t = -a_i*omega_i + a_j*omega_j + de_t;
     double F_n;
-    hertz_none(max_of(delta, 0.0), ratio, p->elastic_normal_stiffness, p->elastic_normal_exponent, &F_n);
+    hertz_none(max_of(delta, 0.0), ratio, p->elastic_normal_stiffness_, p->elastic_normal_exponent_, &F_n);
     const double F_along_t_dry = 0.0; /* no friction */
     const double M_i_dry = -F_along_t_dry*a_i;
     const double M_j_dry = F_along_t_dry*a_j;
@@ -37,19 +37,19 @@ static inline PinForce dry_fall(double delta, double deltadot, double de_t, doub
 }
 
 /* Joint fall: free while delta < 0, dry contact beyond; a step holds what it began with. */
-static void clearance_fall(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
+static void clearance_fall_(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
     const Latch *latch, const Parameters *p, const double *side, double *g, Clearance *out)
 {
     const double e = sqrt((e_x * e_x) + (e_y * e_y));
     const double inverse_e = 1.0/e;
     const double n_x = e > 0.0 ? e_x*inverse_e : 1.0;
     const double n_y = e > 0.0 ? e_y*inverse_e : 0.0;
-    const double delta = e - p->floor_clearance;
+    const double delta = e - p->floor_clearance_;
     const double deltadot = de_x*n_x + de_y*n_y;
     const double de_t = -de_x*n_y + de_y*n_x;
     PinForce F = {0};
     if (side ? latch->closed : delta > 0.0)
-        F = dry_fall(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
+        F = dry_fall_(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
     *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
         .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
         .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0};

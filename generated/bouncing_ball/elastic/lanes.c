@@ -12,27 +12,27 @@
 
 /* Numbers of each run side by side, field by field those of Parameters in model.h: meanings, addresses, units too. */
 typedef struct LaneParameters {
-    Lanes height;
-    Lanes ball_mass;
-    Lanes ball_inertia;
-    Lanes alpha;
-    Lanes beta;
-    Lanes floor_radius;
-    Lanes floor_clearance;
-    Lanes floor_length;
-    Lanes steel_E;
-    Lanes steel_nu;
-    Lanes elastic_normal_stiffness;
-    Lanes elastic_normal_exponent;
-    Lanes elastic_normal_restitution;
-    Lanes velocity_floor;
-    Lanes gravity_y;
-    Lanes R_j_floor;
-    Lanes weight_ball_y;
-    Lanes two_alpha;
-    Lanes beta_squared;
-    Lanes inverse_ball_mass;
-    Lanes inverse_ball_inertia;
+    Lanes height_;
+    Lanes ball_mass_;
+    Lanes ball_inertia_;
+    Lanes alpha_;
+    Lanes beta_;
+    Lanes floor_radius_;
+    Lanes floor_clearance_;
+    Lanes floor_length_;
+    Lanes steel_E_;
+    Lanes steel_nu_;
+    Lanes elastic_normal_stiffness_;
+    Lanes elastic_normal_exponent_;
+    Lanes elastic_normal_restitution_;
+    Lanes velocity_floor_;
+    Lanes gravity_y_;
+    Lanes R_j_floor_;
+    Lanes weight_ball_y_;
+    Lanes two_alpha_;
+    Lanes beta_squared_;
+    Lanes inverse_ball_mass_;
+    Lanes inverse_ball_inertia_;
 } LaneParameters;
 
 _Static_assert(sizeof(LaneParameters) / sizeof(Lanes) == sizeof(Parameters) / sizeof(double), "the same numbers");
@@ -43,7 +43,7 @@ static inline Lanes lane_deepest(const LaneParameters *p, int i)
     (void)p;
     switch (i) {
     case 0:
-        return (1.0/10.0)*p->floor_radius;
+        return (1.0/10.0)*p->floor_radius_;
     default:
         return all_of(0.0);
     }
@@ -64,16 +64,17 @@ static inline void hertz_none(Lanes delta, Lanes ratio, Lanes stiffness, Lanes e
 }
 
 /* Dry contact in joint fall, as in clearance.c. */
-static inline LanePinForce dry_fall(Lanes delta, Lanes deltadot, Lanes de_t, Lanes omega_i, Lanes omega_j,
+static inline LanePinForce dry_fall_(Lanes delta, Lanes deltadot, Lanes de_t, Lanes omega_i, Lanes omega_j,
     const LaneLatch *latch, const LaneParameters *p, const Lanes *side, Lanes *g)
 {
     (void)side, (void)g;
     const Lanes ratio = pick(latch->closed > 0.0, deltadot / latch->deltadot_minus, all_of(1.0));
-    const Lanes a_i = 0.5*delta + p->floor_radius;
-    const Lanes a_j = -0.5*delta + p->R_j_floor;
+    const Lanes a_i = 0.5*delta + p->floor_radius_;
+    const Lanes a_j = -0.5*delta + p->R_j_floor_;
     const Lanes v_t = -a_i*omega_i + a_j*omega_j + de_t;
     Lanes F_n;
-    hertz_none(lanes_max_of(delta, all_of(0.0)), ratio, p->elastic_normal_stiffness, p->elastic_normal_exponent, &F_n);
+    hertz_none(lanes_max_of(delta, all_of(0.0)), ratio, p->elastic_normal_stiffness_, p->elastic_normal_exponent_,
+        &F_n);
     const Lanes F_along_t_dry = all_of(0.0); /* no friction */
     const Lanes M_i_dry = -F_along_t_dry*a_i;
     const Lanes M_j_dry = F_along_t_dry*a_j;
@@ -81,20 +82,20 @@ static inline LanePinForce dry_fall(Lanes delta, Lanes deltadot, Lanes de_t, Lan
 }
 
 /* Joint fall: what each lane does not have is passed over where no lane has it. */
-static void clearance_fall(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes omega_i, Lanes omega_j,
+static void clearance_fall_(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes omega_i, Lanes omega_j,
     const LaneLatch *latch, const LaneParameters *p, const Lanes *side, Lanes *g, LaneClearance *out)
 {
     const Lanes e = lanes_sqrt((e_x * e_x) + (e_y * e_y));
     const Lanes inverse_e = 1.0/e;
     const Lanes n_x = pick(e > 0.0, e_x*inverse_e, all_of(1.0));
     const Lanes n_y = pick(e > 0.0, e_y*inverse_e, all_of(0.0));
-    const Lanes delta = e - p->floor_clearance;
+    const Lanes delta = e - p->floor_clearance_;
     const Lanes deltadot = de_x*n_x + de_y*n_y;
     const Lanes de_t = -de_x*n_y + de_y*n_x;
     LanePinForce F = {all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0), all_of(0.0)};
     const LaneBits touching = is_touching(latch, delta);
     if (any_of(touching)) {
-        LanePinForce dry = dry_fall(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
+        LanePinForce dry = dry_fall_(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
         F.n = pick(touching, dry.n, F.n);
         F.t = pick(touching, dry.t, F.t);
         F.M_i = pick(touching, dry.M_i, F.M_i);
@@ -141,36 +142,36 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     Lanes *const g = told_sides(aside);
 
     /* coordinates, velocities, time */
-    const Lanes ball_x = q[0];
-    const Lanes ball_x_rate = v[0];
-    const Lanes ball_y = q[1];
-    const Lanes ball_y_rate = v[1];
-    const Lanes ball_omega = v[2];
+    const Lanes ball_x_ = q[0];
+    const Lanes ball_x_rate_ = v[0];
+    const Lanes ball_y_ = q[1];
+    const Lanes ball_y_rate_ = v[1];
+    const Lanes ball_omega_ = v[2];
 
     /* clearance joint fall */
-    const Lanes e_fall_x = ball_x;
-    const Lanes e_fall_y = ball_y;
-    const Lanes edot_fall_x = ball_x_rate;
-    const Lanes edot_fall_y = ball_y_rate;
-    clearance_fall(e_fall_x, e_fall_y, edot_fall_x, edot_fall_y, all_of(0.0), ball_omega, &memory->latch[0], p, side,
-        g, &aside->clearance[0]);
-    const Lanes F_fall_x = aside->clearance[0].Fx;
-    const Lanes F_fall_y = aside->clearance[0].Fy;
-    const Lanes M_fall_second = aside->clearance[0].moment_second;
-    aside->clearance[0].power = F_fall_x*edot_fall_x + F_fall_y*edot_fall_y + M_fall_second*ball_omega;
+    const Lanes e_fall_x_ = ball_x_;
+    const Lanes e_fall_y_ = ball_y_;
+    const Lanes edot_fall_x_ = ball_x_rate_;
+    const Lanes edot_fall_y_ = ball_y_rate_;
+    clearance_fall_(e_fall_x_, e_fall_y_, edot_fall_x_, edot_fall_y_, all_of(0.0), ball_omega_, &memory->latch[0], p,
+        side, g, &aside->clearance[0]);
+    const Lanes F_fall_x_ = aside->clearance[0].Fx;
+    const Lanes F_fall_y_ = aside->clearance[0].Fy;
+    const Lanes M_fall_second_ = aside->clearance[0].moment_second;
+    aside->clearance[0].power = F_fall_x_*edot_fall_x_ + F_fall_y_*edot_fall_y_ + M_fall_second_*ball_omega_;
 
     /* forward substitution */
-    const Lanes z_ball_y = F_fall_y + p->weight_ball_y;
+    const Lanes z_ball_y_ = F_fall_y_ + p->weight_ball_y_;
 
     /* backward substitution */
-    const Lanes acceleration_ball_theta = M_fall_second*p->inverse_ball_inertia;
-    const Lanes acceleration_ball_y = p->inverse_ball_mass*z_ball_y;
-    const Lanes acceleration_ball_x = F_fall_x*p->inverse_ball_mass;
+    const Lanes acceleration_ball_theta_ = M_fall_second_*p->inverse_ball_inertia_;
+    const Lanes acceleration_ball_y_ = p->inverse_ball_mass_*z_ball_y_;
+    const Lanes acceleration_ball_x_ = F_fall_x_*p->inverse_ball_mass_;
 
     /* results */
-    a[0] = acceleration_ball_x;
-    a[1] = acceleration_ball_y;
-    a[2] = acceleration_ball_theta;
+    a[0] = acceleration_ball_x_;
+    a[1] = acceleration_ball_y_;
+    a[2] = acceleration_ball_theta_;
     aside->power[0] = all_of(0.0);
     aside->power[1] = all_of(0.0);
     aside->power[2] = aside->clearance[0].power;
@@ -185,22 +186,22 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
 {
     (void)t, (void)q, (void)v, (void)memory, (void)p, (void)rare;
     /* backward substitution */
-    const Lanes dq_acceleration_ball_theta = all_of(0.0);
-    const Lanes dq_acceleration_ball_y = all_of(0.0);
-    const Lanes dq_acceleration_ball_x = all_of(0.0);
+    const Lanes dq_acceleration_ball_theta_ = all_of(0.0);
+    const Lanes dq_acceleration_ball_y_ = all_of(0.0);
+    const Lanes dq_acceleration_ball_x_ = all_of(0.0);
 
     /* backward substitution */
-    const Lanes dv_acceleration_ball_theta = all_of(0.0);
-    const Lanes dv_acceleration_ball_y = all_of(0.0);
-    const Lanes dv_acceleration_ball_x = all_of(0.0);
+    const Lanes dv_acceleration_ball_theta_ = all_of(0.0);
+    const Lanes dv_acceleration_ball_y_ = all_of(0.0);
+    const Lanes dv_acceleration_ball_x_ = all_of(0.0);
 
     /* results */
-    dq[0] = dq_acceleration_ball_x;
-    dv[0] = dv_acceleration_ball_x;
-    dq[1] = dq_acceleration_ball_y;
-    dv[1] = dv_acceleration_ball_y;
-    dq[2] = dq_acceleration_ball_theta;
-    dv[2] = dv_acceleration_ball_theta;
+    dq[0] = dq_acceleration_ball_x_;
+    dv[0] = dv_acceleration_ball_x_;
+    dq[1] = dq_acceleration_ball_y_;
+    dv[1] = dv_acceleration_ball_y_;
+    dq[2] = dq_acceleration_ball_theta_;
+    dv[2] = dv_acceleration_ball_theta_;
     *worst = all_of(0.0);
 }
 
@@ -276,24 +277,24 @@ static inline void dry_slopes_hertz_none(Lanes e, Lanes deltadot, Lanes de_t, La
     /* penetration, ratio of velocities, slip */
     const Lanes delta = e - c;
     const Lanes depth = lanes_max_of(delta, all_of(0.0));
-    const Lanes depth_by_e = pick(delta > 0.0, all_of(1.0), all_of(0.0));
+    const Lanes depth_by_e_ = pick(delta > 0.0, all_of(1.0), all_of(0.0));
     const Lanes a_i = 0.5*delta + R_i;
     const Lanes a_j = -0.5*delta + R_j;
 
     /* contact */
-    const Lanes power_depth = lanes_pow(depth, exponent - 1.0);
-    const Lanes F_n = depth*stiffness*power_depth;
-    const Lanes F_n_by_depth = exponent*stiffness*power_depth;
-    const Lanes F_n_by_e = F_n_by_depth*depth_by_e;
+    const Lanes power_depth_ = lanes_pow(depth, exponent - 1.0);
+    const Lanes F_n = depth*stiffness*power_depth_;
+    const Lanes F_n_by_depth_ = exponent*stiffness*power_depth_;
+    const Lanes F_n_by_e_ = F_n_by_depth_*depth_by_e_;
     const Lanes F_along_t_dry = all_of(0.0);
     const Lanes M_i_dry = -F_along_t_dry*a_i;
-    const Lanes M_i_dry_by_e = -0.5*F_along_t_dry;
+    const Lanes M_i_dry_by_e_ = -0.5*F_along_t_dry;
     const Lanes M_j_dry = F_along_t_dry*a_j;
-    const Lanes M_j_dry_by_e = -0.5*F_along_t_dry;
+    const Lanes M_j_dry_by_e_ = -0.5*F_along_t_dry;
 
     /* results */
     out->value[0] = -F_n;
-    out->slope[0][0] = -F_n_by_e;
+    out->slope[0][0] = -F_n_by_e_;
     out->slope[0][1] = all_of(0.0);
     out->slope[0][2] = all_of(0.0);
     out->slope[0][3] = all_of(0.0);
@@ -305,13 +306,13 @@ static inline void dry_slopes_hertz_none(Lanes e, Lanes deltadot, Lanes de_t, La
     out->slope[1][3] = all_of(0.0);
     out->slope[1][4] = all_of(0.0);
     out->value[2] = M_i_dry;
-    out->slope[2][0] = M_i_dry_by_e;
+    out->slope[2][0] = M_i_dry_by_e_;
     out->slope[2][1] = all_of(0.0);
     out->slope[2][2] = all_of(0.0);
     out->slope[2][3] = all_of(0.0);
     out->slope[2][4] = all_of(0.0);
     out->value[3] = M_j_dry;
-    out->slope[3][0] = M_j_dry_by_e;
+    out->slope[3][0] = M_j_dry_by_e_;
     out->slope[3][1] = all_of(0.0);
     out->slope[3][2] = all_of(0.0);
     out->slope[3][3] = all_of(0.0);
@@ -319,7 +320,7 @@ static inline void dry_slopes_hertz_none(Lanes e, Lanes deltadot, Lanes de_t, La
 }
 
 /* Joint fall, as in newton.c: what acts in no lane is passed over. */
-static void slopes_fall(Lanes e, Lanes deltadot, Lanes de_t, Lanes omega_i, Lanes omega_j, const LaneLatch *latch,
+static void slopes_fall_(Lanes e, Lanes deltadot, Lanes de_t, Lanes omega_i, Lanes omega_j, const LaneLatch *latch,
     const LaneParameters *p, const Lanes *side, Lanes *g, LaneSlopes *out)
 {
     (void)p, (void)side, (void)g;
@@ -327,29 +328,29 @@ static void slopes_fall(Lanes e, Lanes deltadot, Lanes de_t, Lanes omega_i, Lane
     const LaneBits touching = is_closed(latch);
     if (any_of(touching)) {
         LaneSlopes dry;
-        dry_slopes_hertz_none(e, deltadot, de_t, omega_i, omega_j, latch, p->elastic_normal_stiffness,
-            p->elastic_normal_exponent, p->floor_radius, p->R_j_floor, p->floor_clearance, &dry);
+        dry_slopes_hertz_none(e, deltadot, de_t, omega_i, omega_j, latch, p->elastic_normal_stiffness_,
+            p->elastic_normal_exponent_, p->floor_radius_, p->R_j_floor_, p->floor_clearance_, &dry);
         pick_slopes(out, touching, &dry);
     }
 }
 
-static void tangent_fall(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes omega_i, Lanes omega_j,
+static void tangent_fall_(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes omega_i, Lanes omega_j,
     const LaneLatch *latch, const LaneParameters *p, const Lanes *side, Lanes *g, Lanes dF[4][6])
 {
     LaneSlopes F;
     const Lanes e = lanes_sqrt(e_x * e_x + e_y * e_y), inverse_e = 1.0 / e, n_x = e_x * inverse_e, n_y =
         e_y * inverse_e;
     const Lanes deltadot = de_x * n_x + de_y * n_y, de_t = de_y * n_x - de_x * n_y;
-    const LaneBits centred = ~(e > CENTRED * p->floor_clearance);
-    slopes_fall(e, deltadot, de_t, omega_i, omega_j, latch, p, side, g, &F);
+    const LaneBits centred = ~(e > CENTRED * p->floor_clearance_);
+    slopes_fall_(e, deltadot, de_t, omega_i, omega_j, latch, p, side, g, &F);
     in_ground_axes(&F, n_x, n_y, deltadot, de_t, inverse_e, dF);
     if (!any_of(centred))
         return;
     /* at the centre each axis in turn is the normal */
     Lanes there[4][6];
-    slopes_fall(e, de_x, de_y, omega_i, omega_j, latch, p, side, g, &F);
+    slopes_fall_(e, de_x, de_y, omega_i, omega_j, latch, p, side, g, &F);
     in_ground_axes(&F, all_of(1.0), all_of(0.0), de_x, de_y, all_of(0.0), there);
-    slopes_fall(e, de_y, -de_x, omega_i, omega_j, latch, p, side, g, &F);
+    slopes_fall_(e, de_y, -de_x, omega_i, omega_j, latch, p, side, g, &F);
     there[0][1] = -F.slope[1][0];
     there[1][1] = F.slope[0][0];
     there[2][1] = F.slope[2][0];
@@ -374,63 +375,65 @@ static void linearize(const Lanes t, const Lanes *q, const Lanes *v, const LaneM
     Lanes g[N_SWITCHES + 1];
 
     /* coordinates, velocities, time */
-    const Lanes ball_x = q[0];
-    const Lanes ball_x_rate = v[0];
-    const Lanes ball_y = q[1];
-    const Lanes ball_y_rate = v[1];
-    const Lanes ball_omega = v[2];
-    const Lanes fall_Fx = aside->clearance[0].Fx;
-    const Lanes fall_Fy = aside->clearance[0].Fy;
-    const Lanes fall_moment_second = aside->clearance[0].moment_second;
+    const Lanes ball_x_ = q[0];
+    const Lanes ball_x_rate_ = v[0];
+    const Lanes ball_y_ = q[1];
+    const Lanes ball_y_rate_ = v[1];
+    const Lanes ball_omega_ = v[2];
+    const Lanes fall_Fx_ = aside->clearance[0].Fx;
+    const Lanes fall_Fy_ = aside->clearance[0].Fy;
+    const Lanes fall_moment_second_ = aside->clearance[0].moment_second;
 
     /* clearance joint fall */
-    const Lanes e_fall_x = ball_x;
-    const Lanes e_fall_y = ball_y;
-    const Lanes edot_fall_x = ball_x_rate;
-    const Lanes edot_fall_y = ball_y_rate;
-    Lanes change_fall[4][6];
-    tangent_fall(e_fall_x, e_fall_y, edot_fall_x, edot_fall_y, all_of(0.0), ball_omega, &memory->latch[0], p, side, g,
-        change_fall);
-    const Lanes fall_Fx_by_e_x = change_fall[0][0];
-    const Lanes fall_Fx_by_e_y = change_fall[0][1];
-    const Lanes fall_Fx_by_de_x = change_fall[0][2];
-    const Lanes fall_Fx_by_de_y = change_fall[0][3];
-    const Lanes fall_Fx_by_omega_j = change_fall[0][5];
-    const Lanes fall_Fy_by_e_x = change_fall[1][0];
-    const Lanes fall_Fy_by_e_y = change_fall[1][1];
-    const Lanes fall_Fy_by_de_x = change_fall[1][2];
-    const Lanes fall_Fy_by_de_y = change_fall[1][3];
-    const Lanes fall_Fy_by_omega_j = change_fall[1][5];
-    const Lanes fall_moment_second_by_e_x = change_fall[3][0];
-    const Lanes fall_moment_second_by_e_y = change_fall[3][1];
-    const Lanes fall_moment_second_by_de_x = change_fall[3][2];
-    const Lanes fall_moment_second_by_de_y = change_fall[3][3];
-    const Lanes fall_moment_second_by_omega_j = change_fall[3][5];
+    const Lanes e_fall_x_ = ball_x_;
+    const Lanes e_fall_y_ = ball_y_;
+    const Lanes edot_fall_x_ = ball_x_rate_;
+    const Lanes edot_fall_y_ = ball_y_rate_;
+    Lanes change_fall_[4][6];
+    tangent_fall_(e_fall_x_, e_fall_y_, edot_fall_x_, edot_fall_y_, all_of(0.0), ball_omega_, &memory->latch[0], p,
+        side, g, change_fall_);
+    const Lanes fall_Fx_by_e_x_ = change_fall_[0][0];
+    const Lanes fall_Fx_by_e_y_ = change_fall_[0][1];
+    const Lanes fall_Fx_by_de_x_ = change_fall_[0][2];
+    const Lanes fall_Fx_by_de_y_ = change_fall_[0][3];
+    const Lanes fall_Fx_by_omega_j_ = change_fall_[0][5];
+    const Lanes fall_Fy_by_e_x_ = change_fall_[1][0];
+    const Lanes fall_Fy_by_e_y_ = change_fall_[1][1];
+    const Lanes fall_Fy_by_de_x_ = change_fall_[1][2];
+    const Lanes fall_Fy_by_de_y_ = change_fall_[1][3];
+    const Lanes fall_Fy_by_omega_j_ = change_fall_[1][5];
+    const Lanes fall_moment_second_by_e_x_ = change_fall_[3][0];
+    const Lanes fall_moment_second_by_e_y_ = change_fall_[3][1];
+    const Lanes fall_moment_second_by_de_x_ = change_fall_[3][2];
+    const Lanes fall_moment_second_by_de_y_ = change_fall_[3][3];
+    const Lanes fall_moment_second_by_omega_j_ = change_fall_[3][5];
 
     /* results */
-    lin->value[0] = -fall_Fx_by_e_x;
-    lin->value[1] = -fall_Fx_by_e_y;
-    lin->value[2] = -fall_Fy_by_e_x;
-    lin->value[3] = -fall_Fy_by_e_y;
-    lin->value[4] = -fall_moment_second_by_e_x;
-    lin->value[5] = -fall_moment_second_by_e_y;
-    lin->value[6] = -fall_Fx_by_de_x;
-    lin->value[7] = -fall_Fx_by_de_y;
-    lin->value[8] = -fall_Fx_by_omega_j;
-    lin->value[9] = -fall_Fy_by_de_x;
-    lin->value[10] = -fall_Fy_by_de_y;
-    lin->value[11] = -fall_Fy_by_omega_j;
-    lin->value[12] = -fall_moment_second_by_de_x;
-    lin->value[13] = -fall_moment_second_by_de_y;
-    lin->value[14] = -fall_moment_second_by_omega_j;
-    lin->value[15] = ball_omega*fall_moment_second_by_e_x + ball_x_rate*fall_Fx_by_e_x + ball_y_rate*fall_Fy_by_e_x;
-    lin->value[16] = ball_omega*fall_moment_second_by_e_y + ball_x_rate*fall_Fx_by_e_y + ball_y_rate*fall_Fy_by_e_y;
-    lin->value[17] = ball_omega*fall_moment_second_by_omega_j + ball_x_rate*fall_Fx_by_omega_j
-        + ball_y_rate*fall_Fy_by_omega_j + fall_moment_second;
-    lin->value[18] = ball_omega*fall_moment_second_by_de_x + ball_x_rate*fall_Fx_by_de_x + ball_y_rate*fall_Fy_by_de_x
-        + fall_Fx;
-    lin->value[19] = ball_omega*fall_moment_second_by_de_y + ball_x_rate*fall_Fx_by_de_y + ball_y_rate*fall_Fy_by_de_y
-        + fall_Fy;
+    lin->value[0] = -fall_Fx_by_e_x_;
+    lin->value[1] = -fall_Fx_by_e_y_;
+    lin->value[2] = -fall_Fy_by_e_x_;
+    lin->value[3] = -fall_Fy_by_e_y_;
+    lin->value[4] = -fall_moment_second_by_e_x_;
+    lin->value[5] = -fall_moment_second_by_e_y_;
+    lin->value[6] = -fall_Fx_by_de_x_;
+    lin->value[7] = -fall_Fx_by_de_y_;
+    lin->value[8] = -fall_Fx_by_omega_j_;
+    lin->value[9] = -fall_Fy_by_de_x_;
+    lin->value[10] = -fall_Fy_by_de_y_;
+    lin->value[11] = -fall_Fy_by_omega_j_;
+    lin->value[12] = -fall_moment_second_by_de_x_;
+    lin->value[13] = -fall_moment_second_by_de_y_;
+    lin->value[14] = -fall_moment_second_by_omega_j_;
+    lin->value[15] = ball_omega_*fall_moment_second_by_e_x_ + ball_x_rate_*fall_Fx_by_e_x_
+        + ball_y_rate_*fall_Fy_by_e_x_;
+    lin->value[16] = ball_omega_*fall_moment_second_by_e_y_ + ball_x_rate_*fall_Fx_by_e_y_
+        + ball_y_rate_*fall_Fy_by_e_y_;
+    lin->value[17] = ball_omega_*fall_moment_second_by_omega_j_ + ball_x_rate_*fall_Fx_by_omega_j_
+        + ball_y_rate_*fall_Fy_by_omega_j_ + fall_moment_second_;
+    lin->value[18] = ball_omega_*fall_moment_second_by_de_x_ + ball_x_rate_*fall_Fx_by_de_x_
+        + ball_y_rate_*fall_Fy_by_de_x_ + fall_Fx_;
+    lin->value[19] = ball_omega_*fall_moment_second_by_de_y_ + ball_x_rate_*fall_Fx_by_de_y_
+        + ball_y_rate_*fall_Fy_by_de_y_ + fall_Fy_;
     lin->p = p;
 }
 
@@ -444,58 +447,58 @@ static void newton_factor(Lanes eta, LaneLinear *lin, LaneBits *rare)
     const LaneParameters *const p = lin->p;
 
     /* linearization */
-    const Lanes by_q_ball_x_ball_x = lin->value[0];
-    const Lanes by_q_ball_x_ball_y = lin->value[1];
-    const Lanes by_q_ball_y_ball_x = lin->value[2];
-    const Lanes by_q_ball_y_ball_y = lin->value[3];
-    const Lanes by_q_ball_theta_ball_x = lin->value[4];
-    const Lanes by_q_ball_theta_ball_y = lin->value[5];
-    const Lanes by_v_ball_x_ball_x = lin->value[6];
-    const Lanes by_v_ball_x_ball_y = lin->value[7];
-    const Lanes by_v_ball_x_ball_theta = lin->value[8];
-    const Lanes by_v_ball_y_ball_x = lin->value[9];
-    const Lanes by_v_ball_y_ball_y = lin->value[10];
-    const Lanes by_v_ball_y_ball_theta = lin->value[11];
-    const Lanes by_v_ball_theta_ball_x = lin->value[12];
-    const Lanes by_v_ball_theta_ball_y = lin->value[13];
-    const Lanes by_v_ball_theta_ball_theta = lin->value[14];
+    const Lanes by_q_ball_x_ball_x_ = lin->value[0];
+    const Lanes by_q_ball_x_ball_y_ = lin->value[1];
+    const Lanes by_q_ball_y_ball_x_ = lin->value[2];
+    const Lanes by_q_ball_y_ball_y_ = lin->value[3];
+    const Lanes by_q_ball_theta_ball_x_ = lin->value[4];
+    const Lanes by_q_ball_theta_ball_y_ = lin->value[5];
+    const Lanes by_v_ball_x_ball_x_ = lin->value[6];
+    const Lanes by_v_ball_x_ball_y_ = lin->value[7];
+    const Lanes by_v_ball_x_ball_theta_ = lin->value[8];
+    const Lanes by_v_ball_y_ball_x_ = lin->value[9];
+    const Lanes by_v_ball_y_ball_y_ = lin->value[10];
+    const Lanes by_v_ball_y_ball_theta_ = lin->value[11];
+    const Lanes by_v_ball_theta_ball_x_ = lin->value[12];
+    const Lanes by_v_ball_theta_ball_y_ = lin->value[13];
+    const Lanes by_v_ball_theta_ball_theta_ = lin->value[14];
 
     /* matrix */
-    const Lanes n_ball_x__ball_x = p->ball_mass + eta*(by_q_ball_x_ball_x*eta + by_v_ball_x_ball_x);
-    const Lanes n_ball_x__ball_y = eta*(by_q_ball_x_ball_y*eta + by_v_ball_x_ball_y);
-    const Lanes n_ball_x__ball_theta = by_v_ball_x_ball_theta*eta;
-    const Lanes n_ball_y__ball_x = eta*(by_q_ball_y_ball_x*eta + by_v_ball_y_ball_x);
-    const Lanes n_ball_y__ball_y = p->ball_mass + eta*(by_q_ball_y_ball_y*eta + by_v_ball_y_ball_y);
-    const Lanes n_ball_y__ball_theta = by_v_ball_y_ball_theta*eta;
-    const Lanes n_ball_theta__ball_x = eta*(by_q_ball_theta_ball_x*eta + by_v_ball_theta_ball_x);
-    const Lanes n_ball_theta__ball_y = eta*(by_q_ball_theta_ball_y*eta + by_v_ball_theta_ball_y);
-    const Lanes n_ball_theta__ball_theta = p->ball_inertia + by_v_ball_theta_ball_theta*eta;
+    const Lanes n_ball_x_ball_x_ = p->ball_mass_ + eta*(by_q_ball_x_ball_x_*eta + by_v_ball_x_ball_x_);
+    const Lanes n_ball_x_ball_y_ = eta*(by_q_ball_x_ball_y_*eta + by_v_ball_x_ball_y_);
+    const Lanes n_ball_x_ball_theta_ = by_v_ball_x_ball_theta_*eta;
+    const Lanes n_ball_y_ball_x_ = eta*(by_q_ball_y_ball_x_*eta + by_v_ball_y_ball_x_);
+    const Lanes n_ball_y_ball_y_ = p->ball_mass_ + eta*(by_q_ball_y_ball_y_*eta + by_v_ball_y_ball_y_);
+    const Lanes n_ball_y_ball_theta_ = by_v_ball_y_ball_theta_*eta;
+    const Lanes n_ball_theta_ball_x_ = eta*(by_q_ball_theta_ball_x_*eta + by_v_ball_theta_ball_x_);
+    const Lanes n_ball_theta_ball_y_ = eta*(by_q_ball_theta_ball_y_*eta + by_v_ball_theta_ball_y_);
+    const Lanes n_ball_theta_ball_theta_ = p->ball_inertia_ + by_v_ball_theta_ball_theta_*eta;
 
     /* L U */
-    const Lanes scale_ball_x = n_ball_x__ball_x;
-    *rare |= ~(lanes_fabs(scale_ball_x) > SINGULAR * lanes_fabs(n_ball_x__ball_x));
-    const Lanes inverse_pivot_ball_x = 1.0/scale_ball_x;
-    lin->lu[0] = inverse_pivot_ball_x;
-    const Lanes l_ball_y__ball_x = inverse_pivot_ball_x*n_ball_y__ball_x;
-    lin->lu[1] = l_ball_y__ball_x;
-    lin->lu[2] = n_ball_x__ball_y;
-    const Lanes l_ball_theta__ball_x = inverse_pivot_ball_x*n_ball_theta__ball_x;
-    lin->lu[3] = l_ball_theta__ball_x;
-    lin->lu[4] = n_ball_x__ball_theta;
-    const Lanes scale_ball_y = -l_ball_y__ball_x*n_ball_x__ball_y + n_ball_y__ball_y;
-    *rare |= ~(lanes_fabs(scale_ball_y) > SINGULAR * lanes_fabs(n_ball_y__ball_y));
-    const Lanes inverse_pivot_ball_y = 1.0/scale_ball_y;
-    lin->lu[5] = inverse_pivot_ball_y;
-    const Lanes l_ball_theta__ball_y = inverse_pivot_ball_y*(-l_ball_theta__ball_x*n_ball_x__ball_y
-        + n_ball_theta__ball_y);
-    lin->lu[6] = l_ball_theta__ball_y;
-    const Lanes u_ball_y__ball_theta = -l_ball_y__ball_x*n_ball_x__ball_theta + n_ball_y__ball_theta;
-    lin->lu[7] = u_ball_y__ball_theta;
-    const Lanes scale_ball_theta = -l_ball_theta__ball_x*n_ball_x__ball_theta
-        - l_ball_theta__ball_y*u_ball_y__ball_theta + n_ball_theta__ball_theta;
-    *rare |= ~(lanes_fabs(scale_ball_theta) > SINGULAR * lanes_fabs(n_ball_theta__ball_theta));
-    const Lanes inverse_pivot_ball_theta = 1.0/scale_ball_theta;
-    lin->lu[8] = inverse_pivot_ball_theta;
+    const Lanes scale_ball_x_ = n_ball_x_ball_x_;
+    *rare |= ~(lanes_fabs(scale_ball_x_) > SINGULAR * lanes_fabs(n_ball_x_ball_x_));
+    const Lanes inverse_pivot_ball_x_ = 1.0/scale_ball_x_;
+    lin->lu[0] = inverse_pivot_ball_x_;
+    const Lanes l_ball_y_ball_x_ = inverse_pivot_ball_x_*n_ball_y_ball_x_;
+    lin->lu[1] = l_ball_y_ball_x_;
+    lin->lu[2] = n_ball_x_ball_y_;
+    const Lanes l_ball_theta_ball_x_ = inverse_pivot_ball_x_*n_ball_theta_ball_x_;
+    lin->lu[3] = l_ball_theta_ball_x_;
+    lin->lu[4] = n_ball_x_ball_theta_;
+    const Lanes scale_ball_y_ = -l_ball_y_ball_x_*n_ball_x_ball_y_ + n_ball_y_ball_y_;
+    *rare |= ~(lanes_fabs(scale_ball_y_) > SINGULAR * lanes_fabs(n_ball_y_ball_y_));
+    const Lanes inverse_pivot_ball_y_ = 1.0/scale_ball_y_;
+    lin->lu[5] = inverse_pivot_ball_y_;
+    const Lanes l_ball_theta_ball_y_ = inverse_pivot_ball_y_*(-l_ball_theta_ball_x_*n_ball_x_ball_y_
+        + n_ball_theta_ball_y_);
+    lin->lu[6] = l_ball_theta_ball_y_;
+    const Lanes u_ball_y_ball_theta_ = -l_ball_y_ball_x_*n_ball_x_ball_theta_ + n_ball_y_ball_theta_;
+    lin->lu[7] = u_ball_y_ball_theta_;
+    const Lanes scale_ball_theta_ = -l_ball_theta_ball_x_*n_ball_x_ball_theta_
+        - l_ball_theta_ball_y_*u_ball_y_ball_theta_ + n_ball_theta_ball_theta_;
+    *rare |= ~(lanes_fabs(scale_ball_theta_) > SINGULAR * lanes_fabs(n_ball_theta_ball_theta_));
+    const Lanes inverse_pivot_ball_theta_ = 1.0/scale_ball_theta_;
+    lin->lu[8] = inverse_pivot_ball_theta_;
 }
 
 /*
@@ -504,29 +507,29 @@ static void newton_factor(Lanes eta, LaneLinear *lin, LaneBits *rare)
 static void newton_substitute(const LaneLinear *lin, Lanes *x)
 {
     /* linearization */
-    const Lanes inverse_pivot_ball_x = lin->lu[0];
-    const Lanes l_ball_y__ball_x = lin->lu[1];
-    const Lanes n_ball_x__ball_y = lin->lu[2];
-    const Lanes l_ball_theta__ball_x = lin->lu[3];
-    const Lanes n_ball_x__ball_theta = lin->lu[4];
-    const Lanes inverse_pivot_ball_y = lin->lu[5];
-    const Lanes l_ball_theta__ball_y = lin->lu[6];
-    const Lanes u_ball_y__ball_theta = lin->lu[7];
-    const Lanes inverse_pivot_ball_theta = lin->lu[8];
+    const Lanes inverse_pivot_ball_x_ = lin->lu[0];
+    const Lanes l_ball_y_ball_x_ = lin->lu[1];
+    const Lanes n_ball_x_ball_y_ = lin->lu[2];
+    const Lanes l_ball_theta_ball_x_ = lin->lu[3];
+    const Lanes n_ball_x_ball_theta_ = lin->lu[4];
+    const Lanes inverse_pivot_ball_y_ = lin->lu[5];
+    const Lanes l_ball_theta_ball_y_ = lin->lu[6];
+    const Lanes u_ball_y_ball_theta_ = lin->lu[7];
+    const Lanes inverse_pivot_ball_theta_ = lin->lu[8];
 
     /* forward */
-    const Lanes b_ball_x = x[0];
-    const Lanes b_ball_y = -b_ball_x*l_ball_y__ball_x + x[1];
-    const Lanes b_ball_theta = -b_ball_x*l_ball_theta__ball_x - b_ball_y*l_ball_theta__ball_y + x[2];
+    const Lanes b_ball_x_ = x[0];
+    const Lanes b_ball_y_ = -b_ball_x_*l_ball_y_ball_x_ + x[1];
+    const Lanes b_ball_theta_ = -b_ball_x_*l_ball_theta_ball_x_ - b_ball_y_*l_ball_theta_ball_y_ + x[2];
 
     /* backward */
-    const Lanes x_ball_theta = b_ball_theta*inverse_pivot_ball_theta;
-    x[2] = x_ball_theta;
-    const Lanes x_ball_y = inverse_pivot_ball_y*(b_ball_y - u_ball_y__ball_theta*x_ball_theta);
-    x[1] = x_ball_y;
-    const Lanes x_ball_x = inverse_pivot_ball_x*(b_ball_x - n_ball_x__ball_theta*x_ball_theta
-        - n_ball_x__ball_y*x_ball_y);
-    x[0] = x_ball_x;
+    const Lanes x_ball_theta_ = b_ball_theta_*inverse_pivot_ball_theta_;
+    x[2] = x_ball_theta_;
+    const Lanes x_ball_y_ = inverse_pivot_ball_y_*(b_ball_y_ - u_ball_y_ball_theta_*x_ball_theta_);
+    x[1] = x_ball_y_;
+    const Lanes x_ball_x_ = inverse_pivot_ball_x_*(b_ball_x_ - n_ball_x_ball_theta_*x_ball_theta_
+        - n_ball_x_ball_y_*x_ball_y_);
+    x[0] = x_ball_x_;
 }
 
 /*
@@ -539,23 +542,23 @@ static void newton_solve(const LaneLinear *lin, Lanes eta, Lanes s, const Lanes 
     const LaneParameters *const p = lin->p;
 
     /* linearization */
-    const Lanes by_q_ball_x_ball_x = lin->value[0];
-    const Lanes by_q_ball_x_ball_y = lin->value[1];
-    const Lanes by_q_ball_y_ball_x = lin->value[2];
-    const Lanes by_q_ball_y_ball_y = lin->value[3];
-    const Lanes by_q_ball_theta_ball_x = lin->value[4];
-    const Lanes by_q_ball_theta_ball_y = lin->value[5];
-    const Lanes power_q_2_ball_x = lin->value[15];
-    const Lanes power_q_2_ball_y = lin->value[16];
-    const Lanes power_v_2_ball_theta = lin->value[17];
-    const Lanes power_v_2_ball_x = lin->value[18];
-    const Lanes power_v_2_ball_y = lin->value[19];
+    const Lanes by_q_ball_x_ball_x_ = lin->value[0];
+    const Lanes by_q_ball_x_ball_y_ = lin->value[1];
+    const Lanes by_q_ball_y_ball_x_ = lin->value[2];
+    const Lanes by_q_ball_y_ball_y_ = lin->value[3];
+    const Lanes by_q_ball_theta_ball_x_ = lin->value[4];
+    const Lanes by_q_ball_theta_ball_y_ = lin->value[5];
+    const Lanes power_q_2_ball_x_ = lin->value[15];
+    const Lanes power_q_2_ball_y_ = lin->value[16];
+    const Lanes power_v_2_ball_theta_ = lin->value[17];
+    const Lanes power_v_2_ball_x_ = lin->value[18];
+    const Lanes power_v_2_ball_y_ = lin->value[19];
 
     /* right-hand side */
     Lanes x[3];
-    x[0] = eta*(p->ball_mass*r[3] - by_q_ball_x_ball_x*eta*r[0] - by_q_ball_x_ball_y*eta*r[1]);
-    x[1] = eta*(p->ball_mass*r[4] - by_q_ball_y_ball_x*eta*r[0] - by_q_ball_y_ball_y*eta*r[1]);
-    x[2] = eta*(p->ball_inertia*r[5] - by_q_ball_theta_ball_x*eta*r[0] - by_q_ball_theta_ball_y*eta*r[1]);
+    x[0] = eta*(p->ball_mass_*r[3] - by_q_ball_x_ball_x_*eta*r[0] - by_q_ball_x_ball_y_*eta*r[1]);
+    x[1] = eta*(p->ball_mass_*r[4] - by_q_ball_y_ball_x_*eta*r[0] - by_q_ball_y_ball_y_*eta*r[1]);
+    x[2] = eta*(p->ball_inertia_*r[5] - by_q_ball_theta_ball_x_*eta*r[0] - by_q_ball_theta_ball_y_*eta*r[1]);
     newton_substitute(lin, x);
 
     /* solution */
@@ -567,8 +570,8 @@ static void newton_solve(const LaneLinear *lin, Lanes eta, Lanes s, const Lanes 
     u[5] = x[2];
     u[6] = eta*r[6];
     u[7] = eta*r[7];
-    u[8] = eta*(power_q_2_ball_x*u[0] + power_q_2_ball_y*u[1] + power_v_2_ball_theta*u[5] + power_v_2_ball_x*u[3]
-        + power_v_2_ball_y*u[4] + r[8]);
+    u[8] = eta*(power_q_2_ball_x_*u[0] + power_q_2_ball_y_*u[1] + power_v_2_ball_theta_*u[5] + power_v_2_ball_x_*u[3]
+        + power_v_2_ball_y_*u[4] + r[8]);
 }
 
 #include "engine/batch/lane_tries.c"

@@ -56,24 +56,24 @@ static inline void dry_slopes_hertz_none(double e, double deltadot, double de_t,
     /* penetration, ratio of velocities, slip */
     const double delta = e - c;
     const double depth = max_of(delta, 0.0);
-    const double depth_by_e = delta > 0.0 ? 1.0 : 0.0;
+    const double depth_by_e_ = delta > 0.0 ? 1.0 : 0.0;
     const double a_i = 0.5*delta + R_i;
     const double a_j = -0.5*delta + R_j;
 
     /* contact */
-    const double power_depth = pow(depth, exponent - 1.0);
-    const double F_n = depth*stiffness*power_depth;
-    const double F_n_by_depth = exponent*stiffness*power_depth;
-    const double F_n_by_e = F_n_by_depth*depth_by_e;
+    const double power_depth_ = pow(depth, exponent - 1.0);
+    const double F_n = depth*stiffness*power_depth_;
+    const double F_n_by_depth_ = exponent*stiffness*power_depth_;
+    const double F_n_by_e_ = F_n_by_depth_*depth_by_e_;
     const double F_along_t_dry = 0.0;
     const double M_i_dry = -F_along_t_dry*a_i;
-    const double M_i_dry_by_e = -0.5*F_along_t_dry;
+    const double M_i_dry_by_e_ = -0.5*F_along_t_dry;
     const double M_j_dry = F_along_t_dry*a_j;
-    const double M_j_dry_by_e = -0.5*F_along_t_dry;
+    const double M_j_dry_by_e_ = -0.5*F_along_t_dry;
 
     /* results */
     out->value[0] = -F_n;
-    out->slope[0][0] = -F_n_by_e;
+    out->slope[0][0] = -F_n_by_e_;
     out->slope[0][1] = 0.0;
     out->slope[0][2] = 0.0;
     out->slope[0][3] = 0.0;
@@ -85,13 +85,13 @@ static inline void dry_slopes_hertz_none(double e, double deltadot, double de_t,
     out->slope[1][3] = 0.0;
     out->slope[1][4] = 0.0;
     out->value[2] = M_i_dry;
-    out->slope[2][0] = M_i_dry_by_e;
+    out->slope[2][0] = M_i_dry_by_e_;
     out->slope[2][1] = 0.0;
     out->slope[2][2] = 0.0;
     out->slope[2][3] = 0.0;
     out->slope[2][4] = 0.0;
     out->value[3] = M_j_dry;
-    out->slope[3][0] = M_j_dry_by_e;
+    out->slope[3][0] = M_j_dry_by_e_;
     out->slope[3][1] = 0.0;
     out->slope[3][2] = 0.0;
     out->slope[3][3] = 0.0;
@@ -102,33 +102,33 @@ static inline void dry_slopes_hertz_none(double e, double deltadot, double de_t,
  * Joint fall: the derivatives of (F_x, F_y, M_i, M_j) by (e_x, e_y, de_x, de_y, omega_i, omega_j), on the same
  * side of every corner as the force itself.
  */
-static void slopes_fall(double e, double deltadot, double de_t, double omega_i, double omega_j, const Latch *latch,
+static void slopes_fall_(double e, double deltadot, double de_t, double omega_i, double omega_j, const Latch *latch,
     const Parameters *p, const double *side, double *g, PinSlopes *out)
 {
     (void)g;
-    const double delta = e - p->floor_clearance;
+    const double delta = e - p->floor_clearance_;
     *out = (PinSlopes){0};
     if (side ? latch->closed : delta > 0.0)
-        dry_slopes_hertz_none(e, deltadot, de_t, omega_i, omega_j, latch, p->elastic_normal_stiffness,
-            p->elastic_normal_exponent, p->floor_radius, p->R_j_floor, p->floor_clearance, out);
+        dry_slopes_hertz_none(e, deltadot, de_t, omega_i, omega_j, latch, p->elastic_normal_stiffness_,
+            p->elastic_normal_exponent_, p->floor_radius_, p->R_j_floor_, p->floor_clearance_, out);
 }
 
-static void tangent_fall(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
+static void tangent_fall_(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
     const Latch *latch, const Parameters *p, const double *side, double *g, double dF[4][6])
 {
     PinSlopes F;
     const double e = sqrt(e_x * e_x + e_y * e_y);
-    if (e > CENTRED * p->floor_clearance) {
+    if (e > CENTRED * p->floor_clearance_) {
         const double inverse_e = 1.0 / e, n_x = e_x * inverse_e, n_y = e_y * inverse_e;
         const double deltadot = de_x * n_x + de_y * n_y, de_t = de_y * n_x - de_x * n_y;
-        slopes_fall(e, deltadot, de_t, omega_i, omega_j, latch, p, side, g, &F);
+        slopes_fall_(e, deltadot, de_t, omega_i, omega_j, latch, p, side, g, &F);
         in_ground_axes(&F, n_x, n_y, deltadot, de_t, inverse_e, dF);
         return;
     }
     /* at the centre each axis in turn is the normal */
-    slopes_fall(e, de_x, de_y, omega_i, omega_j, latch, p, side, g, &F);
+    slopes_fall_(e, de_x, de_y, omega_i, omega_j, latch, p, side, g, &F);
     in_ground_axes(&F, 1.0, 0.0, de_x, de_y, 0.0, dF);
-    slopes_fall(e, de_y, -de_x, omega_i, omega_j, latch, p, side, g, &F);
+    slopes_fall_(e, de_y, -de_x, omega_i, omega_j, latch, p, side, g, &F);
     dF[0][1] = -F.slope[1][0];
     dF[1][1] = F.slope[0][0];
     dF[2][1] = F.slope[2][0];
@@ -147,63 +147,65 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
     double g[N_SWITCHES + 1];
 
     /* coordinates, velocities, time */
-    const double ball_x = q[0];
-    const double ball_x_rate = v[0];
-    const double ball_y = q[1];
-    const double ball_y_rate = v[1];
-    const double ball_omega = v[2];
-    const double fall_Fx = aside->clearance[0].Fx;
-    const double fall_Fy = aside->clearance[0].Fy;
-    const double fall_moment_second = aside->clearance[0].moment_second;
+    const double ball_x_ = q[0];
+    const double ball_x_rate_ = v[0];
+    const double ball_y_ = q[1];
+    const double ball_y_rate_ = v[1];
+    const double ball_omega_ = v[2];
+    const double fall_Fx_ = aside->clearance[0].Fx;
+    const double fall_Fy_ = aside->clearance[0].Fy;
+    const double fall_moment_second_ = aside->clearance[0].moment_second;
 
     /* clearance joint fall */
-    const double e_fall_x = ball_x;
-    const double e_fall_y = ball_y;
-    const double edot_fall_x = ball_x_rate;
-    const double edot_fall_y = ball_y_rate;
-    double change_fall[4][6];
-    tangent_fall(e_fall_x, e_fall_y, edot_fall_x, edot_fall_y, 0, ball_omega, &memory->latch[0], p, side, g,
-        change_fall);
-    const double fall_Fx_by_e_x = change_fall[0][0];
-    const double fall_Fx_by_e_y = change_fall[0][1];
-    const double fall_Fx_by_de_x = change_fall[0][2];
-    const double fall_Fx_by_de_y = change_fall[0][3];
-    const double fall_Fx_by_omega_j = change_fall[0][5];
-    const double fall_Fy_by_e_x = change_fall[1][0];
-    const double fall_Fy_by_e_y = change_fall[1][1];
-    const double fall_Fy_by_de_x = change_fall[1][2];
-    const double fall_Fy_by_de_y = change_fall[1][3];
-    const double fall_Fy_by_omega_j = change_fall[1][5];
-    const double fall_moment_second_by_e_x = change_fall[3][0];
-    const double fall_moment_second_by_e_y = change_fall[3][1];
-    const double fall_moment_second_by_de_x = change_fall[3][2];
-    const double fall_moment_second_by_de_y = change_fall[3][3];
-    const double fall_moment_second_by_omega_j = change_fall[3][5];
+    const double e_fall_x_ = ball_x_;
+    const double e_fall_y_ = ball_y_;
+    const double edot_fall_x_ = ball_x_rate_;
+    const double edot_fall_y_ = ball_y_rate_;
+    double change_fall_[4][6];
+    tangent_fall_(e_fall_x_, e_fall_y_, edot_fall_x_, edot_fall_y_, 0, ball_omega_, &memory->latch[0], p, side, g,
+        change_fall_);
+    const double fall_Fx_by_e_x_ = change_fall_[0][0];
+    const double fall_Fx_by_e_y_ = change_fall_[0][1];
+    const double fall_Fx_by_de_x_ = change_fall_[0][2];
+    const double fall_Fx_by_de_y_ = change_fall_[0][3];
+    const double fall_Fx_by_omega_j_ = change_fall_[0][5];
+    const double fall_Fy_by_e_x_ = change_fall_[1][0];
+    const double fall_Fy_by_e_y_ = change_fall_[1][1];
+    const double fall_Fy_by_de_x_ = change_fall_[1][2];
+    const double fall_Fy_by_de_y_ = change_fall_[1][3];
+    const double fall_Fy_by_omega_j_ = change_fall_[1][5];
+    const double fall_moment_second_by_e_x_ = change_fall_[3][0];
+    const double fall_moment_second_by_e_y_ = change_fall_[3][1];
+    const double fall_moment_second_by_de_x_ = change_fall_[3][2];
+    const double fall_moment_second_by_de_y_ = change_fall_[3][3];
+    const double fall_moment_second_by_omega_j_ = change_fall_[3][5];
 
     /* results */
-    lin->value[0] = -fall_Fx_by_e_x;
-    lin->value[1] = -fall_Fx_by_e_y;
-    lin->value[2] = -fall_Fy_by_e_x;
-    lin->value[3] = -fall_Fy_by_e_y;
-    lin->value[4] = -fall_moment_second_by_e_x;
-    lin->value[5] = -fall_moment_second_by_e_y;
-    lin->value[6] = -fall_Fx_by_de_x;
-    lin->value[7] = -fall_Fx_by_de_y;
-    lin->value[8] = -fall_Fx_by_omega_j;
-    lin->value[9] = -fall_Fy_by_de_x;
-    lin->value[10] = -fall_Fy_by_de_y;
-    lin->value[11] = -fall_Fy_by_omega_j;
-    lin->value[12] = -fall_moment_second_by_de_x;
-    lin->value[13] = -fall_moment_second_by_de_y;
-    lin->value[14] = -fall_moment_second_by_omega_j;
-    lin->value[15] = ball_omega*fall_moment_second_by_e_x + ball_x_rate*fall_Fx_by_e_x + ball_y_rate*fall_Fy_by_e_x;
-    lin->value[16] = ball_omega*fall_moment_second_by_e_y + ball_x_rate*fall_Fx_by_e_y + ball_y_rate*fall_Fy_by_e_y;
-    lin->value[17] = ball_omega*fall_moment_second_by_omega_j + ball_x_rate*fall_Fx_by_omega_j
-        + ball_y_rate*fall_Fy_by_omega_j + fall_moment_second;
-    lin->value[18] = ball_omega*fall_moment_second_by_de_x + ball_x_rate*fall_Fx_by_de_x + ball_y_rate*fall_Fy_by_de_x
-        + fall_Fx;
-    lin->value[19] = ball_omega*fall_moment_second_by_de_y + ball_x_rate*fall_Fx_by_de_y + ball_y_rate*fall_Fy_by_de_y
-        + fall_Fy;
+    lin->value[0] = -fall_Fx_by_e_x_;
+    lin->value[1] = -fall_Fx_by_e_y_;
+    lin->value[2] = -fall_Fy_by_e_x_;
+    lin->value[3] = -fall_Fy_by_e_y_;
+    lin->value[4] = -fall_moment_second_by_e_x_;
+    lin->value[5] = -fall_moment_second_by_e_y_;
+    lin->value[6] = -fall_Fx_by_de_x_;
+    lin->value[7] = -fall_Fx_by_de_y_;
+    lin->value[8] = -fall_Fx_by_omega_j_;
+    lin->value[9] = -fall_Fy_by_de_x_;
+    lin->value[10] = -fall_Fy_by_de_y_;
+    lin->value[11] = -fall_Fy_by_omega_j_;
+    lin->value[12] = -fall_moment_second_by_de_x_;
+    lin->value[13] = -fall_moment_second_by_de_y_;
+    lin->value[14] = -fall_moment_second_by_omega_j_;
+    lin->value[15] = ball_omega_*fall_moment_second_by_e_x_ + ball_x_rate_*fall_Fx_by_e_x_
+        + ball_y_rate_*fall_Fy_by_e_x_;
+    lin->value[16] = ball_omega_*fall_moment_second_by_e_y_ + ball_x_rate_*fall_Fx_by_e_y_
+        + ball_y_rate_*fall_Fy_by_e_y_;
+    lin->value[17] = ball_omega_*fall_moment_second_by_omega_j_ + ball_x_rate_*fall_Fx_by_omega_j_
+        + ball_y_rate_*fall_Fy_by_omega_j_ + fall_moment_second_;
+    lin->value[18] = ball_omega_*fall_moment_second_by_de_x_ + ball_x_rate_*fall_Fx_by_de_x_
+        + ball_y_rate_*fall_Fy_by_de_x_ + fall_Fx_;
+    lin->value[19] = ball_omega_*fall_moment_second_by_de_y_ + ball_x_rate_*fall_Fx_by_de_y_
+        + ball_y_rate_*fall_Fy_by_de_y_ + fall_Fy_;
     lin->p = p;
 }
 
@@ -217,61 +219,61 @@ int newton_factor(double eta, Linear *lin)
     const Parameters *const p = lin->p;
 
     /* linearization */
-    const double by_q_ball_x_ball_x = lin->value[0];
-    const double by_q_ball_x_ball_y = lin->value[1];
-    const double by_q_ball_y_ball_x = lin->value[2];
-    const double by_q_ball_y_ball_y = lin->value[3];
-    const double by_q_ball_theta_ball_x = lin->value[4];
-    const double by_q_ball_theta_ball_y = lin->value[5];
-    const double by_v_ball_x_ball_x = lin->value[6];
-    const double by_v_ball_x_ball_y = lin->value[7];
-    const double by_v_ball_x_ball_theta = lin->value[8];
-    const double by_v_ball_y_ball_x = lin->value[9];
-    const double by_v_ball_y_ball_y = lin->value[10];
-    const double by_v_ball_y_ball_theta = lin->value[11];
-    const double by_v_ball_theta_ball_x = lin->value[12];
-    const double by_v_ball_theta_ball_y = lin->value[13];
-    const double by_v_ball_theta_ball_theta = lin->value[14];
+    const double by_q_ball_x_ball_x_ = lin->value[0];
+    const double by_q_ball_x_ball_y_ = lin->value[1];
+    const double by_q_ball_y_ball_x_ = lin->value[2];
+    const double by_q_ball_y_ball_y_ = lin->value[3];
+    const double by_q_ball_theta_ball_x_ = lin->value[4];
+    const double by_q_ball_theta_ball_y_ = lin->value[5];
+    const double by_v_ball_x_ball_x_ = lin->value[6];
+    const double by_v_ball_x_ball_y_ = lin->value[7];
+    const double by_v_ball_x_ball_theta_ = lin->value[8];
+    const double by_v_ball_y_ball_x_ = lin->value[9];
+    const double by_v_ball_y_ball_y_ = lin->value[10];
+    const double by_v_ball_y_ball_theta_ = lin->value[11];
+    const double by_v_ball_theta_ball_x_ = lin->value[12];
+    const double by_v_ball_theta_ball_y_ = lin->value[13];
+    const double by_v_ball_theta_ball_theta_ = lin->value[14];
 
     /* matrix */
-    const double n_ball_x__ball_x = p->ball_mass + eta*(by_q_ball_x_ball_x*eta + by_v_ball_x_ball_x);
-    const double n_ball_x__ball_y = eta*(by_q_ball_x_ball_y*eta + by_v_ball_x_ball_y);
-    const double n_ball_x__ball_theta = by_v_ball_x_ball_theta*eta;
-    const double n_ball_y__ball_x = eta*(by_q_ball_y_ball_x*eta + by_v_ball_y_ball_x);
-    const double n_ball_y__ball_y = p->ball_mass + eta*(by_q_ball_y_ball_y*eta + by_v_ball_y_ball_y);
-    const double n_ball_y__ball_theta = by_v_ball_y_ball_theta*eta;
-    const double n_ball_theta__ball_x = eta*(by_q_ball_theta_ball_x*eta + by_v_ball_theta_ball_x);
-    const double n_ball_theta__ball_y = eta*(by_q_ball_theta_ball_y*eta + by_v_ball_theta_ball_y);
-    const double n_ball_theta__ball_theta = p->ball_inertia + by_v_ball_theta_ball_theta*eta;
+    const double n_ball_x_ball_x_ = p->ball_mass_ + eta*(by_q_ball_x_ball_x_*eta + by_v_ball_x_ball_x_);
+    const double n_ball_x_ball_y_ = eta*(by_q_ball_x_ball_y_*eta + by_v_ball_x_ball_y_);
+    const double n_ball_x_ball_theta_ = by_v_ball_x_ball_theta_*eta;
+    const double n_ball_y_ball_x_ = eta*(by_q_ball_y_ball_x_*eta + by_v_ball_y_ball_x_);
+    const double n_ball_y_ball_y_ = p->ball_mass_ + eta*(by_q_ball_y_ball_y_*eta + by_v_ball_y_ball_y_);
+    const double n_ball_y_ball_theta_ = by_v_ball_y_ball_theta_*eta;
+    const double n_ball_theta_ball_x_ = eta*(by_q_ball_theta_ball_x_*eta + by_v_ball_theta_ball_x_);
+    const double n_ball_theta_ball_y_ = eta*(by_q_ball_theta_ball_y_*eta + by_v_ball_theta_ball_y_);
+    const double n_ball_theta_ball_theta_ = p->ball_inertia_ + by_v_ball_theta_ball_theta_*eta;
 
     /* L U */
-    const double scale_ball_x = n_ball_x__ball_x;
-    if (!(fabs(scale_ball_x) > SINGULAR * fabs(n_ball_x__ball_x)))
+    const double scale_ball_x_ = n_ball_x_ball_x_;
+    if (!(fabs(scale_ball_x_) > SINGULAR * fabs(n_ball_x_ball_x_)))
         return 1;
-    const double inverse_pivot_ball_x = 1.0/scale_ball_x;
-    lin->lu[0] = inverse_pivot_ball_x;
-    const double l_ball_y__ball_x = inverse_pivot_ball_x*n_ball_y__ball_x;
-    lin->lu[1] = l_ball_y__ball_x;
-    lin->lu[2] = n_ball_x__ball_y;
-    const double l_ball_theta__ball_x = inverse_pivot_ball_x*n_ball_theta__ball_x;
-    lin->lu[3] = l_ball_theta__ball_x;
-    lin->lu[4] = n_ball_x__ball_theta;
-    const double scale_ball_y = -l_ball_y__ball_x*n_ball_x__ball_y + n_ball_y__ball_y;
-    if (!(fabs(scale_ball_y) > SINGULAR * fabs(n_ball_y__ball_y)))
+    const double inverse_pivot_ball_x_ = 1.0/scale_ball_x_;
+    lin->lu[0] = inverse_pivot_ball_x_;
+    const double l_ball_y_ball_x_ = inverse_pivot_ball_x_*n_ball_y_ball_x_;
+    lin->lu[1] = l_ball_y_ball_x_;
+    lin->lu[2] = n_ball_x_ball_y_;
+    const double l_ball_theta_ball_x_ = inverse_pivot_ball_x_*n_ball_theta_ball_x_;
+    lin->lu[3] = l_ball_theta_ball_x_;
+    lin->lu[4] = n_ball_x_ball_theta_;
+    const double scale_ball_y_ = -l_ball_y_ball_x_*n_ball_x_ball_y_ + n_ball_y_ball_y_;
+    if (!(fabs(scale_ball_y_) > SINGULAR * fabs(n_ball_y_ball_y_)))
         return 2;
-    const double inverse_pivot_ball_y = 1.0/scale_ball_y;
-    lin->lu[5] = inverse_pivot_ball_y;
-    const double l_ball_theta__ball_y = inverse_pivot_ball_y*(-l_ball_theta__ball_x*n_ball_x__ball_y
-        + n_ball_theta__ball_y);
-    lin->lu[6] = l_ball_theta__ball_y;
-    const double u_ball_y__ball_theta = -l_ball_y__ball_x*n_ball_x__ball_theta + n_ball_y__ball_theta;
-    lin->lu[7] = u_ball_y__ball_theta;
-    const double scale_ball_theta = -l_ball_theta__ball_x*n_ball_x__ball_theta
-        - l_ball_theta__ball_y*u_ball_y__ball_theta + n_ball_theta__ball_theta;
-    if (!(fabs(scale_ball_theta) > SINGULAR * fabs(n_ball_theta__ball_theta)))
+    const double inverse_pivot_ball_y_ = 1.0/scale_ball_y_;
+    lin->lu[5] = inverse_pivot_ball_y_;
+    const double l_ball_theta_ball_y_ = inverse_pivot_ball_y_*(-l_ball_theta_ball_x_*n_ball_x_ball_y_
+        + n_ball_theta_ball_y_);
+    lin->lu[6] = l_ball_theta_ball_y_;
+    const double u_ball_y_ball_theta_ = -l_ball_y_ball_x_*n_ball_x_ball_theta_ + n_ball_y_ball_theta_;
+    lin->lu[7] = u_ball_y_ball_theta_;
+    const double scale_ball_theta_ = -l_ball_theta_ball_x_*n_ball_x_ball_theta_
+        - l_ball_theta_ball_y_*u_ball_y_ball_theta_ + n_ball_theta_ball_theta_;
+    if (!(fabs(scale_ball_theta_) > SINGULAR * fabs(n_ball_theta_ball_theta_)))
         return 3;
-    const double inverse_pivot_ball_theta = 1.0/scale_ball_theta;
-    lin->lu[8] = inverse_pivot_ball_theta;
+    const double inverse_pivot_ball_theta_ = 1.0/scale_ball_theta_;
+    lin->lu[8] = inverse_pivot_ball_theta_;
     return 0;
 }
 
@@ -281,29 +283,29 @@ int newton_factor(double eta, Linear *lin)
 void newton_substitute(const Linear *lin, double *x)
 {
     /* linearization */
-    const double inverse_pivot_ball_x = lin->lu[0];
-    const double l_ball_y__ball_x = lin->lu[1];
-    const double n_ball_x__ball_y = lin->lu[2];
-    const double l_ball_theta__ball_x = lin->lu[3];
-    const double n_ball_x__ball_theta = lin->lu[4];
-    const double inverse_pivot_ball_y = lin->lu[5];
-    const double l_ball_theta__ball_y = lin->lu[6];
-    const double u_ball_y__ball_theta = lin->lu[7];
-    const double inverse_pivot_ball_theta = lin->lu[8];
+    const double inverse_pivot_ball_x_ = lin->lu[0];
+    const double l_ball_y_ball_x_ = lin->lu[1];
+    const double n_ball_x_ball_y_ = lin->lu[2];
+    const double l_ball_theta_ball_x_ = lin->lu[3];
+    const double n_ball_x_ball_theta_ = lin->lu[4];
+    const double inverse_pivot_ball_y_ = lin->lu[5];
+    const double l_ball_theta_ball_y_ = lin->lu[6];
+    const double u_ball_y_ball_theta_ = lin->lu[7];
+    const double inverse_pivot_ball_theta_ = lin->lu[8];
 
     /* forward */
-    const double b_ball_x = x[0];
-    const double b_ball_y = -b_ball_x*l_ball_y__ball_x + x[1];
-    const double b_ball_theta = -b_ball_x*l_ball_theta__ball_x - b_ball_y*l_ball_theta__ball_y + x[2];
+    const double b_ball_x_ = x[0];
+    const double b_ball_y_ = -b_ball_x_*l_ball_y_ball_x_ + x[1];
+    const double b_ball_theta_ = -b_ball_x_*l_ball_theta_ball_x_ - b_ball_y_*l_ball_theta_ball_y_ + x[2];
 
     /* backward */
-    const double x_ball_theta = b_ball_theta*inverse_pivot_ball_theta;
-    x[2] = x_ball_theta;
-    const double x_ball_y = inverse_pivot_ball_y*(b_ball_y - u_ball_y__ball_theta*x_ball_theta);
-    x[1] = x_ball_y;
-    const double x_ball_x = inverse_pivot_ball_x*(b_ball_x - n_ball_x__ball_theta*x_ball_theta
-        - n_ball_x__ball_y*x_ball_y);
-    x[0] = x_ball_x;
+    const double x_ball_theta_ = b_ball_theta_*inverse_pivot_ball_theta_;
+    x[2] = x_ball_theta_;
+    const double x_ball_y_ = inverse_pivot_ball_y_*(b_ball_y_ - u_ball_y_ball_theta_*x_ball_theta_);
+    x[1] = x_ball_y_;
+    const double x_ball_x_ = inverse_pivot_ball_x_*(b_ball_x_ - n_ball_x_ball_theta_*x_ball_theta_
+        - n_ball_x_ball_y_*x_ball_y_);
+    x[0] = x_ball_x_;
 }
 
 /*
@@ -316,23 +318,23 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
     const Parameters *const p = lin->p;
 
     /* linearization */
-    const double by_q_ball_x_ball_x = lin->value[0];
-    const double by_q_ball_x_ball_y = lin->value[1];
-    const double by_q_ball_y_ball_x = lin->value[2];
-    const double by_q_ball_y_ball_y = lin->value[3];
-    const double by_q_ball_theta_ball_x = lin->value[4];
-    const double by_q_ball_theta_ball_y = lin->value[5];
-    const double power_q_2_ball_x = lin->value[15];
-    const double power_q_2_ball_y = lin->value[16];
-    const double power_v_2_ball_theta = lin->value[17];
-    const double power_v_2_ball_x = lin->value[18];
-    const double power_v_2_ball_y = lin->value[19];
+    const double by_q_ball_x_ball_x_ = lin->value[0];
+    const double by_q_ball_x_ball_y_ = lin->value[1];
+    const double by_q_ball_y_ball_x_ = lin->value[2];
+    const double by_q_ball_y_ball_y_ = lin->value[3];
+    const double by_q_ball_theta_ball_x_ = lin->value[4];
+    const double by_q_ball_theta_ball_y_ = lin->value[5];
+    const double power_q_2_ball_x_ = lin->value[15];
+    const double power_q_2_ball_y_ = lin->value[16];
+    const double power_v_2_ball_theta_ = lin->value[17];
+    const double power_v_2_ball_x_ = lin->value[18];
+    const double power_v_2_ball_y_ = lin->value[19];
 
     /* right-hand side */
     double x[3];
-    x[0] = eta*(p->ball_mass*r[3] - by_q_ball_x_ball_x*eta*r[0] - by_q_ball_x_ball_y*eta*r[1]);
-    x[1] = eta*(p->ball_mass*r[4] - by_q_ball_y_ball_x*eta*r[0] - by_q_ball_y_ball_y*eta*r[1]);
-    x[2] = eta*(p->ball_inertia*r[5] - by_q_ball_theta_ball_x*eta*r[0] - by_q_ball_theta_ball_y*eta*r[1]);
+    x[0] = eta*(p->ball_mass_*r[3] - by_q_ball_x_ball_x_*eta*r[0] - by_q_ball_x_ball_y_*eta*r[1]);
+    x[1] = eta*(p->ball_mass_*r[4] - by_q_ball_y_ball_x_*eta*r[0] - by_q_ball_y_ball_y_*eta*r[1]);
+    x[2] = eta*(p->ball_inertia_*r[5] - by_q_ball_theta_ball_x_*eta*r[0] - by_q_ball_theta_ball_y_*eta*r[1]);
     newton_substitute(lin, x);
 
     /* solution */
@@ -344,8 +346,8 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
     u[5] = x[2];
     u[6] = eta*r[6];
     u[7] = eta*r[7];
-    u[8] = eta*(power_q_2_ball_x*u[0] + power_q_2_ball_y*u[1] + power_v_2_ball_theta*u[5] + power_v_2_ball_x*u[3]
-        + power_v_2_ball_y*u[4] + r[8]);
+    u[8] = eta*(power_q_2_ball_x_*u[0] + power_q_2_ball_y_*u[1] + power_v_2_ball_theta_*u[5] + power_v_2_ball_x_*u[3]
+        + power_v_2_ball_y_*u[4] + r[8]);
 }
 
 /* Where parts of the linearization are in `value`. */
@@ -387,22 +389,22 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
 {
     (void)t, (void)q, (void)v, (void)memory, (void)p;
     /* backward substitution */
-    const double dq_acceleration_ball_theta = 0.0;
-    const double dq_acceleration_ball_y = 0.0;
-    const double dq_acceleration_ball_x = 0.0;
+    const double dq_acceleration_ball_theta_ = 0.0;
+    const double dq_acceleration_ball_y_ = 0.0;
+    const double dq_acceleration_ball_x_ = 0.0;
 
     /* backward substitution */
-    const double dv_acceleration_ball_theta = 0.0;
-    const double dv_acceleration_ball_y = 0.0;
-    const double dv_acceleration_ball_x = 0.0;
+    const double dv_acceleration_ball_theta_ = 0.0;
+    const double dv_acceleration_ball_y_ = 0.0;
+    const double dv_acceleration_ball_x_ = 0.0;
 
     /* results */
-    dq[0] = dq_acceleration_ball_x;
-    dv[0] = dv_acceleration_ball_x;
-    dq[1] = dq_acceleration_ball_y;
-    dv[1] = dv_acceleration_ball_y;
-    dq[2] = dq_acceleration_ball_theta;
-    dv[2] = dv_acceleration_ball_theta;
+    dq[0] = dq_acceleration_ball_x_;
+    dv[0] = dv_acceleration_ball_x_;
+    dq[1] = dq_acceleration_ball_y_;
+    dv[1] = dv_acceleration_ball_y_;
+    dq[2] = dq_acceleration_ball_theta_;
+    dv[2] = dv_acceleration_ball_theta_;
     *worst = 0.0;
     return 0;
 }

@@ -4,9 +4,9 @@
 void mass_matrix(const Parameters *p, double *m)
 {
     /* M */
-    m[0] = p->ball_mass;
-    m[1] = p->ball_mass;
-    m[2] = p->ball_inertia;
+    m[0] = p->ball_mass_;
+    m[1] = p->ball_mass_;
+    m[2] = p->ball_inertia_;
 }
 
 /*
@@ -16,12 +16,12 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
 {
     (void)t, (void)p;
     /* coordinates, velocities, time */
-    const double ball_x = q[0];
-    const double ball_y = q[1];
+    const double ball_x_ = q[0];
+    const double ball_y_ = q[1];
 
     /* rows */
-    phi[0] = -ball_x;  /* fall.x, m */
-    phi[1] = -ball_y;  /* fall.y, m */
+    phi[0] = -ball_x_;  /* fall.x, m */
+    phi[1] = -ball_y_;  /* fall.y, m */
 }
 
 /*
@@ -31,8 +31,8 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
 {
     (void)t, (void)q, (void)p;
     /* non-zeros */
-    phi_q[0] = -1.0;  /* d fall.x / d ball_x */
-    phi_q[4] = -1.0;  /* d fall.y / d ball_y */
+    phi_q[0] = -1.0;  /* d fall.x / d ball_x_ */
+    phi_q[4] = -1.0;  /* d fall.y / d ball_y_ */
 }
 
 /*
@@ -75,29 +75,29 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
 {
     (void)t, (void)torques, (void)series;
     /* coordinates, velocities, time */
-    const double ball_y = q[1];
-    const double ball_vx = v[0];
-    const double ball_vy = v[1];
-    const double ball_omega = v[2];
+    const double ball_y_ = q[1];
+    const double ball_vx_ = v[0];
+    const double ball_vy_ = v[1];
+    const double ball_omega_ = v[2];
 
     /* multipliers */
-    const double multiplier_fall_x = lambda[0];
-    const double multiplier_fall_y = lambda[1];
+    const double multiplier_fall_x_ = lambda[0];
+    const double multiplier_fall_y_ = lambda[1];
 
     /* reactions */
-    reactions[0] = multiplier_fall_x;  /* fall.Fx */
-    reactions[1] = multiplier_fall_y;  /* fall.Fy */
+    reactions[0] = multiplier_fall_x_;  /* fall.Fx */
+    reactions[1] = multiplier_fall_y_;  /* fall.Fy */
     reactions[2] = 0.0;  /* fall.M */
 
     /* energy */
-    energy[0] = 0.5*p->ball_inertia*(ball_omega * ball_omega) + 0.5*p->ball_mass*(ball_vx * ball_vx)
-        + 0.5*p->ball_mass*(ball_vy * ball_vy);
-    energy[1] = -p->ball_mass*ball_y*p->gravity_y;
+    energy[0] = 0.5*p->ball_inertia_*(ball_omega_ * ball_omega_) + 0.5*p->ball_mass_*(ball_vx_ * ball_vx_)
+        + 0.5*p->ball_mass_*(ball_vy_ * ball_vy_);
+    energy[1] = -p->ball_mass_*ball_y_*p->gravity_y_;
 }
 
 /* Whether a start with these numbers is that with the others: what closing the linkage reads. */
 int same_start(const Parameters *p, const Parameters *other)
 {
-    return same_number(p->ball_mass, other->ball_mass)
-        && same_number(p->ball_inertia, other->ball_inertia);
+    return same_number(p->ball_mass_, other->ball_mass_)
+        && same_number(p->ball_inertia_, other->ball_inertia_);
 }

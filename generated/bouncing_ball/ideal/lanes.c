@@ -12,17 +12,16 @@
 
 /* Numbers of each run side by side, field by field those of Parameters in model.h: meanings, addresses, units too. */
 typedef struct LaneParameters {
-    Lanes height;
-    Lanes ball_mass;
-    Lanes ball_inertia;
-    Lanes alpha;
-    Lanes beta;
-    Lanes gravity_y;
-    Lanes weight_ball_y;
-    Lanes two_alpha;
-    Lanes beta_squared;
-    Lanes inverse_ball_inertia;
-    Lanes inverse_ball_mass;
+    Lanes height_;
+    Lanes ball_mass_;
+    Lanes ball_inertia_;
+    Lanes alpha_;
+    Lanes beta_;
+    Lanes gravity_y_;
+    Lanes weight_ball_y_;
+    Lanes two_alpha_;
+    Lanes beta_squared_;
+    Lanes inverse_ball_inertia_;
 } LaneParameters;
 
 _Static_assert(sizeof(LaneParameters) / sizeof(Lanes) == sizeof(Parameters) / sizeof(double), "the same numbers");
@@ -66,10 +65,10 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
 {
     (void)t, (void)q, (void)v, (void)memory, (void)p, (void)rare;
     /* backward substitution */
-    const Lanes acceleration_ball_theta = all_of(0.0);
+    const Lanes acceleration_ball_theta_ = all_of(0.0);
 
     /* results */
-    a[0] = acceleration_ball_theta;
+    a[0] = acceleration_ball_theta_;
     aside->power[0] = all_of(0.0);
     aside->power[1] = all_of(0.0);
     aside->power[2] = all_of(0.0);
@@ -84,14 +83,14 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
 {
     (void)t, (void)q, (void)v, (void)memory, (void)p, (void)rare;
     /* backward substitution */
-    const Lanes dq_acceleration_ball_theta = all_of(0.0);
+    const Lanes dq_acceleration_ball_theta_ = all_of(0.0);
 
     /* backward substitution */
-    const Lanes dv_acceleration_ball_theta = all_of(0.0);
+    const Lanes dv_acceleration_ball_theta_ = all_of(0.0);
 
     /* results */
-    dq[0] = dq_acceleration_ball_theta;
-    dv[0] = dv_acceleration_ball_theta;
+    dq[0] = dq_acceleration_ball_theta_;
+    dv[0] = dv_acceleration_ball_theta_;
     *worst = all_of(0.0);
 }
 
@@ -130,11 +129,11 @@ static void newton_substitute(const LaneLinear *lin, Lanes *x)
     const LaneParameters *const p = lin->p;
 
     /* forward */
-    const Lanes b_ball_theta = x[0];
+    const Lanes b_ball_theta_ = x[0];
 
     /* backward */
-    const Lanes x_ball_theta = b_ball_theta*p->inverse_ball_inertia;
-    x[0] = x_ball_theta;
+    const Lanes x_ball_theta_ = b_ball_theta_*p->inverse_ball_inertia_;
+    x[0] = x_ball_theta_;
 }
 
 /*
@@ -148,7 +147,7 @@ static void newton_solve(const LaneLinear *lin, Lanes eta, Lanes s, const Lanes 
 
     /* right-hand side */
     Lanes x[1];
-    x[0] = p->ball_inertia*eta*r[1];
+    x[0] = p->ball_inertia_*eta*r[1];
     newton_substitute(lin, x);
 
     /* solution */

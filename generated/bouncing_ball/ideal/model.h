@@ -50,6 +50,7 @@
 #define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
 #define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
 #define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
+#define LIGHT_PIVOT 1e-06                     /* of what turns with an angle, where its inertia is too small for it */
 #define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
 typedef struct Parameters Parameters; /* every number of a run */
@@ -63,6 +64,7 @@ static const int guess_place[] = {0};
 static const int set_place[] = {0};
 static const int rate_place[] = {0};
 static const unsigned char row_is_length[] = {1, 1};
+static const int drive_row[] = {0};
 static const int kept_row[] = {0, 1};
 static const int phi_q_first[] = {0, 1, 2};
 static const short phi_q_place[] = {0, 1};
@@ -76,17 +78,16 @@ static const int friction_of_pivot[] = {0};
 
 /* In SI: first the slots that a user may set, then what prepare() derives. */
 struct Parameters {
-    double height;  /* parameters.height, m */
-    double ball_mass;  /* bodies.ball.mass, kg */
-    double ball_inertia;  /* bodies.ball.inertia, kg*m^2 */
-    double alpha;  /* baumgarte.alpha, 1/s */
-    double beta;  /* baumgarte.beta, 1/s */
-    double gravity_y;  /* gravity.y, m/s^2 */
-    double weight_ball_y;  /* weight, N */
-    double two_alpha;  /* 2 alpha, 1/s */
-    double beta_squared;  /* beta^2, 1/s^2 */
-    double inverse_ball_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_ball_mass;  /* 1/M, 1/kg */
+    double height_;  /* parameters.height, m */
+    double ball_mass_;  /* bodies.ball.mass, kg */
+    double ball_inertia_;  /* bodies.ball.inertia, kg*m^2 */
+    double alpha_;  /* baumgarte.alpha, 1/s */
+    double beta_;  /* baumgarte.beta, 1/s */
+    double gravity_y_;  /* gravity.y, m/s^2 */
+    double weight_ball_y_;  /* weight, N */
+    double two_alpha_;  /* 2 alpha, 1/s */
+    double beta_squared_;  /* beta^2, 1/s^2 */
+    double inverse_ball_inertia_;  /* 1/M, 1/(kg*m^2) */
 };
 
 /* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */

@@ -30,11 +30,11 @@ void newton_substitute(const Linear *lin, double *x)
     const Parameters *const p = lin->p;
 
     /* forward */
-    const double b_ball_theta = x[0];
+    const double b_ball_theta_ = x[0];
 
     /* backward */
-    const double x_ball_theta = b_ball_theta*p->inverse_ball_inertia;
-    x[0] = x_ball_theta;
+    const double x_ball_theta_ = b_ball_theta_*p->inverse_ball_inertia_;
+    x[0] = x_ball_theta_;
 }
 
 /*
@@ -48,7 +48,7 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
 
     /* right-hand side */
     double x[1];
-    x[0] = p->ball_inertia*eta*r[1];
+    x[0] = p->ball_inertia_*eta*r[1];
     newton_substitute(lin, x);
 
     /* solution */
@@ -96,14 +96,14 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
 {
     (void)t, (void)q, (void)v, (void)memory, (void)p;
     /* backward substitution */
-    const double dq_acceleration_ball_theta = 0.0;
+    const double dq_acceleration_ball_theta_ = 0.0;
 
     /* backward substitution */
-    const double dv_acceleration_ball_theta = 0.0;
+    const double dv_acceleration_ball_theta_ = 0.0;
 
     /* results */
-    dq[0] = dq_acceleration_ball_theta;
-    dv[0] = dv_acceleration_ball_theta;
+    dq[0] = dq_acceleration_ball_theta_;
+    dv[0] = dv_acceleration_ball_theta_;
     *worst = 0.0;
     return 0;
 }

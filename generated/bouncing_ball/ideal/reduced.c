@@ -5,22 +5,22 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 {
     (void)t, (void)p;
     /* coordinates, velocities, time */
-    const double ball_theta = q[0];
-    const double ball_omega = v[0];
+    const double ball_theta_ = q[0];
+    const double ball_omega_ = v[0];
 
     /* directions, arms, drives */
-    const double ball_x = 0.0;
-    const double ball_y = 0.0;
-    const double ball_vx = 0.0;
-    const double ball_vy = 0.0;
+    const double ball_x_ = 0.0;
+    const double ball_y_ = 0.0;
+    const double ball_vx_ = 0.0;
+    const double ball_vy_ = 0.0;
 
     /* bodies */
-    all_q[0] = ball_x;
-    all_v[0] = ball_vx;
-    all_q[1] = ball_y;
-    all_v[1] = ball_vy;
-    all_q[2] = ball_theta;
-    all_v[2] = ball_omega;
+    all_q[0] = ball_x_;
+    all_v[0] = ball_vx_;
+    all_q[1] = ball_y_;
+    all_v[1] = ball_vy_;
+    all_q[2] = ball_theta_;
+    all_v[2] = ball_omega_;
 }
 
 /*
@@ -30,12 +30,12 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 {
     (void)t, (void)p;
     /* coordinates, velocities, time */
-    const double ball_theta = q[2];
-    const double ball_omega = v[2];
+    const double ball_theta_ = q[2];
+    const double ball_omega_ = v[2];
 
     /* tree coordinates */
-    s[0] = ball_theta;  /* ball */
-    s_rate[0] = ball_omega;
+    s[0] = ball_theta_;  /* ball */
+    s_rate[0] = ball_omega_;
 }
 
 /*
@@ -66,10 +66,10 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
 {
     (void)t, (void)q, (void)v, (void)memory, (void)p;
     /* backward substitution */
-    const double acceleration_ball_theta = 0.0;
+    const double acceleration_ball_theta_ = 0.0;
 
     /* results */
-    a[0] = acceleration_ball_theta;
+    a[0] = acceleration_ball_theta_;
     aside->power[0] = 0.0;
     aside->power[1] = 0.0;
     aside->power[2] = 0.0;
@@ -85,9 +85,9 @@ int reduced_project(const double t, const double *q, const double *r, const Para
 {
     (void)t, (void)q, (void)r, (void)p;
     /* backward substitution */
-    const double step_acceleration_ball_theta = 0.0;
+    const double step_acceleration_ball_theta_ = 0.0;
 
     /* results */
-    x[0] = step_acceleration_ball_theta;
+    x[0] = step_acceleration_ball_theta_;
     return 0;
 }

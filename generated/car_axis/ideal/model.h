@@ -50,6 +50,7 @@
 #define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
 #define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
 #define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
+#define LIGHT_PIVOT 1e-06                     /* of what turns with an angle, where its inertia is too small for it */
 #define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
 typedef struct Parameters Parameters; /* every number of a run */
@@ -63,6 +64,7 @@ static const int guess_place[] = {0};
 static const int set_place[] = {1, 2};
 static const int rate_place[] = {1, 2};
 static const unsigned char row_is_length[] = {1, 1, 1, 0};
+static const int drive_row[] = {3};
 static const int kept_row[] = {0, 1, 2, 3};
 static const int phi_q_first[] = {0, 2, 4, 10, 11};
 static const short phi_q_place[] = {3, 5, 4, 5, 0, 1, 2, 3, 4, 5, 5};
@@ -76,43 +78,42 @@ static const int friction_of_pivot[] = {0};
 
 /* In SI: first the slots that a user may set, then what prepare() derives. */
 struct Parameters {
-    double length;  /* parameters.length, m */
-    double half_mass;  /* parameters.half_mass, kg */
-    double par_r;  /* parameters.r, m */
-    double omega;  /* parameters.omega, 1/s */
-    double axle_mass;  /* bodies.axle.mass, kg */
-    double axle_inertia;  /* bodies.axle.inertia, kg*m^2 */
-    double road_mass;  /* bodies.road.mass, kg */
-    double road_inertia;  /* bodies.road.inertia, kg*m^2 */
-    double axle_length;  /* bodies.axle.length, m */
-    double road_length;  /* bodies.road.length, m */
-    double alpha;  /* baumgarte.alpha, 1/s */
-    double beta;  /* baumgarte.beta, 1/s */
-    double slot_direction_y;  /* joints.slot.direction.y, 1 */
-    double gravity_y;  /* gravity.y, m/s^2 */
-    double left_stiffness;  /* forces.left.stiffness, N/m */
-    double left_free_length;  /* forces.left.free_length, m */
-    double right_stiffness;  /* forces.right.stiffness, N/m */
-    double right_free_length;  /* forces.right.free_length, m */
-    double set_axle_y;  /* start.set.axle.y, m */
-    double set_axle_theta;  /* start.set.axle.theta, rad */
-    double rates_axle_vy;  /* start.rates.axle.vy, m/s */
-    double rates_axle_omega;  /* start.rates.axle.omega, 1/s */
-    double axle_head_s_x;  /* point from the centre of mass, m */
-    double road_head_s_x;  /* point from the centre of mass, m */
-    double weight_axle_y;  /* weight, N */
-    double weight_road_y;  /* weight, N */
-    double two_alpha;  /* 2 alpha, 1/s */
-    double beta_squared;  /* beta^2, 1/s^2 */
-    double inverse_axle_mass;  /* 1/M, 1/kg */
-    double inverse_axle_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_road_mass;  /* 1/M, 1/kg */
-    double inverse_road_inertia;  /* 1/M, 1/(kg*m^2) */
-    double axle_tail_span_x;  /* vector in its frame, m */
-    double road_head_span_x;  /* vector in its frame, m */
-    double inertia_road_road;  /* sum of m w.w, kg*m^2 */
-    double mass_bump_bump;  /* constant of M, kg*m^2 */
-    double weight_road__across;  /* weight, N*m */
+    double length_;  /* parameters.length, m */
+    double half_mass_;  /* parameters.half_mass, kg */
+    double r_;  /* parameters.r, m */
+    double omega_;  /* parameters.omega, 1/s */
+    double axle_mass_;  /* bodies.axle.mass, kg */
+    double axle_inertia_;  /* bodies.axle.inertia, kg*m^2 */
+    double road_mass_;  /* bodies.road.mass, kg */
+    double road_inertia_;  /* bodies.road.inertia, kg*m^2 */
+    double axle_length_;  /* bodies.axle.length, m */
+    double road_length_;  /* bodies.road.length, m */
+    double alpha_;  /* baumgarte.alpha, 1/s */
+    double beta_;  /* baumgarte.beta, 1/s */
+    double slot_direction_y_;  /* joints.slot.direction.y, 1 */
+    double gravity_y_;  /* gravity.y, m/s^2 */
+    double left_stiffness_;  /* forces.left.stiffness, N/m */
+    double left_free_length_;  /* forces.left.free_length, m */
+    double right_stiffness_;  /* forces.right.stiffness, N/m */
+    double right_free_length_;  /* forces.right.free_length, m */
+    double set_axle_y_;  /* start.set.axle.y, m */
+    double set_axle_theta_;  /* start.set.axle.theta, rad */
+    double rates_axle_vy_;  /* start.rates.axle.vy, m/s */
+    double rates_axle_omega_;  /* start.rates.axle.omega, 1/s */
+    double axle_head_s_x_;  /* point from the centre of mass, m */
+    double road_head_s_x_;  /* point from the centre of mass, m */
+    double weight_axle_y_;  /* weight, N */
+    double weight_road_y_;  /* weight, N */
+    double axle_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double two_alpha_;  /* 2 alpha, 1/s */
+    double beta_squared_;  /* beta^2, 1/s^2 */
+    double inverse_axle_mass_;  /* 1/M, 1/kg */
+    double axle_tail_span_x_;  /* vector in its frame, m */
+    double road_head_span_x_;  /* vector in its frame, m */
+    double inertia_road_road_;  /* sum of m w.w, kg*m^2 */
+    double mass_bump_bump_;  /* constant of M, kg*m^2 */
+    double weight_road_across_;  /* weight, N*m */
+    double inverse_axle_inertia_;  /* 1/M, 1/(kg*m^2) */
 };
 
 /* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */

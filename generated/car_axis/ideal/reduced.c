@@ -4,40 +4,40 @@
 void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
 {
     /* coordinates, velocities, time */
-    const double axle_x = q[0];
-    const double axle_x_rate = v[0];
-    const double axle_y = q[1];
-    const double axle_y_rate = v[1];
-    const double axle_theta = q[2];
-    const double axle_omega = v[2];
+    const double axle_x_ = q[0];
+    const double axle_x_rate_ = v[0];
+    const double axle_y_ = q[1];
+    const double axle_y_rate_ = v[1];
+    const double axle_theta_ = q[2];
+    const double axle_omega_ = v[2];
 
     /* directions, arms, drives */
-    const double bump_value = asin(p->par_r*sin(p->omega*t)/p->length);
-    const Four angles_0 = {bump_value, bump_value, bump_value, bump_value};
+    const double bump_value_ = asin(p->r_*sin(p->omega_*t)/p->length_);
+    const Four angles_0 = {bump_value_, bump_value_, bump_value_, bump_value_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_road = cosines_0[0];
-    const double sin_theta_road = sines_0[0];
-    const double bump_rate = p->omega*p->par_r*cos(p->omega*t)/(p->length*sqrt(1.0
-        - (p->par_r * p->par_r)*(sin(p->omega*t) * sin(p->omega*t))/(p->length * p->length)));
-    const double span_road_com_x = cos_theta_road*p->road_head_s_x;
-    const double span_road_com_y = p->road_head_s_x*sin_theta_road;
-    const double road_vx = -bump_rate*span_road_com_y;
-    const double road_vy = bump_rate*span_road_com_x;
+    const double cos_theta_road_ = cosines_0[0];
+    const double sin_theta_road_ = sines_0[0];
+    const double bump_rate_ = p->omega_*p->r_*cos(p->omega_*t)/(p->length_*sqrt(1.0
+        - (p->r_ * p->r_)*(sin(p->omega_*t) * sin(p->omega_*t))/(p->length_ * p->length_)));
+    const double span_road_com_x_ = cos_theta_road_*p->road_head_s_x_;
+    const double span_road_com_y_ = p->road_head_s_x_*sin_theta_road_;
+    const double road_vx_ = -bump_rate_*span_road_com_y_;
+    const double road_vy_ = bump_rate_*span_road_com_x_;
 
     /* bodies */
-    all_q[0] = axle_x;
-    all_v[0] = axle_x_rate;
-    all_q[1] = axle_y;
-    all_v[1] = axle_y_rate;
-    all_q[2] = axle_theta;
-    all_v[2] = axle_omega;
-    all_q[3] = span_road_com_x;
-    all_v[3] = road_vx;
-    all_q[4] = span_road_com_y;
-    all_v[4] = road_vy;
-    all_q[5] = bump_value;
-    all_v[5] = bump_rate;
+    all_q[0] = axle_x_;
+    all_v[0] = axle_x_rate_;
+    all_q[1] = axle_y_;
+    all_v[1] = axle_y_rate_;
+    all_q[2] = axle_theta_;
+    all_v[2] = axle_omega_;
+    all_q[3] = span_road_com_x_;
+    all_v[3] = road_vx_;
+    all_q[4] = span_road_com_y_;
+    all_v[4] = road_vy_;
+    all_q[5] = bump_value_;
+    all_v[5] = bump_rate_;
 }
 
 /*
@@ -47,20 +47,20 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 {
     (void)t, (void)p;
     /* coordinates, velocities, time */
-    const double axle_x = q[0];
-    const double axle_y = q[1];
-    const double axle_theta = q[2];
-    const double axle_vx = v[0];
-    const double axle_vy = v[1];
-    const double axle_omega = v[2];
+    const double axle_x_ = q[0];
+    const double axle_y_ = q[1];
+    const double axle_theta_ = q[2];
+    const double axle_vx_ = v[0];
+    const double axle_vy_ = v[1];
+    const double axle_omega_ = v[2];
 
     /* tree coordinates */
-    s[0] = axle_x;  /* axle.x */
-    s_rate[0] = axle_vx;
-    s[1] = axle_y;  /* axle.y */
-    s_rate[1] = axle_vy;
-    s[2] = axle_theta;  /* axle */
-    s_rate[2] = axle_omega;
+    s[0] = axle_x_;  /* axle.x */
+    s_rate[0] = axle_vx_;
+    s[1] = axle_y_;  /* axle.y */
+    s_rate[1] = axle_vy_;
+    s[2] = axle_theta_;  /* axle */
+    s_rate[2] = axle_omega_;
 }
 
 /*
@@ -82,26 +82,26 @@ void reduce_accelerations(const double t, const double *q, const double *v, cons
 void closures(const double t, const double *q, const Parameters *p, double *out)
 {
     /* coordinates, velocities, time */
-    const double axle_x = q[0];
-    const double axle_y = q[1];
-    const double axle_theta = q[2];
+    const double axle_x_ = q[0];
+    const double axle_y_ = q[1];
+    const double axle_theta_ = q[2];
 
     /* directions, arms, drives */
-    const double bump_value = asin(p->par_r*sin(p->omega*t)/p->length);
-    const Four angles_0 = {bump_value, axle_theta, axle_theta, axle_theta};
+    const double bump_value_ = asin(p->r_*sin(p->omega_*t)/p->length_);
+    const Four angles_0 = {bump_value_, axle_theta_, axle_theta_, axle_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_road = cosines_0[0];
-    const double sin_theta_road = sines_0[0];
-    const double cos_theta_axle = cosines_0[1];
-    const double sin_theta_axle = sines_0[1];
-    const double span_axle_tail_x = p->axle_tail_span_x*cos_theta_axle;
-    const double span_axle_tail_y = p->axle_tail_span_x*sin_theta_axle;
+    const double cos_theta_road_ = cosines_0[0];
+    const double sin_theta_road_ = sines_0[0];
+    const double cos_theta_axle_ = cosines_0[1];
+    const double sin_theta_axle_ = sines_0[1];
+    const double span_axle_tail_x_ = p->axle_tail_span_x_*cos_theta_axle_;
+    const double span_axle_tail_y_ = p->axle_tail_span_x_*sin_theta_axle_;
 
     /* rows */
     /* slot.offset */
-    out[0] = -axle_x*cos_theta_road - axle_y*sin_theta_road - cos_theta_road*span_axle_tail_x
-        - sin_theta_road*span_axle_tail_y;
+    out[0] = -axle_x_*cos_theta_road_ - axle_y_*sin_theta_road_ - cos_theta_road_*span_axle_tail_x_
+        - sin_theta_road_*span_axle_tail_y_;
 }
 
 /*
@@ -110,32 +110,33 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
 void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
 {
     /* coordinates, velocities, time */
-    const double axle_x = q[0];
-    const double axle_x_rate = v[0];
-    const double axle_y = q[1];
-    const double axle_y_rate = v[1];
-    const double axle_theta = q[2];
-    const double axle_omega = v[2];
+    const double axle_x_ = q[0];
+    const double axle_x_rate_ = v[0];
+    const double axle_y_ = q[1];
+    const double axle_y_rate_ = v[1];
+    const double axle_theta_ = q[2];
+    const double axle_omega_ = v[2];
 
     /* directions, arms, drives */
-    const double bump_value = asin(p->par_r*sin(p->omega*t)/p->length);
-    const Four angles_0 = {bump_value, axle_theta, axle_theta, axle_theta};
+    const double bump_value_ = asin(p->r_*sin(p->omega_*t)/p->length_);
+    const Four angles_0 = {bump_value_, axle_theta_, axle_theta_, axle_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_road = cosines_0[0];
-    const double sin_theta_road = sines_0[0];
-    const double cos_theta_axle = cosines_0[1];
-    const double sin_theta_axle = sines_0[1];
-    const double bump_rate = p->omega*p->par_r*cos(p->omega*t)/(p->length*sqrt(1.0
-        - (p->par_r * p->par_r)*(sin(p->omega*t) * sin(p->omega*t))/(p->length * p->length)));
-    const double span_axle_tail_x = p->axle_tail_span_x*cos_theta_axle;
-    const double span_axle_tail_y = p->axle_tail_span_x*sin_theta_axle;
+    const double cos_theta_road_ = cosines_0[0];
+    const double sin_theta_road_ = sines_0[0];
+    const double cos_theta_axle_ = cosines_0[1];
+    const double sin_theta_axle_ = sines_0[1];
+    const double bump_rate_ = p->omega_*p->r_*cos(p->omega_*t)/(p->length_*sqrt(1.0
+        - (p->r_ * p->r_)*(sin(p->omega_*t) * sin(p->omega_*t))/(p->length_ * p->length_)));
+    const double span_axle_tail_x_ = p->axle_tail_span_x_*cos_theta_axle_;
+    const double span_axle_tail_y_ = p->axle_tail_span_x_*sin_theta_axle_;
 
     /* rows */
     /* slot.offset */
-    out[0] = axle_omega*(cos_theta_road*span_axle_tail_y - sin_theta_road*span_axle_tail_x)
-        - axle_x_rate*cos_theta_road - axle_y_rate*sin_theta_road
-        + bump_rate*cos_theta_road*(-axle_y - span_axle_tail_y) - bump_rate*sin_theta_road*(-axle_x - span_axle_tail_x);
+    out[0] = axle_omega_*(cos_theta_road_*span_axle_tail_y_ - sin_theta_road_*span_axle_tail_x_)
+        - axle_x_rate_*cos_theta_road_ - axle_y_rate_*sin_theta_road_
+        + bump_rate_*cos_theta_road_*(-axle_y_ - span_axle_tail_y_)
+        - bump_rate_*sin_theta_road_*(-axle_x_ - span_axle_tail_x_);
 }
 
 /*
@@ -147,100 +148,105 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     double *a, Aside *aside)
 {
     /* coordinates, velocities, time */
-    const double axle_x = q[0];
-    const double axle_x_rate = v[0];
-    const double axle_y = q[1];
-    const double axle_y_rate = v[1];
-    const double axle_theta = q[2];
-    const double axle_omega = v[2];
+    const double axle_x_ = q[0];
+    const double axle_x_rate_ = v[0];
+    const double axle_y_ = q[1];
+    const double axle_y_rate_ = v[1];
+    const double axle_theta_ = q[2];
+    const double axle_omega_ = v[2];
 
     /* directions, arms, drives */
-    const double bump_value = asin(p->par_r*sin(p->omega*t)/p->length);
-    const Four angles_0 = {bump_value, axle_theta, axle_theta, axle_theta};
+    const double bump_value_ = asin(p->r_*sin(p->omega_*t)/p->length_);
+    const Four angles_0 = {bump_value_, axle_theta_, axle_theta_, axle_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_road = cosines_0[0];
-    const double sin_theta_road = sines_0[0];
-    const double cos_theta_axle = cosines_0[1];
-    const double sin_theta_axle = sines_0[1];
-    const double bump_rate = p->omega*p->par_r*cos(p->omega*t)/(p->length*sqrt(1.0
-        - (p->par_r * p->par_r)*(sin(p->omega*t) * sin(p->omega*t))/(p->length * p->length)));
-    const double bump_acceleration = -(p->omega * p->omega)*p->par_r*sin(p->omega*t)/(p->length*sqrt(1.0
-        - (p->par_r * p->par_r)*(sin(p->omega*t) * sin(p->omega*t))/(p->length * p->length)))
-        + (p->omega * p->omega)*(p->par_r * p->par_r * p->par_r)*sin(p->omega*t)*(cos(p->omega*t)
-        * cos(p->omega*t))/((p->length * p->length * p->length)*pow(1.0
-        - (p->par_r * p->par_r)*(sin(p->omega*t) * sin(p->omega*t))/(p->length * p->length), 1.5));
-    const double span_axle_tail_x = p->axle_tail_span_x*cos_theta_axle;
-    const double span_axle_tail_y = p->axle_tail_span_x*sin_theta_axle;
-    const double axle_tail_x = axle_x + span_axle_tail_x;
-    const double axle_tail_y = axle_y + span_axle_tail_y;
-    const double left_length = sqrt((axle_tail_x * axle_tail_x) + (axle_tail_y * axle_tail_y));
-    const double left_force = p->left_stiffness*(-p->left_free_length + left_length);
-    const double left_pull = left_force/left_length;
-    const double span_road_head_x = cos_theta_road*p->road_head_span_x;
-    const double span_road_head_y = p->road_head_span_x*sin_theta_road;
-    const double axle_head_x = axle_x - span_axle_tail_x;
-    const double axle_head_y = axle_y - span_axle_tail_y;
-    const double right_span_x = axle_head_x - span_road_head_x;
-    const double right_span_y = axle_head_y - span_road_head_y;
-    const double right_length = sqrt((right_span_x * right_span_x) + (right_span_y * right_span_y));
-    const double right_force = p->right_stiffness*(-p->right_free_length + right_length);
-    const double right_pull = right_force/right_length;
+    const double cos_theta_road_ = cosines_0[0];
+    const double sin_theta_road_ = sines_0[0];
+    const double cos_theta_axle_ = cosines_0[1];
+    const double sin_theta_axle_ = sines_0[1];
+    const double bump_rate_ = p->omega_*p->r_*cos(p->omega_*t)/(p->length_*sqrt(1.0
+        - (p->r_ * p->r_)*(sin(p->omega_*t) * sin(p->omega_*t))/(p->length_ * p->length_)));
+    const double bump_acceleration_ = -(p->omega_ * p->omega_)*p->r_*sin(p->omega_*t)/(p->length_*sqrt(1.0
+        - (p->r_ * p->r_)*(sin(p->omega_*t) * sin(p->omega_*t))/(p->length_ * p->length_)))
+        + (p->omega_ * p->omega_)*(p->r_ * p->r_ * p->r_)*sin(p->omega_*t)*(cos(p->omega_*t)
+        * cos(p->omega_*t))/((p->length_ * p->length_ * p->length_)*pow(1.0
+        - (p->r_ * p->r_)*(sin(p->omega_*t) * sin(p->omega_*t))/(p->length_ * p->length_), 1.5));
+    const double span_axle_tail_x_ = p->axle_tail_span_x_*cos_theta_axle_;
+    const double span_axle_tail_y_ = p->axle_tail_span_x_*sin_theta_axle_;
+    const double axle_tail_x_ = axle_x_ + span_axle_tail_x_;
+    const double axle_tail_y_ = axle_y_ + span_axle_tail_y_;
+    const double left_length_ = sqrt((axle_tail_x_ * axle_tail_x_) + (axle_tail_y_ * axle_tail_y_));
+    const double left_force_ = p->left_stiffness_*(-p->left_free_length_ + left_length_);
+    const double left_pull_ = left_force_/left_length_;
+    const double span_road_head_x_ = cos_theta_road_*p->road_head_span_x_;
+    const double span_road_head_y_ = p->road_head_span_x_*sin_theta_road_;
+    const double axle_head_x_ = axle_x_ - span_axle_tail_x_;
+    const double axle_head_y_ = axle_y_ - span_axle_tail_y_;
+    const double right_span_x_ = axle_head_x_ - span_road_head_x_;
+    const double right_span_y_ = axle_head_y_ - span_road_head_y_;
+    const double right_length_ = sqrt((right_span_x_ * right_span_x_) + (right_span_y_ * right_span_y_));
+    const double right_force_ = p->right_stiffness_*(-p->right_free_length_ + right_length_);
+    const double right_pull_ = right_force_/right_length_;
 
     /* status */
     int pivot = 0;
 
     /* constraints: gamma */
-    const double rhs_slot_offset = -axle_omega*(axle_omega*cos_theta_road*span_axle_tail_x
-        + axle_omega*sin_theta_road*span_axle_tail_y) - bump_acceleration*(cos_theta_road*(-axle_y - span_axle_tail_y)
-        - sin_theta_road*(-axle_x - span_axle_tail_x)) + (bump_rate * bump_rate)*cos_theta_road*(-axle_x
-        - span_axle_tail_x) + (bump_rate * bump_rate)*sin_theta_road*(-axle_y - span_axle_tail_y)
-        - 2.0*bump_rate*cos_theta_road*(-axle_omega*span_axle_tail_x - axle_y_rate)
-        + 2.0*bump_rate*sin_theta_road*(axle_omega*span_axle_tail_y - axle_x_rate);
+    const double rhs_slot_offset_ = -axle_omega_*(axle_omega_*cos_theta_road_*span_axle_tail_x_
+        + axle_omega_*sin_theta_road_*span_axle_tail_y_) - bump_acceleration_*(cos_theta_road_*(-axle_y_
+        - span_axle_tail_y_) - sin_theta_road_*(-axle_x_ - span_axle_tail_x_))
+        + (bump_rate_ * bump_rate_)*cos_theta_road_*(-axle_x_ - span_axle_tail_x_)
+        + (bump_rate_ * bump_rate_)*sin_theta_road_*(-axle_y_ - span_axle_tail_y_)
+        - 2.0*bump_rate_*cos_theta_road_*(-axle_omega_*span_axle_tail_x_ - axle_y_rate_)
+        + 2.0*bump_rate_*sin_theta_road_*(axle_omega_*span_axle_tail_y_ - axle_x_rate_);
 
     /* L D L^T of the KKT matrix */
-    const double l_slot_offset__axle_x = -cos_theta_road*p->inverse_axle_mass;
-    const double l_slot_offset__axle_y = -p->inverse_axle_mass*sin_theta_road;
-    const double w_slot_offset__axle_theta = cos_theta_road*span_axle_tail_y - sin_theta_road*span_axle_tail_x;
-    const double l_slot_offset__axle_theta = p->inverse_axle_inertia*w_slot_offset__axle_theta;
-    const double scale_slot_offset = -cos_theta_road*l_slot_offset__axle_x
-        + l_slot_offset__axle_theta*w_slot_offset__axle_theta - l_slot_offset__axle_y*sin_theta_road;
-    if (!(scale_slot_offset > 0.0 && scale_slot_offset < INFINITY)) {
+    const double l_slot_offset_axle_x_ = -cos_theta_road_*p->inverse_axle_mass_;
+    const double l_slot_offset_axle_y_ = -p->inverse_axle_mass_*sin_theta_road_;
+    if (!(p->axle_inertia_ > LIGHT_PIVOT * p->axle_turning_)) {
+        pivot = 2;
+        goto dependent;
+    }
+    const double w_slot_offset_axle_theta_ = cos_theta_road_*span_axle_tail_y_ - sin_theta_road_*span_axle_tail_x_;
+    const double l_slot_offset_axle_theta_ = p->inverse_axle_inertia_*w_slot_offset_axle_theta_;
+    const double scale_slot_offset_ = -cos_theta_road_*l_slot_offset_axle_x_
+        + l_slot_offset_axle_theta_*w_slot_offset_axle_theta_ - l_slot_offset_axle_y_*sin_theta_road_;
+    if (!(scale_slot_offset_ > 0.0 && scale_slot_offset_ < INFINITY)) {
         pivot = 1;
         goto dependent;
     }
-    const double inverse_pivot_slot_offset = 1.0/scale_slot_offset;
+    const double inverse_pivot_slot_offset_ = 1.0/scale_slot_offset_;
 
     /* forward substitution */
-    const double z_axle_x = -axle_tail_x*left_pull - right_pull*right_span_x;
-    const double z_axle_y = -axle_tail_y*left_pull - right_pull*right_span_y + p->weight_axle_y;
-    const double z_axle_theta = span_axle_tail_x*(-axle_tail_y*left_pull + right_pull*right_span_y)
-        - span_axle_tail_y*(-axle_tail_x*left_pull + right_pull*right_span_x);
-    const double z_slot_offset = -l_slot_offset__axle_theta*z_axle_theta - l_slot_offset__axle_x*z_axle_x
-        - l_slot_offset__axle_y*z_axle_y + rhs_slot_offset;
+    const double z_axle_x_ = -axle_tail_x_*left_pull_ - right_pull_*right_span_x_;
+    const double z_axle_y_ = -axle_tail_y_*left_pull_ - right_pull_*right_span_y_ + p->weight_axle_y_;
+    const double z_axle_theta_ = span_axle_tail_x_*(-axle_tail_y_*left_pull_ + right_pull_*right_span_y_)
+        - span_axle_tail_y_*(-axle_tail_x_*left_pull_ + right_pull_*right_span_x_);
+    const double z_slot_offset_ = -l_slot_offset_axle_theta_*z_axle_theta_ - l_slot_offset_axle_x_*z_axle_x_
+        - l_slot_offset_axle_y_*z_axle_y_ + rhs_slot_offset_;
 
     /* backward substitution */
-    const double lambda_slot_offset = -inverse_pivot_slot_offset*z_slot_offset;
-    const double acceleration_axle_theta = p->inverse_axle_inertia*z_axle_theta
-        - l_slot_offset__axle_theta*lambda_slot_offset;
-    const double acceleration_axle_y = p->inverse_axle_mass*z_axle_y - l_slot_offset__axle_y*lambda_slot_offset;
-    const double acceleration_axle_x = p->inverse_axle_mass*z_axle_x - l_slot_offset__axle_x*lambda_slot_offset;
+    const double lambda_slot_offset_ = -inverse_pivot_slot_offset_*z_slot_offset_;
+    const double acceleration_axle_theta_ = p->inverse_axle_inertia_*z_axle_theta_
+        - l_slot_offset_axle_theta_*lambda_slot_offset_;
+    const double acceleration_axle_y_ = p->inverse_axle_mass_*z_axle_y_ - l_slot_offset_axle_y_*lambda_slot_offset_;
+    const double acceleration_axle_x_ = p->inverse_axle_mass_*z_axle_x_ - l_slot_offset_axle_x_*lambda_slot_offset_;
 
     /* results */
-    a[0] = acceleration_axle_x;
-    a[1] = acceleration_axle_y;
-    a[2] = acceleration_axle_theta;
-    aside->lambda[0] = lambda_slot_offset;
+    a[0] = acceleration_axle_x_;
+    a[1] = acceleration_axle_y_;
+    a[2] = acceleration_axle_theta_;
+    aside->lambda[0] = lambda_slot_offset_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent:
     pivot = solve_by_absolute(t, q, v, memory, p, a, aside);
     powers:
-    aside->power[0] = -aside->lambda[0]*(-bump_rate*cos_theta_road*(-axle_y - span_axle_tail_y)
-        + bump_rate*sin_theta_road*(-axle_x - span_axle_tail_x))
-        + bump_rate*(bump_acceleration*p->mass_bump_bump - cos_theta_road*p->weight_road__across
-        + right_pull*right_span_x*span_road_head_y - right_pull*right_span_y*span_road_head_x);
+    aside->power[0] = -aside->lambda[0]*(-bump_rate_*cos_theta_road_*(-axle_y_ - span_axle_tail_y_)
+        + bump_rate_*sin_theta_road_*(-axle_x_ - span_axle_tail_x_))
+        + bump_rate_*(bump_acceleration_*p->mass_bump_bump_ - cos_theta_road_*p->weight_road_across_
+        + right_pull_*right_span_x_*span_road_head_y_ - right_pull_*right_span_y_*span_road_head_x_);
     aside->power[1] = 0.0;
     aside->power[2] = 0.0;
     return pivot;
@@ -254,44 +260,44 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
 int reduced_project(const double t, const double *q, const double *r, const Parameters *p, double *x)
 {
     /* coordinates, velocities, time */
-    const double axle_theta = q[2];
+    const double axle_theta_ = q[2];
 
     /* directions, arms, drives */
-    const double bump_value = asin(p->par_r*sin(p->omega*t)/p->length);
-    const Four angles_0 = {bump_value, axle_theta, axle_theta, axle_theta};
+    const double bump_value_ = asin(p->r_*sin(p->omega_*t)/p->length_);
+    const Four angles_0 = {bump_value_, axle_theta_, axle_theta_, axle_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_road = cosines_0[0];
-    const double sin_theta_road = sines_0[0];
-    const double cos_theta_axle = cosines_0[1];
-    const double sin_theta_axle = sines_0[1];
-    const double span_axle_tail_x = p->axle_tail_span_x*cos_theta_axle;
-    const double span_axle_tail_y = p->axle_tail_span_x*sin_theta_axle;
+    const double cos_theta_road_ = cosines_0[0];
+    const double sin_theta_road_ = sines_0[0];
+    const double cos_theta_axle_ = cosines_0[1];
+    const double sin_theta_axle_ = sines_0[1];
+    const double span_axle_tail_x_ = p->axle_tail_span_x_*cos_theta_axle_;
+    const double span_axle_tail_y_ = p->axle_tail_span_x_*sin_theta_axle_;
 
     /* right-hand side */
-    const double r_slot_offset = r[0];
+    const double r_slot_offset_ = r[0];
 
     /* L D L^T of the KKT matrix */
-    const double l_slot_offset__axle_x = -cos_theta_road*p->inverse_axle_mass;
-    const double l_slot_offset__axle_y = -p->inverse_axle_mass*sin_theta_road;
-    const double w_slot_offset__axle_theta = cos_theta_road*span_axle_tail_y - sin_theta_road*span_axle_tail_x;
-    const double l_slot_offset__axle_theta = p->inverse_axle_inertia*w_slot_offset__axle_theta;
-    const double scale_slot_offset = -cos_theta_road*l_slot_offset__axle_x
-        + l_slot_offset__axle_theta*w_slot_offset__axle_theta - l_slot_offset__axle_y*sin_theta_road;
-    if (!(scale_slot_offset > 0.0 && scale_slot_offset < INFINITY))
+    const double l_slot_offset_axle_x_ = -cos_theta_road_*p->inverse_axle_mass_;
+    const double l_slot_offset_axle_y_ = -p->inverse_axle_mass_*sin_theta_road_;
+    const double w_slot_offset_axle_theta_ = cos_theta_road_*span_axle_tail_y_ - sin_theta_road_*span_axle_tail_x_;
+    const double l_slot_offset_axle_theta_ = p->inverse_axle_inertia_*w_slot_offset_axle_theta_;
+    const double scale_slot_offset_ = -cos_theta_road_*l_slot_offset_axle_x_
+        + l_slot_offset_axle_theta_*w_slot_offset_axle_theta_ - l_slot_offset_axle_y_*sin_theta_road_;
+    if (!(scale_slot_offset_ > 0.0 && scale_slot_offset_ < INFINITY))
         return 1;
-    const double inverse_pivot_slot_offset = 1.0/scale_slot_offset;
+    const double inverse_pivot_slot_offset_ = 1.0/scale_slot_offset_;
 
     /* backward substitution */
-    const double step_lambda_slot_offset = -inverse_pivot_slot_offset*r_slot_offset;
-    const double step_acceleration_axle_theta = -l_slot_offset__axle_theta*step_lambda_slot_offset;
-    const double step_acceleration_axle_y = -l_slot_offset__axle_y*step_lambda_slot_offset;
-    const double step_acceleration_axle_x = -l_slot_offset__axle_x*step_lambda_slot_offset;
+    const double step_lambda_slot_offset_ = -inverse_pivot_slot_offset_*r_slot_offset_;
+    const double step_acceleration_axle_theta_ = -l_slot_offset_axle_theta_*step_lambda_slot_offset_;
+    const double step_acceleration_axle_y_ = -l_slot_offset_axle_y_*step_lambda_slot_offset_;
+    const double step_acceleration_axle_x_ = -l_slot_offset_axle_x_*step_lambda_slot_offset_;
 
     /* results */
-    x[0] = step_acceleration_axle_x;
-    x[1] = step_acceleration_axle_y;
-    x[2] = step_acceleration_axle_theta;
+    x[0] = step_acceleration_axle_x_;
+    x[1] = step_acceleration_axle_y_;
+    x[2] = step_acceleration_axle_theta_;
     return 0;
 }
 

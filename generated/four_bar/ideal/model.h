@@ -50,6 +50,7 @@
 #define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
 #define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
 #define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
+#define LIGHT_PIVOT 1e-06                     /* of what turns with an angle, where its inertia is too small for it */
 #define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
 typedef struct Parameters Parameters; /* every number of a run */
@@ -63,6 +64,7 @@ static const int guess_place[] = {5, 8};
 static const int set_place[] = {0};
 static const int rate_place[] = {0};
 static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 1, 0};
+static const int drive_row[] = {8};
 static const int kept_row[] = {0, 1, 2, 3, 4, 5, 6, 7, 8};
 static const int phi_q_first[] = {0, 2, 4, 8, 12, 16, 20, 22, 24, 25};
 static const short phi_q_place[] = {0, 2, 1, 2, 0, 2, 3, 5, 1, 2, 4, 5, 3, 5, 6, 8, 4, 5, 7, 8, 6, 8, 7, 8, 2};
@@ -72,54 +74,51 @@ static const unsigned char is_angle[] = {1, 1};
 
 /* In SI: first the slots that a user may set, then what prepare() derives. */
 struct Parameters {
-    double omega;  /* parameters.omega, 1/s */
-    double crank_mass;  /* bodies.crank.mass, kg */
-    double crank_inertia;  /* bodies.crank.inertia, kg*m^2 */
-    double coupler_mass;  /* bodies.coupler.mass, kg */
-    double coupler_inertia;  /* bodies.coupler.inertia, kg*m^2 */
-    double rocker_mass;  /* bodies.rocker.mass, kg */
-    double rocker_inertia;  /* bodies.rocker.inertia, kg*m^2 */
-    double crank_length;  /* bodies.crank.length, m */
-    double coupler_length;  /* bodies.coupler.length, m */
-    double coupler_points_tracer_x;  /* bodies.coupler.points.tracer.x, m */
-    double coupler_points_tracer_y;  /* bodies.coupler.points.tracer.y, m */
-    double rocker_length;  /* bodies.rocker.length, m */
-    double alpha;  /* baumgarte.alpha, 1/s */
-    double beta;  /* baumgarte.beta, 1/s */
-    double B0_x;  /* ground.B0.x, m */
-    double gravity_y;  /* gravity.y, m/s^2 */
-    double guess_coupler_theta;  /* start.guess.coupler.theta, rad */
-    double guess_rocker_theta;  /* start.guess.rocker.theta, rad */
-    double crank_head_s_x;  /* point from the centre of mass, m */
-    double coupler_head_s_x;  /* point from the centre of mass, m */
-    double coupler_tracer_s_x;  /* point from the centre of mass, m */
-    double rocker_head_s_x;  /* point from the centre of mass, m */
-    double weight_crank_y;  /* weight, N */
-    double weight_coupler_y;  /* weight, N */
-    double weight_rocker_y;  /* weight, N */
-    double two_alpha;  /* 2 alpha, 1/s */
-    double beta_squared;  /* beta^2, 1/s^2 */
-    double inverse_crank_mass;  /* 1/M, 1/kg */
-    double inverse_coupler_mass;  /* 1/M, 1/kg */
-    double inverse_rocker_mass;  /* 1/M, 1/kg */
-    double inverse_coupler_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_rocker_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_crank_inertia;  /* 1/M, 1/(kg*m^2) */
-    double crank_head_span_x;  /* vector in its frame, m */
-    double coupler_head_span_x;  /* vector in its frame, m */
-    double rocker_head_span_x;  /* vector in its frame, m */
-    double inertia_crank_crank;  /* sum of m w.w, kg*m^2 */
-    double inertia_crank_coupler;  /* sum of m w.w, kg*m^2 */
-    double inertia_coupler_coupler;  /* sum of m w.w, kg*m^2 */
-    double inertia_rocker_rocker;  /* sum of m w.w, kg*m^2 */
-    double mass_motor_motor;  /* constant of M, kg*m^2 */
-    double mass_coupler_coupler;  /* constant of M, kg*m^2 */
-    double mass_rocker_rocker;  /* constant of M, kg*m^2 */
-    double weight_crank__across;  /* weight, N*m */
-    double weight_coupler__across;  /* weight, N*m */
-    double weight_rocker__across;  /* weight, N*m */
-    double inverse_mass_rocker_rocker;  /* 1/M, 1/(kg*m^2) */
-    double inverse_mass_coupler_coupler;  /* 1/M, 1/(kg*m^2) */
+    double omega_;  /* parameters.omega, 1/s */
+    double crank_mass_;  /* bodies.crank.mass, kg */
+    double crank_inertia_;  /* bodies.crank.inertia, kg*m^2 */
+    double coupler_mass_;  /* bodies.coupler.mass, kg */
+    double coupler_inertia_;  /* bodies.coupler.inertia, kg*m^2 */
+    double rocker_mass_;  /* bodies.rocker.mass, kg */
+    double rocker_inertia_;  /* bodies.rocker.inertia, kg*m^2 */
+    double crank_length_;  /* bodies.crank.length, m */
+    double coupler_length_;  /* bodies.coupler.length, m */
+    double coupler_points_tracer_x_;  /* bodies.coupler.points.tracer.x, m */
+    double coupler_points_tracer_y_;  /* bodies.coupler.points.tracer.y, m */
+    double rocker_length_;  /* bodies.rocker.length, m */
+    double alpha_;  /* baumgarte.alpha, 1/s */
+    double beta_;  /* baumgarte.beta, 1/s */
+    double B0_x_;  /* ground.B0.x, m */
+    double gravity_y_;  /* gravity.y, m/s^2 */
+    double guess_coupler_theta_;  /* start.guess.coupler.theta, rad */
+    double guess_rocker_theta_;  /* start.guess.rocker.theta, rad */
+    double crank_head_s_x_;  /* point from the centre of mass, m */
+    double coupler_head_s_x_;  /* point from the centre of mass, m */
+    double coupler_tracer_s_x_;  /* point from the centre of mass, m */
+    double rocker_head_s_x_;  /* point from the centre of mass, m */
+    double weight_crank_y_;  /* weight, N */
+    double weight_coupler_y_;  /* weight, N */
+    double weight_rocker_y_;  /* weight, N */
+    double coupler_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double rocker_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double two_alpha_;  /* 2 alpha, 1/s */
+    double beta_squared_;  /* beta^2, 1/s^2 */
+    double mobility_B_x_;  /* 1/m of the bodies of a row, 1/kg */
+    double crank_head_span_x_;  /* vector in its frame, m */
+    double coupler_head_span_x_;  /* vector in its frame, m */
+    double rocker_head_span_x_;  /* vector in its frame, m */
+    double inertia_crank_crank_;  /* sum of m w.w, kg*m^2 */
+    double inertia_crank_coupler_;  /* sum of m w.w, kg*m^2 */
+    double inertia_coupler_coupler_;  /* sum of m w.w, kg*m^2 */
+    double inertia_rocker_rocker_;  /* sum of m w.w, kg*m^2 */
+    double mass_motor_motor_;  /* constant of M, kg*m^2 */
+    double mass_coupler_coupler_;  /* constant of M, kg*m^2 */
+    double mass_rocker_rocker_;  /* constant of M, kg*m^2 */
+    double weight_crank_across_;  /* weight, N*m */
+    double weight_coupler_across_;  /* weight, N*m */
+    double weight_rocker_across_;  /* weight, N*m */
+    double inverse_mass_rocker_rocker_;  /* 1/M, 1/(kg*m^2) */
+    double inverse_mass_coupler_coupler_;  /* 1/M, 1/(kg*m^2) */
 };
 
 #endif

@@ -5,64 +5,64 @@
 int close_step(const double t, const double *q, const Parameters *p, double *step, double *rates, double *worst)
 {
     /* coordinates, velocities, time */
-    const double rocker_theta = q[0];
-    const double coupler_theta = q[1];
+    const double rocker_theta_ = q[0];
+    const double coupler_theta_ = q[1];
 
     /* directions, arms, drives */
-    const double motor_value = p->omega*t + PI/2.0;
-    const Four angles_0 = {motor_value, rocker_theta, coupler_theta, coupler_theta};
+    const double motor_value_ = p->omega_*t + PI/2.0;
+    const Four angles_0 = {motor_value_, rocker_theta_, coupler_theta_, coupler_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_crank = cosines_0[0];
-    const double sin_theta_crank = sines_0[0];
-    const double cos_theta_rocker = cosines_0[1];
-    const double sin_theta_rocker = sines_0[1];
-    const double cos_theta_coupler = cosines_0[2];
-    const double sin_theta_coupler = sines_0[2];
-    const double motor_rate = p->omega;
-    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
-    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
-    const double span_coupler_head_x = cos_theta_coupler*p->coupler_head_span_x;
-    const double span_coupler_head_y = p->coupler_head_span_x*sin_theta_coupler;
-    const double span_rocker_head_x = cos_theta_rocker*p->rocker_head_span_x;
-    const double span_rocker_head_y = p->rocker_head_span_x*sin_theta_rocker;
+    const double cos_theta_crank_ = cosines_0[0];
+    const double sin_theta_crank_ = sines_0[0];
+    const double cos_theta_rocker_ = cosines_0[1];
+    const double sin_theta_rocker_ = sines_0[1];
+    const double cos_theta_coupler_ = cosines_0[2];
+    const double sin_theta_coupler_ = sines_0[2];
+    const double motor_rate_ = p->omega_;
+    const double span_crank_head_x_ = cos_theta_crank_*p->crank_head_span_x_;
+    const double span_crank_head_y_ = p->crank_head_span_x_*sin_theta_crank_;
+    const double span_coupler_head_x_ = cos_theta_coupler_*p->coupler_head_span_x_;
+    const double span_coupler_head_y_ = p->coupler_head_span_x_*sin_theta_coupler_;
+    const double span_rocker_head_x_ = cos_theta_rocker_*p->rocker_head_span_x_;
+    const double span_rocker_head_y_ = p->rocker_head_span_x_*sin_theta_rocker_;
 
     /* closures */
-    const double phi_B_x = -p->B0_x + span_coupler_head_x + span_crank_head_x - span_rocker_head_x;
-    const double phi_B_y = span_coupler_head_y + span_crank_head_y - span_rocker_head_y;
+    const double phi_B_x_ = -p->B0_x_ + span_coupler_head_x_ + span_crank_head_x_ - span_rocker_head_x_;
+    const double phi_B_y_ = span_coupler_head_y_ + span_crank_head_y_ - span_rocker_head_y_;
 
     /* groups of rows that are solved one after the other */
-    const double determinant_B_x__B_y = -span_coupler_head_x*span_rocker_head_y
-        + span_coupler_head_y*span_rocker_head_x;
-    const double size_B_x__coupler_theta = fabs(span_coupler_head_x) + fabs(span_coupler_head_y);
-    const double size_B_x__rocker_theta = fabs(span_rocker_head_x) + fabs(span_rocker_head_y);
-    const double size_B_y__coupler_theta = fabs(span_coupler_head_x) + fabs(span_coupler_head_y);
-    const double size_B_y__rocker_theta = fabs(span_rocker_head_x) + fabs(span_rocker_head_y);
-    const double bound_B_x__B_y = size_B_x__coupler_theta*size_B_y__rocker_theta
-        + size_B_x__rocker_theta*size_B_y__coupler_theta;
-    if (!(fabs(determinant_B_x__B_y) > SINGULAR_SQUARE * bound_B_x__B_y))
+    const double determinant_B_x_B_y_ = -span_coupler_head_x_*span_rocker_head_y_
+        + span_coupler_head_y_*span_rocker_head_x_;
+    const double size_B_x_coupler_theta_ = fabs(span_coupler_head_x_) + fabs(span_coupler_head_y_);
+    const double size_B_x_rocker_theta_ = fabs(span_rocker_head_x_) + fabs(span_rocker_head_y_);
+    const double size_B_y_coupler_theta_ = fabs(span_coupler_head_x_) + fabs(span_coupler_head_y_);
+    const double size_B_y_rocker_theta_ = fabs(span_rocker_head_x_) + fabs(span_rocker_head_y_);
+    const double bound_B_x_B_y_ = size_B_x_coupler_theta_*size_B_y_rocker_theta_
+        + size_B_x_rocker_theta_*size_B_y_coupler_theta_;
+    if (!(fabs(determinant_B_x_B_y_) > SINGULAR_SQUARE * bound_B_x_B_y_))
         return 2;
-    const double inverse_B_x__B_y = 1.0/determinant_B_x__B_y;
+    const double inverse_B_x_B_y_ = 1.0/determinant_B_x_B_y_;
 
     /* Newton's step */
-    const double step_coupler_theta = inverse_B_x__B_y*(-phi_B_x*span_rocker_head_x - phi_B_y*span_rocker_head_y);
-    const double step_rocker_theta = inverse_B_x__B_y*(-phi_B_x*span_coupler_head_x - phi_B_y*span_coupler_head_y);
+    const double step_coupler_theta_ = inverse_B_x_B_y_*(-phi_B_x_*span_rocker_head_x_ - phi_B_y_*span_rocker_head_y_);
+    const double step_rocker_theta_ = inverse_B_x_B_y_*(-phi_B_x_*span_coupler_head_x_ - phi_B_y_*span_coupler_head_y_);
 
     /* rates */
-    const double rate_rest_B_x = motor_rate*span_crank_head_y;
-    const double rate_rest_B_y = -motor_rate*span_crank_head_x;
-    const double rate_coupler_theta = inverse_B_x__B_y*(-rate_rest_B_x*span_rocker_head_x
-        - rate_rest_B_y*span_rocker_head_y);
-    const double rate_rocker_theta = inverse_B_x__B_y*(-rate_rest_B_x*span_coupler_head_x
-        - rate_rest_B_y*span_coupler_head_y);
+    const double rate_rest_B_x_ = motor_rate_*span_crank_head_y_;
+    const double rate_rest_B_y_ = -motor_rate_*span_crank_head_x_;
+    const double rate_coupler_theta_ = inverse_B_x_B_y_*(-rate_rest_B_x_*span_rocker_head_x_
+        - rate_rest_B_y_*span_rocker_head_y_);
+    const double rate_rocker_theta_ = inverse_B_x_B_y_*(-rate_rest_B_x_*span_coupler_head_x_
+        - rate_rest_B_y_*span_coupler_head_y_);
 
     /* results */
-    step[0] = step_rocker_theta;
-    rates[0] = rate_rocker_theta;
-    step[1] = step_coupler_theta;
-    rates[1] = rate_coupler_theta;
-    *worst = max_of(0.0, fabs(phi_B_x));
-    *worst = max_of(*worst, fabs(phi_B_y));
+    step[0] = step_rocker_theta_;
+    rates[0] = rate_rocker_theta_;
+    step[1] = step_coupler_theta_;
+    rates[1] = rate_coupler_theta_;
+    *worst = max_of(0.0, fabs(phi_B_x_));
+    *worst = max_of(*worst, fabs(phi_B_y_));
     return 0;
 }
 
@@ -75,112 +75,112 @@ int arrive(const double t, const double *q, const double *v, const Parameters *p
     double *all_v, double *all_a, double *worst)
 {
     /* coordinates, velocities, time */
-    const double rocker_theta = q[0];
-    const double rocker_omega = v[0];
-    const double coupler_theta = q[1];
-    const double coupler_omega = v[1];
+    const double rocker_theta_ = q[0];
+    const double rocker_omega_ = v[0];
+    const double coupler_theta_ = q[1];
+    const double coupler_omega_ = v[1];
 
     /* directions, arms, drives */
-    const double motor_value = p->omega*t + PI/2.0;
-    const Four angles_0 = {motor_value, rocker_theta, coupler_theta, coupler_theta};
+    const double motor_value_ = p->omega_*t + PI/2.0;
+    const Four angles_0 = {motor_value_, rocker_theta_, coupler_theta_, coupler_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_crank = cosines_0[0];
-    const double sin_theta_crank = sines_0[0];
-    const double cos_theta_rocker = cosines_0[1];
-    const double sin_theta_rocker = sines_0[1];
-    const double cos_theta_coupler = cosines_0[2];
-    const double sin_theta_coupler = sines_0[2];
-    const double motor_rate = p->omega;
-    const double motor_acceleration = 0.0;
-    const double span_crank_com_x = cos_theta_crank*p->crank_head_s_x;
-    const double span_crank_com_y = p->crank_head_s_x*sin_theta_crank;
-    const double crank_vx = -motor_rate*span_crank_com_y;
-    const double crank_vy = motor_rate*span_crank_com_x;
-    const double span_rocker_com_x = cos_theta_rocker*p->rocker_head_s_x;
-    const double span_rocker_com_y = p->rocker_head_s_x*sin_theta_rocker;
-    const double rocker_x = p->B0_x + span_rocker_com_x;
-    const double rocker_vx = -rocker_omega*span_rocker_com_y;
-    const double rocker_vy = rocker_omega*span_rocker_com_x;
-    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
-    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
-    const double crank_head_vx = -motor_rate*span_crank_head_y;
-    const double crank_head_vy = motor_rate*span_crank_head_x;
-    const double span_coupler_com_x = cos_theta_coupler*p->coupler_head_s_x;
-    const double span_coupler_com_y = p->coupler_head_s_x*sin_theta_coupler;
-    const double coupler_x = span_coupler_com_x + span_crank_head_x;
-    const double coupler_vx = -coupler_omega*span_coupler_com_y + crank_head_vx;
-    const double coupler_y = span_coupler_com_y + span_crank_head_y;
-    const double coupler_vy = coupler_omega*span_coupler_com_x + crank_head_vy;
-    const double span_coupler_head_x = cos_theta_coupler*p->coupler_head_span_x;
-    const double span_coupler_head_y = p->coupler_head_span_x*sin_theta_coupler;
-    const double span_rocker_head_x = cos_theta_rocker*p->rocker_head_span_x;
-    const double span_rocker_head_y = p->rocker_head_span_x*sin_theta_rocker;
+    const double cos_theta_crank_ = cosines_0[0];
+    const double sin_theta_crank_ = sines_0[0];
+    const double cos_theta_rocker_ = cosines_0[1];
+    const double sin_theta_rocker_ = sines_0[1];
+    const double cos_theta_coupler_ = cosines_0[2];
+    const double sin_theta_coupler_ = sines_0[2];
+    const double motor_rate_ = p->omega_;
+    const double motor_acceleration_ = 0.0;
+    const double span_crank_com_x_ = cos_theta_crank_*p->crank_head_s_x_;
+    const double span_crank_com_y_ = p->crank_head_s_x_*sin_theta_crank_;
+    const double crank_vx_ = -motor_rate_*span_crank_com_y_;
+    const double crank_vy_ = motor_rate_*span_crank_com_x_;
+    const double span_rocker_com_x_ = cos_theta_rocker_*p->rocker_head_s_x_;
+    const double span_rocker_com_y_ = p->rocker_head_s_x_*sin_theta_rocker_;
+    const double rocker_x_ = p->B0_x_ + span_rocker_com_x_;
+    const double rocker_vx_ = -rocker_omega_*span_rocker_com_y_;
+    const double rocker_vy_ = rocker_omega_*span_rocker_com_x_;
+    const double span_crank_head_x_ = cos_theta_crank_*p->crank_head_span_x_;
+    const double span_crank_head_y_ = p->crank_head_span_x_*sin_theta_crank_;
+    const double crank_head_vx_ = -motor_rate_*span_crank_head_y_;
+    const double crank_head_vy_ = motor_rate_*span_crank_head_x_;
+    const double span_coupler_com_x_ = cos_theta_coupler_*p->coupler_head_s_x_;
+    const double span_coupler_com_y_ = p->coupler_head_s_x_*sin_theta_coupler_;
+    const double coupler_x_ = span_coupler_com_x_ + span_crank_head_x_;
+    const double coupler_vx_ = -coupler_omega_*span_coupler_com_y_ + crank_head_vx_;
+    const double coupler_y_ = span_coupler_com_y_ + span_crank_head_y_;
+    const double coupler_vy_ = coupler_omega_*span_coupler_com_x_ + crank_head_vy_;
+    const double span_coupler_head_x_ = cos_theta_coupler_*p->coupler_head_span_x_;
+    const double span_coupler_head_y_ = p->coupler_head_span_x_*sin_theta_coupler_;
+    const double span_rocker_head_x_ = cos_theta_rocker_*p->rocker_head_span_x_;
+    const double span_rocker_head_y_ = p->rocker_head_span_x_*sin_theta_rocker_;
 
     /* positions and velocities of the bodies */
-    all_q[0] = span_crank_com_x;
-    all_v[0] = crank_vx;
-    all_q[1] = span_crank_com_y;
-    all_v[1] = crank_vy;
-    all_q[2] = motor_value;
-    all_v[2] = motor_rate;
-    all_q[3] = coupler_x;
-    all_v[3] = coupler_vx;
-    all_q[4] = coupler_y;
-    all_v[4] = coupler_vy;
-    all_q[5] = coupler_theta;
-    all_v[5] = coupler_omega;
-    all_q[6] = rocker_x;
-    all_v[6] = rocker_vx;
-    all_q[7] = span_rocker_com_y;
-    all_v[7] = rocker_vy;
-    all_q[8] = rocker_theta;
-    all_v[8] = rocker_omega;
+    all_q[0] = span_crank_com_x_;
+    all_v[0] = crank_vx_;
+    all_q[1] = span_crank_com_y_;
+    all_v[1] = crank_vy_;
+    all_q[2] = motor_value_;
+    all_v[2] = motor_rate_;
+    all_q[3] = coupler_x_;
+    all_v[3] = coupler_vx_;
+    all_q[4] = coupler_y_;
+    all_v[4] = coupler_vy_;
+    all_q[5] = coupler_theta_;
+    all_v[5] = coupler_omega_;
+    all_q[6] = rocker_x_;
+    all_v[6] = rocker_vx_;
+    all_q[7] = span_rocker_com_y_;
+    all_v[7] = rocker_vy_;
+    all_q[8] = rocker_theta_;
+    all_v[8] = rocker_omega_;
 
     /* rates of the closures */
-    const double phi_dot_B_x = -coupler_omega*span_coupler_head_y - motor_rate*span_crank_head_y
-        + rocker_omega*span_rocker_head_y;
-    const double phi_dot_B_y = coupler_omega*span_coupler_head_x + motor_rate*span_crank_head_x
-        - rocker_omega*span_rocker_head_x;
-    *worst = max_of(0.0, fabs(phi_dot_B_x));
-    *worst = max_of(*worst, fabs(phi_dot_B_y));
+    const double phi_dot_B_x_ = -coupler_omega_*span_coupler_head_y_ - motor_rate_*span_crank_head_y_
+        + rocker_omega_*span_rocker_head_y_;
+    const double phi_dot_B_y_ = coupler_omega_*span_coupler_head_x_ + motor_rate_*span_crank_head_x_
+        - rocker_omega_*span_rocker_head_x_;
+    *worst = max_of(0.0, fabs(phi_dot_B_x_));
+    *worst = max_of(*worst, fabs(phi_dot_B_y_));
 
     /* groups of rows that are solved one after the other */
-    const double determinant_B_x__B_y = -span_coupler_head_x*span_rocker_head_y
-        + span_coupler_head_y*span_rocker_head_x;
-    const double size_B_x__coupler_theta = fabs(span_coupler_head_x) + fabs(span_coupler_head_y);
-    const double size_B_x__rocker_theta = fabs(span_rocker_head_x) + fabs(span_rocker_head_y);
-    const double size_B_y__coupler_theta = fabs(span_coupler_head_x) + fabs(span_coupler_head_y);
-    const double size_B_y__rocker_theta = fabs(span_rocker_head_x) + fabs(span_rocker_head_y);
-    const double bound_B_x__B_y = size_B_x__coupler_theta*size_B_y__rocker_theta
-        + size_B_x__rocker_theta*size_B_y__coupler_theta;
-    if (!(fabs(determinant_B_x__B_y) > SINGULAR_SQUARE * bound_B_x__B_y))
+    const double determinant_B_x_B_y_ = -span_coupler_head_x_*span_rocker_head_y_
+        + span_coupler_head_y_*span_rocker_head_x_;
+    const double size_B_x_coupler_theta_ = fabs(span_coupler_head_x_) + fabs(span_coupler_head_y_);
+    const double size_B_x_rocker_theta_ = fabs(span_rocker_head_x_) + fabs(span_rocker_head_y_);
+    const double size_B_y_coupler_theta_ = fabs(span_coupler_head_x_) + fabs(span_coupler_head_y_);
+    const double size_B_y_rocker_theta_ = fabs(span_rocker_head_x_) + fabs(span_rocker_head_y_);
+    const double bound_B_x_B_y_ = size_B_x_coupler_theta_*size_B_y_rocker_theta_
+        + size_B_x_rocker_theta_*size_B_y_coupler_theta_;
+    if (!(fabs(determinant_B_x_B_y_) > SINGULAR_SQUARE * bound_B_x_B_y_))
         return 2;
-    const double inverse_B_x__B_y = 1.0/determinant_B_x__B_y;
+    const double inverse_B_x_B_y_ = 1.0/determinant_B_x_B_y_;
 
     /* accelerations */
-    const double second_rest_B_x = (coupler_omega * coupler_omega)*span_coupler_head_x
-        + motor_acceleration*span_crank_head_y + (motor_rate * motor_rate)*span_crank_head_x
-        - (rocker_omega * rocker_omega)*span_rocker_head_x;
-    const double second_rest_B_y = (coupler_omega * coupler_omega)*span_coupler_head_y
-        - motor_acceleration*span_crank_head_x + (motor_rate * motor_rate)*span_crank_head_y
-        - (rocker_omega * rocker_omega)*span_rocker_head_y;
-    const double second_coupler_theta = inverse_B_x__B_y*(-second_rest_B_x*span_rocker_head_x
-        - second_rest_B_y*span_rocker_head_y);
-    const double second_rocker_theta = inverse_B_x__B_y*(-second_rest_B_x*span_coupler_head_x
-        - second_rest_B_y*span_coupler_head_y);
-    a[0] = second_rocker_theta;
-    a[1] = second_coupler_theta;
-    all_a[0] = -motor_acceleration*span_crank_com_y - (motor_rate * motor_rate)*span_crank_com_x;
-    all_a[1] = motor_acceleration*span_crank_com_x - (motor_rate * motor_rate)*span_crank_com_y;
-    all_a[2] = motor_acceleration;
-    all_a[3] = -(coupler_omega * coupler_omega)*span_coupler_com_x - motor_acceleration*span_crank_head_y
-        - (motor_rate * motor_rate)*span_crank_head_x - second_coupler_theta*span_coupler_com_y;
-    all_a[4] = -(coupler_omega * coupler_omega)*span_coupler_com_y + motor_acceleration*span_crank_head_x
-        - (motor_rate * motor_rate)*span_crank_head_y + second_coupler_theta*span_coupler_com_x;
-    all_a[5] = second_coupler_theta;
-    all_a[6] = -(rocker_omega * rocker_omega)*span_rocker_com_x - second_rocker_theta*span_rocker_com_y;
-    all_a[7] = -(rocker_omega * rocker_omega)*span_rocker_com_y + second_rocker_theta*span_rocker_com_x;
-    all_a[8] = second_rocker_theta;
+    const double second_rest_B_x_ = (coupler_omega_ * coupler_omega_)*span_coupler_head_x_
+        + motor_acceleration_*span_crank_head_y_ + (motor_rate_ * motor_rate_)*span_crank_head_x_
+        - (rocker_omega_ * rocker_omega_)*span_rocker_head_x_;
+    const double second_rest_B_y_ = (coupler_omega_ * coupler_omega_)*span_coupler_head_y_
+        - motor_acceleration_*span_crank_head_x_ + (motor_rate_ * motor_rate_)*span_crank_head_y_
+        - (rocker_omega_ * rocker_omega_)*span_rocker_head_y_;
+    const double second_coupler_theta_ = inverse_B_x_B_y_*(-second_rest_B_x_*span_rocker_head_x_
+        - second_rest_B_y_*span_rocker_head_y_);
+    const double second_rocker_theta_ = inverse_B_x_B_y_*(-second_rest_B_x_*span_coupler_head_x_
+        - second_rest_B_y_*span_coupler_head_y_);
+    a[0] = second_rocker_theta_;
+    a[1] = second_coupler_theta_;
+    all_a[0] = -motor_acceleration_*span_crank_com_y_ - (motor_rate_ * motor_rate_)*span_crank_com_x_;
+    all_a[1] = motor_acceleration_*span_crank_com_x_ - (motor_rate_ * motor_rate_)*span_crank_com_y_;
+    all_a[2] = motor_acceleration_;
+    all_a[3] = -(coupler_omega_ * coupler_omega_)*span_coupler_com_x_ - motor_acceleration_*span_crank_head_y_
+        - (motor_rate_ * motor_rate_)*span_crank_head_x_ - second_coupler_theta_*span_coupler_com_y_;
+    all_a[4] = -(coupler_omega_ * coupler_omega_)*span_coupler_com_y_ + motor_acceleration_*span_crank_head_x_
+        - (motor_rate_ * motor_rate_)*span_crank_head_y_ + second_coupler_theta_*span_coupler_com_x_;
+    all_a[5] = second_coupler_theta_;
+    all_a[6] = -(rocker_omega_ * rocker_omega_)*span_rocker_com_x_ - second_rocker_theta_*span_rocker_com_y_;
+    all_a[7] = -(rocker_omega_ * rocker_omega_)*span_rocker_com_y_ + second_rocker_theta_*span_rocker_com_x_;
+    all_a[8] = second_rocker_theta_;
     return 0;
 }

@@ -4,62 +4,62 @@
 void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
 {
     /* coordinates, velocities, time */
-    const double rocker_theta = q[0];
-    const double rocker_omega = v[0];
-    const double coupler_theta = q[1];
-    const double coupler_omega = v[1];
+    const double rocker_theta_ = q[0];
+    const double rocker_omega_ = v[0];
+    const double coupler_theta_ = q[1];
+    const double coupler_omega_ = v[1];
 
     /* directions, arms, drives */
-    const double motor_value = p->omega*t + PI/2.0;
-    const Four angles_0 = {motor_value, rocker_theta, coupler_theta, coupler_theta};
+    const double motor_value_ = p->omega_*t + PI/2.0;
+    const Four angles_0 = {motor_value_, rocker_theta_, coupler_theta_, coupler_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_crank = cosines_0[0];
-    const double sin_theta_crank = sines_0[0];
-    const double cos_theta_rocker = cosines_0[1];
-    const double sin_theta_rocker = sines_0[1];
-    const double cos_theta_coupler = cosines_0[2];
-    const double sin_theta_coupler = sines_0[2];
-    const double motor_rate = p->omega;
-    const double span_crank_com_x = cos_theta_crank*p->crank_head_s_x;
-    const double span_crank_com_y = p->crank_head_s_x*sin_theta_crank;
-    const double crank_vx = -motor_rate*span_crank_com_y;
-    const double crank_vy = motor_rate*span_crank_com_x;
-    const double span_rocker_com_x = cos_theta_rocker*p->rocker_head_s_x;
-    const double span_rocker_com_y = p->rocker_head_s_x*sin_theta_rocker;
-    const double rocker_x = p->B0_x + span_rocker_com_x;
-    const double rocker_vx = -rocker_omega*span_rocker_com_y;
-    const double rocker_vy = rocker_omega*span_rocker_com_x;
-    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
-    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
-    const double crank_head_vx = -motor_rate*span_crank_head_y;
-    const double crank_head_vy = motor_rate*span_crank_head_x;
-    const double span_coupler_com_x = cos_theta_coupler*p->coupler_head_s_x;
-    const double span_coupler_com_y = p->coupler_head_s_x*sin_theta_coupler;
-    const double coupler_x = span_coupler_com_x + span_crank_head_x;
-    const double coupler_vx = -coupler_omega*span_coupler_com_y + crank_head_vx;
-    const double coupler_y = span_coupler_com_y + span_crank_head_y;
-    const double coupler_vy = coupler_omega*span_coupler_com_x + crank_head_vy;
+    const double cos_theta_crank_ = cosines_0[0];
+    const double sin_theta_crank_ = sines_0[0];
+    const double cos_theta_rocker_ = cosines_0[1];
+    const double sin_theta_rocker_ = sines_0[1];
+    const double cos_theta_coupler_ = cosines_0[2];
+    const double sin_theta_coupler_ = sines_0[2];
+    const double motor_rate_ = p->omega_;
+    const double span_crank_com_x_ = cos_theta_crank_*p->crank_head_s_x_;
+    const double span_crank_com_y_ = p->crank_head_s_x_*sin_theta_crank_;
+    const double crank_vx_ = -motor_rate_*span_crank_com_y_;
+    const double crank_vy_ = motor_rate_*span_crank_com_x_;
+    const double span_rocker_com_x_ = cos_theta_rocker_*p->rocker_head_s_x_;
+    const double span_rocker_com_y_ = p->rocker_head_s_x_*sin_theta_rocker_;
+    const double rocker_x_ = p->B0_x_ + span_rocker_com_x_;
+    const double rocker_vx_ = -rocker_omega_*span_rocker_com_y_;
+    const double rocker_vy_ = rocker_omega_*span_rocker_com_x_;
+    const double span_crank_head_x_ = cos_theta_crank_*p->crank_head_span_x_;
+    const double span_crank_head_y_ = p->crank_head_span_x_*sin_theta_crank_;
+    const double crank_head_vx_ = -motor_rate_*span_crank_head_y_;
+    const double crank_head_vy_ = motor_rate_*span_crank_head_x_;
+    const double span_coupler_com_x_ = cos_theta_coupler_*p->coupler_head_s_x_;
+    const double span_coupler_com_y_ = p->coupler_head_s_x_*sin_theta_coupler_;
+    const double coupler_x_ = span_coupler_com_x_ + span_crank_head_x_;
+    const double coupler_vx_ = -coupler_omega_*span_coupler_com_y_ + crank_head_vx_;
+    const double coupler_y_ = span_coupler_com_y_ + span_crank_head_y_;
+    const double coupler_vy_ = coupler_omega_*span_coupler_com_x_ + crank_head_vy_;
 
     /* bodies */
-    all_q[0] = span_crank_com_x;
-    all_v[0] = crank_vx;
-    all_q[1] = span_crank_com_y;
-    all_v[1] = crank_vy;
-    all_q[2] = motor_value;
-    all_v[2] = motor_rate;
-    all_q[3] = coupler_x;
-    all_v[3] = coupler_vx;
-    all_q[4] = coupler_y;
-    all_v[4] = coupler_vy;
-    all_q[5] = coupler_theta;
-    all_v[5] = coupler_omega;
-    all_q[6] = rocker_x;
-    all_v[6] = rocker_vx;
-    all_q[7] = span_rocker_com_y;
-    all_v[7] = rocker_vy;
-    all_q[8] = rocker_theta;
-    all_v[8] = rocker_omega;
+    all_q[0] = span_crank_com_x_;
+    all_v[0] = crank_vx_;
+    all_q[1] = span_crank_com_y_;
+    all_v[1] = crank_vy_;
+    all_q[2] = motor_value_;
+    all_v[2] = motor_rate_;
+    all_q[3] = coupler_x_;
+    all_v[3] = coupler_vx_;
+    all_q[4] = coupler_y_;
+    all_v[4] = coupler_vy_;
+    all_q[5] = coupler_theta_;
+    all_v[5] = coupler_omega_;
+    all_q[6] = rocker_x_;
+    all_v[6] = rocker_vx_;
+    all_q[7] = span_rocker_com_y_;
+    all_v[7] = rocker_vy_;
+    all_q[8] = rocker_theta_;
+    all_v[8] = rocker_omega_;
 }
 
 /*
@@ -69,16 +69,16 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 {
     (void)t, (void)p;
     /* coordinates, velocities, time */
-    const double coupler_theta = q[5];
-    const double coupler_omega = v[5];
-    const double rocker_theta = q[8];
-    const double rocker_omega = v[8];
+    const double coupler_theta_ = q[5];
+    const double coupler_omega_ = v[5];
+    const double rocker_theta_ = q[8];
+    const double rocker_omega_ = v[8];
 
     /* tree coordinates */
-    s[0] = rocker_theta;  /* rocker */
-    s_rate[0] = rocker_omega;
-    s[1] = coupler_theta;  /* coupler */
-    s_rate[1] = coupler_omega;
+    s[0] = rocker_theta_;  /* rocker */
+    s_rate[0] = rocker_omega_;
+    s[1] = coupler_theta_;  /* coupler */
+    s_rate[1] = coupler_omega_;
 }
 
 /*
@@ -99,30 +99,30 @@ void reduce_accelerations(const double t, const double *q, const double *v, cons
 void closures(const double t, const double *q, const Parameters *p, double *out)
 {
     /* coordinates, velocities, time */
-    const double rocker_theta = q[0];
-    const double coupler_theta = q[1];
+    const double rocker_theta_ = q[0];
+    const double coupler_theta_ = q[1];
 
     /* directions, arms, drives */
-    const double motor_value = p->omega*t + PI/2.0;
-    const Four angles_0 = {motor_value, rocker_theta, coupler_theta, coupler_theta};
+    const double motor_value_ = p->omega_*t + PI/2.0;
+    const Four angles_0 = {motor_value_, rocker_theta_, coupler_theta_, coupler_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_crank = cosines_0[0];
-    const double sin_theta_crank = sines_0[0];
-    const double cos_theta_rocker = cosines_0[1];
-    const double sin_theta_rocker = sines_0[1];
-    const double cos_theta_coupler = cosines_0[2];
-    const double sin_theta_coupler = sines_0[2];
-    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
-    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
-    const double span_coupler_head_x = cos_theta_coupler*p->coupler_head_span_x;
-    const double span_coupler_head_y = p->coupler_head_span_x*sin_theta_coupler;
-    const double span_rocker_head_x = cos_theta_rocker*p->rocker_head_span_x;
-    const double span_rocker_head_y = p->rocker_head_span_x*sin_theta_rocker;
+    const double cos_theta_crank_ = cosines_0[0];
+    const double sin_theta_crank_ = sines_0[0];
+    const double cos_theta_rocker_ = cosines_0[1];
+    const double sin_theta_rocker_ = sines_0[1];
+    const double cos_theta_coupler_ = cosines_0[2];
+    const double sin_theta_coupler_ = sines_0[2];
+    const double span_crank_head_x_ = cos_theta_crank_*p->crank_head_span_x_;
+    const double span_crank_head_y_ = p->crank_head_span_x_*sin_theta_crank_;
+    const double span_coupler_head_x_ = cos_theta_coupler_*p->coupler_head_span_x_;
+    const double span_coupler_head_y_ = p->coupler_head_span_x_*sin_theta_coupler_;
+    const double span_rocker_head_x_ = cos_theta_rocker_*p->rocker_head_span_x_;
+    const double span_rocker_head_y_ = p->rocker_head_span_x_*sin_theta_rocker_;
 
     /* rows */
-    out[0] = -p->B0_x + span_coupler_head_x + span_crank_head_x - span_rocker_head_x;  /* B.x */
-    out[1] = span_coupler_head_y + span_crank_head_y - span_rocker_head_y;  /* B.y */
+    out[0] = -p->B0_x_ + span_coupler_head_x_ + span_crank_head_x_ - span_rocker_head_x_;  /* B.x */
+    out[1] = span_coupler_head_y_ + span_crank_head_y_ - span_rocker_head_y_;  /* B.y */
 }
 
 /*
@@ -131,35 +131,35 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
 void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
 {
     /* coordinates, velocities, time */
-    const double rocker_theta = q[0];
-    const double rocker_omega = v[0];
-    const double coupler_theta = q[1];
-    const double coupler_omega = v[1];
+    const double rocker_theta_ = q[0];
+    const double rocker_omega_ = v[0];
+    const double coupler_theta_ = q[1];
+    const double coupler_omega_ = v[1];
 
     /* directions, arms, drives */
-    const double motor_value = p->omega*t + PI/2.0;
-    const Four angles_0 = {motor_value, rocker_theta, coupler_theta, coupler_theta};
+    const double motor_value_ = p->omega_*t + PI/2.0;
+    const Four angles_0 = {motor_value_, rocker_theta_, coupler_theta_, coupler_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_crank = cosines_0[0];
-    const double sin_theta_crank = sines_0[0];
-    const double cos_theta_rocker = cosines_0[1];
-    const double sin_theta_rocker = sines_0[1];
-    const double cos_theta_coupler = cosines_0[2];
-    const double sin_theta_coupler = sines_0[2];
-    const double motor_rate = p->omega;
-    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
-    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
-    const double span_coupler_head_x = cos_theta_coupler*p->coupler_head_span_x;
-    const double span_coupler_head_y = p->coupler_head_span_x*sin_theta_coupler;
-    const double span_rocker_head_x = cos_theta_rocker*p->rocker_head_span_x;
-    const double span_rocker_head_y = p->rocker_head_span_x*sin_theta_rocker;
+    const double cos_theta_crank_ = cosines_0[0];
+    const double sin_theta_crank_ = sines_0[0];
+    const double cos_theta_rocker_ = cosines_0[1];
+    const double sin_theta_rocker_ = sines_0[1];
+    const double cos_theta_coupler_ = cosines_0[2];
+    const double sin_theta_coupler_ = sines_0[2];
+    const double motor_rate_ = p->omega_;
+    const double span_crank_head_x_ = cos_theta_crank_*p->crank_head_span_x_;
+    const double span_crank_head_y_ = p->crank_head_span_x_*sin_theta_crank_;
+    const double span_coupler_head_x_ = cos_theta_coupler_*p->coupler_head_span_x_;
+    const double span_coupler_head_y_ = p->coupler_head_span_x_*sin_theta_coupler_;
+    const double span_rocker_head_x_ = cos_theta_rocker_*p->rocker_head_span_x_;
+    const double span_rocker_head_y_ = p->rocker_head_span_x_*sin_theta_rocker_;
 
     /* rows */
     /* B.x */
-    out[0] = -coupler_omega*span_coupler_head_y - motor_rate*span_crank_head_y + rocker_omega*span_rocker_head_y;
+    out[0] = -coupler_omega_*span_coupler_head_y_ - motor_rate_*span_crank_head_y_ + rocker_omega_*span_rocker_head_y_;
     /* B.y */
-    out[1] = coupler_omega*span_coupler_head_x + motor_rate*span_crank_head_x - rocker_omega*span_rocker_head_x;
+    out[1] = coupler_omega_*span_coupler_head_x_ + motor_rate_*span_crank_head_x_ - rocker_omega_*span_rocker_head_x_;
 }
 
 /*
@@ -171,104 +171,115 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     double *a, Aside *aside)
 {
     /* coordinates, velocities, time */
-    const double rocker_theta = q[0];
-    const double rocker_omega = v[0];
-    const double coupler_theta = q[1];
-    const double coupler_omega = v[1];
+    const double rocker_theta_ = q[0];
+    const double rocker_omega_ = v[0];
+    const double coupler_theta_ = q[1];
+    const double coupler_omega_ = v[1];
 
     /* directions, arms, drives */
-    const double motor_value = p->omega*t + PI/2.0;
-    const Four angles_0 = {motor_value, rocker_theta, coupler_theta, coupler_theta};
+    const double motor_value_ = p->omega_*t + PI/2.0;
+    const Four angles_0 = {motor_value_, rocker_theta_, coupler_theta_, coupler_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_crank = cosines_0[0];
-    const double sin_theta_crank = sines_0[0];
-    const double cos_theta_rocker = cosines_0[1];
-    const double sin_theta_rocker = sines_0[1];
-    const double cos_theta_coupler = cosines_0[2];
-    const double sin_theta_coupler = sines_0[2];
-    const double motor_rate = p->omega;
-    const double motor_acceleration = 0.0;
-    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
-    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
-    const double span_coupler_head_x = cos_theta_coupler*p->coupler_head_span_x;
-    const double span_coupler_head_y = p->coupler_head_span_x*sin_theta_coupler;
-    const double span_rocker_head_x = cos_theta_rocker*p->rocker_head_span_x;
-    const double span_rocker_head_y = p->rocker_head_span_x*sin_theta_rocker;
-    const double cos_coupler_less_crank = cos_theta_coupler*cos_theta_crank + sin_theta_coupler*sin_theta_crank;
-    const double sin_coupler_less_crank = -cos_theta_coupler*sin_theta_crank + cos_theta_crank*sin_theta_coupler;
-    const double dot_crank_coupler = cos_coupler_less_crank*p->inertia_crank_coupler;
-    const double cross_crank_coupler = p->inertia_crank_coupler*sin_coupler_less_crank;
+    const double cos_theta_crank_ = cosines_0[0];
+    const double sin_theta_crank_ = sines_0[0];
+    const double cos_theta_rocker_ = cosines_0[1];
+    const double sin_theta_rocker_ = sines_0[1];
+    const double cos_theta_coupler_ = cosines_0[2];
+    const double sin_theta_coupler_ = sines_0[2];
+    const double motor_rate_ = p->omega_;
+    const double motor_acceleration_ = 0.0;
+    const double span_crank_head_x_ = cos_theta_crank_*p->crank_head_span_x_;
+    const double span_crank_head_y_ = p->crank_head_span_x_*sin_theta_crank_;
+    const double span_coupler_head_x_ = cos_theta_coupler_*p->coupler_head_span_x_;
+    const double span_coupler_head_y_ = p->coupler_head_span_x_*sin_theta_coupler_;
+    const double span_rocker_head_x_ = cos_theta_rocker_*p->rocker_head_span_x_;
+    const double span_rocker_head_y_ = p->rocker_head_span_x_*sin_theta_rocker_;
+    const double cos_coupler_less_crank_ = cos_theta_coupler_*cos_theta_crank_ + sin_theta_coupler_*sin_theta_crank_;
+    const double sin_coupler_less_crank_ = -cos_theta_coupler_*sin_theta_crank_ + cos_theta_crank_*sin_theta_coupler_;
+    const double dot_crank_coupler_ = cos_coupler_less_crank_*p->inertia_crank_coupler_;
+    const double cross_crank_coupler_ = p->inertia_crank_coupler_*sin_coupler_less_crank_;
 
     /* status */
     int pivot = 0;
 
     /* constraints: gamma */
-    const double rhs_B_x = (coupler_omega * coupler_omega)*span_coupler_head_x + motor_acceleration*span_crank_head_y
-        + (motor_rate * motor_rate)*span_crank_head_x - (rocker_omega * rocker_omega)*span_rocker_head_x;
-    const double rhs_B_y = (coupler_omega * coupler_omega)*span_coupler_head_y - motor_acceleration*span_crank_head_x
-        + (motor_rate * motor_rate)*span_crank_head_y - (rocker_omega * rocker_omega)*span_rocker_head_y;
+    const double rhs_B_x_ = (coupler_omega_ * coupler_omega_)*span_coupler_head_x_
+        + motor_acceleration_*span_crank_head_y_ + (motor_rate_ * motor_rate_)*span_crank_head_x_
+        - (rocker_omega_ * rocker_omega_)*span_rocker_head_x_;
+    const double rhs_B_y_ = (coupler_omega_ * coupler_omega_)*span_coupler_head_y_
+        - motor_acceleration_*span_crank_head_x_ + (motor_rate_ * motor_rate_)*span_crank_head_y_
+        - (rocker_omega_ * rocker_omega_)*span_rocker_head_y_;
 
     /* L D L^T of the KKT matrix */
-    const double l_B_x__rocker_theta = p->inverse_mass_rocker_rocker*span_rocker_head_y;
-    const double l_B_y__rocker_theta = -p->inverse_mass_rocker_rocker*span_rocker_head_x;
-    const double l_B_x__coupler_theta = -p->inverse_mass_coupler_coupler*span_coupler_head_y;
-    const double l_B_y__coupler_theta = p->inverse_mass_coupler_coupler*span_coupler_head_x;
-    const double scale_B_x = -l_B_x__coupler_theta*span_coupler_head_y + l_B_x__rocker_theta*span_rocker_head_y;
-    const double scale_B_y = l_B_y__coupler_theta*span_coupler_head_x - l_B_y__rocker_theta*span_rocker_head_x;
-    const double pivot_B_x__B_y = -l_B_y__coupler_theta*span_coupler_head_y + l_B_y__rocker_theta*span_rocker_head_y;
-    const double determinant_B_x__B_y = -(pivot_B_x__B_y * pivot_B_x__B_y) + scale_B_x*scale_B_y;
-    if (!(scale_B_x > 0.0 && scale_B_x < INFINITY)) {
+    if (!(p->mass_rocker_rocker_ > LIGHT_PIVOT * p->rocker_turning_)) {
+        pivot = 3;
+        goto dependent;
+    }
+    const double l_B_x_rocker_theta_ = p->inverse_mass_rocker_rocker_*span_rocker_head_y_;
+    const double l_B_y_rocker_theta_ = -p->inverse_mass_rocker_rocker_*span_rocker_head_x_;
+    if (!(p->mass_coupler_coupler_ > LIGHT_PIVOT * p->coupler_turning_)) {
+        pivot = 4;
+        goto dependent;
+    }
+    const double l_B_x_coupler_theta_ = -p->inverse_mass_coupler_coupler_*span_coupler_head_y_;
+    const double l_B_y_coupler_theta_ = p->inverse_mass_coupler_coupler_*span_coupler_head_x_;
+    const double scale_B_x_ = -l_B_x_coupler_theta_*span_coupler_head_y_ + l_B_x_rocker_theta_*span_rocker_head_y_;
+    const double scale_B_y_ = l_B_y_coupler_theta_*span_coupler_head_x_ - l_B_y_rocker_theta_*span_rocker_head_x_;
+    const double pivot_B_x_B_y_ = -l_B_y_coupler_theta_*span_coupler_head_y_ + l_B_y_rocker_theta_*span_rocker_head_y_;
+    const double determinant_B_x_B_y_ = -(pivot_B_x_B_y_ * pivot_B_x_B_y_) + scale_B_x_*scale_B_y_;
+    if (!(scale_B_x_ > 0.0 && scale_B_x_ < INFINITY)) {
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_B_x__B_y > memory->least * scale_B_y * scale_B_x)) {
+    if (!(determinant_B_x_B_y_ > memory->least * scale_B_y_ * scale_B_x_)) {
         pivot = 2;
         goto dependent;
     }
-    const double size_B_x = scale_B_x + scale_B_y;
-    if (!(scale_B_x > memory->least_size * size_B_x)) {
+    const double size_B_x_ = scale_B_x_ + scale_B_y_;
+    if (!(scale_B_x_ > memory->least_size * size_B_x_)) {
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_B_x__B_y > memory->least_size * size_B_x * scale_B_x)) {
+    if (!(determinant_B_x_B_y_ > memory->least_size * size_B_x_ * scale_B_x_)) {
         pivot = 2;
         goto dependent;
     }
-    const double inverse_B_x__B_y = -1.0/determinant_B_x__B_y;
-    const double inverse_pivot_B_x = inverse_B_x__B_y*scale_B_y;
-    const double inverse_pivot_B_y = inverse_B_x__B_y*scale_B_x;
-    const double inverse_cross_B_x__B_y = -inverse_B_x__B_y*pivot_B_x__B_y;
+    const double inverse_B_x_B_y_ = -1.0/determinant_B_x_B_y_;
+    const double inverse_pivot_B_x_ = inverse_B_x_B_y_*scale_B_y_;
+    const double inverse_pivot_B_y_ = inverse_B_x_B_y_*scale_B_x_;
+    const double inverse_cross_B_x_B_y_ = -inverse_B_x_B_y_*pivot_B_x_B_y_;
 
     /* forward substitution */
-    const double z_rocker_theta = cos_theta_rocker*p->weight_rocker__across;
-    const double z_coupler_theta = cos_theta_coupler*p->weight_coupler__across
-        - cross_crank_coupler*(motor_rate * motor_rate) - dot_crank_coupler*motor_acceleration;
-    const double z_B_x = -l_B_x__coupler_theta*z_coupler_theta - l_B_x__rocker_theta*z_rocker_theta + rhs_B_x;
-    const double z_B_y = -l_B_y__coupler_theta*z_coupler_theta - l_B_y__rocker_theta*z_rocker_theta + rhs_B_y;
+    const double z_rocker_theta_ = cos_theta_rocker_*p->weight_rocker_across_;
+    const double z_coupler_theta_ = cos_theta_coupler_*p->weight_coupler_across_
+        - cross_crank_coupler_*(motor_rate_ * motor_rate_) - dot_crank_coupler_*motor_acceleration_;
+    const double z_B_x_ = -l_B_x_coupler_theta_*z_coupler_theta_ - l_B_x_rocker_theta_*z_rocker_theta_ + rhs_B_x_;
+    const double z_B_y_ = -l_B_y_coupler_theta_*z_coupler_theta_ - l_B_y_rocker_theta_*z_rocker_theta_ + rhs_B_y_;
 
     /* backward substitution */
-    const double lambda_B_y = inverse_cross_B_x__B_y*z_B_x + inverse_pivot_B_y*z_B_y;
-    const double lambda_B_x = inverse_cross_B_x__B_y*z_B_y + inverse_pivot_B_x*z_B_x;
-    const double acceleration_coupler_theta = p->inverse_mass_coupler_coupler*z_coupler_theta
-        - l_B_x__coupler_theta*lambda_B_x - l_B_y__coupler_theta*lambda_B_y;
-    const double acceleration_rocker_theta = p->inverse_mass_rocker_rocker*z_rocker_theta
-        - l_B_x__rocker_theta*lambda_B_x - l_B_y__rocker_theta*lambda_B_y;
+    const double lambda_B_y_ = inverse_cross_B_x_B_y_*z_B_x_ + inverse_pivot_B_y_*z_B_y_;
+    const double lambda_B_x_ = inverse_cross_B_x_B_y_*z_B_y_ + inverse_pivot_B_x_*z_B_x_;
+    const double acceleration_coupler_theta_ = p->inverse_mass_coupler_coupler_*z_coupler_theta_
+        - l_B_x_coupler_theta_*lambda_B_x_ - l_B_y_coupler_theta_*lambda_B_y_;
+    const double acceleration_rocker_theta_ = p->inverse_mass_rocker_rocker_*z_rocker_theta_
+        - l_B_x_rocker_theta_*lambda_B_x_ - l_B_y_rocker_theta_*lambda_B_y_;
 
     /* results */
-    a[0] = acceleration_rocker_theta;
-    a[1] = acceleration_coupler_theta;
-    aside->lambda[0] = lambda_B_x;
-    aside->lambda[1] = lambda_B_y;
+    a[0] = acceleration_rocker_theta_;
+    a[1] = acceleration_coupler_theta_;
+    aside->lambda[0] = lambda_B_x_;
+    aside->lambda[1] = lambda_B_y_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent:
     pivot = solve_by_absolute(t, q, v, memory, p, a, aside);
     powers:
-    aside->power[0] = -aside->lambda[0]*motor_rate*span_crank_head_y + aside->lambda[1]*motor_rate*span_crank_head_x
-        + motor_rate*(a[1]*dot_crank_coupler - cos_theta_crank*p->weight_crank__across
-        - (coupler_omega * coupler_omega)*cross_crank_coupler + p->mass_motor_motor*motor_acceleration);
+    aside->power[0] = -aside->lambda[0]*motor_rate_*span_crank_head_y_
+        + aside->lambda[1]*motor_rate_*span_crank_head_x_ + motor_rate_*(a[1]*dot_crank_coupler_
+        - cos_theta_crank_*p->weight_crank_across_ - (coupler_omega_ * coupler_omega_)*cross_crank_coupler_
+        + p->mass_motor_motor_*motor_acceleration_);
     aside->power[1] = 0.0;
     aside->power[2] = 0.0;
     return pivot;
@@ -283,60 +294,60 @@ int reduced_project(const double t, const double *q, const double *r, const Para
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double rocker_theta = q[0];
-    const double coupler_theta = q[1];
+    const double rocker_theta_ = q[0];
+    const double coupler_theta_ = q[1];
 
     /* directions, arms, drives */
-    const Four angles_0 = {rocker_theta, coupler_theta, coupler_theta, coupler_theta};
+    const Four angles_0 = {rocker_theta_, coupler_theta_, coupler_theta_, coupler_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_rocker = cosines_0[0];
-    const double sin_theta_rocker = sines_0[0];
-    const double cos_theta_coupler = cosines_0[1];
-    const double sin_theta_coupler = sines_0[1];
-    const double span_coupler_head_x = cos_theta_coupler*p->coupler_head_span_x;
-    const double span_coupler_head_y = p->coupler_head_span_x*sin_theta_coupler;
-    const double span_rocker_head_x = cos_theta_rocker*p->rocker_head_span_x;
-    const double span_rocker_head_y = p->rocker_head_span_x*sin_theta_rocker;
+    const double cos_theta_rocker_ = cosines_0[0];
+    const double sin_theta_rocker_ = sines_0[0];
+    const double cos_theta_coupler_ = cosines_0[1];
+    const double sin_theta_coupler_ = sines_0[1];
+    const double span_coupler_head_x_ = cos_theta_coupler_*p->coupler_head_span_x_;
+    const double span_coupler_head_y_ = p->coupler_head_span_x_*sin_theta_coupler_;
+    const double span_rocker_head_x_ = cos_theta_rocker_*p->rocker_head_span_x_;
+    const double span_rocker_head_y_ = p->rocker_head_span_x_*sin_theta_rocker_;
 
     /* right-hand side */
-    const double r_B_x = r[0];
-    const double r_B_y = r[1];
+    const double r_B_x_ = r[0];
+    const double r_B_y_ = r[1];
 
     /* L D L^T of the KKT matrix */
-    const double l_B_x__rocker_theta = p->inverse_mass_rocker_rocker*span_rocker_head_y;
-    const double l_B_y__rocker_theta = -p->inverse_mass_rocker_rocker*span_rocker_head_x;
-    const double l_B_x__coupler_theta = -p->inverse_mass_coupler_coupler*span_coupler_head_y;
-    const double l_B_y__coupler_theta = p->inverse_mass_coupler_coupler*span_coupler_head_x;
-    const double scale_B_x = -l_B_x__coupler_theta*span_coupler_head_y + l_B_x__rocker_theta*span_rocker_head_y;
-    const double scale_B_y = l_B_y__coupler_theta*span_coupler_head_x - l_B_y__rocker_theta*span_rocker_head_x;
-    const double pivot_B_x__B_y = -l_B_y__coupler_theta*span_coupler_head_y + l_B_y__rocker_theta*span_rocker_head_y;
-    const double determinant_B_x__B_y = -(pivot_B_x__B_y * pivot_B_x__B_y) + scale_B_x*scale_B_y;
-    if (!(scale_B_x > 0.0 && scale_B_x < INFINITY))
+    const double l_B_x_rocker_theta_ = p->inverse_mass_rocker_rocker_*span_rocker_head_y_;
+    const double l_B_y_rocker_theta_ = -p->inverse_mass_rocker_rocker_*span_rocker_head_x_;
+    const double l_B_x_coupler_theta_ = -p->inverse_mass_coupler_coupler_*span_coupler_head_y_;
+    const double l_B_y_coupler_theta_ = p->inverse_mass_coupler_coupler_*span_coupler_head_x_;
+    const double scale_B_x_ = -l_B_x_coupler_theta_*span_coupler_head_y_ + l_B_x_rocker_theta_*span_rocker_head_y_;
+    const double scale_B_y_ = l_B_y_coupler_theta_*span_coupler_head_x_ - l_B_y_rocker_theta_*span_rocker_head_x_;
+    const double pivot_B_x_B_y_ = -l_B_y_coupler_theta_*span_coupler_head_y_ + l_B_y_rocker_theta_*span_rocker_head_y_;
+    const double determinant_B_x_B_y_ = -(pivot_B_x_B_y_ * pivot_B_x_B_y_) + scale_B_x_*scale_B_y_;
+    if (!(scale_B_x_ > 0.0 && scale_B_x_ < INFINITY))
         return 1;
-    if (!(determinant_B_x__B_y > SINGULAR * scale_B_y * scale_B_x))
+    if (!(determinant_B_x_B_y_ > SINGULAR * scale_B_y_ * scale_B_x_))
         return 2;
-    const double size_B_x = scale_B_x + scale_B_y;
-    if (!(scale_B_x > VANISHING * size_B_x))
+    const double size_B_x_ = scale_B_x_ + scale_B_y_;
+    if (!(scale_B_x_ > VANISHING * size_B_x_))
         return 1;
-    if (!(determinant_B_x__B_y > VANISHING * size_B_x * scale_B_x))
+    if (!(determinant_B_x_B_y_ > VANISHING * size_B_x_ * scale_B_x_))
         return 2;
-    const double inverse_B_x__B_y = -1.0/determinant_B_x__B_y;
-    const double inverse_pivot_B_x = inverse_B_x__B_y*scale_B_y;
-    const double inverse_pivot_B_y = inverse_B_x__B_y*scale_B_x;
-    const double inverse_cross_B_x__B_y = -inverse_B_x__B_y*pivot_B_x__B_y;
+    const double inverse_B_x_B_y_ = -1.0/determinant_B_x_B_y_;
+    const double inverse_pivot_B_x_ = inverse_B_x_B_y_*scale_B_y_;
+    const double inverse_pivot_B_y_ = inverse_B_x_B_y_*scale_B_x_;
+    const double inverse_cross_B_x_B_y_ = -inverse_B_x_B_y_*pivot_B_x_B_y_;
 
     /* backward substitution */
-    const double step_lambda_B_y = inverse_cross_B_x__B_y*r_B_x + inverse_pivot_B_y*r_B_y;
-    const double step_lambda_B_x = inverse_cross_B_x__B_y*r_B_y + inverse_pivot_B_x*r_B_x;
-    const double step_acceleration_coupler_theta = -l_B_x__coupler_theta*step_lambda_B_x
-        - l_B_y__coupler_theta*step_lambda_B_y;
-    const double step_acceleration_rocker_theta = -l_B_x__rocker_theta*step_lambda_B_x
-        - l_B_y__rocker_theta*step_lambda_B_y;
+    const double step_lambda_B_y_ = inverse_cross_B_x_B_y_*r_B_x_ + inverse_pivot_B_y_*r_B_y_;
+    const double step_lambda_B_x_ = inverse_cross_B_x_B_y_*r_B_y_ + inverse_pivot_B_x_*r_B_x_;
+    const double step_acceleration_coupler_theta_ = -l_B_x_coupler_theta_*step_lambda_B_x_
+        - l_B_y_coupler_theta_*step_lambda_B_y_;
+    const double step_acceleration_rocker_theta_ = -l_B_x_rocker_theta_*step_lambda_B_x_
+        - l_B_y_rocker_theta_*step_lambda_B_y_;
 
     /* results */
-    x[0] = step_acceleration_rocker_theta;
-    x[1] = step_acceleration_coupler_theta;
+    x[0] = step_acceleration_rocker_theta_;
+    x[1] = step_acceleration_coupler_theta_;
     return 0;
 }
 

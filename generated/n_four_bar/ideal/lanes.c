@@ -12,82 +12,79 @@
 
 /* Numbers of each run side by side, field by field those of Parameters in model.h: meanings, addresses, units too. */
 typedef struct LaneParameters {
-    Lanes length;
-    Lanes mass;
-    Lanes inertia;
-    Lanes crank0_mass;
-    Lanes crank0_inertia;
-    Lanes crank1_mass;
-    Lanes crank1_inertia;
-    Lanes crank2_mass;
-    Lanes crank2_inertia;
-    Lanes coupler1_mass;
-    Lanes coupler1_inertia;
-    Lanes coupler2_mass;
-    Lanes coupler2_inertia;
-    Lanes crank0_length;
-    Lanes crank1_length;
-    Lanes crank2_length;
-    Lanes coupler1_length;
-    Lanes coupler2_length;
-    Lanes alpha;
-    Lanes beta;
-    Lanes O1_x;
-    Lanes O2_x;
-    Lanes gravity_y;
-    Lanes guess_crank1_theta;
-    Lanes guess_crank2_theta;
-    Lanes guess_coupler1_theta;
-    Lanes guess_coupler2_theta;
-    Lanes set_crank0_theta;
-    Lanes rates_crank0_omega;
-    Lanes crank0_head_s_x;
-    Lanes crank1_head_s_x;
-    Lanes crank2_head_s_x;
-    Lanes coupler1_head_s_x;
-    Lanes coupler2_head_s_x;
-    Lanes weight_crank0_y;
-    Lanes weight_crank1_y;
-    Lanes weight_crank2_y;
-    Lanes weight_coupler1_y;
-    Lanes weight_coupler2_y;
-    Lanes two_alpha;
-    Lanes beta_squared;
-    Lanes inverse_crank0_mass;
-    Lanes inverse_crank2_mass;
-    Lanes inverse_coupler1_mass;
-    Lanes inverse_coupler2_mass;
-    Lanes inverse_crank1_mass;
-    Lanes inverse_crank0_inertia;
-    Lanes inverse_crank2_inertia;
-    Lanes inverse_coupler1_inertia;
-    Lanes inverse_coupler2_inertia;
-    Lanes inverse_crank1_inertia;
-    Lanes crank0_head_span_x;
-    Lanes crank1_head_span_x;
-    Lanes coupler2_head_span_x;
-    Lanes crank2_head_span_x;
-    Lanes coupler1_head_span_x;
-    Lanes inertia_crank0_crank0;
-    Lanes inertia_crank1_crank1;
-    Lanes inertia_crank2_crank2;
-    Lanes inertia_crank0_coupler1;
-    Lanes inertia_coupler1_coupler1;
-    Lanes inertia_crank1_coupler2;
-    Lanes inertia_coupler2_coupler2;
-    Lanes mass_crank0_crank0;
-    Lanes mass_crank1_crank1;
-    Lanes mass_crank2_crank2;
-    Lanes mass_coupler1_coupler1;
-    Lanes mass_coupler2_coupler2;
-    Lanes weight_crank0__across;
-    Lanes weight_crank1__across;
-    Lanes weight_crank2__across;
-    Lanes weight_coupler1__across;
-    Lanes weight_coupler2__across;
-    Lanes inverse_mass_crank2_crank2;
-    Lanes inverse_mass_coupler2_coupler2;
-    Lanes inverse_mass_crank0_crank0;
+    Lanes length_;
+    Lanes mass_;
+    Lanes inertia_;
+    Lanes crank0_mass_;
+    Lanes crank0_inertia_;
+    Lanes crank1_mass_;
+    Lanes crank1_inertia_;
+    Lanes crank2_mass_;
+    Lanes crank2_inertia_;
+    Lanes coupler1_mass_;
+    Lanes coupler1_inertia_;
+    Lanes coupler2_mass_;
+    Lanes coupler2_inertia_;
+    Lanes crank0_length_;
+    Lanes crank1_length_;
+    Lanes crank2_length_;
+    Lanes coupler1_length_;
+    Lanes coupler2_length_;
+    Lanes alpha_;
+    Lanes beta_;
+    Lanes O1_x_;
+    Lanes O2_x_;
+    Lanes gravity_y_;
+    Lanes guess_crank1_theta_;
+    Lanes guess_crank2_theta_;
+    Lanes guess_coupler1_theta_;
+    Lanes guess_coupler2_theta_;
+    Lanes set_crank0_theta_;
+    Lanes rates_crank0_omega_;
+    Lanes crank0_head_s_x_;
+    Lanes crank1_head_s_x_;
+    Lanes crank2_head_s_x_;
+    Lanes coupler1_head_s_x_;
+    Lanes coupler2_head_s_x_;
+    Lanes weight_crank0_y_;
+    Lanes weight_crank1_y_;
+    Lanes weight_crank2_y_;
+    Lanes weight_coupler1_y_;
+    Lanes weight_coupler2_y_;
+    Lanes crank2_turning_;
+    Lanes crank0_turning_;
+    Lanes coupler1_turning_;
+    Lanes coupler2_turning_;
+    Lanes crank1_turning_;
+    Lanes two_alpha_;
+    Lanes beta_squared_;
+    Lanes mobility_B1_x_;
+    Lanes mobility_B2_x_;
+    Lanes crank0_head_span_x_;
+    Lanes crank1_head_span_x_;
+    Lanes coupler2_head_span_x_;
+    Lanes crank2_head_span_x_;
+    Lanes coupler1_head_span_x_;
+    Lanes inertia_crank0_crank0_;
+    Lanes inertia_crank1_crank1_;
+    Lanes inertia_crank2_crank2_;
+    Lanes inertia_crank0_coupler1_;
+    Lanes inertia_coupler1_coupler1_;
+    Lanes inertia_crank1_coupler2_;
+    Lanes inertia_coupler2_coupler2_;
+    Lanes mass_crank0_crank0_;
+    Lanes mass_crank1_crank1_;
+    Lanes mass_crank2_crank2_;
+    Lanes mass_coupler1_coupler1_;
+    Lanes mass_coupler2_coupler2_;
+    Lanes weight_crank0_across_;
+    Lanes weight_crank1_across_;
+    Lanes weight_crank2_across_;
+    Lanes weight_coupler1_across_;
+    Lanes weight_coupler2_across_;
+    Lanes inverse_mass_crank2_crank2_;
+    Lanes inverse_mass_coupler2_coupler2_;
+    Lanes inverse_mass_crank0_crank0_;
 } LaneParameters;
 
 _Static_assert(sizeof(LaneParameters) / sizeof(Lanes) == sizeof(Parameters) / sizeof(double), "the same numbers");
@@ -109,49 +106,49 @@ static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lan
 {
     (void)t;
     /* coordinates, velocities, time */
-    const Lanes crank0_theta = q[0];
-    const Lanes crank1_theta = q[1];
-    const Lanes crank2_theta = q[2];
-    const Lanes coupler1_theta = q[3];
-    const Lanes coupler2_theta = q[4];
+    const Lanes crank0_theta_ = q[0];
+    const Lanes crank1_theta_ = q[1];
+    const Lanes crank2_theta_ = q[2];
+    const Lanes coupler1_theta_ = q[3];
+    const Lanes coupler2_theta_ = q[4];
 
     /* directions, arms, drives */
     Lanes sines_0, cosines_0;
-    sines_and_cosines(crank0_theta, &sines_0, &cosines_0, rare);
+    sines_and_cosines(crank0_theta_, &sines_0, &cosines_0, rare);
     Lanes sines_1, cosines_1;
-    sines_and_cosines(crank1_theta, &sines_1, &cosines_1, rare);
+    sines_and_cosines(crank1_theta_, &sines_1, &cosines_1, rare);
     Lanes sines_2, cosines_2;
-    sines_and_cosines(crank2_theta, &sines_2, &cosines_2, rare);
+    sines_and_cosines(crank2_theta_, &sines_2, &cosines_2, rare);
     Lanes sines_3, cosines_3;
-    sines_and_cosines(coupler1_theta, &sines_3, &cosines_3, rare);
+    sines_and_cosines(coupler1_theta_, &sines_3, &cosines_3, rare);
     Lanes sines_4, cosines_4;
-    sines_and_cosines(coupler2_theta, &sines_4, &cosines_4, rare);
-    const Lanes cos_theta_crank0 = cosines_0;
-    const Lanes sin_theta_crank0 = sines_0;
-    const Lanes cos_theta_crank1 = cosines_1;
-    const Lanes sin_theta_crank1 = sines_1;
-    const Lanes cos_theta_crank2 = cosines_2;
-    const Lanes sin_theta_crank2 = sines_2;
-    const Lanes cos_theta_coupler1 = cosines_3;
-    const Lanes sin_theta_coupler1 = sines_3;
-    const Lanes cos_theta_coupler2 = cosines_4;
-    const Lanes sin_theta_coupler2 = sines_4;
-    const Lanes span_crank0_head_x = cos_theta_crank0*p->crank0_head_span_x;
-    const Lanes span_crank0_head_y = p->crank0_head_span_x*sin_theta_crank0;
-    const Lanes span_crank1_head_x = cos_theta_crank1*p->crank1_head_span_x;
-    const Lanes span_crank1_head_y = p->crank1_head_span_x*sin_theta_crank1;
-    const Lanes span_coupler2_head_x = cos_theta_coupler2*p->coupler2_head_span_x;
-    const Lanes span_coupler2_head_y = p->coupler2_head_span_x*sin_theta_coupler2;
-    const Lanes span_crank2_head_x = cos_theta_crank2*p->crank2_head_span_x;
-    const Lanes span_crank2_head_y = p->crank2_head_span_x*sin_theta_crank2;
-    const Lanes span_coupler1_head_x = cos_theta_coupler1*p->coupler1_head_span_x;
-    const Lanes span_coupler1_head_y = p->coupler1_head_span_x*sin_theta_coupler1;
+    sines_and_cosines(coupler2_theta_, &sines_4, &cosines_4, rare);
+    const Lanes cos_theta_crank0_ = cosines_0;
+    const Lanes sin_theta_crank0_ = sines_0;
+    const Lanes cos_theta_crank1_ = cosines_1;
+    const Lanes sin_theta_crank1_ = sines_1;
+    const Lanes cos_theta_crank2_ = cosines_2;
+    const Lanes sin_theta_crank2_ = sines_2;
+    const Lanes cos_theta_coupler1_ = cosines_3;
+    const Lanes sin_theta_coupler1_ = sines_3;
+    const Lanes cos_theta_coupler2_ = cosines_4;
+    const Lanes sin_theta_coupler2_ = sines_4;
+    const Lanes span_crank0_head_x_ = cos_theta_crank0_*p->crank0_head_span_x_;
+    const Lanes span_crank0_head_y_ = p->crank0_head_span_x_*sin_theta_crank0_;
+    const Lanes span_crank1_head_x_ = cos_theta_crank1_*p->crank1_head_span_x_;
+    const Lanes span_crank1_head_y_ = p->crank1_head_span_x_*sin_theta_crank1_;
+    const Lanes span_coupler2_head_x_ = cos_theta_coupler2_*p->coupler2_head_span_x_;
+    const Lanes span_coupler2_head_y_ = p->coupler2_head_span_x_*sin_theta_coupler2_;
+    const Lanes span_crank2_head_x_ = cos_theta_crank2_*p->crank2_head_span_x_;
+    const Lanes span_crank2_head_y_ = p->crank2_head_span_x_*sin_theta_crank2_;
+    const Lanes span_coupler1_head_x_ = cos_theta_coupler1_*p->coupler1_head_span_x_;
+    const Lanes span_coupler1_head_y_ = p->coupler1_head_span_x_*sin_theta_coupler1_;
 
     /* rows */
-    out[0] = p->O1_x - p->O2_x + span_coupler2_head_x + span_crank1_head_x - span_crank2_head_x;  /* B2.x */
-    out[1] = span_coupler2_head_y + span_crank1_head_y - span_crank2_head_y;  /* B2.y */
-    out[2] = -p->O1_x + span_coupler1_head_x + span_crank0_head_x - span_crank1_head_x;  /* B1.x */
-    out[3] = span_coupler1_head_y + span_crank0_head_y - span_crank1_head_y;  /* B1.y */
+    out[0] = p->O1_x_ - p->O2_x_ + span_coupler2_head_x_ + span_crank1_head_x_ - span_crank2_head_x_;  /* B2.x */
+    out[1] = span_coupler2_head_y_ + span_crank1_head_y_ - span_crank2_head_y_;  /* B2.y */
+    out[2] = -p->O1_x_ + span_coupler1_head_x_ + span_crank0_head_x_ - span_crank1_head_x_;  /* B1.x */
+    out[3] = span_coupler1_head_y_ + span_crank0_head_y_ - span_crank1_head_y_;  /* B1.y */
 }
 
 /*
@@ -162,58 +159,62 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
 {
     (void)t;
     /* coordinates, velocities, time */
-    const Lanes crank0_theta = q[0];
-    const Lanes crank0_omega = v[0];
-    const Lanes crank1_theta = q[1];
-    const Lanes crank1_omega = v[1];
-    const Lanes crank2_theta = q[2];
-    const Lanes crank2_omega = v[2];
-    const Lanes coupler1_theta = q[3];
-    const Lanes coupler1_omega = v[3];
-    const Lanes coupler2_theta = q[4];
-    const Lanes coupler2_omega = v[4];
+    const Lanes crank0_theta_ = q[0];
+    const Lanes crank0_omega_ = v[0];
+    const Lanes crank1_theta_ = q[1];
+    const Lanes crank1_omega_ = v[1];
+    const Lanes crank2_theta_ = q[2];
+    const Lanes crank2_omega_ = v[2];
+    const Lanes coupler1_theta_ = q[3];
+    const Lanes coupler1_omega_ = v[3];
+    const Lanes coupler2_theta_ = q[4];
+    const Lanes coupler2_omega_ = v[4];
 
     /* directions, arms, drives */
     Lanes sines_0, cosines_0;
-    sines_and_cosines(crank0_theta, &sines_0, &cosines_0, rare);
+    sines_and_cosines(crank0_theta_, &sines_0, &cosines_0, rare);
     Lanes sines_1, cosines_1;
-    sines_and_cosines(crank1_theta, &sines_1, &cosines_1, rare);
+    sines_and_cosines(crank1_theta_, &sines_1, &cosines_1, rare);
     Lanes sines_2, cosines_2;
-    sines_and_cosines(crank2_theta, &sines_2, &cosines_2, rare);
+    sines_and_cosines(crank2_theta_, &sines_2, &cosines_2, rare);
     Lanes sines_3, cosines_3;
-    sines_and_cosines(coupler1_theta, &sines_3, &cosines_3, rare);
+    sines_and_cosines(coupler1_theta_, &sines_3, &cosines_3, rare);
     Lanes sines_4, cosines_4;
-    sines_and_cosines(coupler2_theta, &sines_4, &cosines_4, rare);
-    const Lanes cos_theta_crank0 = cosines_0;
-    const Lanes sin_theta_crank0 = sines_0;
-    const Lanes cos_theta_crank1 = cosines_1;
-    const Lanes sin_theta_crank1 = sines_1;
-    const Lanes cos_theta_crank2 = cosines_2;
-    const Lanes sin_theta_crank2 = sines_2;
-    const Lanes cos_theta_coupler1 = cosines_3;
-    const Lanes sin_theta_coupler1 = sines_3;
-    const Lanes cos_theta_coupler2 = cosines_4;
-    const Lanes sin_theta_coupler2 = sines_4;
-    const Lanes span_crank0_head_x = cos_theta_crank0*p->crank0_head_span_x;
-    const Lanes span_crank0_head_y = p->crank0_head_span_x*sin_theta_crank0;
-    const Lanes span_crank1_head_x = cos_theta_crank1*p->crank1_head_span_x;
-    const Lanes span_crank1_head_y = p->crank1_head_span_x*sin_theta_crank1;
-    const Lanes span_coupler2_head_x = cos_theta_coupler2*p->coupler2_head_span_x;
-    const Lanes span_coupler2_head_y = p->coupler2_head_span_x*sin_theta_coupler2;
-    const Lanes span_crank2_head_x = cos_theta_crank2*p->crank2_head_span_x;
-    const Lanes span_crank2_head_y = p->crank2_head_span_x*sin_theta_crank2;
-    const Lanes span_coupler1_head_x = cos_theta_coupler1*p->coupler1_head_span_x;
-    const Lanes span_coupler1_head_y = p->coupler1_head_span_x*sin_theta_coupler1;
+    sines_and_cosines(coupler2_theta_, &sines_4, &cosines_4, rare);
+    const Lanes cos_theta_crank0_ = cosines_0;
+    const Lanes sin_theta_crank0_ = sines_0;
+    const Lanes cos_theta_crank1_ = cosines_1;
+    const Lanes sin_theta_crank1_ = sines_1;
+    const Lanes cos_theta_crank2_ = cosines_2;
+    const Lanes sin_theta_crank2_ = sines_2;
+    const Lanes cos_theta_coupler1_ = cosines_3;
+    const Lanes sin_theta_coupler1_ = sines_3;
+    const Lanes cos_theta_coupler2_ = cosines_4;
+    const Lanes sin_theta_coupler2_ = sines_4;
+    const Lanes span_crank0_head_x_ = cos_theta_crank0_*p->crank0_head_span_x_;
+    const Lanes span_crank0_head_y_ = p->crank0_head_span_x_*sin_theta_crank0_;
+    const Lanes span_crank1_head_x_ = cos_theta_crank1_*p->crank1_head_span_x_;
+    const Lanes span_crank1_head_y_ = p->crank1_head_span_x_*sin_theta_crank1_;
+    const Lanes span_coupler2_head_x_ = cos_theta_coupler2_*p->coupler2_head_span_x_;
+    const Lanes span_coupler2_head_y_ = p->coupler2_head_span_x_*sin_theta_coupler2_;
+    const Lanes span_crank2_head_x_ = cos_theta_crank2_*p->crank2_head_span_x_;
+    const Lanes span_crank2_head_y_ = p->crank2_head_span_x_*sin_theta_crank2_;
+    const Lanes span_coupler1_head_x_ = cos_theta_coupler1_*p->coupler1_head_span_x_;
+    const Lanes span_coupler1_head_y_ = p->coupler1_head_span_x_*sin_theta_coupler1_;
 
     /* rows */
     /* B2.x */
-    out[0] = -coupler2_omega*span_coupler2_head_y - crank1_omega*span_crank1_head_y + crank2_omega*span_crank2_head_y;
+    out[0] = -coupler2_omega_*span_coupler2_head_y_ - crank1_omega_*span_crank1_head_y_
+        + crank2_omega_*span_crank2_head_y_;
     /* B2.y */
-    out[1] = coupler2_omega*span_coupler2_head_x + crank1_omega*span_crank1_head_x - crank2_omega*span_crank2_head_x;
+    out[1] = coupler2_omega_*span_coupler2_head_x_ + crank1_omega_*span_crank1_head_x_
+        - crank2_omega_*span_crank2_head_x_;
     /* B1.x */
-    out[2] = -coupler1_omega*span_coupler1_head_y - crank0_omega*span_crank0_head_y + crank1_omega*span_crank1_head_y;
+    out[2] = -coupler1_omega_*span_coupler1_head_y_ - crank0_omega_*span_crank0_head_y_
+        + crank1_omega_*span_crank1_head_y_;
     /* B1.y */
-    out[3] = coupler1_omega*span_coupler1_head_x + crank0_omega*span_crank0_head_x - crank1_omega*span_crank1_head_x;
+    out[3] = coupler1_omega_*span_coupler1_head_x_ + crank0_omega_*span_crank0_head_x_
+        - crank1_omega_*span_crank1_head_x_;
 }
 
 /*
@@ -226,172 +227,183 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
 {
     (void)t;
     /* coordinates, velocities, time */
-    const Lanes crank0_theta = q[0];
-    const Lanes crank0_omega = v[0];
-    const Lanes crank1_theta = q[1];
-    const Lanes crank1_omega = v[1];
-    const Lanes crank2_theta = q[2];
-    const Lanes crank2_omega = v[2];
-    const Lanes coupler1_theta = q[3];
-    const Lanes coupler1_omega = v[3];
-    const Lanes coupler2_theta = q[4];
-    const Lanes coupler2_omega = v[4];
+    const Lanes crank0_theta_ = q[0];
+    const Lanes crank0_omega_ = v[0];
+    const Lanes crank1_theta_ = q[1];
+    const Lanes crank1_omega_ = v[1];
+    const Lanes crank2_theta_ = q[2];
+    const Lanes crank2_omega_ = v[2];
+    const Lanes coupler1_theta_ = q[3];
+    const Lanes coupler1_omega_ = v[3];
+    const Lanes coupler2_theta_ = q[4];
+    const Lanes coupler2_omega_ = v[4];
 
     /* directions, arms, drives */
     Lanes sines_0, cosines_0;
-    sines_and_cosines(crank0_theta, &sines_0, &cosines_0, rare);
+    sines_and_cosines(crank0_theta_, &sines_0, &cosines_0, rare);
     Lanes sines_1, cosines_1;
-    sines_and_cosines(crank1_theta, &sines_1, &cosines_1, rare);
+    sines_and_cosines(crank1_theta_, &sines_1, &cosines_1, rare);
     Lanes sines_2, cosines_2;
-    sines_and_cosines(crank2_theta, &sines_2, &cosines_2, rare);
+    sines_and_cosines(crank2_theta_, &sines_2, &cosines_2, rare);
     Lanes sines_3, cosines_3;
-    sines_and_cosines(coupler1_theta, &sines_3, &cosines_3, rare);
+    sines_and_cosines(coupler1_theta_, &sines_3, &cosines_3, rare);
     Lanes sines_4, cosines_4;
-    sines_and_cosines(coupler2_theta, &sines_4, &cosines_4, rare);
-    const Lanes cos_theta_crank0 = cosines_0;
-    const Lanes sin_theta_crank0 = sines_0;
-    const Lanes cos_theta_crank1 = cosines_1;
-    const Lanes sin_theta_crank1 = sines_1;
-    const Lanes cos_theta_crank2 = cosines_2;
-    const Lanes sin_theta_crank2 = sines_2;
-    const Lanes cos_theta_coupler1 = cosines_3;
-    const Lanes sin_theta_coupler1 = sines_3;
-    const Lanes cos_theta_coupler2 = cosines_4;
-    const Lanes sin_theta_coupler2 = sines_4;
-    const Lanes span_crank0_head_x = cos_theta_crank0*p->crank0_head_span_x;
-    const Lanes span_crank0_head_y = p->crank0_head_span_x*sin_theta_crank0;
-    const Lanes span_crank1_head_x = cos_theta_crank1*p->crank1_head_span_x;
-    const Lanes span_crank1_head_y = p->crank1_head_span_x*sin_theta_crank1;
-    const Lanes span_coupler2_head_x = cos_theta_coupler2*p->coupler2_head_span_x;
-    const Lanes span_coupler2_head_y = p->coupler2_head_span_x*sin_theta_coupler2;
-    const Lanes span_crank2_head_x = cos_theta_crank2*p->crank2_head_span_x;
-    const Lanes span_crank2_head_y = p->crank2_head_span_x*sin_theta_crank2;
-    const Lanes span_coupler1_head_x = cos_theta_coupler1*p->coupler1_head_span_x;
-    const Lanes span_coupler1_head_y = p->coupler1_head_span_x*sin_theta_coupler1;
-    const Lanes cos_coupler1_less_crank0 = cos_theta_coupler1*cos_theta_crank0 + sin_theta_coupler1*sin_theta_crank0;
-    const Lanes sin_coupler1_less_crank0 = -cos_theta_coupler1*sin_theta_crank0 + cos_theta_crank0*sin_theta_coupler1;
-    const Lanes dot_crank0_coupler1 = cos_coupler1_less_crank0*p->inertia_crank0_coupler1;
-    const Lanes cross_crank0_coupler1 = p->inertia_crank0_coupler1*sin_coupler1_less_crank0;
-    const Lanes cos_coupler2_less_crank1 = cos_theta_coupler2*cos_theta_crank1 + sin_theta_coupler2*sin_theta_crank1;
-    const Lanes sin_coupler2_less_crank1 = -cos_theta_coupler2*sin_theta_crank1 + cos_theta_crank1*sin_theta_coupler2;
-    const Lanes dot_crank1_coupler2 = cos_coupler2_less_crank1*p->inertia_crank1_coupler2;
-    const Lanes cross_crank1_coupler2 = p->inertia_crank1_coupler2*sin_coupler2_less_crank1;
+    sines_and_cosines(coupler2_theta_, &sines_4, &cosines_4, rare);
+    const Lanes cos_theta_crank0_ = cosines_0;
+    const Lanes sin_theta_crank0_ = sines_0;
+    const Lanes cos_theta_crank1_ = cosines_1;
+    const Lanes sin_theta_crank1_ = sines_1;
+    const Lanes cos_theta_crank2_ = cosines_2;
+    const Lanes sin_theta_crank2_ = sines_2;
+    const Lanes cos_theta_coupler1_ = cosines_3;
+    const Lanes sin_theta_coupler1_ = sines_3;
+    const Lanes cos_theta_coupler2_ = cosines_4;
+    const Lanes sin_theta_coupler2_ = sines_4;
+    const Lanes span_crank0_head_x_ = cos_theta_crank0_*p->crank0_head_span_x_;
+    const Lanes span_crank0_head_y_ = p->crank0_head_span_x_*sin_theta_crank0_;
+    const Lanes span_crank1_head_x_ = cos_theta_crank1_*p->crank1_head_span_x_;
+    const Lanes span_crank1_head_y_ = p->crank1_head_span_x_*sin_theta_crank1_;
+    const Lanes span_coupler2_head_x_ = cos_theta_coupler2_*p->coupler2_head_span_x_;
+    const Lanes span_coupler2_head_y_ = p->coupler2_head_span_x_*sin_theta_coupler2_;
+    const Lanes span_crank2_head_x_ = cos_theta_crank2_*p->crank2_head_span_x_;
+    const Lanes span_crank2_head_y_ = p->crank2_head_span_x_*sin_theta_crank2_;
+    const Lanes span_coupler1_head_x_ = cos_theta_coupler1_*p->coupler1_head_span_x_;
+    const Lanes span_coupler1_head_y_ = p->coupler1_head_span_x_*sin_theta_coupler1_;
+    const Lanes cos_coupler1_less_crank0_ = cos_theta_coupler1_*cos_theta_crank0_
+        + sin_theta_coupler1_*sin_theta_crank0_;
+    const Lanes sin_coupler1_less_crank0_ = -cos_theta_coupler1_*sin_theta_crank0_
+        + cos_theta_crank0_*sin_theta_coupler1_;
+    const Lanes dot_crank0_coupler1_ = cos_coupler1_less_crank0_*p->inertia_crank0_coupler1_;
+    const Lanes cross_crank0_coupler1_ = p->inertia_crank0_coupler1_*sin_coupler1_less_crank0_;
+    const Lanes cos_coupler2_less_crank1_ = cos_theta_coupler2_*cos_theta_crank1_
+        + sin_theta_coupler2_*sin_theta_crank1_;
+    const Lanes sin_coupler2_less_crank1_ = -cos_theta_coupler2_*sin_theta_crank1_
+        + cos_theta_crank1_*sin_theta_coupler2_;
+    const Lanes dot_crank1_coupler2_ = cos_coupler2_less_crank1_*p->inertia_crank1_coupler2_;
+    const Lanes cross_crank1_coupler2_ = p->inertia_crank1_coupler2_*sin_coupler2_less_crank1_;
 
     /* constraints: gamma */
-    const Lanes rhs_B2_x = (coupler2_omega * coupler2_omega)*span_coupler2_head_x
-        + (crank1_omega * crank1_omega)*span_crank1_head_x - (crank2_omega * crank2_omega)*span_crank2_head_x;
-    const Lanes rhs_B2_y = (coupler2_omega * coupler2_omega)*span_coupler2_head_y
-        + (crank1_omega * crank1_omega)*span_crank1_head_y - (crank2_omega * crank2_omega)*span_crank2_head_y;
-    const Lanes rhs_B1_x = (coupler1_omega * coupler1_omega)*span_coupler1_head_x
-        + (crank0_omega * crank0_omega)*span_crank0_head_x - (crank1_omega * crank1_omega)*span_crank1_head_x;
-    const Lanes rhs_B1_y = (coupler1_omega * coupler1_omega)*span_coupler1_head_y
-        + (crank0_omega * crank0_omega)*span_crank0_head_y - (crank1_omega * crank1_omega)*span_crank1_head_y;
+    const Lanes rhs_B2_x_ = (coupler2_omega_ * coupler2_omega_)*span_coupler2_head_x_
+        + (crank1_omega_ * crank1_omega_)*span_crank1_head_x_ - (crank2_omega_ * crank2_omega_)*span_crank2_head_x_;
+    const Lanes rhs_B2_y_ = (coupler2_omega_ * coupler2_omega_)*span_coupler2_head_y_
+        + (crank1_omega_ * crank1_omega_)*span_crank1_head_y_ - (crank2_omega_ * crank2_omega_)*span_crank2_head_y_;
+    const Lanes rhs_B1_x_ = (coupler1_omega_ * coupler1_omega_)*span_coupler1_head_x_
+        + (crank0_omega_ * crank0_omega_)*span_crank0_head_x_ - (crank1_omega_ * crank1_omega_)*span_crank1_head_x_;
+    const Lanes rhs_B1_y_ = (coupler1_omega_ * coupler1_omega_)*span_coupler1_head_y_
+        + (crank0_omega_ * crank0_omega_)*span_crank0_head_y_ - (crank1_omega_ * crank1_omega_)*span_crank1_head_y_;
 
     /* L D L^T of the KKT matrix */
-    const Lanes l_B2_x__crank2_theta = p->inverse_mass_crank2_crank2*span_crank2_head_y;
-    const Lanes l_B2_y__crank2_theta = -p->inverse_mass_crank2_crank2*span_crank2_head_x;
-    const Lanes l_B2_x__coupler2_theta = -p->inverse_mass_coupler2_coupler2*span_coupler2_head_y;
-    const Lanes l_B2_y__coupler2_theta = p->inverse_mass_coupler2_coupler2*span_coupler2_head_x;
-    const Lanes l_crank1_theta__coupler2_theta = dot_crank1_coupler2*p->inverse_mass_coupler2_coupler2;
-    const Lanes scale_B2_x = -l_B2_x__coupler2_theta*span_coupler2_head_y + l_B2_x__crank2_theta*span_crank2_head_y;
-    const Lanes scale_B2_y = l_B2_y__coupler2_theta*span_coupler2_head_x - l_B2_y__crank2_theta*span_crank2_head_x;
-    const Lanes pivot_B2_x__B2_y = -l_B2_y__coupler2_theta*span_coupler2_head_y
-        + l_B2_y__crank2_theta*span_crank2_head_y;
-    const Lanes determinant_B2_x__B2_y = -(pivot_B2_x__B2_y * pivot_B2_x__B2_y) + scale_B2_x*scale_B2_y;
-    *rare |= ~((scale_B2_x > 0.0) & (scale_B2_x < INFINITY));
-    *rare |= ~(determinant_B2_x__B2_y > EARLY * scale_B2_y * scale_B2_x);
-    const Lanes size_B2_x = scale_B2_x + scale_B2_y;
-    *rare |= ~(scale_B2_x > memory->least_size * size_B2_x);
-    *rare |= ~(determinant_B2_x__B2_y > memory->least_size * size_B2_x * scale_B2_x);
-    const Lanes inverse_B2_x__B2_y = -1.0/determinant_B2_x__B2_y;
-    const Lanes inverse_pivot_B2_x = inverse_B2_x__B2_y*scale_B2_y;
-    const Lanes inverse_pivot_B2_y = inverse_B2_x__B2_y*scale_B2_x;
-    const Lanes inverse_cross_B2_x__B2_y = -inverse_B2_x__B2_y*pivot_B2_x__B2_y;
-    const Lanes w_crank1_theta__B2_x = l_crank1_theta__coupler2_theta*span_coupler2_head_y - span_crank1_head_y;
-    const Lanes w_crank1_theta__B2_y = -l_crank1_theta__coupler2_theta*span_coupler2_head_x + span_crank1_head_x;
-    const Lanes l_crank1_theta__B2_x = inverse_cross_B2_x__B2_y*w_crank1_theta__B2_y
-        + inverse_pivot_B2_x*w_crank1_theta__B2_x;
-    const Lanes l_crank1_theta__B2_y = inverse_cross_B2_x__B2_y*w_crank1_theta__B2_x
-        + inverse_pivot_B2_y*w_crank1_theta__B2_y;
-    const Lanes inverse_pivot_crank1_theta = 1.0/(-dot_crank1_coupler2*l_crank1_theta__coupler2_theta
-        - l_crank1_theta__B2_x*w_crank1_theta__B2_x - l_crank1_theta__B2_y*w_crank1_theta__B2_y
-        + p->mass_crank1_crank1);
-    const Lanes l_B1_x__crank1_theta = inverse_pivot_crank1_theta*span_crank1_head_y;
-    const Lanes l_B1_y__crank1_theta = -inverse_pivot_crank1_theta*span_crank1_head_x;
-    const Lanes l_coupler1_theta__crank0_theta = dot_crank0_coupler1*p->inverse_mass_crank0_crank0;
-    const Lanes l_B1_x__crank0_theta = -p->inverse_mass_crank0_crank0*span_crank0_head_y;
-    const Lanes l_B1_y__crank0_theta = p->inverse_mass_crank0_crank0*span_crank0_head_x;
-    const Lanes inverse_pivot_coupler1_theta = 1.0/(-dot_crank0_coupler1*l_coupler1_theta__crank0_theta
-        + p->mass_coupler1_coupler1);
-    const Lanes w_B1_x__coupler1_theta = -dot_crank0_coupler1*l_B1_x__crank0_theta - span_coupler1_head_y;
-    const Lanes l_B1_x__coupler1_theta = inverse_pivot_coupler1_theta*w_B1_x__coupler1_theta;
-    const Lanes w_B1_y__coupler1_theta = -dot_crank0_coupler1*l_B1_y__crank0_theta + span_coupler1_head_x;
-    const Lanes l_B1_y__coupler1_theta = inverse_pivot_coupler1_theta*w_B1_y__coupler1_theta;
-    const Lanes scale_B1_x = l_B1_x__coupler1_theta*w_B1_x__coupler1_theta - l_B1_x__crank0_theta*span_crank0_head_y
-        + l_B1_x__crank1_theta*span_crank1_head_y;
-    const Lanes scale_B1_y = l_B1_y__coupler1_theta*w_B1_y__coupler1_theta + l_B1_y__crank0_theta*span_crank0_head_x
-        - l_B1_y__crank1_theta*span_crank1_head_x;
-    const Lanes pivot_B1_x__B1_y = l_B1_y__coupler1_theta*w_B1_x__coupler1_theta
-        - l_B1_y__crank0_theta*span_crank0_head_y + l_B1_y__crank1_theta*span_crank1_head_y;
-    const Lanes determinant_B1_x__B1_y = -(pivot_B1_x__B1_y * pivot_B1_x__B1_y) + scale_B1_x*scale_B1_y;
-    *rare |= ~((scale_B1_x > 0.0) & (scale_B1_x < INFINITY));
-    *rare |= ~(determinant_B1_x__B1_y > memory->least * scale_B1_y * scale_B1_x);
-    const Lanes size_B1_x = scale_B1_x + scale_B1_y;
-    *rare |= ~(scale_B1_x > memory->least_size * size_B1_x);
-    *rare |= ~(determinant_B1_x__B1_y > memory->least_size * size_B1_x * scale_B1_x);
-    const Lanes inverse_B1_x__B1_y = -1.0/determinant_B1_x__B1_y;
-    const Lanes inverse_pivot_B1_x = inverse_B1_x__B1_y*scale_B1_y;
-    const Lanes inverse_pivot_B1_y = inverse_B1_x__B1_y*scale_B1_x;
-    const Lanes inverse_cross_B1_x__B1_y = -inverse_B1_x__B1_y*pivot_B1_x__B1_y;
+    *rare |= ~(p->mass_crank2_crank2_ > LIGHT_PIVOT * p->crank2_turning_);
+    const Lanes l_B2_x_crank2_theta_ = p->inverse_mass_crank2_crank2_*span_crank2_head_y_;
+    const Lanes l_B2_y_crank2_theta_ = -p->inverse_mass_crank2_crank2_*span_crank2_head_x_;
+    *rare |= ~(p->mass_coupler2_coupler2_ > LIGHT_PIVOT * p->coupler2_turning_);
+    const Lanes l_B2_x_coupler2_theta_ = -p->inverse_mass_coupler2_coupler2_*span_coupler2_head_y_;
+    const Lanes l_B2_y_coupler2_theta_ = p->inverse_mass_coupler2_coupler2_*span_coupler2_head_x_;
+    const Lanes l_crank1_theta_coupler2_theta_ = dot_crank1_coupler2_*p->inverse_mass_coupler2_coupler2_;
+    const Lanes scale_B2_x_ = -l_B2_x_coupler2_theta_*span_coupler2_head_y_ + l_B2_x_crank2_theta_*span_crank2_head_y_;
+    const Lanes scale_B2_y_ = l_B2_y_coupler2_theta_*span_coupler2_head_x_ - l_B2_y_crank2_theta_*span_crank2_head_x_;
+    const Lanes pivot_B2_x_B2_y_ = -l_B2_y_coupler2_theta_*span_coupler2_head_y_
+        + l_B2_y_crank2_theta_*span_crank2_head_y_;
+    const Lanes determinant_B2_x_B2_y_ = -(pivot_B2_x_B2_y_ * pivot_B2_x_B2_y_) + scale_B2_x_*scale_B2_y_;
+    *rare |= ~((scale_B2_x_ > 0.0) & (scale_B2_x_ < INFINITY));
+    *rare |= ~(determinant_B2_x_B2_y_ > EARLY * scale_B2_y_ * scale_B2_x_);
+    const Lanes size_B2_x_ = scale_B2_x_ + scale_B2_y_;
+    *rare |= ~(scale_B2_x_ > memory->least_size * size_B2_x_);
+    *rare |= ~(determinant_B2_x_B2_y_ > memory->least_size * size_B2_x_ * scale_B2_x_);
+    const Lanes inverse_B2_x_B2_y_ = -1.0/determinant_B2_x_B2_y_;
+    const Lanes inverse_pivot_B2_x_ = inverse_B2_x_B2_y_*scale_B2_y_;
+    const Lanes inverse_pivot_B2_y_ = inverse_B2_x_B2_y_*scale_B2_x_;
+    const Lanes inverse_cross_B2_x_B2_y_ = -inverse_B2_x_B2_y_*pivot_B2_x_B2_y_;
+    const Lanes w_crank1_theta_B2_x_ = l_crank1_theta_coupler2_theta_*span_coupler2_head_y_ - span_crank1_head_y_;
+    const Lanes w_crank1_theta_B2_y_ = -l_crank1_theta_coupler2_theta_*span_coupler2_head_x_ + span_crank1_head_x_;
+    const Lanes l_crank1_theta_B2_x_ = inverse_cross_B2_x_B2_y_*w_crank1_theta_B2_y_
+        + inverse_pivot_B2_x_*w_crank1_theta_B2_x_;
+    const Lanes l_crank1_theta_B2_y_ = inverse_cross_B2_x_B2_y_*w_crank1_theta_B2_x_
+        + inverse_pivot_B2_y_*w_crank1_theta_B2_y_;
+    const Lanes pivot_crank1_theta_ = -dot_crank1_coupler2_*l_crank1_theta_coupler2_theta_
+        - l_crank1_theta_B2_x_*w_crank1_theta_B2_x_ - l_crank1_theta_B2_y_*w_crank1_theta_B2_y_
+        + p->mass_crank1_crank1_;
+    *rare |= ~(pivot_crank1_theta_ > LIGHT_PIVOT * p->crank1_turning_);
+    const Lanes inverse_pivot_crank1_theta_ = 1.0/pivot_crank1_theta_;
+    const Lanes l_B1_x_crank1_theta_ = inverse_pivot_crank1_theta_*span_crank1_head_y_;
+    const Lanes l_B1_y_crank1_theta_ = -inverse_pivot_crank1_theta_*span_crank1_head_x_;
+    *rare |= ~(p->mass_crank0_crank0_ > LIGHT_PIVOT * p->crank0_turning_);
+    const Lanes l_coupler1_theta_crank0_theta_ = dot_crank0_coupler1_*p->inverse_mass_crank0_crank0_;
+    const Lanes l_B1_x_crank0_theta_ = -p->inverse_mass_crank0_crank0_*span_crank0_head_y_;
+    const Lanes l_B1_y_crank0_theta_ = p->inverse_mass_crank0_crank0_*span_crank0_head_x_;
+    const Lanes pivot_coupler1_theta_ = -dot_crank0_coupler1_*l_coupler1_theta_crank0_theta_
+        + p->mass_coupler1_coupler1_;
+    *rare |= ~(pivot_coupler1_theta_ > LIGHT_PIVOT * p->coupler1_turning_);
+    const Lanes inverse_pivot_coupler1_theta_ = 1.0/pivot_coupler1_theta_;
+    const Lanes w_B1_x_coupler1_theta_ = -dot_crank0_coupler1_*l_B1_x_crank0_theta_ - span_coupler1_head_y_;
+    const Lanes l_B1_x_coupler1_theta_ = inverse_pivot_coupler1_theta_*w_B1_x_coupler1_theta_;
+    const Lanes w_B1_y_coupler1_theta_ = -dot_crank0_coupler1_*l_B1_y_crank0_theta_ + span_coupler1_head_x_;
+    const Lanes l_B1_y_coupler1_theta_ = inverse_pivot_coupler1_theta_*w_B1_y_coupler1_theta_;
+    const Lanes scale_B1_x_ = l_B1_x_coupler1_theta_*w_B1_x_coupler1_theta_ - l_B1_x_crank0_theta_*span_crank0_head_y_
+        + l_B1_x_crank1_theta_*span_crank1_head_y_;
+    const Lanes scale_B1_y_ = l_B1_y_coupler1_theta_*w_B1_y_coupler1_theta_ + l_B1_y_crank0_theta_*span_crank0_head_x_
+        - l_B1_y_crank1_theta_*span_crank1_head_x_;
+    const Lanes pivot_B1_x_B1_y_ = l_B1_y_coupler1_theta_*w_B1_x_coupler1_theta_
+        - l_B1_y_crank0_theta_*span_crank0_head_y_ + l_B1_y_crank1_theta_*span_crank1_head_y_;
+    const Lanes determinant_B1_x_B1_y_ = -(pivot_B1_x_B1_y_ * pivot_B1_x_B1_y_) + scale_B1_x_*scale_B1_y_;
+    *rare |= ~((scale_B1_x_ > 0.0) & (scale_B1_x_ < INFINITY));
+    *rare |= ~(determinant_B1_x_B1_y_ > memory->least * scale_B1_y_ * scale_B1_x_);
+    const Lanes size_B1_x_ = scale_B1_x_ + scale_B1_y_;
+    *rare |= ~(scale_B1_x_ > memory->least_size * size_B1_x_);
+    *rare |= ~(determinant_B1_x_B1_y_ > memory->least_size * size_B1_x_ * scale_B1_x_);
+    const Lanes inverse_B1_x_B1_y_ = -1.0/determinant_B1_x_B1_y_;
+    const Lanes inverse_pivot_B1_x_ = inverse_B1_x_B1_y_*scale_B1_y_;
+    const Lanes inverse_pivot_B1_y_ = inverse_B1_x_B1_y_*scale_B1_x_;
+    const Lanes inverse_cross_B1_x_B1_y_ = -inverse_B1_x_B1_y_*pivot_B1_x_B1_y_;
 
     /* forward substitution */
-    const Lanes z_crank2_theta = cos_theta_crank2*p->weight_crank2__across;
-    const Lanes z_coupler2_theta = cos_theta_coupler2*p->weight_coupler2__across
-        - (crank1_omega * crank1_omega)*cross_crank1_coupler2;
-    const Lanes z_B2_x = -l_B2_x__coupler2_theta*z_coupler2_theta - l_B2_x__crank2_theta*z_crank2_theta + rhs_B2_x;
-    const Lanes z_B2_y = -l_B2_y__coupler2_theta*z_coupler2_theta - l_B2_y__crank2_theta*z_crank2_theta + rhs_B2_y;
-    const Lanes z_crank1_theta = cos_theta_crank1*p->weight_crank1__across
-        + (coupler2_omega * coupler2_omega)*cross_crank1_coupler2 - l_crank1_theta__B2_x*z_B2_x
-        - l_crank1_theta__B2_y*z_B2_y - l_crank1_theta__coupler2_theta*z_coupler2_theta;
-    const Lanes z_crank0_theta = cos_theta_crank0*p->weight_crank0__across
-        + (coupler1_omega * coupler1_omega)*cross_crank0_coupler1;
-    const Lanes z_coupler1_theta = cos_theta_coupler1*p->weight_coupler1__across
-        - (crank0_omega * crank0_omega)*cross_crank0_coupler1 - l_coupler1_theta__crank0_theta*z_crank0_theta;
-    const Lanes z_B1_x = -l_B1_x__coupler1_theta*z_coupler1_theta - l_B1_x__crank0_theta*z_crank0_theta
-        - l_B1_x__crank1_theta*z_crank1_theta + rhs_B1_x;
-    const Lanes z_B1_y = -l_B1_y__coupler1_theta*z_coupler1_theta - l_B1_y__crank0_theta*z_crank0_theta
-        - l_B1_y__crank1_theta*z_crank1_theta + rhs_B1_y;
+    const Lanes z_crank2_theta_ = cos_theta_crank2_*p->weight_crank2_across_;
+    const Lanes z_coupler2_theta_ = cos_theta_coupler2_*p->weight_coupler2_across_
+        - (crank1_omega_ * crank1_omega_)*cross_crank1_coupler2_;
+    const Lanes z_B2_x_ = -l_B2_x_coupler2_theta_*z_coupler2_theta_ - l_B2_x_crank2_theta_*z_crank2_theta_ + rhs_B2_x_;
+    const Lanes z_B2_y_ = -l_B2_y_coupler2_theta_*z_coupler2_theta_ - l_B2_y_crank2_theta_*z_crank2_theta_ + rhs_B2_y_;
+    const Lanes z_crank1_theta_ = cos_theta_crank1_*p->weight_crank1_across_
+        + (coupler2_omega_ * coupler2_omega_)*cross_crank1_coupler2_ - l_crank1_theta_B2_x_*z_B2_x_
+        - l_crank1_theta_B2_y_*z_B2_y_ - l_crank1_theta_coupler2_theta_*z_coupler2_theta_;
+    const Lanes z_crank0_theta_ = cos_theta_crank0_*p->weight_crank0_across_
+        + (coupler1_omega_ * coupler1_omega_)*cross_crank0_coupler1_;
+    const Lanes z_coupler1_theta_ = cos_theta_coupler1_*p->weight_coupler1_across_
+        - (crank0_omega_ * crank0_omega_)*cross_crank0_coupler1_ - l_coupler1_theta_crank0_theta_*z_crank0_theta_;
+    const Lanes z_B1_x_ = -l_B1_x_coupler1_theta_*z_coupler1_theta_ - l_B1_x_crank0_theta_*z_crank0_theta_
+        - l_B1_x_crank1_theta_*z_crank1_theta_ + rhs_B1_x_;
+    const Lanes z_B1_y_ = -l_B1_y_coupler1_theta_*z_coupler1_theta_ - l_B1_y_crank0_theta_*z_crank0_theta_
+        - l_B1_y_crank1_theta_*z_crank1_theta_ + rhs_B1_y_;
 
     /* backward substitution */
-    const Lanes lambda_B1_y = inverse_cross_B1_x__B1_y*z_B1_x + inverse_pivot_B1_y*z_B1_y;
-    const Lanes lambda_B1_x = inverse_cross_B1_x__B1_y*z_B1_y + inverse_pivot_B1_x*z_B1_x;
-    const Lanes acceleration_coupler1_theta = inverse_pivot_coupler1_theta*z_coupler1_theta
-        - l_B1_x__coupler1_theta*lambda_B1_x - l_B1_y__coupler1_theta*lambda_B1_y;
-    const Lanes acceleration_crank0_theta = -acceleration_coupler1_theta*l_coupler1_theta__crank0_theta
-        + p->inverse_mass_crank0_crank0*z_crank0_theta - l_B1_x__crank0_theta*lambda_B1_x
-        - l_B1_y__crank0_theta*lambda_B1_y;
-    const Lanes acceleration_crank1_theta = inverse_pivot_crank1_theta*z_crank1_theta
-        - l_B1_x__crank1_theta*lambda_B1_x - l_B1_y__crank1_theta*lambda_B1_y;
-    const Lanes lambda_B2_y = -acceleration_crank1_theta*l_crank1_theta__B2_y + inverse_cross_B2_x__B2_y*z_B2_x
-        + inverse_pivot_B2_y*z_B2_y;
-    const Lanes lambda_B2_x = -acceleration_crank1_theta*l_crank1_theta__B2_x + inverse_cross_B2_x__B2_y*z_B2_y
-        + inverse_pivot_B2_x*z_B2_x;
-    const Lanes acceleration_coupler2_theta = -acceleration_crank1_theta*l_crank1_theta__coupler2_theta
-        + p->inverse_mass_coupler2_coupler2*z_coupler2_theta - l_B2_x__coupler2_theta*lambda_B2_x
-        - l_B2_y__coupler2_theta*lambda_B2_y;
-    const Lanes acceleration_crank2_theta = p->inverse_mass_crank2_crank2*z_crank2_theta
-        - l_B2_x__crank2_theta*lambda_B2_x - l_B2_y__crank2_theta*lambda_B2_y;
+    const Lanes lambda_B1_y_ = inverse_cross_B1_x_B1_y_*z_B1_x_ + inverse_pivot_B1_y_*z_B1_y_;
+    const Lanes lambda_B1_x_ = inverse_cross_B1_x_B1_y_*z_B1_y_ + inverse_pivot_B1_x_*z_B1_x_;
+    const Lanes acceleration_coupler1_theta_ = inverse_pivot_coupler1_theta_*z_coupler1_theta_
+        - l_B1_x_coupler1_theta_*lambda_B1_x_ - l_B1_y_coupler1_theta_*lambda_B1_y_;
+    const Lanes acceleration_crank0_theta_ = -acceleration_coupler1_theta_*l_coupler1_theta_crank0_theta_
+        + p->inverse_mass_crank0_crank0_*z_crank0_theta_ - l_B1_x_crank0_theta_*lambda_B1_x_
+        - l_B1_y_crank0_theta_*lambda_B1_y_;
+    const Lanes acceleration_crank1_theta_ = inverse_pivot_crank1_theta_*z_crank1_theta_
+        - l_B1_x_crank1_theta_*lambda_B1_x_ - l_B1_y_crank1_theta_*lambda_B1_y_;
+    const Lanes lambda_B2_y_ = -acceleration_crank1_theta_*l_crank1_theta_B2_y_ + inverse_cross_B2_x_B2_y_*z_B2_x_
+        + inverse_pivot_B2_y_*z_B2_y_;
+    const Lanes lambda_B2_x_ = -acceleration_crank1_theta_*l_crank1_theta_B2_x_ + inverse_cross_B2_x_B2_y_*z_B2_y_
+        + inverse_pivot_B2_x_*z_B2_x_;
+    const Lanes acceleration_coupler2_theta_ = -acceleration_crank1_theta_*l_crank1_theta_coupler2_theta_
+        + p->inverse_mass_coupler2_coupler2_*z_coupler2_theta_ - l_B2_x_coupler2_theta_*lambda_B2_x_
+        - l_B2_y_coupler2_theta_*lambda_B2_y_;
+    const Lanes acceleration_crank2_theta_ = p->inverse_mass_crank2_crank2_*z_crank2_theta_
+        - l_B2_x_crank2_theta_*lambda_B2_x_ - l_B2_y_crank2_theta_*lambda_B2_y_;
 
     /* results */
-    a[0] = acceleration_crank0_theta;
-    a[1] = acceleration_crank1_theta;
-    a[2] = acceleration_crank2_theta;
-    a[3] = acceleration_coupler1_theta;
-    a[4] = acceleration_coupler2_theta;
-    aside->lambda[0] = lambda_B2_x;
-    aside->lambda[1] = lambda_B2_y;
-    aside->lambda[2] = lambda_B1_x;
-    aside->lambda[3] = lambda_B1_y;
+    a[0] = acceleration_crank0_theta_;
+    a[1] = acceleration_crank1_theta_;
+    a[2] = acceleration_crank2_theta_;
+    a[3] = acceleration_coupler1_theta_;
+    a[4] = acceleration_coupler2_theta_;
+    aside->lambda[0] = lambda_B2_x_;
+    aside->lambda[1] = lambda_B2_y_;
+    aside->lambda[2] = lambda_B1_x_;
+    aside->lambda[3] = lambda_B1_y_;
 
     /* a pivot vanished: rows depend on each other here */
     aside->power[0] = all_of(0.0);
@@ -408,195 +420,197 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
 {
     (void)t;
     /* coordinates, velocities, time */
-    const Lanes crank0_theta = q[0];
-    const Lanes crank0_omega = v[0];
-    const Lanes crank1_theta = q[1];
-    const Lanes crank1_omega = v[1];
-    const Lanes crank2_theta = q[2];
-    const Lanes crank2_omega = v[2];
-    const Lanes coupler1_theta = q[3];
-    const Lanes coupler1_omega = v[3];
-    const Lanes coupler2_theta = q[4];
-    const Lanes coupler2_omega = v[4];
+    const Lanes crank0_theta_ = q[0];
+    const Lanes crank0_omega_ = v[0];
+    const Lanes crank1_theta_ = q[1];
+    const Lanes crank1_omega_ = v[1];
+    const Lanes crank2_theta_ = q[2];
+    const Lanes crank2_omega_ = v[2];
+    const Lanes coupler1_theta_ = q[3];
+    const Lanes coupler1_omega_ = v[3];
+    const Lanes coupler2_theta_ = q[4];
+    const Lanes coupler2_omega_ = v[4];
 
     /* directions, arms, drives */
     Lanes sines_0, cosines_0;
-    sines_and_cosines(crank0_theta, &sines_0, &cosines_0, rare);
+    sines_and_cosines(crank0_theta_, &sines_0, &cosines_0, rare);
     Lanes sines_1, cosines_1;
-    sines_and_cosines(crank1_theta, &sines_1, &cosines_1, rare);
+    sines_and_cosines(crank1_theta_, &sines_1, &cosines_1, rare);
     Lanes sines_2, cosines_2;
-    sines_and_cosines(crank2_theta, &sines_2, &cosines_2, rare);
+    sines_and_cosines(crank2_theta_, &sines_2, &cosines_2, rare);
     Lanes sines_3, cosines_3;
-    sines_and_cosines(coupler1_theta, &sines_3, &cosines_3, rare);
+    sines_and_cosines(coupler1_theta_, &sines_3, &cosines_3, rare);
     Lanes sines_4, cosines_4;
-    sines_and_cosines(coupler2_theta, &sines_4, &cosines_4, rare);
-    const Lanes cos_theta_crank0 = cosines_0;
-    const Lanes sin_theta_crank0 = sines_0;
-    const Lanes cos_theta_crank1 = cosines_1;
-    const Lanes sin_theta_crank1 = sines_1;
-    const Lanes cos_theta_crank2 = cosines_2;
-    const Lanes sin_theta_crank2 = sines_2;
-    const Lanes cos_theta_coupler1 = cosines_3;
-    const Lanes sin_theta_coupler1 = sines_3;
-    const Lanes cos_theta_coupler2 = cosines_4;
-    const Lanes sin_theta_coupler2 = sines_4;
-    const Lanes span_crank0_head_x = cos_theta_crank0*p->crank0_head_span_x;
-    const Lanes span_crank0_head_y = p->crank0_head_span_x*sin_theta_crank0;
-    const Lanes span_crank1_head_x = cos_theta_crank1*p->crank1_head_span_x;
-    const Lanes span_crank1_head_y = p->crank1_head_span_x*sin_theta_crank1;
-    const Lanes span_coupler2_head_x = cos_theta_coupler2*p->coupler2_head_span_x;
-    const Lanes span_coupler2_head_y = p->coupler2_head_span_x*sin_theta_coupler2;
-    const Lanes span_crank2_head_x = cos_theta_crank2*p->crank2_head_span_x;
-    const Lanes span_crank2_head_y = p->crank2_head_span_x*sin_theta_crank2;
-    const Lanes span_coupler1_head_x = cos_theta_coupler1*p->coupler1_head_span_x;
-    const Lanes span_coupler1_head_y = p->coupler1_head_span_x*sin_theta_coupler1;
-    const Lanes cos_coupler1_less_crank0 = cos_theta_coupler1*cos_theta_crank0 + sin_theta_coupler1*sin_theta_crank0;
-    const Lanes dot_crank0_coupler1 = cos_coupler1_less_crank0*p->inertia_crank0_coupler1;
-    const Lanes cos_coupler2_less_crank1 = cos_theta_coupler2*cos_theta_crank1 + sin_theta_coupler2*sin_theta_crank1;
-    const Lanes dot_crank1_coupler2 = cos_coupler2_less_crank1*p->inertia_crank1_coupler2;
+    sines_and_cosines(coupler2_theta_, &sines_4, &cosines_4, rare);
+    const Lanes cos_theta_crank0_ = cosines_0;
+    const Lanes sin_theta_crank0_ = sines_0;
+    const Lanes cos_theta_crank1_ = cosines_1;
+    const Lanes sin_theta_crank1_ = sines_1;
+    const Lanes cos_theta_crank2_ = cosines_2;
+    const Lanes sin_theta_crank2_ = sines_2;
+    const Lanes cos_theta_coupler1_ = cosines_3;
+    const Lanes sin_theta_coupler1_ = sines_3;
+    const Lanes cos_theta_coupler2_ = cosines_4;
+    const Lanes sin_theta_coupler2_ = sines_4;
+    const Lanes span_crank0_head_x_ = cos_theta_crank0_*p->crank0_head_span_x_;
+    const Lanes span_crank0_head_y_ = p->crank0_head_span_x_*sin_theta_crank0_;
+    const Lanes span_crank1_head_x_ = cos_theta_crank1_*p->crank1_head_span_x_;
+    const Lanes span_crank1_head_y_ = p->crank1_head_span_x_*sin_theta_crank1_;
+    const Lanes span_coupler2_head_x_ = cos_theta_coupler2_*p->coupler2_head_span_x_;
+    const Lanes span_coupler2_head_y_ = p->coupler2_head_span_x_*sin_theta_coupler2_;
+    const Lanes span_crank2_head_x_ = cos_theta_crank2_*p->crank2_head_span_x_;
+    const Lanes span_crank2_head_y_ = p->crank2_head_span_x_*sin_theta_crank2_;
+    const Lanes span_coupler1_head_x_ = cos_theta_coupler1_*p->coupler1_head_span_x_;
+    const Lanes span_coupler1_head_y_ = p->coupler1_head_span_x_*sin_theta_coupler1_;
+    const Lanes cos_coupler1_less_crank0_ = cos_theta_coupler1_*cos_theta_crank0_
+        + sin_theta_coupler1_*sin_theta_crank0_;
+    const Lanes dot_crank0_coupler1_ = cos_coupler1_less_crank0_*p->inertia_crank0_coupler1_;
+    const Lanes cos_coupler2_less_crank1_ = cos_theta_coupler2_*cos_theta_crank1_
+        + sin_theta_coupler2_*sin_theta_crank1_;
+    const Lanes dot_crank1_coupler2_ = cos_coupler2_less_crank1_*p->inertia_crank1_coupler2_;
 
     /* Phi and Phi_dot */
-    const Lanes phi_B2_x = p->O1_x - p->O2_x + span_coupler2_head_x + span_crank1_head_x - span_crank2_head_x;
-    const Lanes phi_dot_B2_x = -coupler2_omega*span_coupler2_head_y - crank1_omega*span_crank1_head_y
-        + crank2_omega*span_crank2_head_y;
-    const Lanes phi_B2_y = span_coupler2_head_y + span_crank1_head_y - span_crank2_head_y;
-    const Lanes phi_dot_B2_y = coupler2_omega*span_coupler2_head_x + crank1_omega*span_crank1_head_x
-        - crank2_omega*span_crank2_head_x;
-    const Lanes phi_B1_x = -p->O1_x + span_coupler1_head_x + span_crank0_head_x - span_crank1_head_x;
-    const Lanes phi_dot_B1_x = -coupler1_omega*span_coupler1_head_y - crank0_omega*span_crank0_head_y
-        + crank1_omega*span_crank1_head_y;
-    const Lanes phi_B1_y = span_coupler1_head_y + span_crank0_head_y - span_crank1_head_y;
-    const Lanes phi_dot_B1_y = coupler1_omega*span_coupler1_head_x + crank0_omega*span_crank0_head_x
-        - crank1_omega*span_crank1_head_x;
+    const Lanes phi_B2_x_ = p->O1_x_ - p->O2_x_ + span_coupler2_head_x_ + span_crank1_head_x_ - span_crank2_head_x_;
+    const Lanes phi_dot_B2_x_ = -coupler2_omega_*span_coupler2_head_y_ - crank1_omega_*span_crank1_head_y_
+        + crank2_omega_*span_crank2_head_y_;
+    const Lanes phi_B2_y_ = span_coupler2_head_y_ + span_crank1_head_y_ - span_crank2_head_y_;
+    const Lanes phi_dot_B2_y_ = coupler2_omega_*span_coupler2_head_x_ + crank1_omega_*span_crank1_head_x_
+        - crank2_omega_*span_crank2_head_x_;
+    const Lanes phi_B1_x_ = -p->O1_x_ + span_coupler1_head_x_ + span_crank0_head_x_ - span_crank1_head_x_;
+    const Lanes phi_dot_B1_x_ = -coupler1_omega_*span_coupler1_head_y_ - crank0_omega_*span_crank0_head_y_
+        + crank1_omega_*span_crank1_head_y_;
+    const Lanes phi_B1_y_ = span_coupler1_head_y_ + span_crank0_head_y_ - span_crank1_head_y_;
+    const Lanes phi_dot_B1_y_ = coupler1_omega_*span_coupler1_head_x_ + crank0_omega_*span_crank0_head_x_
+        - crank1_omega_*span_crank1_head_x_;
 
     /* L D L^T of the KKT matrix */
-    const Lanes l_B2_x__crank2_theta = p->inverse_mass_crank2_crank2*span_crank2_head_y;
-    const Lanes l_B2_y__crank2_theta = -p->inverse_mass_crank2_crank2*span_crank2_head_x;
-    const Lanes l_coupler1_theta__crank0_theta = dot_crank0_coupler1*p->inverse_mass_crank0_crank0;
-    const Lanes l_B1_x__crank0_theta = -p->inverse_mass_crank0_crank0*span_crank0_head_y;
-    const Lanes l_B1_y__crank0_theta = p->inverse_mass_crank0_crank0*span_crank0_head_x;
-    const Lanes inverse_pivot_coupler1_theta = 1.0/(-dot_crank0_coupler1*l_coupler1_theta__crank0_theta
-        + p->mass_coupler1_coupler1);
-    const Lanes w_B1_x__coupler1_theta = -dot_crank0_coupler1*l_B1_x__crank0_theta - span_coupler1_head_y;
-    const Lanes l_B1_x__coupler1_theta = inverse_pivot_coupler1_theta*w_B1_x__coupler1_theta;
-    const Lanes w_B1_y__coupler1_theta = -dot_crank0_coupler1*l_B1_y__crank0_theta + span_coupler1_head_x;
-    const Lanes l_B1_y__coupler1_theta = inverse_pivot_coupler1_theta*w_B1_y__coupler1_theta;
-    const Lanes l_crank1_theta__coupler2_theta = dot_crank1_coupler2*p->inverse_mass_coupler2_coupler2;
-    const Lanes l_B2_x__coupler2_theta = -p->inverse_mass_coupler2_coupler2*span_coupler2_head_y;
-    const Lanes l_B2_y__coupler2_theta = p->inverse_mass_coupler2_coupler2*span_coupler2_head_x;
-    const Lanes inverse_pivot_crank1_theta = 1.0/(-dot_crank1_coupler2*l_crank1_theta__coupler2_theta
-        + p->mass_crank1_crank1);
-    const Lanes w_B2_x__crank1_theta = -dot_crank1_coupler2*l_B2_x__coupler2_theta - span_crank1_head_y;
-    const Lanes l_B2_x__crank1_theta = inverse_pivot_crank1_theta*w_B2_x__crank1_theta;
-    const Lanes w_B2_y__crank1_theta = -dot_crank1_coupler2*l_B2_y__coupler2_theta + span_crank1_head_x;
-    const Lanes l_B2_y__crank1_theta = inverse_pivot_crank1_theta*w_B2_y__crank1_theta;
-    const Lanes l_B1_x__crank1_theta = inverse_pivot_crank1_theta*span_crank1_head_y;
-    const Lanes l_B1_y__crank1_theta = -inverse_pivot_crank1_theta*span_crank1_head_x;
-    const Lanes scale_B2_x = -l_B2_x__coupler2_theta*span_coupler2_head_y + l_B2_x__crank1_theta*w_B2_x__crank1_theta
-        + l_B2_x__crank2_theta*span_crank2_head_y;
-    const Lanes scale_B2_y = l_B2_y__coupler2_theta*span_coupler2_head_x + l_B2_y__crank1_theta*w_B2_y__crank1_theta
-        - l_B2_y__crank2_theta*span_crank2_head_x;
-    const Lanes pivot_B2_x__B2_y = -l_B2_y__coupler2_theta*span_coupler2_head_y
-        + l_B2_y__crank1_theta*w_B2_x__crank1_theta + l_B2_y__crank2_theta*span_crank2_head_y;
-    const Lanes determinant_B2_x__B2_y = -(pivot_B2_x__B2_y * pivot_B2_x__B2_y) + scale_B2_x*scale_B2_y;
-    *rare |= ~((scale_B2_x > 0.0) & (scale_B2_x < INFINITY));
-    *rare |= ~(determinant_B2_x__B2_y > memory->least_size * scale_B2_y * scale_B2_x);
-    const Lanes size_B2_x = scale_B2_x + scale_B2_y;
-    *rare |= ~(scale_B2_x > memory->least_size * size_B2_x);
-    *rare |= ~(determinant_B2_x__B2_y > memory->least_size * size_B2_x * scale_B2_x);
-    const Lanes inverse_B2_x__B2_y = -1.0/determinant_B2_x__B2_y;
-    const Lanes inverse_pivot_B2_x = inverse_B2_x__B2_y*scale_B2_y;
-    const Lanes inverse_pivot_B2_y = inverse_B2_x__B2_y*scale_B2_x;
-    const Lanes inverse_cross_B2_x__B2_y = -inverse_B2_x__B2_y*pivot_B2_x__B2_y;
-    const Lanes w_B1_x__B2_x = -l_B1_x__crank1_theta*w_B2_x__crank1_theta;
-    const Lanes w_B1_x__B2_y = -l_B1_x__crank1_theta*w_B2_y__crank1_theta;
-    const Lanes l_B1_x__B2_x = inverse_cross_B2_x__B2_y*w_B1_x__B2_y + inverse_pivot_B2_x*w_B1_x__B2_x;
-    const Lanes l_B1_x__B2_y = inverse_cross_B2_x__B2_y*w_B1_x__B2_x + inverse_pivot_B2_y*w_B1_x__B2_y;
-    const Lanes w_B1_y__B2_x = -l_B1_y__crank1_theta*w_B2_x__crank1_theta;
-    const Lanes w_B1_y__B2_y = -l_B1_y__crank1_theta*w_B2_y__crank1_theta;
-    const Lanes l_B1_y__B2_x = inverse_cross_B2_x__B2_y*w_B1_y__B2_y + inverse_pivot_B2_x*w_B1_y__B2_x;
-    const Lanes l_B1_y__B2_y = inverse_cross_B2_x__B2_y*w_B1_y__B2_x + inverse_pivot_B2_y*w_B1_y__B2_y;
-    const Lanes scale_B1_x = l_B1_x__coupler1_theta*w_B1_x__coupler1_theta - l_B1_x__crank0_theta*span_crank0_head_y
-        + l_B1_x__crank1_theta*span_crank1_head_y;
-    const Lanes scale_B1_y = l_B1_y__coupler1_theta*w_B1_y__coupler1_theta + l_B1_y__crank0_theta*span_crank0_head_x
-        - l_B1_y__crank1_theta*span_crank1_head_x;
-    const Lanes pivot_B1_x = l_B1_x__B2_x*w_B1_x__B2_x + l_B1_x__B2_y*w_B1_x__B2_y + scale_B1_x;
-    const Lanes pivot_B1_y = l_B1_y__B2_x*w_B1_y__B2_x + l_B1_y__B2_y*w_B1_y__B2_y + scale_B1_y;
-    const Lanes pivot_B1_x__B1_y = l_B1_y__B2_x*w_B1_x__B2_x + l_B1_y__B2_y*w_B1_x__B2_y
-        + l_B1_y__coupler1_theta*w_B1_x__coupler1_theta - l_B1_y__crank0_theta*span_crank0_head_y
-        + l_B1_y__crank1_theta*span_crank1_head_y;
-    const Lanes determinant_B1_x__B1_y = pivot_B1_x*pivot_B1_y - (pivot_B1_x__B1_y * pivot_B1_x__B1_y);
-    *rare |= ~(pivot_B1_x > memory->least_size * scale_B1_x);
-    *rare |= ~(determinant_B1_x__B1_y > memory->least_size * scale_B1_y * pivot_B1_x);
-    const Lanes size_B1_x = scale_B1_x + scale_B1_y;
-    *rare |= ~(pivot_B1_x > memory->least_size * size_B1_x);
-    *rare |= ~(determinant_B1_x__B1_y > memory->least_size * size_B1_x * pivot_B1_x);
-    const Lanes inverse_B1_x__B1_y = -1.0/determinant_B1_x__B1_y;
-    const Lanes inverse_pivot_B1_x = inverse_B1_x__B1_y*pivot_B1_y;
-    const Lanes inverse_pivot_B1_y = inverse_B1_x__B1_y*pivot_B1_x;
-    const Lanes inverse_cross_B1_x__B1_y = -inverse_B1_x__B1_y*pivot_B1_x__B1_y;
+    const Lanes l_B2_x_crank2_theta_ = p->inverse_mass_crank2_crank2_*span_crank2_head_y_;
+    const Lanes l_B2_y_crank2_theta_ = -p->inverse_mass_crank2_crank2_*span_crank2_head_x_;
+    const Lanes l_coupler1_theta_crank0_theta_ = dot_crank0_coupler1_*p->inverse_mass_crank0_crank0_;
+    const Lanes l_B1_x_crank0_theta_ = -p->inverse_mass_crank0_crank0_*span_crank0_head_y_;
+    const Lanes l_B1_y_crank0_theta_ = p->inverse_mass_crank0_crank0_*span_crank0_head_x_;
+    const Lanes inverse_pivot_coupler1_theta_ = 1.0/(-dot_crank0_coupler1_*l_coupler1_theta_crank0_theta_
+        + p->mass_coupler1_coupler1_);
+    const Lanes w_B1_x_coupler1_theta_ = -dot_crank0_coupler1_*l_B1_x_crank0_theta_ - span_coupler1_head_y_;
+    const Lanes l_B1_x_coupler1_theta_ = inverse_pivot_coupler1_theta_*w_B1_x_coupler1_theta_;
+    const Lanes w_B1_y_coupler1_theta_ = -dot_crank0_coupler1_*l_B1_y_crank0_theta_ + span_coupler1_head_x_;
+    const Lanes l_B1_y_coupler1_theta_ = inverse_pivot_coupler1_theta_*w_B1_y_coupler1_theta_;
+    const Lanes l_crank1_theta_coupler2_theta_ = dot_crank1_coupler2_*p->inverse_mass_coupler2_coupler2_;
+    const Lanes l_B2_x_coupler2_theta_ = -p->inverse_mass_coupler2_coupler2_*span_coupler2_head_y_;
+    const Lanes l_B2_y_coupler2_theta_ = p->inverse_mass_coupler2_coupler2_*span_coupler2_head_x_;
+    const Lanes inverse_pivot_crank1_theta_ = 1.0/(-dot_crank1_coupler2_*l_crank1_theta_coupler2_theta_
+        + p->mass_crank1_crank1_);
+    const Lanes w_B2_x_crank1_theta_ = -dot_crank1_coupler2_*l_B2_x_coupler2_theta_ - span_crank1_head_y_;
+    const Lanes l_B2_x_crank1_theta_ = inverse_pivot_crank1_theta_*w_B2_x_crank1_theta_;
+    const Lanes w_B2_y_crank1_theta_ = -dot_crank1_coupler2_*l_B2_y_coupler2_theta_ + span_crank1_head_x_;
+    const Lanes l_B2_y_crank1_theta_ = inverse_pivot_crank1_theta_*w_B2_y_crank1_theta_;
+    const Lanes l_B1_x_crank1_theta_ = inverse_pivot_crank1_theta_*span_crank1_head_y_;
+    const Lanes l_B1_y_crank1_theta_ = -inverse_pivot_crank1_theta_*span_crank1_head_x_;
+    const Lanes scale_B2_x_ = -l_B2_x_coupler2_theta_*span_coupler2_head_y_ + l_B2_x_crank1_theta_*w_B2_x_crank1_theta_
+        + l_B2_x_crank2_theta_*span_crank2_head_y_;
+    const Lanes scale_B2_y_ = l_B2_y_coupler2_theta_*span_coupler2_head_x_ + l_B2_y_crank1_theta_*w_B2_y_crank1_theta_
+        - l_B2_y_crank2_theta_*span_crank2_head_x_;
+    const Lanes pivot_B2_x_B2_y_ = -l_B2_y_coupler2_theta_*span_coupler2_head_y_
+        + l_B2_y_crank1_theta_*w_B2_x_crank1_theta_ + l_B2_y_crank2_theta_*span_crank2_head_y_;
+    const Lanes determinant_B2_x_B2_y_ = -(pivot_B2_x_B2_y_ * pivot_B2_x_B2_y_) + scale_B2_x_*scale_B2_y_;
+    *rare |= ~((scale_B2_x_ > 0.0) & (scale_B2_x_ < INFINITY));
+    *rare |= ~(determinant_B2_x_B2_y_ > memory->least_size * scale_B2_y_ * scale_B2_x_);
+    const Lanes size_B2_x_ = scale_B2_x_ + scale_B2_y_;
+    *rare |= ~(scale_B2_x_ > memory->least_size * size_B2_x_);
+    *rare |= ~(determinant_B2_x_B2_y_ > memory->least_size * size_B2_x_ * scale_B2_x_);
+    const Lanes inverse_B2_x_B2_y_ = -1.0/determinant_B2_x_B2_y_;
+    const Lanes inverse_pivot_B2_x_ = inverse_B2_x_B2_y_*scale_B2_y_;
+    const Lanes inverse_pivot_B2_y_ = inverse_B2_x_B2_y_*scale_B2_x_;
+    const Lanes inverse_cross_B2_x_B2_y_ = -inverse_B2_x_B2_y_*pivot_B2_x_B2_y_;
+    const Lanes w_B1_x_B2_x_ = -l_B1_x_crank1_theta_*w_B2_x_crank1_theta_;
+    const Lanes w_B1_x_B2_y_ = -l_B1_x_crank1_theta_*w_B2_y_crank1_theta_;
+    const Lanes l_B1_x_B2_x_ = inverse_cross_B2_x_B2_y_*w_B1_x_B2_y_ + inverse_pivot_B2_x_*w_B1_x_B2_x_;
+    const Lanes l_B1_x_B2_y_ = inverse_cross_B2_x_B2_y_*w_B1_x_B2_x_ + inverse_pivot_B2_y_*w_B1_x_B2_y_;
+    const Lanes w_B1_y_B2_x_ = -l_B1_y_crank1_theta_*w_B2_x_crank1_theta_;
+    const Lanes w_B1_y_B2_y_ = -l_B1_y_crank1_theta_*w_B2_y_crank1_theta_;
+    const Lanes l_B1_y_B2_x_ = inverse_cross_B2_x_B2_y_*w_B1_y_B2_y_ + inverse_pivot_B2_x_*w_B1_y_B2_x_;
+    const Lanes l_B1_y_B2_y_ = inverse_cross_B2_x_B2_y_*w_B1_y_B2_x_ + inverse_pivot_B2_y_*w_B1_y_B2_y_;
+    const Lanes scale_B1_x_ = l_B1_x_coupler1_theta_*w_B1_x_coupler1_theta_ - l_B1_x_crank0_theta_*span_crank0_head_y_
+        + l_B1_x_crank1_theta_*span_crank1_head_y_;
+    const Lanes scale_B1_y_ = l_B1_y_coupler1_theta_*w_B1_y_coupler1_theta_ + l_B1_y_crank0_theta_*span_crank0_head_x_
+        - l_B1_y_crank1_theta_*span_crank1_head_x_;
+    const Lanes pivot_B1_x_ = l_B1_x_B2_x_*w_B1_x_B2_x_ + l_B1_x_B2_y_*w_B1_x_B2_y_ + scale_B1_x_;
+    const Lanes pivot_B1_y_ = l_B1_y_B2_x_*w_B1_y_B2_x_ + l_B1_y_B2_y_*w_B1_y_B2_y_ + scale_B1_y_;
+    const Lanes pivot_B1_x_B1_y_ = l_B1_y_B2_x_*w_B1_x_B2_x_ + l_B1_y_B2_y_*w_B1_x_B2_y_
+        + l_B1_y_coupler1_theta_*w_B1_x_coupler1_theta_ - l_B1_y_crank0_theta_*span_crank0_head_y_
+        + l_B1_y_crank1_theta_*span_crank1_head_y_;
+    const Lanes determinant_B1_x_B1_y_ = pivot_B1_x_*pivot_B1_y_ - (pivot_B1_x_B1_y_ * pivot_B1_x_B1_y_);
+    *rare |= ~(pivot_B1_x_ > memory->least_size * scale_B1_x_);
+    *rare |= ~(determinant_B1_x_B1_y_ > memory->least_size * scale_B1_y_ * pivot_B1_x_);
+    const Lanes size_B1_x_ = scale_B1_x_ + scale_B1_y_;
+    *rare |= ~(pivot_B1_x_ > memory->least_size * size_B1_x_);
+    *rare |= ~(determinant_B1_x_B1_y_ > memory->least_size * size_B1_x_ * pivot_B1_x_);
+    const Lanes inverse_B1_x_B1_y_ = -1.0/determinant_B1_x_B1_y_;
+    const Lanes inverse_pivot_B1_x_ = inverse_B1_x_B1_y_*pivot_B1_y_;
+    const Lanes inverse_pivot_B1_y_ = inverse_B1_x_B1_y_*pivot_B1_x_;
+    const Lanes inverse_cross_B1_x_B1_y_ = -inverse_B1_x_B1_y_*pivot_B1_x_B1_y_;
 
     /* forward substitution */
-    const Lanes dq_z_B1_x = -l_B1_x__B2_x*phi_B2_x - l_B1_x__B2_y*phi_B2_y + phi_B1_x;
-    const Lanes dq_z_B1_y = -l_B1_y__B2_x*phi_B2_x - l_B1_y__B2_y*phi_B2_y + phi_B1_y;
+    const Lanes dq_z_B1_x_ = -l_B1_x_B2_x_*phi_B2_x_ - l_B1_x_B2_y_*phi_B2_y_ + phi_B1_x_;
+    const Lanes dq_z_B1_y_ = -l_B1_y_B2_x_*phi_B2_x_ - l_B1_y_B2_y_*phi_B2_y_ + phi_B1_y_;
 
     /* backward substitution */
-    const Lanes dq_lambda_B1_y = dq_z_B1_x*inverse_cross_B1_x__B1_y + dq_z_B1_y*inverse_pivot_B1_y;
-    const Lanes dq_lambda_B1_x = dq_z_B1_x*inverse_pivot_B1_x + dq_z_B1_y*inverse_cross_B1_x__B1_y;
-    const Lanes dq_lambda_B2_y = -dq_lambda_B1_x*l_B1_x__B2_y - dq_lambda_B1_y*l_B1_y__B2_y
-        + inverse_cross_B2_x__B2_y*phi_B2_x + inverse_pivot_B2_y*phi_B2_y;
-    const Lanes dq_lambda_B2_x = -dq_lambda_B1_x*l_B1_x__B2_x - dq_lambda_B1_y*l_B1_y__B2_x
-        + inverse_cross_B2_x__B2_y*phi_B2_y + inverse_pivot_B2_x*phi_B2_x;
-    const Lanes dq_acceleration_crank1_theta = -dq_lambda_B1_x*l_B1_x__crank1_theta
-        - dq_lambda_B1_y*l_B1_y__crank1_theta - dq_lambda_B2_x*l_B2_x__crank1_theta
-        - dq_lambda_B2_y*l_B2_y__crank1_theta;
-    const Lanes dq_acceleration_coupler2_theta = -dq_acceleration_crank1_theta*l_crank1_theta__coupler2_theta
-        - dq_lambda_B2_x*l_B2_x__coupler2_theta - dq_lambda_B2_y*l_B2_y__coupler2_theta;
-    const Lanes dq_acceleration_coupler1_theta = -dq_lambda_B1_x*l_B1_x__coupler1_theta
-        - dq_lambda_B1_y*l_B1_y__coupler1_theta;
-    const Lanes dq_acceleration_crank0_theta = -dq_acceleration_coupler1_theta*l_coupler1_theta__crank0_theta
-        - dq_lambda_B1_x*l_B1_x__crank0_theta - dq_lambda_B1_y*l_B1_y__crank0_theta;
-    const Lanes dq_acceleration_crank2_theta = -dq_lambda_B2_x*l_B2_x__crank2_theta
-        - dq_lambda_B2_y*l_B2_y__crank2_theta;
+    const Lanes dq_lambda_B1_y_ = dq_z_B1_x_*inverse_cross_B1_x_B1_y_ + dq_z_B1_y_*inverse_pivot_B1_y_;
+    const Lanes dq_lambda_B1_x_ = dq_z_B1_x_*inverse_pivot_B1_x_ + dq_z_B1_y_*inverse_cross_B1_x_B1_y_;
+    const Lanes dq_lambda_B2_y_ = -dq_lambda_B1_x_*l_B1_x_B2_y_ - dq_lambda_B1_y_*l_B1_y_B2_y_
+        + inverse_cross_B2_x_B2_y_*phi_B2_x_ + inverse_pivot_B2_y_*phi_B2_y_;
+    const Lanes dq_lambda_B2_x_ = -dq_lambda_B1_x_*l_B1_x_B2_x_ - dq_lambda_B1_y_*l_B1_y_B2_x_
+        + inverse_cross_B2_x_B2_y_*phi_B2_y_ + inverse_pivot_B2_x_*phi_B2_x_;
+    const Lanes dq_acceleration_crank1_theta_ = -dq_lambda_B1_x_*l_B1_x_crank1_theta_
+        - dq_lambda_B1_y_*l_B1_y_crank1_theta_ - dq_lambda_B2_x_*l_B2_x_crank1_theta_
+        - dq_lambda_B2_y_*l_B2_y_crank1_theta_;
+    const Lanes dq_acceleration_coupler2_theta_ = -dq_acceleration_crank1_theta_*l_crank1_theta_coupler2_theta_
+        - dq_lambda_B2_x_*l_B2_x_coupler2_theta_ - dq_lambda_B2_y_*l_B2_y_coupler2_theta_;
+    const Lanes dq_acceleration_coupler1_theta_ = -dq_lambda_B1_x_*l_B1_x_coupler1_theta_
+        - dq_lambda_B1_y_*l_B1_y_coupler1_theta_;
+    const Lanes dq_acceleration_crank0_theta_ = -dq_acceleration_coupler1_theta_*l_coupler1_theta_crank0_theta_
+        - dq_lambda_B1_x_*l_B1_x_crank0_theta_ - dq_lambda_B1_y_*l_B1_y_crank0_theta_;
+    const Lanes dq_acceleration_crank2_theta_ = -dq_lambda_B2_x_*l_B2_x_crank2_theta_
+        - dq_lambda_B2_y_*l_B2_y_crank2_theta_;
 
     /* forward substitution */
-    const Lanes dv_z_B1_x = -l_B1_x__B2_x*phi_dot_B2_x - l_B1_x__B2_y*phi_dot_B2_y + phi_dot_B1_x;
-    const Lanes dv_z_B1_y = -l_B1_y__B2_x*phi_dot_B2_x - l_B1_y__B2_y*phi_dot_B2_y + phi_dot_B1_y;
+    const Lanes dv_z_B1_x_ = -l_B1_x_B2_x_*phi_dot_B2_x_ - l_B1_x_B2_y_*phi_dot_B2_y_ + phi_dot_B1_x_;
+    const Lanes dv_z_B1_y_ = -l_B1_y_B2_x_*phi_dot_B2_x_ - l_B1_y_B2_y_*phi_dot_B2_y_ + phi_dot_B1_y_;
 
     /* backward substitution */
-    const Lanes dv_lambda_B1_y = dv_z_B1_x*inverse_cross_B1_x__B1_y + dv_z_B1_y*inverse_pivot_B1_y;
-    const Lanes dv_lambda_B1_x = dv_z_B1_x*inverse_pivot_B1_x + dv_z_B1_y*inverse_cross_B1_x__B1_y;
-    const Lanes dv_lambda_B2_y = -dv_lambda_B1_x*l_B1_x__B2_y - dv_lambda_B1_y*l_B1_y__B2_y
-        + inverse_cross_B2_x__B2_y*phi_dot_B2_x + inverse_pivot_B2_y*phi_dot_B2_y;
-    const Lanes dv_lambda_B2_x = -dv_lambda_B1_x*l_B1_x__B2_x - dv_lambda_B1_y*l_B1_y__B2_x
-        + inverse_cross_B2_x__B2_y*phi_dot_B2_y + inverse_pivot_B2_x*phi_dot_B2_x;
-    const Lanes dv_acceleration_crank1_theta = -dv_lambda_B1_x*l_B1_x__crank1_theta
-        - dv_lambda_B1_y*l_B1_y__crank1_theta - dv_lambda_B2_x*l_B2_x__crank1_theta
-        - dv_lambda_B2_y*l_B2_y__crank1_theta;
-    const Lanes dv_acceleration_coupler2_theta = -dv_acceleration_crank1_theta*l_crank1_theta__coupler2_theta
-        - dv_lambda_B2_x*l_B2_x__coupler2_theta - dv_lambda_B2_y*l_B2_y__coupler2_theta;
-    const Lanes dv_acceleration_coupler1_theta = -dv_lambda_B1_x*l_B1_x__coupler1_theta
-        - dv_lambda_B1_y*l_B1_y__coupler1_theta;
-    const Lanes dv_acceleration_crank0_theta = -dv_acceleration_coupler1_theta*l_coupler1_theta__crank0_theta
-        - dv_lambda_B1_x*l_B1_x__crank0_theta - dv_lambda_B1_y*l_B1_y__crank0_theta;
-    const Lanes dv_acceleration_crank2_theta = -dv_lambda_B2_x*l_B2_x__crank2_theta
-        - dv_lambda_B2_y*l_B2_y__crank2_theta;
+    const Lanes dv_lambda_B1_y_ = dv_z_B1_x_*inverse_cross_B1_x_B1_y_ + dv_z_B1_y_*inverse_pivot_B1_y_;
+    const Lanes dv_lambda_B1_x_ = dv_z_B1_x_*inverse_pivot_B1_x_ + dv_z_B1_y_*inverse_cross_B1_x_B1_y_;
+    const Lanes dv_lambda_B2_y_ = -dv_lambda_B1_x_*l_B1_x_B2_y_ - dv_lambda_B1_y_*l_B1_y_B2_y_
+        + inverse_cross_B2_x_B2_y_*phi_dot_B2_x_ + inverse_pivot_B2_y_*phi_dot_B2_y_;
+    const Lanes dv_lambda_B2_x_ = -dv_lambda_B1_x_*l_B1_x_B2_x_ - dv_lambda_B1_y_*l_B1_y_B2_x_
+        + inverse_cross_B2_x_B2_y_*phi_dot_B2_y_ + inverse_pivot_B2_x_*phi_dot_B2_x_;
+    const Lanes dv_acceleration_crank1_theta_ = -dv_lambda_B1_x_*l_B1_x_crank1_theta_
+        - dv_lambda_B1_y_*l_B1_y_crank1_theta_ - dv_lambda_B2_x_*l_B2_x_crank1_theta_
+        - dv_lambda_B2_y_*l_B2_y_crank1_theta_;
+    const Lanes dv_acceleration_coupler2_theta_ = -dv_acceleration_crank1_theta_*l_crank1_theta_coupler2_theta_
+        - dv_lambda_B2_x_*l_B2_x_coupler2_theta_ - dv_lambda_B2_y_*l_B2_y_coupler2_theta_;
+    const Lanes dv_acceleration_coupler1_theta_ = -dv_lambda_B1_x_*l_B1_x_coupler1_theta_
+        - dv_lambda_B1_y_*l_B1_y_coupler1_theta_;
+    const Lanes dv_acceleration_crank0_theta_ = -dv_acceleration_coupler1_theta_*l_coupler1_theta_crank0_theta_
+        - dv_lambda_B1_x_*l_B1_x_crank0_theta_ - dv_lambda_B1_y_*l_B1_y_crank0_theta_;
+    const Lanes dv_acceleration_crank2_theta_ = -dv_lambda_B2_x_*l_B2_x_crank2_theta_
+        - dv_lambda_B2_y_*l_B2_y_crank2_theta_;
 
     /* results */
-    dq[0] = dq_acceleration_crank0_theta;
-    dv[0] = dv_acceleration_crank0_theta;
-    dq[1] = dq_acceleration_crank1_theta;
-    dv[1] = dv_acceleration_crank1_theta;
-    dq[2] = dq_acceleration_crank2_theta;
-    dv[2] = dv_acceleration_crank2_theta;
-    dq[3] = dq_acceleration_coupler1_theta;
-    dv[3] = dv_acceleration_coupler1_theta;
-    dq[4] = dq_acceleration_coupler2_theta;
-    dv[4] = dv_acceleration_coupler2_theta;
-    *worst = lanes_max_of(all_of(0.0), lanes_fabs(phi_B2_x));
-    *worst = lanes_max_of(*worst, lanes_fabs(phi_B2_y));
-    *worst = lanes_max_of(*worst, lanes_fabs(phi_B1_x));
-    *worst = lanes_max_of(*worst, lanes_fabs(phi_B1_y));
+    dq[0] = dq_acceleration_crank0_theta_;
+    dv[0] = dv_acceleration_crank0_theta_;
+    dq[1] = dq_acceleration_crank1_theta_;
+    dv[1] = dv_acceleration_crank1_theta_;
+    dq[2] = dq_acceleration_crank2_theta_;
+    dv[2] = dv_acceleration_crank2_theta_;
+    dq[3] = dq_acceleration_coupler1_theta_;
+    dv[3] = dv_acceleration_coupler1_theta_;
+    dq[4] = dq_acceleration_coupler2_theta_;
+    dv[4] = dv_acceleration_coupler2_theta_;
+    *worst = lanes_max_of(all_of(0.0), lanes_fabs(phi_B2_x_));
+    *worst = lanes_max_of(*worst, lanes_fabs(phi_B2_y_));
+    *worst = lanes_max_of(*worst, lanes_fabs(phi_B1_x_));
+    *worst = lanes_max_of(*worst, lanes_fabs(phi_B1_y_));
 }
 
 #if !HELD
@@ -612,121 +626,132 @@ static void linearize(const Lanes t, const Lanes *q, const Lanes *v, const LaneM
 {
     (void)t, (void)memory, (void)rare;
     /* coordinates, velocities, time */
-    const Lanes crank0_theta = q[0];
-    const Lanes crank0_omega = v[0];
-    const Lanes crank1_theta = q[1];
-    const Lanes crank1_omega = v[1];
-    const Lanes crank2_theta = q[2];
-    const Lanes crank2_omega = v[2];
-    const Lanes coupler1_theta = q[3];
-    const Lanes coupler1_omega = v[3];
-    const Lanes coupler2_theta = q[4];
-    const Lanes coupler2_omega = v[4];
-    const Lanes a_crank0_theta = a[0];
-    const Lanes a_crank1_theta = a[1];
-    const Lanes a_crank2_theta = a[2];
-    const Lanes a_coupler1_theta = a[3];
-    const Lanes a_coupler2_theta = a[4];
-    const Lanes held_lambda_B2_x = aside->lambda[0];
-    const Lanes held_lambda_B2_y = aside->lambda[1];
-    const Lanes held_lambda_B1_x = aside->lambda[2];
-    const Lanes held_lambda_B1_y = aside->lambda[3];
+    const Lanes crank0_theta_ = q[0];
+    const Lanes crank0_omega_ = v[0];
+    const Lanes crank1_theta_ = q[1];
+    const Lanes crank1_omega_ = v[1];
+    const Lanes crank2_theta_ = q[2];
+    const Lanes crank2_omega_ = v[2];
+    const Lanes coupler1_theta_ = q[3];
+    const Lanes coupler1_omega_ = v[3];
+    const Lanes coupler2_theta_ = q[4];
+    const Lanes coupler2_omega_ = v[4];
+    const Lanes a_crank0_theta_ = a[0];
+    const Lanes a_crank1_theta_ = a[1];
+    const Lanes a_crank2_theta_ = a[2];
+    const Lanes a_coupler1_theta_ = a[3];
+    const Lanes a_coupler2_theta_ = a[4];
+    const Lanes held_lambda_B2_x_ = aside->lambda[0];
+    const Lanes held_lambda_B2_y_ = aside->lambda[1];
+    const Lanes held_lambda_B1_x_ = aside->lambda[2];
+    const Lanes held_lambda_B1_y_ = aside->lambda[3];
 
     /* directions, arms, drives */
-    const Lanes cos_theta_crank0 = lanes_cos(crank0_theta);
-    const Lanes sin_theta_crank0 = lanes_sin(crank0_theta);
-    const Lanes cos_theta_crank1 = lanes_cos(crank1_theta);
-    const Lanes sin_theta_crank1 = lanes_sin(crank1_theta);
-    const Lanes cos_theta_crank2 = lanes_cos(crank2_theta);
-    const Lanes sin_theta_crank2 = lanes_sin(crank2_theta);
-    const Lanes cos_theta_coupler1 = lanes_cos(coupler1_theta);
-    const Lanes sin_theta_coupler1 = lanes_sin(coupler1_theta);
-    const Lanes cos_theta_coupler2 = lanes_cos(coupler2_theta);
-    const Lanes sin_theta_coupler2 = lanes_sin(coupler2_theta);
-    const Lanes span_crank0_head_x = cos_theta_crank0*p->crank0_head_span_x;
-    const Lanes span_crank0_head_y = p->crank0_head_span_x*sin_theta_crank0;
-    const Lanes span_crank1_head_x = cos_theta_crank1*p->crank1_head_span_x;
-    const Lanes span_crank1_head_y = p->crank1_head_span_x*sin_theta_crank1;
-    const Lanes span_coupler2_head_x = cos_theta_coupler2*p->coupler2_head_span_x;
-    const Lanes span_coupler2_head_y = p->coupler2_head_span_x*sin_theta_coupler2;
-    const Lanes span_crank2_head_x = cos_theta_crank2*p->crank2_head_span_x;
-    const Lanes span_crank2_head_y = p->crank2_head_span_x*sin_theta_crank2;
-    const Lanes span_coupler1_head_x = cos_theta_coupler1*p->coupler1_head_span_x;
-    const Lanes span_coupler1_head_y = p->coupler1_head_span_x*sin_theta_coupler1;
-    const Lanes cos_coupler1_less_crank0 = cos_theta_coupler1*cos_theta_crank0 + sin_theta_coupler1*sin_theta_crank0;
-    const Lanes sin_coupler1_less_crank0 = -cos_theta_coupler1*sin_theta_crank0 + cos_theta_crank0*sin_theta_coupler1;
-    const Lanes dot_crank0_coupler1 = cos_coupler1_less_crank0*p->inertia_crank0_coupler1;
-    const Lanes cross_crank0_coupler1 = p->inertia_crank0_coupler1*sin_coupler1_less_crank0;
-    const Lanes cos_coupler2_less_crank1 = cos_theta_coupler2*cos_theta_crank1 + sin_theta_coupler2*sin_theta_crank1;
-    const Lanes sin_coupler2_less_crank1 = -cos_theta_coupler2*sin_theta_crank1 + cos_theta_crank1*sin_theta_coupler2;
-    const Lanes dot_crank1_coupler2 = cos_coupler2_less_crank1*p->inertia_crank1_coupler2;
-    const Lanes cross_crank1_coupler2 = p->inertia_crank1_coupler2*sin_coupler2_less_crank1;
+    const Lanes cos_theta_crank0_ = lanes_cos(crank0_theta_);
+    const Lanes sin_theta_crank0_ = lanes_sin(crank0_theta_);
+    const Lanes cos_theta_crank1_ = lanes_cos(crank1_theta_);
+    const Lanes sin_theta_crank1_ = lanes_sin(crank1_theta_);
+    const Lanes cos_theta_crank2_ = lanes_cos(crank2_theta_);
+    const Lanes sin_theta_crank2_ = lanes_sin(crank2_theta_);
+    const Lanes cos_theta_coupler1_ = lanes_cos(coupler1_theta_);
+    const Lanes sin_theta_coupler1_ = lanes_sin(coupler1_theta_);
+    const Lanes cos_theta_coupler2_ = lanes_cos(coupler2_theta_);
+    const Lanes sin_theta_coupler2_ = lanes_sin(coupler2_theta_);
+    const Lanes span_crank0_head_x_ = cos_theta_crank0_*p->crank0_head_span_x_;
+    const Lanes span_crank0_head_y_ = p->crank0_head_span_x_*sin_theta_crank0_;
+    const Lanes span_crank1_head_x_ = cos_theta_crank1_*p->crank1_head_span_x_;
+    const Lanes span_crank1_head_y_ = p->crank1_head_span_x_*sin_theta_crank1_;
+    const Lanes span_coupler2_head_x_ = cos_theta_coupler2_*p->coupler2_head_span_x_;
+    const Lanes span_coupler2_head_y_ = p->coupler2_head_span_x_*sin_theta_coupler2_;
+    const Lanes span_crank2_head_x_ = cos_theta_crank2_*p->crank2_head_span_x_;
+    const Lanes span_crank2_head_y_ = p->crank2_head_span_x_*sin_theta_crank2_;
+    const Lanes span_coupler1_head_x_ = cos_theta_coupler1_*p->coupler1_head_span_x_;
+    const Lanes span_coupler1_head_y_ = p->coupler1_head_span_x_*sin_theta_coupler1_;
+    const Lanes cos_coupler1_less_crank0_ = cos_theta_coupler1_*cos_theta_crank0_
+        + sin_theta_coupler1_*sin_theta_crank0_;
+    const Lanes sin_coupler1_less_crank0_ = -cos_theta_coupler1_*sin_theta_crank0_
+        + cos_theta_crank0_*sin_theta_coupler1_;
+    const Lanes dot_crank0_coupler1_ = cos_coupler1_less_crank0_*p->inertia_crank0_coupler1_;
+    const Lanes cross_crank0_coupler1_ = p->inertia_crank0_coupler1_*sin_coupler1_less_crank0_;
+    const Lanes cos_coupler2_less_crank1_ = cos_theta_coupler2_*cos_theta_crank1_
+        + sin_theta_coupler2_*sin_theta_crank1_;
+    const Lanes sin_coupler2_less_crank1_ = -cos_theta_coupler2_*sin_theta_crank1_
+        + cos_theta_crank1_*sin_theta_coupler2_;
+    const Lanes dot_crank1_coupler2_ = cos_coupler2_less_crank1_*p->inertia_crank1_coupler2_;
+    const Lanes cross_crank1_coupler2_ = p->inertia_crank1_coupler2_*sin_coupler2_less_crank1_;
 
     /* results */
-    lin->value[0] = dot_crank0_coupler1;
-    lin->value[1] = dot_crank1_coupler2;
-    lin->value[2] = -span_crank1_head_y;
-    lin->value[3] = span_crank2_head_y;
-    lin->value[4] = -span_coupler2_head_y;
-    lin->value[5] = span_crank1_head_x;
-    lin->value[6] = -span_crank2_head_x;
-    lin->value[7] = span_coupler2_head_x;
-    lin->value[8] = -span_crank0_head_y;
-    lin->value[9] = -span_coupler1_head_y;
-    lin->value[10] = span_crank0_head_x;
-    lin->value[11] = span_coupler1_head_x;
-    lin->value[12] = -a_coupler2_theta*span_coupler2_head_x + (coupler2_omega * coupler2_omega)*span_coupler2_head_y
-        - coupler2_omega*span_coupler2_head_x*p->two_alpha;
-    lin->value[13] = -a_crank1_theta*span_crank1_head_x + (crank1_omega * crank1_omega)*span_crank1_head_y
-        - crank1_omega*span_crank1_head_x*p->two_alpha;
-    lin->value[14] = a_crank2_theta*span_crank2_head_x - (crank2_omega * crank2_omega)*span_crank2_head_y
-        + crank2_omega*span_crank2_head_x*p->two_alpha;
-    lin->value[15] = -a_coupler2_theta*span_coupler2_head_y - (coupler2_omega * coupler2_omega)*span_coupler2_head_x
-        - coupler2_omega*span_coupler2_head_y*p->two_alpha;
-    lin->value[16] = -a_crank1_theta*span_crank1_head_y - (crank1_omega * crank1_omega)*span_crank1_head_x
-        - crank1_omega*span_crank1_head_y*p->two_alpha;
-    lin->value[17] = a_crank2_theta*span_crank2_head_y + (crank2_omega * crank2_omega)*span_crank2_head_x
-        + crank2_omega*span_crank2_head_y*p->two_alpha;
-    lin->value[18] = -a_coupler1_theta*span_coupler1_head_x + (coupler1_omega * coupler1_omega)*span_coupler1_head_y
-        - coupler1_omega*span_coupler1_head_x*p->two_alpha;
-    lin->value[19] = -a_crank0_theta*span_crank0_head_x + (crank0_omega * crank0_omega)*span_crank0_head_y
-        - crank0_omega*span_crank0_head_x*p->two_alpha;
-    lin->value[20] = -a_coupler1_theta*span_coupler1_head_y - (coupler1_omega * coupler1_omega)*span_coupler1_head_x
-        - coupler1_omega*span_coupler1_head_y*p->two_alpha;
-    lin->value[21] = -a_crank0_theta*span_crank0_head_y - (crank0_omega * crank0_omega)*span_crank0_head_x
-        - crank0_omega*span_crank0_head_y*p->two_alpha;
-    lin->value[22] = a_coupler1_theta*cross_crank0_coupler1 + (coupler1_omega * coupler1_omega)*dot_crank0_coupler1
-        - held_lambda_B1_x*span_crank0_head_x - held_lambda_B1_y*span_crank0_head_y
-        + sin_theta_crank0*p->weight_crank0__across;
-    lin->value[23] = -a_coupler1_theta*cross_crank0_coupler1 - (coupler1_omega * coupler1_omega)*dot_crank0_coupler1;
-    lin->value[24] = a_coupler2_theta*cross_crank1_coupler2 + (coupler2_omega * coupler2_omega)*dot_crank1_coupler2
-        + sin_theta_crank1*p->weight_crank1__across + span_crank1_head_x*(held_lambda_B1_x - held_lambda_B2_x)
-        - span_crank1_head_y*(-held_lambda_B1_y + held_lambda_B2_y);
-    lin->value[25] = -a_coupler2_theta*cross_crank1_coupler2 - (coupler2_omega * coupler2_omega)*dot_crank1_coupler2;
-    lin->value[26] = held_lambda_B2_x*span_crank2_head_x + held_lambda_B2_y*span_crank2_head_y
-        + sin_theta_crank2*p->weight_crank2__across;
-    lin->value[27] = -a_crank0_theta*cross_crank0_coupler1 + (crank0_omega * crank0_omega)*dot_crank0_coupler1
-        - held_lambda_B1_x*span_coupler1_head_x - held_lambda_B1_y*span_coupler1_head_y
-        + sin_theta_coupler1*p->weight_coupler1__across;
-    lin->value[28] = a_crank0_theta*cross_crank0_coupler1 - (crank0_omega * crank0_omega)*dot_crank0_coupler1;
-    lin->value[29] = -a_crank1_theta*cross_crank1_coupler2 + (crank1_omega * crank1_omega)*dot_crank1_coupler2
-        - held_lambda_B2_x*span_coupler2_head_x - held_lambda_B2_y*span_coupler2_head_y
-        + sin_theta_coupler2*p->weight_coupler2__across;
-    lin->value[30] = a_crank1_theta*cross_crank1_coupler2 - (crank1_omega * crank1_omega)*dot_crank1_coupler2;
-    lin->value[31] = -2.0*coupler2_omega*span_coupler2_head_x;
-    lin->value[32] = -2.0*crank1_omega*span_crank1_head_x;
-    lin->value[33] = 2.0*crank2_omega*span_crank2_head_x;
-    lin->value[34] = -2.0*coupler2_omega*span_coupler2_head_y;
-    lin->value[35] = -2.0*crank1_omega*span_crank1_head_y;
-    lin->value[36] = 2.0*crank2_omega*span_crank2_head_y;
-    lin->value[37] = -2.0*coupler1_omega*span_coupler1_head_x;
-    lin->value[38] = -2.0*crank0_omega*span_crank0_head_x;
-    lin->value[39] = -2.0*coupler1_omega*span_coupler1_head_y;
-    lin->value[40] = -2.0*crank0_omega*span_crank0_head_y;
-    lin->value[41] = -2.0*coupler1_omega*cross_crank0_coupler1;
-    lin->value[42] = -2.0*coupler2_omega*cross_crank1_coupler2;
-    lin->value[43] = 2.0*crank0_omega*cross_crank0_coupler1;
-    lin->value[44] = 2.0*crank1_omega*cross_crank1_coupler2;
+    lin->value[0] = dot_crank0_coupler1_;
+    lin->value[1] = dot_crank1_coupler2_;
+    lin->value[2] = -span_crank1_head_y_;
+    lin->value[3] = span_crank2_head_y_;
+    lin->value[4] = -span_coupler2_head_y_;
+    lin->value[5] = span_crank1_head_x_;
+    lin->value[6] = -span_crank2_head_x_;
+    lin->value[7] = span_coupler2_head_x_;
+    lin->value[8] = -span_crank0_head_y_;
+    lin->value[9] = -span_coupler1_head_y_;
+    lin->value[10] = span_crank0_head_x_;
+    lin->value[11] = span_coupler1_head_x_;
+    lin->value[12] = -a_coupler2_theta_*span_coupler2_head_x_
+        + (coupler2_omega_ * coupler2_omega_)*span_coupler2_head_y_
+        - coupler2_omega_*span_coupler2_head_x_*p->two_alpha_;
+    lin->value[13] = -a_crank1_theta_*span_crank1_head_x_ + (crank1_omega_ * crank1_omega_)*span_crank1_head_y_
+        - crank1_omega_*span_crank1_head_x_*p->two_alpha_;
+    lin->value[14] = a_crank2_theta_*span_crank2_head_x_ - (crank2_omega_ * crank2_omega_)*span_crank2_head_y_
+        + crank2_omega_*span_crank2_head_x_*p->two_alpha_;
+    lin->value[15] = -a_coupler2_theta_*span_coupler2_head_y_
+        - (coupler2_omega_ * coupler2_omega_)*span_coupler2_head_x_
+        - coupler2_omega_*span_coupler2_head_y_*p->two_alpha_;
+    lin->value[16] = -a_crank1_theta_*span_crank1_head_y_ - (crank1_omega_ * crank1_omega_)*span_crank1_head_x_
+        - crank1_omega_*span_crank1_head_y_*p->two_alpha_;
+    lin->value[17] = a_crank2_theta_*span_crank2_head_y_ + (crank2_omega_ * crank2_omega_)*span_crank2_head_x_
+        + crank2_omega_*span_crank2_head_y_*p->two_alpha_;
+    lin->value[18] = -a_coupler1_theta_*span_coupler1_head_x_
+        + (coupler1_omega_ * coupler1_omega_)*span_coupler1_head_y_
+        - coupler1_omega_*span_coupler1_head_x_*p->two_alpha_;
+    lin->value[19] = -a_crank0_theta_*span_crank0_head_x_ + (crank0_omega_ * crank0_omega_)*span_crank0_head_y_
+        - crank0_omega_*span_crank0_head_x_*p->two_alpha_;
+    lin->value[20] = -a_coupler1_theta_*span_coupler1_head_y_
+        - (coupler1_omega_ * coupler1_omega_)*span_coupler1_head_x_
+        - coupler1_omega_*span_coupler1_head_y_*p->two_alpha_;
+    lin->value[21] = -a_crank0_theta_*span_crank0_head_y_ - (crank0_omega_ * crank0_omega_)*span_crank0_head_x_
+        - crank0_omega_*span_crank0_head_y_*p->two_alpha_;
+    lin->value[22] = a_coupler1_theta_*cross_crank0_coupler1_
+        + (coupler1_omega_ * coupler1_omega_)*dot_crank0_coupler1_ - held_lambda_B1_x_*span_crank0_head_x_
+        - held_lambda_B1_y_*span_crank0_head_y_ + sin_theta_crank0_*p->weight_crank0_across_;
+    lin->value[23] = -a_coupler1_theta_*cross_crank0_coupler1_
+        - (coupler1_omega_ * coupler1_omega_)*dot_crank0_coupler1_;
+    lin->value[24] = a_coupler2_theta_*cross_crank1_coupler2_
+        + (coupler2_omega_ * coupler2_omega_)*dot_crank1_coupler2_ + sin_theta_crank1_*p->weight_crank1_across_
+        + span_crank1_head_x_*(held_lambda_B1_x_ - held_lambda_B2_x_)
+        - span_crank1_head_y_*(-held_lambda_B1_y_ + held_lambda_B2_y_);
+    lin->value[25] = -a_coupler2_theta_*cross_crank1_coupler2_
+        - (coupler2_omega_ * coupler2_omega_)*dot_crank1_coupler2_;
+    lin->value[26] = held_lambda_B2_x_*span_crank2_head_x_ + held_lambda_B2_y_*span_crank2_head_y_
+        + sin_theta_crank2_*p->weight_crank2_across_;
+    lin->value[27] = -a_crank0_theta_*cross_crank0_coupler1_ + (crank0_omega_ * crank0_omega_)*dot_crank0_coupler1_
+        - held_lambda_B1_x_*span_coupler1_head_x_ - held_lambda_B1_y_*span_coupler1_head_y_
+        + sin_theta_coupler1_*p->weight_coupler1_across_;
+    lin->value[28] = a_crank0_theta_*cross_crank0_coupler1_ - (crank0_omega_ * crank0_omega_)*dot_crank0_coupler1_;
+    lin->value[29] = -a_crank1_theta_*cross_crank1_coupler2_ + (crank1_omega_ * crank1_omega_)*dot_crank1_coupler2_
+        - held_lambda_B2_x_*span_coupler2_head_x_ - held_lambda_B2_y_*span_coupler2_head_y_
+        + sin_theta_coupler2_*p->weight_coupler2_across_;
+    lin->value[30] = a_crank1_theta_*cross_crank1_coupler2_ - (crank1_omega_ * crank1_omega_)*dot_crank1_coupler2_;
+    lin->value[31] = -2.0*coupler2_omega_*span_coupler2_head_x_;
+    lin->value[32] = -2.0*crank1_omega_*span_crank1_head_x_;
+    lin->value[33] = 2.0*crank2_omega_*span_crank2_head_x_;
+    lin->value[34] = -2.0*coupler2_omega_*span_coupler2_head_y_;
+    lin->value[35] = -2.0*crank1_omega_*span_crank1_head_y_;
+    lin->value[36] = 2.0*crank2_omega_*span_crank2_head_y_;
+    lin->value[37] = -2.0*coupler1_omega_*span_coupler1_head_x_;
+    lin->value[38] = -2.0*crank0_omega_*span_crank0_head_x_;
+    lin->value[39] = -2.0*coupler1_omega_*span_coupler1_head_y_;
+    lin->value[40] = -2.0*crank0_omega_*span_crank0_head_y_;
+    lin->value[41] = -2.0*coupler1_omega_*cross_crank0_coupler1_;
+    lin->value[42] = -2.0*coupler2_omega_*cross_crank1_coupler2_;
+    lin->value[43] = 2.0*crank0_omega_*cross_crank0_coupler1_;
+    lin->value[44] = 2.0*crank1_omega_*cross_crank1_coupler2_;
     lin->p = p;
 }
 
@@ -740,219 +765,221 @@ static void newton_factor(Lanes eta, LaneLinear *lin, LaneBits *rare)
     const LaneParameters *const p = lin->p;
 
     /* linearization */
-    const Lanes mass_crank0_theta_coupler1_theta = lin->value[0];
-    const Lanes mass_crank1_theta_coupler2_theta = lin->value[1];
-    const Lanes phi_B2_x_crank1_theta = lin->value[2];
-    const Lanes phi_B2_x_crank2_theta = lin->value[3];
-    const Lanes phi_B2_x_coupler2_theta = lin->value[4];
-    const Lanes phi_B2_y_crank1_theta = lin->value[5];
-    const Lanes phi_B2_y_crank2_theta = lin->value[6];
-    const Lanes phi_B2_y_coupler2_theta = lin->value[7];
-    const Lanes phi_B1_x_crank0_theta = lin->value[8];
-    const Lanes phi_B1_x_coupler1_theta = lin->value[9];
-    const Lanes phi_B1_y_crank0_theta = lin->value[10];
-    const Lanes phi_B1_y_coupler1_theta = lin->value[11];
-    const Lanes by_q_B2_x_coupler2_theta = lin->value[12];
-    const Lanes by_q_B2_x_crank1_theta = lin->value[13];
-    const Lanes by_q_B2_x_crank2_theta = lin->value[14];
-    const Lanes by_q_B2_y_coupler2_theta = lin->value[15];
-    const Lanes by_q_B2_y_crank1_theta = lin->value[16];
-    const Lanes by_q_B2_y_crank2_theta = lin->value[17];
-    const Lanes by_q_B1_x_coupler1_theta = lin->value[18];
-    const Lanes by_q_B1_x_crank0_theta = lin->value[19];
-    const Lanes by_q_B1_y_coupler1_theta = lin->value[20];
-    const Lanes by_q_B1_y_crank0_theta = lin->value[21];
-    const Lanes by_q_crank0_theta_crank0_theta = lin->value[22];
-    const Lanes by_q_crank0_theta_coupler1_theta = lin->value[23];
-    const Lanes by_q_crank1_theta_crank1_theta = lin->value[24];
-    const Lanes by_q_crank1_theta_coupler2_theta = lin->value[25];
-    const Lanes by_q_crank2_theta_crank2_theta = lin->value[26];
-    const Lanes by_q_coupler1_theta_coupler1_theta = lin->value[27];
-    const Lanes by_q_coupler1_theta_crank0_theta = lin->value[28];
-    const Lanes by_q_coupler2_theta_coupler2_theta = lin->value[29];
-    const Lanes by_q_coupler2_theta_crank1_theta = lin->value[30];
-    const Lanes by_v_B2_x_coupler2_theta = lin->value[31];
-    const Lanes by_v_B2_x_crank1_theta = lin->value[32];
-    const Lanes by_v_B2_x_crank2_theta = lin->value[33];
-    const Lanes by_v_B2_y_coupler2_theta = lin->value[34];
-    const Lanes by_v_B2_y_crank1_theta = lin->value[35];
-    const Lanes by_v_B2_y_crank2_theta = lin->value[36];
-    const Lanes by_v_B1_x_coupler1_theta = lin->value[37];
-    const Lanes by_v_B1_x_crank0_theta = lin->value[38];
-    const Lanes by_v_B1_y_coupler1_theta = lin->value[39];
-    const Lanes by_v_B1_y_crank0_theta = lin->value[40];
-    const Lanes by_v_crank0_theta_coupler1_theta = lin->value[41];
-    const Lanes by_v_crank1_theta_coupler2_theta = lin->value[42];
-    const Lanes by_v_coupler1_theta_crank0_theta = lin->value[43];
-    const Lanes by_v_coupler2_theta_crank1_theta = lin->value[44];
+    const Lanes mass_crank0_theta_coupler1_theta_ = lin->value[0];
+    const Lanes mass_crank1_theta_coupler2_theta_ = lin->value[1];
+    const Lanes phi_B2_x_crank1_theta_ = lin->value[2];
+    const Lanes phi_B2_x_crank2_theta_ = lin->value[3];
+    const Lanes phi_B2_x_coupler2_theta_ = lin->value[4];
+    const Lanes phi_B2_y_crank1_theta_ = lin->value[5];
+    const Lanes phi_B2_y_crank2_theta_ = lin->value[6];
+    const Lanes phi_B2_y_coupler2_theta_ = lin->value[7];
+    const Lanes phi_B1_x_crank0_theta_ = lin->value[8];
+    const Lanes phi_B1_x_coupler1_theta_ = lin->value[9];
+    const Lanes phi_B1_y_crank0_theta_ = lin->value[10];
+    const Lanes phi_B1_y_coupler1_theta_ = lin->value[11];
+    const Lanes by_q_B2_x_coupler2_theta_ = lin->value[12];
+    const Lanes by_q_B2_x_crank1_theta_ = lin->value[13];
+    const Lanes by_q_B2_x_crank2_theta_ = lin->value[14];
+    const Lanes by_q_B2_y_coupler2_theta_ = lin->value[15];
+    const Lanes by_q_B2_y_crank1_theta_ = lin->value[16];
+    const Lanes by_q_B2_y_crank2_theta_ = lin->value[17];
+    const Lanes by_q_B1_x_coupler1_theta_ = lin->value[18];
+    const Lanes by_q_B1_x_crank0_theta_ = lin->value[19];
+    const Lanes by_q_B1_y_coupler1_theta_ = lin->value[20];
+    const Lanes by_q_B1_y_crank0_theta_ = lin->value[21];
+    const Lanes by_q_crank0_theta_crank0_theta_ = lin->value[22];
+    const Lanes by_q_crank0_theta_coupler1_theta_ = lin->value[23];
+    const Lanes by_q_crank1_theta_crank1_theta_ = lin->value[24];
+    const Lanes by_q_crank1_theta_coupler2_theta_ = lin->value[25];
+    const Lanes by_q_crank2_theta_crank2_theta_ = lin->value[26];
+    const Lanes by_q_coupler1_theta_coupler1_theta_ = lin->value[27];
+    const Lanes by_q_coupler1_theta_crank0_theta_ = lin->value[28];
+    const Lanes by_q_coupler2_theta_coupler2_theta_ = lin->value[29];
+    const Lanes by_q_coupler2_theta_crank1_theta_ = lin->value[30];
+    const Lanes by_v_B2_x_coupler2_theta_ = lin->value[31];
+    const Lanes by_v_B2_x_crank1_theta_ = lin->value[32];
+    const Lanes by_v_B2_x_crank2_theta_ = lin->value[33];
+    const Lanes by_v_B2_y_coupler2_theta_ = lin->value[34];
+    const Lanes by_v_B2_y_crank1_theta_ = lin->value[35];
+    const Lanes by_v_B2_y_crank2_theta_ = lin->value[36];
+    const Lanes by_v_B1_x_coupler1_theta_ = lin->value[37];
+    const Lanes by_v_B1_x_crank0_theta_ = lin->value[38];
+    const Lanes by_v_B1_y_coupler1_theta_ = lin->value[39];
+    const Lanes by_v_B1_y_crank0_theta_ = lin->value[40];
+    const Lanes by_v_crank0_theta_coupler1_theta_ = lin->value[41];
+    const Lanes by_v_crank1_theta_coupler2_theta_ = lin->value[42];
+    const Lanes by_v_coupler1_theta_crank0_theta_ = lin->value[43];
+    const Lanes by_v_coupler2_theta_crank1_theta_ = lin->value[44];
 
     /* eta/kappa */
-    const Lanes eta_row = eta/(eta*(p->beta_squared*eta + p->two_alpha) + 1.0);
+    const Lanes eta_row = eta/(eta*(p->beta_squared_*eta + p->two_alpha_) + 1.0);
 
     /* matrix */
-    const Lanes n_crank0_theta__crank0_theta = by_q_crank0_theta_crank0_theta*(eta * eta) + p->mass_crank0_crank0;
-    const Lanes n_crank0_theta__coupler1_theta = eta*(by_q_crank0_theta_coupler1_theta*eta
-        + by_v_crank0_theta_coupler1_theta) + mass_crank0_theta_coupler1_theta;
-    const Lanes n_crank1_theta__crank1_theta = by_q_crank1_theta_crank1_theta*(eta * eta) + p->mass_crank1_crank1;
-    const Lanes n_crank1_theta__coupler2_theta = eta*(by_q_crank1_theta_coupler2_theta*eta
-        + by_v_crank1_theta_coupler2_theta) + mass_crank1_theta_coupler2_theta;
-    const Lanes n_crank2_theta__crank2_theta = by_q_crank2_theta_crank2_theta*(eta * eta) + p->mass_crank2_crank2;
-    const Lanes n_coupler1_theta__crank0_theta = eta*(by_q_coupler1_theta_crank0_theta*eta
-        + by_v_coupler1_theta_crank0_theta) + mass_crank0_theta_coupler1_theta;
-    const Lanes n_coupler1_theta__coupler1_theta = by_q_coupler1_theta_coupler1_theta*(eta * eta)
-        + p->mass_coupler1_coupler1;
-    const Lanes n_coupler2_theta__crank1_theta = eta*(by_q_coupler2_theta_crank1_theta*eta
-        + by_v_coupler2_theta_crank1_theta) + mass_crank1_theta_coupler2_theta;
-    const Lanes n_coupler2_theta__coupler2_theta = by_q_coupler2_theta_coupler2_theta*(eta * eta)
-        + p->mass_coupler2_coupler2;
-    const Lanes n_B2_x__crank1_theta = eta_row*(by_q_B2_x_crank1_theta*eta + by_v_B2_x_crank1_theta)
-        + phi_B2_x_crank1_theta;
-    const Lanes n_B2_x__crank2_theta = eta_row*(by_q_B2_x_crank2_theta*eta + by_v_B2_x_crank2_theta)
-        + phi_B2_x_crank2_theta;
-    const Lanes n_B2_x__coupler2_theta = eta_row*(by_q_B2_x_coupler2_theta*eta + by_v_B2_x_coupler2_theta)
-        + phi_B2_x_coupler2_theta;
-    const Lanes n_B2_y__crank1_theta = eta_row*(by_q_B2_y_crank1_theta*eta + by_v_B2_y_crank1_theta)
-        + phi_B2_y_crank1_theta;
-    const Lanes n_B2_y__crank2_theta = eta_row*(by_q_B2_y_crank2_theta*eta + by_v_B2_y_crank2_theta)
-        + phi_B2_y_crank2_theta;
-    const Lanes n_B2_y__coupler2_theta = eta_row*(by_q_B2_y_coupler2_theta*eta + by_v_B2_y_coupler2_theta)
-        + phi_B2_y_coupler2_theta;
-    const Lanes n_B1_x__crank0_theta = eta_row*(by_q_B1_x_crank0_theta*eta + by_v_B1_x_crank0_theta)
-        + phi_B1_x_crank0_theta;
-    const Lanes n_B1_x__crank1_theta = eta_row*(-by_q_B2_x_crank1_theta*eta - by_v_B2_x_crank1_theta)
-        - phi_B2_x_crank1_theta;
-    const Lanes n_B1_x__coupler1_theta = eta_row*(by_q_B1_x_coupler1_theta*eta + by_v_B1_x_coupler1_theta)
-        + phi_B1_x_coupler1_theta;
-    const Lanes n_B1_y__crank0_theta = eta_row*(by_q_B1_y_crank0_theta*eta + by_v_B1_y_crank0_theta)
-        + phi_B1_y_crank0_theta;
-    const Lanes n_B1_y__crank1_theta = eta_row*(-by_q_B2_y_crank1_theta*eta - by_v_B2_y_crank1_theta)
-        - phi_B2_y_crank1_theta;
-    const Lanes n_B1_y__coupler1_theta = eta_row*(by_q_B1_y_coupler1_theta*eta + by_v_B1_y_coupler1_theta)
-        + phi_B1_y_coupler1_theta;
+    const Lanes n_crank0_theta_crank0_theta_ = by_q_crank0_theta_crank0_theta_*(eta * eta) + p->mass_crank0_crank0_;
+    const Lanes n_crank0_theta_coupler1_theta_ = eta*(by_q_crank0_theta_coupler1_theta_*eta
+        + by_v_crank0_theta_coupler1_theta_) + mass_crank0_theta_coupler1_theta_;
+    const Lanes n_crank1_theta_crank1_theta_ = by_q_crank1_theta_crank1_theta_*(eta * eta) + p->mass_crank1_crank1_;
+    const Lanes n_crank1_theta_coupler2_theta_ = eta*(by_q_crank1_theta_coupler2_theta_*eta
+        + by_v_crank1_theta_coupler2_theta_) + mass_crank1_theta_coupler2_theta_;
+    const Lanes n_crank2_theta_crank2_theta_ = by_q_crank2_theta_crank2_theta_*(eta * eta) + p->mass_crank2_crank2_;
+    const Lanes n_coupler1_theta_crank0_theta_ = eta*(by_q_coupler1_theta_crank0_theta_*eta
+        + by_v_coupler1_theta_crank0_theta_) + mass_crank0_theta_coupler1_theta_;
+    const Lanes n_coupler1_theta_coupler1_theta_ = by_q_coupler1_theta_coupler1_theta_*(eta * eta)
+        + p->mass_coupler1_coupler1_;
+    const Lanes n_coupler2_theta_crank1_theta_ = eta*(by_q_coupler2_theta_crank1_theta_*eta
+        + by_v_coupler2_theta_crank1_theta_) + mass_crank1_theta_coupler2_theta_;
+    const Lanes n_coupler2_theta_coupler2_theta_ = by_q_coupler2_theta_coupler2_theta_*(eta * eta)
+        + p->mass_coupler2_coupler2_;
+    const Lanes n_B2_x_crank1_theta_ = eta_row*(by_q_B2_x_crank1_theta_*eta + by_v_B2_x_crank1_theta_)
+        + phi_B2_x_crank1_theta_;
+    const Lanes n_B2_x_crank2_theta_ = eta_row*(by_q_B2_x_crank2_theta_*eta + by_v_B2_x_crank2_theta_)
+        + phi_B2_x_crank2_theta_;
+    const Lanes n_B2_x_coupler2_theta_ = eta_row*(by_q_B2_x_coupler2_theta_*eta + by_v_B2_x_coupler2_theta_)
+        + phi_B2_x_coupler2_theta_;
+    const Lanes n_B2_y_crank1_theta_ = eta_row*(by_q_B2_y_crank1_theta_*eta + by_v_B2_y_crank1_theta_)
+        + phi_B2_y_crank1_theta_;
+    const Lanes n_B2_y_crank2_theta_ = eta_row*(by_q_B2_y_crank2_theta_*eta + by_v_B2_y_crank2_theta_)
+        + phi_B2_y_crank2_theta_;
+    const Lanes n_B2_y_coupler2_theta_ = eta_row*(by_q_B2_y_coupler2_theta_*eta + by_v_B2_y_coupler2_theta_)
+        + phi_B2_y_coupler2_theta_;
+    const Lanes n_B1_x_crank0_theta_ = eta_row*(by_q_B1_x_crank0_theta_*eta + by_v_B1_x_crank0_theta_)
+        + phi_B1_x_crank0_theta_;
+    const Lanes n_B1_x_crank1_theta_ = eta_row*(-by_q_B2_x_crank1_theta_*eta - by_v_B2_x_crank1_theta_)
+        - phi_B2_x_crank1_theta_;
+    const Lanes n_B1_x_coupler1_theta_ = eta_row*(by_q_B1_x_coupler1_theta_*eta + by_v_B1_x_coupler1_theta_)
+        + phi_B1_x_coupler1_theta_;
+    const Lanes n_B1_y_crank0_theta_ = eta_row*(by_q_B1_y_crank0_theta_*eta + by_v_B1_y_crank0_theta_)
+        + phi_B1_y_crank0_theta_;
+    const Lanes n_B1_y_crank1_theta_ = eta_row*(-by_q_B2_y_crank1_theta_*eta - by_v_B2_y_crank1_theta_)
+        - phi_B2_y_crank1_theta_;
+    const Lanes n_B1_y_coupler1_theta_ = eta_row*(by_q_B1_y_coupler1_theta_*eta + by_v_B1_y_coupler1_theta_)
+        + phi_B1_y_coupler1_theta_;
 
     /* L U */
-    const Lanes scale_crank2_theta = n_crank2_theta__crank2_theta;
-    *rare |= ~(lanes_fabs(scale_crank2_theta) > SINGULAR * lanes_fabs(n_crank2_theta__crank2_theta));
-    const Lanes inverse_pivot_crank2_theta = 1.0/scale_crank2_theta;
-    lin->lu[0] = inverse_pivot_crank2_theta;
-    const Lanes l_B2_x__crank2_theta = inverse_pivot_crank2_theta*n_B2_x__crank2_theta;
-    lin->lu[1] = l_B2_x__crank2_theta;
-    const Lanes l_B2_y__crank2_theta = inverse_pivot_crank2_theta*n_B2_y__crank2_theta;
-    lin->lu[2] = l_B2_y__crank2_theta;
-    const Lanes scale_crank0_theta = n_crank0_theta__crank0_theta;
-    *rare |= ~(lanes_fabs(scale_crank0_theta) > SINGULAR * lanes_fabs(n_crank0_theta__crank0_theta));
-    const Lanes inverse_pivot_crank0_theta = 1.0/scale_crank0_theta;
-    lin->lu[3] = inverse_pivot_crank0_theta;
-    const Lanes l_coupler1_theta__crank0_theta = inverse_pivot_crank0_theta*n_coupler1_theta__crank0_theta;
-    lin->lu[4] = l_coupler1_theta__crank0_theta;
-    lin->lu[5] = n_crank0_theta__coupler1_theta;
-    const Lanes l_B1_x__crank0_theta = inverse_pivot_crank0_theta*n_B1_x__crank0_theta;
-    lin->lu[6] = l_B1_x__crank0_theta;
-    const Lanes l_B1_y__crank0_theta = inverse_pivot_crank0_theta*n_B1_y__crank0_theta;
-    lin->lu[7] = l_B1_y__crank0_theta;
-    const Lanes scale_coupler1_theta = -l_coupler1_theta__crank0_theta*n_crank0_theta__coupler1_theta
-        + n_coupler1_theta__coupler1_theta;
-    *rare |= ~(lanes_fabs(scale_coupler1_theta) > SINGULAR * lanes_fabs(n_coupler1_theta__coupler1_theta));
-    const Lanes inverse_pivot_coupler1_theta = 1.0/scale_coupler1_theta;
-    lin->lu[8] = inverse_pivot_coupler1_theta;
-    const Lanes l_B1_x__coupler1_theta = inverse_pivot_coupler1_theta
-        *(-l_B1_x__crank0_theta*n_crank0_theta__coupler1_theta + n_B1_x__coupler1_theta);
-    lin->lu[9] = l_B1_x__coupler1_theta;
-    const Lanes u_coupler1_theta__B1_x = -l_coupler1_theta__crank0_theta*phi_B1_x_crank0_theta
-        + phi_B1_x_coupler1_theta;
-    lin->lu[10] = u_coupler1_theta__B1_x;
-    const Lanes l_B1_y__coupler1_theta = inverse_pivot_coupler1_theta
-        *(-l_B1_y__crank0_theta*n_crank0_theta__coupler1_theta + n_B1_y__coupler1_theta);
-    lin->lu[11] = l_B1_y__coupler1_theta;
-    const Lanes u_coupler1_theta__B1_y = -l_coupler1_theta__crank0_theta*phi_B1_y_crank0_theta
-        + phi_B1_y_coupler1_theta;
-    lin->lu[12] = u_coupler1_theta__B1_y;
-    const Lanes scale_coupler2_theta = n_coupler2_theta__coupler2_theta;
-    *rare |= ~(lanes_fabs(scale_coupler2_theta) > SINGULAR * lanes_fabs(n_coupler2_theta__coupler2_theta));
-    const Lanes inverse_pivot_coupler2_theta = 1.0/scale_coupler2_theta;
-    lin->lu[13] = inverse_pivot_coupler2_theta;
-    const Lanes l_crank1_theta__coupler2_theta = inverse_pivot_coupler2_theta*n_crank1_theta__coupler2_theta;
-    lin->lu[14] = l_crank1_theta__coupler2_theta;
-    lin->lu[15] = n_coupler2_theta__crank1_theta;
-    const Lanes l_B2_x__coupler2_theta = inverse_pivot_coupler2_theta*n_B2_x__coupler2_theta;
-    lin->lu[16] = l_B2_x__coupler2_theta;
-    const Lanes l_B2_y__coupler2_theta = inverse_pivot_coupler2_theta*n_B2_y__coupler2_theta;
-    lin->lu[17] = l_B2_y__coupler2_theta;
-    const Lanes scale_crank1_theta = -l_crank1_theta__coupler2_theta*n_coupler2_theta__crank1_theta
-        + n_crank1_theta__crank1_theta;
-    *rare |= ~(lanes_fabs(scale_crank1_theta) > SINGULAR * lanes_fabs(n_crank1_theta__crank1_theta));
-    const Lanes inverse_pivot_crank1_theta = 1.0/scale_crank1_theta;
-    lin->lu[18] = inverse_pivot_crank1_theta;
-    const Lanes l_B2_x__crank1_theta = inverse_pivot_crank1_theta
-        *(-l_B2_x__coupler2_theta*n_coupler2_theta__crank1_theta + n_B2_x__crank1_theta);
-    lin->lu[19] = l_B2_x__crank1_theta;
-    const Lanes u_crank1_theta__B2_x = -l_crank1_theta__coupler2_theta*phi_B2_x_coupler2_theta + phi_B2_x_crank1_theta;
-    lin->lu[20] = u_crank1_theta__B2_x;
-    const Lanes l_B2_y__crank1_theta = inverse_pivot_crank1_theta
-        *(-l_B2_y__coupler2_theta*n_coupler2_theta__crank1_theta + n_B2_y__crank1_theta);
-    lin->lu[21] = l_B2_y__crank1_theta;
-    const Lanes u_crank1_theta__B2_y = -l_crank1_theta__coupler2_theta*phi_B2_y_coupler2_theta + phi_B2_y_crank1_theta;
-    lin->lu[22] = u_crank1_theta__B2_y;
-    const Lanes l_B1_x__crank1_theta = inverse_pivot_crank1_theta*n_B1_x__crank1_theta;
-    lin->lu[23] = l_B1_x__crank1_theta;
-    const Lanes l_B1_y__crank1_theta = inverse_pivot_crank1_theta*n_B1_y__crank1_theta;
-    lin->lu[24] = l_B1_y__crank1_theta;
-    const Lanes scale_B2_x = -l_B2_x__coupler2_theta*phi_B2_x_coupler2_theta
-        - l_B2_x__crank1_theta*u_crank1_theta__B2_x - l_B2_x__crank2_theta*phi_B2_x_crank2_theta;
-    *rare |= ~((lanes_fabs(scale_B2_x) > 0.0) & (lanes_fabs(scale_B2_x) < INFINITY));
-    const Lanes inverse_pivot_B2_x = 1.0/scale_B2_x;
-    lin->lu[25] = inverse_pivot_B2_x;
-    const Lanes l_B2_y__B2_x = inverse_pivot_B2_x*(-l_B2_y__coupler2_theta*phi_B2_x_coupler2_theta
-        - l_B2_y__crank1_theta*u_crank1_theta__B2_x - l_B2_y__crank2_theta*phi_B2_x_crank2_theta);
-    lin->lu[26] = l_B2_y__B2_x;
-    const Lanes u_B2_x__B2_y = -l_B2_x__coupler2_theta*phi_B2_y_coupler2_theta
-        - l_B2_x__crank1_theta*u_crank1_theta__B2_y - l_B2_x__crank2_theta*phi_B2_y_crank2_theta;
-    lin->lu[27] = u_B2_x__B2_y;
-    const Lanes l_B1_x__B2_x = -inverse_pivot_B2_x*l_B1_x__crank1_theta*u_crank1_theta__B2_x;
-    lin->lu[28] = l_B1_x__B2_x;
-    const Lanes u_B2_x__B1_x = l_B2_x__crank1_theta*phi_B2_x_crank1_theta;
-    lin->lu[29] = u_B2_x__B1_x;
-    const Lanes l_B1_y__B2_x = -inverse_pivot_B2_x*l_B1_y__crank1_theta*u_crank1_theta__B2_x;
-    lin->lu[30] = l_B1_y__B2_x;
-    const Lanes u_B2_x__B1_y = l_B2_x__crank1_theta*phi_B2_y_crank1_theta;
-    lin->lu[31] = u_B2_x__B1_y;
-    const Lanes scale_B2_y = -l_B2_y__coupler2_theta*phi_B2_y_coupler2_theta
-        - l_B2_y__crank1_theta*u_crank1_theta__B2_y - l_B2_y__crank2_theta*phi_B2_y_crank2_theta;
-    const Lanes pivot_B2_y = -l_B2_y__B2_x*u_B2_x__B2_y + scale_B2_y;
-    *rare |= ~(lanes_fabs(pivot_B2_y) > SINGULAR * lanes_fabs(scale_B2_y));
-    const Lanes inverse_pivot_B2_y = 1.0/pivot_B2_y;
-    lin->lu[32] = inverse_pivot_B2_y;
-    const Lanes l_B1_x__B2_y = inverse_pivot_B2_y*(-l_B1_x__B2_x*u_B2_x__B2_y
-        - l_B1_x__crank1_theta*u_crank1_theta__B2_y);
-    lin->lu[33] = l_B1_x__B2_y;
-    const Lanes u_B2_y__B1_x = -l_B2_y__B2_x*u_B2_x__B1_x + l_B2_y__crank1_theta*phi_B2_x_crank1_theta;
-    lin->lu[34] = u_B2_y__B1_x;
-    const Lanes l_B1_y__B2_y = inverse_pivot_B2_y*(-l_B1_y__B2_x*u_B2_x__B2_y
-        - l_B1_y__crank1_theta*u_crank1_theta__B2_y);
-    lin->lu[35] = l_B1_y__B2_y;
-    const Lanes u_B2_y__B1_y = -l_B2_y__B2_x*u_B2_x__B1_y + l_B2_y__crank1_theta*phi_B2_y_crank1_theta;
-    lin->lu[36] = u_B2_y__B1_y;
-    const Lanes scale_B1_x = -l_B1_x__coupler1_theta*u_coupler1_theta__B1_x
-        - l_B1_x__crank0_theta*phi_B1_x_crank0_theta + l_B1_x__crank1_theta*phi_B2_x_crank1_theta;
-    const Lanes pivot_B1_x = -l_B1_x__B2_x*u_B2_x__B1_x - l_B1_x__B2_y*u_B2_y__B1_x + scale_B1_x;
-    *rare |= ~(lanes_fabs(pivot_B1_x) > SINGULAR * lanes_fabs(scale_B1_x));
-    const Lanes inverse_pivot_B1_x = 1.0/pivot_B1_x;
-    lin->lu[37] = inverse_pivot_B1_x;
-    const Lanes l_B1_y__B1_x = inverse_pivot_B1_x*(-l_B1_y__B2_x*u_B2_x__B1_x - l_B1_y__B2_y*u_B2_y__B1_x
-        - l_B1_y__coupler1_theta*u_coupler1_theta__B1_x - l_B1_y__crank0_theta*phi_B1_x_crank0_theta
-        + l_B1_y__crank1_theta*phi_B2_x_crank1_theta);
-    lin->lu[38] = l_B1_y__B1_x;
-    const Lanes u_B1_x__B1_y = -l_B1_x__B2_x*u_B2_x__B1_y - l_B1_x__B2_y*u_B2_y__B1_y
-        - l_B1_x__coupler1_theta*u_coupler1_theta__B1_y - l_B1_x__crank0_theta*phi_B1_y_crank0_theta
-        + l_B1_x__crank1_theta*phi_B2_y_crank1_theta;
-    lin->lu[39] = u_B1_x__B1_y;
-    const Lanes scale_B1_y = -l_B1_y__coupler1_theta*u_coupler1_theta__B1_y
-        - l_B1_y__crank0_theta*phi_B1_y_crank0_theta + l_B1_y__crank1_theta*phi_B2_y_crank1_theta;
-    const Lanes pivot_B1_y = -l_B1_y__B1_x*u_B1_x__B1_y - l_B1_y__B2_x*u_B2_x__B1_y - l_B1_y__B2_y*u_B2_y__B1_y
-        + scale_B1_y;
-    *rare |= ~(lanes_fabs(pivot_B1_y) > SINGULAR * lanes_fabs(scale_B1_y));
-    const Lanes inverse_pivot_B1_y = 1.0/pivot_B1_y;
-    lin->lu[40] = inverse_pivot_B1_y;
+    const Lanes scale_crank2_theta_ = n_crank2_theta_crank2_theta_;
+    *rare |= ~(lanes_fabs(scale_crank2_theta_) > SINGULAR * lanes_fabs(n_crank2_theta_crank2_theta_));
+    const Lanes inverse_pivot_crank2_theta_ = 1.0/scale_crank2_theta_;
+    lin->lu[0] = inverse_pivot_crank2_theta_;
+    const Lanes l_B2_x_crank2_theta_ = inverse_pivot_crank2_theta_*n_B2_x_crank2_theta_;
+    lin->lu[1] = l_B2_x_crank2_theta_;
+    const Lanes l_B2_y_crank2_theta_ = inverse_pivot_crank2_theta_*n_B2_y_crank2_theta_;
+    lin->lu[2] = l_B2_y_crank2_theta_;
+    const Lanes scale_crank0_theta_ = n_crank0_theta_crank0_theta_;
+    *rare |= ~(lanes_fabs(scale_crank0_theta_) > SINGULAR * lanes_fabs(n_crank0_theta_crank0_theta_));
+    const Lanes inverse_pivot_crank0_theta_ = 1.0/scale_crank0_theta_;
+    lin->lu[3] = inverse_pivot_crank0_theta_;
+    const Lanes l_coupler1_theta_crank0_theta_ = inverse_pivot_crank0_theta_*n_coupler1_theta_crank0_theta_;
+    lin->lu[4] = l_coupler1_theta_crank0_theta_;
+    lin->lu[5] = n_crank0_theta_coupler1_theta_;
+    const Lanes l_B1_x_crank0_theta_ = inverse_pivot_crank0_theta_*n_B1_x_crank0_theta_;
+    lin->lu[6] = l_B1_x_crank0_theta_;
+    const Lanes l_B1_y_crank0_theta_ = inverse_pivot_crank0_theta_*n_B1_y_crank0_theta_;
+    lin->lu[7] = l_B1_y_crank0_theta_;
+    const Lanes scale_coupler1_theta_ = -l_coupler1_theta_crank0_theta_*n_crank0_theta_coupler1_theta_
+        + n_coupler1_theta_coupler1_theta_;
+    *rare |= ~(lanes_fabs(scale_coupler1_theta_) > SINGULAR * lanes_fabs(n_coupler1_theta_coupler1_theta_));
+    const Lanes inverse_pivot_coupler1_theta_ = 1.0/scale_coupler1_theta_;
+    lin->lu[8] = inverse_pivot_coupler1_theta_;
+    const Lanes l_B1_x_coupler1_theta_ = inverse_pivot_coupler1_theta_
+        *(-l_B1_x_crank0_theta_*n_crank0_theta_coupler1_theta_ + n_B1_x_coupler1_theta_);
+    lin->lu[9] = l_B1_x_coupler1_theta_;
+    const Lanes u_coupler1_theta_B1_x_ = -l_coupler1_theta_crank0_theta_*phi_B1_x_crank0_theta_
+        + phi_B1_x_coupler1_theta_;
+    lin->lu[10] = u_coupler1_theta_B1_x_;
+    const Lanes l_B1_y_coupler1_theta_ = inverse_pivot_coupler1_theta_
+        *(-l_B1_y_crank0_theta_*n_crank0_theta_coupler1_theta_ + n_B1_y_coupler1_theta_);
+    lin->lu[11] = l_B1_y_coupler1_theta_;
+    const Lanes u_coupler1_theta_B1_y_ = -l_coupler1_theta_crank0_theta_*phi_B1_y_crank0_theta_
+        + phi_B1_y_coupler1_theta_;
+    lin->lu[12] = u_coupler1_theta_B1_y_;
+    const Lanes scale_coupler2_theta_ = n_coupler2_theta_coupler2_theta_;
+    *rare |= ~(lanes_fabs(scale_coupler2_theta_) > SINGULAR * lanes_fabs(n_coupler2_theta_coupler2_theta_));
+    const Lanes inverse_pivot_coupler2_theta_ = 1.0/scale_coupler2_theta_;
+    lin->lu[13] = inverse_pivot_coupler2_theta_;
+    const Lanes l_crank1_theta_coupler2_theta_ = inverse_pivot_coupler2_theta_*n_crank1_theta_coupler2_theta_;
+    lin->lu[14] = l_crank1_theta_coupler2_theta_;
+    lin->lu[15] = n_coupler2_theta_crank1_theta_;
+    const Lanes l_B2_x_coupler2_theta_ = inverse_pivot_coupler2_theta_*n_B2_x_coupler2_theta_;
+    lin->lu[16] = l_B2_x_coupler2_theta_;
+    const Lanes l_B2_y_coupler2_theta_ = inverse_pivot_coupler2_theta_*n_B2_y_coupler2_theta_;
+    lin->lu[17] = l_B2_y_coupler2_theta_;
+    const Lanes scale_crank1_theta_ = -l_crank1_theta_coupler2_theta_*n_coupler2_theta_crank1_theta_
+        + n_crank1_theta_crank1_theta_;
+    *rare |= ~(lanes_fabs(scale_crank1_theta_) > SINGULAR * lanes_fabs(n_crank1_theta_crank1_theta_));
+    const Lanes inverse_pivot_crank1_theta_ = 1.0/scale_crank1_theta_;
+    lin->lu[18] = inverse_pivot_crank1_theta_;
+    const Lanes l_B2_x_crank1_theta_ = inverse_pivot_crank1_theta_
+        *(-l_B2_x_coupler2_theta_*n_coupler2_theta_crank1_theta_ + n_B2_x_crank1_theta_);
+    lin->lu[19] = l_B2_x_crank1_theta_;
+    const Lanes u_crank1_theta_B2_x_ = -l_crank1_theta_coupler2_theta_*phi_B2_x_coupler2_theta_
+        + phi_B2_x_crank1_theta_;
+    lin->lu[20] = u_crank1_theta_B2_x_;
+    const Lanes l_B2_y_crank1_theta_ = inverse_pivot_crank1_theta_
+        *(-l_B2_y_coupler2_theta_*n_coupler2_theta_crank1_theta_ + n_B2_y_crank1_theta_);
+    lin->lu[21] = l_B2_y_crank1_theta_;
+    const Lanes u_crank1_theta_B2_y_ = -l_crank1_theta_coupler2_theta_*phi_B2_y_coupler2_theta_
+        + phi_B2_y_crank1_theta_;
+    lin->lu[22] = u_crank1_theta_B2_y_;
+    const Lanes l_B1_x_crank1_theta_ = inverse_pivot_crank1_theta_*n_B1_x_crank1_theta_;
+    lin->lu[23] = l_B1_x_crank1_theta_;
+    const Lanes l_B1_y_crank1_theta_ = inverse_pivot_crank1_theta_*n_B1_y_crank1_theta_;
+    lin->lu[24] = l_B1_y_crank1_theta_;
+    const Lanes scale_B2_x_ = -l_B2_x_coupler2_theta_*phi_B2_x_coupler2_theta_
+        - l_B2_x_crank1_theta_*u_crank1_theta_B2_x_ - l_B2_x_crank2_theta_*phi_B2_x_crank2_theta_;
+    *rare |= ~((lanes_fabs(scale_B2_x_) > 0.0) & (lanes_fabs(scale_B2_x_) < INFINITY));
+    const Lanes inverse_pivot_B2_x_ = 1.0/scale_B2_x_;
+    lin->lu[25] = inverse_pivot_B2_x_;
+    const Lanes l_B2_y_B2_x_ = inverse_pivot_B2_x_*(-l_B2_y_coupler2_theta_*phi_B2_x_coupler2_theta_
+        - l_B2_y_crank1_theta_*u_crank1_theta_B2_x_ - l_B2_y_crank2_theta_*phi_B2_x_crank2_theta_);
+    lin->lu[26] = l_B2_y_B2_x_;
+    const Lanes u_B2_x_B2_y_ = -l_B2_x_coupler2_theta_*phi_B2_y_coupler2_theta_
+        - l_B2_x_crank1_theta_*u_crank1_theta_B2_y_ - l_B2_x_crank2_theta_*phi_B2_y_crank2_theta_;
+    lin->lu[27] = u_B2_x_B2_y_;
+    const Lanes l_B1_x_B2_x_ = -inverse_pivot_B2_x_*l_B1_x_crank1_theta_*u_crank1_theta_B2_x_;
+    lin->lu[28] = l_B1_x_B2_x_;
+    const Lanes u_B2_x_B1_x_ = l_B2_x_crank1_theta_*phi_B2_x_crank1_theta_;
+    lin->lu[29] = u_B2_x_B1_x_;
+    const Lanes l_B1_y_B2_x_ = -inverse_pivot_B2_x_*l_B1_y_crank1_theta_*u_crank1_theta_B2_x_;
+    lin->lu[30] = l_B1_y_B2_x_;
+    const Lanes u_B2_x_B1_y_ = l_B2_x_crank1_theta_*phi_B2_y_crank1_theta_;
+    lin->lu[31] = u_B2_x_B1_y_;
+    const Lanes scale_B2_y_ = -l_B2_y_coupler2_theta_*phi_B2_y_coupler2_theta_
+        - l_B2_y_crank1_theta_*u_crank1_theta_B2_y_ - l_B2_y_crank2_theta_*phi_B2_y_crank2_theta_;
+    const Lanes pivot_B2_y_ = -l_B2_y_B2_x_*u_B2_x_B2_y_ + scale_B2_y_;
+    *rare |= ~(lanes_fabs(pivot_B2_y_) > SINGULAR * lanes_fabs(scale_B2_y_));
+    const Lanes inverse_pivot_B2_y_ = 1.0/pivot_B2_y_;
+    lin->lu[32] = inverse_pivot_B2_y_;
+    const Lanes l_B1_x_B2_y_ = inverse_pivot_B2_y_*(-l_B1_x_B2_x_*u_B2_x_B2_y_
+        - l_B1_x_crank1_theta_*u_crank1_theta_B2_y_);
+    lin->lu[33] = l_B1_x_B2_y_;
+    const Lanes u_B2_y_B1_x_ = -l_B2_y_B2_x_*u_B2_x_B1_x_ + l_B2_y_crank1_theta_*phi_B2_x_crank1_theta_;
+    lin->lu[34] = u_B2_y_B1_x_;
+    const Lanes l_B1_y_B2_y_ = inverse_pivot_B2_y_*(-l_B1_y_B2_x_*u_B2_x_B2_y_
+        - l_B1_y_crank1_theta_*u_crank1_theta_B2_y_);
+    lin->lu[35] = l_B1_y_B2_y_;
+    const Lanes u_B2_y_B1_y_ = -l_B2_y_B2_x_*u_B2_x_B1_y_ + l_B2_y_crank1_theta_*phi_B2_y_crank1_theta_;
+    lin->lu[36] = u_B2_y_B1_y_;
+    const Lanes scale_B1_x_ = -l_B1_x_coupler1_theta_*u_coupler1_theta_B1_x_
+        - l_B1_x_crank0_theta_*phi_B1_x_crank0_theta_ + l_B1_x_crank1_theta_*phi_B2_x_crank1_theta_;
+    const Lanes pivot_B1_x_ = -l_B1_x_B2_x_*u_B2_x_B1_x_ - l_B1_x_B2_y_*u_B2_y_B1_x_ + scale_B1_x_;
+    *rare |= ~(lanes_fabs(pivot_B1_x_) > SINGULAR * lanes_fabs(scale_B1_x_));
+    const Lanes inverse_pivot_B1_x_ = 1.0/pivot_B1_x_;
+    lin->lu[37] = inverse_pivot_B1_x_;
+    const Lanes l_B1_y_B1_x_ = inverse_pivot_B1_x_*(-l_B1_y_B2_x_*u_B2_x_B1_x_ - l_B1_y_B2_y_*u_B2_y_B1_x_
+        - l_B1_y_coupler1_theta_*u_coupler1_theta_B1_x_ - l_B1_y_crank0_theta_*phi_B1_x_crank0_theta_
+        + l_B1_y_crank1_theta_*phi_B2_x_crank1_theta_);
+    lin->lu[38] = l_B1_y_B1_x_;
+    const Lanes u_B1_x_B1_y_ = -l_B1_x_B2_x_*u_B2_x_B1_y_ - l_B1_x_B2_y_*u_B2_y_B1_y_
+        - l_B1_x_coupler1_theta_*u_coupler1_theta_B1_y_ - l_B1_x_crank0_theta_*phi_B1_y_crank0_theta_
+        + l_B1_x_crank1_theta_*phi_B2_y_crank1_theta_;
+    lin->lu[39] = u_B1_x_B1_y_;
+    const Lanes scale_B1_y_ = -l_B1_y_coupler1_theta_*u_coupler1_theta_B1_y_
+        - l_B1_y_crank0_theta_*phi_B1_y_crank0_theta_ + l_B1_y_crank1_theta_*phi_B2_y_crank1_theta_;
+    const Lanes pivot_B1_y_ = -l_B1_y_B1_x_*u_B1_x_B1_y_ - l_B1_y_B2_x_*u_B2_x_B1_y_ - l_B1_y_B2_y_*u_B2_y_B1_y_
+        + scale_B1_y_;
+    *rare |= ~(lanes_fabs(pivot_B1_y_) > SINGULAR * lanes_fabs(scale_B1_y_));
+    const Lanes inverse_pivot_B1_y_ = 1.0/pivot_B1_y_;
+    lin->lu[40] = inverse_pivot_B1_y_;
 }
 
 /*
@@ -961,98 +988,99 @@ static void newton_factor(Lanes eta, LaneLinear *lin, LaneBits *rare)
 static void newton_substitute(const LaneLinear *lin, Lanes *x)
 {
     /* linearization */
-    const Lanes phi_B2_x_crank1_theta = lin->value[2];
-    const Lanes phi_B2_x_crank2_theta = lin->value[3];
-    const Lanes phi_B2_x_coupler2_theta = lin->value[4];
-    const Lanes phi_B2_y_crank1_theta = lin->value[5];
-    const Lanes phi_B2_y_crank2_theta = lin->value[6];
-    const Lanes phi_B2_y_coupler2_theta = lin->value[7];
-    const Lanes phi_B1_x_crank0_theta = lin->value[8];
-    const Lanes phi_B1_y_crank0_theta = lin->value[10];
-    const Lanes inverse_pivot_crank2_theta = lin->lu[0];
-    const Lanes l_B2_x__crank2_theta = lin->lu[1];
-    const Lanes l_B2_y__crank2_theta = lin->lu[2];
-    const Lanes inverse_pivot_crank0_theta = lin->lu[3];
-    const Lanes l_coupler1_theta__crank0_theta = lin->lu[4];
-    const Lanes n_crank0_theta__coupler1_theta = lin->lu[5];
-    const Lanes l_B1_x__crank0_theta = lin->lu[6];
-    const Lanes l_B1_y__crank0_theta = lin->lu[7];
-    const Lanes inverse_pivot_coupler1_theta = lin->lu[8];
-    const Lanes l_B1_x__coupler1_theta = lin->lu[9];
-    const Lanes u_coupler1_theta__B1_x = lin->lu[10];
-    const Lanes l_B1_y__coupler1_theta = lin->lu[11];
-    const Lanes u_coupler1_theta__B1_y = lin->lu[12];
-    const Lanes inverse_pivot_coupler2_theta = lin->lu[13];
-    const Lanes l_crank1_theta__coupler2_theta = lin->lu[14];
-    const Lanes n_coupler2_theta__crank1_theta = lin->lu[15];
-    const Lanes l_B2_x__coupler2_theta = lin->lu[16];
-    const Lanes l_B2_y__coupler2_theta = lin->lu[17];
-    const Lanes inverse_pivot_crank1_theta = lin->lu[18];
-    const Lanes l_B2_x__crank1_theta = lin->lu[19];
-    const Lanes u_crank1_theta__B2_x = lin->lu[20];
-    const Lanes l_B2_y__crank1_theta = lin->lu[21];
-    const Lanes u_crank1_theta__B2_y = lin->lu[22];
-    const Lanes l_B1_x__crank1_theta = lin->lu[23];
-    const Lanes l_B1_y__crank1_theta = lin->lu[24];
-    const Lanes inverse_pivot_B2_x = lin->lu[25];
-    const Lanes l_B2_y__B2_x = lin->lu[26];
-    const Lanes u_B2_x__B2_y = lin->lu[27];
-    const Lanes l_B1_x__B2_x = lin->lu[28];
-    const Lanes u_B2_x__B1_x = lin->lu[29];
-    const Lanes l_B1_y__B2_x = lin->lu[30];
-    const Lanes u_B2_x__B1_y = lin->lu[31];
-    const Lanes inverse_pivot_B2_y = lin->lu[32];
-    const Lanes l_B1_x__B2_y = lin->lu[33];
-    const Lanes u_B2_y__B1_x = lin->lu[34];
-    const Lanes l_B1_y__B2_y = lin->lu[35];
-    const Lanes u_B2_y__B1_y = lin->lu[36];
-    const Lanes inverse_pivot_B1_x = lin->lu[37];
-    const Lanes l_B1_y__B1_x = lin->lu[38];
-    const Lanes u_B1_x__B1_y = lin->lu[39];
-    const Lanes inverse_pivot_B1_y = lin->lu[40];
+    const Lanes phi_B2_x_crank1_theta_ = lin->value[2];
+    const Lanes phi_B2_x_crank2_theta_ = lin->value[3];
+    const Lanes phi_B2_x_coupler2_theta_ = lin->value[4];
+    const Lanes phi_B2_y_crank1_theta_ = lin->value[5];
+    const Lanes phi_B2_y_crank2_theta_ = lin->value[6];
+    const Lanes phi_B2_y_coupler2_theta_ = lin->value[7];
+    const Lanes phi_B1_x_crank0_theta_ = lin->value[8];
+    const Lanes phi_B1_y_crank0_theta_ = lin->value[10];
+    const Lanes inverse_pivot_crank2_theta_ = lin->lu[0];
+    const Lanes l_B2_x_crank2_theta_ = lin->lu[1];
+    const Lanes l_B2_y_crank2_theta_ = lin->lu[2];
+    const Lanes inverse_pivot_crank0_theta_ = lin->lu[3];
+    const Lanes l_coupler1_theta_crank0_theta_ = lin->lu[4];
+    const Lanes n_crank0_theta_coupler1_theta_ = lin->lu[5];
+    const Lanes l_B1_x_crank0_theta_ = lin->lu[6];
+    const Lanes l_B1_y_crank0_theta_ = lin->lu[7];
+    const Lanes inverse_pivot_coupler1_theta_ = lin->lu[8];
+    const Lanes l_B1_x_coupler1_theta_ = lin->lu[9];
+    const Lanes u_coupler1_theta_B1_x_ = lin->lu[10];
+    const Lanes l_B1_y_coupler1_theta_ = lin->lu[11];
+    const Lanes u_coupler1_theta_B1_y_ = lin->lu[12];
+    const Lanes inverse_pivot_coupler2_theta_ = lin->lu[13];
+    const Lanes l_crank1_theta_coupler2_theta_ = lin->lu[14];
+    const Lanes n_coupler2_theta_crank1_theta_ = lin->lu[15];
+    const Lanes l_B2_x_coupler2_theta_ = lin->lu[16];
+    const Lanes l_B2_y_coupler2_theta_ = lin->lu[17];
+    const Lanes inverse_pivot_crank1_theta_ = lin->lu[18];
+    const Lanes l_B2_x_crank1_theta_ = lin->lu[19];
+    const Lanes u_crank1_theta_B2_x_ = lin->lu[20];
+    const Lanes l_B2_y_crank1_theta_ = lin->lu[21];
+    const Lanes u_crank1_theta_B2_y_ = lin->lu[22];
+    const Lanes l_B1_x_crank1_theta_ = lin->lu[23];
+    const Lanes l_B1_y_crank1_theta_ = lin->lu[24];
+    const Lanes inverse_pivot_B2_x_ = lin->lu[25];
+    const Lanes l_B2_y_B2_x_ = lin->lu[26];
+    const Lanes u_B2_x_B2_y_ = lin->lu[27];
+    const Lanes l_B1_x_B2_x_ = lin->lu[28];
+    const Lanes u_B2_x_B1_x_ = lin->lu[29];
+    const Lanes l_B1_y_B2_x_ = lin->lu[30];
+    const Lanes u_B2_x_B1_y_ = lin->lu[31];
+    const Lanes inverse_pivot_B2_y_ = lin->lu[32];
+    const Lanes l_B1_x_B2_y_ = lin->lu[33];
+    const Lanes u_B2_y_B1_x_ = lin->lu[34];
+    const Lanes l_B1_y_B2_y_ = lin->lu[35];
+    const Lanes u_B2_y_B1_y_ = lin->lu[36];
+    const Lanes inverse_pivot_B1_x_ = lin->lu[37];
+    const Lanes l_B1_y_B1_x_ = lin->lu[38];
+    const Lanes u_B1_x_B1_y_ = lin->lu[39];
+    const Lanes inverse_pivot_B1_y_ = lin->lu[40];
 
     /* forward */
-    const Lanes b_crank2_theta = x[2];
-    const Lanes b_crank0_theta = x[0];
-    const Lanes b_coupler1_theta = -b_crank0_theta*l_coupler1_theta__crank0_theta + x[3];
-    const Lanes b_coupler2_theta = x[4];
-    const Lanes b_crank1_theta = -b_coupler2_theta*l_crank1_theta__coupler2_theta + x[1];
-    const Lanes b_B2_x = -b_coupler2_theta*l_B2_x__coupler2_theta - b_crank1_theta*l_B2_x__crank1_theta
-        - b_crank2_theta*l_B2_x__crank2_theta + x[5];
-    const Lanes b_B2_y = -b_B2_x*l_B2_y__B2_x - b_coupler2_theta*l_B2_y__coupler2_theta
-        - b_crank1_theta*l_B2_y__crank1_theta - b_crank2_theta*l_B2_y__crank2_theta + x[6];
-    const Lanes b_B1_x = -b_B2_x*l_B1_x__B2_x - b_B2_y*l_B1_x__B2_y - b_coupler1_theta*l_B1_x__coupler1_theta
-        - b_crank0_theta*l_B1_x__crank0_theta - b_crank1_theta*l_B1_x__crank1_theta + x[7];
-    const Lanes b_B1_y = -b_B1_x*l_B1_y__B1_x - b_B2_x*l_B1_y__B2_x - b_B2_y*l_B1_y__B2_y
-        - b_coupler1_theta*l_B1_y__coupler1_theta - b_crank0_theta*l_B1_y__crank0_theta
-        - b_crank1_theta*l_B1_y__crank1_theta + x[8];
+    const Lanes b_crank2_theta_ = x[2];
+    const Lanes b_crank0_theta_ = x[0];
+    const Lanes b_coupler1_theta_ = -b_crank0_theta_*l_coupler1_theta_crank0_theta_ + x[3];
+    const Lanes b_coupler2_theta_ = x[4];
+    const Lanes b_crank1_theta_ = -b_coupler2_theta_*l_crank1_theta_coupler2_theta_ + x[1];
+    const Lanes b_B2_x_ = -b_coupler2_theta_*l_B2_x_coupler2_theta_ - b_crank1_theta_*l_B2_x_crank1_theta_
+        - b_crank2_theta_*l_B2_x_crank2_theta_ + x[5];
+    const Lanes b_B2_y_ = -b_B2_x_*l_B2_y_B2_x_ - b_coupler2_theta_*l_B2_y_coupler2_theta_
+        - b_crank1_theta_*l_B2_y_crank1_theta_ - b_crank2_theta_*l_B2_y_crank2_theta_ + x[6];
+    const Lanes b_B1_x_ = -b_B2_x_*l_B1_x_B2_x_ - b_B2_y_*l_B1_x_B2_y_ - b_coupler1_theta_*l_B1_x_coupler1_theta_
+        - b_crank0_theta_*l_B1_x_crank0_theta_ - b_crank1_theta_*l_B1_x_crank1_theta_ + x[7];
+    const Lanes b_B1_y_ = -b_B1_x_*l_B1_y_B1_x_ - b_B2_x_*l_B1_y_B2_x_ - b_B2_y_*l_B1_y_B2_y_
+        - b_coupler1_theta_*l_B1_y_coupler1_theta_ - b_crank0_theta_*l_B1_y_crank0_theta_
+        - b_crank1_theta_*l_B1_y_crank1_theta_ + x[8];
 
     /* backward */
-    const Lanes x_B1_y = b_B1_y*inverse_pivot_B1_y;
-    x[8] = x_B1_y;
-    const Lanes x_B1_x = inverse_pivot_B1_x*(b_B1_x - u_B1_x__B1_y*x_B1_y);
-    x[7] = x_B1_x;
-    const Lanes x_B2_y = inverse_pivot_B2_y*(b_B2_y - u_B2_y__B1_x*x_B1_x - u_B2_y__B1_y*x_B1_y);
-    x[6] = x_B2_y;
-    const Lanes x_B2_x = inverse_pivot_B2_x*(b_B2_x - u_B2_x__B1_x*x_B1_x - u_B2_x__B1_y*x_B1_y - u_B2_x__B2_y*x_B2_y);
-    x[5] = x_B2_x;
-    const Lanes x_crank1_theta = inverse_pivot_crank1_theta*(b_crank1_theta + phi_B2_x_crank1_theta*x_B1_x
-        + phi_B2_y_crank1_theta*x_B1_y - u_crank1_theta__B2_x*x_B2_x - u_crank1_theta__B2_y*x_B2_y);
-    x[1] = x_crank1_theta;
-    const Lanes x_coupler2_theta = inverse_pivot_coupler2_theta*(b_coupler2_theta
-        - n_coupler2_theta__crank1_theta*x_crank1_theta - phi_B2_x_coupler2_theta*x_B2_x
-        - phi_B2_y_coupler2_theta*x_B2_y);
-    x[4] = x_coupler2_theta;
-    const Lanes x_coupler1_theta = inverse_pivot_coupler1_theta*(b_coupler1_theta - u_coupler1_theta__B1_x*x_B1_x
-        - u_coupler1_theta__B1_y*x_B1_y);
-    x[3] = x_coupler1_theta;
-    const Lanes x_crank0_theta = inverse_pivot_crank0_theta*(b_crank0_theta
-        - n_crank0_theta__coupler1_theta*x_coupler1_theta - phi_B1_x_crank0_theta*x_B1_x
-        - phi_B1_y_crank0_theta*x_B1_y);
-    x[0] = x_crank0_theta;
-    const Lanes x_crank2_theta = inverse_pivot_crank2_theta*(b_crank2_theta - phi_B2_x_crank2_theta*x_B2_x
-        - phi_B2_y_crank2_theta*x_B2_y);
-    x[2] = x_crank2_theta;
+    const Lanes x_B1_y_ = b_B1_y_*inverse_pivot_B1_y_;
+    x[8] = x_B1_y_;
+    const Lanes x_B1_x_ = inverse_pivot_B1_x_*(b_B1_x_ - u_B1_x_B1_y_*x_B1_y_);
+    x[7] = x_B1_x_;
+    const Lanes x_B2_y_ = inverse_pivot_B2_y_*(b_B2_y_ - u_B2_y_B1_x_*x_B1_x_ - u_B2_y_B1_y_*x_B1_y_);
+    x[6] = x_B2_y_;
+    const Lanes x_B2_x_ = inverse_pivot_B2_x_*(b_B2_x_ - u_B2_x_B1_x_*x_B1_x_ - u_B2_x_B1_y_*x_B1_y_
+        - u_B2_x_B2_y_*x_B2_y_);
+    x[5] = x_B2_x_;
+    const Lanes x_crank1_theta_ = inverse_pivot_crank1_theta_*(b_crank1_theta_ + phi_B2_x_crank1_theta_*x_B1_x_
+        + phi_B2_y_crank1_theta_*x_B1_y_ - u_crank1_theta_B2_x_*x_B2_x_ - u_crank1_theta_B2_y_*x_B2_y_);
+    x[1] = x_crank1_theta_;
+    const Lanes x_coupler2_theta_ = inverse_pivot_coupler2_theta_*(b_coupler2_theta_
+        - n_coupler2_theta_crank1_theta_*x_crank1_theta_ - phi_B2_x_coupler2_theta_*x_B2_x_
+        - phi_B2_y_coupler2_theta_*x_B2_y_);
+    x[4] = x_coupler2_theta_;
+    const Lanes x_coupler1_theta_ = inverse_pivot_coupler1_theta_*(b_coupler1_theta_ - u_coupler1_theta_B1_x_*x_B1_x_
+        - u_coupler1_theta_B1_y_*x_B1_y_);
+    x[3] = x_coupler1_theta_;
+    const Lanes x_crank0_theta_ = inverse_pivot_crank0_theta_*(b_crank0_theta_
+        - n_crank0_theta_coupler1_theta_*x_coupler1_theta_ - phi_B1_x_crank0_theta_*x_B1_x_
+        - phi_B1_y_crank0_theta_*x_B1_y_);
+    x[0] = x_crank0_theta_;
+    const Lanes x_crank2_theta_ = inverse_pivot_crank2_theta_*(b_crank2_theta_ - phi_B2_x_crank2_theta_*x_B2_x_
+        - phi_B2_y_crank2_theta_*x_B2_y_);
+    x[2] = x_crank2_theta_;
 }
 
 /*
@@ -1065,69 +1093,69 @@ static void newton_solve(const LaneLinear *lin, Lanes eta, Lanes s, const Lanes 
     const LaneParameters *const p = lin->p;
 
     /* linearization */
-    const Lanes mass_crank0_theta_coupler1_theta = lin->value[0];
-    const Lanes mass_crank1_theta_coupler2_theta = lin->value[1];
-    const Lanes phi_B2_x_crank1_theta = lin->value[2];
-    const Lanes phi_B2_x_crank2_theta = lin->value[3];
-    const Lanes phi_B2_x_coupler2_theta = lin->value[4];
-    const Lanes phi_B2_y_crank1_theta = lin->value[5];
-    const Lanes phi_B2_y_crank2_theta = lin->value[6];
-    const Lanes phi_B2_y_coupler2_theta = lin->value[7];
-    const Lanes phi_B1_x_crank0_theta = lin->value[8];
-    const Lanes phi_B1_x_coupler1_theta = lin->value[9];
-    const Lanes phi_B1_y_crank0_theta = lin->value[10];
-    const Lanes phi_B1_y_coupler1_theta = lin->value[11];
-    const Lanes by_q_B2_x_coupler2_theta = lin->value[12];
-    const Lanes by_q_B2_x_crank1_theta = lin->value[13];
-    const Lanes by_q_B2_x_crank2_theta = lin->value[14];
-    const Lanes by_q_B2_y_coupler2_theta = lin->value[15];
-    const Lanes by_q_B2_y_crank1_theta = lin->value[16];
-    const Lanes by_q_B2_y_crank2_theta = lin->value[17];
-    const Lanes by_q_B1_x_coupler1_theta = lin->value[18];
-    const Lanes by_q_B1_x_crank0_theta = lin->value[19];
-    const Lanes by_q_B1_y_coupler1_theta = lin->value[20];
-    const Lanes by_q_B1_y_crank0_theta = lin->value[21];
-    const Lanes by_q_crank0_theta_crank0_theta = lin->value[22];
-    const Lanes by_q_crank0_theta_coupler1_theta = lin->value[23];
-    const Lanes by_q_crank1_theta_crank1_theta = lin->value[24];
-    const Lanes by_q_crank1_theta_coupler2_theta = lin->value[25];
-    const Lanes by_q_crank2_theta_crank2_theta = lin->value[26];
-    const Lanes by_q_coupler1_theta_coupler1_theta = lin->value[27];
-    const Lanes by_q_coupler1_theta_crank0_theta = lin->value[28];
-    const Lanes by_q_coupler2_theta_coupler2_theta = lin->value[29];
-    const Lanes by_q_coupler2_theta_crank1_theta = lin->value[30];
+    const Lanes mass_crank0_theta_coupler1_theta_ = lin->value[0];
+    const Lanes mass_crank1_theta_coupler2_theta_ = lin->value[1];
+    const Lanes phi_B2_x_crank1_theta_ = lin->value[2];
+    const Lanes phi_B2_x_crank2_theta_ = lin->value[3];
+    const Lanes phi_B2_x_coupler2_theta_ = lin->value[4];
+    const Lanes phi_B2_y_crank1_theta_ = lin->value[5];
+    const Lanes phi_B2_y_crank2_theta_ = lin->value[6];
+    const Lanes phi_B2_y_coupler2_theta_ = lin->value[7];
+    const Lanes phi_B1_x_crank0_theta_ = lin->value[8];
+    const Lanes phi_B1_x_coupler1_theta_ = lin->value[9];
+    const Lanes phi_B1_y_crank0_theta_ = lin->value[10];
+    const Lanes phi_B1_y_coupler1_theta_ = lin->value[11];
+    const Lanes by_q_B2_x_coupler2_theta_ = lin->value[12];
+    const Lanes by_q_B2_x_crank1_theta_ = lin->value[13];
+    const Lanes by_q_B2_x_crank2_theta_ = lin->value[14];
+    const Lanes by_q_B2_y_coupler2_theta_ = lin->value[15];
+    const Lanes by_q_B2_y_crank1_theta_ = lin->value[16];
+    const Lanes by_q_B2_y_crank2_theta_ = lin->value[17];
+    const Lanes by_q_B1_x_coupler1_theta_ = lin->value[18];
+    const Lanes by_q_B1_x_crank0_theta_ = lin->value[19];
+    const Lanes by_q_B1_y_coupler1_theta_ = lin->value[20];
+    const Lanes by_q_B1_y_crank0_theta_ = lin->value[21];
+    const Lanes by_q_crank0_theta_crank0_theta_ = lin->value[22];
+    const Lanes by_q_crank0_theta_coupler1_theta_ = lin->value[23];
+    const Lanes by_q_crank1_theta_crank1_theta_ = lin->value[24];
+    const Lanes by_q_crank1_theta_coupler2_theta_ = lin->value[25];
+    const Lanes by_q_crank2_theta_crank2_theta_ = lin->value[26];
+    const Lanes by_q_coupler1_theta_coupler1_theta_ = lin->value[27];
+    const Lanes by_q_coupler1_theta_crank0_theta_ = lin->value[28];
+    const Lanes by_q_coupler2_theta_coupler2_theta_ = lin->value[29];
+    const Lanes by_q_coupler2_theta_crank1_theta_ = lin->value[30];
 
     /* eta/kappa */
-    const Lanes eta_row = eta/(eta*(p->beta_squared*eta + p->two_alpha) + 1.0);
+    const Lanes eta_row = eta/(eta*(p->beta_squared_*eta + p->two_alpha_) + 1.0);
 
     /* right-hand side */
     Lanes x[9];
-    const Lanes shifted_crank0_theta = -p->beta_squared*eta*r[0] + r[5];
-    const Lanes shifted_crank1_theta = -p->beta_squared*eta*r[1] + r[6];
-    const Lanes shifted_crank2_theta = -p->beta_squared*eta*r[2] + r[7];
-    const Lanes shifted_coupler1_theta = -p->beta_squared*eta*r[3] + r[8];
-    const Lanes shifted_coupler2_theta = -p->beta_squared*eta*r[4] + r[9];
-    x[0] = eta*(-by_q_crank0_theta_coupler1_theta*eta*r[3] - by_q_crank0_theta_crank0_theta*eta*r[0]
-        + p->mass_crank0_crank0*r[5] + mass_crank0_theta_coupler1_theta*r[8]);
-    x[1] = eta*(-by_q_crank1_theta_coupler2_theta*eta*r[4] - by_q_crank1_theta_crank1_theta*eta*r[1]
-        + p->mass_crank1_crank1*r[6] + mass_crank1_theta_coupler2_theta*r[9]);
-    x[2] = eta*(-by_q_crank2_theta_crank2_theta*eta*r[2] + p->mass_crank2_crank2*r[7]);
-    x[3] = eta*(-by_q_coupler1_theta_coupler1_theta*eta*r[3] - by_q_coupler1_theta_crank0_theta*eta*r[0]
-        + p->mass_coupler1_coupler1*r[8] + mass_crank0_theta_coupler1_theta*r[5]);
-    x[4] = eta*(-by_q_coupler2_theta_coupler2_theta*eta*r[4] - by_q_coupler2_theta_crank1_theta*eta*r[1]
-        + p->mass_coupler2_coupler2*r[9] + mass_crank1_theta_coupler2_theta*r[6]);
-    x[5] = eta_row*(-by_q_B2_x_coupler2_theta*eta*r[4] - by_q_B2_x_crank1_theta*eta*r[1]
-        - by_q_B2_x_crank2_theta*eta*r[2] + phi_B2_x_coupler2_theta*shifted_coupler2_theta
-        + phi_B2_x_crank1_theta*shifted_crank1_theta + phi_B2_x_crank2_theta*shifted_crank2_theta);
-    x[6] = eta_row*(-by_q_B2_y_coupler2_theta*eta*r[4] - by_q_B2_y_crank1_theta*eta*r[1]
-        - by_q_B2_y_crank2_theta*eta*r[2] + phi_B2_y_coupler2_theta*shifted_coupler2_theta
-        + phi_B2_y_crank1_theta*shifted_crank1_theta + phi_B2_y_crank2_theta*shifted_crank2_theta);
-    x[7] = eta_row*(-by_q_B1_x_coupler1_theta*eta*r[3] - by_q_B1_x_crank0_theta*eta*r[0]
-        + by_q_B2_x_crank1_theta*eta*r[1] + phi_B1_x_coupler1_theta*shifted_coupler1_theta
-        + phi_B1_x_crank0_theta*shifted_crank0_theta - phi_B2_x_crank1_theta*shifted_crank1_theta);
-    x[8] = eta_row*(-by_q_B1_y_coupler1_theta*eta*r[3] - by_q_B1_y_crank0_theta*eta*r[0]
-        + by_q_B2_y_crank1_theta*eta*r[1] + phi_B1_y_coupler1_theta*shifted_coupler1_theta
-        + phi_B1_y_crank0_theta*shifted_crank0_theta - phi_B2_y_crank1_theta*shifted_crank1_theta);
+    const Lanes shifted_crank0_theta_ = -p->beta_squared_*eta*r[0] + r[5];
+    const Lanes shifted_crank1_theta_ = -p->beta_squared_*eta*r[1] + r[6];
+    const Lanes shifted_crank2_theta_ = -p->beta_squared_*eta*r[2] + r[7];
+    const Lanes shifted_coupler1_theta_ = -p->beta_squared_*eta*r[3] + r[8];
+    const Lanes shifted_coupler2_theta_ = -p->beta_squared_*eta*r[4] + r[9];
+    x[0] = eta*(-by_q_crank0_theta_coupler1_theta_*eta*r[3] - by_q_crank0_theta_crank0_theta_*eta*r[0]
+        + p->mass_crank0_crank0_*r[5] + mass_crank0_theta_coupler1_theta_*r[8]);
+    x[1] = eta*(-by_q_crank1_theta_coupler2_theta_*eta*r[4] - by_q_crank1_theta_crank1_theta_*eta*r[1]
+        + p->mass_crank1_crank1_*r[6] + mass_crank1_theta_coupler2_theta_*r[9]);
+    x[2] = eta*(-by_q_crank2_theta_crank2_theta_*eta*r[2] + p->mass_crank2_crank2_*r[7]);
+    x[3] = eta*(-by_q_coupler1_theta_coupler1_theta_*eta*r[3] - by_q_coupler1_theta_crank0_theta_*eta*r[0]
+        + p->mass_coupler1_coupler1_*r[8] + mass_crank0_theta_coupler1_theta_*r[5]);
+    x[4] = eta*(-by_q_coupler2_theta_coupler2_theta_*eta*r[4] - by_q_coupler2_theta_crank1_theta_*eta*r[1]
+        + p->mass_coupler2_coupler2_*r[9] + mass_crank1_theta_coupler2_theta_*r[6]);
+    x[5] = eta_row*(-by_q_B2_x_coupler2_theta_*eta*r[4] - by_q_B2_x_crank1_theta_*eta*r[1]
+        - by_q_B2_x_crank2_theta_*eta*r[2] + phi_B2_x_coupler2_theta_*shifted_coupler2_theta_
+        + phi_B2_x_crank1_theta_*shifted_crank1_theta_ + phi_B2_x_crank2_theta_*shifted_crank2_theta_);
+    x[6] = eta_row*(-by_q_B2_y_coupler2_theta_*eta*r[4] - by_q_B2_y_crank1_theta_*eta*r[1]
+        - by_q_B2_y_crank2_theta_*eta*r[2] + phi_B2_y_coupler2_theta_*shifted_coupler2_theta_
+        + phi_B2_y_crank1_theta_*shifted_crank1_theta_ + phi_B2_y_crank2_theta_*shifted_crank2_theta_);
+    x[7] = eta_row*(-by_q_B1_x_coupler1_theta_*eta*r[3] - by_q_B1_x_crank0_theta_*eta*r[0]
+        + by_q_B2_x_crank1_theta_*eta*r[1] + phi_B1_x_coupler1_theta_*shifted_coupler1_theta_
+        + phi_B1_x_crank0_theta_*shifted_crank0_theta_ - phi_B2_x_crank1_theta_*shifted_crank1_theta_);
+    x[8] = eta_row*(-by_q_B1_y_coupler1_theta_*eta*r[3] - by_q_B1_y_crank0_theta_*eta*r[0]
+        + by_q_B2_y_crank1_theta_*eta*r[1] + phi_B1_y_coupler1_theta_*shifted_coupler1_theta_
+        + phi_B1_y_crank0_theta_*shifted_crank0_theta_ - phi_B2_y_crank1_theta_*shifted_crank1_theta_);
     newton_substitute(lin, x);
 
     /* solution */

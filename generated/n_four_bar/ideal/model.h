@@ -50,6 +50,7 @@
 #define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
 #define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
 #define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
+#define LIGHT_PIVOT 1e-06                     /* of what turns with an angle, where its inertia is too small for it */
 #define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
 typedef struct Parameters Parameters; /* every number of a run */
@@ -63,6 +64,7 @@ static const int guess_place[] = {5, 8, 11, 14};
 static const int set_place[] = {2};
 static const int rate_place[] = {2};
 static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+static const int drive_row[] = {0};
 static const int kept_row[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13};
 static const int phi_q_first[] = {0, 2, 4, 6, 8, 10, 12, 16, 20, 24, 28, 32, 36, 40, 44};
 static const short phi_q_place[] = {0, 2, 1, 2, 3, 5, 4, 5, 6, 8, 7, 8, 0, 2, 9, 11, 1, 2, 10, 11, 9, 11, 3, 5, 10, 11,
@@ -77,82 +79,79 @@ static const int friction_of_pivot[] = {0};
 
 /* In SI: first the slots that a user may set, then what prepare() derives. */
 struct Parameters {
-    double length;  /* parameters.length, m */
-    double mass;  /* parameters.mass, kg */
-    double inertia;  /* parameters.inertia, kg*m^2 */
-    double crank0_mass;  /* bodies.crank0.mass, kg */
-    double crank0_inertia;  /* bodies.crank0.inertia, kg*m^2 */
-    double crank1_mass;  /* bodies.crank1.mass, kg */
-    double crank1_inertia;  /* bodies.crank1.inertia, kg*m^2 */
-    double crank2_mass;  /* bodies.crank2.mass, kg */
-    double crank2_inertia;  /* bodies.crank2.inertia, kg*m^2 */
-    double coupler1_mass;  /* bodies.coupler1.mass, kg */
-    double coupler1_inertia;  /* bodies.coupler1.inertia, kg*m^2 */
-    double coupler2_mass;  /* bodies.coupler2.mass, kg */
-    double coupler2_inertia;  /* bodies.coupler2.inertia, kg*m^2 */
-    double crank0_length;  /* bodies.crank0.length, m */
-    double crank1_length;  /* bodies.crank1.length, m */
-    double crank2_length;  /* bodies.crank2.length, m */
-    double coupler1_length;  /* bodies.coupler1.length, m */
-    double coupler2_length;  /* bodies.coupler2.length, m */
-    double alpha;  /* baumgarte.alpha, 1/s */
-    double beta;  /* baumgarte.beta, 1/s */
-    double O1_x;  /* ground.O1.x, m */
-    double O2_x;  /* ground.O2.x, m */
-    double gravity_y;  /* gravity.y, m/s^2 */
-    double guess_crank1_theta;  /* start.guess.crank1.theta, rad */
-    double guess_crank2_theta;  /* start.guess.crank2.theta, rad */
-    double guess_coupler1_theta;  /* start.guess.coupler1.theta, rad */
-    double guess_coupler2_theta;  /* start.guess.coupler2.theta, rad */
-    double set_crank0_theta;  /* start.set.crank0.theta, rad */
-    double rates_crank0_omega;  /* start.rates.crank0.omega, 1/s */
-    double crank0_head_s_x;  /* point from the centre of mass, m */
-    double crank1_head_s_x;  /* point from the centre of mass, m */
-    double crank2_head_s_x;  /* point from the centre of mass, m */
-    double coupler1_head_s_x;  /* point from the centre of mass, m */
-    double coupler2_head_s_x;  /* point from the centre of mass, m */
-    double weight_crank0_y;  /* weight, N */
-    double weight_crank1_y;  /* weight, N */
-    double weight_crank2_y;  /* weight, N */
-    double weight_coupler1_y;  /* weight, N */
-    double weight_coupler2_y;  /* weight, N */
-    double two_alpha;  /* 2 alpha, 1/s */
-    double beta_squared;  /* beta^2, 1/s^2 */
-    double inverse_crank0_mass;  /* 1/M, 1/kg */
-    double inverse_crank2_mass;  /* 1/M, 1/kg */
-    double inverse_coupler1_mass;  /* 1/M, 1/kg */
-    double inverse_coupler2_mass;  /* 1/M, 1/kg */
-    double inverse_crank1_mass;  /* 1/M, 1/kg */
-    double inverse_crank0_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_crank2_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_coupler1_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_coupler2_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_crank1_inertia;  /* 1/M, 1/(kg*m^2) */
-    double crank0_head_span_x;  /* vector in its frame, m */
-    double crank1_head_span_x;  /* vector in its frame, m */
-    double coupler2_head_span_x;  /* vector in its frame, m */
-    double crank2_head_span_x;  /* vector in its frame, m */
-    double coupler1_head_span_x;  /* vector in its frame, m */
-    double inertia_crank0_crank0;  /* sum of m w.w, kg*m^2 */
-    double inertia_crank1_crank1;  /* sum of m w.w, kg*m^2 */
-    double inertia_crank2_crank2;  /* sum of m w.w, kg*m^2 */
-    double inertia_crank0_coupler1;  /* sum of m w.w, kg*m^2 */
-    double inertia_coupler1_coupler1;  /* sum of m w.w, kg*m^2 */
-    double inertia_crank1_coupler2;  /* sum of m w.w, kg*m^2 */
-    double inertia_coupler2_coupler2;  /* sum of m w.w, kg*m^2 */
-    double mass_crank0_crank0;  /* constant of M, kg*m^2 */
-    double mass_crank1_crank1;  /* constant of M, kg*m^2 */
-    double mass_crank2_crank2;  /* constant of M, kg*m^2 */
-    double mass_coupler1_coupler1;  /* constant of M, kg*m^2 */
-    double mass_coupler2_coupler2;  /* constant of M, kg*m^2 */
-    double weight_crank0__across;  /* weight, N*m */
-    double weight_crank1__across;  /* weight, N*m */
-    double weight_crank2__across;  /* weight, N*m */
-    double weight_coupler1__across;  /* weight, N*m */
-    double weight_coupler2__across;  /* weight, N*m */
-    double inverse_mass_crank2_crank2;  /* 1/M, 1/(kg*m^2) */
-    double inverse_mass_coupler2_coupler2;  /* 1/M, 1/(kg*m^2) */
-    double inverse_mass_crank0_crank0;  /* 1/M, 1/(kg*m^2) */
+    double length_;  /* parameters.length, m */
+    double mass_;  /* parameters.mass, kg */
+    double inertia_;  /* parameters.inertia, kg*m^2 */
+    double crank0_mass_;  /* bodies.crank0.mass, kg */
+    double crank0_inertia_;  /* bodies.crank0.inertia, kg*m^2 */
+    double crank1_mass_;  /* bodies.crank1.mass, kg */
+    double crank1_inertia_;  /* bodies.crank1.inertia, kg*m^2 */
+    double crank2_mass_;  /* bodies.crank2.mass, kg */
+    double crank2_inertia_;  /* bodies.crank2.inertia, kg*m^2 */
+    double coupler1_mass_;  /* bodies.coupler1.mass, kg */
+    double coupler1_inertia_;  /* bodies.coupler1.inertia, kg*m^2 */
+    double coupler2_mass_;  /* bodies.coupler2.mass, kg */
+    double coupler2_inertia_;  /* bodies.coupler2.inertia, kg*m^2 */
+    double crank0_length_;  /* bodies.crank0.length, m */
+    double crank1_length_;  /* bodies.crank1.length, m */
+    double crank2_length_;  /* bodies.crank2.length, m */
+    double coupler1_length_;  /* bodies.coupler1.length, m */
+    double coupler2_length_;  /* bodies.coupler2.length, m */
+    double alpha_;  /* baumgarte.alpha, 1/s */
+    double beta_;  /* baumgarte.beta, 1/s */
+    double O1_x_;  /* ground.O1.x, m */
+    double O2_x_;  /* ground.O2.x, m */
+    double gravity_y_;  /* gravity.y, m/s^2 */
+    double guess_crank1_theta_;  /* start.guess.crank1.theta, rad */
+    double guess_crank2_theta_;  /* start.guess.crank2.theta, rad */
+    double guess_coupler1_theta_;  /* start.guess.coupler1.theta, rad */
+    double guess_coupler2_theta_;  /* start.guess.coupler2.theta, rad */
+    double set_crank0_theta_;  /* start.set.crank0.theta, rad */
+    double rates_crank0_omega_;  /* start.rates.crank0.omega, 1/s */
+    double crank0_head_s_x_;  /* point from the centre of mass, m */
+    double crank1_head_s_x_;  /* point from the centre of mass, m */
+    double crank2_head_s_x_;  /* point from the centre of mass, m */
+    double coupler1_head_s_x_;  /* point from the centre of mass, m */
+    double coupler2_head_s_x_;  /* point from the centre of mass, m */
+    double weight_crank0_y_;  /* weight, N */
+    double weight_crank1_y_;  /* weight, N */
+    double weight_crank2_y_;  /* weight, N */
+    double weight_coupler1_y_;  /* weight, N */
+    double weight_coupler2_y_;  /* weight, N */
+    double crank2_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double crank0_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double coupler1_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double coupler2_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double crank1_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double two_alpha_;  /* 2 alpha, 1/s */
+    double beta_squared_;  /* beta^2, 1/s^2 */
+    double mobility_B1_x_;  /* 1/m of the bodies of a row, 1/kg */
+    double mobility_B2_x_;  /* 1/m of the bodies of a row, 1/kg */
+    double crank0_head_span_x_;  /* vector in its frame, m */
+    double crank1_head_span_x_;  /* vector in its frame, m */
+    double coupler2_head_span_x_;  /* vector in its frame, m */
+    double crank2_head_span_x_;  /* vector in its frame, m */
+    double coupler1_head_span_x_;  /* vector in its frame, m */
+    double inertia_crank0_crank0_;  /* sum of m w.w, kg*m^2 */
+    double inertia_crank1_crank1_;  /* sum of m w.w, kg*m^2 */
+    double inertia_crank2_crank2_;  /* sum of m w.w, kg*m^2 */
+    double inertia_crank0_coupler1_;  /* sum of m w.w, kg*m^2 */
+    double inertia_coupler1_coupler1_;  /* sum of m w.w, kg*m^2 */
+    double inertia_crank1_coupler2_;  /* sum of m w.w, kg*m^2 */
+    double inertia_coupler2_coupler2_;  /* sum of m w.w, kg*m^2 */
+    double mass_crank0_crank0_;  /* constant of M, kg*m^2 */
+    double mass_crank1_crank1_;  /* constant of M, kg*m^2 */
+    double mass_crank2_crank2_;  /* constant of M, kg*m^2 */
+    double mass_coupler1_coupler1_;  /* constant of M, kg*m^2 */
+    double mass_coupler2_coupler2_;  /* constant of M, kg*m^2 */
+    double weight_crank0_across_;  /* weight, N*m */
+    double weight_crank1_across_;  /* weight, N*m */
+    double weight_crank2_across_;  /* weight, N*m */
+    double weight_coupler1_across_;  /* weight, N*m */
+    double weight_coupler2_across_;  /* weight, N*m */
+    double inverse_mass_crank2_crank2_;  /* 1/M, 1/(kg*m^2) */
+    double inverse_mass_coupler2_coupler2_;  /* 1/M, 1/(kg*m^2) */
+    double inverse_mass_crank0_crank0_;  /* 1/M, 1/(kg*m^2) */
 };
 
 /* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */

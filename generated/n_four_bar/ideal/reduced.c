@@ -5,101 +5,101 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double crank0_theta = q[0];
-    const double crank0_omega = v[0];
-    const double crank1_theta = q[1];
-    const double crank1_omega = v[1];
-    const double crank2_theta = q[2];
-    const double crank2_omega = v[2];
-    const double coupler1_theta = q[3];
-    const double coupler1_omega = v[3];
-    const double coupler2_theta = q[4];
-    const double coupler2_omega = v[4];
+    const double crank0_theta_ = q[0];
+    const double crank0_omega_ = v[0];
+    const double crank1_theta_ = q[1];
+    const double crank1_omega_ = v[1];
+    const double crank2_theta_ = q[2];
+    const double crank2_omega_ = v[2];
+    const double coupler1_theta_ = q[3];
+    const double coupler1_omega_ = v[3];
+    const double coupler2_theta_ = q[4];
+    const double coupler2_omega_ = v[4];
 
     /* directions, arms, drives */
-    const Four angles_0 = {crank0_theta, crank1_theta, crank2_theta, coupler1_theta};
+    const Four angles_0 = {crank0_theta_, crank1_theta_, crank2_theta_, coupler1_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const Four angles_1 = {coupler2_theta, coupler2_theta, coupler2_theta, coupler2_theta};
+    const Four angles_1 = {coupler2_theta_, coupler2_theta_, coupler2_theta_, coupler2_theta_};
     Four sines_1, cosines_1;
     sines_and_cosines(&angles_1, &sines_1, &cosines_1);
-    const double cos_theta_crank0 = cosines_0[0];
-    const double sin_theta_crank0 = sines_0[0];
-    const double cos_theta_crank1 = cosines_0[1];
-    const double sin_theta_crank1 = sines_0[1];
-    const double cos_theta_crank2 = cosines_0[2];
-    const double sin_theta_crank2 = sines_0[2];
-    const double cos_theta_coupler1 = cosines_0[3];
-    const double sin_theta_coupler1 = sines_0[3];
-    const double cos_theta_coupler2 = cosines_1[0];
-    const double sin_theta_coupler2 = sines_1[0];
-    const double span_crank0_com_x = cos_theta_crank0*p->crank0_head_s_x;
-    const double span_crank0_com_y = p->crank0_head_s_x*sin_theta_crank0;
-    const double crank0_vx = -crank0_omega*span_crank0_com_y;
-    const double crank0_vy = crank0_omega*span_crank0_com_x;
-    const double span_crank1_com_x = cos_theta_crank1*p->crank1_head_s_x;
-    const double span_crank1_com_y = p->crank1_head_s_x*sin_theta_crank1;
-    const double crank1_x = p->O1_x + span_crank1_com_x;
-    const double crank1_vx = -crank1_omega*span_crank1_com_y;
-    const double crank1_vy = crank1_omega*span_crank1_com_x;
-    const double span_crank2_com_x = cos_theta_crank2*p->crank2_head_s_x;
-    const double span_crank2_com_y = p->crank2_head_s_x*sin_theta_crank2;
-    const double crank2_x = p->O2_x + span_crank2_com_x;
-    const double crank2_vx = -crank2_omega*span_crank2_com_y;
-    const double crank2_vy = crank2_omega*span_crank2_com_x;
-    const double span_crank0_head_x = cos_theta_crank0*p->crank0_head_span_x;
-    const double span_crank0_head_y = p->crank0_head_span_x*sin_theta_crank0;
-    const double crank0_head_vx = -crank0_omega*span_crank0_head_y;
-    const double crank0_head_vy = crank0_omega*span_crank0_head_x;
-    const double span_coupler1_com_x = cos_theta_coupler1*p->coupler1_head_s_x;
-    const double span_coupler1_com_y = p->coupler1_head_s_x*sin_theta_coupler1;
-    const double coupler1_x = span_coupler1_com_x + span_crank0_head_x;
-    const double coupler1_vx = -coupler1_omega*span_coupler1_com_y + crank0_head_vx;
-    const double coupler1_y = span_coupler1_com_y + span_crank0_head_y;
-    const double coupler1_vy = coupler1_omega*span_coupler1_com_x + crank0_head_vy;
-    const double span_crank1_head_x = cos_theta_crank1*p->crank1_head_span_x;
-    const double span_crank1_head_y = p->crank1_head_span_x*sin_theta_crank1;
-    const double crank1_head_x = p->O1_x + span_crank1_head_x;
-    const double crank1_head_vx = -crank1_omega*span_crank1_head_y;
-    const double crank1_head_vy = crank1_omega*span_crank1_head_x;
-    const double span_coupler2_com_x = cos_theta_coupler2*p->coupler2_head_s_x;
-    const double span_coupler2_com_y = p->coupler2_head_s_x*sin_theta_coupler2;
-    const double coupler2_x = crank1_head_x + span_coupler2_com_x;
-    const double coupler2_vx = -coupler2_omega*span_coupler2_com_y + crank1_head_vx;
-    const double coupler2_y = span_coupler2_com_y + span_crank1_head_y;
-    const double coupler2_vy = coupler2_omega*span_coupler2_com_x + crank1_head_vy;
+    const double cos_theta_crank0_ = cosines_0[0];
+    const double sin_theta_crank0_ = sines_0[0];
+    const double cos_theta_crank1_ = cosines_0[1];
+    const double sin_theta_crank1_ = sines_0[1];
+    const double cos_theta_crank2_ = cosines_0[2];
+    const double sin_theta_crank2_ = sines_0[2];
+    const double cos_theta_coupler1_ = cosines_0[3];
+    const double sin_theta_coupler1_ = sines_0[3];
+    const double cos_theta_coupler2_ = cosines_1[0];
+    const double sin_theta_coupler2_ = sines_1[0];
+    const double span_crank0_com_x_ = cos_theta_crank0_*p->crank0_head_s_x_;
+    const double span_crank0_com_y_ = p->crank0_head_s_x_*sin_theta_crank0_;
+    const double crank0_vx_ = -crank0_omega_*span_crank0_com_y_;
+    const double crank0_vy_ = crank0_omega_*span_crank0_com_x_;
+    const double span_crank1_com_x_ = cos_theta_crank1_*p->crank1_head_s_x_;
+    const double span_crank1_com_y_ = p->crank1_head_s_x_*sin_theta_crank1_;
+    const double crank1_x_ = p->O1_x_ + span_crank1_com_x_;
+    const double crank1_vx_ = -crank1_omega_*span_crank1_com_y_;
+    const double crank1_vy_ = crank1_omega_*span_crank1_com_x_;
+    const double span_crank2_com_x_ = cos_theta_crank2_*p->crank2_head_s_x_;
+    const double span_crank2_com_y_ = p->crank2_head_s_x_*sin_theta_crank2_;
+    const double crank2_x_ = p->O2_x_ + span_crank2_com_x_;
+    const double crank2_vx_ = -crank2_omega_*span_crank2_com_y_;
+    const double crank2_vy_ = crank2_omega_*span_crank2_com_x_;
+    const double span_crank0_head_x_ = cos_theta_crank0_*p->crank0_head_span_x_;
+    const double span_crank0_head_y_ = p->crank0_head_span_x_*sin_theta_crank0_;
+    const double crank0_head_vx_ = -crank0_omega_*span_crank0_head_y_;
+    const double crank0_head_vy_ = crank0_omega_*span_crank0_head_x_;
+    const double span_coupler1_com_x_ = cos_theta_coupler1_*p->coupler1_head_s_x_;
+    const double span_coupler1_com_y_ = p->coupler1_head_s_x_*sin_theta_coupler1_;
+    const double coupler1_x_ = span_coupler1_com_x_ + span_crank0_head_x_;
+    const double coupler1_vx_ = -coupler1_omega_*span_coupler1_com_y_ + crank0_head_vx_;
+    const double coupler1_y_ = span_coupler1_com_y_ + span_crank0_head_y_;
+    const double coupler1_vy_ = coupler1_omega_*span_coupler1_com_x_ + crank0_head_vy_;
+    const double span_crank1_head_x_ = cos_theta_crank1_*p->crank1_head_span_x_;
+    const double span_crank1_head_y_ = p->crank1_head_span_x_*sin_theta_crank1_;
+    const double crank1_head_x_ = p->O1_x_ + span_crank1_head_x_;
+    const double crank1_head_vx_ = -crank1_omega_*span_crank1_head_y_;
+    const double crank1_head_vy_ = crank1_omega_*span_crank1_head_x_;
+    const double span_coupler2_com_x_ = cos_theta_coupler2_*p->coupler2_head_s_x_;
+    const double span_coupler2_com_y_ = p->coupler2_head_s_x_*sin_theta_coupler2_;
+    const double coupler2_x_ = crank1_head_x_ + span_coupler2_com_x_;
+    const double coupler2_vx_ = -coupler2_omega_*span_coupler2_com_y_ + crank1_head_vx_;
+    const double coupler2_y_ = span_coupler2_com_y_ + span_crank1_head_y_;
+    const double coupler2_vy_ = coupler2_omega_*span_coupler2_com_x_ + crank1_head_vy_;
 
     /* bodies */
-    all_q[0] = span_crank0_com_x;
-    all_v[0] = crank0_vx;
-    all_q[1] = span_crank0_com_y;
-    all_v[1] = crank0_vy;
-    all_q[2] = crank0_theta;
-    all_v[2] = crank0_omega;
-    all_q[3] = crank1_x;
-    all_v[3] = crank1_vx;
-    all_q[4] = span_crank1_com_y;
-    all_v[4] = crank1_vy;
-    all_q[5] = crank1_theta;
-    all_v[5] = crank1_omega;
-    all_q[6] = crank2_x;
-    all_v[6] = crank2_vx;
-    all_q[7] = span_crank2_com_y;
-    all_v[7] = crank2_vy;
-    all_q[8] = crank2_theta;
-    all_v[8] = crank2_omega;
-    all_q[9] = coupler1_x;
-    all_v[9] = coupler1_vx;
-    all_q[10] = coupler1_y;
-    all_v[10] = coupler1_vy;
-    all_q[11] = coupler1_theta;
-    all_v[11] = coupler1_omega;
-    all_q[12] = coupler2_x;
-    all_v[12] = coupler2_vx;
-    all_q[13] = coupler2_y;
-    all_v[13] = coupler2_vy;
-    all_q[14] = coupler2_theta;
-    all_v[14] = coupler2_omega;
+    all_q[0] = span_crank0_com_x_;
+    all_v[0] = crank0_vx_;
+    all_q[1] = span_crank0_com_y_;
+    all_v[1] = crank0_vy_;
+    all_q[2] = crank0_theta_;
+    all_v[2] = crank0_omega_;
+    all_q[3] = crank1_x_;
+    all_v[3] = crank1_vx_;
+    all_q[4] = span_crank1_com_y_;
+    all_v[4] = crank1_vy_;
+    all_q[5] = crank1_theta_;
+    all_v[5] = crank1_omega_;
+    all_q[6] = crank2_x_;
+    all_v[6] = crank2_vx_;
+    all_q[7] = span_crank2_com_y_;
+    all_v[7] = crank2_vy_;
+    all_q[8] = crank2_theta_;
+    all_v[8] = crank2_omega_;
+    all_q[9] = coupler1_x_;
+    all_v[9] = coupler1_vx_;
+    all_q[10] = coupler1_y_;
+    all_v[10] = coupler1_vy_;
+    all_q[11] = coupler1_theta_;
+    all_v[11] = coupler1_omega_;
+    all_q[12] = coupler2_x_;
+    all_v[12] = coupler2_vx_;
+    all_q[13] = coupler2_y_;
+    all_v[13] = coupler2_vy_;
+    all_q[14] = coupler2_theta_;
+    all_v[14] = coupler2_omega_;
 }
 
 /*
@@ -109,28 +109,28 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 {
     (void)t, (void)p;
     /* coordinates, velocities, time */
-    const double crank0_theta = q[2];
-    const double crank0_omega = v[2];
-    const double crank1_theta = q[5];
-    const double crank1_omega = v[5];
-    const double crank2_theta = q[8];
-    const double crank2_omega = v[8];
-    const double coupler1_theta = q[11];
-    const double coupler1_omega = v[11];
-    const double coupler2_theta = q[14];
-    const double coupler2_omega = v[14];
+    const double crank0_theta_ = q[2];
+    const double crank0_omega_ = v[2];
+    const double crank1_theta_ = q[5];
+    const double crank1_omega_ = v[5];
+    const double crank2_theta_ = q[8];
+    const double crank2_omega_ = v[8];
+    const double coupler1_theta_ = q[11];
+    const double coupler1_omega_ = v[11];
+    const double coupler2_theta_ = q[14];
+    const double coupler2_omega_ = v[14];
 
     /* tree coordinates */
-    s[0] = crank0_theta;  /* crank0 */
-    s_rate[0] = crank0_omega;
-    s[1] = crank1_theta;  /* crank1 */
-    s_rate[1] = crank1_omega;
-    s[2] = crank2_theta;  /* crank2 */
-    s_rate[2] = crank2_omega;
-    s[3] = coupler1_theta;  /* coupler1 */
-    s_rate[3] = coupler1_omega;
-    s[4] = coupler2_theta;  /* coupler2 */
-    s_rate[4] = coupler2_omega;
+    s[0] = crank0_theta_;  /* crank0 */
+    s_rate[0] = crank0_omega_;
+    s[1] = crank1_theta_;  /* crank1 */
+    s_rate[1] = crank1_omega_;
+    s[2] = crank2_theta_;  /* crank2 */
+    s_rate[2] = crank2_omega_;
+    s[3] = coupler1_theta_;  /* coupler1 */
+    s_rate[3] = coupler1_omega_;
+    s[4] = coupler2_theta_;  /* coupler2 */
+    s_rate[4] = coupler2_omega_;
 }
 
 /*
@@ -155,45 +155,45 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double crank0_theta = q[0];
-    const double crank1_theta = q[1];
-    const double crank2_theta = q[2];
-    const double coupler1_theta = q[3];
-    const double coupler2_theta = q[4];
+    const double crank0_theta_ = q[0];
+    const double crank1_theta_ = q[1];
+    const double crank2_theta_ = q[2];
+    const double coupler1_theta_ = q[3];
+    const double coupler2_theta_ = q[4];
 
     /* directions, arms, drives */
-    const Four angles_0 = {crank0_theta, crank1_theta, crank2_theta, coupler1_theta};
+    const Four angles_0 = {crank0_theta_, crank1_theta_, crank2_theta_, coupler1_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const Four angles_1 = {coupler2_theta, coupler2_theta, coupler2_theta, coupler2_theta};
+    const Four angles_1 = {coupler2_theta_, coupler2_theta_, coupler2_theta_, coupler2_theta_};
     Four sines_1, cosines_1;
     sines_and_cosines(&angles_1, &sines_1, &cosines_1);
-    const double cos_theta_crank0 = cosines_0[0];
-    const double sin_theta_crank0 = sines_0[0];
-    const double cos_theta_crank1 = cosines_0[1];
-    const double sin_theta_crank1 = sines_0[1];
-    const double cos_theta_crank2 = cosines_0[2];
-    const double sin_theta_crank2 = sines_0[2];
-    const double cos_theta_coupler1 = cosines_0[3];
-    const double sin_theta_coupler1 = sines_0[3];
-    const double cos_theta_coupler2 = cosines_1[0];
-    const double sin_theta_coupler2 = sines_1[0];
-    const double span_crank0_head_x = cos_theta_crank0*p->crank0_head_span_x;
-    const double span_crank0_head_y = p->crank0_head_span_x*sin_theta_crank0;
-    const double span_crank1_head_x = cos_theta_crank1*p->crank1_head_span_x;
-    const double span_crank1_head_y = p->crank1_head_span_x*sin_theta_crank1;
-    const double span_coupler2_head_x = cos_theta_coupler2*p->coupler2_head_span_x;
-    const double span_coupler2_head_y = p->coupler2_head_span_x*sin_theta_coupler2;
-    const double span_crank2_head_x = cos_theta_crank2*p->crank2_head_span_x;
-    const double span_crank2_head_y = p->crank2_head_span_x*sin_theta_crank2;
-    const double span_coupler1_head_x = cos_theta_coupler1*p->coupler1_head_span_x;
-    const double span_coupler1_head_y = p->coupler1_head_span_x*sin_theta_coupler1;
+    const double cos_theta_crank0_ = cosines_0[0];
+    const double sin_theta_crank0_ = sines_0[0];
+    const double cos_theta_crank1_ = cosines_0[1];
+    const double sin_theta_crank1_ = sines_0[1];
+    const double cos_theta_crank2_ = cosines_0[2];
+    const double sin_theta_crank2_ = sines_0[2];
+    const double cos_theta_coupler1_ = cosines_0[3];
+    const double sin_theta_coupler1_ = sines_0[3];
+    const double cos_theta_coupler2_ = cosines_1[0];
+    const double sin_theta_coupler2_ = sines_1[0];
+    const double span_crank0_head_x_ = cos_theta_crank0_*p->crank0_head_span_x_;
+    const double span_crank0_head_y_ = p->crank0_head_span_x_*sin_theta_crank0_;
+    const double span_crank1_head_x_ = cos_theta_crank1_*p->crank1_head_span_x_;
+    const double span_crank1_head_y_ = p->crank1_head_span_x_*sin_theta_crank1_;
+    const double span_coupler2_head_x_ = cos_theta_coupler2_*p->coupler2_head_span_x_;
+    const double span_coupler2_head_y_ = p->coupler2_head_span_x_*sin_theta_coupler2_;
+    const double span_crank2_head_x_ = cos_theta_crank2_*p->crank2_head_span_x_;
+    const double span_crank2_head_y_ = p->crank2_head_span_x_*sin_theta_crank2_;
+    const double span_coupler1_head_x_ = cos_theta_coupler1_*p->coupler1_head_span_x_;
+    const double span_coupler1_head_y_ = p->coupler1_head_span_x_*sin_theta_coupler1_;
 
     /* rows */
-    out[0] = p->O1_x - p->O2_x + span_coupler2_head_x + span_crank1_head_x - span_crank2_head_x;  /* B2.x */
-    out[1] = span_coupler2_head_y + span_crank1_head_y - span_crank2_head_y;  /* B2.y */
-    out[2] = -p->O1_x + span_coupler1_head_x + span_crank0_head_x - span_crank1_head_x;  /* B1.x */
-    out[3] = span_coupler1_head_y + span_crank0_head_y - span_crank1_head_y;  /* B1.y */
+    out[0] = p->O1_x_ - p->O2_x_ + span_coupler2_head_x_ + span_crank1_head_x_ - span_crank2_head_x_;  /* B2.x */
+    out[1] = span_coupler2_head_y_ + span_crank1_head_y_ - span_crank2_head_y_;  /* B2.y */
+    out[2] = -p->O1_x_ + span_coupler1_head_x_ + span_crank0_head_x_ - span_crank1_head_x_;  /* B1.x */
+    out[3] = span_coupler1_head_y_ + span_crank0_head_y_ - span_crank1_head_y_;  /* B1.y */
 }
 
 /*
@@ -203,54 +203,58 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double crank0_theta = q[0];
-    const double crank0_omega = v[0];
-    const double crank1_theta = q[1];
-    const double crank1_omega = v[1];
-    const double crank2_theta = q[2];
-    const double crank2_omega = v[2];
-    const double coupler1_theta = q[3];
-    const double coupler1_omega = v[3];
-    const double coupler2_theta = q[4];
-    const double coupler2_omega = v[4];
+    const double crank0_theta_ = q[0];
+    const double crank0_omega_ = v[0];
+    const double crank1_theta_ = q[1];
+    const double crank1_omega_ = v[1];
+    const double crank2_theta_ = q[2];
+    const double crank2_omega_ = v[2];
+    const double coupler1_theta_ = q[3];
+    const double coupler1_omega_ = v[3];
+    const double coupler2_theta_ = q[4];
+    const double coupler2_omega_ = v[4];
 
     /* directions, arms, drives */
-    const Four angles_0 = {crank0_theta, crank1_theta, crank2_theta, coupler1_theta};
+    const Four angles_0 = {crank0_theta_, crank1_theta_, crank2_theta_, coupler1_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const Four angles_1 = {coupler2_theta, coupler2_theta, coupler2_theta, coupler2_theta};
+    const Four angles_1 = {coupler2_theta_, coupler2_theta_, coupler2_theta_, coupler2_theta_};
     Four sines_1, cosines_1;
     sines_and_cosines(&angles_1, &sines_1, &cosines_1);
-    const double cos_theta_crank0 = cosines_0[0];
-    const double sin_theta_crank0 = sines_0[0];
-    const double cos_theta_crank1 = cosines_0[1];
-    const double sin_theta_crank1 = sines_0[1];
-    const double cos_theta_crank2 = cosines_0[2];
-    const double sin_theta_crank2 = sines_0[2];
-    const double cos_theta_coupler1 = cosines_0[3];
-    const double sin_theta_coupler1 = sines_0[3];
-    const double cos_theta_coupler2 = cosines_1[0];
-    const double sin_theta_coupler2 = sines_1[0];
-    const double span_crank0_head_x = cos_theta_crank0*p->crank0_head_span_x;
-    const double span_crank0_head_y = p->crank0_head_span_x*sin_theta_crank0;
-    const double span_crank1_head_x = cos_theta_crank1*p->crank1_head_span_x;
-    const double span_crank1_head_y = p->crank1_head_span_x*sin_theta_crank1;
-    const double span_coupler2_head_x = cos_theta_coupler2*p->coupler2_head_span_x;
-    const double span_coupler2_head_y = p->coupler2_head_span_x*sin_theta_coupler2;
-    const double span_crank2_head_x = cos_theta_crank2*p->crank2_head_span_x;
-    const double span_crank2_head_y = p->crank2_head_span_x*sin_theta_crank2;
-    const double span_coupler1_head_x = cos_theta_coupler1*p->coupler1_head_span_x;
-    const double span_coupler1_head_y = p->coupler1_head_span_x*sin_theta_coupler1;
+    const double cos_theta_crank0_ = cosines_0[0];
+    const double sin_theta_crank0_ = sines_0[0];
+    const double cos_theta_crank1_ = cosines_0[1];
+    const double sin_theta_crank1_ = sines_0[1];
+    const double cos_theta_crank2_ = cosines_0[2];
+    const double sin_theta_crank2_ = sines_0[2];
+    const double cos_theta_coupler1_ = cosines_0[3];
+    const double sin_theta_coupler1_ = sines_0[3];
+    const double cos_theta_coupler2_ = cosines_1[0];
+    const double sin_theta_coupler2_ = sines_1[0];
+    const double span_crank0_head_x_ = cos_theta_crank0_*p->crank0_head_span_x_;
+    const double span_crank0_head_y_ = p->crank0_head_span_x_*sin_theta_crank0_;
+    const double span_crank1_head_x_ = cos_theta_crank1_*p->crank1_head_span_x_;
+    const double span_crank1_head_y_ = p->crank1_head_span_x_*sin_theta_crank1_;
+    const double span_coupler2_head_x_ = cos_theta_coupler2_*p->coupler2_head_span_x_;
+    const double span_coupler2_head_y_ = p->coupler2_head_span_x_*sin_theta_coupler2_;
+    const double span_crank2_head_x_ = cos_theta_crank2_*p->crank2_head_span_x_;
+    const double span_crank2_head_y_ = p->crank2_head_span_x_*sin_theta_crank2_;
+    const double span_coupler1_head_x_ = cos_theta_coupler1_*p->coupler1_head_span_x_;
+    const double span_coupler1_head_y_ = p->coupler1_head_span_x_*sin_theta_coupler1_;
 
     /* rows */
     /* B2.x */
-    out[0] = -coupler2_omega*span_coupler2_head_y - crank1_omega*span_crank1_head_y + crank2_omega*span_crank2_head_y;
+    out[0] = -coupler2_omega_*span_coupler2_head_y_ - crank1_omega_*span_crank1_head_y_
+        + crank2_omega_*span_crank2_head_y_;
     /* B2.y */
-    out[1] = coupler2_omega*span_coupler2_head_x + crank1_omega*span_crank1_head_x - crank2_omega*span_crank2_head_x;
+    out[1] = coupler2_omega_*span_coupler2_head_x_ + crank1_omega_*span_crank1_head_x_
+        - crank2_omega_*span_crank2_head_x_;
     /* B1.x */
-    out[2] = -coupler1_omega*span_coupler1_head_y - crank0_omega*span_crank0_head_y + crank1_omega*span_crank1_head_y;
+    out[2] = -coupler1_omega_*span_coupler1_head_y_ - crank0_omega_*span_crank0_head_y_
+        + crank1_omega_*span_crank1_head_y_;
     /* B1.y */
-    out[3] = coupler1_omega*span_coupler1_head_x + crank0_omega*span_crank0_head_x - crank1_omega*span_crank1_head_x;
+    out[3] = coupler1_omega_*span_coupler1_head_x_ + crank0_omega_*span_crank0_head_x_
+        - crank1_omega_*span_crank1_head_x_;
 }
 
 /*
@@ -262,195 +266,221 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     double *a, Aside *aside)
 {
     /* coordinates, velocities, time */
-    const double crank0_theta = q[0];
-    const double crank0_omega = v[0];
-    const double crank1_theta = q[1];
-    const double crank1_omega = v[1];
-    const double crank2_theta = q[2];
-    const double crank2_omega = v[2];
-    const double coupler1_theta = q[3];
-    const double coupler1_omega = v[3];
-    const double coupler2_theta = q[4];
-    const double coupler2_omega = v[4];
+    const double crank0_theta_ = q[0];
+    const double crank0_omega_ = v[0];
+    const double crank1_theta_ = q[1];
+    const double crank1_omega_ = v[1];
+    const double crank2_theta_ = q[2];
+    const double crank2_omega_ = v[2];
+    const double coupler1_theta_ = q[3];
+    const double coupler1_omega_ = v[3];
+    const double coupler2_theta_ = q[4];
+    const double coupler2_omega_ = v[4];
 
     /* directions, arms, drives */
-    const Four angles_0 = {crank0_theta, crank1_theta, crank2_theta, coupler1_theta};
+    const Four angles_0 = {crank0_theta_, crank1_theta_, crank2_theta_, coupler1_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const Four angles_1 = {coupler2_theta, coupler2_theta, coupler2_theta, coupler2_theta};
+    const Four angles_1 = {coupler2_theta_, coupler2_theta_, coupler2_theta_, coupler2_theta_};
     Four sines_1, cosines_1;
     sines_and_cosines(&angles_1, &sines_1, &cosines_1);
-    const double cos_theta_crank0 = cosines_0[0];
-    const double sin_theta_crank0 = sines_0[0];
-    const double cos_theta_crank1 = cosines_0[1];
-    const double sin_theta_crank1 = sines_0[1];
-    const double cos_theta_crank2 = cosines_0[2];
-    const double sin_theta_crank2 = sines_0[2];
-    const double cos_theta_coupler1 = cosines_0[3];
-    const double sin_theta_coupler1 = sines_0[3];
-    const double cos_theta_coupler2 = cosines_1[0];
-    const double sin_theta_coupler2 = sines_1[0];
-    const double span_crank0_head_x = cos_theta_crank0*p->crank0_head_span_x;
-    const double span_crank0_head_y = p->crank0_head_span_x*sin_theta_crank0;
-    const double span_crank1_head_x = cos_theta_crank1*p->crank1_head_span_x;
-    const double span_crank1_head_y = p->crank1_head_span_x*sin_theta_crank1;
-    const double span_coupler2_head_x = cos_theta_coupler2*p->coupler2_head_span_x;
-    const double span_coupler2_head_y = p->coupler2_head_span_x*sin_theta_coupler2;
-    const double span_crank2_head_x = cos_theta_crank2*p->crank2_head_span_x;
-    const double span_crank2_head_y = p->crank2_head_span_x*sin_theta_crank2;
-    const double span_coupler1_head_x = cos_theta_coupler1*p->coupler1_head_span_x;
-    const double span_coupler1_head_y = p->coupler1_head_span_x*sin_theta_coupler1;
-    const double cos_coupler1_less_crank0 = cos_theta_coupler1*cos_theta_crank0 + sin_theta_coupler1*sin_theta_crank0;
-    const double sin_coupler1_less_crank0 = -cos_theta_coupler1*sin_theta_crank0 + cos_theta_crank0*sin_theta_coupler1;
-    const double dot_crank0_coupler1 = cos_coupler1_less_crank0*p->inertia_crank0_coupler1;
-    const double cross_crank0_coupler1 = p->inertia_crank0_coupler1*sin_coupler1_less_crank0;
-    const double cos_coupler2_less_crank1 = cos_theta_coupler2*cos_theta_crank1 + sin_theta_coupler2*sin_theta_crank1;
-    const double sin_coupler2_less_crank1 = -cos_theta_coupler2*sin_theta_crank1 + cos_theta_crank1*sin_theta_coupler2;
-    const double dot_crank1_coupler2 = cos_coupler2_less_crank1*p->inertia_crank1_coupler2;
-    const double cross_crank1_coupler2 = p->inertia_crank1_coupler2*sin_coupler2_less_crank1;
+    const double cos_theta_crank0_ = cosines_0[0];
+    const double sin_theta_crank0_ = sines_0[0];
+    const double cos_theta_crank1_ = cosines_0[1];
+    const double sin_theta_crank1_ = sines_0[1];
+    const double cos_theta_crank2_ = cosines_0[2];
+    const double sin_theta_crank2_ = sines_0[2];
+    const double cos_theta_coupler1_ = cosines_0[3];
+    const double sin_theta_coupler1_ = sines_0[3];
+    const double cos_theta_coupler2_ = cosines_1[0];
+    const double sin_theta_coupler2_ = sines_1[0];
+    const double span_crank0_head_x_ = cos_theta_crank0_*p->crank0_head_span_x_;
+    const double span_crank0_head_y_ = p->crank0_head_span_x_*sin_theta_crank0_;
+    const double span_crank1_head_x_ = cos_theta_crank1_*p->crank1_head_span_x_;
+    const double span_crank1_head_y_ = p->crank1_head_span_x_*sin_theta_crank1_;
+    const double span_coupler2_head_x_ = cos_theta_coupler2_*p->coupler2_head_span_x_;
+    const double span_coupler2_head_y_ = p->coupler2_head_span_x_*sin_theta_coupler2_;
+    const double span_crank2_head_x_ = cos_theta_crank2_*p->crank2_head_span_x_;
+    const double span_crank2_head_y_ = p->crank2_head_span_x_*sin_theta_crank2_;
+    const double span_coupler1_head_x_ = cos_theta_coupler1_*p->coupler1_head_span_x_;
+    const double span_coupler1_head_y_ = p->coupler1_head_span_x_*sin_theta_coupler1_;
+    const double cos_coupler1_less_crank0_ = cos_theta_coupler1_*cos_theta_crank0_
+        + sin_theta_coupler1_*sin_theta_crank0_;
+    const double sin_coupler1_less_crank0_ = -cos_theta_coupler1_*sin_theta_crank0_
+        + cos_theta_crank0_*sin_theta_coupler1_;
+    const double dot_crank0_coupler1_ = cos_coupler1_less_crank0_*p->inertia_crank0_coupler1_;
+    const double cross_crank0_coupler1_ = p->inertia_crank0_coupler1_*sin_coupler1_less_crank0_;
+    const double cos_coupler2_less_crank1_ = cos_theta_coupler2_*cos_theta_crank1_
+        + sin_theta_coupler2_*sin_theta_crank1_;
+    const double sin_coupler2_less_crank1_ = -cos_theta_coupler2_*sin_theta_crank1_
+        + cos_theta_crank1_*sin_theta_coupler2_;
+    const double dot_crank1_coupler2_ = cos_coupler2_less_crank1_*p->inertia_crank1_coupler2_;
+    const double cross_crank1_coupler2_ = p->inertia_crank1_coupler2_*sin_coupler2_less_crank1_;
 
     /* status */
     int pivot = 0;
 
     /* constraints: gamma */
-    const double rhs_B2_x = (coupler2_omega * coupler2_omega)*span_coupler2_head_x
-        + (crank1_omega * crank1_omega)*span_crank1_head_x - (crank2_omega * crank2_omega)*span_crank2_head_x;
-    const double rhs_B2_y = (coupler2_omega * coupler2_omega)*span_coupler2_head_y
-        + (crank1_omega * crank1_omega)*span_crank1_head_y - (crank2_omega * crank2_omega)*span_crank2_head_y;
-    const double rhs_B1_x = (coupler1_omega * coupler1_omega)*span_coupler1_head_x
-        + (crank0_omega * crank0_omega)*span_crank0_head_x - (crank1_omega * crank1_omega)*span_crank1_head_x;
-    const double rhs_B1_y = (coupler1_omega * coupler1_omega)*span_coupler1_head_y
-        + (crank0_omega * crank0_omega)*span_crank0_head_y - (crank1_omega * crank1_omega)*span_crank1_head_y;
+    const double rhs_B2_x_ = (coupler2_omega_ * coupler2_omega_)*span_coupler2_head_x_
+        + (crank1_omega_ * crank1_omega_)*span_crank1_head_x_ - (crank2_omega_ * crank2_omega_)*span_crank2_head_x_;
+    const double rhs_B2_y_ = (coupler2_omega_ * coupler2_omega_)*span_coupler2_head_y_
+        + (crank1_omega_ * crank1_omega_)*span_crank1_head_y_ - (crank2_omega_ * crank2_omega_)*span_crank2_head_y_;
+    const double rhs_B1_x_ = (coupler1_omega_ * coupler1_omega_)*span_coupler1_head_x_
+        + (crank0_omega_ * crank0_omega_)*span_crank0_head_x_ - (crank1_omega_ * crank1_omega_)*span_crank1_head_x_;
+    const double rhs_B1_y_ = (coupler1_omega_ * coupler1_omega_)*span_coupler1_head_y_
+        + (crank0_omega_ * crank0_omega_)*span_crank0_head_y_ - (crank1_omega_ * crank1_omega_)*span_crank1_head_y_;
 
     /* L D L^T of the KKT matrix */
-    const double l_B2_x__crank2_theta = p->inverse_mass_crank2_crank2*span_crank2_head_y;
-    const double l_B2_y__crank2_theta = -p->inverse_mass_crank2_crank2*span_crank2_head_x;
-    const double l_B2_x__coupler2_theta = -p->inverse_mass_coupler2_coupler2*span_coupler2_head_y;
-    const double l_B2_y__coupler2_theta = p->inverse_mass_coupler2_coupler2*span_coupler2_head_x;
-    const double l_crank1_theta__coupler2_theta = dot_crank1_coupler2*p->inverse_mass_coupler2_coupler2;
-    const double scale_B2_x = -l_B2_x__coupler2_theta*span_coupler2_head_y + l_B2_x__crank2_theta*span_crank2_head_y;
-    const double scale_B2_y = l_B2_y__coupler2_theta*span_coupler2_head_x - l_B2_y__crank2_theta*span_crank2_head_x;
-    const double pivot_B2_x__B2_y = -l_B2_y__coupler2_theta*span_coupler2_head_y
-        + l_B2_y__crank2_theta*span_crank2_head_y;
-    const double determinant_B2_x__B2_y = -(pivot_B2_x__B2_y * pivot_B2_x__B2_y) + scale_B2_x*scale_B2_y;
-    if (!(scale_B2_x > 0.0 && scale_B2_x < INFINITY)) {
+    if (!(p->mass_crank2_crank2_ > LIGHT_PIVOT * p->crank2_turning_)) {
+        pivot = 5;
+        goto dependent;
+    }
+    const double l_B2_x_crank2_theta_ = p->inverse_mass_crank2_crank2_*span_crank2_head_y_;
+    const double l_B2_y_crank2_theta_ = -p->inverse_mass_crank2_crank2_*span_crank2_head_x_;
+    if (!(p->mass_coupler2_coupler2_ > LIGHT_PIVOT * p->coupler2_turning_)) {
+        pivot = 6;
+        goto dependent;
+    }
+    const double l_B2_x_coupler2_theta_ = -p->inverse_mass_coupler2_coupler2_*span_coupler2_head_y_;
+    const double l_B2_y_coupler2_theta_ = p->inverse_mass_coupler2_coupler2_*span_coupler2_head_x_;
+    const double l_crank1_theta_coupler2_theta_ = dot_crank1_coupler2_*p->inverse_mass_coupler2_coupler2_;
+    const double scale_B2_x_ = -l_B2_x_coupler2_theta_*span_coupler2_head_y_ + l_B2_x_crank2_theta_*span_crank2_head_y_;
+    const double scale_B2_y_ = l_B2_y_coupler2_theta_*span_coupler2_head_x_ - l_B2_y_crank2_theta_*span_crank2_head_x_;
+    const double pivot_B2_x_B2_y_ = -l_B2_y_coupler2_theta_*span_coupler2_head_y_
+        + l_B2_y_crank2_theta_*span_crank2_head_y_;
+    const double determinant_B2_x_B2_y_ = -(pivot_B2_x_B2_y_ * pivot_B2_x_B2_y_) + scale_B2_x_*scale_B2_y_;
+    if (!(scale_B2_x_ > 0.0 && scale_B2_x_ < INFINITY)) {
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_B2_x__B2_y > EARLY * scale_B2_y * scale_B2_x)) {
+    if (!(determinant_B2_x_B2_y_ > EARLY * scale_B2_y_ * scale_B2_x_)) {
         pivot = 2;
         goto dependent;
     }
-    const double size_B2_x = scale_B2_x + scale_B2_y;
-    if (!(scale_B2_x > memory->least_size * size_B2_x)) {
+    const double size_B2_x_ = scale_B2_x_ + scale_B2_y_;
+    if (!(scale_B2_x_ > memory->least_size * size_B2_x_)) {
         pivot = 1;
         goto dependent;
     }
-    if (!(determinant_B2_x__B2_y > memory->least_size * size_B2_x * scale_B2_x)) {
+    if (!(determinant_B2_x_B2_y_ > memory->least_size * size_B2_x_ * scale_B2_x_)) {
         pivot = 2;
         goto dependent;
     }
-    const double inverse_B2_x__B2_y = -1.0/determinant_B2_x__B2_y;
-    const double inverse_pivot_B2_x = inverse_B2_x__B2_y*scale_B2_y;
-    const double inverse_pivot_B2_y = inverse_B2_x__B2_y*scale_B2_x;
-    const double inverse_cross_B2_x__B2_y = -inverse_B2_x__B2_y*pivot_B2_x__B2_y;
-    const double w_crank1_theta__B2_x = l_crank1_theta__coupler2_theta*span_coupler2_head_y - span_crank1_head_y;
-    const double w_crank1_theta__B2_y = -l_crank1_theta__coupler2_theta*span_coupler2_head_x + span_crank1_head_x;
-    const double l_crank1_theta__B2_x = inverse_cross_B2_x__B2_y*w_crank1_theta__B2_y
-        + inverse_pivot_B2_x*w_crank1_theta__B2_x;
-    const double l_crank1_theta__B2_y = inverse_cross_B2_x__B2_y*w_crank1_theta__B2_x
-        + inverse_pivot_B2_y*w_crank1_theta__B2_y;
-    const double inverse_pivot_crank1_theta = 1.0/(-dot_crank1_coupler2*l_crank1_theta__coupler2_theta
-        - l_crank1_theta__B2_x*w_crank1_theta__B2_x - l_crank1_theta__B2_y*w_crank1_theta__B2_y
-        + p->mass_crank1_crank1);
-    const double l_B1_x__crank1_theta = inverse_pivot_crank1_theta*span_crank1_head_y;
-    const double l_B1_y__crank1_theta = -inverse_pivot_crank1_theta*span_crank1_head_x;
-    const double l_coupler1_theta__crank0_theta = dot_crank0_coupler1*p->inverse_mass_crank0_crank0;
-    const double l_B1_x__crank0_theta = -p->inverse_mass_crank0_crank0*span_crank0_head_y;
-    const double l_B1_y__crank0_theta = p->inverse_mass_crank0_crank0*span_crank0_head_x;
-    const double inverse_pivot_coupler1_theta = 1.0/(-dot_crank0_coupler1*l_coupler1_theta__crank0_theta
-        + p->mass_coupler1_coupler1);
-    const double w_B1_x__coupler1_theta = -dot_crank0_coupler1*l_B1_x__crank0_theta - span_coupler1_head_y;
-    const double l_B1_x__coupler1_theta = inverse_pivot_coupler1_theta*w_B1_x__coupler1_theta;
-    const double w_B1_y__coupler1_theta = -dot_crank0_coupler1*l_B1_y__crank0_theta + span_coupler1_head_x;
-    const double l_B1_y__coupler1_theta = inverse_pivot_coupler1_theta*w_B1_y__coupler1_theta;
-    const double scale_B1_x = l_B1_x__coupler1_theta*w_B1_x__coupler1_theta - l_B1_x__crank0_theta*span_crank0_head_y
-        + l_B1_x__crank1_theta*span_crank1_head_y;
-    const double scale_B1_y = l_B1_y__coupler1_theta*w_B1_y__coupler1_theta + l_B1_y__crank0_theta*span_crank0_head_x
-        - l_B1_y__crank1_theta*span_crank1_head_x;
-    const double pivot_B1_x__B1_y = l_B1_y__coupler1_theta*w_B1_x__coupler1_theta
-        - l_B1_y__crank0_theta*span_crank0_head_y + l_B1_y__crank1_theta*span_crank1_head_y;
-    const double determinant_B1_x__B1_y = -(pivot_B1_x__B1_y * pivot_B1_x__B1_y) + scale_B1_x*scale_B1_y;
-    if (!(scale_B1_x > 0.0 && scale_B1_x < INFINITY)) {
+    const double inverse_B2_x_B2_y_ = -1.0/determinant_B2_x_B2_y_;
+    const double inverse_pivot_B2_x_ = inverse_B2_x_B2_y_*scale_B2_y_;
+    const double inverse_pivot_B2_y_ = inverse_B2_x_B2_y_*scale_B2_x_;
+    const double inverse_cross_B2_x_B2_y_ = -inverse_B2_x_B2_y_*pivot_B2_x_B2_y_;
+    const double w_crank1_theta_B2_x_ = l_crank1_theta_coupler2_theta_*span_coupler2_head_y_ - span_crank1_head_y_;
+    const double w_crank1_theta_B2_y_ = -l_crank1_theta_coupler2_theta_*span_coupler2_head_x_ + span_crank1_head_x_;
+    const double l_crank1_theta_B2_x_ = inverse_cross_B2_x_B2_y_*w_crank1_theta_B2_y_
+        + inverse_pivot_B2_x_*w_crank1_theta_B2_x_;
+    const double l_crank1_theta_B2_y_ = inverse_cross_B2_x_B2_y_*w_crank1_theta_B2_x_
+        + inverse_pivot_B2_y_*w_crank1_theta_B2_y_;
+    const double pivot_crank1_theta_ = -dot_crank1_coupler2_*l_crank1_theta_coupler2_theta_
+        - l_crank1_theta_B2_x_*w_crank1_theta_B2_x_ - l_crank1_theta_B2_y_*w_crank1_theta_B2_y_
+        + p->mass_crank1_crank1_;
+    if (!(pivot_crank1_theta_ > LIGHT_PIVOT * p->crank1_turning_)) {
+        pivot = 7;
+        goto dependent;
+    }
+    const double inverse_pivot_crank1_theta_ = 1.0/pivot_crank1_theta_;
+    const double l_B1_x_crank1_theta_ = inverse_pivot_crank1_theta_*span_crank1_head_y_;
+    const double l_B1_y_crank1_theta_ = -inverse_pivot_crank1_theta_*span_crank1_head_x_;
+    if (!(p->mass_crank0_crank0_ > LIGHT_PIVOT * p->crank0_turning_)) {
+        pivot = 8;
+        goto dependent;
+    }
+    const double l_coupler1_theta_crank0_theta_ = dot_crank0_coupler1_*p->inverse_mass_crank0_crank0_;
+    const double l_B1_x_crank0_theta_ = -p->inverse_mass_crank0_crank0_*span_crank0_head_y_;
+    const double l_B1_y_crank0_theta_ = p->inverse_mass_crank0_crank0_*span_crank0_head_x_;
+    const double pivot_coupler1_theta_ = -dot_crank0_coupler1_*l_coupler1_theta_crank0_theta_
+        + p->mass_coupler1_coupler1_;
+    if (!(pivot_coupler1_theta_ > LIGHT_PIVOT * p->coupler1_turning_)) {
+        pivot = 9;
+        goto dependent;
+    }
+    const double inverse_pivot_coupler1_theta_ = 1.0/pivot_coupler1_theta_;
+    const double w_B1_x_coupler1_theta_ = -dot_crank0_coupler1_*l_B1_x_crank0_theta_ - span_coupler1_head_y_;
+    const double l_B1_x_coupler1_theta_ = inverse_pivot_coupler1_theta_*w_B1_x_coupler1_theta_;
+    const double w_B1_y_coupler1_theta_ = -dot_crank0_coupler1_*l_B1_y_crank0_theta_ + span_coupler1_head_x_;
+    const double l_B1_y_coupler1_theta_ = inverse_pivot_coupler1_theta_*w_B1_y_coupler1_theta_;
+    const double scale_B1_x_ = l_B1_x_coupler1_theta_*w_B1_x_coupler1_theta_ - l_B1_x_crank0_theta_*span_crank0_head_y_
+        + l_B1_x_crank1_theta_*span_crank1_head_y_;
+    const double scale_B1_y_ = l_B1_y_coupler1_theta_*w_B1_y_coupler1_theta_ + l_B1_y_crank0_theta_*span_crank0_head_x_
+        - l_B1_y_crank1_theta_*span_crank1_head_x_;
+    const double pivot_B1_x_B1_y_ = l_B1_y_coupler1_theta_*w_B1_x_coupler1_theta_
+        - l_B1_y_crank0_theta_*span_crank0_head_y_ + l_B1_y_crank1_theta_*span_crank1_head_y_;
+    const double determinant_B1_x_B1_y_ = -(pivot_B1_x_B1_y_ * pivot_B1_x_B1_y_) + scale_B1_x_*scale_B1_y_;
+    if (!(scale_B1_x_ > 0.0 && scale_B1_x_ < INFINITY)) {
         pivot = 3;
         goto dependent;
     }
-    if (!(determinant_B1_x__B1_y > memory->least * scale_B1_y * scale_B1_x)) {
+    if (!(determinant_B1_x_B1_y_ > memory->least * scale_B1_y_ * scale_B1_x_)) {
         pivot = 4;
         goto dependent;
     }
-    const double size_B1_x = scale_B1_x + scale_B1_y;
-    if (!(scale_B1_x > memory->least_size * size_B1_x)) {
+    const double size_B1_x_ = scale_B1_x_ + scale_B1_y_;
+    if (!(scale_B1_x_ > memory->least_size * size_B1_x_)) {
         pivot = 3;
         goto dependent;
     }
-    if (!(determinant_B1_x__B1_y > memory->least_size * size_B1_x * scale_B1_x)) {
+    if (!(determinant_B1_x_B1_y_ > memory->least_size * size_B1_x_ * scale_B1_x_)) {
         pivot = 4;
         goto dependent;
     }
-    const double inverse_B1_x__B1_y = -1.0/determinant_B1_x__B1_y;
-    const double inverse_pivot_B1_x = inverse_B1_x__B1_y*scale_B1_y;
-    const double inverse_pivot_B1_y = inverse_B1_x__B1_y*scale_B1_x;
-    const double inverse_cross_B1_x__B1_y = -inverse_B1_x__B1_y*pivot_B1_x__B1_y;
+    const double inverse_B1_x_B1_y_ = -1.0/determinant_B1_x_B1_y_;
+    const double inverse_pivot_B1_x_ = inverse_B1_x_B1_y_*scale_B1_y_;
+    const double inverse_pivot_B1_y_ = inverse_B1_x_B1_y_*scale_B1_x_;
+    const double inverse_cross_B1_x_B1_y_ = -inverse_B1_x_B1_y_*pivot_B1_x_B1_y_;
 
     /* forward substitution */
-    const double z_crank2_theta = cos_theta_crank2*p->weight_crank2__across;
-    const double z_coupler2_theta = cos_theta_coupler2*p->weight_coupler2__across
-        - (crank1_omega * crank1_omega)*cross_crank1_coupler2;
-    const double z_B2_x = -l_B2_x__coupler2_theta*z_coupler2_theta - l_B2_x__crank2_theta*z_crank2_theta + rhs_B2_x;
-    const double z_B2_y = -l_B2_y__coupler2_theta*z_coupler2_theta - l_B2_y__crank2_theta*z_crank2_theta + rhs_B2_y;
-    const double z_crank1_theta = cos_theta_crank1*p->weight_crank1__across
-        + (coupler2_omega * coupler2_omega)*cross_crank1_coupler2 - l_crank1_theta__B2_x*z_B2_x
-        - l_crank1_theta__B2_y*z_B2_y - l_crank1_theta__coupler2_theta*z_coupler2_theta;
-    const double z_crank0_theta = cos_theta_crank0*p->weight_crank0__across
-        + (coupler1_omega * coupler1_omega)*cross_crank0_coupler1;
-    const double z_coupler1_theta = cos_theta_coupler1*p->weight_coupler1__across
-        - (crank0_omega * crank0_omega)*cross_crank0_coupler1 - l_coupler1_theta__crank0_theta*z_crank0_theta;
-    const double z_B1_x = -l_B1_x__coupler1_theta*z_coupler1_theta - l_B1_x__crank0_theta*z_crank0_theta
-        - l_B1_x__crank1_theta*z_crank1_theta + rhs_B1_x;
-    const double z_B1_y = -l_B1_y__coupler1_theta*z_coupler1_theta - l_B1_y__crank0_theta*z_crank0_theta
-        - l_B1_y__crank1_theta*z_crank1_theta + rhs_B1_y;
+    const double z_crank2_theta_ = cos_theta_crank2_*p->weight_crank2_across_;
+    const double z_coupler2_theta_ = cos_theta_coupler2_*p->weight_coupler2_across_
+        - (crank1_omega_ * crank1_omega_)*cross_crank1_coupler2_;
+    const double z_B2_x_ = -l_B2_x_coupler2_theta_*z_coupler2_theta_ - l_B2_x_crank2_theta_*z_crank2_theta_ + rhs_B2_x_;
+    const double z_B2_y_ = -l_B2_y_coupler2_theta_*z_coupler2_theta_ - l_B2_y_crank2_theta_*z_crank2_theta_ + rhs_B2_y_;
+    const double z_crank1_theta_ = cos_theta_crank1_*p->weight_crank1_across_
+        + (coupler2_omega_ * coupler2_omega_)*cross_crank1_coupler2_ - l_crank1_theta_B2_x_*z_B2_x_
+        - l_crank1_theta_B2_y_*z_B2_y_ - l_crank1_theta_coupler2_theta_*z_coupler2_theta_;
+    const double z_crank0_theta_ = cos_theta_crank0_*p->weight_crank0_across_
+        + (coupler1_omega_ * coupler1_omega_)*cross_crank0_coupler1_;
+    const double z_coupler1_theta_ = cos_theta_coupler1_*p->weight_coupler1_across_
+        - (crank0_omega_ * crank0_omega_)*cross_crank0_coupler1_ - l_coupler1_theta_crank0_theta_*z_crank0_theta_;
+    const double z_B1_x_ = -l_B1_x_coupler1_theta_*z_coupler1_theta_ - l_B1_x_crank0_theta_*z_crank0_theta_
+        - l_B1_x_crank1_theta_*z_crank1_theta_ + rhs_B1_x_;
+    const double z_B1_y_ = -l_B1_y_coupler1_theta_*z_coupler1_theta_ - l_B1_y_crank0_theta_*z_crank0_theta_
+        - l_B1_y_crank1_theta_*z_crank1_theta_ + rhs_B1_y_;
 
     /* backward substitution */
-    const double lambda_B1_y = inverse_cross_B1_x__B1_y*z_B1_x + inverse_pivot_B1_y*z_B1_y;
-    const double lambda_B1_x = inverse_cross_B1_x__B1_y*z_B1_y + inverse_pivot_B1_x*z_B1_x;
-    const double acceleration_coupler1_theta = inverse_pivot_coupler1_theta*z_coupler1_theta
-        - l_B1_x__coupler1_theta*lambda_B1_x - l_B1_y__coupler1_theta*lambda_B1_y;
-    const double acceleration_crank0_theta = -acceleration_coupler1_theta*l_coupler1_theta__crank0_theta
-        + p->inverse_mass_crank0_crank0*z_crank0_theta - l_B1_x__crank0_theta*lambda_B1_x
-        - l_B1_y__crank0_theta*lambda_B1_y;
-    const double acceleration_crank1_theta = inverse_pivot_crank1_theta*z_crank1_theta
-        - l_B1_x__crank1_theta*lambda_B1_x - l_B1_y__crank1_theta*lambda_B1_y;
-    const double lambda_B2_y = -acceleration_crank1_theta*l_crank1_theta__B2_y + inverse_cross_B2_x__B2_y*z_B2_x
-        + inverse_pivot_B2_y*z_B2_y;
-    const double lambda_B2_x = -acceleration_crank1_theta*l_crank1_theta__B2_x + inverse_cross_B2_x__B2_y*z_B2_y
-        + inverse_pivot_B2_x*z_B2_x;
-    const double acceleration_coupler2_theta = -acceleration_crank1_theta*l_crank1_theta__coupler2_theta
-        + p->inverse_mass_coupler2_coupler2*z_coupler2_theta - l_B2_x__coupler2_theta*lambda_B2_x
-        - l_B2_y__coupler2_theta*lambda_B2_y;
-    const double acceleration_crank2_theta = p->inverse_mass_crank2_crank2*z_crank2_theta
-        - l_B2_x__crank2_theta*lambda_B2_x - l_B2_y__crank2_theta*lambda_B2_y;
+    const double lambda_B1_y_ = inverse_cross_B1_x_B1_y_*z_B1_x_ + inverse_pivot_B1_y_*z_B1_y_;
+    const double lambda_B1_x_ = inverse_cross_B1_x_B1_y_*z_B1_y_ + inverse_pivot_B1_x_*z_B1_x_;
+    const double acceleration_coupler1_theta_ = inverse_pivot_coupler1_theta_*z_coupler1_theta_
+        - l_B1_x_coupler1_theta_*lambda_B1_x_ - l_B1_y_coupler1_theta_*lambda_B1_y_;
+    const double acceleration_crank0_theta_ = -acceleration_coupler1_theta_*l_coupler1_theta_crank0_theta_
+        + p->inverse_mass_crank0_crank0_*z_crank0_theta_ - l_B1_x_crank0_theta_*lambda_B1_x_
+        - l_B1_y_crank0_theta_*lambda_B1_y_;
+    const double acceleration_crank1_theta_ = inverse_pivot_crank1_theta_*z_crank1_theta_
+        - l_B1_x_crank1_theta_*lambda_B1_x_ - l_B1_y_crank1_theta_*lambda_B1_y_;
+    const double lambda_B2_y_ = -acceleration_crank1_theta_*l_crank1_theta_B2_y_ + inverse_cross_B2_x_B2_y_*z_B2_x_
+        + inverse_pivot_B2_y_*z_B2_y_;
+    const double lambda_B2_x_ = -acceleration_crank1_theta_*l_crank1_theta_B2_x_ + inverse_cross_B2_x_B2_y_*z_B2_y_
+        + inverse_pivot_B2_x_*z_B2_x_;
+    const double acceleration_coupler2_theta_ = -acceleration_crank1_theta_*l_crank1_theta_coupler2_theta_
+        + p->inverse_mass_coupler2_coupler2_*z_coupler2_theta_ - l_B2_x_coupler2_theta_*lambda_B2_x_
+        - l_B2_y_coupler2_theta_*lambda_B2_y_;
+    const double acceleration_crank2_theta_ = p->inverse_mass_crank2_crank2_*z_crank2_theta_
+        - l_B2_x_crank2_theta_*lambda_B2_x_ - l_B2_y_crank2_theta_*lambda_B2_y_;
 
     /* results */
-    a[0] = acceleration_crank0_theta;
-    a[1] = acceleration_crank1_theta;
-    a[2] = acceleration_crank2_theta;
-    a[3] = acceleration_coupler1_theta;
-    a[4] = acceleration_coupler2_theta;
-    aside->lambda[0] = lambda_B2_x;
-    aside->lambda[1] = lambda_B2_y;
-    aside->lambda[2] = lambda_B1_x;
-    aside->lambda[3] = lambda_B1_y;
+    a[0] = acceleration_crank0_theta_;
+    a[1] = acceleration_crank1_theta_;
+    a[2] = acceleration_crank2_theta_;
+    a[3] = acceleration_coupler1_theta_;
+    a[4] = acceleration_coupler2_theta_;
+    aside->lambda[0] = lambda_B2_x_;
+    aside->lambda[1] = lambda_B2_y_;
+    aside->lambda[2] = lambda_B1_x_;
+    aside->lambda[3] = lambda_B1_y_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
@@ -472,154 +502,156 @@ int reduced_project(const double t, const double *q, const double *r, const Para
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double crank0_theta = q[0];
-    const double crank1_theta = q[1];
-    const double crank2_theta = q[2];
-    const double coupler1_theta = q[3];
-    const double coupler2_theta = q[4];
+    const double crank0_theta_ = q[0];
+    const double crank1_theta_ = q[1];
+    const double crank2_theta_ = q[2];
+    const double coupler1_theta_ = q[3];
+    const double coupler2_theta_ = q[4];
 
     /* directions, arms, drives */
-    const Four angles_0 = {crank0_theta, crank1_theta, crank2_theta, coupler1_theta};
+    const Four angles_0 = {crank0_theta_, crank1_theta_, crank2_theta_, coupler1_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const Four angles_1 = {coupler2_theta, coupler2_theta, coupler2_theta, coupler2_theta};
+    const Four angles_1 = {coupler2_theta_, coupler2_theta_, coupler2_theta_, coupler2_theta_};
     Four sines_1, cosines_1;
     sines_and_cosines(&angles_1, &sines_1, &cosines_1);
-    const double cos_theta_crank0 = cosines_0[0];
-    const double sin_theta_crank0 = sines_0[0];
-    const double cos_theta_crank1 = cosines_0[1];
-    const double sin_theta_crank1 = sines_0[1];
-    const double cos_theta_crank2 = cosines_0[2];
-    const double sin_theta_crank2 = sines_0[2];
-    const double cos_theta_coupler1 = cosines_0[3];
-    const double sin_theta_coupler1 = sines_0[3];
-    const double cos_theta_coupler2 = cosines_1[0];
-    const double sin_theta_coupler2 = sines_1[0];
-    const double span_crank0_head_x = cos_theta_crank0*p->crank0_head_span_x;
-    const double span_crank0_head_y = p->crank0_head_span_x*sin_theta_crank0;
-    const double span_crank1_head_x = cos_theta_crank1*p->crank1_head_span_x;
-    const double span_crank1_head_y = p->crank1_head_span_x*sin_theta_crank1;
-    const double span_coupler2_head_x = cos_theta_coupler2*p->coupler2_head_span_x;
-    const double span_coupler2_head_y = p->coupler2_head_span_x*sin_theta_coupler2;
-    const double span_crank2_head_x = cos_theta_crank2*p->crank2_head_span_x;
-    const double span_crank2_head_y = p->crank2_head_span_x*sin_theta_crank2;
-    const double span_coupler1_head_x = cos_theta_coupler1*p->coupler1_head_span_x;
-    const double span_coupler1_head_y = p->coupler1_head_span_x*sin_theta_coupler1;
-    const double cos_coupler1_less_crank0 = cos_theta_coupler1*cos_theta_crank0 + sin_theta_coupler1*sin_theta_crank0;
-    const double dot_crank0_coupler1 = cos_coupler1_less_crank0*p->inertia_crank0_coupler1;
-    const double cos_coupler2_less_crank1 = cos_theta_coupler2*cos_theta_crank1 + sin_theta_coupler2*sin_theta_crank1;
-    const double dot_crank1_coupler2 = cos_coupler2_less_crank1*p->inertia_crank1_coupler2;
+    const double cos_theta_crank0_ = cosines_0[0];
+    const double sin_theta_crank0_ = sines_0[0];
+    const double cos_theta_crank1_ = cosines_0[1];
+    const double sin_theta_crank1_ = sines_0[1];
+    const double cos_theta_crank2_ = cosines_0[2];
+    const double sin_theta_crank2_ = sines_0[2];
+    const double cos_theta_coupler1_ = cosines_0[3];
+    const double sin_theta_coupler1_ = sines_0[3];
+    const double cos_theta_coupler2_ = cosines_1[0];
+    const double sin_theta_coupler2_ = sines_1[0];
+    const double span_crank0_head_x_ = cos_theta_crank0_*p->crank0_head_span_x_;
+    const double span_crank0_head_y_ = p->crank0_head_span_x_*sin_theta_crank0_;
+    const double span_crank1_head_x_ = cos_theta_crank1_*p->crank1_head_span_x_;
+    const double span_crank1_head_y_ = p->crank1_head_span_x_*sin_theta_crank1_;
+    const double span_coupler2_head_x_ = cos_theta_coupler2_*p->coupler2_head_span_x_;
+    const double span_coupler2_head_y_ = p->coupler2_head_span_x_*sin_theta_coupler2_;
+    const double span_crank2_head_x_ = cos_theta_crank2_*p->crank2_head_span_x_;
+    const double span_crank2_head_y_ = p->crank2_head_span_x_*sin_theta_crank2_;
+    const double span_coupler1_head_x_ = cos_theta_coupler1_*p->coupler1_head_span_x_;
+    const double span_coupler1_head_y_ = p->coupler1_head_span_x_*sin_theta_coupler1_;
+    const double cos_coupler1_less_crank0_ = cos_theta_coupler1_*cos_theta_crank0_
+        + sin_theta_coupler1_*sin_theta_crank0_;
+    const double dot_crank0_coupler1_ = cos_coupler1_less_crank0_*p->inertia_crank0_coupler1_;
+    const double cos_coupler2_less_crank1_ = cos_theta_coupler2_*cos_theta_crank1_
+        + sin_theta_coupler2_*sin_theta_crank1_;
+    const double dot_crank1_coupler2_ = cos_coupler2_less_crank1_*p->inertia_crank1_coupler2_;
 
     /* right-hand side */
-    const double r_B2_x = r[0];
-    const double r_B2_y = r[1];
-    const double r_B1_x = r[2];
-    const double r_B1_y = r[3];
+    const double r_B2_x_ = r[0];
+    const double r_B2_y_ = r[1];
+    const double r_B1_x_ = r[2];
+    const double r_B1_y_ = r[3];
 
     /* L D L^T of the KKT matrix */
-    const double l_B2_x__crank2_theta = p->inverse_mass_crank2_crank2*span_crank2_head_y;
-    const double l_B2_y__crank2_theta = -p->inverse_mass_crank2_crank2*span_crank2_head_x;
-    const double l_coupler1_theta__crank0_theta = dot_crank0_coupler1*p->inverse_mass_crank0_crank0;
-    const double l_B1_x__crank0_theta = -p->inverse_mass_crank0_crank0*span_crank0_head_y;
-    const double l_B1_y__crank0_theta = p->inverse_mass_crank0_crank0*span_crank0_head_x;
-    const double inverse_pivot_coupler1_theta = 1.0/(-dot_crank0_coupler1*l_coupler1_theta__crank0_theta
-        + p->mass_coupler1_coupler1);
-    const double w_B1_x__coupler1_theta = -dot_crank0_coupler1*l_B1_x__crank0_theta - span_coupler1_head_y;
-    const double l_B1_x__coupler1_theta = inverse_pivot_coupler1_theta*w_B1_x__coupler1_theta;
-    const double w_B1_y__coupler1_theta = -dot_crank0_coupler1*l_B1_y__crank0_theta + span_coupler1_head_x;
-    const double l_B1_y__coupler1_theta = inverse_pivot_coupler1_theta*w_B1_y__coupler1_theta;
-    const double l_crank1_theta__coupler2_theta = dot_crank1_coupler2*p->inverse_mass_coupler2_coupler2;
-    const double l_B2_x__coupler2_theta = -p->inverse_mass_coupler2_coupler2*span_coupler2_head_y;
-    const double l_B2_y__coupler2_theta = p->inverse_mass_coupler2_coupler2*span_coupler2_head_x;
-    const double inverse_pivot_crank1_theta = 1.0/(-dot_crank1_coupler2*l_crank1_theta__coupler2_theta
-        + p->mass_crank1_crank1);
-    const double w_B2_x__crank1_theta = -dot_crank1_coupler2*l_B2_x__coupler2_theta - span_crank1_head_y;
-    const double l_B2_x__crank1_theta = inverse_pivot_crank1_theta*w_B2_x__crank1_theta;
-    const double w_B2_y__crank1_theta = -dot_crank1_coupler2*l_B2_y__coupler2_theta + span_crank1_head_x;
-    const double l_B2_y__crank1_theta = inverse_pivot_crank1_theta*w_B2_y__crank1_theta;
-    const double l_B1_x__crank1_theta = inverse_pivot_crank1_theta*span_crank1_head_y;
-    const double l_B1_y__crank1_theta = -inverse_pivot_crank1_theta*span_crank1_head_x;
-    const double scale_B2_x = -l_B2_x__coupler2_theta*span_coupler2_head_y + l_B2_x__crank1_theta*w_B2_x__crank1_theta
-        + l_B2_x__crank2_theta*span_crank2_head_y;
-    const double scale_B2_y = l_B2_y__coupler2_theta*span_coupler2_head_x + l_B2_y__crank1_theta*w_B2_y__crank1_theta
-        - l_B2_y__crank2_theta*span_crank2_head_x;
-    const double pivot_B2_x__B2_y = -l_B2_y__coupler2_theta*span_coupler2_head_y
-        + l_B2_y__crank1_theta*w_B2_x__crank1_theta + l_B2_y__crank2_theta*span_crank2_head_y;
-    const double determinant_B2_x__B2_y = -(pivot_B2_x__B2_y * pivot_B2_x__B2_y) + scale_B2_x*scale_B2_y;
-    if (!(scale_B2_x > 0.0 && scale_B2_x < INFINITY))
+    const double l_B2_x_crank2_theta_ = p->inverse_mass_crank2_crank2_*span_crank2_head_y_;
+    const double l_B2_y_crank2_theta_ = -p->inverse_mass_crank2_crank2_*span_crank2_head_x_;
+    const double l_coupler1_theta_crank0_theta_ = dot_crank0_coupler1_*p->inverse_mass_crank0_crank0_;
+    const double l_B1_x_crank0_theta_ = -p->inverse_mass_crank0_crank0_*span_crank0_head_y_;
+    const double l_B1_y_crank0_theta_ = p->inverse_mass_crank0_crank0_*span_crank0_head_x_;
+    const double inverse_pivot_coupler1_theta_ = 1.0/(-dot_crank0_coupler1_*l_coupler1_theta_crank0_theta_
+        + p->mass_coupler1_coupler1_);
+    const double w_B1_x_coupler1_theta_ = -dot_crank0_coupler1_*l_B1_x_crank0_theta_ - span_coupler1_head_y_;
+    const double l_B1_x_coupler1_theta_ = inverse_pivot_coupler1_theta_*w_B1_x_coupler1_theta_;
+    const double w_B1_y_coupler1_theta_ = -dot_crank0_coupler1_*l_B1_y_crank0_theta_ + span_coupler1_head_x_;
+    const double l_B1_y_coupler1_theta_ = inverse_pivot_coupler1_theta_*w_B1_y_coupler1_theta_;
+    const double l_crank1_theta_coupler2_theta_ = dot_crank1_coupler2_*p->inverse_mass_coupler2_coupler2_;
+    const double l_B2_x_coupler2_theta_ = -p->inverse_mass_coupler2_coupler2_*span_coupler2_head_y_;
+    const double l_B2_y_coupler2_theta_ = p->inverse_mass_coupler2_coupler2_*span_coupler2_head_x_;
+    const double inverse_pivot_crank1_theta_ = 1.0/(-dot_crank1_coupler2_*l_crank1_theta_coupler2_theta_
+        + p->mass_crank1_crank1_);
+    const double w_B2_x_crank1_theta_ = -dot_crank1_coupler2_*l_B2_x_coupler2_theta_ - span_crank1_head_y_;
+    const double l_B2_x_crank1_theta_ = inverse_pivot_crank1_theta_*w_B2_x_crank1_theta_;
+    const double w_B2_y_crank1_theta_ = -dot_crank1_coupler2_*l_B2_y_coupler2_theta_ + span_crank1_head_x_;
+    const double l_B2_y_crank1_theta_ = inverse_pivot_crank1_theta_*w_B2_y_crank1_theta_;
+    const double l_B1_x_crank1_theta_ = inverse_pivot_crank1_theta_*span_crank1_head_y_;
+    const double l_B1_y_crank1_theta_ = -inverse_pivot_crank1_theta_*span_crank1_head_x_;
+    const double scale_B2_x_ = -l_B2_x_coupler2_theta_*span_coupler2_head_y_
+        + l_B2_x_crank1_theta_*w_B2_x_crank1_theta_ + l_B2_x_crank2_theta_*span_crank2_head_y_;
+    const double scale_B2_y_ = l_B2_y_coupler2_theta_*span_coupler2_head_x_ + l_B2_y_crank1_theta_*w_B2_y_crank1_theta_
+        - l_B2_y_crank2_theta_*span_crank2_head_x_;
+    const double pivot_B2_x_B2_y_ = -l_B2_y_coupler2_theta_*span_coupler2_head_y_
+        + l_B2_y_crank1_theta_*w_B2_x_crank1_theta_ + l_B2_y_crank2_theta_*span_crank2_head_y_;
+    const double determinant_B2_x_B2_y_ = -(pivot_B2_x_B2_y_ * pivot_B2_x_B2_y_) + scale_B2_x_*scale_B2_y_;
+    if (!(scale_B2_x_ > 0.0 && scale_B2_x_ < INFINITY))
         return 1;
-    if (!(determinant_B2_x__B2_y > SINGULAR * scale_B2_y * scale_B2_x))
+    if (!(determinant_B2_x_B2_y_ > SINGULAR * scale_B2_y_ * scale_B2_x_))
         return 2;
-    const double size_B2_x = scale_B2_x + scale_B2_y;
-    if (!(scale_B2_x > VANISHING * size_B2_x))
+    const double size_B2_x_ = scale_B2_x_ + scale_B2_y_;
+    if (!(scale_B2_x_ > VANISHING * size_B2_x_))
         return 1;
-    if (!(determinant_B2_x__B2_y > VANISHING * size_B2_x * scale_B2_x))
+    if (!(determinant_B2_x_B2_y_ > VANISHING * size_B2_x_ * scale_B2_x_))
         return 2;
-    const double inverse_B2_x__B2_y = -1.0/determinant_B2_x__B2_y;
-    const double inverse_pivot_B2_x = inverse_B2_x__B2_y*scale_B2_y;
-    const double inverse_pivot_B2_y = inverse_B2_x__B2_y*scale_B2_x;
-    const double inverse_cross_B2_x__B2_y = -inverse_B2_x__B2_y*pivot_B2_x__B2_y;
-    const double w_B1_x__B2_x = -l_B1_x__crank1_theta*w_B2_x__crank1_theta;
-    const double w_B1_x__B2_y = -l_B1_x__crank1_theta*w_B2_y__crank1_theta;
-    const double l_B1_x__B2_x = inverse_cross_B2_x__B2_y*w_B1_x__B2_y + inverse_pivot_B2_x*w_B1_x__B2_x;
-    const double l_B1_x__B2_y = inverse_cross_B2_x__B2_y*w_B1_x__B2_x + inverse_pivot_B2_y*w_B1_x__B2_y;
-    const double w_B1_y__B2_x = -l_B1_y__crank1_theta*w_B2_x__crank1_theta;
-    const double w_B1_y__B2_y = -l_B1_y__crank1_theta*w_B2_y__crank1_theta;
-    const double l_B1_y__B2_x = inverse_cross_B2_x__B2_y*w_B1_y__B2_y + inverse_pivot_B2_x*w_B1_y__B2_x;
-    const double l_B1_y__B2_y = inverse_cross_B2_x__B2_y*w_B1_y__B2_x + inverse_pivot_B2_y*w_B1_y__B2_y;
-    const double scale_B1_x = l_B1_x__coupler1_theta*w_B1_x__coupler1_theta - l_B1_x__crank0_theta*span_crank0_head_y
-        + l_B1_x__crank1_theta*span_crank1_head_y;
-    const double scale_B1_y = l_B1_y__coupler1_theta*w_B1_y__coupler1_theta + l_B1_y__crank0_theta*span_crank0_head_x
-        - l_B1_y__crank1_theta*span_crank1_head_x;
-    const double pivot_B1_x = l_B1_x__B2_x*w_B1_x__B2_x + l_B1_x__B2_y*w_B1_x__B2_y + scale_B1_x;
-    const double pivot_B1_y = l_B1_y__B2_x*w_B1_y__B2_x + l_B1_y__B2_y*w_B1_y__B2_y + scale_B1_y;
-    const double pivot_B1_x__B1_y = l_B1_y__B2_x*w_B1_x__B2_x + l_B1_y__B2_y*w_B1_x__B2_y
-        + l_B1_y__coupler1_theta*w_B1_x__coupler1_theta - l_B1_y__crank0_theta*span_crank0_head_y
-        + l_B1_y__crank1_theta*span_crank1_head_y;
-    const double determinant_B1_x__B1_y = pivot_B1_x*pivot_B1_y - (pivot_B1_x__B1_y * pivot_B1_x__B1_y);
-    if (!(pivot_B1_x > SINGULAR * scale_B1_x))
+    const double inverse_B2_x_B2_y_ = -1.0/determinant_B2_x_B2_y_;
+    const double inverse_pivot_B2_x_ = inverse_B2_x_B2_y_*scale_B2_y_;
+    const double inverse_pivot_B2_y_ = inverse_B2_x_B2_y_*scale_B2_x_;
+    const double inverse_cross_B2_x_B2_y_ = -inverse_B2_x_B2_y_*pivot_B2_x_B2_y_;
+    const double w_B1_x_B2_x_ = -l_B1_x_crank1_theta_*w_B2_x_crank1_theta_;
+    const double w_B1_x_B2_y_ = -l_B1_x_crank1_theta_*w_B2_y_crank1_theta_;
+    const double l_B1_x_B2_x_ = inverse_cross_B2_x_B2_y_*w_B1_x_B2_y_ + inverse_pivot_B2_x_*w_B1_x_B2_x_;
+    const double l_B1_x_B2_y_ = inverse_cross_B2_x_B2_y_*w_B1_x_B2_x_ + inverse_pivot_B2_y_*w_B1_x_B2_y_;
+    const double w_B1_y_B2_x_ = -l_B1_y_crank1_theta_*w_B2_x_crank1_theta_;
+    const double w_B1_y_B2_y_ = -l_B1_y_crank1_theta_*w_B2_y_crank1_theta_;
+    const double l_B1_y_B2_x_ = inverse_cross_B2_x_B2_y_*w_B1_y_B2_y_ + inverse_pivot_B2_x_*w_B1_y_B2_x_;
+    const double l_B1_y_B2_y_ = inverse_cross_B2_x_B2_y_*w_B1_y_B2_x_ + inverse_pivot_B2_y_*w_B1_y_B2_y_;
+    const double scale_B1_x_ = l_B1_x_coupler1_theta_*w_B1_x_coupler1_theta_ - l_B1_x_crank0_theta_*span_crank0_head_y_
+        + l_B1_x_crank1_theta_*span_crank1_head_y_;
+    const double scale_B1_y_ = l_B1_y_coupler1_theta_*w_B1_y_coupler1_theta_ + l_B1_y_crank0_theta_*span_crank0_head_x_
+        - l_B1_y_crank1_theta_*span_crank1_head_x_;
+    const double pivot_B1_x_ = l_B1_x_B2_x_*w_B1_x_B2_x_ + l_B1_x_B2_y_*w_B1_x_B2_y_ + scale_B1_x_;
+    const double pivot_B1_y_ = l_B1_y_B2_x_*w_B1_y_B2_x_ + l_B1_y_B2_y_*w_B1_y_B2_y_ + scale_B1_y_;
+    const double pivot_B1_x_B1_y_ = l_B1_y_B2_x_*w_B1_x_B2_x_ + l_B1_y_B2_y_*w_B1_x_B2_y_
+        + l_B1_y_coupler1_theta_*w_B1_x_coupler1_theta_ - l_B1_y_crank0_theta_*span_crank0_head_y_
+        + l_B1_y_crank1_theta_*span_crank1_head_y_;
+    const double determinant_B1_x_B1_y_ = pivot_B1_x_*pivot_B1_y_ - (pivot_B1_x_B1_y_ * pivot_B1_x_B1_y_);
+    if (!(pivot_B1_x_ > SINGULAR * scale_B1_x_))
         return 3;
-    if (!(determinant_B1_x__B1_y > SINGULAR * scale_B1_y * pivot_B1_x))
+    if (!(determinant_B1_x_B1_y_ > SINGULAR * scale_B1_y_ * pivot_B1_x_))
         return 4;
-    const double size_B1_x = scale_B1_x + scale_B1_y;
-    if (!(pivot_B1_x > VANISHING * size_B1_x))
+    const double size_B1_x_ = scale_B1_x_ + scale_B1_y_;
+    if (!(pivot_B1_x_ > VANISHING * size_B1_x_))
         return 3;
-    if (!(determinant_B1_x__B1_y > VANISHING * size_B1_x * pivot_B1_x))
+    if (!(determinant_B1_x_B1_y_ > VANISHING * size_B1_x_ * pivot_B1_x_))
         return 4;
-    const double inverse_B1_x__B1_y = -1.0/determinant_B1_x__B1_y;
-    const double inverse_pivot_B1_x = inverse_B1_x__B1_y*pivot_B1_y;
-    const double inverse_pivot_B1_y = inverse_B1_x__B1_y*pivot_B1_x;
-    const double inverse_cross_B1_x__B1_y = -inverse_B1_x__B1_y*pivot_B1_x__B1_y;
+    const double inverse_B1_x_B1_y_ = -1.0/determinant_B1_x_B1_y_;
+    const double inverse_pivot_B1_x_ = inverse_B1_x_B1_y_*pivot_B1_y_;
+    const double inverse_pivot_B1_y_ = inverse_B1_x_B1_y_*pivot_B1_x_;
+    const double inverse_cross_B1_x_B1_y_ = -inverse_B1_x_B1_y_*pivot_B1_x_B1_y_;
 
     /* forward substitution */
-    const double step_z_B1_x = -l_B1_x__B2_x*r_B2_x - l_B1_x__B2_y*r_B2_y + r_B1_x;
-    const double step_z_B1_y = -l_B1_y__B2_x*r_B2_x - l_B1_y__B2_y*r_B2_y + r_B1_y;
+    const double step_z_B1_x_ = -l_B1_x_B2_x_*r_B2_x_ - l_B1_x_B2_y_*r_B2_y_ + r_B1_x_;
+    const double step_z_B1_y_ = -l_B1_y_B2_x_*r_B2_x_ - l_B1_y_B2_y_*r_B2_y_ + r_B1_y_;
 
     /* backward substitution */
-    const double step_lambda_B1_y = inverse_cross_B1_x__B1_y*step_z_B1_x + inverse_pivot_B1_y*step_z_B1_y;
-    const double step_lambda_B1_x = inverse_cross_B1_x__B1_y*step_z_B1_y + inverse_pivot_B1_x*step_z_B1_x;
-    const double step_lambda_B2_y = inverse_cross_B2_x__B2_y*r_B2_x + inverse_pivot_B2_y*r_B2_y
-        - l_B1_x__B2_y*step_lambda_B1_x - l_B1_y__B2_y*step_lambda_B1_y;
-    const double step_lambda_B2_x = inverse_cross_B2_x__B2_y*r_B2_y + inverse_pivot_B2_x*r_B2_x
-        - l_B1_x__B2_x*step_lambda_B1_x - l_B1_y__B2_x*step_lambda_B1_y;
-    const double step_acceleration_crank1_theta = -l_B1_x__crank1_theta*step_lambda_B1_x
-        - l_B1_y__crank1_theta*step_lambda_B1_y - l_B2_x__crank1_theta*step_lambda_B2_x
-        - l_B2_y__crank1_theta*step_lambda_B2_y;
-    const double step_acceleration_coupler2_theta = -l_B2_x__coupler2_theta*step_lambda_B2_x
-        - l_B2_y__coupler2_theta*step_lambda_B2_y - l_crank1_theta__coupler2_theta*step_acceleration_crank1_theta;
-    const double step_acceleration_coupler1_theta = -l_B1_x__coupler1_theta*step_lambda_B1_x
-        - l_B1_y__coupler1_theta*step_lambda_B1_y;
-    const double step_acceleration_crank0_theta = -l_B1_x__crank0_theta*step_lambda_B1_x
-        - l_B1_y__crank0_theta*step_lambda_B1_y - l_coupler1_theta__crank0_theta*step_acceleration_coupler1_theta;
-    const double step_acceleration_crank2_theta = -l_B2_x__crank2_theta*step_lambda_B2_x
-        - l_B2_y__crank2_theta*step_lambda_B2_y;
+    const double step_lambda_B1_y_ = inverse_cross_B1_x_B1_y_*step_z_B1_x_ + inverse_pivot_B1_y_*step_z_B1_y_;
+    const double step_lambda_B1_x_ = inverse_cross_B1_x_B1_y_*step_z_B1_y_ + inverse_pivot_B1_x_*step_z_B1_x_;
+    const double step_lambda_B2_y_ = inverse_cross_B2_x_B2_y_*r_B2_x_ + inverse_pivot_B2_y_*r_B2_y_
+        - l_B1_x_B2_y_*step_lambda_B1_x_ - l_B1_y_B2_y_*step_lambda_B1_y_;
+    const double step_lambda_B2_x_ = inverse_cross_B2_x_B2_y_*r_B2_y_ + inverse_pivot_B2_x_*r_B2_x_
+        - l_B1_x_B2_x_*step_lambda_B1_x_ - l_B1_y_B2_x_*step_lambda_B1_y_;
+    const double step_acceleration_crank1_theta_ = -l_B1_x_crank1_theta_*step_lambda_B1_x_
+        - l_B1_y_crank1_theta_*step_lambda_B1_y_ - l_B2_x_crank1_theta_*step_lambda_B2_x_
+        - l_B2_y_crank1_theta_*step_lambda_B2_y_;
+    const double step_acceleration_coupler2_theta_ = -l_B2_x_coupler2_theta_*step_lambda_B2_x_
+        - l_B2_y_coupler2_theta_*step_lambda_B2_y_ - l_crank1_theta_coupler2_theta_*step_acceleration_crank1_theta_;
+    const double step_acceleration_coupler1_theta_ = -l_B1_x_coupler1_theta_*step_lambda_B1_x_
+        - l_B1_y_coupler1_theta_*step_lambda_B1_y_;
+    const double step_acceleration_crank0_theta_ = -l_B1_x_crank0_theta_*step_lambda_B1_x_
+        - l_B1_y_crank0_theta_*step_lambda_B1_y_ - l_coupler1_theta_crank0_theta_*step_acceleration_coupler1_theta_;
+    const double step_acceleration_crank2_theta_ = -l_B2_x_crank2_theta_*step_lambda_B2_x_
+        - l_B2_y_crank2_theta_*step_lambda_B2_y_;
 
     /* results */
-    x[0] = step_acceleration_crank0_theta;
-    x[1] = step_acceleration_crank1_theta;
-    x[2] = step_acceleration_crank2_theta;
-    x[3] = step_acceleration_coupler1_theta;
-    x[4] = step_acceleration_coupler2_theta;
+    x[0] = step_acceleration_crank0_theta_;
+    x[1] = step_acceleration_crank1_theta_;
+    x[2] = step_acceleration_crank2_theta_;
+    x[3] = step_acceleration_coupler1_theta_;
+    x[4] = step_acceleration_coupler2_theta_;
     return 0;
 }
 

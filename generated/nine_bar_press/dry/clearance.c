@@ -59,19 +59,19 @@ static inline void modified_coulomb(double F_n, double v_t, double mu, double v0
  * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
  * linear and angular momentum are conserved to rounding. F_n < 0 pushes the journal back.
  */
-static inline PinForce dry_A(double delta, double deltadot, double de_t, double omega_i, double omega_j,
+static inline PinForce dry_A_(double delta, double deltadot, double de_t, double omega_i, double omega_j,
     const Latch *latch, const Parameters *p, const double *side, double *g)
 {
     /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
     const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
-    const double a_i = 0.5*delta + p->pin_radius;
-    const double a_j = -0.5*delta + p->R_j_pin;
+    const double a_i = 0.5*delta + p->pin_radius_;
+    const double a_j = -0.5*delta + p->R_j_pin_;
     const double v_t = -a_i*omega_i + a_j*omega_j + de_t;
     double F_n;
-    lankarani_nikravesh(max_of(delta, 0.0), ratio, p->dry_normal_exponent, p->dry_pin_K, p->dry_pin_hysteresis, side,
-        g, 0, &F_n);
+    lankarani_nikravesh(max_of(delta, 0.0), ratio, p->dry_normal_exponent_, p->dry_pin_K_, p->dry_pin_hysteresis_,
+        side, g, 0, &F_n);
     double F_along_t_dry;
-    modified_coulomb(F_n, v_t, p->dry_friction_mu, p->dry_friction_v0, p->dry_pin_friction_slope, side, g, 1,
+    modified_coulomb(F_n, v_t, p->dry_friction_mu_, p->dry_friction_v0_, p->dry_pin_friction_slope_, side, g, 1,
         &F_along_t_dry);
     const double M_i_dry = -F_along_t_dry*a_i;
     const double M_j_dry = F_along_t_dry*a_j;
@@ -79,21 +79,21 @@ static inline PinForce dry_A(double delta, double deltadot, double de_t, double 
 }
 
 /* Joint A: free while delta < 0, dry contact beyond; a step holds what it began with. */
-static void clearance_A(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
+static void clearance_A_(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
     const Latch *latch, const Parameters *p, const double *side, double *g, Clearance *out)
 {
     const double e = sqrt((e_x * e_x) + (e_y * e_y));
     const double inverse_e = 1.0/e;
     const double n_x = e > 0.0 ? e_x*inverse_e : 1.0;
     const double n_y = e > 0.0 ? e_y*inverse_e : 0.0;
-    const double delta = e - p->pin_clearance;
+    const double delta = e - p->pin_clearance_;
     const double deltadot = de_x*n_x + de_y*n_y;
     const double de_t = -de_x*n_y + de_y*n_x;
     PinForce F = {0};
     for (int k = 0; k < 5; k++)
         g[k] = NAN; /* without contact nothing switches */
     if (side ? latch->closed : delta > 0.0)
-        F = dry_A(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
+        F = dry_A_(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
     *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
         .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
         .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0};
@@ -105,19 +105,19 @@ static void clearance_A(double e_x, double e_y, double de_x, double de_y, double
  * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
  * linear and angular momentum are conserved to rounding. F_n < 0 pushes the journal back.
  */
-static inline PinForce dry_B(double delta, double deltadot, double de_t, double omega_i, double omega_j,
+static inline PinForce dry_B_(double delta, double deltadot, double de_t, double omega_i, double omega_j,
     const Latch *latch, const Parameters *p, const double *side, double *g)
 {
     /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
     const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
-    const double a_i = 0.5*delta + p->pin_radius;
-    const double a_j = -0.5*delta + p->R_j_pin;
+    const double a_i = 0.5*delta + p->pin_radius_;
+    const double a_j = -0.5*delta + p->R_j_pin_;
     const double v_t = -a_i*omega_i + a_j*omega_j + de_t;
     double F_n;
-    lankarani_nikravesh(max_of(delta, 0.0), ratio, p->dry_normal_exponent, p->dry_pin_K, p->dry_pin_hysteresis, side,
-        g, 5, &F_n);
+    lankarani_nikravesh(max_of(delta, 0.0), ratio, p->dry_normal_exponent_, p->dry_pin_K_, p->dry_pin_hysteresis_,
+        side, g, 5, &F_n);
     double F_along_t_dry;
-    modified_coulomb(F_n, v_t, p->dry_friction_mu, p->dry_friction_v0, p->dry_pin_friction_slope, side, g, 6,
+    modified_coulomb(F_n, v_t, p->dry_friction_mu_, p->dry_friction_v0_, p->dry_pin_friction_slope_, side, g, 6,
         &F_along_t_dry);
     const double M_i_dry = -F_along_t_dry*a_i;
     const double M_j_dry = F_along_t_dry*a_j;
@@ -125,21 +125,21 @@ static inline PinForce dry_B(double delta, double deltadot, double de_t, double 
 }
 
 /* Joint B: free while delta < 0, dry contact beyond; a step holds what it began with. */
-static void clearance_B(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
+static void clearance_B_(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
     const Latch *latch, const Parameters *p, const double *side, double *g, Clearance *out)
 {
     const double e = sqrt((e_x * e_x) + (e_y * e_y));
     const double inverse_e = 1.0/e;
     const double n_x = e > 0.0 ? e_x*inverse_e : 1.0;
     const double n_y = e > 0.0 ? e_y*inverse_e : 0.0;
-    const double delta = e - p->pin_clearance;
+    const double delta = e - p->pin_clearance_;
     const double deltadot = de_x*n_x + de_y*n_y;
     const double de_t = -de_x*n_y + de_y*n_x;
     PinForce F = {0};
     for (int k = 5; k < 10; k++)
         g[k] = NAN; /* without contact nothing switches */
     if (side ? latch->closed : delta > 0.0)
-        F = dry_B(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
+        F = dry_B_(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
     *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
         .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
         .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0};

@@ -4,149 +4,149 @@
 void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
 {
     /* coordinates, velocities, time */
-    const double L6_theta = q[0];
-    const double L6_omega = v[0];
-    const double L7_theta = q[1];
-    const double L7_omega = v[1];
-    const double L8_theta = q[2];
-    const double L8_omega = v[2];
-    const double L2_theta = q[3];
-    const double L2_omega = v[3];
-    const double L3_theta = q[4];
-    const double L3_omega = v[4];
+    const double L6_theta_ = q[0];
+    const double L6_omega_ = v[0];
+    const double L7_theta_ = q[1];
+    const double L7_omega_ = v[1];
+    const double L8_theta_ = q[2];
+    const double L8_omega_ = v[2];
+    const double L2_theta_ = q[3];
+    const double L2_omega_ = v[3];
+    const double L3_theta_ = q[4];
+    const double L3_omega_ = v[4];
 
     /* directions, arms, drives */
-    const double crank1_value = p->omega*t - 0.689754120388159;
-    const double crank4_value = p->omega4*t + 3.4814082589530893;
-    const Four angles_0 = {crank1_value, crank4_value, L6_theta, L7_theta};
+    const double crank1_value_ = p->omega_*t - 0.689754120388159;
+    const double crank4_value_ = p->omega4_*t + 3.4814082589530893;
+    const Four angles_0 = {crank1_value_, crank4_value_, L6_theta_, L7_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const Four angles_1 = {L8_theta, L2_theta, L3_theta, L3_theta};
+    const Four angles_1 = {L8_theta_, L2_theta_, L3_theta_, L3_theta_};
     Four sines_1, cosines_1;
     sines_and_cosines(&angles_1, &sines_1, &cosines_1);
-    const double cos_theta_L1 = cosines_0[0];
-    const double sin_theta_L1 = sines_0[0];
-    const double cos_theta_L4 = cosines_0[1];
-    const double sin_theta_L4 = sines_0[1];
-    const double cos_theta_L6 = cosines_0[2];
-    const double sin_theta_L6 = sines_0[2];
-    const double cos_theta_L7 = cosines_0[3];
-    const double sin_theta_L7 = sines_0[3];
-    const double cos_theta_L8 = cosines_1[0];
-    const double sin_theta_L8 = sines_1[0];
-    const double cos_theta_L2 = cosines_1[1];
-    const double sin_theta_L2 = sines_1[1];
-    const double cos_theta_L3 = cosines_1[2];
-    const double sin_theta_L3 = sines_1[2];
-    const double crank1_rate = p->omega;
-    const double crank4_rate = p->omega4;
-    const double span_L1_com_x = p->L1_head_s_x*cos_theta_L1;
-    const double span_L1_com_y = p->L1_head_s_x*sin_theta_L1;
-    const double L1_vx = -crank1_rate*span_L1_com_y;
-    const double L1_vy = crank1_rate*span_L1_com_x;
-    const double span_L4_com_x = p->L4_head_s_x*cos_theta_L4;
-    const double span_L4_com_y = p->L4_head_s_x*sin_theta_L4;
-    const double L4_vx = -crank4_rate*span_L4_com_y;
-    const double L4_y = p->O4_y + span_L4_com_y;
-    const double L4_vy = crank4_rate*span_L4_com_x;
-    const double span_L6_com_x = p->L6_head_s_x*cos_theta_L6;
-    const double span_L6_com_y = p->L6_head_s_x*sin_theta_L6;
-    const double L6_x = p->O6_x + span_L6_com_x;
-    const double L6_vx = -L6_omega*span_L6_com_y;
-    const double L6_vy = L6_omega*span_L6_com_x;
-    const double span_L6_head_x = p->L6_head_span_x*cos_theta_L6;
-    const double span_L6_head_y = p->L6_head_span_x*sin_theta_L6;
-    const double L6_head_x = p->O6_x + span_L6_head_x;
-    const double L6_head_vx = -L6_omega*span_L6_head_y;
-    const double L6_head_vy = L6_omega*span_L6_head_x;
-    const double span_L7_com_x = p->L7_com_span_x*cos_theta_L7;
-    const double span_L7_com_y = p->L7_com_span_x*sin_theta_L7;
-    const double L7_x = L6_head_x + span_L7_com_x;
-    const double L7_vx = L6_head_vx - L7_omega*span_L7_com_y;
-    const double L7_y = span_L6_head_y + span_L7_com_y;
-    const double L7_vy = L6_head_vy + L7_omega*span_L7_com_x;
-    const double span_L8_com_x = p->L8_head_s_x*cos_theta_L8;
-    const double span_L8_com_y = p->L8_head_s_x*sin_theta_L8;
-    const double L8_x = L6_head_x + span_L8_com_x;
-    const double L8_vx = L6_head_vx - L8_omega*span_L8_com_y;
-    const double L8_y = span_L6_head_y + span_L8_com_y;
-    const double L8_vy = L6_head_vy + L8_omega*span_L8_com_x;
-    const double span_L7_tail_x = p->L7_tail_span_x*cos_theta_L7;
-    const double span_L7_tail_y = p->L7_tail_span_x*sin_theta_L7;
-    const double L7_tail_x = L6_head_x + span_L7_tail_x;
-    const double L7_tail_vx = L6_head_vx - L7_omega*span_L7_tail_y;
-    const double L7_tail_y = span_L6_head_y + span_L7_tail_y;
-    const double L7_tail_vy = L6_head_vy + L7_omega*span_L7_tail_x;
-    const double span_L2_com_x = p->L2_com_span_x*cos_theta_L2;
-    const double span_L2_com_y = p->L2_com_span_x*sin_theta_L2;
-    const double L2_x = L7_tail_x + span_L2_com_x;
-    const double L2_vx = -L2_omega*span_L2_com_y + L7_tail_vx;
-    const double L2_y = L7_tail_y + span_L2_com_y;
-    const double L2_vy = L2_omega*span_L2_com_x + L7_tail_vy;
-    const double span_L3_com_x = p->L3_com_span_x*cos_theta_L3;
-    const double span_L3_com_y = p->L3_com_span_x*sin_theta_L3;
-    const double L3_x = L7_tail_x + span_L3_com_x;
-    const double L3_vx = -L3_omega*span_L3_com_y + L7_tail_vx;
-    const double L3_y = L7_tail_y + span_L3_com_y;
-    const double L3_vy = L3_omega*span_L3_com_x + L7_tail_vy;
-    const double span_L8_head_x = p->L8_head_span_x*cos_theta_L8;
-    const double span_L8_head_y = p->L8_head_span_x*sin_theta_L8;
-    const double L8_head_x = L6_head_x + span_L8_head_x;
-    const double L8_head_vx = L6_head_vx - L8_omega*span_L8_head_y;
-    const double L8_head_y = span_L6_head_y + span_L8_head_y;
-    const double L8_head_vy = L6_head_vy + L8_omega*span_L8_head_x;
-    const double S9_theta = PI/2.0;
-    const double S9_omega = 0.0;
+    const double cos_theta_L1_ = cosines_0[0];
+    const double sin_theta_L1_ = sines_0[0];
+    const double cos_theta_L4_ = cosines_0[1];
+    const double sin_theta_L4_ = sines_0[1];
+    const double cos_theta_L6_ = cosines_0[2];
+    const double sin_theta_L6_ = sines_0[2];
+    const double cos_theta_L7_ = cosines_0[3];
+    const double sin_theta_L7_ = sines_0[3];
+    const double cos_theta_L8_ = cosines_1[0];
+    const double sin_theta_L8_ = sines_1[0];
+    const double cos_theta_L2_ = cosines_1[1];
+    const double sin_theta_L2_ = sines_1[1];
+    const double cos_theta_L3_ = cosines_1[2];
+    const double sin_theta_L3_ = sines_1[2];
+    const double crank1_rate_ = p->omega_;
+    const double crank4_rate_ = p->omega4_;
+    const double span_L1_com_x_ = p->L1_head_s_x_*cos_theta_L1_;
+    const double span_L1_com_y_ = p->L1_head_s_x_*sin_theta_L1_;
+    const double L1_vx_ = -crank1_rate_*span_L1_com_y_;
+    const double L1_vy_ = crank1_rate_*span_L1_com_x_;
+    const double span_L4_com_x_ = p->L4_head_s_x_*cos_theta_L4_;
+    const double span_L4_com_y_ = p->L4_head_s_x_*sin_theta_L4_;
+    const double L4_vx_ = -crank4_rate_*span_L4_com_y_;
+    const double L4_y_ = p->O4_y_ + span_L4_com_y_;
+    const double L4_vy_ = crank4_rate_*span_L4_com_x_;
+    const double span_L6_com_x_ = p->L6_head_s_x_*cos_theta_L6_;
+    const double span_L6_com_y_ = p->L6_head_s_x_*sin_theta_L6_;
+    const double L6_x_ = p->O6_x_ + span_L6_com_x_;
+    const double L6_vx_ = -L6_omega_*span_L6_com_y_;
+    const double L6_vy_ = L6_omega_*span_L6_com_x_;
+    const double span_L6_head_x_ = p->L6_head_span_x_*cos_theta_L6_;
+    const double span_L6_head_y_ = p->L6_head_span_x_*sin_theta_L6_;
+    const double L6_head_x_ = p->O6_x_ + span_L6_head_x_;
+    const double L6_head_vx_ = -L6_omega_*span_L6_head_y_;
+    const double L6_head_vy_ = L6_omega_*span_L6_head_x_;
+    const double span_L7_com_x_ = p->L7_com_span_x_*cos_theta_L7_;
+    const double span_L7_com_y_ = p->L7_com_span_x_*sin_theta_L7_;
+    const double L7_x_ = L6_head_x_ + span_L7_com_x_;
+    const double L7_vx_ = L6_head_vx_ - L7_omega_*span_L7_com_y_;
+    const double L7_y_ = span_L6_head_y_ + span_L7_com_y_;
+    const double L7_vy_ = L6_head_vy_ + L7_omega_*span_L7_com_x_;
+    const double span_L8_com_x_ = p->L8_head_s_x_*cos_theta_L8_;
+    const double span_L8_com_y_ = p->L8_head_s_x_*sin_theta_L8_;
+    const double L8_x_ = L6_head_x_ + span_L8_com_x_;
+    const double L8_vx_ = L6_head_vx_ - L8_omega_*span_L8_com_y_;
+    const double L8_y_ = span_L6_head_y_ + span_L8_com_y_;
+    const double L8_vy_ = L6_head_vy_ + L8_omega_*span_L8_com_x_;
+    const double span_L7_tail_x_ = p->L7_tail_span_x_*cos_theta_L7_;
+    const double span_L7_tail_y_ = p->L7_tail_span_x_*sin_theta_L7_;
+    const double L7_tail_x_ = L6_head_x_ + span_L7_tail_x_;
+    const double L7_tail_vx_ = L6_head_vx_ - L7_omega_*span_L7_tail_y_;
+    const double L7_tail_y_ = span_L6_head_y_ + span_L7_tail_y_;
+    const double L7_tail_vy_ = L6_head_vy_ + L7_omega_*span_L7_tail_x_;
+    const double span_L2_com_x_ = p->L2_com_span_x_*cos_theta_L2_;
+    const double span_L2_com_y_ = p->L2_com_span_x_*sin_theta_L2_;
+    const double L2_x_ = L7_tail_x_ + span_L2_com_x_;
+    const double L2_vx_ = -L2_omega_*span_L2_com_y_ + L7_tail_vx_;
+    const double L2_y_ = L7_tail_y_ + span_L2_com_y_;
+    const double L2_vy_ = L2_omega_*span_L2_com_x_ + L7_tail_vy_;
+    const double span_L3_com_x_ = p->L3_com_span_x_*cos_theta_L3_;
+    const double span_L3_com_y_ = p->L3_com_span_x_*sin_theta_L3_;
+    const double L3_x_ = L7_tail_x_ + span_L3_com_x_;
+    const double L3_vx_ = -L3_omega_*span_L3_com_y_ + L7_tail_vx_;
+    const double L3_y_ = L7_tail_y_ + span_L3_com_y_;
+    const double L3_vy_ = L3_omega_*span_L3_com_x_ + L7_tail_vy_;
+    const double span_L8_head_x_ = p->L8_head_span_x_*cos_theta_L8_;
+    const double span_L8_head_y_ = p->L8_head_span_x_*sin_theta_L8_;
+    const double L8_head_x_ = L6_head_x_ + span_L8_head_x_;
+    const double L8_head_vx_ = L6_head_vx_ - L8_omega_*span_L8_head_y_;
+    const double L8_head_y_ = span_L6_head_y_ + span_L8_head_y_;
+    const double L8_head_vy_ = L6_head_vy_ + L8_omega_*span_L8_head_x_;
+    const double S9_theta_ = PI/2.0;
+    const double S9_omega_ = 0.0;
 
     /* bodies */
-    all_q[0] = span_L1_com_x;
-    all_v[0] = L1_vx;
-    all_q[1] = span_L1_com_y;
-    all_v[1] = L1_vy;
-    all_q[2] = crank1_value;
-    all_v[2] = crank1_rate;
-    all_q[3] = L2_x;
-    all_v[3] = L2_vx;
-    all_q[4] = L2_y;
-    all_v[4] = L2_vy;
-    all_q[5] = L2_theta;
-    all_v[5] = L2_omega;
-    all_q[6] = L3_x;
-    all_v[6] = L3_vx;
-    all_q[7] = L3_y;
-    all_v[7] = L3_vy;
-    all_q[8] = L3_theta;
-    all_v[8] = L3_omega;
-    all_q[9] = span_L4_com_x;
-    all_v[9] = L4_vx;
-    all_q[10] = L4_y;
-    all_v[10] = L4_vy;
-    all_q[11] = crank4_value;
-    all_v[11] = crank4_rate;
-    all_q[12] = L6_x;
-    all_v[12] = L6_vx;
-    all_q[13] = span_L6_com_y;
-    all_v[13] = L6_vy;
-    all_q[14] = L6_theta;
-    all_v[14] = L6_omega;
-    all_q[15] = L7_x;
-    all_v[15] = L7_vx;
-    all_q[16] = L7_y;
-    all_v[16] = L7_vy;
-    all_q[17] = L7_theta;
-    all_v[17] = L7_omega;
-    all_q[18] = L8_x;
-    all_v[18] = L8_vx;
-    all_q[19] = L8_y;
-    all_v[19] = L8_vy;
-    all_q[20] = L8_theta;
-    all_v[20] = L8_omega;
-    all_q[21] = L8_head_x;
-    all_v[21] = L8_head_vx;
-    all_q[22] = L8_head_y;
-    all_v[22] = L8_head_vy;
-    all_q[23] = S9_theta;
-    all_v[23] = S9_omega;
+    all_q[0] = span_L1_com_x_;
+    all_v[0] = L1_vx_;
+    all_q[1] = span_L1_com_y_;
+    all_v[1] = L1_vy_;
+    all_q[2] = crank1_value_;
+    all_v[2] = crank1_rate_;
+    all_q[3] = L2_x_;
+    all_v[3] = L2_vx_;
+    all_q[4] = L2_y_;
+    all_v[4] = L2_vy_;
+    all_q[5] = L2_theta_;
+    all_v[5] = L2_omega_;
+    all_q[6] = L3_x_;
+    all_v[6] = L3_vx_;
+    all_q[7] = L3_y_;
+    all_v[7] = L3_vy_;
+    all_q[8] = L3_theta_;
+    all_v[8] = L3_omega_;
+    all_q[9] = span_L4_com_x_;
+    all_v[9] = L4_vx_;
+    all_q[10] = L4_y_;
+    all_v[10] = L4_vy_;
+    all_q[11] = crank4_value_;
+    all_v[11] = crank4_rate_;
+    all_q[12] = L6_x_;
+    all_v[12] = L6_vx_;
+    all_q[13] = span_L6_com_y_;
+    all_v[13] = L6_vy_;
+    all_q[14] = L6_theta_;
+    all_v[14] = L6_omega_;
+    all_q[15] = L7_x_;
+    all_v[15] = L7_vx_;
+    all_q[16] = L7_y_;
+    all_v[16] = L7_vy_;
+    all_q[17] = L7_theta_;
+    all_v[17] = L7_omega_;
+    all_q[18] = L8_x_;
+    all_v[18] = L8_vx_;
+    all_q[19] = L8_y_;
+    all_v[19] = L8_vy_;
+    all_q[20] = L8_theta_;
+    all_v[20] = L8_omega_;
+    all_q[21] = L8_head_x_;
+    all_v[21] = L8_head_vx_;
+    all_q[22] = L8_head_y_;
+    all_v[22] = L8_head_vy_;
+    all_q[23] = S9_theta_;
+    all_v[23] = S9_omega_;
 }
 
 /*
@@ -156,28 +156,28 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 {
     (void)t, (void)p;
     /* coordinates, velocities, time */
-    const double L2_theta = q[5];
-    const double L2_omega = v[5];
-    const double L3_theta = q[8];
-    const double L3_omega = v[8];
-    const double L6_theta = q[14];
-    const double L6_omega = v[14];
-    const double L7_theta = q[17];
-    const double L7_omega = v[17];
-    const double L8_theta = q[20];
-    const double L8_omega = v[20];
+    const double L2_theta_ = q[5];
+    const double L2_omega_ = v[5];
+    const double L3_theta_ = q[8];
+    const double L3_omega_ = v[8];
+    const double L6_theta_ = q[14];
+    const double L6_omega_ = v[14];
+    const double L7_theta_ = q[17];
+    const double L7_omega_ = v[17];
+    const double L8_theta_ = q[20];
+    const double L8_omega_ = v[20];
 
     /* tree coordinates */
-    s[0] = L6_theta;  /* L6 */
-    s_rate[0] = L6_omega;
-    s[1] = L7_theta;  /* L7 */
-    s_rate[1] = L7_omega;
-    s[2] = L8_theta;  /* L8 */
-    s_rate[2] = L8_omega;
-    s[3] = L2_theta;  /* L2 */
-    s_rate[3] = L2_omega;
-    s[4] = L3_theta;  /* L3 */
-    s_rate[4] = L3_omega;
+    s[0] = L6_theta_;  /* L6 */
+    s_rate[0] = L6_omega_;
+    s[1] = L7_theta_;  /* L7 */
+    s_rate[1] = L7_omega_;
+    s[2] = L8_theta_;  /* L8 */
+    s_rate[2] = L8_omega_;
+    s[3] = L2_theta_;  /* L2 */
+    s_rate[3] = L2_omega_;
+    s[4] = L3_theta_;  /* L3 */
+    s_rate[4] = L3_omega_;
 }
 
 /*
@@ -202,20 +202,20 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double L6_theta = q[0];
-    const double L8_theta = q[2];
+    const double L6_theta_ = q[0];
+    const double L8_theta_ = q[2];
 
     /* directions, arms, drives */
-    const Four angles_0 = {L6_theta, L8_theta, L8_theta, L8_theta};
+    const Four angles_0 = {L6_theta_, L8_theta_, L8_theta_, L8_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_L6 = cosines_0[0];
-    const double cos_theta_L8 = cosines_0[1];
-    const double span_L6_head_x = p->L6_head_span_x*cos_theta_L6;
-    const double span_L8_head_x = p->L8_head_span_x*cos_theta_L8;
+    const double cos_theta_L6_ = cosines_0[0];
+    const double cos_theta_L8_ = cosines_0[1];
+    const double span_L6_head_x_ = p->L6_head_span_x_*cos_theta_L6_;
+    const double span_L8_head_x_ = p->L8_head_span_x_*cos_theta_L8_;
 
     /* rows */
-    out[0] = -span_L6_head_x - span_L8_head_x;  /* guide.offset */
+    out[0] = -span_L6_head_x_ - span_L8_head_x_;  /* guide.offset */
 }
 
 /*
@@ -225,22 +225,22 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double L6_theta = q[0];
-    const double L6_omega = v[0];
-    const double L8_theta = q[2];
-    const double L8_omega = v[2];
+    const double L6_theta_ = q[0];
+    const double L6_omega_ = v[0];
+    const double L8_theta_ = q[2];
+    const double L8_omega_ = v[2];
 
     /* directions, arms, drives */
-    const Four angles_0 = {L6_theta, L8_theta, L8_theta, L8_theta};
+    const Four angles_0 = {L6_theta_, L8_theta_, L8_theta_, L8_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double sin_theta_L6 = sines_0[0];
-    const double sin_theta_L8 = sines_0[1];
-    const double span_L6_head_y = p->L6_head_span_x*sin_theta_L6;
-    const double span_L8_head_y = p->L8_head_span_x*sin_theta_L8;
+    const double sin_theta_L6_ = sines_0[0];
+    const double sin_theta_L8_ = sines_0[1];
+    const double span_L6_head_y_ = p->L6_head_span_x_*sin_theta_L6_;
+    const double span_L8_head_y_ = p->L8_head_span_x_*sin_theta_L8_;
 
     /* rows */
-    out[0] = L6_omega*span_L6_head_y + L8_omega*span_L8_head_y;  /* guide.offset */
+    out[0] = L6_omega_*span_L6_head_y_ + L8_omega_*span_L8_head_y_;  /* guide.offset */
 }
 
 /*
@@ -256,209 +256,231 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     double *const g = aside->g;
 
     /* coordinates, velocities, time */
-    const double L6_theta = q[0];
-    const double L6_omega = v[0];
-    const double L7_theta = q[1];
-    const double L7_omega = v[1];
-    const double L8_theta = q[2];
-    const double L8_omega = v[2];
-    const double L2_theta = q[3];
-    const double L2_omega = v[3];
-    const double L3_theta = q[4];
-    const double L3_omega = v[4];
+    const double L6_theta_ = q[0];
+    const double L6_omega_ = v[0];
+    const double L7_theta_ = q[1];
+    const double L7_omega_ = v[1];
+    const double L8_theta_ = q[2];
+    const double L8_omega_ = v[2];
+    const double L2_theta_ = q[3];
+    const double L2_omega_ = v[3];
+    const double L3_theta_ = q[4];
+    const double L3_omega_ = v[4];
 
     /* directions, arms, drives */
-    const double crank1_value = p->omega*t - 0.689754120388159;
-    const double crank4_value = p->omega4*t + 3.4814082589530893;
-    const Four angles_0 = {crank1_value, crank4_value, L6_theta, L7_theta};
+    const double crank1_value_ = p->omega_*t - 0.689754120388159;
+    const double crank4_value_ = p->omega4_*t + 3.4814082589530893;
+    const Four angles_0 = {crank1_value_, crank4_value_, L6_theta_, L7_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const Four angles_1 = {L8_theta, L2_theta, L3_theta, L3_theta};
+    const Four angles_1 = {L8_theta_, L2_theta_, L3_theta_, L3_theta_};
     Four sines_1, cosines_1;
     sines_and_cosines(&angles_1, &sines_1, &cosines_1);
-    const double cos_theta_L1 = cosines_0[0];
-    const double sin_theta_L1 = sines_0[0];
-    const double cos_theta_L4 = cosines_0[1];
-    const double sin_theta_L4 = sines_0[1];
-    const double cos_theta_L6 = cosines_0[2];
-    const double sin_theta_L6 = sines_0[2];
-    const double cos_theta_L7 = cosines_0[3];
-    const double sin_theta_L7 = sines_0[3];
-    const double cos_theta_L8 = cosines_1[0];
-    const double sin_theta_L8 = sines_1[0];
-    const double cos_theta_L2 = cosines_1[1];
-    const double sin_theta_L2 = sines_1[1];
-    const double cos_theta_L3 = cosines_1[2];
-    const double sin_theta_L3 = sines_1[2];
-    const double crank1_rate = p->omega;
-    const double crank1_acceleration = 0.0;
-    const double crank4_rate = p->omega4;
-    const double crank4_acceleration = 0.0;
-    const double span_L6_head_x = p->L6_head_span_x*cos_theta_L6;
-    const double span_L6_head_y = p->L6_head_span_x*sin_theta_L6;
-    const double L6_head_x = p->O6_x + span_L6_head_x;
-    const double L6_head_vx = -L6_omega*span_L6_head_y;
-    const double L6_head_vy = L6_omega*span_L6_head_x;
-    const double span_L7_tail_x = p->L7_tail_span_x*cos_theta_L7;
-    const double span_L7_tail_y = p->L7_tail_span_x*sin_theta_L7;
-    const double L7_tail_x = L6_head_x + span_L7_tail_x;
-    const double L7_tail_vx = L6_head_vx - L7_omega*span_L7_tail_y;
-    const double L7_tail_y = span_L6_head_y + span_L7_tail_y;
-    const double L7_tail_vy = L6_head_vy + L7_omega*span_L7_tail_x;
-    const double span_L8_head_x = p->L8_head_span_x*cos_theta_L8;
-    const double span_L8_head_y = p->L8_head_span_x*sin_theta_L8;
-    const double span_L1_head_x = p->L1_head_span_x*cos_theta_L1;
-    const double span_L1_head_y = p->L1_head_span_x*sin_theta_L1;
-    const double L1_head_vx = -crank1_rate*span_L1_head_y;
-    const double L1_head_vy = crank1_rate*span_L1_head_x;
-    const double span_L2_tail_x = p->L2_tail_span_x*cos_theta_L2;
-    const double span_L2_tail_y = p->L2_tail_span_x*sin_theta_L2;
-    const double L2_tail_x = L7_tail_x + span_L2_tail_x;
-    const double L2_tail_vx = -L2_omega*span_L2_tail_y + L7_tail_vx;
-    const double L2_tail_y = L7_tail_y + span_L2_tail_y;
-    const double L2_tail_vy = L2_omega*span_L2_tail_x + L7_tail_vy;
-    const double span_L4_head_x = p->L4_head_span_x*cos_theta_L4;
-    const double span_L4_head_y = p->L4_head_span_x*sin_theta_L4;
-    const double L4_head_vx = -crank4_rate*span_L4_head_y;
-    const double L4_head_y = p->O4_y + span_L4_head_y;
-    const double L4_head_vy = crank4_rate*span_L4_head_x;
-    const double span_L3_tail_x = p->L3_tail_span_x*cos_theta_L3;
-    const double span_L3_tail_y = p->L3_tail_span_x*sin_theta_L3;
-    const double L3_tail_x = L7_tail_x + span_L3_tail_x;
-    const double L3_tail_vx = -L3_omega*span_L3_tail_y + L7_tail_vx;
-    const double L3_tail_y = L7_tail_y + span_L3_tail_y;
-    const double L3_tail_vy = L3_omega*span_L3_tail_x + L7_tail_vy;
-    const double cos_L7_less_L6 = cos_theta_L6*cos_theta_L7 + sin_theta_L6*sin_theta_L7;
-    const double sin_L7_less_L6 = cos_theta_L6*sin_theta_L7 - cos_theta_L7*sin_theta_L6;
-    const double dot_L6_L7 = cos_L7_less_L6*p->inertia_L6_L7;
-    const double cross_L6_L7 = p->inertia_L6_L7*sin_L7_less_L6;
-    const double cos_L2_less_L6 = cos_theta_L2*cos_theta_L6 + sin_theta_L2*sin_theta_L6;
-    const double sin_L2_less_L6 = -cos_theta_L2*sin_theta_L6 + cos_theta_L6*sin_theta_L2;
-    const double dot_L6_L2 = cos_L2_less_L6*p->inertia_L6_L2;
-    const double cross_L6_L2 = p->inertia_L6_L2*sin_L2_less_L6;
-    const double cos_L2_less_L7 = cos_theta_L2*cos_theta_L7 + sin_theta_L2*sin_theta_L7;
-    const double sin_L2_less_L7 = -cos_theta_L2*sin_theta_L7 + cos_theta_L7*sin_theta_L2;
-    const double dot_L7_L2 = cos_L2_less_L7*p->inertia_L7_L2;
-    const double cross_L7_L2 = p->inertia_L7_L2*sin_L2_less_L7;
-    const double cos_L3_less_L6 = cos_theta_L3*cos_theta_L6 + sin_theta_L3*sin_theta_L6;
-    const double sin_L3_less_L6 = -cos_theta_L3*sin_theta_L6 + cos_theta_L6*sin_theta_L3;
-    const double dot_L6_L3 = cos_L3_less_L6*p->inertia_L6_L3;
-    const double cross_L6_L3 = p->inertia_L6_L3*sin_L3_less_L6;
-    const double cos_L3_less_L7 = cos_theta_L3*cos_theta_L7 + sin_theta_L3*sin_theta_L7;
-    const double sin_L3_less_L7 = -cos_theta_L3*sin_theta_L7 + cos_theta_L7*sin_theta_L3;
-    const double dot_L7_L3 = cos_L3_less_L7*p->inertia_L7_L3;
-    const double cross_L7_L3 = p->inertia_L7_L3*sin_L3_less_L7;
-    const double cos_L8_less_L6 = cos_theta_L6*cos_theta_L8 + sin_theta_L6*sin_theta_L8;
-    const double sin_L8_less_L6 = cos_theta_L6*sin_theta_L8 - cos_theta_L8*sin_theta_L6;
-    const double dot_L6_L8 = cos_L8_less_L6*p->inertia_L6_L8;
-    const double cross_L6_L8 = p->inertia_L6_L8*sin_L8_less_L6;
+    const double cos_theta_L1_ = cosines_0[0];
+    const double sin_theta_L1_ = sines_0[0];
+    const double cos_theta_L4_ = cosines_0[1];
+    const double sin_theta_L4_ = sines_0[1];
+    const double cos_theta_L6_ = cosines_0[2];
+    const double sin_theta_L6_ = sines_0[2];
+    const double cos_theta_L7_ = cosines_0[3];
+    const double sin_theta_L7_ = sines_0[3];
+    const double cos_theta_L8_ = cosines_1[0];
+    const double sin_theta_L8_ = sines_1[0];
+    const double cos_theta_L2_ = cosines_1[1];
+    const double sin_theta_L2_ = sines_1[1];
+    const double cos_theta_L3_ = cosines_1[2];
+    const double sin_theta_L3_ = sines_1[2];
+    const double crank1_rate_ = p->omega_;
+    const double crank1_acceleration_ = 0.0;
+    const double crank4_rate_ = p->omega4_;
+    const double crank4_acceleration_ = 0.0;
+    const double span_L6_head_x_ = p->L6_head_span_x_*cos_theta_L6_;
+    const double span_L6_head_y_ = p->L6_head_span_x_*sin_theta_L6_;
+    const double L6_head_x_ = p->O6_x_ + span_L6_head_x_;
+    const double L6_head_vx_ = -L6_omega_*span_L6_head_y_;
+    const double L6_head_vy_ = L6_omega_*span_L6_head_x_;
+    const double span_L7_tail_x_ = p->L7_tail_span_x_*cos_theta_L7_;
+    const double span_L7_tail_y_ = p->L7_tail_span_x_*sin_theta_L7_;
+    const double L7_tail_x_ = L6_head_x_ + span_L7_tail_x_;
+    const double L7_tail_vx_ = L6_head_vx_ - L7_omega_*span_L7_tail_y_;
+    const double L7_tail_y_ = span_L6_head_y_ + span_L7_tail_y_;
+    const double L7_tail_vy_ = L6_head_vy_ + L7_omega_*span_L7_tail_x_;
+    const double span_L8_head_x_ = p->L8_head_span_x_*cos_theta_L8_;
+    const double span_L8_head_y_ = p->L8_head_span_x_*sin_theta_L8_;
+    const double span_L1_head_x_ = p->L1_head_span_x_*cos_theta_L1_;
+    const double span_L1_head_y_ = p->L1_head_span_x_*sin_theta_L1_;
+    const double L1_head_vx_ = -crank1_rate_*span_L1_head_y_;
+    const double L1_head_vy_ = crank1_rate_*span_L1_head_x_;
+    const double span_L2_tail_x_ = p->L2_tail_span_x_*cos_theta_L2_;
+    const double span_L2_tail_y_ = p->L2_tail_span_x_*sin_theta_L2_;
+    const double L2_tail_x_ = L7_tail_x_ + span_L2_tail_x_;
+    const double L2_tail_vx_ = -L2_omega_*span_L2_tail_y_ + L7_tail_vx_;
+    const double L2_tail_y_ = L7_tail_y_ + span_L2_tail_y_;
+    const double L2_tail_vy_ = L2_omega_*span_L2_tail_x_ + L7_tail_vy_;
+    const double span_L4_head_x_ = p->L4_head_span_x_*cos_theta_L4_;
+    const double span_L4_head_y_ = p->L4_head_span_x_*sin_theta_L4_;
+    const double L4_head_vx_ = -crank4_rate_*span_L4_head_y_;
+    const double L4_head_y_ = p->O4_y_ + span_L4_head_y_;
+    const double L4_head_vy_ = crank4_rate_*span_L4_head_x_;
+    const double span_L3_tail_x_ = p->L3_tail_span_x_*cos_theta_L3_;
+    const double span_L3_tail_y_ = p->L3_tail_span_x_*sin_theta_L3_;
+    const double L3_tail_x_ = L7_tail_x_ + span_L3_tail_x_;
+    const double L3_tail_vx_ = -L3_omega_*span_L3_tail_y_ + L7_tail_vx_;
+    const double L3_tail_y_ = L7_tail_y_ + span_L3_tail_y_;
+    const double L3_tail_vy_ = L3_omega_*span_L3_tail_x_ + L7_tail_vy_;
+    const double cos_L7_less_L6_ = cos_theta_L6_*cos_theta_L7_ + sin_theta_L6_*sin_theta_L7_;
+    const double sin_L7_less_L6_ = cos_theta_L6_*sin_theta_L7_ - cos_theta_L7_*sin_theta_L6_;
+    const double dot_L6_L7_ = cos_L7_less_L6_*p->inertia_L6_L7_;
+    const double cross_L6_L7_ = p->inertia_L6_L7_*sin_L7_less_L6_;
+    const double cos_L2_less_L6_ = cos_theta_L2_*cos_theta_L6_ + sin_theta_L2_*sin_theta_L6_;
+    const double sin_L2_less_L6_ = -cos_theta_L2_*sin_theta_L6_ + cos_theta_L6_*sin_theta_L2_;
+    const double dot_L6_L2_ = cos_L2_less_L6_*p->inertia_L6_L2_;
+    const double cross_L6_L2_ = p->inertia_L6_L2_*sin_L2_less_L6_;
+    const double cos_L2_less_L7_ = cos_theta_L2_*cos_theta_L7_ + sin_theta_L2_*sin_theta_L7_;
+    const double sin_L2_less_L7_ = -cos_theta_L2_*sin_theta_L7_ + cos_theta_L7_*sin_theta_L2_;
+    const double dot_L7_L2_ = cos_L2_less_L7_*p->inertia_L7_L2_;
+    const double cross_L7_L2_ = p->inertia_L7_L2_*sin_L2_less_L7_;
+    const double cos_L3_less_L6_ = cos_theta_L3_*cos_theta_L6_ + sin_theta_L3_*sin_theta_L6_;
+    const double sin_L3_less_L6_ = -cos_theta_L3_*sin_theta_L6_ + cos_theta_L6_*sin_theta_L3_;
+    const double dot_L6_L3_ = cos_L3_less_L6_*p->inertia_L6_L3_;
+    const double cross_L6_L3_ = p->inertia_L6_L3_*sin_L3_less_L6_;
+    const double cos_L3_less_L7_ = cos_theta_L3_*cos_theta_L7_ + sin_theta_L3_*sin_theta_L7_;
+    const double sin_L3_less_L7_ = -cos_theta_L3_*sin_theta_L7_ + cos_theta_L7_*sin_theta_L3_;
+    const double dot_L7_L3_ = cos_L3_less_L7_*p->inertia_L7_L3_;
+    const double cross_L7_L3_ = p->inertia_L7_L3_*sin_L3_less_L7_;
+    const double cos_L8_less_L6_ = cos_theta_L6_*cos_theta_L8_ + sin_theta_L6_*sin_theta_L8_;
+    const double sin_L8_less_L6_ = cos_theta_L6_*sin_theta_L8_ - cos_theta_L8_*sin_theta_L6_;
+    const double dot_L6_L8_ = cos_L8_less_L6_*p->inertia_L6_L8_;
+    const double cross_L6_L8_ = p->inertia_L6_L8_*sin_L8_less_L6_;
 
     /* status */
     int pivot = 0;
 
     /* clearance joint A */
-    const double e_A_x = L2_tail_x - span_L1_head_x;
-    const double e_A_y = L2_tail_y - span_L1_head_y;
-    const double edot_A_x = -L1_head_vx + L2_tail_vx;
-    const double edot_A_y = -L1_head_vy + L2_tail_vy;
-    clearance_A(e_A_x, e_A_y, edot_A_x, edot_A_y, crank1_rate, L2_omega, &memory->latch[0], p, side, g,
+    const double e_A_x_ = L2_tail_x_ - span_L1_head_x_;
+    const double e_A_y_ = L2_tail_y_ - span_L1_head_y_;
+    const double edot_A_x_ = -L1_head_vx_ + L2_tail_vx_;
+    const double edot_A_y_ = -L1_head_vy_ + L2_tail_vy_;
+    clearance_A_(e_A_x_, e_A_y_, edot_A_x_, edot_A_y_, crank1_rate_, L2_omega_, &memory->latch[0], p, side, g,
         &aside->clearance[0]);
-    const double F_A_x = aside->clearance[0].Fx;
-    const double F_A_y = aside->clearance[0].Fy;
-    const double M_A_first = aside->clearance[0].moment_first;
-    const double M_A_second = aside->clearance[0].moment_second;
-    aside->clearance[0].power = F_A_x*edot_A_x + F_A_y*edot_A_y + L2_omega*M_A_second + M_A_first*crank1_rate;
+    const double F_A_x_ = aside->clearance[0].Fx;
+    const double F_A_y_ = aside->clearance[0].Fy;
+    const double M_A_first_ = aside->clearance[0].moment_first;
+    const double M_A_second_ = aside->clearance[0].moment_second;
+    aside->clearance[0].power = F_A_x_*edot_A_x_ + F_A_y_*edot_A_y_ + L2_omega_*M_A_second_ + M_A_first_*crank1_rate_;
 
     /* clearance joint B */
-    const double e_B_x = L3_tail_x - span_L4_head_x;
-    const double e_B_y = L3_tail_y - L4_head_y;
-    const double edot_B_x = L3_tail_vx - L4_head_vx;
-    const double edot_B_y = L3_tail_vy - L4_head_vy;
-    clearance_B(e_B_x, e_B_y, edot_B_x, edot_B_y, crank4_rate, L3_omega, &memory->latch[1], p, side, g,
+    const double e_B_x_ = L3_tail_x_ - span_L4_head_x_;
+    const double e_B_y_ = L3_tail_y_ - L4_head_y_;
+    const double edot_B_x_ = L3_tail_vx_ - L4_head_vx_;
+    const double edot_B_y_ = L3_tail_vy_ - L4_head_vy_;
+    clearance_B_(e_B_x_, e_B_y_, edot_B_x_, edot_B_y_, crank4_rate_, L3_omega_, &memory->latch[1], p, side, g,
         &aside->clearance[1]);
-    const double F_B_x = aside->clearance[1].Fx;
-    const double F_B_y = aside->clearance[1].Fy;
-    const double M_B_first = aside->clearance[1].moment_first;
-    const double M_B_second = aside->clearance[1].moment_second;
-    aside->clearance[1].power = F_B_x*edot_B_x + F_B_y*edot_B_y + L3_omega*M_B_second + M_B_first*crank4_rate;
+    const double F_B_x_ = aside->clearance[1].Fx;
+    const double F_B_y_ = aside->clearance[1].Fy;
+    const double M_B_first_ = aside->clearance[1].moment_first;
+    const double M_B_second_ = aside->clearance[1].moment_second;
+    aside->clearance[1].power = F_B_x_*edot_B_x_ + F_B_y_*edot_B_y_ + L3_omega_*M_B_second_ + M_B_first_*crank4_rate_;
 
     /* constraints: gamma */
-    const double rhs_guide_offset = -(L6_omega * L6_omega)*span_L6_head_x - (L8_omega * L8_omega)*span_L8_head_x;
+    const double rhs_guide_offset_ = -(L6_omega_ * L6_omega_)*span_L6_head_x_ - (L8_omega_ * L8_omega_)*span_L8_head_x_;
 
     /* L D L^T of the KKT matrix */
-    const double l_L6_theta__L8_theta = dot_L6_L8*p->inverse_mass_L8_L8;
-    const double l_guide_offset__L8_theta = p->inverse_mass_L8_L8*span_L8_head_y;
-    const double l_L7_theta__L2_theta = dot_L7_L2*p->inverse_mass_L2_L2;
-    const double l_L6_theta__L2_theta = dot_L6_L2*p->inverse_mass_L2_L2;
-    const double pivot_L7_theta = -dot_L7_L2*l_L7_theta__L2_theta + p->mass_L7_L7;
-    const double determinant_L7_theta__L3_theta = -(dot_L7_L3 * dot_L7_L3) + p->mass_L3_L3*pivot_L7_theta;
-    const double inverse_L7_theta__L3_theta = 1.0/determinant_L7_theta__L3_theta;
-    const double inverse_pivot_L7_theta = inverse_L7_theta__L3_theta*p->mass_L3_L3;
-    const double inverse_pivot_L3_theta = inverse_L7_theta__L3_theta*pivot_L7_theta;
-    const double inverse_cross_L7_theta__L3_theta = -dot_L7_L3*inverse_L7_theta__L3_theta;
-    const double w_L6_theta__L7_theta = dot_L6_L7 - dot_L7_L2*l_L6_theta__L2_theta;
-    const double l_L6_theta__L7_theta = dot_L6_L3*inverse_cross_L7_theta__L3_theta
-        + inverse_pivot_L7_theta*w_L6_theta__L7_theta;
-    const double l_L6_theta__L3_theta = dot_L6_L3*inverse_pivot_L3_theta
-        + inverse_cross_L7_theta__L3_theta*w_L6_theta__L7_theta;
-    const double inverse_pivot_L6_theta = 1.0/(-dot_L6_L2*l_L6_theta__L2_theta - dot_L6_L3*l_L6_theta__L3_theta
-        - dot_L6_L8*l_L6_theta__L8_theta - l_L6_theta__L7_theta*w_L6_theta__L7_theta + p->mass_L6_L6);
-    const double w_guide_offset__L6_theta = -dot_L6_L8*l_guide_offset__L8_theta + span_L6_head_y;
-    const double l_guide_offset__L6_theta = inverse_pivot_L6_theta*w_guide_offset__L6_theta;
-    const double scale_guide_offset = l_guide_offset__L6_theta*w_guide_offset__L6_theta
-        + l_guide_offset__L8_theta*span_L8_head_y;
-    if (!(scale_guide_offset > 0.0 && scale_guide_offset < INFINITY)) {
+    if (!(p->mass_L8_L8_ > LIGHT_PIVOT * p->L8_turning_)) {
+        pivot = 2;
+        goto dependent;
+    }
+    const double l_L6_theta_L8_theta_ = dot_L6_L8_*p->inverse_mass_L8_L8_;
+    const double l_guide_offset_L8_theta_ = p->inverse_mass_L8_L8_*span_L8_head_y_;
+    if (!(p->mass_L2_L2_ > LIGHT_PIVOT * p->L2_turning_)) {
+        pivot = 3;
+        goto dependent;
+    }
+    const double l_L7_theta_L2_theta_ = dot_L7_L2_*p->inverse_mass_L2_L2_;
+    const double l_L6_theta_L2_theta_ = dot_L6_L2_*p->inverse_mass_L2_L2_;
+    const double pivot_L7_theta_ = -dot_L7_L2_*l_L7_theta_L2_theta_ + p->mass_L7_L7_;
+    const double determinant_L7_theta_L3_theta_ = -(dot_L7_L3_ * dot_L7_L3_) + p->mass_L3_L3_*pivot_L7_theta_;
+    if (!(pivot_L7_theta_ > LIGHT_PIVOT * p->L7_turning_)) {
+        pivot = 4;
+        goto dependent;
+    }
+    if (!(determinant_L7_theta_L3_theta_ > LIGHT_PIVOT * p->L3_turning_ * pivot_L7_theta_)) {
+        pivot = 5;
+        goto dependent;
+    }
+    const double inverse_L7_theta_L3_theta_ = 1.0/determinant_L7_theta_L3_theta_;
+    const double inverse_pivot_L7_theta_ = inverse_L7_theta_L3_theta_*p->mass_L3_L3_;
+    const double inverse_pivot_L3_theta_ = inverse_L7_theta_L3_theta_*pivot_L7_theta_;
+    const double inverse_cross_L7_theta_L3_theta_ = -dot_L7_L3_*inverse_L7_theta_L3_theta_;
+    const double w_L6_theta_L7_theta_ = dot_L6_L7_ - dot_L7_L2_*l_L6_theta_L2_theta_;
+    const double l_L6_theta_L7_theta_ = dot_L6_L3_*inverse_cross_L7_theta_L3_theta_
+        + inverse_pivot_L7_theta_*w_L6_theta_L7_theta_;
+    const double l_L6_theta_L3_theta_ = dot_L6_L3_*inverse_pivot_L3_theta_
+        + inverse_cross_L7_theta_L3_theta_*w_L6_theta_L7_theta_;
+    const double pivot_L6_theta_ = -dot_L6_L2_*l_L6_theta_L2_theta_ - dot_L6_L3_*l_L6_theta_L3_theta_
+        - dot_L6_L8_*l_L6_theta_L8_theta_ - l_L6_theta_L7_theta_*w_L6_theta_L7_theta_ + p->mass_L6_L6_;
+    if (!(pivot_L6_theta_ > LIGHT_PIVOT * p->L6_turning_)) {
+        pivot = 6;
+        goto dependent;
+    }
+    const double inverse_pivot_L6_theta_ = 1.0/pivot_L6_theta_;
+    const double w_guide_offset_L6_theta_ = -dot_L6_L8_*l_guide_offset_L8_theta_ + span_L6_head_y_;
+    const double l_guide_offset_L6_theta_ = inverse_pivot_L6_theta_*w_guide_offset_L6_theta_;
+    const double scale_guide_offset_ = l_guide_offset_L6_theta_*w_guide_offset_L6_theta_
+        + l_guide_offset_L8_theta_*span_L8_head_y_;
+    if (!(scale_guide_offset_ > 0.0 && scale_guide_offset_ < INFINITY)) {
         pivot = 1;
         goto dependent;
     }
-    const double inverse_pivot_guide_offset = 1.0/scale_guide_offset;
+    const double inverse_pivot_guide_offset_ = 1.0/scale_guide_offset_;
 
     /* forward substitution */
-    const double z_L8_theta = -(L6_omega * L6_omega)*cross_L6_L8 + cos_theta_L8*p->weight_L8__across;
-    const double z_L2_theta = -F_A_x*span_L2_tail_y + F_A_y*span_L2_tail_x - (L6_omega * L6_omega)*cross_L6_L2
-        - (L7_omega * L7_omega)*cross_L7_L2 + M_A_second + cos_theta_L2*p->weight_L2__across;
-    const double z_L7_theta = (L2_omega * L2_omega)*cross_L7_L2 + (L3_omega * L3_omega)*cross_L7_L3
-        - (L6_omega * L6_omega)*cross_L6_L7 + cos_theta_L7*p->weight_L7__across - l_L7_theta__L2_theta*z_L2_theta
-        + span_L7_tail_x*(F_A_y + F_B_y) - span_L7_tail_y*(F_A_x + F_B_x);
-    const double z_L3_theta = -F_B_x*span_L3_tail_y + F_B_y*span_L3_tail_x - (L6_omega * L6_omega)*cross_L6_L3
-        - (L7_omega * L7_omega)*cross_L7_L3 + M_B_second + cos_theta_L3*p->weight_L3__across;
-    const double z_L6_theta = (L2_omega * L2_omega)*cross_L6_L2 + (L3_omega * L3_omega)*cross_L6_L3
-        + (L7_omega * L7_omega)*cross_L6_L7 + (L8_omega * L8_omega)*cross_L6_L8 + cos_theta_L6*p->weight_L6__across
-        - l_L6_theta__L2_theta*z_L2_theta - l_L6_theta__L3_theta*z_L3_theta - l_L6_theta__L7_theta*z_L7_theta
-        - l_L6_theta__L8_theta*z_L8_theta + span_L6_head_x*(F_A_y + F_B_y) - span_L6_head_y*(F_A_x + F_B_x);
-    const double z_guide_offset = -l_guide_offset__L6_theta*z_L6_theta - l_guide_offset__L8_theta*z_L8_theta
-        + rhs_guide_offset;
+    const double z_L8_theta_ = -(L6_omega_ * L6_omega_)*cross_L6_L8_ + cos_theta_L8_*p->weight_L8_across_;
+    const double z_L2_theta_ = -F_A_x_*span_L2_tail_y_ + F_A_y_*span_L2_tail_x_ - (L6_omega_ * L6_omega_)*cross_L6_L2_
+        - (L7_omega_ * L7_omega_)*cross_L7_L2_ + M_A_second_ + cos_theta_L2_*p->weight_L2_across_;
+    const double z_L7_theta_ = (L2_omega_ * L2_omega_)*cross_L7_L2_ + (L3_omega_ * L3_omega_)*cross_L7_L3_
+        - (L6_omega_ * L6_omega_)*cross_L6_L7_ + cos_theta_L7_*p->weight_L7_across_ - l_L7_theta_L2_theta_*z_L2_theta_
+        + span_L7_tail_x_*(F_A_y_ + F_B_y_) - span_L7_tail_y_*(F_A_x_ + F_B_x_);
+    const double z_L3_theta_ = -F_B_x_*span_L3_tail_y_ + F_B_y_*span_L3_tail_x_ - (L6_omega_ * L6_omega_)*cross_L6_L3_
+        - (L7_omega_ * L7_omega_)*cross_L7_L3_ + M_B_second_ + cos_theta_L3_*p->weight_L3_across_;
+    const double z_L6_theta_ = (L2_omega_ * L2_omega_)*cross_L6_L2_ + (L3_omega_ * L3_omega_)*cross_L6_L3_
+        + (L7_omega_ * L7_omega_)*cross_L6_L7_ + (L8_omega_ * L8_omega_)*cross_L6_L8_
+        + cos_theta_L6_*p->weight_L6_across_ - l_L6_theta_L2_theta_*z_L2_theta_ - l_L6_theta_L3_theta_*z_L3_theta_
+        - l_L6_theta_L7_theta_*z_L7_theta_ - l_L6_theta_L8_theta_*z_L8_theta_ + span_L6_head_x_*(F_A_y_ + F_B_y_)
+        - span_L6_head_y_*(F_A_x_ + F_B_x_);
+    const double z_guide_offset_ = -l_guide_offset_L6_theta_*z_L6_theta_ - l_guide_offset_L8_theta_*z_L8_theta_
+        + rhs_guide_offset_;
 
     /* backward substitution */
-    const double lambda_guide_offset = -inverse_pivot_guide_offset*z_guide_offset;
-    const double acceleration_L6_theta = inverse_pivot_L6_theta*z_L6_theta
-        - l_guide_offset__L6_theta*lambda_guide_offset;
-    const double acceleration_L3_theta = -acceleration_L6_theta*l_L6_theta__L3_theta
-        + inverse_cross_L7_theta__L3_theta*z_L7_theta + inverse_pivot_L3_theta*z_L3_theta;
-    const double acceleration_L7_theta = -acceleration_L6_theta*l_L6_theta__L7_theta
-        + inverse_cross_L7_theta__L3_theta*z_L3_theta + inverse_pivot_L7_theta*z_L7_theta;
-    const double acceleration_L2_theta = -acceleration_L6_theta*l_L6_theta__L2_theta
-        - acceleration_L7_theta*l_L7_theta__L2_theta + p->inverse_mass_L2_L2*z_L2_theta;
-    const double acceleration_L8_theta = -acceleration_L6_theta*l_L6_theta__L8_theta + p->inverse_mass_L8_L8*z_L8_theta
-        - l_guide_offset__L8_theta*lambda_guide_offset;
+    const double lambda_guide_offset_ = -inverse_pivot_guide_offset_*z_guide_offset_;
+    const double acceleration_L6_theta_ = inverse_pivot_L6_theta_*z_L6_theta_
+        - l_guide_offset_L6_theta_*lambda_guide_offset_;
+    const double acceleration_L3_theta_ = -acceleration_L6_theta_*l_L6_theta_L3_theta_
+        + inverse_cross_L7_theta_L3_theta_*z_L7_theta_ + inverse_pivot_L3_theta_*z_L3_theta_;
+    const double acceleration_L7_theta_ = -acceleration_L6_theta_*l_L6_theta_L7_theta_
+        + inverse_cross_L7_theta_L3_theta_*z_L3_theta_ + inverse_pivot_L7_theta_*z_L7_theta_;
+    const double acceleration_L2_theta_ = -acceleration_L6_theta_*l_L6_theta_L2_theta_
+        - acceleration_L7_theta_*l_L7_theta_L2_theta_ + p->inverse_mass_L2_L2_*z_L2_theta_;
+    const double acceleration_L8_theta_ = -acceleration_L6_theta_*l_L6_theta_L8_theta_
+        + p->inverse_mass_L8_L8_*z_L8_theta_ - l_guide_offset_L8_theta_*lambda_guide_offset_;
 
     /* results */
-    a[0] = acceleration_L6_theta;
-    a[1] = acceleration_L7_theta;
-    a[2] = acceleration_L8_theta;
-    a[3] = acceleration_L2_theta;
-    a[4] = acceleration_L3_theta;
-    aside->lambda[0] = lambda_guide_offset;
+    a[0] = acceleration_L6_theta_;
+    a[1] = acceleration_L7_theta_;
+    a[2] = acceleration_L8_theta_;
+    a[3] = acceleration_L2_theta_;
+    a[4] = acceleration_L3_theta_;
+    aside->lambda[0] = lambda_guide_offset_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent:
     pivot = solve_by_absolute(t, q, v, memory, p, a, aside);
     powers:
-    aside->power[0] = crank1_rate*(-F_A_x*span_L1_head_y + F_A_y*span_L1_head_x - M_A_first
-        - cos_theta_L1*p->weight_L1__across + crank1_acceleration*p->mass_crank1_crank1)
-        + crank4_rate*(-F_B_x*span_L4_head_y + F_B_y*span_L4_head_x - M_B_first - cos_theta_L4*p->weight_L4__across
-        + crank4_acceleration*p->mass_crank4_crank4);
+    aside->power[0] = crank1_rate_*(-F_A_x_*span_L1_head_y_ + F_A_y_*span_L1_head_x_ - M_A_first_
+        - cos_theta_L1_*p->weight_L1_across_ + crank1_acceleration_*p->mass_crank1_crank1_)
+        + crank4_rate_*(-F_B_x_*span_L4_head_y_ + F_B_y_*span_L4_head_x_ - M_B_first_
+        - cos_theta_L4_*p->weight_L4_across_ + crank4_acceleration_*p->mass_crank4_crank4_);
     aside->power[1] = 0.0;
     aside->power[2] = aside->clearance[0].power + aside->clearance[1].power;
     return pivot;
@@ -473,89 +495,89 @@ int reduced_project(const double t, const double *q, const double *r, const Para
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double L6_theta = q[0];
-    const double L7_theta = q[1];
-    const double L8_theta = q[2];
-    const double L2_theta = q[3];
-    const double L3_theta = q[4];
+    const double L6_theta_ = q[0];
+    const double L7_theta_ = q[1];
+    const double L8_theta_ = q[2];
+    const double L2_theta_ = q[3];
+    const double L3_theta_ = q[4];
 
     /* directions, arms, drives */
-    const Four angles_0 = {L6_theta, L7_theta, L8_theta, L2_theta};
+    const Four angles_0 = {L6_theta_, L7_theta_, L8_theta_, L2_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const Four angles_1 = {L3_theta, L3_theta, L3_theta, L3_theta};
+    const Four angles_1 = {L3_theta_, L3_theta_, L3_theta_, L3_theta_};
     Four sines_1, cosines_1;
     sines_and_cosines(&angles_1, &sines_1, &cosines_1);
-    const double cos_theta_L6 = cosines_0[0];
-    const double sin_theta_L6 = sines_0[0];
-    const double cos_theta_L7 = cosines_0[1];
-    const double sin_theta_L7 = sines_0[1];
-    const double cos_theta_L8 = cosines_0[2];
-    const double sin_theta_L8 = sines_0[2];
-    const double cos_theta_L2 = cosines_0[3];
-    const double sin_theta_L2 = sines_0[3];
-    const double cos_theta_L3 = cosines_1[0];
-    const double sin_theta_L3 = sines_1[0];
-    const double span_L6_head_y = p->L6_head_span_x*sin_theta_L6;
-    const double span_L8_head_y = p->L8_head_span_x*sin_theta_L8;
-    const double cos_L7_less_L6 = cos_theta_L6*cos_theta_L7 + sin_theta_L6*sin_theta_L7;
-    const double dot_L6_L7 = cos_L7_less_L6*p->inertia_L6_L7;
-    const double cos_L2_less_L6 = cos_theta_L2*cos_theta_L6 + sin_theta_L2*sin_theta_L6;
-    const double dot_L6_L2 = cos_L2_less_L6*p->inertia_L6_L2;
-    const double cos_L2_less_L7 = cos_theta_L2*cos_theta_L7 + sin_theta_L2*sin_theta_L7;
-    const double dot_L7_L2 = cos_L2_less_L7*p->inertia_L7_L2;
-    const double cos_L3_less_L6 = cos_theta_L3*cos_theta_L6 + sin_theta_L3*sin_theta_L6;
-    const double dot_L6_L3 = cos_L3_less_L6*p->inertia_L6_L3;
-    const double cos_L3_less_L7 = cos_theta_L3*cos_theta_L7 + sin_theta_L3*sin_theta_L7;
-    const double dot_L7_L3 = cos_L3_less_L7*p->inertia_L7_L3;
-    const double cos_L8_less_L6 = cos_theta_L6*cos_theta_L8 + sin_theta_L6*sin_theta_L8;
-    const double dot_L6_L8 = cos_L8_less_L6*p->inertia_L6_L8;
+    const double cos_theta_L6_ = cosines_0[0];
+    const double sin_theta_L6_ = sines_0[0];
+    const double cos_theta_L7_ = cosines_0[1];
+    const double sin_theta_L7_ = sines_0[1];
+    const double cos_theta_L8_ = cosines_0[2];
+    const double sin_theta_L8_ = sines_0[2];
+    const double cos_theta_L2_ = cosines_0[3];
+    const double sin_theta_L2_ = sines_0[3];
+    const double cos_theta_L3_ = cosines_1[0];
+    const double sin_theta_L3_ = sines_1[0];
+    const double span_L6_head_y_ = p->L6_head_span_x_*sin_theta_L6_;
+    const double span_L8_head_y_ = p->L8_head_span_x_*sin_theta_L8_;
+    const double cos_L7_less_L6_ = cos_theta_L6_*cos_theta_L7_ + sin_theta_L6_*sin_theta_L7_;
+    const double dot_L6_L7_ = cos_L7_less_L6_*p->inertia_L6_L7_;
+    const double cos_L2_less_L6_ = cos_theta_L2_*cos_theta_L6_ + sin_theta_L2_*sin_theta_L6_;
+    const double dot_L6_L2_ = cos_L2_less_L6_*p->inertia_L6_L2_;
+    const double cos_L2_less_L7_ = cos_theta_L2_*cos_theta_L7_ + sin_theta_L2_*sin_theta_L7_;
+    const double dot_L7_L2_ = cos_L2_less_L7_*p->inertia_L7_L2_;
+    const double cos_L3_less_L6_ = cos_theta_L3_*cos_theta_L6_ + sin_theta_L3_*sin_theta_L6_;
+    const double dot_L6_L3_ = cos_L3_less_L6_*p->inertia_L6_L3_;
+    const double cos_L3_less_L7_ = cos_theta_L3_*cos_theta_L7_ + sin_theta_L3_*sin_theta_L7_;
+    const double dot_L7_L3_ = cos_L3_less_L7_*p->inertia_L7_L3_;
+    const double cos_L8_less_L6_ = cos_theta_L6_*cos_theta_L8_ + sin_theta_L6_*sin_theta_L8_;
+    const double dot_L6_L8_ = cos_L8_less_L6_*p->inertia_L6_L8_;
 
     /* right-hand side */
-    const double r_guide_offset = r[0];
+    const double r_guide_offset_ = r[0];
 
     /* L D L^T of the KKT matrix */
-    const double l_L6_theta__L8_theta = dot_L6_L8*p->inverse_mass_L8_L8;
-    const double l_guide_offset__L8_theta = p->inverse_mass_L8_L8*span_L8_head_y;
-    const double l_L7_theta__L2_theta = dot_L7_L2*p->inverse_mass_L2_L2;
-    const double l_L6_theta__L2_theta = dot_L6_L2*p->inverse_mass_L2_L2;
-    const double pivot_L7_theta = -dot_L7_L2*l_L7_theta__L2_theta + p->mass_L7_L7;
-    const double determinant_L7_theta__L3_theta = -(dot_L7_L3 * dot_L7_L3) + p->mass_L3_L3*pivot_L7_theta;
-    const double inverse_L7_theta__L3_theta = 1.0/determinant_L7_theta__L3_theta;
-    const double inverse_pivot_L7_theta = inverse_L7_theta__L3_theta*p->mass_L3_L3;
-    const double inverse_pivot_L3_theta = inverse_L7_theta__L3_theta*pivot_L7_theta;
-    const double inverse_cross_L7_theta__L3_theta = -dot_L7_L3*inverse_L7_theta__L3_theta;
-    const double w_L6_theta__L7_theta = dot_L6_L7 - dot_L7_L2*l_L6_theta__L2_theta;
-    const double l_L6_theta__L7_theta = dot_L6_L3*inverse_cross_L7_theta__L3_theta
-        + inverse_pivot_L7_theta*w_L6_theta__L7_theta;
-    const double l_L6_theta__L3_theta = dot_L6_L3*inverse_pivot_L3_theta
-        + inverse_cross_L7_theta__L3_theta*w_L6_theta__L7_theta;
-    const double inverse_pivot_L6_theta = 1.0/(-dot_L6_L2*l_L6_theta__L2_theta - dot_L6_L3*l_L6_theta__L3_theta
-        - dot_L6_L8*l_L6_theta__L8_theta - l_L6_theta__L7_theta*w_L6_theta__L7_theta + p->mass_L6_L6);
-    const double w_guide_offset__L6_theta = -dot_L6_L8*l_guide_offset__L8_theta + span_L6_head_y;
-    const double l_guide_offset__L6_theta = inverse_pivot_L6_theta*w_guide_offset__L6_theta;
-    const double scale_guide_offset = l_guide_offset__L6_theta*w_guide_offset__L6_theta
-        + l_guide_offset__L8_theta*span_L8_head_y;
-    if (!(scale_guide_offset > 0.0 && scale_guide_offset < INFINITY))
+    const double l_L6_theta_L8_theta_ = dot_L6_L8_*p->inverse_mass_L8_L8_;
+    const double l_guide_offset_L8_theta_ = p->inverse_mass_L8_L8_*span_L8_head_y_;
+    const double l_L7_theta_L2_theta_ = dot_L7_L2_*p->inverse_mass_L2_L2_;
+    const double l_L6_theta_L2_theta_ = dot_L6_L2_*p->inverse_mass_L2_L2_;
+    const double pivot_L7_theta_ = -dot_L7_L2_*l_L7_theta_L2_theta_ + p->mass_L7_L7_;
+    const double determinant_L7_theta_L3_theta_ = -(dot_L7_L3_ * dot_L7_L3_) + p->mass_L3_L3_*pivot_L7_theta_;
+    const double inverse_L7_theta_L3_theta_ = 1.0/determinant_L7_theta_L3_theta_;
+    const double inverse_pivot_L7_theta_ = inverse_L7_theta_L3_theta_*p->mass_L3_L3_;
+    const double inverse_pivot_L3_theta_ = inverse_L7_theta_L3_theta_*pivot_L7_theta_;
+    const double inverse_cross_L7_theta_L3_theta_ = -dot_L7_L3_*inverse_L7_theta_L3_theta_;
+    const double w_L6_theta_L7_theta_ = dot_L6_L7_ - dot_L7_L2_*l_L6_theta_L2_theta_;
+    const double l_L6_theta_L7_theta_ = dot_L6_L3_*inverse_cross_L7_theta_L3_theta_
+        + inverse_pivot_L7_theta_*w_L6_theta_L7_theta_;
+    const double l_L6_theta_L3_theta_ = dot_L6_L3_*inverse_pivot_L3_theta_
+        + inverse_cross_L7_theta_L3_theta_*w_L6_theta_L7_theta_;
+    const double inverse_pivot_L6_theta_ = 1.0/(-dot_L6_L2_*l_L6_theta_L2_theta_ - dot_L6_L3_*l_L6_theta_L3_theta_
+        - dot_L6_L8_*l_L6_theta_L8_theta_ - l_L6_theta_L7_theta_*w_L6_theta_L7_theta_ + p->mass_L6_L6_);
+    const double w_guide_offset_L6_theta_ = -dot_L6_L8_*l_guide_offset_L8_theta_ + span_L6_head_y_;
+    const double l_guide_offset_L6_theta_ = inverse_pivot_L6_theta_*w_guide_offset_L6_theta_;
+    const double scale_guide_offset_ = l_guide_offset_L6_theta_*w_guide_offset_L6_theta_
+        + l_guide_offset_L8_theta_*span_L8_head_y_;
+    if (!(scale_guide_offset_ > 0.0 && scale_guide_offset_ < INFINITY))
         return 1;
-    const double inverse_pivot_guide_offset = 1.0/scale_guide_offset;
+    const double inverse_pivot_guide_offset_ = 1.0/scale_guide_offset_;
 
     /* backward substitution */
-    const double step_lambda_guide_offset = -inverse_pivot_guide_offset*r_guide_offset;
-    const double step_acceleration_L6_theta = -l_guide_offset__L6_theta*step_lambda_guide_offset;
-    const double step_acceleration_L3_theta = -l_L6_theta__L3_theta*step_acceleration_L6_theta;
-    const double step_acceleration_L7_theta = -l_L6_theta__L7_theta*step_acceleration_L6_theta;
-    const double step_acceleration_L2_theta = -l_L6_theta__L2_theta*step_acceleration_L6_theta
-        - l_L7_theta__L2_theta*step_acceleration_L7_theta;
-    const double step_acceleration_L8_theta = -l_L6_theta__L8_theta*step_acceleration_L6_theta
-        - l_guide_offset__L8_theta*step_lambda_guide_offset;
+    const double step_lambda_guide_offset_ = -inverse_pivot_guide_offset_*r_guide_offset_;
+    const double step_acceleration_L6_theta_ = -l_guide_offset_L6_theta_*step_lambda_guide_offset_;
+    const double step_acceleration_L3_theta_ = -l_L6_theta_L3_theta_*step_acceleration_L6_theta_;
+    const double step_acceleration_L7_theta_ = -l_L6_theta_L7_theta_*step_acceleration_L6_theta_;
+    const double step_acceleration_L2_theta_ = -l_L6_theta_L2_theta_*step_acceleration_L6_theta_
+        - l_L7_theta_L2_theta_*step_acceleration_L7_theta_;
+    const double step_acceleration_L8_theta_ = -l_L6_theta_L8_theta_*step_acceleration_L6_theta_
+        - l_guide_offset_L8_theta_*step_lambda_guide_offset_;
 
     /* results */
-    x[0] = step_acceleration_L6_theta;
-    x[1] = step_acceleration_L7_theta;
-    x[2] = step_acceleration_L8_theta;
-    x[3] = step_acceleration_L2_theta;
-    x[4] = step_acceleration_L3_theta;
+    x[0] = step_acceleration_L6_theta_;
+    x[1] = step_acceleration_L7_theta_;
+    x[2] = step_acceleration_L8_theta_;
+    x[3] = step_acceleration_L2_theta_;
+    x[4] = step_acceleration_L3_theta_;
     return 0;
 }
 

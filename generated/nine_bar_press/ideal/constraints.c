@@ -4,30 +4,30 @@
 void mass_matrix(const Parameters *p, double *m)
 {
     /* M */
-    m[0] = p->L1_mass;
-    m[1] = p->L1_mass;
-    m[2] = p->L1_inertia;
-    m[3] = p->L2_mass;
-    m[4] = p->L2_mass;
-    m[5] = p->L2_inertia;
-    m[6] = p->L3_mass;
-    m[7] = p->L3_mass;
-    m[8] = p->L3_inertia;
-    m[9] = p->L4_mass;
-    m[10] = p->L4_mass;
-    m[11] = p->L4_inertia;
-    m[12] = p->L6_mass;
-    m[13] = p->L6_mass;
-    m[14] = p->L6_inertia;
-    m[15] = p->L7_mass;
-    m[16] = p->L7_mass;
-    m[17] = p->L7_inertia;
-    m[18] = p->L8_mass;
-    m[19] = p->L8_mass;
-    m[20] = p->L8_inertia;
-    m[21] = p->S9_mass;
-    m[22] = p->S9_mass;
-    m[23] = p->S9_inertia;
+    m[0] = p->L1_mass_;
+    m[1] = p->L1_mass_;
+    m[2] = p->L1_inertia_;
+    m[3] = p->L2_mass_;
+    m[4] = p->L2_mass_;
+    m[5] = p->L2_inertia_;
+    m[6] = p->L3_mass_;
+    m[7] = p->L3_mass_;
+    m[8] = p->L3_inertia_;
+    m[9] = p->L4_mass_;
+    m[10] = p->L4_mass_;
+    m[11] = p->L4_inertia_;
+    m[12] = p->L6_mass_;
+    m[13] = p->L6_mass_;
+    m[14] = p->L6_inertia_;
+    m[15] = p->L7_mass_;
+    m[16] = p->L7_mass_;
+    m[17] = p->L7_inertia_;
+    m[18] = p->L8_mass_;
+    m[19] = p->L8_mass_;
+    m[20] = p->L8_inertia_;
+    m[21] = p->S9_mass_;
+    m[22] = p->S9_mass_;
+    m[23] = p->S9_inertia_;
 }
 
 /*
@@ -36,88 +36,88 @@ void mass_matrix(const Parameters *p, double *m)
 void constraints(const double t, const double *q, const Parameters *p, double *phi)
 {
     /* coordinates, velocities, time */
-    const double L1_x = q[0];
-    const double L1_y = q[1];
-    const double L1_theta = q[2];
-    const double L2_x = q[3];
-    const double L2_y = q[4];
-    const double L2_theta = q[5];
-    const double L3_x = q[6];
-    const double L3_y = q[7];
-    const double L3_theta = q[8];
-    const double L4_x = q[9];
-    const double L4_y = q[10];
-    const double L4_theta = q[11];
-    const double L6_x = q[12];
-    const double L6_y = q[13];
-    const double L6_theta = q[14];
-    const double L7_x = q[15];
-    const double L7_y = q[16];
-    const double L7_theta = q[17];
-    const double L8_x = q[18];
-    const double L8_y = q[19];
-    const double L8_theta = q[20];
-    const double S9_x = q[21];
-    const double S9_y = q[22];
-    const double S9_theta = q[23];
+    const double L1_x_ = q[0];
+    const double L1_y_ = q[1];
+    const double L1_theta_ = q[2];
+    const double L2_x_ = q[3];
+    const double L2_y_ = q[4];
+    const double L2_theta_ = q[5];
+    const double L3_x_ = q[6];
+    const double L3_y_ = q[7];
+    const double L3_theta_ = q[8];
+    const double L4_x_ = q[9];
+    const double L4_y_ = q[10];
+    const double L4_theta_ = q[11];
+    const double L6_x_ = q[12];
+    const double L6_y_ = q[13];
+    const double L6_theta_ = q[14];
+    const double L7_x_ = q[15];
+    const double L7_y_ = q[16];
+    const double L7_theta_ = q[17];
+    const double L8_x_ = q[18];
+    const double L8_y_ = q[19];
+    const double L8_theta_ = q[20];
+    const double S9_x_ = q[21];
+    const double S9_y_ = q[22];
+    const double S9_theta_ = q[23];
 
     /* directions, arms, drives */
-    const double cos_theta_L1 = cos(L1_theta);
-    const double sin_theta_L1 = sin(L1_theta);
-    const double arm_L1_head_x = p->L1_head_s_x*cos_theta_L1;
-    const double arm_L1_head_y = p->L1_head_s_x*sin_theta_L1;
-    const double cos_theta_L4 = cos(L4_theta);
-    const double sin_theta_L4 = sin(L4_theta);
-    const double arm_L4_head_x = p->L4_head_s_x*cos_theta_L4;
-    const double arm_L4_head_y = p->L4_head_s_x*sin_theta_L4;
-    const double cos_theta_L2 = cos(L2_theta);
-    const double sin_theta_L2 = sin(L2_theta);
-    const double arm_L2_head_x = p->L2_head_s_x*cos_theta_L2;
-    const double arm_L2_head_y = p->L2_head_s_x*sin_theta_L2;
-    const double cos_theta_L3 = cos(L3_theta);
-    const double sin_theta_L3 = sin(L3_theta);
-    const double arm_L3_head_x = p->L3_head_s_x*cos_theta_L3;
-    const double arm_L3_head_y = p->L3_head_s_x*sin_theta_L3;
-    const double cos_theta_L7 = cos(L7_theta);
-    const double sin_theta_L7 = sin(L7_theta);
-    const double arm_L7_head_x = p->L7_head_s_x*cos_theta_L7;
-    const double arm_L7_head_y = p->L7_head_s_x*sin_theta_L7;
-    const double cos_theta_L6 = cos(L6_theta);
-    const double sin_theta_L6 = sin(L6_theta);
-    const double arm_L6_head_x = p->L6_head_s_x*cos_theta_L6;
-    const double arm_L6_head_y = p->L6_head_s_x*sin_theta_L6;
-    const double cos_theta_L8 = cos(L8_theta);
-    const double sin_theta_L8 = sin(L8_theta);
-    const double arm_L8_head_x = p->L8_head_s_x*cos_theta_L8;
-    const double arm_L8_head_y = p->L8_head_s_x*sin_theta_L8;
-    const double crank1_value = p->omega*t - 0.689754120388159;
-    const double crank4_value = p->omega4*t + 3.4814082589530893;
+    const double cos_theta_L1_ = cos(L1_theta_);
+    const double sin_theta_L1_ = sin(L1_theta_);
+    const double arm_L1_head_x_ = p->L1_head_s_x_*cos_theta_L1_;
+    const double arm_L1_head_y_ = p->L1_head_s_x_*sin_theta_L1_;
+    const double cos_theta_L4_ = cos(L4_theta_);
+    const double sin_theta_L4_ = sin(L4_theta_);
+    const double arm_L4_head_x_ = p->L4_head_s_x_*cos_theta_L4_;
+    const double arm_L4_head_y_ = p->L4_head_s_x_*sin_theta_L4_;
+    const double cos_theta_L2_ = cos(L2_theta_);
+    const double sin_theta_L2_ = sin(L2_theta_);
+    const double arm_L2_head_x_ = p->L2_head_s_x_*cos_theta_L2_;
+    const double arm_L2_head_y_ = p->L2_head_s_x_*sin_theta_L2_;
+    const double cos_theta_L3_ = cos(L3_theta_);
+    const double sin_theta_L3_ = sin(L3_theta_);
+    const double arm_L3_head_x_ = p->L3_head_s_x_*cos_theta_L3_;
+    const double arm_L3_head_y_ = p->L3_head_s_x_*sin_theta_L3_;
+    const double cos_theta_L7_ = cos(L7_theta_);
+    const double sin_theta_L7_ = sin(L7_theta_);
+    const double arm_L7_head_x_ = p->L7_head_s_x_*cos_theta_L7_;
+    const double arm_L7_head_y_ = p->L7_head_s_x_*sin_theta_L7_;
+    const double cos_theta_L6_ = cos(L6_theta_);
+    const double sin_theta_L6_ = sin(L6_theta_);
+    const double arm_L6_head_x_ = p->L6_head_s_x_*cos_theta_L6_;
+    const double arm_L6_head_y_ = p->L6_head_s_x_*sin_theta_L6_;
+    const double cos_theta_L8_ = cos(L8_theta_);
+    const double sin_theta_L8_ = sin(L8_theta_);
+    const double arm_L8_head_x_ = p->L8_head_s_x_*cos_theta_L8_;
+    const double arm_L8_head_y_ = p->L8_head_s_x_*sin_theta_L8_;
+    const double crank1_value_ = p->omega_*t - 0.689754120388159;
+    const double crank4_value_ = p->omega4_*t + 3.4814082589530893;
 
     /* rows */
-    phi[0] = -L1_x + arm_L1_head_x;  /* O1.x, m */
-    phi[1] = -L1_y + arm_L1_head_y;  /* O1.y, m */
-    phi[2] = -L4_x + arm_L4_head_x;  /* O4.x, m */
-    phi[3] = -L4_y + p->O4_y + arm_L4_head_y;  /* O4.y, m */
-    phi[4] = L1_x - L2_x + arm_L1_head_x + arm_L2_head_x;  /* A.x, m */
-    phi[5] = L1_y - L2_y + arm_L1_head_y + arm_L2_head_y;  /* A.y, m */
-    phi[6] = -L3_x + L4_x + arm_L3_head_x + arm_L4_head_x;  /* B.x, m */
-    phi[7] = -L3_y + L4_y + arm_L3_head_y + arm_L4_head_y;  /* B.y, m */
-    phi[8] = L2_x - L7_x + arm_L2_head_x + arm_L7_head_x;  /* P2.x, m */
-    phi[9] = L2_y - L7_y + arm_L2_head_y + arm_L7_head_y;  /* P2.y, m */
-    phi[10] = L3_x - L7_x + arm_L3_head_x + arm_L7_head_x;  /* P3.x, m */
-    phi[11] = L3_y - L7_y + arm_L3_head_y + arm_L7_head_y;  /* P3.y, m */
-    phi[12] = -L6_x + L7_x - arm_L6_head_x + arm_L7_head_x;  /* Q6.x, m */
-    phi[13] = -L6_y + L7_y - arm_L6_head_y + arm_L7_head_y;  /* Q6.y, m */
-    phi[14] = L7_x - L8_x + arm_L7_head_x + arm_L8_head_x;  /* Q8.x, m */
-    phi[15] = L7_y - L8_y + arm_L7_head_y + arm_L8_head_y;  /* Q8.y, m */
-    phi[16] = -L6_x + p->O6_x + arm_L6_head_x;  /* O6.x, m */
-    phi[17] = -L6_y + arm_L6_head_y;  /* O6.y, m */
-    phi[18] = L8_x - S9_x + arm_L8_head_x;  /* slider.x, m */
-    phi[19] = L8_y - S9_y + arm_L8_head_y;  /* slider.y, m */
-    phi[20] = p->O6_x - S9_x;  /* guide.offset, m */
-    phi[21] = S9_theta - PI/2.0;  /* guide.angle, rad */
-    phi[22] = L1_theta - crank1_value;  /* crank1, rad */
-    phi[23] = L4_theta - crank4_value;  /* crank4, rad */
+    phi[0] = -L1_x_ + arm_L1_head_x_;  /* O1.x, m */
+    phi[1] = -L1_y_ + arm_L1_head_y_;  /* O1.y, m */
+    phi[2] = -L4_x_ + arm_L4_head_x_;  /* O4.x, m */
+    phi[3] = -L4_y_ + p->O4_y_ + arm_L4_head_y_;  /* O4.y, m */
+    phi[4] = L1_x_ - L2_x_ + arm_L1_head_x_ + arm_L2_head_x_;  /* A.x, m */
+    phi[5] = L1_y_ - L2_y_ + arm_L1_head_y_ + arm_L2_head_y_;  /* A.y, m */
+    phi[6] = -L3_x_ + L4_x_ + arm_L3_head_x_ + arm_L4_head_x_;  /* B.x, m */
+    phi[7] = -L3_y_ + L4_y_ + arm_L3_head_y_ + arm_L4_head_y_;  /* B.y, m */
+    phi[8] = L2_x_ - L7_x_ + arm_L2_head_x_ + arm_L7_head_x_;  /* P2.x, m */
+    phi[9] = L2_y_ - L7_y_ + arm_L2_head_y_ + arm_L7_head_y_;  /* P2.y, m */
+    phi[10] = L3_x_ - L7_x_ + arm_L3_head_x_ + arm_L7_head_x_;  /* P3.x, m */
+    phi[11] = L3_y_ - L7_y_ + arm_L3_head_y_ + arm_L7_head_y_;  /* P3.y, m */
+    phi[12] = -L6_x_ + L7_x_ - arm_L6_head_x_ + arm_L7_head_x_;  /* Q6.x, m */
+    phi[13] = -L6_y_ + L7_y_ - arm_L6_head_y_ + arm_L7_head_y_;  /* Q6.y, m */
+    phi[14] = L7_x_ - L8_x_ + arm_L7_head_x_ + arm_L8_head_x_;  /* Q8.x, m */
+    phi[15] = L7_y_ - L8_y_ + arm_L7_head_y_ + arm_L8_head_y_;  /* Q8.y, m */
+    phi[16] = -L6_x_ + p->O6_x_ + arm_L6_head_x_;  /* O6.x, m */
+    phi[17] = -L6_y_ + arm_L6_head_y_;  /* O6.y, m */
+    phi[18] = L8_x_ - S9_x_ + arm_L8_head_x_;  /* slider.x, m */
+    phi[19] = L8_y_ - S9_y_ + arm_L8_head_y_;  /* slider.y, m */
+    phi[20] = p->O6_x_ - S9_x_;  /* guide.offset, m */
+    phi[21] = S9_theta_ - PI/2.0;  /* guide.angle, rad */
+    phi[22] = L1_theta_ - crank1_value_;  /* crank1, rad */
+    phi[23] = L4_theta_ - crank4_value_;  /* crank4, rad */
 }
 
 /*
@@ -127,115 +127,115 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double L1_theta = q[2];
-    const double L2_theta = q[5];
-    const double L3_theta = q[8];
-    const double L4_theta = q[11];
-    const double L6_theta = q[14];
-    const double L7_theta = q[17];
-    const double L8_theta = q[20];
+    const double L1_theta_ = q[2];
+    const double L2_theta_ = q[5];
+    const double L3_theta_ = q[8];
+    const double L4_theta_ = q[11];
+    const double L6_theta_ = q[14];
+    const double L7_theta_ = q[17];
+    const double L8_theta_ = q[20];
 
     /* directions, arms, drives */
-    const double cos_theta_L1 = cos(L1_theta);
-    const double sin_theta_L1 = sin(L1_theta);
-    const double arm_L1_head_x = p->L1_head_s_x*cos_theta_L1;
-    const double arm_L1_head_y = p->L1_head_s_x*sin_theta_L1;
-    const double cos_theta_L4 = cos(L4_theta);
-    const double sin_theta_L4 = sin(L4_theta);
-    const double arm_L4_head_x = p->L4_head_s_x*cos_theta_L4;
-    const double arm_L4_head_y = p->L4_head_s_x*sin_theta_L4;
-    const double cos_theta_L2 = cos(L2_theta);
-    const double sin_theta_L2 = sin(L2_theta);
-    const double arm_L2_head_x = p->L2_head_s_x*cos_theta_L2;
-    const double arm_L2_head_y = p->L2_head_s_x*sin_theta_L2;
-    const double cos_theta_L3 = cos(L3_theta);
-    const double sin_theta_L3 = sin(L3_theta);
-    const double arm_L3_head_x = p->L3_head_s_x*cos_theta_L3;
-    const double arm_L3_head_y = p->L3_head_s_x*sin_theta_L3;
-    const double cos_theta_L7 = cos(L7_theta);
-    const double sin_theta_L7 = sin(L7_theta);
-    const double arm_L7_head_x = p->L7_head_s_x*cos_theta_L7;
-    const double arm_L7_head_y = p->L7_head_s_x*sin_theta_L7;
-    const double cos_theta_L6 = cos(L6_theta);
-    const double sin_theta_L6 = sin(L6_theta);
-    const double arm_L6_head_x = p->L6_head_s_x*cos_theta_L6;
-    const double arm_L6_head_y = p->L6_head_s_x*sin_theta_L6;
-    const double cos_theta_L8 = cos(L8_theta);
-    const double sin_theta_L8 = sin(L8_theta);
-    const double arm_L8_head_x = p->L8_head_s_x*cos_theta_L8;
-    const double arm_L8_head_y = p->L8_head_s_x*sin_theta_L8;
+    const double cos_theta_L1_ = cos(L1_theta_);
+    const double sin_theta_L1_ = sin(L1_theta_);
+    const double arm_L1_head_x_ = p->L1_head_s_x_*cos_theta_L1_;
+    const double arm_L1_head_y_ = p->L1_head_s_x_*sin_theta_L1_;
+    const double cos_theta_L4_ = cos(L4_theta_);
+    const double sin_theta_L4_ = sin(L4_theta_);
+    const double arm_L4_head_x_ = p->L4_head_s_x_*cos_theta_L4_;
+    const double arm_L4_head_y_ = p->L4_head_s_x_*sin_theta_L4_;
+    const double cos_theta_L2_ = cos(L2_theta_);
+    const double sin_theta_L2_ = sin(L2_theta_);
+    const double arm_L2_head_x_ = p->L2_head_s_x_*cos_theta_L2_;
+    const double arm_L2_head_y_ = p->L2_head_s_x_*sin_theta_L2_;
+    const double cos_theta_L3_ = cos(L3_theta_);
+    const double sin_theta_L3_ = sin(L3_theta_);
+    const double arm_L3_head_x_ = p->L3_head_s_x_*cos_theta_L3_;
+    const double arm_L3_head_y_ = p->L3_head_s_x_*sin_theta_L3_;
+    const double cos_theta_L7_ = cos(L7_theta_);
+    const double sin_theta_L7_ = sin(L7_theta_);
+    const double arm_L7_head_x_ = p->L7_head_s_x_*cos_theta_L7_;
+    const double arm_L7_head_y_ = p->L7_head_s_x_*sin_theta_L7_;
+    const double cos_theta_L6_ = cos(L6_theta_);
+    const double sin_theta_L6_ = sin(L6_theta_);
+    const double arm_L6_head_x_ = p->L6_head_s_x_*cos_theta_L6_;
+    const double arm_L6_head_y_ = p->L6_head_s_x_*sin_theta_L6_;
+    const double cos_theta_L8_ = cos(L8_theta_);
+    const double sin_theta_L8_ = sin(L8_theta_);
+    const double arm_L8_head_x_ = p->L8_head_s_x_*cos_theta_L8_;
+    const double arm_L8_head_y_ = p->L8_head_s_x_*sin_theta_L8_;
 
     /* non-zeros */
-    phi_q[0] = -1.0;  /* d O1.x / d L1_x */
-    phi_q[2] = -arm_L1_head_y;  /* d O1.x / d L1_theta */
-    phi_q[25] = -1.0;  /* d O1.y / d L1_y */
-    phi_q[26] = arm_L1_head_x;  /* d O1.y / d L1_theta */
-    phi_q[57] = -1.0;  /* d O4.x / d L4_x */
-    phi_q[59] = -arm_L4_head_y;  /* d O4.x / d L4_theta */
-    phi_q[82] = -1.0;  /* d O4.y / d L4_y */
-    phi_q[83] = arm_L4_head_x;  /* d O4.y / d L4_theta */
-    phi_q[96] = 1.0;  /* d A.x / d L1_x */
-    phi_q[98] = -arm_L1_head_y;  /* d A.x / d L1_theta */
-    phi_q[99] = -1.0;  /* d A.x / d L2_x */
-    phi_q[101] = -arm_L2_head_y;  /* d A.x / d L2_theta */
-    phi_q[121] = 1.0;  /* d A.y / d L1_y */
-    phi_q[122] = arm_L1_head_x;  /* d A.y / d L1_theta */
-    phi_q[124] = -1.0;  /* d A.y / d L2_y */
-    phi_q[125] = arm_L2_head_x;  /* d A.y / d L2_theta */
-    phi_q[153] = 1.0;  /* d B.x / d L4_x */
-    phi_q[155] = -arm_L4_head_y;  /* d B.x / d L4_theta */
-    phi_q[150] = -1.0;  /* d B.x / d L3_x */
-    phi_q[152] = -arm_L3_head_y;  /* d B.x / d L3_theta */
-    phi_q[178] = 1.0;  /* d B.y / d L4_y */
-    phi_q[179] = arm_L4_head_x;  /* d B.y / d L4_theta */
-    phi_q[175] = -1.0;  /* d B.y / d L3_y */
-    phi_q[176] = arm_L3_head_x;  /* d B.y / d L3_theta */
-    phi_q[195] = 1.0;  /* d P2.x / d L2_x */
-    phi_q[197] = -arm_L2_head_y;  /* d P2.x / d L2_theta */
-    phi_q[207] = -1.0;  /* d P2.x / d L7_x */
-    phi_q[209] = -arm_L7_head_y;  /* d P2.x / d L7_theta */
-    phi_q[220] = 1.0;  /* d P2.y / d L2_y */
-    phi_q[221] = arm_L2_head_x;  /* d P2.y / d L2_theta */
-    phi_q[232] = -1.0;  /* d P2.y / d L7_y */
-    phi_q[233] = arm_L7_head_x;  /* d P2.y / d L7_theta */
-    phi_q[246] = 1.0;  /* d P3.x / d L3_x */
-    phi_q[248] = -arm_L3_head_y;  /* d P3.x / d L3_theta */
-    phi_q[255] = -1.0;  /* d P3.x / d L7_x */
-    phi_q[257] = -arm_L7_head_y;  /* d P3.x / d L7_theta */
-    phi_q[271] = 1.0;  /* d P3.y / d L3_y */
-    phi_q[272] = arm_L3_head_x;  /* d P3.y / d L3_theta */
-    phi_q[280] = -1.0;  /* d P3.y / d L7_y */
-    phi_q[281] = arm_L7_head_x;  /* d P3.y / d L7_theta */
-    phi_q[303] = 1.0;  /* d Q6.x / d L7_x */
-    phi_q[305] = -arm_L7_head_y;  /* d Q6.x / d L7_theta */
-    phi_q[300] = -1.0;  /* d Q6.x / d L6_x */
-    phi_q[302] = arm_L6_head_y;  /* d Q6.x / d L6_theta */
-    phi_q[328] = 1.0;  /* d Q6.y / d L7_y */
-    phi_q[329] = arm_L7_head_x;  /* d Q6.y / d L7_theta */
-    phi_q[325] = -1.0;  /* d Q6.y / d L6_y */
-    phi_q[326] = -arm_L6_head_x;  /* d Q6.y / d L6_theta */
-    phi_q[351] = 1.0;  /* d Q8.x / d L7_x */
-    phi_q[353] = -arm_L7_head_y;  /* d Q8.x / d L7_theta */
-    phi_q[354] = -1.0;  /* d Q8.x / d L8_x */
-    phi_q[356] = -arm_L8_head_y;  /* d Q8.x / d L8_theta */
-    phi_q[376] = 1.0;  /* d Q8.y / d L7_y */
-    phi_q[377] = arm_L7_head_x;  /* d Q8.y / d L7_theta */
-    phi_q[379] = -1.0;  /* d Q8.y / d L8_y */
-    phi_q[380] = arm_L8_head_x;  /* d Q8.y / d L8_theta */
-    phi_q[396] = -1.0;  /* d O6.x / d L6_x */
-    phi_q[398] = -arm_L6_head_y;  /* d O6.x / d L6_theta */
-    phi_q[421] = -1.0;  /* d O6.y / d L6_y */
-    phi_q[422] = arm_L6_head_x;  /* d O6.y / d L6_theta */
-    phi_q[450] = 1.0;  /* d slider.x / d L8_x */
-    phi_q[452] = -arm_L8_head_y;  /* d slider.x / d L8_theta */
-    phi_q[453] = -1.0;  /* d slider.x / d S9_x */
-    phi_q[475] = 1.0;  /* d slider.y / d L8_y */
-    phi_q[476] = arm_L8_head_x;  /* d slider.y / d L8_theta */
-    phi_q[478] = -1.0;  /* d slider.y / d S9_y */
-    phi_q[501] = -1.0;  /* d guide.offset / d S9_x */
-    phi_q[527] = 1.0;  /* d guide.angle / d S9_theta */
-    phi_q[530] = 1.0;  /* d crank1 / d L1_theta */
-    phi_q[563] = 1.0;  /* d crank4 / d L4_theta */
+    phi_q[0] = -1.0;  /* d O1.x / d L1_x_ */
+    phi_q[2] = -arm_L1_head_y_;  /* d O1.x / d L1_theta_ */
+    phi_q[25] = -1.0;  /* d O1.y / d L1_y_ */
+    phi_q[26] = arm_L1_head_x_;  /* d O1.y / d L1_theta_ */
+    phi_q[57] = -1.0;  /* d O4.x / d L4_x_ */
+    phi_q[59] = -arm_L4_head_y_;  /* d O4.x / d L4_theta_ */
+    phi_q[82] = -1.0;  /* d O4.y / d L4_y_ */
+    phi_q[83] = arm_L4_head_x_;  /* d O4.y / d L4_theta_ */
+    phi_q[96] = 1.0;  /* d A.x / d L1_x_ */
+    phi_q[98] = -arm_L1_head_y_;  /* d A.x / d L1_theta_ */
+    phi_q[99] = -1.0;  /* d A.x / d L2_x_ */
+    phi_q[101] = -arm_L2_head_y_;  /* d A.x / d L2_theta_ */
+    phi_q[121] = 1.0;  /* d A.y / d L1_y_ */
+    phi_q[122] = arm_L1_head_x_;  /* d A.y / d L1_theta_ */
+    phi_q[124] = -1.0;  /* d A.y / d L2_y_ */
+    phi_q[125] = arm_L2_head_x_;  /* d A.y / d L2_theta_ */
+    phi_q[153] = 1.0;  /* d B.x / d L4_x_ */
+    phi_q[155] = -arm_L4_head_y_;  /* d B.x / d L4_theta_ */
+    phi_q[150] = -1.0;  /* d B.x / d L3_x_ */
+    phi_q[152] = -arm_L3_head_y_;  /* d B.x / d L3_theta_ */
+    phi_q[178] = 1.0;  /* d B.y / d L4_y_ */
+    phi_q[179] = arm_L4_head_x_;  /* d B.y / d L4_theta_ */
+    phi_q[175] = -1.0;  /* d B.y / d L3_y_ */
+    phi_q[176] = arm_L3_head_x_;  /* d B.y / d L3_theta_ */
+    phi_q[195] = 1.0;  /* d P2.x / d L2_x_ */
+    phi_q[197] = -arm_L2_head_y_;  /* d P2.x / d L2_theta_ */
+    phi_q[207] = -1.0;  /* d P2.x / d L7_x_ */
+    phi_q[209] = -arm_L7_head_y_;  /* d P2.x / d L7_theta_ */
+    phi_q[220] = 1.0;  /* d P2.y / d L2_y_ */
+    phi_q[221] = arm_L2_head_x_;  /* d P2.y / d L2_theta_ */
+    phi_q[232] = -1.0;  /* d P2.y / d L7_y_ */
+    phi_q[233] = arm_L7_head_x_;  /* d P2.y / d L7_theta_ */
+    phi_q[246] = 1.0;  /* d P3.x / d L3_x_ */
+    phi_q[248] = -arm_L3_head_y_;  /* d P3.x / d L3_theta_ */
+    phi_q[255] = -1.0;  /* d P3.x / d L7_x_ */
+    phi_q[257] = -arm_L7_head_y_;  /* d P3.x / d L7_theta_ */
+    phi_q[271] = 1.0;  /* d P3.y / d L3_y_ */
+    phi_q[272] = arm_L3_head_x_;  /* d P3.y / d L3_theta_ */
+    phi_q[280] = -1.0;  /* d P3.y / d L7_y_ */
+    phi_q[281] = arm_L7_head_x_;  /* d P3.y / d L7_theta_ */
+    phi_q[303] = 1.0;  /* d Q6.x / d L7_x_ */
+    phi_q[305] = -arm_L7_head_y_;  /* d Q6.x / d L7_theta_ */
+    phi_q[300] = -1.0;  /* d Q6.x / d L6_x_ */
+    phi_q[302] = arm_L6_head_y_;  /* d Q6.x / d L6_theta_ */
+    phi_q[328] = 1.0;  /* d Q6.y / d L7_y_ */
+    phi_q[329] = arm_L7_head_x_;  /* d Q6.y / d L7_theta_ */
+    phi_q[325] = -1.0;  /* d Q6.y / d L6_y_ */
+    phi_q[326] = -arm_L6_head_x_;  /* d Q6.y / d L6_theta_ */
+    phi_q[351] = 1.0;  /* d Q8.x / d L7_x_ */
+    phi_q[353] = -arm_L7_head_y_;  /* d Q8.x / d L7_theta_ */
+    phi_q[354] = -1.0;  /* d Q8.x / d L8_x_ */
+    phi_q[356] = -arm_L8_head_y_;  /* d Q8.x / d L8_theta_ */
+    phi_q[376] = 1.0;  /* d Q8.y / d L7_y_ */
+    phi_q[377] = arm_L7_head_x_;  /* d Q8.y / d L7_theta_ */
+    phi_q[379] = -1.0;  /* d Q8.y / d L8_y_ */
+    phi_q[380] = arm_L8_head_x_;  /* d Q8.y / d L8_theta_ */
+    phi_q[396] = -1.0;  /* d O6.x / d L6_x_ */
+    phi_q[398] = -arm_L6_head_y_;  /* d O6.x / d L6_theta_ */
+    phi_q[421] = -1.0;  /* d O6.y / d L6_y_ */
+    phi_q[422] = arm_L6_head_x_;  /* d O6.y / d L6_theta_ */
+    phi_q[450] = 1.0;  /* d slider.x / d L8_x_ */
+    phi_q[452] = -arm_L8_head_y_;  /* d slider.x / d L8_theta_ */
+    phi_q[453] = -1.0;  /* d slider.x / d S9_x_ */
+    phi_q[475] = 1.0;  /* d slider.y / d L8_y_ */
+    phi_q[476] = arm_L8_head_x_;  /* d slider.y / d L8_theta_ */
+    phi_q[478] = -1.0;  /* d slider.y / d S9_y_ */
+    phi_q[501] = -1.0;  /* d guide.offset / d S9_x_ */
+    phi_q[527] = 1.0;  /* d guide.angle / d S9_theta_ */
+    phi_q[530] = 1.0;  /* d crank1 / d L1_theta_ */
+    phi_q[563] = 1.0;  /* d crank4 / d L4_theta_ */
 }
 
 /*
@@ -245,8 +245,8 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
 {
     (void)t, (void)q;
     /* directions, arms, drives */
-    const double crank1_rate = p->omega;
-    const double crank4_rate = p->omega4;
+    const double crank1_rate_ = p->omega_;
+    const double crank4_rate_ = p->omega4_;
 
     /* rows */
     nu[0] = 0.0;  /* O1.x, m/s */
@@ -271,8 +271,8 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
     nu[19] = 0.0;  /* slider.y, m/s */
     nu[20] = 0.0;  /* guide.offset, m/s */
     nu[21] = 0.0;  /* guide.angle, rad/s */
-    nu[22] = crank1_rate;  /* crank1, rad/s */
-    nu[23] = crank4_rate;  /* crank4, rad/s */
+    nu[22] = crank1_rate_;  /* crank1, rad/s */
+    nu[23] = crank4_rate_;  /* crank4, rad/s */
 }
 
 /*
@@ -282,78 +282,80 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double L1_theta = q[2];
-    const double L1_omega = v[2];
-    const double L2_theta = q[5];
-    const double L2_omega = v[5];
-    const double L3_theta = q[8];
-    const double L3_omega = v[8];
-    const double L4_theta = q[11];
-    const double L4_omega = v[11];
-    const double L6_theta = q[14];
-    const double L6_omega = v[14];
-    const double L7_theta = q[17];
-    const double L7_omega = v[17];
-    const double L8_theta = q[20];
-    const double L8_omega = v[20];
+    const double L1_theta_ = q[2];
+    const double L1_omega_ = v[2];
+    const double L2_theta_ = q[5];
+    const double L2_omega_ = v[5];
+    const double L3_theta_ = q[8];
+    const double L3_omega_ = v[8];
+    const double L4_theta_ = q[11];
+    const double L4_omega_ = v[11];
+    const double L6_theta_ = q[14];
+    const double L6_omega_ = v[14];
+    const double L7_theta_ = q[17];
+    const double L7_omega_ = v[17];
+    const double L8_theta_ = q[20];
+    const double L8_omega_ = v[20];
 
     /* directions, arms, drives */
-    const double cos_theta_L1 = cos(L1_theta);
-    const double sin_theta_L1 = sin(L1_theta);
-    const double arm_L1_head_x = p->L1_head_s_x*cos_theta_L1;
-    const double arm_L1_head_y = p->L1_head_s_x*sin_theta_L1;
-    const double cos_theta_L4 = cos(L4_theta);
-    const double sin_theta_L4 = sin(L4_theta);
-    const double arm_L4_head_x = p->L4_head_s_x*cos_theta_L4;
-    const double arm_L4_head_y = p->L4_head_s_x*sin_theta_L4;
-    const double cos_theta_L2 = cos(L2_theta);
-    const double sin_theta_L2 = sin(L2_theta);
-    const double arm_L2_head_x = p->L2_head_s_x*cos_theta_L2;
-    const double arm_L2_head_y = p->L2_head_s_x*sin_theta_L2;
-    const double cos_theta_L3 = cos(L3_theta);
-    const double sin_theta_L3 = sin(L3_theta);
-    const double arm_L3_head_x = p->L3_head_s_x*cos_theta_L3;
-    const double arm_L3_head_y = p->L3_head_s_x*sin_theta_L3;
-    const double cos_theta_L7 = cos(L7_theta);
-    const double sin_theta_L7 = sin(L7_theta);
-    const double arm_L7_head_x = p->L7_head_s_x*cos_theta_L7;
-    const double arm_L7_head_y = p->L7_head_s_x*sin_theta_L7;
-    const double cos_theta_L6 = cos(L6_theta);
-    const double sin_theta_L6 = sin(L6_theta);
-    const double arm_L6_head_x = p->L6_head_s_x*cos_theta_L6;
-    const double arm_L6_head_y = p->L6_head_s_x*sin_theta_L6;
-    const double cos_theta_L8 = cos(L8_theta);
-    const double sin_theta_L8 = sin(L8_theta);
-    const double arm_L8_head_x = p->L8_head_s_x*cos_theta_L8;
-    const double arm_L8_head_y = p->L8_head_s_x*sin_theta_L8;
-    const double crank1_acceleration = 0.0;
-    const double crank4_acceleration = 0.0;
+    const double cos_theta_L1_ = cos(L1_theta_);
+    const double sin_theta_L1_ = sin(L1_theta_);
+    const double arm_L1_head_x_ = p->L1_head_s_x_*cos_theta_L1_;
+    const double arm_L1_head_y_ = p->L1_head_s_x_*sin_theta_L1_;
+    const double cos_theta_L4_ = cos(L4_theta_);
+    const double sin_theta_L4_ = sin(L4_theta_);
+    const double arm_L4_head_x_ = p->L4_head_s_x_*cos_theta_L4_;
+    const double arm_L4_head_y_ = p->L4_head_s_x_*sin_theta_L4_;
+    const double cos_theta_L2_ = cos(L2_theta_);
+    const double sin_theta_L2_ = sin(L2_theta_);
+    const double arm_L2_head_x_ = p->L2_head_s_x_*cos_theta_L2_;
+    const double arm_L2_head_y_ = p->L2_head_s_x_*sin_theta_L2_;
+    const double cos_theta_L3_ = cos(L3_theta_);
+    const double sin_theta_L3_ = sin(L3_theta_);
+    const double arm_L3_head_x_ = p->L3_head_s_x_*cos_theta_L3_;
+    const double arm_L3_head_y_ = p->L3_head_s_x_*sin_theta_L3_;
+    const double cos_theta_L7_ = cos(L7_theta_);
+    const double sin_theta_L7_ = sin(L7_theta_);
+    const double arm_L7_head_x_ = p->L7_head_s_x_*cos_theta_L7_;
+    const double arm_L7_head_y_ = p->L7_head_s_x_*sin_theta_L7_;
+    const double cos_theta_L6_ = cos(L6_theta_);
+    const double sin_theta_L6_ = sin(L6_theta_);
+    const double arm_L6_head_x_ = p->L6_head_s_x_*cos_theta_L6_;
+    const double arm_L6_head_y_ = p->L6_head_s_x_*sin_theta_L6_;
+    const double cos_theta_L8_ = cos(L8_theta_);
+    const double sin_theta_L8_ = sin(L8_theta_);
+    const double arm_L8_head_x_ = p->L8_head_s_x_*cos_theta_L8_;
+    const double arm_L8_head_y_ = p->L8_head_s_x_*sin_theta_L8_;
+    const double crank1_acceleration_ = 0.0;
+    const double crank4_acceleration_ = 0.0;
 
     /* rows */
-    gamma_rows[0] = (L1_omega * L1_omega)*arm_L1_head_x;  /* O1.x, m/s^2 */
-    gamma_rows[1] = (L1_omega * L1_omega)*arm_L1_head_y;  /* O1.y, m/s^2 */
-    gamma_rows[2] = (L4_omega * L4_omega)*arm_L4_head_x;  /* O4.x, m/s^2 */
-    gamma_rows[3] = (L4_omega * L4_omega)*arm_L4_head_y;  /* O4.y, m/s^2 */
-    gamma_rows[4] = (L1_omega * L1_omega)*arm_L1_head_x + (L2_omega * L2_omega)*arm_L2_head_x;  /* A.x, m/s^2 */
-    gamma_rows[5] = (L1_omega * L1_omega)*arm_L1_head_y + (L2_omega * L2_omega)*arm_L2_head_y;  /* A.y, m/s^2 */
-    gamma_rows[6] = (L3_omega * L3_omega)*arm_L3_head_x + (L4_omega * L4_omega)*arm_L4_head_x;  /* B.x, m/s^2 */
-    gamma_rows[7] = (L3_omega * L3_omega)*arm_L3_head_y + (L4_omega * L4_omega)*arm_L4_head_y;  /* B.y, m/s^2 */
-    gamma_rows[8] = (L2_omega * L2_omega)*arm_L2_head_x + (L7_omega * L7_omega)*arm_L7_head_x;  /* P2.x, m/s^2 */
-    gamma_rows[9] = (L2_omega * L2_omega)*arm_L2_head_y + (L7_omega * L7_omega)*arm_L7_head_y;  /* P2.y, m/s^2 */
-    gamma_rows[10] = (L3_omega * L3_omega)*arm_L3_head_x + (L7_omega * L7_omega)*arm_L7_head_x;  /* P3.x, m/s^2 */
-    gamma_rows[11] = (L3_omega * L3_omega)*arm_L3_head_y + (L7_omega * L7_omega)*arm_L7_head_y;  /* P3.y, m/s^2 */
-    gamma_rows[12] = -(L6_omega * L6_omega)*arm_L6_head_x + (L7_omega * L7_omega)*arm_L7_head_x;  /* Q6.x, m/s^2 */
-    gamma_rows[13] = -(L6_omega * L6_omega)*arm_L6_head_y + (L7_omega * L7_omega)*arm_L7_head_y;  /* Q6.y, m/s^2 */
-    gamma_rows[14] = (L7_omega * L7_omega)*arm_L7_head_x + (L8_omega * L8_omega)*arm_L8_head_x;  /* Q8.x, m/s^2 */
-    gamma_rows[15] = (L7_omega * L7_omega)*arm_L7_head_y + (L8_omega * L8_omega)*arm_L8_head_y;  /* Q8.y, m/s^2 */
-    gamma_rows[16] = (L6_omega * L6_omega)*arm_L6_head_x;  /* O6.x, m/s^2 */
-    gamma_rows[17] = (L6_omega * L6_omega)*arm_L6_head_y;  /* O6.y, m/s^2 */
-    gamma_rows[18] = (L8_omega * L8_omega)*arm_L8_head_x;  /* slider.x, m/s^2 */
-    gamma_rows[19] = (L8_omega * L8_omega)*arm_L8_head_y;  /* slider.y, m/s^2 */
+    gamma_rows[0] = (L1_omega_ * L1_omega_)*arm_L1_head_x_;  /* O1.x, m/s^2 */
+    gamma_rows[1] = (L1_omega_ * L1_omega_)*arm_L1_head_y_;  /* O1.y, m/s^2 */
+    gamma_rows[2] = (L4_omega_ * L4_omega_)*arm_L4_head_x_;  /* O4.x, m/s^2 */
+    gamma_rows[3] = (L4_omega_ * L4_omega_)*arm_L4_head_y_;  /* O4.y, m/s^2 */
+    gamma_rows[4] = (L1_omega_ * L1_omega_)*arm_L1_head_x_ + (L2_omega_ * L2_omega_)*arm_L2_head_x_;  /* A.x, m/s^2 */
+    gamma_rows[5] = (L1_omega_ * L1_omega_)*arm_L1_head_y_ + (L2_omega_ * L2_omega_)*arm_L2_head_y_;  /* A.y, m/s^2 */
+    gamma_rows[6] = (L3_omega_ * L3_omega_)*arm_L3_head_x_ + (L4_omega_ * L4_omega_)*arm_L4_head_x_;  /* B.x, m/s^2 */
+    gamma_rows[7] = (L3_omega_ * L3_omega_)*arm_L3_head_y_ + (L4_omega_ * L4_omega_)*arm_L4_head_y_;  /* B.y, m/s^2 */
+    gamma_rows[8] = (L2_omega_ * L2_omega_)*arm_L2_head_x_ + (L7_omega_ * L7_omega_)*arm_L7_head_x_;  /* P2.x, m/s^2 */
+    gamma_rows[9] = (L2_omega_ * L2_omega_)*arm_L2_head_y_ + (L7_omega_ * L7_omega_)*arm_L7_head_y_;  /* P2.y, m/s^2 */
+    gamma_rows[10] = (L3_omega_ * L3_omega_)*arm_L3_head_x_ + (L7_omega_ * L7_omega_)*arm_L7_head_x_;  /* P3.x, m/s^2 */
+    gamma_rows[11] = (L3_omega_ * L3_omega_)*arm_L3_head_y_ + (L7_omega_ * L7_omega_)*arm_L7_head_y_;  /* P3.y, m/s^2 */
+    /* Q6.x, m/s^2 */
+    gamma_rows[12] = -(L6_omega_ * L6_omega_)*arm_L6_head_x_ + (L7_omega_ * L7_omega_)*arm_L7_head_x_;
+    /* Q6.y, m/s^2 */
+    gamma_rows[13] = -(L6_omega_ * L6_omega_)*arm_L6_head_y_ + (L7_omega_ * L7_omega_)*arm_L7_head_y_;
+    gamma_rows[14] = (L7_omega_ * L7_omega_)*arm_L7_head_x_ + (L8_omega_ * L8_omega_)*arm_L8_head_x_;  /* Q8.x, m/s^2 */
+    gamma_rows[15] = (L7_omega_ * L7_omega_)*arm_L7_head_y_ + (L8_omega_ * L8_omega_)*arm_L8_head_y_;  /* Q8.y, m/s^2 */
+    gamma_rows[16] = (L6_omega_ * L6_omega_)*arm_L6_head_x_;  /* O6.x, m/s^2 */
+    gamma_rows[17] = (L6_omega_ * L6_omega_)*arm_L6_head_y_;  /* O6.y, m/s^2 */
+    gamma_rows[18] = (L8_omega_ * L8_omega_)*arm_L8_head_x_;  /* slider.x, m/s^2 */
+    gamma_rows[19] = (L8_omega_ * L8_omega_)*arm_L8_head_y_;  /* slider.y, m/s^2 */
     gamma_rows[20] = 0.0;  /* guide.offset, m/s^2 */
     gamma_rows[21] = 0.0;  /* guide.angle, rad/s^2 */
-    gamma_rows[22] = crank1_acceleration;  /* crank1, rad/s^2 */
-    gamma_rows[23] = crank4_acceleration;  /* crank4, rad/s^2 */
+    gamma_rows[22] = crank1_acceleration_;  /* crank1, rad/s^2 */
+    gamma_rows[23] = crank4_acceleration_;  /* crank4, rad/s^2 */
 }
 
 /*
@@ -363,11 +365,11 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
 {
     (void)set, (void)rates;
     /* start */
-    guess[0] = p->guess_L2_theta;  /* start.guess.L2.theta */
-    guess[1] = p->guess_L3_theta;  /* start.guess.L3.theta */
-    guess[2] = p->guess_L6_theta;  /* start.guess.L6.theta */
-    guess[3] = p->guess_L7_theta;  /* start.guess.L7.theta */
-    guess[4] = p->guess_L8_theta;  /* start.guess.L8.theta */
+    guess[0] = p->guess_L2_theta_;  /* start.guess.L2.theta */
+    guess[1] = p->guess_L3_theta_;  /* start.guess.L3.theta */
+    guess[2] = p->guess_L6_theta_;  /* start.guess.L6.theta */
+    guess[3] = p->guess_L7_theta_;  /* start.guess.L7.theta */
+    guess[4] = p->guess_L8_theta_;  /* start.guess.L8.theta */
 }
 
 /*
@@ -379,113 +381,116 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
 {
     (void)t, (void)series;
     /* coordinates, velocities, time */
-    const double L1_y = q[1];
-    const double L1_vx = v[0];
-    const double L1_vy = v[1];
-    const double L1_omega = v[2];
-    const double L2_y = q[4];
-    const double L2_vx = v[3];
-    const double L2_vy = v[4];
-    const double L2_omega = v[5];
-    const double L3_y = q[7];
-    const double L3_vx = v[6];
-    const double L3_vy = v[7];
-    const double L3_omega = v[8];
-    const double L4_y = q[10];
-    const double L4_vx = v[9];
-    const double L4_vy = v[10];
-    const double L4_omega = v[11];
-    const double L6_y = q[13];
-    const double L6_vx = v[12];
-    const double L6_vy = v[13];
-    const double L6_omega = v[14];
-    const double L7_y = q[16];
-    const double L7_vx = v[15];
-    const double L7_vy = v[16];
-    const double L7_omega = v[17];
-    const double L8_y = q[19];
-    const double L8_vx = v[18];
-    const double L8_vy = v[19];
-    const double L8_omega = v[20];
-    const double S9_y = q[22];
-    const double S9_vx = v[21];
-    const double S9_vy = v[22];
-    const double S9_omega = v[23];
+    const double L1_y_ = q[1];
+    const double L1_vx_ = v[0];
+    const double L1_vy_ = v[1];
+    const double L1_omega_ = v[2];
+    const double L2_y_ = q[4];
+    const double L2_vx_ = v[3];
+    const double L2_vy_ = v[4];
+    const double L2_omega_ = v[5];
+    const double L3_y_ = q[7];
+    const double L3_vx_ = v[6];
+    const double L3_vy_ = v[7];
+    const double L3_omega_ = v[8];
+    const double L4_y_ = q[10];
+    const double L4_vx_ = v[9];
+    const double L4_vy_ = v[10];
+    const double L4_omega_ = v[11];
+    const double L6_y_ = q[13];
+    const double L6_vx_ = v[12];
+    const double L6_vy_ = v[13];
+    const double L6_omega_ = v[14];
+    const double L7_y_ = q[16];
+    const double L7_vx_ = v[15];
+    const double L7_vy_ = v[16];
+    const double L7_omega_ = v[17];
+    const double L8_y_ = q[19];
+    const double L8_vx_ = v[18];
+    const double L8_vy_ = v[19];
+    const double L8_omega_ = v[20];
+    const double S9_y_ = q[22];
+    const double S9_vx_ = v[21];
+    const double S9_vy_ = v[22];
+    const double S9_omega_ = v[23];
 
     /* multipliers */
-    const double multiplier_O1_x = lambda[0];
-    const double multiplier_O1_y = lambda[1];
-    const double multiplier_O4_x = lambda[2];
-    const double multiplier_O4_y = lambda[3];
-    const double multiplier_A_x = lambda[4];
-    const double multiplier_A_y = lambda[5];
-    const double multiplier_B_x = lambda[6];
-    const double multiplier_B_y = lambda[7];
-    const double multiplier_P2_x = lambda[8];
-    const double multiplier_P2_y = lambda[9];
-    const double multiplier_P3_x = lambda[10];
-    const double multiplier_P3_y = lambda[11];
-    const double multiplier_Q6_x = lambda[12];
-    const double multiplier_Q6_y = lambda[13];
-    const double multiplier_Q8_x = lambda[14];
-    const double multiplier_Q8_y = lambda[15];
-    const double multiplier_O6_x = lambda[16];
-    const double multiplier_O6_y = lambda[17];
-    const double multiplier_slider_x = lambda[18];
-    const double multiplier_slider_y = lambda[19];
-    const double multiplier_guide_offset = lambda[20];
-    const double multiplier_guide_angle = lambda[21];
-    const double multiplier_crank1 = lambda[22];
-    const double multiplier_crank4 = lambda[23];
+    const double multiplier_O1_x_ = lambda[0];
+    const double multiplier_O1_y_ = lambda[1];
+    const double multiplier_O4_x_ = lambda[2];
+    const double multiplier_O4_y_ = lambda[3];
+    const double multiplier_A_x_ = lambda[4];
+    const double multiplier_A_y_ = lambda[5];
+    const double multiplier_B_x_ = lambda[6];
+    const double multiplier_B_y_ = lambda[7];
+    const double multiplier_P2_x_ = lambda[8];
+    const double multiplier_P2_y_ = lambda[9];
+    const double multiplier_P3_x_ = lambda[10];
+    const double multiplier_P3_y_ = lambda[11];
+    const double multiplier_Q6_x_ = lambda[12];
+    const double multiplier_Q6_y_ = lambda[13];
+    const double multiplier_Q8_x_ = lambda[14];
+    const double multiplier_Q8_y_ = lambda[15];
+    const double multiplier_O6_x_ = lambda[16];
+    const double multiplier_O6_y_ = lambda[17];
+    const double multiplier_slider_x_ = lambda[18];
+    const double multiplier_slider_y_ = lambda[19];
+    const double multiplier_guide_offset_ = lambda[20];
+    const double multiplier_guide_angle_ = lambda[21];
+    const double multiplier_crank1_ = lambda[22];
+    const double multiplier_crank4_ = lambda[23];
 
     /* reactions */
-    reactions[0] = multiplier_O1_x;  /* O1.Fx */
-    reactions[1] = multiplier_O1_y;  /* O1.Fy */
+    reactions[0] = multiplier_O1_x_;  /* O1.Fx */
+    reactions[1] = multiplier_O1_y_;  /* O1.Fy */
     reactions[2] = 0.0;  /* O1.M */
-    reactions[3] = multiplier_O4_x;  /* O4.Fx */
-    reactions[4] = multiplier_O4_y;  /* O4.Fy */
+    reactions[3] = multiplier_O4_x_;  /* O4.Fx */
+    reactions[4] = multiplier_O4_y_;  /* O4.Fy */
     reactions[5] = 0.0;  /* O4.M */
-    reactions[6] = multiplier_A_x;  /* A.Fx */
-    reactions[7] = multiplier_A_y;  /* A.Fy */
+    reactions[6] = multiplier_A_x_;  /* A.Fx */
+    reactions[7] = multiplier_A_y_;  /* A.Fy */
     reactions[8] = 0.0;  /* A.M */
-    reactions[9] = multiplier_B_x;  /* B.Fx */
-    reactions[10] = multiplier_B_y;  /* B.Fy */
+    reactions[9] = multiplier_B_x_;  /* B.Fx */
+    reactions[10] = multiplier_B_y_;  /* B.Fy */
     reactions[11] = 0.0;  /* B.M */
-    reactions[12] = multiplier_P2_x;  /* P2.Fx */
-    reactions[13] = multiplier_P2_y;  /* P2.Fy */
+    reactions[12] = multiplier_P2_x_;  /* P2.Fx */
+    reactions[13] = multiplier_P2_y_;  /* P2.Fy */
     reactions[14] = 0.0;  /* P2.M */
-    reactions[15] = multiplier_P3_x;  /* P3.Fx */
-    reactions[16] = multiplier_P3_y;  /* P3.Fy */
+    reactions[15] = multiplier_P3_x_;  /* P3.Fx */
+    reactions[16] = multiplier_P3_y_;  /* P3.Fy */
     reactions[17] = 0.0;  /* P3.M */
-    reactions[18] = multiplier_Q6_x;  /* Q6.Fx */
-    reactions[19] = multiplier_Q6_y;  /* Q6.Fy */
+    reactions[18] = multiplier_Q6_x_;  /* Q6.Fx */
+    reactions[19] = multiplier_Q6_y_;  /* Q6.Fy */
     reactions[20] = 0.0;  /* Q6.M */
-    reactions[21] = multiplier_Q8_x;  /* Q8.Fx */
-    reactions[22] = multiplier_Q8_y;  /* Q8.Fy */
+    reactions[21] = multiplier_Q8_x_;  /* Q8.Fx */
+    reactions[22] = multiplier_Q8_y_;  /* Q8.Fy */
     reactions[23] = 0.0;  /* Q8.M */
-    reactions[24] = multiplier_O6_x;  /* O6.Fx */
-    reactions[25] = multiplier_O6_y;  /* O6.Fy */
+    reactions[24] = multiplier_O6_x_;  /* O6.Fx */
+    reactions[25] = multiplier_O6_y_;  /* O6.Fy */
     reactions[26] = 0.0;  /* O6.M */
-    reactions[27] = multiplier_slider_x;  /* slider.Fx */
-    reactions[28] = multiplier_slider_y;  /* slider.Fy */
+    reactions[27] = multiplier_slider_x_;  /* slider.Fx */
+    reactions[28] = multiplier_slider_y_;  /* slider.Fy */
     reactions[29] = 0.0;  /* slider.M */
-    reactions[30] = multiplier_guide_offset;  /* guide.Fx */
+    reactions[30] = multiplier_guide_offset_;  /* guide.Fx */
     reactions[31] = 0.0;  /* guide.Fy */
-    reactions[32] = -multiplier_guide_angle;  /* guide.M */
-    torques[0] = -multiplier_crank1;  /* crank1 */
-    torques[1] = -multiplier_crank4;  /* crank4 */
+    reactions[32] = -multiplier_guide_angle_;  /* guide.M */
+    torques[0] = -multiplier_crank1_;  /* crank1 */
+    torques[1] = -multiplier_crank4_;  /* crank4 */
 
     /* energy */
-    energy[0] = 0.5*p->L1_inertia*(L1_omega * L1_omega) + 0.5*p->L1_mass*(L1_vx * L1_vx)
-        + 0.5*p->L1_mass*(L1_vy * L1_vy) + 0.5*p->L2_inertia*(L2_omega * L2_omega) + 0.5*p->L2_mass*(L2_vx * L2_vx)
-        + 0.5*p->L2_mass*(L2_vy * L2_vy) + 0.5*p->L3_inertia*(L3_omega * L3_omega) + 0.5*p->L3_mass*(L3_vx * L3_vx)
-        + 0.5*p->L3_mass*(L3_vy * L3_vy) + 0.5*p->L4_inertia*(L4_omega * L4_omega) + 0.5*p->L4_mass*(L4_vx * L4_vx)
-        + 0.5*p->L4_mass*(L4_vy * L4_vy) + 0.5*p->L6_inertia*(L6_omega * L6_omega) + 0.5*p->L6_mass*(L6_vx * L6_vx)
-        + 0.5*p->L6_mass*(L6_vy * L6_vy) + 0.5*p->L7_inertia*(L7_omega * L7_omega) + 0.5*p->L7_mass*(L7_vx * L7_vx)
-        + 0.5*p->L7_mass*(L7_vy * L7_vy) + 0.5*p->L8_inertia*(L8_omega * L8_omega) + 0.5*p->L8_mass*(L8_vx * L8_vx)
-        + 0.5*p->L8_mass*(L8_vy * L8_vy) + 0.5*p->S9_inertia*(S9_omega * S9_omega) + 0.5*p->S9_mass*(S9_vx * S9_vx)
-        + 0.5*p->S9_mass*(S9_vy * S9_vy);
-    energy[1] = -p->L1_mass*L1_y*p->gravity_y - p->L2_mass*L2_y*p->gravity_y - p->L3_mass*L3_y*p->gravity_y
-        - p->L4_mass*L4_y*p->gravity_y - p->L6_mass*L6_y*p->gravity_y - p->L7_mass*L7_y*p->gravity_y
-        - p->L8_mass*L8_y*p->gravity_y - p->S9_mass*S9_y*p->gravity_y;
+    energy[0] = 0.5*p->L1_inertia_*(L1_omega_ * L1_omega_) + 0.5*p->L1_mass_*(L1_vx_ * L1_vx_)
+        + 0.5*p->L1_mass_*(L1_vy_ * L1_vy_) + 0.5*p->L2_inertia_*(L2_omega_ * L2_omega_)
+        + 0.5*p->L2_mass_*(L2_vx_ * L2_vx_) + 0.5*p->L2_mass_*(L2_vy_ * L2_vy_)
+        + 0.5*p->L3_inertia_*(L3_omega_ * L3_omega_) + 0.5*p->L3_mass_*(L3_vx_ * L3_vx_)
+        + 0.5*p->L3_mass_*(L3_vy_ * L3_vy_) + 0.5*p->L4_inertia_*(L4_omega_ * L4_omega_)
+        + 0.5*p->L4_mass_*(L4_vx_ * L4_vx_) + 0.5*p->L4_mass_*(L4_vy_ * L4_vy_)
+        + 0.5*p->L6_inertia_*(L6_omega_ * L6_omega_) + 0.5*p->L6_mass_*(L6_vx_ * L6_vx_)
+        + 0.5*p->L6_mass_*(L6_vy_ * L6_vy_) + 0.5*p->L7_inertia_*(L7_omega_ * L7_omega_)
+        + 0.5*p->L7_mass_*(L7_vx_ * L7_vx_) + 0.5*p->L7_mass_*(L7_vy_ * L7_vy_)
+        + 0.5*p->L8_inertia_*(L8_omega_ * L8_omega_) + 0.5*p->L8_mass_*(L8_vx_ * L8_vx_)
+        + 0.5*p->L8_mass_*(L8_vy_ * L8_vy_) + 0.5*p->S9_inertia_*(S9_omega_ * S9_omega_)
+        + 0.5*p->S9_mass_*(S9_vx_ * S9_vx_) + 0.5*p->S9_mass_*(S9_vy_ * S9_vy_);
+    energy[1] = -p->L1_mass_*L1_y_*p->gravity_y_ - p->L2_mass_*L2_y_*p->gravity_y_ - p->L3_mass_*L3_y_*p->gravity_y_
+        - p->L4_mass_*L4_y_*p->gravity_y_ - p->L6_mass_*L6_y_*p->gravity_y_ - p->L7_mass_*L7_y_*p->gravity_y_
+        - p->L8_mass_*L8_y_*p->gravity_y_ - p->S9_mass_*S9_y_*p->gravity_y_;
 }

@@ -50,6 +50,7 @@
 #define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
 #define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
 #define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
+#define LIGHT_PIVOT 1e-06                     /* of what turns with an angle, where its inertia is too small for it */
 #define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
 typedef struct Parameters Parameters; /* every number of a run */
@@ -63,6 +64,7 @@ static const int guess_place[] = {5, 8, 14, 17, 20};
 static const int set_place[] = {0};
 static const int rate_place[] = {0};
 static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0};
+static const int drive_row[] = {22, 23};
 static const int kept_row[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23};
 static const int phi_q_first[] = {0, 2, 4, 6, 8, 12, 16, 20, 24, 28, 32, 36, 40, 44, 48, 52, 56, 58, 60, 63, 66, 67,
     68, 69, 70};
@@ -75,114 +77,106 @@ static const unsigned char is_angle[] = {1, 1, 1, 1, 1};
 
 /* In SI: first the slots that a user may set, then what prepare() derives. */
 struct Parameters {
-    double omega;  /* parameters.omega, 1/s */
-    double omega4;  /* parameters.omega4, 1/s */
-    double l5;  /* parameters.l5, m */
-    double c;  /* parameters.c, m */
-    double L1_mass;  /* bodies.L1.mass, kg */
-    double L1_inertia;  /* bodies.L1.inertia, kg*m^2 */
-    double L2_mass;  /* bodies.L2.mass, kg */
-    double L2_inertia;  /* bodies.L2.inertia, kg*m^2 */
-    double L3_mass;  /* bodies.L3.mass, kg */
-    double L3_inertia;  /* bodies.L3.inertia, kg*m^2 */
-    double L4_mass;  /* bodies.L4.mass, kg */
-    double L4_inertia;  /* bodies.L4.inertia, kg*m^2 */
-    double L6_mass;  /* bodies.L6.mass, kg */
-    double L6_inertia;  /* bodies.L6.inertia, kg*m^2 */
-    double L7_mass;  /* bodies.L7.mass, kg */
-    double L7_inertia;  /* bodies.L7.inertia, kg*m^2 */
-    double L8_mass;  /* bodies.L8.mass, kg */
-    double L8_inertia;  /* bodies.L8.inertia, kg*m^2 */
-    double S9_mass;  /* bodies.S9.mass, kg */
-    double S9_inertia;  /* bodies.S9.inertia, kg*m^2 */
-    double L1_length;  /* bodies.L1.length, m */
-    double L2_length;  /* bodies.L2.length, m */
-    double L3_length;  /* bodies.L3.length, m */
-    double L4_length;  /* bodies.L4.length, m */
-    double L6_length;  /* bodies.L6.length, m */
-    double L7_length;  /* bodies.L7.length, m */
-    double L8_length;  /* bodies.L8.length, m */
-    double alpha;  /* baumgarte.alpha, 1/s */
-    double beta;  /* baumgarte.beta, 1/s */
-    double O4_y;  /* ground.O4.y, m */
-    double O6_x;  /* ground.O6.x, m */
-    double guide_axis_y;  /* joints.guide.axis.y, 1 */
-    double gravity_y;  /* gravity.y, m/s^2 */
-    double guess_L2_theta;  /* start.guess.L2.theta, rad */
-    double guess_L3_theta;  /* start.guess.L3.theta, rad */
-    double guess_L6_theta;  /* start.guess.L6.theta, rad */
-    double guess_L7_theta;  /* start.guess.L7.theta, rad */
-    double guess_L8_theta;  /* start.guess.L8.theta, rad */
-    double L1_head_s_x;  /* point from the centre of mass, m */
-    double L2_head_s_x;  /* point from the centre of mass, m */
-    double L3_head_s_x;  /* point from the centre of mass, m */
-    double L4_head_s_x;  /* point from the centre of mass, m */
-    double L6_head_s_x;  /* point from the centre of mass, m */
-    double L7_head_s_x;  /* point from the centre of mass, m */
-    double L8_head_s_x;  /* point from the centre of mass, m */
-    double weight_L1_y;  /* weight, N */
-    double weight_L2_y;  /* weight, N */
-    double weight_L3_y;  /* weight, N */
-    double weight_L4_y;  /* weight, N */
-    double weight_L6_y;  /* weight, N */
-    double weight_L7_y;  /* weight, N */
-    double weight_L8_y;  /* weight, N */
-    double weight_S9_y;  /* weight, N */
-    double two_alpha;  /* 2 alpha, 1/s */
-    double beta_squared;  /* beta^2, 1/s^2 */
-    double inverse_S9_mass;  /* 1/M, 1/kg */
-    double inverse_S9_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_L1_mass;  /* 1/M, 1/kg */
-    double inverse_L2_mass;  /* 1/M, 1/kg */
-    double inverse_L3_mass;  /* 1/M, 1/kg */
-    double inverse_L4_mass;  /* 1/M, 1/kg */
-    double inverse_L6_mass;  /* 1/M, 1/kg */
-    double inverse_L8_mass;  /* 1/M, 1/kg */
-    double inverse_L2_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_L3_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_L6_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_L8_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_L7_mass;  /* 1/M, 1/kg */
-    double inverse_L1_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_L4_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_L7_inertia;  /* 1/M, 1/(kg*m^2) */
-    double L1_head_span_x;  /* vector in its frame, m */
-    double L4_head_span_x;  /* vector in its frame, m */
-    double L6_head_span_x;  /* vector in its frame, m */
-    double L7_com_span_x;  /* vector in its frame, m */
-    double L8_head_span_x;  /* vector in its frame, m */
-    double L2_head_span_x;  /* vector in its frame, m */
-    double L3_head_span_x;  /* vector in its frame, m */
-    double L7_tail_span_x;  /* vector in its frame, m */
-    double inertia_L1_L1;  /* sum of m w.w, kg*m^2 */
-    double inertia_L1_L2;  /* sum of m w.w, kg*m^2 */
-    double inertia_L2_L2;  /* sum of m w.w, kg*m^2 */
-    double inertia_L4_L4;  /* sum of m w.w, kg*m^2 */
-    double inertia_L4_L3;  /* sum of m w.w, kg*m^2 */
-    double inertia_L3_L3;  /* sum of m w.w, kg*m^2 */
-    double inertia_L6_L6;  /* sum of m w.w, kg*m^2 */
-    double inertia_L6_L7;  /* sum of m w.w, kg*m^2 */
-    double inertia_L7_L7;  /* sum of m w.w, kg*m^2 */
-    double inertia_L6_L8;  /* sum of m w.w, kg*m^2 */
-    double inertia_L8_L8;  /* sum of m w.w, kg*m^2 */
-    double mass_crank1_crank1;  /* constant of M, kg*m^2 */
-    double mass_L2_L2;  /* constant of M, kg*m^2 */
-    double mass_crank4_crank4;  /* constant of M, kg*m^2 */
-    double mass_L3_L3;  /* constant of M, kg*m^2 */
-    double mass_L6_L6;  /* constant of M, kg*m^2 */
-    double mass_L7_L7;  /* constant of M, kg*m^2 */
-    double mass_L8_L8;  /* constant of M, kg*m^2 */
-    double weight_L1__across;  /* weight, N*m */
-    double weight_L2__across;  /* weight, N*m */
-    double weight_L4__across;  /* weight, N*m */
-    double weight_L3__across;  /* weight, N*m */
-    double weight_L6__across;  /* weight, N*m */
-    double weight_L7__across;  /* weight, N*m */
-    double weight_L8__across;  /* weight, N*m */
-    double inverse_mass_L3_L3;  /* 1/M, 1/(kg*m^2) */
-    double inverse_mass_L8_L8;  /* 1/M, 1/(kg*m^2) */
-    double inverse_mass_L7_L7;  /* 1/M, 1/(kg*m^2) */
-    double inverse_mass_L2_L2;  /* 1/M, 1/(kg*m^2) */
+    double omega_;  /* parameters.omega, 1/s */
+    double omega4_;  /* parameters.omega4, 1/s */
+    double l5_;  /* parameters.l5, m */
+    double c_;  /* parameters.c, m */
+    double L1_mass_;  /* bodies.L1.mass, kg */
+    double L1_inertia_;  /* bodies.L1.inertia, kg*m^2 */
+    double L2_mass_;  /* bodies.L2.mass, kg */
+    double L2_inertia_;  /* bodies.L2.inertia, kg*m^2 */
+    double L3_mass_;  /* bodies.L3.mass, kg */
+    double L3_inertia_;  /* bodies.L3.inertia, kg*m^2 */
+    double L4_mass_;  /* bodies.L4.mass, kg */
+    double L4_inertia_;  /* bodies.L4.inertia, kg*m^2 */
+    double L6_mass_;  /* bodies.L6.mass, kg */
+    double L6_inertia_;  /* bodies.L6.inertia, kg*m^2 */
+    double L7_mass_;  /* bodies.L7.mass, kg */
+    double L7_inertia_;  /* bodies.L7.inertia, kg*m^2 */
+    double L8_mass_;  /* bodies.L8.mass, kg */
+    double L8_inertia_;  /* bodies.L8.inertia, kg*m^2 */
+    double S9_mass_;  /* bodies.S9.mass, kg */
+    double S9_inertia_;  /* bodies.S9.inertia, kg*m^2 */
+    double L1_length_;  /* bodies.L1.length, m */
+    double L2_length_;  /* bodies.L2.length, m */
+    double L3_length_;  /* bodies.L3.length, m */
+    double L4_length_;  /* bodies.L4.length, m */
+    double L6_length_;  /* bodies.L6.length, m */
+    double L7_length_;  /* bodies.L7.length, m */
+    double L8_length_;  /* bodies.L8.length, m */
+    double alpha_;  /* baumgarte.alpha, 1/s */
+    double beta_;  /* baumgarte.beta, 1/s */
+    double O4_y_;  /* ground.O4.y, m */
+    double O6_x_;  /* ground.O6.x, m */
+    double guide_axis_y_;  /* joints.guide.axis.y, 1 */
+    double gravity_y_;  /* gravity.y, m/s^2 */
+    double guess_L2_theta_;  /* start.guess.L2.theta, rad */
+    double guess_L3_theta_;  /* start.guess.L3.theta, rad */
+    double guess_L6_theta_;  /* start.guess.L6.theta, rad */
+    double guess_L7_theta_;  /* start.guess.L7.theta, rad */
+    double guess_L8_theta_;  /* start.guess.L8.theta, rad */
+    double L1_head_s_x_;  /* point from the centre of mass, m */
+    double L2_head_s_x_;  /* point from the centre of mass, m */
+    double L3_head_s_x_;  /* point from the centre of mass, m */
+    double L4_head_s_x_;  /* point from the centre of mass, m */
+    double L6_head_s_x_;  /* point from the centre of mass, m */
+    double L7_head_s_x_;  /* point from the centre of mass, m */
+    double L8_head_s_x_;  /* point from the centre of mass, m */
+    double weight_L1_y_;  /* weight, N */
+    double weight_L2_y_;  /* weight, N */
+    double weight_L3_y_;  /* weight, N */
+    double weight_L4_y_;  /* weight, N */
+    double weight_L6_y_;  /* weight, N */
+    double weight_L7_y_;  /* weight, N */
+    double weight_L8_y_;  /* weight, N */
+    double weight_S9_y_;  /* weight, N */
+    double L2_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double L3_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double L8_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double L6_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double L7_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double two_alpha_;  /* 2 alpha, 1/s */
+    double beta_squared_;  /* beta^2, 1/s^2 */
+    double mobility_P2_x_;  /* 1/m of the bodies of a row, 1/kg */
+    double mobility_P3_x_;  /* 1/m of the bodies of a row, 1/kg */
+    double mobility_guide_offset_;  /* 1/m of the bodies of a row, 1/kg */
+    double L1_head_span_x_;  /* vector in its frame, m */
+    double L4_head_span_x_;  /* vector in its frame, m */
+    double L6_head_span_x_;  /* vector in its frame, m */
+    double L7_com_span_x_;  /* vector in its frame, m */
+    double L8_head_span_x_;  /* vector in its frame, m */
+    double L2_head_span_x_;  /* vector in its frame, m */
+    double L3_head_span_x_;  /* vector in its frame, m */
+    double L7_tail_span_x_;  /* vector in its frame, m */
+    double inertia_L1_L1_;  /* sum of m w.w, kg*m^2 */
+    double inertia_L1_L2_;  /* sum of m w.w, kg*m^2 */
+    double inertia_L2_L2_;  /* sum of m w.w, kg*m^2 */
+    double inertia_L4_L4_;  /* sum of m w.w, kg*m^2 */
+    double inertia_L4_L3_;  /* sum of m w.w, kg*m^2 */
+    double inertia_L3_L3_;  /* sum of m w.w, kg*m^2 */
+    double inertia_L6_L6_;  /* sum of m w.w, kg*m^2 */
+    double inertia_L6_L7_;  /* sum of m w.w, kg*m^2 */
+    double inertia_L7_L7_;  /* sum of m w.w, kg*m^2 */
+    double inertia_L6_L8_;  /* sum of m w.w, kg*m^2 */
+    double inertia_L8_L8_;  /* sum of m w.w, kg*m^2 */
+    double mass_crank1_crank1_;  /* constant of M, kg*m^2 */
+    double mass_L2_L2_;  /* constant of M, kg*m^2 */
+    double mass_crank4_crank4_;  /* constant of M, kg*m^2 */
+    double mass_L3_L3_;  /* constant of M, kg*m^2 */
+    double mass_L6_L6_;  /* constant of M, kg*m^2 */
+    double mass_L7_L7_;  /* constant of M, kg*m^2 */
+    double mass_L8_L8_;  /* constant of M, kg*m^2 */
+    double weight_L1_across_;  /* weight, N*m */
+    double weight_L2_across_;  /* weight, N*m */
+    double weight_L4_across_;  /* weight, N*m */
+    double weight_L3_across_;  /* weight, N*m */
+    double weight_L6_across_;  /* weight, N*m */
+    double weight_L7_across_;  /* weight, N*m */
+    double weight_L8_across_;  /* weight, N*m */
+    double inverse_mass_L3_L3_;  /* 1/M, 1/(kg*m^2) */
+    double inverse_mass_L8_L8_;  /* 1/M, 1/(kg*m^2) */
+    double inverse_mass_L7_L7_;  /* 1/M, 1/(kg*m^2) */
+    double inverse_mass_L2_L2_;  /* 1/M, 1/(kg*m^2) */
 };
 
 #endif

@@ -80,19 +80,19 @@ static inline void pinkus_sternlicht(double epsilon, double w_n, double w_t, dou
  * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
  * linear and angular momentum are conserved to rounding. F_n < 0 pushes the journal back.
  */
-static inline PinForce dry_A(double delta, double deltadot, double de_t, double omega_i, double omega_j,
+static inline PinForce dry_A_(double delta, double deltadot, double de_t, double omega_i, double omega_j,
     const Latch *latch, const Parameters *p, const double *side, double *g)
 {
     /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
     const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
-    const double a_i = 0.5*delta + p->pin_radius;
-    const double a_j = -0.5*delta + p->R_j_pin;
+    const double a_i = 0.5*delta + p->pin_radius_;
+    const double a_j = -0.5*delta + p->R_j_pin_;
     const double v_t = -a_i*omega_i + a_j*omega_j + de_t;
     double F_n;
-    lankarani_nikravesh(max_of(delta, 0.0), ratio, p->oil_normal_exponent, p->oil_pin_K, p->oil_pin_hysteresis, side,
-        g, 0, &F_n);
+    lankarani_nikravesh(max_of(delta, 0.0), ratio, p->oil_normal_exponent_, p->oil_pin_K_, p->oil_pin_hysteresis_,
+        side, g, 0, &F_n);
     double F_along_t_dry;
-    modified_coulomb(F_n, v_t, p->oil_friction_mu, p->oil_friction_v0, p->oil_pin_friction_slope, side, g, 1,
+    modified_coulomb(F_n, v_t, p->oil_friction_mu_, p->oil_friction_v0_, p->oil_pin_friction_slope_, side, g, 1,
         &F_along_t_dry);
     const double M_i_dry = -F_along_t_dry*a_i;
     const double M_j_dry = F_along_t_dry*a_j;
@@ -103,19 +103,19 @@ static inline PinForce dry_A(double delta, double deltadot, double de_t, double 
  * Film in joint A (physics.md, section 4), finite at e = 0 and, with epsilon capped, at every e.
  * Effective squeeze velocity w = de - (omega_i + omega_j)/2 z x e, over the film's clearance.
  */
-static inline PinForce film_A(double e, double deltadot, double de_t, double omega_i, double omega_j,
+static inline PinForce film_A_(double e, double deltadot, double de_t, double omega_i, double omega_j,
     const Parameters *p, const double *side, double *g)
 {
-    const double side_6 = side_of(side, g, 6, -e*p->inverse_pin_clearance + 0.9999);
+    const double side_6 = side_of(side, g, 6, -e*p->inverse_pin_clearance_ + 0.9999);
     double epsilon;
     if (side_6 < 0.0)
         epsilon = 0.9999;
     else
-        epsilon = e*p->inverse_pin_clearance;
-    const double w_n = deltadot*p->inverse_pin_clearance;
-    const double w_t = p->inverse_pin_clearance*(de_t - 0.5*e*(omega_i + omega_j));
+        epsilon = e*p->inverse_pin_clearance_;
+    const double w_n = deltadot*p->inverse_pin_clearance_;
+    const double w_t = p->inverse_pin_clearance_*(de_t - 0.5*e*(omega_i + omega_j));
     double F_r, F_along_t_film, T0;
-    pinkus_sternlicht(epsilon, w_n, w_t, p->oil_pin_S, side, g, 5, &F_r, &F_along_t_film, &T0);
+    pinkus_sternlicht(epsilon, w_n, w_t, p->oil_pin_S_, side, g, 5, &F_r, &F_along_t_film, &T0);
     (void)T0; /* read only with shear */
     const double M_i_film = -F_along_t_film*e;
     const double M_j_film = 0.0;
@@ -126,34 +126,34 @@ static inline PinForce film_A(double e, double deltadot, double de_t, double ome
  * Joint A: film for e < c, dry contact for e > c + e_0, a linear blend between them
  * (the paper's Eq. 17); a step holds what it began with.
  */
-static void clearance_A(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
+static void clearance_A_(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
     const Latch *latch, const Parameters *p, const double *side, double *g, Clearance *out)
 {
     const double e = sqrt((e_x * e_x) + (e_y * e_y));
     const double inverse_e = 1.0/e;
     const double n_x = e > 0.0 ? e_x*inverse_e : 1.0;
     const double n_y = e > 0.0 ? e_y*inverse_e : 0.0;
-    const double delta = e - p->pin_clearance;
+    const double delta = e - p->pin_clearance_;
     const double deltadot = de_x*n_x + de_y*n_y;
     const double de_t = -de_x*n_y + de_y*n_x;
     for (int k = 0; k < 8; k++)
         g[k] = NAN; /* what does not act does not switch */
     if (!(side ? latch->closed : delta > 0.0)) {
-        const PinForce F = film_A(e, deltadot, de_t, omega_i, omega_j, p, side, g);
+        const PinForce F = film_A_(e, deltadot, de_t, omega_i, omega_j, p, side, g);
         *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
         .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
         .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0};
         return;
     }
-    const double side_7 = side_of(side, g, 7, -delta*p->inverse_oil_transition + 1.0);
+    const double side_7 = side_of(side, g, 7, -delta*p->inverse_oil_transition_ + 1.0);
     double share;
     if (side_7 < 0.0)
         share = 1.0;
     else
-        share = delta*p->inverse_oil_transition;
-    PinForce F = dry_A(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
+        share = delta*p->inverse_oil_transition_;
+    PinForce F = dry_A_(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
     if (share < 1.0) {
-        const PinForce film = film_A(e, deltadot, de_t, omega_i, omega_j, p, side, g);
+        const PinForce film = film_A_(e, deltadot, de_t, omega_i, omega_j, p, side, g);
         F.n += (1.0 - share) * (film.n - F.n);
         F.t += (1.0 - share) * (film.t - F.t);
         F.M_i += (1.0 - share) * (film.M_i - F.M_i);
@@ -170,19 +170,19 @@ static void clearance_A(double e_x, double e_y, double de_x, double de_y, double
  * Both bodies take the force at one point, in the middle of the penetration: a_i - a_j = e, so that
  * linear and angular momentum are conserved to rounding. F_n < 0 pushes the journal back.
  */
-static inline PinForce dry_B(double delta, double deltadot, double de_t, double omega_i, double omega_j,
+static inline PinForce dry_B_(double delta, double deltadot, double de_t, double omega_i, double omega_j,
     const Latch *latch, const Parameters *p, const double *side, double *g)
 {
     /* before an onset is accepted the impact velocity is that of the stage itself: ratio 1 */
     const double ratio = latch->closed ? deltadot / latch->deltadot_minus : 1.0;
-    const double a_i = 0.5*delta + p->pin_radius;
-    const double a_j = -0.5*delta + p->R_j_pin;
+    const double a_i = 0.5*delta + p->pin_radius_;
+    const double a_j = -0.5*delta + p->R_j_pin_;
     const double v_t = -a_i*omega_i + a_j*omega_j + de_t;
     double F_n;
-    lankarani_nikravesh(max_of(delta, 0.0), ratio, p->oil_normal_exponent, p->oil_pin_K, p->oil_pin_hysteresis, side,
-        g, 8, &F_n);
+    lankarani_nikravesh(max_of(delta, 0.0), ratio, p->oil_normal_exponent_, p->oil_pin_K_, p->oil_pin_hysteresis_,
+        side, g, 8, &F_n);
     double F_along_t_dry;
-    modified_coulomb(F_n, v_t, p->oil_friction_mu, p->oil_friction_v0, p->oil_pin_friction_slope, side, g, 9,
+    modified_coulomb(F_n, v_t, p->oil_friction_mu_, p->oil_friction_v0_, p->oil_pin_friction_slope_, side, g, 9,
         &F_along_t_dry);
     const double M_i_dry = -F_along_t_dry*a_i;
     const double M_j_dry = F_along_t_dry*a_j;
@@ -193,19 +193,19 @@ static inline PinForce dry_B(double delta, double deltadot, double de_t, double 
  * Film in joint B (physics.md, section 4), finite at e = 0 and, with epsilon capped, at every e.
  * Effective squeeze velocity w = de - (omega_i + omega_j)/2 z x e, over the film's clearance.
  */
-static inline PinForce film_B(double e, double deltadot, double de_t, double omega_i, double omega_j,
+static inline PinForce film_B_(double e, double deltadot, double de_t, double omega_i, double omega_j,
     const Parameters *p, const double *side, double *g)
 {
-    const double side_14 = side_of(side, g, 14, -e*p->inverse_pin_clearance + 0.9999);
+    const double side_14 = side_of(side, g, 14, -e*p->inverse_pin_clearance_ + 0.9999);
     double epsilon;
     if (side_14 < 0.0)
         epsilon = 0.9999;
     else
-        epsilon = e*p->inverse_pin_clearance;
-    const double w_n = deltadot*p->inverse_pin_clearance;
-    const double w_t = p->inverse_pin_clearance*(de_t - 0.5*e*(omega_i + omega_j));
+        epsilon = e*p->inverse_pin_clearance_;
+    const double w_n = deltadot*p->inverse_pin_clearance_;
+    const double w_t = p->inverse_pin_clearance_*(de_t - 0.5*e*(omega_i + omega_j));
     double F_r, F_along_t_film, T0;
-    pinkus_sternlicht(epsilon, w_n, w_t, p->oil_pin_S, side, g, 13, &F_r, &F_along_t_film, &T0);
+    pinkus_sternlicht(epsilon, w_n, w_t, p->oil_pin_S_, side, g, 13, &F_r, &F_along_t_film, &T0);
     (void)T0; /* read only with shear */
     const double M_i_film = -F_along_t_film*e;
     const double M_j_film = 0.0;
@@ -216,34 +216,34 @@ static inline PinForce film_B(double e, double deltadot, double de_t, double ome
  * Joint B: film for e < c, dry contact for e > c + e_0, a linear blend between them
  * (the paper's Eq. 17); a step holds what it began with.
  */
-static void clearance_B(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
+static void clearance_B_(double e_x, double e_y, double de_x, double de_y, double omega_i, double omega_j,
     const Latch *latch, const Parameters *p, const double *side, double *g, Clearance *out)
 {
     const double e = sqrt((e_x * e_x) + (e_y * e_y));
     const double inverse_e = 1.0/e;
     const double n_x = e > 0.0 ? e_x*inverse_e : 1.0;
     const double n_y = e > 0.0 ? e_y*inverse_e : 0.0;
-    const double delta = e - p->pin_clearance;
+    const double delta = e - p->pin_clearance_;
     const double deltadot = de_x*n_x + de_y*n_y;
     const double de_t = -de_x*n_y + de_y*n_x;
     for (int k = 8; k < 16; k++)
         g[k] = NAN; /* what does not act does not switch */
     if (!(side ? latch->closed : delta > 0.0)) {
-        const PinForce F = film_B(e, deltadot, de_t, omega_i, omega_j, p, side, g);
+        const PinForce F = film_B_(e, deltadot, de_t, omega_i, omega_j, p, side, g);
         *out = (Clearance){.Fx = F.n * n_x - F.t * n_y, .Fy = F.n * n_y + F.t * n_x, .F_n = F.n, .F_t = F.t,
         .ex = e_x, .ey = e_y, .e = e, .deltadot = deltadot, .v_t = F.v_t,
         .moment_first = F.M_i, .moment_second = F.M_j, .delta = delta, .power = 0.0};
         return;
     }
-    const double side_15 = side_of(side, g, 15, -delta*p->inverse_oil_transition + 1.0);
+    const double side_15 = side_of(side, g, 15, -delta*p->inverse_oil_transition_ + 1.0);
     double share;
     if (side_15 < 0.0)
         share = 1.0;
     else
-        share = delta*p->inverse_oil_transition;
-    PinForce F = dry_B(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
+        share = delta*p->inverse_oil_transition_;
+    PinForce F = dry_B_(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
     if (share < 1.0) {
-        const PinForce film = film_B(e, deltadot, de_t, omega_i, omega_j, p, side, g);
+        const PinForce film = film_B_(e, deltadot, de_t, omega_i, omega_j, p, side, g);
         F.n += (1.0 - share) * (film.n - F.n);
         F.t += (1.0 - share) * (film.t - F.t);
         F.M_i += (1.0 - share) * (film.M_i - F.M_i);

@@ -4,9 +4,9 @@
 void mass_matrix(const Parameters *p, double *m)
 {
     /* M */
-    m[0] = p->bob_mass;
-    m[1] = p->bob_mass;
-    m[2] = p->bob_inertia;
+    m[0] = p->bob_mass_;
+    m[1] = p->bob_mass_;
+    m[2] = p->bob_inertia_;
 }
 
 /*
@@ -16,13 +16,13 @@ void constraints(const double t, const double *q, const Parameters *p, double *p
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double bob_x = q[0];
-    const double bob_y = q[1];
+    const double bob_x_ = q[0];
+    const double bob_y_ = q[1];
 
     /* rows */
     /* rod.length, m */
-    phi[0] = (bob_x * bob_x)*p->rod_half_inverse_length + (bob_y * bob_y)*p->rod_half_inverse_length
-        - 0.5*p->rod_length;
+    phi[0] = (bob_x_ * bob_x_)*p->rod_half_inverse_length_ + (bob_y_ * bob_y_)*p->rod_half_inverse_length_
+        - 0.5*p->rod_length_;
 }
 
 /*
@@ -32,12 +32,12 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double bob_x = q[0];
-    const double bob_y = q[1];
+    const double bob_x_ = q[0];
+    const double bob_y_ = q[1];
 
     /* non-zeros */
-    phi_q[0] = 2.0*bob_x*p->rod_half_inverse_length;  /* d rod.length / d bob_x */
-    phi_q[1] = 2.0*bob_y*p->rod_half_inverse_length;  /* d rod.length / d bob_y */
+    phi_q[0] = 2.0*bob_x_*p->rod_half_inverse_length_;  /* d rod.length / d bob_x_ */
+    phi_q[1] = 2.0*bob_y_*p->rod_half_inverse_length_;  /* d rod.length / d bob_y_ */
 }
 
 /*
@@ -57,13 +57,13 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
 {
     (void)t, (void)q;
     /* coordinates, velocities, time */
-    const double bob_vx = v[0];
-    const double bob_vy = v[1];
+    const double bob_vx_ = v[0];
+    const double bob_vy_ = v[1];
 
     /* rows */
     /* rod.length, m/s^2 */
-    gamma_rows[0] = -2.0*(bob_vx * bob_vx)*p->rod_half_inverse_length
-        - 2.0*(bob_vy * bob_vy)*p->rod_half_inverse_length;
+    gamma_rows[0] = -2.0*(bob_vx_ * bob_vx_)*p->rod_half_inverse_length_
+        - 2.0*(bob_vy_ * bob_vy_)*p->rod_half_inverse_length_;
 }
 
 /*
@@ -73,9 +73,9 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
 {
     (void)guess;
     /* start */
-    set[0] = p->set_bob_x;  /* start.set.bob.x */
-    set[1] = p->set_bob_theta;  /* start.set.bob.theta */
-    rates[0] = p->rates_bob_omega;  /* start.rates.bob.omega */
+    set[0] = p->set_bob_x_;  /* start.set.bob.x */
+    set[1] = p->set_bob_theta_;  /* start.set.bob.theta */
+    rates[0] = p->rates_bob_omega_;  /* start.rates.bob.omega */
 }
 
 /*
@@ -87,34 +87,34 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
 {
     (void)t, (void)torques, (void)series;
     /* coordinates, velocities, time */
-    const double bob_x = q[0];
-    const double bob_y = q[1];
-    const double bob_vx = v[0];
-    const double bob_vy = v[1];
-    const double bob_omega = v[2];
+    const double bob_x_ = q[0];
+    const double bob_y_ = q[1];
+    const double bob_vx_ = v[0];
+    const double bob_vy_ = v[1];
+    const double bob_omega_ = v[2];
 
     /* multipliers */
-    const double multiplier_rod_length = lambda[0];
+    const double multiplier_rod_length_ = lambda[0];
 
     /* reactions */
-    reactions[0] = -2.0*bob_x*multiplier_rod_length*p->rod_half_inverse_length;  /* rod.Fx */
-    reactions[1] = -2.0*bob_y*multiplier_rod_length*p->rod_half_inverse_length;  /* rod.Fy */
+    reactions[0] = -2.0*bob_x_*multiplier_rod_length_*p->rod_half_inverse_length_;  /* rod.Fx */
+    reactions[1] = -2.0*bob_y_*multiplier_rod_length_*p->rod_half_inverse_length_;  /* rod.Fy */
     reactions[2] = 0.0;  /* rod.M */
 
     /* energy */
-    energy[0] = 0.5*p->bob_inertia*(bob_omega * bob_omega) + 0.5*p->bob_mass*(bob_vx * bob_vx)
-        + 0.5*p->bob_mass*(bob_vy * bob_vy);
-    energy[1] = -p->bob_mass*bob_y*p->gravity_y;
+    energy[0] = 0.5*p->bob_inertia_*(bob_omega_ * bob_omega_) + 0.5*p->bob_mass_*(bob_vx_ * bob_vx_)
+        + 0.5*p->bob_mass_*(bob_vy_ * bob_vy_);
+    energy[1] = -p->bob_mass_*bob_y_*p->gravity_y_;
 }
 
 /* Whether a start with these numbers is that with the others: what closing the linkage reads. */
 int same_start(const Parameters *p, const Parameters *other)
 {
-    return same_number(p->bob_mass, other->bob_mass)
-        && same_number(p->bob_inertia, other->bob_inertia)
-        && same_number(p->rod_length, other->rod_length)
-        && same_number(p->rod_half_inverse_length, other->rod_half_inverse_length)
-        && same_number(p->set_bob_x, other->set_bob_x)
-        && same_number(p->set_bob_theta, other->set_bob_theta)
-        && same_number(p->rates_bob_omega, other->rates_bob_omega);
+    return same_number(p->bob_mass_, other->bob_mass_)
+        && same_number(p->bob_inertia_, other->bob_inertia_)
+        && same_number(p->rod_length_, other->rod_length_)
+        && same_number(p->rod_half_inverse_length_, other->rod_half_inverse_length_)
+        && same_number(p->set_bob_x_, other->set_bob_x_)
+        && same_number(p->set_bob_theta_, other->set_bob_theta_)
+        && same_number(p->rates_bob_omega_, other->rates_bob_omega_);
 }

@@ -7,59 +7,60 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     Aside *aside)
 {
     /* coordinates, velocities, time */
-    const double bob_x = q[0];
-    const double bob_y = q[1];
-    const double bob_vx = v[0];
-    const double bob_vy = v[1];
+    const double bob_x_ = q[0];
+    const double bob_y_ = q[1];
+    const double bob_vx_ = v[0];
+    const double bob_vy_ = v[1];
 
     /* status */
     int pivot = 0;
 
     /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
-    const double phi_rod_length = (bob_x * bob_x)*p->rod_half_inverse_length
-        + (bob_y * bob_y)*p->rod_half_inverse_length - 0.5*p->rod_length;
-    const double phi_dot_rod_length = 2.0*bob_vx*bob_x*p->rod_half_inverse_length
-        + 2.0*bob_vy*bob_y*p->rod_half_inverse_length;
-    const double rhs_rod_length = -p->beta_squared*phi_rod_length - 2.0*(bob_vx * bob_vx)*p->rod_half_inverse_length
-        - 2.0*(bob_vy * bob_vy)*p->rod_half_inverse_length - phi_dot_rod_length*p->two_alpha;
-    aside->phi[0] = phi_rod_length;
-    aside->phi_dot[0] = phi_dot_rod_length;
+    const double phi_rod_length_ = (bob_x_ * bob_x_)*p->rod_half_inverse_length_
+        + (bob_y_ * bob_y_)*p->rod_half_inverse_length_ - 0.5*p->rod_length_;
+    const double phi_dot_rod_length_ = 2.0*bob_vx_*bob_x_*p->rod_half_inverse_length_
+        + 2.0*bob_vy_*bob_y_*p->rod_half_inverse_length_;
+    const double rhs_rod_length_ = -p->beta_squared_*phi_rod_length_
+        - 2.0*(bob_vx_ * bob_vx_)*p->rod_half_inverse_length_ - 2.0*(bob_vy_ * bob_vy_)*p->rod_half_inverse_length_
+        - phi_dot_rod_length_*p->two_alpha_;
+    aside->phi[0] = phi_rod_length_;
+    aside->phi_dot[0] = phi_dot_rod_length_;
 
     /* L D L^T of the KKT matrix */
-    const double w_rod_length__bob_x = 2.0*bob_x*p->rod_half_inverse_length;
-    const double l_rod_length__bob_x = p->inverse_bob_mass*w_rod_length__bob_x;
-    const double w_rod_length__bob_y = 2.0*bob_y*p->rod_half_inverse_length;
-    const double l_rod_length__bob_y = p->inverse_bob_mass*w_rod_length__bob_y;
-    const double scale_rod_length = l_rod_length__bob_x*w_rod_length__bob_x + l_rod_length__bob_y*w_rod_length__bob_y;
-    if (!(scale_rod_length > 0.0 && scale_rod_length < INFINITY)) {
+    const double w_rod_length_bob_x_ = 2.0*bob_x_*p->rod_half_inverse_length_;
+    const double l_rod_length_bob_x_ = p->inverse_bob_mass_*w_rod_length_bob_x_;
+    const double w_rod_length_bob_y_ = 2.0*bob_y_*p->rod_half_inverse_length_;
+    const double l_rod_length_bob_y_ = p->inverse_bob_mass_*w_rod_length_bob_y_;
+    const double scale_rod_length_ = l_rod_length_bob_x_*w_rod_length_bob_x_ + l_rod_length_bob_y_*w_rod_length_bob_y_;
+    if (!(scale_rod_length_ > 0.0 && scale_rod_length_ < INFINITY)) {
         pivot = 1;
         goto dependent;
     }
-    const double inverse_pivot_rod_length = 1.0/scale_rod_length;
+    const double inverse_pivot_rod_length_ = 1.0/scale_rod_length_;
 
     /* forward substitution */
-    const double z_rod_length = -l_rod_length__bob_y*p->weight_bob_y + rhs_rod_length;
+    const double z_rod_length_ = -l_rod_length_bob_y_*p->weight_bob_y_ + rhs_rod_length_;
 
     /* backward substitution */
-    const double lambda_rod_length = -inverse_pivot_rod_length*z_rod_length;
-    const double acceleration_bob_y = p->inverse_bob_mass*p->weight_bob_y - l_rod_length__bob_y*lambda_rod_length;
-    const double acceleration_bob_x = -l_rod_length__bob_x*lambda_rod_length;
-    const double acceleration_bob_theta = 0.0;
+    const double acceleration_bob_theta_ = 0.0;
+    const double lambda_rod_length_ = -inverse_pivot_rod_length_*z_rod_length_;
+    const double acceleration_bob_y_ = p->inverse_bob_mass_*p->weight_bob_y_ - l_rod_length_bob_y_*lambda_rod_length_;
+    const double acceleration_bob_x_ = -l_rod_length_bob_x_*lambda_rod_length_;
 
     /* results */
-    a[0] = acceleration_bob_x;
-    a[1] = acceleration_bob_y;
-    a[2] = acceleration_bob_theta;
-    aside->lambda[0] = lambda_rod_length;
+    a[0] = acceleration_bob_x_;
+    a[1] = acceleration_bob_y_;
+    a[2] = acceleration_bob_theta_;
+    aside->lambda[0] = lambda_rod_length_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent: {
         double force[N_Q], rhs[N_ROWS];
         force[0] = 0.0;
-        force[1] = p->weight_bob_y;
+        force[1] = p->weight_bob_y_;
         force[2] = 0.0;
-        rhs[0] = rhs_rod_length;
+        rhs[0] = rhs_rod_length_;
         pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
     }
     powers:

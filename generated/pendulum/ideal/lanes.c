@@ -12,23 +12,23 @@
 
 /* Numbers of each run side by side, field by field those of Parameters in model.h: meanings, addresses, units too. */
 typedef struct LaneParameters {
-    Lanes par_g;
-    Lanes length;
-    Lanes bob_mass;
-    Lanes bob_inertia;
-    Lanes alpha;
-    Lanes beta;
-    Lanes rod_length;
-    Lanes gravity_y;
-    Lanes set_bob_x;
-    Lanes set_bob_theta;
-    Lanes rates_bob_omega;
-    Lanes rod_half_inverse_length;
-    Lanes weight_bob_y;
-    Lanes two_alpha;
-    Lanes beta_squared;
-    Lanes inverse_bob_inertia;
-    Lanes inverse_bob_mass;
+    Lanes g_;
+    Lanes length_;
+    Lanes bob_mass_;
+    Lanes bob_inertia_;
+    Lanes alpha_;
+    Lanes beta_;
+    Lanes rod_length_;
+    Lanes gravity_y_;
+    Lanes set_bob_x_;
+    Lanes set_bob_theta_;
+    Lanes rates_bob_omega_;
+    Lanes rod_half_inverse_length_;
+    Lanes weight_bob_y_;
+    Lanes two_alpha_;
+    Lanes beta_squared_;
+    Lanes inverse_bob_mass_;
+    Lanes inverse_bob_inertia_;
 } LaneParameters;
 
 _Static_assert(sizeof(LaneParameters) / sizeof(Lanes) == sizeof(Parameters) / sizeof(double), "the same numbers");
@@ -50,13 +50,13 @@ static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lan
 {
     (void)t, (void)rare;
     /* coordinates, velocities, time */
-    const Lanes bob_x = q[0];
-    const Lanes bob_y = q[1];
+    const Lanes bob_x_ = q[0];
+    const Lanes bob_y_ = q[1];
 
     /* rows */
     /* rod.length */
-    out[0] = (bob_x * bob_x)*p->rod_half_inverse_length + (bob_y * bob_y)*p->rod_half_inverse_length
-        - 0.5*p->rod_length;
+    out[0] = (bob_x_ * bob_x_)*p->rod_half_inverse_length_ + (bob_y_ * bob_y_)*p->rod_half_inverse_length_
+        - 0.5*p->rod_length_;
 }
 
 /*
@@ -67,14 +67,14 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
 {
     (void)t, (void)rare;
     /* coordinates, velocities, time */
-    const Lanes bob_x = q[0];
-    const Lanes bob_x_rate = v[0];
-    const Lanes bob_y = q[1];
-    const Lanes bob_y_rate = v[1];
+    const Lanes bob_x_ = q[0];
+    const Lanes bob_x_rate_ = v[0];
+    const Lanes bob_y_ = q[1];
+    const Lanes bob_y_rate_ = v[1];
 
     /* rows */
     /* rod.length */
-    out[0] = 2.0*bob_x*bob_x_rate*p->rod_half_inverse_length + 2.0*bob_y*bob_y_rate*p->rod_half_inverse_length;
+    out[0] = 2.0*bob_x_*bob_x_rate_*p->rod_half_inverse_length_ + 2.0*bob_y_*bob_y_rate_*p->rod_half_inverse_length_;
 }
 
 /*
@@ -87,38 +87,38 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
 {
     (void)t, (void)memory;
     /* coordinates, velocities, time */
-    const Lanes bob_x = q[0];
-    const Lanes bob_x_rate = v[0];
-    const Lanes bob_y = q[1];
-    const Lanes bob_y_rate = v[1];
+    const Lanes bob_x_ = q[0];
+    const Lanes bob_x_rate_ = v[0];
+    const Lanes bob_y_ = q[1];
+    const Lanes bob_y_rate_ = v[1];
 
     /* constraints: gamma */
-    const Lanes rhs_rod_length = -2.0*(bob_x_rate * bob_x_rate)*p->rod_half_inverse_length
-        - 2.0*(bob_y_rate * bob_y_rate)*p->rod_half_inverse_length;
+    const Lanes rhs_rod_length_ = -2.0*(bob_x_rate_ * bob_x_rate_)*p->rod_half_inverse_length_
+        - 2.0*(bob_y_rate_ * bob_y_rate_)*p->rod_half_inverse_length_;
 
     /* L D L^T of the KKT matrix */
-    const Lanes w_rod_length__bob_x = 2.0*bob_x*p->rod_half_inverse_length;
-    const Lanes l_rod_length__bob_x = p->inverse_bob_mass*w_rod_length__bob_x;
-    const Lanes w_rod_length__bob_y = 2.0*bob_y*p->rod_half_inverse_length;
-    const Lanes l_rod_length__bob_y = p->inverse_bob_mass*w_rod_length__bob_y;
-    const Lanes scale_rod_length = l_rod_length__bob_x*w_rod_length__bob_x + l_rod_length__bob_y*w_rod_length__bob_y;
-    *rare |= ~((scale_rod_length > 0.0) & (scale_rod_length < INFINITY));
-    const Lanes inverse_pivot_rod_length = 1.0/scale_rod_length;
+    const Lanes w_rod_length_bob_x_ = 2.0*bob_x_*p->rod_half_inverse_length_;
+    const Lanes l_rod_length_bob_x_ = p->inverse_bob_mass_*w_rod_length_bob_x_;
+    const Lanes w_rod_length_bob_y_ = 2.0*bob_y_*p->rod_half_inverse_length_;
+    const Lanes l_rod_length_bob_y_ = p->inverse_bob_mass_*w_rod_length_bob_y_;
+    const Lanes scale_rod_length_ = l_rod_length_bob_x_*w_rod_length_bob_x_ + l_rod_length_bob_y_*w_rod_length_bob_y_;
+    *rare |= ~((scale_rod_length_ > 0.0) & (scale_rod_length_ < INFINITY));
+    const Lanes inverse_pivot_rod_length_ = 1.0/scale_rod_length_;
 
     /* forward substitution */
-    const Lanes z_rod_length = -l_rod_length__bob_y*p->weight_bob_y + rhs_rod_length;
+    const Lanes z_rod_length_ = -l_rod_length_bob_y_*p->weight_bob_y_ + rhs_rod_length_;
 
     /* backward substitution */
-    const Lanes lambda_rod_length = -inverse_pivot_rod_length*z_rod_length;
-    const Lanes acceleration_bob_y = p->inverse_bob_mass*p->weight_bob_y - l_rod_length__bob_y*lambda_rod_length;
-    const Lanes acceleration_bob_x = -l_rod_length__bob_x*lambda_rod_length;
-    const Lanes acceleration_bob_theta = all_of(0.0);
+    const Lanes lambda_rod_length_ = -inverse_pivot_rod_length_*z_rod_length_;
+    const Lanes acceleration_bob_y_ = p->inverse_bob_mass_*p->weight_bob_y_ - l_rod_length_bob_y_*lambda_rod_length_;
+    const Lanes acceleration_bob_x_ = -l_rod_length_bob_x_*lambda_rod_length_;
+    const Lanes acceleration_bob_theta_ = all_of(0.0);
 
     /* results */
-    a[0] = acceleration_bob_x;
-    a[1] = acceleration_bob_y;
-    a[2] = acceleration_bob_theta;
-    aside->lambda[0] = lambda_rod_length;
+    a[0] = acceleration_bob_x_;
+    a[1] = acceleration_bob_y_;
+    a[2] = acceleration_bob_theta_;
+    aside->lambda[0] = lambda_rod_length_;
 
     /* a pivot vanished: rows depend on each other here */
     aside->power[0] = all_of(0.0);
@@ -135,46 +135,46 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
 {
     (void)t, (void)memory;
     /* coordinates, velocities, time */
-    const Lanes bob_x = q[0];
-    const Lanes bob_x_rate = v[0];
-    const Lanes bob_y = q[1];
-    const Lanes bob_y_rate = v[1];
+    const Lanes bob_x_ = q[0];
+    const Lanes bob_x_rate_ = v[0];
+    const Lanes bob_y_ = q[1];
+    const Lanes bob_y_rate_ = v[1];
 
     /* Phi and Phi_dot */
-    const Lanes phi_rod_length = (bob_x * bob_x)*p->rod_half_inverse_length
-        + (bob_y * bob_y)*p->rod_half_inverse_length - 0.5*p->rod_length;
-    const Lanes phi_dot_rod_length = 2.0*bob_x*bob_x_rate*p->rod_half_inverse_length
-        + 2.0*bob_y*bob_y_rate*p->rod_half_inverse_length;
+    const Lanes phi_rod_length_ = (bob_x_ * bob_x_)*p->rod_half_inverse_length_
+        + (bob_y_ * bob_y_)*p->rod_half_inverse_length_ - 0.5*p->rod_length_;
+    const Lanes phi_dot_rod_length_ = 2.0*bob_x_*bob_x_rate_*p->rod_half_inverse_length_
+        + 2.0*bob_y_*bob_y_rate_*p->rod_half_inverse_length_;
 
     /* L D L^T of the KKT matrix */
-    const Lanes w_rod_length__bob_x = 2.0*bob_x*p->rod_half_inverse_length;
-    const Lanes l_rod_length__bob_x = p->inverse_bob_mass*w_rod_length__bob_x;
-    const Lanes w_rod_length__bob_y = 2.0*bob_y*p->rod_half_inverse_length;
-    const Lanes l_rod_length__bob_y = p->inverse_bob_mass*w_rod_length__bob_y;
-    const Lanes scale_rod_length = l_rod_length__bob_x*w_rod_length__bob_x + l_rod_length__bob_y*w_rod_length__bob_y;
-    *rare |= ~((scale_rod_length > 0.0) & (scale_rod_length < INFINITY));
-    const Lanes inverse_pivot_rod_length = 1.0/scale_rod_length;
+    const Lanes w_rod_length_bob_x_ = 2.0*bob_x_*p->rod_half_inverse_length_;
+    const Lanes l_rod_length_bob_x_ = p->inverse_bob_mass_*w_rod_length_bob_x_;
+    const Lanes w_rod_length_bob_y_ = 2.0*bob_y_*p->rod_half_inverse_length_;
+    const Lanes l_rod_length_bob_y_ = p->inverse_bob_mass_*w_rod_length_bob_y_;
+    const Lanes scale_rod_length_ = l_rod_length_bob_x_*w_rod_length_bob_x_ + l_rod_length_bob_y_*w_rod_length_bob_y_;
+    *rare |= ~((scale_rod_length_ > 0.0) & (scale_rod_length_ < INFINITY));
+    const Lanes inverse_pivot_rod_length_ = 1.0/scale_rod_length_;
 
     /* backward substitution */
-    const Lanes dq_lambda_rod_length = -inverse_pivot_rod_length*phi_rod_length;
-    const Lanes dq_acceleration_bob_y = -dq_lambda_rod_length*l_rod_length__bob_y;
-    const Lanes dq_acceleration_bob_x = -dq_lambda_rod_length*l_rod_length__bob_x;
-    const Lanes dq_acceleration_bob_theta = all_of(0.0);
+    const Lanes dq_lambda_rod_length_ = -inverse_pivot_rod_length_*phi_rod_length_;
+    const Lanes dq_acceleration_bob_y_ = -dq_lambda_rod_length_*l_rod_length_bob_y_;
+    const Lanes dq_acceleration_bob_x_ = -dq_lambda_rod_length_*l_rod_length_bob_x_;
+    const Lanes dq_acceleration_bob_theta_ = all_of(0.0);
 
     /* backward substitution */
-    const Lanes dv_lambda_rod_length = -inverse_pivot_rod_length*phi_dot_rod_length;
-    const Lanes dv_acceleration_bob_y = -dv_lambda_rod_length*l_rod_length__bob_y;
-    const Lanes dv_acceleration_bob_x = -dv_lambda_rod_length*l_rod_length__bob_x;
-    const Lanes dv_acceleration_bob_theta = all_of(0.0);
+    const Lanes dv_lambda_rod_length_ = -inverse_pivot_rod_length_*phi_dot_rod_length_;
+    const Lanes dv_acceleration_bob_y_ = -dv_lambda_rod_length_*l_rod_length_bob_y_;
+    const Lanes dv_acceleration_bob_x_ = -dv_lambda_rod_length_*l_rod_length_bob_x_;
+    const Lanes dv_acceleration_bob_theta_ = all_of(0.0);
 
     /* results */
-    dq[0] = dq_acceleration_bob_x;
-    dv[0] = dv_acceleration_bob_x;
-    dq[1] = dq_acceleration_bob_y;
-    dv[1] = dv_acceleration_bob_y;
-    dq[2] = dq_acceleration_bob_theta;
-    dv[2] = dv_acceleration_bob_theta;
-    *worst = lanes_max_of(all_of(0.0), lanes_fabs(phi_rod_length));
+    dq[0] = dq_acceleration_bob_x_;
+    dv[0] = dv_acceleration_bob_x_;
+    dq[1] = dq_acceleration_bob_y_;
+    dv[1] = dv_acceleration_bob_y_;
+    dq[2] = dq_acceleration_bob_theta_;
+    dv[2] = dv_acceleration_bob_theta_;
+    *worst = lanes_max_of(all_of(0.0), lanes_fabs(phi_rod_length_));
 }
 
 #if !HELD
@@ -190,22 +190,24 @@ static void linearize(const Lanes t, const Lanes *q, const Lanes *v, const LaneM
 {
     (void)t, (void)memory, (void)rare;
     /* coordinates, velocities, time */
-    const Lanes bob_x = q[0];
-    const Lanes bob_x_rate = v[0];
-    const Lanes bob_y = q[1];
-    const Lanes bob_y_rate = v[1];
-    const Lanes a_bob_x = a[0];
-    const Lanes a_bob_y = a[1];
-    const Lanes held_lambda_rod_length = aside->lambda[0];
+    const Lanes bob_x_ = q[0];
+    const Lanes bob_x_rate_ = v[0];
+    const Lanes bob_y_ = q[1];
+    const Lanes bob_y_rate_ = v[1];
+    const Lanes a_bob_x_ = a[0];
+    const Lanes a_bob_y_ = a[1];
+    const Lanes held_lambda_rod_length_ = aside->lambda[0];
 
     /* results */
-    lin->value[0] = 2.0*bob_x*p->rod_half_inverse_length;
-    lin->value[1] = 2.0*bob_y*p->rod_half_inverse_length;
-    lin->value[2] = 2.0*a_bob_x*p->rod_half_inverse_length + 2.0*bob_x_rate*p->rod_half_inverse_length*p->two_alpha;
-    lin->value[3] = 2.0*a_bob_y*p->rod_half_inverse_length + 2.0*bob_y_rate*p->rod_half_inverse_length*p->two_alpha;
-    lin->value[4] = 2.0*held_lambda_rod_length*p->rod_half_inverse_length;
-    lin->value[5] = 4.0*bob_x_rate*p->rod_half_inverse_length;
-    lin->value[6] = 4.0*bob_y_rate*p->rod_half_inverse_length;
+    lin->value[0] = 2.0*bob_x_*p->rod_half_inverse_length_;
+    lin->value[1] = 2.0*bob_y_*p->rod_half_inverse_length_;
+    lin->value[2] = 2.0*a_bob_x_*p->rod_half_inverse_length_
+        + 2.0*bob_x_rate_*p->rod_half_inverse_length_*p->two_alpha_;
+    lin->value[3] = 2.0*a_bob_y_*p->rod_half_inverse_length_
+        + 2.0*bob_y_rate_*p->rod_half_inverse_length_*p->two_alpha_;
+    lin->value[4] = 2.0*held_lambda_rod_length_*p->rod_half_inverse_length_;
+    lin->value[5] = 4.0*bob_x_rate_*p->rod_half_inverse_length_;
+    lin->value[6] = 4.0*bob_y_rate_*p->rod_half_inverse_length_;
     lin->p = p;
 }
 
@@ -219,42 +221,43 @@ static void newton_factor(Lanes eta, LaneLinear *lin, LaneBits *rare)
     const LaneParameters *const p = lin->p;
 
     /* linearization */
-    const Lanes phi_rod_length_bob_x = lin->value[0];
-    const Lanes phi_rod_length_bob_y = lin->value[1];
-    const Lanes by_q_rod_length_bob_x = lin->value[2];
-    const Lanes by_q_rod_length_bob_y = lin->value[3];
-    const Lanes by_q_bob_x_bob_x = lin->value[4];
-    const Lanes by_v_rod_length_bob_x = lin->value[5];
-    const Lanes by_v_rod_length_bob_y = lin->value[6];
+    const Lanes phi_rod_length_bob_x_ = lin->value[0];
+    const Lanes phi_rod_length_bob_y_ = lin->value[1];
+    const Lanes by_q_rod_length_bob_x_ = lin->value[2];
+    const Lanes by_q_rod_length_bob_y_ = lin->value[3];
+    const Lanes by_q_bob_x_bob_x_ = lin->value[4];
+    const Lanes by_v_rod_length_bob_x_ = lin->value[5];
+    const Lanes by_v_rod_length_bob_y_ = lin->value[6];
 
     /* eta/kappa */
-    const Lanes eta_row = eta/(eta*(p->beta_squared*eta + p->two_alpha) + 1.0);
+    const Lanes eta_row = eta/(eta*(p->beta_squared_*eta + p->two_alpha_) + 1.0);
 
     /* matrix */
-    const Lanes n_bob_x__bob_x = p->bob_mass + by_q_bob_x_bob_x*(eta * eta);
-    const Lanes n_bob_y__bob_y = p->bob_mass + by_q_bob_x_bob_x*(eta * eta);
-    const Lanes n_rod_length__bob_x = eta_row*(by_q_rod_length_bob_x*eta + by_v_rod_length_bob_x)
-        + phi_rod_length_bob_x;
-    const Lanes n_rod_length__bob_y = eta_row*(by_q_rod_length_bob_y*eta + by_v_rod_length_bob_y)
-        + phi_rod_length_bob_y;
+    const Lanes n_bob_x_bob_x_ = p->bob_mass_ + by_q_bob_x_bob_x_*(eta * eta);
+    const Lanes n_bob_y_bob_y_ = p->bob_mass_ + by_q_bob_x_bob_x_*(eta * eta);
+    const Lanes n_rod_length_bob_x_ = eta_row*(by_q_rod_length_bob_x_*eta + by_v_rod_length_bob_x_)
+        + phi_rod_length_bob_x_;
+    const Lanes n_rod_length_bob_y_ = eta_row*(by_q_rod_length_bob_y_*eta + by_v_rod_length_bob_y_)
+        + phi_rod_length_bob_y_;
 
     /* L U */
-    const Lanes scale_bob_x = n_bob_x__bob_x;
-    *rare |= ~(lanes_fabs(scale_bob_x) > SINGULAR * lanes_fabs(n_bob_x__bob_x));
-    const Lanes inverse_pivot_bob_x = 1.0/scale_bob_x;
-    lin->lu[0] = inverse_pivot_bob_x;
-    const Lanes l_rod_length__bob_x = inverse_pivot_bob_x*n_rod_length__bob_x;
-    lin->lu[1] = l_rod_length__bob_x;
-    const Lanes scale_bob_y = n_bob_y__bob_y;
-    *rare |= ~(lanes_fabs(scale_bob_y) > SINGULAR * lanes_fabs(n_bob_y__bob_y));
-    const Lanes inverse_pivot_bob_y = 1.0/scale_bob_y;
-    lin->lu[2] = inverse_pivot_bob_y;
-    const Lanes l_rod_length__bob_y = inverse_pivot_bob_y*n_rod_length__bob_y;
-    lin->lu[3] = l_rod_length__bob_y;
-    const Lanes scale_rod_length = -l_rod_length__bob_x*phi_rod_length_bob_x - l_rod_length__bob_y*phi_rod_length_bob_y;
-    *rare |= ~((lanes_fabs(scale_rod_length) > 0.0) & (lanes_fabs(scale_rod_length) < INFINITY));
-    const Lanes inverse_pivot_rod_length = 1.0/scale_rod_length;
-    lin->lu[4] = inverse_pivot_rod_length;
+    const Lanes scale_bob_x_ = n_bob_x_bob_x_;
+    *rare |= ~(lanes_fabs(scale_bob_x_) > SINGULAR * lanes_fabs(n_bob_x_bob_x_));
+    const Lanes inverse_pivot_bob_x_ = 1.0/scale_bob_x_;
+    lin->lu[0] = inverse_pivot_bob_x_;
+    const Lanes l_rod_length_bob_x_ = inverse_pivot_bob_x_*n_rod_length_bob_x_;
+    lin->lu[1] = l_rod_length_bob_x_;
+    const Lanes scale_bob_y_ = n_bob_y_bob_y_;
+    *rare |= ~(lanes_fabs(scale_bob_y_) > SINGULAR * lanes_fabs(n_bob_y_bob_y_));
+    const Lanes inverse_pivot_bob_y_ = 1.0/scale_bob_y_;
+    lin->lu[2] = inverse_pivot_bob_y_;
+    const Lanes l_rod_length_bob_y_ = inverse_pivot_bob_y_*n_rod_length_bob_y_;
+    lin->lu[3] = l_rod_length_bob_y_;
+    const Lanes scale_rod_length_ = -l_rod_length_bob_x_*phi_rod_length_bob_x_
+        - l_rod_length_bob_y_*phi_rod_length_bob_y_;
+    *rare |= ~((lanes_fabs(scale_rod_length_) > 0.0) & (lanes_fabs(scale_rod_length_) < INFINITY));
+    const Lanes inverse_pivot_rod_length_ = 1.0/scale_rod_length_;
+    lin->lu[4] = inverse_pivot_rod_length_;
 }
 
 /*
@@ -266,29 +269,29 @@ static void newton_substitute(const LaneLinear *lin, Lanes *x)
     const LaneParameters *const p = lin->p;
 
     /* linearization */
-    const Lanes phi_rod_length_bob_x = lin->value[0];
-    const Lanes phi_rod_length_bob_y = lin->value[1];
-    const Lanes inverse_pivot_bob_x = lin->lu[0];
-    const Lanes l_rod_length__bob_x = lin->lu[1];
-    const Lanes inverse_pivot_bob_y = lin->lu[2];
-    const Lanes l_rod_length__bob_y = lin->lu[3];
-    const Lanes inverse_pivot_rod_length = lin->lu[4];
+    const Lanes phi_rod_length_bob_x_ = lin->value[0];
+    const Lanes phi_rod_length_bob_y_ = lin->value[1];
+    const Lanes inverse_pivot_bob_x_ = lin->lu[0];
+    const Lanes l_rod_length_bob_x_ = lin->lu[1];
+    const Lanes inverse_pivot_bob_y_ = lin->lu[2];
+    const Lanes l_rod_length_bob_y_ = lin->lu[3];
+    const Lanes inverse_pivot_rod_length_ = lin->lu[4];
 
     /* forward */
-    const Lanes b_bob_theta = x[2];
-    const Lanes b_bob_x = x[0];
-    const Lanes b_bob_y = x[1];
-    const Lanes b_rod_length = -b_bob_x*l_rod_length__bob_x - b_bob_y*l_rod_length__bob_y + x[3];
+    const Lanes b_bob_theta_ = x[2];
+    const Lanes b_bob_x_ = x[0];
+    const Lanes b_bob_y_ = x[1];
+    const Lanes b_rod_length_ = -b_bob_x_*l_rod_length_bob_x_ - b_bob_y_*l_rod_length_bob_y_ + x[3];
 
     /* backward */
-    const Lanes x_rod_length = b_rod_length*inverse_pivot_rod_length;
-    x[3] = x_rod_length;
-    const Lanes x_bob_y = inverse_pivot_bob_y*(b_bob_y - phi_rod_length_bob_y*x_rod_length);
-    x[1] = x_bob_y;
-    const Lanes x_bob_x = inverse_pivot_bob_x*(b_bob_x - phi_rod_length_bob_x*x_rod_length);
-    x[0] = x_bob_x;
-    const Lanes x_bob_theta = b_bob_theta*p->inverse_bob_inertia;
-    x[2] = x_bob_theta;
+    const Lanes x_rod_length_ = b_rod_length_*inverse_pivot_rod_length_;
+    x[3] = x_rod_length_;
+    const Lanes x_bob_y_ = inverse_pivot_bob_y_*(b_bob_y_ - phi_rod_length_bob_y_*x_rod_length_);
+    x[1] = x_bob_y_;
+    const Lanes x_bob_x_ = inverse_pivot_bob_x_*(b_bob_x_ - phi_rod_length_bob_x_*x_rod_length_);
+    x[0] = x_bob_x_;
+    const Lanes x_bob_theta_ = b_bob_theta_*p->inverse_bob_inertia_;
+    x[2] = x_bob_theta_;
 }
 
 /*
@@ -301,24 +304,24 @@ static void newton_solve(const LaneLinear *lin, Lanes eta, Lanes s, const Lanes 
     const LaneParameters *const p = lin->p;
 
     /* linearization */
-    const Lanes phi_rod_length_bob_x = lin->value[0];
-    const Lanes phi_rod_length_bob_y = lin->value[1];
-    const Lanes by_q_rod_length_bob_x = lin->value[2];
-    const Lanes by_q_rod_length_bob_y = lin->value[3];
-    const Lanes by_q_bob_x_bob_x = lin->value[4];
+    const Lanes phi_rod_length_bob_x_ = lin->value[0];
+    const Lanes phi_rod_length_bob_y_ = lin->value[1];
+    const Lanes by_q_rod_length_bob_x_ = lin->value[2];
+    const Lanes by_q_rod_length_bob_y_ = lin->value[3];
+    const Lanes by_q_bob_x_bob_x_ = lin->value[4];
 
     /* eta/kappa */
-    const Lanes eta_row = eta/(eta*(p->beta_squared*eta + p->two_alpha) + 1.0);
+    const Lanes eta_row = eta/(eta*(p->beta_squared_*eta + p->two_alpha_) + 1.0);
 
     /* right-hand side */
     Lanes x[4];
-    const Lanes shifted_bob_x = -p->beta_squared*eta*r[0] + r[3];
-    const Lanes shifted_bob_y = -p->beta_squared*eta*r[1] + r[4];
-    x[0] = eta*(p->bob_mass*r[3] - by_q_bob_x_bob_x*eta*r[0]);
-    x[1] = eta*(p->bob_mass*r[4] - by_q_bob_x_bob_x*eta*r[1]);
-    x[2] = p->bob_inertia*eta*r[5];
-    x[3] = eta_row*(-by_q_rod_length_bob_x*eta*r[0] - by_q_rod_length_bob_y*eta*r[1]
-        + phi_rod_length_bob_x*shifted_bob_x + phi_rod_length_bob_y*shifted_bob_y);
+    const Lanes shifted_bob_x_ = -p->beta_squared_*eta*r[0] + r[3];
+    const Lanes shifted_bob_y_ = -p->beta_squared_*eta*r[1] + r[4];
+    x[0] = eta*(p->bob_mass_*r[3] - by_q_bob_x_bob_x_*eta*r[0]);
+    x[1] = eta*(p->bob_mass_*r[4] - by_q_bob_x_bob_x_*eta*r[1]);
+    x[2] = p->bob_inertia_*eta*r[5];
+    x[3] = eta_row*(-by_q_rod_length_bob_x_*eta*r[0] - by_q_rod_length_bob_y_*eta*r[1]
+        + phi_rod_length_bob_x_*shifted_bob_x_ + phi_rod_length_bob_y_*shifted_bob_y_);
     newton_substitute(lin, x);
 
     /* solution */

@@ -50,6 +50,7 @@
 #define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
 #define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
 #define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
+#define LIGHT_PIVOT 1e-06                     /* of what turns with an angle, where its inertia is too small for it */
 #define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
 typedef struct Parameters Parameters; /* every number of a run */
@@ -63,6 +64,7 @@ static const int guess_place[] = {0};
 static const int set_place[] = {0, 2};
 static const int rate_place[] = {2};
 static const unsigned char row_is_length[] = {1};
+static const int drive_row[] = {0};
 static const int kept_row[] = {0};
 static const int phi_q_first[] = {0, 2};
 static const short phi_q_place[] = {0, 1};
@@ -76,23 +78,23 @@ static const int friction_of_pivot[] = {0};
 
 /* In SI: first the slots that a user may set, then what prepare() derives. */
 struct Parameters {
-    double par_g;  /* parameters.g, m/s^2 */
-    double length;  /* parameters.length, m */
-    double bob_mass;  /* bodies.bob.mass, kg */
-    double bob_inertia;  /* bodies.bob.inertia, kg*m^2 */
-    double alpha;  /* baumgarte.alpha, 1/s */
-    double beta;  /* baumgarte.beta, 1/s */
-    double rod_length;  /* joints.rod.length, m */
-    double gravity_y;  /* gravity.y, m/s^2 */
-    double set_bob_x;  /* start.set.bob.x, m */
-    double set_bob_theta;  /* start.set.bob.theta, rad */
-    double rates_bob_omega;  /* start.rates.bob.omega, 1/s */
-    double rod_half_inverse_length;  /* of joint rod, 1/m */
-    double weight_bob_y;  /* weight, N */
-    double two_alpha;  /* 2 alpha, 1/s */
-    double beta_squared;  /* beta^2, 1/s^2 */
-    double inverse_bob_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_bob_mass;  /* 1/M, 1/kg */
+    double g_;  /* parameters.g, m/s^2 */
+    double length_;  /* parameters.length, m */
+    double bob_mass_;  /* bodies.bob.mass, kg */
+    double bob_inertia_;  /* bodies.bob.inertia, kg*m^2 */
+    double alpha_;  /* baumgarte.alpha, 1/s */
+    double beta_;  /* baumgarte.beta, 1/s */
+    double rod_length_;  /* joints.rod.length, m */
+    double gravity_y_;  /* gravity.y, m/s^2 */
+    double set_bob_x_;  /* start.set.bob.x, m */
+    double set_bob_theta_;  /* start.set.bob.theta, rad */
+    double rates_bob_omega_;  /* start.rates.bob.omega, 1/s */
+    double rod_half_inverse_length_;  /* of joint rod, 1/m */
+    double weight_bob_y_;  /* weight, N */
+    double two_alpha_;  /* 2 alpha, 1/s */
+    double beta_squared_;  /* beta^2, 1/s^2 */
+    double inverse_bob_mass_;  /* 1/M, 1/kg */
+    double inverse_bob_inertia_;  /* 1/M, 1/(kg*m^2) */
 };
 
 /* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */

@@ -5,20 +5,20 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 {
     (void)t, (void)p;
     /* coordinates, velocities, time */
-    const double bob_x = q[0];
-    const double bob_x_rate = v[0];
-    const double bob_y = q[1];
-    const double bob_y_rate = v[1];
-    const double bob_theta = q[2];
-    const double bob_omega = v[2];
+    const double bob_x_ = q[0];
+    const double bob_x_rate_ = v[0];
+    const double bob_y_ = q[1];
+    const double bob_y_rate_ = v[1];
+    const double bob_theta_ = q[2];
+    const double bob_omega_ = v[2];
 
     /* bodies */
-    all_q[0] = bob_x;
-    all_v[0] = bob_x_rate;
-    all_q[1] = bob_y;
-    all_v[1] = bob_y_rate;
-    all_q[2] = bob_theta;
-    all_v[2] = bob_omega;
+    all_q[0] = bob_x_;
+    all_v[0] = bob_x_rate_;
+    all_q[1] = bob_y_;
+    all_v[1] = bob_y_rate_;
+    all_q[2] = bob_theta_;
+    all_v[2] = bob_omega_;
 }
 
 /*
@@ -28,20 +28,20 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 {
     (void)t, (void)p;
     /* coordinates, velocities, time */
-    const double bob_x = q[0];
-    const double bob_y = q[1];
-    const double bob_theta = q[2];
-    const double bob_vx = v[0];
-    const double bob_vy = v[1];
-    const double bob_omega = v[2];
+    const double bob_x_ = q[0];
+    const double bob_y_ = q[1];
+    const double bob_theta_ = q[2];
+    const double bob_vx_ = v[0];
+    const double bob_vy_ = v[1];
+    const double bob_omega_ = v[2];
 
     /* tree coordinates */
-    s[0] = bob_x;  /* bob.x */
-    s_rate[0] = bob_vx;
-    s[1] = bob_y;  /* bob.y */
-    s_rate[1] = bob_vy;
-    s[2] = bob_theta;  /* bob */
-    s_rate[2] = bob_omega;
+    s[0] = bob_x_;  /* bob.x */
+    s_rate[0] = bob_vx_;
+    s[1] = bob_y_;  /* bob.y */
+    s_rate[1] = bob_vy_;
+    s[2] = bob_theta_;  /* bob */
+    s_rate[2] = bob_omega_;
 }
 
 /*
@@ -64,13 +64,13 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double bob_x = q[0];
-    const double bob_y = q[1];
+    const double bob_x_ = q[0];
+    const double bob_y_ = q[1];
 
     /* rows */
     /* rod.length */
-    out[0] = (bob_x * bob_x)*p->rod_half_inverse_length + (bob_y * bob_y)*p->rod_half_inverse_length
-        - 0.5*p->rod_length;
+    out[0] = (bob_x_ * bob_x_)*p->rod_half_inverse_length_ + (bob_y_ * bob_y_)*p->rod_half_inverse_length_
+        - 0.5*p->rod_length_;
 }
 
 /*
@@ -80,14 +80,14 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double bob_x = q[0];
-    const double bob_x_rate = v[0];
-    const double bob_y = q[1];
-    const double bob_y_rate = v[1];
+    const double bob_x_ = q[0];
+    const double bob_x_rate_ = v[0];
+    const double bob_y_ = q[1];
+    const double bob_y_rate_ = v[1];
 
     /* rows */
     /* rod.length */
-    out[0] = 2.0*bob_x*bob_x_rate*p->rod_half_inverse_length + 2.0*bob_y*bob_y_rate*p->rod_half_inverse_length;
+    out[0] = 2.0*bob_x_*bob_x_rate_*p->rod_half_inverse_length_ + 2.0*bob_y_*bob_y_rate_*p->rod_half_inverse_length_;
 }
 
 /*
@@ -99,44 +99,44 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     double *a, Aside *aside)
 {
     /* coordinates, velocities, time */
-    const double bob_x = q[0];
-    const double bob_x_rate = v[0];
-    const double bob_y = q[1];
-    const double bob_y_rate = v[1];
+    const double bob_x_ = q[0];
+    const double bob_x_rate_ = v[0];
+    const double bob_y_ = q[1];
+    const double bob_y_rate_ = v[1];
 
     /* status */
     int pivot = 0;
 
     /* constraints: gamma */
-    const double rhs_rod_length = -2.0*(bob_x_rate * bob_x_rate)*p->rod_half_inverse_length
-        - 2.0*(bob_y_rate * bob_y_rate)*p->rod_half_inverse_length;
+    const double rhs_rod_length_ = -2.0*(bob_x_rate_ * bob_x_rate_)*p->rod_half_inverse_length_
+        - 2.0*(bob_y_rate_ * bob_y_rate_)*p->rod_half_inverse_length_;
 
     /* L D L^T of the KKT matrix */
-    const double w_rod_length__bob_x = 2.0*bob_x*p->rod_half_inverse_length;
-    const double l_rod_length__bob_x = p->inverse_bob_mass*w_rod_length__bob_x;
-    const double w_rod_length__bob_y = 2.0*bob_y*p->rod_half_inverse_length;
-    const double l_rod_length__bob_y = p->inverse_bob_mass*w_rod_length__bob_y;
-    const double scale_rod_length = l_rod_length__bob_x*w_rod_length__bob_x + l_rod_length__bob_y*w_rod_length__bob_y;
-    if (!(scale_rod_length > 0.0 && scale_rod_length < INFINITY)) {
+    const double w_rod_length_bob_x_ = 2.0*bob_x_*p->rod_half_inverse_length_;
+    const double l_rod_length_bob_x_ = p->inverse_bob_mass_*w_rod_length_bob_x_;
+    const double w_rod_length_bob_y_ = 2.0*bob_y_*p->rod_half_inverse_length_;
+    const double l_rod_length_bob_y_ = p->inverse_bob_mass_*w_rod_length_bob_y_;
+    const double scale_rod_length_ = l_rod_length_bob_x_*w_rod_length_bob_x_ + l_rod_length_bob_y_*w_rod_length_bob_y_;
+    if (!(scale_rod_length_ > 0.0 && scale_rod_length_ < INFINITY)) {
         pivot = 1;
         goto dependent;
     }
-    const double inverse_pivot_rod_length = 1.0/scale_rod_length;
+    const double inverse_pivot_rod_length_ = 1.0/scale_rod_length_;
 
     /* forward substitution */
-    const double z_rod_length = -l_rod_length__bob_y*p->weight_bob_y + rhs_rod_length;
+    const double z_rod_length_ = -l_rod_length_bob_y_*p->weight_bob_y_ + rhs_rod_length_;
 
     /* backward substitution */
-    const double lambda_rod_length = -inverse_pivot_rod_length*z_rod_length;
-    const double acceleration_bob_y = p->inverse_bob_mass*p->weight_bob_y - l_rod_length__bob_y*lambda_rod_length;
-    const double acceleration_bob_x = -l_rod_length__bob_x*lambda_rod_length;
-    const double acceleration_bob_theta = 0.0;
+    const double lambda_rod_length_ = -inverse_pivot_rod_length_*z_rod_length_;
+    const double acceleration_bob_y_ = p->inverse_bob_mass_*p->weight_bob_y_ - l_rod_length_bob_y_*lambda_rod_length_;
+    const double acceleration_bob_x_ = -l_rod_length_bob_x_*lambda_rod_length_;
+    const double acceleration_bob_theta_ = 0.0;
 
     /* results */
-    a[0] = acceleration_bob_x;
-    a[1] = acceleration_bob_y;
-    a[2] = acceleration_bob_theta;
-    aside->lambda[0] = lambda_rod_length;
+    a[0] = acceleration_bob_x_;
+    a[1] = acceleration_bob_y_;
+    a[2] = acceleration_bob_theta_;
+    aside->lambda[0] = lambda_rod_length_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
@@ -158,32 +158,32 @@ int reduced_project(const double t, const double *q, const double *r, const Para
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double bob_x = q[0];
-    const double bob_y = q[1];
+    const double bob_x_ = q[0];
+    const double bob_y_ = q[1];
 
     /* right-hand side */
-    const double r_rod_length = r[0];
+    const double r_rod_length_ = r[0];
 
     /* L D L^T of the KKT matrix */
-    const double w_rod_length__bob_x = 2.0*bob_x*p->rod_half_inverse_length;
-    const double l_rod_length__bob_x = p->inverse_bob_mass*w_rod_length__bob_x;
-    const double w_rod_length__bob_y = 2.0*bob_y*p->rod_half_inverse_length;
-    const double l_rod_length__bob_y = p->inverse_bob_mass*w_rod_length__bob_y;
-    const double scale_rod_length = l_rod_length__bob_x*w_rod_length__bob_x + l_rod_length__bob_y*w_rod_length__bob_y;
-    if (!(scale_rod_length > 0.0 && scale_rod_length < INFINITY))
+    const double w_rod_length_bob_x_ = 2.0*bob_x_*p->rod_half_inverse_length_;
+    const double l_rod_length_bob_x_ = p->inverse_bob_mass_*w_rod_length_bob_x_;
+    const double w_rod_length_bob_y_ = 2.0*bob_y_*p->rod_half_inverse_length_;
+    const double l_rod_length_bob_y_ = p->inverse_bob_mass_*w_rod_length_bob_y_;
+    const double scale_rod_length_ = l_rod_length_bob_x_*w_rod_length_bob_x_ + l_rod_length_bob_y_*w_rod_length_bob_y_;
+    if (!(scale_rod_length_ > 0.0 && scale_rod_length_ < INFINITY))
         return 1;
-    const double inverse_pivot_rod_length = 1.0/scale_rod_length;
+    const double inverse_pivot_rod_length_ = 1.0/scale_rod_length_;
 
     /* backward substitution */
-    const double step_lambda_rod_length = -inverse_pivot_rod_length*r_rod_length;
-    const double step_acceleration_bob_y = -l_rod_length__bob_y*step_lambda_rod_length;
-    const double step_acceleration_bob_x = -l_rod_length__bob_x*step_lambda_rod_length;
-    const double step_acceleration_bob_theta = 0.0;
+    const double step_lambda_rod_length_ = -inverse_pivot_rod_length_*r_rod_length_;
+    const double step_acceleration_bob_y_ = -l_rod_length_bob_y_*step_lambda_rod_length_;
+    const double step_acceleration_bob_x_ = -l_rod_length_bob_x_*step_lambda_rod_length_;
+    const double step_acceleration_bob_theta_ = 0.0;
 
     /* results */
-    x[0] = step_acceleration_bob_x;
-    x[1] = step_acceleration_bob_y;
-    x[2] = step_acceleration_bob_theta;
+    x[0] = step_acceleration_bob_x_;
+    x[1] = step_acceleration_bob_y_;
+    x[2] = step_acceleration_bob_theta_;
     return 0;
 }
 

@@ -7,22 +7,24 @@ void linearize(const double t, const double *q, const double *v, const Memory *m
 {
     (void)t, (void)memory;
     /* coordinates, velocities, time */
-    const double bob_x = q[0];
-    const double bob_x_rate = v[0];
-    const double bob_y = q[1];
-    const double bob_y_rate = v[1];
-    const double a_bob_x = a[0];
-    const double a_bob_y = a[1];
-    const double held_lambda_rod_length = aside->lambda[0];
+    const double bob_x_ = q[0];
+    const double bob_x_rate_ = v[0];
+    const double bob_y_ = q[1];
+    const double bob_y_rate_ = v[1];
+    const double a_bob_x_ = a[0];
+    const double a_bob_y_ = a[1];
+    const double held_lambda_rod_length_ = aside->lambda[0];
 
     /* results */
-    lin->value[0] = 2.0*bob_x*p->rod_half_inverse_length;
-    lin->value[1] = 2.0*bob_y*p->rod_half_inverse_length;
-    lin->value[2] = 2.0*a_bob_x*p->rod_half_inverse_length + 2.0*bob_x_rate*p->rod_half_inverse_length*p->two_alpha;
-    lin->value[3] = 2.0*a_bob_y*p->rod_half_inverse_length + 2.0*bob_y_rate*p->rod_half_inverse_length*p->two_alpha;
-    lin->value[4] = 2.0*held_lambda_rod_length*p->rod_half_inverse_length;
-    lin->value[5] = 4.0*bob_x_rate*p->rod_half_inverse_length;
-    lin->value[6] = 4.0*bob_y_rate*p->rod_half_inverse_length;
+    lin->value[0] = 2.0*bob_x_*p->rod_half_inverse_length_;
+    lin->value[1] = 2.0*bob_y_*p->rod_half_inverse_length_;
+    lin->value[2] = 2.0*a_bob_x_*p->rod_half_inverse_length_
+        + 2.0*bob_x_rate_*p->rod_half_inverse_length_*p->two_alpha_;
+    lin->value[3] = 2.0*a_bob_y_*p->rod_half_inverse_length_
+        + 2.0*bob_y_rate_*p->rod_half_inverse_length_*p->two_alpha_;
+    lin->value[4] = 2.0*held_lambda_rod_length_*p->rod_half_inverse_length_;
+    lin->value[5] = 4.0*bob_x_rate_*p->rod_half_inverse_length_;
+    lin->value[6] = 4.0*bob_y_rate_*p->rod_half_inverse_length_;
     lin->p = p;
 }
 
@@ -36,46 +38,46 @@ int newton_factor(double eta, Linear *lin)
     const Parameters *const p = lin->p;
 
     /* linearization */
-    const double phi_rod_length_bob_x = lin->value[0];
-    const double phi_rod_length_bob_y = lin->value[1];
-    const double by_q_rod_length_bob_x = lin->value[2];
-    const double by_q_rod_length_bob_y = lin->value[3];
-    const double by_q_bob_x_bob_x = lin->value[4];
-    const double by_v_rod_length_bob_x = lin->value[5];
-    const double by_v_rod_length_bob_y = lin->value[6];
+    const double phi_rod_length_bob_x_ = lin->value[0];
+    const double phi_rod_length_bob_y_ = lin->value[1];
+    const double by_q_rod_length_bob_x_ = lin->value[2];
+    const double by_q_rod_length_bob_y_ = lin->value[3];
+    const double by_q_bob_x_bob_x_ = lin->value[4];
+    const double by_v_rod_length_bob_x_ = lin->value[5];
+    const double by_v_rod_length_bob_y_ = lin->value[6];
 
     /* eta/kappa */
-    const double eta_row = eta/(eta*(p->beta_squared*eta + p->two_alpha) + 1.0);
+    const double eta_row = eta/(eta*(p->beta_squared_*eta + p->two_alpha_) + 1.0);
 
     /* matrix */
-    const double n_bob_x__bob_x = p->bob_mass + by_q_bob_x_bob_x*(eta * eta);
-    const double n_bob_y__bob_y = p->bob_mass + by_q_bob_x_bob_x*(eta * eta);
-    const double n_rod_length__bob_x = eta_row*(by_q_rod_length_bob_x*eta + by_v_rod_length_bob_x)
-        + phi_rod_length_bob_x;
-    const double n_rod_length__bob_y = eta_row*(by_q_rod_length_bob_y*eta + by_v_rod_length_bob_y)
-        + phi_rod_length_bob_y;
+    const double n_bob_x_bob_x_ = p->bob_mass_ + by_q_bob_x_bob_x_*(eta * eta);
+    const double n_bob_y_bob_y_ = p->bob_mass_ + by_q_bob_x_bob_x_*(eta * eta);
+    const double n_rod_length_bob_x_ = eta_row*(by_q_rod_length_bob_x_*eta + by_v_rod_length_bob_x_)
+        + phi_rod_length_bob_x_;
+    const double n_rod_length_bob_y_ = eta_row*(by_q_rod_length_bob_y_*eta + by_v_rod_length_bob_y_)
+        + phi_rod_length_bob_y_;
 
     /* L U */
-    const double scale_bob_x = n_bob_x__bob_x;
-    if (!(fabs(scale_bob_x) > SINGULAR * fabs(n_bob_x__bob_x)))
+    const double scale_bob_x_ = n_bob_x_bob_x_;
+    if (!(fabs(scale_bob_x_) > SINGULAR * fabs(n_bob_x_bob_x_)))
         return 1;
-    const double inverse_pivot_bob_x = 1.0/scale_bob_x;
-    lin->lu[0] = inverse_pivot_bob_x;
-    const double l_rod_length__bob_x = inverse_pivot_bob_x*n_rod_length__bob_x;
-    lin->lu[1] = l_rod_length__bob_x;
-    const double scale_bob_y = n_bob_y__bob_y;
-    if (!(fabs(scale_bob_y) > SINGULAR * fabs(n_bob_y__bob_y)))
+    const double inverse_pivot_bob_x_ = 1.0/scale_bob_x_;
+    lin->lu[0] = inverse_pivot_bob_x_;
+    const double l_rod_length_bob_x_ = inverse_pivot_bob_x_*n_rod_length_bob_x_;
+    lin->lu[1] = l_rod_length_bob_x_;
+    const double scale_bob_y_ = n_bob_y_bob_y_;
+    if (!(fabs(scale_bob_y_) > SINGULAR * fabs(n_bob_y_bob_y_)))
         return 2;
-    const double inverse_pivot_bob_y = 1.0/scale_bob_y;
-    lin->lu[2] = inverse_pivot_bob_y;
-    const double l_rod_length__bob_y = inverse_pivot_bob_y*n_rod_length__bob_y;
-    lin->lu[3] = l_rod_length__bob_y;
-    const double scale_rod_length = -l_rod_length__bob_x*phi_rod_length_bob_x
-        - l_rod_length__bob_y*phi_rod_length_bob_y;
-    if (!(scale_rod_length != 0.0 && isfinite(scale_rod_length)))
+    const double inverse_pivot_bob_y_ = 1.0/scale_bob_y_;
+    lin->lu[2] = inverse_pivot_bob_y_;
+    const double l_rod_length_bob_y_ = inverse_pivot_bob_y_*n_rod_length_bob_y_;
+    lin->lu[3] = l_rod_length_bob_y_;
+    const double scale_rod_length_ = -l_rod_length_bob_x_*phi_rod_length_bob_x_
+        - l_rod_length_bob_y_*phi_rod_length_bob_y_;
+    if (!(scale_rod_length_ != 0.0 && isfinite(scale_rod_length_)))
         return 4;
-    const double inverse_pivot_rod_length = 1.0/scale_rod_length;
-    lin->lu[4] = inverse_pivot_rod_length;
+    const double inverse_pivot_rod_length_ = 1.0/scale_rod_length_;
+    lin->lu[4] = inverse_pivot_rod_length_;
     return 0;
 }
 
@@ -88,29 +90,29 @@ void newton_substitute(const Linear *lin, double *x)
     const Parameters *const p = lin->p;
 
     /* linearization */
-    const double phi_rod_length_bob_x = lin->value[0];
-    const double phi_rod_length_bob_y = lin->value[1];
-    const double inverse_pivot_bob_x = lin->lu[0];
-    const double l_rod_length__bob_x = lin->lu[1];
-    const double inverse_pivot_bob_y = lin->lu[2];
-    const double l_rod_length__bob_y = lin->lu[3];
-    const double inverse_pivot_rod_length = lin->lu[4];
+    const double phi_rod_length_bob_x_ = lin->value[0];
+    const double phi_rod_length_bob_y_ = lin->value[1];
+    const double inverse_pivot_bob_x_ = lin->lu[0];
+    const double l_rod_length_bob_x_ = lin->lu[1];
+    const double inverse_pivot_bob_y_ = lin->lu[2];
+    const double l_rod_length_bob_y_ = lin->lu[3];
+    const double inverse_pivot_rod_length_ = lin->lu[4];
 
     /* forward */
-    const double b_bob_theta = x[2];
-    const double b_bob_x = x[0];
-    const double b_bob_y = x[1];
-    const double b_rod_length = -b_bob_x*l_rod_length__bob_x - b_bob_y*l_rod_length__bob_y + x[3];
+    const double b_bob_theta_ = x[2];
+    const double b_bob_x_ = x[0];
+    const double b_bob_y_ = x[1];
+    const double b_rod_length_ = -b_bob_x_*l_rod_length_bob_x_ - b_bob_y_*l_rod_length_bob_y_ + x[3];
 
     /* backward */
-    const double x_rod_length = b_rod_length*inverse_pivot_rod_length;
-    x[3] = x_rod_length;
-    const double x_bob_y = inverse_pivot_bob_y*(b_bob_y - phi_rod_length_bob_y*x_rod_length);
-    x[1] = x_bob_y;
-    const double x_bob_x = inverse_pivot_bob_x*(b_bob_x - phi_rod_length_bob_x*x_rod_length);
-    x[0] = x_bob_x;
-    const double x_bob_theta = b_bob_theta*p->inverse_bob_inertia;
-    x[2] = x_bob_theta;
+    const double x_rod_length_ = b_rod_length_*inverse_pivot_rod_length_;
+    x[3] = x_rod_length_;
+    const double x_bob_y_ = inverse_pivot_bob_y_*(b_bob_y_ - phi_rod_length_bob_y_*x_rod_length_);
+    x[1] = x_bob_y_;
+    const double x_bob_x_ = inverse_pivot_bob_x_*(b_bob_x_ - phi_rod_length_bob_x_*x_rod_length_);
+    x[0] = x_bob_x_;
+    const double x_bob_theta_ = b_bob_theta_*p->inverse_bob_inertia_;
+    x[2] = x_bob_theta_;
 }
 
 /*
@@ -123,24 +125,24 @@ void newton_solve(const Linear *lin, double eta, double s, const double *r, doub
     const Parameters *const p = lin->p;
 
     /* linearization */
-    const double phi_rod_length_bob_x = lin->value[0];
-    const double phi_rod_length_bob_y = lin->value[1];
-    const double by_q_rod_length_bob_x = lin->value[2];
-    const double by_q_rod_length_bob_y = lin->value[3];
-    const double by_q_bob_x_bob_x = lin->value[4];
+    const double phi_rod_length_bob_x_ = lin->value[0];
+    const double phi_rod_length_bob_y_ = lin->value[1];
+    const double by_q_rod_length_bob_x_ = lin->value[2];
+    const double by_q_rod_length_bob_y_ = lin->value[3];
+    const double by_q_bob_x_bob_x_ = lin->value[4];
 
     /* eta/kappa */
-    const double eta_row = eta/(eta*(p->beta_squared*eta + p->two_alpha) + 1.0);
+    const double eta_row = eta/(eta*(p->beta_squared_*eta + p->two_alpha_) + 1.0);
 
     /* right-hand side */
     double x[4];
-    const double shifted_bob_x = -p->beta_squared*eta*r[0] + r[3];
-    const double shifted_bob_y = -p->beta_squared*eta*r[1] + r[4];
-    x[0] = eta*(p->bob_mass*r[3] - by_q_bob_x_bob_x*eta*r[0]);
-    x[1] = eta*(p->bob_mass*r[4] - by_q_bob_x_bob_x*eta*r[1]);
-    x[2] = p->bob_inertia*eta*r[5];
-    x[3] = eta_row*(-by_q_rod_length_bob_x*eta*r[0] - by_q_rod_length_bob_y*eta*r[1]
-        + phi_rod_length_bob_x*shifted_bob_x + phi_rod_length_bob_y*shifted_bob_y);
+    const double shifted_bob_x_ = -p->beta_squared_*eta*r[0] + r[3];
+    const double shifted_bob_y_ = -p->beta_squared_*eta*r[1] + r[4];
+    x[0] = eta*(p->bob_mass_*r[3] - by_q_bob_x_bob_x_*eta*r[0]);
+    x[1] = eta*(p->bob_mass_*r[4] - by_q_bob_x_bob_x_*eta*r[1]);
+    x[2] = p->bob_inertia_*eta*r[5];
+    x[3] = eta_row*(-by_q_rod_length_bob_x_*eta*r[0] - by_q_rod_length_bob_y_*eta*r[1]
+        + phi_rod_length_bob_x_*shifted_bob_x_ + phi_rod_length_bob_y_*shifted_bob_y_);
     newton_substitute(lin, x);
 
     /* solution */
@@ -192,46 +194,46 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
 {
     (void)t, (void)memory;
     /* coordinates, velocities, time */
-    const double bob_x = q[0];
-    const double bob_x_rate = v[0];
-    const double bob_y = q[1];
-    const double bob_y_rate = v[1];
+    const double bob_x_ = q[0];
+    const double bob_x_rate_ = v[0];
+    const double bob_y_ = q[1];
+    const double bob_y_rate_ = v[1];
 
     /* Phi and Phi_dot */
-    const double phi_rod_length = (bob_x * bob_x)*p->rod_half_inverse_length
-        + (bob_y * bob_y)*p->rod_half_inverse_length - 0.5*p->rod_length;
-    const double phi_dot_rod_length = 2.0*bob_x*bob_x_rate*p->rod_half_inverse_length
-        + 2.0*bob_y*bob_y_rate*p->rod_half_inverse_length;
+    const double phi_rod_length_ = (bob_x_ * bob_x_)*p->rod_half_inverse_length_
+        + (bob_y_ * bob_y_)*p->rod_half_inverse_length_ - 0.5*p->rod_length_;
+    const double phi_dot_rod_length_ = 2.0*bob_x_*bob_x_rate_*p->rod_half_inverse_length_
+        + 2.0*bob_y_*bob_y_rate_*p->rod_half_inverse_length_;
 
     /* L D L^T of the KKT matrix */
-    const double w_rod_length__bob_x = 2.0*bob_x*p->rod_half_inverse_length;
-    const double l_rod_length__bob_x = p->inverse_bob_mass*w_rod_length__bob_x;
-    const double w_rod_length__bob_y = 2.0*bob_y*p->rod_half_inverse_length;
-    const double l_rod_length__bob_y = p->inverse_bob_mass*w_rod_length__bob_y;
-    const double scale_rod_length = l_rod_length__bob_x*w_rod_length__bob_x + l_rod_length__bob_y*w_rod_length__bob_y;
-    if (!(scale_rod_length > 0.0 && scale_rod_length < INFINITY))
+    const double w_rod_length_bob_x_ = 2.0*bob_x_*p->rod_half_inverse_length_;
+    const double l_rod_length_bob_x_ = p->inverse_bob_mass_*w_rod_length_bob_x_;
+    const double w_rod_length_bob_y_ = 2.0*bob_y_*p->rod_half_inverse_length_;
+    const double l_rod_length_bob_y_ = p->inverse_bob_mass_*w_rod_length_bob_y_;
+    const double scale_rod_length_ = l_rod_length_bob_x_*w_rod_length_bob_x_ + l_rod_length_bob_y_*w_rod_length_bob_y_;
+    if (!(scale_rod_length_ > 0.0 && scale_rod_length_ < INFINITY))
         return 1;
-    const double inverse_pivot_rod_length = 1.0/scale_rod_length;
+    const double inverse_pivot_rod_length_ = 1.0/scale_rod_length_;
 
     /* backward substitution */
-    const double dq_lambda_rod_length = -inverse_pivot_rod_length*phi_rod_length;
-    const double dq_acceleration_bob_y = -dq_lambda_rod_length*l_rod_length__bob_y;
-    const double dq_acceleration_bob_x = -dq_lambda_rod_length*l_rod_length__bob_x;
-    const double dq_acceleration_bob_theta = 0.0;
+    const double dq_lambda_rod_length_ = -inverse_pivot_rod_length_*phi_rod_length_;
+    const double dq_acceleration_bob_y_ = -dq_lambda_rod_length_*l_rod_length_bob_y_;
+    const double dq_acceleration_bob_x_ = -dq_lambda_rod_length_*l_rod_length_bob_x_;
+    const double dq_acceleration_bob_theta_ = 0.0;
 
     /* backward substitution */
-    const double dv_lambda_rod_length = -inverse_pivot_rod_length*phi_dot_rod_length;
-    const double dv_acceleration_bob_y = -dv_lambda_rod_length*l_rod_length__bob_y;
-    const double dv_acceleration_bob_x = -dv_lambda_rod_length*l_rod_length__bob_x;
-    const double dv_acceleration_bob_theta = 0.0;
+    const double dv_lambda_rod_length_ = -inverse_pivot_rod_length_*phi_dot_rod_length_;
+    const double dv_acceleration_bob_y_ = -dv_lambda_rod_length_*l_rod_length_bob_y_;
+    const double dv_acceleration_bob_x_ = -dv_lambda_rod_length_*l_rod_length_bob_x_;
+    const double dv_acceleration_bob_theta_ = 0.0;
 
     /* results */
-    dq[0] = dq_acceleration_bob_x;
-    dv[0] = dv_acceleration_bob_x;
-    dq[1] = dq_acceleration_bob_y;
-    dv[1] = dv_acceleration_bob_y;
-    dq[2] = dq_acceleration_bob_theta;
-    dv[2] = dv_acceleration_bob_theta;
-    *worst = max_of(0.0, fabs(phi_rod_length));
+    dq[0] = dq_acceleration_bob_x_;
+    dv[0] = dv_acceleration_bob_x_;
+    dq[1] = dq_acceleration_bob_y_;
+    dv[1] = dv_acceleration_bob_y_;
+    dq[2] = dq_acceleration_bob_theta_;
+    dv[2] = dv_acceleration_bob_theta_;
+    *worst = max_of(0.0, fabs(phi_rod_length_));
     return 0;
 }

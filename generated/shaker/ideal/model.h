@@ -50,6 +50,7 @@
 #define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
 #define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
 #define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
+#define LIGHT_PIVOT 1e-06                     /* of what turns with an angle, where its inertia is too small for it */
 #define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
 typedef struct Parameters Parameters; /* every number of a run */
@@ -63,6 +64,7 @@ static const int guess_place[] = {5};
 static const int set_place[] = {11};
 static const int rate_place[] = {0};
 static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 0, 1, 1, 0};
+static const int drive_row[] = {10};
 static const int kept_row[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
 static const int phi_q_first[] = {0, 2, 4, 8, 12, 15, 18, 19, 20, 24, 28, 29};
 static const short phi_q_place[] = {0, 2, 1, 2, 0, 2, 3, 5, 1, 2, 4, 5, 3, 5, 6, 4, 5, 7, 6, 8, 6, 8, 9, 11, 7, 8, 10,
@@ -77,58 +79,53 @@ static const int friction_of_pivot[] = {0};
 
 /* In SI: first the slots that a user may set, then what prepare() derives. */
 struct Parameters {
-    double omega;  /* parameters.omega, 1/s */
-    double tilt;  /* parameters.tilt, 1 */
-    double crank_mass;  /* bodies.crank.mass, kg */
-    double crank_inertia;  /* bodies.crank.inertia, kg*m^2 */
-    double rod_mass;  /* bodies.rod.mass, kg */
-    double rod_inertia;  /* bodies.rod.inertia, kg*m^2 */
-    double table_mass;  /* bodies.table.mass, kg */
-    double table_inertia;  /* bodies.table.inertia, kg*m^2 */
-    double arm_mass;  /* bodies.arm.mass, kg */
-    double arm_inertia;  /* bodies.arm.inertia, kg*m^2 */
-    double crank_length;  /* bodies.crank.length, m */
-    double rod_length;  /* bodies.rod.length, m */
-    double table_points_top_y;  /* bodies.table.points.top.y, m */
-    double arm_length;  /* bodies.arm.length, m */
-    double alpha;  /* baumgarte.alpha, 1/s */
-    double beta;  /* baumgarte.beta, 1/s */
-    double guide_axis_y;  /* joints.guide.axis.y, 1 */
-    double gravity_y;  /* gravity.y, m/s^2 */
-    double guess_rod_theta;  /* start.guess.rod.theta, rad */
-    double set_arm_theta;  /* start.set.arm.theta, rad */
-    double crank_head_s_x;  /* point from the centre of mass, m */
-    double rod_head_s_x;  /* point from the centre of mass, m */
-    double arm_head_s_x;  /* point from the centre of mass, m */
-    double weight_crank_y;  /* weight, N */
-    double weight_rod_y;  /* weight, N */
-    double weight_table_y;  /* weight, N */
-    double weight_arm_y;  /* weight, N */
-    double two_alpha;  /* 2 alpha, 1/s */
-    double beta_squared;  /* beta^2, 1/s^2 */
-    double inverse_arm_mass;  /* 1/M, 1/kg */
-    double inverse_crank_mass;  /* 1/M, 1/kg */
-    double inverse_rod_mass;  /* 1/M, 1/kg */
-    double inverse_table_mass;  /* 1/M, 1/kg */
-    double inverse_arm_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_table_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_rod_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_crank_inertia;  /* 1/M, 1/(kg*m^2) */
-    double crank_head_span_x;  /* vector in its frame, m */
-    double rod_head_span_x;  /* vector in its frame, m */
-    double inertia_crank_crank;  /* sum of m w.w, kg*m^2 */
-    double inertia_crank_rod;  /* sum of m w.w, kg*m^2 */
-    double inertia_rod_rod;  /* sum of m w.w, kg*m^2 */
-    double inertia_crank_arm;  /* sum of m w.w, kg*m^2 */
-    double inertia_rod_arm;  /* sum of m w.w, kg*m^2 */
-    double inertia_arm_arm;  /* sum of m w.w, kg*m^2 */
-    double mass_motor_motor;  /* constant of M, kg*m^2 */
-    double mass_rod_rod;  /* constant of M, kg*m^2 */
-    double mass_arm_arm;  /* constant of M, kg*m^2 */
-    double weight_crank__across;  /* weight, N*m */
-    double weight_rod__across;  /* weight, N*m */
-    double weight_arm__across;  /* weight, N*m */
-    double inverse_mass_arm_arm;  /* 1/M, 1/(kg*m^2) */
+    double omega_;  /* parameters.omega, 1/s */
+    double tilt_;  /* parameters.tilt, 1 */
+    double crank_mass_;  /* bodies.crank.mass, kg */
+    double crank_inertia_;  /* bodies.crank.inertia, kg*m^2 */
+    double rod_mass_;  /* bodies.rod.mass, kg */
+    double rod_inertia_;  /* bodies.rod.inertia, kg*m^2 */
+    double table_mass_;  /* bodies.table.mass, kg */
+    double table_inertia_;  /* bodies.table.inertia, kg*m^2 */
+    double arm_mass_;  /* bodies.arm.mass, kg */
+    double arm_inertia_;  /* bodies.arm.inertia, kg*m^2 */
+    double crank_length_;  /* bodies.crank.length, m */
+    double rod_length_;  /* bodies.rod.length, m */
+    double table_points_top_y_;  /* bodies.table.points.top.y, m */
+    double arm_length_;  /* bodies.arm.length, m */
+    double alpha_;  /* baumgarte.alpha, 1/s */
+    double beta_;  /* baumgarte.beta, 1/s */
+    double guide_axis_y_;  /* joints.guide.axis.y, 1 */
+    double gravity_y_;  /* gravity.y, m/s^2 */
+    double guess_rod_theta_;  /* start.guess.rod.theta, rad */
+    double set_arm_theta_;  /* start.set.arm.theta, rad */
+    double crank_head_s_x_;  /* point from the centre of mass, m */
+    double rod_head_s_x_;  /* point from the centre of mass, m */
+    double arm_head_s_x_;  /* point from the centre of mass, m */
+    double weight_crank_y_;  /* weight, N */
+    double weight_rod_y_;  /* weight, N */
+    double weight_table_y_;  /* weight, N */
+    double weight_arm_y_;  /* weight, N */
+    double arm_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double rod_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double two_alpha_;  /* 2 alpha, 1/s */
+    double beta_squared_;  /* beta^2, 1/s^2 */
+    double mobility_guide_offset_;  /* 1/m of the bodies of a row, 1/kg */
+    double crank_head_span_x_;  /* vector in its frame, m */
+    double rod_head_span_x_;  /* vector in its frame, m */
+    double inertia_crank_crank_;  /* sum of m w.w, kg*m^2 */
+    double inertia_crank_rod_;  /* sum of m w.w, kg*m^2 */
+    double inertia_rod_rod_;  /* sum of m w.w, kg*m^2 */
+    double inertia_crank_arm_;  /* sum of m w.w, kg*m^2 */
+    double inertia_rod_arm_;  /* sum of m w.w, kg*m^2 */
+    double inertia_arm_arm_;  /* sum of m w.w, kg*m^2 */
+    double mass_motor_motor_;  /* constant of M, kg*m^2 */
+    double mass_rod_rod_;  /* constant of M, kg*m^2 */
+    double mass_arm_arm_;  /* constant of M, kg*m^2 */
+    double weight_crank_across_;  /* weight, N*m */
+    double weight_rod_across_;  /* weight, N*m */
+    double weight_arm_across_;  /* weight, N*m */
+    double inverse_mass_arm_arm_;  /* 1/M, 1/(kg*m^2) */
 };
 
 /* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */

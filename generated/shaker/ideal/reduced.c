@@ -4,78 +4,78 @@
 void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
 {
     /* coordinates, velocities, time */
-    const double rod_theta = q[1];
-    const double rod_omega = v[1];
-    const double arm_theta = q[0];
-    const double arm_omega = v[0];
-    const double cos_theta_crank = q[2];
-    const double sin_theta_crank = q[3];
-    const double cos_theta_rod = q[4];
-    const double sin_theta_rod = q[5];
+    const double rod_theta_ = q[1];
+    const double rod_omega_ = v[1];
+    const double arm_theta_ = q[0];
+    const double arm_omega_ = v[0];
+    const double cos_theta_crank_ = q[2];
+    const double sin_theta_crank_ = q[3];
+    const double cos_theta_rod_ = q[4];
+    const double sin_theta_rod_ = q[5];
 
     /* directions, arms, drives */
-    const Four angles_0 = {arm_theta, arm_theta, arm_theta, arm_theta};
+    const Four angles_0 = {arm_theta_, arm_theta_, arm_theta_, arm_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_arm = cosines_0[0];
-    const double sin_theta_arm = sines_0[0];
-    const double motor_value = p->omega*t;
-    const double motor_rate = p->omega;
-    const double span_crank_com_x = cos_theta_crank*p->crank_head_s_x;
-    const double span_crank_com_y = p->crank_head_s_x*sin_theta_crank;
-    const double crank_vx = -motor_rate*span_crank_com_y;
-    const double crank_vy = motor_rate*span_crank_com_x;
-    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
-    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
-    const double crank_head_vx = -motor_rate*span_crank_head_y;
-    const double crank_head_vy = motor_rate*span_crank_head_x;
-    const double span_rod_com_x = cos_theta_rod*p->rod_head_s_x;
-    const double span_rod_com_y = p->rod_head_s_x*sin_theta_rod;
-    const double rod_x = span_crank_head_x + span_rod_com_x;
-    const double rod_vx = crank_head_vx - rod_omega*span_rod_com_y;
-    const double rod_y = span_crank_head_y + span_rod_com_y;
-    const double rod_vy = crank_head_vy + rod_omega*span_rod_com_x;
-    const double span_rod_head_x = cos_theta_rod*p->rod_head_span_x;
-    const double span_rod_head_y = p->rod_head_span_x*sin_theta_rod;
-    const double rod_head_x = span_crank_head_x + span_rod_head_x;
-    const double rod_head_vx = crank_head_vx - rod_omega*span_rod_head_y;
-    const double rod_head_y = span_crank_head_y + span_rod_head_y;
-    const double rod_head_vy = crank_head_vy + rod_omega*span_rod_head_x;
-    const double table_theta = 0.0;
-    const double table_omega = 0.0;
-    const double table_top_y = rod_head_y + p->table_points_top_y;
-    const double span_arm_com_x = p->arm_head_s_x*cos_theta_arm;
-    const double span_arm_com_y = p->arm_head_s_x*sin_theta_arm;
-    const double arm_x = rod_head_x + span_arm_com_x;
-    const double arm_vx = -arm_omega*span_arm_com_y + rod_head_vx;
-    const double arm_y = span_arm_com_y + table_top_y;
-    const double arm_vy = arm_omega*span_arm_com_x + rod_head_vy;
+    const double cos_theta_arm_ = cosines_0[0];
+    const double sin_theta_arm_ = sines_0[0];
+    const double motor_value_ = p->omega_*t;
+    const double motor_rate_ = p->omega_;
+    const double span_crank_com_x_ = cos_theta_crank_*p->crank_head_s_x_;
+    const double span_crank_com_y_ = p->crank_head_s_x_*sin_theta_crank_;
+    const double crank_vx_ = -motor_rate_*span_crank_com_y_;
+    const double crank_vy_ = motor_rate_*span_crank_com_x_;
+    const double span_crank_head_x_ = cos_theta_crank_*p->crank_head_span_x_;
+    const double span_crank_head_y_ = p->crank_head_span_x_*sin_theta_crank_;
+    const double crank_head_vx_ = -motor_rate_*span_crank_head_y_;
+    const double crank_head_vy_ = motor_rate_*span_crank_head_x_;
+    const double span_rod_com_x_ = cos_theta_rod_*p->rod_head_s_x_;
+    const double span_rod_com_y_ = p->rod_head_s_x_*sin_theta_rod_;
+    const double rod_x_ = span_crank_head_x_ + span_rod_com_x_;
+    const double rod_vx_ = crank_head_vx_ - rod_omega_*span_rod_com_y_;
+    const double rod_y_ = span_crank_head_y_ + span_rod_com_y_;
+    const double rod_vy_ = crank_head_vy_ + rod_omega_*span_rod_com_x_;
+    const double span_rod_head_x_ = cos_theta_rod_*p->rod_head_span_x_;
+    const double span_rod_head_y_ = p->rod_head_span_x_*sin_theta_rod_;
+    const double rod_head_x_ = span_crank_head_x_ + span_rod_head_x_;
+    const double rod_head_vx_ = crank_head_vx_ - rod_omega_*span_rod_head_y_;
+    const double rod_head_y_ = span_crank_head_y_ + span_rod_head_y_;
+    const double rod_head_vy_ = crank_head_vy_ + rod_omega_*span_rod_head_x_;
+    const double table_theta_ = 0.0;
+    const double table_omega_ = 0.0;
+    const double table_top_y_ = rod_head_y_ + p->table_points_top_y_;
+    const double span_arm_com_x_ = p->arm_head_s_x_*cos_theta_arm_;
+    const double span_arm_com_y_ = p->arm_head_s_x_*sin_theta_arm_;
+    const double arm_x_ = rod_head_x_ + span_arm_com_x_;
+    const double arm_vx_ = -arm_omega_*span_arm_com_y_ + rod_head_vx_;
+    const double arm_y_ = span_arm_com_y_ + table_top_y_;
+    const double arm_vy_ = arm_omega_*span_arm_com_x_ + rod_head_vy_;
 
     /* bodies */
-    all_q[0] = span_crank_com_x;
-    all_v[0] = crank_vx;
-    all_q[1] = span_crank_com_y;
-    all_v[1] = crank_vy;
-    all_q[2] = motor_value;
-    all_v[2] = motor_rate;
-    all_q[3] = rod_x;
-    all_v[3] = rod_vx;
-    all_q[4] = rod_y;
-    all_v[4] = rod_vy;
-    all_q[5] = rod_theta;
-    all_v[5] = rod_omega;
-    all_q[6] = rod_head_x;
-    all_v[6] = rod_head_vx;
-    all_q[7] = rod_head_y;
-    all_v[7] = rod_head_vy;
-    all_q[8] = table_theta;
-    all_v[8] = table_omega;
-    all_q[9] = arm_x;
-    all_v[9] = arm_vx;
-    all_q[10] = arm_y;
-    all_v[10] = arm_vy;
-    all_q[11] = arm_theta;
-    all_v[11] = arm_omega;
+    all_q[0] = span_crank_com_x_;
+    all_v[0] = crank_vx_;
+    all_q[1] = span_crank_com_y_;
+    all_v[1] = crank_vy_;
+    all_q[2] = motor_value_;
+    all_v[2] = motor_rate_;
+    all_q[3] = rod_x_;
+    all_v[3] = rod_vx_;
+    all_q[4] = rod_y_;
+    all_v[4] = rod_vy_;
+    all_q[5] = rod_theta_;
+    all_v[5] = rod_omega_;
+    all_q[6] = rod_head_x_;
+    all_v[6] = rod_head_vx_;
+    all_q[7] = rod_head_y_;
+    all_v[7] = rod_head_vy_;
+    all_q[8] = table_theta_;
+    all_v[8] = table_omega_;
+    all_q[9] = arm_x_;
+    all_v[9] = arm_vx_;
+    all_q[10] = arm_y_;
+    all_v[10] = arm_vy_;
+    all_q[11] = arm_theta_;
+    all_v[11] = arm_omega_;
 }
 
 /*
@@ -85,16 +85,16 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 {
     (void)t, (void)p;
     /* coordinates, velocities, time */
-    const double rod_theta = q[5];
-    const double rod_omega = v[5];
-    const double arm_theta = q[11];
-    const double arm_omega = v[11];
+    const double rod_theta_ = q[5];
+    const double rod_omega_ = v[5];
+    const double arm_theta_ = q[11];
+    const double arm_omega_ = v[11];
 
     /* tree coordinates */
-    s[0] = arm_theta;  /* arm */
-    s_rate[0] = arm_omega;
-    s[1] = rod_theta;  /* rod */
-    s_rate[1] = rod_omega;
+    s[0] = arm_theta_;  /* arm */
+    s_rate[0] = arm_omega_;
+    s[1] = rod_theta_;  /* rod */
+    s_rate[1] = rod_omega_;
 }
 
 /*
@@ -125,51 +125,52 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
 {
     (void)t, (void)memory;
     /* coordinates, velocities, time */
-    const double rod_omega = v[1];
-    const double arm_theta = q[0];
-    const double arm_omega = v[0];
-    const double cos_theta_crank = q[2];
-    const double sin_theta_crank = q[3];
-    const double cos_theta_rod = q[4];
-    const double sin_theta_rod = q[5];
-    const double rod_theta_second = v[2];
+    const double rod_omega_ = v[1];
+    const double arm_theta_ = q[0];
+    const double arm_omega_ = v[0];
+    const double cos_theta_crank_ = q[2];
+    const double sin_theta_crank_ = q[3];
+    const double cos_theta_rod_ = q[4];
+    const double sin_theta_rod_ = q[5];
+    const double rod_theta_second_ = v[2];
 
     /* directions, arms, drives */
-    const Four angles_0 = {arm_theta, arm_theta, arm_theta, arm_theta};
+    const Four angles_0 = {arm_theta_, arm_theta_, arm_theta_, arm_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_arm = cosines_0[0];
-    const double sin_theta_arm = sines_0[0];
-    const double motor_rate = p->omega;
-    const double motor_acceleration = 0.0;
-    const double cos_rod_less_crank = cos_theta_crank*cos_theta_rod + sin_theta_crank*sin_theta_rod;
-    const double sin_rod_less_crank = cos_theta_crank*sin_theta_rod - cos_theta_rod*sin_theta_crank;
-    const double dot_crank_rod = cos_rod_less_crank*p->inertia_crank_rod;
-    const double cross_crank_rod = p->inertia_crank_rod*sin_rod_less_crank;
-    const double cos_arm_less_crank = cos_theta_arm*cos_theta_crank + sin_theta_arm*sin_theta_crank;
-    const double sin_arm_less_crank = -cos_theta_arm*sin_theta_crank + cos_theta_crank*sin_theta_arm;
-    const double dot_crank_arm = cos_arm_less_crank*p->inertia_crank_arm;
-    const double cross_crank_arm = p->inertia_crank_arm*sin_arm_less_crank;
-    const double cos_arm_less_rod = cos_theta_arm*cos_theta_rod + sin_theta_arm*sin_theta_rod;
-    const double sin_arm_less_rod = -cos_theta_arm*sin_theta_rod + cos_theta_rod*sin_theta_arm;
-    const double dot_rod_arm = cos_arm_less_rod*p->inertia_rod_arm;
-    const double cross_rod_arm = p->inertia_rod_arm*sin_arm_less_rod;
+    const double cos_theta_arm_ = cosines_0[0];
+    const double sin_theta_arm_ = sines_0[0];
+    const double motor_rate_ = p->omega_;
+    const double motor_acceleration_ = 0.0;
+    const double cos_rod_less_crank_ = cos_theta_crank_*cos_theta_rod_ + sin_theta_crank_*sin_theta_rod_;
+    const double sin_rod_less_crank_ = cos_theta_crank_*sin_theta_rod_ - cos_theta_rod_*sin_theta_crank_;
+    const double dot_crank_rod_ = cos_rod_less_crank_*p->inertia_crank_rod_;
+    const double cross_crank_rod_ = p->inertia_crank_rod_*sin_rod_less_crank_;
+    const double cos_arm_less_crank_ = cos_theta_arm_*cos_theta_crank_ + sin_theta_arm_*sin_theta_crank_;
+    const double sin_arm_less_crank_ = -cos_theta_arm_*sin_theta_crank_ + cos_theta_crank_*sin_theta_arm_;
+    const double dot_crank_arm_ = cos_arm_less_crank_*p->inertia_crank_arm_;
+    const double cross_crank_arm_ = p->inertia_crank_arm_*sin_arm_less_crank_;
+    const double cos_arm_less_rod_ = cos_theta_arm_*cos_theta_rod_ + sin_theta_arm_*sin_theta_rod_;
+    const double sin_arm_less_rod_ = -cos_theta_arm_*sin_theta_rod_ + cos_theta_rod_*sin_theta_arm_;
+    const double dot_rod_arm_ = cos_arm_less_rod_*p->inertia_rod_arm_;
+    const double cross_rod_arm_ = p->inertia_rod_arm_*sin_arm_less_rod_;
 
     /* forward substitution */
-    const double z_arm_theta = cos_theta_arm*p->weight_arm__across - cross_crank_arm*(motor_rate * motor_rate)
-        - cross_rod_arm*(rod_omega * rod_omega) - dot_crank_arm*motor_acceleration - dot_rod_arm*rod_theta_second;
+    const double z_arm_theta_ = cos_theta_arm_*p->weight_arm_across_ - cross_crank_arm_*(motor_rate_ * motor_rate_)
+        - cross_rod_arm_*(rod_omega_ * rod_omega_) - dot_crank_arm_*motor_acceleration_
+        - dot_rod_arm_*rod_theta_second_;
 
     /* backward substitution */
-    const double acceleration_arm_theta = p->inverse_mass_arm_arm*z_arm_theta;
+    const double acceleration_arm_theta_ = p->inverse_mass_arm_arm_*z_arm_theta_;
 
     /* results */
-    a[0] = acceleration_arm_theta;
-    aside->power[0] = motor_rate*(a[0]*dot_crank_arm - (arm_omega * arm_omega)*cross_crank_arm
-        - cos_theta_crank*p->weight_crank__across - cross_crank_rod*(rod_omega * rod_omega)
-        + dot_crank_rod*rod_theta_second + p->mass_motor_motor*motor_acceleration)
-        + rod_omega*(a[0]*dot_rod_arm - (arm_omega * arm_omega)*cross_rod_arm - cos_theta_rod*p->weight_rod__across
-        + cross_crank_rod*(motor_rate * motor_rate) + dot_crank_rod*motor_acceleration
-        + p->mass_rod_rod*rod_theta_second);
+    a[0] = acceleration_arm_theta_;
+    aside->power[0] = motor_rate_*(a[0]*dot_crank_arm_ - (arm_omega_ * arm_omega_)*cross_crank_arm_
+        - cos_theta_crank_*p->weight_crank_across_ - cross_crank_rod_*(rod_omega_ * rod_omega_)
+        + dot_crank_rod_*rod_theta_second_ + p->mass_motor_motor_*motor_acceleration_)
+        + rod_omega_*(a[0]*dot_rod_arm_ - (arm_omega_ * arm_omega_)*cross_rod_arm_
+        - cos_theta_rod_*p->weight_rod_across_ + cross_crank_rod_*(motor_rate_ * motor_rate_)
+        + dot_crank_rod_*motor_acceleration_ + p->mass_rod_rod_*rod_theta_second_);
     aside->power[1] = 0.0;
     aside->power[2] = 0.0;
     return 0;
@@ -184,10 +185,10 @@ int reduced_project(const double t, const double *q, const double *r, const Para
 {
     (void)t, (void)q, (void)r, (void)p;
     /* backward substitution */
-    const double step_acceleration_arm_theta = 0.0;
+    const double step_acceleration_arm_theta_ = 0.0;
 
     /* results */
-    x[0] = step_acceleration_arm_theta;
+    x[0] = step_acceleration_arm_theta_;
     return 0;
 }
 
@@ -198,19 +199,19 @@ void chain_directions(const double t, const double *q, const Memory *memory, con
 {
     (void)memory;
     /* coordinates, velocities, time */
-    const double rod_theta = q[1];
+    const double rod_theta_ = q[1];
 
     /* directions, arms, drives */
-    const double motor_value = p->omega*t;
+    const double motor_value_ = p->omega_*t;
 
     /* directions */
-    const Four angles_0 = {motor_value, rod_theta, rod_theta, rod_theta};
+    const Four angles_0 = {motor_value_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    out[2] = cosines_0[0];  /* cos_theta_crank */
-    out[3] = sines_0[0];  /* sin_theta_crank */
-    out[4] = cosines_0[1];  /* cos_theta_rod */
-    out[5] = sines_0[1];  /* sin_theta_rod */
+    out[2] = cosines_0[0];  /* cos_theta_crank_ */
+    out[3] = sines_0[0];  /* sin_theta_crank_ */
+    out[4] = cosines_0[1];  /* cos_theta_rod_ */
+    out[5] = sines_0[1];  /* sin_theta_rod_ */
 }
 
 /*
@@ -223,35 +224,35 @@ int chain_step(const double t, const double *q, const Memory *memory, const Para
 {
     (void)t, (void)memory;
     /* coordinates, velocities, time */
-    const double cos_theta_crank = q[2];
-    const double cos_theta_rod = q[4];
-    const double sin_theta_rod = q[5];
+    const double cos_theta_crank_ = q[2];
+    const double cos_theta_rod_ = q[4];
+    const double sin_theta_rod_ = q[5];
 
     /* directions, arms, drives */
-    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
-    const double span_rod_head_x = cos_theta_rod*p->rod_head_span_x;
-    const double span_rod_head_y = p->rod_head_span_x*sin_theta_rod;
+    const double span_crank_head_x_ = cos_theta_crank_*p->crank_head_span_x_;
+    const double span_rod_head_x_ = cos_theta_rod_*p->rod_head_span_x_;
+    const double span_rod_head_y_ = p->rod_head_span_x_*sin_theta_rod_;
 
     /* closures of the chains */
-    const double phi_guide_offset = -span_crank_head_x - span_rod_head_x;
+    const double phi_guide_offset_ = -span_crank_head_x_ - span_rod_head_x_;
 
     /* the largest */
     *row = 1;
 
     /* groups of rows that are solved one after the other */
-    const double pivot_guide_offset = span_rod_head_y;
-    const double size_guide_offset__rod_theta = fabs(span_rod_head_x) + fabs(span_rod_head_y);
-    if (!(fabs(pivot_guide_offset) > SINGULAR_SQUARE * size_guide_offset__rod_theta))
+    const double pivot_guide_offset_ = span_rod_head_y_;
+    const double size_guide_offset_rod_theta_ = fabs(span_rod_head_x_) + fabs(span_rod_head_y_);
+    if (!(fabs(pivot_guide_offset_) > SINGULAR_SQUARE * size_guide_offset_rod_theta_))
         return 1;
-    const double inverse_guide_offset = 1.0/pivot_guide_offset;
+    const double inverse_guide_offset_ = 1.0/pivot_guide_offset_;
 
     /* Newton's step */
-    const double newton_rod_theta = inverse_guide_offset*phi_guide_offset;
+    const double newton_rod_theta_ = inverse_guide_offset_*phi_guide_offset_;
 
     /* what the rows' curvature adds */
-    const double bend_rod_theta = 0.5*inverse_guide_offset*(newton_rod_theta * newton_rod_theta)*span_rod_head_x;
-    step[0] = bend_rod_theta + newton_rod_theta;
-    bend[0] = bend_rod_theta;
+    const double bend_rod_theta_ = 0.5*inverse_guide_offset_*(newton_rod_theta_ * newton_rod_theta_)*span_rod_head_x_;
+    step[0] = bend_rod_theta_ + newton_rod_theta_;
+    bend[0] = bend_rod_theta_;
     return 0;
 }
 
@@ -264,37 +265,37 @@ int chain_rates(const double t, const double *q, const Memory *memory, const Par
 {
     (void)t, (void)memory;
     /* coordinates, velocities, time */
-    const double cos_theta_crank = q[2];
-    const double sin_theta_crank = q[3];
-    const double cos_theta_rod = q[4];
-    const double sin_theta_rod = q[5];
+    const double cos_theta_crank_ = q[2];
+    const double sin_theta_crank_ = q[3];
+    const double cos_theta_rod_ = q[4];
+    const double sin_theta_rod_ = q[5];
 
     /* directions, arms, drives */
-    const double motor_rate = p->omega;
-    const double motor_acceleration = 0.0;
-    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
-    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
-    const double span_rod_head_x = cos_theta_rod*p->rod_head_span_x;
-    const double span_rod_head_y = p->rod_head_span_x*sin_theta_rod;
+    const double motor_rate_ = p->omega_;
+    const double motor_acceleration_ = 0.0;
+    const double span_crank_head_x_ = cos_theta_crank_*p->crank_head_span_x_;
+    const double span_crank_head_y_ = p->crank_head_span_x_*sin_theta_crank_;
+    const double span_rod_head_x_ = cos_theta_rod_*p->rod_head_span_x_;
+    const double span_rod_head_y_ = p->rod_head_span_x_*sin_theta_rod_;
 
     /* groups of rows that are solved one after the other */
-    const double pivot_guide_offset = span_rod_head_y;
-    const double size_guide_offset__rod_theta = fabs(span_rod_head_x) + fabs(span_rod_head_y);
-    if (!(fabs(pivot_guide_offset) > SINGULAR_SQUARE * size_guide_offset__rod_theta))
+    const double pivot_guide_offset_ = span_rod_head_y_;
+    const double size_guide_offset_rod_theta_ = fabs(span_rod_head_x_) + fabs(span_rod_head_y_);
+    if (!(fabs(pivot_guide_offset_) > SINGULAR_SQUARE * size_guide_offset_rod_theta_))
         return 1;
-    const double inverse_guide_offset = 1.0/pivot_guide_offset;
+    const double inverse_guide_offset_ = 1.0/pivot_guide_offset_;
 
     /* rates */
-    const double rate_rod_theta = -inverse_guide_offset*motor_rate*span_crank_head_y;
-    const double rod_omega = rate_rod_theta;
+    const double rate_rod_theta_ = -inverse_guide_offset_*motor_rate_*span_crank_head_y_;
+    const double rod_omega_ = rate_rod_theta_;
 
     /* second rates */
-    const double second_rod_theta = inverse_guide_offset*(-motor_acceleration*span_crank_head_y
-        - (motor_rate * motor_rate)*span_crank_head_x - (rod_omega * rod_omega)*span_rod_head_x);
+    const double second_rod_theta_ = inverse_guide_offset_*(-motor_acceleration_*span_crank_head_y_
+        - (motor_rate_ * motor_rate_)*span_crank_head_x_ - (rod_omega_ * rod_omega_)*span_rod_head_x_);
 
     /* results */
-    v[1] = rod_omega;
-    v[2] = second_rod_theta;
+    v[1] = rod_omega_;
+    v[2] = second_rod_theta_;
     return 0;
 }
 
@@ -307,38 +308,38 @@ int chain_third(const double t, const double *q, const double *v, const Memory *
 {
     (void)t, (void)memory;
     /* coordinates, velocities, time */
-    const double rod_omega = v[1];
-    const double cos_theta_crank = q[2];
-    const double sin_theta_crank = q[3];
-    const double cos_theta_rod = q[4];
-    const double sin_theta_rod = q[5];
-    const double rod_theta_second = v[2];
+    const double rod_omega_ = v[1];
+    const double cos_theta_crank_ = q[2];
+    const double sin_theta_crank_ = q[3];
+    const double cos_theta_rod_ = q[4];
+    const double sin_theta_rod_ = q[5];
+    const double rod_theta_second_ = v[2];
 
     /* directions, arms, drives */
-    const double motor_rate = p->omega;
-    const double motor_acceleration = 0.0;
-    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
-    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
-    const double span_rod_head_x = cos_theta_rod*p->rod_head_span_x;
-    const double span_rod_head_y = p->rod_head_span_x*sin_theta_rod;
+    const double motor_rate_ = p->omega_;
+    const double motor_acceleration_ = 0.0;
+    const double span_crank_head_x_ = cos_theta_crank_*p->crank_head_span_x_;
+    const double span_crank_head_y_ = p->crank_head_span_x_*sin_theta_crank_;
+    const double span_rod_head_x_ = cos_theta_rod_*p->rod_head_span_x_;
+    const double span_rod_head_y_ = p->rod_head_span_x_*sin_theta_rod_;
 
     /* groups of rows that are solved one after the other */
-    const double pivot_guide_offset = span_rod_head_y;
-    const double size_guide_offset__rod_theta = fabs(span_rod_head_x) + fabs(span_rod_head_y);
-    if (!(fabs(pivot_guide_offset) > SINGULAR_SQUARE * size_guide_offset__rod_theta))
+    const double pivot_guide_offset_ = span_rod_head_y_;
+    const double size_guide_offset_rod_theta_ = fabs(span_rod_head_x_) + fabs(span_rod_head_y_);
+    if (!(fabs(pivot_guide_offset_) > SINGULAR_SQUARE * size_guide_offset_rod_theta_))
         return 1;
-    const double inverse_guide_offset = 1.0/pivot_guide_offset;
+    const double inverse_guide_offset_ = 1.0/pivot_guide_offset_;
 
     /* third rates */
-    const double span_crank_head_x_by_time = -motor_rate*span_crank_head_y;
-    const double span_crank_head_y_by_time = motor_rate*span_crank_head_x;
-    const double span_rod_head_x_by_time = -rod_omega*span_rod_head_y;
-    const double span_rod_head_y_by_time = rod_omega*span_rod_head_x;
-    const double third_rod_theta = inverse_guide_offset*(-2.0*motor_acceleration*motor_rate*span_crank_head_x
-        - motor_acceleration*span_crank_head_y_by_time - (motor_rate * motor_rate)*span_crank_head_x_by_time
-        - (rod_omega * rod_omega)*span_rod_head_x_by_time - 2.0*rod_omega*rod_theta_second*span_rod_head_x
-        - rod_theta_second*span_rod_head_y_by_time);
-    out[0] = third_rod_theta;
+    const double span_crank_head_x_by_time_ = -motor_rate_*span_crank_head_y_;
+    const double span_crank_head_y_by_time_ = motor_rate_*span_crank_head_x_;
+    const double span_rod_head_x_by_time_ = -rod_omega_*span_rod_head_y_;
+    const double span_rod_head_y_by_time_ = rod_omega_*span_rod_head_x_;
+    const double third_rod_theta_ = inverse_guide_offset_*(-2.0*motor_acceleration_*motor_rate_*span_crank_head_x_
+        - motor_acceleration_*span_crank_head_y_by_time_ - (motor_rate_ * motor_rate_)*span_crank_head_x_by_time_
+        - (rod_omega_ * rod_omega_)*span_rod_head_x_by_time_ - 2.0*rod_omega_*rod_theta_second_*span_rod_head_x_
+        - rod_theta_second_*span_rod_head_y_by_time_);
+    out[0] = third_rod_theta_;
     return 0;
 }
 

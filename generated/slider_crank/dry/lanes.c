@@ -12,54 +12,50 @@
 
 /* Numbers of each run side by side, field by field those of Parameters in model.h: meanings, addresses, units too. */
 typedef struct LaneParameters {
-    Lanes omega;
-    Lanes c;
-    Lanes crank_mass;
-    Lanes crank_inertia;
-    Lanes rod_mass;
-    Lanes rod_inertia;
-    Lanes slider_mass;
-    Lanes slider_inertia;
-    Lanes crank_length;
-    Lanes rod_length;
-    Lanes alpha;
-    Lanes beta;
-    Lanes cylinder_axis_x;
-    Lanes pin_radius;
-    Lanes pin_clearance;
-    Lanes pin_length;
-    Lanes steel_E;
-    Lanes steel_nu;
-    Lanes dry_normal_restitution;
-    Lanes dry_normal_exponent;
-    Lanes dry_friction_mu;
-    Lanes dry_friction_v0;
-    Lanes dry_friction_v1;
-    Lanes velocity_floor;
-    Lanes guess_rod_theta;
-    Lanes guess_slider_x;
-    Lanes crank_head_s_x;
-    Lanes rod_head_s_x;
-    Lanes R_j_pin;
-    Lanes dry_pin_K;
-    Lanes dry_pin_hysteresis;
-    Lanes dry_pin_friction_slope;
-    Lanes two_alpha;
-    Lanes beta_squared;
-    Lanes inverse_slider_mass;
-    Lanes inverse_rod_mass;
-    Lanes inverse_slider_inertia;
-    Lanes inverse_crank_mass;
-    Lanes inverse_rod_inertia;
-    Lanes inverse_crank_inertia;
-    Lanes crank_head_span_x;
-    Lanes rod_head_span_x;
-    Lanes inertia_crank_crank;
-    Lanes inertia_crank_rod;
-    Lanes inertia_rod_rod;
-    Lanes mass_motor_motor;
-    Lanes mass_rod_rod;
-    Lanes inverse_mass_rod_rod;
+    Lanes omega_;
+    Lanes c_;
+    Lanes crank_mass_;
+    Lanes crank_inertia_;
+    Lanes rod_mass_;
+    Lanes rod_inertia_;
+    Lanes slider_mass_;
+    Lanes slider_inertia_;
+    Lanes crank_length_;
+    Lanes rod_length_;
+    Lanes alpha_;
+    Lanes beta_;
+    Lanes cylinder_axis_x_;
+    Lanes pin_radius_;
+    Lanes pin_clearance_;
+    Lanes pin_length_;
+    Lanes steel_E_;
+    Lanes steel_nu_;
+    Lanes dry_normal_restitution_;
+    Lanes dry_normal_exponent_;
+    Lanes dry_friction_mu_;
+    Lanes dry_friction_v0_;
+    Lanes dry_friction_v1_;
+    Lanes velocity_floor_;
+    Lanes guess_rod_theta_;
+    Lanes guess_slider_x_;
+    Lanes crank_head_s_x_;
+    Lanes rod_head_s_x_;
+    Lanes R_j_pin_;
+    Lanes dry_pin_K_;
+    Lanes dry_pin_hysteresis_;
+    Lanes dry_pin_friction_slope_;
+    Lanes rod_turning_;
+    Lanes two_alpha_;
+    Lanes beta_squared_;
+    Lanes inverse_slider_mass_;
+    Lanes crank_head_span_x_;
+    Lanes rod_head_span_x_;
+    Lanes inertia_crank_crank_;
+    Lanes inertia_crank_rod_;
+    Lanes inertia_rod_rod_;
+    Lanes mass_motor_motor_;
+    Lanes mass_rod_rod_;
+    Lanes inverse_mass_rod_rod_;
 } LaneParameters;
 
 _Static_assert(sizeof(LaneParameters) / sizeof(Lanes) == sizeof(Parameters) / sizeof(double), "the same numbers");
@@ -70,7 +66,7 @@ static inline Lanes lane_deepest(const LaneParameters *p, int i)
     (void)p;
     switch (i) {
     case 0:
-        return (1.0/10.0)*p->pin_radius;
+        return (1.0/10.0)*p->pin_radius_;
     default:
         return all_of(0.0);
     }
@@ -112,19 +108,19 @@ static inline void modified_coulomb(Lanes F_n, Lanes v_t, Lanes mu, Lanes v0, La
 }
 
 /* Dry contact in joint wristpin, as in clearance.c. */
-static inline LanePinForce dry_wristpin(Lanes delta, Lanes deltadot, Lanes de_t, Lanes omega_i, Lanes omega_j,
+static inline LanePinForce dry_wristpin_(Lanes delta, Lanes deltadot, Lanes de_t, Lanes omega_i, Lanes omega_j,
     const LaneLatch *latch, const LaneParameters *p, const Lanes *side, Lanes *g)
 {
     (void)side, (void)g;
     const Lanes ratio = pick(latch->closed > 0.0, deltadot / latch->deltadot_minus, all_of(1.0));
-    const Lanes a_i = 0.5*delta + p->pin_radius;
-    const Lanes a_j = -0.5*delta + p->R_j_pin;
+    const Lanes a_i = 0.5*delta + p->pin_radius_;
+    const Lanes a_j = -0.5*delta + p->R_j_pin_;
     const Lanes v_t = -a_i*omega_i + a_j*omega_j + de_t;
     Lanes F_n;
-    lankarani_nikravesh(lanes_max_of(delta, all_of(0.0)), ratio, p->dry_normal_exponent, p->dry_pin_K,
-        p->dry_pin_hysteresis, side, g, 0, &F_n);
+    lankarani_nikravesh(lanes_max_of(delta, all_of(0.0)), ratio, p->dry_normal_exponent_, p->dry_pin_K_,
+        p->dry_pin_hysteresis_, side, g, 0, &F_n);
     Lanes F_along_t_dry;
-    modified_coulomb(F_n, v_t, p->dry_friction_mu, p->dry_friction_v0, p->dry_pin_friction_slope, side, g, 1,
+    modified_coulomb(F_n, v_t, p->dry_friction_mu_, p->dry_friction_v0_, p->dry_pin_friction_slope_, side, g, 1,
         &F_along_t_dry);
     const Lanes M_i_dry = -F_along_t_dry*a_i;
     const Lanes M_j_dry = F_along_t_dry*a_j;
@@ -132,14 +128,14 @@ static inline LanePinForce dry_wristpin(Lanes delta, Lanes deltadot, Lanes de_t,
 }
 
 /* Joint wristpin: what each lane does not have is passed over where no lane has it. */
-static void clearance_wristpin(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes omega_i, Lanes omega_j,
+static void clearance_wristpin_(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes omega_i, Lanes omega_j,
     const LaneLatch *latch, const LaneParameters *p, const Lanes *side, Lanes *g, LaneClearance *out)
 {
     const Lanes e = lanes_sqrt((e_x * e_x) + (e_y * e_y));
     const Lanes inverse_e = 1.0/e;
     const Lanes n_x = pick(e > 0.0, e_x*inverse_e, all_of(1.0));
     const Lanes n_y = pick(e > 0.0, e_y*inverse_e, all_of(0.0));
-    const Lanes delta = e - p->pin_clearance;
+    const Lanes delta = e - p->pin_clearance_;
     const Lanes deltadot = de_x*n_x + de_y*n_y;
     const Lanes de_t = -de_x*n_y + de_y*n_x;
     silence(g, 0, 5); /* what does not act does not switch */
@@ -148,7 +144,7 @@ static void clearance_wristpin(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lan
     if (any_of(touching)) {
         Lanes film_g[N_SWITCHES];
         set_aside(g, film_g, 0, 5);
-        LanePinForce dry = dry_wristpin(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
+        LanePinForce dry = dry_wristpin_(delta, deltadot, de_t, omega_i, omega_j, latch, p, side, g);
         F.n = pick(touching, dry.n, F.n);
         F.t = pick(touching, dry.t, F.t);
         F.M_i = pick(touching, dry.M_i, F.M_i);
@@ -195,66 +191,66 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
     Lanes *const g = told_sides(aside);
 
     /* coordinates, velocities, time */
-    const Lanes cylinder_slide = q[0];
-    const Lanes cylinder_slide_rate = v[0];
-    const Lanes rod_theta = q[1];
-    const Lanes rod_omega = v[1];
+    const Lanes cylinder_slide_ = q[0];
+    const Lanes cylinder_slide_rate_ = v[0];
+    const Lanes rod_theta_ = q[1];
+    const Lanes rod_omega_ = v[1];
 
     /* directions, arms, drives */
-    const Lanes motor_value = p->omega*t;
+    const Lanes motor_value_ = p->omega_*t;
     Lanes sines_0, cosines_0;
-    sines_and_cosines(motor_value, &sines_0, &cosines_0, rare);
+    sines_and_cosines(motor_value_, &sines_0, &cosines_0, rare);
     Lanes sines_1, cosines_1;
-    sines_and_cosines(rod_theta, &sines_1, &cosines_1, rare);
-    const Lanes cos_theta_crank = cosines_0;
-    const Lanes sin_theta_crank = sines_0;
-    const Lanes cos_theta_rod = cosines_1;
-    const Lanes sin_theta_rod = sines_1;
-    const Lanes motor_rate = p->omega;
-    const Lanes motor_acceleration = all_of(0.0);
-    const Lanes slider_omega = all_of(0.0);
-    const Lanes span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
-    const Lanes span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
-    const Lanes crank_head_vx = -motor_rate*span_crank_head_y;
-    const Lanes crank_head_vy = motor_rate*span_crank_head_x;
-    const Lanes span_rod_head_x = cos_theta_rod*p->rod_head_span_x;
-    const Lanes span_rod_head_y = p->rod_head_span_x*sin_theta_rod;
-    const Lanes rod_head_x = span_crank_head_x + span_rod_head_x;
-    const Lanes rod_head_vx = crank_head_vx - rod_omega*span_rod_head_y;
-    const Lanes rod_head_y = span_crank_head_y + span_rod_head_y;
-    const Lanes rod_head_vy = crank_head_vy + rod_omega*span_rod_head_x;
-    const Lanes cos_rod_less_crank = cos_theta_crank*cos_theta_rod + sin_theta_crank*sin_theta_rod;
-    const Lanes sin_rod_less_crank = cos_theta_crank*sin_theta_rod - cos_theta_rod*sin_theta_crank;
-    const Lanes dot_crank_rod = cos_rod_less_crank*p->inertia_crank_rod;
-    const Lanes cross_crank_rod = p->inertia_crank_rod*sin_rod_less_crank;
+    sines_and_cosines(rod_theta_, &sines_1, &cosines_1, rare);
+    const Lanes cos_theta_crank_ = cosines_0;
+    const Lanes sin_theta_crank_ = sines_0;
+    const Lanes cos_theta_rod_ = cosines_1;
+    const Lanes sin_theta_rod_ = sines_1;
+    const Lanes motor_rate_ = p->omega_;
+    const Lanes motor_acceleration_ = all_of(0.0);
+    const Lanes slider_omega_ = all_of(0.0);
+    const Lanes span_crank_head_x_ = cos_theta_crank_*p->crank_head_span_x_;
+    const Lanes span_crank_head_y_ = p->crank_head_span_x_*sin_theta_crank_;
+    const Lanes crank_head_vx_ = -motor_rate_*span_crank_head_y_;
+    const Lanes crank_head_vy_ = motor_rate_*span_crank_head_x_;
+    const Lanes span_rod_head_x_ = cos_theta_rod_*p->rod_head_span_x_;
+    const Lanes span_rod_head_y_ = p->rod_head_span_x_*sin_theta_rod_;
+    const Lanes rod_head_x_ = span_crank_head_x_ + span_rod_head_x_;
+    const Lanes rod_head_vx_ = crank_head_vx_ - rod_omega_*span_rod_head_y_;
+    const Lanes rod_head_y_ = span_crank_head_y_ + span_rod_head_y_;
+    const Lanes rod_head_vy_ = crank_head_vy_ + rod_omega_*span_rod_head_x_;
+    const Lanes cos_rod_less_crank_ = cos_theta_crank_*cos_theta_rod_ + sin_theta_crank_*sin_theta_rod_;
+    const Lanes sin_rod_less_crank_ = cos_theta_crank_*sin_theta_rod_ - cos_theta_rod_*sin_theta_crank_;
+    const Lanes dot_crank_rod_ = cos_rod_less_crank_*p->inertia_crank_rod_;
+    const Lanes cross_crank_rod_ = p->inertia_crank_rod_*sin_rod_less_crank_;
 
     /* clearance joint wristpin */
-    const Lanes e_wristpin_x = cylinder_slide - rod_head_x;
-    const Lanes e_wristpin_y = -rod_head_y;
-    const Lanes edot_wristpin_x = cylinder_slide_rate - rod_head_vx;
-    const Lanes edot_wristpin_y = -rod_head_vy;
-    clearance_wristpin(e_wristpin_x, e_wristpin_y, edot_wristpin_x, edot_wristpin_y, rod_omega, slider_omega,
+    const Lanes e_wristpin_x_ = cylinder_slide_ - rod_head_x_;
+    const Lanes e_wristpin_y_ = -rod_head_y_;
+    const Lanes edot_wristpin_x_ = cylinder_slide_rate_ - rod_head_vx_;
+    const Lanes edot_wristpin_y_ = -rod_head_vy_;
+    clearance_wristpin_(e_wristpin_x_, e_wristpin_y_, edot_wristpin_x_, edot_wristpin_y_, rod_omega_, slider_omega_,
         &memory->latch[0], p, side, g, &aside->clearance[0]);
-    const Lanes F_wristpin_x = aside->clearance[0].Fx;
-    const Lanes F_wristpin_y = aside->clearance[0].Fy;
-    const Lanes M_wristpin_first = aside->clearance[0].moment_first;
-    const Lanes M_wristpin_second = aside->clearance[0].moment_second;
-    aside->clearance[0].power = F_wristpin_x*edot_wristpin_x + F_wristpin_y*edot_wristpin_y
-        + M_wristpin_first*rod_omega + M_wristpin_second*slider_omega;
+    const Lanes F_wristpin_x_ = aside->clearance[0].Fx;
+    const Lanes F_wristpin_y_ = aside->clearance[0].Fy;
+    const Lanes M_wristpin_first_ = aside->clearance[0].moment_first;
+    const Lanes M_wristpin_second_ = aside->clearance[0].moment_second;
+    aside->clearance[0].power = F_wristpin_x_*edot_wristpin_x_ + F_wristpin_y_*edot_wristpin_y_
+        + M_wristpin_first_*rod_omega_ + M_wristpin_second_*slider_omega_;
 
     /* forward substitution */
-    const Lanes z_rod_theta = F_wristpin_x*span_rod_head_y - F_wristpin_y*span_rod_head_x + M_wristpin_first
-        - cross_crank_rod*(motor_rate * motor_rate) - dot_crank_rod*motor_acceleration;
+    const Lanes z_rod_theta_ = F_wristpin_x_*span_rod_head_y_ - F_wristpin_y_*span_rod_head_x_ + M_wristpin_first_
+        - cross_crank_rod_*(motor_rate_ * motor_rate_) - dot_crank_rod_*motor_acceleration_;
 
     /* backward substitution */
-    const Lanes acceleration_rod_theta = p->inverse_mass_rod_rod*z_rod_theta;
-    const Lanes acceleration_cylinder_slide = F_wristpin_x*p->inverse_slider_mass;
+    const Lanes acceleration_rod_theta_ = p->inverse_mass_rod_rod_*z_rod_theta_;
+    const Lanes acceleration_cylinder_slide_ = F_wristpin_x_*p->inverse_slider_mass_;
 
     /* results */
-    a[0] = acceleration_cylinder_slide;
-    a[1] = acceleration_rod_theta;
-    aside->power[0] = motor_rate*(-F_wristpin_x*span_crank_head_y + F_wristpin_y*span_crank_head_x + a[1]*dot_crank_rod
-        - cross_crank_rod*(rod_omega * rod_omega) + p->mass_motor_motor*motor_acceleration);
+    a[0] = acceleration_cylinder_slide_;
+    a[1] = acceleration_rod_theta_;
+    aside->power[0] = motor_rate_*(-F_wristpin_x_*span_crank_head_y_ + F_wristpin_y_*span_crank_head_x_
+        + a[1]*dot_crank_rod_ - cross_crank_rod_*(rod_omega_ * rod_omega_) + p->mass_motor_motor_*motor_acceleration_);
     aside->power[1] = all_of(0.0);
     aside->power[2] = aside->clearance[0].power;
 }
@@ -268,18 +264,18 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
 {
     (void)t, (void)q, (void)v, (void)memory, (void)p, (void)rare;
     /* backward substitution */
-    const Lanes dq_acceleration_rod_theta = all_of(0.0);
-    const Lanes dq_acceleration_cylinder_slide = all_of(0.0);
+    const Lanes dq_acceleration_rod_theta_ = all_of(0.0);
+    const Lanes dq_acceleration_cylinder_slide_ = all_of(0.0);
 
     /* backward substitution */
-    const Lanes dv_acceleration_rod_theta = all_of(0.0);
-    const Lanes dv_acceleration_cylinder_slide = all_of(0.0);
+    const Lanes dv_acceleration_rod_theta_ = all_of(0.0);
+    const Lanes dv_acceleration_cylinder_slide_ = all_of(0.0);
 
     /* results */
-    dq[0] = dq_acceleration_cylinder_slide;
-    dv[0] = dv_acceleration_cylinder_slide;
-    dq[1] = dq_acceleration_rod_theta;
-    dv[1] = dv_acceleration_rod_theta;
+    dq[0] = dq_acceleration_cylinder_slide_;
+    dv[0] = dv_acceleration_cylinder_slide_;
+    dq[1] = dq_acceleration_rod_theta_;
+    dv[1] = dv_acceleration_rod_theta_;
     *worst = all_of(0.0);
 }
 
@@ -355,24 +351,24 @@ static inline void dry_slopes_lankarani_nikravesh_modified_coulomb(Lanes e, Lane
     /* penetration, ratio of velocities, slip */
     const Lanes delta = e - c;
     const Lanes depth = lanes_max_of(delta, all_of(0.0));
-    const Lanes depth_by_e = pick(delta > 0.0, all_of(1.0), all_of(0.0));
+    const Lanes depth_by_e_ = pick(delta > 0.0, all_of(1.0), all_of(0.0));
     const Lanes ratio = pick(latch->closed > 0.0, deltadot/latch->deltadot_minus, all_of(1.0));
-    const Lanes ratio_by_deltadot = pick(latch->closed > 0.0, 1.0/latch->deltadot_minus, all_of(0.0));
+    const Lanes ratio_by_deltadot_ = pick(latch->closed > 0.0, 1.0/latch->deltadot_minus, all_of(0.0));
     const Lanes a_i = 0.5*delta + R_i;
     const Lanes a_j = -0.5*delta + R_j;
     const Lanes v_t = -a_i*omega_i + a_j*omega_j + de_t;
-    const Lanes v_t_by_e = -0.5*omega_i - 0.5*omega_j;
+    const Lanes v_t_by_e_ = -0.5*omega_i - 0.5*omega_j;
 
     /* contact */
     const Lanes side_1 = lanes_side_of(side, g, corner, hysteresis*ratio + 1.0);
-    const Lanes power_depth = lanes_pow(depth, exponent - 1.0);
+    const Lanes power_depth_ = lanes_pow(depth, exponent - 1.0);
     const Lanes larger_1 = pick(side_1 < 0.0, all_of(0.0), hysteresis*ratio + 1.0);
-    const Lanes F_n = depth*K*power_depth*larger_1;
-    const Lanes F_n_by_depth = exponent*K*power_depth*larger_1;
+    const Lanes F_n = depth*K*power_depth_*larger_1;
+    const Lanes F_n_by_depth_ = exponent*K*power_depth_*larger_1;
     const Lanes branch_1 = pick(side_1 < 0.0, all_of(0.0), hysteresis);
-    const Lanes F_n_by_ratio = depth*K*power_depth*branch_1;
-    const Lanes F_n_by_e = F_n_by_depth*depth_by_e;
-    const Lanes F_n_by_deltadot = F_n_by_ratio*ratio_by_deltadot;
+    const Lanes F_n_by_ratio_ = depth*K*power_depth_*branch_1;
+    const Lanes F_n_by_e_ = F_n_by_depth_*depth_by_e_;
+    const Lanes F_n_by_deltadot_ = F_n_by_ratio_*ratio_by_deltadot_;
     const Lanes side_2 = lanes_side_of(side, g, corner + 1, -friction_slope*(-v0 - v_t) + 1.0);
     const Lanes smaller_1 = pick(side_2 < 0.0, all_of(1.0), friction_slope*(-v0 - v_t));
     const Lanes side_3 = lanes_side_of(side, g, corner + 2, smaller_1);
@@ -382,59 +378,59 @@ static inline void dry_slopes_lankarani_nikravesh_modified_coulomb(Lanes e, Lane
     const Lanes larger_2 = pick(side_3 < 0.0, all_of(0.0), smaller_1);
     const Lanes larger_3 = pick(side_5 < 0.0, all_of(0.0), smaller_2);
     const Lanes F_t = -F_n*mu*(-larger_2 + larger_3);
-    const Lanes F_t_by_F_n = -mu*(-larger_2 + larger_3);
+    const Lanes F_t_by_F_n_ = -mu*(-larger_2 + larger_3);
     const Lanes branch_2 = pick(side_2 < 0.0, all_of(0.0), -friction_slope);
     const Lanes branch_3 = pick(side_3 < 0.0, all_of(0.0), branch_2);
     const Lanes branch_4 = pick(side_4 < 0.0, all_of(0.0), friction_slope);
     const Lanes branch_5 = pick(side_5 < 0.0, all_of(0.0), branch_4);
-    const Lanes F_t_by_v_t = -F_n*mu*(-branch_3 + branch_5);
-    const Lanes F_t_by_e = F_n_by_e*F_t_by_F_n + F_t_by_v_t*v_t_by_e;
-    const Lanes F_t_by_deltadot = F_n_by_deltadot*F_t_by_F_n;
-    const Lanes F_t_by_omega_i = -F_t_by_v_t*a_i;
-    const Lanes F_t_by_omega_j = F_t_by_v_t*a_j;
+    const Lanes F_t_by_v_t_ = -F_n*mu*(-branch_3 + branch_5);
+    const Lanes F_t_by_e_ = F_n_by_e_*F_t_by_F_n_ + F_t_by_v_t_*v_t_by_e_;
+    const Lanes F_t_by_deltadot_ = F_n_by_deltadot_*F_t_by_F_n_;
+    const Lanes F_t_by_omega_i_ = -F_t_by_v_t_*a_i;
+    const Lanes F_t_by_omega_j_ = F_t_by_v_t_*a_j;
     const Lanes F_along_t_dry = F_t;
     const Lanes M_i_dry = -F_along_t_dry*a_i;
-    const Lanes M_i_dry_by_e = -0.5*F_along_t_dry - F_t_by_e*a_i;
-    const Lanes M_i_dry_by_deltadot = -F_t_by_deltadot*a_i;
-    const Lanes M_i_dry_by_de_t = -F_t_by_v_t*a_i;
-    const Lanes M_i_dry_by_omega_i = -F_t_by_omega_i*a_i;
-    const Lanes M_i_dry_by_omega_j = -F_t_by_omega_j*a_i;
+    const Lanes M_i_dry_by_e_ = -0.5*F_along_t_dry - F_t_by_e_*a_i;
+    const Lanes M_i_dry_by_deltadot_ = -F_t_by_deltadot_*a_i;
+    const Lanes M_i_dry_by_de_t_ = -F_t_by_v_t_*a_i;
+    const Lanes M_i_dry_by_omega_i_ = -F_t_by_omega_i_*a_i;
+    const Lanes M_i_dry_by_omega_j_ = -F_t_by_omega_j_*a_i;
     const Lanes M_j_dry = F_along_t_dry*a_j;
-    const Lanes M_j_dry_by_e = -0.5*F_along_t_dry + F_t_by_e*a_j;
-    const Lanes M_j_dry_by_deltadot = F_t_by_deltadot*a_j;
-    const Lanes M_j_dry_by_de_t = F_t_by_v_t*a_j;
-    const Lanes M_j_dry_by_omega_i = F_t_by_omega_i*a_j;
-    const Lanes M_j_dry_by_omega_j = F_t_by_omega_j*a_j;
+    const Lanes M_j_dry_by_e_ = -0.5*F_along_t_dry + F_t_by_e_*a_j;
+    const Lanes M_j_dry_by_deltadot_ = F_t_by_deltadot_*a_j;
+    const Lanes M_j_dry_by_de_t_ = F_t_by_v_t_*a_j;
+    const Lanes M_j_dry_by_omega_i_ = F_t_by_omega_i_*a_j;
+    const Lanes M_j_dry_by_omega_j_ = F_t_by_omega_j_*a_j;
 
     /* results */
     out->value[0] = -F_n;
-    out->slope[0][0] = -F_n_by_e;
-    out->slope[0][1] = -F_n_by_deltadot;
+    out->slope[0][0] = -F_n_by_e_;
+    out->slope[0][1] = -F_n_by_deltadot_;
     out->slope[0][2] = all_of(0.0);
     out->slope[0][3] = all_of(0.0);
     out->slope[0][4] = all_of(0.0);
     out->value[1] = F_along_t_dry;
-    out->slope[1][0] = F_t_by_e;
-    out->slope[1][1] = F_t_by_deltadot;
-    out->slope[1][2] = F_t_by_v_t;
-    out->slope[1][3] = F_t_by_omega_i;
-    out->slope[1][4] = F_t_by_omega_j;
+    out->slope[1][0] = F_t_by_e_;
+    out->slope[1][1] = F_t_by_deltadot_;
+    out->slope[1][2] = F_t_by_v_t_;
+    out->slope[1][3] = F_t_by_omega_i_;
+    out->slope[1][4] = F_t_by_omega_j_;
     out->value[2] = M_i_dry;
-    out->slope[2][0] = M_i_dry_by_e;
-    out->slope[2][1] = M_i_dry_by_deltadot;
-    out->slope[2][2] = M_i_dry_by_de_t;
-    out->slope[2][3] = M_i_dry_by_omega_i;
-    out->slope[2][4] = M_i_dry_by_omega_j;
+    out->slope[2][0] = M_i_dry_by_e_;
+    out->slope[2][1] = M_i_dry_by_deltadot_;
+    out->slope[2][2] = M_i_dry_by_de_t_;
+    out->slope[2][3] = M_i_dry_by_omega_i_;
+    out->slope[2][4] = M_i_dry_by_omega_j_;
     out->value[3] = M_j_dry;
-    out->slope[3][0] = M_j_dry_by_e;
-    out->slope[3][1] = M_j_dry_by_deltadot;
-    out->slope[3][2] = M_j_dry_by_de_t;
-    out->slope[3][3] = M_j_dry_by_omega_i;
-    out->slope[3][4] = M_j_dry_by_omega_j;
+    out->slope[3][0] = M_j_dry_by_e_;
+    out->slope[3][1] = M_j_dry_by_deltadot_;
+    out->slope[3][2] = M_j_dry_by_de_t_;
+    out->slope[3][3] = M_j_dry_by_omega_i_;
+    out->slope[3][4] = M_j_dry_by_omega_j_;
 }
 
 /* Joint wristpin, as in newton.c: what acts in no lane is passed over. */
-static void slopes_wristpin(Lanes e, Lanes deltadot, Lanes de_t, Lanes omega_i, Lanes omega_j, const LaneLatch *latch,
+static void slopes_wristpin_(Lanes e, Lanes deltadot, Lanes de_t, Lanes omega_i, Lanes omega_j, const LaneLatch *latch,
     const LaneParameters *p, const Lanes *side, Lanes *g, LaneSlopes *out)
 {
     (void)p, (void)side, (void)g;
@@ -443,29 +439,29 @@ static void slopes_wristpin(Lanes e, Lanes deltadot, Lanes de_t, Lanes omega_i, 
     if (any_of(touching)) {
         LaneSlopes dry;
         dry_slopes_lankarani_nikravesh_modified_coulomb(e, deltadot, de_t, omega_i, omega_j, latch,
-            p->dry_normal_exponent, p->dry_friction_mu, p->dry_friction_v0, p->pin_radius, p->R_j_pin,
-            p->pin_clearance, p->dry_pin_K, p->dry_pin_hysteresis, p->dry_pin_friction_slope, side, g, 0, &dry);
+            p->dry_normal_exponent_, p->dry_friction_mu_, p->dry_friction_v0_, p->pin_radius_, p->R_j_pin_,
+            p->pin_clearance_, p->dry_pin_K_, p->dry_pin_hysteresis_, p->dry_pin_friction_slope_, side, g, 0, &dry);
         pick_slopes(out, touching, &dry);
     }
 }
 
-static void tangent_wristpin(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes omega_i, Lanes omega_j,
+static void tangent_wristpin_(Lanes e_x, Lanes e_y, Lanes de_x, Lanes de_y, Lanes omega_i, Lanes omega_j,
     const LaneLatch *latch, const LaneParameters *p, const Lanes *side, Lanes *g, Lanes dF[4][6])
 {
     LaneSlopes F;
     const Lanes e = lanes_sqrt(e_x * e_x + e_y * e_y), inverse_e = 1.0 / e, n_x = e_x * inverse_e, n_y =
         e_y * inverse_e;
     const Lanes deltadot = de_x * n_x + de_y * n_y, de_t = de_y * n_x - de_x * n_y;
-    const LaneBits centred = ~(e > CENTRED * p->pin_clearance);
-    slopes_wristpin(e, deltadot, de_t, omega_i, omega_j, latch, p, side, g, &F);
+    const LaneBits centred = ~(e > CENTRED * p->pin_clearance_);
+    slopes_wristpin_(e, deltadot, de_t, omega_i, omega_j, latch, p, side, g, &F);
     in_ground_axes(&F, n_x, n_y, deltadot, de_t, inverse_e, dF);
     if (!any_of(centred))
         return;
     /* at the centre each axis in turn is the normal */
     Lanes there[4][6];
-    slopes_wristpin(e, de_x, de_y, omega_i, omega_j, latch, p, side, g, &F);
+    slopes_wristpin_(e, de_x, de_y, omega_i, omega_j, latch, p, side, g, &F);
     in_ground_axes(&F, all_of(1.0), all_of(0.0), de_x, de_y, all_of(0.0), there);
-    slopes_wristpin(e, de_y, -de_x, omega_i, omega_j, latch, p, side, g, &F);
+    slopes_wristpin_(e, de_y, -de_x, omega_i, omega_j, latch, p, side, g, &F);
     there[0][1] = -F.slope[1][0];
     there[1][1] = F.slope[0][0];
     there[2][1] = F.slope[2][0];
@@ -490,163 +486,169 @@ static void linearize(const Lanes t, const Lanes *q, const Lanes *v, const LaneM
     Lanes g[N_SWITCHES + 1];
 
     /* coordinates, velocities, time */
-    const Lanes cylinder_slide = q[0];
-    const Lanes cylinder_slide_rate = v[0];
-    const Lanes rod_theta = q[1];
-    const Lanes rod_omega = v[1];
-    const Lanes a_rod_theta = a[1];
-    const Lanes wristpin_Fx = aside->clearance[0].Fx;
-    const Lanes wristpin_Fy = aside->clearance[0].Fy;
-    const Lanes wristpin_moment_first = aside->clearance[0].moment_first;
+    const Lanes cylinder_slide_ = q[0];
+    const Lanes cylinder_slide_rate_ = v[0];
+    const Lanes rod_theta_ = q[1];
+    const Lanes rod_omega_ = v[1];
+    const Lanes a_rod_theta_ = a[1];
+    const Lanes wristpin_Fx_ = aside->clearance[0].Fx;
+    const Lanes wristpin_Fy_ = aside->clearance[0].Fy;
+    const Lanes wristpin_moment_first_ = aside->clearance[0].moment_first;
 
     /* directions, arms, drives */
-    const Lanes motor_value = p->omega*t;
-    const Lanes motor_rate = p->omega;
-    const Lanes motor_acceleration = all_of(0.0);
-    const Lanes cos_theta_crank = lanes_cos(motor_value);
-    const Lanes sin_theta_crank = lanes_sin(motor_value);
-    const Lanes cos_theta_rod = lanes_cos(rod_theta);
-    const Lanes sin_theta_rod = lanes_sin(rod_theta);
-    const Lanes slider_omega = all_of(0.0);
-    const Lanes span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
-    const Lanes span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
-    const Lanes crank_head_vx = -motor_rate*span_crank_head_y;
-    const Lanes crank_head_vy = motor_rate*span_crank_head_x;
-    const Lanes span_rod_head_x = cos_theta_rod*p->rod_head_span_x;
-    const Lanes span_rod_head_y = p->rod_head_span_x*sin_theta_rod;
-    const Lanes rod_head_x = span_crank_head_x + span_rod_head_x;
-    const Lanes rod_head_vx = crank_head_vx - rod_omega*span_rod_head_y;
-    const Lanes rod_head_y = span_crank_head_y + span_rod_head_y;
-    const Lanes rod_head_vy = crank_head_vy + rod_omega*span_rod_head_x;
-    const Lanes cos_rod_less_crank = cos_theta_crank*cos_theta_rod + sin_theta_crank*sin_theta_rod;
-    const Lanes sin_rod_less_crank = cos_theta_crank*sin_theta_rod - cos_theta_rod*sin_theta_crank;
-    const Lanes dot_crank_rod = cos_rod_less_crank*p->inertia_crank_rod;
-    const Lanes cross_crank_rod = p->inertia_crank_rod*sin_rod_less_crank;
+    const Lanes motor_value_ = p->omega_*t;
+    const Lanes motor_rate_ = p->omega_;
+    const Lanes motor_acceleration_ = all_of(0.0);
+    const Lanes cos_theta_crank_ = lanes_cos(motor_value_);
+    const Lanes sin_theta_crank_ = lanes_sin(motor_value_);
+    const Lanes cos_theta_rod_ = lanes_cos(rod_theta_);
+    const Lanes sin_theta_rod_ = lanes_sin(rod_theta_);
+    const Lanes slider_omega_ = all_of(0.0);
+    const Lanes span_crank_head_x_ = cos_theta_crank_*p->crank_head_span_x_;
+    const Lanes span_crank_head_y_ = p->crank_head_span_x_*sin_theta_crank_;
+    const Lanes crank_head_vx_ = -motor_rate_*span_crank_head_y_;
+    const Lanes crank_head_vy_ = motor_rate_*span_crank_head_x_;
+    const Lanes span_rod_head_x_ = cos_theta_rod_*p->rod_head_span_x_;
+    const Lanes span_rod_head_y_ = p->rod_head_span_x_*sin_theta_rod_;
+    const Lanes rod_head_x_ = span_crank_head_x_ + span_rod_head_x_;
+    const Lanes rod_head_vx_ = crank_head_vx_ - rod_omega_*span_rod_head_y_;
+    const Lanes rod_head_y_ = span_crank_head_y_ + span_rod_head_y_;
+    const Lanes rod_head_vy_ = crank_head_vy_ + rod_omega_*span_rod_head_x_;
+    const Lanes cos_rod_less_crank_ = cos_theta_crank_*cos_theta_rod_ + sin_theta_crank_*sin_theta_rod_;
+    const Lanes sin_rod_less_crank_ = cos_theta_crank_*sin_theta_rod_ - cos_theta_rod_*sin_theta_crank_;
+    const Lanes dot_crank_rod_ = cos_rod_less_crank_*p->inertia_crank_rod_;
+    const Lanes cross_crank_rod_ = p->inertia_crank_rod_*sin_rod_less_crank_;
 
     /* clearance joint wristpin */
-    const Lanes e_wristpin_x = cylinder_slide - rod_head_x;
-    const Lanes e_wristpin_y = -rod_head_y;
-    const Lanes edot_wristpin_x = cylinder_slide_rate - rod_head_vx;
-    const Lanes edot_wristpin_y = -rod_head_vy;
-    Lanes change_wristpin[4][6];
-    tangent_wristpin(e_wristpin_x, e_wristpin_y, edot_wristpin_x, edot_wristpin_y, rod_omega, slider_omega,
-        &memory->latch[0], p, side, g, change_wristpin);
-    const Lanes rod_head_x_2_by_time = -motor_rate*span_crank_head_y;
-    const Lanes rod_head_y_by_time = motor_rate*span_crank_head_x;
-    const Lanes rod_head_vx_by_rod_theta = -rod_omega*span_rod_head_x;
-    const Lanes rod_head_vx_by_time = -motor_acceleration*span_crank_head_y
-        - (motor_rate * motor_rate)*span_crank_head_x;
-    const Lanes rod_head_vy_by_rod_theta = -rod_omega*span_rod_head_y;
-    const Lanes rod_head_vy_by_time = motor_acceleration*span_crank_head_x
-        - (motor_rate * motor_rate)*span_crank_head_y;
-    const Lanes wristpin_Fx_by_e_x = change_wristpin[0][0];
-    const Lanes wristpin_Fx_by_e_y = change_wristpin[0][1];
-    const Lanes wristpin_Fx_by_de_x = change_wristpin[0][2];
-    const Lanes wristpin_Fx_by_de_y = change_wristpin[0][3];
-    const Lanes wristpin_Fx_by_omega_i = change_wristpin[0][4];
-    const Lanes wristpin_Fx_by_rod_theta = -rod_head_vx_by_rod_theta*wristpin_Fx_by_de_x
-        - rod_head_vy_by_rod_theta*wristpin_Fx_by_de_y - span_rod_head_x*wristpin_Fx_by_e_y
-        + span_rod_head_y*wristpin_Fx_by_e_x;
-    const Lanes wristpin_Fx_by_time = -rod_head_vx_by_time*wristpin_Fx_by_de_x
-        - rod_head_vy_by_time*wristpin_Fx_by_de_y - rod_head_x_2_by_time*wristpin_Fx_by_e_x
-        - rod_head_y_by_time*wristpin_Fx_by_e_y;
-    const Lanes wristpin_Fx_by_rod_omega = -span_rod_head_x*wristpin_Fx_by_de_y + span_rod_head_y*wristpin_Fx_by_de_x
-        + wristpin_Fx_by_omega_i;
-    const Lanes wristpin_Fy_by_e_x = change_wristpin[1][0];
-    const Lanes wristpin_Fy_by_e_y = change_wristpin[1][1];
-    const Lanes wristpin_Fy_by_de_x = change_wristpin[1][2];
-    const Lanes wristpin_Fy_by_de_y = change_wristpin[1][3];
-    const Lanes wristpin_Fy_by_omega_i = change_wristpin[1][4];
-    const Lanes wristpin_Fy_by_rod_theta = -rod_head_vx_by_rod_theta*wristpin_Fy_by_de_x
-        - rod_head_vy_by_rod_theta*wristpin_Fy_by_de_y - span_rod_head_x*wristpin_Fy_by_e_y
-        + span_rod_head_y*wristpin_Fy_by_e_x;
-    const Lanes wristpin_Fy_by_time = -rod_head_vx_by_time*wristpin_Fy_by_de_x
-        - rod_head_vy_by_time*wristpin_Fy_by_de_y - rod_head_x_2_by_time*wristpin_Fy_by_e_x
-        - rod_head_y_by_time*wristpin_Fy_by_e_y;
-    const Lanes wristpin_Fy_by_rod_omega = -span_rod_head_x*wristpin_Fy_by_de_y + span_rod_head_y*wristpin_Fy_by_de_x
-        + wristpin_Fy_by_omega_i;
-    const Lanes wristpin_moment_first_by_e_x = change_wristpin[2][0];
-    const Lanes wristpin_moment_first_by_e_y = change_wristpin[2][1];
-    const Lanes wristpin_moment_first_by_de_x = change_wristpin[2][2];
-    const Lanes wristpin_moment_first_by_de_y = change_wristpin[2][3];
-    const Lanes wristpin_moment_first_by_omega_i = change_wristpin[2][4];
-    const Lanes wristpin_moment_first_by_rod_theta = -rod_head_vx_by_rod_theta*wristpin_moment_first_by_de_x
-        - rod_head_vy_by_rod_theta*wristpin_moment_first_by_de_y - span_rod_head_x*wristpin_moment_first_by_e_y
-        + span_rod_head_y*wristpin_moment_first_by_e_x;
-    const Lanes wristpin_moment_first_by_time = -rod_head_vx_by_time*wristpin_moment_first_by_de_x
-        - rod_head_vy_by_time*wristpin_moment_first_by_de_y - rod_head_x_2_by_time*wristpin_moment_first_by_e_x
-        - rod_head_y_by_time*wristpin_moment_first_by_e_y;
-    const Lanes wristpin_moment_first_by_rod_omega = -span_rod_head_x*wristpin_moment_first_by_de_y
-        + span_rod_head_y*wristpin_moment_first_by_de_x + wristpin_moment_first_by_omega_i;
-    const Lanes wristpin_moment_second_by_e_x = change_wristpin[3][0];
-    const Lanes wristpin_moment_second_by_e_y = change_wristpin[3][1];
-    const Lanes wristpin_moment_second_by_de_x = change_wristpin[3][2];
-    const Lanes wristpin_moment_second_by_de_y = change_wristpin[3][3];
-    const Lanes wristpin_moment_second_by_omega_i = change_wristpin[3][4];
-    const Lanes wristpin_moment_second_by_rod_theta = -rod_head_vx_by_rod_theta*wristpin_moment_second_by_de_x
-        - rod_head_vy_by_rod_theta*wristpin_moment_second_by_de_y - span_rod_head_x*wristpin_moment_second_by_e_y
-        + span_rod_head_y*wristpin_moment_second_by_e_x;
-    const Lanes wristpin_moment_second_by_time = -rod_head_vx_by_time*wristpin_moment_second_by_de_x
-        - rod_head_vy_by_time*wristpin_moment_second_by_de_y - rod_head_x_2_by_time*wristpin_moment_second_by_e_x
-        - rod_head_y_by_time*wristpin_moment_second_by_e_y;
-    const Lanes wristpin_moment_second_by_rod_omega = -span_rod_head_x*wristpin_moment_second_by_de_y
-        + span_rod_head_y*wristpin_moment_second_by_de_x + wristpin_moment_second_by_omega_i;
+    const Lanes e_wristpin_x_ = cylinder_slide_ - rod_head_x_;
+    const Lanes e_wristpin_y_ = -rod_head_y_;
+    const Lanes edot_wristpin_x_ = cylinder_slide_rate_ - rod_head_vx_;
+    const Lanes edot_wristpin_y_ = -rod_head_vy_;
+    Lanes change_wristpin_[4][6];
+    tangent_wristpin_(e_wristpin_x_, e_wristpin_y_, edot_wristpin_x_, edot_wristpin_y_, rod_omega_, slider_omega_,
+        &memory->latch[0], p, side, g, change_wristpin_);
+    const Lanes rod_head_x_2_by_time_ = -motor_rate_*span_crank_head_y_;
+    const Lanes rod_head_y_by_time_ = motor_rate_*span_crank_head_x_;
+    const Lanes rod_head_vx_by_rod_theta_ = -rod_omega_*span_rod_head_x_;
+    const Lanes rod_head_vx_by_time_ = -motor_acceleration_*span_crank_head_y_
+        - (motor_rate_ * motor_rate_)*span_crank_head_x_;
+    const Lanes rod_head_vy_by_rod_theta_ = -rod_omega_*span_rod_head_y_;
+    const Lanes rod_head_vy_by_time_ = motor_acceleration_*span_crank_head_x_
+        - (motor_rate_ * motor_rate_)*span_crank_head_y_;
+    const Lanes wristpin_Fx_by_e_x_ = change_wristpin_[0][0];
+    const Lanes wristpin_Fx_by_e_y_ = change_wristpin_[0][1];
+    const Lanes wristpin_Fx_by_de_x_ = change_wristpin_[0][2];
+    const Lanes wristpin_Fx_by_de_y_ = change_wristpin_[0][3];
+    const Lanes wristpin_Fx_by_omega_i_ = change_wristpin_[0][4];
+    const Lanes wristpin_Fx_by_rod_theta_ = -rod_head_vx_by_rod_theta_*wristpin_Fx_by_de_x_
+        - rod_head_vy_by_rod_theta_*wristpin_Fx_by_de_y_ - span_rod_head_x_*wristpin_Fx_by_e_y_
+        + span_rod_head_y_*wristpin_Fx_by_e_x_;
+    const Lanes wristpin_Fx_by_time_ = -rod_head_vx_by_time_*wristpin_Fx_by_de_x_
+        - rod_head_vy_by_time_*wristpin_Fx_by_de_y_ - rod_head_x_2_by_time_*wristpin_Fx_by_e_x_
+        - rod_head_y_by_time_*wristpin_Fx_by_e_y_;
+    const Lanes wristpin_Fx_by_rod_omega_ = -span_rod_head_x_*wristpin_Fx_by_de_y_
+        + span_rod_head_y_*wristpin_Fx_by_de_x_ + wristpin_Fx_by_omega_i_;
+    const Lanes wristpin_Fy_by_e_x_ = change_wristpin_[1][0];
+    const Lanes wristpin_Fy_by_e_y_ = change_wristpin_[1][1];
+    const Lanes wristpin_Fy_by_de_x_ = change_wristpin_[1][2];
+    const Lanes wristpin_Fy_by_de_y_ = change_wristpin_[1][3];
+    const Lanes wristpin_Fy_by_omega_i_ = change_wristpin_[1][4];
+    const Lanes wristpin_Fy_by_rod_theta_ = -rod_head_vx_by_rod_theta_*wristpin_Fy_by_de_x_
+        - rod_head_vy_by_rod_theta_*wristpin_Fy_by_de_y_ - span_rod_head_x_*wristpin_Fy_by_e_y_
+        + span_rod_head_y_*wristpin_Fy_by_e_x_;
+    const Lanes wristpin_Fy_by_time_ = -rod_head_vx_by_time_*wristpin_Fy_by_de_x_
+        - rod_head_vy_by_time_*wristpin_Fy_by_de_y_ - rod_head_x_2_by_time_*wristpin_Fy_by_e_x_
+        - rod_head_y_by_time_*wristpin_Fy_by_e_y_;
+    const Lanes wristpin_Fy_by_rod_omega_ = -span_rod_head_x_*wristpin_Fy_by_de_y_
+        + span_rod_head_y_*wristpin_Fy_by_de_x_ + wristpin_Fy_by_omega_i_;
+    const Lanes wristpin_moment_first_by_e_x_ = change_wristpin_[2][0];
+    const Lanes wristpin_moment_first_by_e_y_ = change_wristpin_[2][1];
+    const Lanes wristpin_moment_first_by_de_x_ = change_wristpin_[2][2];
+    const Lanes wristpin_moment_first_by_de_y_ = change_wristpin_[2][3];
+    const Lanes wristpin_moment_first_by_omega_i_ = change_wristpin_[2][4];
+    const Lanes wristpin_moment_first_by_rod_theta_ = -rod_head_vx_by_rod_theta_*wristpin_moment_first_by_de_x_
+        - rod_head_vy_by_rod_theta_*wristpin_moment_first_by_de_y_ - span_rod_head_x_*wristpin_moment_first_by_e_y_
+        + span_rod_head_y_*wristpin_moment_first_by_e_x_;
+    const Lanes wristpin_moment_first_by_time_ = -rod_head_vx_by_time_*wristpin_moment_first_by_de_x_
+        - rod_head_vy_by_time_*wristpin_moment_first_by_de_y_ - rod_head_x_2_by_time_*wristpin_moment_first_by_e_x_
+        - rod_head_y_by_time_*wristpin_moment_first_by_e_y_;
+    const Lanes wristpin_moment_first_by_rod_omega_ = -span_rod_head_x_*wristpin_moment_first_by_de_y_
+        + span_rod_head_y_*wristpin_moment_first_by_de_x_ + wristpin_moment_first_by_omega_i_;
+    const Lanes wristpin_moment_second_by_e_x_ = change_wristpin_[3][0];
+    const Lanes wristpin_moment_second_by_e_y_ = change_wristpin_[3][1];
+    const Lanes wristpin_moment_second_by_de_x_ = change_wristpin_[3][2];
+    const Lanes wristpin_moment_second_by_de_y_ = change_wristpin_[3][3];
+    const Lanes wristpin_moment_second_by_omega_i_ = change_wristpin_[3][4];
+    const Lanes wristpin_moment_second_by_rod_theta_ = -rod_head_vx_by_rod_theta_*wristpin_moment_second_by_de_x_
+        - rod_head_vy_by_rod_theta_*wristpin_moment_second_by_de_y_ - span_rod_head_x_*wristpin_moment_second_by_e_y_
+        + span_rod_head_y_*wristpin_moment_second_by_e_x_;
+    const Lanes wristpin_moment_second_by_time_ = -rod_head_vx_by_time_*wristpin_moment_second_by_de_x_
+        - rod_head_vy_by_time_*wristpin_moment_second_by_de_y_ - rod_head_x_2_by_time_*wristpin_moment_second_by_e_x_
+        - rod_head_y_by_time_*wristpin_moment_second_by_e_y_;
+    const Lanes wristpin_moment_second_by_rod_omega_ = -span_rod_head_x_*wristpin_moment_second_by_de_y_
+        + span_rod_head_y_*wristpin_moment_second_by_de_x_ + wristpin_moment_second_by_omega_i_;
 
     /* coordinates */
-    const Lanes cross_crank_rod_by_time = -dot_crank_rod*motor_rate;
-    const Lanes dot_crank_rod_by_time = cross_crank_rod*motor_rate;
+    const Lanes cross_crank_rod_by_time_ = -dot_crank_rod_*motor_rate_;
+    const Lanes dot_crank_rod_by_time_ = cross_crank_rod_*motor_rate_;
 
     /* powers */
-    const Lanes span_crank_head_x_by_time = -motor_rate*span_crank_head_y;
-    const Lanes span_crank_head_y_by_time = motor_rate*span_crank_head_x;
+    const Lanes span_crank_head_x_by_time_ = -motor_rate_*span_crank_head_y_;
+    const Lanes span_crank_head_y_by_time_ = motor_rate_*span_crank_head_x_;
 
     /* results */
-    lin->value[0] = -wristpin_Fx_by_e_x;
-    lin->value[1] = -wristpin_Fx_by_rod_theta;
-    lin->value[2] = -cross_crank_rod*motor_acceleration + dot_crank_rod*(motor_rate * motor_rate)
-        - span_rod_head_x*wristpin_Fx + span_rod_head_x*wristpin_Fy_by_rod_theta
-        - span_rod_head_y*wristpin_Fx_by_rod_theta - span_rod_head_y*wristpin_Fy - wristpin_moment_first_by_rod_theta;
-    lin->value[3] = span_rod_head_x*wristpin_Fy_by_e_x - span_rod_head_y*wristpin_Fx_by_e_x
-        - wristpin_moment_first_by_e_x;
-    lin->value[4] = -wristpin_Fx_by_de_x;
-    lin->value[5] = -wristpin_Fx_by_rod_omega;
-    lin->value[6] = span_rod_head_x*wristpin_Fy_by_de_x - span_rod_head_y*wristpin_Fx_by_de_x
-        - wristpin_moment_first_by_de_x;
-    lin->value[7] = span_rod_head_x*wristpin_Fy_by_rod_omega - span_rod_head_y*wristpin_Fx_by_rod_omega
-        - wristpin_moment_first_by_rod_omega;
-    lin->value[8] = -wristpin_Fx_by_time;
-    lin->value[9] = 2.0*cross_crank_rod*motor_acceleration*motor_rate
-        + cross_crank_rod_by_time*(motor_rate * motor_rate) + dot_crank_rod_by_time*motor_acceleration
-        + span_rod_head_x*wristpin_Fy_by_time - span_rod_head_y*wristpin_Fx_by_time - wristpin_moment_first_by_time;
-    lin->value[10] = -a_rod_theta*cross_crank_rod*motor_rate - dot_crank_rod*motor_rate*(rod_omega * rod_omega)
-        + motor_rate*span_crank_head_x*wristpin_Fy_by_rod_theta - motor_rate*span_crank_head_y*wristpin_Fx_by_rod_theta;
-    lin->value[11] = motor_rate*span_crank_head_x*wristpin_Fy_by_e_x - motor_rate*span_crank_head_y*wristpin_Fx_by_e_x;
-    lin->value[12] = -rod_head_vx_by_rod_theta*wristpin_Fx - rod_head_vy*wristpin_Fy_by_rod_theta
-        - rod_head_vy_by_rod_theta*wristpin_Fy + rod_omega*wristpin_moment_first_by_rod_theta
-        + slider_omega*wristpin_moment_second_by_rod_theta + wristpin_Fx_by_rod_theta*(cylinder_slide_rate
-        - rod_head_vx);
-    lin->value[13] = -rod_head_vy*wristpin_Fy_by_e_x + rod_omega*wristpin_moment_first_by_e_x
-        + slider_omega*wristpin_moment_second_by_e_x + wristpin_Fx_by_e_x*(cylinder_slide_rate - rod_head_vx);
-    lin->value[14] = -2.0*cross_crank_rod*motor_rate*rod_omega + motor_rate*span_crank_head_x*wristpin_Fy_by_rod_omega
-        - motor_rate*span_crank_head_y*wristpin_Fx_by_rod_omega;
-    lin->value[15] = motor_rate*span_crank_head_x*wristpin_Fy_by_de_x
-        - motor_rate*span_crank_head_y*wristpin_Fx_by_de_x;
-    lin->value[16] = -rod_head_vy*wristpin_Fy_by_de_x + rod_omega*wristpin_moment_first_by_de_x
-        + slider_omega*wristpin_moment_second_by_de_x + wristpin_Fx
-        + wristpin_Fx_by_de_x*(cylinder_slide_rate - rod_head_vx);
-    lin->value[17] = -rod_head_vy*wristpin_Fy_by_rod_omega + rod_omega*wristpin_moment_first_by_rod_omega
-        + slider_omega*wristpin_moment_second_by_rod_omega - span_rod_head_x*wristpin_Fy + span_rod_head_y*wristpin_Fx
-        + wristpin_Fx_by_rod_omega*(cylinder_slide_rate - rod_head_vx) + wristpin_moment_first;
-    lin->value[18] = dot_crank_rod*motor_rate;
-    lin->value[19] = a_rod_theta*dot_crank_rod_by_time*motor_rate
-        - cross_crank_rod_by_time*motor_rate*(rod_omega * rod_omega)
-        + motor_acceleration*(a_rod_theta*dot_crank_rod - cross_crank_rod*(rod_omega * rod_omega)
-        + p->mass_motor_motor*motor_acceleration + span_crank_head_x*wristpin_Fy - span_crank_head_y*wristpin_Fx)
-        + motor_rate*span_crank_head_x*wristpin_Fy_by_time + motor_rate*span_crank_head_x_by_time*wristpin_Fy
-        - motor_rate*span_crank_head_y*wristpin_Fx_by_time - motor_rate*span_crank_head_y_by_time*wristpin_Fx;
-    lin->value[20] = -rod_head_vx_by_time*wristpin_Fx - rod_head_vy*wristpin_Fy_by_time
-        - rod_head_vy_by_time*wristpin_Fy + rod_omega*wristpin_moment_first_by_time
-        + slider_omega*wristpin_moment_second_by_time + wristpin_Fx_by_time*(cylinder_slide_rate - rod_head_vx);
+    lin->value[0] = -wristpin_Fx_by_e_x_;
+    lin->value[1] = -wristpin_Fx_by_rod_theta_;
+    lin->value[2] = -cross_crank_rod_*motor_acceleration_ + dot_crank_rod_*(motor_rate_ * motor_rate_)
+        - span_rod_head_x_*wristpin_Fx_ + span_rod_head_x_*wristpin_Fy_by_rod_theta_
+        - span_rod_head_y_*wristpin_Fx_by_rod_theta_ - span_rod_head_y_*wristpin_Fy_
+        - wristpin_moment_first_by_rod_theta_;
+    lin->value[3] = span_rod_head_x_*wristpin_Fy_by_e_x_ - span_rod_head_y_*wristpin_Fx_by_e_x_
+        - wristpin_moment_first_by_e_x_;
+    lin->value[4] = -wristpin_Fx_by_de_x_;
+    lin->value[5] = -wristpin_Fx_by_rod_omega_;
+    lin->value[6] = span_rod_head_x_*wristpin_Fy_by_de_x_ - span_rod_head_y_*wristpin_Fx_by_de_x_
+        - wristpin_moment_first_by_de_x_;
+    lin->value[7] = span_rod_head_x_*wristpin_Fy_by_rod_omega_ - span_rod_head_y_*wristpin_Fx_by_rod_omega_
+        - wristpin_moment_first_by_rod_omega_;
+    lin->value[8] = -wristpin_Fx_by_time_;
+    lin->value[9] = 2.0*cross_crank_rod_*motor_acceleration_*motor_rate_
+        + cross_crank_rod_by_time_*(motor_rate_ * motor_rate_) + dot_crank_rod_by_time_*motor_acceleration_
+        + span_rod_head_x_*wristpin_Fy_by_time_ - span_rod_head_y_*wristpin_Fx_by_time_
+        - wristpin_moment_first_by_time_;
+    lin->value[10] = -a_rod_theta_*cross_crank_rod_*motor_rate_ - dot_crank_rod_*motor_rate_*(rod_omega_ * rod_omega_)
+        + motor_rate_*span_crank_head_x_*wristpin_Fy_by_rod_theta_
+        - motor_rate_*span_crank_head_y_*wristpin_Fx_by_rod_theta_;
+    lin->value[11] = motor_rate_*span_crank_head_x_*wristpin_Fy_by_e_x_
+        - motor_rate_*span_crank_head_y_*wristpin_Fx_by_e_x_;
+    lin->value[12] = -rod_head_vx_by_rod_theta_*wristpin_Fx_ - rod_head_vy_*wristpin_Fy_by_rod_theta_
+        - rod_head_vy_by_rod_theta_*wristpin_Fy_ + rod_omega_*wristpin_moment_first_by_rod_theta_
+        + slider_omega_*wristpin_moment_second_by_rod_theta_
+        + wristpin_Fx_by_rod_theta_*(cylinder_slide_rate_ - rod_head_vx_);
+    lin->value[13] = -rod_head_vy_*wristpin_Fy_by_e_x_ + rod_omega_*wristpin_moment_first_by_e_x_
+        + slider_omega_*wristpin_moment_second_by_e_x_ + wristpin_Fx_by_e_x_*(cylinder_slide_rate_ - rod_head_vx_);
+    lin->value[14] = -2.0*cross_crank_rod_*motor_rate_*rod_omega_
+        + motor_rate_*span_crank_head_x_*wristpin_Fy_by_rod_omega_
+        - motor_rate_*span_crank_head_y_*wristpin_Fx_by_rod_omega_;
+    lin->value[15] = motor_rate_*span_crank_head_x_*wristpin_Fy_by_de_x_
+        - motor_rate_*span_crank_head_y_*wristpin_Fx_by_de_x_;
+    lin->value[16] = -rod_head_vy_*wristpin_Fy_by_de_x_ + rod_omega_*wristpin_moment_first_by_de_x_
+        + slider_omega_*wristpin_moment_second_by_de_x_ + wristpin_Fx_
+        + wristpin_Fx_by_de_x_*(cylinder_slide_rate_ - rod_head_vx_);
+    lin->value[17] = -rod_head_vy_*wristpin_Fy_by_rod_omega_ + rod_omega_*wristpin_moment_first_by_rod_omega_
+        + slider_omega_*wristpin_moment_second_by_rod_omega_ - span_rod_head_x_*wristpin_Fy_
+        + span_rod_head_y_*wristpin_Fx_ + wristpin_Fx_by_rod_omega_*(cylinder_slide_rate_ - rod_head_vx_)
+        + wristpin_moment_first_;
+    lin->value[18] = dot_crank_rod_*motor_rate_;
+    lin->value[19] = a_rod_theta_*dot_crank_rod_by_time_*motor_rate_
+        - cross_crank_rod_by_time_*motor_rate_*(rod_omega_ * rod_omega_)
+        + motor_acceleration_*(a_rod_theta_*dot_crank_rod_ - cross_crank_rod_*(rod_omega_ * rod_omega_)
+        + p->mass_motor_motor_*motor_acceleration_ + span_crank_head_x_*wristpin_Fy_ - span_crank_head_y_*wristpin_Fx_)
+        + motor_rate_*span_crank_head_x_*wristpin_Fy_by_time_ + motor_rate_*span_crank_head_x_by_time_*wristpin_Fy_
+        - motor_rate_*span_crank_head_y_*wristpin_Fx_by_time_ - motor_rate_*span_crank_head_y_by_time_*wristpin_Fx_;
+    lin->value[20] = -rod_head_vx_by_time_*wristpin_Fx_ - rod_head_vy_*wristpin_Fy_by_time_
+        - rod_head_vy_by_time_*wristpin_Fy_ + rod_omega_*wristpin_moment_first_by_time_
+        + slider_omega_*wristpin_moment_second_by_time_ + wristpin_Fx_by_time_*(cylinder_slide_rate_ - rod_head_vx_);
     lin->p = p;
 }
 
@@ -660,35 +662,35 @@ static void newton_factor(Lanes eta, LaneLinear *lin, LaneBits *rare)
     const LaneParameters *const p = lin->p;
 
     /* linearization */
-    const Lanes by_q_cylinder_slide_cylinder_slide = lin->value[0];
-    const Lanes by_q_cylinder_slide_rod_theta = lin->value[1];
-    const Lanes by_q_rod_theta_rod_theta = lin->value[2];
-    const Lanes by_q_rod_theta_cylinder_slide = lin->value[3];
-    const Lanes by_v_cylinder_slide_cylinder_slide = lin->value[4];
-    const Lanes by_v_cylinder_slide_rod_theta = lin->value[5];
-    const Lanes by_v_rod_theta_cylinder_slide = lin->value[6];
-    const Lanes by_v_rod_theta_rod_theta = lin->value[7];
+    const Lanes by_q_cylinder_slide_cylinder_slide_ = lin->value[0];
+    const Lanes by_q_cylinder_slide_rod_theta_ = lin->value[1];
+    const Lanes by_q_rod_theta_rod_theta_ = lin->value[2];
+    const Lanes by_q_rod_theta_cylinder_slide_ = lin->value[3];
+    const Lanes by_v_cylinder_slide_cylinder_slide_ = lin->value[4];
+    const Lanes by_v_cylinder_slide_rod_theta_ = lin->value[5];
+    const Lanes by_v_rod_theta_cylinder_slide_ = lin->value[6];
+    const Lanes by_v_rod_theta_rod_theta_ = lin->value[7];
 
     /* matrix */
-    const Lanes n_cylinder_slide__cylinder_slide = eta*(by_q_cylinder_slide_cylinder_slide*eta
-        + by_v_cylinder_slide_cylinder_slide) + p->slider_mass;
-    const Lanes n_cylinder_slide__rod_theta = eta*(by_q_cylinder_slide_rod_theta*eta + by_v_cylinder_slide_rod_theta);
-    const Lanes n_rod_theta__cylinder_slide = eta*(by_q_rod_theta_cylinder_slide*eta + by_v_rod_theta_cylinder_slide);
-    const Lanes n_rod_theta__rod_theta = eta*(by_q_rod_theta_rod_theta*eta + by_v_rod_theta_rod_theta)
-        + p->mass_rod_rod;
+    const Lanes n_cylinder_slide_cylinder_slide_ = eta*(by_q_cylinder_slide_cylinder_slide_*eta
+        + by_v_cylinder_slide_cylinder_slide_) + p->slider_mass_;
+    const Lanes n_cylinder_slide_rod_theta_ = eta*(by_q_cylinder_slide_rod_theta_*eta + by_v_cylinder_slide_rod_theta_);
+    const Lanes n_rod_theta_cylinder_slide_ = eta*(by_q_rod_theta_cylinder_slide_*eta + by_v_rod_theta_cylinder_slide_);
+    const Lanes n_rod_theta_rod_theta_ = eta*(by_q_rod_theta_rod_theta_*eta + by_v_rod_theta_rod_theta_)
+        + p->mass_rod_rod_;
 
     /* L U */
-    const Lanes scale_cylinder_slide = n_cylinder_slide__cylinder_slide;
-    *rare |= ~(lanes_fabs(scale_cylinder_slide) > SINGULAR * lanes_fabs(n_cylinder_slide__cylinder_slide));
-    const Lanes inverse_pivot_cylinder_slide = 1.0/scale_cylinder_slide;
-    lin->lu[0] = inverse_pivot_cylinder_slide;
-    const Lanes l_rod_theta__cylinder_slide = inverse_pivot_cylinder_slide*n_rod_theta__cylinder_slide;
-    lin->lu[1] = l_rod_theta__cylinder_slide;
-    lin->lu[2] = n_cylinder_slide__rod_theta;
-    const Lanes scale_rod_theta = -l_rod_theta__cylinder_slide*n_cylinder_slide__rod_theta + n_rod_theta__rod_theta;
-    *rare |= ~(lanes_fabs(scale_rod_theta) > SINGULAR * lanes_fabs(n_rod_theta__rod_theta));
-    const Lanes inverse_pivot_rod_theta = 1.0/scale_rod_theta;
-    lin->lu[3] = inverse_pivot_rod_theta;
+    const Lanes scale_cylinder_slide_ = n_cylinder_slide_cylinder_slide_;
+    *rare |= ~(lanes_fabs(scale_cylinder_slide_) > SINGULAR * lanes_fabs(n_cylinder_slide_cylinder_slide_));
+    const Lanes inverse_pivot_cylinder_slide_ = 1.0/scale_cylinder_slide_;
+    lin->lu[0] = inverse_pivot_cylinder_slide_;
+    const Lanes l_rod_theta_cylinder_slide_ = inverse_pivot_cylinder_slide_*n_rod_theta_cylinder_slide_;
+    lin->lu[1] = l_rod_theta_cylinder_slide_;
+    lin->lu[2] = n_cylinder_slide_rod_theta_;
+    const Lanes scale_rod_theta_ = -l_rod_theta_cylinder_slide_*n_cylinder_slide_rod_theta_ + n_rod_theta_rod_theta_;
+    *rare |= ~(lanes_fabs(scale_rod_theta_) > SINGULAR * lanes_fabs(n_rod_theta_rod_theta_));
+    const Lanes inverse_pivot_rod_theta_ = 1.0/scale_rod_theta_;
+    lin->lu[3] = inverse_pivot_rod_theta_;
 }
 
 /*
@@ -697,21 +699,21 @@ static void newton_factor(Lanes eta, LaneLinear *lin, LaneBits *rare)
 static void newton_substitute(const LaneLinear *lin, Lanes *x)
 {
     /* linearization */
-    const Lanes inverse_pivot_cylinder_slide = lin->lu[0];
-    const Lanes l_rod_theta__cylinder_slide = lin->lu[1];
-    const Lanes n_cylinder_slide__rod_theta = lin->lu[2];
-    const Lanes inverse_pivot_rod_theta = lin->lu[3];
+    const Lanes inverse_pivot_cylinder_slide_ = lin->lu[0];
+    const Lanes l_rod_theta_cylinder_slide_ = lin->lu[1];
+    const Lanes n_cylinder_slide_rod_theta_ = lin->lu[2];
+    const Lanes inverse_pivot_rod_theta_ = lin->lu[3];
 
     /* forward */
-    const Lanes b_cylinder_slide = x[0];
-    const Lanes b_rod_theta = -b_cylinder_slide*l_rod_theta__cylinder_slide + x[1];
+    const Lanes b_cylinder_slide_ = x[0];
+    const Lanes b_rod_theta_ = -b_cylinder_slide_*l_rod_theta_cylinder_slide_ + x[1];
 
     /* backward */
-    const Lanes x_rod_theta = b_rod_theta*inverse_pivot_rod_theta;
-    x[1] = x_rod_theta;
-    const Lanes x_cylinder_slide = inverse_pivot_cylinder_slide*(b_cylinder_slide
-        - n_cylinder_slide__rod_theta*x_rod_theta);
-    x[0] = x_cylinder_slide;
+    const Lanes x_rod_theta_ = b_rod_theta_*inverse_pivot_rod_theta_;
+    x[1] = x_rod_theta_;
+    const Lanes x_cylinder_slide_ = inverse_pivot_cylinder_slide_*(b_cylinder_slide_
+        - n_cylinder_slide_rod_theta_*x_rod_theta_);
+    x[0] = x_cylinder_slide_;
 }
 
 /*
@@ -723,30 +725,30 @@ static void newton_solve(const LaneLinear *lin, Lanes eta, Lanes s, const Lanes 
     const LaneParameters *const p = lin->p;
 
     /* linearization */
-    const Lanes by_q_cylinder_slide_cylinder_slide = lin->value[0];
-    const Lanes by_q_cylinder_slide_rod_theta = lin->value[1];
-    const Lanes by_q_rod_theta_rod_theta = lin->value[2];
-    const Lanes by_q_rod_theta_cylinder_slide = lin->value[3];
-    const Lanes by_t_cylinder_slide = lin->value[8];
-    const Lanes by_t_rod_theta = lin->value[9];
-    const Lanes power_q_0_rod_theta = lin->value[10];
-    const Lanes power_q_0_cylinder_slide = lin->value[11];
-    const Lanes power_q_2_rod_theta = lin->value[12];
-    const Lanes power_q_2_cylinder_slide = lin->value[13];
-    const Lanes power_v_0_rod_theta = lin->value[14];
-    const Lanes power_v_0_cylinder_slide = lin->value[15];
-    const Lanes power_v_2_cylinder_slide = lin->value[16];
-    const Lanes power_v_2_rod_theta = lin->value[17];
-    const Lanes power_0_rod_theta = lin->value[18];
-    const Lanes power_t_0 = lin->value[19];
-    const Lanes power_t_2 = lin->value[20];
+    const Lanes by_q_cylinder_slide_cylinder_slide_ = lin->value[0];
+    const Lanes by_q_cylinder_slide_rod_theta_ = lin->value[1];
+    const Lanes by_q_rod_theta_rod_theta_ = lin->value[2];
+    const Lanes by_q_rod_theta_cylinder_slide_ = lin->value[3];
+    const Lanes by_t_cylinder_slide_ = lin->value[8];
+    const Lanes by_t_rod_theta_ = lin->value[9];
+    const Lanes power_q_0_rod_theta_ = lin->value[10];
+    const Lanes power_q_0_cylinder_slide_ = lin->value[11];
+    const Lanes power_q_2_rod_theta_ = lin->value[12];
+    const Lanes power_q_2_cylinder_slide_ = lin->value[13];
+    const Lanes power_v_0_rod_theta_ = lin->value[14];
+    const Lanes power_v_0_cylinder_slide_ = lin->value[15];
+    const Lanes power_v_2_cylinder_slide_ = lin->value[16];
+    const Lanes power_v_2_rod_theta_ = lin->value[17];
+    const Lanes power_0_rod_theta_ = lin->value[18];
+    const Lanes power_t_0_ = lin->value[19];
+    const Lanes power_t_2_ = lin->value[20];
 
     /* right-hand side */
     Lanes x[2];
-    x[0] = eta*(-by_q_cylinder_slide_cylinder_slide*eta*r[0] - by_q_cylinder_slide_rod_theta*eta*r[1]
-        - by_t_cylinder_slide*s + r[2]*p->slider_mass);
-    x[1] = eta*(-by_q_rod_theta_cylinder_slide*eta*r[0] - by_q_rod_theta_rod_theta*eta*r[1] - by_t_rod_theta*s
-        + p->mass_rod_rod*r[3]);
+    x[0] = eta*(-by_q_cylinder_slide_cylinder_slide_*eta*r[0] - by_q_cylinder_slide_rod_theta_*eta*r[1]
+        - by_t_cylinder_slide_*s + r[2]*p->slider_mass_);
+    x[1] = eta*(-by_q_rod_theta_cylinder_slide_*eta*r[0] - by_q_rod_theta_rod_theta_*eta*r[1] - by_t_rod_theta_*s
+        + p->mass_rod_rod_*r[3]);
     newton_substitute(lin, x);
 
     /* solution */
@@ -754,11 +756,11 @@ static void newton_solve(const LaneLinear *lin, Lanes eta, Lanes s, const Lanes 
     u[2] = x[0];
     u[1] = eta*(r[1] + x[1]);
     u[3] = x[1];
-    u[4] = eta*(power_q_0_cylinder_slide*u[0] + power_q_0_rod_theta*u[1] + power_t_0*s + power_v_0_cylinder_slide*u[2]
-        + power_v_0_rod_theta*u[3] + r[4]) + power_0_rod_theta*(-eta*r[3] + x[1]);
+    u[4] = eta*(power_q_0_cylinder_slide_*u[0] + power_q_0_rod_theta_*u[1] + power_t_0_*s
+        + power_v_0_cylinder_slide_*u[2] + power_v_0_rod_theta_*u[3] + r[4]) + power_0_rod_theta_*(-eta*r[3] + x[1]);
     u[5] = eta*r[5];
-    u[6] = eta*(power_q_2_cylinder_slide*u[0] + power_q_2_rod_theta*u[1] + power_t_2*s + power_v_2_cylinder_slide*u[2]
-        + power_v_2_rod_theta*u[3] + r[6]);
+    u[6] = eta*(power_q_2_cylinder_slide_*u[0] + power_q_2_rod_theta_*u[1] + power_t_2_*s
+        + power_v_2_cylinder_slide_*u[2] + power_v_2_rod_theta_*u[3] + r[6]);
 }
 
 #include "engine/batch/lane_tries.c"

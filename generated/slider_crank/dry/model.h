@@ -50,6 +50,7 @@
 #define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
 #define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
 #define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
+#define LIGHT_PIVOT 1e-06                     /* of what turns with an angle, where its inertia is too small for it */
 #define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
 typedef struct Parameters Parameters; /* every number of a run */
@@ -63,6 +64,7 @@ static const int guess_place[] = {5, 6};
 static const int set_place[] = {0};
 static const int rate_place[] = {0};
 static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 0, 0};
+static const int drive_row[] = {8};
 static const int kept_row[] = {0, 1, 2, 3, 6, 7, 8};
 static const int phi_q_first[] = {0, 2, 4, 8, 12, 15, 18, 19, 20, 21};
 static const short phi_q_place[] = {0, 2, 1, 2, 0, 2, 3, 5, 1, 2, 4, 5, 3, 5, 6, 4, 5, 7, 7, 8, 2};
@@ -77,54 +79,50 @@ static const int friction_of_pivot[] = {0};
 
 /* In SI: first the slots that a user may set, then what prepare() derives. */
 struct Parameters {
-    double omega;  /* parameters.omega, 1/s */
-    double c;  /* parameters.c, m */
-    double crank_mass;  /* bodies.crank.mass, kg */
-    double crank_inertia;  /* bodies.crank.inertia, kg*m^2 */
-    double rod_mass;  /* bodies.rod.mass, kg */
-    double rod_inertia;  /* bodies.rod.inertia, kg*m^2 */
-    double slider_mass;  /* bodies.slider.mass, kg */
-    double slider_inertia;  /* bodies.slider.inertia, kg*m^2 */
-    double crank_length;  /* bodies.crank.length, m */
-    double rod_length;  /* bodies.rod.length, m */
-    double alpha;  /* baumgarte.alpha, 1/s */
-    double beta;  /* baumgarte.beta, 1/s */
-    double cylinder_axis_x;  /* joints.cylinder.axis.x, 1 */
-    double pin_radius;  /* bearings.pin.radius, m */
-    double pin_clearance;  /* bearings.pin.clearance, m */
-    double pin_length;  /* bearings.pin.length, m */
-    double steel_E;  /* materials.steel.E, Pa */
-    double steel_nu;  /* materials.steel.nu, 1 */
-    double dry_normal_restitution;  /* contacts.dry.normal.restitution, 1 */
-    double dry_normal_exponent;  /* contacts.dry.normal.exponent, 1 */
-    double dry_friction_mu;  /* contacts.dry.friction.mu, 1 */
-    double dry_friction_v0;  /* contacts.dry.friction.v0, m/s */
-    double dry_friction_v1;  /* contacts.dry.friction.v1, m/s */
-    double velocity_floor;  /* contacts.dry.velocity_floor, m/s */
-    double guess_rod_theta;  /* start.guess.rod.theta, rad */
-    double guess_slider_x;  /* start.guess.slider.x, m */
-    double crank_head_s_x;  /* point from the centre of mass, m */
-    double rod_head_s_x;  /* point from the centre of mass, m */
-    double R_j_pin;  /* journal radius, m */
-    double dry_pin_K;  /* contact stiffness, N/m^1.5 */
-    double dry_pin_hysteresis;  /* hysteresis damping factor a, 1 */
-    double dry_pin_friction_slope;  /* 1/(v1 - v0), s/m */
-    double two_alpha;  /* 2 alpha, 1/s */
-    double beta_squared;  /* beta^2, 1/s^2 */
-    double inverse_slider_mass;  /* 1/M, 1/kg */
-    double inverse_rod_mass;  /* 1/M, 1/kg */
-    double inverse_slider_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_crank_mass;  /* 1/M, 1/kg */
-    double inverse_rod_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_crank_inertia;  /* 1/M, 1/(kg*m^2) */
-    double crank_head_span_x;  /* vector in its frame, m */
-    double rod_head_span_x;  /* vector in its frame, m */
-    double inertia_crank_crank;  /* sum of m w.w, kg*m^2 */
-    double inertia_crank_rod;  /* sum of m w.w, kg*m^2 */
-    double inertia_rod_rod;  /* sum of m w.w, kg*m^2 */
-    double mass_motor_motor;  /* constant of M, kg*m^2 */
-    double mass_rod_rod;  /* constant of M, kg*m^2 */
-    double inverse_mass_rod_rod;  /* 1/M, 1/(kg*m^2) */
+    double omega_;  /* parameters.omega, 1/s */
+    double c_;  /* parameters.c, m */
+    double crank_mass_;  /* bodies.crank.mass, kg */
+    double crank_inertia_;  /* bodies.crank.inertia, kg*m^2 */
+    double rod_mass_;  /* bodies.rod.mass, kg */
+    double rod_inertia_;  /* bodies.rod.inertia, kg*m^2 */
+    double slider_mass_;  /* bodies.slider.mass, kg */
+    double slider_inertia_;  /* bodies.slider.inertia, kg*m^2 */
+    double crank_length_;  /* bodies.crank.length, m */
+    double rod_length_;  /* bodies.rod.length, m */
+    double alpha_;  /* baumgarte.alpha, 1/s */
+    double beta_;  /* baumgarte.beta, 1/s */
+    double cylinder_axis_x_;  /* joints.cylinder.axis.x, 1 */
+    double pin_radius_;  /* bearings.pin.radius, m */
+    double pin_clearance_;  /* bearings.pin.clearance, m */
+    double pin_length_;  /* bearings.pin.length, m */
+    double steel_E_;  /* materials.steel.E, Pa */
+    double steel_nu_;  /* materials.steel.nu, 1 */
+    double dry_normal_restitution_;  /* contacts.dry.normal.restitution, 1 */
+    double dry_normal_exponent_;  /* contacts.dry.normal.exponent, 1 */
+    double dry_friction_mu_;  /* contacts.dry.friction.mu, 1 */
+    double dry_friction_v0_;  /* contacts.dry.friction.v0, m/s */
+    double dry_friction_v1_;  /* contacts.dry.friction.v1, m/s */
+    double velocity_floor_;  /* contacts.dry.velocity_floor, m/s */
+    double guess_rod_theta_;  /* start.guess.rod.theta, rad */
+    double guess_slider_x_;  /* start.guess.slider.x, m */
+    double crank_head_s_x_;  /* point from the centre of mass, m */
+    double rod_head_s_x_;  /* point from the centre of mass, m */
+    double R_j_pin_;  /* journal radius, m */
+    double dry_pin_K_;  /* contact stiffness, N/m^1.5 */
+    double dry_pin_hysteresis_;  /* hysteresis damping factor a, 1 */
+    double dry_pin_friction_slope_;  /* 1/(v1 - v0), s/m */
+    double rod_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double two_alpha_;  /* 2 alpha, 1/s */
+    double beta_squared_;  /* beta^2, 1/s^2 */
+    double inverse_slider_mass_;  /* 1/M, 1/kg */
+    double crank_head_span_x_;  /* vector in its frame, m */
+    double rod_head_span_x_;  /* vector in its frame, m */
+    double inertia_crank_crank_;  /* sum of m w.w, kg*m^2 */
+    double inertia_crank_rod_;  /* sum of m w.w, kg*m^2 */
+    double inertia_rod_rod_;  /* sum of m w.w, kg*m^2 */
+    double mass_motor_motor_;  /* constant of M, kg*m^2 */
+    double mass_rod_rod_;  /* constant of M, kg*m^2 */
+    double inverse_mass_rod_rod_;  /* 1/M, 1/(kg*m^2) */
 };
 
 /* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */

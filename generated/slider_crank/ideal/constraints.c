@@ -4,15 +4,15 @@
 void mass_matrix(const Parameters *p, double *m)
 {
     /* M */
-    m[0] = p->crank_mass;
-    m[1] = p->crank_mass;
-    m[2] = p->crank_inertia;
-    m[3] = p->rod_mass;
-    m[4] = p->rod_mass;
-    m[5] = p->rod_inertia;
-    m[6] = p->slider_mass;
-    m[7] = p->slider_mass;
-    m[8] = p->slider_inertia;
+    m[0] = p->crank_mass_;
+    m[1] = p->crank_mass_;
+    m[2] = p->crank_inertia_;
+    m[3] = p->rod_mass_;
+    m[4] = p->rod_mass_;
+    m[5] = p->rod_inertia_;
+    m[6] = p->slider_mass_;
+    m[7] = p->slider_mass_;
+    m[8] = p->slider_inertia_;
 }
 
 /*
@@ -21,37 +21,37 @@ void mass_matrix(const Parameters *p, double *m)
 void constraints(const double t, const double *q, const Parameters *p, double *phi)
 {
     /* coordinates, velocities, time */
-    const double crank_x = q[0];
-    const double crank_y = q[1];
-    const double crank_theta = q[2];
-    const double rod_x = q[3];
-    const double rod_y = q[4];
-    const double rod_theta = q[5];
-    const double slider_x = q[6];
-    const double slider_y = q[7];
-    const double slider_theta = q[8];
+    const double crank_x_ = q[0];
+    const double crank_y_ = q[1];
+    const double crank_theta_ = q[2];
+    const double rod_x_ = q[3];
+    const double rod_y_ = q[4];
+    const double rod_theta_ = q[5];
+    const double slider_x_ = q[6];
+    const double slider_y_ = q[7];
+    const double slider_theta_ = q[8];
 
     /* directions, arms, drives */
-    const double cos_theta_crank = cos(crank_theta);
-    const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_head_x = cos_theta_crank*p->crank_head_s_x;
-    const double arm_crank_head_y = p->crank_head_s_x*sin_theta_crank;
-    const double cos_theta_rod = cos(rod_theta);
-    const double sin_theta_rod = sin(rod_theta);
-    const double arm_rod_head_x = cos_theta_rod*p->rod_head_s_x;
-    const double arm_rod_head_y = p->rod_head_s_x*sin_theta_rod;
-    const double motor_value = p->omega*t;
+    const double cos_theta_crank_ = cos(crank_theta_);
+    const double sin_theta_crank_ = sin(crank_theta_);
+    const double arm_crank_head_x_ = cos_theta_crank_*p->crank_head_s_x_;
+    const double arm_crank_head_y_ = p->crank_head_s_x_*sin_theta_crank_;
+    const double cos_theta_rod_ = cos(rod_theta_);
+    const double sin_theta_rod_ = sin(rod_theta_);
+    const double arm_rod_head_x_ = cos_theta_rod_*p->rod_head_s_x_;
+    const double arm_rod_head_y_ = p->rod_head_s_x_*sin_theta_rod_;
+    const double motor_value_ = p->omega_*t;
 
     /* rows */
-    phi[0] = arm_crank_head_x - crank_x;  /* O.x, m */
-    phi[1] = arm_crank_head_y - crank_y;  /* O.y, m */
-    phi[2] = arm_crank_head_x + arm_rod_head_x + crank_x - rod_x;  /* crankpin.x, m */
-    phi[3] = arm_crank_head_y + arm_rod_head_y + crank_y - rod_y;  /* crankpin.y, m */
-    phi[4] = arm_rod_head_x + rod_x - slider_x;  /* wristpin.x, m */
-    phi[5] = arm_rod_head_y + rod_y - slider_y;  /* wristpin.y, m */
-    phi[6] = slider_y;  /* cylinder.offset, m */
-    phi[7] = slider_theta;  /* cylinder.angle, rad */
-    phi[8] = crank_theta - motor_value;  /* motor, rad */
+    phi[0] = arm_crank_head_x_ - crank_x_;  /* O.x, m */
+    phi[1] = arm_crank_head_y_ - crank_y_;  /* O.y, m */
+    phi[2] = arm_crank_head_x_ + arm_rod_head_x_ + crank_x_ - rod_x_;  /* crankpin.x, m */
+    phi[3] = arm_crank_head_y_ + arm_rod_head_y_ + crank_y_ - rod_y_;  /* crankpin.y, m */
+    phi[4] = arm_rod_head_x_ + rod_x_ - slider_x_;  /* wristpin.x, m */
+    phi[5] = arm_rod_head_y_ + rod_y_ - slider_y_;  /* wristpin.y, m */
+    phi[6] = slider_y_;  /* cylinder.offset, m */
+    phi[7] = slider_theta_;  /* cylinder.angle, rad */
+    phi[8] = crank_theta_ - motor_value_;  /* motor, rad */
 }
 
 /*
@@ -61,41 +61,41 @@ void jacobian(const double t, const double *q, const Parameters *p, double *phi_
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double crank_theta = q[2];
-    const double rod_theta = q[5];
+    const double crank_theta_ = q[2];
+    const double rod_theta_ = q[5];
 
     /* directions, arms, drives */
-    const double cos_theta_crank = cos(crank_theta);
-    const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_head_x = cos_theta_crank*p->crank_head_s_x;
-    const double arm_crank_head_y = p->crank_head_s_x*sin_theta_crank;
-    const double cos_theta_rod = cos(rod_theta);
-    const double sin_theta_rod = sin(rod_theta);
-    const double arm_rod_head_x = cos_theta_rod*p->rod_head_s_x;
-    const double arm_rod_head_y = p->rod_head_s_x*sin_theta_rod;
+    const double cos_theta_crank_ = cos(crank_theta_);
+    const double sin_theta_crank_ = sin(crank_theta_);
+    const double arm_crank_head_x_ = cos_theta_crank_*p->crank_head_s_x_;
+    const double arm_crank_head_y_ = p->crank_head_s_x_*sin_theta_crank_;
+    const double cos_theta_rod_ = cos(rod_theta_);
+    const double sin_theta_rod_ = sin(rod_theta_);
+    const double arm_rod_head_x_ = cos_theta_rod_*p->rod_head_s_x_;
+    const double arm_rod_head_y_ = p->rod_head_s_x_*sin_theta_rod_;
 
     /* non-zeros */
-    phi_q[0] = -1.0;  /* d O.x / d crank_x */
-    phi_q[2] = -arm_crank_head_y;  /* d O.x / d crank_theta */
-    phi_q[10] = -1.0;  /* d O.y / d crank_y */
-    phi_q[11] = arm_crank_head_x;  /* d O.y / d crank_theta */
-    phi_q[18] = 1.0;  /* d crankpin.x / d crank_x */
-    phi_q[20] = -arm_crank_head_y;  /* d crankpin.x / d crank_theta */
-    phi_q[21] = -1.0;  /* d crankpin.x / d rod_x */
-    phi_q[23] = -arm_rod_head_y;  /* d crankpin.x / d rod_theta */
-    phi_q[28] = 1.0;  /* d crankpin.y / d crank_y */
-    phi_q[29] = arm_crank_head_x;  /* d crankpin.y / d crank_theta */
-    phi_q[31] = -1.0;  /* d crankpin.y / d rod_y */
-    phi_q[32] = arm_rod_head_x;  /* d crankpin.y / d rod_theta */
-    phi_q[39] = 1.0;  /* d wristpin.x / d rod_x */
-    phi_q[41] = -arm_rod_head_y;  /* d wristpin.x / d rod_theta */
-    phi_q[42] = -1.0;  /* d wristpin.x / d slider_x */
-    phi_q[49] = 1.0;  /* d wristpin.y / d rod_y */
-    phi_q[50] = arm_rod_head_x;  /* d wristpin.y / d rod_theta */
-    phi_q[52] = -1.0;  /* d wristpin.y / d slider_y */
-    phi_q[61] = 1.0;  /* d cylinder.offset / d slider_y */
-    phi_q[71] = 1.0;  /* d cylinder.angle / d slider_theta */
-    phi_q[74] = 1.0;  /* d motor / d crank_theta */
+    phi_q[0] = -1.0;  /* d O.x / d crank_x_ */
+    phi_q[2] = -arm_crank_head_y_;  /* d O.x / d crank_theta_ */
+    phi_q[10] = -1.0;  /* d O.y / d crank_y_ */
+    phi_q[11] = arm_crank_head_x_;  /* d O.y / d crank_theta_ */
+    phi_q[18] = 1.0;  /* d crankpin.x / d crank_x_ */
+    phi_q[20] = -arm_crank_head_y_;  /* d crankpin.x / d crank_theta_ */
+    phi_q[21] = -1.0;  /* d crankpin.x / d rod_x_ */
+    phi_q[23] = -arm_rod_head_y_;  /* d crankpin.x / d rod_theta_ */
+    phi_q[28] = 1.0;  /* d crankpin.y / d crank_y_ */
+    phi_q[29] = arm_crank_head_x_;  /* d crankpin.y / d crank_theta_ */
+    phi_q[31] = -1.0;  /* d crankpin.y / d rod_y_ */
+    phi_q[32] = arm_rod_head_x_;  /* d crankpin.y / d rod_theta_ */
+    phi_q[39] = 1.0;  /* d wristpin.x / d rod_x_ */
+    phi_q[41] = -arm_rod_head_y_;  /* d wristpin.x / d rod_theta_ */
+    phi_q[42] = -1.0;  /* d wristpin.x / d slider_x_ */
+    phi_q[49] = 1.0;  /* d wristpin.y / d rod_y_ */
+    phi_q[50] = arm_rod_head_x_;  /* d wristpin.y / d rod_theta_ */
+    phi_q[52] = -1.0;  /* d wristpin.y / d slider_y_ */
+    phi_q[61] = 1.0;  /* d cylinder.offset / d slider_y_ */
+    phi_q[71] = 1.0;  /* d cylinder.angle / d slider_theta_ */
+    phi_q[74] = 1.0;  /* d motor / d crank_theta_ */
 }
 
 /*
@@ -105,7 +105,7 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
 {
     (void)t, (void)q;
     /* directions, arms, drives */
-    const double motor_rate = p->omega;
+    const double motor_rate_ = p->omega_;
 
     /* rows */
     nu[0] = 0.0;  /* O.x, m/s */
@@ -116,7 +116,7 @@ void velocity_rhs(const double t, const double *q, const Parameters *p, double *
     nu[5] = 0.0;  /* wristpin.y, m/s */
     nu[6] = 0.0;  /* cylinder.offset, m/s */
     nu[7] = 0.0;  /* cylinder.angle, rad/s */
-    nu[8] = motor_rate;  /* motor, rad/s */
+    nu[8] = motor_rate_;  /* motor, rad/s */
 }
 
 /*
@@ -126,34 +126,34 @@ void acceleration_rhs(const double t, const double *q, const double *v, const Pa
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double crank_theta = q[2];
-    const double crank_omega = v[2];
-    const double rod_theta = q[5];
-    const double rod_omega = v[5];
+    const double crank_theta_ = q[2];
+    const double crank_omega_ = v[2];
+    const double rod_theta_ = q[5];
+    const double rod_omega_ = v[5];
 
     /* directions, arms, drives */
-    const double cos_theta_crank = cos(crank_theta);
-    const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_head_x = cos_theta_crank*p->crank_head_s_x;
-    const double arm_crank_head_y = p->crank_head_s_x*sin_theta_crank;
-    const double cos_theta_rod = cos(rod_theta);
-    const double sin_theta_rod = sin(rod_theta);
-    const double arm_rod_head_x = cos_theta_rod*p->rod_head_s_x;
-    const double arm_rod_head_y = p->rod_head_s_x*sin_theta_rod;
-    const double motor_acceleration = 0.0;
+    const double cos_theta_crank_ = cos(crank_theta_);
+    const double sin_theta_crank_ = sin(crank_theta_);
+    const double arm_crank_head_x_ = cos_theta_crank_*p->crank_head_s_x_;
+    const double arm_crank_head_y_ = p->crank_head_s_x_*sin_theta_crank_;
+    const double cos_theta_rod_ = cos(rod_theta_);
+    const double sin_theta_rod_ = sin(rod_theta_);
+    const double arm_rod_head_x_ = cos_theta_rod_*p->rod_head_s_x_;
+    const double arm_rod_head_y_ = p->rod_head_s_x_*sin_theta_rod_;
+    const double motor_acceleration_ = 0.0;
 
     /* rows */
-    gamma_rows[0] = arm_crank_head_x*(crank_omega * crank_omega);  /* O.x, m/s^2 */
-    gamma_rows[1] = arm_crank_head_y*(crank_omega * crank_omega);  /* O.y, m/s^2 */
+    gamma_rows[0] = arm_crank_head_x_*(crank_omega_ * crank_omega_);  /* O.x, m/s^2 */
+    gamma_rows[1] = arm_crank_head_y_*(crank_omega_ * crank_omega_);  /* O.y, m/s^2 */
     /* crankpin.x, m/s^2 */
-    gamma_rows[2] = arm_crank_head_x*(crank_omega * crank_omega) + arm_rod_head_x*(rod_omega * rod_omega);
+    gamma_rows[2] = arm_crank_head_x_*(crank_omega_ * crank_omega_) + arm_rod_head_x_*(rod_omega_ * rod_omega_);
     /* crankpin.y, m/s^2 */
-    gamma_rows[3] = arm_crank_head_y*(crank_omega * crank_omega) + arm_rod_head_y*(rod_omega * rod_omega);
-    gamma_rows[4] = arm_rod_head_x*(rod_omega * rod_omega);  /* wristpin.x, m/s^2 */
-    gamma_rows[5] = arm_rod_head_y*(rod_omega * rod_omega);  /* wristpin.y, m/s^2 */
+    gamma_rows[3] = arm_crank_head_y_*(crank_omega_ * crank_omega_) + arm_rod_head_y_*(rod_omega_ * rod_omega_);
+    gamma_rows[4] = arm_rod_head_x_*(rod_omega_ * rod_omega_);  /* wristpin.x, m/s^2 */
+    gamma_rows[5] = arm_rod_head_y_*(rod_omega_ * rod_omega_);  /* wristpin.y, m/s^2 */
     gamma_rows[6] = 0.0;  /* cylinder.offset, m/s^2 */
     gamma_rows[7] = 0.0;  /* cylinder.angle, rad/s^2 */
-    gamma_rows[8] = motor_acceleration;  /* motor, rad/s^2 */
+    gamma_rows[8] = motor_acceleration_;  /* motor, rad/s^2 */
 }
 
 /*
@@ -163,8 +163,8 @@ void start_values(const Parameters *p, double *guess, double *set, double *rates
 {
     (void)set, (void)rates;
     /* start */
-    guess[0] = p->guess_rod_theta;  /* start.guess.rod.theta */
-    guess[1] = p->guess_slider_x;  /* start.guess.slider.x */
+    guess[0] = p->guess_rod_theta_;  /* start.guess.rod.theta */
+    guess[1] = p->guess_slider_x_;  /* start.guess.slider.x */
 }
 
 /*
@@ -176,47 +176,47 @@ void outputs(const double t, const double *q, const double *v, const Parameters 
 {
     (void)t, (void)q, (void)series;
     /* coordinates, velocities, time */
-    const double crank_vx = v[0];
-    const double crank_vy = v[1];
-    const double crank_omega = v[2];
-    const double rod_vx = v[3];
-    const double rod_vy = v[4];
-    const double rod_omega = v[5];
-    const double slider_vx = v[6];
-    const double slider_vy = v[7];
-    const double slider_omega = v[8];
+    const double crank_vx_ = v[0];
+    const double crank_vy_ = v[1];
+    const double crank_omega_ = v[2];
+    const double rod_vx_ = v[3];
+    const double rod_vy_ = v[4];
+    const double rod_omega_ = v[5];
+    const double slider_vx_ = v[6];
+    const double slider_vy_ = v[7];
+    const double slider_omega_ = v[8];
 
     /* multipliers */
-    const double multiplier_O_x = lambda[0];
-    const double multiplier_O_y = lambda[1];
-    const double multiplier_crankpin_x = lambda[2];
-    const double multiplier_crankpin_y = lambda[3];
-    const double multiplier_wristpin_x = lambda[4];
-    const double multiplier_wristpin_y = lambda[5];
-    const double multiplier_cylinder_offset = lambda[6];
-    const double multiplier_cylinder_angle = lambda[7];
-    const double multiplier_motor = lambda[8];
+    const double multiplier_O_x_ = lambda[0];
+    const double multiplier_O_y_ = lambda[1];
+    const double multiplier_crankpin_x_ = lambda[2];
+    const double multiplier_crankpin_y_ = lambda[3];
+    const double multiplier_wristpin_x_ = lambda[4];
+    const double multiplier_wristpin_y_ = lambda[5];
+    const double multiplier_cylinder_offset_ = lambda[6];
+    const double multiplier_cylinder_angle_ = lambda[7];
+    const double multiplier_motor_ = lambda[8];
 
     /* reactions */
-    reactions[0] = multiplier_O_x;  /* O.Fx */
-    reactions[1] = multiplier_O_y;  /* O.Fy */
+    reactions[0] = multiplier_O_x_;  /* O.Fx */
+    reactions[1] = multiplier_O_y_;  /* O.Fy */
     reactions[2] = 0.0;  /* O.M */
-    reactions[3] = multiplier_crankpin_x;  /* crankpin.Fx */
-    reactions[4] = multiplier_crankpin_y;  /* crankpin.Fy */
+    reactions[3] = multiplier_crankpin_x_;  /* crankpin.Fx */
+    reactions[4] = multiplier_crankpin_y_;  /* crankpin.Fy */
     reactions[5] = 0.0;  /* crankpin.M */
-    reactions[6] = multiplier_wristpin_x;  /* wristpin.Fx */
-    reactions[7] = multiplier_wristpin_y;  /* wristpin.Fy */
+    reactions[6] = multiplier_wristpin_x_;  /* wristpin.Fx */
+    reactions[7] = multiplier_wristpin_y_;  /* wristpin.Fy */
     reactions[8] = 0.0;  /* wristpin.M */
     reactions[9] = 0.0;  /* cylinder.Fx */
-    reactions[10] = -multiplier_cylinder_offset;  /* cylinder.Fy */
-    reactions[11] = -multiplier_cylinder_angle;  /* cylinder.M */
-    torques[0] = -multiplier_motor;  /* motor */
+    reactions[10] = -multiplier_cylinder_offset_;  /* cylinder.Fy */
+    reactions[11] = -multiplier_cylinder_angle_;  /* cylinder.M */
+    torques[0] = -multiplier_motor_;  /* motor */
 
     /* energy */
-    energy[0] = 0.5*p->crank_inertia*(crank_omega * crank_omega) + 0.5*p->crank_mass*(crank_vx * crank_vx)
-        + 0.5*p->crank_mass*(crank_vy * crank_vy) + 0.5*p->rod_inertia*(rod_omega * rod_omega)
-        + 0.5*p->rod_mass*(rod_vx * rod_vx) + 0.5*p->rod_mass*(rod_vy * rod_vy)
-        + 0.5*p->slider_inertia*(slider_omega * slider_omega) + 0.5*p->slider_mass*(slider_vx * slider_vx)
-        + 0.5*p->slider_mass*(slider_vy * slider_vy);
+    energy[0] = 0.5*p->crank_inertia_*(crank_omega_ * crank_omega_) + 0.5*p->crank_mass_*(crank_vx_ * crank_vx_)
+        + 0.5*p->crank_mass_*(crank_vy_ * crank_vy_) + 0.5*p->rod_inertia_*(rod_omega_ * rod_omega_)
+        + 0.5*p->rod_mass_*(rod_vx_ * rod_vx_) + 0.5*p->rod_mass_*(rod_vy_ * rod_vy_)
+        + 0.5*p->slider_inertia_*(slider_omega_ * slider_omega_) + 0.5*p->slider_mass_*(slider_vx_ * slider_vx_)
+        + 0.5*p->slider_mass_*(slider_vy_ * slider_vy_);
     energy[1] = 0.0;
 }

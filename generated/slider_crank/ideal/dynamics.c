@@ -7,283 +7,205 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     Aside *aside)
 {
     /* coordinates, velocities, time */
-    const double crank_x = q[0];
-    const double crank_y = q[1];
-    const double crank_theta = q[2];
-    const double crank_vx = v[0];
-    const double crank_vy = v[1];
-    const double crank_omega = v[2];
-    const double rod_x = q[3];
-    const double rod_y = q[4];
-    const double rod_theta = q[5];
-    const double rod_vx = v[3];
-    const double rod_vy = v[4];
-    const double rod_omega = v[5];
-    const double slider_x = q[6];
-    const double slider_y = q[7];
-    const double slider_theta = q[8];
-    const double slider_vx = v[6];
-    const double slider_vy = v[7];
-    const double slider_omega = v[8];
+    const double crank_x_ = q[0];
+    const double crank_y_ = q[1];
+    const double crank_theta_ = q[2];
+    const double crank_vx_ = v[0];
+    const double crank_vy_ = v[1];
+    const double crank_omega_ = v[2];
+    const double rod_x_ = q[3];
+    const double rod_y_ = q[4];
+    const double rod_theta_ = q[5];
+    const double rod_vx_ = v[3];
+    const double rod_vy_ = v[4];
+    const double rod_omega_ = v[5];
+    const double slider_x_ = q[6];
+    const double slider_y_ = q[7];
+    const double slider_theta_ = q[8];
+    const double slider_vx_ = v[6];
+    const double slider_vy_ = v[7];
+    const double slider_omega_ = v[8];
 
     /* directions, arms, drives */
-    const double cos_theta_crank = cos(crank_theta);
-    const double sin_theta_crank = sin(crank_theta);
-    const double arm_crank_head_x = cos_theta_crank*p->crank_head_s_x;
-    const double arm_crank_head_y = p->crank_head_s_x*sin_theta_crank;
-    const double cos_theta_rod = cos(rod_theta);
-    const double sin_theta_rod = sin(rod_theta);
-    const double arm_rod_head_x = cos_theta_rod*p->rod_head_s_x;
-    const double arm_rod_head_y = p->rod_head_s_x*sin_theta_rod;
-    const double motor_value = p->omega*t;
-    const double motor_rate = p->omega;
-    const double motor_acceleration = 0.0;
+    const double cos_theta_crank_ = cos(crank_theta_);
+    const double sin_theta_crank_ = sin(crank_theta_);
+    const double arm_crank_head_x_ = cos_theta_crank_*p->crank_head_s_x_;
+    const double arm_crank_head_y_ = p->crank_head_s_x_*sin_theta_crank_;
+    const double cos_theta_rod_ = cos(rod_theta_);
+    const double sin_theta_rod_ = sin(rod_theta_);
+    const double arm_rod_head_x_ = cos_theta_rod_*p->rod_head_s_x_;
+    const double arm_rod_head_y_ = p->rod_head_s_x_*sin_theta_rod_;
+    const double motor_value_ = p->omega_*t;
+    const double motor_rate_ = p->omega_;
+    const double motor_acceleration_ = 0.0;
 
     /* status */
     int pivot = 0;
 
     /* constraints: Phi, Phi_dot = Phi_q v - nu, gamma */
-    const double phi_O_x = arm_crank_head_x - crank_x;
-    const double phi_dot_O_x = -arm_crank_head_y*crank_omega - crank_vx;
-    const double rhs_O_x = arm_crank_head_x*(crank_omega * crank_omega) - p->beta_squared*phi_O_x
-        - phi_dot_O_x*p->two_alpha;
-    aside->phi[0] = phi_O_x;
-    aside->phi_dot[0] = phi_dot_O_x;
-    const double phi_O_y = arm_crank_head_y - crank_y;
-    const double phi_dot_O_y = arm_crank_head_x*crank_omega - crank_vy;
-    const double rhs_O_y = arm_crank_head_y*(crank_omega * crank_omega) - p->beta_squared*phi_O_y
-        - phi_dot_O_y*p->two_alpha;
-    aside->phi[1] = phi_O_y;
-    aside->phi_dot[1] = phi_dot_O_y;
-    const double phi_crankpin_x = arm_crank_head_x + arm_rod_head_x + crank_x - rod_x;
-    const double phi_dot_crankpin_x = -arm_crank_head_y*crank_omega - arm_rod_head_y*rod_omega + crank_vx - rod_vx;
-    const double rhs_crankpin_x = arm_crank_head_x*(crank_omega * crank_omega) + arm_rod_head_x*(rod_omega * rod_omega)
-        - p->beta_squared*phi_crankpin_x - phi_dot_crankpin_x*p->two_alpha;
-    aside->phi[2] = phi_crankpin_x;
-    aside->phi_dot[2] = phi_dot_crankpin_x;
-    const double phi_crankpin_y = arm_crank_head_y + arm_rod_head_y + crank_y - rod_y;
-    const double phi_dot_crankpin_y = arm_crank_head_x*crank_omega + arm_rod_head_x*rod_omega + crank_vy - rod_vy;
-    const double rhs_crankpin_y = arm_crank_head_y*(crank_omega * crank_omega) + arm_rod_head_y*(rod_omega * rod_omega)
-        - p->beta_squared*phi_crankpin_y - phi_dot_crankpin_y*p->two_alpha;
-    aside->phi[3] = phi_crankpin_y;
-    aside->phi_dot[3] = phi_dot_crankpin_y;
-    const double phi_wristpin_x = arm_rod_head_x + rod_x - slider_x;
-    const double phi_dot_wristpin_x = -arm_rod_head_y*rod_omega + rod_vx - slider_vx;
-    const double rhs_wristpin_x = arm_rod_head_x*(rod_omega * rod_omega) - p->beta_squared*phi_wristpin_x
-        - phi_dot_wristpin_x*p->two_alpha;
-    aside->phi[4] = phi_wristpin_x;
-    aside->phi_dot[4] = phi_dot_wristpin_x;
-    const double phi_wristpin_y = arm_rod_head_y + rod_y - slider_y;
-    const double phi_dot_wristpin_y = arm_rod_head_x*rod_omega + rod_vy - slider_vy;
-    const double rhs_wristpin_y = arm_rod_head_y*(rod_omega * rod_omega) - p->beta_squared*phi_wristpin_y
-        - phi_dot_wristpin_y*p->two_alpha;
-    aside->phi[5] = phi_wristpin_y;
-    aside->phi_dot[5] = phi_dot_wristpin_y;
-    const double phi_cylinder_offset = slider_y;
-    const double phi_dot_cylinder_offset = slider_vy;
-    const double rhs_cylinder_offset = -p->beta_squared*phi_cylinder_offset - phi_dot_cylinder_offset*p->two_alpha;
-    aside->phi[6] = phi_cylinder_offset;
-    aside->phi_dot[6] = phi_dot_cylinder_offset;
-    const double phi_cylinder_angle = slider_theta;
-    const double phi_dot_cylinder_angle = slider_omega;
-    const double rhs_cylinder_angle = -p->beta_squared*phi_cylinder_angle - phi_dot_cylinder_angle*p->two_alpha;
-    aside->phi[7] = phi_cylinder_angle;
-    aside->phi_dot[7] = phi_dot_cylinder_angle;
-    const double phi_motor = crank_theta - motor_value;
-    const double phi_dot_motor = crank_omega - motor_rate;
-    const double rhs_motor = -p->beta_squared*phi_motor + motor_acceleration - phi_dot_motor*p->two_alpha;
-    aside->phi[8] = phi_motor;
-    aside->phi_dot[8] = phi_dot_motor;
+    const double phi_O_x_ = arm_crank_head_x_ - crank_x_;
+    const double phi_dot_O_x_ = -arm_crank_head_y_*crank_omega_ - crank_vx_;
+    const double rhs_O_x_ = arm_crank_head_x_*(crank_omega_ * crank_omega_) - p->beta_squared_*phi_O_x_
+        - phi_dot_O_x_*p->two_alpha_;
+    aside->phi[0] = phi_O_x_;
+    aside->phi_dot[0] = phi_dot_O_x_;
+    const double phi_O_y_ = arm_crank_head_y_ - crank_y_;
+    const double phi_dot_O_y_ = arm_crank_head_x_*crank_omega_ - crank_vy_;
+    const double rhs_O_y_ = arm_crank_head_y_*(crank_omega_ * crank_omega_) - p->beta_squared_*phi_O_y_
+        - phi_dot_O_y_*p->two_alpha_;
+    aside->phi[1] = phi_O_y_;
+    aside->phi_dot[1] = phi_dot_O_y_;
+    const double phi_crankpin_x_ = arm_crank_head_x_ + arm_rod_head_x_ + crank_x_ - rod_x_;
+    const double phi_dot_crankpin_x_ = -arm_crank_head_y_*crank_omega_ - arm_rod_head_y_*rod_omega_ + crank_vx_
+        - rod_vx_;
+    const double rhs_crankpin_x_ = arm_crank_head_x_*(crank_omega_ * crank_omega_)
+        + arm_rod_head_x_*(rod_omega_ * rod_omega_) - p->beta_squared_*phi_crankpin_x_
+        - phi_dot_crankpin_x_*p->two_alpha_;
+    aside->phi[2] = phi_crankpin_x_;
+    aside->phi_dot[2] = phi_dot_crankpin_x_;
+    const double phi_crankpin_y_ = arm_crank_head_y_ + arm_rod_head_y_ + crank_y_ - rod_y_;
+    const double phi_dot_crankpin_y_ = arm_crank_head_x_*crank_omega_ + arm_rod_head_x_*rod_omega_ + crank_vy_
+        - rod_vy_;
+    const double rhs_crankpin_y_ = arm_crank_head_y_*(crank_omega_ * crank_omega_)
+        + arm_rod_head_y_*(rod_omega_ * rod_omega_) - p->beta_squared_*phi_crankpin_y_
+        - phi_dot_crankpin_y_*p->two_alpha_;
+    aside->phi[3] = phi_crankpin_y_;
+    aside->phi_dot[3] = phi_dot_crankpin_y_;
+    const double phi_wristpin_x_ = arm_rod_head_x_ + rod_x_ - slider_x_;
+    const double phi_dot_wristpin_x_ = -arm_rod_head_y_*rod_omega_ + rod_vx_ - slider_vx_;
+    const double rhs_wristpin_x_ = arm_rod_head_x_*(rod_omega_ * rod_omega_) - p->beta_squared_*phi_wristpin_x_
+        - phi_dot_wristpin_x_*p->two_alpha_;
+    aside->phi[4] = phi_wristpin_x_;
+    aside->phi_dot[4] = phi_dot_wristpin_x_;
+    const double phi_wristpin_y_ = arm_rod_head_y_ + rod_y_ - slider_y_;
+    const double phi_dot_wristpin_y_ = arm_rod_head_x_*rod_omega_ + rod_vy_ - slider_vy_;
+    const double rhs_wristpin_y_ = arm_rod_head_y_*(rod_omega_ * rod_omega_) - p->beta_squared_*phi_wristpin_y_
+        - phi_dot_wristpin_y_*p->two_alpha_;
+    aside->phi[5] = phi_wristpin_y_;
+    aside->phi_dot[5] = phi_dot_wristpin_y_;
+    const double phi_cylinder_offset_ = slider_y_;
+    const double phi_dot_cylinder_offset_ = slider_vy_;
+    const double rhs_cylinder_offset_ = -p->beta_squared_*phi_cylinder_offset_ - phi_dot_cylinder_offset_*p->two_alpha_;
+    aside->phi[6] = phi_cylinder_offset_;
+    aside->phi_dot[6] = phi_dot_cylinder_offset_;
+    const double phi_cylinder_angle_ = slider_theta_;
+    const double phi_dot_cylinder_angle_ = slider_omega_;
+    const double rhs_cylinder_angle_ = -p->beta_squared_*phi_cylinder_angle_ - phi_dot_cylinder_angle_*p->two_alpha_;
+    aside->phi[7] = phi_cylinder_angle_;
+    aside->phi_dot[7] = phi_dot_cylinder_angle_;
+    const double phi_motor_ = crank_theta_ - motor_value_;
+    const double phi_dot_motor_ = crank_omega_ - motor_rate_;
+    const double rhs_motor_ = -p->beta_squared_*phi_motor_ + motor_acceleration_ - phi_dot_motor_*p->two_alpha_;
+    aside->phi[8] = phi_motor_;
+    aside->phi_dot[8] = phi_dot_motor_;
 
     /* L D L^T of the KKT matrix */
-    const double scale_cylinder_angle = p->inverse_slider_inertia;
-    if (!(scale_cylinder_angle > 0.0 && scale_cylinder_angle < INFINITY)) {
-        pivot = 1;
+    const double l_rod_theta_wristpin_y_ = -arm_rod_head_x_*p->slider_mass_;
+    const double l_rod_theta_wristpin_x_ = arm_rod_head_y_*p->slider_mass_;
+    const double inertia_rod_y_ = p->rod_mass_ + p->slider_mass_;
+    const double l_crank_theta_crankpin_y_ = -arm_crank_head_x_*inertia_rod_y_;
+    const double l_rod_theta_crankpin_y_ = -arm_rod_head_x_*inertia_rod_y_ + l_rod_theta_wristpin_y_;
+    const double inertia_rod_x_ = p->rod_mass_ + p->slider_mass_;
+    const double l_crank_theta_crankpin_x_ = arm_crank_head_y_*inertia_rod_x_;
+    const double l_rod_theta_crankpin_x_ = arm_rod_head_y_*inertia_rod_x_ + l_rod_theta_wristpin_x_;
+    const double inertia_crank_theta_ = -arm_crank_head_x_*l_crank_theta_crankpin_y_
+        + arm_crank_head_y_*l_crank_theta_crankpin_x_ + p->crank_inertia_;
+    const double w_crank_y_crank_theta_ = arm_crank_head_x_*inertia_rod_y_;
+    const double w_crank_x_crank_theta_ = -arm_crank_head_y_*inertia_rod_x_;
+    const double w_rod_theta_crank_theta_ = -arm_crank_head_x_*l_rod_theta_crankpin_y_
+        + arm_crank_head_y_*l_rod_theta_crankpin_x_;
+    const double inertia_crank_y_ = p->crank_mass_ + inertia_rod_y_;
+    const double inertia_crank_x_ = p->crank_mass_ + inertia_rod_x_;
+    const double pivot_rod_theta_ = -arm_rod_head_x_*l_rod_theta_crankpin_y_
+        - 2.0*arm_rod_head_x_*l_rod_theta_wristpin_y_ + arm_rod_head_y_*l_rod_theta_crankpin_x_
+        + 2.0*arm_rod_head_y_*l_rod_theta_wristpin_x_ + p->rod_inertia_;
+    if (!(pivot_rod_theta_ > LIGHT_PIVOT * p->rod_turning_)) {
+        pivot = 10;
         goto dependent;
     }
-    const double inverse_pivot_cylinder_angle = 1.0/scale_cylinder_angle;
-    const double scale_cylinder_offset = p->inverse_slider_mass;
-    if (!(scale_cylinder_offset > 0.0 && scale_cylinder_offset < INFINITY)) {
-        pivot = 2;
-        goto dependent;
-    }
-    const double inverse_pivot_cylinder_offset = 1.0/scale_cylinder_offset;
-    const double l_wristpin_y__cylinder_offset = -inverse_pivot_cylinder_offset*p->inverse_slider_mass;
-    const double l_wristpin_x__rod_theta = -arm_rod_head_y*p->inverse_rod_inertia;
-    const double l_wristpin_y__rod_theta = arm_rod_head_x*p->inverse_rod_inertia;
-    const double l_crankpin_x__rod_theta = -arm_rod_head_y*p->inverse_rod_inertia;
-    const double l_crankpin_y__rod_theta = arm_rod_head_x*p->inverse_rod_inertia;
-    const double scale_wristpin_x = -arm_rod_head_y*l_wristpin_x__rod_theta + p->inverse_rod_mass
-        + p->inverse_slider_mass;
-    const double scale_wristpin_y = arm_rod_head_x*l_wristpin_y__rod_theta + p->inverse_rod_mass
-        + p->inverse_slider_mass;
-    const double pivot_wristpin_y = p->inverse_slider_mass*l_wristpin_y__cylinder_offset + scale_wristpin_y;
-    const double pivot_wristpin_x__wristpin_y = -arm_rod_head_y*l_wristpin_y__rod_theta;
-    const double determinant_wristpin_x__wristpin_y = -(pivot_wristpin_x__wristpin_y * pivot_wristpin_x__wristpin_y)
-        + pivot_wristpin_y*scale_wristpin_x;
-    if (!(scale_wristpin_x > 0.0 && scale_wristpin_x < INFINITY)) {
-        pivot = 3;
-        goto dependent;
-    }
-    if (!(determinant_wristpin_x__wristpin_y > memory->least * scale_wristpin_y * scale_wristpin_x)) {
-        pivot = 4;
-        goto dependent;
-    }
-    const double inverse_wristpin_x__wristpin_y = -1.0/determinant_wristpin_x__wristpin_y;
-    const double inverse_pivot_wristpin_x = inverse_wristpin_x__wristpin_y*pivot_wristpin_y;
-    const double inverse_pivot_wristpin_y = inverse_wristpin_x__wristpin_y*scale_wristpin_x;
-    const double inverse_cross_wristpin_x__wristpin_y = -inverse_wristpin_x__wristpin_y*pivot_wristpin_x__wristpin_y;
-    const double w_crankpin_x__wristpin_x = arm_rod_head_y*l_crankpin_x__rod_theta + p->inverse_rod_mass;
-    const double w_crankpin_x__wristpin_y = -arm_rod_head_x*l_crankpin_x__rod_theta;
-    const double l_crankpin_x__wristpin_x = inverse_cross_wristpin_x__wristpin_y*w_crankpin_x__wristpin_y
-        + inverse_pivot_wristpin_x*w_crankpin_x__wristpin_x;
-    const double l_crankpin_x__wristpin_y = inverse_cross_wristpin_x__wristpin_y*w_crankpin_x__wristpin_x
-        + inverse_pivot_wristpin_y*w_crankpin_x__wristpin_y;
-    const double w_crankpin_y__wristpin_x = arm_rod_head_y*l_crankpin_y__rod_theta;
-    const double w_crankpin_y__wristpin_y = -arm_rod_head_x*l_crankpin_y__rod_theta + p->inverse_rod_mass;
-    const double l_crankpin_y__wristpin_x = inverse_cross_wristpin_x__wristpin_y*w_crankpin_y__wristpin_y
-        + inverse_pivot_wristpin_x*w_crankpin_y__wristpin_x;
-    const double l_crankpin_y__wristpin_y = inverse_cross_wristpin_x__wristpin_y*w_crankpin_y__wristpin_x
-        + inverse_pivot_wristpin_y*w_crankpin_y__wristpin_y;
-    const double l_O_x__crank_theta = -arm_crank_head_y*p->inverse_crank_inertia;
-    const double l_O_y__crank_theta = arm_crank_head_x*p->inverse_crank_inertia;
-    const double l_crankpin_x__crank_theta = -arm_crank_head_y*p->inverse_crank_inertia;
-    const double l_crankpin_y__crank_theta = arm_crank_head_x*p->inverse_crank_inertia;
-    const double scale_O_x = -arm_crank_head_y*l_O_x__crank_theta + p->inverse_crank_mass;
-    const double scale_O_y = arm_crank_head_x*l_O_y__crank_theta + p->inverse_crank_mass;
-    const double pivot_O_x__O_y = -arm_crank_head_y*l_O_y__crank_theta;
-    const double determinant_O_x__O_y = -(pivot_O_x__O_y * pivot_O_x__O_y) + scale_O_x*scale_O_y;
-    if (!(scale_O_x > 0.0 && scale_O_x < INFINITY)) {
-        pivot = 5;
-        goto dependent;
-    }
-    if (!(determinant_O_x__O_y > memory->least * scale_O_y * scale_O_x)) {
-        pivot = 6;
-        goto dependent;
-    }
-    const double inverse_O_x__O_y = -1.0/determinant_O_x__O_y;
-    const double inverse_pivot_O_x = inverse_O_x__O_y*scale_O_y;
-    const double inverse_pivot_O_y = inverse_O_x__O_y*scale_O_x;
-    const double inverse_cross_O_x__O_y = -inverse_O_x__O_y*pivot_O_x__O_y;
-    const double w_crankpin_x__O_x = arm_crank_head_y*l_crankpin_x__crank_theta + p->inverse_crank_mass;
-    const double w_crankpin_x__O_y = -arm_crank_head_x*l_crankpin_x__crank_theta;
-    const double l_crankpin_x__O_x = inverse_cross_O_x__O_y*w_crankpin_x__O_y + inverse_pivot_O_x*w_crankpin_x__O_x;
-    const double l_crankpin_x__O_y = inverse_cross_O_x__O_y*w_crankpin_x__O_x + inverse_pivot_O_y*w_crankpin_x__O_y;
-    const double w_crankpin_y__O_x = arm_crank_head_y*l_crankpin_y__crank_theta;
-    const double w_crankpin_y__O_y = -arm_crank_head_x*l_crankpin_y__crank_theta + p->inverse_crank_mass;
-    const double l_crankpin_y__O_x = inverse_cross_O_x__O_y*w_crankpin_y__O_y + inverse_pivot_O_x*w_crankpin_y__O_x;
-    const double l_crankpin_y__O_y = inverse_cross_O_x__O_y*w_crankpin_y__O_x + inverse_pivot_O_y*w_crankpin_y__O_y;
-    const double w_motor__O_x = arm_crank_head_y*p->inverse_crank_inertia;
-    const double w_motor__O_y = -arm_crank_head_x*p->inverse_crank_inertia;
-    const double l_motor__O_x = inverse_cross_O_x__O_y*w_motor__O_y + inverse_pivot_O_x*w_motor__O_x;
-    const double l_motor__O_y = inverse_cross_O_x__O_y*w_motor__O_x + inverse_pivot_O_y*w_motor__O_y;
-    const double scale_crankpin_x = -arm_crank_head_y*l_crankpin_x__crank_theta
-        - arm_rod_head_y*l_crankpin_x__rod_theta + p->inverse_crank_mass + p->inverse_rod_mass;
-    const double scale_crankpin_y = arm_crank_head_x*l_crankpin_y__crank_theta + arm_rod_head_x*l_crankpin_y__rod_theta
-        + p->inverse_crank_mass + p->inverse_rod_mass;
-    const double pivot_crankpin_x = l_crankpin_x__O_x*w_crankpin_x__O_x + l_crankpin_x__O_y*w_crankpin_x__O_y
-        + l_crankpin_x__wristpin_x*w_crankpin_x__wristpin_x + l_crankpin_x__wristpin_y*w_crankpin_x__wristpin_y
-        + scale_crankpin_x;
-    const double pivot_crankpin_y = l_crankpin_y__O_x*w_crankpin_y__O_x + l_crankpin_y__O_y*w_crankpin_y__O_y
-        + l_crankpin_y__wristpin_x*w_crankpin_y__wristpin_x + l_crankpin_y__wristpin_y*w_crankpin_y__wristpin_y
-        + scale_crankpin_y;
-    const double pivot_crankpin_x__crankpin_y = -arm_crank_head_y*l_crankpin_y__crank_theta
-        - arm_rod_head_y*l_crankpin_y__rod_theta + l_crankpin_y__O_x*w_crankpin_x__O_x
-        + l_crankpin_y__O_y*w_crankpin_x__O_y + l_crankpin_y__wristpin_x*w_crankpin_x__wristpin_x
-        + l_crankpin_y__wristpin_y*w_crankpin_x__wristpin_y;
-    const double determinant_crankpin_x__crankpin_y = pivot_crankpin_x*pivot_crankpin_y
-        - (pivot_crankpin_x__crankpin_y * pivot_crankpin_x__crankpin_y);
-    if (!(pivot_crankpin_x > memory->least * scale_crankpin_x)) {
-        pivot = 7;
-        goto dependent;
-    }
-    if (!(determinant_crankpin_x__crankpin_y > memory->least * scale_crankpin_y * pivot_crankpin_x)) {
-        pivot = 8;
-        goto dependent;
-    }
-    const double inverse_crankpin_x__crankpin_y = -1.0/determinant_crankpin_x__crankpin_y;
-    const double inverse_pivot_crankpin_x = inverse_crankpin_x__crankpin_y*pivot_crankpin_y;
-    const double inverse_pivot_crankpin_y = inverse_crankpin_x__crankpin_y*pivot_crankpin_x;
-    const double inverse_cross_crankpin_x__crankpin_y = -inverse_crankpin_x__crankpin_y*pivot_crankpin_x__crankpin_y;
-    const double w_motor__crankpin_x = arm_crank_head_y*p->inverse_crank_inertia - l_motor__O_x*w_crankpin_x__O_x
-        - l_motor__O_y*w_crankpin_x__O_y;
-    const double w_motor__crankpin_y = -arm_crank_head_x*p->inverse_crank_inertia - l_motor__O_x*w_crankpin_y__O_x
-        - l_motor__O_y*w_crankpin_y__O_y;
-    const double l_motor__crankpin_x = inverse_cross_crankpin_x__crankpin_y*w_motor__crankpin_y
-        + inverse_pivot_crankpin_x*w_motor__crankpin_x;
-    const double l_motor__crankpin_y = inverse_cross_crankpin_x__crankpin_y*w_motor__crankpin_x
-        + inverse_pivot_crankpin_y*w_motor__crankpin_y;
-    const double scale_motor = p->inverse_crank_inertia;
-    const double pivot_motor = l_motor__O_x*w_motor__O_x + l_motor__O_y*w_motor__O_y
-        + l_motor__crankpin_x*w_motor__crankpin_x + l_motor__crankpin_y*w_motor__crankpin_y + scale_motor;
-    if (!(pivot_motor > memory->least * scale_motor)) {
+    const double inverse_pivot_rod_theta_ = 1.0/pivot_rod_theta_;
+    const double w_cylinder_offset_rod_theta_ = 2.0*arm_rod_head_x_;
+    const double l_cylinder_offset_rod_theta_ = inverse_pivot_rod_theta_*w_cylinder_offset_rod_theta_;
+    const double scale_cylinder_offset_ = l_cylinder_offset_rod_theta_*w_cylinder_offset_rod_theta_;
+    const double pivot_cylinder_offset_ = scale_cylinder_offset_;
+    const double size_cylinder_offset_ = p->mobility_cylinder_offset_ + scale_cylinder_offset_;
+    if (!(pivot_cylinder_offset_ > memory->least * size_cylinder_offset_)) {
         pivot = 9;
         goto dependent;
     }
-    const double inverse_pivot_motor = 1.0/pivot_motor;
+    const double inverse_pivot_cylinder_offset_ = 1.0/pivot_cylinder_offset_;
 
     /* forward substitution */
-    const double z_wristpin_y = -l_wristpin_y__cylinder_offset*rhs_cylinder_offset + rhs_wristpin_y;
-    const double z_crankpin_x = -l_crankpin_x__O_x*rhs_O_x - l_crankpin_x__O_y*rhs_O_y
-        - l_crankpin_x__wristpin_x*rhs_wristpin_x - l_crankpin_x__wristpin_y*z_wristpin_y + rhs_crankpin_x;
-    const double z_crankpin_y = -l_crankpin_y__O_x*rhs_O_x - l_crankpin_y__O_y*rhs_O_y
-        - l_crankpin_y__wristpin_x*rhs_wristpin_x - l_crankpin_y__wristpin_y*z_wristpin_y + rhs_crankpin_y;
-    const double z_motor = -l_motor__O_x*rhs_O_x - l_motor__O_y*rhs_O_y - l_motor__crankpin_x*z_crankpin_x
-        - l_motor__crankpin_y*z_crankpin_y + rhs_motor;
+    const double z_rod_y_ = rhs_wristpin_y_*p->slider_mass_;
+    const double z_rod_x_ = rhs_wristpin_x_*p->slider_mass_;
+    const double z_crank_theta_ = arm_crank_head_x_*z_rod_y_ - arm_crank_head_y_*z_rod_x_
+        - l_crank_theta_crankpin_x_*rhs_crankpin_x_ - l_crank_theta_crankpin_y_*rhs_crankpin_y_;
+    const double z_crank_y_ = inertia_rod_y_*rhs_crankpin_y_ - rhs_motor_*w_crank_y_crank_theta_ + z_rod_y_;
+    const double z_O_y_ = -arm_crank_head_x_*rhs_motor_ + rhs_O_y_;
+    const double z_crank_x_ = inertia_rod_x_*rhs_crankpin_x_ - rhs_motor_*w_crank_x_crank_theta_ + z_rod_x_;
+    const double z_O_x_ = arm_crank_head_y_*rhs_motor_ + rhs_O_x_;
+    const double z_rod_theta_ = arm_rod_head_x_*z_rod_y_ - arm_rod_head_y_*z_rod_x_
+        - l_rod_theta_crankpin_x_*rhs_crankpin_x_ - l_rod_theta_crankpin_x_*z_O_x_
+        - l_rod_theta_crankpin_y_*rhs_crankpin_y_ - l_rod_theta_crankpin_y_*z_O_y_
+        - l_rod_theta_wristpin_x_*rhs_wristpin_x_ - l_rod_theta_wristpin_y_*rhs_wristpin_y_
+        - rhs_motor_*w_rod_theta_crank_theta_;
+    const double z_cylinder_offset_ = -arm_crank_head_x_*rhs_motor_ - l_cylinder_offset_rod_theta_*z_rod_theta_
+        + rhs_crankpin_y_ + rhs_cylinder_offset_ + rhs_wristpin_y_ + z_O_y_;
 
     /* backward substitution */
-    const double lambda_motor = -inverse_pivot_motor*z_motor;
-    const double lambda_crankpin_y = inverse_cross_crankpin_x__crankpin_y*z_crankpin_x
-        + inverse_pivot_crankpin_y*z_crankpin_y - l_motor__crankpin_y*lambda_motor;
-    const double lambda_crankpin_x = inverse_cross_crankpin_x__crankpin_y*z_crankpin_y
-        + inverse_pivot_crankpin_x*z_crankpin_x - l_motor__crankpin_x*lambda_motor;
-    const double lambda_O_y = inverse_cross_O_x__O_y*rhs_O_x + inverse_pivot_O_y*rhs_O_y
-        - l_crankpin_x__O_y*lambda_crankpin_x - l_crankpin_y__O_y*lambda_crankpin_y - l_motor__O_y*lambda_motor;
-    const double lambda_O_x = inverse_cross_O_x__O_y*rhs_O_y + inverse_pivot_O_x*rhs_O_x
-        - l_crankpin_x__O_x*lambda_crankpin_x - l_crankpin_y__O_x*lambda_crankpin_y - l_motor__O_x*lambda_motor;
-    const double acceleration_crank_theta = -p->inverse_crank_inertia*lambda_motor - l_O_x__crank_theta*lambda_O_x
-        - l_O_y__crank_theta*lambda_O_y - l_crankpin_x__crank_theta*lambda_crankpin_x
-        - l_crankpin_y__crank_theta*lambda_crankpin_y;
-    const double lambda_wristpin_y = inverse_cross_wristpin_x__wristpin_y*rhs_wristpin_x
-        + inverse_pivot_wristpin_y*z_wristpin_y - l_crankpin_x__wristpin_y*lambda_crankpin_x
-        - l_crankpin_y__wristpin_y*lambda_crankpin_y;
-    const double lambda_wristpin_x = inverse_cross_wristpin_x__wristpin_y*z_wristpin_y
-        + inverse_pivot_wristpin_x*rhs_wristpin_x - l_crankpin_x__wristpin_x*lambda_crankpin_x
-        - l_crankpin_y__wristpin_x*lambda_crankpin_y;
-    const double acceleration_rod_theta = -l_crankpin_x__rod_theta*lambda_crankpin_x
-        - l_crankpin_y__rod_theta*lambda_crankpin_y - l_wristpin_x__rod_theta*lambda_wristpin_x
-        - l_wristpin_y__rod_theta*lambda_wristpin_y;
-    const double lambda_cylinder_offset = -inverse_pivot_cylinder_offset*rhs_cylinder_offset
-        - l_wristpin_y__cylinder_offset*lambda_wristpin_y;
-    const double acceleration_slider_y = -p->inverse_slider_mass*lambda_cylinder_offset
-        + p->inverse_slider_mass*lambda_wristpin_y;
-    const double acceleration_rod_y = p->inverse_rod_mass*lambda_crankpin_y - p->inverse_rod_mass*lambda_wristpin_y;
-    const double acceleration_rod_x = p->inverse_rod_mass*lambda_crankpin_x - p->inverse_rod_mass*lambda_wristpin_x;
-    const double acceleration_crank_y = p->inverse_crank_mass*lambda_O_y - p->inverse_crank_mass*lambda_crankpin_y;
-    const double acceleration_crank_x = p->inverse_crank_mass*lambda_O_x - p->inverse_crank_mass*lambda_crankpin_x;
-    const double lambda_cylinder_angle = -inverse_pivot_cylinder_angle*rhs_cylinder_angle;
-    const double acceleration_slider_theta = -p->inverse_slider_inertia*lambda_cylinder_angle;
-    const double acceleration_slider_x = p->inverse_slider_mass*lambda_wristpin_x;
+    const double lambda_cylinder_offset_ = -inverse_pivot_cylinder_offset_*z_cylinder_offset_;
+    const double acceleration_rod_theta_ = inverse_pivot_rod_theta_*z_rod_theta_
+        - l_cylinder_offset_rod_theta_*lambda_cylinder_offset_;
+    const double lambda_O_x_ = -acceleration_rod_theta_*l_rod_theta_crankpin_x_ - inertia_crank_x_*z_O_x_ - z_crank_x_;
+    const double acceleration_crank_x_ = -z_O_x_;
+    const double lambda_O_y_ = -acceleration_rod_theta_*l_rod_theta_crankpin_y_ - inertia_crank_y_*z_O_y_
+        + lambda_cylinder_offset_ - z_crank_y_;
+    const double acceleration_crank_y_ = -z_O_y_;
+    const double lambda_cylinder_angle_ = -rhs_cylinder_angle_*p->slider_inertia_;
+    const double acceleration_slider_theta_ = rhs_cylinder_angle_;
+    const double lambda_motor_ = -acceleration_crank_x_*w_crank_x_crank_theta_
+        - acceleration_crank_y_*w_crank_y_crank_theta_ - acceleration_rod_theta_*w_rod_theta_crank_theta_
+        - arm_crank_head_x_*lambda_O_y_ - arm_crank_head_x_*lambda_cylinder_offset_ + arm_crank_head_y_*lambda_O_x_
+        - inertia_crank_theta_*rhs_motor_ + z_crank_theta_;
+    const double acceleration_crank_theta_ = rhs_motor_;
+    const double lambda_crankpin_x_ = -acceleration_crank_theta_*l_crank_theta_crankpin_x_
+        + acceleration_crank_x_*inertia_rod_x_ - acceleration_rod_theta_*l_rod_theta_crankpin_x_
+        - inertia_rod_x_*rhs_crankpin_x_ - z_rod_x_;
+    const double acceleration_rod_x_ = -acceleration_crank_theta_*arm_crank_head_y_ + acceleration_crank_x_
+        - acceleration_rod_theta_*arm_rod_head_y_ - rhs_crankpin_x_;
+    const double lambda_crankpin_y_ = -acceleration_crank_theta_*l_crank_theta_crankpin_y_
+        + acceleration_crank_y_*inertia_rod_y_ - acceleration_rod_theta_*l_rod_theta_crankpin_y_
+        - inertia_rod_y_*rhs_crankpin_y_ + lambda_cylinder_offset_ - z_rod_y_;
+    const double acceleration_rod_y_ = acceleration_crank_theta_*arm_crank_head_x_ + acceleration_crank_y_
+        + acceleration_rod_theta_*arm_rod_head_x_ - rhs_crankpin_y_;
+    const double lambda_wristpin_x_ = -acceleration_rod_theta_*l_rod_theta_wristpin_x_
+        + acceleration_rod_x_*p->slider_mass_ - rhs_wristpin_x_*p->slider_mass_;
+    const double acceleration_slider_x_ = -acceleration_rod_theta_*arm_rod_head_y_ + acceleration_rod_x_
+        - rhs_wristpin_x_;
+    const double lambda_wristpin_y_ = -acceleration_rod_theta_*l_rod_theta_wristpin_y_
+        + acceleration_rod_y_*p->slider_mass_ + lambda_cylinder_offset_ - rhs_wristpin_y_*p->slider_mass_;
+    const double acceleration_slider_y_ = acceleration_rod_theta_*arm_rod_head_x_ + acceleration_rod_y_
+        - rhs_wristpin_y_;
 
     /* results */
-    a[0] = acceleration_crank_x;
-    a[1] = acceleration_crank_y;
-    a[2] = acceleration_crank_theta;
-    a[3] = acceleration_rod_x;
-    a[4] = acceleration_rod_y;
-    a[5] = acceleration_rod_theta;
-    a[6] = acceleration_slider_x;
-    a[7] = acceleration_slider_y;
-    a[8] = acceleration_slider_theta;
-    aside->lambda[0] = lambda_O_x;
-    aside->lambda[1] = lambda_O_y;
-    aside->lambda[2] = lambda_crankpin_x;
-    aside->lambda[3] = lambda_crankpin_y;
-    aside->lambda[4] = lambda_wristpin_x;
-    aside->lambda[5] = lambda_wristpin_y;
-    aside->lambda[6] = lambda_cylinder_offset;
-    aside->lambda[7] = lambda_cylinder_angle;
-    aside->lambda[8] = lambda_motor;
+    a[0] = acceleration_crank_x_;
+    a[1] = acceleration_crank_y_;
+    a[2] = acceleration_crank_theta_;
+    a[3] = acceleration_rod_x_;
+    a[4] = acceleration_rod_y_;
+    a[5] = acceleration_rod_theta_;
+    a[6] = acceleration_slider_x_;
+    a[7] = acceleration_slider_y_;
+    a[8] = acceleration_slider_theta_;
+    aside->lambda[0] = lambda_O_x_;
+    aside->lambda[1] = lambda_O_y_;
+    aside->lambda[2] = lambda_crankpin_x_;
+    aside->lambda[3] = lambda_crankpin_y_;
+    aside->lambda[4] = lambda_wristpin_x_;
+    aside->lambda[5] = lambda_wristpin_y_;
+    aside->lambda[6] = lambda_cylinder_offset_;
+    aside->lambda[7] = lambda_cylinder_angle_;
+    aside->lambda[8] = lambda_motor_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
@@ -298,19 +220,19 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
         force[6] = 0.0;
         force[7] = 0.0;
         force[8] = 0.0;
-        rhs[0] = rhs_O_x;
-        rhs[1] = rhs_O_y;
-        rhs[2] = rhs_crankpin_x;
-        rhs[3] = rhs_crankpin_y;
-        rhs[4] = rhs_wristpin_x;
-        rhs[5] = rhs_wristpin_y;
-        rhs[6] = rhs_cylinder_offset;
-        rhs[7] = rhs_cylinder_angle;
-        rhs[8] = rhs_motor;
+        rhs[0] = rhs_O_x_;
+        rhs[1] = rhs_O_y_;
+        rhs[2] = rhs_crankpin_x_;
+        rhs[3] = rhs_crankpin_y_;
+        rhs[4] = rhs_wristpin_x_;
+        rhs[5] = rhs_wristpin_y_;
+        rhs[6] = rhs_cylinder_offset_;
+        rhs[7] = rhs_cylinder_angle_;
+        rhs[8] = rhs_motor_;
         pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
     }
     powers:
-    aside->power[0] = -aside->lambda[8]*motor_rate;
+    aside->power[0] = -aside->lambda[8]*motor_rate_;
     aside->power[1] = 0.0;
     aside->power[2] = 0.0;
     return pivot;

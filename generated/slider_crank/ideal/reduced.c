@@ -4,61 +4,61 @@
 void expand(const double t, const double *q, const double *v, const Parameters *p, double *all_q, double *all_v)
 {
     /* coordinates, velocities, time */
-    const double rod_theta = q[0];
-    const double rod_omega = v[0];
+    const double rod_theta_ = q[0];
+    const double rod_omega_ = v[0];
 
     /* directions, arms, drives */
-    const double motor_value = p->omega*t;
-    const Four angles_0 = {motor_value, rod_theta, rod_theta, rod_theta};
+    const double motor_value_ = p->omega_*t;
+    const Four angles_0 = {motor_value_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_crank = cosines_0[0];
-    const double sin_theta_crank = sines_0[0];
-    const double cos_theta_rod = cosines_0[1];
-    const double sin_theta_rod = sines_0[1];
-    const double motor_rate = p->omega;
-    const double span_crank_com_x = cos_theta_crank*p->crank_head_s_x;
-    const double span_crank_com_y = p->crank_head_s_x*sin_theta_crank;
-    const double crank_vx = -motor_rate*span_crank_com_y;
-    const double crank_vy = motor_rate*span_crank_com_x;
-    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
-    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
-    const double crank_head_vx = -motor_rate*span_crank_head_y;
-    const double crank_head_vy = motor_rate*span_crank_head_x;
-    const double span_rod_com_x = cos_theta_rod*p->rod_head_s_x;
-    const double span_rod_com_y = p->rod_head_s_x*sin_theta_rod;
-    const double rod_x = span_crank_head_x + span_rod_com_x;
-    const double rod_vx = crank_head_vx - rod_omega*span_rod_com_y;
-    const double rod_y = span_crank_head_y + span_rod_com_y;
-    const double rod_vy = crank_head_vy + rod_omega*span_rod_com_x;
-    const double span_rod_head_x = cos_theta_rod*p->rod_head_span_x;
-    const double span_rod_head_y = p->rod_head_span_x*sin_theta_rod;
-    const double rod_head_x = span_crank_head_x + span_rod_head_x;
-    const double rod_head_vx = crank_head_vx - rod_omega*span_rod_head_y;
-    const double rod_head_y = span_crank_head_y + span_rod_head_y;
-    const double rod_head_vy = crank_head_vy + rod_omega*span_rod_head_x;
-    const double slider_theta = 0.0;
-    const double slider_omega = 0.0;
+    const double cos_theta_crank_ = cosines_0[0];
+    const double sin_theta_crank_ = sines_0[0];
+    const double cos_theta_rod_ = cosines_0[1];
+    const double sin_theta_rod_ = sines_0[1];
+    const double motor_rate_ = p->omega_;
+    const double span_crank_com_x_ = cos_theta_crank_*p->crank_head_s_x_;
+    const double span_crank_com_y_ = p->crank_head_s_x_*sin_theta_crank_;
+    const double crank_vx_ = -motor_rate_*span_crank_com_y_;
+    const double crank_vy_ = motor_rate_*span_crank_com_x_;
+    const double span_crank_head_x_ = cos_theta_crank_*p->crank_head_span_x_;
+    const double span_crank_head_y_ = p->crank_head_span_x_*sin_theta_crank_;
+    const double crank_head_vx_ = -motor_rate_*span_crank_head_y_;
+    const double crank_head_vy_ = motor_rate_*span_crank_head_x_;
+    const double span_rod_com_x_ = cos_theta_rod_*p->rod_head_s_x_;
+    const double span_rod_com_y_ = p->rod_head_s_x_*sin_theta_rod_;
+    const double rod_x_ = span_crank_head_x_ + span_rod_com_x_;
+    const double rod_vx_ = crank_head_vx_ - rod_omega_*span_rod_com_y_;
+    const double rod_y_ = span_crank_head_y_ + span_rod_com_y_;
+    const double rod_vy_ = crank_head_vy_ + rod_omega_*span_rod_com_x_;
+    const double span_rod_head_x_ = cos_theta_rod_*p->rod_head_span_x_;
+    const double span_rod_head_y_ = p->rod_head_span_x_*sin_theta_rod_;
+    const double rod_head_x_ = span_crank_head_x_ + span_rod_head_x_;
+    const double rod_head_vx_ = crank_head_vx_ - rod_omega_*span_rod_head_y_;
+    const double rod_head_y_ = span_crank_head_y_ + span_rod_head_y_;
+    const double rod_head_vy_ = crank_head_vy_ + rod_omega_*span_rod_head_x_;
+    const double slider_theta_ = 0.0;
+    const double slider_omega_ = 0.0;
 
     /* bodies */
-    all_q[0] = span_crank_com_x;
-    all_v[0] = crank_vx;
-    all_q[1] = span_crank_com_y;
-    all_v[1] = crank_vy;
-    all_q[2] = motor_value;
-    all_v[2] = motor_rate;
-    all_q[3] = rod_x;
-    all_v[3] = rod_vx;
-    all_q[4] = rod_y;
-    all_v[4] = rod_vy;
-    all_q[5] = rod_theta;
-    all_v[5] = rod_omega;
-    all_q[6] = rod_head_x;
-    all_v[6] = rod_head_vx;
-    all_q[7] = rod_head_y;
-    all_v[7] = rod_head_vy;
-    all_q[8] = slider_theta;
-    all_v[8] = slider_omega;
+    all_q[0] = span_crank_com_x_;
+    all_v[0] = crank_vx_;
+    all_q[1] = span_crank_com_y_;
+    all_v[1] = crank_vy_;
+    all_q[2] = motor_value_;
+    all_v[2] = motor_rate_;
+    all_q[3] = rod_x_;
+    all_v[3] = rod_vx_;
+    all_q[4] = rod_y_;
+    all_v[4] = rod_vy_;
+    all_q[5] = rod_theta_;
+    all_v[5] = rod_omega_;
+    all_q[6] = rod_head_x_;
+    all_v[6] = rod_head_vx_;
+    all_q[7] = rod_head_y_;
+    all_v[7] = rod_head_vy_;
+    all_q[8] = slider_theta_;
+    all_v[8] = slider_omega_;
 }
 
 /*
@@ -68,12 +68,12 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 {
     (void)t, (void)p;
     /* coordinates, velocities, time */
-    const double rod_theta = q[5];
-    const double rod_omega = v[5];
+    const double rod_theta_ = q[5];
+    const double rod_omega_ = v[5];
 
     /* tree coordinates */
-    s[0] = rod_theta;  /* rod */
-    s_rate[0] = rod_omega;
+    s[0] = rod_theta_;  /* rod */
+    s_rate[0] = rod_omega_;
 }
 
 /*
@@ -93,20 +93,20 @@ void reduce_accelerations(const double t, const double *q, const double *v, cons
 void closures(const double t, const double *q, const Parameters *p, double *out)
 {
     /* coordinates, velocities, time */
-    const double rod_theta = q[0];
+    const double rod_theta_ = q[0];
 
     /* directions, arms, drives */
-    const double motor_value = p->omega*t;
-    const Four angles_0 = {motor_value, rod_theta, rod_theta, rod_theta};
+    const double motor_value_ = p->omega_*t;
+    const Four angles_0 = {motor_value_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double sin_theta_crank = sines_0[0];
-    const double sin_theta_rod = sines_0[1];
-    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
-    const double span_rod_head_y = p->rod_head_span_x*sin_theta_rod;
+    const double sin_theta_crank_ = sines_0[0];
+    const double sin_theta_rod_ = sines_0[1];
+    const double span_crank_head_y_ = p->crank_head_span_x_*sin_theta_crank_;
+    const double span_rod_head_y_ = p->rod_head_span_x_*sin_theta_rod_;
 
     /* rows */
-    out[0] = span_crank_head_y + span_rod_head_y;  /* cylinder.offset */
+    out[0] = span_crank_head_y_ + span_rod_head_y_;  /* cylinder.offset */
 }
 
 /*
@@ -115,22 +115,22 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
 void closure_rates(const double t, const double *q, const double *v, const Parameters *p, double *out)
 {
     /* coordinates, velocities, time */
-    const double rod_theta = q[0];
-    const double rod_omega = v[0];
+    const double rod_theta_ = q[0];
+    const double rod_omega_ = v[0];
 
     /* directions, arms, drives */
-    const double motor_value = p->omega*t;
-    const Four angles_0 = {motor_value, rod_theta, rod_theta, rod_theta};
+    const double motor_value_ = p->omega_*t;
+    const Four angles_0 = {motor_value_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_crank = cosines_0[0];
-    const double cos_theta_rod = cosines_0[1];
-    const double motor_rate = p->omega;
-    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
-    const double span_rod_head_x = cos_theta_rod*p->rod_head_span_x;
+    const double cos_theta_crank_ = cosines_0[0];
+    const double cos_theta_rod_ = cosines_0[1];
+    const double motor_rate_ = p->omega_;
+    const double span_crank_head_x_ = cos_theta_crank_*p->crank_head_span_x_;
+    const double span_rod_head_x_ = cos_theta_rod_*p->rod_head_span_x_;
 
     /* rows */
-    out[0] = motor_rate*span_crank_head_x + rod_omega*span_rod_head_x;  /* cylinder.offset */
+    out[0] = motor_rate_*span_crank_head_x_ + rod_omega_*span_rod_head_x_;  /* cylinder.offset */
 }
 
 /*
@@ -142,66 +142,70 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     double *a, Aside *aside)
 {
     /* coordinates, velocities, time */
-    const double rod_theta = q[0];
-    const double rod_omega = v[0];
+    const double rod_theta_ = q[0];
+    const double rod_omega_ = v[0];
 
     /* directions, arms, drives */
-    const double motor_value = p->omega*t;
-    const Four angles_0 = {motor_value, rod_theta, rod_theta, rod_theta};
+    const double motor_value_ = p->omega_*t;
+    const Four angles_0 = {motor_value_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_crank = cosines_0[0];
-    const double sin_theta_crank = sines_0[0];
-    const double cos_theta_rod = cosines_0[1];
-    const double sin_theta_rod = sines_0[1];
-    const double motor_rate = p->omega;
-    const double motor_acceleration = 0.0;
-    const double span_crank_head_x = cos_theta_crank*p->crank_head_span_x;
-    const double span_crank_head_y = p->crank_head_span_x*sin_theta_crank;
-    const double span_rod_head_x = cos_theta_rod*p->rod_head_span_x;
-    const double span_rod_head_y = p->rod_head_span_x*sin_theta_rod;
-    const double cos_rod_less_crank = cos_theta_crank*cos_theta_rod + sin_theta_crank*sin_theta_rod;
-    const double sin_rod_less_crank = cos_theta_crank*sin_theta_rod - cos_theta_rod*sin_theta_crank;
-    const double dot_crank_rod = cos_rod_less_crank*p->inertia_crank_rod;
-    const double cross_crank_rod = p->inertia_crank_rod*sin_rod_less_crank;
+    const double cos_theta_crank_ = cosines_0[0];
+    const double sin_theta_crank_ = sines_0[0];
+    const double cos_theta_rod_ = cosines_0[1];
+    const double sin_theta_rod_ = sines_0[1];
+    const double motor_rate_ = p->omega_;
+    const double motor_acceleration_ = 0.0;
+    const double span_crank_head_x_ = cos_theta_crank_*p->crank_head_span_x_;
+    const double span_crank_head_y_ = p->crank_head_span_x_*sin_theta_crank_;
+    const double span_rod_head_x_ = cos_theta_rod_*p->rod_head_span_x_;
+    const double span_rod_head_y_ = p->rod_head_span_x_*sin_theta_rod_;
+    const double cos_rod_less_crank_ = cos_theta_crank_*cos_theta_rod_ + sin_theta_crank_*sin_theta_rod_;
+    const double sin_rod_less_crank_ = cos_theta_crank_*sin_theta_rod_ - cos_theta_rod_*sin_theta_crank_;
+    const double dot_crank_rod_ = cos_rod_less_crank_*p->inertia_crank_rod_;
+    const double cross_crank_rod_ = p->inertia_crank_rod_*sin_rod_less_crank_;
 
     /* status */
     int pivot = 0;
 
     /* constraints: gamma */
-    const double rhs_cylinder_offset = -motor_acceleration*span_crank_head_x
-        + (motor_rate * motor_rate)*span_crank_head_y + (rod_omega * rod_omega)*span_rod_head_y;
+    const double rhs_cylinder_offset_ = -motor_acceleration_*span_crank_head_x_
+        + (motor_rate_ * motor_rate_)*span_crank_head_y_ + (rod_omega_ * rod_omega_)*span_rod_head_y_;
 
     /* L D L^T of the KKT matrix */
-    const double l_cylinder_offset__rod_theta = p->inverse_mass_rod_rod*span_rod_head_x;
-    const double scale_cylinder_offset = l_cylinder_offset__rod_theta*span_rod_head_x;
-    if (!(scale_cylinder_offset > 0.0 && scale_cylinder_offset < INFINITY)) {
+    if (!(p->mass_rod_rod_ > LIGHT_PIVOT * p->rod_turning_)) {
+        pivot = 2;
+        goto dependent;
+    }
+    const double l_cylinder_offset_rod_theta_ = p->inverse_mass_rod_rod_*span_rod_head_x_;
+    const double scale_cylinder_offset_ = l_cylinder_offset_rod_theta_*span_rod_head_x_;
+    if (!(scale_cylinder_offset_ > 0.0 && scale_cylinder_offset_ < INFINITY)) {
         pivot = 1;
         goto dependent;
     }
-    const double inverse_pivot_cylinder_offset = 1.0/scale_cylinder_offset;
+    const double inverse_pivot_cylinder_offset_ = 1.0/scale_cylinder_offset_;
 
     /* forward substitution */
-    const double z_rod_theta = -cross_crank_rod*(motor_rate * motor_rate) - dot_crank_rod*motor_acceleration;
-    const double z_cylinder_offset = -l_cylinder_offset__rod_theta*z_rod_theta + rhs_cylinder_offset;
+    const double z_rod_theta_ = -cross_crank_rod_*(motor_rate_ * motor_rate_) - dot_crank_rod_*motor_acceleration_;
+    const double z_cylinder_offset_ = -l_cylinder_offset_rod_theta_*z_rod_theta_ + rhs_cylinder_offset_;
 
     /* backward substitution */
-    const double lambda_cylinder_offset = -inverse_pivot_cylinder_offset*z_cylinder_offset;
-    const double acceleration_rod_theta = p->inverse_mass_rod_rod*z_rod_theta
-        - l_cylinder_offset__rod_theta*lambda_cylinder_offset;
+    const double lambda_cylinder_offset_ = -inverse_pivot_cylinder_offset_*z_cylinder_offset_;
+    const double acceleration_rod_theta_ = p->inverse_mass_rod_rod_*z_rod_theta_
+        - l_cylinder_offset_rod_theta_*lambda_cylinder_offset_;
 
     /* results */
-    a[0] = acceleration_rod_theta;
-    aside->lambda[0] = lambda_cylinder_offset;
+    a[0] = acceleration_rod_theta_;
+    aside->lambda[0] = lambda_cylinder_offset_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
     dependent:
     pivot = solve_by_absolute(t, q, v, memory, p, a, aside);
     powers:
-    aside->power[0] = aside->lambda[0]*motor_rate*span_crank_head_x
-        + motor_rate*(a[0]*dot_crank_rod - cross_crank_rod*(rod_omega * rod_omega)
-        + p->mass_motor_motor*motor_acceleration);
+    aside->power[0] = aside->lambda[0]*motor_rate_*span_crank_head_x_
+        + motor_rate_*(a[0]*dot_crank_rod_ - cross_crank_rod_*(rod_omega_ * rod_omega_)
+        + p->mass_motor_motor_*motor_acceleration_);
     aside->power[1] = 0.0;
     aside->power[2] = 0.0;
     return pivot;
@@ -216,31 +220,31 @@ int reduced_project(const double t, const double *q, const double *r, const Para
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double rod_theta = q[0];
+    const double rod_theta_ = q[0];
 
     /* directions, arms, drives */
-    const Four angles_0 = {rod_theta, rod_theta, rod_theta, rod_theta};
+    const Four angles_0 = {rod_theta_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_rod = cosines_0[0];
-    const double span_rod_head_x = cos_theta_rod*p->rod_head_span_x;
+    const double cos_theta_rod_ = cosines_0[0];
+    const double span_rod_head_x_ = cos_theta_rod_*p->rod_head_span_x_;
 
     /* right-hand side */
-    const double r_cylinder_offset = r[0];
+    const double r_cylinder_offset_ = r[0];
 
     /* L D L^T of the KKT matrix */
-    const double l_cylinder_offset__rod_theta = p->inverse_mass_rod_rod*span_rod_head_x;
-    const double scale_cylinder_offset = l_cylinder_offset__rod_theta*span_rod_head_x;
-    if (!(scale_cylinder_offset > 0.0 && scale_cylinder_offset < INFINITY))
+    const double l_cylinder_offset_rod_theta_ = p->inverse_mass_rod_rod_*span_rod_head_x_;
+    const double scale_cylinder_offset_ = l_cylinder_offset_rod_theta_*span_rod_head_x_;
+    if (!(scale_cylinder_offset_ > 0.0 && scale_cylinder_offset_ < INFINITY))
         return 1;
-    const double inverse_pivot_cylinder_offset = 1.0/scale_cylinder_offset;
+    const double inverse_pivot_cylinder_offset_ = 1.0/scale_cylinder_offset_;
 
     /* backward substitution */
-    const double step_lambda_cylinder_offset = -inverse_pivot_cylinder_offset*r_cylinder_offset;
-    const double step_acceleration_rod_theta = -l_cylinder_offset__rod_theta*step_lambda_cylinder_offset;
+    const double step_lambda_cylinder_offset_ = -inverse_pivot_cylinder_offset_*r_cylinder_offset_;
+    const double step_acceleration_rod_theta_ = -l_cylinder_offset_rod_theta_*step_lambda_cylinder_offset_;
 
     /* results */
-    x[0] = step_acceleration_rod_theta;
+    x[0] = step_acceleration_rod_theta_;
     return 0;
 }
 

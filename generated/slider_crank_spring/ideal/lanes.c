@@ -12,41 +12,40 @@
 
 /* Numbers of each run side by side, field by field those of Parameters in model.h: meanings, addresses, units too. */
 typedef struct LaneParameters {
-    Lanes crank_mass;
-    Lanes crank_inertia;
-    Lanes rod_mass;
-    Lanes rod_inertia;
-    Lanes crank_length;
-    Lanes crank_points_middle_x;
-    Lanes rod_points_crankpin_x;
-    Lanes rod_points_middle_x;
-    Lanes rod_points_tip_x;
-    Lanes alpha;
-    Lanes beta;
-    Lanes slider_direction_x;
-    Lanes coil_stiffness;
-    Lanes coil_free_length;
-    Lanes coil_damping;
-    Lanes push_value_x;
-    Lanes guess_rod_theta;
-    Lanes guess_rod_x;
-    Lanes set_crank_theta;
-    Lanes rates_crank_omega;
-    Lanes two_alpha;
-    Lanes beta_squared;
-    Lanes inverse_rod_mass;
-    Lanes inverse_crank_mass;
-    Lanes inverse_crank_inertia;
-    Lanes inverse_rod_inertia;
-    Lanes rod_com_span_x;
-    Lanes rod_middle_span_x;
-    Lanes rod_tip_span_x;
-    Lanes inertia_crank_crank;
-    Lanes inertia_crank_rod;
-    Lanes inertia_rod_rod;
-    Lanes mass_crank_crank;
-    Lanes mass_rod_rod;
-    Lanes inverse_mass_crank_crank;
+    Lanes crank_mass_;
+    Lanes crank_inertia_;
+    Lanes rod_mass_;
+    Lanes rod_inertia_;
+    Lanes crank_length_;
+    Lanes crank_points_middle_x_;
+    Lanes rod_points_crankpin_x_;
+    Lanes rod_points_middle_x_;
+    Lanes rod_points_tip_x_;
+    Lanes alpha_;
+    Lanes beta_;
+    Lanes slider_direction_x_;
+    Lanes coil_stiffness_;
+    Lanes coil_free_length_;
+    Lanes coil_damping_;
+    Lanes push_value_x_;
+    Lanes guess_rod_theta_;
+    Lanes guess_rod_x_;
+    Lanes set_crank_theta_;
+    Lanes rates_crank_omega_;
+    Lanes crank_turning_;
+    Lanes rod_turning_;
+    Lanes two_alpha_;
+    Lanes beta_squared_;
+    Lanes mobility_slider_offset_;
+    Lanes rod_com_span_x_;
+    Lanes rod_middle_span_x_;
+    Lanes rod_tip_span_x_;
+    Lanes inertia_crank_crank_;
+    Lanes inertia_crank_rod_;
+    Lanes inertia_rod_rod_;
+    Lanes mass_crank_crank_;
+    Lanes mass_rod_rod_;
+    Lanes inverse_mass_crank_crank_;
 } LaneParameters;
 
 _Static_assert(sizeof(LaneParameters) / sizeof(Lanes) == sizeof(Parameters) / sizeof(double), "the same numbers");
@@ -68,21 +67,21 @@ static void closures(const Lanes t, const Lanes *q, const LaneParameters *p, Lan
 {
     (void)t;
     /* coordinates, velocities, time */
-    const Lanes crank_theta = q[0];
-    const Lanes rod_theta = q[1];
+    const Lanes crank_theta_ = q[0];
+    const Lanes rod_theta_ = q[1];
 
     /* directions, arms, drives */
     Lanes sines_0, cosines_0;
-    sines_and_cosines(crank_theta, &sines_0, &cosines_0, rare);
+    sines_and_cosines(crank_theta_, &sines_0, &cosines_0, rare);
     Lanes sines_1, cosines_1;
-    sines_and_cosines(rod_theta, &sines_1, &cosines_1, rare);
-    const Lanes sin_theta_crank = sines_0;
-    const Lanes sin_theta_rod = sines_1;
-    const Lanes span_crank_head_y = p->crank_length*sin_theta_crank;
-    const Lanes span_rod_com_y = p->rod_com_span_x*sin_theta_rod;
+    sines_and_cosines(rod_theta_, &sines_1, &cosines_1, rare);
+    const Lanes sin_theta_crank_ = sines_0;
+    const Lanes sin_theta_rod_ = sines_1;
+    const Lanes span_crank_head_y_ = p->crank_length_*sin_theta_crank_;
+    const Lanes span_rod_com_y_ = p->rod_com_span_x_*sin_theta_rod_;
 
     /* rows */
-    out[0] = span_crank_head_y + span_rod_com_y;  /* slider.offset */
+    out[0] = span_crank_head_y_ + span_rod_com_y_;  /* slider.offset */
 }
 
 /*
@@ -93,23 +92,23 @@ static void closure_rates(const Lanes t, const Lanes *q, const Lanes *v, const L
 {
     (void)t;
     /* coordinates, velocities, time */
-    const Lanes crank_theta = q[0];
-    const Lanes crank_omega = v[0];
-    const Lanes rod_theta = q[1];
-    const Lanes rod_omega = v[1];
+    const Lanes crank_theta_ = q[0];
+    const Lanes crank_omega_ = v[0];
+    const Lanes rod_theta_ = q[1];
+    const Lanes rod_omega_ = v[1];
 
     /* directions, arms, drives */
     Lanes sines_0, cosines_0;
-    sines_and_cosines(crank_theta, &sines_0, &cosines_0, rare);
+    sines_and_cosines(crank_theta_, &sines_0, &cosines_0, rare);
     Lanes sines_1, cosines_1;
-    sines_and_cosines(rod_theta, &sines_1, &cosines_1, rare);
-    const Lanes cos_theta_crank = cosines_0;
-    const Lanes cos_theta_rod = cosines_1;
-    const Lanes span_crank_head_x = cos_theta_crank*p->crank_length;
-    const Lanes span_rod_com_x = cos_theta_rod*p->rod_com_span_x;
+    sines_and_cosines(rod_theta_, &sines_1, &cosines_1, rare);
+    const Lanes cos_theta_crank_ = cosines_0;
+    const Lanes cos_theta_rod_ = cosines_1;
+    const Lanes span_crank_head_x_ = cos_theta_crank_*p->crank_length_;
+    const Lanes span_rod_com_x_ = cos_theta_rod_*p->rod_com_span_x_;
 
     /* rows */
-    out[0] = crank_omega*span_crank_head_x + rod_omega*span_rod_com_x;  /* slider.offset */
+    out[0] = crank_omega_*span_crank_head_x_ + rod_omega_*span_rod_com_x_;  /* slider.offset */
 }
 
 /*
@@ -122,91 +121,95 @@ static void reduced_dynamics(const Lanes t, const Lanes *q, const Lanes *v, cons
 {
     (void)t, (void)memory;
     /* coordinates, velocities, time */
-    const Lanes crank_theta = q[0];
-    const Lanes crank_omega = v[0];
-    const Lanes rod_theta = q[1];
-    const Lanes rod_omega = v[1];
+    const Lanes crank_theta_ = q[0];
+    const Lanes crank_omega_ = v[0];
+    const Lanes rod_theta_ = q[1];
+    const Lanes rod_omega_ = v[1];
 
     /* directions, arms, drives */
     Lanes sines_0, cosines_0;
-    sines_and_cosines(crank_theta, &sines_0, &cosines_0, rare);
+    sines_and_cosines(crank_theta_, &sines_0, &cosines_0, rare);
     Lanes sines_1, cosines_1;
-    sines_and_cosines(rod_theta, &sines_1, &cosines_1, rare);
-    const Lanes cos_theta_crank = cosines_0;
-    const Lanes sin_theta_crank = sines_0;
-    const Lanes cos_theta_rod = cosines_1;
-    const Lanes sin_theta_rod = sines_1;
-    const Lanes span_crank_head_x = cos_theta_crank*p->crank_length;
-    const Lanes span_crank_head_y = p->crank_length*sin_theta_crank;
-    const Lanes crank_head_vx = -crank_omega*span_crank_head_y;
-    const Lanes crank_head_vy = crank_omega*span_crank_head_x;
-    const Lanes span_rod_com_x = cos_theta_rod*p->rod_com_span_x;
-    const Lanes span_rod_com_y = p->rod_com_span_x*sin_theta_rod;
-    const Lanes span_crank_middle_x = cos_theta_crank*p->crank_points_middle_x;
-    const Lanes span_crank_middle_y = p->crank_points_middle_x*sin_theta_crank;
-    const Lanes crank_middle_vx = -crank_omega*span_crank_middle_y;
-    const Lanes crank_middle_vy = crank_omega*span_crank_middle_x;
-    const Lanes span_rod_middle_x = cos_theta_rod*p->rod_middle_span_x;
-    const Lanes span_rod_middle_y = p->rod_middle_span_x*sin_theta_rod;
-    const Lanes rod_middle_x = span_crank_head_x + span_rod_middle_x;
-    const Lanes rod_middle_vx = crank_head_vx - rod_omega*span_rod_middle_y;
-    const Lanes rod_middle_y = span_crank_head_y + span_rod_middle_y;
-    const Lanes rod_middle_vy = crank_head_vy + rod_omega*span_rod_middle_x;
-    const Lanes coil_span_x = rod_middle_x - span_crank_middle_x;
-    const Lanes coil_span_y = rod_middle_y - span_crank_middle_y;
-    const Lanes coil_span_rate_x = -crank_middle_vx + rod_middle_vx;
-    const Lanes coil_span_rate_y = -crank_middle_vy + rod_middle_vy;
-    const Lanes coil_length = lanes_sqrt((coil_span_x * coil_span_x) + (coil_span_y * coil_span_y));
-    const Lanes coil_length_rate = (coil_span_rate_x*coil_span_x + coil_span_rate_y*coil_span_y)/coil_length;
-    const Lanes coil_force = p->coil_damping*coil_length_rate + p->coil_stiffness*(-p->coil_free_length + coil_length);
-    const Lanes coil_pull = coil_force/coil_length;
-    const Lanes span_rod_tip_y = p->rod_tip_span_x*sin_theta_rod;
-    const Lanes rod_tip_vx = crank_head_vx - rod_omega*span_rod_tip_y;
-    const Lanes cos_rod_less_crank = cos_theta_crank*cos_theta_rod + sin_theta_crank*sin_theta_rod;
-    const Lanes sin_rod_less_crank = cos_theta_crank*sin_theta_rod - cos_theta_rod*sin_theta_crank;
-    const Lanes dot_crank_rod = cos_rod_less_crank*p->inertia_crank_rod;
-    const Lanes cross_crank_rod = p->inertia_crank_rod*sin_rod_less_crank;
+    sines_and_cosines(rod_theta_, &sines_1, &cosines_1, rare);
+    const Lanes cos_theta_crank_ = cosines_0;
+    const Lanes sin_theta_crank_ = sines_0;
+    const Lanes cos_theta_rod_ = cosines_1;
+    const Lanes sin_theta_rod_ = sines_1;
+    const Lanes span_crank_head_x_ = cos_theta_crank_*p->crank_length_;
+    const Lanes span_crank_head_y_ = p->crank_length_*sin_theta_crank_;
+    const Lanes crank_head_vx_ = -crank_omega_*span_crank_head_y_;
+    const Lanes crank_head_vy_ = crank_omega_*span_crank_head_x_;
+    const Lanes span_rod_com_x_ = cos_theta_rod_*p->rod_com_span_x_;
+    const Lanes span_rod_com_y_ = p->rod_com_span_x_*sin_theta_rod_;
+    const Lanes span_crank_middle_x_ = cos_theta_crank_*p->crank_points_middle_x_;
+    const Lanes span_crank_middle_y_ = p->crank_points_middle_x_*sin_theta_crank_;
+    const Lanes crank_middle_vx_ = -crank_omega_*span_crank_middle_y_;
+    const Lanes crank_middle_vy_ = crank_omega_*span_crank_middle_x_;
+    const Lanes span_rod_middle_x_ = cos_theta_rod_*p->rod_middle_span_x_;
+    const Lanes span_rod_middle_y_ = p->rod_middle_span_x_*sin_theta_rod_;
+    const Lanes rod_middle_x_ = span_crank_head_x_ + span_rod_middle_x_;
+    const Lanes rod_middle_vx_ = crank_head_vx_ - rod_omega_*span_rod_middle_y_;
+    const Lanes rod_middle_y_ = span_crank_head_y_ + span_rod_middle_y_;
+    const Lanes rod_middle_vy_ = crank_head_vy_ + rod_omega_*span_rod_middle_x_;
+    const Lanes coil_span_x_ = rod_middle_x_ - span_crank_middle_x_;
+    const Lanes coil_span_y_ = rod_middle_y_ - span_crank_middle_y_;
+    const Lanes coil_span_rate_x_ = -crank_middle_vx_ + rod_middle_vx_;
+    const Lanes coil_span_rate_y_ = -crank_middle_vy_ + rod_middle_vy_;
+    const Lanes coil_length_ = lanes_sqrt((coil_span_x_ * coil_span_x_) + (coil_span_y_ * coil_span_y_));
+    const Lanes coil_length_rate_ = (coil_span_rate_x_*coil_span_x_ + coil_span_rate_y_*coil_span_y_)/coil_length_;
+    const Lanes coil_force_ = p->coil_damping_*coil_length_rate_
+        + p->coil_stiffness_*(-p->coil_free_length_ + coil_length_);
+    const Lanes coil_pull_ = coil_force_/coil_length_;
+    const Lanes span_rod_tip_y_ = p->rod_tip_span_x_*sin_theta_rod_;
+    const Lanes rod_tip_vx_ = crank_head_vx_ - rod_omega_*span_rod_tip_y_;
+    const Lanes cos_rod_less_crank_ = cos_theta_crank_*cos_theta_rod_ + sin_theta_crank_*sin_theta_rod_;
+    const Lanes sin_rod_less_crank_ = cos_theta_crank_*sin_theta_rod_ - cos_theta_rod_*sin_theta_crank_;
+    const Lanes dot_crank_rod_ = cos_rod_less_crank_*p->inertia_crank_rod_;
+    const Lanes cross_crank_rod_ = p->inertia_crank_rod_*sin_rod_less_crank_;
 
     /* constraints: gamma */
-    const Lanes rhs_slider_offset = (crank_omega * crank_omega)*span_crank_head_y
-        + (rod_omega * rod_omega)*span_rod_com_y;
+    const Lanes rhs_slider_offset_ = (crank_omega_ * crank_omega_)*span_crank_head_y_
+        + (rod_omega_ * rod_omega_)*span_rod_com_y_;
 
     /* L D L^T of the KKT matrix */
-    const Lanes l_rod_theta__crank_theta = dot_crank_rod*p->inverse_mass_crank_crank;
-    const Lanes l_slider_offset__crank_theta = p->inverse_mass_crank_crank*span_crank_head_x;
-    const Lanes inverse_pivot_rod_theta = 1.0/(-dot_crank_rod*l_rod_theta__crank_theta + p->mass_rod_rod);
-    const Lanes w_slider_offset__rod_theta = -dot_crank_rod*l_slider_offset__crank_theta + span_rod_com_x;
-    const Lanes l_slider_offset__rod_theta = inverse_pivot_rod_theta*w_slider_offset__rod_theta;
-    const Lanes scale_slider_offset = l_slider_offset__crank_theta*span_crank_head_x
-        + l_slider_offset__rod_theta*w_slider_offset__rod_theta;
-    *rare |= ~((scale_slider_offset > 0.0) & (scale_slider_offset < INFINITY));
-    const Lanes inverse_pivot_slider_offset = 1.0/scale_slider_offset;
+    *rare |= ~(p->mass_crank_crank_ > LIGHT_PIVOT * p->crank_turning_);
+    const Lanes l_rod_theta_crank_theta_ = dot_crank_rod_*p->inverse_mass_crank_crank_;
+    const Lanes l_slider_offset_crank_theta_ = p->inverse_mass_crank_crank_*span_crank_head_x_;
+    const Lanes pivot_rod_theta_ = -dot_crank_rod_*l_rod_theta_crank_theta_ + p->mass_rod_rod_;
+    *rare |= ~(pivot_rod_theta_ > LIGHT_PIVOT * p->rod_turning_);
+    const Lanes inverse_pivot_rod_theta_ = 1.0/pivot_rod_theta_;
+    const Lanes w_slider_offset_rod_theta_ = -dot_crank_rod_*l_slider_offset_crank_theta_ + span_rod_com_x_;
+    const Lanes l_slider_offset_rod_theta_ = inverse_pivot_rod_theta_*w_slider_offset_rod_theta_;
+    const Lanes scale_slider_offset_ = l_slider_offset_crank_theta_*span_crank_head_x_
+        + l_slider_offset_rod_theta_*w_slider_offset_rod_theta_;
+    *rare |= ~((scale_slider_offset_ > 0.0) & (scale_slider_offset_ < INFINITY));
+    const Lanes inverse_pivot_slider_offset_ = 1.0/scale_slider_offset_;
 
     /* forward substitution */
-    const Lanes z_crank_theta = -coil_pull*coil_span_x*span_crank_middle_y - coil_pull*coil_span_y*span_crank_head_x
-        + coil_pull*coil_span_y*span_crank_middle_x + cross_crank_rod*(rod_omega * rod_omega)
-        - span_crank_head_y*(-coil_pull*coil_span_x + p->push_value_x);
-    const Lanes z_rod_theta = coil_pull*coil_span_x*span_rod_middle_y - coil_pull*coil_span_y*span_rod_middle_x
-        - (crank_omega * crank_omega)*cross_crank_rod - l_rod_theta__crank_theta*z_crank_theta
-        - p->push_value_x*span_rod_tip_y;
-    const Lanes z_slider_offset = -l_slider_offset__crank_theta*z_crank_theta - l_slider_offset__rod_theta*z_rod_theta
-        + rhs_slider_offset;
+    const Lanes z_crank_theta_ = -coil_pull_*coil_span_x_*span_crank_middle_y_
+        - coil_pull_*coil_span_y_*span_crank_head_x_ + coil_pull_*coil_span_y_*span_crank_middle_x_
+        + cross_crank_rod_*(rod_omega_ * rod_omega_) - span_crank_head_y_*(-coil_pull_*coil_span_x_ + p->push_value_x_);
+    const Lanes z_rod_theta_ = coil_pull_*coil_span_x_*span_rod_middle_y_ - coil_pull_*coil_span_y_*span_rod_middle_x_
+        - (crank_omega_ * crank_omega_)*cross_crank_rod_ - l_rod_theta_crank_theta_*z_crank_theta_
+        - p->push_value_x_*span_rod_tip_y_;
+    const Lanes z_slider_offset_ = -l_slider_offset_crank_theta_*z_crank_theta_
+        - l_slider_offset_rod_theta_*z_rod_theta_ + rhs_slider_offset_;
 
     /* backward substitution */
-    const Lanes lambda_slider_offset = -inverse_pivot_slider_offset*z_slider_offset;
-    const Lanes acceleration_rod_theta = inverse_pivot_rod_theta*z_rod_theta
-        - l_slider_offset__rod_theta*lambda_slider_offset;
-    const Lanes acceleration_crank_theta = -acceleration_rod_theta*l_rod_theta__crank_theta
-        + p->inverse_mass_crank_crank*z_crank_theta - l_slider_offset__crank_theta*lambda_slider_offset;
+    const Lanes lambda_slider_offset_ = -inverse_pivot_slider_offset_*z_slider_offset_;
+    const Lanes acceleration_rod_theta_ = inverse_pivot_rod_theta_*z_rod_theta_
+        - l_slider_offset_rod_theta_*lambda_slider_offset_;
+    const Lanes acceleration_crank_theta_ = -acceleration_rod_theta_*l_rod_theta_crank_theta_
+        + p->inverse_mass_crank_crank_*z_crank_theta_ - l_slider_offset_crank_theta_*lambda_slider_offset_;
 
     /* results */
-    a[0] = acceleration_crank_theta;
-    a[1] = acceleration_rod_theta;
-    aside->lambda[0] = lambda_slider_offset;
+    a[0] = acceleration_crank_theta_;
+    a[1] = acceleration_rod_theta_;
+    aside->lambda[0] = lambda_slider_offset_;
 
     /* a pivot vanished: rows depend on each other here */
     aside->power[0] = all_of(0.0);
-    aside->power[1] = -p->coil_damping*(coil_length_rate * coil_length_rate) + p->push_value_x*rod_tip_vx;
+    aside->power[1] = -p->coil_damping_*(coil_length_rate_ * coil_length_rate_) + p->push_value_x_*rod_tip_vx_;
     aside->power[2] = all_of(0.0);
 }
 
@@ -219,60 +222,60 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
 {
     (void)t, (void)memory;
     /* coordinates, velocities, time */
-    const Lanes crank_theta = q[0];
-    const Lanes crank_omega = v[0];
-    const Lanes rod_theta = q[1];
-    const Lanes rod_omega = v[1];
+    const Lanes crank_theta_ = q[0];
+    const Lanes crank_omega_ = v[0];
+    const Lanes rod_theta_ = q[1];
+    const Lanes rod_omega_ = v[1];
 
     /* directions, arms, drives */
     Lanes sines_0, cosines_0;
-    sines_and_cosines(crank_theta, &sines_0, &cosines_0, rare);
+    sines_and_cosines(crank_theta_, &sines_0, &cosines_0, rare);
     Lanes sines_1, cosines_1;
-    sines_and_cosines(rod_theta, &sines_1, &cosines_1, rare);
-    const Lanes cos_theta_crank = cosines_0;
-    const Lanes sin_theta_crank = sines_0;
-    const Lanes cos_theta_rod = cosines_1;
-    const Lanes sin_theta_rod = sines_1;
-    const Lanes span_crank_head_x = cos_theta_crank*p->crank_length;
-    const Lanes span_crank_head_y = p->crank_length*sin_theta_crank;
-    const Lanes span_rod_com_x = cos_theta_rod*p->rod_com_span_x;
-    const Lanes span_rod_com_y = p->rod_com_span_x*sin_theta_rod;
-    const Lanes cos_rod_less_crank = cos_theta_crank*cos_theta_rod + sin_theta_crank*sin_theta_rod;
-    const Lanes dot_crank_rod = cos_rod_less_crank*p->inertia_crank_rod;
+    sines_and_cosines(rod_theta_, &sines_1, &cosines_1, rare);
+    const Lanes cos_theta_crank_ = cosines_0;
+    const Lanes sin_theta_crank_ = sines_0;
+    const Lanes cos_theta_rod_ = cosines_1;
+    const Lanes sin_theta_rod_ = sines_1;
+    const Lanes span_crank_head_x_ = cos_theta_crank_*p->crank_length_;
+    const Lanes span_crank_head_y_ = p->crank_length_*sin_theta_crank_;
+    const Lanes span_rod_com_x_ = cos_theta_rod_*p->rod_com_span_x_;
+    const Lanes span_rod_com_y_ = p->rod_com_span_x_*sin_theta_rod_;
+    const Lanes cos_rod_less_crank_ = cos_theta_crank_*cos_theta_rod_ + sin_theta_crank_*sin_theta_rod_;
+    const Lanes dot_crank_rod_ = cos_rod_less_crank_*p->inertia_crank_rod_;
 
     /* Phi and Phi_dot */
-    const Lanes phi_slider_offset = span_crank_head_y + span_rod_com_y;
-    const Lanes phi_dot_slider_offset = crank_omega*span_crank_head_x + rod_omega*span_rod_com_x;
+    const Lanes phi_slider_offset_ = span_crank_head_y_ + span_rod_com_y_;
+    const Lanes phi_dot_slider_offset_ = crank_omega_*span_crank_head_x_ + rod_omega_*span_rod_com_x_;
 
     /* L D L^T of the KKT matrix */
-    const Lanes l_rod_theta__crank_theta = dot_crank_rod*p->inverse_mass_crank_crank;
-    const Lanes l_slider_offset__crank_theta = p->inverse_mass_crank_crank*span_crank_head_x;
-    const Lanes inverse_pivot_rod_theta = 1.0/(-dot_crank_rod*l_rod_theta__crank_theta + p->mass_rod_rod);
-    const Lanes w_slider_offset__rod_theta = -dot_crank_rod*l_slider_offset__crank_theta + span_rod_com_x;
-    const Lanes l_slider_offset__rod_theta = inverse_pivot_rod_theta*w_slider_offset__rod_theta;
-    const Lanes scale_slider_offset = l_slider_offset__crank_theta*span_crank_head_x
-        + l_slider_offset__rod_theta*w_slider_offset__rod_theta;
-    *rare |= ~((scale_slider_offset > 0.0) & (scale_slider_offset < INFINITY));
-    const Lanes inverse_pivot_slider_offset = 1.0/scale_slider_offset;
+    const Lanes l_rod_theta_crank_theta_ = dot_crank_rod_*p->inverse_mass_crank_crank_;
+    const Lanes l_slider_offset_crank_theta_ = p->inverse_mass_crank_crank_*span_crank_head_x_;
+    const Lanes inverse_pivot_rod_theta_ = 1.0/(-dot_crank_rod_*l_rod_theta_crank_theta_ + p->mass_rod_rod_);
+    const Lanes w_slider_offset_rod_theta_ = -dot_crank_rod_*l_slider_offset_crank_theta_ + span_rod_com_x_;
+    const Lanes l_slider_offset_rod_theta_ = inverse_pivot_rod_theta_*w_slider_offset_rod_theta_;
+    const Lanes scale_slider_offset_ = l_slider_offset_crank_theta_*span_crank_head_x_
+        + l_slider_offset_rod_theta_*w_slider_offset_rod_theta_;
+    *rare |= ~((scale_slider_offset_ > 0.0) & (scale_slider_offset_ < INFINITY));
+    const Lanes inverse_pivot_slider_offset_ = 1.0/scale_slider_offset_;
 
     /* backward substitution */
-    const Lanes dq_lambda_slider_offset = -inverse_pivot_slider_offset*phi_slider_offset;
-    const Lanes dq_acceleration_rod_theta = -dq_lambda_slider_offset*l_slider_offset__rod_theta;
-    const Lanes dq_acceleration_crank_theta = -dq_acceleration_rod_theta*l_rod_theta__crank_theta
-        - dq_lambda_slider_offset*l_slider_offset__crank_theta;
+    const Lanes dq_lambda_slider_offset_ = -inverse_pivot_slider_offset_*phi_slider_offset_;
+    const Lanes dq_acceleration_rod_theta_ = -dq_lambda_slider_offset_*l_slider_offset_rod_theta_;
+    const Lanes dq_acceleration_crank_theta_ = -dq_acceleration_rod_theta_*l_rod_theta_crank_theta_
+        - dq_lambda_slider_offset_*l_slider_offset_crank_theta_;
 
     /* backward substitution */
-    const Lanes dv_lambda_slider_offset = -inverse_pivot_slider_offset*phi_dot_slider_offset;
-    const Lanes dv_acceleration_rod_theta = -dv_lambda_slider_offset*l_slider_offset__rod_theta;
-    const Lanes dv_acceleration_crank_theta = -dv_acceleration_rod_theta*l_rod_theta__crank_theta
-        - dv_lambda_slider_offset*l_slider_offset__crank_theta;
+    const Lanes dv_lambda_slider_offset_ = -inverse_pivot_slider_offset_*phi_dot_slider_offset_;
+    const Lanes dv_acceleration_rod_theta_ = -dv_lambda_slider_offset_*l_slider_offset_rod_theta_;
+    const Lanes dv_acceleration_crank_theta_ = -dv_acceleration_rod_theta_*l_rod_theta_crank_theta_
+        - dv_lambda_slider_offset_*l_slider_offset_crank_theta_;
 
     /* results */
-    dq[0] = dq_acceleration_crank_theta;
-    dv[0] = dv_acceleration_crank_theta;
-    dq[1] = dq_acceleration_rod_theta;
-    dv[1] = dv_acceleration_rod_theta;
-    *worst = lanes_max_of(all_of(0.0), lanes_fabs(phi_slider_offset));
+    dq[0] = dq_acceleration_crank_theta_;
+    dv[0] = dv_acceleration_crank_theta_;
+    dq[1] = dq_acceleration_rod_theta_;
+    dv[1] = dv_acceleration_rod_theta_;
+    *worst = lanes_max_of(all_of(0.0), lanes_fabs(phi_slider_offset_));
 }
 
 #if !HELD
@@ -288,148 +291,150 @@ static void linearize(const Lanes t, const Lanes *q, const Lanes *v, const LaneM
 {
     (void)t, (void)memory, (void)rare;
     /* coordinates, velocities, time */
-    const Lanes crank_theta = q[0];
-    const Lanes crank_omega = v[0];
-    const Lanes rod_theta = q[1];
-    const Lanes rod_omega = v[1];
-    const Lanes a_crank_theta = a[0];
-    const Lanes a_rod_theta = a[1];
-    const Lanes held_lambda_slider_offset = aside->lambda[0];
+    const Lanes crank_theta_ = q[0];
+    const Lanes crank_omega_ = v[0];
+    const Lanes rod_theta_ = q[1];
+    const Lanes rod_omega_ = v[1];
+    const Lanes a_crank_theta_ = a[0];
+    const Lanes a_rod_theta_ = a[1];
+    const Lanes held_lambda_slider_offset_ = aside->lambda[0];
 
     /* directions, arms, drives */
-    const Lanes cos_theta_crank = lanes_cos(crank_theta);
-    const Lanes sin_theta_crank = lanes_sin(crank_theta);
-    const Lanes cos_theta_rod = lanes_cos(rod_theta);
-    const Lanes sin_theta_rod = lanes_sin(rod_theta);
-    const Lanes span_crank_head_x = cos_theta_crank*p->crank_length;
-    const Lanes span_crank_head_y = p->crank_length*sin_theta_crank;
-    const Lanes crank_head_vx = -crank_omega*span_crank_head_y;
-    const Lanes crank_head_vy = crank_omega*span_crank_head_x;
-    const Lanes span_rod_com_x = cos_theta_rod*p->rod_com_span_x;
-    const Lanes span_rod_com_y = p->rod_com_span_x*sin_theta_rod;
-    const Lanes span_crank_middle_x = cos_theta_crank*p->crank_points_middle_x;
-    const Lanes span_crank_middle_y = p->crank_points_middle_x*sin_theta_crank;
-    const Lanes crank_middle_vx = -crank_omega*span_crank_middle_y;
-    const Lanes crank_middle_vy = crank_omega*span_crank_middle_x;
-    const Lanes span_rod_middle_x = cos_theta_rod*p->rod_middle_span_x;
-    const Lanes span_rod_middle_y = p->rod_middle_span_x*sin_theta_rod;
-    const Lanes rod_middle_x = span_crank_head_x + span_rod_middle_x;
-    const Lanes rod_middle_vx = crank_head_vx - rod_omega*span_rod_middle_y;
-    const Lanes rod_middle_y = span_crank_head_y + span_rod_middle_y;
-    const Lanes rod_middle_vy = crank_head_vy + rod_omega*span_rod_middle_x;
-    const Lanes coil_span_x = rod_middle_x - span_crank_middle_x;
-    const Lanes coil_span_y = rod_middle_y - span_crank_middle_y;
-    const Lanes coil_span_rate_x = -crank_middle_vx + rod_middle_vx;
-    const Lanes coil_span_rate_y = -crank_middle_vy + rod_middle_vy;
-    const Lanes coil_length = lanes_sqrt((coil_span_x * coil_span_x) + (coil_span_y * coil_span_y));
-    const Lanes coil_length_rate = (coil_span_rate_x*coil_span_x + coil_span_rate_y*coil_span_y)/coil_length;
-    const Lanes coil_force = p->coil_damping*coil_length_rate + p->coil_stiffness*(-p->coil_free_length + coil_length);
-    const Lanes coil_pull = coil_force/coil_length;
-    const Lanes span_rod_tip_x = cos_theta_rod*p->rod_tip_span_x;
-    const Lanes span_rod_tip_y = p->rod_tip_span_x*sin_theta_rod;
-    const Lanes cos_rod_less_crank = cos_theta_crank*cos_theta_rod + sin_theta_crank*sin_theta_rod;
-    const Lanes sin_rod_less_crank = cos_theta_crank*sin_theta_rod - cos_theta_rod*sin_theta_crank;
-    const Lanes dot_crank_rod = cos_rod_less_crank*p->inertia_crank_rod;
-    const Lanes cross_crank_rod = p->inertia_crank_rod*sin_rod_less_crank;
+    const Lanes cos_theta_crank_ = lanes_cos(crank_theta_);
+    const Lanes sin_theta_crank_ = lanes_sin(crank_theta_);
+    const Lanes cos_theta_rod_ = lanes_cos(rod_theta_);
+    const Lanes sin_theta_rod_ = lanes_sin(rod_theta_);
+    const Lanes span_crank_head_x_ = cos_theta_crank_*p->crank_length_;
+    const Lanes span_crank_head_y_ = p->crank_length_*sin_theta_crank_;
+    const Lanes crank_head_vx_ = -crank_omega_*span_crank_head_y_;
+    const Lanes crank_head_vy_ = crank_omega_*span_crank_head_x_;
+    const Lanes span_rod_com_x_ = cos_theta_rod_*p->rod_com_span_x_;
+    const Lanes span_rod_com_y_ = p->rod_com_span_x_*sin_theta_rod_;
+    const Lanes span_crank_middle_x_ = cos_theta_crank_*p->crank_points_middle_x_;
+    const Lanes span_crank_middle_y_ = p->crank_points_middle_x_*sin_theta_crank_;
+    const Lanes crank_middle_vx_ = -crank_omega_*span_crank_middle_y_;
+    const Lanes crank_middle_vy_ = crank_omega_*span_crank_middle_x_;
+    const Lanes span_rod_middle_x_ = cos_theta_rod_*p->rod_middle_span_x_;
+    const Lanes span_rod_middle_y_ = p->rod_middle_span_x_*sin_theta_rod_;
+    const Lanes rod_middle_x_ = span_crank_head_x_ + span_rod_middle_x_;
+    const Lanes rod_middle_vx_ = crank_head_vx_ - rod_omega_*span_rod_middle_y_;
+    const Lanes rod_middle_y_ = span_crank_head_y_ + span_rod_middle_y_;
+    const Lanes rod_middle_vy_ = crank_head_vy_ + rod_omega_*span_rod_middle_x_;
+    const Lanes coil_span_x_ = rod_middle_x_ - span_crank_middle_x_;
+    const Lanes coil_span_y_ = rod_middle_y_ - span_crank_middle_y_;
+    const Lanes coil_span_rate_x_ = -crank_middle_vx_ + rod_middle_vx_;
+    const Lanes coil_span_rate_y_ = -crank_middle_vy_ + rod_middle_vy_;
+    const Lanes coil_length_ = lanes_sqrt((coil_span_x_ * coil_span_x_) + (coil_span_y_ * coil_span_y_));
+    const Lanes coil_length_rate_ = (coil_span_rate_x_*coil_span_x_ + coil_span_rate_y_*coil_span_y_)/coil_length_;
+    const Lanes coil_force_ = p->coil_damping_*coil_length_rate_
+        + p->coil_stiffness_*(-p->coil_free_length_ + coil_length_);
+    const Lanes coil_pull_ = coil_force_/coil_length_;
+    const Lanes span_rod_tip_x_ = cos_theta_rod_*p->rod_tip_span_x_;
+    const Lanes span_rod_tip_y_ = p->rod_tip_span_x_*sin_theta_rod_;
+    const Lanes cos_rod_less_crank_ = cos_theta_crank_*cos_theta_rod_ + sin_theta_crank_*sin_theta_rod_;
+    const Lanes sin_rod_less_crank_ = cos_theta_crank_*sin_theta_rod_ - cos_theta_rod_*sin_theta_crank_;
+    const Lanes dot_crank_rod_ = cos_rod_less_crank_*p->inertia_crank_rod_;
+    const Lanes cross_crank_rod_ = p->inertia_crank_rod_*sin_rod_less_crank_;
 
     /* coordinates */
-    const Lanes coil_span_x_by_crank_theta = -span_crank_head_y + span_crank_middle_y;
-    const Lanes coil_span_y_by_crank_theta = span_crank_head_x - span_crank_middle_x;
-    const Lanes inverse_sum = 1.0/(coil_length + 1e-150);
-    const Lanes coil_length_by_crank_theta = coil_span_x*coil_span_x_by_crank_theta*inverse_sum
-        + coil_span_y*coil_span_y_by_crank_theta*inverse_sum;
-    const Lanes coil_length_by_rod_theta = -coil_span_x*inverse_sum*span_rod_middle_y
-        + coil_span_y*inverse_sum*span_rod_middle_x;
-    const Lanes crank_middle_vx_by_crank_theta = -crank_omega*span_crank_middle_x;
-    const Lanes rod_middle_vx_by_crank_theta = -crank_omega*span_crank_head_x;
-    const Lanes rod_middle_vx_by_rod_theta = -rod_omega*span_rod_middle_x;
-    const Lanes coil_span_rate_x_by_crank_theta = -crank_middle_vx_by_crank_theta + rod_middle_vx_by_crank_theta;
-    const Lanes coil_span_rate_x_by_crank_omega = -span_crank_head_y + span_crank_middle_y;
-    const Lanes crank_middle_vy_by_crank_theta = -crank_omega*span_crank_middle_y;
-    const Lanes rod_middle_vy_by_crank_theta = -crank_omega*span_crank_head_y;
-    const Lanes rod_middle_vy_by_rod_theta = -rod_omega*span_rod_middle_y;
-    const Lanes coil_span_rate_y_by_crank_theta = -crank_middle_vy_by_crank_theta + rod_middle_vy_by_crank_theta;
-    const Lanes coil_span_rate_y_by_crank_omega = span_crank_head_x - span_crank_middle_x;
-    const Lanes inverse_coil_length = 1.0/coil_length;
-    const Lanes coil_length_rate_by_crank_theta = -coil_length_by_crank_theta*(inverse_coil_length
-        * inverse_coil_length)*(coil_span_rate_x*coil_span_x + coil_span_rate_y*coil_span_y)
-        + coil_span_rate_x*coil_span_x_by_crank_theta*inverse_coil_length
-        + coil_span_rate_x_by_crank_theta*coil_span_x*inverse_coil_length
-        + coil_span_rate_y*coil_span_y_by_crank_theta*inverse_coil_length
-        + coil_span_rate_y_by_crank_theta*coil_span_y*inverse_coil_length;
-    const Lanes coil_length_rate_by_rod_theta = -coil_length_by_rod_theta*(inverse_coil_length
-        * inverse_coil_length)*(coil_span_rate_x*coil_span_x + coil_span_rate_y*coil_span_y)
-        - coil_span_rate_x*inverse_coil_length*span_rod_middle_y
-        + coil_span_rate_y*inverse_coil_length*span_rod_middle_x
-        + coil_span_x*inverse_coil_length*rod_middle_vx_by_rod_theta
-        + coil_span_y*inverse_coil_length*rod_middle_vy_by_rod_theta;
-    const Lanes coil_length_rate_by_crank_omega = coil_span_rate_x_by_crank_omega*coil_span_x*inverse_coil_length
-        + coil_span_rate_y_by_crank_omega*coil_span_y*inverse_coil_length;
-    const Lanes coil_length_rate_by_rod_omega = -coil_span_x*inverse_coil_length*span_rod_middle_y
-        + coil_span_y*inverse_coil_length*span_rod_middle_x;
-    const Lanes coil_force_by_crank_theta = p->coil_damping*coil_length_rate_by_crank_theta
-        + coil_length_by_crank_theta*p->coil_stiffness;
-    const Lanes coil_force_by_rod_theta = p->coil_damping*coil_length_rate_by_rod_theta
-        + coil_length_by_rod_theta*p->coil_stiffness;
-    const Lanes coil_force_by_crank_omega = p->coil_damping*coil_length_rate_by_crank_omega;
-    const Lanes coil_force_by_rod_omega = p->coil_damping*coil_length_rate_by_rod_omega;
-    const Lanes coil_pull_by_crank_theta = -coil_force*coil_length_by_crank_theta*(inverse_coil_length
-        * inverse_coil_length) + coil_force_by_crank_theta*inverse_coil_length;
-    const Lanes coil_pull_by_rod_theta = -coil_force*coil_length_by_rod_theta*(inverse_coil_length
-        * inverse_coil_length) + coil_force_by_rod_theta*inverse_coil_length;
-    const Lanes coil_pull_by_crank_omega = coil_force_by_crank_omega*inverse_coil_length;
-    const Lanes coil_pull_by_rod_omega = coil_force_by_rod_omega*inverse_coil_length;
+    const Lanes coil_span_x_by_crank_theta_ = -span_crank_head_y_ + span_crank_middle_y_;
+    const Lanes coil_span_y_by_crank_theta_ = span_crank_head_x_ - span_crank_middle_x_;
+    const Lanes inverse_sum_ = 1.0/(coil_length_ + 1e-150);
+    const Lanes coil_length_by_crank_theta_ = coil_span_x_*coil_span_x_by_crank_theta_*inverse_sum_
+        + coil_span_y_*coil_span_y_by_crank_theta_*inverse_sum_;
+    const Lanes coil_length_by_rod_theta_ = -coil_span_x_*inverse_sum_*span_rod_middle_y_
+        + coil_span_y_*inverse_sum_*span_rod_middle_x_;
+    const Lanes crank_middle_vx_by_crank_theta_ = -crank_omega_*span_crank_middle_x_;
+    const Lanes rod_middle_vx_by_crank_theta_ = -crank_omega_*span_crank_head_x_;
+    const Lanes rod_middle_vx_by_rod_theta_ = -rod_omega_*span_rod_middle_x_;
+    const Lanes coil_span_rate_x_by_crank_theta_ = -crank_middle_vx_by_crank_theta_ + rod_middle_vx_by_crank_theta_;
+    const Lanes coil_span_rate_x_by_crank_omega_ = -span_crank_head_y_ + span_crank_middle_y_;
+    const Lanes crank_middle_vy_by_crank_theta_ = -crank_omega_*span_crank_middle_y_;
+    const Lanes rod_middle_vy_by_crank_theta_ = -crank_omega_*span_crank_head_y_;
+    const Lanes rod_middle_vy_by_rod_theta_ = -rod_omega_*span_rod_middle_y_;
+    const Lanes coil_span_rate_y_by_crank_theta_ = -crank_middle_vy_by_crank_theta_ + rod_middle_vy_by_crank_theta_;
+    const Lanes coil_span_rate_y_by_crank_omega_ = span_crank_head_x_ - span_crank_middle_x_;
+    const Lanes inverse_coil_length_ = 1.0/coil_length_;
+    const Lanes coil_length_rate_by_crank_theta_ = -coil_length_by_crank_theta_*(inverse_coil_length_
+        * inverse_coil_length_)*(coil_span_rate_x_*coil_span_x_ + coil_span_rate_y_*coil_span_y_)
+        + coil_span_rate_x_*coil_span_x_by_crank_theta_*inverse_coil_length_
+        + coil_span_rate_x_by_crank_theta_*coil_span_x_*inverse_coil_length_
+        + coil_span_rate_y_*coil_span_y_by_crank_theta_*inverse_coil_length_
+        + coil_span_rate_y_by_crank_theta_*coil_span_y_*inverse_coil_length_;
+    const Lanes coil_length_rate_by_rod_theta_ = -coil_length_by_rod_theta_*(inverse_coil_length_
+        * inverse_coil_length_)*(coil_span_rate_x_*coil_span_x_ + coil_span_rate_y_*coil_span_y_)
+        - coil_span_rate_x_*inverse_coil_length_*span_rod_middle_y_
+        + coil_span_rate_y_*inverse_coil_length_*span_rod_middle_x_
+        + coil_span_x_*inverse_coil_length_*rod_middle_vx_by_rod_theta_
+        + coil_span_y_*inverse_coil_length_*rod_middle_vy_by_rod_theta_;
+    const Lanes coil_length_rate_by_crank_omega_ = coil_span_rate_x_by_crank_omega_*coil_span_x_*inverse_coil_length_
+        + coil_span_rate_y_by_crank_omega_*coil_span_y_*inverse_coil_length_;
+    const Lanes coil_length_rate_by_rod_omega_ = -coil_span_x_*inverse_coil_length_*span_rod_middle_y_
+        + coil_span_y_*inverse_coil_length_*span_rod_middle_x_;
+    const Lanes coil_force_by_crank_theta_ = p->coil_damping_*coil_length_rate_by_crank_theta_
+        + coil_length_by_crank_theta_*p->coil_stiffness_;
+    const Lanes coil_force_by_rod_theta_ = p->coil_damping_*coil_length_rate_by_rod_theta_
+        + coil_length_by_rod_theta_*p->coil_stiffness_;
+    const Lanes coil_force_by_crank_omega_ = p->coil_damping_*coil_length_rate_by_crank_omega_;
+    const Lanes coil_force_by_rod_omega_ = p->coil_damping_*coil_length_rate_by_rod_omega_;
+    const Lanes coil_pull_by_crank_theta_ = -coil_force_*coil_length_by_crank_theta_*(inverse_coil_length_
+        * inverse_coil_length_) + coil_force_by_crank_theta_*inverse_coil_length_;
+    const Lanes coil_pull_by_rod_theta_ = -coil_force_*coil_length_by_rod_theta_*(inverse_coil_length_
+        * inverse_coil_length_) + coil_force_by_rod_theta_*inverse_coil_length_;
+    const Lanes coil_pull_by_crank_omega_ = coil_force_by_crank_omega_*inverse_coil_length_;
+    const Lanes coil_pull_by_rod_omega_ = coil_force_by_rod_omega_*inverse_coil_length_;
 
     /* powers */
-    const Lanes rod_tip_vx_by_crank_theta = -crank_omega*span_crank_head_x;
-    const Lanes rod_tip_vx_by_rod_theta = -rod_omega*span_rod_tip_x;
+    const Lanes rod_tip_vx_by_crank_theta_ = -crank_omega_*span_crank_head_x_;
+    const Lanes rod_tip_vx_by_rod_theta_ = -rod_omega_*span_rod_tip_x_;
 
     /* results */
-    lin->value[0] = dot_crank_rod;
-    lin->value[1] = span_crank_head_x;
-    lin->value[2] = span_rod_com_x;
-    lin->value[3] = -a_crank_theta*span_crank_head_y - (crank_omega * crank_omega)*span_crank_head_x
-        - crank_omega*span_crank_head_y*p->two_alpha;
-    lin->value[4] = -a_rod_theta*span_rod_com_y - (rod_omega * rod_omega)*span_rod_com_x
-        - rod_omega*span_rod_com_y*p->two_alpha;
-    lin->value[5] = a_rod_theta*cross_crank_rod + coil_pull*coil_span_x*span_crank_middle_x
-        + coil_pull*coil_span_y*span_crank_middle_y + coil_pull_by_crank_theta*(-coil_span_x*span_crank_head_y
-        + coil_span_x*span_crank_middle_y + coil_span_y*span_crank_head_x - coil_span_y*span_crank_middle_x)
-        + coil_span_x_by_crank_theta*(-coil_pull*span_crank_head_y + coil_pull*span_crank_middle_y)
-        + coil_span_y_by_crank_theta*(coil_pull*span_crank_head_x - coil_pull*span_crank_middle_x)
-        + dot_crank_rod*(rod_omega * rod_omega) + span_crank_head_x*(-coil_pull*coil_span_x + p->push_value_x)
-        - span_crank_head_y*(coil_pull*coil_span_y + held_lambda_slider_offset);
-    lin->value[6] = -a_rod_theta*cross_crank_rod + coil_pull_by_rod_theta*(-coil_span_x*span_crank_head_y
-        + coil_span_x*span_crank_middle_y + coil_span_y*span_crank_head_x - coil_span_y*span_crank_middle_x)
-        - dot_crank_rod*(rod_omega * rod_omega) + span_rod_middle_x*(coil_pull*span_crank_head_x
-        - coil_pull*span_crank_middle_x) - span_rod_middle_y*(-coil_pull*span_crank_head_y
-        + coil_pull*span_crank_middle_y);
-    lin->value[7] = a_crank_theta*cross_crank_rod - coil_pull*coil_span_x_by_crank_theta*span_rod_middle_y
-        + coil_pull*coil_span_y_by_crank_theta*span_rod_middle_x
-        + coil_pull_by_crank_theta*(-coil_span_x*span_rod_middle_y + coil_span_y*span_rod_middle_x)
-        - (crank_omega * crank_omega)*dot_crank_rod;
-    lin->value[8] = -a_crank_theta*cross_crank_rod - coil_pull*coil_span_x*span_rod_middle_x
-        - coil_pull*coil_span_y*span_rod_middle_y + coil_pull*(span_rod_middle_x * span_rod_middle_x)
-        + coil_pull*(span_rod_middle_y * span_rod_middle_y) + coil_pull_by_rod_theta*(-coil_span_x*span_rod_middle_y
-        + coil_span_y*span_rod_middle_x) + (crank_omega * crank_omega)*dot_crank_rod
-        - held_lambda_slider_offset*span_rod_com_y + p->push_value_x*span_rod_tip_x;
-    lin->value[9] = -2.0*crank_omega*span_crank_head_y;
-    lin->value[10] = -2.0*rod_omega*span_rod_com_y;
-    lin->value[11] = coil_pull_by_crank_omega*(-coil_span_x*span_crank_head_y + coil_span_x*span_crank_middle_y
-        + coil_span_y*span_crank_head_x - coil_span_y*span_crank_middle_x);
-    lin->value[12] = coil_pull_by_rod_omega*(-coil_span_x*span_crank_head_y + coil_span_x*span_crank_middle_y
-        + coil_span_y*span_crank_head_x - coil_span_y*span_crank_middle_x) - 2.0*cross_crank_rod*rod_omega;
-    lin->value[13] = coil_pull_by_crank_omega*(-coil_span_x*span_rod_middle_y + coil_span_y*span_rod_middle_x)
-        + 2.0*crank_omega*cross_crank_rod;
-    lin->value[14] = coil_pull_by_rod_omega*(-coil_span_x*span_rod_middle_y + coil_span_y*span_rod_middle_x);
-    lin->value[15] = -2.0*p->coil_damping*coil_length_rate*coil_length_rate_by_crank_theta
-        + p->push_value_x*rod_tip_vx_by_crank_theta;
-    lin->value[16] = -2.0*p->coil_damping*coil_length_rate*coil_length_rate_by_rod_theta
-        + p->push_value_x*rod_tip_vx_by_rod_theta;
-    lin->value[17] = -2.0*p->coil_damping*coil_length_rate*coil_length_rate_by_crank_omega
-        - p->push_value_x*span_crank_head_y;
-    lin->value[18] = -2.0*p->coil_damping*coil_length_rate*coil_length_rate_by_rod_omega
-        - p->push_value_x*span_rod_tip_y;
+    lin->value[0] = dot_crank_rod_;
+    lin->value[1] = span_crank_head_x_;
+    lin->value[2] = span_rod_com_x_;
+    lin->value[3] = -a_crank_theta_*span_crank_head_y_ - (crank_omega_ * crank_omega_)*span_crank_head_x_
+        - crank_omega_*span_crank_head_y_*p->two_alpha_;
+    lin->value[4] = -a_rod_theta_*span_rod_com_y_ - (rod_omega_ * rod_omega_)*span_rod_com_x_
+        - rod_omega_*span_rod_com_y_*p->two_alpha_;
+    lin->value[5] = a_rod_theta_*cross_crank_rod_ + coil_pull_*coil_span_x_*span_crank_middle_x_
+        + coil_pull_*coil_span_y_*span_crank_middle_y_ + coil_pull_by_crank_theta_*(-coil_span_x_*span_crank_head_y_
+        + coil_span_x_*span_crank_middle_y_ + coil_span_y_*span_crank_head_x_ - coil_span_y_*span_crank_middle_x_)
+        + coil_span_x_by_crank_theta_*(-coil_pull_*span_crank_head_y_ + coil_pull_*span_crank_middle_y_)
+        + coil_span_y_by_crank_theta_*(coil_pull_*span_crank_head_x_ - coil_pull_*span_crank_middle_x_)
+        + dot_crank_rod_*(rod_omega_ * rod_omega_) + span_crank_head_x_*(-coil_pull_*coil_span_x_ + p->push_value_x_)
+        - span_crank_head_y_*(coil_pull_*coil_span_y_ + held_lambda_slider_offset_);
+    lin->value[6] = -a_rod_theta_*cross_crank_rod_ + coil_pull_by_rod_theta_*(-coil_span_x_*span_crank_head_y_
+        + coil_span_x_*span_crank_middle_y_ + coil_span_y_*span_crank_head_x_ - coil_span_y_*span_crank_middle_x_)
+        - dot_crank_rod_*(rod_omega_ * rod_omega_) + span_rod_middle_x_*(coil_pull_*span_crank_head_x_
+        - coil_pull_*span_crank_middle_x_) - span_rod_middle_y_*(-coil_pull_*span_crank_head_y_
+        + coil_pull_*span_crank_middle_y_);
+    lin->value[7] = a_crank_theta_*cross_crank_rod_ - coil_pull_*coil_span_x_by_crank_theta_*span_rod_middle_y_
+        + coil_pull_*coil_span_y_by_crank_theta_*span_rod_middle_x_
+        + coil_pull_by_crank_theta_*(-coil_span_x_*span_rod_middle_y_ + coil_span_y_*span_rod_middle_x_)
+        - (crank_omega_ * crank_omega_)*dot_crank_rod_;
+    lin->value[8] = -a_crank_theta_*cross_crank_rod_ - coil_pull_*coil_span_x_*span_rod_middle_x_
+        - coil_pull_*coil_span_y_*span_rod_middle_y_ + coil_pull_*(span_rod_middle_x_ * span_rod_middle_x_)
+        + coil_pull_*(span_rod_middle_y_ * span_rod_middle_y_)
+        + coil_pull_by_rod_theta_*(-coil_span_x_*span_rod_middle_y_ + coil_span_y_*span_rod_middle_x_)
+        + (crank_omega_ * crank_omega_)*dot_crank_rod_ - held_lambda_slider_offset_*span_rod_com_y_
+        + p->push_value_x_*span_rod_tip_x_;
+    lin->value[9] = -2.0*crank_omega_*span_crank_head_y_;
+    lin->value[10] = -2.0*rod_omega_*span_rod_com_y_;
+    lin->value[11] = coil_pull_by_crank_omega_*(-coil_span_x_*span_crank_head_y_ + coil_span_x_*span_crank_middle_y_
+        + coil_span_y_*span_crank_head_x_ - coil_span_y_*span_crank_middle_x_);
+    lin->value[12] = coil_pull_by_rod_omega_*(-coil_span_x_*span_crank_head_y_ + coil_span_x_*span_crank_middle_y_
+        + coil_span_y_*span_crank_head_x_ - coil_span_y_*span_crank_middle_x_) - 2.0*cross_crank_rod_*rod_omega_;
+    lin->value[13] = coil_pull_by_crank_omega_*(-coil_span_x_*span_rod_middle_y_ + coil_span_y_*span_rod_middle_x_)
+        + 2.0*crank_omega_*cross_crank_rod_;
+    lin->value[14] = coil_pull_by_rod_omega_*(-coil_span_x_*span_rod_middle_y_ + coil_span_y_*span_rod_middle_x_);
+    lin->value[15] = -2.0*p->coil_damping_*coil_length_rate_*coil_length_rate_by_crank_theta_
+        + p->push_value_x_*rod_tip_vx_by_crank_theta_;
+    lin->value[16] = -2.0*p->coil_damping_*coil_length_rate_*coil_length_rate_by_rod_theta_
+        + p->push_value_x_*rod_tip_vx_by_rod_theta_;
+    lin->value[17] = -2.0*p->coil_damping_*coil_length_rate_*coil_length_rate_by_crank_omega_
+        - p->push_value_x_*span_crank_head_y_;
+    lin->value[18] = -2.0*p->coil_damping_*coil_length_rate_*coil_length_rate_by_rod_omega_
+        - p->push_value_x_*span_rod_tip_y_;
     lin->p = p;
 }
 
@@ -443,64 +448,64 @@ static void newton_factor(Lanes eta, LaneLinear *lin, LaneBits *rare)
     const LaneParameters *const p = lin->p;
 
     /* linearization */
-    const Lanes mass_crank_theta_rod_theta = lin->value[0];
-    const Lanes phi_slider_offset_crank_theta = lin->value[1];
-    const Lanes phi_slider_offset_rod_theta = lin->value[2];
-    const Lanes by_q_slider_offset_crank_theta = lin->value[3];
-    const Lanes by_q_slider_offset_rod_theta = lin->value[4];
-    const Lanes by_q_crank_theta_crank_theta = lin->value[5];
-    const Lanes by_q_crank_theta_rod_theta = lin->value[6];
-    const Lanes by_q_rod_theta_crank_theta = lin->value[7];
-    const Lanes by_q_rod_theta_rod_theta = lin->value[8];
-    const Lanes by_v_slider_offset_crank_theta = lin->value[9];
-    const Lanes by_v_slider_offset_rod_theta = lin->value[10];
-    const Lanes by_v_crank_theta_crank_theta = lin->value[11];
-    const Lanes by_v_crank_theta_rod_theta = lin->value[12];
-    const Lanes by_v_rod_theta_crank_theta = lin->value[13];
-    const Lanes by_v_rod_theta_rod_theta = lin->value[14];
+    const Lanes mass_crank_theta_rod_theta_ = lin->value[0];
+    const Lanes phi_slider_offset_crank_theta_ = lin->value[1];
+    const Lanes phi_slider_offset_rod_theta_ = lin->value[2];
+    const Lanes by_q_slider_offset_crank_theta_ = lin->value[3];
+    const Lanes by_q_slider_offset_rod_theta_ = lin->value[4];
+    const Lanes by_q_crank_theta_crank_theta_ = lin->value[5];
+    const Lanes by_q_crank_theta_rod_theta_ = lin->value[6];
+    const Lanes by_q_rod_theta_crank_theta_ = lin->value[7];
+    const Lanes by_q_rod_theta_rod_theta_ = lin->value[8];
+    const Lanes by_v_slider_offset_crank_theta_ = lin->value[9];
+    const Lanes by_v_slider_offset_rod_theta_ = lin->value[10];
+    const Lanes by_v_crank_theta_crank_theta_ = lin->value[11];
+    const Lanes by_v_crank_theta_rod_theta_ = lin->value[12];
+    const Lanes by_v_rod_theta_crank_theta_ = lin->value[13];
+    const Lanes by_v_rod_theta_rod_theta_ = lin->value[14];
 
     /* eta/kappa */
-    const Lanes eta_row = eta/(eta*(p->beta_squared*eta + p->two_alpha) + 1.0);
+    const Lanes eta_row = eta/(eta*(p->beta_squared_*eta + p->two_alpha_) + 1.0);
 
     /* matrix */
-    const Lanes n_crank_theta__crank_theta = eta*(by_q_crank_theta_crank_theta*eta + by_v_crank_theta_crank_theta)
-        + p->mass_crank_crank;
-    const Lanes n_crank_theta__rod_theta = eta*(by_q_crank_theta_rod_theta*eta + by_v_crank_theta_rod_theta)
-        + mass_crank_theta_rod_theta;
-    const Lanes n_rod_theta__crank_theta = eta*(by_q_rod_theta_crank_theta*eta + by_v_rod_theta_crank_theta)
-        + mass_crank_theta_rod_theta;
-    const Lanes n_rod_theta__rod_theta = eta*(by_q_rod_theta_rod_theta*eta + by_v_rod_theta_rod_theta)
-        + p->mass_rod_rod;
-    const Lanes n_slider_offset__crank_theta = eta_row*(by_q_slider_offset_crank_theta*eta
-        + by_v_slider_offset_crank_theta) + phi_slider_offset_crank_theta;
-    const Lanes n_slider_offset__rod_theta = eta_row*(by_q_slider_offset_rod_theta*eta + by_v_slider_offset_rod_theta)
-        + phi_slider_offset_rod_theta;
+    const Lanes n_crank_theta_crank_theta_ = eta*(by_q_crank_theta_crank_theta_*eta + by_v_crank_theta_crank_theta_)
+        + p->mass_crank_crank_;
+    const Lanes n_crank_theta_rod_theta_ = eta*(by_q_crank_theta_rod_theta_*eta + by_v_crank_theta_rod_theta_)
+        + mass_crank_theta_rod_theta_;
+    const Lanes n_rod_theta_crank_theta_ = eta*(by_q_rod_theta_crank_theta_*eta + by_v_rod_theta_crank_theta_)
+        + mass_crank_theta_rod_theta_;
+    const Lanes n_rod_theta_rod_theta_ = eta*(by_q_rod_theta_rod_theta_*eta + by_v_rod_theta_rod_theta_)
+        + p->mass_rod_rod_;
+    const Lanes n_slider_offset_crank_theta_ = eta_row*(by_q_slider_offset_crank_theta_*eta
+        + by_v_slider_offset_crank_theta_) + phi_slider_offset_crank_theta_;
+    const Lanes n_slider_offset_rod_theta_ = eta_row*(by_q_slider_offset_rod_theta_*eta
+        + by_v_slider_offset_rod_theta_) + phi_slider_offset_rod_theta_;
 
     /* L U */
-    const Lanes scale_crank_theta = n_crank_theta__crank_theta;
-    *rare |= ~(lanes_fabs(scale_crank_theta) > SINGULAR * lanes_fabs(n_crank_theta__crank_theta));
-    const Lanes inverse_pivot_crank_theta = 1.0/scale_crank_theta;
-    lin->lu[0] = inverse_pivot_crank_theta;
-    const Lanes l_rod_theta__crank_theta = inverse_pivot_crank_theta*n_rod_theta__crank_theta;
-    lin->lu[1] = l_rod_theta__crank_theta;
-    lin->lu[2] = n_crank_theta__rod_theta;
-    const Lanes l_slider_offset__crank_theta = inverse_pivot_crank_theta*n_slider_offset__crank_theta;
-    lin->lu[3] = l_slider_offset__crank_theta;
-    const Lanes scale_rod_theta = -l_rod_theta__crank_theta*n_crank_theta__rod_theta + n_rod_theta__rod_theta;
-    *rare |= ~(lanes_fabs(scale_rod_theta) > SINGULAR * lanes_fabs(n_rod_theta__rod_theta));
-    const Lanes inverse_pivot_rod_theta = 1.0/scale_rod_theta;
-    lin->lu[4] = inverse_pivot_rod_theta;
-    const Lanes l_slider_offset__rod_theta = inverse_pivot_rod_theta
-        *(-l_slider_offset__crank_theta*n_crank_theta__rod_theta + n_slider_offset__rod_theta);
-    lin->lu[5] = l_slider_offset__rod_theta;
-    const Lanes u_rod_theta__slider_offset = -l_rod_theta__crank_theta*phi_slider_offset_crank_theta
-        + phi_slider_offset_rod_theta;
-    lin->lu[6] = u_rod_theta__slider_offset;
-    const Lanes scale_slider_offset = -l_slider_offset__crank_theta*phi_slider_offset_crank_theta
-        - l_slider_offset__rod_theta*u_rod_theta__slider_offset;
-    *rare |= ~((lanes_fabs(scale_slider_offset) > 0.0) & (lanes_fabs(scale_slider_offset) < INFINITY));
-    const Lanes inverse_pivot_slider_offset = 1.0/scale_slider_offset;
-    lin->lu[7] = inverse_pivot_slider_offset;
+    const Lanes scale_crank_theta_ = n_crank_theta_crank_theta_;
+    *rare |= ~(lanes_fabs(scale_crank_theta_) > SINGULAR * lanes_fabs(n_crank_theta_crank_theta_));
+    const Lanes inverse_pivot_crank_theta_ = 1.0/scale_crank_theta_;
+    lin->lu[0] = inverse_pivot_crank_theta_;
+    const Lanes l_rod_theta_crank_theta_ = inverse_pivot_crank_theta_*n_rod_theta_crank_theta_;
+    lin->lu[1] = l_rod_theta_crank_theta_;
+    lin->lu[2] = n_crank_theta_rod_theta_;
+    const Lanes l_slider_offset_crank_theta_ = inverse_pivot_crank_theta_*n_slider_offset_crank_theta_;
+    lin->lu[3] = l_slider_offset_crank_theta_;
+    const Lanes scale_rod_theta_ = -l_rod_theta_crank_theta_*n_crank_theta_rod_theta_ + n_rod_theta_rod_theta_;
+    *rare |= ~(lanes_fabs(scale_rod_theta_) > SINGULAR * lanes_fabs(n_rod_theta_rod_theta_));
+    const Lanes inverse_pivot_rod_theta_ = 1.0/scale_rod_theta_;
+    lin->lu[4] = inverse_pivot_rod_theta_;
+    const Lanes l_slider_offset_rod_theta_ = inverse_pivot_rod_theta_
+        *(-l_slider_offset_crank_theta_*n_crank_theta_rod_theta_ + n_slider_offset_rod_theta_);
+    lin->lu[5] = l_slider_offset_rod_theta_;
+    const Lanes u_rod_theta_slider_offset_ = -l_rod_theta_crank_theta_*phi_slider_offset_crank_theta_
+        + phi_slider_offset_rod_theta_;
+    lin->lu[6] = u_rod_theta_slider_offset_;
+    const Lanes scale_slider_offset_ = -l_slider_offset_crank_theta_*phi_slider_offset_crank_theta_
+        - l_slider_offset_rod_theta_*u_rod_theta_slider_offset_;
+    *rare |= ~((lanes_fabs(scale_slider_offset_) > 0.0) & (lanes_fabs(scale_slider_offset_) < INFINITY));
+    const Lanes inverse_pivot_slider_offset_ = 1.0/scale_slider_offset_;
+    lin->lu[7] = inverse_pivot_slider_offset_;
 }
 
 /*
@@ -509,30 +514,30 @@ static void newton_factor(Lanes eta, LaneLinear *lin, LaneBits *rare)
 static void newton_substitute(const LaneLinear *lin, Lanes *x)
 {
     /* linearization */
-    const Lanes phi_slider_offset_crank_theta = lin->value[1];
-    const Lanes inverse_pivot_crank_theta = lin->lu[0];
-    const Lanes l_rod_theta__crank_theta = lin->lu[1];
-    const Lanes n_crank_theta__rod_theta = lin->lu[2];
-    const Lanes l_slider_offset__crank_theta = lin->lu[3];
-    const Lanes inverse_pivot_rod_theta = lin->lu[4];
-    const Lanes l_slider_offset__rod_theta = lin->lu[5];
-    const Lanes u_rod_theta__slider_offset = lin->lu[6];
-    const Lanes inverse_pivot_slider_offset = lin->lu[7];
+    const Lanes phi_slider_offset_crank_theta_ = lin->value[1];
+    const Lanes inverse_pivot_crank_theta_ = lin->lu[0];
+    const Lanes l_rod_theta_crank_theta_ = lin->lu[1];
+    const Lanes n_crank_theta_rod_theta_ = lin->lu[2];
+    const Lanes l_slider_offset_crank_theta_ = lin->lu[3];
+    const Lanes inverse_pivot_rod_theta_ = lin->lu[4];
+    const Lanes l_slider_offset_rod_theta_ = lin->lu[5];
+    const Lanes u_rod_theta_slider_offset_ = lin->lu[6];
+    const Lanes inverse_pivot_slider_offset_ = lin->lu[7];
 
     /* forward */
-    const Lanes b_crank_theta = x[0];
-    const Lanes b_rod_theta = -b_crank_theta*l_rod_theta__crank_theta + x[1];
-    const Lanes b_slider_offset = -b_crank_theta*l_slider_offset__crank_theta - b_rod_theta*l_slider_offset__rod_theta
-        + x[2];
+    const Lanes b_crank_theta_ = x[0];
+    const Lanes b_rod_theta_ = -b_crank_theta_*l_rod_theta_crank_theta_ + x[1];
+    const Lanes b_slider_offset_ = -b_crank_theta_*l_slider_offset_crank_theta_
+        - b_rod_theta_*l_slider_offset_rod_theta_ + x[2];
 
     /* backward */
-    const Lanes x_slider_offset = b_slider_offset*inverse_pivot_slider_offset;
-    x[2] = x_slider_offset;
-    const Lanes x_rod_theta = inverse_pivot_rod_theta*(b_rod_theta - u_rod_theta__slider_offset*x_slider_offset);
-    x[1] = x_rod_theta;
-    const Lanes x_crank_theta = inverse_pivot_crank_theta*(b_crank_theta - n_crank_theta__rod_theta*x_rod_theta
-        - phi_slider_offset_crank_theta*x_slider_offset);
-    x[0] = x_crank_theta;
+    const Lanes x_slider_offset_ = b_slider_offset_*inverse_pivot_slider_offset_;
+    x[2] = x_slider_offset_;
+    const Lanes x_rod_theta_ = inverse_pivot_rod_theta_*(b_rod_theta_ - u_rod_theta_slider_offset_*x_slider_offset_);
+    x[1] = x_rod_theta_;
+    const Lanes x_crank_theta_ = inverse_pivot_crank_theta_*(b_crank_theta_ - n_crank_theta_rod_theta_*x_rod_theta_
+        - phi_slider_offset_crank_theta_*x_slider_offset_);
+    x[0] = x_crank_theta_;
 }
 
 /*
@@ -545,33 +550,33 @@ static void newton_solve(const LaneLinear *lin, Lanes eta, Lanes s, const Lanes 
     const LaneParameters *const p = lin->p;
 
     /* linearization */
-    const Lanes mass_crank_theta_rod_theta = lin->value[0];
-    const Lanes phi_slider_offset_crank_theta = lin->value[1];
-    const Lanes phi_slider_offset_rod_theta = lin->value[2];
-    const Lanes by_q_slider_offset_crank_theta = lin->value[3];
-    const Lanes by_q_slider_offset_rod_theta = lin->value[4];
-    const Lanes by_q_crank_theta_crank_theta = lin->value[5];
-    const Lanes by_q_crank_theta_rod_theta = lin->value[6];
-    const Lanes by_q_rod_theta_crank_theta = lin->value[7];
-    const Lanes by_q_rod_theta_rod_theta = lin->value[8];
-    const Lanes power_q_1_crank_theta = lin->value[15];
-    const Lanes power_q_1_rod_theta = lin->value[16];
-    const Lanes power_v_1_crank_theta = lin->value[17];
-    const Lanes power_v_1_rod_theta = lin->value[18];
+    const Lanes mass_crank_theta_rod_theta_ = lin->value[0];
+    const Lanes phi_slider_offset_crank_theta_ = lin->value[1];
+    const Lanes phi_slider_offset_rod_theta_ = lin->value[2];
+    const Lanes by_q_slider_offset_crank_theta_ = lin->value[3];
+    const Lanes by_q_slider_offset_rod_theta_ = lin->value[4];
+    const Lanes by_q_crank_theta_crank_theta_ = lin->value[5];
+    const Lanes by_q_crank_theta_rod_theta_ = lin->value[6];
+    const Lanes by_q_rod_theta_crank_theta_ = lin->value[7];
+    const Lanes by_q_rod_theta_rod_theta_ = lin->value[8];
+    const Lanes power_q_1_crank_theta_ = lin->value[15];
+    const Lanes power_q_1_rod_theta_ = lin->value[16];
+    const Lanes power_v_1_crank_theta_ = lin->value[17];
+    const Lanes power_v_1_rod_theta_ = lin->value[18];
 
     /* eta/kappa */
-    const Lanes eta_row = eta/(eta*(p->beta_squared*eta + p->two_alpha) + 1.0);
+    const Lanes eta_row = eta/(eta*(p->beta_squared_*eta + p->two_alpha_) + 1.0);
 
     /* right-hand side */
     Lanes x[3];
-    const Lanes shifted_crank_theta = -p->beta_squared*eta*r[0] + r[2];
-    const Lanes shifted_rod_theta = -p->beta_squared*eta*r[1] + r[3];
-    x[0] = eta*(-by_q_crank_theta_crank_theta*eta*r[0] - by_q_crank_theta_rod_theta*eta*r[1] + p->mass_crank_crank*r[2]
-        + mass_crank_theta_rod_theta*r[3]);
-    x[1] = eta*(-by_q_rod_theta_crank_theta*eta*r[0] - by_q_rod_theta_rod_theta*eta*r[1]
-        + mass_crank_theta_rod_theta*r[2] + p->mass_rod_rod*r[3]);
-    x[2] = eta_row*(-by_q_slider_offset_crank_theta*eta*r[0] - by_q_slider_offset_rod_theta*eta*r[1]
-        + phi_slider_offset_crank_theta*shifted_crank_theta + phi_slider_offset_rod_theta*shifted_rod_theta);
+    const Lanes shifted_crank_theta_ = -p->beta_squared_*eta*r[0] + r[2];
+    const Lanes shifted_rod_theta_ = -p->beta_squared_*eta*r[1] + r[3];
+    x[0] = eta*(-by_q_crank_theta_crank_theta_*eta*r[0] - by_q_crank_theta_rod_theta_*eta*r[1]
+        + p->mass_crank_crank_*r[2] + mass_crank_theta_rod_theta_*r[3]);
+    x[1] = eta*(-by_q_rod_theta_crank_theta_*eta*r[0] - by_q_rod_theta_rod_theta_*eta*r[1]
+        + mass_crank_theta_rod_theta_*r[2] + p->mass_rod_rod_*r[3]);
+    x[2] = eta_row*(-by_q_slider_offset_crank_theta_*eta*r[0] - by_q_slider_offset_rod_theta_*eta*r[1]
+        + phi_slider_offset_crank_theta_*shifted_crank_theta_ + phi_slider_offset_rod_theta_*shifted_rod_theta_);
     newton_substitute(lin, x);
 
     /* solution */
@@ -580,8 +585,8 @@ static void newton_solve(const LaneLinear *lin, Lanes eta, Lanes s, const Lanes 
     u[1] = eta*(r[1] + x[1]);
     u[3] = x[1];
     u[4] = eta*r[4];
-    u[5] = eta*(power_q_1_crank_theta*u[0] + power_q_1_rod_theta*u[1] + power_v_1_crank_theta*u[2]
-        + power_v_1_rod_theta*u[3] + r[5]);
+    u[5] = eta*(power_q_1_crank_theta_*u[0] + power_q_1_rod_theta_*u[1] + power_v_1_crank_theta_*u[2]
+        + power_v_1_rod_theta_*u[3] + r[5]);
     u[6] = eta*r[6];
 }
 

@@ -50,6 +50,7 @@
 #define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
 #define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
 #define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
+#define LIGHT_PIVOT 1e-06                     /* of what turns with an angle, where its inertia is too small for it */
 #define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
 typedef struct Parameters Parameters; /* every number of a run */
@@ -63,6 +64,7 @@ static const int guess_place[] = {5, 3};
 static const int set_place[] = {2};
 static const int rate_place[] = {2};
 static const unsigned char row_is_length[] = {1, 1, 1, 1, 1};
+static const int drive_row[] = {0};
 static const int kept_row[] = {0, 1, 2, 3, 4};
 static const int phi_q_first[] = {0, 1, 2, 6, 10, 11};
 static const short phi_q_place[] = {0, 1, 0, 2, 3, 5, 1, 2, 4, 5, 4};
@@ -76,41 +78,40 @@ static const int friction_of_pivot[] = {0};
 
 /* In SI: first the slots that a user may set, then what prepare() derives. */
 struct Parameters {
-    double crank_mass;  /* bodies.crank.mass, kg */
-    double crank_inertia;  /* bodies.crank.inertia, kg*m^2 */
-    double rod_mass;  /* bodies.rod.mass, kg */
-    double rod_inertia;  /* bodies.rod.inertia, kg*m^2 */
-    double crank_length;  /* bodies.crank.length, m */
-    double crank_points_middle_x;  /* bodies.crank.points.middle.x, m */
-    double rod_points_crankpin_x;  /* bodies.rod.points.crankpin.x, m */
-    double rod_points_middle_x;  /* bodies.rod.points.middle.x, m */
-    double rod_points_tip_x;  /* bodies.rod.points.tip.x, m */
-    double alpha;  /* baumgarte.alpha, 1/s */
-    double beta;  /* baumgarte.beta, 1/s */
-    double slider_direction_x;  /* joints.slider.direction.x, 1 */
-    double coil_stiffness;  /* forces.coil.stiffness, N/m */
-    double coil_free_length;  /* forces.coil.free_length, m */
-    double coil_damping;  /* forces.coil.damping, N*s/m */
-    double push_value_x;  /* forces.push.value.x, N */
-    double guess_rod_theta;  /* start.guess.rod.theta, rad */
-    double guess_rod_x;  /* start.guess.rod.x, m */
-    double set_crank_theta;  /* start.set.crank.theta, rad */
-    double rates_crank_omega;  /* start.rates.crank.omega, 1/s */
-    double two_alpha;  /* 2 alpha, 1/s */
-    double beta_squared;  /* beta^2, 1/s^2 */
-    double inverse_rod_mass;  /* 1/M, 1/kg */
-    double inverse_crank_mass;  /* 1/M, 1/kg */
-    double inverse_crank_inertia;  /* 1/M, 1/(kg*m^2) */
-    double inverse_rod_inertia;  /* 1/M, 1/(kg*m^2) */
-    double rod_com_span_x;  /* vector in its frame, m */
-    double rod_middle_span_x;  /* vector in its frame, m */
-    double rod_tip_span_x;  /* vector in its frame, m */
-    double inertia_crank_crank;  /* sum of m w.w, kg*m^2 */
-    double inertia_crank_rod;  /* sum of m w.w, kg*m^2 */
-    double inertia_rod_rod;  /* sum of m w.w, kg*m^2 */
-    double mass_crank_crank;  /* constant of M, kg*m^2 */
-    double mass_rod_rod;  /* constant of M, kg*m^2 */
-    double inverse_mass_crank_crank;  /* 1/M, 1/(kg*m^2) */
+    double crank_mass_;  /* bodies.crank.mass, kg */
+    double crank_inertia_;  /* bodies.crank.inertia, kg*m^2 */
+    double rod_mass_;  /* bodies.rod.mass, kg */
+    double rod_inertia_;  /* bodies.rod.inertia, kg*m^2 */
+    double crank_length_;  /* bodies.crank.length, m */
+    double crank_points_middle_x_;  /* bodies.crank.points.middle.x, m */
+    double rod_points_crankpin_x_;  /* bodies.rod.points.crankpin.x, m */
+    double rod_points_middle_x_;  /* bodies.rod.points.middle.x, m */
+    double rod_points_tip_x_;  /* bodies.rod.points.tip.x, m */
+    double alpha_;  /* baumgarte.alpha, 1/s */
+    double beta_;  /* baumgarte.beta, 1/s */
+    double slider_direction_x_;  /* joints.slider.direction.x, 1 */
+    double coil_stiffness_;  /* forces.coil.stiffness, N/m */
+    double coil_free_length_;  /* forces.coil.free_length, m */
+    double coil_damping_;  /* forces.coil.damping, N*s/m */
+    double push_value_x_;  /* forces.push.value.x, N */
+    double guess_rod_theta_;  /* start.guess.rod.theta, rad */
+    double guess_rod_x_;  /* start.guess.rod.x, m */
+    double set_crank_theta_;  /* start.set.crank.theta, rad */
+    double rates_crank_omega_;  /* start.rates.crank.omega, 1/s */
+    double crank_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double rod_turning_;  /* J and m s^2 of its joints, kg*m^2 */
+    double two_alpha_;  /* 2 alpha, 1/s */
+    double beta_squared_;  /* beta^2, 1/s^2 */
+    double mobility_slider_offset_;  /* 1/m of the bodies of a row, 1/kg */
+    double rod_com_span_x_;  /* vector in its frame, m */
+    double rod_middle_span_x_;  /* vector in its frame, m */
+    double rod_tip_span_x_;  /* vector in its frame, m */
+    double inertia_crank_crank_;  /* sum of m w.w, kg*m^2 */
+    double inertia_crank_rod_;  /* sum of m w.w, kg*m^2 */
+    double inertia_rod_rod_;  /* sum of m w.w, kg*m^2 */
+    double mass_crank_crank_;  /* constant of M, kg*m^2 */
+    double mass_rod_rod_;  /* constant of M, kg*m^2 */
+    double inverse_mass_crank_crank_;  /* 1/M, 1/(kg*m^2) */
 };
 
 /* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */

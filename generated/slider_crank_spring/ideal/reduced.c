@@ -5,47 +5,47 @@ void expand(const double t, const double *q, const double *v, const Parameters *
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double crank_theta = q[0];
-    const double crank_omega = v[0];
-    const double rod_theta = q[1];
-    const double rod_omega = v[1];
+    const double crank_theta_ = q[0];
+    const double crank_omega_ = v[0];
+    const double rod_theta_ = q[1];
+    const double rod_omega_ = v[1];
 
     /* directions, arms, drives */
-    const Four angles_0 = {crank_theta, rod_theta, rod_theta, rod_theta};
+    const Four angles_0 = {crank_theta_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_crank = cosines_0[0];
-    const double sin_theta_crank = sines_0[0];
-    const double cos_theta_rod = cosines_0[1];
-    const double sin_theta_rod = sines_0[1];
-    const double crank_x = 0.0;
-    const double crank_y = 0.0;
-    const double crank_vx = 0.0;
-    const double crank_vy = 0.0;
-    const double span_crank_head_x = cos_theta_crank*p->crank_length;
-    const double span_crank_head_y = p->crank_length*sin_theta_crank;
-    const double crank_head_vx = -crank_omega*span_crank_head_y;
-    const double crank_head_vy = crank_omega*span_crank_head_x;
-    const double span_rod_com_x = cos_theta_rod*p->rod_com_span_x;
-    const double span_rod_com_y = p->rod_com_span_x*sin_theta_rod;
-    const double rod_x = span_crank_head_x + span_rod_com_x;
-    const double rod_vx = crank_head_vx - rod_omega*span_rod_com_y;
-    const double rod_y = span_crank_head_y + span_rod_com_y;
-    const double rod_vy = crank_head_vy + rod_omega*span_rod_com_x;
+    const double cos_theta_crank_ = cosines_0[0];
+    const double sin_theta_crank_ = sines_0[0];
+    const double cos_theta_rod_ = cosines_0[1];
+    const double sin_theta_rod_ = sines_0[1];
+    const double crank_x_ = 0.0;
+    const double crank_y_ = 0.0;
+    const double crank_vx_ = 0.0;
+    const double crank_vy_ = 0.0;
+    const double span_crank_head_x_ = cos_theta_crank_*p->crank_length_;
+    const double span_crank_head_y_ = p->crank_length_*sin_theta_crank_;
+    const double crank_head_vx_ = -crank_omega_*span_crank_head_y_;
+    const double crank_head_vy_ = crank_omega_*span_crank_head_x_;
+    const double span_rod_com_x_ = cos_theta_rod_*p->rod_com_span_x_;
+    const double span_rod_com_y_ = p->rod_com_span_x_*sin_theta_rod_;
+    const double rod_x_ = span_crank_head_x_ + span_rod_com_x_;
+    const double rod_vx_ = crank_head_vx_ - rod_omega_*span_rod_com_y_;
+    const double rod_y_ = span_crank_head_y_ + span_rod_com_y_;
+    const double rod_vy_ = crank_head_vy_ + rod_omega_*span_rod_com_x_;
 
     /* bodies */
-    all_q[0] = crank_x;
-    all_v[0] = crank_vx;
-    all_q[1] = crank_y;
-    all_v[1] = crank_vy;
-    all_q[2] = crank_theta;
-    all_v[2] = crank_omega;
-    all_q[3] = rod_x;
-    all_v[3] = rod_vx;
-    all_q[4] = rod_y;
-    all_v[4] = rod_vy;
-    all_q[5] = rod_theta;
-    all_v[5] = rod_omega;
+    all_q[0] = crank_x_;
+    all_v[0] = crank_vx_;
+    all_q[1] = crank_y_;
+    all_v[1] = crank_vy_;
+    all_q[2] = crank_theta_;
+    all_v[2] = crank_omega_;
+    all_q[3] = rod_x_;
+    all_v[3] = rod_vx_;
+    all_q[4] = rod_y_;
+    all_v[4] = rod_vy_;
+    all_q[5] = rod_theta_;
+    all_v[5] = rod_omega_;
 }
 
 /*
@@ -55,16 +55,16 @@ void reduce_state(const double t, const double *q, const double *v, const Parame
 {
     (void)t, (void)p;
     /* coordinates, velocities, time */
-    const double crank_theta = q[2];
-    const double crank_omega = v[2];
-    const double rod_theta = q[5];
-    const double rod_omega = v[5];
+    const double crank_theta_ = q[2];
+    const double crank_omega_ = v[2];
+    const double rod_theta_ = q[5];
+    const double rod_omega_ = v[5];
 
     /* tree coordinates */
-    s[0] = crank_theta;  /* crank */
-    s_rate[0] = crank_omega;
-    s[1] = rod_theta;  /* rod */
-    s_rate[1] = rod_omega;
+    s[0] = crank_theta_;  /* crank */
+    s_rate[0] = crank_omega_;
+    s[1] = rod_theta_;  /* rod */
+    s_rate[1] = rod_omega_;
 }
 
 /*
@@ -86,20 +86,20 @@ void closures(const double t, const double *q, const Parameters *p, double *out)
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double crank_theta = q[0];
-    const double rod_theta = q[1];
+    const double crank_theta_ = q[0];
+    const double rod_theta_ = q[1];
 
     /* directions, arms, drives */
-    const Four angles_0 = {crank_theta, rod_theta, rod_theta, rod_theta};
+    const Four angles_0 = {crank_theta_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double sin_theta_crank = sines_0[0];
-    const double sin_theta_rod = sines_0[1];
-    const double span_crank_head_y = p->crank_length*sin_theta_crank;
-    const double span_rod_com_y = p->rod_com_span_x*sin_theta_rod;
+    const double sin_theta_crank_ = sines_0[0];
+    const double sin_theta_rod_ = sines_0[1];
+    const double span_crank_head_y_ = p->crank_length_*sin_theta_crank_;
+    const double span_rod_com_y_ = p->rod_com_span_x_*sin_theta_rod_;
 
     /* rows */
-    out[0] = span_crank_head_y + span_rod_com_y;  /* slider.offset */
+    out[0] = span_crank_head_y_ + span_rod_com_y_;  /* slider.offset */
 }
 
 /*
@@ -109,22 +109,22 @@ void closure_rates(const double t, const double *q, const double *v, const Param
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double crank_theta = q[0];
-    const double crank_omega = v[0];
-    const double rod_theta = q[1];
-    const double rod_omega = v[1];
+    const double crank_theta_ = q[0];
+    const double crank_omega_ = v[0];
+    const double rod_theta_ = q[1];
+    const double rod_omega_ = v[1];
 
     /* directions, arms, drives */
-    const Four angles_0 = {crank_theta, rod_theta, rod_theta, rod_theta};
+    const Four angles_0 = {crank_theta_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_crank = cosines_0[0];
-    const double cos_theta_rod = cosines_0[1];
-    const double span_crank_head_x = cos_theta_crank*p->crank_length;
-    const double span_rod_com_x = cos_theta_rod*p->rod_com_span_x;
+    const double cos_theta_crank_ = cosines_0[0];
+    const double cos_theta_rod_ = cosines_0[1];
+    const double span_crank_head_x_ = cos_theta_crank_*p->crank_length_;
+    const double span_rod_com_x_ = cos_theta_rod_*p->rod_com_span_x_;
 
     /* rows */
-    out[0] = crank_omega*span_crank_head_x + rod_omega*span_rod_com_x;  /* slider.offset */
+    out[0] = crank_omega_*span_crank_head_x_ + rod_omega_*span_rod_com_x_;  /* slider.offset */
 }
 
 /*
@@ -136,92 +136,102 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     double *a, Aside *aside)
 {
     /* coordinates, velocities, time */
-    const double crank_theta = q[0];
-    const double crank_omega = v[0];
-    const double rod_theta = q[1];
-    const double rod_omega = v[1];
+    const double crank_theta_ = q[0];
+    const double crank_omega_ = v[0];
+    const double rod_theta_ = q[1];
+    const double rod_omega_ = v[1];
 
     /* directions, arms, drives */
-    const Four angles_0 = {crank_theta, rod_theta, rod_theta, rod_theta};
+    const Four angles_0 = {crank_theta_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_crank = cosines_0[0];
-    const double sin_theta_crank = sines_0[0];
-    const double cos_theta_rod = cosines_0[1];
-    const double sin_theta_rod = sines_0[1];
-    const double span_crank_head_x = cos_theta_crank*p->crank_length;
-    const double span_crank_head_y = p->crank_length*sin_theta_crank;
-    const double crank_head_vx = -crank_omega*span_crank_head_y;
-    const double crank_head_vy = crank_omega*span_crank_head_x;
-    const double span_rod_com_x = cos_theta_rod*p->rod_com_span_x;
-    const double span_rod_com_y = p->rod_com_span_x*sin_theta_rod;
-    const double span_crank_middle_x = cos_theta_crank*p->crank_points_middle_x;
-    const double span_crank_middle_y = p->crank_points_middle_x*sin_theta_crank;
-    const double crank_middle_vx = -crank_omega*span_crank_middle_y;
-    const double crank_middle_vy = crank_omega*span_crank_middle_x;
-    const double span_rod_middle_x = cos_theta_rod*p->rod_middle_span_x;
-    const double span_rod_middle_y = p->rod_middle_span_x*sin_theta_rod;
-    const double rod_middle_x = span_crank_head_x + span_rod_middle_x;
-    const double rod_middle_vx = crank_head_vx - rod_omega*span_rod_middle_y;
-    const double rod_middle_y = span_crank_head_y + span_rod_middle_y;
-    const double rod_middle_vy = crank_head_vy + rod_omega*span_rod_middle_x;
-    const double coil_span_x = rod_middle_x - span_crank_middle_x;
-    const double coil_span_y = rod_middle_y - span_crank_middle_y;
-    const double coil_span_rate_x = -crank_middle_vx + rod_middle_vx;
-    const double coil_span_rate_y = -crank_middle_vy + rod_middle_vy;
-    const double coil_length = sqrt((coil_span_x * coil_span_x) + (coil_span_y * coil_span_y));
-    const double coil_length_rate = (coil_span_rate_x*coil_span_x + coil_span_rate_y*coil_span_y)/coil_length;
-    const double coil_force = p->coil_damping*coil_length_rate + p->coil_stiffness*(-p->coil_free_length + coil_length);
-    const double coil_pull = coil_force/coil_length;
-    const double span_rod_tip_y = p->rod_tip_span_x*sin_theta_rod;
-    const double rod_tip_vx = crank_head_vx - rod_omega*span_rod_tip_y;
-    const double cos_rod_less_crank = cos_theta_crank*cos_theta_rod + sin_theta_crank*sin_theta_rod;
-    const double sin_rod_less_crank = cos_theta_crank*sin_theta_rod - cos_theta_rod*sin_theta_crank;
-    const double dot_crank_rod = cos_rod_less_crank*p->inertia_crank_rod;
-    const double cross_crank_rod = p->inertia_crank_rod*sin_rod_less_crank;
+    const double cos_theta_crank_ = cosines_0[0];
+    const double sin_theta_crank_ = sines_0[0];
+    const double cos_theta_rod_ = cosines_0[1];
+    const double sin_theta_rod_ = sines_0[1];
+    const double span_crank_head_x_ = cos_theta_crank_*p->crank_length_;
+    const double span_crank_head_y_ = p->crank_length_*sin_theta_crank_;
+    const double crank_head_vx_ = -crank_omega_*span_crank_head_y_;
+    const double crank_head_vy_ = crank_omega_*span_crank_head_x_;
+    const double span_rod_com_x_ = cos_theta_rod_*p->rod_com_span_x_;
+    const double span_rod_com_y_ = p->rod_com_span_x_*sin_theta_rod_;
+    const double span_crank_middle_x_ = cos_theta_crank_*p->crank_points_middle_x_;
+    const double span_crank_middle_y_ = p->crank_points_middle_x_*sin_theta_crank_;
+    const double crank_middle_vx_ = -crank_omega_*span_crank_middle_y_;
+    const double crank_middle_vy_ = crank_omega_*span_crank_middle_x_;
+    const double span_rod_middle_x_ = cos_theta_rod_*p->rod_middle_span_x_;
+    const double span_rod_middle_y_ = p->rod_middle_span_x_*sin_theta_rod_;
+    const double rod_middle_x_ = span_crank_head_x_ + span_rod_middle_x_;
+    const double rod_middle_vx_ = crank_head_vx_ - rod_omega_*span_rod_middle_y_;
+    const double rod_middle_y_ = span_crank_head_y_ + span_rod_middle_y_;
+    const double rod_middle_vy_ = crank_head_vy_ + rod_omega_*span_rod_middle_x_;
+    const double coil_span_x_ = rod_middle_x_ - span_crank_middle_x_;
+    const double coil_span_y_ = rod_middle_y_ - span_crank_middle_y_;
+    const double coil_span_rate_x_ = -crank_middle_vx_ + rod_middle_vx_;
+    const double coil_span_rate_y_ = -crank_middle_vy_ + rod_middle_vy_;
+    const double coil_length_ = sqrt((coil_span_x_ * coil_span_x_) + (coil_span_y_ * coil_span_y_));
+    const double coil_length_rate_ = (coil_span_rate_x_*coil_span_x_ + coil_span_rate_y_*coil_span_y_)/coil_length_;
+    const double coil_force_ = p->coil_damping_*coil_length_rate_
+        + p->coil_stiffness_*(-p->coil_free_length_ + coil_length_);
+    const double coil_pull_ = coil_force_/coil_length_;
+    const double span_rod_tip_y_ = p->rod_tip_span_x_*sin_theta_rod_;
+    const double rod_tip_vx_ = crank_head_vx_ - rod_omega_*span_rod_tip_y_;
+    const double cos_rod_less_crank_ = cos_theta_crank_*cos_theta_rod_ + sin_theta_crank_*sin_theta_rod_;
+    const double sin_rod_less_crank_ = cos_theta_crank_*sin_theta_rod_ - cos_theta_rod_*sin_theta_crank_;
+    const double dot_crank_rod_ = cos_rod_less_crank_*p->inertia_crank_rod_;
+    const double cross_crank_rod_ = p->inertia_crank_rod_*sin_rod_less_crank_;
 
     /* status */
     int pivot = 0;
 
     /* constraints: gamma */
-    const double rhs_slider_offset = (crank_omega * crank_omega)*span_crank_head_y
-        + (rod_omega * rod_omega)*span_rod_com_y;
+    const double rhs_slider_offset_ = (crank_omega_ * crank_omega_)*span_crank_head_y_
+        + (rod_omega_ * rod_omega_)*span_rod_com_y_;
 
     /* L D L^T of the KKT matrix */
-    const double l_rod_theta__crank_theta = dot_crank_rod*p->inverse_mass_crank_crank;
-    const double l_slider_offset__crank_theta = p->inverse_mass_crank_crank*span_crank_head_x;
-    const double inverse_pivot_rod_theta = 1.0/(-dot_crank_rod*l_rod_theta__crank_theta + p->mass_rod_rod);
-    const double w_slider_offset__rod_theta = -dot_crank_rod*l_slider_offset__crank_theta + span_rod_com_x;
-    const double l_slider_offset__rod_theta = inverse_pivot_rod_theta*w_slider_offset__rod_theta;
-    const double scale_slider_offset = l_slider_offset__crank_theta*span_crank_head_x
-        + l_slider_offset__rod_theta*w_slider_offset__rod_theta;
-    if (!(scale_slider_offset > 0.0 && scale_slider_offset < INFINITY)) {
+    if (!(p->mass_crank_crank_ > LIGHT_PIVOT * p->crank_turning_)) {
+        pivot = 2;
+        goto dependent;
+    }
+    const double l_rod_theta_crank_theta_ = dot_crank_rod_*p->inverse_mass_crank_crank_;
+    const double l_slider_offset_crank_theta_ = p->inverse_mass_crank_crank_*span_crank_head_x_;
+    const double pivot_rod_theta_ = -dot_crank_rod_*l_rod_theta_crank_theta_ + p->mass_rod_rod_;
+    if (!(pivot_rod_theta_ > LIGHT_PIVOT * p->rod_turning_)) {
+        pivot = 3;
+        goto dependent;
+    }
+    const double inverse_pivot_rod_theta_ = 1.0/pivot_rod_theta_;
+    const double w_slider_offset_rod_theta_ = -dot_crank_rod_*l_slider_offset_crank_theta_ + span_rod_com_x_;
+    const double l_slider_offset_rod_theta_ = inverse_pivot_rod_theta_*w_slider_offset_rod_theta_;
+    const double scale_slider_offset_ = l_slider_offset_crank_theta_*span_crank_head_x_
+        + l_slider_offset_rod_theta_*w_slider_offset_rod_theta_;
+    if (!(scale_slider_offset_ > 0.0 && scale_slider_offset_ < INFINITY)) {
         pivot = 1;
         goto dependent;
     }
-    const double inverse_pivot_slider_offset = 1.0/scale_slider_offset;
+    const double inverse_pivot_slider_offset_ = 1.0/scale_slider_offset_;
 
     /* forward substitution */
-    const double z_crank_theta = -coil_pull*coil_span_x*span_crank_middle_y - coil_pull*coil_span_y*span_crank_head_x
-        + coil_pull*coil_span_y*span_crank_middle_x + cross_crank_rod*(rod_omega * rod_omega)
-        - span_crank_head_y*(-coil_pull*coil_span_x + p->push_value_x);
-    const double z_rod_theta = coil_pull*coil_span_x*span_rod_middle_y - coil_pull*coil_span_y*span_rod_middle_x
-        - (crank_omega * crank_omega)*cross_crank_rod - l_rod_theta__crank_theta*z_crank_theta
-        - p->push_value_x*span_rod_tip_y;
-    const double z_slider_offset = -l_slider_offset__crank_theta*z_crank_theta - l_slider_offset__rod_theta*z_rod_theta
-        + rhs_slider_offset;
+    const double z_crank_theta_ = -coil_pull_*coil_span_x_*span_crank_middle_y_
+        - coil_pull_*coil_span_y_*span_crank_head_x_ + coil_pull_*coil_span_y_*span_crank_middle_x_
+        + cross_crank_rod_*(rod_omega_ * rod_omega_) - span_crank_head_y_*(-coil_pull_*coil_span_x_ + p->push_value_x_);
+    const double z_rod_theta_ = coil_pull_*coil_span_x_*span_rod_middle_y_ - coil_pull_*coil_span_y_*span_rod_middle_x_
+        - (crank_omega_ * crank_omega_)*cross_crank_rod_ - l_rod_theta_crank_theta_*z_crank_theta_
+        - p->push_value_x_*span_rod_tip_y_;
+    const double z_slider_offset_ = -l_slider_offset_crank_theta_*z_crank_theta_
+        - l_slider_offset_rod_theta_*z_rod_theta_ + rhs_slider_offset_;
 
     /* backward substitution */
-    const double lambda_slider_offset = -inverse_pivot_slider_offset*z_slider_offset;
-    const double acceleration_rod_theta = inverse_pivot_rod_theta*z_rod_theta
-        - l_slider_offset__rod_theta*lambda_slider_offset;
-    const double acceleration_crank_theta = -acceleration_rod_theta*l_rod_theta__crank_theta
-        + p->inverse_mass_crank_crank*z_crank_theta - l_slider_offset__crank_theta*lambda_slider_offset;
+    const double lambda_slider_offset_ = -inverse_pivot_slider_offset_*z_slider_offset_;
+    const double acceleration_rod_theta_ = inverse_pivot_rod_theta_*z_rod_theta_
+        - l_slider_offset_rod_theta_*lambda_slider_offset_;
+    const double acceleration_crank_theta_ = -acceleration_rod_theta_*l_rod_theta_crank_theta_
+        + p->inverse_mass_crank_crank_*z_crank_theta_ - l_slider_offset_crank_theta_*lambda_slider_offset_;
 
     /* results */
-    a[0] = acceleration_crank_theta;
-    a[1] = acceleration_rod_theta;
-    aside->lambda[0] = lambda_slider_offset;
+    a[0] = acceleration_crank_theta_;
+    a[1] = acceleration_rod_theta_;
+    aside->lambda[0] = lambda_slider_offset_;
     goto powers;
 
     /* a pivot vanished: rows depend on each other here */
@@ -229,7 +239,7 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     pivot = solve_by_absolute(t, q, v, memory, p, a, aside);
     powers:
     aside->power[0] = 0.0;
-    aside->power[1] = -p->coil_damping*(coil_length_rate * coil_length_rate) + p->push_value_x*rod_tip_vx;
+    aside->power[1] = -p->coil_damping_*(coil_length_rate_ * coil_length_rate_) + p->push_value_x_*rod_tip_vx_;
     aside->power[2] = 0.0;
     return pivot;
 }
@@ -243,46 +253,46 @@ int reduced_project(const double t, const double *q, const double *r, const Para
 {
     (void)t;
     /* coordinates, velocities, time */
-    const double crank_theta = q[0];
-    const double rod_theta = q[1];
+    const double crank_theta_ = q[0];
+    const double rod_theta_ = q[1];
 
     /* directions, arms, drives */
-    const Four angles_0 = {crank_theta, rod_theta, rod_theta, rod_theta};
+    const Four angles_0 = {crank_theta_, rod_theta_, rod_theta_, rod_theta_};
     Four sines_0, cosines_0;
     sines_and_cosines(&angles_0, &sines_0, &cosines_0);
-    const double cos_theta_crank = cosines_0[0];
-    const double sin_theta_crank = sines_0[0];
-    const double cos_theta_rod = cosines_0[1];
-    const double sin_theta_rod = sines_0[1];
-    const double span_crank_head_x = cos_theta_crank*p->crank_length;
-    const double span_rod_com_x = cos_theta_rod*p->rod_com_span_x;
-    const double cos_rod_less_crank = cos_theta_crank*cos_theta_rod + sin_theta_crank*sin_theta_rod;
-    const double dot_crank_rod = cos_rod_less_crank*p->inertia_crank_rod;
+    const double cos_theta_crank_ = cosines_0[0];
+    const double sin_theta_crank_ = sines_0[0];
+    const double cos_theta_rod_ = cosines_0[1];
+    const double sin_theta_rod_ = sines_0[1];
+    const double span_crank_head_x_ = cos_theta_crank_*p->crank_length_;
+    const double span_rod_com_x_ = cos_theta_rod_*p->rod_com_span_x_;
+    const double cos_rod_less_crank_ = cos_theta_crank_*cos_theta_rod_ + sin_theta_crank_*sin_theta_rod_;
+    const double dot_crank_rod_ = cos_rod_less_crank_*p->inertia_crank_rod_;
 
     /* right-hand side */
-    const double r_slider_offset = r[0];
+    const double r_slider_offset_ = r[0];
 
     /* L D L^T of the KKT matrix */
-    const double l_rod_theta__crank_theta = dot_crank_rod*p->inverse_mass_crank_crank;
-    const double l_slider_offset__crank_theta = p->inverse_mass_crank_crank*span_crank_head_x;
-    const double inverse_pivot_rod_theta = 1.0/(-dot_crank_rod*l_rod_theta__crank_theta + p->mass_rod_rod);
-    const double w_slider_offset__rod_theta = -dot_crank_rod*l_slider_offset__crank_theta + span_rod_com_x;
-    const double l_slider_offset__rod_theta = inverse_pivot_rod_theta*w_slider_offset__rod_theta;
-    const double scale_slider_offset = l_slider_offset__crank_theta*span_crank_head_x
-        + l_slider_offset__rod_theta*w_slider_offset__rod_theta;
-    if (!(scale_slider_offset > 0.0 && scale_slider_offset < INFINITY))
+    const double l_rod_theta_crank_theta_ = dot_crank_rod_*p->inverse_mass_crank_crank_;
+    const double l_slider_offset_crank_theta_ = p->inverse_mass_crank_crank_*span_crank_head_x_;
+    const double inverse_pivot_rod_theta_ = 1.0/(-dot_crank_rod_*l_rod_theta_crank_theta_ + p->mass_rod_rod_);
+    const double w_slider_offset_rod_theta_ = -dot_crank_rod_*l_slider_offset_crank_theta_ + span_rod_com_x_;
+    const double l_slider_offset_rod_theta_ = inverse_pivot_rod_theta_*w_slider_offset_rod_theta_;
+    const double scale_slider_offset_ = l_slider_offset_crank_theta_*span_crank_head_x_
+        + l_slider_offset_rod_theta_*w_slider_offset_rod_theta_;
+    if (!(scale_slider_offset_ > 0.0 && scale_slider_offset_ < INFINITY))
         return 1;
-    const double inverse_pivot_slider_offset = 1.0/scale_slider_offset;
+    const double inverse_pivot_slider_offset_ = 1.0/scale_slider_offset_;
 
     /* backward substitution */
-    const double step_lambda_slider_offset = -inverse_pivot_slider_offset*r_slider_offset;
-    const double step_acceleration_rod_theta = -l_slider_offset__rod_theta*step_lambda_slider_offset;
-    const double step_acceleration_crank_theta = -l_rod_theta__crank_theta*step_acceleration_rod_theta
-        - l_slider_offset__crank_theta*step_lambda_slider_offset;
+    const double step_lambda_slider_offset_ = -inverse_pivot_slider_offset_*r_slider_offset_;
+    const double step_acceleration_rod_theta_ = -l_slider_offset_rod_theta_*step_lambda_slider_offset_;
+    const double step_acceleration_crank_theta_ = -l_rod_theta_crank_theta_*step_acceleration_rod_theta_
+        - l_slider_offset_crank_theta_*step_lambda_slider_offset_;
 
     /* results */
-    x[0] = step_acceleration_crank_theta;
-    x[1] = step_acceleration_rod_theta;
+    x[0] = step_acceleration_crank_theta_;
+    x[1] = step_acceleration_rod_theta_;
     return 0;
 }
 
