@@ -57,16 +57,23 @@ static int event_has_zero(Run *run, Step *step, double share, int i, const Param
     return nearest < 0.01 * min_of(fabs(before), fabs(after));
 }
 
-/* Events whose expressions change their signs in a step, before it is taken; the one that ends it is recorded anyway. */
+/* Notes how far expressions of events are from zero in a step, and finds zeros that end none, before it is taken. */
 static void find_zeros(Run *run, Step *step, double share, int event, const Parameters *p)
 {
     Audit *audit = &run->audit;
+    audit->ended = event - (N_MARGINS - N_USER_EVENTS);
     for (int i = 0; i < N_USER_EVENTS; i++) {
         const double before = run->aside.event[i], after = step->aside.event[i];
+        const Seen seen = seen_of(step, N_MARGINS - N_USER_EVENTS + i);
+        double most = max_of(fabs(before), fabs(after));
+        for (int k = 0; k < step->n_seen; k++)
+            most = max_of(most, fabs(seen_at(seen, k)));
+        audit->event_scale[i] = max_of(audit->event_scale[i], most);
         const double noise = AUDIT_NOISE * audit->event_scale[i];
-        audit->crossed[i] = share >= 1.0 && event != N_MARGINS - N_USER_EVENTS + i && before * after < 0.0
-            && fabs(before) > noise && fabs(after) > noise && event_direction[i] * after >= 0.0
-            && event_has_zero(run, step, share, i, p);
+        audit->away[i] |= most > noise;
+        audit->event_before[i] = before;
+        audit->crossed[i] = share >= 1.0 && audit->ended != i && before * after < 0.0 && fabs(before) > noise
+            && fabs(after) > noise && event_direction[i] * after >= 0.0 && event_has_zero(run, step, share, i, p);
     }
 }
 

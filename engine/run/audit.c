@@ -11,6 +11,7 @@
 #define AUDIT_ACCELERATION 1e-6 /* of the largest term, that two ways to the accelerations may differ by */
 #define AUDIT_CLOSURE 1e-9     /* of the size: error of positions that accelerations must not depend on */
 #define AUDIT_NOISE 1e-9       /* of its largest magnitude, below which the sign of a function is rounding */
+#define AUDIT_ZERO 1e-3         /* of its value at the beginning of a step: smaller ones are a zero, and no pole */
 #define AUDIT_FORCE 1e7        /* of a force, multiplied by rtol: the change by one tolerance in the state */
 #define AUDIT_FIXED 1e-8       /* the tolerance that stands in for that of a fixed step */
 /* steps in a row that end on the wrong side of a switching function; after which its magnitude is known */
@@ -225,6 +226,28 @@ static void check_branches(Run *run, const Step *step, double t, const Aside *as
     }
 }
 
+/*
+ * Event i at the end of a step before which `listed` events were recorded: a zero is recorded, and nothing is recorded
+ * again and again while the expression is rounding.
+ */
+static void check_event(Run *run, int i, int listed)
+{
+    Audit *audit = &run->audit;
+    const double before = audit->event_before[i], now = run->aside.event[i];
+    const int ended = audit->ended == i && fabs(before) > AUDIT_NOISE * audit->event_scale[i]
+        && fabs(now) < AUDIT_ZERO * fabs(before) && event_direction[i] * before <= 0.0;
+    int found = 0;
+    for (int k = listed; k < run->n_events; k++)
+        found |= run->event[k] == i;
+    if ((ended || audit->crossed[i]) && !found)
+        record(audit, EVENT_CHECK, INFINITY, 1.0, run->t, i);
+    audit->noise[i] = found && !audit->away[i] ? audit->noise[i] + 1 : found ? 0 : audit->noise[i];
+    if (audit->noise[i] >= AUDIT_WRONG)
+        record(audit, EVENT_CHECK, INFINITY, 1.0, run->t, i);
+    audit->away[i] = found ? 0 : audit->away[i];
+    audit->crossed[i] = 0;
+}
+
 /* The end of a step that was taken, before which `listed` events were recorded. Returns 0, or AUDITED. */
 static int audit_state(Run *run, int listed, const Parameters *p)
 {
@@ -246,15 +269,9 @@ static int audit_state(Run *run, int listed, const Parameters *p)
         if (audit->wrong[k] >= AUDIT_WRONG)
             record(audit, BRANCH_CHECK, -g, 1e-4 * audit->switch_scale[k], run->t, k);
     }
-    for (int i = 0; i < N_USER_EVENTS; i++) {
-        int found = 0;
-        for (int k = listed; k < run->n_events; k++)
-            found |= run->event[k] == i;
-        if (audit->crossed[i] && !found)
-            record(audit, EVENT_CHECK, INFINITY, 1.0, run->t, i);
-        audit->event_scale[i] = max_of(audit->event_scale[i], fabs(run->aside.event[i]));
-        audit->crossed[i] = 0;
-    }
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        check_event(run, i, listed);
+    audit->ended = -1;
     return audit->status;
 }
 

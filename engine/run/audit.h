@@ -33,8 +33,11 @@ typedef struct {
     double last_h, t;              /* s, the length of the last step; the time up to which accepted states are checked */
     double switch_scale[AT_LEAST_ONE(N_SWITCHES)], event_scale[AT_LEAST_ONE(N_USER_EVENTS)]; /* largest magnitudes */
     unsigned char wrong[AT_LEAST_ONE(N_SWITCHES)];      /* steps in a row that ended on the wrong side */
-    signed char event_sign[AT_LEAST_ONE(N_USER_EVENTS)]; /* the last sign that was above rounding; 0: none yet */
-    unsigned char crossed[AT_LEAST_ONE(N_USER_EVENTS)]; /* whether the expression has a zero in the step */
+    int ended;                     /* the event that ends the step, -1: none */
+    double event_before[AT_LEAST_ONE(N_USER_EVENTS)];   /* values at the beginning of the step */
+    unsigned char crossed[AT_LEAST_ONE(N_USER_EVENTS)]; /* whether the expression has a zero inside the step */
+    unsigned char away[AT_LEAST_ONE(N_USER_EVENTS)];    /* whether it was above rounding since its last event */
+    int noise[AT_LEAST_ONE(N_USER_EVENTS)];             /* events in a row between which it was not */
     AuditRecord record[N_CHECKS];
 } Audit;
 

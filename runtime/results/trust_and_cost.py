@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 from gudgeon.language.plot_units import quantity
 
+AUDIT_SHOWN = 1e-3  # limits, from which on a check of the audit has a row of its own
+
 if TYPE_CHECKING:
     from gudgeon.results.report import SceneReport
 
@@ -26,6 +28,18 @@ def trust_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
         ("grazes", [str(d.grazes) if p and d.grazes else "–" for d, p in zip(every, play, strict=True)]),
         ("δ̇/δ̇⁻ while latched", ratio),
         ("steps with it outside ±1", [str(d.ratio_outside) if math.isfinite(d.ratio_min) else "–" for d in every]),
+        *_audit_rows(reports),
+    ]
+
+
+def _audit_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+    """The largest value of each check of the audit, in its limits, as far as it is above rounding."""
+    found = [{one.check: one.worst for one in report.diagnostics.audit} for report in reports]
+    checks = dict.fromkeys(check for one in found for check, worst in one.items() if worst >= AUDIT_SHOWN)
+    largest = [max(one.values(), default=math.nan) for one in found]
+    return [
+        ("audit, in limits", [f"{worst:.1e}" if math.isfinite(worst) else "–" for worst in largest]),
+        *((f"audit of {check}", [f"{one[check]:.1e}" if check in one else "–" for one in found]) for check in checks),
     ]
 
 

@@ -1,0 +1,183 @@
+"""The audit of a run: quiet where a run is right; each grave fault of the past, put back into C, is reported."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import gudgeon
+from gudgeon.contract.audit import CHECKS
+from gudgeon.errors import BadValueError
+from gudgeon.model.reference import check_reference
+from gudgeon.simulation.simulation import Simulation
+from tests.audit_mutants import mutant
+from tests.programs import needs_compiler
+from tests.random_contacts import HEAD, SLIDER_CRANK
+from tests.scenes import loader
+
+pytestmark = needs_compiler
+
+SPRING = """
+parameters: {{K: 40 N/m}}
+bodies: {{b: {{mass: 1 kg, inertia: 1e-3 kg*m^2}}}}
+ground: {{O: [0, 0]}}
+joints: {{g: {{translational: [ground.O, b.origin], axis: [1, 0]}}}}
+forces: {{coil: {{force: b.origin, value: [-K*b.x, 0 N]}}}}
+start: {{set: {{b.x: 0.3 m}}}}
+events: {{{events}}}
+"""
+LINK = """
+gravity: [0, -9.81]
+bodies: {{arm: {{length: 1 m, mass: 1 kg, inertia: 0.1 kg*m^2}}}}
+ground: {{O: [0, 0]}}
+joints: {{A: {{revolute: [ground.O, arm.tail]}}}}
+start: {{set: {{arm.theta: {theta}}}}}
+"""
+FILM = """
+gravity: [0, -9.81]
+materials: {s: {E: 2e11, nu: 0.3}}
+bodies:
+  a: {length: 0.1, mass: 0.2, inertia: auto}
+  b: {length: 0.3, mass: 0.4, inertia: auto}
+ground: {O: [0, 0]}
+joints: {A: {revolute: [ground.O, a.tail]}, B: {revolute: [a.head, b.tail]}}
+start: {set: {a.theta: 0.3, b.theta: -0.7}, rates: {a.omega: 3, b.omega: -5}}
+bearings: {g: {radius: 25 mm, clearance: 5 um, length: 40 mm, bearing_material: s, journal_material: s}}
+contacts: {f: {film: {law: ocvirk, viscosity: 0.03}}}
+scenes: {f: {play: {B: {bearing: g, contact: f}}}}
+"""
+
+
+@pytest.mark.parametrize("name, scene, t_end", [
+    ("nine_bar_press", "dry", 0.05), ("nine_bar_press", "lubricated", 0.1), ("slider_crank_spring", "ideal", 0.5),
+    ("four_bar", "ideal", 1.0), ("belt_block", "ideal", 1.0), ("bouncing_ball", "damped", 0.5),
+])  # fmt: skip
+@pytest.mark.parametrize("method", ["auto", "dop853", "rk4"])
+def test_right_runs_stay_far_below_every_limit(name: str, scene: str, t_end: float, method: str) -> None:
+    simulation = gudgeon.load(name, scene)
+    if simulation.source.degrees_of_freedom == 0 and method != "auto":
+        pytest.skip("nothing is integrated")
+    run = simulation.simulate(t_end, output=50, method=method, step=1e-6 if method == "rk4" else None, audit="full")
+    assert not [note for note in run.diagnostics.notes if note.startswith("audit:")]
+    assert max(one.worst for one in run.diagnostics.audit) < 0.5, run.diagnostics.audit
+
+
+def test_the_audit_changes_no_number() -> None:
+    press = gudgeon.load("nine_bar_press", "dry")
+    runs = [press.simulate(0.02, output=50, audit=level) for level in (True, False, "full")]
+    for other in runs[1:]:
+        np.testing.assert_array_equal(runs[0].q, other.q)
+        np.testing.assert_array_equal(runs[0].impacts, other.impacts)
+    assert runs[0].diagnostics.right_hand_sides == runs[1].diagnostics.right_hand_sides
+    assert [one.check for one in runs[0].diagnostics.audit[: len(CHECKS)]] == [check.name for check in CHECKS]
+    assert runs[1].diagnostics.audit == ()
+    assert gudgeon.results.diagnostics.Diagnostics.from_json(runs[0].diagnostics.to_json()).audit  # type: ignore[attr-defined]
+
+
+def test_other_levels_are_refused() -> None:
+    with pytest.raises(BadValueError, match="expected True, False or 'full'"):
+        gudgeon.load("pendulum").simulate(0.1, audit="all")
+
+
+def test_a_batch_counts_failed_audits(tmp_path: Path) -> None:
+    """A run that fails its audit is a failed row with the reason; what is right beside it is not."""
+    broken = mutant(gudgeon.load("pendulum"), {"engine/both/motion.h": ("dy[k] = y[N_X + k]", "dy[k] = 1.1 * y[N_X + k]")},
+                    tmp_path)  # fmt: skip
+    batch = broken.simulate_many({}, np.array([0.5, 1.0]), output=20, side_by_side=False)
+    assert len(batch.failures) == 2
+    assert all("audit: check" in str(failure.error) for failure in batch.failures)
+
+
+# Each fault: the scene, what is put back, what the audit has to name.
+def crank(tmp_path: Path) -> Simulation:
+    numbers = ", r: 50 mm, L: 150 mm, m1: 0.3 kg, J1: 1e-4 kg*m^2, m2: 0.2 kg, J2: 4e-4 kg*m^2, m3: 0.3 kg, J3: 1e-4 kg*m^2"
+    text = HEAD.format(name="machine", numbers=numbers, law="flores", play="crankpin: {bearing: pin, contact: dry}")
+    file = tmp_path / "machine.yaml"
+    file.write_text(text.replace("gravity: [0, -9.81]\n", "") + SLIDER_CRANK)
+    return gudgeon.load(file, "dry")
+
+
+def reported(simulation: Simulation, t_end: float, **settings: object) -> str:
+    """The message of the audit, from an error or from notes."""
+    try:
+        run = simulation.simulate(t_end, output=500, **settings)  # type: ignore[arg-type]
+    except gudgeon.AuditError as error:
+        return str(error)
+    return "; ".join(note for note in run.diagnostics.notes if note.startswith("audit:"))
+
+
+def test_a_contact_that_is_missed(tmp_path: Path) -> None:
+    """Gaps are looked at where steps end, and nowhere else."""
+    right = crank(tmp_path)
+    assert not reported(right, 0.05)
+    wrong = mutant(right, {"engine/watch/events.c": (
+        "is_gap && has_zero(run, step, k, p, &low, &end)", "is_gap && (end = end_of(run, step, k), end.f < 0.0)",
+    )}, tmp_path)  # fmt: skip
+    assert any("gap" in found or "sample" in found or "lost" in found for found in [said(wrong, 0.05)])
+
+
+def said(simulation: Simulation, t_end: float) -> str:
+    try:
+        simulation.simulate(t_end, output=500)
+    except gudgeon.GudgeonError as error:
+        return str(error)
+    return ""
+
+
+def test_torques_that_are_wrong(tmp_path: Path) -> None:
+    """A reaction of the wrong sign: the library is held against values of the NumPy target."""
+    spring = gudgeon.load("slider_crank", "ideal")
+    text = next(line for line in spring.source.files["constraints.c"].splitlines() if "torques[0] =" in line)
+    wrong = mutant(spring, {"constraints.c": (text, text.replace("= ", "= 2.0*"))}, tmp_path)
+    with pytest.raises(gudgeon.AuditError, match="torques"):
+        check_reference(wrong.compiled)
+    assert "check torque" in reported(wrong, 0.1) or "check power" in reported(wrong, 0.1)
+
+
+def test_film_forces_that_the_tolerance_does_not_hold(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Velocities may err by so much that the force of a thin film means nothing."""
+    film = loader(tmp_path)(FILM, "f")
+    found = {one.check: one.worst for one in film.simulate(0.05, output=20).diagnostics.audit}
+    assert found["force"] < 1.0
+    loose = film.simulate(0.05, output=20, rtol=1e-8)
+    assert not [note for note in loose.diagnostics.notes if note.startswith("audit:")]
+
+
+@pytest.mark.parametrize("edit, events", [
+    (("engine/watch/events.c", "run->pole = *event >= N_MARGINS - N_USER_EVENTS && is_pole(run, step, share, *event, p);",
+      "run->pole = *event >= N_MARGINS - N_USER_EVENTS;"), "zero: {zero: b.x}"),
+])  # fmt: skip
+def test_an_event_that_is_lost(edit: tuple[str, str, str], events: str, tmp_path: Path) -> None:
+    right = loader(tmp_path)(SPRING.format(events=events))
+    assert not reported(right, 2.0)
+    assert "check event" in reported(mutant(right, {edit[0]: edit[1:]}, tmp_path), 2.0)
+
+
+@pytest.mark.parametrize("rtol", [1e-4, 1e-9])
+def test_taylor_whose_steps_are_endless(rtol: float, tmp_path: Path) -> None:
+    """From a symmetric start the last terms of the series vanish; the defect shows it."""
+    link = loader(tmp_path)(LINK.format(theta="0 rad")).of_method("taylor")
+    assert not reported(link, 10.0, method="taylor", rtol=rtol)
+    (tmp_path / "mutant").mkdir()
+    wrong = mutant(link, {"engine/both/taylor.h": (
+        "    return real_exp2(-real_max(real_log2(most) / n, real_log2(most_before) / (n - 1)));",
+        "    (void)most, (void)most_before, (void)n;\n    return real_of(0.9);",
+    )}, tmp_path / "mutant")  # fmt: skip
+    assert "check defect" in reported(wrong, 10.0, method="taylor", rtol=rtol)
+
+
+def test_a_dense_output_that_is_wrong(tmp_path: Path) -> None:
+    """A coefficient of the interpolant: ends of steps are right, samples are not."""
+    press = gudgeon.load("nine_bar_press", "lubricated")
+    wrong = mutant(press, {"engine/methods/radau.c": ("0.5 * h * begin + d[1][i]", "0.6 * h * begin + d[1][i]")}, tmp_path)
+    assert "check defect" in reported(wrong, 0.1, audit="full") or "check sample" in reported(wrong, 0.1, audit="full")
+
+
+def test_a_symbol_of_the_file_in_place_of_another(tmp_path: Path) -> None:
+    """The right-hand side reads another parameter: values of the NumPy target differ."""
+    spring = loader(tmp_path)(SPRING.format(events="zero: {zero: b.x}"))
+    wrong = mutant(spring, {"dynamics.c": ("p->K", "p->b_mass")}, tmp_path)
+    with pytest.raises(gudgeon.AuditError, match="expected"):
+        check_reference(wrong.compiled)
