@@ -3,8 +3,8 @@
  * contact), and the proof that the step is clear of zeros before it.
  *
  * Stages bound the margin of most steps: its second derivative by BEND_SAFETY times the largest that the rates of
- * neighbouring stages show (bound_by_stages). Where that does not decide, the dense output is bisected (first_zero). On
- * each part of it the margin is the cubic of values and rates at both ends within an error. That error is taken as the
+ * neighbouring stages show, and the dense output lies beside them by DENSE_ERROR tolerances at most (bound_by_stages).
+ * Where that does not decide, the dense output is bisected (first_zero). On each part of it the margin is the cubic of values and rates at both ends within an error. That error is taken as the
  * one that the cubic of the whole part before the bisection had in the middle; in theory the halves have a sixteenth of
  * it. What is guaranteed: no zero of the dense output is missed, and none before the one that is found, as long as the
  * error of a half is not larger than the one of the whole that was measured, on parts of at most a quarter of the step.
@@ -12,6 +12,8 @@
 enum { MAX_BISECTIONS = 48, MAX_SAMPLES = 400 /* of a joint and step: what they leave open is below rounding */ };
 
 #define BEND_SAFETY 2.0
+#define WIDEST 0.125     /* w/4, w of a step at most between neighbouring stages: so much of a change of rate bends */
+#define DENSE_ERROR 10.0 /* tolerances of a length, by which the dense output may lie beside the stages */
 
 /* A part of a step: its end and how far the margin may lie beside the cubic between both ends. */
 typedef struct {
@@ -57,6 +59,22 @@ static int margins_of_stages(const Run *run, const Step *step, int i, const Para
     return n;
 }
 
+/* By how much the dense output may lie beside the stages of a step, m: in its middle; at its ends by nothing. */
+static double error_of_dense(const Run *run, int i, const Parameters *p)
+{
+    return DENSE_ERROR * tolerance_of(run) * radial_clearance(p, i);
+}
+
+/* Whether margin i is so far from zero at begin, stages and end that no change of its rate among them leads there. */
+static int is_far(const Run *run, const Step *step, int i, const Parameters *p)
+{
+    const double a = run->aside.clearance[i].deltadot, b = step->aside.clearance[i].deltadot;
+    const double slowest = min_of(step->rate[i][0], min_of(a, b)), fastest = max_of(step->rate[i][1], max_of(a, b));
+    const double begin = margin(&run->memory, &run->aside, i), end = margin(&run->memory, &step->aside, i);
+    const double nearest = min_of(step->lowest[i], min_of(begin, end));
+    return nearest - WIDEST * step->h * (fastest - slowest) * BEND_SAFETY / 2.0 > error_of_dense(run, i, p);
+}
+
 /*
  * What the stages say of margin i. Between neighbours a and b with |f''| <= B it is at least min(f_a, f_b) - B w^2/8,
  * and at least max(f_a + f'_a x - B x^2/2, f_b - f'_b (w - x) - B (w - x)^2/2), least where both parabolas meet.
@@ -65,7 +83,7 @@ static int bound_by_stages(const Run *run, const Step *step, int i, const Parame
 {
     Place all[N_STAGES + 2];
     const int n = margins_of_stages(run, step, i, p, all);
-    const double least = shallow(p, i);
+    const double least = shallow(p, i), error = 16.0 * error_of_dense(run, i, p);
     double bend = 0.0;
     int falls = 0;
     if (!(all[0].f >= least))
@@ -79,9 +97,10 @@ static int bound_by_stages(const Run *run, const Step *step, int i, const Parame
         const double x = (a.f - b.f + (b.slope + 0.5 * curve) * w) / (b.slope - a.slope + curve);
         const double below_chord = min_of(a.f, b.f) - 0.125 * curve * w;
         const double meet = x >= 0.0 && x <= w ? a.f + x * (a.slope - 0.5 * bend * x) : -INFINITY;
-        if (!falls && b.f >= 0.0 && max_of(below_chord, meet) >= least)
+        const double s = b.s < 0.5 ? b.s : a.s > 0.5 ? a.s : 0.5, beside = error * s * s * (1.0 - s) * (1.0 - s);
+        if (!falls && b.f >= 0.0 && max_of(below_chord, meet) - beside >= least)
             continue;
-        if (!(0.5 * (a.slope + b.slope + curve) < 0.0))
+        if (!(0.5 * (a.slope + b.slope + curve) + 0.2 * error < 0.0))
             return UNKNOWN;
         falls = 1;
     }
@@ -161,7 +180,7 @@ static int first_zero(Run *run, const Step *step, int k, const Parameters *p, Pl
 /* Whether margin k of a joint with play has a zero in the step, and places that enclose the first one. */
 static int has_zero(Run *run, Step *step, int k, const Parameters *p, Place *low, Place *high)
 {
-    int found = bound_by_stages(run, step, k, p);
+    int found = is_far(run, step, k, p) ? CLEAR : bound_by_stages(run, step, k, p);
     *low = begin_of(run, step, k);
     *high = end_of(run, step, k);
     if (found == UNKNOWN)
