@@ -65,9 +65,10 @@ links:  ## every link of the documentation that leads elsewhere is asked for; th
 	@sh tools/setup all,web,site
 	@.venv/bin/python -m sphinx -q -b linkcheck -t text docs build/links && echo "every link leads somewhere"
 
-sanitize: setup-test  ## the C of every shipped scene under gcc's sanitizers: memory, undefined arithmetic, races. An hour and more
+sanitize: setup-test  ## the C of every shipped scene under gcc's sanitizers, random scenes under valgrind. An hour and more
 	@.venv/bin/python -m tests.sanitize $(ARGS)
 	@.venv/bin/python -m tests.sanitize --threads $(ARGS)
+	@.venv/bin/python -m tests.memcheck
 
 packages: setup-test  ## the wheel and the sdist, installed and run outside this folder under every Python that there is
 	@.venv/bin/python -m tests.packages $(ARGS)

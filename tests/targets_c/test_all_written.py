@@ -27,7 +27,10 @@ OWN = Path(__file__).parent / "watched"
 DEFINED = re.compile(r"^[\w ()]*?(?:int|void|double)\s+(\w+)\([^{;]*?\)\n\{\n(.*?)^\}", re.MULTILINE | re.DOTALL)
 ASSIGNED = re.compile(r"(?<![\w.>])((?:aside->|lin->)?\w+)\[(\d+)\](?:\.\w+)* =(?!=)")
 RESULT = re.compile(r"&(aside->\w+)\[(\d+)\]")  # of a call
-SWITCH, JOINT = re.compile(r"side_of\(side,\s+g,\s+(\d+),"), re.compile(r"for \(int k = (\d+); k < (\d+); k\+\+\)\s+g\[k\]")
+SWITCH, JOINT = (
+    re.compile(r"side_of\(side,\s+g,\s+(\d+),"),
+    re.compile(r"for \(int k = (\d+); k < (\d+); k\+\+\)\s+g\[k\]"),
+)
 RIGHT_HAND_SIDE = {"a": "N_Q", "aside->power": "3", "aside->event": "N_USER_EVENTS", "aside->clearance": "N_CLEARANCES",
                    "aside->friction": "N_FRICTIONS"}  # fmt: skip
 ABSOLUTE = {"all_q": "N_Q", "all_v": "N_Q"}
