@@ -42,9 +42,7 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
         run->skip = -1;
         status = settle_sides(run, -1, p);
     }
-    for (int i = 0; i < N_USER_EVENTS; i++) /* begun on a zero: wherever it went */
-        if (run->memory.event_side[i] == 0)
-            event_crosses(i, &run->memory.event_side[i], run->aside.event[i]);
+    take_sides(run, p);
     if (!status && event >= 0)
         status = run->stuck > MAX_STUCK + 2 * N_MARGINS ? CHATTERING : change(run, event, p);
     return status ? status : check_contacts(run, p);

@@ -7,25 +7,45 @@
 #define AS_SEEN 16.0     /* times the differences that are seen, where rounding in a function may be all of them */
 
 /*
- * Errors of the coordinates and velocities of a state y, each of its own kind: rounding of the largest of that kind,
- * and the step that closes the linkage.
+ * What is missing to close the linkage at a state is an error of it; so is what velocities miss at positions that are
+ * wrong, some by more, others by less: near a singular position that counts for more than rounding does.
+ */
+static void add_closing(Run *run, double t, const double *y, const Parameters *p, double *error)
+{
+    double dq[N_X + 1], dv[N_X + 1], other[N_Y], worst;
+    if (N_LOOPS == 0 || closing_of_state(t, y, &run->memory, p, dq, dv, &worst))
+        return;
+    for (int k = 0; k < N_X; k++) {
+        error[k] += isfinite(dq[k]) ? LEFT * fabs(dq[k]) : 0.0;
+        error[N_X + k] += isfinite(dv[k]) ? LEFT * fabs(dv[k]) : 0.0;
+    }
+    memcpy(other, y, sizeof other);
+    for (int mask = 0; mask < 3; mask++) {
+        for (int k = 0; k < N_X; k++)
+            other[k] = y[k] + (k & mask ? -error[k] : error[k]);
+        if (closing_of_state(t, other, &run->memory, p, dq, dv, &worst))
+            continue;
+        for (int k = 0; k < N_X; k++)
+            error[N_X + k] += isfinite(dv[k]) ? fabs(dv[k]) : 0.0;
+    }
+}
+
+/*
+ * Errors of the coordinates and velocities of a state y: rounding of the largest of each kind, lengths and angles, and
+ * what it misses the constraints by.
  */
 static void rounding_errors(Run *run, double t, const double *y, const Parameters *p, double *error)
 {
-    double size[2] = {0.0, 1.0}, speed[2] = {run->speed[0], run->speed[1]}, dq[N_X + 1], dv[N_X + 1], worst;
+    double size[2] = {0.0, 1.0}, speed[2] = {run->speed[0], run->speed[1]};
     for (int k = 0; k < N_X; k++) {
         size[is_angle[k]] = max_of(size[is_angle[k]], fabs(y[k]));
         speed[is_angle[k]] = max_of(speed[is_angle[k]], fabs(y[N_X + k]));
     }
-    const int open = N_LOOPS > 0 && !closing_of_state(t, y, &run->memory, p, dq, dv, &worst);
     for (int k = 0; k < N_X; k++) {
         error[k] = ROUNDINGS * DBL_EPSILON * size[is_angle[k]];
         error[N_X + k] = ROUNDINGS * DBL_EPSILON * (speed[is_angle[k]] + run->speed_floor[is_angle[k]]);
-        if (open && isfinite(dq[k]) && isfinite(dv[k])) {
-            error[k] += LEFT * fabs(dq[k]);
-            error[N_X + k] += LEFT * fabs(dv[k]);
-        }
     }
+    add_closing(run, t, y, p, error);
 }
 
 #if N_FRICTIONS

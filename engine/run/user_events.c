@@ -40,6 +40,21 @@ static void note_no_number(Run *run, int i, double t)
     run->no_number[i] = 1;
 }
 
+/* Sides of user events that began on a zero, or were held there: wherever they went. */
+static void take_sides(Run *run, const Parameters *p)
+{
+    double value[AT_LEAST_ONE(N_USER_EVENTS)];
+    int zeros = 0;
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        zeros |= run->memory.event_side[i] == 0;
+    if (!zeros)
+        return;
+    resolved_events(run, run->t, run->y, &run->aside, p, value);
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        if (run->memory.event_side[i] == 0)
+            event_crosses(i, &run->memory.event_side[i], value[i]);
+}
+
 /*
  * User events that something sudden led across their zeros, from what they were `before` (NULL: wherever they were);
  * whether one of them ends the run.
