@@ -41,11 +41,11 @@ def with_curves(curves: Mapping[str, Curve], text: str, before: str = "") -> str
 
 def _table(curve: Curve) -> str:
     if curve.is_long:
-        x, pieces = (np.asarray(table, "<f8").tobytes().hex() for table in (curve.x, curve.coefficients))
+        x, c = (np.asarray(table, "<f8").tobytes().hex() for table in (curve.x, curve.coefficients))
         return "\n".join([
             *remark(f"{curve.name}: {curve.told()}"), f"{c_name(curve.name)} = (",
             f'    np.frombuffer(bytes.fromhex("{x}"), "<f8"),',
-            f'    np.frombuffer(bytes.fromhex("{pieces}"), "<f8").reshape(-1, 4),', f"    {curve.repeats},", ")",
+            f'    np.frombuffer(bytes.fromhex("{c}"), "<f8").reshape(-1, 4),', f"    {curve.repeats},", ")",
         ])  # fmt: skip
     knots = [", ".join(map(repr, curve.x[k : k + 3])) for k in range(0, len(curve.x), 3)]
     pieces = [f"        [{', '.join(map(repr, piece))}]," for piece in curve.coefficients]
