@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields, is_dataclass
 
 from gudgeon.generator.mechanism.mechanism import Quantity
+from gudgeon.language.curves import Curve
 
 
 def quantities(part: object) -> Iterator[Quantity]:
@@ -14,6 +15,8 @@ def quantities(part: object) -> Iterator[Quantity]:
         yield part
         return
     inner: Iterable[object] = ()
+    if isinstance(part, Curve):  # its numbers are no quantities, and may be millions
+        return
     if is_dataclass(part):
         inner = (getattr(part, one.name) for one in fields(part))
     elif isinstance(part, Mapping):

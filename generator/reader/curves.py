@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import hashlib
+import io
 import math
 import re
 from collections.abc import Sequence
 from fractions import Fraction
 from pathlib import Path
 
-from gudgeon.contract.limits import MAX_BYTES
+import numpy as np
+
+from gudgeon.contract.limits import MAX_BYTES, MAX_TABLE_BYTES
 from gudgeon.errors import BadNameError, BadValueError, LimitError, Location, MissingKeyError, UnitError
 from gudgeon.files.beside import read_beside
 from gudgeon.generator.field import WORD
@@ -22,8 +25,7 @@ from gudgeon.language.curves import LEAST, MONOTONE, NOT_A_KNOT, PERIODIC, STOP,
 from gudgeon.language.names import check_name
 from gudgeon.language.units import DIMENSIONLESS, Unit, parse_unit, si_unit
 
-MOST_POINTS = 4000  # of a curve
-_MOST_OF_ALL = 20_000  # of all curves
+MOST_POINTS = 1 << 21  # of a curve
 _DECIMAL = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?", re.ASCII)
 _LONGEST = 40  # characters of a number
 _NOTHING = Curve("", (0.0, 1.0), ((0.0, 0.0, 0.0, 0.0),), extrapolate="line")  # stands for one that cannot be read
@@ -31,17 +33,12 @@ _NOTHING = Curve("", (0.0, 1.0), ((0.0, 0.0, 0.0, 0.0),), extrapolate="line")  #
 
 def read_curves(reader: Reader, root: Map) -> dict[str, Curve]:
     """The section `curves:`; reader.curves and reader.tables know them afterwards."""
-    read = 0
     for name, node in root.part("curves").pairs():
         reader.curves[str(name)] = _NOTHING
         with reader.collect():
             _check_name(root, name)
         with reader.collect():
-            curve = _curve(reader, name, node)
-            read += len(curve.x)
-            if read > _MOST_OF_ALL:
-                raise LimitError(f"{read} points in curves", name.where, f"expected at most {_MOST_OF_ALL} in all")
-            reader.curves[str(name)] = curve
+            reader.curves[str(name)] = _curve(reader, name, node)
     return reader.curves
 
 
@@ -61,7 +58,7 @@ def _curve(reader: Reader, name: Text, node: Map) -> Curve:
     if ("points" in node) == ("table" in node):
         both = "both points and a table" if "points" in node else "neither points nor a table"
         raise MissingKeyError(f"{owner} has {both}", name.where, "expected points: [[x, y], …] or table: FILE.csv")
-    rows = _table(reader, node["table"]) if "table" in node else _points(node["points"], owner)
+    data = _data(reader, node["table"]) if "table" in node else b""
     if len(reader.errors) > told:
         raise reader.errors.pop()
     ends, extrapolate = str(options["ends"]), str(options["extrapolate"])
@@ -72,11 +69,16 @@ def _curve(reader: Reader, name: Text, node: Map) -> Curve:
     if interpolation == MONOTONE and ends == NOT_A_KNOT:
         hint = "expected natural, clamped or periodic"
         raise BadValueError(f"{owner} is monotone with ends: not_a_knot", node["ends"].where, hint)
-    x, y = _numbers(rows, 0, over), _numbers(rows, 1, of)
-    _check(owner, ends, rows, x, y, name.where)
+    long = _long_table(data, over, of, ends)
+    if long is None:
+        rows = _table(reader, node["table"], data) if "table" in node else _points(node["points"], owner)
+        x, y = _numbers(rows, 0, over), _numbers(rows, 1, of)
+        _check(owner, ends, rows, x, y, name.where)
+    else:
+        x, y = long
     coefficients = spline(x, y, ends, interpolation)
     knots, coefficients = in_pairs(x, coefficients) if ends == PERIODIC else (x, coefficients)
-    if not all(math.isfinite(c) for piece in coefficients for c in piece):
+    if not np.isfinite(np.array(coefficients)).all():
         hint = "expected points whose slopes are numbers: are two of them too close?"
         raise BadValueError(f"{owner} has a slope that is no number", name.where, hint)
     return Curve(
@@ -106,11 +108,49 @@ def _points(items: Items, owner: str) -> list[Row]:
     return [Row((str(x), str(y)), (x.where, y.where)) for x, y in items]
 
 
-def _table(reader: Reader, name: Text) -> list[Row]:
-    """The rows of a table; what was read of it is noted."""
-    data = read_beside(reader.file, str(name), MAX_BYTES, name.where)
+def _data(reader: Reader, name: Text) -> bytes:
+    """What a table holds; its sha256 is noted."""
+    data = read_beside(reader.file, str(name), MAX_TABLE_BYTES, name.where)
     reader.tables[str(name)] = hashlib.sha256(data).hexdigest()
+    return data
+
+
+def _table(reader: Reader, name: Text, data: bytes) -> list[Row]:
+    """The rows of a table."""
     return read_table(data, str(Path(reader.file).parent / name), lambda text: _fraction(text) is not None)
+
+
+def _long_table(
+    data: bytes, over: Unit | None, of: Unit | None, ends: str
+) -> tuple[tuple[float, ...], tuple[float, ...]] | None:
+    """Return both columns, SI, of a table of more than a megabyte, read at once; None where a row must be looked at.
+
+    Numbers are converted to SI in binary64: their last digit may differ from that of a shorter table.
+    """
+    if len(data) <= MAX_BYTES:
+        return None
+    head, _, rows = data.partition(b"\n")
+    if not re.search(rb"[0-9]", head):  # a header
+        data = rows
+    if re.search(rb"[^-+.,;\t\r\n 0-9eE]", data):
+        return None
+    mark = next((mark for mark in (";", "\t", ",") if mark.encode() in data), ",")
+    try:
+        table = np.loadtxt(io.BytesIO(data), delimiter=mark, ndmin=2)
+    except ValueError:
+        return None
+    scales = [float(unit.to_si(Fraction(1))) if unit else 1.0 for unit in (over, of)]
+    if table.shape[1:] != (2,) or len(table) > MOST_POINTS:
+        return None
+    x, y = (table * scales).T
+    sizes = np.abs(table[table != 0.0])
+    fits = np.isfinite(table).all() and (sizes < _HIGH).all() and (sizes > _LOW).all() and (np.diff(x) > 0.0).all()
+    if not fits or (ends == PERIODIC and y[0] != y[-1]):
+        return None
+    return tuple(x.tolist()), tuple(y.tolist())
+
+
+_LOW, _HIGH = 1e-140, 1e140  # magnitudes that units leave within the range of numbers
 
 
 def _fraction(text: str) -> Fraction | None:

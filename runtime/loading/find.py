@@ -12,7 +12,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.contract.limits import MAX_BYTES
+from gudgeon.contract.limits import MAX_BYTES, MAX_TABLE_BYTES
 from gudgeon.contract.methods import SMOOTH, STAGES
 from gudgeon.errors import BadValueError, InputError, LimitError
 from gudgeon.files.beside import read_beside
@@ -149,7 +149,7 @@ def _touches(data: bytes, file: Path, scene: str, overrides: Overrides) -> bool:
 
 def tables_now(source: KernelSource, file: Path) -> tuple[tuple[str, str], ...]:
     """The tables that a source was made with, and the sha256 of what they hold now. InputError if one is gone."""
-    return tuple((name, sha256(read_beside(file, name, MAX_BYTES)).hexdigest()) for name, _ in source.tables)
+    return tuple((name, sha256(read_beside(file, name, MAX_TABLE_BYTES)).hexdigest()) for name, _ in source.tables)
 
 
 def laws_now(source: KernelSource) -> tuple[tuple[str, str], ...]:

@@ -28,15 +28,38 @@ function valueOf(tree, named) {
     return FUNCTIONS[head](...rest.map((part) => valueOf(part, named)));
 }
 
+const UNPACKED = new Map(); // tables of long curves: base64 of binary64, by their text
+
+function unpacked(text) {
+    if (!UNPACKED.has(text)) {
+        const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+        UNPACKED.set(text, new Float64Array(bytes.buffer));
+    }
+    return UNPACKED.get(text);
+}
+
+/* The piece between knots in which x lies, or the outermost one. */
+function pieceOf(knots, x) {
+    let low = 0, high = knots.length - 1;
+    while (high - low > 1) {
+        const middle = (low + high) >> 1;
+        if (x < knots[middle]) high = middle;
+        else low = middle;
+    }
+    return low;
+}
+
 /* A cubic spline as runtime/language/curves.py has it: [name, knots, coefficients, ends, outside, unit]. */
 function curveAt([, knots, pieces, ends, outside], x) {
+    if (typeof knots === "string") knots = unpacked(knots);
     const first = knots[0], last = knots[knots.length - 1], range = last - first, margin = 1e-9 * range;
     const periodic = ends === "periodic";
     if (periodic) x -= range * Math.floor((x - first) / range);
     else if (outside === "none" && !(x >= first - margin && x <= last + margin)) return NaN;
     const held = periodic || outside === "none" ? x : Math.min(Math.max(x, first), last);
-    const k = Math.max(0, Math.min(pieces.length, knots.filter((knot) => knot <= held).length) - 1);
-    const h = held - knots[k], [c0, c1, c2, c3] = pieces[k], value = c0 + h * (c1 + h * (c2 + h * c3));
+    const k = pieceOf(knots, held), h = held - knots[k];
+    const row = typeof pieces === "string" ? unpacked(pieces).subarray(4 * k, 4 * k + 4) : pieces[k];
+    const [c0, c1, c2, c3] = row, value = c0 + h * (c1 + h * (c2 + h * c3));
     if (outside !== "line" || x === held) return value;
     return value + (c1 + h * (2 * c2 + h * (3 * c3))) * (x - held);
 }

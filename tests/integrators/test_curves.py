@@ -256,3 +256,20 @@ def test_an_extent_of_nothing_is_no_number_of_c(tmp_path: Path) -> None:
     text = text.replace("coordinate: follower.y", "distance: [ground.O, follower.origin]")
     run = loader(tmp_path)(text + "start: {guess: {follower.y: 20 mm}}\n").simulate(0.5, output=50)
     np.testing.assert_allclose(run["follower.y"], 0.02 + lift()(10.0 * run.t), atol=1e-12)
+
+
+@pytest.mark.parametrize("n", [5000, 60_000])
+def test_a_long_table_is_the_curve_that_scipy_makes_of_it(tmp_path: Path, n: int) -> None:
+    """A measured signal, more points than are printed as numbers; of 60,000 the table is read at once."""
+    t = np.linspace(0.0, 10.0, n)
+    y = 5.0 * np.sin(3.0 * t) + 0.01 * np.random.default_rng(1).standard_normal(n)
+    rows = "".join(f"{a:.12g},{b:.12g}\n" for a, b in zip(t, y, strict=True))
+    (tmp_path / "signal.csv").write_text("time,force\n" + rows, encoding="utf-8")
+    text = slug("signal(t)").replace("curves:", "curves:\n  signal: {table: signal.csv, x: s, y: N}")
+    text = text.replace("start:", "outputs: {pulled: signal(t)}\nstart:")
+    run = loader(tmp_path)(text).simulate(0.1, rtol=1e-10, output=500)
+    data = np.loadtxt(tmp_path / "signal.csv", delimiter=",", skiprows=1)
+    s = CubicSpline(data[:, 0], data[:, 1], bc_type="natural")
+    np.testing.assert_allclose(run["pulled"], s(run.t), rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(run["slug.ax"], s(run.t) / 0.3, rtol=1e-12, atol=1e-11)
+    assert run["slug.vx"][-1] == pytest.approx(1.0 + s.integrate(0.0, 0.1) / 0.3, abs=1e-9)

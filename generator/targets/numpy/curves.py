@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+import numpy as np
+
 from gudgeon.generator.symbols.curves import c_name
 from gudgeon.generator.targets.numpy.layout import remark
 from gudgeon.language.curves import MARGIN, Curve
@@ -38,6 +40,13 @@ def with_curves(curves: Mapping[str, Curve], text: str, before: str = "") -> str
 
 
 def _table(curve: Curve) -> str:
+    if curve.is_long:
+        x, c = (np.asarray(table, "<f8").tobytes().hex() for table in (curve.x, curve.coefficients))
+        return "\n".join([
+            *remark(f"{curve.name}: {curve.told()}"), f"{c_name(curve.name)} = (",
+            f'    np.frombuffer(bytes.fromhex("{x}"), "<f8"),',
+            f'    np.frombuffer(bytes.fromhex("{c}"), "<f8").reshape(-1, 4),', f"    {curve.repeats},", ")",
+        ])  # fmt: skip
     knots = [", ".join(map(repr, curve.x[k : k + 3])) for k in range(0, len(curve.x), 3)]
     pieces = [f"        [{', '.join(map(repr, piece))}]," for piece in curve.coefficients]
     return "\n".join([
