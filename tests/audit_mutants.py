@@ -46,15 +46,15 @@ ENGINE_FILES = ("both/dop853.h", "both/motion.h", "both/project.h", "both/weigh.
 SCENE_FILES = ("dynamics.c", "reduced.c", "constraints.c", "parameters.c", "clearance.c")
 
 
-def mutant(simulation: Simulation, edits: dict[str, tuple[str, str]], folder: Path) -> Simulation:
-    """The scene with texts replaced: {file of the scene, or engine/file: (old, new)}, compiled in `folder`.
+def mutant(simulation: Simulation, folder: Path, *edits: tuple[str, str, str]) -> Simulation:
+    """The scene with texts replaced, (file of the scene, or engine/file; old; new) each, compiled in `folder`.
 
     AssertionError where a text is not found; subprocess.CalledProcessError where the result does not compile.
     """
     shutil.copytree(ENGINE, folder / "engine", dirs_exist_ok=True)
     for name, text in simulation.source.files.items():
         (folder / name).write_text(text, encoding="utf-8")
-    for name, (old, new) in edits.items():
+    for name, old, new in edits:
         text = (folder / name).read_text(encoding="utf-8")
         assert old in text, f"{name} has no {old!r}"
         (folder / name).write_text(text.replace(old, new, 1), encoding="utf-8")
@@ -98,7 +98,7 @@ def _try(job: tuple[str, str, float, str, tuple[str, str]], answer: Any) -> None
     _, right = is_reported(simulation, t_end)
     with tempfile.TemporaryDirectory() as folder:
         try:
-            other = mutant(simulation, {file: edit}, Path(folder))
+            other = mutant(simulation, Path(folder), (file, *edit))
         except (AssertionError, subprocess.SubprocessError):
             answer.put(("does not compile", ""))
             return

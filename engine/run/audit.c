@@ -252,10 +252,10 @@ static void check_event(Run *run, int i, int listed)
 static int audit_state(Run *run, int listed, const Parameters *p)
 {
     Audit *audit = &run->audit;
-    (void)p;
     if (!audit->level || (!TREE && run->least[1] == 0.0))
         return 0; /* in rk4's absolute coordinates Baumgarte's terms let rows drift */
     check_closed(run);
+    check_joints(run, run->t, &run->aside, p);
     if (N_CHAIN)
         check_rows(run, run->t, run->y, 0, p);
     for (int i = 0; i < N_CLEARANCES; i++)
@@ -277,7 +277,7 @@ static int audit_state(Run *run, int listed, const Parameters *p)
 
 void gudgeon_run_audit(void *memory, int level)
 {
-    ((Run *)memory)->audit = (Audit){.level = level, .random = 1u, .due = 8};
+    ((Run *)memory)->audit = (Audit){.level = level, .random = 1u, .due = 2};
     for (int k = 0; k < N_CHECKS; k++)
         ((Run *)memory)->audit.record[k].where = -1;
 }
