@@ -205,7 +205,12 @@ static void scatter(const Flow *flow, int k, int stiff)
     step->error = flow->step.error[k];
     step->dense_ready = 0;
     scatter_trial(flow, k, stiff, run);
-    run->evaluations += TAYLOR || flow->step.taken[k]; /* of a series the end alone may be what refuses it */
+#if TAYLOR
+    const int counts = 1;
+#else
+    const int counts = flow->step.taken[k] != 0;
+#endif
+    run->evaluations += counts; /* of a series the end alone may be what refuses it */
     if (!flow->step.taken[k])
         return;
     run->stability = flow->x.stability[k];

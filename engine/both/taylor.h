@@ -62,7 +62,7 @@ static inline void taylor_both(const RunOf *run, Real h, Real *y, Real *rate)
 }
 
 /* The state alone. */
-static void taylor_at(const RunOf *run, Real h, Real *y)
+static inline void taylor_at(const RunOf *run, Real h, Real *y)
 {
     Real rate[N_Y];
     taylor_both(run, h, y, rate);

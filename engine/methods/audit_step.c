@@ -4,6 +4,7 @@
  * fell, in addition: all rows, accelerations by the equations of all bodies, uncertainty of forces.
  */
 #define AUDIT_LONGER 8.0 /* times the step before: such a step is always checked */
+#define AUDIT_DIGITS 1e-10 /* of a state: differences below it are rounding */
 #define AUDIT_DEFECT 1e4 /* tolerances that the dense output may miss the right-hand side by */
 /* steps between two that are drawn, in the mean; halvings that locate a zero; places inside a step */
 enum { AUDIT_MEAN = 128, AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4 };
@@ -24,12 +25,14 @@ static void check_inside(Run *run, Step *step, double theta, int drawn, const Pa
     } else if (state_at(run, step, theta, p, y, dy, &aside))
         return; /* what lies beyond an event need not be computable */
     interpolate_rates(step, theta, rate);
-    for (int k = 0; k < 2 * N_X; k++)
-        defect = max_of(defect, fabs(step->h * (rate[k] - dy[k])) * run->weight[k]);
+    for (int k = 0; k < 2 * N_X; k++) {
+        const double limit = AUDIT_DEFECT + AUDIT_DIGITS * (fabs(y[k]) + fabs(step->h * dy[k])) * run->weight[k];
+        defect = max_of(defect, fabs(step->h * (rate[k] - dy[k])) * run->weight[k] / limit);
+    }
     if (!(run->fixed > 0.0))
-        record(audit, DEFECT_CHECK, defect, AUDIT_DEFECT, t, -1);
+        record(audit, DEFECT_CHECK, defect, 1.0, t, -1);
     check_joints(run, t, &aside, p);
-    check_branches(run, step, t, &aside);
+    check_branches(run, step, t, y, &aside, p);
     if (!drawn)
         return;
     check_rows(run, t, y, !RATE_JUMPS, p);
@@ -57,6 +60,14 @@ static int event_has_zero(Run *run, Step *step, double share, int i, const Param
     return nearest < 0.01 * min_of(fabs(before), fabs(after));
 }
 
+/* Whether the value of event i at the beginning of a step, or at its end, is larger than its uncertainty. */
+static int is_known(Run *run, const Step *step, int end, int i, const Parameters *p)
+{
+    const int k = N_MARGINS - N_USER_EVENTS + i;
+    return end ? is_resolved(run, step->t + step->h, step->y, &step->aside, k, p)
+        : is_resolved(run, run->t, run->y, &run->aside, k, p);
+}
+
 /* Notes how far expressions of events are from zero in a step, and finds zeros that end none, before it is taken. */
 static void find_zeros(Run *run, Step *step, double share, int event, const Parameters *p)
 {
@@ -71,9 +82,10 @@ static void find_zeros(Run *run, Step *step, double share, int event, const Para
         audit->event_scale[i] = max_of(audit->event_scale[i], most);
         const double noise = AUDIT_NOISE * audit->event_scale[i];
         audit->away[i] |= most > noise;
-        audit->event_before[i] = before;
+        audit->event_before[i] = audit->ended == i && is_known(run, step, 0, i, p) ? before : 0.0;
         audit->crossed[i] = share >= 1.0 && audit->ended != i && before * after < 0.0 && fabs(before) > noise
-            && fabs(after) > noise && event_direction[i] * after >= 0.0 && event_has_zero(run, step, share, i, p);
+            && fabs(after) > noise && event_direction[i] * after >= 0.0 && is_known(run, step, 0, i, p)
+            && is_known(run, step, 1, i, p) && event_has_zero(run, step, share, i, p);
     }
 }
 

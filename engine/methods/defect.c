@@ -20,20 +20,3 @@ static void interpolate_rates(const Step *step, double theta, double *dy)
         dy[i] = slope / step->h;
     }
 }
-
-/*
- * The defect h |y' - f(t, y)| of the dense output at fraction theta of an accepted step that is not yet taken, in the
- * error norm (1: a tolerance): y' is the interpolant's rate, f the right-hand side at the projected interpolant, as
- * samples have it. Infinite where either is not a number.
- */
-static double dense_defect(Run *run, Step *step, double theta, const Parameters *p)
-{
-    double y[N_Y], dy[N_Y], rate[N_Y], defect = 0.0;
-    Aside aside;
-    if (make_dense(run, p, step) || state_at(run, step, theta, p, y, dy, &aside) || !all_finite(dy, N_Y))
-        return INFINITY;
-    interpolate_rates(step, theta, rate);
-    for (int k = 0; k < N_Y; k++)
-        defect = max_of(defect, fabs(step->h * (rate[k] - dy[k])) * run->weight[k]);
-    return defect;
-}

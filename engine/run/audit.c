@@ -17,6 +17,8 @@
 /* steps in a row that end on the wrong side of a switching function; after which its magnitude is known */
 enum { AUDIT_WRONG = 3, AUDIT_SETTLED = 20 };
 
+static int is_resolved(Run *run, double t, const double *y, const Aside *aside, int k, const Parameters *p);
+
 /* A number in (0, 1) that looks random: the same in every run. */
 static double draw(Audit *audit)
 {
@@ -38,12 +40,20 @@ static void record(Audit *audit, int check, double value, double limit, double t
         audit->status = AUDITED;
 }
 
-/* The largest violation so far of the rows that each accepted step looks at: closures of the tree, or all rows. */
+/*
+ * The largest violation so far of the rows that each accepted step looks at: closures of the tree, or all rows. What a
+ * run begins with, off its constraints, is no fault of its steps.
+ */
 static void check_closed(Run *run)
 {
-    const double limit = max_of(audit_tolerance(run) * run->least[0], AUDIT_ROUNDING * run->least[0] / run->least[1]);
-    if (run->least[1] > 0.0)
-        record(&run->audit, POSITION_CHECK, run->phi_max, limit, run->t, -1);
+    double limit = max_of(audit_tolerance(run) * run->least[0], AUDIT_ROUNDING * run->least[0] / run->least[1]);
+    if (run->steps <= 1 || !(run->least[1] > 0.0))
+        run->audit.phi_start = run->phi_max;
+    if (!(run->phi_max > run->audit.phi_start) || run->phi_max < limit)
+        return;
+    for (int k = 0; k < N_X; k++)
+        limit = max_of(limit, is_angle[k] ? 0.0 : AUDIT_ROUNDING * fabs(run->y[k]));
+    record(&run->audit, POSITION_CHECK, run->phi_max, limit, run->t, -1);
 }
 
 /* Positions, and with `rates` velocities, of all rows of the motion at a state. */
@@ -197,7 +207,7 @@ static void check_forces(Run *run, double t, const double *y, const Aside *at, c
         const Clearance *a = &at->clearance[i], *b = &aside.clearance[i];
         const double force = max_of(total_force(a), run->F_peak[i]);
         const double change = sqrt((a->Fx - b->Fx) * (a->Fx - b->Fx) + (a->Fy - b->Fy) * (a->Fy - b->Fy));
-        if (gives(i) && force > 0.0)
+        if (has_film(i) && force > 0.0)
             record(&run->audit, FORCE_CHECK, change, min_of(1.0, AUDIT_FORCE * audit_tolerance(run)) * force, t, i);
     }
 }
@@ -216,12 +226,13 @@ static void check_joints(Run *run, double t, const Aside *aside, const Parameter
 }
 
 /* Branches that a step holds, at a state inside it: how far each function lies on the wrong side. */
-static void check_branches(Run *run, const Step *step, double t, const Aside *aside)
+static void check_branches(Run *run, const Step *step, double t, const double *y, const Aside *aside, const Parameters *p)
 {
     for (int k = 0; k < N_SWITCHES; k++) {
         const double g = run->memory.side[k] * aside->g[k];
         run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(g));
-        if (!step->passed[k] && k != run->skip && !meets[k] && g < 0.0 && run->steps > AUDIT_SETTLED)
+        if (!step->passed[k] && k != run->skip && !meets[k] && g < 0.0 && run->steps > AUDIT_SETTLED
+            && is_resolved(run, t, y, aside, N_CLEARANCES + k, p))
             record(&run->audit, BRANCH_CHECK, -g, 1e-3 * run->audit.switch_scale[k], t, k);
     }
 }
@@ -266,7 +277,7 @@ static int audit_state(Run *run, int listed, const Parameters *p)
         const double g = run->memory.side[k] * run->aside.g[k], scale = audit->switch_scale[k];
         audit->switch_scale[k] = max_of(scale, fabs(g));
         audit->wrong[k] = (unsigned char)(g < -1e-3 * scale && k != run->skip ? min_of(audit->wrong[k] + 1, 100) : 0);
-        if (audit->wrong[k] >= AUDIT_WRONG)
+        if (audit->wrong[k] >= AUDIT_WRONG && is_resolved(run, run->t, run->y, &run->aside, N_CLEARANCES + k, p))
             record(audit, BRANCH_CHECK, -g, 1e-4 * audit->switch_scale[k], run->t, k);
     }
     for (int i = 0; i < N_USER_EVENTS; i++)

@@ -30,7 +30,7 @@ typedef struct {
     int level, status;             /* one of those above; AUDITED once a check failed */
     long due;                      /* number of steps after which a step is checked inside next */
     unsigned random;               /* state of the generator that draws steps and places in them */
-    double last_h, t;              /* s, the length of the last step; the time up to which accepted states are checked */
+    double last_h, phi_start;      /* s, the length of the last step; largest |Phi| at the start */
     double switch_scale[AT_LEAST_ONE(N_SWITCHES)], event_scale[AT_LEAST_ONE(N_USER_EVENTS)]; /* largest magnitudes */
     unsigned char wrong[AT_LEAST_ONE(N_SWITCHES)];      /* steps in a row that ended on the wrong side */
     int ended;                     /* the event that ends the step, -1: none */

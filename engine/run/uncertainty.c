@@ -78,7 +78,7 @@ static void add_stuck_slip(Run *run, double t, const double *y, const Parameters
 #endif
 
 /* A watched function's value, whichever side it is on. */
-static double watched_value(const Aside *aside, int i)
+static inline double watched_value(const Aside *aside, int i)
 {
     const int k = watched[i] - N_CLEARANCES;
     return k < N_SWITCHES ? aside->g[k] : aside->event[k - N_SWITCHES - N_FRICTIONS];

@@ -105,7 +105,7 @@ static double violated(Run *run, Step *step, int k, const Parameters *p, double 
 /* Whether margin k, if it is watched, is larger than its uncertainty at a state. */
 static int is_resolved(Run *run, double t, const double *y, const Aside *aside, int k, const Parameters *p)
 {
-    double error[AT_LEAST_ONE(N_WATCHED)];
+    double error[AT_LEAST_ONE(N_WATCHED)] = {0.0};
     if (watched_as[k] < 0)
         return 1;
     uncertainty(run, t, y, p, error);

@@ -155,6 +155,11 @@ class KernelBuilder:
         self._symbols, self._name, self._doc = symbols, name, tuple(doc)
         self._sections: list[tuple[str, list[Line]]] = []
 
+    @property
+    def has_jumps(self) -> bool:
+        """Whether some line so far leads to a rescue."""
+        return any(getattr(line, "jumps", False) for _, lines in self._sections for line in lines)
+
     def section(self, title: str) -> None:
         self._sections.append((title, []))
 

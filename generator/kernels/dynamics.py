@@ -174,7 +174,9 @@ def _outward_rate(system: System, clearance: Clearance, wall: Wall, x: Mapping[i
 
 
 def _dependent_rows(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
-    """The way out when a pivot vanishes (engine/scene/singular.c)."""
+    """The way out when a pivot vanishes (engine/scene/singular.c); none where every pivot is a constant."""
+    if not build.has_jumps:
+        return
     build.line(Jump())
     build.section("a pivot vanished: rows depend on each other here")
     force, rhs = (tuple(b.get(k, ZERO) for k in nodes) for nodes in (range(kkt.n), range(kkt.n, kkt.n + len(kkt.rows))))

@@ -225,7 +225,7 @@ def _methods(model: Model, integrated: Integrated, staged: bool) -> Methods:
         gains["two_alpha"] = model.slots.derive("two_alpha", 2 * alpha)
         gains["beta_squared"] = model.slots.derive("beta_squared", beta**2)
     closing = closing_kernel(integrated.system)
-    finished = side_by_side(without_unused(closing)) if integrated.reduced else closing
+    finished = side_by_side(without_unused(closing)) if integrated.reduced else without_unused(closing)
     film = any(clearance.film is not None for clearance in model.clearances)
     at_complex = at_complex_step(newton) if (staged or film) and not model.rigid else ()
     return Methods(newton, slopes, tuple(sloping.kernels), finished, without_unused(closing), gains, at_complex)
@@ -238,4 +238,4 @@ def _course(model: Model, kkt: KKT, integrated: Integrated) -> Course:
         names = tuple(row.name for row in integrated.system.rows)
         return Course(tuple(kinematic_kernels(integrated.system, rows)), (*names, *kkt.pivots), rows, None)
     projection, solved = projection_kernel(kkt.system, model.rows, "project")
-    return Course((projection,), (*solved.pivots, *kkt.pivots), None, solved)
+    return Course((without_unused(projection),), (*solved.pivots, *kkt.pivots), None, solved)

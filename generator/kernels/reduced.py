@@ -58,6 +58,8 @@ def reduced_kernels(system: TreeSystem) -> tuple[list[Kernel], KKT, ChainKernels
 
 def _rescue(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
     """Where a pivot vanishes the absolute formulation solves, which finds out what is dependent."""
+    if not build.has_jumps:
+        return
     build.line(Jump())
     build.section("a pivot vanished: rows depend on each other here")
     build.line(Rescue())

@@ -142,7 +142,7 @@ bodies: {wheel: {mass: 1 kg, inertia: 1 kg*m^2}}
 ground: {O: [0, 0]}
 joints: {hub: {revolute: [ground.O, wheel.com]}}
 freedoms: 1
-start: {rates: {wheel.omega: 5 rad/s}}
+start: {rates: {wheel.omega: 5 rad/s^1}}
 events:
   both: {zero: "mod(wheel.theta - c, P) - l"}
   rising: {zero: "mod(wheel.theta - c, P) - l", direction: rising}

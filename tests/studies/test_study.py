@@ -185,7 +185,7 @@ def test_a_zip_is_one_dimension_and_the_end_follows_the_numbers() -> None:
     """A quarter of the pendulum's period, 2.367841947576 s at 9.81 m/s² and 1 m, and ∝ √(l/g): there it hangs."""
     study = {
         "mechanism": "pendulum", "zip": {"run": {"g": [9.81, 1.62, 9.81], "length": ["1 m", "1 m", "25 cm"]}},
-        "t_end": "2.367841947576 s / 4 * sqrt(9.81 m/s^2 * length / (1 m * g))", "output": "t_end / 1 ms",
+        "t_end": "2.367841947576 s / 4 * sqrt(9.81 m/s^2 * length / (1 m * (g)))", "output": "t_end / 1 ms",
         "windows": {"hanging": {"from": "t_end"}},
         "measures": {"swing": {"max": "swing", "window": "hanging"}, "fast": {"final": "bob.vx"}}, "keep": ["bob.y"],
     }  # fmt: skip
@@ -336,7 +336,7 @@ measures: {x: {final: bob.x}}
     np.testing.assert_allclose(found["x"], 0.5, rtol=1e-4)
     same = gudgeon.study(tmp_path / "s.yaml", settings={"length": 0.5}).dataset
     np.testing.assert_array_equal(same["x"], found["x"])
-    empty = text.replace("measures", "windows: {late: {from: 5 ms * g / (9.81 m/s^2) * 1.5, to: t_end}}\nmeasures")
+    empty = text.replace("measures", "windows: {late: {from: 5 ms * (g) / (9.81 m/s^2) * 1.5, to: t_end}}\nmeasures")
     (tmp_path / "late.yaml").write_text(empty)  # of the second run it begins after its end
     done = call("study", "late.yaml")
     assert "1 of 2 runs failed" in done.output and "window late goes from" in done.output, done.output

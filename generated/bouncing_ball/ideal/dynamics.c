@@ -6,6 +6,7 @@
 int dynamics(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p, double *a,
     Aside *aside)
 {
+    (void)t, (void)memory;
     /* coordinates, velocities, time */
     const double ball_x_ = q[0];
     const double ball_y_ = q[1];
@@ -40,19 +41,6 @@ int dynamics(const double t, const double *q, const double *v, const Memory *mem
     a[2] = acceleration_ball_theta_;
     aside->lambda[0] = lambda_fall_x_;
     aside->lambda[1] = lambda_fall_y_;
-    goto powers;
-
-    /* a pivot vanished: rows depend on each other here */
-    dependent: {
-        double force[N_Q], rhs[N_ROWS];
-        force[0] = 0.0;
-        force[1] = p->weight_ball_y_;
-        force[2] = 0.0;
-        rhs[0] = rhs_fall_x_;
-        rhs[1] = rhs_fall_y_;
-        pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);
-    }
-    powers:
     aside->power[0] = 0.0;
     aside->power[1] = 0.0;
     aside->power[2] = 0.0;

@@ -85,7 +85,10 @@ def _values(
 ) -> dict[str, Array] | None:  # fmt: skip
     """All functions at a state, by their names in Evaluation; None where a pivot vanishes."""
     t, q, v = at
-    found = numpy.dynamics(t, q, v, p, *memory)
+    try:
+        found = numpy.dynamics(t, q, v, p, *memory)
+    except (ArithmeticError, ValueError):  # where C has an infinity, or no number
+        return None
     if found.status:
         return None
     values = {
@@ -95,8 +98,11 @@ def _values(
     }  # fmt: skip
     sizes = 3 * len(kept_joints(model)), len(model.scene.mechanism.drives), len(element_series(model)), 2
     out = [np.zeros(size) for size in sizes]
-    with np.errstate(all="ignore"):
-        outputs(t, q.tolist(), v.tolist(), p, found.lambda_, *out)
+    try:
+        with np.errstate(all="ignore"):
+            outputs(t, q.tolist(), v.tolist(), p, found.lambda_, *out)
+    except (ArithmeticError, ValueError):
+        return None
     return values | dict(zip(("reactions", "torques", "series", "energy"), out, strict=True))
 
 
