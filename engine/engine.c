@@ -14,6 +14,7 @@
 #include "run/report.c"
 #include "methods/step.c"
 #include "run/audit.c"
+#include "run/audit_state.c"
 #if N_CORNERS
 #include "watch/jumps.c"
 #endif

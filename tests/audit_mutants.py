@@ -77,7 +77,8 @@ def is_reported(simulation: Simulation, t_end: float, **settings: Any) -> tuple[
 
 def mutations(text: str, rng: random.Random) -> tuple[str, str] | None:
     """One change of one line of C: old and new text, the old one being unique; None: the draw found none."""
-    lines = [line for line in text.splitlines() if text.count(line) == 1 and not line.lstrip().startswith(("*", "/", "#"))]
+    code = [line for line in text.splitlines() if not line.lstrip().startswith(("*", "/", "#"))]
+    lines = [line for line in code if text.count(line) == 1]
     line = rng.choice([x for x in lines if re.search(r"[-+*=\[<>]", x)] or [""])
     kinds = [(r" - ", " + "), (r" \+ ", " - "), (r" \* ", " + "), (r" < ", " > "), (r" > ", " < ")]
     choices = [(m, new) for old, new in kinds for m in re.finditer(old, line)]
@@ -126,7 +127,8 @@ def run(count: int, seed: int, show: bool) -> Counter[str]:
         if edit is None:
             continue
         answer = multiprocessing.get_context("spawn").Queue()
-        process = multiprocessing.get_context("spawn").Process(target=_try, args=((name, scene, t_end, file, edit), answer))
+        job = (name, scene, t_end, file, edit)
+        process = multiprocessing.get_context("spawn").Process(target=_try, args=(job, answer))
         process.start()
         process.join(SECONDS)
         if process.is_alive():

@@ -43,7 +43,8 @@ static inline void taylor_both(const RunOf *run, Real h, Real *y, Real *rate)
     const Real square = h * h;
     Real all[TAYLOR_Y], slope[TAYLOR_Y];
     for (int i = 0; i < N_Y; i += SERIES_PART) {
-        SeriesPart even = *(const SeriesPart *)(run->series[top] + i), odd = {0.0}, even_slope = {0.0}, odd_slope = {0.0};
+        SeriesPart even = *(const SeriesPart *)(run->series[top] + i), odd = {0.0};
+        SeriesPart even_slope = {0.0}, odd_slope = {0.0};
         if (top < run->order)
             odd = *(const SeriesPart *)(run->series[top + 1] + i);
         for (int k = top - 2; k >= 0; k -= 2) {

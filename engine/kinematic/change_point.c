@@ -98,8 +98,8 @@ static void interpolate_place(const Place *node, double t, const Parameters *p, 
 }
 
 /*
- * The place at t, at or near a change point, from `here` near by: on the branch that is smooth. 0, or why there is none:
- * nothing leads on, or what does is not smooth.
+ * The place at t, at or near a change point, from `here` near by: on the branch that is smooth. 0, or why there is
+ * none: nothing leads on, or what does is not smooth.
  */
 static int pass_change_point(double t, double reach, double extent, const Parameters *p, const Place *here, Place *to)
 {

@@ -88,7 +88,8 @@ static void uncertainty(const View *here, double extent, const Parameters *p, do
         Place other;
         disturb(&here->at, ROUNDINGS, mask, extent, p, &other);
 #if POSITIONS_IN_TREE
-        if (arrive(beyond_jump(other.t), other.s, other.s_rate, p, other.s_second, other.q, other.v, other.a, &other.phi))
+        if (arrive(beyond_jump(other.t), other.s, other.s_rate, p, other.s_second, other.q, other.v, other.a,
+                &other.phi))
             continue;
 #endif
         for (int k = 0; k < N_Q; k++) {

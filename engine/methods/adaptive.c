@@ -20,6 +20,7 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
         run->dy[k] = step->dy[k];
     }
     run->aside = step->aside;
+    run->last_step = t_new - run->t;
     run->stuck = event >= 0 && t_new - run->t < 1e-9 * step->h ? run->stuck + 1 : 0;
     run->t = t_new;
     run->steps++;

@@ -61,7 +61,8 @@ static void check_rows(Run *run, double t, const double *y, int rates_too, const
 {
     Audit *audit = &run->audit;
     double all[N_S], phi[AT_LEAST_ONE(N_ALL_ROWS)], nu[AT_LEAST_ONE(N_ALL_ROWS)];
-    double size = run->least[1] > 0.0 ? run->least[0] / run->least[1] : 0.0, speed = 0.0, turn = 0.0, far[2] = {0.0, 0.0};
+    double size = run->least[1] > 0.0 ? run->least[0] / run->least[1] : 0.0, far[2] = {0.0, 0.0};
+    double speed = 0.0, turn = 0.0;
     const double rtol = audit_tolerance(run);
     to_absolute(t, y, &run->memory, p, all);
     for (int k = 0; k < N_Q; k++) {
@@ -124,7 +125,7 @@ static double states_near(const Run *run, double t, const double *y, const doubl
     return after - before;
 }
 
-/* Whether rates are not those of the state itself, or positions that differ by AUDIT_CLOSURE change accelerations `a` of all bodies, by their scales, as much. */
+/* Whether rates are not those of the state itself, or small changes of positions change accelerations `a` as much. */
 static int is_sensitive(Run *run, double t, const double *y, const double *a, const double *scale, double share,
     const Parameters *p)
 {
@@ -135,7 +136,7 @@ static int is_sensitive(Run *run, double t, const double *y, const double *a, co
         return 1; /* near a singular position rates are continued from both sides of it */
     const double size = run->least[1] > 0.0 ? run->least[0] / run->least[1] : 1.0;
     for (int k = 0; k < N_Y; k++)
-        state[k] = y[k] + (k < N_X ? AUDIT_CLOSURE * (is_angle[k] ? 1.0 : size) * (2.0 * draw(&run->audit) - 1.0) : 0.0);
+        state[k] = k < N_X ? y[k] + AUDIT_CLOSURE * (is_angle[k] ? 1.0 : size) * (2.0 * draw(&run->audit) - 1.0) : y[k];
     if (absolute_accelerations(t, state, &run->memory, p, other))
         return 1;
     for (int k = 0; k < N_Q; k++)
@@ -146,8 +147,8 @@ static int is_sensitive(Run *run, double t, const double *y, const double *a, co
 #endif
 
 /*
- * Accelerations `dy` of the tree against those that follow from the equations of all bodies. The tree's accelerations of
- * all bodies are differences of velocities, (v(t + h) - v(t - h))/(2 h), which no function of accelerations makes. Where
+ * Accelerations `dy` of the tree against those that follow from the equations of all bodies. The tree's accelerations
+ * of all bodies are differences of velocities, (v(t + h) - v(t - h))/(2 h). Where
  * second differences say that h is too long, as near a singular position, h is shorter, or nothing is compared.
  */
 static void check_accelerations(Run *run, double t, const double *y, const double *dy, const Parameters *p)
@@ -226,81 +227,16 @@ static void check_joints(Run *run, double t, const Aside *aside, const Parameter
 }
 
 /* Branches that a step holds, at a state inside it: how far each function lies on the wrong side. */
-static void check_branches(Run *run, const Step *step, double t, const double *y, const Aside *aside, const Parameters *p)
+static void check_branches(Run *run, const Step *step, double t, const double *y, const Aside *aside,
+    const Parameters *p)
 {
     for (int k = 0; k < N_SWITCHES; k++) {
         const double g = run->memory.side[k] * aside->g[k];
         run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(g));
-        if (!step->passed[k] && k != run->skip && !meets[k] && g < 0.0 && run->steps > AUDIT_SETTLED
+        /* where branches meet, a step may hold the wrong one near the switching point */
+        const double share = k == run->skip || meets[k] ? 0.05 : 1e-3;
+        if (!step->passed[k] && g < -share * run->audit.switch_scale[k] && run->steps > AUDIT_SETTLED
             && is_resolved(run, t, y, aside, N_CLEARANCES + k, p))
-            record(&run->audit, BRANCH_CHECK, -g, 1e-3 * run->audit.switch_scale[k], t, k);
+            record(&run->audit, BRANCH_CHECK, -g, share * run->audit.switch_scale[k], t, k);
     }
-}
-
-/*
- * Event i at the end of a step before which `listed` events were recorded: a zero is recorded, and nothing is recorded
- * again and again while the expression is rounding.
- */
-static void check_event(Run *run, int i, int listed)
-{
-    Audit *audit = &run->audit;
-    const double before = audit->event_before[i], now = run->aside.event[i];
-    const int ended = audit->ended == i && fabs(before) > AUDIT_NOISE * audit->event_scale[i]
-        && fabs(now) < AUDIT_ZERO * fabs(before) && event_direction[i] * before <= 0.0;
-    int found = 0;
-    for (int k = listed; k < run->n_events; k++)
-        found |= run->event[k] == i;
-    if ((ended || audit->crossed[i]) && !found)
-        record(audit, EVENT_CHECK, INFINITY, 1.0, run->t, i);
-    audit->noise[i] = found && !audit->away[i] ? audit->noise[i] + 1 : found ? 0 : audit->noise[i];
-    if (audit->noise[i] >= AUDIT_WRONG)
-        record(audit, EVENT_CHECK, INFINITY, 1.0, run->t, i);
-    audit->away[i] = found ? 0 : audit->away[i];
-    audit->crossed[i] = 0;
-}
-
-/* The end of a step that was taken, before which `listed` events were recorded. Returns 0, or AUDITED. */
-static int audit_state(Run *run, int listed, const Parameters *p)
-{
-    Audit *audit = &run->audit;
-    if (!audit->level || (!TREE && run->least[1] == 0.0))
-        return 0; /* in rk4's absolute coordinates Baumgarte's terms let rows drift */
-    check_closed(run);
-    check_joints(run, run->t, &run->aside, p);
-    if (N_CHAIN)
-        check_rows(run, run->t, run->y, 0, p);
-    for (int i = 0; i < N_CLEARANCES; i++)
-        if (!run->memory.latch[i].closed && gives(i) && !has_film(i))
-            record(audit, FREE_CHECK, total_force(&run->aside.clearance[i]), max_of(1e-6 * run->F_peak[i], 1e-300),
-                run->t, i);
-    for (int k = 0; k < N_SWITCHES && run->memory.held; k++) {
-        const double g = run->memory.side[k] * run->aside.g[k], scale = audit->switch_scale[k];
-        audit->switch_scale[k] = max_of(scale, fabs(g));
-        audit->wrong[k] = (unsigned char)(g < -1e-3 * scale && k != run->skip ? min_of(audit->wrong[k] + 1, 100) : 0);
-        if (audit->wrong[k] >= AUDIT_WRONG && is_resolved(run, run->t, run->y, &run->aside, N_CLEARANCES + k, p))
-            record(audit, BRANCH_CHECK, -g, 1e-4 * audit->switch_scale[k], run->t, k);
-    }
-    for (int i = 0; i < N_USER_EVENTS; i++)
-        check_event(run, i, listed);
-    audit->ended = -1;
-    return audit->status;
-}
-
-void gudgeon_run_audit(void *memory, int level)
-{
-    ((Run *)memory)->audit = (Audit){.level = level, .random = 1u, .due = 2};
-    for (int k = 0; k < N_CHECKS; k++)
-        ((Run *)memory)->audit.record[k].where = -1;
-}
-
-/* Of each check the largest value as a multiple of its limit, its time, and where it was. Returns how many checks. */
-int gudgeon_run_audited(const void *memory, double *worst, double *t, int *where)
-{
-    const Run *run = memory;
-    for (int k = 0; k < N_CHECKS; k++) {
-        worst[k] = run->audit.record[k].worst;
-        t[k] = run->audit.record[k].t;
-        where[k] = run->audit.record[k].where;
-    }
-    return N_CHECKS;
 }

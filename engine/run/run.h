@@ -149,6 +149,7 @@ typedef struct {
     long steps, evaluations, onsets, grazes, switches, rejected, jacobians, stiff_steps;
     double phi_max, phi_dot_max, ratio_min, ratio_max, ratio_outside;
     /* of methods that choose their step (adaptive.c) */
+    double last_step; /* s, up to an event where one ended it */
     double h, fixed, accept, stability, error_before, steep, h_stiff, t_crossed, pace;
     /* lengths that fit a first step: after a contact begins or ends (others being closed), at a side of a corner; the
      * one that the next step tells, and of which power of its length such a step's error is (0: the method's) */

@@ -73,7 +73,8 @@ static int note_leaps(Run *run, const double *before, const Parameters *p)
 
 #if N_USER_EVENTS
 /* Event functions `ahead` s beyond a state, straight on; 0 for those that are below their uncertainty there. */
-static int events_ahead(Run *run, double t, double ahead, const double *y, const double *dy, const Parameters *p, double *value)
+static int events_ahead(Run *run, double t, double ahead, const double *y, const double *dy, const Parameters *p,
+    double *value)
 {
     double there[N_Y], scrap[N_Y];
     Aside aside;

@@ -7,7 +7,7 @@
 #include "functions.h"
 
 #define PI 3.141592653589793
-/* Smaller numbers, among them the subnormal ones, may have fewer digits than others: no quotient of them is compared. */
+/* Smaller numbers, among them subnormal ones, may have fewer digits than others: no quotient of them is compared. */
 #define MIN_RESOLVED (DBL_MIN / DBL_EPSILON)
 
 /* min, max, sign that keep a NaN in x. */

@@ -9,7 +9,7 @@
  * Of a body whose moment of inertia is small beside m s^2, or 0, M is no measure: another one stands for it. What the
  * rows leave free then follows from M along an orthonormal basis Z of it: Z^T M Z z = Z^T (g - M a) of the a so far.
  */
-#define LEAST_INERTIA 1e-3 /* of m s^2, s the longest arm of a joint: the least that a moment of inertia counts in the measure */
+#define LEAST_INERTIA 1e-3 /* of m s^2, s the longest arm of a joint: the least that an inertia counts in the measure */
 
 typedef struct {
     double basis[N_Q][N_Q];                              /* orthonormal rows found so far, then what they leave free */
@@ -17,7 +17,8 @@ typedef struct {
     double lower[AT_LEAST_ONE(N_ROWS)][AT_LEAST_ONE(N_ROWS)];          /* row i = sum over k of lower[i][k] basis[k] */
     double all[N_ALL_ROWS][N_Q], root[N_Q], y[N_Q], along[AT_LEAST_ONE(N_ROWS)], rest[AT_LEAST_ONE(N_ROWS)];
     double norm[AT_LEAST_ONE(N_ROWS)];
-    double share[N_Q], force[N_Q], free[N_Q][N_Q], z[N_Q]; /* M over the measure, M^(-1/2) g, Z^T M Z and its solution */
+    /* M over the measure, M^(-1/2) g, Z^T M Z and its solution */
+    double share[N_Q], force[N_Q], free[N_Q][N_Q], z[N_Q];
     int order[AT_LEAST_ONE(N_ROWS)], light;
     Asked *asked;
 } Workspace;

@@ -4,6 +4,8 @@
  * the wrong side of zero is not lost.
  */
 
+#define LONG_STEP 7.0 /* times the last one, that a step is as long as: a rule of lengths lets it grow by less */
+enum { N_INNER_SAMPLES = 8 };
 #define HARMLESS 0.1 /* of the tolerance, that the wrong branch of a corner may change a step */
 
 /* To the other side with the corners that are passed, or back. */
@@ -17,7 +19,8 @@ static void turn_passed(Run *run, const Step *step)
 /*
  * Corners of contact laws that the step crossed for good, near enough to its end: their branches meet, so that what
  * the held one did wrong is at most the step times what the rates differ by at its end. Where that is harmless the
- * step stays as it is, and what follows begins on the other side.
+ * step stays as it is, and what follows begins on the other side. The same holds for a corner that is left alone
+ * (pace_corner): beyond it the step may be long.
  */
 static int pass_corners(Run *run, Step *step, const Parameters *p)
 {
@@ -27,7 +30,8 @@ static int pass_corners(Run *run, Step *step, const Parameters *p)
     step->harm = INFINITY;
     for (int k = 0; k < N_SWITCHES; k++) {
         const int margin_of = N_CLEARANCES + k;
-        step->passed[k] = meets[k] && watched_as[margin_of] < 0 && margin(&run->memory, &step->aside, margin_of) < 0.0;
+        const int may_pass = k == run->skip || (meets[k] && watched_as[margin_of] < 0);
+        step->passed[k] = may_pass && margin(&run->memory, &step->aside, margin_of) < 0.0;
         crossed |= step->passed[k];
     }
     if (!crossed)
@@ -50,6 +54,7 @@ static int pass_corners(Run *run, Step *step, const Parameters *p)
     }
     for (int k = 0; k < N_SWITCHES; k++)
         step->passed[k] = 0;
+    run->skip = -1; /* one that was to be left alone as well: its wrong branch does harm */
     return 0;
 }
 
@@ -223,6 +228,29 @@ static int is_pole(Run *run, const Step *step, double share, int k, const Parame
         || is_resolved(run, step->t + share * step->h, y, &aside, k, p);
 }
 
+/*
+ * The first event of a step in contact that is far longer than the one before: margins may cross zero and return
+ * between its stages, of which those of stiff methods lie far from the motion. The dense output is sampled up to the
+ * first event that was found.
+ */
+static double first_in_long_step(Run *run, Step *step, double share, const Parameters *p, int *event)
+{
+    int closed = 0;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        closed |= run->memory.latch[i].closed;
+    if (!closed || !(share * step->h > LONG_STEP * run->last_step) || run->fixed > 0.0 || make_dense(run, p, step))
+        return share;
+    for (int i = 1; i < N_INNER_SAMPLES; i++) {
+        int earlier = -1;
+        const double first = earlier_event(run, step, share * i / N_INNER_SAMPLES, p, &earlier);
+        if (earlier >= 0) {
+            *event = earlier;
+            return first;
+        }
+    }
+    return share;
+}
+
 /* The first share of the step at which something ends it, and what (-1: nothing, share 1). */
 static double first_event(Run *run, Step *step, const Parameters *p, int *event)
 {
@@ -235,6 +263,7 @@ static double first_event(Run *run, Step *step, const Parameters *p, int *event)
             step->passed[k] = 0;
         share = first_counting(run, step, p, event);
     }
+    share = first_in_long_step(run, step, share, p, event);
     run->pole = *event >= N_MARGINS - N_USER_EVENTS && is_pole(run, step, share, *event, p);
     return share;
 }

@@ -15,7 +15,8 @@ from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, with_s
 from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE, ZERO, acting_on
 from gudgeon.generator.ir.statements import Call, Jump, Rescue, Return, Statement, Status, When
 from gudgeon.generator.ir.values import Place, Sum, Test
-from gudgeon.generator.solvers.kkt import KKT, LEAST, LEAST_SIZE, friction_mode
+from gudgeon.generator.solvers.kkt import KKT
+from gudgeon.generator.solvers.pivots import LEAST, LEAST_SIZE, friction_mode
 
 _DOC = (
     "Accelerations a (n) and multipliers in `aside` at a state:",

@@ -8,7 +8,8 @@ from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, with_s
 from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE
 from gudgeon.generator.ir.statements import Largest, Return
 from gudgeon.generator.ir.values import Place
-from gudgeon.generator.solvers.kkt import KKT, LEAST_SIZE
+from gudgeon.generator.solvers.kkt import KKT
+from gudgeon.generator.solvers.pivots import LEAST_SIZE
 
 
 def projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple[Kernel, KKT]:

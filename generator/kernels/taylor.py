@@ -15,7 +15,8 @@ from gudgeon.generator.kernels.dynamics import dynamics_kernel
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kernels.reduced import DYNAMICS, is_rescued
 from gudgeon.generator.reduction.reduction import TreeSystem
-from gudgeon.generator.solvers.kkt import FACTORS, KKT, SINGULAR, VANISHING, ZERO, Factor
+from gudgeon.generator.solvers.kkt import FACTORS, KKT
+from gudgeon.generator.solvers.pivots import SINGULAR, VANISHING, ZERO, Factor
 
 NAME = "taylor"
 

@@ -14,8 +14,8 @@ from gudgeon.generator.ir.kernels import KernelBuilder
 from gudgeon.generator.ir.statements import Guard
 from gudgeon.generator.ir.values import Chosen, Test
 from gudgeon.generator.solvers.dependent_coordinates import is_unit
-from gudgeon.generator.solvers.kkt import SINGULAR, is_simple
 from gudgeon.generator.solvers.linearization import Pair
+from gudgeon.generator.solvers.pivots import SINGULAR, is_simple
 from gudgeon.generator.symbols.corners import Size
 
 if TYPE_CHECKING:

@@ -10,8 +10,6 @@ independent of the others. In absolute coordinates most rows give a coordinate b
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from itertools import pairwise
 
 import sympy as sp
 
@@ -19,43 +17,23 @@ from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import KernelBuilder
 from gudgeon.generator.ir.statements import Guard
-from gudgeon.generator.ir.values import Chosen, Place, Test, Threshold
+from gudgeon.generator.ir.values import Chosen, Test, Threshold
 from gudgeon.generator.solvers.dependent_coordinates import FirstPivots, is_unit
+from gudgeon.generator.solvers.pivots import (
+    EARLY,
+    LIGHT_PIVOT,
+    SINGULAR,
+    VANISHING,
+    ZERO,
+    Factor,
+    named,
+    pivot_guard,
+    row_pairs,
+)
 from gudgeon.generator.sparsity.elimination import Elimination, choose_elimination
 
-ZERO = sp.Integer(0)
 Entries = dict[tuple[int, int], sp.Expr]
 FACTORS = "L D L^T of the KKT matrix"  # title of a section
-
-# A row counts as dependent when less than this share of its pivot is left after elimination: the
-# share is the squared sine of the angle between the row and the others, rounding leaves some 1e-15.
-SINGULAR = Threshold("SINGULAR", 1e-13)
-# Below this share the row is nearly dependent: drift δ of the constraints would act as δ/share^(1/2) there.
-# The rank-revealing way (engine/scene/singular.c) leaves it out for the moment if the others agree.
-NEARLY_SINGULAR = Threshold("NEARLY_SINGULAR", 1e-8)
-# Share of a joint's two rows that is left of one of them where it counts as vanished: their size is the squared sine
-# of the angle to the singular position, and within 1e-5 of it rounding decides where things go.
-VANISHING = Threshold("VANISHING", 1e-10)
-# The same for a pair of rows that goes before all of its coordinates: rounding grows by the inverse of the share,
-# and the other way to solve is exact.
-EARLY = Threshold("EARLY", 1e-5)
-# Share of what turns with an angle that elimination must leave of its entry of M: rounding grows by the inverse.
-LIGHT_PIVOT = Threshold("LIGHT_PIVOT", 1e-6)
-# The same two where a run may ask for more: the memory of a state says how much (engine/motion/beside.c).
-LEAST = Threshold(NEARLY_SINGULAR.name, NEARLY_SINGULAR, "memory->least")
-LEAST_SIZE = Threshold(VANISHING.name, VANISHING, "memory->least_size")
-
-
-@dataclass(frozen=True)
-class Factor:
-    """L by (row node, column node), D⁻¹ by nodes: numbers, symbols, or negatives of symbols.
-
-    D has blocks of one and of two nodes: two that follow each other and couple need one division, not one
-    after the other.
-    """
-
-    L: Mapping[tuple[int, int], sp.Expr]
-    inverse: Mapping[int, Mapping[int, sp.Expr]]
 
 
 class KKT:
@@ -78,7 +56,7 @@ class KKT:
             near[r].add(c)
             near[c].add(r)
         pattern = tuple(map(frozenset, near))
-        pairs = self._row_pairs(pattern) if daring else {}
+        pairs = row_pairs(self.rows, self.n, pattern) if daring else {}
         self.first = FirstPivots(system, self.rows)
         self.elimination: Elimination = choose_elimination(
             pattern, self.n, self.first_friction, pairs, self.first.order, self.first.partner
@@ -91,14 +69,6 @@ class KKT:
         self.turning = self._turning() if self.rows and not system.model.rows_change else {}
         if not system.in_tree:
             self.pivots += tuple(system.model.symbols.info[system.q[k]].meaning for k in self.turning)
-
-    def _row_pairs(self, pattern: Sequence[frozenset[int]]) -> dict[int, int]:
-        """Two rows of a joint in the same coordinates, of which there are more than two."""
-        pairs: dict[int, int] = {}
-        for r, (row, other) in enumerate(pairwise(self.rows), self.n):
-            if row.owner == other.owner and r not in pairs and pattern[r] == pattern[r + 1] and len(pattern[r]) > 2:
-                pairs |= {r: r + 1, r + 1: r}
-        return pairs
 
     def _blocks(self) -> list[list[int]]:
         """Pivots that follow each other, both changed by elimination and coupled, two by two; coordinates with rows."""
@@ -145,10 +115,10 @@ class KKT:
                     shared = [j for j in earlier[k] if (i, j) in L]
                     value = self.entry.get((i, k), self.entry.get((k, i), ZERO))
                     value -= sum((L[i, j] * W[k, j] for j in shared), ZERO)
-                    W[i, k] = self._named(build, f"w_{self.names[i]}__{self.names[k]}", value)
+                    W[i, k] = named(build, f"w_{self.names[i]}__{self.names[k]}", value)
                 for k in block:
                     value = sum((W[i, j] * entry for j, entry in inverse[k].items()), ZERO)
-                    L[i, k] = self._named(build, f"l_{self.names[i]}__{self.names[k]}", value)
+                    L[i, k] = named(build, f"l_{self.names[i]}__{self.names[k]}", value)
             for i in later:
                 earlier[i] += block
         return Factor(L, inverse)
@@ -177,7 +147,7 @@ class KKT:
         entry = self.entry[row, k]
         over = entry if is_unit(entry) else self.system.model.slots.derive(f"inverse_{self.names[row]}", 1 / entry)
         mass = self.system.mass[k, k] - sum((L[k, j] * W[k, j] for j in earlier[k]), ZERO)
-        mass = self._named(build, f"inertia_{self.names[k]}", mass)
+        mass = named(build, f"inertia_{self.names[k]}", mass)
         return {k: {row: over}, row: {k: over, row: -mass if is_unit(entry) else -mass * over**2}}
 
     def _pair(
@@ -202,14 +172,14 @@ class KKT:
         size = [self._size(build, k, own) for k, own in zip(block, scale, strict=rows)]
         pivots = [left(k, k, lambda j: j >= self.n or not rows) for k in block]
         values = [own + of for own, of in zip(scale, pivots, strict=True)] if rows else pivots
-        own = [self._named(build, f"pivot_{name[i]}", value) for i, value in enumerate(values)]
-        cross = self._named(build, f"pivot_{name[0]}__{name[1]}", left(second, first, lambda j: True))
+        own = [named(build, f"pivot_{name[i]}", value) for i, value in enumerate(values)]
+        cross = named(build, f"pivot_{name[0]}__{name[1]}", left(second, first, lambda j: True))
         determinant = build.local(f"determinant_{name[0]}__{name[1]}", own[0] * own[1] - cross**2)
         if rows:
             early = any(i < self.n for i in self.elimination.structure[second])
             share = max(shares[0], EARLY) if early else shares[0]
-            build.line(_guard(failing, 1, own[0], share, size[0]))
-            build.line(_guard(failing, 2, determinant, share, size[1], own[0]))
+            build.line(pivot_guard(failing, 1, own[0], share, size[0]))
+            build.line(pivot_guard(failing, 2, determinant, share, size[1], own[0]))
             self._look_for_vanishing(build, block, scale, (own[0], determinant), (*failing, shares[1]))
         elif failing[0]:
             self._look_for_light(build, first, own[0])
@@ -248,8 +218,8 @@ class KKT:
             return
         size = build.local(f"size_{self.names[block[0]]}", scale[0] + scale[1])
         *failed, least = failing
-        build.line(_guard(failed, 1, found[0], least, size))
-        build.line(_guard(failed, 2, found[1], least, size, found[0]))
+        build.line(pivot_guard(failed, 1, found[0], least, size))
+        build.line(pivot_guard(failed, 2, found[1], least, size, found[0]))
 
     def _coordinate_pivot(
         self, build: KernelBuilder, k: int, earlier: Sequence[int],
@@ -259,7 +229,7 @@ class KKT:
         mass = self.system.mass[k, k]
         if jumps and k in self.turning:
             value = mass - sum((L[k, j] * W[k, j] for j in earlier), ZERO)
-            pivot = value if is_simple(value) else build.local(f"pivot_{self.names[k]}", value)
+            pivot = named(build, f"pivot_{self.names[k]}", value)
             self._look_for_light(build, k, pivot)
             constant = self.system.model.slots.is_constant(mass)
             if earlier or not constant or self.system.model.slots.default(mass) <= 0.0:
@@ -302,10 +272,6 @@ class KKT:
         build.line(Guard(test, number, jumps, sticks))
         return -build.local(f"inverse_pivot_{name}", Chosen(sticks, 1 / pivot, ZERO))
 
-    @staticmethod
-    def _named(build: KernelBuilder, name: str, value: sp.Expr) -> sp.Expr:
-        return value if is_simple(value) else build.local(name, value)
-
     def solve(
         self, build: KernelBuilder, factor: Factor, b: Mapping[int, sp.Expr], prefix: str = ""
     ) -> dict[int, sp.Expr]:
@@ -319,7 +285,7 @@ class KKT:
             value = b.get(k, sp.Integer(0)) - sum(
                 (factor.L[k, j] * z[j] for j in columns[k] if z[j] != 0), sp.Integer(0)
             )
-            z[k] = self._named(build, f"{prefix}z_{self.names[k]}", value)
+            z[k] = named(build, f"{prefix}z_{self.names[k]}", value)
         build.section("backward substitution")
         x: dict[int, sp.Expr] = {}
         for k in reversed(self.elimination.order):
@@ -328,21 +294,3 @@ class KKT:
             kind = "acceleration" if k < self.n else "lambda"
             x[k] = build.local(f"{prefix}{kind}_{self.names[k]}", value)
         return x
-
-
-def friction_mode(build: KernelBuilder, name: str, index: int) -> tuple[sp.Symbol, sp.Symbol]:
-    """1 in stick and 0 else, and the sign of a slip (0: none)."""
-    mode = build.local(f"mode_{name}", Place(f"memory->mode[{index}]"), "0 stick, 1 or -1 the sign of the slip, 2 held")
-    stick = build.local(f"stick_{name}", Chosen(Test(mode, "==", (0.0,)), sp.Integer(1), ZERO))
-    return stick, build.local(f"sign_{name}", Chosen(Test(mode, ">", (1.0,), size=True), ZERO, mode))
-
-
-def _guard(failing: Sequence[int], which: int, value: sp.Expr, *bound: sp.Expr | float) -> Guard:
-    """Pivot `which` of a block, behind so many rows, fails unless the value is above the bound."""
-    jumps, count = failing
-    return Guard(Test(value, ">", bound), count + which, bool(jumps))
-
-
-def is_simple(value: sp.Expr) -> bool:
-    """A number, a symbol or its negative: cheaper written in place than named."""
-    return bool(value.is_Number or value.is_Symbol or (-value).is_Symbol)

@@ -30,7 +30,7 @@ from gudgeon.generator.ir.kernels import KernelBuilder
 from gudgeon.generator.ir.signatures import acting_on
 from gudgeon.generator.ir.statements import Call, Declare
 from gudgeon.generator.ir.values import Chosen, Place, Test
-from gudgeon.generator.solvers.kkt import friction_mode
+from gudgeon.generator.solvers.pivots import friction_mode
 from gudgeon.generator.symbols.symbols import Symbols
 
 ZERO = sp.Integer(0)

@@ -37,8 +37,8 @@ from gudgeon.generator.ir.stored_values import Pool
 from gudgeon.generator.ir.values import Place
 from gudgeon.generator.solvers.dependent_coordinates import FirstPivots
 from gudgeon.generator.solvers.factors import ETA, ETA_ROW, ETA_STICK, Factors
-from gudgeon.generator.solvers.kkt import is_simple
 from gudgeon.generator.solvers.linearization import N_WORK, Linearization, Pair, Parts
+from gudgeon.generator.solvers.pivots import is_simple
 from gudgeon.generator.sparsity.elimination import choose_elimination
 
 ZERO = sp.Integer(0)

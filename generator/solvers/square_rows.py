@@ -19,7 +19,7 @@ from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import KernelBuilder
 from gudgeon.generator.ir.statements import Call, Declare, Guard
 from gudgeon.generator.ir.values import Place, Test, Threshold
-from gudgeon.generator.solvers.kkt import SINGULAR
+from gudgeon.generator.solvers.pivots import SINGULAR
 from gudgeon.generator.sparsity.matching import Block, triangular_blocks
 from gudgeon.generator.symbols.corners import Size
 

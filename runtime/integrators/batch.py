@@ -56,8 +56,7 @@ class Runs:
 
     def __init__(
         self, compiled: CompiledModel, p: Array, motion: Array, times: Times, method: str, step: Array, rtol: float,
-        stop: bool, audit: int, side_by_side: bool, threads: int,
-        over: Callable[[Runs, Sequence[int]], None] | None = None,
+        stop: bool, audit: int, side_by_side: bool, threads: int, over: Callable[..., None] | None = None,
     ) -> None:  # fmt: skip
         self.compiled, self.method, self.times, self.threads, self.over = compiled, method, times, threads, over
         n, N, size, nc = len(p), times.most, 2 * compiled.n + N_WORK, max(len(compiled.source.clearances), 1)
@@ -83,9 +82,8 @@ class Runs:
             "done": np.zeros(n, np.int_), "status": np.zeros(n, np.intc),
             "t_last": np.full(n, np.nanmin(times.t)), "last": np.full((n, size), np.nan), "seconds": np.zeros(n),
             "counts": np.zeros((n, N_COUNTS), np.int_), "residuals": np.full((n, 4), np.nan),
-            "peaks": np.full((n, nc, 3), np.nan), "audited": np.zeros((n, len(CHECKS))),
+            "peaks": np.full((n, nc, 3), np.nan), "ending": np.zeros(1, np.intc), "audited": np.zeros((n, len(CHECKS))),
             "audited_t": np.zeros((n, len(CHECKS))), "audited_where": np.full((n, len(CHECKS)), -1, np.intc),
-            "ending": np.zeros(1, np.intc),
         }  # fmt: skip
         self.arrays = {name: np.ascontiguousarray(array) for name, array in self.arrays.items()}
         self.struct = self._struct(math.isfinite(step[0]), stop, audit, rtol)
@@ -245,18 +243,17 @@ class Runs:
 
     def _failure(self, i: int) -> GudgeonError:
         """What ended run i, as a single run says it."""
-        if self.arrays["status"][i] == AUDITED:
-            return audit_failure(self.findings(i))
         x = {name: self.arrays[name][i] for name in ("status", "t_last", "last", "peaks", "p_motion", "step")}
         advice = adaptive.ADVICE if self.method != "rk4" else rk4.ADVICE.format(float(x["step"]))
         joints = len(self.compiled.source.clearances)
         numbers = (int(x["status"]), float(x["t_last"]), advice, x["last"], x["peaks"][:joints, 2], x["p_motion"])
+        if x["status"] == AUDITED:
+            return audit_failure(self.findings(i))
         return failure(self.compiled, self.method, *numbers, float(x["step"]) if self.method == "rk4" else 0.0)
 
     def findings(self, i: int) -> tuple[Finding, ...]:
         """What the audit of run i found."""
-        x = (self.arrays[name][i] for name in ("audited", "audited_t", "audited_where"))
-        return as_findings(self.compiled.source, *x)
+        return as_findings(self.compiled.source, *(self.arrays[f"audited{x}"][i] for x in ("", "_t", "_where")))
 
     def impacts_of(self, i: int) -> NDArray[Any]:
         """IMPACT_DTYPE, the contacts of run i by their onset."""

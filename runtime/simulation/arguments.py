@@ -7,7 +7,6 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gudgeon.contract.audit import LEVELS
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, KINEMATIC, SMOOTH, STAGED, STAGES
 from gudgeon.errors import AssemblyError, BadValueError
@@ -29,13 +28,6 @@ DEFAULT_OUTPUT, MOST_OUTPUT = 1000, 10**8
 OUTPUT = f"a whole number of intervals, 1 to {MOST_OUTPUT:.0e}, or times (s)"
 MOST_TRUTHS = 10**4  # entries of a list that are looked at one by one
 NEAREST, SHORTEST, FURTHEST = 1024, 1e-290, 1e18  # roundings between start and end; s, of a run
-
-
-def audit_level(audit: bool | str) -> int:
-    """Return the level of the audit for C. BadValueError for anything but True, False and "full"."""
-    if isinstance(audit, (bool, np.bool_, str)) and audit in LEVELS:
-        return LEVELS[audit]
-    raise BadValueError(f"audit is {told(audit)}: expected True, False or 'full'", hint="audit=True is the default")
 
 
 def seconds(name: str, value: float | str) -> float:

@@ -11,8 +11,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gudgeon.contract.audit import FAILS, Finding
+from gudgeon.contract.audit import FAILS, LEVELS, Finding
+from gudgeon.errors import BadValueError
 from gudgeon.integrators.trajectory import Problem, Trajectory
+from gudgeon.language.wanted import told
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.model.evaluation import Evaluation
 from gudgeon.model.sizes import mechanism_sizes
@@ -25,6 +27,13 @@ ENOUGH = 20  # samples from which on the energy that was turned over is known
 LEAST = 1e-250  # J: works of a motion that hardly leaves zero have no digits
 FORCE = 1e-6  # of a joint's largest force, that an open joint may seem to bear
 PEAK = 1e-2  # of the largest force of its contacts, that the peak of a joint may exceed it by
+
+
+def audit_level(audit: bool | str) -> int:
+    """Return the level of the audit for C. BadValueError for anything but True, False and "full"."""
+    if isinstance(audit, (bool, np.bool_, str)) and audit in LEVELS:
+        return LEVELS[audit]
+    raise BadValueError(f"audit is {told(audit)}: expected True, False or 'full'", hint="audit=True is the default")
 
 
 def audit_samples(

@@ -11,11 +11,12 @@ import numpy as np
 
 from gudgeon.assembly.redundant_rows import contradiction
 from gudgeon.errors import SolverError
+from gudgeon.integrators.audit import audit_failure
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.written import with_odd_outputs
 from gudgeon.results.results import Result
-from gudgeon.simulation.audit import audit_samples
+from gudgeon.simulation.audit import audit_samples, failed
 from gudgeon.simulation.diagnose import diagnose, energy_balance, unbalanced
 from gudgeon.waiting.asking import EVERY
 from gudgeon.waiting.ctrl_c import CtrlC
@@ -93,9 +94,13 @@ def _look(problem: Problem, interrupted: bool, soon: bool) -> Callable[[], None]
 
 
 def contradicted(problem: Problem, trajectory: Trajectory, result: Result) -> tuple[Result, SolverError | None]:
-    """The run, marked as interrupted where Ctrl-C comes meanwhile, and the contradiction of its constraints, if any."""
+    """The run, marked as interrupted where Ctrl-C comes meanwhile, and the contradiction of its constraints, or the
+
+    failure of its audit, if any.
+    """
+    found = result.diagnostics.audit
     try:
-        return result, contradiction(problem, trajectory)
+        return result, contradiction(problem, trajectory) or (audit_failure(found) if failed(found) else None)
     except KeyboardInterrupt:
         return _interrupted(result), contradiction(problem, replace(trajectory, interrupted=True))
 

@@ -32,7 +32,8 @@ from gudgeon.results.batch import Batch, States, as_failures, given_values
 from gudgeon.results.batch_series import STATES, parts_of, wanted_names
 from gudgeon.results.peaks import peaks_of
 from gudgeon.results.results import Result, State
-from gudgeon.simulation.arguments import audit_level, method_of
+from gudgeon.simulation.arguments import method_of
+from gudgeon.simulation.audit import audit_level
 from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude
 from gudgeon.simulation.diagnose import may_not_hold, not_held

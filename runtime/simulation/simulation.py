@@ -18,7 +18,6 @@ from gudgeon.assembly.redundant_rows import check_start
 from gudgeon.assembly.start import Start, assemble
 from gudgeon.errors import BadValueError, InputError, SolverError
 from gudgeon.integrators import adaptive
-from gudgeon.integrators.audit import audit_failure
 from gudgeon.integrators.peers import driver as python_driver
 from gudgeon.integrators.trajectory import Problem, Progress
 from gudgeon.language.wanted import flag, function, text
@@ -27,17 +26,8 @@ from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import taken_contours
 from gudgeon.model.parameters import prepare, prepare_slots, without_baumgarte
 from gudgeon.model.room import check_room
-from gudgeon.simulation.arguments import (
-    MAX_STEPS,
-    METHODS,
-    audit_level,
-    derived_for,
-    end_of,
-    method_of,
-    output_times,
-    step_of,
-)  # fmt: skip
-from gudgeon.simulation.audit import failed
+from gudgeon.simulation.arguments import MAX_STEPS, METHODS, derived_for, end_of, method_of, output_times, step_of
+from gudgeon.simulation.audit import audit_level
 from gudgeon.simulation.beside import check_beside
 from gudgeon.simulation.conclusion import conclude, contradicted, late
 from gudgeon.simulation.equations import Equations
@@ -92,9 +82,7 @@ class Simulation(Equations):
 
         Derived from the file when first asked for; InputError if that was edited since it was loaded.
         """
-        if self.source.formulation == "full":
-            return self
-        return self._loaded_as("full")
+        return self if self.source.formulation == "full" else self._loaded_as("full")
 
     def of_method(self, method: str, progress: Progress | None = None) -> Simulation:
         """The same scene as a method wants it: in absolute coordinates for cross-checks, with its series for `taylor`.
@@ -181,8 +169,7 @@ class Simulation(Equations):
         `run.peak_error("S9.y")` tells of the series less that scene's, from t = 0, with the same numbers.
         `contour`: {joint: depths (m)} by which bearings whose play has a `contour` in the file are deeper than their
         circles, at as many equal angles as there, from the x axis of the bearing's body on.
-        `audit`: True checks the result in the run by equations that the integration does not use (runtime/contract/
-        audit.py) and ends it with AuditError where one fails; "full" checks every step, False none.
+        `audit`: whether the run checks its own result (docs/python.md); "full": every step. AuditError where it fails.
 
         Raises InputError for arguments (ArrayError for arrays), AssemblyError for a start that does not close,
         SolverError when equations cannot be solved (`partial`: up to there), MemoryError before more than fits.
@@ -254,7 +241,6 @@ class Simulation(Equations):
         step and times; the numbers are the same without, and what that takes is compiled where it is worth it.
         `peaks`, `against`: as in `simulate`; `batch.peak("S9.ay")`. With rk4 such runs do not go side by side.
         `contour`: as in `simulate`, one for all runs, or (n, depths) with a row for each.
-
         Raises InputError for arguments, MemoryError as `simulate`.
         """
         from gudgeon.simulation.simulate_many import simulate_many
@@ -301,8 +287,6 @@ class Simulation(Equations):
             result, contradicts = contradicted(problem, trajectory, result)
             ended = trajectory.interrupted or trajectory.t[-1] < problem.t[-1]  # before the jump
             stopped = trajectory.stopped or contradicts or (None if ended else jump)
-            if stopped is None and failed(result.diagnostics.audit):
-                stopped = audit_failure(result.diagnostics.audit)
         result = late(ctrl_c, result)
         if stopped is not None:
             stopped.partial = result

@@ -94,7 +94,8 @@ def test_a_batch_counts_failed_audits(tmp_path: Path) -> None:
 
 # Each fault: the scene, what is put back, what the audit has to name.
 def crank(tmp_path: Path) -> Simulation:
-    numbers = ", r: 50 mm, L: 150 mm, m1: 0.3 kg, J1: 1e-4 kg*m^2, m2: 0.2 kg, J2: 4e-4 kg*m^2, m3: 0.3 kg, J3: 1e-4 kg*m^2"
+    numbers = ", r: 50 mm, L: 150 mm, m1: 0.3 kg, m2: 0.2 kg, m3: 0.3 kg"
+    numbers += ", J1: 1e-4 kg*m^2, J2: 4e-4 kg*m^2, J3: 1e-4 kg*m^2"
     text = HEAD.format(name="machine", numbers=numbers, law="flores", play="crankpin: {bearing: pin, contact: dry}")
     file = tmp_path / "machine.yaml"
     file.write_text(text.replace("gravity: [0, -9.81]\n", "") + SLIDER_CRANK)
@@ -133,22 +134,20 @@ def test_torques_that_are_wrong(tmp_path: Path) -> None:
     assert "check torque" in reported(wrong, 0.1) or "check power" in reported(wrong, 0.1)
 
 
-def test_film_forces_that_the_tolerance_does_not_hold(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Velocities may err by so much that the force of a thin film means nothing."""
+def test_film_forces_that_the_tolerance_does_not_hold(tmp_path: Path) -> None:
+    """Velocities may err by so much that the force of a thin film means nothing: no number comes back."""
     film = loader(tmp_path)(FILM, "f")
-    found = {one.check: one.worst for one in film.simulate(0.05, output=20).diagnostics.audit}
-    assert found["force"] < 1.0
-    loose = film.simulate(0.05, output=20, rtol=1e-8)
-    assert not [note for note in loose.diagnostics.notes if note.startswith("audit:")]
+    with pytest.raises(gudgeon.AuditError, match="check force .* at joint B"):
+        film.simulate(0.05, output=20)
+    wide = film.simulate(0.05, output=20, parameters={"bearings.g.clearance": 2.5e-4})
+    assert not [note for note in wide.diagnostics.notes if note.startswith("audit:")]
 
 
-@pytest.mark.parametrize("edit, events", [
-    (("engine/watch/events.c", "run->pole = *event >= N_MARGINS - N_USER_EVENTS && is_pole(run, step, share, *event, p);",
-      "run->pole = *event >= N_MARGINS - N_USER_EVENTS;"), "zero: {zero: b.x}"),
-])  # fmt: skip
-def test_an_event_that_is_lost(edit: tuple[str, str, str], events: str, tmp_path: Path) -> None:
-    right = loader(tmp_path)(SPRING.format(events=events))
+def test_an_event_that_is_lost(tmp_path: Path) -> None:
+    """Every zero is taken for a pole."""
+    right = loader(tmp_path)(SPRING.format(events="zero: {zero: b.x}"))
     assert not reported(right, 2.0)
+    edit = ("engine/watch/events.c", "&& is_pole(run, step, share, *event, p);", ";")
     assert "check event" in reported(mutant(right, tmp_path, edit), 2.0)
 
 

@@ -63,14 +63,15 @@ static const unsigned char event_stops[] = {0};
 static const int guess_place[] = {5, 8, 11, 14, 17, 20};
 static const int set_place[] = {2};
 static const int rate_place[] = {0};
-static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
 static const int drive_row[] = {0};
+static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
 static const int kept_row[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19};
 static const int phi_q_first[] = {0, 2, 4, 6, 8, 10, 12, 14, 16, 20, 24, 28, 32, 36, 40, 44, 48, 52, 56, 60, 64};
 static const short phi_q_place[] = {0, 2, 1, 2, 6, 8, 7, 8, 12, 14, 13, 14, 18, 20, 19, 20, 0, 2, 3, 5, 1, 2, 4, 5, 3,
     5, 6, 8, 4, 5, 7, 8, 3, 5, 9, 11, 4, 5, 10, 11, 3, 5, 15, 17, 4, 5, 16, 17, 9, 11, 12, 14, 10, 11, 13, 14, 15, 17,
     18, 20, 16, 17, 19, 20};
 static const unsigned char is_angle[] = {1, 1, 1, 1, 1, 1, 1};
+static const unsigned char film_joint[] = {0};
 static const short watched[] = {0};
 static const short watched_as[] = {0};
 static const unsigned char meets[] = {0};

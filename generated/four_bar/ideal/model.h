@@ -63,12 +63,13 @@ static const unsigned char event_stops[] = {0};
 static const int guess_place[] = {5, 8};
 static const int set_place[] = {0};
 static const int rate_place[] = {0};
-static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 1, 0};
 static const int drive_row[] = {8};
+static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 1, 0};
 static const int kept_row[] = {0, 1, 2, 3, 4, 5, 6, 7, 8};
 static const int phi_q_first[] = {0, 2, 4, 8, 12, 16, 20, 22, 24, 25};
 static const short phi_q_place[] = {0, 2, 1, 2, 0, 2, 3, 5, 1, 2, 4, 5, 3, 5, 6, 8, 4, 5, 7, 8, 6, 8, 7, 8, 2};
 static const unsigned char is_angle[] = {1, 1};
+static const unsigned char film_joint[] = {0};
 
 /* The engine reads no further: scenes that have all this in common share its code. */
 

@@ -63,13 +63,14 @@ static const unsigned char event_stops[] = {0};
 static const int guess_place[] = {5, 8, 11, 14};
 static const int set_place[] = {2};
 static const int rate_place[] = {2};
-static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
 static const int drive_row[] = {0};
+static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
 static const int kept_row[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13};
 static const int phi_q_first[] = {0, 2, 4, 6, 8, 10, 12, 16, 20, 24, 28, 32, 36, 40, 44};
 static const short phi_q_place[] = {0, 2, 1, 2, 3, 5, 4, 5, 6, 8, 7, 8, 0, 2, 9, 11, 1, 2, 10, 11, 9, 11, 3, 5, 10, 11,
     4, 5, 3, 5, 12, 14, 4, 5, 13, 14, 12, 14, 6, 8, 13, 14, 7, 8};
 static const unsigned char is_angle[] = {1, 1, 1, 1, 1};
+static const unsigned char film_joint[] = {0};
 static const short watched[] = {0};
 static const short watched_as[] = {0};
 static const unsigned char meets[] = {0};

@@ -63,8 +63,8 @@ static const unsigned char event_stops[] = {0};
 static const int guess_place[] = {5, 8, 14, 17, 20};
 static const int set_place[] = {0};
 static const int rate_place[] = {0};
-static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0};
 static const int drive_row[] = {22, 23};
+static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0};
 static const int kept_row[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23};
 static const int phi_q_first[] = {0, 2, 4, 6, 8, 12, 16, 20, 24, 28, 32, 36, 40, 44, 48, 52, 56, 58, 60, 63, 66, 67,
     68, 69, 70};
@@ -72,6 +72,7 @@ static const short phi_q_place[] = {0, 2, 1, 2, 9, 11, 10, 11, 0, 2, 3, 5, 1, 2,
     15, 17, 4, 5, 16, 17, 6, 8, 15, 17, 7, 8, 16, 17, 15, 17, 12, 14, 16, 17, 13, 14, 15, 17, 18, 20, 16, 17, 19, 20,
     12, 14, 13, 14, 18, 20, 21, 19, 20, 22, 21, 23, 2, 11};
 static const unsigned char is_angle[] = {1, 1, 1, 1, 1};
+static const unsigned char film_joint[] = {0};
 
 /* The engine reads no further: scenes that have all this in common share its code. */
 

@@ -63,13 +63,14 @@ static const unsigned char event_stops[] = {0};
 static const int guess_place[] = {5};
 static const int set_place[] = {11};
 static const int rate_place[] = {0};
-static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 0, 1, 1, 0};
 static const int drive_row[] = {10};
+static const unsigned char row_is_length[] = {1, 1, 1, 1, 1, 1, 1, 0, 1, 1, 0};
 static const int kept_row[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
 static const int phi_q_first[] = {0, 2, 4, 8, 12, 15, 18, 19, 20, 24, 28, 29};
 static const short phi_q_place[] = {0, 2, 1, 2, 0, 2, 3, 5, 1, 2, 4, 5, 3, 5, 6, 4, 5, 7, 6, 8, 6, 8, 9, 11, 7, 8, 10,
     11, 2};
 static const unsigned char is_angle[] = {1};
+static const unsigned char film_joint[] = {0};
 static const short watched[] = {0};
 static const short watched_as[] = {0};
 static const unsigned char meets[] = {0};

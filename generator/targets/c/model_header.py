@@ -22,7 +22,8 @@ from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kernels.time_terms import count_terms
 from gudgeon.generator.kinds.joints.joint_type import CORNERS
 from gudgeon.generator.kinds.laws.law import DEEPEST
-from gudgeon.generator.solvers.kkt import EARLY, KKT, LIGHT_PIVOT, NEARLY_SINGULAR, SINGULAR, VANISHING
+from gudgeon.generator.solvers.kkt import KKT
+from gudgeon.generator.solvers.pivots import EARLY, LIGHT_PIVOT, NEARLY_SINGULAR, SINGULAR, VANISHING
 from gudgeon.generator.solvers.square_rows import SHARE
 from gudgeon.generator.symbols.periods import PeriodsOf
 from gudgeon.generator.targets.c import printer
@@ -186,8 +187,7 @@ def deepest(clearance: Clearance) -> sp.Expr:
 
 
 def _largest_block(program: Program) -> int:
-    rows = program.course.rows if program.course else None
-    chains = program.tree.chains if program.tree else None
+    rows, chains = program.course and program.course.rows, program.tree and program.tree.chains
     return max(rows.largest if rows else 0, chains.square.largest if chains else 0)
 
 
@@ -197,27 +197,25 @@ def _defines(values: Sizes) -> list[str]:
 
 
 def _tables(program: Program, of_scene: Sizes) -> list[str]:
-    model, start = program.model, _start(program.model)
+    model, start, drives = program.model, _start(program.model), program.model.scene.mechanism.drives
     place = {row.name: r for r, row in enumerate(model.all_rows)}
     column = {q: k for k, q in enumerate(model.q)}
     tables: dict[tuple[str, str], Sequence[int]] = {
         ("signed char", "event_direction"): [SIGNS[event.direction] for event in model.events],
         ("unsigned char", "event_stops"): [int(event.action == "stop") for event in model.events],
         ("int", "guess_place"): start["guess_place"], ("int", "set_place"): start["set_place"],
-        ("int", "rate_place"): start["rate_place"],
+        ("int", "rate_place"): start["rate_place"], ("int", "drive_row"): [place[d] for d in drives],
         ("unsigned char", "row_is_length"): [int(row.unit == "m") for row in model.all_rows],
-        ("int", "drive_row"): [place[name] for name in model.scene.mechanism.drives],
         ("int", "kept_row"): [place[row.name] for row in model.rows],
         ("int", "phi_q_first"): [0, *accumulate(len(row.phi_q) for row in model.all_rows)],
         ("short", "phi_q_place"): [column[q] for row in model.all_rows for q in row.phi_q],
         ("unsigned char", "is_angle"): program.integrated.angles,
+        ("unsigned char", "film_joint"): [int(c.film is not None) for c in model.clearances],
     }  # fmt: skip
-    if apart := apart_rows(model):
-        tables |= {("int", "apart_row"): [k for k, _, _ in apart]}
+    if apart := [k for k, _, _ in apart_rows(model)]:
+        tables |= {("int", "apart_row"): apart}
     if model.rigid:
         tables |= {("unsigned char", "rigid_joint"): [int(c.rigid) for c in model.clearances]}
-    if model.clearances:
-        tables |= {("unsigned char", "film_joint"): [int(c.film is not None) for c in model.clearances]}
     if corners := first_corners(model):
         tables |= {("int", "first_corner"): corners}
     if idle := idle_switches(program):

@@ -1,0 +1,70 @@
+/*
+ * The audit of a run at the end of each step (audit.c), and what is asked of it from outside.
+ */
+/*
+ * Event i at the end of a step before which `listed` events were recorded: a zero is recorded, and nothing is recorded
+ * again and again while the expression is rounding.
+ */
+static void check_event(Run *run, int i, int listed)
+{
+    Audit *audit = &run->audit;
+    const double before = audit->event_before[i], now = run->aside.event[i];
+    const int ended = audit->ended == i && fabs(before) > AUDIT_NOISE * audit->event_scale[i]
+        && fabs(now) < AUDIT_ZERO * fabs(before) && event_direction[i] * before <= 0.0;
+    int found = 0;
+    for (int k = listed; k < run->n_events; k++)
+        found |= run->event[k] == i;
+    if ((ended || audit->crossed[i]) && !found)
+        record(audit, EVENT_CHECK, INFINITY, 1.0, run->t, i);
+    audit->noise[i] = found && !audit->away[i] ? audit->noise[i] + 1 : found ? 0 : audit->noise[i];
+    if (audit->noise[i] >= AUDIT_WRONG)
+        record(audit, EVENT_CHECK, INFINITY, 1.0, run->t, i);
+    audit->away[i] = found ? 0 : audit->away[i];
+    audit->crossed[i] = 0;
+}
+
+/* The end of a step that was taken, before which `listed` events were recorded. Returns 0, or AUDITED. */
+static int audit_state(Run *run, int listed, const Parameters *p)
+{
+    Audit *audit = &run->audit;
+    if (!audit->level || (!TREE && run->least[1] == 0.0))
+        return 0; /* in rk4's absolute coordinates Baumgarte's terms let rows drift */
+    check_closed(run);
+    check_joints(run, run->t, &run->aside, p);
+    if (N_CHAIN)
+        check_rows(run, run->t, run->y, 0, p);
+    for (int i = 0; i < N_CLEARANCES; i++)
+        if (!run->memory.latch[i].closed && gives(i) && !has_film(i))
+            record(audit, FREE_CHECK, total_force(&run->aside.clearance[i]), max_of(1e-6 * run->F_peak[i], 1e-300),
+                run->t, i);
+    for (int k = 0; k < N_SWITCHES && run->memory.held; k++) {
+        const double g = run->memory.side[k] * run->aside.g[k], scale = audit->switch_scale[k];
+        audit->switch_scale[k] = max_of(scale, fabs(g));
+        audit->wrong[k] = (unsigned char)(g < -1e-3 * scale && k != run->skip ? min_of(audit->wrong[k] + 1, 100) : 0);
+        if (audit->wrong[k] >= AUDIT_WRONG && is_resolved(run, run->t, run->y, &run->aside, N_CLEARANCES + k, p))
+            record(audit, BRANCH_CHECK, -g, 1e-4 * audit->switch_scale[k], run->t, k);
+    }
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        check_event(run, i, listed);
+    audit->ended = -1;
+    return audit->status;
+}
+
+void gudgeon_run_audit(void *memory, int level)
+{
+    ((Run *)memory)->audit = (Audit){.level = level, .random = 1u, .due = 2};
+    for (int k = 0; k < N_CHECKS; k++)
+        ((Run *)memory)->audit.record[k].where = -1;
+}
+
+/* Of each check the largest value as a multiple of its limit, its time, and where it was. Returns how many checks. */
+int gudgeon_run_audited(const void *memory, double *worst, double *t, int *where)
+{
+    const Run *run = memory;
+    for (int k = 0; k < N_CHECKS; k++) {
+        worst[k] = run->audit.record[k].worst;
+        t[k] = run->audit.record[k].t;
+        where[k] = run->audit.record[k].where;
+    }
+    return N_CHECKS;
+}

@@ -1,0 +1,94 @@
+/*
+ * The audit of samples: what is reported there against equations that produced none of it. It owns no state.
+ */
+/* Whether a drive's rate, or second rate, jumps or is unbounded at a time: then a sample lies between two motions. */
+static int drives_jump(double t, const double *q, const double *v, const Parameters *p)
+{
+    const double near = max_of(1e-9 * fabs(t), 1e-12);
+    double nu[3][AT_LEAST_ONE(N_ALL_ROWS)], second[3][AT_LEAST_ONE(N_ALL_ROWS)];
+    for (int k = 0; k < 3; k++) {
+        velocity_rhs(t + (k - 1) * near, q, p, nu[k]);
+        acceleration_rhs(t + (k - 1) * near, q, v, p, second[k]);
+    }
+    for (int d = 0; d < N_DRIVES; d++) {
+        const int r = drive_row[d];
+        const double rate = fabs(nu[2][r]) + fabs(nu[0][r]), bend = fabs(second[2][r]) + fabs(second[0][r]);
+        if (!(fabs(nu[1][r] - nu[0][r]) + fabs(nu[2][r] - nu[1][r]) <= 1e-5 * rate)
+            || !(fabs(second[1][r] - second[0][r]) + fabs(second[2][r] - second[1][r]) <= 1e-3 * bend))
+            return 1;
+    }
+    return 0;
+}
+
+/*
+ * The audit of n samples (runtime/simulation/audit.py): into `off` (n, 4), as shares of the largest terms, what is left
+ * of v M a + dV/dt - sum of powers; of drive torques times rates - power of the drives; of Phi, as a share of `size`
+ * (m); of Phi_q v - nu. dV/dt and Phi_q v are differences along v. A sample at a jump of a drive has zeros.
+ */
+void gudgeon_audit_samples(long n, const double *t, const double *q, const double *v, const double *memory,
+    const double *parameters, double size, double *off)
+{
+    const Parameters *p = (const Parameters *)parameters;
+    double m[N_Q];
+    mass_matrix(p, m);
+    for (long i = 0; i < n; i++, q += N_Q, v += N_Q, memory += N_MEMORY, off += 4) {
+        Memory now = {0};
+        Aside aside;
+        double y[N_S] = {0.0}, dy[N_S], near[2][N_Q], stored[3][2], phi[3][AT_LEAST_ONE(N_ALL_ROWS)], rate = 0.0;
+        double reactions[3 * AT_LEAST_ONE(N_REACTIONS)], torques[AT_LEAST_ONE(N_DRIVES)];
+        double series[AT_LEAST_ONE(N_SERIES)];
+        double nu[AT_LEAST_ONE(N_ALL_ROWS)], force[2] = {0.0, 0.0}, fast[2] = {0.0, 0.0}, far[2] = {0.0, 0.0};
+        off[0] = off[1] = off[2] = off[3] = 0.0;
+        for (int k = 0; k < N_Q; k++) {
+            y[k] = q[k];
+            y[N_Q + k] = v[k];
+        }
+        read_memory(memory, &now);
+        if (drives_jump(t[i], q, v, p) || rates_at(t[i], y, &now, p, dy, &aside))
+            continue;
+        for (int k = 0; k < N_Q; k++) {
+            const int angle = k % 3 == 2;
+            const double unit = angle ? 1.0 : size, a = dy[N_Q + k];
+            rate = max_of(rate, max_of(fabs(v[k]) / unit, sqrt(fabs(a) / unit)));
+            force[angle] += fabs(m[k] * a);
+            fast[angle] = max_of(fast[angle], fabs(v[k]));
+            far[angle] = max_of(far[angle], fabs(q[k]));
+        }
+        const double h = rate > 0.0 ? 1e-5 / rate : 0.0;
+        for (int side = 0; side < 2; side++) {
+            for (int k = 0; k < N_Q; k++)
+                near[side][k] = q[k] + (side ? h : -h) * v[k];
+            outputs(t[i], near[side], v, p, aside.lambda, reactions, torques, series, stored[side]);
+            constraints(t[i], near[side], p, phi[side]);
+        }
+        outputs(t[i], q, v, p, aside.lambda, reactions, torques, series, stored[2]);
+        constraints(t[i], q, p, phi[2]);
+        velocity_rhs(t[i], q, p, nu);
+        const double between = h > 0.0 ? 2.0 * h : INFINITY;
+        double sum = (stored[1][1] - stored[0][1]) / between, driven = 0.0;
+        double terms = fabs(sum) + force[0] * fast[0] + force[1] * fast[1];
+        terms += 1e6 * DBL_EPSILON * fabs(stored[2][1]) / between;
+        for (int k = 0; k < N_Q; k++)
+            sum += v[k] * m[k] * dy[N_Q + k];
+        for (int k = 0; k < N_WORK; k++) {
+            sum -= aside.power[k];
+            terms += fabs(aside.power[k]);
+        }
+        double largest = fabs(aside.power[0]);
+        for (int d = 0; d < N_DRIVES; d++) {
+            driven += torques[d] * nu[drive_row[d]];
+            largest += fabs(torques[d]) * (row_is_length[drive_row[d]] ? fast[0] : fast[1]);
+        }
+        off[0] = terms > 0.0 ? fabs(sum) / terms : 0.0;
+        off[1] = largest > 0.0 ? fabs(driven - aside.power[0]) / max_of(largest, terms) : 0.0;
+        for (int r = 0; r < N_ROWS; r++) {
+            const int row = kept_row[r], length = row_is_length[row];
+            const double unit = length ? size : 1.0, most = length ? far[0] + size * far[1] : far[1];
+            const double speed = max_of(length ? max_of(fast[0], size * fast[1]) : max_of(fast[1], fast[0] / size),
+                fabs(nu[row])) + 1e9 * DBL_EPSILON * most / between;
+            off[2] = max_of(off[2], fabs(phi[2][row]) / (unit + most));
+            if (speed > 0.0)
+                off[3] = max_of(off[3], fabs((phi[1][row] - phi[0][row]) / between - nu[row]) / speed);
+        }
+    }
+}

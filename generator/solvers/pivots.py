@@ -1,0 +1,78 @@
+"""Pivots of a KKT system: what is small, how a pivot is tested, what is worth a name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import sympy as sp
+
+from gudgeon.generator.equations.constraints import Row
+from gudgeon.generator.ir.kernels import KernelBuilder
+from gudgeon.generator.ir.statements import Guard
+from gudgeon.generator.ir.values import Chosen, Place, Test, Threshold
+
+ZERO = sp.Integer(0)
+
+# A row counts as dependent when less than this share of its pivot is left after elimination: the
+# share is the squared sine of the angle between the row and the others, rounding leaves some 1e-15.
+SINGULAR = Threshold("SINGULAR", 1e-13)
+# Below this share the row is nearly dependent: drift δ of the constraints would act as δ/share^(1/2) there.
+# The rank-revealing way (engine/scene/singular.c) leaves it out for the moment if the others agree.
+NEARLY_SINGULAR = Threshold("NEARLY_SINGULAR", 1e-8)
+# Share of a joint's two rows that is left of one of them where it counts as vanished: their size is the squared sine
+# of the angle to the singular position, and within 1e-5 of it rounding decides where things go.
+VANISHING = Threshold("VANISHING", 1e-10)
+# The same for a pair of rows that goes before all of its coordinates: rounding grows by the inverse of the share,
+# and the other way to solve is exact.
+EARLY = Threshold("EARLY", 1e-5)
+# Share of what turns with an angle that elimination must leave of its entry of M: rounding grows by the inverse.
+LIGHT_PIVOT = Threshold("LIGHT_PIVOT", 1e-6)
+# The same two where a run may ask for more: the memory of a state says how much (engine/motion/beside.c).
+LEAST = Threshold(NEARLY_SINGULAR.name, NEARLY_SINGULAR, "memory->least")
+LEAST_SIZE = Threshold(VANISHING.name, VANISHING, "memory->least_size")
+
+
+@dataclass(frozen=True)
+class Factor:
+    """L by (row node, column node), D⁻¹ by nodes: numbers, symbols, or negatives of symbols.
+
+    D has blocks of one and of two nodes: two that follow each other and couple need one division, not one
+    after the other.
+    """
+
+    L: Mapping[tuple[int, int], sp.Expr]
+    inverse: Mapping[int, Mapping[int, sp.Expr]]
+
+
+def friction_mode(build: KernelBuilder, name: str, index: int) -> tuple[sp.Symbol, sp.Symbol]:
+    """1 in stick and 0 else, and the sign of a slip (0: none)."""
+    mode = build.local(f"mode_{name}", Place(f"memory->mode[{index}]"), "0 stick, 1 or -1 the sign of the slip, 2 held")
+    stick = build.local(f"stick_{name}", Chosen(Test(mode, "==", (0.0,)), sp.Integer(1), ZERO))
+    return stick, build.local(f"sign_{name}", Chosen(Test(mode, ">", (1.0,), size=True), ZERO, mode))
+
+
+def pivot_guard(failing: Sequence[int], which: int, value: sp.Expr, *bound: sp.Expr | float) -> Guard:
+    """Pivot `which` of a block, behind so many rows, fails unless the value is above the bound."""
+    jumps, count = failing
+    return Guard(Test(value, ">", bound), count + which, bool(jumps))
+
+
+def is_simple(value: sp.Expr) -> bool:
+    """A number, a symbol or its negative: cheaper written in place than named."""
+    return bool(value.is_Number or value.is_Symbol or (-value).is_Symbol)
+
+
+def named(build: KernelBuilder, name: str, value: sp.Expr) -> sp.Expr:
+    """The value, as a local of that name unless it is simple."""
+    return value if is_simple(value) else build.local(name, value)
+
+
+def row_pairs(rows: Sequence[Row], n: int, pattern: Sequence[frozenset[int]]) -> dict[int, int]:
+    """Two rows of a joint in the same coordinates, of which there are more than two; rows are nodes from n on."""
+    pairs: dict[int, int] = {}
+    for r, (row, other) in enumerate(pairwise(rows), n):
+        if row.owner == other.owner and r not in pairs and pattern[r] == pattern[r + 1] and len(pattern[r]) > 2:
+            pairs |= {r: r + 1, r + 1: r}
+    return pairs
