@@ -281,7 +281,9 @@ static int next_single(const Batch *b, long i, int tried, void *memory)
 static long unseen_single(const void *memory)
 {
     const Run *run = memory;
-    return run->tape.rows || run->trace ? 0 : unseen_steps(&run->advance);
+    const long steps = run->tape.rows || run->trace ? 0 : unseen_steps(&run->advance);
+    const long checked = run->audit.level == AUDIT_FULL ? 0 : run->audit.due - run->steps; /* steps before a check */
+    return run->audit.level && checked < steps ? (checked > 0 ? checked : 0) : steps;
 }
 
 const void *gudgeon_single(void)

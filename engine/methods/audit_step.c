@@ -103,7 +103,7 @@ static void audit_step(Run *run, Step *step, double share, int event, const Para
         return;
     const long evaluations = run->evaluations;
     const double h = share * step->h;
-    const int is_longer = audit->last_h > 0.0 && h > AUDIT_LONGER * audit->last_h;
+    const int is_longer = !step->method->own_length && audit->last_h > 0.0 && h > AUDIT_LONGER * audit->last_h;
     const int drawn = run->steps >= audit->due || audit->level == AUDIT_FULL;
     int extent = drawn ? AUDIT_ALL : 0;
     for (int i = 0; i < N_CLEARANCES && !drawn; i++)

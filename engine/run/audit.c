@@ -221,7 +221,9 @@ static void check_joints(Run *run, double t, const Aside *aside, const Parameter
         const Clearance *joint = &aside->clearance[i];
         if (run->memory.latch[i].closed || run->fixed > 0.0 || !(play > 0.0))
             continue;
-        const double limit = max_of(AUDIT_DEPTH * audit_tolerance(run) * play, 1e-9 * radial_clearance(p, i));
+        const double located = 4.0 * (run->tick + 8.0 * DBL_EPSILON * fabs(t)) * fabs(joint->deltadot);
+        const double rounding = max_of(1e-9 * radial_clearance(p, i), 64.0 * DBL_EPSILON * play / run->least[1]);
+        const double limit = max_of(AUDIT_DEPTH * audit_tolerance(run) * play, rounding) + located;
         record(&run->audit, GAP_CHECK, max_of(joint->delta, 0.0), limit, t, i);
     }
 }

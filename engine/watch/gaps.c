@@ -6,7 +6,8 @@
  * neighbouring stages show, and the dense output lies beside them by DENSE_ERROR tolerances at most (bound_by_stages).
  * Where that does not decide, the dense output is bisected (first_zero). On each part of it the margin is the cubic of
  * values and rates at both ends within an error. That error is taken as the one that the cubic of the whole part before
- * the bisection had in the middle; in theory the halves have a sixteenth of it. What is guaranteed: no zero of the dense output is missed, and none before the one that is found, as long as the
+ * the bisection had in the middle; in theory the halves have a sixteenth of it.
+ * What is guaranteed: no zero of the dense output is missed, and none before the one that is found, as long as the
  * error of a half is not larger than the one of the whole that was measured, on parts of at most a quarter of the step.
  */
 enum { MAX_BISECTIONS = 48, MAX_SAMPLES = 400 /* of a joint and step: what they leave open is below rounding */ };

@@ -79,14 +79,11 @@ def test_masses_that_no_double_holds_together_are_told(tmp_path: Path) -> None:
     """Velocities at the start are those of least energy: with 1e20 kg beside 0.1 a dead centre was told of a drive."""
     angle, r, rod = np.pi / 6, 0.05, 0.12
     speed = -10.0 * r * np.sin(angle) * (1.0 + r * np.cos(angle) / np.sqrt(rod**2 - (r * np.sin(angle)) ** 2))
-    heavy = loader(tmp_path)(ENGINE.format(mass=1e10))
-    assert heavy.start().v[6] == pytest.approx(speed, rel=1e-9)
-    with pytest.raises(AssemblyError, match=r"the masses of crank \(1e\+20 kg\) and piston \(0.1 kg\) are too far"):
-        loader(tmp_path)(ENGINE.format(mass=1e20)).start()
+    heavy, heaviest = (loader(tmp_path)(ENGINE.format(mass=mass)) for mass in (1e10, 1e20))
+    assert [each.start().v[6] for each in (heavy, heaviest)] == pytest.approx([speed, speed], rel=1e-9)
     heavier = r"rod \(1e\+100 .* and crank"
-    for inertia, beside in ((1e-30, r"crank \(0.0001 kg\*m\^2\) and rod \(1e-30"), (1e100, heavier)):
-        with pytest.raises(AssemblyError, match=rf"the inertias of {beside}.*too far apart"):
-            heavy.start({"bodies.crank.mass": 1.0, "bodies.rod.inertia": inertia})
+    with pytest.raises(AssemblyError, match=rf"the inertias of {heavier}.*too far apart"):
+        heavy.start({"bodies.crank.mass": 1.0, "bodies.rod.inertia": 1e100})
     p = prepare(heavy.compiled, {"bodies.crank.mass": 1.0, "bodies.rod.inertia": 1e-20})[0]
     with pytest.raises(SingularError, match=r"(?s)vanished.*the inertias of crank .* and rod .* are too far apart"):
         heavy.compiled.check_pivot(1, 0.0, p=p)

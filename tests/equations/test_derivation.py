@@ -139,7 +139,7 @@ def test_random_linkages_against_the_oracle(seed: int) -> None:
 @pytest.mark.parametrize("scene", ["ideal", "dry"])
 def test_press_equations_hold_on_its_closed_form(scene: str) -> None:
     model = press(scene)
-    assert [str(q) for q in model.q][::3] == [f"{body}_x" for body in ideal_press.BODIES]
+    assert [str(q) for q in model.q][::3] == [f"{body}_x_" for body in ideal_press.BODIES]
     phi, phi_q, nu, gamma = (numeric(model, m) for m in (model.Phi, model.Phi_q, model.nu, model.gamma))
     m = ideal_press.motion([0.0, 0.2, 0.61])
     for t, q, v, a in zip((0.0, 0.2, 0.61), m.q, m.v, m.a, strict=True):

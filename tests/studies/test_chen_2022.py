@@ -41,7 +41,7 @@ def test_geometry_bounds_the_position_error_by_1_98_c() -> None:
     ideal = gudgeon.load("nine_bar_press")
     run, closed = ideal.simulate(1.0, output=100), ideal.model.numpy()
     rows = [2 * list(yaml_joints()).index(name) for name in ("A", "B")]
-    y = [name.name for name in ideal.model.q].index("S9_y")
+    y = [name.name for name in ideal.model.q].index("S9_y_")
     most = 0.0
     for t, q in zip(run.t, run.q, strict=True):
         own = np.linalg.inv(closed.phi_q(t, q, closed.prepare()))[y]

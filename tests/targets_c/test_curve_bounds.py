@@ -23,19 +23,19 @@ enum { RATE_JUMPS = 0 };
 #include "engine/watch/ranges.h"
 """
 _CALLS = """
-double value(int order, double x, double side) { return curve_on(CURVE_c, order, x, side); }
-double knot(double x) { return knots(CURVE_c, x); }
+double value(int order, double x, double side) { return curve_on(CURVE_c_, order, x, side); }
+double knot(double x) { return knots(CURVE_c_, x); }
 void bounds(int order, double lo, double hi, double side, double *out)
 {
     const Range x = {lo, hi, 1.0, 1.0, 0};
-    const Range y = order < 0 ? range_knots(CURVE_c, x) : range_curve_on(CURVE_c, order, x, only(side));
+    const Range y = order < 0 ? range_knots(CURVE_c_, x) : range_curve_on(CURVE_c_, order, x, only(side));
     out[0] = y.lo, out[1] = y.hi, out[2] = y.down, out[3] = y.up;
 }
 """
 
 
 def compiled(curve: Curve, folder: Path) -> ctypes.CDLL:
-    text = curves_code({"c": curve}, ["curve(CURVE_c, 0, x)"])
+    text = curves_code({"c": curve}, ["curve(CURVE_c_, 0, x)"])
     (folder / "c.c").write_text(_HEAD + text + _CALLS)
     line = [*find_compiler(), "-O1", "-std=c11", "-fPIC", "-shared", *include_flags(), "c.c", "-lm", "-o", "c.so"]
     subprocess.run(line, cwd=folder, check=True)

@@ -106,11 +106,11 @@ def each_number_has_a_line_that_says_what_it_is(name: str, scene: str) -> None:
 
 @pytest.mark.parametrize(("name", "unit"), [
     ("steel_E", "Pa"), ("steel_nu", "1"), ("crank_mass", "kg"), ("crank_inertia", "kg*m^2"), ("dry_pin_K", "N/m^1.5"),
-    ("velocity_floor", "m/s"), ("inverse_crank_inertia", "1/(kg*m^2)"), ("dry_pin_friction_slope", "s/m"),
+    ("velocity_floor", "m/s"), ("dry_pin_friction_slope", "s/m"),
     ("two_alpha", "1/s"), ("beta_squared", "1/s^2"), ("pin_length", "m"), ("guess_slider_x", "m"),
 ])  # fmt: skip
 def test_units_as_people_write_them(name: str, unit: str) -> None:
-    assert re.search(rf"double {name};  /\* .*, {re.escape(unit)} \*/", emitted("slider_crank", "dry").files["model.h"])
+    assert re.search(rf"double {name}_;  /\* .*, {re.escape(unit)} \*/", emitted("slider_crank", "dry").files["model.h"])
 
 
 @pytest.mark.parametrize(("of", "unit"), [

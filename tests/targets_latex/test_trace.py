@@ -7,6 +7,7 @@ import gzip
 import json
 import math
 import re
+from dataclasses import replace
 import subprocess
 from collections import Counter
 from collections.abc import Collection, Iterator
@@ -165,7 +166,7 @@ def test_lit_lines_of_the_textbooks_function(scene: str) -> None:
 @pytest.mark.parametrize("scene", SCENES)
 def test_names_and_numbers_are_those_of_the_scene_that_runs(scene: str) -> None:
     source: KernelSource = in_c(derive(FILE.read_bytes(), str(FILE), scene))
-    assert traced(scene).source == source
+    assert traced(scene).source == replace(source, reference={})
 
 
 def test_lines_of_the_file() -> None:
