@@ -6,6 +6,7 @@
  * inside of steps. The audit changes nothing but its own record.
  */
 #define AUDIT_FAILS 10.0       /* multiples of a limit that end a run */
+#define AUDIT_GRAZE 4e-13        /* m: so shallow a contact bears no force worth the name */
 #define AUDIT_DEPTH 10.0       /* tolerances that an open joint may penetrate */
 #define AUDIT_ROUNDING 1e-9    /* of the size, or speed: closer than this rows are not known */
 #define AUDIT_ACCELERATION 1e-6 /* of the largest term, that two ways to the accelerations may differ by */
@@ -222,7 +223,8 @@ static void check_joints(Run *run, double t, const Aside *aside, const Parameter
         if (run->memory.latch[i].closed || run->fixed > 0.0 || !(play > 0.0))
             continue;
         const double located = 4.0 * (run->tick + 8.0 * DBL_EPSILON * fabs(t)) * fabs(joint->deltadot);
-        const double rounding = max_of(1e-9 * radial_clearance(p, i), 64.0 * DBL_EPSILON * play / run->least[1]);
+        const double least = max_of(AUDIT_GRAZE, 64.0 * DBL_EPSILON * play / run->least[1]);
+        const double rounding = max_of(1e-9 * radial_clearance(p, i), least);
         const double limit = max_of(AUDIT_DEPTH * audit_tolerance(run) * play, rounding) + located;
         record(&run->audit, GAP_CHECK, max_of(joint->delta, 0.0), limit, t, i);
     }
