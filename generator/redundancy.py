@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gudgeon.assembly.linkage import angles, mechanism_size
 from gudgeon.assembly.mobility import SAMPLES, check_freedoms, configurations, find_mobility
@@ -71,7 +72,8 @@ def refuse_singular_masses(model: Model, source: KernelSource) -> None:
     if all(share <= RANK for share, _ in found):
         motion = found[-1][1]
         name = max(light, key=lambda body: abs(motion[light[body]]))
-        where = bodies[name].inertia.where if bodies[name].inertia else bodies[name].where
+        inertia = bodies[name].inertia
+        where = inertia.where if inertia is not None else bodies[name].where
         raise BadValueError(
             f"body {name} has no moment of inertia, and nothing else resists its turning: its motion is not determined",
             where, f"expected bodies.{name}.inertia > 0, or its centre of mass (com) away from the joint about which it"
@@ -79,7 +81,7 @@ def refuse_singular_masses(model: Model, source: KernelSource) -> None:
         )  # fmt: skip
 
 
-def _lightest_motion(phi_q: Array, heavy: Array) -> tuple[float, Array]:
+def _lightest_motion(phi_q: Array, heavy: NDArray[np.bool_]) -> tuple[float, Array]:
     """Of the motions (n,) that the rows leave free that with the least share in coordinates which have mass."""
     _, values, right = np.linalg.svd(phi_q) if len(phi_q) else (None, np.zeros(0), np.eye(len(heavy)))
     free = right[int((values > RANK * values.max(initial=0.0)).sum()) :].T

@@ -6,6 +6,7 @@ Each scene is run by all methods, in a batch and from a restart, in one process 
 found in compiled scenes counts: a report whose stack has no frame of one is about Python. Needs valgrind and gcc.
 """
 
+# mypy: disable-error-code="arg-type"
 from __future__ import annotations
 
 import argparse

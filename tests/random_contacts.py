@@ -6,6 +6,7 @@ run is checked at 20,000 samples (gudgeon/results/contact_check.py), and what is
 compiled once; all of its machines differ by numbers alone.
 """
 
+# mypy: disable-error-code="arg-type"
 from __future__ import annotations
 
 import argparse

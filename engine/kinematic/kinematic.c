@@ -144,6 +144,16 @@ static int hides_a_pulse(double t0, double t1, const Parameters *p)
 }
 #endif
 
+/* Whether all rows are numbers at a time: a drive may be none there. */
+static int rows_are_numbers(double t, const Place *here, const Parameters *p)
+{
+    double phi[N_ALL_ROWS], sum = 0.0;
+    constraints(t, here->q, p, phi);
+    for (int r = 0; r < N_ALL_ROWS; r++)
+        sum += 0.0 * phi[r];
+    return sum == 0.0;
+}
+
 /*
  * One step along the same branch, to t1 at the furthest. Where Newton moves the first guess by more than the reach,
  * or the way bends more than its velocities say, the step is halved: another branch passes near dead centres as a
@@ -161,7 +171,7 @@ static int step_on(Stride *stride, double t1, const Parameters *p, Place *here)
         const int status = next > here->t ? place_at(next, p, stride->extent, here, &there, &moved) : NEWTON_FAILED;
         if (status == STOPPED)
             return status;
-        if ((status || (next == t1 && is_rough(&there))) && next > here->t
+        if ((status || (next == t1 && is_rough(&there))) && next > here->t && rows_are_numbers(next, here, p)
             && !pass_change_point(next, stride->reach, stride->extent, p, here, &passed)) {
             *here = passed;
             return 0;

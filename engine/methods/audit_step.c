@@ -7,11 +7,21 @@
 #define AUDIT_DIGITS 1e-10 /* of a state: differences below it are rounding */
 #define AUDIT_DEFECT 1e4 /* tolerances that the dense output may miss the right-hand side by */
 /* steps between two that are drawn, in the mean; halvings that locate a zero; places inside a step */
-enum { AUDIT_CONTACT = 1, AUDIT_ALL = 2 }; /* extent of the checks at a place: in contact accelerations too, or all */
 enum { AUDIT_MEAN = 128, AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4 };
 
+/* Whether what a step holds is what its state says: near a switching point, or the end of a contact, it need not be. */
+static int branches_fit(const Run *run, const Aside *aside)
+{
+    int fit = 1;
+    for (int k = 0; k < N_SWITCHES; k++)
+        fit &= !(run->memory.side[k] * aside->g[k] < 0.0);
+    for (int i = 0; i < N_CLEARANCES; i++)
+        fit &= !run->memory.latch[i].closed == !(aside->clearance[i].delta > 0.0);
+    return fit;
+}
+
 /* One place inside a step, up to the event that ends it. */
-static void check_inside(Run *run, Step *step, double theta, int extent, const Parameters *p)
+static void check_inside(Run *run, Step *step, double theta, int drawn, const Parameters *p)
 {
     Audit *audit = &run->audit;
     const double t = step->t + theta * step->h;
@@ -34,12 +44,11 @@ static void check_inside(Run *run, Step *step, double theta, int extent, const P
         record(audit, DEFECT_CHECK, defect, 1.0, t, -1);
     check_joints(run, t, &aside, p);
     check_branches(run, step, t, y, &aside, p);
-    if (extent == AUDIT_CONTACT)
-        check_accelerations(run, t, y, dy, p);
-    if (extent != AUDIT_ALL)
+    if (!drawn)
         return;
     check_rows(run, t, y, !RATE_JUMPS, p);
-    check_accelerations(run, t, y, dy, p);
+    if (branches_fit(run, &aside))
+        check_accelerations(run, t, y, dy, p);
     check_forces(run, t, y, &aside, p);
 }
 
@@ -105,9 +114,6 @@ static void audit_step(Run *run, Step *step, double share, int event, const Para
     const double h = share * step->h;
     const int is_longer = !step->method->own_length && audit->last_h > 0.0 && h > AUDIT_LONGER * audit->last_h;
     const int drawn = run->steps >= audit->due || audit->level == AUDIT_FULL;
-    int extent = drawn ? AUDIT_ALL : 0;
-    for (int i = 0; i < N_CLEARANCES && !drawn; i++)
-        extent |= run->memory.latch[i].closed ? AUDIT_CONTACT : 0;
     const int places = audit->level == AUDIT_FULL ? AUDIT_INSIDE : drawn || is_longer;
     audit->last_h = h;
     find_zeros(run, step, share, event, p);
@@ -117,7 +123,7 @@ static void audit_step(Run *run, Step *step, double share, int event, const Para
     if (event >= 0 && share < 1.0)
         check_inside(run, step, share, 0, p);
     for (int k = 0; k < places; k++)
-        check_inside(run, step, share * (k + draw(audit)) / places, extent, p);
+        check_inside(run, step, share * (k + draw(audit)) / places, drawn, p);
     if (drawn)
         audit->due = run->steps + 1 + (long)(2.0 * AUDIT_MEAN * draw(audit));
     run->memory = memory;

@@ -51,10 +51,14 @@ static int radau_dense(Run *run, Step *step, const RadauTable *table, int stages
         d[0][i] = step->y[i] - run->y[i];
         d[1][i] = h * run->y[v] - d[0][i];
         d[2][i] = d[0][i] - d[1][i] - h * step->y[v];
-        /* accelerations at the ends: derivatives of the velocities' nested polynomial */
-        const double begin = d[0][v] + d[1][v], end = d[0][v] - (d[1][v] + d[2][v]);
-        d[3][i] = 0.5 * h * begin + d[1][i] - d[2][i];
-        d[4][i] = 0.5 * h * end + d[1][i] + 2.0 * d[2][i] - d[3][i];
+        d[3][i] = 0.5 * h * h * run->dy[v] + d[1][i] - d[2][i];
+        d[4][i] = 0.5 * h * h * step->dy[v] + d[1][i] + 2.0 * d[2][i] - d[3][i];
+        if (stages > 3)
+            continue;
+        d[0][v] = step->y[v] - run->y[v];
+        d[1][v] = h * run->dy[v] - d[0][v];
+        d[2][v] = d[0][v] - d[1][v] - h * step->dy[v];
+        d[3][v] = 5.0 * d[4][i] / h;
     }
     return 0;
 }

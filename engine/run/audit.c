@@ -237,10 +237,8 @@ static void check_branches(Run *run, const Step *step, double t, const double *y
     for (int k = 0; k < N_SWITCHES; k++) {
         const double g = run->memory.side[k] * aside->g[k];
         run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(g));
-        /* where branches meet, a step may hold the wrong one near the switching point */
-        const double share = k == run->skip || meets[k] ? 0.05 : 1e-3;
-        if (!step->passed[k] && g < -share * run->audit.switch_scale[k] && run->steps > AUDIT_SETTLED
+        if (!step->passed[k] && k != run->skip && !meets[k] && g < 0.0 && run->steps > AUDIT_SETTLED
             && is_resolved(run, t, y, aside, N_CLEARANCES + k, p))
-            record(&run->audit, BRANCH_CHECK, -g, share * run->audit.switch_scale[k], t, k);
+            record(&run->audit, BRANCH_CHECK, -g, 1e-3 * run->audit.switch_scale[k], t, k);
     }
 }

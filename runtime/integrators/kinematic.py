@@ -252,11 +252,11 @@ def _failure(problem: Problem, status: int, t: float, q: Array) -> SolverError:
             t,
         )
     row = problem.compiled.source.start_pivots[status - 1]
-    if told := branches_told(problem.compiled, problem.p, t, q):
+    if branches := branches_told(problem.compiled, problem.p, t, q):
         begun = t > float(problem.t[0])
         remedy = "end the run before it" if begun else "give one of these rates in start.rates, or begin elsewhere"
         return SingularError(
-            f"the linkage cannot be followed beyond t = {t:.12g} s: {told}{drives_at(problem.compiled, problem.p, t)}\n"
+            f"the linkage cannot be followed beyond t = {t:.12g} s: {branches}{drives_at(problem.compiled, problem.p, t)}\n"
             f"  the drives do not tell on which one it goes on: {remedy}", t, row
         )  # fmt: skip
     return SingularError(

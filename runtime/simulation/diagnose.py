@@ -134,7 +134,7 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
 
 def unbounded_sample(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> Iterator[str]:
     """A remark on the sample at which the second rate of a drive is unbounded, of a run without a degree of freedom."""
-    if compiled.source.methods != ("kinematic",) or not len(trajectory.t):
+    if compiled.source.methods != ("kinematic",) or not len(trajectory.t) or trajectory.a is None:
         return
     largest = np.abs(np.nan_to_num(trajectory.a, nan=math.inf)).max(axis=1)
     t = float(trajectory.t[largest.argmax()])

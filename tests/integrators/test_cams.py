@@ -1,5 +1,6 @@
 """Followers of a cam's angle: their motion, the torque that the cam's shaft bears, what a profile may be."""
 
+# mypy: disable-error-code="arg-type"
 from __future__ import annotations
 
 from pathlib import Path

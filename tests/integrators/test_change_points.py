@@ -87,7 +87,7 @@ def test_a_start_at_a_change_point_names_its_branches(tmp_path: Path, formulatio
     crank, coupler = 0.35, 0.9
     assert np.allclose(rates, [-2.0 * math.pi * (coupler - crank) / (coupler + crank), 2.0 * math.pi], rtol=1e-5)
     for rate in rates:
-        given = f"rates: {{r.omega: {rate} rad/s}}, "
+        given = f"rates: {{r.omega: {rate} rad/s^1}}, "
         run = load(tmp_path, value, 180.0, given, formulation=formulation).simulate(0.4, output=40)
         closed = np.hypot(
             0.9 + 0.35 * np.cos(run["r.theta"]) - 0.35 * np.cos(run["c.theta"]),

@@ -233,7 +233,7 @@ def test_numpy_and_the_complex_step_agree_with_c() -> None:
         q[0], v[0] = rng.uniform(-0.15, 0.15), rng.normal()
         theirs = numpy.dynamics(t, q, v, p).a
         assert theirs[0] == pytest.approx(subject.library.rhs(t, np.append(q, v), subject.p)[3], rel=1e-14)
-    assert "CURVE_pull = (" in numpy.source
+    assert "CURVE_pull_ = (" in numpy.source
 
 
 @pytest.mark.parametrize("text", [CAM, slug("-pull(slug.x) + thrust(t)")])

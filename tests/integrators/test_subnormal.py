@@ -1,5 +1,6 @@
 """Numbers below the normal range of binary64 are numbers: forces, rates and events of such a size change no motion."""
 
+# mypy: disable-error-code="arg-type"
 from __future__ import annotations
 
 from pathlib import Path

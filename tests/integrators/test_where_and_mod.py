@@ -67,7 +67,7 @@ def test_a_push_that_ends(tmp_path: Path) -> None:
 def test_rest_where_branches_meet_but_for_rounding(method: str, tmp_path: Path) -> None:
     """A spring that is three times as stiff on one side, by a curve whose value at its knot is 0 to the last digits."""
     spring = "curves: {f: {points: [[-1, 1], [-0.5, 0.7], [0, 0], [0.5, -2], [1, -3]]}}\n" + SLUG
-    push = "soft * f(slug.x / (1 m)) * (1 + 0.5 * sign(slug.x)) * (1 m) - 20 N*s/m * slug.vx"
+    push = "soft * f(slug.x / (1 m^1)) * (1 + 0.5 * sign(slug.x)) * (1 m^1) - 20 N*s/m^1 * slug.vx"
     run = loader(tmp_path)(spring % push).simulate(30.0, output=30, method=method)
     assert np.abs(run["slug.x"][20:]).max() < 1e-12 and np.abs(run["slug.vx"][20:]).max() < 1e-12
 

@@ -4,6 +4,7 @@ It shares no code with the product: expressions are evaluated by Python, drives 
 Newton-Euler's equations are those of tests/oracles/numpy_linkage.py, forces of contact those of laws.py.
 """
 
+# mypy: disable-error-code="arg-type, assignment, call-arg"
 from __future__ import annotations
 
 import re

@@ -4,6 +4,7 @@ A tolerance follows from the run: how far it is from the same run with a thirtie
 chaotic motion soon is nothing; its beginning is compared all the same.
 """
 
+# mypy: disable-error-code="arg-type, index, misc, var-annotated"
 from __future__ import annotations
 
 import traceback

@@ -86,7 +86,6 @@ MISTAKES: list[tuple[str, type[InputError], int, int]] = [
     ("missing_point", UnknownNameError, 15, 30),
     ("name_no_identifier", BadNameError, 17, 3),
     ("name_of_a_function", BadNameError, 32, 11),
-    ("name_reserved", BadNameError, 17, 3),
     ("negative_inertia", BadValueError, 11, 49),
     ("negative_mass", BadValueError, 11, 30),
     ("mixed_with_printed_film", BadValueError, 26, 99),

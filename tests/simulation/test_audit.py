@@ -74,7 +74,7 @@ def test_the_audit_changes_no_number() -> None:
     assert runs[0].diagnostics.right_hand_sides == runs[1].diagnostics.right_hand_sides
     assert [one.check for one in runs[0].diagnostics.audit[: len(CHECKS)]] == [check.name for check in CHECKS]
     assert runs[1].diagnostics.audit == ()
-    assert gudgeon.results.diagnostics.Diagnostics.from_json(runs[0].diagnostics.to_json()).audit  # type: ignore[attr-defined]
+    assert gudgeon.results.diagnostics.Diagnostics.from_json(runs[0].diagnostics.to_json()).audit
 
 
 def test_other_levels_are_refused() -> None:

@@ -99,7 +99,7 @@ def test_the_same_dataset(begun: list[subprocess.Popen[str]], tmp_path: Path, mo
 
 
 def test_what_is_wrong_is_told_here(begun: list[subprocess.Popen[str]], tmp_path: Path) -> None:
-    wrong = {**STUDY, "choices": {"drives.crank.value": [*DRIVES, "60 rpm * s"]}}
+    wrong = {**STUDY, "choices": {"drives.crank.value": [*DRIVES, "60 rpm * kg"]}}
     with pytest.raises(InputError, match="s"):
         gudgeon.study(wrong)
     assert len(begun) == 1

@@ -111,7 +111,8 @@ def each_number_has_a_line_that_says_what_it_is(name: str, scene: str) -> None:
     ("two_alpha", "1/s"), ("beta_squared", "1/s^2"), ("pin_length", "m"), ("guess_slider_x", "m"),
 ])  # fmt: skip
 def test_units_as_people_write_them(name: str, unit: str) -> None:
-    assert re.search(rf"double {name}_;  /\* .*, {re.escape(unit)} \*/", emitted("slider_crank", "dry").files["model.h"])
+    header = emitted("slider_crank", "dry").files["model.h"]
+    assert re.search(rf"double {name}_;  /\* .*, {re.escape(unit)} \*/", header)
 
 
 @pytest.mark.parametrize(("of", "unit"), [

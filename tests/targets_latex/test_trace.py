@@ -7,10 +7,10 @@ import gzip
 import json
 import math
 import re
-from dataclasses import replace
 import subprocess
 from collections import Counter
 from collections.abc import Collection, Iterator
+from dataclasses import replace
 from functools import cache
 from html.parser import HTMLParser
 from importlib import resources
