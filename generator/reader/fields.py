@@ -25,6 +25,7 @@ from gudgeon.generator.mechanism.mechanism import GROUND, PointRef, Quantity, Ve
 from gudgeon.generator.reader.collector import Reader, ResultDimension
 from gudgeon.generator.reader.places import Places
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
+from gudgeon.language.shown import counted
 from gudgeon.language.suggestions import known_hint, nearest
 from gudgeon.language.tree import Number
 from gudgeon.language.units import DIMENSIONLESS
@@ -93,12 +94,13 @@ def places_of(
     found = node[kind]
     items = list(found) if isinstance(found, Items) else [found]
     if len(items) not in counts or isinstance(found, Items) and len(items) == 1:
-        what = f"{len(items)} {targets}" if isinstance(found, Items) else kind_of(found)
+        one, many = ("point", "points") if targets == "points" else ("body", "bodies")
+        what = counted(len(items), one, many) if isinstance(found, Items) else kind_of(found)
         place = found.where if isinstance(found, Items) else kind.where
         hint = _wanted(targets, counts)
         if len(items) > 2 and kind == "revolute" and all(isinstance(item, Text) for item in items):
             hint += f"; {_pairs(kind, items)}"
-        raise BadValueError(f"{kind} takes {what}", place, hint)
+        raise BadValueError(f"{kind} has {what}", place, hint)
     refs: list[PointRef] = []
     errors: list[InputError] = []
     for item in items:

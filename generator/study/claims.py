@@ -23,6 +23,7 @@ from gudgeon.generator.study.claim_spec import (
 )
 from gudgeon.generator.study.parts import check_keys, label, line, mapping, place_of, text, texts, whole
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
+from gudgeon.language.shown import counted
 from gudgeon.language.suggestions import unknown_name
 
 KEYS = ("source", "numbers", "trends")
@@ -180,7 +181,7 @@ def _trial(name: Text, node: Map, owner: str) -> Trial:
     others = texts(node["more_than"], f"{owner}.more_than", node.key("more_than"), "measures") if "more_than" in node \
         else (of,) if kind in SAME else ()  # fmt: skip
     if kind == "spreads_along" and len(others) != len(measures):
-        raise BadValueError(f"{owner}.more_than has {len(others)} names", node.key("more_than").where,
+        raise BadValueError(f"{owner}.more_than has {counted(len(others), 'name')}", node.key("more_than").where,
                             f"expected as many as measure: {len(measures)}")  # fmt: skip
     return Trial(kind, measures, base, of, None, others, by)
 

@@ -35,12 +35,12 @@ def check_name(name: str, what: str, where: Location | None) -> None:
         reason = "an expression takes it for no name" if name in WORDS else reason
     if what == "output" and name == "time":
         reason = "it is the axis of results"
-    if name.startswith("gudgeon") or "__" in name:
-        reason = "names that begin with 'gudgeon' or hold '__' are kept for emitted code"
+    other = f"{name}1"
+    if "__" in name:
+        reason, other = "names that hold '__' are kept for emitted code", re.sub("__+", "_", name)
     if reason:
-        raise BadNameError(
-            f"{name!r} cannot name this {what}: {reason}", where, f"expected another name, such as {name}1"
-        )
+        hint = f"expected another name, such as {other}"
+        raise BadNameError(f"{name!r} cannot name this {what}: {reason}", where, hint)
 
 
 def check_label(name: str, what: str, where: Location | None) -> None:
@@ -50,7 +50,8 @@ def check_label(name: str, what: str, where: Location | None) -> None:
     """
     if not IDENTIFIER.fullmatch(name):
         hint = "expected a letter, then letters, digits or '_', in ASCII"
-        if IDENTIFIER.fullmatch(plain := name.replace("-", "_").replace(" ", "_")):
+        plain = re.sub(r"[-_ ]+", "_", name).strip("_")
+        if IDENTIFIER.fullmatch(plain) and len(plain) <= MAX_LENGTH:
             hint += f", such as {plain}"
         if "=" in name and IDENTIFIER.fullmatch(plain := name.partition("=")[0].strip()):
             hint = f"a value stands behind a colon: {plain}:{name.partition('=')[2].partition('=')[0].rstrip()}"

@@ -68,3 +68,8 @@ def _plain(value: Any) -> Any:
     if isinstance(value, (list, tuple)):
         return [_plain(item) for item in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def counted(count: int, noun: str, plural: str = "") -> str:
+    """Return a count with its noun: 1 run, 2 runs, 2 bodies."""
+    return f"{count} {noun if count == 1 else plural or f'{noun}s'}"

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
+from gudgeon.language.shown import counted
 from gudgeon.language.wanted import is_whole, refuse, text, told
 from gudgeon.model.choices import of_runs as chosen_of_runs
 from gudgeon.results.batch_series import kept_text, series, wanted_names
@@ -109,7 +110,7 @@ class Batch:
 
     def __repr__(self) -> str:
         failed = f", {len(self.failures)} failed" if self.failures else ""
-        samples = f"{len(self)} runs of {self.t.shape[-1]} samples"
+        samples = f"{counted(len(self), 'run')} of {counted(self.t.shape[-1], 'sample')}"
         kept = "" if self.states else f", {', '.join(name for name in self.kept if name != 't') or 'no series kept'}"
         return f"<Batch {self.source.mechanism}/{self.source.scene}: {samples}{failed}{kept}>"
 

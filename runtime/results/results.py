@@ -18,6 +18,7 @@ import numpy as np
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, SolverError, UnknownNameError
 from gudgeon.integrators.trajectory import no_events
+from gudgeon.language.shown import counted
 from gudgeon.language.wanted import text
 from gudgeon.model.choices import said
 from gudgeon.results.diagnostics import Diagnostics, Extremes
@@ -86,7 +87,7 @@ class Result(Shown):
 
     def __repr__(self) -> str:
         span = f"{self.t[0]:g} … {self.t[-1]:g} s" if len(self.t) else "empty"
-        return f"<Result {self.source.mechanism}/{self.source.scene}: {len(self.t)} samples, {span}>"
+        return f"<Result {self.source.mechanism}/{self.source.scene}: {counted(len(self.t), 'sample')}, {span}>"
 
     @cached_property
     def names(self) -> Mapping[str, str]:

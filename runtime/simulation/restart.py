@@ -18,6 +18,7 @@ import numpy as np
 from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.errors import AssemblyError, BadValueError
+from gudgeon.language.shown import counted
 from gudgeon.language.wanted import mapping, number_of, refuse, text
 from gudgeon.model.arrays import CODE, taken
 from gudgeon.model.choices import said, told_choices
@@ -62,7 +63,8 @@ def own_each(source: KernelSource, start: Any, rows: int) -> list[State]:
         return [own(source, start)] * rows
     states = [own(source, one) for one in start]
     if len(states) != rows and 1 not in (rows, len(states)) or not states:
-        raise BadValueError(f"start has {len(states)} states for {rows} runs", hint="one state, or one for every run")
+        told = f"start has {counted(len(states), 'state')} for {counted(rows, 'run')}"
+        raise BadValueError(told, hint="one state, or one for every run")
     times = sorted({state.t for state in states})
     if len(times) > 1:
         told = f"start: states at {times[0]:.9g} s and {times[-1]:.9g} s: the runs of a batch have their times together"

@@ -21,6 +21,7 @@ from gudgeon.integrators.batch import available_threads
 from gudgeon.integrators.session import counts_of_runs
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import Problem, Progress
+from gudgeon.language.shown import counted
 from gudgeon.language.wanted import flag, function, is_whole, text, told
 from gudgeon.model.compiled import Array
 from gudgeon.model.contours import of_run, taken_contours
@@ -128,7 +129,7 @@ class _Starts:
         own = next((len(contour) for contour in worn.values() if contour.ndim == 2), len(rows))
         if own != len(rows) and len(rows) > 1:
             hint = "one contour, or one for every run"
-            raise BadValueError(f"contour has {own} rows for {len(rows)} runs", hint=hint)
+            raise BadValueError(f"contour has {counted(own, 'row')} for {counted(len(rows), 'run')}", hint=hint)
         rows = rows if own == len(rows) else list(rows) * own
         runs = each.length(len(rows))
         self.states = own_each(simulation.source, start, runs)

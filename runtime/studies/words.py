@@ -27,11 +27,6 @@ def seconds(value: float) -> str:
     return f"{value:.3g} s" if math.isfinite(value) else "–"
 
 
-def counted(count: int, noun: str) -> str:
-    """One run, several runs."""
-    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
-
-
 def clearance(value: float) -> str:
     """A radial clearance in mm, as drawings have it; "no play" for NaN."""
     return "no play" if math.isnan(value) else f"{value * 1e3:.3g} mm"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -25,6 +25,7 @@ SPREADS = (0.15, 0.15, 0.08, 0.03)  # by how much numbers are changed, in one at
 MOST = 4  # numbers that are changed
 MEASURES = ("length", "mass", "inertia")
 DIGITS = 5  # of positions, as shares of the mechanism's size
+NOISE = 1e-9  # of the largest rate of its kind: a smaller one is rounding
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,17 @@ class Drawn:
     v: Array
     p: Array
     run: Result  # it ends at t, with every digit
+    units: Array  # (2n,) of the last digits of q and v as they are printed
+
+    def uncertainty(self, function: Callable[[Array, Array], Array]) -> Array:
+        """Return by how much the data's rounding, half a unit of each last digit, may change function(q, v)."""
+        both, total = np.concatenate([self.q, self.v]), np.asarray(0.0)
+        value, n = function(self.q, self.v), len(self.q)
+        for k, unit in enumerate(self.units):
+            changed = both.copy()
+            changed[k] += 0.5 * unit
+            total = total + np.abs(function(changed[:n], changed[n:]) - value)
+        return total
 
 
 def draw_numbers(
@@ -130,7 +142,11 @@ def _drawn(numbers: dict[str, str], t: float, p: Array, run: Result) -> Drawn:
         raise SolverError(f"no position at {t:g} s", t)
     size = max(float(np.ptp(q.reshape(-1, 3)[:, :2])), 1e-12)
     decimals = DIGITS - 1 - int(np.floor(np.log10(size)))
+    units = np.zeros((2, len(q)))
     for k in range(len(q)):
-        q[k] = round(q[k], DIGITS if k % 3 == 2 else decimals)  # whole turns too: rows of drives and gears count them
-        v[k] = float(f"{v[k]:.{DIGITS}g}")
-    return Drawn(numbers, t, q, v, p, run)
+        places = DIGITS if k % 3 == 2 else decimals
+        q[k], units[0, k] = round(q[k], places), 10.0**-places  # whole turns too: rows of drives and gears count them
+        alike = v[2::3] if k % 3 == 2 else np.delete(v, np.s_[2::3])
+        v[k] = 0.0 if abs(v[k]) <= NOISE * np.abs(alike).max() else float(f"{v[k]:.{DIGITS}g}")
+        units[1, k] = 10.0 ** (math.floor(math.log10(abs(v[k]))) + 1 - DIGITS) if v[k] else 0.0
+    return Drawn(numbers, t, q, v, p, run, units.ravel())

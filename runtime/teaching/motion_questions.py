@@ -11,7 +11,8 @@ import sympy as sp
 from gudgeon.generator.targets.latex.document import Block, Equation, cells, paragraph, table
 from gudgeon.generator.targets.latex.letters import Name, letter
 from gudgeon.model.compiled import Array
-from gudgeon.teaching.sheet import NOISE, Question, Subject
+from gudgeon.teaching.draw_numbers import NOISE
+from gudgeon.teaching.sheet import Question, Subject
 
 ACCELERATIONS = Name(r"\Phi_{q} \ddot{q} = \gamma", "Φ_q·q̈ = γ")
 KKT = Name(r"M \ddot{q} + \Phi_{q}^{\mathsf{T}} \lambda = g", "M·q̈ + Φ_qᵀ·λ = g")
@@ -63,10 +64,10 @@ def acceleration(subject: Subject) -> Question:
     phi_q, gamma = compiled.phi_q(drawn.t, drawn.q, drawn.p), compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
     signs = [letter(base, body.name, dots=2) for body in model.bodies for base in ("x", "y", "theta")]
     shown = range(len(gamma)) if len(gamma) <= MOST else [r for r in range(len(gamma)) if phi_q[r, k]]
-    scale = float(np.abs(gamma).max())
+    scale, off = float(np.abs(gamma).max()), drawn.uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p))
     solved = [
         paragraph("Row by row ", ACCELERATIONS, _told(len(gamma)), " is, in m/s² and rad/s²,"),
-        *(_row(subject, subject.number(gamma[r], scale=scale), phi_q[r], signs) for r in shown),
+        *(_row(subject, subject.number(gamma[r], scale=scale, off=off[r]), phi_q[r], signs) for r in shown),
         paragraph("The accelerations, of centres of mass and of angles, are"),
         *_by_body(subject, a, "x, m/s²", "y, m/s²", "angle, rad/s²"),
         subject.value(signs[k], float(a[k]), "rad/s²" if k % 3 == 2 else "m/s²"),

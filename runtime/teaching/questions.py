@@ -96,7 +96,9 @@ def _new_letters(subject: Subject, of: str) -> list[Block]:
 
 def _jacobian(subject: Subject) -> Question:
     model, drawn = subject.model, subject.drawn
-    values = subject.simulation.compiled.phi_q(drawn.t, drawn.q, drawn.p)
+    compiled = subject.simulation.compiled
+    values = compiled.phi_q(drawn.t, drawn.q, drawn.p)
+    off = drawn.uncertainty(lambda q, v: compiled.phi_q(drawn.t, q, drawn.p))
     place = {q: k for k, q in enumerate(model.q)}
     numbers, rows, below = dict[str, float](), [], list[Block]()
     for k, row in subject.rows:
@@ -110,7 +112,8 @@ def _jacobian(subject: Subject) -> Question:
             if isinstance(formula, Name) and len(formula.text) > WIDEST:
                 below.append(subject.equation(left, entry))
                 formula = "below"
-            rows.append(cells(left, formula, subject.number(x), _entry_unit(row.unit, place[q] % 3)))
+            shown = subject.number(x, off=off[k - 1, place[q]])
+            rows.append(cells(left, formula, shown, _entry_unit(row.unit, place[q] % 3)))
     asked = [
         paragraph(f"At {drawn.t:g} s the bodies are at"),
         *position(subject, rates=False),
@@ -127,7 +130,9 @@ def _entry_unit(row: str, axis: int) -> str:
 
 def _gamma(subject: Subject) -> Question:
     drawn = subject.drawn
-    values = subject.simulation.compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
+    compiled = subject.simulation.compiled
+    values = compiled.gamma(drawn.t, drawn.q, drawn.v, drawn.p)
+    off = drawn.uncertainty(lambda q, v: compiled.gamma(drawn.t, q, v, drawn.p))
     scale = float(np.abs(values).max())
     numbers, solved = dict[str, float](), _new_letters(subject, "gamma")
     for k, row in subject.rows:
@@ -139,7 +144,7 @@ def _gamma(subject: Subject) -> Question:
             if all(len(term.text) <= WIDEST or "cases" not in term.latex for term in formula.terms):
                 solved.append(formula)
         unit = "m/s²" if row.unit == "m" else "rad/s²"
-        solved.append(subject.value(indexed("gamma", k), numbers[row.name], unit, scale))
+        solved.append(subject.value(indexed("gamma", k), numbers[row.name], unit, scale, off[k - 1]))
     asked = [
         paragraph(f"At the same {drawn.t:g} s the rates are"),
         *position(subject, rates=True),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
@@ -29,6 +30,7 @@ from gudgeon.generator.targets.latex.values import Values, unit_of
 from gudgeon.generator.targets.latex.write import with_letters, with_paper
 from gudgeon.language.shown import one_line
 from gudgeon.language.tree import Number
+from gudgeon.teaching.draw_numbers import NOISE
 
 if TYPE_CHECKING:
     from gudgeon.generator.equations.constraints import Row
@@ -39,7 +41,6 @@ if TYPE_CHECKING:
     from gudgeon.teaching.draw_numbers import Drawn
 
 GIVEN = ("Bodies", "Ground", "Curves", "Parameters")  # sections of the document that tell nothing of what is asked
-NOISE = 1e-9
 LONGEST = 60  # operations of an expression that a solution writes out
 
 
@@ -69,11 +70,16 @@ class Subject:
         """The rows that are asked for, by their numbers from 1."""
         return [(k, row) for k, row in enumerate(self.model.rows, 1) if row.owner in self.owners]
 
-    def number(self, x: float, digits: int = 4, scale: float = 0.0) -> Name:
-        """A number as it is printed; beside numbers as large as `scale`, what rounding leaves of none is 0."""
-        short = float(f"{x:.{digits}g}")
-        if abs(x) <= NOISE * scale:
+    def number(self, x: float, digits: int = 4, scale: float = 0.0, off: float = 0.0) -> Name:
+        """A number as it is printed; beside numbers as large as `scale`, what rounding leaves of none is 0.
+
+        `off`: by how much the data leave it open, so that no further digits are printed.
+        """
+        if abs(x) <= max(NOISE * scale, 0.5 * off):
             return Name("0", "0")
+        if off > 0.0:
+            digits = min(digits, max(1, math.floor(math.log10(abs(x))) - math.ceil(math.log10(off)) + 1))
+        short = float(f"{x:.{digits}g}")
         return self.notation.math(sp.Integer(0) if short == 0.0 else sp.Float(short, 17))
 
     def equation(self, left: Name | sp.Symbol, right: sp.Expr) -> Equation:
@@ -81,9 +87,9 @@ class Subject:
         name = left if isinstance(left, Name) else self.notation.math(left)
         return Equation(name, self.notation.terms(self.notation.expand(right)))
 
-    def value(self, left: Name, x: float, unit: str = "", scale: float = 0.0) -> Equation:
+    def value(self, left: Name, x: float, unit: str = "", scale: float = 0.0, off: float = 0.0) -> Equation:
         """left = number unit."""
-        number, sign = self.number(x, scale=scale), unit.replace("²", "^{2}").replace(" ", r" \, ")
+        number, sign = self.number(x, scale=scale, off=off), unit.replace("²", "^{2}").replace(" ", r" \, ")
         return Equation(left, (Name(rf"{number.latex} \; \mathrm{{{sign}}}", f"{number.text} {unit}".rstrip()),))
 
 

@@ -111,7 +111,7 @@ def test_play_inside_a_joint_points_to_scenes(key: str) -> None:
 
 def test_three_points_in_a_revolute_are_two_joints() -> None:
     error = refused("[crank.head, rod.tail]", "‸[crank.head, rod.tail, piston.origin]")
-    assert type(error) is BadValueError and "revolute takes 3 points" in error.message
+    assert type(error) is BadValueError and "revolute has 3 points" in error.message
     pairs = "A: {revolute: [crank.head, rod.tail]}, B: {revolute: [crank.head, piston.origin]}"
     assert error.hint.endswith(f"3 bodies on one pin are 2 joints: {pairs}")
     read("shaft: {revolute: [ground.O, crank.tail]}", "\n  ".join(["shaft: {revolute: [ground.O, crank.tail]}",

@@ -227,7 +227,7 @@ def check_name(name: Any, what: str) -> None:
         check_label(name, what, None)
     except BadNameError as error:
         raise LawError(error.message, hint=error.hint) from None
-    kept = "__" in name or name.startswith("gudgeon")
+    kept = "__" in name
     _need(not kept, f"{name!r} is kept for emitted code", "choose another name")
 
 

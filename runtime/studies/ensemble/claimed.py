@@ -14,10 +14,10 @@ import numpy as np
 from gudgeon.errors import GudgeonError
 from gudgeon.files.writing import read_regular, written
 from gudgeon.language.plot_units import quantity
+from gudgeon.language.shown import counted
 from gudgeon.results.batch import Array
 from gudgeon.studies.ensemble.judge import Cell, judged, together
 from gudgeon.studies.ensemble.names import as_people_write, names_of
-from gudgeon.studies.words import counted
 
 if TYPE_CHECKING:
     import pandas

@@ -11,6 +11,7 @@ import numpy as np
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.errors import BadValueError, InputError
 from gudgeon.integrators import adaptive
+from gudgeon.language.shown import counted
 from gudgeon.language.units import DIMENSIONLESS, TIME
 from gudgeon.results.batch import Array
 from gudgeon.results.series import catalogue
@@ -36,7 +37,6 @@ from gudgeon.studies.ensemble.plan import Coordinate, Deviations, Dimension, Par
 from gudgeon.studies.ensemble.points import NORMAL, deviations, shares, spread_over
 from gudgeon.studies.ensemble.structures import mechanism_of, origins, structures
 from gudgeon.studies.ensemble.wearing import wearing_of
-from gudgeon.studies.words import counted
 
 if TYPE_CHECKING:
     from gudgeon.generator.study.spec import Deviation, Draw, Starts, StudyFile

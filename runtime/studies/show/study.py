@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from gudgeon.files.room import in_bytes
-from gudgeon.language.shown import path_text, print_json, visible
+from gudgeon.language.shown import counted, path_text, print_json, visible
 from gudgeon.studies.ensemble.claimed import FILE, claims_json
 from gudgeon.studies.ensemble.estimate import Estimate
 from gudgeon.studies.ensemble.finished import Study
@@ -18,7 +18,7 @@ from gudgeon.studies.ensemble.folder import DATASET
 from gudgeon.studies.ensemble.plan import Plan, Plans
 from gudgeon.studies.show.study_data import StudyData
 from gudgeon.studies.show.tables import console, new_table
-from gudgeon.studies.words import counted, seconds
+from gudgeon.studies.words import seconds
 
 MOST_KINDS = 8
 MOST_TRENDS = 16  # that are told one by one
