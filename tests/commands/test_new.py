@@ -56,7 +56,7 @@ def test_like_any_that_is_shipped(like: str, call: Gudgeon, tmp_path: Path) -> N
 @pytest.mark.parametrize(
     ("line", "told"),
     [("my-engine", "my_engine"), ("engine.yml", "without .yaml"), ("true", "YAML takes it"), ("../x", "no identifier"),
-     ("crane --like double_rocke", "did you mean 'double_rocker'"),
+     ("a__x", "kept for emitted code"), ("crane --like double_rocke", "did you mean 'double_rocker'"),
      ("there", "is there already"), ("link", "is there already")],
 )  # fmt: skip
 def test_what_is_refused_leaves_all_as_it_was(line: str, told: str, call: Gudgeon, tmp_path: Path) -> None:

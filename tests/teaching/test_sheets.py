@@ -22,6 +22,7 @@ from gudgeon.generator.targets.latex.render import render
 from gudgeon.language.output_units import angle_power
 from gudgeon.language.parser import parse
 from gudgeon.loading.shipped import shipped_file
+from gudgeon.simulation.simulation import Simulation
 from gudgeon.teaching.draw_numbers import Drawn, draw_numbers
 from gudgeon.teaching.markdown import markdown
 from gudgeon.teaching.questions import make_questions
@@ -357,3 +358,48 @@ def test_moments_are_before_the_event_that_ends_the_motion(tmp_path: Path) -> No
     assert draw_numbers(simulation, 1, "0.1 s").t == 0.1
     with pytest.raises(BadValueError, match=r"--at is 0.2 s: event part \(action: stop\) ends the motion at 0.125 s"):
         draw_numbers(simulation, 1, "0.2 s")
+
+
+PUMP = """
+format: gudgeon/1
+name: pump
+parameters: {n: 120 rpm}
+bodies:
+  crank: {length: 60 mm, mass: 0.4 kg, inertia: 2e-4 kg*m^2}
+  rod: {length: 250 mm, mass: 0.5 kg, inertia: 2.6e-3 kg*m^2}
+  plunger: {mass: 0.9 kg, inertia: 1e-4 kg*m^2}
+ground: {O: [0, 0]}
+joints:
+  shaft: {revolute: [ground.O, crank.tail]}
+  crankpin: {revolute: [crank.head, rod.tail]}
+  wristpin: {revolute: [rod.head, plunger.origin]}
+  barrel: {translational: [ground.O, plunger.origin], axis: [1, 0]}
+drives: {motor: {angle: crank, value: 60 deg + n * t}}
+start: {guess: {plunger.x: 280 mm}}
+"""
+
+
+def test_given_data_hold_no_rounding_and_values_no_more_digits_than_they_carry(tmp_path: Path) -> None:
+    (tmp_path / "pump.yaml").write_text(PUMP, encoding="utf-8")
+    simulation = gudgeon.load(tmp_path / "pump.yaml")
+    for seed in range(1, 9):
+        drawn = draw_numbers(simulation, seed, None)
+        for values, least in ((drawn.q, 1e-8), (drawn.v, 1e-8 * np.abs(drawn.v).max())):
+            assert all(x == 0.0 or abs(x) > least for x in values)
+        _check_uncertainty(simulation, drawn, seed)
+    of = subject("four_bar", "ideal")
+    for x, off, text in ((-0.001782, 9e-6, "-0.00178"), (-0.001782, 0.0, "-0.001782"), (3e-7, 1e-6, "0")):
+        assert of.number(x, off=off).text == text
+
+
+def _check_uncertainty(simulation: Simulation, drawn: Drawn, seed: int) -> None:
+    """Of other data that would be printed the same, γ differs by no more."""
+
+    def gamma(q: np.ndarray, v: np.ndarray) -> np.ndarray:
+        return simulation.compiled.gamma(drawn.t, q, v, drawn.p)
+
+    off, n, rng = drawn.uncertainty(gamma), len(drawn.q), np.random.default_rng(seed)
+    exact, both = gamma(drawn.q, drawn.v), np.concatenate([drawn.q, drawn.v])
+    for _ in range(20):
+        other = both + drawn.units * rng.uniform(-0.5, 0.5, 2 * n)
+        assert (np.abs(gamma(other[:n], other[n:]) - exact) <= 1.01 * off + 1e-12).all()
