@@ -256,7 +256,8 @@ def _failure(problem: Problem, status: int, t: float, q: Array) -> SolverError:
         begun = t > float(problem.t[0])
         remedy = "end the run before it" if begun else "give one of these rates in start.rates, or begin elsewhere"
         return SingularError(
-            f"the linkage cannot be followed beyond t = {t:.12g} s: {branches}{drives_at(problem.compiled, problem.p, t)}\n"
+            f"the linkage cannot be followed beyond t = {t:.12g} s: {branches}"
+            f"{drives_at(problem.compiled, problem.p, t)}\n"
             f"  the drives do not tell on which one it goes on: {remedy}", t, row
         )  # fmt: skip
     return SingularError(

@@ -28,7 +28,7 @@ def torque(parameters: str, value: str, **motion: float) -> float:
     """The torque of the file's only force, in N m."""
     mechanism = read_mechanism(FILE.format(parameters=parameters, value=value).encode(), "f.yaml")
     known = {**parameter_values(mechanism.parameters), **{name.replace("_", "."): x for name, x in motion.items()}}
-    return float(evaluate(mechanism.forces["brake"].quantities["value"].value, known.__getitem__))  # type: ignore[arg-type]
+    return float(evaluate(mechanism.forces["brake"].quantities["value"].value, known.__getitem__))
 
 
 def parameter(parameters: str, name: str) -> float:
