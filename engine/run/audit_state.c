@@ -40,7 +40,8 @@ static int audit_state(Run *run, int listed, const Parameters *p)
     for (int k = 0; k < N_SWITCHES && run->memory.held; k++) {
         const double g = run->memory.side[k] * run->aside.g[k], scale = audit->switch_scale[k];
         audit->switch_scale[k] = max_of(scale, fabs(g));
-        audit->wrong[k] = (unsigned char)(g < -1e-3 * scale && k != run->skip && !meets[k] ? min_of(audit->wrong[k] + 1, 100) : 0);
+        audit->wrong[k] = (unsigned char)(g < -1e-3 * scale && k != run->skip && !meets[k]
+            ? min_of(audit->wrong[k] + 1, 100) : 0);
         if (audit->wrong[k] >= AUDIT_WRONG && is_resolved(run, run->t, run->y, &run->aside, N_CLEARANCES + k, p))
             record(audit, BRANCH_CHECK, -g, 1e-4 * audit->switch_scale[k], run->t, k);
     }
