@@ -25,7 +25,7 @@ static void check_inside(Run *run, Step *step, double theta, int drawn, const Pa
 {
     Audit *audit = &run->audit;
     const double t = step->t + theta * step->h;
-    double y[N_Y], dy[N_Y], rate[N_Y], defect = 0.0;
+    double y[N_Y], dy[N_Y], rate[N_Y], all[N_S], defect = 0.0;
     Aside aside;
     if (make_dense(run, p, step))
         return;
@@ -46,9 +46,10 @@ static void check_inside(Run *run, Step *step, double theta, int drawn, const Pa
     check_branches(run, step, t, y, &aside, p);
     if (!drawn)
         return;
-    check_rows(run, t, y, !RATE_JUMPS, p);
+    to_absolute(t, y, &run->memory, p, all);
+    check_rows(run, t, all, !RATE_JUMPS, p);
     if (branches_fit(run, &aside))
-        check_accelerations(run, t, y, dy, p);
+        check_accelerations(run, t, y, dy, all, p);
     check_forces(run, t, y, &aside, p);
 }
 
@@ -112,10 +113,9 @@ static void audit_step(Run *run, Step *step, double share, int event, const Para
         return;
     const long evaluations = run->evaluations;
     const double h = share * step->h;
-    const int is_longer = !step->method->own_length && audit->last_h > 0.0 && h > AUDIT_LONGER * audit->last_h;
+    const int is_longer = !step->method->own_length && run->last_step > 0.0 && h > AUDIT_LONGER * run->last_step;
     const int drawn = run->steps >= audit->due || audit->level == AUDIT_FULL;
     const int places = audit->level == AUDIT_FULL ? AUDIT_INSIDE : drawn || is_longer;
-    audit->last_h = h;
     find_zeros(run, step, share, event, p);
     if (!places && event < 0)
         return;

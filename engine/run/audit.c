@@ -6,13 +6,13 @@
  * inside of steps. The audit changes nothing but its own record.
  */
 #define AUDIT_FAILS 10.0       /* multiples of a limit that end a run */
-#define AUDIT_GRAZE 4e-13        /* m: so shallow a contact bears no force worth the name */
+#define AUDIT_GRAZE 4e-13      /* m: so shallow a contact bears no force worth the name */
 #define AUDIT_DEPTH 10.0       /* tolerances that an open joint may penetrate */
 #define AUDIT_ROUNDING 1e-9    /* of the size, or speed: closer than this rows are not known */
 #define AUDIT_ACCELERATION 1e-6 /* of the largest term, that two ways to the accelerations may differ by */
 #define AUDIT_CLOSURE 1e-9     /* of the size: error of positions that accelerations must not depend on */
 #define AUDIT_NOISE 1e-9       /* of its largest magnitude, below which the sign of a function is rounding */
-#define AUDIT_ZERO 1e-3         /* of its value at the beginning of a step: smaller ones are a zero, and no pole */
+#define AUDIT_ZERO 1e-3        /* of its value at the beginning of a step: smaller ones are a zero, and no pole */
 #define AUDIT_FORCE 1e7        /* of a force, multiplied by rtol: the change by one tolerance in the state */
 #define AUDIT_FIXED 1e-8       /* the tolerance that stands in for that of a fixed step */
 /* steps in a row that end on the wrong side of a switching function; after which its magnitude is known */
@@ -27,8 +27,10 @@ static double draw(Audit *audit)
     return ((audit->random >> 8) + 0.5) / 16777216.0;
 }
 
-static double audit_tolerance(const Run *run) { return run->fixed > 0.0 || run->inverse_scale[0] == 0.0 ? AUDIT_FIXED
-    : tolerance_of(run); }
+static double audit_tolerance(const Run *run) { return run->fixed > 0.0 ? AUDIT_FIXED : tolerance_of(run); }
+
+/* The mechanism's size, m: of the smallest length and angle that matter. */
+static double size_of(const Run *run) { return run->least[0] / run->least[1]; }
 
 static void record(Audit *audit, int check, double value, double limit, double t, int where)
 {
@@ -47,8 +49,8 @@ static void record(Audit *audit, int check, double value, double limit, double t
  */
 static void check_closed(Run *run)
 {
-    double limit = max_of(audit_tolerance(run) * run->least[0], AUDIT_ROUNDING * run->least[0] / run->least[1]);
-    if (run->steps <= 1 || !(run->least[1] > 0.0))
+    double limit = max_of(audit_tolerance(run) * run->least[0], AUDIT_ROUNDING * size_of(run));
+    if (run->steps <= 1)
         run->audit.phi_start = run->phi_max;
     if (!(run->phi_max > run->audit.phi_start) || run->phi_max < limit)
         return;
@@ -57,23 +59,16 @@ static void check_closed(Run *run)
     record(&run->audit, POSITION_CHECK, run->phi_max, limit, run->t, -1);
 }
 
-/* Positions, and with `rates` velocities, of all rows of the motion at a state. */
-static void check_rows(Run *run, double t, const double *y, int rates_too, const Parameters *p)
+/* Positions, and with `rates_too` velocities, of all rows of the motion at a state `all` of all bodies. */
+static void check_rows(Run *run, double t, const double *all, int rates_too, const Parameters *p)
 {
     Audit *audit = &run->audit;
-    double all[N_S], phi[AT_LEAST_ONE(N_ALL_ROWS)], nu[AT_LEAST_ONE(N_ALL_ROWS)];
-    double size = run->least[1] > 0.0 ? run->least[0] / run->least[1] : 0.0, far[2] = {0.0, 0.0};
-    double speed = 0.0, turn = 0.0;
-    const double rtol = audit_tolerance(run);
-    to_absolute(t, y, &run->memory, p, all);
+    double phi[AT_LEAST_ONE(N_ALL_ROWS)], missed[AT_LEAST_ONE(N_ALL_ROWS)], nu[AT_LEAST_ONE(N_ALL_ROWS)];
+    double far[2] = {0.0, 0.0}, speed[2] = {0.0, 0.0};
+    const double rtol = audit_tolerance(run), size = size_of(run);
     for (int k = 0; k < N_Q; k++) {
         far[k % 3 == 2] = max_of(far[k % 3 == 2], fabs(all[k]));
-        if (k % 3 == 2) {
-            turn = max_of(turn, fabs(all[N_Q + k]));
-            continue;
-        }
-        size = max_of(size, run->least[1] > 0.0 ? 0.0 : fabs(all[k]));
-        speed = max_of(speed, fabs(all[N_Q + k]));
+        speed[k % 3 == 2] = max_of(speed[k % 3 == 2], fabs(all[N_Q + k]));
     }
     constraints(t, all, p, phi);
     for (int i = 0; i < N_ROWS; i++) {
@@ -84,22 +79,14 @@ static void check_rows(Run *run, double t, const double *y, int rates_too, const
     }
     if (!rates_too)
         return;
-    /* Phi_q v by differences of the rows themselves: no Jacobian is involved */
-    const double fast = max_of(max_of(speed, size * turn), 1e-300), ahead = 1e-5 * size / fast;
-    double near[2][AT_LEAST_ONE(N_ALL_ROWS)], q[N_Q];
-    for (int side = 0; side < 2; side++) {
-        for (int k = 0; k < N_Q; k++)
-            q[k] = all[k] + (side ? ahead : -ahead) * all[N_Q + k];
-        constraints(t, q, p, near[side]);
-    }
-    velocity_rhs(t, all, p, nu);
+    const double fast = max_of(max_of(speed[0], size * speed[1]), 1e-300), ahead = 1e-5 * size / fast;
+    velocity_residuals(t, all, all + N_Q, ahead, p, missed, nu);
     for (int i = 0; i < N_ROWS; i++) {
         const int row = kept_row[i];
-        const double rate = 0.5 * (near[1][row] - near[0][row]) / ahead - nu[row];
         const double scale = max_of(row_is_length[row] ? fast : fast / max_of(size, 1e-300), fabs(nu[row]));
         const double most = row_is_length[row] ? far[0] + size * far[1] : far[1];
         const double rounding = 4.0 * DBL_EPSILON * most / ahead;
-        record(audit, VELOCITY_CHECK, fabs(rate), max_of(rtol, 1e-8) * scale + rounding, t, row);
+        record(audit, VELOCITY_CHECK, fabs(missed[row]), max_of(rtol, 1e-8) * scale + rounding, t, row);
     }
 }
 
@@ -130,15 +117,16 @@ static double states_near(const Run *run, double t, const double *y, const doubl
 static int is_sensitive(Run *run, double t, const double *y, const double *a, const double *scale, double share,
     const Parameters *p)
 {
-    double state[N_Y], other[N_Q], rate[N_Y];
+    double state[N_Y], all[N_S], other[N_Q], rate[N_Y];
     Memory now = run->memory;
     Aside aside;
     if (motion_here(t, y, &now, p, rate, &aside))
         return 1; /* near a singular position rates are continued from both sides of it */
-    const double size = run->least[1] > 0.0 ? run->least[0] / run->least[1] : 1.0;
+    const double size = size_of(run);
     for (int k = 0; k < N_Y; k++)
         state[k] = k < N_X ? y[k] + AUDIT_CLOSURE * (is_angle[k] ? 1.0 : size) * (2.0 * draw(&run->audit) - 1.0) : y[k];
-    if (absolute_accelerations(t, state, &run->memory, p, other))
+    to_absolute(t, state, &run->memory, p, all);
+    if (absolute_accelerations(t, all, &run->memory, p, other))
         return 1;
     for (int k = 0; k < N_Q; k++)
         if (!(fabs(other[k] - a[k]) < 0.1 * share * max_of(scale[k % 3 == 2], 1e-300)))
@@ -149,17 +137,17 @@ static int is_sensitive(Run *run, double t, const double *y, const double *a, co
 
 /*
  * Accelerations `dy` of the tree against those that follow from the equations of all bodies. The tree's accelerations
- * of all bodies are differences of velocities, (v(t + h) - v(t - h))/(2 h). Where
- * second differences say that h is too long, as near a singular position, h is shorter, or nothing is compared.
+ * of all bodies are differences of velocities, (v(t + h) - v(t - h))/(2 h). Where second differences say that h is too
+ * long, as near a singular position, h is shorter, or nothing is compared. `all`: the state of all bodies.
  */
-static void check_accelerations(Run *run, double t, const double *y, const double *dy, const Parameters *p)
+static void check_accelerations(Run *run, double t, const double *y, const double *dy, const double *all,
+    const Parameters *p)
 {
 #if TREE
-    const double size = run->least[1] > 0.0 ? run->least[0] / run->least[1] : 1.0;
-    double a[N_Q], all[N_S], near[2][N_S], rate = 0.0, most[2] = {0.0, 0.0};
-    if (run->memory.way != AT_ONCE || absolute_accelerations(t, y, &run->memory, p, a))
+    const double size = size_of(run);
+    double a[N_Q], near[2][N_S], rate = 0.0, most[2] = {0.0, 0.0};
+    if (run->memory.way != AT_ONCE || absolute_accelerations(t, all, &run->memory, p, a))
         return; /* near a singular position both lose digits */
-    to_absolute(t, y, &run->memory, p, all);
     for (int k = 0; k < N_Q; k++) {
         const double unit = k % 3 == 2 ? 1.0 : size;
         rate = max_of(rate, max_of(fabs(all[N_Q + k]) / unit, sqrt(fabs(a[k]) / unit)));
@@ -190,7 +178,7 @@ static void check_accelerations(Run *run, double t, const double *y, const doubl
         }
     }
 #else
-    (void)run, (void)t, (void)y, (void)dy, (void)p;
+    (void)run, (void)t, (void)y, (void)dy, (void)all, (void)p;
 #endif
 }
 
@@ -217,15 +205,14 @@ static void check_forces(Run *run, double t, const double *y, const Aside *at, c
 /* Open joints at a state: neither penetration nor force. */
 static void check_joints(Run *run, double t, const Aside *aside, const Parameters *p)
 {
-    const double play = run->least[1] > 0.0 ? run->least[0] : 0.0;
-    for (int i = 0; i < N_CLEARANCES; i++) {
+    for (int i = 0; i < N_CLEARANCES && !(run->fixed > 0.0); i++) {
         const Clearance *joint = &aside->clearance[i];
-        if (run->memory.latch[i].closed || run->fixed > 0.0 || !(play > 0.0))
+        if (run->memory.latch[i].closed)
             continue;
         const double located = 4.0 * (run->tick + 8.0 * DBL_EPSILON * fabs(t)) * fabs(joint->deltadot);
-        const double least = max_of(AUDIT_GRAZE, 64.0 * DBL_EPSILON * play / run->least[1]);
+        const double least = max_of(AUDIT_GRAZE, 64.0 * DBL_EPSILON * size_of(run));
         const double rounding = max_of(1e-9 * radial_clearance(p, i), least);
-        const double limit = max_of(AUDIT_DEPTH * audit_tolerance(run) * play, rounding) + located;
+        const double limit = max_of(AUDIT_DEPTH * audit_tolerance(run) * run->least[0], rounding) + located;
         record(&run->audit, GAP_CHECK, max_of(joint->delta, 0.0), limit, t, i);
     }
 }

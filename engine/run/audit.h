@@ -1,6 +1,6 @@
 /*
  * The record of a run's audit: of each check the largest value as a multiple of its limit, and where it was found.
- * audit.c owns it: nothing else writes it but gudgeon_run_audit, which sets the level.
+ * Written by audit.c, audit_state.c and methods/audit_step.c alone.
  */
 #ifndef GUDGEON_AUDIT_H
 #define GUDGEON_AUDIT_H
@@ -30,7 +30,7 @@ typedef struct {
     int level, status;             /* one of those above; AUDITED once a check failed */
     long due;                      /* number of steps after which a step is checked inside next */
     unsigned random;               /* state of the generator that draws steps and places in them */
-    double last_h, phi_start;      /* s, the length of the last step; largest |Phi| at the start */
+    double phi_start;              /* largest |Phi| at the start */
     double switch_scale[AT_LEAST_ONE(N_SWITCHES)], event_scale[AT_LEAST_ONE(N_USER_EVENTS)]; /* largest magnitudes */
     unsigned char wrong[AT_LEAST_ONE(N_SWITCHES)];      /* steps in a row that ended on the wrong side */
     int ended;                     /* the event that ends the step, -1: none */

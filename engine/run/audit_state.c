@@ -1,5 +1,5 @@
 /*
- * The audit of a run at the end of each step (audit.c), and what is asked of it from outside.
+ * The audit of a run at the end of each step (audit.c), and the calls that set its level and read its record.
  */
 /*
  * Event i at the end of a step before which `listed` events were recorded: a zero is recorded, and nothing is recorded
@@ -27,12 +27,15 @@ static void check_event(Run *run, int i, int listed)
 static int audit_state(Run *run, int listed, const Parameters *p)
 {
     Audit *audit = &run->audit;
-    if (!audit->level || (!TREE && run->least[1] == 0.0))
-        return 0; /* in rk4's absolute coordinates Baumgarte's terms let rows drift */
+    if (!audit->level)
+        return 0;
     check_closed(run);
     check_joints(run, run->t, &run->aside, p);
-    if (N_CHAIN)
-        check_rows(run, run->t, run->y, 0, p);
+#if N_CHAIN
+    double all[N_S];
+    to_absolute(run->t, run->y, &run->memory, p, all);
+    check_rows(run, run->t, all, 0, p);
+#endif
     for (int i = 0; i < N_CLEARANCES; i++)
         if (!run->memory.latch[i].closed && gives(i) && !has_film(i))
             record(audit, FREE_CHECK, total_force(&run->aside.clearance[i]), max_of(1e-6 * run->F_peak[i], 1e-300),

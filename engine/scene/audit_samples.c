@@ -1,6 +1,37 @@
 /*
- * The audit of samples: what is reported there against equations that produced none of it. It owns no state.
+ * The audit of samples: what is reported there against equations that produced none of it; and what the audit of steps
+ * (run/audit.c) takes from the equations of all bodies. It owns no state.
  */
+
+int absolute_accelerations(double t, const double *all, const Memory *memory, const Parameters *p, double *a)
+{
+    double rate[N_S];
+    Aside aside;
+    Memory now = *memory;
+    now.held = 0; /* switching functions of all bodies have other numbers */
+    now.least = NEARLY_SINGULAR;
+    now.least_size = VANISHING;
+    const int status = rates_at(t, all, &now, p, rate, &aside);
+    for (int k = 0; k < N_Q; k++)
+        a[k] = rate[N_Q + k];
+    return status;
+}
+
+void velocity_residuals(double t, const double *q, const double *v, double h, const Parameters *p, double *missed,
+    double *nu)
+{
+    double near[2][N_Q], phi[2][AT_LEAST_ONE(N_ALL_ROWS)];
+    const double between = h > 0.0 ? 2.0 * h : INFINITY;
+    for (int side = 0; side < 2; side++) {
+        for (int k = 0; k < N_Q; k++)
+            near[side][k] = q[k] + (side ? h : -h) * v[k];
+        constraints(t, near[side], p, phi[side]);
+    }
+    velocity_rhs(t, q, p, nu);
+    for (int r = 0; r < N_ALL_ROWS; r++)
+        missed[r] = (phi[1][r] - phi[0][r]) / between - nu[r];
+}
+
 /* Whether a drive's rate, or second rate, jumps or is unbounded at a time: then a sample lies between two motions. */
 static int drives_jump(double t, const double *q, const double *v, const Parameters *p)
 {
@@ -34,10 +65,11 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
     for (long i = 0; i < n; i++, q += N_Q, v += N_Q, memory += N_MEMORY, off += 4) {
         Memory now = {0};
         Aside aside;
-        double y[N_S] = {0.0}, dy[N_S], near[2][N_Q], stored[3][2], phi[3][AT_LEAST_ONE(N_ALL_ROWS)], rate = 0.0;
+        double y[N_S] = {0.0}, dy[N_S], near[2][N_Q], stored[3][2], phi[AT_LEAST_ONE(N_ALL_ROWS)], rate = 0.0;
         double reactions[3 * AT_LEAST_ONE(N_REACTIONS)], torques[AT_LEAST_ONE(N_DRIVES)];
         double series[AT_LEAST_ONE(N_SERIES)];
-        double nu[AT_LEAST_ONE(N_ALL_ROWS)], force[2] = {0.0, 0.0}, fast[2] = {0.0, 0.0}, far[2] = {0.0, 0.0};
+        double nu[AT_LEAST_ONE(N_ALL_ROWS)], missed[AT_LEAST_ONE(N_ALL_ROWS)];
+        double force[2] = {0.0, 0.0}, fast[2] = {0.0, 0.0}, far[2] = {0.0, 0.0};
         off[0] = off[1] = off[2] = off[3] = 0.0;
         for (int k = 0; k < N_Q; k++) {
             y[k] = q[k];
@@ -59,11 +91,10 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
             for (int k = 0; k < N_Q; k++)
                 near[side][k] = q[k] + (side ? h : -h) * v[k];
             outputs(t[i], near[side], v, p, aside.lambda, reactions, torques, series, stored[side]);
-            constraints(t[i], near[side], p, phi[side]);
         }
         outputs(t[i], q, v, p, aside.lambda, reactions, torques, series, stored[2]);
-        constraints(t[i], q, p, phi[2]);
-        velocity_rhs(t[i], q, p, nu);
+        constraints(t[i], q, p, phi);
+        velocity_residuals(t[i], q, v, h, p, missed, nu);
         const double between = h > 0.0 ? 2.0 * h : INFINITY;
         double sum = (stored[1][1] - stored[0][1]) / between, driven = 0.0;
         double terms = fabs(sum) + force[0] * fast[0] + force[1] * fast[1];
@@ -86,9 +117,9 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
             const double unit = length ? size : 1.0, most = length ? far[0] + size * far[1] : far[1];
             const double speed = max_of(length ? max_of(fast[0], size * fast[1]) : max_of(fast[1], fast[0] / size),
                 fabs(nu[row])) + 1e9 * DBL_EPSILON * most / between;
-            off[2] = max_of(off[2], fabs(phi[2][row]) / (unit + most));
+            off[2] = max_of(off[2], fabs(phi[row]) / (unit + most));
             if (speed > 0.0)
-                off[3] = max_of(off[3], fabs((phi[1][row] - phi[0][row]) / between - nu[row]) / speed);
+                off[3] = max_of(off[3], fabs(missed[row]) / speed);
         }
     }
 }

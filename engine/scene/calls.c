@@ -57,23 +57,6 @@ void read_memory(const double *sample, Memory *memory)
     memory->least_size = VANISHING;
 }
 
-#if INTEGRATES && TREE
-int absolute_accelerations(double t, const double *y, const Memory *memory, const Parameters *p, double *a)
-{
-    double all[N_S], rate[N_S];
-    Aside aside;
-    Memory now = *memory;
-    now.held = 0; /* switching functions of all bodies have other numbers */
-    now.least = NEARLY_SINGULAR;
-    now.least_size = VANISHING;
-    to_absolute(t, y, memory, p, all);
-    const int status = rates_at(t, all, &now, p, rate, &aside);
-    for (int k = 0; k < N_Q; k++)
-        a[k] = rate[N_Q + k];
-    return status;
-}
-#endif
-
 void gudgeon_prepare(const double *given, const unsigned char *is_given, double *p)
 {
     prepare(given, is_given, (Parameters *)p);

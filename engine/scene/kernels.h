@@ -77,10 +77,6 @@ int closing_of_state(double t, const double *y, Memory *memory, const Parameters
 int motion_here(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside);
 int closing_here(double t, const double *y, Memory *memory, const Parameters *p, double *dq, double *dv,
     double *worst);
-#if TREE
-/* Accelerations (N_Q) by the equations of all bodies, at a state of the tree: for the audit. Returns a status. */
-int absolute_accelerations(double t, const double *y, const Memory *memory, const Parameters *p, double *a);
-#endif
 /* An accepted state, with `aside` of motion() there: the largest |Phi| and |Phi_dot| so far; chains go on from it. */
 int accept_state(double t, const double *y, Memory *memory, const Parameters *p, const Aside *aside, double *phi_max,
     double *phi_dot_max);
@@ -122,6 +118,13 @@ int solve_by_absolute(double t, const double *q, const double *v, const Memory *
 /* Rows that are solved together (block.c). */
 int factor_block(int n, double *A, int *order);
 void solve_block(int n, const double *A, const int *order, double *x);
+
+/* For the audit (audit_samples.c). */
+/* Accelerations (N_Q) by the equations of all bodies, at a state `all` (q, v, work) of theirs. Returns a status. */
+int absolute_accelerations(double t, const double *all, const Memory *memory, const Parameters *p, double *a);
+/* Phi_q v - nu, and nu, of all rows: Phi_q v by differences of Phi over times h (s) before and after. */
+void velocity_residuals(double t, const double *q, const double *v, double h, const Parameters *p, double *missed,
+    double *nu);
 
 #if N_TERMS || N_CORNERS || KNOWN_BOUNDS
 #include "../watch/ranges.h"
