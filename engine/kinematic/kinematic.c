@@ -147,11 +147,9 @@ static int hides_a_pulse(double t0, double t1, const Parameters *p)
 /* Whether all rows are numbers at a time: a drive may be none there. */
 static int rows_are_numbers(double t, const Place *here, const Parameters *p)
 {
-    double phi[N_ALL_ROWS], sum = 0.0;
+    double phi[N_ALL_ROWS];
     constraints(t, here->q, p, phi);
-    for (int r = 0; r < N_ALL_ROWS; r++)
-        sum += 0.0 * phi[r];
-    return sum == 0.0;
+    return all_finite(phi, N_ALL_ROWS);
 }
 
 /*

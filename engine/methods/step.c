@@ -91,14 +91,6 @@ static void note_state(Step *step, const double *y)
 
 #include "../both/weigh.h"
 
-static inline int all_finite(const double *x, int n)
-{
-    double none = 0.0;
-    for (int k = 0; k < n; k++)
-        none += 0.0 * x[k];
-    return none == 0.0;
-}
-
 /* The step that closes the rows at a state, if there is one. */
 static int can_close(Run *run, int open, double t, const double *y, const Parameters *p, double *dq, double *dv,
     double *worst)

@@ -18,6 +18,15 @@ static inline double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 
 /* Whether both are positive, or both negative: their product may be too small for a number. */
 static inline int have_same_sign(double x, double y) { return x > 0.0 ? y > 0.0 : x < 0.0 && y < 0.0; }
 
+/* Whether n values are numbers and finite. */
+static inline int all_finite(const double *x, int n)
+{
+    double none = 0.0;
+    for (int k = 0; k < n; k++)
+        none += 0.0 * x[k];
+    return none == 0.0;
+}
+
 /* To the last bit; no number is the same as any. */
 static inline int same_number(double x, double y) { return x == y && !signbit(x) == !signbit(y); }
 
