@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import TypeVar
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from gudgeon.errors import SingularError
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.evaluation import CLEARANCE_COLUMNS
 
+Number = TypeVar("Number", float, Array)
 _DEPTH, _RATE = (CLEARANCE_COLUMNS.index(name) for name in ("delta", "deltadot"))
 
 
@@ -31,12 +33,16 @@ def corner_gap(
     return float(found[_DEPTH]), float(found[_RATE])
 
 
-def corner_at(source: KernelSource, p: Array, joint: ClearanceInfo, offset: float, tilt: float) -> float:
-    """How much nearer to its wall than in the middle of the guide a corner is, m: offset of the slider (m), tilt."""
+def corner_at(source: KernelSource, p: Array, joint: ClearanceInfo, offset: Number, tilt: Number) -> Number:
+    """Return how much nearer to its wall than in the middle of the guide a corner is, m, of one position or of many.
+
+    With the slider's offset o across the guide (m), its tilt φ (rad), half length a, half height b and corner radius r
+    it is ±(o ± (a − r) sin φ) + (b − r) (cos φ − 1).
+    """
     _, a, b, radius = slider_of(source, p, joint)
     front, upper = (1.0 if word in joint.name.rpartition(".")[2] else -1.0 for word in ("front", "upper"))
-    across = offset + front * (a - radius) * math.sin(tilt)
-    return upper * across + (b - radius) * (math.cos(tilt) - 1.0)
+    across = offset + front * (a - radius) * np.sin(tilt)
+    return upper * across + (b - radius) * (np.cos(tilt) - 1.0)
 
 
 def slider_of(source: KernelSource, p: Array, joint: ClearanceInfo) -> tuple[str, float, float, float]:

@@ -15,11 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.contract.clearance_info import ClearanceInfo
-from gudgeon.contract.kernel_source import PointInfo
 from gudgeon.errors import SolverError
 from gudgeon.model.compiled import Array
 from gudgeon.model.contours import contour_of, depth_at
-from gudgeon.model.corners import slider_of
+from gudgeon.model.corners import corner_at
+from gudgeon.results.point_motion import point_motion
 
 if TYPE_CHECKING:
     from gudgeon.results.results import Result
@@ -161,11 +161,7 @@ def _in_bearing(run: Result, joint: ClearanceInfo) -> Array:
 
 
 def _at_wall(run: Result, joint: ClearanceInfo) -> Array:
-    """Penetration of a slider's corner: how far it is nearer to its wall than in the middle of the guide, less the gap.
-
-    With the offset o of the slider across the guide, its tilt φ, half length a, half height b and corner radius r it is
-    ±(o ± (a − r) sin φ) + (b − r) (cos φ − 1).
-    """
+    """Penetration of a slider's corner, m: how far it is nearer to its wall than in mid-guide, less the gap."""
     first, second = _ends(run, joint)
     place = run.source.place
     numbers = {key: float(run.p[place[at]]) if (at := f"joints.{joint.joint}.{key}") in place else 0.0
@@ -176,10 +172,7 @@ def _at_wall(run: Result, joint: ClearanceInfo) -> Array:
     tilt = _angle(run, joint.second) - _angle(run, joint.first) - mounted
     apart = _points(run, second) - _points(run, first)
     offset = apart[:, 1] * np.cos(direction) - apart[:, 0] * np.sin(direction)
-    _, a, b, radius = slider_of(run.source, run.p, joint)
-    front, upper = (1.0 if word in joint.name.rpartition(".")[2] else -1.0 for word in ("front", "upper"))
-    e = upper * (offset + front * (a - radius) * np.sin(tilt)) + (b - radius) * (np.cos(tilt) - 1.0)
-    return np.asarray(e - float(run.p[joint.clearance]))
+    return np.asarray(corner_at(run.source, run.p, joint, offset, tilt) - float(run.p[joint.clearance]))
 
 
 def _written(run: Result, joint: ClearanceInfo) -> bool:
@@ -197,13 +190,8 @@ def _angle(run: Result, body: int) -> Array:
 
 
 def _points(run: Result, name: str) -> Array:
-    """Positions (N, 2) of a point, m."""
-    info: PointInfo | None = next((one for one in run.source.points if one.name == name), None)
+    """Positions (N, 2) of a point, m; the origin for the ground's own."""
+    info = next((one for one in run.source.points if one.name == name), None)
     if info is None:
         return np.zeros((len(run.t), 2))
-    s = [sign * float(run.p[k]) if k >= 0 else 0.0 for sign, k in ((info.sign_x, info.x), (info.sign_y, info.y))]
-    if info.body < 0:
-        return np.tile(s, (len(run.t), 1))
-    at = run.source.bodies[info.body].index
-    cos, sin = np.cos(run.q[:, at + 2]), np.sin(run.q[:, at + 2])
-    return run.q[:, at : at + 2] + np.stack([cos * s[0] - sin * s[1], sin * s[0] + cos * s[1]], axis=1)
+    return np.stack([point_motion(run, info, axis, 0) for axis in (0, 1)], axis=1)

@@ -52,6 +52,7 @@ def _film_law(source: KernelSource, joint: ClearanceInfo) -> Law | None:
     """The law that the C of a joint's film calls."""
     from gudgeon.generator.kinds.laws.law import called
 
+    # without the "_": runs that were saved before names of a file ended in one
     body = re.search(rf" film_{re.escape(joint.name)}_?\(.*?\n}}", source.files.get("clearance.c", ""), re.DOTALL)
     call = body and re.search(r"^\s+(\w+)\(epsilon, w_n, w_t", body[0], re.MULTILINE)
     fitting = [law for law in called("film").values() if call and f"{call[1]}_".startswith(f"{law.name}_")]

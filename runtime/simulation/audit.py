@@ -83,14 +83,10 @@ def _contacts(compiled: CompiledModel, x: Trajectory, evaluation: Evaluation) ->
         scale = max(FORCE * max(peak, float(force.max())), 1e-300)
         yield Finding("sample", float(outside[worst]) / scale, float(x.t[worst]), joint.name)
         listed = float(own["F_peak"].max(initial=0.0))
-        if peak > 0.0 and _begins_free(x, k) and np.isfinite(own["t_off"]).all():
+        begins_free = bool(np.isnan(x.memory[0, k]))  # a contact that a run resumes has had a peak before
+        if peak > 0.0 and begins_free and np.isfinite(own["t_off"]).all():
             over = (max(peak, float(force.max())) - listed) / (PEAK * max(listed, 1e-300))
             yield Finding("peak", max(over, 0.0), float(x.peaks[k, 1]), joint.name)
-
-
-def _begins_free(x: Trajectory, k: int) -> bool:
-    """Whether joint k was open at the first sample: a contact that a run resumes has a peak before it."""
-    return bool(np.isnan(x.memory[0, k]))
 
 
 def _balances(compiled: CompiledModel, problem: Problem, x: Trajectory) -> tuple[Finding, ...]:

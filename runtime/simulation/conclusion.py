@@ -94,9 +94,9 @@ def _look(problem: Problem, interrupted: bool, soon: bool) -> Callable[[], None]
 
 
 def contradicted(problem: Problem, trajectory: Trajectory, result: Result) -> tuple[Result, SolverError | None]:
-    """The run, marked as interrupted where Ctrl-C comes meanwhile, and the contradiction of its constraints, or the
+    """Return the run, marked as interrupted where Ctrl-C comes meanwhile, and what ends it after all, if anything.
 
-    failure of its audit, if any.
+    That is a contradiction of its constraints, or else a check of its samples that failed.
     """
     found = result.diagnostics.audit
     try:
