@@ -6,7 +6,6 @@ Each scene is run by all methods, in a batch and from a restart, in one process 
 found in compiled scenes counts: a report whose stack has no frame of one is about Python. Needs valgrind and gcc.
 """
 
-# mypy: disable-error-code="arg-type"
 from __future__ import annotations
 
 import argparse
@@ -61,7 +60,7 @@ def exercise(seed: int, folder: Path) -> int:
 
 def _restarted(simulation: gudgeon.Simulation, options: dict[str, Any]) -> None:
     half = simulation.simulate(0.5 * T_END, **options)
-    simulation.simulate(T_END, start=half, **options)
+    simulation.simulate(T_END, start=half.final, **options)
 
 
 def _tried(work: Callable[..., object], *given: object, **options: Any) -> int:

@@ -6,7 +6,6 @@ run is checked at 20,000 samples (gudgeon/results/contact_check.py), and what is
 compiled once; all of its machines differ by numbers alone.
 """
 
-# mypy: disable-error-code="arg-type"
 from __future__ import annotations
 
 import argparse
@@ -218,7 +217,8 @@ def runs_of(
         columns = {name: [one.parameters[name] for one in machines] for name in first.parameters}
         ends = [one.t_end for one in machines]
         times = [np.linspace(0.0, t, SAMPLES + 1) for t in ends]
-        batch = simulation.simulate_many(columns, ends, output=times, method=first.method, threads=1, **first.how)
+        how: dict[str, Any] = dict(first.how)
+        batch = simulation.simulate_many(columns, ends, output=times, method=first.method, threads=1, **how)
     for i, one in enumerate(machines):
         try:
             yield one, batch[i] if way == "batch" else _run(simulation, one, way)

@@ -1,9 +1,9 @@
 """Followers of a cam's angle: their motion, the torque that the cam's shaft bears, what a profile may be."""
 
-# mypy: disable-error-code="arg-type"
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -77,7 +77,7 @@ def test_a_free_shaft_turns_as_its_equation_of_motion_says(
         return [y[1], turn / (J + M * slope**2)]
 
     scene = loader(tmp_path, formulation=form)(CAM % (POINTS, "r - h * cos(phi)", FREE))
-    options: dict[str, float] = {"step": 2e-5} if method == "rk4" else {"rtol": 1e-10}
+    options: dict[str, Any] = {"step": 2e-5} if method == "rk4" else {"rtol": 1e-10}
     run = scene.simulate(0.3, output=30, method=method, parameters={"push": push}, **options)
     expected = solve_ivp(rates, (0, 0.3), [0.3, 20.0], "DOP853", t_eval=run.t, rtol=1e-12, atol=1e-13).y
     np.testing.assert_allclose(run["cam.theta"], expected[0], atol=within)

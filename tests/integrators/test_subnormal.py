@@ -1,9 +1,9 @@
 """Numbers below the normal range of binary64 are numbers: forces, rates and events of such a size change no motion."""
 
-# mypy: disable-error-code="arg-type"
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -37,7 +37,7 @@ def load(tmp_path: Path, force: str, rate: str = "0 m/s", more: str = "") -> gud
     return gudgeon.load(file)
 
 
-def options(method: str) -> dict[str, object]:
+def options(method: str) -> dict[str, Any]:
     return {"method": method, "output": 20} | ({"step": 1e-3} if method == "rk4" else {})
 
 

@@ -1,12 +1,12 @@
 """A design: a mechanism file as nested mappings, whose numbers are parameters; and what is made of it."""
 
-# mypy: disable-error-code="misc, return-value"
 from __future__ import annotations
 
 import json
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -52,7 +52,7 @@ class Design:
         """The YAML with other numbers: a failure's file stands for itself."""
         text = self.text()
         for name, value in values.items():
-            text = re.sub(rf'(?m)^  {name}: "[^ "]+', lambda _, n=name, x=value: f'  {n}: "{x!r}', text, count=1)
+            text = re.sub(rf'(?m)^  {name}: "[^ "]+', partial(_line, name, value), text, count=1)
         return text
 
     def bodies(self) -> list[str]:
@@ -73,8 +73,8 @@ class Design:
         pattern = re.compile(rf"(?<![\w.])({'|'.join(map(re.escape, others))})(?!\w)") if others else None
         head, _, body = text.partition("\n")
         body = pattern.sub(lambda found: others[found[1]], body) if pattern else body
-        names_of = ({name: others.get(name, name) for name in of} for of in (self.bodies(), parameters))
-        return head + "\n" + body, *names_of
+        of_bodies, of_parameters = ({x: others.get(x, x) for x in of} for of in (self.bodies(), parameters))
+        return head + "\n" + body, of_bodies, of_parameters
 
     def split(self, body: str) -> str:
         """The file with a body made of two that are welded at its centre of mass, each of half the mass."""
@@ -94,3 +94,7 @@ class Design:
 
 def _shuffled(rng: np.random.Generator, mapping: Mapping[str, Any]) -> dict[str, Any]:
     return {key: mapping[key] for key in (str(k) for k in rng.permutation(list(mapping)))}
+
+
+def _line(name: str, value: float, _: re.Match[str]) -> str:
+    return f'  {name}: "{value!r}'

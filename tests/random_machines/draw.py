@@ -1,6 +1,5 @@
 """Random designs, and random numbers for each; `FAMILIES` by name, the knobs as in the package's docstring."""
 
-# mypy: disable-error-code="assignment, dict-item"
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
@@ -171,8 +170,8 @@ class Crank:
         both = {"bearing_material": "steel", "journal_material": "steel"}
         self.file["bearings"] = {"pin": {key: self.n.add(x, LENGTH) for key, x in sizes.items()} | both}
         if rigid:
-            law = {"law": "newton_restitution", "restitution": self.n.add(_u(self.rng, 0.2, 0.9))}
-            contact = {"normal": law | {"threshold": self.n.add(1e-4, SPEED)}}
+            impact = {"law": "newton_restitution", "restitution": self.n.add(_u(self.rng, 0.2, 0.9))}
+            contact: dict[str, Any] = {"normal": impact | {"threshold": self.n.add(1e-4, SPEED)}}
         else:
             contact = {"normal": self.law()} | ({"friction": self.friction()} if _some(self.rng, 0.7) else {})
         if film:
@@ -288,8 +287,8 @@ def slide(seed: int, rng: np.random.Generator) -> Design:
         file["events"] = {"halt": {"zero": "block.vx", "direction": "falling"}, "any": {"zero": "block.vx"}}
         return Design("slide", seed, file, n, _u(rng, 0.5, 2.5), tags=frozenset({"stick"}), without=without)
     if kind == 1:
-        top, width, at = n.add(1.0, (1, 1, -1)), n.add(0.3, TIME), n.add(_u(rng, 2.0, 9.0), TIME)
-        value = f"{top}/{width}*exp(-((t - {at})/{width})**2)/sqrt(pi)"
+        top, width, middle = n.add(1.0, (1, 1, -1)), n.add(0.3, TIME), n.add(_u(rng, 2.0, 9.0), TIME)
+        value = f"{top}/{width}*exp(-((t - {middle})/{width})**2)/sqrt(pi)"
         file["forces"] = {"pulse": {"force": "block.origin", "value": [value, "0 N"]}}
         return Design("slide", seed, file, n, 12.0, tags=frozenset({"pulse"}), without=without)
     file["start"] = {"rates": {"block.vx": "0 m/s"}, "play": {"way": {

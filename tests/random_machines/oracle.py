@@ -4,12 +4,11 @@ It shares no code with the product: expressions are evaluated by Python, drives 
 Newton-Euler's equations are those of tests/oracles/numpy_linkage.py, forces of contact those of laws.py.
 """
 
-# mypy: disable-error-code="arg-type, assignment, call-arg"
 from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -70,7 +69,8 @@ class Machine:
     """A file as a nested mapping, with the values of its parameters (SI). Raises Unknown."""
 
     def __init__(self, file: Mapping[str, Any], values: Mapping[str, float], scene: str = "ideal") -> None:
-        self.file, self.known = file, dict(values)
+        self.file = file
+        self.known: dict[str, Any] = dict(values)
         for name, entry in file.get("curves", {}).items():
             self.known[name] = curve(entry["points"], entry.get("ends", "natural"))
         self.names = list(file["bodies"])
@@ -128,12 +128,11 @@ class Machine:
     def joint(self, entry: Mapping[str, Any]) -> Any:
         kind = next(iter(entry))
         if kind == "gear":
-            one, two = (self.body(name) for name in entry["gear"])
             r1, r2 = (self.number(x) for x in entry["radii"])
             ring = -1.0 if entry.get("internal") else 1.0
-            gear = Gear(End(one, (0.0, 0.0)), End(two, (0.0, 0.0)), self.body(entry["carrier"]), (r1, ring * r2), 0.0)
-            return Gear(*gear.first[:0], gear.first, gear.second, gear.carrier, gear.radii,
-                        float(gear.coefficients(self.guess.size) @ self.guess))  # fmt: skip
+            one, two = (End(self.body(name), (0.0, 0.0)) for name in entry["gear"])
+            gear = Gear(one, two, self.body(entry["carrier"]), (r1, ring * r2), 0.0)
+            return replace(gear, constant=float(gear.coefficients(self.guess.size) @ self.guess))
         one, two = self.ends(entry[kind])
         along = tuple(self.number(x) for x in entry.get("axis", entry.get("direction", [1, 0])))
         if kind == "revolute":
@@ -188,9 +187,9 @@ class Machine:
             raise Unknown("a law of friction or film")
         bearing = self.file["bearings"][entry["bearing"]]
         material = self.file["materials"][bearing["bearing_material"]]
-        sizes = [self.number(bearing[key]) for key in ("radius", "clearance", "length")]
+        radius, clearance, length = (self.number(bearing[key]) for key in ("radius", "clearance", "length"))
         return Pin(
-            *sizes, self.number(material["E"]), self.number(material["nu"]), normal, friction,
+            radius, clearance, length, self.number(material["E"]), self.number(material["nu"]), normal, friction,
             self.number(film["viscosity"]) if film else 0.0, self.number(contact.get("transition", 0)),
         )  # fmt: skip
 

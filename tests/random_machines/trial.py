@@ -4,13 +4,13 @@ A tolerance follows from the run: how far it is from the same run with a thirtie
 chaotic motion soon is nothing; its beginning is compared all the same.
 """
 
-# mypy: disable-error-code="arg-type, index, misc, var-annotated"
 from __future__ import annotations
 
 import traceback
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -112,14 +112,14 @@ class Trial:
             except GudgeonError as error:
                 self.stopped(simulation, design, error)
                 continue
-            self.check("closed form", design, lambda b=base: closed_forms.check(b.design, b.run, Difference))
+            self.check("closed form", design, partial(closed_forms.check, base.design, base.run, Difference))
             for what, relation in RELATIONS[k % 2 :: 2]:
-                self.check(what, design, lambda r=relation, b=base: r(b))
+                self.check(what, design, partial(relation, base))
             if k == 0:
                 for what, relation in DERIVED if self.rng.random() < 0.5 else DERIVED[1:2]:
-                    self.check(what, design, lambda r=relation, b=base: r(b))
+                    self.check(what, design, partial(relation, base))
             if k < 2:
-                self.check("oracle", design, lambda b=base: simulated(b))
+                self.check("oracle", design, partial(simulated, base))
 
     def stopped(self, simulation: Simulation, design: Design, error: GudgeonError) -> None:
         """A run that ends early has to be right about it: the independent simulator stops there, too."""
@@ -186,7 +186,8 @@ def mirrored(base: Base) -> None:
 
 def rotated(base: Base) -> None:
     found = base.of(base.trial.run(base.simulation, base.design, base.design.numbers.rotated(ANGLE)))
-    c, s, back = np.cos(ANGLE), np.sin(ANGLE), {}
+    c, s = np.cos(ANGLE), np.sin(ANGLE)
+    back: dict[str, np.ndarray] = {}
     for body in base.design.bodies():
         x, y = found[f"{body}.x"], found[f"{body}.y"]
         back |= {f"{body}.x": c * x + s * y, f"{body}.y": c * y - s * x}
@@ -222,9 +223,10 @@ def batch(base: Base) -> None:
     others = [base.values, other_numbers(base.design, base.trial.rng).numbers.plain(), base.values]
     columns = {name: [values[name] for values in others] for name in base.values}
     many = base.simulation.simulate_many(columns, base.design.t_end, output=SAMPLES, rtol=base.design.rtol, threads=1)
+    failed = {one.run: one.error for one in many.failures}
     for k in (0, 2):
-        if k in dict(many.failures):
-            raise Difference(f"run {k} of the batch fails, alone it does not: {dict(many.failures)[k]}")
+        if k in failed:
+            raise Difference(f"run {k} of the batch fails, alone it does not: {failed[k]}")
         if not (np.array_equal(many[k].q, base.run.q) and len(many[k].impacts) == len(base.run.impacts)):
             raise Difference(f"run {k} of a batch is not the run alone, by {abs(many[k].q - base.run.q).max():.3g}")
 

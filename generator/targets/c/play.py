@@ -59,6 +59,11 @@ def clearance_code(pin: Pin, render: Render, states: int) -> str:
     return "\n".join(part.text for part in pin_functions(pin, render, states))
 
 
+def function_name(part: str, joint: str) -> str:
+    """Return the name of a joint's function in C, as the templates in play/ write it; part: clearance, dry or film."""
+    return f"{part}_{joint}_"
+
+
 def pin_functions(pin: Pin, render: Render, states: int) -> Iterator[PinFunction]:
     """Function by function: dry contact and film, as far as the joint has them, and what chooses between them."""
     joint, clearance = pin.clearance.label, pin.clearance
@@ -75,7 +80,7 @@ def pin_functions(pin: Pin, render: Render, states: int) -> Iterator[PinFunction
     )  # fmt: skip
     stores: Stores = [*functions.one_by_one(pin.gap), *functions.one_by_one(pin.share)]
     stores += [(_BLENDED.format(one), f"F.{one}") for one in ("n", "t", "M_i", "M_j") if pin.has_transition]
-    yield PinFunction(f"clearance_{joint}_", text, stores)
+    yield PinFunction(function_name("clearance", joint), text, stores)
 
 
 def _also(clearance: Clearance) -> str:
@@ -116,7 +121,7 @@ def _dry(pin: Pin, render: Render, states: int) -> PinFunction:
     text = render("play/dry.c.jinja", joint=joint, kind=clearance.kind, ratio=_RATIO, ratio_name=ratio, **steps)
     own: Stores = [(f"    const double {ratio} = {_RATIO};", ratio), *functions.one_by_one(pin.before_dry)]
     own += [*((code, local) for code, local in calls if local), *functions.one_by_one(pin.after_dry)]
-    return PinFunction(f"dry_{joint}_", text, own)
+    return PinFunction(function_name("dry", joint), text, own)
 
 
 def _further(pin: Pin) -> tuple[str, ...]:
@@ -129,7 +134,7 @@ def _film(pin: Pin, render: Render, states: int) -> PinFunction:
     steps["unread"] = functions.unread_sides([pin.laws["film"]], (*pin.before_film, *pin.after_film))
     text = render("play/film.c.jinja", joint=joint, rates=braced("", pin.clearance, states), **steps)
     own: Stores = [*functions.one_by_one(pin.before_film), *((code, local) for code, local in calls if local)]
-    return PinFunction(f"film_{joint}_", text, [*own, *functions.one_by_one(pin.after_film)])
+    return PinFunction(function_name("film", joint), text, [*own, *functions.one_by_one(pin.after_film)])
 
 
 def _store(clearance: Clearance, states: int) -> str:

@@ -15,6 +15,7 @@ from gudgeon.generator.kernels import closed_linkage
 from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.shared import SharedCall
 from gudgeon.generator.kinds.laws.law import Law
+from gudgeon.generator.targets.c.play import function_name
 from gudgeon.generator.targets.latex.document import Block, Picture
 from gudgeon.generator.targets.latex.pictures import svg
 from gudgeon.generator.targets.latex.trace import Functions
@@ -65,7 +66,7 @@ def law_plot(found: Functions, joints: Sequence[str], role: str, law: Law) -> li
     if not all(np.isfinite(curve.y).all() for curve in plot.curves):
         return []
     part, local = plot.now
-    marks = {name: f"{part}_{name}.{local}" for name in joints}
+    marks = {name: f"{function_name(part, name)}.{local}" for name in joints}
     return [Picture(plot.caption, drawn(plot, marks))]
 
 

@@ -101,12 +101,12 @@ class _Finder:
         self.computed = right_hand_sides(program.dynamics, self.model)
         self.in_tree = tree_functions(program, set())
         self.laws = {kernel.name for kernel in program.laws}
-        self.multipliers = {f"lambda_{row.name.replace('.', '_')}": k for k, row in enumerate(self.model.rows, 1)}
+        self.multipliers = {made_name(f"lambda_{row.name}"): k for k, row in enumerate(self.model.rows, 1)}
         members = map(self.model.slots.field, self.model.slots.members())
         self.place_in_p = {f"p->{member}": k for k, member in enumerate(members, 1)}
         tree = program.tree
         in_chains = tree.chains.chain.rows if tree and tree.chains else ()
-        self.in_chains = {f"phi_{row.name.replace('.', '_')}": row.name for row in in_chains}
+        self.in_chains = {made_name(f"phi_{row.name}"): row.name for row in in_chains}
         self.shown = {name for row in self.model.rows for name in free_names(row.phi)}
 
     def all(self) -> None:
@@ -174,7 +174,7 @@ class _Finder:
             return f"rhs.{called}"
         place = _place(called)
         row = self.model.rows[place.index].name if 0 <= place.index < len(self.model.rows) else ""
-        name = f"{place.base}_{row.replace('.', '_')}"
+        name = made_name(f"{place.base}_{row}")
         if row and place.base == "lambda":
             return f"lambda.{place.index + 1}"
         if called in self.multipliers:
