@@ -77,13 +77,20 @@ static void RADAU(change)(const RunOf *run, Real h, const ComplexLinearOf *pairs
     }
 }
 
-/* Rates f of the stages at z; where they are still looked for, what is seen there. */
+/*
+ * Rates f of the stages at z; where they are still looked for, what is seen there. Returned in `apart`: the largest
+ * change of a film's force at a stage since the iteration before, as a share of the largest force in this step.
+ */
 static int RADAU(rates)(RunOf *run, Real h, Truth active, Real (*z)[N_Y], const ParametersOf *p, StepOf *step,
-    Real (*f)[N_Y])
+    Real (*f)[N_Y], Real (*force)[RADAU_STAGES][2], Real *apart)
 {
-    Real y[N_Y];
+    Real y[N_Y], most[AT_LEAST_ONE(N_CLEARANCES)], change[AT_LEAST_ONE(N_CLEARANCES)];
     AsideOf aside;
     begin_pass(run, step, active, RADAU_STAGES);
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        most[i] = real_abs(run->aside.clearance[i].Fx) + real_abs(run->aside.clearance[i].Fy);
+        change[i] = real_of(0.0);
+    }
     for (int s = 0; s < RADAU_STAGES; s++) {
         for (int i = 0; i < N_Y; i++)
             y[i] = run->y[i] + z[s][i];
@@ -91,7 +98,20 @@ static int RADAU(rates)(RunOf *run, Real h, Truth active, Real (*z)[N_Y], const 
         if (status)
             return status;
         note_pass(run, step, active, y, &aside, RADAU_TABLE.node[s]);
+        for (int i = 0; i < N_CLEARANCES; i++) {
+            const Real Fx = aside.clearance[i].Fx, Fy = aside.clearance[i].Fy;
+            if (!has_film(i))
+                continue;
+            change[i] = real_max(real_abs(Fx - force[i][s][0]) + real_abs(Fy - force[i][s][1]), change[i]);
+            most[i] = real_max(real_abs(Fx) + real_abs(Fy), most[i]);
+            force[i][s][0] = Fx;
+            force[i][s][1] = Fy;
+        }
     }
+    *apart = real_of(0.0);
+    for (int i = 0; i < N_CLEARANCES; i++)
+        if (has_film(i))
+            *apart = real_max(change[i] / real_max(most[i], real_of(DBL_MIN)), *apart);
     return 0;
 }
 
@@ -99,7 +119,9 @@ static int RADAU(rates)(RunOf *run, Real h, Truth active, Real (*z)[N_Y], const 
 static int RADAU(stages)(RunOf *run, Real h, const ComplexLinearOf *pairs, const ParametersOf *p, StepOf *step,
     Truth *lost)
 {
-    Real f[RADAU_STAGES][N_Y], change[RADAU_STAGES][N_Y], before = real_of(1.0);
+    Real f[RADAU_STAGES][N_Y], change[RADAU_STAGES][N_Y], before = real_of(1.0), apart;
+    Real force[AT_LEAST_ONE(N_CLEARANCES)][RADAU_STAGES][2] = {0};
+    const Real close = RADAU_FORCE / run->inverse_scale[2 * N_X - 1];
     /* how fast changes fell in another step tells less of this one: to the power 3/4 */
     const Real known = real_sqrt(run->falls) * real_sqrt(real_sqrt(run->falls));
     Real falls = pick(run->falls > 0.0, known, real_of(0.5));
@@ -115,7 +137,7 @@ static int RADAU(stages)(RunOf *run, Real h, const ComplexLinearOf *pairs, const
     const int controlled = any_of(run->accept <= DBL_MAX), patience = controlled ? RADAU_PATIENCE : RADAU_STUBBORN;
     const double hope = controlled ? 0.9 : 2.0; /* a step that has to be made gets over a bad guess */
     for (int pass = 0; pass < patience && any_of(active); pass++) {
-        const int status = RADAU(rates)(run, h, active, z, p, step, f);
+        const int status = RADAU(rates)(run, h, active, z, p, step, f, force, &apart);
         if (status)
             return status;
         RADAU(change)(run, h, pairs, f, z, change);
@@ -131,11 +153,12 @@ static int RADAU(stages)(RunOf *run, Real h, const ComplexLinearOf *pairs, const
         Truth found = active & (way <= rounded);
         if (pass > 0) {
             falls = pick(active & is_not(found), way / before, falls);
-            found |= active & is_not(falls < 0.9) & (way <= RADAU_NOISE * rounded); /* it no longer falls */
+            /* it no longer falls */
+            found |= active & is_not(falls < 0.9) & (way <= RADAU_NOISE * rounded) & (apart <= close);
             *lost |= active & is_not(found | (falls < hope));
             active &= found | (falls < hope);
         }
-        found |= active & (falls * way <= enough * (1.0 - falls));
+        found |= active & (falls * way <= enough * (1.0 - falls)) & (falls * apart <= close * (1.0 - falls));
         run->falls = pick(found, real_max(falls, real_of(1e-3)), run->falls);
         active &= is_not(found);
         before = pick(active, way, real_of(1.0));

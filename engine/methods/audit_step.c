@@ -1,7 +1,7 @@
 /*
  * The audit of a run inside its steps (run/audit.c): at a place drawn in some of them, at every event that ends one,
  * and in those that are much longer than the one before: defect of the dense output, gaps, branches. Where the draw
- * fell, in addition: all rows, accelerations by the equations of all bodies, uncertainty of forces.
+ * fell, in addition: all rows, accelerations by the equations of all bodies, forces of films.
  */
 #define AUDIT_LONGER 8.0 /* times the step before: such a step is always checked */
 #define AUDIT_DIGITS 1e-10 /* of a state: differences below it are rounding */
@@ -42,6 +42,7 @@ static void check_inside(Run *run, Step *step, double theta, int drawn, const Pa
     }
     if (!(run->fixed > 0.0))
         record(audit, DEFECT_CHECK, defect, 1.0, t, -1);
+    check_forces(run, t, &aside, rate, dy);
     check_joints(run, t, &aside, p);
     check_branches(run, step, t, y, &aside, p);
     if (!drawn)
@@ -50,7 +51,6 @@ static void check_inside(Run *run, Step *step, double theta, int drawn, const Pa
     check_rows(run, t, all, !RATE_JUMPS, p);
     if (branches_fit(run, &aside))
         check_accelerations(run, t, y, dy, all, p);
-    check_forces(run, t, y, &aside, p);
 }
 
 /* Whether the value of event i changes its sign in a step at a zero, and not where it grows beyond all bounds. */

@@ -32,9 +32,18 @@ static int stages_lost(Run *run, int lost) { return (void)run, lost ? NOT_FOUND 
 
 #include "../both/radau.h"
 
+static int has_films(void)
+{
+    int found = 0;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        found |= has_film(i);
+    return found;
+}
+
 /*
- * Positions by Hermite's quintic through both ends, where accelerations are known too; velocities by its derivative or,
- * as all else, by the collocation polynomial.
+ * The collocation polynomial. Without films, positions are Hermite's quintic through both ends with their
+ * accelerations, and with three stages velocities are its derivative: of a higher order. With films accelerations have
+ * the errors of velocities times the film's damping: the quintic would have those times h rho between the ends.
  */
 static int radau_dense(Run *run, Step *step, const RadauTable *table, int stages)
 {
@@ -46,7 +55,7 @@ static int radau_dense(Run *run, Step *step, const RadauTable *table, int stages
             for (int s = 0; s < stages && k < stages; s++)
                 d[k][i] += table->dense[k][s] * (s < stages - 1 ? step->k[s][i] : step->y[i] - run->y[i]);
         }
-    for (int i = 0; i < N_X; i++) {
+    for (int i = 0; i < N_X && !has_films(); i++) {
         const int v = N_X + i;
         d[0][i] = step->y[i] - run->y[i];
         d[1][i] = h * run->y[v] - d[0][i];

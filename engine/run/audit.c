@@ -13,7 +13,7 @@
 #define AUDIT_CLOSURE 1e-9     /* of the size: error of positions that accelerations must not depend on */
 #define AUDIT_NOISE 1e-9       /* of its largest magnitude, below which the sign of a function is rounding */
 #define AUDIT_ZERO 1e-3        /* of its value at the beginning of a step: smaller ones are a zero, and no pole */
-#define AUDIT_FORCE 1e7        /* of a force, multiplied by rtol: the change by one tolerance in the state */
+#define AUDIT_FORCE 1e6        /* of the largest acceleration, multiplied by rtol: the error of a film's force */
 #define AUDIT_FIXED 1e-8       /* the tolerance that stands in for that of a fixed step */
 /* steps in a row that end on the wrong side of a switching function; after which its magnitude is known */
 enum { AUDIT_WRONG = 3, AUDIT_SETTLED = 20 };
@@ -182,24 +182,28 @@ static void check_accelerations(Run *run, double t, const double *y, const doubl
 #endif
 }
 
-/* The change of each joint's force by an error of one tolerance in every coordinate and velocity, of random signs. */
-static void check_forces(Run *run, double t, const double *y, const Aside *at, const Parameters *p)
+/*
+ * Forces of films: accelerations `dy` that follow from a state inside a step against those of the interpolant, `rate`.
+ * The difference of the two, as a share of the largest acceleration of its kind, is the error of the force there. Noted
+ * at the film joint with the largest force.
+ */
+static void check_forces(Run *run, double t, const Aside *aside, const double *rate, const double *dy)
 {
-    double near[N_Y], dy[N_Y];
-    Aside aside;
-    if (!N_CLEARANCES || run->fixed > 0.0)
+    int where = -1;
+    double most = 0.0, off[2] = {0.0, 0.0}, largest[2] = {0.0, 0.0};
+    for (int i = 0; i < N_CLEARANCES; i++)
+        if (has_film(i) && total_force(&aside->clearance[i]) > most)
+            most = total_force(&aside->clearance[i]), where = i;
+    if (where < 0 || run->fixed > 0.0)
         return;
-    for (int k = 0; k < N_Y; k++)
-        near[k] = y[k] + (k < 2 * N_X ? (draw(&run->audit) < 0.5 ? -1.0 : 1.0) / run->weight[k] : 0.0);
-    if (rates(run, t, near, p, dy, &aside))
-        return;
-    for (int i = 0; i < N_CLEARANCES; i++) {
-        const Clearance *a = &at->clearance[i], *b = &aside.clearance[i];
-        const double force = max_of(total_force(a), run->F_peak[i]);
-        const double change = sqrt((a->Fx - b->Fx) * (a->Fx - b->Fx) + (a->Fy - b->Fy) * (a->Fy - b->Fy));
-        if (has_film(i) && force > 0.0)
-            record(&run->audit, FORCE_CHECK, change, min_of(1.0, AUDIT_FORCE * audit_tolerance(run)) * force, t, i);
+    for (int k = 0; k < N_X; k++) {
+        const int v = N_X + k, kind = !!is_angle[k];
+        off[kind] = max_of(off[kind], fabs(rate[v] - dy[v]));
+        largest[kind] = max_of(largest[kind], max_of(fabs(run->dy[v]), max_of(fabs(rate[v]), fabs(dy[v]))));
     }
+    const double limit = min_of(1.0, max_of(1e-2, AUDIT_FORCE * audit_tolerance(run)));
+    for (int kind = 0; kind < 2; kind++)
+        record(&run->audit, FORCE_CHECK, off[kind], limit * largest[kind], t, where);
 }
 
 /* Open joints at a state: neither penetration nor force. */

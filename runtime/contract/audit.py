@@ -26,7 +26,7 @@ CHECKS = (  # in C, at steps
     Check("acceleration", "accelerations against the equations of motion of all bodies", "coordinate"),
     Check("branch", "branches of switching functions against their signs", "switch"),
     Check("event", "recorded events against the signs of their expressions", "event"),
-    Check("force", "joint forces against their change by an error of one tolerance", "joint"),
+    Check("force", "forces of films against the accelerations of the dense output", "joint"),
 )
 SAMPLE_CHECKS = (  # in Python, at samples and at the end (runtime/simulation/audit.py)
     Check("energy", "the energy of the motion against the works of drives, forces and joints with play"),

@@ -24,6 +24,7 @@ LIMITS = {"power": 1e-6, "torque": 1e-6, "rows": 1e-9, "rates": 1e-7}  # of the 
 ENERGY = 1e4  # times rtol and the root of the number of steps, of the energy that was turned over
 LEAST_ENERGY = 1e-6  # the same, at least
 ENOUGH = 20  # samples from which on the energy that was turned over is known
+AT_REST = 1e-9  # of the size, that a motion covers in the time of the run: its energy is rounding
 LEAST = 1e-250  # J: works of a motion that hardly leaves zero have no digits
 FORCE = 1e-6  # of a joint's largest force, that an open joint may seem to bear
 PEAK = 1e-2  # of the largest force of its contacts, that the peak of a joint may exceed it by
@@ -45,7 +46,7 @@ def audit_samples(
     source = compiled.source
     found = [*_contacts(compiled, x, evaluation)]
     if not source.massless and not source.indeterminate:
-        found += _energy(problem, x, evaluation, balance)
+        found += _energy(compiled, problem, x, evaluation, balance)
     left_out = set[str]()
     if source.massless or source.indeterminate or source.frictions:  # which mode a friction has lies between samples
         left_out |= {"power", "torque"}
@@ -60,12 +61,14 @@ def failed(findings: tuple[Finding, ...]) -> bool:
 
 
 def _energy(
-    problem: Problem, x: Trajectory, evaluation: Evaluation, balance: tuple[float, float]
+    compiled: CompiledModel, problem: Problem, x: Trajectory, evaluation: Evaluation, balance: tuple[float, float]
 ) -> Iterator[Finding]:
     """The balance of the whole run; a fixed step has no tolerance to compare it with."""
     residual, turned = balance[0], balance[1] + float(np.abs(evaluation.energy).max(initial=0.0))
     adaptive = math.isinf(problem.step) and problem.method != "kinematic"
-    if not adaptive or len(x.t) < ENOUGH or not (math.isfinite(residual) and turned > LEAST):
+    slow = AT_REST * float(mechanism_sizes(compiled.source, problem.p)) / max(abs(float(x.t[-1] - x.t[0])), 1e-300)
+    least = max(LEAST, 0.5 * float(compiled.mass(problem.p)[::3].sum()) * slow * slow)
+    if not adaptive or len(x.t) < ENOUGH or not (math.isfinite(residual) and turned > least):
         return
     share = max(ENERGY * problem.rtol * math.sqrt(x.counts.steps + 1.0), LEAST_ENERGY)
     yield Finding("energy", residual / (share * turned), float(x.t[-1]), "")

@@ -26,6 +26,7 @@ from gudgeon.results.series import catalogue
 NODES = 0.5 * (leggauss(6)[0] + 1.0)  # shares of a part of a step at which powers are taken
 KEPT = 256  # places that were looked at, whose series are at hand for the next name
 ROUNDED = 1e-7  # of the speed: in parts of steps so short differences of positions say no more of it
+CLOSE = 1e-3  # of the largest acceleration: with films, states between others whose forces err more are left out
 NONE = Diagnostics(
     method="", step=math.nan, steps=0, right_hand_sides=0, onsets=0, grazes=0, phi_max=math.nan, phi_dot_max=math.nan,
     energy_residual=math.nan, energy_turned_over=math.nan, ratio_min=math.nan, ratio_max=math.nan, ratio_outside=0,
@@ -49,9 +50,10 @@ class Path:
         self.parts = PARTS if names is None else parts_of(self.source, own) | {"a"}
         self.works = any(reads_works(self.source, name) for name in own)
         self.exact = self.source.methods == (KINEMATIC,)
+        self.films = any(joint.film for joint in self.source.clearances)
         self.first: Steps | None = None  # of the run: energies count from it
         self.lost = 0  # states without accelerations
-        self.seen: dict[tuple[int, float, float], Result] = {}  # places that were looked at
+        self.seen: dict[tuple[int, float, float], tuple[Result, Array]] = {}  # places that were looked at
         self.nearest: tuple[int, Any] = (-1, None)  # k, rates between states k and k + 1, with their integral
         self.powers: tuple[int, Any] = (-1, None)  # k, integrals of the powers between states k and k + 1
         self.steps: Steps
@@ -80,8 +82,22 @@ class Path:
         if place not in self.seen:
             if len(self.seen) >= KEPT:
                 self.seen.clear()
-            self.seen[place] = self._result(self._states(k, t))[0]
-        return self.seen[place][name][1:]
+            found = self._result(self._states(k, t))[0]
+            self.seen[place] = found, self._off(k, t, found.a[1:]) if self.films else np.zeros(len(t))
+        found, off = self.seen[place]
+        return np.where(off <= CLOSE, found[name][1:], np.nan)
+
+    def _off(self, k: int, t: Array, a: Array) -> Array:
+        """How far accelerations a (T, n) that follow from states are from those of the polynomial, as shares (T,).
+
+        Of the largest of their kind. A film's force follows the speed so steeply that a state between others, whose
+        speed is as good as the tolerance, need not say it.
+        """
+        mid, half, rates, _ = self._rates(k)
+        off = np.abs(a - legval((t - mid) / half, legder(rates)).T / half).reshape(len(t), -1, 3)
+        most = np.abs(self.run.a[1:][k : k + 2]).reshape(2, -1, 3)
+        shares = [off[..., kind].max(axis=(1, 2)) / most[..., kind].max(initial=1e-300) for kind in ([0, 1], [2])]
+        return np.maximum(*shares)
 
     def _result(self, steps: Steps) -> tuple[Result, NDArray[np.bool_]]:
         """The run's first state, then these, and which of all have accelerations."""
@@ -146,25 +162,39 @@ class Path:
         """Legendre coefficients of q̇ about a time, for so many seconds on both sides: through states k and k + 1 and
         their neighbours where these help, which they do not beyond a kink of a force; those of the integral."""
         if self.nearest[0] != k:
-            h, a = np.diff(self.steps.t), self.run.a[1:]
-            near = [
-                0 <= j < len(h) and bool(self.inner[j]) and 0.125 < h[j] / h[k] < 8.0 and bool(np.isfinite(a[at]).all())
-                for j, at in ((k - 1, k - 1), (k + 1, min(k + 2, len(h))))
-            ]
-            parts = {(k - (near[0] and i), k + 2 + (near[1] and j)) for i in (1, 0) for j in (1, 0)}
+            far = 2 if self.films else 1  # neighbours on each side
+            before, after = (self._neighbours(k, way, far) for way in (-1, 1))
+            parts = {(k - i, k + 2 + j) for i in range(before, -1, -1) for j in range(after, -1, -1)}
             best = min((self._hermite(slice(*rows)) for rows in sorted(parts)), key=lambda one: one[0])
             self.nearest = k, (*best[1:], legint(best[3]))
         found: tuple[float, float, Any, Any] = self.nearest[1]
         return found
 
+    def _neighbours(self, k: int, way: int, most: int) -> int:
+        """How many states before k (way −1), or behind k + 1 (1), the polynomial may go through."""
+        h, a = np.diff(self.steps.t), self.run.a[1:]
+        for found in range(most):
+            j = k + way * (found + 1)
+            if not (0 <= j < len(h) and self.inner[j] and 0.125 < h[j] / h[k] < 8.0):
+                return found
+            if not np.isfinite(a[j if way < 0 else j + 1]).all():
+                return found
+        return most
+
     def _hermite(self, rows: slice) -> tuple[float, float, float, Any]:
-        """The polynomial of q̇ through states and their accelerations, as _rates has it, behind its likely error."""
+        """The polynomial of q̇ through states and their accelerations, as _rates has it, behind its likely error.
+
+        With films through states alone: there accelerations have the errors of velocities many times over.
+        """
         x, a = self.steps, self.run.a[1:]
-        t, n = x.t[rows], 2 * len(x.t[rows])
+        t, n = x.t[rows], len(x.t[rows]) * (1 if self.films else 2)
         mid, half = float(0.5 * (t[0] + t[-1])), float(0.5 * (t[-1] - t[0]))
         places = (t - mid) / half
-        matrix = np.concatenate([legvander(places, n - 1), legval(places, _slopes(n)).T])
-        found = np.linalg.solve(matrix, np.concatenate([x.v[rows], half * a[rows]]))
+        matrix, given = legvander(places, n - 1), x.v[rows]
+        if not self.films:
+            matrix = np.concatenate([matrix, legval(places, _slopes(n)).T])
+            given = np.concatenate([given, half * a[rows]])
+        found = np.linalg.solve(matrix, given)
         last, before = np.abs(found[-1]).max(), np.abs(found[-2]).max()
         return float(last * min(1.0, last / max(before, 1e-300))), mid, half, found
 

@@ -1,0 +1,60 @@
+"""Forces of films so thin that the journal hardly moves: the joint carries the reaction of the ideal joint."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.programs import needs_compiler
+from tests.scenes import loader
+
+pytestmark = needs_compiler
+PENDULUM = """\
+gravity: [0, -9.81]
+materials: {s: {E: 2e11, nu: 0.3}}
+bodies:
+  a: {length: 0.1, mass: 0.2, inertia: auto}
+  b: {length: 0.3, mass: 0.4, inertia: auto}
+ground: {O: [0, 0]}
+joints: {A: {revolute: [ground.O, a.tail]}, B: {revolute: [a.head, b.tail]}}
+start: {set: {a.theta: 0.3, b.theta: -0.7}, rates: {a.omega: 3, b.omega: -5}}
+bearings: {g: {radius: 25 mm, clearance: 5 um, length: 40 mm, bearing_material: s, journal_material: s}}
+contacts:
+  pinkus: {film: {law: pinkus_sternlicht, viscosity: 0.03}}
+  ocvirk: {film: {law: ocvirk, viscosity: 0.03}}
+  finite: {film: {law: finite_length, viscosity: 0.03}}
+scenes:
+  pinkus: {play: {B: {bearing: g, contact: pinkus}}}
+  ocvirk: {play: {B: {bearing: g, contact: ocvirk}}}
+  finite: {play: {B: {bearing: g, contact: finite}}}
+"""
+T_END = 0.1  # s
+TIMES = np.linspace(0.0, T_END, 101)
+R = 0.025  # m
+# Samples of the ideal joint's reaction differ by e/c, which is 1e-4 at R/1000 and less in thinner films.
+IDEAL = 3e-4
+
+
+@pytest.fixture(scope="module")
+def reaction(tmp_path_factory: pytest.TempPathFactory) -> np.ndarray:
+    """Of the ideal joint, N, at TIMES: Newton's law for the outer body, from its acceleration."""
+    run = loader(tmp_path_factory.mktemp("ideal"))(PENDULUM, "ideal").simulate(T_END, output=TIMES, rtol=1e-12)
+    return np.hypot(0.4 * run["b.ax"], 0.4 * (run["b.ay"] + 9.81))
+
+
+@pytest.mark.parametrize("law", ["pinkus", "ocvirk", "finite"])
+def test_samples_and_peaks_are_the_ideal_joint_s_reaction(tmp_path: Path, reaction: np.ndarray, law: str) -> None:
+    """From c/R 1/1000 to 1/5000, at the default tolerance and at a looser one."""
+    film = loader(tmp_path)(PENDULUM, law)
+    for share in (1e-3, 4e-4, 2e-4):
+        for rtol, within in ((1e-8, 1e-3), (1e-6, 1e-2)):
+            run = film.simulate(
+                T_END, output=TIMES, rtol=rtol, parameters={"bearings.g.clearance": share * R}, peaks=["B.F"]
+            )
+            off = np.abs(run["B.F"] / reaction - 1.0)[1:]
+            assert off.max() < within + IDEAL, (share, rtol)
+            highest = reaction.max()
+            assert abs(run.peak("B.F").max / highest - 1.0) < 0.1 * within + IDEAL, (share, rtol)
+            assert abs(run.diagnostics.peak("B").F / highest - 1.0) < 0.1 * within + IDEAL, (share, rtol)
