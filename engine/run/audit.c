@@ -194,7 +194,7 @@ static void check_forces(Run *run, double t, const Aside *aside, const double *r
     for (int i = 0; i < N_CLEARANCES; i++)
         if (has_film(i) && total_force(&aside->clearance[i]) > most)
             most = total_force(&aside->clearance[i]), where = i;
-    if (where < 0 || run->fixed > 0.0)
+    if (where < 0 || run->fixed > 0.0 || run->steps == 0)
         return;
     for (int k = 0; k < N_X; k++) {
         const int v = N_X + k, kind = !!is_angle[k];
