@@ -19,7 +19,7 @@ from gudgeon.language.tree import from_json, names
 from gudgeon.language.wanted import mapping, number_of, whole_digits
 from gudgeon.model.choices import choice_of_a_law, expression_by_name, place_of_word
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.sizes import far_clearance
+from gudgeon.model.sizes import far_clearance, zero_inertia
 
 # a number as files have it, in ASCII digits without '_'; what float() takes beyond that is no number here either
 _NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
@@ -225,7 +225,7 @@ def check(source: KernelSource, p: Array) -> None:
             raise BadValueError(f"{slot.address} is {value[slot.address]}: not finite with these parameters")
     for k, number in enumerate(p[len(source.slots) :].tolist()):
         if not math.isfinite(number):
-            raise BadValueError(_overflow(source, value, k, number))
+            raise BadValueError(zero_inertia(value, source.derived[k]) or _overflow(source, value, k, number))
     if told := far_clearance(source, p):
         raise BadValueError(told)
 

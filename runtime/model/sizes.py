@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -66,3 +67,10 @@ def far_clearance(source: KernelSource, p: Array) -> str:
                 " out of the scene's play for none"
             )
     return ""
+
+
+def zero_inertia(value: Mapping[str, float], derived: str) -> str:
+    """What is said of a derived number that is not finite because a moment of inertia is 0; "" where none is."""
+    zero = next((a for a in value if a.startswith("bodies.") and a.endswith(".inertia") and value[a] == 0.0), "")
+    hint = "expected > 0, or 0 in the file, from which equations without it are derived"
+    return f"{zero} is 0, by which the equations divide ({derived})\n  {hint}" if zero else ""

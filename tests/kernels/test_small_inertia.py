@@ -150,6 +150,30 @@ def test_masses_lumped_at_joints(tmp_path: Path) -> None:
         np.testing.assert_allclose(other, ends[0], rtol=0.0, atol=1e-6 * np.abs(ends[0]).max())
 
 
+@needs_compiler
+def test_no_inertia_where_the_equations_divide_by_it(tmp_path: Path) -> None:
+    """They were derived for a coupler with inertia, and say so; what they propose is `test_masses_lumped_at_joints`."""
+    scene = loaded(LUMPED.replace("J: 0 kg", "J: 0.01 kg"), tmp_path, "reduced")
+    with pytest.raises(BadValueError, match=r"(?s)bodies.coupler.inertia is 0, .* expected > 0, or 0 in the file"):
+        scene.simulate(1.0, parameters={"J": 0.0})
+
+
+@needs_compiler
+@pytest.mark.parametrize("formulation", FORMULATIONS)
+def test_a_light_link_is_solved_another_way(formulation: str, tmp_path: Path) -> None:
+    """The coupler's mass is where the joint is that places it: at 1e-13 kg m² its pivot is refused, and the dense
+
+    solve takes over. D carries a weight that does not move, B next to nothing.
+    """
+    light = loaded(LUMPED.replace("J: 0 kg", "J: 0.01 kg"), tmp_path, formulation)
+    run = light.simulate(1.0, output=20, rtol=1e-10, parameters={"J": 1e-13})
+    assert np.abs(run["D.Fy"] + 2 * 9.81).max() < 1e-9 and np.abs(run["B.Fx"]).max() < 1e-9
+    for k in range(21):  # the crank alone moves, with the coupler's mass at its end
+        arm = 0.3 * np.cos(run["crank.theta"][k])
+        alpha = -(0.5 * arm + 2.0 * arm) * 9.81 / (0.01 + 0.15**2 + 2.0 * 0.3**2)
+        assert abs(run["crank.alpha"][k] - alpha) < 1e-8
+
+
 @cache
 def disc(inertia: str, more: str = "") -> str:
     return f"""format: gudgeon/1
