@@ -57,6 +57,7 @@ static void gather_past(LaneRun *x, int k, Run *run)
     look_back(run);
     x->last_h[k] = run->last_h;
     x->falls[k] = run->falls;
+    x->force_found[k] = run->force_found;
     x->goes_on[k] = -run->goes_on;
     for (int j = 0; j < N_Y; j++) {
         x->before_y[j][k] = run->before_y[j];

@@ -189,7 +189,8 @@ typedef struct {
 #else
     LaneLinear linear;
 #if IMPLICIT_STAGES
-    Lanes last_h, before_y[N_Y], before_dy[N_Y], falls, asked; /* asked: rates, of the step that is tried */
+    Lanes last_h, before_y[N_Y], before_dy[N_Y], falls, force_found;
+    Lanes asked; /* rates, of the step that is tried */
     LaneBits goes_on, missed;
 #endif
 #endif

@@ -9,7 +9,6 @@
  */
 enum { RADAU_MOST = 5, RADAU_PATIENCE = 14, RADAU_STUBBORN = 60 };
 #define RADAU_ENOUGH 3e-3   /* of a step's tolerance: how well its stages are found */
-#define RADAU_FORCE 2e3     /* of a film's force, times rtol: how well its stages are found */
 #define RADAU_ROUNDED 4e-16 /* of the state: what is left of a change by rounding */
 #define RADAU_NOISE 2.5e4   /* times that, at most, where rates are differences of large forces */
 

@@ -121,7 +121,6 @@ static int RADAU(stages)(RunOf *run, Real h, const ComplexLinearOf *pairs, const
 {
     Real f[RADAU_STAGES][N_Y], change[RADAU_STAGES][N_Y], before = real_of(1.0), apart;
     Real force[AT_LEAST_ONE(N_CLEARANCES)][RADAU_STAGES][2] = {0};
-    const Real close = RADAU_FORCE / run->inverse_scale[2 * N_X - 1];
     /* how fast changes fell in another step tells less of this one: to the power 3/4 */
     const Real known = real_sqrt(run->falls) * real_sqrt(real_sqrt(run->falls));
     Real falls = pick(run->falls > 0.0, known, real_of(0.5));
@@ -154,11 +153,11 @@ static int RADAU(stages)(RunOf *run, Real h, const ComplexLinearOf *pairs, const
         if (pass > 0) {
             falls = pick(active & is_not(found), way / before, falls);
             /* it no longer falls */
-            found |= active & is_not(falls < 0.9) & (way <= RADAU_NOISE * rounded) & (apart <= close);
+            found |= active & is_not(falls < 0.9) & (way <= RADAU_NOISE * rounded) & (apart <= run->force_found);
             *lost |= active & is_not(found | (falls < hope));
             active &= found | (falls < hope);
         }
-        found |= active & (falls * way <= enough * (1.0 - falls)) & (falls * apart <= close * (1.0 - falls));
+        found |= active & (falls * way <= enough * (1.0 - falls)) & (falls * apart <= run->force_found * (1.0 - falls));
         run->falls = pick(found, real_max(falls, real_of(1e-3)), run->falls);
         active &= is_not(found);
         before = pick(active, way, real_of(1.0));

@@ -42,7 +42,7 @@ static void check_inside(Run *run, Step *step, double theta, int drawn, const Pa
     }
     if (!(run->fixed > 0.0))
         record(audit, DEFECT_CHECK, defect, 1.0, t, -1);
-    check_forces(run, t, &aside, rate, dy);
+    check_forces(run, t, &aside, rate, dy, p);
     check_joints(run, t, &aside, p);
     check_branches(run, step, t, y, &aside, p);
     if (!drawn)

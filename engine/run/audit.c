@@ -184,18 +184,24 @@ static void check_accelerations(Run *run, double t, const double *y, const doubl
 
 /*
  * Forces of films: accelerations `dy` that follow from a state inside a step against those of the interpolant, `rate`.
- * The difference of the two, as a share of the largest acceleration of its kind, is the error of the force there. Noted
- * at the film joint with the largest force.
+ * Their difference is the error of the forces there. It is compared with the largest acceleration of its kind, or, near
+ * equilibrium, with that of the lightest body under the largest force of a film, at whose joint it is noted.
  */
-static void check_forces(Run *run, double t, const Aside *aside, const double *rate, const double *dy)
+static void check_forces(Run *run, double t, const Aside *aside, const double *rate, const double *dy,
+    const Parameters *p)
 {
     int where = -1;
-    double most = 0.0, off[2] = {0.0, 0.0}, largest[2] = {0.0, 0.0};
+    double most = 0.0, off[2] = {0.0, 0.0}, largest[2] = {0.0, 0.0}, m[N_Q], lightest = INFINITY;
     for (int i = 0; i < N_CLEARANCES; i++)
         if (has_film(i) && total_force(&aside->clearance[i]) > most)
             most = total_force(&aside->clearance[i]), where = i;
     if (where < 0 || run->fixed > 0.0 || run->steps == 0)
         return;
+    mass_matrix(p, m);
+    for (int k = 0; k < N_Q; k += 3)
+        lightest = m[k] > 0.0 ? min_of(lightest, m[k]) : lightest;
+    largest[0] = most / lightest;
+    largest[1] = largest[0] / size_of(run);
     for (int k = 0; k < N_X; k++) {
         const int v = N_X + k, kind = !!is_angle[k];
         off[kind] = max_of(off[kind], fabs(rate[v] - dy[v]));

@@ -170,7 +170,7 @@ typedef struct {
     /* where this step and the one before began (past.h), how far they are apart; how fast iterations ended last */
     Beginning now;
     long seen_steps;
-    double before_t, before_y[N_Y], before_dy[N_Y], last_h, falls;
+    double before_t, before_y[N_Y], before_dy[N_Y], last_h, falls, force_found;
     int goes_on;
 #endif
     Attempt attempt;

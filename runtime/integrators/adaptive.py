@@ -17,7 +17,7 @@ and the smallest radial clearance in a scene with play, since what happens in th
 A film's force follows the journal's speed in its bearing, L/S of the links' speeds: where there is a film, rtol of
 velocities is FELT_BY_FILMS · L/S at most, or their errors throw the journal about and steps are lost on that.
 The force itself is looked at, too: Newton's iterations of `radau5` and `radau9` end once no film's force changes by
-more than RADAU_FORCE · rtol of it, and between the ends of steps motion is the collocation polynomial, whose
+more than FORCE_FOUND · rtol of it, and between the ends of steps motion is the collocation polynomial, whose
 accelerations do not magnify errors of velocities.
 """
 

@@ -141,7 +141,7 @@ def test_film_forces_between_the_ends_of_steps(tmp_path: Path) -> None:
     wrong = mutant(
         right, tmp_path,
         ("engine/methods/radau.c", "i < N_X && !has_films()", "i < N_X"),
-        ("engine/both/radau_step.h", " & (falls * apart <= close * (1.0 - falls))", ""),
+        ("engine/both/radau_step.h", " & (falls * apart <= run->force_found * (1.0 - falls))", ""),
     )  # fmt: skip
     assert "check force" in reported(wrong, 0.05, method="radau5")
 
