@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 LONGEST = 240  # characters of a title that is shown; a mechanism file has one of 200 at most
+FORMULAS = ("=", "+", "-", "@")  # first characters for which a spreadsheet computes a cell
 JOINERS = "\u200c\u200d"  # of letters and emoji: text, though no sign of their own
 
 
@@ -46,6 +47,23 @@ def one_line(text: str) -> str:
 def in_figure(text: str, width: int = LONGEST) -> str:
     """A title for matplotlib, folded into lines of `width` characters; $ begins no formula."""
     return "\n".join(textwrap.wrap(one_line(text), width)).replace("$", r"\$")
+
+
+def in_spreadsheet(value: Any) -> Any:
+    """Return a value for a cell of a CSV file: a text visible, after an apostrophe if a spreadsheet would compute it.
+
+    Numbers, and texts that are numbers, stay as they are.
+    """
+    if not isinstance(value, str):
+        return value
+    text = visible(value)
+    if not text.startswith(FORMULAS):
+        return text
+    try:
+        float(text)
+    except ValueError:
+        return f"'{text}"
+    return text
 
 
 def plain_console(width: int | None = None, **options: Any) -> Console:

@@ -17,6 +17,7 @@ import numpy as np
 from gudgeon.errors import GudgeonError
 from gudgeon.files.room import check_disk, check_memory
 from gudgeon.files.writing import written
+from gudgeon.language.shown import in_spreadsheet
 from gudgeon.language.wanted import names as plain_names
 from gudgeon.language.wanted import path as named
 from gudgeon.language.wanted import refuse
@@ -149,7 +150,7 @@ def _lines(columns: Sequence[Array]) -> list[str]:
 
 def _cell(value: object) -> str:
     """A number's digits, or the name of what was chosen, in which no comma can be."""
-    return value if isinstance(value, str) else repr(value)
+    return str(in_spreadsheet(value)) if isinstance(value, str) else repr(value)
 
 
 def mat(run: Result, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:

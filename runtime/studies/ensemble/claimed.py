@@ -14,7 +14,7 @@ import numpy as np
 from gudgeon.errors import GudgeonError
 from gudgeon.files.writing import read_regular, written
 from gudgeon.language.plot_units import quantity
-from gudgeon.language.shown import counted
+from gudgeon.language.shown import counted, in_spreadsheet
 from gudgeon.results.batch import Array
 from gudgeon.studies.ensemble.judge import Cell, judged, together
 from gudgeon.studies.ensemble.names import as_people_write, names_of
@@ -97,7 +97,7 @@ def write_claims(folder: Path, plans: Plans, known: Known, study: Study) -> None
         file.write(json.dumps({"source": plans.file.claims.source} | rows, indent=1).encode())
     for name, table in zip(TABLES, _tables(rows), strict=True):
         with written(folder / f"claims_{name}.csv") as file:
-            file.write(table.to_csv(index=False).encode())
+            file.write(table.map(in_spreadsheet).to_csv(index=False).encode())
 
 
 def read_claims_of(folder: Path) -> Claimed:

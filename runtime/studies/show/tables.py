@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from gudgeon.errors import OutputError
 from gudgeon.files.writing import write_text
+from gudgeon.language.shown import in_spreadsheet
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -45,7 +46,7 @@ def write_csv(path: Path, rows: Sequence[dict[str, Any]]) -> None:
     writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
     writer.writeheader()
     for row in rows:
-        writer.writerow({key: f"{x:.6g}" if isinstance(x, float) else x for key, x in row.items()})
+        writer.writerow({key: f"{x:.6g}" if isinstance(x, float) else in_spreadsheet(x) for key, x in row.items()})
     write_text(path, text.getvalue())
 
 
