@@ -52,11 +52,6 @@ def _run() -> None:
     except KeyboardInterrupt:
         last_word()
         sys.exit(INTERRUPTED)
-    except ModuleNotFoundError as error:
-        if error.name != "matplotlib":  # others are missed, and named, where they are imported
-            raise
-        print("error: this needs matplotlib: pip install 'gudgeon[plot]'", file=sys.stderr)
-        sys.exit(2)
     except OSError as error:
         if error.filename is not None or error.errno not in (*FULL, errno.EPIPE):
             raise

@@ -10,15 +10,20 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from matplotlib.artist import Artist
-from matplotlib.lines import Line2D
-from matplotlib.text import Text
 from numpy.typing import NDArray
 
 from gudgeon.drawing.roles import NAMES, colour_of
 from gudgeon.drawing.shapes import Disc, Label, Shape, Sketch, arc
+from gudgeon.errors import GudgeonError
 from gudgeon.language.shown import one_line
 from gudgeon.model.compiled import Array
+
+try:  # here, because everything that draws imports this module before matplotlib
+    from matplotlib.artist import Artist
+    from matplotlib.lines import Line2D
+    from matplotlib.text import Text
+except ModuleNotFoundError as error:
+    raise GudgeonError("figures need matplotlib: pip install 'gudgeon[plot]'") from error
 
 RINGS = (2.0, 6.0, 11.0, 17.0, 25.0, 35.0, 48.0, 64.0, 84.0, 110.0, 145.0, 190.0)  # points from what is named
 ORDER = (45.0, 0.0, 90.0, 180.0, 270.0, 135.0, 315.0, 225.0, *(22.5 + 45.0 * k for k in range(8)))  # on a ring, degrees

@@ -11,15 +11,15 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-import matplotlib
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.patches import Circle, Patch, Polygon
-
 from gudgeon.drawing.labels import Names, gid
 from gudgeon.drawing.roles import ROLES, Role, colour_of
 from gudgeon.drawing.shapes import Disc, Shape, Sketch
 from gudgeon.language.shown import in_figure
+
+import matplotlib  # isort: skip  (labels.py says where it is missing)
+from matplotlib.axes import Axes  # isort: skip
+from matplotlib.figure import Figure  # isort: skip
+from matplotlib.patches import Circle, Patch, Polygon  # isort: skip
 
 LARGEST, SMALLEST = 8.0, 3.2  # inches, of the longer and the shorter side
 LEAST_UNIT, MOST = 0.042, 24.0  # inches: of half a bar's width at least, for which the longer side may grow so far

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 
-from matplotlib.figure import Figure
-
 from gudgeon.drawing.labels import LED, Names
 from gudgeon.drawing.picture import draw_on, size_of
 from gudgeon.drawing.roles import NAMES, ROLES, colour_of
 from gudgeon.drawing.shapes import Disc, Shape, Sketch
 from gudgeon.language.shown import one_line
 from gudgeon.model.compiled import Array
+
+from matplotlib.figure import Figure  # isort: skip  (labels.py says where it is missing)
 
 WIDEST, HIGHEST = 6.3, 5.0  # inches on the page
 

@@ -13,10 +13,7 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import matplotlib
 import numpy as np
-from matplotlib.animation import PillowWriter
-from matplotlib.figure import Figure
 
 from gudgeon.drawing.labels import Names
 from gudgeon.drawing.page import PIXELS, page
@@ -31,6 +28,10 @@ from gudgeon.language.wanted import flag, function, number_of, path, refuse
 from gudgeon.results.mechanism_plots import arrows_of, path_lines, points_of, touching_at
 from gudgeon.results.plots import caption_of
 from gudgeon.results.postures import posture_at, postures_of
+
+import matplotlib  # isort: skip  (labels.py says where it is missing)
+from matplotlib.animation import PillowWriter  # isort: skip
+from matplotlib.figure import Figure  # isort: skip
 
 if TYPE_CHECKING:
     from gudgeon.drawing.shapes import Sketch

@@ -23,12 +23,9 @@ from gudgeon.language.shown import in_figure, one_line
 from gudgeon.results import force_panels, trace
 from gudgeon.results.series import rates
 
-try:
-    import matplotlib
-    from matplotlib.figure import Figure
-    from matplotlib.ticker import MaxNLocator
-except ModuleNotFoundError as error:
-    raise GudgeonError("figures need matplotlib: pip install 'gudgeon[plot]'") from error
+import matplotlib  # isort: skip  (labels.py says where it is missing)
+from matplotlib.figure import Figure  # isort: skip
+from matplotlib.ticker import MaxNLocator  # isort: skip
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -34,7 +34,7 @@ from gudgeon.results.plots import (
 )
 from gudgeon.results.series import drive_series, rates
 
-import matplotlib  # isort: skip  (plots.py says where it is missing)
+import matplotlib  # isort: skip  (labels.py says where it is missing)
 from matplotlib.axes import Axes  # isort: skip
 from matplotlib.figure import Figure  # isort: skip
 

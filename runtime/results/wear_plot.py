@@ -11,7 +11,7 @@ from gudgeon.language.shown import in_figure
 from gudgeon.results.plots import COLOURS, STYLE, TITLE
 from gudgeon.results.run_plots import new_axes, plain
 
-import matplotlib  # isort: skip  (plots.py says where it is missing)
+import matplotlib  # isort: skip  (labels.py says where it is missing)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

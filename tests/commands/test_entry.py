@@ -124,8 +124,8 @@ def without(package: str, line: str, folder: Path) -> subprocess.CompletedProces
 
 def test_a_package_that_is_not_installed_is_told_with_what_brings_it(tmp_path: Path) -> None:
     done = without("matplotlib", "draw four_bar -o x.svg", tmp_path)
-    assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == "error: this needs matplotlib: pip install 'gudgeon[plot]'\n"
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr == "error: figures need matplotlib: pip install 'gudgeon[plot]'\n"
 
 
 @pytest.mark.slow

@@ -21,7 +21,7 @@ from gudgeon.studies.show.bands import LINE, band, bars, evenly, known, marks, n
 from gudgeon.studies.show.study_data import Coords, StudyData
 from gudgeon.studies.show.study_signals import filtered, over_shares, spectra
 
-import matplotlib  # isort: skip  (plots.py says where it is missing)
+import matplotlib  # isort: skip  (labels.py says where it is missing)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
