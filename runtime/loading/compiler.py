@@ -139,6 +139,15 @@ def identity(command: tuple[str, ...], cache: Cache) -> str:
     return "\n".join([*command, (entry / "version").read_text(), *_machine()])
 
 
+def version() -> str:
+    """Return the first line of what the compiler reports as its version; without one the library is the wheel's."""
+    try:
+        command = find_compiler()
+        return identity(command, default_cache()).split("\n")[len(command)]
+    except BuildError:
+        return "none: the library came with gudgeon"
+
+
 def _ask_version(command: tuple[str, ...], folder: Path) -> None:
     try:
         with Programs() as programs:

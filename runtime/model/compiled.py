@@ -35,8 +35,9 @@ AT_ONCE = 1024  # runs whose numbers are made together: they stay near
 class CompiledModel:
     """The library of one scene. `p` is what `prepare` returns: slots, then derived numbers."""
 
-    def __init__(self, source: KernelSource, library: Library, portable: bool = False) -> None:
+    def __init__(self, source: KernelSource, library: Library, portable: bool = False, text: str = "") -> None:
         self.source, self.portable = source, portable  # how its library was compiled, and others beside it will be
+        self.text = text  # of the mechanism's file
         self.__dict__.update(lib=library.lib, ffi=library.ffi)
         self.n, self.n_p = len(source.coordinates), len(source.slots) + len(source.derived)
         self.n_memory = source.n_memory
@@ -55,6 +56,13 @@ class CompiledModel:
     def ffi(self) -> Any:
         """cffi's view of what the engine declares."""
         return self._library.ffi
+
+    @cached_property
+    def compiler(self) -> str:
+        """The first line of what the C compiler reports as its version."""
+        from gudgeon.loading.compiler import version
+
+        return version()
 
     @cached_property
     def beyond(self) -> bool:

@@ -38,6 +38,7 @@ from gudgeon.results.diagnostics import Extremes, extremes_from_json, extremes_t
 from gudgeon.results.hdf5_image import Table, Variable
 from gudgeon.results.netcdf_read import File, check_extremes, events_of, impacts_of, opened, result_of, source_of
 from gudgeon.results.peaks import PEAK_DTYPE
+from gudgeon.results.provenance import GROUP, read_provenance
 from gudgeon.results.results import Array, Result
 from gudgeon.results.series import catalogue
 from gudgeon.results.typed import check_typed
@@ -79,6 +80,7 @@ def tables(batch: Batch) -> Iterator[Table]:
         own = [(i, table) for i, table in parts if table.group == group and table.length]
         source = {"source": batch.source.to_json()} if group == netcdf.COMPILED else {}
         yield long_table(group or netcdf.SERIES, own, source)
+    yield Table(GROUP, "", (), next((run.provenance for run in runs.values()), {}))
 
 
 def dataset(batch: Batch, part: str) -> xarray.Dataset:
@@ -224,7 +226,9 @@ def _batch(opened_file: Any, size: int) -> Batch:
     kept = about.get("kept")
     names, whole = tuple(catalogue(source)), Whole(file, count, kept is None)
     began = [i for i in range(count) if whole.diagnostics[i]]
-    runs = {i: result_of(_RunOf(whole, i), source, names) for i in began}
+    runs, provenance = {i: result_of(_RunOf(whole, i), source, names) for i in began}, read_provenance(file)
+    for run in runs.values():
+        run.provenance = provenance
     told = file.texts(f"{RUNS}/failure", count)
     failed = {i: _error(text, runs.get(i)) for i, text in enumerate(told) if text}
     if missing := [i for i in range(count) if kept is None and i not in runs and i not in failed]:

@@ -3,8 +3,8 @@
 A file holds every series under its own name over `time`, so that any NetCDF tool can read it, and in groups what has
 other rows: `impacts`, `events`, the series `at_events`, `parameters`, `trace` (trace.py) and `peaks` over all steps
 (peaks.py), for people; `compiled`, the kernel source and what was derived from the parameters, so that gudgeon reads
-all of it back bit for bit without a compiled library. What has no row is not there. A file holds no date: the same run
-gives the same bytes.
+all of it back bit for bit without a compiled library; `provenance` (provenance.py). What has no row is not there. The
+only date is that of the run, in `provenance`: a result that is saved twice gives the same bytes.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from gudgeon.language.wanted import path as named
 from gudgeon.model.choices import said
 from gudgeon.results import peaks, trace
 from gudgeon.results.hdf5_image import Table, Variable, pieces
+from gudgeon.results.provenance import GROUP
 from gudgeon.results.results import Array, Result
 from gudgeon.results.series import DRIFT
 from gudgeon.waiting.ctrl_c import CtrlC
@@ -63,6 +64,7 @@ def tables(run: Result) -> Iterator[Table]:
     yield Table(PEAKS, "row", tuple(Variable(name, x, *peaks.COLUMNS[name]) for name, x in extremes.items()), {})
     derived = Variable("value", run.p[len(run.given) :], "", "what was derived from the parameters, SI")
     yield Table(COMPILED, "derived", (derived,), {"source": run.source.to_json()})
+    yield Table(GROUP, "", (), run.provenance)
 
 
 def _series(run: Result) -> Iterator[Variable]:
@@ -128,7 +130,7 @@ def attributes(run: Result) -> dict[str, str]:
 
 def variable(name: str) -> str:
     """An output may be called like what else stands at the root; no other name can, for they all have a dot."""
-    return f"output.{name}" if name in ("time", *PARTS, COMPILED) else name
+    return f"output.{name}" if name in ("time", *PARTS, COMPILED, GROUP) else name
 
 
 def dataset(run: Result, part: str = SERIES) -> xarray.Dataset:

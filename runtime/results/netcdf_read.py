@@ -1,8 +1,7 @@
 """Results from NetCDF files that anybody may have written, damaged or cut short: a whole Result, or an InputError.
 
 Nothing in a file is believed: that a seal holds, types, lengths and names are looked at before anything is read, links
-out of the file are not followed, and no more is read than the file can hold. Files of before the groups
-(gudgeon-result/1) are read too.
+out of the file are not followed, and no more is read than the file can hold. Files of gudgeon-result/1 are read too.
 """
 
 from __future__ import annotations
@@ -26,8 +25,9 @@ from gudgeon.results.diagnostics import Diagnostics, Extremes
 from gudgeon.results.hdf5_image import is_damaged
 from gudgeon.results.netcdf import COMPILED, FORMAT, STATES, TRACE, at_event, variable
 from gudgeon.results.netcdf_samples import samples_of
+from gudgeon.results.provenance import read_provenance
 from gudgeon.results.results import Array, Result
-from gudgeon.results.series import DRIFT
+from gudgeon.results.series import DRIFT, catalogue
 from gudgeon.results.typed import check_typed
 
 OLD_FORMAT = "gudgeon-result/1"  # impacts, events and parameters beside the series, over dimensions of their own
@@ -160,10 +160,10 @@ def source_of(file: File) -> KernelSource:
 
 
 def _result(file: File) -> Result:
-    from gudgeon.results.series import catalogue
-
     source = source_of(file)
-    return result_of(file, source, tuple(catalogue(source)))
+    run = result_of(file, source, tuple(catalogue(source)))
+    run.provenance = read_provenance(file)
+    return run
 
 
 def result_of(file: File, source: KernelSource, names: tuple[str, ...]) -> Result:

@@ -44,8 +44,7 @@ if TYPE_CHECKING:
 class Result(Shown, Checked):
     """One run of N samples. `run["S9.y"]` is the (N,) series of that name (see `gudgeon.series`).
 
-    It may be pickled and copied: what is stored and computed so far goes with it; other series are computed there,
-    with the scene's library from the cache, or compiled again.
+    It may be pickled: what is stored and computed goes with it, other series are computed there by the scene's library.
     """
 
     compiled: CompiledModel | None  # None: read from a file, where every series is stored
@@ -66,6 +65,7 @@ class Result(Shown, Checked):
     event_states: Array | None = None  # event_dtype, the same with the states there; None: see at_events.py
     trace: Trace | None = None  # forces and paths from the steps; None: samples are all there is
     stored: dict[str, Array] = field(default_factory=dict, repr=False)  # series computed or read so far
+    provenance: dict[str, str] = field(default_factory=dict, repr=False)  # version, platform, compiler, date, mechanism
 
     def __getitem__(self, name: str) -> Array:
         """The series of that name, (N,), in SI, read-only. UnknownNameError names the nearest."""

@@ -15,6 +15,7 @@ from gudgeon.integrators.audit import audit_failure
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.written import with_odd_outputs
+from gudgeon.results.provenance import provenance_of
 from gudgeon.results.results import Result
 from gudgeon.simulation.audit import audit_samples, failed
 from gudgeon.simulation.diagnose import diagnose, energy_balance, unbalanced
@@ -57,7 +58,7 @@ def conclude(
         compiled=compiled, source=compiled.source, p=problem.p, given=given, is_given=is_given, t=x.t, q=x.q, v=x.v,
         accelerations=a, state=x.state, memory=x.memory, work=x.work, impacts=x.impacts,
         diagnostics=diagnose(compiled, method, problem, x, balance, seconds), events=x.events,
-        event_states=x.event_states, trace=x.trace,
+        event_states=x.event_states, trace=x.trace, provenance=provenance_of(compiled),
     )  # fmt: skip
     if evaluation is not None:
         if not compiled.source.massless and (told := unbalanced(x.t, evaluation.energy, x.work, balance[0])):

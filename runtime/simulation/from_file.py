@@ -84,6 +84,6 @@ def load_bytes(
     from gudgeon.simulation.simulation import Simulation
 
     loading = Loading(origin, read - start, have_source - read, have_library - have_source, have_library - start)
-    compiled = CompiledModel(source, library, portable)
+    compiled = CompiledModel(source, library, portable, data.decode())
     check_reference(compiled)
     return Simulation(compiled, file=file, overrides=dict(overrides or {}), loading=loading)
