@@ -73,6 +73,13 @@ class CompiledModel:
         return any("mod" in functions(tree) for _, tree in trees(self.source, ("drives",)))
 
     @cached_property
+    def may_switch(self) -> bool:
+        """Whether the acceleration that a drive prescribes may jump at some time."""
+        from gudgeon.model.left_limit import may_switch
+
+        return may_switch(self)
+
+    @cached_property
     def none(self) -> tuple[tuple[str, Array], ...]:
         """An Evaluation of no samples, part by part."""
         return nothing(self)

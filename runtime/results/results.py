@@ -21,6 +21,7 @@ from gudgeon.integrators.trajectory import no_events
 from gudgeon.language.shown import counted
 from gudgeon.language.wanted import text
 from gudgeon.model.choices import said
+from gudgeon.model.left_limit import evaluation_times
 from gudgeon.results.contact_check import Checked
 from gudgeon.results.diagnostics import Diagnostics, Extremes
 from gudgeon.results.shown import Shown
@@ -113,9 +114,8 @@ class Result(Shown, Checked):
     @cached_property
     def constants(self) -> Mapping[str, float]:
         """What is worth printing of each joint with play: "A.c", and as the laws have them "A.K", "A.S" …"""
-        found = {}
+        found = {f"{joint.name}.c": float(self.p[joint.clearance]) for joint in self.source.clearances}
         for joint in self.source.clearances:
-            found[f"{joint.name}.c"] = float(self.p[joint.clearance])
             found |= {f"{joint.name}.{name}": float(self.p[i]) for name, i in joint.constants.items()}
         return MappingProxyType(found)
 
@@ -140,8 +140,8 @@ class Result(Shown, Checked):
     def peak(self, name: str) -> Extremes:
         """Largest and smallest value of a series over all steps of this run, with their times (s); SI.
 
-        Of a series that was asked for, `simulate(peaks=["S9.ay"])` or `peaks:` of the scene: samples do not know it.
-        A run that goes on from another one tells of its own part. Raises UnknownNameError, BadValueError.
+        Of a series that was asked for by `simulate(peaks=["S9.ay"])` or `peaks:` of the scene, and of this run's part
+        where it goes on from another one. Raises UnknownNameError, BadValueError.
         """
         from gudgeon.results.peaks import over_all_steps
 
@@ -163,10 +163,9 @@ class Result(Shown, Checked):
     @property
     def final(self) -> State:
         """The last sample as a state to restart from."""
-        slots = zip(self.source.slots, self.given, self.is_given, strict=True)
+        source, slots = self.source, zip(self.source.slots, self.given, self.is_given, strict=True)
         overridden = {slot.address: said(slot, float(x)) for slot, x, is_given in slots if is_given}
         q, v, state, memory = (array[-1].copy() for array in (self.q, self.v, self.state, self.memory))
-        source = self.source
         return State(
             source.mechanism, source.scene, float(self.t[-1]), q, v, state, memory, MappingProxyType(overridden),
             source.whole_sha256, source.overrides, source.formulation, source.beside,
@@ -195,7 +194,8 @@ class Result(Shown, Checked):
         """Accelerations, multipliers, reactions, torques, forces of joints with play and energies at all samples."""
         if self.compiled is None:
             raise GudgeonError("this result was read from a file that lacks the series; run the scene again")
-        return self.compiled.evaluate(self.t, self.q, self.v, self.memory, self.p)
+        times = evaluation_times(self.compiled, self.t, self.q, self.v, self.p)
+        return self.compiled.evaluate(times, self.q, self.v, self.memory, self.p)
 
     @property
     def plot(self) -> Plot:

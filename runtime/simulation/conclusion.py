@@ -14,6 +14,8 @@ from gudgeon.errors import SolverError
 from gudgeon.integrators.audit import audit_failure
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
+from gudgeon.model.evaluation import Evaluation
+from gudgeon.model.left_limit import evaluation_times
 from gudgeon.model.written import with_odd_outputs
 from gudgeon.results.provenance import provenance_of
 from gudgeon.results.results import Result
@@ -41,7 +43,8 @@ def conclude(
     x, evaluation, failed, balance = without_works(compiled, trajectory), None, False, (math.nan, math.nan)
     look = _look(problem, x.interrupted, soon)
     try:
-        evaluation = compiled.evaluate(x.t, x.q, x.v, x.memory, problem.p, look)
+        times = evaluation_times(compiled, x.t, x.q, x.v, problem.p)
+        evaluation = compiled.evaluate(times, x.q, x.v, x.memory, problem.p, look)
         balance = energy_balance(evaluation.energy, x.work, look)
     except SolverError:
         failed = True
@@ -49,9 +52,9 @@ def conclude(
         pass
     except KeyboardInterrupt:
         x = replace(x, interrupted=True)
-    a = x.a
-    if a is None and (evaluation is not None or failed):
-        a = np.full_like(x.q, np.nan) if evaluation is None else evaluation.a
+    a = x.a if evaluation is None else _accelerations(x, evaluation, times)
+    if a is None and failed:
+        a = np.full_like(x.q, np.nan)
     if evaluation is not None:
         x = replace(x, audit=(*x.audit, *audit_samples(compiled, problem, x, evaluation, balance)))
     result = Result(
@@ -68,6 +71,13 @@ def conclude(
         if len(x.t) <= KEPT:
             result.__dict__["evaluation"] = evaluation  # a cached property: nobody computes it again
     return result
+
+
+def _accelerations(x: Trajectory, evaluation: Evaluation, times: Array) -> Array:
+    """Return q̈ (N, n) as the method found it, else as evaluated; of the last instant the left limit."""
+    if x.a is None:
+        return evaluation.a
+    return np.append(x.a[:-1], evaluation.a[-1:], axis=0) if times[-1] < x.t[-1] else x.a
 
 
 def without_works(compiled: CompiledModel, trajectory: Trajectory) -> Trajectory:

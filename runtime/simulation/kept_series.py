@@ -9,6 +9,7 @@ import numpy as np
 
 from gudgeon.errors import SolverError
 from gudgeon.model.evaluation import evaluate_runs
+from gudgeon.model.left_limit import evaluation_times
 from gudgeon.results.bare import Bare, bare
 from gudgeon.results.batch_series import parts_of
 from gudgeon.results.series import catalogue
@@ -71,5 +72,9 @@ def _joined(runs: Runs, begun: Sequence[int], parts: frozenset[str]) -> tuple[li
     none = np.full(compiled.n_p, np.nan)
     made = bare(compiled.source, compiled, none, t, q, v, y[:, 2 * n :], memory, state, parts)
     if parts:
-        made.evaluation = evaluate_runs(compiled, counts, t, q, v, memory, runs.arrays["p"][begun], parts)
+        numbers = runs.arrays["p"][begun]
+        if compiled.may_switch:
+            last = zip(each, numbers, strict=True)
+            t = np.concatenate([evaluation_times(compiled, t, y[:, :n], y[:, n : 2 * n], p) for (t, y, *_), p in last])
+        made.evaluation = evaluate_runs(compiled, counts, t, q, v, memory, numbers, parts)
     return counts, made

@@ -1,0 +1,48 @@
+"""The last instant of a run belongs to the motion before it: accelerations there are left limits.
+
+Where the acceleration that a drive prescribes switches exactly at the end (a curve that is held, `where`, `ramp`), the
+last sample is evaluated just before. A jump of the rate is an impulse, after which the velocities of the last sample
+are: there the side after it stays, so that a run that goes on from this one begins with the same velocities.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gudgeon.language.tree import CurveCall, calls
+from gudgeon.model.evaluation import around
+from gudgeon.model.written import trees
+
+if TYPE_CHECKING:
+    from gudgeon.model.compiled import Array, CompiledModel
+
+SWITCHING = frozenset({"abs", "sign", "min", "max", "smooth_step", "ramp", "where", "mod"})
+JUMP_TOL = 1e-6  # of the values on both sides: a smaller difference is none of a switch
+STEEPEST = 1e3  # times as fast as the rows' accelerations, a smooth change of ν between both sides may be
+
+
+def may_switch(compiled: CompiledModel) -> bool:
+    """Return whether the acceleration that a drive prescribes may jump at some time."""
+    return any(
+        call.function in SWITCHING or isinstance(call, CurveCall)
+        for _, tree in trees(compiled.source, ("drives",)) for call in calls(tree)
+    )  # fmt: skip
+
+
+def evaluation_times(compiled: CompiledModel, t: Array, q: Array, v: Array, p: Array) -> Array:
+    """Return the times (N,) at which the samples of one run are evaluated; the last may be just before t[-1]."""
+    if len(t) < 2 or not compiled.may_switch:
+        return t
+    before, after = (float(t[-1] + side * around(t[-1])) for side in (-2.0, 2.0))
+    gamma = [compiled.closed_gamma(time, q[-1], v[-1], p) for time in (before, after)]
+    nu = [compiled.closed_nu(time, q[-1], p) for time in (before, after)]
+    smooth = STEEPEST * float(np.abs(gamma).max(initial=0.0)) * (after - before)
+    switches = _jumps(*gamma).any() and not (_jumps(*nu) & (np.abs(nu[1] - nu[0]) > smooth)).any()
+    return np.append(t[:-1], before) if switches and before > t[-2] else t
+
+
+def _jumps(one: Array, other: Array) -> NDArray[np.bool_]:
+    return np.asarray(np.abs(one - other) > JUMP_TOL * (np.abs(one) + np.abs(other)))
