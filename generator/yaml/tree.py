@@ -29,7 +29,7 @@ from gudgeon.generator.yaml.commas import Events
 
 MERGED = "write the keys out; a contact, or a scene, takes those of another one by extends: NAME"
 MAX_DEPTH = 24
-MAX_NODES = 20_000  # aliases counted as what they stand for
+MAX_NODES = 100_000  # aliases counted as what they stand for
 MAX_TAG = 10_000  # characters: the time that ruamel takes for one grows with their square
 MOST_TWICE = 50  # keys given twice that are told
 _TAG = re.compile(rf"!\S{{{MAX_TAG}}}")

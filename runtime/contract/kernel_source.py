@@ -262,6 +262,10 @@ class KernelSource:
 
     def to_json(self) -> str:
         """Readable JSON; the same source gives the same bytes."""
+        return self._json
+
+    @cached_property
+    def _json(self) -> str:
         return as_text(shorten(asdict(self), _defaults()))
 
     @staticmethod
