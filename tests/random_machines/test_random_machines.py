@@ -12,7 +12,7 @@ from tests.random_machines.trial import try_seeds
 pytestmark = needs_compiler
 MACHINES = 8  # sets of numbers of a design
 # Seeds that fail for a known reason, with what is said of it; whatever else fails is new.
-KNOWN = {21: "grows beyond all bounds"}  # a drive of power 1.5 and rigid contacts: the reduced formulation stops
+KNOWN = {21: "grows beyond all bounds"}  # a drive of power 1.5 with rigid contacts
 
 
 def tried(seed: int, folder: Path) -> None:
