@@ -5,20 +5,23 @@
  */
 static int is_unbounded(Run *run, double t, double apart, const Parameters *p)
 {
-    double dy[3][N_Y], here[N_CORNERS], there[N_CORNERS], most = 0.0;
+    const double beside = max_of(1e-6 * fabs(apart), 4.0 * DBL_EPSILON * fabs(t)); /* t itself may have the other side */
+    const double way[4] = {0.0, apart < 0.0 ? -beside : beside, apart, 2.0 * apart};
+    double dy[4][N_Y], here[N_CORNERS], there[N_CORNERS], most = 0.0;
     Aside aside;
     int some = 0;
     drive_corners(t, p, here);
     drive_corners(t + 2.0 * apart, p, there);
     if (is_crossed(here, there))
         return 0;
-    for (int i = 0; i < 3; i++)
-        if (rates(run, t + i * apart, run->y, p, dy[i], &aside))
+    for (int i = 0; i < 4; i++)
+        if (rates(run, t + way[i], run->y, p, dy[i], &aside))
             return 0;
     for (int k = N_X; k < 2 * N_X; k++)
-        most = max_of(most, fabs(dy[1][k]));
-    for (int k = N_X; k < 2 * N_X; k++) /* or is no number */
-        some |= !(fabs(dy[0][k] - dy[1][k]) <= 20.0 * fabs(dy[1][k] - dy[2][k]) + 1e-9 * most);
+        most = max_of(most, fabs(dy[2][k]));
+    for (int k = N_X; k < 2 * N_X; k++)
+        some |= !isfinite(dy[0][k])
+            || !(fabs(dy[1][k] - dy[2][k]) <= 20.0 * fabs(dy[2][k] - dy[3][k]) + 1e-9 * most);
     return some;
 }
 

@@ -81,3 +81,12 @@ def test_an_integrated_scene(value: str, before: float, after: float, options: d
 def test_a_rate_that_jumps_at_the_end_stays_that_behind_the_impulse(tmp_path: Path) -> None:
     run = scene(CRANK, "min(T, 1)**2", tmp_path).simulate(1.0, output=4)
     assert run["crank.omega"][-1] == 0.0 and run["crank.alpha"][-1] == 0.0
+
+
+def test_rk4_passes_a_knot_at_which_the_second_rate_jumps(tmp_path: Path) -> None:
+    """At the knot itself the curve has the second rate behind it: a jump is no rate without bounds. Order 4."""
+    curve = next(line for line in CRANK.splitlines() if line.startswith("curves:"))
+    cart = scene(f"{CART}{curve}\n", "lift(t)", tmp_path)
+    exact = cart.simulate(1.0, output=4, rtol=1e-12)["bob.theta"][-1]
+    off = [abs(cart.simulate(1.0, output=4, method="rk4", step=h)["bob.theta"][-1] - exact) for h in (2e-3, 1e-3)]
+    assert off[1] < 1e-7 and off[0] / off[1] > 10.0
