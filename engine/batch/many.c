@@ -45,7 +45,7 @@ static int start_run(const Batch *b, long i, const long *others, int n, Run *run
     gudgeon_run_tape(run, tape.rows, tape.capacity);
     gudgeon_run_codes(run, b->codes + i * AT_LEAST_ONE(N_CLEARANCES));
     gudgeon_run_stop(run, b->stop);
-    gudgeon_run_audit(run, b->audit);
+    gudgeon_run_audit(run, b->audit, b->size[i]);
     gudgeon_run_asks(run, is_ending, (void *)b, GLANCE);
     if (b->choice >= 0)
         gudgeon_adaptive_setup(run, b->choice, b->automatic, b->scale + i * 2 * N_X, b->least + 2 * i,

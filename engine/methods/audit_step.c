@@ -6,8 +6,8 @@
 #define AUDIT_LONGER 8.0 /* times the step before: such a step is always checked */
 #define AUDIT_DIGITS 1e-10 /* of a state: differences below it are rounding */
 #define AUDIT_DEFECT 1e4 /* tolerances that the dense output may miss the right-hand side by */
-/* steps between two that are drawn, in the mean; halvings that locate a zero; places inside a step */
-enum { AUDIT_MEAN = 128, AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4 };
+/* halvings that locate a zero; places inside a step */
+enum { AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4 };
 
 /* Whether what a step holds is what its state says: near a switching point, or the end of a contact, it need not be. */
 static int branches_fit(const Run *run, const Aside *aside)

@@ -17,6 +17,7 @@
 #define AUDIT_FIXED 1e-8       /* the tolerance that stands in for that of a fixed step */
 /* steps in a row that end on the wrong side of a switching function; after which its magnitude is known */
 enum { AUDIT_WRONG = 3, AUDIT_SETTLED = 20 };
+enum { AUDIT_MEAN = 128 }; /* steps between two that are drawn, in the mean */
 
 static int is_resolved(Run *run, double t, const double *y, const Aside *aside, int k, const Parameters *p);
 
@@ -27,10 +28,12 @@ static double draw(Audit *audit)
     return ((audit->random >> 8) + 0.5) / 16777216.0;
 }
 
-static double audit_tolerance(const Run *run) { return run->fixed > 0.0 ? AUDIT_FIXED : tolerance_of(run); }
+/* Whether steps are as long as a tolerance allows. */
+static int has_tolerance(const Run *run) { return run->fixed <= 0.0 && run->inverse_scale[2 * N_X - 1] > 0.0; }
 
-/* The mechanism's size, m: of the smallest length and angle that matter. */
-static double size_of(const Run *run) { return run->least[0] / run->least[1]; }
+static double audit_tolerance(const Run *run) { return has_tolerance(run) ? tolerance_of(run) : AUDIT_FIXED; }
+
+static double size_of(const Run *run) { return run->audit.size; }
 
 static void record(Audit *audit, int check, double value, double limit, double t, int where)
 {
@@ -52,11 +55,10 @@ static void check_closed(Run *run)
     double limit = max_of(audit_tolerance(run) * run->least[0], AUDIT_ROUNDING * size_of(run));
     if (run->steps <= 1)
         run->audit.phi_start = run->phi_max;
-    if (!(run->phi_max > run->audit.phi_start) || run->phi_max < limit)
-        return;
-    for (int k = 0; k < N_X; k++)
+    const double off = run->phi_max > run->audit.phi_start ? run->phi_max : 0.0;
+    for (int k = 0; k < N_X && !(off < limit); k++)
         limit = max_of(limit, is_angle[k] ? 0.0 : AUDIT_ROUNDING * fabs(run->y[k]));
-    record(&run->audit, POSITION_CHECK, run->phi_max, limit, run->t, -1);
+    record(&run->audit, POSITION_CHECK, off, limit, run->t, -1);
 }
 
 /* Positions, and with `rates_too` velocities, of all rows of the motion at a state `all` of all bodies. */
@@ -212,12 +214,12 @@ static void check_forces(Run *run, double t, const Aside *aside, const double *r
         record(&run->audit, FORCE_CHECK, off[kind], limit * largest[kind], t, where);
 }
 
-/* Open joints at a state: neither penetration nor force. */
+/* Open joints at a state do not penetrate. Where contacts that do not give begin in a fixed step is no closer known. */
 static void check_joints(Run *run, double t, const Aside *aside, const Parameters *p)
 {
     for (int i = 0; i < N_CLEARANCES && !(run->fixed > 0.0); i++) {
         const Clearance *joint = &aside->clearance[i];
-        if (run->memory.latch[i].closed)
+        if (run->memory.latch[i].closed || !(gives(i) || has_tolerance(run)))
             continue;
         const double located = 4.0 * (run->tick + 8.0 * DBL_EPSILON * fabs(t)) * fabs(joint->deltadot);
         const double least = max_of(AUDIT_GRAZE, 64.0 * DBL_EPSILON * size_of(run));
@@ -234,8 +236,18 @@ static void check_branches(Run *run, const Step *step, double t, const double *y
     for (int k = 0; k < N_SWITCHES; k++) {
         const double g = run->memory.side[k] * aside->g[k];
         run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(g));
+        record(&run->audit, BRANCH_CHECK, 0.0, 1.0, t, k);
         if (!step->passed[k] && k != run->skip && !meets[k] && g < 0.0 && run->steps > AUDIT_SETTLED
             && is_resolved(run, t, y, aside, N_CLEARANCES + k, p))
             record(&run->audit, BRANCH_CHECK, -g, 1e-3 * run->audit.switch_scale[k], t, k);
     }
+}
+
+/* Joints that are open bear no force. */
+static void check_free(Run *run)
+{
+    for (int i = 0; i < N_CLEARANCES; i++)
+        if (!run->memory.latch[i].closed && gives(i) && !has_film(i))
+            record(&run->audit, FREE_CHECK, total_force(&run->aside.clearance[i]),
+                max_of(1e-6 * run->F_peak[i], 1e-300), run->t, i);
 }

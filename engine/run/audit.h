@@ -22,13 +22,14 @@ enum {
 };
 
 typedef struct {
-    double worst, t; /* multiple of the limit; s */
+    double worst, t; /* multiple of the limit, < 0: not checked; s */
     int where;       /* number of the joint, constraint row, body coordinate, switching function or event; -1: none */
 } AuditRecord;
 
 typedef struct {
     int level, status;             /* one of those above; AUDITED once a check failed */
     long due;                      /* number of steps after which a step is checked inside next */
+    double size;                   /* of the mechanism, m */
     unsigned random;               /* state of the generator that draws steps and places in them */
     double phi_start;              /* largest |Phi| at the start */
     double switch_scale[AT_LEAST_ONE(N_SWITCHES)], event_scale[AT_LEAST_ONE(N_USER_EVENTS)]; /* largest magnitudes */

@@ -14,6 +14,7 @@ static void check_event(Run *run, int i, int listed)
     int found = 0;
     for (int k = listed; k < run->n_events; k++)
         found |= run->event[k] == i;
+    record(audit, EVENT_CHECK, 0.0, 1.0, run->t, i);
     if ((ended || audit->crossed[i]) && !found)
         record(audit, EVENT_CHECK, INFINITY, 1.0, run->t, i);
     audit->noise[i] = found && !audit->away[i] ? audit->noise[i] + 1 : found ? 0 : audit->noise[i];
@@ -36,13 +37,11 @@ static int audit_state(Run *run, int listed, const Parameters *p)
     to_absolute(run->t, run->y, &run->memory, p, all);
     check_rows(run, run->t, all, 0, p);
 #endif
-    for (int i = 0; i < N_CLEARANCES; i++)
-        if (!run->memory.latch[i].closed && gives(i) && !has_film(i))
-            record(audit, FREE_CHECK, total_force(&run->aside.clearance[i]), max_of(1e-6 * run->F_peak[i], 1e-300),
-                run->t, i);
+    check_free(run);
     for (int k = 0; k < N_SWITCHES && run->memory.held; k++) {
         const double g = run->memory.side[k] * run->aside.g[k], scale = audit->switch_scale[k];
         audit->switch_scale[k] = max_of(scale, fabs(g));
+        record(audit, BRANCH_CHECK, 0.0, 1.0, run->t, k);
         audit->wrong[k] = (unsigned char)(g < -1e-3 * scale && k != run->skip && !meets[k]
             ? min_of(audit->wrong[k] + 1, 100) : 0);
         if (audit->wrong[k] >= AUDIT_WRONG && is_resolved(run, run->t, run->y, &run->aside, N_CLEARANCES + k, p))
@@ -54,14 +53,39 @@ static int audit_state(Run *run, int listed, const Parameters *p)
     return audit->status;
 }
 
-void gudgeon_run_audit(void *memory, int level)
+/*
+ * The end of a step of given length (rk4): what holds whatever its length. Rows of all bodies and accelerations, of the
+ * tree alone, are checked at the ends of steps that are drawn. In absolute coordinates rows drift. Returns 0 or AUDITED.
+ */
+static int audit_fixed(Run *run, const Parameters *p)
 {
-    ((Run *)memory)->audit = (Audit){.level = level, .random = 1u, .due = 2};
-    for (int k = 0; k < N_CHECKS; k++)
-        ((Run *)memory)->audit.record[k].where = -1;
+    Audit *audit = &run->audit;
+    if (!audit->level)
+        return 0;
+    check_joints(run, run->t, &run->aside, p);
+    check_free(run);
+    if (TREE && (run->steps >= audit->due || audit->level == AUDIT_FULL)) {
+        double all[N_S];
+        to_absolute(run->t, run->y, &run->memory, p, all);
+        check_rows(run, run->t, all, !RATE_JUMPS, p);
+        check_accelerations(run, run->t, run->y, run->dy, all, p);
+        audit->due = run->steps + 1 + (long)(2.0 * AUDIT_MEAN * draw(audit));
+    }
+    return audit->status;
 }
 
-/* Of each check the largest value as a multiple of its limit, its time, and where it was. Returns how many checks. */
+/* Switches the audit on, at a level, or off, before a run begins. `size`: of the mechanism, m. */
+void gudgeon_run_audit(void *memory, int level, double size)
+{
+    ((Run *)memory)->audit = (Audit){.level = level, .size = size, .random = 1u, .due = 2};
+    for (int k = 0; k < N_CHECKS; k++)
+        ((Run *)memory)->audit.record[k] = (AuditRecord){-1.0, 0.0, -1};
+}
+
+/*
+ * Of each check the largest value as a multiple of its limit, < 0: not checked, its time, and where it was. Returns how
+ * many checks.
+ */
 int gudgeon_run_audited(const void *memory, double *worst, double *t, int *where)
 {
     const Run *run = memory;

@@ -72,7 +72,7 @@ void gudgeon_adaptive_setup(void *memory, int method, int automatic, const doubl
     double fixed);
 int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const double *t, long limit,
     double *y, double *latched, signed char *state, long *done);
-void gudgeon_run_audit(void *memory, int level);
+void gudgeon_run_audit(void *memory, int level, double size);
 int gudgeon_run_audited(const void *memory, double *worst, double *t, int *where);
 void gudgeon_run_report(const void *memory, double *t, long *counts, double *numbers, double *peaks);
 

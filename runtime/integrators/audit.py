@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.contract.audit import CHECKS, FAILS, SAMPLE_CHECKS, Check, Finding
+from gudgeon.contract.audit import CHECKS, SAMPLE_CHECKS, Check, Finding
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import AuditError
 from gudgeon.model.compiled import Array, CompiledModel
@@ -28,9 +28,13 @@ def fetch_findings(compiled: CompiledModel, run: Any) -> tuple[Finding, ...]:
 
 
 def as_findings(source: KernelSource, worst: Array, t: Array, where: NDArray[np.intc]) -> tuple[Finding, ...]:
-    """Return the findings from values, times and places (n_checks,) as gudgeon_run_audited writes them."""
+    """Return the findings from values, times and places (n_checks,) as gudgeon_run_audited writes them.
+
+    What was not checked, and has a negative value, has none.
+    """
     rows = zip(CHECKS, worst.tolist(), t.tolist(), where.tolist(), strict=True)
-    return tuple(Finding(check.name, value, at, _place(source, check, k)) for check, value, at, k in rows)
+    return tuple(Finding(check.name, value, at, _place(source, check, k)) for check, value, at, k in rows
+                 if value >= 0.0)  # fmt: skip
 
 
 def _place(source: KernelSource, check: Check, k: int) -> str:
@@ -52,8 +56,8 @@ def audit_failure(findings: tuple[Finding, ...]) -> AuditError:
 
 
 def notes_of(findings: tuple[Finding, ...]) -> tuple[str, ...]:
-    """Return a note for each check between its limit and the value that ends a run."""
-    return tuple(describe(one) for one in findings if 1.0 < one.worst <= FAILS)
+    """Return a note for each check above its limit."""
+    return tuple(describe(one) for one in findings if not one.worst <= 1.0)
 
 
 def describe(finding: Finding) -> str:

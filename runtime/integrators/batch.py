@@ -79,11 +79,11 @@ class Runs:
             "started": np.zeros(n, np.uint8), "phase": np.zeros(n, np.uint8), "y": np.empty((places, N, size)),
             "remembered": np.full((n, max(compiled.n_memory, 1)), np.nan), "codes": np.zeros((n, nc), np.int8),
             "latched": np.empty((places, N, max(compiled.n_memory, 1))), "state": np.zeros((places, N, nc), np.int8),
-            "done": np.zeros(n, np.int_), "status": np.zeros(n, np.intc),
+            "done": np.zeros(n, np.int_), "status": np.zeros(n, np.intc), "audited_t": np.zeros((n, len(CHECKS))),
             "t_last": np.full(n, np.nanmin(times.t)), "last": np.full((n, size), np.nan), "seconds": np.zeros(n),
             "counts": np.zeros((n, N_COUNTS), np.int_), "residuals": np.full((n, 4), np.nan),
-            "peaks": np.full((n, nc, 3), np.nan), "ending": np.zeros(1, np.intc), "audited": np.zeros((n, len(CHECKS))),
-            "audited_t": np.zeros((n, len(CHECKS))), "audited_where": np.full((n, len(CHECKS)), -1, np.intc),
+            "peaks": np.full((n, nc, 3), np.nan), "ending": np.zeros(1, np.intc),
+            "audited": np.full((n, len(CHECKS)), -1.0), "audited_where": np.full((n, len(CHECKS)), -1, np.intc),
         }  # fmt: skip
         self.arrays = {name: np.ascontiguousarray(array) for name, array in self.arrays.items()}
         self.struct = self._struct(math.isfinite(step[0]), stop, audit, rtol)

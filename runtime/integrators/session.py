@@ -17,6 +17,7 @@ from gudgeon.integrators.failure import AUDITED, FELT, STALLED, Pace, drives_at,
 from gudgeon.integrators.steps import Tape
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory, event_dtype, plain
 from gudgeon.model.compiled import N_WORK, Array, CompiledModel
+from gudgeon.model.sizes import mechanism_sizes
 from gudgeon.waiting.asking import Asker
 
 EVENTS_FULL, ENDED, STOPPED = -3, -7, -10
@@ -129,7 +130,8 @@ class Session:
         p_run, y = self.pointer(self.p), self.pointer(start)
         self.lib.gudgeon_run_start(self.run, p_run, problem.t[0], y, self.pointer(latched))
         self.lib.gudgeon_run_stop(self.run, int(problem.stop))
-        self.lib.gudgeon_run_audit(self.run, problem.audit)
+        size = float(mechanism_sizes(self.compiled.source, self.p))
+        self.lib.gudgeon_run_audit(self.run, problem.audit, size)
         self.trace = np.empty((trace.ROWS if nc else 0, trace.width(nc)))
         if nc:
             self.lib.gudgeon_run_trace(self.run, self.pointer(self.trace, written=True), len(self.trace))

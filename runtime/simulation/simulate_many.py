@@ -117,7 +117,7 @@ def _in_c(
     runs.run(asked.progress)
     tell_of_runs(simulation.source, [*runs.unfollowed.values(), *[{}] * (runs.n - len(runs.unfollowed))])
     told = [search.told() if search else Told() for search in searches]
-    batch = _of_runs(_Results(simulation, runs, starts, asked.rtol, asked.stop, asked.method, told), kept)
+    batch = _of_runs(_Results(simulation, runs, starts, asked, told), kept)
     return replace(batch, seconds=time.perf_counter() - before, threads=asked.threads)
 
 
@@ -186,14 +186,13 @@ class _Results:
     simulation: Simulation
     runs: many.Runs
     starts: _Starts
-    rtol: float
-    stop: bool
-    method: str
+    asked: Asked
     told: Sequence[Told]  # by run; empty where nobody looked
 
     def __call__(self, i: int) -> Result:
         """Raises the error of a run that failed, with what it reached."""
         runs, compiled, x, n = self.runs, self.simulation.compiled, self.runs.arrays, self.simulation.compiled.n
+        method, asked = self.asked.method, self.asked
         times = runs.times.of(i)
         error = runs.failures.get(i)
         if error is not None and not x["done"][i]:
@@ -204,12 +203,12 @@ class _Results:
             remarks += off_constraints(compiled, x["p"][i], self.starts.t, *begin[:2])
         remarks += parting(compiled, x["p"][i], self.starts.t, *begin)
         problem = Problem(
-            compiled, x["p"][i], times, *begin, float(x["step"][i]), method=self.method, rtol=self.rtol,
-            p_free=None if self.method == "rk4" else x["p_motion"][i], stop=self.stop, remarks=remarks,
+            compiled, x["p"][i], times, *begin, float(x["step"][i]), method=method, rtol=asked.rtol,
+            p_free=None if method == "rk4" else x["p_motion"][i], stop=asked.stop, remarks=remarks, audit=asked.audit,
         )  # fmt: skip
         trajectory, seconds = runs.trajectory(i), float(x["seconds"][i])
         given = (self.starts.given[i], self.starts.is_given[i], seconds)
-        made = conclude(compiled, self.method, problem, trajectory, *given, soon=False)
+        made = conclude(compiled, method, problem, trajectory, *given, soon=False)
         if self.told:
             self.told[i].to(made)
         if isinstance(error, SolverError):
