@@ -104,7 +104,7 @@ class CompiledModel:
         """Every number of a run, (n_slots + n_derived,), from overridden slots (n_slots,) and a mask."""
         shape = (len(self.source.slots),)
         values, mask = taken(given, "given", shape), taken(is_given, "is_given", shape, dtype=FLAG)
-        p, chosen = np.empty(self.n_p), [k for k in self._choices if mask[k]]
+        p, chosen = np.full(self.n_p, np.nan), [k for k in self._choices if mask[k]]
         for last in (False, True) if chosen else (True,):  # what is chosen has numbers of this run
             self.lib.gudgeon_prepare(self.pointer(values), self.pointer(mask, "unsigned char *"), self._out(p))
             values, mask = (values, mask) if last else filled_in(self.source, chosen, values, mask, p)
@@ -127,7 +127,7 @@ class CompiledModel:
 
     def mass(self, p: ArrayLike) -> Array:
         """Diagonal of M, (n,)."""
-        out = np.empty(self.n)
+        out = np.full(self.n, np.nan)
         self.lib.gudgeon_mass(self._numbers(p), self._out(out))
         return out
 
@@ -267,7 +267,7 @@ class CompiledModel:
             )  # fmt: skip
 
     def _rows(self, function: str, t: float, p: ArrayLike, *states: ArrayLike) -> Array:
-        out = np.empty(len(self.source.start_rows))
+        out = np.full(len(self.source.start_rows), np.nan)
         pointers = [self._state(state, name) for name, state in zip("qv", states, strict=False)]
         getattr(self.lib, function)(time(t), *pointers, self._numbers(p), self._out(out))
         return out

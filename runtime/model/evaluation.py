@@ -107,11 +107,12 @@ def evaluated_bytes(compiled: CompiledModel, parts: Collection[str] | None = Non
 
 
 def _room(compiled: CompiledModel, N: int, parts: Collection[str]) -> Evaluation:
-    """What C fills; (0, ...) of a part that nobody wants."""
+    """What C fills, until then NaN; (0, ...) of a part that nobody wants."""
     wanted = {*parts, *OUTPUTS} if not OUTPUTS.isdisjoint(parts) else parts
     if N > MANY:
         check_memory(float(N) * evaluated_bytes(compiled, wanted), f"what follows from {N} samples")
-    return Evaluation(*(np.empty((N, *none.shape[1:])) if name in wanted else none for name, none in compiled.none))
+    rows = [(N if name in wanted else 0, *none.shape[1:]) for name, none in compiled.none]
+    return Evaluation(*(np.full(shape, np.nan) for shape in rows))
 
 
 def nothing(compiled: CompiledModel) -> tuple[tuple[str, Array], ...]:

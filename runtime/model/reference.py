@@ -7,10 +7,12 @@ before anything is simulated.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gudgeon.contract.reference import given_parameters
 from gudgeon.errors import AuditError
 
 if TYPE_CHECKING:
@@ -25,15 +27,32 @@ def check_reference(compiled: CompiledModel) -> None:
     reference = compiled.source.reference
     if not reference:
         return
-    slots = len(compiled.source.slots)
-    p = compiled.prepare(np.zeros(slots), np.zeros(slots, dtype=np.uint8))
-    for k, value in enumerate(reference["p"]):
-        _compare(compiled, "prepare", [value], p[k : k + 1], 0.0)
+    p = _parameters(compiled, {})
+    _compare_each(compiled, reference["p"], p)
+    for first, stored in enumerate(reference["given"]):
+        _compare_each(compiled, stored, _parameters(compiled, given_parameters(compiled.source.slots, first)))
     for state in reference["states"]:
         values = state["values"]
         for name, found in _library_values(compiled, state, p).items():
             own = np.ravel(found)[: len(values[name])]  # behind them guides with play, whose corners are added up
             _compare(compiled, name, values[name], own, float(state["t"]))
+
+
+def _parameters(compiled: CompiledModel, given: Mapping[int, float]) -> Array:
+    """Parameters by C's `prepare` where these slots are given."""
+    values, is_given = np.zeros(len(compiled.source.slots)), np.zeros(len(compiled.source.slots), dtype=np.uint8)
+    for k, value in given.items():
+        values[k], is_given[k] = value, 1
+    return compiled.prepare(values, is_given)
+
+
+def _compare_each(compiled: CompiledModel, stored: Sequence[float | None], p: Array) -> None:
+    """The same of parameters, each by its own size."""
+    expected = np.array(stored, dtype=float)
+    known = np.isfinite(expected)
+    if not (np.abs(p - expected)[known] <= SHARE * np.abs(expected[known]) + 1e-300).all():
+        for k in np.flatnonzero(known).tolist():
+            _compare(compiled, f"parameter {k}", [stored[k]], p[k : k + 1], 0.0)
 
 
 def _library_values(compiled: CompiledModel, state: dict[str, Any], p: Array) -> dict[str, Array]:
@@ -48,9 +67,9 @@ def _library_values(compiled: CompiledModel, state: dict[str, Any], p: Array) ->
     return found
 
 
-def _compare(compiled: CompiledModel, name: str, stored: list[float | None], found: Array, t: float) -> None:
+def _compare(compiled: CompiledModel, name: str, stored: Sequence[float | None], found: Array, t: float) -> None:
     """AuditError where values differ by more than their digits; what is not known on either side is left out."""
-    expected = np.array([np.nan if x is None else x for x in stored], dtype=float)
+    expected = np.array(stored, dtype=float)  # None is NaN
     known = np.isfinite(expected) & (np.isfinite(found) if compiled.source.massless or compiled.source.indeterminate
                                      else True)  # fmt: skip
     scale = np.abs(expected[known]).max(initial=0.0)

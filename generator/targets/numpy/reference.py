@@ -6,32 +6,38 @@ They are stored with the emitted C, and the runtime compares them with the libra
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.contract.reference import given_parameters
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.kernels.outputs import element_series, kept_joints
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.targets.numpy.curves import with_curves
-from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
+from gudgeon.generator.targets.numpy.linkage import NumPyLinkage, _number
 from gudgeon.generator.targets.numpy.module import NumPyModel, _defined
 from gudgeon.generator.targets.numpy.printer import function
 
 Array = NDArray[np.float64]
 MAX_COORDINATES = 300  # of larger linkages the text of Python takes longer to compile than the C
 N_STATES = 2  # all joints with play open; all closed
+N_TRIED, N_MORE = 96, 6  # states in which contacts and films are tried; of either kind so many are kept, at most
+SLOWEST, FASTEST = -4.0, 1.0  # powers of ten that velocities of tried states are multiplied by
 SENSITIVE = 1e-8  # of the largest value: a change by NEARBY that disqualifies a state (a singular position)
 NEARBY = 1e-12
 CLOSINGS = 6  # steps of Gauss and Newton towards a closed linkage
 
 
 def reference_values(program: Program, source: KernelSource) -> dict[str, Any]:
-    """Return {"p": parameters, "states": [{t, q, v, memory, values}]} for the emitted `source`; {} for large linkages.
+    """Return {"p": parameters, "given": …, "states": [{t, q, v, memory, values}]} for the emitted `source`.
 
-    Numbers are SI; "values" has the arrays of an Evaluation by name, flat, and phi, nu, gamma and mass.
+    Numbers are SI; "values" has the arrays of an Evaluation by name, flat, and phi, nu, gamma and mass. "given" has the
+    parameters where every second slot is given (`given_parameters`), from the first and from the second on. {} for
+    large linkages.
     """
     if len(program.model.q) > MAX_COORDINATES:
         return {}
@@ -49,23 +55,94 @@ def _reference(program: Program, source: KernelSource) -> dict[str, Any]:
     text = function(program.closed[-1]) + "\n"
     head = f"import numpy as np\n\n\n{with_curves(model.scene.mechanism.curves, text)}"
     outputs = _defined(f"{head}{text}")["outputs"]
-    states = []
+    states, tried = [], []
     for k in range(N_STATES):
         t = float(f"{0.05 + 0.3 * rng.uniform():.9f}")
         q = _near_closed(numpy, t, linkage.defaults, min([1e-3, *plays]), rng)
         v = np.array([float(f"{x:.4g}") for x in rng.normal(0.0, 0.3, len(q))])
         latches = [0.1 if k and not model.rigid else np.nan] * len(model.clearances)
-        memory = latches, [1.0 - 2.0 * k] * len(model.frictions)
+        tried.append((t, q, v, (latches, [1.0 - 2.0 * k] * len(model.frictions), 0.0)))
+    for t, q, v, memory in [*tried, *_others(numpy, linkage.defaults, tried[-1], min([1e-3, *plays]), rng)]:
         found, near = (
             _values(model, numpy, outputs, linkage.defaults, (t, x, v), memory) for x in (q, q * (1.0 + NEARBY))
         )
         if found and near and all(_is_steady(found[name], near[name]) for name in found if name != "phi"):
-            flat = [*memory[0], *memory[1], *[0.0] * len(source.states)]
+            flat = [*memory[0], *memory[1], *[memory[2]] * len(source.states)]
             states.append({
                 "t": t, "q": q.tolist(), "v": v.tolist(), "memory": [None if x != x else x for x in flat],
                 "values": {name: _rounded(value) for name, value in found.items()},
             })  # fmt: skip
-    return {"p": _rounded(linkage.p), "states": states}
+    return {"p": _rounded(linkage.p), "given": _given(numpy, linkage), "states": states}
+
+
+def _given(numpy: NumPyModel, linkage: NumPyLinkage) -> list[list[float | None]]:
+    """Parameters where every second slot is given, from the first and from the second on."""
+    slots, found = linkage.source.slots, []
+    for first in range(2):
+        with np.errstate(all="ignore"):
+            p = numpy._prepared({slots[k].address: value for k, value in given_parameters(slots, first).items()})
+        found.append(_rounded(np.array([_number(p, name) for name in linkage.names])))
+    return found
+
+
+def _others(
+    numpy: NumPyModel, p: Any, at: tuple[float, Array, Array, Any], play: float, rng: np.random.Generator
+) -> list[tuple[float, Array, Array, Any]]:
+    """States in which contacts and films are fast and slow, slip either way, approach and part.
+
+    Of N_TRIED states those are kept whose forces differ most in kind (`_features`).
+    """
+    model, (t, q, _, (latches, modes, _)) = numpy.model, at
+    if not model.clearances:
+        return []
+    tried: tuple[list[Any], list[Any]] = [], []  # in contact; free, or in a film
+    q = _near_closed(numpy, t, p, 0.0, rng)
+    for n in range(N_TRIED):
+        if n % 2 == 0:
+            free = n % 4 == 0 or bool(model.rigid)
+            far = play * 10.0 ** rng.uniform(-1.5 if free else -1.0, -0.3 if free else 0.3)
+            x = _digits(q + far * rng.normal(0.0, 1.0, len(q)), 7)
+            fast = 10.0 ** rng.uniform(SLOWEST, FASTEST) * rng.normal(0.0, 0.3, len(q))
+            onset = np.nan if free else float(f"{10.0 ** rng.uniform(-3.0, 0.0):.4g}")
+        bent = float(f"{10.0 ** rng.uniform(-7.0, -4.0):.4g}")
+        state = t, x, _digits(fast if n % 2 else -fast, 4), ([onset] * len(latches), modes, bent)
+        try:
+            found = numpy.dynamics(*state[:3], p, *state[3])
+        except (ArithmeticError, ValueError):
+            continue
+        if not found.status and np.isfinite(found.a).all():
+            tried[int(free)].append((_features(found), state))
+    return [state for states in tried for state in _most_different(states)]
+
+
+def _most_different(candidates: list[tuple[set[tuple[Any, ...]], Any]]) -> list[Any]:
+    """Of candidates, (features, state) each, at most N_MORE states with the most features."""
+    seen, kept = set[tuple[Any, ...]](), list[Any]()
+    while candidates and len(kept) < N_MORE:
+        best = max(range(len(candidates)), key=lambda k: len(candidates[k][0] - seen))
+        features, state = candidates.pop(best)
+        if not features - seen:
+            break
+        seen |= features
+        kept.append(state)
+    return kept
+
+
+def _features(found: Any) -> set[tuple[Any, ...]]:
+    """What kind of force each joint with play bears: in contact or in a film, signs, share across, approach."""
+    features = set[tuple[Any, ...]]()
+    for k, joint in enumerate(found.clearance):
+        size = math.hypot(joint.Fx, joint.Fy) * math.hypot(joint.ex, joint.ey)
+        if size > 0.0:
+            along, across = joint.Fx * joint.ex + joint.Fy * joint.ey, joint.Fy * joint.ex - joint.Fx * joint.ey
+            share = round(2.0 * math.log10(abs(across) / size + 1e-6))
+            kind = k, joint.delta > 0.0
+            features |= {(*kind, across > 0.0, share), (*kind, along > 0.0, joint.deltadot > 0.0, None)}
+    return features
+
+
+def _digits(values: Array, n: int) -> Array:
+    return np.array([float(f"{x:.{n}g}") for x in values])
 
 
 def _is_steady(value: Array, near: Array) -> bool:
@@ -88,7 +165,7 @@ def _near_closed(numpy: NumPyModel, t: float, p: Any, play: float, rng: np.rando
 
 def _values(
     model: Model, numpy: NumPyModel, outputs: Any, p: Any, at: tuple[float, Array, Array],
-    memory: tuple[list[float], list[float]],
+    memory: tuple[list[float], list[float], float],
 ) -> dict[str, Array] | None:  # fmt: skip
     """All functions at a state, by their names in Evaluation; None where a pivot vanishes."""
     t, q, v = at
