@@ -5,6 +5,9 @@
  */
 #define AUDIT_LONGER 8.0 /* times the step before: such a step is always checked */
 #define AUDIT_DIGITS 1e-10 /* of a state: differences below it are rounding */
+#define AUDIT_RATE 1e-2 /* of the largest rate: how far others may be from the right-hand side */
+#define AUDIT_CHANGE 0.1 /* of their change over the step: the same */
+#define AUDIT_DRIFT 1e2 /* tolerances that wrong rates may add up to */
 #define AUDIT_DEFECT 1e4 /* tolerances that the dense output may miss the right-hand side by */
 /* halvings that locate a zero; places inside a step */
 enum { AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4 };
@@ -20,12 +23,59 @@ static int branches_fit(const Run *run, const Aside *aside)
     return fit;
 }
 
+/* One over the tolerance of coordinate or velocity k, from scales and speeds as both/weigh.h describes it. */
+static double audit_weight(const Run *run, int k)
+{
+    const int kind = is_angle[k % N_X];
+    return run->inverse_scale[k] / (k < N_X ? 1.0 : run->speed[kind] + run->speed_floor[kind]);
+}
+
+/* How far rates `rate` are from `dy` at a state y of a step of length h, in multiples of a limit of many tolerances. */
+static double defect_of(const Run *run, double h, const double *y, const double *rate, const double *dy)
+{
+    double defect = 0.0;
+    for (int k = 0; k < 2 * N_X; k++) {
+        const double weight = audit_weight(run, k);
+        const double limit = AUDIT_DEFECT + AUDIT_DIGITS * (fabs(y[k]) + fabs(h * dy[k])) * weight;
+        defect = max_of(defect, fabs(h * (rate[k] - dy[k])) * weight / limit);
+    }
+    return defect;
+}
+
+/*
+ * Rates of the dense output against the right-hand side: steps so short that the tolerance allows any error add up to a
+ * wrong motion where a method is not consistent. Allowed is a share of the largest rate, and of the change of rates
+ * over the step, and what adds up to few tolerances over the time that has passed. Positions and velocities apart.
+ */
+static void check_rate(Run *run, const Step *step, double t, const double *y, const double *rate, const double *dy)
+{
+    for (int part = 0; part < 2; part++) {
+        double off = 0.0, most = 0.0, allowed = AUDIT_DRIFT / max_of(fabs(t), step->h);
+        for (int k = part * N_X; k < (part + 1) * N_X; k++) {
+            const double weight = audit_weight(run, k), change = fabs(step->dy[k] - run->dy[k]);
+            off = max_of(off, fabs(rate[k] - dy[k]) * weight);
+            most = max_of(most, (fabs(dy[k]) + (part ? 0.0 : fabs(step->h * dy[N_X + k]))) * weight);
+            allowed = max_of(allowed, (AUDIT_CHANGE * change + AUDIT_DIGITS * fabs(y[k]) / step->h) * weight);
+        }
+        record(&run->audit, RATE_CHECK, off, AUDIT_RATE * most + allowed, t, -1);
+    }
+}
+
+/* The end of a step: what it took for the rates there. */
+static void check_end(Run *run, Step *step, const Parameters *p)
+{
+    double dy[N_Y];
+    Aside aside;
+    if (has_tolerance(run) && !rates(run, step->t + step->h, step->y, p, dy, &aside))
+        record(&run->audit, DEFECT_CHECK, defect_of(run, step->h, step->y, step->dy, dy), 1.0, step->t + step->h, -1);
+}
+
 /* One place inside a step, up to the event that ends it. */
 static void check_inside(Run *run, Step *step, double theta, int drawn, const Parameters *p)
 {
     Audit *audit = &run->audit;
     const double t = step->t + theta * step->h;
-    double y[N_Y], dy[N_Y], rate[N_Y], all[N_S], defect = 0.0;
+    double y[N_Y], dy[N_Y], rate[N_Y], all[N_S];
     Aside aside;
     if (make_dense(run, p, step))
         return;
@@ -36,12 +86,10 @@ static void check_inside(Run *run, Step *step, double theta, int drawn, const Pa
     } else if (state_at(run, step, theta, p, y, dy, &aside))
         return; /* what lies beyond an event need not be computable */
     interpolate_rates(step, theta, rate);
-    for (int k = 0; k < 2 * N_X; k++) {
-        const double limit = AUDIT_DEFECT + AUDIT_DIGITS * (fabs(y[k]) + fabs(step->h * dy[k])) * run->weight[k];
-        defect = max_of(defect, fabs(step->h * (rate[k] - dy[k])) * run->weight[k] / limit);
-    }
     if (!(run->fixed > 0.0))
-        record(audit, DEFECT_CHECK, defect, 1.0, t, -1);
+        record(audit, DEFECT_CHECK, defect_of(run, step->h, y, rate, dy), 1.0, t, -1);
+    if (drawn && has_tolerance(run))
+        check_rate(run, step, t, y, rate, dy);
     check_forces(run, t, &aside, rate, dy, p);
     check_joints(run, t, &aside, p);
     check_branches(run, step, t, y, &aside, p);
@@ -112,6 +160,7 @@ static void audit_step(Run *run, Step *step, double share, int event, const Para
     if (!audit->level)
         return;
     const long evaluations = run->evaluations;
+    const int dense_ready = step->dense_ready;
     const double h = share * step->h;
     const int is_longer = !step->method->own_length && run->last_step > 0.0 && h > AUDIT_LONGER * run->last_step;
     const int drawn = run->steps >= audit->due || audit->level == AUDIT_FULL;
@@ -124,9 +173,13 @@ static void audit_step(Run *run, Step *step, double share, int event, const Para
         check_inside(run, step, share, 0, p);
     for (int k = 0; k < places; k++)
         check_inside(run, step, share * (k + draw(audit)) / places, drawn, p);
-    if (drawn)
-        audit->due = run->steps + 1 + (long)(2.0 * AUDIT_MEAN * draw(audit));
+    if (drawn) {
+        if (share >= 1.0)
+            check_end(run, step, p);
+        audit->due = next_due(run);
+    }
     run->memory = memory;
-    run->evaluations = evaluations; /* a check is not integration */
+    run->evaluations = evaluations; /* a check is not integration: what it made is made again, and counted, by others */
+    step->dense_ready = dense_ready;
 }
 

@@ -35,6 +35,13 @@ static double audit_tolerance(const Run *run) { return has_tolerance(run) ? tole
 
 static double size_of(const Run *run) { return run->audit.size; }
 
+/* Number of the step that is checked after this one: at the beginning of a run steps are drawn more often. */
+static long next_due(Run *run)
+{
+    const double mean = min_of(AUDIT_MEAN, 0.5 * (double)run->steps);
+    return run->steps + 1 + (long)(2.0 * mean * draw(&run->audit));
+}
+
 static void record(Audit *audit, int check, double value, double limit, double t, int where)
 {
     AuditRecord *known = &audit->record[check];

@@ -18,6 +18,7 @@ enum {
     BRANCH_CHECK,       /* branches of switching functions against their signs */
     EVENT_CHECK,        /* events that were recorded against the signs of their expressions */
     FORCE_CHECK,        /* change of a joint's force by an error of one tolerance in the state */
+    RATE_CHECK,         /* rates of the dense output, as a share of the largest, whatever the step's length */
     N_CHECKS
 };
 

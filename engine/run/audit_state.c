@@ -55,7 +55,7 @@ static int audit_state(Run *run, int listed, const Parameters *p)
 
 /*
  * The end of a step of given length (rk4): what holds whatever its length. Rows of all bodies and accelerations, of the
- * tree alone, are checked at the ends of steps that are drawn. In absolute coordinates rows drift. Returns 0 or AUDITED.
+ * tree alone, are checked at the ends of drawn steps: in absolute coordinates rows drift. Returns 0 or AUDITED.
  */
 static int audit_fixed(Run *run, const Parameters *p)
 {
@@ -69,7 +69,7 @@ static int audit_fixed(Run *run, const Parameters *p)
         to_absolute(run->t, run->y, &run->memory, p, all);
         check_rows(run, run->t, all, !RATE_JUMPS, p);
         check_accelerations(run, run->t, run->y, run->dy, all, p);
-        audit->due = run->steps + 1 + (long)(2.0 * AUDIT_MEAN * draw(audit));
+        audit->due = next_due(run);
     }
     return audit->status;
 }

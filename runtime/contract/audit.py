@@ -27,6 +27,7 @@ CHECKS = (  # in C, at steps
     Check("branch", "branches of switching functions against their signs", "switch"),
     Check("event", "recorded events against the signs of their expressions", "event"),
     Check("force", "forces of films against the accelerations of the dense output", "joint"),
+    Check("rate", "rates of the dense output against velocities and accelerations, whatever the step's length"),
 )
 SAMPLE_CHECKS = (  # in Python, at samples and at the end (runtime/simulation/audit.py)
     Check("energy", "the energy of the motion against the works of drives, forces and joints with play"),
@@ -36,6 +37,7 @@ SAMPLE_CHECKS = (  # in Python, at samples and at the end (runtime/simulation/au
     Check("peak", "the peak of a joint's force against the largest force of its contacts", "joint"),
     Check("rows", "all constraint equations Φ = 0 of all bodies at samples"),
     Check("rates", "all velocity constraints Φ_q v = ν of all bodies at samples"),
+    Check("finite", "reported accelerations, reactions, torques and forces, which are finite"),
 )
 
 

@@ -21,7 +21,8 @@ from gudgeon.model.sizes import mechanism_sizes
 
 SAMPLES = 8  # drawn samples that are checked in C
 LIMITS = {"power": 1e-6, "torque": 1e-6, "rows": 1e-9, "rates": 1e-7}  # of the largest terms, by check
-ENERGY = 1e4  # times rtol and the root of the number of steps, of the energy that was turned over
+NOT_FINITE = 2.0  # a note: at an instant, as a singular position is one, a motion may have no accelerations
+ENERGY = 1e3  # times rtol and the root of the number of steps, of the energy that was turned over
 LEAST_ENERGY = 1e-6  # the same, at least
 ENOUGH = 20  # samples from which on the energy that was turned over is known
 AT_REST = 1e-9  # of the size, that a motion covers in the time of the run: its energy is rounding
@@ -46,7 +47,7 @@ def audit_samples(
     source = compiled.source
     found = [*_contacts(compiled, x, evaluation)]
     if not source.massless and not source.indeterminate:
-        found += _energy(compiled, problem, x, evaluation, balance)
+        found += [*_energy(compiled, problem, x, evaluation, balance), *_finite(compiled, x, evaluation)]
     left_out = set[str]()
     if source.massless or source.indeterminate or source.frictions:  # which mode a friction has lies between samples
         left_out |= {"power", "torque"}
@@ -72,6 +73,14 @@ def _energy(
         return
     share = max(ENERGY * problem.rtol * math.sqrt(x.counts.steps + 1.0), LEAST_ENERGY)
     yield Finding("energy", residual / (share * turned), float(x.t[-1]), "")
+
+
+def _finite(compiled: CompiledModel, x: Trajectory, evaluation: Evaluation) -> Iterator[Finding]:
+    """What is computed at each sample is finite; forces of rigid contacts are known to a run alone."""
+    parts = [evaluation.a, evaluation.multipliers, evaluation.reactions, evaluation.torques, evaluation.power]
+    parts += [] if compiled.source.rigid else [evaluation.clearance[:, :, :2]]
+    odd = ~np.all([np.isfinite(part.reshape(len(x.t), -1)).all(axis=1) for part in parts], axis=0)
+    yield Finding("finite", NOT_FINITE if odd.any() else 0.0, float(x.t[int(odd.argmax())]), "")
 
 
 def _contacts(compiled: CompiledModel, x: Trajectory, evaluation: Evaluation) -> Iterator[Finding]:
