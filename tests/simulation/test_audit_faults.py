@@ -1,0 +1,163 @@
+"""Faults of the past of which the audit knew nothing, put back: the audit of a run, or the check at load, reports each.
+
+Others are in test_audit.py; tests/audit_mutants.py makes random ones.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import gudgeon
+from gudgeon.model.reference import check_reference
+from tests.audit_mutants import mutant
+from tests.programs import needs_compiler
+from tests.scenes import loader
+from tests.simulation.test_audit import reported
+
+pytestmark = needs_compiler
+
+CYLINDER = """
+gravity: [0, -9.81]
+materials: {steel: {E: 207 GPa, nu: 0.3}}
+bodies:
+  boom: {length: 4 m, mass: 200 kg, inertia: auto, points: {lug: [1.2 m, -0.2 m]}}
+  hook: {mass: 100 kg, inertia: 10 kg*m^2, com: [0, -0.5 m]}
+ground: {O: [0, 1.5 m], foot: [0.8 m, 0.2 m]}
+joints:
+  O: {revolute: [ground.O, boom.tail]}
+  wrist: {revolute: [boom.head, hook.origin]}
+drives:
+  c1: {distance: [ground.foot, boom.lug], value: 1.35 m + 0.2 m*smooth_step(t, 1 s, 4 s)}
+forces: {pull: {force: hook.com, value: [1 kN*ramp(t, 3 s, 1 s), 0 N]}}
+start: {guess: {boom.theta: 20 deg}}
+bearings: {pin: {radius: 35 mm, clearance: 0.3 mm, length: 80 mm, bearing_material: steel, journal_material: steel}}
+contacts:
+  dry: {normal: {law: lankarani_nikravesh, restitution: 0.8}}
+scenes: {worn: {play: {wrist: {bearing: pin, contact: dry}}}}
+"""
+STUCK = """
+bodies: {b: {mass: 2.5 kg, inertia: 1e-2 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {way: {translational: [ground.O, b.origin], axis: [1, 0]}}
+forces: {rub: {dry_friction: [ground.O, b.origin], direction: [1, 0], static: 9 N, kinetic: 7 N}}
+freedoms: 1
+start: {rates: {b.vx: 1.3 m/s}}
+events: {halt: {zero: b.vx, direction: falling}, any: {zero: b.vx}}
+"""
+TORSION = """
+parameters: {k: 3 N*m}
+bodies: {rod: {length: 300 mm, mass: 1 kg, inertia: 8e-3 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {pin: {revolute: [ground.O, rod.tail]}}
+forces: {twist: {torque: rod, value: -k*sin(rod.theta)}}
+start: {set: {rod.theta: 40 deg}}
+"""
+BRISTLES = """
+parameters: {c: 0.3 mm, g_v: 8 N}
+bodies: {j: {mass: 0.2 kg, inertia: 1e-5 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {A: {revolute: [ground.O, j.origin]}}
+forces: {load: {force: j.origin, value: [0, -g_v]}, turn: {torque: j, value: 1e-2 N*m}}
+materials: {s: {E: 207 GPa, nu: 0.3}}
+bearings: {p: {radius: 10 mm, clearance: c, length: 20 mm, bearing_material: s, journal_material: s}}
+contacts:
+  c:
+    normal: {law: lankarani_nikravesh, restitution: 0.8}
+    friction: {law: lugre, mu: 0.15, mu_s: 0.2, v_s: 1 cm/s, stiffness: 2e4 1/m, damping: 3 s/m}
+scenes: {m: {play: {A: {bearing: p, contact: c}}}}
+"""
+
+
+def part_of(text: str, begin: str, start: str, end: str) -> str:
+    """The part of a text from `start`, behind `begin`, to `end`, which is left out."""
+    first = text.index(start, text.index(begin))
+    return text[first : text.index(end, first)]
+
+
+def test_switches_of_driven_chains_that_nobody_evaluates(tmp_path: Path) -> None:
+    """Fault 02: switches of drives inside a step are those of its beginning, ranges are what was in memory."""
+    right = loader(tmp_path)(CYLINDER, "worn")
+    assert not reported(right, 6.0)
+    heading = "    /* directions, arms, drives */"
+    ranges = part_of(right.source.files["watched.c"], "watched_ranges", heading, "}\n")
+    values = part_of(right.source.files["reduced.c"], "void watched_functions", heading, "\n}")
+    garbage = "    out[0] = out[1] = (Range){-INFINITY, INFINITY, -INFINITY, INFINITY, 0};\n"  # whatever lies there
+    stale = "    aside->g[0] = aside->g[1] = -1.0;"
+    wrong = mutant(right, tmp_path, ("watched.c", ranges, garbage), ("reduced.c", values, stale))
+    assert "check branch" in reported(wrong, 6.0)
+
+
+@pytest.mark.parametrize("method", ["auto", "dop853", "rodas5p"])
+def test_events_that_are_rounding(method: str, tmp_path: Path) -> None:
+    """Fault 07: a velocity that sticks has no uncertainty, so that each change of its sign is an event."""
+    right = loader(tmp_path)(STUCK)
+    assert not reported(right, 2.5, method=method)
+    known = "    error_of_watched(run, t, y, error, p, out);\n"
+    exact = "    for (int i = 0; i < N_WATCHED; i++)\n        out[i] = 0.0;\n"
+    wrong = mutant(right, tmp_path, ("engine/run/uncertainty.c", known, exact))
+    assert "check event" in reported(wrong, 2.5, method=method)
+
+
+def test_a_parameter_that_is_taken_for_the_order_of_a_series(tmp_path: Path) -> None:
+    """Fault 20: terms of the series read the order k in place of the parameter k. Defects stay within the tolerance."""
+    right = loader(tmp_path)(TORSION).of_method("taylor")
+    assert not reported(right, 2.0, method="taylor")
+    terms = part_of(right.source.files["taylor.c"], "", "static void taylor_terms", "/* right-hand side */")
+    (tmp_path / "mutant").mkdir()
+    wrong = mutant(right, tmp_path / "mutant", ("taylor.c", terms, terms.replace("-p->k_*", "-k*")))
+    run = wrong.simulate(2.0, output=20, method="taylor", audit=False)
+    assert abs(run.q[-1, 2] - 0.6484685601913911) > 1e-3  # SciPy
+    assert "check rate" in reported(wrong, 2.0, method="taylor")
+
+
+def test_a_parameter_that_is_taken_for_an_abbreviation_of_a_law(tmp_path: Path) -> None:
+    """Fault 20: the friction of bristles reads the parameter g_v in place of its own g(v)."""
+    right = loader(tmp_path)(BRISTLES, "m")
+    check_reference(right.compiled)
+    own = part_of(right.source.files["clearance.c"], "", "    const double g_v = ", "\n")
+    wrong = mutant(right, tmp_path, ("clearance.c", own, "    const double g_v = 8.0;"))
+    with pytest.raises(gudgeon.AuditError, match="compiled library .* is wrong"):
+        check_reference(wrong.compiled)
+
+
+@pytest.mark.parametrize("first", [0, 1])
+def test_a_parameter_that_is_not_taken_over(first: int, tmp_path: Path) -> None:
+    """What is given for every second slot arrives, or the library is refused."""
+    right = gudgeon.load("slider_crank", "dry")
+    line = next(x for x in right.source.files["parameters.c"].splitlines() if f"is_given[{first}]" in x)
+    stale = line.replace(f"is_given[{first}]", f"is_given[{first + 1}]")
+    with pytest.raises(gudgeon.AuditError, match=f"parameter {first}"):
+        check_reference(mutant(right, tmp_path, ("parameters.c", line, stale)).compiled)
+
+
+@pytest.mark.parametrize("text, wrong", [
+    ("smaller_1 = 1.0;", "smaller_1 = 1.1;"), ("smaller_2 = 1.0;", "smaller_2 = 1.1;"),
+    ("smaller_1 = friction_slope*(-v0 - v_t);", "smaller_1 = friction_slope*(-v0 + v_t);"),
+    ("larger_2 = smaller_2;", "larger_2 = 0.0;"),
+])  # fmt: skip
+def test_a_branch_of_a_law_that_is_wrong(text: str, wrong: str, tmp_path: Path) -> None:
+    """Stored values have contacts that slip either way, fully and in the transition."""
+    broken = mutant(gudgeon.load("slider_crank", "dry"), tmp_path, ("clearance.c", text, wrong))
+    with pytest.raises(gudgeon.AuditError, match="compiled library .* is wrong"):
+        check_reference(broken.compiled)
+
+
+def test_a_method_that_is_not_consistent(tmp_path: Path) -> None:
+    """A stage less: the steps become so short that their errors pass, and add up to another motion."""
+    edit = ("engine/both/dop853.h", "step->k[0][i] = run->dy[i];", "step->k[0][i] = 0.9 * run->dy[i];")
+    broken = mutant(gudgeon.load("pendulum"), tmp_path, edit)
+    assert "check rate" in reported(broken, 1e-3, method="dop853")
+
+
+def test_a_force_that_is_not_a_number_is_a_note(tmp_path: Path) -> None:
+    press = gudgeon.load("nine_bar_press", "lubricated")
+    edit = ("clearance.c", "W = sqrt((w_n * w_n) + (w_t * w_t))", "W = sqrt((w_n * w_n) + (w_t + w_t))")
+    broken = mutant(press, tmp_path, edit)
+    found = reported(broken, 0.05)
+    assert "check finite" in found or "check force" in found, found
+    right = press.simulate(0.05, output=50)
+    assert {one.worst for one in right.diagnostics.audit if one.check == "finite"} == {0.0}
+    assert np.isfinite(right["A.F"]).all()
