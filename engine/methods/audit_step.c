@@ -166,8 +166,6 @@ static void audit_step(Run *run, Step *step, double share, int event, const Para
     const int drawn = run->steps >= audit->due || audit->level == AUDIT_FULL;
     const int places = audit->level == AUDIT_FULL ? AUDIT_INSIDE : drawn || is_longer;
     find_zeros(run, step, share, event, p);
-    if (!places && event < 0)
-        return;
     const Memory memory = run->memory;
     if (event >= 0 && share < 1.0)
         check_inside(run, step, share, 0, p);
