@@ -5,7 +5,7 @@
  */
 static int is_unbounded(Run *run, double t, double apart, const Parameters *p)
 {
-    const double beside = max_of(1e-6 * fabs(apart), 4.0 * DBL_EPSILON * fabs(t)); /* t itself may have the other side */
+    const double beside = max_of(1e-6 * fabs(apart), 4.0 * DBL_EPSILON * fabs(t)); /* t may have the other side */
     const double way[4] = {0.0, apart < 0.0 ? -beside : beside, apart, 2.0 * apart};
     double dy[4][N_Y], here[N_CORNERS], there[N_CORNERS], most = 0.0;
     Aside aside;

@@ -157,6 +157,8 @@ static void check_accelerations(Run *run, double t, const double *y, const doubl
     double a[N_Q], near[2][N_S], rate = 0.0, most[2] = {0.0, 0.0};
     if (run->memory.way != AT_ONCE || absolute_accelerations(t, all, &run->memory, p, a))
         return; /* near a singular position both lose digits */
+    if (drives_jump(t, all, all + N_Q, p))
+        return; /* the step holds what its drives were, the bodies have what they are */
     for (int k = 0; k < N_Q; k++) {
         const double unit = k % 3 == 2 ? 1.0 : size;
         rate = max_of(rate, max_of(fabs(all[N_Q + k]) / unit, sqrt(fabs(a[k]) / unit)));

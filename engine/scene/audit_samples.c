@@ -33,7 +33,7 @@ void velocity_residuals(double t, const double *q, const double *v, double h, co
 }
 
 /* Whether a drive's rate, or second rate, jumps or is unbounded at a time: then a sample lies between two motions. */
-static int drives_jump(double t, const double *q, const double *v, const Parameters *p)
+int drives_jump(double t, const double *q, const double *v, const Parameters *p)
 {
     const double near = max_of(1e-9 * fabs(t), 1e-12);
     double nu[3][AT_LEAST_ONE(N_ALL_ROWS)], second[3][AT_LEAST_ONE(N_ALL_ROWS)];
