@@ -15,7 +15,7 @@ from gudgeon.errors import GudgeonError
 from gudgeon.language.shown import counted
 from gudgeon.language.wanted import is_whole, refuse, text, told
 from gudgeon.model.choices import of_runs as chosen_of_runs
-from gudgeon.results.batch_series import kept_text, series, wanted_names
+from gudgeon.results.batch_series import given_columns, kept_text, series, wanted_names
 from gudgeon.results.diagnostics import Extremes
 from gudgeon.results.peaks import PEAK_DTYPE, BatchPeaks, of_runs, run_columns
 from gudgeon.results.results import Result
@@ -219,7 +219,7 @@ class Batch:
         found |= {name: ("run", values, {"units": unit}) for name, unit, values in run_columns(self.extremes)}
         found |= self._samples(names)
         coordinates: dict[str, Any] = {"time": ("time", self.t, {"units": "s"})} if self.t.ndim == 1 else {}
-        coordinates |= {name: ("run", values) for name, values in self.parameters.items()}
+        coordinates |= {name: ("run", values) for name, values in given_columns(self).items()}
         attributes = {"mechanism": self.source.mechanism, "scene": self.source.scene, "title": self.source.title}
         return xarray.Dataset(found, coordinates, attributes)
 

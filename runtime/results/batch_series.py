@@ -63,6 +63,12 @@ def kept_text(batch: Batch) -> str:
     return f"it has {', '.join(named) or 'no series'}\n  {hint}"
 
 
+def given_columns(batch: Batch) -> dict[str, Array]:
+    """Return what was given to the runs, (n,) by its column: "given.NAME" where a series is called NAME, too."""
+    known = catalogue(batch.source)
+    return {f"given.{name}" if name in known else name: values for name, values in batch.parameters.items()}
+
+
 def series(batch: Batch, names: Sequence[str]) -> dict[str, Array]:
     """These series of all runs, (n, N) each, NaN where a run has no sample. Raises SingularError."""
     names = wanted_names(batch.source, names)

@@ -103,10 +103,11 @@ def _wanted_of_batch(batch: Batch, names: Iterable[str] | None) -> list[str]:
 
 def _runs(batch: Batch, names: Iterable[str] | None) -> Iterator[Columns]:
     """The columns of one run after the other; one that did not begin has no row."""
-    from gudgeon.results.batch_series import rows
+    from gudgeon.results.batch_series import given_columns, rows
 
+    columns = given_columns(batch)
     for i, t, own in rows(batch, _wanted_of_batch(batch, names)):
-        given = {name: values[i] for name, values in batch.parameters.items()}
+        given = {name: values[i] for name, values in columns.items()}
         same = {"run": np.full(len(t), i)} | {name: np.full(len(t), value) for name, value in given.items()}
         yield same | {"t": t} | own
 
@@ -162,16 +163,18 @@ def mat(run: Result, path: str | os.PathLike[str], names: Iterable[str] | None) 
 
 def batch_mat(batch: Batch, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
     """See Batch.to_mat."""
-    from gudgeon.results.batch_series import series
+    from gudgeon.results.batch_series import given_columns, series
     from gudgeon.results.series import catalogue
 
     known, slots = catalogue(batch.source), {slot.address: slot for slot in batch.source.slots}
     wanted = _wanted_of_batch(batch, names)
     told = [("t", "s", "time"), *((name, known[name].unit, known[name].meaning) for name in wanted)]
-    told += [(name, slots[name].unit, "given to each run") for name in batch.parameters]
+    given = given_columns(batch)
+    pairs = zip(given, batch.parameters, strict=True)
+    told += [(column, slots[name].unit, "given to each run") for column, name in pairs]
     size = 8.0 * (len(wanted) + 1) * len(batch) * batch.t.shape[-1]
     check_memory(size, f"{len(wanted)} series of {len(batch)} runs")
-    _write_mat(path, batch, told, series(batch, ["t", *wanted]) | dict(batch.parameters))
+    _write_mat(path, batch, told, series(batch, ["t", *wanted]) | given)
 
 
 def _write_mat(

@@ -1,0 +1,45 @@
+"""What was given to the runs of a batch and series of the same name stand in columns of their own."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import pytest
+
+import gudgeon
+from gudgeon.errors import BadNameError
+from tests.programs import needs_compiler
+
+BAR = """\
+format: gudgeon/1
+name: names_twice
+gravity: [0, -9.81]
+bodies:
+  gravity: {length: 0.3, mass: 0.4, inertia: auto}
+ground: {O: [0, 0]}
+joints: {pin: {revolute: [ground.O, gravity.tail]}}
+"""
+
+
+@needs_compiler
+def test_a_body_whose_series_is_called_as_what_is_given(tmp_path: Path) -> None:
+    pytest.importorskip("xarray")
+    (tmp_path / "bar.yaml").write_text(BAR, encoding="utf-8")
+    batch = gudgeon.load(tmp_path / "bar.yaml").simulate_many({"gravity.y": [-9.81, -1.0]}, 0.1, output=2)
+    table = batch.to_dataframe()
+    assert sorted(set(table["given.gravity.y"])) == [-9.81, -1.0]
+    assert table["gravity.y"].tolist() == batch["gravity.y"].ravel().tolist()
+    dataset = batch.to_xarray()
+    assert dataset["given.gravity.y"].values.tolist() == [-9.81, -1.0]
+    batch.to_csv(tmp_path / "table.csv")
+    with (tmp_path / "table.csv").open(encoding="utf-8", newline="") as lines:
+        rows = list(csv.DictReader(lines))
+    assert [float(row["given.gravity.y"]) for row in rows[:3]] == [-9.81] * 3
+
+
+def test_an_output_cannot_take_the_name_of_an_axis(tmp_path: Path) -> None:
+    for name in ("run", "time"):
+        (tmp_path / "bar.yaml").write_text(BAR + f"outputs: {{{name}: 2*gravity.theta}}\n", encoding="utf-8")
+        with pytest.raises(BadNameError, match=f"'{name}' cannot name this output"):
+            gudgeon.load(tmp_path / "bar.yaml")
