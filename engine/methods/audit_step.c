@@ -34,7 +34,8 @@ static double audit_weight(const Run *run, int k)
 static double defect_of(const Run *run, double h, const double *y, const double *rate, const double *dy)
 {
     double defect = 0.0;
-    for (int k = 0; k < 2 * N_X; k++) {
+    const int rows = has_films() ? N_X : 2 * N_X; /* velocities of films: check_forces */
+    for (int k = 0; k < rows; k++) {
         const double weight = audit_weight(run, k);
         const double limit = AUDIT_DEFECT + AUDIT_DIGITS * (fabs(y[k]) + fabs(h * dy[k])) * weight;
         defect = max_of(defect, fabs(h * (rate[k] - dy[k])) * weight / limit);
@@ -49,7 +50,7 @@ static double defect_of(const Run *run, double h, const double *y, const double 
  */
 static void check_rate(Run *run, const Step *step, double t, const double *y, const double *rate, const double *dy)
 {
-    for (int part = 0; part < 2; part++) {
+    for (int part = 0; part < (has_films() ? 1 : 2); part++) {
         double off = 0.0, most = 0.0, allowed = AUDIT_DRIFT / max_of(fabs(t), step->h);
         for (int k = part * N_X; k < (part + 1) * N_X; k++) {
             const double weight = audit_weight(run, k), change = fabs(step->dy[k] - run->dy[k]);
@@ -68,6 +69,15 @@ static void check_end(Run *run, Step *step, const Parameters *p)
     Aside aside;
     if (has_tolerance(run) && !rates(run, step->t + step->h, step->y, p, dy, &aside))
         record(&run->audit, DEFECT_CHECK, defect_of(run, step->h, step->y, step->dy, dy), 1.0, step->t + step->h, -1);
+}
+
+static void check_forces(Run *run, double t, const Aside *aside, const double *rate, const double *dy,
+    const Parameters *p)
+{
+    int where;
+    const double share = film_defect(run, aside, rate, dy, p, &where);
+    if (where >= 0 && has_tolerance(run) && run->steps > 0)
+        record(&run->audit, FORCE_CHECK, share, film_limit(run), t, where);
 }
 
 /* One place inside a step, up to the event that ends it. */

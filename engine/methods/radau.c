@@ -32,14 +32,6 @@ static int stages_lost(Run *run, int lost) { return (void)run, lost ? NOT_FOUND 
 
 #include "../both/radau.h"
 
-static int has_films(void)
-{
-    int found = 0;
-    for (int i = 0; i < N_CLEARANCES; i++)
-        found |= has_film(i);
-    return found;
-}
-
 /*
  * The collocation polynomial. Without films, positions are Hermite's quintic through both ends with their
  * accelerations, and with three stages velocities are its derivative: of a higher order. With films accelerations have

@@ -201,6 +201,12 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
         now->h *= 0.25;
         return again(run);
     }
+    if (good && free && misses_film(run, step, p) && now->shortened++ < SHORTENED) {
+        now->again = 1;
+        run->rejected++;
+        now->h *= 0.25;
+        return again(run);
+    }
     const double pulse = good && free && now->h > FINE * now->far ? missed_pulse(run, step, p) : 0.0;
     if (pulse > 0.0 && now->shortened++ < SHORTENED) {
         now->again = 1;

@@ -13,7 +13,6 @@
 #define AUDIT_CLOSURE 1e-9     /* of the size: error of positions that accelerations must not depend on */
 #define AUDIT_NOISE 1e-9       /* of its largest magnitude, below which the sign of a function is rounding */
 #define AUDIT_ZERO 1e-3        /* of its value at the beginning of a step: smaller ones are a zero, and no pole */
-#define AUDIT_FORCE 1e6        /* of the largest acceleration, multiplied by rtol: the error of a film's force */
 #define AUDIT_FIXED 1e-8       /* the tolerance that stands in for that of a fixed step */
 /* steps in a row that end on the wrong side of a switching function; after which its magnitude is known */
 enum { AUDIT_WRONG = 3, AUDIT_SETTLED = 20 };
@@ -191,36 +190,6 @@ static void check_accelerations(Run *run, double t, const double *y, const doubl
 #else
     (void)run, (void)t, (void)y, (void)dy, (void)all, (void)p;
 #endif
-}
-
-/*
- * Forces of films: accelerations `dy` that follow from a state inside a step against those of the interpolant, `rate`.
- * Their difference is the error of the forces there. It is compared with the largest acceleration of its kind, or, near
- * equilibrium, with that of the lightest body under the largest force of a film, at whose joint it is noted.
- */
-static void check_forces(Run *run, double t, const Aside *aside, const double *rate, const double *dy,
-    const Parameters *p)
-{
-    int where = -1;
-    double most = 0.0, off[2] = {0.0, 0.0}, largest[2] = {0.0, 0.0}, m[N_Q], lightest = INFINITY;
-    for (int i = 0; i < N_CLEARANCES; i++)
-        if (has_film(i) && total_force(&aside->clearance[i]) > most)
-            most = total_force(&aside->clearance[i]), where = i;
-    if (where < 0 || run->fixed > 0.0 || run->steps == 0)
-        return;
-    mass_matrix(p, m);
-    for (int k = 0; k < N_Q; k += 3)
-        lightest = m[k] > 0.0 ? min_of(lightest, m[k]) : lightest;
-    largest[0] = most / lightest;
-    largest[1] = largest[0] / size_of(run);
-    for (int k = 0; k < N_X; k++) {
-        const int v = N_X + k, kind = !!is_angle[k];
-        off[kind] = max_of(off[kind], fabs(rate[v] - dy[v]));
-        largest[kind] = max_of(largest[kind], max_of(fabs(run->dy[v]), max_of(fabs(rate[v]), fabs(dy[v]))));
-    }
-    const double limit = min_of(1.0, max_of(1e-2, AUDIT_FORCE * audit_tolerance(run)));
-    for (int kind = 0; kind < 2; kind++)
-        record(&run->audit, FORCE_CHECK, off[kind], limit * largest[kind], t, where);
 }
 
 /* Open joints at a state do not penetrate. Where contacts that do not give begin in a fixed step is no closer known. */

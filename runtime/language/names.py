@@ -33,8 +33,8 @@ def check_name(name: str, what: str, where: Location | None) -> None:
     if what in ("parameter", "output", "curve", "expression"):  # the others stand in expressions with a dot only
         reason = "it is a function of expressions" if name in FUNCTIONS else reason
         reason = "an expression takes it for no name" if name in WORDS else reason
-    if what == "output" and name in ("time", "run"):
-        reason = "it is an axis of results"
+    if what == "output" and name == "time":
+        reason = "it is the axis of results"
     other = f"{name}1"
     if "__" in name:
         reason, other = "names that hold '__' are kept for emitted code", re.sub("__+", "_", name)

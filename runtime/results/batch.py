@@ -15,7 +15,7 @@ from gudgeon.errors import GudgeonError
 from gudgeon.language.shown import counted
 from gudgeon.language.wanted import is_whole, refuse, text, told
 from gudgeon.model.choices import of_runs as chosen_of_runs
-from gudgeon.results.batch_series import given_columns, kept_text, series, wanted_names
+from gudgeon.results.batch_series import given_columns, kept_text, series, series_column, wanted_names
 from gudgeon.results.diagnostics import Extremes
 from gudgeon.results.peaks import PEAK_DTYPE, BatchPeaks, of_runs, run_columns
 from gudgeon.results.results import Result
@@ -234,7 +234,7 @@ class Batch:
         for k, name in enumerate(() if self.source.massless or not self.states else ("drives", "forces", "clearances")):
             found[f"work.{name}"] = over, self.work[:, :, k], {"units": "J"}
         names = [*(name for name in self.kept if name != "t"), *wanted_names(self.source, names)]
-        return found | {name: (over, values) for name, values in series(self, names).items()}
+        return found | {series_column(name): (over, values) for name, values in series(self, names).items()}
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write everything to one NetCDF file, every series of every run (those that were kept); OutputError where

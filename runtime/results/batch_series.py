@@ -63,6 +63,11 @@ def kept_text(batch: Batch) -> str:
     return f"it has {', '.join(named) or 'no series'}\n  {hint}"
 
 
+def series_column(name: str) -> str:
+    """Return the column of a series in tables of a batch, in which `run` is the number of the run."""
+    return f"output.{name}" if name == "run" else name
+
+
 def given_columns(batch: Batch) -> dict[str, Array]:
     """Return what was given to the runs, (n,) by its column: "given.NAME" where a series is called NAME, too."""
     known = catalogue(batch.source)

@@ -103,13 +103,13 @@ def _wanted_of_batch(batch: Batch, names: Iterable[str] | None) -> list[str]:
 
 def _runs(batch: Batch, names: Iterable[str] | None) -> Iterator[Columns]:
     """The columns of one run after the other; one that did not begin has no row."""
-    from gudgeon.results.batch_series import given_columns, rows
+    from gudgeon.results.batch_series import given_columns, rows, series_column
 
     columns = given_columns(batch)
     for i, t, own in rows(batch, _wanted_of_batch(batch, names)):
         given = {name: values[i] for name, values in columns.items()}
         same = {"run": np.full(len(t), i)} | {name: np.full(len(t), value) for name, value in given.items()}
-        yield same | {"t": t} | own
+        yield same | {"t": t} | {series_column(name): values for name, values in own.items()}
 
 
 def _rows_of(batch: Batch) -> float:

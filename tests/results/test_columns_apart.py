@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 import gudgeon
-from gudgeon.errors import BadNameError
 from tests.programs import needs_compiler
 
 BAR = """\
@@ -38,8 +37,12 @@ def test_a_body_whose_series_is_called_as_what_is_given(tmp_path: Path) -> None:
     assert [float(row["given.gravity.y"]) for row in rows[:3]] == [-9.81] * 3
 
 
-def test_an_output_cannot_take_the_name_of_an_axis(tmp_path: Path) -> None:
-    for name in ("run", "time"):
-        (tmp_path / "bar.yaml").write_text(BAR + f"outputs: {{{name}: 2*gravity.theta}}\n", encoding="utf-8")
-        with pytest.raises(BadNameError, match=f"'{name}' cannot name this output"):
-            gudgeon.load(tmp_path / "bar.yaml")
+@needs_compiler
+def test_an_output_that_is_called_run(tmp_path: Path) -> None:
+    pytest.importorskip("xarray")
+    (tmp_path / "bar.yaml").write_text(BAR + "outputs: {run: 2*gravity.theta}\n", encoding="utf-8")
+    batch = gudgeon.load(tmp_path / "bar.yaml").simulate_many([{}] * 2, 0.1, output=2)
+    table = batch.to_dataframe()
+    assert table["run"].tolist() == [0, 0, 0, 1, 1, 1]
+    assert table["output.run"].tolist() == batch["run"].ravel().tolist()
+    assert batch.to_xarray(["run"])["output.run"].values.tolist() == batch["run"].tolist()
