@@ -161,8 +161,6 @@ int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n,
             return EVENTS_FULL;
         status = rk4_step(run, h, t_new, p, &out);
         run->steps -= status == EVENTS_FULL;
-        if (!status || status == ENDED)
-            status = audit_fixed(run, p) ? AUDITED : status;
 #if N_USER_EVENTS
         if (!status && t_new >= t[n - 1])
             status = end_on_zeros(run, min_of(1e-12, 1e-11 * (t[n - 1] - t[0])), p);

@@ -34,12 +34,8 @@ static double audit_tolerance(const Run *run) { return has_tolerance(run) ? tole
 
 static double size_of(const Run *run) { return run->audit.size; }
 
-/* Number of the step that is checked after this one: at the beginning of a run steps are drawn more often. */
-static long next_due(Run *run)
-{
-    const double mean = min_of(AUDIT_MEAN, 0.5 * (double)run->steps);
-    return run->steps + 1 + (long)(2.0 * mean * draw(&run->audit));
-}
+/* Number of the step that is checked after this one. */
+static long next_due(Run *run) { return run->steps + 1 + (long)(2.0 * AUDIT_MEAN * draw(&run->audit)); }
 
 static void record(Audit *audit, int check, double value, double limit, double t, int where)
 {
@@ -48,6 +44,8 @@ static void record(Audit *audit, int check, double value, double limit, double t
     if (!(multiple > known->worst) && multiple == multiple)
         return;
     *known = (AuditRecord){multiple == multiple ? multiple : INFINITY, t, where};
+    if (multiple == 0.0) /* the first of many: its time says nothing */
+        *known = (AuditRecord){0.0, 0.0, -1};
     if (!(known->worst <= AUDIT_FAILS))
         audit->status = AUDITED;
 }

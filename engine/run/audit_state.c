@@ -53,27 +53,6 @@ static int audit_state(Run *run, int listed, const Parameters *p)
     return audit->status;
 }
 
-/*
- * The end of a step of given length (rk4): what holds whatever its length. Rows of all bodies and accelerations, of the
- * tree alone, are checked at the ends of drawn steps: in absolute coordinates rows drift. Returns 0 or AUDITED.
- */
-static int audit_fixed(Run *run, const Parameters *p)
-{
-    Audit *audit = &run->audit;
-    if (!audit->level)
-        return 0;
-    check_joints(run, run->t, &run->aside, p);
-    check_free(run);
-    if (TREE && (run->steps >= audit->due || audit->level == AUDIT_FULL)) {
-        double all[N_S];
-        to_absolute(run->t, run->y, &run->memory, p, all);
-        check_rows(run, run->t, all, !RATE_JUMPS, p);
-        check_accelerations(run, run->t, run->y, run->dy, all, p);
-        audit->due = next_due(run);
-    }
-    return audit->status;
-}
-
 /* Switches the audit on, at a level, or off, before a run begins. `size`: of the mechanism, m. */
 void gudgeon_run_audit(void *memory, int level, double size)
 {

@@ -28,7 +28,7 @@ INVALID = Path(__file__).resolve().parents[1] / "mechanisms" / "invalid"
 
 # file, class, line, column
 MISTAKES: list[tuple[str, type[InputError], int, int]] = [
-    ("alias_bomb", LimitError, 7, 15),
+    ("alias_bomb", LimitError, 8, 10),
     ("alias_of_itself", NotYamlError, 3, 17),
     ("angle_division", ExpressionError, 19, 24),
     ("attribute_access", ExpressionError, 21, 37),

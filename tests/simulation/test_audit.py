@@ -81,12 +81,12 @@ IN_C = {check.name for check in CHECKS}
 
 @pytest.mark.parametrize("name, scene, method, checked", [
     ("nine_bar_press", "dry", "auto",
-     {"defect", "rate", "gap", "free", "position", "velocity", "acceleration", "branch"}),
+     {"defect", "gap", "free", "position", "velocity", "acceleration", "branch"}),
     ("nine_bar_press", "lubricated", "auto",
-     {"defect", "rate", "gap", "position", "velocity", "acceleration", "branch", "force"}),
+     {"defect", "gap", "position", "velocity", "acceleration", "branch", "force"}),
     ("andrews_squeezer", "ideal", "auto", {"defect", "rate", "position", "velocity", "acceleration"}),
-    ("nine_bar_press", "dry", "rk4", {"gap", "free", "position", "velocity", "acceleration"}),
-    ("pendulum", "ideal", "rk4", {"position", "velocity", "acceleration"}),
+    ("nine_bar_press", "dry", "rk4", set()),
+    ("pendulum", "ideal", "rk4", set()),
 ])  # fmt: skip
 def test_what_was_not_checked_is_not_listed(name: str, scene: str, method: str, checked: set[str]) -> None:
     run = gudgeon.load(name, scene).simulate(0.03, output=20, method=method, step=1e-5 if method == "rk4" else None)
@@ -101,18 +101,6 @@ def test_a_batch_lists_what_a_single_run_lists(method: str) -> None:
         run = press.simulate(0.005, output=20, audit=audit, method=method, step=step)
         assert batch[0].diagnostics.audit == run.diagnostics.audit
         assert bool(batch[0].diagnostics.audit) == audit
-
-
-def test_a_fixed_step_has_checks_of_its_own(tmp_path: Path) -> None:
-    """Steps of rk4 that leave a joint open which penetrates, or lead to other accelerations, end the run."""
-    press, dry = gudgeon.load("nine_bar_press", "dry"), gudgeon.load("slider_crank", "dry")
-    text = next(line for line in press.source.files["reduced.c"].splitlines() if "all_q[3] =" in line)
-    late = ("engine/run/latches.c", "const int touches = d1 >= 0.0 &&", "const int touches = d1 >= 1e-7 &&")
-    off = ("reduced.c", text, text.replace("= ", "= 1e-6 + "))
-    for check, scene, edit in (("free", dry, late), ("position", press, off)):
-        (tmp_path / check).mkdir()
-        wrong = mutant(scene, tmp_path / check, edit)
-        assert f"check {check}" in reported(wrong, 0.02, method="rk4", step=1e-6)
 
 
 def test_other_levels_are_refused() -> None:
