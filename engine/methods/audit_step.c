@@ -9,8 +9,8 @@
 #define AUDIT_CHANGE 0.1 /* of their change over the step: the same */
 #define AUDIT_DRIFT 1e2 /* tolerances that wrong rates may add up to */
 #define AUDIT_DEFECT 1e4 /* tolerances that the dense output may miss the right-hand side by */
-/* halvings that locate a zero; places inside a step */
-enum { AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4 };
+/* steps between two that are drawn, in the mean; halvings that locate a zero; places inside a step */
+enum { AUDIT_MEAN = 128, AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4 };
 
 /* Whether what a step holds is what its state says: near a switching point, or the end of a contact, it need not be. */
 static int branches_fit(const Run *run, const Aside *aside)
@@ -96,7 +96,7 @@ static void check_inside(Run *run, Step *step, double theta, int drawn, const Pa
     } else if (state_at(run, step, theta, p, y, dy, &aside))
         return; /* what lies beyond an event need not be computable */
     interpolate_rates(step, theta, rate);
-    if (!(run->fixed > 0.0))
+    if (has_tolerance(run))
         record(audit, DEFECT_CHECK, defect_of(run, step->h, y, rate, dy), 1.0, t, -1);
     if (drawn && has_tolerance(run) && !N_CLEARANCES) /* rates in contacts change within a step */
         check_rate(run, step, t, y, rate, dy);
@@ -176,17 +176,18 @@ static void audit_step(Run *run, Step *step, double share, int event, const Para
     const int drawn = run->steps >= audit->due || audit->level == AUDIT_FULL;
     const int places = audit->level == AUDIT_FULL ? AUDIT_INSIDE : drawn || is_longer;
     find_zeros(run, step, share, event, p);
-    const Memory memory = run->memory;
-    if (event >= 0 && share < 1.0)
-        check_inside(run, step, share, 0, p);
-    for (int k = 0; k < places; k++)
-        check_inside(run, step, share * (k + draw(audit)) / places, drawn, p);
-    if (drawn) {
-        if (share >= 1.0)
+    if (places || event >= 0) {
+        const Memory memory = run->memory;
+        if (event >= 0 && share < 1.0)
+            check_inside(run, step, share, 0, p);
+        for (int k = 0; k < places; k++)
+            check_inside(run, step, share * (k + draw(audit)) / places, drawn, p);
+        if (drawn && share >= 1.0)
             check_end(run, step, p);
-        audit->due = next_due(run);
+        if (drawn)
+            audit->due = run->steps + 1 + (long)(2.0 * AUDIT_MEAN * draw(audit));
+        run->memory = memory;
     }
-    run->memory = memory;
     run->evaluations = evaluations; /* a check is not integration: what it made is made again, and counted, by others */
     step->dense_ready = dense_ready;
 }

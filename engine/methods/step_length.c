@@ -195,13 +195,8 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
         now->h *= 0.5;
         return again(run);
     }
-    if (good && is_unresolved(run, step, p) && free && now->shortened++ < SHORTENED) {
-        now->again = 1;
-        run->rejected++;
-        now->h *= 0.25;
-        return again(run);
-    }
-    if (good && free && misses_film(run, step, p) && now->shortened++ < SHORTENED) {
+    const int unresolved = good && is_unresolved(run, step, p);
+    if (good && free && (unresolved || misses_film(run, step, p)) && now->shortened++ < SHORTENED) {
         now->again = 1;
         run->rejected++;
         now->h *= 0.25;

@@ -16,7 +16,6 @@
 #define AUDIT_FIXED 1e-8       /* the tolerance that stands in for that of a fixed step */
 /* steps in a row that end on the wrong side of a switching function; after which its magnitude is known */
 enum { AUDIT_WRONG = 3, AUDIT_SETTLED = 20 };
-enum { AUDIT_MEAN = 128 }; /* steps between two that are drawn, in the mean */
 
 static int is_resolved(Run *run, double t, const double *y, const Aside *aside, int k, const Parameters *p);
 
@@ -28,14 +27,11 @@ static double draw(Audit *audit)
 }
 
 /* Whether steps are as long as a tolerance allows. */
-static int has_tolerance(const Run *run) { return run->fixed <= 0.0 && run->inverse_scale[2 * N_X - 1] > 0.0; }
+static int has_tolerance(const Run *run) { return run->fixed <= 0.0; }
 
 static double audit_tolerance(const Run *run) { return has_tolerance(run) ? tolerance_of(run) : AUDIT_FIXED; }
 
 static double size_of(const Run *run) { return run->audit.size; }
-
-/* Number of the step that is checked after this one. */
-static long next_due(Run *run) { return run->steps + 1 + (long)(2.0 * AUDIT_MEAN * draw(&run->audit)); }
 
 static void record(Audit *audit, int check, double value, double limit, double t, int where)
 {
@@ -190,12 +186,12 @@ static void check_accelerations(Run *run, double t, const double *y, const doubl
 #endif
 }
 
-/* Open joints at a state do not penetrate. Where contacts that do not give begin in a fixed step is no closer known. */
+/* Open joints at a state do not penetrate. */
 static void check_joints(Run *run, double t, const Aside *aside, const Parameters *p)
 {
-    for (int i = 0; i < N_CLEARANCES && !(run->fixed > 0.0); i++) {
+    for (int i = 0; i < N_CLEARANCES && has_tolerance(run); i++) {
         const Clearance *joint = &aside->clearance[i];
-        if (run->memory.latch[i].closed || !(gives(i) || has_tolerance(run)))
+        if (run->memory.latch[i].closed)
             continue;
         const double located = 4.0 * (run->tick + 8.0 * DBL_EPSILON * fabs(t)) * fabs(joint->deltadot);
         const double least = max_of(AUDIT_GRAZE, 64.0 * DBL_EPSILON * size_of(run));

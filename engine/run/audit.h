@@ -17,7 +17,7 @@ enum {
     ACCELERATION_CHECK, /* accelerations of the tree against those of all bodies */
     BRANCH_CHECK,       /* branches of switching functions against their signs */
     EVENT_CHECK,        /* events that were recorded against the signs of their expressions */
-    FORCE_CHECK,        /* change of a joint's force by an error of one tolerance in the state */
+    FORCE_CHECK,        /* forces of films against accelerations of the dense output */
     RATE_CHECK,         /* rates of the dense output, as a share of the largest, whatever the step's length */
     N_CHECKS
 };

@@ -24,8 +24,8 @@ def provenance_of(compiled: CompiledModel) -> dict[str, str]:
     """Return the provenance of a run that ends now, by NAMES."""
     from gudgeon import __version__
 
-    system = os.uname()
-    where = f"{system.sysname} {system.release} {system.machine}, Python {platform.python_version()}"
+    system = platform.uname()
+    where = f"{system.system} {system.release} {system.machine}, Python {platform.python_version()}"
     return dict(zip(NAMES, (__version__, where, compiled.compiler, _date(), compiled.text), strict=True))
 
 

@@ -162,17 +162,17 @@ class Path:
         """Legendre coefficients of q̇ about a time, for so many seconds on both sides: through states k and k + 1 and
         their neighbours where these help, which they do not beyond a kink of a force; those of the integral."""
         if self.nearest[0] != k:
-            far = 2 if self.films else 1  # neighbours on each side
-            before, after = (self._neighbours(k, way, far) for way in (-1, 1))
+            h, far = np.diff(self.steps.t), 2 if self.films else 1  # neighbours on each side
+            before, after = (self._neighbours(h, k, way, far) for way in (-1, 1))
             parts = {(k - i, k + 2 + j) for i in range(before, -1, -1) for j in range(after, -1, -1)}
             best = min((self._hermite(slice(*rows)) for rows in sorted(parts)), key=lambda one: one[0])
             self.nearest = k, (*best[1:], legint(best[3]))
         found: tuple[float, float, Any, Any] = self.nearest[1]
         return found
 
-    def _neighbours(self, k: int, way: int, most: int) -> int:
+    def _neighbours(self, h: Array, k: int, way: int, most: int) -> int:
         """How many states before k (way −1), or behind k + 1 (1), the polynomial may go through."""
-        h, a = np.diff(self.steps.t), self.run.a[1:]
+        a = self.run.a[1:]
         for found in range(most):
             j = k + way * (found + 1)
             if not (0 <= j < len(h) and self.inner[j] and 0.125 < h[j] / h[k] < 8.0):
