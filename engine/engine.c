@@ -24,6 +24,7 @@
 #include "watch/roots.c"
 #include "methods/defect.c"
 #include "watch/gaps.c"
+#include "watch/forces.c"
 #include "watch/pulses.c"
 #if !N_WATCHED
 #include "watch/no_watched.c"

@@ -37,6 +37,15 @@ static void floor_speeds(Run *run, double left)
         run->speed_floor[kind] = run->least[kind] * (rate * left > 1e-3 ? 0.01 * rate : 1.0 / left);
 }
 
+/* Whether a run begins in a contact whose surfaces give. */
+static int rests_on_law(const Run *run)
+{
+    int found = 0;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        found |= gives(i) && run->memory.latch[i].closed;
+    return found;
+}
+
 /* The first right-hand side, with contacts, friction and sides as the start has them, held from now on. */
 static int begin_adaptive(Run *run, double left, const Parameters *p)
 {
@@ -57,8 +66,13 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
     if (!status)
         status = begin_beyond(run, run->tick, p);
 #endif
-    if (!status && !(run->h > 0.0))
+    if (!status && !(run->h > 0.0)) {
         status = first_size(run, left, p);
+        if (!status && rests_on_law(run)) { /* its force may have begun right before the start: as at an onset */
+            begin_with(run, &run->after_contact[count_closed(run)][0], ROUGH);
+            status = fit_first(run, left, p);
+        }
+    }
 #if N_USER_EVENTS
     if (!status)
         status = leave_zeros(run, p);

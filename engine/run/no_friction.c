@@ -1,4 +1,6 @@
 /* No friction that may stick. */
+enum { HELD = 2 };
+
 static double indicator(const Memory *memory, const Aside *aside, int i)
 {
     (void)memory, (void)aside, (void)i;

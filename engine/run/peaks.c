@@ -1,10 +1,13 @@
 /*
  * Peaks of the forces in joints with play between the ends of a step, from the interpolant.
  */
-enum { MAX_TOPS = 20 };
+enum { MAX_TOPS = 20, FEW = 2 /* stages: they tell little */ };
 #define TOP 1e-5 /* of a step: so near its place a force is its largest but for 1e-10 */
 #define BENT 0.25 /* of the last chord's slope, that a parabola may change it by to tell the slope at its end */
 #define CLEAR 0.1 /* of the force, that it changes by from the last stage on */
+#define ARCHED 1.001 /* times the forces at both ends, from which on one at a stage shows a top between them */
+#define ARCHED_STIFF 1.1 /* the same of stiff methods, whose stages err more */
+#define SAME_FORCE 1e-6 /* of a rigid contact's largest force: no larger one is sought */
 #define TOP_OF 0.1 /* of the root of the tolerance: but for a hundredth of that */
 
 static void peak(Run *run, int i, double t, double F)
@@ -66,6 +69,61 @@ static void inner_peak(Run *run, const Step *step, double share, int i, double b
             x[1] = top, f[1] = found;
     }
 }
+
+#if N_RIGID
+/* Whether the stages of an explicit step up to `share` tell that the force of contact i only rises or only falls. */
+static int is_monotone(const Step *step, double share, int i, double before, double after)
+{
+    Place all[N_STAGES + 2];
+    const Seen forces = seen_of(step, SEEN_FORCES + i);
+    const Place begin = {0.0, before * before, NAN}, end = {1.0, after * after, NAN};
+    const int n = values_of_stages(step, begin, end, forces, all);
+    const double bend = largest_bend(all, n);
+    int rises = 0, falls = 0;
+    for (int k = 1; k < n; k++) {
+        const double w = all[k].s - all[k - 1].s, slope = (all[k].f - all[k - 1].f) / w;
+        rises += slope - 0.5 * bend * w > 0.0;
+        falls += slope + 0.5 * bend * w < 0.0;
+    }
+    return share == 1.0 && !step->method->stiff && n >= LEAST_STAGES && (rises == n - 1 || falls == n - 1);
+}
+
+/*
+ * The largest force of a rigid contact i inside a step up to `share`, which may come and go within a step whose motion
+ * is rest: the step is bisected (watch/forces.c) until no part may hold a force larger than the largest by far.
+ */
+static void rigid_peak(Run *run, Step *step, double share, int i, double before, double after, const Parameters *p)
+{
+    Sampled part[MAX_BISECTIONS + 1];
+    Place from = {0.0, before, NAN};
+    peak(run, i, step->t, before);
+    if (is_monotone(step, share, i, before, after) || make_dense(run, p, step))
+        return;
+    part[0] = (Sampled){{0.5 * share, force_at(run, step, 0.5 * share, i, p), NAN}, {share, after, NAN}, INFINITY};
+    for (int n = 1, samples = 1; n > 0;) {
+        const Sampled now = part[n - 1];
+        const double w = now.end.s - from.s, known = max_of(run->open[i].F_peak, after) * (1.0 + SAME_FORCE);
+        const double slope = 0.5 * (now.end.f - from.f), bend = from.f - 2.0 * now.middle.f + now.end.f;
+        const double top = bend < 0.0 && fabs(slope) < -bend ? now.middle.f - 0.5 * slope * slope / bend
+            : max_of(from.f, now.end.f);
+        if (!(top + now.error > known) || n > MAX_BISECTIONS || samples > MOST_FORCE_SAMPLES) {
+            from = now.end;
+            n--;
+            continue;
+        }
+        const double s[2] = {from.s + 0.25 * w, now.end.s - 0.25 * w};
+        double error = 0.0, f[2];
+        for (int k = 0; k < 2; k++) {
+            f[k] = force_at(run, step, s[k], i, p);
+            error = max_of(error, fabs(f[k] - parabola_at(from, now.middle, now.end, s[k])));
+        }
+        error = w > 0.5 * share ? INFINITY : error;
+        part[n - 1] = (Sampled){{s[1], f[1], NAN}, now.end, error};
+        part[n++] = (Sampled){{s[0], f[0], NAN}, now.middle, error};
+        samples += 2;
+    }
+}
+#endif
 
 /* The largest eccentricity of joint i inside a step up to `share`, where it turns round in it. */
 static void outermost(Run *run, Step *step, double share, int i, const Parameters *p)
@@ -135,12 +193,31 @@ static int trends_beyond(Run *run, const Step *step, double share, const double 
     return status;
 }
 
+/*
+ * The largest force of joint i that is known between the ends of a step up to a share: at its stages, or in the middle
+ * where a contact goes on and hardly a stage lies within.
+ */
+static double largest_inside(Run *run, Step *step, double share, int i, const Parameters *p)
+{
+    double most = 0.0;
+    int found = 0;
+    const Seen forces = seen_of(step, SEEN_FORCES + i);
+    for (int k = 0; k < step->n_seen; k++)
+        if (step->node[k] > 0.0 && step->node[k] < share) {
+            most = max_of(most, seen_at(forces, k));
+            found++;
+        }
+    if (found < FEW && run->memory.latch[i].closed && gives(i) && make_dense(run, p, step) == 0)
+        return max_of(sqrt(most), force_at(run, step, 0.5 * share, i, p));
+    return sqrt(most);
+}
+
 /* Peaks between the ends of a step: where a force near its largest so far rose at the start and falls at the end. */
 static void inner_peaks(Run *run, Step *step, double share, const Parameters *p)
 {
     enum { LOW = 2 }; /* a force that is no peak yet */
     double before[AT_LEAST_ONE(N_CLEARANCES)], after[AT_LEAST_ONE(N_CLEARANCES)];
-    int trends[AT_LEAST_ONE(N_CLEARANCES)], unknown = 0;
+    int trends[AT_LEAST_ONE(N_CLEARANCES)], arches[AT_LEAST_ONE(N_CLEARANCES)], unknown = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
         outermost(run, step, share, i, p);
         const Clearance *a = &run->aside.clearance[i], *b = &step->aside.clearance[i];
@@ -148,7 +225,14 @@ static void inner_peaks(Run *run, Step *step, double share, const Parameters *p)
         before[i] = total_force(a), after[i] = total_force(b);
         /* a contact's force may double in a step, a film's grows by some percent */
         const double share_of = run->memory.latch[i].closed ? 0.9 : 0.97;
-        const int near = max_of(before[i], after[i]) > share_of * known && max_of(before[i], after[i]) > 0.0;
+#if N_RIGID
+        if (!gives(i) && run->memory.latch[i].closed)
+            rigid_peak(run, step, share, i, before[i], after[i], p);
+#endif
+        const double ends = max_of(before[i], after[i]), inside = largest_inside(run, step, share, i, p);
+        arches[i] = gives(i) && inside > (step->method->stiff ? ARCHED_STIFF : ARCHED) * ends;
+        const double largest = !gives(i) ? 0.0 : arches[i] ? inside : ends;
+        const int near = largest > share_of * known && largest > 0.0;
         trends[i] = near ? trend(step, share, i, after[i]) : LOW;
         unknown |= !trends[i];
     }
@@ -158,7 +242,7 @@ static void inner_peaks(Run *run, Step *step, double share, const Parameters *p)
         const int let_go = after[i] < 1e-6 * before[i]; /* where a law ceases to push: beyond it, held, it would pull */
         const int turned = run->aside.clearance[i].F_n * step->aside.clearance[i].F_n < 0.0; /* it was none meanwhile */
         const int near = trends[i] != LOW, falls = near && (trends[i] < 0 || let_go);
-        if (near && (falls || turned) && run->rising[i] && make_dense(run, p, step) == 0)
+        if (near && (((falls || turned) && run->rising[i]) || arches[i]) && make_dense(run, p, step) == 0)
             inner_peak(run, step, share, i, before[i], after[i], p);
         run->rising[i] = !falls;
     }

@@ -156,8 +156,10 @@ static int is_candidate(Run *run, Step *step, int k, const Parameters *p, Candid
 {
     double at_high;
     Place low = begin_of(run, step, k), end = {0.0, NAN, NAN};
-    const int is_gap = isfinite(low.slope), some = is_gap && has_zero(run, step, k, p, &low, &end);
-    const double high = is_gap ? some * end.s : violated(run, step, k, p, &at_high);
+    const int is_gap = isfinite(low.slope), sampled = is_gap || follows_from_force(run, k);
+    const int some = is_gap ? has_zero(run, step, k, p, &low, &end)
+        : sampled ? has_force_zero(run, step, k, p, &low, &end) : 0;
+    const double high = sampled ? some * end.s : violated(run, step, k, p, &at_high);
     if (high == 0.0 || make_dense(run, p, step))
         return 0;
     if (watched_as[k] >= 0 && step->from[watched_as[k]] > 0.0) {
@@ -167,7 +169,7 @@ static int is_candidate(Run *run, Step *step, int k, const Parameters *p, Candid
     }
     if (watched_as[k] >= 0 && step->above[watched_as[k]] >= 0.0) /* below zero by its uncertainty at most */
         low.f = max_of(low.f, 0.0);
-    for (int j = 1; j < 4 && !is_gap && !(low.f >= 0.0); j++) { /* begun on the wrong side: does it come back first? */
+    for (int j = 1; j < 4 && !sampled && !(low.f >= 0.0); j++) { /* begun on the wrong side: does it come back first? */
         const Place part = place_at(run, step, 0.25 * j * high, k, p);
         if (part.f >= 0.0)
             low = part;
@@ -189,7 +191,8 @@ static double first_counting(Run *run, Step *step, const Parameters *p, int *eve
     *event = -1;
     margins_of(&run->memory, &step->aside, at_end);
     for (int k = 0; k < N_MARGINS; k++) {
-        const int quiet = k >= N_CLEARANCES && watched_as[k] < 0 && !(step->lowest[k] < 0.0) && !(at_end[k] < 0.0);
+        const int quiet = k >= N_CLEARANCES && watched_as[k] < 0 && !follows_from_force(run, k)
+            && !(step->lowest[k] < 0.0) && !(at_end[k] < 0.0);
         Candidate now;
         int i = n;
         if (quiet || is_passed(run, step, k) || !is_candidate(run, step, k, p, &now))

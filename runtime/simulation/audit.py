@@ -25,7 +25,7 @@ NOT_FINITE = 2.0  # a note: at an instant, as a singular position is one, a moti
 ENERGY = 1e3  # times rtol and the root of the number of steps, of the energy that was turned over
 LEAST_ENERGY = 1e-6  # the same, at least
 ENOUGH = 20  # samples from which on the energy that was turned over is known
-AT_REST = 1e-9  # of the size, that a motion covers in the time of the run: its energy is rounding
+AT_REST = 1e-9  # of the speed that crosses the mechanism in the time of the run: the energy of less is rounding
 LEAST = 1e-250  # J: works of a motion that hardly leaves zero have no digits
 FORCE = 1e-6  # of a joint's largest force, that an open joint may seem to bear
 PEAK = 1e-2  # of the largest force of its contacts, that the peak of a joint may exceed it by
@@ -67,11 +67,14 @@ def _energy(
     """The balance of the whole run; a fixed step has no tolerance to compare it with."""
     residual, turned = balance[0], balance[1] + float(np.abs(evaluation.energy).max(initial=0.0))
     adaptive = math.isinf(problem.step) and problem.method != "kinematic"
-    slow = AT_REST * float(mechanism_sizes(compiled.source, problem.p)) / max(abs(float(x.t[-1] - x.t[0])), 1e-300)
-    least = max(LEAST, 0.5 * float(compiled.mass(problem.p)[::3].sum()) * slow * slow)
+    crossing = float(mechanism_sizes(compiled.source, problem.p)) / max(abs(float(x.t[-1] - x.t[0])), 1e-300)
+    most = 0.5 * float(compiled.mass(problem.p)[::3].sum()) * crossing * crossing
+    least = max(LEAST, AT_REST**2 * most)
     if not adaptive or len(x.t) < ENOUGH or not (math.isfinite(residual) and turned > least):
         return
     share = max(ENERGY * problem.rtol * math.sqrt(x.counts.steps + 1.0), LEAST_ENERGY)
+    if not x.v[0].any():  # tolerances of a motion that begins at rest are those of one by its size in the time
+        turned += most
     yield Finding("energy", residual / (share * turned), float(x.t[-1]), "")
 
 

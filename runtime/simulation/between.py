@@ -24,8 +24,10 @@ from gudgeon.results.results import Result
 from gudgeon.results.series import catalogue
 
 NODES = 0.5 * (leggauss(6)[0] + 1.0)  # shares of a part of a step at which powers are taken
+INSIDE = 0.381966  # share of a part of a step: no multiple of it is near the period of a force that a step hides
 KEPT = 256  # places that were looked at, whose series are at hand for the next name
 ROUNDED = 1e-7  # of the speed: in parts of steps so short differences of positions say no more of it
+REST = 1e-9  # of the positions: a block that moves by less is at rest
 CLOSE = 1e-3  # of the largest acceleration: with films, states between others whose forces err more are left out
 NONE = Diagnostics(
     method="", step=math.nan, steps=0, right_hand_sides=0, onsets=0, grazes=0, phi_max=math.nan, phi_dot_max=math.nan,
@@ -56,6 +58,7 @@ class Path:
         self.seen: dict[tuple[int, float, float], tuple[Result, Array]] = {}  # places that were looked at
         self.nearest: tuple[int, Any] = (-1, None)  # k, rates between states k and k + 1, with their integral
         self.powers: tuple[int, Any] = (-1, None)  # k, integrals of the powers between states k and k + 1
+        self.middle: Result | None = None  # at INSIDE of every part
         self.steps: Steps
         self.run: Result
         self.inner: NDArray[np.bool_]  # (K − 1,) whether k and k + 1 are the ends of a part of a step
@@ -65,12 +68,13 @@ class Path:
         self.first = steps[:1] if self.first is None else self.first
         self.steps = self.steps[-2:].then(steps) if hasattr(self, "steps") else steps
         self.run, good = self._result(self.steps)
-        self.nearest, self.powers, self.seen = (-1, None), (-1, None), {}
+        self.nearest, self.powers, self.seen, self.middle = (-1, None), (-1, None), {}, None
         self.lost += int((~good[len(good) - len(steps) :]).sum())
         x = self.steps
         q, v = (np.abs(part[np.isfinite(part)]).max(initial=0.0) for part in (x.q, x.v))
         least = 40.0 * np.finfo(float).eps * q / max(ROUNDED * v, 1e-300)
-        self.inner = ~x.jumped[1:] & (np.diff(x.t) > (0.0 if self.exact else least))
+        at_rest = v * float(x.t[-1] - x.t[0]) <= REST * q  # forces may vary, and positions tell nothing of them
+        self.inner = ~x.jumped[1:] & (np.diff(x.t) > (0.0 if self.exact or at_rest else least))
 
     def values(self, name: str) -> Array:
         """A series at the states, (K,); NaN where it is not known."""
@@ -86,6 +90,27 @@ class Path:
             self.seen[place] = found, self._off(k, t, found.a[1:]) if self.films else np.zeros(len(t))
         found, off = self.seen[place]
         return np.where(off <= CLOSE, found[name][1:], np.nan)
+
+    def inside(self, name: str) -> Array:
+        """A series at INSIDE of the way from each state to the next, (K − 1,); NaN beyond jumps, or where unknown.
+
+        The motion there is Hermite's polynomial of order 5 through positions, velocities and accelerations.
+        """
+        if self.middle is None:
+            x, a, s = self.steps, self.run.a[1:], INSIDE
+            h, q = np.diff(x.t)[:, None], np.diff(x.q, axis=0)
+            r0, r1, c0, c1 = h * x.v[:-1], h * x.v[1:], h**2 * a[:-1], h**2 * a[1:]
+            with np.errstate(invalid="ignore", divide="ignore"):
+                rest = q - r0 - 0.5 * c0, r1 - r0 - c0, c1 - c0  # what the powers 3 to 5 add at the end
+                third = 10.0 * rest[0] - 4.0 * rest[1] + 0.5 * rest[2]
+                fourth = -15.0 * rest[0] + 7.0 * rest[1] - rest[2]
+                fifth = 6.0 * rest[0] - 3.0 * rest[1] + 0.5 * rest[2]
+                place = x.q[:-1] + s * (r0 + s * (0.5 * c0 + s * (third + s * (fourth + s * fifth))))
+                speed = (r0 + s * (c0 + s * (3.0 * third + s * (4.0 * fourth + s * 5.0 * fifth)))) / h
+            place[~self.inner] = speed[~self.inner] = np.nan
+            t, works = x.t[:-1] + s * h[:, 0], np.full((len(h), N_WORK), np.nan)
+            self.middle = self._result(Steps(t, place, speed, works, x.memory[:-1], x.state[:-1], x.jumped[:-1]))[0]
+        return self.middle[name][1:]
 
     def _off(self, k: int, t: Array, a: Array) -> Array:
         """How far accelerations a (T, n) that follow from states are from those of the polynomial, as shares (T,).

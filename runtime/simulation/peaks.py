@@ -5,7 +5,8 @@ as at samples, in bulk, and a block of states is dropped when the next one comes
 is a polynomial through them and their neighbours with all rates (C. Hermite, J. reine angew. Math. 84, 1878), whose
 error is of the order of the method's own; without a freedom it is followed there as anywhere. Where a series may rise
 above what is known, by its second differences, it is looked at, closer and closer, until rounding is left. Nothing is
-sought across a jump, for both its sides are among the states.
+sought across a jump, for both its sides are among the states. A step of simple motion may be longer than the period of
+a force: where the states of a step do not resolve a series, its parts are halved until polynomials do.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from gudgeon.integrators.steps import Steps
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.results.diagnostics import Extremes
 from gudgeon.simulation.beside import Beside
-from gudgeon.simulation.between import Path
+from gudgeon.simulation.between import INSIDE, Path
 from gudgeon.simulation.wanted_peaks import Told
 
 NODES = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 9))  # places (of Chebyshev) at which a part of a step is looked at
@@ -30,6 +31,10 @@ FINE = chebvander(np.linspace(-1.0, 1.0, 129), len(NODES) - 1)  # times coeffici
 ROUNDS, AT_AN_END = 12, 3  # of looking closer, each several times as close; fewer where the top is at an end
 MOST = 16  # parts of steps of a block that are looked at, the most promising ones first
 SAME = 1e-14  # of a value: so little more is rounding, and the earlier time is told
+RESOLVED = 0.02  # of the largest value of a block, by which states may miss what a cubic through their neighbours says
+PREDICT = np.vander(np.arange(4) + INSIDE, 5) @ np.linalg.inv(np.vander(np.arange(5.0)))  # at INSIDE of four intervals
+EQUAL = 1e-6  # relative, by which intervals between states of one step differ at most
+MOST_HALVED = 4096  # parts of a block that are halved for one series
 CLOSE = 1e-11  # of the largest value of a block, that the last coefficients of a polynomial may be
 
 
@@ -47,6 +52,7 @@ class Search:
         self.kinds = [(name, False) for name in self.names]
         if beside:
             self.kinds += [(name, True) for name in self.names if name in beside.names]
+        self.unresolved: set[str] = set()  # series that vary too fast for the search
         self.best: dict[tuple[str, bool, int], tuple[float, float]] = {}  # (name, error, sign) -> value, time
 
     def __call__(self, steps: Steps) -> None:
@@ -81,6 +87,8 @@ class Search:
         told = []
         if self.ours.lost:
             told.append(f"peaks: {self.ours.lost} states of steps have no accelerations and are left out")
+        for name in sorted(self.unresolved):
+            told.append(f"peaks: {name} varies too fast within a step to be searched: a larger value may exist")
         if self.beside and self.beside.lost:
             told.append(f"errors over all steps are not known: scene {self.beside.scene}: {self.beside.lost}")
         return tuple(told)
@@ -90,6 +98,9 @@ class Search:
         values = _less([path.values(name) for path in paths])
         t, inner = self.ours.steps.t, self.ours.inner
         scale = float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
+        if not error:
+            for k in np.flatnonzero(_unresolved(self.ours, name, values, RESOLVED * scale)).tolist():
+                self._halve(name, k, scale)
         for sign in (1, -1):
             key = (name, error, sign)
             if np.isfinite(sign * values).any():
@@ -101,9 +112,15 @@ class Search:
                     break
                 self._look_closer(key, k, paths, scale)
 
-    def _look_closer(self, key: tuple[str, bool, int], k: int, paths: list[Path], scale: float) -> None:
-        """The top between states k and k + 1: of the polynomial through so many places, once that tells all of it."""
-        low, high = self.ours.steps.t[k : k + 2].tolist()
+    def _look_closer(
+        self, key: tuple[str, bool, int], k: int, paths: list[Path], scale: float,
+        within: tuple[float, float] | None = None,
+    ) -> None:  # fmt: skip
+        """The top between states k and k + 1: of the polynomial through so many places, once that tells all of it.
+
+        `within`: begin and end of the part of this step that is searched; None: all of it.
+        """
+        low, high = within or self.ours.steps.t[k : k + 2].tolist()
         for turn in range(ROUNDS):
             times = low + NODES * (high - low)
             values = key[2] * _less([path.between(k, times, key[0]) for path in paths])
@@ -119,6 +136,27 @@ class Search:
             if not times[1] > times[0] or (best in (0, len(NODES) - 1) and turn >= AT_AN_END):
                 break
             low, high = float(times[max(best - 1, 0)]), float(times[min(best + 1, len(NODES) - 1)])
+
+    def _halve(self, name: str, k: int, scale: float) -> None:
+        """Sample a series between states k and k + 1 by parts, each half as long until a polynomial resolves it."""
+        parts = [tuple(self.ours.steps.t[k : k + 2].tolist())]
+        for _ in range(MOST_HALVED):
+            if not parts:
+                return
+            low, high = parts.pop()
+            times = low + NODES * (high - low)
+            values = self.ours.between(k, times, name)
+            if not np.isfinite(values).all():
+                continue
+            coefficients = COEFFICIENTS @ values
+            if np.abs(coefficients[-2:]).max() > RESOLVED * scale and times[1] > times[0]:
+                parts += [(0.5 * (low + high), high), (low, 0.5 * (low + high))]
+                continue
+            for sign in (1, -1):
+                top = _top(sign * coefficients)[0]
+                if top + RESOLVED * scale > self.best.get((name, False, sign), (-math.inf, 0.0))[0]:
+                    self._look_closer((name, False, sign), k, [self.ours], scale, (low, high))
+        self.unresolved.add(name)
 
     def _note(self, key: tuple[str, bool, int], value: float, t: float) -> None:
         if math.isfinite(value) and (key not in self.best or value - self.best[key][0] > SAME * abs(value)):
@@ -139,6 +177,28 @@ def _top(parts: Array) -> tuple[float, float]:
 def _less(values: list[Array]) -> Array:
     """A series, or less that of another scene."""
     return values[0] if len(values) == 1 else values[0] - values[1]
+
+
+def _unresolved(path: Path, name: str, values: Array, allowed: float) -> NDArray[np.bool_]:
+    """Whether states do not resolve a series between k and k + 1, (K − 1,).
+
+    Five states at equal intervals of one step predict the series at INSIDE of each of the four intervals by the
+    polynomial of order 4 through them. It is not resolved where the value there differs by more than `allowed`.
+    """
+    out = np.zeros(max(len(values) - 1, 0), bool)
+    if len(values) < len(PREDICT) + 1 or path.exact or path.films:
+        return out
+    windows = np.lib.stride_tricks.sliding_window_view
+    h = np.where(path.inner, np.diff(path.steps.t), np.nan)
+    with np.errstate(invalid="ignore"):
+        four = windows(h, len(PREDICT))
+        equal = np.flatnonzero(np.abs(four - four[:, :1]).max(axis=1) < EQUAL * four[:, 0])
+        if len(equal):
+            there = windows(path.inside(name), len(PREDICT))[equal]
+            predicted = windows(values, len(PREDICT) + 1)[equal] @ PREDICT.T
+            for k in equal[(np.abs(there - predicted) > allowed).any(axis=1)].tolist():
+                out[k : k + len(PREDICT)] = True
+    return out
 
 
 def _may_rise(t: Array, values: Array, inner: NDArray[np.bool_]) -> Array:

@@ -143,7 +143,7 @@ def test_a_contact_that_is_missed(tmp_path: Path) -> None:
     assert not reported(right, 0.05)
     wrong = mutant(
         right, tmp_path,
-        ("engine/watch/events.c", "is_gap && has_zero(run", "is_gap && run->onsets % 3 != 2 && has_zero(run"),
+        ("engine/watch/events.c", "is_gap ? has_zero(run", "is_gap ? run->onsets % 3 != 2 && has_zero(run"),
         ("engine/methods/step_length.c", "!run->memory.latch[i].closed && joint->deltadot < 0.0)", "0)"),
     )  # fmt: skip
     found = reported(wrong, 0.05)

@@ -1,0 +1,147 @@
+/*
+ * Friction that may stick and rigid contacts along a step: the first zero of what is left of the limit of a sticking
+ * force, of a sliding velocity, of the force of a closed contact.
+ *
+ * These follow from the right-hand side, so that no bounds of them are known, and they may come and go within a step
+ * whose motion is as simple as rest. The dense output is sampled and bisected: on each part of it the event function is
+ * the parabola through both ends and the middle within an error. That error is taken as the largest by which the
+ * parabola of the whole part before the bisection missed the new samples; in theory the halves have an eighth of it.
+ */
+enum { MOST_FORCE_SAMPLES = 400, LEAST_STAGES = 8 /* of a step that tell of a force between them */ };
+#define ROUNDED 1e-12 /* of the largest sample: what an event function may be below zero by rounding */
+
+/* A part of a step: its middle and end, and how far the event function may lie from the parabola. */
+typedef struct {
+    Place middle, end;
+    double error;
+} Sampled;
+
+/* Whether margin k is one of these: a rigid contact that is closed, friction that no other one holds. */
+static int follows_from_force(const Run *run, int k)
+{
+    const int friction = k - N_CLEARANCES - N_SWITCHES;
+    if (k < N_CLEARANCES)
+        return !gives(k) && run->memory.latch[k].closed;
+    return friction >= 0 && friction < N_FRICTIONS && run->memory.mode[friction] != HELD;
+}
+
+/* How far below zero margin k means nothing: of a velocity that leaves rest, whatever it is rounded to. */
+static double rest_of(const Run *run, int k)
+{
+#if N_FRICTIONS
+    const int i = k - N_CLEARANCES - N_SWITCHES;
+    if (i >= 0 && fabs(run->aside.friction[i].v) <= AT_REST && run->memory.mode[i] * run->aside.friction[i].rate > 0.0)
+        return AT_REST;
+#endif
+    return (void)run, (void)k, 0.0;
+}
+
+/* A value at both ends of a step and at its stages in the order of their nodes. Returns how many. */
+static int values_of_stages(const Step *step, Place begin, Place end, Seen seen, Place *all)
+{
+    int n = 1;
+    all[0] = begin;
+    for (int i = 0; i < step->n_seen; i++) {
+        int at = n;
+        if (!(step->node[i] > 0.0 && step->node[i] < 1.0))
+            continue;
+        for (n++; all[at - 1].s > step->node[i]; at--)
+            all[at] = all[at - 1];
+        all[at] = (Place){step->node[i], seen_at(seen, i), NAN};
+    }
+    all[n++] = end;
+    return n;
+}
+
+/* A bound of a second derivative: twice the largest that three neighbours show. */
+static double largest_bend(const Place *all, int n)
+{
+    double bend = 0.0;
+    for (int i = 1; i + 1 < n; i++) {
+        const double left = (all[i].f - all[i - 1].f) / (all[i].s - all[i - 1].s);
+        const double right = (all[i + 1].f - all[i].f) / (all[i + 1].s - all[i].s);
+        bend = max_of(bend, 2.0 * BEND_SAFETY * fabs(right - left) / (all[i + 1].s - all[i - 1].s));
+    }
+    return bend;
+}
+
+/*
+ * Whether the stages of an explicit step tell that margin k has no zero: between neighbours a and b it is at least
+ * min(f_a, f_b) - B w^2/8, B a bound of the second derivative.
+ */
+static int is_clear_of_zero(const Run *run, const Step *step, int k)
+{
+    Place all[N_STAGES + 2];
+    const int n = values_of_stages(step, begin_of(run, step, k), end_of(run, step, k), seen_of(step, k), all);
+    const double rest = rest_of(run, k);
+    double least = INFINITY, most = -INFINITY;
+    for (int i = 0; i < n; i++) {
+        least = min_of(least, all[i].f);
+        most = max_of(most, all[i].f);
+    }
+    if (step->method->stiff || n < LEAST_STAGES) /* stages that are inaccurate, or too far apart: velocities only */
+        return k >= N_CLEARANCES && run->memory.mode[k - N_CLEARANCES - N_SWITCHES] != 0.0 && least > most - least;
+    const double bend = largest_bend(all, n);
+    for (int i = 1; i < n; i++) {
+        const double w = all[i].s - all[i - 1].s;
+        if (!(min_of(all[i - 1].f, all[i].f) - 0.125 * bend * w * w > -rest))
+            return 0;
+    }
+    return 1;
+}
+
+/* The parabola through a part's ends and middle, at share s. */
+static double parabola_at(Place a, Place middle, Place b, double s)
+{
+    const double u = 2.0 * (s - middle.s) / (b.s - a.s);
+    return middle.f + 0.5 * u * (b.f - a.f + u * (a.f - 2.0 * middle.f + b.f));
+}
+
+/* Its least value between both ends, its largest slope there. */
+static double least_of_parabola(Place a, Place middle, Place b, double *steepest)
+{
+    const double slope = 0.5 * (b.f - a.f), bend = a.f - 2.0 * middle.f + b.f, u = -slope / bend;
+    const double least = min_of(a.f, min_of(middle.f, b.f));
+    *steepest = 2.0 * (slope + fabs(bend)) / (b.s - a.s);
+    return bend > 0.0 && fabs(u) < 1.0 ? min_of(least, middle.f + 0.5 * slope * u) : least;
+}
+
+/* Whether margin k has a zero in the step, and places that enclose the first one. */
+static int has_force_zero(Run *run, Step *step, int k, const Parameters *p, Place *low, Place *high)
+{
+    const double close = 4.0 * root_width(run, step), rest = rest_of(run, k);
+    Sampled part[MAX_BISECTIONS + 1];
+    Place from = begin_of(run, step, k);
+    double largest = fabs(from.f);
+    if (is_clear_of_zero(run, step, k) || make_dense(run, p, step))
+        return 0;
+    part[0] = (Sampled){place_at(run, step, 0.5, k, p), end_of(run, step, k), INFINITY};
+    for (int n = 1, samples = 1; n > 0;) {
+        const Sampled now = part[n - 1];
+        const double w = now.end.s - from.s;
+        double steepest, missed[2];
+        const double least = least_of_parabola(from, now.middle, now.end, &steepest) - now.error;
+        const int crosses = now.middle.f < -rest || now.end.f < -rest;
+        const int small = w < close || n > MAX_BISECTIONS || samples > MOST_FORCE_SAMPLES;
+        largest = max_of(largest, max_of(fabs(now.middle.f), fabs(now.end.f)));
+        if (crosses && (small || steepest + 4.0 * now.error / w < 0.0)) {
+            *low = from;
+            *high = now.middle.f < -rest ? now.middle : now.end;
+            return 1;
+        }
+        if (small || least >= -rest - ROUNDED * largest) {
+            from = now.end;
+            n--;
+            continue;
+        }
+        const Place left = place_at(run, step, from.s + 0.25 * w, k, p);
+        const Place right = place_at(run, step, now.end.s - 0.25 * w, k, p);
+        missed[0] = fabs(left.f - parabola_at(from, now.middle, now.end, left.s));
+        missed[1] = fabs(right.f - parabola_at(from, now.middle, now.end, right.s));
+        const double error = w > 0.5 ? INFINITY : max_of(missed[0], missed[1]);
+        part[n - 1] = (Sampled){right, now.end, error};
+        part[n++] = (Sampled){left, now.middle, error};
+        samples += 2;
+    }
+    return 0;
+}
