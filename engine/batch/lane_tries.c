@@ -3,6 +3,7 @@
  * ceases to be finite, its own run tries it again (methods/); what follows from a step is every run's own.
  */
 #include "lane_motion.c"
+#include "../both/distance.h"
 
 static void forget_stages(LaneStep *step)
 {
@@ -35,8 +36,11 @@ static int is_refused(LaneRun *run, LaneStep *step)
 
 static int finish_step(LaneRun *run, LaneStep *step, const LaneParameters *p)
 {
+    Lanes before[N_Y];
     run->memory.rare |= not_finite(step->y, NULL, N_Y);
+    memcpy(before, step->y, sizeof before);
     project_rows(run, step->t + step->h, step->y, p);
+    run->memory.rare |= distance_from_rows(run, before, step->y) > FAR_FROM_ROWS;
     rates(run, step->t + step->h, step->y, p, step->dy, &step->aside);
     run->memory.rare |= not_finite(step->dy, NULL, N_Y);
     return 0;

@@ -148,6 +148,10 @@ int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n,
         run->t = step_end(t[0], t[n - 1], step, 0.0, &h);
     int status = run->ready ? 0 : begin(run, p);
 #endif
+#if N_USER_EVENTS
+    if (!status && begins)
+        status = begin_beyond(run, 0, p);
+#endif
     if (!status && begins)
         tape_row(run, run->t, run->y, p);
     for (long i = 0; !status; i++) {
@@ -163,7 +167,7 @@ int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n,
         run->steps -= status == EVENTS_FULL;
 #if N_USER_EVENTS
         if (!status && t_new >= t[n - 1])
-            status = end_on_zeros(run, min_of(1e-12, 1e-11 * (t[n - 1] - t[0])), p);
+            status = end_on_zeros(run, p);
 #endif
     }
     return status;

@@ -2,6 +2,9 @@
  * One attempted step of a method that looks ahead: how near it came to what may end it, its tolerances, and its
  * end, brought back onto the constraints.
  */
+#define ROWS_ROUNDED 2e-9  /* relative distance that may be rounding near a singular position */
+enum { MAX_STRAYED = 4 }; /* attempts of a step that are refused for that */
+
 /* Not negative while things go on as they are; NaN: does not act. */
 static double margin(const Memory *memory, const Aside *aside, int k)
 {
@@ -108,6 +111,7 @@ static int can_close(Run *run, int open, double t, const double *y, const Parame
 }
 
 #include "../both/project.h"
+#include "../both/distance.h"
 #include "near.c"
 
 /* Back onto everything that is held. */
@@ -137,12 +141,23 @@ static inline void pass_impulse(Run *run, const Parameters *p)
 static int is_odd(const Run *run, double error) { return (void)run, !isfinite(error); }
 static int is_refused(const Run *run, const Step *step) { return step->error > run->accept; }
 
-/* The end of a step: projected, with its right-hand side. */
+/*
+ * The end of a step: projected, with its right-hand side. What the projection moves is a part of the error. Where it is
+ * many tolerances the estimate has missed something, as the one of Radau may near a singular position, whose Jacobian
+ * filters it; the first step of a run also closes the start. What shorter steps do not mend is rounding.
+ */
 static int finish_step(Run *run, Step *step, const Parameters *p)
 {
+    double before[N_Y];
     if (!all_finite(step->y, N_Y))
         return NOT_FINITE;
-    project_state(run, step->t + step->h, step->y, p);
+    memcpy(before, step->y, sizeof before);
+    project_rows(run, step->t + step->h, step->y, p);
+    const double missed = distance_from_rows(run, before, step->y);
+    if (missed > max_of(FAR_FROM_ROWS, ROWS_ROUNDED / tolerance_of(run)) && run->steps > 0
+        && run->attempt.strayed++ < MAX_STRAYED)
+        step->error = max_of(step->error, missed);
+    hold_contacts(run, step->t + step->h, step->y, p);
     const int status = rates(run, step->t + step->h, step->y, p, step->dy, &step->aside);
     return status ? status : all_finite(step->dy, N_Y) ? 0 : NOT_FINITE;
 }

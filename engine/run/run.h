@@ -97,11 +97,12 @@ typedef struct {
 /*
  * The step that is tried now, until one is accepted (step_length.c): its length, the first one, what was left of the
  * run, how far from zero its times are, the last one that was refused and its error; whether by the stiff method,
- * whether one was refused, how often it did not resolve something, whether both methods were given up.
+ * whether one was refused, how often it did not resolve something, or ended far from its rows, whether both methods were
+ * given up.
  */
 typedef struct {
     double h, longest, left, far, refused, error;
-    int open, stiff, again, shortened, given_up;
+    int open, stiff, again, shortened, strayed, given_up;
 } Attempt;
 
 /* Where samples go: their times, their rows, and how many are stored. */

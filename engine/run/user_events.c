@@ -1,6 +1,8 @@
 /*
  * Events of the user: noted while the run goes on, looked for at its end.
  */
+#define RIGHT_AFTER 1e-12 /* s: what lies so near to the time at which a run ends or begins is at that time */
+
 static void list_event(Run *run, int i, double t)
 {
     if (run->n_events < N_IMPACTS) {
@@ -88,81 +90,71 @@ static int events_ahead(Run *run, double t, double ahead, const double *y, const
     return status;
 }
 
-/*
- * Whether event function i, of this value at the end of the run, is beyond zero: the value is larger than its
- * uncertainty, or the function goes on to such values of the same sign. `tick`: to which times are located, s.
- */
-static int goes_beyond(Run *run, int i, double value, double tick, const Parameters *p)
+/* What lies `h` after run->t, on the sides of switches that hold there; they are held from now on. */
+static int look_beyond(Run *run, double h, const Parameters *p, Aside *beyond)
 {
-    double error[N_WATCHED], further[N_USER_EVENTS];
-    uncertainty(run, run->t, run->y, p, error);
-    if (!(fabs(value) <= error[N_WATCHED - N_USER_EVENTS + i]))
-        return 1;
-    for (double ahead = 1e3 * tick; ahead < 1e10 * tick; ahead *= 1e3)
-        if (!events_ahead(run, run->t, ahead, run->y, run->dy, p, further) && further[i] != 0.0)
-            return further[i] * value > 0.0;
-    return 0;
-}
-
-/*
- * What lies right behind run->t, as far as times are located (tick, s): on the sides that are held (`here`), and on
- * those of there, which are held from now on (`beyond`).
- */
-static int look_beyond(Run *run, double tick, const Parameters *p, Aside *here, Aside *beyond)
-{
-    const double h = max_of(4.0 * DBL_EPSILON * fabs(run->t), tick);
     double y[N_Y], dy[N_Y];
     for (int k = 0; k < N_Y; k++)
         y[k] = run->y[k] + h * run->dy[k];
     if (!run->memory.held)
         hold_sides(run);
-    const int status = rates(run, run->t + h, y, p, dy, here);
-    *beyond = *here;
-    return status ? status : settle_at(run, run->t + h, y, dy, beyond, -1, p);
+    return settle_at(run, run->t + h, y, dy, beyond, -1, p);
 }
 
 /*
- * Whether event i is beyond its zero right behind run->t: it is there already, leaps there, or goes on from no further
- * than that.
+ * The side of each event function right after run->t, 0 where it is within its uncertainty and goes on so. It depends
+ * on the state alone, not on what led there: a run that ends here lists what has another side then, a run that begins
+ * here begins with these sides. So each event of a run that is cut anywhere is listed once. The sides of switches are
+ * those right after run->t from now on.
  */
-static int is_beyond(const Run *run, int i, const Aside *here, const Aside *beyond)
+static int sides_beyond(Run *run, const Parameters *p, signed char *side)
 {
-    return run->aside.event[i] * run->memory.event_side[i] < 0.0 || have_same_sign(here->event[i], -beyond->event[i])
-        || fabs(here->event[i]) >= fabs(run->aside.event[i]);
+    const double h = max_of(4.0 * DBL_EPSILON * fabs(run->t), RIGHT_AFTER);
+    double error[N_WATCHED], value[N_USER_EVENTS];
+    int unknown = 0;
+    Aside beyond;
+    const int status = look_beyond(run, h, p, &beyond);
+    if (status)
+        return status;
+    uncertainty(run, run->t, run->y, p, error);
+    for (int i = 0; i < N_USER_EVENTS; i++) {
+        const double f = beyond.event[i];
+        side[i] = (signed char)(fabs(f) > error[N_WATCHED - N_USER_EVENTS + i] ? (f > 0.0) - (f < 0.0) : 0);
+        unknown |= !side[i];
+    }
+    for (double ahead = 1e3 * h; unknown && ahead < 1e10 * h; ahead *= 1e3) {
+        const int known = !events_ahead(run, run->t, ahead, run->y, run->dy, p, value);
+        for (int i = 0; i < N_USER_EVENTS; i++)
+            if (known && !side[i])
+                side[i] = (signed char)((value[i] > 0.0) - (value[i] < 0.0));
+    }
+    return 0;
 }
 
-/*
- * Events whose zero, or leap across it, is the end of the run, as far as times are located (tick, s). Returns ENDED
- * where one of them ends the run.
- */
-static int end_on_zeros(Run *run, double tick, const Parameters *p)
+/* Lists events whose zero, or jump across it, is the end of the run. Returns ENDED where one of them ends the run. */
+static int end_on_zeros(Run *run, const Parameters *p)
 {
     const Memory memory = run->memory;
+    signed char side[N_USER_EVENTS];
+    const int failed = sides_beyond(run, p, side);
     int status = 0;
-    Aside here, beyond;
-    if (look_beyond(run, tick, p, &here, &beyond)) {
-        run->memory = memory;
-        return 0;
-    }
     run->memory = memory;
-    for (int i = 0; i < N_USER_EVENTS; i++)
-        if (is_beyond(run, i, &here, &beyond) && run->memory.event_side[i] * beyond.event[i] < 0.0
-            && goes_beyond(run, i, beyond.event[i], tick, p)
-            && event_crosses(i, &run->memory.event_side[i], beyond.event[i])
-            && note_event(run, i, run->t, run->y, p))
+    for (int i = 0; i < N_USER_EVENTS && !failed; i++)
+        if (event_crosses(i, &run->memory.event_side[i], side[i]) && note_event(run, i, run->t, run->y, p))
             status = ENDED;
     return status;
 }
 
-/* A run that starts on a zero, or a leap, is beyond it: that was the end of what came before, and is not counted. */
-static int begin_beyond(Run *run, double tick, const Parameters *p)
+/* Begins with the sides of event functions right after the start, and, if steps hold them (`held`), of switches. */
+static int begin_beyond(Run *run, int held, const Parameters *p)
 {
-    Aside here, beyond;
+    signed char side[N_USER_EVENTS];
     const Memory before = run->memory;
-    int status = look_beyond(run, tick, p, &here, &beyond);
+    const int status = sides_beyond(run, p, side);
+    if (!held)
+        run->memory = before;
     for (int i = 0; i < N_USER_EVENTS && !status; i++)
-        if (run->memory.event_side[i] * beyond.event[i] < 0.0 && is_beyond(run, i, &here, &beyond))
-            run->memory.event_side[i] = (signed char)-run->memory.event_side[i];
+        run->memory.event_side[i] = side[i] ? side[i] : run->memory.event_side[i];
     if (status || !memcmp(before.side, run->memory.side, sizeof before.side))
         return status;
     return rates(run, run->t, run->y, p, run->dy, &run->aside);

@@ -1,0 +1,10 @@
+#define FAR_FROM_ROWS 10.0 /* tolerances, that the end of a step may lie from the rows; as a rule it is less than one */
+
+/* How far the end of a step lay from the rows, in tolerances, by what it was and what it is now that it is closed. */
+static Real distance_from_rows(const RunOf *run, const Real *before, const Real *y)
+{
+    Real most = real_of(0.0);
+    for (int k = 0; k < 2 * N_X && N_LOOPS > 0; k++)
+        most = real_max(real_abs(y[k] - before[k]) * run->weight[k], most);
+    return most;
+}
