@@ -210,7 +210,7 @@ static int take_step(Run *run, const Parameters *p, const Samples *out)
 #endif
 #if N_USER_EVENTS
     if (!status && run->t == t_end)
-        status = end_on_zeros(run, p);
+        status = end_on_zeros(run, 0.0, p);
 #endif
     if (!status || status == ENDED)
         status = audit_state(run, listed, p) ? AUDITED : status;

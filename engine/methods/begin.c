@@ -64,7 +64,7 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
 #endif
 #if N_USER_EVENTS
     if (!status)
-        status = begin_beyond(run, 1, p);
+        status = begin_beyond(run, 0.0, p);
 #endif
     if (!status && !(run->h > 0.0)) {
         status = first_size(run, left, p);

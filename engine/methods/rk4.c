@@ -150,7 +150,7 @@ int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n,
 #endif
 #if N_USER_EVENTS
     if (!status && begins)
-        status = begin_beyond(run, 0, p);
+        status = begin_beyond(run, step, p);
 #endif
     if (!status && begins)
         tape_row(run, run->t, run->y, p);
@@ -167,7 +167,7 @@ int gudgeon_rk4_run(void *memory, const double *parameters, double step, long n,
         run->steps -= status == EVENTS_FULL;
 #if N_USER_EVENTS
         if (!status && t_new >= t[n - 1])
-            status = end_on_zeros(run, p);
+            status = end_on_zeros(run, step, p);
 #endif
     }
     return status;

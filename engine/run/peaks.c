@@ -28,7 +28,15 @@ static double force_at(Run *run, const Step *step, double s, int i, const Parame
 {
     double y[N_Y], dy[N_Y];
     Aside aside;
-    if (state_at(run, step, s, p, y, dy, &aside))
+    int status = state_at(run, step, s, p, y, dy, &aside), wrong = 0;
+    for (int k = 0; k < N_SWITCHES; k++)
+        wrong |= run->memory.side[k] * aside.g[k] < 0.0;
+    if (!status && wrong) { /* a switch that the step holds although it is passed: forces are those of its other side */
+        const Memory held = run->memory;
+        status = settle_at(run, step->t + s * step->h, y, dy, &aside, -1, p);
+        run->memory = held;
+    }
+    if (status)
         return 0.0;
     const double F = total_force(&aside.clearance[i]);
     peak(run, i, step->t + s * step->h, F);

@@ -1,7 +1,8 @@
 /*
  * Events of the user: noted while the run goes on, looked for at its end.
  */
-#define RIGHT_AFTER 1e-12 /* s: what lies so near to the time at which a run ends or begins is at that time */
+#define RIGHT_AFTER 1e-12 /* s: what lies so near to the time at which a run ends or begins is at that time, at most */
+#define RIGHT_AFTER_SHARE 1e-10 /* of the time that a fast motion takes to cross the mechanism */
 
 static void list_event(Run *run, int i, double t)
 {
@@ -101,15 +102,27 @@ static int look_beyond(Run *run, double h, const Parameters *p, Aside *beyond)
     return settle_at(run, run->t + h, y, dy, beyond, -1, p);
 }
 
+/* How near in time is the same as a time where a run ends or begins, s; by the state alone, and a step of rk4. */
+static double same_time(const Run *run, double step)
+{
+    double rate = 0.0;
+    for (int k = 0; k < N_X && !(step > 0.0); k++) {
+        const double least = run->least[is_angle[k]];
+        rate = max_of(rate, max_of(fabs(run->y[N_X + k]) / least, sqrt(fabs(run->dy[N_X + k]) / least)));
+    }
+    const double near = min_of(RIGHT_AFTER, RIGHT_AFTER_SHARE * (step > 0.0 ? step : 1.0 / rate));
+    return max_of(4.0 * DBL_EPSILON * fabs(run->t), near);
+}
+
 /*
  * The side of each event function right after run->t, 0 where it is within its uncertainty and goes on so. It depends
  * on the state alone, not on what led there: a run that ends here lists what has another side then, a run that begins
  * here begins with these sides. So each event of a run that is cut anywhere is listed once. The sides of switches are
  * those right after run->t from now on.
  */
-static int sides_beyond(Run *run, const Parameters *p, signed char *side)
+static int sides_beyond(Run *run, double step, const Parameters *p, signed char *side)
 {
-    const double h = max_of(4.0 * DBL_EPSILON * fabs(run->t), RIGHT_AFTER);
+    const double h = same_time(run, step);
     double error[N_WATCHED], value[N_USER_EVENTS];
     int unknown = 0;
     Aside beyond;
@@ -131,12 +144,12 @@ static int sides_beyond(Run *run, const Parameters *p, signed char *side)
     return 0;
 }
 
-/* Lists events whose zero, or jump across it, is the end of the run. Returns ENDED where one of them ends the run. */
-static int end_on_zeros(Run *run, const Parameters *p)
+/* Lists events whose zero, or jump across it, is the end of the run; `step` as below. Returns ENDED where one of them ends the run. */
+static int end_on_zeros(Run *run, double step, const Parameters *p)
 {
     const Memory memory = run->memory;
     signed char side[N_USER_EVENTS];
-    const int failed = sides_beyond(run, p, side);
+    const int failed = sides_beyond(run, step, p, side);
     int status = 0;
     run->memory = memory;
     for (int i = 0; i < N_USER_EVENTS && !failed; i++)
@@ -145,13 +158,16 @@ static int end_on_zeros(Run *run, const Parameters *p)
     return status;
 }
 
-/* Begins with the sides of event functions right after the start, and, if steps hold them (`held`), of switches. */
-static int begin_beyond(Run *run, int held, const Parameters *p)
+/*
+ * Begins with the sides of event functions right after the start, and of switches, unless this is rk4, whose steps, of
+ * length `step`, do not hold them; 0: another method.
+ */
+static int begin_beyond(Run *run, double step, const Parameters *p)
 {
     signed char side[N_USER_EVENTS];
     const Memory before = run->memory;
-    const int status = sides_beyond(run, p, side);
-    if (!held)
+    const int status = sides_beyond(run, step, p, side);
+    if (step > 0.0)
         run->memory = before;
     for (int i = 0; i < N_USER_EVENTS && !status; i++)
         run->memory.event_side[i] = side[i] ? side[i] : run->memory.event_side[i];
