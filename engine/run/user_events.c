@@ -1,8 +1,9 @@
 /*
  * Events of the user: noted while the run goes on, looked for at its end.
  */
-#define RIGHT_AFTER 1e-12 /* s: what lies so near to the time at which a run ends or begins is at that time, at most */
-#define RIGHT_AFTER_SHARE 1e-10 /* of the time that a fast motion takes to cross the mechanism */
+#define SAME_ZERO 4.0 /* times what steps tell apart: zeros of a function that are as near are one */
+#define RIGHT_AFTER 1e-11 /* s: what lies so near to an end or a begin of a run is there; more than steps tell apart */
+#define RIGHT_AFTER_SHARE 1e-9 /* of the time that a fast motion takes to cross the mechanism */
 
 static void list_event(Run *run, int i, double t)
 {
@@ -17,6 +18,9 @@ static int note_event(Run *run, int i, double t, const double *now, const Parame
 {
 #if N_USER_EVENTS
     EventStates *at = event_states(run);
+    for (int k = run->n_events - 1; k >= 0 && run->event_t[k] >= t - SAME_ZERO * run->tick; k--)
+        if (run->event[k] == i)
+            return 0; /* steps do not tell these times apart: it is the same zero, which rounding leads across again */
     if (run->n_events < N_IMPACTS)
         store_sample(run, t, now, p, run->n_events, at->y[0], at->latched[0], at->state[0]);
     list_event(run, i, t);
@@ -144,7 +148,7 @@ static int sides_beyond(Run *run, double step, const Parameters *p, signed char 
     return 0;
 }
 
-/* Lists events whose zero, or jump across it, is the end of the run; `step` as below. Returns ENDED where one of them ends the run. */
+/* Lists events whose zero, or jump across it, is the end of the run; `step` as below. ENDED: one of them ends the run. */
 static int end_on_zeros(Run *run, double step, const Parameters *p)
 {
     const Memory memory = run->memory;
