@@ -77,7 +77,7 @@ static void check_forces(Run *run, double t, const Aside *aside, const double *r
     int where;
     const double share = film_defect(run, aside, rate, dy, p, &where);
     if (where >= 0 && has_tolerance(run) && run->steps > 0)
-        record(&run->audit, FORCE_CHECK, share, film_limit(run), t, where);
+        record(&run->audit, FORCE_CHECK, share, film_audit_limit(run), t, where);
 }
 
 /* One place inside a step, up to the event that ends it. */

@@ -51,9 +51,29 @@ static double film_defect(const Run *run, const Aside *aside, const double *rate
     return share;
 }
 
-#define FILM_FORCE 1e6 /* times rtol, 1e-2 at least: share of a film's force that may be wrong inside a step */
+#define FILM_FORCE 3e4 /* times rtol: share of a film's force that may be wrong inside a step */
+#define FILM_AUDIT 1e5 /* the same of the audit, 1e-3 at least */
 
-static double film_limit(const Run *run) { return min_of(1.0, max_of(1e-2, FILM_FORCE * tolerance_of(run))); }
+static double film_limit(const Run *run) { return min_of(0.3, max_of(3e-5, FILM_FORCE * tolerance_of(run))); }
+
+static double film_audit_limit(const Run *run) { return min_of(1.0, max_of(1e-3, FILM_AUDIT * tolerance_of(run))); }
+
+/*
+ * The error of films' forces inside a step, in multiples of their limit: where the interpolant errs most. A velocity
+ * that is as good as the tolerance, times the damping of a thin film, may be any force.
+ */
+static double film_error(Run *run, Step *step, const Parameters *p)
+{
+    const double theta = step->method->between;
+    double y[N_Y], dy[N_Y], rate[N_Y];
+    int where;
+    Aside aside;
+    if (!step->method->stiff || !has_films() || make_dense(run, p, step)
+        || state_at(run, step, theta, p, y, dy, &aside))
+        return 0.0;
+    interpolate_rates(step, theta, rate);
+    return film_defect(run, &aside, rate, dy, p, &where) / film_limit(run);
+}
 
 /*
  * Whether a step that begins with a force of a film which fades at once, or rises, leads over that: where the

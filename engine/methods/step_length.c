@@ -176,7 +176,12 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
 {
     const Method *method = step->method;
     Attempt *now = &run->attempt;
-    const int good = !tried && step->error <= run->accept, free = run->fixed <= 0.0;
+    const int free = run->fixed <= 0.0;
+    if (!tried && step->error <= run->accept && free && now->by_film < SHORTENED) {
+        step->error = max_of(step->error, film_error(run, step, p));
+        now->by_film += step->error > run->accept;
+    }
+    const int good = !tried && step->error <= run->accept;
     const double least = LEAST_LENGTH * now->far;
     *status = tried;
     if (tried == STOPPED || (tried && !free))

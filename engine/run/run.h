@@ -101,7 +101,7 @@ typedef struct {
  */
 typedef struct {
     double h, longest, left, far, refused, error;
-    int open, stiff, again, shortened, given_up;
+    int open, stiff, again, shortened, given_up, by_film; /* by_film: times that its films alone were refused */
 } Attempt;
 
 /* Where samples go: their times, their rows, and how many are stored. */
@@ -184,6 +184,15 @@ typedef struct {
     Looked looked;
     Audit audit;
 } Run;
+
+/* Whether the law of a joint with play has a film. */
+static inline int has_films(void)
+{
+    int found = 0;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        found |= has_film(i);
+    return found;
+}
 
 #if IMPLICIT_STAGES
 #include "past.h"

@@ -98,3 +98,23 @@ def test_forces_behind_a_start_and_a_jump_of_the_load(tmp_path: Path) -> None:
         before = film.simulate(0.049, output=50, method=method, peaks=["A.F"])
         # the reaction falls by 0.34 % up to the first sample; inside the start it would be 18 % higher
         assert before.peak("A.F").max < 1.005 * before["A.F"].max(), method
+
+
+@pytest.mark.parametrize("formulation", ["reduced", "full"])
+def test_films_of_a_micrometre(tmp_path: Path, formulation: str) -> None:
+    """c/R 1/10,000: projections leave ė of the film as it is, whose tolerance alone would be a force of 100 N.
+
+    Newton's iteration finds stages of usual steps: about 3,000 of them in two turns would be far too many.
+    """
+    numbers = {"load": 0.0, "omega": 62.8, "bearings.pin.clearance": 1e-6, "bearings.pin.length": 0.02}
+    numbers["contacts.oil.film.viscosity"] = 0.1
+    times = np.linspace(0.0, 0.2, 401)
+    ideal = {name: numbers[name] for name in ("omega", "load")}
+    exact = loader(tmp_path)(JUMP, "ideal").simulate(0.2, output=times, rtol=1e-12, parameters=ideal)["A.F"]
+    film = loader(tmp_path, formulation)(JUMP, "one")
+    for rtol, within in ((1e-8, 1e-3), (1e-6, 1e-2)):
+        run = film.simulate(0.2, output=times, rtol=rtol, parameters=numbers, peaks=["A.F"])
+        assert np.abs(run["A.F"] / exact - 1.0)[1:].max() < within, rtol
+        assert abs(run.peak("A.F").max / exact.max() - 1.0) < within, rtol
+        assert run.diagnostics.steps < 3000, rtol
+        assert run.diagnostics.notes == (), rtol
