@@ -96,12 +96,12 @@ typedef struct {
 
 /*
  * The step that is tried now, until one is accepted (step_length.c): its length, the first one, what was left of the
- * run, how far from zero its times are, the last one that was refused and its error; whether by the stiff method,
- * whether one was refused, how often it did not resolve something, whether both methods were given up.
+ * run, how far from zero its times are, the last one that was refused, its error and that of its films' forces; whether
+ * by the stiff method, whether one was refused, how often it did not resolve something, whether both were given up.
  */
 typedef struct {
-    double h, longest, left, far, refused, error;
-    int open, stiff, again, shortened, given_up, by_film; /* by_film: times that its films alone were refused */
+    double h, longest, left, far, refused, error, of_films;
+    int open, stiff, again, shortened, given_up;
 } Attempt;
 
 /* Where samples go: their times, their rows, and how many are stored. */

@@ -118,3 +118,16 @@ def test_films_of_a_micrometre(tmp_path: Path, formulation: str) -> None:
         assert abs(run.peak("A.F").max / exact.max() - 1.0) < within, rtol
         assert run.diagnostics.steps < 3000, rtol
         assert run.diagnostics.notes == (), rtol
+
+
+@pytest.mark.parametrize("share, rtol, within", [
+    (1e-3, 1e-8, 1e-3), (2e-4, 1e-8, 1e-3), (2e-4, 1e-6, 2e-2), (1e-3, 1e-4, 0.1),
+])  # fmt: skip
+def test_films_by_rodas5p(tmp_path: Path, reaction: np.ndarray, share: float, rtol: float, within: float) -> None:
+    """The dense output of order 4 errs by forces of films as well: they are a part of the step's error."""
+    film = loader(tmp_path)(PENDULUM, "pinkus")
+    clearance = {"bearings.g.clearance": share * R}
+    run = film.simulate(T_END, output=TIMES, rtol=rtol, parameters=clearance, method="rodas5p", peaks=["B.F"])
+    assert np.abs(run["B.F"] / reaction - 1.0)[1:].max() < within + IDEAL
+    assert abs(run.peak("B.F").max / reaction.max() - 1.0) < 0.5 * within + IDEAL
+    assert abs(run.diagnostics.peak("B").F / reaction.max() - 1.0) < 0.1 * within + IDEAL
