@@ -77,7 +77,7 @@ static void check_forces(Run *run, const Step *step, double t, const Aside *asid
     int where;
     const double share = film_share(run, step, rate, dy, largest_film_force(aside, &where), 1.0, p);
     if (where >= 0 && has_tolerance(run) && run->steps > 0)
-        record(&run->audit, FORCE_CHECK, share, film_audit_limit(run), t, where);
+        record(&run->audit, FORCE_CHECK, share, film_audit_limit(run, step), t, where);
 }
 
 /* One place inside a step, up to the event that ends it. */

@@ -61,13 +61,16 @@ static double film_share(const Run *run, const Step *step, const double *rate, c
     return share;
 }
 
-#define FILM_FORCE 3e4 /* times rtol: share of a film's force that may be wrong inside a step */
+#define FILM_FORCE 1e4 /* times rtol: share of a film's force that may be wrong inside a step */
 #define FILM_PART 0.03 /* of the largest acceleration: forces of films that give less are no better known */
-#define FILM_AUDIT 1e5 /* the same of the audit, 1e-3 at least */
+#define FILM_AUDIT 1e5 /* the same of the audit, 1e-3 at least; ten times that of explicit methods, without control */
 
-static double film_limit(const Run *run) { return min_of(0.3, max_of(3e-5, FILM_FORCE * tolerance_of(run))); }
+static double film_limit(const Run *run) { return min_of(0.1, max_of(3e-5, FILM_FORCE * tolerance_of(run))); }
 
-static double film_audit_limit(const Run *run) { return min_of(1.0, max_of(1e-3, FILM_AUDIT * tolerance_of(run))); }
+static double film_audit_limit(const Run *run, const Step *step)
+{
+    return min_of(1.0, (step->method->stiff ? 1.0 : 10.0) * max_of(1e-3, FILM_AUDIT * tolerance_of(run)));
+}
 
 /*
  * The error of films' forces inside a step, in multiples of their limit: where the interpolant errs most. A velocity

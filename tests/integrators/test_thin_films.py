@@ -131,3 +131,18 @@ def test_films_by_rodas5p(tmp_path: Path, reaction: np.ndarray, share: float, rt
     assert np.abs(run["B.F"] / reaction - 1.0)[1:].max() < within + IDEAL
     assert abs(run.peak("B.F").max / reaction.max() - 1.0) < 0.5 * within + IDEAL
     assert abs(run.diagnostics.peak("B").F / reaction.max() - 1.0) < 0.1 * within + IDEAL
+
+
+def test_a_film_in_a_scene_with_rigid_contacts_says_what_it_costs(tmp_path: Path) -> None:
+    """No implicit method fits the scene; with a contact law that gives, as the note says, steps are few."""
+    steps = []
+    for law in ("newton_restitution, restitution: 0.5", "hertz, stiffness: 1e9, dissipation: exact, restitution: 0.5"):
+        text = PENDULUM.replace("contacts:", f"contacts:\n  wall: {{normal: {{law: {law}}}}}").replace(
+            "pinkus: {play: {", "pinkus: {play: {A: {bearing: g, contact: wall}, "
+        )
+        run = loader(tmp_path)(text, "pinkus").simulate(1e-4, output=10, parameters={"bearings.g.clearance": 25e-6})
+        steps.append(run.diagnostics.steps)
+        told = [note for note in run.diagnostics.notes if "no implicit method fits" in note]
+        assert len(told) == (law.startswith("newton")), run.diagnostics.notes
+        assert all("film in B" in note and "contact in A" in note and "hertz with a stiffness" in note for note in told)
+    assert steps[0] > 10_000 > 10 * steps[1]
