@@ -88,7 +88,18 @@ static double film_error(Run *run, Step *step, const Parameters *p)
     interpolate_rates(step, theta, rate);
     most = max_of(largest_film_force(&aside, &where), largest_film_force(&step->aside, &where));
     most = max_of(most, largest_film_force(&run->aside, &where));
-    return film_share(run, step, rate, dy, most, FILM_PART, p) / film_limit(run);
+    run->film_h = step->h, run->film_steps = run->steps;
+    run->film_error = film_share(run, step, rate, dy, most, FILM_PART, p) / film_limit(run);
+    return run->film_error;
+}
+
+#define FILM_SMALL 0.02 /* of the limit: so small an error is measured in each fourth step only, */
+#define FILM_LONGER 1.5 /* as long as steps are no longer than this times the one where it was */
+
+/* Whether errors of films' forces were so small of late that they need not be measured in this step. */
+static int is_film_known(const Run *run, const Step *step)
+{
+    return run->film_error < FILM_SMALL && step->h < FILM_LONGER * run->film_h && run->steps < run->film_steps + 4;
 }
 
 /*

@@ -178,7 +178,7 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
     const Method *method = step->method;
     Attempt *now = &run->attempt;
     const int free = run->fixed <= 0.0;
-    if (!tried && step->error <= run->accept && free) {
+    if (!tried && step->error <= run->accept && free && !is_film_known(run, step)) {
         const double error = film_error(run, step, p);
         if (!(error > FALLING * now->of_films)) /* it is no rounding */
             step->error = max_of(step->error, error);
