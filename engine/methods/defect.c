@@ -62,6 +62,7 @@ static double film_share(const Run *run, const Step *step, const double *rate, c
 }
 
 #define FILM_FORCE 1e4 /* times rtol: share of a film's force that may be wrong inside a step */
+#define RODAS5P_FILM 3.0 /* times that: its interpolant errs all along the step, those of others between few nodes */
 #define FILM_PART 0.03 /* of the largest acceleration: forces of films that give less are no better known */
 #define FILM_AUDIT 1e5 /* the same of the audit, 1e-3 at least; ten times that of explicit methods, without control */
 
@@ -90,6 +91,8 @@ static double film_error(Run *run, Step *step, const Parameters *p)
     most = max_of(most, largest_film_force(&run->aside, &where));
     run->film_h = step->h, run->film_steps = run->steps;
     run->film_error = film_share(run, step, rate, dy, most, FILM_PART, p) / film_limit(run);
+    if (step->method->stiff == BY_RODAS5P)
+        run->film_error *= RODAS5P_FILM;
     return run->film_error;
 }
 
