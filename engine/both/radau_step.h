@@ -150,8 +150,10 @@ static int RADAU(stages)(RunOf *run, Real h, const ComplexLinearOf *pairs, const
         if (is_odd(run, way))
             return NOT_FINITE;
         Truth found = active & (way <= rounded);
-        if (pass > 0) {
+        if (pass > 0)
             falls = pick(active & is_not(found), way / before, falls);
+        /* a film's force is linear in velocities by sectors of their direction: the first change may miss the sector */
+        if (pass > has_films()) {
             /* it no longer falls */
             found |= active & is_not(falls < 0.9) & (way <= RADAU_NOISE * rounded) & (apart <= run->force_found);
             *lost |= active & is_not(found | (falls < hope));

@@ -71,13 +71,13 @@ static void check_end(Run *run, Step *step, const Parameters *p)
         record(&run->audit, DEFECT_CHECK, defect_of(run, step->h, step->y, step->dy, dy), 1.0, step->t + step->h, -1);
 }
 
-static void check_forces(Run *run, double t, const Aside *aside, const double *rate, const double *dy,
+static void check_forces(Run *run, const Step *step, double t, const Aside *aside, const double *rate, const double *dy,
     const Parameters *p)
 {
     int where;
-    const double share = film_defect(run, aside, rate, dy, p, &where);
+    const double share = film_share(run, step, rate, dy, largest_film_force(aside, &where), 1.0, p);
     if (where >= 0 && has_tolerance(run) && run->steps > 0)
-        record(&run->audit, FORCE_CHECK, share, film_limit(run), t, where);
+        record(&run->audit, FORCE_CHECK, share, film_audit_limit(run, step), t, where);
 }
 
 /* One place inside a step, up to the event that ends it. */
@@ -100,7 +100,7 @@ static void check_inside(Run *run, Step *step, double theta, int drawn, const Pa
         record(audit, DEFECT_CHECK, defect_of(run, step->h, y, rate, dy), 1.0, t, -1);
     if (drawn && has_tolerance(run) && !N_CLEARANCES) /* rates in contacts change within a step */
         check_rate(run, step, t, y, rate, dy);
-    check_forces(run, t, &aside, rate, dy, p);
+    check_forces(run, step, t, &aside, rate, dy, p);
     check_joints(run, t, &aside, p);
     check_branches(run, step, t, y, &aside, p);
     if (!drawn)

@@ -22,38 +22,88 @@ static void interpolate_rates(const Step *step, double theta, double *dy)
 }
 
 /*
- * Forces of films: by how much accelerations `dy` that follow from a state inside a step differ from those of the
- * interpolant, `rate`. That is the error of the forces there. It is a share of the largest acceleration of its kind,
- * or, near equilibrium, of that of the lightest body under the largest force of a film, whose joint is in `where`.
+ * Forces of films: accelerations `dy` that follow from a state inside a step differ from those of the interpolant,
+ * `rate`, by the error of the forces there.
  */
-static double film_defect(const Run *run, const Aside *aside, const double *rate, const double *dy,
-    const Parameters *p, int *where)
+/* The largest force of a film, N, and the joint that has it, -1 of none. */
+static double largest_film_force(const Aside *aside, int *where)
 {
-    double most = 0.0, off[2] = {0.0, 0.0}, largest[2], m[N_Q], lightest = INFINITY, share = 0.0;
+    double most = 0.0;
     *where = -1;
     for (int i = 0; i < N_CLEARANCES; i++)
         if (has_film(i) && total_force(&aside->clearance[i]) > most)
             most = total_force(&aside->clearance[i]), *where = i;
-    if (*where < 0)
-        return 0.0;
+    return most;
+}
+
+#define RATE_ROUNDED (64.0 * DBL_EPSILON) /* of velocities, that a step's interpolant may err by rounding */
+
+/*
+ * A defect as a share of what a film's force, `most`, gives the lightest body, or of a part of the largest acceleration
+ * of its kind if that is more. Of very short steps rates are differences of rounded velocities.
+ */
+static double film_share(const Run *run, const Step *step, const double *rate, const double *dy, double most,
+    double part, const Parameters *p)
+{
+    double m[N_Q], lightest = INFINITY, off[2] = {0.0, 0.0}, largest[2], share = 0.0;
     mass_matrix(p, m);
     for (int k = 0; k < N_Q; k += 3)
         lightest = m[k] > 0.0 ? min_of(lightest, m[k]) : lightest;
     largest[0] = most / lightest;
     largest[1] = largest[0] * run->least[1] / run->least[0];
-    for (int k = 0; k < N_X; k++) {
-        const int v = N_X + k, kind = !!is_angle[k];
-        off[kind] = max_of(off[kind], fabs(rate[v] - dy[v]));
-        largest[kind] = max_of(largest[kind], max_of(fabs(run->dy[v]), max_of(fabs(rate[v]), fabs(dy[v]))));
+    for (int k = N_X; k < 2 * N_X && most > 0.0; k++) {
+        const int kind = !!is_angle[k - N_X];
+        off[kind] = max_of(off[kind], fabs(rate[k] - dy[k]) - RATE_ROUNDED * fabs(run->y[k]) / step->h);
+        largest[kind] = max_of(largest[kind], part * max_of(fabs(run->dy[k]), max_of(fabs(rate[k]), fabs(dy[k]))));
     }
     for (int kind = 0; kind < 2; kind++)
         share = max_of(share, largest[kind] > 0.0 ? off[kind] / largest[kind] : 0.0);
     return share;
 }
 
-#define FILM_FORCE 1e6 /* times rtol, 1e-2 at least: share of a film's force that may be wrong inside a step */
+#define FILM_FORCE 1e4 /* times rtol: share of a film's force that may be wrong inside a step */
+#define RODAS5P_FILM 3.0 /* times that: its interpolant errs all along the step, those of others between few nodes */
+#define FILM_PART 0.03 /* of the largest acceleration: forces of films that give less are no better known */
+#define FILM_AUDIT 1e5 /* the same of the audit, 1e-3 at least; ten times that of explicit methods, without control */
 
-static double film_limit(const Run *run) { return min_of(1.0, max_of(1e-2, FILM_FORCE * tolerance_of(run))); }
+static double film_limit(const Run *run) { return min_of(0.1, max_of(3e-5, FILM_FORCE * tolerance_of(run))); }
+
+static double film_audit_limit(const Run *run, const Step *step)
+{
+    return min_of(1.0, (step->method->stiff ? 1.0 : 10.0) * max_of(1e-3, FILM_AUDIT * tolerance_of(run)));
+}
+
+/*
+ * The error of films' forces inside a step, in multiples of their limit: where the interpolant errs most. A velocity
+ * that is as good as the tolerance, times the damping of a thin film, may be any force.
+ */
+static double film_error(Run *run, Step *step, const Parameters *p)
+{
+    const double theta = step->method->between;
+    double y[N_Y], dy[N_Y], rate[N_Y], most;
+    int where;
+    Aside aside;
+    if (!step->method->stiff || !has_films() || make_dense(run, p, step)
+        || state_at(run, step, theta, p, y, dy, &aside))
+        return 0.0;
+    interpolate_rates(step, theta, rate);
+    most = max_of(largest_film_force(&aside, &where), largest_film_force(&step->aside, &where));
+    most = max_of(most, largest_film_force(&run->aside, &where));
+    run->film_h = step->h, run->film_steps = run->steps;
+    run->film_error = film_share(run, step, rate, dy, most, FILM_PART, p) / film_limit(run);
+    if (step->method->stiff == BY_RODAS5P)
+        run->film_error *= RODAS5P_FILM;
+    return run->film_error;
+}
+
+#define FILM_SMALL 0.02 /* of the limit: so small an error is measured in each fourth step only, */
+#define FILM_LONGER 1.5 /* as long as steps are no longer than this times the one where it was */
+
+/* Whether errors of films' forces were so small of late that they need not be measured in this step. */
+static int is_film_known(const Run *run, const Step *step)
+{
+    return run->film_error < FILM_SMALL && step->h < FILM_LONGER * run->film_h && run->steps < run->film_steps + 4;
+}
 
 /*
  * Whether a step that begins with a force of a film which fades at once, or rises, leads over that: where the
@@ -66,5 +116,5 @@ static int misses_film(Run *run, Step *step, const Parameters *p)
     if (!step->method->stiff || !has_films() || make_dense(run, p, step))
         return 0;
     interpolate_rates(step, 0.0, rate);
-    return film_defect(run, &step->aside, rate, run->dy, p, &where) > film_limit(run);
+    return film_share(run, step, rate, run->dy, largest_film_force(&step->aside, &where), 1.0, p) > film_limit(run);
 }

@@ -16,6 +16,7 @@ struct Method {
     int degree, turned;       /* of y0 + s (d0 + (1 - s) (d1 + s (d2 + ...))); bit k: d_k comes with 1 - s, not s */
     const double *heard;      /* shares of a step, in their order, at which its error hears of the equations */
     int n_heard;
+    double between;           /* of a stiff one: the share of a step at which its interpolant errs most */
     int own_length;           /* whether a step that is tried is made as long as it may be */
 };
 #define COUNT_OF(table) ((int)(sizeof(table) / sizeof *(table)))

@@ -88,8 +88,8 @@ static const double radau9_heard[] = {0.0, 0.057104196114517682, 0.2768430136381
 static const Method radau5 = {.name = "radau5", .try = radau5_try, .dense = radau5_dense,
     .interpolate = radau_interpolate, .power = 1.0 / 4.0, .stiff = BY_RADAU5, .unstable = INFINITY,
     .bounded = INFINITY, .stages = 3, .degree = 5, .turned = 0xA, .heard = radau5_heard,
-    .n_heard = COUNT_OF(radau5_heard)};
+    .n_heard = COUNT_OF(radau5_heard), .between = 0.85};
 static const Method radau9 = {.name = "radau9", .try = radau9_try, .dense = radau9_dense,
     .interpolate = radau_interpolate, .power = 1.0 / 6.0, .stiff = BY_RADAU9, .unstable = INFINITY,
     .bounded = INFINITY, .stages = 5, .degree = 5, .turned = 0xA, .heard = radau9_heard,
-    .n_heard = COUNT_OF(radau9_heard)};
+    .n_heard = COUNT_OF(radau9_heard), .between = 0.74};

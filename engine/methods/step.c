@@ -92,14 +92,6 @@ static void note_state(Step *step, const double *y)
     }
 }
 
-static int has_films(void)
-{
-    int found = 0;
-    for (int i = 0; i < N_CLEARANCES; i++)
-        found |= has_film(i);
-    return found;
-}
-
 #include "../both/weigh.h"
 
 /* The step that closes the rows at a state, if there is one. */

@@ -4,6 +4,7 @@
  */
 enum { MAX_STUCK = 200, MAX_CRAWL = 2000, PATIENCE = 8,
     SHORTENED = 12 /* times, by four each: what a step does not resolve then is noise */ };
+#define FALLING 0.7   /* of a film's error, that is left in a shorter step at most if it is no rounding */
 #define FINE 1e-9     /* of a run: in a step as short nothing is looked for that is shorter still */
 #define WORTH 0.8     /* of a stiff step's length, that an explicit one must have to be cheaper */
 #define WORKS 10.0    /* times rtol, that the works of a step may err, as a share of the energy turned over */
@@ -158,7 +159,7 @@ static void open_attempt(Run *run, double t_end, const Parameters *p)
     if (h > left * (1.0 - 1e-9))
         h = left;
     run->attempt = (Attempt){.h = h, .longest = h, .left = left, .far = far, .open = 1,
-        .stiff = run->method->stiff};
+        .stiff = run->method->stiff, .of_films = INFINITY};
 }
 
 /* Another one, as long as attempt->h. */
@@ -176,7 +177,14 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
 {
     const Method *method = step->method;
     Attempt *now = &run->attempt;
-    const int good = !tried && step->error <= run->accept, free = run->fixed <= 0.0;
+    const int free = run->fixed <= 0.0;
+    if (!tried && step->error <= run->accept && free && !is_film_known(run, step)) {
+        const double error = film_error(run, step, p);
+        if (!(error > FALLING * now->of_films)) /* it is no rounding */
+            step->error = max_of(step->error, error);
+        now->of_films = error > run->accept ? error : INFINITY;
+    }
+    const int good = !tried && step->error <= run->accept;
     const double least = LEAST_LENGTH * now->far;
     *status = tried;
     if (tried == STOPPED || (tried && !free))

@@ -3,10 +3,12 @@
  */
 #define SHALLOW 1e-13 /* m, or 1e-10 of the depth that ends the model: a graze without a force worth the name */
 
+#define SHALLOW_RIGID (8.0 * DBL_EPSILON) /* of the clearance: each blow of surfaces that do not give has an impulse */
+
 /* How far below zero a joint's margin lies without a meaning, m. */
 static double shallow(const Parameters *p, int k)
 {
-    return -min_of(SHALLOW, 1e-10 * deepest(p, k));
+    return gives(k) ? -min_of(SHALLOW, 1e-10 * deepest(p, k)) : -SHALLOW_RIGID * radial_clearance(p, k);
 }
 
 /* Parameter s in [0, 1] at which the cubic through (d0, h r0) and (d1, h r1) crosses zero; its slope in `rate`. */

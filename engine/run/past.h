@@ -4,7 +4,7 @@
 #ifndef GUDGEON_PAST_H
 #define GUDGEON_PAST_H
 
-#define FORCE_FOUND 2e3 /* of a film's force, times rtol: how well it is known where stages are found */
+#define FORCE_FOUND 5e2 /* of a film's force, times rtol: how well it is known where stages are found */
 
 /* Once a step, before it is tried; whether the motion goes on as it was, as run->goes_on. */
 static inline void look_back(Run *run)
@@ -22,7 +22,7 @@ static inline void look_back(Run *run)
         run->seen_steps = run->steps;
     }
     run->last_h = run->t - run->before_t;
-    run->force_found = FORCE_FOUND / run->inverse_scale[2 * N_X - 1];
+    run->force_found = min_of(1e-2, FORCE_FOUND / run->inverse_scale[2 * N_X - 1]);
     run->goes_on = run->last_h > 0.0 && !run->attempt.again;
 }
 

@@ -96,12 +96,12 @@ typedef struct {
 
 /*
  * The step that is tried now, until one is accepted (step_length.c): its length, the first one, what was left of the
- * run, how far from zero its times are, the last one that was refused and its error; whether by the stiff method,
- * whether one was refused, how often it did not resolve something, or ended far from its rows, whether both methods were
- * given up.
+ * run, how far from zero its times are, the last one that was refused, its error and that of its films' forces; whether
+ * by the stiff method, whether one was refused, how often it did not resolve something, or ended far from its rows,
+ * whether both methods were given up.
  */
 typedef struct {
-    double h, longest, left, far, refused, error;
+    double h, longest, left, far, refused, error, of_films;
     int open, stiff, again, shortened, strayed, given_up;
 } Attempt;
 
@@ -147,6 +147,8 @@ typedef struct {
     Tape tape;
     long began; /* 1 + the run of a batch that this memory began last; 0: none */
     Beginning from; /* of rk4's step, where samples lie within it */
+    double film_error, film_h; /* the last error of films' forces that was measured, the step's length */
+    long film_steps; /* steps before it */
     long steps, evaluations, onsets, grazes, switches, rejected, jacobians, stiff_steps;
     double phi_max, phi_dot_max, ratio_min, ratio_max, ratio_outside;
     /* of methods that choose their step (adaptive.c) */
@@ -185,6 +187,15 @@ typedef struct {
     Looked looked;
     Audit audit;
 } Run;
+
+/* Whether the law of a joint with play has a film. */
+static inline int has_films(void)
+{
+    int found = 0;
+    for (int i = 0; i < N_CLEARANCES; i++)
+        found |= has_film(i);
+    return found;
+}
 
 #if IMPLICIT_STAGES
 #include "past.h"

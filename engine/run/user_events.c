@@ -148,7 +148,7 @@ static int sides_beyond(Run *run, double step, const Parameters *p, signed char 
     return 0;
 }
 
-/* Lists events whose zero, or jump across it, is the end of the run; `step` as below. ENDED: one of them ends the run. */
+/* Lists events whose zero, or jump across it, is the end of the run; `step` as below. ENDED: one of them ends it. */
 static int end_on_zeros(Run *run, double step, const Parameters *p)
 {
     const Memory memory = run->memory;

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import sympy as sp
+
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, with_sides
@@ -10,6 +14,8 @@ from gudgeon.generator.ir.statements import Largest, Return
 from gudgeon.generator.ir.values import Place
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.pivots import LEAST_SIZE
+
+FILM_MASS = 1e6  # times the mass of all bodies: what projections give to motions that squeeze a film
 
 
 def projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple[Kernel, KKT]:
@@ -35,11 +41,34 @@ def projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple
     return build.build(arguments, "int"), kkt
 
 
+def with_film_masses(system: System) -> System:
+    """The system with M + κ Bᵀ B, B = ∂e/∂q of the joints with films; itself without films or rows."""
+    model = system.model
+    films = [clearance for clearance in model.clearances if clearance.film is not None]
+    if not films or not system.rows:
+        return system
+    kappa = model.slots.derive("film_mass", FILM_MASS * sp.Add(*(body.mass for body in model.bodies)), "of projections")
+    mass = dict(system.mass)
+    for film in films:
+        for along in ((sp.S.One, sp.S.Zero), (sp.S.Zero, sp.S.One)):
+            row, _ = system.generalized(film.on_points(along, (sp.S.Zero, sp.S.Zero)))
+            for i, entry in enumerate(row):
+                for j, other in enumerate(row[: i + 1]):
+                    if entry != 0 and other != 0:
+                        mass[i, j] = mass.get((i, j), sp.S.Zero) + kappa * entry * other
+    return replace(system, mass=mass)
+
+
 def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
-    """One Newton step onto Φ = 0 and one onto Φ̇ = 0, with one factorization."""
-    kkt = KKT(system, system.rows)
+    """One Newton step onto Φ = 0 and one onto Φ̇ = 0, with one factorization.
+
+    A film turns a change of ė by a tolerance into a force that nothing carries: e and ė are left as they are.
+    """
+    kkt = KKT(with_film_masses(system), system.rows)
+    held = [] if kkt.system is system else ["M has 1e6 times the mass of all bodies for motions that squeeze a film."]
     build = KernelBuilder(system.model.symbols, name, [
         "The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot, to be subtracted.",
+        *held,
         "`worst`: the largest |Phi|. Returns 0, or the number of the pivot that vanished.",
     ])  # fmt: skip
     build.section("Phi and Phi_dot")

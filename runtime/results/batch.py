@@ -184,11 +184,18 @@ class Batch:
 
     def peak(self, name: str) -> BatchPeaks:
         """Largest and smallest value of a series over all steps, (n,) each: see Result.peak."""
-        return of_runs(self.source, self.extremes, name, False)
+        return of_runs(self.source, self.extremes, name, False, lambda: self._samples_of(name))
 
     def peak_error(self, name: str) -> BatchPeaks:
         """The same of the series less that of another scene: see Result.peak_error."""
-        return of_runs(self.source, self.extremes, name, True)
+        return of_runs(self.source, self.extremes, name, True, lambda: self._samples_of(name))
+
+    def _samples_of(self, name: str) -> tuple[Array, Array]:
+        """Times and values, (n, N) each; N is 0 where the series was not kept."""
+        try:
+            return np.broadcast_to(self["t"], (len(self), self.t.shape[-1])), self[name]
+        except GudgeonError:
+            return np.zeros((len(self), 0)), np.zeros((len(self), 0))
 
     def to_xarray(self, names: Iterable[str] | str = (), part: str = "series") -> xarray.Dataset:
         """A Dataset over `run` and `time`, every series by its name in a Result, those of `names` too.

@@ -7,14 +7,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.errors import BadValueError
+from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.results.blows import is_blow
 from gudgeon.results.diagnostics import Extremes
 from gudgeon.results.unknown import check_series
@@ -61,8 +61,32 @@ def over_all_steps(run: Result, name: str, error: bool) -> Extremes:
         raise run.unknown(name)
     for one in run.diagnostics.extremes:
         if one.name == name and bool(one.against) == error:
-            return one
+            return one if error else _with_samples(one, run)
     raise _not_asked(name, error)
+
+
+def _with_samples(one: Extremes, run: Result) -> Extremes:
+    """No sample lies beyond: what a step's polynomial says between its ends is as good as the tolerance only."""
+    try:
+        values = run[one.name]
+    except GudgeonError:  # a sample has none
+        return one
+    ends = ((one.max, one.t_max), (one.min, one.t_min))
+    (high, at_high), (low, at_low) = (
+        _farther(end, run.t[None], values[None], sign) for end, sign in zip(ends, (1.0, -1.0), strict=True)
+    )
+    return replace(one, max=float(high[0]), t_max=float(at_high[0]), min=float(low[0]), t_min=float(at_low[0]))
+
+
+def _farther(end: tuple[Array | float, Array | float], t: Array, values: Array, sign: float) -> tuple[Array, Array]:
+    """Extremes (n,) and their times, or those of samples (n, N) at times (n, N) that lie beyond; sign −1: minima."""
+    found, at = (np.atleast_1d(np.asarray(x, dtype=float)) for x in end)
+    if not values.shape[1]:
+        return found, at
+    known = np.where(np.isfinite(values), sign * values, -np.inf)
+    best, runs = known.argmax(axis=1), np.arange(len(known))
+    beyond = np.isfinite(known[runs, best]) & ~(sign * found >= known[runs, best])
+    return np.where(beyond, values[runs, best], found), np.where(beyond, t[runs, best], at)
 
 
 def _not_asked(name: str, error: bool) -> BadValueError:
@@ -125,14 +149,24 @@ class BatchPeaks:
         return np.where(-self.min > self.max, self.t_min, self.t_max)
 
 
-def of_runs(source: KernelSource, runs: Sequence[Sequence[Extremes]], name: str, error: bool) -> BatchPeaks:
-    """The extremes of a series of all runs. Raises UnknownNameError, BadValueError."""
+def of_runs(
+    source: KernelSource, runs: Sequence[Sequence[Extremes]], name: str, error: bool,
+    samples: Callable[[], tuple[Array, Array]],
+) -> BatchPeaks:  # fmt: skip
+    """The extremes of a series of all runs; no sample lies beyond, times and values (n, N) each.
+
+    Raises UnknownNameError, BadValueError.
+    """
     check_series(source, [name])
     found = [next((x for x in own if x.name == name and bool(x.against) == error), None) for own in runs]
     known = next(filter(None, found), None)
     if known is None:
         raise _not_asked(name, error)
     values = {key: np.array([getattr(x, key) if x else np.nan for x in found]) for key in ENDS}
+    if not error:
+        t, sampled = samples()
+        for end, sign in (("max", 1.0), ("min", -1.0)):
+            values[end], values[f"t_{end}"] = _farther((values[end], values[f"t_{end}"]), t, sampled, sign)
     return BatchPeaks(name, known.unit, **values, against=known.against)
 
 

@@ -29,6 +29,7 @@ from gudgeon.results.series import without_masses
 
 BLOCK = 1 << 16  # samples balanced between two looks
 APART = 0.01  # of the mechanism's size: violated constraints that no stabilisation explains
+MANY = 10_000  # steps of an explicit method, that a stiff film asks for
 THIN = 0.9999  # e/c at which a film's law is capped (generator/equations/contact_steps.py)
 DEEP_CLEARANCE, DEEP_RADIUS = 0.5, 0.01  # penetrations beyond these shares of c and of R are outside the model
 
@@ -123,6 +124,7 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
     notes += not_held(compiled, p, float(problem.t[0]), problem.q, counts, trajectory.peaks)
     if compiled.source.rigid:
         notes += piled_up([joint.name for joint in compiled.source.clearances], trajectory.impacts)
+        notes += stiff_beside_rigid(compiled.source, problem, counts)
     notes += notes_of(trajectory.audit)
     if compiled.source.indeterminate:
         notes.append(
@@ -130,6 +132,17 @@ def _notes(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) ->
             " by rigid bodies (NaN)"
         )
     return tuple(notes)
+
+
+def stiff_beside_rigid(source: KernelSource, problem: Problem, counts: Counts) -> Iterator[str]:
+    """A remark on many steps of films in a scene with rigid contacts, which no implicit method integrates."""
+    films = [joint.name for joint in source.clearances if joint.film]
+    if films and counts.steps > MANY and math.isinf(problem.step):
+        yield (
+            f"{counts.steps} steps: the film in {', '.join(films)} is stiff, and no implicit method fits a scene whose"
+            f" contact in {source.rigid[0]} is a constraint (newton_restitution): a contact law that gives there"
+            " (hertz with a stiffness) lets method auto take long steps"
+        )
 
 
 def unbounded_sample(compiled: CompiledModel, problem: Problem, trajectory: Trajectory) -> Iterator[str]:

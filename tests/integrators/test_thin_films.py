@@ -98,3 +98,51 @@ def test_forces_behind_a_start_and_a_jump_of_the_load(tmp_path: Path) -> None:
         before = film.simulate(0.049, output=50, method=method, peaks=["A.F"])
         # the reaction falls by 0.34 % up to the first sample; inside the start it would be 18 % higher
         assert before.peak("A.F").max < 1.005 * before["A.F"].max(), method
+
+
+@pytest.mark.parametrize("formulation", ["reduced", "full"])
+def test_films_of_a_micrometre(tmp_path: Path, formulation: str) -> None:
+    """c/R 1/10,000: projections leave ė of the film as it is, whose tolerance alone would be a force of 100 N.
+
+    Newton's iteration finds stages of usual steps: about 3,000 of them in two turns would be far too many.
+    """
+    numbers = {"load": 0.0, "omega": 62.8, "bearings.pin.clearance": 1e-6, "bearings.pin.length": 0.02}
+    numbers["contacts.oil.film.viscosity"] = 0.1
+    times = np.linspace(0.0, 0.2, 401)
+    ideal = {name: numbers[name] for name in ("omega", "load")}
+    exact = loader(tmp_path)(JUMP, "ideal").simulate(0.2, output=times, rtol=1e-12, parameters=ideal)["A.F"]
+    film = loader(tmp_path, formulation)(JUMP, "one")
+    for rtol, within in ((1e-8, 1e-3), (1e-6, 1e-2)):
+        run = film.simulate(0.2, output=times, rtol=rtol, parameters=numbers, peaks=["A.F"])
+        assert np.abs(run["A.F"] / exact - 1.0)[1:].max() < within, rtol
+        assert abs(run.peak("A.F").max / exact.max() - 1.0) < within, rtol
+        assert run.diagnostics.steps < 3000, rtol
+        assert run.diagnostics.notes == (), rtol
+
+
+@pytest.mark.parametrize("share, rtol, within", [
+    (1e-3, 1e-8, 1e-3), (2e-4, 1e-8, 1e-3), (2e-4, 1e-6, 2e-2), (1e-3, 1e-4, 0.1),
+])  # fmt: skip
+def test_films_by_rodas5p(tmp_path: Path, reaction: np.ndarray, share: float, rtol: float, within: float) -> None:
+    """The dense output of order 4 errs by forces of films as well: they are a part of the step's error."""
+    film = loader(tmp_path)(PENDULUM, "pinkus")
+    clearance = {"bearings.g.clearance": share * R}
+    run = film.simulate(T_END, output=TIMES, rtol=rtol, parameters=clearance, method="rodas5p", peaks=["B.F"])
+    assert np.abs(run["B.F"] / reaction - 1.0)[1:].max() < within + IDEAL
+    assert abs(run.peak("B.F").max / reaction.max() - 1.0) < 0.5 * within + IDEAL
+    assert abs(run.diagnostics.peak("B").F / reaction.max() - 1.0) < 0.1 * within + IDEAL
+
+
+def test_a_film_in_a_scene_with_rigid_contacts_says_what_it_costs(tmp_path: Path) -> None:
+    """No implicit method fits the scene; with a contact law that gives, as the note says, steps are few."""
+    steps = []
+    for law in ("newton_restitution, restitution: 0.5", "hertz, stiffness: 1e9, dissipation: exact, restitution: 0.5"):
+        text = PENDULUM.replace("contacts:", f"contacts:\n  wall: {{normal: {{law: {law}}}}}").replace(
+            "pinkus: {play: {", "pinkus: {play: {A: {bearing: g, contact: wall}, "
+        )
+        run = loader(tmp_path)(text, "pinkus").simulate(1e-4, output=10, parameters={"bearings.g.clearance": 25e-6})
+        steps.append(run.diagnostics.steps)
+        told = [note for note in run.diagnostics.notes if "no implicit method fits" in note]
+        assert len(told) == (law.startswith("newton")), run.diagnostics.notes
+        assert all("film in B" in note and "contact in A" in note and "hertz with a stiffness" in note for note in told)
+    assert steps[0] > 10_000 > 10 * steps[1]

@@ -119,7 +119,7 @@ def test_both_sides_of_a_jump(cart: dict[str, Simulation], method: str) -> None:
     for run in runs:
         assert run.peak("cart.ax").max == pytest.approx(6.0 * 2.0 * 0.3, rel=2e-8)
         assert run.peak("cart.ax").t_max == pytest.approx(0.3, rel=2e-8)
-        assert run.peak("cart.ax").min == pytest.approx(0.0, abs=1e-9)
+        assert run.peak("cart.ax").min == pytest.approx(0.0, abs=2e-9)  # a sample may be the least
     assert runs[0].diagnostics.extremes == runs[1].diagnostics.extremes
     w, b, t1 = 10.0, 2.0, 0.3  # with u = x − 1 m, until t1: u = b t³ − 6 b t/ω² + 6 b sin(ωt)/ω³ + 0.05 cos(ωt)
     apart = -6.0 * b * t1 / w**2 + 6.0 * b * math.sin(w * t1) / w**3 + 0.05 * math.cos(w * t1)
