@@ -281,8 +281,8 @@ _MOTION_ALONE = (_elements, _drift)
 
 
 def _residual(run: Result) -> Array:
-    energy = run["energy.kinetic"] + run["energy.potential"]
-    return energy - energy[0] - (run["work.drives"] + run["work.forces"] + run["work.clearances"])
+    energy, first = (one["energy.kinetic"] + one["energy.potential"] for one in (run, run.start_row or run))
+    return energy - first[0] - (run["work.drives"] + run["work.forces"] + run["work.clearances"])
 
 
 def _output(source: KernelSource, name: str, tree: Any, known: Mapping[str, Series]) -> Series:
