@@ -228,11 +228,11 @@ class Result(Shown, Checked):
         return RunReport(self)
 
     def value_of(self, name: str) -> Any:
-        """What a name in an output's expression stands for: a series, t, or a parameter."""
-        if text(name, "a name of a result") in self:
-            return self[name]
-        if name in self.parameters:
+        """What a name in an output's expression stands for: a parameter (an output may share its name), t, a series."""
+        if text(name, "a name of a result") in self.parameters:
             return self.parameters[name]
+        if name in self:
+            return self[name]
         raise self.unknown(name)
 
     def to_xarray(self, part: str = "series") -> xarray.Dataset:
