@@ -58,7 +58,8 @@ def test_an_output_called_like_its_parameter_or_like_a_dimension(tmp_path: Path)
         "outputs: {row: 2*row + bob.x, run: run*row, number: row}\n"
     )
     simulation = gudgeon.load(file)
-    run, batch = simulation.simulate(output=[0.1, 0.2]), simulation.simulate_many({"row": [3.0, 4.0]}, output=[0.1, 0.2])
+    run = simulation.simulate(output=[0.1, 0.2])
+    batch = simulation.simulate_many({"row": [3.0, 4.0]}, output=[0.1, 0.2])
     batch.save(tmp_path / "batch.nc")
     again = gudgeon.Batch.load(tmp_path / "batch.nc")
     assert run["row"].tolist() == [6.0, 6.0] and run["run"].tolist() == [6.0, 6.0] and run.unit("run") == "m^2"
