@@ -13,9 +13,9 @@ import os
 import signal
 import sys
 
+from gudgeon.waiting.ctrl_c import ENDING
 from gudgeon.waiting.last_word import INTERRUPTED, is_the_program, last_word, nothing_more
 
-ENDING = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
 

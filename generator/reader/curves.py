@@ -23,6 +23,7 @@ from gudgeon.generator.reader.tables import Row, read_table
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
 from gudgeon.language.curves import LEAST, MONOTONE, NOT_A_KNOT, PERIODIC, STOP, Curve, in_pairs, spline
 from gudgeon.language.names import check_name
+from gudgeon.language.tree import FUNCTIONS
 from gudgeon.language.units import DIMENSIONLESS, Unit, parse_unit, si_unit
 
 MOST_POINTS = 1 << 21  # of a curve
@@ -39,6 +40,8 @@ def read_curves(reader: Reader, root: Map) -> dict[str, Curve]:
             _check_name(root, name)
         with reader.collect():
             reader.curves[str(name)] = _curve(reader, name, node)
+        if name in FUNCTIONS:  # it was refused: a call is that of the function
+            del reader.curves[str(name)]
     return reader.curves
 
 

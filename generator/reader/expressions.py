@@ -21,6 +21,7 @@ from gudgeon.language.parser import COPIES
 from gudgeon.language.tree import Binary, Call, Expr, Name, Unary, names, replaced
 from gudgeon.language.units import DIMENSIONLESS
 
+TIME = "t"
 MOST = 4000  # parts of an expression with all names written out
 DEEPEST = 100  # levels of it
 _BROKEN = Name("t")  # stands for what cannot be read: whoever uses it is not told of it again
@@ -34,9 +35,12 @@ def read_expressions(reader: Reader, root: Map) -> None:
     for name, text in section.pairs():
         with reader.collect():
             _check_name(root, name)
+        if name == TIME:  # it was refused: elsewhere it is the time
+            del reader.expressions[str(name)]
+            continue
         with reader.collect():
             trees[str(name)] = reader.parse(text, f"expressions.{name}")
-    texts = {str(name): text for name, text in section.pairs()}
+    texts = {str(name): text for name, text in section.pairs() if name != TIME}
     places = {name: text.where for name, text in texts.items()}
     order: Iterable[str] = ()
     with reader.collect():

@@ -17,19 +17,20 @@ class Times:
 
     t: Array  # s
     count: NDArray[np.int_]  # (n,) how many each run has
+    skipped: NDArray[np.int_]  # (n,) 1 where the first one, the start, was not requested, and is not a sample
 
     @staticmethod
-    def of_runs(each: Mapping[int, Array], n: int) -> Times:
-        """Of n runs from the times of those that are to begin, at least one."""
-        rows = [each.get(i) for i in range(n)]
-        first = next(iter(each.values()))
-        if all(row is None or row is first or np.array_equal(row, first) for row in rows):
-            return Times(first, np.full(n, len(first)))
-        count = np.array([0 if row is None else len(row) for row in rows])
+    def of_runs(each: Mapping[int, tuple[Array, bool]], n: int) -> Times:
+        """Of n runs from the times of those that are to begin, at least one, and whether these were all requested."""
+        first, all_requested = next(iter(each.values()))
+        skipped = np.array([int(not each.get(i, (first, all_requested))[1]) for i in range(n)])
+        if all(row is first or np.array_equal(row, first) for row, _ in each.values()):
+            return Times(first, np.full(n, len(first)), skipped)
+        count = np.array([len(each[i][0]) if i in each else 0 for i in range(n)])
         t = np.full((n, int(count.max())), np.nan)
-        for i, row in each.items():
+        for i, (row, _) in each.items():
             t[i, : len(row)] = row
-        return Times(t, count)
+        return Times(t, count, skipped)
 
     @property
     def most(self) -> int:
@@ -44,6 +45,23 @@ class Times:
     def of(self, i: int) -> Array:
         """Those of run i, (count[i],)."""
         return self.t[i, : self.count[i]] if self.t.ndim == 2 else self.t
+
+    def requested(self) -> Array:
+        """Return the times of samples, (N',) or (n, N') as `t`."""
+        if self.t.ndim == 1 and (self.skipped == self.skipped[:1]).all():
+            return self.t[self.skipped[:1].sum() :]
+        return self.without_starts(np.broadcast_to(self.t, (len(self.count), self.most)))
+
+    def without_starts(self, rows: Array) -> Array:
+        """Return rows of all runs, (n, N, …), at the requested times, (n, N', …); NaN (whole numbers: 0) after."""
+        if (self.skipped == self.skipped[:1]).all():
+            return rows[:, self.skipped[:1].sum() :]
+        most = int((self.count - self.skipped).max())
+        found = np.full((len(rows), most, *rows.shape[2:]), np.nan if rows.dtype.kind == "f" else 0, rows.dtype)
+        for i, skip in enumerate(self.skipped.tolist()):
+            own = rows[i, skip : skip + most]
+            found[i, : len(own)] = own
+        return found
 
     def ends(self) -> Array:
         """The last of each run, (n,); NaN where a run has none."""

@@ -68,6 +68,7 @@ class Problem:
     p_free: Array | None = None  # p without Baumgarte's terms, for methods that project
     stop: bool = True  # whether events may end the run; else they are recorded only
     remarks: tuple[str, ...] = ()  # on the start, which the run's notes say first
+    start_is_sample: bool = True  # False: t[0] was not requested
     audit: int = 1  # level of the audit (contract/audit.py)
     look: Look | None = None  # is shown the states of all steps
     take: Callable[[], object] = lambda: None  # raises KeyboardInterrupt where Ctrl-C waits (asking.py)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 
 from gudgeon.errors import BadNameError, Location
 from gudgeon.language.tree import FUNCTIONS
@@ -55,11 +56,42 @@ def check_label(name: str, what: str, where: Location | None) -> None:
             hint += f", such as {plain}"
         if "=" in name and IDENTIFIER.fullmatch(plain := name.partition("=")[0].strip()):
             hint = f"a value stands behind a colon: {plain}:{name.partition('=')[2].partition('=')[0].rstrip()}"
+        hint = odd_characters(name) + hint
         raise BadNameError(f"{name[:MAX_LENGTH]!r} cannot name this {what}: it is no identifier", where, hint)
     if len(name) > MAX_LENGTH:
         raise BadNameError(
             f"the name of this {what} has {len(name)} characters", where, f"expected at most {MAX_LENGTH}"
         )
+
+
+def character_text(character: str) -> str:
+    """Return a character as a message shows it: "'$'", "U+00A0 (no-break space)"."""
+    if character.isascii() and character.isprintable():
+        return repr(character)
+    name = unicodedata.name(character, "").lower()
+    shown = f", {character!r}" if character.isprintable() else ""
+    return f"U+{ord(character):04X}" + (f" ({name}{shown})" if name else "")
+
+
+def advice_on(character: str) -> str:
+    """Return what to write in place of a character that looks like another one; "" where that is not known."""
+    kind = unicodedata.category(character)
+    if character.isascii():
+        return ""
+    if kind in ("Zs", "Zl", "Zp"):
+        return "write an ordinary space"
+    if kind in ("Cf", "Cc"):
+        return "remove it: it is not visible"
+    plain = unicodedata.normalize("NFKC", character)
+    if kind == "Pd" or character in "\u2212\ufe63\uff0d":
+        return "write '-'"
+    return f"write {plain!r}" if plain.isascii() and plain.isprintable() and len(plain) == 1 else ""
+
+
+def odd_characters(name: str) -> str:
+    """Return "it contains U+00A0 (no-break space): …; " for a name with characters that look like others, or ""."""
+    odd = next((one for one in name if not one.isascii() and advice_on(one)), "")
+    return f"it contains {character_text(odd)}: {advice_on(odd)}; " if odd else ""
 
 
 class Namespace:

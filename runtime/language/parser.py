@@ -14,7 +14,7 @@ A unit follows a numeric literal after one space or none, `pi` after one (units.
 from __future__ import annotations
 
 from collections.abc import Container, Mapping
-from typing import NoReturn
+from typing import NoReturn, TypeAlias
 
 from gudgeon.errors import ExpressionError, LimitError, Location
 from gudgeon.language.curves import Curve
@@ -24,13 +24,15 @@ from gudgeon.language.tokens import COMPARED, NESTED, Token, Tokenizer, at
 from gudgeon.language.tree import FUNCTIONS, Binary, Call, CurveCall, Expr, Name, Unary
 from gudgeon.language.units import DIMENSIONLESS, unit
 
-__all__ = ["MAX_DEPTH", "MAX_LENGTH", "MAX_NODES", "MAX_WEIGHT", "at", "check_dimension", "parse"]
+__all__ = ["MAX_DEPTH", "MAX_LENGTH", "MAX_NODES", "at", "check_dimension", "parse"]
 
-MAX_LENGTH = 1000  # characters
-MAX_DEPTH = 50  # levels of the tree
-MAX_NODES = 300
-MAX_WEIGHT = 400  # nodes once functions are written out: nested smooth steps grow by powers
+MAX_LENGTH = 50_000  # characters
+MAX_DEPTH = 50  # levels of brackets, calls, powers and signs
+MAX_TREE = 100  # levels of the tree, after long sums and products are balanced
+MAX_NODES = 10_000
+MAX_WRITTEN_OUT = 1000  # nodes more once functions are written out: nested smooth steps grow by powers
 COPIES = {"smooth_step": 3, "mod": 2}  # of its arguments in the formula
+Operand: TypeAlias = tuple[str, int, Expr]  # operator before it, its offset, the operand
 _COMPARISONS = ("<", "<=", ">", ">=")
 _STEP = "smooth_step(t, start, duration) goes from 0 to 1"
 _WRITTEN = {  # what calls look like
@@ -94,15 +96,15 @@ class _Parser:
         weight = 1 + sum(self.weights[id(child)] for child in children) * COPIES.get(getattr(expr, "function", ""), 1)
         self.weights[id(expr)] = weight
         self.kept.append(expr)
-        self.bound(depth, expr.offset)
-        if len(self.kept) > MAX_NODES or weight > MAX_WEIGHT:
-            hint = f"expected at most {MAX_NODES}; smooth steps in each other count by powers of three"
+        self.bound(depth, expr.offset, MAX_TREE)
+        if len(self.kept) > MAX_NODES or weight > len(self.kept) + MAX_WRITTEN_OUT:
+            hint = f"expected at most {MAX_NODES}; smooth steps count six more each, in each other by powers of three"
             raise LimitError("an expression of too many parts", at(self.where, expr.offset), hint)
         return expr
 
-    def bound(self, depth: int, offset: int) -> None:
-        if depth > MAX_DEPTH:
-            hint = f"expected at most {MAX_DEPTH} levels; name a part of it, as a parameter or in expressions:"
+    def bound(self, depth: int, offset: int, most: int = MAX_DEPTH) -> None:
+        if depth > most:
+            hint = f"expected at most {most} levels; name a part of it, as a parameter or in expressions:"
             raise LimitError("an expression nested too deeply", at(self.where, offset), hint)
 
     def sum(self, level: int) -> Expr:
@@ -112,13 +114,33 @@ class _Parser:
         """Left-associative operators: sums of products, products of signed powers."""
         below = self.signed if operators == ("*", "/") else lambda n: self.chain(("*", "/"), n)
         self.bound(level, self.token.offset)
-        left = below(level)
+        first, rest = below(level), list[Operand]()
         while self.token.kind == "operator" and self.token.text in operators:
             operator = self.advance()
             self.refuse_ambiguous_angle(operator)
-            right = below(level)
-            left = self.make(Binary(operator.text, left, right, operator.offset), left, right)
-        return left
+            rest.append((operator.text, operator.offset, below(level)))
+        depth = self.depths[id(first)]
+        for *_, operand in rest:
+            depth = 1 + max(depth, self.depths[id(operand)])
+        if depth <= MAX_DEPTH or len(rest) < 2:
+            return self.joined(first, rest, len(rest))
+        if operators == ("+", "-"):
+            return self.joined(first, rest)
+        above = self.joined(first, [one for one in rest if one[0] == "*"])
+        under = [("*", offset, operand) for operator, offset, operand in rest if operator == "/"]
+        return self.joined(above, [("/", under[0][1], self.joined(under[0][2], under[1:]))]) if under else above
+
+    def joined(self, first: Expr, rest: list[Operand], left: int = 1) -> Expr:
+        """Join the operands: up to `left` operators from left to right, more as a balanced tree of few levels."""
+        if len(rest) <= left:
+            for operator, offset, operand in rest:
+                first = self.make(Binary(operator, first, operand, offset), first, operand)
+            return first
+        half = len(rest) // 2
+        operator, offset, operand = rest[half]
+        opposite = {"+": "-", "-": "+"} if operator == "-" else {}  # a - (b + c) for a - b - c
+        after = [(opposite.get(sign, sign), place, term) for sign, place, term in rest[half + 1 :]]
+        return self.joined(self.joined(first, rest[:half]), [(operator, offset, self.joined(operand, after))])
 
     def refuse_ambiguous_angle(self, operator: Token) -> None:
         """`pi/4 deg` is pi/(4 deg) = 45, and no dimension check can see that it was meant as 45 deg."""

@@ -6,6 +6,7 @@ import difflib
 from collections.abc import Iterable
 
 from gudgeon.errors import Location, UnknownNameError
+from gudgeon.language.names import odd_characters
 
 
 def near(name: str, known: Iterable[str], most: int = 3, cutoff: float = 0.6) -> list[str]:
@@ -30,9 +31,10 @@ def known_hint(name: str, known: Iterable[str], most: int = 12) -> str:
     guess = nearest(name, candidates)
     listed = ", ".join(candidates[:most]) + (", …" if len(candidates) > most else "")
     expected = f"expected one of: {listed}" if candidates else "none is defined"
+    odd = odd_characters(name)
     if candidates == [guess]:
-        return f"did you mean {guess!r}?"
-    return f"did you mean {guess!r}? {expected}" if guess else expected
+        return f"{odd}did you mean {guess!r}?"
+    return f"{odd}did you mean {guess!r}? {expected}" if guess else odd + expected
 
 
 def unknown_name(what: str, name: str, known: Iterable[str], where: Location | None) -> UnknownNameError:

@@ -11,10 +11,10 @@ from fractions import Fraction
 from typing import NoReturn
 
 from gudgeon.errors import ExpressionError, InputError, Location, UnitError
-from gudgeon.language.names import WORDS
+from gudgeon.language.names import WORDS, advice_on, character_text
 from gudgeon.language.suggestions import nearest
 from gudgeon.language.tree import FUNCTIONS, Number
-from gudgeon.language.units import OTHER_WORDS, UNITS, Unit, factors, parse_unit, unit
+from gudgeon.language.units import OTHER_WORDS, UNITS, Unit, factors, parse_unit, symbol_dimension, unit
 from gudgeon.language.wanted import IN_RANGE
 
 _MAX_EXPONENT = 400  # decimal: beyond it no number is finite, and exact fractions grow without bound
@@ -23,6 +23,13 @@ _TOKEN = re.compile(
     r"|(?P<name>[A-Za-z_][A-Za-z0-9_]*(?:\.[A-Za-z_][A-Za-z0-9_]*)*)"
     r"|(?P<operator>\*\*|[<>]=?|[-+*/(),])"
 )
+_HALF = r"-?[0-9]\.5|\(-?[1-9]/2\)"
+_POWER = re.compile(  # the first power in a unit that is not as units.py reads it
+    r"(?:1/)?(?:[A-Za-z\u00b5\u03bc]+(?:\^(?:-?(?:[1-9](?:\.5)?|0\.5)|\(-?[1-9]/2\))(?![\w.])|[\u00b2\u00b3])?"
+    r"(?: *[*/\u00b7\u22c5] *| ))*"
+    r"(?P<symbol>[A-Za-z\u00b5\u03bc]+) *\^ *(?P<power>\([^()]*\)|[-+]? ?[\w.]*)"
+)
+_BRACKETED = re.compile(r"\(([^()]*)\) *\^")
 COMPARED = "two values are compared in where(a < b, then, otherwise) alone, by <, <=, > or >="
 NESTED = "one where has one comparison; a < b and c < d is where(a < b, where(c < d, x, y), y)"
 _EITHER = "one where has one comparison; a < b or c < d is where(a < b, x, where(c < d, x, y))"
@@ -32,7 +39,7 @@ _ADVICE = {
     "%": "a share is written as a number, 90 % as 0.9; a remainder as mod(a, b)",
     "=": COMPARED, "!": COMPARED,
     "[": "there are no subscripts", "]": "there are no subscripts", "'": "there are no strings",
-    '"': "there are no strings", "\t": "write a space, not a tab", "\u2212": "write '-'", "\u00b7": "write '*'",
+    '"': "there are no strings", "\t": "write a space, not a tab", "\u00b7": "write '*'",
     "\u00d7": "write '*'", "\u00b0": "write deg after a space", "{": "there are no braces", ";": "one expression only",
     ":": "there is no ':' in an expression",
     ".": "a name continues with a letter after '.'; .nan and .inf are no numbers here",
@@ -81,7 +88,9 @@ class Tokenizer:
             return Token("end", "", start)
         match = _TOKEN.match(text, start)
         if match is None:
-            self.fail(f"unexpected character {text[start]!r}", start, _ADVICE.get(text[start], ""))
+            character = text[start]
+            hint = _ADVICE.get(character) or advice_on(character)
+            self.fail(f"unexpected character {character_text(character)}", start, hint)
         self.position = match.end()
         kind = str(match.lastgroup)
         if kind == "number" or match[0] == "pi":
@@ -134,6 +143,8 @@ class Tokenizer:
             hint = f"a unit follows its number ({literal} mm), a product is written {literal} * name"
             hint = f"did you mean '{literal} {guess}'? A product is written {literal} * name" if guess else hint
             hint = f"write {literal} {other}" if other else hint
+            if sign := re.match(r"[eE]([^\x00-\x7f])[0-9]", self.text[self.position :]):
+                hint = f"{character_text(sign[1])} is not a sign of an exponent: {advice_on(sign[1])}"
             self.fail(f"{following!r} right behind the number {literal}", self.position, hint)
         _, _, exponent = literal.lower().partition("e")
         if exponent and (len(exponent) > 5 or abs(int(exponent)) > _MAX_EXPONENT):
@@ -144,14 +155,17 @@ class Tokenizer:
         """The unit behind a number, after one space or none, and where it ends."""
         text, end = self.text, self.position
         spaced = text[end : end + 1] == " "
+        self._check_powers(end + spaced)
         if not spaced and not text[end : end + 1].isalpha():
             return None, end
         found = parse_unit(text, end + spaced, self.parameters)
         if found:
             after = found[1]
             if re.match(r" *\*\*", text[after:]):
-                hint = "a power of the unit is m^2; a power of the quantity is (3 m)**2"
-                self.fail(f"a power behind {text[start:after]!r} can mean two things", after, hint)
+                written, power = text[start:after], re.match(r" *\*\* *([2-9]\b(?!\.))?", text[after:])
+                power_text = power[1] if power and power[1] else "2"
+                hint = f"a power of the unit is {written}^{power_text}, of the quantity ({written})**{power_text}"
+                self.fail(f"a power behind {written!r} can mean two things", after, hint)
             self._refuse_doubtful(start, end + spaced, after)
             return found
         spaces = len(text) - end - len(text[end:].lstrip(" "))
@@ -159,6 +173,28 @@ class Tokenizer:
         if word and spaced:
             self._unknown_unit(word[0], end + spaces, spaces)
         return None, end
+
+    def _check_powers(self, begin: int) -> None:
+        """Raise UnitError for a unit in brackets, and for a power of a unit that is not a number in the range."""
+        if (bracketed := _BRACKETED.match(self.text, begin)) and unit(bracketed[1]):
+            hint = "each unit has its own power: m^2/s^2 for (m/s)^2"
+            self.fail(f"brackets around the unit {bracketed[1]}", begin, hint, UnitError)
+        found = _POWER.match(self.text, begin)
+        if not found or not symbol_dimension(found["symbol"]):
+            return
+        symbol, power = found["symbol"], found["power"].replace(" ", "")
+        written = f"{symbol}^{power}"
+        if unit(written) and self.text.startswith(written, found.start("symbol")):
+            return
+        hint = f"expected 1 to 9 or -1 to -9, or a half of these: {symbol}^2, {symbol}^(-1/2)"
+        if unit(written):
+            hint = f"write {written} without spaces"
+        elif unit(power):
+            hint = f"a product of units is written {symbol}*{power}, a power {symbol}^2"
+        elif re.fullmatch(_HALF, power):
+            hint = f"a unit that contains pi has no roots: write rad for {symbol}"
+        told = f"{power!r} is not a power of the unit {symbol}" if power else f"the unit {symbol} has ^ without a power"
+        self.fail(told, found.start("symbol"), hint, UnitError)
 
     def _refuse_doubtful(self, start: int, begin: int, after: int) -> None:
         """Raise ExpressionError for `2m` and `3 N m` where m is a name of the file: m may be meant as a factor."""

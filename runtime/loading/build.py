@@ -24,6 +24,7 @@ from gudgeon.waiting.programs import Programs
 from gudgeon.waiting.working import working
 
 LIBRARY = "kernels.so"
+PRESENT = "gudgeon_prepare"  # a function that every scene's library has
 _libraries: dict[str, Library] = {}
 _lock = Lock()
 
@@ -65,7 +66,7 @@ def compile_kernels(
         try:
             library = _open(entry, source.cdef)
         except ImportError as error:  # whole, and yet it cannot be mapped
-            library = _open_elsewhere(key, entry, source.cdef, build, error)
+            library = _open_elsewhere(key, entry, source.cdef, cache, build, error)
     with _lock:
         return _libraries.setdefault(key, library)
 
@@ -123,29 +124,39 @@ def library_key(
 
 
 def _open(entry: Path, cdef: str) -> Library:
-    return opened(entry / LIBRARY, cdef)
+    found = opened(entry / LIBRARY, cdef)
+    if not cdef and not hasattr(found.lib, PRESENT):
+        raise ImportError(f"{entry / LIBRARY} has no function {PRESENT}")
+    return found
 
 
-def _open_elsewhere(key: str, entry: Path, cdef: str, build: Make, error: ImportError) -> Library:
-    """The library from a temporary folder: a copy, or where that does not load either, built anew. Told."""
-    private = private_cache()
+def _open_elsewhere(key: str, entry: Path, cdef: str, cache: Cache, build: Make, error: ImportError) -> Library:
+    """Open the library built anew, or a copy of it in a temporary folder, with a warning. Raises BuildError."""
+    private, root = private_cache(), entry.parents[1]
+    if not _noexec(root):  # what the compiler wrote may be broken
+        try:
+            entry = cache.fetch("libraries", key, build, renew=True)
+            return _open(entry, cdef)
+        except ImportError as again:
+            error = again
     if not entry.is_relative_to(private.root):
-        root = entry.parents[1]
-        why = "is mounted noexec" if _noexec(root) else f"cannot be loaded from ({error})"
-        copied = f"what is compiled is copied to {private.root} at each start"
-        do = "Set GUDGEON_CACHE to a folder whose programs may be run"
-        tell_once(f"the cache folder {root} {why}: {copied}. {do}.", f"{root}: run")
-        for make, renew in ((lambda folder: _copy(entry, folder), False), (build, True)):
-            try:
-                return _open(private.fetch("libraries", key, make, renew=renew), cdef)
-            except ImportError as again:
-                error = again
-                if _noexec(private.root):
-                    break
-    hint = ""
+        try:
+            found = _open(private.fetch("libraries", key, lambda folder: _copy(entry, folder)), cdef)
+        except ImportError as again:
+            error = again
+        else:
+            why = "is mounted noexec" if _noexec(root) else f"cannot be loaded from ({error})"
+            copied = f"what is compiled is copied to {private.root} at each start"
+            do = "Set GUDGEON_CACHE to a folder whose programs may be run"
+            tell_once(f"the cache folder {root} {why}: {copied}. {do}.", f"{root}: run")
+            return found
+    command = " ".join(compiler.find_compiler())
+    told = f"the compiler {command} ended without an error, and made a library that cannot be loaded: {error}"
+    hint = "set CC to a compiler that makes programs for this machine, as CC=gcc"
     if _noexec(private.root):
-        hint = f"\n  {private.root} is mounted noexec: set GUDGEON_CACHE or TMPDIR to a folder that is not"
-    raise BuildError(f"the compiled library cannot be loaded: {error}{hint}") from error
+        told = f"the compiled library cannot be loaded: {error}"
+        hint = f"{private.root} is mounted noexec: set GUDGEON_CACHE or TMPDIR to a folder that is not"
+    raise BuildError(f"{told}\n  {hint}") from error
 
 
 def _noexec(folder: Path) -> bool:

@@ -53,4 +53,7 @@ def finish(programs: Programs, process: subprocess.Popen[str], made: Path) -> Ex
         return OSError(errno.EFBIG, "the compiler was stopped by a limit on the size of files (ulimit -f)")
     first = "\n  ".join(said.splitlines()[:8]) or "it said nothing"
     line = " ".join(map(str, process.args))  # type: ignore[arg-type]
-    return BuildError(f"the C compiler failed (exit status {process.returncode}):\n  {first}\n  called as {line}")
+    told = f"failed (exit status {process.returncode})"
+    if process.returncode == 0:
+        told = f"ended without an error, and made no {made.name}"
+    return BuildError(f"the C compiler {told}:\n  {first}\n  called as {line}")

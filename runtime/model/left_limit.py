@@ -18,6 +18,7 @@ from gudgeon.model.written import trees
 
 if TYPE_CHECKING:
     from gudgeon.model.compiled import Array, CompiledModel
+    from gudgeon.results.results import Result
 
 SWITCHING = frozenset({"abs", "sign", "min", "max", "smooth_step", "ramp", "where", "mod"})
 JUMP_TOL = 1e-6  # of the values on both sides: a smaller difference is none of a switch
@@ -32,16 +33,28 @@ def may_switch(compiled: CompiledModel) -> bool:
     )  # fmt: skip
 
 
-def evaluation_times(compiled: CompiledModel, t: Array, q: Array, v: Array, p: Array) -> Array:
-    """Return the times (N,) at which the samples of one run are evaluated; the last may be just before t[-1]."""
-    if len(t) < 2 or not compiled.may_switch:
+def evaluation_times(
+    compiled: CompiledModel, t: Array, q: Array, v: Array, p: Array, begin: float = np.inf
+) -> Array:
+    """Return the times (N,) at which the samples of one run are evaluated; the last may be just before t[-1].
+
+    `begin` (s): the start of the run, for a single sample after it.
+    """
+    previous = float(t[-2]) if len(t) > 1 else begin
+    if not len(t) or not previous < t[-1] or not compiled.may_switch:
         return t
     before, after = (float(t[-1] + side * around(t[-1])) for side in (-2.0, 2.0))
     gamma = [compiled.closed_gamma(time, q[-1], v[-1], p) for time in (before, after)]
     nu = [compiled.closed_nu(time, q[-1], p) for time in (before, after)]
     smooth = STEEPEST * float(np.abs(gamma).max(initial=0.0)) * (after - before)
     switches = _jumps(*gamma).any() and not (_jumps(*nu) & (np.abs(nu[1] - nu[0]) > smooth)).any()
-    return np.append(t[:-1], before) if switches and before > t[-2] else t
+    return np.append(t[:-1], before) if switches and before > previous else t
+
+
+def evaluation_times_of(run: Result, compiled: CompiledModel) -> Array:
+    """Return the times (N,) at which the samples of a result are evaluated."""
+    begin = np.inf if run.start_row is None else float(run.start_row.t[0])
+    return evaluation_times(compiled, run.t, run.q, run.v, run.p, begin)
 
 
 def _jumps(one: Array, other: Array) -> NDArray[np.bool_]:

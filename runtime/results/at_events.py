@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gudgeon.errors import GudgeonError
+from gudgeon.results.start_row import with_start
 
 if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Trajectory
@@ -73,8 +74,7 @@ class AtEvents:
 
 def everything(run: Result) -> Result:
     """A result whose samples are the run's start and then its events. Raises GudgeonError where they are not known."""
-    found = run.event_states
-    n = run.q.shape[1]
+    run, found, n = with_start(run), run.event_states, run.q.shape[1]
     if found is None:
         reached = _again(run)
         rows = np.searchsorted(reached.t, run.events["t"])

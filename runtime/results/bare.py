@@ -12,7 +12,7 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
 from gudgeon.model.evaluation import PARTS, Evaluation
-from gudgeon.model.left_limit import evaluation_times
+from gudgeon.model.left_limit import evaluation_times_of
 from gudgeon.results.results import Array, Result
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ class Bare(Result):
         """These parts, the others without a row. Raises SingularError."""
         if self.compiled is None:
             raise GudgeonError("there is no library to evaluate samples with")
-        times = evaluation_times(self.compiled, self.t, self.q, self.v, self.p)
+        times = evaluation_times_of(self, self.compiled)
         return self.compiled.evaluate(times, self.q, self.v, self.memory, self.p, parts=self.parts)
 
 

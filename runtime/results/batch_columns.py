@@ -31,8 +31,8 @@ def long_table(group: str, parts: list[tuple[int, Table]], attributes: dict[str,
 
 
 def beside_owner(name: str) -> str:
-    """An output may be called like the column of runs."""
-    return f"output.{name}" if name == OWNER else name
+    """An output may be called like the column of runs, or like the dimension."""
+    return f"output.{name}" if name in (OWNER, "row") else name
 
 
 def _stored_name(name: str) -> str:

@@ -76,7 +76,7 @@ def tables(batch: Batch) -> Iterator[Table]:
     units = {slot.address: slot.unit for slot in batch.source.slots}
     given = (Variable(name, values, units.get(name, ""), "given") for name, values in batch.parameters.items())
     yield Table(GIVEN, NUMBER, tuple(given), {})
-    for group in ("", *netcdf.PARTS, netcdf.COMPILED):
+    for group in ("", *netcdf.PARTS, netcdf.START, netcdf.COMPILED):
         own = [(i, table) for i, table in parts if table.group == group and table.length]
         source = {"source": batch.source.to_json()} if group == netcdf.COMPILED else {}
         yield long_table(group or netcdf.SERIES, own, source)
@@ -172,7 +172,7 @@ class Whole:
         self.file, self.diagnostics = file, file.texts(f"{RUNS}/diagnostics", count) if told else [""] * count
         self.columns: dict[str, Array] = {}
         self.begins: dict[str, Array] = {}
-        for group in (netcdf.SERIES, *netcdf.PARTS, netcdf.COMPILED, KEPT, TIMES):
+        for group in (netcdf.SERIES, *netcdf.PARTS, netcdf.START, netcdf.COMPILED, KEPT, TIMES):
             owner, always = np.zeros(0, np.int32), group not in (netcdf.COMPILED, TIMES)
             if file.has(group) and (always or file.has(f"{group}/{OWNER}")):
                 owner = file.numbers(f"{group}/{OWNER}", None, "i4")
@@ -190,7 +190,7 @@ class Whole:
 
     def column(self, name: str, dtype: str) -> Array:
         """By "group/name"; the series have no group in the file of one run. Texts for no dtype."""
-        name = name if "/" in name else f"{netcdf.SERIES}/{beside_owner(name)}"
+        name = f"{name.rpartition('/')[0] or netcdf.SERIES}/{beside_owner(name.rpartition('/')[2])}"
         if name not in self.columns:
             rows = int(self.begins[name.rpartition("/")[0]][-1])
             texts = np.array(self.file.texts(name, rows), dtype=object) if not dtype else None

@@ -37,6 +37,7 @@ if TYPE_CHECKING:
 FORMAT = "gudgeon-result/2"
 LONGEST = 200  # characters of the name of an attribute
 SERIES, TRACE, STATES, COMPILED, PEAKS = "series", "trace", "at_events", "compiled", "peaks"
+START = "start_row"  # series at the start of a run, where that is not a sample
 PARTS = ("impacts", "events", STATES, "parameters", TRACE, PEAKS)
 IMPACTS = {
     "joint": ("", "joint with play"),
@@ -52,6 +53,7 @@ EVENTS = {"event": ("", "event of the mechanism's file"), "t": ("s", "time of th
 def tables(run: Result) -> Iterator[Table]:
     """All that a file holds: series over `time` at its root, groups over their own dimensions."""
     yield Table("", "time", tuple(_series(run)), attributes(run))
+    yield Table(START, "time", () if run.start_row is None else tuple(_series(run.start_row)), {})
     joints = [joint.name for joint in run.source.clearances]
     yield Table("impacts", "impact", tuple(records(run.impacts, IMPACTS, joints)), {})
     events = [event.name for event in run.source.events]
@@ -130,7 +132,7 @@ def attributes(run: Result) -> dict[str, str]:
 
 def variable(name: str) -> str:
     """An output may be called like what else stands at the root; no other name can, for they all have a dot."""
-    return f"output.{name}" if name in ("time", *PARTS, COMPILED, GROUP) else name
+    return f"output.{name}" if name in ("time", *PARTS, START, COMPILED, GROUP) else name
 
 
 def dataset(run: Result, part: str = SERIES) -> xarray.Dataset:

@@ -9,7 +9,6 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Callable, Container, Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -23,8 +22,8 @@ from gudgeon.integrators.trajectory import EVENT_DTYPE, IMPACT_DTYPE
 from gudgeon.language.wanted import path as named
 from gudgeon.results.diagnostics import Diagnostics, Extremes
 from gudgeon.results.hdf5_image import is_damaged
-from gudgeon.results.netcdf import COMPILED, FORMAT, STATES, TRACE, at_event, variable
-from gudgeon.results.netcdf_samples import samples_of
+from gudgeon.results.netcdf import COMPILED, FORMAT, START, STATES, TRACE, variable
+from gudgeon.results.netcdf_samples import samples_of, start_row, states_at_events
 from gudgeon.results.provenance import read_provenance
 from gudgeon.results.results import Array, Result
 from gudgeon.results.series import DRIFT, catalogue
@@ -181,8 +180,11 @@ def result_of(file: File, source: KernelSource, names: tuple[str, ...]) -> Resul
         impacts=impacts_of(file, source), diagnostics=diagnostics, events=events_of(file, source), stored=stored,
         trace=_trace(file, source),
     )  # fmt: skip
+    if file.has(START):
+        run.start_row = start_row(file, run)
+        check_times(np.append(run.start_row.t, t[0]))
     if file.has(STATES):
-        run.__dict__["states_at_events"] = _at_events(file, run)
+        run.__dict__["states_at_events"] = states_at_events(file, run)
     _ = run.names, run.parameters, run.constants, run.final  # what these need is there, or it is no result
     check_extremes(diagnostics.extremes, run.names)
     return run
@@ -287,14 +289,3 @@ def _trace(file: File, source: KernelSource) -> Trace | None:
     t = file.numbers(f"{TRACE}/t")
     joints = [[file.numbers(f"{TRACE}/{joint.name}.{name}", len(t)) for name in COLUMNS] for joint in source.clearances]
     return Trace(t, np.moveaxis(np.array(joints).reshape(len(joints), len(COLUMNS), len(t)), 2, 0).copy())
-
-
-def _at_events(file: File, run: Result) -> Result:
-    """The result whose samples are the start of the run and then its events."""
-    stored, count = {}, len(run.events)
-    for name, values in run.stored.items():
-        at = file.numbers(f"{STATES}/{at_event(name)}", count, "i1" if name.endswith(".state") else "f8")
-        stored[name] = np.concatenate([values[:1], at])
-        stored[name].flags.writeable = False
-    t = np.concatenate([run.t[:1], run.events["t"]])
-    return replace(run, t=t, **samples_of(run.source, stored, 1 + count), trace=None, stored=stored)

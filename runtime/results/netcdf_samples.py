@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.model.compiled import Array
+from gudgeon.results.netcdf import START, STATES, at_event, variable
 from gudgeon.results.series import MOTION
+
+if TYPE_CHECKING:
+    from gudgeon.results.netcdf_read import File
+    from gudgeon.results.results import Result
 
 
 def samples_of(source: KernelSource, stored: Mapping[str, Array], length: int) -> dict[str, Any]:
@@ -52,3 +58,24 @@ def _memory_names(source: KernelSource) -> list[str]:
     """The series that hold what the right-hand side remembers."""
     latches = [f"{joint.name}.deltadot_minus" for joint in source.clearances]
     return [*latches, *(f"{f}.mode" for f in source.frictions), *source.states]
+
+
+def states_at_events(file: File, run: Result) -> Result:
+    """The result whose samples are the start of the run and then its events."""
+    stored, count, first = {}, len(run.events), run.start_row or run
+    for name in run.stored:
+        at = file.numbers(f"{STATES}/{at_event(name)}", count, "i1" if name.endswith(".state") else "f8")
+        stored[name] = np.concatenate([first.stored[name][:1], at])
+        stored[name].flags.writeable = False
+    t, rows = np.concatenate([first.t[:1], run.events["t"]]), samples_of(run.source, stored, 1 + count)
+    return replace(run, t=t, **rows, trace=None, stored=stored, start_row=None)
+
+
+def start_row(file: File, run: Result) -> Result:
+    """Return the start of a run whose samples begin later."""
+    t = file.numbers(f"{START}/time", 1)
+    own = {name: (f"{START}/{variable(name)}", values.dtype.str) for name, values in run.stored.items()}
+    stored = {name: file.numbers(at, 1, dtype) for name, (at, dtype) in own.items()}
+    for values in stored.values():
+        values.flags.writeable = False
+    return replace(run, t=t, **samples_of(run.source, stored, 1), trace=None, stored=stored)

@@ -21,7 +21,7 @@ from gudgeon.integrators.trajectory import no_events
 from gudgeon.language.shown import counted
 from gudgeon.language.wanted import text
 from gudgeon.model.choices import said
-from gudgeon.model.left_limit import evaluation_times
+from gudgeon.model.left_limit import evaluation_times_of
 from gudgeon.results.contact_check import Checked
 from gudgeon.results.diagnostics import Diagnostics, Extremes
 from gudgeon.results.shown import Shown
@@ -67,6 +67,7 @@ class Result(Shown, Checked):
     trace: Trace | None = None  # forces and paths from the steps; None: samples are all there is
     stored: dict[str, Array] = field(default_factory=dict, repr=False)  # series computed or read so far
     provenance: dict[str, str] = field(default_factory=dict, repr=False)  # version, platform, compiler, date, mechanism
+    start_row: Result | None = field(default=None, repr=False)  # the start (N = 1), where it was not requested
 
     def __getitem__(self, name: str) -> Array:
         """The series of that name, (N,), in SI, read-only. UnknownNameError names the nearest."""
@@ -194,8 +195,7 @@ class Result(Shown, Checked):
         """Accelerations, multipliers, reactions, torques, forces of joints with play and energies at all samples."""
         if self.compiled is None:
             raise GudgeonError("this result was read from a file that lacks the series; run the scene again")
-        times = evaluation_times(self.compiled, self.t, self.q, self.v, self.p)
-        return self.compiled.evaluate(times, self.q, self.v, self.memory, self.p)
+        return self.compiled.evaluate(evaluation_times_of(self, self.compiled), self.q, self.v, self.memory, self.p)
 
     @property
     def plot(self) -> Plot:
@@ -228,11 +228,11 @@ class Result(Shown, Checked):
         return RunReport(self)
 
     def value_of(self, name: str) -> Any:
-        """What a name in an output's expression stands for: a series, t, or a parameter."""
-        if text(name, "a name of a result") in self:
-            return self[name]
-        if name in self.parameters:
+        """What a name in an output's expression stands for: a parameter (an output may share its name), t, a series."""
+        if text(name, "a name of a result") in self.parameters:
             return self.parameters[name]
+        if name in self:
+            return self[name]
         raise self.unknown(name)
 
     def to_xarray(self, part: str = "series") -> xarray.Dataset:

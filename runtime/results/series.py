@@ -281,16 +281,16 @@ _MOTION_ALONE = (_elements, _drift)
 
 
 def _residual(run: Result) -> Array:
-    energy = run["energy.kinetic"] + run["energy.potential"]
-    return energy - energy[0] - (run["work.drives"] + run["work.forces"] + run["work.clearances"])
+    energy, first = (one["energy.kinetic"] + one["energy.potential"] for one in (run, run.start_row or run))
+    return energy - first[0] - (run["work.drives"] + run["work.forces"] + run["work.clearances"])
 
 
 def _output(source: KernelSource, name: str, tree: Any, known: Mapping[str, Series]) -> Series:
     expression = expression_tree.from_json(tree)
     wanted = {used.path for used in expression_tree.names(expression)}
-    units = {"t": "s"} | {slot.address.removeprefix("parameters."): slot.unit for slot in source.slots}
+    units = {"t": "s"} | {path: known[path].unit for path in wanted if path in known}
+    units |= {slot.address.removeprefix("parameters."): slot.unit for slot in source.slots}
     units |= {slot.address: slot.unit for slot in source.slots}
-    units |= {path: known[path].unit for path in wanted if path in known}
 
     def compute(run: Result) -> Array:
         values = expression_tree.evaluate(expression, run.value_of)

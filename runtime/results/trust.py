@@ -18,6 +18,7 @@ from gudgeon.results.diagnostics import Examined
 from gudgeon.results.film_limits import beyond
 from gudgeon.results.peaks import of_samples
 from gudgeon.results.report import finite
+from gudgeon.results.start_row import with_start
 
 if TYPE_CHECKING:
     from gudgeon.contract.clearance_info import ClearanceInfo
@@ -40,11 +41,11 @@ class RunReport:
 
     @cached_property
     def _found(self) -> dict[str, Any]:
-        run = self.run
+        run = with_start(self.run)
         joints = {joint.name: _joint(run, k, joint) for k, joint in enumerate(run.source.clearances)}
         return {
             "title": run.source.title, "mechanism": run.source.mechanism, "scene": run.source.scene,
-            "t": [float(run.t[0]), float(run.t[-1])], "samples": len(run.t), "method": run.diagnostics.method,
+            "t": [float(run.t[0]), float(run.t[-1])], "samples": len(self.run.t), "method": run.diagnostics.method,
             "joints": joints, "guides": {name: _guide(run, name) for name in run.source.guides},
             "energy": _energy(run), "trust": _trust(run), "laws": laws_of(run.source),
             "warnings": [*run.diagnostics.notes, *_warnings(run, joints)],

@@ -52,17 +52,17 @@ def end_of(source: KernelSource, t_end: float | str | None, p: Array) -> float |
 
 def output_times(
     source: KernelSource, p: Array, t0: float, t_end: float | str | None, output: int | ArrayLike | None
-) -> Array:
-    """Output times (s) of a run with the numbers p, increasing, the first is t0; a copy of those that were given.
+) -> tuple[Array, bool]:
+    """Return the times (s) of a run with the numbers p, a copy, and whether the first one, t0, is a sample too.
 
-    Raises BadValueError.
+    The times increase from the start t0. Raises BadValueError.
     """
     if isinstance(output, (float, np.floating)):
         raise BadValueError(f"output is {told(output)}: expected {OUTPUT}", hint="a list for times: output=[0.5]")
     if output is not None and not isinstance(output, bool) and not is_whole(output):
-        times = _given_times(t0, output)
+        times, requested = _given_times(t0, output)
         _check_both(None if t_end is None else seconds("t_end", t_end), float(times[-1]))
-        return times
+        return times, requested
     end = seconds("t_end", scene_end(source, p) if t_end is None else t_end)
     if not end > t0:
         raise BadValueError(f"t_end is {end:g} s: expected a time after the start at {t0:g} s")
@@ -71,10 +71,10 @@ def output_times(
         raise BadValueError(f"output is {told(intervals)}: expected {OUTPUT}")
     _check_end("t_end is", t0, end, 4 * int(intervals))
     check_memory(2 * 8 * float(intervals), f"the times of {intervals} samples")
-    return np.linspace(t0, end, int(intervals) + 1)
+    return np.linspace(t0, end, int(intervals) + 1), True
 
 
-def _given_times(t0: float, output: ArrayLike) -> Array:
+def _given_times(t0: float, output: ArrayLike) -> tuple[Array, bool]:
     times = taken(output, "output", (None,), finite=True, own=True, most=MOST_OUTPUT)
     if not isinstance(output, np.ndarray) or output.dtype.kind == "b":
         for k, value in enumerate(np.asarray(output, object)[:MOST_TRUTHS]):
@@ -89,7 +89,8 @@ def _given_times(t0: float, output: ArrayLike) -> Array:
     if times[0] < t0:
         raise BadValueError(f"output: times begin at {t0!s} s, got {times[0]!s} s")
     _check_end("output ends", t0, float(times[-1]), 1)
-    return times if times[0] == t0 else np.concatenate([[t0], times])
+    requested = bool(times[0] == t0)
+    return times if requested else np.concatenate([[t0], times]), requested
 
 
 def _check_both(t_end: float | None, last: float) -> None:

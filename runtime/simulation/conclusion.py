@@ -19,6 +19,7 @@ from gudgeon.model.left_limit import evaluation_times
 from gudgeon.model.written import with_odd_outputs
 from gudgeon.results.provenance import provenance_of
 from gudgeon.results.results import Result
+from gudgeon.results.start_row import without_start
 from gudgeon.simulation.audit import audit_samples, failed
 from gudgeon.simulation.diagnose import diagnose, energy_balance, unbalanced
 from gudgeon.waiting.asking import EVERY
@@ -67,9 +68,14 @@ def conclude(
         if not compiled.source.massless and (told := unbalanced(x.t, evaluation.energy, x.work, balance[0])):
             notes = (*result.diagnostics.notes, *told)
             result = replace(result, diagnostics=replace(result.diagnostics, notes=notes))
+        result.__dict__["evaluation"] = evaluation  # a cached property: nobody computes it again
+    result = result if problem.start_is_sample else without_start(result)
+    if evaluation is not None:
+        evaluation = result.evaluation
         result = with_odd_outputs(result, evaluation)
+        result.__dict__.pop("evaluation", None)
         if len(x.t) <= KEPT:
-            result.__dict__["evaluation"] = evaluation  # a cached property: nobody computes it again
+            result.__dict__["evaluation"] = evaluation
     return result
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from gudgeon.language.wanted import whole
 from gudgeon.results.contact_check import ContactCheck, check_samples
+from gudgeon.results.start_row import with_start
 from gudgeon.simulation.examine import as_it_was
 from gudgeon.simulation.simulation import Simulation
 
@@ -23,6 +24,7 @@ STORED = "the run could not be repeated bit for bit: only its stored samples wer
 def check(run: Result, samples: int, progress: Progress | None = None) -> ContactCheck:
     """Check a run at `samples` equal intervals and at its own samples; see Result.check."""
     samples = whole(samples, "samples", FEWEST, MOST)
+    run = with_start(run)
     if not run.source.clearances or len(run.t) < FEWEST:
         return check_samples(run)
     dense = run

@@ -61,23 +61,25 @@ class EachRun:
         source = self.compiled.source
         follows = isinstance(self.t_end, str) and holds_names(spaced(self.t_end)) or bool(source.simulate_written)
         if self.ends is None and self.rows is None and not follows:
-            t = output_times(source, p[0], t0, self.t_end, self.output)
-            return Times(t, np.full(len(p), len(t)))
-        found: dict[int, Array] = {}
-        same: dict[Any, Array] = {}
+            t, requested = output_times(source, p[0], t0, self.t_end, self.output)
+            return Times(t, np.full(len(p), len(t)), np.full(len(p), int(not requested)))
+        found: dict[int, tuple[Array, bool]] = {}
+        same: dict[Any, tuple[Array, bool]] = {}
         for i in range(len(p)):
             own = None if i in left_out else self._of_run(i, p[i], t0, same)
             if own is None:
                 continue
             if len(found) == 1 and own is not next(iter(found.values())):  # a row for each is made of them
-                check_memory(2 * 8 * float(len(p)) * len(own), f"{len(p)} rows of times, {len(own)} each,")
+                check_memory(2 * 8 * float(len(p)) * len(own[0]), f"{len(p)} rows of times, {len(own[0])} each,")
             found[i] = own
         if self.bad and not found:
             raise next(iter(self.bad.values()))
-        return Times.of_runs(found or {0: np.array([t0])}, len(p))
+        return Times.of_runs(found or {0: (np.array([t0]), True)}, len(p))
 
-    def _of_run(self, i: int, p: Array, t0: float, same: dict[Any, Array]) -> Array | None:
-        """Times of run i, an array for all that have `same`; None where they are no numbers."""
+    def _of_run(
+        self, i: int, p: Array, t0: float, same: dict[Any, tuple[Array, bool]]
+    ) -> tuple[Array, bool] | None:
+        """Return what `output_times` does for run i, once for all that have `same`; None where they are no numbers."""
         source = self.compiled.source
         row = self.output if self.rows is None else self.rows[i]
         try:

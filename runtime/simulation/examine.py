@@ -22,6 +22,7 @@ from gudgeon.model.contours import contour_of, depth_at
 from gudgeon.results.diagnostics import Difference, Examined, IdealForce, JointExamined
 from gudgeon.results.report import default_watch
 from gudgeon.results.series import MOTION, rates
+from gudgeon.results.start_row import with_start
 from gudgeon.simulation.horizon import begin_of, check_own, repeated, settings_of
 
 if TYPE_CHECKING:
@@ -47,8 +48,9 @@ def examine(
     """
     check_own(simulation, run, "examine")
     notes: list[str] = []
-    joints = _joints(simulation, run, notes, progress)
-    differences, told = _differences(simulation, run, notes, progress)
+    whole = with_start(run)
+    joints = _joints(simulation, whole, notes, progress)
+    differences, told = _differences(simulation, whole, notes, progress)
     found = Examined(joints, _ideal(run, ideal, notes), differences, told, tuple(notes))
     return replace(run, diagnostics=replace(run.diagnostics, examined=found))
 
@@ -58,7 +60,8 @@ def _again(
     peaks: tuple[str | Rubbing, ...] = (),
 ) -> Iterator[Result]:  # fmt: skip
     """The run at times t: begun as the file says, and begun in its first sample. What ends early is none."""
-    for start in (None, begin_of(run)) if run.t[0] == 0.0 else (begin_of(run),):
+    begin = begin_of(run)
+    for start in (None, begin) if begin.t == 0.0 else (begin,):
         try:
             other = repeated(simulation, t, start, settings, progress, peaks)
         except GudgeonError:  # a start that does not close any more

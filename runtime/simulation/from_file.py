@@ -13,6 +13,7 @@ from gudgeon.loading.behind import is_allowed
 from gudgeon.loading.build import compile_kernels
 from gudgeon.loading.cache import default_cache
 from gudgeon.loading.find import Loading, Overrides, find_mechanism, kernel_source, override_values, read_bytes
+from gudgeon.waiting.ctrl_c import EndingSignals
 from gudgeon.waiting.imports import RUNTIME, whole
 
 if TYPE_CHECKING:
@@ -68,7 +69,7 @@ def load_bytes(
     """`load` of the bytes of a file; `start`: when reading them began (perf_counter)."""
     read = perf_counter()
     start = read if start is None else start
-    with Ahead(portable, quick=quick and is_allowed(default_cache())) as ahead:
+    with EndingSignals(), Ahead(portable, quick=quick and is_allowed(default_cache())) as ahead:
         source, origin = kernel_source(
             data, file, scene, overrides=overrides, formulation=formulation, regenerate=regenerate, ahead=ahead
         )

@@ -60,13 +60,13 @@ def with_horizon(simulation: Simulation, run: Result, progress: Progress | None 
 def horizon(simulation: Simulation, run: Result, progress: Progress | None = None, apart: float = APART) -> float:
     """Time (s) up to which a run agrees with its repetitions; inf: to its end.
 
-    The runs are those of `run.diagnostics.method`, from the run's first sample to its last one. A repetition that
+    The runs are those of `run.diagnostics.method`, from the run's start to its last sample. A repetition that
     ends early (an error) is compared as far as it came. Ctrl-C is passed on. `apart`: see above.
     """
-    t0, t1 = float(run.t[0]), float(run.t[-1])
+    begin, t1 = begin_of(run), float(run.t[-1])
+    t0 = begin.t
     if simulation.source.degrees_of_freedom == 0 or not t1 > t0:
         return math.inf
-    begin = begin_of(run)
     usual, tighter = settings_of(run)
     variants = ((begin, usual), (begin, tighter), (_moved(simulation, run, begin), usual))
     known = t0
@@ -128,8 +128,9 @@ def _agreement(simulation: Simulation, runs: list[Result], limit: float) -> tupl
     paths = [_path(simulation, run)[:count] for run in runs]
     gaps = [np.abs(path - paths[0]).max(axis=1) for path in paths[1:]]
     apart = np.flatnonzero(~(np.maximum(*gaps) <= limit))
-    last = max(int(apart[0]) - 1, 0) if len(apart) else count - 1
-    return float(runs[0].t[last]), bool(len(apart)) or any(len(run.t) > count for run in runs)
+    last = int(apart[0]) - 1 if len(apart) else count - 1
+    agreed = float(runs[0].t[last]) if last >= 0 else begin_of(runs[0]).t
+    return agreed, bool(len(apart)) or any(len(run.t) > count for run in runs)
 
 
 def _path(simulation: Simulation, run: Result) -> Array:
@@ -178,7 +179,8 @@ def _tolerances(simulation: Simulation, run: Result) -> Array:
 
 
 def begin_of(run: Result) -> State:
-    """The run's first sample, to start from."""
+    """The start of a run, as a state to start from."""
+    run = run.start_row or run
     return replace(run.final, t=float(run.t[0]), q=run.q[0], v=run.v[0], state=run.state[0], memory=run.memory[0])
 
 

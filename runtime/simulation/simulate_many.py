@@ -32,6 +32,7 @@ from gudgeon.results.batch import Batch, States, as_failures, given_values
 from gudgeon.results.batch_series import STATES, parts_of, wanted_names
 from gudgeon.results.peaks import peaks_of
 from gudgeon.results.results import Result, State
+from gudgeon.results.start_row import without_start
 from gudgeon.simulation.arguments import method_of
 from gudgeon.simulation.audit import audit_level
 from gudgeon.simulation.beside import check_beside
@@ -88,7 +89,7 @@ def simulate_many(
     options: dict[str, Any] = {"method": method, "rtol": rtol, "stop": stop, "peaks": names, "against": against}
     options["audit"] = audit
     given = [step] * len(p) if each.steps is None else each.steps
-    own = [options | {"output": times.of(i), "step": given[i]} for i in range(len(p))]
+    own = [options | {"output": times.of(i)[times.skipped[i] :], "step": given[i]} for i in range(len(p))]
     return run_singly(simulation, (starts.given, starts.is_given, p), times, own, starts.states, bad, asked)
 
 
@@ -205,6 +206,7 @@ class _Results:
         problem = Problem(
             compiled, x["p"][i], times, *begin, float(x["step"][i]), method=method, rtol=asked.rtol,
             p_free=None if method == "rk4" else x["p_motion"][i], stop=asked.stop, remarks=remarks, audit=asked.audit,
+            start_is_sample=not runs.times.skipped[i],
         )  # fmt: skip
         trajectory, seconds = runs.trajectory(i), float(x["seconds"][i])
         given = (self.starts.given[i], self.starts.is_given[i], seconds)
@@ -233,23 +235,32 @@ class _Results:
 
     def bare(self, i: int, parts: frozenset[str]) -> Bare | None:
         """Run i as ResultOf has it."""
-        return bare_of(self.runs, i, parts)
+        run = bare_of(self.runs, i, parts)
+        return without_start(run) if run and self.runs.times.skipped[i] else run
 
 
 def _of_runs(results: _Results, kept: KeptSeries | None) -> Batch:
     """What C has stored, without a copy."""
-    runs, source = results.runs, results.simulation.source
-    x, n, y, joints = runs.arrays, results.simulation.compiled.n, runs.arrays["y"], len(source.clearances)
-    states = States(y[:, :, :n], y[:, :, n : 2 * n], y[:, :, 2 * n :], x["state"][:, :, :joints])
+    runs, source, times = results.runs, results.simulation.source, results.runs.times
+    x, n, joints = runs.arrays, results.simulation.compiled.n, len(source.clearances)
+    alone = np.flatnonzero((x["done"] == 1) & (times.skipped == 1))  # the start is all that they have
+    for rows in kept.arrays.values() if kept else (x["y"], x["state"]):
+        rows[alone, 1:2] = rows[alone, :1]
+    states = None
     if kept:
         runs.let_go()
+    else:
+        y, state = times.without_starts(x["y"]), times.without_starts(x["state"])
+        states = States(y[:, :, :n], y[:, :, n : 2 * n], y[:, :, 2 * n :], state[:, :, :joints])
     numbers = {**counts_of_runs(x["counts"], x["residuals"]), "seconds": x["seconds"]}
     return Batch(
-        source=source, t=runs.times.t, states=None if kept else states, samples=x["done"], t_last=x["t_last"],
+        source=source, t=times.requested(), states=states, samples=x["done"] - times.skipped * (x["done"] > 1),
+        t_last=x["t_last"],
         parameters=given_values(source, x["p"], results.starts.is_given), impacts=runs.all_impacts(),
         events=runs.all_events(), peaks=peaks_of(x["peaks"][:, :joints], runs.contacts, np.diff(runs.cuts)),
         diagnostics=numbers, failures=as_failures(runs.failures),
-        seconds=math.nan, threads=0, interrupted=runs.interrupted, result=results, kept=kept.arrays if kept else {},
+        seconds=math.nan, threads=0, interrupted=runs.interrupted, result=results,
+        kept={name: times.without_starts(rows) for name, rows in kept.arrays.items()} if kept else {},
         extremes=tuple(told.extremes for told in results.told),
         rubbed=tuple(told.rubbed for told in results.told),
     )  # fmt: skip

@@ -149,8 +149,8 @@ class Simulation(Equations):
     ) -> Result:  # fmt: skip
         """Run the scene from t = 0 (or from `start`, the `final` of another run) to t_end (s).
 
-        `output`: so many equal intervals, both ends included, or times (s), of which the last is t_end: an array of any
-        layout and real type, a list, a column of a table; it is copied. Texts are numbers: '5 ms', t_end '2*pi/omega'.
+        `output`: so many equal intervals, both ends included, or the times (s) of all samples, of which the last is
+        t_end: an array of any layout and real type, a list, a column; copied. Texts are numbers: '5 ms', '2*pi/omega'.
         `method`:
         - "auto": "kinematic" where there is no degree of freedom; "rk4" where a `step` is given; else "adaptive",
           "dop853" while steps are bounded by accuracy and a stiff one while stability would (integrators/adaptive.py);
@@ -186,7 +186,7 @@ class Simulation(Equations):
         begin = None if start is None else own(self.source, start)
         given, is_given, remarks = numbers(self.compiled, begin, parameters, taken_contours(self.source, contour))
         p, t0 = prepare_slots(self.compiled, given, is_given), 0.0 if begin is None else begin.t
-        times = output_times(self.source, p, t0, end_of(self.source, t_end, p), output)
+        times, from_start = output_times(self.source, p, t0, end_of(self.source, t_end, p), output)
         check_room(self.compiled, len(times))
         if self.source.degrees_of_freedom < 0:
             assemble(self.compiled, p)  # names the joints that contradict each other
@@ -204,7 +204,7 @@ class Simulation(Equations):
         remarks += parting(self.compiled, p, t0, q, v, memory)
         problem = Problem(
             self.compiled, p, times, q, v, memory, h, progress, None if begin is None else begin.state,
-            chosen, tolerance, without_baumgarte(self.compiled, given, is_given), stop, remarks, level,
+            chosen, tolerance, without_baumgarte(self.compiled, given, is_given), stop, remarks, from_start, level,
         )  # fmt: skip
         search = search_of(self.compiled, (p, given, is_given), tolerance, names, beside)
         result = self._ran(*up_to_a_jump(problem), given, is_given, search)

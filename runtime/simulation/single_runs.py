@@ -172,8 +172,8 @@ def run_singly(
 ) -> Batch:  # fmt: skip
     """The batch of simulation.simulate(parameters=…, **options) of each run; its values, mask and p (n, ...)."""
     before, (given, is_given, p) = time.perf_counter(), numbers
-    source, N, t0 = simulation.source, times.most, float(np.nanmin(times.t))
-    runs = _Runs(simulation, given, is_given, options, starts, asked.keep, N)
+    source, t, t0 = simulation.source, times.requested(), float(np.nanmin(times.t))
+    runs = _Runs(simulation, given, is_given, options, starts, asked.keep, t.shape[-1])
     runs.errors |= bad
     runs.run(asked.threads, asked.progress, t0)
     tell_of_runs(source, runs.noted)
@@ -183,9 +183,9 @@ def run_singly(
     for i, run in runs.left.items():
         for k, peak in enumerate(run.diagnostics.peaks):
             peaks[i, k] = peak.F, peak.t, peak.e_max
-    states = None if runs.kept else States(*(runs.padded(name, N) for name in ("q", "v", "work", "state")))
+    states = None if runs.kept else States(*(runs.padded(name, t.shape[-1]) for name in ("q", "v", "work", "state")))
     return Batch(
-        source=source, t=times.t, states=states, samples=np.array([0 if run is None else len(run.t) for run in found]),
+        source=source, t=t, states=states, samples=np.array([0 if run is None else len(run.t) for run in found]),
         t_last=np.array([t0 if run is None else run.t[-1] for run in found]),
         parameters=given_values(source, p, is_given), impacts=impacts,
         events=tuple(no_events() if run is None else run.events for run in found),

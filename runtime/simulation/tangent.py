@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.model.compiled import Array
+from gudgeon.results.start_row import with_start
 from gudgeon.simulation.flow import Flow
 from gudgeon.simulation.neighbours import NEAR, Neighbours, flat
 
@@ -139,7 +140,7 @@ class Tangent:
 
     def _changes(self, run: Result) -> list[tuple[float, int, bool, float]]:
         """Onsets and ends of contacts within the run: time, joint, whether it begins, δ̇⁻; by time."""
-        begin, end = float(run.t[0]), float(run.t[-1])
+        begin, end = self.state.t, float(run.t[-1])
         found = []
         for impact in run.impacts:
             joint, deltadot = int(impact["joint"]), float(impact["deltadot"])
@@ -149,7 +150,7 @@ class Tangent:
 
     def _samples(self, times: list[float]) -> dict[float, tuple[Array, Array]]:
         """(q, q̇) and memory at these times."""
-        run = self._run([t for t in times if t > self.state.t])
+        run = with_start(self._run([t for t in times if t > self.state.t]))
         rows = np.searchsorted(run.t, times)
         return {t: (np.concatenate([run.q[k], run.v[k]]), run.memory[k].copy())
                 for t, k in zip(times, rows, strict=True)}  # fmt: skip

@@ -20,7 +20,7 @@ from gudgeon.language.wanted import number_of, positive, refuse, text, told, who
 from gudgeon.results.wear import HOUR, LAWS, POINTS, Rubbed, Rubbing, Surface, Wear, bearing_of, middles, spread
 from gudgeon.simulation.between import Path
 from gudgeon.simulation.examine import as_it_was, known_to_rub, without_oil
-from gudgeon.simulation.horizon import check_own
+from gudgeon.simulation.horizon import begin_of, check_own
 from gudgeon.simulation.wanted_peaks import Told
 
 if TYPE_CHECKING:
@@ -76,7 +76,7 @@ def _asked(run: Result, joint: Any, points: Any, since: Any, until: Any, contact
     check_rubs(run.source, joint)
     if text(contact, "contact") not in CONTACT:
         refuse("contact", contact, " or ".join(CONTACT))
-    first, last = (float(run.t[0]), float(run.t[-1])) if len(run.t) else (0.0, 0.0)
+    first, last = (begin_of(run).t, float(run.t[-1])) if len(run.t) else (0.0, 0.0)
     begin = first if since is None else number_of(since, "since")
     end = last if until is None else number_of(until, "until")
     if not first <= begin < end <= last:

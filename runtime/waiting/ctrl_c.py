@@ -9,6 +9,7 @@ from time import monotonic
 from types import FrameType
 from typing import Any
 
+ENDING = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
 PATIENCE = 1.0  # s after a first Ctrl-C, from which on another one is raised wherever Python is
 
 
@@ -47,3 +48,33 @@ class CtrlC:
         if self.since and self._handler is not None:
             self.since = 0.0
             self._handler(signal.SIGINT, None)
+
+
+class EndingSignals:
+    """While this context is open SIGTERM and SIGHUP interrupt as Ctrl-C does, and end the process when it closes.
+
+    So no compiler and no temporary folder outlives a program that is ended while it loads a scene. A program that
+    handles these signals itself, or Ctrl-C in its own way, is left alone; so is every thread but the first one.
+    """
+
+    def __enter__(self) -> None:
+        self._ended: list[int] = []
+        self._replaced: list[int] = []
+        if threading.current_thread() is not threading.main_thread():
+            return
+        if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+            return
+        for number in ENDING:
+            if signal.getsignal(number) is signal.SIG_DFL:
+                self._replaced.append(number)
+                signal.signal(number, self._interrupt)
+
+    def __exit__(self, *_: object) -> None:
+        for number in self._replaced:
+            signal.signal(number, signal.SIG_DFL)
+        for number in self._ended[:1]:
+            signal.raise_signal(number)
+
+    def _interrupt(self, number: int, _: FrameType | None) -> None:
+        self._ended.append(number)
+        signal.raise_signal(signal.SIGINT)

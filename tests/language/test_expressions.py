@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 
 import numpy as np
@@ -11,7 +12,7 @@ from hypothesis import strategies as st
 
 from gudgeon.errors import ExpressionError, InputError, LimitError, Location, UnitError
 from gudgeon.language.parser import MAX_LENGTH, check_dimension, parse
-from gudgeon.language.tree import FUNCTIONS, Binary, Call, Expr, Name, Number, Unary, evaluate, to_json
+from gudgeon.language.tree import FUNCTIONS, Binary, Call, Expr, Name, Number, Unary, evaluate, from_json, to_json
 from gudgeon.language.units import LENGTH
 
 HERE = Location("file.yaml", 3, 10)
@@ -248,11 +249,11 @@ def test_refused_at_its_column(text: str, kind: type[InputError], offset: int) -
 @pytest.mark.parametrize(
     "text",
     [
-        "1" + "+1" * 5000,
+        "1" + "+1" * 25000,
         "(" * 60 + "1" + ")" * 60,
         "-" * 200 + "1",
         "2**" * 100 + "2",
-        "1" + "+1" * 120,
+        "1" + "+1" * 6000,
         "sin(" * 80 + "1" + ")" * 80,
         "a" * (MAX_LENGTH + 1),
     ],
@@ -268,7 +269,22 @@ def test_wide_expressions_are_bounded_too() -> None:
 
     parse(balanced(6), HERE)
     with pytest.raises(LimitError):
-        parse(balanced(8), HERE)
+        parse(balanced(14), HERE)
+
+
+@pytest.mark.parametrize("count", [2, 50, 51, 52, 1000])
+@pytest.mark.parametrize("signs", ["+", "-", "+-", "*", "/", "*/", "+-*/"])
+def test_depth_is_that_of_nesting(signs: str, count: int) -> None:
+    """Sums and products have any number of terms; up to 50 they are computed from left to right."""
+    draw = np.random.default_rng(count)
+    values = (1.0 + 0.1 * draw.random(count)).round(6)
+    terms = zip(draw.choice([*signs], count - 1), values[1:].tolist(), strict=True)
+    written = str(values[0]) + "".join(f" {sign} {value}" for sign, value in terms)
+    tree = parse(written, HERE)
+    assert number(tree) == pytest.approx(eval(written), rel=1e-12, abs=0.0 if count <= 50 else 1e-12)
+    assert count > 50 or signs == "+-*/" or number(tree) == eval(written)
+    nested = parse(f"where(a < ({written})*2, sin({written}), ({written})**2)", HERE)
+    assert number(from_json(json.loads(json.dumps(to_json(nested))))) == number(nested)
 
 
 @given(trees, st.integers(-3, 3))

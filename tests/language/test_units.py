@@ -10,6 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from gudgeon.errors import InputError, Location
+from gudgeon.language.parser import parse
 from gudgeon.language.units import (
     DIMENSIONLESS,
     LENGTH,
@@ -147,3 +149,45 @@ def test_a_divisor_with_the_wanted_unit_is_told_how_to_write_it() -> None:
     where = Location("f", 1, 1)
     with pytest.raises(UnitError, match=r"write 1 kg\*m\^2 \* …, or \(…\)/12 \* 1 kg\*m\^2"):
         check_dimension(parse("1/12 kg*m^2", where), INERTIA, lambda _: None, where)
+
+
+@pytest.mark.parametrize(
+    ("text", "column", "told"),
+    [
+        ("1 N^m", 3, "'m' is not a power of the unit N"), ("1 mm^1.5/s^x", 10, "'x' is not a power of the unit s"),
+        ("1 m^99", 3, "'99'"), ("1 m^0", 3, "'0'"), ("1 m^(1/3)", 3, "(1/3)"), ("1 m^-", 3, "'-'"),
+        ("1 m^", 3, "without"),
+        ("1 m ^2", 3, "'2'"), ("1 (m/s)^2", 3, "brackets around the unit m/s"),
+        ("1 kg**2", 5, "two things"), ("3 N*m**3", 6, "two things"), ("1 deg^0.5", 3, "'0.5'"), ("2 kg*m^n", 6, "'n'"),
+    ],
+)  # fmt: skip
+def test_a_power_that_is_none_has_a_remedy(text: str, column: int, told: str) -> None:
+    """The message names the place; what its hint proposes is accepted."""
+    with pytest.raises(InputError) as caught:
+        parse(text, Location("f", 1, 1))
+    error, _, hint = str(caught.value).partition("\n")
+    assert caught.value.where == Location("f", 1, column) and told in error
+    proposed = re.findall(r"\([\w *]+\)\*\*\d|\d [\w*]+\^\d|[a-zA-Z]+\^\(-1/2\)|[a-zA-Z]+[*^]\w+", hint)
+    assert proposed or "rad" in hint
+    for one in proposed:
+        parse(one if one[0] in "(0123456789" else f"1 {one}", Location("f", 1, 1))
+
+
+@pytest.mark.parametrize("character", ["\u00a0", "\u2009", "\u202f", "\u3000", "\u200b", "\ufeff"])
+@pytest.mark.parametrize("text", ["2{}mm", "{}2 mm", "2 mm{}", "a{}+ b", "2 N{}m"])
+def test_spaces_that_are_none_are_named(text: str, character: str) -> None:
+    with pytest.raises(InputError, match=f"unexpected character U\\+{ord(character):04X} ") as caught:
+        parse(text.format(character), Location("f", 1, 1))
+    assert caught.value.where == Location("f", 1, 1 + text.index("{"))
+    assert "write an ordinary space" in str(caught.value) or "remove it" in str(caught.value)
+
+
+@pytest.mark.parametrize("sign", ["\u2212", "\u2010", "\u2013", "\uff0d", "\ufe63"])
+@pytest.mark.parametrize("text", ["{}2 mm", "a {} b", "5e{}3 m"])
+def test_signs_that_look_like_a_minus_are_named(text: str, sign: str) -> None:
+    with pytest.raises(InputError, match=f"U\\+{ord(sign):04X} .*(\n  )?.*write '-'"):
+        parse(text.format(sign), Location("f", 1, 1))
+
+
+def test_both_signs_of_micro_are_one() -> None:
+    assert unit("\u00b5m") == unit("\u03bcm") == unit("um")

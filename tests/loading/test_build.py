@@ -8,6 +8,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import warnings
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -349,7 +350,7 @@ def test_no_folder_where_code_may_run_says_what_to_set(cache: Cache, monkeypatch
 
     monkeypatch.setattr(build, "_open", refuse)
     monkeypatch.setattr(build, "_noexec", lambda folder: True)
-    with pytest.warns(RuntimeWarning), pytest.raises(BuildError, match="(?s)failed to map.*TMPDIR"):
+    with pytest.raises(BuildError, match="(?s)failed to map.*TMPDIR"):
         compile_kernels(tiny(13))
 
 
@@ -358,8 +359,24 @@ def test_a_library_that_loads_nowhere_is_a_build_error(cache: Cache, monkeypatch
         raise ImportError("wrong ELF class")
 
     monkeypatch.setattr(build, "_open", refuse)
-    with pytest.warns(RuntimeWarning, match="wrong ELF class"), pytest.raises(BuildError, match="wrong ELF class"):
+    with pytest.raises(BuildError, match="wrong ELF class"):
         compile_kernels(tiny(11))
+
+
+@pytest.mark.parametrize("wrote", ["echo junk > $out", ": > $out", "echo hello >&2"])
+def test_a_compiler_that_writes_junk_is_named(wrote: str, cache: Cache, fake: Callable[..., Path]) -> None:
+    """Not the cache: no warning says so, and a compiler that was mended is asked again."""
+    junk = 'for a; do [ "$last" = -o ] && out=$a; last=$a; done; case "$out" in *.so) ' + f"{wrote}; exit 0;; esac"
+    fake(junk)
+    told = f"(?s)compiler .*{os.environ['CC']} ended without an error.*set CC"
+    told = "made no kernels.so" if "hello" in wrote else told
+    with warnings.catch_warnings(), pytest.raises(BuildError, match=told):
+        warnings.simplefilter("error")
+        compile_kernels(tiny(12))
+    fake()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert compile_kernels(tiny(12)).lib.scale(1.0) == 12.0
 
 
 def test_the_same_source_is_the_same_library(cache: Cache) -> None:

@@ -46,3 +46,22 @@ def test_an_output_that_is_called_run(tmp_path: Path) -> None:
     assert table["run"].tolist() == [0, 0, 0, 1, 1, 1]
     assert table["output.run"].tolist() == batch["run"].ravel().tolist()
     assert batch.to_xarray(["run"])["output.run"].values.tolist() == batch["run"].tolist()
+
+
+def test_an_output_called_like_its_parameter_or_like_a_dimension(tmp_path: Path) -> None:
+    """In an output's expression a parameter wins; files of runs and batches have the output under its name."""
+    file = tmp_path / "m.yaml"
+    file.write_text(
+        "format: gudgeon/1\nname: m\nparameters: {row: 3 m, run: 2 m}\n"
+        "bodies: {bob: {mass: 1 kg, inertia: 0.1 kg*m^2}}\nground: {O: [0, 0]}\n"
+        "joints: {pin: {revolute: [ground.O, bob.origin]}}\nstart: {set: {bob.theta: 0}}\nfreedoms: 1\n"
+        "outputs: {row: 2*row + bob.x, run: run*row, number: row}\n"
+    )
+    simulation = gudgeon.load(file)
+    run = simulation.simulate(output=[0.1, 0.2])
+    batch = simulation.simulate_many({"row": [3.0, 4.0]}, output=[0.1, 0.2])
+    batch.save(tmp_path / "batch.nc")
+    again = gudgeon.Batch.load(tmp_path / "batch.nc")
+    assert run["row"].tolist() == [6.0, 6.0] and run["run"].tolist() == [6.0, 6.0] and run.unit("run") == "m^2"
+    for name, values in (("row", [6.0, 8.0]), ("run", [6.0, 8.0]), ("number", [3.0, 4.0])):
+        assert batch[name][:, 1].tolist() == again[name][:, 1].tolist() == values

@@ -53,7 +53,7 @@ def test_an_end_that_follows_the_numbers_of_each_run(scene: str, options: dict[s
 def test_times_of_each_run_may_be_of_different_numbers() -> None:
     times: list[Any] = [np.linspace(0.0, 0.004, 5), [0.001, 0.002], (0.0, 0.001, 0.006)]
     batch = press().simulate_many({"c": 4e-4}, output=times)
-    assert batch.t.shape == (3, 5) and batch.samples.tolist() == [5, 3, 3]
+    assert batch.t.shape == (3, 5) and batch.samples.tolist() == [5, 2, 3]
     for i, own in enumerate(times):
         run = press().simulate(output=own, parameters={"c": 4e-4})
         assert_same(batch[i], run)
@@ -93,8 +93,8 @@ def test_a_step_for_all_runs_is_that_of_each(method: str) -> None:
 
 
 def test_ends_of_runs() -> None:
-    same = Times(np.array([0.0, 1.0, 2.0]), np.full(2, 3))
-    own = Times.of_runs({1: np.array([0.0, 3.0]), 2: np.array([0.0, 1.0, 4.0])}, 3)
+    same = Times(np.array([0.0, 1.0, 2.0]), np.full(2, 3), np.zeros(2, int))
+    own = Times.of_runs({1: (np.array([0.0, 3.0]), True), 2: (np.array([0.0, 1.0, 4.0]), True)}, 3)
     np.testing.assert_array_equal(same.ends(), [2.0, 2.0])
     np.testing.assert_array_equal(own.ends(), [np.nan, 3.0, 4.0])
 
