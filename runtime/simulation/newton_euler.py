@@ -1,8 +1,8 @@
 """Newton's and Euler's equations of single bodies at samples, with the reported reactions.
 
-For each body on which only joints and gravity act, m a - m g - sum F and J alpha - sum (M + r x F) are computed from
-the description of the scene. Nothing of the derived equations is used but what the run reports: accelerations, reactions,
-contact forces and masses.
+For each body on which only joints and gravity act, m a - m g - sum F and J alpha - sum (M + r x F) are computed
+from the description of the scene. Nothing of the derived equations is used but what the run reports: accelerations,
+reactions, contact forces and masses.
 """
 
 from __future__ import annotations
