@@ -1,6 +1,6 @@
 """Mutants of emitted C and of the engine: does the audit of the run itself report those that change a result?
 
-    python -m tests.audit_mutants [--count 200] [--seed 1] [--jobs 1] [--show]
+    python -m tests.audit_mutants [--count 200] [--seed 1] [--jobs 1] [--show] [--seconds S]
 
 A mutant is one change of one line: a sign, an index, a dropped term, a comparison, a statement left out (its value is
 stale). It is compiled with the rest of the scene as it is and runs in a process of its own, once as users run it and
@@ -9,9 +9,9 @@ result if one kind of value (RESULTS) differs by more than CHANGED of its larges
 what the unchanged scene at the default tolerance differs. So a mutant of the step control that stays within the
 tolerance is no fault.
 
-Printed: how many mutants did not compile, changed nothing (reported or not), crashed or did not end, changed a result
-and were reported, and changed a result and were not. Exit status 1 where less than REQUIRED of those that change a
-result are reported.
+Printed: how many mutants did not compile, changed nothing (reported or not), crashed or did not end without a report,
+changed a result (or crash without the audit) and were reported, and changed a result and were not. Exit status 1 where
+less than REQUIRED of those that change a result are reported.
 """
 
 from __future__ import annotations
@@ -24,8 +24,9 @@ import re
 import shutil
 import subprocess
 import tempfile
+import time
 from collections import Counter, deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -150,18 +151,27 @@ class Scene:
         folder.mkdir()
         mutant(self.simulation, folder)
 
-    def outcome(self, file: str, edit: tuple[str, str]) -> tuple[str, str]:
-        """What becomes of a mutant, and in how far it differs or how it is reported."""
+    def outcome(self, file: str, edit: tuple[str, str], say: Callable[[tuple[str, str]], None]) -> None:
+        """Say what becomes of a mutant, and in how far it differs or how it is reported.
+
+        A report is said at once: what is reported before a result exists may crash, or never end, without the audit.
+        """
         with tempfile.TemporaryDirectory() as folder:
             try:
                 other = mutant(self.simulation, Path(folder), (file, *edit), loops=self.folder / "engine.o")
             except (AssertionError, subprocess.SubprocessError):
-                return "does not compile", ""
+                return say(("does not compile", ""))
+            told = is_reported(other, self.t_end)[0]
+            if told:
+                say(("reported", told))
             try:
                 off = differences(results(other.simulate(self.t_end, output=SAMPLES, audit=False)), self.right)
             except gudgeon.GudgeonError:
                 off = {"no result": math.inf}
-            told, _ = is_reported(other, self.t_end)
+        say(self._judged(off, told))
+
+    def _judged(self, off: dict[str, float], told: str) -> tuple[str, str]:
+        """The outcome of a mutant whose results differ so much, and which the audit reports so."""
         worst = max(off, key=lambda name: off[name] / self.limit.get(name, CHANGED))
         changes = not off[worst] <= self.limit.get(worst, CHANGED)
         if not changes:
@@ -185,33 +195,34 @@ def _begin(scene: Scene, file: str, edit: tuple[str, str]) -> tuple[Any, Any]:
     """A process that finds the outcome, and the connection that it comes by."""
     context = multiprocessing.get_context("fork")
     ours, theirs = context.Pipe(duplex=False)
-    process = context.Process(target=lambda: theirs.send(scene.outcome(file, edit)))
+    process = context.Process(target=lambda: scene.outcome(file, edit, theirs.send))
     process.start()
     theirs.close()
     return process, ours
 
 
 def _outcome(process: Any, connection: Any) -> tuple[str, str]:
-    """What a process finds; it is ended after SECONDS."""
+    """What a process says last; it is ended after SECONDS."""
+    found, end = (CRASHED, ""), time.monotonic() + SECONDS
     try:
-        if connection.poll(SECONDS):
-            found: tuple[str, str] = connection.recv()
-            return found
+        while connection.poll(max(end - time.monotonic(), 0.0)):
+            found = connection.recv()
     except EOFError:
         pass
     finally:
         process.kill()
         process.join()
-    return CRASHED, ""
+    return found
 
 
-def run(count: int, seed: int, jobs: int, show: bool) -> Counter[str]:
-    """Outcomes of so many mutants."""
+def run(count: int, seed: int, jobs: int, show: bool, seconds: float = math.inf) -> Counter[str]:
+    """Outcomes of so many mutants, or of those that so many seconds allow."""
     outcomes, under_way = Counter[str](), deque[Any]()
     with tempfile.TemporaryDirectory() as folder:
         scenes = [Scene(*given, Path(folder) / given[0]) for given in SCENES]
-        draws = _draws(scenes, seed)
-        while sum(outcomes[x] for x in ("reported", "not reported", CRASHED)) < count:
+        draws, begun_at = _draws(scenes, seed), time.monotonic()
+        ended = ("reported", "not reported", CRASHED)
+        while time.monotonic() - begun_at < seconds and sum(outcomes[x] for x in ended) < count:
             while len(under_way) < jobs:
                 draw = next(draws)
                 under_way.append((draw, _begin(*draw)))
@@ -233,8 +244,9 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--show", action="store_true")
+    parser.add_argument("--seconds", type=float, default=math.inf)
     asked = parser.parse_args()
-    outcomes = run(asked.count, asked.seed, asked.jobs, asked.show)
+    outcomes = run(asked.count, asked.seed, asked.jobs, asked.show, asked.seconds)
     print(", ".join(f"{outcome}: {number}" for outcome, number in sorted(outcomes.items())))
     reported, missed = outcomes["reported"], outcomes["not reported"]
     print(f"reported of those that change a result: {reported / max(reported + missed, 1):.3f}")

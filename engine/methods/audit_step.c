@@ -5,12 +5,16 @@
  */
 #define AUDIT_LONGER 8.0 /* times the step before: such a step is always checked */
 #define AUDIT_DIGITS 1e-10 /* of a state: differences below it are rounding */
-#define AUDIT_RATE 1e-2 /* of the largest rate: how far others may be from the right-hand side */
+#define AUDIT_RATE 1e-3 /* of the largest rate: how far others may be from the right-hand side */
 #define AUDIT_CHANGE 0.1 /* of their change over the step: the same */
 #define AUDIT_DRIFT 1e2 /* tolerances that wrong rates may add up to */
 #define AUDIT_DEFECT 1e4 /* tolerances that the dense output may miss the right-hand side by */
-/* steps between two that are drawn, in the mean; halvings that locate a zero; places inside a step */
-enum { AUDIT_MEAN = 128, AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4 };
+#define AUDIT_LONGEST 1.5 /* times the longest step whose error was measured: so is this one's */
+#define AUDIT_SHARE 0.015 /* of the evaluations of a run, that checks of drawn steps may cost */
+#define AUDIT_COST 8.0   /* evaluations that these cost, as a rule */
+#define AUDIT_STEP 5.0 /* tolerances that a step may err by */
+/* halvings that locate a zero; places inside a step; of so many drawn steps the errors of all but one are measured */
+enum { AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4, AUDIT_TURNS = 3 };
 
 /* Whether what a step holds is what its state says: near a switching point, or the end of a contact, it need not be. */
 static int branches_fit(const Run *run, const Aside *aside)
@@ -60,6 +64,49 @@ static void check_rate(Run *run, const Step *step, double t, const double *y, co
         }
         record(&run->audit, RATE_CHECK, off, AUDIT_RATE * most + allowed, t, -1);
     }
+}
+
+/* Nodes and weights of Gauss's quadrature of order 8 over (0, 1). */
+static const double gauss_node[] = {0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970263};
+static const double gauss_weight[] = {0.17392742256872692, 0.32607257743127307, 0.32607257743127307,
+    0.17392742256872692};
+
+/*
+ * The local error of a step, from the integral of the defect of its dense output u,
+ *     e = y(t + h) - y(t) - int f(s, u(s)) ds,
+ * which uses neither the method's error estimate nor its coefficients. In stiff components u itself errs: e is divided
+ * by 1 - h J there. A step over which a force has another branch, or is made elsewhere (lanes), is left out.
+ */
+static void check_length(Run *run, Step *step, const Parameters *p)
+{
+    const int stiff = step->method->stiff;
+    const double h = step->h;
+    double y[N_Y], dy[N_Y], rate[N_Y], sum[N_Y] = {0.0}, error[N_Y], worst = 0.0;
+    Aside aside;
+    for (int k = 0; k < N_SWITCHES; k++)
+        if (step->passed[k])
+            return;
+    if (run->steps == 0 || make_dense(run, p, step))
+        return; /* a start off its constraints is projected by the first step */
+    for (int n = 0; n < COUNT_OF(gauss_node); n++) {
+        interpolate(run, step, gauss_node[n], y);
+        if (rates(run, step->t + gauss_node[n] * h, y, p, dy, &aside) || !branches_fit(run, &aside))
+            return;
+        interpolate_rates(step, gauss_node[n], rate);
+        for (int k = 0; k < N_Y; k++)
+            sum[k] += gauss_weight[n] * (rate[k] - dy[k]);
+    }
+    if (stiff && (run->linear_ready != HERE || newton_factor(h, &run->linear)))
+        return;
+    if (stiff)
+        newton_solve(&run->linear, h, 0.0, sum, error);
+    for (int k = 0; k < 2 * N_X; k++) {
+        const double weight = audit_weight(run, k), rounding = AUDIT_DIGITS * (fabs(step->y[k]) + fabs(h * dy[k]));
+        const double off = fabs(stiff ? error[k] : h * sum[k]) * weight;
+        worst = max_of(worst, off / (AUDIT_STEP + rounding * weight));
+    }
+    run->audit.longest = max_of(run->audit.longest, h);
+    record(&run->audit, STEP_CHECK, worst, 1.0, step->t + h, -1);
 }
 
 /* The end of a step: what it took for the rates there. */
@@ -171,12 +218,14 @@ static void audit_step(Run *run, Step *step, double share, int event, const Para
         return;
     const long evaluations = run->evaluations;
     const int dense_ready = step->dense_ready;
-    const double h = share * step->h;
-    const int is_longer = !step->method->own_length && run->last_step > 0.0 && h > AUDIT_LONGER * run->last_step;
-    const int drawn = run->steps >= audit->due || audit->level == AUDIT_FULL;
-    const int places = audit->level == AUDIT_FULL ? AUDIT_INSIDE : drawn || is_longer;
+    const double h = share * step->h, per_step = (run->evaluations + 1.0) / (run->steps + 1.0);
+    const int all = audit->level == AUDIT_FULL, due = run->steps >= audit->due, whole = share >= 1.0 && event < 0;
+    const int is_longer = (h > AUDIT_LONGER * run->last_step || (whole && h > AUDIT_LONGEST * audit->longest))
+        && !step->method->own_length && (audit->longer + 1) * AUDIT_COST < AUDIT_SHARE * run->evaluations;
+    const int drawn = all || (due && audit->turn == 0), measured = all || is_longer || (due && audit->turn);
+    const int places = all ? AUDIT_INSIDE : drawn || (is_longer && !whole);
     find_zeros(run, step, share, event, p);
-    if (places || event >= 0) {
+    if (places || event >= 0 || measured) {
         const Memory memory = run->memory;
         if (event >= 0 && share < 1.0)
             check_inside(run, step, share, 0, p);
@@ -184,8 +233,13 @@ static void audit_step(Run *run, Step *step, double share, int event, const Para
             check_inside(run, step, share * (k + draw(audit)) / places, drawn, p);
         if (drawn && share >= 1.0)
             check_end(run, step, p);
-        if (drawn)
-            audit->due = run->steps + 1 + (long)(2.0 * AUDIT_MEAN * draw(audit));
+        if (measured && whole && has_tolerance(run))
+            check_length(run, step, p);
+        if (drawn || (due && whole)) {
+            audit->due = run->steps + 1 + (long)(2.0 * draw(audit) * AUDIT_COST / (AUDIT_SHARE * per_step));
+            audit->turn = (audit->turn + 1) % AUDIT_TURNS;
+        }
+        audit->longer += is_longer;
         run->memory = memory;
     }
     run->evaluations = evaluations; /* a check is not integration: what it made is made again, and counted, by others */

@@ -9,16 +9,20 @@
 static void interpolate_rates(const Step *step, double theta, double *dy)
 {
     const Method *method = step->method;
-    for (int i = 0; i < N_Y; i++) {
-        double value = 0.0, slope = 0.0;
-        for (int k = method->degree - 1; k >= 0; k--) {
-            const int turned = method->turned >> k & 1;
-            const double sum = step->dense[k][i] + value, w = turned ? 1.0 - theta : theta;
-            slope = w * slope + (turned ? -sum : sum);
-            value = w * sum;
+    double value[N_Y] = {0.0};
+    for (int i = 0; i < N_Y; i++)
+        dy[i] = 0.0;
+    for (int k = method->degree - 1; k >= 0; k--) {
+        const int turned = method->turned >> k & 1;
+        const double w = turned ? 1.0 - theta : theta, way = turned ? -1.0 : 1.0;
+        for (int i = 0; i < N_Y; i++) {
+            const double sum = step->dense[k][i] + value[i];
+            dy[i] = w * dy[i] + way * sum;
+            value[i] = w * sum;
         }
-        dy[i] = slope / step->h;
     }
+    for (int i = 0; i < N_Y; i++)
+        dy[i] /= step->h;
 }
 
 /*

@@ -36,6 +36,8 @@ static double size_of(const Run *run) { return run->audit.size; }
 static void record(Audit *audit, int check, double value, double limit, double t, int where)
 {
     AuditRecord *known = &audit->record[check];
+    if (value <= known->worst * limit)
+        return;
     const double multiple = value / max_of(limit, 1e-300);
     if (!(multiple > known->worst) && multiple == multiple)
         return;
@@ -193,6 +195,10 @@ static void check_joints(Run *run, double t, const Aside *aside, const Parameter
         const Clearance *joint = &aside->clearance[i];
         if (run->memory.latch[i].closed)
             continue;
+        if (joint->delta <= AUDIT_GRAZE) {
+            record(&run->audit, GAP_CHECK, 0.0, 1.0, t, i);
+            continue;
+        }
         const double located = 4.0 * (run->tick + 8.0 * DBL_EPSILON * fabs(t)) * fabs(joint->deltadot);
         const double least = max_of(AUDIT_GRAZE, 64.0 * DBL_EPSILON * size_of(run));
         const double rounding = max_of(1e-9 * radial_clearance(p, i), least);
@@ -205,10 +211,11 @@ static void check_joints(Run *run, double t, const Aside *aside, const Parameter
 static void check_branches(Run *run, const Step *step, double t, const double *y, const Aside *aside,
     const Parameters *p)
 {
+    if (N_SWITCHES > 0)
+        record(&run->audit, BRANCH_CHECK, 0.0, 1.0, t, -1);
     for (int k = 0; k < N_SWITCHES; k++) {
         const double g = run->memory.side[k] * aside->g[k];
         run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(g));
-        record(&run->audit, BRANCH_CHECK, 0.0, 1.0, t, k);
         if (!step->passed[k] && k != run->skip && !meets[k] && g < 0.0 && run->steps > AUDIT_SETTLED
             && is_resolved(run, t, y, aside, N_CLEARANCES + k, p))
             record(&run->audit, BRANCH_CHECK, -g, 1e-3 * run->audit.switch_scale[k], t, k);

@@ -19,6 +19,7 @@ enum {
     EVENT_CHECK,        /* events that were recorded against the signs of their expressions */
     FORCE_CHECK,        /* forces of films against accelerations of the dense output */
     RATE_CHECK,         /* rates of the dense output, as a share of the largest, whatever the step's length */
+    STEP_CHECK,       /* local errors of steps by the integral of the defect of the dense output */
     N_CHECKS
 };
 
@@ -30,6 +31,9 @@ typedef struct {
 typedef struct {
     int level, status;             /* one of those above; AUDITED once a check failed */
     long due;                      /* number of steps after which a step is checked inside next */
+    int turn;                      /* 0: at a place inside it; else by the error of the whole step */
+    long longer;                   /* steps that were checked since they were much longer than others */
+    double longest;                /* length of the longest step whose error was measured, s */
     double size;                   /* of the mechanism, m */
     unsigned random;               /* state of the generator that draws steps and places in them */
     double phi_start;              /* largest |Phi| at the start */

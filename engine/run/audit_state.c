@@ -38,14 +38,15 @@ static int audit_state(Run *run, int listed, const Parameters *p)
     check_rows(run, run->t, all, 0, p);
 #endif
     check_free(run);
+    if (N_SWITCHES > 0 && run->memory.held)
+        record(audit, BRANCH_CHECK, 0.0, 1.0, run->t, -1);
     for (int k = 0; k < N_SWITCHES && run->memory.held; k++) {
-        const double g = run->memory.side[k] * run->aside.g[k], scale = audit->switch_scale[k];
-        audit->switch_scale[k] = max_of(scale, fabs(g));
-        record(audit, BRANCH_CHECK, 0.0, 1.0, run->t, k);
-        audit->wrong[k] = (unsigned char)(g < -1e-3 * scale && k != run->skip && !meets[k]
-            ? min_of(audit->wrong[k] + 1, 100) : 0);
+        const double g = run->memory.side[k] * run->aside.g[k], scale = max_of(audit->switch_scale[k], fabs(g));
+        const int wrong = g < -1e-3 * audit->switch_scale[k] && k != run->skip && !meets[k];
+        audit->switch_scale[k] = scale;
+        audit->wrong[k] = (unsigned char)(wrong ? min_of(audit->wrong[k] + 1, 100) : 0);
         if (audit->wrong[k] >= AUDIT_WRONG && is_resolved(run, run->t, run->y, &run->aside, N_CLEARANCES + k, p))
-            record(audit, BRANCH_CHECK, -g, 1e-4 * audit->switch_scale[k], run->t, k);
+            record(audit, BRANCH_CHECK, -g, 1e-4 * scale, run->t, k);
     }
     for (int i = 0; i < N_USER_EVENTS; i++)
         check_event(run, i, listed);
@@ -56,7 +57,7 @@ static int audit_state(Run *run, int listed, const Parameters *p)
 /* Switches the audit on, at a level, or off, before a run begins. `size`: of the mechanism, m. */
 void gudgeon_run_audit(void *memory, int level, double size)
 {
-    ((Run *)memory)->audit = (Audit){.level = level, .size = size, .random = 1u, .due = 2};
+    ((Run *)memory)->audit = (Audit){.level = level, .size = size, .random = 1u, .due = 2, .turn = 1};
     for (int k = 0; k < N_CHECKS; k++)
         ((Run *)memory)->audit.record[k] = (AuditRecord){-1.0, 0.0, -1};
 }

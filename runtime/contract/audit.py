@@ -28,10 +28,13 @@ CHECKS = (  # in C, at steps
     Check("event", "recorded events against the signs of their expressions", "event"),
     Check("force", "forces of films against the accelerations of the dense output", "joint"),
     Check("rate", "rates of the dense output against velocities and accelerations, whatever the step's length"),
+    Check("step", "the errors of steps by the integral of the defect of the dense output"),
 )
 SAMPLE_CHECKS = (  # in Python, at samples and at the end (runtime/simulation/audit.py)
+    Check("start", "the first sample against the start that was found"),
     Check("energy", "the energy of the motion against the works of drives, forces and joints with play"),
     Check("power", "reported accelerations, torques and forces against the change of energy"),
+    Check("body", "reported accelerations and forces of joints against the equations of motion of single bodies"),
     Check("torque", "reported drive torques against the power of the drives"),
     Check("sample", "sampled forces of open joints, which are zero", "joint"),
     Check("peak", "the peak of a joint's force against the largest force of its contacts", "joint"),

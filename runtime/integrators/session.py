@@ -130,7 +130,7 @@ class Session:
         p_run, y = self.pointer(self.p), self.pointer(start)
         self.lib.gudgeon_run_start(self.run, p_run, problem.t[0], y, self.pointer(latched))
         self.lib.gudgeon_run_stop(self.run, int(problem.stop))
-        size = float(mechanism_sizes(self.compiled.source, self.p))
+        size = float(mechanism_sizes(self.compiled.source, self.p)) if problem.audit else 1.0
         self.lib.gudgeon_run_audit(self.run, problem.audit, size)
         self.trace = np.empty((trace.ROWS if nc else 0, trace.width(nc)))
         if nc:

@@ -41,9 +41,12 @@ def metric(source: KernelSource, p: Array, mass: Array) -> Array:
 
 def size_places(source: KernelSource) -> list[int]:
     """Indices into p of these coordinates and lengths."""
-    index = [k for point in source.points for k in (point.x, point.y) if k >= 0]
-    lengths = [slot.dimension == _LENGTH and slot.address.startswith("joints.") for slot in source.slots]
-    return index + [k for k, is_length in enumerate(lengths) if is_length]
+    kept: dict[str, list[int]] = source.__dict__  # as a cached property keeps it: each run asks several times
+    if "size_places" not in kept:
+        index = [k for point in source.points for k in (point.x, point.y) if k >= 0]
+        lengths = [slot.dimension == _LENGTH and slot.address.startswith("joints.") for slot in source.slots]
+        kept["size_places"] = index + [k for k, is_length in enumerate(lengths) if is_length]
+    return kept["size_places"]
 
 
 def far_clearances(source: KernelSource, p: Array) -> Array:

@@ -18,9 +18,12 @@ from gudgeon.language.wanted import told
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.model.evaluation import Evaluation
 from gudgeon.model.sizes import mechanism_sizes
+from gudgeon.simulation.newton_euler import newton_euler
 
-SAMPLES = 8  # drawn samples that are checked in C
-LIMITS = {"power": 1e-6, "torque": 1e-6, "rows": 1e-9, "rates": 1e-7}  # of the largest terms, by check
+DRAWN = np.sort(np.random.default_rng(1).random(8))  # where in the run samples lie that are checked in C
+LIMITS = {"power": 1e-6, "torque": 1e-6, "rows": 1e-12, "rates": 1e-7}  # of the largest terms, by check
+BODY = {"body": 1e-9}  # the same of the largest force or moment
+LONG = 2000  # right-hand sides: a run of more is worth the equations of single bodies
 NOT_FINITE = 2.0  # a note: at an instant, as a singular position is one, a motion may have no accelerations
 ENERGY = 1e3  # times rtol and the root of the number of steps, of the energy that was turned over
 LEAST_ENERGY = 1e-6  # the same, at least
@@ -28,6 +31,7 @@ ENOUGH = 20  # samples from which on the energy that was turned over is known
 AT_REST = 1e-9  # of the speed that crosses the mechanism in the time of the run: the energy of less is rounding
 LEAST = 1e-250  # J: works of a motion that hardly leaves zero have no digits
 FORCE = 1e-6  # of a joint's largest force, that an open joint may seem to bear
+START, START_RATES = 1e-9, 1e-6  # of the size, and of the largest speed: how far the first sample is from the start
 PEAK = 1e-2  # of the largest force of its contacts, that the peak of a joint may exceed it by
 
 
@@ -44,16 +48,16 @@ def audit_samples(
     """Return the findings of all checks of samples that apply to the run; none where the audit is switched off."""
     if not problem.audit or not len(x.t):
         return ()
-    source = compiled.source
-    found = [*_contacts(compiled, x, evaluation)]
+    source, size = compiled.source, max(float(mechanism_sizes(compiled.source, problem.p)), 1e-300)
+    found = [*_start(problem, x, size), *_contacts(compiled, x, evaluation)]
     if not source.massless and not source.indeterminate:
-        found += [*_energy(compiled, problem, x, evaluation, balance), *_finite(compiled, x, evaluation)]
+        found += [*_energy(compiled, problem, x, evaluation, balance, size), *_finite(compiled, x, evaluation)]
     left_out = set[str]()
-    if source.massless or source.indeterminate or source.frictions:  # which mode a friction has lies between samples
-        left_out |= {"power", "torque"}
+    if source.massless or source.indeterminate:
+        left_out |= {"power", "torque", "body"}
     if problem.method == "rk4":  # in absolute coordinates rows drift; between steps lies a cubic
         left_out |= {"rows", "rates"} | ({"power"} if source.formulation == "full" else set())
-    return (*found, *(one for one in _balances(compiled, problem, x) if one.check not in left_out))
+    return (*found, *(one for one in _balances(compiled, problem, x, size, evaluation) if one.check not in left_out))
 
 
 def failed(findings: tuple[Finding, ...]) -> bool:
@@ -61,16 +65,29 @@ def failed(findings: tuple[Finding, ...]) -> bool:
     return any(not one.worst <= FAILS for one in findings)
 
 
+def _start(problem: Problem, x: Trajectory, size: float) -> Iterator[Finding]:
+    """The first sample is the start that was found; a state that a run goes on from may lie off its constraints."""
+    if problem.state is not None:
+        return
+    units = np.where(np.arange(len(problem.q)) % 3 == 2, size, 1.0)  # m per unit of a coordinate
+    far, fast = np.abs(problem.q * units).max(), np.abs(problem.v * units).max()
+    off, slower = np.abs((x.q[0] - problem.q) * units).max(), np.abs((x.v[0] - problem.v) * units).max()
+    worst = max(off / (START * (size + far)), slower / max(START_RATES * fast, 1e-300))
+    yield Finding("start", float(worst), float(x.t[0]), "")
+
+
 def _energy(
-    compiled: CompiledModel, problem: Problem, x: Trajectory, evaluation: Evaluation, balance: tuple[float, float]
-) -> Iterator[Finding]:
+    compiled: CompiledModel, problem: Problem, x: Trajectory, evaluation: Evaluation, balance: tuple[float, float],
+    size: float,
+) -> Iterator[Finding]:  # fmt: skip
     """The balance of the whole run; a fixed step has no tolerance to compare it with."""
     residual, turned = balance[0], balance[1] + float(np.abs(evaluation.energy).max(initial=0.0))
     adaptive = math.isinf(problem.step) and problem.method != "kinematic"
-    crossing = float(mechanism_sizes(compiled.source, problem.p)) / max(abs(float(x.t[-1] - x.t[0])), 1e-300)
+    if not adaptive or len(x.t) < ENOUGH or not math.isfinite(residual):
+        return
+    crossing = size / max(abs(float(x.t[-1] - x.t[0])), 1e-300)
     most = 0.5 * float(compiled.mass(problem.p)[::3].sum()) * crossing * crossing
-    least = max(LEAST, AT_REST**2 * most)
-    if not adaptive or len(x.t) < ENOUGH or not (math.isfinite(residual) and turned > least):
+    if not turned > max(LEAST, AT_REST**2 * most):
         return
     share = max(ENERGY * problem.rtol * math.sqrt(x.counts.steps + 1.0), LEAST_ENERGY)
     if not x.v[0].any():  # tolerances of a motion that begins at rest are those of one by its size in the time
@@ -82,6 +99,9 @@ def _finite(compiled: CompiledModel, x: Trajectory, evaluation: Evaluation) -> I
     """What is computed at each sample is finite; forces of rigid contacts are known to a run alone."""
     parts = [evaluation.a, evaluation.multipliers, evaluation.reactions, evaluation.torques, evaluation.power]
     parts += [] if compiled.source.rigid else [evaluation.clearance[:, :, :2]]
+    if all(math.isfinite(part.sum()) for part in parts):
+        yield Finding("finite", 0.0, float(x.t[0]), "")
+        return
     odd = ~np.all([np.isfinite(part.reshape(len(x.t), -1)).all(axis=1) for part in parts], axis=0)
     yield Finding("finite", NOT_FINITE if odd.any() else 0.0, float(x.t[int(odd.argmax())]), "")
 
@@ -104,19 +124,27 @@ def _contacts(compiled: CompiledModel, x: Trajectory, evaluation: Evaluation) ->
             yield Finding("peak", max(over, 0.0), float(x.peaks[k, 1]), joint.name)
 
 
-def _balances(compiled: CompiledModel, problem: Problem, x: Trajectory) -> tuple[Finding, ...]:
-    """Power, drive torques, positions and velocities of all rows at drawn samples, by C's gudgeon_audit_samples."""
+def _balances(
+    compiled: CompiledModel, problem: Problem, x: Trajectory, size: float, evaluation: Evaluation
+) -> tuple[Finding, ...]:
+    """Power, drive torques, positions and velocities of all rows at drawn samples, by C's gudgeon_audit_samples.
+
+    And, in long runs and where audit is "full", the equations of motion of single bodies there.
+    """
     N = len(x.t)
-    at = np.unique(np.random.default_rng(1).integers(0, N, SAMPLES)) if N > SAMPLES else np.arange(N)
+    at = (N * DRAWN).astype(np.intp) if len(DRAWN) < N else np.arange(N)
     at = at[at > 0] if problem.state is not None and N > 1 else at  # a resumed state may lie off its constraints
-    size = max(float(mechanism_sizes(compiled.source, problem.p)), 1e-300)
     memory = x.memory[at] if compiled.n_memory else np.full((len(at), 1), np.nan)
     rows = [np.ascontiguousarray(values) for values in (x.t[at], x.q[at], x.v[at], memory, problem.p)]
     off = np.zeros((len(at), len(LIMITS)))
     given = [compiled.pointer(values) for values in rows]
     compiled.lib.gudgeon_audit_samples(len(at), *given, size, compiled.pointer(off, written=True))
-    worst = np.nan_to_num(off, nan=0.0).argmax(axis=0)
-    shares = zip(LIMITS.items(), worst.tolist(), strict=True)
+    limits = LIMITS
+    if problem.audit > 1 or x.counts.right_hand_sides > LONG:
+        left = newton_euler(compiled, problem.p, x.q, evaluation, at)
+        off, limits = np.column_stack([off, left]), LIMITS | BODY
+    off[~np.isfinite(off)] = 0.0  # those are of another check
+    shares = zip(limits.items(), off.argmax(axis=0).tolist(), strict=True)
     return tuple(
         Finding(check, float(off[k, column]) / limit, float(x.t[at[k]]), "")
         for column, ((check, limit), k) in enumerate(shares)

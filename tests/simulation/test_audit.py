@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.contract.audit import CHECKS
+from gudgeon.contract.audit import CHECKS, FAILS
 from gudgeon.errors import BadValueError
+from gudgeon.loading.engine import ENGINE
 from gudgeon.model.reference import check_reference
 from gudgeon.simulation.simulation import Simulation
 from tests.audit_mutants import mutant
@@ -81,17 +83,27 @@ def test_the_audit_changes_no_number() -> None:
 IN_C = {check.name for check in CHECKS}
 
 
+def test_c_and_python_have_the_same_checks() -> None:
+    """Numbers of checks in engine/run/audit.h, their names here, and the multiple that ends a run."""
+    header, checks = (ENGINE.parent / "engine" / "run" / name for name in ("audit.h", "audit.c"))
+    names = re.findall(r"^    (\w+)_CHECK,", header.read_text(), re.MULTILINE)
+    assert [name.lower() for name in names] == [check.name for check in CHECKS]
+    assert re.findall(r"#define AUDIT_FAILS ([\d.]+)", checks.read_text()) == [str(FAILS)]
+
+
 @pytest.mark.parametrize("name, scene, method, checked", [
     ("nine_bar_press", "dry", "auto",
-     {"defect", "gap", "free", "position", "velocity", "acceleration", "branch"}),
+     {"defect", "gap", "free", "position", "velocity", "acceleration", "branch", "step"}),
     ("nine_bar_press", "lubricated", "auto",
-     {"defect", "gap", "position", "velocity", "acceleration", "branch", "force"}),
-    ("andrews_squeezer", "ideal", "auto", {"defect", "rate", "position", "velocity", "acceleration"}),
+     {"defect", "gap", "position", "velocity", "acceleration", "branch", "force", "step"}),
+    ("andrews_squeezer", "ideal", "auto", {"defect", "rate", "position", "velocity", "acceleration", "step"}),
     ("nine_bar_press", "dry", "rk4", set()),
     ("pendulum", "ideal", "rk4", set()),
 ])  # fmt: skip
 def test_what_was_not_checked_is_not_listed(name: str, scene: str, method: str, checked: set[str]) -> None:
-    run = gudgeon.load(name, scene).simulate(0.03, output=20, method=method, step=1e-5 if method == "rk4" else None)
+    run = gudgeon.load(name, scene).simulate(
+        0.03, output=20, method=method, step=1e-5 if method == "rk4" else None, audit="full"
+    )
     assert {one.check for one in run.diagnostics.audit} & IN_C == checked
 
 
@@ -196,7 +208,7 @@ def test_taylor_whose_steps_are_endless(rtol: float, tmp_path: Path) -> None:
         ("engine/both/taylor.h", "status ? real_of(INFINITY) : taylor_defect(run, step, rate)", "real_of(0.0)"),
     )  # fmt: skip
     found = reported(wrong, 10.0, method="taylor", rtol=rtol)
-    assert "check defect" in found or "check rate" in found or "no step is small enough" in found
+    assert any(x in found for x in ("check defect", "check rate", "check step", "no step is small enough")), found
 
 
 def test_a_dense_output_that_is_wrong(tmp_path: Path) -> None:
@@ -205,7 +217,8 @@ def test_a_dense_output_that_is_wrong(tmp_path: Path) -> None:
     wrong = mutant(press, tmp_path, (
         "engine/methods/radau.c", "r * (d[1][i] + s * (d[2][i]", "r * (1.01 * d[1][i] + s * (d[2][i]",
     ), NO_FILM_ERROR)  # fmt: skip
-    assert "check defect" in reported(wrong, 0.1, audit="full") or "check sample" in reported(wrong, 0.1, audit="full")
+    found = reported(wrong, 0.1, audit="full")
+    assert any(check in found for check in ("check defect", "check step", "check sample")), found
 
 
 def test_a_symbol_of_the_file_in_place_of_another(tmp_path: Path) -> None:

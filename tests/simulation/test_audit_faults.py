@@ -5,6 +5,7 @@ Others are in test_audit.py; tests/audit_mutants.py makes random ones.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ import pytest
 
 import gudgeon
 from gudgeon.model.reference import check_reference
+from gudgeon.simulation.newton_euler import newton_euler
 from tests.audit_mutants import mutant
 from tests.programs import needs_compiler
 from tests.scenes import loader
@@ -161,3 +163,49 @@ def test_a_force_that_is_not_a_number_is_a_note(tmp_path: Path) -> None:
     right = press.simulate(0.05, output=50)
     assert {one.worst for one in right.diagnostics.audit if one.check == "finite"} == {0.0}
     assert np.isfinite(right["A.F"]).all()
+
+
+def test_a_step_control_that_is_too_loose(tmp_path: Path) -> None:
+    """The estimate of order 3 in other units: steps become so long that they err by many tolerances."""
+    right = gudgeon.load("slider_crank", "dry")
+    assert not reported(right, 0.02)
+    edit = ("engine/both/dop853.h", "three = real_max(real_abs(of_3) * by", "three = real_max(real_abs(of_3) + by")
+    assert "check step" in reported(mutant(right, tmp_path, edit), 0.02)
+
+
+@pytest.mark.parametrize("method, edit", [
+    ("rodas5p", ("engine/both/rodas5p.h", "real_abs(step->k[7][i])", "1e-4 * real_abs(step->k[7][i])")),
+    ("dop853", ("engine/both/dop853.h", "five = real_max(real_abs(of_5)", "five = real_max(1e-4 * real_abs(of_5)")),
+])  # fmt: skip
+def test_an_error_estimate_that_is_too_small(method: str, edit: tuple[str, str, str], tmp_path: Path) -> None:
+    right = gudgeon.load("andrews_squeezer")
+    assert not reported(right, 0.03, method=method)
+    assert "check step" in reported(mutant(right, tmp_path, edit), 0.03, method=method)
+
+
+def test_a_start_that_is_changed(tmp_path: Path) -> None:
+    """A rate of the tree is read from another body: the motion is right, and that of another start."""
+    right = gudgeon.load("slider_crank", "dry")
+    broken = mutant(right, tmp_path, ("reduced.c", "rod_omega_ = v[5];", "rod_omega_ = v[6];"))
+    assert "check start" in reported(broken, 0.01)
+
+
+def test_positions_that_are_not_projected(tmp_path: Path) -> None:
+    edit = ("engine/both/project.h", "pass < 3 && N_LOOPS > 0", "pass < 3 && N_LOOPS < 0")
+    broken = mutant(gudgeon.load("slider_crank_spring"), tmp_path, edit)
+    assert "check rows" in reported(broken, 1.0)
+
+
+@pytest.mark.parametrize("part", ["reactions", "a", "clearance"])
+def test_equations_of_single_bodies(part: str) -> None:
+    """Newton's and Euler's equations hold to rounding with what a run reports, and with nothing else."""
+    for name, scene in (("nine_bar_press", "dry"), ("nine_bar_press", "ideal"), ("andrews_squeezer", "ideal")):
+        run = gudgeon.load(name, scene).simulate(0.02, output=20)
+        values, rows = run.evaluation, np.arange(len(run.t))
+        assert newton_euler(run.compiled, run.p, run.q, values, rows).max() < 1e-12
+        changed = np.array(getattr(values, part))
+        if changed.size == 0:
+            continue
+        changed *= 1.01
+        other = newton_euler(run.compiled, run.p, run.q, replace(values, **{part: changed}), rows)
+        assert other.max() > 1e-6
