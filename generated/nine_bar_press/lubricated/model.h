@@ -210,6 +210,7 @@ struct Parameters {
     double weight_L8_across_;  /* weight, N*m */
     double inverse_mass_L8_L8_;  /* 1/M, 1/(kg*m^2) */
     double inverse_mass_L2_L2_;  /* 1/M, 1/(kg*m^2) */
+    double film_mass_;  /* of projections, kg */
 };
 
 /* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */

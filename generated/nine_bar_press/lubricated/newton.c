@@ -1265,6 +1265,7 @@ enum {
 };
 /*
  * The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot, to be subtracted.
+ * M has 1e6 times the mass of all bodies for motions that squeeze a film.
  * `worst`: the largest |Phi|. Returns 0, or the number of the pivot that vanished.
  */
 int closing_step(const double t, const double *q, const double *v, const Memory *memory, const Parameters *p,
@@ -1299,8 +1300,14 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
     const double sin_theta_L3_ = sines_1[0];
     const double span_L6_head_x_ = p->L6_head_span_x_*cos_theta_L6_;
     const double span_L6_head_y_ = p->L6_head_span_x_*sin_theta_L6_;
+    const double span_L7_tail_x_ = p->L7_tail_span_x_*cos_theta_L7_;
+    const double span_L7_tail_y_ = p->L7_tail_span_x_*sin_theta_L7_;
     const double span_L8_head_x_ = p->L8_head_span_x_*cos_theta_L8_;
     const double span_L8_head_y_ = p->L8_head_span_x_*sin_theta_L8_;
+    const double span_L2_tail_x_ = p->L2_tail_span_x_*cos_theta_L2_;
+    const double span_L2_tail_y_ = p->L2_tail_span_x_*sin_theta_L2_;
+    const double span_L3_tail_x_ = p->L3_tail_span_x_*cos_theta_L3_;
+    const double span_L3_tail_y_ = p->L3_tail_span_x_*sin_theta_L3_;
     const double cos_L7_less_L6_ = cos_theta_L6_*cos_theta_L7_ + sin_theta_L6_*sin_theta_L7_;
     const double dot_L6_L7_ = cos_L7_less_L6_*p->inertia_L6_L7_;
     const double cos_L2_less_L6_ = cos_theta_L2_*cos_theta_L6_ + sin_theta_L2_*sin_theta_L6_;
@@ -1321,21 +1328,39 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
     /* L D L^T of the KKT matrix */
     const double l_L6_theta_L8_theta_ = dot_L6_L8_*p->inverse_mass_L8_L8_;
     const double l_guide_offset_L8_theta_ = p->inverse_mass_L8_L8_*span_L8_head_y_;
-    const double l_L7_theta_L2_theta_ = dot_L7_L2_*p->inverse_mass_L2_L2_;
-    const double l_L6_theta_L2_theta_ = dot_L6_L2_*p->inverse_mass_L2_L2_;
-    const double pivot_L7_theta_ = -dot_L7_L2_*l_L7_theta_L2_theta_ + p->mass_L7_L7_;
-    const double determinant_L7_theta_L3_theta_ = -(dot_L7_L3_ * dot_L7_L3_) + p->mass_L3_L3_*pivot_L7_theta_;
+    const double inverse_pivot_L2_theta_ = 1.0/(p->film_mass_*(span_L2_tail_x_ * span_L2_tail_x_)
+        + p->film_mass_*(span_L2_tail_y_ * span_L2_tail_y_) + p->mass_L2_L2_);
+    const double w_L7_theta_L2_theta_ = dot_L7_L2_ + p->film_mass_*span_L2_tail_x_*span_L7_tail_x_
+        + p->film_mass_*span_L2_tail_y_*span_L7_tail_y_;
+    const double l_L7_theta_L2_theta_ = inverse_pivot_L2_theta_*w_L7_theta_L2_theta_;
+    const double w_L6_theta_L2_theta_ = dot_L6_L2_ + p->film_mass_*span_L2_tail_x_*span_L6_head_x_
+        + p->film_mass_*span_L2_tail_y_*span_L6_head_y_;
+    const double l_L6_theta_L2_theta_ = inverse_pivot_L2_theta_*w_L6_theta_L2_theta_;
+    const double pivot_L7_theta_ = 2.0*p->film_mass_*(span_L7_tail_x_ * span_L7_tail_x_)
+        + 2.0*p->film_mass_*(span_L7_tail_y_ * span_L7_tail_y_) - l_L7_theta_L2_theta_*w_L7_theta_L2_theta_
+        + p->mass_L7_L7_;
+    const double pivot_L3_theta_ = p->film_mass_*(span_L3_tail_x_ * span_L3_tail_x_)
+        + p->film_mass_*(span_L3_tail_y_ * span_L3_tail_y_) + p->mass_L3_L3_;
+    const double pivot_L7_theta_L3_theta_ = dot_L7_L3_ + p->film_mass_*span_L3_tail_x_*span_L7_tail_x_
+        + p->film_mass_*span_L3_tail_y_*span_L7_tail_y_;
+    const double determinant_L7_theta_L3_theta_ = pivot_L3_theta_*pivot_L7_theta_
+        - (pivot_L7_theta_L3_theta_ * pivot_L7_theta_L3_theta_);
     const double inverse_L7_theta_L3_theta_ = 1.0/determinant_L7_theta_L3_theta_;
-    const double inverse_pivot_L7_theta_ = inverse_L7_theta_L3_theta_*p->mass_L3_L3_;
+    const double inverse_pivot_L7_theta_ = inverse_L7_theta_L3_theta_*pivot_L3_theta_;
     const double inverse_pivot_L3_theta_ = inverse_L7_theta_L3_theta_*pivot_L7_theta_;
-    const double inverse_cross_L7_theta_L3_theta_ = -dot_L7_L3_*inverse_L7_theta_L3_theta_;
-    const double w_L6_theta_L7_theta_ = dot_L6_L7_ - dot_L7_L2_*l_L6_theta_L2_theta_;
-    const double l_L6_theta_L7_theta_ = dot_L6_L3_*inverse_cross_L7_theta_L3_theta_
+    const double inverse_cross_L7_theta_L3_theta_ = -inverse_L7_theta_L3_theta_*pivot_L7_theta_L3_theta_;
+    const double w_L6_theta_L7_theta_ = dot_L6_L7_ + 2.0*p->film_mass_*span_L6_head_x_*span_L7_tail_x_
+        + 2.0*p->film_mass_*span_L6_head_y_*span_L7_tail_y_ - l_L6_theta_L2_theta_*w_L7_theta_L2_theta_;
+    const double w_L6_theta_L3_theta_ = dot_L6_L3_ + p->film_mass_*span_L3_tail_x_*span_L6_head_x_
+        + p->film_mass_*span_L3_tail_y_*span_L6_head_y_;
+    const double l_L6_theta_L7_theta_ = inverse_cross_L7_theta_L3_theta_*w_L6_theta_L3_theta_
         + inverse_pivot_L7_theta_*w_L6_theta_L7_theta_;
-    const double l_L6_theta_L3_theta_ = dot_L6_L3_*inverse_pivot_L3_theta_
-        + inverse_cross_L7_theta_L3_theta_*w_L6_theta_L7_theta_;
-    const double inverse_pivot_L6_theta_ = 1.0/(-dot_L6_L2_*l_L6_theta_L2_theta_ - dot_L6_L3_*l_L6_theta_L3_theta_
-        - dot_L6_L8_*l_L6_theta_L8_theta_ - l_L6_theta_L7_theta_*w_L6_theta_L7_theta_ + p->mass_L6_L6_);
+    const double l_L6_theta_L3_theta_ = inverse_cross_L7_theta_L3_theta_*w_L6_theta_L7_theta_
+        + inverse_pivot_L3_theta_*w_L6_theta_L3_theta_;
+    const double inverse_pivot_L6_theta_ = 1.0/(-dot_L6_L8_*l_L6_theta_L8_theta_
+        + 2.0*p->film_mass_*(span_L6_head_x_ * span_L6_head_x_) + 2.0*p->film_mass_*(span_L6_head_y_ * span_L6_head_y_)
+        - l_L6_theta_L2_theta_*w_L6_theta_L2_theta_ - l_L6_theta_L3_theta_*w_L6_theta_L3_theta_
+        - l_L6_theta_L7_theta_*w_L6_theta_L7_theta_ + p->mass_L6_L6_);
     const double w_guide_offset_L6_theta_ = -dot_L6_L8_*l_guide_offset_L8_theta_ + span_L6_head_y_;
     const double l_guide_offset_L6_theta_ = inverse_pivot_L6_theta_*w_guide_offset_L6_theta_;
     const double scale_guide_offset_ = l_guide_offset_L6_theta_*w_guide_offset_L6_theta_

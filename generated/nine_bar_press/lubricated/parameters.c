@@ -166,6 +166,9 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->weight_L8_across_ = p->L8_head_span_x_*p->S9_mass_*p->gravity_y_ + p->L8_head_s_x_*p->L8_mass_*p->gravity_y_;
     p->inverse_mass_L8_L8_ = 1.0/p->mass_L8_L8_;  /* 1/M */
     p->inverse_mass_L2_L2_ = 1.0/p->mass_L2_L2_;  /* 1/M */
+    /* of projections */
+    p->film_mass_ = 1000000.0*p->L1_mass_ + 1000000.0*p->L2_mass_ + 1000000.0*p->L3_mass_ + 1000000.0*p->L4_mass_
+        + 1000000.0*p->L6_mass_ + 1000000.0*p->L7_mass_ + 1000000.0*p->L8_mass_ + 1000000.0*p->S9_mass_;
 }
 
 /* Radial clearance of joint i with play, m. */
