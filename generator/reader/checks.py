@@ -18,6 +18,10 @@ EXPRESSIONS = "expressions."  # how the addresses of expressions by name begin
 FINITE = (
     "expected finite numbers: is there a division by zero, a root of a negative number, or a curve beyond its ends?"
 )
+MASSLESS = (
+    ", for the equations divide by it; a massless rod with a load is one body: the load's mass, com: where the load is,"
+    " inertia: 0"
+)
 
 
 def check_values(reader: Reader, parameters: Mapping[str, Quantity], scenes: Mapping[str, SceneSpec]) -> None:
@@ -67,7 +71,8 @@ def _check_with(
             unit = si_unit(reader.quantities[condition.address].dimension)
             found, hint = broken
             message = f"is {found} {unit}".rstrip() + f"{context}: {condition.message}"
-            complain(condition.address, message, f"{hint} {unit}".rstrip())
+            is_massless = condition.address.endswith(".mass") and values[condition.address] == 0.0
+            complain(condition.address, message, f"{hint} {unit}".rstrip() + MASSLESS * is_massless)
     for vector in reader.vectors_not_zero:
         if all(values.get(component.address) == 0.0 for component in vector):
             complain(vector[0].address, f"and .y are both 0{context}", "expected a direction, such as [1, 0]")

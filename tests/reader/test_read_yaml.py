@@ -288,3 +288,16 @@ def test_empty_sections_are_no_sections() -> None:
 
 def test_dimension_of_angles_is_none(press: Mechanism) -> None:
     assert press.drives["crank1"].value.dimension == DIMENSIONLESS
+
+
+def test_a_massless_body_is_refused_with_what_to_write() -> None:
+    text = """format: gudgeon/1
+name: m
+bodies: {rod: {length: 1 m, MASS, inertia: 0}}
+ground: {O: [0, 0]}
+joints: {pin: {revolute: [ground.O, rod.tail]}}
+"""
+    told = r"(?s)m.yaml:3:35: .*a mass is positive\n.*equations divide.*com:.*inertia: 0"
+    with pytest.raises(BadValueError, match=told):
+        read_mechanism(text.replace("MASS", "mass: 0 kg").encode(), "m.yaml")
+    read_mechanism(text.replace("MASS", "mass: 2 kg, com: [1 m, 0]").encode(), "m.yaml")
