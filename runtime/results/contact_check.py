@@ -2,7 +2,8 @@
 
 The penetration of every joint with play is computed in NumPy from positions of the bodies alone, at the samples of a
 run. Nothing of the engine that locates contacts is used. A joint must not penetrate outside a contact of
-`run.impacts`, must not carry a force there, and no peak may exceed the largest force of the listed contacts.
+`run.impacts`, must not carry a force there, a rigid contact must not pull, and no peak may exceed the largest force of
+the listed contacts.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 
 DEPTH_TOL = 1e-9  # of the clearance, that a penetration outside a contact is rounding
 TIME_TOL = 1e-11  # of the span of a run, by which a sample may miss the end of a contact
+PULL_TOL = 1e-6  # of the largest force, by which a rigid contact may seem to pull
 PEAK_TOL = 1e-3  # relative, by which a peak may exceed the largest force of the contacts
 PEAK_TOL_FIXED = 0.1  # the same of rk4, whose contacts have the largest force at the ends of steps alone
 
@@ -34,7 +36,8 @@ PEAK_TOL_FIXED = 0.1  # the same of rk4, whose contacts have the largest force a
 class Fault:
     """What contradicts the contacts of a run, in one joint over neighbouring samples.
 
-    kind: "penetration" or "force" outside every listed contact, "peak" above the largest force of the contacts.
+    kind: "penetration" or "force" outside every listed contact, "pull" of a rigid contact, "peak" above the largest
+    force of the contacts.
     """
 
     kind: str
@@ -49,6 +52,8 @@ class Fault:
             return f"joint {self.joint} penetrates {self.depth:.3g} m outside every listed contact {where}"
         if self.kind == "force":
             return f"joint {self.joint} carries {self.force:.4g} N outside every listed contact {where}"
+        if self.kind == "pull":
+            return f"joint {self.joint} pulls with {self.force:.4g} N, which a rigid contact cannot, {where}"
         return f"joint {self.joint} has a peak of {self.force:.4g} N above every listed contact {where}"
 
 
@@ -108,6 +113,10 @@ def check_samples(run: Result, peaks: Result | None = None) -> ContactCheck:
         limit = DEPTH_TOL * float(run.p[joint.clearance])
         found += _excursions(run, joint, "penetration", free & (delta[:, k] > limit), delta[:, k], force)
         found += _excursions(run, joint, "force", free & (delta[:, k] <= limit) & (force > 0.0), delta[:, k], force)
+        if joint.name in run.source.rigid and run.compiled is not None:
+            pull = sum(run[f"{joint.name}.F{axis}"] * run[f"{joint.name}.e{axis}"] for axis in "xy")
+            wrong = ~free & (pull > PULL_TOL * float(np.abs(pull).max(initial=0.0)))
+            found += _excursions(run, joint, "pull", wrong, delta[:, k], force)
         found += _peaks(peaks or run, k, joint)
     return ContactCheck(len(run.t), tuple(sorted(found, key=lambda one: one.t)))
 
@@ -137,9 +146,11 @@ def _excursions(
 
 def _peaks(run: Result, k: int, joint: ClearanceInfo) -> Iterator[Fault]:
     """A peak over all steps that no listed contact has; joints with a film have forces outside contacts."""
-    if joint.film or joint.name in run.source.rigid or joint.joint in run.source.rigid:
+    if joint.film or (joint.at_wall and joint.joint in run.source.rigid):
         return
     own = run.impacts[run.impacts["joint"] == k]
+    if joint.name in run.source.rigid:  # those without a duration have impulses
+        own = own[own["t_off"] != own["t_on"]]
     largest = float(own["F_peak"].max(initial=0.0))
     extremes = [one for one in run.diagnostics.extremes if one.name == f"{joint.name}.F" and not one.against]
     peaks = [(one.max, one.t_max) for one in extremes]

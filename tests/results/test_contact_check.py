@@ -11,6 +11,7 @@ import pytest
 import gudgeon
 from gudgeon.errors import BadValueError, SolverError
 from gudgeon.results.contact_check import check_samples, penetrations
+from tests.integrators.test_forces_within_steps import JOURNAL, MASS, G
 from tests.random_contacts import text_of
 
 
@@ -62,3 +63,16 @@ def test_a_run_that_was_loaded_is_checked_at_its_samples(run: gudgeon.Result, tm
 def test_another_number_of_samples_is_refused(run: gudgeon.Result, samples: object) -> None:
     with pytest.raises(BadValueError, match="samples"):
         run.check(samples)  # type: ignore[arg-type]
+
+
+def test_a_rigid_contact_that_pulls_and_a_peak_that_is_not_listed_are_reported(tmp_path: Path) -> None:
+    path = tmp_path / "journal.yaml"
+    path.write_text(JOURNAL)
+    given = {"A": 0.9 * MASS * G, "w": 20.0, "y0": -2e-4}
+    run = gudgeon.load(path, "rigid").simulate(0.4, parameters=given, output=400, peaks=["pin.F"])
+    assert check_samples(run)
+    impacts = run.impacts.copy()
+    impacts["F_peak"] /= 2.0
+    assert {one.kind for one in check_samples(replace(run, impacts=impacts)).faults} == {"peak"}
+    pulled = replace(run, stored={"pin.Fy": -run["pin.Fy"]})
+    assert {one.kind for one in check_samples(pulled).faults} == {"pull"}
