@@ -201,7 +201,7 @@ def _column(name: str, values: Any) -> Column:
         raise BadValueError(f"{name} has shape {shape}, expected one value for every run")
     if isinstance(values, np.ndarray):
         return taken(values, name) if values.dtype.kind in "iuf" else list[Any](values.tolist())
-    return list(values)
+    return list(values) if hasattr(values, "__iter__") else _column(name, np.asarray(values))  # by __array__ alone
 
 
 def prepare_sets(

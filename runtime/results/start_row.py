@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -37,7 +37,7 @@ def with_start(run: Run) -> Run:
     first = run.start_row
     if first is None:
         return run
-    rows = {name: _joined(getattr(first, name), getattr(run, name)) for name in ROWS}
+    rows: dict[str, Any] = {name: _joined(getattr(first, name), getattr(run, name)) for name in ROWS}
     both = run.stored.keys() & first.stored.keys()
     stored = {name: np.concatenate([first.stored[name], run.stored[name]]) for name in both}
     return replace(run, **rows, stored=stored, start_row=None)
@@ -50,8 +50,9 @@ def _joined(*parts: Array | None) -> Array | None:
 
 def _rows(run: Run, take: Callable[[Array], Array]) -> Run:
     """Return a run with the samples that `take` selects, and what was evaluated of them so far."""
-    arrays = {name: getattr(run, name) for name in ROWS}
-    found = replace(run, **{name: None if x is None else take(x) for name, x in arrays.items()}, stored={})
+    arrays = ((name, getattr(run, name)) for name in ROWS)
+    rows: dict[str, Any] = {name: None if x is None else take(x) for name, x in arrays}
+    found = replace(run, **rows, stored={})
     if (known := run.__dict__.get("evaluation")) is not None:
         found.__dict__["evaluation"] = Evaluation(*(take(part) for part in vars(known).values()))
     return found

@@ -162,3 +162,14 @@ def test_horizon_and_report_count_from_the_start() -> None:
     assert horizon(simulation, run) == horizon(simulation, whole)
     reports = [one.report().to_dict()["joints"]["A"] for one in (run, whole)]
     assert reports[0] == reports[1]
+
+
+def test_an_object_that_is_an_array_alone_is_one() -> None:
+    class Alone:
+        def __array__(self, dtype: Any = None, copy: Any = None) -> Any:
+            return np.array([0.1, 0.2])
+
+    simulation, given = scene("slider_crank", "ideal"), [0.1, 0.2]
+    assert simulation.simulate(output=Alone()).t.tolist() == given
+    ends = simulation.simulate_many([{}, {}], Alone(), output=2)
+    assert ends.t_last.tolist() == given
