@@ -10,11 +10,14 @@
 #define AUDIT_DRIFT 1e2 /* tolerances that wrong rates may add up to */
 #define AUDIT_DEFECT 1e4 /* tolerances that the dense output may miss the right-hand side by */
 #define AUDIT_LONGEST 1.5 /* times the longest step whose error was measured: so is this one's */
-#define AUDIT_SHARE 0.015 /* of the evaluations of a run, that checks of drawn steps may cost */
+#define AUDIT_FIRST 0.25 /* of the interval between drawn steps: the first one */
+#define AUDIT_SHARE 0.012 /* of the evaluations of a run, that checks of drawn steps may cost */
 #define AUDIT_COST 8.0   /* evaluations that these cost, as a rule */
+#define AUDIT_ITERATIONS 4.0 /* evaluations of a stage that is found by iterations, and */
+#define AUDIT_LEAST_STAGES 8.0 /* of a step, at least */
 #define AUDIT_STEP 5.0 /* tolerances that a step may err by */
-/* halvings that locate a zero; places inside a step; of so many drawn steps the errors of all but one are measured */
-enum { AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4, AUDIT_TURNS = 3 };
+/* halvings that locate a zero; places inside a step */
+enum { AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4 };
 
 /* Whether what a step holds is what its state says: near a switching point, or the end of a contact, it need not be. */
 static int branches_fit(const Run *run, const Aside *aside)
@@ -96,7 +99,7 @@ static void check_length(Run *run, Step *step, const Parameters *p)
         for (int k = 0; k < N_Y; k++)
             sum[k] += gauss_weight[n] * (rate[k] - dy[k]);
     }
-    if (stiff && (run->linear_ready != HERE || newton_factor(h, &run->linear)))
+    if (stiff && make_linear(run, h, p))
         return;
     if (stiff)
         newton_solve(&run->linear, h, 0.0, sum, error);
@@ -208,6 +211,16 @@ static void find_zeros(Run *run, Step *step, double share, int event, const Para
 }
 
 /*
+ * Steps between two that are drawn, in the mean, so that their checks cost no more than a share of the evaluations. It
+ * depends on the method alone: a run in a batch is checked where it is checked alone.
+ */
+static double mean_interval(const Method *method)
+{
+    const double evaluations = method->stages * (method->stiff > BY_RODAS5P ? AUDIT_ITERATIONS : 1.0);
+    return AUDIT_COST / (AUDIT_SHARE * max_of(evaluations, AUDIT_LEAST_STAGES));
+}
+
+/*
  * The inside of a step that is accepted up to `share`, before it is taken. An event's state is known: it is checked
  * without another right-hand side.
  */
@@ -218,11 +231,12 @@ static void audit_step(Run *run, Step *step, double share, int event, const Para
         return;
     const long evaluations = run->evaluations;
     const int dense_ready = step->dense_ready;
-    const double h = share * step->h, per_step = (run->evaluations + 1.0) / (run->steps + 1.0);
+    const double h = share * step->h, mean = mean_interval(step->method);
     const int all = audit->level == AUDIT_FULL, due = run->steps >= audit->due, whole = share >= 1.0 && event < 0;
     const int is_longer = (h > AUDIT_LONGER * run->last_step || (whole && h > AUDIT_LONGEST * audit->longest))
-        && !step->method->own_length && (audit->longer + 1) * AUDIT_COST < AUDIT_SHARE * run->evaluations;
-    const int drawn = all || (due && audit->turn == 0), measured = all || is_longer || (due && audit->turn);
+        && !step->method->own_length && (audit->longer + 1) * mean < run->steps;
+    const int by_turn = audit->turns % 2;
+    const int drawn = all || (due && !by_turn), measured = all || is_longer || (due && by_turn);
     const int places = all ? AUDIT_INSIDE : drawn || (is_longer && !whole);
     find_zeros(run, step, share, event, p);
     if (places || event >= 0 || measured) {
@@ -236,8 +250,8 @@ static void audit_step(Run *run, Step *step, double share, int event, const Para
         if (measured && whole && has_tolerance(run))
             check_length(run, step, p);
         if (drawn || (due && whole)) {
-            audit->due = run->steps + 1 + (long)(2.0 * draw(audit) * AUDIT_COST / (AUDIT_SHARE * per_step));
-            audit->turn = (audit->turn + 1) % AUDIT_TURNS;
+            const double first = audit->turns++ ? 1.0 : AUDIT_FIRST;
+            audit->due = run->steps + 1 + (long)(2.0 * draw(audit) * first * mean);
         }
         audit->longer += is_longer;
         run->memory = memory;

@@ -216,9 +216,13 @@ static void check_branches(Run *run, const Step *step, double t, const double *y
     for (int k = 0; k < N_SWITCHES; k++) {
         const double g = run->memory.side[k] * aside->g[k];
         run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(g));
-        if (!step->passed[k] && k != run->skip && !meets[k] && g < 0.0 && run->steps > AUDIT_SETTLED
-            && is_resolved(run, t, y, aside, N_CLEARANCES + k, p))
-            record(&run->audit, BRANCH_CHECK, -g, 1e-3 * run->audit.switch_scale[k], t, k);
+        if (step->passed[k] || k == run->skip || meets[k] || !(g < 0.0) || run->steps <= AUDIT_SETTLED
+            || !is_resolved(run, t, y, aside, N_CLEARANCES + k, p))
+            continue;
+        const Seen seen = seen_of(step, N_CLEARANCES + k);
+        for (int n = 0; n < step->n_seen; n++) /* where each step ends at a zero, its magnitude is seen inside alone */
+            run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(seen_at(seen, n)));
+        record(&run->audit, BRANCH_CHECK, -g, 1e-3 * run->audit.switch_scale[k], t, k);
     }
 }
 

@@ -57,7 +57,7 @@ static int audit_state(Run *run, int listed, const Parameters *p)
 /* Switches the audit on, at a level, or off, before a run begins. `size`: of the mechanism, m. */
 void gudgeon_run_audit(void *memory, int level, double size)
 {
-    ((Run *)memory)->audit = (Audit){.level = level, .size = size, .random = 1u, .due = 2, .turn = 1};
+    ((Run *)memory)->audit = (Audit){.level = level, .size = size, .random = 1u, .due = 2};
     for (int k = 0; k < N_CHECKS; k++)
         ((Run *)memory)->audit.record[k] = (AuditRecord){-1.0, 0.0, -1};
 }

@@ -54,7 +54,9 @@ def audit_samples(
         found += [*_energy(compiled, problem, x, evaluation, balance, size), *_finite(compiled, x, evaluation)]
     left_out = set[str]()
     if source.massless or source.indeterminate:
-        left_out |= {"power", "torque", "body"}
+        left_out.add("body")
+    if source.massless or source.indeterminate or source.frictions:  # which mode a friction has lies between samples
+        left_out |= {"power", "torque"}
     if problem.method == "rk4":  # in absolute coordinates rows drift; between steps lies a cubic
         left_out |= {"rows", "rates"} | ({"power"} if source.formulation == "full" else set())
     return (*found, *(one for one in _balances(compiled, problem, x, size, evaluation) if one.check not in left_out))
@@ -66,8 +68,11 @@ def failed(findings: tuple[Finding, ...]) -> bool:
 
 
 def _start(problem: Problem, x: Trajectory, size: float) -> Iterator[Finding]:
-    """The first sample is the start that was found; a state that a run goes on from may lie off its constraints."""
-    if problem.state is not None:
+    """The first sample is the start that was found.
+
+    A state that a run goes on from may lie off its constraints; rigid contacts that are closed change the start.
+    """
+    if problem.state is not None or problem.compiled.source.rigid:
         return
     units = np.where(np.arange(len(problem.q)) % 3 == 2, size, 1.0)  # m per unit of a coordinate
     far, fast = np.abs(problem.q * units).max(), np.abs(problem.v * units).max()

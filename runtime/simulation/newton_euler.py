@@ -75,7 +75,7 @@ def _made(source: KernelSource) -> Table:
 def newton_euler(compiled: CompiledModel, p: Array, q: Array, evaluation: Evaluation, at: NDArray[np.intp]) -> Array:
     """Return what is left of the equations of bodies at samples `at`, (len(at),), as a share of the largest term."""
     table, n = table_of(compiled.source), len(at)
-    if not len(table.moved):
+    if not len(table.moved) or not n:
         return np.zeros(n)
     m = compiled.mass(p)
     inertia = (evaluation.a[at] * m).reshape(n, -1, 3)
@@ -89,7 +89,7 @@ def newton_euler(compiled: CompiledModel, p: Array, q: Array, evaluation: Evalua
     if len(table.turned):
         moments = _moments(table, p, q[at].reshape(n, -1, 3), reactions)
         off = np.abs(inertia[:, table.turned, 2] - moments.sum(axis=2)).max(axis=1)
-        worst = np.maximum(worst, off / max(np.abs(moments).max(), LEAST))
+        worst = np.maximum(worst, off / max(np.abs(moments).max(initial=0.0), LEAST))
     return np.asarray(worst)
 
 
