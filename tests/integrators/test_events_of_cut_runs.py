@@ -55,21 +55,19 @@ def given(rng: np.random.Generator) -> dict[str, float]:
     return {name: float(value) for name, value in values.items()}
 
 
-@pytest.mark.parametrize(("method", "settings"), [
-    ("auto", {"rtol": 1e-10}), ("radau5", {"rtol": 1e-10}), ("dop853", {"rtol": 1e-7}),
-])  # fmt: skip
-def test_each_event_is_listed_once(mass: Simulation, method: str, settings: dict[str, float]) -> None:
+@pytest.mark.parametrize(("method", "rtol"), [("auto", 1e-10), ("radau5", 1e-10), ("dop853", 1e-7)])
+def test_each_event_is_listed_once(mass: Simulation, method: str, rtol: float) -> None:
     lost = []
     for seed in range(SEEDS):
         rng = np.random.default_rng(seed)
         parameters = given(rng)
-        whole = mass.simulate(T_END, parameters=parameters, method=method, output=2, **settings)
+        whole = mass.simulate(T_END, parameters=parameters, method=method, output=2, rtol=rtol)
         every = np.unique(np.concatenate([whole.events_of(name) for name in NAMES]))
         cuts = [*sorted(rng.choice(every, min(5, len(every)), replace=False).tolist()), T_END]
-        run = mass.simulate(cuts[0], parameters=parameters, method=method, output=1, **settings)
+        run = mass.simulate(cuts[0], parameters=parameters, method=method, output=1, rtol=rtol)
         found = {name: list(run.events_of(name)) for name in NAMES}
         for cut in cuts[1:]:
-            run = mass.simulate(cut, start=run.final, method=method, output=1, **settings)
+            run = mass.simulate(cut, start=run.final, method=method, output=1, rtol=rtol)
             for name in NAMES:
                 found[name] += list(run.events_of(name))
         lost += [(seed, name) for name in NAMES if len(found[name]) != len(whole.events_of(name))]

@@ -234,9 +234,9 @@ def test_only_runs_with_the_same_step_share_a_vector() -> None:
     own = lanes.Lanes.__new__(lanes.Lanes)
     own.count = 4
     steps = np.array([1.0, 1.0, 2.0, 2.0, 2.0, 2.0, 2.0, 1.0])
-    same = Times(np.linspace(0.0, 1.0, 3), np.full(8, 3))
+    same = Times(np.linspace(0.0, 1.0, 3), np.full(8, 3), np.zeros(8, dtype=np.int_))
     assert own.groups([0, 1, 2, 3, 4, 5, 6, 7], steps, same) == [[0, 1], [2, 3, 4, 5], [6], [7]]
-    times = Times.of_runs({k: np.linspace(0.0, 1.0 + (k == 3), 3) for k in range(8)}, 8)
+    times = Times.of_runs({k: (np.linspace(0.0, 1.0 + (k == 3), 3), True) for k in range(8)}, 8)
     assert own.groups([0, 1, 2, 3, 4, 5, 6, 7], steps, times) == [[0, 1], [2], [3], [4, 5, 6], [7]]
     assert own.groups([0, 1, 7], steps, same) == [[0, 1, 7]]
 

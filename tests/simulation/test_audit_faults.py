@@ -204,6 +204,7 @@ def test_equations_of_single_bodies(part: str) -> None:
     for name, scene in (("nine_bar_press", "dry"), ("nine_bar_press", "ideal"), ("andrews_squeezer", "ideal")):
         run = gudgeon.load(name, scene).simulate(0.02, output=20)
         values, rows = run.evaluation, np.arange(len(run.t))
+        assert run.compiled is not None
         assert newton_euler(run.compiled, run.p, run.q, values, rows).max() < 1e-12
         changed = np.array(getattr(values, part))
         if changed.size == 0:

@@ -40,8 +40,9 @@ def scene(name: str, of: str) -> Simulation:
     return gudgeon.load(name, of)
 
 
-def same(run: Result, other: Result, rows: Any = slice(None)) -> None:
+def same(run: Result | None, other: Result | None, rows: Any = slice(None)) -> None:
     """All series of both are equal bit for bit."""
+    assert run is not None and other is not None
     for name in ("t", *run.names):
         np.testing.assert_array_equal(run[name], other[name][rows], name)
 
@@ -143,7 +144,8 @@ def test_a_run_that_fails_before_the_first_requested_time(tmp_path: Path) -> Non
     force = "forces: {push: {torque: [ground, bob], value: 1 N*m*sqrt(0.1 - t/(1 s))}}"
     file.write_text(f"{PENDULUM}{force}\n")
     simulation = gudgeon.load(file)
-    for options in ({}, {"method": "rk4", "step": 1e-3}):
+    each: tuple[dict[str, Any], ...] = ({}, {"method": "rk4", "step": 1e-3})
+    for options in each:
         with pytest.raises(SolverError) as raised:
             simulation.simulate(output=[0.5, 1.0], **options)
         partial, batch = raised.value.partial, simulation.simulate_many([{}, {}], output=[0.5, 1.0], **options)
