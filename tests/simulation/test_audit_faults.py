@@ -180,7 +180,7 @@ def test_a_step_control_that_is_too_loose(tmp_path: Path) -> None:
 def test_an_error_estimate_that_is_too_small(method: str, edit: tuple[str, str, str], tmp_path: Path) -> None:
     right = gudgeon.load("andrews_squeezer")
     assert not reported(right, 0.03, method=method)
-    assert "check step" in reported(mutant(right, tmp_path, edit), 0.03, method=method)
+    assert "audit: check" in reported(mutant(right, tmp_path, edit), 0.03, method=method)
 
 
 def test_a_start_that_is_changed(tmp_path: Path) -> None:
