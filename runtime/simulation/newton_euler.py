@@ -54,9 +54,11 @@ def _made(source: KernelSource) -> Table:
     driven = {name.partition(".")[0] for part in source.parts for name in part.ends if part.section == "drives"}
     moved[[name in lost for name in bodies]] = False
     first, contacts = np.zeros((len(bodies), len(source.joints))), np.zeros((len(bodies), len(source.clearances)))
-    for rows, joints in ((first, source.joints), (contacts, source.clearances)):
-        for k, joint in enumerate(joints):
-            for body, sign in ((joint.first, -1.0), (joint.second, 1.0)):
+    joints = [(joint.first, joint.second) for joint in source.joints]
+    plays = [(joint.first, joint.second) for joint in source.clearances]
+    for rows, pairs in ((first, joints), (contacts, plays)):
+        for k, (before, after) in enumerate(pairs):
+            for body, sign in ((before, -1.0), (after, 1.0)):
                 if body >= 0:
                     rows[body, k] = sign
     points = [places[parts[joint.name].ends[0] if joint.kind == "point_on_line" else joint.point]
