@@ -31,7 +31,7 @@ typedef struct {
 typedef struct {
     int level, status;             /* one of those above; AUDITED once a check failed */
     long due;                      /* number of steps after which a step is checked inside next */
-    long turns;                    /* drawn steps so far: even, odd: at a place inside, by the error of the whole step */
+    long turns;                    /* drawn steps so far; where even, the next is checked inside, else as a whole */
     long longer;                   /* steps that were checked since they were much longer than others */
     double longest;                /* length of the longest step whose error was measured, s */
     double size;                   /* of the mechanism, m */

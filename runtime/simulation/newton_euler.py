@@ -54,10 +54,11 @@ def _made(source: KernelSource) -> Table:
     driven = {name.partition(".")[0] for part in source.parts for name in part.ends if part.section == "drives"}
     moved[[name in lost for name in bodies]] = False
     first, contacts = np.zeros((len(bodies), len(source.joints))), np.zeros((len(bodies), len(source.clearances)))
-    ends = [(one.first, one.second) for one in source.joints], [(one.first, one.second) for one in source.clearances]
-    for rows, pairs in zip((first, contacts), ends, strict=True):
-        for k, pair in enumerate(pairs):
-            for body, sign in zip(pair, (-1.0, 1.0), strict=True):
+    joints = [(joint.first, joint.second) for joint in source.joints]
+    plays = [(joint.first, joint.second) for joint in source.clearances]
+    for rows, pairs in ((first, joints), (contacts, plays)):
+        for k, (before, after) in enumerate(pairs):
+            for body, sign in ((before, -1.0), (after, 1.0)):
                 if body >= 0:
                     rows[body, k] = sign
     points = [places[parts[joint.name].ends[0] if joint.kind == "point_on_line" else joint.point]

@@ -182,7 +182,7 @@ def test_an_error_estimate_that_is_too_small(method: str, edit: tuple[str, str, 
     assert not reported(right, 0.03, method=method)
     # the distance from the constraint equations would refuse the worst of these steps
     also = ("engine/both/distance.h", "#define FAR_FROM_ROWS 10.0", "#define FAR_FROM_ROWS INFINITY")
-    assert "check step" in reported(mutant(right, tmp_path, edit, also), 0.03, method=method)
+    assert "audit: check" in reported(mutant(right, tmp_path, edit, also), 0.03, method=method)
 
 
 def test_a_start_that_is_changed(tmp_path: Path) -> None:
