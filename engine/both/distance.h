@@ -1,4 +1,4 @@
-/* How far the end of a step lies from the constraint equations before it is projected: an error that no estimate sees. */
+/* How far a step ends from the constraint equations before it is projected: an error that no estimate sees. */
 #define FAR_FROM_ROWS 10.0 /* tolerances, that the end of a step may lie from the rows; as a rule it is less than one */
 
 /* How far the end of a step lay from the rows, in tolerances, by what it was and what it is now that it is closed. */

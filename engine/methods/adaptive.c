@@ -191,7 +191,7 @@ static int take_step(Run *run, const Parameters *p, const Samples *out)
     if (!status)
         status = tape_step(run, step, share, jumps, p);
     run->asked.hold = 1;
-    if (!status)
+    if (AUDITS && !status)
         audit_step(run, step, share, event, p);
     const int listed = run->n_events;
 #if N_CORNERS
@@ -212,7 +212,7 @@ static int take_step(Run *run, const Parameters *p, const Samples *out)
     if (!status && run->t == t_end)
         status = end_on_zeros(run, 0.0, p);
 #endif
-    if (!status || status == ENDED)
+    if (AUDITS && (!status || status == ENDED))
         status = audit_state(run, listed, p) ? AUDITED : status;
     if (!status || status == ENDED)
         tape_end(run, jumps, status == ENDED || run->t == t_end, p);

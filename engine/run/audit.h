@@ -5,6 +5,10 @@
 #ifndef GUDGEON_AUDIT_H
 #define GUDGEON_AUDIT_H
 
+#ifndef AUDITS
+#define AUDITS 1 /* 0: a program that never switches the audit on, as a page in a browser, is compiled without it */
+#endif
+
 enum { AUDIT_OFF, AUDIT_ON, AUDIT_FULL };
 
 /* The checks, in the order of CHECKS in runtime/contract/audit.py. */

@@ -8,7 +8,7 @@
  * parabola of the whole part before the bisection missed the new samples; in theory the halves have an eighth of it.
  */
 enum { MOST_FORCE_SAMPLES = 400, LEAST_STAGES = 8 /* of a step that tell of a force between them */ };
-#define ROUNDED 1e-12 /* of the largest sample: what an event function may be below zero by rounding */
+#define FORCE_ROUNDED 1e-12 /* of the largest sample: what an event function may be below zero by rounding */
 
 /* A part of a step: its middle and end, and how far the event function may lie from the parabola. */
 typedef struct {
@@ -129,7 +129,7 @@ static int has_force_zero(Run *run, Step *step, int k, const Parameters *p, Plac
             *high = now.middle.f < -rest ? now.middle : now.end;
             return 1;
         }
-        if (small || least >= -rest - ROUNDED * largest) {
+        if (small || least >= -rest - FORCE_ROUNDED * largest) {
             from = now.end;
             n--;
             continue;

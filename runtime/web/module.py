@@ -36,7 +36,7 @@ DRIVEN = ("rhs",)  # and where its drives leave no freedom  # fmt: skip
 # traps instead of writing over numbers.
 FLAGS = (
     "-target", "wasm32-wasi", "-mexec-model=reactor", "-O2", "-fno-unroll-loops", "-msimd128", "-std=c11",
-    "-ffp-contract=off", "-fno-math-errno", "-fno-sanitize=undefined", "-fvisibility=hidden",
+    "-ffp-contract=off", "-fno-math-errno", "-fno-sanitize=undefined", "-fvisibility=hidden", "-DAUDITS=0",
     "-Werror=implicit-function-declaration", "-s", "-Wl,--gc-sections", "-Wl,-z,stack-size=8388608",
     "-Wl,--export=malloc", "-Wl,--export=free",
 )  # fmt: skip
