@@ -1,11 +1,12 @@
 /* How far a step ends from the constraint equations before it is projected: an error that no estimate sees. */
 #define FAR_FROM_ROWS 10.0 /* tolerances, that the end of a step may lie from the rows; as a rule it is less than one */
+#define DIGITS_OF_ROWS 1e-10 /* of a coordinate or velocity: that may be rounding, of what flies off many tolerances */
 
 /* How far the end of a step lay from the rows, in tolerances, by what it was and what it is now that it is closed. */
 static Real distance_from_rows(const RunOf *run, const Real *before, const Real *y)
 {
     Real most = real_of(0.0);
     for (int k = 0; k < 2 * N_X && N_LOOPS > 0; k++)
-        most = real_max(real_abs(y[k] - before[k]) * run->weight[k], most);
+        most = real_max((real_abs(y[k] - before[k]) - DIGITS_OF_ROWS * real_abs(y[k])) * run->weight[k], most);
     return most;
 }

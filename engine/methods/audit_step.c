@@ -234,8 +234,8 @@ static void audit_step(Run *run, Step *step, double share, int event, const Para
     const double h = share * step->h, mean = mean_interval(step->method);
     const int all = audit->level == AUDIT_FULL, due = run->steps >= audit->due, whole = share >= 1.0 && event < 0;
     const int is_longer = (h > AUDIT_LONGER * run->last_step || (whole && h > AUDIT_LONGEST * audit->longest))
-        && !step->method->own_length && (audit->longer + 1) * mean < run->steps;
-    const int by_turn = audit->turns % 2;
+        && !step->method->own_length && ((double)audit->longer + 1.0) * mean < (double)run->steps;
+    const int by_turn = (int)(audit->turns % 2);
     const int drawn = all || (due && !by_turn), measured = all || is_longer || (due && by_turn);
     const int places = all ? AUDIT_INSIDE : drawn || (is_longer && !whole);
     find_zeros(run, step, share, event, p);

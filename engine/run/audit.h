@@ -23,7 +23,7 @@ enum {
     EVENT_CHECK,        /* events that were recorded against the signs of their expressions */
     FORCE_CHECK,        /* forces of films against accelerations of the dense output */
     RATE_CHECK,         /* rates of the dense output, as a share of the largest, whatever the step's length */
-    STEP_CHECK,       /* local errors of steps by the integral of the defect of the dense output */
+    STEP_CHECK,         /* local errors of steps by the integral of the defect of the dense output */
     N_CHECKS
 };
 

@@ -80,7 +80,7 @@ static void inner_peak(Run *run, const Step *step, double share, int i, double b
 
 #if N_RIGID
 /* Whether the stages of an explicit step up to `share` tell that the force of contact i only rises or only falls. */
-static int is_monotone(const Step *step, double share, int i, double before, double after)
+static int is_force_monotone(const Step *step, double share, int i, double before, double after)
 {
     Place all[N_STAGES + 2];
     const Seen forces = seen_of(step, SEEN_FORCES + i);
@@ -105,7 +105,7 @@ static void rigid_peak(Run *run, Step *step, double share, int i, double before,
     Sampled part[MAX_BISECTIONS + 1];
     Place from = {0.0, before, NAN};
     peak(run, i, step->t, before);
-    if (is_monotone(step, share, i, before, after) || make_dense(run, p, step))
+    if (is_force_monotone(step, share, i, before, after) || make_dense(run, p, step))
         return;
     part[0] = (Sampled){{0.5 * share, force_at(run, step, 0.5 * share, i, p), NAN}, {share, after, NAN}, INFINITY};
     for (int n = 1, samples = 1; n > 0;) {

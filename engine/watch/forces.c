@@ -5,9 +5,13 @@
  * These follow from the right-hand side, so that no bounds of them are known, and they may come and go within a step
  * whose motion is as simple as rest. The dense output is sampled and bisected: on each part of it the event function is
  * the parabola through both ends and the middle within an error. That error is taken as the largest by which the
- * parabola of the whole part before the bisection missed the new samples; in theory the halves have an eighth of it.
+ * parabola of the whole part before the bisection missed the new samples, times UNSURE: in theory the halves have an
+ * eighth of it, but samples may hide some. Less than a fourth of what the whole had is not believed.
  */
-enum { MOST_FORCE_SAMPLES = 400, LEAST_STAGES = 8 /* of a step that tell of a force between them */ };
+enum { MOST_FORCE_SAMPLES = 20000, LEAST_STAGES = 8 /* of a step that tell of a force between them */ };
+#define UNSURE 4.0
+#define COARSE 0.0625 /* of a step: parabolas over longer parts say nothing of their error */
+#define DRIFTED 1e-6 /* m/s: what a stick may have let a velocity drift to */
 #define FORCE_ROUNDED 1e-12 /* of the largest sample: what an event function may be below zero by rounding */
 
 /* A part of a step: its middle and end, and how far the event function may lie from the parabola. */
@@ -25,13 +29,17 @@ static int follows_from_force(const Run *run, int k)
     return friction >= 0 && friction < N_FRICTIONS && run->memory.mode[friction] != HELD;
 }
 
-/* How far below zero margin k means nothing: of a velocity that leaves rest, whatever it is rounded to. */
+/*
+ * How far below zero margin k means nothing: of a velocity that leaves rest, whatever it is rounded to, or what is left
+ * of it by a stick, which lets it drift a little.
+ */
 static double rest_of(const Run *run, int k)
 {
 #if N_FRICTIONS
     const int i = k - N_CLEARANCES - N_SWITCHES;
-    if (i >= 0 && fabs(run->aside.friction[i].v) <= AT_REST && run->memory.mode[i] * run->aside.friction[i].rate > 0.0)
-        return AT_REST;
+    const double mode = i >= 0 ? run->memory.mode[i] : 0.0, v = i >= 0 ? run->aside.friction[i].v : 0.0;
+    if (mode * v <= AT_REST && fabs(v) <= DRIFTED && i >= 0 && mode * run->aside.friction[i].rate > 0.0)
+        return AT_REST + 2.0 * fabs(v);
 #endif
     return (void)run, (void)k, 0.0;
 }
@@ -138,7 +146,8 @@ static int has_force_zero(Run *run, Step *step, int k, const Parameters *p, Plac
         const Place right = place_at(run, step, now.end.s - 0.25 * w, k, p);
         missed[0] = fabs(left.f - parabola_at(from, now.middle, now.end, left.s));
         missed[1] = fabs(right.f - parabola_at(from, now.middle, now.end, right.s));
-        const double error = w > 0.5 ? INFINITY : max_of(missed[0], missed[1]);
+        const double known = isfinite(now.error) ? 0.25 * now.error : 0.0;
+        const double error = w > COARSE ? INFINITY : max_of(known, UNSURE * max_of(missed[0], missed[1]));
         part[n - 1] = (Sampled){right, now.end, error};
         part[n++] = (Sampled){left, now.middle, error};
         samples += 2;

@@ -25,6 +25,9 @@ static int follows(void *context, double share, int sure)
     interpolate(run, step, share + apart, after);
     if (rates(run, step->t + share * step->h, y, look->p, dy, &aside))
         return 0;
+    for (int k = 0; k < N_MARGINS; k++) /* what holds friction or a rigid contact may let go without a motion yet */
+        if (follows_from_force(run, k) && margin(&run->memory, &aside, k) < 0.0)
+            return 0;
     for (int k = 0; k < N_Y; k++)
         most = max_of(most, fabs(step->h * dy[k] - (after[k] - before[k]) / (2.0 * apart)) * run->weight[k]);
     return most < HARMLESS_DEFECT;
