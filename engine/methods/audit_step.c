@@ -15,7 +15,8 @@
 #define AUDIT_COST 8.0   /* evaluations that these cost, as a rule */
 #define AUDIT_ITERATIONS 4.0 /* evaluations of a stage that is found by iterations, and */
 #define AUDIT_LEAST_STAGES 8.0 /* of a step, at least */
-#define AUDIT_STEP 5.0 /* tolerances that a step may err by */
+#define AUDIT_STEP 15.0 /* tolerances that a step may err by, */
+#define AUDIT_FINEST 1e-9 /* and these are never finer: below, stiff forces are rounding */
 /* halvings that locate a zero; places inside a step */
 enum { AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4 };
 
@@ -89,8 +90,9 @@ static void check_length(Run *run, Step *step, const Parameters *p)
     for (int k = 0; k < N_SWITCHES; k++)
         if (step->passed[k])
             return;
-    if (run->steps == 0 || make_dense(run, p, step))
+    if (run->steps == 0 || run->memory.way != AT_ONCE || make_dense(run, p, step))
         return; /* a start off its constraints is projected by the first step */
+    const double limit = AUDIT_STEP * max_of(1.0, AUDIT_FINEST / tolerance_of(run));
     for (int n = 0; n < COUNT_OF(gauss_node); n++) {
         interpolate(run, step, gauss_node[n], y);
         if (rates(run, step->t + gauss_node[n] * h, y, p, dy, &aside) || !branches_fit(run, &aside))
@@ -106,7 +108,7 @@ static void check_length(Run *run, Step *step, const Parameters *p)
     for (int k = 0; k < 2 * N_X; k++) {
         const double weight = audit_weight(run, k), rounding = AUDIT_DIGITS * (fabs(step->y[k]) + fabs(h * dy[k]));
         const double off = fabs(stiff ? error[k] : h * sum[k]) * weight;
-        worst = max_of(worst, off / (AUDIT_STEP + rounding * weight));
+        worst = max_of(worst, off / (limit + rounding * weight));
     }
     run->audit.longest = max_of(run->audit.longest, h);
     record(&run->audit, STEP_CHECK, worst, 1.0, step->t + h, -1);
