@@ -2,12 +2,35 @@
  * Methods that choose their step (step_length.c): what a step that is accepted changes, events on its way, samples from
  * its interpolant.
  */
-enum { MAX_AGAIN = 8 }; /* times that a step is taken again to end close behind an event */
+enum { SIDE_PARTS = 4, MAX_AGAIN = 8 /* times that a step is taken again to end close behind an event */ };
+
+/*
+ * Sides of user events that were held at zero up to a step and are again from its end on, where friction or a contact
+ * holds them: wherever they are between.
+ */
+static void take_sides_inside(Run *run, Step *step, double share, int event, const Parameters *p)
+{
+    const int is_user_event = event >= N_MARGINS - N_USER_EVENTS, is_switch = event >= N_CLEARANCES && !is_user_event
+        && event < N_CLEARANCES + N_SWITCHES;
+    int unknown = 0;
+    for (int i = 0; i < N_USER_EVENTS; i++)
+        unknown |= run->memory.event_side[i] == 0;
+    for (int part = 1; part < SIDE_PARTS; part++) {
+        double y[N_Y], dy[N_Y];
+        const double s = share * part / SIDE_PARTS;
+        Aside aside;
+        if (event < 0 || is_user_event || is_switch || !unknown || make_dense(run, p, step)
+            || state_at(run, step, s, p, y, dy, &aside))
+            return;
+        take_sides(run, step->t + s * step->h, y, &aside, p);
+    }
+}
 
 /* Takes a step, or its part up to an event, as the new state. */
 static int commit(Run *run, Step *step, double share, double t_new, int event, const Parameters *p)
 {
     /* the interpolant is made already where the step ends early: its end may be replaced */
+    take_sides_inside(run, step, share, event, p);
     int status = share < 1.0 ? state_at(run, step, share, p, step->y, step->dy, &step->aside) : 0;
     if (status)
         return status;
@@ -43,7 +66,7 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
         run->skip = -1;
         status = settle_sides(run, -1, p);
     }
-    take_sides(run, p);
+    take_sides(run, run->t, run->y, &run->aside, p);
     if (!status && event >= 0)
         status = run->stuck > MAX_STUCK + 2 * N_MARGINS ? CHATTERING : change(run, event, p);
     return status ? status : check_contacts(run, p);
@@ -61,6 +84,7 @@ static int sample_step(Run *run, Step *step, double t_new, const Parameters *p, 
             return status;
         interpolate(run, step, (t - step->t) / step->h, now);
         project_state(run, t, now, p);
+        hold_slips(run, t, now, p);
         store_sample(run, t, now, p, *out->done, out->y, out->latched, out->state);
     }
     run->evaluations = evaluations; /* samples are output, not integration */

@@ -205,10 +205,11 @@ static void find_zeros(Run *run, Step *step, double share, int event, const Para
         audit->event_scale[i] = max_of(audit->event_scale[i], most);
         const double noise = AUDIT_NOISE * audit->event_scale[i];
         audit->away[i] |= most > noise;
+        const int begins_beyond = run->steps == 0 && run->memory.event_side[i] * after > 0.0; /* begin_beyond */
         audit->event_before[i] = audit->ended == i && is_known(run, step, 0, i, p) ? before : 0.0;
-        audit->crossed[i] = share >= 1.0 && audit->ended != i && before * after < 0.0 && fabs(before) > noise
-            && fabs(after) > noise && event_direction[i] * after >= 0.0 && is_known(run, step, 0, i, p)
-            && is_known(run, step, 1, i, p) && event_has_zero(run, step, share, i, p);
+        audit->crossed[i] = share >= 1.0 && audit->ended != i && !begins_beyond && before * after < 0.0
+            && fabs(before) > noise && fabs(after) > noise && event_direction[i] * after >= 0.0
+            && is_known(run, step, 0, i, p) && is_known(run, step, 1, i, p) && event_has_zero(run, step, share, i, p);
     }
 }
 

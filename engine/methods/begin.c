@@ -21,10 +21,12 @@ static int leave_zeros(Run *run, const Parameters *p)
 }
 
 #endif
+#define AT_ALL 1e-5 /* 1/s: what is slower does not move */
+
 /*
  * What a speed counts at least: a hundredth of what leads over the smallest length that matters in the shortest time
  * that the start's speeds and accelerations take for it. Only where these lead nowhere (a pulse is yet to come) the
- * run's own time has to tell.
+ * run's own time has to tell. Rounding is measured by speeds that do not depend on how long the run is.
  */
 static void floor_speeds(Run *run, double left)
 {
@@ -33,8 +35,10 @@ static void floor_speeds(Run *run, double left)
         const double least = run->least[is_angle[k]], a = fabs(run->dy[N_X + k]);
         rate = max_of(rate, max_of(fabs(run->y[N_X + k]) / least, sqrt(a / least)));
     }
-    for (int kind = 0; kind < 2; kind++)
+    for (int kind = 0; kind < 2; kind++) {
         run->speed_floor[kind] = run->least[kind] * (rate * left > 1e-3 ? 0.01 * rate : 1.0 / left);
+        run->speed_rounded[kind] = run->least[kind] * (rate > AT_ALL ? 0.01 * rate : 1.0 / left);
+    }
 }
 
 /* Whether a run begins in a contact whose surfaces give. */

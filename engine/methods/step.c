@@ -119,6 +119,7 @@ static void close_state(Run *run, double t, double *y, const Parameters *p)
     if (TREE)
         project_rows(run, t, y, p);
     hold_contacts(run, t, y, p);
+    hold_slips(run, t, y, p);
 }
 
 /* A drive whose rate jumps moves the linkage by an impulse; its work is counted. */
@@ -150,6 +151,6 @@ static int finish_step(Run *run, Step *step, const Parameters *p)
         && run->attempt.strayed++ < MAX_STRAYED)
         step->error = max_of(step->error, missed);
     hold_contacts(run, step->t + step->h, step->y, p);
-    const int status = rates(run, step->t + step->h, step->y, p, step->dy, &step->aside);
+    const int status = rates_at_rest(run, step->t + step->h, step->y, p, step->dy, &step->aside);
     return status ? status : all_finite(step->dy, N_Y) ? 0 : NOT_FINITE;
 }

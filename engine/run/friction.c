@@ -32,6 +32,20 @@ static int rates_of_modes(Run *run, const Parameters *p)
     return status;
 }
 
+/* What sticks, or slips from rest, is exactly at rest where modes change: else rounding decides what follows. */
+static int begin_at_rest(Run *run, const Parameters *p)
+{
+    const Memory known = run->memory;
+    for (int i = 0; i < N_FRICTIONS; i++)
+        if (run->memory.mode[i] != HELD && fabs(run->aside.friction[i].v) <= AT_REST)
+            run->memory.mode[i] = 0.0;
+    const int status = rates_of_modes(run, p);
+    if (!status)
+        (void)stop_slips(run, run->t, run->y, &run->aside, p);
+    run->memory = known;
+    return status;
+}
+
 /*
  * Puts right the mode that is most wrong: a stick beyond its limit, a slip from rest against its own rate. Where a
  * stick is beyond its limit and another one is held, that one helps before the first gives way.
@@ -91,7 +105,8 @@ static int switch_friction(Run *run, const Parameters *p)
         else
             *mode = *mode == HELD ? (friction->v > 0.0 ? 1.0 : -1.0) : 0.0;
     }
-    return settle(run, p);
+    const int status = begin_at_rest(run, p);
+    return status ? status : settle(run, p);
 }
 
 /* A start that does not say its mode: the sign of the slip, or stick where there is none. */

@@ -119,6 +119,9 @@ static double kinetic_energy(const Run *run, const Parameters *p)
 }
 
 #include "tape.c"
+#if N_FRICTIONS
+#include "slips.c"
+#endif
 #if N_WATCHED
 #include "uncertainty.c"
 #else

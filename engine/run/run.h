@@ -160,7 +160,7 @@ typedef struct {
     /* by how many tolerances straight motion misses an onset in a step that fits, explicit or stiff; for one of a
      * second, as it is now */
     double onset[2], onset_share;
-    double inverse_scale[2 * N_X + 1], least[2], speed[2], speed_floor[2];
+    double inverse_scale[2 * N_X + 1], least[2], speed[2], speed_floor[2], speed_rounded[2];
     double weight[N_Y]; /* what errors are multiplied by: 1 / tolerance */
     double work_scale, turned_over; /* tolerance of works as a share of the energy (J) that was turned over so far */
     int rising[AT_LEAST_ONE(N_CLEARANCES)]; /* whether a joint's force rose at the end of the last step */

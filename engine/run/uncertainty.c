@@ -36,14 +36,14 @@ static void add_closing(Run *run, double t, const double *y, const Parameters *p
  */
 static void rounding_errors(Run *run, double t, const double *y, const Parameters *p, double *error)
 {
-    double size[2] = {0.0, 1.0}, speed[2] = {run->speed[0], run->speed[1]};
+    double size[2] = {run->least[0], 1.0}, speed[2] = {run->speed[0], run->speed[1]};
     for (int k = 0; k < N_X; k++) {
         size[is_angle[k]] = max_of(size[is_angle[k]], fabs(y[k]));
         speed[is_angle[k]] = max_of(speed[is_angle[k]], fabs(y[N_X + k]));
     }
     for (int k = 0; k < N_X; k++) {
         error[k] = ROUNDINGS * DBL_EPSILON * size[is_angle[k]];
-        error[N_X + k] = ROUNDINGS * DBL_EPSILON * (speed[is_angle[k]] + run->speed_floor[is_angle[k]]);
+        error[N_X + k] = ROUNDINGS * DBL_EPSILON * (speed[is_angle[k]] + run->speed_rounded[is_angle[k]]);
     }
     add_closing(run, t, y, p, error);
 }
@@ -55,19 +55,16 @@ static void rounding_errors(Run *run, double t, const double *y, const Parameter
  */
 static void add_stuck_slip(Run *run, double t, const double *y, const Parameters *p, double *error)
 {
-    Memory *memory = &run->memory;
+    double scrap[N_Y], way[N_Y];
+    Aside aside;
+    int status = -1;
     for (int i = 0; i < N_FRICTIONS; i++) {
-        double dy[2][N_Y];
-        Aside aside[2];
-        int status = memory->mode[i] != 0.0;
-        for (int way = 0; way < 2 && !status; way++) {
-            memory->mode[i] = way ? 1.0 : -1.0;
-            status = rates(run, t, y, p, dy[way], &aside[way]);
-            memory->mode[i] = 0.0;
-        }
-        const double pushed = status ? 0.0 : aside[1].friction[i].rate - aside[0].friction[i].rate;
-        for (int k = N_X; k < 2 * N_X && pushed != 0.0; k++)
-            error[k] += fabs((dy[1][k] - dy[0][k]) * aside[0].friction[i].v / pushed);
+        if (run->memory.mode[i] != 0.0)
+            continue;
+        status = status < 0 ? rates(run, t, y, p, scrap, &aside) : status;
+        const double response = status ? 0.0 : response_to_friction(run, t, y, i, p, way);
+        for (int k = N_X; k < 2 * N_X && response > 0.0; k++)
+            error[k] += fabs(way[k] * aside.friction[i].v / response);
     }
 }
 #else

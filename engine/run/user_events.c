@@ -47,8 +47,8 @@ static void note_no_number(Run *run, int i, double t)
     run->no_number[i] = 1;
 }
 
-/* Sides of user events that began on a zero, or were held there: wherever they went. */
-static void take_sides(Run *run, const Parameters *p)
+/* Sides of user events that began on a zero, or were held there: wherever they are at a state. */
+static void take_sides(Run *run, double t, const double *y, const Aside *aside, const Parameters *p)
 {
     double value[AT_LEAST_ONE(N_USER_EVENTS)];
     int zeros = 0;
@@ -56,7 +56,7 @@ static void take_sides(Run *run, const Parameters *p)
         zeros |= run->memory.event_side[i] == 0;
     if (!zeros)
         return;
-    resolved_events(run, run->t, run->y, &run->aside, p, value);
+    resolved_events(run, t, y, aside, p, value);
     for (int i = 0; i < N_USER_EVENTS; i++)
         if (run->memory.event_side[i] == 0)
             event_crosses(i, &run->memory.event_side[i], value[i]);
@@ -227,7 +227,7 @@ static int note_arrivals(Run *run, const Held *before, double ahead, const Param
     if (!more && !zeros)
         return 0;
     Memory memory = run->memory;
-    uncertainty(run, run->t, run->y, p, error);
+    uncertainty(run, run->t, before->y, p, error); /* slips that have been stopped here are none */
     (void)events_ahead(run, run->t, ahead, run->y, run->dy, p, now);
     run->memory = before->memory;
     (void)events_ahead(run, run->t, ahead, before->y, before->dy, p, then);

@@ -11,7 +11,6 @@
 enum { MOST_FORCE_SAMPLES = 20000, LEAST_STAGES = 8 /* of a step that tell of a force between them */ };
 #define UNSURE 4.0
 #define COARSE 0.0625 /* of a step: parabolas over longer parts say nothing of their error */
-#define DRIFTED 1e-6 /* m/s: what a stick may have let a velocity drift to */
 #define FORCE_ROUNDED 1e-12 /* of the largest sample: what an event function may be below zero by rounding */
 
 /* A part of a step: its middle and end, and how far the event function may lie from the parabola. */
@@ -29,19 +28,35 @@ static int follows_from_force(const Run *run, int k)
     return friction >= 0 && friction < N_FRICTIONS && run->memory.mode[friction] != HELD;
 }
 
+#if N_FRICTIONS
+/* By how much the tolerance of the velocities lets slip i be wrong, m/s. */
+static double slip_tolerance(Run *run, int i, const Parameters *p)
+{
+    double y[N_Y], dy[N_Y], sum = 0.0;
+    Aside aside;
+    for (int k = N_X; k < 2 * N_X; k++) {
+        memcpy(y, run->y, sizeof y);
+        y[k] += 1.0 / run->weight[k];
+        if (!rates(run, run->t, y, p, dy, &aside))
+            sum += fabs(aside.friction[i].v - run->aside.friction[i].v);
+    }
+    return isfinite(sum) ? sum : 0.0;
+}
+#endif
+
 /*
- * How far below zero margin k means nothing: of a velocity that leaves rest, whatever it is rounded to, or what is left
- * of it by a stick, which lets it drift a little.
+ * How far below zero margin k means nothing at the begin of a step: of a velocity that leaves rest what it is rounded
+ * to, and what the step may be wrong by: until it is larger than that.
  */
-static double rest_of(const Run *run, int k)
+static double rest_of(Run *run, int k, const Parameters *p)
 {
 #if N_FRICTIONS
     const int i = k - N_CLEARANCES - N_SWITCHES;
     const double mode = i >= 0 ? run->memory.mode[i] : 0.0, v = i >= 0 ? run->aside.friction[i].v : 0.0;
-    if (mode * v <= AT_REST && fabs(v) <= DRIFTED && i >= 0 && mode * run->aside.friction[i].rate > 0.0)
-        return AT_REST + 2.0 * fabs(v);
+    if (mode != 0.0 && fabs(v) <= AT_REST && mode * run->aside.friction[i].rate > 0.0)
+        return max_of(AT_REST, slip_tolerance(run, i, p));
 #endif
-    return (void)run, (void)k, 0.0;
+    return (void)run, (void)k, (void)p, 0.0;
 }
 
 /* A value at both ends of a step and at its stages in the order of their nodes. Returns how many. */
@@ -75,13 +90,12 @@ static double largest_bend(const Place *all, int n)
 
 /*
  * Whether the stages of an explicit step tell that margin k has no zero: between neighbours a and b it is at least
- * min(f_a, f_b) - B w^2/8, B a bound of the second derivative.
+ * min(f_a, f_b) - B w^2/8, B a bound of the second derivative. No value above -rest is below zero.
  */
-static int is_clear_of_zero(const Run *run, const Step *step, int k)
+static int is_clear_of_zero(const Run *run, const Step *step, int k, double rest)
 {
     Place all[N_STAGES + 2];
     const int n = values_of_stages(step, begin_of(run, step, k), end_of(run, step, k), seen_of(step, k), all);
-    const double rest = rest_of(run, k);
     double least = INFINITY, most = -INFINITY;
     for (int i = 0; i < n; i++) {
         least = min_of(least, all[i].f);
@@ -92,10 +106,11 @@ static int is_clear_of_zero(const Run *run, const Step *step, int k)
     const double bend = largest_bend(all, n);
     for (int i = 1; i < n; i++) {
         const double w = all[i].s - all[i - 1].s;
+        rest = all[i - 1].f > rest ? 0.0 : rest;
         if (!(min_of(all[i - 1].f, all[i].f) - 0.125 * bend * w * w > -rest))
             return 0;
     }
-    return 1;
+    return !(rest > 0.0) || all[n - 1].f >= -AT_REST;
 }
 
 /* The parabola through a part's ends and middle, at share s. */
@@ -117,17 +132,19 @@ static double least_of_parabola(Place a, Place middle, Place b, double *steepest
 /* Whether margin k has a zero in the step, and places that enclose the first one. */
 static int has_force_zero(Run *run, Step *step, int k, const Parameters *p, Place *low, Place *high)
 {
-    const double close = 4.0 * root_width(run, step), rest = rest_of(run, k);
+    const double close = 4.0 * root_width(run, step);
+    double rest = rest_of(run, k, p);
     Sampled part[MAX_BISECTIONS + 1];
     Place from = begin_of(run, step, k);
     double largest = fabs(from.f);
-    if (is_clear_of_zero(run, step, k) || make_dense(run, p, step))
+    if (is_clear_of_zero(run, step, k, rest) || make_dense(run, p, step))
         return 0;
     part[0] = (Sampled){place_at(run, step, 0.5, k, p), end_of(run, step, k), INFINITY};
     for (int n = 1, samples = 1; n > 0;) {
         const Sampled now = part[n - 1];
         const double w = now.end.s - from.s;
         double steepest, missed[2];
+        rest = from.f > rest ? 0.0 : rest;
         const double least = least_of_parabola(from, now.middle, now.end, &steepest) - now.error;
         const int crosses = now.middle.f < -rest || now.end.f < -rest;
         const int small = w < close || n > MAX_BISECTIONS || samples > MOST_FORCE_SAMPLES;
@@ -152,5 +169,7 @@ static int has_force_zero(Run *run, Step *step, int k, const Parameters *p, Plac
         part[n++] = (Sampled){left, now.middle, error};
         samples += 2;
     }
-    return 0;
+    *low = begin_of(run, step, k);
+    *high = from; /* a velocity that has been no larger than its tolerance has turned round meanwhile */
+    return rest > 0.0 && from.f < -AT_REST;
 }

@@ -48,7 +48,7 @@ static int state_at(Run *run, const Step *step, double s, const Parameters *p, d
     interpolate(run, step, s, y);
     const double t = step->t + s * step->h;
     project_state(run, t, y, p);
-    return rates(run, t, y, p, dy, aside);
+    return rates_at_rest(run, t, y, p, dy, aside);
 }
 
 /* By how much margin k grows per share of the step; NAN where a right-hand side does not tell. */

@@ -1,0 +1,57 @@
+/* Slips of friction that sticks: put to rest, as exactly as their velocities are evaluated. */
+#define RESTS 1e-15 /* m/s: a slip that is no larger is none */
+
+/* By how much the rate of slip i, and all rates (dy), change with the direction of its force; 0: that is not known. */
+static double response_to_friction(Run *run, double t, const double *y, int i, const Parameters *p, double *dy)
+{
+    double *mode = &run->memory.mode[i], other[N_Y];
+    const double known = *mode;
+    Aside along, against;
+    *mode = -1.0;
+    int status = rates(run, t, y, p, dy, &along);
+    *mode = 1.0;
+    status = status ? status : rates(run, t, y, p, other, &against);
+    *mode = known;
+    for (int k = 0; k < N_Y; k++)
+        dy[k] -= other[k];
+    return status ? 0.0 : along.friction[i].rate - against.friction[i].rate;
+}
+
+/*
+ * Stops the slips of friction that sticks, which are left over or which a step let drift: by impulses of the friction.
+ * Whether there were any. One of them leaves the others at rest.
+ */
+static int stop_slips(Run *run, double t, double *y, const Aside *aside, const Parameters *p)
+{
+    int some = 0;
+    for (int i = 0; i < N_FRICTIONS; i++) {
+        double way[N_Y];
+        const double v = aside->friction[i].v;
+        if (run->memory.mode[i] != 0.0 || fabs(v) <= RESTS)
+            continue;
+        const double response = response_to_friction(run, t, y, i, p, way);
+        for (int k = N_X; k < 2 * N_X && response > 0.0; k++)
+            y[k] -= way[k] * (v / response);
+        some |= response > 0.0;
+    }
+    return some;
+}
+
+/* The right-hand side at a state; friction that sticks is at rest there. */
+static int rates_at_rest(Run *run, double t, double *y, const Parameters *p, double *dy, Aside *aside)
+{
+    const int status = rates(run, t, y, p, dy, aside);
+    return status || !stop_slips(run, t, y, aside, p) ? status : rates(run, t, y, p, dy, aside);
+}
+
+/* The same of a state alone. */
+static void hold_slips(Run *run, double t, double *y, const Parameters *p)
+{
+    double dy[N_Y];
+    Aside aside;
+    int sticks = 0;
+    for (int i = 0; i < N_FRICTIONS; i++)
+        sticks |= run->memory.mode[i] == 0.0;
+    if (sticks)
+        (void)rates_at_rest(run, t, y, p, dy, &aside);
+}
