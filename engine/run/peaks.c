@@ -80,7 +80,7 @@ static void inner_peak(Run *run, const Step *step, double share, int i, double b
 
 #if N_RIGID
 /* Whether the stages of an explicit step up to `share` tell that the force of contact i only rises or only falls. */
-static int is_force_monotone(const Step *step, double share, int i, double before, double after)
+static int is_force_monotone(const Step *step, double share, int i, double before, double after, const Parameters *p)
 {
     Place all[N_STAGES + 2];
     const Seen forces = seen_of(step, SEEN_FORCES + i);
@@ -93,7 +93,8 @@ static int is_force_monotone(const Step *step, double share, int i, double befor
         rises += slope - 0.5 * bend * w > 0.0;
         falls += slope + 0.5 * bend * w < 0.0;
     }
-    return share == 1.0 && !step->method->stiff && n >= LEAST_STAGES && (rises == n - 1 || falls == n - 1);
+    return share == 1.0 && !step->method->stiff && n >= LEAST_STAGES && (rises == n - 1 || falls == n - 1)
+        && !swings_between(step, all, n, p);
 }
 
 /*
@@ -105,7 +106,7 @@ static void rigid_peak(Run *run, Step *step, double share, int i, double before,
     Sampled part[MAX_BISECTIONS + 1];
     Place from = {0.0, before, NAN};
     peak(run, i, step->t, before);
-    if (is_force_monotone(step, share, i, before, after) || make_dense(run, p, step))
+    if (is_force_monotone(step, share, i, before, after, p) || make_dense(run, p, step))
         return;
     part[0] = (Sampled){{0.5 * share, force_at(run, step, 0.5 * share, i, p), NAN}, {share, after, NAN}, INFINITY};
     for (int n = 1, samples = 1; n > 0;) {
@@ -114,20 +115,18 @@ static void rigid_peak(Run *run, Step *step, double share, int i, double before,
         const double slope = 0.5 * (now.end.f - from.f), bend = from.f - 2.0 * now.middle.f + now.end.f;
         const double top = bend < 0.0 && fabs(slope) < -bend ? now.middle.f - 0.5 * slope * slope / bend
             : max_of(from.f, now.end.f);
-        if (!(top + now.error > known) || n > MAX_BISECTIONS || samples > MOST_FORCE_SAMPLES) {
+        const int clear = !(top + now.error > known) && !swings_unseen(step, from.s, now.end.s, p);
+        if (clear || n > MAX_BISECTIONS || samples > MOST_FORCE_SAMPLES) {
             from = now.end;
             n--;
             continue;
         }
         const double s[2] = {from.s + 0.25 * w, now.end.s - 0.25 * w};
-        double error = 0.0, f[2];
-        for (int k = 0; k < 2; k++) {
-            f[k] = force_at(run, step, s[k], i, p);
-            error = max_of(error, fabs(f[k] - parabola_at(from, now.middle, now.end, s[k])));
-        }
-        error = w > 0.5 * share ? INFINITY : error;
-        part[n - 1] = (Sampled){{s[1], f[1], NAN}, now.end, error};
-        part[n++] = (Sampled){{s[0], f[0], NAN}, now.middle, error};
+        const Place left = {s[0], force_at(run, step, s[0], i, p), NAN};
+        const Place right = {s[1], force_at(run, step, s[1], i, p), NAN};
+        const double error = error_of_halves(from, now, left, right);
+        part[n - 1] = (Sampled){right, now.end, error};
+        part[n++] = (Sampled){left, now.middle, error};
         samples += 2;
     }
 }

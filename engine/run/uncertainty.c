@@ -36,7 +36,7 @@ static void add_closing(Run *run, double t, const double *y, const Parameters *p
  */
 static void rounding_errors(Run *run, double t, const double *y, const Parameters *p, double *error)
 {
-    double size[2] = {run->least[0], 1.0}, speed[2] = {run->speed[0], run->speed[1]};
+    double size[2] = {0.0, 1.0}, speed[2] = {run->speed[0], run->speed[1]};
     for (int k = 0; k < N_X; k++) {
         size[is_angle[k]] = max_of(size[is_angle[k]], fabs(y[k]));
         speed[is_angle[k]] = max_of(speed[is_angle[k]], fabs(y[N_X + k]));
@@ -66,6 +66,8 @@ static void add_stuck_slip(Run *run, double t, const double *y, const Parameters
         for (int k = N_X; k < 2 * N_X && response > 0.0; k++)
             error[k] += fabs(way[k] * aside.friction[i].v / response);
     }
+    for (int k = 0; k < N_X && status >= 0; k++) /* a place that is held may be 0: by lengths that count */
+        error[k] = max_of(error[k], ROUNDINGS * DBL_EPSILON * run->least[is_angle[k]]);
 }
 #else
 static void add_stuck_slip(Run *run, double t, const double *y, const Parameters *p, double *error)

@@ -11,6 +11,7 @@
 enum { MOST_FORCE_SAMPLES = 20000, LEAST_STAGES = 8 /* of a step that tell of a force between them */ };
 #define UNSURE 4.0
 #define COARSE 0.0625 /* of a step: parabolas over longer parts say nothing of their error */
+#define SWING 0.05 /* of the range of a term of time over a step, that it may go beyond parabolas */
 #define FORCE_ROUNDED 1e-12 /* of the largest sample: what an event function may be below zero by rounding */
 
 /* A part of a step: its middle and end, and how far the event function may lie from the parabola. */
@@ -76,6 +77,45 @@ static int values_of_stages(const Step *step, Place begin, Place end, Seen seen,
     return n;
 }
 
+#if N_TERMS
+/*
+ * Whether a term of time alone may swing between samples at a part's ends and its middle: by its bounds its slope is
+ * larger than that of the parabola through them, by what would lead it away from there by a share of its range.
+ */
+static int swings_unseen(const Step *step, double a, double b, const Parameters *p)
+{
+    Range whole[N_TERMS], f[N_TERMS], at[3][N_TERMS];
+    const double w = b - a;
+    terms_over(step->t, step->h, 0.0, 1.0, p, whole);
+    terms_over(step->t, step->h, a, b, p, f);
+    for (int i = 0; i < 3; i++)
+        terms_over(step->t, step->h, a + 0.5 * i * w, a + 0.5 * i * w, p, at[i]);
+    for (int k = 0; k < N_TERMS; k++) {
+        const double slope = at[2][k].lo - at[0][k].lo, bend = fabs(at[0][k].lo - 2.0 * at[1][k].lo + at[2][k].lo);
+        const double beyond = max_of(w * f[k].up - slope, slope - w * f[k].down) - 2.0 * bend;
+        if (!(beyond <= SWING * (whole[k].hi - whole[k].lo)))
+            return 1;
+    }
+    return 0;
+}
+#else
+static int swings_unseen(const Step *step, double a, double b, const Parameters *p)
+{
+    return (void)step, (void)a, (void)b, (void)p, 0;
+}
+#endif
+
+/* Whether one may between the stages. */
+static int swings_between(const Step *step, const Place *all, int n, const Parameters *p)
+{
+    int some = swings_unseen(step, 0.0, 1.0, p);
+    for (int i = 1, each = some; i < n && each; i++) {
+        some = swings_unseen(step, all[i - 1].s, all[i].s, p);
+        each = !some;
+    }
+    return some;
+}
+
 /* A bound of a second derivative: twice the largest that three neighbours show. */
 static double largest_bend(const Place *all, int n)
 {
@@ -92,7 +132,7 @@ static double largest_bend(const Place *all, int n)
  * Whether the stages of an explicit step tell that margin k has no zero: between neighbours a and b it is at least
  * min(f_a, f_b) - B w^2/8, B a bound of the second derivative. No value above -rest is below zero.
  */
-static int is_clear_of_zero(const Run *run, const Step *step, int k, double rest)
+static int is_clear_of_zero(const Run *run, const Step *step, int k, double rest, const Parameters *p)
 {
     Place all[N_STAGES + 2];
     const int n = values_of_stages(step, begin_of(run, step, k), end_of(run, step, k), seen_of(step, k), all);
@@ -110,7 +150,7 @@ static int is_clear_of_zero(const Run *run, const Step *step, int k, double rest
         if (!(min_of(all[i - 1].f, all[i].f) - 0.125 * bend * w * w > -rest))
             return 0;
     }
-    return !(rest > 0.0) || all[n - 1].f >= -AT_REST;
+    return (!(rest > 0.0) || all[n - 1].f >= -AT_REST) && !swings_between(step, all, n, p);
 }
 
 /* The parabola through a part's ends and middle, at share s. */
@@ -129,6 +169,15 @@ static double least_of_parabola(Place a, Place middle, Place b, double *steepest
     return bend > 0.0 && fabs(u) < 1.0 ? min_of(least, middle.f + 0.5 * slope * u) : least;
 }
 
+/* How far a function may lie from the parabolas of a part's halves, by two samples more. */
+static double error_of_halves(Place from, Sampled now, Place left, Place right)
+{
+    const double missed = max_of(fabs(left.f - parabola_at(from, now.middle, now.end, left.s)),
+        fabs(right.f - parabola_at(from, now.middle, now.end, right.s)));
+    const double known = isfinite(now.error) ? 0.25 * now.error : 0.0;
+    return now.end.s - from.s > COARSE ? INFINITY : max_of(known, UNSURE * missed);
+}
+
 /* Whether margin k has a zero in the step, and places that enclose the first one. */
 static int has_force_zero(Run *run, Step *step, int k, const Parameters *p, Place *low, Place *high)
 {
@@ -137,13 +186,13 @@ static int has_force_zero(Run *run, Step *step, int k, const Parameters *p, Plac
     Sampled part[MAX_BISECTIONS + 1];
     Place from = begin_of(run, step, k);
     double largest = fabs(from.f);
-    if (is_clear_of_zero(run, step, k, rest) || make_dense(run, p, step))
+    if (is_clear_of_zero(run, step, k, rest, p) || make_dense(run, p, step))
         return 0;
     part[0] = (Sampled){place_at(run, step, 0.5, k, p), end_of(run, step, k), INFINITY};
     for (int n = 1, samples = 1; n > 0;) {
         const Sampled now = part[n - 1];
         const double w = now.end.s - from.s;
-        double steepest, missed[2];
+        double steepest;
         rest = from.f > rest ? 0.0 : rest;
         const double least = least_of_parabola(from, now.middle, now.end, &steepest) - now.error;
         const int crosses = now.middle.f < -rest || now.end.f < -rest;
@@ -154,17 +203,14 @@ static int has_force_zero(Run *run, Step *step, int k, const Parameters *p, Plac
             *high = now.middle.f < -rest ? now.middle : now.end;
             return 1;
         }
-        if (small || least >= -rest - FORCE_ROUNDED * largest) {
+        if (small || (least >= -rest - FORCE_ROUNDED * largest && !swings_unseen(step, from.s, now.end.s, p))) {
             from = now.end;
             n--;
             continue;
         }
         const Place left = place_at(run, step, from.s + 0.25 * w, k, p);
         const Place right = place_at(run, step, now.end.s - 0.25 * w, k, p);
-        missed[0] = fabs(left.f - parabola_at(from, now.middle, now.end, left.s));
-        missed[1] = fabs(right.f - parabola_at(from, now.middle, now.end, right.s));
-        const double known = isfinite(now.error) ? 0.25 * now.error : 0.0;
-        const double error = w > COARSE ? INFINITY : max_of(known, UNSURE * max_of(missed[0], missed[1]));
+        const double error = error_of_halves(from, now, left, right);
         part[n - 1] = (Sampled){right, now.end, error};
         part[n++] = (Sampled){left, now.middle, error};
         samples += 2;

@@ -190,7 +190,7 @@ def make_program(model: Model, formulation: str = "reduced", staged: bool = Fals
     integrated = in_tree or plain
     program = Program(
         model, formulation, kkt, closed, dynamics, watched, tuple(laws.kernels), pins, tree, integrated,
-        time_terms_kernel(dynamics),
+        time_terms_kernel(dynamics, rests=bool(model.frictions or model.rigid)),
         methods=_methods(model, integrated, staged or not integrated.reduced) if integrates else None,
         course=None if integrates else _course(model, kkt, integrated),
     )  # fmt: skip

@@ -2,7 +2,8 @@
 
 A step of a method sees forces and drives at its stages only. Polynomials, sines and exponentials of a linear argument
 show there what they do; e^(−t²), 1/(1 + t²), tanh t or a sine of a sine may be at rest at all of them and act in
-between. Such terms are known without the state, and so are their bounds over a part of a step
+between. While friction sticks, or a rigid contact is closed, nothing may move, steps are long, and sines are among
+those too. Such terms are known without the state, and so are their bounds over a part of a step
 (engine/watch/time_terms.c, ranges.h).
 """
 
@@ -33,9 +34,12 @@ def count_terms(kernel: Kernel | None) -> int:
     return sum(isinstance(s, Statement) and not s.local for s in statements)
 
 
-def time_terms_kernel(dynamics: Kernel) -> Kernel | None:
-    """What a right-hand side reads of time alone; None where nothing of it can hide within a step."""
-    found = _Terms()
+def time_terms_kernel(dynamics: Kernel, rests: bool = False) -> Kernel | None:
+    """What a right-hand side reads of time alone; None where nothing of it can hide within a step.
+
+    rests: something may hold the motion at rest while forces vary.
+    """
+    found = _Terms(rests)
     for section in dynamics.sections:
         for statement in section.statements:
             if isinstance(statement, Statement):
@@ -53,7 +57,8 @@ def time_terms_kernel(dynamics: Kernel) -> Kernel | None:
 class _Terms:
     """Reads statements in their order; `terms` are in the order in which they are met."""
 
-    def __init__(self) -> None:
+    def __init__(self, rests: bool) -> None:
+        self.shows = (sp.exp,) if rests else _LINEAR
         self.known: dict[str, Statement] = {}  # locals that time and parameters determine
         self.timed: dict[str, sp.Expr] = {}  # those of them that hang on time, written out
         self.terms: dict[sp.Expr, None] = {}
@@ -138,7 +143,7 @@ class _Terms:
                 return all(map(self.is_tame, value.args))
             case sp.Pow() if value.exp.is_Integer and int(value.exp) in _POWERS:
                 return self.is_tame(value.base)
-        if isinstance(value, (*_LINEAR, PeriodsOf)):
+        if isinstance(value, (*self.shows, PeriodsOf)):
             return self.is_linear(value.args[0])
         return False
 

@@ -70,11 +70,7 @@ class Path:
         self.run, good = self._result(self.steps)
         self.nearest, self.powers, self.seen, self.middle = (-1, None), (-1, None), {}, None
         self.lost += int((~good[len(good) - len(steps) :]).sum())
-        x = self.steps
-        q, v = (np.abs(part[np.isfinite(part)]).max(initial=0.0) for part in (x.q, x.v))
-        least = 40.0 * np.finfo(float).eps * q / max(ROUNDED * v, 1e-300)
-        at_rest = v * float(x.t[-1] - x.t[0]) <= REST * q  # forces may vary, and positions tell nothing of them
-        self.inner = ~x.jumped[1:] & (np.diff(x.t) > (0.0 if self.exact or at_rest else least))
+        self.inner = ~self.steps.jumped[1:] & (np.diff(self.steps.t) > (0.0 if self.exact else _shortest(self.steps)))
 
     def values(self, name: str) -> Array:
         """A series at the states, (K,); NaN where it is not known."""
@@ -242,3 +238,16 @@ class Path:
 def _slopes(n: int) -> Any:
     """Legendre coefficients of the derivatives of the first n polynomials of Legendre."""
     return legder(np.eye(n))
+
+
+def _shortest(x: Steps) -> float:
+    """The shortest part of a step, s, whose speeds differences of positions tell but for ROUNDED.
+
+    By lengths and by angles; those of a block at rest tell nothing, though forces may vary there.
+    """
+    shortest = 0.0
+    for kind in (slice(0, None, 3), slice(1, None, 3), slice(2, None, 3)):  # x, y, angles of all bodies
+        q, v = (np.abs(part[:, kind][np.isfinite(part[:, kind])]).max(initial=0.0) for part in (x.q, x.v))
+        if v * float(x.t[-1] - x.t[0]) > REST * q:
+            shortest = max(shortest, 40.0 * np.finfo(float).eps * float(q) / (ROUNDED * float(v)))
+    return shortest

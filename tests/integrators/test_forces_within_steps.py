@@ -60,6 +60,34 @@ scenes:
 """
 
 
+SUPPORT = """
+format: gudgeon/1
+name: support
+gravity: [0, -9.81]
+parameters: {c: 3 mm, A: 0.05 mm, w: 50 rad/s, B: 0 N, w2: 10 rad/s}
+materials: {steel: {E: 207 GPa, nu: 0.3}}
+bodies:
+  s: {mass: 1 kg, inertia: 1e-4 kg*m^2, points: {Q: [0, 0]}}
+  b: {mass: 0.5 kg, inertia: 1e-4 kg*m^2, points: {P: [0, 0]}}
+ground: {O: [0, 0]}
+joints:
+  sup: {translational: [ground.O, s.origin], axis: [0, 1]}
+  pin: {revolute: [s.Q, b.P]}
+drives:
+  d: {coordinate: s.y, value: A*sin(w*t)}
+forces:
+  f: {force: b.origin, value: [0, "B*sin(w2*t)"]}
+start:
+  play: {pin: {e: [0 mm, -c], rate: [0, 0]}}
+bearings:
+  brg: {radius: 10 mm, clearance: c, length: 20 mm, bearing_material: steel, journal_material: steel}
+contacts:
+  rigid: {normal: {law: newton_restitution, restitution: 0.5}}
+scenes:
+  worn: {play: {pin: {bearing: brg, contact: rigid}}}
+"""
+
+
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     made = tmp_path_factory.mktemp("scenes")
@@ -116,6 +144,32 @@ def test_the_largest_force_of_a_closed_rigid_contact_is_found(rigid: Simulation,
     run = rigid.simulate(1.1 * 2.0 * pi / w, parameters=given, output=3, peaks=["pin.F"])
     assert run.impacts["F_peak"][0] == pytest.approx(1.9 * MASS * G, rel=2e-6)
     assert run.peak("pin.F").max == pytest.approx(1.9 * MASS * G, rel=2e-6)
+
+
+def test_peaks_of_forces_that_are_faster_than_the_motion(tmp_path: Path) -> None:
+    """A journal on a support that moves slowly, beside a force of 1 to 1000 times the frequency: up to 60 periods.
+
+    N(t) = m (g - A w^2 sin w t) - B sin w2 t; peaks that were searched by steps alone were 6 to 28 % low.
+    """
+    file = tmp_path / "support.yaml"
+    file.write_text(SUPPORT, encoding="utf-8")
+    support, rng = gudgeon.load(file, scene="worn"), np.random.default_rng(5)
+    for k in range(60):
+        w, ratio = 10 ** rng.uniform(1, 3), 10 ** rng.uniform(0, 3)
+        moves, pushes = rng.uniform(0.05, 0.4) * G / w**2, rng.uniform(0.05, 0.5) * MASS * G
+        values = {"A": moves, "w": w, "B": pushes, "w2": w * ratio}
+        given = {name: float(value) for name, value in values.items()}
+        t_end = float(2 * pi / given["w2"] * rng.uniform(3, 60))
+        run = support.simulate(
+            t_end, parameters=given, method=("auto", "dop853")[k % 2], rtol=float(10 ** rng.uniform(-10, -4)), output=1,
+            peaks=["pin.F"],
+        )  # fmt: skip
+        t = np.linspace(0.0, t_end, 200_001)
+        force = MASS * (G - given["A"] * w**2 * np.sin(w * t)) - given["B"] * np.sin(given["w2"] * t)
+        peak = run.peak("pin.F")
+        assert peak.max == pytest.approx(force.max(), rel=1e-5), (given, t_end)
+        assert peak.min == pytest.approx(force.min(), abs=1e-5 * force.max()), (given, t_end)
+        assert run.impacts["F_peak"][0] == pytest.approx(force.max(), rel=1e-5), (given, t_end)
 
 
 @pytest.mark.parametrize("method", ["auto", "dop853", "rodas5p", "radau5"])
