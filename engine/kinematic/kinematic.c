@@ -123,7 +123,7 @@ static double bend_between(const Place *a, const Place *b, double extent)
 
 #include "change_point.c"
 
-#if N_TERMS
+#if N_PULSES
 static int only_wide_bounds(void *context, double share, int sure)
 {
     (void)context, (void)share;

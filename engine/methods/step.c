@@ -52,6 +52,8 @@ static void forget_stages(Step *step)
 {
     step->n_seen = 0;
     step->seen_lane = NULL;
+    step->spread[0] = -1.0;
+    step->swings = -1;
     for (int k = 0; k < N_MARGINS; k++)
         step->lowest[k] = INFINITY;
     for (int k = 0; k < 2 * N_X && N_WATCHED > 0; k++) {

@@ -80,7 +80,7 @@ static void inner_peak(Run *run, const Step *step, double share, int i, double b
 
 #if N_RIGID
 /* Whether the stages of an explicit step up to `share` tell that the force of contact i only rises or only falls. */
-static int is_force_monotone(const Step *step, double share, int i, double before, double after, const Parameters *p)
+static int is_force_monotone(Step *step, double share, int i, double before, double after, const Parameters *p)
 {
     Place all[N_STAGES + 2];
     const Seen forces = seen_of(step, SEEN_FORCES + i);

@@ -79,6 +79,8 @@ typedef struct {
     double least[2 * N_X + 1], most[2 * N_X + 1];   /* of the state at stages, where something is watched */
     unsigned char near[AT_LEAST_ONE(N_WATCHED)], looked;
     double rate[AT_LEAST_ONE(N_CLEARANCES)][2];   /* smallest and largest d delta/dt of the stages */
+    double spread[AT_LEAST_ONE(N_TERMS)];         /* of terms of time alone over the step; -1: not known yet */
+    int swings;                                   /* whether one may swing between stages (forces.c); -1: not known */
 } Step;
 
 /*

@@ -10,7 +10,7 @@
  */
 enum { MOST_FORCE_SAMPLES = 20000, LEAST_STAGES = 8 /* of a step that tell of a force between them */ };
 #define UNSURE 4.0
-#define COARSE 0.0625 /* of a step: parabolas over longer parts say nothing of their error */
+#define COARSE 0.25 /* of a step: parabolas over longer parts say nothing of their error */
 #define SWING 0.05 /* of the range of a term of time over a step, that it may go beyond parabolas */
 #define FORCE_ROUNDED 1e-12 /* of the largest sample: what an event function may be below zero by rounding */
 
@@ -82,38 +82,45 @@ static int values_of_stages(const Step *step, Place begin, Place end, Seen seen,
  * Whether a term of time alone may swing between samples at a part's ends and its middle: by its bounds its slope is
  * larger than that of the parabola through them, by what would lead it away from there by a share of its range.
  */
-static int swings_unseen(const Step *step, double a, double b, const Parameters *p)
+static int swings_unseen(Step *step, double a, double b, const Parameters *p)
 {
-    Range whole[N_TERMS], f[N_TERMS], at[3][N_TERMS];
+    Range f[N_TERMS], low[N_TERMS], middle[N_TERMS], high[N_TERMS];
     const double w = b - a;
-    terms_over(step->t, step->h, 0.0, 1.0, p, whole);
+    if (step->spread[0] < 0.0) {
+        terms_over(step->t, step->h, 0.0, 1.0, p, f);
+        for (int k = 0; k < N_TERMS; k++)
+            step->spread[k] = f[k].hi - f[k].lo;
+    }
     terms_over(step->t, step->h, a, b, p, f);
-    for (int i = 0; i < 3; i++)
-        terms_over(step->t, step->h, a + 0.5 * i * w, a + 0.5 * i * w, p, at[i]);
+    terms_over(step->t, step->h, a, a, p, low);
+    terms_over(step->t, step->h, a + 0.5 * w, a + 0.5 * w, p, middle);
+    terms_over(step->t, step->h, b, b, p, high);
     for (int k = 0; k < N_TERMS; k++) {
-        const double slope = at[2][k].lo - at[0][k].lo, bend = fabs(at[0][k].lo - 2.0 * at[1][k].lo + at[2][k].lo);
+        const double slope = high[k].lo - low[k].lo, bend = fabs(low[k].lo - 2.0 * middle[k].lo + high[k].lo);
         const double beyond = max_of(w * f[k].up - slope, slope - w * f[k].down) - 2.0 * bend;
-        if (!(beyond <= SWING * (whole[k].hi - whole[k].lo)))
+        if (!(beyond <= SWING * step->spread[k]))
             return 1;
     }
     return 0;
 }
 #else
-static int swings_unseen(const Step *step, double a, double b, const Parameters *p)
+static int swings_unseen(Step *step, double a, double b, const Parameters *p)
 {
     return (void)step, (void)a, (void)b, (void)p, 0;
 }
 #endif
 
 /* Whether one may between the stages. */
-static int swings_between(const Step *step, const Place *all, int n, const Parameters *p)
+static int swings_between(Step *step, const Place *all, int n, const Parameters *p)
 {
-    int some = swings_unseen(step, 0.0, 1.0, p);
-    for (int i = 1, each = some; i < n && each; i++) {
-        some = swings_unseen(step, all[i - 1].s, all[i].s, p);
-        each = !some;
+    if (step->swings < 0) {
+        step->swings = swings_unseen(step, 0.0, 1.0, p);
+        for (int i = 1, each = step->swings; i < n && each; i++) {
+            step->swings = swings_unseen(step, all[i - 1].s, all[i].s, p);
+            each = !step->swings;
+        }
     }
-    return some;
+    return step->swings;
 }
 
 /* A bound of a second derivative: twice the largest that three neighbours show. */
@@ -132,7 +139,7 @@ static double largest_bend(const Place *all, int n)
  * Whether the stages of an explicit step tell that margin k has no zero: between neighbours a and b it is at least
  * min(f_a, f_b) - B w^2/8, B a bound of the second derivative. No value above -rest is below zero.
  */
-static int is_clear_of_zero(const Run *run, const Step *step, int k, double rest, const Parameters *p)
+static int is_clear_of_zero(const Run *run, Step *step, int k, double rest, const Parameters *p)
 {
     Place all[N_STAGES + 2];
     const int n = values_of_stages(step, begin_of(run, step, k), end_of(run, step, k), seen_of(step, k), all);

@@ -1,5 +1,5 @@
 /* Steps that jump over a pulse: terms of time alone that act between stages (time_terms.c). */
-#if N_TERMS
+#if N_PULSES
 #define HARMLESS_DEFECT 30.0 /* of the tolerance, that a term may change over a whole step */
 
 typedef struct {

@@ -3,17 +3,19 @@
  * bounds over the gaps between its looks are known (ranges.h): where one goes beyond what both ends of a gap show by
  * more than a quarter of what the step has seen of it, that place is looked at.
  */
-enum { N_PLACES = 16, GAP_PARTS = 64, MAX_HARMLESS = 4 };
-#define UNSEEN 0.25 /* of what was seen of a term, that it may go beyond in a gap */
-
-/* Whether what happens at a share of the step is nothing to speak of; `sure`: it is more than bounds that are wide. */
-typedef int Harmless(void *context, double share, int sure);
 
 /* Terms over a part of the time from t on, h long. */
 static void terms_over(double t, double h, double a, double b, const Parameters *p, Range *out)
 {
     time_terms((Range){t + a * h, t + b * h, h, h, 0}, p, out);
 }
+
+#if N_PULSES
+enum { N_PLACES = 16, GAP_PARTS = 64, MAX_HARMLESS = 4 };
+#define UNSEEN 0.25 /* of what was seen of a term, that it may go beyond in a gap */
+
+/* Whether what happens at a share of the step is nothing to speak of; `sure`: it is more than bounds that are wide. */
+typedef int Harmless(void *context, double share, int sure);
 
 /* A part of a gap; how far terms may go in it beyond what was seen, and how far they do so in its middle. */
 typedef struct {
@@ -28,7 +30,7 @@ static GapPart gap_part(double t, double h, double from, double to, const Range 
     Range f[N_TERMS], middle[N_TERMS];
     terms_over(t, h, from, to, p, f);
     terms_over(t, h, 0.5 * (from + to), 0.5 * (from + to), p, middle);
-    for (int k = 0; k < N_TERMS; k++) {
+    for (int k = 0; k < N_PULSES; k++) {
         const double least = min_of(low[k].lo, high[k].lo) - slack[k], top = max_of(low[k].lo, high[k].lo) + slack[k];
         const double excess = max_of(f[k].hi - top, least - f[k].lo);
         if (excess > part.most) {
@@ -45,7 +47,7 @@ static int is_monotone(double t, double h, double a, double b, const Parameters 
     Range f[N_TERMS];
     int one_way = 1;
     terms_over(t, h, a, b, p, f);
-    for (int k = 0; k < N_TERMS && one_way; k++)
+    for (int k = 0; k < N_PULSES && one_way; k++)
         one_way = f[k].down >= 0.0 || f[k].up <= 0.0;
     return one_way;
 }
@@ -86,12 +88,12 @@ static double unseen_term(double t, double h, const double *place, int n, Harmle
     const Parameters *p)
 {
     Range at[N_PLACES][N_TERMS];
-    double slack[N_TERMS], share = 0.0;
+    double slack[N_PULSES], share = 0.0;
     if (is_monotone(t, h, 0.0, 1.0, p))
         return 0.0; /* what it does shows at its ends */
     for (int i = 0; i < n; i++)
         terms_over(t, h, place[i], place[i], p, at[i]);
-    for (int k = 0; k < N_TERMS; k++) {
+    for (int k = 0; k < N_PULSES; k++) {
         double least = INFINITY, most = -INFINITY;
         for (int i = 0; i < n; i++) {
             least = min_of(least, at[i][k].lo);
@@ -103,3 +105,4 @@ static double unseen_term(double t, double h, const double *place, int n, Harmle
         share = unseen_in_gap(t, h, place[i - 1], place[i], at[i - 1], at[i], slack, harmless, context, p);
     return share;
 }
+#endif

@@ -27,7 +27,7 @@ from gudgeon.generator.kernels.play import Pin, make_pin, pin_slopes
 from gudgeon.generator.kernels.projection import closing_kernel, projection_kernel
 from gudgeon.generator.kernels.reduced import DYNAMICS, is_rescued, motion_kernels, reduced_kernels
 from gudgeon.generator.kernels.shared import SharedCall, SharedFunctions
-from gudgeon.generator.kernels.time_terms import time_terms_kernel
+from gudgeon.generator.kernels.time_terms import TimeTerms, time_terms
 from gudgeon.generator.reduction.driven_chains import Chain
 from gudgeon.generator.reduction.reduction import TreeSystem, reduce
 from gudgeon.generator.solvers.kkt import KKT
@@ -138,7 +138,7 @@ class Program:
     pins: tuple[Pin, ...]
     tree: TreeFunctions | None
     integrated: Integrated
-    terms: Kernel | None  # of time alone, which may hide within a step
+    terms: TimeTerms  # of time alone, which may hide within a step
     methods: Methods | None
     course: Course | None
 
@@ -190,7 +190,7 @@ def make_program(model: Model, formulation: str = "reduced", staged: bool = Fals
     integrated = in_tree or plain
     program = Program(
         model, formulation, kkt, closed, dynamics, watched, tuple(laws.kernels), pins, tree, integrated,
-        time_terms_kernel(dynamics, rests=bool(model.frictions or model.rigid)),
+        time_terms(dynamics, rests=bool(model.frictions or model.rigid)),
         methods=_methods(model, integrated, staged or not integrated.reduced) if integrates else None,
         course=None if integrates else _course(model, kkt, integrated),
     )  # fmt: skip

@@ -9,7 +9,7 @@ those too. Such terms are known without the state, and so are their bounds over 
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import sympy as sp
 
@@ -28,25 +28,41 @@ _LINEAR = (sp.sin, sp.cos, sp.exp)  # what shows at the stages of a step, of a l
 _POWERS = range(1, 5)  # likewise, of what does
 
 
-def count_terms(kernel: Kernel | None) -> int:
-    """How many terms a kernel tells."""
-    statements = [s for section in kernel.sections for s in section.statements] if kernel else []
-    return sum(isinstance(s, Statement) and not s.local for s in statements)
+@dataclass(frozen=True)
+class TimeTerms:
+    """Terms of time alone: the first `pulses` of them may hide within a step of any motion, all within one of rest."""
+
+    kernel: Kernel | None = None  # None: there are none
+    pulses: int = 0
+
+    @property
+    def count(self) -> int:
+        """How many there are."""
+        statements = [s for section in self.kernel.sections for s in section.statements] if self.kernel else []
+        return sum(isinstance(s, Statement) and not s.local for s in statements)
 
 
-def time_terms_kernel(dynamics: Kernel, rests: bool = False) -> Kernel | None:
-    """What a right-hand side reads of time alone; None where nothing of it can hide within a step.
+def time_terms(dynamics: Kernel, rests: bool) -> TimeTerms:
+    """What a right-hand side reads of time alone. rests: something may hold the motion while forces vary."""
+    found = _read(dynamics, False)
+    terms = list(found.terms)[:MOST]
+    pulses = len(terms)
+    if rests:
+        found = _read(dynamics, True)
+        terms = [*terms, *(term for term in found.terms if term not in terms)][:MOST]
+    return TimeTerms(_kernel(dynamics, found, terms) if terms else None, pulses)
 
-    rests: something may hold the motion at rest while forces vary.
-    """
+
+def _read(dynamics: Kernel, rests: bool) -> _Terms:
     found = _Terms(rests)
     for section in dynamics.sections:
         for statement in section.statements:
             if isinstance(statement, Statement):
                 found.read(statement)
-    terms = list(found.terms)[:MOST]
-    if not terms:
-        return None
+    return found
+
+
+def _kernel(dynamics: Kernel, found: _Terms, terms: list[sp.Expr]) -> Kernel:
     outs = [Statement(f"out[{k}]", term, local=False) for k, term in enumerate(terms)]
     sections = (Section("parameters and time", tuple(found.needed(terms))), Section("terms", tuple(outs)))
     arguments = (Argument("const double", "t"), *(a for a in dynamics.arguments if a.name == "p"),
@@ -58,7 +74,7 @@ class _Terms:
     """Reads statements in their order; `terms` are in the order in which they are met."""
 
     def __init__(self, rests: bool) -> None:
-        self.shows = (sp.exp,) if rests else _LINEAR
+        self.shows: tuple[type[sp.Basic], ...] = (sp.exp,) if rests else _LINEAR
         self.known: dict[str, Statement] = {}  # locals that time and parameters determine
         self.timed: dict[str, sp.Expr] = {}  # those of them that hang on time, written out
         self.terms: dict[sp.Expr, None] = {}
@@ -143,7 +159,7 @@ class _Terms:
                 return all(map(self.is_tame, value.args))
             case sp.Pow() if value.exp.is_Integer and int(value.exp) in _POWERS:
                 return self.is_tame(value.base)
-        if isinstance(value, (*self.shows, PeriodsOf)):
+        if isinstance(value, (PeriodsOf, *self.shows)):
             return self.is_linear(value.args[0])
         return False
 

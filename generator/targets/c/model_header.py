@@ -19,7 +19,6 @@ from gudgeon.generator.kernels import outputs
 from gudgeon.generator.kernels.closed_linkage import apart_rows
 from gudgeon.generator.kernels.event_functions import ranges_kernel, reads_state
 from gudgeon.generator.kernels.program import Program
-from gudgeon.generator.kernels.time_terms import count_terms
 from gudgeon.generator.kinds.joints.joint_type import CORNERS
 from gudgeon.generator.kinds.laws.law import DEEPEST
 from gudgeon.generator.solvers.kkt import KKT
@@ -121,7 +120,8 @@ def _of_watch(program: Program, bounds: Kernel | None) -> Sizes:
         "N_WATCHED": (len(watched_corners(program)) + len(model.events), "corners of expressions, and events"),
         "KNOWN_BOUNDS": (int(bounds is not None), "bounds of what is watched are known over ranges of the state"),
         "WATCHES_STATE": (int(bounds is not None and reads_state(bounds)), "they hang on more than time"),
-        "N_TERMS": (count_terms(program.terms), "terms of time alone, which may hide within a step"),
+        "N_TERMS": (program.terms.count, "terms of time alone, which may hide within a step"),
+        "N_PULSES": (program.terms.pulses, "of these, the first: those that may in a step of any motion"),
     }  # fmt: skip
     systems = (model, program.integrated.system.model)
     periods = any(switch.g.has(PeriodsOf) for some in systems for switch in some.symbols.switches.found.values())
