@@ -74,7 +74,7 @@ class _Terms:
     """Reads statements in their order; `terms` are in the order in which they are met."""
 
     def __init__(self, rests: bool) -> None:
-        self.shows: tuple[type[sp.Basic], ...] = (sp.exp,) if rests else _LINEAR
+        self.shows = (PeriodsOf, sp.exp) if rests else (PeriodsOf, *_LINEAR)
         self.known: dict[str, Statement] = {}  # locals that time and parameters determine
         self.timed: dict[str, sp.Expr] = {}  # those of them that hang on time, written out
         self.terms: dict[sp.Expr, None] = {}
@@ -159,9 +159,7 @@ class _Terms:
                 return all(map(self.is_tame, value.args))
             case sp.Pow() if value.exp.is_Integer and int(value.exp) in _POWERS:
                 return self.is_tame(value.base)
-        if isinstance(value, (PeriodsOf, *self.shows)):
-            return self.is_linear(value.args[0])
-        return False
+        return isinstance(value, self.shows) and self.is_linear(value.args[0])
 
     def is_linear(self, value: sp.Expr) -> bool:
         """Whether its form says that it is linear in time."""

@@ -40,6 +40,7 @@
 #define KNOWN_BOUNDS 0      /* bounds of what is watched are known over ranges of the state */
 #define WATCHES_STATE 0     /* they hang on more than time */
 #define N_TERMS 0           /* terms of time alone, which may hide within a step */
+#define N_PULSES 0          /* of these, the first: those that may in a step of any motion */
 #define N_GUESS 5           /* coordinates that the start guesses */
 #define GUESSED_POINTS 0    /* some of them are those of points */
 #define N_SET 0             /* those that it sets */
