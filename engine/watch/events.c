@@ -117,19 +117,25 @@ static int is_resolved(Run *run, double t, const double *y, const Aside *aside, 
     return !(fabs(margin(&run->memory, aside, k)) <= error[watched_as[k]]);
 }
 
+/* The same at a share of a step. */
+static int is_resolved_at(Run *run, const Step *step, double share, int k, const Parameters *p)
+{
+    double y[N_Y], dy[N_Y];
+    Aside aside;
+    return watched_as[k] < 0 || state_at(run, step, share, p, y, dy, &aside)
+        || is_resolved(run, step->t + share * step->h, y, &aside, k, p);
+}
+
 /* What was not seen at the stages but shows where an event was found crossed before it: the first of all. */
 static double earlier_event(Run *run, const Step *step, double first, const Parameters *p, int *event)
 {
     for (int again = 0; again < N_MARGINS && first > 0.0; again++) {
-        double y[N_Y], dy[N_Y];
-        Aside aside;
+        const int slot = look_in(run, step, first, *event, p);
         int found = -1;
-        if (state_at(run, step, first, p, y, dy, &aside))
-            return first;
-        for (int k = 0; k < N_MARGINS; k++)
-            if (k != *event && !is_passed(run, step, k) && !isfinite(begin_of(run, step, k).slope)
-                && margin(&run->memory, &aside, k) < 0.0 && margin(&run->memory, &run->aside, k) >= 0.0
-                && is_resolved(run, step->t + first * step->h, y, &aside, k, p))
+        for (int k = 0; k < N_MARGINS && slot >= 0; k++)
+            if (run->looked.margin[slot][k] < 0.0 && k != *event && !is_passed(run, step, k)
+                && !isfinite(begin_of(run, step, k).slope) && margin(&run->memory, &run->aside, k) >= 0.0
+                && is_resolved_at(run, step, first, k, p))
                 found = k;
         if (found < 0)
             return first;
@@ -175,7 +181,9 @@ static int is_candidate(Run *run, Step *step, int k, const Parameters *p, Candid
             low = part;
     }
     now->k = k;
-    now->of = bracket_of(step, k, low, high < 1.0 ? place_at(run, step, high, k, p) : end_of(run, step, k));
+    if (!is_gap)
+        end = high < 1.0 ? place_at(run, step, high, k, p) : end_of(run, step, k);
+    now->of = bracket_of(step, k, low, end);
     now->guess = low.f >= 0.0 ? guess_zero(&now->of, telling(run, k)) : low.s;
     now->about = low.f >= 0.0 ? about_where(now->guess, &now->of) : low.s;
     return 1;
@@ -221,27 +229,30 @@ static double first_counting(Run *run, Step *step, const Parameters *p, int *eve
  */
 static int is_pole(Run *run, const Step *step, double share, int k, const Parameters *p)
 {
-    double y[N_Y], dy[N_Y];
-    Aside aside;
     const double near = margin_at(run, step, share, k, p);
     const double far = margin_at(run, step, share + 64.0 * root_width(run, step), k, p);
     if (isinf(near) || !(fabs(near) > 2.0 * fabs(far)))
         return isinf(near);
-    return state_at(run, step, share, p, y, dy, &aside)
-        || is_resolved(run, step->t + share * step->h, y, &aside, k, p);
+    return is_resolved_at(run, step, share, k, p);
 }
 
 /*
- * The first event of a step in contact that is far longer than the one before: margins may cross zero and return
- * between its stages, of which those of stiff methods lie far from the motion. The dense output is sampled up to the
- * first event that was found.
+ * The first event of a step in contact that is far longer than the one before: margins of which no bounds are known may
+ * cross zero and return between its stages, of which those of stiff methods lie far from the motion. The dense output
+ * is sampled up to the first event that was found.
  */
 static double first_in_long_step(Run *run, Step *step, double share, const Parameters *p, int *event)
 {
-    int closed = 0;
+    int closed = 0, hidden = 0;
     for (int i = 0; i < N_CLEARANCES; i++)
         closed |= run->memory.latch[i].closed;
-    if (!closed || !(share * step->h > LONG_STEP * run->last_step) || run->fixed > 0.0 || make_dense(run, p, step))
+    if (!closed || !(share * step->h > LONG_STEP * run->last_step) || run->fixed > 0.0)
+        return share;
+    for (int k = 0; k < N_MARGINS && !hidden; k++)
+        hidden = watched_as[k] < 0 && !isfinite(begin_of(run, step, k).slope) && !follows_from_force(run, k)
+            && margin(&run->memory, &run->aside, k) >= 0.0 && !is_passed(run, step, k)
+            && (step->method->stiff || !is_clear_of_zero(run, step, k));
+    if (!hidden || make_dense(run, p, step))
         return share;
     for (int i = 1; i < N_INNER_SAMPLES; i++) {
         int earlier = -1;

@@ -137,7 +137,8 @@ static double largest_bend(const Place *all, int n)
 
 /*
  * Whether the stages of an explicit step tell that margin k has no zero: between neighbours a and b it is at least
- * min(f_a, f_b) - B w^2/8, B a bound of the second derivative. No value above -rest is below zero.
+ * min(f_a, f_b) - B w^2/8, B a bound of the second derivative, or than both where it only rises or only falls. No
+ * value above -rest is below zero.
  */
 static int is_clear_of_zero(const Run *run, Step *step, int k, double rest, const Parameters *p)
 {
@@ -152,9 +153,10 @@ static int is_clear_of_zero(const Run *run, Step *step, int k, double rest, cons
         return k >= N_CLEARANCES && run->memory.mode[k - N_CLEARANCES - N_SWITCHES] != 0.0 && least > most - least;
     const double bend = largest_bend(all, n);
     for (int i = 1; i < n; i++) {
-        const double w = all[i].s - all[i - 1].s;
+        const double w = all[i].s - all[i - 1].s, curve = bend * w * w;
+        const int monotone = fabs(all[i].f - all[i - 1].f) > 0.5 * curve;
         rest = all[i - 1].f > rest ? 0.0 : rest;
-        if (!(min_of(all[i - 1].f, all[i].f) - 0.125 * bend * w * w > -rest))
+        if (!(min_of(all[i - 1].f, all[i].f) - (monotone ? 0.0 : 0.125 * curve) > -rest))
             return 0;
     }
     return (!(rest > 0.0) || all[n - 1].f >= -AT_REST) && !swings_between(step, all, n, p);

@@ -59,7 +59,10 @@ static double margin_slope(const Run *run, const Step *step, const Aside *aside,
     return (run->memory.latch[k].closed ? step->h : -step->h) * aside->clearance[k].deltadot;
 }
 
-/* Where in run->looked all margins at share s are, looked at if they have not been; -1: it has none. */
+/*
+ * Where in run->looked all margins at share s are, looked at if they have not been; -1: it has none. k: the margin for
+ * whose zero is looked, -1: none.
+ */
 static int look_in(Run *run, const Step *step, double s, int k, const Parameters *p)
 {
     Looked *looked = &run->looked;
@@ -75,7 +78,7 @@ static int look_in(Run *run, const Step *step, double s, int k, const Parameters
     margins_of(&run->memory, &aside, looked->margin[slot]);
     for (int i = 0; i < N_CLEARANCES; i++)
         looked->slope[slot][i] = margin_slope(run, step, &aside, i);
-    if (looked->margin[slot][k] < 0.0) {
+    if (k >= 0 && looked->margin[slot][k] < 0.0) {
         looked->beyond = s;
         memcpy(looked->y, y, sizeof y);
         memcpy(looked->dy, dy, sizeof dy);
