@@ -201,11 +201,28 @@ static int trends_beyond(Run *run, const Step *step, double share, const double 
 }
 
 /*
+ * Whether the force of joint i may be larger between the ends of a step up to a share than at both, by the parabola
+ * through these and the first stage beyond.
+ */
+static int may_arch(const Step *step, double share, int i, double before, double after)
+{
+    const Seen forces = seen_of(step, SEEN_FORCES + i);
+    double node = INFINITY, force = NAN;
+    for (int k = 0; k < step->n_seen; k++)
+        if (step->node[k] > share && step->node[k] < node)
+            node = step->node[k], force = sqrt(seen_at(forces, k));
+    const double bend = 2.0 * ((force - before) / node - (after - before) / share) / (node - share);
+    const double curve = UNSURE * fabs(bend) * share * share;
+    return !(fabs(after - before) > 0.5 * curve || 0.125 * curve < (ARCHED - 1.0) * max_of(before, after));
+}
+
+/*
  * The largest force of joint i that is known between the ends of a step up to a share: at its stages, or in the middle
  * where a contact goes on and hardly a stage lies within.
  */
 static double largest_inside(Run *run, Step *step, double share, int i, const Parameters *p)
 {
+    const double before = total_force(&run->aside.clearance[i]), after = total_force(&step->aside.clearance[i]);
     double most = 0.0;
     int found = 0;
     const Seen forces = seen_of(step, SEEN_FORCES + i);
@@ -214,7 +231,8 @@ static double largest_inside(Run *run, Step *step, double share, int i, const Pa
             most = max_of(most, seen_at(forces, k));
             found++;
         }
-    if (found < FEW && run->memory.latch[i].closed && gives(i) && make_dense(run, p, step) == 0)
+    if (found < FEW && run->memory.latch[i].closed && gives(i) && may_arch(step, share, i, before, after)
+        && make_dense(run, p, step) == 0)
         return max_of(sqrt(most), force_at(run, step, 0.5 * share, i, p));
     return sqrt(most);
 }
@@ -236,7 +254,8 @@ static void inner_peaks(Run *run, Step *step, double share, const Parameters *p)
         if (!gives(i) && run->memory.latch[i].closed)
             rigid_peak(run, step, share, i, before[i], after[i], p);
 #endif
-        const double ends = max_of(before[i], after[i]), inside = largest_inside(run, step, share, i, p);
+        const int bears = run->memory.latch[i].closed || has_film(i);
+        const double ends = max_of(before[i], after[i]), inside = bears ? largest_inside(run, step, share, i, p) : 0.0;
         arches[i] = gives(i) && inside > (step->method->stiff ? ARCHED_STIFF : ARCHED) * ends;
         const double largest = !gives(i) ? 0.0 : arches[i] ? inside : ends;
         const int near = largest > share_of * known && largest > 0.0;
