@@ -38,17 +38,26 @@ static double audit_weight(const Run *run, int k)
     return run->inverse_scale[k] / (k < N_X ? 1.0 : run->speed[kind] + run->speed_floor[kind]);
 }
 
-/* How far rates `rate` are from `dy` at a state y of a step of length h, in multiples of a limit of many tolerances. */
+/*
+ * How far rates `rate` are from `dy` at a state y of a step of length h, in multiples of a limit of many tolerances; 0
+ * where that is less than the largest so far.
+ */
 static double defect_of(const Run *run, double h, const double *y, const double *rate, const double *dy)
 {
-    double defect = 0.0;
+    double defect = max_of(run->audit.record[DEFECT_CHECK].worst, 0.0), least = defect * AUDIT_DEFECT;
+    int larger = 0;
     const int rows = has_films() ? N_X : 2 * N_X; /* velocities of films: check_forces */
+    const double fast[2] = {1.0 / (run->speed[0] + run->speed_floor[0]), 1.0 / (run->speed[1] + run->speed_floor[1])};
     for (int k = 0; k < rows; k++) {
-        const double weight = audit_weight(run, k);
+        const double weight = run->inverse_scale[k] * (k < N_X ? 1.0 : fast[is_angle[k % N_X]]); /* as audit_weight */
+        const double off = fabs(h * (rate[k] - dy[k])) * weight;
+        if (off <= least)
+            continue;
         const double limit = AUDIT_DEFECT + AUDIT_DIGITS * (fabs(y[k]) + fabs(h * dy[k])) * weight;
-        defect = max_of(defect, fabs(h * (rate[k] - dy[k])) * weight / limit);
+        if (off > defect * limit)
+            defect = off / limit, least = off * AUDIT_DEFECT / limit, larger = 1;
     }
-    return defect;
+    return larger ? defect : 0.0;
 }
 
 /*
@@ -97,7 +106,7 @@ static void check_length(Run *run, Step *step, const Parameters *p)
         interpolate(run, step, gauss_node[n], y);
         if (rates(run, step->t + gauss_node[n] * h, y, p, dy, &aside) || !branches_fit(run, &aside))
             return;
-        interpolate_rates(step, gauss_node[n], rate);
+        interpolate_rates(step, gauss_node[n], N_Y, rate);
         for (int k = 0; k < N_Y; k++)
             sum[k] += gauss_weight[n] * (rate[k] - dy[k]);
     }
@@ -127,17 +136,34 @@ static void check_forces(Run *run, const Step *step, double t, const Aside *asid
     const Parameters *p)
 {
     int where;
+    if (!has_films())
+        return;
     const double share = film_share(run, step, rate, dy, largest_film_force(aside, &where), 1.0, p);
     if (where >= 0 && has_tolerance(run) && run->steps > 0)
         record(&run->audit, FORCE_CHECK, share, film_audit_limit(run, step), t, where);
 }
 
+/* What is checked of each state inside a step; `drawn`: of one whose place was drawn. */
+static void check_state_inside(Run *run, const Step *step, double theta, int drawn, const double *y, const double *dy,
+    const Aside *aside, const Parameters *p)
+{
+    const double t = step->t + theta * step->h;
+    double rate[2 * N_X];
+    interpolate_rates(step, theta, 2 * N_X, rate);
+    if (has_tolerance(run))
+        record(&run->audit, DEFECT_CHECK, defect_of(run, step->h, y, rate, dy), 1.0, t, -1);
+    if (drawn && has_tolerance(run) && !N_CLEARANCES) /* rates in contacts change within a step */
+        check_rate(run, step, t, y, rate, dy);
+    check_forces(run, step, t, aside, rate, dy, p);
+    check_joints(run, t, aside, p);
+    check_branches(run, step, t, y, aside, p);
+}
+
 /* One place inside a step, up to the event that ends it. */
 static void check_inside(Run *run, Step *step, double theta, int drawn, const Parameters *p)
 {
-    Audit *audit = &run->audit;
     const double t = step->t + theta * step->h;
-    double y[N_Y], dy[N_Y], rate[N_Y], all[N_S];
+    double y[N_Y], dy[N_Y], all[N_S];
     Aside aside;
     if (make_dense(run, p, step))
         return;
@@ -147,14 +173,7 @@ static void check_inside(Run *run, Step *step, double theta, int drawn, const Pa
             return;
     } else if (state_at(run, step, theta, p, y, dy, &aside))
         return; /* what lies beyond an event need not be computable */
-    interpolate_rates(step, theta, rate);
-    if (has_tolerance(run))
-        record(audit, DEFECT_CHECK, defect_of(run, step->h, y, rate, dy), 1.0, t, -1);
-    if (drawn && has_tolerance(run) && !N_CLEARANCES) /* rates in contacts change within a step */
-        check_rate(run, step, t, y, rate, dy);
-    check_forces(run, step, t, &aside, rate, dy, p);
-    check_joints(run, t, &aside, p);
-    check_branches(run, step, t, y, &aside, p);
+    check_state_inside(run, step, theta, drawn, y, dy, &aside, p);
     if (!drawn)
         return;
     to_absolute(t, y, &run->memory, p, all);
@@ -234,17 +253,21 @@ static void audit_step(Run *run, Step *step, double share, int event, const Para
         return;
     const long evaluations = run->evaluations;
     const int dense_ready = step->dense_ready;
-    const double h = share * step->h, mean = mean_interval(step->method);
+    const double h = share * step->h;
     const int all = audit->level == AUDIT_FULL, due = run->steps >= audit->due, whole = share >= 1.0 && event < 0;
     const int is_longer = (h > AUDIT_LONGER * run->last_step || (whole && h > AUDIT_LONGEST * audit->longest))
-        && !step->method->own_length && ((double)audit->longer + 1.0) * mean < (double)run->steps;
+        && !step->method->own_length
+        && ((double)audit->longer + 1.0) * mean_interval(step->method) < (double)run->steps;
     const int by_turn = (int)(audit->turns % 2);
     const int drawn = all || (due && !by_turn), measured = all || is_longer || (due && by_turn);
     const int places = all ? AUDIT_INSIDE : drawn || (is_longer && !whole);
     find_zeros(run, step, share, event, p);
-    if (places || event >= 0 || measured) {
+    const int ends = event >= 0 && share < 1.0, known = ends && run->steps > 0 && run->looked.beyond == share;
+    if (known)
+        check_state_inside(run, step, share, 0, run->looked.y, run->looked.dy, &run->looked.aside, p);
+    if (places || (ends && !known) || measured) {
         const Memory memory = run->memory;
-        if (event >= 0 && share < 1.0)
+        if (ends && !known)
             check_inside(run, step, share, 0, p);
         for (int k = 0; k < places; k++)
             check_inside(run, step, share * (k + draw(audit)) / places, drawn, p);
@@ -254,7 +277,7 @@ static void audit_step(Run *run, Step *step, double share, int event, const Para
             check_length(run, step, p);
         if (drawn || (due && whole)) {
             const double first = audit->turns++ ? 1.0 : AUDIT_FIRST;
-            audit->due = run->steps + 1 + (long)(2.0 * draw(audit) * first * mean);
+            audit->due = run->steps + 1 + (long)(2.0 * draw(audit) * first * mean_interval(step->method));
         }
         audit->longer += is_longer;
         run->memory = memory;

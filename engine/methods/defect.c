@@ -6,23 +6,20 @@
  * Rates of the interpolant at fraction theta of a step, whose coefficients are made: of the nested polynomial
  * y0 + w0 (d0 + w1 (d1 + ...)), each w being theta or 1 - theta, and of its derivative by Horner's scheme.
  */
-static void interpolate_rates(const Step *step, double theta, double *dy)
+static inline void interpolate_rates(const Step *step, double theta, int rows, double *dy)
 {
     const Method *method = step->method;
-    double value[N_Y] = {0.0};
-    for (int i = 0; i < N_Y; i++)
+    double value = 1.0 / step->h, rate = 0.0; /* of a product of factors theta and 1 - theta */
+    for (int i = 0; i < rows; i++)
         dy[i] = 0.0;
-    for (int k = method->degree - 1; k >= 0; k--) {
+    for (int k = 0; k < method->degree; k++) {
         const int turned = method->turned >> k & 1;
-        const double w = turned ? 1.0 - theta : theta, way = turned ? -1.0 : 1.0;
-        for (int i = 0; i < N_Y; i++) {
-            const double sum = step->dense[k][i] + value[i];
-            dy[i] = w * dy[i] + way * sum;
-            value[i] = w * sum;
-        }
+        const double w = turned ? 1.0 - theta : theta, *of = step->dense[k];
+        rate = rate * w + (turned ? -value : value);
+        value *= w;
+        for (int i = 0; i < rows; i++)
+            dy[i] += rate * of[i];
     }
-    for (int i = 0; i < N_Y; i++)
-        dy[i] /= step->h;
 }
 
 /*
@@ -90,7 +87,7 @@ static double film_error(Run *run, Step *step, const Parameters *p)
     if (!step->method->stiff || !has_films() || make_dense(run, p, step)
         || state_at(run, step, theta, p, y, dy, &aside))
         return 0.0;
-    interpolate_rates(step, theta, rate);
+    interpolate_rates(step, theta, 2 * N_X, rate);
     most = max_of(largest_film_force(&aside, &where), largest_film_force(&step->aside, &where));
     most = max_of(most, largest_film_force(&run->aside, &where));
     run->film_h = step->h, run->film_steps = run->steps;
@@ -119,6 +116,6 @@ static int misses_film(Run *run, Step *step, const Parameters *p)
     int where;
     if (!step->method->stiff || !has_films() || make_dense(run, p, step))
         return 0;
-    interpolate_rates(step, 0.0, rate);
+    interpolate_rates(step, 0.0, 2 * N_X, rate);
     return film_share(run, step, rate, run->dy, largest_film_force(&step->aside, &where), 1.0, p) > film_limit(run);
 }

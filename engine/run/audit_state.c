@@ -41,12 +41,15 @@ static int audit_state(Run *run, int listed, const Parameters *p)
     if (N_SWITCHES > 0 && run->memory.held)
         record(audit, BRANCH_CHECK, 0.0, 1.0, run->t, -1);
     for (int k = 0; k < N_SWITCHES && run->memory.held; k++) {
-        const double g = run->memory.side[k] * run->aside.g[k], scale = max_of(audit->switch_scale[k], fabs(g));
-        const int wrong = g < -1e-3 * audit->switch_scale[k] && k != run->skip && !meets[k];
-        audit->switch_scale[k] = scale;
-        audit->wrong[k] = (unsigned char)(wrong ? min_of(audit->wrong[k] + 1, 100) : 0);
+        const double g = run->memory.side[k] * run->aside.g[k], known = audit->switch_scale[k];
+        audit->switch_scale[k] = max_of(known, fabs(g));
+        if (!(g < -1e-3 * known) || k == run->skip || meets[k]) {
+            audit->wrong[k] = 0;
+            continue;
+        }
+        audit->wrong[k] = (unsigned char)min_of(audit->wrong[k] + 1, 100);
         if (audit->wrong[k] >= AUDIT_WRONG && is_resolved(run, run->t, run->y, &run->aside, N_CLEARANCES + k, p))
-            record(audit, BRANCH_CHECK, -g, 1e-4 * scale, run->t, k);
+            record(audit, BRANCH_CHECK, -g, 1e-4 * audit->switch_scale[k], run->t, k);
     }
     for (int i = 0; i < N_USER_EVENTS; i++)
         check_event(run, i, listed);
