@@ -23,6 +23,7 @@ from gudgeon.simulation.newton_euler import newton_euler
 DRAWN = np.sort(np.random.default_rng(1).random(8))  # where in the run samples lie that are checked in C
 LIMITS = {"power": 1e-6, "torque": 1e-6, "rows": 1e-12, "rates": 1e-7}  # of the largest terms, by check
 BODY = {"body": 1e-9}  # the same of the largest force or moment
+SHORT = 500  # right-hand sides: a run of fewer costs less than the checks of all these samples may
 LONG = 2000  # right-hand sides: a run of more is worth the equations of single bodies
 NOT_FINITE = 2.0  # a note: at an instant, as a singular position is one, a motion may have no accelerations
 ENERGY = 1e3  # times rtol and the root of the number of steps, of the energy that was turned over
@@ -74,11 +75,11 @@ def _start(problem: Problem, x: Trajectory, size: float) -> Iterator[Finding]:
     """
     if problem.state is not None or problem.compiled.source.rigid:
         return
-    units = np.where(np.arange(len(problem.q)) % 3 == 2, size, 1.0)  # m per unit of a coordinate
-    far, fast = np.abs(problem.q * units).max(), np.abs(problem.v * units).max()
-    off, slower = np.abs((x.q[0] - problem.q) * units).max(), np.abs((x.v[0] - problem.v) * units).max()
+    states = np.array((problem.q, problem.v, x.q[0] - problem.q, x.v[0] - problem.v))  # of bodies: x, y, theta
+    largest = np.abs(states).reshape(4, -1, 3).max(axis=1).tolist()
+    far, fast, off, slower = (max(of_x, of_y, size * angle) for of_x, of_y, angle in largest)
     worst = max(off / (START * (size + far)), slower / max(START_RATES * fast, 1e-300))
-    yield Finding("start", float(worst), float(x.t[0]), "")
+    yield Finding("start", worst, float(x.t[0]), "")
 
 
 def _energy(
@@ -104,7 +105,7 @@ def _finite(compiled: CompiledModel, x: Trajectory, evaluation: Evaluation) -> I
     """What is computed at each sample is finite; forces of rigid contacts are known to a run alone."""
     parts = [evaluation.a, evaluation.multipliers, evaluation.reactions, evaluation.torques, evaluation.power]
     parts += [] if compiled.source.rigid else [evaluation.clearance[:, :, :2]]
-    if all(math.isfinite(part.sum()) for part in parts):
+    if all(math.isfinite(np.add.reduce(part, axis=None)) for part in parts if part.size):
         yield Finding("finite", 0.0, float(x.t[0]), "")
         return
     odd = ~np.all([np.isfinite(part.reshape(len(x.t), -1)).all(axis=1) for part in parts], axis=0)
@@ -137,20 +138,18 @@ def _balances(
     And, in long runs and where audit is "full", the equations of motion of single bodies there.
     """
     N = len(x.t)
-    at = (N * DRAWN).astype(np.intp) if len(DRAWN) < N else np.arange(N)
+    drawn = DRAWN if problem.audit > 1 or x.counts.right_hand_sides > SHORT else DRAWN[::2]
+    at = (N * drawn).astype(np.intp) if len(drawn) < N else np.arange(N)
     at = at[at > 0] if problem.state is not None and N > 1 else at  # a resumed state may lie off its constraints
     memory = x.memory[at] if compiled.n_memory else np.full((len(at), 1), np.nan)
-    rows = [np.ascontiguousarray(values) for values in (x.t[at], x.q[at], x.v[at], memory, problem.p)]
     off = np.zeros((len(at), len(LIMITS)))
-    given = [compiled.pointer(values) for values in rows]
+    given = [compiled.pointer(values) for values in (x.t[at], x.q[at], x.v[at], memory, problem.p)]
     compiled.lib.gudgeon_audit_samples(len(at), *given, size, compiled.pointer(off, written=True))
     limits = LIMITS
     if problem.audit > 1 or x.counts.right_hand_sides > LONG:
         left = newton_euler(compiled, problem.p, x.q, evaluation, at)
         off, limits = np.column_stack([off, left]), LIMITS | BODY
     off[~np.isfinite(off)] = 0.0  # those are of another check
-    shares = zip(limits.items(), off.argmax(axis=0).tolist(), strict=True)
-    return tuple(
-        Finding(check, float(off[k, column]) / limit, float(x.t[at[k]]), "")
-        for column, ((check, limit), k) in enumerate(shares)
-    )
+    times = x.t[at[off.argmax(axis=0)]].tolist()
+    shares = zip(limits.items(), off.max(axis=0).tolist(), times, strict=True)
+    return tuple(Finding(check, worst / limit, t, "") for (check, limit), worst, t in shares)
