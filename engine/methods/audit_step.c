@@ -7,6 +7,7 @@
 #define AUDIT_DIGITS 1e-10 /* of a state: differences below it are rounding */
 #define AUDIT_RATE 1e-3 /* of the largest rate: how far others may be from the right-hand side */
 #define AUDIT_CHANGE 0.1 /* of their change over the step: the same */
+#define AUDIT_SLIP 1e-9 /* m/s: slips below it are none where friction sticks */
 #define AUDIT_DRIFT 1e2 /* tolerances that wrong rates may add up to */
 #define AUDIT_DEFECT 1e4 /* tolerances that the dense output may miss the right-hand side by */
 #define AUDIT_LONGEST 1.5 /* times the longest step whose error was measured: so is this one's */
@@ -68,12 +69,13 @@ static double defect_of(const Run *run, double h, const double *y, const double 
 static void check_rate(Run *run, const Step *step, double t, const double *y, const double *rate, const double *dy)
 {
     for (int part = 0; part < (has_films() ? 1 : 2); part++) {
+        const double slip = N_FRICTIONS ? AUDIT_SLIP / (part ? step->h : 1.0) : 0.0;
         double off = 0.0, most = 0.0, allowed = AUDIT_DRIFT / max_of(fabs(t), step->h);
         for (int k = part * N_X; k < (part + 1) * N_X; k++) {
             const double weight = audit_weight(run, k), change = fabs(step->dy[k] - run->dy[k]);
             off = max_of(off, fabs(rate[k] - dy[k]) * weight);
             most = max_of(most, (fabs(dy[k]) + (part ? 0.0 : fabs(step->h * dy[N_X + k]))) * weight);
-            allowed = max_of(allowed, (AUDIT_CHANGE * change + AUDIT_DIGITS * fabs(y[k]) / step->h) * weight);
+            allowed = max_of(allowed, (AUDIT_CHANGE * change + AUDIT_DIGITS * fabs(y[k]) / step->h + slip) * weight);
         }
         record(&run->audit, RATE_CHECK, off, AUDIT_RATE * most + allowed, t, -1);
     }

@@ -10,6 +10,7 @@
 #define AUDIT_DEPTH 10.0       /* tolerances that an open joint may penetrate */
 #define AUDIT_ROUNDING 1e-9    /* of the size, or speed: closer than this rows are not known */
 #define AUDIT_ACCELERATION 1e-6 /* of the largest term, that two ways to the accelerations may differ by */
+#define AUDIT_BALANCE 1e-8     /* of a force on a mass: accelerations that are smaller are known less well */
 #define AUDIT_CLOSURE 1e-9     /* of the size: error of positions that accelerations must not depend on */
 #define AUDIT_NOISE 1e-9       /* of its largest magnitude, below which the sign of a function is rounding */
 #define AUDIT_ZERO 1e-3        /* of its value at the beginning of a step: smaller ones are a zero, and no pole */
@@ -121,7 +122,7 @@ static double states_near(const Run *run, double t, const double *y, const doubl
 static int is_sensitive(Run *run, double t, const double *y, const double *a, const double *scale, double share,
     const Parameters *p)
 {
-    double state[N_Y], all[N_S], other[N_Q], rate[N_Y];
+    double state[N_Y], all[N_S], other[N_Q], rate[N_Y], force;
     Memory now = run->memory;
     Aside aside;
     if (motion_here(t, y, &now, p, rate, &aside))
@@ -130,10 +131,10 @@ static int is_sensitive(Run *run, double t, const double *y, const double *a, co
     for (int k = 0; k < N_Y; k++)
         state[k] = k < N_X ? y[k] + AUDIT_CLOSURE * (is_angle[k] ? 1.0 : size) * (2.0 * draw(&run->audit) - 1.0) : y[k];
     to_absolute(t, state, &run->memory, p, all);
-    if (absolute_accelerations(t, all, &run->memory, p, other))
+    if (absolute_accelerations(t, all, &run->memory, p, other, &force))
         return 1;
     for (int k = 0; k < N_Q; k++)
-        if (!(fabs(other[k] - a[k]) < 0.1 * share * max_of(scale[k % 3 == 2], 1e-300)))
+        if (!(fabs(other[k] - a[k]) < 0.1 * share * scale[k]))
             return 1;
     return 0;
 }
@@ -149,8 +150,8 @@ static void check_accelerations(Run *run, double t, const double *y, const doubl
 {
 #if TREE
     const double size = size_of(run);
-    double a[N_Q], near[2][N_S], rate = 0.0, most[2] = {0.0, 0.0};
-    if (run->memory.way != AT_ONCE || absolute_accelerations(t, all, &run->memory, p, a))
+    double a[N_Q], m[N_Q], scale[N_Q], near[2][N_S], force, rate = 0.0, most[2] = {0.0, 0.0};
+    if (run->memory.way != AT_ONCE || absolute_accelerations(t, all, &run->memory, p, a, &force))
         return; /* near a singular position both lose digits */
     if (drives_jump(t, all, all + N_Q, p))
         return; /* the step holds what its drives were, the bodies have what they are */
@@ -163,21 +164,25 @@ static void check_accelerations(Run *run, double t, const double *y, const doubl
             return; /* so large an angle has lost too many digits */
     for (int k = 0; k < N_Q; k++)
         most[k % 3 == 2] = max_of(most[k % 3 == 2], max_of(fabs(a[k]), rate * fabs(all[N_Q + k])));
+    mass_matrix(p, m);
+    for (int k = 0; k < N_Q; k++) { /* forces in balance leave accelerations that are rounding */
+        const double rounding = m[k] > 0.0 ? AUDIT_BALANCE * force * (k % 3 == 2 ? size : 1.0) / m[k] : 0.0;
+        scale[k] = max_of(max_of(most[k % 3 == 2], rounding), 1e-300);
+    }
     for (double share = 1e-5; share > 1e-8 && rate > 0.0; share *= 0.03) {
         const double h = share / rate;
         double worst = 0.0, bend = 0.0;
         int where = 0;
         const double between = states_near(run, t, y, dy, h, p, near);
         for (int k = 0; k < N_Q; k++) {
-            const double scale = max_of(most[k % 3 == 2], 1e-300);
             const double before = near[0][N_Q + k], after = near[1][N_Q + k];
-            const double off = fabs(a[k] - (after - before) / between) / scale;
-            bend = max_of(bend, fabs(after - 2.0 * all[N_Q + k] + before) / h / scale);
+            const double off = fabs(a[k] - (after - before) / between) / scale[k];
+            bend = max_of(bend, fabs(after - 2.0 * all[N_Q + k] + before) / h / scale[k]);
             if (!(off <= worst))
                 worst = off, where = k;
         }
         if (bend < 1e-4) {
-            if (worst > AUDIT_ACCELERATION && is_sensitive(run, t, y, a, most, worst, p))
+            if (worst > AUDIT_ACCELERATION && is_sensitive(run, t, y, a, scale, worst, p))
                 return;
             record(&run->audit, ACCELERATION_CHECK, worst, AUDIT_ACCELERATION, t, where);
             return;

@@ -3,7 +3,8 @@
  * (run/audit.c) takes from the equations of all bodies. It owns no state.
  */
 
-int absolute_accelerations(double t, const double *all, const Memory *memory, const Parameters *p, double *a)
+int absolute_accelerations(double t, const double *all, const Memory *memory, const Parameters *p, double *a,
+    double *force)
 {
     double rate[N_S];
     Aside aside;
@@ -14,6 +15,11 @@ int absolute_accelerations(double t, const double *all, const Memory *memory, co
     const int status = rates_at(t, all, &now, p, rate, &aside);
     for (int k = 0; k < N_Q; k++)
         a[k] = rate[N_Q + k];
+    *force = 0.0;
+    for (int r = 0; r < N_ROWS; r++)
+        *force = max_of(*force, row_is_length[kept_row[r]] ? fabs(aside.lambda[r]) : 0.0);
+    for (int i = 0; i < N_FRICTIONS; i++)
+        *force = max_of(*force, fabs(aside.friction[i].force));
     return status;
 }
 

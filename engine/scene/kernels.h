@@ -120,8 +120,12 @@ int factor_block(int n, double *A, int *order);
 void solve_block(int n, const double *A, const int *order, double *x);
 
 /* For the audit (audit_samples.c). */
-/* Accelerations (N_Q) by the equations of all bodies, at a state `all` (q, v, work) of theirs. Returns a status. */
-int absolute_accelerations(double t, const double *all, const Memory *memory, const Parameters *p, double *a);
+/*
+ * Accelerations (N_Q) by the equations of all bodies, at a state `all` (q, v, work) of theirs, and the largest force of
+ * constraints and of friction, N. Returns a status.
+ */
+int absolute_accelerations(double t, const double *all, const Memory *memory, const Parameters *p, double *a,
+    double *force);
 /* Whether what a drive prescribes jumps, in its first or second rate, at a time. */
 int drives_jump(double t, const double *q, const double *v, const Parameters *p);
 /* Phi_q v - nu, and nu, of all rows: Phi_q v by differences of Phi over times h (s) before and after. */

@@ -1,0 +1,80 @@
+"""The audit is quiet where forces balance: what is left of accelerations, slips and positions is rounding."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.programs import needs_compiler
+from tests.scenes import loader
+
+pytestmark = needs_compiler
+
+STACK = """
+parameters: {A: 0.61 N, w: 2.5 rad/s, B: 0.65 N, w2: 6.27 rad/s, k1: 256 N/m, k2: 32.1 N/m, S: 0.98 N, vb: -0.1 m/s}
+bodies: {b1: {mass: 0.5 kg, inertia: 1e-4 kg*m^2}, b2: {mass: 0.3 kg, inertia: 1e-4 kg*m^2}}
+ground: {O: [0, 0]}
+joints:
+  g: {translational: [ground.O, b1.origin], axis: [1, 0]}
+  h: {translational: [b1.origin, b2.origin], axis: [1, 0]}
+forces:
+  f: {force: b1.origin, value: ["A*sin(w*t) - k1*b1.x", 0]}
+  f2: {force: b2.origin, value: ["B*sin(w2*t) - k2*b2.x", 0]}
+  d1: {dry_friction: [ground.O, b1.origin], direction: [1, 0], static: S, kinetic: S}
+  d2: {dry_friction: [b1.origin, b2.origin], direction: [1, 0], static: 1.78 N, kinetic: 1.78 N}
+  d3: {dry_friction: [ground.O, b2.origin], direction: [1, 0], static: 0.287 N, kinetic: 0.287 N, speed: vb}
+start: {set: {b1.x: 0, b2.x: 0.01}, rates: {b1.vx: 0, b2.vx: 0}}
+"""
+BLOCK = """
+parameters: {A: 3 N, w: 7 rad/s, S: 2 N, K: 1.5 N, k: 40 N/m, v0: 0.2 m/s}
+bodies: {b: {mass: 0.5 kg, inertia: 1e-4 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {g: {translational: [ground.O, b.origin], axis: [1, 0]}}
+forces:
+  f: {force: b.origin, value: ["A*sin(w*t) - k*b.x", 0]}
+  d: {dry_friction: [ground.O, b.origin], direction: [1, 0], static: S, kinetic: K}
+start: {set: {b.x: 0}, rates: {b.vx: v0}}
+events: {passes: {zero: b.x}}
+"""
+
+
+def audit_notes(run: object) -> list[str]:
+    return [note for note in run.diagnostics.notes if note.startswith("audit:")]  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize("method", ["auto", "rodas5p", "radau5", "radau9"])
+@pytest.mark.parametrize("rtol", [5e-10, 1e-7])
+def test_two_blocks_that_rest_on_each_other(method: str, rtol: float, tmp_path: Path) -> None:
+    """Forces of some newtons balance; the accelerations that two formulations leave are rounding, and differ."""
+    run = loader(tmp_path)(STACK).simulate(0.05, output=5, method=method, rtol=rtol, audit="full")
+    assert not audit_notes(run)
+    assert {"acceleration"} <= {one.check for one in run.diagnostics.audit}
+    assert abs(run["b2.x"] - 0.01).max() < 1e-9
+
+
+def test_a_run_that_goes_on_from_an_event(tmp_path: Path) -> None:
+    """It begins a rounding error before the zero, which the run before has recorded."""
+    block = loader(tmp_path)(BLOCK)
+    given = {"A": 4.066959514006033, "w": 34.772620605026425, "S": 2.458748109031319, "K": 1.067881669804872,
+             "k": 17.793277739755798, "v0": -0.285344534272443}  # fmt: skip
+    run, found = None, []
+    for cut in (0.002747010733579974, 0.11967622939821876, 0.12179146032797047, 0.21413472864528876,
+                0.28491558693146074, 0.3054154259808228):  # fmt: skip
+        start = {"parameters": given} if run is None else {"start": run.final}
+        run = block.simulate(cut, method="radau5", rtol=1.4375336929052935e-08, output=1, **start)
+        found += run.events_of("passes").tolist()
+        assert not audit_notes(run)
+    assert found[-1] == pytest.approx(0.28491558693, abs=1e-9)
+
+
+def test_what_is_left_of_a_slip(tmp_path: Path) -> None:
+    """A friction that sticks holds slips below 1e-9 m/s; the rates of what is left of them are no motion."""
+    block = loader(tmp_path)(BLOCK)
+    given = {"A": 1.6252533506605826, "w": 5.585678105688332, "S": 0.38729704267642945, "K": 0.12456608259321347,
+             "k": 816.1890924308686, "v0": 0.0}  # fmt: skip
+    run = None
+    for cut in (0.6087375078117262, 1.1172433331308822, 1.1248742208725269):
+        start = {"parameters": given} if run is None else {"start": run.final}
+        run = block.simulate(cut, method="radau5", rtol=1.2e-8, output=1, audit="full", **start)
+        assert not audit_notes(run)
