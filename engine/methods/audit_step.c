@@ -17,6 +17,9 @@
 #define AUDIT_ITERATIONS 4.0 /* evaluations of a stage that is found by iterations, and */
 #define AUDIT_LEAST_STAGES 8.0 /* of a step, at least */
 #define AUDIT_STEP 15.0 /* tolerances that a step may err by, */
+#define AUDIT_ORDER 1e-3 /* of the change of rates over a step, that it may err by, times the root of */
+#define AUDIT_LOOSE 1e-6 /* tolerances in units of this, if more; and errors of all steps together in tolerances, */
+#define AUDIT_SUM 100.0  /* from which on they count */
 #define AUDIT_FINEST 1e-9 /* and these are never finer: below, stiff forces are rounding */
 /* halvings that locate a zero; places inside a step */
 enum { AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4 };
@@ -91,12 +94,15 @@ static const double gauss_weight[] = {0.17392742256872692, 0.32607257743127307, 
  *     e = y(t + h) - y(t) - int f(s, u(s)) ds,
  * which uses neither the method's error estimate nor its coefficients. In stiff components u itself errs: e is divided
  * by 1 - h J there. A step over which a force has another branch, or is made elsewhere (lanes), is left out.
+ *
+ * A method of high order errs by little of the change of rates over a step, unless stability bounds the step. One that
+ * has lost its order takes so many short steps that errors within the tolerance add up.
  */
 static void check_length(Run *run, Step *step, const Parameters *p)
 {
     const int stiff = step->method->stiff;
     const double h = step->h;
-    double y[N_Y], dy[N_Y], rate[N_Y], sum[N_Y] = {0.0}, error[N_Y], worst = 0.0;
+    double y[N_Y], dy[N_Y], rate[N_Y], sum[N_Y] = {0.0}, error[N_Y], worst = 0.0, most = 0.0, change = 0.0;
     Aside aside;
     for (int k = 0; k < N_SWITCHES; k++)
         if (step->passed[k])
@@ -111,6 +117,8 @@ static void check_length(Run *run, Step *step, const Parameters *p)
         interpolate_rates(step, gauss_node[n], N_Y, rate);
         for (int k = 0; k < N_Y; k++)
             sum[k] += gauss_weight[n] * (rate[k] - dy[k]);
+        for (int k = 0; k < 2 * N_X; k++)
+            change = max_of(change, h * fabs(dy[k] - run->dy[k]) * audit_weight(run, k));
     }
     if (stiff && make_linear(run, h, p))
         return;
@@ -120,7 +128,11 @@ static void check_length(Run *run, Step *step, const Parameters *p)
         const double weight = audit_weight(run, k), rounding = AUDIT_DIGITS * (fabs(step->y[k]) + fabs(h * dy[k]));
         const double off = fabs(stiff ? error[k] : h * sum[k]) * weight;
         worst = max_of(worst, off / (limit + rounding * weight));
+        most = max_of(most, off - rounding * weight);
     }
+    change *= AUDIT_ORDER * max_of(1.0, sqrt(tolerance_of(run) / AUDIT_LOOSE));
+    if (run->stability < 1.0 && most * (double)run->steps > AUDIT_SUM)
+        worst = max_of(worst, most / change);
     run->audit.longest = max_of(run->audit.longest, h);
     record(&run->audit, STEP_CHECK, worst, 1.0, step->t + h, -1);
 }

@@ -89,18 +89,22 @@ def newton_euler(compiled: CompiledModel, p: Array, q: Array, evaluation: Evalua
     largest = max(np.abs(inertia[:, :, :2]).max(), np.abs(forces).max(initial=0.0), LEAST)
     worst = np.abs(left[:, table.moved]).max(axis=(1, 2)) / largest
     if len(table.turned):
-        moments = _moments(table, p, q[at].reshape(n, -1, 3), reactions)
+        moments, longest = _moments(table, p, q[at].reshape(n, -1, 3), reactions)
         off = np.abs(inertia[:, table.turned, 2] - moments.sum(axis=2)).max(axis=1)
-        worst = np.maximum(worst, off / max(np.abs(moments).max(initial=0.0), LEAST))
+        worst = np.maximum(worst, off / max(np.abs(moments).max(initial=0.0), largest * longest, LEAST))
     return np.asarray(worst)
 
 
-def _moments(table: Table, p: Array, q: Array, reactions: Array) -> Array:
-    """Return moments of reactions about centres of mass, (n, n_turned, n_joints), N m; q is (n, n_bodies, 3)."""
+def _moments(table: Table, p: Array, q: Array, reactions: Array) -> tuple[Array, float]:
+    """Return moments of reactions about centres of mass, (n, n_turned, n_joints), N m, and the longest arm, m.
+
+    q is (n, n_bodies, 3).
+    """
     x, y = p[table.at] * table.at_sign
     own = q[:, table.body] * (table.body >= 0)[:, np.newaxis]
     c, s = np.cos(own[:, :, 2]), np.sin(own[:, :, 2])
     arm_x = (own[:, :, 0] + c * x - s * y)[:, np.newaxis] - q[:, table.turned, 0, np.newaxis]
     arm_y = (own[:, :, 1] + s * x + c * y)[:, np.newaxis] - q[:, table.turned, 1, np.newaxis]
     F_x, F_y, M = reactions[:, np.newaxis, :, 0], reactions[:, np.newaxis, :, 1], reactions[:, np.newaxis, :, 2]
-    return np.asarray(table.turning * (M + arm_x * F_y - arm_y * F_x))
+    longest = float((np.hypot(arm_x, arm_y) * np.abs(table.turning)).max(initial=0.0))
+    return np.asarray(table.turning * (M + arm_x * F_y - arm_y * F_x)), longest

@@ -78,3 +78,23 @@ def test_what_is_left_of_a_slip(tmp_path: Path) -> None:
         start = {"parameters": given} if run is None else {"start": run.final}
         run = block.simulate(cut, method="radau5", rtol=1.2e-8, output=1, audit="full", **start)
         assert not audit_notes(run)
+
+
+@pytest.mark.parametrize("inertia", ["auto", "0 kg*m^2"])
+def test_a_rod_that_bears_nothing(inertia: str, tmp_path: Path) -> None:
+    """Forces of a rod of 1e-9 kg are known to rounding of those of its neighbours, and so are its moments."""
+    run = loader(tmp_path)(f"""
+        bodies:
+          crank: {{length: 150 mm, mass: 0.3 kg, inertia: 1e-4 kg*m^2}}
+          rod: {{length: 150 mm, mass: 1e-9 kg, inertia: {inertia}}}
+          slider: {{mass: 0.3 kg, inertia: 1e-4 kg*m^2}}
+        ground: {{O: [0, 0]}}
+        joints:
+          A: {{revolute: [ground.O, crank.tail]}}
+          B: {{revolute: [crank.head, rod.tail]}}
+          C: {{revolute: [rod.head, slider.origin]}}
+          D: {{translational: [ground.O, slider.origin], axis: [1, 0]}}
+        drives: {{m: {{angle: crank, value: 30 rad/s*t}}}}
+        start: {{guess: {{rod.theta: -0.1}}}}
+        """).simulate(1.0, output=100, audit="full")
+    assert not audit_notes(run)
