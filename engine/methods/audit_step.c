@@ -42,6 +42,19 @@ static double audit_weight(const Run *run, int k)
     return run->inverse_scale[k] / (k < N_X ? 1.0 : run->speed[kind] + run->speed_floor[kind]);
 }
 
+/* Whether a drive's second rate jumps, or is unbounded, where a step begins or ends: no polynomial follows it. */
+static int meets_jump(const Run *run, const Step *step, const Parameters *p)
+{
+    for (int end = 0; end < 2 && N_DRIVES; end++) {
+        const double t = end ? step->t + step->h : run->t;
+        double all[N_S];
+        to_absolute(t, end ? step->y : run->y, &run->memory, p, all);
+        if (drives_jump(t, all, all + N_Q, p))
+            return 1;
+    }
+    return 0;
+}
+
 /*
  * How far rates `rate` are from `dy` at a state y of a step of length h, in multiples of a limit of many tolerances; 0
  * where that is less than the largest so far.
@@ -69,7 +82,8 @@ static double defect_of(const Run *run, double h, const double *y, const double 
  * wrong motion where a method is not consistent. Allowed is a share of the largest rate, and of the change of rates
  * over the step, and what adds up to few tolerances over the time that has passed. Positions and velocities apart.
  */
-static void check_rate(Run *run, const Step *step, double t, const double *y, const double *rate, const double *dy)
+static void check_rate(Run *run, const Step *step, double t, const double *y, const double *rate, const double *dy,
+    const Parameters *p)
 {
     for (int part = 0; part < (has_films() ? 1 : 2); part++) {
         const double slip = N_FRICTIONS ? AUDIT_SLIP / (part ? step->h : 1.0) : 0.0;
@@ -80,7 +94,8 @@ static void check_rate(Run *run, const Step *step, double t, const double *y, co
             most = max_of(most, (fabs(dy[k]) + (part ? 0.0 : fabs(step->h * dy[N_X + k]))) * weight);
             allowed = max_of(allowed, (AUDIT_CHANGE * change + AUDIT_DIGITS * fabs(y[k]) / step->h + slip) * weight);
         }
-        record(&run->audit, RATE_CHECK, off, AUDIT_RATE * most + allowed, t, -1);
+        if (off <= AUDIT_RATE * most + allowed || !meets_jump(run, step, p))
+            record(&run->audit, RATE_CHECK, off, AUDIT_RATE * most + allowed, t, -1);
     }
 }
 
@@ -134,7 +149,8 @@ static void check_length(Run *run, Step *step, const Parameters *p)
     if (run->stability < 1.0 && most * (double)run->steps > AUDIT_SUM)
         worst = max_of(worst, most / change);
     run->audit.longest = max_of(run->audit.longest, h);
-    record(&run->audit, STEP_CHECK, worst, 1.0, step->t + h, -1);
+    if (worst <= 1.0 || !meets_jump(run, step, p))
+        record(&run->audit, STEP_CHECK, worst, 1.0, step->t + h, -1);
 }
 
 /* The end of a step: what it took for the rates there. */
@@ -164,8 +180,9 @@ static void check_state_inside(Run *run, const Step *step, double theta, int dra
     const double t = step->t + theta * step->h;
     double rate[2 * N_X];
     interpolate_rates(step, theta, 2 * N_X, rate);
-    if (has_tolerance(run))
-        record(&run->audit, DEFECT_CHECK, defect_of(run, step->h, y, rate, dy), 1.0, t, -1);
+    const double defect = has_tolerance(run) ? defect_of(run, step->h, y, rate, dy) : 0.0;
+    if (has_tolerance(run) && (defect <= 1.0 || !meets_jump(run, step, p)))
+        record(&run->audit, DEFECT_CHECK, defect, 1.0, t, -1);
     if (drawn && has_tolerance(run) && !N_CLEARANCES) /* rates in contacts change within a step */
         check_rate(run, step, t, y, rate, dy);
     check_forces(run, step, t, aside, rate, dy, p);

@@ -21,20 +21,32 @@ static int leave_zeros(Run *run, const Parameters *p)
 }
 
 #endif
-#define AT_ALL 1e-5 /* 1/s: what is slower does not move */
-
-/*
- * What a speed counts at least: a hundredth of what leads over the smallest length that matters in the shortest time
- * that the start's speeds and accelerations take for it. Only where these lead nowhere (a pulse is yet to come) the
- * run's own time has to tell. Rounding is measured by speeds that do not depend on how long the run is.
- */
-static void floor_speeds(Run *run, double left)
+/* 1/s: over one time that speeds of the state and accelerations `dy` take for the smallest length that matters. */
+static double fastest_rate(const Run *run, const double *dy)
 {
     double rate = 0.0;
     for (int k = 0; k < N_X; k++) {
-        const double least = run->least[is_angle[k]], a = fabs(run->dy[N_X + k]);
+        const double least = run->least[is_angle[k]], a = fabs(dy[N_X + k]);
         rate = max_of(rate, max_of(fabs(run->y[N_X + k]) / least, sqrt(a / least)));
     }
+    return rate;
+}
+
+#define AT_ALL 1e-5   /* 1/s: what is slower does not move */
+#define UNBOUNDED 1e6 /* rates in the time of a run: more may be a drive whose second rate is unbounded at the start */
+
+/*
+ * What a speed counts at least: a hundredth of what leads over the smallest length that matters in the shortest time
+ * that the start's speeds and accelerations take for it. Accelerations that are unbounded at the start are those right
+ * after it. Only where these lead nowhere (a pulse is yet to come) the run's own time has to tell. Rounding is measured
+ * by speeds that do not depend on how long the run is.
+ */
+static void floor_speeds(Run *run, double left, const Parameters *p)
+{
+    double rate = fastest_rate(run, run->dy), dy[N_Y];
+    Aside aside;
+    if (rate * left > UNBOUNDED && !rates(run, run->t + left / UNBOUNDED, run->y, p, dy, &aside))
+        rate = min_of(rate, fastest_rate(run, dy));
     for (int kind = 0; kind < 2; kind++) {
         run->speed_floor[kind] = run->least[kind] * (rate * left > 1e-3 ? 0.01 * rate : 1.0 / left);
         run->speed_rounded[kind] = run->least[kind] * (rate > AT_ALL ? 0.01 * rate : 1.0 / left);
@@ -58,7 +70,7 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
     hold_sides(run);
     if (!status)
         status = settle_sides(run, -1, p);
-    floor_speeds(run, left);
+    floor_speeds(run, left, p);
     note_speed(run);
     run->turned_over = max_of(energy_scale(run, p), MIN_RESOLVED / run->work_scale); /* weights are its inverse */
     weigh(run);
