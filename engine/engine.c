@@ -39,6 +39,7 @@
 #include "methods/step_length.c"
 #include "methods/first_step.c"
 #include "methods/begin.c"
+#include "methods/audit_error.c"
 #include "methods/audit_step.c"
 #include "methods/adaptive.c"
 #include "batch/many.c"

@@ -4,7 +4,6 @@
  * fell, in addition: all rows, accelerations by the equations of all bodies, forces of films.
  */
 #define AUDIT_LONGER 8.0 /* times the step before: such a step is always checked */
-#define AUDIT_DIGITS 1e-10 /* of a state: differences below it are rounding */
 #define AUDIT_RATE 1e-3 /* of the largest rate: how far others may be from the right-hand side */
 #define AUDIT_CHANGE 0.1 /* of their change over the step: the same */
 #define AUDIT_SLIP 1e-9 /* m/s: slips below it are none where friction sticks */
@@ -16,44 +15,8 @@
 #define AUDIT_COST 8.0   /* evaluations that these cost, as a rule */
 #define AUDIT_ITERATIONS 4.0 /* evaluations of a stage that is found by iterations, and */
 #define AUDIT_LEAST_STAGES 8.0 /* of a step, at least */
-#define AUDIT_STEP 15.0 /* tolerances that a step may err by, */
-#define AUDIT_ORDER 1e-3 /* of the change of rates over a step, that it may err by, times the root of */
-#define AUDIT_LOOSE 1e-6 /* tolerances in units of this, if more; and errors of all steps together in tolerances, */
-#define AUDIT_SUM 100.0  /* from which on they count */
-#define AUDIT_FINEST 1e-9 /* and these are never finer: below, stiff forces are rounding */
 /* halvings that locate a zero; places inside a step */
 enum { AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4 };
-
-/* Whether what a step holds is what its state says: near a switching point, or the end of a contact, it need not be. */
-static int branches_fit(const Run *run, const Aside *aside)
-{
-    int fit = 1;
-    for (int k = 0; k < N_SWITCHES; k++)
-        fit &= !(run->memory.side[k] * aside->g[k] < 0.0);
-    for (int i = 0; i < N_CLEARANCES; i++)
-        fit &= !run->memory.latch[i].closed == !(aside->clearance[i].delta > 0.0);
-    return fit;
-}
-
-/* One over the tolerance of coordinate or velocity k, from scales and speeds as both/weigh.h describes it. */
-static double audit_weight(const Run *run, int k)
-{
-    const int kind = is_angle[k % N_X];
-    return run->inverse_scale[k] / (k < N_X ? 1.0 : run->speed[kind] + run->speed_floor[kind]);
-}
-
-/* Whether a drive's second rate jumps, or is unbounded, where a step begins or ends: no polynomial follows it. */
-static int meets_jump(const Run *run, const Step *step, const Parameters *p)
-{
-    for (int end = 0; end < 2 && N_DRIVES; end++) {
-        const double t = end ? step->t + step->h : run->t;
-        double all[N_S];
-        to_absolute(t, end ? step->y : run->y, &run->memory, p, all);
-        if (drives_jump(t, all, all + N_Q, p))
-            return 1;
-    }
-    return 0;
-}
 
 /*
  * How far rates `rate` are from `dy` at a state y of a step of length h, in multiples of a limit of many tolerances; 0
@@ -99,60 +62,6 @@ static void check_rate(Run *run, const Step *step, double t, const double *y, co
     }
 }
 
-/* Nodes and weights of Gauss's quadrature of order 8 over (0, 1). */
-static const double gauss_node[] = {0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970263};
-static const double gauss_weight[] = {0.17392742256872692, 0.32607257743127307, 0.32607257743127307,
-    0.17392742256872692};
-
-/*
- * The local error of a step, from the integral of the defect of its dense output u,
- *     e = y(t + h) - y(t) - int f(s, u(s)) ds,
- * which uses neither the method's error estimate nor its coefficients. In stiff components u itself errs: e is divided
- * by 1 - h J there. A step over which a force has another branch, or is made elsewhere (lanes), is left out.
- *
- * A method of high order errs by little of the change of rates over a step, unless stability bounds the step. One that
- * has lost its order takes so many short steps that errors within the tolerance add up.
- */
-static void check_length(Run *run, Step *step, const Parameters *p)
-{
-    const int stiff = step->method->stiff;
-    const double h = step->h;
-    double y[N_Y], dy[N_Y], rate[N_Y], sum[N_Y] = {0.0}, error[N_Y], worst = 0.0, most = 0.0, change = 0.0;
-    Aside aside;
-    for (int k = 0; k < N_SWITCHES; k++)
-        if (step->passed[k])
-            return;
-    if (run->steps == 0 || run->memory.way != AT_ONCE || make_dense(run, p, step))
-        return; /* a start off its constraints is projected by the first step */
-    const double limit = AUDIT_STEP * max_of(1.0, AUDIT_FINEST / tolerance_of(run));
-    for (int n = 0; n < COUNT_OF(gauss_node); n++) {
-        interpolate(run, step, gauss_node[n], y);
-        if (rates(run, step->t + gauss_node[n] * h, y, p, dy, &aside) || !branches_fit(run, &aside))
-            return;
-        interpolate_rates(step, gauss_node[n], N_Y, rate);
-        for (int k = 0; k < N_Y; k++)
-            sum[k] += gauss_weight[n] * (rate[k] - dy[k]);
-        for (int k = 0; k < 2 * N_X; k++)
-            change = max_of(change, h * fabs(dy[k] - run->dy[k]) * audit_weight(run, k));
-    }
-    if (stiff && make_linear(run, h, p))
-        return;
-    if (stiff)
-        newton_solve(&run->linear, h, 0.0, sum, error);
-    for (int k = 0; k < 2 * N_X; k++) {
-        const double weight = audit_weight(run, k), rounding = AUDIT_DIGITS * (fabs(step->y[k]) + fabs(h * dy[k]));
-        const double off = fabs(stiff ? error[k] : h * sum[k]) * weight;
-        worst = max_of(worst, off / (limit + rounding * weight));
-        most = max_of(most, off - rounding * weight);
-    }
-    change *= AUDIT_ORDER * max_of(1.0, sqrt(tolerance_of(run) / AUDIT_LOOSE));
-    if (run->stability < 1.0 && most * (double)run->steps > AUDIT_SUM)
-        worst = max_of(worst, most / change);
-    run->audit.longest = max_of(run->audit.longest, h);
-    if (worst <= 1.0 || !meets_jump(run, step, p))
-        record(&run->audit, STEP_CHECK, worst, 1.0, step->t + h, -1);
-}
-
 /* The end of a step: what it took for the rates there. */
 static void check_end(Run *run, Step *step, const Parameters *p)
 {
@@ -184,7 +93,7 @@ static void check_state_inside(Run *run, const Step *step, double theta, int dra
     if (has_tolerance(run) && (defect <= 1.0 || !meets_jump(run, step, p)))
         record(&run->audit, DEFECT_CHECK, defect, 1.0, t, -1);
     if (drawn && has_tolerance(run) && !N_CLEARANCES) /* rates in contacts change within a step */
-        check_rate(run, step, t, y, rate, dy);
+        check_rate(run, step, t, y, rate, dy, p);
     check_forces(run, step, t, aside, rate, dy, p);
     check_joints(run, t, aside, p);
     check_branches(run, step, t, y, aside, p);

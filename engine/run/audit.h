@@ -1,6 +1,6 @@
 /*
  * The record of a run's audit: of each check the largest value as a multiple of its limit, and where it was found.
- * Written by audit.c, audit_state.c and methods/audit_step.c alone.
+ * Written by audit.c, audit_state.c, methods/audit_error.c and methods/audit_step.c alone.
  */
 #ifndef GUDGEON_AUDIT_H
 #define GUDGEON_AUDIT_H
@@ -38,6 +38,7 @@ typedef struct {
     long turns;                    /* drawn steps so far; where even, the next is checked inside, else as a whole */
     long longer;                   /* steps that were checked since they were much longer than others */
     double longest;                /* length of the longest step whose error was measured, s */
+    double measured, errors, changes; /* steps whose error was measured; sums of errors and of changes, tolerances */
     double size;                   /* of the mechanism, m */
     unsigned random;               /* state of the generator that draws steps and places in them */
     double phi_start;              /* largest |Phi| at the start */

@@ -10,6 +10,7 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gudgeon.contract.audit import FAILS, LEVELS, Finding
 from gudgeon.errors import BadValueError
@@ -69,7 +70,7 @@ def failed(findings: tuple[Finding, ...]) -> bool:
 
 
 def _start(problem: Problem, x: Trajectory, size: float) -> Iterator[Finding]:
-    """The first sample is the start that was found.
+    """The first sample is the start that was found, which is where the file says.
 
     A state that a run goes on from may lie off its constraints; rigid contacts that are closed change the start.
     """
@@ -78,8 +79,21 @@ def _start(problem: Problem, x: Trajectory, size: float) -> Iterator[Finding]:
     states = np.array((problem.q, problem.v, x.q[0] - problem.q, x.v[0] - problem.v))  # of bodies: x, y, theta
     largest = np.abs(states).reshape(4, -1, 3).max(axis=1).tolist()
     far, fast, off, slower = (max(of_x, of_y, size * angle) for of_x, of_y, angle in largest)
+    off = max(off, _off_given(problem, size))
     worst = max(off / (START * (size + far)), slower / max(START_RATES * fast, 1e-300))
     yield Finding("start", worst, float(x.t[0]), "")
+
+
+def _off_given(problem: Problem, size: float) -> float:
+    """Return how far the start is from the positions that the file gives (start.set), m; angles at `size`, m."""
+    source, off = problem.compiled.source, 0.0
+    for k, name in enumerate(source.coordinates):
+        given = source.place.get(f"start.set.{name}") if name in source.start_set else None
+        if given is not None:
+            miss = abs(float(problem.q[k] - problem.p[given]))
+            turns = round(miss / math.tau) * math.tau if k % 3 == 2 else 0.0
+            off = max(off, abs(miss - turns) * (size if k % 3 == 2 else 1.0))
+    return off
 
 
 def _energy(

@@ -1,36 +1,52 @@
-"""Newton's and Euler's equations of single bodies at samples, with the reported reactions.
+"""Newton's and Euler's equations of single bodies at samples, with the reported forces.
 
-For each body on which only joints and gravity act, m a - m g - sum F and J alpha - sum (M + r x F) are computed
-from the description of the scene. Nothing of the derived equations is used but what the run reports: accelerations,
-reactions, contact forces and masses.
+For each body m a - m g - sum F and J alpha - sum (M + r x F) are computed from the description of the scene. Nothing of
+the derived equations is used but what the run reports: accelerations, reactions, torques of drives, forces of elements,
+of friction and of contacts, and masses. Left out are bodies of gears, of rigid contacts, of drives of lengths and of
+what redundancy leaves open, and moments of bodies of joints with play, whose forces act at the contact.
 """
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.contract.kernel_source import KernelSource, PartInfo, PointInfo
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.evaluation import Evaluation
 
 KINDS = frozenset({"revolute", "translational", "point_on_line", "distance", "rigid"})  # one reaction at one point
+ELEMENTS = {"spring_damper": "F", "force": "Fx", "dry_friction": "", "torque": "M", "rotational_spring_damper": "M",
+            "angle": "M"}  # of each kind the result that is its force or moment
 LEAST = 1e-300  # N, N m
+GROUND = PointInfo("", -1, -1, -1)
+Number = tuple[int, float]  # index into p, -1: the value itself
+
+
+@dataclass(frozen=True)
+class Element:
+    """A force element or drive: the force and moment on its second body, and the opposite on its first."""
+
+    kind: str
+    first: PointInfo
+    second: PointInfo  # at which they act
+    column: int  # of what the run reports: of series, friction or torques
+    direction: tuple[Number, ...] = ()  # of friction, in the first body
 
 
 @dataclass(frozen=True)
 class Table:
-    """Which forces act on which bodies, of a scene: made once."""
+    """Which forces act on which bodies, of a scene: made once. Joints first, then elements, then joints with play."""
 
-    signs: Array  # (n_bodies, n_joints + n_clearances) 1 where a force on the second body acts, -1 where its reaction
+    signs: Array  # (n_bodies, n_forces) 1 where a force on the second body acts, -1 where its reaction
     moved: NDArray[np.intp]  # bodies on which all forces are known
     turned: NDArray[np.intp]  # those on which all moments are, too
-    turning: Array  # (n_turned, n_joints) rows of `signs`
-    body: NDArray[np.intp]  # (n_joints,) on which the reaction has its point; -1: the ground
-    at: NDArray[np.intp]  # (2, n_joints) indices into p of the point's coordinates in its body
-    at_sign: Array  # (2, n_joints) by which these are multiplied
+    turning: Array  # (n_turned, n_joints + n_elements) rows of `signs`
+    points: tuple[PointInfo, ...]  # (n_joints + n_elements,) at which the forces act
+    elements: tuple[Element, ...]
     gravity: tuple[tuple[int, int], ...]  # its given components: axis, index into p
 
 
@@ -44,34 +60,58 @@ def table_of(source: KernelSource) -> Table:
 
 
 def _made(source: KernelSource) -> Table:
-    places, bodies = {point.name: point for point in source.points}, [body.name for body in source.bodies]
+    places, n = {point.name: point for point in source.points}, len(source.bodies)
     parts = {part.name: part for part in source.parts if part.section == "joints"}
-    moved, turned = np.ones(len(bodies), dtype=bool), np.ones(len(bodies), dtype=bool)
-    lost = {name.partition(".")[0] for part in source.parts for name in (*part.ends, *part.options.values())
-            if part.section == "forces" or part.name in source.indeterminate or part.name in source.rigid
-            or (part.section == "drives" and part.kind != "angle")
-            or (part.section == "joints" and part.kind not in KINDS)}  # fmt: skip
-    driven = {name.partition(".")[0] for part in source.parts for name in part.ends if part.section == "drives"}
-    moved[[name in lost for name in bodies]] = False
-    first, contacts = np.zeros((len(bodies), len(source.joints))), np.zeros((len(bodies), len(source.clearances)))
-    joints = [(joint.first, joint.second) for joint in source.joints]
-    plays = [(joint.first, joint.second) for joint in source.clearances]
-    for rows, pairs in ((first, joints), (contacts, plays)):
-        for k, (before, after) in enumerate(pairs):
-            for body, sign in ((before, -1.0), (after, 1.0)):
-                if body >= 0:
-                    rows[body, k] = sign
     points = [places[parts[joint.name].ends[0] if joint.kind == "point_on_line" else joint.point]
               for joint in source.joints]  # fmt: skip
-    turned &= moved & ~contacts.any(axis=1) & ~np.array([name in driven for name in bodies], dtype=bool)
-    at = np.array([[max(point.x, 0) for point in points], [max(point.y, 0) for point in points]], dtype=np.intp)
-    signs = [[point.sign_x * (point.x >= 0) for point in points], [point.sign_y * (point.y >= 0) for point in points]]
+    found = [(part, _element(source, part)) for part in source.parts if part.section != "joints"]
+    elements = tuple(element for _, element in found if element)
+    lost = {name.partition(".")[0] for part in source.parts for name in (*part.ends, *part.options.values())
+            if part.name in source.indeterminate or part.name in source.rigid or (part, None) in found
+            or (part.section == "joints" and part.kind not in KINDS)}  # fmt: skip
+    pairs = [(joint.first, joint.second) for joint in source.joints]
+    pairs += [(element.first.body, element.second.body) for element in elements]
+    known = len(pairs)
+    pairs += [(joint.first, joint.second) for joint in source.clearances]
+    signs = np.zeros((n + 1, len(pairs)))  # the last row is the ground's
+    for k, (first, second) in enumerate(pairs):
+        signs[first, k], signs[second, k] = -1.0, 1.0
+    signs = signs[:n]
+    moved = ~np.array([body.name in lost for body in source.bodies], dtype=bool)
+    turned = moved & ~signs[:, known:].any(axis=1)
     given = ((0, source.place.get("gravity.x")), (1, source.place.get("gravity.y")))
     return Table(
-        np.hstack([first, contacts]), np.flatnonzero(moved), np.flatnonzero(turned), first[turned],
-        np.array([point.body for point in points], dtype=np.intp), at, np.array(signs, dtype=float),
+        signs, np.flatnonzero(moved), np.flatnonzero(turned), signs[turned, :known],
+        (*points, *(element.second for element in elements)), elements,
         tuple((axis, k) for axis, k in given if k is not None),
     )  # fmt: skip
+
+
+def _element(source: KernelSource, part: PartInfo) -> Element | None:
+    """Return a force element or drive as a pair of forces; None where it is none."""
+    bodies = {body.name: PointInfo("", body.index, -1, -1) for body in source.bodies}
+    places = bodies | {point.name: point for point in source.points}
+    if part.kind not in ELEMENTS or not places.keys() >= set(part.ends):
+        return None
+    ends = [places[name] for name in part.ends]
+    first, second = ends if len(ends) == 2 else (GROUND, ends[0])
+    if ELEMENTS[part.kind] == "M" and len(ends) == 2:  # what is reported acts on the first body
+        first, second = second, first
+    if part.kind == "dry_friction":
+        x, y = (_number(source, f"forces.{part.name}.direction.{axis}") for axis in "xy")
+        return Element(part.kind, first, second, source.frictions.index(part.name), (x, y)) if x and y else None
+    if part.section == "drives":
+        return Element(part.kind, first, second, [drive.name for drive in source.drives].index(part.name))
+    name = f"{part.name}.{ELEMENTS[part.kind]}"
+    return Element(part.kind, first, second, [one.name for one in source.series].index(name))
+
+
+def _number(source: KernelSource, address: str) -> Number | None:
+    """Return a number of the file: its index into p, or its value where that is written; None: an expression."""
+    if address in source.place:
+        return source.place[address], 0.0
+    written = [json.loads(one.tree) for one in source.written if one.address == address]
+    return (-1, float(written[0])) if written and isinstance(written[0], int | float) else None
 
 
 def newton_euler(compiled: CompiledModel, p: Array, q: Array, evaluation: Evaluation, at: NDArray[np.intp]) -> Array:
@@ -81,30 +121,62 @@ def newton_euler(compiled: CompiledModel, p: Array, q: Array, evaluation: Evalua
         return np.zeros(n)
     m = compiled.mass(p)
     inertia = (evaluation.a[at] * m).reshape(n, -1, 3)
-    reactions = evaluation.reactions[at, : len(table.body)]
-    forces = np.concatenate([reactions[:, :, :2], evaluation.clearance[at, :, :2]], axis=1)
+    q = q[at].reshape(n, -1, 3)
+    wrenches = np.concatenate([
+        evaluation.reactions[at, : len(compiled.source.joints)],
+        *(_wrench(element, p, q, evaluation, at)[:, np.newaxis] for element in table.elements),
+    ], axis=1)  # fmt: skip
+    forces = np.concatenate([wrenches[:, :, :2], evaluation.clearance[at, :, :2]], axis=1)
     left = inertia[:, :, :2] - table.signs @ forces
     for axis, k in table.gravity:
         left[:, :, axis] -= m[::3] * p[k]
     largest = max(np.abs(inertia[:, :, :2]).max(), np.abs(forces).max(initial=0.0), LEAST)
     worst = np.abs(left[:, table.moved]).max(axis=(1, 2)) / largest
     if len(table.turned):
-        moments, longest = _moments(table, p, q[at].reshape(n, -1, 3), reactions)
+        moments, longest = _moments(table, p, q, wrenches)
         off = np.abs(inertia[:, table.turned, 2] - moments.sum(axis=2)).max(axis=1)
         worst = np.maximum(worst, off / max(np.abs(moments).max(initial=0.0), largest * longest, LEAST))
     return np.asarray(worst)
 
 
-def _moments(table: Table, p: Array, q: Array, reactions: Array) -> tuple[Array, float]:
-    """Return moments of reactions about centres of mass, (n, n_turned, n_joints), N m, and the longest arm, m.
+def _wrench(element: Element, p: Array, q: Array, evaluation: Evaluation, at: NDArray[np.intp]) -> Array:
+    """Return force and moment of an element on its second body, (n, 3) N and N m; q is (n, n_bodies, 3)."""
+    wrench = np.zeros((len(at), 3))
+    if element.kind == "angle":
+        wrench[:, 2] = evaluation.torques[at, element.column]
+    elif element.kind == "dry_friction":
+        u_x, u_y = (p[k] if k >= 0 else value for k, value in element.direction)
+        theta = q[:, element.first.body, 2] * (element.first.body >= 0)
+        force = evaluation.friction[at, element.column, 0] / np.hypot(u_x, u_y)
+        wrench[:, 0] = force * (np.cos(theta) * u_x - np.sin(theta) * u_y)
+        wrench[:, 1] = force * (np.sin(theta) * u_x + np.cos(theta) * u_y)
+    elif element.kind == "spring_damper":
+        span = _world(element.first, p, q) - _world(element.second, p, q)
+        length = np.maximum(np.hypot(span[:, 0], span[:, 1]), LEAST)
+        wrench[:, :2] = (evaluation.series[at, element.column] / length)[:, np.newaxis] * span
+    elif element.kind == "force":
+        wrench[:, :2] = evaluation.series[at, element.column : element.column + 2]
+    else:
+        wrench[:, 2] = evaluation.series[at, element.column]
+    return wrench
+
+
+def _world(point: PointInfo, p: Array, q: Array) -> Array:
+    """Return a point's coordinates, (n, 2) m; q is (n, n_bodies, 3)."""
+    x = point.sign_x * p[point.x] if point.x >= 0 else 0.0
+    y = point.sign_y * p[point.y] if point.y >= 0 else 0.0
+    body = q[:, point.body] * (point.body >= 0)
+    c, s = np.cos(body[:, 2]), np.sin(body[:, 2])
+    return np.column_stack([body[:, 0] + c * x - s * y, body[:, 1] + s * x + c * y])
+
+
+def _moments(table: Table, p: Array, q: Array, wrenches: Array) -> tuple[Array, float]:
+    """Return moments about centres of mass, (n, n_turned, n_joints + n_elements) N m, and the longest arm, m.
 
     q is (n, n_bodies, 3).
     """
-    x, y = p[table.at] * table.at_sign
-    own = q[:, table.body] * (table.body >= 0)[:, np.newaxis]
-    c, s = np.cos(own[:, :, 2]), np.sin(own[:, :, 2])
-    arm_x = (own[:, :, 0] + c * x - s * y)[:, np.newaxis] - q[:, table.turned, 0, np.newaxis]
-    arm_y = (own[:, :, 1] + s * x + c * y)[:, np.newaxis] - q[:, table.turned, 1, np.newaxis]
-    F_x, F_y, M = reactions[:, np.newaxis, :, 0], reactions[:, np.newaxis, :, 1], reactions[:, np.newaxis, :, 2]
-    longest = float((np.hypot(arm_x, arm_y) * np.abs(table.turning)).max(initial=0.0))
-    return np.asarray(table.turning * (M + arm_x * F_y - arm_y * F_x)), longest
+    points = np.stack([_world(point, p, q) for point in table.points], axis=1)
+    arm = points[:, np.newaxis] - q[:, table.turned, np.newaxis, :2]
+    longest = float((np.hypot(arm[..., 0], arm[..., 1]) * np.abs(table.turning)).max(initial=0.0))
+    F, M = wrenches[:, np.newaxis, :, :2], wrenches[:, np.newaxis, :, 2]
+    return np.asarray(table.turning * (M + arm[..., 0] * F[..., 1] - arm[..., 1] * F[..., 0])), longest
