@@ -251,7 +251,7 @@ static double first_in_long_step(Run *run, Step *step, double share, const Param
     for (int k = 0; k < N_MARGINS && !hidden; k++)
         hidden = watched_as[k] < 0 && !isfinite(begin_of(run, step, k).slope) && !follows_from_force(run, k)
             && margin(&run->memory, &run->aside, k) >= 0.0 && !is_passed(run, step, k)
-            && (step->method->stiff || !is_clear_of_zero(run, step, k));
+            && (step->method->stiff || !is_clear_of_zero(run, step, k, 0.0, p));
     if (!hidden || make_dense(run, p, step))
         return share;
     for (int i = 1; i < N_INNER_SAMPLES; i++) {

@@ -144,13 +144,14 @@ static int is_clear_of_zero(const Run *run, Step *step, int k, double rest, cons
 {
     Place all[N_STAGES + 2];
     const int n = values_of_stages(step, begin_of(run, step, k), end_of(run, step, k), seen_of(step, k), all);
+    const int friction = k - N_CLEARANCES - N_SWITCHES;
     double least = INFINITY, most = -INFINITY;
     for (int i = 0; i < n; i++) {
         least = min_of(least, all[i].f);
         most = max_of(most, all[i].f);
     }
     if (step->method->stiff || n < LEAST_STAGES) /* stages that are inaccurate, or too far apart: velocities only */
-        return k >= N_CLEARANCES && run->memory.mode[k - N_CLEARANCES - N_SWITCHES] != 0.0 && least > most - least;
+        return friction >= 0 && friction < N_FRICTIONS && run->memory.mode[friction] != 0.0 && least > most - least;
     const double bend = largest_bend(all, n);
     for (int i = 1; i < n; i++) {
         const double w = all[i].s - all[i - 1].s, curve = bend * w * w;

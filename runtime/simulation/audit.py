@@ -10,7 +10,6 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gudgeon.contract.audit import FAILS, LEVELS, Finding
 from gudgeon.errors import BadValueError
