@@ -94,12 +94,13 @@ def test_switches_of_driven_chains_that_nobody_evaluates(tmp_path: Path) -> None
 
 @pytest.mark.parametrize("method", ["auto", "dop853", "rodas5p"])
 def test_events_that_are_rounding(method: str, tmp_path: Path) -> None:
-    """Fault 07: a velocity that sticks has no uncertainty, so that each change of its sign is an event."""
+    """Fault 07: a velocity that sticks is not put at rest and has no uncertainty: each change of its sign is an event."""
     right = loader(tmp_path)(STUCK)
     assert not reported(right, 2.5, method=method)
     known = "    error_of_watched(run, t, y, error, p, out);\n"
     exact = "    for (int i = 0; i < N_WATCHED; i++)\n        out[i] = 0.0;\n"
-    wrong = mutant(right, tmp_path, ("engine/run/uncertainty.c", known, exact))
+    drifts = ("engine/run/slips.c", "fabs(v) <= RESTS", "fabs(v) <= INFINITY")
+    wrong = mutant(right, tmp_path, ("engine/run/uncertainty.c", known, exact), drifts)
     assert "check event" in reported(wrong, 2.5, method=method)
 
 
