@@ -56,7 +56,7 @@ def audit_samples(
     left_out = set[str]()
     if source.massless or source.indeterminate:
         left_out.add("body")
-    if source.massless or source.indeterminate or source.frictions:  # which mode a friction has lies between samples
+    if source.massless or source.indeterminate:
         left_out |= {"power", "torque"}
     if problem.method == "rk4":  # in absolute coordinates rows drift; between steps lies a cubic
         left_out |= {"rows", "rates"} | ({"power"} if source.formulation == "full" else set())

@@ -6,8 +6,11 @@ from pathlib import Path
 
 import pytest
 
+import gudgeon
+from tests.audit_mutants import mutant
 from tests.programs import needs_compiler
 from tests.scenes import loader
+from tests.simulation.test_audit import reported
 
 pytestmark = needs_compiler
 
@@ -49,7 +52,7 @@ def test_two_blocks_that_rest_on_each_other(method: str, rtol: float, tmp_path: 
     """Forces of some newtons balance; the accelerations that two formulations leave are rounding, and differ."""
     run = loader(tmp_path)(STACK).simulate(0.05, output=5, method=method, rtol=rtol, audit="full")
     assert not audit_notes(run)
-    assert {"acceleration"} <= {one.check for one in run.diagnostics.audit}
+    assert {"acceleration", "power", "torque", "body"} <= {one.check for one in run.diagnostics.audit}
     assert abs(run["b2.x"] - 0.01).max() < 1e-9
 
 
@@ -98,3 +101,15 @@ def test_a_rod_that_bears_nothing(inertia: str, tmp_path: Path) -> None:
         start: {{guess: {{rod.theta: -0.1}}}}
         """).simulate(1.0, output=100, audit="full")
     assert not audit_notes(run)
+
+
+def test_the_power_of_friction_that_is_wrong(tmp_path: Path) -> None:
+    """The balance at samples holds where friction sticks and where it slips."""
+    right = gudgeon.load("belt_block")
+    for start in (0.0, 0.1):
+        run = right.simulate(3.0, output=100, parameters={"start.set.block.x": start}, audit="full")
+        assert not audit_notes(run)
+        assert "power" in {one.check for one in run.diagnostics.audit}
+    line = next(x for x in right.source.files["dynamics.c"].splitlines() if "aside->power[1] = " in x)
+    broken = mutant(right, tmp_path, ("dynamics.c", line, line.replace("power[1] = ", "power[1] = 1e-3 + ")))
+    assert "check power" in reported(broken, 3.0)
