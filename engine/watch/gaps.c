@@ -3,11 +3,10 @@
  * contact), and the proof that the step is clear of zeros before it.
  *
  * Stages bound the margin of most steps: its second derivative by BEND_SAFETY times the largest that the rates of
- * neighbouring stages show, or its distance from cubics between them by that from longer ones. The dense output lies
- * beside them by DENSE_ERROR tolerances at most (bound_by_stages). Where that does not decide, the dense output is
- * bisected (first_zero). On each part of it the margin is the cubic of values and rates at both ends within an error.
- * That error is taken as the one that the cubic of the whole part before the bisection had in the middle; in theory the
- * halves have a sixteenth of it.
+ * neighbouring stages show, and the dense output lies beside them by DENSE_ERROR tolerances at most (bound_by_stages).
+ * Where that does not decide, the dense output is bisected (first_zero). On each part of it the margin is the cubic of
+ * values and rates at both ends within an error. That error is taken as the one that the cubic of the whole part before
+ * the bisection had in the middle; in theory the halves have a sixteenth of it.
  * What is guaranteed: no zero of the dense output is missed, and none before the one that is found, as long as the
  * error of a half is not larger than the one of the whole that was measured, on parts of at most a quarter of the step.
  */
@@ -15,7 +14,6 @@ enum { MAX_BISECTIONS = 48, MAX_SAMPLES = 400 /* of a joint and step: what they 
 
 #define BEND_SAFETY 2.0
 #define WIDEST 0.125     /* w/4, w of a step at most between neighbouring stages: so much of a change of rate bends */
-enum { LEAST_PLACES = 4 }; /* that tell the error of a cubic */
 #define DENSE_ERROR 10.0 /* tolerances of a length, by which the dense output may lie beside the stages */
 
 /* A part of a step: its end and how far the margin may lie beside the cubic between both ends. */
@@ -78,6 +76,38 @@ static int is_far(const Run *run, const Step *step, int i, const Parameters *p)
     return nearest - WIDEST * step->h * (fastest - slowest) * BEND_SAFETY / 2.0 > error_of_dense(run, i, p);
 }
 
+/*
+ * What the stages say of margin i. Between neighbours a and b with |f''| <= B it is at least min(f_a, f_b) - B w^2/8,
+ * and at least max(f_a + f'_a x - B x^2/2, f_b - f'_b (w - x) - B (w - x)^2/2), least where both parabolas meet.
+ */
+static int bound_by_stages(const Run *run, const Step *step, int i, const Parameters *p)
+{
+    Place all[N_STAGES + 2];
+    const int n = margins_of_stages(run, step, i, p, all);
+    const double least = shallow(p, i), error = 16.0 * error_of_dense(run, i, p);
+    double bend = 0.0;
+    int falls = 0;
+    if (!(all[0].f >= least))
+        return UNKNOWN;
+    for (int k = 1; k < n; k++)
+        bend = max_of(bend, fabs(all[k].slope - all[k - 1].slope) / (all[k].s - all[k - 1].s));
+    bend *= BEND_SAFETY;
+    for (int k = 1; k < n; k++) {
+        const Place a = all[k - 1], b = all[k];
+        const double w = b.s - a.s, curve = bend * w;
+        const double x = (a.f - b.f + (b.slope + 0.5 * curve) * w) / (b.slope - a.slope + curve);
+        const double below_chord = min_of(a.f, b.f) - 0.125 * curve * w;
+        const double meet = x >= 0.0 && x <= w ? a.f + x * (a.slope - 0.5 * bend * x) : -INFINITY;
+        const double s = b.s < 0.5 ? b.s : a.s > 0.5 ? a.s : 0.5, beside = error * s * s * (1.0 - s) * (1.0 - s);
+        if (!falls && b.f >= 0.0 && max_of(below_chord, meet) - beside >= least)
+            continue;
+        if (!(0.5 * (a.slope + b.slope + curve) + 0.2 * error < 0.0))
+            return UNKNOWN;
+        falls = 1;
+    }
+    return falls && all[n - 1].f < 0.0 ? FALLS : CLEAR;
+}
+
 /* The least of f + u (r + u (c + u d)) for u from 0 to 1/2. */
 static double least_of_cubic(double f, double r, double c, double d)
 {
@@ -104,78 +134,6 @@ static int bound_by_cubic(Place a, Place b, double error, double least)
     if (!(steepest + 3.1 * error < 0.0))
         return UNKNOWN;
     return ends ? CLEAR : FALLS;
-}
-
-/* By how much places between two others lie beside the cubic through those, as the error in its middle. */
-static double error_between(const Place *all, int from, int to)
-{
-    const Place a = all[from], b = all[to];
-    const double width = b.s - a.s, rise = b.f - a.f, r = width * a.slope, r_end = width * b.slope;
-    const double c = 3.0 * rise - 2.0 * r - r_end, d = r + r_end - 2.0 * rise;
-    double most = 0.0;
-    for (int k = from + 1; k < to; k++) {
-        const double u = (all[k].s - a.s) / width, shape = 4.0 * u * (1.0 - u);
-        most = max_of(most, fabs(all[k].f - a.f - u * (r + u * (c + u * d))) / (shape * shape));
-    }
-    return most;
-}
-
-/*
- * The same between neighbouring stages a and b, of whose second derivative is known |f''| <= bend: the margin is at
- * least min(f_a, f_b) - bend w^2/8, and at least max(f_a + f'_a x - bend x^2/2, f_b - f'_b (w - x) - bend (w - x)^2/2),
- * least where both parabolas meet. The dense output lies beside it by `beside`, its rate by `turned` at most.
- */
-static int bound_by_parabolas(Place a, Place b, double bend, double beside, double turned, double least)
-{
-    const double w = b.s - a.s, curve = bend * w, steepest = 0.5 * (a.slope + b.slope + curve) + turned;
-    const double x = (a.f - b.f + (b.slope + 0.5 * curve) * w) / (b.slope - a.slope + curve);
-    const double below_chord = min_of(a.f, b.f) - 0.125 * curve * w;
-    const double meet = x >= 0.0 && x <= w ? a.f + x * (a.slope - 0.5 * bend * x) : -INFINITY;
-    if (b.f >= 0.0 && max_of(below_chord, meet) - beside >= least)
-        return CLEAR;
-    return !(steepest < 0.0) ? UNKNOWN : b.f - beside >= least ? CLEAR : FALLS;
-}
-
-/*
- * What the stages of a step say of margin i, up to the first that lies behind a zero for sure, which is `high` then:
- * what the margin does behind that does not matter. Where parabolas between neighbours do not tell, cubics do. Their
- * error is taken as that of the cubic from one place before to one behind; in theory it is far smaller. Of a step that
- * is a cubic nearly the dense output is one.
- */
-static int bound_by_stages(const Run *run, const Step *step, int i, const Parameters *p, Place *high)
-{
-    Place all[N_STAGES + 2];
-    const int n = margins_of_stages(run, step, i, p, all);
-    const double least = shallow(p, i), off = error_of_dense(run, i, p);
-    double bend = 0.0, error = 16.0 * off, known = NAN;
-    const int exact = !step->method->stiff && n >= LEAST_PLACES; /* stages of stiff methods are not */
-    int falls = 0, last = 0;
-    if (!(all[0].f >= least))
-        return UNKNOWN;
-    for (int k = 1; k < n; k++)
-        bend = max_of(bend, fabs(all[k].slope - all[k - 1].slope) / (all[k].s - all[k - 1].s));
-    for (int k = 1; k < n && !(exact && falls && all[k - 1].f < -off); k++) {
-        const Place a = all[k - 1], b = all[k];
-        const double w = b.s - a.s, s = b.s < 0.5 ? b.s : a.s > 0.5 ? a.s : 0.5, way = s * s * (1.0 - s) * (1.0 - s);
-        int found = bound_by_parabolas(a, b, BEND_SAFETY * bend, way * error, 0.2 * error, least);
-        if (found == UNKNOWN && exact) {
-            const int from = k < 2 ? 0 : k > n - 2 ? n - 4 : k - 2;
-            known = known == known ? known : error_between(all, 0, n - 1);
-            error = min_of(error, 16.0 * DENSE_ERROR * known);
-            /* the first part's error begins as that of the cubic whose end lies so much lower */
-            const Place end = {b.s, b.f - (k == 1 ? way * error : 0.0), b.slope};
-            found = bound_by_cubic(a, end, error_between(all, from, from + 3) + 0.07 * w * error,
-                least + (k > 1 ? way * error : 0.0));
-        }
-        if (found == UNKNOWN || (falls && found != FALLS))
-            return UNKNOWN;
-        falls |= found == FALLS;
-        last = k;
-    }
-    if (!falls || !(all[last].f < 0.0))
-        return CLEAR;
-    *high = all[last];
-    return FALLS;
 }
 
 /* The cubic's error in the middle, its value's and an eighth of its rate's: what the halves are allowed. */
@@ -223,9 +181,9 @@ static int first_zero(Run *run, const Step *step, int k, const Parameters *p, Pl
 /* Whether margin k of a joint with play has a zero in the step, and places that enclose the first one. */
 static int has_zero(Run *run, Step *step, int k, const Parameters *p, Place *low, Place *high)
 {
+    int found = is_far(run, step, k, p) ? CLEAR : bound_by_stages(run, step, k, p);
     *low = begin_of(run, step, k);
     *high = end_of(run, step, k);
-    int found = is_far(run, step, k, p) ? CLEAR : bound_by_stages(run, step, k, p, high);
     if (found == UNKNOWN)
         found = make_dense(run, p, step) ? high->f < 0.0 ? FALLS : CLEAR : first_zero(run, step, k, p, low, high);
     if (low->f < 0.0 && low->f >= shallow(p, k) && low->slope > 0.0)

@@ -97,7 +97,14 @@ class Machine:
     @staticmethod
     def bare(text: Any) -> str:
         """Without units in SI: "2 N*m*p3" is 2*p3."""
-        return re.sub(r"(?<![\w.])(\d[\d.e+-]*) (?:[A-Za-z]+(?:[*/][A-Za-z]+)*)(?=\*p|\*\(|$)", r"\1", str(text))
+        return re.sub(r"(?<![\w.])(\d[\d.e+-]*) (?:[A-Za-z]+(?:[*/][A-Za-z]+)*)(?=\*p|\*\(|,|$)", r"\1", str(text))
+
+    def expression(self, text: Any) -> Expression:
+        """What stands in the file, with the parts that it names written out."""
+        written = self.bare(text)
+        for name, part in reversed(self.file.get("expressions", {}).items()):
+            written = re.sub(rf"(?<![\w.]){name}(?![\w.])", f"({self.bare(part)})", written)
+        return Expression(written, self.known)
 
     def _com(self, body: Mapping[str, Any]) -> np.ndarray:
         middle = [f"({body['length']})/2" if "length" in body else 0, 0]
@@ -166,12 +173,12 @@ class Machine:
             numbers = (self.number(entry.get(key, 0)) for key in ("stiffness", "free_angle", "damping"))
             return RotationalSpring(*(self.body(name) for name in entry[kind]), *numbers)
         if kind == "force":
-            parts = tuple(Expression(self.bare(text), self.known) for text in entry["value"])
+            parts = tuple(self.expression(text) for text in entry["value"])
             return Written(self, self.end(entry[kind]), None, parts, entry.get("axes") == "body")
         if kind == "torque":
             target = entry[kind]
             names = [target, "ground"] if isinstance(target, str) else target
-            parts = (Expression(self.bare(entry["value"]), self.known),)
+            parts = (self.expression(entry["value"]),)
             return Written(self, End(self.body(names[0]), (0.0, 0.0)), self.body(names[1]), parts)
         raise Unknown(kind)
 

@@ -23,6 +23,7 @@ def tried(seed: int, folder: Path) -> None:
     assert tally.counts["machines"] == MACHINES
 
 
-@pytest.mark.parametrize("seed", range(25))
+# Designs that found faults: contacts between stages that cubics through these took for none.
+@pytest.mark.parametrize("seed", [*range(25), 7718])
 def test_random_machines(seed: int, tmp_path: Path) -> None:
     tried(seed, tmp_path)
