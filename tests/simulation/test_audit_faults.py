@@ -94,7 +94,7 @@ def test_switches_of_driven_chains_that_nobody_evaluates(tmp_path: Path) -> None
 
 @pytest.mark.parametrize("method", ["auto", "dop853", "rodas5p"])
 def test_events_that_are_rounding(method: str, tmp_path: Path) -> None:
-    """Fault 07: a velocity that sticks is not put at rest and has no uncertainty: each change of its sign is an event."""
+    """Fault 07: velocities that stick are not put at rest and have no uncertainty: changes of their sign are events."""
     right = loader(tmp_path)(STUCK)
     assert not reported(right, 2.5, method=method)
     known = "    error_of_watched(run, t, y, error, p, out);\n"
