@@ -6,10 +6,12 @@
  * either, the constraints contradict each other and the pivot's number is returned. Rare, dense, and
  * out of the way of the fast path.
  *
- * Of a body whose moment of inertia is small beside m s^2, or 0, M is no measure: another one stands for it. What the
- * rows leave free then follows from M along an orthonormal basis Z of it: Z^T M Z z = Z^T (g - M a) of the a so far.
+ * Of a body whose moment of inertia is small beside m s^2, or 0, or whose mass is small beside another's, M is no
+ * measure: another one stands for it. What the rows leave free then follows from M along an orthonormal basis Z of it:
+ * Z^T M Z z = Z^T (g - M a) of the a so far.
  */
 #define LEAST_INERTIA 1e-3 /* of m s^2, s the longest arm of a joint: the least that an inertia counts in the measure */
+#define LEAST_MASS 1e-4    /* of the heaviest body: the same of a mass */
 
 typedef struct {
     double basis[N_Q][N_Q];                              /* orthonormal rows found so far, then what they leave free */
@@ -75,18 +77,21 @@ static int independent_rows(Workspace *w, double least)
     return rank;
 }
 
-/* The measure instead of M in `root`, where moments of inertia are small; `light`: there are such. */
+/* The measure instead of M in `root`, where masses or moments of inertia are small; `light`: there are such. */
 static void measure(Workspace *w)
 {
+    double heaviest = 0.0;
+    for (int k = 0; k < N_Q; k++)
+        heaviest = k % 3 < 2 ? max_of(heaviest, w->root[k]) : heaviest;
     for (int k = 0; k < N_Q; k++) {
-        double arm = 0.0, counts = w->root[k];
+        double arm = 0.0, counts = k % 3 < 2 ? max_of(w->root[k], LEAST_MASS * heaviest) : w->root[k];
         for (int i = 0; i < N_ROWS && k % 3 == 2; i++) {
             const double *row = w->all[kept_row[i]];
             if (row[k - 2] != 0.0 || row[k - 1] != 0.0)
                 arm = max_of(arm, row[k] * row[k]);
         }
         if (k % 3 == 2)
-            counts = max_of(counts, arm > 0.0 ? LEAST_INERTIA * w->root[k - 1] * arm : 1e-300);
+            counts = max_of(counts, arm > 0.0 ? LEAST_INERTIA * w->free[0][k - 1] * arm : 1e-300);
         w->share[k] = w->root[k] / counts;
         w->light |= w->share[k] < 1.0;
         w->free[0][k] = counts;
