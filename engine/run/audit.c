@@ -8,6 +8,7 @@
 #define AUDIT_FAILS 10.0       /* multiples of a limit that end a run */
 #define AUDIT_GRAZE 4e-13      /* m: so shallow a contact bears no force worth the name */
 #define AUDIT_DEPTH 10.0       /* tolerances that an open joint may penetrate */
+#define AUDIT_REST 1e-3 /* of a speed that counts: what is slower rests */
 #define AUDIT_ROUNDING 1e-9    /* of the size, or speed: closer than this rows are not known */
 #define AUDIT_ACCELERATION 1e-6 /* of the largest term, that two ways to the accelerations may differ by */
 #define AUDIT_BALANCE 1e-8     /* of a force on a mass: accelerations that are smaller are known less well */
@@ -84,7 +85,8 @@ static void check_rows(Run *run, double t, const double *all, int rates_too, con
     }
     if (!rates_too)
         return;
-    const double fast = max_of(max_of(speed[0], size * speed[1]), 1e-300), ahead = 1e-5 * size / fast;
+    const double least = max_of(AUDIT_REST * run->speed_floor[0], 1e-300); /* m/s */
+    const double fast = max_of(max_of(speed[0], size * speed[1]), least), ahead = 1e-5 * size / fast;
     velocity_residuals(t, all, all + N_Q, ahead, p, missed, nu);
     for (int i = 0; i < N_ROWS; i++) {
         const int row = kept_row[i];
@@ -218,6 +220,8 @@ static void check_branches(Run *run, const Step *step, double t, const double *y
 {
     if (N_SWITCHES > 0)
         record(&run->audit, BRANCH_CHECK, 0.0, 1.0, t, -1);
+    if (t <= run->t + 4.0 * run->tick)
+        return; /* what changes at one time, as the values of functions of one mod, changes one after the other */
     for (int k = 0; k < N_SWITCHES; k++) {
         const double g = run->memory.side[k] * aside->g[k];
         run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(g));

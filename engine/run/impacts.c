@@ -7,7 +7,7 @@
  */
 #define TOUCHING 1e-10 /* of the clearance: surfaces that are no further apart touch */
 #define STEADY 1e-8    /* two ratios of what successive passes take that differ by no more are one geometric ratio */
-enum { MAX_PASSES = 1000, LISTED_PASSES = 8 };
+enum { MAX_PASSES = 1000, LISTED_PASSES = 8, MAX_APART = 12 };
 
 /* Not negative while things go on as they are: the gap of a free joint, m, the force of a closed contact, N. */
 static double contact_margin(const Memory *memory, const Aside *aside, int i)
@@ -203,17 +203,25 @@ static int settle_contacts(Run *run, int opens, const Parameters *p)
 /* Closed contacts exactly at e = c, and what touches and parts a little apart: the next step looks for its return. */
 static int put_apart(Run *run, const Parameters *p)
 {
-    double gap[N_RIGID];
-    const double apart = least_gap(run, p);
-    Answer touching = {0};
-    for (int i = 0; i < N_CLEARANCES; i++) {
-        if (gives(i) || (!run->memory.latch[i].closed && run->aside.clearance[i].delta < -apart))
-            continue;
-        gap[touching.n] = run->memory.latch[i].closed ? 0.0 : apart;
-        touching.joint[touching.n++] = i;
-    }
     const double energy = kinetic_energy(run, p);
-    const int status = touching.n ? seat(run, run->t, run->y, p, &touching, gap) : 0;
+    double apart = least_gap(run, p);
+    int status = 0, meets_again = 1;
+    for (int pass = 0; pass < MAX_APART && meets_again && !status; pass++, apart *= 4.0) {
+        double gap[N_RIGID];
+        Answer touching = {0};
+        for (int i = 0; i < N_CLEARANCES; i++) {
+            if (gives(i) || (!run->memory.latch[i].closed && run->aside.clearance[i].delta < -apart))
+                continue;
+            gap[touching.n] = run->memory.latch[i].closed ? 0.0 : apart;
+            touching.joint[touching.n++] = i;
+        }
+        status = touching.n ? seat(run, run->t, run->y, p, &touching, gap) : 0;
+        if (!status && touching.n)
+            status = rates(run, run->t, run->y, p, run->dy, &run->aside);
+        meets_again = 0; /* corners may lie far out: their places are rounded by more */
+        for (int k = 0; k < touching.n; k++)
+            meets_again |= gap[k] > 0.0 && !(run->aside.clearance[touching.joint[k]].delta < 0.0);
+    }
     run->y[2 * N_X + 2] += kinetic_energy(run, p) - energy; /* of partings slower than the threshold */
     return status;
 }

@@ -1,5 +1,7 @@
 /* Slips of friction that sticks: put to rest, as exactly as their velocities are evaluated. */
-#define RESTS 1e-15 /* m/s: a slip that is no larger is none */
+#define RESTS 1e-15    /* m/s: a slip that is no larger is none */
+#define LEFT_OVER 10.0 /* tolerances of a velocity, that a slip may be a rest of a step by, or */
+#define LEFT_SLIP 2e-9 /* m/s, what its place is located to */
 
 /* By how much the rate of slip i, and all rates (dy), change with the direction of its force; 0: that is not known. */
 static double response_to_friction(Run *run, double t, const double *y, int i, const Parameters *p, double *dy)
@@ -17,6 +19,19 @@ static double response_to_friction(Run *run, double t, const double *y, int i, c
     return status ? 0.0 : along.friction[i].rate - against.friction[i].rate;
 }
 
+/* Whether velocities that change so are a rest of a step: a slip may be small because its arm is, not its speed. */
+static int is_left_over(const Run *run, const double *way, double times)
+{
+    int small = 1;
+    for (int k = N_X; k < 2 * N_X; k++) {
+        const double turns = run->least[0] > 0.0 ? run->least[1] / run->least[0] : 1.0; /* rad/m; rk4 does not know */
+        const double located = is_angle[k - N_X] ? LEFT_SLIP * turns : LEFT_SLIP;
+        const double tolerance = run->weight[k] > 0.0 ? LEFT_OVER / run->weight[k] : 0.0;
+        small &= fabs(way[k] * times) <= max_of(tolerance, located);
+    }
+    return small;
+}
+
 /*
  * Stops the slips of friction that sticks, which are left over or which a step let drift: by impulses of the friction.
  * Whether there were any. One of them leaves the others at rest.
@@ -30,9 +45,11 @@ static int stop_slips(Run *run, double t, double *y, const Aside *aside, const P
         if (run->memory.mode[i] != 0.0 || fabs(v) <= RESTS)
             continue;
         const double response = response_to_friction(run, t, y, i, p, way);
-        for (int k = N_X; k < 2 * N_X && response > 0.0; k++)
+        if (!(response > 0.0) || !is_left_over(run, way, v / response))
+            continue;
+        for (int k = N_X; k < 2 * N_X; k++)
             y[k] -= way[k] * (v / response);
-        some |= response > 0.0;
+        some = 1;
     }
     return some;
 }

@@ -104,7 +104,7 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
         const double between = h > 0.0 ? 2.0 * h : INFINITY;
         double sum = (stored[1][1] - stored[0][1]) / between, driven = 0.0;
         double terms = fabs(sum) + force[0] * fast[0] + force[1] * fast[1];
-        terms += 1e6 * DBL_EPSILON * fabs(stored[2][1]) / between;
+        terms += 4e6 * DBL_EPSILON * fabs(stored[2][1]) / between;
         for (int i = 0; i < N_FRICTIONS; i++) /* while it sticks the powers of all forces are rounding of its own */
             terms += fabs(aside.friction[i].force) * (fast[0] + fabs(aside.friction[i].v));
         for (int k = 0; k < N_Q; k++)

@@ -175,7 +175,7 @@ def _moments(table: Table, p: Array, q: Array, wrenches: Array) -> tuple[Array, 
 
     q is (n, n_bodies, 3).
     """
-    points = np.stack([_world(point, p, q) for point in table.points], axis=1)
+    points = np.array([_world(point, p, q) for point in table.points]).reshape(-1, len(q), 2).swapaxes(0, 1)
     arm = points[:, np.newaxis] - q[:, table.turned, np.newaxis, :2]
     longest = float((np.hypot(arm[..., 0], arm[..., 1]) * np.abs(table.turning)).max(initial=0.0))
     F, M = wrenches[:, np.newaxis, :, :2], wrenches[:, np.newaxis, :, 2]

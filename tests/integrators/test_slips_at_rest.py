@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import gudgeon
 from gudgeon.simulation.simulation import Simulation
@@ -184,3 +185,43 @@ def test_velocities_come_to_rest_once(block: Simulation) -> None:
             state = run.final
         assert len(parts) == len(found["rest"]), given
         assert np.allclose(parts, found["rest"], rtol=0, atol=1e-6), given
+
+
+BAR = """
+format: gudgeon/1
+name: bar
+gravity: [0, -9.81]
+parameters: {{F: {force} N}}
+bodies: {{a: {{length: 0.6 m, mass: 1 kg, inertia: 0.02 kg*m^2}}}}
+ground: {{O: [0, 0]}}
+joints: {{O: {{revolute: [ground.O, a.tail]}}}}
+freedoms: 1
+forces: {{f1: {{dry_friction: [ground.O, a.head], direction: {direction}, static: F, kinetic: F}}}}
+start: {{set: {{a.theta: {angle} deg}}}}
+"""
+
+
+@pytest.mark.parametrize("formulation", ["reduced", "full"])
+@pytest.mark.parametrize("angle", [0, 20, 180, -45])
+def test_friction_whose_arm_vanishes_takes_no_velocity(
+    tmp_path_factory: pytest.TempPathFactory, formulation: str, angle: float
+) -> None:
+    """A bar falls from where the arm of friction is 0: its moment F L |sin| stops nothing there, though nothing slips.
+
+    I theta'' = -m g L/2 cos(theta) - F L |sin(theta - theta_0)| sign(omega), integrated by SciPy. The bar was held for
+    a moment at 180 and -45 deg: 2.2e-4 rad late after 0.05 s.
+    """
+    along = np.radians(angle)
+    direction = f"[{np.cos(along)!r}, {np.sin(along)!r}]".replace("np.float64(", "").replace(")", "")
+    scene = loaded(BAR.format(force=5, direction=direction, angle=angle), tmp_path_factory, formulation)
+    inertia = 0.02 + 0.3**2
+
+    def rates(_: float, y: np.ndarray) -> list[float]:
+        friction = 5.0 * 0.6 * abs(np.sin(y[0] - along)) * np.sign(y[1])
+        return [y[1], (-9.81 * 0.3 * np.cos(y[0]) - friction) / inertia]
+
+    right = solve_ivp(rates, (0.0, 0.05), [along, 0.0], method="DOP853", rtol=1e-12, atol=1e-14).y[:, -1]
+    for method in ("auto", "rodas5p", "radau5"):
+        run = scene.simulate(0.05, method=method, output=1)
+        assert run["a.theta"][-1] == pytest.approx(right[0], abs=1e-7), method
+        assert run["a.omega"][-1] == pytest.approx(right[1], rel=1e-6), method

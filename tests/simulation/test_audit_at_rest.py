@@ -113,3 +113,39 @@ def test_the_power_of_friction_that_is_wrong(tmp_path: Path) -> None:
     line = next(x for x in right.source.files["dynamics.c"].splitlines() if "aside->power[1] = " in x)
     broken = mutant(right, tmp_path, ("dynamics.c", line, line.replace("power[1] = ", "power[1] = 1e-3 + ")))
     assert "check power" in reported(broken, 3.0)
+
+
+BAR = """
+gravity: [0, -9.81]
+bodies: {a: {length: 0.5 m, mass: 1 kg, inertia: 0.02 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {O: {revolute: [ground.O, a.tail]}}
+freedoms: 1
+"""
+HELD = """
+forces: {f1: {dry_friction: [ground.O, a.head], direction: [0, 1], static: 12 N, kinetic: 12 N}}
+start: {set: {a.theta: -30 deg}, rates: {a.omega: 0.6}}
+"""
+PERIODS = """
+events: {e: {zero: "abs(mod(a.theta, 1 rad)) - 0.5 rad"}}
+start: {set: {a.theta: -0.1 rad}}
+"""
+
+
+@pytest.mark.parametrize("formulation", ["reduced", "full"])
+def test_a_bar_that_friction_holds(formulation: str, tmp_path: Path) -> None:
+    """Speeds of 1e-15 rad/s are no scale of what rows miss, nor powers at them."""
+    held = loader(tmp_path, formulation)(BAR + HELD)
+    for k in range(0, 31, 3):
+        for rtol in (1e-6, 1e-8, 1e-10):
+            given = {"start.rates.a.omega": 0.2 * k - 3.0}
+            run = held.simulate(3.0, method="dop853", rtol=rtol, parameters=given, output=1000)
+            assert not audit_notes(run), given
+
+
+@pytest.mark.parametrize("method", ["dop853", "rodas5p", "radau5"])
+def test_functions_of_one_mod_change_one_after_the_other(method: str, tmp_path: Path) -> None:
+    """abs(mod(theta, 1)) reads a sign that is rounding where the period ends, in a step without a length."""
+    swings = loader(tmp_path)(BAR + PERIODS)
+    for rtol in (1e-6, 1e-8, 1e-10):
+        assert not audit_notes(swings.simulate(2.0, method=method, rtol=rtol))
