@@ -71,13 +71,13 @@ static void check_end(Run *run, Step *step, const Parameters *p)
         record(&run->audit, DEFECT_CHECK, defect_of(run, step->h, step->y, step->dy, dy), 1.0, step->t + step->h, -1);
 }
 
-static void check_forces(Run *run, const Step *step, double t, const Aside *aside, const double *rate, const double *dy,
-    const Parameters *p)
+static void check_forces(Run *run, const Step *step, double t, const Aside *aside, const double *rate,
+    const double *dy)
 {
     int where;
     if (!has_films())
         return;
-    const double share = film_share(run, step, rate, dy, largest_film_force(aside, &where), 1.0, p);
+    const double share = film_share(run, step, rate, dy, largest_film_force(aside, &where), 1.0);
     if (where >= 0 && has_tolerance(run) && run->steps > 0)
         record(&run->audit, FORCE_CHECK, share, film_audit_limit(run, step), t, where);
 }
@@ -94,7 +94,7 @@ static void check_state_inside(Run *run, const Step *step, double theta, int dra
         record(&run->audit, DEFECT_CHECK, defect, 1.0, t, -1);
     if (drawn && has_tolerance(run) && !N_CLEARANCES) /* rates in contacts change within a step */
         check_rate(run, step, t, y, rate, dy, p);
-    check_forces(run, step, t, aside, rate, dy, p);
+    check_forces(run, step, t, aside, rate, dy);
     check_joints(run, t, aside, p);
     check_branches(run, step, t, y, aside, p);
 }

@@ -17,6 +17,8 @@ struct Method {
     const double *heard;      /* shares of a step, in their order, at which its error hears of the equations */
     int n_heard;
     double between;           /* of a stiff one: the share of a step at which its interpolant errs most */
+    double begins[8], begins_end; /* h times its rates at a step's begin, by stages and by y - y0 */
+    int n_begins;
     int own_length;           /* whether a step that is tried is made as long as it may be */
 };
 #define COUNT_OF(table) ((int)(sizeof(table) / sizeof *(table)))

@@ -40,12 +40,15 @@ static int stages_lost(Run *run, int lost) { return (void)run, lost ? NOT_FOUND 
 static int radau_dense(Run *run, Step *step, const RadauTable *table, int stages)
 {
     const double h = step->h;
-    double (*const d)[N_Y] = step->dense;
+    double (*const d)[N_Y] = step->dense, way[N_Y];
     for (int i = 0; i < N_Y; i++)
-        for (int k = 0; k < RADAU_MOST; k++) {
-            d[k][i] = 0.0;
-            for (int s = 0; s < stages && k < stages; s++)
-                d[k][i] += table->dense[k][s] * (s < stages - 1 ? step->k[s][i] : step->y[i] - run->y[i]);
+        way[i] = step->y[i] - run->y[i];
+    memset(d, 0, sizeof step->dense);
+    for (int k = 0; k < stages; k++)
+        for (int s = 0; s < stages; s++) {
+            const double *of = s < stages - 1 ? step->k[s] : way, factor = table->dense[k][s];
+            for (int i = 0; i < N_Y; i++)
+                d[k][i] += factor * of[i];
         }
     for (int i = 0; i < N_X && !has_films(); i++) {
         const int v = N_X + i;
@@ -88,8 +91,11 @@ static const double radau9_heard[] = {0.0, 0.057104196114517682, 0.2768430136381
 static const Method radau5 = {.name = "radau5", .try = radau5_try, .dense = radau5_dense,
     .interpolate = radau_interpolate, .power = 1.0 / 4.0, .stiff = BY_RADAU5, .unstable = INFINITY,
     .bounded = INFINITY, .stages = 3, .degree = 5, .turned = 0xA, .heard = radau5_heard,
-    .n_heard = COUNT_OF(radau5_heard), .between = 0.85};
+    .n_heard = COUNT_OF(radau5_heard), .between = 0.85,
+    .begins = {10.048809399827416, -1.3821427331607489}, .n_begins = 2, .begins_end = 1.0 / 3.0};
 static const Method radau9 = {.name = "radau9", .try = radau9_try, .dense = radau9_dense,
     .interpolate = radau_interpolate, .power = 1.0 / 6.0, .stiff = BY_RADAU9, .unstable = INFINITY,
     .bounded = INFINITY, .stages = 5, .degree = 5, .turned = 0xA, .heard = radau9_heard,
-    .n_heard = COUNT_OF(radau9_heard), .between = 0.74};
+    .n_heard = COUNT_OF(radau9_heard), .between = 0.74,
+    .begins = {27.780933944064637, -3.6414784980492132, 1.2525477211691187, -0.59200316718454287}, .n_begins = 4,
+    .begins_end = 0.2};

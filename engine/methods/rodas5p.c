@@ -23,15 +23,18 @@ static int make_linear(Run *run, double hg, const Parameters *p)
 static const double rodas5p_heard[] = {0.0, 0.4095798393397535, 0.4288403609558664, 0.6358126895828704,
     0.9769306725060716, 1.0};
 
+#define RODAS5P_BEGINS 25.948786856663858, -2.5579724845846235, 10.433815404888879, -2.3679251022685204, \
+    0.524948541321073, 1.1241088310450404, 0.4272876194431874, -0.17202221070155493
+
 static int rodas5p_dense(Run *run, const Parameters *p, Step *step)
 {
     (void)p;
+    static const double b[] = {RODAS5P_BEGINS};
     double (*const k)[N_Y] = step->k;
     for (int i = 0; i < N_Y; i++) {
         step->dense[0][i] = step->y[i] - run->y[i];
-        step->dense[1][i] = 25.948786856663858 * k[0][i] - 2.5579724845846235 * k[1][i] + 10.433815404888879 * k[2][i]
-            - 2.3679251022685204 * k[3][i] + 0.524948541321073 * k[4][i] + 1.1241088310450404 * k[5][i]
-            + 0.4272876194431874 * k[6][i] - 0.17202221070155493 * k[7][i];
+        step->dense[1][i] = b[0] * k[0][i] + b[1] * k[1][i] + b[2] * k[2][i] + b[3] * k[3][i] + b[4] * k[4][i]
+            + b[5] * k[5][i] + b[6] * k[6][i] + b[7] * k[7][i];
         step->dense[2][i] = -9.91568850695171 * k[0][i] - 0.9689944594115154 * k[1][i] + 3.0438037242978453 * k[2][i]
             - 24.495224566215796 * k[3][i] + 20.176138334709044 * k[4][i] + 15.98066361424651 * k[5][i]
             - 6.789040303419874 * k[6][i] - 6.710236069923372 * k[7][i];
@@ -52,4 +55,4 @@ static void rodas5p_interpolate(const Run *run, const Step *step, double s, doub
 static const Method rodas5p = {.name = "rodas5p", .try = rodas5p_try, .dense = rodas5p_dense,
     .interpolate = rodas5p_interpolate, .power = 0.2, .stiff = BY_RODAS5P, .unstable = INFINITY, .bounded = INFINITY,
     .stages = RODAS5P_STAGES, .degree = 4, .turned = 0x2, .heard = rodas5p_heard, .n_heard = COUNT_OF(rodas5p_heard),
-    .between = 0.5};
+    .between = 0.5, .begins = {RODAS5P_BEGINS}, .n_begins = RODAS5P_STAGES, .begins_end = 1.0};

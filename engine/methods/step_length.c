@@ -204,7 +204,7 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
         return again(run);
     }
     const int unresolved = good && is_unresolved(run, step, p);
-    if (good && free && (unresolved || misses_film(run, step, p)) && now->shortened++ < SHORTENED) {
+    if (good && free && (unresolved || misses_film(run, step)) && now->shortened++ < SHORTENED) {
         now->again = 1;
         run->rejected++;
         now->h *= 0.25;

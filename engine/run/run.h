@@ -150,6 +150,7 @@ typedef struct {
     long began; /* 1 + the run of a batch that this memory began last; 0: none */
     Beginning from; /* of rk4's step, where samples lie within it */
     double film_error, film_h; /* the last error of films' forces that was measured, the step's length */
+    double lightest;           /* kg: the least mass of a body that has one */
     long film_steps; /* steps before it */
     long steps, evaluations, onsets, grazes, switches, rejected, jacobians, stiff_steps;
     double phi_max, phi_dot_max, ratio_min, ratio_max, ratio_outside;
