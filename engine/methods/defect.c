@@ -120,25 +120,27 @@ static double film_begins(const Run *run, const Step *step, double part)
 {
     double rate[N_Y];
     int where;
+    if (!step->method->stiff || !has_films())
+        return 0.0;
     begin_rates(run, step, rate);
     return film_share(run, step, rate, run->dy, largest_film_force(&step->aside, &where), part) / film_limit(run);
 }
 
-/* Whether errors of films' forces were so small of late that they need not be measured in this step. */
-static int is_film_known(const Run *run, const Step *step)
+/* Whether errors of films' forces are so small, and were of late, that they need not be measured in this step. */
+static int is_film_known(const Run *run, const Step *step, double begins)
 {
     const long since = run->steps - run->film_steps;
     if (!step->method->stiff || !has_films())
         return 1;
     return run->film_error < FILM_SMALL && step->h < FILM_LONGER * run->film_h && since < FILM_BEGINS
-        && (since < FILM_STEPS || film_begins(run, step, FILM_PART) < FILM_SMALL);
+        && (since < FILM_STEPS || begins < FILM_SMALL);
 }
 
 /*
  * Whether a step that begins with a force of a film which fades at once, or rises, leads over that: where the
  * interpolant begins with other accelerations than the motion does, forces inside the step are wrong.
  */
-static int misses_film(const Run *run, const Step *step)
+static int misses_film(const Run *run, const Step *step, double begins)
 {
-    return step->method->stiff && has_films() && film_begins(run, step, 1.0) > 1.0;
+    return begins > 1.0 && film_begins(run, step, 1.0) > 1.0;
 }
