@@ -59,7 +59,7 @@ def audit_samples(
     if source.massless or source.indeterminate:
         left_out |= {"power", "torque"}
     if problem.method == "rk4":  # in absolute coordinates rows drift; between steps lies a cubic
-        left_out |= {"rows", "rates"} | ({"power"} if source.formulation == "full" else set())
+        left_out |= {"rows", "rates"} | ({"power", "body"} if source.formulation == "full" else set())
     return (*found, *(one for one in _balances(compiled, problem, x, size, evaluation) if one.check not in left_out))
 
 

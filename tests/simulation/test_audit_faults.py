@@ -89,7 +89,8 @@ def test_switches_of_driven_chains_that_nobody_evaluates(tmp_path: Path) -> None
     garbage = "    out[0] = out[1] = (Range){-INFINITY, INFINITY, -INFINITY, INFINITY, 0};\n"  # whatever lies there
     stale = "    aside->g[0] = aside->g[1] = -1.0;"
     wrong = mutant(right, tmp_path, ("watched.c", ranges, garbage), ("reduced.c", values, stale))
-    assert "check branch" in reported(wrong, 6.0)
+    said = reported(wrong, 6.0)  # whichever comes first
+    assert "check branch" in said or "changes its side without end" in said
 
 
 @pytest.mark.parametrize("method", ["auto", "dop853", "rodas5p"])
