@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -179,7 +181,7 @@ def test_velocities_come_to_rest_once(block: Simulation) -> None:
         assert (len(found["falls"]), len(found["rises"])) == (falls.sum(), rises.sum()), (method, given, t_end)
         parts, state = [], None
         for cut in [*np.sort(rng.uniform(0, t_end, 3)), t_end]:
-            start = {"parameters": given} if state is None else {"start": state}
+            start: dict[str, Any] = {"parameters": given} if state is None else {"start": state}
             run = block.simulate(float(cut), method=method, rtol=1e-9, output=1, **start)
             parts += list(run.events_of("rest"))
             state = run.final

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -64,7 +65,7 @@ def test_a_run_that_goes_on_from_an_event(tmp_path: Path) -> None:
     run, found = None, []
     for cut in (0.002747010733579974, 0.11967622939821876, 0.12179146032797047, 0.21413472864528876,
                 0.28491558693146074, 0.3054154259808228):  # fmt: skip
-        start = {"parameters": given} if run is None else {"start": run.final}
+        start: dict[str, Any] = {"parameters": given} if run is None else {"start": run.final}
         run = block.simulate(cut, method="radau5", rtol=1.4375336929052935e-08, output=1, **start)
         found += run.events_of("passes").tolist()
         assert not audit_notes(run)
@@ -78,7 +79,7 @@ def test_what_is_left_of_a_slip(tmp_path: Path) -> None:
              "k": 816.1890924308686, "v0": 0.0}  # fmt: skip
     run = None
     for cut in (0.6087375078117262, 1.1172433331308822, 1.1248742208725269):
-        start = {"parameters": given} if run is None else {"start": run.final}
+        start: dict[str, Any] = {"parameters": given} if run is None else {"start": run.final}
         run = block.simulate(cut, method="radau5", rtol=1.2e-8, output=1, audit="full", **start)
         assert not audit_notes(run)
 
