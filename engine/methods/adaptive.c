@@ -10,17 +10,17 @@ enum { SIDE_PARTS = 4, MAX_AGAIN = 8 /* times that a step is taken again to end 
  */
 static void take_sides_inside(Run *run, Step *step, double share, int event, const Parameters *p)
 {
-    const int is_user_event = event >= N_MARGINS - N_USER_EVENTS, is_switch = event >= N_CLEARANCES && !is_user_event
-        && event < N_CLEARANCES + N_SWITCHES;
+    const int is_friction = event >= N_CLEARANCES + N_SWITCHES && event < N_MARGINS - N_USER_EVENTS;
     int unknown = 0;
     for (int i = 0; i < N_USER_EVENTS; i++)
         unknown |= run->memory.event_side[i] == 0;
+    if (!unknown || event < 0 || !(event < N_CLEARANCES || is_friction) || make_dense(run, p, step))
+        return;
     for (int part = 1; part < SIDE_PARTS; part++) {
         double y[N_Y], dy[N_Y];
         const double s = share * part / SIDE_PARTS;
         Aside aside;
-        if (event < 0 || is_user_event || is_switch || !unknown || make_dense(run, p, step)
-            || state_at(run, step, s, p, y, dy, &aside))
+        if (state_at(run, step, s, p, y, dy, &aside))
             return;
         take_sides(run, step->t + s * step->h, y, &aside, p);
     }
@@ -29,8 +29,8 @@ static void take_sides_inside(Run *run, Step *step, double share, int event, con
 /* Takes a step, or its part up to an event, as the new state. */
 static int commit(Run *run, Step *step, double share, double t_new, int event, const Parameters *p)
 {
-    /* the interpolant is made already where the step ends early: its end may be replaced */
     take_sides_inside(run, step, share, event, p);
+    /* the interpolant is made already where the step ends early: its end may be replaced */
     int status = share < 1.0 ? state_at(run, step, share, p, step->y, step->dy, &step->aside) : 0;
     if (status)
         return status;
