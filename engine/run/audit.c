@@ -35,11 +35,9 @@ static double audit_tolerance(const Run *run) { return has_tolerance(run) ? tole
 
 static double size_of(const Run *run) { return run->audit.size; }
 
-static void record(Audit *audit, int check, double value, double limit, double t, int where)
+static void record_larger(Audit *audit, int check, double value, double limit, double t, int where)
 {
     AuditRecord *known = &audit->record[check];
-    if (value <= known->worst * limit)
-        return;
     const double multiple = value / max_of(limit, 1e-300);
     if (!(multiple > known->worst) && multiple == multiple)
         return;
@@ -48,6 +46,12 @@ static void record(Audit *audit, int check, double value, double limit, double t
         *known = (AuditRecord){0.0, 0.0, -1};
     if (!(known->worst <= AUDIT_FAILS))
         audit->status = AUDITED;
+}
+
+static void record(Audit *audit, int check, double value, double limit, double t, int where)
+{
+    if (!(value <= audit->record[check].worst * limit))
+        record_larger(audit, check, value, limit, t, where);
 }
 
 /*
@@ -155,8 +159,6 @@ static void check_accelerations(Run *run, double t, const double *y, const doubl
     double a[N_Q], m[N_Q], scale[N_Q], near[2][N_S], force, rate = 0.0, most[2] = {0.0, 0.0};
     if (run->memory.way != AT_ONCE || absolute_accelerations(t, all, &run->memory, p, a, &force))
         return; /* near a singular position both lose digits */
-    if (drives_jump(t, all, all + N_Q, p))
-        return; /* the step holds what its drives were, the bodies have what they are */
     for (int k = 0; k < N_Q; k++) {
         const double unit = k % 3 == 2 ? 1.0 : size;
         rate = max_of(rate, max_of(fabs(all[N_Q + k]) / unit, sqrt(fabs(a[k]) / unit)));
@@ -184,7 +186,9 @@ static void check_accelerations(Run *run, double t, const double *y, const doubl
                 worst = off, where = k;
         }
         if (bend < 1e-4) {
-            if (worst > AUDIT_ACCELERATION && is_sensitive(run, t, y, a, scale, worst, p))
+            /* where drives jump the step holds what they were, the bodies have what they are */
+            if (worst > AUDIT_ACCELERATION
+                && (drives_jump(t, all, all + N_Q, p) || is_sensitive(run, t, y, a, scale, worst, p)))
                 return;
             record(&run->audit, ACCELERATION_CHECK, worst, AUDIT_ACCELERATION, t, where);
             return;

@@ -174,10 +174,11 @@ static int trend(const Step *step, double share, int i, double after)
         if (!(node < 0.99 * share && node > s[1]) || node == s[0])
             continue;
         const int last = node > s[0];
-        const double force = sqrt(seen_at(forces, k));
-        s[1] = last ? s[0] : node, f[1] = last ? f[0] : force;
-        s[0] = last ? node : s[0], f[0] = last ? force : f[0];
+        const double square = seen_at(forces, k);
+        s[1] = last ? s[0] : node, f[1] = last ? f[0] : square;
+        s[0] = last ? node : s[0], f[0] = last ? square : f[0];
     }
+    f[0] = sqrt(f[0]), f[1] = sqrt(f[1]);
     const double slope = (after - f[0]) / (share - s[0]);
     const double bend = (slope - (f[0] - f[1]) / (s[0] - s[1])) * (share - s[0]) / (share - s[1]);
     const int clear = fabs(bend) < BENT * fabs(slope) && fabs(slope) * (share - s[0]) > CLEAR * after;
@@ -237,6 +238,9 @@ static double largest_inside(Run *run, Step *step, double share, int i, const Pa
     return sqrt(most);
 }
 
+/* Whether a law ceases to push at the end of a step: beyond it, held, it would pull. */
+static int is_let_go(double before, double after) { return after < 1e-6 * before; }
+
 /* Peaks between the ends of a step: where a force near its largest so far rose at the start and falls at the end. */
 static void inner_peaks(Run *run, Step *step, double share, const Parameters *p)
 {
@@ -259,15 +263,14 @@ static void inner_peaks(Run *run, Step *step, double share, const Parameters *p)
         arches[i] = gives(i) && inside > (step->method->stiff ? ARCHED_STIFF : ARCHED) * ends;
         const double largest = !gives(i) ? 0.0 : arches[i] ? inside : ends;
         const int near = largest > share_of * known && largest > 0.0;
-        trends[i] = near ? trend(step, share, i, after[i]) : LOW;
+        trends[i] = !near ? LOW : is_let_go(before[i], after[i]) ? -1 : trend(step, share, i, after[i]);
         unknown |= !trends[i];
     }
     if (unknown && trends_beyond(run, step, share, after, trends, p))
         return;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        const int let_go = after[i] < 1e-6 * before[i]; /* where a law ceases to push: beyond it, held, it would pull */
         const int turned = run->aside.clearance[i].F_n * step->aside.clearance[i].F_n < 0.0; /* it was none meanwhile */
-        const int near = trends[i] != LOW, falls = near && (trends[i] < 0 || let_go);
+        const int near = trends[i] != LOW, falls = near && trends[i] < 0;
         if (near && (((falls || turned) && run->rising[i]) || arches[i]) && make_dense(run, p, step) == 0)
             inner_peak(run, step, share, i, before[i], after[i], p);
         run->rising[i] = !falls;
