@@ -26,6 +26,7 @@ from ruamel.yaml.reader import ReaderError
 from gudgeon.contract.limits import MAX_BYTES
 from gudgeon.errors import InputError, InputErrors, LimitError, Location, NotYamlError, UnknownKeyError
 from gudgeon.generator.yaml.commas import Events
+from gudgeon.language.names import YAML_NULL
 
 MERGED = "write the keys out; a contact, or a scene, takes those of another one by extends: NAME"
 MAX_DEPTH = 24
@@ -53,7 +54,7 @@ class Text(str):
     @property
     def is_nothing(self) -> bool:
         """Whether YAML reads it as null."""
-        return self.plain and self in ("", "~", "null", "Null", "NULL")
+        return self.plain and self in YAML_NULL
 
 
 class Map(dict[str, Any]):

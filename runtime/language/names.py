@@ -11,6 +11,7 @@ from gudgeon.language.tree import FUNCTIONS
 MAX_LENGTH = 64
 LABEL = "[A-Za-z_][A-Za-z0-9_]{0,63}"  # of what a study names: windows, measures, parts, claims
 IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*", re.ASCII)
+YAML_NULL = ("", "~", "null", "Null", "NULL")  # plain texts that YAML reads as no value
 
 # What no expression could tell from something else.
 RESERVED: dict[str, str] = {
@@ -36,12 +37,16 @@ def check_name(name: str, what: str, where: Location | None) -> None:
         reason = "an expression takes it for no name" if name in WORDS else reason
     if what == "output" and name == "time":
         reason = "it is the axis of results"
-    other = f"{name}1"
+    other = ""
     if "__" in name:
         reason, other = "names that hold '__' are kept for emitted code", re.sub("__+", "_", name)
     if reason:
-        hint = f"expected another name, such as {other}"
-        raise BadNameError(f"{name!r} cannot name this {what}: {reason}", where, hint)
+        raise BadNameError(f"{name!r} cannot name this {what}: {reason}", where, another_name(name, other))
+
+
+def another_name(name: str, other: str = "") -> str:
+    """Return the hint that proposes `other`, or `name` followed by a digit."""
+    return f"expected another name, such as {other or f'{name}1'}"
 
 
 def check_label(name: str, what: str, where: Location | None) -> None:
@@ -58,6 +63,9 @@ def check_label(name: str, what: str, where: Location | None) -> None:
             hint = f"a value stands behind a colon: {plain}:{name.partition('=')[2].partition('=')[0].rstrip()}"
         hint = odd_characters(name) + hint
         raise BadNameError(f"{name[:MAX_LENGTH]!r} cannot name this {what}: it is no identifier", where, hint)
+    if name in YAML_NULL:
+        reason = "YAML reads it as no value where the name is used"
+        raise BadNameError(f"{name!r} cannot name this {what}: {reason}", where, another_name(name))
     if len(name) > MAX_LENGTH:
         raise BadNameError(
             f"the name of this {what} has {len(name)} characters", where, f"expected at most {MAX_LENGTH}"

@@ -67,6 +67,8 @@ BAD = [  # in place of what, what; line:column and words of the message
     ("  y: {final: bob.y, window: late}", "  {}", "1:1", "measures nothing"),
     ("t_end: 1 s", "scenes: [ideal, idael]", "5:17", "idael"),
     ("t_end: 1 s", "scenes: [ideal, ideal]", "5:17", "twice"),
+    ("y: {final", "Null: {final", "9:3", "no value"),
+    ("t_end: 1 s", "zip: {Null: {length: [1, 2], g: [1, 2]}}", "5:7", "such as Null1"),
     ("t_end: 1 s", "keep: [bob.q]", "5:8", "bob"),
     ("t_end: 1 s", "method: rk5", "5:9", "rk4"),
     ("t_end: 1 s", "rtol: 1e-8 m", "5:7", "a pure number"),
