@@ -55,6 +55,12 @@ class Design:
             text = re.sub(rf'(?m)^  {name}: "[^ "]+', partial(_line, name, value), text, count=1)
         return text
 
+    def accepted_methods(self) -> tuple[str, ...]:
+        """Return those of `methods` that integrate the scene: of rigid contacts the explicit ones (docs/methods.md)."""
+        contacts = self.file.get("contacts", {}).values()
+        rigid = any(one.get("normal", {}).get("law") == "newton_restitution" for one in contacts)
+        return tuple(name for name in self.methods if not rigid or name in ("auto", "rk4", "dop853"))
+
     def bodies(self) -> list[str]:
         return list(self.file["bodies"])
 

@@ -23,6 +23,7 @@ from tests.random_machines.jets import Expression, curve
 from tests.random_machines.laws import SHARES, Pin
 
 MAX_EVALUATIONS = 4000  # of accelerations, some 300 µs each
+RTOL = 1e-10
 AXES = {"x": 0, "y": 1, "theta": 2}
 FLOOR = 1e-6  # m/s, the least speed of approach that a contact stores
 KNOWN_LAWS = ("hertz", "kelvin_voigt", "liu", "lankarani_nikravesh", "hunt_crossley", "flores", "gonthier", "lee_wang",
@@ -232,7 +233,7 @@ class Machine:
         return found
 
 
-def simulate(machine: Machine, times: np.ndarray, q: np.ndarray, v: np.ndarray, rtol: float = 1e-10) -> Motion:
+def simulate(machine: Machine, times: np.ndarray, q: np.ndarray, v: np.ndarray, rtol: float = RTOL) -> Motion:
     """The motion from a start by DOP853, which ends steps at onsets of contact and where surfaces part.
 
     It ends before the last time where it would take too long, after a sixth of the samples at least; else Unknown.

@@ -23,7 +23,8 @@ def tried(seed: int, folder: Path) -> None:
     assert tally.counts["machines"] == MACHINES
 
 
-# Designs that found faults: contacts between stages that cubics through these took for none.
-@pytest.mark.parametrize("seed", [*range(25), 7718])
+# Designs that found faults: 7718 contacts between stages that cubics through these took for none, 8002 an error of the
+# independent simulator above 1e-7, 8007 an implicit method for rigid contacts.
+@pytest.mark.parametrize("seed", [*range(25), 7718, 8002, 8007])
 def test_random_machines(seed: int, tmp_path: Path) -> None:
     tried(seed, tmp_path)
