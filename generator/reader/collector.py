@@ -26,6 +26,7 @@ from gudgeon.language.names import RESERVED
 from gudgeon.language.parser import at, check_dimension, parse
 from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import CurveCall, Expr, Name, Number, Unary, curve_calls, evaluate, names, replaced
+from gudgeon.language.unit_remedies import unit_remedies
 from gudgeon.language.units import DIMENSIONLESS, TIME, Dimension
 
 ResultDimension = Callable[[Name, Location], Dimension | None]  # None: fits any
@@ -145,11 +146,16 @@ class Reader:
         """
         expr: Expr = broken(text)
         found = expected
-        with self.collect():
-            parsed = self.parse(text, address, constant=not time and result is None)
+
+        def read(value: str) -> tuple[Expr, Dimension | None]:
+            written = Text.make(value, text.where, text.plain, text.one_line)
+            parsed = self.parse(written, address, constant=not time and result is None)
             dimensions = self.check_names(parsed, text.where, time, result)
-            parsed = settle_reading(text, parsed, expected, dimensions.get, self.curves)
-            found = check_dimension(parsed, expected, dimensions.get, text.where)
+            parsed = settle_reading(written, parsed, expected, dimensions.get, self.curves)
+            return parsed, check_dimension(parsed, expected, dimensions.get, text.where)
+
+        with self.collect(), unit_remedies(text, text.where, read, expected, self.numbers()):
+            parsed, found = read(text)
             expr = replaced(parsed, {name: named.value for name, named in self.expressions.items()})
             self.made_of[address] = self.expressions_in(parsed)
             self._note_use(parsed, expected)

@@ -10,10 +10,11 @@ from gudgeon.errors import CycleError, InputError, InputErrors, Location
 from gudgeon.generator.mechanism.mechanism import Quantity
 from gudgeon.generator.reader.collector import Reader, broken
 from gudgeon.generator.reader.unit_or_name import settle_reading
-from gudgeon.generator.yaml.tree import Map
+from gudgeon.generator.yaml.tree import Map, Text
 from gudgeon.language.dimension_check import check_dimension
 from gudgeon.language.names import check_name
 from gudgeon.language.tree import Expr, evaluate, names
+from gudgeon.language.unit_remedies import unit_remedies
 from gudgeon.language.units import DIMENSIONLESS, Dimension
 
 MOST_TOLD = 8  # names of a cycle
@@ -27,9 +28,15 @@ def read_parameters(reader: Reader, section: Map) -> dict[str, Quantity]:
         trees[name] = broken(text)
         with reader.collect():
             check_name(name, "parameter", name.where)
-            tree = reader.parse(text, f"parameters.{name}")
-            reader.check_names(tree, text.where)
-            trees[name] = tree
+
+            def read(value: str, name: Text = name, text: Text = text) -> Expr:
+                tree = reader.parse(Text.make(value, text.where, text.plain, text.one_line), f"parameters.{name}")
+                reader.check_names(tree, text.where)
+                _check_exponents(name, check_dimension(tree, None, lambda _: None, text.where), text.where)
+                return tree
+
+            with unit_remedies(text, text.where, read, None, reader.parameters):
+                trees[name] = read(text)
     order: tuple[str, ...] = tuple(trees)
     with reader.collect():
         order = dependency_order(trees, {str(name): text.where for name, text in section.pairs()})
@@ -48,11 +55,15 @@ def read_parameters(reader: Reader, section: Map) -> dict[str, Quantity]:
 
 def _dimension(name: str, tree: Expr, where: Location, reader: Reader) -> Dimension | None:
     found = check_dimension(tree, None, reader.parameters.get, where)
+    _check_exponents(name, found, where)
+    return found
+
+
+def _check_exponents(name: str, found: Dimension | None, where: Location) -> None:
     if found is not None and not found.has_halves_at_most:
         raise InputError(
             f"the unit of parameter {name} has a broken exponent", where, "expected whole or half powers of m, kg, s"
         )
-    return found
 
 
 def settle(reader: Reader, parameters: Mapping[str, Quantity]) -> dict[str, Quantity]:

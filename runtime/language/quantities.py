@@ -10,6 +10,7 @@ from gudgeon.errors import BadValueError, InputError, Location
 from gudgeon.language.parser import check_dimension, parse
 from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import evaluate, names
+from gudgeon.language.unit_remedies import unit_remedies
 from gudgeon.language.units import dimension
 
 
@@ -19,14 +20,19 @@ def number_of_text(text: str, address: str, exponents: Sequence[float]) -> float
     exponents: of m, kg, s; a bare number fits any. An expression of numbers is a number: '2*pi rad/s'.
     Raises what the same text would raise in a file, at "value of <address>:1:column".
     """
-    where = Location(f"value of {address}", 1, 1)
-    expr = parse(text.strip(), where)
-    name = next(names(expr), None)
-    if name is not None:
-        hint = "expected a number such as '0.5 mm'; what follows other parameters is written in the file"
-        raise BadValueError(f"{text!r} holds the name {name.path!r}", where, hint)
-    check_dimension(expr, dimension(*exponents), lambda path: None, where)
-    return float(evaluate(expr, lambda path: None))
+    where, expected = Location(f"value of {address}", 1, 1), dimension(*exponents)
+
+    def read(value: str) -> float:
+        expr = parse(value, where)
+        name = next(names(expr), None)
+        if name is not None:
+            hint = "expected a number such as '0.5 mm'; what follows other parameters is written in the file"
+            raise BadValueError(f"{text!r} holds the name {name.path!r}", where, hint)
+        check_dimension(expr, expected, lambda path: None, where)
+        return float(evaluate(expr, lambda path: None))
+
+    with unit_remedies(text.strip(), where, read, expected):
+        return read(text.strip())
 
 
 def holds_names(text: str) -> bool:

@@ -30,6 +30,7 @@ _POWER = re.compile(  # the first power in a unit that is not as units.py reads 
     r"(?P<symbol>[A-Za-z\u00b5\u03bc]+) *\^ *(?P<power>\([^()]*\)|[-+]? ?[\w.]*)"
 )
 _BRACKETED = re.compile(r"\(([^()]*)\) *\^")
+_NEGATIVE = re.compile(r"(-[1-9])(?:[*/ ][A-Za-z]+(?:\^?-?[1-9])?)*")  # after `3 s`: the power of `3 s-1`
 COMPARED = "two values are compared in where(a < b, then, otherwise) alone, by <, <=, > or >="
 NESTED = "one where has one comparison; a < b and c < d is where(a < b, where(c < d, x, y), y)"
 _EITHER = "one where has one comparison; a < b or c < d is where(a < b, x, where(c < d, x, y))"
@@ -143,6 +144,7 @@ class Tokenizer:
             hint = f"a unit follows its number ({literal} mm), a product is written {literal} * name"
             hint = f"did you mean '{literal} {guess}'? A product is written {literal} * name" if guess else hint
             hint = f"write {literal} {other}" if other else hint
+            hint = f"write {literal}*pi" if word and word[0] == "pi" else hint
             if sign := re.match(r"[eE]([^\x00-\x7f])[0-9]", self.text[self.position :]):
                 hint = f"{character_text(sign[1])} is not a sign of an exponent: {advice_on(sign[1])}"
             self.fail(f"{following!r} right behind the number {literal}", self.position, hint)
@@ -162,10 +164,14 @@ class Tokenizer:
         if found:
             after = found[1]
             if re.match(r" *\*\*", text[after:]):
-                written, power = text[start:after], re.match(r" *\*\* *([2-9]\b(?!\.))?", text[after:])
-                power_text = power[1] if power and power[1] else "2"
+                written, power = text[start:after], re.match(r" *\*\* *(\(-?[1-9]/2\)|-?[0-9.]+)", text[after:])
+                power_text = power[1] if power and unit(f"m^{power[1]}") else "2"
                 hint = f"a power of the unit is {written}^{power_text}, of the quantity ({written})**{power_text}"
                 self.fail(f"a power behind {written!r} can mean two things", after, hint)
+            if start == 0 and (power := _NEGATIVE.fullmatch(text, after)):
+                written = text[:after]
+                hint = f"write {written}^{power[1]} for the power, {written} - {power[1][1:]} for the difference"
+                self.fail(f"{text[: after + 2]!r} can mean two things", after, hint)
             self._refuse_doubtful(start, end + spaced, after)
             return found
         spaces = len(text) - end - len(text[end:].lstrip(" "))

@@ -1,0 +1,295 @@
+"""What to write in place of a unit that the format does not have: `3 km/(60 min)` for `3 km/h`, `2*pi` for `2pi`.
+
+The text after a number is read as factors, each a symbol with a power. Symbols of other unit systems are replaced by
+units of the list (units.py). Each proposal is tried before it is made: the value that results from it must be accepted
+where it stands.
+"""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from decimal import Decimal
+from fractions import Fraction
+
+from gudgeon.errors import ExpressionError, InputError, Location, UnitError, UnknownNameError
+from gudgeon.language.suggestions import nearest
+from gudgeon.language.units import OTHER_WORDS, UNITS, Dimension, describe, symbol_dimension, unit
+
+_MAX_SHOWN, _MAX_LISTED = 3, 6  # proposals, units that fit
+_MAX_ALTERNATIVES = 8  # readings of one unit
+_MAX_LENGTH = 2000  # characters of a value whose remedies are tried
+_OTHER_UNITS: Mapping[str, tuple[str, ...]] = {
+    **{word: (f"1 {written}",) for word, written in OTHER_WORDS.items()},
+    **dict.fromkeys(("h", "hr", "hrs", "hour", "hours"), ("60 min",)),
+    **dict.fromkeys(("day", "days"), ("1440 min",)), "mins": ("1 min",),
+    **dict.fromkeys(("Hz", "hz", "HZ", "cps"), ("1 rev/s", "1 1/s")),
+    **dict.fromkeys(("turn", "turns", "cycle", "cycles", "revs", "revolution", "revolutions", "rot"), ("1 rev",)),
+    **dict.fromkeys(("\u00b0", "degs"), ("1 deg",)), **dict.fromkeys(("rads", "radians"), ("1 rad", "1 rad/s")),
+    **dict.fromkeys(("t", "ton", "tonne", "tonnes", "Mg"), ("1000 kg",)), "kgs": ("1 kg",),
+    "oz": ("0.028349523125 kg",), "slug": ("14.5939029372 kg",),
+    **dict.fromkeys(("kgf", "kp"), ("9.80665 N",)), **dict.fromkeys(("dyn", "dyne"), ("1e-5 N",)),
+    **dict.fromkeys(("erg", "ergs"), ("1e-7 J",)), "cal": ("4.184 J",), "kcal": ("4184 J",), "Wh": ("3600 J",),
+    "hp": ("745.69987158227 W",), "PS": ("735.49875 W",), **dict.fromkeys(("psi", "PSI"), ("6894.757293168 Pa",)),
+    "ksi": ("6894757.293168 Pa",), "atm": ("101325 Pa",), "cSt": ("1 mm^2/s",), "St": ("100 mm^2/s",),
+    **dict.fromkeys(("mi", "mile", "miles"), ("1609.344 m",)), **dict.fromkeys(("yd", "yard", "yards"), ("0.9144 m",)),
+    **dict.fromkeys(("mil", "mils", "thou"), ("0.001 in",)), **dict.fromkeys(("micron", "microns"), ("1 um",)),
+    **dict.fromkeys(("\u00c5", "angstrom"), ("0.1 nm",)), "mph": ("0.44704 m/s",),
+    "mPas": ("1 mPa*s",), "kNm": ("1 kN*m",), "mNm": ("1 mN*m",), "U": ("1 rev",),
+}  # fmt: skip
+_PREFIXES = {"p": "1e-12", "n": "1e-9", "u": "1e-6", "\u00b5": "1e-6", "\u03bc": "1e-6", "m": "1e-3", "c": "0.01",
+             "d": "0.1", "da": "10", "h": "100", "k": "1000", "K": "1000", "M": "1e6", "G": "1e9"}  # fmt: skip
+_PREFIXED = ("m", "g", "s", "N", "Pa", "J", "W", "rad", "bar", "Hz", "P")
+_RAISED = str.maketrans("\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079\u207b", "0123456789-", "\u207a")
+
+_SPEEDS = ("kph", "kmh")  # km/h, which is not a multiple of one unit
+_NUMBER = re.compile(r"(?<![\w.])(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|pi(?!\w)) *")
+_SYMBOL = r"[A-Za-z\u00b5\u03bc\u00b0\u00c5]+"
+_FACTOR = re.compile(
+    rf"(?P<symbol>{_SYMBOL})(?P<power> *(?:\^|\*\*) *(?:\([^()]*\)|[-+]? ?[\w.]*)"
+    r"|[\u207a\u207b\u2070\u00b9\u00b2\u00b3\u2074-\u2079]+|-?[0-9](?:\.5)?)?(?![\w(])"
+)
+_GROUP = re.compile(r"\((?P<inside>[^()]*)\) *(?:\^|\*\*) *(?P<power>\(-?[1-9]/2\)|-?[0-9.]+)")
+_BETWEEN = re.compile(r" *[*/\u00b7\u22c5\u00d7] *(?!\*)|[-.](?=[A-Za-z])| per | +")
+_WORD = re.compile(r"[A-Za-z][\w.]*")
+_POWERS = tuple(Fraction(n, 2) for n in (4, 6, 2, 8, 3, 1, -2, -4, *range(10, 19, 2), 5, -1, -3, -6))
+
+
+@dataclass(frozen=True)
+class _Factor:
+    """A symbol with its power, None where that is not a number; `either`: the power may have the other sign."""
+
+    symbol: str
+    power: Fraction | None
+    either: bool = False  # m in `N/s m`
+
+
+@dataclass(frozen=True)
+class _Quantity:
+    """A number and the text after it that is meant as its unit: text[begin:end], the unit from `unit_at` on."""
+
+    begin: int
+    unit_at: int
+    end: int
+    number: str
+    factors: tuple[_Factor, ...]
+
+
+@contextmanager
+def unit_remedies(
+    text: str, where: Location, accept: Callable[[str], object], expected: Dimension | None,
+    names: Container[str] = (),
+) -> Iterator[None]:  # fmt: skip
+    """Raise the error that is raised inside with a hint that names what to write in place of a wrong unit.
+
+    text: the whole value, whose first character stands at `where`; accept(other) raises InputError unless `other` can
+    stand there instead; expected: the dimension of the value, None if any; names: parameters and expressions of the
+    file. An error that is not about a unit stays as it is.
+    """
+    try:
+        yield
+    except (UnitError, ExpressionError, UnknownNameError) as error:
+        hint = _remedy(error, text, where, accept, expected, names)
+        raise (type(error)(error.message, error.where, hint) if hint else error) from None
+
+
+def _remedy(
+    error: InputError, text: str, where: Location, accept: Callable[[str], object], expected: Dimension | None,
+    names: Container[str],
+) -> str:  # fmt: skip
+    place = error.where
+    if place is None or (place.file, place.line) != (where.file, where.line) or len(text) > _MAX_LENGTH:
+        return ""
+    found = _quantity_at(text, place.column - where.column, names)
+    if found is None:
+        return ""
+
+    def accepted(proposals: Iterable[str], most: int) -> list[str]:
+        before, after = text[: found.begin], text[found.end :]
+        divides = before.rstrip().endswith(("/", "**"))
+        bracketed = (f"({one})" if divides and re.search(r"[*(]", one) else one for one in proposals)
+        fitting = (one for one in bracketed if one != written and _fits(accept, before, one, after, where))
+        return list(itertools.islice(dict.fromkeys(fitting), most))
+
+    written = text[found.begin : found.end]
+    for proposals, most in _proposals(text, found, names, expected):
+        if shown := accepted(proposals, most):
+            differ = ": they differ by 2*pi" if any("rev" in one for one in shown) and shown[1:] else ""
+            return f"write {' or '.join(shown)}{differ}"
+    guess = nearest(text[found.unit_at : found.end], UNITS, 0.6) if not found.factors else None
+    if guess and accepted([f"{found.number} {guess}"], 1):
+        return f"did you mean {guess if text[: found.unit_at].endswith(' ') else f'{found.number} {guess}'!r}?"
+    if expected is not None:
+        listed = accepted((f"{found.number} {one}" for one in UNITS), _MAX_LISTED)
+        if units := ", ".join(one.removeprefix(f"{found.number} ") for one in listed):
+            return f"units that fit here: {units}"
+    if re.match("did you mean|write|.* is written|a power of", error.hint):  # it was not tried, and does not fit
+        return f"expected {describe(expected)}" if expected else f"units are {', '.join([*UNITS][:12])}, …"
+    return ""
+
+
+def _fits(accept: Callable[[str], object], before: str, proposal: str, after: str, where: Location) -> bool:
+    """Whether a value is accepted with `proposal` in it, or wrong in the unit of a later number alone."""
+    try:
+        accept(before + proposal + after)
+    except InputError as error:
+        place, begin = error.where, len(before + proposal)
+        later = place and _quantity_at(" " * begin + after, place.column - where.column, ())
+        return bool(later) and (" " * begin + after)[later.begin - 1] in " (," and later.begin > begin
+    return True
+
+
+def _quantity_at(text: str, offset: int, names: Container[str]) -> _Quantity | None:
+    """Return the number whose unit text holds the character at `offset`, None if there is none."""
+    for match in _NUMBER.finditer(text, 0, offset + 1):
+        begin = match.end()
+        position = begin + 2 if text.startswith("1/", begin) and match[0] != match["number"] else begin
+        divided = position > begin
+        if per := re.compile(r"(?:/|per ) *").match(text, begin):
+            position, divided = per.end(), True
+        factors, end = _factors(text, position, divided, names)
+        word = _WORD.match(text, begin)
+        end = end if factors else word.end() if word else begin
+        if begin <= offset < end:
+            return _Quantity(match.start(), begin, end, match["number"], tuple(factors))
+    return None
+
+
+def _factors(text: str, position: int, divided: bool, names: Container[str]) -> tuple[list[_Factor], int]:
+    """Read factors from `position` on, and return them with the place where they end."""
+    found, end, below, between = list[_Factor](), position, divided, ""
+    while True:
+        sign = -1 if divided else 1
+        group, factor = _GROUP.match(text, position), _FACTOR.match(text, position)
+        if group:
+            inner, inner_end = _factors(group["inside"], 0, False, names)
+            power = _power_of(group["power"])
+            if not inner or inner_end != len(group["inside"]) or power is None:
+                return found, end
+            raised = [(one, None if one.power is None else one.power * power * sign) for one in inner]
+            found += [_Factor(one.symbol, new) for one, new in raised]
+        elif factor and not (found and between in ("*", "/") and _is_name(factor[0], names)):
+            power = _power_of(factor["power"])
+            power = None if power is None else sign * power
+            if factor["symbol"] in _SPEEDS and power is not None:
+                found += [_Factor("km", power), _Factor("h", -power)]
+            elif _translations(factor["symbol"]):
+                found.append(_Factor(factor["symbol"], power, bool(found) and not between and below))
+            else:
+                return found, end
+        else:
+            return found, end
+        end = (group or factor).end()  # type: ignore[union-attr]
+        if (operator := _BETWEEN.match(text, end)) is None:
+            return found, end
+        between = operator[0].strip()
+        divided, position = between in ("/", "per"), operator.end()
+        below = below or divided
+
+
+def _is_name(symbol: str, names: Container[str]) -> bool:
+    return symbol in names or symbol in ("t", "pi")
+
+
+def _power_of(text: str | None) -> Fraction | None:
+    """Return the power that is written as ^2, **1.5, -1, ^(1/2) or in raised digits; 1 for no text."""
+    if not text:
+        return Fraction(1)
+    try:
+        return Fraction(re.sub(r"[\^*() +]", "", text.translate(_RAISED)))
+    except (ValueError, ZeroDivisionError):
+        return None
+
+
+def _translations(symbol: str) -> list[tuple[Decimal, str]]:
+    """Return what a symbol may mean: a number times a unit of the list."""
+    if symbol_dimension(symbol):
+        return [(Decimal(1), symbol)]
+    if symbol in _OTHER_UNITS:
+        return [(Decimal(one.split()[0]), one.split()[1]) for one in _OTHER_UNITS[symbol]]
+    alike = [one for one in (*UNITS, *_OTHER_UNITS) if one.lower() == symbol.lower() and len(symbol) > 1]
+    if alike:
+        differ = {one: sum(a != b for a, b in zip(one, symbol, strict=True)) for one in alike}
+        return [meant for one in alike if differ[one] == min(differ.values()) for meant in _translations(one)]
+    for prefix in ("da", symbol[:1]):
+        rest = symbol.removeprefix(prefix)
+        if prefix in _PREFIXES and rest != symbol and rest in _PREFIXED:
+            if symbol_dimension(plain := prefix.replace("\u00b5", "u").replace("\u03bc", "u") + rest):
+                return [(Decimal(1), plain)]
+            return [(Decimal(_PREFIXES[prefix]) * number, of) for number, of in _translations(rest)]
+    return []
+
+
+def _proposals(
+    text: str, found: _Quantity, names: Container[str], expected: Dimension | None
+) -> Iterator[tuple[Iterator[str], int]]:
+    """Yield kinds of proposals, the likeliest first, each with how many of it are shown."""
+    word, written = _WORD.match(text, found.unit_at), text[found.begin : found.end]
+    product = f"{found.number}*{text[found.unit_at : found.end]}"
+    raised = re.fullmatch(r"(.*\S) *\*\* *(\S+)", written)
+    others = [f"({raised[1]})**{raised[2]}"] if raised else []
+    others += [product] if word and word[0] in names else []
+    others += [re.sub(rf"\^ *(?={_SYMBOL})", "*", written)]
+    yield itertools.chain(_translated(found), others), _MAX_SHOWN
+    yield iter([re.sub(r"(?<=[a-z])-(?=[0-9])", " - ", written)]), 1
+    if word:
+        yield iter([product]), 1
+    wrong = [k for k, one in enumerate(found.factors) if one.power is None or not _is_power(one.power)]
+    if expected is not None and len(wrong) == 1:
+        yield _with_powers(found, wrong[0]), 1
+
+
+def _translated(found: _Quantity) -> Iterator[str]:
+    """Yield the quantity in units of the list, in each of the meanings that its symbols may have."""
+    if not found.factors or any(one.power is None for one in found.factors):
+        return
+    either = [
+        [(meant, one.power, k) for k in ((1, -1) if one.either else (1,)) for meant in _translations(one.symbol)]
+        for one in found.factors
+    ]
+    for choice in itertools.islice(itertools.product(*either), _MAX_ALTERNATIVES):
+        yield _written(found.number, [(meant, Fraction(power or 1) * sign) for meant, power, sign in choice])
+
+
+def _with_powers(found: _Quantity, k: int) -> Iterator[str]:
+    """Yield the quantity with other powers of factor k."""
+    for power in _POWERS:
+        factors = (*found.factors[:k], _Factor(found.factors[k].symbol, power), *found.factors[k + 1 :])
+        yield from _translated(replace(found, factors=factors))
+
+
+def _is_power(power: Fraction) -> bool:
+    """Whether a unit may have this power (units.py)."""
+    return power != 0 and (abs(power) <= 9 and power.denominator == 1 or abs(power) < 10 and power.denominator == 2)
+
+
+def _written(number: str, factors: Sequence[tuple[tuple[Decimal, str], Fraction]]) -> str:
+    """Return a number times powers of (number, unit) as an expression."""
+    scale, above, below, rest = Decimal(1), list[str](), list[str](), ""
+    for (times, symbol), power in factors:
+        if times != 1 and power != 1:
+            base, operator = f"({times} {symbol})", "/" if power < 0 else " * "
+            rest += operator + base + (f"**{_text(abs(power))}" if abs(power) != 1 else "")
+            continue
+        scale *= times
+        for sign, one, own in re.findall(r"(^|[*/])(?:1/)?([a-zA-Z]+)(?:\^(\d))?", symbol):
+            exponent = power * int(own or 1) * (-1 if sign == "/" or symbol.startswith("1/") else 1)
+            if not _is_power(exponent) or exponent.denominator == 2 and not unit(f"{one}^{_text(abs(exponent))}"):
+                rest += f" * (1 {one})**{_text(exponent)}"
+            else:
+                raised = one + (f"^{_text(abs(exponent))}" if abs(exponent) != 1 else "")
+                (above if exponent > 0 else below).append(raised)
+    value = number
+    if scale != 1:
+        scale *= 1 if number == "pi" else Decimal(number)
+        scaled = f"{scale.normalize():{'f' if Decimal('1e-5') < scale < Decimal('1e7') else 'e'}}"
+        value = f"pi * {scaled}" if number == "pi" else scaled
+    written = "*".join(above) or ("1" if below else "")
+    return " ".join(filter(None, (value, "/".join([written, *below])))) + rest
+
+
+def _text(power: Fraction) -> str:
+    return str(power) if power.denominator == 1 else str(float(power)) if power.denominator == 2 else f"({power})"
