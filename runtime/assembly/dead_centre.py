@@ -7,7 +7,7 @@ import numpy as np
 from gudgeon.assembly.rank import tied
 from gudgeon.assembly.redundant_rows import left_out
 from gudgeon.model.compiled import Array, CompiledModel
-from gudgeon.model.sizes import metric
+from gudgeon.model.sizes import mechanism_sizes
 
 DEAD = 1e-6  # singular values below this share count as zero: a double root is found to 1e-8 only
 NEAR = 1e-4  # the same where a motion ended on its way to a dead centre
@@ -42,6 +42,7 @@ def nearly_dependent_rows(compiled: CompiledModel, p: Array, t: float, q: Array)
 
 
 def _tied_rows(compiled: CompiledModel, p: Array, matrix: Array, names: list[str], least: float) -> tuple[str, ...]:
-    matrix = matrix / np.sqrt(metric(compiled.source, p, compiled.mass(p)))
+    """Names of the rows that depend on each other, by their geometry alone: angles are measured by the size."""
+    matrix = matrix / np.tile([1.0, 1.0, float(mechanism_sizes(compiled.source, p))], matrix.shape[1] // 3)
     matrix /= np.linalg.norm(matrix, axis=1, keepdims=True) + 1e-300
     return tuple(name for name, share in zip(names, tied(matrix, least), strict=True) if share > 1e-6)
