@@ -137,8 +137,9 @@ def _fits(accept: Callable[[str], object], before: str, proposal: str, after: st
         accept(before + proposal + after)
     except InputError as error:
         place, begin = error.where, len(before + proposal)
-        later = place and _quantity_at(" " * begin + after, place.column - where.column, ())
-        return bool(later) and (" " * begin + after)[later.begin - 1] in " (," and later.begin > begin
+        blanked = " " * begin + after
+        later = _quantity_at(blanked, place.column - where.column, ()) if place else None
+        return later is not None and later.begin > begin and blanked[later.begin - 1] in " (,"
     return True
 
 
