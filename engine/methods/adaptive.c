@@ -134,20 +134,44 @@ static int stalls(Run *run, double t_end)
     return stalled;
 }
 
+#ifndef PERIODS
+#define PERIODS 0
+#endif
+#define NEAR_END 1.02 /* times the fraction of the event: as long is a step that ends close behind it, */
+#define PERIOD_END 1.1 /* and one that reads periods */
+
+/*
+ * Whether forces of films are wrong at an event inside a step: the error inside a step is measured at one place of the
+ * whole step, and the state at the event is the start of what follows.
+ */
+static int misses_film_at(Run *run, const Step *step, double share, const Parameters *p)
+{
+    double y[N_Y], dy[N_Y], rate[N_Y];
+    int where;
+    Aside aside;
+    if (!has_films() || !step->method->stiff || state_at(run, step, share, p, y, dy, &aside))
+        return 0;
+    interpolate_rates(step, share, 2 * N_X, rate);
+    return film_share(run, step, rate, dy, largest_film_force(&aside, &where), FILM_PART) > film_limit(run);
+}
+
 /*
  * The first event of a step that was accepted, as its share; 1 and -1 where there is none. A period of mod is held half
  * a period beyond its end: a step that reaches further ends on rows of another one, which its interpolant then leads
- * to. Taken again from before, it ends close behind the event, wherever that is.
+ * to. Taken again from before, it ends close behind the event, wherever that is. So does a step inside of which forces
+ * of films are wrong at the event.
  */
 static int event_of_step(Run *run, double t_end, const Parameters *p, Step *step, double *share, int *event)
 {
+    const double longer = PERIODS ? PERIOD_END : NEAR_END;
     int status = 0;
     *share = first_event(run, step, p, event);
-#if PERIODS
-    for (int k = 0; k < MAX_AGAIN && !status && *event >= 0 && 1.1 * *share < 1.0 && run->fixed <= 0.0; k++) {
-        const double next = run->h, h = 1.1 * *share * step->h;
+    for (int k = 0; k < MAX_AGAIN && !status && *event >= 0 && longer * *share < 1.0 && run->fixed <= 0.0; k++) {
+        const double next = run->h, h = longer * *share * step->h;
         if (h <= run->tick)
             break; /* it lies at the step's beginning, where no row is another one */
+        if (!PERIODS && !misses_film_at(run, step, *share, p))
+            break;
         run->h = h;
         open_attempt(run, t_end, p);
         status = accepted_step(run, p, step);
@@ -155,9 +179,6 @@ static int event_of_step(Run *run, double t_end, const Parameters *p, Step *step
         if (!status)
             *share = first_event(run, step, p, event);
     }
-#else
-    (void)t_end;
-#endif
     return status;
 }
 
