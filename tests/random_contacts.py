@@ -35,7 +35,7 @@ guides:
   way: {{gap: c, half_length: 20 mm, half_height: 10 mm, corner_radius: 1 mm, guide_material: steel,
         slider_material: steel}}
 contacts:
-  dry:
+  dry:{film}
     normal: {{law: {law}, restitution: ce, geometry: internal}}
     friction: {{law: modified_coulomb, mu: mu, v0: 1e-3 m/s, v1: 1e-2 m/s}}
 scenes: {{dry: {{play: {{{play}}}}}}}
@@ -113,8 +113,13 @@ CLASSES = tuple(
         ("four_bar", "crankpin B C", "flores"), ("four_bar", "O crankpin B C", "hunt_crossley"),
         ("cam", "crankpin", "flores"),
         ("six_bar", "crankpin", "flores"), ("six_bar", "B", "flores"), ("six_bar", "P wristpin", "flores"),
+        ("slider_crank", "crankpin", "flores film"), ("four_bar", "crankpin B", "flores film"),
+        ("six_bar", "wristpin", "lankarani_nikravesh film"),
     )
 )  # fmt: skip
+FILM = """
+    film: {law: pinkus_sternlicht, viscosity: eta}
+    transition: 0.02*c"""
 WAYS, BATCH = ("single", "single", "single", "restart", "batch"), 8
 METHODS = ("auto", "auto", "auto", "dop853", "rodas5p", "radau5", "radau9", "rk4")
 
@@ -143,11 +148,13 @@ def text_of(kind: str, joints: str, law: str) -> str:
     pairs = {joint: "guide: way" if joint == "cylinder" else "bearing: pin" for joint in joints.split()}
     play = ", ".join(f"{joint}: {{{pair}, contact: dry}}" for joint, pair in pairs.items())
     name = f"{kind}_{joints.replace(' ', '_')}"
-    return HEAD.format(name=name, numbers=numbers, law=law, play=play) + body
+    law, film = law.removesuffix(" film"), FILM if law.endswith(" film") else ""
+    numbers += ", eta: 0.05 Pa*s" if film else ""
+    return HEAD.format(name=name, numbers=numbers, law=law, play=play, film=film) + body
 
 
-def drawn(kind: str, rng: np.random.Generator, method: str = "") -> Machine:
-    """A machine whose crank turns round, of a size of decimetres."""
+def drawn(kind: str, rng: np.random.Generator, method: str = "", film: bool = False) -> Machine:
+    """A machine whose crank turns round, of a size of decimetres; `film`: in oil of 0.2 to 200 mPa s."""
 
     def log(low: float, high: float) -> float:
         return float(np.exp(rng.uniform(np.log(low), np.log(high))))
@@ -173,6 +180,7 @@ def drawn(kind: str, rng: np.random.Generator, method: str = "") -> Machine:
         m = log(0.03, 2.0)
         long = (lengths[k - 1] if k <= 4 else None) or 0.05
         out |= {f"m{k}": m, f"J{k}": m * long * long / 12.0 * rng.uniform(0.7, 2.0)}
+    out |= {"eta": log(2e-4, 0.2)} if film else {}
     turns, method = rng.uniform(0.5, 2.5), method or str(rng.choice(METHODS))
     rtol = 10.0 ** float(rng.integers(-10, -3)) if method != "rk4" else log(1e-6, 5e-6)
     return Machine(out, float(turns * 2.0 * np.pi / omega), method, rtol)
@@ -251,7 +259,8 @@ class Campaign:
                 path = Path(folder) / f"{n}.yaml"
                 path.write_text(text_of(kind, joints, law))
                 simulation = gudgeon.load(path, "dry")
-                machines = [drawn(kind, self.rng, method) for _ in range(max(1, (count + n) // len(kinds)))]
+                many, film = max(1, (count + n) // len(kinds)), law.endswith(" film")
+                machines = [drawn(kind, self.rng, method, film) for _ in range(many)]
                 while machines:
                     way = WAYS[int(self.rng.integers(len(WAYS)))]
                     some = machines[: BATCH if way == "batch" else 1]
@@ -268,6 +277,9 @@ class Campaign:
         if isinstance(run, gudgeon.GudgeonError):
             own.failed += 1
             self.failures[str(run)[:90]] += 1
+            if self.show > 0:
+                self.show -= 1
+                print(f"  {key} {one}\n{run}", flush=True)
             return
         check, phantoms = checked(run)
         own.contacts += len(run.impacts)
