@@ -35,7 +35,7 @@ guides:
   way: {{gap: c, half_length: 20 mm, half_height: 10 mm, corner_radius: 1 mm, guide_material: steel,
         slider_material: steel}}
 contacts:
-  dry:{film}
+  dry:
     normal: {{law: {law}, restitution: ce, geometry: internal}}
     friction: {{law: modified_coulomb, mu: mu, v0: 1e-3 m/s, v1: 1e-2 m/s}}
 scenes: {{dry: {{play: {{{play}}}}}}}
@@ -150,7 +150,7 @@ def text_of(kind: str, joints: str, law: str) -> str:
     name = f"{kind}_{joints.replace(' ', '_')}"
     law, film = law.removesuffix(" film"), FILM if law.endswith(" film") else ""
     numbers += ", eta: 0.05 Pa*s" if film else ""
-    return HEAD.format(name=name, numbers=numbers, law=law, play=play, film=film) + body
+    return HEAD.format(name=name, numbers=numbers, law=law, play=play).replace("  dry:\n", f"  dry:{film}\n") + body
 
 
 def drawn(kind: str, rng: np.random.Generator, method: str = "", film: bool = False) -> Machine:
@@ -252,8 +252,8 @@ class Campaign:
     failures: Counter[str] = field(default_factory=Counter)
 
     def run(self, count: int, classes: str = "", method: str = "", quiet: bool = False) -> None:
-        """Draw and check so many machines of the classes whose words contain `classes`."""
-        kinds = [one for one in CLASSES if classes in " ".join(one)]
+        """Draw and check so many machines of the classes whose words contain `classes`; with films by that word."""
+        kinds = [one for one in CLASSES if classes in " ".join(one) and ("film" in classes or "film" not in one[2])]
         with tempfile.TemporaryDirectory() as folder:
             for n, (kind, joints, law) in enumerate(kinds):
                 path = Path(folder) / f"{n}.yaml"
@@ -300,7 +300,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--classes", default="", help="only classes whose words contain this")
+    parser.add_argument("--classes", default="", help="only classes whose words contain this; film: with films")
     parser.add_argument("--method", default="", help="only this method")
     parser.add_argument("--show", type=int, default=5, help="machines that are shown in full")
     arguments = parser.parse_args()
