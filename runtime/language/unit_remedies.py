@@ -234,8 +234,10 @@ def _proposals(
     others = [f"({raised[1]})**{raised[2]}"] if raised else []
     others += [product] if word and word[0] in names else []
     others += [re.sub(rf"\^ *(?={_SYMBOL})", "*", written)]
+    difference = re.sub(r"(?<=[a-z])-(?=[0-9])", " - ", written)
+    others += [difference] if expected is None else []
     yield itertools.chain(_translated(found), others), _MAX_SHOWN
-    yield iter([re.sub(r"(?<=[a-z])-(?=[0-9])", " - ", written)]), 1
+    yield iter([difference]), 1
     if word:
         yield iter([product]), 1
     wrong = [k for k, one in enumerate(found.factors) if one.power is None or not _is_power(one.power)]
@@ -276,7 +278,7 @@ def _written(number: str, factors: Sequence[tuple[tuple[Decimal, str], Fraction]
             rest += operator + base + (f"**{_text(abs(power))}" if abs(power) != 1 else "")
             continue
         scale *= times
-        for sign, one, own in re.findall(r"(^|[*/])(?:1/)?([a-zA-Z]+)(?:\^(\d))?", symbol):
+        for sign, one, own in re.findall(rf"(^|[*/])(?:1/)?({_SYMBOL})(?:\^(\d))?", symbol):
             exponent = power * int(own or 1) * (-1 if sign == "/" or symbol.startswith("1/") else 1)
             if not _is_power(exponent) or exponent.denominator == 2 and not unit(f"{one}^{_text(abs(exponent))}"):
                 rest += f" * (1 {one})**{_text(exponent)}"

@@ -68,7 +68,7 @@ def proposed(hint: str, value: str) -> list[str]:
         ("4 m^10", "4 * (1 m)**10", 4.0), ("2 rpm^0.5", "2 * (1 rpm)**0.5", 2 * (3.141592653589793 / 30) ** 0.5),
         ("4 kg/m**3", "4 kg/m^3", 4.0), ("4 1/mm**3", "4 1/mm^3", 4e9), ("3 m**-1", "3 1/m", 3.0),
         ("3 per s", "3 1/s", 3.0), ("1 mile/hour", "1609.344 m/(60 min)", 0.44704),
-        ("30 U/min", "30 rev/min", 3.141592653589793),
+        ("5 kg µm2", "5 kg*µm^2", 5e-12), ("30 U/min", "30 rev/min", 3.141592653589793),
     ],
 )  # fmt: skip
 def test_the_first_proposal_means_the_same(value: str, remedy: str | None, si: float) -> None:
@@ -83,7 +83,7 @@ def test_the_first_proposal_means_the_same(value: str, remedy: str | None, si: f
 @pytest.mark.parametrize(
     ("place", "wrong", "rest", "remedy"),
     [
-        ("INERTIA", "3 kg*mm^", "", "3 kg*mm^2"), ("LENGTH", "3 mm^10", "", "3 mm"), ("TORQUE", "3 N^m", "", "3 N*m"),
+        ("INERTIA", "3 kg*mm^", "", "3 kg*mm^2"), ("LENGTH", "3 µm^10", "", "3 µm"), ("TORQUE", "3 N^m", "", "3 N*m"),
         ("STIFFNESS", "3 kg/s^x", "", "3 kg/s^2"), ("DAMPING", "3 kg*s^", "", "3 kg/s"),
         ("TORQUE", "3 kg*m^2/s^3.7", "", "3 kg*m^2/s^2"), ("TORQUE", "2 kgf*m", "", "19.6133 N*m"),
         ("ANGLE", "2pi", "*t*1 rad/s", "2*pi"), ("ANGLE", "3 rad/sec", "*t", "3 rad/s"), ("ANGLE", "2w", "*t", "2*w"),
@@ -113,10 +113,10 @@ def wrong_unit(rng: random.Random) -> str:
     return rng.choice(("3", "0.5", "2e-3", "pi", "36")) + rng.choice((" ", " ", " ", "")) + unit
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(4))
 def test_every_proposal_is_accepted(seed: int) -> None:
     rng, tried = random.Random(seed), 0
-    for _ in range(120):
+    for _ in range(80):
         place, value = rng.choice(list(RIGHT)), wrong_unit(rng)
         after = " * t" if place == "ANGLE" else ""
         if re.search("-1[*/]", value):  # the 1 may begin a quantity, too
@@ -129,4 +129,4 @@ def test_every_proposal_is_accepted(seed: int) -> None:
             for one in proposed(error.hint, value):
                 tried += 1
                 read(place, one + after)  # whatever follows the number is its unit
-    assert tried > 60
+    assert tried > 40
