@@ -116,16 +116,18 @@ static int is_concave(const Place *all, int k, int last, double beside)
 
 /*
  * What the stages say of margin i up to the first one that is below zero for sure, or the end: which place that is is
- * in `last`, its node. Bounds of the second derivative are those that the rates up to the place behind it show.
+ * in `last`, its node. Bounds of the second derivative are those that the rates up to the place behind it show. Stages
+ * of stiff methods lie too far from the motion for that: of these all tell.
  */
 static int bound_by_stages(const Run *run, const Step *step, int i, const Parameters *p, double *last)
 {
     Place all[N_STAGES + 2];
     const int n = margins_of_stages(run, step, i, p, all);
     const double least = shallow(p, i), error = 16.0 * error_of_dense(run, i, p);
-    const int to = first_below(all, n, error), seen = to < n - 1 ? to + 1 : to;
+    const int near = !step->method->stiff, to = near ? first_below(all, n, error) : n - 1;
+    const int seen = to < n - 1 ? to + 1 : to;
     double bend = 0.0;
-    int falls = 0, arched = 1; /* concave from its begin on: so far it crosses zero once at most */
+    int falls = 0, arched = near; /* concave from its begin on: so far it crosses zero once at most */
     *last = all[to].s;
     if (!(all[0].f >= least))
         return UNKNOWN;
@@ -144,7 +146,7 @@ static int bound_by_stages(const Run *run, const Step *step, int i, const Parame
             falls = b.f < 0.0;
         if (arched || (!falls && b.f >= 0.0 && is_above_parabolas(a, b, bend, least + beside)))
             continue;
-        const int once = !falls && b.f < 0.0 && is_concave(all, k, seen, error);
+        const int once = near && !falls && b.f < 0.0 && is_concave(all, k, seen, error);
         if (!once && !(0.5 * (a.slope + b.slope + curve) + 0.2 * error < 0.0))
             return UNKNOWN;
         falls = 1;
@@ -222,24 +224,20 @@ static int first_zero(Run *run, const Step *step, int k, const Parameters *p, Pl
     return CLEAR;
 }
 
-/* Margin k at the stage at a node of the step; at its end. */
-static Place at_stage(const Run *run, const Step *step, int k, double node)
-{
-    const Seen margins = seen_of(step, k), rates = seen_of(step, SEEN_RATES + k);
-    const double h = run->memory.latch[k].closed ? step->h : -step->h;
-    for (int i = 0; i < step->n_seen; i++)
-        if (step->node[i] == node && node < 1.0)
-            return (Place){node, seen_at(margins, i), h * seen_at(rates, i)};
-    return end_of(run, step, k);
-}
-
 /* Whether margin k of a joint with play has a zero in the step, and places that enclose the first one. */
 static int has_zero(Run *run, Step *step, int k, const Parameters *p, Place *low, Place *high)
 {
     double last = 1.0;
     int found = is_far(run, step, k, p) ? CLEAR : bound_by_stages(run, step, k, p, &last);
     *low = begin_of(run, step, k);
-    *high = at_stage(run, step, k, found == FALLS ? last : 1.0);
+    *high = end_of(run, step, k);
+    if (found == FALLS && last < 1.0 && !make_dense(run, p, step)) {
+        const Place beyond = place_at(run, step, last, k, p); /* a stage may lie beside the dense output */
+        if (beyond.f < 0.0)
+            *high = beyond;
+        else
+            found = UNKNOWN;
+    }
     if (found == UNKNOWN)
         found = make_dense(run, p, step) ? high->f < 0.0 ? FALLS : CLEAR : first_zero(run, step, k, p, low, high);
     if (low->f < 0.0 && low->f >= shallow(p, k) && low->slope > 0.0)

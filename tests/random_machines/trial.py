@@ -30,6 +30,7 @@ SLACK = 100.0  # times how far a tighter run is away
 LEAST = 1e-7  # of the size: nothing is compared more closely
 ORACLE_SLACK = 10.0  # times how far the independent simulator is from itself with ten times its tolerance
 TIGHTER = 0.03
+LOOSE = 1e-7  # rtol that the error for an unbounded second rate names
 UNITS = (2.0, 3.0, 1.5)  # of length, mass and time
 ANGLE = 0.4
 
@@ -130,6 +131,10 @@ class Trial:
         if "oracle" in design.without or partial is None or len(partial.t) < 1:
             return
 
+        def leads_over() -> None:
+            """Next to an unbounded second rate time has too few digits for tight tolerances: looser ones lead over."""
+            self.run(simulation, design, design.numbers.plain(), rtol=LOOSE)
+
         def goes_on() -> None:
             told = [float(t) for t in re.findall(r"t = ([-+.e\d]+\d)", str(error))]
             times = np.linspace(0.0, min(design.t_end, 1.02 * max([partial.t[-1], *told]) + 0.01 * design.t_end), 200)
@@ -145,7 +150,7 @@ class Trial:
             if goes:
                 raise Difference(f"the run stops, {who} goes on to {times[-1]:.6g} s: {error}")
 
-        self.check("stops", design, goes_on)
+        self.check("stops", design, leads_over if "grows beyond all bounds" in str(error) else goes_on)
 
 
 class Base:
