@@ -112,15 +112,23 @@ static void begin_rates(const Run *run, const Step *step, double *rate)
 #define FILM_LONGER 1.5 /* as long as steps are no longer than this times the one where it was */
 enum { FILM_STEPS = 4, FILM_BEGINS = 16 /* in each 16th, where as small an error at the begin of each step tells */ };
 
+/* Whether errors of films' forces are small, and steps as long as where they were measured: until something changes. */
+static int is_film_steady(const Run *run, const Step *step)
+{
+    return run->film_error < FILM_SMALL && step->h < FILM_LONGER * run->film_h && !run->first;
+}
+
 /*
  * The same at the begin of a step, where it costs no right-hand side. film_error has been seen to be up to 37 times as
- * large, of errors that were far below the limit.
+ * large, of errors that were far below the limit. Of steady steps each fourth is looked at.
  */
 static double film_begins(const Run *run, const Step *step, double part)
 {
     double rate[N_Y];
     int where;
     if (!step->method->stiff || !has_films())
+        return 0.0;
+    if (is_film_steady(run, step) && (run->steps - run->film_steps) % FILM_STEPS != 0)
         return 0.0;
     begin_rates(run, step, rate);
     return film_share(run, step, rate, run->dy, largest_film_force(&step->aside, &where), part) / film_limit(run);
@@ -132,8 +140,7 @@ static int is_film_known(const Run *run, const Step *step, double begins)
     const long since = run->steps - run->film_steps;
     if (!step->method->stiff || !has_films())
         return 1;
-    return run->film_error < FILM_SMALL && step->h < FILM_LONGER * run->film_h && since < FILM_BEGINS
-        && (since < FILM_STEPS || begins < FILM_SMALL);
+    return is_film_steady(run, step) && since < FILM_BEGINS && (since < FILM_STEPS || begins < FILM_SMALL);
 }
 
 /*
