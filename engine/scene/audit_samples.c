@@ -57,10 +57,14 @@ int drives_jump(double t, const double *q, const double *v, const Parameters *p)
     return 0;
 }
 
+/* W: powers below it are products of numbers that underflow, without digits. */
+#define LEAST_POWER 1e-250
+
 /*
  * The audit of n samples (runtime/simulation/audit.py): into `off` (n, 4), as shares of the largest terms, what is left
- * of v M a + dV/dt - sum of powers; of drive torques times rates - power of the drives; of Phi, as a share of `size`
- * (m); of Phi_q v - nu. dV/dt and Phi_q v are differences along v. A sample at a jump of a drive has zeros.
+ * of v M a + lambda (Phi_q v - nu) + dV/dt - sum of powers; of drive torques times rates - power of the drives; of Phi,
+ * as a share of `size` (m); of Phi_q v - nu. dV/dt and Phi_q v are differences along v. A sample at a jump of a drive
+ * has zeros.
  */
 void gudgeon_audit_samples(long n, const double *t, const double *q, const double *v, const double *memory,
     const double *parameters, double size, double *off)
@@ -103,7 +107,7 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
         velocity_residuals(t[i], q, v, h, p, missed, nu);
         const double between = h > 0.0 ? 2.0 * h : INFINITY;
         double sum = (stored[1][1] - stored[0][1]) / between, driven = 0.0;
-        double terms = fabs(sum) + force[0] * fast[0] + force[1] * fast[1];
+        double terms = LEAST_POWER + fabs(sum) + force[0] * fast[0] + force[1] * fast[1];
         terms += 4e6 * DBL_EPSILON * fabs(stored[2][1]) / between;
         for (int i = 0; i < N_FRICTIONS; i++) /* while it sticks the powers of all forces are rounding of its own */
             terms += fabs(aside.friction[i].force) * (fast[0] + fabs(aside.friction[i].v));
@@ -118,8 +122,7 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
             driven += torques[d] * nu[drive_row[d]];
             largest += fabs(torques[d]) * (row_is_length[drive_row[d]] ? fast[0] : fast[1]);
         }
-        off[0] = terms > 0.0 ? fabs(sum) / terms : 0.0;
-        off[1] = largest > 0.0 ? fabs(driven - aside.power[0]) / max_of(largest, terms) : 0.0;
+        largest = max_of(largest, terms);
         for (int r = 0; r < N_ROWS; r++) {
             const int row = kept_row[r], length = row_is_length[row];
             const double unit = length ? size : 1.0, most = length ? far[0] + size * far[1] : far[1];
@@ -128,6 +131,11 @@ void gudgeon_audit_samples(long n, const double *t, const double *q, const doubl
             off[2] = max_of(off[2], fabs(phi[row]) / (unit + most));
             if (speed > 0.0)
                 off[3] = max_of(off[3], fabs(missed[row]) / speed);
+            const double lost = aside.lambda[r] * missed[row]; /* of a velocity off its constraint, as rounding is */
+            sum += lost;
+            terms += fabs(lost) + 1e-2 * fabs(aside.lambda[r]) * speed; /* missed is known to 1e-8 of speed */
         }
+        off[0] = fabs(sum) / terms;
+        off[1] = fabs(driven - aside.power[0]) / largest;
     }
 }

@@ -150,3 +150,50 @@ def test_functions_of_one_mod_change_one_after_the_other(method: str, tmp_path: 
     swings = loader(tmp_path)(BAR + PERIODS)
     for rtol in (1e-6, 1e-8, 1e-10):
         assert not audit_notes(swings.simulate(2.0, method=method, rtol=rtol))
+
+
+PULSE = """
+parameters: {J: 1.026 N*s, w: 0.3 s, c: -8 s}
+bodies: {b: {mass: 2.7727 kg, inertia: 0.01 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {g: {translational: [ground.O, b.origin], axis: [1, 0]}}
+forces: {f: {force: b.origin, value: ["J/w*exp(-((t - c)/w)**2)/sqrt(pi)", 0]}}
+start: {set: {b.x: 0}, rates: {b.vx: 1.4294}}
+"""
+STRUCTURE = """
+bodies:
+  a: {mass: 1.8 kg, inertia: 0.0045 kg*m^2, com: [-0.01, 0.05], points: {in: [0.28, 0.1], out: [0.25, 0.02]}}
+  b:
+    {mass: 1.2 kg, inertia: 0.018 kg*m^2, com: [0.03, 0.06],
+     points: {in: [-0.02, 0.02], out: [-0.05, -0.12], end: [-0.04, -0.19]}}
+  free: {length: 0.5 m, mass: 0.4 kg, inertia: 0.01 kg*m^2}
+ground: {A: [0.25, 0.16], B: [0.065, 0.058]}
+joints:
+  j0: {translational: [ground.A, a.in], axis: [0.52, -0.72], angle: -0.2}
+  j1: {revolute: [b.in, ground.B]}
+  j2: {revolute: [a.out, b.out]}
+  j3: {revolute: [b.end, free.tail]}
+forces: {f: {torque: [b, a], value: "0.5 N*m*cos(3 rad/s*t)"}}
+start:
+  guess: {a.x: -0.11, a.y: 0.26, a.theta: -0.2, b.x: 0, b.y: 0.04, b.theta: 2.83,
+          free.x: 0.08, free.y: 0.01, free.theta: -1.8}
+"""
+
+
+def test_a_force_that_underflows(tmp_path: Path) -> None:
+    """Powers of 1e-320 W have no digits: their balance cannot be checked to 1e-6."""
+    block = loader(tmp_path)(PULSE)
+    for impulse in (0.7, 1.026, 1.4, 1.9):
+        run = block.simulate(0.22, output=7, audit="full", parameters={"J": impulse})  # from 1e-310 N to 1e-323 N
+        assert not audit_notes(run)
+        assert abs(run["b.vx"] - 1.4294).max() < 1e-14
+
+
+@pytest.mark.parametrize("method", ["dop853", "rodas5p", "radau5"])
+def test_a_structure_that_forces_load(method: str, tmp_path: Path) -> None:
+    """Speeds in absolute coordinates are rounding, off the constraints: forces of constraints have a power there."""
+    structure = loader(tmp_path, "full")(STRUCTURE)
+    for t_end in (0.3, 1.0, 3.0):
+        run = structure.simulate(t_end, output=100, method=method, audit="full")
+        assert not audit_notes(run)
+        assert abs(run.v).max() < 1e-12
