@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from gudgeon.results.results import Result
 
 DEPTH_TOL = 1e-9  # of the clearance, that a penetration outside a contact is rounding
+FORCE_TOL = 1e-12  # of a joint's largest force, that a force outside a contact is rounding
 TIME_TOL = 1e-11  # of the span of a run, by which a sample may miss the end of a contact
 PULL_TOL = 1e-6  # of the largest force, by which a rigid contact may seem to pull
 PEAK_TOL = 1e-3  # relative, by which a peak may exceed the largest force of the contacts
@@ -112,7 +113,8 @@ def check_samples(run: Result, peaks: Result | None = None) -> ContactCheck:
         free = ~_in_contact(run, k)
         limit = DEPTH_TOL * float(run.p[joint.clearance])
         found += _excursions(run, joint, "penetration", free & (delta[:, k] > limit), delta[:, k], force)
-        found += _excursions(run, joint, "force", free & (delta[:, k] <= limit) & (force > 0.0), delta[:, k], force)
+        bears = force > FORCE_TOL * float(np.nanmax(force, initial=0.0))
+        found += _excursions(run, joint, "force", free & (delta[:, k] <= limit) & bears, delta[:, k], force)
         if joint.name in run.source.rigid and run.compiled is not None:
             pull = sum(run[f"{joint.name}.F{axis}"] * run[f"{joint.name}.e{axis}"] for axis in "xy")
             wrong = ~free & (pull > PULL_TOL * float(np.abs(pull).max(initial=0.0)))

@@ -76,3 +76,12 @@ def test_a_rigid_contact_that_pulls_and_a_peak_that_is_not_listed_are_reported(t
     assert {one.kind for one in check_samples(replace(run, impacts=impacts)).faults} == {"peak"}
     pulled = replace(run, stored={"pin.Fy": -run["pin.Fy"]})
     assert {one.kind for one in check_samples(pulled).faults} == {"pull"}
+
+
+def test_a_force_of_rounding_outside_a_contact_is_none(run: gudgeon.Result) -> None:
+    force = run["crankpin.F"].copy()
+    free = int(np.flatnonzero(force == 0.0)[0])
+    for size, kinds in ((1e-15, set()), (1e-9, {"force"})):
+        force[free] = size * force.max()
+        found = check_samples(replace(run, stored={**run.stored, "crankpin.F": force}))
+        assert {one.kind for one in found.faults} == kinds
