@@ -13,7 +13,7 @@
 #define AUDIT_LONGEST 1.5 /* times the longest step whose error was measured: so is this one's */
 #define AUDIT_SHORT 1e-3 /* of the longest step: in shorter ones an event function may grow to a pole without a scale */
 #define AUDIT_FIRST 0.25 /* of the interval between drawn steps: the first one */
-#define AUDIT_SHARE 0.008 /* of the evaluations of a run, that checks of drawn steps may cost */
+#define AUDIT_SHARE 0.012 /* of the evaluations of a run, that checks of drawn steps may cost */
 #define AUDIT_COST 8.0   /* evaluations that these cost, as a rule */
 #define AUDIT_ITERATIONS 4.0 /* evaluations of a stage that is found by iterations, and */
 #define AUDIT_LEAST_STAGES 8.0 /* of a step, at least */

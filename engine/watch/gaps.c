@@ -26,16 +26,16 @@ enum { CLEAR, FALLS, UNKNOWN }; /* no zero; one zero, through which the margin f
 
 /*
  * A margin and its rate at a penetration: of a journal half the difference of squares of clearance and eccentricity
- * over the clearance, which unlike the eccentricity is smooth where the journal passes the middle. per_c: 1/clearance.
+ * over the clearance, which unlike the eccentricity is smooth where the journal passes the middle.
  */
-static Place margin_of(const Run *run, const Step *step, int i, double s, double delta, double rate, double per_c)
+static Place margin_of(const Run *run, const Step *step, int i, double s, double delta, double rate, double c)
 {
     const double sign = run->memory.latch[i].closed ? 1.0 : -1.0;
 #if defined WALLS || defined CONTOURS
-    (void)per_c;
+    (void)c;
     return (Place){s, sign * delta, sign * step->h * rate};
 #else
-    return (Place){s, sign * delta * (1.0 + 0.5 * delta * per_c), sign * step->h * rate * (1.0 + delta * per_c)};
+    return (Place){s, sign * delta * (1.0 + 0.5 * delta / c), sign * step->h * rate * (1.0 + delta / c)};
 #endif
 }
 
@@ -43,10 +43,10 @@ static Place margin_of(const Run *run, const Step *step, int i, double s, double
 static int margins_of_stages(const Run *run, const Step *step, int i, const Parameters *p, Place *all)
 {
     const Seen margins = seen_of(step, i), rates = seen_of(step, SEEN_RATES + i);
-    const double per_c = 1.0 / radial_clearance(p, i), sign = run->memory.latch[i].closed ? 1.0 : -1.0;
+    const double c = radial_clearance(p, i), sign = run->memory.latch[i].closed ? 1.0 : -1.0;
     const Clearance *begin = &run->aside.clearance[i], *end = &step->aside.clearance[i];
     int n = 1;
-    all[0] = margin_of(run, step, i, 0.0, begin->delta, begin->deltadot, per_c);
+    all[0] = margin_of(run, step, i, 0.0, begin->delta, begin->deltadot, c);
     for (int k = 0; k < step->n_seen; k++) {
         const double node = step->node[k];
         int at = n;
@@ -54,9 +54,9 @@ static int margins_of_stages(const Run *run, const Step *step, int i, const Para
             continue;
         for (n++; all[at - 1].s > node; at--)
             all[at] = all[at - 1];
-        all[at] = margin_of(run, step, i, node, sign * seen_at(margins, k), seen_at(rates, k), per_c);
+        all[at] = margin_of(run, step, i, node, sign * seen_at(margins, k), seen_at(rates, k), c);
     }
-    all[n++] = margin_of(run, step, i, 1.0, end->delta, end->deltadot, per_c);
+    all[n++] = margin_of(run, step, i, 1.0, end->delta, end->deltadot, c);
     return n;
 }
 
@@ -77,81 +77,35 @@ static int is_far(const Run *run, const Step *step, int i, const Parameters *p)
 }
 
 /*
- * Whether a margin is at least `least` between neighbours a and b where |f''| <= bend: it is at least
- * min(f_a, f_b) - bend w^2/8, and max(f_a + f'_a x - bend x^2/2, f_b - f'_b (w - x) - bend (w - x)^2/2), least where
- * both parabolas meet.
+ * What the stages say of margin i. Between neighbours a and b with |f''| <= B it is at least min(f_a, f_b) - B w^2/8,
+ * and at least max(f_a + f'_a x - B x^2/2, f_b - f'_b (w - x) - B (w - x)^2/2), least where both parabolas meet.
  */
-static int is_above_parabolas(Place a, Place b, double bend, double least)
-{
-    const double w = b.s - a.s, curve = bend * w;
-    if (min_of(a.f, b.f) - 0.125 * curve * w >= least)
-        return 1;
-    const double x = (a.f - b.f + (b.slope + 0.5 * curve) * w) / (b.slope - a.slope + curve);
-    return x >= 0.0 && x <= w && a.f + x * (a.slope - 0.5 * bend * x) >= least;
-}
-
-/* The first of n places at which a margin lies below zero by more than `beside`; the last one: none does. */
-static int first_below(const Place *all, int n, double beside)
-{
-    int k = 1;
-    while (k < n - 1 && !(all[k].f < -beside))
-        k++;
-    return k;
-}
-
-/*
- * Whether a margin is concave between places k - 1 and k of those up to `last`: by the second derivatives that rates of
- * three neighbouring intervals show, and by as much as they differ.
- */
-static int is_concave(const Place *all, int k, int last, double beside)
-{
-    double most = -INFINITY, least = INFINITY;
-    for (int i = k > 1 ? k - 1 : 1; i <= k + 1 && i <= last; i++) {
-        const double bend = (all[i].slope - all[i - 1].slope) / (all[i].s - all[i - 1].s);
-        most = max_of(most, bend);
-        least = min_of(least, bend);
-    }
-    return most + (most - least) + 2.0 * beside <= 0.0;
-}
-
-/*
- * What the stages say of margin i up to the first one that is below zero for sure, or the end: which place that is is
- * in `last`, its node. Bounds of the second derivative are those that the rates up to the place behind it show. Stages
- * of stiff methods lie too far from the motion for that: of these all tell.
- */
-static int bound_by_stages(const Run *run, const Step *step, int i, const Parameters *p, double *last)
+static int bound_by_stages(const Run *run, const Step *step, int i, const Parameters *p)
 {
     Place all[N_STAGES + 2];
     const int n = margins_of_stages(run, step, i, p, all);
     const double least = shallow(p, i), error = 16.0 * error_of_dense(run, i, p);
-    const int near = !step->method->stiff, to = near ? first_below(all, n, error) : n - 1;
-    const int seen = to < n - 1 ? to + 1 : to;
     double bend = 0.0;
-    int falls = 0, arched = near; /* concave from its begin on: so far it crosses zero once at most */
-    *last = all[to].s;
+    int falls = 0;
     if (!(all[0].f >= least))
         return UNKNOWN;
-    for (int k = 1; k <= seen; k++) {
-        const double w = all[k].s - all[k - 1].s, change = fabs(all[k].slope - all[k - 1].slope);
-        if (change > bend * w)
-            bend = change / w;
-    }
+    for (int k = 1; k < n; k++)
+        bend = max_of(bend, fabs(all[k].slope - all[k - 1].slope) / (all[k].s - all[k - 1].s));
     bend *= BEND_SAFETY;
-    for (int k = 1; k <= to; k++) {
+    for (int k = 1; k < n; k++) {
         const Place a = all[k - 1], b = all[k];
-        const double curve = bend * (b.s - a.s);
+        const double w = b.s - a.s, curve = bend * w;
+        const double x = (a.f - b.f + (b.slope + 0.5 * curve) * w) / (b.slope - a.slope + curve);
+        const double below_chord = min_of(a.f, b.f) - 0.125 * curve * w;
+        const double meet = x >= 0.0 && x <= w ? a.f + x * (a.slope - 0.5 * bend * x) : -INFINITY;
         const double s = b.s < 0.5 ? b.s : a.s > 0.5 ? a.s : 0.5, beside = error * s * s * (1.0 - s) * (1.0 - s);
-        arched = arched && is_concave(all, k, seen, error);
-        if (arched)
-            falls = b.f < 0.0;
-        if (arched || (!falls && b.f >= 0.0 && is_above_parabolas(a, b, bend, least + beside)))
+        if (!falls && b.f >= 0.0 && max_of(below_chord, meet) - beside >= least)
             continue;
-        const int once = near && !falls && b.f < 0.0 && is_concave(all, k, seen, error);
-        if (!once && !(0.5 * (a.slope + b.slope + curve) + 0.2 * error < 0.0))
+        if (!(0.5 * (a.slope + b.slope + curve) + 0.2 * error < 0.0))
             return UNKNOWN;
         falls = 1;
     }
-    return falls && all[to].f < 0.0 ? FALLS : CLEAR;
+    return falls && all[n - 1].f < 0.0 ? FALLS : CLEAR;
 }
 
 /* The least of f + u (r + u (c + u d)) for u from 0 to 1/2. */
@@ -227,17 +181,9 @@ static int first_zero(Run *run, const Step *step, int k, const Parameters *p, Pl
 /* Whether margin k of a joint with play has a zero in the step, and places that enclose the first one. */
 static int has_zero(Run *run, Step *step, int k, const Parameters *p, Place *low, Place *high)
 {
-    double last = 1.0;
-    int found = is_far(run, step, k, p) ? CLEAR : bound_by_stages(run, step, k, p, &last);
+    int found = is_far(run, step, k, p) ? CLEAR : bound_by_stages(run, step, k, p);
     *low = begin_of(run, step, k);
     *high = end_of(run, step, k);
-    if (found == FALLS && last < 1.0 && !make_dense(run, p, step)) {
-        const Place beyond = place_at(run, step, last, k, p); /* a stage may lie beside the dense output */
-        if (beyond.f < 0.0)
-            *high = beyond;
-        else
-            found = UNKNOWN;
-    }
     if (found == UNKNOWN)
         found = make_dense(run, p, step) ? high->f < 0.0 ? FALLS : CLEAR : first_zero(run, step, k, p, low, high);
     if (low->f < 0.0 && low->f >= shallow(p, k) && low->slope > 0.0)

@@ -136,8 +136,7 @@ def _header(simulation: Simulation) -> str:
     lines += [
         _table("double", "fmu_defaults", [repr(float(slot.default)) for slot in source.slots]),
         _table("double", "fmu_start", [repr(float(x)) for x in (*start.q, *start.v)]),
-        _table("int", "fmu_gains", gains), _table("int", "fmu_plays", plays),
-        _table("int", "fmu_sizes", [f"{{{x}, {y}}}" for x, y in sizes], "[2]"),
+        _table("int", "fmu_gains", gains), _table("int", "fmu_sizes", sizes), _table("int", "fmu_plays", plays),
         _table("unsigned char", "fmu_is_angle", angles), _table("int", "fmu_jumps", jumps(source)),
         _table("int", "fmu_outputs", [f"{{{part}, {column}}}" for part, column in places], "[2]"),
     ]  # fmt: skip

@@ -39,7 +39,7 @@ MORE = {
     "lanes": ("-fschedule-insns", "-fschedule-insns2", "-fsched-pressure"),
 }
 
-GCCS = frozenset(("-O2", "-fno-tree-slp-vectorize", "-ftree-loop-vectorize"))  # clang's own passes: -O2
+GCCS = frozenset(("-fno-tree-slp-vectorize", "-ftree-loop-vectorize"))  # clang has its own
 # Of zig's clang: no checks, which it makes where no level of optimization is named, as for a link, and the CPU that all
 # have, where it takes this machine's; -march=native behind it still holds.
 ZIG = ("-fno-sanitize=undefined", "-mcpu=baseline")
@@ -60,7 +60,7 @@ def flags(portable: bool, command: tuple[str, ...] = (), quick: bool = False) ->
     native = "-mcpu=native" if machine in ("arm64", "aarch64") else "-march=native"
     named: tuple[str, ...] = FLAGS
     if quick or _is_zig(command):
-        named = ("-O0" if quick else "-O2", *(flag for flag in FLAGS if flag not in GCCS))
+        named = tuple(("-O0" if quick and flag == "-O2" else flag) for flag in FLAGS if flag not in GCCS)
     return (*named, *(() if portable else (native,)))
 
 

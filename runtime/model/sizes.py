@@ -6,7 +6,6 @@ import sys
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.model.compiled import Array
@@ -18,15 +17,14 @@ LEAST_CLEARANCE = 64 * sys.float_info.epsilon  # times the size: from ten roundi
 
 
 def mechanism_sizes(source: KernelSource, p: Array) -> Array:
-    """The largest distance of a point from its body's centre of mass or the ground's origin, or length of a joint, m.
+    """The largest coordinate of a point in its body, of a ground point, or length of a joint, m.
 
-    It scales lengths wherever angles and lengths are compared, so it must not depend on the directions of axes.
     (...,) from parameters (..., n_slots + n_derived) of any number of runs.
     """
-    x, y, has_y = _size_columns(source)
-    if not len(x):
+    index = size_places(source)
+    if not index:
         return np.ones(p.shape[:-1])
-    size = np.hypot(p[..., x], p[..., y] * has_y).max(axis=-1)
+    size = np.abs(p[..., index]).max(axis=-1, initial=0.0)
     return np.where(size > 0.0, size, 1.0)
 
 
@@ -41,21 +39,14 @@ def metric(source: KernelSource, p: Array, mass: Array) -> Array:
     return measure
 
 
-def size_places(source: KernelSource) -> list[tuple[int, int]]:
-    """Indices into p of x and y of these points, and of these lengths as x; -1 stands for 0."""
-    pairs = [(max(point.x, point.y), min(point.x, point.y)) for point in source.points]
-    lengths = [slot.dimension == _LENGTH and slot.address.startswith("joints.") for slot in source.slots]
-    pairs += [(k, -1) for k, is_length in enumerate(lengths) if is_length]
-    return [pair for pair in pairs if pair[0] >= 0]
-
-
-def _size_columns(source: KernelSource) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
-    """The same as columns, an index of x for -1, and whether there is a y, 1 or 0."""
-    kept: dict[str, tuple[NDArray[np.intp], NDArray[np.intp], Array]] = source.__dict__  # as cached properties
-    if "size_columns" not in kept:
-        x, y = np.array(size_places(source), dtype=np.intp).reshape(-1, 2).T.copy()
-        kept["size_columns"] = x, np.where(y < 0, x, y), np.where(y < 0, 0.0, 1.0)
-    return kept["size_columns"]
+def size_places(source: KernelSource) -> list[int]:
+    """Indices into p of these coordinates and lengths."""
+    kept: dict[str, list[int]] = source.__dict__  # as a cached property keeps it: each run asks several times
+    if "size_places" not in kept:
+        index = [k for point in source.points for k in (point.x, point.y) if k >= 0]
+        lengths = [slot.dimension == _LENGTH and slot.address.startswith("joints.") for slot in source.slots]
+        kept["size_places"] = index + [k for k, is_length in enumerate(lengths) if is_length]
+    return kept["size_places"]
 
 
 def far_clearances(source: KernelSource, p: Array) -> Array:

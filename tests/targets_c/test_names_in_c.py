@@ -22,7 +22,7 @@ from gudgeon.errors import BadNameError
 from gudgeon.generator.equations import contact_steps as contact
 from gudgeon.generator.kinds.laws.law import RESULTS, VARIABLES
 from gudgeon.generator.pipeline import generate
-from gudgeon.language.names import RESERVED, WORDS, check_name
+from gudgeon.language.names import RESERVED, WORDS, YAML_NULL, check_name
 from gudgeon.language.tree import FUNCTIONS
 from gudgeon.loading.compiler import find_compiler
 from gudgeon.loading.engine import engine_files, include_flags
@@ -225,7 +225,8 @@ def test_names_that_meet_when_joined(examples: int, tmp_path: Path) -> None:
     compiles()
 
 
-THINGS = sorted(name for name in NOT_IN_CODE if len(name) <= 12 and name not in FUNCTIONS and name not in WORDS)
+UNUSABLE = {*WORDS, *YAML_NULL}
+THINGS = sorted(name for name in NOT_IN_CODE if len(name) <= 12 and name not in FUNCTIONS and name not in UNUSABLE)
 
 
 @pytest.mark.parametrize("first", slow_but([0, 84], range(0, len(THINGS) - 13, 28)))
@@ -260,13 +261,15 @@ def test_what_expressions_could_not_tell_apart_is_refused() -> None:
             return True
         return False
 
+    words = {*FUNCTIONS, *WORDS} - set(YAML_NULL)
     for what in ("body", "joint", "drive", "force", "parameter", "output"):
         assert all(refuses(name, what) for name in RESERVED)
         assert not any(refuses(name, what) for name in ("floor", "free", "int", "main", "class", "index"))
         assert refuses("time", what) == (what == "output")
-        assert all(refuses(name, what) == (what in ("parameter", "output")) for name in (*FUNCTIONS, *WORDS))
+        assert all(refuses(name, what) == (what in ("parameter", "output")) for name in words)
+        assert all(refuses(name, what) for name in YAML_NULL)
     for what in ("point", "mechanism"):
-        assert not any(refuses(name, what) for name in (*RESERVED, *FUNCTIONS, *WORDS, *NOT_IN_CODE))
+        assert not any(refuses(name, what) for name in {*RESERVED, *words, *NOT_IN_CODE} - set(YAML_NULL))
         assert not refuses("gudgeon_x", what) and refuses("a__b", what)
 
 
