@@ -119,8 +119,8 @@ static int is_film_steady(const Run *run, const Step *step)
 }
 
 /*
- * The same at the begin of a step, where it costs no right-hand side. film_error has been seen to be up to 37 times as
- * large, of errors that were far below the limit. Of steady steps each fourth is looked at.
+ * The error of films' forces at the begin of a step, where it costs no right-hand side. film_error has been seen to be
+ * up to 37 times as large, of errors that were far below the limit. Of steady steps each fourth is looked at.
  */
 static double film_begins(const Run *run, const Step *step, double part)
 {

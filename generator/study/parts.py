@@ -11,7 +11,7 @@ from gudgeon.generator.format.shapes import missing_key, unknown_key
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.study.spec import RESERVED, Written
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
-from gudgeon.language.names import LABEL, YAML_NULL, another_name
+from gudgeon.language.names import LABEL, check_not_null
 from gudgeon.language.parser import parse
 from gudgeon.language.suggestions import known_hint, nearest
 
@@ -102,9 +102,7 @@ def label(name: Text, what: str) -> str:
     if not re.fullmatch(LABEL, name):
         hint = "expected letters, digits and _ in ASCII, at most 64, no digit first"
         raise BadNameError(f"{str(name)[:60]!r} cannot name a {what}", name.where, hint)
-    if name in YAML_NULL:
-        reason = "YAML reads it as no value where the name is used"
-        raise BadNameError(f"{str(name)!r} cannot name a {what}: {reason}", name.where, another_name(name))
+    check_not_null(name, f"a {what}", name.where)
     return str(name)
 
 

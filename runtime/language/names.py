@@ -49,6 +49,13 @@ def another_name(name: str, other: str = "") -> str:
     return f"expected another name, such as {other or f'{name}1'}"
 
 
+def check_not_null(name: str, what: str, where: Location | None) -> None:
+    """Raise BadNameError if YAML reads `name` as no value; what: "this body"."""
+    if name in YAML_NULL:
+        reason = "YAML reads it as no value where the name is used"
+        raise BadNameError(f"{str(name)!r} cannot name {what}: {reason}", where, another_name(name))
+
+
 def check_label(name: str, what: str, where: Location | None) -> None:
     """Raise BadNameError unless `name` is an identifier of at most 64 characters.
 
@@ -63,9 +70,7 @@ def check_label(name: str, what: str, where: Location | None) -> None:
             hint = f"a value stands behind a colon: {plain}:{name.partition('=')[2].partition('=')[0].rstrip()}"
         hint = odd_characters(name) + hint
         raise BadNameError(f"{name[:MAX_LENGTH]!r} cannot name this {what}: it is no identifier", where, hint)
-    if name in YAML_NULL:
-        reason = "YAML reads it as no value where the name is used"
-        raise BadNameError(f"{name!r} cannot name this {what}: {reason}", where, another_name(name))
+    check_not_null(name, f"this {what}", where)
     if len(name) > MAX_LENGTH:
         raise BadNameError(
             f"the name of this {what} has {len(name)} characters", where, f"expected at most {MAX_LENGTH}"
