@@ -15,6 +15,7 @@
 #define AUDIT_CLOSURE 1e-9     /* of the size: error of positions that accelerations must not depend on */
 #define AUDIT_NOISE 1e-9       /* of its largest magnitude, below which the sign of a function is rounding */
 #define AUDIT_ZERO 1e-3        /* of its value at the beginning of a step: smaller ones are a zero, and no pole */
+#define AUDIT_LOCATED 4.0      /* event tolerances, and ulp of the time, within which an event is located */
 #define AUDIT_FIXED 1e-8       /* the tolerance that stands in for that of a fixed step */
 /* steps in a row that end on the wrong side of a switching function; after which its magnitude is known */
 enum { AUDIT_WRONG = 3, AUDIT_SETTLED = 20 };
@@ -218,13 +219,32 @@ static void check_joints(Run *run, double t, const Aside *aside, const Parameter
     }
 }
 
+/* How far behind its zero an event may be located, s. */
+static double located_within(const Run *run) { return AUDIT_LOCATED * (run->tick + 2.0 * DBL_EPSILON * fabs(run->t)); }
+
+static int make_dense(Run *run, const Parameters *p, Step *step);
+static int state_at(Run *run, const Step *step, double share, const Parameters *p, double *y, double *dy, Aside *aside);
+
+/*
+ * Whether switching function k has just jumped to the wrong side at time t inside a step: as many event tolerances
+ * before, it was on its side. Its zero is located no better, and a jump is as large there as anywhere.
+ */
+static int has_just_jumped(Run *run, Step *step, double t, int k, const Parameters *p)
+{
+    const double share = (t - located_within(run) - step->t) / step->h;
+    double y[N_Y], dy[N_Y];
+    Aside aside;
+    return share <= 0.0 || make_dense(run, p, step) || state_at(run, step, share, p, y, dy, &aside)
+        || run->memory.side[k] * aside.g[k] >= 0.0;
+}
+
 /* Branches that a step holds, at a state inside it: how far each function lies on the wrong side. */
-static void check_branches(Run *run, const Step *step, double t, const double *y, const Aside *aside,
+static void check_branches(Run *run, Step *step, double t, const double *y, const Aside *aside,
     const Parameters *p)
 {
     if (N_SWITCHES > 0)
         record(&run->audit, BRANCH_CHECK, 0.0, 1.0, t, -1);
-    if (t <= run->t + 4.0 * run->tick)
+    if (t <= run->t + located_within(run))
         return; /* what changes at one time, as the values of functions of one mod, changes one after the other */
     for (int k = 0; k < N_SWITCHES; k++) {
         const double g = run->memory.side[k] * aside->g[k];
@@ -235,7 +255,8 @@ static void check_branches(Run *run, const Step *step, double t, const double *y
         const Seen seen = seen_of(step, N_CLEARANCES + k);
         for (int n = 0; n < step->n_seen; n++) /* where each step ends at a zero, its magnitude is seen inside alone */
             run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(seen_at(seen, n)));
-        record(&run->audit, BRANCH_CHECK, -g, 1e-3 * run->audit.switch_scale[k], t, k);
+        if (-g <= 1e-3 * run->audit.switch_scale[k] || !has_just_jumped(run, step, t, k, p))
+            record(&run->audit, BRANCH_CHECK, -g, 1e-3 * run->audit.switch_scale[k], t, k);
     }
 }
 

@@ -11,6 +11,45 @@ static int settle_sides(Run *run, int crossed, const Parameters *p)
     return settle_at(run, run->t, run->y, run->dy, &run->aside, crossed, p);
 }
 
+#if N_USER_EVENTS && N_SWITCHES
+/*
+ * Sides of switches as they are right after an event: functions that jump at one time, as a mod of a mod, do so at
+ * zeros of several switches, and between these event functions have values that they never take. The switch `crossed`
+ * keeps its own.
+ */
+static int settle_right_after(Run *run, int crossed, const Parameters *p)
+{
+    const double h = located_within(run);
+    double side[N_SWITCHES], y[N_Y], dy[N_Y];
+    Aside beyond;
+    memcpy(side, run->memory.side, sizeof side);
+    for (int k = 0; k < N_Y; k++)
+        y[k] = run->y[k] + h * run->dy[k];
+    const int status = settle_at(run, run->t + h, y, dy, &beyond, crossed, p);
+    if (status || !memcmp(side, run->memory.side, sizeof side))
+        return status;
+    return rates(run, run->t, run->y, p, run->dy, &run->aside);
+}
+
+/* Whether event function i keeps its sign at a zero, for switches have changed their sides there since `before`. */
+static int keeps_sign(Run *run, int i, const double *before, const Parameters *p)
+{
+    double value[N_USER_EVENTS];
+    return memcmp(before, run->memory.side, sizeof run->memory.side)
+        && !events_ahead(run, run->t, located_within(run), run->y, run->dy, p, value)
+        && run->memory.event_side[i] * value[i] > 0.0;
+}
+#else
+static int settle_right_after(Run *run, int crossed, const Parameters *p)
+{
+    return (void)run, (void)crossed, (void)p, 0;
+}
+static int keeps_sign(Run *run, int i, const double *before, const Parameters *p)
+{
+    return (void)run, (void)i, (void)before, (void)p, 0;
+}
+#endif
+
 /* What follows begins with a step as long as fitted when the like of it began before: *known, 0 if it never did. */
 static void begin_with(Run *run, double *known, double rough)
 {
@@ -160,8 +199,9 @@ static void show_onsets(Run *run)
  */
 static int change(Run *run, int event, const Parameters *p)
 {
-    double before[AT_LEAST_ONE(N_USER_EVENTS)];
+    double before[AT_LEAST_ONE(N_USER_EVENTS)], side[AT_LEAST_ONE(N_SWITCHES)];
     const Held held = held_before(run);
+    memcpy(side, run->memory.side, sizeof side);
     for (int i = 0; i < N_USER_EVENTS; i++)
         before[i] = run->aside.event[i];
     for (int k = 0; k < N_CLEARANCES + N_SWITCHES; k++)
@@ -169,13 +209,15 @@ static int change(Run *run, int event, const Parameters *p)
             cross(run, k, p);
     const int corner = event - N_CLEARANCES, friction = corner - N_SWITCHES, user_event = friction - N_FRICTIONS;
     int status = corner >= 0 && friction < 0 ? change_side(run, corner, p) : settle_sides(run, -1, p);
+    if (!status && corner >= 0)
+        status = settle_right_after(run, friction < 0 ? corner : -1, p);
     if (!status)
         show_onsets(run);
     if (!status && friction >= 0 && user_event < 0)
         status = switch_friction(run, p);
     if (!status && user_event < 0)
         status = meet(run, event, p);
-    if (!status && user_event >= 0 && cross_zero(run, user_event) && !run->pole
+    if (!status && user_event >= 0 && !keeps_sign(run, user_event, side, p) && cross_zero(run, user_event) && !run->pole
         && note_event(run, user_event, run->t, run->y, p))
         status = ENDED;
     const int ended = !status || status == ENDED ? note_leaps(run, before, p) : 0;

@@ -5,7 +5,7 @@
  */
 
 #define LONG_STEP 7.0 /* times the last one, that a step is as long as: a rule of lengths lets it grow by less */
-enum { N_INNER_SAMPLES = 8 };
+enum { N_INNER_SAMPLES = 8, FAR_PLACES = 4 };
 #define HARMLESS 0.1 /* of the tolerance, that the wrong branch of a corner may change a step */
 
 /* To the other side with the corners that are passed, or back. */
@@ -222,19 +222,26 @@ static double first_counting(Run *run, Step *step, const Parameters *p, int *eve
     return *event < 0 ? first : earlier_event(run, step, first, p, event);
 }
 
+#if N_USER_EVENTS
 /*
- * Whether margin k changes its sign at a pole and not at a zero: it grows towards the place where it was located, to
- * values that are larger than their uncertainty. One that jumps from one finite value to another is as large near it
- * as far from it.
+ * Whether event function i changes its sign at a pole and not at a zero: it is larger where it was located than at the
+ * first place behind that where it is larger than its uncertainty. One that jumps from one finite value to another is
+ * as large near it as far from it.
  */
-static int is_pole(Run *run, const Step *step, double share, int k, const Parameters *p)
+static int is_pole(Run *run, const Step *step, double share, int i, const Parameters *p)
 {
-    const double near = margin_at(run, step, share, k, p);
-    const double far = margin_at(run, step, share + 64.0 * root_width(run, step), k, p);
-    if (isinf(near) || !(fabs(near) > 2.0 * fabs(far)))
-        return isinf(near);
-    return is_resolved_at(run, step, share, k, p);
+    double y[N_Y], dy[N_Y], value[N_USER_EVENTS], ahead = root_width(run, step) * step->h;
+    Aside aside;
+    if (state_at(run, step, share, p, y, dy, &aside))
+        return 0;
+    for (int n = 0; n < FAR_PLACES && isfinite(aside.event[i]); n++) {
+        ahead *= 64.0;
+        if (!events_ahead(run, step->t + share * step->h, ahead, y, dy, p, value) && value[i] != 0.0)
+            return fabs(aside.event[i]) > 2.0 * fabs(value[i]);
+    }
+    return isinf(aside.event[i]);
 }
+#endif
 
 /*
  * The first event of a step in contact that is far longer than the one before: margins of which no bounds are known may
@@ -278,6 +285,9 @@ static double first_event(Run *run, Step *step, const Parameters *p, int *event)
         share = first_counting(run, step, p, event);
     }
     share = first_in_long_step(run, step, share, p, event);
-    run->pole = *event >= N_MARGINS - N_USER_EVENTS && is_pole(run, step, share, *event, p);
+#if N_USER_EVENTS
+    const int user_event = *event - (N_MARGINS - N_USER_EVENTS);
+    run->pole = user_event >= 0 && is_pole(run, step, share, user_event, p);
+#endif
     return share;
 }

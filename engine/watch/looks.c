@@ -37,13 +37,44 @@ static void noise(Run *run, const Step *step, const Parameters *p, double *chang
         change[i] = fabs(margin(&run->memory, &aside, watched[i]) - margin(&run->memory, &run->aside, watched[i]));
 }
 
-/* How far cubics through every other look miss the looks between. */
-static double misfit(const double *f)
+/* The difference of order 4, or of all `n` further ones, of samples from f on: as an error of interpolation. */
+static double end_error(const double *f, int out, int n)
+{
+    const int order = n < 4 ? n : 4;
+    double d[5] = {0.0};
+    for (int k = 0; k <= order; k++)
+        d[k] = f[k * out];
+    for (int i = 0; i < order; i++)
+        for (int k = order; k > i; k--)
+            d[k] -= d[k - 1];
+    return order > 0 ? fabs(d[order]) / (1 << order) : 0.0;
+}
+
+/*
+ * The largest difference between samples and cubics through every other sample. Stencils across the interval that
+ * begins at sample `at` are left out: up to each end of it the function is compared with its own side alone.
+ */
+static double interpolation_error(const double *f, int at)
 {
     double worst = 0.0;
     for (int j = 3; j + 3 <= N_LOOKS; j += 2)
-        worst = max_of(worst, fabs(f[j] - (9.0 * (f[j - 1] + f[j + 1]) - f[j - 3] - f[j + 3]) / 16.0));
-    return worst;
+        if (j + 3 <= at || j - 3 > at)
+            worst = max_of(worst, fabs(f[j] - (9.0 * (f[j - 1] + f[j + 1]) - f[j - 3] - f[j + 3]) / 16.0));
+    if (at >= N_LOOKS)
+        return worst;
+    return max_of(worst, max_of(end_error(f + at, -1, at), end_error(f + at + 1, 1, N_LOOKS - at - 1)));
+}
+
+/*
+ * How far samples of a step are from resolving a function. Of one that jumps, or whose slope does, it is how far they
+ * are on both sides of that: no shorter step would make a jump less.
+ */
+static double misfit(const double *f, double enough)
+{
+    double least = interpolation_error(f, N_LOOKS);
+    for (int at = 0; at < N_LOOKS && least > enough; at++)
+        least = min_of(least, interpolation_error(f, at));
+    return least;
 }
 
 /* Looks along the step wherever something may vanish; whether the step is too long to tell. */
@@ -67,6 +98,8 @@ static int is_unresolved(Run *run, Step *step, const Parameters *p)
         for (int i = 0; i < N_WATCHED; i++)
             step->look[i][j] = margin(&run->memory, &aside, watched[i]);
     }
+    if (N_LOOKS * root_width(run, step) >= 1.0)
+        return 0; /* samples of more places than there are times show no more (a pole, many jumps) */
     noise(run, step, p, change);
     for (int i = 0; i < N_WATCHED; i++) {
         double least = INFINITY, most = -INFINITY;
@@ -74,7 +107,7 @@ static int is_unresolved(Run *run, Step *step, const Parameters *p)
             least = min_of(least, step->look[i][j]);
             most = max_of(most, step->look[i][j]);
         }
-        const double missed = misfit(step->look[i]), enough = max_of(0.05 * (most - least), 10.0 * change[i]);
+        const double enough = max_of(0.05 * (most - least), 10.0 * change[i]), missed = misfit(step->look[i], enough);
         /* stages that see far more than the looks: these keep time with what they look at */
         const int beats = range[i] > 2.0 * (most - least) + 10.0 * change[i] && !step->method->stiff;
         if (step->near[i] && (missed > enough || beats) && least - missed < 0.0)
