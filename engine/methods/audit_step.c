@@ -10,6 +10,7 @@
 #define AUDIT_DRIFT 1e2 /* tolerances that wrong rates may add up to */
 #define AUDIT_DEFECT 1e4 /* tolerances that the dense output may miss the right-hand side by */
 #define AUDIT_LONGEST 1.5 /* times the longest step whose error was measured: so is this one's */
+#define AUDIT_SHORT 1e-3 /* of the longest step: in shorter ones an event function may grow to a pole without a scale */
 #define AUDIT_FIRST 0.25 /* of the interval between drawn steps: the first one */
 #define AUDIT_SHARE 0.012 /* of the evaluations of a run, that checks of drawn steps may cost */
 #define AUDIT_COST 8.0   /* evaluations that these cost, as a rule */
@@ -160,13 +161,13 @@ static void find_zeros(Run *run, Step *step, double share, int event, const Para
     for (int i = 0; i < N_USER_EVENTS; i++) {
         const double before = run->aside.event[i], after = step->aside.event[i];
         const Seen seen = seen_of(step, N_MARGINS - N_USER_EVENTS + i);
-        double most = max_of(fabs(before), fabs(after));
+        double inside = fabs(after); /* the beginning may be a pole that was located */
         for (int k = 0; k < step->n_seen; k++)
-            most = max_of(most, fabs(seen_at(seen, k)));
-        audit->event_scale[i] = max_of(audit->event_scale[i], most);
+            inside = max_of(inside, fabs(seen_at(seen, k)));
+        if (step->h > AUDIT_SHORT * audit->longest && isfinite(inside))
+            audit->event_scale[i] = max_of(audit->event_scale[i], inside);
         const double noise = AUDIT_NOISE * audit->event_scale[i];
-        /* poles make the scale large: is what seems to be rounding resolved? */
-        audit->away[i] |= most > noise || (audit->noise[i] > 0 && is_known(run, step, 1, i, p));
+        audit->away[i] |= max_of(fabs(before), inside) > noise;
         const int begins_beyond = run->steps == 0 && run->memory.event_side[i] * after > 0.0; /* begin_beyond */
         const int far = share * step->h > located_within(run); /* from a pole too: nearer, it grows and falls at once */
         audit->event_before[i] = audit->ended == i && far && is_known(run, step, 0, i, p) ? before : 0.0;
