@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import gudgeon
@@ -197,3 +198,27 @@ def test_a_structure_that_forces_load(method: str, tmp_path: Path) -> None:
         run = structure.simulate(t_end, output=100, method=method, audit="full")
         assert not audit_notes(run)
         assert abs(run.v).max() < 1e-12
+
+
+STIFF_REST = """
+format: gudgeon/1
+name: block
+bodies: {block: {mass: 0.9 kg, inertia: 0.01 kg*m^2}}
+gravity: [0, -9.81]
+expressions:
+  far: hypot(block.x, block.y)
+  rate: (block.vx*block.x + block.vy*block.y)/far
+  push: max(0 N, 2.8e8 N/m*(1.1 m - far) - 2.9e4 kg/s*rate)
+forces: {surface: {force: block.origin, value: [push*block.x/far, push*block.y/far]}}
+start: {set: {block.x: 0.1 m, block.y: 1.0954451150103321 m, block.theta: 0}}
+"""
+
+
+@pytest.mark.parametrize("rtol", [1e-4, 1e-5, 1e-6])
+def test_steps_bounded_by_stability(rtol: float, tmp_path: Path) -> None:
+    """A block creeps down a stiff surface: each step of dop853 errs by tolerances, and nothing moves as fast."""
+    (tmp_path / "m.yaml").write_text(STIFF_REST)
+    simulation = gudgeon.load(tmp_path / "m.yaml")
+    run = simulation.simulate(0.7, output=400, method="dop853", rtol=rtol)
+    tighter = simulation.simulate(0.7, output=400, rtol=1e-9)
+    assert np.abs(run.q - tighter.q).max() < 10.0 * rtol
