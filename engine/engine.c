@@ -33,6 +33,7 @@
 #else
 #include "watch/looks.c"
 #endif
+#include "watch/poles.c"
 #include "watch/events.c"
 #include "run/peaks.c"
 #include "run/changes.c"

@@ -7,7 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import gudgeon
 from gudgeon.simulation.simulation import Simulation
+from tests.integrators.test_side_by_side import without_chain
 from tests.scenes import Load, loader
 
 METHODS = ["dop853", "rodas5p", "radau5", "radau9"]
@@ -80,3 +82,14 @@ def test_events_that_jump_end_no_run(scene: Simulation, om: float) -> None:
                 found = run.events_of(name)
                 assert len(found) == len(times), (method, rtol, name)
                 np.testing.assert_allclose(found, times, atol=2e-4)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_pole_at_the_start_is_no_event(method: str, tmp_path: Path) -> None:
+    """A driven velocity is rounding at the start: its reciprocal changes its sign there, at a pole, and ended runs."""
+    every_kind = gudgeon.load(without_chain(tmp_path), "ideal")
+    for radius in (0.04, 0.04004, 0.0401, 0.05):
+        for t_end in (1e-6, 1e-4, 1e-2):
+            run = every_kind.simulate(t_end, output=2, method=method, parameters={"joints.mesh.radii.x": radius})
+            assert run.t[-1] == t_end
+            assert not len(run.events_of("noon"))
