@@ -78,7 +78,7 @@ static fmi3Status begin(Model *m)
     double still[FMU_SLOTS];
     gudgeon_prepare(m->given, m->is_given, m->p);
     for (int k = 0; k < FMU_SIZES; k++)
-        size = fmax(size, fabs(m->p[fmu_sizes[k]]));
+        size = fmax(size, hypot(m->p[fmu_sizes[k][0]], fmu_sizes[k][1] < 0 ? 0.0 : m->p[fmu_sizes[k][1]]));
     size = size > 0.0 ? size : 1.0;
     if (!allowed(m, size))
         return fmi3Error;

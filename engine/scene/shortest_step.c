@@ -203,28 +203,41 @@ static void find_pairs(Closing *w, System *of)
     fill(w, of);
 }
 
-/* row^T row and row^T rest, of places alone. */
+/* row^T row, of places alone. */
 static void add_rows(Closing *w, const System *of)
 {
     int place[N_Q];
     clear_normal(w, of);
-    for (int k = 0; k < N_Q; k++)
-        w->step[k] = 0.0;
     for (int r = 0; r < N_ALL_ROWS + N_SET; r++) {
         const int n = places_of(r, set_place, place);
-        for (int i = 0; i < n; i++) {
-            const int k = place[i];
-            if (k % 3 == 2)
-                continue;
-            w->step[k] += w->row[r][k] * w->rest[r];
-            for (int j = 0; j < n; j++)
-                if (place[j] % 3 != 2 && place[j] >= k)
-                    w->normal[k][place[j]] += w->row[r][k] * w->row[r][place[j]];
-        }
+        for (int i = 0; i < n; i++)
+            for (int j = 0; j < n && place[i] % 3 != 2; j++)
+                if (place[j] % 3 != 2 && place[j] >= place[i])
+                    w->normal[place[i]][place[j]] += w->row[r][place[i]] * w->row[r][place[j]];
     }
 }
 
-/* The step that leaves the least of `rest`, damped a little: where Newton begins, no more. Of places alone. */
+/* row^T (rest - row step) - damping step in `right`, of places alone. */
+static void add_rest(Closing *w, double damping)
+{
+    int place[N_Q];
+    for (int k = 0; k < N_Q; k++)
+        w->right[k] = -damping * w->step[k];
+    for (int r = 0; r < N_ALL_ROWS + N_SET; r++) {
+        const int n = places_of(r, set_place, place);
+        double left = w->rest[r];
+        for (int i = 0; i < n; i++)
+            left -= w->row[r][place[i]] * w->step[place[i]];
+        for (int i = 0; i < n; i++)
+            if (place[i] % 3 != 2)
+                w->right[place[i]] += w->row[r][place[i]] * left;
+    }
+}
+
+/*
+ * The step that leaves the least of `rest`, damped a little: where Newton begins, no more. Of places alone. It is
+ * refined once: along directions that no row resists the factor of the damped matrix has lost all but six digits.
+ */
 static int nearest_step(Closing *w)
 {
     System *of = &w->first_step;
@@ -234,14 +247,18 @@ static int nearest_step(Closing *w)
     add_rows(w, of);
     for (int k = 0; k < N_Q; k++)
         trace += w->normal[k][k];
-    for (int k = 0; k < N_Q; k++)
-        w->normal[k][k] += 1e-10 * trace + 1e-300;
+    const double damping = 1e-10 * trace + 1e-300;
+    for (int k = 0; k < N_Q; k++) {
+        w->normal[k][k] += damping;
+        w->step[k] = 0.0;
+    }
     if (factor_normal(w, of))
         return 1;
-    for (int k = 0; k < N_Q; k++)
-        w->right[k] = w->step[k];
-    solve_normal(w, of);
-    for (int k = 0; k < N_Q; k++)
-        w->step[k] = w->right[k];
+    for (int pass = 0; pass < 2; pass++) {
+        add_rest(w, damping);
+        solve_normal(w, of);
+        for (int k = 0; k < N_Q; k++)
+            w->step[k] += w->right[k];
+    }
     return 0;
 }

@@ -6,6 +6,7 @@ import sys
 from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.model.compiled import Array
@@ -17,14 +18,16 @@ LEAST_CLEARANCE = 64 * sys.float_info.epsilon  # times the size: from ten roundi
 
 
 def mechanism_sizes(source: KernelSource, p: Array) -> Array:
-    """The largest coordinate of a point in its body, of a ground point, or length of a joint, m.
+    """The largest distance of a point from its body's centre of mass or the ground's origin, or length of a joint, m.
 
+    It scales lengths wherever angles and lengths are compared, so it must not depend on the directions of axes.
     (...,) from parameters (..., n_slots + n_derived) of any number of runs.
     """
-    index = size_places(source)
-    if not index:
+    places = size_places(source)
+    if not len(places):
         return np.ones(p.shape[:-1])
-    size = np.abs(p[..., index]).max(axis=-1, initial=0.0)
+    x, y = places.T
+    size = np.hypot(p[..., x], np.where(y >= 0, p[..., y], 0.0)).max(axis=-1)
     return np.where(size > 0.0, size, 1.0)
 
 
@@ -39,13 +42,14 @@ def metric(source: KernelSource, p: Array, mass: Array) -> Array:
     return measure
 
 
-def size_places(source: KernelSource) -> list[int]:
-    """Indices into p of these coordinates and lengths."""
-    kept: dict[str, list[int]] = source.__dict__  # as a cached property keeps it: each run asks several times
+def size_places(source: KernelSource) -> NDArray[np.intp]:
+    """Indices into p of x and y of these points, and of these lengths as x, (n, 2); -1 stands for 0."""
+    kept: dict[str, NDArray[np.intp]] = source.__dict__  # as a cached property keeps it: each run asks several times
     if "size_places" not in kept:
-        index = [k for point in source.points for k in (point.x, point.y) if k >= 0]
+        pairs = [(max(point.x, point.y), min(point.x, point.y)) for point in source.points]
         lengths = [slot.dimension == _LENGTH and slot.address.startswith("joints.") for slot in source.slots]
-        kept["size_places"] = index + [k for k, is_length in enumerate(lengths) if is_length]
+        pairs += [(k, -1) for k, is_length in enumerate(lengths) if is_length]
+        kept["size_places"] = np.array([pair for pair in pairs if pair[0] >= 0], dtype=np.intp).reshape(-1, 2)
     return kept["size_places"]
 
 

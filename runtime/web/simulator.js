@@ -183,10 +183,12 @@ class Simulator {
     /* Whether the drives leave no freedom. */
     get driven() { return this.about.methods[0] === "kinematic"; }
 
-    /* The largest coordinate of a point in its body, of a ground point, or length of a joint (m). */
+    /* As mechanism_sizes of sizes.py (m). */
     get size() { return this.sizeOf(this.p); }
 
-    sizeOf(p) { return this.about.sizes.reduce((most, k) => Math.max(most, Math.abs(p[k])), 0) || 1; }
+    sizeOf(p) {
+        return this.about.sizes.reduce((most, [x, y]) => Math.max(most, Math.hypot(p[x], y < 0 ? 0 : p[y])), 0) || 1;
+    }
 
     /* q and q̇ of the closed linkage at t = 0; `followed`: from the file's, where the guess leads nowhere. */
     start() { return this.beginning.find(); }
