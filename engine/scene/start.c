@@ -61,14 +61,15 @@ static int first_guess(Closing *w, double t, const Parameters *p, double *q)
     return 0;
 }
 
-/* How far the worst guessed coordinate is off, as a share of how far it may be without a longer search. */
+/* How far the worst guessed angle or place is off, as a share of how far it may be without a longer search. */
 static double strayed(const Closing *w, const double *q)
 {
-    double worst = 0.0;
-    for (int i = 0; i < N_GUESS; i++) {
-        const int k = guess_place[i];
-        const double may = k % 3 == 2 ? FAR : APART * max_of(w->size, fabs(w->placed[k]));
-        worst = max_of(fabs(q[k] - w->placed[k]) / may, worst);
+    double worst = 0.0, off[N_Q] = {0.0};
+    for (int i = 0; i < N_GUESS; i++)
+        off[guess_place[i]] = q[guess_place[i]] - w->placed[guess_place[i]];
+    for (int k = 0; k < N_Q; k += 3) {
+        const double away = hypot(off[k], off[k + 1]), from = hypot(w->placed[k], w->placed[k + 1]);
+        worst = max_of(max_of(away / (APART * max_of(w->size, from)), fabs(off[k + 2]) / FAR), worst);
     }
     return worst;
 }

@@ -221,10 +221,11 @@ class Closure:
         return bool(np.abs(q[~self.is_angle]).max(initial=0.0) < AWAY * self.reach)
 
     def _strayed(self, q: Array) -> float:
-        """How far the worst guess is off, as a share of how far it may be without a longer search."""
-        may = np.where(self.is_angle, FAR, APART * np.maximum(self.size, np.abs(self.wanted)))
+        """How far the worst guessed angle or place is off, as a share of how far it may be without a longer search."""
+        off = np.where(np.isin(np.arange(len(q)), self.guessed), q - self.wanted, 0.0)
+        places = np.hypot(off[0::3], off[1::3]) / np.maximum(self.size, np.hypot(self.wanted[0::3], self.wanted[1::3]))
         points = [np.linalg.norm(self.off_point(q, *point)) / (APART * self.size) for point in self.points]
-        return float(max([*(np.abs(q - self.wanted) / may)[self.guessed], *points], default=0.0))
+        return float(max([*places / APART, *np.abs(off[2::3]) / FAR, *points], default=0.0))
 
     def _others(self, guess: Array, of_guessed: float, seed: int = 0) -> Iterator[Array]:
         """Coordinates around the guess, the same in every run; driven and set ones fall back into place.
@@ -235,8 +236,12 @@ class Closure:
         rng = np.random.default_rng(seed)
         spread = np.where(self.is_angle, np.pi, self.size)
         spread[self.guessed] *= of_guessed / np.pi
+        turned = np.exp(1j * np.where(spread[0::3] == spread[1::3], guess[2::3], 0.0))  # places: in axes of their body
         for _ in range(TRIES if len(guess) <= MANY else TRIES // 4):
-            q = guess + spread * rng.uniform(-1.0, 1.0, len(guess))
+            off = spread * rng.uniform(-1.0, 1.0, len(guess))
+            places = turned * (off[0::3] + 1j * off[1::3])
+            off[0::3], off[1::3] = places.real, places.imag
+            q = guess + off
             q[self.set_index] = self.set
             yield self.place_angles(q)
 
