@@ -117,7 +117,7 @@ def _header(simulation: Simulation) -> str:
     methods = {rtol: (begins_with(source, rtol), stiff_of(source, rtol)) for rtol in (2.0 * FINE, 0.5 * FINE)}
     (begins, stiff), (begins_fine, stiff_fine) = methods.values()
     gains = [source.place[name] for name in GAINS if name in source.place]
-    sizes, plays = size_places(source).tolist(), [joint.clearance for joint in source.clearances]
+    sizes, plays = size_places(source), [joint.clearance for joint in source.clearances]
     angles = [int(x) for x in integrated_angles(source)] if source.tree or source.formulation == "full" else []
     places = [(part, column) for _, _, part, column, _ in outputs(source)]
     defines: dict[str, object] = {

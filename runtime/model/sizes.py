@@ -23,11 +23,10 @@ def mechanism_sizes(source: KernelSource, p: Array) -> Array:
     It scales lengths wherever angles and lengths are compared, so it must not depend on the directions of axes.
     (...,) from parameters (..., n_slots + n_derived) of any number of runs.
     """
-    places = size_places(source)
-    if not len(places):
+    x, y, has_y = _size_columns(source)
+    if not len(x):
         return np.ones(p.shape[:-1])
-    x, y = places.T
-    size = np.hypot(p[..., x], np.where(y >= 0, p[..., y], 0.0)).max(axis=-1)
+    size = np.hypot(p[..., x], p[..., y] * has_y).max(axis=-1)
     return np.where(size > 0.0, size, 1.0)
 
 
@@ -42,15 +41,21 @@ def metric(source: KernelSource, p: Array, mass: Array) -> Array:
     return measure
 
 
-def size_places(source: KernelSource) -> NDArray[np.intp]:
-    """Indices into p of x and y of these points, and of these lengths as x, (n, 2); -1 stands for 0."""
-    kept: dict[str, NDArray[np.intp]] = source.__dict__  # as a cached property keeps it: each run asks several times
-    if "size_places" not in kept:
-        pairs = [(max(point.x, point.y), min(point.x, point.y)) for point in source.points]
-        lengths = [slot.dimension == _LENGTH and slot.address.startswith("joints.") for slot in source.slots]
-        pairs += [(k, -1) for k, is_length in enumerate(lengths) if is_length]
-        kept["size_places"] = np.array([pair for pair in pairs if pair[0] >= 0], dtype=np.intp).reshape(-1, 2)
-    return kept["size_places"]
+def size_places(source: KernelSource) -> list[tuple[int, int]]:
+    """Indices into p of x and y of these points, and of these lengths as x; -1 stands for 0."""
+    pairs = [(max(point.x, point.y), min(point.x, point.y)) for point in source.points]
+    lengths = [slot.dimension == _LENGTH and slot.address.startswith("joints.") for slot in source.slots]
+    pairs += [(k, -1) for k, is_length in enumerate(lengths) if is_length]
+    return [pair for pair in pairs if pair[0] >= 0]
+
+
+def _size_columns(source: KernelSource) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
+    """The same as columns, an index of x for -1, and whether there is a y, 1 or 0."""
+    kept: dict[str, tuple[NDArray[np.intp], NDArray[np.intp], Array]] = source.__dict__  # as cached properties
+    if "size_columns" not in kept:
+        x, y = np.array(size_places(source), dtype=np.intp).reshape(-1, 2).T.copy()
+        kept["size_columns"] = x, np.where(y < 0, x, y), np.where(y < 0, 0.0, 1.0)
+    return kept["size_columns"]
 
 
 def far_clearances(source: KernelSource, p: Array) -> Array:

@@ -48,7 +48,7 @@ def description(compiled: CompiledModel, seen_step: float | None = None) -> str:
         "automatic": not source.explicit,
         "pivots": source.motion_pivots, "start_pivots": source.start_pivots,
         "evaluation_pivots": source.pivots,
-        "angles": integrated_angles(source).tolist(), "sizes": size_places(source).tolist(),
+        "angles": integrated_angles(source).tolist(), "sizes": size_places(source),
         "clearances": [[joint.name, joint.clearance] for joint in source.clearances],
         **({"contours": {one.joint: [one.first, one.count] for one in source.contours}} if source.contours else {}),
         "film": any(joint.film for joint in source.clearances), "beyond": compiled.beyond,
