@@ -77,8 +77,10 @@ static fmi3Status begin(Model *m)
     unsigned char projected[FMU_SLOTS];
     double still[FMU_SLOTS];
     gudgeon_prepare(m->given, m->is_given, m->p);
-    for (int k = 0; k < FMU_SIZES; k++)
-        size = fmax(size, hypot(m->p[fmu_sizes[k][0]], fmu_sizes[k][1] < 0 ? 0.0 : m->p[fmu_sizes[k][1]]));
+    for (int k = 0; k < FMU_SIZES; k++) {
+        const double x = m->p[fmu_sizes[k][0]], y = fmu_sizes[k][1] < 0 ? 0.0 : m->p[fmu_sizes[k][1]];
+        size = fmax(size, sqrt(x * x + y * y)); /* to the bit as in sizes.py */
+    }
     size = size > 0.0 ? size : 1.0;
     if (!allowed(m, size))
         return fmi3Error;

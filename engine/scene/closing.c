@@ -27,8 +27,8 @@ static double open_rows(Closing *w, double t, const double *q, const Parameters 
     return sqrt(sum);
 }
 
-/* Phi_q, and the rows of set, over their sizes and weights; rows of `rest` with them. */
-SELDOM static void linearized_rows(Closing *w, double t, const double *q, const Parameters *p)
+/* Phi_q, and the rows of set, over their sizes and weights; rows of `rest` with them, whose norm is returned. */
+SELDOM static double linearized_rows(Closing *w, double t, const double *q, const Parameters *p)
 {
     jacobian(t, q, p, &w->row[0][0]);
     for (int r = 0; r < N_ALL_ROWS; r++)
@@ -36,7 +36,7 @@ SELDOM static void linearized_rows(Closing *w, double t, const double *q, const 
             w->row[r][phi_q_place[e]] *= w->over_row[r] * w->over_weight[phi_q_place[e]];
     for (int i = 0; i < N_SET; i++)
         w->row[N_ALL_ROWS + i][set_place[i]] = w->over_row[N_ALL_ROWS + i] * w->over_weight[set_place[i]];
-    open_rows(w, t, q, p);
+    return open_rows(w, t, q, p);
 }
 
 /* Angles that rows alone determine (drives, sliders). */
@@ -90,7 +90,10 @@ static int is_no_nearer(const Closing *w, const double *q, double share_left)
     return share_left < 0.1 && sqrt(away) - 4.0 * share_left * sqrt(step) > sqrt(w->nearest);
 }
 
-/* Newton with line search, positions put in first; ends where no step helps any more, or leads to nothing nearer. */
+/*
+ * Newton with line search, positions put in first; ends where no step helps any more, or leads to nothing nearer. Rows
+ * that are closed to rounding leave q as it is, to the bit.
+ */
 SELDOM static int close_rows(Closing *w, double t, const Parameters *p, double *q)
 {
     const double rounding = NO_MORE * w->reach / w->size;
@@ -98,12 +101,14 @@ SELDOM static int close_rows(Closing *w, double t, const Parameters *p, double *
     int held = 0; /* factor and rows are those of a place before */
     if (!w->all.n)
         rows_together(w, &w->all, N_ALL_ROWS + N_SET, set_place);
-    linearized_rows(w, t, q, p);
+    double norm = linearized_rows(w, t, q, p);
+    if (norm < rounding)
+        return factor_rows(w, &w->all);
     if (nearest_step(w))
         return 1;
     for (int k = 0; k < N_Q; k++)
         q[k] += w->step[k] * w->over_weight[k];
-    double norm = open_rows(w, t, q, p);
+    norm = open_rows(w, t, q, p);
     for (int i = 0; i < MAX_CLOSING; i++) {
         if (!held) {
             linearized_rows(w, t, q, p);

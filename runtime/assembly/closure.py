@@ -254,10 +254,12 @@ class Closure:
         return q
 
     def newton(self, q: Array) -> Array:
-        """Newton with line search, positions put in first; as far as it gets."""
-        q = q + self._step(q, self._scaled(q), ~self.is_angle)
-        at, held, rounding = q, False, ROUNDING * self.reach / self.size  # at: where the rows are linearized
-        open_by = self._scaled(q)
+        """Newton with line search, positions put in first, as far as it gets; q itself where its rows are closed."""
+        open_by, rounding = self._scaled(q), ROUNDING * self.reach / self.size
+        if float(np.linalg.norm(open_by)) < rounding:
+            return q
+        q = q + self._step(q, open_by, ~self.is_angle)
+        at, held, open_by = q, False, self._scaled(q)  # at: where the rows are linearized
         for _ in range(MAX_STEPS):
             step, share, norm = self._step(at, open_by), 1.0, float(np.linalg.norm(open_by))
             while share > (0.5 if held else 1e-4):

@@ -35,7 +35,7 @@ class Linkage(Protocol):
 
 
 def mechanism_size(linkage: Linkage, p: Array) -> float:
-    """The largest coordinate of a point in its body, of a ground point, or length of a joint, m."""
+    """Return the size of the mechanism as `mechanism_sizes` has it, m."""
     return float(mechanism_sizes(linkage.source, p))
 
 

@@ -26,7 +26,7 @@ def mechanism_sizes(source: KernelSource, p: Array) -> Array:
     x, y, has_y = _size_columns(source)
     if not len(x):
         return np.ones(p.shape[:-1])
-    size = np.hypot(p[..., x], p[..., y] * has_y).max(axis=-1)
+    size = np.sqrt(p[..., x] ** 2 + (p[..., y] * has_y) ** 2).max(axis=-1)  # as in JavaScript and C, to the bit
     return np.where(size > 0.0, size, 1.0)
 
 

@@ -187,7 +187,8 @@ class Simulator {
     get size() { return this.sizeOf(this.p); }
 
     sizeOf(p) {
-        return this.about.sizes.reduce((most, [x, y]) => Math.max(most, Math.hypot(p[x], y < 0 ? 0 : p[y])), 0) || 1;
+        const length = ([x, y]) => Math.sqrt(p[x] * p[x] + (y < 0 ? 0 : p[y] * p[y])); // to the bit as in Python and C
+        return Math.max(0, ...this.about.sizes.map(length)) || 1;
     }
 
     /* q and q̇ of the closed linkage at t = 0; `followed`: from the file's, where the guess leads nowhere. */
