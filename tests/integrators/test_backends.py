@@ -107,11 +107,15 @@ def test_onsets_at_a_tight_tolerance() -> None:
 
 
 def test_a_run_goes_on_inside_a_contact() -> None:
-    """Latch and code are taken over: the second half of a run is the second half of the whole one."""
+    """Latch and code are taken over: the second half of a run is the second half of the whole one.
+
+    At rtol = 1e-10 the last digit of a clearance changes the end by 1e-12 to 2.5e-10 rad, as steps pass kinks of the
+    friction law; at 1e-13 by less than 1e-11.
+    """
     press, want = gudgeon.load("nine_bar_press", scene="dry"), reference("nine_bar_press", "dry", 0.009)
-    half = press.simulate(0.007, output=1, method="scipy:DOP853", rtol=1e-10)
+    half = press.simulate(0.007, output=1, method="scipy:DOP853", rtol=1e-13)
     assert half.state[-1].tolist() == [1, 0] or half.state[-1].tolist() == [2, 0]
-    rest = press.simulate(0.009, output=10, method="scipy:DOP853", rtol=1e-10, start=half.final)
+    rest = press.simulate(0.009, output=10, method="scipy:DOP853", rtol=1e-13, start=half.final)
     assert abs(rest.q[-1] - want.q[-1]).max() < 1e-11
     assert rest.impacts["t_off"][0] == pytest.approx(want.impacts["t_off"][0], abs=1e-10)
 
