@@ -50,17 +50,11 @@ def dependent_step(matrix: Array, target: Array) -> Array:
 
 
 def nearest_step(matrix: Array, target: Array) -> Array:
-    """x (n,) that leaves the least of matrix x − target, damped a little: where Newton begins, no more.
-
-    Refined once: along directions that no row resists the factor has lost all but six digits.
-    """
-    rows, x = len(matrix), np.zeros(matrix.shape[1])
+    """x (n,) that leaves the least of matrix x − target, damped a little: where Newton begins, no more."""
+    rows = len(matrix)
     damping = DAMPING * float((matrix**2).sum()) + 1e-300
-    solve = _solver(matrix.T, damping)
-    for _ in range(2):
-        left = matrix.T @ (target - matrix @ x) - damping * x
-        x = x - solve(np.concatenate([np.zeros(rows), left]))[rows:]
-    return x
+    x = _solver(matrix.T, damping)(np.concatenate([target, np.zeros(matrix.shape[1])]))[rows:]
+    return np.asarray(x, dtype=np.float64)
 
 
 def is_independent(matrix: Array, least: float) -> bool:
