@@ -7,6 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from gudgeon.assembly.closure import Closure
+from gudgeon.model.parameters import prepare
 from tests.programs import needs_compiler
 from tests.scenes import Load, loader
 
@@ -54,3 +56,15 @@ def test_a_turned_linkage_starts_turned(load: Load, linkage: str, far: float) ->
         places = (q[0::3] + 1j * q[1::3]) / turned
         found.append(np.concatenate([places.real, places.imag, q[2::3] - angle]))
     assert np.ptp(found, axis=0).max() < 1e-12
+
+
+@pytest.mark.parametrize("linkage", [PENDULUM, ROD])
+def test_a_closed_guess_is_the_start_to_the_bit(load: Load, linkage: str) -> None:
+    """A start serves as a guess again, as it is, in C and in Python."""
+    scene, place = load(HEAD + linkage), PLACES
+    q = scene.start({**place, "phi": 0.2, "psi": -0.9}).q
+    guess = dict(zip(("ax", "ay", "phi", "bx", "by", "psi"), q.tolist(), strict=False))
+    numbers = {**place, "psi": -0.9, **guess}
+    assert scene.start(numbers).q.tobytes() == q.tobytes()
+    closure = Closure(scene.compiled, prepare(scene.compiled, numbers)[0], 0.0)
+    assert closure.nearest()[0].tobytes() == q.tobytes()
