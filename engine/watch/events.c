@@ -157,13 +157,13 @@ typedef struct {
     double guess, about;
 } Candidate;
 
-/* Whether margin k is below zero somewhere in the step. */
-static int is_candidate(Run *run, Step *step, int k, const Parameters *p, Candidate *now)
+/* Whether margin k is below zero somewhere in the step; a joint's beyond the share `until` may be left out. */
+static int is_candidate(Run *run, Step *step, int k, const Parameters *p, double until, Candidate *now)
 {
     double at_high;
     Place low = begin_of(run, step, k), end = {0.0, NAN, NAN};
     const int is_gap = isfinite(low.slope), sampled = is_gap || follows_from_force(run, k);
-    const int some = is_gap ? has_zero(run, step, k, p, &low, &end)
+    const int some = is_gap ? has_zero(run, step, k, p, until, &low, &end)
         : sampled ? has_force_zero(run, step, k, p, &low, &end) : 0;
     const double high = sampled ? some * end.s : violated(run, step, k, p, &at_high);
     if (high == 0.0 || make_dense(run, p, step))
@@ -192,7 +192,7 @@ static int is_candidate(Run *run, Step *step, int k, const Parameters *p, Candid
 /* The first share of the step at which one of the margins that count ends it, and which (-1: nothing, share 1). */
 static double first_counting(Run *run, Step *step, const Parameters *p, int *event)
 {
-    double first = 1.0;
+    double first = 1.0, until = 1.0; /* an event comes no later than that */
     double at_end[AT_LEAST_ONE(N_MARGINS)];
     Candidate some[AT_LEAST_ONE(N_MARGINS)];
     int n = 0;
@@ -203,11 +203,13 @@ static double first_counting(Run *run, Step *step, const Parameters *p, int *eve
             && !(step->lowest[k] < 0.0) && !(at_end[k] < 0.0);
         Candidate now;
         int i = n;
-        if (quiet || is_passed(run, step, k) || !is_candidate(run, step, k, p, &now))
+        if (quiet || is_passed(run, step, k) || !is_candidate(run, step, k, p, until, &now))
             continue;
         for (n++; i > 0 && some[i - 1].about > now.about; i--)
             some[i] = some[i - 1];
         some[i] = now;
+        if (k < N_CLEARANCES)
+            until = min_of(until, now.of.at[1].s);
     }
     for (int i = 0; i < n; i++) {
         const Candidate *now = &some[i];

@@ -26,16 +26,16 @@ enum { CLEAR, FALLS, UNKNOWN }; /* no zero; one zero, through which the margin f
 
 /*
  * A margin and its rate at a penetration: of a journal half the difference of squares of clearance and eccentricity
- * over the clearance, which unlike the eccentricity is smooth where the journal passes the middle.
+ * over the clearance, which unlike the eccentricity is smooth where the journal passes the middle. per_c: 1/clearance.
  */
-static Place margin_of(const Run *run, const Step *step, int i, double s, double delta, double rate, double c)
+static Place margin_of(const Run *run, const Step *step, int i, double s, double delta, double rate, double per_c)
 {
     const double sign = run->memory.latch[i].closed ? 1.0 : -1.0;
 #if defined WALLS || defined CONTOURS
-    (void)c;
+    (void)per_c;
     return (Place){s, sign * delta, sign * step->h * rate};
 #else
-    return (Place){s, sign * delta * (1.0 + 0.5 * delta / c), sign * step->h * rate * (1.0 + delta / c)};
+    return (Place){s, sign * delta * (1.0 + 0.5 * delta * per_c), sign * step->h * rate * (1.0 + delta * per_c)};
 #endif
 }
 
@@ -43,10 +43,10 @@ static Place margin_of(const Run *run, const Step *step, int i, double s, double
 static int margins_of_stages(const Run *run, const Step *step, int i, const Parameters *p, Place *all)
 {
     const Seen margins = seen_of(step, i), rates = seen_of(step, SEEN_RATES + i);
-    const double c = radial_clearance(p, i), sign = run->memory.latch[i].closed ? 1.0 : -1.0;
+    const double per_c = 1.0 / radial_clearance(p, i), sign = run->memory.latch[i].closed ? 1.0 : -1.0;
     const Clearance *begin = &run->aside.clearance[i], *end = &step->aside.clearance[i];
     int n = 1;
-    all[0] = margin_of(run, step, i, 0.0, begin->delta, begin->deltadot, c);
+    all[0] = margin_of(run, step, i, 0.0, begin->delta, begin->deltadot, per_c);
     for (int k = 0; k < step->n_seen; k++) {
         const double node = step->node[k];
         int at = n;
@@ -54,9 +54,9 @@ static int margins_of_stages(const Run *run, const Step *step, int i, const Para
             continue;
         for (n++; all[at - 1].s > node; at--)
             all[at] = all[at - 1];
-        all[at] = margin_of(run, step, i, node, sign * seen_at(margins, k), seen_at(rates, k), c);
+        all[at] = margin_of(run, step, i, node, sign * seen_at(margins, k), seen_at(rates, k), per_c);
     }
-    all[n++] = margin_of(run, step, i, 1.0, end->delta, end->deltadot, c);
+    all[n++] = margin_of(run, step, i, 1.0, end->delta, end->deltadot, per_c);
     return n;
 }
 
@@ -77,31 +77,47 @@ static int is_far(const Run *run, const Step *step, int i, const Parameters *p)
 }
 
 /*
- * What the stages say of margin i. Between neighbours a and b with |f''| <= B it is at least min(f_a, f_b) - B w^2/8,
- * and at least max(f_a + f'_a x - B x^2/2, f_b - f'_b (w - x) - B (w - x)^2/2), least where both parabolas meet.
+ * Whether a margin with |f''| <= bend is at least `least` between neighbours a and b: it is at least
+ * min(f_a, f_b) - bend w^2/8, and max(f_a + f'_a x - bend x^2/2, f_b - f'_b (w - x) - bend (w - x)^2/2), least where
+ * both parabolas meet.
  */
-static int bound_by_stages(const Run *run, const Step *step, int i, const Parameters *p)
+static int is_above_parabolas(Place a, Place b, double bend, double least)
+{
+    const double w = b.s - a.s, curve = bend * w;
+    if (min_of(a.f, b.f) - 0.125 * curve * w >= least)
+        return 1;
+    const double x = (a.f - b.f + (b.slope + 0.5 * curve) * w) / (b.slope - a.slope + curve);
+    return x >= 0.0 && x <= w && a.f + x * (a.slope - 0.5 * bend * x) >= least;
+}
+
+/*
+ * What the stages say of margin i. below: the node of the first stage where it is below zero by more than the dense
+ * output may lie beside the stages, else the end.
+ */
+static int bound_by_stages(const Run *run, const Step *step, int i, const Parameters *p, double *below)
 {
     Place all[N_STAGES + 2];
     const int n = margins_of_stages(run, step, i, p, all);
     const double least = shallow(p, i), error = 16.0 * error_of_dense(run, i, p);
     double bend = 0.0;
-    int falls = 0;
+    int falls = 0, first = 1;
+    while (first < n - 1 && all[first].f >= -error)
+        first++;
+    *below = all[first].s;
     if (!(all[0].f >= least))
         return UNKNOWN;
-    for (int k = 1; k < n; k++)
-        bend = max_of(bend, fabs(all[k].slope - all[k - 1].slope) / (all[k].s - all[k - 1].s));
+    for (int k = 1; k < n; k++) {
+        const double w = all[k].s - all[k - 1].s, change = fabs(all[k].slope - all[k - 1].slope);
+        if (change > bend * w)
+            bend = change / w;
+    }
     bend *= BEND_SAFETY;
     for (int k = 1; k < n; k++) {
         const Place a = all[k - 1], b = all[k];
-        const double w = b.s - a.s, curve = bend * w;
-        const double x = (a.f - b.f + (b.slope + 0.5 * curve) * w) / (b.slope - a.slope + curve);
-        const double below_chord = min_of(a.f, b.f) - 0.125 * curve * w;
-        const double meet = x >= 0.0 && x <= w ? a.f + x * (a.slope - 0.5 * bend * x) : -INFINITY;
         const double s = b.s < 0.5 ? b.s : a.s > 0.5 ? a.s : 0.5, beside = error * s * s * (1.0 - s) * (1.0 - s);
-        if (!falls && b.f >= 0.0 && max_of(below_chord, meet) - beside >= least)
+        if (!falls && b.f >= 0.0 && is_above_parabolas(a, b, bend, least + beside))
             continue;
-        if (!(0.5 * (a.slope + b.slope + curve) + 0.2 * error < 0.0))
+        if (!(0.5 * (a.slope + b.slope + bend * (b.s - a.s)) + 0.2 * error < 0.0))
             return UNKNOWN;
         falls = 1;
     }
@@ -145,13 +161,22 @@ static double error_of_cubic(Place a, Place middle, Place b)
     return fabs(middle.f - value) + 0.125 * fabs(w * middle.slope - slope);
 }
 
-/* FALLS with the places between which margin k crosses zero for the first time, or CLEAR. */
-static int first_zero(Run *run, const Step *step, int k, const Parameters *p, Place *low, Place *high)
+/*
+ * FALLS with the places between which margin k crosses zero for the first time, or CLEAR up to a share `until` of the
+ * step. below: where it is probably below zero; the first part ends there if that is within the first half of the step.
+ */
+static int first_zero(Run *run, const Step *step, int k, const Parameters *p, double until, double below, Place *low,
+    Place *high)
 {
     const double least = shallow(p, k), close = 4.0 * root_width(run, step);
     Stretch part[MAX_BISECTIONS + 1] = {{end_of(run, step, k), INFINITY}};
     Place from = begin_of(run, step, k);
-    for (int n = 1, samples = 0; n > 0;) {
+    const Place early = min_of(below, until) <= 0.5 ? place_at(run, step, min_of(below, until), k, p)
+        : (Place){0.0, NAN, NAN};
+    int n = 1;
+    if (isfinite(early.f))
+        part[n++] = (Stretch){early, INFINITY};
+    for (int samples = 0; n > 0 && from.s < until;) {
         const Stretch now = part[n - 1];
         const double w = now.end.s - from.s;
         int found = from.f >= least ? bound_by_cubic(from, now.end, now.error, least) : FALLS;
@@ -178,14 +203,19 @@ static int first_zero(Run *run, const Step *step, int k, const Parameters *p, Pl
     return CLEAR;
 }
 
-/* Whether margin k of a joint with play has a zero in the step, and places that enclose the first one. */
-static int has_zero(Run *run, Step *step, int k, const Parameters *p, Place *low, Place *high)
+/*
+ * Whether margin k of a joint with play has a zero in the step, and places that enclose the first one. Zeros beyond the
+ * share `until` may be left out.
+ */
+static int has_zero(Run *run, Step *step, int k, const Parameters *p, double until, Place *low, Place *high)
 {
-    int found = is_far(run, step, k, p) ? CLEAR : bound_by_stages(run, step, k, p);
+    double below = 1.0;
+    int found = is_far(run, step, k, p) ? CLEAR : bound_by_stages(run, step, k, p, &below);
     *low = begin_of(run, step, k);
     *high = end_of(run, step, k);
     if (found == UNKNOWN)
-        found = make_dense(run, p, step) ? high->f < 0.0 ? FALLS : CLEAR : first_zero(run, step, k, p, low, high);
+        found = make_dense(run, p, step) ? high->f < 0.0 ? FALLS : CLEAR
+            : first_zero(run, step, k, p, until, below, low, high);
     if (low->f < 0.0 && low->f >= shallow(p, k) && low->slope > 0.0)
         low->f = 0.0; /* rounded: it leaves zero */
     return found == FALLS;
