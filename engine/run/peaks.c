@@ -2,13 +2,14 @@
  * Peaks of the forces in joints with play between the ends of a step, from the interpolant.
  */
 enum { MAX_TOPS = 20, FEW = 2 /* stages: they tell little */ };
-#define TOP 1e-5 /* of a step: so near its place a force is its largest but for 1e-10 */
 #define BENT 0.25 /* of the last chord's slope, that a parabola may change it by to tell the slope at its end */
 #define CLEAR 0.1 /* of the force, that it changes by from the last stage on */
 #define ARCHED 1.001 /* times the forces at both ends, from which on one at a stage shows a top between them */
 #define ARCHED_STIFF 1.1 /* the same of stiff methods, whose stages err more */
 #define SAME_FORCE 1e-6 /* of a rigid contact's largest force: no larger one is sought */
-#define TOP_OF 0.1 /* of the root of the tolerance: but for a hundredth of that */
+#define TOP_OF 0.1 /* of the tolerance: so well is a largest force found, as a share of it; at best and at worst: */
+#define LEAST_OF_TOP 1e-10
+#define MOST_OF_TOP 1e-5
 
 static void peak(Run *run, int i, double t, double F)
 {
@@ -44,33 +45,43 @@ static double force_at(Run *run, const Step *step, double s, int i, const Parame
     return F;
 }
 
-/* So near its place, as a share of the step, is a top looked for: as the motion is known, and what a step of rk4 is. */
-static double top_width(const Run *run)
+/* The node of the stage up to `share` of an explicit step at which joint i's force is larger than that; else the middle. */
+static double highest_stage(const Step *step, double share, int i, double force)
 {
-    return min_of(1e-3, max_of(TOP, TOP_OF * sqrt(tolerance_of(run))));
+    const Seen forces = seen_of(step, SEEN_FORCES + i);
+    double most = force * force, node = 0.5 * share;
+    for (int k = 0; k < step->n_seen && !step->method->stiff; k++)
+        if (step->node[k] > 0.0 && step->node[k] < share && seen_at(forces, k) > most)
+            most = seen_at(forces, k), node = step->node[k];
+    return node;
 }
 
-/* The top of joint i's force inside a step up to `share`, by parabolas through three of its places; at both ends it is
- * known. */
+/*
+ * The top of joint i's force inside a step up to `share`, by parabolas through three of its places; at both ends it is
+ * known. It is found where the next place would raise it by less than TOP_OF tolerances, as the parabola tells, whose
+ * error is that of the one before or less: a place nearer the top divides it by ten as a rule.
+ */
 static void inner_peak(Run *run, const Step *step, double share, int i, double before, double after,
     const Parameters *p)
 {
-    double x[3] = {0.0, 0.5 * share, share}, f[3] = {before, force_at(run, step, 0.5 * share, i, p), after};
-    const double close = top_width(run) * share, around = sqrt(10.0 * close * share); /* a parabola within that */
+    const double first = highest_stage(step, share, i, max_of(before, after));
+    const double fine = min_of(MOST_OF_TOP, max_of(LEAST_OF_TOP, TOP_OF * tolerance_of(run)));
+    double x[3] = {0.0, first, share}, f[3] = {before, force_at(run, step, first, i, p), after}, error = INFINITY;
     peak(run, i, step->t, before);
     for (int n = 0; n < MAX_TOPS; n++) {
         const double low = x[1] - x[0], high = x[2] - x[1], left = f[0] - f[1], right = f[2] - f[1];
-        const double bend = right * low + left * high;
+        const double bend = right * low + left * high, rise = right * low * low - left * high * high;
         double top = left > right ? x[0] : x[2];
         if (bend < 0.0)
-            top = x[1] - 0.5 * (right * low * low - left * high * high) / bend;
+            top = x[1] - 0.5 * rise / bend;
         top = min_of(x[2] - 0.1 * high, max_of(x[0] + 0.1 * low, top));
-        if (fabs(top - x[1]) < close && max_of(low, high) < around)
+        const double u = top - x[1], expected = f[1] + u * (rise + bend * u) / (low * high * (low + high));
+        const double most = max_of(f[1], max_of(f[0], f[2]));
+        if (bend < 0.0 && expected - most + 0.1 * error < fine * most)
             break;
-        if (fabs(top - x[1]) < 0.1 * around && max_of(low, high) >= around)
-            top = low > high ? x[1] - 0.5 * around : x[1] + 0.5 * around; /* by nearer places */
         const double found = force_at(run, step, top, i, p);
         const int above = top > x[1], higher = found > f[1], end = above == higher ? 0 : 2;
+        error = fabs(found - expected);
         x[end] = higher ? x[1] : top;
         f[end] = higher ? f[1] : found;
         if (higher)
