@@ -20,6 +20,18 @@ int motion_here(double t, const double *y, Memory *memory, const Parameters *p, 
     return status;
 }
 
+int play_here(double t, const double *y, Memory *memory, const Parameters *p, Aside *aside)
+{
+    TreeState at;
+    const int status = tree_state(t, y, memory, p, &at);
+    if (status)
+        return status;
+#if !SMOOTH_CHAINS
+    chain_corners(t, at.q, memory, p, aside->g);
+#endif
+    return reduced_dynamics(t, at.q, at.v, memory, p, NULL, aside);
+}
+
 /*
  * The chains where they lie flat and nothing closes them: from a place so near that its rates tell the way to there.
  * If there is none, where they were a moment ago.

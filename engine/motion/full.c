@@ -4,6 +4,12 @@ int motion_here(double t, const double *y, Memory *memory, const Parameters *p, 
     return state_equation(t, y, memory, p, dy, aside);
 }
 
+int play_here(double t, const double *y, Memory *memory, const Parameters *p, Aside *aside)
+{
+    double dy[N_Y];
+    return state_equation(t, y, memory, p, dy, aside);
+}
+
 /* The state of all bodies, (q, v, work). */
 void to_absolute(double t, const double *y, const Memory *memory, const Parameters *p, double *all)
 {

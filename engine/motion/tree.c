@@ -10,6 +10,11 @@
 #define CLOSURE_RATES(t, q, v, memory, p, phi_dot) closure_rates(t, q, v, p, phi_dot)
 #include "../both/motion.h"
 
+int play_here(double t, const double *y, Memory *memory, const Parameters *p, Aside *aside)
+{
+    return reduced_dynamics(t, y, y + N_X, memory, p, NULL, aside);
+}
+
 /* The state of all bodies, (q, v, work). */
 void to_absolute(double t, const double *y, const Memory *memory, const Parameters *p, double *all)
 {

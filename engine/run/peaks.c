@@ -27,14 +27,19 @@ static void peak(Run *run, int i, double t, double F)
 
 static double force_at(Run *run, const Step *step, double s, int i, const Parameters *p)
 {
-    double y[N_Y], dy[N_Y];
     Aside aside;
-    int status = state_at(run, step, s, p, y, dy, &aside), wrong = 0;
+    int wrong = 0;
+    for (int k = 0; k < N_SWITCHES; k++)
+        aside.g[k] = NAN; /* of those that no force of a joint with play depends on */
+    int status = play_in(run, step, s, p, &aside);
     for (int k = 0; k < N_SWITCHES; k++)
         wrong |= run->memory.side[k] * aside.g[k] < 0.0;
     if (!status && wrong) { /* a switch that the step holds although it is passed: forces are those of its other side */
         const Memory held = run->memory;
-        status = settle_at(run, step->t + s * step->h, y, dy, &aside, -1, p);
+        double y[N_Y], dy[N_Y];
+        status = state_at(run, step, s, p, y, dy, &aside);
+        if (!status)
+            status = settle_at(run, step->t + s * step->h, y, dy, &aside, -1, p);
         run->memory = held;
     }
     if (status)
@@ -150,13 +155,13 @@ static void outermost(Run *run, Step *step, double share, int i, const Parameter
     double from = 0.0, to = share;
     for (int n = 0; n < 6 && low.deltadot > 0.0 && high.deltadot < 0.0; n++) {
         const double h = (to - from) * step->h;
-        double top, y[N_Y], dy[N_Y];
+        double top;
         const double round = low.e - outward(&low); /* the rest of e: of a contour what is no penetration, else 0 */
         const double s = from
             + (to - from) * cubic_top(outward(&low), h * low.deltadot, outward(&high), h * high.deltadot, &top);
         Aside aside;
         if (top + round < run->e_max[i] - 0.01 * fabs(run->e_max[i]) || make_dense(run, p, step)
-            || state_at(run, step, s, p, y, dy, &aside))
+            || play_in(run, step, s, p, &aside))
             return;
         const Clearance *now = &aside.clearance[i];
         if (run->trace)
@@ -200,12 +205,12 @@ static int trend(const Step *step, double share, int i, double after)
 static int trends_beyond(Run *run, const Step *step, double share, const double *after, int *trends,
     const Parameters *p)
 {
-    double x[N_Y], dx[N_Y];
+    double x[N_Y];
     Aside aside;
     const double e = 1e-4 * share * step->h;
     for (int k = 0; k < N_Y; k++)
         x[k] = step->y[k] + e * step->dy[k];
-    const int status = rates(run, step->t + share * step->h + e, x, p, dx, &aside);
+    const int status = play(run, step->t + share * step->h + e, x, p, &aside);
     for (int i = 0; i < N_CLEARANCES && !status; i++)
         if (!trends[i])
             trends[i] = total_force(&aside.clearance[i]) > after[i] ? 1 : -1;

@@ -84,12 +84,13 @@ typedef struct {
 } Step;
 
 /*
- * Where a step has been looked at (roots.c): margins of the last so many shares, and the whole state at the last one at
- * which the margin that was asked for was below zero. It holds while the step and what it holds fixed do.
+ * Where a step has been looked at (roots.c): margins of the last so many shares (those of joints with play alone where
+ * no more was asked for), and the whole state at the last one at which the margin that was asked for was below zero. It
+ * holds while the step and what it holds fixed do.
  */
 enum { N_LOOKED = 16 };
 typedef struct {
-    int n;
+    int n, joints_alone[N_LOOKED];
     double share[N_LOOKED], margin[N_LOOKED][AT_LEAST_ONE(N_MARGINS)];
     double slope[N_LOOKED][AT_LEAST_ONE(N_CLEARANCES)]; /* of those of joints with play, by shares */
     double beyond, y[N_Y], dy[N_Y];

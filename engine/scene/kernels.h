@@ -75,6 +75,8 @@ int closing_of_state(double t, const double *y, Memory *memory, const Parameters
     double *worst);
 /* The same as they are computed at a state itself (NEAR: not there, but from both sides). */
 int motion_here(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside);
+/* What joints with play tell of a state, and no more: gaps, their rates, forces of laws. */
+int play_here(double t, const double *y, Memory *memory, const Parameters *p, Aside *aside);
 int closing_here(double t, const double *y, Memory *memory, const Parameters *p, double *dq, double *dv,
     double *worst);
 /* An accepted state, with `aside` of motion() there: the largest |Phi| and |Phi_dot| so far; chains go on from it. */

@@ -171,7 +171,7 @@ static int first_zero(Run *run, const Step *step, int k, const Parameters *p, do
     const double least = shallow(p, k), close = 4.0 * root_width(run, step);
     Stretch part[MAX_BISECTIONS + 1] = {{end_of(run, step, k), INFINITY}};
     Place from = begin_of(run, step, k);
-    const Place early = min_of(below, until) <= 0.5 ? place_at(run, step, min_of(below, until), k, p)
+    const Place early = min_of(below, until) <= 0.5 ? gap_at(run, step, min_of(below, until), k, p)
         : (Place){0.0, NAN, NAN};
     int n = 1;
     if (isfinite(early.f))
@@ -182,7 +182,7 @@ static int first_zero(Run *run, const Step *step, int k, const Parameters *p, do
         int found = from.f >= least ? bound_by_cubic(from, now.end, now.error, least) : FALLS;
         if (found == UNKNOWN) {
             const Place middle = w > close && n <= MAX_BISECTIONS && samples++ < MAX_SAMPLES
-                ? place_at(run, step, from.s + 0.5 * w, k, p) : (Place){0.0, NAN, NAN};
+                ? gap_at(run, step, from.s + 0.5 * w, k, p) : (Place){0.0, NAN, NAN};
             if (isfinite(middle.f)) {
                 const double error = w > 0.5 ? INFINITY : error_of_cubic(from, middle, now.end);
                 part[n - 1].error = error;

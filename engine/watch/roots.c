@@ -51,6 +51,24 @@ static int state_at(Run *run, const Step *step, double s, const Parameters *p, d
     return rates_at_rest(run, t, y, p, dy, aside);
 }
 
+/* What joints with play tell at share s of the step. */
+static int play_in(Run *run, const Step *step, double s, const Parameters *p, Aside *aside)
+{
+    double y[N_Y];
+    if (s == run->looked.beyond) {
+        *aside = run->looked.aside;
+        return 0;
+    }
+#if N_FRICTIONS
+    double dy[N_Y];
+    return state_at(run, step, s, p, y, dy, aside);
+#else
+    interpolate(run, step, s, y);
+    project_state(run, step->t + s * step->h, y, p);
+    return play(run, step->t + s * step->h, y, p, aside);
+#endif
+}
+
 /* By how much margin k grows per share of the step; NAN where a right-hand side does not tell. */
 static double margin_slope(const Run *run, const Step *step, const Aside *aside, int k)
 {
@@ -69,12 +87,13 @@ static int look_in(Run *run, const Step *step, double s, int k, const Parameters
     double y[N_Y], dy[N_Y];
     Aside aside;
     for (int i = looked->n; i > 0 && i > looked->n - N_LOOKED; i--)
-        if (looked->share[(i - 1) % N_LOOKED] == s)
+        if (looked->share[(i - 1) % N_LOOKED] == s && !looked->joints_alone[(i - 1) % N_LOOKED])
             return (i - 1) % N_LOOKED;
     if (state_at(run, step, s, p, y, dy, &aside))
         return -1;
     const int slot = looked->n++ % N_LOOKED;
     looked->share[slot] = s;
+    looked->joints_alone[slot] = 0;
     margins_of(&run->memory, &aside, looked->margin[slot]);
     for (int i = 0; i < N_CLEARANCES; i++)
         looked->slope[slot][i] = margin_slope(run, step, &aside, i);
@@ -104,6 +123,29 @@ static Place place_at(Run *run, const Step *step, double s, int k, const Paramet
     if (slot < 0)
         return (Place){s, NAN, NAN};
     return (Place){s, run->looked.margin[slot][k], k < N_CLEARANCES ? run->looked.slope[slot][k] : NAN};
+}
+
+/* The same of a joint with play, of which no more than its margin is known afterwards. */
+static Place gap_at(Run *run, const Step *step, double s, int k, const Parameters *p)
+{
+    Looked *looked = &run->looked;
+    Aside aside;
+    int slot = -1;
+    for (int i = looked->n; i > 0 && i > looked->n - N_LOOKED && slot < 0; i--)
+        if (looked->share[(i - 1) % N_LOOKED] == s)
+            slot = (i - 1) % N_LOOKED;
+    if (slot < 0) {
+        if (play_in(run, step, s, p, &aside))
+            return (Place){s, NAN, NAN};
+        slot = looked->n++ % N_LOOKED;
+        looked->share[slot] = s;
+        looked->joints_alone[slot] = 1;
+        for (int i = 0; i < N_CLEARANCES; i++) {
+            looked->margin[slot][i] = margin(&run->memory, &aside, i);
+            looked->slope[slot][i] = margin_slope(run, step, &aside, i);
+        }
+    }
+    return (Place){s, looked->margin[slot][k], looked->slope[slot][k]};
 }
 
 /* Where the polynomial s(f) through n places of different f meets f = 0 (Neville's scheme). */
@@ -256,7 +298,7 @@ static double root(Run *run, const Step *step, int k, Bracket of, double guess, 
             break; /* nothing lies between */
         before = width;
         width = to - from;
-        const Place now = place_at(run, step, s, k, p);
+        const Place now = i == 0 && k < N_CLEARANCES ? gap_at(run, step, s, k, p) : place_at(run, step, s, k, p);
         if (now.f < 0.0 && is_reached(of.at[0], now, reach))
             return s;
         narrow(&of, now.f >= 0.0 ? 0 : 1, now);

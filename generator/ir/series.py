@@ -37,10 +37,10 @@ from gudgeon.generator.ir.series_rules import (
     at,
 )
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, ZERO
-from gudgeon.generator.ir.statements import Call, Guard, Jump, Line, Rescue, Return, Statement, Status
+from gudgeon.generator.ir.statements import Call, Guard, JointsAlone, Jump, Line, Rescue, Return, Statement, Status
 from gudgeon.generator.ir.values import Place
 
-_DROPPED = (Status, Jump, Rescue)
+_DROPPED = (Status, JointsAlone, Jump, Rescue)
 _DOC_VALUES = (
     "Accelerations a and powers at a state, order 0 of their series, and what higher orders read of it.",
     "Returns 0, or the number of the pivot that vanished.",

@@ -13,7 +13,7 @@ from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, with_sides
 from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE, ZERO, acting_on
-from gudgeon.generator.ir.statements import Call, Jump, Rescue, Return, Statement, Status, When
+from gudgeon.generator.ir.statements import Call, JointsAlone, Jump, Rescue, Return, Statement, Status, When
 from gudgeon.generator.ir.values import Place, Sum, Test
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.pivots import LEAST, LEAST_SIZE, friction_mode
@@ -44,6 +44,9 @@ def dynamics_kernel(
     loads = [load for element in model.elements.values() for load in element.on_points()]
     for index, clearance in enumerate(model.clearances):
         loads += _clearance_call(build, index, clearance)
+    if model.clearances and not stabilised:
+        build.section("without a (NULL) joints with play alone are asked for")
+        build.line(JointsAlone())
     acting, on_given = system.generalized(loads)
     forces = [own + load for own, load in zip(system.applied, acting, strict=True)]
     slips = _slips(model, build, kkt, forces)

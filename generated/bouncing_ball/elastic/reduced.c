@@ -94,6 +94,10 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     const double M_fall_second_ = aside->clearance[0].moment_second;
     aside->clearance[0].power = F_fall_x_*edot_fall_x_ + F_fall_y_*edot_fall_y_ + M_fall_second_*ball_omega_;
 
+    /* without a (NULL) joints with play alone are asked for */
+    if (!a)
+        return 0;
+
     /* forward substitution */
     const double z_ball_y_ = F_fall_y_ + p->weight_ball_y_;
 

@@ -382,6 +382,10 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     const double M_B_second_ = aside->clearance[1].moment_second;
     aside->clearance[1].power = F_B_x_*edot_B_x_ + F_B_y_*edot_B_y_ + L3_omega_*M_B_second_ + M_B_first_*crank4_rate_;
 
+    /* without a (NULL) joints with play alone are asked for */
+    if (!a)
+        return 0;
+
     /* constraints: gamma */
     const double rhs_guide_offset_ = -(L6_omega_ * L6_omega_)*span_L6_head_x_ - (L8_omega_ * L8_omega_)*span_L8_head_x_;
 

@@ -155,6 +155,10 @@ int reduced_dynamics(const double t, const double *q, const double *v, const Mem
     aside->clearance[0].power = F_wristpin_x_*edot_wristpin_x_ + F_wristpin_y_*edot_wristpin_y_
         + M_wristpin_first_*rod_omega_ + M_wristpin_second_*slider_omega_;
 
+    /* without a (NULL) joints with play alone are asked for */
+    if (!a)
+        return 0;
+
     /* forward substitution */
     const double z_rod_theta_ = F_wristpin_x_*span_rod_head_y_ - F_wristpin_y_*span_rod_head_x_ + M_wristpin_first_
         - cross_crank_rod_*(motor_rate_ * motor_rate_) - dot_crank_rod_*motor_acceleration_;

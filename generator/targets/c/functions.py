@@ -17,6 +17,7 @@ from gudgeon.generator.ir.statements import (
     Declare,
     Ended,
     Guard,
+    JointsAlone,
     Jump,
     Largest,
     LargestRow,
@@ -78,6 +79,8 @@ class Lines(Text):
                 return self._guard(item)
             case When():
                 return [f"if ({self.test(item.test)})", f"    {self.statement(item.statement).lstrip()}"]
+            case JointsAlone():
+                return ["if (!a)", "    return 0;"]
             case Return():
                 return ["return pivot;" if item.pivot else "return 0;"]
             case Passed():

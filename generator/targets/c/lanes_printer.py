@@ -20,6 +20,7 @@ from gudgeon.generator.ir.statements import (
     Call,
     Declare,
     Guard,
+    JointsAlone,
     Jump,
     Largest,
     Line,
@@ -45,8 +46,8 @@ _TYPES = {
     "PinSlopes *": "LaneSlopes *", "Wide *": "Lanes *",
 }  # fmt: skip
 _RARE = Argument("LaneBits *", "rare")
-# Lines of single runs that have no counterpart: what becomes of a vanished pivot.
-_LEFT_OUT = (Status, Jump, Rescue, Return)
+# Lines of single runs that have no counterpart: what becomes of a vanished pivot, and what they ask for alone.
+_LEFT_OUT = (Status, JointsAlone, Jump, Rescue, Return)
 
 
 class LanesPrinter(printer.CPrinter):

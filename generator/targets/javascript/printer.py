@@ -16,6 +16,7 @@ from gudgeon.generator.ir.signatures import SIDES
 from gudgeon.generator.ir.statements import (
     Call,
     Guard,
+    JointsAlone,
     Jump,
     LargestRow,
     Line,
@@ -169,7 +170,7 @@ class Lines:
 
     def lines(self, item: Line) -> list[str]:
         """One statement or branch."""
-        if isinstance(item, (Sides, Status, Jump, Rescue, Return, LargestRow)):
+        if isinstance(item, (Sides, Status, JointsAlone, Jump, Rescue, Return, LargestRow)):
             return []
         if isinstance(item, Sines):
             return self._sines(item)

@@ -15,6 +15,7 @@ from gudgeon.generator.ir.readable import lines as readable_lines
 from gudgeon.generator.ir.statements import (
     Call,
     Guard,
+    JointsAlone,
     Jump,
     Largest,
     Line,
@@ -33,7 +34,7 @@ from gudgeon.generator.targets.quick import Quick
 
 _NAMES = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arctan2", "Max": "maximum", "Min": "minimum",
           "Abs": "abs", "Size": "abs"}  # fmt: skip
-_NOWHERE = (Status, Jump, Rescue, Sides)  # what deals with vanished pivots and held corners
+_NOWHERE = (Status, JointsAlone, Jump, Rescue, Sides)  # vanished pivots, held corners, what single runs ask for
 _HELD = (Place("side"), Place("g"))
 _SIDES = ("side", "g", "corner")
 
