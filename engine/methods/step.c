@@ -156,3 +156,31 @@ static int finish_step(Run *run, Step *step, const Parameters *p)
     const int status = rates_at_rest(run, step->t + step->h, step->y, p, step->dy, &step->aside);
     return status ? status : all_finite(step->dy, N_Y) ? 0 : NOT_FINITE;
 }
+
+/* What others have found of a step that they tried. */
+static void take_over(const double *lane, int lanes, int rows, double (*to)[N_Y])
+{
+    for (int k = 0; k < rows; k++)
+        for (int i = 0; i < N_Y; i++)
+            to[k][i] = lane[(k * N_Y + i) * lanes];
+}
+
+/* What its dense output is made of, once. */
+static int make_dense(Run *run, const Parameters *p, Step *step)
+{
+    const int there = step->dense_ready == ELSEWHERE;
+    if (step->dense_ready == HERE)
+        return 0;
+    step->dense_ready = HERE;
+    run->looked.n = 0;
+    run->looked.beyond = NAN;
+    if (there) {
+        take_over(step->dense_lane, step->lanes, N_DENSE, step->dense);
+        run->evaluations += step->method->more;
+        return 0;
+    }
+    if (step->stages_lane)
+        take_over(step->stages_lane, step->lanes, step->method->stages, step->k);
+    step->stages_lane = NULL;
+    return step->method->dense(run, p, step);
+}

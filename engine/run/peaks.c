@@ -50,7 +50,7 @@ static double force_at(Run *run, const Step *step, double s, int i, const Parame
     return F;
 }
 
-/* The node of the stage up to `share` of an explicit step at which joint i's force is larger than that; else the middle. */
+/* The node of the stage of an explicit step up to `share` that has the largest force of joint i, or the middle. */
 static double highest_stage(const Step *step, double share, int i, double force)
 {
     const Seen forces = seen_of(step, SEEN_FORCES + i);

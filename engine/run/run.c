@@ -34,24 +34,6 @@ static int rates(Run *run, double t, const double *y, const Parameters *p, doubl
 #endif
 }
 
-/*
- * What joints with play tell at a state: all of rates() where contacts are rigid, whose forces follow from
- * accelerations.
- */
-static int play(Run *run, double t, const double *y, const Parameters *p, Aside *aside)
-{
-#if N_RIGID
-    double dy[N_Y];
-    return rates(run, t, y, p, dy, aside);
-#else
-    run->evaluations++;
-    if (given_up(&run->asked))
-        return STOPPED;
-    show_states(&run->memory, y);
-    return play_here(t, y, &run->memory, p, aside);
-#endif
-}
-
 #include "../both/watch.h"
 #include "latches.c"
 #include "trace.c"

@@ -4,33 +4,6 @@
 enum { QUICK = 6, MOST_PLACES = 4 }; /* looks by which a zero is found as a rule; places that tell where it is */
 #define FAR_ENOUGH 1e-4 /* shares of a bracket, a third place from its ends: a nearer one tells of rounding */
 
-/* What others have found of a step that they tried. */
-static void take_over(const double *lane, int lanes, int rows, double (*to)[N_Y])
-{
-    for (int k = 0; k < rows; k++)
-        for (int i = 0; i < N_Y; i++)
-            to[k][i] = lane[(k * N_Y + i) * lanes];
-}
-
-static int make_dense(Run *run, const Parameters *p, Step *step)
-{
-    const int there = step->dense_ready == ELSEWHERE;
-    if (step->dense_ready == HERE)
-        return 0;
-    step->dense_ready = HERE;
-    run->looked.n = 0;
-    run->looked.beyond = NAN;
-    if (there) {
-        take_over(step->dense_lane, step->lanes, N_DENSE, step->dense);
-        run->evaluations += step->method->more;
-        return 0;
-    }
-    if (step->stages_lane)
-        take_over(step->stages_lane, step->lanes, step->method->stages, step->k);
-    step->stages_lane = NULL;
-    return step->method->dense(run, p, step);
-}
-
 static void interpolate(const Run *run, const Step *step, double s, double *y)
 {
     step->method->interpolate(run, step, s, y);
@@ -49,6 +22,24 @@ static int state_at(Run *run, const Step *step, double s, const Parameters *p, d
     const double t = step->t + s * step->h;
     project_state(run, t, y, p);
     return rates_at_rest(run, t, y, p, dy, aside);
+}
+
+/*
+ * What joints with play tell at a state: all of rates() where contacts are rigid, whose forces follow from
+ * accelerations.
+ */
+static int play(Run *run, double t, const double *y, const Parameters *p, Aside *aside)
+{
+#if N_RIGID
+    double dy[N_Y];
+    return rates(run, t, y, p, dy, aside);
+#else
+    run->evaluations++;
+    if (given_up(&run->asked))
+        return STOPPED;
+    show_states(&run->memory, y);
+    return play_here(t, y, &run->memory, p, aside);
+#endif
 }
 
 /* What joints with play tell at share s of the step. */
@@ -77,26 +68,37 @@ static double margin_slope(const Run *run, const Step *step, const Aside *aside,
     return (run->memory.latch[k].closed ? step->h : -step->h) * aside->clearance[k].deltadot;
 }
 
-/*
- * Where in run->looked all margins at share s are, looked at if they have not been; -1: it has none. k: the margin for
- * whose zero is looked, -1: none.
- */
+/* Where in run->looked a share is, with all margins or those of joints with play alone; -1: nowhere. */
+static int slot_of(const Looked *looked, double s, int joints_alone)
+{
+    for (int i = looked->n; i > 0 && i > looked->n - N_LOOKED; i--)
+        if (looked->share[(i - 1) % N_LOOKED] == s && joints_alone >= looked->joints_alone[(i - 1) % N_LOOKED])
+            return (i - 1) % N_LOOKED;
+    return -1;
+}
+
+static int note_look(Run *run, const Step *step, double s, const Aside *aside, int joints_alone)
+{
+    const int slot = run->looked.n++ % N_LOOKED;
+    run->looked.share[slot] = s;
+    run->looked.joints_alone[slot] = joints_alone;
+    for (int i = 0; i < (joints_alone ? N_CLEARANCES : N_MARGINS); i++)
+        run->looked.margin[slot][i] = margin(&run->memory, aside, i);
+    for (int i = 0; i < N_CLEARANCES; i++)
+        run->looked.slope[slot][i] = margin_slope(run, step, aside, i);
+    return slot;
+}
+
+/* As slot_of() for all margins, looked at if they have not been. k: the margin for whose zero is looked, -1: none. */
 static int look_in(Run *run, const Step *step, double s, int k, const Parameters *p)
 {
     Looked *looked = &run->looked;
     double y[N_Y], dy[N_Y];
     Aside aside;
-    for (int i = looked->n; i > 0 && i > looked->n - N_LOOKED; i--)
-        if (looked->share[(i - 1) % N_LOOKED] == s && !looked->joints_alone[(i - 1) % N_LOOKED])
-            return (i - 1) % N_LOOKED;
-    if (state_at(run, step, s, p, y, dy, &aside))
-        return -1;
-    const int slot = looked->n++ % N_LOOKED;
-    looked->share[slot] = s;
-    looked->joints_alone[slot] = 0;
-    margins_of(&run->memory, &aside, looked->margin[slot]);
-    for (int i = 0; i < N_CLEARANCES; i++)
-        looked->slope[slot][i] = margin_slope(run, step, &aside, i);
+    int slot = slot_of(looked, s, 0);
+    if (slot >= 0 || state_at(run, step, s, p, y, dy, &aside))
+        return slot;
+    slot = note_look(run, step, s, &aside, 0);
     if (k >= 0 && looked->margin[slot][k] < 0.0) {
         looked->beyond = s;
         memcpy(looked->y, y, sizeof y);
@@ -128,24 +130,11 @@ static Place place_at(Run *run, const Step *step, double s, int k, const Paramet
 /* The same of a joint with play, of which no more than its margin is known afterwards. */
 static Place gap_at(Run *run, const Step *step, double s, int k, const Parameters *p)
 {
-    Looked *looked = &run->looked;
+    int slot = slot_of(&run->looked, s, 1);
     Aside aside;
-    int slot = -1;
-    for (int i = looked->n; i > 0 && i > looked->n - N_LOOKED && slot < 0; i--)
-        if (looked->share[(i - 1) % N_LOOKED] == s)
-            slot = (i - 1) % N_LOOKED;
-    if (slot < 0) {
-        if (play_in(run, step, s, p, &aside))
-            return (Place){s, NAN, NAN};
-        slot = looked->n++ % N_LOOKED;
-        looked->share[slot] = s;
-        looked->joints_alone[slot] = 1;
-        for (int i = 0; i < N_CLEARANCES; i++) {
-            looked->margin[slot][i] = margin(&run->memory, &aside, i);
-            looked->slope[slot][i] = margin_slope(run, step, &aside, i);
-        }
-    }
-    return (Place){s, looked->margin[slot][k], looked->slope[slot][k]};
+    if (slot < 0 && !play_in(run, step, s, p, &aside))
+        slot = note_look(run, step, s, &aside, 1);
+    return slot < 0 ? (Place){s, NAN, NAN} : (Place){s, run->looked.margin[slot][k], run->looked.slope[slot][k]};
 }
 
 /* Where the polynomial s(f) through n places of different f meets f = 0 (Neville's scheme). */

@@ -16,6 +16,11 @@ from gudgeon.generator.symbols.corners import Pick, SideOf
 
 
 @dataclass(frozen=True)
+class JointsAlone(Line):
+    """Where no accelerations are asked for a function ends here: joints with play are evaluated."""
+
+
+@dataclass(frozen=True)
 class Branch(Line):
     """`target` is `otherwise` where the side is below zero, else `then` (a NaN stays in it)."""
 

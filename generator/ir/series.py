@@ -19,6 +19,7 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
+from gudgeon.generator.ir.branches import JointsAlone
 from gudgeon.generator.ir.kernels import Argument, Kernel, Section, changed, without_unread
 from gudgeon.generator.ir.series_order import Titled, differences, late_last
 from gudgeon.generator.ir.series_rules import (
@@ -37,7 +38,7 @@ from gudgeon.generator.ir.series_rules import (
     at,
 )
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE, ZERO
-from gudgeon.generator.ir.statements import Call, Guard, JointsAlone, Jump, Line, Rescue, Return, Statement, Status
+from gudgeon.generator.ir.statements import Call, Guard, Jump, Line, Rescue, Return, Statement, Status
 from gudgeon.generator.ir.values import Place
 
 _DROPPED = (Status, JointsAlone, Jump, Rescue)

@@ -182,11 +182,6 @@ class Status(Line):
 
 
 @dataclass(frozen=True)
-class JointsAlone(Line):
-    """Where no accelerations are asked for a function ends here: joints with play are evaluated."""
-
-
-@dataclass(frozen=True)
 class Jump(Line):
     """Over what deals with dependent rows, to the powers."""
 

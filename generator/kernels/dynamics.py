@@ -11,9 +11,10 @@ from gudgeon.generator.equations.model import Model, stick_gain
 from gudgeon.generator.equations.places import Wall
 from gudgeon.generator.equations.play import Clearance
 from gudgeon.generator.equations.system import System
+from gudgeon.generator.ir.branches import JointsAlone
 from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, with_sides
 from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE, ZERO, acting_on
-from gudgeon.generator.ir.statements import Call, JointsAlone, Jump, Rescue, Return, Statement, Status, When
+from gudgeon.generator.ir.statements import Call, Jump, Rescue, Return, Statement, Status, When
 from gudgeon.generator.ir.values import Place, Sum, Test
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.pivots import LEAST, LEAST_SIZE, friction_mode

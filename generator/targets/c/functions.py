@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import sympy as sp
 
-from gudgeon.generator.ir.branches import Branch
+from gudgeon.generator.ir.branches import Branch, JointsAlone
 from gudgeon.generator.ir.kernels import Argument, Kernel
 from gudgeon.generator.ir.readable import Readable, lines, readable
 from gudgeon.generator.ir.series_rules import Gathered
@@ -17,7 +17,6 @@ from gudgeon.generator.ir.statements import (
     Declare,
     Ended,
     Guard,
-    JointsAlone,
     Jump,
     Largest,
     LargestRow,

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import sympy as sp
 
-from gudgeon.generator.ir.branches import Branch
+from gudgeon.generator.ir.branches import Branch, JointsAlone
 from gudgeon.generator.ir.kernels import Argument, Kernel, Section
 from gudgeon.generator.ir.readable import lines, readable
 from gudgeon.generator.ir.series_rules import WIDE, Gathered
@@ -20,7 +20,6 @@ from gudgeon.generator.ir.statements import (
     Call,
     Declare,
     Guard,
-    JointsAlone,
     Jump,
     Largest,
     Line,

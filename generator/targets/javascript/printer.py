@@ -9,14 +9,13 @@ from collections.abc import Collection
 
 import sympy as sp
 
-from gudgeon.generator.ir.branches import Branch
+from gudgeon.generator.ir.branches import Branch, JointsAlone
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import NUMBERS, Readable, readable
 from gudgeon.generator.ir.signatures import SIDES
 from gudgeon.generator.ir.statements import (
     Call,
     Guard,
-    JointsAlone,
     Jump,
     LargestRow,
     Line,

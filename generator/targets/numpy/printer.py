@@ -8,14 +8,13 @@ from collections.abc import Iterable, Sequence
 import sympy as sp
 from sympy.printing.pycode import PythonCodePrinter
 
-from gudgeon.generator.ir.branches import Branch
+from gudgeon.generator.ir.branches import Branch, JointsAlone
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import Readable, readable, share_of_pi
 from gudgeon.generator.ir.readable import lines as readable_lines
 from gudgeon.generator.ir.statements import (
     Call,
     Guard,
-    JointsAlone,
     Jump,
     Largest,
     Line,
