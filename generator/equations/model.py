@@ -108,13 +108,17 @@ class Model:
         """Whether constraints come and go with the motion: then a pivot that vanishes is told, not mended."""
         return bool(self.frictions or self.rigid)
 
-    def turning_inertia(self, body: str) -> sp.Expr:
-        """J + Σ m s² of a body, s from its centre of mass to the points of its joints."""
+    def squared_arms(self, body: str) -> tuple[sp.Expr, ...]:
+        """s_x², s_y² of each point of a body's joints, s from its centre of mass."""
         mechanism, local = self.scene.mechanism, self.geometry.local
         ends = [end for joint in mechanism.joints.values() for end in (joint.first, joint.second)]
         points = dict.fromkeys((end.body, end.point) for end in ends if end.body == body and (body, end.point) in local)
+        return tuple(s**2 for point in points for s in local[point])
+
+    def turning_inertia(self, body: str) -> sp.Expr:
+        """J + Σ m s² of a body, s from its centre of mass to the points of its joints."""
         of = self.geometry.bodies[body]
-        return sp.Add(of.inertia, *(of.mass * s**2 for point in points for s in local[point]))
+        return sp.Add(of.inertia, *(of.mass * square for square in self.squared_arms(body)))
 
     def is_light(self, body: str, joint: Joint | None) -> bool:
         """Whether a body has hardly any moment of inertia about a joint, at the defaults: a mass lumped there.

@@ -77,6 +77,10 @@ class System:
         name = self.model.bodies[k // 3].name
         return self.model.slots.derive(f"{name}_turning", self.model.turning_inertia(name), "J and m s^2 of its joints")
 
+    def inertia_of_unit_mass(self, k: int) -> sp.Expr:
+        """What coordinate k moves of bodies of 1 kg: s² of its joints' points for an angle, else 1."""
+        return sp.Add(*self.model.squared_arms(self.model.bodies[k // 3].name)) if k % 3 == 2 else ONE
+
     def generalized(self, loads: Sequence[PointLoad]) -> tuple[list[sp.Expr], dict[str, sp.Expr]]:
         """Generalized forces (n) of loads, and those on given coordinates by name: Jᵀ f at each point."""
         total = [ZERO] * len(self.q)

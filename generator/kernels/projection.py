@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import sympy as sp
 
-from gudgeon.generator.equations.constraints import Row
+from gudgeon.generator.equations.constraints import Row, rate_jumps
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, with_sides
 from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE
@@ -15,11 +15,13 @@ from gudgeon.generator.ir.values import Place
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.pivots import LEAST_SIZE
 
+LEAST_MASS = 1e-4  # of the mass of all bodies: the least that a body counts in projections
 FILM_MASS = 1e6  # times the mass of all bodies: what projections give to motions that squeeze a film
 
 
 def projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple[Kernel, KKT]:
     """x = M⁻¹Φ_qᵀ(Φ_q M⁻¹Φ_qᵀ)⁻¹ r: the smallest x, in the metric of M, with Φ_q x = r."""
+    system = with_least_masses(system)
     model, kkt = system.model, KKT(system, rows)
     build = KernelBuilder(model.symbols, name, [
         "The smallest x (n), measured by M, with Phi_q x = r; Newton's step, velocities. r holds all rows of",
@@ -59,13 +61,32 @@ def with_film_masses(system: System) -> System:
     return replace(system, mass=mass)
 
 
+def with_least_masses(system: System) -> System:
+    """The system with no body lighter than a share of all others; itself where a drive's rate jumps, an impulse on M.
+
+    In the metric of M the rows of both joints of a light body depend on each other but for the share of the masses.
+    Errors of the constraints may be measured by any masses. Those of ordinary machines stay as they are, to the bit.
+    """
+    model, derive = system.model, system.model.slots.derive
+    if any(rate_jumps(drive) for drive in model.scene.mechanism.drives.values()):
+        return system
+    least = LEAST_MASS * sp.Add(*(body.mass for body in model.bodies))
+    mass = dict(system.mass)
+    for k, q in enumerate(system.q):
+        own, counts = mass[k, k], least * system.inertia_of_unit_mass(k)
+        if counts != 0 and model.slots.is_constant(own):
+            mass[k, k] = derive(f"metric_{q.name}", sp.Max(own, counts), "of projections")
+    return replace(system, mass=mass)
+
+
 def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
     """One Newton step onto Φ = 0 and one onto Φ̇ = 0, with one factorization.
 
     A film turns a change of ė by a tolerance into a force that nothing carries: e and ė are left as they are.
     """
-    kkt = KKT(with_film_masses(system), system.rows)
-    held = [] if kkt.system is system else ["M has 1e6 times the mass of all bodies for motions that squeeze a film."]
+    weighed = with_least_masses(system)
+    kkt = KKT(with_film_masses(weighed), system.rows)
+    held = [] if kkt.system is weighed else ["M has 1e6 times the mass of all bodies for motions that squeeze a film."]
     build = KernelBuilder(system.model.symbols, name, [
         "The smallest dq and dv (n), measured by M, with Phi_q dq = Phi and Phi_q dv = Phi_dot, to be subtracted.",
         *held,

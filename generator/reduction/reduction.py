@@ -23,7 +23,7 @@ from gudgeon.generator.equations.system import Given, Motion, System
 from gudgeon.generator.mechanism.mechanism import PointRef
 from gudgeon.generator.reduction.affine import CONSTANT, Affine, substitute
 from gudgeon.generator.reduction.driven_chains import Chain, determined, prescribe, with_directions
-from gudgeon.generator.reduction.frames import ZERO, Coordinate, Motions
+from gudgeon.generator.reduction.frames import ONE, ZERO, Coordinate, Motions
 from gudgeon.generator.reduction.geometry import TreeGeometry, TreePoint
 from gudgeon.generator.reduction.inertia import Inertia
 from gudgeon.generator.reduction.tree import Tree, choose_tree, stays_a_row
@@ -40,12 +40,22 @@ class TreeSystem(System):
     chain: Chain | None = None  # what the drives determine through loops (driven_chains.py)
     in_tree = True
 
-    def turning_inertia(self, k: int) -> sp.Expr:
-        """The same of all bodies that turn with an angle; of a slide 0."""
+    def _turned_by(self, k: int) -> dict[str, sp.Expr]:
+        """The bodies that turn with an angle, and how fast; none with a slide."""
         geometry, name = self.model.geometry, self.unknowns[k]
         assert isinstance(geometry, TreeGeometry)
         turns = {body: geometry.frame_of[body].turns.get(name, ZERO) for body in geometry.bodies}
-        total = sp.Add(*(c**2 * self.model.turning_inertia(body) for body, c in turns.items() if c != 0))
+        return {body: c for body, c in turns.items() if c != 0}
+
+    def inertia_of_unit_mass(self, k: int) -> sp.Expr:
+        """The same of all bodies that turn with an angle; of a slide 1."""
+        turned = self._turned_by(k).items()
+        return sp.Add(*(c**2 * s for body, c in turned for s in self.model.squared_arms(body))) if turned else ONE
+
+    def turning_inertia(self, k: int) -> sp.Expr:
+        """The same of all bodies that turn with an angle; of a slide 0."""
+        name = self.unknowns[k]
+        total = sp.Add(*(c**2 * self.model.turning_inertia(body) for body, c in self._turned_by(k).items()))
         return self.model.slots.derive(f"{name.replace('.', '_')}_turning", total, "J and m s^2 of what turns with it")
 
     def generalized(self, loads: Sequence[PointLoad]) -> tuple[list[sp.Expr], dict[str, sp.Expr]]:
