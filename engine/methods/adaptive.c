@@ -140,44 +140,48 @@ static int stalls(Run *run, double t_end)
 #define NEAR_END 1.02 /* times the fraction of the event: as long is a step that ends close behind it, */
 #define PERIOD_END 1.1 /* and one that reads periods */
 
-/*
- * Whether forces of films are wrong at an event inside a step: the error inside a step is measured at one place of the
- * whole step, and the state at the event is the start of what follows.
- */
-static int misses_film_at(Run *run, const Step *step, double share, const Parameters *p)
+/* A step of length h instead, and its first event. */
+static int step_again(Run *run, double h, double t_end, const Parameters *p, Step *step, double *share, int *event)
 {
-    double y[N_Y], dy[N_Y], rate[N_Y];
-    int where;
-    Aside aside;
-    if (!has_films() || !step->method->stiff || state_at(run, step, share, p, y, dy, &aside))
-        return 0;
-    interpolate_rates(step, share, 2 * N_X, rate);
-    return film_share(run, step, rate, dy, largest_film_force(&aside, &where), FILM_PART) > film_limit(run);
+    run->h = h;
+    open_attempt(run, t_end, p);
+    const int status = accepted_step(run, p, step);
+    if (!status)
+        *share = first_event(run, step, p, event);
+    return status;
+}
+
+/* Whether the interpolant of a step is needed, for an event or a sample, and could not be made. */
+static int lacks_dense(Run *run, Step *step, const Parameters *p, const Samples *out)
+{
+    const long evaluations = run->evaluations; /* samples are output, not integration */
+    const int needed = step->dense_ready == FAILED || out->t[*out->done] < step->t + step->h;
+    const int failed = needed && make_dense(run, p, step);
+    run->evaluations = evaluations;
+    return failed;
 }
 
 /*
- * The first event of a step that was accepted, as its share; 1 and -1 where there is none. A period of mod is held half
- * a period beyond its end: a step that reaches further ends on rows of another one, which its interpolant then leads
- * to. Taken again from before, it ends close behind the event, wherever that is. So does a step inside of which forces
- * of films are wrong at the event.
+ * The first event of a step that was accepted, as its share; 1 and -1 where there is none. A step so long that its
+ * interpolant cannot be made is taken again, shorter. A period of mod is held half a period beyond its end: a step that
+ * reaches further ends on rows of another one, which its interpolant then leads to. Taken again from before, it ends
+ * close behind the event, wherever that is. So does a step inside of which forces of films are wrong at the event.
  */
-static int event_of_step(Run *run, double t_end, const Parameters *p, Step *step, double *share, int *event)
+static int event_of_step(Run *run, const Samples *out, const Parameters *p, Step *step, double *share, int *event)
 {
-    const double longer = PERIODS ? PERIOD_END : NEAR_END;
+    const double t_end = out->t[out->n - 1], longer = PERIODS ? PERIOD_END : NEAR_END;
     int status = 0;
     *share = first_event(run, step, p, event);
+    for (int k = 0; k < SHORTENED && !status && run->fixed <= 0.0 && lacks_dense(run, step, p, out); k++)
+        status = step_again(run, 0.25 * step->h, t_end, p, step, share, event);
     for (int k = 0; k < MAX_AGAIN && !status && *event >= 0 && longer * *share < 1.0 && run->fixed <= 0.0; k++) {
         const double next = run->h, h = longer * *share * step->h;
         if (h <= run->tick)
             break; /* it lies at the step's beginning, where no row is another one */
         if (!PERIODS && !misses_film_at(run, step, *share, p))
             break;
-        run->h = h;
-        open_attempt(run, t_end, p);
-        status = accepted_step(run, p, step);
+        status = step_again(run, h, t_end, p, step, share, event);
         run->h = next;
-        if (!status)
-            *share = first_event(run, step, p, event);
     }
     return status;
 }
@@ -224,7 +228,7 @@ static int take_step(Run *run, const Parameters *p, const Samples *out)
     int event;
     double share;
     choose(run);
-    int status = event_of_step(run, t_end, p, step, &share, &event);
+    int status = event_of_step(run, out, p, step, &share, &event);
     if (status || run->asked.stop)
         return status ? status : STOPPED; /* what was found meanwhile means nothing */
     const double t_whole = step->h == t_end - run->t ? t_end : run->t + step->h;

@@ -94,6 +94,21 @@ static double film_error(Run *run, Step *step, const Parameters *p)
     return run->film_error;
 }
 
+/*
+ * Whether forces of films are wrong at an event inside a step: the error inside a step is measured at one place of the
+ * whole step, and the state at the event is the start of what follows.
+ */
+static int misses_film_at(Run *run, const Step *step, double share, const Parameters *p)
+{
+    double y[N_Y], dy[N_Y], rate[N_Y];
+    int where;
+    Aside aside;
+    if (!has_films() || !step->method->stiff || state_at(run, step, share, p, y, dy, &aside))
+        return 0;
+    interpolate_rates(step, share, 2 * N_X, rate);
+    return film_share(run, step, rate, dy, largest_film_force(&aside, &where), FILM_PART) > film_limit(run);
+}
+
 /* Rates of velocities of a stiff method's interpolant at the begin of a step, which need not be made for them. */
 static void begin_rates(const Run *run, const Step *step, double *rate)
 {

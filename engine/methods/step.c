@@ -165,12 +165,14 @@ static void take_over(const double *lane, int lanes, int rows, double (*to)[N_Y]
             to[k][i] = lane[(k * N_Y + i) * lanes];
 }
 
-/* What its dense output is made of, once. */
+/* The interpolant of a step, made once. 0, or why there is none: a stage of its own may not be computable. */
 static int make_dense(Run *run, const Parameters *p, Step *step)
 {
     const int there = step->dense_ready == ELSEWHERE;
     if (step->dense_ready == HERE)
         return 0;
+    if (step->dense_ready == FAILED)
+        return step->dense_status;
     step->dense_ready = HERE;
     run->looked.n = 0;
     run->looked.beyond = NAN;
@@ -182,5 +184,8 @@ static int make_dense(Run *run, const Parameters *p, Step *step)
     if (step->stages_lane)
         take_over(step->stages_lane, step->lanes, step->method->stages, step->k);
     step->stages_lane = NULL;
-    return step->method->dense(run, p, step);
+    step->dense_status = step->method->dense(run, p, step);
+    if (step->dense_status)
+        step->dense_ready = FAILED;
+    return step->dense_status;
 }

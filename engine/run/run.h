@@ -48,6 +48,7 @@ enum {
 #endif
     N_STAGES = 16, N_LOOKS = 16,
     BY_RODAS5P = 1, BY_RADAU5, BY_RADAU9, KINDS, /* which stiff method a step is made by; 0: none */
+    FAILED = -1, /* an interpolant that could not be made */
     HERE = 1, ELSEWHERE = 2 /* where equations are linearized, series, interpolant made: in the run, in a lane; 0: no */
 };
 
@@ -64,7 +65,8 @@ typedef struct {
     Aside aside;
     double k[N_STAGES][N_Y];                 /* rates or increments of the stages */
     double dense[N_DENSE][N_Y];
-    int dense_ready;                         /* HERE; ELSEWHERE: in dense_lane */
+    int dense_ready;                         /* HERE; ELSEWHERE: in dense_lane; FAILED: dense_status says why */
+    int dense_status;
     /* where others have tried it: stages, interpolant, what was seen, each number so many further; NULL: here */
     const double *stages_lane, *dense_lane, *seen_lane;
     int lanes;

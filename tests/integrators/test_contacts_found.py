@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import gudgeon
-from tests.random_contacts import CAM, HEAD, SLIDER_CRANK, Campaign, checked
+from tests.random_contacts import CAM, HEAD, SLIDER_CRANK, Campaign, checked, text_of
 
 # missed_contact: a journal that leaves the wall flies out again within the next step (case of an accepted step of 7 ms
 # whose first half was never searched). The right values are those of Newton and Euler's equations with SciPy's DOP853.
@@ -75,3 +75,24 @@ def test_random_machines_have_no_penetration_outside_a_contact() -> None:
     total = campaign.total
     assert total.runs == 14 and total.contacts > 100
     assert total.faulty == total.phantom == 0
+
+
+# of the campaign: after a contact the steps of dop853 are tried so long that a stage of the interpolant cannot be
+# computed, where the rod no longer reaches the slider's line
+REACH = {
+    "omega": 46.515639271412496, "c": 0.0001733702097200314, "ce": 0.9, "mu": 0.0, "r": 0.0225073401946568,
+    "L": 0.10188064912078823, "m1": 0.07653529805733969, "J1": 3.672903710730944e-06, "m2": 1.1019251032937192,
+    "J2": 0.0017811030586876173, "m3": 0.2676621582289156, "J3": 6.810353566637155e-05,
+}
+
+
+def test_no_event_is_sought_on_the_interpolant_of_another_step(tmp_path: Path) -> None:
+    """An interpolant that could not be made was taken for made: that of the step before, which found a contact."""
+    path = tmp_path / "cam.yaml"
+    path.write_text(text_of("cam", "crankpin", "flores"), encoding="utf-8")
+    simulation = gudgeon.load(path, "dry")
+    right = simulation.simulate(0.035, method="radau9", rtol=1e-11, output=100, parameters=REACH).impacts["t_on"]
+    for output in (100, 5000):
+        run = simulation.simulate(0.2819817717906081, method="dop853", rtol=1e-6, output=output, parameters=REACH)
+        found = run.impacts["t_on"][run.impacts["t_on"] < 0.035]
+        np.testing.assert_allclose(found, right, rtol=0, atol=2e-6)
