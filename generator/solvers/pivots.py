@@ -27,8 +27,8 @@ VANISHING = Threshold("VANISHING", 1e-10)
 # The same for a pair of rows that goes before all of its coordinates: rounding grows by the inverse of the share,
 # and the other way to solve is exact.
 EARLY = Threshold("EARLY", 1e-5)
-# Share of what turns with an angle that elimination must leave of its entry of M: rounding of accelerations grows by the
-# inverse of its square, 5e-16 for a share of 1.
+# Share of what turns with an angle that elimination must leave of its entry of M: rounding of accelerations grows by
+# the inverse of its square, 5e-16 for a share of 1.
 LIGHT_PIVOT = Threshold("LIGHT_PIVOT", 1e-3)
 # The same two where a run may ask for more: the memory of a state says how much (engine/motion/beside.c).
 LEAST = Threshold(NEARLY_SINGULAR.name, NEARLY_SINGULAR, "memory->least")
