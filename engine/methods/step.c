@@ -156,36 +156,3 @@ static int finish_step(Run *run, Step *step, const Parameters *p)
     const int status = rates_at_rest(run, step->t + step->h, step->y, p, step->dy, &step->aside);
     return status ? status : all_finite(step->dy, N_Y) ? 0 : NOT_FINITE;
 }
-
-/* What others have found of a step that they tried. */
-static void take_over(const double *lane, int lanes, int rows, double (*to)[N_Y])
-{
-    for (int k = 0; k < rows; k++)
-        for (int i = 0; i < N_Y; i++)
-            to[k][i] = lane[(k * N_Y + i) * lanes];
-}
-
-/* The interpolant of a step, made once. 0, or why there is none: a stage of its own may not be computable. */
-static int make_dense(Run *run, const Parameters *p, Step *step)
-{
-    const int there = step->dense_ready == ELSEWHERE;
-    if (step->dense_ready == HERE)
-        return 0;
-    if (step->dense_ready == FAILED)
-        return step->dense_status;
-    step->dense_ready = HERE;
-    run->looked.n = 0;
-    run->looked.beyond = NAN;
-    if (there) {
-        take_over(step->dense_lane, step->lanes, N_DENSE, step->dense);
-        run->evaluations += step->method->more;
-        return 0;
-    }
-    if (step->stages_lane)
-        take_over(step->stages_lane, step->lanes, step->method->stages, step->k);
-    step->stages_lane = NULL;
-    step->dense_status = step->method->dense(run, p, step);
-    if (step->dense_status)
-        step->dense_ready = FAILED;
-    return step->dense_status;
-}

@@ -51,7 +51,7 @@
 #define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
 #define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
 #define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
-#define LIGHT_PIVOT 1e-06                     /* of what turns with an angle, where its inertia is too small for it */
+#define LIGHT_PIVOT 0.001                     /* of what turns with an angle, where its inertia is too small for it */
 #define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
 typedef struct Parameters Parameters; /* every number of a run */
@@ -154,6 +154,14 @@ struct Parameters {
     double inverse_mass_crank2_crank2_;  /* 1/M, 1/(kg*m^2) */
     double inverse_mass_coupler2_coupler2_;  /* 1/M, 1/(kg*m^2) */
     double inverse_mass_crank0_crank0_;  /* 1/M, 1/(kg*m^2) */
+    double metric_crank0_theta_;  /* of projections, kg*m^2 */
+    double metric_crank1_theta_;  /* of projections, kg*m^2 */
+    double metric_crank2_theta_;  /* of projections, kg*m^2 */
+    double metric_coupler1_theta_;  /* of projections, kg*m^2 */
+    double metric_coupler2_theta_;  /* of projections, kg*m^2 */
+    double inverse_metric_crank2_theta_;  /* 1/M, 1/(kg*m^2) */
+    double inverse_metric_crank0_theta_;  /* 1/M, 1/(kg*m^2) */
+    double inverse_metric_coupler2_theta_;  /* 1/M, 1/(kg*m^2) */
 };
 
 /* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */

@@ -51,7 +51,7 @@
 #define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
 #define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
 #define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
-#define LIGHT_PIVOT 1e-06                     /* of what turns with an angle, where its inertia is too small for it */
+#define LIGHT_PIVOT 0.001                     /* of what turns with an angle, where its inertia is too small for it */
 #define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
 typedef struct Parameters Parameters; /* every number of a run */
@@ -97,6 +97,8 @@ struct Parameters {
     double beta_squared_;  /* beta^2, 1/s^2 */
     double inverse_bob_mass_;  /* 1/M, 1/kg */
     double inverse_bob_inertia_;  /* 1/M, 1/(kg*m^2) */
+    double metric_bob_x_;  /* of projections, kg */
+    double inverse_metric_bob_x_;  /* 1/M, 1/kg */
 };
 
 /* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */

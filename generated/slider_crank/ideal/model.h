@@ -51,7 +51,7 @@
 #define NEARLY_SINGULAR 1e-08                 /* where it nearly does */
 #define VANISHING 1e-10                       /* where one of a joint's two rows vanishes: links in one line */
 #define EARLY 1e-05                           /* of two rows that are solved before all of their coordinates */
-#define LIGHT_PIVOT 1e-06                     /* of what turns with an angle, where its inertia is too small for it */
+#define LIGHT_PIVOT 0.001                     /* of what turns with an angle, where its inertia is too small for it */
 #define SINGULAR_SQUARE 3.162277660168379e-07 /* of as many rows as unknowns: the root of SINGULAR */
 
 typedef struct Parameters Parameters; /* every number of a run */
@@ -105,6 +105,8 @@ struct Parameters {
     double mass_motor_motor_;  /* constant of M, kg*m^2 */
     double mass_rod_rod_;  /* constant of M, kg*m^2 */
     double inverse_mass_rod_rod_;  /* 1/M, 1/(kg*m^2) */
+    double metric_rod_theta_;  /* of projections, kg*m^2 */
+    double inverse_metric_rod_theta_;  /* 1/M, 1/(kg*m^2) */
 };
 
 #endif
