@@ -25,12 +25,16 @@ typedef struct {
     Asked *asked;
 } Workspace;
 
+/* Three sums, of x, y and theta, for an addition waits for the one before it. */
 static double dot(const double *a, const double *b)
 {
-    double sum = 0.0;
-    for (int k = 0; k < N_Q; k++)
-        sum += a[k] * b[k];
-    return sum;
+    double x = 0.0, y = 0.0, theta = 0.0;
+    for (int k = 0; k < N_Q; k += 3) {
+        x += a[k] * b[k];
+        y += a[k + 1] * b[k + 1];
+        theta += a[k + 2] * b[k + 2];
+    }
+    return x + y + theta;
 }
 
 /* Takes the component along the newest basis vector from every row not yet used, twice for its rounding. */
