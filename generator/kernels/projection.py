@@ -75,7 +75,9 @@ def with_least_masses(system: System) -> System:
     for k, q in enumerate(system.q):
         own, counts = mass[k, k], least * system.inertia_of_unit_mass(k)
         if counts != 0 and model.slots.is_constant(own):
-            mass[k, k] = derive(f"metric_{q.name}", sp.Max(own, counts), "of projections")
+            name = f"{'tree_' if system.in_tree else ''}metric_{q.name}"
+            mass[k, k] = derive(name, sp.Max(own, counts), "of projections")
+            model.slots.unwritten.add(mass[k, k])
     return replace(system, mass=mass)
 
 

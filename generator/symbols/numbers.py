@@ -54,6 +54,7 @@ class Slots:
         self.entries: dict[str, SlotEntry] = {}
         self.derived: dict[sp.Symbol, sp.Expr] = {}
         self.of_owner: dict[sp.Symbol, Owned] = {}  # of derived numbers those that one joint or element has
+        self.unwritten: set[sp.Expr] = set()  # derived numbers of the integration alone, which no document writes
         self.signs: dict[str, str] = {}  # address -> ">" or "<": the sign to zero that the equations rely on
         self.tables: dict[str, list[sp.Symbol]] = {}  # numbers that are an array of Parameters, by its name
         self._derived_by: dict[sp.Expr, sp.Symbol] = {}

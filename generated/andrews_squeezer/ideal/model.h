@@ -193,17 +193,17 @@ struct Parameters {
     double inverse_mass_AH_AH_;  /* 1/M, 1/(kg*m^2) */
     double inverse_mass_HE_HE_;  /* 1/M, 1/(kg*m^2) */
     double inverse_mass_EG_EG_;  /* 1/M, 1/(kg*m^2) */
-    double metric_OF_theta_;  /* of projections, kg*m^2 */
-    double metric_BDE_theta_;  /* of projections, kg*m^2 */
-    double metric_AG_theta_;  /* of projections, kg*m^2 */
-    double metric_AH_theta_;  /* of projections, kg*m^2 */
-    double metric_FE_theta_;  /* of projections, kg*m^2 */
-    double metric_HE_theta_;  /* of projections, kg*m^2 */
-    double metric_EG_theta_;  /* of projections, kg*m^2 */
-    double inverse_metric_AG_theta_;  /* 1/M, 1/(kg*m^2) */
-    double inverse_metric_AH_theta_;  /* 1/M, 1/(kg*m^2) */
-    double inverse_metric_HE_theta_;  /* 1/M, 1/(kg*m^2) */
-    double inverse_metric_EG_theta_;  /* 1/M, 1/(kg*m^2) */
+    double tree_metric_OF_theta_;  /* of projections, kg*m^2 */
+    double tree_metric_BDE_theta_;  /* of projections, kg*m^2 */
+    double tree_metric_AG_theta_;  /* of projections, kg*m^2 */
+    double tree_metric_AH_theta_;  /* of projections, kg*m^2 */
+    double tree_metric_FE_theta_;  /* of projections, kg*m^2 */
+    double tree_metric_HE_theta_;  /* of projections, kg*m^2 */
+    double tree_metric_EG_theta_;  /* of projections, kg*m^2 */
+    double inverse_tree_metric_AG_theta_;  /* 1/M, 1/(kg*m^2) */
+    double inverse_tree_metric_AH_theta_;  /* 1/M, 1/(kg*m^2) */
+    double inverse_tree_metric_HE_theta_;  /* 1/M, 1/(kg*m^2) */
+    double inverse_tree_metric_EG_theta_;  /* 1/M, 1/(kg*m^2) */
 };
 
 /* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */

@@ -727,14 +727,14 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     const double r_E3_y_ = r[5];
 
     /* L D L^T of the KKT matrix */
-    const double l_G_x_AG_theta_ = p->inverse_metric_AG_theta_*span_AG_G_y_;
-    const double l_G_y_AG_theta_ = -p->inverse_metric_AG_theta_*span_AG_G_x_;
-    const double l_H_x_AH_theta_ = p->inverse_metric_AH_theta_*span_AH_H_y_;
-    const double l_H_y_AH_theta_ = -p->inverse_metric_AH_theta_*span_AH_H_x_;
-    const double l_BDE_theta_HE_theta_ = dot_BDE_HE_*p->inverse_metric_HE_theta_;
-    const double l_H_x_HE_theta_ = -p->inverse_metric_HE_theta_*span_HE_H_y_;
-    const double l_H_y_HE_theta_ = p->inverse_metric_HE_theta_*span_HE_H_x_;
-    const double inverse_pivot_BDE_theta_ = 1.0/(-dot_BDE_HE_*l_BDE_theta_HE_theta_ + p->metric_BDE_theta_);
+    const double l_G_x_AG_theta_ = p->inverse_tree_metric_AG_theta_*span_AG_G_y_;
+    const double l_G_y_AG_theta_ = -p->inverse_tree_metric_AG_theta_*span_AG_G_x_;
+    const double l_H_x_AH_theta_ = p->inverse_tree_metric_AH_theta_*span_AH_H_y_;
+    const double l_H_y_AH_theta_ = -p->inverse_tree_metric_AH_theta_*span_AH_H_x_;
+    const double l_BDE_theta_HE_theta_ = dot_BDE_HE_*p->inverse_tree_metric_HE_theta_;
+    const double l_H_x_HE_theta_ = -p->inverse_tree_metric_HE_theta_*span_HE_H_y_;
+    const double l_H_y_HE_theta_ = p->inverse_tree_metric_HE_theta_*span_HE_H_x_;
+    const double inverse_pivot_BDE_theta_ = 1.0/(-dot_BDE_HE_*l_BDE_theta_HE_theta_ + p->tree_metric_BDE_theta_);
     const double w_H_x_BDE_theta_ = -dot_BDE_HE_*l_H_x_HE_theta_ - span_BDE_E_y_;
     const double l_H_x_BDE_theta_ = inverse_pivot_BDE_theta_*w_H_x_BDE_theta_;
     const double w_H_y_BDE_theta_ = -dot_BDE_HE_*l_H_y_HE_theta_ + span_BDE_E_x_;
@@ -769,12 +769,12 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     const double w_E3_y_H_y_ = -l_E3_y_BDE_theta_*w_H_y_BDE_theta_;
     const double l_E3_y_H_x_ = inverse_cross_H_x_H_y_*w_E3_y_H_y_ + inverse_pivot_H_x_*w_E3_y_H_x_;
     const double l_E3_y_H_y_ = inverse_cross_H_x_H_y_*w_E3_y_H_x_ + inverse_pivot_H_y_*w_E3_y_H_y_;
-    const double l_OF_theta_EG_theta_ = dot_OF_EG_*p->inverse_metric_EG_theta_;
-    const double l_FE_theta_EG_theta_ = dot_FE_EG_*p->inverse_metric_EG_theta_;
-    const double l_G_x_EG_theta_ = -p->inverse_metric_EG_theta_*span_EG_G_y_;
-    const double l_G_y_EG_theta_ = p->inverse_metric_EG_theta_*span_EG_G_x_;
-    const double pivot_OF_theta_ = -dot_OF_EG_*l_OF_theta_EG_theta_ + p->metric_OF_theta_;
-    const double pivot_FE_theta_ = -dot_FE_EG_*l_FE_theta_EG_theta_ + p->metric_FE_theta_;
+    const double l_OF_theta_EG_theta_ = dot_OF_EG_*p->inverse_tree_metric_EG_theta_;
+    const double l_FE_theta_EG_theta_ = dot_FE_EG_*p->inverse_tree_metric_EG_theta_;
+    const double l_G_x_EG_theta_ = -p->inverse_tree_metric_EG_theta_*span_EG_G_y_;
+    const double l_G_y_EG_theta_ = p->inverse_tree_metric_EG_theta_*span_EG_G_x_;
+    const double pivot_OF_theta_ = -dot_OF_EG_*l_OF_theta_EG_theta_ + p->tree_metric_OF_theta_;
+    const double pivot_FE_theta_ = -dot_FE_EG_*l_FE_theta_EG_theta_ + p->tree_metric_FE_theta_;
     const double pivot_OF_theta_FE_theta_ = -dot_OF_EG_*l_FE_theta_EG_theta_ + dot_OF_FE_;
     const double determinant_OF_theta_FE_theta_ = pivot_FE_theta_*pivot_OF_theta_
         - (pivot_OF_theta_FE_theta_ * pivot_OF_theta_FE_theta_);

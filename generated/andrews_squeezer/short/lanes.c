@@ -123,17 +123,17 @@ typedef struct LaneParameters {
     Lanes inverse_mass_AH_AH_;
     Lanes inverse_mass_HE_HE_;
     Lanes inverse_mass_EG_EG_;
-    Lanes metric_OF_theta_;
-    Lanes metric_BDE_theta_;
-    Lanes metric_AG_theta_;
-    Lanes metric_AH_theta_;
-    Lanes metric_FE_theta_;
-    Lanes metric_HE_theta_;
-    Lanes metric_EG_theta_;
-    Lanes inverse_metric_AG_theta_;
-    Lanes inverse_metric_AH_theta_;
-    Lanes inverse_metric_HE_theta_;
-    Lanes inverse_metric_EG_theta_;
+    Lanes tree_metric_OF_theta_;
+    Lanes tree_metric_BDE_theta_;
+    Lanes tree_metric_AG_theta_;
+    Lanes tree_metric_AH_theta_;
+    Lanes tree_metric_FE_theta_;
+    Lanes tree_metric_HE_theta_;
+    Lanes tree_metric_EG_theta_;
+    Lanes inverse_tree_metric_AG_theta_;
+    Lanes inverse_tree_metric_AH_theta_;
+    Lanes inverse_tree_metric_HE_theta_;
+    Lanes inverse_tree_metric_EG_theta_;
 } LaneParameters;
 
 _Static_assert(sizeof(LaneParameters) / sizeof(Lanes) == sizeof(Parameters) / sizeof(double), "the same numbers");
@@ -658,14 +658,14 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes phi_dot_E3_y_ = -BDE_omega_*span_BDE_E_x_ + FE_omega_*span_FE_E_x_ + OF_omega_*span_OF_F_x_;
 
     /* L D L^T of the KKT matrix */
-    const Lanes l_G_x_AG_theta_ = p->inverse_metric_AG_theta_*span_AG_G_y_;
-    const Lanes l_G_y_AG_theta_ = -p->inverse_metric_AG_theta_*span_AG_G_x_;
-    const Lanes l_H_x_AH_theta_ = p->inverse_metric_AH_theta_*span_AH_H_y_;
-    const Lanes l_H_y_AH_theta_ = -p->inverse_metric_AH_theta_*span_AH_H_x_;
-    const Lanes l_BDE_theta_HE_theta_ = dot_BDE_HE_*p->inverse_metric_HE_theta_;
-    const Lanes l_H_x_HE_theta_ = -p->inverse_metric_HE_theta_*span_HE_H_y_;
-    const Lanes l_H_y_HE_theta_ = p->inverse_metric_HE_theta_*span_HE_H_x_;
-    const Lanes inverse_pivot_BDE_theta_ = 1.0/(-dot_BDE_HE_*l_BDE_theta_HE_theta_ + p->metric_BDE_theta_);
+    const Lanes l_G_x_AG_theta_ = p->inverse_tree_metric_AG_theta_*span_AG_G_y_;
+    const Lanes l_G_y_AG_theta_ = -p->inverse_tree_metric_AG_theta_*span_AG_G_x_;
+    const Lanes l_H_x_AH_theta_ = p->inverse_tree_metric_AH_theta_*span_AH_H_y_;
+    const Lanes l_H_y_AH_theta_ = -p->inverse_tree_metric_AH_theta_*span_AH_H_x_;
+    const Lanes l_BDE_theta_HE_theta_ = dot_BDE_HE_*p->inverse_tree_metric_HE_theta_;
+    const Lanes l_H_x_HE_theta_ = -p->inverse_tree_metric_HE_theta_*span_HE_H_y_;
+    const Lanes l_H_y_HE_theta_ = p->inverse_tree_metric_HE_theta_*span_HE_H_x_;
+    const Lanes inverse_pivot_BDE_theta_ = 1.0/(-dot_BDE_HE_*l_BDE_theta_HE_theta_ + p->tree_metric_BDE_theta_);
     const Lanes w_H_x_BDE_theta_ = -dot_BDE_HE_*l_H_x_HE_theta_ - span_BDE_E_y_;
     const Lanes l_H_x_BDE_theta_ = inverse_pivot_BDE_theta_*w_H_x_BDE_theta_;
     const Lanes w_H_y_BDE_theta_ = -dot_BDE_HE_*l_H_y_HE_theta_ + span_BDE_E_x_;
@@ -696,12 +696,12 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes w_E3_y_H_y_ = -l_E3_y_BDE_theta_*w_H_y_BDE_theta_;
     const Lanes l_E3_y_H_x_ = inverse_cross_H_x_H_y_*w_E3_y_H_y_ + inverse_pivot_H_x_*w_E3_y_H_x_;
     const Lanes l_E3_y_H_y_ = inverse_cross_H_x_H_y_*w_E3_y_H_x_ + inverse_pivot_H_y_*w_E3_y_H_y_;
-    const Lanes l_OF_theta_EG_theta_ = dot_OF_EG_*p->inverse_metric_EG_theta_;
-    const Lanes l_FE_theta_EG_theta_ = dot_FE_EG_*p->inverse_metric_EG_theta_;
-    const Lanes l_G_x_EG_theta_ = -p->inverse_metric_EG_theta_*span_EG_G_y_;
-    const Lanes l_G_y_EG_theta_ = p->inverse_metric_EG_theta_*span_EG_G_x_;
-    const Lanes pivot_OF_theta_ = -dot_OF_EG_*l_OF_theta_EG_theta_ + p->metric_OF_theta_;
-    const Lanes pivot_FE_theta_ = -dot_FE_EG_*l_FE_theta_EG_theta_ + p->metric_FE_theta_;
+    const Lanes l_OF_theta_EG_theta_ = dot_OF_EG_*p->inverse_tree_metric_EG_theta_;
+    const Lanes l_FE_theta_EG_theta_ = dot_FE_EG_*p->inverse_tree_metric_EG_theta_;
+    const Lanes l_G_x_EG_theta_ = -p->inverse_tree_metric_EG_theta_*span_EG_G_y_;
+    const Lanes l_G_y_EG_theta_ = p->inverse_tree_metric_EG_theta_*span_EG_G_x_;
+    const Lanes pivot_OF_theta_ = -dot_OF_EG_*l_OF_theta_EG_theta_ + p->tree_metric_OF_theta_;
+    const Lanes pivot_FE_theta_ = -dot_FE_EG_*l_FE_theta_EG_theta_ + p->tree_metric_FE_theta_;
     const Lanes pivot_OF_theta_FE_theta_ = -dot_OF_EG_*l_FE_theta_EG_theta_ + dot_OF_FE_;
     const Lanes determinant_OF_theta_FE_theta_ = pivot_FE_theta_*pivot_OF_theta_
         - (pivot_OF_theta_FE_theta_ * pivot_OF_theta_FE_theta_);

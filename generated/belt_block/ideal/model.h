@@ -100,8 +100,8 @@ struct Parameters {
     double two_alpha_;  /* 2 alpha, 1/s */
     double beta_squared_;  /* beta^2, 1/s^2 */
     double inverse_block_mass_;  /* 1/M, 1/kg */
-    double metric_guide_slide_;  /* of projections, kg */
-    double inverse_metric_guide_slide_;  /* 1/M, 1/kg */
+    double tree_metric_guide_slide_;  /* of projections, kg */
+    double inverse_tree_metric_guide_slide_;  /* 1/M, 1/kg */
 };
 
 /* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */

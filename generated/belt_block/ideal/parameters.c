@@ -26,6 +26,6 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->two_alpha_ = 2.0*p->alpha_;  /* 2 alpha */
     p->beta_squared_ = (p->beta_ * p->beta_);  /* beta^2 */
     p->inverse_block_mass_ = 1.0/p->block_mass_;  /* 1/M */
-    p->metric_guide_slide_ = max_of(0.0001*p->block_mass_, p->block_mass_);  /* of projections */
-    p->inverse_metric_guide_slide_ = 1.0/p->metric_guide_slide_;  /* 1/M */
+    p->tree_metric_guide_slide_ = max_of(0.0001*p->block_mass_, p->block_mass_);  /* of projections */
+    p->inverse_tree_metric_guide_slide_ = 1.0/p->tree_metric_guide_slide_;  /* 1/M */
 }

@@ -34,8 +34,8 @@ typedef struct LaneParameters {
     Lanes beta_squared_;
     Lanes inverse_ball_mass_;
     Lanes inverse_ball_inertia_;
-    Lanes metric_ball_x_;
-    Lanes inverse_metric_ball_x_;
+    Lanes tree_metric_ball_x_;
+    Lanes inverse_tree_metric_ball_x_;
 } LaneParameters;
 
 _Static_assert(sizeof(LaneParameters) / sizeof(Lanes) == sizeof(Parameters) / sizeof(double), "the same numbers");

@@ -102,8 +102,8 @@ struct Parameters {
     double beta_squared_;  /* beta^2, 1/s^2 */
     double inverse_ball_mass_;  /* 1/M, 1/kg */
     double inverse_ball_inertia_;  /* 1/M, 1/(kg*m^2) */
-    double metric_ball_x_;  /* of projections, kg */
-    double inverse_metric_ball_x_;  /* 1/M, 1/kg */
+    double tree_metric_ball_x_;  /* of projections, kg */
+    double inverse_tree_metric_ball_x_;  /* 1/M, 1/kg */
 };
 
 /* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */

@@ -27,8 +27,8 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->beta_squared_ = (p->beta_ * p->beta_);  /* beta^2 */
     p->inverse_ball_mass_ = 1.0/p->ball_mass_;  /* 1/M */
     p->inverse_ball_inertia_ = 1.0/p->ball_inertia_;  /* 1/M */
-    p->metric_ball_x_ = max_of(0.0001*p->ball_mass_, p->ball_mass_);  /* of projections */
-    p->inverse_metric_ball_x_ = 1.0/p->metric_ball_x_;  /* 1/M */
+    p->tree_metric_ball_x_ = max_of(0.0001*p->ball_mass_, p->ball_mass_);  /* of projections */
+    p->inverse_tree_metric_ball_x_ = 1.0/p->tree_metric_ball_x_;  /* 1/M */
 }
 
 /* Radial clearance of joint i with play, m. */

@@ -48,10 +48,10 @@ typedef struct LaneParameters {
     Lanes mass_bump_bump_;
     Lanes weight_road_across_;
     Lanes inverse_axle_inertia_;
-    Lanes metric_axle_x_;
-    Lanes metric_axle_theta_;
-    Lanes inverse_metric_axle_x_;
-    Lanes inverse_metric_axle_theta_;
+    Lanes tree_metric_axle_x_;
+    Lanes tree_metric_axle_theta_;
+    Lanes inverse_tree_metric_axle_x_;
+    Lanes inverse_tree_metric_axle_theta_;
 } LaneParameters;
 
 _Static_assert(sizeof(LaneParameters) / sizeof(Lanes) == sizeof(Parameters) / sizeof(double), "the same numbers");
@@ -273,10 +273,10 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
         - bump_rate_*sin_theta_road_*(-axle_x_ - span_axle_tail_x_);
 
     /* L D L^T of the KKT matrix */
-    const Lanes l_slot_offset_axle_x_ = -cos_theta_road_*p->inverse_metric_axle_x_;
-    const Lanes l_slot_offset_axle_y_ = -p->inverse_metric_axle_x_*sin_theta_road_;
+    const Lanes l_slot_offset_axle_x_ = -cos_theta_road_*p->inverse_tree_metric_axle_x_;
+    const Lanes l_slot_offset_axle_y_ = -p->inverse_tree_metric_axle_x_*sin_theta_road_;
     const Lanes w_slot_offset_axle_theta_ = cos_theta_road_*span_axle_tail_y_ - sin_theta_road_*span_axle_tail_x_;
-    const Lanes l_slot_offset_axle_theta_ = p->inverse_metric_axle_theta_*w_slot_offset_axle_theta_;
+    const Lanes l_slot_offset_axle_theta_ = p->inverse_tree_metric_axle_theta_*w_slot_offset_axle_theta_;
     const Lanes scale_slot_offset_ = -cos_theta_road_*l_slot_offset_axle_x_
         + l_slot_offset_axle_theta_*w_slot_offset_axle_theta_ - l_slot_offset_axle_y_*sin_theta_road_;
     *rare |= ~((scale_slot_offset_ > 0.0) & (scale_slot_offset_ < INFINITY));

@@ -116,10 +116,10 @@ struct Parameters {
     double mass_bump_bump_;  /* constant of M, kg*m^2 */
     double weight_road_across_;  /* weight, N*m */
     double inverse_axle_inertia_;  /* 1/M, 1/(kg*m^2) */
-    double metric_axle_x_;  /* of projections, kg */
-    double metric_axle_theta_;  /* of projections, kg*m^2 */
-    double inverse_metric_axle_x_;  /* 1/M, 1/kg */
-    double inverse_metric_axle_theta_;  /* 1/M, 1/(kg*m^2) */
+    double tree_metric_axle_x_;  /* of projections, kg */
+    double tree_metric_axle_theta_;  /* of projections, kg*m^2 */
+    double inverse_tree_metric_axle_x_;  /* 1/M, 1/kg */
+    double inverse_tree_metric_axle_theta_;  /* 1/M, 1/(kg*m^2) */
 };
 
 /* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */

@@ -278,10 +278,10 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     const double r_slot_offset_ = r[0];
 
     /* L D L^T of the KKT matrix */
-    const double l_slot_offset_axle_x_ = -cos_theta_road_*p->inverse_metric_axle_x_;
-    const double l_slot_offset_axle_y_ = -p->inverse_metric_axle_x_*sin_theta_road_;
+    const double l_slot_offset_axle_x_ = -cos_theta_road_*p->inverse_tree_metric_axle_x_;
+    const double l_slot_offset_axle_y_ = -p->inverse_tree_metric_axle_x_*sin_theta_road_;
     const double w_slot_offset_axle_theta_ = cos_theta_road_*span_axle_tail_y_ - sin_theta_road_*span_axle_tail_x_;
-    const double l_slot_offset_axle_theta_ = p->inverse_metric_axle_theta_*w_slot_offset_axle_theta_;
+    const double l_slot_offset_axle_theta_ = p->inverse_tree_metric_axle_theta_*w_slot_offset_axle_theta_;
     const double scale_slot_offset_ = -cos_theta_road_*l_slot_offset_axle_x_
         + l_slot_offset_axle_theta_*w_slot_offset_axle_theta_ - l_slot_offset_axle_y_*sin_theta_road_;
     if (!(scale_slot_offset_ > 0.0 && scale_slot_offset_ < INFINITY))

@@ -121,10 +121,10 @@ struct Parameters {
     double weight_rocker_across_;  /* weight, N*m */
     double inverse_mass_rocker_rocker_;  /* 1/M, 1/(kg*m^2) */
     double inverse_mass_coupler_coupler_;  /* 1/M, 1/(kg*m^2) */
-    double metric_rocker_theta_;  /* of projections, kg*m^2 */
-    double metric_coupler_theta_;  /* of projections, kg*m^2 */
-    double inverse_metric_rocker_theta_;  /* 1/M, 1/(kg*m^2) */
-    double inverse_metric_coupler_theta_;  /* 1/M, 1/(kg*m^2) */
+    double tree_metric_rocker_theta_;  /* of projections, kg*m^2 */
+    double tree_metric_coupler_theta_;  /* of projections, kg*m^2 */
+    double inverse_tree_metric_rocker_theta_;  /* 1/M, 1/(kg*m^2) */
+    double inverse_tree_metric_coupler_theta_;  /* 1/M, 1/(kg*m^2) */
 };
 
 #endif

@@ -58,11 +58,11 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->inverse_mass_rocker_rocker_ = 1.0/p->mass_rocker_rocker_;  /* 1/M */
     p->inverse_mass_coupler_coupler_ = 1.0/p->mass_coupler_coupler_;  /* 1/M */
     /* of projections */
-    p->metric_rocker_theta_ = max_of(2.0*(p->rocker_head_s_x_ * p->rocker_head_s_x_)*(0.0001*p->coupler_mass_
+    p->tree_metric_rocker_theta_ = max_of(2.0*(p->rocker_head_s_x_ * p->rocker_head_s_x_)*(0.0001*p->coupler_mass_
         + 0.0001*p->crank_mass_ + 0.0001*p->rocker_mass_), p->mass_rocker_rocker_);
     /* of projections */
-    p->metric_coupler_theta_ = max_of(2.0*(p->coupler_head_s_x_ * p->coupler_head_s_x_)*(0.0001*p->coupler_mass_
+    p->tree_metric_coupler_theta_ = max_of(2.0*(p->coupler_head_s_x_ * p->coupler_head_s_x_)*(0.0001*p->coupler_mass_
         + 0.0001*p->crank_mass_ + 0.0001*p->rocker_mass_), p->mass_coupler_coupler_);
-    p->inverse_metric_rocker_theta_ = 1.0/p->metric_rocker_theta_;  /* 1/M */
-    p->inverse_metric_coupler_theta_ = 1.0/p->metric_coupler_theta_;  /* 1/M */
+    p->inverse_tree_metric_rocker_theta_ = 1.0/p->tree_metric_rocker_theta_;  /* 1/M */
+    p->inverse_tree_metric_coupler_theta_ = 1.0/p->tree_metric_coupler_theta_;  /* 1/M */
 }

@@ -315,10 +315,10 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     const double r_B_y_ = r[1];
 
     /* L D L^T of the KKT matrix */
-    const double l_B_x_rocker_theta_ = p->inverse_metric_rocker_theta_*span_rocker_head_y_;
-    const double l_B_y_rocker_theta_ = -p->inverse_metric_rocker_theta_*span_rocker_head_x_;
-    const double l_B_x_coupler_theta_ = -p->inverse_metric_coupler_theta_*span_coupler_head_y_;
-    const double l_B_y_coupler_theta_ = p->inverse_metric_coupler_theta_*span_coupler_head_x_;
+    const double l_B_x_rocker_theta_ = p->inverse_tree_metric_rocker_theta_*span_rocker_head_y_;
+    const double l_B_y_rocker_theta_ = -p->inverse_tree_metric_rocker_theta_*span_rocker_head_x_;
+    const double l_B_x_coupler_theta_ = -p->inverse_tree_metric_coupler_theta_*span_coupler_head_y_;
+    const double l_B_y_coupler_theta_ = p->inverse_tree_metric_coupler_theta_*span_coupler_head_x_;
     const double scale_B_x_ = -l_B_x_coupler_theta_*span_coupler_head_y_ + l_B_x_rocker_theta_*span_rocker_head_y_;
     const double scale_B_y_ = l_B_y_coupler_theta_*span_coupler_head_x_ - l_B_y_rocker_theta_*span_rocker_head_x_;
     const double pivot_B_x_B_y_ = -l_B_y_coupler_theta_*span_coupler_head_y_ + l_B_y_rocker_theta_*span_rocker_head_y_;

@@ -85,14 +85,14 @@ typedef struct LaneParameters {
     Lanes inverse_mass_crank2_crank2_;
     Lanes inverse_mass_coupler2_coupler2_;
     Lanes inverse_mass_crank0_crank0_;
-    Lanes metric_crank0_theta_;
-    Lanes metric_crank1_theta_;
-    Lanes metric_crank2_theta_;
-    Lanes metric_coupler1_theta_;
-    Lanes metric_coupler2_theta_;
-    Lanes inverse_metric_crank2_theta_;
-    Lanes inverse_metric_crank0_theta_;
-    Lanes inverse_metric_coupler2_theta_;
+    Lanes tree_metric_crank0_theta_;
+    Lanes tree_metric_crank1_theta_;
+    Lanes tree_metric_crank2_theta_;
+    Lanes tree_metric_coupler1_theta_;
+    Lanes tree_metric_coupler2_theta_;
+    Lanes inverse_tree_metric_crank2_theta_;
+    Lanes inverse_tree_metric_crank0_theta_;
+    Lanes inverse_tree_metric_coupler2_theta_;
 } LaneParameters;
 
 _Static_assert(sizeof(LaneParameters) / sizeof(Lanes) == sizeof(Parameters) / sizeof(double), "the same numbers");
@@ -492,22 +492,22 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
         - crank1_omega_*span_crank1_head_x_;
 
     /* L D L^T of the KKT matrix */
-    const Lanes l_B2_x_crank2_theta_ = p->inverse_metric_crank2_theta_*span_crank2_head_y_;
-    const Lanes l_B2_y_crank2_theta_ = -p->inverse_metric_crank2_theta_*span_crank2_head_x_;
-    const Lanes l_coupler1_theta_crank0_theta_ = dot_crank0_coupler1_*p->inverse_metric_crank0_theta_;
-    const Lanes l_B1_x_crank0_theta_ = -p->inverse_metric_crank0_theta_*span_crank0_head_y_;
-    const Lanes l_B1_y_crank0_theta_ = p->inverse_metric_crank0_theta_*span_crank0_head_x_;
+    const Lanes l_B2_x_crank2_theta_ = p->inverse_tree_metric_crank2_theta_*span_crank2_head_y_;
+    const Lanes l_B2_y_crank2_theta_ = -p->inverse_tree_metric_crank2_theta_*span_crank2_head_x_;
+    const Lanes l_coupler1_theta_crank0_theta_ = dot_crank0_coupler1_*p->inverse_tree_metric_crank0_theta_;
+    const Lanes l_B1_x_crank0_theta_ = -p->inverse_tree_metric_crank0_theta_*span_crank0_head_y_;
+    const Lanes l_B1_y_crank0_theta_ = p->inverse_tree_metric_crank0_theta_*span_crank0_head_x_;
     const Lanes inverse_pivot_coupler1_theta_ = 1.0/(-dot_crank0_coupler1_*l_coupler1_theta_crank0_theta_
-        + p->metric_coupler1_theta_);
+        + p->tree_metric_coupler1_theta_);
     const Lanes w_B1_x_coupler1_theta_ = -dot_crank0_coupler1_*l_B1_x_crank0_theta_ - span_coupler1_head_y_;
     const Lanes l_B1_x_coupler1_theta_ = inverse_pivot_coupler1_theta_*w_B1_x_coupler1_theta_;
     const Lanes w_B1_y_coupler1_theta_ = -dot_crank0_coupler1_*l_B1_y_crank0_theta_ + span_coupler1_head_x_;
     const Lanes l_B1_y_coupler1_theta_ = inverse_pivot_coupler1_theta_*w_B1_y_coupler1_theta_;
-    const Lanes l_crank1_theta_coupler2_theta_ = dot_crank1_coupler2_*p->inverse_metric_coupler2_theta_;
-    const Lanes l_B2_x_coupler2_theta_ = -p->inverse_metric_coupler2_theta_*span_coupler2_head_y_;
-    const Lanes l_B2_y_coupler2_theta_ = p->inverse_metric_coupler2_theta_*span_coupler2_head_x_;
+    const Lanes l_crank1_theta_coupler2_theta_ = dot_crank1_coupler2_*p->inverse_tree_metric_coupler2_theta_;
+    const Lanes l_B2_x_coupler2_theta_ = -p->inverse_tree_metric_coupler2_theta_*span_coupler2_head_y_;
+    const Lanes l_B2_y_coupler2_theta_ = p->inverse_tree_metric_coupler2_theta_*span_coupler2_head_x_;
     const Lanes inverse_pivot_crank1_theta_ = 1.0/(-dot_crank1_coupler2_*l_crank1_theta_coupler2_theta_
-        + p->metric_crank1_theta_);
+        + p->tree_metric_crank1_theta_);
     const Lanes w_B2_x_crank1_theta_ = -dot_crank1_coupler2_*l_B2_x_coupler2_theta_ - span_crank1_head_y_;
     const Lanes l_B2_x_crank1_theta_ = inverse_pivot_crank1_theta_*w_B2_x_crank1_theta_;
     const Lanes w_B2_y_crank1_theta_ = -dot_crank1_coupler2_*l_B2_y_coupler2_theta_ + span_crank1_head_x_;

@@ -154,14 +154,14 @@ struct Parameters {
     double inverse_mass_crank2_crank2_;  /* 1/M, 1/(kg*m^2) */
     double inverse_mass_coupler2_coupler2_;  /* 1/M, 1/(kg*m^2) */
     double inverse_mass_crank0_crank0_;  /* 1/M, 1/(kg*m^2) */
-    double metric_crank0_theta_;  /* of projections, kg*m^2 */
-    double metric_crank1_theta_;  /* of projections, kg*m^2 */
-    double metric_crank2_theta_;  /* of projections, kg*m^2 */
-    double metric_coupler1_theta_;  /* of projections, kg*m^2 */
-    double metric_coupler2_theta_;  /* of projections, kg*m^2 */
-    double inverse_metric_crank2_theta_;  /* 1/M, 1/(kg*m^2) */
-    double inverse_metric_crank0_theta_;  /* 1/M, 1/(kg*m^2) */
-    double inverse_metric_coupler2_theta_;  /* 1/M, 1/(kg*m^2) */
+    double tree_metric_crank0_theta_;  /* of projections, kg*m^2 */
+    double tree_metric_crank1_theta_;  /* of projections, kg*m^2 */
+    double tree_metric_crank2_theta_;  /* of projections, kg*m^2 */
+    double tree_metric_coupler1_theta_;  /* of projections, kg*m^2 */
+    double tree_metric_coupler2_theta_;  /* of projections, kg*m^2 */
+    double inverse_tree_metric_crank2_theta_;  /* 1/M, 1/(kg*m^2) */
+    double inverse_tree_metric_crank0_theta_;  /* 1/M, 1/(kg*m^2) */
+    double inverse_tree_metric_coupler2_theta_;  /* 1/M, 1/(kg*m^2) */
 };
 
 /* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */

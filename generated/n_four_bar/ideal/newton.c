@@ -668,22 +668,22 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
         - crank1_omega_*span_crank1_head_x_;
 
     /* L D L^T of the KKT matrix */
-    const double l_B2_x_crank2_theta_ = p->inverse_metric_crank2_theta_*span_crank2_head_y_;
-    const double l_B2_y_crank2_theta_ = -p->inverse_metric_crank2_theta_*span_crank2_head_x_;
-    const double l_coupler1_theta_crank0_theta_ = dot_crank0_coupler1_*p->inverse_metric_crank0_theta_;
-    const double l_B1_x_crank0_theta_ = -p->inverse_metric_crank0_theta_*span_crank0_head_y_;
-    const double l_B1_y_crank0_theta_ = p->inverse_metric_crank0_theta_*span_crank0_head_x_;
+    const double l_B2_x_crank2_theta_ = p->inverse_tree_metric_crank2_theta_*span_crank2_head_y_;
+    const double l_B2_y_crank2_theta_ = -p->inverse_tree_metric_crank2_theta_*span_crank2_head_x_;
+    const double l_coupler1_theta_crank0_theta_ = dot_crank0_coupler1_*p->inverse_tree_metric_crank0_theta_;
+    const double l_B1_x_crank0_theta_ = -p->inverse_tree_metric_crank0_theta_*span_crank0_head_y_;
+    const double l_B1_y_crank0_theta_ = p->inverse_tree_metric_crank0_theta_*span_crank0_head_x_;
     const double inverse_pivot_coupler1_theta_ = 1.0/(-dot_crank0_coupler1_*l_coupler1_theta_crank0_theta_
-        + p->metric_coupler1_theta_);
+        + p->tree_metric_coupler1_theta_);
     const double w_B1_x_coupler1_theta_ = -dot_crank0_coupler1_*l_B1_x_crank0_theta_ - span_coupler1_head_y_;
     const double l_B1_x_coupler1_theta_ = inverse_pivot_coupler1_theta_*w_B1_x_coupler1_theta_;
     const double w_B1_y_coupler1_theta_ = -dot_crank0_coupler1_*l_B1_y_crank0_theta_ + span_coupler1_head_x_;
     const double l_B1_y_coupler1_theta_ = inverse_pivot_coupler1_theta_*w_B1_y_coupler1_theta_;
-    const double l_crank1_theta_coupler2_theta_ = dot_crank1_coupler2_*p->inverse_metric_coupler2_theta_;
-    const double l_B2_x_coupler2_theta_ = -p->inverse_metric_coupler2_theta_*span_coupler2_head_y_;
-    const double l_B2_y_coupler2_theta_ = p->inverse_metric_coupler2_theta_*span_coupler2_head_x_;
+    const double l_crank1_theta_coupler2_theta_ = dot_crank1_coupler2_*p->inverse_tree_metric_coupler2_theta_;
+    const double l_B2_x_coupler2_theta_ = -p->inverse_tree_metric_coupler2_theta_*span_coupler2_head_y_;
+    const double l_B2_y_coupler2_theta_ = p->inverse_tree_metric_coupler2_theta_*span_coupler2_head_x_;
     const double inverse_pivot_crank1_theta_ = 1.0/(-dot_crank1_coupler2_*l_crank1_theta_coupler2_theta_
-        + p->metric_crank1_theta_);
+        + p->tree_metric_crank1_theta_);
     const double w_B2_x_crank1_theta_ = -dot_crank1_coupler2_*l_B2_x_coupler2_theta_ - span_crank1_head_y_;
     const double l_B2_x_crank1_theta_ = inverse_pivot_crank1_theta_*w_B2_x_crank1_theta_;
     const double w_B2_y_crank1_theta_ = -dot_crank1_coupler2_*l_B2_y_coupler2_theta_ + span_crank1_head_x_;

@@ -541,14 +541,14 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     const double r_guide_offset_ = r[0];
 
     /* L D L^T of the KKT matrix */
-    const double l_L6_theta_L8_theta_ = dot_L6_L8_*p->inverse_metric_L8_theta_;
-    const double l_guide_offset_L8_theta_ = p->inverse_metric_L8_theta_*span_L8_head_y_;
-    const double l_L7_theta_L2_theta_ = dot_L7_L2_*p->inverse_metric_L2_theta_;
-    const double l_L6_theta_L2_theta_ = dot_L6_L2_*p->inverse_metric_L2_theta_;
-    const double pivot_L7_theta_ = -dot_L7_L2_*l_L7_theta_L2_theta_ + p->metric_L7_theta_;
-    const double determinant_L7_theta_L3_theta_ = -(dot_L7_L3_ * dot_L7_L3_) + p->metric_L3_theta_*pivot_L7_theta_;
+    const double l_L6_theta_L8_theta_ = dot_L6_L8_*p->inverse_tree_metric_L8_theta_;
+    const double l_guide_offset_L8_theta_ = p->inverse_tree_metric_L8_theta_*span_L8_head_y_;
+    const double l_L7_theta_L2_theta_ = dot_L7_L2_*p->inverse_tree_metric_L2_theta_;
+    const double l_L6_theta_L2_theta_ = dot_L6_L2_*p->inverse_tree_metric_L2_theta_;
+    const double pivot_L7_theta_ = -dot_L7_L2_*l_L7_theta_L2_theta_ + p->tree_metric_L7_theta_;
+    const double determinant_L7_theta_L3_theta_ = -(dot_L7_L3_ * dot_L7_L3_) + pivot_L7_theta_*p->tree_metric_L3_theta_;
     const double inverse_L7_theta_L3_theta_ = 1.0/determinant_L7_theta_L3_theta_;
-    const double inverse_pivot_L7_theta_ = inverse_L7_theta_L3_theta_*p->metric_L3_theta_;
+    const double inverse_pivot_L7_theta_ = inverse_L7_theta_L3_theta_*p->tree_metric_L3_theta_;
     const double inverse_pivot_L3_theta_ = inverse_L7_theta_L3_theta_*pivot_L7_theta_;
     const double inverse_cross_L7_theta_L3_theta_ = -dot_L7_L3_*inverse_L7_theta_L3_theta_;
     const double w_L6_theta_L7_theta_ = dot_L6_L7_ - dot_L7_L2_*l_L6_theta_L2_theta_;
@@ -557,7 +557,7 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     const double l_L6_theta_L3_theta_ = dot_L6_L3_*inverse_pivot_L3_theta_
         + inverse_cross_L7_theta_L3_theta_*w_L6_theta_L7_theta_;
     const double inverse_pivot_L6_theta_ = 1.0/(-dot_L6_L2_*l_L6_theta_L2_theta_ - dot_L6_L3_*l_L6_theta_L3_theta_
-        - dot_L6_L8_*l_L6_theta_L8_theta_ - l_L6_theta_L7_theta_*w_L6_theta_L7_theta_ + p->metric_L6_theta_);
+        - dot_L6_L8_*l_L6_theta_L8_theta_ - l_L6_theta_L7_theta_*w_L6_theta_L7_theta_ + p->tree_metric_L6_theta_);
     const double w_guide_offset_L6_theta_ = -dot_L6_L8_*l_guide_offset_L8_theta_ + span_L6_head_y_;
     const double l_guide_offset_L6_theta_ = inverse_pivot_L6_theta_*w_guide_offset_L6_theta_;
     const double scale_guide_offset_ = l_guide_offset_L6_theta_*w_guide_offset_L6_theta_

@@ -685,15 +685,15 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     const double r_P2_y_ = r[4];
 
     /* L D L^T of the KKT matrix */
-    const double l_L2_head_L3_head_x_L3_theta_ = p->inverse_metric_L3_theta_*span_L3_head_y_;
-    const double l_L2_head_L3_head_y_L3_theta_ = -p->inverse_metric_L3_theta_*span_L3_head_x_;
-    const double l_L6_theta_L8_theta_ = dot_L6_L8_*p->inverse_metric_L8_theta_;
-    const double l_guide_offset_L8_theta_ = p->inverse_metric_L8_theta_*span_L8_head_y_;
-    const double l_L6_theta_L7_theta_ = dot_L6_L7_*p->inverse_metric_L7_theta_;
-    const double l_P2_x_L7_theta_ = p->inverse_metric_L7_theta_*span_L7_tail_y_;
-    const double l_P2_y_L7_theta_ = -p->inverse_metric_L7_theta_*span_L7_tail_x_;
+    const double l_L2_head_L3_head_x_L3_theta_ = p->inverse_tree_metric_L3_theta_*span_L3_head_y_;
+    const double l_L2_head_L3_head_y_L3_theta_ = -p->inverse_tree_metric_L3_theta_*span_L3_head_x_;
+    const double l_L6_theta_L8_theta_ = dot_L6_L8_*p->inverse_tree_metric_L8_theta_;
+    const double l_guide_offset_L8_theta_ = p->inverse_tree_metric_L8_theta_*span_L8_head_y_;
+    const double l_L6_theta_L7_theta_ = dot_L6_L7_*p->inverse_tree_metric_L7_theta_;
+    const double l_P2_x_L7_theta_ = p->inverse_tree_metric_L7_theta_*span_L7_tail_y_;
+    const double l_P2_y_L7_theta_ = -p->inverse_tree_metric_L7_theta_*span_L7_tail_x_;
     const double inverse_pivot_L6_theta_ = 1.0/(-dot_L6_L7_*l_L6_theta_L7_theta_ - dot_L6_L8_*l_L6_theta_L8_theta_
-        + p->metric_L6_theta_);
+        + p->tree_metric_L6_theta_);
     const double w_guide_offset_L6_theta_ = -dot_L6_L8_*l_guide_offset_L8_theta_ + span_L6_head_y_;
     const double l_guide_offset_L6_theta_ = inverse_pivot_L6_theta_*w_guide_offset_L6_theta_;
     const double w_P2_x_L6_theta_ = -dot_L6_L7_*l_P2_x_L7_theta_ + span_L6_head_y_;
@@ -709,10 +709,10 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     const double l_P2_x_guide_offset_ = -inverse_pivot_guide_offset_*w_P2_x_guide_offset_;
     const double w_P2_y_guide_offset_ = -l_P2_y_L6_theta_*w_guide_offset_L6_theta_;
     const double l_P2_y_guide_offset_ = -inverse_pivot_guide_offset_*w_P2_y_guide_offset_;
-    const double l_L2_head_L3_head_x_L2_theta_ = -p->inverse_metric_L2_theta_*span_L2_head_y_;
-    const double l_L2_head_L3_head_y_L2_theta_ = p->inverse_metric_L2_theta_*span_L2_head_x_;
-    const double l_P2_x_L2_theta_ = -p->inverse_metric_L2_theta_*span_L2_head_y_;
-    const double l_P2_y_L2_theta_ = p->inverse_metric_L2_theta_*span_L2_head_x_;
+    const double l_L2_head_L3_head_x_L2_theta_ = -p->inverse_tree_metric_L2_theta_*span_L2_head_y_;
+    const double l_L2_head_L3_head_y_L2_theta_ = p->inverse_tree_metric_L2_theta_*span_L2_head_x_;
+    const double l_P2_x_L2_theta_ = -p->inverse_tree_metric_L2_theta_*span_L2_head_y_;
+    const double l_P2_y_L2_theta_ = p->inverse_tree_metric_L2_theta_*span_L2_head_x_;
     const double scale_L2_head_L3_head_x_ = -l_L2_head_L3_head_x_L2_theta_*span_L2_head_y_
         + l_L2_head_L3_head_x_L3_theta_*span_L3_head_y_;
     const double scale_L2_head_L3_head_y_ = l_L2_head_L3_head_y_L2_theta_*span_L2_head_x_

@@ -140,13 +140,13 @@ typedef struct LaneParameters {
     Lanes weight_L8_across_;
     Lanes inverse_mass_L8_L8_;
     Lanes inverse_mass_L2_L2_;
-    Lanes metric_L6_theta_;
-    Lanes metric_L7_theta_;
-    Lanes metric_L8_theta_;
-    Lanes metric_L2_theta_;
-    Lanes metric_L3_theta_;
-    Lanes inverse_metric_L8_theta_;
-    Lanes inverse_metric_L2_theta_;
+    Lanes tree_metric_L6_theta_;
+    Lanes tree_metric_L7_theta_;
+    Lanes tree_metric_L8_theta_;
+    Lanes tree_metric_L2_theta_;
+    Lanes tree_metric_L3_theta_;
+    Lanes inverse_tree_metric_L8_theta_;
+    Lanes inverse_tree_metric_L2_theta_;
     Lanes film_mass_;
 } LaneParameters;
 
@@ -717,10 +717,10 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes phi_dot_guide_offset_ = L6_omega_*span_L6_head_y_ + L8_omega_*span_L8_head_y_;
 
     /* L D L^T of the KKT matrix */
-    const Lanes l_L6_theta_L8_theta_ = dot_L6_L8_*p->inverse_metric_L8_theta_;
-    const Lanes l_guide_offset_L8_theta_ = p->inverse_metric_L8_theta_*span_L8_head_y_;
+    const Lanes l_L6_theta_L8_theta_ = dot_L6_L8_*p->inverse_tree_metric_L8_theta_;
+    const Lanes l_guide_offset_L8_theta_ = p->inverse_tree_metric_L8_theta_*span_L8_head_y_;
     const Lanes inverse_pivot_L2_theta_ = 1.0/(p->film_mass_*(span_L2_tail_x_ * span_L2_tail_x_)
-        + p->film_mass_*(span_L2_tail_y_ * span_L2_tail_y_) + p->metric_L2_theta_);
+        + p->film_mass_*(span_L2_tail_y_ * span_L2_tail_y_) + p->tree_metric_L2_theta_);
     const Lanes w_L7_theta_L2_theta_ = dot_L7_L2_ + p->film_mass_*span_L2_tail_x_*span_L7_tail_x_
         + p->film_mass_*span_L2_tail_y_*span_L7_tail_y_;
     const Lanes l_L7_theta_L2_theta_ = inverse_pivot_L2_theta_*w_L7_theta_L2_theta_;
@@ -729,9 +729,9 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes l_L6_theta_L2_theta_ = inverse_pivot_L2_theta_*w_L6_theta_L2_theta_;
     const Lanes pivot_L7_theta_ = 2.0*p->film_mass_*(span_L7_tail_x_ * span_L7_tail_x_)
         + 2.0*p->film_mass_*(span_L7_tail_y_ * span_L7_tail_y_) - l_L7_theta_L2_theta_*w_L7_theta_L2_theta_
-        + p->metric_L7_theta_;
+        + p->tree_metric_L7_theta_;
     const Lanes pivot_L3_theta_ = p->film_mass_*(span_L3_tail_x_ * span_L3_tail_x_)
-        + p->film_mass_*(span_L3_tail_y_ * span_L3_tail_y_) + p->metric_L3_theta_;
+        + p->film_mass_*(span_L3_tail_y_ * span_L3_tail_y_) + p->tree_metric_L3_theta_;
     const Lanes pivot_L7_theta_L3_theta_ = dot_L7_L3_ + p->film_mass_*span_L3_tail_x_*span_L7_tail_x_
         + p->film_mass_*span_L3_tail_y_*span_L7_tail_y_;
     const Lanes determinant_L7_theta_L3_theta_ = pivot_L3_theta_*pivot_L7_theta_
@@ -751,7 +751,7 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes inverse_pivot_L6_theta_ = 1.0/(-dot_L6_L8_*l_L6_theta_L8_theta_
         + 2.0*p->film_mass_*(span_L6_head_x_ * span_L6_head_x_) + 2.0*p->film_mass_*(span_L6_head_y_ * span_L6_head_y_)
         - l_L6_theta_L2_theta_*w_L6_theta_L2_theta_ - l_L6_theta_L3_theta_*w_L6_theta_L3_theta_
-        - l_L6_theta_L7_theta_*w_L6_theta_L7_theta_ + p->metric_L6_theta_);
+        - l_L6_theta_L7_theta_*w_L6_theta_L7_theta_ + p->tree_metric_L6_theta_);
     const Lanes w_guide_offset_L6_theta_ = -dot_L6_L8_*l_guide_offset_L8_theta_ + span_L6_head_y_;
     const Lanes l_guide_offset_L6_theta_ = inverse_pivot_L6_theta_*w_guide_offset_L6_theta_;
     const Lanes scale_guide_offset_ = l_guide_offset_L6_theta_*w_guide_offset_L6_theta_

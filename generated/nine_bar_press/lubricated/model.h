@@ -211,13 +211,13 @@ struct Parameters {
     double weight_L8_across_;  /* weight, N*m */
     double inverse_mass_L8_L8_;  /* 1/M, 1/(kg*m^2) */
     double inverse_mass_L2_L2_;  /* 1/M, 1/(kg*m^2) */
-    double metric_L6_theta_;  /* of projections, kg*m^2 */
-    double metric_L7_theta_;  /* of projections, kg*m^2 */
-    double metric_L8_theta_;  /* of projections, kg*m^2 */
-    double metric_L2_theta_;  /* of projections, kg*m^2 */
-    double metric_L3_theta_;  /* of projections, kg*m^2 */
-    double inverse_metric_L8_theta_;  /* 1/M, 1/(kg*m^2) */
-    double inverse_metric_L2_theta_;  /* 1/M, 1/(kg*m^2) */
+    double tree_metric_L6_theta_;  /* of projections, kg*m^2 */
+    double tree_metric_L7_theta_;  /* of projections, kg*m^2 */
+    double tree_metric_L8_theta_;  /* of projections, kg*m^2 */
+    double tree_metric_L2_theta_;  /* of projections, kg*m^2 */
+    double tree_metric_L3_theta_;  /* of projections, kg*m^2 */
+    double inverse_tree_metric_L8_theta_;  /* 1/M, 1/(kg*m^2) */
+    double inverse_tree_metric_L2_theta_;  /* 1/M, 1/(kg*m^2) */
     double film_mass_;  /* of projections, kg */
 };
 

@@ -1326,10 +1326,10 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
     const double phi_dot_guide_offset_ = L6_omega_*span_L6_head_y_ + L8_omega_*span_L8_head_y_;
 
     /* L D L^T of the KKT matrix */
-    const double l_L6_theta_L8_theta_ = dot_L6_L8_*p->inverse_metric_L8_theta_;
-    const double l_guide_offset_L8_theta_ = p->inverse_metric_L8_theta_*span_L8_head_y_;
+    const double l_L6_theta_L8_theta_ = dot_L6_L8_*p->inverse_tree_metric_L8_theta_;
+    const double l_guide_offset_L8_theta_ = p->inverse_tree_metric_L8_theta_*span_L8_head_y_;
     const double inverse_pivot_L2_theta_ = 1.0/(p->film_mass_*(span_L2_tail_x_ * span_L2_tail_x_)
-        + p->film_mass_*(span_L2_tail_y_ * span_L2_tail_y_) + p->metric_L2_theta_);
+        + p->film_mass_*(span_L2_tail_y_ * span_L2_tail_y_) + p->tree_metric_L2_theta_);
     const double w_L7_theta_L2_theta_ = dot_L7_L2_ + p->film_mass_*span_L2_tail_x_*span_L7_tail_x_
         + p->film_mass_*span_L2_tail_y_*span_L7_tail_y_;
     const double l_L7_theta_L2_theta_ = inverse_pivot_L2_theta_*w_L7_theta_L2_theta_;
@@ -1338,9 +1338,9 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
     const double l_L6_theta_L2_theta_ = inverse_pivot_L2_theta_*w_L6_theta_L2_theta_;
     const double pivot_L7_theta_ = 2.0*p->film_mass_*(span_L7_tail_x_ * span_L7_tail_x_)
         + 2.0*p->film_mass_*(span_L7_tail_y_ * span_L7_tail_y_) - l_L7_theta_L2_theta_*w_L7_theta_L2_theta_
-        + p->metric_L7_theta_;
+        + p->tree_metric_L7_theta_;
     const double pivot_L3_theta_ = p->film_mass_*(span_L3_tail_x_ * span_L3_tail_x_)
-        + p->film_mass_*(span_L3_tail_y_ * span_L3_tail_y_) + p->metric_L3_theta_;
+        + p->film_mass_*(span_L3_tail_y_ * span_L3_tail_y_) + p->tree_metric_L3_theta_;
     const double pivot_L7_theta_L3_theta_ = dot_L7_L3_ + p->film_mass_*span_L3_tail_x_*span_L7_tail_x_
         + p->film_mass_*span_L3_tail_y_*span_L7_tail_y_;
     const double determinant_L7_theta_L3_theta_ = pivot_L3_theta_*pivot_L7_theta_
@@ -1360,7 +1360,7 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
     const double inverse_pivot_L6_theta_ = 1.0/(-dot_L6_L8_*l_L6_theta_L8_theta_
         + 2.0*p->film_mass_*(span_L6_head_x_ * span_L6_head_x_) + 2.0*p->film_mass_*(span_L6_head_y_ * span_L6_head_y_)
         - l_L6_theta_L2_theta_*w_L6_theta_L2_theta_ - l_L6_theta_L3_theta_*w_L6_theta_L3_theta_
-        - l_L6_theta_L7_theta_*w_L6_theta_L7_theta_ + p->metric_L6_theta_);
+        - l_L6_theta_L7_theta_*w_L6_theta_L7_theta_ + p->tree_metric_L6_theta_);
     const double w_guide_offset_L6_theta_ = -dot_L6_L8_*l_guide_offset_L8_theta_ + span_L6_head_y_;
     const double l_guide_offset_L6_theta_ = inverse_pivot_L6_theta_*w_guide_offset_L6_theta_;
     const double scale_guide_offset_ = l_guide_offset_L6_theta_*w_guide_offset_L6_theta_

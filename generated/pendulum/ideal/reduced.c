@@ -166,9 +166,9 @@ int reduced_project(const double t, const double *q, const double *r, const Para
 
     /* L D L^T of the KKT matrix */
     const double w_rod_length_bob_x_ = 2.0*bob_x_*p->rod_half_inverse_length_;
-    const double l_rod_length_bob_x_ = p->inverse_metric_bob_x_*w_rod_length_bob_x_;
+    const double l_rod_length_bob_x_ = p->inverse_tree_metric_bob_x_*w_rod_length_bob_x_;
     const double w_rod_length_bob_y_ = 2.0*bob_y_*p->rod_half_inverse_length_;
-    const double l_rod_length_bob_y_ = p->inverse_metric_bob_x_*w_rod_length_bob_y_;
+    const double l_rod_length_bob_y_ = p->inverse_tree_metric_bob_x_*w_rod_length_bob_y_;
     const double scale_rod_length_ = l_rod_length_bob_x_*w_rod_length_bob_x_ + l_rod_length_bob_y_*w_rod_length_bob_y_;
     if (!(scale_rod_length_ > 0.0 && scale_rod_length_ < INFINITY))
         return 1;

@@ -29,8 +29,8 @@ typedef struct LaneParameters {
     Lanes beta_squared_;
     Lanes inverse_bob_mass_;
     Lanes inverse_bob_inertia_;
-    Lanes metric_bob_x_;
-    Lanes inverse_metric_bob_x_;
+    Lanes tree_metric_bob_x_;
+    Lanes inverse_tree_metric_bob_x_;
 } LaneParameters;
 
 _Static_assert(sizeof(LaneParameters) / sizeof(Lanes) == sizeof(Parameters) / sizeof(double), "the same numbers");
@@ -150,9 +150,9 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
 
     /* L D L^T of the KKT matrix */
     const Lanes w_rod_length_bob_x_ = 2.0*bob_x_*p->rod_half_inverse_length_;
-    const Lanes l_rod_length_bob_x_ = p->inverse_metric_bob_x_*w_rod_length_bob_x_;
+    const Lanes l_rod_length_bob_x_ = p->inverse_tree_metric_bob_x_*w_rod_length_bob_x_;
     const Lanes w_rod_length_bob_y_ = 2.0*bob_y_*p->rod_half_inverse_length_;
-    const Lanes l_rod_length_bob_y_ = p->inverse_metric_bob_x_*w_rod_length_bob_y_;
+    const Lanes l_rod_length_bob_y_ = p->inverse_tree_metric_bob_x_*w_rod_length_bob_y_;
     const Lanes scale_rod_length_ = l_rod_length_bob_x_*w_rod_length_bob_x_ + l_rod_length_bob_y_*w_rod_length_bob_y_;
     *rare |= ~((scale_rod_length_ > 0.0) & (scale_rod_length_ < INFINITY));
     const Lanes inverse_pivot_rod_length_ = 1.0/scale_rod_length_;

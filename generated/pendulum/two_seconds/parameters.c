@@ -23,6 +23,6 @@ void prepare(const double *given, const unsigned char *is_given, Parameters *p)
     p->beta_squared_ = (p->beta_ * p->beta_);  /* beta^2 */
     p->inverse_bob_mass_ = 1.0/p->bob_mass_;  /* 1/M */
     p->inverse_bob_inertia_ = 1.0/p->bob_inertia_;  /* 1/M */
-    p->metric_bob_x_ = max_of(0.0001*p->bob_mass_, p->bob_mass_);  /* of projections */
-    p->inverse_metric_bob_x_ = 1.0/p->metric_bob_x_;  /* 1/M */
+    p->tree_metric_bob_x_ = max_of(0.0001*p->bob_mass_, p->bob_mass_);  /* of projections */
+    p->inverse_tree_metric_bob_x_ = 1.0/p->tree_metric_bob_x_;  /* 1/M */
 }

@@ -128,8 +128,8 @@ struct Parameters {
     double weight_rod_across_;  /* weight, N*m */
     double weight_arm_across_;  /* weight, N*m */
     double inverse_mass_arm_arm_;  /* 1/M, 1/(kg*m^2) */
-    double metric_arm_theta_;  /* of projections, kg*m^2 */
-    double inverse_metric_arm_theta_;  /* 1/M, 1/(kg*m^2) */
+    double tree_metric_arm_theta_;  /* of projections, kg*m^2 */
+    double inverse_tree_metric_arm_theta_;  /* 1/M, 1/(kg*m^2) */
 };
 
 /* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */

@@ -56,10 +56,10 @@ typedef struct LaneParameters {
     Lanes mass_motor_motor_;
     Lanes mass_rod_rod_;
     Lanes inverse_mass_rod_rod_;
-    Lanes metric_cylinder_slide_;
-    Lanes metric_rod_theta_;
-    Lanes inverse_metric_cylinder_slide_;
-    Lanes inverse_metric_rod_theta_;
+    Lanes tree_metric_cylinder_slide_;
+    Lanes tree_metric_rod_theta_;
+    Lanes inverse_tree_metric_cylinder_slide_;
+    Lanes inverse_tree_metric_rod_theta_;
 } LaneParameters;
 
 _Static_assert(sizeof(LaneParameters) / sizeof(Lanes) == sizeof(Parameters) / sizeof(double), "the same numbers");

@@ -124,10 +124,10 @@ struct Parameters {
     double mass_motor_motor_;  /* constant of M, kg*m^2 */
     double mass_rod_rod_;  /* constant of M, kg*m^2 */
     double inverse_mass_rod_rod_;  /* 1/M, 1/(kg*m^2) */
-    double metric_cylinder_slide_;  /* of projections, kg */
-    double metric_rod_theta_;  /* of projections, kg*m^2 */
-    double inverse_metric_cylinder_slide_;  /* 1/M, 1/kg */
-    double inverse_metric_rod_theta_;  /* 1/M, 1/(kg*m^2) */
+    double tree_metric_cylinder_slide_;  /* of projections, kg */
+    double tree_metric_rod_theta_;  /* of projections, kg*m^2 */
+    double inverse_tree_metric_cylinder_slide_;  /* 1/M, 1/kg */
+    double inverse_tree_metric_rod_theta_;  /* 1/M, 1/(kg*m^2) */
 };
 
 /* Baumgarte's terms that Newton's matrix holds too: 2 alpha and beta^2 of the rows, 2 alpha of a friction at stick. */

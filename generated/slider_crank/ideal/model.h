@@ -105,8 +105,8 @@ struct Parameters {
     double mass_motor_motor_;  /* constant of M, kg*m^2 */
     double mass_rod_rod_;  /* constant of M, kg*m^2 */
     double inverse_mass_rod_rod_;  /* 1/M, 1/(kg*m^2) */
-    double metric_rod_theta_;  /* of projections, kg*m^2 */
-    double inverse_metric_rod_theta_;  /* 1/M, 1/(kg*m^2) */
+    double tree_metric_rod_theta_;  /* of projections, kg*m^2 */
+    double inverse_tree_metric_rod_theta_;  /* 1/M, 1/(kg*m^2) */
 };
 
 #endif

@@ -233,7 +233,7 @@ int reduced_project(const double t, const double *q, const double *r, const Para
     const double r_cylinder_offset_ = r[0];
 
     /* L D L^T of the KKT matrix */
-    const double l_cylinder_offset_rod_theta_ = p->inverse_metric_rod_theta_*span_rod_head_x_;
+    const double l_cylinder_offset_rod_theta_ = p->inverse_tree_metric_rod_theta_*span_rod_head_x_;
     const double scale_cylinder_offset_ = l_cylinder_offset_rod_theta_*span_rod_head_x_;
     if (!(scale_cylinder_offset_ > 0.0 && scale_cylinder_offset_ < INFINITY))
         return 1;

@@ -46,9 +46,9 @@ typedef struct LaneParameters {
     Lanes mass_crank_crank_;
     Lanes mass_rod_rod_;
     Lanes inverse_mass_crank_crank_;
-    Lanes metric_crank_theta_;
-    Lanes metric_rod_theta_;
-    Lanes inverse_metric_crank_theta_;
+    Lanes tree_metric_crank_theta_;
+    Lanes tree_metric_rod_theta_;
+    Lanes inverse_tree_metric_crank_theta_;
 } LaneParameters;
 
 _Static_assert(sizeof(LaneParameters) / sizeof(Lanes) == sizeof(Parameters) / sizeof(double), "the same numbers");
@@ -251,9 +251,9 @@ static void closing_step(const Lanes t, const Lanes *q, const Lanes *v, const La
     const Lanes phi_dot_slider_offset_ = crank_omega_*span_crank_head_x_ + rod_omega_*span_rod_com_x_;
 
     /* L D L^T of the KKT matrix */
-    const Lanes l_rod_theta_crank_theta_ = dot_crank_rod_*p->inverse_metric_crank_theta_;
-    const Lanes l_slider_offset_crank_theta_ = p->inverse_metric_crank_theta_*span_crank_head_x_;
-    const Lanes inverse_pivot_rod_theta_ = 1.0/(-dot_crank_rod_*l_rod_theta_crank_theta_ + p->metric_rod_theta_);
+    const Lanes l_rod_theta_crank_theta_ = dot_crank_rod_*p->inverse_tree_metric_crank_theta_;
+    const Lanes l_slider_offset_crank_theta_ = p->inverse_tree_metric_crank_theta_*span_crank_head_x_;
+    const Lanes inverse_pivot_rod_theta_ = 1.0/(-dot_crank_rod_*l_rod_theta_crank_theta_ + p->tree_metric_rod_theta_);
     const Lanes w_slider_offset_rod_theta_ = -dot_crank_rod_*l_slider_offset_crank_theta_ + span_rod_com_x_;
     const Lanes l_slider_offset_rod_theta_ = inverse_pivot_rod_theta_*w_slider_offset_rod_theta_;
     const Lanes scale_slider_offset_ = l_slider_offset_crank_theta_*span_crank_head_x_

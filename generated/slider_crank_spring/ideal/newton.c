@@ -373,9 +373,9 @@ int closing_step(const double t, const double *q, const double *v, const Memory 
     const double phi_dot_slider_offset_ = crank_omega_*span_crank_head_x_ + rod_omega_*span_rod_com_x_;
 
     /* L D L^T of the KKT matrix */
-    const double l_rod_theta_crank_theta_ = dot_crank_rod_*p->inverse_metric_crank_theta_;
-    const double l_slider_offset_crank_theta_ = p->inverse_metric_crank_theta_*span_crank_head_x_;
-    const double inverse_pivot_rod_theta_ = 1.0/(-dot_crank_rod_*l_rod_theta_crank_theta_ + p->metric_rod_theta_);
+    const double l_rod_theta_crank_theta_ = dot_crank_rod_*p->inverse_tree_metric_crank_theta_;
+    const double l_slider_offset_crank_theta_ = p->inverse_tree_metric_crank_theta_*span_crank_head_x_;
+    const double inverse_pivot_rod_theta_ = 1.0/(-dot_crank_rod_*l_rod_theta_crank_theta_ + p->tree_metric_rod_theta_);
     const double w_slider_offset_rod_theta_ = -dot_crank_rod_*l_slider_offset_crank_theta_ + span_rod_com_x_;
     const double l_slider_offset_rod_theta_ = inverse_pivot_rod_theta_*w_slider_offset_rod_theta_;
     const double scale_slider_offset_ = l_slider_offset_crank_theta_*span_crank_head_x_

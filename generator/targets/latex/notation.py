@@ -251,6 +251,6 @@ def _kept(model: Model) -> Iterator[sp.Symbol]:
     for clearance in model.clearances:
         yield from (value for value in clearance.constants.values() if value in definitions)
     for symbol, value in model.slots.derived.items():
-        if sp.count_ops(value) > LONG_CONSTANT:
+        if sp.count_ops(value) > LONG_CONSTANT and symbol not in model.slots.unwritten:
             yield symbol
     yield from temporaries(model)
