@@ -124,6 +124,7 @@ static void begin_rates(const Run *run, const Step *step, double *rate)
 }
 
 #define FILM_SMALL 0.02 /* of the limit: so small an error is measured in each fourth step only, */
+#define FILM_CHANGED 0.1 /* of a film's force, that it may change by in a step that is not looked at */
 #define FILM_LONGER 1.5 /* as long as steps are no longer than this times the one where it was */
 enum { FILM_STEPS = 4, FILM_BEGINS = 16 /* in each 16th, where as small an error at the begin of each step tells */ };
 
@@ -149,13 +150,29 @@ static double film_begins(const Run *run, const Step *step, double part)
     return film_share(run, step, rate, run->dy, largest_film_force(&step->aside, &where), part) / film_limit(run);
 }
 
-/* Whether errors of films' forces are so small, and were of late, that they need not be measured in this step. */
+/* Whether the force of a film changes in a step by more than a share of the larger one of its ends. */
+static int is_film_changed(const Run *run, const Step *step, double share)
+{
+    int changed = 0;
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        const Clearance *a = &run->aside.clearance[i], *b = &step->aside.clearance[i];
+        const double change = max_of(fabs(b->Fx - a->Fx), fabs(b->Fy - a->Fy));
+        changed |= has_film(i) && change > share * max_of(total_force(a), total_force(b));
+    }
+    return changed;
+}
+
+/*
+ * Whether errors of films' forces are so small, and were of late, that they need not be measured in this step. Where
+ * a force changes as much within a step, what an iteration has left of a velocity may have made it.
+ */
 static int is_film_known(const Run *run, const Step *step, double begins)
 {
     const long since = run->steps - run->film_steps;
     if (!step->method->stiff || !has_films())
         return 1;
-    return is_film_steady(run, step) && since < FILM_BEGINS && (since < FILM_STEPS || begins < FILM_SMALL);
+    return is_film_steady(run, step) && since < FILM_BEGINS && (since < FILM_STEPS || begins < FILM_SMALL)
+        && !is_film_changed(run, step, FILM_CHANGED);
 }
 
 /*
