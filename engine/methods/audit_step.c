@@ -83,7 +83,10 @@ static void check_forces(Run *run, const Step *step, double t, const Aside *asid
     int where;
     if (!has_films())
         return;
-    const double share = film_share(run, step, rate, dy, largest_film_force(aside, &where), 1.0);
+    double most = largest_film_force(aside, &where);
+    for (int i = 0; i < N_CLEARANCES; i++)
+        most = has_film(i) ? max_of(most, FILM_FADED * run->F_peak[i]) : most;
+    const double share = film_share(run, step, rate, dy, most, 1.0);
     if (where >= 0 && has_tolerance(run) && run->steps > 0)
         record(&run->audit, FORCE_CHECK, share, film_audit_limit(run, step), t, where);
 }

@@ -25,7 +25,8 @@ from gudgeon.results.point_motion import point_motion
 if TYPE_CHECKING:
     from gudgeon.results.results import Result
 
-DEPTH_TOL = 1e-9  # of the clearance, that a penetration outside a contact is rounding
+DEPTH_TOL = 1e-9  # of the clearance, that a penetration outside a contact is rounding; 1e-13 m at least
+SHALLOW = 1e-13  # m: what overlaps by less has not touched
 FORCE_TOL = 1e-12  # of a joint's largest force, that a force outside a contact is rounding
 TIME_TOL = 1e-11  # of the span of a run, by which a sample may miss the end of a contact
 PULL_TOL = 1e-6  # of the largest force, by which a rigid contact may seem to pull
@@ -111,15 +112,16 @@ def check_samples(run: Result, peaks: Result | None = None) -> ContactCheck:
             continue
         force = np.full(len(run.t), np.nan) if run.compiled is None or joint.film else run[f"{joint.name}.F"]
         free = ~_in_contact(run, k)
-        limit = DEPTH_TOL * float(run.p[joint.clearance])
+        limit = max(DEPTH_TOL * float(run.p[joint.clearance]), SHALLOW)
         found += _excursions(run, joint, "penetration", free & (delta[:, k] > limit), delta[:, k], force)
-        bears = force > FORCE_TOL * float(np.nanmax(force, initial=0.0))
+        bears = (force > FORCE_TOL * float(np.nanmax(force, initial=0.0))) & (delta[:, k] > SHALLOW)
         found += _excursions(run, joint, "force", free & (delta[:, k] <= limit) & bears, delta[:, k], force)
         if joint.name in run.source.rigid and run.compiled is not None:
             pull = sum(run[f"{joint.name}.F{axis}"] * run[f"{joint.name}.e{axis}"] for axis in "xy")
             wrong = ~free & (pull > PULL_TOL * float(np.abs(pull).max(initial=0.0)))
             found += _excursions(run, joint, "pull", wrong, delta[:, k], force)
-        found += _peaks(peaks or run, k, joint)
+        touches = np.nanmax(force[free & (delta[:, k] <= SHALLOW)], initial=0.0)
+        found += _peaks(peaks or run, k, joint, float(touches))
     return ContactCheck(len(run.t), tuple(sorted(found, key=lambda one: one.t)))
 
 
@@ -146,7 +148,7 @@ def _excursions(
             yield Fault(kind, joint.name, float(run.t[deepest]), float(delta[part].max()), largest)
 
 
-def _peaks(run: Result, k: int, joint: ClearanceInfo) -> Iterator[Fault]:
+def _peaks(run: Result, k: int, joint: ClearanceInfo, touches: float) -> Iterator[Fault]:
     """A peak over all steps that no listed contact has; joints with a film have forces outside contacts."""
     if joint.film or (joint.at_wall and joint.joint in run.source.rigid):
         return
@@ -157,7 +159,7 @@ def _peaks(run: Result, k: int, joint: ClearanceInfo) -> Iterator[Fault]:
     extremes = [one for one in run.diagnostics.extremes if one.name == f"{joint.name}.F" and not one.against]
     peaks = [(one.max, one.t_max) for one in extremes]
     peaks += [(one.F, one.t) for one in run.diagnostics.peaks if one.joint == joint.name]
-    allowed = largest * (1.0 + (PEAK_TOL_FIXED if np.isfinite(run.diagnostics.step) else PEAK_TOL))
+    allowed = max(touches, largest * (1.0 + (PEAK_TOL_FIXED if np.isfinite(run.diagnostics.step) else PEAK_TOL)))
     for F, t in peaks:
         if allowed < F:
             yield Fault("peak", joint.name, t, float("nan"), F)

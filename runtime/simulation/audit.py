@@ -31,6 +31,7 @@ LEAST_ENERGY = 1e-6  # the same, at least
 ENOUGH = 20  # samples from which on the energy that was turned over is known
 AT_REST = 1e-9  # of the speed that crosses the mechanism in the time of the run: the energy of less is rounding
 LEAST = 1e-250  # J: works of a motion that hardly leaves zero have no digits
+SHALLOW = 1e-13  # m: what overlaps by less has not touched (engine/run/latches.c)
 FORCE = 1e-6  # of a joint's largest force, that an open joint may seem to bear
 START, START_RATES = 1e-9, 1e-6  # of the size, and of the largest speed: how far the first sample is from the start
 PEAK = 1e-2  # of the largest force of its contacts, that the peak of a joint may exceed it by
@@ -132,13 +133,15 @@ def _contacts(compiled: CompiledModel, x: Trajectory, evaluation: Evaluation) ->
             continue
         force = np.hypot(evaluation.clearance[:, k, 0], evaluation.clearance[:, k, 1])
         peak, own = float(x.peaks[k, 0]), x.impacts[x.impacts["joint"] == k]
-        outside = np.where(np.isnan(x.memory[:, k]), force, 0.0)
+        free = np.isnan(x.memory[:, k])
+        touches = free & (evaluation.clearance[:, k, -1] <= SHALLOW)
+        outside = np.where(free & ~touches, force, 0.0)
         worst = int(outside.argmax())
         scale = max(FORCE * max(peak, float(force.max())), 1e-300)
         yield Finding("sample", float(outside[worst]) / scale, float(x.t[worst]), joint.name)
         listed = float(own["F_peak"].max(initial=0.0))
         begins_free = bool(np.isnan(x.memory[0, k]))  # a contact that a run resumes has had a peak before
-        if peak > 0.0 and begins_free and np.isfinite(own["t_off"]).all():
+        if peak > float(force[touches].max(initial=0.0)) and begins_free and np.isfinite(own["t_off"]).all():
             over = (max(peak, float(force.max())) - listed) / (PEAK * max(listed, 1e-300))
             yield Finding("peak", max(over, 0.0), float(x.peaks[k, 1]), joint.name)
 

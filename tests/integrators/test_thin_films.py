@@ -146,3 +146,42 @@ def test_a_film_in_a_scene_with_rigid_contacts_says_what_it_costs(tmp_path: Path
         assert len(told) == (law.startswith("newton")), run.diagnostics.notes
         assert all("film in B" in note and "contact in A" in note and "hertz with a stiffness" in note for note in told)
     assert steps[0] > 10_000 > 10 * steps[1]
+
+
+ROTOR = """
+gravity: [0, -9.81 m/s^2]
+materials: {steel: {E: 207 GPa, nu: 0.3}}
+bodies:
+  house: {mass: 3 kg, inertia: 0.02 kg*m^2, points: {B: [0.02 m, 0.01 m]}}
+  rotor: {mass: 5 kg, inertia: 1e-4 kg*m^2, points: {P: [0.003 m, 0.001 m]}}
+ground: {O: [0, 0]}
+freedoms: 4
+joints: {A: {revolute: [house.B, rotor.P]}}
+forces:
+  carries:
+    force: house.com
+    value: [-4e6 N/m*house.x - 800 N*s/m*house.vx, -6e6 N/m*house.y - 800 N*s/m*house.vy]
+  turns: {torque: house, value: -3000 N*m*house.theta - 0.5 N*m*s/rad*house.omega}
+  load: {force: rotor.com, value: [3000 N*sin(180 rad/s*t), -2100 N*cos(113.4 rad/s*t)]}
+start:
+  set: {house.x: 0, house.y: 0, house.theta: 0, rotor.theta: 0.3}
+  rates: {house.vx: 0, house.vy: 0, house.omega: 2 rad/s, rotor.omega: 50 rad/s}
+  play: {A: {e: [7.5e-7 m, -1.25e-6 m], rate: [0, 0]}}
+bearings:
+  pin: {radius: 25 mm, clearance: 2.5e-6 m, length: 20 mm, bearing_material: steel, journal_material: steel}
+contacts: {film: {film: {law: finite_length, viscosity: 0.02 Pa*s}}}
+scenes: {wet: {play: {A: {bearing: pin, contact: film}}}}
+"""
+
+
+@needs_compiler
+@pytest.mark.parametrize("method", ["radau5", "radau9"])
+def test_forces_do_not_jump_at_loose_tolerances(method: str, tmp_path: Path) -> None:
+    """A velocity within its tolerance, times the damping of a film of 2.5 um, was a force of the other sign."""
+    rotor = loader(tmp_path)(ROTOR, "wet")
+    exact, *found = (
+        rotor.simulate(0.015, output=600, method=method, rtol=rtol, peaks=["A.F"]) for rtol in (1e-8, 1e-5, 1e-4)
+    )
+    for run in found:
+        off = np.hypot(run["A.Fx"] - exact["A.Fx"], run["A.Fy"] - exact["A.Fy"])
+        assert off.max() < 0.05 * exact["A.F"].max()

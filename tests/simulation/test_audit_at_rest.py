@@ -222,3 +222,42 @@ def test_steps_bounded_by_stability(rtol: float, tmp_path: Path) -> None:
     run = simulation.simulate(0.7, output=400, method="dop853", rtol=rtol)
     tighter = simulation.simulate(0.7, output=400, rtol=1e-9)
     assert np.abs(run.q - tighter.q).max() < 10.0 * rtol
+
+
+BALL = """
+parameters: {c: 0.2 mm, x0: 0.2 mm, vx: 0 m/s}
+materials: {steel: {E: 207 GPa, nu: 0.3}}
+bodies: {ball: {mass: 0.5 kg, inertia: 2e-4 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {A: {revolute: [ground.O, ball.origin]}}
+start: {play: {A: {e: [x0, 0], rate: [vx, 0]}}}
+freedoms: 1
+bearings: {pin: {radius: 10 mm, clearance: c, length: 20 mm, bearing_material: steel, journal_material: steel}}
+contacts:
+  dry: {normal: {law: lankarani_nikravesh, restitution: 0.9}}
+  oil:
+    normal: {law: lankarani_nikravesh, restitution: 0.9}
+    film: {law: pinkus_sternlicht, viscosity: 0.01 Pa*s}
+    transition: 0.01 mm
+scenes:
+  dry: {play: {A: {bearing: pin, contact: dry}}}
+  oil: {play: {A: {bearing: pin, contact: oil}}}
+"""
+
+
+@needs_compiler
+@pytest.mark.parametrize("overlap", [0.0, 1e-16, 9e-14])
+@pytest.mark.parametrize("vx", [0.0, -0.1])
+def test_a_start_at_the_clearance(overlap: float, vx: float, tmp_path: Path) -> None:
+    """What overlaps by less than 1e-13 m has not touched: the ball goes on as a free one."""
+    run = loader(tmp_path)(BALL, "dry").simulate(2e-3, output=20, parameters={"x0": 2e-4 + overlap, "vx": vx})
+    np.testing.assert_allclose(run["ball.x"], 2e-4 + overlap + vx * run.t, rtol=0, atol=1e-13)
+    assert run.check(200) and not audit_notes(run)
+
+
+@needs_compiler
+@pytest.mark.parametrize(("share", "vx"), [(0.9999, -1e-3), (1.0, -1e-3), (1.0, -0.1)])
+def test_a_film_that_has_come_to_rest(share: float, vx: float, tmp_path: Path) -> None:
+    """What is left of a film's force, 1e-9 of its largest one, is rounding of the gap."""
+    run = loader(tmp_path)(BALL, "oil").simulate(2e-3, output=20, parameters={"x0": share * 2e-4, "vx": vx})
+    assert not audit_notes(run) and abs(run["ball.vx"][-1]) < 1e-9
