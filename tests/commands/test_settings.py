@@ -138,7 +138,8 @@ def test_clearances_down_to_what_doubles_tell_apart(pump: str) -> None:
     assert all("expected 8.5e-16 m at least" in str(failure.error) for failure in batch.failures)
     assert [len(contacts) for contacts in batch.impacts[:2]] == [1, 1]
     slow = worn.simulate(1e-4, parameters={"c": 1e-15}).diagnostics
-    assert slow.onsets == 1 and pytest.approx(batch.peaks["F"][1, 0], rel=2e-4) == slow.peaks[0].F
+    # places are rounded by some 1e-17 m, a hundredth of this clearance: the speed of the onset, and forces, by 1e-3
+    assert slow.onsets == 1 and pytest.approx(batch.peaks["F"][1, 0], rel=2e-3) == slow.peaks[0].F
 
 
 @pytest.mark.parametrize("scene", ["ideal", "worn"])
