@@ -19,7 +19,7 @@ from gudgeon.generator.field import WORD
 from gudgeon.generator.format.sections import CURVE
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import Around, read_fields
-from gudgeon.generator.reader.tables import Row, read_table
+from gudgeon.generator.reader.tables import Row, is_header, read_table
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
 from gudgeon.language.curves import LEAST, MONOTONE, NOT_A_KNOT, PERIODIC, STOP, Curve, in_pairs, spline
 from gudgeon.language.names import check_name
@@ -132,12 +132,13 @@ def _long_table(
     """
     if len(data) <= MAX_BYTES:
         return None
+    mark = next((mark for mark in (";", "\t", ",") if mark.encode() in data), ",")
     head, _, rows = data.partition(b"\n")
-    if not re.search(rb"[0-9]", head):  # a header
-        data = rows
+    if not re.search(rb"[0-9]|\r.", head):  # one line without a digit
+        line = head.decode("utf-8-sig", "replace")
+        data = rows if line.lstrip().startswith("#") or is_header(line.split(mark)) else data
     if re.search(rb"[^-+.,;\t\r\n 0-9eE]", data):
         return None
-    mark = next((mark for mark in (";", "\t", ",") if mark.encode() in data), ",")
     try:
         table = np.loadtxt(io.BytesIO(data), delimiter=mark, ndmin=2)
     except ValueError:

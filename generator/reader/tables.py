@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from gudgeon.errors import BadValueError, Location
 
-_LIKE_A_NUMBER = re.compile(r"[-+.]*[0-9]|[-+]?(nan|inf)", re.IGNORECASE)  # no cell of a header begins so
+_NOT_FINITE = re.compile(r"(nan|inf|infinity)\b", re.IGNORECASE)
 _MARKS = ";", "\t", ","  # between the columns: the first that the text has
 
 
@@ -34,12 +34,25 @@ def read_table(data: bytes, file: str, is_number: Callable[[str], bool]) -> list
             continue
         row = _row(line, mark, file, number)
         wrong = [k for k in (0, 1) if not is_number(row.text[k])]
-        if wrong and not (first and len(wrong) == 2 and not any(map(_LIKE_A_NUMBER.match, row.text))):
-            hint = "expected a decimal number with a point"
+        if wrong and not (first and len(wrong) == 2 and is_header(row.text)):
+            hint = "expected a decimal number such as -0.5: with a point, '-' as its sign, and no quotes or brackets"
             raise BadValueError(f"{row.text[wrong[0]][:40]!r} is no number", row.where[wrong[0]], hint)
         rows += [] if wrong else [row]
         first = False
     return rows
+
+
+def is_header(cells: Sequence[str]) -> bool:
+    """Return whether both cells of a first row can be names of columns: a letter in one of them, in neither a number.
+
+    A cell is meant as a number if a digit stands before its first letter: "\u22121", "(1)", '"-1"', "0 mm".
+    """
+    names = [re.sub(r"^[\W_]+", "", cell) for cell in cells]
+    return (
+        len(cells) == 2
+        and any(name[:1].isalpha() for name in names)
+        and all((not name or name[0].isalpha()) and not _NOT_FINITE.match(name) for name in names)
+    )
 
 
 def _decoded(data: bytes, file: str) -> str:

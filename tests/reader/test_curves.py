@@ -106,7 +106,9 @@ def test_points_cannot_be_overridden(tmp_path: Path) -> None:
     (b"0,1\n2,1\n1,1\n", r"lift\.csv:3:1: .* x is 1 behind 2"), (b"", r"has 0 points"), (b"\x00\x00", r"1 column in"),
     (b"0,1\n1," + b"9" * 5000 + b"\n", r"is no number"), (b"0,1\n1,1e999\n", r"lift\.csv:2:3: .*out of range"),
     *((first + b"\n90,1\n200,2\n", r"lift\.csv:1:\d: '.*' is no number") for first in (
-        b"nan,nan", b"inf,-inf", b"0 mm,0 mm", b"--1,.")),
+        b"nan,nan", b"inf,-inf", b"0 mm,0 mm", b"--1,.", "\u22121,\u22122".encode(), b"(1),(2)", b'"-1","-2"',
+        "\u20131,\u20132".encode(), "\u0661,\u0662".encode(), "\u00bd,\u00be".encode(), b"$1,$2", b"(inf),-nan",
+        "\u221e,\u2212\u221e".encode(), b"-,-", b",")),
     (b"0,=1+1\n", r"is no number"),
 ])  # fmt: skip
 def test_what_is_wrong_in_a_table_is_told_at_its_place(tmp_path: Path, data: bytes, told: str) -> None:
@@ -127,6 +129,24 @@ def test_what_is_wrong_in_a_long_table_is_told_at_its_place(tmp_path: Path, rows
     """Tables of more than a megabyte are read at once; what is wrong in one is looked for row by row."""
     (tmp_path / "lift.csv").write_text("x,y\n" + "".join(f"{k - 130_000},0.25\n" for k in range(130_000)) + rows)
     with pytest.raises(InputError, match=rf"lift\.csv:{130_001 + line}:"):
+        read(tmp_path, "table: lift.csv")
+
+
+@pytest.mark.parametrize("first", [
+    '"angle","lift"', "x1,y2", ",lift", "\u03b8 [\u00b0],%", "influence,nanometre", "(angle),lift / 2",
+    "\u89d2,\u5347\u7a0b",
+])  # fmt: skip
+def test_a_header_has_a_letter_before_digits(tmp_path: Path, first: str) -> None:
+    (tmp_path / "lift.csv").write_text(f"{first}\n0,1\n1,2\n2,1\n", encoding="utf-8")
+    assert read(tmp_path, "table: lift.csv").curves["lift"].x == (0.0, 1.0, 2.0)
+
+
+@pytest.mark.parametrize("first", ["nan,nan", "\u0661,\u0662", "-,-"])
+def test_a_long_table_has_the_same_headers_as_a_short_one(tmp_path: Path, first: str) -> None:
+    """Whatever had no ASCII digit was left out as a header of a table of more than a megabyte."""
+    rows = "".join(f"{k},{k % 3}.5\n" for k in range(140_000))
+    (tmp_path / "lift.csv").write_text(f"{first}\n{rows}", encoding="utf-8")
+    with pytest.raises(InputError, match=r"lift\.csv:1:1:"):
         read(tmp_path, "table: lift.csv")
 
 
