@@ -37,17 +37,19 @@ _OTHER_UNITS: Mapping[str, tuple[str, ...]] = {
     "ksi": ("6894757.293168 Pa",), "atm": ("101325 Pa",), "cSt": ("1 mm^2/s",), "St": ("100 mm^2/s",),
     **dict.fromkeys(("mi", "mile", "miles"), ("1609.344 m",)), **dict.fromkeys(("yd", "yard", "yards"), ("0.9144 m",)),
     **dict.fromkeys(("mil", "mils", "thou"), ("0.001 in",)), **dict.fromkeys(("micron", "microns"), ("1 um",)),
+    **dict.fromkeys(("g0", "g_0", "gn", "g_n"), ("9.80665 m/s^2",)),
     **dict.fromkeys(("\u00c5", "angstrom"), ("0.1 nm",)), "mph": ("0.44704 m/s",),
     "mPas": ("1 mPa*s",), "kNm": ("1 kN*m",), "mNm": ("1 mN*m",), "U": ("1 rev",),
 }  # fmt: skip
 _PREFIXES = {"p": "1e-12", "n": "1e-9", "u": "1e-6", "\u00b5": "1e-6", "\u03bc": "1e-6", "m": "1e-3", "c": "0.01",
              "d": "0.1", "da": "10", "h": "100", "k": "1000", "K": "1000", "M": "1e6", "G": "1e9"}  # fmt: skip
+_PLAIN = str.maketrans("\u00b5\u03bcK", "uuk")  # prefixes as the list has them
 _PREFIXED = ("m", "g", "s", "N", "Pa", "J", "W", "rad", "bar", "Hz", "P")
 _RAISED = str.maketrans("\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079\u207b", "0123456789-", "\u207a")
 
 _SPEEDS = ("kph", "kmh")  # km/h, which is not a multiple of one unit
 _NUMBER = re.compile(r"(?<![\w.])(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|pi(?!\w)) *")
-_SYMBOL = r"[A-Za-z\u00b5\u03bc\u00b0\u00c5]+"
+_SYMBOL = r"(?:g_?0\b|g_n\b|[A-Za-z\u00b5\u03bc\u00b0\u00c5]+)"
 _FACTOR = re.compile(
     rf"(?P<symbol>{_SYMBOL})(?P<power> *(?:\^|\*\*) *(?:\([^()]*\)|[-+]? ?[\w.]*)"
     r"|[\u207a\u207b\u2070\u00b9\u00b2\u00b3\u2074-\u2079]+|-?[0-9](?:\.5)?)?(?![\w(])"
@@ -211,17 +213,15 @@ def _translations(symbol: str) -> list[tuple[Decimal, str]]:
         return [(Decimal(1), symbol)]
     if symbol in _OTHER_UNITS:
         return [(Decimal(one.split()[0]), one.split()[1]) for one in _OTHER_UNITS[symbol]]
-    alike = [one for one in (*UNITS, *_OTHER_UNITS) if one.lower() == symbol.lower() and len(symbol) > 1]
-    if alike:
-        differ = {one: sum(a != b for a, b in zip(one, symbol, strict=True)) for one in alike}
-        return [meant for one in alike if differ[one] == min(differ.values()) for meant in _translations(one)]
     for prefix in ("da", symbol[:1]):
         rest = symbol.removeprefix(prefix)
         if prefix in _PREFIXES and rest != symbol and rest in _PREFIXED:
-            if symbol_dimension(plain := prefix.replace("\u00b5", "u").replace("\u03bc", "u") + rest):
+            if symbol_dimension(plain := prefix.translate(_PLAIN) + rest):
                 return [(Decimal(1), plain)]
             return [(Decimal(_PREFIXES[prefix]) * number, of) for number, of in _translations(rest)]
-    return []
+    alike = [one for one in (*UNITS, *_OTHER_UNITS) if one.lower() == symbol.lower() and len(symbol) > 1]
+    differ = {one: sum(a != b for a, b in zip(one, symbol, strict=True)) for one in alike}
+    return [meant for one in alike if differ[one] == min(differ.values()) for meant in _translations(one)]
 
 
 def _proposals(

@@ -68,6 +68,9 @@ def proposed(hint: str, value: str) -> list[str]:
         ("4 m^10", "4 * (1 m)**10", 4.0), ("2 rpm^0.5", "2 * (1 rpm)**0.5", 2 * (3.141592653589793 / 30) ** 0.5),
         ("4 kg/m**3", "4 kg/m^3", 4.0), ("4 1/mm**3", "4 1/mm^3", 4e9), ("3 m**-1", "3 1/m", 3.0),
         ("3 per s", "3 1/s", 3.0), ("1 mile/hour", "1609.344 m/(60 min)", 0.44704),
+        ("3 ns", "3e-9 s", 3e-9), ("3 m/ns", "3 m/(1E-9 s)", 3e9), ("3 MJ", "3000000 J", 3e6), ("3 KN", "3 kN", 3e3),
+        ("3 g0", "29.41995 m/s^2", 29.41995), ("3 gn", "29.41995 m/s^2", 29.41995),
+        ("3 g_0", "29.41995 m/s^2", 29.41995), ("3 kg*gn", "29.41995 kg*m/s^2", 29.41995),
         ("5 kg µm2", "5 kg*µm^2", 5e-12), ("30 U/min", "30 rev/min", 3.141592653589793),
     ],
 )  # fmt: skip
@@ -100,6 +103,12 @@ def test_a_remedy_has_the_dimension_of_its_place(place: str, wrong: str, rest: s
 SYMBOLS = re.split(" ", "m mm µm µs s ms h hr min sec kg g t tonne lb N kN µN kgf lbf J Wh W hp Pa psi rad deg ° rpm"
                    " Hz kHz rev foo Nm KG mpa MM mile yd dm in kph cSt Ohm")  # fmt: skip
 POWERS = re.split(" ", "    ^2 ² 2 -1 ⁻¹ ^-2 **2 ^ ^x ^(1/2) ^1.3 ^10 **-1")  # some are empty
+
+
+def test_a_prefix_is_read_before_another_case() -> None:
+    """Newton seconds were proposed for 3 ns, grams and giganewtons for standard gravity, millijoules for 3 MJ."""
+    for value in ("3 ns", "3 g0", "3 gn", "3 MJ"):
+        assert len(proposed(hint_of("PARAMETER", value), value)) == 1, value
 
 
 def wrong_unit(rng: random.Random) -> str:
