@@ -33,6 +33,8 @@ OLD_FORMAT = "gudgeon-result/1"  # impacts, events and parameters beside the ser
 OLD_NAMES = ("time", "impact", "event", "slot", "prepared")
 NAME, UNIT = re.compile(r"[A-Za-z][\w.]*", re.ASCII), re.compile(r"[\w^*/. ()-]*", re.ASCII)
 DEFLATE = 1100  # no filter of HDF5's own makes data this many times smaller
+LOADERS = {"gudgeon-result": ("a single run", "gudgeon.Result.load"),
+           "gudgeon-batch": ("a batch of runs", "gudgeon.Batch.load")}  # fmt: skip
 Made = TypeVar("Made")
 AGAIN = "it is no result of gudgeon, or was damaged or cut short; run the scene again"
 
@@ -72,6 +74,10 @@ class File:
     def __init__(self, file: Any, size: int, formats: tuple[str, ...]) -> None:
         self._file, self._left = file, float(size)
         found = self.text("gudgeon")
+        kind = found.partition("/")[0]
+        if kind in LOADERS and not formats[0].startswith(f"{kind}/"):
+            what, loader = LOADERS[kind]
+            raise InputError(f"{in_a_line(file.filename)} holds {what} ({found})", hint=f"read it with {loader}")
         if found not in formats:
             raise ValueError(f"expected the attribute gudgeon = {formats[0]!r}, found {found!r}")
         self.is_old = found == OLD_FORMAT
