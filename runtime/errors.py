@@ -188,7 +188,7 @@ def in_a_line(text: str) -> str:
 
 def shortened(path: str | os.PathLike[str]) -> str:
     """A path as it is told: in a line, of a long one both ends."""
-    text = in_a_line(os.fspath(path))
+    text = in_a_line(os.fspath(path)) or "''"
     return text if len(text) < 200 else f"{text[:80]}…{text[-80:]}"
 
 

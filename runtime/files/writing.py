@@ -117,7 +117,7 @@ def written(path: str | os.PathLike[str], *, sync: bool = False) -> Iterator[Bin
 
     Raises OutputError, for an OSError of the block too; `path` is then as it was. sync: as in Aside.
     """
-    path = Path(path)
+    path = _file_path(path)
     with Aside(path.parent, sync=sync) as aside:
         with aside.file(path.name) as file:
             yield file
@@ -155,7 +155,7 @@ def read_regular(name: str | os.PathLike[str], *, dir_fd: int | None = None) -> 
 
 def check_target(path: str | os.PathLike[str]) -> None:
     """OutputError if it is known already that `write_bytes` would refuse this path; nothing is written."""
-    path = Path(path)
+    path = _file_path(path)
     with telling(path):
         with suppress(FileNotFoundError, NotADirectoryError):
             path.lstat()
@@ -165,6 +165,15 @@ def check_target(path: str | os.PathLike[str]) -> None:
                 _replaceable(path.parent, path.name, handle)
             finally:
                 os.close(handle)
+
+
+def _file_path(path: str | os.PathLike[str]) -> Path:
+    """Return the path of a file to be written. Raises OutputError for an empty name, and for "." and "/"."""
+    if not os.fspath(path):
+        raise OutputError(path, "the name is empty")
+    if not Path(path).name:
+        raise OutputError(path, "it is a folder")
+    return Path(path)
 
 
 @contextmanager

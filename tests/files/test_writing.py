@@ -163,3 +163,18 @@ def test_what_cannot_be_replaced_is_refused(tmp_path: Path, what: str, told: str
             refuse(path)
         assert caught.value.exit_code == 2
     assert ([(p.name, p.lstat().st_mode) for p in tmp_path.iterdir()], os.lstat("/dev/null")[:2]) == before
+
+
+@pytest.mark.parametrize(("path", "told"), [
+    ("", "cannot write '': the name is empty\n"), (".", r"cannot write \.: it is a folder"), ("/", "it is a folder"),
+    ("./", "it is a folder"), ("..", "it is a folder"), (Path(), "it is a folder"),
+])  # fmt: skip
+def test_a_folder_or_no_name_is_reported_as_such(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, path: str | Path, told: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for refuse in (check_target, lambda path: write_bytes(path, b"new")):
+        with pytest.raises(OutputError, match=told) as caught:
+            refuse(path)
+        assert caught.value.exit_code == 2
+    assert os.listdir(tmp_path) == []
