@@ -106,3 +106,35 @@ def test_accelerations_hold_for_all_moments_of_inertia(tmp_path: Path) -> None:
         run = simulation.simulate(0.5, output=10, rtol=1e-9, audit="full", parameters={"J": inertia})
         found = {one.check: one.worst for one in run.diagnostics.audit}
         assert found["acceleration"] < 1e-3 and run.diagnostics.steps < 200, inertia  # of a limit of 1e-6
+
+
+POINTS = """
+format: gudgeon/1
+name: points
+bodies:
+  crank: {length: 50 mm, mass: 0.15 kg, inertia: 0, com: [20 mm, 6 mm]}
+  rod: {length: 130 mm, mass: 0.15 kg, inertia: 0, com: [50 mm, -8 mm]}
+  piston: {mass: 0.15 kg, inertia: 0, com: [5 mm, 2 mm]}
+ground: {O: [0, 0], G: [0, 10 mm]}
+joints:
+  A: {revolute: [ground.O, crank.tail]}
+  B: {revolute: [crank.head, rod.tail]}
+  C: {revolute: [rod.head, piston.origin]}
+  S: {translational: [ground.G, piston.origin], axis: [1, 0]}
+drives: {d: {angle: crank, value: 0.4 rad + 40 rad/s*t}}
+start: {guess: {piston.x: 180 mm}}
+"""
+
+
+@pytest.mark.parametrize(("light", "pair"), [
+    ("crank", "rod (0.15 kg) and crank (1e-14 kg)"), ("piston", "crank (0.15 kg) and piston (1e-14 kg)"),
+])  # fmt: skip
+def test_bodies_without_inertia_are_refused_by_their_masses(light: str, pair: str, tmp_path: Path) -> None:
+    """The inertias of crank (0) and crank (0) were reported as too far apart. Masses within the ratio are accepted."""
+    file = tmp_path / "points.yaml"
+    file.write_text(POINTS)
+    simulation = gudgeon.load(file)
+    with pytest.raises(gudgeon.AssemblyError) as caught:
+        simulation.simulate(0.01, output=4, parameters={f"bodies.{light}.mass": 1e-14})
+    assert f"the masses of {pair} are too far apart" in str(caught.value) and "1e+12 times" in str(caught.value)
+    simulation.simulate(0.01, output=4, parameters={f"bodies.{light}.mass": 0.16e-12})
