@@ -18,6 +18,7 @@ from gudgeon.language.units import OTHER_WORDS, UNITS, Unit, factors, parse_unit
 from gudgeon.language.wanted import IN_RANGE
 
 _MAX_EXPONENT = 400  # decimal: beyond it no number is finite, and exact fractions grow without bound
+_MAX_LENGTH = 1000  # characters of a number: Python reads no integer of more than 4300 digits
 _TOKEN = re.compile(
     r"(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
     r"|(?P<name>[A-Za-z_][A-Za-z0-9_]*(?:\.[A-Za-z_][A-Za-z0-9_]*)*)"
@@ -151,6 +152,8 @@ class Tokenizer:
         _, _, exponent = literal.lower().partition("e")
         if exponent and (len(exponent) > 5 or abs(int(exponent)) > _MAX_EXPONENT):
             self.fail(f"{literal!r} is out of range", start, IN_RANGE)
+        if len(literal) > _MAX_LENGTH:
+            self.fail(f"a number of {len(literal)} characters", start, f"expected at most {_MAX_LENGTH}")
         return Fraction(literal)
 
     def _unit(self, start: int) -> tuple[Unit | None, int]:
