@@ -62,7 +62,7 @@ def _check_with(
             complain(address, f"is {value:.6g}{context}", f"expected a whole {reader.wholes[address]}")
     for address, quantity in reader.quantities.items():
         if not (broken_is_told or quantity.of) and (".parameters." not in address or address in values):
-            message, hint = _wrong_part(quantity, known, address in values)
+            message, hint = _wrong_part(quantity, known, not math.isfinite(values.get(address, 0.0)))
             if message:
                 complain(address, f"{message}{context}", hint)
     for condition in reader.conditions:
@@ -104,9 +104,9 @@ def _users(reader: Reader, address: str) -> str:
     return f", and {users[0]} and {len(users) - 1} more use it" if len(users) > 1 else f", and {users[0]} uses it"
 
 
-def _wrong_part(quantity: Quantity, known: Mapping[str, float], is_known: bool) -> tuple[str, str]:
-    """(message, hint) about a part of an expression that cannot be meant; "" where there is none."""
-    wrong = None if is_known else _no_number_in(quantity.value, known)
+def _wrong_part(quantity: Quantity, known: Mapping[str, float], is_wrong: bool) -> tuple[str, str]:
+    """(message, hint) about a part of an expression that cannot be meant; "" if none, or the whole is wrong."""
+    wrong = None if is_wrong else _no_number_in(quantity.value, known)
     if wrong is not None:
         return f"has a part that is {wrong}", FINITE
     if (small := _lost_factor(quantity.value, known)) is not None:
@@ -129,8 +129,34 @@ def _steps(quantity: Quantity) -> list[Call]:
 
 def _no_number_in(expr: Expr, known: Mapping[str, float]) -> float | None:
     """The first of the parts that parameters determine which is not finite."""
-    numbers = (float(evaluate(part, known.__getitem__)) for part in _constant_parts(expr, known))
+    parts = (inner for part in _constant_parts(expr, known) for inner in (part, *_absorbed_parts(part, known)))
+    numbers = (float(evaluate(part, known.__getitem__)) for part in parts)
     return next((number for number in numbers if not math.isfinite(number)), None)
+
+
+def _absorbed_parts(expr: Expr, known: Mapping[str, float]) -> Iterator[Expr]:
+    """Yield the parts of a constant whose infinity or NaN its value may lack: arguments, divisors, bases, exponents.
+
+    Of the branch of a `where` that is not picked: those that no parameter could make finite.
+    """
+    match expr:
+        case Unary(operand=operand):
+            yield from _absorbed_parts(operand, known)
+        case Binary(operator=operator, left=left, right=right):
+            yield from {"/": (right,), "**": (left, right)}.get(operator, ())
+            yield from _absorbed_parts(left, known)
+            yield from _absorbed_parts(right, known)
+        case Call(function=function, arguments=arguments):
+            if function == "where":
+                less, more, then, otherwise = arguments
+                is_less = evaluate(less, known.__getitem__) < evaluate(more, known.__getitem__)
+                chosen, other = (then, otherwise) if is_less else (otherwise, then)
+                arguments = (less, more, chosen, *_constant_parts(other, {}))
+            yield from arguments
+            if function in ("ramp", "smooth_step"):
+                yield Binary("/", Number(1.0), arguments[-1])
+            for argument in arguments:
+                yield from _absorbed_parts(argument, known)
 
 
 def _constant_parts(expr: Expr, known: Mapping[str, float]) -> Iterator[Expr]:

@@ -219,3 +219,38 @@ def test_every_file_is_in_the_table() -> None:
 
 def test_words_belong_to_files() -> None:
     assert set(WORDS) <= {m[0] for m in MISTAKES}
+
+
+CONSTANT = """format: gudgeon/1
+name: m
+parameters: {{d: 0, e: 1, a: {value}}}
+bodies: {{b: {{length: 1 m, mass: 1 kg, inertia: 1 kg*m^2}}}}
+ground: {{O: [0, 0]}}
+joints: {{A: {{revolute: [ground.O, b.tail]}}}}
+drives: {{m: {{angle: b, value: 1 rad/s * t}}}}
+"""
+
+
+@pytest.mark.parametrize("value", [
+    "ramp(1, 0, 0)", "smooth_step(1 s, 0 s, 0 s)", "smooth_step(1, 0, d)", "smooth_step(1, 0, e-e)", "min(1/0, 1)",
+    "max(1, log(0))", "where(sqrt(-1) < 1, 2, 3)", "1/(1/0)", "atan(1/d)", "exp(-1/d)", "sign(1/0)", "(1/0)**0",
+    "smooth_step(1, 0, 1/0)", "2 - 3*atan(e + 1/d)", "where(e < 0, sqrt(-1), 3)", "where(e < 0, 1/0, 3)",
+])  # fmt: skip
+def test_a_constant_has_no_part_that_is_not_finite(value: str) -> None:
+    """SymPy raised ValueError for extremes of 1/0, and the others had values such as atan(1/0) = pi/2."""
+    with pytest.raises(BadValueError, match=r"m\.yaml:3:\d+: parameters\.a has a part that is (-?inf|nan)"):
+        read_mechanism(CONSTANT.format(value=value).encode(), "m.yaml")
+
+
+@pytest.mark.parametrize("value", ["where(0 < d, 1/d, 7)", "smooth_step(1, 0, e)", "where(e < 2, atan(e), log(d))"])
+def test_a_branch_that_is_not_picked_may_be_infinite(value: str) -> None:
+    assert read_mechanism(CONSTANT.format(value=value).encode(), "m.yaml").parameters["a"]
+
+
+@pytest.mark.parametrize("number", ["0." + "3" * 5000, "1" * 5000, "0" * 20 + "." + "1" * 5000 + "e-3 m"])
+def test_a_number_has_at_most_so_many_characters(number: str) -> None:
+    """Python raised ValueError from 4300 digits on."""
+    with pytest.raises(ExpressionError, match=r"m\.yaml:3:\d+: "):
+        read_mechanism(CONSTANT.format(value=number).encode(), "m.yaml")
+    long = read_mechanism(CONSTANT.format(value="0." + "3" * 900).encode(), "m.yaml")
+    assert long.parameters["a"]
