@@ -208,3 +208,20 @@ def test_the_equations_can_still_be_read() -> None:
     assert first.numpy() is first.numpy()
     assert equations_text(first) == equations_text(second)
     assert len(row_kernels(second)) == 4
+
+
+def test_what_a_condition_leaves_out_may_be_divided_by_zero(tmp_path: Path) -> None:
+    """As in C, where the quotient is infinite and not picked."""
+    file = tmp_path / "bar.yaml"
+    file.write_text("""\
+format: gudgeon/1
+name: bar
+parameters: {e: 0, a: "where(e > 0, 1/e, 2)"}
+bodies: {b: {length: 1 m, mass: 1 kg, inertia: 1 kg*m^2}}
+ground: {O: [0, 0]}
+joints: {A: {revolute: [ground.O, b.tail]}}
+drives: {d: {angle: b, value: "1 rad/s*t"}}
+""")
+    model = gudgeon.load(file).model.numpy()
+    assert (model.prepare().a_, model.prepare({"e": 0.5}).a_) == (2.0, 2.0)
+    assert model.prepare({"e": 0.25}).a_ == 4.0

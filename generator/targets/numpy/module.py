@@ -34,6 +34,13 @@ _ABOUT = (
 )
 
 
+class _Doubles(SimpleNamespace):
+    """Numbers that are divided as C divides them: by 0 there is no exception, for `where` may not pick the result."""
+
+    def __setattr__(self, name: str, value: object) -> None:
+        super().__setattr__(name, np.float64(value) if type(value) is float else value)
+
+
 class ClosedLinkage:
     """Φ, Φ_q, ν, γ, M of the closed linkage (joints with play closed, redundant rows kept), in NumPy.
 
@@ -62,10 +69,11 @@ class ClosedLinkage:
 
     def _prepared(self, found: Mapping[str, float]) -> SimpleNamespace:
         addresses = self.model.slots.entries
-        p = SimpleNamespace(**{name: [0.0] * len(table) for name, table in self.model.slots.tables.items()})
+        p = _Doubles(**{name: [0.0] * len(table) for name, table in self.model.slots.tables.items()})
         values = [found.get(address, 0.0) for address in addresses]
-        self.functions["prepare"](values, [address in found for address in addresses], p)
-        return p
+        with np.errstate(all="ignore"):
+            self.functions["prepare"](values, [address in found for address in addresses], p)
+        return SimpleNamespace(**{name: float(x) if isinstance(x, np.float64) else x for name, x in vars(p).items()})
 
     def _chosen(self, found: Mapping[str, float], p: SimpleNamespace) -> dict[str, float]:
         """Numbers of what is chosen by name, a material, as p has them."""
