@@ -28,6 +28,11 @@ class ClearanceInfo:
         return self.name.partition(".")[0]
 
     @property
+    def film_clearance(self) -> int:
+        """Index into p of the clearance that its film has: c, and what a film adds to it."""
+        return self.constants.get("film_clearance", self.clearance)
+
+    @property
     def at_wall(self) -> bool:
         """Whether it is a slider's corner at a wall of its guide."""
         return "." in self.name

@@ -230,7 +230,7 @@ def stalled(pace: Pace, ended: NDArray[np.int_], film: str, fast: str, cornered:
 def film(compiled: CompiledModel, e_max: Array, p: Array) -> str:
     """The film that is all but closed, in words; "" where there is none."""
     for joint, e in zip(compiled.source.clearances, e_max, strict=True):
-        ratio = float(e) / float(p[joint.clearance])
+        ratio = float(e) / float(p[joint.film_clearance])
         if joint.film and ratio > NEARLY_CLOSED:
             return f"the film in joint {joint.name} is squeezed out, e/c = {ratio:.7g}"
     return ""
@@ -281,7 +281,7 @@ def _dead_centre(compiled: CompiledModel, last: Array, p: Array, t: float) -> So
 def _closed_film(compiled: CompiledModel, e_max: Array, p: Array, t: float) -> SolverError | None:
     """What usually leaves a method no step: a film that is squeezed out, where its law is singular."""
     for joint, e in zip(compiled.source.clearances, e_max, strict=True):
-        ratio = float(e) / float(p[joint.clearance])
+        ratio = float(e) / float(p[joint.film_clearance])
         if joint.film and ratio > NEARLY_CLOSED:
             error = SolverError(
                 f"the film in joint {joint.name} is squeezed out at t = {t:.9g} s: e/c = {ratio:.7g}\n"

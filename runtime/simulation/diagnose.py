@@ -182,9 +182,10 @@ def _outside(compiled: CompiledModel, p: Array, t0: float, q0: Array, peaks: Arr
     for k, (joint, (_, _, e_max)) in enumerate(zip(compiled.source.clearances, peaks, strict=True)):
         c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
         deepest = float(e_max) - widest(compiled.source, p, joint)
-        if joint.film and not joint.dry and float(e_max) > THIN * c:
+        ratio = float(e_max) / float(p[joint.film_clearance])
+        if joint.film and not joint.dry and ratio > THIN:
             yield (
-                f"{joint.name}: the film is squeezed out, e/c = {float(e_max) / c:.7g}: its law, singular at e = c, is"
+                f"{joint.name}: the film is squeezed out, e/c = {ratio:.7g}: its law, singular at e = c, is"
                 " capped there: a dry contact beyond it, or a thicker oil, keeps the surfaces apart"
             )
         if deepest > (most := min(DEEP_CLEARANCE * c, DEEP_RADIUS * radius)):

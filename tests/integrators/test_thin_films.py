@@ -185,3 +185,12 @@ def test_forces_do_not_jump_at_loose_tolerances(method: str, tmp_path: Path) -> 
     for run in found:
         off = np.hypot(run["A.Fx"] - exact["A.Fx"], run["A.Fy"] - exact["A.Fy"])
         assert off.max() < 0.05 * exact["A.F"].max()
+
+
+@needs_compiler
+def test_a_film_with_an_extra_clearance_is_not_squeezed_out(tmp_path: Path) -> None:
+    """Its law is singular where e is the clearance of the film, c + extra_clearance."""
+    law = "{law: ocvirk, viscosity: 0.02 Pa*s, angular_velocity: relative, extra_clearance: 1e-5 m}"
+    text = ROTOR.replace("{law: finite_length, viscosity: 0.02 Pa*s}", law)
+    run = loader(tmp_path)(text, "wet").simulate(5e-3, output=100, rtol=1e-6)
+    assert run["A.e"].max() > 2.5e-6 and not [note for note in run.diagnostics.notes if "squeezed" in note]
