@@ -114,14 +114,14 @@ def check_samples(run: Result, peaks: Result | None = None) -> ContactCheck:
         free = ~_in_contact(run, k)
         limit = max(DEPTH_TOL * float(run.p[joint.clearance]), SHALLOW)
         found += _excursions(run, joint, "penetration", free & (delta[:, k] > limit), delta[:, k], force)
-        bears = (force > FORCE_TOL * float(np.nanmax(force, initial=0.0))) & (delta[:, k] > SHALLOW)
+        touches = free & (np.abs(delta[:, k]) <= SHALLOW)
+        bears = (force > FORCE_TOL * float(np.nanmax(force, initial=0.0))) & ~touches
         found += _excursions(run, joint, "force", free & (delta[:, k] <= limit) & bears, delta[:, k], force)
         if joint.name in run.source.rigid and run.compiled is not None:
             pull = sum(run[f"{joint.name}.F{axis}"] * run[f"{joint.name}.e{axis}"] for axis in "xy")
             wrong = ~free & (pull > PULL_TOL * float(np.abs(pull).max(initial=0.0)))
             found += _excursions(run, joint, "pull", wrong, delta[:, k], force)
-        touches = np.nanmax(force[free & (delta[:, k] <= SHALLOW)], initial=0.0)
-        found += _peaks(peaks or run, k, joint, float(touches))
+        found += _peaks(peaks or run, k, joint, float(np.nanmax(force[touches], initial=0.0)))
     return ContactCheck(len(run.t), tuple(sorted(found, key=lambda one: one.t)))
 
 

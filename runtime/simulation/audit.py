@@ -134,7 +134,7 @@ def _contacts(compiled: CompiledModel, x: Trajectory, evaluation: Evaluation) ->
         force = np.hypot(evaluation.clearance[:, k, 0], evaluation.clearance[:, k, 1])
         peak, own = float(x.peaks[k, 0]), x.impacts[x.impacts["joint"] == k]
         free = np.isnan(x.memory[:, k])
-        touches = free & (evaluation.clearance[:, k, -1] <= SHALLOW)
+        touches = free & (np.abs(evaluation.clearance[:, k, -1]) <= SHALLOW)
         outside = np.where(free & ~touches, force, 0.0)
         worst = int(outside.argmax())
         scale = max(FORCE * max(peak, float(force.max())), 1e-300)
