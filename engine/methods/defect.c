@@ -125,7 +125,7 @@ static void begin_rates(const Run *run, const Step *step, double *rate)
 }
 
 #define FILM_SMALL 0.02 /* of the limit: so small an error is measured in each fourth step only, */
-#define FILM_CHANGED 0.1 /* of a film's force, that it may change by in a step that is not looked at */
+#define FILM_CHANGED 0.5 /* of a film's force, that it may change by in a step that is not looked at */
 #define FILM_LONGER 1.5 /* as long as steps are no longer than this times the one where it was */
 enum { FILM_STEPS = 4, FILM_BEGINS = 16 /* in each 16th, where as small an error at the begin of each step tells */ };
 
