@@ -73,23 +73,31 @@ static double film_audit_limit(const Run *run, const Step *step)
     return min_of(1.0, (step->method->stiff ? 1.0 : 10.0) * max_of(1e-3, FILM_AUDIT * tolerance_of(run)));
 }
 
+/* The share of films' forces that is wrong at a place inside a step; most: a force of theirs. -1: there is no state. */
+static double film_share_at(Run *run, const Step *step, double theta, double most, const Parameters *p)
+{
+    double y[N_Y], dy[N_Y], rate[N_Y];
+    int where;
+    Aside aside;
+    if (state_at(run, step, theta, p, y, dy, &aside))
+        return -1.0;
+    interpolate_rates(step, theta, 2 * N_X, rate);
+    return film_share(run, step, rate, dy, max_of(most, largest_film_force(&aside, &where)), FILM_PART);
+}
+
 /*
  * The error of films' forces inside a step, in multiples of their limit: where the interpolant errs most. A velocity
  * that is as good as the tolerance, times the damping of a thin film, may be any force.
  */
 static double film_error(Run *run, Step *step, const Parameters *p)
 {
-    const double theta = step->method->between;
-    double y[N_Y], dy[N_Y], rate[N_Y], most;
     int where;
-    Aside aside;
-    if (make_dense(run, p, step) || state_at(run, step, theta, p, y, dy, &aside))
+    const double ends = max_of(largest_film_force(&step->aside, &where), largest_film_force(&run->aside, &where));
+    const double share = make_dense(run, p, step) ? -1.0 : film_share_at(run, step, step->method->between, ends, p);
+    if (share < 0.0)
         return 0.0;
-    interpolate_rates(step, theta, 2 * N_X, rate);
-    most = max_of(largest_film_force(&aside, &where), largest_film_force(&step->aside, &where));
-    most = max_of(most, largest_film_force(&run->aside, &where));
     run->film_h = step->h, run->film_steps = run->steps;
-    run->film_error = film_share(run, step, rate, dy, most, FILM_PART) / film_limit(run);
+    run->film_error = share / film_limit(run);
     if (step->method->stiff == BY_RODAS5P)
         run->film_error *= RODAS5P_FILM;
     return run->film_error;
@@ -101,13 +109,7 @@ static double film_error(Run *run, Step *step, const Parameters *p)
  */
 static int misses_film_at(Run *run, const Step *step, double share, const Parameters *p)
 {
-    double y[N_Y], dy[N_Y], rate[N_Y];
-    int where;
-    Aside aside;
-    if (!has_films() || !step->method->stiff || state_at(run, step, share, p, y, dy, &aside))
-        return 0;
-    interpolate_rates(step, share, 2 * N_X, rate);
-    return film_share(run, step, rate, dy, largest_film_force(&aside, &where), FILM_PART) > film_limit(run);
+    return has_films() && step->method->stiff && film_share_at(run, step, share, 0.0, p) > film_limit(run);
 }
 
 /* Rates of velocities of a stiff method's interpolant at the begin of a step, which need not be made for them. */
@@ -152,13 +154,13 @@ static double film_begins(const Run *run, const Step *step, double part)
 }
 
 /* Whether the force of a film changes in a step by more than a share of the larger one of its ends. */
-static int is_film_changed(const Run *run, const Step *step, double share)
+static int is_film_changed(const Run *run, const Step *step)
 {
     int changed = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *a = &run->aside.clearance[i], *b = &step->aside.clearance[i];
         const double change = max_of(fabs(b->Fx - a->Fx), fabs(b->Fy - a->Fy));
-        changed |= has_film(i) && change > share * max_of(total_force(a), total_force(b));
+        changed |= has_film(i) && change > FILM_CHANGED * max_of(total_force(a), total_force(b));
     }
     return changed;
 }
@@ -173,7 +175,7 @@ static int is_film_known(const Run *run, const Step *step, double begins)
     if (!step->method->stiff || !has_films())
         return 1;
     return is_film_steady(run, step) && since < FILM_BEGINS && (since < FILM_STEPS || begins < FILM_SMALL)
-        && !is_film_changed(run, step, FILM_CHANGED);
+        && !is_film_changed(run, step);
 }
 
 /*

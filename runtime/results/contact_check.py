@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.contract.clearance_info import ClearanceInfo
+from gudgeon.contract.clearance_info import SHALLOW, ClearanceInfo
 from gudgeon.errors import SolverError
 from gudgeon.model.compiled import Array
 from gudgeon.model.contours import contour_of, depth_at
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from gudgeon.results.results import Result
 
 DEPTH_TOL = 1e-9  # of the clearance, that a penetration outside a contact is rounding; 1e-13 m at least
-SHALLOW = 1e-13  # m: what overlaps by less has not touched
 FORCE_TOL = 1e-12  # of a joint's largest force, that a force outside a contact is rounding
 TIME_TOL = 1e-11  # of the span of a run, by which a sample may miss the end of a contact
 PULL_TOL = 1e-6  # of the largest force, by which a rigid contact may seem to pull

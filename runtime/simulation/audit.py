@@ -12,6 +12,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from gudgeon.contract.audit import FAILS, LEVELS, Finding
+from gudgeon.contract.clearance_info import SHALLOW
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.language.wanted import told
@@ -31,7 +32,6 @@ LEAST_ENERGY = 1e-6  # the same, at least
 ENOUGH = 20  # samples from which on the energy that was turned over is known
 AT_REST = 1e-9  # of the speed that crosses the mechanism in the time of the run: the energy of less is rounding
 LEAST = 1e-250  # J: works of a motion that hardly leaves zero have no digits
-SHALLOW = 1e-13  # m: what overlaps by less has not touched (engine/run/latches.c)
 FORCE = 1e-6  # of a joint's largest force, that an open joint may seem to bear
 START, START_RATES = 1e-9, 1e-6  # of the size, and of the largest speed: how far the first sample is from the start
 PEAK = 1e-2  # of the largest force of its contacts, that the peak of a joint may exceed it by
