@@ -13,7 +13,7 @@
 #define AUDIT_LONGEST 1.5 /* times the longest step whose error was measured: so is this one's */
 #define AUDIT_SHORT 1e-3 /* of the longest step: in shorter ones an event function may grow to a pole without a scale */
 #define AUDIT_FIRST 0.25 /* of the interval between drawn steps: the first one */
-#define AUDIT_SHARE 0.012 /* of the evaluations of a run, that checks of drawn steps may cost */
+#define AUDIT_SHARE 0.008 /* of the evaluations of a run, that checks of drawn steps may cost */
 #define AUDIT_COST 8.0   /* evaluations that these cost, as a rule */
 #define AUDIT_ITERATIONS 4.0 /* evaluations of a stage that is found by iterations, and */
 #define AUDIT_LEAST_STAGES 8.0 /* of a step, at least */
@@ -77,8 +77,9 @@ static void check_end(Run *run, Step *step, const Parameters *p)
         record(&run->audit, DEFECT_CHECK, defect_of(run, step->h, step->y, step->dy, dy), 1.0, step->t + step->h, -1);
 }
 
+/* Forces of films, by the accelerations that they give; which none of a step follow that begins or ends at a jump. */
 static void check_forces(Run *run, const Step *step, double t, const Aside *aside, const double *rate,
-    const double *dy)
+    const double *dy, const Parameters *p)
 {
     int where;
     if (!has_films())
@@ -86,9 +87,9 @@ static void check_forces(Run *run, const Step *step, double t, const Aside *asid
     double most = largest_film_force(aside, &where);
     for (int i = 0; i < N_CLEARANCES; i++)
         most = has_film(i) ? max_of(most, FILM_FADED * run->F_peak[i]) : most;
-    const double share = film_share(run, step, rate, dy, most, 1.0);
-    if (where >= 0 && has_tolerance(run) && run->steps > 0)
-        record(&run->audit, FORCE_CHECK, share, film_audit_limit(run, step), t, where);
+    const double share = film_share(run, step, rate, dy, most, 1.0), limit = film_audit_limit(run, step);
+    if (where >= 0 && has_tolerance(run) && run->steps > 0 && (share <= limit || !meets_jump(run, step, p)))
+        record(&run->audit, FORCE_CHECK, share, limit, t, where);
 }
 
 /* What is checked of each state inside a step; `drawn`: of one whose place was drawn. */
@@ -103,7 +104,7 @@ static void check_state_inside(Run *run, Step *step, double theta, int drawn, co
         record(&run->audit, DEFECT_CHECK, defect, 1.0, t, -1);
     if (drawn && has_tolerance(run) && !N_CLEARANCES) /* rates in contacts change within a step */
         check_rate(run, step, t, y, rate, dy, p);
-    check_forces(run, step, t, aside, rate, dy);
+    check_forces(run, step, t, aside, rate, dy, p);
     check_joints(run, t, aside, p);
     check_branches(run, step, t, y, aside, p);
 }

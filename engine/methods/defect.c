@@ -6,7 +6,7 @@
  * Rates of the interpolant at fraction theta of a step, whose coefficients are made: of the nested polynomial
  * y0 + w0 (d0 + w1 (d1 + ...)), each w being theta or 1 - theta, and of its derivative by Horner's scheme.
  */
-static inline void interpolate_rates(const Step *step, double theta, int rows, double *dy)
+static inline void interpolate_rates(const Step *step, double theta, int rows, double *restrict dy)
 {
     const Method *method = step->method;
     double value = 1.0 / step->h, rate = 0.0; /* of a product of factors theta and 1 - theta */
@@ -112,77 +112,59 @@ static int misses_film_at(Run *run, const Step *step, double share, const Parame
     return has_films() && step->method->stiff && film_share_at(run, step, share, 0.0, p) > film_limit(run);
 }
 
-/* Rates of velocities of a stiff method's interpolant at the begin of a step, which need not be made for them. */
-static void begin_rates(const Run *run, const Step *step, double *rate)
+/* Rates of velocities of a stiff method's interpolant at an end of a step, by weights of its stages and of y - y0. */
+static void rates_at_end(const Run *run, const Step *step, const double *weight, int n, double of_end, double *rate)
 {
-    const Method *method = step->method;
     const double *k = step->stages_lane ? step->stages_lane : step->k[0];
     const int stride = step->stages_lane ? step->lanes : 1;
     for (int i = N_X; i < 2 * N_X; i++) {
-        rate[i] = method->begins_end * (step->y[i] - run->y[i]);
-        for (int s = 0; s < method->n_begins; s++)
-            rate[i] += method->begins[s] * k[(s * N_Y + i) * stride];
+        rate[i] = of_end * (step->y[i] - run->y[i]);
+        for (int s = 0; s < n; s++)
+            rate[i] += weight[s] * k[(s * N_Y + i) * stride];
         rate[i] /= step->h;
     }
 }
 
-#define FILM_SMALL 0.02 /* of the limit: so small an error is measured in each fourth step only, */
-#define FILM_CHANGED 0.5 /* of a film's force, that it may change by in a step that is not looked at */
+#define FILM_SMALL 0.02 /* of the limit: with so small errors at the ends, that inside a step is seldom measured, */
 #define FILM_LONGER 1.5 /* as long as steps are no longer than this times the one where it was */
-enum { FILM_STEPS = 4, FILM_BEGINS = 16 /* in each 16th, where as small an error at the begin of each step tells */ };
-
-/* Whether errors of films' forces are small, and steps as long as where they were measured: until something changes. */
-static int is_film_steady(const Run *run, const Step *step)
-{
-    return run->film_error < FILM_SMALL && step->h < FILM_LONGER * run->film_h && !run->first;
-}
+enum { FILM_STEPS = 16 /* in each 16th */ };
 
 /*
- * The error of films' forces at the begin of a step, where it costs no right-hand side. film_error has been seen to be
- * up to 37 times as large, of errors that were far below the limit. Of steady steps each fourth is looked at.
+ * The error of films' forces at the ends of a step, in multiples of their limit, where it costs no right-hand side: at
+ * its begin what the interpolant misses, at its end what iterations have left of a velocity. film_error has been seen
+ * to be up to 37 times as large, of errors that were far below the limit.
  */
-static double film_begins(const Run *run, const Step *step, double part)
+static double film_error_at_ends(const Run *run, const Step *step, double part)
 {
+    const Method *method = step->method;
     double rate[N_Y];
     int where;
-    if (!step->method->stiff || !has_films())
+    if (!method->stiff || !has_films())
         return 0.0;
-    if (is_film_steady(run, step) && (run->steps - run->film_steps) % FILM_STEPS != 0)
-        return 0.0;
-    begin_rates(run, step, rate);
-    return film_share(run, step, rate, run->dy, largest_film_force(&step->aside, &where), part) / film_limit(run);
-}
-
-/* Whether the force of a film changes in a step by more than a share of the larger one of its ends. */
-static int is_film_changed(const Run *run, const Step *step)
-{
-    int changed = 0;
-    for (int i = 0; i < N_CLEARANCES; i++) {
-        const Clearance *a = &run->aside.clearance[i], *b = &step->aside.clearance[i];
-        const double change = max_of(fabs(b->Fx - a->Fx), fabs(b->Fy - a->Fy));
-        changed |= has_film(i) && change > FILM_CHANGED * max_of(total_force(a), total_force(b));
+    const double most = largest_film_force(&step->aside, &where);
+    rates_at_end(run, step, method->begins, method->n_begins, method->begins_end, rate);
+    double share = film_share(run, step, rate, run->dy, most, part);
+    if (method->n_ends) {
+        rates_at_end(run, step, method->ends, method->n_ends, method->ends_end, rate);
+        share = max_of(share, film_share(run, step, rate, step->dy, most, part));
     }
-    return changed;
+    return share / film_limit(run);
 }
 
-/*
- * Whether errors of films' forces are so small, and were of late, that they need not be measured in this step. Where
- * a force changes as much within a step, what an iteration has left of a velocity may have made it.
- */
-static int is_film_known(const Run *run, const Step *step, double begins)
+/* Whether errors of films' forces are so small, and were of late, that they need not be measured in this step. */
+static int is_film_known(const Run *run, const Step *step, double at_ends)
 {
-    const long since = run->steps - run->film_steps;
     if (!step->method->stiff || !has_films())
         return 1;
-    return is_film_steady(run, step) && since < FILM_BEGINS && (since < FILM_STEPS || begins < FILM_SMALL)
-        && !is_film_changed(run, step);
+    return run->film_error < FILM_SMALL && at_ends < FILM_SMALL && step->h < FILM_LONGER * run->film_h && !run->first
+        && run->steps - run->film_steps < FILM_STEPS;
 }
 
 /*
  * Whether a step that begins with a force of a film which fades at once, or rises, leads over that: where the
  * interpolant begins with other accelerations than the motion does, forces inside the step are wrong.
  */
-static int misses_film(const Run *run, const Step *step, double begins)
+static int misses_film(const Run *run, const Step *step, double at_ends)
 {
-    return begins > 1.0 && film_begins(run, step, 1.0) > 1.0;
+    return at_ends > 1.0 && film_error_at_ends(run, step, 1.0) > 1.0;
 }

@@ -18,7 +18,8 @@ struct Method {
     int n_heard;
     double between;           /* of a stiff one: the share of a step at which its interpolant errs most */
     double begins[8], begins_end; /* h times its rates at a step's begin, by stages and by y - y0 */
-    int n_begins;
+    double ends[4], ends_end; /* the same at its end, where stages are found by iterations */
+    int n_begins, n_ends;
     int own_length;           /* whether a step that is tried is made as long as it may be */
 };
 #define COUNT_OF(table) ((int)(sizeof(table) / sizeof *(table)))

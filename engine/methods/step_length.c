@@ -178,8 +178,9 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
     const Method *method = step->method;
     Attempt *now = &run->attempt;
     const int free = run->fixed <= 0.0;
-    const double begins = !tried && step->error <= run->accept && free ? film_begins(run, step, FILM_PART) : 0.0;
-    if (!tried && step->error <= run->accept && free && !is_film_known(run, step, begins)) {
+    const int fits = !tried && step->error <= run->accept && free;
+    const double at_ends = fits ? film_error_at_ends(run, step, FILM_PART) : 0.0;
+    if (fits && !is_film_known(run, step, at_ends)) {
         const double error = film_error(run, step, p);
         if (!(error > FALLING * now->of_films)) /* it is no rounding */
             step->error = max_of(step->error, error);
@@ -205,7 +206,7 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
         return again(run);
     }
     const int unresolved = good && is_unresolved(run, step, p);
-    if (good && free && (unresolved || misses_film(run, step, begins)) && now->shortened++ < SHORTENED) {
+    if (good && free && (unresolved || misses_film(run, step, at_ends)) && now->shortened++ < SHORTENED) {
         now->again = 1;
         run->rejected++;
         now->h *= 0.25;

@@ -246,10 +246,11 @@ static void check_branches(Run *run, Step *step, double t, const double *y, cons
         record(&run->audit, BRANCH_CHECK, 0.0, 1.0, t, -1);
     if (t <= run->t + located_within(run))
         return; /* what changes at one time, as the values of functions of one mod, changes one after the other */
-    for (int k = 0; k < N_SWITCHES; k++) {
+    for (int k = 0; k < N_SWITCHES; k++)
+        run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(aside->g[k]));
+    for (int k = 0; k < N_SWITCHES && run->steps > AUDIT_SETTLED; k++) {
         const double g = run->memory.side[k] * aside->g[k];
-        run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(g));
-        if (step->passed[k] || k == run->skip || meets[k] || !(g < 0.0) || run->steps <= AUDIT_SETTLED
+        if (!(g < 0.0) || step->passed[k] || k == run->skip || meets[k]
             || !is_resolved(run, t, y, aside, N_CLEARANCES + k, p))
             continue;
         const Seen seen = seen_of(step, N_CLEARANCES + k);

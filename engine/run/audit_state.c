@@ -24,6 +24,32 @@ static void check_event(Run *run, int i, int listed)
     audit->crossed[i] = 0;
 }
 
+/* Sides that a step held, at its end: how far each function lies on the wrong side, in how many steps in a row. */
+static void check_sides(Run *run, const Parameters *p)
+{
+    Audit *audit = &run->audit;
+    double g[AT_LEAST_ONE(N_SWITCHES)], least = 0.0;
+    for (int k = 0; k < N_SWITCHES; k++)
+        g[k] = run->memory.side[k] * run->aside.g[k];
+    for (int k = 0; k < N_SWITCHES; k++)
+        audit->switch_scale[k] = max_of(audit->switch_scale[k], fabs(g[k]));
+    for (int k = 0; k < N_SWITCHES; k++)
+        least = min_of(least, g[k]);
+    if (!(least < 0.0)) {
+        memset(audit->wrong, 0, sizeof audit->wrong);
+        return;
+    }
+    for (int k = 0; k < N_SWITCHES; k++) {
+        if (!(g[k] < -1e-3 * audit->switch_scale[k]) || k == run->skip || meets[k]) {
+            audit->wrong[k] = 0;
+            continue;
+        }
+        audit->wrong[k] = (unsigned char)min_of(audit->wrong[k] + 1, 100);
+        if (audit->wrong[k] >= AUDIT_WRONG && is_resolved(run, run->t, run->y, &run->aside, N_CLEARANCES + k, p))
+            record(audit, BRANCH_CHECK, -g[k], 1e-4 * audit->switch_scale[k], run->t, k);
+    }
+}
+
 /* The end of a step that was taken, before which `listed` events were recorded. Returns 0, or AUDITED. */
 static int audit_state(Run *run, int listed, const Parameters *p)
 {
@@ -38,18 +64,9 @@ static int audit_state(Run *run, int listed, const Parameters *p)
     check_rows(run, run->t, all, 0, p);
 #endif
     check_free(run);
-    if (N_SWITCHES > 0 && run->memory.held)
+    if (N_SWITCHES > 0 && run->memory.held) {
         record(audit, BRANCH_CHECK, 0.0, 1.0, run->t, -1);
-    for (int k = 0; k < N_SWITCHES && run->memory.held; k++) {
-        const double g = run->memory.side[k] * run->aside.g[k], known = audit->switch_scale[k];
-        audit->switch_scale[k] = max_of(known, fabs(g));
-        if (!(g < -1e-3 * known) || k == run->skip || meets[k]) {
-            audit->wrong[k] = 0;
-            continue;
-        }
-        audit->wrong[k] = (unsigned char)min_of(audit->wrong[k] + 1, 100);
-        if (audit->wrong[k] >= AUDIT_WRONG && is_resolved(run, run->t, run->y, &run->aside, N_CLEARANCES + k, p))
-            record(audit, BRANCH_CHECK, -g, 1e-4 * audit->switch_scale[k], run->t, k);
+        check_sides(run, p);
     }
     for (int i = 0; i < N_USER_EVENTS; i++)
         check_event(run, i, listed);

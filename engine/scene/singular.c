@@ -13,10 +13,13 @@
 #define LEAST_INERTIA 1e-3 /* of m s^2, s the longest arm of a joint: the least that an inertia counts in the measure */
 #define LEAST_MASS 1e-4    /* of the heaviest body: the same of a mass */
 
+enum { N_BESIDE = (AT_LEAST_ONE(N_ROWS) + 3) / 4 * 4 }; /* rows side by side, in whole vectors of the processor */
+
 typedef struct {
-    double basis[N_Q][N_Q];                              /* orthonormal rows found so far, then what they leave free */
-    double row[AT_LEAST_ONE(N_ROWS)][N_Q];               /* rows of Phi_q M^(-1/2), what is left of them */
-    double lower[AT_LEAST_ONE(N_ROWS)][AT_LEAST_ONE(N_ROWS)];          /* row i = sum over k of lower[i][k] basis[k] */
+    double basis[N_Q][N_Q];                   /* orthonormal rows found so far, then what they leave free */
+    double left[N_Q][N_BESIDE];               /* (Phi_q M^(-1/2))^T: of each row what the basis does not give */
+    double lower[AT_LEAST_ONE(N_ROWS)][N_BESIDE]; /* row i = sum over k of lower[k][i] basis[k] */
+    double unused[N_BESIDE];                  /* 1 of a row that is not in the basis, 0 of others */
     double all[N_ALL_ROWS][N_Q], root[N_Q], y[N_Q], along[AT_LEAST_ONE(N_ROWS)], rest[AT_LEAST_ONE(N_ROWS)];
     double norm[AT_LEAST_ONE(N_ROWS)];
     /* M over the measure, M^(-1/2) g, Z^T M Z and its solution */
@@ -37,17 +40,49 @@ static double dot(const double *a, const double *b)
     return x + y + theta;
 }
 
-/* Takes the component along the newest basis vector from every row not yet used, twice for its rounding. */
-static void remove_component(Workspace *w, int rank, int first)
+/* Products of all rows with a vector, side by side; their squares. Each sum is in the order of coordinates. */
+static void dot_rows(double (*restrict rows)[N_BESIDE], const double *vector, double *restrict sum)
 {
-    for (int i = first; i < N_ROWS; i++) {
-        double *row = w->row[w->order[i]];
-        for (int pass = 0; pass < 2; pass++) {
-            const double along = dot(row, w->basis[rank]);
-            w->lower[w->order[i]][rank] += along;
-            for (int k = 0; k < N_Q; k++)
-                row[k] -= along * w->basis[rank][k];
+    for (int i = 0; i < N_BESIDE; i++)
+        sum[i] = 0.0;
+    for (int k = 0; k < N_Q; k++) {
+        const double factor = vector[k];
+        for (int i = 0; i < N_BESIDE; i++)
+            sum[i] += rows[k][i] * factor;
+    }
+}
+
+static void square_rows(double (*restrict rows)[N_BESIDE], double *restrict sum)
+{
+    for (int i = 0; i < N_BESIDE; i++)
+        sum[i] = 0.0;
+    for (int k = 0; k < N_Q; k++)
+        for (int i = 0; i < N_BESIDE; i++)
+            sum[i] += rows[k][i] * rows[k][i];
+}
+
+/* Takes from all rows what `along` has of a vector. */
+static void subtract_from_rows(double (*restrict rows)[N_BESIDE], const double *vector, const double *restrict along)
+{
+    for (int k = 0; k < N_Q; k++) {
+        const double factor = vector[k];
+        for (int i = 0; i < N_BESIDE; i++)
+            rows[k][i] -= along[i] * factor;
+    }
+}
+
+/* Takes the component along the newest basis vector from every row not yet used, twice for its rounding. */
+static void remove_component(Workspace *w, int rank)
+{
+    const double *basis = w->basis[rank];
+    for (int pass = 0; pass < 2; pass++) {
+        double along[N_BESIDE];
+        dot_rows(w->left, basis, along);
+        for (int i = 0; i < N_BESIDE; i++) {
+            along[i] *= w->unused[i];
+            w->lower[rank][i] += along[i];
         }
+        subtract_from_rows(w->left, basis, along);
     }
 }
 
@@ -59,9 +94,10 @@ static int independent_rows(Workspace *w, double least)
         if (w->asked && ask_now(w->asked))
             return -1;
         int best = rank;
-        double most = 0.0;
+        double most = 0.0, square[N_BESIDE];
+        square_rows(w->left, square);
         for (int i = rank; i < N_ROWS; i++) {
-            const double left = dot(w->row[w->order[i]], w->row[w->order[i]]) / w->norm[w->order[i]];
+            const double left = square[w->order[i]] / w->norm[w->order[i]];
             if (left > most) {
                 most = left;
                 best = i;
@@ -72,11 +108,12 @@ static int independent_rows(Workspace *w, double least)
         const int chosen = w->order[best];
         w->order[best] = w->order[rank];
         w->order[rank] = chosen;
-        const double length = sqrt(dot(w->row[chosen], w->row[chosen]));
+        const double length = sqrt(square[chosen]);
         for (int k = 0; k < N_Q; k++)
-            w->basis[rank][k] = w->row[chosen][k] / length;
-        w->lower[chosen][rank] = length;
-        remove_component(w, rank, rank + 1);
+            w->basis[rank][k] = w->left[k][chosen] / length;
+        w->lower[rank][chosen] = length;
+        w->unused[chosen] = 0.0;
+        remove_component(w, rank);
     }
     return rank;
 }
@@ -117,11 +154,13 @@ static void fill_workspace(Workspace *w, double t, const double *q, const Parame
         w->y[k] = w->light ? 0.0 : w->force[k];
     }
     for (int i = 0; i < N_ROWS; i++) {
+        double row[N_Q];
         w->order[i] = i;
+        w->unused[i] = 1.0;
         for (int k = 0; k < N_Q; k++)
-            w->row[i][k] = w->all[kept_row[i]][k] / w->root[k];
-        w->norm[i] = dot(w->row[i], w->row[i]) + 1e-300;
-        w->rest[i] = rhs[i] - dot(w->row[i], w->y);
+            row[k] = w->left[k][i] = w->all[kept_row[i]][k] / w->root[k];
+        w->norm[i] = dot(row, row) + 1e-300;
+        w->rest[i] = rhs[i] - dot(row, w->y);
         w->along[i] = fabs(rhs[i]) + sqrt(w->norm[i] * dot(w->y, w->y)); /* its size, for the comparison below */
     }
 }
@@ -205,10 +244,10 @@ static int solve_independent(Workspace *w, double least, double tolerance, doubl
         return STOPPED;
     for (int k = 0; k < rank; k++) { /* forward: coordinates along the basis */
         const int row = w->order[k];
-        const double along = w->rest[row] / w->lower[row][k];
+        const double along = w->rest[row] / w->lower[k][row];
         for (int i = 0; i < N_ROWS; i++) {
-            w->along[i] += fabs(w->lower[i][k] * along);
-            w->rest[i] -= i == row ? 0.0 : w->lower[i][k] * along;
+            w->along[i] += fabs(w->lower[k][i] * along);
+            w->rest[i] -= i == row ? 0.0 : w->lower[k][i] * along;
         }
         w->rest[row] = along;
         for (int j = 0; j < N_Q; j++)
@@ -221,8 +260,8 @@ static int solve_independent(Workspace *w, double least, double tolerance, doubl
     for (int k = rank - 1; k >= 0; k--) { /* backward: multipliers of the independent rows */
         double value = w->rest[w->order[k]];
         for (int i = k + 1; i < rank; i++)
-            value += w->lower[w->order[i]][k] * lambda[w->order[i]];
-        lambda[w->order[k]] = -value / w->lower[w->order[k]][k];
+            value += w->lower[k][w->order[i]] * lambda[w->order[i]];
+        lambda[w->order[k]] = -value / w->lower[k][w->order[k]];
     }
     int agree = 1;
     for (int i = rank; i < N_ROWS; i++)

@@ -43,3 +43,18 @@ def test_steps_that_end_where_a_second_rate_is_unbounded(value: str, method: str
     """No polynomial follows it there, so that the dense output says nothing about the step."""
     run = loader(tmp_path)(CRANK.format(value=value)).simulate(1.0, method=method, rtol=rtol, output=50, audit="full")
     assert not audit_notes(run)
+
+
+FILM = """
+materials: {s: {E: 2e11, nu: 0.3}}
+bearings: {pin: {radius: 50 mm, clearance: 0.13 mm, length: 73 mm, bearing_material: s, journal_material: s}}
+contacts: {oil: {film: {law: ocvirk, viscosity: 0.05 Pa*s}}}
+scenes: {wet: {play: {B: {bearing: pin, contact: oil}}}}
+"""
+
+
+def test_films_where_a_second_rate_is_unbounded(tmp_path: Path) -> None:
+    """The force is unbounded as well: the check of films' forces ended such runs."""
+    text = CRANK.format(value="0.3 rad + 30 rad/s*t + 0.2 rad*abs(t/(1 s)*36 - 1.7)**1.5") + FILM
+    run = loader(tmp_path)(text, "wet").simulate(0.1, rtol=1e-6, output=50, audit="full")
+    assert run.t[-1] == 0.1 and not audit_notes(run)
