@@ -29,7 +29,7 @@ TOLD = {
 INTERRUPTED = "interrupted before its end"
 NO_NUMBER = "end the run before that, or write it so that it is a number at every time, with its rates"
 NO_SLOPE = "method dop853 does without slopes; or write the force so that it has one there"
-BOUNDED = "take rtol=1e-7 or looser, end the run before that, or write the drive with powers of 2 and more"
+BOUNDED = "write the drive with powers of 2 and more, or end the run before that; a looser rtol may lead past it"
 GROWN = "a drive that grows beyond all bounds cannot be followed: end the run before it, or change the drive"
 SLOWER = "a slower drive can be followed: look at its unit"
 OVERFLOWING = 1e75  # rad/s or m/s: an acceleration is its square, an energy or a force the square of that
