@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Container, Iterator, Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 
 from gudgeon.errors import BadValueError, InputError, Location
 from gudgeon.generator.field import RELATIONS
 from gudgeon.generator.mechanism.mechanism import Condition, Quantity, SceneSpec
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.parameters import parameter_values
-from gudgeon.language.tree import Binary, Call, Expr, Name, Number, Unary, calls, evaluate, names
+from gudgeon.language.defined import undefined_part
+from gudgeon.language.tree import Binary, Call, Expr, Name, Unary, calls, evaluate, names
 from gudgeon.language.units import si_unit
 
 EXPRESSIONS = "expressions."  # how the addresses of expressions by name begin
@@ -106,7 +107,7 @@ def _users(reader: Reader, address: str) -> str:
 
 def _wrong_part(quantity: Quantity, known: Mapping[str, float], is_wrong: bool) -> tuple[str, str]:
     """(message, hint) about a part of an expression that cannot be meant; "" if none, or the whole is wrong."""
-    wrong = None if is_wrong else _no_number_in(quantity.value, known)
+    wrong = None if is_wrong else undefined_part(quantity.value, known)
     if wrong is not None:
         return f"has a part that is {wrong}", FINITE
     if (small := _lost_factor(quantity.value, known)) is not None:
@@ -125,57 +126,6 @@ def _wrong_part(quantity: Quantity, known: Mapping[str, float], is_wrong: bool) 
 def _steps(quantity: Quantity) -> list[Call]:
     """The ramps and smooth_steps of an expression."""
     return [call for function in ("ramp", "smooth_step") for call in calls(quantity.value, function)]
-
-
-def _no_number_in(expr: Expr, known: Mapping[str, float]) -> float | None:
-    """The first of the parts that parameters determine which is not finite."""
-    parts = (inner for part in _constant_parts(expr, known) for inner in (part, *_absorbed_parts(part, known)))
-    numbers = (float(evaluate(part, known.__getitem__)) for part in parts)
-    return next((number for number in numbers if not math.isfinite(number)), None)
-
-
-def _absorbed_parts(expr: Expr, known: Mapping[str, float]) -> Iterator[Expr]:
-    """Yield the parts of a constant whose infinity or NaN its value may lack: arguments, divisors, bases, exponents.
-
-    Of the branch of a `where` that is not picked: those that no parameter could make finite.
-    """
-    match expr:
-        case Unary(operand=operand):
-            yield from _absorbed_parts(operand, known)
-        case Binary(operator=operator, left=left, right=right):
-            yield from {"/": (right,), "**": (left, right)}.get(operator, ())
-            yield from _absorbed_parts(left, known)
-            yield from _absorbed_parts(right, known)
-        case Call(function=function, arguments=arguments):
-            if function == "where":
-                less, more, then, otherwise = arguments
-                is_less = evaluate(less, known.__getitem__) < evaluate(more, known.__getitem__)
-                chosen, other = (then, otherwise) if is_less else (otherwise, then)
-                arguments = (less, more, chosen, *_constant_parts(other, {}))
-            yield from arguments
-            if function in ("ramp", "smooth_step"):
-                yield Binary("/", Number(1.0), arguments[-1])
-            for argument in arguments:
-                yield from _absorbed_parts(argument, known)
-
-
-def _constant_parts(expr: Expr, known: Mapping[str, float]) -> Iterator[Expr]:
-    """The largest parts of an expression that parameters alone determine, and 1 over each of them that divides."""
-    if all(name.path in known for name in names(expr)):
-        yield expr
-        return
-    match expr:
-        case Unary(operand=operand):
-            yield from _constant_parts(operand, known)
-        case Binary(operator=operator, left=left, right=right):
-            yield from _constant_parts(left, known)
-            for part in _constant_parts(right, known):
-                yield Binary("/", Number(1.0), part) if operator == "/" and part is right else part
-        case Call(function=function, arguments=arguments):
-            divides = arguments[-1] if function in ("ramp", "smooth_step", "mod") else None
-            for argument in arguments:
-                for part in _constant_parts(argument, known):
-                    yield Binary("/", Number(1.0), part) if part is divides else part
 
 
 def _lost_factor(expr: Expr, known: Mapping[str, float]) -> float | None:

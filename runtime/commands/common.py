@@ -96,7 +96,7 @@ def at_numbers(mechanism: Mechanism, linkage: NumPyLinkage, given: Mapping[str, 
     known, p = known_here(source, given), linkage.p[:count].copy()
     values, is_given = given_slots(source, known)
     p[: len(values)][is_given] = values[is_given]
-    check(source, p)  # before anything follows from them
+    check(source, p, is_given)  # before anything follows from them
     gains = {*TOGETHER, *(name for names in TOGETHER.values() for name in names)}
     own = {name: x for name, x in known.items() if name not in gains}  # these move no start
     if not own:
@@ -106,7 +106,7 @@ def at_numbers(mechanism: Mechanism, linkage: NumPyLinkage, given: Mapping[str, 
     except ArithmeticError as error:
         told = f"--set: what follows from these numbers is none ({error})"
         raise BadValueError(told, hint="look for one that is 0, or far too large") from error
-    check(source, found.p[:count])
+    check(source, found.p[:count], is_given)
     return found
 
 

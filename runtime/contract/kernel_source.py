@@ -34,6 +34,7 @@ class Slot:
     follows: bool  # an expression of other parameters: it follows them unless overridden itself
     dimension: tuple[float, float, float]  # exponents of m, kg, s: whole, or halves
     words: tuple[str, ...] = ()  # of a choice: what its number, 0, 1, …, stands for
+    tree: str = ""  # as it is written, JSON, where that may be undefined for some parameters
 
 
 @dataclass(frozen=True)
@@ -113,8 +114,7 @@ class SeriesInfo:
 
 @dataclass(frozen=True)
 class WrittenInfo:
-    """What of the file is no number of a run: an expression of t or motion (a drive's, a force's, an event's) or of a
-    scene's `simulate`, as JSON; or a 0 that is written or left out."""
+    """An expression of t or motion, or of a scene's `simulate`, as JSON; or a 0 that is written or left out."""
 
     address: str  # "drives.crank.value"
     tree: str

@@ -18,6 +18,7 @@ from gudgeon.model.arrays import taken
 from gudgeon.model.compiled import AT_ONCE, Array, CompiledModel
 from gudgeon.model.parameters import RELATIONS, check, conditions, given_slots, number, without_baumgarte
 from gudgeon.model.sizes import far_clearances
+from gudgeon.model.undefined import undefined_rows
 
 FLOATS = (float, np.floating)  # what may be no number
 Values: TypeAlias = float | str
@@ -215,16 +216,17 @@ def prepare_sets(
     p = compiled.prepare_each(given, is_given)
     motion = without_baumgarte(compiled, given, is_given) if free else p
     bad = {}
-    valid = [_valid(compiled.source, p[k : k + AT_ONCE]) for k in range(0, len(p), AT_ONCE)]
+    parts = [slice(k, k + AT_ONCE) for k in range(0, len(p), AT_ONCE)]
+    valid = [_valid(compiled.source, p[part], is_given[part]) for part in parts]
     for i in np.flatnonzero(~np.concatenate(valid)).tolist():
         try:
-            check(compiled.source, p[i])
+            check(compiled.source, p[i], is_given[i])
         except BadValueError as error:
             bad[i] = error
     return p, motion, bad
 
 
-def _valid(source: KernelSource, p: Array) -> Mask:
+def _valid(source: KernelSource, p: Array, is_given: Mask) -> Mask:
     """What parameters.check asks for, of several runs at once, (n_runs,)."""
     place = source.place
     valid = np.asarray(np.isfinite(p).all(axis=1))
@@ -232,4 +234,4 @@ def _valid(source: KernelSource, p: Array) -> Mask:
         several = [place[address] for address in condition.addresses]
         bound = p[:, several].sum(axis=1) if several else float(condition.bound)
         valid &= RELATIONS[condition.relation](p[:, place[condition.address]], bound)
-    return valid & ~far_clearances(source, p).any(axis=1)
+    return valid & ~far_clearances(source, p).any(axis=1) & ~undefined_rows(source, p, is_given)

@@ -20,6 +20,7 @@ from gudgeon.language.wanted import mapping, number_of, whole_digits
 from gudgeon.model.choices import choice_of_a_law, expression_by_name, place_of_word
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.sizes import far_clearance, zero_inertia
+from gudgeon.model.undefined import undefined_number
 
 # a number as files have it, in ASCII digits without '_'; what float() takes beyond that is no number here either
 _NUMBER = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
@@ -190,8 +191,7 @@ def prepare(compiled: CompiledModel, parameters: Mapping[str, float | str] | Non
 
 def prepare_slots(compiled: CompiledModel, given: Array, is_given: Array) -> Array:
     """The p of values and mask, checked. Raises BadValueError."""
-    p = compiled.prepare(given, is_given)
-    check(compiled.source, p)
+    check(compiled.source, p := compiled.prepare(given, is_given), is_given)
     return p
 
 
@@ -206,8 +206,8 @@ def without_baumgarte(compiled: CompiledModel, given: Array, is_given: NDArray[n
     return compiled.prepare(values, mask)
 
 
-def check(source: KernelSource, p: Array) -> None:
-    """Every condition again, on the values of this run."""
+def check(source: KernelSource, p: Array, is_given: NDArray[np.generic]) -> None:
+    """Every condition again, on the values of this run; `is_given`: slots that do not follow others."""
     value = {slot.address: float(p[k]) for k, slot in enumerate(source.slots)}
     for condition in conditions(source):  # first: sides that make no triangle leave a point that is NaN
         bound = sum(value[a] for a in condition.addresses) if condition.addresses else float(condition.bound)
@@ -226,7 +226,7 @@ def check(source: KernelSource, p: Array) -> None:
     for k, number in enumerate(p[len(source.slots) :].tolist()):
         if not math.isfinite(number):
             raise BadValueError(zero_inertia(value, source.derived[k]) or _overflow(source, value, k, number))
-    if told := far_clearance(source, p):
+    if told := undefined_number(source, p, is_given) or far_clearance(source, p):
         raise BadValueError(told)
 
 

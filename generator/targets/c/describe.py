@@ -34,6 +34,7 @@ from gudgeon.generator.kernels.outputs import element_series, kept_joints
 from gudgeon.generator.mechanism.mechanism import GROUND, Mechanism, PointRef, Quantity
 from gudgeon.generator.mechanism.quantities import quantities
 from gudgeon.generator.reduction.driven_chains import Chain
+from gudgeon.language.defined import is_defined_everywhere
 from gudgeon.language.tree import Expr, names, to_json
 from gudgeon.language.units import Dimension
 
@@ -93,7 +94,8 @@ def describe(
 def _slots(model: Model) -> Iterator[Slot]:
     for e in model.slots.entries.values():
         exponents = _exponents(e.dimension)
-        yield Slot(e.address, base_units(exponents), e.default, e.follows, exponents, e.words)
+        tree = "" if e.written is None or is_defined_everywhere(e.written) else json.dumps(to_json(e.written))
+        yield Slot(e.address, base_units(exponents), e.default, e.follows, exponents, e.words, tree)
 
 
 def _lines(mechanism: Mechanism) -> tuple[tuple[str, int], ...]:
