@@ -27,14 +27,15 @@ joints:
 drives: {cam: {coordinate: follower.y, value: 83.6 mm + 10 mm*(1 - cos(28 rad/s*t))}}
 start: {guess: {slider.x: 150 mm, follower.y: 83.6 mm, rod.theta: -0.51}}
 materials: {steel: {E: 211 GPa, nu: 0.309}}
-bearings: {pin: {radius: 13.2 mm, clearance: 0.316 mm, length: 20.5 mm, bearing_material: steel, journal_material: steel}}
+bearings:
+  pin: {radius: 13.2 mm, clearance: 0.316 mm, length: 20.5 mm, bearing_material: steel, journal_material: steel}
 contacts: {touch: {normal: {law: liu, restitution: 0.715, dissipation: lankarani_nikravesh}}}
 scenes: {worn: {play: {wristpin: {bearing: pin, contact: touch}, crankpin: {bearing: pin, contact: touch}}}}
 """
 
 
-@pytest.mark.parametrize("rtol", [1e-6, 1e-9])
+@pytest.mark.parametrize("rtol", [3e-7, 1e-8])
 def test_a_rod_without_inertia_between_two_contacts(rtol: float, tmp_path: Path) -> None:
     """Its angle follows the contacts: an error of a position within its tolerance was a rate of any size."""
-    run = loader(tmp_path)(LIGHT_ROD, "worn").simulate(0.08, output=100, rtol=rtol)
+    run = loader(tmp_path)(LIGHT_ROD, "worn").simulate(0.1, output=100, rtol=rtol)
     assert run.diagnostics.steps > 1000 and not audit_notes(run)
