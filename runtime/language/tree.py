@@ -79,8 +79,9 @@ def ramp(t: Any, start: Any, duration: Any) -> Any:
 
 
 def where(left: Any, right: Any, then: Any, otherwise: Any) -> Any:
-    """`then` where left < right, else `otherwise`: `where(left < right, then, otherwise)`."""
-    return np.where(np.less(left, right), then, otherwise)[()]
+    """`then` where left < right, else `otherwise`, NaN where one is: `where(left < right, then, otherwise)`."""
+    undefined = np.isnan(left) | np.isnan(right)
+    return np.where(undefined, np.nan, np.where(np.less(left, right), then, otherwise))[()]
 
 
 def mod(a: Any, b: Any) -> Any:

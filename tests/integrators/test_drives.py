@@ -116,7 +116,8 @@ ODD = (
     PAIR_AT
     + """events: {e: {zero: "sqrt(0.7 - t/(1 s)) - 0.1"}}
 outputs:
-  {root: sqrt(t0 - t), third: ((t - t0)/(1 s))**(1/3), pole: 1 s/(t - t0), fine: 2*t, force: log(A.F/(1 N) - 1e9)}
+  {root: sqrt(t0 - t), third: ((t - t0)/(1 s))**(1/3), pole: 1 s/(t - t0), fine: 2*t, force: log(A.F/(1 N) - 1e9),
+  either: 'where(sqrt(t0 - t) < 0.1 s^0.5, 2, 3)'}
 """
 )
 
@@ -131,7 +132,7 @@ def test_outputs_and_events_that_are_no_number_are_told(drives: str, tmp_path: P
         assert [note.split(":")[0] for note in run.diagnostics.notes] == [
             "event e is no number (NaN) at t = 0.7 s", "output root is no number (nan) at t = 0.51 s",
             "output third is no number (nan) at t = 0 s", "output pole is no number (inf) at t = 0.5 s",
-            "output force is no number (nan) at t = 0 s",
+            "output force is no number (nan) at t = 0 s", "output either is no number (nan) at t = 0.51 s",
         ]  # fmt: skip
         assert run.diagnostics.notes[1].endswith(": sqrt of -0.01; it is none at 50 of 101 samples")
         assert run.diagnostics.notes[3].endswith(": 1 divided by 0")
