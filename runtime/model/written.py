@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource, WrittenInfo
+from gudgeon.language.defined import is_defined_everywhere
 from gudgeon.language.tree import Binary, Call, Expr, calls, evaluate, from_json, names, reached
 from gudgeon.model.compiled import Array, CompiledModel, Evaluation
 from gudgeon.model.culprit import Values, culprit
@@ -188,22 +189,41 @@ def rate_reason(compiled: CompiledModel, p: Array, times: Array, q: Array) -> tu
     return "", float(times[-1])
 
 
-def with_odd_outputs(run: Result, evaluation: Evaluation) -> Result:
-    """The run, its notes with outputs that are no number at a sample at which all that they are made of is one."""
-    if not run.source.outputs:
+def with_undefined(run: Result, evaluation: Evaluation) -> Result:
+    """The run, its notes with outputs that are no number at a sample at which all that they are made of is one.
+
+    And with drives and forces by a `where` that compares what is no number: C picks one of its branches.
+    """
+    compared = _compared(run.source)
+    if not run.source.outputs and not compared:
         return run
     probe = replace(run, stored={})  # of many samples nothing is kept that nobody asked for
     probe.__dict__["evaluation"] = evaluation
-    odd = [told for name in run.source.outputs if name in probe and (told := _odd(probe, name))]
+    outputs = {f"output {name}": from_json(tree) for name, tree in run.source.outputs.items() if name in probe}
+    for address, tree in compared.items():
+        if all(used.path in probe.parameters or used.path in probe for used in names(tree)):
+            outputs[address] = tree
+    odd = [told for name, tree in outputs.items() if (told := _odd(probe, name, tree))]
     notes = (*run.diagnostics.notes, *odd)
     return replace(run, diagnostics=replace(run.diagnostics, notes=notes)) if odd else run
 
 
-def _odd(run: Result, name: str) -> str:
-    """When an output of a run is no number first, and why; "" where it is one, or only what it is made of is none."""
-    tree, shape = from_json(run.source.outputs[name]), run.t.shape
-    parts = {used.path: np.broadcast_to(run.value_of(used.path), shape) for used in names(tree)}
-    values = np.broadcast_to(evaluate(tree, parts.__getitem__), shape)
+def _compared(source: KernelSource) -> dict[str, Expr]:
+    """Drives and forces, by address, with a `where` that may compare what is no number."""
+    kept = vars(source)
+    if "compared" not in kept:
+        found = {info.address: tree for info, tree in trees(source, ("drives", "forces"))}
+        kept["compared"] = {
+            address: tree for address, tree in found.items()
+            if not all(is_defined_everywhere(one) for call in calls(tree, "where") for one in call.arguments[:2])
+        }  # fmt: skip
+    return dict(kept["compared"])
+
+
+def _odd(run: Result, name: str, tree: Expr) -> str:
+    """When an expression is no number first, and why; "" where it is one, or only what it is made of is none."""
+    parts = {used.path: np.broadcast_to(run.value_of(used.path), run.t.shape) for used in names(tree)}
+    values = np.broadcast_to(evaluate(tree, parts.__getitem__), run.t.shape)
     wrong = ~np.isfinite(values)
     for part in parts.values() if wrong.any() else ():
         wrong &= np.isfinite(part)
@@ -212,7 +232,7 @@ def _odd(run: Result, name: str) -> str:
     k, count = int(wrong.argmax()), int(wrong.sum())
     why = culprit(run.source, tree, lambda path: float(parts[path][k]))
     others = f"; it is none at {count} of {len(wrong)} samples" if count > 1 else ""
-    return f"output {name} is no number ({values[k]}) at t = {run.t[k]:.9g} s: {why}{others}"
+    return f"{name} is no number ({values[k]}) at t = {run.t[k]:.9g} s: {why}{others}"
 
 
 def _told(

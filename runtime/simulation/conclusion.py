@@ -16,7 +16,7 @@ from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.evaluation import Evaluation
 from gudgeon.model.left_limit import evaluation_times
-from gudgeon.model.written import with_odd_outputs
+from gudgeon.model.written import with_undefined
 from gudgeon.results.provenance import provenance_of
 from gudgeon.results.results import Result
 from gudgeon.results.start_row import without_start
@@ -72,7 +72,7 @@ def conclude(
     result = result if problem.start_is_sample else without_start(result)
     if evaluation is not None:
         evaluation = result.evaluation
-        result = with_odd_outputs(result, evaluation)
+        result = with_undefined(result, evaluation)
         result.__dict__.pop("evaluation", None)
         if len(x.t) <= KEPT:
             result.__dict__["evaluation"] = evaluation

@@ -333,3 +333,13 @@ def test_an_event_where_a_step_begins(method: str, tmp_path: Path) -> None:
     assert not batch.failures
     np.testing.assert_allclose(v**2, first[:, None] ** 2 + 4.0 * work, rtol=1e-9)
     assert x.min() < 0.01 and x[:, -1].min() > 0.4
+
+
+def test_a_comparison_with_what_is_no_number_is_told(tmp_path: Path) -> None:
+    """The force had one of its branches, without a word; a branch that is not picked may be no number."""
+    told = loader(tmp_path)(SLUG % "where(sqrt(slug.x/(1 m) - 1) < 1, 2 N, 3 N)").simulate(1.5, output=100)
+    assert [note.split(":")[0] for note in told.diagnostics.notes] == [
+        "forces.push.value.x is no number (nan) at t = 0 s"
+    ]
+    law = "where(slug.x < 1 m, 2 N, where(sqrt(slug.x/(1 m) - 1) < 0.1, 2 N, 3 N))"
+    assert not loader(tmp_path)(SLUG % law).simulate(1.5, output=100).diagnostics.notes
