@@ -55,7 +55,7 @@ class Path:
         self.films = any(joint.film for joint in self.source.clearances)
         self.first: Steps | None = None  # of the run: energies count from it
         self.lost = 0  # states without accelerations
-        self.seen: dict[tuple[int, float, float], tuple[Result, Array]] = {}  # places that were looked at
+        self.seen: dict[tuple[int, int, float, float], tuple[Result, Array]] = {}  # places that were looked at
         self.nearest: tuple[int, Any] = (-1, None)  # k, rates between states k and k + 1, with their integral
         self.powers: tuple[int, Any] = (-1, None)  # k, integrals of the powers between states k and k + 1
         self.middle: Result | None = None  # at INSIDE of every part
@@ -78,7 +78,7 @@ class Path:
 
     def between(self, k: int, t: Array, name: str) -> Array:
         """A series at times t (T,) between states k and k + 1."""
-        place = (k, float(t[0]), float(t[-1]))
+        place = (k, len(t), float(t[0]), float(t[-1]))
         if place not in self.seen:
             if len(self.seen) >= KEPT:
                 self.seen.clear()

@@ -33,6 +33,7 @@ MOST = 16  # parts of steps of a block that are looked at, the most promising on
 SAME = 1e-14  # of a value: so little more is rounding, and the earlier time is told
 RESOLVED = 2e-4  # of the largest value of a block, by which states may miss what a cubic through their neighbours says
 PREDICT = np.vander(np.arange(4) + INSIDE, 5) @ np.linalg.inv(np.vander(np.arange(5.0)))  # at INSIDE of four intervals
+SMALL = 5e-9  # of the largest acceleration of its kind: what is smaller is rounding, as a cart's whose drive is at rest
 EQUAL = 1e-6  # relative, by which intervals between states of one step differ at most
 MOST_HALVED = 4096  # parts of a block that are halved for one series
 CLOSE = 1e-11  # of the largest value of a block, that the last coefficients of a polynomial may be
@@ -97,7 +98,7 @@ class Search:
         """What the present states, and what lies between them, say of one series."""
         values = _less([path.values(name) for path in paths])
         t, inner = self.ours.steps.t, self.ours.inner
-        scale = float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
+        scale = max(float(np.abs(values[np.isfinite(values)]).max(initial=0.0)), SMALL * self._of_its_kind(name))
         if not error:
             for k in np.flatnonzero(_unresolved(self.ours, name, values, RESOLVED * scale)).tolist():
                 self._halve(name, k, scale)
@@ -139,24 +140,33 @@ class Search:
 
     def _halve(self, name: str, k: int, scale: float) -> None:
         """Sample a series between states k and k + 1 by parts, each half as long until a polynomial resolves it."""
-        parts = [tuple(self.ours.steps.t[k : k + 2].tolist())]
-        for _ in range(MOST_HALVED):
-            if not parts:
-                return
-            low, high = parts.pop()
+        parts, looked = self.ours.steps.t[np.newaxis, k : k + 2], 0
+        while len(parts) and looked < MOST_HALVED:
+            looked += len(parts)
+            low, high = parts[:, :1], parts[:, 1:]
             times = low + NODES * (high - low)
-            values = self.ours.between(k, times, name)
-            if not np.isfinite(values).all():
-                continue
-            coefficients = COEFFICIENTS @ values
-            if np.abs(coefficients[-2:]).max() > RESOLVED * scale and times[1] > times[0]:
-                parts += [(0.5 * (low + high), high), (low, 0.5 * (low + high))]
-                continue
-            for sign in (1, -1):
-                top = _top(sign * coefficients)[0]
-                if top + RESOLVED * scale > self.best.get((name, False, sign), (-math.inf, 0.0))[0]:
-                    self._look_closer((name, False, sign), k, [self.ours], scale, (low, high))
-        self.unresolved.add(name)
+            values = self.ours.between(k, times.ravel(), name).reshape(times.shape)
+            known = np.asarray(np.isfinite(values).all(axis=1))
+            coefficients = np.where(known[:, np.newaxis], values, 0.0) @ COEFFICIENTS.T
+            split = np.abs(coefficients[:, -2:]).max(axis=1) > RESOLVED * scale
+            split &= times[:, 1] > times[:, 0]
+            for j in np.flatnonzero(known & ~split).tolist():
+                for sign in (1, -1):
+                    if _top(sign * coefficients[j])[0] + RESOLVED * scale > self._highest(name, sign):
+                        self._look_closer((name, False, sign), k, [self.ours], scale, (low[j, 0], high[j, 0]))
+            middle = 0.5 * (low + high)
+            parts = np.concatenate([np.hstack([low, middle])[split], np.hstack([middle, high])[split]])
+        if len(parts):
+            self.unresolved.add(name)
+
+    def _of_its_kind(self, name: str) -> float:
+        """The largest acceleration in the block of those that have the unit of a series; 0 for other series."""
+        kinds = {"m/s^2": [0, 1], "rad/s^2": [2]}.get(self.ours.catalogue[name].unit, [])
+        a = np.abs(self.ours.run.a[1:]).reshape(-1, self.ours.compiled.n // 3, 3)[:, :, kinds]
+        return float(a[np.isfinite(a)].max(initial=0.0))
+
+    def _highest(self, name: str, sign: int) -> float:
+        return self.best.get((name, False, sign), (-math.inf, 0.0))[0]
 
     def _note(self, key: tuple[str, bool, int], value: float, t: float) -> None:
         if math.isfinite(value) and (key not in self.best or value - self.best[key][0] > SAME * abs(value)):
