@@ -13,6 +13,7 @@ A unit follows a numeric literal after one space or none, `pi` after one (units.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Container, Mapping
 from typing import NoReturn, TypeAlias
 
@@ -79,8 +80,9 @@ class _Parser:
     def decimal(self) -> str:
         """What to do where a comma stands in a number."""
         text, at_comma = self.tokens.text, self.token.offset
-        is_decimal = self.token.text == "," and text[:at_comma][-1:].isdigit() and text[at_comma + 1 :][:1].isdigit()
-        return "a number is written with a point: 0.3" if is_decimal else ""
+        before, after = re.search(r"[0-9]+$", text[:at_comma]), re.match(r"[0-9]+", text[at_comma + 1 :])
+        is_decimal = self.token.text == "," and before and after
+        return f"a number is written with a point: {before[0]}.{after[0]}" if is_decimal and before and after else ""
 
     def fail(self, message: str, offset: int, hint: str) -> NoReturn:
         raise ExpressionError(message, at(self.where, offset), hint)

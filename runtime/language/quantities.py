@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from gudgeon.errors import BadValueError, InputError, Location
-from gudgeon.language.parser import check_dimension, parse
+from gudgeon.errors import BadValueError, InputError, Location, UnknownNameError
+from gudgeon.language.parser import at, check_dimension, parse
 from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import evaluate, names
 from gudgeon.language.unit_remedies import unit_remedies
@@ -27,12 +27,15 @@ def number_of_text(text: str, address: str, exponents: Sequence[float]) -> float
         name = next(names(expr), None)
         if name is not None:
             hint = "expected a number such as '0.5 mm'; what follows other parameters is written in the file"
-            raise BadValueError(f"{text!r} holds the name {name.path!r}", where, hint)
+            raise UnknownNameError(f"{text!r} holds the name {name.path!r}", at(where, name.offset), hint)
         check_dimension(expr, expected, lambda path: None, where)
         return float(evaluate(expr, lambda path: None))
 
-    with unit_remedies(text.strip(), where, read, expected):
-        return read(text.strip())
+    try:
+        with unit_remedies(text.strip(), where, read, expected):
+            return read(text.strip())
+    except UnknownNameError as error:  # a number has no names: it is the value that is wrong
+        raise BadValueError(error.message, where, error.hint) from None
 
 
 def holds_names(text: str) -> bool:

@@ -51,5 +51,6 @@ def unknown(message: str, name: str, known: tuple[str, ...]) -> UnknownNameError
         return UnknownNameError(message, hint=f"nearest: {', '.join(found)}")
     if len(known) <= 12:
         return UnknownNameError(message, hint=f"there are: {', '.join(known)}")
-    short, address = [n for n in known if "." not in n], next((n for n in known if "." in n), "")
-    return UnknownNameError(message, hint=f"there are: {', '.join(short[:20])}, and addresses such as {address}")
+    short, addresses = [n for n in known if "." not in n], [n for n in known if "." in n]
+    there = [*short[:20], "and addresses such as " * bool(short) + ", ".join(addresses[: 1 if short else 6])]
+    return UnknownNameError(message, hint=f"there are: {', '.join(there)}{'' if short else ' and more'}")

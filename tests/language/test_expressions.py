@@ -76,7 +76,7 @@ def test_against_pythons_own_arithmetic(tree: Expr) -> None:
     But for the last bit: NumPy's power of scalars is not always that of arrays.
     """
     text = write(tree)
-    functions = {name: function for name, (_, function) in FUNCTIONS.items()} | {"where": np.where}
+    functions = {name: function for name, (_, function) in FUNCTIONS.items()} | {"either": either}
     values = {name: np.float64(value) for name, value in VALUES.items()}
     # every literal a NumPy number, so that overflow and 0/0 are inf and nan on both sides
     wrapped = write_wrapped(tree)
@@ -86,8 +86,13 @@ def test_against_pythons_own_arithmetic(tree: Expr) -> None:
     assert math.isclose(found, expected, rel_tol=1e-14) or (math.isnan(found) and math.isnan(expected))
 
 
+def either(left: float, right: float, then: float, otherwise: float) -> float:
+    """where(left < right, then, otherwise): no number where a comparison has none."""
+    return math.nan if math.isnan(left) or math.isnan(right) else then if left < right else otherwise
+
+
 def write_wrapped(tree: Expr) -> str:
-    """`write`, with numbers as F(…)."""
+    """`write`, with numbers as F(…) and where(…) as either(…)."""
 
     def wrap(expr: Expr) -> Expr:
         match expr:
@@ -98,7 +103,7 @@ def write_wrapped(tree: Expr) -> str:
             case Binary(operator=operator, left=left, right=right):
                 return Binary(operator, wrap(left), wrap(right))
             case Call(function=function, arguments=arguments):
-                return Call(function, tuple(wrap(a) for a in arguments))
+                return Call("either" if function == "where" else function, tuple(wrap(a) for a in arguments))
         return expr
 
     return write(wrap(tree))

@@ -238,7 +238,7 @@ drives: {{m: {{angle: b, value: 1 rad/s * t}}}}
 ])  # fmt: skip
 def test_a_constant_has_no_part_that_is_not_finite(value: str) -> None:
     """SymPy raised ValueError for extremes of 1/0, and the others had values such as atan(1/0) = pi/2."""
-    with pytest.raises(BadValueError, match=r"m\.yaml:3:\d+: parameters\.a has a part that is (-?inf|nan)"):
+    with pytest.raises(BadValueError, match=r"m\.yaml:3:\d+: parameters\.a (has a part that )?is (-?inf|nan)"):
         read_mechanism(CONSTANT.format(value=value).encode(), "m.yaml")
 
 
