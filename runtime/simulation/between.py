@@ -28,7 +28,7 @@ INSIDE = 0.381966  # share of a part of a step: no multiple of it is near the pe
 KEPT = 256  # places that were looked at, whose series are at hand for the next name
 ROUNDED = 1e-7  # of the speed: in parts of steps so short differences of positions say no more of it
 REST = 1e-9  # of the positions: a block that moves by less is at rest
-CLOSE = 1e-3  # of the largest acceleration: with films, states between others whose forces err more are left out
+CLOSE = 1e-3  # of the largest acceleration: states between others whose forces err more are left out
 NONE = Diagnostics(
     method="", step=math.nan, steps=0, right_hand_sides=0, onsets=0, grazes=0, phi_max=math.nan, phi_dot_max=math.nan,
     energy_residual=math.nan, energy_turned_over=math.nan, ratio_min=math.nan, ratio_max=math.nan, ratio_outside=0,
@@ -53,6 +53,7 @@ class Path:
         self.works = any(reads_works(self.source, name) for name in own)
         self.exact = self.source.methods == (KINEMATIC,)
         self.films = any(joint.film for joint in self.source.clearances)
+        self.gives = any(joint.joint not in self.source.rigid for joint in self.source.clearances)
         self.first: Steps | None = None  # of the run: energies count from it
         self.lost = 0  # states without accelerations
         self.seen: dict[tuple[int, int, float, float], tuple[Result, Array]] = {}  # places that were looked at
@@ -83,7 +84,7 @@ class Path:
             if len(self.seen) >= KEPT:
                 self.seen.clear()
             found = self._result(self._states(k, t))[0]
-            self.seen[place] = found, self._off(k, t, found.a[1:]) if self.films else np.zeros(len(t))
+            self.seen[place] = found, self._off(k, t, found.a[1:]) if self.gives else np.zeros(len(t))
         found, off = self.seen[place]
         return np.where(off <= CLOSE, found[name][1:], np.nan)
 
@@ -112,7 +113,7 @@ class Path:
         """How far accelerations a (T, n) that follow from states are from those of the polynomial, as shares (T,).
 
         Of the largest of their kind. A film's force follows the speed so steeply that a state between others, whose
-        speed is as good as the tolerance, need not say it.
+        speed is as good as the tolerance, need not say it; so does stiff friction.
         """
         mid, half, rates, _ = self._rates(k)
         off = np.abs(a - legval((t - mid) / half, legder(rates)).T / half).reshape(len(t), -1, 3)
