@@ -64,17 +64,32 @@ static const double gauss_node[] = {0.06943184420297371, 0.33000947820757187, 0.
 static const double gauss_weight[] = {0.17392742256872692, 0.32607257743127307, 0.32607257743127307,
     0.17392742256872692};
 
+/* The largest of errors e of a step, as a multiple of `limit` tolerances; in `most` in tolerances. */
+static double largest_error(const Run *run, const Step *step, const double *e, double limit, double *most)
+{
+    double worst = 0.0;
+    *most = 0.0;
+    for (int k = 0; k < 2 * N_X; k++) {
+        const double weight = audit_weight(run, k);
+        const double rounding = AUDIT_DIGITS * (fabs(step->y[k]) + fabs(step->h * step->dy[k]));
+        worst = max_of(worst, fabs(e[k]) * weight / (limit + rounding * weight));
+        *most = max_of(*most, (fabs(e[k]) - rounding) * weight);
+    }
+    return worst;
+}
+
 /*
  * The local error of a step, from the integral of the defect of its dense output u,
  *     e = y(t + h) - y(t) - int f(s, u(s)) ds,
  * which uses neither the method's error estimate nor its coefficients. In stiff components u itself errs: e is divided
- * by 1 - h J there. A step over which a force has another branch, or is made elsewhere (lanes), is left out.
+ * by 1 - h J there; of an explicit step, too, if it is too large otherwise, for it may be as long as it is stable. A
+ * step over which a force has another branch, or is made elsewhere (lanes), is left out.
  */
 static void check_length(Run *run, Step *step, const Parameters *p)
 {
     const int stiff = step->method->stiff;
     const double h = step->h;
-    double y[N_Y], dy[N_Y], rate[N_Y], sum[N_Y] = {0.0}, error[N_Y], worst = 0.0, most = 0.0, change = 0.0;
+    double y[N_Y], dy[N_Y], rate[N_Y], mean[N_Y] = {0.0}, error[N_Y], most, change = 0.0; /* of the defect, 1/s */
     Aside aside;
     for (int k = 0; k < N_SWITCHES; k++)
         if (step->passed[k])
@@ -88,19 +103,18 @@ static void check_length(Run *run, Step *step, const Parameters *p)
             return;
         interpolate_rates(step, gauss_node[n], N_Y, rate);
         for (int k = 0; k < N_Y; k++)
-            sum[k] += gauss_weight[n] * (rate[k] - dy[k]);
+            mean[k] += gauss_weight[n] * (rate[k] - dy[k]);
         for (int k = 0; k < 2 * N_X; k++)
             change = max_of(change, h * fabs(dy[k] - run->dy[k]) * audit_weight(run, k));
     }
-    if (stiff && make_linear(run, h, p))
-        return;
-    if (stiff)
-        newton_solve(&run->linear, h, 0.0, sum, error);
-    for (int k = 0; k < 2 * N_X; k++) {
-        const double weight = audit_weight(run, k), rounding = AUDIT_DIGITS * (fabs(step->y[k]) + fabs(h * dy[k]));
-        const double off = fabs(stiff ? error[k] : h * sum[k]) * weight;
-        worst = max_of(worst, off / (limit + rounding * weight));
-        most = max_of(most, off - rounding * weight);
+    for (int k = 0; k < N_Y; k++)
+        error[k] = h * mean[k];
+    double worst = stiff ? INFINITY : largest_error(run, step, error, limit, &most);
+    if (worst > 1.0) {
+        if (make_linear(run, h, p))
+            return;
+        newton_solve(&run->linear, h, 0.0, mean, error);
+        worst = largest_error(run, step, error, limit, &most);
     }
     check_order(run, most, change);
     run->audit.longest = max_of(run->audit.longest, h);

@@ -31,9 +31,11 @@ static double defect_of(Run *run, const Step *step, const double *y, const doubl
     const double known = max_of(run->audit.record[DEFECT_CHECK].worst, 0.0), h = step->h;
     const int rows = has_films() ? N_X : 2 * N_X; /* velocities of films: check_forces */
     const double fast[2] = {1.0 / (run->speed[0] + run->speed_floor[0]), 1.0 / (run->speed[1] + run->speed_floor[1])};
-    double off[N_Y] = {0.0}, error[N_Y], defect = known, least;
-    for (int k = 0; k < rows; k++)
-        off[k] = h * (rate[k] - dy[k]);
+    double missed[N_Y] = {0.0}, off[N_Y] = {0.0}, defect = known, least;
+    for (int k = 0; k < rows; k++) {
+        missed[k] = rate[k] - dy[k];
+        off[k] = h * missed[k];
+    }
     for (int pass = 0; pass < 2; pass++) {
         defect = known, least = known * AUDIT_DEFECT;
         for (int k = 0; k < rows; k++) {
@@ -47,8 +49,7 @@ static double defect_of(Run *run, const Step *step, const double *y, const doubl
         }
         if (pass || defect <= 1.0 || !step->method->stiff || has_films() || make_linear(run, h, p))
             break;
-        newton_solve(&run->linear, h, 0.0, off, error);
-        memcpy(off, error, sizeof off);
+        newton_solve(&run->linear, h, 0.0, missed, off);
     }
     return defect > known ? defect : 0.0;
 }
