@@ -13,6 +13,7 @@
 #define AUDIT_ACCELERATION 1e-6 /* of the largest term, that two ways to the accelerations may differ by */
 #define AUDIT_BALANCE 1e-8     /* of a force on a mass: accelerations that are smaller are known less well */
 #define AUDIT_CLOSURE 1e-9     /* of the size: error of positions that accelerations must not depend on */
+#define AUDIT_CLOSED 1024.0    /* roundings that a chain of driven bodies is closed to */
 #define AUDIT_NOISE 1e-9       /* of its largest magnitude, below which the sign of a function is rounding */
 #define AUDIT_ZERO 1e-3        /* of its value at the beginning of a step: smaller ones are a zero, and no pole */
 #define AUDIT_LOCATED 4.0      /* event tolerances, and ulp of the time, within which an event is located */
@@ -125,7 +126,10 @@ static double states_near(const Run *run, double t, const double *y, const doubl
     return after - before;
 }
 
-/* Whether rates are not those of the state itself, or small changes of positions change accelerations `a` as much. */
+/*
+ * Whether rates are not those of the state itself, or small changes of positions change accelerations `a` as much; or,
+ * where drives lead chains of bodies near a dead centre, changes of the time as small as roundings of the closures.
+ */
 static int is_sensitive(Run *run, double t, const double *y, const double *a, const double *scale, double share,
     const Parameters *p)
 {
@@ -137,8 +141,9 @@ static int is_sensitive(Run *run, double t, const double *y, const double *a, co
     const double size = size_of(run);
     for (int k = 0; k < N_Y; k++)
         state[k] = k < N_X ? y[k] + AUDIT_CLOSURE * (is_angle[k] ? 1.0 : size) * (2.0 * draw(&run->audit) - 1.0) : y[k];
-    to_absolute(t, state, &run->memory, p, all);
-    if (absolute_accelerations(t, all, &run->memory, p, other, &force))
+    const double near = N_CHAIN ? t * (1.0 - AUDIT_CLOSED * DBL_EPSILON) : t;
+    to_absolute(near, state, &run->memory, p, all);
+    if (absolute_accelerations(near, all, &run->memory, p, other, &force))
         return 1;
     for (int k = 0; k < N_Q; k++)
         if (!(fabs(other[k] - a[k]) < 0.1 * share * scale[k]))
