@@ -110,7 +110,11 @@ _OF_PARTS: dict[str, dict[str, Callable[[Data, Data], Any]]] = {
         "unit": lambda data, drive: _unit(data, drive["name"]),
     },
     "parts": {"options": lambda data, part: {}},
-    "slots": {"unit": lambda data, slot: base_units(slot["dimension"]), "words": lambda data, slot: []},
+    "slots": {
+        "unit": lambda data, slot: base_units(slot["dimension"]),
+        "words": lambda data, slot: [],
+        "tree": lambda data, slot: "",
+    },
 }  # fmt: skip
 _OF_STORY: dict[str, Callable[[Data], Any]] = {
     "coordinates": lambda data: data["coordinates"],

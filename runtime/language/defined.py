@@ -80,13 +80,15 @@ def _constant_parts(expr: Expr, known: Container[str]) -> Iterator[Expr]:
 
 
 def may_be_undefined(expr: Expr, known: Mapping[str, NDArray[np.float64]]) -> NDArray[np.bool_]:
-    """Where any part that these values, (n,) by name, alone determine is not finite.
+    """Where any part that these values, (n,) by name, one at least, alone determine is not finite.
 
     The branch of a `where` that is not picked included: undefined_part has the last word.
     """
     parts = (inner for part in _constant_parts(expr, known) for inner in (part, *_every_part(part)))
-    finite = [np.isfinite(evaluate(part, known.__getitem__)) for part in parts]
-    return ~np.logical_and.reduce(np.broadcast_arrays(*finite, next(iter(known.values()), np.ones(1)) == 0.0)[:-1])
+    undefined = np.zeros(next(iter(known.values())).shape, dtype=bool)
+    for part in parts:
+        undefined |= ~np.isfinite(evaluate(part, known.__getitem__))
+    return undefined
 
 
 def _every_part(expr: Expr) -> Iterator[Expr]:
