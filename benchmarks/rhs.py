@@ -26,7 +26,7 @@ import numpy as np
 
 import gudgeon
 from benchmarks import callgrind
-from gudgeon.model.compiled import N_WORK
+from gudgeon.contract.boundary import N_WORK
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.rhs_time import operations
 from tests.oracles import press_dense

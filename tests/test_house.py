@@ -11,7 +11,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = [*sorted((ROOT / "runtime").rglob("*.py")), *sorted((ROOT / "generator").rglob("*.py"))]
-LONGEST_FUNCTION, LONGEST_FILE = 40, 300  # lines; of a function those behind its docstring
+LONGEST_FUNCTION, LONGEST_FILE = 40, 500  # lines; of a function those behind its docstring
 
 
 def functions(file: Path) -> Iterator[tuple[str, int]]:

@@ -1,8 +1,14 @@
-"""What cffi makes of the engine's declarations, as runtime/loading/declared.py (run by `make generated`)."""
+"""Write what Python and JavaScript know of the engine's headers (run by `make generated`).
+
+- runtime/loading/declared.py: cffi's tables of the functions in engine/scene/calls.h
+- runtime/contract/boundary.py and runtime/web/boundary.js: the names of engine/boundary.h
+"""
 
 from __future__ import annotations
 
 import ast
+import json
+import re
 import tempfile
 import textwrap
 from pathlib import Path
@@ -12,7 +18,8 @@ from cffi import FFI
 from gudgeon.loading.cache import digest
 from gudgeon.loading.engine import all_declarations
 
-FILE = Path(__file__).resolve().parent.parent / "runtime" / "loading" / "declared.py"
+HOUSE = Path(__file__).resolve().parent.parent
+BOUNDARY = HOUSE / "engine" / "boundary.h"
 HEAD = '''"""What cffi makes of the engine's declarations: written by tools/declared.py (`make generated`)."""
 
 from _cffi_backend import FFI
@@ -24,8 +31,8 @@ ffi = FFI(
 WIDTH = 112
 
 
-def text() -> str:
-    """The file."""
+def declared() -> str:
+    """Return the text of runtime/loading/declared.py."""
     declarations = all_declarations()
     lines = [HEAD.format(of=digest([declarations]))]
     for name, value in _arguments(declarations).items():
@@ -40,8 +47,59 @@ def text() -> str:
     return "".join([*lines, ")\n"])
 
 
+def enumerations() -> dict[str, dict[str, int]]:
+    """Return the enumerators of each enumeration of engine/boundary.h, by increasing value."""
+    text = BOUNDARY.read_text(encoding="utf-8")
+    ffi = FFI()
+    ffi.cdef("".join(f"{line}\n" for line in text.splitlines() if not line.startswith("#")))
+    tags = re.findall(r"^enum (\w+)", text, re.MULTILINE)
+    members = {name: ffi.typeof(f"enum {name}").relements for name in tags}
+    return {name: dict(sorted(own.items(), key=lambda member: member[1])) for name, own in members.items()}
+
+
+def thresholds() -> dict[str, str]:
+    """Return the floating-point constants of engine/boundary.h."""
+    return dict(re.findall(r"^#define (\w+) ([-+.\de]+)$", BOUNDARY.read_text(encoding="utf-8"), re.MULTILINE))
+
+
+def columns(members: dict[str, int]) -> list[str]:
+    """Return the names of an enumeration that counts columns, without its prefix; none if it counts nothing."""
+    *names, last = members
+    return [name.split("_", 1)[1] for name in names] if last.startswith("N_") else []
+
+
+def boundary_py() -> str:
+    """Return the text of runtime/contract/boundary.py."""
+    lines = ['"""Numbers that the engine shares with Python: written by tools/declared.py (boundary.h)."""', ""]
+    lines += ["from typing import Final", "", *(f"{name}: Final = {value}" for name, value in thresholds().items())]
+    for name, members in enumerations().items():
+        lines += ["", f"# enum {name}", *(f"{member}: Final = {value}" for member, value in members.items())]
+        if names := columns(members):
+            rows = textwrap.wrap(", ".join(f'"{one}"' for one in names) + ",", WIDTH)
+            lines += [f"{_names_of(name)} = (", *(f"    {row}" for row in rows), ")"]
+    return "\n".join([*lines, ""])
+
+
+def boundary_js() -> str:
+    """Return the text of runtime/web/boundary.js: an object with the same names."""
+    lines = ["/* Numbers that the engine shares with JavaScript: written by tools/declared.py (boundary.h). */"]
+    lines += ["const Boundary = {", *(f"    {name}: {value}," for name, value in thresholds().items())]
+    for name, members in enumerations().items():
+        told = [f"{member}: {value}" for member, value in members.items()]
+        if names := columns(members):
+            told.append(f"{_names_of(name)}: {json.dumps(names)}")
+        lines += textwrap.wrap(", ".join(told) + ",", WIDTH, initial_indent="    ", subsequent_indent="    ",
+                               break_long_words=False)
+    return "\n".join([*lines, "};", ""])
+
+
+def _names_of(name: str) -> str:
+    """Return what the list of an enumeration's names is called: IMPACT_COLUMN_NAMES of ImpactColumn."""
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", "_", name).upper() + "_NAMES"
+
+
 def _arguments(declarations: str) -> dict[str, object]:
-    """What cffi's own module for these declarations hands to FFI, by keyword."""
+    """Return what cffi's own module for these declarations hands to FFI, by keyword."""
     ffi = FFI()
     ffi.cdef(declarations)
     ffi.set_source("gudgeon", None, compiler_verbose=0)
@@ -54,7 +112,7 @@ def _arguments(declarations: str) -> dict[str, object]:
 
 
 def _printed(entry: object) -> str:
-    """Bytes, a number, or a tuple of bytes, in lines of the house's width."""
+    """Return bytes, a number, or a tuple of bytes, in lines of the house's width."""
     if not isinstance(entry, tuple):
         return _literal(entry)
     whole = f"({', '.join(map(_literal, entry))},)"
@@ -67,5 +125,12 @@ def _literal(value: object) -> str:
     return repr(value) if not isinstance(value, bytes) else 'b"' + repr(value)[2:-1].replace('"', "\\x22") + '"'
 
 
+FILES = {
+    HOUSE / "runtime" / "loading" / "declared.py": declared,
+    HOUSE / "runtime" / "contract" / "boundary.py": boundary_py,
+    HOUSE / "runtime" / "web" / "boundary.js": boundary_js,
+}
+
 if __name__ == "__main__":
-    FILE.write_text(text(), encoding="utf-8")
+    for path, text in FILES.items():
+        path.write_text(text(), encoding="utf-8")

@@ -4,9 +4,6 @@
 #include "../scene/calls.h"
 
 enum {
-    NOT_CLOSED = -9,                      /* status, beside those of run.c: the start is left to Python */
-    NEW = 0, BEGUN = 1, OVER = 2,         /* phase of a run */
-    ALL_OVER = 0, LISTS = 1, RUN_OVER = 2, GOES_ON = 3,
     NOT_YET = 0, UNTRIED = 1, TRIED = 2,  /* of a step: none is wanted yet; what others did of it */
     MISSED = 3                            /* they tried it, and did not find its stages */
 };

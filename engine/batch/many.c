@@ -94,7 +94,8 @@ static void end_run(const Batch *b, long i, int status, Run *run)
     b->phase[i] = OVER;
     gudgeon_run_sample(run, b->p_motion + i * b->numbers, last, latched, state);
     gudgeon_run_audited(run, b->audited + N_CHECKS * i, b->audited_t + N_CHECKS * i, b->audited_where + N_CHECKS * i);
-    gudgeon_run_report(run, &t, b->counts + 9 * i, b->residuals + 4 * i, b->peaks + 3 * AT_LEAST_ONE(N_CLEARANCES) * i);
+    gudgeon_run_report(run, &t, b->counts + N_COUNTS * i, b->residuals + N_RESIDUALS * i,
+        b->peaks + N_PEAK * AT_LEAST_ONE(N_CLEARANCES) * i);
 }
 
 static int has_lists(const Run *run)

@@ -161,7 +161,7 @@ static int switches(Model *m)
             continue;
         const double least = slowest_impact((const Parameters *)m->p, i);
         m->latched[i] = within ? fmax(joint->deltadot, least) : NAN;
-        m->state[i] = within; /* compressed until its penetration first stops growing, at a completed step */
+        m->state[i] = within ? CODE_IMPACT : CODE_FREE; /* an impact ends at a completed step */
     }
     if (!status)
         status = look_ahead(m, dx, &aside);
@@ -202,8 +202,8 @@ FMI3_EXPORT fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Bo
     (void)no_return;
     if (N_CLEARANCES && !exchange_rates(m, dx, &aside))
         for (int i = 0; i < N_CLEARANCES; i++)
-            if (m->state[i] == 1 && aside.clearance[i].deltadot <= 0.0)
-                m->state[i] = 2;
+            if (m->state[i] == CODE_IMPACT && aside.clearance[i].deltadot <= 0.0)
+                m->state[i] = CODE_CONTACT;
     *event = closes(m, 0) > DRIFTS;
     *terminate = false;
     return fmi3OK;

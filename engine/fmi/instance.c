@@ -2,17 +2,18 @@
  * An instance: its numbers and its start, the engine's steps to a time, and all that follows from a state.
  */
 enum {
-    VR_TIME = 0, VR_RTOL = 1, VR_PARAMETERS = 16, VR_OUTPUTS = 1 << 20, VR_STATES = 1 << 24, VR_RATES = 1 << 25,
-    VR_INDICATORS = 1 << 26, SLICE = 4000,
+    SLICE = 4000,
     SETTING = 0, INITIALIZING, RUNNING, /* parameters are set in the first two */
     N_INDICATORS = N_CLEARANCES + FMU_JUMPS /* in model exchange: contacts, corners whose branches may lie apart */
 };
 #define TIME_CONSTANT 1e3 /* s: an end that nobody has said */
 
 typedef struct {
-    double a[FMU_AT_LEAST(N_Q)], multipliers[FMU_AT_LEAST(N_ROWS)], reactions[FMU_AT_LEAST(3 * N_REACTIONS)],
-        torques[FMU_AT_LEAST(N_DRIVES)], clearance[FMU_AT_LEAST(10 * N_CLEARANCES)],
-        series[FMU_AT_LEAST(N_SERIES)], friction[FMU_AT_LEAST(2 * N_FRICTIONS)], energy[2], power[3], drift[2];
+    double a[FMU_AT_LEAST(N_Q)], multipliers[FMU_AT_LEAST(N_ROWS)],
+        reactions[FMU_AT_LEAST(N_REACTION_COLUMNS * N_REACTIONS)], torques[FMU_AT_LEAST(N_DRIVES)],
+        clearance[FMU_AT_LEAST(N_CLEARANCE_COLUMNS * N_CLEARANCES)],
+        series[FMU_AT_LEAST(N_SERIES)], friction[FMU_AT_LEAST(N_FRICTION_COLUMNS * N_FRICTIONS)],
+        energy[N_ENERGY], power[N_WORK], drift[N_DRIFT];
 } Followed;
 
 typedef struct {
@@ -155,6 +156,17 @@ static fmi3Status begin(Model *m)
 }
 
 #if INTEGRATES
+/* Empty the lists of contacts and events of a run: an FMU reports neither. */
+static void discard_lists(void *run)
+{
+    double numbers[N_IMPACT_COLUMNS], t, y[N_S], latched[FMU_AT_LEAST(N_MEMORY)];
+    signed char state[FMU_AT_LEAST(N_CLEARANCES)];
+    int number;
+    while (gudgeon_run_impacts(run, 0, 1, numbers, &number)
+        || gudgeon_run_events(run, 1, &t, &number, y, latched, state))
+        continue;
+}
+
 /* To t, a step ends there. */
 static int advance(Model *m, double t)
 {
@@ -163,14 +175,7 @@ static int advance(Model *m, double t)
     while (!status && done < 1) {
         status = gudgeon_adaptive_run(m->run, m->motion, 1, &t, SLICE, m->y, m->latched, m->state, &done);
         if (status == EVENTS_FULL) {
-            const size_t rows = 256 * (size_t)(N_S + FMU_AT_LEAST(N_MEMORY) + 8);
-            double *room = malloc(rows * sizeof(double)); /* contacts and events so far: nobody asks for them here */
-            if (!room)
-                return EVENTS_FULL;
-            gudgeon_run_impacts(m->run, 0, room, (int *)(room + 256 * 5));
-            gudgeon_run_events(m->run, room, (int *)(room + 256), room + 512, room + 512 + 256 * N_S,
-                (signed char *)(room + 512 + 256 * (N_S + FMU_AT_LEAST(N_MEMORY))));
-            free(room);
+            discard_lists(m->run);
             status = 0;
         }
     }

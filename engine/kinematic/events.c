@@ -3,7 +3,7 @@
  * turns back in its parts, by their bounds (ranges.h). Where one has changed its sign over a part, the time is found by
  * bisection with Newton's method at every time that is tried.
  */
-enum { EVENT_STOPS = 1, DEEPEST = 36, MAX_VIEWS = 2000 };
+enum { DEEPEST = 36, MAX_VIEWS = 2000 };
 #define ENOUGH 0.13 /* of a step, over which bounds tell whether they become narrower with it */
 #define ALIKE 1e4   /* uncertainties that bounds over a cubic may be wrong by */
 

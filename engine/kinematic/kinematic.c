@@ -5,7 +5,7 @@
 #include "../run/asked.h"
 #include "../scene/events.h"
 
-enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, MAX_SPLITS = 400, PULSE_HALVINGS = 30, NEWTON_FAILED = -1, NO_NUMBER = -2 };
+enum { MAX_NEWTON = 12, MAX_HALVINGS = 40, MAX_SPLITS = 400, PULSE_HALVINGS = 30 };
 
 /* A place on the way: the motion of all bodies at a time, the largest |Phi| and |Phi_dot| there. */
 typedef struct {

@@ -22,7 +22,7 @@ static double turn(const double *v, int k, double extent) { return k % 3 == 2 ? 
 /*
  * Works between two places that are one step apart: quadrature of Gauss and Legendre with three nodes. `jumped`: the
  * velocities change by more than the accelerations on the way say, so that the rate of a drive jumps, or nearly so.
- * NO_NUMBER where a power is none, at `work[0]`.
+ * NOT_FINITE where a power is none, at `work[0]`.
  */
 static int work_between(const Parameters *p, double extent, const Place *a, const Place *b, double least, double *work,
     int *jumped)
@@ -44,7 +44,7 @@ static int work_between(const Parameters *p, double extent, const Place *a, cons
         for (int k = 0; k < N_WORK; k++) {
             if (!isfinite(power[k])) {
                 work[0] = at.t;
-                return NO_NUMBER;
+                return NOT_FINITE;
             }
             work[k] += half * weight[i] * power[k];
         }
@@ -82,7 +82,7 @@ static int work_across(const Parameters *p, double reach, double extent, const P
     int status = work_between(p, extent, a, b, least, part, &jumped);
     const double t = a->t + 0.5 * (b->t - a->t);
     const int wide = t > a->t && t < b->t;
-    if (status == NO_NUMBER)
+    if (status == NOT_FINITE)
         work[0] = part[0];
     if ((status > 0 || status == NEWTON_FAILED) && wide && *halvings > 0)
         jumped = 1; /* a node at a change point */
@@ -100,7 +100,7 @@ static int work_across(const Parameters *p, double reach, double extent, const P
         part[0] = kinetic_energy_at(p, b) - kinetic_energy_at(p, a);
     if (!isfinite(part[0])) {
         work[0] = t;
-        return NO_NUMBER;
+        return NOT_FINITE;
     }
     for (int k = 0; k < N_WORK; k++)
         work[k] += part[k];
@@ -143,7 +143,7 @@ int gudgeon_kinematic_works(void *memory, long n, const double *t, const double 
     }
     course->work = here;
     course->work_begun = 1;
-    if (status == NO_NUMBER)
+    if (status == NOT_FINITE)
         course->work.t = work[(*done + 1) * N_WORK];
     return status;
 }

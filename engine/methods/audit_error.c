@@ -56,7 +56,7 @@ static void check_order(Run *run, double error, double change)
     audit->changes += change;
     const double limit = AUDIT_ORDER * max_of(1.0, sqrt(tolerance_of(run) / AUDIT_LOOSE));
     if (audit->measured >= AUDIT_ENOUGH && audit->errors / audit->measured * (double)run->steps > AUDIT_SUM)
-        record(audit, STEP_CHECK, audit->errors, limit * audit->changes, run->t, -1);
+        record(audit, CHECK_step, audit->errors, limit * audit->changes, run->t, -1);
 }
 
 /* Nodes and weights of Gauss's quadrature of order 8 over (0, 1). */
@@ -119,5 +119,5 @@ static void check_length(Run *run, Step *step, const Parameters *p)
     check_order(run, most, change);
     run->audit.longest = max_of(run->audit.longest, h);
     if (worst <= 1.0 || !meets_jump(run, step, p))
-        record(&run->audit, STEP_CHECK, worst, 1.0, step->t + h, -1);
+        record(&run->audit, CHECK_step, worst, 1.0, step->t + h, -1);
 }

@@ -28,7 +28,7 @@ enum { AUDIT_HALVINGS = 30, AUDIT_INSIDE = 4 };
 static double defect_of(Run *run, const Step *step, const double *y, const double *rate, const double *dy,
     const Parameters *p)
 {
-    const double known = max_of(run->audit.record[DEFECT_CHECK].worst, 0.0), h = step->h;
+    const double known = max_of(run->audit.record[CHECK_defect].worst, 0.0), h = step->h;
     const int rows = has_films() ? N_X : 2 * N_X; /* velocities of films: check_forces */
     const double fast[2] = {1.0 / (run->speed[0] + run->speed_floor[0]), 1.0 / (run->speed[1] + run->speed_floor[1])};
     double missed[N_Y] = {0.0}, off[N_Y] = {0.0}, defect = known, least;
@@ -76,7 +76,7 @@ static void check_rate(Run *run, const Step *step, double t, const double *y, co
             allowed = max_of(allowed, (AUDIT_CHANGE * change + AUDIT_DIGITS * fabs(y[k]) / step->h + slip) * weight);
         }
         if (off <= AUDIT_RATE * most + allowed || !meets_jump(run, step, p))
-            record(&run->audit, RATE_CHECK, off, AUDIT_RATE * most + allowed, t, -1);
+            record(&run->audit, CHECK_rate, off, AUDIT_RATE * most + allowed, t, -1);
     }
 }
 
@@ -86,7 +86,7 @@ static void check_end(Run *run, Step *step, const Parameters *p)
     double dy[N_Y];
     Aside aside;
     if (has_tolerance(run) && !rates(run, step->t + step->h, step->y, p, dy, &aside))
-        record(&run->audit, DEFECT_CHECK, defect_of(run, step, step->y, step->dy, dy, p), 1.0, step->t + step->h, -1);
+        record(&run->audit, CHECK_defect, defect_of(run, step, step->y, step->dy, dy, p), 1.0, step->t + step->h, -1);
 }
 
 /* Forces of films, by the accelerations that they give; which none of a step follow that begins or ends at a jump. */
@@ -101,7 +101,7 @@ static void check_forces(Run *run, const Step *step, double t, const Aside *asid
         most = has_film(i) ? max_of(most, FILM_FADED * run->F_peak[i]) : most;
     const double share = film_share(run, step, rate, dy, most, 1.0), limit = film_audit_limit(run, step);
     if (where >= 0 && has_tolerance(run) && run->steps > 0 && (share <= limit || !meets_jump(run, step, p)))
-        record(&run->audit, FORCE_CHECK, share, limit, t, where);
+        record(&run->audit, CHECK_force, share, limit, t, where);
 }
 
 /* What is checked of each state inside a step; `drawn`: of one whose place was drawn. */
@@ -113,7 +113,7 @@ static void check_state_inside(Run *run, Step *step, double theta, int drawn, co
     interpolate_rates(step, theta, 2 * N_X, rate);
     const double defect = has_tolerance(run) ? defect_of(run, step, y, rate, dy, p) : 0.0;
     if (has_tolerance(run) && (defect <= 1.0 || !meets_jump(run, step, p)))
-        record(&run->audit, DEFECT_CHECK, defect, 1.0, t, -1);
+        record(&run->audit, CHECK_defect, defect, 1.0, t, -1);
     if (drawn && has_tolerance(run) && !N_CLEARANCES) /* rates in contacts change within a step */
         check_rate(run, step, t, y, rate, dy, p);
     check_forces(run, step, t, aside, rate, dy, p);

@@ -44,7 +44,7 @@ static void rk4_note_event(Run *run, int i, double share, double h, const Parame
     for (int j = 0; lost && j < N_Y; j++)
         at.y[j] = NAN;
     (void)note_event(run, i, run->t + share * h, at.y, p);
-    for (int j = 0; j < N_CLEARANCES && k < N_IMPACTS && !lost; j++) {
+    for (int j = 0; j < N_CLEARANCES && k < LISTED_EVENTS && !lost; j++) {
         const Clearance *gap = &at.aside.clearance[j];
         double *latched = &event_states(run)->latched[k][j];
         signed char *state = &event_states(run)->state[k][j];
@@ -52,10 +52,10 @@ static void rk4_note_event(Run *run, int i, double share, double h, const Parame
             continue;
         if (gap->delta <= 0.0) {
             *latched = NAN;
-            *state = 0;
-        } else if (*state == 0) {
+            *state = CODE_FREE;
+        } else if (*state == CODE_FREE) {
             *latched = gap->deltadot;
-            *state = 1;
+            *state = CODE_IMPACT;
         }
     }
 #else

@@ -126,7 +126,7 @@ static void list_graze(Run *run, const Beginning *from, int i, const Clearance *
         return;
     const double top = zero_inside(run, from, i, 1, from->t, before->deltadot, run->t, after->deltadot, p);
     const Clearance joint = joint_inside(run, from, i, top, p);
-    if (!(joint.delta > -shallow(p, i)) || run->n_impacts >= N_IMPACTS)
+    if (!(joint.delta > -shallow(p, i)) || run->n_impacts >= LISTED_IMPACTS)
         return;
     const double on = zero_inside(run, from, i, 0, from->t, before->delta, top, joint.delta, p);
     const double off = zero_inside(run, from, i, 0, run->t, after->delta, top, joint.delta, p);

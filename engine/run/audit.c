@@ -5,7 +5,6 @@
  * Here are the checks of one state; audit_state is called at the end of each step. methods/audit_step.c checks the
  * inside of steps. The audit changes nothing but its own record.
  */
-#define AUDIT_FAILS 10.0       /* multiples of a limit that end a run */
 #define AUDIT_GRAZE 4e-13      /* m: so shallow a contact bears no force worth the name */
 #define AUDIT_DEPTH 10.0       /* tolerances that an open joint may penetrate */
 #define AUDIT_REST 1e-3 /* of a speed that counts: what is slower rests */
@@ -68,7 +67,7 @@ static void check_closed(Run *run)
     const double off = run->phi_max > run->audit.phi_start ? run->phi_max : 0.0;
     for (int k = 0; k < N_X && !(off < limit); k++)
         limit = max_of(limit, is_angle[k] ? 0.0 : AUDIT_ROUNDING * fabs(run->y[k]));
-    record(&run->audit, POSITION_CHECK, off, limit, run->t, -1);
+    record(&run->audit, CHECK_position, off, limit, run->t, -1);
 }
 
 /* Positions, and with `rates_too` velocities, of all rows of the motion at a state `all` of all bodies. */
@@ -87,7 +86,7 @@ static void check_rows(Run *run, double t, const double *all, int rates_too, con
         const int row = kept_row[i], length = row_is_length[row];
         const double play = length ? run->least[0] : run->least[1];
         const double limit = max_of(rtol * play, AUDIT_ROUNDING * (length ? size + far[0] : 1.0 + far[1]));
-        record(audit, POSITION_CHECK, fabs(phi[row]), limit, t, row);
+        record(audit, CHECK_position, fabs(phi[row]), limit, t, row);
     }
     if (!rates_too)
         return;
@@ -99,7 +98,7 @@ static void check_rows(Run *run, double t, const double *all, int rates_too, con
         const double scale = max_of(row_is_length[row] ? fast : fast / max_of(size, 1e-300), fabs(nu[row]));
         const double most = row_is_length[row] ? far[0] + size * far[1] : far[1];
         const double rounding = 4.0 * DBL_EPSILON * most / ahead;
-        record(audit, VELOCITY_CHECK, fabs(missed[row]), max_of(rtol, 1e-8) * scale + rounding, t, row);
+        record(audit, CHECK_velocity, fabs(missed[row]), max_of(rtol, 1e-8) * scale + rounding, t, row);
     }
 }
 
@@ -196,7 +195,7 @@ static void check_accelerations(Run *run, double t, const double *y, const doubl
             if (worst > AUDIT_ACCELERATION
                 && (drives_jump(t, all, all + N_Q, p) || is_sensitive(run, t, y, a, scale, worst, p)))
                 return;
-            record(&run->audit, ACCELERATION_CHECK, worst, AUDIT_ACCELERATION, t, where);
+            record(&run->audit, CHECK_acceleration, worst, AUDIT_ACCELERATION, t, where);
             return;
         }
     }
@@ -213,14 +212,14 @@ static void check_joints(Run *run, double t, const Aside *aside, const Parameter
         if (run->memory.latch[i].closed)
             continue;
         if (joint->delta <= AUDIT_GRAZE) {
-            record(&run->audit, GAP_CHECK, 0.0, 1.0, t, i);
+            record(&run->audit, CHECK_gap, 0.0, 1.0, t, i);
             continue;
         }
         const double located = 4.0 * (run->tick + 8.0 * DBL_EPSILON * fabs(t)) * fabs(joint->deltadot);
         const double least = max_of(AUDIT_GRAZE, 64.0 * DBL_EPSILON * size_of(run));
         const double rounding = max_of(1e-9 * radial_clearance(p, i), least);
         const double limit = max_of(AUDIT_DEPTH * audit_tolerance(run) * run->least[0], rounding) + located;
-        record(&run->audit, GAP_CHECK, max_of(joint->delta, 0.0), limit, t, i);
+        record(&run->audit, CHECK_gap, max_of(joint->delta, 0.0), limit, t, i);
     }
 }
 
@@ -248,7 +247,7 @@ static void check_branches(Run *run, Step *step, double t, const double *y, cons
     const Parameters *p)
 {
     if (N_SWITCHES > 0)
-        record(&run->audit, BRANCH_CHECK, 0.0, 1.0, t, -1);
+        record(&run->audit, CHECK_branch, 0.0, 1.0, t, -1);
     if (t <= run->t + located_within(run))
         return; /* what changes at one time, as the values of functions of one mod, changes one after the other */
     for (int k = 0; k < N_SWITCHES; k++)
@@ -262,7 +261,7 @@ static void check_branches(Run *run, Step *step, double t, const double *y, cons
         for (int n = 0; n < step->n_seen; n++) /* where each step ends at a zero, its magnitude is seen inside alone */
             run->audit.switch_scale[k] = max_of(run->audit.switch_scale[k], fabs(seen_at(seen, n)));
         if (-g <= 1e-3 * run->audit.switch_scale[k] || !has_just_jumped(run, step, t, k, p))
-            record(&run->audit, BRANCH_CHECK, -g, 1e-3 * run->audit.switch_scale[k], t, k);
+            record(&run->audit, CHECK_branch, -g, 1e-3 * run->audit.switch_scale[k], t, k);
     }
 }
 
@@ -271,6 +270,6 @@ static void check_free(Run *run)
 {
     for (int i = 0; i < N_CLEARANCES; i++)
         if (!run->memory.latch[i].closed && gives(i) && !has_film(i))
-            record(&run->audit, FREE_CHECK, total_force(&run->aside.clearance[i]),
+            record(&run->audit, CHECK_free, total_force(&run->aside.clearance[i]),
                 max_of(1e-6 * run->F_peak[i], 1e-300), run->t, i);
 }

@@ -9,24 +9,6 @@
 #define AUDITS 1 /* 0: a program that never switches the audit on, as a page in a browser, is compiled without it */
 #endif
 
-enum { AUDIT_OFF, AUDIT_ON, AUDIT_FULL };
-
-/* The checks, in the order of CHECKS in runtime/contract/audit.py. */
-enum {
-    DEFECT_CHECK,       /* the dense output against the right-hand side, between the ends of a step */
-    GAP_CHECK,          /* penetration of a joint that is not listed as in contact */
-    FREE_CHECK,         /* force of a joint that is not in contact */
-    POSITION_CHECK,     /* all rows of Phi of all bodies */
-    VELOCITY_CHECK,     /* all rows of Phi_q v - nu of all bodies */
-    ACCELERATION_CHECK, /* accelerations of the tree against those of all bodies */
-    BRANCH_CHECK,       /* branches of switching functions against their signs */
-    EVENT_CHECK,        /* events that were recorded against the signs of their expressions */
-    FORCE_CHECK,        /* forces of films against accelerations of the dense output */
-    RATE_CHECK,         /* rates of the dense output, as a share of the largest, whatever the step's length */
-    STEP_CHECK,         /* local errors of steps by the integral of the defect of the dense output */
-    N_CHECKS
-};
-
 typedef struct {
     double worst, t; /* multiple of the limit, < 0: not checked; s */
     int where;       /* number of the joint, constraint row, body coordinate, switching function or event; -1: none */

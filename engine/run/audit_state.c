@@ -14,12 +14,12 @@ static void check_event(Run *run, int i, int listed)
     int found = 0;
     for (int k = listed; k < run->n_events; k++)
         found |= run->event[k] == i;
-    record(audit, EVENT_CHECK, 0.0, 1.0, run->t, i);
+    record(audit, CHECK_event, 0.0, 1.0, run->t, i);
     if ((ended || audit->crossed[i]) && !found)
-        record(audit, EVENT_CHECK, INFINITY, 1.0, run->t, i);
+        record(audit, CHECK_event, INFINITY, 1.0, run->t, i);
     audit->noise[i] = found && !audit->away[i] ? audit->noise[i] + 1 : found ? 0 : audit->noise[i];
     if (audit->noise[i] >= AUDIT_WRONG)
-        record(audit, EVENT_CHECK, INFINITY, 1.0, run->t, i);
+        record(audit, CHECK_event, INFINITY, 1.0, run->t, i);
     audit->away[i] = found ? 0 : audit->away[i];
     audit->crossed[i] = 0;
 }
@@ -46,7 +46,7 @@ static void check_sides(Run *run, const Parameters *p)
         }
         audit->wrong[k] = (unsigned char)min_of(audit->wrong[k] + 1, 100);
         if (audit->wrong[k] >= AUDIT_WRONG && is_resolved(run, run->t, run->y, &run->aside, N_CLEARANCES + k, p))
-            record(audit, BRANCH_CHECK, -g[k], 1e-4 * audit->switch_scale[k], run->t, k);
+            record(audit, CHECK_branch, -g[k], 1e-4 * audit->switch_scale[k], run->t, k);
     }
 }
 
@@ -65,7 +65,7 @@ static int audit_state(Run *run, int listed, const Parameters *p)
 #endif
     check_free(run);
     if (N_SWITCHES > 0 && run->memory.held) {
-        record(audit, BRANCH_CHECK, 0.0, 1.0, run->t, -1);
+        record(audit, CHECK_branch, 0.0, 1.0, run->t, -1);
         check_sides(run, p);
     }
     for (int i = 0; i < N_USER_EVENTS; i++)

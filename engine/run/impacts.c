@@ -60,7 +60,7 @@ static int answer_here(Run *run, const Parameters *p, Answer *contacts)
 /* One row of the list that Python fetches; for an impact without a duration F_peak is the impulse, N s. */
 static int list_contact(Run *run, const Impact *contact)
 {
-    if (run->n_impacts >= N_IMPACTS)
+    if (run->n_impacts >= LISTED_IMPACTS)
         return CHATTERING;
     run->impacts[run->n_impacts++] = *contact;
     return 0;

@@ -1,7 +1,6 @@
 /*
  * Onsets and separations of joints with play, from gap and approach at both ends of a step.
  */
-#define SHALLOW 1e-13 /* m, or 1e-10 of the depth that ends the model: a graze without a force worth the name */
 
 #define SHALLOW_RIGID (8.0 * DBL_EPSILON) /* of the clearance: each blow of surfaces that do not give has an impulse */
 
@@ -58,7 +57,7 @@ static void open_joint(Run *run, int i, double t)
     run->memory.latch[i].closed = 0;
     bend(run, i, 0.0, &run->aside.clearance[i]);
     run->open[i].t_off = t;
-    if (run->n_impacts < N_IMPACTS) /* more in one step than the list holds: only where friction cuts it in parts */
+    if (run->n_impacts < LISTED_IMPACTS) /* more in one step only where friction cuts it in parts */
         run->impacts[run->n_impacts++] = run->open[i];
 }
 

@@ -27,11 +27,13 @@ void gudgeon_run_pace(const void *memory, double *gained, long *steps, long *end
     *gained = run->advance.gain;
     steps[0] = PACE_STEPS;
     steps[1] = run->advance.crawls;
-    for (int k = 0; k < 4; k++)
+    for (int k = 0; k < N_STEP_ENDS; k++)
         ended[k] = 0;
     for (int k = 0; k < N_MARGINS; k++) {
         const int corner = k - N_CLEARANCES, friction = corner - N_SWITCHES, user_event = friction - N_FRICTIONS;
-        ended[(corner >= 0) + (friction >= 0) + (user_event >= 0)] += run->ended[k];
+        const int end = user_event >= 0 ? END_EVENT : friction >= 0 ? END_FRICTION
+            : corner >= 0 ? END_SWITCH : END_CONTACT;
+        ended[end] += run->ended[k];
     }
 }
 
@@ -48,45 +50,59 @@ int gudgeon_run_listed(const void *memory)
     return n;
 }
 
-/* Fetches and empties the list of user events, with the states there as rows of samples. */
-int gudgeon_run_events(void *memory, double *t, int *event, double *y, double *latched, signed char *state)
+/*
+ * Moves the oldest user events, at most `capacity`, from the list into these arrays, with the states there as rows of
+ * samples; returns how many.
+ */
+int gudgeon_run_events(void *memory, int capacity, double *t, int *event, double *y, double *latched,
+    signed char *state)
 {
     Run *run = memory;
-    const int n = run->n_events;
+    const int n = run->n_events < capacity ? run->n_events : capacity, left = run->n_events - n;
     for (int i = 0; i < n; i++) {
         t[i] = run->event_t[i];
         event[i] = run->event[i];
     }
 #if N_USER_EVENTS
-    const EventStates *at = event_states(run);
+    EventStates *at = event_states(run);
     memcpy(y, at->y, (size_t)n * sizeof at->y[0]);
     memcpy(latched, at->latched, (size_t)n * sizeof at->latched[0]);
     memcpy(state, at->state, (size_t)n * sizeof at->state[0]);
+    memmove(at->y, at->y + n, (size_t)left * sizeof at->y[0]);
+    memmove(at->latched, at->latched + n, (size_t)left * sizeof at->latched[0]);
+    memmove(at->state, at->state + n, (size_t)left * sizeof at->state[0]);
 #else
     (void)y, (void)latched, (void)state;
 #endif
-    run->n_events = 0;
+    memmove(run->event_t, run->event_t + n, (size_t)left * sizeof run->event_t[0]);
+    memmove(run->event, run->event + n, (size_t)left * sizeof run->event[0]);
+    run->n_events = left;
     return n;
 }
 
-/* Fetches and empties the list of impacts: 5 numbers each, and the joint; with `last` the open ones too. */
-int gudgeon_run_impacts(void *memory, int last, double *numbers, int *joints)
+/*
+ * Moves the oldest contacts, at most `capacity`, from the list into rows of these arrays (ImpactColumn); returns how
+ * many. With `last` those that still go on follow: no step is made after it.
+ */
+int gudgeon_run_impacts(void *memory, int last, int capacity, double *numbers, int *joints)
 {
     Run *run = memory;
-    for (int i = 0; last && i < N_CLEARANCES; i++)
-        if (run->memory.latch[i].closed && run->n_impacts < N_IMPACTS)
+    for (int i = 0; last && !run->open_listed && i < N_CLEARANCES; i++)
+        if (run->memory.latch[i].closed)
             run->impacts[run->n_impacts++] = run->open[i];
-    const int n = run->n_impacts;
-    for (int i = 0; i < n; i++) {
+    run->open_listed = last;
+    const int n = run->n_impacts < capacity ? run->n_impacts : capacity;
+    for (int i = 0; i < n; i++, numbers += N_IMPACT_COLUMNS) {
         const Impact *impact = &run->impacts[i];
-        numbers[5 * i] = impact->t_on;
-        numbers[5 * i + 1] = impact->t_off;
-        numbers[5 * i + 2] = impact->deltadot;
-        numbers[5 * i + 3] = impact->F_peak;
-        numbers[5 * i + 4] = impact->t_peak;
+        numbers[IMPACT_t_on] = impact->t_on;
+        numbers[IMPACT_t_off] = impact->t_off;
+        numbers[IMPACT_deltadot] = impact->deltadot;
+        numbers[IMPACT_F_peak] = impact->F_peak;
+        numbers[IMPACT_t_peak] = impact->t_peak;
         joints[i] = impact->joint;
     }
-    run->n_impacts = 0;
+    run->n_impacts -= n;
+    memmove(run->impacts, run->impacts + n, (size_t)run->n_impacts * sizeof run->impacts[0]);
     return n;
 }
 
@@ -94,22 +110,22 @@ void gudgeon_run_report(const void *memory, double *t, long *counts, double *num
 {
     const Run *run = memory;
     *t = run->t;
-    counts[0] = run->steps;
-    counts[1] = run->evaluations;
-    counts[2] = run->onsets;
-    counts[3] = run->grazes;
-    counts[4] = (long)run->ratio_outside;
-    counts[5] = run->switches;
-    counts[6] = run->rejected;
-    counts[7] = run->jacobians;
-    counts[8] = run->stiff_steps;
-    numbers[0] = run->phi_max;
-    numbers[1] = run->phi_dot_max;
-    numbers[2] = run->ratio_min;
-    numbers[3] = run->ratio_max;
-    for (int i = 0; i < N_CLEARANCES; i++) {
-        peaks[3 * i] = run->F_peak[i];
-        peaks[3 * i + 1] = run->t_peak[i];
-        peaks[3 * i + 2] = run->e_max[i];
+    counts[COUNT_steps] = run->steps;
+    counts[COUNT_right_hand_sides] = run->evaluations;
+    counts[COUNT_onsets] = run->onsets;
+    counts[COUNT_grazes] = run->grazes;
+    counts[COUNT_ratio_outside] = (long)run->ratio_outside;
+    counts[COUNT_switches] = run->switches;
+    counts[COUNT_rejected] = run->rejected;
+    counts[COUNT_jacobians] = run->jacobians;
+    counts[COUNT_stiff_steps] = run->stiff_steps;
+    numbers[RESIDUAL_phi_max] = run->phi_max;
+    numbers[RESIDUAL_phi_dot_max] = run->phi_dot_max;
+    numbers[RESIDUAL_ratio_min] = run->ratio_min;
+    numbers[RESIDUAL_ratio_max] = run->ratio_max;
+    for (int i = 0; i < N_CLEARANCES; i++, peaks += N_PEAK) {
+        peaks[PEAK_F] = run->F_peak[i];
+        peaks[PEAK_t] = run->t_peak[i];
+        peaks[PEAK_e_max] = run->e_max[i];
     }
 }

@@ -64,7 +64,7 @@ static int watch(Run *run, const Parameters *p)
     return !isfinite(sum) ? NOT_FINITE : outside_model(run, p) ? OUTSIDE : 0;
 }
 
-/* State of all bodies, latches and codes (0 free, 1 impact, 2 contact) as row i of the samples. */
+/* State of all bodies, latches and contact codes as row i of the samples. */
 static void store_sample(const Run *run, double t, const double *now, const Parameters *p, long i, double *y,
     double *latched, signed char *state)
 {
@@ -72,7 +72,8 @@ static void store_sample(const Run *run, double t, const double *now, const Para
     to_absolute(t, now, &run->memory, p, y + i * N_S);
     for (int k = 0; k < N_CLEARANCES; k++) {
         latched[i * MEMORY + k] = run->memory.latch[k].closed ? run->memory.latch[k].deltadot_minus : NAN;
-        state[i * JOINTS + k] = (signed char)(run->memory.latch[k].closed ? 2 - run->compressing[k] : 0);
+        state[i * JOINTS + k] = (signed char)(!run->memory.latch[k].closed ? CODE_FREE
+            : run->compressing[k] ? CODE_IMPACT : CODE_CONTACT);
     }
     for (int k = 0; k < N_FRICTIONS; k++)
         latched[i * MEMORY + N_CLEARANCES + k] = run->memory.mode[k];
@@ -146,16 +147,10 @@ static double kinetic_energy(const Run *run, const Parameters *p)
 #include "no_impacts.c"
 #endif
 
-#if N_RIGID
-#define N_RIGID_LISTED MAX_PARTS /* a step of rk4 may hold so many blows; of more a run is ended (list_contact) */
-#else
-#define N_RIGID_LISTED 0
-#endif
-/* Whether the next step may find more than the lists hold. */
+/* Whether the lists are to be fetched: the next step may find more than they hold. */
 static int lists_full(const Run *run)
 {
-    return run->n_impacts > N_IMPACTS - (N_RIGID_LISTED + AT_LEAST_ONE(N_CLEARANCES))
-        || run->n_events > N_IMPACTS - AT_LEAST_ONE(3 * N_USER_EVENTS) || tape_full(run);
+    return run->n_impacts >= MAX_LISTED || run->n_events >= MAX_LISTED || tape_full(run);
 }
 
 /*
@@ -281,6 +276,6 @@ void gudgeon_run_codes(void *memory, const signed char *state)
 {
     Run *run = memory;
     for (int i = 0; i < N_CLEARANCES; i++)
-        run->compressing[i] = state[i] == 1;
+        run->compressing[i] = state[i] == CODE_IMPACT;
 }
 

@@ -8,13 +8,16 @@
 #include "audit.h"
 #include "../scene/events.h"
 
+/* Parts of a step of rk4, in which a rigid contact may bounce again and again; contacts that a step may list. */
 #if N_RIGID
-#define MAX_PARTS 200 /* of a step of rk4, in which a contact may bounce again and again */
+enum { MAX_PARTS = 200, LISTED_BY_STEP = MAX_PARTS + N_CLEARANCES };
 #else
-#define MAX_PARTS 50
+enum { MAX_PARTS = 50, LISTED_BY_STEP = N_CLEARANCES };
 #endif
 enum {
-    N_IMPACTS = 256
+    /* what the lists of a run hold: they are full from MAX_LISTED on, and one more step finds its place */
+    LISTED_IMPACTS = N_CLEARANCES ? MAX_LISTED + LISTED_BY_STEP : 1,
+    LISTED_EVENTS = N_USER_EVENTS ? MAX_LISTED + 3 * N_USER_EVENTS : 1
 };
 
 typedef struct {
@@ -28,12 +31,8 @@ typedef struct {
  * furthest out and when, and where it was at the end of the row.
  */
 typedef struct {
-    double F_low, t_low, F_high, t_high, x_out, y_out, t_out, x, y; /* N, s, m: in this order for Python's Trace */
-} Trail;
-
-typedef struct {
     double t; /* end of the row's last step */
-    Trail joint[AT_LEAST_ONE(N_CLEARANCES)];
+    double joint[AT_LEAST_ONE(N_CLEARANCES)][N_TRACE_COLUMNS];
 } TraceRow;
 
 /* A step that was tried: contacts and the sides of corners are held while it is made. */
@@ -140,13 +139,13 @@ typedef struct {
     Impact open[AT_LEAST_ONE(N_CLEARANCES)];      /* the contact going on in each joint */
     int compressing[AT_LEAST_ONE(N_CLEARANCES)];  /* from onset until the penetration first stops growing */
     double F_peak[AT_LEAST_ONE(N_CLEARANCES)], t_peak[AT_LEAST_ONE(N_CLEARANCES)], e_max[AT_LEAST_ONE(N_CLEARANCES)];
-    Impact impacts[N_CLEARANCES ? N_IMPACTS : 1];
-    double event_t[N_USER_EVENTS ? N_IMPACTS : 1];
+    Impact impacts[LISTED_IMPACTS + N_CLEARANCES]; /* behind them those that go on at the end of the run */
+    double event_t[LISTED_EVENTS];
     unsigned char no_number[AT_LEAST_ONE(N_USER_EVENTS)];  /* whether an event was told to be none */
     double tick; /* s, to which times of events are told apart; less where the whole run is short */
     int pole; /* whether the event that ends a step is no zero but a pole */
-    int event[N_USER_EVENTS ? N_IMPACTS : 1], n_events, stop; /* user events found; whether they may end the run */
-    int n_impacts, ready;
+    int event[LISTED_EVENTS], n_events, stop; /* user events found; whether they may end the run */
+    int n_impacts, open_listed, ready;
     TraceRow *trace; /* nobody wants one: NULL; the row that is being filled, of `trace_rows`, and steps in it */
     long trace_row, trace_rows, trace_steps, trace_stride;
     Tape tape;
@@ -210,8 +209,8 @@ static inline int has_films(void)
 #if N_USER_EVENTS
 /* States at the user events of a run's list, as samples have them: they lie behind the Run. */
 typedef struct {
-    double y[N_IMPACTS][N_S], latched[N_IMPACTS][AT_LEAST_ONE(N_MEMORY)];
-    signed char state[N_IMPACTS][AT_LEAST_ONE(N_CLEARANCES)];
+    double y[LISTED_EVENTS][N_S], latched[LISTED_EVENTS][AT_LEAST_ONE(N_MEMORY)];
+    signed char state[LISTED_EVENTS][AT_LEAST_ONE(N_CLEARANCES)];
 } EventStates;
 
 static inline EventStates *event_states(Run *run) { return (EventStates *)(run + 1); }

@@ -3,7 +3,7 @@
  * them, in rows that Python fetches. Where something jumps both its sides are there, right beside it.
  */
 enum {
-    TAPE_ROW = 2 + N_S + AT_LEAST_ONE(N_MEMORY) + AT_LEAST_ONE(N_CLEARANCES), /* numbers in a row */
+    TAPE_ROW = N_TAPE_HEAD + N_S + AT_LEAST_ONE(N_MEMORY) + AT_LEAST_ONE(N_CLEARANCES), /* numbers in a row */
     TAPE_PARTS = 4,             /* of a step of a method that chooses it */
     TAPE_SPARE = 4 * MAX_PARTS  /* rows that a step needs at most */
 };
@@ -19,10 +19,10 @@ static void tape_row(Run *run, double t, const double *y, const Parameters *p)
     signed char state[AT_LEAST_ONE(N_CLEARANCES)] = {0};
     if (!tape->rows || tape->n >= tape->capacity)
         return;
-    double *row = tape->rows + TAPE_ROW * tape->n++, *memory = row + 2 + N_S;
-    row[0] = tape->jumped;
-    row[1] = t;
-    store_sample(run, t, y, p, 0, row + 2, memory, state);
+    double *row = tape->rows + TAPE_ROW * tape->n++, *memory = row + N_TAPE_HEAD + N_S;
+    row[TAPE_JUMPED] = tape->jumped;
+    row[TAPE_T] = t;
+    store_sample(run, t, y, p, 0, row + N_TAPE_HEAD, memory, state);
     for (int i = 0; i < N_CLEARANCES; i++)
         memory[AT_LEAST_ONE(N_MEMORY) + i] = state[i];
     tape->jumped = 0;

@@ -4,33 +4,38 @@
 /* A force of joint i, at an end of a step or within it. */
 static void trace_force(Run *run, int i, double t, double F)
 {
-    Trail *trail = &run->trace[run->trace_row].joint[i];
-    if (F < trail->F_low) {
-        trail->F_low = F;
-        trail->t_low = t;
+    double *trail = run->trace[run->trace_row].joint[i];
+    if (F < trail[TRACE_F_low]) {
+        trail[TRACE_F_low] = F;
+        trail[TRACE_t_F_low] = t;
     }
-    if (F > trail->F_high) {
-        trail->F_high = F;
-        trail->t_high = t;
+    if (F > trail[TRACE_F_high]) {
+        trail[TRACE_F_high] = F;
+        trail[TRACE_t_F_high] = t;
     }
 }
 
 /* The same of a place, if it is the row's outermost. */
 static void trace_place(Run *run, int i, double t, const Clearance *joint)
 {
-    Trail *trail = &run->trace[run->trace_row].joint[i];
-    if (!(joint->e * joint->e > trail->x_out * trail->x_out + trail->y_out * trail->y_out))
+    double *trail = run->trace[run->trace_row].joint[i];
+    if (!(joint->e * joint->e > trail[TRACE_ex_out] * trail[TRACE_ex_out] + trail[TRACE_ey_out] * trail[TRACE_ey_out]))
         return;
-    trail->x_out = joint->ex;
-    trail->y_out = joint->ey;
-    trail->t_out = t;
+    trail[TRACE_ex_out] = joint->ex;
+    trail[TRACE_ey_out] = joint->ey;
+    trail[TRACE_t_out] = t;
 }
 
 static void begin_trace_row(Run *run)
 {
     run->trace_steps = 0;
-    for (int i = 0; i < N_CLEARANCES; i++)
-        run->trace[run->trace_row].joint[i] = (Trail){.F_low = INFINITY, .F_high = -INFINITY, .t_out = run->t};
+    for (int i = 0; i < N_CLEARANCES; i++) {
+        double *trail = run->trace[run->trace_row].joint[i];
+        memset(trail, 0, N_TRACE_COLUMNS * sizeof trail[0]);
+        trail[TRACE_F_low] = INFINITY;
+        trail[TRACE_F_high] = -INFINITY;
+        trail[TRACE_t_out] = run->t;
+    }
 }
 
 /* Row b, which follows a, becomes part of it. */
@@ -38,20 +43,20 @@ static void join_rows(TraceRow *to, const TraceRow *a, const TraceRow *b)
 {
     TraceRow both = *b;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        const Trail *first = &a->joint[i];
-        Trail *trail = &both.joint[i];
-        if (first->F_low <= trail->F_low) {
-            trail->F_low = first->F_low;
-            trail->t_low = first->t_low;
+        const double *first = a->joint[i];
+        double *trail = both.joint[i];
+        if (first[TRACE_F_low] <= trail[TRACE_F_low]) {
+            trail[TRACE_F_low] = first[TRACE_F_low];
+            trail[TRACE_t_F_low] = first[TRACE_t_F_low];
         }
-        if (first->F_high >= trail->F_high) {
-            trail->F_high = first->F_high;
-            trail->t_high = first->t_high;
+        if (first[TRACE_F_high] >= trail[TRACE_F_high]) {
+            trail[TRACE_F_high] = first[TRACE_F_high];
+            trail[TRACE_t_F_high] = first[TRACE_t_F_high];
         }
-        if (hypot(first->x_out, first->y_out) >= hypot(trail->x_out, trail->y_out)) {
-            trail->x_out = first->x_out;
-            trail->y_out = first->y_out;
-            trail->t_out = first->t_out;
+        if (hypot(first[TRACE_ex_out], first[TRACE_ey_out]) >= hypot(trail[TRACE_ex_out], trail[TRACE_ey_out])) {
+            trail[TRACE_ex_out] = first[TRACE_ex_out];
+            trail[TRACE_ey_out] = first[TRACE_ey_out];
+            trail[TRACE_t_out] = first[TRACE_t_out];
         }
     }
     *to = both;
@@ -64,11 +69,11 @@ static void trace_step(Run *run)
     row->t = run->t;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &run->aside.clearance[i];
-        Trail *trail = &row->joint[i];
+        double *trail = row->joint[i];
         trace_force(run, i, run->t, total_force(joint));
         trace_place(run, i, run->t, joint);
-        trail->x = joint->ex;
-        trail->y = joint->ey;
+        trail[TRACE_ex] = joint->ex;
+        trail[TRACE_ey] = joint->ey;
     }
     if (++run->trace_steps < run->trace_stride)
         return;

@@ -7,7 +7,7 @@
 
 static void list_event(Run *run, int i, double t)
 {
-    if (run->n_events < N_IMPACTS) {
+    if (run->n_events < LISTED_EVENTS) {
         run->event_t[run->n_events] = t;
         run->event[run->n_events++] = i;
     }
@@ -21,7 +21,7 @@ static int note_event(Run *run, int i, double t, const double *now, const Parame
     for (int k = run->n_events - 1; k >= 0 && run->event_t[k] >= t - SAME_ZERO * run->tick; k--)
         if (run->event[k] == i)
             return 0; /* steps do not tell these times apart: it is the same zero, which rounding leads across again */
-    if (run->n_events < N_IMPACTS)
+    if (run->n_events < LISTED_EVENTS)
         store_sample(run, t, now, p, run->n_events, at->y[0], at->latched[0], at->state[0]);
     list_event(run, i, t);
     return run->stop && event_stops[i];

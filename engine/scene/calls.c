@@ -127,7 +127,7 @@ double gudgeon_time_rhs(long count, double t, const double *y, const double *mem
  */
 static void sum_corners(const Clearance *clearance, double *reaction)
 {
-    for (int k = 0; k < WALLS; k++, reaction += 3) {
+    for (int k = 0; k < WALLS; k++, reaction += N_REACTION_COLUMNS) {
         const Clearance *own = clearance + first_corner[k];
         double Fx = 0.0, Fy = 0.0, M = 0.0;
         for (int i = 0; i < SLIDER_CORNERS; i++) {
@@ -137,9 +137,9 @@ static void sum_corners(const Clearance *clearance, double *reaction)
         }
         const double x = 0.5 * (own[0].from_x + own[SLIDER_CORNERS - 1].from_x);
         const double y = 0.5 * (own[0].from_y + own[SLIDER_CORNERS - 1].from_y);
-        reaction[0] = Fx;
-        reaction[1] = Fy;
-        reaction[2] = M - (x * Fy - y * Fx);
+        reaction[REACTION_Fx] = Fx;
+        reaction[REACTION_Fy] = Fy;
+        reaction[REACTION_M] = M - (x * Fy - y * Fx);
     }
 }
 #endif
@@ -173,36 +173,38 @@ int gudgeon_evaluate(long n, const double *t, const double *q, const double *v, 
             lambda[i * N_ROWS + k] = aside.lambda[k];
         for (int k = 0; power && k < N_WORK; k++)
             power[i * N_WORK + k] = aside.power[k];
-        for (int k = 0; drift && k < 2; k++)
-            drift[2 * i + k] = 0.0;
+        for (int k = 0; drift && k < N_DRIFT; k++)
+            drift[N_DRIFT * i + k] = 0.0;
         for (int k = 0; drift && k < N_ROWS; k++) {
-            drift[2 * i] = max_of(fabs(aside.phi[k]), drift[2 * i]);
-            drift[2 * i + 1] = max_of(fabs(aside.phi_dot[k]), drift[2 * i + 1]);
+            double *out = drift + N_DRIFT * i;
+            out[DRIFT_phi] = max_of(fabs(aside.phi[k]), out[DRIFT_phi]);
+            out[DRIFT_phi_dot] = max_of(fabs(aside.phi_dot[k]), out[DRIFT_phi_dot]);
         }
         if (energy)
-            outputs(t[i], y, y + N_Q, p, aside.lambda, reactions + i * 3 * N_REACTIONS, torques + i * N_DRIVES,
-                series + i * N_SERIES, energy + 2 * i);
+            outputs(t[i], y, y + N_Q, p, aside.lambda, reactions + i * N_REACTION_COLUMNS * N_REACTIONS,
+                torques + i * N_DRIVES, series + i * N_SERIES, energy + N_ENERGY * i);
 #ifdef WALLS
         if (energy)
-            sum_corners(aside.clearance, reactions + 3 * (i * N_REACTIONS + N_JOINTS));
+            sum_corners(aside.clearance, reactions + N_REACTION_COLUMNS * (i * N_REACTIONS + N_JOINTS));
 #endif
         for (int k = 0; friction && k < N_FRICTIONS; k++) {
-            friction[(i * N_FRICTIONS + k) * 2] = aside.friction[k].force;
-            friction[(i * N_FRICTIONS + k) * 2 + 1] = aside.friction[k].v;
+            double *out = friction + (i * N_FRICTIONS + k) * N_FRICTION_COLUMNS;
+            out[FRICTION_force] = aside.friction[k].force;
+            out[FRICTION_slip] = aside.friction[k].v;
         }
         for (int k = 0; clearance && k < N_CLEARANCES; k++) {
             const Clearance *joint = &aside.clearance[k];
-            double *out = clearance + (i * N_CLEARANCES + k) * 10;
-            out[0] = joint->Fx;
-            out[1] = joint->Fy;
-            out[2] = -joint->F_n; /* positive: pushes the surfaces apart */
-            out[3] = joint->F_t;
-            out[4] = joint->ex;
-            out[5] = joint->ey;
-            out[6] = joint->e;
-            out[7] = joint->deltadot;
-            out[8] = joint->v_t;
-            out[9] = joint->delta;
+            double *out = clearance + (i * N_CLEARANCES + k) * N_CLEARANCE_COLUMNS;
+            out[CLEARANCE_Fx] = joint->Fx;
+            out[CLEARANCE_Fy] = joint->Fy;
+            out[CLEARANCE_Fn] = -joint->F_n;
+            out[CLEARANCE_Ft] = joint->F_t;
+            out[CLEARANCE_ex] = joint->ex;
+            out[CLEARANCE_ey] = joint->ey;
+            out[CLEARANCE_e] = joint->e;
+            out[CLEARANCE_deltadot] = joint->deltadot;
+            out[CLEARANCE_vt] = joint->v_t;
+            out[CLEARANCE_delta] = joint->delta;
         }
     }
     return 0;
@@ -218,9 +220,10 @@ int gudgeon_evaluate_runs(long runs, const long *counts, const double *t, const 
     for (long i = 0, first = 0; i < runs; first += counts[i++]) {
         const int status = gudgeon_evaluate(counts[i], t + first, q + first * N_Q, v + first * N_Q,
             memory + first * N_MEMORY, parameters + i * numbers, FROM(a, N_Q), FROM(lambda, N_ROWS),
-            FROM(reactions, 3 * N_REACTIONS), FROM(torques, N_DRIVES), FROM(clearance, 10 * N_CLEARANCES),
-            FROM(series, N_SERIES), FROM(friction, 2 * N_FRICTIONS), FROM(energy, 2), FROM(power, N_WORK),
-            FROM(drift, 2), failed);
+            FROM(reactions, N_REACTION_COLUMNS * N_REACTIONS), FROM(torques, N_DRIVES),
+            FROM(clearance, N_CLEARANCE_COLUMNS * N_CLEARANCES),
+            FROM(series, N_SERIES), FROM(friction, N_FRICTION_COLUMNS * N_FRICTIONS), FROM(energy, N_ENERGY),
+            FROM(power, N_WORK), FROM(drift, N_DRIFT), failed);
         if (status)
             return status;
     }

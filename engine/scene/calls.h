@@ -65,8 +65,9 @@ void gudgeon_run_asks(void *memory, int (*ask)(void *), void *whom, double every
 void gudgeon_run_pace(const void *memory, double *gained, long *steps, long *ended);
 int gudgeon_run_full(const void *memory);
 int gudgeon_run_listed(const void *memory);
-int gudgeon_run_events(void *memory, double *t, int *event, double *y, double *latched, signed char *state);
-int gudgeon_run_impacts(void *memory, int last, double *numbers, int *joints);
+int gudgeon_run_events(void *memory, int capacity, double *t, int *event, double *y, double *latched,
+    signed char *state);
+int gudgeon_run_impacts(void *memory, int last, int capacity, double *numbers, int *joints);
 int gudgeon_method(const char *name);
 void gudgeon_adaptive_setup(void *memory, int method, int automatic, const double *scale, const double *least,
     double fixed);

@@ -8,13 +8,13 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
+#include "../boundary.h"
 
 #define AT_LEAST_ONE(n) ((n) > 0 ? (n) : 1) /* an array's length: C knows none of 0 */
 
 enum {
     N_STATES = N_CLEARANCES * LAW_STATES, /* inner states of laws, joint by joint, behind the works in y */
     N_MEMORY = N_CLEARANCES + N_FRICTIONS + N_STATES,
-    N_WORK = 3,                        /* work of drives, of force elements, of clearance forces */
     N_S = 2 * N_Q + N_WORK,            /* state of all bodies: q, v, works */
     N_Y = 2 * N_X + N_WORK + N_STATES, /* state that is integrated */
     FIRST_STATE = 2 * N_X + N_WORK     /* where inner states are in it */
@@ -25,11 +25,6 @@ enum {
     TAYLOR_Y = (N_Y + 7) / 8 * 8       /* numbers of an order: those of N_Y, in whole vectors */
 };
 
-/* Statuses of a run that is no longer wanted, or no longer advances, ...; positive ones are pivots, 0 is well. */
-enum {
-    NOT_FINITE = -2, EVENTS_FULL = -3, CHATTERING = -4, TOO_SMALL = -5, LOST = -6, ENDED = -7, OUTSIDE = -8,
-    STOPPED = -10, STALLED = -11, UNBOUNDED = -12, JAMMED = -13, NOT_FOUND = -14, AUDITED = -15
-};
 enum { NEAR = -20 }; /* of functions: a pivot is so small that the motion is continued from both sides (beside.c) */
 
 /*

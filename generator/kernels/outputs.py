@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
+from gudgeon.contract.boundary import N_REACTION_COLUMNS, REACTION_COLUMN_NAMES, ENERGY_kinetic, ENERGY_potential
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder
@@ -29,16 +30,17 @@ def outputs_kernel(model: Model) -> Kernel:
         rows_of.setdefault(row.owner, []).append(row)
     for j, joint in enumerate(kept_joints(model)):
         for k, value in enumerate(_reaction(model, joint, rows_of.get(joint.name, []), multiplier)):
-            build.out(f"reactions[{3 * j + k}]", value, f"{joint.name}.{('Fx', 'Fy', 'M')[k]}")
+            build.out(f"reactions[{N_REACTION_COLUMNS * j + k}]", value, f"{joint.name}.{REACTION_COLUMN_NAMES[k]}")
     for d, name in enumerate(model.scene.mechanism.drives):
         build.out(f"torques[{d}]", -multiplier.get(name, ZERO), f"{name}")
     for k, (name, (value, _)) in enumerate(element_series(model).items()):
         build.out(f"series[{k}]", value, name)
     build.section("energy")
-    build.out("energy[0]", sp.Add(*(m * v**2 / 2 for m, v in zip(model.masses, model.v, strict=True))))
+    build.out(f"energy[{ENERGY_kinetic}]", sp.Add(*(m * v**2 / 2 for m, v in zip(model.masses, model.v, strict=True))))
     gx, gy = model.gravity
     weights = (-body.mass * (gx * body.x + gy * body.y) for body in model.bodies)
-    build.out("energy[1]", sp.Add(*weights, *(element.loads.potential for element in model.elements.values())))
+    stored = (element.loads.potential for element in model.elements.values())
+    build.out(f"energy[{ENERGY_potential}]", sp.Add(*weights, *stored))
     out = (Argument("double *", name) for name in ("reactions", "torques", "series", "energy"))
     return build.build((*STATE, PARAMETERS, Argument("const double *", "lambda"), *out))
 

@@ -20,6 +20,7 @@ from dataclasses import dataclass, field
 
 import sympy as sp
 
+from gudgeon.contract.boundary import N_WORK
 from gudgeon.generator.equations.friction import Friction
 from gudgeon.generator.equations.loads import PointLoad
 from gudgeon.generator.equations.model import stick_gain
@@ -35,7 +36,6 @@ from gudgeon.generator.symbols.symbols import Symbols
 
 ZERO = sp.Integer(0)
 Pair = tuple[int, int]  # node (coordinates, then rows, frictions, inner states), column (coordinate or state)
-N_WORK = 3
 
 
 @dataclass

@@ -26,6 +26,7 @@ from dataclasses import replace
 
 import sympy as sp
 
+from gudgeon.contract.boundary import N_WORK
 from gudgeon.generator.equations.model import stick_gain
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.complex_parts import at_complex
@@ -37,7 +38,7 @@ from gudgeon.generator.ir.stored_values import Pool
 from gudgeon.generator.ir.values import Place
 from gudgeon.generator.solvers.dependent_coordinates import FirstPivots
 from gudgeon.generator.solvers.factors import ETA, ETA_ROW, ETA_STICK, Factors
-from gudgeon.generator.solvers.linearization import N_WORK, Linearization, Pair, Parts
+from gudgeon.generator.solvers.linearization import Linearization, Pair, Parts
 from gudgeon.generator.solvers.pivots import is_simple
 from gudgeon.generator.sparsity.elimination import choose_elimination
 

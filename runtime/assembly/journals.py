@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from gudgeon.assembly.linkage import Linkage
+from gudgeon.contract.boundary import CLEARANCE_Fx, CLEARANCE_Fy
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.errors import AssemblyError, SingularError
 from gudgeon.language.plot_units import told_apart
@@ -174,9 +175,10 @@ def _reads_onset(
     latched = np.array([memory, memory])
     latched[:, number] = 1e-3, np.inf
     try:
-        force = compiled.evaluate([t, t], [q, q], [v, v], latched, p, parts=("clearance",)).clearance[:, number]
+        found = compiled.evaluate([t, t], [q, q], [v, v], latched, p, parts=("clearance",)).clearance[:, number]
     except SingularError:  # the run itself tells
         return True
+    force = found[:, [CLEARANCE_Fx, CLEARANCE_Fy]]
     return bool((force[0] != force[1]).any())
 
 

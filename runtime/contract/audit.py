@@ -1,11 +1,12 @@
-"""The checks of a run's audit: their names, in C's order (engine/run/audit.h), and what each compares."""
+"""The checks of a run's audit and what each compares; the order of those in C is that of engine/boundary.h."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-LEVELS = {False: 0, True: 1, "full": 2}  # of the argument `audit`, as gudgeon_run_audit takes them
-FAILS = 10.0  # multiples of its limit at which a check ends the run; between 1 and this it is a note
+from gudgeon.contract.boundary import AUDIT_CHECK_NAMES, AUDIT_FULL, AUDIT_OFF, AUDIT_ON
+
+LEVELS = {False: AUDIT_OFF, True: AUDIT_ON, "full": AUDIT_FULL}  # of the argument `audit`
 
 
 @dataclass(frozen=True)
@@ -17,19 +18,20 @@ class Check:
     place: str = ""
 
 
-CHECKS = (  # in C, at steps
-    Check("defect", "the dense output against the equations of motion between the ends of a step"),
-    Check("gap", "open joints, which do not penetrate", "joint"),
-    Check("free", "joint forces without a contact, which are zero", "joint"),
-    Check("position", "all constraint equations Φ = 0 of all bodies", "row"),
-    Check("velocity", "all velocity constraints Φ_q v = ν of all bodies", "row"),
-    Check("acceleration", "accelerations against the equations of motion of all bodies", "coordinate"),
-    Check("branch", "branches of switching functions against their signs", "switch"),
-    Check("event", "recorded events against the signs of their expressions", "event"),
-    Check("force", "forces of films against the accelerations of the dense output", "joint"),
-    Check("rate", "rates of the dense output against velocities and accelerations, whatever the step's length"),
-    Check("step", "the errors of steps by the integral of the defect of the dense output"),
-)
+_STEP_CHECKS = {  # in C, at steps
+    "defect": ("the dense output against the equations of motion between the ends of a step",),
+    "gap": ("open joints, which do not penetrate", "joint"),
+    "free": ("joint forces without a contact, which are zero", "joint"),
+    "position": ("all constraint equations Φ = 0 of all bodies", "row"),
+    "velocity": ("all velocity constraints Φ_q v = ν of all bodies", "row"),
+    "acceleration": ("accelerations against the equations of motion of all bodies", "coordinate"),
+    "branch": ("branches of switching functions against their signs", "switch"),
+    "event": ("recorded events against the signs of their expressions", "event"),
+    "force": ("forces of films against the accelerations of the dense output", "joint"),
+    "rate": ("rates of the dense output against velocities and accelerations, whatever the step's length",),
+    "step": ("the errors of steps by the integral of the defect of the dense output",),
+}
+CHECKS = tuple(Check(name, *_STEP_CHECKS[name]) for name in AUDIT_CHECK_NAMES)
 SAMPLE_CHECKS = (  # in Python, at samples and at the end (runtime/simulation/audit.py)
     Check("start", "the first sample against the start that was found"),
     Check("energy", "the energy of the motion against the works of drives, forces and joints with play"),

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-SHALLOW = 1e-13  # m: what overlaps by less has not touched (engine/run/latches.c)
-
 
 @dataclass(frozen=True)
 class ClearanceInfo:

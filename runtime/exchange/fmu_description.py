@@ -11,6 +11,19 @@ from fractions import Fraction
 from hashlib import sha256
 from xml.sax.saxutils import quoteattr
 
+from gudgeon.contract.boundary import (
+    N_CLEARANCE_COLUMNS,
+    N_FRICTION_COLUMNS,
+    N_REACTION_COLUMNS,
+    VR_INDICATORS,
+    VR_OUTPUTS,
+    VR_PARAMETERS,
+    VR_RATES,
+    VR_RTOL,
+    VR_STATES,
+    VR_TIME,
+    WORK_NAMES,
+)
 from gudgeon.contract.kernel_source import HEADER, KernelSource
 from gudgeon.integrators.adaptive import RTOL, integrated_angles
 from gudgeon.language.units import DIMENSIONLESS, parse_unit
@@ -18,11 +31,9 @@ from gudgeon.loading.engine import sizes
 from gudgeon.model.parameters import conditions, expected
 from gudgeon.results.series import catalogue
 
-# value references, as engine/fmi/fmi3.c has them
-TIME, TOLERANCE, PARAMETERS, OUTPUTS, STATES, RATES, INDICATORS = 0, 1, 16, 1 << 20, 1 << 24, 1 << 25, 1 << 26
 PARTS = ("q", "v", "work", "memory", "a", "multipliers", "reactions", "torques", "clearance", "series", "friction",
          "energy", "power", "drift")  # fmt: skip
-WIDTHS = {"reactions": 3, "clearance": 10, "friction": 2}
+WIDTHS = {"reactions": N_REACTION_COLUMNS, "clearance": N_CLEARANCE_COLUMNS, "friction": N_FRICTION_COLUMNS}
 UNITS = ("scene.c", "engine/engine.c", "engine/fmi/fmi3.c")  # what is compiled
 
 
@@ -85,7 +96,7 @@ def states(source: KernelSource) -> list[tuple[str, str]]:
     angles = integrated_angles(source)
     found = [(f"state.{name}", "rad" if angle else "m") for name, angle in zip(names, angles, strict=True)]
     found += [(f"der(state.{name})", "rad/s" if angle else "m/s") for name, angle in zip(names, angles, strict=True)]
-    return found + [(f"state.work.{kind}", "J") for kind in ("drives", "forces", "clearances")]
+    return found + [(f"state.work.{kind}", "J") for kind in WORK_NAMES]
 
 
 def token(source: KernelSource) -> str:
@@ -118,28 +129,29 @@ def _units(names: set[str]) -> list[str]:
 
 def _variables(source: KernelSource) -> Iterator[str]:
     yield (
-        f'    <Float64 name="time" valueReference="{TIME}" causality="independent" variability="continuous" unit="s"/>'
+        f'    <Float64 name="time" valueReference="{VR_TIME}" causality="independent" variability="continuous"'
+        ' unit="s"/>'
     )
     yield (
-        f'    <Float64 name="relative_tolerance" valueReference="{TOLERANCE}" causality="parameter" variability="fixed"'
+        f'    <Float64 name="relative_tolerance" valueReference="{VR_RTOL}" causality="parameter" variability="fixed"'
         f' min="1e-14" max="1.0" start="{RTOL!r}" description="of a step in co-simulation, in place of the tolerance'
         ' that the importer asks for; docs/methods.md of gudgeon says of what"/>'
     )
     for k, address, unit, default in parameters(source):
         yield (
-            f'    <Float64 name={quoteattr(address)} valueReference="{PARAMETERS + k}" causality="parameter"'
+            f'    <Float64 name={quoteattr(address)} valueReference="{VR_PARAMETERS + k}" causality="parameter"'
             f' variability="fixed" start="{float(default)!r}"{_unit_name(unit)}{_bounds(source, address)}/>'
         )
     for k, (name, unit, _, _, meaning) in enumerate(outputs(source)):
         yield (
-            f'    <Float64 name={quoteattr(name)} valueReference="{OUTPUTS + k}" causality="output"'
+            f'    <Float64 name={quoteattr(name)} valueReference="{VR_OUTPUTS + k}" causality="output"'
             f' variability="continuous" initial="calculated"{_unit_name(unit)} description={quoteattr(meaning)}/>'
         )
     for k, (name, unit) in enumerate(states(source)):
-        yield _local(name, STATES + k, unit)
-        yield _local(f"rate of {name}", RATES + k, _rate(unit), f' derivative="{STATES + k}"')
+        yield _local(name, VR_STATES + k, unit)
+        yield _local(f"rate of {name}", VR_RATES + k, _rate(unit), f' derivative="{VR_STATES + k}"')
     for k, (name, unit) in enumerate(indicators(source)):
-        yield _local(name, INDICATORS + k, unit)
+        yield _local(name, VR_INDICATORS + k, unit)
 
 
 def _local(name: str, reference: int, unit: str, more: str = "") -> str:
@@ -167,12 +179,13 @@ def indicators(source: KernelSource) -> list[tuple[str, str]]:
 
 def _structure(source: KernelSource) -> Iterator[str]:
     told, integrated = len(list(outputs(source))), len(states(source))
-    found = {"Output": range(OUTPUTS, OUTPUTS + told), "ContinuousStateDerivative": range(RATES, RATES + integrated)}
+    rates = range(VR_RATES, VR_RATES + integrated)
+    found = {"Output": range(VR_OUTPUTS, VR_OUTPUTS + told), "ContinuousStateDerivative": rates}
     for kind, places in found.items():
         yield from (f'    <{kind} valueReference="{place}"/>' for place in places)
-    for places in (found["Output"], range(STATES, STATES + integrated), found["ContinuousStateDerivative"]):
+    for places in (found["Output"], range(VR_STATES, VR_STATES + integrated), found["ContinuousStateDerivative"]):
         yield from (f'    <InitialUnknown valueReference="{place}"/>' for place in places)
-    yield from (f'    <EventIndicator valueReference="{INDICATORS + k}"/>' for k in range(len(indicators(source))))
+    yield from (f'    <EventIndicator valueReference="{VR_INDICATORS + k}"/>' for k in range(len(indicators(source))))
 
 
 def description(source: KernelSource, name: str) -> str:

@@ -30,10 +30,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.assembly.linkage import angles
+from gudgeon.contract.boundary import NOT_FINITE, PEAK_e_max
 from gudgeon.contract.kernel_source import KernelSource, Slot
 from gudgeon.contract.methods import ADAPTIVE, CHOOSING, EXPLICIT, FINE, KINEMATIC, STAGED, STIFF
 from gudgeon.errors import BadValueError, InputError
-from gudgeon.integrators.failure import NOT_FINITE, failure
+from gudgeon.integrators.failure import failure
 from gudgeon.integrators.session import Session
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.model.compiled import Array, CompiledModel
@@ -80,8 +81,9 @@ def _check_samples(session: Session, first: int) -> None:
     """Raises NonFiniteError for a sample that is no number, and takes it back with those behind it."""
     if k := first_odd(session.y[: session.done], session.n, first):
         session.rows_done[0] = k
-        last, peaks, t = session.y[k - 1 : k], session.report()[3], float(session.problem.t[k])
-        raise failure(session.compiled, session.problem.method, NOT_FINITE, t, ADVICE, last, peaks[:, 2], session.p)
+        last, t = session.y[k - 1 : k], float(session.problem.t[k])
+        e_max = session.report()[3][:, PEAK_e_max]
+        raise failure(session.compiled, session.problem.method, NOT_FINITE, t, ADVICE, last, e_max, session.p)
 
 
 def first_odd(y: Array, n: int, first: int = 0) -> int:

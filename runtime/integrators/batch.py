@@ -17,27 +17,44 @@ from numpy.typing import NDArray
 
 from gudgeon.assembly.followed import unfollowed
 from gudgeon.assembly.start import assemble
-from gudgeon.contract.audit import CHECKS, Finding
+from gudgeon.contract.audit import Finding
+from gudgeon.contract.boundary import (
+    ALL_OVER,
+    AUDITED,
+    ENDED,
+    LISTS,
+    N_CHECKS,
+    N_COUNTS,
+    N_PEAK,
+    N_RESIDUALS,
+    N_WORK,
+    NEW,
+    NOT_CLOSED,
+    NOT_FINITE,
+    OVER,
+    RUN_OVER,
+    STOPPED,
+    PEAK_e_max,
+)
 from gudgeon.errors import GudgeonError, SolverError
 from gudgeon.integrators import adaptive, lanes, rk4
 from gudgeon.integrators.audit import as_findings, audit_failure
 from gudgeon.integrators.contacts import Contacts
-from gudgeon.integrators.failure import AUDITED, INTERRUPTED, NOT_FINITE, STOPPED, failure
-from gudgeon.integrators.lanes import NEW, NOT_CLOSED, OVER, Flow, Lanes
-from gudgeon.integrators.session import ENDED, N_COUNTS, counts_of, fetch_events, no_states, told_apart
+from gudgeon.integrators.failure import INTERRUPTED, failure
+from gudgeon.integrators.lanes import Flow, Lanes
+from gudgeon.integrators.session import counts_of, fetch_events, no_states, told_apart
 from gudgeon.integrators.steps import Look, Tape
 from gudgeon.integrators.threads import GLANCE as GLANCE
 from gudgeon.integrators.threads import in_threads
 from gudgeon.integrators.times import Times
 from gudgeon.integrators.trajectory import IMPACT_DTYPE, Counts, Progress, Trajectory, no_events, plain
-from gudgeon.model.compiled import N_WORK, Array, CompiledModel
+from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.sizes import mechanism_sizes
 from gudgeon.waiting.ctrl_c import CtrlC
 
 if TYPE_CHECKING:
     from gudgeon.results.results import State
 
-ALL_OVER, LISTS, RUN_OVER = 0, 1, 2  # what a call returns
 AT_ONCE = 64  # runs whose samples are looked at together, at least
 TOGETHER = 4096  # samples of runs that are over, at most, that wait for one another: they are taken at once
 
@@ -79,11 +96,11 @@ class Runs:
             "started": np.zeros(n, np.uint8), "phase": np.zeros(n, np.uint8), "y": np.empty((places, N, size)),
             "remembered": np.full((n, max(compiled.n_memory, 1)), np.nan), "codes": np.zeros((n, nc), np.int8),
             "latched": np.empty((places, N, max(compiled.n_memory, 1))), "state": np.zeros((places, N, nc), np.int8),
-            "done": np.zeros(n, np.int_), "status": np.zeros(n, np.intc), "audited_t": np.zeros((n, len(CHECKS))),
+            "done": np.zeros(n, np.int_), "status": np.zeros(n, np.intc), "audited_t": np.zeros((n, N_CHECKS)),
             "t_last": np.full(n, np.nanmin(times.t)), "last": np.full((n, size), np.nan), "seconds": np.zeros(n),
-            "counts": np.zeros((n, N_COUNTS), np.int_), "residuals": np.full((n, 4), np.nan),
-            "peaks": np.full((n, nc, 3), np.nan), "ending": np.zeros(1, np.intc),
-            "audited": np.full((n, len(CHECKS)), -1.0), "audited_where": np.full((n, len(CHECKS)), -1, np.intc),
+            "counts": np.zeros((n, N_COUNTS), np.int_), "residuals": np.full((n, N_RESIDUALS), np.nan),
+            "peaks": np.full((n, nc, N_PEAK), np.nan), "ending": np.zeros(1, np.intc),
+            "audited": np.full((n, N_CHECKS), -1.0), "audited_where": np.full((n, N_CHECKS), -1, np.intc),
         }  # fmt: skip
         self.arrays = {name: np.ascontiguousarray(array) for name, array in self.arrays.items()}
         self.struct = self._struct(math.isfinite(step[0]), stop, audit, rtol)
@@ -245,8 +262,8 @@ class Runs:
         """What ended run i, as a single run says it."""
         x = {name: self.arrays[name][i] for name in ("status", "t_last", "last", "peaks", "p_motion", "step")}
         advice = adaptive.ADVICE if self.method != "rk4" else rk4.ADVICE.format(float(x["step"]))
-        joints = len(self.compiled.source.clearances)
-        numbers = (int(x["status"]), float(x["t_last"]), advice, x["last"], x["peaks"][:joints, 2], x["p_motion"])
+        e_max = x["peaks"][: len(self.compiled.source.clearances), PEAK_e_max]
+        numbers = (int(x["status"]), float(x["t_last"]), advice, x["last"], e_max, x["p_motion"])
         if x["status"] == AUDITED:
             return audit_failure(self.findings(i))
         return failure(self.compiled, self.method, *numbers, float(x["step"]) if self.method == "rk4" else 0.0)

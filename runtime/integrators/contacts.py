@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.integrators.session import N_IMPACTS, as_impacts
+from gudgeon.contract.boundary import MAX_LISTED, N_IMPACT_COLUMNS, IMPACT_t_on
+from gudgeon.integrators.session import as_impacts
 from gudgeon.model.compiled import CompiledModel
 
-BLOCK = 16 * N_IMPACTS  # contacts that have their room together
+BLOCK = 16 * MAX_LISTED  # contacts that have their room together
 
 
 class Contacts:
@@ -41,11 +42,11 @@ class Contacts:
         whose = np.repeat(runs[by_run], counts)
         row = np.repeat(begins - (np.cumsum(counts) - counts), counts) + np.arange(len(whose))
         blocks = [block for each in self.all for block in each.blocks()]
-        numbers = np.concatenate([np.zeros((0, 5)), *(numbers for numbers, _ in blocks)])
+        numbers = np.concatenate([np.zeros((0, N_IMPACT_COLUMNS)), *(numbers for numbers, _ in blocks)])
         joints = np.concatenate([np.zeros(0, np.intc), *(joints for _, joints in blocks)])
         self.all.clear()
         # complex numbers are ordered by their real parts first; the rows nearly are, which a lexsort does not use
-        row = row[np.argsort(whose + 1j * numbers[row, 0], kind="stable")]
+        row = row[np.argsort(whose + 1j * numbers[row, IMPACT_t_on], kind="stable")]
         return as_impacts(numbers[row], joints[row]), np.searchsorted(whose, np.arange(n + 1))
 
 
@@ -58,20 +59,24 @@ class _Fetched:
         self._begin()
 
     def _begin(self) -> None:
-        self.numbers, self.joints, self.n = np.empty((BLOCK, 5)), np.empty(BLOCK, np.intc), 0
+        self.numbers, self.joints, self.n = np.empty((BLOCK, N_IMPACT_COLUMNS)), np.empty(BLOCK, np.intc), 0
         pointer = self.compiled.pointer
         self.to = pointer(self.numbers, written=True), pointer(self.joints, "int *", written=True)
 
     def fetch(self, i: int, run: Any, last: bool) -> None:
-        if self.n + N_IMPACTS > BLOCK:
+        self.runs.append(i)
+        self.counts.append(0)
+        while True:
+            (numbers, joints), room = self.to, BLOCK - self.n
+            to = numbers + N_IMPACT_COLUMNS * self.n, joints + self.n
+            count = self.compiled.lib.gudgeon_run_impacts(run, last, room, *to)
+            self.counts[-1] += count
+            self.n += count
+            if count < room:
+                return
             self.full = self.blocks()
             self._begin()
-        numbers, joints = self.to
-        count = self.compiled.lib.gudgeon_run_impacts(run, last, numbers + 5 * self.n, joints + self.n)
-        self.runs.append(i)
-        self.counts.append(count)
-        self.n += count
 
     def blocks(self) -> list[tuple[NDArray[Any], NDArray[Any]]]:
-        """Numbers (n, 5) and joints (n,), as far as they are filled."""
+        """Numbers (n, N_IMPACT_COLUMNS) and joints (n,), as far as they are filled."""
         return [*self.full, (self.numbers[: self.n], self.joints[: self.n])]

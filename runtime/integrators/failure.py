@@ -1,4 +1,4 @@
-"""What a status of the C time loops stands for (engine/run/run.c), in words."""
+"""What a status of the C time loops stands for (engine/boundary.h), in words."""
 
 from __future__ import annotations
 
@@ -9,6 +9,18 @@ from numpy.typing import NDArray
 
 from gudgeon.assembly.dead_centre import nearly_dependent_rows
 from gudgeon.assembly.linkage import mechanism_size
+from gudgeon.contract.boundary import (
+    CHATTERING,
+    JAMMED,
+    LOST,
+    NOT_FINITE,
+    NOT_FOUND,
+    OUTSIDE,
+    STALLED,
+    STOPPED,
+    TOO_SMALL,
+    UNBOUNDED,
+)
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import NEED_SLOPES
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
@@ -18,8 +30,6 @@ from gudgeon.model.contours import widest
 from gudgeon.model.steep import steep_force, unbounded_drive
 from gudgeon.model.written import CORNERED, of_time, rate_reason, reason, trees, undefined_here
 
-NOT_FINITE, CHATTERING, TOO_SMALL, LOST, OUTSIDE, STOPPED, STALLED, UNBOUNDED = -2, -4, -5, -6, -8, -10, -11, -12
-JAMMED, NOT_FOUND, AUDITED = -13, -14, -15
 TOLD = {
     JAMMED: "friction jams a contact of newton_restitution at t = {t:.9g} s: by it normal forces bring the surfaces "
     "nearer, or grow beyond all bounds (Painlevé)\n  less friction, or surfaces that give: another normal law",

@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 
 from gudgeon.assembly.branch_rates import branches_told
 from gudgeon.assembly.linkage import mechanism_size
+from gudgeon.contract.boundary import EVENTS_FULL, N_PEAK, N_WORK, NOT_FINITE, STALLED, STOPPED
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
-from gudgeon.integrators.failure import NO_NUMBER, STALLED, STOPPED, Pace, drives_at, outgrown, overflowing, too_far
+from gudgeon.integrators.failure import NO_NUMBER, Pace, drives_at, outgrown, overflowing, too_far
 from gudgeon.integrators.kinematic_events import Events
 from gudgeon.integrators.session import resolution
 from gudgeon.integrators.steps import Course, Look, Steps
@@ -27,7 +28,6 @@ from gudgeon.waiting.asking import Asker
 
 NAME, ORDER, SOURCE = "kinematic", 0, "Newton's method on the constraints"
 
-NO_NUMBER_THERE, ROWS_FULL = -2, -3  # statuses
 REACH = 0.05  # rad, or share of the mechanism's size: a Newton correction beyond it halves the way
 CHUNK, TURN = 10_000, 0.02  # samples whose motion, works and events are computed together, at most; s they may take
 
@@ -39,7 +39,7 @@ class _Way:
         self.problem, self.compiled, self.t = problem, problem.compiled, problem.t
         self.compiled.lib.newest()
         self.q, self.v, self.a = (np.zeros((len(self.t), self.compiled.n)) for _ in range(3))
-        self.work = np.zeros((len(self.t), 3))
+        self.work = np.zeros((len(self.t), N_WORK))
         self.q[0], self.v[0], self.a[0] = problem.q, problem.v, np.nan
         self.maxima, self.longs = np.zeros(2), np.zeros(2, dtype=np.int_)  # |Φ|, |Φ̇|; steps, rows of a call
         self.reached, self.seconds = 0, 0.0
@@ -103,8 +103,8 @@ class _Way:
 
     def _motion(self, first: int, last: int) -> tuple[int, int]:
         """Rows up to `last`, the last one that could be reached, and why no further (0: there was no need)."""
-        longs, course, status = self.pointer(self.longs, "long *"), self.pointer(self.course, "void *"), ROWS_FULL
-        while status == ROWS_FULL:
+        longs, course, status = self.pointer(self.longs, "long *"), self.pointer(self.course, "void *"), EVENTS_FULL
+        while status == EVENTS_FULL:
             rows, before = slice(first, None), perf_counter()
             status = self.compiled.lib.gudgeon_kinematic(
                 course, last - first, self.pointer(self.t[rows]),
@@ -155,7 +155,7 @@ class _Way:
         if status == STALLED:
             pace = Pace(t, t_end - t, gained, steps, bool(crawls))
             return outgrown(pace, drives_at(self.compiled, self.problem.p, t)) if crawls else too_far(pace)
-        if status == NO_NUMBER_THERE:
+        if status == NOT_FINITE:
             return self._no_number(float(at[1]))
         return _failure(self.problem, status, t, self._place(t))
 
@@ -193,7 +193,7 @@ class _Way:
         counts = Counts(int(self.longs[0]), 0, phi_max=float(self.maxima[0]), phi_dot_max=float(self.maxima[1]))
         return Trajectory(
             t, self.q[rows], self.v[rows], self.a[rows], empty, empty.astype(np.int8), self.work[rows],
-            np.zeros(0, dtype=IMPACT_DTYPE), np.zeros((0, 3)), counts, interrupted, stopped, self.seconds,
+            np.zeros(0, dtype=IMPACT_DTYPE), np.zeros((0, N_PEAK)), counts, interrupted, stopped, self.seconds,
             events[events["t"] <= t[-1]], no_number=lost[lost["t"] <= t[-1]], change_points=(passed, float(first[0])),
         )  # fmt: skip
 

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon.contract.boundary import EVENT_STOPS, EVENTS_FULL, MAX_LISTED, STOPPED
 from gudgeon.errors import SolverError
-from gudgeon.integrators.failure import STOPPED
 from gudgeon.integrators.session import told_apart
 from gudgeon.integrators.trajectory import EVENT_DTYPE, Problem, no_events
 from gudgeon.model.compiled import Array
@@ -21,8 +21,6 @@ from gudgeon.model.compiled import Array
 if TYPE_CHECKING:
     from gudgeon.integrators.kinematic import _Way
 
-EVENT_STOPS, EVENTS_FULL = 1, -3
-CAPACITY = 256  # events of one call; more where one interval has more
 
 
 class Events:
@@ -31,7 +29,7 @@ class Events:
     def __init__(self, problem: Problem) -> None:
         self.problem, self.end = problem, float(problem.t[-1])
         self.side = np.zeros(len(problem.compiled.source.events), dtype=np.int8)  # of zero, seen last
-        self.found, self.capacity = no_events(), CAPACITY
+        self.found, self.capacity = no_events(), MAX_LISTED
 
     def find(self, way: _Way, first: int, last: int) -> bool:
         """Looks through the intervals between rows first to last of the way; whether an event ends the run there.

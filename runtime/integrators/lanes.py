@@ -20,6 +20,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon.contract.boundary import ALL_OVER, LISTS, NEW, NOT_CLOSED, OVER
 from gudgeon.contract.methods import SMOOTH
 from gudgeon.loading.compiler import is_there
 from gudgeon.model.arrays import address
@@ -32,10 +33,7 @@ if TYPE_CHECKING:
     from gudgeon.integrators.steps import Tape
     from gudgeon.integrators.times import Times
 
-NEW, OVER = 0, 2  # phases of a run
-NOT_CLOSED = -9  # status: the start is left to the search in Python
 NONE = -1  # in place of the number of a run
-ALL_OVER, LISTS = 0, 1  # what a call returns
 LEAST, FEW = 2, 16  # runs that are worth a vector: of rk4, of methods that choose their step
 MOST, ALWAYS = 32, 8  # runs that may be under way side by side, several a lane; those that are, however many samples
 WORTH = 6.0  # s that a batch may still take, by the pace so far, from which on its library is worth being compiled

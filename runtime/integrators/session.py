@@ -10,22 +10,35 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon.contract.boundary import (
+    AUDITED,
+    COUNT_NAMES,
+    ENDED,
+    EVENTS_FULL,
+    IMPACT_COLUMN_NAMES,
+    MAX_LISTED,
+    N_COUNTS,
+    N_IMPACT_COLUMNS,
+    N_PEAK,
+    N_RESIDUALS,
+    N_STEP_ENDS,
+    N_WORK,
+    RESIDUAL_NAMES,
+    STALLED,
+    STOPPED,
+    PEAK_e_max,
+)
 from gudgeon.errors import SolverError
 from gudgeon.integrators import trace
 from gudgeon.integrators.audit import audit_failure, fetch_findings
-from gudgeon.integrators.failure import AUDITED, FELT, STALLED, Pace, drives_at, failure, film, stalled, with_corners
+from gudgeon.integrators.failure import FELT, Pace, drives_at, failure, film, stalled, with_corners
 from gudgeon.integrators.steps import Tape
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory, event_dtype, plain
-from gudgeon.model.compiled import N_WORK, Array, CompiledModel
+from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.sizes import mechanism_sizes
 from gudgeon.waiting.asking import Asker
 
-EVENTS_FULL, ENDED, STOPPED = -3, -7, -10
-N_IMPACTS, N_COUNTS = 256, 9
-NUMBERS = ("t_on", "t_off", "deltadot", "F_peak", "t_peak")  # of a contact, as C tells them
 EPSILON = float(np.finfo(np.float64).eps)
-REPORT = ("steps", "right_hand_sides", "onsets", "grazes", "ratio_outside", "switches", "rejected", "jacobians",
-          "stiff_steps")  # fmt: skip
 
 
 class RunEnded(Exception):
@@ -47,19 +60,22 @@ def fetch_events(compiled: CompiledModel, run: Any, times: Array) -> NDArray[Any
 
     What is beyond the events of the scene tells of the same events that they are no number at that time.
     """
-    joints, rows = len(compiled.source.clearances), N_IMPACTS if compiled.source.events else 1
-    t, event = np.zeros(N_IMPACTS), np.zeros(N_IMPACTS, dtype=np.intc)
+    joints, rows = len(compiled.source.clearances), MAX_LISTED if compiled.source.events else 1
+    t, event = np.zeros(rows), np.zeros(rows, dtype=np.intc)
     y, memory = (np.zeros((rows, max(width, 1))) for width in (2 * compiled.n + N_WORK, compiled.n_memory))
     state = np.zeros((rows, max(joints, 1)), dtype=np.int8)
-    states = compiled.pointer(y), compiled.pointer(memory), compiled.pointer(state, "signed char *")
-    count = compiled.lib.gudgeon_run_events(run, compiled.pointer(t), compiled.pointer(event, "int *"), *states)
-    fetched = np.zeros(count, dtype=event_dtype(compiled.n, compiled.n_memory, joints))
-    if not count:
-        return fetched
-    fetched["event"], fetched["t"], fetched["y"] = event[:count], t[:count], y[:count]
-    fetched["memory"], fetched["state"] = memory[:count, : compiled.n_memory], state[:count, :joints]
-    told = fetched["event"] >= len(compiled.source.events)
-    return fetched[told | (fetched["t"] > times[0] + resolution(times))]
+    arrays = (compiled.pointer(t), compiled.pointer(event, "int *"), compiled.pointer(y), compiled.pointer(memory),
+              compiled.pointer(state, "signed char *"))  # fmt: skip
+    parts, count = [no_states(compiled)], rows
+    while count == rows:
+        count = compiled.lib.gudgeon_run_events(run, rows, *arrays)
+        part = np.zeros(count, dtype=parts[0].dtype)
+        part["event"], part["t"], part["y"] = event[:count], t[:count], y[:count]
+        part["memory"], part["state"] = memory[:count, : compiled.n_memory], state[:count, :joints]
+        parts.append(part)
+    fetched = np.concatenate(parts)
+    no_number = fetched["event"] >= len(compiled.source.events)
+    return fetched[no_number | (fetched["t"] > times[0] + resolution(times))]
 
 
 def told_apart(compiled: CompiledModel, found: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
@@ -73,35 +89,37 @@ def told_apart(compiled: CompiledModel, found: NDArray[Any]) -> tuple[NDArray[An
 
 def fetch_impacts(compiled: CompiledModel, run: Any, last: bool) -> NDArray[Any]:
     """IMPACT_DTYPE, the list of contacts of a struct, which is emptied; with `last` those that still go on too."""
-    numbers, joints = np.empty((N_IMPACTS, 5)), np.empty(N_IMPACTS, dtype=np.intc)
-    lists = (compiled.pointer(numbers), compiled.pointer(joints, "int *"))
-    count = compiled.lib.gudgeon_run_impacts(run, int(last), *lists)
-    return as_impacts(numbers[:count], joints[:count])
+    numbers, joints = np.empty((MAX_LISTED, N_IMPACT_COLUMNS)), np.empty(MAX_LISTED, dtype=np.intc)
+    arrays = (compiled.pointer(numbers), compiled.pointer(joints, "int *"))
+    parts, count = [], MAX_LISTED
+    while count == MAX_LISTED:
+        count = compiled.lib.gudgeon_run_impacts(run, int(last), MAX_LISTED, *arrays)
+        parts.append(as_impacts(numbers[:count], joints[:count]))
+    return np.concatenate(parts)
 
 
 def as_impacts(numbers: Array, joints: NDArray[np.intc]) -> NDArray[Any]:
-    """IMPACT_DTYPE, contacts from their numbers (n, 5) and joints (n,) as C tells them."""
+    """IMPACT_DTYPE, contacts from their numbers (n, N_IMPACT_COLUMNS) and joints (n,) as C tells them."""
     from gudgeon.integrators.trajectory import IMPACT_DTYPE
 
     impacts = np.empty(len(joints), dtype=IMPACT_DTYPE)
     impacts["joint"] = joints
-    for column, name in enumerate(NUMBERS):
-        impacts[name] = numbers[:, column]
+    for name in (IMPACT_DTYPE.names or ())[1:]:
+        impacts[name] = numbers[:, IMPACT_COLUMN_NAMES.index(name)]
     return impacts
 
 
 def counts_of(counts: NDArray[Any], numbers: Array) -> Counts:
-    """The counts (N_COUNTS,) and numbers (4,) that gudgeon_run_report writes."""
-    phi, phi_dot, least, most = (float(x) if np.isfinite(x) else math.nan for x in numbers)
-    named = dict(zip(REPORT, counts.tolist(), strict=True))
-    return Counts(**named, phi_max=phi, phi_dot_max=phi_dot, ratio_min=least, ratio_max=most)
+    """Return the counts (N_COUNTS,) and residuals (N_RESIDUALS,) that gudgeon_run_report writes."""
+    known = counts_of_runs(counts[None], numbers[None])
+    return Counts(**{name: values[0].item() for name, values in known.items()})
 
 
 def counts_of_runs(counts: NDArray[Any], numbers: Array) -> dict[str, NDArray[Any]]:
-    """The same of n runs, (n, N_COUNTS) and (n, 4): arrays (n,) by the names in Counts."""
-    known = dict(zip(REPORT, counts.T.copy(), strict=True))
+    """Return arrays (n,) by the names in Counts, from those of n runs, (n, N_COUNTS) and (n, N_RESIDUALS)."""
+    known = dict(zip(COUNT_NAMES, counts.T.copy(), strict=True))
     finite = np.where(np.isfinite(numbers), numbers, math.nan)
-    known |= dict(zip(("phi_max", "phi_dot_max", "ratio_min", "ratio_max"), finite.T.copy(), strict=True))
+    known |= dict(zip(RESIDUAL_NAMES, finite.T.copy(), strict=True))
     return {each.name: known[each.name] for each in fields(Counts)}
 
 
@@ -225,7 +243,7 @@ class Session:
     def report(self) -> tuple[float, NDArray[Any], Array, Array]:
         """The present time, counts, (max |Φ|, max |Φ̇|, least and largest ratio), peaks by joint."""
         t, counts = np.zeros(1), np.zeros(N_COUNTS, dtype=np.int_)
-        numbers, peaks = np.zeros(4), np.zeros((max(self.nc, 1), 3))
+        numbers, peaks = np.zeros(N_RESIDUALS), np.zeros((max(self.nc, 1), N_PEAK))
         self.lib.gudgeon_run_report(
             self.run, self.pointer(t), self.pointer(counts, "long *"), self.pointer(numbers), self.pointer(peaks)
         )
@@ -268,13 +286,13 @@ class Session:
         _, _, _, peaks = self.report()
         if status == STALLED:
             self.close()
-            gained, steps, ended = np.zeros(1), np.zeros(2, dtype=np.int_), np.zeros(4, dtype=np.int_)
+            gained, steps, ended = np.zeros(1), np.zeros(2, dtype=np.int_), np.zeros(N_STEP_ENDS, dtype=np.int_)
             arrays = (self.pointer(gained), self.pointer(steps, "long *"), self.pointer(ended, "long *"))
             self.lib.gudgeon_run_pace(self.run, *arrays)
             pace = Pace(t, float(self.problem.t[-1]) - t, float(gained[0]), int(steps[0]), bool(steps[1]))
             # a drive that still turns on in steps so short is what they are short for
             fast = drives_at(self.compiled, self.p, t, FELT * pace.steps / max(pace.gained, 1e-300))
-            closing = film(self.compiled, peaks[:, 2], self.p)
+            closing = film(self.compiled, peaks[:, PEAK_e_max], self.p)
             raise stalled(pace, ended, closing, fast, with_corners(self.compiled.source))
         ahead = self.problem.step if self.problem.method == "rk4" else 0.0
-        raise failure(self.compiled, self.problem.method, status, t, advice, y, peaks[:, 2], self.p, ahead)
+        raise failure(self.compiled, self.problem.method, status, t, advice, y, peaks[:, PEAK_e_max], self.p, ahead)

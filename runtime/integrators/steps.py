@@ -13,7 +13,8 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.model.compiled import N_WORK, Array, CompiledModel
+from gudgeon.contract.boundary import N_TAPE_HEAD, N_WORK, TAPE_JUMPED, TAPE_T
+from gudgeon.model.compiled import Array, CompiledModel
 
 ROWS = 4096
 
@@ -49,7 +50,8 @@ class Tape:
 
     def __init__(self, compiled: CompiledModel, look: Look | None = None) -> None:
         self.compiled, self.look = compiled, look
-        self.widths = (2, 2 * compiled.n + N_WORK, max(compiled.n_memory, 1), max(len(compiled.source.clearances), 1))
+        joints = len(compiled.source.clearances)
+        self.widths = (N_TAPE_HEAD, 2 * compiled.n + N_WORK, max(compiled.n_memory, 1), max(joints, 1))
         self.rows = np.zeros((ROWS, sum(self.widths)))
 
     def lay(self, run: Any) -> None:
@@ -66,8 +68,8 @@ class Tape:
         (head, y, memory, state), n = np.split(rows, np.cumsum(self.widths)[:-1], axis=1), self.compiled.n
         joints = len(self.compiled.source.clearances)
         return Steps(
-            head[:, 1], y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], memory[:, : self.compiled.n_memory],
-            state[:, :joints].astype(np.int8), head[:, 0] > 0.0,
+            head[:, TAPE_T], y[:, :n], y[:, n : 2 * n], y[:, 2 * n :], memory[:, : self.compiled.n_memory],
+            state[:, :joints].astype(np.int8), head[:, TAPE_JUMPED] > 0.0,
         )  # fmt: skip
 
 

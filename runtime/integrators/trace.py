@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from gudgeon.contract.boundary import N_TRACE_COLUMNS, TRACE_COLUMN_NAMES
+
 if TYPE_CHECKING:
     from gudgeon.model.compiled import Array
 
@@ -27,10 +29,11 @@ class Trace:
 
     @staticmethod
     def of_rows(rows: Array, clearances: int) -> Trace:
-        """From the rows that C writes, (R, 1 + 9 n_clearances)."""
-        return Trace(rows[:, 0].copy(), rows[:, 1:].reshape(len(rows), clearances, len(COLUMNS)).copy())
+        """From the rows that C writes, (R, width)."""
+        joints = rows[:, 1:].reshape(len(rows), clearances, N_TRACE_COLUMNS)
+        return Trace(rows[:, 0].copy(), joints[:, :, [TRACE_COLUMN_NAMES.index(name) for name in COLUMNS]])
 
 
 def width(clearances: int) -> int:
     """Numbers in a row."""
-    return 1 + len(COLUMNS) * clearances
+    return 1 + N_TRACE_COLUMNS * clearances

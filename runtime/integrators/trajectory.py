@@ -11,10 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gudgeon.contract.audit import Finding
+from gudgeon.contract.boundary import N_WORK
 from gudgeon.errors import SolverError
 from gudgeon.integrators.steps import Look
 from gudgeon.integrators.trace import Trace
-from gudgeon.model.compiled import N_WORK, Array, CompiledModel
+from gudgeon.model.compiled import Array, CompiledModel
 
 IMPACT_DTYPE = np.dtype(
     [("joint", "i4"), ("t_on", "f8"), ("t_off", "f8"), ("deltadot", "f8"), ("F_peak", "f8"), ("t_peak", "f8")]

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gudgeon.contract.boundary import N_WORK
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import SingularError
 from gudgeon.language.wanted import number_of, time
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
 
 Array: TypeAlias = NDArray[np.float64]
 
-N_WORK = 3  # works that are integrated with the motion
 AT_ONCE = 1024  # runs whose numbers are made together: they stay near
 
 

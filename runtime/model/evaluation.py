@@ -11,6 +11,15 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gudgeon.contract.boundary import (
+    CLEARANCE_COLUMN_NAMES,
+    N_CLEARANCE_COLUMNS,
+    N_DRIFT,
+    N_ENERGY,
+    N_FRICTION_COLUMNS,
+    N_REACTION_COLUMNS,
+    N_WORK,
+)
 from gudgeon.files.room import check_memory
 from gudgeon.model.arrays import taken
 
@@ -19,7 +28,7 @@ if TYPE_CHECKING:
 
 Array: TypeAlias = NDArray[np.float64]
 
-CLEARANCE_COLUMNS = ("Fx", "Fy", "Fn", "Ft", "ex", "ey", "e", "deltadot", "vt", "delta")
+CLEARANCE_COLUMNS = CLEARANCE_COLUMN_NAMES
 MANY = 10_000  # samples from which on it is asked whether there is memory for what follows from them
 FIRST, SOON = 256, 5e-3  # samples of the first call of C; s that one is to take, or Ctrl-C would wait
 OUTPUTS = frozenset({"reactions", "torques", "series", "energy"})  # what one function of the scene computes
@@ -119,9 +128,11 @@ def nothing(compiled: CompiledModel) -> tuple[tuple[str, Array], ...]:
     """Of each part its name and what it is without a row."""
     s = compiled.source
     widths: dict[str, tuple[int, ...]] = {
-        "a": (compiled.n,), "multipliers": (len(s.rows),), "reactions": (len(s.joints) + len(s.guides), 3),
-        "torques": (len(s.drives),), "clearance": (len(s.clearances), len(CLEARANCE_COLUMNS)),
-        "series": (len(s.series),), "friction": (len(s.frictions), 2), "energy": (2,), "power": (3,), "drift": (2,),
+        "a": (compiled.n,), "multipliers": (len(s.rows),),
+        "reactions": (len(s.joints) + len(s.guides), N_REACTION_COLUMNS),
+        "torques": (len(s.drives),), "clearance": (len(s.clearances), N_CLEARANCE_COLUMNS),
+        "series": (len(s.series),), "friction": (len(s.frictions), N_FRICTION_COLUMNS), "energy": (N_ENERGY,),
+        "power": (N_WORK,), "drift": (N_DRIFT,),
     }  # fmt: skip
     return tuple((name, np.empty((0, *widths[name]))) for name in (field.name for field in fields(Evaluation)))
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
+from gudgeon.contract.boundary import N_WORK
 from gudgeon.files.room import check_memory
-from gudgeon.model.compiled import N_WORK, CompiledModel
+from gudgeon.model.compiled import CompiledModel
 from gudgeon.model.evaluation import evaluated_bytes
 
 OF_A_RUN = 1000  # bytes, about: a run's own lists and counts

@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from gudgeon.contract.clearance_info import SHALLOW, ClearanceInfo
+from gudgeon.contract.boundary import SHALLOW
+from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.errors import SolverError
 from gudgeon.model.compiled import Array
 from gudgeon.model.contours import contour_of, depth_at

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon.contract.boundary import PEAK_F, PEAK_e_max, PEAK_t
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.results.blows import is_blow
@@ -180,9 +181,9 @@ def run_columns(runs: Sequence[Sequence[Extremes]]) -> Iterator[tuple[str, str, 
 
 
 def peaks_of(peaks: Array, contacts: NDArray[Any], count: NDArray[np.int_]) -> NDArray[Any]:
-    """PEAK_DTYPE from F, t, e_max (n, n_clearances, 3) and the contacts of all runs, so many of each."""
+    """PEAK_DTYPE from F, t, e_max (n, n_clearances, N_PEAK) and the contacts of all runs, so many of each."""
     out = np.full(peaks.shape[:2], np.nan, dtype=PEAK_DTYPE)
-    for k, name in enumerate(("F", "t", "e_max")):
+    for k, name in ((PEAK_F, "F"), (PEAK_t, "t"), (PEAK_e_max, "e_max")):
         out[name] = peaks[:, :, k]
     runs = np.repeat(np.arange(len(count)), count)
     for joint in range(peaks.shape[1]):

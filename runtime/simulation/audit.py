@@ -11,8 +11,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from gudgeon.contract.audit import FAILS, LEVELS, Finding
-from gudgeon.contract.clearance_info import SHALLOW
+from gudgeon.contract.audit import LEVELS, Finding
+from gudgeon.contract.boundary import AUDIT_FAILS as FAILS
+from gudgeon.contract.boundary import PEAK_F, SHALLOW, CLEARANCE_delta, CLEARANCE_Fx, CLEARANCE_Fy, PEAK_t
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.trajectory import Problem, Trajectory
 from gudgeon.language.wanted import told
@@ -131,10 +132,10 @@ def _contacts(compiled: CompiledModel, x: Trajectory, evaluation: Evaluation) ->
     for k, joint in enumerate(compiled.source.clearances):
         if joint.film or joint.name in compiled.source.rigid:
             continue
-        force = np.hypot(evaluation.clearance[:, k, 0], evaluation.clearance[:, k, 1])
-        peak, own = float(x.peaks[k, 0]), x.impacts[x.impacts["joint"] == k]
+        force = np.hypot(evaluation.clearance[:, k, CLEARANCE_Fx], evaluation.clearance[:, k, CLEARANCE_Fy])
+        peak, own = float(x.peaks[k, PEAK_F]), x.impacts[x.impacts["joint"] == k]
         free = np.isnan(x.memory[:, k])
-        touches = free & (np.abs(evaluation.clearance[:, k, -1]) <= SHALLOW)
+        touches = free & (np.abs(evaluation.clearance[:, k, CLEARANCE_delta]) <= SHALLOW)
         outside = np.where(free & ~touches, force, 0.0)
         worst = int(outside.argmax())
         scale = max(FORCE * max(peak, float(force.max())), 1e-300)
@@ -143,7 +144,7 @@ def _contacts(compiled: CompiledModel, x: Trajectory, evaluation: Evaluation) ->
         begins_free = bool(np.isnan(x.memory[0, k]))  # a contact that a run resumes has had a peak before
         if peak > float(force[touches].max(initial=0.0)) and begins_free and np.isfinite(own["t_off"]).all():
             over = (max(peak, float(force.max())) - listed) / (PEAK * max(listed, 1e-300))
-            yield Finding("peak", max(over, 0.0), float(x.peaks[k, 1]), joint.name)
+            yield Finding("peak", max(over, 0.0), float(x.peaks[k, PEAK_t]), joint.name)
 
 
 def _balances(

@@ -11,12 +11,13 @@ import numpy as np
 from numpy.polynomial.legendre import legder, legfit, leggauss, legint, legval, legvander
 from numpy.typing import NDArray
 
+from gudgeon.contract.boundary import N_WORK
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.errors import SolverError
 from gudgeon.integrators.kinematic import along
 from gudgeon.integrators.steps import Steps
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
-from gudgeon.model.compiled import N_WORK, Array, CompiledModel, Evaluation
+from gudgeon.model.compiled import Array, CompiledModel, Evaluation
 from gudgeon.model.evaluation import PARTS, around
 from gudgeon.results.batch_series import parts_of, reads_works
 from gudgeon.results.diagnostics import Diagnostics

@@ -11,6 +11,7 @@ import numpy as np
 from gudgeon.assembly.dead_centre import dependent_rows
 from gudgeon.assembly.journals import eccentricity
 from gudgeon.assembly.linkage import mechanism_size
+from gudgeon.contract.boundary import PEAK_F, PEAK_e_max, PEAK_t
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import ADAPTIVE, EXPLICIT
@@ -160,7 +161,7 @@ def unbounded_sample(compiled: CompiledModel, problem: Problem, trajectory: Traj
 
 def may_not_hold(source: KernelSource, p: Array, size: Array, phi_max: Array, grazes: Array, peaks: Array) -> Any:
     """Of which of n runs `not_held` has something to say, (n,): p (n, ...), peaks (n, n_clearances, 3)."""
-    c, e_max = p[:, [joint.clearance for joint in source.clearances]], peaks[:, :, 2]
+    c, e_max = p[:, [joint.clearance for joint in source.clearances]], peaks[:, :, PEAK_e_max]
     least = np.array([THIN if joint.film and not joint.dry else 1.0 for joint in source.clearances])
     return (phi_max > APART * size) | (grazes > 0) | (e_max > least * c).any(axis=1)
 
@@ -179,7 +180,7 @@ def not_held(compiled: CompiledModel, p: Array, t0: float, q0: Array, counts: Co
 
 def _outside(compiled: CompiledModel, p: Array, t0: float, q0: Array, peaks: Array) -> Iterator[str]:
     """Joints with play that went where their laws do not hold."""
-    for k, (joint, (_, _, e_max)) in enumerate(zip(compiled.source.clearances, peaks, strict=True)):
+    for k, (joint, e_max) in enumerate(zip(compiled.source.clearances, peaks[:, PEAK_e_max], strict=True)):
         c, radius = float(p[joint.clearance]), float(p[joint.constants["R_i"]])
         deepest = float(e_max) - widest(compiled.source, p, joint)
         ratio = float(e_max) / float(p[joint.film_clearance])
@@ -211,6 +212,6 @@ def _peaks(compiled: CompiledModel, trajectory: Trajectory) -> tuple[Peak, ...]:
     for i, joint in enumerate(compiled.source.clearances):
         own = trajectory.impacts[trajectory.impacts["joint"] == i]
         first = (float(own["t_on"][0]), first_force(own)) if len(own) else (math.nan, math.nan)
-        F, t, e_max = (float(x) for x in trajectory.peaks[i])
+        F, t, e_max = (float(trajectory.peaks[i, k]) for k in (PEAK_F, PEAK_t, PEAK_e_max))
         peaks.append(Peak(joint.name, F, t, e_max, *first))
     return tuple(peaks)

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gudgeon.contract.boundary import N_WORK
 from gudgeon.integrators.adaptive import integrated_angles
-from gudgeon.model.compiled import N_WORK, Array, CompiledModel
+from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import contour_of, depth_at
 from gudgeon.model.corners import corner_gap
 from gudgeon.model.parameters import without_baumgarte

@@ -17,6 +17,7 @@ from gudgeon.integrators.steps import Steps
 from gudgeon.language.quantities import number_of_text
 from gudgeon.language.shown import one_line
 from gudgeon.language.wanted import number_of, positive, refuse, text, told, whole
+from gudgeon.model.evaluation import CLEARANCE_COLUMNS
 from gudgeon.results.wear import HOUR, LAWS, POINTS, Rubbed, Rubbing, Surface, Wear, bearing_of, middles, spread
 from gudgeon.simulation.between import Path
 from gudgeon.simulation.examine import as_it_was, known_to_rub, without_oil
@@ -167,8 +168,10 @@ class Rubs:
         memory[:, :, states] += s * (x.memory[k + 1, states] - x.memory[k, states])[:, None]
         q_flat, v_flat, latched = (array.reshape(t.size, -1) for array in (q, v, memory))
         found = self.compiled.evaluate(t.ravel(), q_flat, v_flat, latched, self.p, parts=("clearance",))
-        columns = (column.reshape(t.shape) for column in found.clearance[:, self.number].T)
-        _, _, F_n, F_t, e_x, e_y, e, _, v_t, delta = columns
+        columns = dict(zip(CLEARANCE_COLUMNS, found.clearance[:, self.number].T, strict=True))
+        F_n, F_t, e_x, e_y, e, v_t, delta = (
+            columns[name].reshape(t.shape) for name in ("Fn", "Ft", "ex", "ey", "e", "vt", "delta")
+        )
         w, touching = h * WEIGHTS, delta > 0.0
         slip = w * np.where(touching, np.abs(v_t), 0.0)
         loads = np.stack([slip * np.maximum(F_n, 0.0), slip * np.abs(F_t)]).reshape(2, -1)  # nothing is worn by a pull

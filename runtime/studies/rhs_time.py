@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gudgeon.contract.boundary import N_WORK
 from gudgeon.errors import SolverError
-from gudgeon.model.compiled import N_WORK, Array
+from gudgeon.model.compiled import Array
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.runs import Setting, natural_step, window

@@ -3,14 +3,14 @@
  * rows, those of the drives too, drift or are held. For classes; Python solves Phi = 0 instead, and so does `follow`.
  */
 function* drift(sim, {t, step, slice}, memory, run) {
-    const {lib, n, about} = sim, width = 2 * n + WORKS, rows = memory.numbers(t.length * width);
+    const {lib, n, about} = sim, width = 2 * n + N_WORK, rows = memory.numbers(t.length * width);
     const [at, dy, mode] = [width, width, Math.max(about.memory, 1)].map((count) => memory.numbers(count));
     const {q, v} = run.begin(), p = memory.numbers(sim.p.length, sim.p), counts = {steps: 0, right_hand_sides: 0};
-    let y = Float64Array.of(...q, ...v, ...new Float64Array(WORKS)), done = 0;
+    let y = Float64Array.of(...q, ...v, ...new Float64Array(N_WORK)), done = 0;
     const store = () => memory.view(rows + 8 * width * done++, width).set(y);
     const take = () => {
         const all = memory.copy(rows, done * width), part = (from, count) => columns(all, width, from, count);
-        Object.assign(run, {t: t.slice(0, done), q: part(0, n), v: part(n, n), work: part(2 * n, WORKS), counts,
+        Object.assign(run, {t: t.slice(0, done), q: part(0, n), v: part(n, n), work: part(2 * n, N_WORK), counts,
             memory: new Float64Array(done * Math.max(about.memory, 1)), state: new Int8Array(0)});
     };
     run.soFar = take;

@@ -2,21 +2,22 @@
  * The time loops: calls of the engine, some steps or samples each, and what becomes of their statuses. They do what
  * runtime/integrators/session.py, adaptive.py, rk4.py and kinematic.py do, call for call, so that bits are the same.
  */
-const WORKS = 3, MOST_LISTED = 256; // events and impacts that the engine's lists hold
 const AT_ONCE = 2000; // steps between samples of a motion without a freedom, before somebody else has a turn
-const EVENTS_FULL = -3, ENDED = -7, EVENT_STOPS = 1; // statuses of engine/scene/types.h and kinematic/events.c
+const {ENDED, EVENTS_FULL, EVENT_STOPS, MAX_LISTED, N_IMPACT_COLUMNS, N_WORK} = Boundary;
 const TOLD = {
-    "-2": "the motion is no longer finite", "-4": "a friction or a corner of the forces changes its side without end",
-    "-5": "no step is small enough", "-6": "a contact was lost: a free journal or corner lies outside its walls",
-    "-8": "a journal or corner is deeper in its wall than contact laws hold", "-11": "the run no longer advances",
-    "-12": "the second rate of a drive grows beyond all bounds",
+    [Boundary.NOT_FINITE]: "the motion is no longer finite",
+    [Boundary.CHATTERING]: "a friction or a corner of the forces changes its side without end",
+    [Boundary.TOO_SMALL]: "no step is small enough",
+    [Boundary.LOST]: "a contact was lost: a free journal or corner lies outside its walls",
+    [Boundary.OUTSIDE]: "a journal or corner is deeper in its wall than contact laws hold",
+    [Boundary.STALLED]: "the run no longer advances",
+    [Boundary.UNBOUNDED]: "the second rate of a drive grows beyond all bounds",
 };
 const KINEMATIC_TOLD = {
-    "-1": "the linkage cannot follow its drives: Newton's method finds no position there",
-    "-2": "what the drives and forces do is no number", "-11": "the motion takes more steps than can be made",
+    [Boundary.NEWTON_FAILED]: "the linkage cannot follow its drives: Newton's method finds no position there",
+    [Boundary.NOT_FINITE]: "what the drives and forces do is no number",
+    [Boundary.STALLED]: "the motion takes more steps than can be made",
 };
-const COUNTS = ["steps", "right_hand_sides", "onsets", "grazes", "ratio_outside", "switches", "rejected", "jacobians",
-    "stiff_steps"];
 
 /* To how many seconds an event and a sample are told apart. */
 function resolution(t) {
@@ -41,7 +42,7 @@ class Session {
     constructor(sim, {t, method, rtol, step}, memory, run) {
         const {lib, n, about} = sim, p = method === "rk4" ? sim.p : sim.projected;
         Object.assign(this, {sim, lib, n, t, method, step, memory, run, rows: t.length + 1}); // one for an early end
-        this.width = {y: 2 * n + WORKS, memory: Math.max(about.memory, 1), state: Math.max(about.clearances.length, 1)};
+        this.width = {y: 2 * n + N_WORK, memory: Math.max(about.memory, 1), state: Math.max(about.clearances.length, 1)};
         this.y = memory.numbers(this.rows * this.width.y);
         this.latched = memory.numbers(this.rows * this.width.memory);
         this.state = memory.bytes(this.rows * this.width.state);
@@ -49,8 +50,8 @@ class Session {
         this.times = memory.numbers(t.length, t);
         this.filled = memory.bytes(4);
         this.struct = memory.bytes(lib.gudgeon_run_size());
-        this.report_at = [memory.numbers(1), memory.bytes(4 * COUNTS.length), memory.numbers(4),
-            memory.numbers(3 * this.width.state)];
+        this.report_at = [memory.numbers(1), memory.bytes(4 * Boundary.N_COUNTS),
+            memory.numbers(Boundary.N_RESIDUALS), memory.numbers(Boundary.N_PEAK * this.width.state)];
         const {q, v} = run.begin(), first = memory.numbers(this.width.y, [...q, ...v]);
         const unknown = memory.numbers(this.width.memory, new Float64Array(this.width.memory).fill(NaN));
         lib.gudgeon_run_start(this.struct, this.p, t[0], first, unknown);
@@ -88,23 +89,24 @@ class Session {
     /* The present time, and counts by name. */
     report() {
         this.lib.gudgeon_run_report(this.struct, ...this.report_at);
-        const counts = this.memory.longs(this.report_at[1], COUNTS.length);
-        const named = Object.fromEntries(COUNTS.map((name, k) => [name, counts[k]]));
+        const counts = this.memory.longs(this.report_at[1], Boundary.N_COUNTS);
+        const named = Object.fromEntries(Boundary.COUNT_NAMES.map((name, k) => [name, counts[k]]));
         return {t: this.memory.view(this.report_at[0], 1)[0], counts: named};
     }
 
     /* What is said of statuses here: of journals that are too deep which one, and how deep. */
     get told() {
-        const peaks = this.memory.view(this.report_at[3], 3 * this.width.state), {about, p} = this.sim;
+        const {N_PEAK, PEAK_e_max, OUTSIDE} = Boundary, {about, p} = this.sim;
+        const peaks = this.memory.view(this.report_at[3], N_PEAK * this.width.state);
         const depths = about.clearances.map(([name, k], i) => {
             const [first, count] = about.contours?.[name] ?? [0, 0], worn = Math.max(0, ...p.slice(first, first + count));
-            return [peaks[3 * i + 2] - p[k] - worn, name];
+            return [peaks[N_PEAK * i + PEAK_e_max] - p[k] - worn, name];
         });
         const [depth, name] = depths.sort(([a], [b]) => b - a)[0] ?? [];
         const far = `${Number((1e3 * depth).toPrecision(3))} mm deep in its`, corner = name?.includes(".");
         const deep = corner ? `corner ${name} lies ${far} wall, beyond a tenth of half the guide's width`
             : `the journal of ${name} lies ${far} bearing, beyond a tenth of its radius`;
-        return depths.length ? {...TOLD, "-8": deep} : TOLD;
+        return depths.length ? {...TOLD, [OUTSIDE]: deep} : TOLD;
     }
 
     /* The first sample from a row on that is no number; undefined: none is. */
@@ -125,16 +127,21 @@ class Session {
 
     /* Lists of events and impacts into the run; with `last` the impacts that still go on too. */
     takeLists(last) {
-        const {lib, struct, run, width} = this, rows = this.sim.about.events.length ? MOST_LISTED : 1;
+        const {lib, struct, run, width} = this, rows = this.sim.about.events.length ? MAX_LISTED : 1;
         within(lib, (memory) => {
-            const [at, which] = [memory.numbers(MOST_LISTED), memory.bytes(4 * MOST_LISTED)];
-            const states = [memory.numbers(rows * width.y), memory.numbers(rows * width.memory)];
-            const events = lib.gudgeon_run_events(struct, at, which, ...states, memory.bytes(rows * width.state));
-            for (let i = 0; i < events; i++) run.noteEvent(memory.longs(which, events)[i], memory.view(at, events)[i]);
-            const [numbers, joints] = [memory.numbers(5 * MOST_LISTED), memory.bytes(4 * MOST_LISTED)];
-            const impacts = lib.gudgeon_run_impacts(struct, last, numbers, joints);
-            for (let i = 0; i < impacts; i++)
-                run.noteImpact(memory.longs(joints, impacts)[i], memory.view(numbers + 40 * i, 5));
+            const arrays = [memory.numbers(rows), memory.bytes(4 * rows), memory.numbers(rows * width.y),
+                memory.numbers(rows * width.memory), memory.bytes(rows * width.state)], [at, which] = arrays;
+            for (let count = rows; count === rows;) {
+                count = lib.gudgeon_run_events(struct, rows, ...arrays);
+                for (let i = 0; i < count; i++) run.noteEvent(memory.longs(which, count)[i], memory.view(at, count)[i]);
+            }
+            const [numbers, joints] = [memory.numbers(N_IMPACT_COLUMNS * MAX_LISTED), memory.bytes(4 * MAX_LISTED)];
+            for (let count = MAX_LISTED; count === MAX_LISTED;) {
+                count = lib.gudgeon_run_impacts(struct, last, MAX_LISTED, numbers, joints);
+                for (let i = 0; i < count; i++)
+                    run.noteImpact(memory.longs(joints, count)[i],
+                        memory.view(numbers + 8 * N_IMPACT_COLUMNS * i, N_IMPACT_COLUMNS));
+            }
         });
     }
 
@@ -142,7 +149,7 @@ class Session {
     take() {
         const {run, n, memory, done} = this, y = memory.copy(this.y, done * this.width.y);
         const part = (from, count) => columns(y, this.width.y, from, count);
-        Object.assign(run, {q: part(0, n), v: part(n, n), work: part(2 * n, WORKS), counts: this.report().counts,
+        Object.assign(run, {q: part(0, n), v: part(n, n), work: part(2 * n, N_WORK), counts: this.report().counts,
             memory: memory.copy(this.latched, done * this.width.memory), t: run.t.slice(0, done),
             state: memory.codes(this.state, done * this.width.state)});
         this.takeLists(1);
@@ -164,7 +171,7 @@ function* integrate(sim, asked, memory, run) {
     for (let seen = 0; session.done < asked.t.length; seen = session.done) {
         let status = session.advance(asked.slice);
         const odd = asked.method === "rk4" ? undefined : session.odd(seen), {t} = session.report();
-        if (odd !== undefined) [status, session.done] = [-2, odd];
+        if (odd !== undefined) [status, session.done] = [Boundary.NOT_FINITE, odd];
         if (status === EVENTS_FULL) session.takeLists(0);
         else if (status === ENDED) session.close();
         else if (status) {
@@ -182,9 +189,9 @@ function* integrate(sim, asked, memory, run) {
 class Way {
     constructor(sim, {t}, memory, run) {
         const {lib, n} = sim, rows = t.length;
-        Object.assign(this, {sim, lib, n, t: t.slice(), memory, run, t_end: t[rows - 1], capacity: MOST_LISTED});
+        Object.assign(this, {sim, lib, n, t: t.slice(), memory, run, t_end: t[rows - 1], capacity: MAX_LISTED});
         [this.q, this.v, this.a] = [n, n, n].map((width) => memory.numbers(rows * width));
-        this.work = memory.numbers(rows * WORKS);
+        this.work = memory.numbers(rows * N_WORK);
         this.times = memory.numbers(rows + 1, t);
         this.p = memory.numbers(sim.p.length, sim.p);
         this.maxima = memory.numbers(2);
@@ -224,8 +231,8 @@ class Way {
 
     /* From the place of that rest, which takes the row of the last sample; what that one has is kept. */
     goOn(first) {
-        const {memory, n, resting} = this, places = [...this.row(first), this.work + 8 * first * WORKS];
-        const sizes = [1, n, n, WORKS], next = [...this.row(first + 1), this.work + 8 * (first + 1) * WORKS];
+        const {memory, n, resting} = this, places = [...this.row(first), this.work + 8 * first * N_WORK];
+        const sizes = [1, n, n, N_WORK], next = [...this.row(first + 1), this.work + 8 * (first + 1) * N_WORK];
         this.kept ??= {places, t: this.t[first], first, values: places.map((place, k) => memory.copy(place, sizes[k]))};
         places.forEach((place, k) => memory.view(place, sizes[k]).set(memory.copy(next[k], sizes[k])));
         this.t[first] = this.t[first + 1];
@@ -247,7 +254,7 @@ class Way {
         if (last === first) return [last, 0];
         const [t, q, v] = this.row(first);
         const status = this.lib.gudgeon_kinematic_works(this.course, last - first, t, this.p, q, v,
-            this.work + 8 * first * WORKS, this.longs + 4);
+            this.work + 8 * first * N_WORK, this.longs + 4);
         return [status ? first + this.memory.longs(this.longs, 2)[1] : last, status];
     }
 
@@ -262,7 +269,7 @@ class Way {
             done += count;
             if (status === EVENT_STOPS) return true;
             if (status === EVENTS_FULL) this.capacity *= 4;
-            else if (status && times[done] < this.t_end) throw failure(this.run, -1, KINEMATIC_TOLD, [], times[done]);
+            else if (status && times[done] < this.t_end) throw failure(this.run, Boundary.NEWTON_FAILED, KINEMATIC_TOLD, [], times[done]);
             else if (status) break; // beyond the end
         }
         return false;
@@ -309,7 +316,7 @@ class Way {
         this.arrive();
         const {memory, n} = this, of = (place, width) => memory.copy(place, rows * width);
         Object.assign(this.run, {t: this.t.slice(0, rows), q: of(this.q, n), v: of(this.v, n), a: of(this.a, n),
-            work: of(this.work, WORKS), memory: new Float64Array(rows), state: new Int8Array(0),
+            work: of(this.work, N_WORK), memory: new Float64Array(rows), state: new Int8Array(0),
             counts: {steps: memory.longs(this.longs, 1)[0]}});
         this.run.closeLists();
     }

@@ -91,8 +91,9 @@ class Run {
         else if (t > this.t[0] + resolution(this.t)) this.events.push({name: events[which][0], t});
     }
 
-    noteImpact(which, [t_on, t_off, deltadot, F_peak, t_peak]) {
-        this.impacts.push({joint: this.about.clearances[which][0], t_on, t_off, deltadot, F_peak, t_peak});
+    noteImpact(which, columns) {
+        const named = Boundary.IMPACT_COLUMN_NAMES.map((name, k) => [name, columns[k]]);
+        this.impacts.push({joint: this.about.clearances[which][0], ...Object.fromEntries(named)});
     }
 
     /* By time, and not beyond the last sample. */

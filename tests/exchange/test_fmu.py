@@ -17,9 +17,11 @@ from typer.testing import CliRunner
 
 import gudgeon
 from gudgeon.cli import app
+from gudgeon.contract.boundary import VR_OUTPUTS as OUTPUTS
+from gudgeon.contract.boundary import VR_PARAMETERS as PARAMETERS
 from gudgeon.errors import BadValueError, InputError
 from gudgeon.exchange.fmu import fmu_bytes
-from gudgeon.exchange.fmu_description import OUTPUTS, PARAMETERS, outputs
+from gudgeon.exchange.fmu_description import outputs
 from gudgeon.loading import compiler
 from tests.programs import needs_compiler
 

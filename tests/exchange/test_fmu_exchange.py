@@ -12,7 +12,11 @@ import numpy as np
 import pytest
 
 import gudgeon
-from gudgeon.exchange.fmu_description import INDICATORS, OUTPUTS, RATES, STATES, kept_from_exchange, outputs, states
+from gudgeon.contract.boundary import VR_INDICATORS as INDICATORS
+from gudgeon.contract.boundary import VR_OUTPUTS as OUTPUTS
+from gudgeon.contract.boundary import VR_RATES as RATES
+from gudgeon.contract.boundary import VR_STATES as STATES
+from gudgeon.exchange.fmu_description import kept_from_exchange, outputs, states
 from tests.exchange.test_fmu import instance, scene, written
 from tests.programs import needs_compiler
 

@@ -24,7 +24,8 @@ def test_what_is_kept_is_what_cffi_makes_of_the_engines_declarations() -> None:
     assert spec is not None and spec.loader is not None
     tool = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(tool)
-    assert tool.FILE.read_text(encoding="utf-8") == tool.text()
+    for path, text in tool.FILES.items():
+        assert path.read_text(encoding="utf-8") == text(), path
     parsed = FFI()
     parsed.cdef(all_declarations())
     kept, told = declared.ffi.typeof("Batch"), parsed.typeof("Batch")

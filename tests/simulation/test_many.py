@@ -15,10 +15,10 @@ import gudgeon
 from gudgeon.assembly.linkage import mechanism_size
 from gudgeon.assembly.search import search
 from gudgeon.assembly.start import assemble
+from gudgeon.contract.boundary import IMPACT_COLUMN_NAMES, N_IMPACT_COLUMNS
 from gudgeon.errors import BadValueError, GudgeonError, UnknownNameError
 from gudgeon.integrators import contacts
 from gudgeon.integrators.batch import Runs
-from gudgeon.integrators.session import N_IMPACTS, NUMBERS
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.results.batch import Batch
@@ -94,13 +94,15 @@ def test_more_contacts_than_the_list_of_c_holds() -> None:
 def test_contacts_that_come_in_any_order_are_each_runs_own_by_onset(monkeypatch: pytest.MonkeyPatch) -> None:
     """As threads fetch them, into blocks: lists of several runs mixed, some out of order, equal onsets as they came."""
 
-    def listed(run: np.ndarray, last: bool, numbers: Any, joints: Any) -> int:
-        for k, contact in enumerate(run):
+    def listed(run: list[Any], last: bool, capacity: int, numbers: Any, joints: Any) -> int:
+        own, run[:] = run[:capacity], run[capacity:]
+        for k, contact in enumerate(own):
             joints[k] = contact["joint"]
-            numbers[5 * k : 5 * k + 5] = [float(contact[name]) for name in NUMBERS]
-        return len(run)
+            first = N_IMPACT_COLUMNS * k
+            numbers[first : first + N_IMPACT_COLUMNS] = [float(contact[name]) for name in IMPACT_COLUMN_NAMES]
+        return len(own)
 
-    monkeypatch.setattr(contacts, "BLOCK", N_IMPACTS + 20)
+    monkeypatch.setattr(contacts, "BLOCK", 21)
     lib, pointer = SimpleNamespace(gudgeon_run_impacts=listed), gudgeon.load("bouncing_ball", "damped").compiled.pointer
     fetched = contacts.Contacts(cast(CompiledModel, SimpleNamespace(lib=lib, pointer=pointer)))
     rng, runs, each = np.random.default_rng(5), Runs.__new__(Runs), [list[np.ndarray]() for _ in range(9)]
@@ -110,7 +112,7 @@ def test_contacts_that_come_in_any_order_are_each_runs_own_by_onset(monkeypatch:
         own["joint"], own["F_peak"] = rng.integers(0, 3, len(own)), rng.random(len(own))
         own["t_on"] = len(each[i]) if i < 4 else rng.integers(0, 5, len(own))
         own["t_off"] = own["t_on"] + rng.integers(0, 2, len(own))
-        threads[i % 2].submit(fetched.fetch, i, own, True).result()
+        threads[i % 2].submit(fetched.fetch, i, list(own), True).result()
         each[i].append(own)
     assert len(fetched.all) == 2 and all(own.full for own in fetched.all)
     runs.contacts, runs.cuts = fetched.joined(9)

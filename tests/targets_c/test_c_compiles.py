@@ -42,9 +42,9 @@ static int go(const double *p, const double *y)
 {
     void *run = calloc(1, gudgeon_run_size());
     const double t[2] = {0.0, 4000 * STEP};
-    double latched[2 * (N_CLEARANCES + N_FRICTIONS + 1)], now[2 * N_S], numbers[5 * 256];
+    double latched[2 * (N_CLEARANCES + N_FRICTIONS + 1)], now[2 * N_S], numbers[N_IMPACT_COLUMNS * MAX_LISTED];
     signed char state[2 * (N_CLEARANCES + 1)];
-    int joints[256], status = 0;
+    int joints[MAX_LISTED], status = 0;
     long done = 0;
     for (int i = 0; i <= N_CLEARANCES + N_FRICTIONS; i++)
         latched[i] = NAN;
@@ -52,9 +52,9 @@ static int go(const double *p, const double *y)
     while (done < 2 && !status) {
         status = gudgeon_rk4_run(run, p, STEP, 2, t, 4000, now, latched, state, &done);
         if (status == EVENTS_FULL)
-            status = gudgeon_run_impacts(run, 0, numbers, joints) < 0;
+            status = gudgeon_run_impacts(run, 0, MAX_LISTED, numbers, joints) < 0;
     }
-    gudgeon_run_impacts(run, 1, numbers, joints);
+    gudgeon_run_impacts(run, 1, MAX_LISTED, numbers, joints);
     gudgeon_run_sample(run, p, now, latched, state);
     free(run);
     return status;

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gudgeon.contract.boundary import N_WORK
 from gudgeon.errors import ArrayError, BadValueError
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.kernels import Kernel
@@ -183,7 +184,7 @@ class NumPyModel(ClosedLinkage):
         )  # fmt: skip
         m = len(model.rows)
         aside = SimpleNamespace(
-            a=np.zeros(self.n), lambda_=np.zeros(m), phi=np.zeros(m), phi_dot=np.zeros(m), power=np.zeros(3),
+            a=np.zeros(self.n), lambda_=np.zeros(m), phi=np.zeros(m), phi_dot=np.zeros(m), power=np.zeros(N_WORK),
             event=np.zeros(len(model.events)),
             clearance=[SimpleNamespace(state_rate=[0.0] * model.law_states) for _ in model.clearances],
             friction=[SimpleNamespace() for _ in model.frictions], status=0,

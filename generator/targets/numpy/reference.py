@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon.contract.boundary import N_ENERGY, N_REACTION_COLUMNS
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.reference import given_parameters
 from gudgeon.generator.equations.model import Model
@@ -180,8 +181,8 @@ def _values(
         "nu": numpy.nu(t, q, p), "gamma": numpy.gamma(t, q, v, p), "mass": numpy.mass(p),
         "clearance": np.array([[one.Fx, one.Fy] for one in found.clearance]).ravel(),
     }  # fmt: skip
-    sizes = 3 * len(kept_joints(model)), len(model.scene.mechanism.drives), len(element_series(model)), 2
-    out = [np.zeros(size) for size in sizes]
+    reactions, drives = N_REACTION_COLUMNS * len(kept_joints(model)), len(model.scene.mechanism.drives)
+    out = [np.zeros(size) for size in (reactions, drives, len(element_series(model)), N_ENERGY)]
     try:
         with np.errstate(all="ignore"):
             outputs(t, q.tolist(), v.tolist(), p, found.lambda_, *out)

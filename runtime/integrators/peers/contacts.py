@@ -13,6 +13,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon.contract.boundary import (
+    CODE_CONTACT,
+    CODE_FREE,
+    CODE_IMPACT,
+    N_PEAK,
+    PEAK_F,
+    CLEARANCE_delta,
+    CLEARANCE_deltadot,
+    CLEARANCE_e,
+    CLEARANCE_Fn,
+    CLEARANCE_Ft,
+    PEAK_e_max,
+    PEAK_t,
+)
 from gudgeon.model.compiled import Array, CompiledModel
 
 NODES = np.linspace(0.0, 1.0, 9)  # shares of a step at which it is looked at
@@ -59,11 +73,11 @@ class Contacts:
         self.R = p[[joint.constants["R_i"] for joint in joints]]
         self.floor = _floor(compiled, p)
         self.memory = np.array(memory[: self.count], dtype=np.float64)
-        self.compressing = np.zeros(self.count, dtype=bool) if state is None else np.asarray(state) == 1
+        self.compressing = np.zeros(self.count, dtype=bool) if state is None else np.asarray(state) == CODE_IMPACT
         self.open = [(np.nan, 0.0, np.nan)] * self.count  # onset, largest force, its time
         self.impacts: list[tuple[int, float, float, float, float, float]] = []
-        self.peaks = np.zeros((self.count, 3))  # F, t, e_max
-        self.peaks[:, 2] = -np.inf
+        self.peaks = np.zeros((self.count, N_PEAK))
+        self.peaks[:, PEAK_e_max] = -np.inf
         self.onsets = self.ratio_outside = 0
         self.ratio = (np.inf, -np.inf)
 
@@ -74,15 +88,17 @@ class Contacts:
 
     @property
     def codes(self) -> NDArray[np.int8]:
-        """(n_clearances,) 0 free, 1 impact, 2 contact."""
-        return np.where(self.closed, 2 - self.compressing, 0).astype(np.int8)
+        """Return the contact codes (n_clearances,)."""
+        touching = np.where(self.compressing, CODE_IMPACT, CODE_CONTACT)
+        return np.where(self.closed, touching, CODE_FREE).astype(np.int8)
 
     def view(self, t: Array, y: Array) -> View:
         """At times (N,) and states (N, 2n or more)."""
         n = self.compiled.n
         memory = np.broadcast_to(self.memory, (len(t), self.count))
         found = self.compiled.evaluate(t, y[:, :n], y[:, n : 2 * n], memory, self.p).clearance
-        return View(found[..., 9], found[..., 7], np.hypot(found[..., 2], found[..., 3]), found[..., 6])
+        force = np.hypot(found[..., CLEARANCE_Fn], found[..., CLEARANCE_Ft])
+        return View(found[..., CLEARANCE_delta], found[..., CLEARANCE_deltadot], force, found[..., CLEARANCE_e])
 
     def begin(self, t: float, y: Array, onsets: Callable[[], Array]) -> None:
         """A start inside contact is in contact; contacts of an earlier run go on. `onsets` gives their δ̇⁻."""
@@ -121,11 +137,11 @@ class Contacts:
         for k in range(self.count):
             i = int(np.argmax(view.F[:, k]))
             self._peak(k, float(t[i]), float(view.F[i, k]))
-            self.peaks[k, 2] = max(self.peaks[k, 2], view.e[:, k].max())
+            self.peaks[k, PEAK_e_max] = max(self.peaks[k, PEAK_e_max], view.e[:, k].max())
 
     def _peak(self, k: int, t: float, F: float) -> None:
-        if self.peaks[k, 0] < F:
-            self.peaks[k, :2] = F, t
+        if self.peaks[k, PEAK_F] < F:
+            self.peaks[k, [PEAK_F, PEAK_t]] = F, t
         if self.closed[k] and self.open[k][1] < F:
             self.open[k] = (self.open[k][0], F, t)
 
@@ -147,7 +163,7 @@ class Contacts:
 
         for k in range(self.count):
             i = int(np.argmax(view.F[:, k]))
-            known = self.open[k][1] if self.closed[k] else self.peaks[k, 0]
+            known = self.open[k][1] if self.closed[k] else self.peaks[k, PEAK_F]
             bounds = (t[max(i - 1, 0)], t[min(i + 1, len(t) - 1)])
             if bounds[0] < bounds[1] and view.F[i, k] > KEPT * known:
                 top = minimize_scalar(

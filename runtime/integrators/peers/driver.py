@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon.contract.boundary import N_WORK
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, NonFiniteError, SolverError
 from gudgeon.integrators import rk4
@@ -28,7 +29,7 @@ from gudgeon.integrators.peers.stepper import SCIPY, Equations, Stepper
 from gudgeon.integrators.projection import residuals
 from gudgeon.integrators.steps import Shown
 from gudgeon.integrators.trajectory import Counts, Problem, Trajectory
-from gudgeon.model.compiled import N_WORK, Array
+from gudgeon.model.compiled import Array
 
 SUNDIALS = ("sundials:cvode", "sundials:cvode_adams")
 NAMES = SCIPY + SUNDIALS

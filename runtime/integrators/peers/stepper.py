@@ -7,11 +7,12 @@ from collections.abc import Callable
 
 import numpy as np
 
+from gudgeon.contract.boundary import N_WORK
 from gudgeon.errors import SolverError
 from gudgeon.integrators.peers.contacts import Contacts
 from gudgeon.integrators.projection import project
 from gudgeon.integrators.trajectory import Problem
-from gudgeon.model.compiled import N_WORK, Array
+from gudgeon.model.compiled import Array
 
 SCIPY = ("scipy:DOP853", "scipy:RK45", "scipy:Radau", "scipy:BDF", "scipy:LSODA")
 
