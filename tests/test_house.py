@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from gudgeon.loading.generated_scenes import read_scenes
+
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = [*sorted((ROOT / "runtime").rglob("*.py")), *sorted((ROOT / "generator").rglob("*.py"))]
 LONGEST_FUNCTION, LONGEST_FILE = 40, 500  # lines; of a function those behind its docstring
@@ -84,5 +86,7 @@ def test_what_is_derived_is_committed_and_the_engine_once() -> None:
     definition = re.compile(r"^\w[\w *]*?(\w+)\([^;{]*\)\n\{", re.M)
     functions_of_engine = {name for file in ENGINE for name in definition.findall(file.read_text(encoding="utf-8"))}
     assert {"gudgeon_adaptive_run", "dop853_try", "project_state"} <= functions_of_engine
-    texts = "".join(path.read_text(encoding="utf-8") for path in generated if path.suffix in (".c", ".h"))
+    sources = (source for folder in (ROOT / "generated").glob("*/") for source in read_scenes(folder))
+    texts = "".join(text for source in sources for name, text in source.files.items() if name.endswith((".c", ".h")))
+    assert texts
     assert not functions_of_engine & set(definition.findall(texts))

@@ -99,7 +99,7 @@ def test_the_wheel_holds_templates_mechanisms_and_generated(tmp_path: Path) -> N
     wanted = {"gudgeon/py.typed"}
     for package, folder in FOLDERS.items():
         for path in (ROOT / folder).rglob("*"):
-            if path.suffix in (".py", ".js", ".css", ".html", ".jinja", ".yaml", ".c", ".h", ".json", ".md"):
+            if path.suffix in (".py", ".js", ".css", ".html", ".jinja", ".yaml", ".c", ".h", ".xz", ".md"):
                 wanted.add("/".join([*package.split("."), *path.relative_to(ROOT / folder).parts]))
     assert wanted - held == set()
     stray = {name for name in held - wanted if ".dist-info/" not in name}

@@ -6,24 +6,62 @@ import argparse
 import shutil
 from pathlib import Path
 
+from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.generator.pipeline import generate
 from gudgeon.generator.reader.read import read_mechanism
-from gudgeon.loading.shipped import write_generated
+from gudgeon.generator.targets.c.readme import READABLE
+from gudgeon.loading.generated_scenes import ARCHIVE, read_scenes, unpacked, write_scenes
+
+README = f"""# The C of the shipped mechanisms
+
+`make generated` writes this folder; nothing in it is edited by hand. Each scene of a mechanism has a folder with the
+files that a person reads. Read `model.h` first, for the names, then `dynamics.c`, which solves the equations of motion
+as they are taught, and `reduced.c` or `positions.c`, which is what runs. `gudgeon emit NAME` writes all files of a
+mechanism's scenes and a `README.md` that describes each file.
+
+`{ARCHIVE}` holds what only the compiler and the runtime read: derivatives for stiff methods (`newton.c`), the
+vector code of batches (`lanes.c`), and the names of coordinates, parameters and results.
+
+A file that several scenes of a mechanism have in common is stored once. These scenes use files of another scene:
+
+"""
 
 
 def regenerate(mechanisms: Path, generated: Path) -> None:
-    """Write `generated/<mechanism>/<scene>/` for each file; folders that nothing stands behind are removed."""
-    wanted = set()
+    """Write `generated/<mechanism>/` for each file, remove other folders, and print each changed text."""
+    shared = ""
     for file in sorted(mechanisms.glob("*.yaml")):
-        data = file.read_bytes()
-        for scene in read_mechanism(data, file.name, None).scenes:
-            folder = generated / file.stem / scene
-            write_generated(generate(data, file.name, scene, None), folder)
-            wanted.add(folder)
-            print(f"generated/{file.stem}/{scene}")
-    for folder in generated.glob("*/*/"):
-        if folder not in wanted and folder.parent.name != "__pycache__":
+        data, folder = file.read_bytes(), generated / file.stem
+        scenes = read_mechanism(data, file.name, None).scenes
+        before = {source.scene: source for source in read_scenes(folder)}
+        sources = [generate(data, file.name, scene, None) for scene in scenes]
+        write_scenes(folder, sources, READABLE)
+        for source in sources:
+            print(f"generated/{file.stem}/{source.scene}{_changes(before.get(source.scene), source)}")
+        shared += _shared(folder)
+    for folder in generated.glob("*/"):
+        if not (mechanisms / f"{folder.name}.yaml").exists() and folder.name != "__pycache__":
             shutil.rmtree(folder)
+    (generated / "README.md").write_bytes((README + shared).encode())
+
+
+def _changes(before: KernelSource | None, now: KernelSource) -> str:
+    """Name the texts that differ: differences within the archive are not visible in `git diff`."""
+    if before is None or before == now:
+        return "" if before else ": new"
+    names = sorted({*before.files, *now.files})
+    changed = [name for name in names if before.files.get(name) != now.files.get(name)]
+    return f": changed {', '.join(changed) or 'names and numbers'}"
+
+
+def _shared(folder: Path) -> str:
+    """Return a line for each scene of a mechanism that uses files of another scene."""
+    lines = ""
+    for scene, stored in unpacked(folder)["scenes"].items():
+        paths = [path for path in stored["files"].values() if not path.startswith(f"{scene}/")]
+        links = [f"[{path}]({folder.name}/{path})" for path in paths if (folder / path).exists()]
+        lines += f"- `{folder.name}/{scene}`: {', '.join(links)}\n" if links else ""
+    return lines
 
 
 if __name__ == "__main__":

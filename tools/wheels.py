@@ -23,7 +23,7 @@ from gudgeon.loading import compiler
 from gudgeon.loading.build import build_into
 from gudgeon.loading.cache import Cache
 from gudgeon.loading.carried import CARRIED, file_name, platform
-from gudgeon.loading.shipped import read_generated
+from gudgeon.loading.generated_scenes import read_scenes
 
 ROOT = Path(__file__).resolve().parent.parent
 GLIBC = (2, 17)
@@ -33,8 +33,7 @@ MADE = ("pyproject.toml", "LICENSE", "README.md")  # beside the packages
 
 def sources(generated: Path, mechanism: str = "*") -> list[KernelSource]:
     """Every scene whose C is kept, of one mechanism or of all."""
-    found = (read_generated(path.parent) for path in sorted(generated.glob(f"{mechanism}/*/kernel.json")))
-    return [source for source in found if source is not None]
+    return [source for folder in sorted(generated.glob(f"{mechanism}/")) for source in read_scenes(folder)]
 
 
 def compile_for(machine: str, scenes: list[KernelSource], folder: Path) -> None:

@@ -16,9 +16,9 @@ from gudgeon.files.writing import PART, Aside, check_target, read_regular
 from gudgeon.loading import compiler
 from gudgeon.loading.engine import engine_files, engine_readme
 from gudgeon.loading.find import find_mechanism, kernel_source, read_bytes
-from gudgeon.loading.shipped import REST
 
 ENGINE = "engine"  # the folder of what all scenes share
+REST = "kernel.json"  # the description of a scene, without its texts
 LIST = "emitted.sha256"  # what was written, as `sha256sum -c` reads it
 _LINE = re.compile(r"([0-9a-f]{64})  ([A-Za-z0-9_][A-Za-z0-9_.]*)")  # a name is plain: it leads nowhere else
 

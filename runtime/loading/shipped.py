@@ -1,18 +1,17 @@
 """What comes with gudgeon: the mechanism files, and the kernels that were generated from them.
 
-`generated/<mechanism>/<scene>/` holds the C files as they are compiled and `kernel.json`, the rest of the
-KernelSource. With it an unmodified shipped mechanism needs no derivation. Files in `mechanisms/gallery/` are found
-by name as those beside it are, and are derived where they are loaded: no C of them is kept.
+`generated/<mechanism>/` holds the KernelSource of each scene (generated_scenes.py). With it an unmodified shipped
+mechanism needs no derivation. Files in `mechanisms/gallery/` are found by name as those beside it are, and are derived
+where they are loaded: no C of them is kept.
 """
 
 from __future__ import annotations
 
-import json
-from dataclasses import replace
 from pathlib import Path
 
 from gudgeon.contract.kernel_source import HEADER, KernelSource
 from gudgeon.errors import InputError, UnknownNameError
+from gudgeon.loading.generated_scenes import read_scene
 
 PACKAGE = Path(__file__).parents[1]
 
@@ -30,9 +29,7 @@ MECHANISMS = room("mechanisms")
 GALLERY = MECHANISMS / "gallery"
 STUDIES = room("study_files", beside="studies")
 GENERATED = room("generated")
-REST = "kernel.json"
 STUDY = b"format: gudgeon-study/"
-_TEXTS = (".c", ".h", ".md")
 
 
 def shipped() -> tuple[str, ...]:
@@ -84,27 +81,6 @@ def _unknown(what: str, name: str, names: tuple[str, ...]) -> InputError:
     )
 
 
-def write_generated(source: KernelSource, folder: Path) -> None:
-    """Write a kernel source as files; the same source gives the same bytes, and nothing else stays."""
-    folder.mkdir(parents=True, exist_ok=True)
-    for path in folder.iterdir():
-        if path.suffix in _TEXTS and path.name not in source.files:
-            path.unlink()
-    for name, text in source.files.items():
-        (folder / name).write_bytes(text.encode())
-    (folder / REST).write_bytes((replace(source, files={}).to_json() + "\n").encode())
-
-
-def read_generated(folder: Path) -> KernelSource | None:
-    """The kernel source that `write_generated` wrote; None if there is none, or not a readable one."""
-    try:
-        rest = KernelSource.from_json((folder / REST).read_bytes().decode())
-        texts = {path.name: path.read_bytes().decode() for path in sorted(folder.iterdir()) if path.suffix in _TEXTS}
-    except (OSError, ValueError, TypeError, KeyError):  # absent, cut short, or written by another version
-        return None
-    return replace(rest, files=texts) if rest.main in texts else None
-
-
 def committed_header(mechanism: str, scene: str) -> str:
     """The model.h that is committed for a scene, whatever bytes of YAML it was made from; "" where there is none."""
     if not (mechanism.isidentifier() and scene.isidentifier()):
@@ -119,11 +95,5 @@ def committed(mechanism: str, scene: str, sha256: str) -> KernelSource | None:
     """The committed kernels of a shipped mechanism's scene, if they were made from these very bytes of YAML."""
     if not (mechanism.isidentifier() and scene.isidentifier()):
         return None  # a name must not walk out of the folder
-    folder = GENERATED / mechanism / scene
-    try:
-        # the hash first: it decides in a tenth of the time
-        if json.loads((folder / REST).read_bytes())["sha256"] != sha256:
-            return None
-    except (OSError, ValueError, KeyError, TypeError):
-        return None
-    return read_generated(folder)
+    source = read_scene(GENERATED / mechanism, scene)
+    return source if source and source.sha256 == sha256 else None

@@ -16,7 +16,8 @@ import gudgeon
 from gudgeon.errors import BuildError
 from gudgeon.loading import build, carried, compiler
 from gudgeon.loading.cache import Cache
-from gudgeon.loading.shipped import GENERATED, read_generated
+from gudgeon.loading.generated_scenes import read_scene, read_scenes
+from gudgeon.loading.shipped import GENERATED
 
 ROOT = Path(__file__).parents[2]
 
@@ -25,7 +26,7 @@ ROOT = Path(__file__).parents[2]
 def carries_the_pendulum(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """As a wheel with this scene alone lies there; then there is no compiler, and nothing is in the cache."""
     monkeypatch.delenv("CC", raising=False)
-    source = read_generated(GENERATED / "pendulum" / "ideal")
+    source = read_scene(GENERATED / "pendulum", "ideal")
     assert source is not None
     (tmp_path / "made").mkdir()
     folder = tmp_path / "carried" / carried.platform(sys.platform, os.uname().machine)
@@ -57,7 +58,7 @@ def test_a_shipped_mechanism_runs_without_a_compiler(
 
 def test_what_differs_is_not_taken(wheel: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """An edited text, another engine, a library that is none; and a compiler that the user names is never passed by."""
-    source = read_generated(GENERATED / "pendulum" / "ideal")
+    source = read_scene(GENERATED / "pendulum", "ideal")
     assert source is not None and carried.carried(source) is not None
     edited = replace(source, files={**source.files, "dynamics.c": source.files["dynamics.c"] + "\n"})
     assert carried.carried(edited) is None
@@ -89,5 +90,5 @@ def test_a_wheel_for_a_platform(tmp_path: Path, machine: str) -> None:
     with zipfile.ZipFile(wheel) as held:
         names = [name for name in held.namelist() if f"/carried/linux-{machine}/" in name]
         kinds = {held.read(name)[18] for name in names}  # e_machine of ELF: 62 is x86-64, 183 AArch64
-    assert len(names) == len([*(ROOT / "generated").glob("*/*/kernel.json")])
+    assert len(names) == sum(len(read_scenes(folder)) for folder in (ROOT / "generated").glob("*/"))
     assert kinds == {{"x86_64": 62, "aarch64": 183}[machine]}

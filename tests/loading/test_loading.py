@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import lzma
 import os
 import shutil
 import socket
@@ -23,10 +24,12 @@ from gudgeon.errors import BadValueError, InputError, LimitError, UnknownNameErr
 from gudgeon.loading import shipped
 from gudgeon.loading.cache import Cache
 from gudgeon.loading.find import derived, find_mechanism, generator_hash, kernel_source, model_key, read_bytes
-from gudgeon.loading.shipped import PACKAGE, read_generated, room, shipped_file, write_generated
+from gudgeon.loading.generated_scenes import ARCHIVE, read_scene, read_scenes, write_scenes
+from gudgeon.loading.shipped import PACKAGE, room, shipped_file
 from tests.tiny import tiny
 
 DATA = b"name: tiny\n"
+READABLE = ("tiny.c",)
 
 
 @pytest.fixture
@@ -60,12 +63,11 @@ def cache(tmp_path: Path) -> Cache:
 
 
 @pytest.fixture
-def kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A folder of committed kernels with those of tiny/ideal, made from DATA; its title tells it apart."""
     monkeypatch.setattr(shipped, "GENERATED", tmp_path / "generated")
-    folder = tmp_path / "generated" / "tiny" / "ideal"
-    write_generated(tiny(title="committed", sha256=sha256(DATA).hexdigest()), folder)
-    return folder
+    source = tiny(title="committed", sha256=sha256(DATA).hexdigest())
+    write_scenes(tmp_path / "generated" / "tiny", [source], READABLE)
 
 
 # which file
@@ -229,7 +231,7 @@ def test_an_installation_without_mechanisms_says_that_it_is_not_whole(monkeypatc
 # where it comes from
 
 
-def test_derived_once_then_from_the_cache(cache: Cache, generator: list[object], kept: Path) -> None:
+def test_derived_once_then_from_the_cache(cache: Cache, generator: list[object], kept: None) -> None:
     first = kernel_source(b"other", Path("other.yaml"), "dry", overrides={"a": 1.0}, cache=cache)
     again = kernel_source(b"other", Path("other.yaml"), "dry", overrides={"a": 1.0}, cache=cache)
     assert (first[1], again[1]) == ("derived", "cache")
@@ -241,7 +243,7 @@ def test_the_scene_by_default_is_ideal(cache: Cache, generator: list[object]) ->
     assert kernel_source(DATA, Path("x.yaml"), cache=cache)[0].scene == "ideal"
 
 
-def test_committed_kernels_need_no_generator(cache: Cache, generator: list[object], kept: Path) -> None:
+def test_committed_kernels_need_no_generator(cache: Cache, generator: list[object], kept: None) -> None:
     source, origin = kernel_source(DATA, Path("tiny.yaml"), cache=cache)
     assert (source.title, origin, generator) == ("committed", "generated", [])
 
@@ -257,7 +259,7 @@ def test_committed_kernels_need_no_generator(cache: Cache, generator: list[objec
     ],
 )
 def test_committed_kernels_are_for_exactly_what_they_were_made_from(
-    cache: Cache, generator: list[object], kept: Path, data: bytes, scene: str, asked: dict[str, object]
+    cache: Cache, generator: list[object], kept: None, data: bytes, scene: str, asked: dict[str, object]
 ) -> None:
     _, origin = kernel_source(data, Path("tiny.yaml"), scene, cache=cache, **asked)  # type: ignore[arg-type]
     assert (origin, len(generator)) == ("derived", 1)
@@ -279,31 +281,61 @@ def test_an_unknown_formulation_is_bad_input(cache: Cache) -> None:
 
 
 def test_written_and_read_back(tmp_path: Path) -> None:
-    source = tiny(title="Gelenk über Öl", simulate={"t_end": 1.0})
-    write_generated(source, tmp_path)
-    assert read_generated(tmp_path) == source
+    sources = [tiny(title="Gelenk über Öl", simulate={"t_end": 1.0}), tiny(scene="dry")]
+    write_scenes(tmp_path, sources, READABLE)
+    assert read_scenes(tmp_path) == sources
+
+
+def test_a_text_is_stored_once_and_as_a_file_where_a_person_reads_it(tmp_path: Path) -> None:
+    texts = {**tiny().files, "model.h": "/* ideal */\n", "lanes.c": "/* vectors */\n"}
+    sources = [tiny(files=texts), tiny(scene="dry", files={**texts, "model.h": "/* dry */\n"})]
+    write_scenes(tmp_path, sources, (*READABLE, "model.h"))
+    files = sorted(path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file())
+    assert files == [ARCHIVE, "dry/model.h", "ideal/model.h", "ideal/tiny.c"]
+    assert read_scenes(tmp_path) == sources
 
 
 def test_written_twice_is_the_same_bytes_and_nothing_stays(tmp_path: Path) -> None:
     one, two = tmp_path / "one", tmp_path / "two"
-    write_generated(tiny(), one)
-    write_generated(tiny(files={**tiny().files, "old.h": ""}), two)
-    write_generated(tiny(), two)
-    assert {p.name: p.read_bytes() for p in one.iterdir()} == {p.name: p.read_bytes() for p in two.iterdir()}
+    write_scenes(one, [tiny()], READABLE)
+    write_scenes(two, [tiny(files={**tiny().files, "old.h": ""}), tiny(scene="old")], (*READABLE, "old.h"))
+    write_scenes(two, [tiny()], READABLE)
+
+    def contents(folder: Path) -> dict[str, bytes]:
+        return {path.relative_to(folder).as_posix(): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+    assert contents(one) == contents(two)
+
+
+def test_an_archive_of_another_compressor_is_left_as_it_is(tmp_path: Path) -> None:
+    """Versions of liblzma write other bytes: a commit changes with the contents alone."""
+    write_scenes(tmp_path, [tiny()], READABLE)
+    path = tmp_path / ARCHIVE
+    other = lzma.compress(lzma.decompress(path.read_bytes()), check=lzma.CHECK_CRC32)
+    path.write_bytes(other)
+    write_scenes(tmp_path, [tiny()], READABLE)
+    assert path.read_bytes() == other
+    write_scenes(tmp_path, [tiny(title="another")], READABLE)
+    assert path.read_bytes() != other
 
 
 def test_damaged_committed_kernels_count_as_none(tmp_path: Path) -> None:
-    assert read_generated(tmp_path / "absent") is None
-    write_generated(tiny(), tmp_path)
-    path = tmp_path / "kernel.json"
-    text = path.read_bytes()
-    path.write_bytes(text[:-20])
-    assert read_generated(tmp_path) is None
-    path.write_bytes(text.replace(b'"title"', b'"titel"'))  # a field that this version does not know
-    assert read_generated(tmp_path) is None
-    path.write_bytes(text)
-    (tmp_path / "tiny.c").unlink()
-    assert read_generated(tmp_path) is None
+    assert read_scene(tmp_path / "absent", "ideal") is None
+    write_scenes(tmp_path, [tiny()], READABLE)
+    path = tmp_path / ARCHIVE
+    whole = path.read_bytes()
+    for damaged in (b"", whole[:-20], b"{" + whole, lzma.compress(b"{"), lzma.compress(b"[]")):
+        path.write_bytes(damaged)
+        assert read_scene(tmp_path, "ideal") is None
+    text = lzma.decompress(whole)
+    unknown = text.replace(rb'\"title\"', rb'\"titel\"')  # a field that this version does not know
+    assert unknown != text
+    path.write_bytes(lzma.compress(unknown))
+    assert read_scene(tmp_path, "ideal") is None
+    path.write_bytes(whole)
+    assert read_scene(tmp_path, "ideal") == tiny() and read_scene(tmp_path, "dry") is None
+    (tmp_path / "ideal" / "tiny.c").unlink()
+    assert read_scene(tmp_path, "ideal") is None
 
 
 def test_a_stored_source_of_another_version_is_made_anew(

@@ -35,6 +35,7 @@ _NUMERICS = {
 _FOLLOWED = {
     "reduced.c": "the same motion in few coordinates: there and back; its forces and powers, whose works are summed up",
 }
+READABLE = (*_EQUATIONS, "positions.c")  # stored as files in generated/; a compiler alone reads the others there
 _ENGINE = (
     "Time loops, methods, contacts, events and batches are the same for all scenes: plain C in the folder `engine`, of "
     "which `engine/README.md` says what to read first. It reads the sizes in `model.h`."
