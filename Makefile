@@ -99,7 +99,6 @@ peers: setup  ## scikit-sundae, for the methods sundials:*; the next `bench` inc
 generated: setup  ## derive and write generated/ anew for every shipped mechanism; what Python knows of calls.h
 	@.venv/bin/python tools/declared.py
 	@.venv/bin/python tools/regenerate.py
-	@sh tools/setup all
 
 deviations: setup  ## docs/film_deviation.png and its table, each film law beside the solver of Reynolds' equation
 	@.venv/bin/python tools/deviations.py

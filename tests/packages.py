@@ -16,13 +16,11 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import tomllib
 from collections.abc import Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 PYTHONS = ("python3.11", "python3.12", "python3.13", "python3.14")
-FOLDERS = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]["package-dir"]
 LINKAGE = """\
 format: gudgeon/1
 name: own
@@ -49,12 +47,17 @@ def there_are() -> list[str]:
     return found
 
 
+def copy_sources(folder: Path) -> Path:
+    """Copy what a package is built from, links as what they lead to, so that nothing is left in the checkout."""
+    shutil.copytree(ROOT / "src", folder / "src")
+    for name in ("pyproject.toml", "LICENSE", "README.md"):
+        shutil.copy(ROOT / name, folder / name)
+    return folder
+
+
 def sdist(folder: Path) -> Path:
-    """From a copy, so that nothing is left in the checkout."""
-    copy = folder / "house"
-    copy.mkdir(parents=True)
-    for name in ("pyproject.toml", "LICENSE", "README.md", *FOLDERS.values()):
-        (shutil.copytree if (ROOT / name).is_dir() else shutil.copy)(ROOT / name, copy / name)
+    """Build the sdist in a folder."""
+    copy = copy_sources(folder / "house")
     code = f"import setuptools.build_meta as b; b.build_sdist({str(folder)!r})"
     subprocess.run([sys.executable, "-W", "ignore", "-c", code], cwd=copy, check=True, capture_output=True)
     (made,) = folder.glob("*.tar.gz")

@@ -15,7 +15,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import tomllib
 from pathlib import Path
 
 from gudgeon.contract.kernel_source import KernelSource
@@ -51,15 +50,14 @@ def compile_for(machine: str, scenes: list[KernelSource], folder: Path) -> None:
 
 def make_wheel(out: Path, machine: str = "", scenes: list[KernelSource] | None = None) -> None:
     """One wheel: for a machine's Linux with the kernels of these scenes, or for all machines without any."""
-    packages = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["setuptools"]["package-dir"]
     with tempfile.TemporaryDirectory() as scratch:
         copy = Path(scratch) / "house"
-        copy.mkdir()
-        for name in (*MADE, *packages.values()):
-            (shutil.copytree if (ROOT / name).is_dir() else shutil.copy)(ROOT / name, copy / name)
+        shutil.copytree(ROOT / "src", copy / "src")  # links as what they lead to
+        for name in MADE:
+            shutil.copy(ROOT / name, copy / name)
         settings = {}
         if machine:
-            compile_for(machine, scenes or [], copy / packages["gudgeon"] / CARRIED.name / platform("linux", machine))
+            compile_for(machine, scenes or [], copy / "src/gudgeon" / CARRIED.name / platform("linux", machine))
             settings["--build-option"] = f"--plat-name=manylinux_{GLIBC[0]}_{GLIBC[1]}_{machine}"
         code = f"import setuptools.build_meta as b; b.build_wheel({str(out.resolve())!r}, {settings!r})"
         made = subprocess.run([sys.executable, "-W", "ignore", "-c", code], cwd=copy, capture_output=True, text=True)

@@ -9,9 +9,9 @@ from gudgeon.commands.written import note, wrote
 from gudgeon.errors import BadNameError, BadValueError, InputError
 from gudgeon.files.writing import write_text
 from gudgeon.language.names import check_name
-from gudgeon.loading.shipped import room, shipped_file
+from gudgeon.loading.shipped import PACKAGE, shipped_file
 
-TEMPLATE, OF_STUDY = (room("templates") / name for name in ("new.yaml", "study.yaml"))
+TEMPLATE, OF_STUDY = (PACKAGE / "templates" / name for name in ("new.yaml", "study.yaml"))
 NAME = re.compile(r"^name: .*$", re.MULTILINE)
 
 

@@ -14,9 +14,9 @@ from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.loading.cache import digest
 from gudgeon.loading.engine import engine_digest, own_texts
 from gudgeon.loading.library import Library, opened
-from gudgeon.loading.shipped import room
+from gudgeon.loading.shipped import PACKAGE
 
-CARRIED = room("carried")
+CARRIED = PACKAGE / "carried"
 
 
 def carried(source: KernelSource) -> Library | None:

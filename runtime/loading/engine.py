@@ -11,9 +11,9 @@ from functools import cache
 from gudgeon.contract.kernel_source import HEADER, KernelSource
 from gudgeon.loading.cache import digest
 from gudgeon.loading.contents import contents
-from gudgeon.loading.shipped import room
+from gudgeon.loading.shipped import PACKAGE
 
-ENGINE = room("engine")
+ENGINE = PACKAGE / "engine"
 UNIT = ENGINE / "engine.c"
 CALLS, LANE_CALLS = ENGINE / "scene" / "calls.h", ENGINE / "batch" / "lane_calls.h"
 _SIZE = re.compile(r"^#define (\w+) (\d+)\b", re.MULTILINE)

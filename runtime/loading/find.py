@@ -20,7 +20,7 @@ from gudgeon.files.reading import read_named
 from gudgeon.language.wanted import mapping, number_of, path, text
 from gudgeon.loading.cache import Cache, default_cache, digest
 from gudgeon.loading.contents import contents
-from gudgeon.loading.shipped import PACKAGE, committed, committed_header, room, shipped, shipped_file
+from gudgeon.loading.shipped import PACKAGE, committed, committed_header, shipped, shipped_file
 from gudgeon.waiting.collector import at_rest
 from gudgeon.waiting.imports import GENERATOR, READER, whole
 from gudgeon.waiting.working import working
@@ -198,6 +198,6 @@ def generator_hash(package: Path = PACKAGE) -> str:
     """
     parts: list[str | bytes] = []
     for folder in ("contract", "generator", "language", "templates"):
-        for name, data in contents(room(folder, package), ".py", ".jinja"):
+        for name, data in contents(package / folder, ".py", ".jinja"):
             parts += [f"{folder}/{name}", data]
     return digest(parts)

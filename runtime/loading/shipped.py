@@ -14,21 +14,10 @@ from gudgeon.errors import InputError, UnknownNameError
 from gudgeon.loading.generated_scenes import read_scene
 
 PACKAGE = Path(__file__).parents[1]
-
-
-def room(name: str, package: Path = PACKAGE, beside: str = "") -> Path:
-    """A folder of the package. Where `pip install -e` points into a clone, it lies beside runtime/ and not in it.
-
-    `beside`: what it is called there, if not the same.
-    """
-    inside = package / name
-    return inside if inside.is_dir() else package.parent / (beside or name)
-
-
-MECHANISMS = room("mechanisms")
+MECHANISMS = PACKAGE / "mechanisms"
 GALLERY = MECHANISMS / "gallery"
-STUDIES = room("study_files", beside="studies")
-GENERATED = room("generated")
+STUDIES = PACKAGE / "study_files"
+GENERATED = PACKAGE / "generated"
 STUDY = b"format: gudgeon-study/"
 
 
@@ -56,7 +45,7 @@ def shipped_file(name: str) -> Path:
     names = shipped()
     if name in names:
         file = next(path for folder in (MECHANISMS, GALLERY) if (path := folder / f"{name}.yaml").exists())
-        return file.resolve()  # an editable install holds links: show the real file
+        return file.resolve()  # in a clone the package has links: show the real file
     raise _unknown("mechanism", name, names)
 
 

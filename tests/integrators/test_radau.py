@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from gudgeon.errors import SolverError
-from gudgeon.loading.shipped import room
+from gudgeon.loading.engine import ENGINE
 from tests.integrators.test_methods import LUBRICATED, observed_order, scene_of
 from tests.programs import needs_compiler
 
@@ -21,7 +21,7 @@ TABLES = {"radau5": 3, "radau9": 5}
 @cache
 def printed(name: str) -> dict[str, np.ndarray]:
     """A table of engine/both/radau.h, member by member."""
-    text = (room("engine") / "both/radau.h").read_text(encoding="utf-8")
+    text = (ENGINE / "both/radau.h").read_text(encoding="utf-8")
     body = re.search(rf"RadauTable {name.upper()} = \{{(.*?)\}};", text, re.DOTALL)
     assert body
     found = re.findall(r"\.(\w+) = (\{.*?\}(?=,\s*\.|$)|[\d.]+)", body[1].strip(), re.DOTALL)

@@ -12,7 +12,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from gudgeon.loading.shipped import room
+from gudgeon.loading.engine import ENGINE
 
 Tree = tuple["Tree", ...]  # the branches of its root
 
@@ -53,7 +53,7 @@ def test_there_are_as_many_trees_as_there_should_be() -> None:
 
 
 def read(file: str) -> str:
-    return (room("engine") / "both" / file).read_text(encoding="utf-8")
+    return (ENGINE / "both" / file).read_text(encoding="utf-8")
 
 
 def row(text: str, stages: int) -> np.ndarray:

@@ -25,7 +25,7 @@ from gudgeon.loading import shipped
 from gudgeon.loading.cache import Cache
 from gudgeon.loading.find import derived, find_mechanism, generator_hash, kernel_source, model_key, read_bytes
 from gudgeon.loading.generated_scenes import ARCHIVE, read_scene, read_scenes, write_scenes
-from gudgeon.loading.shipped import PACKAGE, room, shipped_file
+from gudgeon.loading.shipped import PACKAGE, shipped_file
 from tests.tiny import tiny
 
 DATA = b"name: tiny\n"
@@ -210,15 +210,6 @@ def test_what_the_generator_does_not_read_leaves_the_key(package: Path) -> None:
     (package / "generator" / "notes.txt").write_text("x")
     for path in package.rglob("*.py"):
         path.touch()
-    assert generator_hash(package) == base
-
-
-def test_a_plain_editable_install_finds_what_lies_beside_the_package(package: Path) -> None:
-    """`pip install -e .` puts the clone's runtime/ on the path as it is: other folders are its neighbours."""
-    base, beside = generator_hash(package), package.parent
-    for name in ("generator", "templates"):
-        (package / name).rename(beside / name)
-        assert room(name, package) == beside / name
     assert generator_hash(package) == base
 
 
