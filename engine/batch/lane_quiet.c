@@ -62,8 +62,8 @@ static LaneBits take_quietly(Quiet *quiet, LaneRun *x, const LaneStep *step, Lan
     note_speed(x);
     weigh(x);
     quiet->reach = pick(now, x->reach, quiet->reach);
-    const Lanes left = quiet->t_end - x->t, next = 8.0 * x->reach;
-    *h = pick(now, pick(next > left * (1.0 - 1e-9), left, next), *h);
+    const Lanes left = quiet->t_end - x->t, next = TAYLOR_AHEAD * x->reach;
+    *h = pick(now, pick(next > left * SAME_LENGTH, left, next), *h);
     for (int k = 0; k < LANES; k++) {
         quiet->steps[k] -= now[k];
         quiet->open[k] = -(quiet->steps[k] < quiet->unseen[k]);
@@ -98,7 +98,7 @@ static void tell(Quiet *quiet, const LaneRun *x, int k, double h, Run *run)
     run->memory.held = 1;
     run->stability = 0.0;
     run->reach = quiet->reach[k];
-    run->h = 8.0 * run->reach;
+    run->h = TAYLOR_AHEAD * run->reach;
     run->attempt = (Attempt){.h = h, .longest = h, .left = quiet->t_end[k] - run->t, .far = far_of(quiet, x)[k],
         .open = 1};
 }

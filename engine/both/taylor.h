@@ -5,6 +5,7 @@
 enum { SERIES_PART = sizeof(SeriesPart) / sizeof(Real) };
 
 #define TAYLOR_DECAY 2.0 /* log2 of the factor by which a term may exceed the tolerance for each order more */
+#define TAYLOR_AHEAD 8.0 /* times the last step: so far the next one may lead, until its own series bounds it */
 enum { TAYLOR_DEFECT = 5 /* log2 of the defect, in tolerances, that the end of a step may have; less at low orders */ };
 
 /*

@@ -123,7 +123,7 @@ void gudgeon_adaptive_setup(void *memory, int method, int automatic, const doubl
     run->implicit = METHODS[automatic];
     run->patience = automatic && run->method->stiff ? 4 * PATIENCE : PATIENCE;
     run->fixed = fixed;
-    run->error_before = 1e-4;
+    run->error_before = MIN_LAST_ERROR;
     run->crossed = run->skip = -1;
     run->accept = fixed > 0.0 ? INFINITY : 1.0;
     for (int k = 0; k < 2 * N_X; k++)

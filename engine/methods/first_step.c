@@ -7,6 +7,13 @@
 #define RELAXED_STIFF 0.7
 #define LONG_TIME 1e100 /* s: what takes longer to change does not change */
 #define CURVED 0.5  /* the same of motion without a contact that has begun */
+#define FIRST_SHARE 1e-2 /* of what is left of the run: the longest trial step, and the first step if rates stay */
+#define FIT_FAILED 0.1 /* where straight motion of a step's length ends in no number: the share to try next */
+#define MIN_FIT 1e-3 /* least share by which a trial changes the length */
+#define MAX_FIT 30.0 /* largest one */
+#define MAX_LAST_FIT 3.0 /* largest one of the last trial */
+#define MIN_CLOSE 0.3 /* a share between this and MAX_CLOSE: the length is kept without another trial */
+#define MAX_CLOSE 3.0
 enum { MAX_FITTED = 3 };
 
 /* A first step from the size of the motion's first two rates. */
@@ -16,7 +23,7 @@ static int first_size(Run *run, double left, const Parameters *p)
     Aside aside;
     for (int k = 0; k < 2 * N_X; k++)
         one = max_of(one, fabs(run->dy[k]) * run->weight[k]);
-    double h = min_of(one > 0.0 ? 1.0 / one : INFINITY, 1e-2 * left);
+    double h = min_of(one > 0.0 ? 1.0 / one : INFINITY, FIRST_SHARE * left);
     for (int k = 0; k < N_Y; k++)
         y[k] = run->y[k] + h * run->dy[k];
     const int status = rates(run, run->t + h, y, p, dy, &aside);
@@ -26,7 +33,7 @@ static int first_size(Run *run, double left, const Parameters *p)
         two = max_of(two, fabs(dy[k] - run->dy[k]) / h * run->weight[k]);
     /* in the time one / two rates change by themselves: so many tolerances are gone in it; two may be subnormal */
     const double time = min_of(one / two, LONG_TIME), way = max_of(1.0, time * one);
-    run->h = two > 0.0 ? max_of(time * pow(way, -run->method->power), h) : 1e-2 * left;
+    run->h = two > 0.0 ? max_of(time * pow(way, -run->method->power), h) : FIRST_SHARE * left;
     return 0;
 }
 
@@ -74,7 +81,7 @@ static int fit_first(Run *run, double left, const Parameters *p)
     run->onset_share = 0.0;
     for (int i = 1; i <= MAX_FITTED && left > 0.0; i++) {
         const double h = min_of(run->h, left);
-        double change, size, by = 0.1;
+        double change, size, by = FIT_FAILED;
         const int status = changes_within(run, h, p, &change, &size);
         if (status == STOPPED)
             return status;
@@ -84,9 +91,9 @@ static int fit_first(Run *run, double left, const Parameters *p)
         }
         if (h < run->h && by >= 1.0)
             break; /* to the run's end: more is not asked */
-        by = min_of(begins || corner ? 1.0 : i < MAX_FITTED ? 30.0 : 3.0, max_of(1e-3, by));
+        by = min_of(begins || corner ? 1.0 : i < MAX_FITTED ? MAX_FIT : MAX_LAST_FIT, max_of(MIN_FIT, by));
         run->h = by * h;
-        if (by > 0.3 && by < 3.0)
+        if (by > MIN_CLOSE && by < MAX_CLOSE)
             break;
     }
     return 0;

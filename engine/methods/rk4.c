@@ -86,7 +86,7 @@ static int rk4_step(Run *run, double h, double t_new, const Parameters *p, const
 {
     Trial trial;
     run->steps++;
-    if (t_new - run->t < h * (1.0 - 1e-9)) /* what is left of one in which lists were full */
+    if (t_new - run->t < h * SAME_LENGTH) /* what is left of one in which lists were full */
         h = t_new - run->t;
 #endif
     for (int part = 0; part < MAX_PARTS; part++) {

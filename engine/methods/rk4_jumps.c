@@ -63,7 +63,7 @@ static int rk4_step(Run *run, double h, double t_new, const Parameters *p, const
     const double apart = 1e-6 * h;
     double before, after;
     int status = 0;
-    if (t_new - run->t < h * (1.0 - 1e-9))
+    if (t_new - run->t < h * SAME_LENGTH)
         h = t_new - run->t;
     run->steps++;
     const double last = ahead_of(max_of(t_new, run->t + h));

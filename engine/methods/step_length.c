@@ -1,8 +1,38 @@
 /*
- * How long a step is, and by which method: error control by component, and the choice between the explicit and the
- * stiff method from what the steps themselves measure.
+ * How long a step is by its error, and by which method: the choice between the explicit and the stiff one.
+ *
+ * After a step with the error e, in tolerances, and one with the error e' before it, the next length is
+ *     h SAFETY e^(-ERROR_EXPONENT power) e'^(LAST_ERROR_EXPONENT power),   power = 1 / (order of the estimate + 1),
+ * the PI controller of K. Gustafsson, ACM Trans. Math. Softw. 17 (1991), 533-554, in the form of E. Hairer, G. Wanner,
+ * Solving ODEs II (1996), section IV.2. Gustafsson recommends the exponents 0.7 and 0.4 for explicit methods.
+ * [1] E. Hairer, S. P. Norsett, G. Wanner, Solving ODEs I (1993), section II.4, and its code DOP853; [2] the code
+ * RADAU5 of II, section IV.8. Constants without a source are gudgeon's own.
  */
-enum { MAX_STUCK = 200, MAX_CRAWL = 2000, PATIENCE = 8,
+#define SAFETY 0.9              /* [1] */
+#define SAFETY_ONSET 0.8        /* the same for the first step of a contact, whose error has a lower order */
+#define ERROR_EXPONENT 0.8      /* integral gain 0.6 + proportional gain 0.2 */
+#define LAST_ERROR_EXPONENT 0.2 /* proportional gain */
+#define MIN_LAST_ERROR 1e-4     /* tolerances: e' is at least as large, also before the first step [1] */
+#define MIN_ERROR 1e-12         /* tolerances: e is at least as large */
+#define MIN_GROWTH 0.3          /* least ratio of the lengths of two accepted steps; 0.333 in [1] */
+#define MAX_GROWTH 6.0          /* largest ratio [1] */
+#define MAX_GROWTH_EVENTS 2.0   /* where a function that is watched may vanish in the step */
+#define MAX_GROWTH_FIRST 5.0    /* of a first step after an event: the length kept for the next such event */
+#define STABLE_GROWTH 1.1       /* largest ratio of the next length to the longest stable one */
+#define MIN_SHRINK 0.1          /* least ratio of the lengths of a step that is tried and the refused one before it */
+#define MAX_SHRINK 0.9          /* largest ratio */
+#define MIN_ORDER_SEEN 2.0      /* least order that the errors of two refused steps may show */
+#define SHRINK_NEWTON 0.5       /* where Newton's iteration failed [2] */
+#define SHRINK_FAILED 0.25      /* where a stage is not finite */
+#define SHRINK_UNRESOLVED 0.25  /* where what happens between the stages is not resolved */
+#define STRIDE_SLACK 1.5        /* times stride(): a longer step is refused */
+#define SHRINK_STRIDE 0.5       /* and tried again with this share of its length */
+#define PULSE_PART 0.5          /* of the part of a step up to a pulse that it missed: the next length */
+#define MIN_PARTING 0.1         /* of a step: a contact that ends sooner does not change its length */
+enum { MAX_STUCK = 200, MAX_CRAWL = 2000, PATIENCE = 8, MAX_PATIENCE = 4096,
+    WORTHWHILE = 400 /* steps of a method that lasted: the next return to it is as easy as the first */,
+    VOTES = 3 /* steps in a row against the explicit method, until the stiff one takes over */,
+    COMPARE_FROM = 8, COMPARE_TO = 200 /* steps after a change in which the lengths of both methods are compared */,
     SHORTENED = 12 /* times, by four each: what a step does not resolve then is noise */ };
 #define FALLING 0.7   /* of a film's error, that is left in a shorter step at most if it is no rounding */
 #define FINE 1e-9     /* of a run: in a step as short nothing is looked for that is shorter still */
@@ -19,7 +49,8 @@ static void change_method(Run *run)
 {
     const int stiff = run->method->stiff;
     if (!stiff)
-        run->patience = run->since > 400 ? PATIENCE : run->patience < 4096 ? 2 * run->patience : run->patience;
+        run->patience = run->since > WORTHWHILE ? PATIENCE
+            : run->patience < MAX_PATIENCE ? 2 * run->patience : run->patience;
     run->h_stiff = stiff ? run->h : 0.0;
     run->method = stiff ? EXPLICIT : run->implicit;
     run->votes = 0;
@@ -30,12 +61,12 @@ static void change_method(Run *run)
 static void choose(Run *run)
 {
     /* what rho the stiff method's stages show is a lower bound: its steps tell more, until something changes */
-    const int slower = run->since > 8 && run->since < 200 && run->h < WORTH * run->h_stiff;
+    const int slower = run->since > COMPARE_FROM && run->since < COMPARE_TO && run->h < WORTH * run->h_stiff;
     const int stiff = run->method->stiff;
     const int against = stiff ? run->stability < SLACK : run->stability > run->method->bounded || slower;
     run->votes = against ? run->votes + 1 : 0;
     run->since++;
-    if (run->automatic && run->votes >= (stiff ? run->patience : 3))
+    if (run->automatic && run->votes >= (stiff ? run->patience : VOTES))
         change_method(run);
 }
 
@@ -50,7 +81,7 @@ static double order_of(const Run *run, const Step *step)
 static double rough_power(double x, double n) { return rough_exp2(n * rough_log2(x)); }
 
 /* A step's error, in tolerances, from which a length can be told. */
-static double told_error(const Step *step) { return max_of(1e-12, step->error); }
+static double told_error(const Step *step) { return max_of(MIN_ERROR, step->error); }
 
 /* A refused step's share to try next; of two in a row the errors themselves tell how they fall. */
 static double shrink(Run *run, const Step *step)
@@ -59,10 +90,10 @@ static double shrink(Run *run, const Step *step)
     double order = order_of(run, step);
     if (now->refused > now->h && isfinite(now->error) && now->error > step->error)
         order = min_of(1.0 / step->method->power,
-            max_of(2.0, log(now->error / step->error) / log(now->refused / now->h)));
+            max_of(MIN_ORDER_SEEN, log(now->error / step->error) / log(now->refused / now->h)));
     now->refused = now->h;
     now->error = step->error;
-    return min_of(0.9, max_of(0.1, 0.9 * rough_power(step->error, -1.0 / order)));
+    return min_of(MAX_SHRINK, max_of(MIN_SHRINK, SAFETY * rough_power(step->error, -1.0 / order)));
 }
 
 /* What would have fitted in place of the first step since something changed. */
@@ -70,9 +101,9 @@ static void note_first(Run *run, const Step *step)
 {
     if (!run->first)
         return;
-    const double safe = run->rough > 0.0 ? 0.8 : 0.9;
+    const double safe = run->rough > 0.0 ? SAFETY_ONSET : SAFETY;
     const double fits = safe * rough_power(told_error(step), -1.0 / order_of(run, step));
-    *run->first = step->h * min_of(5.0, max_of(0.3, fits));
+    *run->first = step->h * min_of(MAX_GROWTH_FIRST, max_of(MIN_GROWTH, fits));
     if (run->rough > 0.0 && run->onset_share > 0.0)
         run->onset[!!step->method->stiff] = run->onset_share * rough_power(*run->first, run->rough - 1.0);
     run->first = NULL;
@@ -82,7 +113,7 @@ static void note_first(Run *run, const Step *step)
 static void next_own_length(Run *run, const Step *step, int again)
 {
 #if TAYLOR
-    run->h = again ? step->h : 8.0 * run->reach;
+    run->h = again ? step->h : TAYLOR_AHEAD * run->reach;
 #else
     (void)run, (void)step, (void)again;
 #endif
@@ -98,7 +129,8 @@ static double share_as_seen(Run *run, const Step *step, int again)
     if (again && now->refused > step->h && isfinite(now->error) && now->error > step->error)
         run->steep = min_of(STEEPEST, log(now->error / told_error(step)) / log(now->refused / step->h));
     run->steep *= FADES;
-    return run->steep * step->method->power > 1.0 ? 0.9 * rough_power(told_error(step), -1.0 / run->steep) : INFINITY;
+    const double steep = run->steep;
+    return steep * step->method->power > 1.0 ? SAFETY * rough_power(told_error(step), -1.0 / steep) : INFINITY;
 }
 
 /* The next step's length from an accepted one; `again`: after a rejection, `whole`: no output time cut it short. */
@@ -109,12 +141,14 @@ static void next_length(Run *run, const Step *step, int again, int whole)
         return;
     }
     const double error = told_error(step), power = step->method->power;
-    double factor = 0.9 * rough_exp2(power * (0.2 * rough_log2(run->error_before) - 0.8 * rough_log2(error)));
+    double factor = SAFETY * rough_exp2(power
+        * (LAST_ERROR_EXPONENT * rough_log2(run->error_before) - ERROR_EXPONENT * rough_log2(error)));
     if (!step->method->stiff && run->stability > 1.0)
-        factor = min_of(factor, 1.1 * step->method->bounded / run->stability);
+        factor = min_of(factor, STABLE_GROWTH * step->method->bounded / run->stability);
     factor = min_of(factor, share_as_seen(run, step, again));
-    factor = min_of(again ? 1.0 : step->looked ? 2.0 : 6.0, max_of(0.3, factor));
-    run->error_before = max_of(1e-4, error);
+    const double most = again ? 1.0 /* [1] */ : step->looked ? MAX_GROWTH_EVENTS : MAX_GROWTH;
+    factor = min_of(most, max_of(MIN_GROWTH, factor));
+    run->error_before = max_of(MIN_LAST_ERROR, error);
     note_first(run, step);
     if (step->h * factor > run->h || (whole && run->skip < 0) || factor < 1.0)
         run->h = step->h * factor;
@@ -129,7 +163,7 @@ static double up_to_parting(const Run *run, double h)
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &run->aside.clearance[i];
         const double left = PAST * joint->delta / -joint->deltadot;
-        if (gives(i) && run->memory.latch[i].closed && joint->deltadot < 0.0 && left < h && left > 0.1 * h)
+        if (gives(i) && run->memory.latch[i].closed && joint->deltadot < 0.0 && left < h && left > MIN_PARTING * h)
             h = left;
     }
     return h;
@@ -156,7 +190,7 @@ static void open_attempt(Run *run, double t_end, const Parameters *p)
         h = min_of(h, run->pace);
     if (run->fixed <= 0.0)
         h = within_flight(run, up_to_parting(run, min_of(h, stride(run, NULL, p))), p);
-    if (h > left * (1.0 - 1e-9))
+    if (h > left * SAME_LENGTH)
         h = left;
     run->attempt = (Attempt){.h = h, .longest = h, .left = left, .far = far, .open = 1,
         .stiff = run->method->stiff, .of_films = INFINITY};
@@ -199,24 +233,24 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
             now->h *= method->bounded / run->stability;
         return again(run);
     }
-    if (good && free && 1.5 * stride(run, step, p) < now->h) {
+    if (good && free && STRIDE_SLACK * stride(run, step, p) < now->h) {
         now->again = 1;
         run->rejected++;
-        now->h *= 0.5;
+        now->h *= SHRINK_STRIDE;
         return again(run);
     }
     const int unresolved = good && is_unresolved(run, step, p);
     if (good && free && (unresolved || misses_film(run, step, at_ends)) && now->shortened++ < SHORTENED) {
         now->again = 1;
         run->rejected++;
-        now->h *= 0.25;
+        now->h *= SHRINK_UNRESOLVED;
         return again(run);
     }
     const double pulse = good && free && now->h > FINE * now->far ? missed_pulse(run, step, p) : 0.0;
     if (pulse > 0.0 && now->shortened++ < SHORTENED) {
         now->again = 1;
         run->rejected++;
-        now->h *= max_of(0.25, 0.5 * pulse);
+        now->h *= max_of(SHRINK_UNRESOLVED, PULSE_PART * pulse);
         return again(run);
     }
     if (good) {
@@ -228,7 +262,7 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
     }
     now->again = 1;
     run->rejected++;
-    now->h *= tried == NOT_FOUND ? 0.5 : tried ? 0.25 : shrink(run, step);
+    now->h *= tried == NOT_FOUND ? SHRINK_NEWTON : tried ? SHRINK_FAILED : shrink(run, step);
     if (now->h > least)
         return again(run);
     if (N_SWITCHES > 0 && tried == NOT_FINITE && run->memory.held) {

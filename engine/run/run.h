@@ -53,6 +53,7 @@ enum {
 
 #define LONG_RUN 1e4 /* s: an end further away than this says nothing about the shortest step that makes sense */
 #define LEAST_LENGTH (16.0 * DBL_EPSILON)   /* of how far from zero times are: no step is shorter */
+#define SAME_LENGTH (1.0 - 1e-9) /* ratio of the lengths of two steps, above which they count as equal */
 #define CRAWL_LENGTH (256.0 * LEAST_LENGTH) /* and so many shorter than this lead nowhere */
 
 typedef struct Method Method; /* methods.c */
