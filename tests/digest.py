@@ -4,7 +4,8 @@
 
 One line a case: SHA-256 of the times, states, work, impacts, events and the trace of a run of 4,000 of the scene's
 steps, and of three such runs as a batch. Two programs whose lines are the same compute the same bits; `--against`
-tells of each case that differs by how much of its scale. The bits are those of one compiler on one machine.
+reports what differs in a case: numbers of steps, impacts and events, and of each array from which time on and by which
+share of its scale. The bits are those of one compiler on one machine.
 """
 
 from __future__ import annotations
@@ -26,7 +27,9 @@ from gudgeon.generator.reader.read import read_mechanism
 MECHANISMS = Path(gudgeon.__file__).resolve().parents[1] / "mechanisms"
 FORMULATIONS = ("reduced", "full")
 STEPS, STEP, SAMPLES = 4_000, 1e-4, 101
-Arrays = dict[str, NDArray[Any]]
+COUNTS = ("steps", "rejected", "right_hand_sides")  # kept to explain differences, in no digest
+Array = NDArray[Any]
+Arrays = dict[str, Array]
 
 
 def cases(names: list[str]) -> Iterator[tuple[str, Arrays]]:
@@ -60,7 +63,8 @@ def _options(simulation: gudgeon.Simulation, method: str) -> dict[str, Any]:
 def _run(simulation: gudgeon.Simulation, method: str) -> Arrays:
     run = simulation.simulate(**_options(simulation, method))
     found = {name: getattr(run, name) for name in ("t", "q", "v", "state", "memory", "work", "impacts", "events")}
-    return found | ({"trace.t": run.trace.t, "trace": run.trace.joints} if run.trace else {})
+    counts = {name: np.array(getattr(run.diagnostics, name)) for name in COUNTS}
+    return found | counts | ({"trace.t": run.trace.t, "trace": run.trace.joints} if run.trace else {})
 
 
 def _batch(simulation: gudgeon.Simulation, method: str) -> Arrays:
@@ -68,32 +72,64 @@ def _batch(simulation: gudgeon.Simulation, method: str) -> Arrays:
     slot = next(slot for slot in simulation.compiled.source.slots if slot.default)
     runs = simulation.simulate_many({slot.address: slot.default * np.array([1.0, 1.001, 1.002])},
                                     **_options(simulation, method))  # fmt: skip
-    return {name: getattr(runs, name) for name in ("t", "q", "v", "work")}
+    counts = {name: np.asarray(runs.diagnostics[name]) for name in COUNTS if name in runs.diagnostics}
+    return counts | {name: getattr(runs, name) for name in ("t", "q", "v", "work")}
 
 
 def digest(arrays: Arrays) -> str:
     """Of names, types, shapes and bytes."""
     told = sha256()
     for name, values in sorted(arrays.items()):
-        told.update(f"{name} {values.dtype.str} {values.shape}".encode() + np.ascontiguousarray(values).tobytes())
+        if name not in COUNTS:
+            told.update(f"{name} {values.dtype.str} {values.shape}".encode() + np.ascontiguousarray(values).tobytes())
     return told.hexdigest()[:16]
 
 
-def largest(new: Arrays, old: Arrays) -> float:
-    """The largest difference as a share of the array's scale; infinite where the arrays are of another form."""
-    most = 0.0
-    for name in new.keys() | old.keys():
+def differences(new: Arrays, old: Arrays) -> list[str]:
+    """Return what differs between two outcomes of a case: refusals; else counts of steps, then each array that does."""
+    cases = (("is", new), ("was", old))
+    found = [f"{verb} refused: {of['error'].tobytes().decode()}" for verb, of in cases if "error" in of]
+    if found:
+        return found
+    for name in [*COUNTS, *sorted((new.keys() | old.keys()) - {*COUNTS})]:
         a, b = new.get(name), old.get(name)
-        if a is None or b is None or a.shape != b.shape or a.dtype != b.dtype:
-            return np.inf
-        for field in a.dtype.names or ("",):
-            x, y = (np.asarray(c[field] if field else c) for c in (a, b))
-            if x.dtype.kind == "f" and (np.isnan(x) == np.isnan(y)).all():
-                scale = np.nanmax(np.abs(y), initial=1e-300)
-                most = max(most, float(np.nanmax(np.abs(x - y), initial=0.0)) / scale)
-            elif x.tobytes() != y.tobytes():
-                return np.inf
-    return most
+        if a is None or b is None:  # files of earlier versions have no counts
+            found += [] if name in COUNTS else [f"{name} is {'missing' if a is None else 'new'}"]
+        elif (a.dtype, a.shape[1:]) != (b.dtype, b.shape[1:]):
+            found.append(f"{name}: {a.dtype} {a.shape} instead of {b.dtype} {b.shape}")
+        elif a.tobytes() != b.tobytes():
+            found.append(f"{name}: {a} instead of {b}" if name in COUNTS else f"{name}: {_of_rows(name, a, b, new)}")
+    return found
+
+
+def _of_rows(name: str, a: Array, b: Array, new: Arrays) -> str:
+    """The first difference of each field, and the largest one where both have as many rows."""
+    words = [f"{len(a)} instead of {len(b)}"] if len(a) != len(b) else []
+    n = min(len(a), len(b))
+    for field in a.dtype.names or ("",):
+        x, y = (np.asarray(rows[field] if field else rows)[:n] for rows in (a, b))
+        other = np.argwhere((x != y) & ~((x != x) & (y != y)))
+        if len(other):
+            axis = int(x.ndim == 3 and "impacts" not in new)  # of time: a batch has runs before it
+            first = tuple(other[other[:, axis].argmin()])
+            amount = _amount(x, y, first) if len(a) == len(b) else "other"
+            words.append(f"{field} {amount} from {_time(name, a, first[axis], new):.9g} s on".strip())
+    return ", ".join(words) or "signs of zeros or bits of NaN"
+
+
+def _amount(x: Array, y: Array, first: tuple[int, ...]) -> str:
+    """The largest difference as a share of the scale; the first pair where that means nothing."""
+    if x.dtype.kind != "f" or (np.isnan(x) != np.isnan(y)).any():
+        return f"{x[first]} instead of {y[first]}"
+    return f"by {np.nanmax(np.abs(x - y)) / np.nanmax(np.abs(y), initial=1e-300):.1e} of scale"
+
+
+def _time(name: str, rows: Array, row: int, arrays: Arrays) -> float:
+    """Of a row: its own, or that of the sample."""
+    for field in ("t", "t_on"):
+        if field in (rows.dtype.names or ()):
+            return float(rows[row][field])
+    return float(arrays["trace.t" if name == "trace" else name if rows.ndim == 1 else "t"][row])
 
 
 def main() -> None:
@@ -107,15 +143,14 @@ def main() -> None:
     kept: Arrays = {}
     differ, count = 0, 0
     for where, arrays in cases(asked.names):
-        told = digest(arrays)
-        if asked.against:
-            old = {key.split("|")[1]: value for key, value in before.items() if key.startswith(f"{where}|")}
-            same = old and digest(old) == told
-            told += "" if same else f"  differs: {largest(arrays, old):.1e} of scale"
-            differ += not same
+        old = {key.split("|")[1]: value for key, value in before.items() if key.startswith(f"{where}|")}
+        told, lines = digest(arrays), list[str]()
+        if asked.against and digest(old) != told:
+            lines = differences(arrays, old) if old else ["not in the file"]
+            differ += 1
+        print(f"{told}  {where}", *lines, sep="\n    ", flush=True)
         kept |= {f"{where}|{name}": values for name, values in arrays.items()}
         count += 1
-        print(f"{told}  {where}", flush=True)
     if asked.save:
         np.savez_compressed(asked.save, **kept)  # type: ignore[arg-type]
     print(f"{count} cases" + (f", {differ} differ" if asked.against else ""))
