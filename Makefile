@@ -113,5 +113,5 @@ setup-test:
 	@sh tools/setup all,test
 
 clean:  ## remove the environment and everything built; the cache folder stays
-	rm -rf .venv .venv-* build dist out .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf .venv .venv-* build dist out src/*.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
