@@ -80,12 +80,11 @@ def changed(text: str, listed: int) -> str:
 
 def compose(folder: Path, listed: int | None) -> None:
     """The package `gudgeon` as a checkout has it, with that header and what tools/declared.py makes of it."""
-    for name in ("runtime", "engine", "tools"):
-        shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
-    (folder / "gudgeon").symlink_to(folder / "runtime")
-    (folder / "runtime" / "engine").symlink_to(folder / "engine")
-    for name in ("generator", "templates", "mechanisms"):
-        (folder / "runtime" / name).symlink_to(ROOT / name)
+    unused = shutil.ignore_patterns("__pycache__", "generated")
+    shutil.copytree(ROOT / "src" / "gudgeon", folder / "gudgeon", ignore=unused)
+    shutil.copytree(ROOT / "tools", folder / "tools", ignore=unused)
+    (folder / "runtime").symlink_to("gudgeon")
+    (folder / "engine").symlink_to("gudgeon/engine")
     if listed is not None:
         header = folder / "engine" / "boundary.h"
         header.write_text(changed(header.read_text(encoding="utf-8"), listed), encoding="utf-8")
