@@ -77,7 +77,7 @@ static void gather(Flow *flow, int k)
     if (is_taken(flow, k))
         keep(&flow->quiet, x, k, flow->b, flow->number[k], flow->one, run);
 #endif
-    flow->h[k] = run->attempt.h;
+    flow->h[k] = run->control.attempt.h;
     x->t[k] = run->t;
     x->accept[k] = run->accept;
     for (int j = 0; j < N_Y; j++) {
@@ -93,7 +93,7 @@ static void gather(Flow *flow, int k)
     for (int i = 0; i < N_LOOPS; i++)
         x->aside.lambda[i][k] = run->aside.lambda[i];
 #if IMPLICIT_STAGES
-    if (run->attempt.stiff > BY_RODAS5P)
+    if (run->control.attempt.stiff > BY_RODAS5P)
         gather_past(x, k, run);
 #endif
 #endif
@@ -175,7 +175,7 @@ static void scatter_trial(const Flow *flow, int k, int stiff, Run *run)
     run->series_lane = (const double *)flow->x.series + k;
     run->series_lanes = LANES;
     run->reach = flow->x.reach[k];
-    run->attempt.h = flow->step.h[k];
+    run->control.attempt.h = flow->step.h[k];
 }
 #else
 static void scatter_trial(const Flow *flow, int k, int stiff, Run *run)

@@ -13,7 +13,7 @@ static int leaves(Flow *flow, int i, int happened)
 {
     if (happened == RUN_OVER)
         flow->number[i] = -1;
-    flow->kind[i] = happened == RUN_OVER ? -1 : flow->run[i]->attempt.stiff;
+    flow->kind[i] = happened == RUN_OVER ? -1 : flow->run[i]->control.attempt.stiff;
     return happened != GOES_ON;
 }
 

@@ -23,7 +23,7 @@ static void keep(Quiet *quiet, LaneRun *x, int k, const Batch *b, long i, const 
     quiet->sample[k] = t[b->done[i]];
     quiet->t_end[k] = t_end_of(b, i);
     quiet->steps[k] = 0;
-    quiet->unseen[k] = run->fixed > 0.0 || run->attempt.again ? 0 : one->unseen(run);
+    quiet->unseen[k] = run->fixed > 0.0 || run->control.attempt.again ? 0 : one->unseen(run);
     quiet->open[k] = -(quiet->unseen[k] > 0);
     quiet->here[k] = 1;
     x->turned_over[k] = run->turned_over;
@@ -91,15 +91,15 @@ static void tell(Quiet *quiet, const LaneRun *x, int k, double h, Run *run)
     run->speed[1] = x->speed[1][k];
     run->steps += steps;
     run->evaluations += 2 * steps - !!run->series_ready;
-    run->ended[N_MARGINS] += steps;
-    run->advance.steps += steps;
-    run->since += (int)steps;
-    run->votes = run->stuck = run->crawl = run->linear_ready = run->series_ready = 0;
+    run->progress.ended[N_MARGINS] += steps;
+    run->progress.pace.steps += steps;
+    run->choice.since += (int)steps;
+    run->choice.votes = run->progress.stuck = run->progress.crawl = run->linear_ready = run->series_ready = 0;
     run->memory.held = 1;
     run->stability = 0.0;
     run->reach = quiet->reach[k];
-    run->h = TAYLOR_AHEAD * run->reach;
-    run->attempt = (Attempt){.h = h, .longest = h, .left = quiet->t_end[k] - run->t, .far = far_of(quiet, x)[k],
+    run->control.h = TAYLOR_AHEAD * run->reach;
+    run->control.attempt = (Attempt){.h = h, .longest = h, .left = quiet->t_end[k] - run->t, .far = far_of(quiet, x)[k],
         .open = 1};
 }
 #endif

@@ -100,7 +100,7 @@ static void end_run(const Batch *b, long i, int status, Run *run)
 
 static int has_lists(const Run *run)
 {
-    int some = run->n_impacts > 0 || run->n_events > 0 || run->tape.n > 0;
+    int some = run->n_impacts > 0 || run->events.n > 0 || run->tape.n > 0;
     for (int k = 0; k < N_CLEARANCES; k++)
         some = some || run->memory.latch[k].closed;
     return some;
@@ -250,7 +250,7 @@ static int jumps_single(const Batch *b, long i, double t0, double t1)
 }
 
 /*
- * Run i to where its next step is to be tried, which is in run->attempt; of one that has been, in run->step, what
+ * Run i to where its next step is to be tried, which is in run->control.attempt; of one that has been, in run->step, what
  * follows comes first. One that others left untried is tried here.
  */
 static int next_single(const Batch *b, long i, int tried, void *memory)
@@ -266,7 +266,7 @@ static int next_single(const Batch *b, long i, int tried, void *memory)
         const int found = tried == TRIED ? 0 : tried == MISSED ? NOT_FOUND : try_step(run, p, &run->step);
         if (!is_settled(run, found, p, &run->step, &status))
             return GOES_ON;
-        run->attempt.open = 0;
+        run->control.attempt.open = 0;
         if (!status)
             status = take_step(run, p, &out);
     }
@@ -282,7 +282,7 @@ static int next_single(const Batch *b, long i, int tried, void *memory)
 static long unseen_single(const void *memory)
 {
     const Run *run = memory;
-    const long steps = run->tape.rows || run->trace ? 0 : unseen_steps(&run->advance);
+    const long steps = run->tape.rows || run->envelope.rows ? 0 : unseen_steps(&run->progress.pace);
     const long checked = run->audit.level == AUDIT_FULL ? 0 : run->audit.due - run->steps; /* steps before a check */
     return run->audit.level && checked < steps ? (checked > 0 ? checked : 0) : steps;
 }

@@ -43,12 +43,12 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
         run->dy[k] = step->dy[k];
     }
     run->aside = step->aside;
-    run->last_step = t_new - run->t;
-    run->stuck = event >= 0 && t_new - run->t < 1e-9 * step->h ? run->stuck + 1 : 0;
+    run->control.last_step = t_new - run->t;
+    run->progress.stuck = event >= 0 && t_new - run->t < 1e-9 * step->h ? run->progress.stuck + 1 : 0;
     run->t = t_new;
     run->steps++;
     run->stiff_steps += !!step->method->stiff;
-    run->ended[event < 0 ? N_MARGINS : event]++;
+    run->progress.ended[event < 0 ? N_MARGINS : event]++;
     run->linear_ready = 0;
 #if TAYLOR
     run->series_ready = 0;
@@ -68,7 +68,7 @@ static int commit(Run *run, Step *step, double share, double t_new, int event, c
     }
     take_sides(run, run->t, run->y, &run->aside, p);
     if (!status && event >= 0)
-        status = run->stuck > MAX_STUCK + 2 * N_MARGINS ? CHATTERING : change(run, event, p);
+        status = run->progress.stuck > MAX_STUCK + 2 * N_MARGINS ? CHATTERING : change(run, event, p);
     return status ? status : check_contacts(run, p);
 }
 
@@ -128,9 +128,9 @@ static void tape_end(Run *run, int jumped, int is_last, const Parameters *p)
 /* Whether the run no longer advances; what ends its steps is counted anew with each look at its pace. */
 static int stalls(Run *run, double t_end)
 {
-    const int stalled = creeps(&run->advance, run->t, t_end);
-    for (int k = 0; k < N_MARGINS && !stalled && run->advance.steps % PACE_STEPS == 1; k++)
-        run->ended[k] = 0;
+    const int stalled = creeps(&run->progress.pace, run->t, t_end);
+    for (int k = 0; k < N_MARGINS && !stalled && run->progress.pace.steps % PACE_STEPS == 1; k++)
+        run->progress.ended[k] = 0;
     return stalled;
 }
 
@@ -143,7 +143,7 @@ static int stalls(Run *run, double t_end)
 /* A step of length h instead, and its first event. */
 static int step_again(Run *run, double h, double t_end, const Parameters *p, Step *step, double *share, int *event)
 {
-    run->h = h;
+    run->control.h = h;
     open_attempt(run, t_end, p);
     const int status = accepted_step(run, p, step);
     if (!status)
@@ -175,30 +175,30 @@ static int event_of_step(Run *run, const Samples *out, const Parameters *p, Step
     for (int k = 0; k < SHORTENED && !status && run->fixed <= 0.0 && lacks_dense(run, step, p, out); k++)
         status = step_again(run, 0.25 * step->h, t_end, p, step, share, event);
     for (int k = 0; k < MAX_AGAIN && !status && *event >= 0 && longer * *share < 1.0 && run->fixed <= 0.0; k++) {
-        const double next = run->h, h = longer * *share * step->h;
+        const double next = run->control.h, h = longer * *share * step->h;
         if (h <= run->tick)
             break; /* it lies at the step's beginning, where no row is another one */
         if (!PERIODS && !misses_film_at(run, step, *share, p))
             break;
         status = step_again(run, h, t_end, p, step, share, event);
-        run->h = next;
+        run->control.h = next;
     }
     return status;
 }
 
 /*
- * What comes before a step: the start, samples that are due. Whether a step is wanted (run->attempt has it) and not,
+ * What comes before a step: the start, samples that are due. Whether a step is wanted (run->control.attempt has it) and not,
  * as `last` says, to be left to another call; if not *status is 0, EVENTS_FULL, STOPPED, or what went wrong.
  */
 static int wants_step(Run *run, int last, const Parameters *p, const Samples *out, int *status)
 {
     const double t_end = out->t[out->n - 1];
-    const int begins = !run->memory.held && !run->attempt.open;
+    const int begins = !run->memory.held && !run->control.attempt.open;
     *status = begins ? begin_adaptive(run, t_end - run->t, p) : 0;
     if (!*status && begins)
         tape_jump(run, p);
     run->tape.jumped |= begins;
-    if (run->attempt.open)
+    if (run->control.attempt.open)
         return !last; /* it was under way */
     if (*status)
         return 0;
@@ -242,7 +242,7 @@ static int take_step(Run *run, const Parameters *p, const Samples *out)
     run->asked.hold = 1;
     if (AUDITS && !status)
         audit_step(run, step, share, event, p);
-    const int listed = run->n_events;
+    const int listed = run->events.n;
 #if N_CORNERS
     const double drift = run->phi_dot_max;
 #endif
@@ -287,7 +287,7 @@ int gudgeon_adaptive_run(void *memory, const double *parameters, long n, const d
     const Samples out = {.n = n, .done = done, .t = t, .y = y, .latched = latched, .state = state};
     int status;
     run->method = own_method(run->method);
-    run->implicit = own_method(run->implicit);
+    run->choice.implicit = own_method(run->choice.implicit);
     run->step.method = own_method(run->step.method);
     for (long i = 0; wants_step(run, i == limit, p, &out, &status); i++) {
         status = accepted_step(run, p, &run->step);

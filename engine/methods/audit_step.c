@@ -219,7 +219,7 @@ static void audit_step(Run *run, Step *step, double share, int event, const Para
     const int dense_ready = step->dense_ready;
     const double h = share * step->h;
     const int all = audit->level == AUDIT_FULL, due = run->steps >= audit->due, whole = share >= 1.0 && event < 0;
-    const int is_longer = (h > AUDIT_LONGER * run->last_step || (whole && h > AUDIT_LONGEST * audit->longest))
+    const int is_longer = (h > AUDIT_LONGER * run->control.last_step || (whole && h > AUDIT_LONGEST * audit->longest))
         && !step->method->own_length
         && ((double)audit->longer + 1.0) * mean_interval(step->method) < (double)run->steps;
     const int by_turn = (int)(audit->turns % 2);

@@ -10,7 +10,7 @@ static int leave_zeros(Run *run, const Parameters *p)
         int zeros = 0;
         for (int i = 0; i < N_USER_EVENTS; i++)
             zeros |= run->memory.event_side[i] == 0;
-        const int status = zeros ? events_ahead(run, run->t, share * run->h, run->y, run->dy, p, value) : 0;
+        const int status = zeros ? events_ahead(run, run->t, share * run->control.h, run->y, run->dy, p, value) : 0;
         if (status || !zeros)
             return share > 1e-6 ? 0 : status;
         for (int i = 0; i < N_USER_EVENTS; i++)
@@ -93,10 +93,10 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
     if (!status)
         status = begin_beyond(run, 0.0, p);
 #endif
-    if (!status && !(run->h > 0.0)) {
+    if (!status && !(run->control.h > 0.0)) {
         status = first_size(run, left, p);
         if (!status && rests_on_law(run)) { /* its force may have begun right before the start: as at an onset */
-            begin_with(run, &run->after_contact[count_closed(run)][0], ROUGH);
+            begin_with(run, &run->control.after_contact[count_closed(run)][0], ROUGH);
             status = fit_first(run, left, p);
         }
     }
@@ -105,7 +105,7 @@ static int begin_adaptive(Run *run, double left, const Parameters *p)
         status = leave_zeros(run, p);
 #endif
     if (run->method->own_length)
-        run->h = left;
+        run->control.h = left;
     return status;
 }
 
@@ -119,11 +119,11 @@ void gudgeon_adaptive_setup(void *memory, int method, int automatic, const doubl
 {
     Run *run = memory;
     run->method = METHODS[method];
-    run->automatic = automatic > 0;
-    run->implicit = METHODS[automatic];
-    run->patience = automatic && run->method->stiff ? 4 * PATIENCE : PATIENCE;
+    run->choice.automatic = automatic > 0;
+    run->choice.implicit = METHODS[automatic];
+    run->choice.patience = automatic && run->method->stiff ? 4 * PATIENCE : PATIENCE;
     run->fixed = fixed;
-    run->error_before = MIN_LAST_ERROR;
+    run->control.error_before = MIN_LAST_ERROR;
     run->crossed = run->skip = -1;
     run->accept = fixed > 0.0 ? INFINITY : 1.0;
     for (int k = 0; k < 2 * N_X; k++)

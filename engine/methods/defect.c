@@ -96,11 +96,11 @@ static double film_error(Run *run, Step *step, const Parameters *p)
     const double share = make_dense(run, p, step) ? -1.0 : film_share_at(run, step, step->method->between, ends, p);
     if (share < 0.0)
         return 0.0;
-    run->film_h = step->h, run->film_steps = run->steps;
-    run->film_error = share / film_limit(run);
+    run->films.h = step->h, run->films.steps = run->steps;
+    run->films.error = share / film_limit(run);
     if (step->method->stiff == BY_RODAS5P)
-        run->film_error *= RODAS5P_FILM;
-    return run->film_error;
+        run->films.error *= RODAS5P_FILM;
+    return run->films.error;
 }
 
 /*
@@ -156,8 +156,8 @@ static int is_film_known(const Run *run, const Step *step, double at_ends)
 {
     if (!step->method->stiff || !has_films())
         return 1;
-    return run->film_error < FILM_SMALL && at_ends < FILM_SMALL && step->h < FILM_LONGER * run->film_h && !run->first
-        && run->steps - run->film_steps < FILM_STEPS;
+    return run->films.error < FILM_SMALL && at_ends < FILM_SMALL && step->h < FILM_LONGER * run->films.h && !run->control.first
+        && run->steps - run->films.steps < FILM_STEPS;
 }
 
 /*

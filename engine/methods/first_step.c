@@ -33,7 +33,7 @@ static int first_size(Run *run, double left, const Parameters *p)
         two = max_of(two, fabs(dy[k] - run->dy[k]) / h * run->weight[k]);
     /* in the time one / two rates change by themselves: so many tolerances are gone in it; two may be subnormal */
     const double time = min_of(one / two, LONG_TIME), way = max_of(1.0, time * one);
-    run->h = two > 0.0 ? max_of(time * pow(way, -run->method->power), h) : FIRST_SHARE * left;
+    run->control.h = two > 0.0 ? max_of(time * pow(way, -run->method->power), h) : FIRST_SHARE * left;
     return 0;
 }
 
@@ -63,7 +63,7 @@ static double better_by(const Run *run, double h, double change, double size, do
     const double missed = change * h;
     if (!(missed > 0.0))
         return INFINITY;
-    return run->rough > 0.0 ? rough_power(fits / missed, 1.0 / (run->rough - 1.0))
+    return run->control.rough > 0.0 ? rough_power(fits / missed, 1.0 / (run->control.rough - 1.0))
         : max_of(fits * size / change, sqrt(1.0 / missed));
 }
 
@@ -73,26 +73,26 @@ static double better_by(const Run *run, double h, double change, double size, do
  */
 static int fit_first(Run *run, double left, const Parameters *p)
 {
-    const int stiff = !!run->method->stiff, begins = run->rough > 0.0, corner = run->first >= &run->after_corner[0][0];
-    const double onset = run->onset[stiff] > 0.0 ? run->onset[stiff] : stiff ? ONSET_STIFF : ONSET;
+    const int stiff = !!run->method->stiff, begins = run->control.rough > 0.0, corner = run->control.first >= &run->control.after_corner[0][0];
+    const double onset = run->control.onset[stiff] > 0.0 ? run->control.onset[stiff] : stiff ? ONSET_STIFF : ONSET;
     const double fits = begins ? onset : !corner ? CURVED : stiff ? RELAXED_STIFF : RELAXED;
-    if (!run->first || run->fixed > 0.0 || run->method->own_length || (*run->first > 0.0 && !begins))
+    if (!run->control.first || run->fixed > 0.0 || run->method->own_length || (*run->control.first > 0.0 && !begins))
         return 0;
-    run->onset_share = 0.0;
+    run->control.onset_share = 0.0;
     for (int i = 1; i <= MAX_FITTED && left > 0.0; i++) {
-        const double h = min_of(run->h, left);
+        const double h = min_of(run->control.h, left);
         double change, size, by = FIT_FAILED;
         const int status = changes_within(run, h, p, &change, &size);
         if (status == STOPPED)
             return status;
         if (!status && isfinite(change + size)) {
             by = better_by(run, h, change, size, fits);
-            run->onset_share = change * rough_power(h, 2.0 - run->rough);
+            run->control.onset_share = change * rough_power(h, 2.0 - run->control.rough);
         }
-        if (h < run->h && by >= 1.0)
+        if (h < run->control.h && by >= 1.0)
             break; /* to the run's end: more is not asked */
         by = min_of(begins || corner ? 1.0 : i < MAX_FITTED ? MAX_FIT : MAX_LAST_FIT, max_of(MIN_FIT, by));
-        run->h = by * h;
+        run->control.h = by * h;
         if (by > MIN_CLOSE && by < MAX_CLOSE)
             break;
     }

@@ -15,12 +15,12 @@ static void take_way(Run *run, int way)
 }
 
 /* Before a step is tried. */
-static void first_way(Run *run) { take_way(run, run->unlooked ? AS_EVER : TELLS); }
+static void first_way(Run *run) { take_way(run, run->near.unlooked ? AS_EVER : TELLS); }
 
 /* The same for rk4, whose lanes do not count. */
 static void first_way_of_fixed(Run *run)
 {
-    run->unlooked = TREE ? 0 : run->unlooked;
+    run->near.unlooked = TREE ? 0 : run->near.unlooked;
     first_way(run);
 }
 
@@ -35,12 +35,12 @@ static int other_way(Run *run, int status)
     if (way != AS_EVER)
         take_way(run, way == TELLS ? AT_ONCE : CLOSED);
     if (way != AS_EVER) {
-        run->in_vain = 0;
-    } else if (run->unlooked) {
-        run->unlooked--;
+        run->near.in_vain = 0;
+    } else if (run->near.unlooked) {
+        run->near.unlooked--;
     } else {
-        run->in_vain += run->in_vain < MOST_SKIPPED;
-        run->unlooked = (1L << run->in_vain) - 1;
+        run->near.in_vain += run->near.in_vain < MOST_SKIPPED;
+        run->near.unlooked = (1L << run->near.in_vain) - 1;
     }
     return 0;
 }

@@ -40,7 +40,7 @@ static void rk4_note_event(Run *run, int i, double share, double h, const Parame
 {
 #if N_USER_EVENTS
     Trial at;
-    const int k = run->n_events, lost = rk4_try(run, share * h, p, &at);
+    const int k = run->events.n, lost = rk4_try(run, share * h, p, &at);
     for (int j = 0; lost && j < N_Y; j++)
         at.y[j] = NAN;
     (void)note_event(run, i, run->t + share * h, at.y, p);
@@ -77,7 +77,7 @@ static int rk4_events(Run *run, double h, const Trial *trial, const Parameters *
         }
         if (isnan(trial->aside.event[i]))
             note_no_number(run, i, run->t + h);
-        if (run->stop && event_stops[i])
+        if (run->events.stop && event_stops[i])
             end = min_of(end, share[i]);
     }
     if (run->asked.stop)

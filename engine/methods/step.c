@@ -150,7 +150,7 @@ static int finish_step(Run *run, Step *step, const Parameters *p)
     project_rows(run, step->t + step->h, step->y, p);
     const double missed = distance_from_rows(run, before, step->y);
     if (missed > max_of(FAR_FROM_ROWS, ROWS_ROUNDED / tolerance_of(run)) && run->steps > 0
-        && run->attempt.strayed++ < MAX_STRAYED)
+        && run->control.attempt.strayed++ < MAX_STRAYED)
         step->error = max_of(step->error, missed);
     hold_contacts(run, step->t + step->h, step->y, p);
     const int status = rates_at_rest(run, step->t + step->h, step->y, p, step->dy, &step->aside);

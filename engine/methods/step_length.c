@@ -49,24 +49,24 @@ static void change_method(Run *run)
 {
     const int stiff = run->method->stiff;
     if (!stiff)
-        run->patience = run->since > WORTHWHILE ? PATIENCE
-            : run->patience < MAX_PATIENCE ? 2 * run->patience : run->patience;
-    run->h_stiff = stiff ? run->h : 0.0;
-    run->method = stiff ? EXPLICIT : run->implicit;
-    run->votes = 0;
-    run->since = 0;
+        run->choice.patience = run->choice.since > WORTHWHILE ? PATIENCE
+            : run->choice.patience < MAX_PATIENCE ? 2 * run->choice.patience : run->choice.patience;
+    run->control.h_stiff = stiff ? run->control.h : 0.0;
+    run->method = stiff ? EXPLICIT : run->choice.implicit;
+    run->choice.votes = 0;
+    run->choice.since = 0;
 }
 
 /* Which method goes on: the explicit one until stability bounds its steps, the stiff one while it would. */
 static void choose(Run *run)
 {
     /* what rho the stiff method's stages show is a lower bound: its steps tell more, until something changes */
-    const int slower = run->since > COMPARE_FROM && run->since < COMPARE_TO && run->h < WORTH * run->h_stiff;
+    const int slower = run->choice.since > COMPARE_FROM && run->choice.since < COMPARE_TO && run->control.h < WORTH * run->control.h_stiff;
     const int stiff = run->method->stiff;
     const int against = stiff ? run->stability < SLACK : run->stability > run->method->bounded || slower;
-    run->votes = against ? run->votes + 1 : 0;
-    run->since++;
-    if (run->automatic && run->votes >= (stiff ? run->patience : VOTES))
+    run->choice.votes = against ? run->choice.votes + 1 : 0;
+    run->choice.since++;
+    if (run->choice.automatic && run->choice.votes >= (stiff ? run->choice.patience : VOTES))
         change_method(run);
 }
 
@@ -74,7 +74,7 @@ static void choose(Run *run)
 static double order_of(const Run *run, const Step *step)
 {
     const double order = 1.0 / step->method->power;
-    return run->first && run->rough > 0.0 ? min_of(run->rough, order) : order;
+    return run->control.first && run->control.rough > 0.0 ? min_of(run->control.rough, order) : order;
 }
 
 /* x^n to 1e-4: lengths need no more. */
@@ -86,7 +86,7 @@ static double told_error(const Step *step) { return max_of(MIN_ERROR, step->erro
 /* A refused step's share to try next; of two in a row the errors themselves tell how they fall. */
 static double shrink(Run *run, const Step *step)
 {
-    Attempt *now = &run->attempt;
+    Attempt *now = &run->control.attempt;
     double order = order_of(run, step);
     if (now->refused > now->h && isfinite(now->error) && now->error > step->error)
         order = min_of(1.0 / step->method->power,
@@ -99,21 +99,21 @@ static double shrink(Run *run, const Step *step)
 /* What would have fitted in place of the first step since something changed. */
 static void note_first(Run *run, const Step *step)
 {
-    if (!run->first)
+    if (!run->control.first)
         return;
-    const double safe = run->rough > 0.0 ? SAFETY_ONSET : SAFETY;
+    const double safe = run->control.rough > 0.0 ? SAFETY_ONSET : SAFETY;
     const double fits = safe * rough_power(told_error(step), -1.0 / order_of(run, step));
-    *run->first = step->h * min_of(MAX_GROWTH_FIRST, max_of(MIN_GROWTH, fits));
-    if (run->rough > 0.0 && run->onset_share > 0.0)
-        run->onset[!!step->method->stiff] = run->onset_share * rough_power(*run->first, run->rough - 1.0);
-    run->first = NULL;
+    *run->control.first = step->h * min_of(MAX_GROWTH_FIRST, max_of(MIN_GROWTH, fits));
+    if (run->control.rough > 0.0 && run->control.onset_share > 0.0)
+        run->control.onset[!!step->method->stiff] = run->control.onset_share * rough_power(*run->control.first, run->control.rough - 1.0);
+    run->control.first = NULL;
 }
 
 /* By a method whose steps are as long as they may be: how far one may look ahead next. */
 static void next_own_length(Run *run, const Step *step, int again)
 {
 #if TAYLOR
-    run->h = again ? step->h : TAYLOR_AHEAD * run->reach;
+    run->control.h = again ? step->h : TAYLOR_AHEAD * run->reach;
 #else
     (void)run, (void)step, (void)again;
 #endif
@@ -125,11 +125,11 @@ static void next_own_length(Run *run, const Step *step, int again)
  */
 static double share_as_seen(Run *run, const Step *step, int again)
 {
-    const Attempt *now = &run->attempt;
+    const Attempt *now = &run->control.attempt;
     if (again && now->refused > step->h && isfinite(now->error) && now->error > step->error)
-        run->steep = min_of(STEEPEST, log(now->error / told_error(step)) / log(now->refused / step->h));
-    run->steep *= FADES;
-    const double steep = run->steep;
+        run->control.steep = min_of(STEEPEST, log(now->error / told_error(step)) / log(now->refused / step->h));
+    run->control.steep *= FADES;
+    const double steep = run->control.steep;
     return steep * step->method->power > 1.0 ? SAFETY * rough_power(told_error(step), -1.0 / steep) : INFINITY;
 }
 
@@ -142,16 +142,16 @@ static void next_length(Run *run, const Step *step, int again, int whole)
     }
     const double error = told_error(step), power = step->method->power;
     double factor = SAFETY * rough_exp2(power
-        * (LAST_ERROR_EXPONENT * rough_log2(run->error_before) - ERROR_EXPONENT * rough_log2(error)));
+        * (LAST_ERROR_EXPONENT * rough_log2(run->control.error_before) - ERROR_EXPONENT * rough_log2(error)));
     if (!step->method->stiff && run->stability > 1.0)
         factor = min_of(factor, STABLE_GROWTH * step->method->bounded / run->stability);
     factor = min_of(factor, share_as_seen(run, step, again));
     const double most = again ? 1.0 /* [1] */ : step->looked ? MAX_GROWTH_EVENTS : MAX_GROWTH;
     factor = min_of(most, max_of(MIN_GROWTH, factor));
-    run->error_before = max_of(MIN_LAST_ERROR, error);
+    run->control.error_before = max_of(MIN_LAST_ERROR, error);
     note_first(run, step);
-    if (step->h * factor > run->h || (whole && run->skip < 0) || factor < 1.0)
-        run->h = step->h * factor;
+    if (step->h * factor > run->control.h || (whole && run->skip < 0) || factor < 1.0)
+        run->control.h = step->h * factor;
 }
 
 /*
@@ -185,32 +185,32 @@ static double within_flight(const Run *run, double h, const Parameters *p)
 static void open_attempt(Run *run, double t_end, const Parameters *p)
 {
     const double left = t_end - run->t, far = max_of(min_of(fabs(t_end), LONG_RUN), fabs(run->t));
-    double h = run->fixed > 0.0 ? run->fixed : run->h;
+    double h = run->fixed > 0.0 ? run->fixed : run->control.h;
     if (run->skip >= 0 && run->fixed <= 0.0)
-        h = min_of(h, run->pace);
+        h = min_of(h, run->control.pace);
     if (run->fixed <= 0.0)
         h = within_flight(run, up_to_parting(run, min_of(h, stride(run, NULL, p))), p);
     if (h > left * SAME_LENGTH)
         h = left;
-    run->attempt = (Attempt){.h = h, .longest = h, .left = left, .far = far, .open = 1,
+    run->control.attempt = (Attempt){.h = h, .longest = h, .left = left, .far = far, .open = 1,
         .stiff = run->method->stiff, .of_films = INFINITY};
 }
 
 /* Another one, as long as attempt->h. */
 static int again(Run *run)
 {
-    run->attempt.stiff = run->method->stiff;
+    run->control.attempt.stiff = run->method->stiff;
     return 0;
 }
 
 /*
  * Whether the step that was tried is accepted, `tried` being its status: 0 if not, with what is to be tried next in
- * run->attempt. If so, the next one's length is in run->h; or *status is what went wrong. Events are not looked for.
+ * run->control.attempt. If so, the next one's length is in run->control.h; or *status is what went wrong. Events are not looked for.
  */
 static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int *status)
 {
     const Method *method = step->method;
-    Attempt *now = &run->attempt;
+    Attempt *now = &run->control.attempt;
     const int free = run->fixed <= 0.0;
     const int fits = !tried && step->error <= run->accept && free;
     const double at_ends = fits ? film_error_at_ends(run, step, FILM_PART) : 0.0;
@@ -227,7 +227,7 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
         return 1;
     if (good && !method->stiff && free && run->stability > method->unstable) {
         run->rejected++;
-        if (run->automatic && !now->given_up)
+        if (run->choice.automatic && !now->given_up)
             change_method(run);
         else
             now->h *= method->bounded / run->stability;
@@ -256,8 +256,8 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
     if (good) {
         next_length(run, step, now->again, now->h < now->left);
         /* so many steps on so short a way lead nowhere: speeds grow beyond all bounds (a dead centre) */
-        run->crawl = now->h < CRAWL_LENGTH * now->far ? run->crawl + 1 : 0;
-        *status = run->crawl > MAX_CRAWL ? what_ends(run, TOO_SMALL, p) : 0;
+        run->progress.crawl = now->h < CRAWL_LENGTH * now->far ? run->progress.crawl + 1 : 0;
+        *status = run->progress.crawl > MAX_CRAWL ? what_ends(run, TOO_SMALL, p) : 0;
         return 1;
     }
     now->again = 1;
@@ -270,7 +270,7 @@ static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int 
         now->h = now->longest;
         return again(run);
     }
-    if (!run->automatic || !method->stiff || now->given_up++) {
+    if (!run->choice.automatic || !method->stiff || now->given_up++) {
         *status = tried ? tried : what_ends(run, TOO_SMALL, p);
         return 1;
     }
@@ -284,17 +284,17 @@ static int try_step(Run *run, const Parameters *p, Step *step)
     step->method = run->method;
     step->stages_lane = NULL;
     int status;
-    for (first_way(run); other_way(run, status = run->method->try(run, run->attempt.h, p, step));)
+    for (first_way(run); other_way(run, status = run->method->try(run, run->control.attempt.h, p, step));)
         ;
     return status;
 }
 
-/* Steps as long as run->attempt has them, until one is accepted; 0, or what went wrong. */
+/* Steps as long as run->control.attempt has them, until one is accepted; 0, or what went wrong. */
 static int accepted_step(Run *run, const Parameters *p, Step *step)
 {
     int status;
     while (!is_settled(run, try_step(run, p, step), p, step, &status))
         ;
-    run->attempt.open = 0;
+    run->control.attempt.open = 0;
     return status;
 }

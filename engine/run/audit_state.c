@@ -12,8 +12,8 @@ static void check_event(Run *run, int i, int listed)
     const int ended = audit->ended == i && fabs(before) > AUDIT_NOISE * audit->event_scale[i]
         && fabs(now) < AUDIT_ZERO * fabs(before) && event_direction[i] * before <= 0.0;
     int found = 0;
-    for (int k = listed; k < run->n_events; k++)
-        found |= run->event[k] == i;
+    for (int k = listed; k < run->events.n; k++)
+        found |= run->events.number[k] == i;
     record(audit, CHECK_event, 0.0, 1.0, run->t, i);
     if ((ended || audit->crossed[i]) && !found)
         record(audit, CHECK_event, INFINITY, 1.0, run->t, i);

@@ -54,9 +54,9 @@ static int keeps_sign(Run *run, int i, const double *before, const Parameters *p
 static void begin_with(Run *run, double *known, double rough)
 {
     if (*known > 0.0)
-        run->h = *known;
-    run->first = known;
-    run->rough = rough;
+        run->control.h = *known;
+    run->control.first = known;
+    run->control.rough = rough;
 }
 
 static int count_closed(const Run *run)
@@ -74,8 +74,8 @@ static void cross_contact(Run *run, int i, double floor)
         open_joint(run, i, run->t);
     else
         close_joint(run, i, run->t, run->aside.clearance[i].deltadot, floor);
-    begin_with(run, &run->after_contact[count_closed(run)][opens], opens ? 0.0 : ROUGH);
-    run->h_stiff = 0.0;
+    begin_with(run, &run->control.after_contact[count_closed(run)][opens], opens ? 0.0 : ROUGH);
+    run->control.h_stiff = 0.0;
 }
 
 static void cross(Run *run, int k, const Parameters *p)
@@ -87,7 +87,7 @@ static void cross(Run *run, int k, const Parameters *p)
     else if (k < N_CLEARANCES + N_SWITCHES) {
         const int corner = k - N_CLEARANCES;
         run->memory.side[corner] *= -1.0;
-        begin_with(run, &run->after_corner[corner][run->memory.side[corner] > 0.0], 0.0);
+        begin_with(run, &run->control.after_corner[corner][run->memory.side[corner] > 0.0], 0.0);
     }
 }
 
@@ -118,14 +118,14 @@ static double leap(const Run *run, const double *before)
  */
 static void pace_corner(Run *run, int corner, const double *before)
 {
-    const double way = run->t - run->t_crossed;
-    const double pace = 20.0 * max_of(100.0 * run->tick, max_of(run->pace, way));
-    const int again = run->crossed == corner && way < 1e-3 * run->h
-        && (meets[corner] || (run->fixed <= 0.0 && leap(run, before) * max_of(pace, run->h) < LEAST_LEAP));
+    const double way = run->t - run->control.t_crossed;
+    const double pace = 20.0 * max_of(100.0 * run->tick, max_of(run->control.pace, way));
+    const int again = run->crossed == corner && way < 1e-3 * run->control.h
+        && (meets[corner] || (run->fixed <= 0.0 && leap(run, before) * max_of(pace, run->control.h) < LEAST_LEAP));
     run->skip = again ? corner : -1;
-    run->pace = again ? pace : 0.0;
+    run->control.pace = again ? pace : 0.0;
     run->crossed = corner;
-    run->t_crossed = run->t;
+    run->control.t_crossed = run->t;
 }
 
 #if N_CORNERS
@@ -217,11 +217,11 @@ static int change(Run *run, int event, const Parameters *p)
         status = switch_friction(run, p);
     if (!status && user_event < 0)
         status = meet(run, event, p);
-    if (!status && user_event >= 0 && !keeps_sign(run, user_event, side, p) && cross_zero(run, user_event) && !run->pole
+    if (!status && user_event >= 0 && !keeps_sign(run, user_event, side, p) && cross_zero(run, user_event) && !run->events.pole
         && note_event(run, user_event, run->t, run->y, p))
         status = ENDED;
     const int ended = !status || status == ENDED ? note_leaps(run, before, p) : 0;
-    const int held_now = !status || status == ENDED ? note_arrivals(run, &held, 1e-4 * run->h, p) : 0;
+    const int held_now = !status || status == ENDED ? note_arrivals(run, &held, 1e-4 * run->control.h, p) : 0;
     return ended ? ended : held_now ? held_now : status;
 }
 

@@ -23,7 +23,7 @@ static inline void look_back(Run *run)
     }
     run->last_h = run->t - run->before_t;
     run->force_found = min_of(1e-2, FORCE_FOUND / run->inverse_scale[2 * N_X - 1]);
-    run->goes_on = run->last_h > 0.0 && !run->attempt.again;
+    run->goes_on = run->last_h > 0.0 && !run->control.attempt.again;
 }
 
 #endif

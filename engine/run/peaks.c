@@ -13,7 +13,7 @@ enum { MAX_TOPS = 20, FEW = 2 /* stages: they tell little */ };
 
 static void peak(Run *run, int i, double t, double F)
 {
-    if (run->trace)
+    if (run->envelope.rows)
         trace_force(run, i, t, F);
     if (F > run->F_peak[i]) {
         run->F_peak[i] = F;
@@ -164,7 +164,7 @@ static void outermost(Run *run, Step *step, double share, int i, const Parameter
             || play_in(run, step, s, p, &aside))
             return;
         const Clearance *now = &aside.clearance[i];
-        if (run->trace)
+        if (run->envelope.rows)
             trace_place(run, i, step->t + s * step->h, now);
         run->e_max[i] = max_of(now->e, run->e_max[i]);
         if (fabs(outward(now) - top) < 1e-9 * fabs(top + round))

@@ -9,7 +9,7 @@ void gudgeon_run_sample(const void *memory, const double *p, double *y, double *
     store_sample(run, run->t, run->y, (const Parameters *)p, 0, y, latched, state);
 }
 
-void gudgeon_run_stop(void *memory, int stop) { ((Run *)memory)->stop = stop; }
+void gudgeon_run_stop(void *memory, int stop) { ((Run *)memory)->events.stop = stop; }
 
 /* `ask` is called with `whom` each `every` seconds (0: at each right-hand side); the run stops where it says so. */
 void gudgeon_run_asks(void *memory, int (*ask)(void *), void *whom, double every)
@@ -24,16 +24,16 @@ void gudgeon_run_asks(void *memory, int (*ask)(void *), void *whom, double every
 void gudgeon_run_pace(const void *memory, double *gained, long *steps, long *ended)
 {
     const Run *run = memory;
-    *gained = run->advance.gain;
+    *gained = run->progress.pace.gain;
     steps[0] = PACE_STEPS;
-    steps[1] = run->advance.crawls;
+    steps[1] = run->progress.pace.crawls;
     for (int k = 0; k < N_STEP_ENDS; k++)
         ended[k] = 0;
     for (int k = 0; k < N_MARGINS; k++) {
         const int corner = k - N_CLEARANCES, friction = corner - N_SWITCHES, user_event = friction - N_FRICTIONS;
         const int end = user_event >= 0 ? END_EVENT : friction >= 0 ? END_FRICTION
             : corner >= 0 ? END_SWITCH : END_CONTACT;
-        ended[end] += run->ended[k];
+        ended[end] += run->progress.ended[k];
     }
 }
 
@@ -44,7 +44,7 @@ int gudgeon_run_full(const void *memory) { return lists_full(memory); }
 int gudgeon_run_listed(const void *memory)
 {
     const Run *run = memory;
-    int n = run->n_impacts + run->n_events;
+    int n = run->n_impacts + run->events.n;
     for (int i = 0; i < N_CLEARANCES; i++)
         n += run->memory.latch[i].closed;
     return n;
@@ -58,10 +58,10 @@ int gudgeon_run_events(void *memory, int capacity, double *t, int *event, double
     signed char *state)
 {
     Run *run = memory;
-    const int n = run->n_events < capacity ? run->n_events : capacity, left = run->n_events - n;
+    const int n = run->events.n < capacity ? run->events.n : capacity, left = run->events.n - n;
     for (int i = 0; i < n; i++) {
-        t[i] = run->event_t[i];
-        event[i] = run->event[i];
+        t[i] = run->events.t[i];
+        event[i] = run->events.number[i];
     }
 #if N_USER_EVENTS
     EventStates *at = event_states(run);
@@ -74,9 +74,9 @@ int gudgeon_run_events(void *memory, int capacity, double *t, int *event, double
 #else
     (void)y, (void)latched, (void)state;
 #endif
-    memmove(run->event_t, run->event_t + n, (size_t)left * sizeof run->event_t[0]);
-    memmove(run->event, run->event + n, (size_t)left * sizeof run->event[0]);
-    run->n_events = left;
+    memmove(run->events.t, run->events.t + n, (size_t)left * sizeof run->events.t[0]);
+    memmove(run->events.number, run->events.number + n, (size_t)left * sizeof run->events.number[0]);
+    run->events.n = left;
     return n;
 }
 

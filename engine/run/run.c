@@ -59,7 +59,7 @@ static int watch(Run *run, const Parameters *p)
         return lost;
     for (int i = 0; i < N_CLEARANCES; i++)
         watch_joint(run, i);
-    if (run->trace)
+    if (run->envelope.rows)
         trace_step(run);
     return !isfinite(sum) ? NOT_FINITE : outside_model(run, p) ? OUTSIDE : 0;
 }
@@ -150,7 +150,7 @@ static double kinetic_energy(const Run *run, const Parameters *p)
 /* Whether the lists are to be fetched: the next step may find more than they hold. */
 static int lists_full(const Run *run)
 {
-    return run->n_impacts >= MAX_LISTED || run->n_events >= MAX_LISTED || tape_full(run);
+    return run->n_impacts >= MAX_LISTED || run->events.n >= MAX_LISTED || tape_full(run);
 }
 
 /*

@@ -131,49 +131,92 @@ typedef struct {
     int closed[AT_LEAST_ONE(N_CLEARANCES)], compressing[AT_LEAST_ONE(N_CLEARANCES)];
 } Beginning;
 
+/* Events of the user that were found (user_events.c), until they are fetched. */
+typedef struct {
+    double t[LISTED_EVENTS];
+    int number[LISTED_EVENTS], n;
+    int stop; /* whether they may end the run */
+    int pole; /* whether the event that ends a step is no zero but a pole (watch/events.c) */
+    unsigned char no_number[AT_LEAST_ONE(N_USER_EVENTS)]; /* whether an event was reported to be no number */
+} EventList;
+
+/* The envelope of forces and paths (trace.c); rows NULL: none is recorded. */
+typedef struct {
+    TraceRow *rows;
+    long row, n_rows;   /* the row that is being filled, of so many */
+    long steps, stride; /* in that row; in a row that is complete */
+} Envelope;
+
+/* Errors of films' forces (methods/defect.c): the last one that was measured, that step's length, steps before it. */
+typedef struct {
+    double error, h;
+    long steps;
+} FilmErrors;
+
+/* Singular positions (methods/near.c). */
+typedef struct {
+    long unlooked, in_vain;
+} NearSingular;
+
+/* Whether time still advances (asked.c): its pace, steps that each margin ended since the pace was taken. */
+typedef struct {
+    Pace pace;
+    long ended[N_MARGINS + 1];
+    int stuck, crawl;
+} Progress;
+
+/* Which method makes the next step: `auto` changes to the stiff one and back (methods/step_length.c). */
+typedef struct {
+    const Method *implicit; /* which of the stiff ones `auto` takes */
+    int automatic, votes, patience, since;
+} MethodChoice;
+
+/* The lengths of steps (methods/step_length.c, first_step.c, changes.c). */
+typedef struct {
+    Attempt attempt;
+    double last_step; /* s, up to an event where one ended it */
+    double h, h_stiff, error_before, steep, t_crossed, pace;
+    /*
+     * Lengths that fit a first step: after a contact begins or ends (others being closed), at a side of a corner; the
+     * one that the next step tells, and of which power of its length such a step's error is (0: the method's).
+     */
+    double after_contact[N_CLEARANCES + 1][2], after_corner[AT_LEAST_ONE(N_SWITCHES)][2], *first, rough;
+    /* by how many tolerances straight motion misses an onset in a step that fits, explicit or stiff; of a second, now */
+    double onset[2], onset_share;
+} StepControl;
+
 typedef struct {
     double t, y[N_Y], dy[N_Y];
     Aside aside;
     Memory memory;
-    long unlooked, in_vain; /* of methods/near.c */
+    EventList events;
+    Envelope envelope;
+    FilmErrors films;
+    NearSingular near;
+    Progress progress;
+    MethodChoice choice;
+    StepControl control;
     Asked asked;
     Impact open[AT_LEAST_ONE(N_CLEARANCES)];      /* the contact going on in each joint */
     int compressing[AT_LEAST_ONE(N_CLEARANCES)];  /* from onset until the penetration first stops growing */
     double F_peak[AT_LEAST_ONE(N_CLEARANCES)], t_peak[AT_LEAST_ONE(N_CLEARANCES)], e_max[AT_LEAST_ONE(N_CLEARANCES)];
     Impact impacts[LISTED_IMPACTS + N_CLEARANCES]; /* behind them those that go on at the end of the run */
-    double event_t[LISTED_EVENTS];
-    unsigned char no_number[AT_LEAST_ONE(N_USER_EVENTS)];  /* whether an event was told to be none */
     double tick; /* s, to which times of events are told apart; less where the whole run is short */
-    int pole; /* whether the event that ends a step is no zero but a pole */
-    int event[LISTED_EVENTS], n_events, stop; /* user events found; whether they may end the run */
     int n_impacts, open_listed, ready;
-    TraceRow *trace; /* nobody wants one: NULL; the row that is being filled, of `trace_rows`, and steps in it */
-    long trace_row, trace_rows, trace_steps, trace_stride;
     Tape tape;
     long began; /* 1 + the run of a batch that this memory began last; 0: none */
     Beginning from; /* of rk4's step, where samples lie within it */
-    double film_error, film_h; /* the last error of films' forces that was measured, the step's length */
     double lightest;           /* kg: the least mass of a body that has one */
-    long film_steps; /* steps before it */
     long steps, evaluations, onsets, grazes, switches, rejected, jacobians, stiff_steps;
     double phi_max, phi_dot_max, ratio_min, ratio_max, ratio_outside;
     /* of methods that choose their step (adaptive.c) */
-    double last_step; /* s, up to an event where one ended it */
-    double h, fixed, accept, stability, error_before, steep, h_stiff, t_crossed, pace;
-    /* lengths that fit a first step: after a contact begins or ends (others being closed), at a side of a corner; the
-     * one that the next step tells, and of which power of its length such a step's error is (0: the method's) */
-    double after_contact[N_CLEARANCES + 1][2], after_corner[AT_LEAST_ONE(N_SWITCHES)][2], *first, rough;
-    /* by how many tolerances straight motion misses an onset in a step that fits, explicit or stiff; for one of a
-     * second, as it is now */
-    double onset[2], onset_share;
+    double fixed, accept, stability;
     double inverse_scale[2 * N_X + 1], least[2], speed[2], speed_floor[2], speed_rounded[2];
     double weight[N_Y]; /* what errors are multiplied by: 1 / tolerance */
     double work_scale, turned_over; /* tolerance of works as a share of the energy (J) that was turned over so far */
     int rising[AT_LEAST_ONE(N_CLEARANCES)]; /* whether a joint's force rose at the end of the last step */
-    Pace advance;
-    long ended[N_MARGINS + 1]; /* steps that each margin ended, since the pace was taken */
-    const Method *method, *implicit; /* which of the stiff ones `auto` takes */
-    int crossed, skip, automatic, votes, patience, since, stuck, crawl, linear_ready;
+    const Method *method;
+    int crossed, skip, linear_ready;
     Linear linear;
 #if IMPLICIT_STAGES
     /* where this step and the one before began (past.h), how far they are apart; how fast iterations ended last */
@@ -182,7 +225,6 @@ typedef struct {
     double before_t, before_y[N_Y], before_dy[N_Y], last_h, falls, force_found;
     int goes_on;
 #endif
-    Attempt attempt;
 #if TAYLOR
     int order, series_ready;                      /* of the series at the state; where it is made, as linear_ready */
     const double *series_lane;                    /* ELSEWHERE: its terms, of which each is so many numbers further */

@@ -4,7 +4,7 @@
 /* A force of joint i, at an end of a step or within it. */
 static void trace_force(Run *run, int i, double t, double F)
 {
-    double *trail = run->trace[run->trace_row].joint[i];
+    double *trail = run->envelope.rows[run->envelope.row].joint[i];
     if (F < trail[TRACE_F_low]) {
         trail[TRACE_F_low] = F;
         trail[TRACE_t_F_low] = t;
@@ -18,7 +18,7 @@ static void trace_force(Run *run, int i, double t, double F)
 /* The same of a place, if it is the row's outermost. */
 static void trace_place(Run *run, int i, double t, const Clearance *joint)
 {
-    double *trail = run->trace[run->trace_row].joint[i];
+    double *trail = run->envelope.rows[run->envelope.row].joint[i];
     if (!(joint->e * joint->e > trail[TRACE_ex_out] * trail[TRACE_ex_out] + trail[TRACE_ey_out] * trail[TRACE_ey_out]))
         return;
     trail[TRACE_ex_out] = joint->ex;
@@ -28,9 +28,9 @@ static void trace_place(Run *run, int i, double t, const Clearance *joint)
 
 static void begin_trace_row(Run *run)
 {
-    run->trace_steps = 0;
+    run->envelope.steps = 0;
     for (int i = 0; i < N_CLEARANCES; i++) {
-        double *trail = run->trace[run->trace_row].joint[i];
+        double *trail = run->envelope.rows[run->envelope.row].joint[i];
         memset(trail, 0, N_TRACE_COLUMNS * sizeof trail[0]);
         trail[TRACE_F_low] = INFINITY;
         trail[TRACE_F_high] = -INFINITY;
@@ -65,7 +65,7 @@ static void join_rows(TraceRow *to, const TraceRow *a, const TraceRow *b)
 /* The present state as the end of a step. */
 static void trace_step(Run *run)
 {
-    TraceRow *row = &run->trace[run->trace_row];
+    TraceRow *row = &run->envelope.rows[run->envelope.row];
     row->t = run->t;
     for (int i = 0; i < N_CLEARANCES; i++) {
         const Clearance *joint = &run->aside.clearance[i];
@@ -75,13 +75,13 @@ static void trace_step(Run *run)
         trail[TRACE_ex] = joint->ex;
         trail[TRACE_ey] = joint->ey;
     }
-    if (++run->trace_steps < run->trace_stride)
+    if (++run->envelope.steps < run->envelope.stride)
         return;
-    if (++run->trace_row == run->trace_rows) {
-        run->trace_row /= 2;
-        run->trace_stride *= 2;
-        for (long i = 0; i < run->trace_row; i++)
-            join_rows(run->trace + i, run->trace + 2 * i, run->trace + 2 * i + 1);
+    if (++run->envelope.row == run->envelope.n_rows) {
+        run->envelope.row /= 2;
+        run->envelope.stride *= 2;
+        for (long i = 0; i < run->envelope.row; i++)
+            join_rows(run->envelope.rows + i, run->envelope.rows + 2 * i, run->envelope.rows + 2 * i + 1);
     }
     begin_trace_row(run);
 }
@@ -90,9 +90,9 @@ static void trace_step(Run *run)
 void gudgeon_run_trace(void *memory, double *trace, long rows)
 {
     Run *run = memory;
-    run->trace = (TraceRow *)trace;
-    run->trace_rows = rows;
-    run->trace_stride = 1;
+    run->envelope.rows = (TraceRow *)trace;
+    run->envelope.n_rows = rows;
+    run->envelope.stride = 1;
     begin_trace_row(run);
 }
 
@@ -100,6 +100,6 @@ void gudgeon_run_trace(void *memory, double *trace, long rows)
 long gudgeon_run_traced(const void *memory)
 {
     const Run *run = memory;
-    return run->trace_row + (run->trace_steps > 0);
+    return run->envelope.row + (run->envelope.steps > 0);
 }
 

@@ -7,9 +7,9 @@
 
 static void list_event(Run *run, int i, double t)
 {
-    if (run->n_events < LISTED_EVENTS) {
-        run->event_t[run->n_events] = t;
-        run->event[run->n_events++] = i;
+    if (run->events.n < LISTED_EVENTS) {
+        run->events.t[run->events.n] = t;
+        run->events.number[run->events.n++] = i;
     }
 }
 
@@ -18,13 +18,13 @@ static int note_event(Run *run, int i, double t, const double *now, const Parame
 {
 #if N_USER_EVENTS
     EventStates *at = event_states(run);
-    for (int k = run->n_events - 1; k >= 0 && run->event_t[k] >= t - SAME_ZERO * run->tick; k--)
-        if (run->event[k] == i)
+    for (int k = run->events.n - 1; k >= 0 && run->events.t[k] >= t - SAME_ZERO * run->tick; k--)
+        if (run->events.number[k] == i)
             return 0; /* steps do not tell these times apart: it is the same zero, which rounding leads across again */
-    if (run->n_events < LISTED_EVENTS)
-        store_sample(run, t, now, p, run->n_events, at->y[0], at->latched[0], at->state[0]);
+    if (run->events.n < LISTED_EVENTS)
+        store_sample(run, t, now, p, run->events.n, at->y[0], at->latched[0], at->state[0]);
     list_event(run, i, t);
-    return run->stop && event_stops[i];
+    return run->events.stop && event_stops[i];
 #else
     (void)run, (void)i, (void)t, (void)now, (void)p;
     return 0;
@@ -42,9 +42,9 @@ static int cross_zero(Run *run, int i)
 /* User event i is no number at time t: told once a run, in the list of events behind all of them. */
 static void note_no_number(Run *run, int i, double t)
 {
-    if (!run->no_number[i])
+    if (!run->events.no_number[i])
         list_event(run, i + N_USER_EVENTS, t);
-    run->no_number[i] = 1;
+    run->events.no_number[i] = 1;
 }
 
 /* Sides of user events that began on a zero, or were held there: wherever they are at a state. */

@@ -234,7 +234,7 @@ static double first_in_long_step(Run *run, Step *step, double share, const Param
     int closed = 0, hidden = 0;
     for (int i = 0; i < N_CLEARANCES; i++)
         closed |= run->memory.latch[i].closed;
-    if (!closed || !(share * step->h > LONG_STEP * run->last_step) || run->fixed > 0.0)
+    if (!closed || !(share * step->h > LONG_STEP * run->control.last_step) || run->fixed > 0.0)
         return share;
     for (int k = 0; k < N_MARGINS && !hidden; k++)
         hidden = watched_as[k] < 0 && !isfinite(begin_of(run, step, k).slope) && !follows_from_force(run, k)
@@ -268,7 +268,7 @@ static double first_event(Run *run, Step *step, const Parameters *p, int *event)
     share = first_in_long_step(run, step, share, p, event);
 #if N_USER_EVENTS
     const int user_event = *event - (N_MARGINS - N_USER_EVENTS);
-    run->pole = user_event >= 0 && is_pole(run, step, share, user_event, p);
+    run->events.pole = user_event >= 0 && is_pole(run, step, share, user_event, p);
 #endif
     return share;
 }

@@ -140,7 +140,7 @@ static int judge(Run *run, Step *step, const Course *course, const Part *part, d
             find_noise(run, step, noise, p);
             result = -!is_held_at_zero(noise, i, f[i], part->at_a[i], at_b[i], width);
         }
-        if (result < 0 || (f[i].partly && !small && event >= 0 && !run->no_number[event]))
+        if (result < 0 || (f[i].partly && !small && event >= 0 && !run->events.no_number[event]))
             return -1;
         if (event >= 0 && isnan(at_b[i]))
             note_no_number(run, event, course->t + part->b * course->h);
