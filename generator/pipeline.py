@@ -11,12 +11,9 @@ from dataclasses import replace
 from typing import Any
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.contract.methods import STAGES
 from gudgeon.generator.equations.masses import refuse_massless
 from gudgeon.generator.equations.model import Model, make_model
 from gudgeon.generator.kernels.program import make_program
-from gudgeon.generator.kernels.taylor import NAME as TAYLOR
-from gudgeon.generator.kernels.taylor import taylor_series
 from gudgeon.generator.mechanism.mechanism import Mechanism
 from gudgeon.generator.mechanism.scene import Scene, make_scene
 from gudgeon.generator.reading import Overrides, Seconds, read_scene, stage
@@ -24,7 +21,7 @@ from gudgeon.generator.redundancy import find_redundancy, refuse_singular_masses
 from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.emit import Begun, emit
 from gudgeon.generator.targets.numpy.linkage import NumPyLinkage
-from gudgeon.generator.targets.numpy.module import ClosedLinkage, NumPyModel
+from gudgeon.generator.targets.numpy.module import NumPyModel
 from gudgeon.generator.targets.numpy.reference import reference_values
 
 
@@ -55,9 +52,7 @@ def closed_linkage(
     """
     model = make_model(make_scene(mechanism, scene))
     kept = {row.name for row in model.rows}
-    describe(model)  # what only results read has numbers too, and the closed linkage those of the start
-    closed = ClosedLinkage(model)
-    linkage = NumPyLinkage(model, describe(model), given, closed)
+    linkage = NumPyLinkage(model, describe(model), given)
     return linkage, [r for r, row in enumerate(model.all_rows) if row.name in kept]
 
 
@@ -80,10 +75,9 @@ def in_c(
 ) -> KernelSource:
     """The C of a model, with the names of everything in it."""
     with stage("functions", seconds):
-        program = make_program(model, "full" if formulation == "full" else "reduced", formulation == STAGES)
-        series = taylor_series(program) if formulation == TAYLOR else None
+        program = make_program(model, formulation)
     with stage("C", seconds):
-        source = emit(program, begun, series)
+        source = emit(program, begun)
     with stage("reference values", seconds):
         return replace(source, reference=reference_values(program, source))
 

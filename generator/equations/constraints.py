@@ -15,6 +15,7 @@ from gudgeon.generator.ir.finite_slopes import Upon
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism.mechanism import GROUND, Drive, Joint, PointRef
 from gudgeon.generator.symbols.corners import Apart, Largest, Pick, Smallest
+from gudgeon.generator.symbols.freezable import Freezable
 from gudgeon.generator.symbols.from_expressions import quantity_to_sympy, to_sympy
 from gudgeon.language.tree import functions
 
@@ -34,7 +35,7 @@ class Row:
     gamma: sp.Expr  # −(Φ_q q̇)_q q̇ − 2Φ_qt q̇ − Φ_tt
 
 
-class Constraints:
+class Constraints(Freezable):
     """Derives rows; `t` is time, `drive_angles` holds what each drive prescribes."""
 
     def __init__(self, geometry: Geometry) -> None:

@@ -104,7 +104,8 @@ def unit_vector(vector: Vector, owner: str, name: str, slots: Slots) -> tuple[sp
         if other == 0:
             entry = next((e for e in slots.entries.values() if e.symbol == own), None)
             if entry is not None and not entry.follows:  # only its sign matters, and the sign is structural
-                slots.signs[entry.address] = ">" if entry.default > 0 else "<"
+                if entry.address not in slots.signs:
+                    slots.signs[entry.address] = ">" if entry.default > 0 else "<"
                 return sp.Integer(1 if entry.default > 0 else -1)
         return slots.derive(f"{owner}_{name}_{axis}", own / length, "unit vector", of=Owned(owner, name, axis))
 

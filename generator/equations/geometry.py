@@ -13,6 +13,7 @@ import sympy as sp
 
 from gudgeon.generator.mechanism.mechanism import GROUND, Body, PointRef, Vector, is_massless
 from gudgeon.generator.mechanism.scene import Scene
+from gudgeon.generator.symbols.freezable import Freezable
 from gudgeon.generator.symbols.numbers import Slots
 from gudgeon.generator.symbols.symbols import Symbols
 
@@ -89,7 +90,7 @@ class Turned(NamedTuple):
     number: int
 
 
-class Geometry:
+class Geometry(Freezable):
     """Makes the symbols of bodies and points, each once."""
 
     def __init__(self, scene: Scene, symbols: Symbols, slots: Slots) -> None:

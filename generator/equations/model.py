@@ -21,6 +21,7 @@ from gudgeon.generator.equations.lettered import lettered
 from gudgeon.generator.equations.loads import AppliedElement, apply_element
 from gudgeon.generator.equations.own_laws import check_own_laws
 from gudgeon.generator.equations.play import Clearance, make_clearances
+from gudgeon.generator.equations.start import start_values
 from gudgeon.generator.ir.finite_slopes import as_written
 from gudgeon.generator.mechanism.mechanism import Joint
 from gudgeon.generator.mechanism.scene import Scene
@@ -39,11 +40,15 @@ class Redundancy:
 
 LIGHT_BODY = 1e-6  # of J + m s² summed over a body's joints: what it may have about one of them and be light there
 BAUMGARTE = 50.0  # 1/s, both gains (physics.md, section 1)
+STICK = "baumgarte.stick"
 
 
 @dataclass(frozen=True)
 class Model:
-    """Φ(q, t) = 0 and M q̈ + Φ_qᵀ λ = g for one scene; shapes: q (n,), Φ (m,)."""
+    """Φ(q, t) = 0 and M q̈ + Φ_qᵀ λ = g for one scene; shapes: q (n,), Φ (m,).
+
+    Nothing changes a model after `make_model`. A program derives its functions on a copy of its own (`thawed`).
+    """
 
     scene: Scene
     symbols: Symbols
@@ -65,6 +70,16 @@ class Model:
         """The same scene without the rows that say nothing new."""
         kept = tuple(row for row in self.rows if row.name not in redundancy.dropped)
         return replace(self, rows=kept, redundancy=redundancy)
+
+    def thawed(self) -> Model:
+        """The same equations with symbols and derived numbers to which one program adds its own."""
+        symbols = self.symbols.thawed()
+        return replace(self, symbols=symbols, slots=self.slots.thawed().beside(symbols))
+
+    def freeze(self) -> None:
+        """Make every table read only."""
+        for tables in (self.symbols, self.slots, self.geometry, self.constraints):
+            tables.freeze()
 
     @property
     def bodies(self) -> tuple[BodySymbols, ...]:
@@ -243,10 +258,13 @@ def make_model(scene: Scene) -> Model:
     for event in events:
         refuse_constant(scene.events[event.name], event, geometry, constraints.t)
     offer_materials(scene, slots)
-    return Model(
+    model = Model(
         scene, symbols, slots, geometry, constraints, tuple(rows), kept, tuple(clearances), elements, frictions,
         Redundancy(), gravity, baumgarte, events,
     )  # fmt: skip
+    offer_further(model)
+    model.freeze()
+    return model
 
 
 def offer_materials(scene: Scene, slots: Slots) -> None:
@@ -262,7 +280,17 @@ def offer_materials(scene: Scene, slots: Slots) -> None:
             slots.choice(choice.address, words, scene.materials[choice.address])
 
 
+def offer_further(model: Model) -> None:
+    """The numbers that no equation has: of points on the ground, of the start, of methods."""
+    for vector in model.scene.mechanism.ground.values():
+        model.geometry.ground_vector(vector)
+    for group in start_values(model).values():
+        for quantity, _ in group:
+            model.slots.use(quantity)
+    if model.frictions:
+        model.slots.constant(STICK, "alpha_stick", BAUMGARTE, dimension(time=-1))
+
+
 def stick_gain(model: Model) -> sp.Expr:
     """2α of a stick, of its own: methods that project have no other stabilisation."""
-    alpha = model.slots.constant("baumgarte.stick", "alpha_stick", BAUMGARTE, dimension(time=-1))
-    return model.slots.derive("two_alpha_stick", 2 * alpha, "2 alpha of a stick")
+    return model.slots.derive("two_alpha_stick", 2 * model.slots.entries[STICK].symbol, "2 alpha of a stick")

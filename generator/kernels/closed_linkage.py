@@ -8,11 +8,11 @@ import sympy as sp
 
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.start import start_values
 from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, Section
 from gudgeon.generator.ir.signatures import PARAMETERS, STATE
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Given
-from gudgeon.generator.mechanism.mechanism import Quantity
 
 
 def prepare_kernel(model: Model) -> Kernel:
@@ -75,34 +75,11 @@ def _jacobian_kernel(model: Model) -> Kernel:
     return build.build((*STATE[:2], PARAMETERS, Argument("double *", "phi_q")))
 
 
-def apart_rows(model: Model) -> list[tuple[int, Quantity, Quantity]]:
-    """Rows of Φ that the start holds apart: where they are, and the eccentricity e and its rate there.
-
-    Φ of such a joint is r_i − r_j = −e (physics.md, section 3), so that Φ + e = 0 and Φ_q v = ν − ė. That of a slider
-    is its offset and its tilt, which are −e there (`start_kernel`).
-    """
-    given, found = model.scene.mechanism.start.play, []
-    for name in model.scene.play:
-        rows = [k for k, row in enumerate(model.all_rows) if row.owner == name and name in given]
-        found += [(k, given[name].e[axis], given[name].rate[axis]) for axis, k in enumerate(rows)]
-    return found
-
-
 def start_kernel(model: Model) -> Kernel:
     """The numbers of the file's `start`; behind those that are set, and their rates, those of journals."""
-    start, apart = model.scene.mechanism.start, apart_rows(model)
-    slides = {c.joint.name for c in model.clearances if c.wall}
-    signs = [-1 if model.all_rows[k].owner in slides else 1 for k, _, _ in apart]
-    groups = {
-        "guess": [(quantity, 1) for quantity in start.guess.values()],
-        "set": [*((quantity, 1) for quantity in start.set.values()),
-                *((e, sign) for (_, e, _), sign in zip(apart, signs, strict=True))],
-        "rates": [*((quantity, 1) for quantity in start.rates.values()),
-                  *((rate, sign) for (_, _, rate), sign in zip(apart, signs, strict=True))],
-    }  # fmt: skip
     build = KernelBuilder(model.symbols, "start_values", ["Values of the start's guess, set and rates."])
     build.section("start")
-    for key, group in groups.items():
+    for key, group in start_values(model).items():
         for k, (quantity, sign) in enumerate(group):
             build.out(f"{key}[{k}]", sign * model.slots.use(quantity), quantity.address)
     arguments = (PARAMETERS, *(Argument("double *", key) for key in ("guess", "set", "rates")))

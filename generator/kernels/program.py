@@ -2,19 +2,23 @@
 
 The order here decides names and the numbers that `prepare` computes, so all of it is in one place: first the absolute
 formulation and what the closed linkage needs, then the joints with play, the tree, and last what the methods read.
-When `make_program` returns, symbols, slots and corners of the scene are frozen.
+A program has symbols, parameters and corners of its own, those of the model first; when `make_program` returns, they
+are frozen. So its parameter table depends on the scene and the formulation alone.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import sympy as sp
 
+from gudgeon.contract.methods import STAGES
 from gudgeon.generator.equations.model import Model, stick_gain
 from gudgeon.generator.equations.system import System, absolute
 from gudgeon.generator.ir.kernels import Kernel, without_unused
+from gudgeon.generator.ir.series import Series
 from gudgeon.generator.ir.sine_pairs import side_by_side
 from gudgeon.generator.kernels import closed_linkage, outputs
 from gudgeon.generator.kernels.drive_jumps import Jumps, jumps_of
@@ -27,6 +31,8 @@ from gudgeon.generator.kernels.play import Pin, make_pin, pin_slopes
 from gudgeon.generator.kernels.projection import closing_kernel, projection_kernel
 from gudgeon.generator.kernels.reduced import DYNAMICS, is_rescued, motion_kernels, reduced_kernels
 from gudgeon.generator.kernels.shared import SharedCall, SharedFunctions
+from gudgeon.generator.kernels.taylor import NAME as TAYLOR
+from gudgeon.generator.kernels.taylor import taylor_series
 from gudgeon.generator.kernels.time_terms import TimeTerms, time_terms
 from gudgeon.generator.reduction.driven_chains import Chain
 from gudgeon.generator.reduction.reduction import TreeSystem, reduce
@@ -141,6 +147,12 @@ class Program:
     terms: TimeTerms  # of time alone, which may hide within a step
     methods: Methods | None
     course: Course | None
+    series: Series | None = None  # of Taylor's method
+
+    @cached_property
+    def prepare(self) -> Kernel:
+        """The parameter table, which is complete."""
+        return closed_linkage.prepare_kernel(self.model)
 
     @property
     def integrates(self) -> bool:
@@ -166,13 +178,15 @@ class Program:
         return self.methods is not None and self.tree is not None and not (self.tree.chains or alone)
 
 
-def make_program(model: Model, formulation: str = "reduced", staged: bool = False) -> Program:
-    """Derives every function of a scene: what is integrated, or followed where no freedom is left, is the reduced
+def make_program(model: Model, formulation: str = "reduced") -> Program:
+    """Derive every function of a scene.
 
-    formulation, or with "full" the absolute one. Outputs and starts are absolute in both. `staged`: with what methods
-    need whose stages are found together; where there is a film, or all coordinates, they are there anyway.
+    What is integrated, or followed where no freedom is left, is the reduced formulation, or with "full" the absolute
+    one. Outputs and starts are absolute in both. STAGES is the reduced one with what methods need whose stages are
+    found together; where there is a film, or all coordinates, they are there anyway. TAYLOR is the reduced one with
+    the Taylor series of the motion; BadValueError where that is not smooth.
     """
-    model.symbols.freeze(False)
+    model, full, staged = model.thawed(), formulation == "full", formulation == STAGES
     integrates = bool(model.degrees_of_freedom or model.clearances or model.frictions)
     system = absolute(model)
     kkt = KKT(system)
@@ -183,19 +197,21 @@ def make_program(model: Model, formulation: str = "reduced", staged: bool = Fals
     )  # fmt: skip
     laws = SharedFunctions()
     pins = tuple(make_pin(model, clearance, laws) for clearance in model.clearances)
-    tree, in_tree = _tree(model, kkt.pivots) if formulation == "reduced" else (None, None)
+    tree, in_tree = _tree(model, kkt.pivots) if not full else (None, None)
     watched = watched_kernel(dynamics, model)
     angles = tuple(int(model.symbols.info[q].meaning.endswith(".theta")) for q in model.q)
     plain = Integrated(system, kkt, angles, False, watched, jumps_of(dynamics, model), kkt.pivots)
     integrated = in_tree or plain
     program = Program(
-        model, formulation, kkt, closed, dynamics, watched, tuple(laws.kernels), pins, tree, integrated,
-        time_terms(dynamics, rests=bool(model.frictions or model.rigid)),
+        model, "full" if full else "reduced", kkt, closed, dynamics, watched, tuple(laws.kernels), pins, tree,
+        integrated, time_terms(dynamics, rests=bool(model.frictions or model.rigid)),
         methods=_methods(model, integrated, staged or not integrated.reduced) if integrates else None,
         course=None if integrates else _course(model, kkt, integrated),
     )  # fmt: skip
+    if formulation == TAYLOR:
+        program = replace(program, series=taylor_series(program))
     for owner in (model, integrated.system.model):
-        owner.symbols.freeze()
+        owner.freeze()
     return program
 
 

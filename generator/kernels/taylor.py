@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import sympy as sp
 
@@ -12,11 +13,13 @@ from gudgeon.generator.ir.series import Linear, Series, series_of
 from gudgeon.generator.ir.series_rules import NoSeries
 from gudgeon.generator.ir.values import Threshold
 from gudgeon.generator.kernels.dynamics import dynamics_kernel
-from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kernels.reduced import DYNAMICS, is_rescued
 from gudgeon.generator.reduction.reduction import TreeSystem
 from gudgeon.generator.solvers.kkt import FACTORS, KKT
 from gudgeon.generator.solvers.pivots import SINGULAR, VANISHING, ZERO, Factor
+
+if TYPE_CHECKING:
+    from gudgeon.generator.kernels.program import Program
 
 NAME = "taylor"
 
@@ -48,11 +51,8 @@ def _series(program: Program) -> Series:
 
 def _of_motion(system: TreeSystem) -> Series:
     """The right-hand side again, its linear system told."""
-    symbols = system.model.symbols
-    symbols.freeze(False)
     kkt = _Told(system, daring=is_rescued(system))
     dynamics = without_unused(dynamics_kernel(system, kkt, DYNAMICS, stabilised=False, rescue=_nobody))
-    symbols.freeze()
     diagonal = {(k, k): system.mass[k, k] for k in range(kkt.n) if (k, k) in system.mass}
     linear = Linear(FACTORS, {**kkt.entry, **diagonal}, kkt.loads, kkt.unknowns)
     return series_of(dynamics, _place, NAME, linear)

@@ -14,6 +14,7 @@ import sympy as sp
 
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf
 from gudgeon.generator.symbols.derivatives import derivative
+from gudgeon.generator.symbols.freezable import Freezable
 from gudgeon.generator.symbols.periods import ModOf, ModOn, PeriodsOf
 
 
@@ -131,12 +132,11 @@ class Switch:
 
 
 @dataclass
-class Switches:
+class Switches(Freezable):
     """The corners of a scene, each once."""
 
     found: dict[tuple[str, sp.Expr], Switch] = field(default_factory=dict)
     spare: list[int] = field(default_factory=list)  # numbers of the scene's own corners on the other side
-    frozen: bool = False
 
     def beside(self) -> Switches:
         """For other functions of the same scene: the joints' corners are the same, the scene's are told anew."""
@@ -159,7 +159,7 @@ class Switches:
         """The same; what is not known becomes one."""
         if (known := self.known(owner, g)) is not None:
             return known
-        assert not self.frozen, f"{g}: a corner after the program was made"
+        assert not self.frozen, f"{g}: a corner after the tables were frozen"
         switch = Switch(self.spare.pop(0) if self.spare and not owner else self.count, owner, g)
         self.found[owner, sp.expand(g)] = switch
         return switch, 1

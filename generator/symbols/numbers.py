@@ -14,6 +14,7 @@ import sympy as sp
 
 from gudgeon.generator.mechanism.mechanism import Quantity
 from gudgeon.generator.mechanism.scene import Scene
+from gudgeon.generator.symbols.freezable import Freezable
 from gudgeon.generator.symbols.from_expressions import to_sympy
 from gudgeon.generator.symbols.symbols import Symbols
 from gudgeon.language.tree import Expr, evaluate, names
@@ -46,8 +47,11 @@ class Owned:
     axis: str = ""
 
 
-class Slots:
-    """Collects slots in order of use; parameters come first, in dependency order."""
+class Slots(Freezable):
+    """Collects slots in order of use; parameters come first, in dependency order.
+
+    The model's slots are complete; derived numbers are those of the model, then those of each program.
+    """
 
     def __init__(self, scene: Scene, symbols: Symbols) -> None:
         self.symbols = symbols

@@ -19,6 +19,7 @@ import sympy as sp
 
 from gudgeon.generator.symbols.corners import Switches
 from gudgeon.generator.symbols.derivatives import derivative, symbols_of
+from gudgeon.generator.symbols.freezable import Freezable
 
 
 def made_name(wanted: str) -> str:
@@ -43,7 +44,7 @@ class SymbolInfo:
     unit: str
 
 
-class Symbols:
+class Symbols(Freezable):
     """All the symbols of one model, in the order in which they were made."""
 
     def __init__(self) -> None:
@@ -53,12 +54,18 @@ class Symbols:
         self.switches = Switches()
         self._names: set[str] = set()
         self._shared: Symbols | None = None  # who else has the members of Parameters
-        self._frozen = False
         self._numbered: dict[str, str] = {}  # names that others had before: what was wanted
 
-    def freeze(self, frozen: bool = True) -> None:
-        """From now on no name is new (a defect of the generator), nor any corner; or, thawed, they may be again."""
-        self._frozen = self.switches.frozen = frozen
+    def freeze(self) -> None:
+        """Make these tables and the switches read only: whatever asks for a new name later is a defect."""
+        super().freeze()
+        self.switches.freeze()
+
+    def thawed(self) -> Symbols:
+        """Return a copy, with switches of its own, which may grow."""
+        other = super().thawed()
+        other.switches = self.switches.thawed()
+        return other
 
     def beside(self) -> Symbols:
         """Other symbols for other functions of the same library: they share the members of Parameters only."""
@@ -79,7 +86,7 @@ class Symbols:
 
     def unique(self, wanted: str) -> str:
         """Return `wanted` as an identifier that nothing else has in any target: see `made_name`."""
-        assert not self._frozen, f"{wanted}: derived after the program was made"
+        assert not self.frozen, f"{wanted}: derived after the tables were frozen"
         name = candidate = made_name(wanted)
         count = 1
         while candidate in self._names:

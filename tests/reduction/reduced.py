@@ -105,7 +105,7 @@ class Numbers:
 
     def __init__(self, model: Model, p: Array) -> None:
         self.model, self.p = model, p
-        self.system: TreeSystem = reduce(model)
+        self.system: TreeSystem = reduce(model.thawed())
         self.chains = np.zeros(0), np.zeros((3, 0))
 
     def __call__(self, expressions: Sequence[sp.Expr], t: float, s: Array, rate: Array) -> Array:

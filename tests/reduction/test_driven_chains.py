@@ -126,7 +126,7 @@ APART = "a drive with corners", "friction on what is free", "play"
 @pytest.mark.parametrize("name", [name for name in VARIANTS if name not in APART])
 def test_what_is_evaluated_and_what_stays_solved(name: str) -> None:
     changed, chain = VARIANTS[name]
-    found = reduce(derive(changed_four_bar(**changed).encode(), "f", "ideal")).chain
+    found = reduce(derive(changed_four_bar(**changed).encode(), "f", "ideal").thawed()).chain
     assert sorted(found.names if found else ()) == sorted(chain)
 
 

@@ -12,6 +12,7 @@ import pytest
 import sympy as sp
 
 from gudgeon.generator.equations.model import Model
+from gudgeon.generator.kernels.program import make_program
 from gudgeon.generator.pipeline import derive
 from gudgeon.generator.targets.latex import equations_text
 from gudgeon.generator.targets.latex.letters import Name, of_latex
@@ -216,8 +217,8 @@ def test_a_number_is_a_joints_own_by_what_it_is_and_not_by_its_name() -> None:
     """A joint called "inverse" does not take 1/M of a body; its own number is called after it."""
     text = SHIPPED.joinpath("pendulum.yaml").read_text(encoding="utf-8")
     model = derive(text.replace("  rod: {distance", "  inverse: {distance").encode(), "pendulum.yaml", "ideal")
-    model.numpy()  # which derives what the right-hand side needs
-    names = {symbol.name: name.text for symbol, name in make_notation(model).names.items()}
+    program = make_program(model, "full")  # which derives what the right-hand side needs
+    names = {symbol.name: name.text for symbol, name in make_notation(program.model).names.items()}
     assert names["inverse_bob_mass_"] == "inverse_bob_mass"
     assert names["inverse_half_inverse_length_"] == "half_inverse_length_inverse"
 

@@ -29,7 +29,7 @@ from gudgeon.contract.stored import base_units
 from gudgeon.generator.equations.constraints import Row, rate_jumps
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.notes import scene_notes
-from gudgeon.generator.kernels.closed_linkage import apart_rows
+from gudgeon.generator.equations.start import apart_rows
 from gudgeon.generator.kernels.outputs import element_series, kept_joints
 from gudgeon.generator.mechanism.mechanism import GROUND, Mechanism, PointRef, Quantity
 from gudgeon.generator.mechanism.quantities import quantities

@@ -12,8 +12,6 @@ import jinja2
 
 from gudgeon.contract.kernel_source import ENGINE_PART, HEADER, MAIN, KernelSource
 from gudgeon.generator.ir.kernels import Kernel
-from gudgeon.generator.ir.series import Series
-from gudgeon.generator.kernels import closed_linkage
 from gudgeon.generator.kernels.ledger import tell
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.targets.c import functions, ranges_printer, readme, taylor
@@ -35,18 +33,17 @@ Begun = Callable[[int, Mapping[str, str]], None]
 Texts = dict[str, Callable[[], str]]  # by file, printed when they are asked for
 
 
-def emit(program: Program, begun: Begun | None = None, series: Series | None = None) -> KernelSource:
-    """The whole scene as C text with its description; with a `series` there is Taylor's method.
+def emit(program: Program, begun: Begun | None = None) -> KernelSource:
+    """The whole scene as C text with its description; with a series there is Taylor's method.
 
     `begun` is told the engine, then each part of MAIN, with the files so far, as soon as these are all that it reads.
     """
-    model = program.model
-    prepare = closed_linkage.prepare_kernel(model)
+    model, series = program.model, program.series
     bounds = known_bounds(program)
-    files = {HEADER: within(render("model.h.jinja", **header_values(program, bounds, series)))}
+    files = {HEADER: within(render("model.h.jinja", **header_values(program, bounds)))}
     if begun:
         begun(ENGINE_PART, files)
-    parts, shared = _parts(program, prepare, bounds), _shared(program)
+    parts, shared = _parts(program, bounds), _shared(program)
     if series:
         parts[REDUCED][taylor.FILE] = lambda: taylor.taylor_code(series)
     files |= {MAIN: _main(parts, shared), **_printed(shared)}
@@ -57,7 +54,7 @@ def emit(program: Program, begun: Begun | None = None, series: Series | None = N
     if tables := curves_code(model.scene.mechanism.curves, files.values()):
         files |= {MAIN: _main(parts, [CURVES, *shared]), CURVES: tables}
     if program.has_lanes:
-        files |= {name: within(text) for name, text in lanes_code.lanes_code(program, render, series).items()}
+        files |= {name: within(text) for name, text in lanes_code.lanes_code(program, render).items()}
     files[readme.NAME] = readme.readme(program, files)
     told = described(program, files, () if CURVES in files else tuple(parts))
     return replace(told, taylor=taylor.FILE) if series else told
@@ -66,11 +63,10 @@ def emit(program: Program, begun: Begun | None = None, series: Series | None = N
 def described(program: Program, files: Mapping[str, str], units: tuple[int, ...] = ()) -> KernelSource:
     """All that is told of a scene beside its texts."""
     model, tree, integrated, course = program.model, program.tree, program.integrated, program.course
-    prepare = closed_linkage.prepare_kernel(model)
     return describe(
         model, files=files, main=MAIN, units=units,
         pivots=program.kkt.pivots, start_pivots=course.pivots if course else (), motion_pivots=integrated.pivots,
-        operations=_operations(program, prepare),
+        operations=_operations(program),
         tree=tree.system.unknowns if tree else (), chain=integrated.chain,
         closures=tuple(row.name for row in tree.system.rows) if tree else (), formulation=program.formulation,
         story=tell(
@@ -84,7 +80,7 @@ def described(program: Program, files: Mapping[str, str], units: tuple[int, ...]
 
 def file_names(program: Program) -> list[str]:
     """What `emit` writes, but for tables of curves and README.md, without writing it."""
-    parts = _parts(program, closed_linkage.prepare_kernel(program.model), known_bounds(program))
+    parts = _parts(program, known_bounds(program))
     printed = [name for texts in parts.values() for name in texts]
     return [HEADER, MAIN, *_shared(program), *printed, *([lanes_code.MAIN] if program.has_lanes else [])]
 
@@ -94,12 +90,12 @@ def _shared(program: Program) -> Texts:
     return {CLEARANCES: lambda: clearances_code(program, render)} if program.pins else {}
 
 
-def _parts(program: Program, prepare: Kernel, bounds: Kernel | None) -> dict[int, Texts]:
+def _parts(program: Program, bounds: Kernel | None) -> dict[int, Texts]:
     """What is in each part of MAIN, in the order in which it is read."""
     tree, course = program.tree, program.course
     parts: dict[int, Texts] = {
         ABSOLUTE: {
-            "parameters.c": lambda: _parameters(program, prepare),
+            "parameters.c": lambda: _parameters(program),
             "constraints.c": lambda: _closed(program),
             "dynamics.c": lambda: _kernels(*program.right_hand_side),
         }
@@ -140,10 +136,10 @@ def _include(name: str) -> str:
     return f'#include "{name}"'
 
 
-def _parameters(program: Program, prepare: Kernel) -> str:
+def _parameters(program: Program) -> str:
     """All numbers, then those of joints with play by their place."""
     told = render("of_joints.c.jinja", of_joints=of_joints(program.model)) if program.pins else ""
-    return _kernels(prepare) + told
+    return _kernels(program.prepare) + told
 
 
 def _closed(program: Program) -> str:
@@ -195,15 +191,15 @@ def _kernels(*kernels: Kernel) -> str:
     return "\n".join(map(functions.kernel, kernels))
 
 
-def _all(program: Program, *prepare: Kernel) -> list[Kernel]:
+def _all(program: Program) -> list[Kernel]:
     tree, extra = program.tree, program.methods or program.course
-    kernels = [*program.right_hand_side, *program.closed, *(tree.every if tree else ()), *prepare]
+    kernels = [*program.right_hand_side, *program.closed, *(tree.every if tree else ()), program.prepare]
     return [*kernels, *(extra.kernels if extra else ()), *program.laws]
 
 
-def _operations(program: Program, prepare: Kernel) -> dict[str, int]:
+def _operations(program: Program) -> dict[str, int]:
     """Of each function, as `check -v` tells them; of laws those of each joint."""
     calls = [(pin.clearance.name, *call) for pin in program.pins for call in pin.laws.items()]
     laws = {f"{role}_{joint}_force": call.kernel for joint, role, call in calls}
-    own = {kernel.name: kernel for kernel in _all(program, prepare) if kernel not in program.laws}
+    own = {kernel.name: kernel for kernel in _all(program) if kernel not in program.laws}
     return {name: kernel.operations for name, kernel in (own | laws).items()}

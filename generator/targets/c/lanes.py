@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance
-from gudgeon.generator.ir.series import Series
 from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.program import Methods, Program
 from gudgeon.generator.kernels.shared import SharedCall
@@ -34,10 +33,10 @@ static inline void pick_slopes(LaneSlopes *a, LaneBits mask, const LaneSlopes *b
 Render = Callable[..., str]  # template name, substitutions -> text
 
 
-def lanes_code(program: Program, render: Render, series: Series | None) -> dict[str, str]:
+def lanes_code(program: Program, render: Render) -> dict[str, str]:
     """The file: kernels as the single runs have them, before sines are put side by side.
 
-    With a `series` it is for Taylor's method alone.
+    With a series it is for Taylor's method alone.
     """
     assert program.tree and program.methods
     model = program.model
@@ -46,7 +45,10 @@ def lanes_code(program: Program, render: Render, series: Series | None) -> dict[
     parameters = [model.slots.field(symbol) for symbol in model.slots.members()]
     wanted = [kernel for kernel in kernels if kernel.name in _WANTED]
     text = "\n".join([*pins, *map(lanes_printer.motion_kernel, wanted)])
-    methods = taylor.lanes_code(series) if series else _newton(program.pins, program.methods, render, model.law_states)
+    if program.series:
+        methods = taylor.lanes_code(program.series)
+    else:
+        methods = _newton(program.pins, program.methods, render, model.law_states)
     curves = bool(curves_code(model.scene.mechanism.curves, (text, methods)))
     return {MAIN: render(
         "lanes.c.jinja", parameters=parameters, deepest=_deepest(model), kernels=text, methods=methods,

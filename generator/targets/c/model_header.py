@@ -13,10 +13,9 @@ from gudgeon.generator.equations.events import SIGNS
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.notes import has_jumps
 from gudgeon.generator.equations.play import Clearance
+from gudgeon.generator.equations.start import apart_rows
 from gudgeon.generator.ir.kernels import Kernel
-from gudgeon.generator.ir.series import Series
 from gudgeon.generator.kernels import outputs
-from gudgeon.generator.kernels.closed_linkage import apart_rows
 from gudgeon.generator.kernels.event_functions import ranges_kernel, reads_state
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.kinds.joints.joint_type import CORNERS
@@ -53,10 +52,10 @@ _THRESHOLDS: Sizes = {
 _GAINS = {"two_alpha": "baumgarte_two_alpha", "beta_squared": "baumgarte_beta_squared", "stick": "stick_gain"}
 
 
-def header_values(program: Program, bounds: Kernel | None, series: Series | None = None) -> dict[str, Any]:
+def header_values(program: Program, bounds: Kernel | None) -> dict[str, Any]:
     """What the template of model.h is filled with; `bounds`: those of `known_bounds`."""
     model, of_scene = program.model, sizes(program, bounds)
-    if series:
+    if series := program.series:
         of_scene["TAYLOR"] = (max(len(series.products), 1), "products of the Taylor series of the motion")
     mechanism = model.scene.mechanism
     return {

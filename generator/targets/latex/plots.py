@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 
 from gudgeon.generator.ir.kernels import Kernel
-from gudgeon.generator.kernels import closed_linkage
 from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.shared import SharedCall
 from gudgeon.generator.kinds.laws.law import Law
@@ -75,7 +74,7 @@ def _numbers(found: Functions) -> Mapping[str, float]:
     tables = found.model.slots.tables
     p = SimpleNamespace(**{name: [0.0] * len(table) for name, table in tables.items()})
     count = len(found.model.slots.entries)
-    _callable(found, closed_linkage.prepare_kernel(found.model))([0.0] * count, [False] * count, p)
+    _callable(found, found.program.prepare)([0.0] * count, [False] * count, p)
     return {name: float(value) for name, value in vars(p).items() if name not in tables}
 
 

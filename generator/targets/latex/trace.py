@@ -12,27 +12,24 @@ from dataclasses import dataclass
 from functools import partial
 
 from gudgeon.contract.kernel_source import KernelSource
-from gudgeon.generator.equations.model import Model, make_model
+from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.branches import Branch
 from gudgeon.generator.ir.dependence import NO_MARKS, Marks, free_names, slices
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import readable
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Place
-from gudgeon.generator.kernels import closed_linkage
 from gudgeon.generator.kernels.driven_chains import STEP
 from gudgeon.generator.kernels.program import Program, make_program
 from gudgeon.generator.mechanism.quantities import quantities
 from gudgeon.generator.symbols.symbols import made_name
 from gudgeon.generator.targets.c import functions
-from gudgeon.generator.targets.c.describe import describe
 from gudgeon.generator.targets.c.emit import described, emit, file_names, render
 from gudgeon.generator.targets.c.lines import Stored, find, find_within, place_of
 from gudgeon.generator.targets.c.play import pin_functions
 from gudgeon.generator.targets.javascript.module import right_hand_sides, tree_functions
 from gudgeon.generator.targets.javascript.printer import name as name_of
 from gudgeon.generator.targets.latex.tokens import entries_of, entry_token, joint_tokens, row_token, sum_token
-from gudgeon.generator.targets.numpy.module import ClosedLinkage
 
 # Functions of the closed linkage by the letter of what they give: `constraints` gives phi[r].
 GIVES = {"constraints": "phi", "jacobian": "phi_q", "velocity_rhs": "nu", "acceleration_rhs": "gamma"}
@@ -63,15 +60,8 @@ class Trace(Functions):
 
 def functions_of(model: Model) -> Functions:
     """The scene's functions, without their C."""
-    program = _program(model)
+    program = make_program(model)
     return Functions(program.model, program, described(program, {}), file_names(program))
-
-
-def _program(model: Model) -> Program:
-    fresh = make_model(model.scene)
-    describe(fresh)
-    ClosedLinkage(fresh)  # what the rank of the rows asks for: numbers stand in the order of the emitted scene's
-    return make_program(fresh.without(model.redundancy))
 
 
 def trace(model: Model, source: KernelSource | None = None) -> Trace:
@@ -79,7 +69,7 @@ def trace(model: Model, source: KernelSource | None = None) -> Trace:
 
     source: what was emitted of the scene, where that is known; it is not printed again then.
     """
-    program = _program(model)
+    program = make_program(model)
     if source is None or source.formulation != program.formulation:
         source = emit(program)
     found = _Finder(program, source)
@@ -231,7 +221,7 @@ class _Finder:
             self.lines[file][number] |= own
 
     def _prepare(self) -> None:
-        kernel = closed_linkage.prepare_kernel(self.model)
+        kernel = self.program.prepare
         own = {s.name: self.model.symbols.info[s].home for s in self.model.slots.members()}
         slots = {entry.symbol.name for entry in self.model.slots.entries.values()}
         fields = {name: self.numbers[home] | ({f"number-{name}"} if name in slots else set())

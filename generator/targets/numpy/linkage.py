@@ -25,10 +25,7 @@ class NumPyLinkage:
     ) -> None:  # fmt: skip
         self.source, self.n, self.closed = source, len(model.q), closed or ClosedLinkage(model)
         self.defaults = self.closed.prepare(given)
-        slots, count = model.slots, len(source.slots)
-        entries = [entry.symbol for entry in slots.entries.values()]  # the source's, then those that came behind it
-        symbols = [*entries[:count], *list(slots.derived)[: len(source.derived)], *entries[count:]]
-        self.names = [slots.field(symbol) for symbol in symbols]
+        self.names = [model.slots.field(symbol) for symbol in model.slots.members()]
         self.p = np.array([_number(self.defaults, name) for name in self.names])
 
     def numbers(self, p: Array) -> SimpleNamespace:

@@ -13,11 +13,11 @@ from numpy.typing import ArrayLike, NDArray
 from gudgeon.contract.boundary import N_WORK
 from gudgeon.errors import ArrayError, BadValueError
 from gudgeon.generator.equations.model import Model
+from gudgeon.generator.equations.start import apart_rows
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.statements import Guard
 from gudgeon.generator.ir.values import Test, Threshold
 from gudgeon.generator.kernels import closed_linkage
-from gudgeon.generator.kernels.closed_linkage import apart_rows
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.targets.numpy.curves import with_curves
 from gudgeon.generator.targets.numpy.layout import WIDTH, docstring, remark
