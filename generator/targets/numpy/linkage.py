@@ -29,13 +29,13 @@ class NumPyLinkage:
         self.p = np.array([_number(self.defaults, name) for name in self.names])
 
     def numbers(self, p: Array) -> SimpleNamespace:
-        """p by names; what only the functions' text derived keeps its default."""
+        """p by names, tables as lists."""
         if p is self.p:
             return self.defaults
         values = dict(zip(self.names, np.asarray(p).tolist(), strict=True))
         tables = self.closed.model.slots.tables
         lists = {name: [values[f"{name}[{k}]"] for k in range(len(own))] for name, own in tables.items()}
-        return SimpleNamespace(**vars(self.defaults) | values | lists)
+        return SimpleNamespace(**values | lists)
 
     def closed_phi(self, t: float, q: Array, p: Array) -> Array:
         """Φ(q, t), (m,)."""
