@@ -250,8 +250,8 @@ static int jumps_single(const Batch *b, long i, double t0, double t1)
 }
 
 /*
- * Run i to where its next step is to be tried, which is in run->control.attempt; of one that has been, in run->step, what
- * follows comes first. One that others left untried is tried here.
+ * Run i to where its next step is to be tried, which is in run->control.attempt; of one that has been, in run->step,
+ * what follows comes first. One that others left untried is tried here.
  */
 static int next_single(const Batch *b, long i, int tried, void *memory)
 {

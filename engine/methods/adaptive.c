@@ -187,8 +187,8 @@ static int event_of_step(Run *run, const Samples *out, const Parameters *p, Step
 }
 
 /*
- * What comes before a step: the start, samples that are due. Whether a step is wanted (run->control.attempt has it) and not,
- * as `last` says, to be left to another call; if not *status is 0, EVENTS_FULL, STOPPED, or what went wrong.
+ * What comes before a step: the start, samples that are due. Whether a step is wanted (run->control.attempt has it) and
+ * not, as `last` says, to be left to another call; if not *status is 0, EVENTS_FULL, STOPPED, or what went wrong.
  */
 static int wants_step(Run *run, int last, const Parameters *p, const Samples *out, int *status)
 {

@@ -156,8 +156,8 @@ static int is_film_known(const Run *run, const Step *step, double at_ends)
 {
     if (!step->method->stiff || !has_films())
         return 1;
-    return run->films.error < FILM_SMALL && at_ends < FILM_SMALL && step->h < FILM_LONGER * run->films.h && !run->control.first
-        && run->steps - run->films.steps < FILM_STEPS;
+    return run->films.error < FILM_SMALL && at_ends < FILM_SMALL && step->h < FILM_LONGER * run->films.h
+        && !run->control.first && run->steps - run->films.steps < FILM_STEPS;
 }
 
 /*

@@ -73,7 +73,8 @@ static double better_by(const Run *run, double h, double change, double size, do
  */
 static int fit_first(Run *run, double left, const Parameters *p)
 {
-    const int stiff = !!run->method->stiff, begins = run->control.rough > 0.0, corner = run->control.first >= &run->control.after_corner[0][0];
+    const int stiff = !!run->method->stiff, begins = run->control.rough > 0.0;
+    const int corner = run->control.first >= &run->control.after_corner[0][0];
     const double onset = run->control.onset[stiff] > 0.0 ? run->control.onset[stiff] : stiff ? ONSET_STIFF : ONSET;
     const double fits = begins ? onset : !corner ? CURVED : stiff ? RELAXED_STIFF : RELAXED;
     if (!run->control.first || run->fixed > 0.0 || run->method->own_length || (*run->control.first > 0.0 && !begins))

@@ -61,7 +61,8 @@ static void change_method(Run *run)
 static void choose(Run *run)
 {
     /* what rho the stiff method's stages show is a lower bound: its steps tell more, until something changes */
-    const int slower = run->choice.since > COMPARE_FROM && run->choice.since < COMPARE_TO && run->control.h < WORTH * run->control.h_stiff;
+    const int slower = run->choice.since > COMPARE_FROM && run->choice.since < COMPARE_TO
+        && run->control.h < WORTH * run->control.h_stiff;
     const int stiff = run->method->stiff;
     const int against = stiff ? run->stability < SLACK : run->stability > run->method->bounded || slower;
     run->choice.votes = against ? run->choice.votes + 1 : 0;
@@ -105,7 +106,8 @@ static void note_first(Run *run, const Step *step)
     const double fits = safe * rough_power(told_error(step), -1.0 / order_of(run, step));
     *run->control.first = step->h * min_of(MAX_GROWTH_FIRST, max_of(MIN_GROWTH, fits));
     if (run->control.rough > 0.0 && run->control.onset_share > 0.0)
-        run->control.onset[!!step->method->stiff] = run->control.onset_share * rough_power(*run->control.first, run->control.rough - 1.0);
+        run->control.onset[!!step->method->stiff] = run->control.onset_share
+            * rough_power(*run->control.first, run->control.rough - 1.0);
     run->control.first = NULL;
 }
 
@@ -205,7 +207,8 @@ static int again(Run *run)
 
 /*
  * Whether the step that was tried is accepted, `tried` being its status: 0 if not, with what is to be tried next in
- * run->control.attempt. If so, the next one's length is in run->control.h; or *status is what went wrong. Events are not looked for.
+ * run->control.attempt. If so, the next one's length is in run->control.h; or *status is what went wrong. Events are
+ * not looked for.
  */
 static int is_settled(Run *run, int tried, const Parameters *p, Step *step, int *status)
 {

@@ -217,8 +217,8 @@ static int change(Run *run, int event, const Parameters *p)
         status = switch_friction(run, p);
     if (!status && user_event < 0)
         status = meet(run, event, p);
-    if (!status && user_event >= 0 && !keeps_sign(run, user_event, side, p) && cross_zero(run, user_event) && !run->events.pole
-        && note_event(run, user_event, run->t, run->y, p))
+    if (!status && user_event >= 0 && !keeps_sign(run, user_event, side, p) && cross_zero(run, user_event)
+        && !run->events.pole && note_event(run, user_event, run->t, run->y, p))
         status = ENDED;
     const int ended = !status || status == ENDED ? note_leaps(run, before, p) : 0;
     const int held_now = !status || status == ENDED ? note_arrivals(run, &held, 1e-4 * run->control.h, p) : 0;

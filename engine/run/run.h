@@ -181,7 +181,7 @@ typedef struct {
      * one that the next step tells, and of which power of its length such a step's error is (0: the method's).
      */
     double after_contact[N_CLEARANCES + 1][2], after_corner[AT_LEAST_ONE(N_SWITCHES)][2], *first, rough;
-    /* by how many tolerances straight motion misses an onset in a step that fits, explicit or stiff; of a second, now */
+    /* by how many tolerances straight motion misses an onset in a step that fits, explicit or stiff; in 1 s, now */
     double onset[2], onset_share;
 } StepControl;
 
