@@ -26,9 +26,7 @@
 #include "watch/gaps.c"
 #include "watch/forces.c"
 #include "watch/pulses.c"
-#if !N_WATCHED
-#include "watch/no_watched.c"
-#elif KNOWN_BOUNDS
+#if N_WATCHED && KNOWN_BOUNDS
 #include "watch/watched.c"
 #else
 #include "watch/looks.c"

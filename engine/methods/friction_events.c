@@ -1,3 +1,5 @@
+/* Where a step of rk4 ends because friction or a rigid contact changes. */
+#if N_FRICTIONS || N_RIGID
 /* The lowest indicator of friction that fell through zero between two states, or any rigid contact's; its value. */
 static int changed(const Run *run, const Aside *after, double *value)
 {
@@ -40,3 +42,12 @@ static double friction_event(Run *run, double h, const Parameters *p, Trial *tri
     }
     return rk4_try(run, high * h, p, trial) ? -1.0 : high;
 }
+
+#else
+/* No friction that may stick, no rigid contact: a step never ends early. */
+static inline double friction_event(Run *run, double h, const Parameters *p, const Trial *trial)
+{
+    (void)run, (void)h, (void)p, (void)trial;
+    return 1.0;
+}
+#endif

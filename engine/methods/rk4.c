@@ -15,11 +15,7 @@ static int rk4_try(Run *run, double h, const Parameters *p, Trial *trial)
     return status;
 }
 
-#if N_FRICTIONS || N_RIGID
 #include "friction_events.c"
-#else
-#include "no_friction_events.c"
-#endif
 
 #include "rk4_inside.c"
 /*

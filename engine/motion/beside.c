@@ -5,6 +5,7 @@
  * a smooth function along the linkage's way through the state, known at places on either side where all is regular,
  * and a polynomial through these tells it here. As sparse as everywhere else, and without the rounding.
  */
+#if CONTINUES
 #include <string.h>
 
 enum { SIDE_NODES = TREE ? 5 : 6, WIDE = 2, WIDER = 4 };
@@ -168,3 +169,17 @@ int closing_of_state(double t, const double *y, Memory *memory, const Parameters
     *worst = 0.0; /* once is enough */
     return 0;
 }
+
+#else
+/* No rows are dependent for a moment, or what is held changes: the motion as it is computed at a state itself. */
+int motion(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside)
+{
+    return motion_here(t, y, memory, p, dy, aside);
+}
+
+int closing_of_state(double t, const double *y, Memory *memory, const Parameters *p, double *dq, double *dv,
+    double *worst)
+{
+    return closing_here(t, y, memory, p, dq, dv, worst);
+}
+#endif

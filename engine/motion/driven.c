@@ -1,3 +1,5 @@
+/* The motion of a tree with driven chains, which are evaluated; without them the state is read as it is. */
+#if N_CHAIN
 /* What is integrated: coordinates of the tree that are free, their rates, works. Driven chains are evaluated. */
 int motion_here(double t, const double *y, Memory *memory, const Parameters *p, double *dy, Aside *aside)
 {
@@ -121,3 +123,19 @@ int accept_state(double t, const double *y, Memory *memory, const Parameters *p,
     }
     return 0;
 }
+
+#else
+/* No chains are driven: the kernels read the state as it is, q, then v. */
+int closing_here(double t, const double *y, Memory *memory, const Parameters *p, double *dq, double *dv,
+    double *worst)
+{
+    return closing_step(t, y, y + N_X, memory, p, dq, dv, worst);
+}
+
+int linearize_state(double t, const double *y, Memory *memory, const Parameters *p, const double *a,
+    const Aside *aside, Linear *lin)
+{
+    linearize(t, y, y + N_X, memory, p, a, aside, lin);
+    return 0;
+}
+#endif

@@ -25,8 +25,6 @@ void from_absolute(double t, const double *all, Memory *memory, const Parameters
         y[k] = all[k];
 }
 
-#include "undriven.c"
-
 int accept_state(double t, const double *y, Memory *memory, const Parameters *p, const Aside *aside, double *phi_max,
     double *phi_dot_max)
 {

@@ -31,5 +31,3 @@ void from_absolute(double t, const double *all, Memory *memory, const Parameters
     for (int k = 0; k < N_WORK; k++)
         y[2 * N_X + k] = all[2 * N_Q + k];
 }
-
-#include "undriven.c"

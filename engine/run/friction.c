@@ -2,7 +2,7 @@
  * Friction that may stick: where the slip comes to zero, or the force of stick to its limit, the step ends
  * and the mode changes. The place is the root of the indicator over the length of a trial step.
  */
-
+#if N_FRICTIONS
 #define AT_REST 1e-9   /* m/s: a slip below it may stick */
 #define ROUNDING 1e-12 /* m/s: of a slip that others hold at zero */
 enum { HELD = 2, MAX_TRIES = 8 + 4 * N_FRICTIONS };
@@ -137,4 +137,52 @@ static int slip_after_blow(Run *run, const Parameters *p)
     }
     return status;
 }
+#endif
+
+#else
+/* No friction that may stick. */
+#define AT_REST 0.0
+enum { HELD = 2 };
+
+static inline double indicator(const Memory *memory, const Aside *aside, int i)
+{
+    (void)memory, (void)aside, (void)i;
+    return 1.0;
+}
+
+static inline int rates_at_rest(Run *run, double t, double *y, const Parameters *p, double *dy, Aside *aside)
+{
+    return rates(run, t, y, p, dy, aside);
+}
+
+static inline void hold_slips(Run *run, double t, double *y, const Parameters *p)
+{
+    (void)run, (void)t, (void)y, (void)p;
+}
+
+static inline int switch_friction(Run *run, const Parameters *p)
+{
+    (void)run, (void)p;
+    return 0;
+}
+
+static inline int begin_friction(Run *run, const Parameters *p)
+{
+    (void)run, (void)p;
+    return 0;
+}
+
+#if N_RIGID
+static inline int settle_friction(Run *run, const Parameters *p)
+{
+    (void)run, (void)p;
+    return 0;
+}
+
+static inline int slip_after_blow(Run *run, const Parameters *p)
+{
+    (void)run, (void)p;
+    return 0;
+}
+#endif
 #endif

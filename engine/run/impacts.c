@@ -5,6 +5,7 @@
  * J. J. Moreau, in: Nonsmooth Mechanics and Applications (1988); F. Pfeiffer, C. Glocker, Multibody Dynamics with
  * Unilateral Contacts (1996).
  */
+#if N_RIGID
 #define TOUCHING 1e-10 /* of the clearance: surfaces that are no further apart touch */
 #define STEADY 1e-8    /* two ratios of what successive passes take that differ by no more are one geometric ratio */
 enum { MAX_PASSES = 1000, LISTED_PASSES = 8, MAX_APART = 12 };
@@ -283,3 +284,40 @@ static int begin_contacts(Run *run, const Parameters *p)
     }
     return some ? meet(run, -1, p) : 0;
 }
+
+#else
+/* All surfaces give: penetration says where contacts begin and end. */
+static inline double contact_margin(const Memory *memory, const Aside *aside, int i)
+{
+    return memory->latch[i].closed ? aside->clearance[i].delta : -aside->clearance[i].delta;
+}
+
+static inline void hold_contacts(Run *run, double t, double *y, const Parameters *p)
+{
+    (void)run, (void)t, (void)y, (void)p;
+}
+
+static inline double stride(const Run *run, const Step *step, const Parameters *p)
+{
+    return (void)run, (void)step, (void)p, INFINITY;
+}
+
+static inline int what_ends(const Run *run, int otherwise, const Parameters *p)
+{
+    return (void)run, (void)p, otherwise;
+}
+
+static inline int used_up(const Run *run) { return (void)run, -1; }
+
+static inline int meet(Run *run, int event, const Parameters *p)
+{
+    (void)run, (void)event, (void)p;
+    return 0;
+}
+
+static inline int begin_contacts(Run *run, const Parameters *p)
+{
+    (void)run, (void)p;
+    return 0;
+}
+#endif

@@ -6,6 +6,7 @@
  * A. Ruina, Journal of Applied Mechanics 65 (1998) 939-951, doi 10.1115/1.2791938, whose e_t within -1 and 1 this
  * chooses; here of several contacts at once.
  */
+#if N_RUBBED
 #define UNLIKE 10.0 /* times the forces without friction: theirs grow by nothing else */
 enum { MOST_SWEEPS = 1000 };
 
@@ -239,3 +240,29 @@ static double rub_off(const Rub *rub, const double *impulse, double *y)
     }
     return lost;
 }
+
+#else
+/* No friction between surfaces that do not give. */
+typedef char Rub;
+
+static inline void leave_out_friction(Memory *memory) { (void)memory; }
+
+static inline int what_ends(const Run *run, int otherwise, const Parameters *p)
+{
+    return (void)run, (void)p, otherwise;
+}
+
+static inline void see_slips(Run *run, const Parameters *p) { (void)run, (void)p; }
+
+static inline int rub_in_blow(Run *run, const Answer *blow, const double *meeting, double *impulse, const Parameters *p,
+    Rub *rub)
+{
+    (void)run, (void)blow, (void)meeting, (void)impulse, (void)p, (void)rub;
+    return 0;
+}
+
+static inline double rub_off(const Rub *rub, const double *impulse, double *y)
+{
+    return (void)rub, (void)impulse, (void)y, 0.0;
+}
+#endif

@@ -123,29 +123,15 @@ static double kinetic_energy(const Run *run, const Parameters *p)
 #if N_FRICTIONS
 #include "slips.c"
 #endif
-#if N_WATCHED
 #include "uncertainty.c"
-#else
-#include "no_uncertainty.c"
-#endif
 #include "user_events.c"
-#if N_FRICTIONS
 #include "friction.c"
-#else
-#include "no_friction.c"
-#endif
-#if N_RUBBED
-#include "rubbing.c"
-#elif N_RIGID
-#include "no_rubbing.c"
-#endif
 #if N_RIGID
+#include "rubbing.c"
 #include "seats.c"
 #include "resolution.c"
-#include "impacts.c"
-#else
-#include "no_impacts.c"
 #endif
+#include "impacts.c"
 
 /* Whether the lists are to be fetched: the next step may find more than they hold. */
 static int lists_full(const Run *run)

@@ -2,6 +2,7 @@
  * The uncertainty of event functions and switches: by how much rounding moves them, and what the state misses its
  * constraints by. A function that is smaller has no sign: it keeps the branch that it had.
  */
+#if N_WATCHED
 #define ROUNDINGS 1024.0 /* ulp: rounding errors that a coordinate of the state collects on its way */
 #define LEFT 16.0        /* steps that close the linkage, as they are left over, that a state may be wrong by */
 #define AS_SEEN 16.0     /* times the differences that are seen, where rounding in a function may be all of them */
@@ -146,3 +147,17 @@ static void resolved_events(Run *run, double t, const double *y, const Aside *as
         if (fabs(value[i]) <= error[N_WATCHED - N_USER_EVENTS + i])
             value[i] = 0.0;
 }
+
+#else
+/* No switches of the user's expressions, and no events: nothing that has an uncertainty. */
+static inline void resolved_events(const Run *run, double t, const double *y, const Aside *aside, const Parameters *p,
+    double *value)
+{
+    (void)run, (void)t, (void)y, (void)aside, (void)p, (void)value;
+}
+
+static inline void uncertainty(const Run *run, double t, const double *y, const Parameters *p, double *out)
+{
+    (void)run, (void)t, (void)y, (void)p, (void)out;
+}
+#endif

@@ -20,15 +20,12 @@
 #endif
 #if INTEGRATES && !TREE
 #include "../motion/full.c"
-#elif INTEGRATES && N_CHAIN
-#include "../motion/driven.c"
-#elif INTEGRATES
+#elif INTEGRATES && !N_CHAIN
 #include "../motion/tree.c"
 #endif
-#if CONTINUES
+#if INTEGRATES
+#include "../motion/driven.c"
 #include "../motion/beside.c"
-#elif INTEGRATES
-#include "../motion/at_once.c"
 #endif
 #if N_CHAIN
 #include "../motion/driven_calls.c"

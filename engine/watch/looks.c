@@ -4,7 +4,7 @@
  * function that swings or dips meanwhile: where it may have a zero it is looked at on the interpolant, and a step in
  * which that does not resolve it is taken again, shorter.
  */
-
+#if N_WATCHED
 static void look_at(Run *run, double t, const double *y, const Parameters *p, Aside *aside)
 {
     double dy[N_Y];
@@ -168,3 +168,23 @@ static void look_inside(const Run *run, Step *step, const Parameters *p)
     for (int i = 0; i < N_WATCHED; i++)
         step->from[i] = 0.0;
 }
+
+#else
+/* No switches of the user's expressions, and no events. */
+static inline int is_unresolved(const Run *run, const Step *step, const Parameters *p)
+{
+    (void)run, (void)step, (void)p;
+    return 0;
+}
+
+static inline void look_inside(const Run *run, const Step *step, const Parameters *p)
+{
+    (void)run, (void)step, (void)p;
+}
+
+static inline double first_look(const Run *run, const Step *step, int i, const Parameters *p, double *value)
+{
+    (void)run, (void)step, (void)i, (void)p;
+    return *value = 0.0;
+}
+#endif
