@@ -1,14 +1,16 @@
-"""Writes anew what pages have of declarations, the tables of docs/format.md and docs/laws.md: `make tables`."""
+"""Write what declarations say: tables of docs/format.md, docs/laws.md and a header of the engine (`make tables`)."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
 
+from gudgeon.generator.targets.c.function_table import function_table
 from gudgeon.generator.targets.format_tables import tables
 from gudgeon.generator.targets.latex.law_page import laws_page
 
-DOCS = Path(__file__).resolve().parents[1] / "docs"
+ROOT = Path(__file__).resolve().parents[1]
+DOCS, HEADER = ROOT / "docs", ROOT / "engine" / "scene" / "function_table.h"
 PAGES: dict[str, Callable[[], str]] = {"format.md": tables, "laws.md": laws_page}
 MARK = "<!-- Below: `make tables`. -->\n"
 
@@ -22,6 +24,7 @@ def page(text: str, below: str, name: str = "") -> str:
 
 
 if __name__ == "__main__":
+    HEADER.write_text(function_table(), encoding="utf-8")
     for own, made in PAGES.items():
         file = DOCS / own
         file.write_text(page(file.read_text(encoding="utf-8"), made(), own), encoding="utf-8")

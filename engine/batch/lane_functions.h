@@ -3,6 +3,7 @@
  */
 #ifndef GUDGEON_LANE_FUNCTIONS_H
 #define GUDGEON_LANE_FUNCTIONS_H
+#include "../scene/function_table.h"
 
 /* As max_of, min_of, sign_of: a NaN in x stays, and x of two equals, as in the second operand of these instructions. */
 #if defined(__GNUC__) && !defined(__clang__) && defined(__AVX512F__)
@@ -80,14 +81,7 @@ static inline Lanes lanes_sqrt(Lanes x)
             y[k] = function(a[k], b[k]); \
         return y; \
     }
-LANE_AFTER_LANE_OF_TWO(atan2)
-LANE_AFTER_LANE(tan)
-LANE_AFTER_LANE(asin)
-LANE_AFTER_LANE(acos)
-LANE_AFTER_LANE(atan)
-LANE_AFTER_LANE(sinh)
-LANE_AFTER_LANE(cosh)
-LANE_AFTER_LANE(tanh)
+LANE_AFTER_LANE_FUNCTIONS(LANE_AFTER_LANE, LANE_AFTER_LANE_OF_TWO)
 
 /* As those of scene/functions.h; what is beyond their ranges goes to the library lane by lane. */
 typedef unsigned long long LaneWords __attribute__((vector_size(8 * LANES)));

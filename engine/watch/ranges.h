@@ -5,6 +5,7 @@
  */
 #ifndef GUDGEON_RANGES_H
 #define GUDGEON_RANGES_H
+#include "../scene/function_table.h"
 
 typedef struct {
     double lo, hi;   /* NaN: no number anywhere */
@@ -140,44 +141,37 @@ static inline Range range_sin(Range x) { return range_turned(x, 0.0); }
 static inline Range range_cos(Range x) { return range_turned(x, 1.5707963267948966); }
 static inline Range range_tan(Range x) { return range_times(range_sin(x), range_inverse(range_cos(x))); }
 
-/* An odd function that rises, with its slope at both ends: least or largest there, or at zero, where it is 1. */
-static inline Range range_rising(Range x, double a, double b, double slope_a, double slope_b)
+/* The part of x in a domain. */
+static inline Range range_within(Range x, double from, double to)
 {
-    const double at_zero = x.lo <= 0.0 && x.hi >= 0.0 ? 1.0 : slope_a;
-    return through(x, a, b, min_of(at_zero, min_of(slope_a, slope_b)), max_of(at_zero, max_of(slope_a, slope_b)));
+    if (from == -INFINITY && to == INFINITY)
+        return x;
+    if (!(x.lo <= to && x.hi >= from))
+        return only(NAN);
+    return (Range){max_of(x.lo, from), min_of(x.hi, to), x.down, x.up, x.partly || x.lo < from || x.hi > to};
 }
 
-static inline Range range_asin(Range x)
-{
-    if (!(x.lo <= 1.0 && x.hi >= -1.0))
-        return only(NAN);
-    const double a = max_of(x.lo, -1.0), b = min_of(x.hi, 1.0);
-    Range y = range_rising(x, asin(a), asin(b), 1.0 / sqrt(1.0 - a * a), 1.0 / sqrt(1.0 - b * b));
-    y.partly |= x.lo < -1.0 || x.hi > 1.0;
-    return y;
-}
+/* The slope is least and largest at the ends, or at its extremum. */
+#define RANGE_OF_RISING(name, from, to, extremum, slope) \
+    static inline double slope_of_##name(double x) { return slope; } \
+    static inline Range range_##name(Range all) \
+    { \
+        const Range x = range_within(all, from, to); \
+        const double a = slope_of_##name(x.lo), b = slope_of_##name(x.hi); \
+        const double inner = x.lo <= extremum && x.hi >= extremum ? slope_of_##name(extremum) : a; \
+        return through(x, name(x.lo), name(x.hi), min_of(inner, min_of(a, b)), max_of(inner, max_of(a, b))); \
+    }
+RISING_FUNCTIONS(RANGE_OF_RISING)
 
 static inline Range range_acos(Range x)
 {
     return range_add(only(1.5707963267948966), range_times(only(-1.0), range_asin(x)));
 }
 
-static inline Range range_atan(Range x)
-{
-    return range_rising(x, atan(x.lo), atan(x.hi), 1.0 / (1.0 + x.lo * x.lo), 1.0 / (1.0 + x.hi * x.hi));
-}
-
-static inline Range range_sinh(Range x) { return range_rising(x, sinh(x.lo), sinh(x.hi), cosh(x.lo), cosh(x.hi)); }
-
 static inline Range range_cosh(Range x)
 {
     const double a = cosh(x.lo), b = cosh(x.hi), least = x.lo <= 0.0 && x.hi >= 0.0 ? 1.0 : min_of(a, b);
     return through(x, least, max_of(a, b), sinh(x.lo), sinh(x.hi));
-}
-
-static inline Range range_tanh(Range x)
-{
-    return range_rising(x, tanh(x.lo), tanh(x.hi), 1.0 / pow(cosh(x.lo), 2.0), 1.0 / pow(cosh(x.hi), 2.0));
 }
 
 /* The angle of (x, y); all of them where that turns from -pi to pi, or has no direction. */

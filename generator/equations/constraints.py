@@ -17,6 +17,7 @@ from gudgeon.generator.mechanism.mechanism import GROUND, Drive, Joint, PointRef
 from gudgeon.generator.symbols.corners import Apart, Largest, Pick, Smallest
 from gudgeon.generator.symbols.freezable import Freezable
 from gudgeon.generator.symbols.from_expressions import quantity_to_sympy, to_sympy
+from gudgeon.language.functions import CORNERED
 from gudgeon.language.tree import functions
 
 
@@ -134,13 +135,10 @@ class Constraints(Freezable):
         return Row(name, owner, kind, unit, phi, phi_q, phi_q_v, -phi_t, gamma)
 
 
-JUMPS = frozenset({"ramp", "abs", "min", "max", "sign", "where", "mod"})  # whose slopes jump; smooth_step's does not
-
-
 @lru_cache(maxsize=256)
 def rate_jumps(drive: Drive) -> bool:
     """Whether what a drive prescribes has corners: the linkage then follows by an impulse. A root of a square has."""
-    if not JUMPS.isdisjoint(functions(drive.value.value)):
+    if not CORNERED.isdisjoint(functions(drive.value.value)):
         return True
     return bool(to_sympy(drive.value.value, lambda path: sp.Symbol(path, real=True)).has(sp.Abs))
 

@@ -16,6 +16,8 @@ from gudgeon.generator.kinds.laws.built import PAIR, probe
 from gudgeon.generator.kinds.laws.law import Law
 from gudgeon.generator.kinds.laws.registered import ORIGINS, prefix
 from gudgeon.generator.mechanism.mechanism import LawUse
+from gudgeon.generator.symbols.functions import classes_where
+from gudgeon.language.functions import Units
 from gudgeon.language.units import (
     DIMENSIONLESS,
     FORCE,
@@ -36,8 +38,8 @@ _VARIABLES: Mapping[str, Dimension] = {
 _RESULTS: Mapping[str, Dimension] = {"F_n": FORCE, "F_t": FORCE, "F_r": FORCE, "T0": TORQUE * TIME,
                                     "share": DIMENSIONLESS}  # fmt: skip
 _PAIR: Mapping[str, Dimension] = {"E_i": PRESSURE, "E_j": PRESSURE, "nu_i": DIMENSIONLESS, "nu_j": DIMENSIONLESS}
-_SAME = (sp.Abs, sp.Max, sp.Min)  # of their arguments' one dimension; what is none of these has pure arguments
-_RATIO = (sp.sign, sp.atan2)  # of any one dimension, and a pure number
+_SAME = classes_where(lambda f: f.units is Units.SAME)
+_RATIO = classes_where(lambda f: f.units is Units.RATIO)
 
 
 class _Flexible:

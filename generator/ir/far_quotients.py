@@ -9,10 +9,11 @@ import sympy as sp
 
 from gudgeon.generator.ir.finite_slopes import Slope, without_slopes
 from gudgeon.generator.symbols.derivatives import derivative, symbols_of
+from gudgeon.generator.symbols.functions import classes_where
 from gudgeon.generator.symbols.wholes import Share
 
-_GROWING = (sp.exp, sp.sinh, sp.cosh)
-_SQUARING = (sp.atan, sp.asin, sp.acos)  # whose derivatives square a product factor by factor
+_GROWING = classes_where(lambda f: f.is_exponential)
+_SQUARING = classes_where(lambda f: f.squares_argument)  # whose derivatives square a product factor by factor
 _HIGH = 8  # a power of which the square overflows for no number of a mechanism
 _FAR = 100  # decades from 1 beyond which a number's square, with what it is a factor of, may be none
 

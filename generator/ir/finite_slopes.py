@@ -10,9 +10,10 @@ import sympy as sp
 
 from gudgeon.generator.symbols.corners import Largest, Pick, Smallest
 from gudgeon.generator.symbols.derivatives import derivative
+from gudgeon.generator.symbols.functions import classes_where
 
-_SATURATING = (sp.exp, sp.tanh, sp.atan, sp.atan2)  # finite where their argument is not
-_GROWING = (sp.exp, sp.sinh, sp.cosh, sp.tan, sp.log)
+_SATURATING = classes_where(lambda f: f.saturates)
+_GROWING = classes_where(lambda f: f.is_exponential or f.has_pole)
 _ZERO = (sp.Integer(0), sp.Integer(0), sp.Integer(1))  # a rise, and a way
 _HIGH = 8  # a whole power that overflows for no number of a mechanism
 

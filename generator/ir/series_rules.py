@@ -8,12 +8,13 @@ comes of them is k c_k.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import sympy as sp
 
 from gudgeon.generator.ir.statements import Line
+from gudgeon.generator.symbols.from_expressions import derivative_at
+from gudgeon.generator.symbols.functions import CLASSES
 
 VALUES, SUMS = "at", "sum"  # arguments: coefficients of order 0, sums S_k
 ORDER, SHARE = sp.Symbol("k", real=True), sp.Symbol("share", real=True)  # k, 1/k
@@ -176,11 +177,12 @@ class Rules(ABC):
         return a**value.exp, (n * a * at(whole) + (n * first - second) * SHARE) * self.inverse(a)
 
     def _function(self, value: sp.Expr, whole: sp.Symbol) -> Lowered:
-        rule = _RULES.get(type(value))
-        if rule is None:
+        derivative = CLASSES[type(value)].derivative if type(value) in CLASSES else ""
+        if not derivative and not isinstance(value, sp.atan2):
             raise NoSeries(f"{type(value).__name__.lower()}() has corners, or its series is not known")
-        arguments = [self.series(x) for x in value.args]
-        return value.func(*arguments), rule(self, arguments, whole)
+        u = [self.series(x) for x in value.args]
+        term = _by_derivative(self, derivative, u[0], whole) if derivative else _arc(self, u[0], u[1], whole)
+        return value.func(*u), term
 
     def fixed(self, value: sp.Expr) -> sp.Expr:
         """What is fixed, as higher orders read it: numbers of the run, and locals of order 0."""
@@ -233,22 +235,18 @@ def _arc(rules: Rules, y: sp.Symbol, x: sp.Symbol, whole: sp.Symbol) -> sp.Expr:
     return rules.over(at(x) * y - at(y) * x + (one - other) * SHARE, r, whole)
 
 
-def _beside(function: type[sp.Function]) -> Callable[[Rules, list[sp.Symbol], sp.Symbol], sp.Expr]:
-    return lambda rules, u, whole: rules.by_rate(u[0], rules.beside(function(u[0])))
-
-
-# The coefficient of order k of each function, by the names of its arguments and its own.
-_RULES: dict[type, Callable[[Rules, list[sp.Symbol], sp.Symbol], sp.Expr]] = {
-    sp.sin: _beside(sp.cos),
-    sp.cos: lambda rules, u, whole: -rules.by_rate(u[0], rules.beside(sp.sin(u[0]))),
-    sp.sinh: _beside(sp.cosh),
-    sp.cosh: _beside(sp.sinh),
-    sp.exp: lambda rules, u, whole: rules.by_rate(u[0], whole),
-    sp.log: lambda rules, u, whole: rules.over(u[0], u[0], whole),
-    sp.tan: lambda rules, u, whole: u[0] + rules.by_rate(u[0], rules.square(whole)),
-    sp.tanh: lambda rules, u, whole: u[0] - rules.by_rate(u[0], rules.square(whole)),
-    sp.atan: lambda rules, u, whole: rules.over(u[0], rules.atom(1 + u[0] ** 2), whole),
-    sp.asin: lambda rules, u, whole: rules.over(u[0], rules.atom(sp.sqrt(1 - u[0] ** 2)), whole),
-    sp.acos: lambda rules, u, whole: rules.over(-u[0], rules.atom(sp.sqrt(1 - u[0] ** 2)), whole),
-    sp.atan2: lambda rules, u, whole: _arc(rules, u[0], u[1], whole),
-}
+def _by_derivative(rules: Rules, derivative: str, u: sp.Symbol, whole: sp.Symbol) -> sp.Expr:
+    """c = f(u) by its derivative n/w, n a number: w c' = n u'; or by a sum of terms, c' = u' w for each."""
+    above, below = sp.fraction(derivative_at(derivative, u, whole))
+    if below != 1:
+        return rules.over(above * u, below if below.is_Symbol else rules.atom(below), whole)
+    terms = []
+    for number, w in (term.as_coeff_Mul() for term in sp.Add.make_args(above)):
+        if w == whole**2:
+            w = rules.square(whole)
+        elif w.is_Function:
+            w = rules.beside(w)
+        elif not w.is_Symbol and w != 1:
+            w = rules.atom(w)
+        terms.append(number * (u if w == 1 else rules.by_rate(u, w)))
+    return sp.Add(*terms)

@@ -22,8 +22,8 @@ from gudgeon.generator.reader.fields import Around, read_fields
 from gudgeon.generator.reader.tables import Row, is_header, read_table
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
 from gudgeon.language.curves import LEAST, MONOTONE, NOT_A_KNOT, PERIODIC, STOP, Curve, in_pairs, spline
+from gudgeon.language.functions import FUNCTIONS
 from gudgeon.language.names import check_name
-from gudgeon.language.tree import FUNCTIONS
 from gudgeon.language.units import DIMENSIONLESS, Unit, parse_unit, si_unit
 
 MOST_POINTS = 1 << 21  # of a curve

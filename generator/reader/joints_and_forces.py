@@ -23,6 +23,7 @@ from gudgeon.generator.reader.fields import (
 from gudgeon.generator.reader.places import Places
 from gudgeon.generator.reader.result_names import CamAngle
 from gudgeon.generator.yaml.tree import Map, Text
+from gudgeon.language.functions import PIECEWISE
 from gudgeon.language.names import Namespace
 from gudgeon.language.parser import at
 from gudgeon.language.tree import Number, functions, names
@@ -87,12 +88,9 @@ def _check_profile(reader: Reader, profile: Quantity) -> None:
     if OF_CAM_ANGLE not in used:
         hint = "expected an expression such as 30 mm + lift(phi)"
         raise ExpressionError(f"{profile.address} does not follow phi, the cam's angle", profile.where, hint)
-    if jumps := sorted(_ROUGH.intersection(functions(profile.value))):
+    if jumps := sorted(PIECEWISE.intersection(functions(profile.value))):
         hint = "expected curves (extrapolate: none, or ends: periodic) and smooth functions: the slope is a speed"
         raise BadValueError(f"{profile.address} has a slope that may jump, by {jumps[0]}", profile.where, hint)
-
-
-_ROUGH = frozenset({"ramp", "abs", "min", "max", "sign", "where", "mod", "smooth_step"})
 
 
 def read_forces(

@@ -8,13 +8,15 @@ from collections.abc import Callable
 import numpy as np
 import sympy as sp
 
-from gudgeon.errors import BadValueError
+from gudgeon.errors import BadValueError, Location
 from gudgeon.generator.mechanism.mechanism import Quantity
 from gudgeon.generator.symbols.corners import Pick
 from gudgeon.generator.symbols.curves import curve_of
+from gudgeon.generator.symbols.functions import CLASSES
 from gudgeon.generator.symbols.periods import ModOf
 from gudgeon.generator.symbols.squares import DEGREE, decimal, root
 from gudgeon.generator.symbols.wholes import kept
+from gudgeon.language.parser import parse
 from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Name, Number, Unary
 
 
@@ -50,10 +52,8 @@ def _exact(number: sp.Expr) -> sp.Expr:
 
 
 _FUNCTIONS: dict[str, Callable[..., sp.Expr]] = {
-    "sin": sp.sin, "cos": sp.cos, "tan": sp.tan, "asin": sp.asin, "acos": sp.acos, "atan": sp.atan,
-    "atan2": sp.atan2, "sinh": sp.sinh, "cosh": sp.cosh, "tanh": sp.tanh, "exp": exponential, "log": sp.log,
-    "abs": sp.Abs, "sign": sp.sign, "min": sp.Min, "max": sp.Max, "smooth_step": smooth_step, "ramp": ramp,
-    "where": where, "mod": ModOf,
+    **{function.name: kind for kind, function in CLASSES.items()},
+    "exp": exponential, "smooth_step": smooth_step, "ramp": ramp, "where": where, "mod": ModOf,
 }  # fmt: skip
 
 
@@ -63,6 +63,11 @@ def to_sympy(expr: Expr, symbol_of: Callable[[str], sp.Expr]) -> sp.Expr:
     A number stays the binary64 value that the user wrote; integers stay exact, so that they fold.
     """
     return _Reading(symbol_of).value(expr)
+
+
+def derivative_at(derivative: str, x: sp.Expr, f: sp.Expr) -> sp.Expr:
+    """Return a derivative of the table of functions at the argument `x`, where the function's value is `f`."""
+    return to_sympy(parse(derivative, Location("functions.py", 1, 1)), {"x": x, "f": f}.__getitem__)
 
 
 class _Reading:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sympy as sp
 
 from gudgeon.generator.symbols.derivatives import derivative
-from gudgeon.language.tree import mod
+from gudgeon.language.functions import mod
 
 
 class _Remainder(sp.Function):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 from gudgeon.generator.field import (
@@ -24,6 +25,7 @@ from gudgeon.generator.field import (
     Kind,
 )
 from gudgeon.generator.format.sections import FILE
+from gudgeon.language.functions import FUNCTIONS, Function
 from gudgeon.language.units import Dimension, si_unit
 
 Row = tuple[str, ...]
@@ -32,7 +34,21 @@ _HEAD = ("key", "holds", "without it", "condition", "meaning")
 
 def tables() -> str:
     """All tables as Markdown, a heading each."""
-    return "\n".join(_of_record("The file", FILE, "", set()))
+    return "\n".join((*_of_functions(), *_of_record("The file", FILE, "", set())))
+
+
+def _of_functions() -> Iterator[str]:
+    """The table of what expressions may call."""
+    rows = [(f"`{f.signature}`", f.meaning, f.units.value, _domain(f)) for f in FUNCTIONS.values()]
+    head = ("function", "value", "dimensions", "defined for")
+    yield from _table("Functions", "what expressions may call", head, rows)
+
+
+def _domain(function: Function) -> str:
+    low, high = function.domain
+    if math.isinf(low) and math.isinf(high):
+        return ""
+    return f"x ≥ {low:g}" if math.isinf(high) else f"{low:g} ≤ x ≤ {high:g}".replace("-", "−")
 
 
 def _of_record(heading: str, of: Field, path: str, seen: set[str]) -> Iterator[str]:

@@ -14,6 +14,8 @@ from sympy.core.exprtools import decompose_power
 from sympy.core.function import AppliedUndef
 from sympy.printing.precedence import PRECEDENCE, precedence
 
+from gudgeon.generator.symbols.functions import CLASSES
+
 Method = Callable[..., str]
 
 
@@ -84,6 +86,8 @@ _METHODS: dict[tuple[type, type], Method] = {}  # of printers, by the class that
 
 def _method(printer: type, kind: type) -> Method:
     """As SymPy finds it: the class's own, or that of the first of its bases; of functions by their own name alone."""
+    if kind in CLASSES and (of_table := getattr(printer, "_print_of_table", None)):
+        return of_table
     classes = kind.__mro__
     if sp.Function in classes:
         first = classes.index(sp.Function)

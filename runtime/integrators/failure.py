@@ -24,11 +24,12 @@ from gudgeon.contract.boundary import (
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.contract.methods import NEED_SLOPES
 from gudgeon.errors import NonFiniteError, SingularError, SolverError
+from gudgeon.language.functions import CORNERED
 from gudgeon.language.tree import functions
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.contours import widest
 from gudgeon.model.steep import steep_force, unbounded_drive
-from gudgeon.model.written import CORNERED, of_time, rate_reason, reason, trees, undefined_here
+from gudgeon.model.written import of_time, rate_reason, reason, trees, undefined_here
 
 TOLD = {
     JAMMED: "friction jams a contact of newton_restitution at t = {t:.9g} s: by it normal forces bring the surfaces "

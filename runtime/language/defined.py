@@ -11,9 +11,11 @@ from collections.abc import Container, Iterator, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon.language.functions import names_where
 from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, evaluate, functions, names
 
-DEFINED = frozenset(("sin", "cos", "tanh", "sinh", "cosh", "atan", "abs", "sign", "min", "max"))  # of every number
+DEFINED = names_where(lambda f: f.is_total)
+DIVIDING = names_where(lambda f: f.divides)
 
 
 def is_defined_everywhere(expr: Expr) -> bool:
@@ -54,7 +56,7 @@ def _absorbed_parts(expr: Expr, known: Mapping[str, float]) -> Iterator[Expr]:
                 chosen, other = (then, otherwise) if is_less else (otherwise, then)
                 arguments = (less, more, chosen, *_constant_parts(other, {}))
             yield from arguments
-            if function in ("ramp", "smooth_step"):
+            if function in DIVIDING:
                 yield Binary("/", Number(1.0), arguments[-1])
             for argument in arguments:
                 yield from _absorbed_parts(argument, known)
@@ -73,7 +75,7 @@ def _constant_parts(expr: Expr, known: Container[str]) -> Iterator[Expr]:
             for part in _constant_parts(right, known):
                 yield Binary("/", Number(1.0), part) if operator == "/" and part is right else part
         case Call(function=function, arguments=arguments):
-            divides = arguments[-1] if function in ("ramp", "smooth_step", "mod") else None
+            divides = arguments[-1] if function in DIVIDING else None
             for argument in arguments:
                 for part in _constant_parts(argument, known):
                     yield Binary("/", Number(1.0), part) if part is divides else part
@@ -100,7 +102,7 @@ def _every_part(expr: Expr) -> Iterator[Expr]:
             parts = (left, right)
         case Call(function=function, arguments=arguments):
             parts = arguments
-            if function in ("ramp", "smooth_step"):
+            if function in DIVIDING:
                 yield Binary("/", Number(1.0), arguments[-1])
         case _:
             return

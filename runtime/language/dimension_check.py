@@ -14,6 +14,7 @@ from fractions import Fraction
 import numpy as np
 
 from gudgeon.errors import Location, UnitError
+from gudgeon.language.functions import FUNCTIONS, Units
 from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Name, Number, Unary, evaluate, names
 from gudgeon.language.units import DIMENSIONLESS, Dimension, describe, symbol_dimension, unit
 
@@ -30,8 +31,6 @@ class _Flexible:
 _BARE, _ANY = _Flexible(True), _Flexible(False)
 _Found = Dimension | _Flexible
 
-_SAME = ("abs", "min", "max", "hypot", "mod")  # the result has the arguments' dimension
-_RATIO = ("atan2", "sign", "smooth_step", "ramp")  # arguments of one dimension, a pure number comes out
 
 
 def check_dimension(
@@ -146,17 +145,18 @@ class _Checker:
         return result
 
     def _call(self, call: Call) -> _Found:
-        if call.function in _SAME:
-            return self._same(f"{call.function} of unlike quantities", *call.arguments)
-        if call.function == "where":
+        units, unlike = FUNCTIONS[call.function].units, f"{call.function} of unlike quantities"
+        if units is Units.SAME:
+            return self._same(unlike, *call.arguments)
+        if units is Units.CHOICE:
             self._same("cannot compare", *call.arguments[:2])
-            return self._same("where of unlike quantities", *call.arguments[2:])
-        if call.function in _RATIO:
-            self._same(f"{call.function} of unlike quantities", *call.arguments)
+            return self._same(unlike, *call.arguments[2:])
+        if units is Units.RATIO:
+            self._same(unlike, *call.arguments)
             return DIMENSIONLESS
         argument = call.arguments[0]
         found = self.of(argument)
-        if call.function == "sqrt":
+        if units is Units.ROOT:
             return found if isinstance(found, _Flexible) else found ** Fraction(1, 2)
         if isinstance(found, Dimension) and found != DIMENSIONLESS:
             message = f"{call.function} expected {describe(DIMENSIONLESS)}, got {describe(found)}"

@@ -6,7 +6,7 @@ import re
 import unicodedata
 
 from gudgeon.errors import BadNameError, Location
-from gudgeon.language.tree import FUNCTIONS
+from gudgeon.language.functions import FUNCTIONS
 
 MAX_LENGTH = 64
 LABEL = "[A-Za-z_][A-Za-z0-9_]{0,63}"  # of what a study names: windows, measures, parts, claims

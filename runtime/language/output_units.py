@@ -11,6 +11,7 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import TypeAlias
 
+from gudgeon.language.functions import FUNCTIONS, Function, Units
 from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Name, Number, Unary
 
 # exponents of m, kg, s, rad; None: a bare number, which fits any dimension
@@ -67,15 +68,19 @@ def _exponents(expression: Expr, unit: Callable[[str], str | None]) -> Exponents
             return _sum(_exponents(left, unit) or _PLAIN, factor or _PLAIN)
         case CurveCall(curve=curve):
             return None if curve.unit is None else parse(curve.unit)
-        case Call(function="sqrt", arguments=(argument,)):
-            return _scaled(_exponents(argument, unit), Fraction(1, 2))
-        case Call(function="where", arguments=(_, _, first, *rest)) | Call(
-            function="abs" | "min" | "max" | "hypot" | "mod", arguments=(first, *rest)
-        ):
-            return _either(_exponents(first, unit), _exponents(rest[0], unit) if rest else None)
-        case Call(function="asin" | "acos" | "atan" | "atan2"):
-            return parse("rad")
+        case Call(function=function, arguments=arguments):
+            return _of_call(FUNCTIONS[function], [_exponents(argument, unit) for argument in arguments])
     return _PLAIN
+
+
+def _of_call(function: Function, arguments: list[Exponents | None]) -> Exponents | None:
+    """Return the exponents of a function's value from those of its arguments."""
+    if function.units is Units.ROOT:
+        return _scaled(arguments[0], Fraction(1, 2))
+    if function.units in (Units.SAME, Units.CHOICE):
+        first, *rest = arguments[2:] if function.units is Units.CHOICE else arguments
+        return _either(first, rest[0] if rest else None)
+    return parse("rad") if function.is_angle else _PLAIN
 
 
 def _either(a: Exponents | None, b: Exponents | None) -> Exponents | None:
@@ -116,8 +121,7 @@ def angle_power(expression: Expr) -> int:
             return angle_power(left) + (1 if operator == "*" else -1) * angle_power(right)
         case Binary(operator="+" | "-", left=left, right=right):
             return max(angle_power(left), angle_power(right))
-        case Call(function="asin" | "acos" | "atan" | "atan2"):
-            return 1
-        case Call(function="abs" | "min" | "max", arguments=arguments):
-            return max(map(angle_power, arguments))
+        case Call(function=function, arguments=arguments) if not isinstance(expression, CurveCall):
+            known = FUNCTIONS[function]
+            return max(map(angle_power, arguments)) if known.units is Units.SAME else int(known.is_angle)
     return 0

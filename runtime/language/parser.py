@@ -20,9 +20,10 @@ from typing import NoReturn, TypeAlias
 from gudgeon.errors import ExpressionError, LimitError, Location
 from gudgeon.language.curves import Curve
 from gudgeon.language.dimension_check import check_dimension
+from gudgeon.language.functions import FUNCTIONS
 from gudgeon.language.suggestions import nearest
 from gudgeon.language.tokens import COMPARED, NESTED, Token, Tokenizer, at
-from gudgeon.language.tree import FUNCTIONS, Binary, Call, CurveCall, Expr, Name, Unary
+from gudgeon.language.tree import Binary, Call, CurveCall, Expr, Name, Unary
 from gudgeon.language.units import DIMENSIONLESS, unit
 
 __all__ = ["MAX_DEPTH", "MAX_LENGTH", "MAX_NODES", "at", "check_dimension", "parse"]
@@ -32,14 +33,9 @@ MAX_DEPTH = 50  # levels of brackets, calls, powers and signs
 MAX_TREE = 100  # levels of the tree, after long sums and products are balanced
 MAX_NODES = 10_000
 MAX_WRITTEN_OUT = 1000  # nodes more once functions are written out: nested smooth steps grow by powers
-COPIES = {"smooth_step": 3, "mod": 2}  # of its arguments in the formula
+COPIES = {function.name: function.copies for function in FUNCTIONS.values()}  # of its arguments in the formula
 Operand: TypeAlias = tuple[str, int, Expr]  # operator before it, its offset, the operand
 _COMPARISONS = ("<", "<=", ">", ">=")
-_STEP = "smooth_step(t, start, duration) goes from 0 to 1"
-_WRITTEN = {  # what calls look like
-    "smooth_step": _STEP, "ramp": _STEP, "mod": "mod(t, 1 s) begins anew each second",
-    "where": "where(t < 1 s, then, otherwise) is `then` as long as the comparison holds",
-}  # fmt: skip
 
 
 def parse(
@@ -221,7 +217,7 @@ class _Parser:
         found: list[Expr] = []
         if compares:
             if operator not in _COMPARISONS:
-                self.fail(f"expected a comparison, got {self.token}", self.token.offset, _WRITTEN["where"])
+                self.fail(f"expected a comparison, got {self.token}", self.token.offset, FUNCTIONS["where"].usage)
             self.advance()
             found.append(self.sum(level))
             if self.token.text in _COMPARISONS:
@@ -230,11 +226,12 @@ class _Parser:
             self.advance()
             found.append(self.sum(level))
         self.close(opened)
-        wanted = 1 if function.text in self.curves else FUNCTIONS[function.text][0]
+        known = None if function.text in self.curves else FUNCTIONS[function.text]
+        wanted = len(known.arguments) if known else 1
         if len(found) + 1 != wanted:
             wanted, got = wanted - compares, len(found) + 1 - compares
             message = f"{function.text} takes {wanted} argument{'s' * (wanted > 1)}, got {got}"
-            self.fail(message, function.offset, _WRITTEN.get(function.text, ""))
+            self.fail(message, function.offset, known.usage if known else "")
         return _in_order(left, operator, *found) if compares else (left, *found)
 
 

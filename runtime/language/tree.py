@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from gudgeon.language.functions import FUNCTIONS
+
 if TYPE_CHECKING:
     from gudgeon.language.curves import Curve
 
@@ -67,38 +69,6 @@ class CurveCall(Call):
 Expr: TypeAlias = Number | Name | Unary | Binary | Call
 
 
-def smooth_step(t: Any, start: Any, duration: Any) -> Any:
-    """0 up to `start`, 1 from `start + duration`, between them the quintic 10s³ − 15s⁴ + 6s⁵ (C² at both ends)."""
-    s = ramp(t, start, duration)
-    return s**3 * (10.0 + s * (6.0 * s - 15.0))
-
-
-def ramp(t: Any, start: Any, duration: Any) -> Any:
-    """0 up to `start`, 1 from `start + duration`, linear between them (its rate jumps at both ends)."""
-    return np.clip((t - start) / duration, 0.0, 1.0)
-
-
-def where(left: Any, right: Any, then: Any, otherwise: Any) -> Any:
-    """`then` where left < right, else `otherwise`, NaN where one is: `where(left < right, then, otherwise)`."""
-    undefined = np.isnan(left) | np.isnan(right)
-    return np.where(undefined, np.nan, np.where(np.less(left, right), then, otherwise))[()]
-
-
-def mod(a: Any, b: Any) -> Any:
-    """What is left of a behind the last whole multiple of b: from 0 to b, with the sign of b."""
-    return np.mod(a, b)
-
-
-# name -> (number of arguments, NumPy function)
-FUNCTIONS: Mapping[str, tuple[int, Callable[..., Any]]] = {
-    "sin": (1, np.sin), "cos": (1, np.cos), "tan": (1, np.tan),
-    "asin": (1, np.arcsin), "acos": (1, np.arccos), "atan": (1, np.arctan), "atan2": (2, np.arctan2),
-    "sinh": (1, np.sinh), "cosh": (1, np.cosh), "tanh": (1, np.tanh),
-    "exp": (1, np.exp), "log": (1, np.log), "sqrt": (1, np.sqrt), "hypot": (2, np.hypot),
-    "abs": (1, np.abs), "sign": (1, np.sign), "min": (2, np.minimum), "max": (2, np.maximum),
-    "smooth_step": (3, smooth_step), "ramp": (3, ramp), "where": (4, where), "mod": (2, mod),
-}  # fmt: skip
-
 _OPERATORS: Mapping[str, Callable[[Any, Any], Any]] = {
     "+": np.add, "-": np.subtract, "*": np.multiply, "/": np.true_divide, "**": np.power,
 }  # fmt: skip
@@ -122,7 +92,7 @@ def evaluate(expr: Expr, value_of: Callable[[str], Any]) -> Any:
             return curve.at(evaluate(argument, value_of))
         case Call(function=function, arguments=arguments):
             with np.errstate(all="ignore"):
-                return FUNCTIONS[function][1](*(evaluate(a, value_of) for a in arguments))
+                return FUNCTIONS[function].evaluate(*(evaluate(a, value_of) for a in arguments))
     raise TypeError(f"not an expression: {expr!r}")
 
 

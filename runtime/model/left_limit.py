@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon.language.functions import PIECEWISE
 from gudgeon.language.tree import CurveCall, calls
 from gudgeon.model.evaluation import around
 from gudgeon.model.written import trees
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
     from gudgeon.model.compiled import Array, CompiledModel
     from gudgeon.results.results import Result
 
-SWITCHING = frozenset({"abs", "sign", "min", "max", "smooth_step", "ramp", "where", "mod"})
 JUMP_TOL = 1e-6  # of the values on both sides: a smaller difference is none of a switch
 STEEPEST = 1e3  # times as fast as the rows' accelerations, a smooth change of Î½ between both sides may be
 
@@ -28,7 +28,7 @@ STEEPEST = 1e3  # times as fast as the rows' accelerations, a smooth change of Î
 def may_switch(compiled: CompiledModel) -> bool:
     """Return whether the acceleration that a drive prescribes may jump at some time."""
     return any(
-        call.function in SWITCHING or isinstance(call, CurveCall)
+        call.function in PIECEWISE or isinstance(call, CurveCall)
         for _, tree in trees(compiled.source, ("drives",)) for call in calls(tree)
     )  # fmt: skip
 

@@ -23,7 +23,6 @@ from gudgeon.model.culprit import Values, culprit
 if TYPE_CHECKING:
     from gudgeon.results.results import Result
 
-CORNERED = frozenset({"abs", "min", "max", "ramp", "sign", "where", "mod"})  # whose corners end steps
 _REACH = tuple(10.0**k for k in range(-13, -8))  # s, or share of the time: how far ahead of a state a reason may lie
 MOST_CORNERS = 64  # of a where, that are looked at one after the other
 

@@ -21,12 +21,12 @@ from gudgeon.contract.methods import KINEMATIC
 from gudgeon.errors import NonFiniteError, SolverError
 from gudgeon.integrators.failure import NO_NUMBER
 from gudgeon.integrators.trajectory import Problem
+from gudgeon.language.functions import CORNERED, JUMPING, names_where
 from gudgeon.language.tree import Binary, Call, Expr, Number, Unary, functions, names
 from gudgeon.model.compiled import Array
-from gudgeon.model.written import CORNERED, of_time, trees, undefined_at_a_corner
+from gudgeon.model.written import of_time, trees, undefined_at_a_corner
 
-BREAKING = frozenset({"where", "mod"})  # of CORNERED: the value itself may jump
-_HIDING = frozenset({"sqrt", "hypot", "asin", "acos", "atan", "atan2", "tan", "log"})
+_HIDING = names_where(lambda f: f.hides_corners)
 GRID, MOST, MOST_CORNERS = 4096, 16, 512  # intervals, candidates; those that are looked at one after the other
 AT_THE_END = 1e-12  # share of a run's time that is looked at behind its end
 POINTS, LEVELS = 16, 11  # intervals of a closer look; each is a quarter as wide as the one before
@@ -156,7 +156,7 @@ def _hides(tree: Expr) -> bool:
 
 def _that_may_break(source: KernelSource) -> list[tuple[str, Expr]]:
     """Drives whose corners the generator has found, and whose branches may not meet there."""
-    return [(drive, tree) for drive, tree in _with_drives(source) if not BREAKING.isdisjoint(functions(tree))]
+    return [(drive, tree) for drive, tree in _with_drives(source) if not JUMPING.isdisjoint(functions(tree))]
 
 
 @np.errstate(all="ignore")

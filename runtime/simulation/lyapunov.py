@@ -18,6 +18,7 @@ import numpy as np
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError
 from gudgeon.integrators.adaptive import tolerance
+from gudgeon.language.functions import JUMPING
 from gudgeon.language.tree import functions, names
 from gudgeon.language.wanted import refuse, text
 from gudgeon.model.parameters import prepare_slots
@@ -44,7 +45,6 @@ LOOSEST = 1e-10  # of twins: where only one of both takes another step, they par
 LOOKED = 1000  # samples by which the motion is measured
 INTERVALS = 60  # of the time, and once a period at least
 SHORTEST = 2.0**-12  # of an interval
-JUMPING = frozenset({"sign", "where", "mod"})  # whose corners may be jumps
 
 
 def no_tangent(source: KernelSource) -> str:

@@ -15,6 +15,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.far_quotients import for_readers
 from gudgeon.generator.symbols.symbols import plain_name
 from gudgeon.generator.targets.latex.printers import share_of_pi
+from gudgeon.language.functions import IN_SYMPY
 
 # what a notebook calls so itself
 TAKEN = frozenset(
@@ -37,10 +38,7 @@ TAKEN = frozenset(
     + ("mass", "forces", "system", "solved", "Phi")
 )
 TAKEN_HEADS = ("Phi_", "first_", "second_")
-_PLAIN = frozenset(
-    ("sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log")
-    + ("Abs", "sign", "Max", "Min", "Heaviside")
-)
+_PLAIN = frozenset((*IN_SYMPY, "Heaviside"))
 
 
 class Printer(StrPrinter):

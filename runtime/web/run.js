@@ -2,12 +2,10 @@
  * A run and what follows from it by name, as runtime/results/series.py has it: columns of what the loops stored and of
  * what C evaluates at the samples, points of bodies, magnitudes, outputs of the file.
  */
-const FUNCTIONS = { // of outputs; those of the browser, whose last digit may be another one than NumPy's
+const FUNCTIONS = { // of outputs; others are those of the browser, whose last digit may be another one than NumPy's
     "+": (a, b) => a + b, "*": (a, b) => a * b, "/": (a, b) => a / b, "**": Math.pow,
-    "-": (a, b) => (b === undefined ? -a : a - b), sin: Math.sin, cos: Math.cos, tan: Math.tan, asin: Math.asin,
-    acos: Math.acos, atan: Math.atan, atan2: Math.atan2, sinh: Math.sinh, cosh: Math.cosh, tanh: Math.tanh,
-    exp: Math.exp, log: Math.log, sqrt: Math.sqrt, hypot: Math.hypot, abs: Math.abs, sign: Math.sign,
-    min: Math.min, max: Math.max, where: (left, right, then, otherwise) => (left < right ? then : otherwise),
+    "-": (a, b) => (b === undefined ? -a : a - b),
+    where: (left, right, then, otherwise) => (left < right ? then : otherwise),
     mod: (a, b) => {
         const rest = a % b;
         return rest !== 0 && rest < 0 !== b < 0 ? rest + b : rest;
@@ -25,7 +23,7 @@ function valueOf(tree, named) {
     if (typeof tree === "string") return named(tree);
     const [head, ...rest] = tree;
     if (head === "curve") return curveAt(rest[0], valueOf(rest[1], named));
-    return FUNCTIONS[head](...rest.map((part) => valueOf(part, named)));
+    return (FUNCTIONS[head] ?? Math[head])(...rest.map((part) => valueOf(part, named)));
 }
 
 const UNPACKED = new Map(); // tables of long curves: base64 of binary64, by their text

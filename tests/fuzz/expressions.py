@@ -6,9 +6,12 @@ import random
 import re
 from collections.abc import Collection, Mapping
 
+from gudgeon.language.functions import FUNCTIONS, Units
 from gudgeon.language.units import DIMENSIONLESS, LENGTH, RATE, TIME, Dimension, si_unit
 
-OF_A_NUMBER = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log", "sqrt")
+OF_A_NUMBER = tuple(
+    name for name, f in FUNCTIONS.items() if len(f.arguments) == 1 and f.units in (Units.PURE, Units.ROOT)
+)  # fmt: skip
 _NAME = re.compile(r"[A-Za-z_][\w.]*")
 _NUMBERS = ("0.5", "2", "0.1", "3.7", "1e-3", "1", "12", "0.25", "1.5e2", "7")
 _ANGLES = ("rad", "deg", "mrad", "rev")

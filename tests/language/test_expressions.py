@@ -11,8 +11,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from gudgeon.errors import ExpressionError, InputError, LimitError, Location, UnitError
+from gudgeon.language.functions import FUNCTIONS
 from gudgeon.language.parser import MAX_LENGTH, check_dimension, parse
-from gudgeon.language.tree import FUNCTIONS, Binary, Call, Expr, Name, Number, Unary, evaluate, from_json, to_json
+from gudgeon.language.tree import Binary, Call, Expr, Name, Number, Unary, evaluate, from_json, to_json
 from gudgeon.language.units import LENGTH
 
 HERE = Location("file.yaml", 3, 10)
@@ -76,7 +77,7 @@ def test_against_pythons_own_arithmetic(tree: Expr) -> None:
     But for the last bit: NumPy's power of scalars is not always that of arrays.
     """
     text = write(tree)
-    functions = {name: function for name, (_, function) in FUNCTIONS.items()} | {"either": either}
+    functions = {name: function.evaluate for name, function in FUNCTIONS.items()} | {"either": either}
     values = {name: np.float64(value) for name, value in VALUES.items()}
     # every literal a NumPy number, so that overflow and 0/0 are inf and nan on both sides
     wrapped = write_wrapped(tree)

@@ -8,8 +8,8 @@ import pytest
 
 from gudgeon.errors import InputError, InputErrors
 from gudgeon.generator.reader.read import read_mechanism
+from gudgeon.language.functions import FUNCTIONS
 from gudgeon.language.names import RESERVED, WORDS
-from gudgeon.language.tree import FUNCTIONS
 from gudgeon.results.series import CLEARANCE, MOTION
 
 TEXT = """\

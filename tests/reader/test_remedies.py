@@ -8,8 +8,8 @@ import pytest
 
 from gudgeon.errors import BadNameError, BadValueError
 from gudgeon.generator.reader.read import read_mechanism
+from gudgeon.language.functions import FUNCTIONS
 from gudgeon.language.names import RESERVED, WORDS, check_name
-from gudgeon.language.tree import FUNCTIONS
 
 WHAT = ("body", "joint", "drive", "force", "parameter", "output", "curve", "expression", "point", "mechanism")
 TRIED = (*RESERVED, *FUNCTIONS, *WORDS, "time", "a__b", "a___b__c", "my-pin", "my pin", "a - b", "a--b", "pin-",

@@ -22,8 +22,8 @@ from gudgeon.errors import BadNameError
 from gudgeon.generator.equations import contact_steps as contact
 from gudgeon.generator.kinds.laws.law import RESULTS, VARIABLES
 from gudgeon.generator.pipeline import generate
+from gudgeon.language.functions import FUNCTIONS
 from gudgeon.language.names import RESERVED, WORDS, YAML_NULL, check_name
-from gudgeon.language.tree import FUNCTIONS
 from gudgeon.loading.compiler import find_compiler
 from gudgeon.loading.engine import engine_files, include_flags
 from tests.slow import slow_but

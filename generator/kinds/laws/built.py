@@ -15,12 +15,9 @@ from typing import Any
 from gudgeon.errors import LawError
 from gudgeon.generator.kinds.laws.law import Law, LawInputs, PairSymbols
 from gudgeon.generator.kinds.laws.registered import ORIGINS, place_in, prefix, told
+from gudgeon.language.functions import IN_SYMPY
 
 PAIR = tuple(PairSymbols.__annotations__)
-FUNCTIONS = (
-    "Abs", "Max", "Min", "sign", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh",
-    "tanh",
-)  # fmt: skip
 _CHOICES = 64  # combinations of a law's options and numbers that are tried
 
 
@@ -161,7 +158,7 @@ def _check(law: Law, what: str, value: Any, known: set[Any], may: str, written: 
         named = strange[0] in {str(symbol) for symbol in known}
         hint = "an abbreviation is sp.Symbol(name, real=True)" if named else f"it may use {may}"
         raise _error(law, f"{what} uses the symbol {strange[0]}", hint)
-    functions = tuple(getattr(sp, name) for name in FUNCTIONS)
+    functions = tuple(getattr(sp, name) for name in IN_SYMPY)
     for part in sp.preorder_traversal(value):
         if part in (sp.nan, sp.zoo, sp.oo, -sp.oo, sp.I):
             why = "is not real" if part == sp.I else "is not finite"
@@ -169,7 +166,7 @@ def _check(law: Law, what: str, value: Any, known: set[Any], may: str, written: 
         plain = part.is_Number or part.is_NumberSymbol or part.is_Symbol or part.is_Add or part.is_Mul or part.is_Pow
         together = type(part).__name__ == "Whole"  # what `whole` makes, in a room above
         if not plain and not together and not isinstance(part, functions) and type(part) not in written:
-            hint = f"expected + - * / **, sqrt, {', '.join(FUNCTIONS)}"
+            hint = f"expected + - * / **, sqrt, {', '.join(IN_SYMPY)}"
             raise _error(law, f"{what} uses {type(part).__name__}, which C is not given", hint)
 
 

@@ -61,12 +61,6 @@ class LanesPrinter(printer.CPrinter):
             return super()._call(function, *arguments)
         return f"lanes_{function}({', '.join(map(self._vector, arguments))})"
 
-    def _function(self, expr: sp.Expr) -> str:
-        return self._call(type(expr).__name__, *expr.args)
-
-    _print_sin = _print_cos = _print_tan = _print_asin = _print_acos = _print_atan = _function
-    _print_sinh = _print_cosh = _print_tanh = _print_exp = _print_log = _print_atan2 = _function
-
     def _nested(self, function: str, expr: sp.Expr) -> str:
         if not expr.free_symbols:
             return super()._nested(function, expr)

@@ -13,6 +13,7 @@ from gudgeon.generator.ir.readable import Readable, share_of_pi
 from gudgeon.generator.ir.values import Chosen, Given, Place, Sum, Test, Threshold, Value
 from gudgeon.generator.symbols.contours import ContourOf
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
+from gudgeon.generator.symbols.functions import CLASSES
 from gudgeon.generator.targets.quick import Quick
 
 _PLAIN = Readable(())
@@ -94,12 +95,6 @@ class CPrinter(Quick, C99CodePrinter):
     def _call(self, function: str, *arguments: sp.Expr) -> str:
         return f"{function}({', '.join(map(self._print, arguments))})"
 
-    def _print_Max(self, expr: sp.Max) -> str:
-        return self._nested("max_of", expr)
-
-    def _print_Min(self, expr: sp.Min) -> str:
-        return self._nested("min_of", expr)
-
     def _nested(self, function: str, expr: sp.Expr) -> str:
         """Numbers come last: max_of(x, 0) keeps a NaN in x."""
         arguments = sorted(expr.args, key=lambda a: (a.is_Number, str(a)))
@@ -108,19 +103,19 @@ class CPrinter(Quick, C99CodePrinter):
             text = f"{function}({text}, {self._print(argument)})"
         return text
 
-    def _print_Abs(self, expr: sp.Expr) -> str:
-        return self._call("fabs", expr.args[0])
+    def _print_of_table(self, expr: sp.Expr) -> str:
+        """Of the table of functions."""
+        name = CLASSES[type(expr)].in_c
+        return self._nested(name, expr) if isinstance(expr, (sp.Max, sp.Min)) else self._call(name, *expr.args)
 
-    _print_Size = _print_Abs
+    def _print_Size(self, expr: sp.Expr) -> str:
+        return self._call("fabs", expr.args[0])
 
     def _print_Whole(self, expr: sp.Expr) -> str:
         """From wholes.py."""
         return f"({self._print(expr.args[0])})"
 
     _print_Share = _print_Whole
-
-    def _print_sign(self, expr: sp.Expr) -> str:
-        return self._call("sign_of", expr.args[0])
 
     def _print_Heaviside(self, expr: sp.Expr) -> str:
         """From the rates of ramps and corners; 1 at 0, so that a ramp that begins at the start moves at once."""

@@ -31,9 +31,11 @@ from gudgeon.generator.kernels.shared import CORNER
 from gudgeon.generator.symbols.contours import ContourOf
 from gudgeon.generator.symbols.curves import CurveOf, c_name
 from gudgeon.generator.targets.c.printer import CPrinter, Text
+from gudgeon.language.functions import IN_SYMPY
 
-PRELUDE = """\
-const {sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, log, sqrt, pow, abs: fabs, PI} = Math;
+PRELUDE = f"""\
+const {{{', '.join(name for name in IN_SYMPY if name == IN_SYMPY[name].in_c)}, sqrt, pow, abs: fabs, PI}} = Math;
+""" + """\
 const max_of = (x, y) => (x < y ? y : x), min_of = (x, y) => (x > y ? y : x), INFINITY = Infinity;
 const sign_of = (x) => (x > 0 ? 1 : x < 0 ? -1 : x);
 const just_ahead = (x) => x + 1e-9 * (1 + fabs(x)), just_behind = (x) => x - 1e-9 * (1 + fabs(x));

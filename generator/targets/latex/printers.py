@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from functools import lru_cache
 from typing import Any
@@ -17,6 +17,7 @@ from gudgeon.generator.symbols.contours import ContourOf
 from gudgeon.generator.symbols.curves import CurveOf
 from gudgeon.generator.symbols.symbols import plain_name
 from gudgeon.generator.targets.latex.letters import Name
+from gudgeon.language.functions import IN_SYMPY, Function
 
 LONG = 70  # characters of text beyond which a term is written so that a line may break inside it
 _NO_BODY = 1 << 30
@@ -97,9 +98,6 @@ class TextPrinter(_InOrder, StrPrinter):
     def _print_ModOf(self, expr: sp.Expr) -> str:
         return f"mod({self._print(expr.args[0])}, {self._print(expr.args[1])})"
 
-    def _print_sign(self, expr: sp.Expr) -> str:
-        return f"sgn({self._print(expr.args[0])})"
-
     def _print_Heaviside(self, expr: sp.Expr) -> str:
         return f"H({self._print(expr.args[0])})"
 
@@ -107,12 +105,6 @@ class TextPrinter(_InOrder, StrPrinter):
         """As the file has it."""
         left, right, below, otherwise = map(self._print, compared(expr))
         return f"where({left} < {right}, {below}, {otherwise})"
-
-    def _print_Max(self, expr: sp.Expr) -> str:
-        return f"max({self.stringify(sorted(expr.args, key=_number_last), ', ')})"
-
-    def _print_Min(self, expr: sp.Expr) -> str:
-        return f"min({self.stringify(sorted(expr.args, key=_number_last), ', ')})"
 
 
 class TexPrinter(_InOrder, LatexPrinter):
@@ -184,9 +176,6 @@ class TexPrinter(_InOrder, LatexPrinter):
     def _print_ModOf(self, expr: sp.Expr, exp: str | None = None) -> str:
         return self._function(r"\operatorname{mod}", expr, exp)
 
-    def _print_sign(self, expr: sp.Expr, exp: str | None = None) -> str:
-        return self._function(r"\operatorname{sgn}", expr, exp)
-
     def _print_Heaviside(self, expr: sp.Expr, exp: str | None = None) -> str:
         return self._function("H", expr, exp)
 
@@ -199,27 +188,33 @@ class TexPrinter(_InOrder, LatexPrinter):
         text = rf"\begin{{cases}} {cases} \end{{cases}}"
         return rf"\left({text}\right)^{{{exp}}}" if exp else text
 
-    def _print_atan2(self, expr: sp.Expr, exp: str | None = None) -> str:
-        return self._function(r"\mathrm{atan2}", expr, exp)
-
     def _print_Whole(self, expr: sp.Expr, exp: str | None = None) -> str:
         return self._function("", expr, None) + (f"^{{{exp}}}" if exp else "")
 
     _print_Share = _print_Whole
 
-    def _print_Max(self, expr: sp.Expr, exp: str | None = None) -> str:
-        return self._function(r"\operatorname{max}", expr, exp)
-
-    def _print_Min(self, expr: sp.Expr, exp: str | None = None) -> str:
-        return self._function(r"\operatorname{min}", expr, exp)
-
     def _function(self, name: str, expr: sp.Expr, exp: str | None) -> str:
-        arguments = expr.args[:1] if isinstance(expr, sp.Heaviside) else expr.args
-        if isinstance(expr, (sp.Max, sp.Min)):
-            arguments = sorted(arguments, key=_number_last)
-        inside = ", ".join(self._print(argument) for argument in arguments)
+        inside = ", ".join(self._print(argument) for argument in sorted_arguments(expr))
         return rf"{name}{f'^{{{exp}}}' if exp else ''}\left({inside}\right)"
 
+
+def _add_functions(in_sympy: str, function: Function) -> None:
+    """Let the printers write a function as the table of functions says."""
+
+    def print_text(printer: TextPrinter, expr: sp.Expr) -> str:
+        return f"{function.text}({printer.stringify(sorted_arguments(expr), ', ')})"
+
+    def print_latex(printer: TexPrinter, expr: sp.Expr, exp: str | None = None) -> str:
+        return printer._function(function.latex, expr, exp)
+
+    if function.text:
+        setattr(TextPrinter, f"_print_{in_sympy}", print_text)
+    if function.latex:
+        setattr(TexPrinter, f"_print_{in_sympy}", print_latex)
+
+
+for _name, _function in IN_SYMPY.items():
+    _add_functions(_name, _function)
 
 _SIMPLE = (1, 2, 3, 4, 6)  # of π: what people write as a share of it
 _LONG_NUMBER = 9  # digits from which a number says nothing to people
@@ -271,5 +266,8 @@ def compared(pick: sp.Expr) -> tuple[sp.Expr, sp.Expr, sp.Expr, sp.Expr]:
     return sp.Add(*(term for term in terms if -term not in right)), sp.Add(*right), below, otherwise
 
 
-def _number_last(argument: sp.Expr) -> tuple[bool, str]:
-    return bool(argument.is_Number), str(argument)
+def sorted_arguments(expr: sp.Expr) -> Sequence[sp.Expr]:
+    """Return the arguments that are printed: of a minimum or maximum numbers last, of a step function the first."""
+    if isinstance(expr, (sp.Max, sp.Min)):
+        return sorted(expr.args, key=lambda argument: (bool(argument.is_Number), str(argument)))
+    return expr.args[:1] if isinstance(expr, sp.Heaviside) else expr.args

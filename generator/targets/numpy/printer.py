@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import keyword
 from collections.abc import Iterable, Sequence
+from functools import reduce
 
 import sympy as sp
 from sympy.printing.pycode import PythonCodePrinter
@@ -28,11 +29,10 @@ from gudgeon.generator.ir.statements import (
 from gudgeon.generator.ir.values import Chosen, Given, Place, Sum, Test, Threshold, Value
 from gudgeon.generator.symbols.contours import ContourOf
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
+from gudgeon.generator.symbols.functions import CLASSES
 from gudgeon.generator.targets.numpy.layout import assigned, code, docstring, indented, remark
 from gudgeon.generator.targets.quick import Quick
 
-_NAMES = {"asin": "arcsin", "acos": "arccos", "atan": "arctan", "atan2": "arctan2", "Max": "maximum", "Min": "minimum",
-          "Abs": "abs", "Size": "abs"}  # fmt: skip
 _NOWHERE = (Status, JointsAlone, Jump, Rescue, Sides)  # vanished pivots, held corners, what single runs ask for
 _HELD = (Place("side"), Place("g"))
 _SIDES = ("side", "g", "corner")
@@ -95,21 +95,15 @@ class NumPyPrinter(Quick, PythonCodePrinter):
             return f"np.power({self._print(base)}, {self._print(exponent)})"
         return f"{self.parenthesize(base, 70)}**{self.parenthesize(exponent, 70)}"
 
-    def _call(self, expr: sp.Expr) -> str:
-        function = type(expr).__name__
-        return f"np.{_NAMES.get(function, function)}({', '.join(map(self._print, expr.args))})"
+    def _print_of_table(self, expr: sp.Expr) -> str:
+        """Of the table of functions; minima and maxima two by two."""
+        name, arguments = f"np.{CLASSES[type(expr)].in_numpy}", list(map(self._print, expr.args))
+        if isinstance(expr, (sp.Max, sp.Min)):
+            return reduce(lambda first, other: f"{name}({first}, {other})", arguments)
+        return f"{name}({', '.join(arguments)})"
 
-    _print_sin = _print_cos = _print_tan = _print_asin = _print_acos = _print_atan = _print_atan2 = _call
-    _print_sinh = _print_cosh = _print_tanh = _print_exp = _print_log = _print_sign = _print_Abs = _print_Size = _call
-
-    def _print_Max(self, expr: sp.Expr) -> str:
-        """Two by two."""
-        first, *others = map(self._print, expr.args)
-        for other in others:
-            first = f"np.{_NAMES[type(expr).__name__]}({first}, {other})"
-        return first
-
-    _print_Min = _print_Max
+    def _print_Size(self, expr: sp.Expr) -> str:
+        return f"np.abs({self._print(expr.args[0])})"
 
     def _print_Heaviside(self, expr: sp.Expr) -> str:
         return f"np.where({self._print(expr.args[0])} >= 0, 1.0, 0.0)"

@@ -1,0 +1,201 @@
+"""The functions that expressions may use, one entry each. Everything that knows a function by name reads this table.
+
+| field | who reads it |
+|---|---|
+| name, arguments, usage, copies | the parser of expressions |
+| units, is_angle | the checks of dimensions, the units of outputs |
+| numpy, compute | values of outputs and parameters, the NumPy target; JavaScript's `Math` has the name of the file |
+| sympy, derivative | SymPy, Taylor series, slopes (`generator/symbols`, `generator/ir`) |
+| c, has_vector_code, bounds, domain | C for numbers, vectors and ranges (`engine/scene/function_table.h`) |
+| latex, text | documents of equations |
+| jump_order, divides, hides_corners, is_total, saturates, is_exponential, has_pole | tests of what may jump, overflow \
+or be undefined |
+| meaning | docs/format.md |
+
+`make tables` writes the header of the engine and the table of docs/format.md. `tests/test_every_function.py` evaluates
+every function in every target.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from enum import Enum
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+
+class Units(Enum):
+    """The dimensions of arguments and value."""
+
+    PURE = "pure numbers give a pure number"
+    SAME = "arguments and value have one dimension"
+    RATIO = "arguments have one dimension, the value is a pure number"
+    ROOT = "the value has the root of the argument's dimension"
+    CHOICE = "the first two have one dimension; the others and the value have one"
+
+
+@dataclass(frozen=True)
+class Rising:
+    """Bounds of a function that rises in its domain and whose slope rises or falls on each side of one place at most.
+
+    slope: of x, in C, where the derivative as written cancels digits.
+    """
+
+    slope_extremum: float = math.nan
+    slope: str = ""
+
+
+@dataclass(frozen=True)
+class Function:
+    """A function by the name that files use.
+
+    sympy, c, numpy, text: its name there where that is another one; latex: where SymPy's own LaTeX is not used.
+    compute: values by NumPy where NumPy has no such function; generator/symbols/from_expressions.py composes the same
+    of other functions, which need no more fields than these.
+    derivative: of a function of one argument, as files write it, of the argument `x` and the function's value `f`.
+    domain: outside it the function is undefined. bounds: None where engine/watch/ranges.h has `range_` and the C name.
+    has_vector_code: engine/batch/lane_functions.h has `lanes_` and the C name; else lane after lane calls the library.
+    jump_order: of the lowest derivative that jumps where the function changes over; None: it is smooth in its domain.
+    is_total: defined and finite for all numbers. saturates: finite where its argument is infinite. divides: by its last
+    argument. hides_corners: a smooth argument may give a value whose slope jumps, as acos(cos t) does.
+    copies: how many times the formula of generator/symbols holds the arguments. usage: the hint after a wrong call.
+    """
+
+    name: str
+    meaning: str
+    arguments: tuple[str, ...] = ("x",)
+    units: Units = Units.PURE
+    sympy: str = ""
+    c: str = ""
+    numpy: str = ""
+    compute: Callable[..., Any] | None = None
+    derivative: str = ""
+    domain: tuple[float, float] = (-math.inf, math.inf)
+    bounds: Rising | None = None
+    has_vector_code: bool = False
+    latex: str = ""
+    text: str = ""
+    jump_order: int | None = None
+    is_total: bool = False
+    is_angle: bool = False
+    saturates: bool = False
+    is_exponential: bool = False
+    has_pole: bool = False
+    hides_corners: bool = False
+    divides: bool = False
+    copies: int = 1
+    usage: str = ""
+
+    @property
+    def signature(self) -> str:
+        """The call as files write it."""
+        first = self.arguments
+        if self.units is Units.CHOICE:
+            first = (" < ".join(self.arguments[:2]), *self.arguments[2:])
+        return f"{self.name}({', '.join(first)})"
+
+    @property
+    def in_sympy(self) -> str:
+        """The name of SymPy's class; "" for a function that is composed of others."""
+        return "" if self.compute or self.name in ("sqrt", "hypot") else self.sympy or self.name
+
+    @property
+    def in_c(self) -> str:
+        """The name of the function in C."""
+        return self.c or self.name
+
+    @property
+    def in_numpy(self) -> str:
+        """The name of NumPy's function."""
+        return self.numpy or self.name
+
+    @cached_property
+    def evaluate(self) -> Callable[..., Any]:
+        """The function of numbers or arrays."""
+        return self.compute or getattr(np, self.in_numpy)
+
+    @property
+    def squares_argument(self) -> bool:
+        """Whether the derivative holds the square of the argument, which may overflow."""
+        return "x**2" in self.derivative
+
+
+def smooth_step(t: Any, start: Any, duration: Any) -> Any:
+    """0 up to `start`, 1 from `start + duration`, between them the quintic 10s³ − 15s⁴ + 6s⁵ (C² at both ends)."""
+    s = ramp(t, start, duration)
+    return s**3 * (10.0 + s * (6.0 * s - 15.0))
+
+
+def ramp(t: Any, start: Any, duration: Any) -> Any:
+    """0 up to `start`, 1 from `start + duration`, linear between them (its rate jumps at both ends)."""
+    return np.clip((t - start) / duration, 0.0, 1.0)
+
+
+def where(left: Any, right: Any, then: Any, otherwise: Any) -> Any:
+    """`then` where left < right, else `otherwise`, NaN where one is: `where(left < right, then, otherwise)`."""
+    undefined = np.isnan(left) | np.isnan(right)
+    return np.where(undefined, np.nan, np.where(np.less(left, right), then, otherwise))[()]
+
+
+def mod(a: Any, b: Any) -> Any:
+    """What is left of a behind the last whole multiple of b: from 0 to b, with the sign of b."""
+    return np.mod(a, b)
+
+
+_HALF_LINE, _UNIT = (0.0, math.inf), (-1.0, 1.0)
+_STEP = "smooth_step(t, start, duration) goes from 0 to 1"
+_TABLE = (
+    Function("sin", "sine", derivative="cos(x)", has_vector_code=True, is_total=True),
+    Function("cos", "cosine", derivative="-sin(x)", has_vector_code=True, is_total=True),
+    Function("tan", "tangent", derivative="1 + f**2", has_pole=True, hides_corners=True),
+    Function("asin", "arc sine, from −π/2 to π/2", numpy="arcsin", derivative="1/sqrt(1 - x**2)", domain=_UNIT,
+             bounds=Rising(0.0), is_angle=True, hides_corners=True),
+    Function("acos", "arc cosine, from 0 to π", numpy="arccos", derivative="-1/sqrt(1 - x**2)", domain=_UNIT,
+             is_angle=True, hides_corners=True),
+    Function("atan", "arc tangent, from −π/2 to π/2", numpy="arctan", derivative="1/(1 + x**2)", bounds=Rising(0.0),
+             is_total=True, is_angle=True, saturates=True, hides_corners=True),
+    Function("atan2", "direction of the vector (x, y), from −π to π", ("y", "x"), Units.RATIO, numpy="arctan2",
+             latex=r"\mathrm{atan2}", is_angle=True, saturates=True, hides_corners=True),
+    Function("sinh", "hyperbolic sine", derivative="cosh(x)", bounds=Rising(0.0), is_total=True, is_exponential=True),
+    Function("cosh", "hyperbolic cosine", derivative="sinh(x)", is_total=True, is_exponential=True),
+    Function("tanh", "hyperbolic tangent", derivative="1 - f**2", bounds=Rising(0.0, "1.0 / pow(cosh(x), 2.0)"),
+             is_total=True, saturates=True),
+    Function("exp", "eˣ", derivative="f", has_vector_code=True, saturates=True, is_exponential=True),
+    Function("log", "natural logarithm", derivative="1/x", domain=_HALF_LINE, has_vector_code=True, has_pole=True,
+             hides_corners=True),
+    Function("sqrt", "square root", units=Units.ROOT, domain=_HALF_LINE, hides_corners=True),
+    Function("hypot", "length of the vector (a, b)", ("a", "b"), Units.SAME, hides_corners=True),
+    Function("abs", "absolute value", units=Units.SAME, sympy="Abs", c="fabs", has_vector_code=True, jump_order=1,
+             is_total=True),
+    Function("sign", "−1, 0 or 1", units=Units.RATIO, c="sign_of", has_vector_code=True,
+             latex=r"\operatorname{sgn}", text="sgn", jump_order=0, is_total=True),
+    Function("min", "the smaller one", ("a", "b"), Units.SAME, sympy="Min", c="min_of", numpy="minimum",
+             has_vector_code=True, latex=r"\operatorname{min}", text="min", jump_order=1, is_total=True),
+    Function("max", "the larger one", ("a", "b"), Units.SAME, sympy="Max", c="max_of", numpy="maximum",
+             has_vector_code=True, latex=r"\operatorname{max}", text="max", jump_order=1, is_total=True),
+    Function("smooth_step", "from 0 to 1 with continuous accelerations", ("t", "start", "duration"), Units.RATIO,
+             compute=smooth_step, jump_order=3, divides=True, copies=3, usage=_STEP),
+    Function("ramp", "from 0 to 1 along a line", ("t", "start", "duration"), Units.RATIO, compute=ramp, jump_order=1,
+             divides=True, usage=_STEP),
+    Function("where", "`then` as long as the comparison (`<`, `<=`, `>` or `>=`) holds",
+             ("a", "b", "then", "otherwise"), Units.CHOICE, compute=where, jump_order=0,
+             usage="where(t < 1 s, then, otherwise) is `then` as long as the comparison holds"),
+    Function("mod", "what is left of a after the last whole multiple of b", ("a", "b"), Units.SAME, compute=mod,
+             jump_order=0, divides=True, copies=2, usage="mod(t, 1 s) begins anew each second"),
+)  # fmt: skip
+FUNCTIONS: Mapping[str, Function] = {function.name: function for function in _TABLE}
+IN_SYMPY: Mapping[str, Function] = {function.in_sympy: function for function in _TABLE if function.in_sympy}
+
+
+def names_where(has: Callable[[Function], bool]) -> frozenset[str]:
+    """Return the names of the functions for which `has` holds."""
+    return frozenset(function.name for function in _TABLE if has(function))
+
+
+CORNERED = names_where(lambda f: f.jump_order in (0, 1))  # whose value or slope jumps: steps end there
+JUMPING = names_where(lambda f: f.jump_order == 0)
+PIECEWISE = names_where(lambda f: f.jump_order is not None)
