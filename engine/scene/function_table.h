@@ -14,7 +14,9 @@
     OF_TWO(atan2) \
     OF_ONE(sinh) \
     OF_ONE(cosh) \
-    OF_ONE(tanh)
+    OF_ONE(tanh) \
+    OF_ONE(acosh) \
+    OF_ONE(atanh)
 
 /*
  * RISING(name, from, to, extremum, slope): a function that rises from `from` to `to`, with its derivative at x. The
@@ -24,6 +26,8 @@
     RISING(asin, -1.0, 1.0, 0.0, 1.0/sqrt(1.0 - (x * x))) \
     RISING(atan, -INFINITY, INFINITY, 0.0, 1.0/((x * x) + 1.0)) \
     RISING(sinh, -INFINITY, INFINITY, 0.0, cosh(x)) \
-    RISING(tanh, -INFINITY, INFINITY, 0.0, 1.0 / pow(cosh(x), 2.0))
+    RISING(tanh, -INFINITY, INFINITY, 0.0, 1.0 / pow(cosh(x), 2.0)) \
+    RISING(acosh, 1.0, INFINITY, NAN, 1.0/sqrt((x * x) - 1.0)) \
+    RISING(atanh, -1.0, 1.0, 0.0, 1.0/(1.0 - (x * x)))
 
 #endif
