@@ -15,6 +15,7 @@
     OF_ONE(sinh) \
     OF_ONE(cosh) \
     OF_ONE(tanh) \
+    OF_ONE(asinh) \
     OF_ONE(acosh) \
     OF_ONE(atanh)
 
@@ -27,6 +28,7 @@
     RISING(atan, -INFINITY, INFINITY, 0.0, 1.0/((x * x) + 1.0)) \
     RISING(sinh, -INFINITY, INFINITY, 0.0, cosh(x)) \
     RISING(tanh, -INFINITY, INFINITY, 0.0, 1.0 / pow(cosh(x), 2.0)) \
+    RISING(asinh, -INFINITY, INFINITY, 0.0, 1.0/sqrt((x * x) + 1.0)) \
     RISING(acosh, 1.0, INFINITY, NAN, 1.0/sqrt((x * x) - 1.0)) \
     RISING(atanh, -1.0, 1.0, 0.0, 1.0/(1.0 - (x * x)))
 

@@ -9,7 +9,8 @@ import sympy as sp
 
 from gudgeon.generator.ir.finite_slopes import Slope, without_slopes
 from gudgeon.generator.symbols.derivatives import derivative, symbols_of
-from gudgeon.generator.symbols.functions import classes_where
+from gudgeon.generator.symbols.from_expressions import derivative_at
+from gudgeon.generator.symbols.functions import CLASSES, classes_where
 from gudgeon.generator.symbols.wholes import Share
 
 _GROWING = classes_where(lambda f: f.is_exponential)
@@ -40,7 +41,11 @@ def written(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
         return expression.exp * expression * Share(written(expression.base, by) / expression.base)
     if expression in terms:
         (argument,), inner = expression.args, sp.Dummy(real=True)
-        outer = derivative(expression.func(inner), inner).xreplace({inner: Share(argument)})
+        if far := _far_derivative(expression):
+            outer = derivative_at(far, inner, expression)
+        else:
+            outer = derivative(expression.func(inner), inner)
+        outer = outer.xreplace({inner: Share(argument)})
         return outer * written(argument, by)
     named, back = expression.xreplace(terms), {dummy: term for term, dummy in terms.items()}
     inner = (derivative(named, dummy) * written(term, by) for term, dummy in terms.items())
@@ -64,10 +69,16 @@ def _plain(expression: sp.Expr, by: sp.Symbol) -> sp.Expr:
 def _is_squared(power: sp.Expr) -> bool:
     """Whether it is v^-n, n a number, and v² may be no number of C; or atan(v), and so may a factor of v squared."""
     if isinstance(power, _SQUARING):
-        return power.args[0].is_Mul and any(map(_is_far, sp.preorder_traversal(power.args[0])))
+        squares = power.args[0].is_Mul or bool(_far_derivative(power))
+        return squares and any(map(_is_far, sp.preorder_traversal(power.args[0])))
     if not (power.is_Pow and power.exp.is_number and power.exp.is_extended_negative):
         return False
     return any(map(_is_far, sp.preorder_traversal(power.base)))
+
+
+def _far_derivative(term: sp.Expr) -> str:
+    """Return the derivative that does not square the argument, as the table of functions writes it; "": none."""
+    return CLASSES[type(term)].far_derivative if type(term) in CLASSES else ""
 
 
 def _is_far(part: sp.Basic) -> bool:

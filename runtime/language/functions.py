@@ -5,7 +5,7 @@
 | name, arguments, usage, copies | the parser of expressions |
 | units, is_angle | the checks of dimensions, the units of outputs |
 | numpy, compute | values of outputs and parameters, the NumPy target; JavaScript's `Math` has the name of the file |
-| sympy, derivative | SymPy, Taylor series, slopes (`generator/symbols`, `generator/ir`) |
+| sympy, derivative, far_derivative | SymPy, Taylor series, slopes (`generator/symbols`, `generator/ir`) |
 | c, has_vector_code, bounds, domain | C for numbers, vectors and ranges (`engine/scene/function_table.h`) |
 | latex, text | documents of equations |
 | jump_order, divides, hides_corners, is_total, saturates, is_exponential, has_pole | tests of what may jump, overflow \
@@ -57,6 +57,7 @@ class Function:
     compute: values by NumPy where NumPy has no such function; generator/symbols/from_expressions.py composes the same
     of other functions, which need no more fields than these.
     derivative: of a function of one argument, as files write it, of the argument `x` and the function's value `f`.
+    far_derivative: the same without the square of an argument, which may overflow where the derivative matters.
     domain: outside it the function is undefined. bounds: None where engine/watch/ranges.h has `range_` and the C name.
     has_vector_code: engine/batch/lane_functions.h has `lanes_` and the C name; else lane after lane calls the library.
     jump_order: of the lowest derivative that jumps where the function changes over; None: it is smooth in its domain.
@@ -74,6 +75,7 @@ class Function:
     numpy: str = ""
     compute: Callable[..., Any] | None = None
     derivative: str = ""
+    far_derivative: str = ""
     domain: tuple[float, float] = (-math.inf, math.inf)
     bounds: Rising | None = None
     has_vector_code: bool = False
@@ -164,6 +166,8 @@ _TABLE = (
     Function("cosh", "hyperbolic cosine", derivative="sinh(x)", is_total=True, is_exponential=True),
     Function("tanh", "hyperbolic tangent", derivative="1 - f**2", bounds=Rising(0.0, "1.0 / pow(cosh(x), 2.0)"),
              is_total=True, saturates=True),
+    Function("asinh", "inverse hyperbolic sine", numpy="arcsinh", derivative="1/sqrt(1 + x**2)",
+             far_derivative="2/(exp(f) + exp(-f))", bounds=Rising(0.0), text="arsinh", is_total=True),
     Function("acosh", "inverse hyperbolic cosine, from 0 on", numpy="arccosh", derivative="1/sqrt(x**2 - 1)",
              domain=(1.0, math.inf), bounds=Rising(), text="arcosh", hides_corners=True),
     Function("atanh", "inverse hyperbolic tangent", numpy="arctanh", derivative="1/(1 - x**2)", domain=_UNIT,

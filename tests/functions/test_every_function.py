@@ -125,7 +125,7 @@ def test_slopes(function: Function) -> None:
         found = eval(code, {"np": np}, dict(zip(names(function), arguments.T, strict=True)))  # noqa: S307
         smooth = abs(differences) < 1e3
         np.testing.assert_allclose((found + 0.0 * differences)[smooth], differences[smooth], rtol=1e-5, atol=1e-7)
-    for text in filter(None, [function.derivative]):
+    for text in filter(None, (function.derivative, function.far_derivative)):
         x, f = sp.symbols("x f", real=True)
         known = {"x": arguments[:, 0], "f": values(function, arguments)}
         found = eval(NumPyPrinter(Readable(())).doprint(derivative_at(text, x, f)), {"np": np}, known)  # noqa: S307

@@ -35,6 +35,7 @@ FORMS: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "terms": ("T + 1e200/(1e200 + 1e200*T) - exp(-400)/(exp(-400 - T) + exp(-400))",
               lambda x: x + 1 / (1 + x) - 1 / (mp.exp(-x) + 1)),
     "within": ("sin(1e200/(1e200 + 1e200*T))", lambda x: mp.sin(1 / (1 + x))),
+    "logarithmic": ("asinh(T*exp(400 + T))", lambda x: mp.asinh(x * mp.exp(400 + x))),
     "angle": ("atan(cosh(400 + T)/cosh(400))", lambda x: mp.atan(mp.cosh(400 + x) / mp.cosh(400))),
 }  # fmt: skip
 
