@@ -38,7 +38,7 @@ class Units(Enum):
     CHOICE = "the first two have one dimension; the others and the value have one"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Rising:
     """Bounds of a function that rises in its domain and whose slope rises or falls on each side of one place at most.
 
@@ -49,13 +49,13 @@ class Rising:
     slope: str = ""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Function:
     """A function by the name that files use.
 
     sympy, c, numpy, text: its name there where that is another one; latex: where SymPy's own LaTeX is not used.
-    compute: values by NumPy where NumPy has no such function; generator/symbols/from_expressions.py composes the same
-    of other functions, which need no more fields than these.
+    sympy None: SymPy has no such class; generator/symbols/from_expressions.py composes it of powers and functions.
+    compute: values by NumPy where NumPy has no such function.
     derivative: of a function of one argument, as files write it, of the argument `x` and the function's value `f`.
     far_derivative: the same without the square of an argument, which may overflow where the derivative matters.
     domain: outside it the function is undefined. bounds: None where engine/watch/ranges.h has `range_` and the C name.
@@ -70,7 +70,7 @@ class Function:
     meaning: str
     arguments: tuple[str, ...] = ("x",)
     units: Units = Units.PURE
-    sympy: str = ""
+    sympy: str | None = ""
     c: str = ""
     numpy: str = ""
     compute: Callable[..., Any] | None = None
@@ -102,8 +102,8 @@ class Function:
 
     @property
     def in_sympy(self) -> str:
-        """The name of SymPy's class; "" for a function that is composed of others."""
-        return "" if self.compute or self.name in ("sqrt", "hypot") else self.sympy or self.name
+        """The name of SymPy's class; "": there is none."""
+        return "" if self.sympy is None else self.sympy or self.name
 
     @property
     def in_c(self) -> str:
@@ -175,8 +175,8 @@ _TABLE = (
     Function("exp", "eˣ", derivative="f", has_vector_code=True, saturates=True, is_exponential=True),
     Function("log", "natural logarithm", derivative="1/x", domain=_HALF_LINE, has_vector_code=True, has_pole=True,
              hides_corners=True),
-    Function("sqrt", "square root", units=Units.ROOT, domain=_HALF_LINE, hides_corners=True),
-    Function("hypot", "length of the vector (a, b)", ("a", "b"), Units.SAME, hides_corners=True),
+    Function("sqrt", "square root", units=Units.ROOT, sympy=None, domain=_HALF_LINE, hides_corners=True),
+    Function("hypot", "length of the vector (a, b)", ("a", "b"), Units.SAME, sympy=None, hides_corners=True),
     Function("abs", "absolute value", units=Units.SAME, sympy="Abs", c="fabs", has_vector_code=True, jump_order=1,
              is_total=True),
     Function("sign", "−1, 0 or 1", units=Units.RATIO, c="sign_of", has_vector_code=True,
@@ -186,14 +186,14 @@ _TABLE = (
     Function("max", "the larger one", ("a", "b"), Units.SAME, sympy="Max", c="max_of", numpy="maximum",
              has_vector_code=True, latex=r"\operatorname{max}", text="max", jump_order=1, is_total=True),
     Function("smooth_step", "from 0 to 1 with continuous accelerations", ("t", "start", "duration"), Units.RATIO,
-             compute=smooth_step, jump_order=3, divides=True, copies=3, usage=_STEP),
-    Function("ramp", "from 0 to 1 along a line", ("t", "start", "duration"), Units.RATIO, compute=ramp, jump_order=1,
-             divides=True, usage=_STEP),
+             sympy=None, compute=smooth_step, jump_order=3, divides=True, copies=3, usage=_STEP),
+    Function("ramp", "from 0 to 1 along a line", ("t", "start", "duration"), Units.RATIO, sympy=None, compute=ramp,
+             jump_order=1, divides=True, usage=_STEP),
     Function("where", "`then` as long as the comparison (`<`, `<=`, `>` or `>=`) holds",
-             ("a", "b", "then", "otherwise"), Units.CHOICE, compute=where, jump_order=0,
+             ("a", "b", "then", "otherwise"), Units.CHOICE, sympy=None, compute=where, jump_order=0,
              usage="where(t < 1 s, then, otherwise) is `then` as long as the comparison holds"),
-    Function("mod", "what is left of a after the last whole multiple of b", ("a", "b"), Units.SAME, compute=mod,
-             jump_order=0, divides=True, copies=2, usage="mod(t, 1 s) begins anew each second"),
+    Function("mod", "what is left of a after the last whole multiple of b", ("a", "b"), Units.SAME, sympy=None,
+             compute=mod, jump_order=0, divides=True, copies=2, usage="mod(t, 1 s) begins anew each second"),
 )  # fmt: skip
 FUNCTIONS: Mapping[str, Function] = {function.name: function for function in _TABLE}
 IN_SYMPY: Mapping[str, Function] = {function.in_sympy: function for function in _TABLE if function.in_sympy}
