@@ -39,7 +39,7 @@ def tables() -> str:
 
 def _of_functions() -> Iterator[str]:
     """The table of what expressions may call."""
-    rows = [(f"`{f.signature}`", f.meaning, f.units.value, _domain(f)) for f in FUNCTIONS.values()]
+    rows = [(f"`{f.call(*f.arguments)}`", f.meaning, f.units.value, _domain(f)) for f in FUNCTIONS.values()]
     head = ("function", "value", "dimensions", "defined for")
     yield from _table("Functions", "what expressions may call", head, rows)
 

@@ -92,13 +92,11 @@ class Function:
     copies: int = 1
     usage: str = ""
 
-    @property
-    def signature(self) -> str:
-        """The call as files write it."""
-        first = self.arguments
+    def call(self, *arguments: str) -> str:
+        """Return a call as files write it."""
         if self.units is Units.CHOICE:
-            first = (" < ".join(self.arguments[:2]), *self.arguments[2:])
-        return f"{self.name}({', '.join(first)})"
+            arguments = (" < ".join(arguments[:2]), *arguments[2:])
+        return f"{self.name}({', '.join(arguments)})"
 
     @property
     def in_sympy(self) -> str:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from gudgeon.errors import Location
 from gudgeon.generator.symbols.from_expressions import to_sympy
-from gudgeon.language.functions import FUNCTIONS, Function, Units
+from gudgeon.language.functions import FUNCTIONS, Function
 from gudgeon.language.parser import parse
 from gudgeon.language.tree import Expr, evaluate
 
@@ -39,15 +39,8 @@ def names(function: Function) -> list[str]:
     return [f"x{k}" for k in range(len(function.arguments))]
 
 
-def written(function: Function, arguments: list[str]) -> str:
-    """A call as files write it."""
-    if function.units is Units.CHOICE:
-        arguments = [" < ".join(arguments[:2]), *arguments[2:]]
-    return f"{function.name}({', '.join(arguments)})"
-
-
 def tree(function: Function) -> Expr:
-    return parse(written(function, names(function)), HERE)
+    return parse(function.call(*names(function)), HERE)
 
 
 def in_sympy(function: Function) -> sp.Expr:

@@ -36,7 +36,6 @@ from tests.functions.table import (
     sorted_symbols,
     tree,
     values,
-    written,
 )
 from tests.integrators.test_taylor import MOTION, X, Y, coefficients
 from tests.web.node import needs_node, node
@@ -46,10 +45,10 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 
 @every_function
 def test_it_is_parsed_with_its_arguments_alone(function: Function) -> None:
-    call = parse(function.signature, HERE)
+    call = parse(function.call(*function.arguments), HERE)
     assert isinstance(call, Call) and (call.function, len(call.arguments)) == (function.name, len(function.arguments))
     with pytest.raises(ExpressionError, match=f"{function.name} takes"):
-        parse(written(function, [*names(function), "1"]), HERE)
+        parse(function.call(*names(function), "1"), HERE)
 
 
 @every_function

@@ -26,7 +26,6 @@ from tests.functions.table import (
     interval,
     names,
     values,
-    written,
 )
 from tests.programs import needs_compiler
 
@@ -133,7 +132,7 @@ def scene_of_all() -> bytes:
         low, high = interval(function)
         arguments = [f"{(low + high) / 2 + 0.05 * k:g} + {(high - low) / 7:g}*sin(bob.theta + {k})"
                      for k in range(len(function.arguments))]  # fmt: skip
-        calls.append(written(function, [*arguments[:-1], "0.7"] if function.divides else arguments))
+        calls.append(function.call(*arguments[:-1], "0.7" if function.divides else arguments[-1]))
     forces = "\n".join(f"  f{k}: {{torque: bob, value: 0.1 N*m * {call}}}" for k, call in enumerate(calls))
     outputs = "\n".join(f"  out{k}: {call}" for k, call in enumerate(calls))
     events = "\n".join(f"  event{k}: {{zero: 100 + {call}}}" for k, call in enumerate(calls))
