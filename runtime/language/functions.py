@@ -12,7 +12,7 @@
 or be undefined |
 | meaning | docs/format.md |
 
-`make tables` writes the header of the engine and the table of docs/format.md. `tests/test_every_function.py` evaluates
+`make tables` writes the header of the engine and the table of docs/format.md. `tests/functions` evaluates
 every function in every target.
 """
 
