@@ -56,7 +56,7 @@ def _concerned(source: KernelSource, p: Array) -> list[Partial]:
     """The expressions that name a slot which differs in some run from the file's."""
     kept = vars(source)
     if "partials" not in kept:
-        kept["partials"] = _partials(source)
+        kept["partials"] = partials(source)
         kept["partial_slots"] = sorted({k for one in kept["partials"] for k in one.slots.values()})
         kept["partial_defaults"] = np.array([source.slots[k].default for k in kept["partial_slots"]])
     slots = kept["partial_slots"]
@@ -69,7 +69,8 @@ def _concerned(source: KernelSource, p: Array) -> list[Partial]:
     return [one for one in kept["partials"] if not changed.isdisjoint(one.slots.values())]
 
 
-def _partials(source: KernelSource) -> list[Partial]:
+def partials(source: KernelSource) -> list[Partial]:
+    """Return the expressions of parameters, drives and forces that may be undefined."""
     place, found = source.place, []
     trees = [(slot.address, slot.tree, k) for k, slot in enumerate(source.slots) if slot.tree]
     for address, tree, k in [*trees, *((one.address, one.tree, -1) for one in source.written)]:

@@ -18,11 +18,14 @@ from gudgeon.contract.kernel_source import KernelSource, PointInfo, Slot
 from gudgeon.contract.methods import KINEMATIC
 from gudgeon.integrators.adaptive import FELT_BY_FILMS, RTOL, begins_with, integrated_angles, stiff_of
 from gudgeon.integrators.kinematic import REACH
+from gudgeon.language.defined import DIVIDING
+from gudgeon.language.tree import to_json
 from gudgeon.model.choices import said
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.model.default_step import SMOOTH, T_END, default_step
 from gudgeon.model.parameters import GAINS, conditions, prepare
 from gudgeon.model.sizes import size_places
+from gudgeon.model.undefined import partials
 from gudgeon.results.series import catalogue
 from gudgeon.simulation.arguments import DEFAULT_OUTPUT
 from gudgeon.simulation.hidden_jumps import may_jump
@@ -43,6 +46,9 @@ def description(compiled: CompiledModel, seen_step: float | None = None) -> str:
         "coordinates": source.coordinates, "bodies": [body.name for body in source.bodies],
         "slots": [_slot(slot) for slot in source.slots], "derived": source.derived,
         "conditions": [asdict(condition) for condition in conditions(source)],
+        "partials": [{"address": one.address, "tree": to_json(one.tree), "slot": one.slot, "slots": dict(one.slots)}
+                     for one in partials(source)],
+        "divides": sorted(DIVIDING),
         "gains": [place[name] for name in GAINS if name in place],
         "methods": _methods(source), "begins": begins_with(source), "stiff": stiff_of(source, RTOL),
         "automatic": not source.explicit,

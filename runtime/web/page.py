@@ -15,7 +15,7 @@ from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.description import description
 from gudgeon.web.module import simulator
 
-FILES = ("boundary.js", "run.js", "loops.js", "drift.js", "start.js", "simulator.js")
+FILES = ("boundary.js", "run.js", "undefined.js", "loops.js", "drift.js", "start.js", "simulator.js")
 DESCRIPTION, MODULE = "gudgeon-description", "gudgeon-module"  # ids of what is not shown
 
 

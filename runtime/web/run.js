@@ -5,7 +5,8 @@
 const FUNCTIONS = { // of outputs; others are those of the browser, whose last digit may be another one than NumPy's
     "+": (a, b) => a + b, "*": (a, b) => a * b, "/": (a, b) => a / b, "**": Math.pow,
     "-": (a, b) => (b === undefined ? -a : a - b),
-    where: (left, right, then, otherwise) => (left < right ? then : otherwise),
+    where: (left, right, then, otherwise) =>
+        (Number.isNaN(left) || Number.isNaN(right) ? NaN : left < right ? then : otherwise),
     mod: (a, b) => {
         const rest = a % b;
         return rest !== 0 && rest < 0 !== b < 0 ? rest + b : rest;

@@ -121,7 +121,7 @@ class Simulator {
             mask[k] = 1;
         }
         const p = this.prepared(given, mask);
-        this.check(p);
+        this.check(p, mask);
         Object.assign(this, {p, given, mask});
         this.projected = this.withoutGains(given, mask);
     }
@@ -158,8 +158,8 @@ class Simulator {
         return this.prepared(values, filled);
     }
 
-    /* Every condition of the file again. */
-    check(p) {
+    /* Every condition of the file again, and that every expression is defined as it is written. */
+    check(p, mask) {
         const {conditions, slots, derived} = this.about, value = (address) => p[this.place.get(address)];
         const unit = (address) => slots[this.place.get(address)].unit;
         for (const {address, relation, bound, message} of conditions) {
@@ -172,6 +172,13 @@ class Simulator {
         [...slots.map((slot) => slot.address), ...derived].forEach((name, k) => {
             if (!Number.isFinite(p[k])) throw new Error(`${name} is ${p[k]}: not finite with these numbers`);
         });
+        for (const {address, tree, slot, slots: used} of this.about.partials) {
+            if (slot >= 0 && mask[slot]) continue;
+            const known = Object.fromEntries(Object.entries(used).map(([name, k]) => [name, p[k]]));
+            const odd = undefinedPart(tree, known, this.about.divides), by = Object.entries(known);
+            if (odd !== undefined)
+                throw new Error(`${address} has a part that is ${odd} with ${by.map((pair) => pair.join(" = ")).join(", ")}`);
+        }
     }
 
     /* The numbers of so large a share of the way from the file's to those that are given; words are as given. */
