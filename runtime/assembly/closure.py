@@ -230,6 +230,8 @@ class Closure:
     def _others(self, guess: Array, of_guessed: float, seed: int = 0) -> Iterator[Array]:
         """Coordinates around the guess, the same in every run; driven and set ones fall back into place.
 
+        Each draw is followed by its mirror image in the axes of the bodies, so that a linkage that is turned or
+        mirrored with its guess is sought among the same places, and its start is turned or mirrored.
         of_guessed: rad, how far guessed angles are turned, for a guess may lie where every way ends in a fold (the
         residual is least there and not zero).
         """
@@ -237,13 +239,16 @@ class Closure:
         spread = np.where(self.is_angle, np.pi, self.size)
         spread[self.guessed] *= of_guessed / np.pi
         turned = np.exp(1j * np.where(spread[0::3] == spread[1::3], guess[2::3], 0.0))  # places: in axes of their body
-        for _ in range(TRIES if len(guess) <= MANY else TRIES // 4):
-            off = spread * rng.uniform(-1.0, 1.0, len(guess))
-            places = turned * (off[0::3] + 1j * off[1::3])
-            off[0::3], off[1::3] = places.real, places.imag
-            q = guess + off
-            q[self.set_index] = self.set
-            yield self.place_angles(q)
+        for _ in range((TRIES if len(guess) <= MANY else TRIES // 4) // 2):
+            drawn = spread * rng.uniform(-1.0, 1.0, len(guess))
+            for mirror in (1.0, -1.0):
+                places = turned * (drawn[0::3] + 1j * mirror * drawn[1::3])
+                q = guess.copy()
+                q[0::3] += places.real
+                q[1::3] += places.imag
+                q[2::3] += mirror * drawn[2::3]
+                q[self.set_index] = self.set
+                yield self.place_angles(q)
 
     def unwound(self, q: Array) -> Array:
         """Angles within half a turn of the guess, where no row counts turns."""
