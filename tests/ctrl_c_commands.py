@@ -30,7 +30,7 @@ from PIL import Image
 import gudgeon
 from gudgeon.files.writing import PART
 from gudgeon.loading.cache import is_whole
-from gudgeon.results.hdf5_image import is_damaged
+from gudgeon.results.files.hdf5 import is_damaged
 from tests.pump import TEXT
 
 INTERRUPTED = 130

@@ -77,7 +77,7 @@ def draw_file(request: Request) -> int:
     target = request.target or Path("out") / f"{file.stem}_{request.scene}.svg"
     need_suffix(target, SUFFIXES)
     check_file("--out", target)
-    from gudgeon.results import plots  # noqa: F401  (says where matplotlib is missing)
+    from gudgeon.results.figures import plots  # noqa: F401  (says where matplotlib is missing)
 
     if target.suffix.lower() == ".dxf":
         from gudgeon.drawing import dxf  # noqa: F401  (says where ezdxf is missing)
@@ -114,7 +114,7 @@ def _drawable(target: Path) -> Iterator[None]:
 
 def _moved(request: Request, at: float, wanted: Mapping[str, float | str]) -> Drawn:
     """At a time of the motion."""
-    from gudgeon.results.mechanism_plots import sketch_at
+    from gudgeon.results.figures.mechanism_plots import sketch_at
     from gudgeon.simulation.from_file import load
 
     with status_line():
@@ -175,7 +175,7 @@ def _velocities(closure: Closure, q: Array) -> tuple[Array | None, AssemblyError
 
 def _posture(linkage: NumPyLinkage, q: Array, v: Array | None) -> Posture:
     from gudgeon.drawing.posture import Posture
-    from gudgeon.results.postures import loads_at
+    from gudgeon.results.figures.postures import loads_at
 
     loads = loads_at(linkage.source, linkage.p, q, np.zeros_like(q) if v is None else v)
     return Posture(linkage.source, linkage.p, q, 0.0, v, loads)

@@ -102,6 +102,6 @@ def _sketch(drawn: Drawn) -> Sketch | None:
         import matplotlib  # noqa: F401
     except ImportError:
         return None
-    from gudgeon.results.mechanism_plots import sketch_at
+    from gudgeon.results.figures.mechanism_plots import sketch_at
 
     return sketch_at(drawn.run, drawn.run.t[-1])

@@ -61,7 +61,7 @@ def plot_law(law: Law, name: str, target: Path, settings: Mapping[str, float | s
 
 def figure_of(law: Law, name: str, settings: Mapping[str, float | str]) -> Figure:
     """The law under one of its names, its numbers told above; errors as `plot_law`."""
-    from gudgeon.results import plots  # says where matplotlib is missing
+    from gudgeon.results.figures import plots  # says where matplotlib is missing
 
     if law.rigid:
         raise BadValueError(f"{name} has no curve: its force is whatever keeps surfaces apart that do not give\n"

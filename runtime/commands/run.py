@@ -24,7 +24,7 @@ from gudgeon.simulation.from_file import load
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
-    from gudgeon.results.report import SceneReport
+    from gudgeon.results.reports.comparison import SceneReport
     from gudgeon.simulation.simulation import Simulation
 
 Settings: TypeAlias = Mapping[str, float | str]  # address -> SI, or text with a unit
@@ -191,7 +191,7 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
 def _hand_over(request: Request, simulations: Mapping[str, Simulation], session: Session) -> None:
     """Everything after the integration: the results are saved first, for nothing that follows may lose them."""
     from gudgeon.commands.run_reports import verify, write_reports
-    from gudgeon.results.report import compare, default_watch
+    from gudgeon.results.reports.comparison import compare, default_watch
 
     if request.verify:
         verify(session.runs, session.failures, request.json)
@@ -259,7 +259,7 @@ def _draw(out: Path, runs: Mapping[str, Result], session: Session, watch: Sequen
     """One picture: it is smaller than results, and there may be room for it where there was none for them."""
     if not have("picture", "matplotlib"):
         return
-    from gudgeon.results.plots import figure, save_figure
+    from gudgeon.results.figures.plots import figure, save_figure
 
     path = out / f"{next(iter(runs.values())).source.mechanism}.png"
     try:
@@ -279,8 +279,8 @@ def result_path(out: Path, mechanism: str, scene: str) -> Path:
 def _show(request: Request, source: KernelSource, reports: list[SceneReport], session: Session) -> None:
     """What was found and written: tables and notes, or JSON."""
     from gudgeon.language.shown import plain_console
-    from gudgeon.results.film_limits import beyond
-    from gudgeon.results.report import as_json, tables
+    from gudgeon.results.reports.comparison import as_json, tables
+    from gudgeon.results.reports.film_limits import beyond
 
     if request.json:
         scenes = {name: told | {"beyond": beyond(session.runs[name])} for name, told in as_json(reports).items()}

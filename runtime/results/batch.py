@@ -212,9 +212,9 @@ class Batch:
         except ModuleNotFoundError as error:
             raise GudgeonError("Datasets need xarray: pip install 'gudgeon[xarray]'") from error
         if text(part, "part", "the name of a table") != "series":
-            from gudgeon.results import batch_file
+            from gudgeon.results.files import netcdf_batch
 
-            return batch_file.dataset(self, part)
+            return netcdf_batch.dataset(self, part)
         reasons = dict((failure.run, str(failure.error)) for failure in self.failures)
         found: dict[str, Any] = {
             "samples": ("run", self.samples), "t_last": ("run", self.t_last, {"units": "s"}),
@@ -246,16 +246,16 @@ class Batch:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write everything to one NetCDF file, every series of every run (those that were kept); OutputError where
         that fails."""
-        from gudgeon.results import batch_file
+        from gudgeon.results.files import netcdf_batch
 
-        batch_file.save(self, path)
+        netcdf_batch.save(self, path)
 
     @staticmethod
     def load(path: str | os.PathLike[str]) -> Batch:
         """The batch that `save` wrote, bit for bit; it needs no compiled library. InputError for any other file."""
-        from gudgeon.results import batch_file
+        from gudgeon.results.files import netcdf_batch
 
-        return batch_file.load(path)
+        return netcdf_batch.load(path)
 
     def to_dataframe(self, names: Iterable[str] | None = None) -> pandas.DataFrame:
         """A long table of pandas: run, what was given to it, t, and these series, or all there are for None; a row each
@@ -263,19 +263,19 @@ class Batch:
 
         SI, units in `attrs["units"]`.
         """
-        from gudgeon.results import export
+        from gudgeon.results.files import export
 
         return export.batch_dataframe(self, names)
 
     def to_csv(self, path: str | os.PathLike[str], names: Iterable[str] | None = None) -> None:
         """Write the same table as CSV, run by run; every bit of a number."""
-        from gudgeon.results import export
+        from gudgeon.results.files import export
 
         export.batch_csv(self, path, names)
 
     def to_mat(self, path: str | os.PathLike[str], names: Iterable[str] | None = None) -> None:
         """Write for MATLAB `t` and these series, or all, each n × N, and what was given to runs, n × 1; see Result."""
-        from gudgeon.results import export
+        from gudgeon.results.files import export
 
         export.batch_mat(self, path, names)
 

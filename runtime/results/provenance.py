@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from gudgeon.model.compiled import CompiledModel
 
 if TYPE_CHECKING:
-    from gudgeon.results.netcdf_read import File
+    from gudgeon.results.files.netcdf_read import File
 
 GROUP = "provenance"  # of a file
 NAMES = ("version", "platform", "compiler", "date", "mechanism")

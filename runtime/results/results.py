@@ -34,11 +34,11 @@ if TYPE_CHECKING:
     from gudgeon.integrators.trace import Trace
     from gudgeon.integrators.trajectory import Progress
     from gudgeon.model.compiled import CompiledModel, Evaluation
-    from gudgeon.results.animation import Animation
     from gudgeon.results.at_events import AtEvents
-    from gudgeon.results.run_plots import Plot
+    from gudgeon.results.figures.animation import Animation
+    from gudgeon.results.figures.run_plots import Plot
+    from gudgeon.results.reports.run_report import RunReport
     from gudgeon.results.series import Series
-    from gudgeon.results.trust import RunReport
 
 
 @dataclass(eq=False)
@@ -200,7 +200,7 @@ class Result(Shown, Checked):
     @property
     def plot(self) -> Plot:
         """Figures of this run: `run.plot()`, `run.plot("S9.y")`, `run.plot.orbit("A")`, `.forces()`, `.series()`."""
-        from gudgeon.results.run_plots import Plot
+        from gudgeon.results.figures.run_plots import Plot
 
         return Plot(self)
 
@@ -216,14 +216,14 @@ class Result(Shown, Checked):
         it, red in pictures before which their surfaces met. Of a page, or without a path, what a notebook shows.
         `progress(share, text)` hears of each picture. BadValueError, UnknownNameError; without ffmpeg GudgeonError.
         """
-        from gudgeon.results import animation
+        from gudgeon.results.figures import animation
 
         wanted = animation.wanted_of(self, seconds, rate, points, velocities, forces, progress)
         return animation.animate(self, path, wanted)
 
     def report(self) -> RunReport:
         """What joints with play did, where energy went, how far to believe it: `print`, `.to_html()`, `.to_dict()`."""
-        from gudgeon.results.trust import RunReport
+        from gudgeon.results.reports.run_report import RunReport
 
         return RunReport(self)
 
@@ -240,32 +240,32 @@ class Result(Shown, Checked):
 
         part: "impacts", "events" or "parameters" for these, a row each.
         """
-        from gudgeon.results import netcdf
+        from gudgeon.results.files import netcdf
 
         return netcdf.dataset(self, part)
 
     def to_dataframe(self, names: Iterable[str] | None = None) -> pandas.DataFrame:
         """Series as columns of a table of pandas over t (s): these, or all for None; SI, units in `attrs["units"]`."""
-        from gudgeon.results import export
+        from gudgeon.results.files import export
 
         return export.dataframe(self, names)
 
     def to_csv(self, path: str | os.PathLike[str], names: Iterable[str] | None = None) -> None:
         """Write t and these series, or all, as CSV in SI: a line of names, then every bit of a sample a line."""
-        from gudgeon.results import export
+        from gudgeon.results.files import export
 
         export.csv(self, path, names)
 
     def to_mat(self, path: str | os.PathLike[str], names: Iterable[str] | None = None) -> None:
         """Write t and these series, or all, for MATLAB: "S9.y" as S9_y; cells `variables`, `names` and `units`."""
-        from gudgeon.results import export
+        from gudgeon.results.files import export
 
         export.mat(self, path, names)
 
     def save(self, path: str | os.PathLike[str], attributes: Mapping[str, str] = MappingProxyType({})) -> None:
         """Write everything to a NetCDF file, with more attributes {name: text}, aside first and then moved into place;
         OutputError where that fails, BadValueError for attributes that are none."""
-        from gudgeon.results import netcdf
+        from gudgeon.results.files import netcdf
 
         netcdf.save(self, path, attributes)
 
@@ -295,6 +295,6 @@ class Result(Shown, Checked):
 
 def read(path: str | os.PathLike[str]) -> Result:
     """Read a file that `Result.save` wrote. InputError if it is none."""
-    from gudgeon.results import netcdf_read
+    from gudgeon.results.files import netcdf_read
 
     return netcdf_read.read(path)

@@ -63,7 +63,7 @@ def _listed(names: list[str]) -> str:
 
 
 def _of_run(run: Any) -> Iterator[tuple[str, ...]]:
-    from gudgeon.results.report import default_watch
+    from gudgeon.results.reports.comparison import default_watch
     from gudgeon.results.series import drive_series
 
     source = run.source
@@ -80,7 +80,7 @@ def _of_run(run: Any) -> Iterator[tuple[str, ...]]:
 def _drawing(shown: Any) -> str:
     """At the start, as an image of its own; nothing where that is not to be had."""
     try:
-        import gudgeon.results.plots  # noqa: F401 (without matplotlib it says what to install)
+        import gudgeon.results.figures.plots  # noqa: F401 (without matplotlib it says what to install)
         from gudgeon.drawing.picture import as_bytes, figure_of
 
         picture = as_bytes(figure_of([_sketch(shown)], [""], ""), ".png", dpi=90)
@@ -94,8 +94,8 @@ def _sketch(shown: Any) -> Sketch:
     from gudgeon.drawing.plan import make_plan
     from gudgeon.drawing.posture import Posture
     from gudgeon.drawing.sketch import make_sketch
-    from gudgeon.results.mechanism_plots import sketch_at
-    from gudgeon.results.postures import loads_at
+    from gudgeon.results.figures.mechanism_plots import sketch_at
+    from gudgeon.results.figures.postures import loads_at
 
     if hasattr(shown, "names"):
         return sketch_at(shown, float(shown.t[0]))

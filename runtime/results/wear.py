@@ -141,7 +141,7 @@ class Wear:
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Depth over the angle in each body's own frame."""
-        from gudgeon.results.wear_plot import plot
+        from gudgeon.results.figures.wear_plot import plot
 
         return plot(self, ax)
 

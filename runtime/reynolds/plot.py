@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gudgeon.language.plot_units import scale
-from gudgeon.results.plots import COLOURS, IDEAL, STYLE
+from gudgeon.results.figures.plots import COLOURS, IDEAL, STYLE
 from gudgeon.reynolds.film import Film
 
 if TYPE_CHECKING:

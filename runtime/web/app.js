@@ -283,7 +283,7 @@ class App {
 
     seriesOf(name) { return this.run.names.includes(name) ? this.run.series(name) : []; }
 
-    /* By unit the largest number of its kind in a run: what rounding is compared with (results/report.py). */
+    /* By unit the largest number of its kind in a run: what rounding is compared with (results/reports/comparison.py). */
     motionScales(run) {
         const found = this.scales = {}, n = this.about.coordinates.length;
         [run.q, run.v].forEach((rows, order) => {

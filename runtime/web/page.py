@@ -44,7 +44,7 @@ def parts(simulation: Simulation, scenes: Mapping[str, str] | None = None) -> Pa
 
     A small simulator has that of the full formulation beside it, in which constraints drift. Raises as `write`.
     """
-    import gudgeon.results.plots  # noqa: F401 (without matplotlib it says what to install)
+    import gudgeon.results.figures.plots  # noqa: F401 (without matplotlib it says what to install)
     from gudgeon.web.running import running_parts
 
     return running_parts(simulation, scenes or {})

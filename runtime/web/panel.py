@@ -16,9 +16,9 @@ from gudgeon.drawing.picture import draw_on, size_of
 from gudgeon.drawing.plan import make_plan
 from gudgeon.drawing.rig import Rig, make_rig
 from gudgeon.drawing.shapes import Sketch
-from gudgeon.results.animation import QUICK, SHOWN, SLOW
-from gudgeon.results.postures import postures_of
-from gudgeon.results.report import NOISE, default_watch
+from gudgeon.results.figures.animation import QUICK, SHOWN, SLOW
+from gudgeon.results.figures.postures import postures_of
+from gudgeon.results.reports.comparison import NOISE, default_watch
 from gudgeon.results.results import Result
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.look import look
@@ -68,7 +68,7 @@ def _first_traces(run: Result) -> list[str]:
 
 def _first_values(run: Result) -> list[str]:
     """Live values: what is watched with its rate, outputs, drives, eccentricities, forces of the joints."""
-    from gudgeon.results.report import rates
+    from gudgeon.results.reports.comparison import rates
 
     source, found = run.source, list[str]()
     for name in default_watch(run):

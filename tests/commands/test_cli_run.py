@@ -195,7 +195,7 @@ def test_a_folder_that_is_a_file_is_told_before_anything_is_run(call: Gudgeon, p
 def test_tables_are_not_cut_where_the_screen_is_narrow(call: Gudgeon, pump: str) -> None:
     from rich.console import Console
 
-    from gudgeon.results.report import compare, tables
+    from gudgeon.results.reports.comparison import compare, tables
 
     runs = [gudgeon.load(pump, scene=scene).simulate(0.002, output=20, step=2e-6) for scene in ("ideal", "worn")]
     reports = [compare(run, runs[0] if run is runs[1] else None, ["piston.x"]) for run in runs] * 2

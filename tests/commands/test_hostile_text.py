@@ -15,8 +15,8 @@ import pytest
 
 import gudgeon
 from gudgeon.language.shown import in_figure, one_line, plain_console, visible
-from gudgeon.results import report
-from gudgeon.results.report import compare, tables
+from gudgeon.results.reports import comparison
+from gudgeon.results.reports.comparison import compare, tables
 from gudgeon.results.results import Result
 from tests.programs import needs_compiler
 from tests.pump import TEXT, Gudgeon, written
@@ -53,7 +53,7 @@ def test_a_title_is_text_in_tables(title: str, run: Result, ideal: Result) -> No
 @pytest.mark.parametrize("title", slow_but(SHOWN, TITLES))
 def test_a_title_is_text_in_figures(title: str, run: Result, ideal: Result) -> None:
     pytest.importorskip("matplotlib")
-    from gudgeon.results.plots import figure
+    from gudgeon.results.figures.plots import figure
 
     picture: Any = figure({"dry": replace(run, source=replace(run.source, title=title), stored={})}, ideal, ["S9.y"])
     shown, is_mathematics = picture._suptitle._preprocess_math(picture._suptitle.get_text())
@@ -152,9 +152,9 @@ def test_what_cannot_be_shown_is_saved(
 
     if fails == "figure":
         pytest.importorskip("matplotlib")
-        monkeypatch.setattr("gudgeon.results.plots.figure", fail)
+        monkeypatch.setattr("gudgeon.results.figures.plots.figure", fail)
     else:
-        monkeypatch.setattr(report, fails, fail)
+        monkeypatch.setattr(comparison, fails, fail)
     done = call("run", pump, "--t-end", "0.001")
     assert isinstance(done.exception, RuntimeError)
     assert {"out/pump_ideal.nc", "out/pump_worn.nc"} <= written(tmp_path)

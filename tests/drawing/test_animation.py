@@ -28,9 +28,9 @@ from gudgeon.drawing.page import _followed  # noqa: E402
 from gudgeon.drawing.roles import INK, TINTS  # noqa: E402
 from gudgeon.drawing.shapes import Sketch  # noqa: E402
 from gudgeon.errors import BadValueError, GudgeonError, OutputError, UnknownNameError  # noqa: E402
-from gudgeon.results.animation import RED, sketches, touching_between, wanted_of  # noqa: E402
-from gudgeon.results.mechanism_plots import touching_at  # noqa: E402
-from gudgeon.results.postures import posture_at  # noqa: E402
+from gudgeon.results.figures.animation import RED, sketches, touching_between, wanted_of  # noqa: E402
+from gudgeon.results.figures.mechanism_plots import touching_at  # noqa: E402
+from gudgeon.results.figures.postures import posture_at  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
 
 

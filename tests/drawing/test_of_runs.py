@@ -15,9 +15,9 @@ import gudgeon  # noqa: E402
 from gudgeon.drawing.labels import Names, crossing  # noqa: E402
 from gudgeon.drawing.movers import ARROW  # noqa: E402
 from gudgeon.errors import BadValueError, UnknownNameError  # noqa: E402
-from gudgeon.results import plots  # noqa: E402
-from gudgeon.results.mechanism_plots import sketch_at  # noqa: E402
-from gudgeon.results.postures import loads_at, posture_at  # noqa: E402
+from gudgeon.results.figures import plots  # noqa: E402
+from gudgeon.results.figures.mechanism_plots import sketch_at  # noqa: E402
+from gudgeon.results.figures.postures import loads_at, posture_at  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
 
 

@@ -88,7 +88,7 @@ def table_and_figure(room: Path) -> Act:
 @task
 def figure(room: Path) -> Act:
     import gudgeon
-    from gudgeon.results.plots import figure, save_figure
+    from gudgeon.results.figures.plots import figure, save_figure
 
     run = gudgeon.load("pendulum").simulate(1.0)
     pictures = [figure({"ideal": run}, {}, [name]) for name in list(run.names)[:2]]

@@ -15,7 +15,7 @@ import gudgeon
 from gudgeon.errors import AssemblyError
 from gudgeon.exchange.fmu_description import outputs
 from gudgeon.language.shown import plain_console
-from gudgeon.results.report import compare, tables
+from gudgeon.results.reports.comparison import compare, tables
 from gudgeon.simulation.simulation import Simulation
 from tests.equations.subjects import make
 from tests.kernels.test_tree_jacobian import Tree, slope
@@ -353,7 +353,7 @@ def test_a_slider_that_turns_over_is_refused(numbers: dict[str, float], told: st
 def test_force_and_moment_of_a_guide_are_shown(folder: Path) -> None:
     """In the table of runs, the figure, a run's report and an FMU: at samples, as its corners' over all steps are."""
     pytest.importorskip("matplotlib")
-    from gudgeon.results.plots import figure
+    from gudgeon.results.figures.plots import figure
 
     run = made(folder, BLOCK, "rough").simulate(0.02, parameters={"parameters.lift": -C, "parameters.v": 0.8})
     report = compare(run, None, ["block.x"])

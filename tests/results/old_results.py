@@ -9,7 +9,7 @@ from typing import Any
 import h5py
 import numpy as np
 
-from gudgeon.results.netcdf import EVENTS, IMPACTS
+from gudgeon.results.files.netcdf import EVENTS, IMPACTS
 from gudgeon.results.results import Result
 
 DIMENSIONS = ("time", "impact", "event", "slot", "prepared")

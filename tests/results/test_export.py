@@ -12,7 +12,7 @@ import pytest
 
 import gudgeon
 from gudgeon.errors import BadValueError, GudgeonError, OutputError, UnknownNameError
-from gudgeon.results import export
+from gudgeon.results.files import export
 from gudgeon.results.results import Result
 from tests.programs import needs_compiler
 from tests.valve import valve

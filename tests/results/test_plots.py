@@ -21,8 +21,8 @@ from matplotlib.figure import Figure  # noqa: E402
 
 from gudgeon.errors import GudgeonError  # noqa: E402
 from gudgeon.language.plot_units import PREFIXES, pretty, quantity, scale  # noqa: E402
-from gudgeon.results import plots  # noqa: E402
-from gudgeon.results.report import compare  # noqa: E402
+from gudgeon.results.figures import plots  # noqa: E402
+from gudgeon.results.reports.comparison import compare  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
 from tests.slow import slow_but  # noqa: E402
 

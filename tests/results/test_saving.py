@@ -16,8 +16,8 @@ import pytest
 pytest.importorskip("h5py")
 
 from gudgeon.errors import OutputError  # noqa: E402
-from gudgeon.results import hdf5_image  # noqa: E402
-from gudgeon.results.netcdf import tables  # noqa: E402
+from gudgeon.results.files import hdf5  # noqa: E402
+from gudgeon.results.files.netcdf import tables  # noqa: E402
 from gudgeon.results.results import Result, read  # noqa: E402
 from tests.slow import slow_but  # noqa: E402
 
@@ -85,7 +85,7 @@ def test_memory_that_ends_while_a_file_is_laid_out_is_an_error(
 ) -> None:
     """HDF5 closes what it opened: the next save works."""
     run.save(tmp_path / "run.nc")
-    older, write = (tmp_path / "run.nc").read_bytes(), hdf5_image._create
+    older, write = (tmp_path / "run.nc").read_bytes(), hdf5._create
     calls = 0
 
     def create(*arguments: object) -> object:
@@ -95,7 +95,7 @@ def test_memory_that_ends_while_a_file_is_laid_out_is_an_error(
             raise MemoryError
         return write(*arguments)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(hdf5_image, "_create", create)
+    monkeypatch.setattr(hdf5, "_create", create)
     with pytest.raises(MemoryError):
         run.save(tmp_path / "run.nc")
     assert (tmp_path / "run.nc").read_bytes() == older and os.listdir(tmp_path) == ["run.nc"]
@@ -146,5 +146,5 @@ def test_an_interrupt_is_never_swallowed(count: int, run: Result, tmp_path: Path
 
 def test_saving_takes_no_memory_for_the_numbers(make: Callable[..., Result]) -> None:
     """What is held besides the result is what describes it, far less than the file."""
-    image, _ = hdf5_image._lay_out(list(tables(make(samples=20_000))))
-    assert image.size > 5_000_000 and len(image._pages) * hdf5_image.PAGE < 500_000
+    image, _ = hdf5._lay_out(list(tables(make(samples=20_000))))
+    assert image.size > 5_000_000 and len(image._pages) * hdf5.PAGE < 500_000

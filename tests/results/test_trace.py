@@ -11,7 +11,7 @@ import pytest
 import gudgeon
 from gudgeon.integrators.trace import ROWS
 from gudgeon.results import trace
-from gudgeon.results.plots import figure
+from gudgeon.results.figures.plots import figure
 from gudgeon.results.results import Result
 from tests.programs import needs_compiler
 

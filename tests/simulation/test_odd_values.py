@@ -16,8 +16,8 @@ from typer.testing import CliRunner
 import gudgeon
 from gudgeon.cli import app
 from gudgeon.errors import BadValueError, GudgeonError, InputError
+from gudgeon.results.figures.run_plots import Plot
 from gudgeon.results.results import Result
-from gudgeon.results.run_plots import Plot
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies import axes, bench, box
 from gudgeon.studies import map as maps

@@ -13,10 +13,10 @@ import pytest
 
 import gudgeon
 from gudgeon.results.diagnostics import Diagnostics
-from gudgeon.results.plots import figure
-from gudgeon.results.report import compare, tables
+from gudgeon.results.figures.plots import figure
+from gudgeon.results.figures.run_plots import Plot
+from gudgeon.results.reports.comparison import compare, tables
 from gudgeon.results.results import Result
-from gudgeon.results.run_plots import Plot
 from gudgeon.simulation.horizon import horizon
 from tests.programs import needs_compiler
 

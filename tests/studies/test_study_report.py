@@ -167,7 +167,7 @@ def test_claims_stand_under_headings_and_where_the_source_has_them(folder: Path)
 
 def test_processes_draw_what_this_one_would(monkeypatch: pytest.MonkeyPatch) -> None:
     """The same bytes; and where a figure cannot be drawn, that is told in its place."""
-    from gudgeon.results.run_plots import new_axes
+    from gudgeon.results.figures.run_plots import new_axes
 
     def drawn(k: int) -> Any:
         if k == 5:

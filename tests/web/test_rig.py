@@ -22,7 +22,7 @@ from gudgeon.drawing.shapes import Disc, Shape, Sketch  # noqa: E402
 from gudgeon.drawing.sketch import make_sketch, room_of_all  # noqa: E402
 from gudgeon.loading.shipped import shipped  # noqa: E402
 from gudgeon.model.parameters import prepare  # noqa: E402
-from gudgeon.results.postures import posture_at, postures_of  # noqa: E402
+from gudgeon.results.figures.postures import posture_at, postures_of  # noqa: E402
 from gudgeon.results.results import Result  # noqa: E402
 from gudgeon.web.description import description  # noqa: E402
 from gudgeon.web.page import file_text  # noqa: E402

@@ -6,7 +6,7 @@ const gudgeonValues = (() => {
     const FUNCTIONS = {phi: "constraints", phi_q: "jacobian", nu: "velocity_rhs", gamma: "acceleration_rhs", play: "play",
         rhs: "dynamics"};
     const IDLE = null; // of a line that is not run at the state
-    const NOISE = 1e-9; // as runtime/results/report.py has it
+    const NOISE = 1e-9; // as runtime/results/reports/comparison.py has it
     const RAISED = {...["⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"], "-": "⁻"};
     let equations = null, state = null, known = {}, waiting = false;
     const seen = new Set();

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.language.shown import in_figure
-from gudgeon.results.plots import IDEAL
+from gudgeon.results.figures.plots import IDEAL
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

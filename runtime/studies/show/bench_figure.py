@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 from gudgeon.contract.methods import KINEMATIC, METHODS
 from gudgeon.integrators.peers.driver import NAMES
 from gudgeon.language.shown import in_figure
-from gudgeon.results.plots import COLOURS, IDEAL, STYLE
+from gudgeon.results.figures.plots import COLOURS, IDEAL, STYLE
 from gudgeon.studies.bench import TRUSTED, Row, SceneBench
 from gudgeon.studies.runs import Setting
 from gudgeon.studies.words import seconds, share

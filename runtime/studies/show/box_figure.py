@@ -14,7 +14,7 @@ from matplotlib.lines import Line2D
 from gudgeon.language.plot_units import label, pretty, quantity
 from gudgeon.language.shown import in_figure
 from gudgeon.model.compiled import Array
-from gudgeon.results.plots import IDEAL, STYLE
+from gudgeon.results.figures.plots import IDEAL, STYLE
 from gudgeon.studies.box import Range
 from gudgeon.studies.map import VerdictBox
 from gudgeon.studies.show.box import count

@@ -12,7 +12,7 @@ import numpy as np
 
 from gudgeon.errors import GudgeonError
 from gudgeon.language.plot_units import drawn
-from gudgeon.results.web_page import Section, lines, table
+from gudgeon.results.reports.html_page import Section, lines, table
 from gudgeon.studies.show.pictures import Draw, Pictures, gallery
 
 if TYPE_CHECKING:
@@ -223,8 +223,8 @@ def _drawn(claims: list[list[Row]], words: _Told) -> Axes:
     """Medians with quartiles of each ensemble, what is printed as a black mark."""
     import matplotlib
 
-    from gudgeon.results.plots import COLOURS, STYLE
-    from gudgeon.results.run_plots import new_axes
+    from gudgeon.results.figures.plots import COLOURS, STYLE
+    from gudgeon.results.figures.run_plots import new_axes
 
     factor, unit = _unit(claims)
     measure = words.shown(claims[0][0]["measure"])

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch, Rectangle
 
 from gudgeon.language.shown import in_figure
-from gudgeon.results.plots import IDEAL, STYLE
+from gudgeon.results.figures.plots import IDEAL, STYLE
 from gudgeon.studies.map import VerdictMap
 from gudgeon.studies.show.map_words import compared, explain, value
 from gudgeon.studies.verdicts import Cell, Status

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from gudgeon.errors import GudgeonError
 from gudgeon.integrators.batch import available_threads
-from gudgeon.results.web_page import lines, text
+from gudgeon.results.reports.html_page import lines, text
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection
@@ -108,7 +108,7 @@ def _draw_all(end: Connection, wanted: list[tuple[str, Callable[[], Any]]]) -> N
 
 def _drawn(name: str, draw: Callable[[], Axes]) -> str:
     """A picture; one that cannot be drawn is told."""
-    from gudgeon.results.run_plots import of_a_page
+    from gudgeon.results.figures.run_plots import of_a_page
 
     try:
         with of_a_page():

@@ -12,7 +12,7 @@ import numpy as np
 from gudgeon.errors import GudgeonError
 from gudgeon.language.plot_units import drawn, label
 from gudgeon.language.shown import counted
-from gudgeon.results.web_page import Section, article, lines, page, table, text
+from gudgeon.results.reports.html_page import Section, article, lines, page, table, text
 from gudgeon.studies.show.claims import claims_sections
 from gudgeon.studies.show.pictures import Draw, Pictures, gallery
 from gudgeon.studies.show.study_data import MANY, StudyData

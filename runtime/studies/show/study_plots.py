@@ -15,8 +15,8 @@ from gudgeon.errors import BadValueError
 from gudgeon.language.plot_units import drawn, label
 from gudgeon.language.shown import in_figure, one_line
 from gudgeon.language.wanted import flag, number_of, positive, refuse
-from gudgeon.results.plots import COLOURS, STYLE, TITLE, cycle, peak_of
-from gudgeon.results.run_plots import new_axes, plain
+from gudgeon.results.figures.plots import COLOURS, STYLE, TITLE, cycle, peak_of
+from gudgeon.results.figures.run_plots import new_axes, plain
 from gudgeon.studies.show.bands import LINE, band, bars, evenly, known, marks, numbers, quantiles, ticks_at
 from gudgeon.studies.show.study_data import Coords, StudyData
 from gudgeon.studies.show.study_signals import filtered, over_shares, spectra

@@ -60,7 +60,7 @@ def write_files(
     written, failed = [], None
 
     def picture(path: Path) -> None:
-        from gudgeon.results.plots import save_figure
+        from gudgeon.results.figures.plots import save_figure
 
         save_figure(draw(), path)
 

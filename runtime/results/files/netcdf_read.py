@@ -21,13 +21,13 @@ from gudgeon.integrators.trace import COLUMNS, Trace
 from gudgeon.integrators.trajectory import EVENT_DTYPE, IMPACT_DTYPE
 from gudgeon.language.wanted import path as named
 from gudgeon.results.diagnostics import Diagnostics, Extremes
-from gudgeon.results.hdf5_image import is_damaged
-from gudgeon.results.netcdf import COMPILED, FORMAT, START, STATES, TRACE, variable
-from gudgeon.results.netcdf_samples import samples_of, start_row, states_at_events
+from gudgeon.results.files.hdf5 import is_damaged
+from gudgeon.results.files.netcdf import COMPILED, FORMAT, START, STATES, TRACE, variable
+from gudgeon.results.files.netcdf_samples import samples_of, start_row, states_at_events
+from gudgeon.results.files.typed import check_typed
 from gudgeon.results.provenance import read_provenance
 from gudgeon.results.results import Array, Result
 from gudgeon.results.series import DRIFT, catalogue
-from gudgeon.results.typed import check_typed
 
 OLD_FORMAT = "gudgeon-result/1"  # impacts, events and parameters beside the series, over dimensions of their own
 OLD_NAMES = ("time", "impact", "event", "slot", "prepared")

@@ -19,7 +19,7 @@ from gudgeon.language.shown import in_figure
 from gudgeon.language.wanted import flag, positive, refuse, told
 from gudgeon.language.wanted import names as listed_names
 from gudgeon.results import trace
-from gudgeon.results.plots import (
+from gudgeon.results.figures.plots import (
     COLOURS,
     IDEAL,
     STYLE,
@@ -59,7 +59,7 @@ class Plot:
 
     def __call__(self, *names: str | Sequence[str]) -> Figure:
         """A panel for each unit, the panels wrapped; without names what a reader wants to see (report.py)."""
-        from gudgeon.results.report import default_watch
+        from gudgeon.results.reports.comparison import default_watch
 
         wanted = [name for some in names for name in listed_names(some, "names", SERIES)]
         run, panels = self.run, dict[str, list[str]]()
@@ -199,8 +199,8 @@ class Plot:
         body. Between samples it lies on the cubic through both. BadValueError for a time outside the run.
         """
         from gudgeon.drawing.picture import draw_on
-        from gudgeon.results.mechanism_plots import sketch_at
-        from gudgeon.results.postures import time_of
+        from gudgeon.results.figures.mechanism_plots import sketch_at
+        from gudgeon.results.figures.postures import time_of
 
         sketch, caption = sketch_at(self.run, t, velocities, forces), f"t\u00a0=\u00a0{time_of(self.run, t):.6g}\u00a0s"
         return self._drawn(sketch, ax, lambda on: draw_on(on, sketch), f"{caption_of(self.run)}, {caption}")
@@ -210,7 +210,7 @@ class Plot:
 
         UnknownNameError names the nearest point.
         """
-        from gudgeon.results.mechanism_plots import draw_path, path_sketch, points_of
+        from gudgeon.results.figures.mechanism_plots import draw_path, path_sketch, points_of
 
         if not (names := points_of(self.run, points)):
             raise BadValueError("plot.path: expected the name of a point at least", hint='for example "coupler.head"')

@@ -17,8 +17,8 @@ from gudgeon.drawing.shapes import Line, Sketch
 from gudgeon.drawing.sketch import make_sketch, room_of_all
 from gudgeon.language.suggestions import unknown
 from gudgeon.language.wanted import flag, names
-from gudgeon.results.plots import cycle
-from gudgeon.results.postures import posture_at, postures_of, time_of
+from gudgeon.results.figures.plots import cycle
+from gudgeon.results.figures.postures import posture_at, postures_of, time_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

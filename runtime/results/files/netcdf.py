@@ -25,7 +25,7 @@ from gudgeon.language.wanted import mapping, text, told
 from gudgeon.language.wanted import path as named
 from gudgeon.model.choices import said
 from gudgeon.results import peaks, trace
-from gudgeon.results.hdf5_image import Table, Variable, pieces
+from gudgeon.results.files.hdf5 import Table, Variable, pieces
 from gudgeon.results.provenance import GROUP
 from gudgeon.results.results import Array, Result
 from gudgeon.results.series import DRIFT

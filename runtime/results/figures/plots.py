@@ -20,7 +20,8 @@ from gudgeon.errors import GudgeonError, shortened
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.plot_units import drawn, label, quantity, scale
 from gudgeon.language.shown import in_figure, one_line
-from gudgeon.results import force_panels, trace
+from gudgeon.results import trace
+from gudgeon.results.figures import force_panels
 from gudgeon.results.series import rates
 
 import matplotlib  # isort: skip  (labels.py says where it is missing)
@@ -155,7 +156,7 @@ def _parts(picture: Figure, orbits: int, drawn: bool) -> tuple[Any, Any, Any]:
 def _draw_mechanism(part: Any, run: Result) -> None:
     """Where the run starts; how its joints with play fare is told by the other panels."""
     from gudgeon.drawing.picture import draw_on
-    from gudgeon.results.mechanism_plots import start_sketch
+    from gudgeon.results.figures.mechanism_plots import start_sketch
 
     ax = part.add_subplot()
     draw_on(ax, start_sketch(run))

@@ -11,7 +11,7 @@ from gudgeon.language.plot_units import quantity
 AUDIT_SHOWN = 1e-3  # limits, from which on a check of the audit has a row of its own
 
 if TYPE_CHECKING:
-    from gudgeon.results.report import SceneReport
+    from gudgeon.results.reports.comparison import SceneReport
 
 
 def trust_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:

@@ -21,9 +21,10 @@ from gudgeon import errors
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, UnknownNameError
 from gudgeon.integrators.trajectory import Counts
-from gudgeon.results import netcdf
 from gudgeon.results.batch import Batch, States, as_failures
-from gudgeon.results.batch_columns import (
+from gudgeon.results.diagnostics import Extremes, extremes_from_json, extremes_to_json
+from gudgeon.results.files import netcdf
+from gudgeon.results.files.batch_columns import (
     KEPT,
     OWNER,
     TIMES,
@@ -34,14 +35,13 @@ from gudgeon.results.batch_columns import (
     read_times,
     times,
 )
-from gudgeon.results.diagnostics import Extremes, extremes_from_json, extremes_to_json
-from gudgeon.results.hdf5_image import Table, Variable
-from gudgeon.results.netcdf_read import File, check_extremes, events_of, impacts_of, opened, result_of, source_of
+from gudgeon.results.files.hdf5 import Table, Variable
+from gudgeon.results.files.netcdf_read import File, check_extremes, events_of, impacts_of, opened, result_of, source_of
+from gudgeon.results.files.typed import check_typed
 from gudgeon.results.peaks import PEAK_DTYPE
 from gudgeon.results.provenance import GROUP, read_provenance
 from gudgeon.results.results import Array, Result
 from gudgeon.results.series import catalogue
-from gudgeon.results.typed import check_typed
 
 if TYPE_CHECKING:
     import xarray

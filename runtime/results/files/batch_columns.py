@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from gudgeon.results import netcdf
 from gudgeon.results.bare import blank
-from gudgeon.results.hdf5_image import Table, Variable
-from gudgeon.results.netcdf_read import check_times
+from gudgeon.results.files import netcdf
+from gudgeon.results.files.hdf5 import Table, Variable
+from gudgeon.results.files.netcdf_read import check_times
 from gudgeon.results.results import Array
 
 if TYPE_CHECKING:
     from gudgeon.results.batch import Batch
-    from gudgeon.results.batch_file import Whole
+    from gudgeon.results.files.netcdf_batch import Whole
 
 TIMES, KEPT, OWNER = "times", "kept", "run"
 

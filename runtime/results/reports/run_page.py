@@ -12,8 +12,8 @@ import numpy as np
 from gudgeon.language.plot_units import quantity
 from gudgeon.language.shown import one_line, visible
 from gudgeon.results import trace
-from gudgeon.results.trust import NOT_ASKED
-from gudgeon.results.web_page import Section, lines, page, table
+from gudgeon.results.reports.html_page import Section, lines, page, table
+from gudgeon.results.reports.run_report import NOT_ASKED
 
 if TYPE_CHECKING:
     from gudgeon.results.results import Result

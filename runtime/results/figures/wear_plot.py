@@ -8,8 +8,8 @@ import numpy as np
 
 from gudgeon.language.plot_units import drawn, label
 from gudgeon.language.shown import in_figure
-from gudgeon.results.plots import COLOURS, STYLE, TITLE
-from gudgeon.results.run_plots import new_axes, plain
+from gudgeon.results.figures.plots import COLOURS, STYLE, TITLE
+from gudgeon.results.figures.run_plots import new_axes, plain
 
 import matplotlib  # isort: skip  (labels.py says where it is missing)
 

@@ -16,9 +16,9 @@ import numpy as np
 from gudgeon.language.plot_units import drawn, quantity
 from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.peaks import Extreme, of_samples, table_rows
+from gudgeon.results.reports.trust_and_cost import cost_rows, trust_rows
 from gudgeon.results.results import Result
 from gudgeon.results.series import MOTION_UNITS, drive_series, rates
-from gudgeon.results.trust_and_cost import cost_rows, trust_rows
 
 if TYPE_CHECKING:
     from rich.table import Table

@@ -10,11 +10,11 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.model.compiled import Array
-from gudgeon.results.netcdf import START, STATES, at_event, variable
+from gudgeon.results.files.netcdf import START, STATES, at_event, variable
 from gudgeon.results.series import MOTION
 
 if TYPE_CHECKING:
-    from gudgeon.results.netcdf_read import File
+    from gudgeon.results.files.netcdf_read import File
     from gudgeon.results.results import Result
 
 

@@ -25,9 +25,9 @@ from gudgeon.errors import BadValueError, GudgeonError, OutputError
 from gudgeon.files.writing import check_target, telling, write_bytes, write_text
 from gudgeon.language.shown import one_line
 from gudgeon.language.wanted import flag, function, number_of, path, refuse
-from gudgeon.results.mechanism_plots import arrows_of, path_lines, points_of, touching_at
-from gudgeon.results.plots import caption_of
-from gudgeon.results.postures import posture_at, postures_of
+from gudgeon.results.figures.mechanism_plots import arrows_of, path_lines, points_of, touching_at
+from gudgeon.results.figures.plots import caption_of
+from gudgeon.results.figures.postures import posture_at, postures_of
 
 import matplotlib  # isort: skip  (labels.py says where it is missing)
 from matplotlib.animation import PillowWriter  # isort: skip

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.results.diagnostics import Examined
-from gudgeon.results.film_limits import beyond
 from gudgeon.results.peaks import of_samples
-from gudgeon.results.report import finite
+from gudgeon.results.reports.comparison import finite
+from gudgeon.results.reports.film_limits import beyond
 from gudgeon.results.start_row import with_start
 
 if TYPE_CHECKING:
@@ -58,18 +58,18 @@ class RunReport:
 
     def to_html(self) -> str:
         """One page that needs nothing from elsewhere: tables, and each joint's orbit as SVG."""
-        from gudgeon.results.trust_page import page_of
+        from gudgeon.results.reports.run_page import page_of
 
         return page_of(self.run, self._found)
 
     def _repr_html_(self) -> str:
-        from gudgeon.results.trust_page import sections
-        from gudgeon.results.web_page import article
+        from gudgeon.results.reports.html_page import article
+        from gudgeon.results.reports.run_page import sections
 
         return article(sections(self.run, self._found))
 
     def __str__(self) -> str:
-        from gudgeon.results.trust_page import as_text
+        from gudgeon.results.reports.run_page import as_text
 
         return as_text(self._found)
 

@@ -1,0 +1,1 @@
+"""Figures of results: one run, several scenes, the mechanism, animations."""
