@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from gudgeon.exchange.fmu import write_fmu
     from gudgeon.generator.kinds.laws.registered import register
     from gudgeon.results.batch import Batch
-    from gudgeon.results.files.join import join
+    from gudgeon.results.files.export import join
     from gudgeon.results.results import Result
     from gudgeon.simulation.examine import examine
     from gudgeon.simulation.from_file import load
@@ -45,7 +45,7 @@ _HOME = {
     "examine": "simulation.examine",
     "wear": "simulation.wear",
     "wear_loop": "simulation.wear_loop",
-    "join": "results.files.join",
+    "join": "results.files.export",
     "write_fmu": "exchange.fmu",
     "register": "generator.kinds.laws.registered",
     "study": "studies.ensemble.study",

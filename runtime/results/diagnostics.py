@@ -1,16 +1,24 @@
-"""What a run says about itself: its size, its cost, and how far it may be trusted."""
+"""What a run says about itself: its size, its cost, how far it may be trusted, and where it comes from."""
 
 from __future__ import annotations
 
 import json
 import math
+import os
+import platform
 from dataclasses import asdict, dataclass, replace
-from typing import Any
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING, Any
 
 from gudgeon.contract.audit import Finding
 from gudgeon.errors import UnknownNameError
 from gudgeon.language.wanted import told
 from gudgeon.results.wear import Rubbed
+
+if TYPE_CHECKING:
+    from gudgeon.model.compiled import CompiledModel
+
+PROVENANCE = ("version", "platform", "compiler", "date", "mechanism")
 
 
 @dataclass(frozen=True)
@@ -210,3 +218,21 @@ def _numbers(data: dict[str, Any], kind: type) -> dict[str, Any]:
     """The words of `_words` back to floats, where the field of `kind` is one."""
     floats = {name for name, annotation in kind.__annotations__.items() if annotation == "float"}
     return {key: float(value) if key in floats else value for key, value in data.items()}
+
+
+def provenance_of(compiled: CompiledModel) -> dict[str, str]:
+    """Return where a run that ends now comes from, by PROVENANCE; nothing is computed from it, no comparison reads it.
+
+    `SOURCE_DATE_EPOCH` (s since 1970) in the environment replaces the date, so that runs repeat byte for byte.
+    """
+    from gudgeon import __version__
+
+    system = platform.uname()
+    where = f"{system.system} {system.release} {system.machine}, Python {platform.python_version()}"
+    return dict(zip(PROVENANCE, (__version__, where, compiled.compiler, _date(), compiled.text), strict=True))
+
+
+def _date() -> str:
+    given = os.environ.get("SOURCE_DATE_EPOCH", "")
+    now = datetime.fromtimestamp(int(given), UTC) if given.isdecimal() else datetime.now(UTC)
+    return now.isoformat(timespec="seconds")

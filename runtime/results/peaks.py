@@ -24,11 +24,6 @@ if TYPE_CHECKING:
     from gudgeon.model.compiled import Array
     from gudgeon.results.results import Result
 
-COLUMNS = {
-    "name": ("", "series"), "against": ("", "scene whose series was subtracted"), "unit": ("", "unit of the values"),
-    "max": ("", "largest value over all steps, SI"), "t_max": ("s", "its time"),
-    "min": ("", "smallest value over all steps, SI"), "t_min": ("s", "its time"),
-}  # fmt: skip
 PEAK_DTYPE = np.dtype([(name, "f8") for name in ("F", "t", "e_max", "first_contact", "first_peak")])
 ENDS = ("max", "t_max", "min", "t_min")
 
@@ -96,14 +91,6 @@ def _not_asked(name: str, error: bool) -> BadValueError:
         return BadValueError(told, hint=f'simulate(…, peaks=["{name}"], against=ideal), where ideal is a loaded scene')
     told = f"the peak of {name} over all steps was not asked for, and samples do not know it"
     return BadValueError(told, hint=f'simulate(…, peaks=["{name}"]), or peaks: [{name}] in the scene of the file')
-
-
-def columns(extremes: Sequence[Extremes]) -> dict[str, Array]:
-    """Name -> (k,) values, in the order of COLUMNS."""
-    texts = ("name", "against", "unit")
-    return {
-        name: np.array([getattr(one, name) for one in extremes], object if name in texts else float) for name in COLUMNS
-    }
 
 
 def table_rows(

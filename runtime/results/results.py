@@ -295,6 +295,6 @@ class Result(Shown, Checked):
 
 def read(path: str | os.PathLike[str]) -> Result:
     """Read a file that `Result.save` wrote. InputError if it is none."""
-    from gudgeon.results.files import netcdf_read
+    from gudgeon.results.files import netcdf
 
-    return netcdf_read.read(path)
+    return netcdf.read(path)

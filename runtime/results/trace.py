@@ -13,26 +13,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gudgeon.integrators.trace import JOINT
 from gudgeon.results.blows import is_blow
 
 if TYPE_CHECKING:
     from gudgeon.model.compiled import Array
     from gudgeon.results.results import Result
-
-TIME = ("s", "end of the last step that the row tells of")
-
-
-def variables(run: Result) -> dict[str, tuple[Array, str, str]]:
-    """Name -> (values (R,), unit, meaning): what a file stores; nothing where a run has no trace."""
-    if run.trace is None:
-        return {}
-    found = {"t": (run.trace.t, *TIME)}
-    for k, joint in enumerate(run.source.clearances):
-        for column, (name, (unit, meaning)) in enumerate(JOINT.items()):
-            found[f"{joint.name}.{name}"] = (run.trace.joints[:, k, column], unit, meaning)
-    return found
-
 
 def force(run: Result, joint: str) -> tuple[Array, Array]:
     """Times and magnitudes of the force at a joint, (k,) each: samples, with every extreme of all steps in between."""

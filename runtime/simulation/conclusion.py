@@ -17,7 +17,7 @@ from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.evaluation import Evaluation
 from gudgeon.model.left_limit import evaluation_times
 from gudgeon.model.written import with_undefined
-from gudgeon.results.provenance import provenance_of
+from gudgeon.results.diagnostics import provenance_of
 from gudgeon.results.results import Result
 from gudgeon.results.start_row import without_start
 from gudgeon.simulation.audit import audit_samples, failed

@@ -1,4 +1,4 @@
-"""Results for other programs: pandas' tables, CSV, MATLAB's files; everything in SI, under the names of a result.
+"""Results for other programs: tables of pandas, Datasets of xarray over several scenes, CSV, files of MATLAB; in SI.
 
 A batch is a long table: the run's number, what was given to it, t and the series, a row for each sample that was
 reached.
@@ -14,19 +14,21 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from gudgeon.errors import GudgeonError
+from gudgeon.errors import BadValueError, GudgeonError
 from gudgeon.files.room import check_disk, check_memory
 from gudgeon.files.writing import written
 from gudgeon.language.shown import in_spreadsheet
+from gudgeon.language.wanted import listed, refuse
 from gudgeon.language.wanted import names as plain_names
 from gudgeon.language.wanted import path as named
-from gudgeon.language.wanted import refuse
+from gudgeon.results.batch import Batch
+from gudgeon.results.batch_series import given_columns, rows, series, series_column, wanted_names
+from gudgeon.results.results import Array, Result
+from gudgeon.results.series import catalogue
 
 if TYPE_CHECKING:
     import pandas
-
-    from gudgeon.results.batch import Batch
-    from gudgeon.results.results import Array, Result
+    import xarray
 
 Columns: TypeAlias = "dict[str, Array]"  # name -> (rows,)
 
@@ -66,8 +68,6 @@ def dataframe(run: Result, names: Iterable[str] | None) -> pandas.DataFrame:
 
 def batch_dataframe(batch: Batch, names: Iterable[str] | None) -> pandas.DataFrame:
     """See Batch.to_dataframe."""
-    from gudgeon.results.series import catalogue
-
     frames = _pandas()
     columns_of = len(_wanted_of_batch(batch, names)) + len(batch.parameters) + 2
     check_memory(2 * 8.0 * columns_of * _rows_of(batch), f"a table of {len(batch)} runs")
@@ -94,17 +94,12 @@ def _pandas() -> Any:
 
 def _wanted_of_batch(batch: Batch, names: Iterable[str] | None) -> list[str]:
     """These series but t, each once, or for None every one that there is."""
-    from gudgeon.results.batch_series import wanted_names
-    from gudgeon.results.series import catalogue
-
     every = batch.kept if batch.states is None else catalogue(batch.source)
     return [name for name in (every if names is None else wanted_names(batch.source, names)) if name != "t"]
 
 
 def _runs(batch: Batch, names: Iterable[str] | None) -> Iterator[Columns]:
     """The columns of one run after the other; one that did not begin has no row."""
-    from gudgeon.results.batch_series import given_columns, rows, series_column
-
     columns = given_columns(batch)
     for i, t, own in rows(batch, _wanted_of_batch(batch, names)):
         given = {name: values[i] for name, values in columns.items()}
@@ -163,9 +158,6 @@ def mat(run: Result, path: str | os.PathLike[str], names: Iterable[str] | None) 
 
 def batch_mat(batch: Batch, path: str | os.PathLike[str], names: Iterable[str] | None) -> None:
     """See Batch.to_mat."""
-    from gudgeon.results.batch_series import given_columns, series
-    from gudgeon.results.series import catalogue
-
     known, slots = catalogue(batch.source), {slot.address: slot for slot in batch.source.slots}
     wanted = _wanted_of_batch(batch, names)
     told = [("t", "s", "time"), *((name, known[name].unit, known[name].meaning) for name in wanted)]
@@ -211,3 +203,44 @@ def _matlab_names(names: Sequence[str]) -> dict[str, str]:
         taken.add(choice)
         found[name] = choice
     return found
+
+
+def join(runs: Iterable[Result | Batch]) -> xarray.Dataset:
+    """Series over `scene` and `time` (of batches over `run` too) of results of scenes of one mechanism.
+
+    What a scene does not have is NaN, and so are times that only others have. BadValueError for two results of one
+    scene: those are a batch.
+    """
+    kinds: Any = (Result, Batch)
+    found: list[Result | Batch] = listed(runs, "runs", kinds, "a list of results, one a scene")
+    scenes = [run.source.scene for run in found]
+    if not scenes or len({*map(type, found)}) > 1:
+        raise BadValueError("join: expected results, or batches, of one scene or more")
+    if twice := [scene for scene in scenes if scenes.count(scene) > 1]:
+        hint = "runs of one scene with other numbers are a batch: simulate_many"
+        raise BadValueError(f"join: two results are of the scene {twice[0]!r}", hint=hint)
+    if len(names := list(dict.fromkeys(run.source.mechanism for run in found))) > 1:
+        raise BadValueError(f"join: {names[0]!r} and {names[1]!r} are two mechanisms", hint="join scenes of one")
+    try:
+        import pandas
+        import xarray
+    except ModuleNotFoundError as error:
+        raise GudgeonError("Datasets need xarray: pip install 'gudgeon[xarray]'") from error
+    _check_times(found)
+    parts, along = [run.to_xarray() for run in found], pandas.Index(scenes, name="scene")
+    attributes = {"mechanism": names[0], "title": found[0].source.title}
+    joined: xarray.Dataset = xarray.concat(
+        parts, along, data_vars="all", coords="different", compat="equals", join="outer", combine_attrs="drop_conflicts"
+    )
+    return joined.assign_attrs(attributes)
+
+
+def _check_times(found: list[Result | Batch]) -> None:
+    """BadValueError for batches whose samples do not lie side by side: runs with times of their own."""
+    forms = {run.t.shape[1:] for run in found}
+    if len(forms) > 1:
+        own = next(run for run in found if run.t.ndim == 2)
+        raise BadValueError(
+            f"join: the runs of scene {own.source.scene!r} have times of their own, and not as many as those of others",
+            hint="join batches over common times, or of as many samples each",
+        )

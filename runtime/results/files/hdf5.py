@@ -12,6 +12,7 @@ merely damages the file does not.
 from __future__ import annotations
 
 import io
+import os
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -22,7 +23,12 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from gudgeon.errors import GudgeonError
+from gudgeon.files.room import check_disk
+from gudgeon.files.writing import written
+from gudgeon.language.wanted import path as named
 from gudgeon.waiting.apart import apart
+from gudgeon.waiting.ctrl_c import CtrlC
 
 Array: TypeAlias = NDArray[Any]
 
@@ -79,6 +85,26 @@ def pieces(tables: Sequence[Table]) -> Iterator[Any]:
     end = image.between(at, image.size)
     yield end
     yield SEAL % zlib.crc32(end, total)
+
+
+def write(tables: Iterator[Table], path: str | os.PathLike[str]) -> None:
+    """A file with these tables; they are made one after the other, and Ctrl-C is taken in between."""
+    try:
+        import h5py  # noqa: F401
+    except ModuleNotFoundError as error:
+        raise GudgeonError("NetCDF files need h5py: pip install 'gudgeon[xarray]'") from error
+    path, found = named(path, "path"), []
+    with CtrlC() as ctrl_c:  # Python drops what is raised in callbacks of weak references, Ctrl-C too
+        for table in tables:
+            found.append(table)
+            ctrl_c.take()
+        size = sum(one.values.nbytes for table in found for one in table.variables)
+        check_disk(Path(path).parent, size, "it", path)
+        with written(path) as file:
+            for piece in pieces(found):
+                file.write(piece)
+                ctrl_c.take()
+    ctrl_c.take()
 
 
 def is_damaged(path: Path) -> bool:

@@ -1,35 +1,34 @@
-"""Results as NetCDF 4 files, and as xarray's Datasets.
+"""Results as NetCDF 4 files, written and read back, and as xarray's Datasets.
 
 A file holds every series under its own name over `time`, so that any NetCDF tool can read it, and in groups what has
 other rows: `impacts`, `events`, the series `at_events`, `parameters`, `trace` (trace.py) and `peaks` over all steps
 (peaks.py), for people; `compiled`, the kernel source and what was derived from the parameters, so that gudgeon reads
-all of it back bit for bit without a compiled library; `provenance` (provenance.py). What has no row is not there. The
+all of it back bit for bit without a compiled library; `provenance` (diagnostics.py). What has no row is not there. The
 only date is that of the run, in `provenance`: a result that is saved twice gives the same bytes.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Container, Iterator, Mapping
 from dataclasses import replace
-from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, GudgeonError
-from gudgeon.files.room import check_disk
-from gudgeon.files.writing import written
+from gudgeon.integrators.trace import COLUMNS, JOINT, Trace
+from gudgeon.integrators.trajectory import EVENT_DTYPE, IMPACT_DTYPE
 from gudgeon.language.wanted import mapping, text, told
-from gudgeon.language.wanted import path as named
 from gudgeon.model.choices import said
-from gudgeon.results import peaks, trace
-from gudgeon.results.files.hdf5 import Table, Variable, pieces
-from gudgeon.results.provenance import GROUP
+from gudgeon.results.diagnostics import PROVENANCE, Diagnostics, Extremes
+from gudgeon.results.files.hdf5 import Table, Variable, write
+from gudgeon.results.files.untrusted import OLD_FORMAT, File, check_typed, opened
 from gudgeon.results.results import Array, Result
-from gudgeon.results.series import DRIFT
-from gudgeon.waiting.ctrl_c import CtrlC
+from gudgeon.results.series import DRIFT, MOTION, catalogue
 
 if TYPE_CHECKING:
     import xarray
@@ -48,6 +47,15 @@ IMPACTS = {
     "t_peak": ("s", "time of the largest force"),
 }
 EVENTS = {"event": ("", "event of the mechanism's file"), "t": ("s", "time of the event")}
+PROVENANCE_GROUP = "provenance"
+TRACE_TIME = ("s", "end of the last step that the row tells of")
+EXTREMES = {
+    "name": ("", "series"), "against": ("", "scene whose series was subtracted"), "unit": ("", "unit of the values"),
+    "max": ("", "largest value over all steps, SI"), "t_max": ("s", "its time"),
+    "min": ("", "smallest value over all steps, SI"), "t_min": ("s", "its time"),
+}  # fmt: skip
+OLD_NAMES = ("time", "impact", "event", "slot", "prepared")  # of the root of an old file, over dimensions of their own
+NAME, UNIT = re.compile(r"[A-Za-z][\w.]*", re.ASCII), re.compile(r"[\w^*/. ()-]*", re.ASCII)
 
 
 def tables(run: Result) -> Iterator[Table]:
@@ -60,13 +68,11 @@ def tables(run: Result) -> Iterator[Table]:
     yield Table("events", "occurrence", tuple(records(run.events, EVENTS, events)), {})
     yield Table(STATES, "occurrence", tuple(_states(run, events)), {})
     yield Table("parameters", "address", tuple(_parameters(run)), {})
-    traced = (Variable(name, *of) for name, of in trace.variables(run).items())
-    yield Table(TRACE, "t", tuple(traced), {})
-    extremes = peaks.columns(run.diagnostics.extremes)
-    yield Table(PEAKS, "row", tuple(Variable(name, x, *peaks.COLUMNS[name]) for name, x in extremes.items()), {})
+    yield Table(TRACE, "t", tuple(_trace(run)), {})
+    yield Table(PEAKS, "row", tuple(_extremes(run)), {})
     derived = Variable("value", run.p[len(run.given) :], "", "what was derived from the parameters, SI")
     yield Table(COMPILED, "derived", (derived,), {"source": run.source.to_json()})
-    yield Table(GROUP, "", (), run.provenance)
+    yield Table(PROVENANCE_GROUP, "", (), run.provenance)
 
 
 def _series(run: Result) -> Iterator[Variable]:
@@ -119,6 +125,23 @@ def _texts(values: list[str]) -> Array:
     return np.array(values, dtype=object)
 
 
+def _trace(run: Result) -> Iterator[Variable]:
+    """Least and largest forces, places of the journals; nothing where a run has no trace."""
+    if run.trace is None:
+        return
+    yield Variable("t", run.trace.t, *TRACE_TIME)
+    for k, joint in enumerate(run.source.clearances):
+        for column, (name, (unit, meaning)) in enumerate(JOINT.items()):
+            yield Variable(f"{joint.name}.{name}", run.trace.joints[:, k, column], unit, meaning)
+
+
+def _extremes(run: Result) -> Iterator[Variable]:
+    """Peaks over all steps, for people: `diagnostics` has them to be read back."""
+    for name, (unit, meaning) in EXTREMES.items():
+        values = [getattr(one, name) for one in run.diagnostics.extremes]
+        yield Variable(name, _texts(values) if name in ("name", "against", "unit") else np.array(values), unit, meaning)
+
+
 def attributes(run: Result) -> dict[str, str]:
     """Of the whole file."""
     return {
@@ -132,7 +155,7 @@ def attributes(run: Result) -> dict[str, str]:
 
 def variable(name: str) -> str:
     """An output may be called like what else stands at the root; no other name can, for they all have a dot."""
-    return f"output.{name}" if name in ("time", *PARTS, START, COMPILED, GROUP) else name
+    return f"output.{name}" if name in ("time", *PARTS, START, COMPILED, PROVENANCE_GROUP) else name
 
 
 def dataset(run: Result, part: str = SERIES) -> xarray.Dataset:
@@ -169,21 +192,218 @@ def _more(given: Any, root: Table) -> dict[str, str]:
     return found
 
 
-def write(tables: Iterator[Table], path: str | os.PathLike[str]) -> None:
-    """A file with these tables; they are made one after the other, and Ctrl-C is taken in between."""
+def read(path: str | os.PathLike[str]) -> Result:
+    """The result in a file that `save` wrote; InputError for a missing file or one that is not a whole result."""
+    return opened(path, lambda file, size: _read_result(File(file, size, (FORMAT, OLD_FORMAT))))
+
+
+def source_of(file: File) -> KernelSource:
+    """What a file says of its scene."""
+    source = KernelSource.from_json(file.text("source", "" if file.is_old else COMPILED))
+    check_typed(source, KernelSource, "source")
+    _check_names(source)
+    return source
+
+
+def _read_result(file: File) -> Result:
+    source = source_of(file)
+    run = result_of(file, source, tuple(catalogue(source)))
+    run.provenance = read_provenance(file)
+    return run
+
+
+def result_of(file: File, source: KernelSource, names: tuple[str, ...]) -> Result:
+    """The result with these series."""
+    diagnostics = Diagnostics.from_json(file.text("diagnostics"))
+    check_typed(diagnostics, Diagnostics, "diagnostics")
+    t = file.numbers("time")
+    if not len(t):
+        raise ValueError("it has no sample")
+    check_times(t)
+    stored = {name: _read_series(file, name, len(t)) for name in names if _is_there(file, name)}
+    p, given, is_given = _read_parameters(file, source)
+    run = Result(
+        compiled=None, source=source, p=p, given=given, is_given=is_given, t=t, **samples_of(source, stored, len(t)),
+        impacts=impacts_of(file, source), diagnostics=diagnostics, events=events_of(file, source), stored=stored,
+        trace=_read_trace(file, source),
+    )  # fmt: skip
+    if file.has(START):
+        run.start_row = start_row(file, run)
+        check_times(np.append(run.start_row.t, t[0]))
+    if file.has(STATES):
+        run.__dict__["states_at_events"] = states_at_events(file, run)
+    _ = run.names, run.parameters, run.constants, run.final  # what these need is there, or it is no result
+    check_extremes(diagnostics.extremes, run.names)
+    return run
+
+
+def check_times(t: Array) -> None:
+    """Raise unless times of samples are numbers that ascend."""
+    if not (np.isfinite(t).all() and (np.diff(t) > 0.0).all()):
+        raise ValueError("the times of samples do not ascend")
+
+
+def _check_given(source: KernelSource, p: Array, given: Array, is_given: Array) -> None:
+    """Raise unless what a run was given is what it had."""
+    for slot, x, own, is_own in zip(source.slots, p.tolist(), given.tolist(), is_given.tolist(), strict=False):
+        if is_own not in (0, 1) or is_own and not own == x:
+            raise ValueError(f"{slot.address} is {x!r}, and was given as {own!r}")
+
+
+def check_extremes(extremes: tuple[Extremes, ...], names: Container[str]) -> tuple[Extremes, ...]:
+    """Raise unless they are of series that there are."""
+    for one in extremes:
+        if one.name not in names or not UNIT.fullmatch(one.unit) or one.against and not NAME.fullmatch(one.against):
+            raise ValueError(f"peaks of {one.name[:64]!r} are of no series")
+    return extremes
+
+
+def _check_names(source: KernelSource) -> None:
+    """They will stand in tables, figures and paths: identifiers with dots, as the reader of mechanisms has them."""
+    named: list[Any] = [*source.bodies, *source.joints, *source.clearances, *source.drives, *source.events]
+    named += source.points
+    words = [word for slot in source.slots for word in slot.words]
+    units = [slot.unit for slot in source.slots] + [series.unit for series in source.series]
+    names = [thing.name for thing in named] + [slot.address for slot in source.slots] + [*source.outputs]
+    for name in (source.mechanism, source.scene, *names, *words, *(series.name for series in source.series)):
+        if not NAME.fullmatch(name):
+            raise ValueError(f"{name[:64]!r} is no name")
+    if wrong := [unit for unit in units if not UNIT.fullmatch(unit)]:
+        raise ValueError(f"{wrong[0][:64]!r} is no unit")
+
+
+def _is_there(file: File, name: str) -> bool:
+    """Files of before the drift was a series lack it."""
+    return name not in DRIFT or file.has(name)
+
+
+def _read_series(file: File, name: str, length: int) -> Array:
+    stored = f"output.{name}" if file.is_old and name in OLD_NAMES else name if file.is_old else variable(name)
+    stored = stored if file.has(stored) else name  # an output that is called like a group that older files have not
+    values = file.numbers(stored, length, "i1" if name.endswith(".state") else "f8")
+    values.flags.writeable = False
+    return values
+
+
+def _read_parameters(file: File, source: KernelSource) -> tuple[Array, Array, Array]:
+    """p, given and is_given."""
+    slots, derived = len(source.slots), len(source.derived)
+    if file.is_old:
+        p, given = file.numbers("parameters.prepared", slots + derived), file.numbers("parameters.given", slots)
+        is_given = file.numbers("parameters.is_given", slots, "i1")
+        _check_given(source, p, given, is_given)
+        return p, given, is_given.astype(bool)
+    values, given = (file.numbers(f"parameters/{name}", slots) if slots else np.zeros(0) for name in ("value", "given"))
+    is_given = file.numbers("parameters/is_given", slots, "i1") if slots else np.zeros(0)
+    prepared = file.numbers(f"{COMPILED}/value", derived) if derived else np.zeros(0)
+    _check_given(source, values, given, is_given)
+    return np.concatenate([values, prepared]), given, is_given.astype(bool)
+
+
+def impacts_of(file: File, source: KernelSource) -> Array:
+    """IMPACT_DTYPE, the contacts of the file's run."""
+    return _records(file, "impact", IMPACT_DTYPE, [joint.name for joint in source.clearances])
+
+
+def events_of(file: File, source: KernelSource) -> Array:
+    """EVENT_DTYPE, its events."""
+    return _records(file, "event", EVENT_DTYPE, [event.name for event in source.events])
+
+
+def _records(file: File, what: str, dtype: np.dtype[Any], names: list[str]) -> Array:
+    """Impacts or events from their columns, the first of which says whose they are; none, where there is no group."""
+    first, *others = dtype.names or ()
+    if not file.has(f"{what}.{first}" if file.is_old else f"{what}s"):
+        return np.zeros(0, dtype)
+    if file.is_old:
+        owner = file.numbers(f"{what}.{first}", None, "i4")
+    else:
+        index: Mapping[str, int] = {name: k for k, name in enumerate(names)}
+        owner = np.array([index[name] for name in file.texts(f"{what}s/{first}")], "i4")
+    if len(owner) and not (owner.min() >= 0 and owner.max() < len(names)):
+        raise ValueError(f"the {what}s are of something that the scene does not have")
+    table = np.empty(len(owner), dtype)
+    table[first] = owner
+    for name in others:
+        table[name] = file.numbers(f"{what}.{name}" if file.is_old else f"{what}s/{name}", len(owner))
+    return table
+
+
+def _read_trace(file: File, source: KernelSource) -> Trace | None:
+    """None where the run had none, or the file is from before there were any."""
+    if not file.has(TRACE):
+        return None
+    t = file.numbers(f"{TRACE}/t")
+    joints = [[file.numbers(f"{TRACE}/{joint.name}.{name}", len(t)) for name in COLUMNS] for joint in source.clearances]
+    return Trace(t, np.moveaxis(np.array(joints).reshape(len(joints), len(COLUMNS), len(t)), 2, 0).copy())
+
+
+def samples_of(source: KernelSource, stored: Mapping[str, Array], length: int) -> dict[str, Any]:
+    """What the integrator stores of rows, from their series; by the names of a Result."""
+    q, v, a = (_motion(source, stored, length, order) for order in range(3))
+    return {
+        "q": q, "v": v, "accelerations": a,
+        "state": _columns(stored, [f"{joint.name}.state" for joint in source.clearances], length, np.int8),
+        "memory": _columns(stored, _memory_names(source), length),
+        "work": _works(source, stored, length),
+    }  # fmt: skip
+
+
+def _motion(source: KernelSource, stored: Mapping[str, Array], samples: int, order: int) -> Array:
+    """q, q̇ or q̈ (order 0, 1, 2) from the bodies' series."""
+    if sorted(body.index for body in source.bodies) != list(range(0, 3 * len(source.bodies), 3)):
+        raise ValueError("the bodies' places in q are not theirs")
+    values = np.empty((samples, 3 * len(source.bodies)))
+    for body in source.bodies:
+        for axis, names in enumerate(MOTION):
+            values[:, body.index + axis] = stored[f"{body.name}.{names[order]}"]
+    return values
+
+
+def _columns(stored: Mapping[str, Array], names: list[str], samples: int, dtype: Any = float) -> Array:
+    values = np.empty((samples, len(names)), dtype)
+    for column, name in enumerate(names):
+        values[:, column] = stored[name] if name else 0.0  # a place that no law's state has
+    return values
+
+
+def _works(source: KernelSource, stored: Mapping[str, Array], samples: int) -> Array:
+    """NaN where there are no masses to tell them by."""
+    if source.massless:
+        return np.full((samples, 3), np.nan)
+    return _columns(stored, ["work.drives", "work.forces", "work.clearances"], samples)
+
+
+def _memory_names(source: KernelSource) -> list[str]:
+    """The series that hold what the right-hand side remembers."""
+    latches = [f"{joint.name}.deltadot_minus" for joint in source.clearances]
+    return [*latches, *(f"{f}.mode" for f in source.frictions), *source.states]
+
+
+def states_at_events(file: File, run: Result) -> Result:
+    """The result whose samples are the start of the run and then its events."""
+    stored, count, first = {}, len(run.events), run.start_row or run
+    for name in run.stored:
+        at = file.numbers(f"{STATES}/{at_event(name)}", count, "i1" if name.endswith(".state") else "f8")
+        stored[name] = np.concatenate([first.stored[name][:1], at])
+        stored[name].flags.writeable = False
+    t, rows = np.concatenate([first.t[:1], run.events["t"]]), samples_of(run.source, stored, 1 + count)
+    return replace(run, t=t, **rows, trace=None, stored=stored, start_row=None)
+
+
+def start_row(file: File, run: Result) -> Result:
+    """Return the start of a run whose samples begin later."""
+    t = file.numbers(f"{START}/time", 1)
+    own = {name: (f"{START}/{variable(name)}", values.dtype.str) for name, values in run.stored.items()}
+    stored = {name: file.numbers(at, 1, dtype) for name, (at, dtype) in own.items()}
+    for values in stored.values():
+        values.flags.writeable = False
+    return replace(run, t=t, **samples_of(run.source, stored, 1), trace=None, stored=stored)
+
+
+def read_provenance(file: File) -> dict[str, str]:
+    """Return what a file records; nothing of an older one, in which an output may have the group's name."""
     try:
-        import h5py  # noqa: F401
-    except ModuleNotFoundError as error:
-        raise GudgeonError("NetCDF files need h5py: pip install 'gudgeon[xarray]'") from error
-    path, found = named(path, "path"), []
-    with CtrlC() as ctrl_c:  # Python drops what is raised in callbacks of weak references, Ctrl-C too
-        for table in tables:
-            found.append(table)
-            ctrl_c.take()
-        size = sum(one.values.nbytes for table in found for one in table.variables)
-        check_disk(Path(path).parent, size, "it", path)
-        with written(path) as file:
-            for piece in pieces(found):
-                file.write(piece)
-                ctrl_c.take()
-    ctrl_c.take()
+        return {name: file.text(name, PROVENANCE_GROUP) for name in PROVENANCE}
+    except (KeyError, ValueError):
+        return {}
