@@ -79,7 +79,7 @@ GROUPS = {
     ),
     "results": (
         ("runtime/results/series.py", "runtime/results/peaks.py", "runtime/results/wear.py",
-         "runtime/results/motion.py", "runtime/results/at_events.py", "runtime/model/arrays.py"),
+         "runtime/results/motion.py", "runtime/results/samples.py", "runtime/model/arrays.py"),
         (*_tests("results", "results", "reactions", "at_events", "motion", "batch_series", "drift"),
          *_tests("model", "arrays", "array_forms"), *_tests("simulation", "peaks", "wear", "wear_loop")),
     ),

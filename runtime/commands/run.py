@@ -191,7 +191,8 @@ def _simulate(request: Request, settings: Settings, simulations: Mapping[str, Si
 def _hand_over(request: Request, simulations: Mapping[str, Simulation], session: Session) -> None:
     """Everything after the integration: the results are saved first, for nothing that follows may lose them."""
     from gudgeon.commands.run_reports import verify, write_reports
-    from gudgeon.results.reports.comparison import compare, default_watch
+    from gudgeon.results.reports.comparison import compare
+    from gudgeon.results.series import default_watch
 
     if request.verify:
         verify(session.runs, session.failures, request.json)

@@ -21,7 +21,7 @@ from gudgeon.errors import SolverError
 from gudgeon.model.compiled import Array
 from gudgeon.model.contours import contour_of, depth_at
 from gudgeon.model.corners import corner_at
-from gudgeon.results.point_motion import point_motion
+from gudgeon.results.series import point_motion
 
 if TYPE_CHECKING:
     from gudgeon.results.results import Result
@@ -79,22 +79,6 @@ class ContactCheck:
         """Raise SolverError with joint, time and depth of every fault, if there is one."""
         if self.faults:
             raise SolverError(str(self), self.faults[0].t)
-
-
-class Checked:
-    """What checks itself: a run."""
-
-    def check(self: Result, samples: int = 20_000) -> ContactCheck:  # type: ignore[misc]
-        """Check the contacts of this run independently of the code that located them.
-
-        The run is repeated bit for bit with `samples` equal intervals. The penetration of every joint with play is
-        computed from positions of the bodies. Returns what is found outside the contacts of `impacts`, by time: a
-        ContactCheck, true where nothing is; `str` tells joint, time (s) and depth (m) of each fault, `raise_faults()`
-        raises them as a SolverError. Raises BadValueError unless `samples` is a whole number, 2 or more.
-        """
-        from gudgeon.simulation.contact_check import check
-
-        return check(self, samples)
 
 
 def penetrations(run: Result) -> Array:

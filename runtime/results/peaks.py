@@ -1,6 +1,7 @@
 """Peaks of series: over all steps of a run, where they were asked for, `run.peak("S9.ay")`; over its samples.
 
-As columns of a file and as rows of a table. And the largest forces in joints with play of many runs.
+Also as rows of a table, and the largest forces in joints with play of many runs. Blows between surfaces that do not
+give are rows of a run's impacts without a length, whose F_peak is an impulse.
 """
 
 from __future__ import annotations
@@ -16,9 +17,8 @@ from numpy.typing import NDArray
 from gudgeon.contract.boundary import PEAK_F, PEAK_e_max, PEAK_t
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, GudgeonError
-from gudgeon.results.blows import is_blow
 from gudgeon.results.diagnostics import Extremes
-from gudgeon.results.unknown import check_series
+from gudgeon.results.series import check_series
 
 if TYPE_CHECKING:
     from gudgeon.model.compiled import Array
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 PEAK_DTYPE = np.dtype([(name, "f8") for name in ("F", "t", "e_max", "first_contact", "first_peak")])
 ENDS = ("max", "t_max", "min", "t_min")
+FEW, TOLD = 3, 3  # blows that pile up; times at which they do, that are told one by one
 
 
 @dataclass(frozen=True)
@@ -180,3 +181,41 @@ def peaks_of(peaks: Array, contacts: NDArray[Any], count: NDArray[np.int_]) -> N
         out["first_contact"][run, joint] = begun["t_on"]
         out["first_peak"][run, joint] = np.where(is_blow(begun), np.nan, begun["F_peak"])
     return out
+
+
+def is_blow(impacts: NDArray[Any]) -> NDArray[np.bool_]:
+    """Which of the impacts took no time, (k,)."""
+    found: NDArray[np.bool_] = impacts["t_off"] == impacts["t_on"]
+    return found
+
+
+def first_force(own: NDArray[Any]) -> float:
+    """The largest force of a joint's first contact, N; NaN of a blow, which has none."""
+    return math.nan if is_blow(own[:1])[0] else float(own["F_peak"][0])
+
+
+def piled_up(joints: Sequence[str], impacts: NDArray[Any]) -> Iterator[str]:
+    """Where bounces came ever faster until a contact was closed: Zeno's points, in words."""
+    for k, name in enumerate(joints):
+        own = impacts[impacts["joint"] == k]
+        closings = [(n, float(own["t_on"][i])) for i in range(len(own)) if (n := _bounces_before(own, i)) >= FEW]
+        for count, t in closings[:TOLD]:
+            yield (
+                f"{name}: {count} bounces piled up until t = {t:.9g} s, where the contact is closed: they part slower"
+                " than the law's threshold there"
+            )
+        if len(closings) > TOLD:
+            yield f"{name}: bounces piled up {len(closings)} times, the last until t = {closings[-1][1]:.9g} s"
+
+
+def _bounces_before(own: NDArray[Any], i: int) -> int:
+    """How many blows of a joint, each slower than the one before, end in its lasting contact i."""
+    if bool(is_blow(own[i : i + 1])[0]):
+        return 0
+    count, slower = 0, 0.0
+    for blow in own[:i][::-1]:
+        ends_here = count > 0 or blow["t_on"] == own["t_on"][i]
+        if not (ends_here and blow["t_off"] == blow["t_on"] and blow["deltadot"] > slower):
+            break
+        count, slower = count + 1, float(blow["deltadot"])
+    return count

@@ -11,18 +11,18 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, SolverError, UnknownNameError
-from gudgeon.integrators.trajectory import no_events
+from gudgeon.integrators.trajectory import IMPACT_DTYPE, no_events
 from gudgeon.language.shown import counted
 from gudgeon.language.wanted import text
 from gudgeon.model.choices import said
+from gudgeon.model.evaluation import PARTS, Evaluation
 from gudgeon.model.left_limit import evaluation_times_of
-from gudgeon.results.contact_check import Checked
 from gudgeon.results.diagnostics import Diagnostics, Extremes
 from gudgeon.results.shown import Shown
 from gudgeon.results.state import Array, State
@@ -33,16 +33,17 @@ if TYPE_CHECKING:
 
     from gudgeon.integrators.trace import Trace
     from gudgeon.integrators.trajectory import Progress
-    from gudgeon.model.compiled import CompiledModel, Evaluation
-    from gudgeon.results.at_events import AtEvents
+    from gudgeon.model.compiled import CompiledModel
+    from gudgeon.results.contact_check import ContactCheck
     from gudgeon.results.figures.animation import Animation
     from gudgeon.results.figures.run_plots import Plot
     from gudgeon.results.reports.run_report import RunReport
+    from gudgeon.results.samples import AtEvents
     from gudgeon.results.series import Series
 
 
 @dataclass(eq=False)
-class Result(Shown, Checked):
+class Result(Shown):
     """One run of N samples. `run["S9.y"]` is the (N,) series of that name (see `gudgeon.series`).
 
     It may be pickled: what is stored and computed goes with it, other series are computed there by the scene's library.
@@ -63,7 +64,7 @@ class Result(Shown, Checked):
     impacts: Array  # IMPACT_DTYPE, one an onset
     diagnostics: Diagnostics
     events: Array = field(default_factory=no_events)  # EVENT_DTYPE, by time: what the file's `events` watch
-    event_states: Array | None = None  # event_dtype, the same with the states there; None: see at_events.py
+    event_states: Array | None = None  # event_dtype, the same with the states there; None: see samples.py
     trace: Trace | None = None  # forces and paths from the steps; None: samples are all there is
     stored: dict[str, Array] = field(default_factory=dict, repr=False)  # series computed or read so far
     provenance: dict[str, str] = field(default_factory=dict, repr=False)  # version, platform, compiler, date, mechanism
@@ -134,7 +135,7 @@ class Result(Shown, Checked):
 
     def at_events(self, name: str) -> AtEvents:
         """The states at the located times of an event: `run.at_events("top")["S9.ay"]` is (k,); see AtEvents."""
-        from gudgeon.results.at_events import at_events
+        from gudgeon.results.samples import at_events
 
         return at_events(self, name)
 
@@ -157,7 +158,7 @@ class Result(Shown, Checked):
     @cached_property
     def states_at_events(self) -> Result:
         """A result whose samples are the start and then all events, by time."""
-        from gudgeon.results.at_events import everything
+        from gudgeon.results.samples import everything
 
         return everything(self)
 
@@ -227,6 +228,18 @@ class Result(Shown, Checked):
 
         return RunReport(self)
 
+    def check(self, samples: int = 20_000) -> ContactCheck:
+        """Check the contacts of this run independently of the code that located them.
+
+        The run is repeated bit for bit with `samples` equal intervals. The penetration of every joint with play is
+        computed from positions of the bodies. Returns what is found outside the contacts of `impacts`, by time: a
+        ContactCheck, true where nothing is; `str` tells joint, time (s) and depth (m) of each fault, `raise_faults()`
+        raises them as a SolverError. Raises BadValueError unless `samples` is a whole number, 2 or more.
+        """
+        from gudgeon.simulation.contact_check import check
+
+        return check(self, samples)
+
     def value_of(self, name: str) -> Any:
         """What a name in an output's expression stands for: a parameter (an output may share its name), t, a series."""
         if text(name, "a name of a result") in self.parameters:
@@ -288,7 +301,7 @@ class Result(Shown, Checked):
 
     def unknown(self, name: str) -> UnknownNameError:
         """The error for a name that this result does not have; it names the nearest."""
-        from gudgeon.results.unknown import parameter_names, unknown_series
+        from gudgeon.results.series import parameter_names, unknown_series
 
         return unknown_series(self.source, self._catalogue, name, parameter_names(self.source))
 
@@ -298,3 +311,39 @@ def read(path: str | os.PathLike[str]) -> Result:
     from gudgeon.results.files import netcdf
 
     return netcdf.read(path)
+
+
+@dataclass(eq=False)
+class Bare(Result):
+    """A Result whose series are computed from `parts` of an Evaluation, and no more; it has no diagnostics."""
+
+    parts: frozenset[str] = PARTS
+
+    @cached_property
+    def evaluation(self) -> Evaluation:
+        """These parts, the others without a row. Raises SingularError."""
+        if self.compiled is None:
+            raise GudgeonError("there is no library to evaluate samples with")
+        times = evaluation_times_of(self, self.compiled)
+        return self.compiled.evaluate(times, self.q, self.v, self.memory, self.p, parts=self.parts)
+
+
+def bare(
+    source: KernelSource, compiled: CompiledModel | None, p: Array, t: Array, q: Array, v: Array, work: Array,
+    memory: Array, state: Array, parts: frozenset[str],
+) -> Bare:  # fmt: skip
+    """From samples as C stores them; works that no masses tell are NaN."""
+    slots = len(source.slots)
+    return Bare(
+        compiled=compiled, source=source, p=p, given=np.zeros(slots), is_given=np.zeros(slots, bool), t=t, q=q, v=v,
+        accelerations=None, state=state, memory=memory, work=np.full_like(work, np.nan) if source.massless else work,
+        impacts=np.zeros(0, IMPACT_DTYPE), diagnostics=cast(Diagnostics, None), parts=parts,
+    )  # fmt: skip
+
+
+def blank(source: KernelSource) -> Bare:
+    """No samples at all: it knows names and units."""
+    n, joints = len(source.coordinates), len(source.clearances)
+    p = np.full(len(source.slots) + len(source.derived), np.nan)
+    empty = np.zeros((0, n)), np.zeros((0, n)), np.zeros((0, 3)), np.zeros((0, source.n_memory))
+    return bare(source, None, p, np.zeros(0), *empty, np.zeros((0, joints), np.int8), PARTS)

@@ -16,25 +16,25 @@ The names depend on the scene alone; nothing is computed before somebody asks (`
 from __future__ import annotations
 
 import weakref
-from collections.abc import Callable, Container, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import partial
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gudgeon.contract.clearance_info import ClearanceInfo
-from gudgeon.contract.kernel_source import KernelSource
+from gudgeon.contract.kernel_source import KernelSource, PointInfo
+from gudgeon.errors import UnknownNameError
 from gudgeon.language import tree as expression_tree
 from gudgeon.language.output_units import unit_of
-from gudgeon.results.point_motion import point_motion
+from gudgeon.language.suggestions import near
+from gudgeon.language.wanted import told
+from gudgeon.results.state import Array
 
 if TYPE_CHECKING:
     from gudgeon.results.results import Result
-
-Array: TypeAlias = NDArray[Any]
 
 # (position, velocity, acceleration) and their units, in the order of q = (x, y, θ) of a body
 MOTION = (("x", "vx", "ax"), ("y", "vy", "ay"), ("theta", "omega", "alpha"))
@@ -163,6 +163,23 @@ def _points(source: KernelSource) -> Iterator[tuple[str, Series]]:
                 compute = partial(point_motion, point=point, axis=axis, order=order)
                 parts = frozenset({"a"} if order == 2 else ())
                 yield f"{point.name}.{MOTION[axis][order]}", Series(MOTION_UNITS[axis][order], meaning, compute, parts)
+
+
+def point_motion(run: Result, point: PointInfo, axis: int, order: int) -> Array:
+    """r_P = r + A(θ) s, its first and second time derivatives; s = (x, y) in the body's frame."""
+    x = point.sign_x * float(run.p[point.x]) if point.x >= 0 else 0.0
+    y = point.sign_y * float(run.p[point.y]) if point.y >= 0 else 0.0
+    if point.body < 0:
+        return np.full(run.t.shape, (x, y)[axis])
+    i = run.source.bodies[point.body].index
+    sin, cos = np.sin(run.q[:, i + 2]), np.cos(run.q[:, i + 2])
+    arm = (cos * x - sin * y, sin * x + cos * y)
+    turned = (-arm[1], arm[0])[axis]  # d arm / dθ
+    if order == 0:
+        return run.q[:, i + axis] + arm[axis]
+    if order == 1:
+        return run.v[:, i + axis] + run.v[:, i + 2] * turned
+    return run.a[:, i + axis] + run.a[:, i + 2] * turned - run.v[:, i + 2] ** 2 * arm[axis]
 
 
 def _joints(source: KernelSource) -> Iterator[tuple[str, Series]]:
@@ -298,3 +315,54 @@ def _output(source: KernelSource, name: str, tree: Any, known: Mapping[str, Seri
 
     parts = frozenset(part for path in wanted if path in known for part in known[path].parts)
     return Series(unit_of(expression, units.get), f"output {name}", compute, parts)
+
+
+def unknown_series(
+    source: KernelSource, known: Mapping[str, Series], name: Any, parameters: Iterable[str]
+) -> UnknownNameError:
+    """The error for a name that `known`, the results of a scene, does not have; it names the nearest."""
+    if not isinstance(name, str):
+        return UnknownNameError(f"nothing is named {told(name)}", hint="a name is a text: run.names lists all")
+    if name in parameters:
+        alike = ", ".join(path for path in known if path.rpartition(".")[2] == name)
+        hint = f'its value is run.parameters["{name}"]' + (f"; series: {alike}" if alike else "")
+        return UnknownNameError(f"{name!r} is a parameter, no series", hint=hint)
+    if name in source.outputs:
+        lacking = ", ".join(missing(source, source.outputs[name], known))
+        hint = "a joint's play, contact and reaction have results only in the scenes that have them"
+        hint = MASSLESS_HINT if source.massless else hint
+        return UnknownNameError(f"output {name!r} needs {lacking}, which scene {source.scene!r} lacks", hint=hint)
+    if (why := without_masses(source)) and name in catalogue(replace(source, massless=())):
+        return UnknownNameError(f"{name!r} is not known: {why}", hint=MASSLESS_HINT)
+    found = near(name, known)
+    hint = f"nearest: {', '.join(found)}" if found else "run.names lists all names"
+    return UnknownNameError(f"the scene {source.scene!r} has nothing named {name!r}", hint=hint)
+
+
+def check_series(source: KernelSource, names: Iterable[Any]) -> tuple[str, ...]:
+    """Names of series of a scene, each once. Raises UnknownNameError."""
+    known, wanted = catalogue(source), list(names)
+    for name in wanted:
+        if not isinstance(name, str) or name not in known:
+            raise unknown_series(source, known, name, parameter_names(source))
+    return tuple(dict.fromkeys(wanted))
+
+
+def parameter_names(source: KernelSource) -> set[str]:
+    """Addresses of a scene's numbers, of parameters their short names too."""
+    addresses = {slot.address for slot in source.slots}
+    return addresses | {address.removeprefix("parameters.") for address in addresses}
+
+
+def default_watch(reference: Result) -> tuple[str, ...]:
+    """What a reader wants to see: where the sliders on the ground are; without any, the outputs.
+
+    A slider's coordinate is the one that moves further in the ideal scene: along its axis.
+    """
+    found, source = [], reference.source
+    guided = [joint.second for joint in source.clearances if joint.at_wall and joint.first < 0]
+    for k in [joint.second for joint in source.joints if joint.kind == "translational" and joint.first < 0] + guided:
+        body = source.bodies[k].name
+        found.append(max((f"{body}.x", f"{body}.y"), key=lambda name: float(np.ptp(reference[name]))))
+    last = reference.source.bodies[-1].name
+    return tuple(dict.fromkeys(found)) or tuple(reference.source.outputs) or (f"{last}.theta",)

@@ -63,8 +63,7 @@ def _listed(names: list[str]) -> str:
 
 
 def _of_run(run: Any) -> Iterator[tuple[str, ...]]:
-    from gudgeon.results.reports.comparison import default_watch
-    from gudgeon.results.series import drive_series
+    from gudgeon.results.series import default_watch, drive_series
 
     source = run.source
     joints = [f"{joint.name}.F" for joint in source.clearances or source.joints]

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gudgeon.results.blows import is_blow
+from gudgeon.results.peaks import is_blow
 
 if TYPE_CHECKING:
     from gudgeon.model.compiled import Array

@@ -19,7 +19,7 @@ from gudgeon.integrators.steps import Steps
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
 from gudgeon.model.compiled import Array, CompiledModel, Evaluation
 from gudgeon.model.evaluation import PARTS, around
-from gudgeon.results.batch_series import parts_of, reads_works
+from gudgeon.results.batch import parts_of, reads_works
 from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.results import Result
 from gudgeon.results.series import catalogue

@@ -19,7 +19,7 @@ from gudgeon.model.left_limit import evaluation_times
 from gudgeon.model.written import with_undefined
 from gudgeon.results.diagnostics import provenance_of
 from gudgeon.results.results import Result
-from gudgeon.results.start_row import without_start
+from gudgeon.results.samples import without_start
 from gudgeon.simulation.audit import audit_samples, failed
 from gudgeon.simulation.diagnose import diagnose, energy_balance, unbalanced
 from gudgeon.waiting.asking import EVERY

@@ -9,7 +9,7 @@ import numpy as np
 
 from gudgeon.language.wanted import whole
 from gudgeon.results.contact_check import ContactCheck, check_samples
-from gudgeon.results.start_row import with_start
+from gudgeon.results.samples import with_start
 from gudgeon.simulation.examine import as_it_was
 from gudgeon.simulation.simulation import Simulation
 

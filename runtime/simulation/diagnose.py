@@ -24,8 +24,8 @@ from gudgeon.model.contours import widest
 from gudgeon.model.corners import corner_gap
 from gudgeon.model.seams import seams
 from gudgeon.model.steep import unbounded_drive
-from gudgeon.results.blows import first_force, piled_up
 from gudgeon.results.diagnostics import Diagnostics, Peak
+from gudgeon.results.peaks import first_force, piled_up
 from gudgeon.results.series import without_masses
 
 BLOCK = 1 << 16  # samples balanced between two looks

@@ -20,9 +20,8 @@ from gudgeon.contract.methods import ADAPTIVE, CHOOSING
 from gudgeon.errors import GudgeonError
 from gudgeon.model.contours import contour_of, depth_at
 from gudgeon.results.diagnostics import Difference, Examined, IdealForce, JointExamined
-from gudgeon.results.reports.comparison import default_watch
-from gudgeon.results.series import MOTION, rates
-from gudgeon.results.start_row import with_start
+from gudgeon.results.samples import with_start
+from gudgeon.results.series import MOTION, default_watch, rates
 from gudgeon.simulation.horizon import begin_of, check_own, repeated, settings_of
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ import numpy as np
 from gudgeon.errors import SolverError
 from gudgeon.model.evaluation import evaluate_runs
 from gudgeon.model.left_limit import evaluation_times
-from gudgeon.results.bare import Bare, bare
-from gudgeon.results.batch_series import parts_of
+from gudgeon.results.batch import parts_of
+from gudgeon.results.results import Bare, bare
 from gudgeon.results.series import catalogue
 
 if TYPE_CHECKING:

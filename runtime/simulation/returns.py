@@ -20,8 +20,8 @@ from gudgeon.results.lyapunov import Section
 from gudgeon.simulation.arguments import end_of, seconds
 
 if TYPE_CHECKING:
-    from gudgeon.results.at_events import AtEvents
     from gudgeon.results.results import Result
+    from gudgeon.results.samples import AtEvents
 
 ON_TIME = 1e-6  # of a period
 

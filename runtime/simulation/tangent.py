@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.model.compiled import Array
-from gudgeon.results.start_row import with_start
+from gudgeon.results.samples import with_start
 from gudgeon.simulation.flow import Flow
 from gudgeon.simulation.neighbours import NEAR, Neighbours, flat
 

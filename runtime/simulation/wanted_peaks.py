@@ -16,7 +16,7 @@ from gudgeon.language.wanted import names
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.results.diagnostics import Extremes
 from gudgeon.results.results import Result
-from gudgeon.results.unknown import check_series
+from gudgeon.results.series import check_series
 from gudgeon.results.wear import Rubbed, Rubbing
 from gudgeon.simulation.beside import Beside
 

@@ -23,8 +23,7 @@ from gudgeon.language.wanted import function, instance, number_of, positive, ref
 from gudgeon.language.wanted import names as joint_names
 from gudgeon.model.contours import contour_of, taken_contours
 from gudgeon.model.parameter_sets import ParameterSets, given_each, rows_of
-from gudgeon.results.wear import LAWS, POINTS, Rubbed, Rubbing
-from gudgeon.results.worn import Worn, WornJoint
+from gudgeon.results.wear import LAWS, POINTS, Rubbed, Rubbing, Worn, WornJoint
 from gudgeon.simulation.wear import CONTACT, MOST_POINTS, check_rubs, rate_of
 
 if TYPE_CHECKING:

@@ -18,8 +18,9 @@ from gudgeon.drawing.rig import Rig, make_rig
 from gudgeon.drawing.shapes import Sketch
 from gudgeon.results.figures.animation import QUICK, SHOWN, SLOW
 from gudgeon.results.figures.postures import postures_of
-from gudgeon.results.reports.comparison import NOISE, default_watch
+from gudgeon.results.reports.comparison import NOISE
 from gudgeon.results.results import Result
+from gudgeon.results.series import default_watch, rates
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.look import look
 from gudgeon.web.numbers import groups, units
@@ -68,8 +69,6 @@ def _first_traces(run: Result) -> list[str]:
 
 def _first_values(run: Result) -> list[str]:
     """Live values: what is watched with its rate, outputs, drives, eccentricities, forces of the joints."""
-    from gudgeon.results.reports.comparison import rates
-
     source, found = run.source, list[str]()
     for name in default_watch(run):
         found += [name, rates(name)[0]]

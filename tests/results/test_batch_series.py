@@ -13,9 +13,8 @@ import pytest
 import gudgeon
 from gudgeon.errors import UnknownNameError
 from gudgeon.model.evaluation import PARTS
-from gudgeon.results.bare import Bare
 from gudgeon.results.batch import Batch
-from gudgeon.results.results import Result
+from gudgeon.results.results import Bare, Result
 from gudgeon.results.series import catalogue
 from tests.programs import needs_compiler
 from tests.pump import TEXT as PUMP

@@ -22,8 +22,7 @@ from gudgeon.integrators.batch import Runs
 from gudgeon.integrators.trajectory import IMPACT_DTYPE
 from gudgeon.model.compiled import CompiledModel
 from gudgeon.results.batch import Batch
-from gudgeon.results.blows import is_blow
-from gudgeon.results.peaks import peaks_of
+from gudgeon.results.peaks import is_blow, peaks_of
 from gudgeon.results.results import Result
 from tests.programs import needs_compiler
 

@@ -82,7 +82,7 @@ def _hermite(run: Result, k: int, t: float) -> tuple[Any, Any]:
 
 def loads_at(source: KernelSource, p: Array, q: Array, v: Array) -> dict[str, tuple[float, float]]:
     """Forces (N, ground axes) and torques (N·m, 0) of the file at t = 0, q and v (n,), by its expressions."""
-    from gudgeon.results.bare import bare
+    from gudgeon.results.results import bare
 
     none = np.zeros((1, 0))
     state = np.zeros((1, len(source.clearances)), np.int8)

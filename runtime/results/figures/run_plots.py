@@ -32,7 +32,7 @@ from gudgeon.results.figures.plots import (
     peak_of,
     reach,
 )
-from gudgeon.results.series import drive_series, rates
+from gudgeon.results.series import default_watch, drive_series, rates
 
 import matplotlib  # isort: skip  (labels.py says where it is missing)
 from matplotlib.axes import Axes  # isort: skip
@@ -58,9 +58,7 @@ class Plot:
         self.run = run
 
     def __call__(self, *names: str | Sequence[str]) -> Figure:
-        """A panel for each unit, the panels wrapped; without names what a reader wants to see (report.py)."""
-        from gudgeon.results.reports.comparison import default_watch
-
+        """A panel for each unit, the panels wrapped; without names what a reader wants to see (default_watch)."""
         wanted = [name for some in names for name in listed_names(some, "names", SERIES)]
         run, panels = self.run, dict[str, list[str]]()
         joints = [joint.name for joint in run.source.clearances or run.source.joints]

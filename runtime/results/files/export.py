@@ -21,8 +21,7 @@ from gudgeon.language.shown import in_spreadsheet
 from gudgeon.language.wanted import listed, refuse
 from gudgeon.language.wanted import names as plain_names
 from gudgeon.language.wanted import path as named
-from gudgeon.results.batch import Batch
-from gudgeon.results.batch_series import given_columns, rows, series, series_column, wanted_names
+from gudgeon.results.batch import Batch, given_columns, rows, series, series_column, wanted_names
 from gudgeon.results.results import Array, Result
 from gudgeon.results.series import catalogue
 

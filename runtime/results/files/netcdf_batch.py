@@ -21,7 +21,6 @@ from gudgeon import errors
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, UnknownNameError
 from gudgeon.integrators.trajectory import Counts
-from gudgeon.results.bare import blank
 from gudgeon.results.batch import Batch, States, as_failures
 from gudgeon.results.diagnostics import Extremes, extremes_from_json, extremes_to_json
 from gudgeon.results.files import netcdf
@@ -37,7 +36,7 @@ from gudgeon.results.files.netcdf import (
 )
 from gudgeon.results.files.untrusted import File, check_typed, opened
 from gudgeon.results.peaks import PEAK_DTYPE
-from gudgeon.results.results import Array, Result
+from gudgeon.results.results import Array, Result, blank
 from gudgeon.results.series import catalogue
 
 if TYPE_CHECKING:

@@ -47,20 +47,6 @@ class SceneReport:
     scales: Mapping[str, float] = field(default_factory=dict)  # unit -> how large such numbers are in this run
 
 
-def default_watch(reference: Result) -> tuple[str, ...]:
-    """What a reader wants to see: where the sliders on the ground are; without any, the outputs.
-
-    A slider's coordinate is the one that moves further in the ideal scene: along its axis.
-    """
-    found, source = [], reference.source
-    guided = [joint.second for joint in source.clearances if joint.at_wall and joint.first < 0]
-    for k in [joint.second for joint in source.joints if joint.kind == "translational" and joint.first < 0] + guided:
-        body = source.bodies[k].name
-        found.append(max((f"{body}.x", f"{body}.y"), key=lambda name: float(np.ptp(reference[name]))))
-    last = reference.source.bodies[-1].name
-    return tuple(dict.fromkeys(found)) or tuple(reference.source.outputs) or (f"{last}.theta",)
-
-
 def compare(run: Result, reference: Result | None, watch: Sequence[str]) -> SceneReport:
     """The figures of one run; `reference` is the ideal run at the same times, None for the ideal run itself."""
     wanted = dict.fromkeys(name for watched in watch for name in (watched, *rates(watched)) if name)

@@ -18,7 +18,7 @@ from gudgeon.results.diagnostics import Examined
 from gudgeon.results.peaks import of_samples
 from gudgeon.results.reports.comparison import finite
 from gudgeon.results.reports.film_limits import beyond
-from gudgeon.results.start_row import with_start
+from gudgeon.results.samples import with_start
 
 if TYPE_CHECKING:
     from gudgeon.contract.clearance_info import ClearanceInfo

@@ -10,8 +10,7 @@ import numpy as np
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import BadValueError, InputError, UnknownNameError
 from gudgeon.results.batch import Array
-from gudgeon.results.series import catalogue
-from gudgeon.results.unknown import check_series
+from gudgeon.results.series import catalogue, check_series
 from gudgeon.results.wear import Rubbing, arc
 from gudgeon.simulation.examine import known_to_rub
 from gudgeon.studies.ensemble.exponents import FOLLOWED, KINDS_TOLD

@@ -18,9 +18,8 @@ from gudgeon.integrators.batch import available_threads
 from gudgeon.integrators.kinematic import along
 from gudgeon.language.tree import from_json, names
 from gudgeon.model.parameter_sets import given_each, prepare_sets
-from gudgeon.results.bare import bare
-from gudgeon.results.batch import Array
-from gudgeon.results.batch_series import parts_of
+from gudgeon.results.batch import Array, parts_of
+from gudgeon.results.results import bare
 from gudgeon.results.series import catalogue
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.studies.ensemble.libraries import loaded, method_in

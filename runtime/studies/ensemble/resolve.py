@@ -14,8 +14,7 @@ from gudgeon.integrators import adaptive
 from gudgeon.language.shown import counted
 from gudgeon.language.units import DIMENSIONLESS, TIME
 from gudgeon.results.batch import Array
-from gudgeon.results.series import catalogue
-from gudgeon.results.unknown import check_series
+from gudgeon.results.series import catalogue, check_series
 from gudgeon.simulation.arguments import method_of
 from gudgeon.simulation.from_file import load
 from gudgeon.simulation.simulation import Simulation

@@ -1,4 +1,7 @@
-"""The states of a run at its events: everything by name at the located times, not at the samples beside them.
+"""Samples of a run in addition to those that were requested: its start, and its states at events.
+
+A Result contains exactly the times that `simulate(output=[…])` requests. Where these begin after the start,
+`Result.start_row` is a result of one sample with the state at the start: works and energy.residual count from there.
 
 C keeps the state at each event as it does of samples; they are a Result of their own here, whose first sample is the
 run's start, for what is counted from there (energy.residual). A scene without a degree of freedom keeps none: its
@@ -7,21 +10,60 @@ motion is followed again to these times, when somebody asks.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 from gudgeon.errors import GudgeonError
-from gudgeon.results.start_row import with_start
+from gudgeon.model.evaluation import Evaluation
+from gudgeon.results.state import Array
 
 if TYPE_CHECKING:
     from gudgeon.integrators.trajectory import Trajectory
-    from gudgeon.results.results import Array, Result
+    from gudgeon.results.results import Result
 
+ROWS = ("t", "q", "v", "accelerations", "state", "memory", "work")  # arrays of a Result with a row for each sample
+Run = TypeVar("Run", bound="Result")
 FEW = 6  # times that are told
 OLDER = "the file was written before states at events were kept: run the scene again"
+
+
+def without_start(run: Run) -> Run:
+    """Return the run without its first sample, which becomes its `start_row`; the run itself if there is no other."""
+    if len(run.t) < 2:
+        return run
+    first = replace(_rows(run, lambda x: x[:1].copy()), trace=None, event_states=None)
+    others = _rows(run, lambda x: x[1:])
+    others.start_row = first
+    return others
+
+
+def with_start(run: Run) -> Run:
+    """Return the run with its start as the first sample; the run itself if its samples include the start."""
+    first = run.start_row
+    if first is None:
+        return run
+    rows: dict[str, Any] = {name: _joined(getattr(first, name), getattr(run, name)) for name in ROWS}
+    both = run.stored.keys() & first.stored.keys()
+    stored = {name: np.concatenate([first.stored[name], run.stored[name]]) for name in both}
+    return replace(run, **rows, stored=stored, start_row=None)
+
+
+def _joined(*parts: Array | None) -> Array | None:
+    known = [part for part in parts if part is not None]
+    return np.concatenate(known) if len(known) == len(parts) else None
+
+
+def _rows(run: Run, take: Callable[[Array], Array]) -> Run:
+    """Return a run with the samples that `take` selects, and what was evaluated of them so far."""
+    arrays = ((name, getattr(run, name)) for name in ROWS)
+    rows: dict[str, Any] = {name: None if x is None else take(x) for name, x in arrays}
+    found = replace(run, **rows, stored={})
+    if (known := run.__dict__.get("evaluation")) is not None:
+        found.__dict__["evaluation"] = Evaluation(*(take(part) for part in vars(known).values()))
+    return found
 
 
 @dataclass(frozen=True, eq=False)
