@@ -281,7 +281,7 @@ def _show(request: Request, source: KernelSource, reports: list[SceneReport], se
     """What was found and written: tables and notes, or JSON."""
     from gudgeon.language.shown import plain_console
     from gudgeon.results.reports.comparison import as_json, tables
-    from gudgeon.results.reports.film_limits import beyond
+    from gudgeon.results.reports.run_report import beyond
 
     if request.json:
         scenes = {name: told | {"beyond": beyond(session.runs[name])} for name, told in as_json(reports).items()}

@@ -15,7 +15,6 @@ from gudgeon.language.shown import one_line
 
 if TYPE_CHECKING:
     from gudgeon.contract.kernel_source import KernelSource
-    from gudgeon.drawing.shapes import Sketch
 
 MOST = 12  # names that a table lists of a kind
 Rows = list[tuple[str, ...]]
@@ -79,29 +78,13 @@ def _of_run(run: Any) -> Iterator[tuple[str, ...]]:
 def _drawing(shown: Any) -> str:
     """At the start, as an image of its own; nothing where that is not to be had."""
     try:
-        import gudgeon.results.figures.plots  # noqa: F401 (without matplotlib it says what to install)
-        from gudgeon.drawing.picture import as_bytes, figure_of
+        from gudgeon.results.figures.mechanism_plots import start_picture
 
-        picture = as_bytes(figure_of([_sketch(shown)], [""], ""), ".png", dpi=90)
+        picture = start_picture(shown)
     except (GudgeonError, ValueError, ArithmeticError):
         return ""
     data = base64.b64encode(picture).decode("ascii")
     return f'<img alt="the mechanism at its start" src="data:image/png;base64,{data}"/>'
-
-
-def _sketch(shown: Any) -> Sketch:
-    from gudgeon.drawing.plan import make_plan
-    from gudgeon.drawing.posture import Posture
-    from gudgeon.drawing.sketch import make_sketch
-    from gudgeon.results.figures.mechanism_plots import sketch_at
-    from gudgeon.results.figures.postures import loads_at
-
-    if hasattr(shown, "names"):
-        return sketch_at(shown, float(shown.t[0]))
-    start = shown.start()
-    loads = loads_at(shown.source, shown.p, start.q, start.v)
-    posture = Posture(shown.source, shown.p, start.q, 0.0, start.v, loads)
-    return make_sketch(posture, make_plan([posture]))
 
 
 def _roman(text: str) -> str:

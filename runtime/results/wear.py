@@ -143,9 +143,9 @@ class Wear:
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Depth over the angle in each body's own frame."""
-        from gudgeon.results.figures.wear_plot import plot
+        from gudgeon.results.figures.run_plots import plot_wear
 
-        return plot(self, ax)
+        return plot_wear(self, ax)
 
 
 @dataclass(frozen=True, eq=False)

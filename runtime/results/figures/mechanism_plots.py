@@ -10,7 +10,7 @@ import numpy as np
 
 from gudgeon.drawing.arrows import LONGEST, Arrows, arrows, velocities_of
 from gudgeon.drawing.insets import in_contact
-from gudgeon.drawing.picture import draw_on
+from gudgeon.drawing.picture import as_bytes, draw_on, figure_of
 from gudgeon.drawing.plan import Plan, make_plan
 from gudgeon.drawing.posture import Posture
 from gudgeon.drawing.shapes import Line, Sketch
@@ -18,7 +18,7 @@ from gudgeon.drawing.sketch import make_sketch, room_of_all
 from gudgeon.language.suggestions import unknown
 from gudgeon.language.wanted import flag, names
 from gudgeon.results.figures.plots import cycle
-from gudgeon.results.figures.postures import posture_at, postures_of, time_of
+from gudgeon.results.figures.postures import loads_at, posture_at, postures_of, time_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -90,6 +90,18 @@ def start_sketch(run: Result) -> Sketch:
     motion = postures_of(run)
     sketch = make_sketch(motion[0], make_plan(motion), inset=False)
     return sketch if len(sketch.labels) <= MANY else replace(sketch, labels=())
+
+
+def start_picture(shown: Any) -> bytes:
+    """What a notebook shows of a run or of a scene, which has a `start`: PNG, with names and insets."""
+    if hasattr(shown, "names"):
+        sketch = sketch_at(shown, float(shown.t[0]))
+    else:
+        start = shown.start()
+        loads = loads_at(shown.source, shown.p, start.q, start.v)
+        posture = Posture(shown.source, shown.p, start.q, 0.0, start.v, loads)
+        sketch = make_sketch(posture, make_plan([posture]))
+    return as_bytes(figure_of([sketch], [""], ""), ".png", dpi=90)
 
 
 def path_sketch(run: Result) -> Sketch:

@@ -20,8 +20,7 @@ from gudgeon.errors import GudgeonError, shortened
 from gudgeon.files.writing import write_bytes
 from gudgeon.language.plot_units import drawn, label, quantity, scale
 from gudgeon.language.shown import in_figure, one_line
-from gudgeon.results import trace
-from gudgeon.results.figures import force_panels
+from gudgeon.results.figures import joint_curves
 from gudgeon.results.series import rates
 
 import matplotlib  # isort: skip  (labels.py says where it is missing)
@@ -67,7 +66,7 @@ def caption_of(run: Result) -> str:
 
 def reach(run: Result, joint: str) -> float:
     """Half the side of a square, in units of c, that holds the orbit and the circle."""
-    _, x, y = trace.path(run, joint)
+    _, x, y = joint_curves.path(run, joint)
     return 1.04 * max(1.0, peak_of(np.hypot(x, y)) / run.constants[f"{joint}.c"])
 
 
@@ -87,7 +86,7 @@ def mark_horizon(ax: Axes, run: Result, colour: str) -> None:
 def draw_orbit(ax: Axes, run: Result, joint: str, colour: str, half: float) -> None:
     """The journal's path through its steps, e/c, and the circle e = c; dots where the surfaces are in contact."""
     c = run.constants[f"{joint}.c"]
-    t, x, y = trace.path(run, joint)
+    t, x, y = joint_curves.path(run, joint)
     x, y, angle = x / c, y / c, np.linspace(0.0, 2 * np.pi, 181)
     ax.fill(np.cos(angle), np.sin(angle), facecolor="#f6f6f6", edgecolor="#777777", lw=0.9, zorder=1)
     ends = _trusted(run) or float(run.t[-1])
@@ -115,7 +114,7 @@ def figure(runs: Mapping[str, Result], reference: Result | Mapping[str, Result],
     references = dict(reference) if isinstance(reference, Mapping) else dict.fromkeys(played, reference)
     shown = played or dict(runs)
     colours = dict(zip(shown, cycle(len(shown)) if played else [IDEAL, *cycle(len(shown) - 1)], strict=True))
-    panels = force_panels.panels(played.values())
+    panels = joint_curves.panels(played.values())
     followed = {name for one in watch for name in rates(one)}  # shown below what they are rates of
     watch = [name for name in dict.fromkeys(watch) if name not in followed][:2]
     with matplotlib.rc_context(STYLE):
@@ -192,7 +191,7 @@ def _draw_forces(
     """One row a panel: forces in every scene, with their peaks (▾), and the ideal reaction over them."""
     for ax, (what, names) in zip(axes, panels.items(), strict=True):
         known = [(scene, run, name) for scene, run in runs.items() for name in names if name in run]
-        curves = [(*force_panels.curve(run, name), colours[scene], 0.8, "-") for scene, run, name in known]
+        curves = [(*joint_curves.curve(run, name), colours[scene], 0.8, "-") for scene, run, name in known]
         ideal = max((r for r in references.values() if names[0] in r), key=lambda r: r.t[-1], default=None)
         if ideal is not None:
             curves.append((ideal.t, ideal[names[0]], IDEAL, 1.0, "--"))
@@ -202,7 +201,7 @@ def _draw_forces(
             ax.plot(t, values * factor, color=colour, lw=width, ls=dashes)
         for scene, run, name in known:
             mark_horizon(ax, run, colours[scene])
-            for at, peak in force_panels.peaks(run, name):
+            for at, peak in joint_curves.peaks(run, name):
                 ax.plot([at], [peak * factor], "v", color=colours[scene], ms=4, clip_on=False)
         if names[0].endswith(".F"):
             ax.set_ylim(bottom=0)

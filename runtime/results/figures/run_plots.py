@@ -1,4 +1,4 @@
-"""Figures of one run: `run.plot()`, `run.plot.orbit("A")`; a notebook shows them where they end a cell.
+"""Figures of one run, `run.plot()`, `run.plot.orbit("A")`, and of its wear; a notebook shows them at the end of a cell.
 
 matplotlib is imported with this module, hence only when somebody draws, and never through pyplot unless the caller uses
 pyplot already: no display is needed and no figure is kept alive.
@@ -13,12 +13,14 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from gudgeon.errors import BadValueError, UnknownNameError
 from gudgeon.language.plot_units import drawn, label
 from gudgeon.language.shown import in_figure
 from gudgeon.language.wanted import flag, positive, refuse, told
 from gudgeon.language.wanted import names as listed_names
-from gudgeon.results import trace
+from gudgeon.results.figures import joint_curves
 from gudgeon.results.figures.plots import (
     COLOURS,
     IDEAL,
@@ -41,6 +43,7 @@ from matplotlib.figure import Figure  # isort: skip
 if TYPE_CHECKING:
     from gudgeon.drawing.shapes import Sketch
     from gudgeon.results.results import Result
+    from gudgeon.results.wear import Wear
 
 LEGEND = 1.2  # inches for a legend beside a drawing
 SERIES = "the name of a series, or a list of such names"
@@ -62,7 +65,7 @@ class Plot:
         wanted = [name for some in names for name in listed_names(some, "names", SERIES)]
         run, panels = self.run, dict[str, list[str]]()
         joints = [joint.name for joint in run.source.clearances or run.source.joints]
-        forces = {f"{joint}.F": trace.force(run, joint) for joint in joints}  # with the extremes of all steps
+        forces = {f"{joint}.F": joint_curves.force(run, joint) for joint in joints}  # with the extremes of all steps
         guides = [f"{guide}.{last}" for guide in run.source.guides for last in "FM"]
         for name in wanted or (*default_watch(run), *drive_series(run.source), *forces, *guides):
             panels.setdefault(run.unit(name), []).append(name)
@@ -104,7 +107,7 @@ class Plot:
         of a slider's corners; in an ideal scene at all joints."""
         source = self.run.source
         joints = [*(joint.name for joint in source.clearances or source.joints), *source.guides]
-        return self._curves({f"{joint}.F": trace.force(self.run, joint) for joint in joints}, ax)
+        return self._curves({f"{joint}.F": joint_curves.force(self.run, joint) for joint in joints}, ax)
 
     def orbit(self, joint: str, ax: Axes | None = None) -> Axes:
         """Path of the journal's centre in its clearance circle, in units of the clearance."""
@@ -229,6 +232,21 @@ class Plot:
             ax.set_title(in_figure(caption, across))
             ax.text(0.0, -0.01, "\n".join(sketch.notes), transform=ax.transAxes, va="top", fontsize=7.5)
         return ax
+
+
+def plot_wear(wear: Wear, ax: Axes | None) -> Axes:
+    """See Wear.plot."""
+    with matplotlib.rc_context(STYLE):
+        ax = new_axes(8.0, 3.6) if ax is None else plain(ax)
+        sides = {"bearing": wear.bearing, "journal": wear.journal}
+        factor, unit = drawn(max(side.deepest for side in sides.values()), "m")
+        for (name, side), colour in zip(sides.items(), COLOURS, strict=False):
+            told = f"{name}, 90 % on {np.degrees(side.arc()):.3g}°" if side.deepest > 0.0 else f"{name}: not worn"
+            ax.plot(np.degrees(wear.angle), side.depth * factor, color=colour, lw=1.0, label=told)
+        ax.set(xlabel="angle in the body's own frame [°]", ylabel=label("depth", unit), xlim=(0.0, 360.0))
+        ax.set_title(in_figure(f"{wear.title}, {wear.joint}: wear by {wear.law.title()}", TITLE))
+        ax.legend(loc="best")
+    return ax
 
 
 class ShownFigure(Figure):

@@ -16,7 +16,6 @@ import numpy as np
 from gudgeon.language.plot_units import drawn, quantity
 from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.peaks import Extreme, of_samples, table_rows
-from gudgeon.results.reports.trust_and_cost import cost_rows, trust_rows
 from gudgeon.results.results import Result
 from gudgeon.results.series import MOTION_UNITS, drive_series, rates
 
@@ -27,6 +26,7 @@ NOISE, ZERO = 1e-9, "≈ 0"  # a number below this share of what the run has of 
 COLUMNS = 4  # scenes beside each other in one table
 # of a joint with play: name -> (unit that a table can scale, what it is); the rest is in --json
 CONSTANTS = {"c": ("m", "clearance c"), "K": ("", "contact stiffness K [N/mⁿ]"), "S": ("N*s", "film factor S")}
+AUDIT_SHOWN = 1e-3  # limits, from which on a check of the audit has a row of its own
 NEED_A_LEGEND = ("grazes", "δ̇/δ̇⁻ while latched", "steps with it outside ±1", CONSTANTS["K"][1], CONSTANTS["S"][1])
 
 
@@ -169,8 +169,8 @@ def _rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
         ("Peak of drives, of samples", _peak_rows(reports, [report.drives for report in reports])),
         ("Joints with play", _play_rows(reports)),
         ("Events", _event_rows(reports)),
-        ("Trust", trust_rows(reports)),
-        ("Cost", cost_rows(reports)),
+        ("Trust", _trust_rows(reports)),
+        ("Cost", _cost_rows(reports)),
     ):
         kept = [(name, cells) for name, cells in part if any(cell not in ("", "–") for cell in cells)]
         rows += [(heading, []), *kept] if kept else []
@@ -267,3 +267,50 @@ def _event_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
 
     names = dict.fromkeys(name for r in reports for name in r.events)
     return [(name, [cell(r.events.get(name)) for r in reports]) for name in names]
+
+
+def _trust_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+    every = [report.diagnostics for report in reports]
+    play = [bool(d.peaks) for d in every]
+    ratio = [f"{d.ratio_min:.3g} … {d.ratio_max:.3g}" if math.isfinite(d.ratio_min) else "–" for d in every]
+    return [
+        ("max |Φ|", [f"{r.diagnostics.phi_max:.2e}" if r.constrained else "no row is left" for r in reports]),
+        ("max |Φ̇|", [f"{r.diagnostics.phi_dot_max:.2e}" if r.constrained else "–" for r in reports]),
+        ("energy residual", [quantity(d.energy_residual, "J", 3) for d in every]),
+        ("energy turned over", [quantity(d.energy_turned_over, "J", 3) for d in every]),
+        ("trusted until", [_until(d.horizon) for d in every]),
+        ("contacts that began", [str(d.onsets) if p else "–" for d, p in zip(every, play, strict=True)]),
+        ("grazes", [str(d.grazes) if p and d.grazes else "–" for d, p in zip(every, play, strict=True)]),
+        ("δ̇/δ̇⁻ while latched", ratio),
+        ("steps with it outside ±1", [str(d.ratio_outside) if math.isfinite(d.ratio_min) else "–" for d in every]),
+        *_audit_rows(reports),
+    ]
+
+
+def _audit_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+    """The largest value of each check of the audit, in its limits, as far as it is above rounding."""
+    found = [{one.check: one.worst for one in report.diagnostics.audit} for report in reports]
+    checks = dict.fromkeys(check for one in found for check, worst in one.items() if worst >= AUDIT_SHOWN)
+    largest = [max(one.values(), default=math.nan) for one in found]
+    return [
+        ("audit, in limits", [f"{worst:.1e}" if math.isfinite(worst) else "–" for worst in largest]),
+        *((f"audit of {check}", [f"{one[check]:.1e}" if check in one else "–" for one in found]) for check in checks),
+    ]
+
+
+def _until(horizon: float) -> str:
+    """See predictability.py; NaN: nobody asked."""
+    return "to the end" if horizon == math.inf else quantity(horizon, "s", 3)
+
+
+def _cost_rows(reports: Sequence[SceneReport]) -> list[tuple[str, list[str]]]:
+    every = [report.diagnostics for report in reports]
+    return [
+        ("method", [d.method for d in every]),
+        ("step", [quantity(d.step, "s") for d in every]),
+        ("last step", [quantity(d.last_step, "s") for d in every]),
+        ("tolerance of a step", [f"{d.rtol:.3g}" if math.isfinite(d.rtol) else "–" for d in every]),
+        ("steps", [f"{d.steps:,}" if d.steps else "–" for d in every]),
+        ("right-hand sides", [f"{d.right_hand_sides:,}" if d.right_hand_sides else "–" for d in every]),
+        ("s per simulated s", [f"{d.seconds_per_simulated_second:.3g}" for d in every]),
+    ]

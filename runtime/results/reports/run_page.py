@@ -11,7 +11,7 @@ import numpy as np
 
 from gudgeon.language.plot_units import quantity
 from gudgeon.language.shown import one_line, visible
-from gudgeon.results import trace
+from gudgeon.results.figures import joint_curves
 from gudgeon.results.reports.html_page import Section, lines, page, table
 from gudgeon.results.reports.run_report import NOT_ASKED
 
@@ -173,7 +173,7 @@ def trust_rows(trust: Mapping[str, Any]) -> Rows:
 def orbit_svg(run: Result, joint: str) -> str:
     """The journal's path through all steps, as far as a picture shows them, in the circle e = c."""
     c = run.constants[f"{joint}.c"]
-    _, x, y = trace.path(run, joint)
+    _, x, y = joint_curves.path(run, joint)
     good = np.isfinite(x) & np.isfinite(y)
     x, y = x[good] / c, y[good] / c
     reach = 1.06 * max(1.0, float(np.hypot(x, y).max(initial=0.0)))
