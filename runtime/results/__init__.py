@@ -1,1 +1,1 @@
-"""What a run has: series, files, figures, report."""
+"""What a run has: its data here; files, figures and reports of them in folders above."""
