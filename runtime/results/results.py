@@ -236,9 +236,9 @@ class Result(Shown):
         ContactCheck, true where nothing is; `str` tells joint, time (s) and depth (m) of each fault, `raise_faults()`
         raises them as a SolverError. Raises BadValueError unless `samples` is a whole number, 2 or more.
         """
-        from gudgeon.simulation.contact_check import check
+        from gudgeon.simulation.examine import check_contacts
 
-        return check(self, samples)
+        return check_contacts(self, samples)
 
     def value_of(self, name: str) -> Any:
         """What a name in an output's expression stands for: a parameter (an output may share its name), t, a series."""

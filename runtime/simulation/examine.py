@@ -4,6 +4,8 @@ The run once more, bit for bit, sampled within its contacts at Gauss's points be
 trace, onsets, separations and peaks of force: where the work of each joint with play went, and how fast surfaces part.
 The run with steps half as long, or a tolerance a hundred times tighter: how far it errs. The ideal scene at its times:
 what its joints would carry without play. What is found is in `diagnostics.examined`, and in the run's file with that.
+
+`check_contacts` checks the contacts of a run at many more times than its samples: `run.check()`, `run --verify`.
 """
 
 from __future__ import annotations
@@ -18,7 +20,9 @@ from numpy.polynomial.legendre import leggauss
 
 from gudgeon.contract.methods import ADAPTIVE, CHOOSING
 from gudgeon.errors import GudgeonError
+from gudgeon.language.wanted import whole as whole_number
 from gudgeon.model.contours import contour_of, depth_at
+from gudgeon.results.contact_check import ContactCheck, check_samples
 from gudgeon.results.diagnostics import Difference, Examined, IdealForce, JointExamined
 from gudgeon.results.samples import with_start
 from gudgeon.results.series import MOTION, default_watch, rates
@@ -35,6 +39,8 @@ if TYPE_CHECKING:
 
 NODES, WEIGHTS = leggauss(6)
 MOST = 20_000  # samples between which there are Gauss's points; of more each so many-th
+MIN_SAMPLES, MAX_SAMPLES = 2, 100_000_000  # of a check of contacts
+STORED = "the run could not be repeated bit for bit: only its stored samples were checked"
 ANOTHER = "the run could not be repeated bit for bit: where the work of its joints went is not known"
 
 
@@ -280,3 +286,19 @@ def _differences(
             at = int(apart.argmax())
             found.append(Difference(name, run.unit(name), float(apart[at]), float(run.t[at]), until))
     return tuple(found), told
+
+
+def check_contacts(run: Result, samples: int, progress: Progress | None = None) -> ContactCheck:
+    """Check a run at `samples` equal intervals and at its own samples; see Result.check."""
+    from gudgeon.simulation.simulation import Simulation
+
+    samples = whole_number(samples, "samples", MIN_SAMPLES, MAX_SAMPLES)
+    run = with_start(run)
+    if not run.source.clearances or len(run.t) < MIN_SAMPLES:
+        return check_samples(run)
+    dense = run
+    if run.compiled is not None:
+        times = np.union1d(run.t, np.linspace(run.t[0], run.t[-1], samples + 1))
+        dense = as_it_was(Simulation(run.compiled, ""), run, times, progress) or run
+    found = check_samples(dense, run)
+    return found if dense is not run else replace(found, notes=(STORED,))
