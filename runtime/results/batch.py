@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field
 from itertools import islice
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, overload
+from typing import TYPE_CHECKING, Protocol, TypeAlias, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,13 +21,13 @@ from gudgeon.errors import GudgeonError
 from gudgeon.integrators.batch import available_threads
 from gudgeon.language import tree
 from gudgeon.language.shown import counted
-from gudgeon.language.wanted import is_whole, refuse, text, told
+from gudgeon.language.wanted import is_whole, refuse, told
 from gudgeon.language.wanted import names as plain_names
 from gudgeon.model.choices import of_runs as chosen_of_runs
 from gudgeon.results.diagnostics import Extremes
-from gudgeon.results.peaks import PEAK_DTYPE, BatchPeaks, of_runs, run_columns
+from gudgeon.results.peaks import BatchPeaks, of_runs
 from gudgeon.results.results import Result, blank
-from gudgeon.results.series import MOTION_UNITS, catalogue, rates
+from gudgeon.results.series import catalogue
 from gudgeon.results.state import Array
 
 if TYPE_CHECKING:
@@ -217,42 +217,9 @@ class Batch:
         `.to_dataframe()` has a row for each run and time. part: "impacts", "events" and what else a Result has as a
         table of its own: a row each, with its `run`; a text alone names such a part, as it does of a Result.
         """
-        names, part = ((), names) if isinstance(names, str) else (names, part)
-        try:
-            import xarray
-        except ModuleNotFoundError as error:
-            raise GudgeonError("Datasets need xarray: pip install 'gudgeon[xarray]'") from error
-        if text(part, "part", "the name of a table") != "series":
-            from gudgeon.results.files import netcdf_batch
+        from gudgeon.results.files import netcdf_batch
 
-            return netcdf_batch.dataset(self, part)
-        reasons = dict((failure.run, str(failure.error)) for failure in self.failures)
-        found: dict[str, Any] = {
-            "samples": ("run", self.samples), "t_last": ("run", self.t_last, {"units": "s"}),
-            "failure": ("run", np.array([reasons.get(i, "") for i in range(len(self))])),
-        }  # fmt: skip
-        found |= {name: ("run", values) for name, values in self.diagnostics.items()}
-        for k, joint in enumerate(self.source.clearances):
-            found |= {f"{joint.name}.peak.{name}": ("run", self.peaks[name][:, k]) for name in PEAK_DTYPE.names or ()}
-        found |= {name: ("run", values, {"units": unit}) for name, unit, values in run_columns(self.extremes)}
-        found |= self._samples(names)
-        coordinates: dict[str, Any] = {"time": ("time", self.t, {"units": "s"})} if self.t.ndim == 1 else {}
-        coordinates |= {name: ("run", values) for name, values in given_columns(self).items()}
-        attributes = {"mechanism": self.source.mechanism, "scene": self.source.scene, "title": self.source.title}
-        return xarray.Dataset(found, coordinates, attributes)
-
-    def _samples(self, names: Iterable[str]) -> dict[str, Any]:
-        """Variables over run and time."""
-        over, found = ("run", "time"), dict[str, Any]()
-        if self.t.ndim == 2:
-            found["t"] = over, self.t, {"units": "s"}
-        for k, name in enumerate(self.source.coordinates if self.states else ()):
-            for order, (column, values) in enumerate(((name, self.q), (rates(name)[0], self.v))):
-                found[column] = over, values[:, :, k], {"units": MOTION_UNITS[k % 3][order]}
-        for k, name in enumerate(() if self.source.massless or not self.states else ("drives", "forces", "clearances")):
-            found[f"work.{name}"] = over, self.work[:, :, k], {"units": "J"}
-        names = [*(name for name in self.kept if name != "t"), *wanted_names(self.source, names)]
-        return found | {series_column(name): (over, values) for name, values in series(self, names).items()}
+        return netcdf_batch.dataset(self, names, part)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write everything to one NetCDF file, every series of every run (those that were kept); OutputError where

@@ -22,6 +22,7 @@ from gudgeon.language.wanted import listed, refuse
 from gudgeon.language.wanted import names as plain_names
 from gudgeon.language.wanted import path as named
 from gudgeon.results.batch import Batch, given_columns, rows, series, series_column, wanted_names
+from gudgeon.results.files.netcdf import import_xarray
 from gudgeon.results.results import Array, Result
 from gudgeon.results.series import catalogue
 
@@ -220,15 +221,11 @@ def join(runs: Iterable[Result | Batch]) -> xarray.Dataset:
         raise BadValueError(f"join: two results are of the scene {twice[0]!r}", hint=hint)
     if len(names := list(dict.fromkeys(run.source.mechanism for run in found))) > 1:
         raise BadValueError(f"join: {names[0]!r} and {names[1]!r} are two mechanisms", hint="join scenes of one")
-    try:
-        import pandas
-        import xarray
-    except ModuleNotFoundError as error:
-        raise GudgeonError("Datasets need xarray: pip install 'gudgeon[xarray]'") from error
+    xarray = import_xarray()
     _check_times(found)
-    parts, along = [run.to_xarray() for run in found], pandas.Index(scenes, name="scene")
+    parts, along = [run.to_xarray() for run in found], _pandas().Index(scenes, name="scene")
     attributes = {"mechanism": names[0], "title": found[0].source.title}
-    joined: xarray.Dataset = xarray.concat(
+    joined: Any = xarray.concat(
         parts, along, data_vars="all", coords="different", compat="equals", join="outer", combine_attrs="drop_conflicts"
     )
     return joined.assign_attrs(attributes)

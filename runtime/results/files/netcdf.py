@@ -158,12 +158,18 @@ def variable(name: str) -> str:
     return f"output.{name}" if name in ("time", *PARTS, START, COMPILED, PROVENANCE_GROUP) else name
 
 
-def dataset(run: Result, part: str = SERIES) -> xarray.Dataset:
-    """A table of the file as an xarray Dataset: the series, or one of PARTS."""
+def import_xarray() -> Any:
+    """Return xarray. Raises GudgeonError where it is not installed."""
     try:
         import xarray
     except ModuleNotFoundError as error:
         raise GudgeonError("Datasets need xarray: pip install 'gudgeon[xarray]'") from error
+    return xarray
+
+
+def dataset(run: Result, part: str = SERIES) -> xarray.Dataset:
+    """A table of the file as an xarray Dataset: the series, or one of PARTS."""
+    xarray = import_xarray()
     part = text(part, "part", "the name of a table")
     group = "" if part == SERIES else part
     if part not in (SERIES, *PARTS):

@@ -11,7 +11,7 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
@@ -21,7 +21,16 @@ from gudgeon import errors
 from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.errors import GudgeonError, UnknownNameError
 from gudgeon.integrators.trajectory import Counts
-from gudgeon.results.batch import Batch, States, as_failures
+from gudgeon.language.wanted import text
+from gudgeon.results.batch import (
+    Batch,
+    States,
+    as_failures,
+    given_columns,
+    series,
+    series_column,
+    wanted_names,
+)
 from gudgeon.results.diagnostics import Extremes, extremes_from_json, extremes_to_json
 from gudgeon.results.files import netcdf
 from gudgeon.results.files.hdf5 import Table, Variable
@@ -35,9 +44,9 @@ from gudgeon.results.files.netcdf import (
     source_of,
 )
 from gudgeon.results.files.untrusted import File, check_typed, opened
-from gudgeon.results.peaks import PEAK_DTYPE
+from gudgeon.results.peaks import PEAK_DTYPE, run_columns
 from gudgeon.results.results import Array, Result, blank
-from gudgeon.results.series import catalogue
+from gudgeon.results.series import MOTION_UNITS, catalogue, rates
 
 if TYPE_CHECKING:
     import xarray
@@ -123,10 +132,45 @@ def kept_tables(batch: Batch) -> Iterator[tuple[int, Table]]:
         yield from ((i, table) for table in tables if table.length)
 
 
-def dataset(batch: Batch, part: str) -> xarray.Dataset:
-    """One of netcdf.PARTS of all runs as one table, with the run of each row."""
-    import xarray
+def dataset(batch: Batch, names: Iterable[str] | str = (), part: str = netcdf.SERIES) -> xarray.Dataset:
+    """See Batch.to_xarray."""
+    names, part = ((), names) if isinstance(names, str) else (names, part)
+    xarray = netcdf.import_xarray()
+    if text(part, "part", "the name of a table") != netcdf.SERIES:
+        rows = {v.name: ("row", v.values, v.attributes) for v in _part(batch, part).variables}
+        return xarray.Dataset(rows)
+    reasons = dict((failure.run, str(failure.error)) for failure in batch.failures)
+    columns: dict[str, Any] = {
+        "samples": ("run", batch.samples), "t_last": ("run", batch.t_last, {"units": "s"}),
+        "failure": ("run", np.array([reasons.get(i, "") for i in range(len(batch))])),
+    }  # fmt: skip
+    columns |= {name: ("run", values) for name, values in batch.diagnostics.items()}
+    for k, joint in enumerate(batch.source.clearances):
+        columns |= {f"{joint.name}.peak.{name}": ("run", batch.peaks[name][:, k]) for name in PEAK_DTYPE.names or ()}
+    columns |= {name: ("run", values, {"units": unit}) for name, unit, values in run_columns(batch.extremes)}
+    columns |= _samples(batch, names)
+    coordinates: dict[str, Any] = {"time": ("time", batch.t, {"units": "s"})} if batch.t.ndim == 1 else {}
+    coordinates |= {name: ("run", values) for name, values in given_columns(batch).items()}
+    attributes = {"mechanism": batch.source.mechanism, "scene": batch.source.scene, "title": batch.source.title}
+    return xarray.Dataset(columns, coordinates, attributes)
 
+
+def _samples(batch: Batch, names: Iterable[str]) -> dict[str, Any]:
+    """Variables over run and time."""
+    over, found = ("run", "time"), dict[str, Any]()
+    if batch.t.ndim == 2:
+        found["t"] = over, batch.t, {"units": "s"}
+    for k, name in enumerate(batch.source.coordinates if batch.states else ()):
+        for order, (column, values) in enumerate(((name, batch.q), (rates(name)[0], batch.v))):
+            found[column] = over, values[:, :, k], {"units": MOTION_UNITS[k % 3][order]}
+    for k, name in enumerate(() if batch.source.massless or not batch.states else ("drives", "forces", "clearances")):
+        found[f"work.{name}"] = over, batch.work[:, :, k], {"units": "J"}
+    names = [*(name for name in batch.kept if name != "t"), *wanted_names(batch.source, names)]
+    return found | {series_column(name): (over, values) for name, values in series(batch, names).items()}
+
+
+def _part(batch: Batch, part: str) -> Table:
+    """One of netcdf.PARTS of all runs as one table, with the run of each row."""
     if part not in netcdf.PARTS:
         raise UnknownNameError(f"a batch has no part {part!r}", hint=f"there are: series, {', '.join(netcdf.PARTS)}")
     if batch.states is None and part in ("impacts", "events"):
@@ -134,8 +178,7 @@ def dataset(batch: Batch, part: str) -> xarray.Dataset:
     else:
         began = [(i, run) for i in range(len(batch)) if (run := batch.partial(i)) is not None]
         own = [(i, table) for i, run in began for table in netcdf.tables(run) if table.group == part and table.length]
-    found: dict[str, Any] = {v.name: ("row", v.values, v.attributes) for v in long_table(part, own, {}).variables}
-    return xarray.Dataset(found)
+    return long_table(part, own, {})
 
 
 def _runs(batch: Batch, runs: Mapping[int, Result]) -> Iterator[Variable]:
