@@ -29,6 +29,7 @@ ffi = FFI(
     "gudgeon",
 '''
 WIDTH = 112
+IN_JAVASCRIPT = ("Status", "Capacity", "Count", "Residual", "Peak", "ImpactColumn", "Work")
 
 
 def declared() -> str:
@@ -81,15 +82,15 @@ def boundary_py() -> str:
 
 
 def boundary_js() -> str:
-    """Return the text of runtime/web/boundary.js: an object with the same names."""
+    """Return the text of runtime/web/boundary.js: what pages use, of columns their number and their names."""
     lines = ["/* Numbers that the engine shares with JavaScript: written by tools/declared.py (boundary.h). */"]
-    lines += ["const Boundary = {", *(f"    {name}: {value}," for name, value in thresholds().items())]
-    for name, members in enumerations().items():
-        told = [f"{member}: {value}" for member, value in members.items()]
-        if names := columns(members):
-            told.append(f"{_names_of(name)}: {json.dumps(names)}")
-        lines += textwrap.wrap(", ".join(told) + ",", WIDTH, initial_indent="    ", subsequent_indent="    ",
-                               break_long_words=False)
+    lines += ["const Boundary = {"]
+    known = enumerations()
+    for name in IN_JAVASCRIPT:
+        names, told = columns(known[name]), dict[str, object](known[name])
+        if names:
+            told = {list(known[name])[-1]: len(names), _names_of(name): names}
+        lines += [f"    {member}: {json.dumps(value)}," for member, value in told.items()]
     return "\n".join([*lines, "};", ""])
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator
-from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -45,7 +44,7 @@ def description(compiled: CompiledModel, seen_step: float | None = None) -> str:
         "mechanism": source.mechanism, "scene": source.scene, "title": source.title,
         "coordinates": source.coordinates, "bodies": [body.name for body in source.bodies],
         "slots": [_slot(slot) for slot in source.slots], "derived": source.derived,
-        "conditions": [asdict(condition) for condition in conditions(source)],
+        "conditions": [[one.address, one.relation, one.bound, one.message] for one in conditions(source)],
         "partials": [{"address": one.address, "tree": to_json(one.tree), "slot": one.slot, "slots": dict(one.slots)}
                      for one in partials(source)],
         "divides": sorted(DIVIDING),

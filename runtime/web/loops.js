@@ -96,11 +96,11 @@ class Session {
 
     /* What is said of statuses here: of journals that are too deep which one, and how deep. */
     get told() {
-        const {N_PEAK, PEAK_e_max, OUTSIDE} = Boundary, {about, p} = this.sim;
+        const {N_PEAK, PEAK_NAMES, OUTSIDE} = Boundary, {about, p} = this.sim, e_max = PEAK_NAMES.indexOf("e_max");
         const peaks = this.memory.view(this.report_at[3], N_PEAK * this.width.state);
         const depths = about.clearances.map(([name, k], i) => {
             const [first, count] = about.contours?.[name] ?? [0, 0], worn = Math.max(0, ...p.slice(first, first + count));
-            return [peaks[N_PEAK * i + PEAK_e_max] - p[k] - worn, name];
+            return [peaks[N_PEAK * i + e_max] - p[k] - worn, name];
         });
         const [depth, name] = depths.sort(([a], [b]) => b - a)[0] ?? [];
         const far = `${Number((1e3 * depth).toPrecision(3))} mm deep in its`, corner = name?.includes(".");

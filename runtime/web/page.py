@@ -9,13 +9,16 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
+from gudgeon.contract.kernel_source import KernelSource
 from gudgeon.language.scripts import carried_script
 from gudgeon.model.compiled import CompiledModel
+from gudgeon.model.undefined import partials
 from gudgeon.simulation.simulation import Simulation
 from gudgeon.web.description import description
 from gudgeon.web.module import simulator
 
-FILES = ("boundary.js", "run.js", "undefined.js", "loops.js", "drift.js", "start.js", "simulator.js")
+UNDEFINED = "undefined.js"
+FILES = ("boundary.js", "run.js", UNDEFINED, "loops.js", "drift.js", "start.js", "simulator.js")
 DESCRIPTION, MODULE = "gudgeon-description", "gudgeon-module"  # ids of what is not shown
 
 
@@ -50,10 +53,12 @@ def parts(simulation: Simulation, scenes: Mapping[str, str] | None = None) -> Pa
     return running_parts(simulation, scenes or {})
 
 
-@cache
-def script() -> str:
-    """JavaScript that declares `gudgeon` with `gudgeon.load`: for a page's <script>, or a file that Node requires."""
-    texts = [code(name) for name in FILES]
+def script(source: KernelSource) -> str:
+    """JavaScript that declares `gudgeon` with `gudgeon.load`: for a page's <script>, or a file that Node requires.
+
+    Whether expressions are defined is checked in scenes with expressions that may not be.
+    """
+    texts = [code(name) for name in FILES if name != UNDEFINED or partials(source)]
     return "\n".join((
         "const gudgeon = (() => {", '"use strict";', *texts, "return {load, unpacked, Simulator, Run};", "})();",
         'if (typeof module !== "undefined") module.exports = gudgeon;', "",
@@ -66,7 +71,7 @@ def carried(compiled: CompiledModel) -> str:
     Raises BuildError where the compiler for pages is not installed.
     """
     module = packed_module(compiled)
-    return f"<script>\n{script()}</script>\n{element(DESCRIPTION, description(compiled))}{module}"
+    return f"<script>\n{script(compiled.source)}</script>\n{element(DESCRIPTION, description(compiled))}{module}"
 
 
 def packed_module(compiled: CompiledModel, which: str = "") -> str:
@@ -86,6 +91,7 @@ def element(name: str, told: str) -> str:
     return f'<script type="application/json" id="{name}">{safe}</script>\n'
 
 
+@cache
 def code(name: str) -> str:
     """JavaScript of this room, as a page carries it."""
     return carried_script(file_text(name))

@@ -56,7 +56,7 @@ def running_parts(simulation: Simulation, scenes: Mapping[str, str]) -> Parts:
     title = one_line(simulation.source.title or simulation.source.mechanism)
     frame = file_text("app.html").replace("@NOTE@", escape(note)).replace("@TITLE@", escape(title))
     carried += packed_element(PROGRAM, app().encode())
-    scripts = f"{carried}<script>\n{script()}</script>\n<script>\n{code('begin.js')}</script>"
+    scripts = f"{carried}<script>\n{script(simulation.source)}</script>\n<script>\n{code('begin.js')}</script>"
     return Parts(f"<style>\n{style(*looks_of(rig))}</style>", frame, scripts)
 
 

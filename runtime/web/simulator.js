@@ -162,7 +162,7 @@ class Simulator {
     check(p, mask) {
         const {conditions, slots, derived} = this.about, value = (address) => p[this.place.get(address)];
         const unit = (address) => slots[this.place.get(address)].unit;
-        for (const {address, relation, bound, message} of conditions) {
+        for (const [address, relation, bound, message] of conditions) {
             const limit = typeof bound === "number" ? bound : bound.split(" + ").reduce((sum, a) => sum + value(a), 0);
             const known = Number.isFinite(value(address)) && Number.isFinite(limit);
             if (known && !RELATIONS[relation](value(address), limit))

@@ -77,7 +77,7 @@ def in_node(simulation: Simulation, folder: Path, runs: list[dict[str, Any]]) ->
     """Runs {parameters, options, names of series, slices} in Node."""
     program = node()
     assert program
-    files = {"script": script().encode(), "description": description(simulation.compiled).encode()}
+    files = {"script": script(simulation.source).encode(), "description": description(simulation.compiled).encode()}
     for name, data in (files | {"module": simulator(simulation.source)}).items():
         (folder / name).write_bytes(data)
     asked = {name: str(folder / name) for name in (*files, "module")} | {"runs": runs}
