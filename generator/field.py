@@ -40,6 +40,7 @@ OF_MOTION = "t, coordinates and velocities"
 OF_RESULTS = "t and anything that a result has"
 OF_PENETRATION = "delta"
 OF_CAM_ANGLE = "phi"
+CONSTANT_IN_TIME = ("", OF_PENETRATION, OF_CAM_ANGLE)  # what may not use t
 
 
 RELATIONS: Mapping[str, Callable[[float, float], bool]] = {

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import errno
 import os
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -113,6 +113,12 @@ class InputErrors(InputError):
         first = self.errors[0]
         super().__init__(first.message, first.where, first.hint)
         self.args = ("\n".join(str(e) for e in self.errors),)
+
+
+def together(errors: Iterable[InputError]) -> InputError:
+    """Return the only one of some errors as it is, or InputErrors of all."""
+    found = list(errors)
+    return found[0] if len(found) == 1 else InputErrors(found)
 
 
 class AssemblyError(GudgeonError):

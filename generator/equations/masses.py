@@ -4,19 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from gudgeon.errors import InputErrors, MissingKeyError
+from gudgeon.errors import MissingKeyError, together
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.mechanism.mechanism import Body, Mechanism
 
 
 def refuse_massless(model: Model) -> None:
     """Raise a MissingKeyError for bodies without mass or inertia, where the motion depends on them."""
-    if asks := _asks(model):
-        errors = list(lacking(model.scene.mechanism, f"scene {model.scene.name} {asks}"))
-        if len(errors) == 1:
-            raise errors[0]
-        if errors:
-            raise InputErrors(errors)
+    asks = _asks(model)
+    if asks and (errors := list(lacking(model.scene.mechanism, f"scene {model.scene.name} {asks}"))):
+        raise together(errors)
 
 
 def _asks(model: Model) -> str:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from itertools import islice
 from typing import Any
 
-from gudgeon.errors import BadValueError, InputError, InputErrors, Location, MissingKeyError, UnknownKeyError
+from gudgeon.errors import BadValueError, InputError, Location, MissingKeyError, UnknownKeyError, together
 from gudgeon.generator.field import (
     CORNERS,
     DEPTHS,
@@ -71,7 +71,7 @@ def check_shape(root: Map) -> Checked:
             break
         for found in findings:
             document = _without(document, found, left_out)
-    raise errors[0] if len(errors) == 1 else InputErrors(errors)
+    raise together(errors)
 
 
 STUDIES = "gudgeon-study/"  # begins the format of files that are read elsewhere
@@ -161,13 +161,13 @@ def _in_points(node: Any, path: Path) -> Iterator[_Finding]:
 
 def _without(document: Map, finding: _Finding, left_out: set[str]) -> Map:
     """The file without an unknown key, or without the whole entry in which something is wrong."""
-    path = finding.path
+    path, section = finding.path, SECTIONS.get(str(finding.path[0]))
+    has_names = section is None or section.kind == MAPPING
     if finding.unknown is None:
-        section = SECTIONS.get(str(path[0]))
-        path = path[:2] if section is not None and section.kind == MAPPING else path[:1]
+        path = path[:2] if section is not None and has_names else path[:1]
         if len(path) == 2:
             left_out.add(str(path[1]))
-    if len(path) == 1:
+    if len(path) == 1 and has_names:
         whole = document.get(str(path[0]))
         left_out.update(whole if isinstance(whole, Map) else (ANY_NAME,))
     return _remove(document, path)

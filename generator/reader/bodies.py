@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from gudgeon.errors import BadNameError, BadValueError
+from gudgeon.errors import BadValueError
 from gudgeon.generator.field import PLACE, Field
 from gudgeon.generator.format.sections import APART, BODY, POINT, POINT_OF_GROUND, SECTIONS, START
 from gudgeon.generator.kinds.joints.joint_type import joint_types
@@ -13,18 +13,15 @@ from gudgeon.generator.mechanism.mechanism import GROUND, Body, JournalStart, Qu
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import Around, read_fields, read_vector
 from gudgeon.generator.reader.materials import Materials
-from gudgeon.generator.reader.places import IMPLIED_POINTS, Places, coordinate_of
+from gudgeon.generator.reader.places import Places, coordinate_of
 from gudgeon.generator.reader.shapes import Weighed, read_sides
 from gudgeon.generator.yaml.tree import Items, Map, Text
-from gudgeon.language.names import Namespace, check_name
 from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import Number
 from gudgeon.language.units import DIMENSIONLESS, LENGTH
 
 _OF_JOURNAL = ("e", "rate")  # keys of a start in play
 _OF_SLIDER = ("offset", "tilt", "offset_rate", "tilt_rate")
-# `L1.x` is a coordinate of the body: a point of that name could not be told from it
-_COORDINATES = ("x", "y", "theta", "vx", "vy", "omega", "ax", "ay", "alpha")
 
 
 def read_gravity(reader: Reader, root: Map) -> Vector | None:
@@ -34,16 +31,11 @@ def read_gravity(reader: Reader, root: Map) -> Vector | None:
     return read_vector(reader, root["gravity"], root.key("gravity"), SECTIONS["gravity"], "gravity")
 
 
-def read_bodies(reader: Reader, root: Map, namespace: Namespace, materials: Materials) -> dict[str, Body]:
+def read_bodies(reader: Reader, root: Map, materials: Materials) -> dict[str, Body]:
     """All bodies, in the order of the file: it is the order of the coordinates."""
     if not root["bodies"] and not reader.left_out:
         reader.errors.append(BadValueError("bodies is empty", root.where, "expected one body at least"))
-    bodies = {}
-    for name, body in root["bodies"].pairs():
-        with reader.collect():
-            namespace.add(name, "body", name.where)
-        bodies[str(name)] = _body(reader, name, body, materials)
-    return bodies
+    return {str(name): _body(reader, name, body, materials) for name, body in root["bodies"].pairs()}
 
 
 def _body(reader: Reader, name: Text, node: Map, materials: Materials) -> Body:
@@ -52,14 +44,6 @@ def _body(reader: Reader, name: Text, node: Map, materials: Materials) -> Body:
     own = read_fields(reader, node, [f for f in BODY.fields if not (auto and f.name == "inertia")], Around(address))
     points = read_sides(reader, node, address)
     for point, pair in node.part("points").pairs():
-        with reader.collect():
-            check_name(point, "point", point.where)
-            if point in IMPLIED_POINTS or point in _COORDINATES:
-                what = "every body has it" if point in IMPLIED_POINTS else f"{name}.{point} is a coordinate"
-                raise BadNameError(f"{str(point)!r} cannot name a point: {what}", point.where, "expected another name")
-            if str(point) in points:
-                what = "it is one of sides"
-                raise BadNameError(f"{str(point)!r} cannot name a point: {what}", point.where, "expected another name")
         points[str(point)] = read_vector(reader, pair, point, POINT, f"{address}.points.{point}")
     weighed = Weighed(reader, address, own, materials)
     with reader.collect():
@@ -82,14 +66,10 @@ def _implied(length: Quantity | None, address: str, name: Text) -> dict[str, Vec
 
 def read_ground(reader: Reader, root: Map) -> dict[str, Vector]:
     """The ground's points, in ground axes."""
-    points = {}
-    for point, pair in root.part("ground").pairs():
-        with reader.collect():
-            check_name(point, "point", point.where)
-            if point in _COORDINATES:
-                raise BadNameError(f"{str(point)!r} cannot name a point: it names a coordinate", point.where)
-        points[str(point)] = read_vector(reader, pair, point, POINT_OF_GROUND, f"ground.{point}")
-    return points
+    return {
+        str(point): read_vector(reader, pair, point, POINT_OF_GROUND, f"ground.{point}")
+        for point, pair in root.part("ground").pairs()
+    }
 
 
 def read_start(reader: Reader, root: Map, places: Places) -> Start:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 
 from gudgeon.errors import BadValueError, InputError, Location
 from gudgeon.generator.field import RELATIONS
@@ -12,7 +12,7 @@ from gudgeon.generator.mechanism.mechanism import Condition, Quantity, SceneSpec
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.parameters import parameter_values
 from gudgeon.language.defined import undefined_part
-from gudgeon.language.tree import Binary, Call, Expr, Name, Unary, calls, evaluate, names
+from gudgeon.language.tree import Binary, Call, Expr, Name, Number, Unary, calls, evaluate, names
 from gudgeon.language.units import si_unit
 
 EXPRESSIONS = "expressions."  # how the addresses of expressions by name begin
@@ -27,42 +27,45 @@ MASSLESS = (
 
 def check_values(reader: Reader, parameters: Mapping[str, Quantity], scenes: Mapping[str, SceneSpec]) -> None:
     """Collect a BadValueError at the place of each number that is not finite or breaks a condition."""
-    before = len(reader.errors)
-    _check_with(reader, parameters, None, broken_is_told=before > 0)
-    if len(reader.errors) > before:
-        return  # the same would be told of every scene
+    wrong = _check_with(reader, parameters, None)
     for scene in scenes.values():
         if scene.parameters:
-            _check_with(reader, parameters, scene, broken_is_told=before > 0)
+            _check_with(reader, parameters, scene, wrong)
     lasts = dict.fromkeys(call.arguments[2] for quantity in reader.quantities.values() for call in _steps(quantity))
     for name in {lasting.path for lasting in lasts if isinstance(lasting, Name)}.intersection(parameters):
         reader.require(parameters[name], ">", 0.0, "a ramp or smooth_step takes that long")  # of numbers given later
 
 
 def _check_with(
-    reader: Reader, parameters: Mapping[str, Quantity], scene: SceneSpec | None, broken_is_told: bool
-) -> None:
-    """All checks with the file's parameters, or with a scene's."""
+    reader: Reader, parameters: Mapping[str, Quantity], scene: SceneSpec | None, before: Container[str] = ()
+) -> Container[str]:
+    """Check all numbers with the file's parameters, or with a scene's, and return the addresses of wrong ones.
+
+    Nothing is told of numbers that were wrong before, or that follow one that could not be read.
+    """
     own = scene.parameters if scene else {}
     context = f" in scene {scene.name}" if scene else ""
     try:
         known = parameter_values({**parameters, **own})
     except InputError:
-        return  # a cycle, told already
+        return ()  # a cycle, told already
+    unread = _unread(reader, {**parameters, **own}, known) if reader.errors else ()
     values = _values(reader, known)
-
     told: dict[str, list[tuple[str, str]]] = {}
 
     def complain(address: str, message: str, hint: str) -> None:
-        told.setdefault(address, []).append((message, hint))
+        if address not in before:
+            told.setdefault(address, []).append((message, hint))
 
     for address, value in values.items():
-        if not math.isfinite(value) and not broken_is_told:
+        if not math.isfinite(value) and address not in unread:
             complain(address, f"is {value}{context}", FINITE)
         elif address in reader.wholes and math.isfinite(value) and value != math.floor(value):
             complain(address, f"is {value:.6g}{context}", f"expected a whole {reader.wholes[address]}")
     for address, quantity in reader.quantities.items():
-        if not (broken_is_told or quantity.of) and (".parameters." not in address or address in values):
+        if address in unread or quantity.of or isinstance(quantity.value, Number):
+            continue
+        if ".parameters." not in address or address in values:
             message, hint = _wrong_part(quantity, known, not math.isfinite(values.get(address, 0.0)))
             if message:
                 complain(address, f"{message}{context}", hint)
@@ -78,6 +81,17 @@ def _check_with(
         if all(values.get(component.address) == 0.0 for component in vector):
             complain(vector[0].address, f"and .y are both 0{context}", "expected a direction, such as [1, 0]")
     _tell(reader, told, own)
+    return told.keys()
+
+
+def _unread(reader: Reader, parameters: Mapping[str, Quantity], order: Iterable[str]) -> set[str]:
+    """Return names of parameters and addresses of numbers that could not be read, or that follow such a number."""
+    unread: set[str] = set()
+    for path, quantity in (*((name, parameters[name]) for name in order), *reader.quantities.items()):
+        is_broken = isinstance(quantity.value, Number) and math.isnan(quantity.value.value)
+        if is_broken or any(name.path in unread for name in names(quantity.value)):
+            unread.add(path)
+    return unread
 
 
 def _tell(reader: Reader, wrong: Mapping[str, Sequence[tuple[str, str]]], own: Mapping[str, Quantity]) -> None:

@@ -4,23 +4,25 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Container, Iterator, Mapping
+from collections.abc import Container, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
 from gudgeon.errors import (
-    BadNameError,
     BadValueError,
     ExpressionError,
     InputError,
     InputErrors,
     Location,
     UnknownNameError,
+    together,
 )
+from gudgeon.generator.field import CONSTANT_IN_TIME, OF_CAM_ANGLE, OF_PENETRATION
 from gudgeon.generator.format.shapes import ANY_NAME, check_shape
 from gudgeon.generator.mechanism.mechanism import Condition, Quantity, Vector
+from gudgeon.generator.reader.result_names import CamAngle, Penetration, ResultDimension
 from gudgeon.generator.reader.unit_or_name import settle_reading
-from gudgeon.generator.yaml.tree import Map, Text
+from gudgeon.generator.yaml.tree import NO_MERGE, Map, Text
 from gudgeon.language.curves import Curve
 from gudgeon.language.names import RESERVED
 from gudgeon.language.parser import at, check_dimension, parse
@@ -29,10 +31,7 @@ from gudgeon.language.tree import CurveCall, Expr, Name, Number, Unary, curve_ca
 from gudgeon.language.unit_remedies import unit_remedies
 from gudgeon.language.units import DIMENSIONLESS, TIME, Dimension
 
-ResultDimension = Callable[[Name, Location], Dimension | None]  # None: fits any
-
-
-REFUSED = re.compile(r"'(.+)' cannot name this (?:parameter|curve): ")  # what names.py says
+BROKEN = Name("t")  # stands for an expression by name that cannot be read: its users are not told of it again
 MOST_ERRORS = 50  # nobody reads more, and each costs a search for the nearest name
 
 
@@ -75,23 +74,26 @@ class Reader:
         self.wholes: dict[str, str] = {}  # address -> what is counted
         self.curves: dict[str, Curve] = {}
         self.expressions: dict[str, Named] = {}
-        self.expression_names: frozenset[str] = frozenset()  # of all that the file has, before any is read
         self.made_of: dict[str, tuple[str, ...]] = {}  # address -> expressions by name that are parts of it
         self.tables: dict[str, str] = {}  # files that curves were read from -> sha256
         self.laws: dict[str, str] = {}  # laws of the user's own -> their keys
         self.parameters: dict[str, Dimension | None] = {}  # None: defined without a unit
         self.uses: dict[str, set[Dimension]] = {}  # of those: what they were used as
         self.left_out: frozenset[str] = frozenset()  # names of entries whose shape is wrong
+        self.refused: set[str] = set()  # names of parameters, curves and expressions that cannot be
         self.texts: list[Text] = []  # expressions
+        self.scopes: dict[str, ResultDimension] = {  # of names that are no parameters, by what a field `varies` with
+            OF_PENETRATION: Penetration(self.parameters), OF_CAM_ANGLE: CamAngle(self.parameters),
+        }  # fmt: skip
 
     def check_shape(self, root: Map) -> Map:
         """The file without the entries whose shape is wrong: these are told, and not missed."""
         with self.collect():
             checked = check_shape(root)
-            twice = (ANY_NAME,) if self.errors else ()  # a key given twice may stand for one that is missing now
+            is_twice = any(error.message != NO_MERGE for error in self.errors)
+            twice = (ANY_NAME,) if is_twice else ()  # it may stand for a key that is missing now
             self.left_out = checked.left_out.union(twice)
             self.errors += checked.errors
-            self.expression_names = frozenset(map(str, checked.root.part("expressions")))
             return checked.root
         raise EnoughErrors  # nothing is left to read
 
@@ -112,10 +114,8 @@ class Reader:
         several = {_told(e): e for e in reversed(self.errors)}.values()
         misnamed = self._with_refused_names()
         errors = [e for e in several if not (self._follows(e) or any(_stands_in(e, text) for text in misnamed))]
-        if len(errors) == 1:
-            raise errors[0]
         if errors:
-            raise InputErrors(errors)
+            raise together(errors)
 
     def _follows(self, error: InputError) -> bool:
         """Whether an error is that of a name whose entry was left out."""
@@ -127,43 +127,35 @@ class Reader:
 
         What an expression may hold all the same (t, pi) says nothing of the rest.
         """
-        found = (REFUSED.match(e.message) for e in self.errors if isinstance(e, BadNameError))
-        names = [re.escape(one[1]) for one in found if one and one[1] not in RESERVED]
+        names = [re.escape(name) for name in self.refused if name not in RESERVED]
         held = re.compile(rf"(?<![\w.])(?:{'|'.join(names)})(?!\w| *\()")
         return [text for text in self.texts if held.search(text)] if names else []
 
-    def quantity(
-        self,
-        text: Text,
-        address: str,
-        expected: Dimension | None,
-        time: bool = False,
-        result: ResultDimension | None = None,
-    ) -> Quantity:
-        """The number at `address`; `time` and `result` say whether t and names of results may occur in it.
+    def quantity(self, text: Text, address: str, expected: Dimension | None, varies: str = "") -> Quantity:
+        """Return the number at `address`; `varies` says what it may use besides parameters (generator/field.py).
 
         An error is collected, and the number is then NaN.
         """
-        expr: Expr = broken(text)
+        tree: Expr = broken(text)
         found = expected
 
         def read(value: str) -> tuple[Expr, Dimension | None]:
-            written = Text.make(value, text.where, text.plain, text.one_line)
-            parsed = self.parse(written, address, constant=not time and result is None)
-            dimensions = self.check_names(parsed, text.where, time, result)
-            parsed = settle_reading(written, parsed, expected, dimensions.get, self.curves)
-            return parsed, check_dimension(parsed, expected, dimensions.get, text.where)
+            written = text if value is text else Text.make(value, text.where, text.plain, text.one_line)
+            parsed = self.parse(written, address, constant=not varies)
+            known = self.check_names(parsed, text.where, varies)
+            if known:
+                parsed = settle_reading(written, parsed, expected, known.get, self.curves)
+            return parsed, check_dimension(parsed, expected, known.get, text.where)
 
-        with self.collect(), unit_remedies(text, text.where, read, expected, self.numbers()):
-            parsed, found = read(text)
-            expr = replaced(parsed, {name: named.value for name, named in self.expressions.items()})
-            self.made_of[address] = self.expressions_in(parsed)
-            self._note_use(parsed, expected)
-        return self.keep(Quantity(address, expr, found if found is not None else DIMENSIONLESS, text.where))
-
-    def numbers(self) -> dict[str, str]:
-        """What a name without a dot stands for: a parameter, an expression."""
-        return dict.fromkeys(self.parameters, "a parameter") | dict.fromkeys(self.expressions, "an expression")
+        with self.collect(), unit_remedies(text, text.where, read, expected, _Numbers(self, "", False)):
+            tree, found = read(text)
+        if not isinstance(tree, Number):
+            self._note_use(tree, expected)
+            if parts := self.expressions_in(tree):
+                self.made_of[address] = parts
+                tree = replaced(tree, {name: self.expressions[name].value for name in parts})
+        self.quantities[address] = Quantity(address, tree, DIMENSIONLESS if found is None else found, text.where)
+        return self.quantities[address]
 
     def dimension_of_number(self, name: str) -> Dimension | None:
         """Return the dimension of a parameter or an expression, None where it has or is known to have none."""
@@ -188,39 +180,42 @@ class Reader:
             )
         return parse(text, text.where, _Numbers(self, address, constant), self.curves)
 
-    def check_names(
-        self, expr: Expr, where: Location, time: bool = False, result: ResultDimension | None = None
-    ) -> Mapping[str, Dimension | None]:
-        """The dimension of every name in `expr`. Raises ExpressionError or UnknownNameError at the name."""
+    def check_names(self, expr: Expr, where: Location, varies: str = "") -> dict[str, Dimension | None]:
+        """Return the dimension of every name in `expr`.
+
+        Raises an ExpressionError or UnknownNameError at a name that cannot stand there, InputErrors of several.
+        """
         for call in curve_calls(expr):
-            check_curve(call, at(where, call.offset), time or result is not None)
+            check_curve(call, at(where, call.offset), varies != "")
         found: dict[str, Dimension | None] = {}
+        wrong: dict[str, InputError] = {}
         for name in names(expr):
-            place = at(where, name.offset)
-            if name.path == "t":
-                if not time:
-                    hint = "time can stand in drives and outputs only"
-                    if result is not None:
-                        message = "'t' is time, and this force follows the penetration alone"
-                        raise ExpressionError(message, place, f"expected delta and parameters; {hint}")
-                    message = "'t' is time, and this number is constant"
-                    raise ExpressionError(message, place, f"expected parameters; {hint}")
-                found["t"] = TIME
-            elif name.path in self.parameters:
-                found[name.path] = self.parameters[name.path]
-            elif name.path in self.expression_names:
-                self._check_expression(name.path, place, time, result)
-                found[name.path] = self.expressions[name.path].dimension
-            elif result is not None:
-                found[name.path] = result(name, place)
-            elif "." in name.path:
-                hint = "expected parameters" + (" and t" if time else "") + ", which have no parts"
-                raise ExpressionError(f"{name.path!r} cannot stand here", place, hint)
-            elif name.path.lower() in ("time", "t"):
-                raise ExpressionError(f"{name.path!r} is no name here", place, "time is written t")
-            else:
-                raise unknown_name("name", name.path, (*self.parameters, *self.expressions), place)
+            if name.path not in found and name.path not in wrong:
+                try:
+                    found[name.path] = self._dimension_of(name, at(where, name.offset), varies)
+                except InputError as error:
+                    wrong[name.path] = error
+        if wrong:
+            raise together(wrong.values())
         return found
+
+    def _dimension_of(self, name: Name, place: Location, varies: str) -> Dimension | None:
+        time, result = varies not in CONSTANT_IN_TIME, self.scopes.get(varies)
+        if name.path == "t":
+            return _of_time(place, time, result is not None)
+        if name.path in self.parameters:
+            return self.parameters[name.path]
+        if name.path in self.expressions:
+            self._check_expression(name.path, place, time, result)
+            return self.expressions[name.path].dimension
+        if result is not None:
+            return result(name, place)
+        if "." in name.path:
+            hint = "expected parameters" + (" and t" if time else "") + ", which have no parts"
+            raise ExpressionError(f"{name.path!r} cannot stand here", place, hint)
+        if name.path.lower() in ("time", "t"):
+            raise ExpressionError(f"{name.path!r} is no name here", place, "time is written t")
+        raise unknown_name("name", name.path, (*self.parameters, *(self.expressions if varies else ())), place)
 
     def _check_expression(self, name: str, place: Location, time: bool, result: ResultDimension | None) -> None:
         """Raise ExpressionError where an expression by name reads what may not be read here."""
@@ -267,6 +262,17 @@ class Reader:
     def require_less(self, quantity: Quantity, sum_of: str, message: str) -> None:
         """A condition whose bound is a sum: addresses with " + " between."""
         self.conditions.append(Condition(quantity.address, "<", sum_of, message))
+
+
+def _of_time(place: Location, may_stand: bool, of_penetration: bool) -> Dimension:
+    """Return the dimension of t. Raises ExpressionError where it cannot stand."""
+    if may_stand:
+        return TIME
+    hint = "time can stand in drives and outputs only"
+    if of_penetration:
+        message = "'t' is time, and this force follows the penetration alone"
+        raise ExpressionError(message, place, f"expected delta and parameters; {hint}")
+    raise ExpressionError("'t' is time, and this number is constant", place, f"expected parameters; {hint}")
 
 
 def _stands_in(error: InputError, text: Text) -> bool:

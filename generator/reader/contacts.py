@@ -17,9 +17,7 @@ from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.extends import parents_first
 from gudgeon.generator.reader.fields import Around, check_keys, field_names, read_fields
 from gudgeon.generator.reader.materials import ELASTIC, Materials
-from gudgeon.generator.reader.result_names import Penetration
 from gudgeon.generator.yaml.tree import Map, Text
-from gudgeon.language.names import check_label
 from gudgeon.language.parser import at
 from gudgeon.language.suggestions import known_hint
 from gudgeon.language.tree import Number, names
@@ -52,8 +50,6 @@ def _measured(
     """All of a section whose materials are known, with their numbers."""
     for name, node in section.pairs():
         owner = f"{of.name}s.{name}"
-        with reader.collect():
-            check_label(name, of.name, name.where)
         own = read_fields(reader, node, of.fields, Around(owner)).quantities
         pair = _materials(reader, node, owner, roles, materials)
         if len(pair) == 2:
@@ -78,8 +74,6 @@ def read_contacts(reader: Reader, root: Map) -> dict[str, Contact]:
     for name, node in parents_first(reader, "contact", root.part("contacts")):
         merged[str(name)] = contact = _merge(merged[node["extends"]], node) if "extends" in node else node
         with reader.collect():
-            check_label(name, "contact", name.where)
-        with reader.collect():
             found[str(name)] = _contact(reader, name, contact)
     return {str(name): found[name] for name in root.part("contacts") if name in found}
 
@@ -96,12 +90,12 @@ def _merge(parent: Map, child: Map) -> Map:
 
 def _contact(reader: Reader, name: Text, node: Map) -> Contact:
     address = f"contacts.{name}"
-    _check_parts(name, node)
     uses: dict[str, LawUse | None] = dict.fromkeys(_ROLES)
     for role in _ROLES:
         if role in node:
             with reader.collect():
                 uses[role] = _law_use(reader, f"{address}.{role}", role, node[role])
+    _check_parts(name, node)
     if uses["normal"] and uses["friction"] and uses["normal"].options.get("pulls") is True:
         hint = "expected one: friction of a force that pulls would drive the slip"
         raise BadValueError(f"contact {name} has friction, and a normal law that pulls", node["friction"].where, hint)
@@ -192,7 +186,7 @@ def _law_use(reader: Reader, address: str, role: str, node: Map) -> LawUse:
     if law.name in OWN:
         reader.laws[law.name] = key_of(law.name)
     mistyped = check_keys(reader, node, ["law", *field_names(fields)], address)
-    around = Around(address, str(text), text.where, mistyped, motion=Penetration(reader.parameters))
+    around = Around(address, str(text), text.where, mistyped)
     own = read_fields(reader, node, with_dimensions(fields, node), around)
     for field in fields:
         if field.varies == OF_PENETRATION and field.name in own.quantities:

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from gudgeon.contract.limits import MAX_BYTES, MAX_TABLE_BYTES
-from gudgeon.errors import BadNameError, BadValueError, LimitError, Location, MissingKeyError, UnitError
+from gudgeon.errors import BadValueError, LimitError, Location, MissingKeyError, UnitError
 from gudgeon.files.beside import read_beside
 from gudgeon.generator.field import WORD
 from gudgeon.generator.format.sections import CURVE
@@ -23,7 +23,6 @@ from gudgeon.generator.reader.tables import Row, is_header, read_table
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
 from gudgeon.language.curves import LEAST, MONOTONE, NOT_A_KNOT, PERIODIC, STOP, Curve, in_pairs, spline
 from gudgeon.language.functions import FUNCTIONS
-from gudgeon.language.names import check_name
 from gudgeon.language.units import DIMENSIONLESS, Unit, parse_unit, si_unit
 
 MOST_POINTS = 1 << 21  # of a curve
@@ -37,23 +36,14 @@ def read_curves(reader: Reader, root: Map) -> dict[str, Curve]:
     for name, node in root.part("curves").pairs():
         reader.curves[str(name)] = _NOTHING
         with reader.collect():
-            _check_name(root, name)
-        with reader.collect():
-            reader.curves[str(name)] = _curve(reader, name, node)
+            reader.curves[str(name)] = _curve(reader, name, node) or _NOTHING
         if name in FUNCTIONS:  # it was refused: a call is that of the function
             del reader.curves[str(name)]
     return reader.curves
 
 
-def _check_name(root: Map, name: Text) -> None:
-    check_name(name, "curve", name.where)
-    for section, what in (("parameters", "parameter"), ("outputs", "output")):
-        if name in root.part(section):
-            hint = "expected a name of its own: both stand in expressions"
-            raise BadNameError(f"{name!r} names this curve and a {what}", name.where, hint)
-
-
-def _curve(reader: Reader, name: Text, node: Map) -> Curve:
+def _curve(reader: Reader, name: Text, node: Map) -> Curve | None:
+    """A curve; None if it cannot be read for a reason that was told."""
     owner = f"curves.{name}"
     told = len(reader.errors)
     options = read_fields(reader, node, [f for f in CURVE.fields if f.kind == WORD], Around(owner)).options
@@ -63,7 +53,7 @@ def _curve(reader: Reader, name: Text, node: Map) -> Curve:
         raise MissingKeyError(f"{owner} has {both}", name.where, "expected points: [[x, y], …] or table: FILE.csv")
     data = _data(reader, node["table"]) if "table" in node else b""
     if len(reader.errors) > told:
-        raise reader.errors.pop()
+        return None
     ends, extrapolate = str(options["ends"]), str(options["extrapolate"])
     if ends == PERIODIC and extrapolate != STOP:
         where = node["extrapolate"].where

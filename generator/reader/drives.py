@@ -22,7 +22,6 @@ from gudgeon.generator.reader.fields import (
 )
 from gudgeon.generator.reader.places import Places, coordinate_of
 from gudgeon.generator.yaml.tree import Map, Text, kind_of
-from gudgeon.language.names import Namespace
 from gudgeon.language.tree import functions
 from gudgeon.language.units import Dimension
 
@@ -39,15 +38,16 @@ class _Target:
     key: tuple[str, frozenset[str]]
 
 
-def read_drives(reader: Reader, root: Map, places: Places, namespace: Namespace) -> dict[str, Drive]:
+def read_drives(reader: Reader, root: Map, places: Places) -> dict[str, Drive]:
     """All drives that can be read; no two may prescribe the same thing."""
     drives: dict[str, Drive] = {}
     driven: dict[tuple[str, frozenset[str]], Drive] = {}
     for name, node in root.part("drives").pairs():
         with reader.collect():
-            namespace.add(name, "drive", name.where)
-        with reader.collect():
-            drive, key = _drive(reader, name, node, places)
+            found = _drive(reader, name, node, places)
+            if found is None:
+                continue
+            drive, key = found
             if key in driven:
                 other = driven[key]
                 message = f"drive {name} prescribes what drive {other.name} at {other.where} prescribes"
@@ -56,16 +56,19 @@ def read_drives(reader: Reader, root: Map, places: Places, namespace: Namespace)
     return drives
 
 
-def _drive(reader: Reader, name: Text, node: Map, places: Places) -> tuple[Drive, tuple[str, frozenset[str]]]:
+def _drive(reader: Reader, name: Text, node: Map, places: Places) -> tuple[Drive, tuple[str, frozenset[str]]] | None:
+    """A drive and what it prescribes; None if either cannot be read."""
     owner = f"drives.{name}"
     kind = kind_key(node, DRIVES, all_names({k: of.fields for k, of in DRIVES.items()}), owner)
     mistyped = check_keys(reader, node, [kind, *field_names(DRIVES[kind].fields)], owner)
-    target = _TARGETS[kind](reader, node, kind, places)
-    fields = [replace(f, dimension=target.dimension) if f.any_dimension else f for f in DRIVES[kind].fields]
-    own = read_fields(reader, node, fields, Around(owner, mistyped=mistyped)).quantities
-    if "value" not in own:
-        raise reader.errors.pop()
-    value = own["value"]
+    target = None
+    with reader.collect():
+        target = _TARGETS[kind](reader, node, kind, places)
+    of = target.dimension if target else None
+    fields = [replace(f, dimension=of) if f.any_dimension else f for f in DRIVES[kind].fields]
+    value = read_fields(reader, node, fields, Around(owner, mistyped=mistyped)).quantities.get("value")
+    if target is None or value is None:
+        return None
     if "sign" in functions(value.value):
         raise BadValueError(
             f"{owner}.value jumps where the argument of sign changes its sign", value.where,

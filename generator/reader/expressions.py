@@ -7,62 +7,37 @@ derived of it is derived once. What it may hold is asked where it is used too: a
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 
-from gudgeon.errors import BadNameError, LimitError, Location
+from gudgeon.errors import LimitError, Location
+from gudgeon.generator.field import OF_MOTION, OF_TIME
 from gudgeon.generator.mechanism.mechanism import Quantity
-from gudgeon.generator.reader.collector import Named, Reader, ResultDimension
+from gudgeon.generator.reader.collector import Named, Reader
 from gudgeon.generator.reader.parameters import dependency_order
 from gudgeon.generator.reader.unit_or_name import settle_reading
 from gudgeon.generator.yaml.tree import Map, Text
 from gudgeon.language.dimension_check import check_dimension
-from gudgeon.language.names import check_name
 from gudgeon.language.parser import COPIES
 from gudgeon.language.tree import Binary, Call, Expr, Name, Unary, names, replaced
 from gudgeon.language.units import DIMENSIONLESS
 
-TIME = "t"
 MOST = 4000  # parts of an expression with all names written out
 DEEPEST = 100  # levels of it
-_BROKEN = Name("t")  # stands for what cannot be read: whoever uses it is not told of it again
 
 
-def read_expressions(reader: Reader, root: Map) -> None:
-    """The section `expressions:`; reader.expressions knows them afterwards, without the dimensions of what moves."""
-    section, trees = root.part("expressions"), dict[str, Expr]()
-    for name, text in section.pairs():
-        reader.expressions[str(name)] = Named(_BROKEN, _BROKEN, None, text.where)
-    for name, text in section.pairs():
+def read_expressions(reader: Reader, root: Map) -> dict[str, Quantity]:
+    """The section `expressions:` in the order of the file; reader.expressions knows them afterwards."""
+    texts = {str(name): text for name, text in root.part("expressions").pairs() if name in reader.expressions}
+    trees: dict[str, Expr] = {}
+    for name, text in texts.items():
         with reader.collect():
-            _check_name(root, name)
-        if name == TIME:  # it was refused: elsewhere it is the time
-            del reader.expressions[str(name)]
-            continue
-        with reader.collect():
-            trees[str(name)] = reader.parse(text, f"expressions.{name}")
-    texts = {str(name): text for name, text in section.pairs() if name != TIME}
-    places = {name: text.where for name, text in texts.items()}
+            trees[name] = reader.parse(text, f"expressions.{name}")
     order: Iterable[str] = ()
     with reader.collect():
-        order = dependency_order(trees, places, "expressions")
+        order = dependency_order(trees, {name: text.where for name, text in texts.items()}, "expressions")
     sizes: dict[str, tuple[int, int]] = {}
-    for used in order:
-        with reader.collect():
-            trees[used] = settle_reading(texts[used], trees[used], None, reader.dimension_of_number, reader.curves)
-            sizes[used] = _size(used, trees[used], places[used], sizes)
-            value = replaced(trees[used], {other: named.value for other, named in reader.expressions.items()})
-            one = Named(trees[used], value, None, places[used])
-            reader.expressions[used] = one if _moves(value) else _settled(reader, one, None)
-
-
-def settle_expressions(reader: Reader, motion: ResultDimension) -> dict[str, Quantity]:
-    """All of them by name, those of motion with their dimensions too, now that its names are known."""
-    order = dependency_order({name: one.written for name, one in reader.expressions.items()}, {}, "expressions")
     for name in order:
-        if _moves((one := reader.expressions[name]).value):
-            reader.expressions[name] = replace(one, written=_BROKEN)
-            with reader.collect():
-                reader.expressions[name] = _settled(reader, one, motion)
+        with reader.collect():
+            reader.expressions[name] = _named(reader, name, texts[name], trees[name], sizes)
     for name, one in reader.expressions.items():
         reader.made_of[f"expressions.{name}"] = reader.expressions_in(one.written)
     return {
@@ -73,22 +48,14 @@ def settle_expressions(reader: Reader, motion: ResultDimension) -> dict[str, Qua
     }
 
 
-def _moves(value: Expr) -> bool:
-    return any("." in name.path for name in names(value))
-
-
-def _settled(reader: Reader, one: Named, motion: ResultDimension | None) -> Named:
-    """An expression with its dimension. Raises an InputError at what it may not hold."""
-    known = reader.check_names(one.written, one.where, True, motion)
-    return replace(one, dimension=check_dimension(one.written, None, known.get, one.where))
-
-
-def _check_name(root: Map, name: Text) -> None:
-    check_name(name, "expression", name.where)
-    for section, what in (("parameters", "a parameter"), ("curves", "a curve"), ("outputs", "an output")):
-        if name in root.part(section):
-            hint = "expected a name of its own: both stand in expressions"
-            raise BadNameError(f"{name!r} names this expression and {what}", name.where, hint)
+def _named(reader: Reader, name: str, text: Text, tree: Expr, sizes: dict[str, tuple[int, int]]) -> Named:
+    """An expression, when those in it are known. Raises an InputError at what it may not hold."""
+    tree = settle_reading(text, tree, None, reader.dimension_of_number, reader.curves)
+    sizes[name] = _size(name, tree, text.where, sizes)
+    value = replaced(tree, {other: one.value for other, one in reader.expressions.items()})
+    moves = any("." in inner.path for inner in names(value))
+    known = reader.check_names(tree, text.where, OF_MOTION if moves else OF_TIME)
+    return Named(tree, value, check_dimension(tree, None, known.get, text.where), text.where)
 
 
 def _size(name: str, tree: Expr, where: Location, of: Mapping[str, tuple[int, int]]) -> tuple[int, int]:

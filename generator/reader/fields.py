@@ -12,10 +12,6 @@ from gudgeon.generator.field import (
     BODY,
     FLAG,
     NUMBER,
-    OF_CAM_ANGLE,
-    OF_MOTION,
-    OF_PENETRATION,
-    OF_RESULTS,
     VECTOR,
     WORD,
     Bound,
@@ -23,7 +19,7 @@ from gudgeon.generator.field import (
 )
 from gudgeon.generator.format.shapes import missing_key, unknown_key
 from gudgeon.generator.mechanism.mechanism import GROUND, PointRef, Quantity, Vector
-from gudgeon.generator.reader.collector import Reader, ResultDimension
+from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.places import Places
 from gudgeon.generator.yaml.tree import Items, Map, Text, kind_of
 from gudgeon.language.shown import counted
@@ -79,13 +75,6 @@ def check_keys(
     strange = [key for key in node.names() if key not in known]
     reader.errors.extend(unknown_key(key, known, owner, elsewhere.get(key, "")) for key in strange)
     return frozenset(nearest(key, known) for key in strange)
-
-
-def text_of(node: object, key: Text, owner: str) -> Text:
-    """A scalar. Raises BadValueError at its key."""
-    if not isinstance(node, Text):
-        raise BadValueError(f"{owner}.{key} is {kind_of(node)}", key.where, "expected a number or a text")
-    return node
 
 
 def places_of(
@@ -148,7 +137,6 @@ class Around:
     place: Location | None = None  # of what is filled in; the mapping's, if there is none
     mistyped: frozenset[str | None] = frozenset()  # what strange keys probably stand for: not told as missing
     places: Places | None = None  # of bodies
-    motion: ResultDimension | None = None  # of the names that a field that `varies` may use
 
 
 def read_fields(reader: Reader, node: Map, fields: Sequence[Field], around: Around) -> Values:
@@ -176,37 +164,30 @@ def _fill_in(reader: Reader, wanted: Field, address: str, place: Location, value
 
 
 def _read_field(reader: Reader, node: Map, wanted: Field, around: Around, values: Values) -> None:
-    address, key = f"{around.owner}.{wanted.name}", node.key(wanted.name)
+    address, text = f"{around.owner}.{wanted.name}", node[wanted.name]
+    if wanted.kind in (NUMBER, BODY) and not isinstance(text, Text):
+        where = node.key(wanted.name).where
+        raise BadValueError(f"{address} is {kind_of(text)}", where, "expected a number or a text")
     if wanted.kind == VECTOR:
-        values.vectors[wanted.name] = read_vector(reader, node[wanted.name], key, wanted, address, around.motion)
+        values.vectors[wanted.name] = read_vector(reader, text, node.key(wanted.name), wanted, address)
     elif wanted.kind == NUMBER:
-        text = text_of(node[wanted.name], key, around.owner)
-        values.quantities[wanted.name] = read_number(reader, text, wanted, address, around.motion)
+        values.quantities[wanted.name] = reader.quantity(text, address, wanted.dimension, wanted.varies)
         if wanted.whole:
             reader.wholes[address] = wanted.meaning
     elif wanted.kind in (WORD, FLAG):
-        values.options[wanted.name] = _word(node[wanted.name], key, wanted, address)
+        values.options[wanted.name] = _word(text, node.key(wanted.name), wanted, address)
     elif wanted.kind == BODY and around.places is not None:
-        text = text_of(node[wanted.name], key, around.owner)
         values.options[wanted.name] = around.places.check_body(text, text.where)
 
 
-def read_number(
-    reader: Reader, text: Text, wanted: Field, address: str, motion: ResultDimension | None = None
-) -> Quantity:
-    """The number at an address as its field declares it; `motion` knows the names that one that `varies` may use."""
-    names = motion if wanted.varies in (OF_MOTION, OF_RESULTS, OF_PENETRATION, OF_CAM_ANGLE) else None
-    time = wanted.varies not in ("", OF_PENETRATION, OF_CAM_ANGLE)
-    return reader.quantity(text, address, wanted.dimension, time=time, result=names)
-
-
-def read_vector(
-    reader: Reader, pair: object, key: Text, wanted: Field, address: str, motion: ResultDimension | None = None
-) -> Vector:
+def read_vector(reader: Reader, pair: object, key: Text, wanted: Field, address: str) -> Vector:
     """Two numbers `address`.x and `address`.y as their field declares them; `key` is what stands before them."""
     if not isinstance(pair, Items) or len(pair) != 2 or not all(isinstance(item, Text) for item in pair):
         raise BadValueError(f"{address} is {kind_of(pair)}", key.where, "expected a list of two: [x, y]")
-    x, y = (read_number(reader, text, wanted, f"{address}.{a}", motion) for text, a in zip(pair, "xy", strict=True))
+    x, y = (
+        reader.quantity(text, f"{address}.{axis}", wanted.dimension, wanted.varies)
+        for text, axis in zip(pair, "xy", strict=True)
+    )
     if wanted.nonzero:
         reader.vectors_not_zero.append((x, y))
     return x, y

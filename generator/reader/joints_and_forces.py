@@ -9,7 +9,7 @@ from gudgeon.generator.field import BODY, OF_CAM_ANGLE
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism.mechanism import ForceElement, Joint, Quantity
-from gudgeon.generator.reader.collector import Reader, ResultDimension
+from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import (
     Around,
     all_names,
@@ -21,20 +21,16 @@ from gudgeon.generator.reader.fields import (
     refuse_same_body,
 )
 from gudgeon.generator.reader.places import Places
-from gudgeon.generator.reader.result_names import CamAngle
 from gudgeon.generator.yaml.tree import Map, Text
 from gudgeon.language.functions import PIECEWISE
-from gudgeon.language.names import Namespace
 from gudgeon.language.parser import at
 from gudgeon.language.tree import Number, functions, names
 
 
-def read_joints(reader: Reader, root: Map, places: Places, namespace: Namespace) -> dict[str, Joint]:
+def read_joints(reader: Reader, root: Map, places: Places) -> dict[str, Joint]:
     """All joints that can be read; the others' errors are collected."""
     joints = {}
     for name, node in root.part("joints").pairs():
-        with reader.collect():
-            namespace.add(name, "joint", name.where)
         with reader.collect():
             joints[str(name)] = _joint(reader, name, node, places, _in_scenes(name, node, root))
     return joints
@@ -57,10 +53,9 @@ def _joint(reader: Reader, name: Text, node: Map, places: Places, elsewhere: Map
     kind = kind_key(node, types, all_names({k: of.fields for k, of in types.items()}), owner)
     joint_type = types[kind]
     mistyped = check_keys(reader, node, [kind, *field_names(joint_type.fields)], owner, elsewhere)
+    values = read_fields(reader, node, joint_type.fields, Around(owner, mistyped=mistyped, places=places))
     first, second = places_of(reader, node, kind, joint_type.joins, (2,), places)
     refuse_same_body(kind, (first, second))
-    around = Around(owner, mistyped=mistyped, places=places, motion=CamAngle(reader.parameters))
-    values = read_fields(reader, node, joint_type.fields, around)
     for field in joint_type.fields:
         if field.varies == OF_CAM_ANGLE and field.name in values.quantities:
             with reader.collect():
@@ -93,26 +88,21 @@ def _check_profile(reader: Reader, profile: Quantity) -> None:
         raise BadValueError(f"{profile.address} has a slope that may jump, by {jumps[0]}", profile.where, hint)
 
 
-def read_forces(
-    reader: Reader, root: Map, places: Places, namespace: Namespace, motion: ResultDimension
-) -> dict[str, ForceElement]:
-    """All force elements that can be read; `motion` knows the names that their expressions may use."""
+def read_forces(reader: Reader, root: Map, places: Places) -> dict[str, ForceElement]:
+    """All force elements that can be read."""
     forces = {}
     for name, node in root.part("forces").pairs():
         with reader.collect():
-            namespace.add(name, "force", name.where)
-        with reader.collect():
-            forces[str(name)] = _force(reader, name, node, places, motion)
+            forces[str(name)] = _force(reader, name, node, places)
     return forces
 
 
-def _force(reader: Reader, name: Text, node: Map, places: Places, motion: ResultDimension) -> ForceElement:
+def _force(reader: Reader, name: Text, node: Map, places: Places) -> ForceElement:
     types, owner = element_types(), f"forces.{name}"
     kind = kind_key(node, types, all_names({k: of.fields for k, of in types.items()}), owner)
     element = types[kind]
     mistyped = check_keys(reader, node, [kind, *field_names(element.fields)], owner)
+    values = read_fields(reader, node, element.fields, Around(owner, mistyped=mistyped, places=places))
     targets = places_of(reader, node, kind, element.targets, element.counts, places)
     refuse_same_body(kind, targets)
-    around = Around(owner, mistyped=mistyped, places=places, motion=motion)
-    values = read_fields(reader, node, element.fields, around)
     return ForceElement(str(name), str(kind), targets, values.quantities, values.vectors, values.words(), name.where)

@@ -14,7 +14,6 @@ from gudgeon.generator.mechanism.mechanism import Choice, Material, Quantity, fo
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import Around, read_fields
 from gudgeon.generator.yaml.tree import Map, Text
-from gudgeon.language.names import check_label
 from gudgeon.language.suggestions import unknown_name
 
 ELASTIC = ("E", "nu")  # what contact asks of a material
@@ -29,8 +28,6 @@ class Materials:
         self.known: dict[str, Material] = {}
         self.choices: dict[str, Choice] = {}
         for name, node in section.pairs():
-            with reader.collect():
-                check_label(name, "material", name.where)
             own = read_fields(reader, node, MATERIAL.fields, Around(f"materials.{name}")).quantities
             self.known[str(name)] = Material(str(name), own)
         for needs in (ELASTIC, ("density",)):

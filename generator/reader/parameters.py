@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import graphlib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
-from gudgeon.errors import CycleError, InputError, InputErrors, Location
+from gudgeon.errors import CycleError, InputError, Location, together
 from gudgeon.generator.mechanism.mechanism import Quantity
 from gudgeon.generator.reader.collector import Reader, broken
 from gudgeon.generator.reader.unit_or_name import settle_reading
 from gudgeon.generator.yaml.tree import Map, Text
 from gudgeon.language.dimension_check import check_dimension
-from gudgeon.language.names import check_name
 from gudgeon.language.tree import Expr, evaluate, names
 from gudgeon.language.unit_remedies import unit_remedies
 from gudgeon.language.units import DIMENSIONLESS, Dimension
@@ -21,49 +20,45 @@ MOST_TOLD = 8  # names of a cycle
 
 
 def read_parameters(reader: Reader, section: Map) -> dict[str, Quantity]:
-    """The section `parameters:` in the order of the file; reader.parameters knows them afterwards."""
-    reader.parameters.update(dict.fromkeys(section))
-    trees: dict[str, Expr] = {}
-    for name, text in section.pairs():
-        trees[name] = broken(text)
+    """The section `parameters:` in the order of the file; reader.parameters knows their dimensions afterwards."""
+    texts = {str(name): text for name, text in section.pairs()}
+    trees: dict[str, Expr] = {name: broken(text) for name, text in texts.items()}
+    for name, text in texts.items():
+        if name in reader.refused:
+            continue
         with reader.collect():
-            check_name(name, "parameter", name.where)
 
-            def read(value: str, name: Text = name, text: Text = text) -> Expr:
-                tree = reader.parse(Text.make(value, text.where, text.plain, text.one_line), f"parameters.{name}")
+            def read(value: str, name: str = name, text: Text = text) -> Expr:
+                written = Text.make(value, text.where, text.plain, text.one_line)
+                tree = reader.parse(written, f"parameters.{name}", constant=True)
                 reader.check_names(tree, text.where)
-                _check_exponents(name, check_dimension(tree, None, lambda _: None, text.where), text.where)
+                _dimension(name, tree, lambda _: None, text.where)
                 return tree
 
             with unit_remedies(text, text.where, read, None, reader.parameters):
                 trees[name] = read(text)
     order: tuple[str, ...] = tuple(trees)
     with reader.collect():
-        order = dependency_order(trees, {str(name): text.where for name, text in section.pairs()})
-    texts = {str(name): text for name, text in section.pairs()}
+        order = dependency_order(trees, {name: text.where for name, text in texts.items()})
     for used in order:
         with reader.collect():
             trees[used] = settle_reading(texts[used], trees[used], None, reader.parameters.get, {})
-            reader.parameters[used] = _dimension(used, trees[used], texts[used].where, reader)
+            reader.parameters[used] = _dimension(used, trees[used], reader.parameters.get, texts[used].where)
     return {
-        str(name): reader.keep(
+        name: reader.keep(
             Quantity(f"parameters.{name}", trees[name], reader.parameters[name] or DIMENSIONLESS, text.where)
         )
-        for name, text in section.pairs()
+        for name, text in texts.items()
     }
 
 
-def _dimension(name: str, tree: Expr, where: Location, reader: Reader) -> Dimension | None:
-    found = check_dimension(tree, None, reader.parameters.get, where)
-    _check_exponents(name, found, where)
-    return found
-
-
-def _check_exponents(name: str, found: Dimension | None, where: Location) -> None:
+def _dimension(name: str, tree: Expr, of: Callable[[str], Dimension | None], where: Location) -> Dimension | None:
+    found = check_dimension(tree, None, of, where)
     if found is not None and not found.has_halves_at_most:
         raise InputError(
             f"the unit of parameter {name} has a broken exponent", where, "expected whole or half powers of m, kg, s"
         )
+    return found
 
 
 def settle(reader: Reader, parameters: Mapping[str, Quantity]) -> dict[str, Quantity]:
@@ -90,7 +85,7 @@ def dependency_order(
             cycles.append(_cycle_error(cycle, places, what))
             uses = {name: [x for x in of if x not in cycle] for name, of in uses.items() if name not in cycle}
     if cycles:
-        raise cycles[0] if len(cycles) == 1 else InputErrors(cycles)
+        raise together(cycles)
     return order
 
 

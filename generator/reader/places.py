@@ -7,30 +7,32 @@ from contextlib import suppress
 from types import MappingProxyType
 
 from gudgeon.errors import BadValueError, InputError, Location, UnknownNameError
-from gudgeon.generator.mechanism.mechanism import GROUND, Body, PointRef, Vector
-from gudgeon.generator.yaml.tree import Text, kind_of
+from gudgeon.generator.mechanism.mechanism import GROUND, PointRef
+from gudgeon.generator.yaml.tree import Map, Text, kind_of
 from gudgeon.language.suggestions import known_hint, unknown_name
 from gudgeon.language.units import Dimension
 
 IMPLIED_POINTS = ("origin", "com", "tail", "head")
+CORNERS_OF_SIDES = ("P", "Q", "R")
 
 
 _NONE: Mapping[str, str] = MappingProxyType({})
 
 
 class Places:
-    """Resolves `body` and `body.point`."""
+    """Resolves `body` and `body.point` by the names in the tree of a file."""
 
-    def __init__(self, bodies: Mapping[str, Body], ground: Mapping[str, Vector]) -> None:
-        self.bodies, self.ground = bodies, ground
+    def __init__(self, root: Map) -> None:
+        self.bodies, self.ground = root["bodies"], root.part("ground")
 
     def points(self, body: str) -> list[str]:
         """The points of a body, the user's first; KeyError for no body."""
         if body == GROUND:
-            return list(self.ground)
-        bar = self.bodies[body].length is not None
-        implied = IMPLIED_POINTS if bar else IMPLIED_POINTS[:2]
-        return [*(p for p in self.bodies[body].points if p not in implied), *reversed(implied)]
+            return [str(point) for point in self.ground]
+        node = self.bodies[body]
+        implied = IMPLIED_POINTS if "length" in node else IMPLIED_POINTS[:2]
+        named = dict.fromkeys((*CORNERS_OF_SIDES * ("sides" in node), *map(str, node.part("points"))))
+        return [*(point for point in named if point not in implied), *reversed(implied)]
 
     def check_body(self, name: str, where: Location) -> str:
         """The name of a body or `ground`. Raises UnknownNameError."""

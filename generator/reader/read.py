@@ -13,20 +13,18 @@ from gudgeon.generator.format.sections import OUTPUT, SECTIONS
 from gudgeon.generator.mechanism.mechanism import Mechanism, Quantity
 from gudgeon.generator.reader.bodies import read_bodies, read_gravity, read_ground, read_start
 from gudgeon.generator.reader.checks import check_values
-from gudgeon.generator.reader.collector import EnoughErrors, Reader, ResultDimension
+from gudgeon.generator.reader.collector import EnoughErrors, Reader
 from gudgeon.generator.reader.contacts import read_contacts, read_measures
 from gudgeon.generator.reader.curves import read_curves
+from gudgeon.generator.reader.declared_names import read_names
 from gudgeon.generator.reader.drives import read_drives
-from gudgeon.generator.reader.expressions import read_expressions, settle_expressions
-from gudgeon.generator.reader.fields import read_number, text_of
+from gudgeon.generator.reader.expressions import read_expressions
 from gudgeon.generator.reader.joints_and_forces import read_forces, read_joints
 from gudgeon.generator.reader.materials import Materials
 from gudgeon.generator.reader.parameters import read_parameters, settle
-from gudgeon.generator.reader.places import Places
-from gudgeon.generator.reader.result_names import MotionNames, ResultNames
 from gudgeon.generator.reader.scenes import Parts, check_peaks, read_events, read_scenes
 from gudgeon.generator.yaml.tree import Map, kind_of, parse_yaml
-from gudgeon.language.names import Namespace, check_name
+from gudgeon.language.names import check_name
 from gudgeon.language.tree import Number
 
 _MAX_TITLE = 200
@@ -53,26 +51,20 @@ def read_mechanism(data: bytes, file: str, overrides: Mapping[str, str | float |
 
 
 def _read(reader: Reader, root: Map, sha256: str) -> Mechanism:
-    """Section by section; what is wrong is collected in the reader."""
-    namespace = Namespace()
+    """Names, then what expressions are made of, section by section, then values; errors are collected in the reader."""
+    places, results = read_names(reader, root)
     title, curves = _read_title(reader, root), read_curves(reader, root)
-    parameters = read_parameters(reader, root.part("parameters"))
-    read_expressions(reader, root)
+    parameters, expressions = read_parameters(reader, root.part("parameters")), read_expressions(reader, root)
     gravity, materials = read_gravity(reader, root), Materials(reader, root.part("materials"))
-    bodies, ground = read_bodies(reader, root, namespace, materials), read_ground(reader, root)
-    places = Places(bodies, ground)
-    joints = read_joints(reader, root, places, namespace)
-    drives = read_drives(reader, root, places, namespace)
-    motion = MotionNames(places, (*root.part("joints"), *root.part("forces")), drives, reader.numbers())
-    expressions, forces = settle_expressions(reader, motion), read_forces(reader, root, places, namespace, motion)
-    start = read_start(reader, root, places)
+    bodies, ground = read_bodies(reader, root, materials), read_ground(reader, root)
+    joints, drives = read_joints(reader, root, places), read_drives(reader, root, places)
+    forces, start = read_forces(reader, root, places), read_start(reader, root, places)
     measures, contacts = read_measures(reader, root, materials), read_contacts(reader, root)
-    events = read_events(reader, root.part("events"), "events", motion)
-    scenes = read_scenes(reader, Parts(joints, measures, contacts, parameters, events, root, motion, materials))
-    unread = {*root.part("joints"), *root.part("drives"), *root.part("forces")} - {*joints, *drives, *forces}
-    known = ResultNames(places, joints, drives, forces, reader.numbers(), unread | namespace.twice)
-    outputs = _read_outputs(reader, root, namespace, known)
-    check_peaks(reader, scenes, known, root.part("outputs"))
+    events = read_events(reader, root.part("events"), "events")
+    scenes = read_scenes(reader, Parts(joints, measures, contacts, parameters, events, root, materials))
+    results.unread |= {*root.part("joints"), *root.part("drives"), *root.part("forces")} - {*joints, *drives, *forces}
+    outputs = _read_outputs(reader, root)
+    check_peaks(reader, scenes, results, root.part("outputs"))
     check_values(reader, parameters, scenes)
     return Mechanism(
         name=str(root["name"]),
@@ -115,8 +107,8 @@ def _read_freedoms(reader: Reader, root: Map) -> Quantity | None:
     if "freedoms" not in root:
         return None
     with reader.collect():
-        text = text_of(root["freedoms"], root.key("freedoms"), "the file")
-        number = read_number(reader, text, SECTIONS["freedoms"], "freedoms")
+        text = root["freedoms"]
+        number = reader.quantity(text, "freedoms", SECTIONS["freedoms"].dimension)
         value = number.value.value if isinstance(number.value, Number) else -1.0
         if not (value >= 0.0 and value % 1.0 == 0.0) and not math.isnan(value):  # NaN: told already
             raise BadValueError(f"freedoms is {kind_of(text)}", text.where, "expected a whole number: 0, 1, 2")
@@ -124,13 +116,9 @@ def _read_freedoms(reader: Reader, root: Map) -> Quantity | None:
     return None
 
 
-def _read_outputs(
-    reader: Reader, root: Map, namespace: Namespace, known: ResultDimension
-) -> dict[str, Quantity]:
+def _read_outputs(reader: Reader, root: Map) -> dict[str, Quantity]:
     """Named expressions of t, parameters and anything that a result has."""
-    outputs = {}
-    for name, text in root.part("outputs").pairs():
-        with reader.collect():
-            namespace.add(name, "output", name.where)
-        outputs[str(name)] = read_number(reader, text, OUTPUT, f"outputs.{name}", known)
-    return outputs
+    return {
+        str(name): reader.quantity(text, f"outputs.{name}", OUTPUT.dimension, OUTPUT.varies)
+        for name, text in root.part("outputs").pairs()
+    }

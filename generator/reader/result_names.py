@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Iterator, Mapping
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 
 from gudgeon.errors import BadValueError, ExpressionError, Location, UnknownNameError
 from gudgeon.generator.field import OF_CAM_ANGLE
+from gudgeon.generator.kinds.drives import DRIVES
 from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import CORNERS, joint_types
-from gudgeon.generator.mechanism.mechanism import GROUND, Drive, ForceElement, Joint
+from gudgeon.generator.mechanism.mechanism import GROUND
 from gudgeon.generator.reader.places import Places
-from gudgeon.generator.yaml.tree import Text
+from gudgeon.generator.yaml.tree import Map, Text
 from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import Name
 from gudgeon.language.units import (
@@ -24,6 +25,8 @@ from gudgeon.language.units import (
     VELOCITY,
     Dimension,
 )
+
+ResultDimension = Callable[[Name, Location], Dimension | None]  # None: fits any
 
 _POINT: Mapping[str, Dimension] = {
     "x": LENGTH, "y": LENGTH, "vx": VELOCITY, "vy": VELOCITY, "ax": ACCELERATION, "ay": ACCELERATION,
@@ -52,24 +55,20 @@ class ResultNames:
     `unread` are joints, drives and forces whose own errors were told: their results are taken as they come.
     """
 
-    def __init__(
-        self,
-        places: Places,
-        joints: Mapping[str, Joint],
-        drives: Mapping[str, Drive],
-        forces: Mapping[str, ForceElement],
-        numbers: Mapping[str, str],
-        unread: Iterable[str] = (),
-    ) -> None:
-        self._unread, self._joints = frozenset(unread), frozenset(joints)
+    def __init__(self, places: Places, root: Map, numbers: Mapping[str, str], unread: Iterable[str]) -> None:
+        joints, drives, forces = (
+            {str(name): kind for name, node in root.part(section).pairs() for kind in kinds if kind in node}
+            for section, kinds in (("joints", joint_types()), ("drives", DRIVES), ("forces", element_types()))
+        )
+        self.unread, self._joints = set(unread), frozenset(joints)
         self.owners: dict[str, Mapping[str, Dimension]] = dict(_TOTALS)
-        self.owners |= dict.fromkeys(places.bodies, _BODY)
-        self.owners |= {name: _of_drive(drive) for name, drive in drives.items()}
+        self.owners |= dict.fromkeys(map(str, places.bodies), _BODY)
+        self.owners |= {name: _of_drive(kind, root["drives"][name]) for name, kind in drives.items()}
         self.owners |= dict.fromkeys(places.names(), _POINT)
-        self.owners |= {name: dict(element_types()[force.kind].results) for name, force in forces.items()}
+        self.owners |= {name: dict(element_types()[kind].results) for name, kind in forces.items()}
         for name in places.ground:
             self.owners[f"{GROUND}.{name}"] = {"x": LENGTH, "y": LENGTH}
-        guides = [name for name, joint in joints.items() if joint_types()[joint.kind].play == "guide"]
+        guides = [name for name, kind in joints.items() if joint_types()[kind].play == "guide"]
         self.owners |= dict.fromkeys(joints, {**_JOINT, **_PLAY}) | dict.fromkeys(guides, _JOINT)
         self.owners |= {f"{guide}.{corner}": _OF_CORNER for guide in guides for corner in CORNERS}
         self.numbers = numbers
@@ -77,7 +76,7 @@ class ResultNames:
     def __call__(self, name: Name, where: Location) -> Dimension | None:
         """The dimension of a name; None for one that fits any. Raises UnknownNameError at the part that is wrong."""
         owner, dot, last = name.path.rpartition(".")
-        if owner in self._unread:
+        if owner in self.unread:
             return None
         if not dot:
             known = [path for path in self.paths() if path.partition(".")[0] == name.path]
@@ -104,6 +103,8 @@ class ResultNames:
         """BadValueError for what a joint has in other scenes alone: with play, or without."""
         owner, _, last = name.rpartition(".")
         joint, _, corner = owner.partition(".")
+        if joint in self.unread:
+            return
         if joint in self._joints and corner in CORNERS and joint not in play:
             hint = f"expected one of: {', '.join(f'{joint}.{one}' for one in _JOINT)}; or give it play there"
             raise BadValueError(f"{name}: joint {joint} has no play in scene {scene}", name.where, hint)
@@ -117,23 +118,23 @@ class ResultNames:
 
     def paths(self) -> Iterator[str]:
         """Every name."""
-        return (f"{owner}.{part}" for owner, parts in self.owners.items() for part in parts)
+        read = ((owner, parts) for owner, parts in self.owners.items() if owner not in self.unread)
+        return (f"{owner}.{part}" for owner, parts in read for part in parts)
 
 
 class MotionNames(ResultNames):
     """What a force may depend on: coordinates and velocities; accelerations and forces follow from it."""
 
-    def __init__(
-        self, places: Places, others: Iterable[str], drives: Mapping[str, Drive], numbers: Mapping[str, str]
-    ) -> None:
-        super().__init__(places, {}, {}, {}, numbers)
+    def __init__(self, places: Places, root: Map, numbers: Mapping[str, str]) -> None:
+        moving = {"bodies": root["bodies"], "ground": root.part("ground")}
+        super().__init__(places, Map.make(moving, root.where), numbers, ())
         for total in _TOTALS:
             del self.owners[total]
         self.owners = {
             owner: {part: of for part, of in parts.items() if part not in _ACCELERATIONS}
             for owner, parts in self.owners.items()
         }
-        self._later = frozenset((*_TOTALS, *drives, *others))
+        self._later = frozenset((*_TOTALS, *root.part("drives"), *root.part("joints"), *root.part("forces")))
 
     def __call__(self, name: Name, where: Location) -> Dimension | None:
         """The dimension of a name. Raises ExpressionError for what is known only once the forces are."""
@@ -180,7 +181,7 @@ class CamAngle:
         raise unknown_name("name", name.path, (OF_CAM_ANGLE, *self._parameters), where)
 
 
-def _of_drive(drive: Drive) -> Mapping[str, Dimension]:
+def _of_drive(kind: str, node: Map) -> Mapping[str, Dimension]:
     """A drive of an angle needs a torque, a drive of a length a force."""
-    turns = drive.kind == "angle" or drive.coordinate == "theta"
+    turns = kind == "angle" or kind == "coordinate" and str(node[kind]).endswith(".theta")
     return {"torque": TORQUE} if turns else {"force": FORCE}

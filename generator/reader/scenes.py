@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import Any
 
-from gudgeon.errors import BadValueError, CycleError, InputError, Location
+from gudgeon.errors import BadValueError, CycleError, InputError, Location, together
 from gudgeon.generator.field import WORD
 from gudgeon.generator.format.sections import EVENT, IDEAL, SIMULATE
 from gudgeon.generator.format.shapes import missing_key
@@ -24,7 +24,7 @@ from gudgeon.generator.mechanism.mechanism import (
     Quantity,
     SceneSpec,
 )
-from gudgeon.generator.reader.collector import Reader, ResultDimension
+from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.extends import parents_first
 from gudgeon.generator.reader.fields import Around, read_fields
 from gudgeon.generator.reader.guides import check_guide
@@ -32,7 +32,6 @@ from gudgeon.generator.reader.materials import Materials
 from gudgeon.generator.reader.parameters import dependency_order
 from gudgeon.generator.reader.result_names import LATER, ResultNames
 from gudgeon.generator.yaml.tree import Map, Text, kind_of
-from gudgeon.language.names import check_label
 from gudgeon.language.parser import at
 from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.tree import Expr, Name, Number, names
@@ -51,7 +50,6 @@ class Parts:
     parameters: Mapping[str, Quantity]
     events: Mapping[str, EventSpec]
     root: Map
-    motion: ResultDimension  # of the names that an event's expression may use
     materials: Materials
 
 
@@ -76,12 +74,11 @@ def read_scenes(reader: Reader, parts: Parts) -> dict[str, SceneSpec]:
     found: dict[str, SceneSpec] = {IDEAL: SceneSpec(IDEAL, {}, {}, {}, Location(reader.file, 1, 1), plain.events)}
     for name, scene in parents_first(reader, "scene", section, (IDEAL,)):
         with reader.collect():
-            check_label(name, "scene", name.where)
             if name == IDEAL and any(scene.get(key) for key in ("play", "parameters", "materials", "extends")):
                 hint = "expected simulate: and events: only"
                 told = "the scene ideal has no play, and the file's parameters and materials"
                 raise BadValueError(told, name.where, hint)
-        own = read_events(reader, scene.part("events"), f"scenes.{name}.events", parts.motion)
+        own = read_events(reader, scene.part("events"), f"scenes.{name}.events")
         draft = _draft(drafts[scene["extends"]] if scene.get("extends") else plain, scene, own)
         drafts[str(name)] = draft
         found[str(name)] = _scene(reader, name, draft, parts)
@@ -138,14 +135,17 @@ def _scene(reader: Reader, name: Text, draft: _Draft, parts: Parts) -> SceneSpec
 def _play(reader: Reader, joint: Text, use: Map, parts: Parts, owner: str) -> Play | None:
     """The play in one joint; None if what it needs was told to be wrong elsewhere."""
     joints, contact = parts.root.part("joints"), use["contact"]
-    if joint not in joints:
-        raise unknown_name("joint", joint, joints, joint.where)
     errors: list[InputError] = []
+    if joint not in joints:
+        errors.append(unknown_name("joint", joint, joints, joint.where))
     for what in ("bearing", "guide", "contact"):
         if what in use and use[what] not in (known := parts.root.part(f"{what}s")):
             errors.append(unknown_name(what, use[what], known, use[what].where))
+    contour: tuple[Quantity, ...] = ()
+    with reader.collect():
+        contour = _contour(reader, use, f"{owner}.contour") if "contour" in use else ()
     if errors:
-        raise errors[0]
+        raise together(errors)
     if joint not in parts.joints:
         return None
     measured = _measured(joint, use, parts)
@@ -155,7 +155,6 @@ def _play(reader: Reader, joint: Text, use: Map, parts: Parts, owner: str) -> Pl
     if isinstance(bearing, Guide):
         check_guide(str(joint), bearing, law, use)
         return Play(bearing, law, joint.where)
-    contour = _contour(reader, use, f"{owner}.contour") if "contour" in use else ()
     if contour and parts.contacts[contact].film is not None:
         told = f"the contour of {joint} is one with a film: the film's laws are those of a circle"
         raise BadValueError(told, use.key("contour").where, "expected a contact without a film, or no contour")
@@ -248,22 +247,18 @@ def _check_cycles(name: Text, own: Mapping[str, Quantity], parts: Parts) -> None
         raise CycleError(f"in scene {name}, {error.message}", where, error.hint) from None
 
 
-def read_events(
-    reader: Reader, section: Map, owner: str, motion: ResultDimension
-) -> dict[str, EventSpec]:
-    """The events of a section; `motion` gives the dimensions of the coordinates and velocities that they may use."""
+def read_events(reader: Reader, section: Map, owner: str) -> dict[str, EventSpec]:
+    """The events of a section."""
     events = {}
     for name, node in section.pairs():
         with reader.collect():
-            check_label(name, "event", name.where)
-        with reader.collect():
-            events[str(name)] = _event(reader, name, node, f"{owner}.{name}", motion)
+            events[str(name)] = _event(reader, name, node, f"{owner}.{name}")
     return events
 
 
-def _event(reader: Reader, name: Text, node: Map, owner: str, motion: ResultDimension) -> EventSpec:
+def _event(reader: Reader, name: Text, node: Map, owner: str) -> EventSpec:
     told = len(reader.errors)
-    own = read_fields(reader, node, EVENT.fields, Around(owner, motion=motion))
+    own = read_fields(reader, node, EVENT.fields, Around(owner))
     zero = own.quantities["zero"]
     choice = {field.name: field.choice for field in EVENT.fields if field.kind == WORD} | own.options
     if len(reader.errors) == told and not _varies(zero.value):

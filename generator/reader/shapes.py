@@ -15,6 +15,7 @@ from gudgeon.generator.mechanism.mechanism import Quantity, Vector
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.fields import Around, Values, kind_key, read_fields
 from gudgeon.generator.reader.materials import Materials
+from gudgeon.generator.reader.places import CORNERS_OF_SIDES
 from gudgeon.generator.yaml.tree import Map, Text
 from gudgeon.language.parser import parse
 from gudgeon.language.suggestions import unknown_name
@@ -67,7 +68,7 @@ def read_sides(reader: Reader, node: Map, address: str) -> dict[str, Vector]:
     height = f"{sign}sqrt((a + b + c) * (b + c - a) * (a + c - b) * (a + b - c)) / (2 * a)"
     x = follows(reader, "(a**2 + c**2 - b**2) / (2 * a)", of, f"{address}.R.x", LENGTH, where)
     y = follows(reader, height, of, f"{address}.R.y", LENGTH, where)
-    return {"P": (zero, zero), "Q": (a, zero), "R": (x, y)}
+    return dict(zip(CORNERS_OF_SIDES, ((zero, zero), (a, zero), (x, y)), strict=True))
 
 
 class Weighed:

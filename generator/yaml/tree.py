@@ -24,10 +24,11 @@ from ruamel.yaml.events import (
 from ruamel.yaml.reader import ReaderError
 
 from gudgeon.contract.limits import MAX_BYTES
-from gudgeon.errors import InputError, InputErrors, LimitError, Location, NotYamlError, UnknownKeyError
+from gudgeon.errors import InputError, LimitError, Location, NotYamlError, UnknownKeyError, together
 from gudgeon.generator.yaml.commas import Events
 from gudgeon.language.names import YAML_NULL
 
+NO_MERGE = "merge keys ('<<') are no part of the format"
 MERGED = "write the keys out; a contact, or a scene, takes those of another one by extends: NAME"
 MAX_DEPTH = 24
 MAX_NODES = 100_000  # aliases counted as what they stand for
@@ -125,7 +126,7 @@ def parse_yaml(
     if twice is not None:
         twice += told
     elif told:
-        raise told[0] if len(told) == 1 else InputErrors(told)
+        raise together(told)
     hint = f"expected a mapping that begins with format: {begins}"
     if root is None or isinstance(root, Text) and root.is_nothing:
         raise NotYamlError("the file is empty", Location(file, 1, 1), hint)
@@ -229,7 +230,9 @@ class _Composer:
         before = self.nodes
         self.count(1, event)
         if isinstance(event, ScalarEvent):
-            node: Node = self.scalar(event)
+            where = self.place(event, int(event.style in ("'", '"')))
+            one_line = event.start_mark.line == event.end_mark.line
+            node: Node = Text.make(event.value, where, event.style is None, one_line)
         elif isinstance(event, SequenceStartEvent):
             node = self.sequence(event, depth)
         else:
@@ -247,11 +250,6 @@ class _Composer:
         self.count(self.sizes[id(node)], event)
         return node
 
-    def scalar(self, event: Any) -> Text:
-        one_line = event.start_mark.line == event.end_mark.line
-        quoted = event.style in ("'", '"')
-        return Text.make(event.value, self.place(event, int(quoted)), event.style is None, one_line)
-
     def sequence(self, event: Any, depth: int) -> Items:
         items = Items.make((), self.place(event))
         while not isinstance(inner := next(self.events), SequenceEndEvent):
@@ -259,7 +257,7 @@ class _Composer:
         return items
 
     def mapping(self, event: Any, depth: int) -> Map:
-        made = Map.make((), self.place(event))
+        made, merged = Map.make((), self.place(event)), dict[str, Any]()
         while not isinstance(inner := next(self.events), MappingEndEvent):
             key = self.node(inner, depth + 1)
             if not isinstance(key, Text):
@@ -269,8 +267,9 @@ class _Composer:
             if isinstance(value, Text) and not value and value.plain and not event.flow_style:
                 value.where = self.behind(inner)  # of nothing YAML knows the next thing's place
             if key == "<<":
-                raise UnknownKeyError("merge keys ('<<') are no part of the format", key.where, MERGED)
-            if key in made:
+                self.duplicates.append(UnknownKeyError(NO_MERGE, key.where, MERGED))
+                merged = value if isinstance(value, Map) else {}  # the rest is read as it is meant
+            elif key in made:
                 first = made.key(key).where
                 self.duplicates.append(
                     UnknownKeyError(
@@ -279,4 +278,5 @@ class _Composer:
                 )
             else:
                 made[key] = value
+        made.update({name: below for name, below in merged.items() if name not in made})
         return made

@@ -105,21 +105,3 @@ def odd_characters(name: str) -> str:
     """Return "it contains U+00A0 (no-break space): …; " for a name with characters that look like others, or ""."""
     odd = next((one for one in name if not one.isascii() and advice_on(one)), "")
     return f"it contains {character_text(odd)}: {advice_on(odd)}; " if odd else ""
-
-
-class Namespace:
-    """Bodies, joints, drives, forces and outputs share one namespace: a result is indexed by their names."""
-
-    def __init__(self) -> None:
-        self._taken: dict[str, tuple[str, Location]] = {}
-        self.twice: set[str] = set()
-
-    def add(self, name: str, what: str, where: Location) -> None:
-        """Raise BadNameError if the name cannot be, or if something else has it."""
-        check_name(name, what, where)
-        if name in self._taken:
-            other, place = self._taken[name]
-            self.twice.add(str(name))
-            hint = "expected a name of its own: bodies, joints, drives, forces and outputs share one namespace"
-            raise BadNameError(f"{name!r} names two things: this {what}, and the {other} at {place}", where, hint)
-        self._taken[name] = what, where

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 from fractions import Fraction
 
-from gudgeon.errors import ExpressionError, InputError, Location, UnitError, UnknownNameError
+from gudgeon.errors import ExpressionError, InputError, InputErrors, Location, UnitError, UnknownNameError, together
 from gudgeon.language.suggestions import nearest
 from gudgeon.language.units import OTHER_WORDS, UNITS, Dimension, describe, symbol_dimension, unit
 
@@ -93,9 +93,12 @@ def unit_remedies(
     """
     try:
         yield
-    except (UnitError, ExpressionError, UnknownNameError) as error:
-        hint = _remedy(error, text, where, accept, expected, names)
-        raise (type(error)(error.message, error.where, hint) if hint else error) from None
+    except (UnitError, ExpressionError, UnknownNameError, InputErrors) as caught:
+        mended = dict[str, InputError]()  # by the hint, which may be one for several names
+        for error in caught.errors if isinstance(caught, InputErrors) else [caught]:
+            hint = _remedy(error, text, where, accept, expected, names)
+            mended.setdefault(hint or str(error), type(error)(error.message, error.where, hint) if hint else error)
+        raise together(mended.values()) from None
 
 
 def _remedy(

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gudgeon.contract.kernel_source import KernelSource, Slot
-from gudgeon.errors import BadValueError, InputError, InputErrors, UnknownKeyError
+from gudgeon.errors import BadValueError, InputError, UnknownKeyError, together
 from gudgeon.generator.study.claim_spec import ALONG, COUNTS, NumberClaim, Selection, TrendClaim, Trial
 from gudgeon.language.suggestions import unknown_name
 from gudgeon.language.units import unit
@@ -71,7 +71,7 @@ def known_claims(plans: Plans) -> Known:
         except InputError as error:
             errors.append(error)
     if errors:
-        raise errors[0] if len(errors) == 1 else InputErrors(errors)
+        raise together(errors)
     return Known(tuple(numbers), tuple(trends))
 
 

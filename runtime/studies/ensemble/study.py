@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gudgeon.contract.limits import MAX_BYTES
-from gudgeon.errors import InputError, InputErrors, shortened
+from gudgeon.errors import InputError, InputErrors, shortened, together
 from gudgeon.files.reading import read_named
 from gudgeon.language.wanted import flag, function, mapping, path, whole
 from gudgeon.loading.shipped import shipped_study
@@ -83,7 +83,7 @@ def _resolved(studies: StudySet) -> Plans:
                 errors.append(error)
     different = list({str(error): error for error in errors}.values())
     if different:
-        raise different[0] if len(different) == 1 else InputErrors(different)
+        raise together(different)
     found = Plans(studies, plans)
     return replace(found, claims=known_claims(found))
 
