@@ -99,10 +99,9 @@ class Slots(Freezable):
         def number(path: str) -> float:
             return self.entries[path if path in parts else f"parameters.{path}"].default
 
-        value = to_sympy(quantity.value, symbol)
+        follows = to_sympy(quantity.value, symbol) if names_any(quantity) else None
         default = float(evaluate(quantity.value, number))
-        if not names_any(quantity):
-            value = sp.Float(default, 17)
+        value = sp.Float(default, 17) if follows is None else follows
         short = "." not in wanted and not address.startswith("parameters.")  # gravity.y is no y
         shown = address if short else ""
         symbol = self.symbols.new(wanted, home, address, shown=shown)

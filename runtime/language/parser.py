@@ -49,15 +49,18 @@ def parse(
     """
     if len(text) > MAX_LENGTH:
         raise LimitError(f"an expression of {len(text)} characters", where, f"expected at most {MAX_LENGTH}")
-    return _Parser(text, where, parameters, curves or {}).whole()
+    tokens = Tokenizer(text, where, parameters)
+    first = tokens.next()
+    if first.number is not None and tokens.at_end():
+        return first.number
+    return _Parser(tokens, first, curves or {}).whole()
 
 
 class _Parser:
     """Precedence climbing over the tokens; counts depth and nodes as it builds."""
 
-    def __init__(self, text: str, where: Location, parameters: Container[str], curves: Mapping[str, Curve]) -> None:
-        self.tokens, self.where, self.curves = Tokenizer(text, where, parameters), where, curves
-        self.token = self.tokens.next()
+    def __init__(self, tokens: Tokenizer, first: Token, curves: Mapping[str, Curve]) -> None:
+        self.tokens, self.token, self.where, self.curves = tokens, first, tokens.where, curves
         self.depths: dict[int, int] = {}  # id of a node -> levels below it
         self.weights: dict[int, int] = {}  # id of a node -> nodes below it, functions written out
         self.kept: list[Expr] = []  # keeps the ids alive

@@ -102,6 +102,10 @@ class Tokenizer:
             self._check_name(match[0], start)
         return Token(kind, match[0], start)
 
+    def at_end(self) -> bool:
+        """Return whether no token is left."""
+        return not self.text[self.position :].strip(" ")
+
     def _check_name(self, name: str, start: int) -> None:
         if name in WORDS:
             hint = _ADVICE.get(name, "expected a number, a name or an expression")

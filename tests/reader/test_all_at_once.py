@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+from pathlib import Path
+
 import pytest
 
 from gudgeon.errors import InputError, InputErrors
 from gudgeon.generator.reader.read import read_mechanism
 
+ROOT = Path(__file__).resolve().parents[2]
 TEXT = """format: gudgeon/1
 name: m
 gravity: [0, -9.81 m/s^2]
@@ -77,3 +82,11 @@ def test_what_follows_from_a_mistake_is_not_told(patches: Patches, told: str) ->
     with pytest.raises(InputError, match=told) as caught:
         read_mechanism(text.encode(), "m.yaml")
     assert not isinstance(caught.value, InputErrors)
+
+
+def test_the_way_of_a_mass_is_short() -> None:
+    """From the bytes of a file to the mass matrix: 32 functions handed it on."""
+    script = ROOT / "tools" / "way_of_a_mass.py"
+    said = subprocess.run([sys.executable, str(script)], check=True, capture_output=True, text=True).stdout
+    functions = said.splitlines()[-1].split()
+    assert int(functions[0]) <= 15, said

@@ -1,0 +1,78 @@
+"""Print which functions hand the mass of a body on, from the bytes of its file to the mass matrix.
+
+usage: .venv/bin/python tools/way_of_a_mass.py
+A function hands it on if it returns the number as it is known there: text, token, tree, quantity, symbol.
+Functions that only look at it are counted.
+"""
+
+from __future__ import annotations
+
+import sys
+from types import FrameType
+from typing import Any
+
+import sympy as sp
+
+from gudgeon.generator.equations.model import make_model
+from gudgeon.generator.mechanism.mechanism import Quantity
+from gudgeon.generator.reading import read_scene
+from gudgeon.generator.symbols.numbers import SlotEntry
+from gudgeon.language.tokens import Token
+from gudgeon.language.tree import Number
+from gudgeon.loading.find import find_mechanism, read_bytes
+
+FILE, ADDRESS, SYMBOL = "slider_crank", "bodies.crank.mass", "crank_mass_"
+WRITTEN, MARKED, VALUE = b"0.3 kg", "0.31415 kg", 0.31415
+FLOAT = sp.Float(VALUE, 17)
+
+
+def is_mass(value: Any) -> bool:
+    """Return whether a value is the mass in one of its forms."""
+    match value:
+        case str():
+            return value == MARKED
+        case float() | sp.Float():
+            return value in (VALUE, FLOAT)
+        case Number():
+            return value.value == VALUE
+        case Token():
+            return value.text == MARKED
+        case Quantity() | SlotEntry():
+            return value.address == ADDRESS
+        case sp.Symbol():
+            return value.name == SYMBOL
+    return isinstance(value, tuple) and any(map(is_mass, value))
+
+
+def main() -> None:
+    """Read a scene, derive its equations, and print the way of the mass."""
+    file = find_mechanism(FILE)
+    data = read_bytes(file).replace(WRITTEN, MARKED.encode(), 1)
+    handed: dict[str, int] = {}
+    looked: set[str] = set()
+
+    def profile(frame: FrameType, event: str, value: Any) -> None:
+        module, function = frame.f_globals.get("__name__", ""), frame.f_code.co_qualname
+        if module.startswith("gudgeon.") and not function.endswith(">"):
+            name = f"{module.removeprefix('gudgeon.')}: {function}"
+            if event == "return" and is_mass(value):
+                handed[name] = handed.get(name, 0) + 1
+            elif event == "return" and any(map(is_mass, list(frame.f_locals.values()))):
+                looked.add(name)
+
+    def derive() -> Any:
+        return make_model(read_scene(data, str(file), "ideal")).masses
+
+    derive()  # imports what is imported late
+    sys.setprofile(profile)
+    derive()
+    sys.setprofile(None)
+    for name, count in handed.items():
+        print(f"{count:3} {name}")
+    packages = {name.partition(":")[0].rpartition(".")[0] for name in handed}
+    print(f"{len(handed)} functions hand it on {sum(handed.values())} times, {len(packages)} packages;", end=" ")
+    print(f"{len(looked - handed.keys())} more look at it")
+
+
+if __name__ == "__main__":
+    main()
