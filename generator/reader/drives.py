@@ -10,16 +10,7 @@ from gudgeon.generator.format.sections import COORDINATES
 from gudgeon.generator.kinds.drives import DRIVES
 from gudgeon.generator.mechanism.mechanism import GROUND, Drive, PointRef
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.reader.fields import (
-    Around,
-    all_names,
-    check_keys,
-    field_names,
-    kind_key,
-    places_of,
-    read_fields,
-    refuse_same_body,
-)
+from gudgeon.generator.reader.fields import Around, places_of, read_fields, read_kind, refuse_same_body
 from gudgeon.generator.reader.places import Places, coordinate_of
 from gudgeon.generator.yaml.tree import Map, Text, kind_of
 from gudgeon.language.tree import functions
@@ -59,8 +50,7 @@ def read_drives(reader: Reader, root: Map, places: Places) -> dict[str, Drive]:
 def _drive(reader: Reader, name: Text, node: Map, places: Places) -> tuple[Drive, tuple[str, frozenset[str]]] | None:
     """A drive and what it prescribes; None if either cannot be read."""
     owner = f"drives.{name}"
-    kind = kind_key(node, DRIVES, all_names({k: of.fields for k, of in DRIVES.items()}), owner)
-    mistyped = check_keys(reader, node, [kind, *field_names(DRIVES[kind].fields)], owner)
+    kind, mistyped = read_kind(reader, node, DRIVES, owner)
     target = None
     with reader.collect():
         target = _TARGETS[kind](reader, node, kind, places)

@@ -27,6 +27,8 @@ from gudgeon.language.suggestions import known_hint, nearest
 from gudgeon.language.tree import Number
 from gudgeon.language.units import DIMENSIONLESS
 
+_NOWHERE: Mapping[str, str] = MappingProxyType({})
+
 
 @dataclass(frozen=True)
 class Values:
@@ -41,14 +43,25 @@ class Values:
         return {name: str(value).lower() if isinstance(value, bool) else value for name, value in self.options.items()}
 
 
-class _Called(Protocol):
-    """A kind, and what others call it."""
+class _Kind(Protocol):
+    """A kind, its keys, and what others call it."""
+
+    @property
+    def fields(self) -> tuple[Field, ...]: ...
 
     @property
     def also(self) -> tuple[str, ...]: ...
 
 
-def kind_key(node: Map, known: Mapping[str, _Called], also: Iterable[str], owner: str) -> Text:
+def read_kind(
+    reader: Reader, node: Map, kinds: Mapping[str, _Kind], owner: str, elsewhere: Mapping[str, str] = _NOWHERE
+) -> tuple[Text, frozenset[str | None]]:
+    """Return the kind of an entry, and what its unknown keys probably stand for (`check_keys`)."""
+    kind = kind_key(node, kinds, [key for of in kinds.values() for key in field_names(of.fields)], owner)
+    return kind, check_keys(reader, node, [kind, *field_names(kinds[kind].fields)], owner, elsewhere)
+
+
+def kind_key(node: Map, known: Mapping[str, _Kind], also: Iterable[str], owner: str) -> Text:
     """The key that says what kind of thing a mapping is: exactly one."""
     found = [key for key in node.names() if key in known]
     if len(found) == 1:
@@ -66,7 +79,7 @@ def kind_key(node: Map, known: Mapping[str, _Called], also: Iterable[str], owner
 
 
 def check_keys(
-    reader: Reader, node: Map, known: Sequence[str], owner: str, elsewhere: Mapping[str, str] = MappingProxyType({})
+    reader: Reader, node: Map, known: Sequence[str], owner: str, elsewhere: Mapping[str, str] = _NOWHERE
 ) -> frozenset[str | None]:
     """Collect an error for every key that an entry does not know; what they probably stand for is returned.
 
@@ -227,8 +240,3 @@ def _require(reader: Reader, wanted: Field, bound: Bound, around: Around, values
 def field_names(fields: Iterable[Field]) -> list[str]:
     """The keys of some fields."""
     return [wanted.name for wanted in fields]
-
-
-def all_names(kinds: Mapping[str, Sequence[Field]]) -> set[str]:
-    """The keys of all kinds' fields."""
-    return {name for fields in kinds.values() for name in field_names(fields)}

@@ -10,16 +10,7 @@ from gudgeon.generator.kinds.forces.force_type import element_types
 from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism.mechanism import ForceElement, Joint, Quantity
 from gudgeon.generator.reader.collector import Reader
-from gudgeon.generator.reader.fields import (
-    Around,
-    all_names,
-    check_keys,
-    field_names,
-    kind_key,
-    places_of,
-    read_fields,
-    refuse_same_body,
-)
+from gudgeon.generator.reader.fields import Around, places_of, read_fields, read_kind, refuse_same_body
 from gudgeon.generator.reader.places import Places
 from gudgeon.generator.yaml.tree import Map, Text
 from gudgeon.language.functions import PIECEWISE
@@ -49,10 +40,9 @@ _PLAY = {"bearing": "pin", "guide": "way", "contact": "metal"}
 
 
 def _joint(reader: Reader, name: Text, node: Map, places: Places, elsewhere: Mapping[str, str]) -> Joint:
-    types, owner = joint_types(), f"joints.{name}"
-    kind = kind_key(node, types, all_names({k: of.fields for k, of in types.items()}), owner)
-    joint_type = types[kind]
-    mistyped = check_keys(reader, node, [kind, *field_names(joint_type.fields)], owner, elsewhere)
+    owner = f"joints.{name}"
+    kind, mistyped = read_kind(reader, node, joint_types(), owner, elsewhere)
+    joint_type = joint_types()[kind]
     values = read_fields(reader, node, joint_type.fields, Around(owner, mistyped=mistyped, places=places))
     first, second = places_of(reader, node, kind, joint_type.joins, (2,), places)
     refuse_same_body(kind, (first, second))
@@ -98,10 +88,9 @@ def read_forces(reader: Reader, root: Map, places: Places) -> dict[str, ForceEle
 
 
 def _force(reader: Reader, name: Text, node: Map, places: Places) -> ForceElement:
-    types, owner = element_types(), f"forces.{name}"
-    kind = kind_key(node, types, all_names({k: of.fields for k, of in types.items()}), owner)
-    element = types[kind]
-    mistyped = check_keys(reader, node, [kind, *field_names(element.fields)], owner)
+    owner = f"forces.{name}"
+    kind, mistyped = read_kind(reader, node, element_types(), owner)
+    element = element_types()[kind]
     values = read_fields(reader, node, element.fields, Around(owner, mistyped=mistyped, places=places))
     targets = places_of(reader, node, kind, element.targets, element.counts, places)
     refuse_same_body(kind, targets)
