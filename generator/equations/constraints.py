@@ -50,7 +50,7 @@ class Constraints(Freezable):
         first, second = self._point(joint.first), self._point(joint.second)
         expressions = kind.rows(first, second, JointFields(joint, self.geometry))
         named = zip(kind.row_names, kind.row_units, expressions, strict=True)
-        others = [joint.options[field.name] for field in kind.fields if field.kind == "body"]  # a gear's carrier
+        others = [joint.options[name] for name in kind.further_bodies]  # a gear's carrier
         bodies = self._bodies(first, second) + [self.geometry.bodies[name] for name in others if name != GROUND]
         return [
             self._row(f"{joint.name}.{name}", joint.name, "joint", unit, sp.expand(phi), bodies)

@@ -64,7 +64,7 @@ def _reaction(
     at = first if kind.reaction_at == "first" else second
     sign, bodies = 1, [second.body]
     if second.body is None:
-        others = [joint.options[field.name] for field in kind.fields if field.kind == "body"]  # a gear's carrier
+        others = [joint.options[name] for name in kind.further_bodies]  # a gear's carrier
         sign, bodies = -1, [first.body, *(model.geometry.bodies.get(name) for name in others)]
     wrench = [ZERO, ZERO, ZERO]
     for body in bodies:

@@ -18,6 +18,7 @@ from gudgeon.generator.field import (
     Field,
 )
 from gudgeon.generator.format.shapes import missing_key, unknown_key
+from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism.mechanism import GROUND, PointRef, Quantity, Vector
 from gudgeon.generator.reader.collector import Reader
 from gudgeon.generator.reader.places import Places
@@ -101,7 +102,8 @@ def places_of(
         what = counted(len(items), one, many) if isinstance(found, Items) else kind_of(found)
         place = found.where if isinstance(found, Items) else kind.where
         hint = _wanted(targets, counts)
-        if len(items) > 2 and kind == "revolute" and all(isinstance(item, Text) for item in items):
+        joint = joint_types().get(kind)
+        if len(items) > 2 and joint and joint.is_pivot and all(isinstance(item, Text) for item in items):
             hint += f"; {_pairs(kind, items)}"
         raise BadValueError(f"{kind} has {what}", place, hint)
     refs: list[PointRef] = []

@@ -78,7 +78,7 @@ def find_hubs(joints: Iterable[Joint]) -> list[Hub]:
     """Points of three and more bodies, joined by just as many joints as they need."""
     groups: dict[Point, list[Joint]] = {}
     for joint in joints:
-        if len(joint_types()[joint.kind].carries) == 2:
+        if joint_types()[joint.kind].holds_points:
             one, two = (groups.get(point, []) for point in ends(joint))
             merged = [*one, *(j for j in two if j not in one), joint]
             for point in {p for j in merged for p in ends(j)}:
@@ -86,7 +86,7 @@ def find_hubs(joints: Iterable[Joint]) -> list[Hub]:
     found = []
     for group in {tuple(j.name for j in group): group for group in groups.values()}.values():
         points = frozenset(p for joint in group for p in ends(joint))
-        plain = [j for j in group if joint_types()[j.kind].carries == joint_types()[j.kind].row_names]
+        plain = [j for j in group if joint_types()[j.kind].is_pivot]
         if plain and len(points) == len(group) + 1 >= 3:
             found.append(Hub(points, tuple(group), tuple(_pairs(group, plain[0]))))
     return found

@@ -8,8 +8,9 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import PartInfo
 from gudgeon.drawing.guides import axes_of, gap_of
-from gudgeon.drawing.plan import Plan, axis_of
-from gudgeon.drawing.posture import GROUND, Posture, anchors, body_of, distinct
+from gudgeon.drawing.joint_at import axis_of, guide_and_slider, is_block, sliding
+from gudgeon.drawing.plan import Plan
+from gudgeon.drawing.posture import Posture, anchors, body_of, distinct
 from gudgeon.drawing.shapes import Disc, Label, Line, Shape, rectangle, rounded
 from gudgeon.model.compiled import Array
 
@@ -29,11 +30,11 @@ def _outlines(posture: Posture, plan: Plan, body: str) -> Iterator[tuple[str, Ar
     """The link or plate, what guides others, blocks; each closed, with its role."""
     u, places = plan.unit, distinct(anchors(posture, body).values())
     guided, blocks = [], []
-    for part in posture.parts("joints", "translational", "point_on_line"):
-        guide, slider = guide_and_slider(part)
+    for part in sliding(posture):
+        guide, slider = map(body_of, guide_and_slider(part))
         if guide == body:
             guided.append(part)
-        if slider == body and part.kind == "translational":
+        if slider == body and is_block(part):
             blocks.append(part)
     if not ((blocks or guided) and _is_held_once(posture, body)):
         yield "body", rounded(places, u if len(places) > 1 else 1.6 * u)
@@ -43,7 +44,7 @@ def _outlines(posture: Posture, plan: Plan, body: str) -> Iterator[tuple[str, Ar
             yield "guide", rounded(ends, BLOCK[1] * u + gap + 0.55 * u)
             yield "channel", rounded(ends, BLOCK[1] * u + gap)
         else:
-            yield "body", rounded(ends, (STRIP if part.kind == "translational" else SLOT + 0.55) * u)
+            yield "body", rounded(ends, (STRIP if is_block(part) else SLOT + 0.55) * u)
     for part in blocks:
         yield "body", rectangle(axis_of(posture, part)[2], axes_of(posture, part)[1], BLOCK[0] * u, BLOCK[1] * u)
 
@@ -54,22 +55,15 @@ def _is_held_once(posture: Posture, body: str) -> bool:
     return len(distinct(posture.place(name) for name in names)) < 2
 
 
-def guide_and_slider(part: PartInfo) -> tuple[str, str]:
-    """Bodies of a joint that slides: the one with the line, and the other one; a rail of the ground guides either."""
-    first, second = map(body_of, part.ends)
-    guides = part.kind == "translational" and second != GROUND
-    return (first, second) if guides else (second, first)
-
-
 def guide_ends(posture: Posture, plan: Plan, part: PartInfo) -> list[Array]:
     """Both ends of a slot or of a bar that guides, as far as the slider goes; from the body's own point where that is
     not within reach."""
     on, along, _ = axis_of(posture, part)
     low, high = plan.travel[part.name]
-    more = (BLOCK[0] + 0.6 if part.kind == "translational" else 1.6) * plan.unit
+    more = (BLOCK[0] + 0.6 if is_block(part) else 1.6) * plan.unit
     low, high = low - more, high + more
-    guide, _ = guide_and_slider(part)
-    if part.kind == "translational" or not _reaches(posture, guide, on + low * along, on + high * along):
+    guide = body_of(guide_and_slider(part)[0])
+    if is_block(part) or not _reaches(posture, guide, on + low * along, on + high * along):
         low, high = min(low, 0.0), max(high, 0.0)
     return [on + low * along, on + high * along]
 

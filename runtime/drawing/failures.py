@@ -10,10 +10,9 @@ from gudgeon.assembly.closure import Closure
 from gudgeon.assembly.failures import lengths_text
 from gudgeon.assembly.mobility import free_motions
 from gudgeon.contract.kernel_source import PartInfo
-from gudgeon.drawing.joints import wheels
+from gudgeon.drawing.joint_at import JointAt
 from gudgeon.drawing.movers import HEAD, arrow, pivot, round_arrow
-from gudgeon.drawing.plan import axis_of
-from gudgeon.drawing.posture import Posture
+from gudgeon.drawing.posture import Posture, type_of
 from gudgeon.drawing.shapes import Label, Line, Shape, unit_vector
 from gudgeon.model.compiled import Array
 
@@ -37,35 +36,29 @@ def gaps(closure: Closure, posture: Posture) -> tuple[list[Shape], list[Label]]:
             lengths = [residual[k] for k in rows if closure.units[k] == "m"]
             angles = [residual[k] for k in rows if closure.units[k] == "rad"]
             line = _gap(posture, part, lengths) if lengths else None
-            told = [lengths_text(float(np.hypot(*(line[1] - line[0]))))] if line is not None else []
-            told += [f"{np.degrees(angle):.3g}°" for angle in angles]
             if line is not None:
                 shapes.append(Line(f"gap {owner}", "gap", line))
-            place = line.mean(axis=0) if line is not None else pivot(posture, part)
+                lengths, place = [float(np.hypot(*(line[1] - line[0])))], line.mean(axis=0)
+            elif lengths:
+                place = type_of(part).symbol.place(JointAt(posture, part))
+            else:
+                place = pivot(posture, part)
+            told = [lengths_text(length) for length in lengths] + [f"{np.degrees(angle):.3g}°" for angle in angles]
             labels.append(Label(f"gap {owner}", "gap", f"{owner}: {', '.join(told)}", place, way=90.0))
     return shapes, labels
 
 
 def _gap(posture: Posture, part: PartInfo, lengths: list[float]) -> Array | None:
-    """From where a joint or driven length ends to where it should, (2, 2)."""
-    if part.section == "drives" and part.kind == "coordinate":
+    """From where a joint or driven length ends to where it should, (2, 2); None: a joint that no line shows as open."""
+    if part.section == "joints":
+        gap = type_of(part).symbol.gap
+        return np.array(gap(JointAt(posture, part), lengths)) if gap else None
+    if part.kind == "coordinate":
         k = "xy".index(part.options["coordinate"])
         place = posture.place(part.ends[0])
         return np.array([place, place - lengths[0] * np.eye(2)[k]])
-    if part.kind == "gear":
-        (_, one, _), (_, other, _) = wheels(posture, part)
-        across = np.array([[0.0, -1.0], [1.0, 0.0]]) @ unit_vector(other - one)
-        return np.array([0.5 * (one + other), 0.5 * (one + other) + lengths[0] * across])
-    if part.kind in ("translational", "point_on_line"):
-        on, along, place = axis_of(posture, part)
-        return np.array([place, on + float((place - on) @ along) * along])
     a, b = (posture.place(end) for end in part.ends)
-    if part.kind != "distance":
-        return np.array([a, b])
-    wanted = float(np.hypot(*(b - a))) - lengths[0]
-    if part.section == "joints":
-        wanted = posture.number(f"joints.{part.name}.length")
-    return np.array([a + wanted * unit_vector(b - a), b])
+    return np.array([a + (float(np.hypot(*(b - a))) - lengths[0]) * unit_vector(b - a), b])
 
 
 def freedoms(

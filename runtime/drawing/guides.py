@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 
 from gudgeon.contract.kernel_source import PartInfo
+from gudgeon.drawing.joint_at import axis_of
 from gudgeon.drawing.posture import GROUND, Posture, body_of
 from gudgeon.drawing.shapes import turned
 from gudgeon.model.compiled import Array
@@ -21,8 +22,8 @@ def gap_of(posture: Posture, part: PartInfo, unit: float) -> float:
 
 def axes_of(posture: Posture, part: PartInfo) -> tuple[Array, Array]:
     """Directions of guide and slider, unit vectors; the ground guides where it is one of the two."""
-    first, second = map(body_of, part.ends)
-    along = posture.direction(part, "axis", first)
+    _, second = map(body_of, part.ends)
+    _, along, _ = axis_of(posture, part)
     if part.name not in posture.guides:
         return along, along
     tilt = _tilt(posture, part)
@@ -45,7 +46,7 @@ def corners(posture: Posture, joint: str) -> Mapping[str, float]:
     """How much nearer to its wall than in the middle of the guide each corner is, m, by its name."""
     part = next(posture.parts_named(joint))
     first, second = part.ends
-    along, tilt = posture.direction(part, "axis", body_of(first)), _tilt(posture, part)
+    (_, along, _), tilt = axis_of(posture, part), _tilt(posture, part)
     offset = float((posture.place(second) - posture.place(first)) @ turned(along))
     return {one.name: corner_at(posture.source, posture.p, one, offset, tilt) for one in posture.guides[joint]}
 

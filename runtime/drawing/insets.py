@@ -7,8 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from gudgeon.drawing.guides import corners, in_walls
+from gudgeon.drawing.joint_at import axis_of
 from gudgeon.drawing.plan import is_wide
-from gudgeon.drawing.posture import Posture, body_of
+from gudgeon.drawing.posture import Posture
 from gudgeon.drawing.shapes import Disc, Label, Line, Shape, rectangle, turned
 from gudgeon.language.plot_units import scale
 from gudgeon.model.compiled import Array
@@ -89,8 +90,7 @@ def _slider(
     """The same of a guide, along its axis: two walls, and the slider by its corners, as far from the walls as they are,
     e/c of the one that is furthest out."""
     c, times = posture.play(joint), magnification(posture, joint, radius / RADIUS)
-    of = next(posture.parts_named(joint))
-    along = posture.direction(of, "axis", body_of(of.ends[0]))
+    _, along, _ = axis_of(posture, next(posture.parts_named(joint)))
     part, across, found = f"inset {joint}", turned(along), corners(posture, joint)
     beyond = HIGH * radius + c * times + WALL * radius
     shapes: list[Shape] = []

@@ -8,8 +8,9 @@ import numpy as np
 
 from gudgeon.contract.kernel_source import PartInfo
 from gudgeon.drawing.bodies import BLOCK
-from gudgeon.drawing.joints import PIN, ground_wall
-from gudgeon.drawing.plan import SLIDING, Plan, axis_of, has_rail
+from gudgeon.drawing.joint_at import axis_of, has_rail, pivot_between, sliding
+from gudgeon.drawing.pen import PIN, ground_wall
+from gudgeon.drawing.plan import Plan
 from gudgeon.drawing.posture import GROUND, Posture, body_of
 from gudgeon.drawing.shapes import Disc, Label, Line, Shape, arc, arrow_head, rectangle, turned, unit_vector, zigzag
 from gudgeon.model.compiled import Array
@@ -93,11 +94,7 @@ def _pin(posture: Posture, part: PartInfo) -> tuple[PartInfo | None, str]:
     bodies = [body_of(end) for end in part.ends]
     turning = next((body for body in bodies if body != GROUND), bodies[0])
     other = next((body for body in bodies if body != turning), GROUND)
-    for joint in posture.parts("joints", "revolute"):
-        held = [body_of(end) for end in joint.ends]
-        if turning in held and other in held:
-            return joint, turning
-    return None, turning
+    return pivot_between(posture, turning, other), turning
 
 
 def _angle(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Shape]:
@@ -122,7 +119,7 @@ def _beside(posture: Posture, plan: Plan, part: PartInfo) -> tuple[Array, Array]
     what the ground guides, beside the block, away from the ground."""
     axis = np.eye(2)["xy".index(part.options["coordinate"])]
     place, side = posture.place(part.ends[0]), turned(axis)
-    for joint in posture.parts("joints", *SLIDING):
+    for joint in sliding(posture):
         if joint.name in plan.ways and body_of(part.ends[0]) in map(body_of, joint.ends):
             _, along, slider = axis_of(posture, joint)
             if abs(float(along @ axis)) > ALONG:
@@ -186,7 +183,7 @@ def _spring_damper(posture: Posture, plan: Plan, part: PartInfo) -> Iterator[Sha
 def _ground_along(posture: Posture, plan: Plan, part: PartInfo, a: Array, b: Array) -> Array | None:
     """On which side the ground lies of a rail along which an element holds what slides, a unit vector; None without."""
     held = {body_of(end) for end in part.ends}
-    for joint in posture.parts("joints", *SLIDING):
+    for joint in sliding(posture):
         if has_rail(joint) and joint.name in plan.ways and held == {body_of(end) for end in joint.ends}:
             on, along, _ = axis_of(posture, joint)
             if max(abs(float((place - on) @ turned(along))) for place in (a, b)) < plan.unit:

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from gudgeon.contract.kernel_source import PartInfo
-from gudgeon.drawing.posture import GROUND, Posture, anchors, body_of, distinct
+from gudgeon.drawing.joint_at import JointAt, axis_of, has_rail, sliding
+from gudgeon.drawing.posture import GROUND, Posture, anchors, body_of, distinct, type_of
 from gudgeon.drawing.shapes import turned, unit_vector
 from gudgeon.model.compiled import Array
 
-SLIDING = ("translational", "point_on_line")
 ASIDE = (0.03, 0.1)  # share of the size, from which on the ground's points and all points lie on one side of a guide
 WIDE = 3.0  # units: a clearance that needs no magnifying
 # half a bar's width as a share of the whole, the least, and as the most of the shortest link
@@ -41,10 +41,10 @@ def make_plan(postures: Sequence[Posture], start: Posture | None = None) -> Plan
     first, start = postures[0], start or postures[0]
     places = np.array([place for posture in postures for place in _places(posture)])
     ways, travel = dict[str, Array](), dict[str, tuple[float, float]]()
+    for part in sliding(first):
+        along = [_slide(posture, part) for posture in postures]
+        travel[part.name] = min(along), max(along)
     for part in first.parts("joints"):
-        if part.kind in SLIDING:
-            along = [_slide(posture, part) for posture in postures]
-            travel[part.name] = min(along), max(along)
         if any(body_of(end) == GROUND for end in part.ends):
             ways[part.name] = _rail_side(start, part) if has_rail(part) else _below(postures, part)
     for part in (*first.parts("drives", "distance"), *first.parts("forces", "spring_damper")):
@@ -57,10 +57,11 @@ def _places(posture: Posture) -> list[Array]:
     """All points that are drawn, rims of wheels, how far journals may go, and how long sliders with play are."""
     found = [place for body in posture.bodies for place in anchors(posture, body).values()]
     found += [posture.place(end) for part in posture.source.parts for end in part.ends if end in posture.points]
-    for part in posture.parts("joints", "gear"):
-        for end, axis in zip(part.ends, "xy", strict=True):
-            radius = posture.number(f"joints.{part.name}.radii.{axis}")
-            found += [posture.place(end) + shift for shift in radius * np.array([[1, 1], [-1, -1]])]
+    for part in posture.parts("joints"):
+        radii = type_of(part).symbol.reach
+        for end, radius in zip(part.ends, radii(JointAt(posture, part)), strict=True) if radii else ():
+            if radius > 0.0:
+                found += [posture.place(end) + shift for shift in radius * np.array([[1, 1], [-1, -1]])]
     for joint in posture.source.clearances:
         half = posture.slider(joint)[1] if joint.at_wall else posture.play(joint.name)
         reach = half * np.array([[1, 1], [-1, -1]])
@@ -87,27 +88,9 @@ def is_wide(posture: Posture, joint: str, unit: float) -> bool:
     return posture.play(joint) > WIDE * unit
 
 
-def axis_of(posture: Posture, part: PartInfo) -> tuple[Array, Array, Array]:
-    """Of a joint that slides: a place on its line, the direction (unit vector), and the place that slides on it.
-
-    The ground guides where it is one of the two, whichever has the axis.
-    """
-    first, second = part.ends
-    if part.kind == "translational":
-        along = posture.direction(part, "axis", body_of(first))
-        guide, slider = (second, first) if body_of(second) == GROUND else (first, second)
-        return posture.place(guide), along, posture.place(slider)
-    return posture.place(second), posture.direction(part, "direction", body_of(second)), posture.place(first)
-
-
 def _slide(posture: Posture, part: PartInfo) -> float:
     on, along, place = axis_of(posture, part)
     return float((place - on) @ along)
-
-
-def has_rail(part: PartInfo) -> bool:
-    """Whether the ground guides: a slot's pin stands on the ground as others do."""
-    return part.kind == "translational" or (part.kind == "point_on_line" and body_of(part.ends[1]) == GROUND)
 
 
 def _rail_side(start: Posture, part: PartInfo) -> Array:
@@ -129,8 +112,9 @@ def _below(postures: Sequence[Posture], part: PartInfo) -> Array:
     end = next(end for end in part.ends if body_of(end) == GROUND)
     first, angles = postures[0], []
     here = first.place(end)
+    holding = [joint for joint in first.parts("joints") if type_of(joint).holds_points]
     bodies = {
-        body for other in first.parts("joints", "revolute", "rigid") for body in map(body_of, other.ends)
+        body for other in holding for body in map(body_of, other.ends)
         if body != GROUND and any(np.abs(first.place(e) - here).max() < 1e-9 for e in other.ends)
     }  # fmt: skip
     for posture in postures:

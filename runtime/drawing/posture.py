@@ -12,12 +12,16 @@ from gudgeon.assembly.linkage import place_of
 from gudgeon.contract.clearance_info import ClearanceInfo
 from gudgeon.contract.kernel_source import BodyInfo, KernelSource, PartInfo, PointInfo
 from gudgeon.errors import GudgeonError
+from gudgeon.generator.field import VECTOR
+from gudgeon.generator.kinds.drives import DRIVES
+from gudgeon.generator.kinds.forces.force_type import element_types
+from gudgeon.generator.kinds.joints.joint_type import JointType, joint_types
+from gudgeon.language.units import DIMENSIONLESS
 from gudgeon.model.compiled import Array
 from gudgeon.model.corners import slider_of
 
 GROUND = "ground"
-# kinds whose ends are whole bodies
-OF_BODIES = ("gear", "rocker_cam", "rotational_spring_damper", "torque", "angle", "coordinate")
+UNKNOWN = JointType("", "joint", (), "", (), (), lambda *_: [], None)  # of a file that a later gudgeon wrote
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +59,7 @@ class Posture:
     @cached_property
     def held(self) -> Mapping[str, tuple[str, ...]]:
         """Of each body the points that are held or named, in this order."""
-        used = [end for part in self.source.parts if part.kind not in OF_BODIES for end in part.ends]
+        used = [end for part in self.source.parts if _joins_points(part) for end in part.ends]
         used += [name for name in self.points if name.partition(".")[2] not in ("origin", "com")]
         found = dict[str, list[str]]()
         for name in dict.fromkeys(used):
@@ -137,6 +141,27 @@ class Posture:
             return np.array([1.0, 0.0])
         c, s = np.cos(angle), np.sin(angle)
         return np.array([c * x - s * y, s * x + c * y]) / size
+
+
+def type_of(joint: PartInfo) -> JointType:
+    """What a joint's kind declares."""
+    return joint_types().get(joint.kind, UNKNOWN)
+
+
+def _joins_points(part: PartInfo) -> bool:
+    """Whether a part's ends are points, and not whole bodies."""
+    if part.section == "joints":
+        return type_of(part).joins == "points"
+    kinds = DRIVES if part.section == "drives" else element_types()
+    return part.kind not in kinds or kinds[part.kind].targets == "points"
+
+
+def directions(part: PartInfo) -> list[str]:
+    """Keys of a joint or force element that are directions: vectors without a dimension."""
+    fields = type_of(part).fields if part.section == "joints" else ()
+    if part.section == "forces" and part.kind in element_types():
+        fields = element_types()[part.kind].fields
+    return [own.name for own in fields if own.kind == VECTOR and own.dimension == DIMENSIONLESS]
 
 
 def body_of(end: str) -> str:

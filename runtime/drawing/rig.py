@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from gudgeon.drawing.plan import Plan, make_plan
-from gudgeon.drawing.posture import GROUND, Posture, body_of
+from gudgeon.drawing.posture import GROUND, Posture, body_of, directions
 from gudgeon.drawing.roles import ROLES
 from gudgeon.drawing.shapes import Disc, Shape, Sketch
 from gudgeon.drawing.sketch import make_sketch, room_of_all
@@ -226,7 +226,7 @@ def _axes(posture: Posture, parts: Sequence[Any]) -> list[tuple[Any, ...]]:
     """Ways of axes that parts have in either of their bodies' frames."""
     place, found = {slot.address: k for k, slot in enumerate(posture.source.slots)}, list[tuple[Any, ...]]()
     for part in parts:
-        for key in ("axis", "direction"):
+        for key in directions(part):
             which = [place.get(f"{part.section}.{part.name}.{key}.{axis}", -1) for axis in "xy"]
             if max(which) >= 0:
                 indices = [posture.bodies[b].index + 2 if b in posture.bodies else -1 for b in map(body_of, part.ends)]

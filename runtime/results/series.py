@@ -359,9 +359,13 @@ def default_watch(reference: Result) -> tuple[str, ...]:
 
     A slider's coordinate is the one that moves further in the ideal scene: along its axis.
     """
+    from gudgeon.generator.kinds.joints.joint_type import joint_types
+
     found, source = [], reference.source
+    guides = {kind for kind, of in joint_types().items() if of.play == "guide"}
+    rigid = [joint.second for joint in source.joints if joint.kind in guides and joint.first < 0]
     guided = [joint.second for joint in source.clearances if joint.at_wall and joint.first < 0]
-    for k in [joint.second for joint in source.joints if joint.kind == "translational" and joint.first < 0] + guided:
+    for k in rigid + guided:
         body = source.bodies[k].name
         found.append(max((f"{body}.x", f"{body}.y"), key=lambda name: float(np.ptp(reference[name]))))
     last = reference.source.bodies[-1].name

@@ -157,9 +157,9 @@ def _constraints(model: Model, names: dict[sp.Symbol, str]) -> Iterator[Cell]:
 
 
 def _points(model: Model, owner: str, name: str, rows: list[Row], names: dict[sp.Symbol, str]) -> str | None:
-    """A revolute joint as two places in ground axes that are one; None for others, and where a row was left out."""
+    """A pivot as two places in ground axes that are one; None for others, and where a row was left out."""
     joint = model.scene.mechanism.joints[owner]
-    if joint.kind != "revolute" or len(rows) != 2:
+    if not joint_types()[joint.kind].is_pivot or len(rows) != 2:
         return None
     lines = []
     for what, ref in (("first", joint.first), ("second", joint.second)):

@@ -162,7 +162,7 @@ def _joints(subject: Subject) -> list[Block]:
     ]
     blocks += table(cells("drive", "prescribes", "value"), driven, (2,)) + values.below()
     for kind in dict.fromkeys(joint.kind for joint in mechanism.joints.values()):
-        summary, *lines = sketch_of("joints", kind)
+        summary, *lines = sketch_of(joint_types()[kind])
         blocks += [paragraph(summary), Sketch(tuple(lines))]
     return blocks
 

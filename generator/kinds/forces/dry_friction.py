@@ -56,5 +56,6 @@ ELEMENT = ElementType(
     ),
     (("F", FORCE), ("v", VELOCITY), ("mode", DIMENSIONLESS)),
     build,
+    __doc__,
     also=("friction", "coulomb", "brake"),
 )  # fmt: skip

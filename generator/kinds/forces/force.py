@@ -39,5 +39,6 @@ ELEMENT = ElementType(
     ),
     (("Fx", FORCE), ("Fy", FORCE), ("F", FORCE)),
     build,
+    __doc__,
     also=("load", "point_force"),
 )

@@ -73,6 +73,7 @@ class ElementType:
     fields: tuple[Field, ...]  # the keys beside its own
     results: tuple[tuple[str, Dimension], ...]  # names of `Loads.series`, for outputs
     build: Callable[..., Loads]
+    doc: str | None  # what documents print of it: a line, then its sketch and its equation
     also: tuple[str, ...] = ()  # what others call it: told to whoever writes that
 
 

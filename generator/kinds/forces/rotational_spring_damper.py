@@ -40,5 +40,6 @@ ELEMENT = ElementType(
     ),
     (("M", TORQUE),),
     build,
+    __doc__,
     also=("torsion_spring", "torsional_spring", "rotational_spring", "rotational_damper", "rsda"),
 )  # fmt: skip

@@ -51,5 +51,6 @@ ELEMENT = ElementType(
     ),
     (("F", FORCE), ("length", LENGTH)),
     build,
+    __doc__,
     also=("spring", "damper", "dashpot", "tsda"),
 )

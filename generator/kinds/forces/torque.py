@@ -35,5 +35,6 @@ ELEMENT = ElementType(
     (number("value", "the torque on the first body", TORQUE, required=True, varies=OF_MOTION),),
     (("M", TORQUE),),
     build,
+    __doc__,
     also=("moment", "couple"),
 )

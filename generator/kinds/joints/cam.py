@@ -16,7 +16,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import OF_CAM_ANGLE, body_or_ground, number, vector
-from gudgeon.generator.kinds.joints.joint_type import JointType
+from gudgeon.generator.kinds.joints.joint_type import JointType, Symbol
 from gudgeon.language.units import DIMENSIONLESS, LENGTH
 
 
@@ -25,6 +25,11 @@ def rows(first: Any, second: Any, fields: Any) -> list[Any]:
     u_x, u_y = fields.direction_on("axis", "carrier")
     along = u_x * (second.x - first.x) + u_y * (second.y - first.y)
     return [along - fields.profile("profile", first.theta, fields.body_angle("carrier"))]
+
+
+def gap(at: Any, left: Any) -> Any:
+    """Return the follower's point, and where the profile wants it."""
+    return at.second, at.second - left[0] * at.direction("axis", at.option("carrier"))
 
 
 JOINT = JointType(
@@ -42,5 +47,7 @@ JOINT = JointType(
     ("lift",),
     ("m",),
     rows,
+    __doc__,
+    Symbol(gap=gap),
     also=("follower", "disc_cam", "disk_cam", "plate_cam", "cam_follower"),
 )  # fmt: skip

@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import POSITIVE, number
-from gudgeon.generator.kinds.joints.joint_type import JointType
+from gudgeon.generator.kinds.joints.joint_type import JointType, Symbol
 from gudgeon.language.units import LENGTH
 
 
@@ -19,6 +19,24 @@ def rows(first: Any, second: Any, fields: Any) -> list[Any]:
     """One row (m): zero where the distance is `length`, and growing with it at the same rate."""
     x, y, length = second.x - first.x, second.y - first.y, fields.quantity("length", 0)
     return [(x**2 + y**2) * fields.derive("half_inverse_length", 1 / (2 * length)) - length / 2]
+
+
+def draw(pen: Any) -> None:
+    """Draw the rod between two pins."""
+    pen.stand()
+    pen.line("rod", [pen.first, pen.second])
+    for place in (pen.first, pen.second):
+        pen.pin(place, 0.8)
+
+
+def middle(at: Any) -> Any:
+    """Return the middle of the rod."""
+    return 0.5 * (at.first + at.second)
+
+
+def gap(at: Any, left: Any) -> Any:
+    """Return the end of a rod of this length from the first point, and the second."""
+    return at.first + at.number("length") * at.unit_vector(at.second - at.first), at.second
 
 
 JOINT = JointType(
@@ -29,5 +47,7 @@ JOINT = JointType(
     ("length",),
     ("m",),
     rows,
+    __doc__,
+    Symbol(draw, middle, 0.5, gap),
     also=("link", "rod", "massless_rod", "coupler"),
 )

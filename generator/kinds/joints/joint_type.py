@@ -6,11 +6,11 @@ As with the laws, nothing here imports SymPy at the top: the reader needs only t
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
 
-from gudgeon.generator.field import Field
+from gudgeon.generator.field import BODY, Field
 from gudgeon.generator.kinds.discovery import declared
 
 # Of a slider with play: in front, along the axis (1), or behind; at the wall to the left of the axis (1), or the right.
@@ -19,9 +19,60 @@ CORNERS: Mapping[str, tuple[int, int]] = {
 }  # fmt: skip
 
 
+def draw_squares(pen: Any) -> None:
+    """Draw a small square at each point: the symbol of a joint that declares no other one."""
+    for place in (pen.first, pen.second):
+        pen.box("block", place, pen.horizontal, 0.5, 0.5)
+
+
+def place_at_second(at: Any) -> Any:
+    """Return the second body's point."""
+    return at.second
+
+
+def place_at_slider(at: Any) -> Any:
+    """Return the point that slides, of a joint that declares `slides`."""
+    return at.slider
+
+
+def gap_between_points(at: Any, left: Any) -> Any:
+    """Return the two points, of a joint that holds them together."""
+    return at.first, at.second
+
+
+def gap_to_line(at: Any, left: Any) -> Any:
+    """Return the point that slides and the place of the line that is nearest to it."""
+    return at.slider, at.on_line + float((at.slider - at.on_line) @ at.along) * at.along
+
+
+@dataclass(frozen=True)
+class Symbol:
+    """How drawings show a joint. Places are arrays (2,) in ground axes, m.
+
+    The functions get the joint at a posture, a JointAt (runtime/drawing/joint_at.py); `draw` gets a Pen
+    (runtime/drawing/pen.py), which is a JointAt with primitives to draw by.
+    """
+
+    draw: Callable[[Any], None] = draw_squares
+    place: Callable[[Any], Any] = place_at_second  # where the joint's name stands
+    clear: float = 0.8  # how far from there its name keeps, in units of half a bar's width
+    # gap(at, left): between which two places it is open where a start does not close, `left` (m) in its rows; their
+    # distance is the number beside it. None: no line shows the gap, and the numbers beside it are those of the rows
+    gap: Callable[[Any, Any], Any] | None = None
+    reach: Callable[[Any], tuple[float, float]] | None = None  # radii (m) about both points that are drawn
+
+
+@dataclass(frozen=True)
+class Slide:
+    """The line on which one body slides: the field that is its direction, and which body has it: "first", "second"."""
+
+    direction: str
+    guide: str
+
+
 @dataclass(frozen=True)
 class JointType:
-    """A joint type: the YAML key `kind: [first.point, second.point]`, more fields, its Φ rows.
+    """A joint type: the YAML key `kind: [first.point, second.point]`, more fields, its Φ rows, how it is shown.
 
     `rows(first, second, fields)` gets two PointFrames (generator/equations/geometry.py) and the JointFields
     (generator/equations/constraints.py) and returns one SymPy expression a row name.
@@ -34,12 +85,35 @@ class JointType:
     row_names: tuple[str, ...]  # one short name a row of Φ: the row is called "<joint>.<row name>"
     row_units: tuple[str, ...]  # "m" or "rad", a row each
     rows: Callable[..., list[Any]]
+    doc: str | None  # what documents print of it: a line, then its sketch and its equation
+    symbol: Symbol = field(default_factory=Symbol)
+    slides: Slide | None = None
     joins: str = "points"  # "points": [L1.head, L2.tail]; "bodies": [L1, L4]
     reaction_at: str = "second"  # the point of which body the reaction is given at
     # rows that hold by themselves where tree coordinates place one body by the other: two rows where the points
     # coincide, one where the second's point slides along the first's `axis` (generator/reduction/tree.py)
     carries: tuple[str, ...] = ()
     also: tuple[str, ...] = ()  # what others call it: told to whoever writes that
+
+    @property
+    def is_pivot(self) -> bool:
+        """Whether its rows hold two points together and nothing else: the bodies turn on each other."""
+        return self.holds_points and self.carries == self.row_names
+
+    @property
+    def holds_points(self) -> bool:
+        """Whether its two points are one place."""
+        return len(self.carries) == 2
+
+    @property
+    def keeps_angle(self) -> bool:
+        """Whether the bodies do not turn to each other."""
+        return "rad" in self.row_units
+
+    @property
+    def further_bodies(self) -> tuple[str, ...]:
+        """The fields that name a third body, such as a gear's carrier."""
+        return tuple(own.name for own in self.fields if own.kind == BODY)
 
 
 @cache

@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import vector
-from gudgeon.generator.kinds.joints.joint_type import JointType
+from gudgeon.generator.kinds.joints.joint_type import JointType, Slide, Symbol, gap_to_line, place_at_slider
 from gudgeon.language.units import DIMENSIONLESS
 
 
@@ -18,6 +18,18 @@ def rows(first: Any, second: Any, fields: Any) -> list[Any]:
     """One row: the distance of the point from the line (m)."""
     u_x, u_y = second.direction(fields.direction("direction"))
     return [u_x * (first.y - second.y) - u_y * (first.x - second.x)]
+
+
+def draw(pen: Any) -> None:
+    """Draw a roller on the ground's rail, or a pin with its block in a slot of the body that guides."""
+    if pen.ground_guides:
+        pen.rail(pen.ROLLER * pen.unit)
+        pen.disc("roller", pen.slider, pen.ROLLER * pen.unit)
+    else:
+        pen.slot()
+        pen.box("block", pen.slider, pen.along, 1.25, 0.8)
+        pen.stand()
+    pen.pin(pen.slider)
 
 
 JOINT = JointType(
@@ -28,6 +40,9 @@ JOINT = JointType(
     ("offset",),
     ("m",),
     rows,
+    __doc__,
+    Symbol(draw, place_at_slider, gap=gap_to_line),
+    Slide("direction", "second"),
     reaction_at="first",
     also=("slot", "pin_in_slot", "pin_slot", "line", "half_joint"),
 )

@@ -11,12 +11,18 @@ from __future__ import annotations
 
 from typing import Any
 
-from gudgeon.generator.kinds.joints.joint_type import JointType
+from gudgeon.generator.kinds.joints.joint_type import JointType, Symbol, gap_between_points
 
 
 def rows(first: Any, second: Any, fields: Any) -> list[Any]:
     """Two rows: the two points' coordinates in ground axes are equal (m)."""
     return [first.x - second.x, first.y - second.y]
+
+
+def draw(pen: Any) -> None:
+    """Draw the pin, on the ground with its stand, with play in its hole."""
+    pen.bearing()
+    pen.pin(pen.second)
 
 
 JOINT = JointType(
@@ -27,6 +33,8 @@ JOINT = JointType(
     ("x", "y"),
     ("m", "m"),
     rows,
+    __doc__,
+    Symbol(draw, gap=gap_between_points),
     carries=("x", "y"),
     also=("pin", "hinge", "pivot", "rotational", "rotation", "turning", "journal", "bearing", "ball"),
 )

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import number
-from gudgeon.generator.kinds.joints.joint_type import JointType
+from gudgeon.generator.kinds.joints.joint_type import JointType, Symbol, gap_between_points
 from gudgeon.language.units import DIMENSIONLESS
 
 
@@ -16,6 +16,12 @@ def rows(first: Any, second: Any, fields: Any) -> list[Any]:
     """Three rows: the two points' coordinates are equal (m), the angle between the bodies (rad)."""
     turned = second.theta - first.theta - fields.quantity("angle", 0)
     return [first.x - second.x, first.y - second.y, turned]
+
+
+def draw(pen: Any) -> None:
+    """Draw a black square, and what it is fixed to where that is the ground."""
+    pen.wall(pen.first)
+    pen.box("weld", pen.second, pen.axis_of_body(0), 0.62, 0.62)
 
 
 JOINT = JointType(
@@ -26,6 +32,8 @@ JOINT = JointType(
     ("x", "y", "angle"),
     ("m", "m", "rad"),
     rows,
+    __doc__,
+    Symbol(draw, gap=gap_between_points),
     carries=("x", "y"),
     also=("weld", "welded", "fixed", "fix", "clamp", "clamped", "lock"),
 )

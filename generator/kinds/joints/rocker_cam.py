@@ -36,6 +36,7 @@ JOINT = JointType(
     ("swing",),
     ("rad",),
     rows,
+    __doc__,
     joins="bodies",
     also=("oscillating_follower", "cam_rocker", "swinging_follower"),
 )  # fmt: skip

@@ -11,7 +11,7 @@ from __future__ import annotations
 from typing import Any
 
 from gudgeon.generator.field import number, vector
-from gudgeon.generator.kinds.joints.joint_type import JointType
+from gudgeon.generator.kinds.joints.joint_type import JointType, Slide, Symbol, gap_to_line, place_at_slider
 from gudgeon.language.units import DIMENSIONLESS
 
 
@@ -21,6 +21,11 @@ def rows(first: Any, second: Any, fields: Any) -> list[Any]:
     axis_x, axis_y = first.direction(axis)
     offset = axis_x * (second.y - first.y) - axis_y * (second.x - first.x)
     return [offset, second.theta - first.theta - fields.quantity("angle", fields.angle_of("axis"))]
+
+
+def draw(pen: Any) -> None:
+    """Draw the ground's rails, or the axis of the body that guides; bodies have their blocks and guides themselves."""
+    pen.guide()
 
 
 JOINT = JointType(
@@ -34,6 +39,9 @@ JOINT = JointType(
     ("offset", "angle"),
     ("m", "rad"),
     rows,
+    __doc__,
+    Symbol(draw, place_at_slider, 1.5, gap_to_line),
+    Slide("axis", "first"),
     carries=("offset",),
     also=("prismatic", "slider", "sliding", "slide", "linear", "piston", "guide"),
 )

@@ -72,7 +72,7 @@ def _joints(model: Model, values: Values) -> list[Block]:
     blocks += table(cells("angle at the start", "value"), [cells(e.address, values.slot(e)) for e in guessed])
     blocks += values.below()
     for kind in dict.fromkeys(joint.kind for joint in model.scene.mechanism.joints.values()):
-        summary, *lines = sketch_of("joints", kind)
+        summary, *lines = sketch_of(joint_types()[kind])
         blocks += [paragraph(summary), Sketch(tuple(lines))]
     return blocks
 

@@ -76,7 +76,7 @@ def _elements(model: Model, notation: Notation) -> list[Block]:
         if applied.loads.potential != 0:
             blocks.append(equation(letter("V", name), notation.expand(applied.loads.potential), notation))
     for kind in dict.fromkeys(applied.element.kind for applied in model.elements.values()):
-        summary, *lines = sketch_of("forces", kind)
+        summary, *lines = sketch_of(element_types()[kind])
         blocks += [paragraph(summary), Sketch(tuple(lines))]
     return blocks
 

@@ -1,20 +1,21 @@
-"""Sketches of joint types and force elements, as their files have them, and the letters in them."""
+"""Sketches of joint types and force elements, as their declarations have them, and the letters in them."""
 
 from __future__ import annotations
 
-import importlib
 import inspect
 import re
 import unicodedata
 from collections.abc import Iterator
 
+from gudgeon.generator.kinds.forces.force_type import ElementType
+from gudgeon.generator.kinds.joints.joint_type import JointType
+
 _RAISED = str.maketrans(dict.fromkeys("²³⁰¹⁻", " "))
 
 
-def sketch_of(folder: str, kind: str) -> list[str]:
-    """What the file of a joint type or force element says at its top: a line, then its sketch."""
-    doc = inspect.cleandoc(importlib.import_module(f"gudgeon.generator.kinds.{folder}.{kind}").__doc__ or "")
-    summary, _, rest = doc.partition("\n")
+def sketch_of(of: JointType | ElementType) -> list[str]:
+    """Return what documents say of a joint type or force element: a line, then its sketch."""
+    summary, _, rest = inspect.cleandoc(of.doc or "").partition("\n")
     return [summary, *rest.strip("\n").splitlines()]
 
 

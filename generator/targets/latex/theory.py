@@ -10,8 +10,8 @@ from gudgeon.generator.equations import contact_steps as contact
 from gudgeon.generator.equations.contact_steps import Step
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance
-from gudgeon.generator.kinds.forces.force_type import element_types
-from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.kinds.forces.force_type import ElementType, element_types
+from gudgeon.generator.kinds.joints.joint_type import JointType, joint_types
 from gudgeon.generator.targets.latex.letters import Name, letter, of_latex
 from gudgeon.generator.targets.latex.play_letters import given, joint_letters, laws_of, names, result, sign_of
 from gudgeon.generator.targets.latex.sketches import letters_of, sketch_of
@@ -50,7 +50,7 @@ def _letters(model: Model) -> Iterator[tuple[str, str]]:
     yield from _of_forces(model)
     yield from ((letter("z", event.name).text, f"event {event.name}") for event in model.events)
     for kind in dict.fromkeys(joint.kind for joint in model.scene.mechanism.joints.values()):
-        yield from _of_sketch("joints", kind, joint_types()[kind].title)
+        yield from _of_sketch(joint_types()[kind])
 
 
 def _of_rows(model: Model) -> Iterator[tuple[str, str]]:
@@ -71,11 +71,11 @@ def _of_forces(model: Model) -> Iterator[tuple[str, str]]:
         columns = (letter("J", friction.name, str(k)) for k in range(1, 1 + len(model.q)))
         yield from ((name.text, f"slip of {friction.name}") for name in columns)
     for kind in dict.fromkeys(applied.element.kind for applied in model.elements.values()):
-        yield from _of_sketch("forces", kind, element_types()[kind].title)
+        yield from _of_sketch(element_types()[kind])
 
 
-def _of_sketch(folder: str, kind: str, title: str) -> Iterator[tuple[str, str]]:
-    return ((text, f"in the sketch: {title}") for text in letters_of(sketch_of(folder, kind)))
+def _of_sketch(of: JointType | ElementType) -> Iterator[tuple[str, str]]:
+    return ((text, f"in the sketch: {of.title}") for text in letters_of(sketch_of(of)))
 
 
 def _of_play(model: Model, clearance: Clearance) -> Iterator[str]:

@@ -12,7 +12,7 @@ from gudgeon.drawing.arrows import LONGEST, Arrows, arrows, velocities_of
 from gudgeon.drawing.insets import in_contact
 from gudgeon.drawing.picture import as_bytes, draw_on, figure_of
 from gudgeon.drawing.plan import Plan, make_plan
-from gudgeon.drawing.posture import Posture
+from gudgeon.drawing.posture import Posture, type_of
 from gudgeon.drawing.shapes import Line, Sketch
 from gudgeon.drawing.sketch import make_sketch, room_of_all
 from gudgeon.language.suggestions import unknown
@@ -79,9 +79,10 @@ def force_arrows(run: Result, posture: Posture, plan: Plan) -> tuple[Arrows, flo
 
 def _forces(run: Result, posture: Posture) -> Iterator[tuple[str, tuple[Array, Array]]]:
     for part in posture.parts("joints"):
-        if part.kind != "gear":
+        own = type_of(part)
+        if own.joins == "points":
             vector = [float(np.interp(posture.t, run.t, run[f"{part.name}.F{axis}"])) for axis in "xy"]
-            place = posture.place(part.ends[0 if part.kind == "point_on_line" else 1])
+            place = posture.place(part.ends[0 if own.reaction_at == "first" else 1])
             yield part.name, (place, np.array(vector))
 
 

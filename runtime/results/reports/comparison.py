@@ -62,7 +62,7 @@ def compare(run: Result, reference: Result | None, watch: Sequence[str]) -> Scen
         forces[joint.name] = reaction.peak, reaction.t
     events = {event.name: tuple(run.events_of(event.name).tolist()) for event in run.source.events}
     driven = () if run.source.massless else drive_series(run.source)
-    sliding = [joint.name for joint in run.source.joints if joint.kind == "translational" and not run.source.clearances]
+    sliding = [joint.name for joint in _guides(run.source) if not run.source.clearances]
     guided = [f"{name}.{last}" for name in run.source.guides or sliding for last in "FM" if not run.source.massless]
     drives, guides = (
         tuple(of_samples(name, run.unit(name), run.t, run[name]) for name in names) for names in (driven, guided)

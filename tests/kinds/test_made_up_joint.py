@@ -1,0 +1,112 @@
+"""A joint type is one file: two that gudgeon does not have, from tests/kinds/made_up, are read, drawn, printed and run.
+
+`roller` declares its symbol and its gap, `level` nothing but its row.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import gudgeon
+from gudgeon.assembly.failures import lengths_text
+from gudgeon.drawing.failures import gaps
+from gudgeon.drawing.picture import as_bytes, figure_of
+from gudgeon.drawing.shapes import Disc, Line
+from gudgeon.drawing.sketch import make_sketch
+from gudgeon.generator.kinds import joints
+from gudgeon.generator.kinds.joints.joint_type import joint_types
+from gudgeon.generator.pipeline import derive
+from gudgeon.generator.targets.format_tables import tables
+from gudgeon.generator.targets.json_schema import schema
+from gudgeon.generator.targets.latex import equations_tex, equations_text
+from tests.drawing.drawn import drawn
+
+LENGTH, RADIUS, OMEGA, MASS, GRAVITY = 0.04, 0.01, 20.0, 0.3, 9.81
+MACHINE = f"""format: gudgeon/1
+name: made_up
+gravity: [0, -{GRAVITY}]
+bodies:
+  crank: {{length: {LENGTH}, mass: 0.1 kg, inertia: 1e-4 kg*m^2}}
+  push: {{mass: {MASS} kg, inertia: 1e-4 kg*m^2}}
+  twin: {{mass: 0.2 kg, inertia: 1e-4 kg*m^2}}
+ground: {{O: [0, 0], P: [100 mm, 0]}}
+joints:
+  O: {{revolute: [ground.O, crank.tail]}}
+  way: {{translational: [ground.O, push.origin], axis: [0, 1], angle: 0}}
+  other: {{translational: [ground.P, twin.origin], axis: [0, 1], angle: 0}}
+  face: {{roller: [crank.head, push.origin], direction: [-2, 0], radius: {RADIUS}}}
+  even: {{level: [push.origin, twin.origin]}}
+drives: {{motor: {{angle: crank, value: 30 deg + {OMEGA} rad/s * t}}}}
+"""
+OPEN = MACHINE + "start: {set: {push.y: 70 mm, twin.y: 20 mm}}\n"
+
+
+@pytest.fixture(autouse=True)
+def made_up(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """The folder of joint types has two files more."""
+    folder = Path(__file__).parent / "made_up"
+    monkeypatch.setattr(joints, "__path__", [*joints.__path__, str(folder)])
+    joint_types.cache_clear()
+    yield
+    joint_types.cache_clear()
+    for file in folder.glob("*.py"):
+        sys.modules.pop(f"{joints.__name__}.{file.stem}", None)
+
+
+@pytest.mark.parametrize("formulation", ["reduced", "full"])
+def test_it_runs_by_its_closed_form(tmp_path: Path, formulation: str) -> None:
+    """The follower is a radius above the crank pin, its twin as high; the roller bears the weight of both."""
+    file = tmp_path / "made_up.yaml"
+    file.write_text(MACHINE)
+    run = gudgeon.load(file, formulation=formulation).simulate(0.2, output=21)
+    angle = np.radians(30.0) + OMEGA * run.t
+    np.testing.assert_allclose(run["push.y"], LENGTH * np.sin(angle) + RADIUS, atol=1e-12)
+    np.testing.assert_allclose(run["twin.y"], run["push.y"], atol=1e-12)
+    force = (MASS + 0.2) * (GRAVITY - LENGTH * OMEGA**2 * np.sin(angle))
+    np.testing.assert_allclose(run["face.Fy"], force, rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(run["face.M"], 0.0, atol=1e-12)
+
+
+def test_it_is_drawn_by_its_own_symbol_or_by_squares() -> None:
+    found = drawn(MACHINE)
+    sketch = make_sketch(found.posture)
+    (roller,) = (shape for shape in sketch.of("joint face") if shape.role == "roller")
+    assert isinstance(roller, Disc) and roller.radius == RADIUS
+    np.testing.assert_allclose(roller.centre, found.posture.place("crank.head"))
+    (face,) = (shape for shape in sketch.of("joint face") if shape.role == "rail")
+    assert isinstance(face, Line)
+    np.testing.assert_allclose(face.points[:, 1], found.posture.place("push.origin")[1])
+    assert [shape.role for shape in sketch.of("joint even")] == ["block", "block"]
+    svg = as_bytes(figure_of([sketch], [""], "x"), ".svg").decode()
+    assert all(f'id="{kind}joint-{name}"' in svg for kind in ("", "name-") for name in ("face", "even"))
+
+
+def test_its_gap_is_what_its_row_lacks() -> None:
+    """Of the roller a line along the normal, of the other one a number: the distance of its points means nothing."""
+    found = drawn(OPEN)
+    residual = dict(zip(found.closure.names, found.closure.residual(found.posture.q), strict=True))
+    shapes, labels = gaps(found.closure, found.posture)
+    texts = {label.part: label.text for label in labels}
+    lines = {shape.part: shape for shape in shapes}
+    face, even = residual["face.distance"], residual["even.height"]
+    assert min(abs(face), abs(even)) > 1e-3
+    line = lines["gap face"]
+    assert isinstance(line, Line)
+    tilt = found.posture.theta("push")
+    np.testing.assert_allclose(line.points[1] - line.points[0], [-face * np.sin(tilt), face * np.cos(tilt)], atol=1e-15)
+    assert texts["gap face"] == f"face: {lengths_text(abs(face))}"
+    assert "gap even" not in lines and texts["gap even"] == f"even: {lengths_text(even)}"
+
+
+def test_documents_and_tables_have_it() -> None:
+    model = derive(MACHINE.encode(), "made_up.yaml", "ideal")
+    for text in (equations_text(model), equations_tex(model)):
+        assert "roller on a flat face" in text and "points at one height" in text
+        assert "a point of the first body keeps a distance from a line of the second" in text
+    assert "=====---=====>" in equations_text(model)
+    assert "radius of the roller" in str(tables()) and "radius of the roller" in str(schema())
