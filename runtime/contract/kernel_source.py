@@ -84,14 +84,13 @@ class RowInfo:
 
 @dataclass(frozen=True)
 class JointInfo:
-    """A joint that is kept as a constraint; the reaction on the second body is at `point`, of a point on a line at the
-    first body's."""
+    """A joint that is kept as a constraint; the reaction on the second body is given at `point`."""
 
     name: str
     kind: str
     first: int  # body index, −1: ground
     second: int
-    point: str  # name of the second body's point
+    point: str  # of the second body, or of the first where the joint's type says so
     rows: tuple[int, ...]
 
 

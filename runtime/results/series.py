@@ -184,7 +184,8 @@ def point_motion(run: Result, point: PointInfo, axis: int, order: int) -> Array:
 
 def _joints(source: KernelSource) -> Iterator[tuple[str, Series]]:
     for k, joint in enumerate(source.joints):
-        on = f"{_body_name(source, joint.second)} at {'the pin' if joint.kind == 'point_on_line' else 'its point'}"
+        own = joint.point.startswith(f"{source.bodies[joint.second].name if joint.second >= 0 else 'ground'}.")
+        on = f"{_body_name(source, joint.second)} at {'its point' if own else 'the pin'}"
         yield from _reactions(joint.name, k, "reaction", f"joint {joint.name}, on {on}, ground axes")
 
 

@@ -2,8 +2,9 @@
 
 For each body m a - m g - sum F and J alpha - sum (M + r x F) are computed from the description of the scene. Nothing of
 the derived equations is used but what the run reports: accelerations, reactions, torques of drives, forces of elements,
-of friction and of contacts, and masses. Left out are bodies of gears, of rigid contacts, of drives of lengths and of
-what redundancy leaves open, and moments of bodies of joints with play, whose forces act at the contact.
+of friction and of contacts, and masses. Left out are bodies of joints with a third body (gears, cams), of rigid
+contacts, of drives of lengths and of what redundancy leaves open, and moments of bodies of joints with play, whose
+forces act at the contact.
 """
 
 from __future__ import annotations
@@ -18,7 +19,6 @@ from gudgeon.contract.kernel_source import KernelSource, PartInfo, PointInfo
 from gudgeon.model.compiled import Array, CompiledModel
 from gudgeon.model.evaluation import Evaluation
 
-KINDS = frozenset({"revolute", "translational", "point_on_line", "distance", "rigid"})  # one reaction at one point
 ELEMENTS = {"spring_damper": "F", "force": "Fx", "dry_friction": "", "torque": "M", "rotational_spring_damper": "M",
             "angle": "M"}  # of each kind the result that is its force or moment
 LEAST = 1e-300  # N, N m
@@ -61,14 +61,13 @@ def table_of(source: KernelSource) -> Table:
 
 def _made(source: KernelSource) -> Table:
     places, n = {point.name: point for point in source.points}, len(source.bodies)
-    parts = {part.name: part for part in source.parts if part.section == "joints"}
-    points = [places[parts[joint.name].ends[0] if joint.kind == "point_on_line" else joint.point]
-              for joint in source.joints]  # fmt: skip
+    points = [places[joint.point] for joint in source.joints]
+    bodies = {"ground", *(body.name for body in source.bodies)}
     found = [(part, _element(source, part)) for part in source.parts if part.section != "joints"]
     elements = tuple(element for _, element in found if element)
     lost = {name.partition(".")[0] for part in source.parts for name in (*part.ends, *part.options.values())
             if part.name in source.indeterminate or part.name in source.rigid or (part, None) in found
-            or (part.section == "joints" and part.kind not in KINDS)}  # fmt: skip
+            or (part.section == "joints" and bodies.intersection(part.options.values()))}  # fmt: skip
     pairs = [(joint.first, joint.second) for joint in source.joints]
     pairs += [(element.first.body, element.second.body) for element in elements]
     known = len(pairs)

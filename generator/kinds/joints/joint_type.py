@@ -75,7 +75,8 @@ class JointType:
     """A joint type: the YAML key `kind: [first.point, second.point]`, more fields, its Φ rows, how it is shown.
 
     `rows(first, second, fields)` gets two PointFrames (generator/equations/geometry.py) and the JointFields
-    (generator/equations/constraints.py) and returns one SymPy expression a row name.
+    (generator/equations/constraints.py) and returns one SymPy expression a row name. No row changes when both bodies,
+    and further ones that fields name, move together: so the reaction is a pair of opposite wrenches.
     """
 
     kind: str

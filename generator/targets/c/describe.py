@@ -31,6 +31,7 @@ from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.notes import scene_notes
 from gudgeon.generator.equations.start import apart_rows
 from gudgeon.generator.kernels.outputs import element_series, kept_joints
+from gudgeon.generator.kinds.joints.joint_type import joint_types
 from gudgeon.generator.mechanism.mechanism import GROUND, Mechanism, PointRef, Quantity
 from gudgeon.generator.mechanism.quantities import quantities
 from gudgeon.generator.reduction.driven_chains import Chain
@@ -134,7 +135,7 @@ def _joints(model: Model, body_of: Mapping[str, int], row_of: Mapping[str, int])
     return tuple(
         JointInfo(
             joint.name, joint.kind, body_of[joint.first.body], body_of[joint.second.body],
-            f"{joint.second.body}.{joint.second.point}",
+            _ends(joint.first if joint_types()[joint.kind].reaction_at == "first" else joint.second)[0],
             tuple(row_of[row.name] for row in model.rows if row.owner == joint.name),
         )
         for joint in kept_joints(model)
