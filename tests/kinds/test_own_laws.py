@@ -146,7 +146,7 @@ WRONG = [
     (BUILD, '    return {"F_n": K > 0}\n', "F_n is of type"),
     (BUILD, SP + '    return {"F_n": K * sp.Symbol("w")}\n', r"(?s)F_n uses the symbol w\n.*delta, ratio"),
     (BUILD, SP + '    return {"a": K, "F_n": sp.Symbol("a")}\n', r"(?s)uses the symbol a\n.*real=True"),
-    (BUILD, SP + '    return {"F_n": sp.gamma(K)}\n', r"(?s)F_n uses gamma, .*Max, Min"),
+    (BUILD, SP + '    return {"F_n": sp.gamma(K)}\n', r"(?s)F_n uses gamma, .*Min, Max"),
     (
         BUILD, SP + '    return {"F_n": sp.Piecewise((K, s.variables["delta"] > 1), (D, True))}\n',
         "F_n uses Piecewise",
