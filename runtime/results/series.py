@@ -25,7 +25,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gudgeon.contract.clearance_info import ClearanceInfo
-from gudgeon.contract.kernel_source import KernelSource, PointInfo
+from gudgeon.contract.kernel_source import JointInfo, KernelSource, PointInfo
 from gudgeon.errors import UnknownNameError
 from gudgeon.language import tree as expression_tree
 from gudgeon.language.output_units import unit_of
@@ -360,14 +360,18 @@ def default_watch(reference: Result) -> tuple[str, ...]:
 
     A slider's coordinate is the one that moves further in the ideal scene: along its axis.
     """
-    from gudgeon.generator.kinds.joints.joint_type import joint_types
-
     found, source = [], reference.source
-    guides = {kind for kind, of in joint_types().items() if of.play == "guide"}
-    rigid = [joint.second for joint in source.joints if joint.kind in guides and joint.first < 0]
     guided = [joint.second for joint in source.clearances if joint.at_wall and joint.first < 0]
-    for k in rigid + guided:
+    for k in [joint.second for joint in rigid_guides(source) if joint.first < 0] + guided:
         body = source.bodies[k].name
         found.append(max((f"{body}.x", f"{body}.y"), key=lambda name: float(np.ptp(reference[name]))))
     last = reference.source.bodies[-1].name
     return tuple(dict.fromkeys(found)) or tuple(reference.source.outputs) or (f"{last}.theta",)
+
+
+def rigid_guides(source: KernelSource) -> list[JointInfo]:
+    """Return the joints without play of kinds whose play would be that of a guide."""
+    from gudgeon.generator.kinds.joints.joint_type import joint_types
+
+    guides = {kind for kind, of in joint_types().items() if of.play == "guide"}
+    return [joint for joint in source.joints if joint.kind in guides]

@@ -17,7 +17,7 @@ from gudgeon.language.plot_units import drawn, quantity
 from gudgeon.results.diagnostics import Diagnostics
 from gudgeon.results.peaks import Extreme, of_samples, table_rows
 from gudgeon.results.results import Result
-from gudgeon.results.series import MOTION_UNITS, drive_series, rates
+from gudgeon.results.series import MOTION_UNITS, drive_series, rates, rigid_guides
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -62,7 +62,7 @@ def compare(run: Result, reference: Result | None, watch: Sequence[str]) -> Scen
         forces[joint.name] = reaction.peak, reaction.t
     events = {event.name: tuple(run.events_of(event.name).tolist()) for event in run.source.events}
     driven = () if run.source.massless else drive_series(run.source)
-    sliding = [joint.name for joint in _guides(run.source) if not run.source.clearances]
+    sliding = [joint.name for joint in rigid_guides(run.source) if not run.source.clearances]
     guided = [f"{name}.{last}" for name in run.source.guides or sliding for last in "FM" if not run.source.massless]
     drives, guides = (
         tuple(of_samples(name, run.unit(name), run.t, run[name]) for name in names) for names in (driven, guided)
