@@ -49,7 +49,7 @@ contacts: {f: {film: {law: ocvirk, viscosity: 0.03}}}
 scenes: {f: {play: {B: {bearing: g, contact: f}}}}
 """
 # steps are not made so short that forces of films are right inside them
-NO_FILM_ERROR = ("engine/methods/defect.c", "return run->film_error;", "return 0.0;")
+NO_FILM_ERROR = ("engine/methods/defect.c", "return run->films.error;", "return 0.0;")
 
 
 @pytest.mark.parametrize("name, scene, t_end", [
