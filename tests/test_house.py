@@ -46,6 +46,32 @@ def test_no_regular_expression_looks_at_emitted_text() -> None:
     assert users == read
 
 
+# An arrow, a word of a type, an indexed or dereferenced name, the end of a declaration.
+C_SYNTAX = re.compile(r"->|\b(double|void|unsigned|struct|const)\b|\w\[(\d+|{})\]|\w \*$|^\*\w|;$")
+
+
+@pytest.mark.parametrize("room", ["equations", "ir", "kernels", "kinds", "reduction", "solvers", "sparsity", "symbols"])
+def test_c_syntax_is_written_by_the_target_alone(room: str) -> None:
+    """What is stored where, and arguments, are values in front of it (generator/symbols/storage.py)."""
+    files = [*(ROOT / "generator" / room).rglob("*.py")]
+    found = [(file.name, text) for file in files for text in _strings(file) if C_SYNTAX.search(text)]
+    assert files and found == []
+
+
+def _strings(file: Path) -> Iterator[str]:
+    """Texts of a file, with {} for what is put in; without docstrings and the comments of kernels (`..._DOC`)."""
+    tree = ast.parse(file.read_text(encoding="utf-8"))
+    apart = {id(x) for node in ast.walk(tree) if isinstance(node, ast.Expr) for x in [node.value]}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", "").endswith("_DOC"):
+            apart |= {id(x) for x in ast.walk(node.value)}
+        if isinstance(node, ast.JoinedStr):
+            apart |= {id(x) for x in node.values}
+            yield "".join(str(x.value) if isinstance(x, ast.Constant) else "{}" for x in node.values)
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in apart:
+            yield node.value
+
+
 def _with_regexes(file: Path) -> Iterator[str]:
     """Functions that use `re`; "" stands for the file's own level."""
     tree = ast.parse(file.read_text(encoding="utf-8"))

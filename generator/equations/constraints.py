@@ -17,6 +17,7 @@ from gudgeon.generator.mechanism.mechanism import GROUND, Drive, Joint, PointRef
 from gudgeon.generator.symbols.corners import Apart, Largest, Pick, Smallest
 from gudgeon.generator.symbols.freezable import Freezable
 from gudgeon.generator.symbols.from_expressions import quantity_to_sympy, to_sympy
+from gudgeon.generator.symbols.storage import Variable
 from gudgeon.language.functions import CORNERED
 from gudgeon.language.tree import functions
 
@@ -41,7 +42,7 @@ class Constraints(Freezable):
 
     def __init__(self, geometry: Geometry) -> None:
         self.geometry, self.symbols = geometry, geometry.symbols
-        self.t = self.symbols.new("time", "t", "time", "s")
+        self.t = self.symbols.new("time", Variable("t"), "time", "s")
         self.drive_angles: dict[str, tuple[sp.Symbol, sp.Symbol, sp.Symbol]] = {}
 
     def joint_rows(self, joint: Joint) -> list[Row]:
@@ -88,9 +89,9 @@ class Constraints(Freezable):
         """
         define, rules = self.symbols.define, self.symbols.rules
         span = (second.x - first.x, second.y - first.y)
-        x, y = (define(f"{name}_span_{axis}", value, "", "span") for axis, value in zip("xy", span, strict=True))
-        length = define(f"{name}_length", sp.sqrt(x**2 + y**2), "", "its length")
-        u_x, u_y = (define(f"{name}_along_{axis}", value / length, "", "its direction")
+        x, y = (define(f"{name}_span_{axis}", value, None, "span") for axis, value in zip("xy", span, strict=True))
+        length = define(f"{name}_length", sp.sqrt(x**2 + y**2), None, "its length")
+        u_x, u_y = (define(f"{name}_along_{axis}", value / length, None, "its direction")
                     for axis, value in zip("xy", (x, y), strict=True))  # fmt: skip
         rules[length], rules[u_x], rules[u_y] = {}, {}, {}
         for q in [*(q for q, _ in self._pairs(self._bodies(first, second))), self.t]:
@@ -112,10 +113,10 @@ class Constraints(Freezable):
             return self.t if path == "t" else slots.entries[f"parameters.{path}"].symbol
 
         value = quantity_to_sympy(drive.value, symbol_of)
-        f = define(f"{drive.name}_value", value, "", f"drive {drive.name}")
+        f = define(f"{drive.name}_value", value, None, f"drive {drive.name}")
         first = _rate(value, self.t)
-        rate = define(f"{drive.name}_rate", first, "", "its rate")
-        second = define(f"{drive.name}_acceleration", _rate(first, self.t), "", "its second rate")
+        rate = define(f"{drive.name}_rate", first, None, "its rate")
+        second = define(f"{drive.name}_acceleration", _rate(first, self.t), None, "its second rate")
         self.symbols.rules[f], self.symbols.rules[rate] = {self.t: rate}, {self.t: second}
         self.drive_angles[drive.name] = f, rate, second
         return f

@@ -69,7 +69,7 @@ class JointFields:
         found, turned = [], cam - carrier
         for what in ("", "_slope", "_bend", "_third"):
             text = f"{what[1:] or 'value'} of {self._joint.name}'s {name}"
-            found.append(symbols.define(f"{self._joint.name}_{name}{what}", value.xreplace({phi: turned}), "", text))
+            found.append(symbols.define(f"{self._joint.name}_{name}{what}", value.xreplace({phi: turned}), None, text))
             value = derivative(value, phi)
         bases = sorted({s for angle in turned.free_symbols for s in symbols.rules.get(angle, (angle,))}, key=str)
         rates = {base: rate for base in bases if (rate := symbols.diff(turned, base)) != 0}
@@ -139,7 +139,7 @@ class ElementFields:
         if value.is_number or value.is_Symbol:
             return value
         return self._geometry.symbols.define(
-            f"{self._element.name}_{name}", value, "", f"{name} of {self._element.name}"
+            f"{self._element.name}_{name}", value, None, f"{name} of {self._element.name}"
         )
 
     def named_vector(self, name: str, value: tuple[sp.Expr, sp.Expr]) -> tuple[sp.Expr, sp.Expr]:

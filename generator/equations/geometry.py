@@ -15,6 +15,7 @@ from gudgeon.generator.mechanism.mechanism import GROUND, Body, PointRef, Vector
 from gudgeon.generator.mechanism.scene import Scene
 from gudgeon.generator.symbols.freezable import Freezable
 from gudgeon.generator.symbols.numbers import Slots
+from gudgeon.generator.symbols.storage import Element
 from gudgeon.generator.symbols.symbols import Symbols
 
 ZERO, ONE = sp.Integer(0), sp.Integer(1)
@@ -110,9 +111,10 @@ class Geometry(Freezable):
 
     def _body(self, number: int, body: Body) -> BodySymbols:
         new, index, name = self.symbols.new, 3 * number, body.name
-        x, y, theta = (new(f"{name}_{c}", f"q[{index + k}]", f"{name}.{c}") for k, c in enumerate(("x", "y", "theta")))
-        rates = ("vx", "vy", "omega")
-        vx, vy, omega = (new(f"{name}_{c}", f"v[{index + k}]", f"{name}.{c}") for k, c in enumerate(rates))
+        (x, y, theta), (vx, vy, omega) = (
+            [new(f"{name}_{c}", Element(array, index + k), f"{name}.{c}") for k, c in enumerate(coordinates)]
+            for array, coordinates in (("q", ("x", "y", "theta")), ("v", ("vx", "vy", "omega")))
+        )
         mass, inertia = ONE, ONE
         if not is_massless(self.mechanism) and body.mass and body.inertia:
             mass, inertia = self.slots.use(body.mass), self.slots.use(body.inertia, zero=True)
@@ -162,8 +164,8 @@ class Geometry(Freezable):
         """cos θ and sin θ of a body."""
         if body.name not in self._angles:
             define, name = self.symbols.define, body.name
-            cos = define(f"cos_theta_{name}", sp.cos(body.theta), "", f"cos of {name}.theta")
-            sin = define(f"sin_theta_{name}", sp.sin(body.theta), "", f"sin of {name}.theta")
+            cos = define(f"cos_theta_{name}", sp.cos(body.theta), None, f"cos of {name}.theta")
+            sin = define(f"sin_theta_{name}", sp.sin(body.theta), None, f"sin of {name}.theta")
             self.symbols.rules[cos], self.symbols.rules[sin] = {body.theta: -sin}, {body.theta: cos}
             self._angles[name] = cos, sin
         return self._angles[body.name]
@@ -181,8 +183,8 @@ class Geometry(Freezable):
             cos, sin = self.angle(body)
             if all(component in (-1, 0, 1) for component in s):  # along an axis of the body: cos and sin themselves
                 return cos * s[0] - sin * s[1], sin * s[0] + cos * s[1]
-            x = self.symbols.define(f"{wanted}_x", cos * s[0] - sin * s[1], "", "A(theta) s, x")
-            y = self.symbols.define(f"{wanted}_y", sin * s[0] + cos * s[1], "", "A(theta) s, y")
+            x = self.symbols.define(f"{wanted}_x", cos * s[0] - sin * s[1], None, "A(theta) s, x")
+            y = self.symbols.define(f"{wanted}_y", sin * s[0] + cos * s[1], None, "A(theta) s, y")
             self.symbols.rules[x], self.symbols.rules[y] = {body.theta: -y}, {body.theta: x}
             self._turned[body.name, *s] = x, y
             before = (of for of in self.turned.values() if (of.body, of.point, of.axis) == (body.name, "", "x"))

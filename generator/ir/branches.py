@@ -11,8 +11,9 @@ from dataclasses import dataclass
 import sympy as sp
 
 from gudgeon.generator.ir.statements import Line, Statement
-from gudgeon.generator.ir.values import NONE, Names, base_of
+from gudgeon.generator.ir.values import NONE, Names
 from gudgeon.generator.symbols.corners import Pick, SideOf
+from gudgeon.generator.symbols.storage import Key, Place
 
 
 @dataclass(frozen=True)
@@ -24,9 +25,8 @@ class JointsAlone(Line):
 class Branch(Line):
     """`target` is `otherwise` where the side is below zero, else `then` (a NaN stays in it)."""
 
-    target: str
+    target: Key
     value: sp.Expr  # Pick(side, then, otherwise)
-    local: bool = True
     comment: str = ""
 
     @property
@@ -52,12 +52,12 @@ class Branch(Line):
     @property
     def writes(self) -> Names:  # type: ignore[override]
         """The array or argument that is stored to."""
-        return NONE if self.local else frozenset([base_of(self.target)])
+        return self.target.names if isinstance(self.target, Place) else NONE
 
     @property
     def defines(self) -> str:  # type: ignore[override]
         """The local."""
-        return self.target if self.local else ""
+        return self.target if isinstance(self.target, str) else ""
 
 
 class Branches:
@@ -75,15 +75,15 @@ class Branches:
             if isinstance(line, Statement) and isinstance(line.value, Pick) and self._is_new(line.value):
                 for inner in line.value.args:
                     found += self._branches(inner)
-                found.append(Branch(line.target, line.value, line.local, line.comment))
-                if line.local:
-                    self.names[line.value] = line.target
+                found.append(Branch(line.target, line.value, line.comment))
+                if line.defines:
+                    self.names[line.value] = line.defines
                 continue
             for expression in line.expressions:
                 found += self._branches(expression)
             found.append(line)
             if isinstance(line, Statement) and isinstance(line.value, SideOf):
-                self._told[sp.Symbol(line.target, real=True)] = line.value.args[1]
+                self._told[sp.Symbol(line.defines, real=True)] = line.value.args[1]
         return found
 
     def _branches(self, expression: sp.Basic) -> list[Line]:

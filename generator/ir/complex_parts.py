@@ -12,27 +12,29 @@ from dataclasses import replace
 
 import sympy as sp
 
-from gudgeon.generator.ir.kernels import Argument, Kernel, Section, without_unused
+from gudgeon.generator.ir.kernels import LINEARIZATION, Kernel, Section, without_unused
+from gudgeon.generator.ir.signatures import Access, Argument
 from gudgeon.generator.ir.statements import Call, Declare, Guard, Line, Statement
-from gudgeon.generator.ir.values import Chosen, Place, Test, Value, base_of
+from gudgeon.generator.ir.values import Chosen, Test, Value
 from gudgeon.generator.symbols.corners import Size
+from gudgeon.generator.symbols.storage import Element, Key, Place, PlaceSymbol, key_of
 
 SUFFIX, IMAGINARY = "_complex", "_i"
 ZERO = sp.Integer(0)
 Parts = tuple[sp.Expr, sp.Expr]
 
 
-def at_complex(kernel: Kernel, arrays: Iterable[str], zero: Iterable[str] = ()) -> Kernel:
+def at_complex(kernel: Kernel, arrays: Iterable[Key], zero: Iterable[str] = ()) -> Kernel:
     """The twin of a kernel, its name with SUFFIX behind.
 
-    arrays: which of the arguments are complex, their elements too; and places, `lin->lu`. `zero`: arguments that are 0
+    arrays: which of the arguments are complex, their elements too; and arrays at places. `zero`: arguments that are 0
     and none of the twin's. Raises ValueError for a line that has no complex counterpart.
     """
     return _Twin(kernel, frozenset(arrays), frozenset(zero)).kernel()
 
 
 class _Twin:
-    def __init__(self, kernel: Kernel, complex_: frozenset[str], zero: frozenset[str]) -> None:
+    def __init__(self, kernel: Kernel, complex_: frozenset[Key], zero: frozenset[str]) -> None:
         self.source, self.complex, self.locals, self.zero = kernel, complex_, set[str](), zero
         self.before: list[Line] = []  # what the next line reads
         self.counts = {"size": 0, "divisor": 0, "factor": 0}
@@ -53,9 +55,9 @@ class _Twin:
     def _argument(self, argument: Argument) -> list[Argument]:
         if argument.name in self.zero:
             return []
-        if argument.name == "lin":
-            return [replace(argument, type=argument.type.replace("Linear", "ComplexLinear"))]
-        if argument.name in self.complex and not argument.type.endswith("*"):
+        if argument.name == LINEARIZATION:
+            return [replace(argument, type=f"Complex{argument.type}")]
+        if argument.name in self.complex and argument.access is Access.VALUE:
             return [argument, replace(argument, name=argument.name + IMAGINARY)]
         return [argument]
 
@@ -90,11 +92,11 @@ class _Twin:
 
     def _statement(self, line: Statement) -> list[Line]:
         real, imaginary = self._value(line.value)
-        if line.local:
+        if local := line.defines:
             if imaginary == ZERO:
                 return [replace(line, value=real)]
-            self.locals.add(line.target)
-            return [replace(line, value=real), replace(line, target=line.target + IMAGINARY, value=imaginary)]
+            self.locals.add(local)
+            return [replace(line, value=real), replace(line, target=local + IMAGINARY, value=imaginary)]
         if both := self._places(line.target):
             return [replace(line, target=both[0], value=real), replace(line, target=both[1], value=imaginary)]
         return [replace(line, value=real)]
@@ -102,8 +104,7 @@ class _Twin:
     def _value(self, value: Value) -> tuple[Value, Value]:
         match value:
             case Place():
-                both = self._places(value.text)
-                return (Place(both[0]), Place(both[1])) if both else (value, ZERO)
+                return self._places(value) or (value, ZERO)
             case Chosen():
                 then, otherwise = self.parts(value.then), self.parts(value.otherwise)
                 parts = [replace(value, then=a, otherwise=b) for a, b in zip(then, otherwise, strict=True)]
@@ -112,18 +113,16 @@ class _Twin:
                 return self.parts(value)
         raise ValueError(f"a value of a kernel that has no complex counterpart: {value}")
 
-    def _places(self, text: str) -> tuple[str, str] | None:
+    def _places(self, place: Key) -> tuple[Element, Element] | None:
         """Where both parts of an array's element are."""
-        array = text.partition("[")[0]
-        if "[" not in text or not (array in self.complex or base_of(text) in self.complex):
+        if not isinstance(place, Element) or not {place.of, place.base} & self.complex:
             return None
-        k = int(text[len(array) + 1 : -1])
-        return f"{array}[{2 * k}]", f"{array}[{2 * k + 1}]"
+        return Element(place.of, 2 * place.index), Element(place.of, 2 * place.index + 1)
 
     def _pair(self, symbol: sp.Symbol) -> Parts | None:
         name = symbol.name
-        if both := self._places(name):
-            return sp.Symbol(both[0]), sp.Symbol(both[1])
+        if both := self._places(key_of(symbol)):
+            return PlaceSymbol(both[0]), PlaceSymbol(both[1])
         return (symbol, sp.Symbol(name + IMAGINARY)) if name in self.locals or name in self.complex else None
 
     def parts(self, value: sp.Expr) -> Parts:

@@ -5,32 +5,34 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import TypeVar
 
 import sympy as sp
 
 from gudgeon.generator.ir.branches import Branch
-from gudgeon.generator.ir.readable import NUMBERS, Readable
+from gudgeon.generator.ir.readable import Readable
 from gudgeon.generator.ir.statements import Statement
-from gudgeon.generator.ir.values import Place
 from gudgeon.generator.symbols.corners import Pick
+from gudgeon.generator.symbols.storage import Key, Place, key_of
 
 Marks = frozenset[str]
 NO_MARKS: Marks = frozenset()
+K = TypeVar("K", bound=Key)
 
 
 @dataclass(frozen=True)
 class Slices:
-    """Marks of each line of a function by what it stores to, and of the numbers `p->…` that it reads."""
+    """Marks of each line of a function by what it stores to, and of the parameters that it reads."""
 
-    stored: Mapping[str, Marks]
-    numbers: Mapping[str, Marks]
+    stored: Mapping[Key, Marks]
+    numbers: Mapping[Place, Marks]
 
 
 def slices(own: Readable, marks: Callable[[Statement | Branch], Marks]) -> Slices:
     """`marks` of a line go to every line that computes what it reads, and so on, up to the numbers of the run."""
-    needed: defaultdict[str, set[str]] = defaultdict(set)
-    stored: defaultdict[str, set[str]] = defaultdict(set)
-    called = {text: name for name, text in own.names.items() if text.startswith(NUMBERS)}
+    needed: defaultdict[Key, set[str]] = defaultdict(set)
+    stored: defaultdict[Key, set[str]] = defaultdict(set)
+    called: dict[Key, Key] = {place: name for name, place in own.names.items() if isinstance(place, Place)}
     for section in reversed(own.sections):
         for line in reversed(section.statements):
             if not isinstance(line, (Statement, Branch)):
@@ -40,25 +42,26 @@ def slices(own: Readable, marks: Callable[[Statement | Branch], Marks]) -> Slice
             stored[line.target] |= found
             for used in _reads(line, own):
                 needed[used] |= found
-    numbers: defaultdict[str, set[str]] = defaultdict(set)
+    numbers: defaultdict[Place, set[str]] = defaultdict(set)
     for name, found in needed.items():
-        if (text := own.names.get(name, name)).startswith(NUMBERS):
-            numbers[text] |= found
+        place = own.names.get(name, name)
+        if isinstance(place, Place) and place.is_parameter:
+            numbers[place] |= found
     return Slices(_frozen(stored), _frozen(numbers))
 
 
-def _reads(line: Statement | Branch, own: Readable) -> set[str]:
-    """Names of symbols, of numbers in full, of branches that have a line of their own."""
-    found = {symbol.name for x in line.expressions for symbol in x.free_symbols} | set(line.reads)
+def _reads(line: Statement | Branch, own: Readable) -> set[Key]:
+    """Names of symbols, places, names of branches that have a line of their own."""
+    found = {key_of(symbol) for x in line.expressions for symbol in x.free_symbols} | set(line.reads)
     if isinstance(line, Statement) and isinstance(line.value, Place):
-        found.add(line.value.text)
+        found.add(line.value)
     for expression in line.expressions:
         if own.branches and expression.has(Pick):
             found |= {own.branches[part] for part in expression.atoms(Pick) if part in own.branches}
     return found - {line.target}
 
 
-def _frozen(found: Mapping[str, set[str]]) -> dict[str, Marks]:
+def _frozen(found: Mapping[K, set[str]]) -> dict[K, Marks]:
     return {name: frozenset(marks) for name, marks in found.items() if marks}
 
 

@@ -11,10 +11,12 @@ from dataclasses import dataclass, field, replace
 
 import sympy as sp
 
+from gudgeon.generator.ir.signatures import Argument
 from gudgeon.generator.ir.statements import Line, Rescue, Sides, Statement
-from gudgeon.generator.ir.values import Place, Value
+from gudgeon.generator.ir.values import Value
 from gudgeon.generator.symbols.corners import SideOf, Switches
 from gudgeon.generator.symbols.derivatives import symbols_of
+from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place
 from gudgeon.generator.symbols.symbols import Symbols
 
 
@@ -25,23 +27,17 @@ class Section:
 
 
 @dataclass(frozen=True)
-class Argument:
-    type: str  # "const double *"
-    name: str
-
-
-@dataclass(frozen=True)
 class Kernel:
-    """One function: `returns` is its C type."""
+    """One function; `status`: it returns a number, 0 or that of what failed."""
 
     name: str
     doc: tuple[str, ...]
     arguments: tuple[Argument, ...]
     sections: tuple[Section, ...]
-    returns: str = "void"
+    status: bool = False
     inline: bool = False
     attribute: str = ""  # of the compiler: "noinline"
-    names: Mapping[str, str] = field(default_factory=dict)  # what symbols are called in its text
+    names: Mapping[Key, Key] = field(default_factory=dict)  # what symbols are called in its text
     first_corner: int | None = None  # its corners are counted from the argument `corner`; None: by their own numbers
 
     @property
@@ -102,7 +98,7 @@ def hold_sides(switches: Switches, owner: str, sections: Iterable[Section], only
         for statement in section.statements:
             if isinstance(statement, Statement) and isinstance(statement.value, sp.Expr):
                 if isinstance(statement.value, SideOf):  # told by the author of the kernel: once is enough
-                    if (told := sp.Symbol(statement.target, real=True)) not in known:
+                    if (told := sp.Symbol(statement.defines, real=True)) not in known:
                         known[told] = statement.value
                         statements.append(statement)
                     continue
@@ -133,6 +129,7 @@ def changed(line: Line, change: Callable[[sp.Basic], Value]) -> Line:
     return line
 
 
+LINEARIZATION = "lin"  # the argument that holds the linearized equations of motion
 HELD = "corners: the sides that are held, if any"  # title of the lines from which a kernel reads sides
 
 
@@ -168,17 +165,17 @@ class KernelBuilder:
         self._sections[-1][1].append(line)
 
     def local(self, name: str, value: Value, comment: str = "") -> sp.Symbol:
-        """`const double name = value;` and its symbol."""
+        """Assign the value to a new local and return its symbol."""
         unique = self._symbols.unique(name)
-        self._sections[-1][1].append(Statement(unique, value, True, comment))
+        self._sections[-1][1].append(Statement(unique, value, comment))
         return sp.Symbol(unique, real=True)
 
-    def out(self, target: str, value: Value, comment: str = "") -> None:
-        """`target = value;`"""
-        self._sections[-1][1].append(Statement(target, value, False, comment))
+    def out(self, target: Place, value: Value, comment: str = "") -> None:
+        """Store the value."""
+        self._sections[-1][1].append(Statement(target, value, comment))
 
     def build(
-        self, arguments: Sequence[Argument], returns: str = "void", inline: bool = False, owner: str | None = None,
+        self, arguments: Sequence[Argument], status: bool = False, inline: bool = False, owner: str | None = None,
         prune: bool = False, only_known: bool = False,
     ) -> Kernel:  # fmt: skip
         """The kernel, with its inputs and definitions in front.
@@ -193,14 +190,14 @@ class KernelBuilder:
         expressions = [x for line in lines for x in line.expressions]
         definitions, inputs = self._resolve(expressions, declared)
         info = self._symbols.info
-        groups: dict[str, list[Line]] = {"p->": [], "lin->": [], "": []}  # by the struct that holds them
-        for s in inputs:
-            group = next(start for start in groups if info[s].home.startswith(start))
-            groups[group].append(Statement(s.name, Place(info[s].home)))
+        places = [(s.name, place) for s in inputs if (place := info[s].home)]
+        structs = (PARAMETERS, LINEARIZATION)
+        groups = {of: [Statement(*each) for each in places if each[1].base == of] for of in structs}
+        others = [Statement(*each) for each in places if each[1].base not in structs]
         front = [
-            Section("coordinates, velocities, time", tuple(groups[""])),
-            Section("linearization", tuple(groups["lin->"])),
-            Section("parameters", tuple(groups["p->"])),
+            Section("coordinates, velocities, time", tuple(others)),
+            Section("linearization", tuple(groups[LINEARIZATION])),
+            Section("parameters", tuple(groups[PARAMETERS])),
             Section(
                 "directions, arms, drives", tuple(Statement(s.name, self._symbols.definitions[s]) for s in definitions)
             ),
@@ -209,8 +206,9 @@ class KernelBuilder:
         if owner is not None:
             sections = hold_sides(self._symbols.switches, owner, sections, only_known)
         kept = tuple(section for section in sections if section.statements)
-        names = self._symbols.shorter({name for section in kept for line in section.statements for name in line.reads})
-        return Kernel(self._name, self._doc, tuple(arguments), kept, returns, inline, names=names)
+        read = {name for section in kept for line in section.statements for name in line.reads}
+        names = self._symbols.shorter(read)
+        return Kernel(self._name, self._doc, tuple(arguments), kept, status, inline, names=names)
 
     def _resolve(self, expressions: Iterable[sp.Expr], declared: set[str]) -> tuple[list[sp.Symbol], list[sp.Symbol]]:
         """Definitions to compute (in the order in which they were made) and inputs to read."""

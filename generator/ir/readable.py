@@ -16,11 +16,10 @@ import sympy as sp
 from gudgeon.generator.ir.branches import Branches
 from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.statements import Line, Statement
-from gudgeon.generator.ir.values import Place
+from gudgeon.generator.symbols.storage import Key, Place, Variable
 
 _DENOMINATORS = tuple(k for k in range(1, 361) if 360 % k == 0)  # whole and half degrees, turns in a minute
 _MOST = 1000  # times PI
-NUMBERS = "p->"  # the numbers of a run: read where they are used
 
 
 @dataclass(frozen=True)
@@ -28,7 +27,7 @@ class Readable:
     """Sections, what symbols and locals are called, what branches are called, where corners are counted from."""
 
     sections: tuple[Section, ...]
-    names: Mapping[str, str] = field(default_factory=dict)
+    names: Mapping[Key, Key] = field(default_factory=dict)
     branches: Mapping[sp.Expr, str] = field(default_factory=dict)
     first_corner: int | None = None
 
@@ -80,7 +79,7 @@ def readable(kernel: Kernel, branching: bool = True) -> Readable:
     arguments = {argument.name for argument in kernel.arguments}
     names = dict(kernel.names)
     taken = {name for section in kernel.sections for line in section.statements for name in (*line.reads, line.defines)}
-    branches = Branches(taken | arguments | set(names.values()))
+    branches = Branches(taken | arguments | {str(called) for called in names.values()})
     sections = []
     for section in kernel.sections:
         lines = _without_copies(section.statements, arguments, names)
@@ -94,15 +93,15 @@ def lines(statements: Sequence[Statement]) -> Readable:
     return readable(Kernel("", (), (), (Section("", tuple(statements)),)))
 
 
-def _without_copies(lines: Sequence[Line], arguments: Collection[str], names: dict[str, str]) -> list[Line]:
+def _without_copies(lines: Sequence[Line], arguments: Collection[str], names: dict[Key, Key]) -> list[Line]:
     """Locals that are no more than an argument or a number of the run are read there, under the name that it has."""
     kept: list[Line] = []
     for line in lines:
-        if isinstance(line, Statement) and line.local and isinstance(line.value, Place):
-            text = line.value.text
-            if text in arguments or text.startswith(NUMBERS):
-                names[line.target] = text
-                continue
+        place = line.value if isinstance(line, Statement) and line.defines else None
+        is_argument = isinstance(place, Variable) and place.name in arguments
+        if isinstance(place, Place) and (place.is_parameter or is_argument):
+            names[line.defines] = place
+            continue
         if kept and (stored := _stored(kept[-1], line)):
             names[kept[-1].defines] = stored.target
             kept[-1] = stored
@@ -112,8 +111,9 @@ def _without_copies(lines: Sequence[Line], arguments: Collection[str], names: di
 
 
 def _stored(before: Line, line: Line) -> Statement | None:
-    """`p->x = value` for `y = value` and then `p->x = y`."""
-    if not (isinstance(before, Statement) and isinstance(line, Statement) and before.local and not line.local):
+    """`p.x = value` for `y = value` and then `p.x = y`, where p.x is a parameter."""
+    if not (isinstance(before, Statement) and isinstance(line, Statement) and before.defines):
         return None
-    same = line.target.startswith(NUMBERS) and line.value == sp.Symbol(before.target, real=True)
-    return replace(before, target=line.target, local=False) if same else None
+    same = line.value == sp.Symbol(before.defines, real=True)
+    stored = same and isinstance(line.target, Place) and line.target.is_parameter
+    return replace(before, target=line.target) if stored else None

@@ -14,6 +14,7 @@ import sympy as sp
 from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.statements import Line, Statement
 from gudgeon.generator.symbols.numbers import Slots
+from gudgeon.generator.symbols.storage import PlaceSymbol
 
 
 def is_division(part: sp.Basic) -> bool:
@@ -23,7 +24,9 @@ def is_division(part: sp.Basic) -> bool:
 
 def base_name(power: sp.Basic) -> str:
     """What a local of 1/x is named after: x where that is a symbol."""
-    return power.base.name.removeprefix("p->") if power.base.is_Symbol else "sum"
+    if isinstance(power.base, PlaceSymbol):
+        return power.base.place.member
+    return power.base.name if power.base.is_Symbol else "sum"
 
 
 def hoisted(slots: Slots, value: sp.Expr) -> sp.Expr:
@@ -48,7 +51,7 @@ def _divided(sections: tuple[Section, ...]) -> list[Section]:
     statements = [s for section in sections for s in section.statements if isinstance(s, Statement)]
     values = [s.value for s in statements if isinstance(s.value, sp.Expr)]
     often = Counter(part.base for value in values for part in sp.preorder_traversal(value) if is_division(part))
-    taken = {s.target for s in statements}
+    taken = {s.defines for s in statements}
     names: dict[sp.Expr, sp.Symbol] = {}
 
     def shared(part: sp.Basic) -> bool:

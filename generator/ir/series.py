@@ -20,7 +20,7 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from gudgeon.generator.ir.branches import JointsAlone
-from gudgeon.generator.ir.kernels import Argument, Kernel, Section, changed, without_unread
+from gudgeon.generator.ir.kernels import Kernel, Section, changed, without_unread
 from gudgeon.generator.ir.series_order import Titled, differences, late_last
 from gudgeon.generator.ir.series_rules import (
     NEXT,
@@ -37,10 +37,12 @@ from gudgeon.generator.ir.series_rules import (
     Rules,
     at,
 )
-from gudgeon.generator.ir.signatures import PARAMETERS, STATE, ZERO
+from gudgeon.generator.ir.signatures import PARAMETERS, STATE, ZERO, Access, Argument, result, source
 from gudgeon.generator.ir.statements import Call, Guard, Jump, Line, Rescue, Return, Statement, Status
-from gudgeon.generator.ir.values import Place
+from gudgeon.generator.symbols.storage import Element, Field, Place, PlaceSymbol, key_of
 
+LEFT, RIGHT = "left", "right"  # arguments: the factors of each product
+Wanted = Callable[[Place], Place | None]  # where a result goes; None: nobody wants it
 _DROPPED = (Status, JointsAlone, Jump, Rescue)
 _DOC_VALUES = (
     "Accelerations a and powers at a state, order 0 of their series, and what higher orders read of it.",
@@ -80,8 +82,8 @@ class Linear:
     unknowns: Mapping[int, sp.Symbol]
 
 
-def series_of(kernel: Kernel, wanted: Callable[[str], str], name: str, linear: Linear | None = None) -> Series:
-    """The series of a function's results, which `wanted` gives their places ("": nobody wants it). Raises NoSeries."""
+def series_of(kernel: Kernel, wanted: Wanted, name: str, linear: Linear | None = None) -> Series:
+    """The series of a function's results, which `wanted` gives their places. Raises NoSeries."""
     lines = _lines(kernel, wanted)
     made = _Series(lines, linear)
     for title, line in lines:
@@ -89,21 +91,20 @@ def series_of(kernel: Kernel, wanted: Callable[[str], str], name: str, linear: L
     return made.finished(name)
 
 
-def _lines(kernel: Kernel, wanted: Callable[[str], str]) -> list[Titled]:
+def _lines(kernel: Kernel, wanted: Wanted) -> list[Titled]:
     """Those that lead to what is wanted; what is stored elsewhere is no more than a local."""
     lines: list[Titled] = []
     local: dict[sp.Basic, sp.Basic] = {}
     for section in kernel.sections:
         for line in section.statements:
             line = _with(line, local)
-            if isinstance(line, Statement) and not line.local:
-                name = "".join(c if c.isalnum() else "_" for c in line.target).strip("_")
-                local |= {sp.Symbol(line.target, real=real): sp.Symbol(name, real=True) for real in (True, None)}
-                if place := wanted(line.target):
-                    lines.append((section.title, replace(line, target=name, local=True)))
+            if isinstance(line, Statement) and isinstance(stored := line.target, Place):
+                name = "".join(c if c.isalnum() else "_" for c in str(stored).replace(".", "__")).strip("_")
+                local[PlaceSymbol(stored)] = sp.Symbol(name, real=True)
+                line = replace(line, target=name)
+                if place := wanted(stored):
+                    lines.append((section.title, line))
                     line = replace(line, target=place, value=sp.Symbol(name, real=True))
-                else:
-                    line = replace(line, target=name, local=True)
             if not isinstance(line, _DROPPED):
                 lines.append((section.title, line))
     return _pruned(lines)
@@ -118,11 +119,11 @@ class _Series(Rules):
 
     def __init__(self, lines: Sequence[Titled], linear: Linear | None) -> None:
         statements = [line for _, line in lines if isinstance(line, Statement)]
-        super().__init__({line.target for line in statements})
+        super().__init__({line.defines for line in statements})
         self._values: list[Titled] = []
         self._terms: list[Titled] = []
         self._turned = differences(statements)
-        self._own = {line.value: line.target for line in statements if isinstance(line.value, sp.Function)}
+        self._own = {line.value: line.defines for line in statements if isinstance(line.value, sp.Function)}
         self._title, self._linear = "", linear
 
     def line(self, title: str, line: Line) -> None:
@@ -141,21 +142,21 @@ class _Series(Rules):
                 raise NoSeries(f"a {type(line).__name__.lower()} of the right-hand side is no expression")
 
     def _read(self, line: Statement, place: Place) -> None:
-        if not line.local or place.base not in ("t", "q", "v", "p"):
-            raise NoSeries(f"{place.text} is no function of time and state")
+        if not line.defines or place.base not in ("t", "q", "v", "p"):
+            raise NoSeries(f"{place} is no function of time and state")
         self._values.append((self._title, line))
         self._terms.append((self._title, line))
-        (self.numbers if place.base == "p" else self.moving).add(line.target)
+        (self.numbers if place.base == "p" else self.moving).add(line.defines)
 
     def _assign(self, line: Statement, value: sp.Expr) -> None:
-        if not line.local:
+        if not line.defines:
             self._values.append((self._title, line))
             result = ZERO if self.is_fixed(value) else value * NEXT
             self._terms.append((self._title, replace(line, value=result, comment="")))
         elif self._linear and self._title == self._linear.title:
             self._values.append((self._title, line))
-        elif line.target not in self.moving:  # else a function beside it has asked for it
-            self.define(line.target, value)
+        elif line.defines not in self.moving:  # else a function beside it has asked for it
+            self.define(line.defines, value)
 
     def define(self, target: str, value: sp.Expr, moving: bool = False) -> sp.Symbol:
         """A local of both functions, or of order 0 alone."""
@@ -209,27 +210,26 @@ class _Series(Rules):
         while known < len(products):  # a sum that is read asks for its factors, and they for other sums
             known = len(products)
             terms = _pruned([*self._terms, *_stores(products)])
-            read = {s.name for _, line in terms for e in line.expressions for s in e.free_symbols}
-            products = [product for product in self.products.values() if f"{SUMS}->{product.name}" in read]
-        front = f"{VALUES}->"
-        kept = tuple(sorted(x.removeprefix(front) for x in read if x.startswith(front)))
+            read = {key_of(s) for _, line in terms for e in line.expressions for s in e.free_symbols}
+            products = [product for product in self.products.values() if Field(SUMS, product.name) in read]
+        kept = tuple(sorted(x.name for x in read if isinstance(x, Field) and x.of == VALUES))
         inverses = {name: 1 / b for name, b in self.inverses.items()}
         keeps = [("values that higher orders read",
-                  Statement(f"{front}{x}", inverses.get(x, sp.Symbol(x, real=True)), False)) for x in kept]  # fmt: skip
+                  Statement(Field(VALUES, x), inverses.get(x, sp.Symbol(x, real=True)))) for x in kept]  # fmt: skip
         values = _pruned([*self._values, *keeps])
         of_values, of_terms = _arguments()
-        of_zero = Kernel(f"{name}_values", _DOC_VALUES, of_values, _sections([*values, ("", Return())]), "int")
+        of_zero = Kernel(f"{name}_values", _DOC_VALUES, of_values, _sections([*values, ("", Return())]), status=True)
         later = _sections(late_last(terms, self.unique))
         return Series(of_zero, Kernel(f"{name}_terms", _DOC_TERMS, of_terms, later), kept, tuple(products))
 
 
 def _arguments() -> tuple[tuple[Argument, ...], tuple[Argument, ...]]:
     """Of both functions."""
-    rates = (Argument("double *", "a"), Argument("double *", "power"))
-    factors = (Argument("Wide *", "left"), Argument("Wide *", "right"))
-    order = tuple(Argument("const double", symbol.name) for symbol in (ORDER, SHARE, NEXT))
-    given = (Argument("const TaylorValues *", VALUES), Argument("const TaylorFactors *", SUMS))
-    values = (*STATE, PARAMETERS, Argument("TaylorValues *", VALUES), *rates)
+    rates = (result("a"), result("power"))
+    factors = (result(LEFT, "Wide"), result(RIGHT, "Wide"))
+    order = tuple(Argument(symbol.name, access=Access.CONSTANT) for symbol in (ORDER, SHARE, NEXT))
+    given = (source(VALUES, "TaylorValues"), source(SUMS, "TaylorFactors"))
+    values = (*STATE, PARAMETERS, result(VALUES, "TaylorValues"), *rates)
     return values, (*order, *STATE, PARAMETERS, *given, *rates, *factors)
 
 
@@ -243,8 +243,8 @@ def _stores(products: Sequence[Product]) -> list[Titled]:
     title, lines = "factors of the sums of higher orders", list[Titled]()
     for row, first in enumerate(range(0, len(products), WIDE)):
         some = products[first : first + WIDE]
-        lines.append((title, Gathered(f"left[{row}]", tuple(value(x.left) for x in some))))
-        lines.append((title, Gathered(f"right[{row}]", tuple(value(x.right) for x in some))))
+        lines.append((title, Gathered(Element(LEFT, row), tuple(value(x.left) for x in some))))
+        lines.append((title, Gathered(Element(RIGHT, row), tuple(value(x.right) for x in some))))
     return lines
 
 

@@ -26,22 +26,22 @@ def late_last(lines: Iterable[Titled], unique: Callable[[str], str]) -> list[Tit
             value: sp.Expr = line.value
             parts = sorted(sp.Add.make_args(value), key=late)
             known = parts[:1]
-            for before, part in itertools.pairwise(parts if line.local else []):
+            for before, part in itertools.pairwise(parts if line.defines else []):
                 if late(part) > late(before) and len(known) > 1:
-                    name = unique(f"{line.target}_known")
+                    name = unique(f"{line.defines}_known")
                     ordered.append((title, Statement(name, sp.Add(*known))))
                     depth[name] = late(before)
                     known = [sp.Symbol(name, real=True)]
                 known.append(part)
-            depth[line.target] = 1 + late(value)
-            line = replace(line, value=sp.Add(*known)) if line.local else line
+            depth[line.defines] = 1 + late(value)
+            line = replace(line, value=sp.Add(*known)) if line.defines else line
         ordered.append((title, line))
     return ordered
 
 
 def differences(statements: Iterable[Statement]) -> dict[str, tuple[sp.Expr, str, int]]:
     """Cosines and sines of a - b that are made of those of a and b: a - b, the other of the two, by which sign."""
-    values = {line.target: line.value for line in statements if line.local and isinstance(line.value, sp.Expr)}
+    values = {line.defines: line.value for line in statements if line.defines and isinstance(line.value, sp.Expr)}
     turned = {name: value for name, value in values.items() if isinstance(value, (sp.cos, sp.sin))}
     found: dict[sp.Expr, dict[type, str]] = {}
     for target, value in values.items():

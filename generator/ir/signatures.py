@@ -1,21 +1,73 @@
-"""Arguments that kernels share."""
+"""Arguments of kernels: their types, how they are accessed, and those that many kernels share."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from enum import Enum, auto
+from typing import TypeAlias
+
 import sympy as sp
 
-from gudgeon.generator.ir.kernels import Argument
-from gudgeon.generator.ir.values import Place
+from gudgeon.generator.symbols import storage
+from gudgeon.generator.symbols.storage import Element, Field, Place, Variable
 
-# Corners: the sides that are held over a step (NULL: none), and where the switching functions go.
-SIDES = (Argument("const double *", "side"), Argument("double *", "g"))
 
-STATE = (Argument("const double", "t"), Argument("const double *", "q"), Argument("const double *", "v"))
-MEMORY = Argument("const Memory *", "memory")
-PARAMETERS = Argument("const Parameters *", "p")
+class Number(Enum):
+    """Types of numbers."""
+
+    REAL = auto()
+    INTEGER = auto()
+    BYTE = auto()
+
+
+Type: TypeAlias = Number | str  # str: the name of a struct
+
+
+class Access(Enum):
+    """How a function has an argument."""
+
+    VALUE = auto()
+    CONSTANT = auto()  # a value that is declared never to change
+    READ = auto()  # an array or struct
+    WRITTEN = auto()  # an array, struct or number that the caller reads afterwards
+
+
+@dataclass(frozen=True)
+class Argument:
+    """An argument of a kernel; an array by the type of its elements."""
+
+    name: str
+    type: Type = Number.REAL
+    access: Access = Access.VALUE
+
+
+def source(name: str, type: Type = Number.REAL) -> Argument:
+    """Return the argument of an array or struct that is read."""
+    return Argument(name, type, Access.READ)
+
+
+def result(name: str, type: Type = Number.REAL) -> Argument:
+    """Return the argument of an array, struct or number that is written."""
+    return Argument(name, type, Access.WRITTEN)
+
+
+# Corners: the sides that are held over a step (or none), and where the switching functions go.
+SIDES = (source("side"), result("g"))
+
+TIME = Argument("t", access=Access.CONSTANT)
+STATE = (TIME, source("q"), source("v"))
+MEMORY = source("memory", "Memory")
+PARAMETERS = source(storage.PARAMETERS, "Parameters")
+ASIDE = result("aside", "Aside")
 ZERO = sp.Integer(0)
 
 
+def rhs_output(name: str, index: int) -> Element:
+    """Return an element of an array that a right-hand side fills in addition to the accelerations."""
+    return Element(Field(ASIDE.name, name), index)
+
+
 def acting_on(index: int) -> tuple[Place, ...]:
-    """What the function of a joint with play is given behind its motion."""
-    return tuple(map(Place, (f"memory->latch[{index}]", "p", "side", "g")))
+    """Return what the function of a joint with play is given after its motion."""
+    latch = Element(Field(MEMORY.name, "latch"), index)
+    return (latch, Variable(PARAMETERS.name), *(Variable(argument.name) for argument in SIDES))

@@ -15,10 +15,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
 
-from gudgeon.generator.ir.kernels import Argument, Kernel, Section
+from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.order import nearby
+from gudgeon.generator.ir.signatures import Access, Number, result, source
 from gudgeon.generator.ir.statements import Call, Declare, Ended, Guard, Jump, Line, Passed, Return, Sines, Statement
-from gudgeon.generator.ir.values import Place
+from gudgeon.generator.symbols.storage import Element, Place, Variable
 
 LONG, PART, SHORTEST = 850, 250, 60
 
@@ -40,18 +41,18 @@ class Item:
 
 def cut(kernel: Kernel) -> tuple[Kernel, ...]:
     """The parts in front of the function that calls them; a short kernel is its only part."""
-    if sum(len(section.statements) for section in kernel.sections) <= LONG or kernel.returns not in ("void", "int"):
+    if sum(len(section.statements) for section in kernel.sections) <= LONG:
         return (kernel,)
     items, sources = _items(kernel)
     pieces = _pieces(items)
     if not any(map(_is_part, pieces)):
         return (kernel,)
-    shared = tuple(Argument(f"const {kind} *", name) for name, kind in _arrays(kernel).items())
+    shared = tuple(source(name, kind) for name, kind in _arrays(kernel).items())
     passed = _unused_name("passed", items)
     slots = _slots(pieces)
     cut_up = _Cut(replace(kernel, arguments=(*kernel.arguments, *shared)), slots, passed, sources)
     title = "values that pass between the parts"
-    main = [Item(title, Declare("double", passed, (max(len(slots), 1),)), frozenset(), False)]
+    main = [Item(title, Declare(Number.REAL, passed, (max(len(slots), 1),)), frozenset(), False)]
     parts: list[Kernel] = []
     stored: set[str] = set()
     for k, piece in enumerate(pieces):
@@ -74,7 +75,7 @@ def cut(kernel: Kernel) -> tuple[Kernel, ...]:
 def _items(kernel: Kernel) -> tuple[list[Item], dict[str, Item]]:
     """Everything in its order but for the sources, by name: what reads an argument is read again where it is needed."""
     listed = [(section.title, what) for section in kernel.sections for what in section.statements]
-    constant = {argument.name for argument in kernel.arguments if argument.type.startswith("const")}
+    constant = {argument.name for argument in kernel.arguments if argument.access in (Access.CONSTANT, Access.READ)}
     constant |= set(_arrays(kernel))
     known = {what.defines for _, what in listed} | {argument.name for argument in kernel.arguments} | constant
     fixed = {name for _, what in listed if not _is_plain(what) for name in what.reads | what.writes} - known
@@ -99,7 +100,7 @@ def _is_plain(what: Line) -> bool:
 
 def _source_of(what: Line) -> str:
     """The argument or array that a local is a copy from; "" where it is none."""
-    return what.value.base if isinstance(what, Statement) and what.local and isinstance(what.value, Place) else ""
+    return what.value.base if isinstance(what, Statement) and what.defines and isinstance(what.value, Place) else ""
 
 
 def _arrays(kernel: Kernel) -> dict[str, str]:
@@ -188,12 +189,12 @@ class _Cut:
 
     def store(self, name: str) -> Item:
         """For a part."""
-        statement = Statement(f"{self.passed}[{self.slots[name]}]", Place(name), False)
+        statement = Statement(Element(self.passed, self.slots[name]), Variable(name))
         return Item("what the next part reads", statement, frozenset({name}), False)
 
     def load(self, name: str) -> Item:
         """Of a part before."""
-        return _load(name, Place(f"{self.passed}[{self.slots[name]}]"))
+        return _load(name, Element(self.passed, self.slots[name]))
 
     def part(self, name: str, piece: list[Item]) -> Kernel:
         """One part: what it reads of others, its own statements, what others read of it."""
@@ -213,14 +214,14 @@ class _Cut:
         end = [Item("", Return(), frozenset(), False)] if tested else []
         return Kernel(
             name, (f"A part of `{self.kernel.name}`, which calls it.",),
-            (*self.kernel.arguments, Argument("double *", self.passed)), _sections([*within, *end]),
-            "int" if tested else "void", attribute="noinline", names=self.kernel.names,
+            (*self.kernel.arguments, result(self.passed)), _sections([*within, *end]),
+            tested, attribute="noinline", names=self.kernel.names,
         )  # fmt: skip
 
     def call(self, name: str, piece: list[Item], rest: set[str]) -> list[Item]:
         """The call, what the function itself reads of the part, and what is done where a test failed."""
-        arguments = tuple(Place(argument.name) for argument in self.kernel.arguments)
-        call = Call(name, arguments, (Place(self.passed),))
+        arguments = tuple(Variable(argument.name) for argument in self.kernel.arguments)
+        call = Call(name, arguments, (Variable(self.passed),))
         tests = [item.what for item in piece if isinstance(item.what, Guard)]
         loads = [self.load(n) for n in self.slots if n in rest and n in {item.defines for item in piece}]
         lines: list[Line] = [call]

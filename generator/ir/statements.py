@@ -8,7 +8,9 @@ from typing import ClassVar
 
 import sympy as sp
 
-from gudgeon.generator.ir.values import NONE, Names, Place, Test, Value, base_of, names_in
+from gudgeon.generator.ir.signatures import Type
+from gudgeon.generator.ir.values import NONE, Names, Test, Value, names_in
+from gudgeon.generator.symbols.storage import PARAMETERS, Key, Place
 
 
 @dataclass(frozen=True)
@@ -36,11 +38,10 @@ class Line:
 
 @dataclass(frozen=True)
 class Statement(Line):
-    """`target = value`; a `local` is declared there."""
+    """`target = value`; a target that is no place is a local, which is declared there."""
 
-    target: str
+    target: Key
     value: Value
-    local: bool = True
     comment: str = ""
 
     @property
@@ -56,19 +57,19 @@ class Statement(Line):
     @property
     def writes(self) -> Names:  # type: ignore[override]
         """The array or argument that is stored to."""
-        return NONE if self.local else frozenset([base_of(self.target)])
+        return self.target.names if isinstance(self.target, Place) else NONE
 
     @property
     def defines(self) -> str:  # type: ignore[override]
         """The local."""
-        return self.target if self.local else ""
+        return self.target if isinstance(self.target, str) else ""
 
 
 @dataclass(frozen=True)
 class Declare(Line):
-    """An array of a function's own, `double x[5]`."""
+    """An array of a function's own."""
 
-    type: str
+    type: Type
     name: str
     sizes: tuple[int, ...]
 
@@ -202,7 +203,7 @@ class Rescue(Line):
     def names(self) -> Names:
         """What the solution is told."""
         own = () if self.force else ("v",)
-        return frozenset(["t", "q", "memory", "p", "a", "aside", *own])
+        return frozenset(["t", "q", "memory", PARAMETERS, "a", "aside", *own])
 
 
 @dataclass(frozen=True)
@@ -266,7 +267,7 @@ class Sides(Line):
 class RunNumbers(Line):
     """p, read from the linearization."""
 
-    writes: ClassVar[Names] = frozenset(["p"])
+    writes: ClassVar[Names] = frozenset([PARAMETERS])
 
     @property
     def names(self) -> Names:

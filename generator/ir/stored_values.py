@@ -5,13 +5,14 @@ from __future__ import annotations
 import sympy as sp
 
 from gudgeon.generator.ir.kernels import KernelBuilder
+from gudgeon.generator.symbols.storage import Element, Field
 from gudgeon.generator.symbols.symbols import SymbolInfo, Symbols
 
 
 class Pool:
     """`keep` stores a value and gives the symbol that reads it; what needs no storing stays as it is."""
 
-    def __init__(self, symbols: Symbols, array: str) -> None:
+    def __init__(self, symbols: Symbols, array: Field) -> None:
         self._symbols, self.array = symbols, array
         self._kept: dict[sp.Expr, sp.Symbol] = {}
         self._place: dict[sp.Expr, int] = {}
@@ -24,7 +25,7 @@ class Pool:
                 return value
             if sign * value in self._kept:
                 return sign * self._kept[sign * value]
-        symbol = self._symbols.new(wanted, f"{self.array}[{self._store(build, value)}]")
+        symbol = self._symbols.new(wanted, Element(self.array, self._store(build, value)))
         self._kept[value], self._place[symbol] = symbol, self._place[value]
         return symbol
 
@@ -32,7 +33,7 @@ class Pool:
         """Stores the local of which a value is ±, so that other functions read it under the same name."""
         symbol = next(iter(value.free_symbols), None)
         if symbol is not None and symbol not in self._symbols.info:
-            self._symbols.info[symbol] = SymbolInfo(f"{self.array}[{self._store(build, symbol)}]", "", "")
+            self._symbols.info[symbol] = SymbolInfo(Element(self.array, self._store(build, symbol)), "", "")
         return value
 
     def place(self, build: KernelBuilder, value: sp.Expr) -> tuple[int, int]:
@@ -43,10 +44,10 @@ class Pool:
         return self._store(build, value), 1
 
     def _store(self, build: KernelBuilder, value: sp.Expr) -> int:
-        build.out(f"{self.array}[{self.size}]", value)
+        build.out(Element(self.array, self.size), value)
         self._place[value] = self.size
         self.size += 1
         return self._place[value]
 
     def _is_parameter(self, value: sp.Expr) -> bool:
-        return bool(value.is_Symbol and value in self._symbols.info and self._symbols.info[value].home[:3] == "p->")
+        return bool(value.is_Symbol and value in self._symbols.info and self._symbols.info[value].is_parameter)

@@ -1,7 +1,7 @@
 """Values that statements assign: SymPy expressions, and the few forms that SymPy has no word for.
 
-Names are those of locals and arguments; a symbol may also stand for a place, `p->mass` or `x[3]`, and then reads the
-argument in front.
+Names are those of locals and arguments; a symbol may also stand for a place, and then reads the argument that leads to
+it.
 """
 
 from __future__ import annotations
@@ -14,55 +14,26 @@ import sympy as sp
 
 from gudgeon.generator.symbols.corners import SideOf, Size
 from gudgeon.generator.symbols.derivatives import symbols_of
+from gudgeon.generator.symbols.storage import Place, PlaceSymbol
 
 Names = frozenset[str]
 NONE: Names = frozenset()
 
 
-@lru_cache(maxsize=4096)  # a scene has some hundred names, and each is asked for tens of times
-def base_of(text: str) -> str:
-    """The name in front of a place: `aside` of `aside->lambda[3]`, `F_t_out` of `*F_t_out`."""
-    text = text.lstrip("*-")
-    return text[: next((k for k, c in enumerate(text) if not (c.isalnum() or c == "_")), len(text))]
-
-
 @lru_cache(20_000)
 def names_in(value: sp.Basic) -> Names:
-    """What an expression reads: locals, arguments in front of places; of a side what holds it and is told it."""
-    return frozenset(base_of(s.name) for s in symbols_of(value)) | ({"side", "g"} if value.has(SideOf) else NONE)
-
-
-@dataclass(frozen=True)
-class Place:
-    """Where a number lives that is no local: `q[3]`, `p->mass`, `aside->clearance[0].F_x`, an argument."""
-
-    text: str
-    expressions: ClassVar[tuple[sp.Basic, ...]] = ()
-
-    @property
-    def base(self) -> str:
-        """The argument or array."""
-        return base_of(self.text)
-
-    @property
-    def index(self) -> int:
-        """k of `base[k]`; −1 of everything else."""
-        inner = self.text.removeprefix(f"{self.base}[").removesuffix("]")
-        return int(inner) if self.text == f"{self.base}[{inner}]" and inner.isdecimal() else -1
-
-    @property
-    def names(self) -> Names:
-        """The base."""
-        return frozenset([self.base])
+    """What an expression reads: locals, bases of places; of a side what holds it and is told it."""
+    names = frozenset(s.place.base if isinstance(s, PlaceSymbol) else s.name for s in symbols_of(value))
+    return names | ({"side", "g"} if value.has(SideOf) else NONE)
 
 
 class Threshold(float):
     """A number of a bound with the name under which every target writes it; C may read it from a `place` instead."""
 
     name: str
-    place: str
+    place: Place | None
 
-    def __new__(cls, name: str, value: float, place: str = "") -> Threshold:
+    def __new__(cls, name: str, value: float, place: Place | None = None) -> Threshold:
         """Of that value."""
         own = super().__new__(cls, value)
         own.name, own.place = name, place
@@ -83,7 +54,7 @@ class Test:
         """Where thresholds are read: not of a share of the value itself."""
         if self.of_itself:
             return NONE
-        return frozenset(base_of(x.place) for x in self.bound if isinstance(x, Threshold) and x.place)
+        return frozenset(x.place.base for x in self.bound if isinstance(x, Threshold) and x.place)
 
     @property
     def expressions(self) -> tuple[sp.Basic, ...]:
@@ -122,7 +93,7 @@ class Sum:
 
     @property
     def names(self) -> Names:
-        """The arguments in front of them."""
+        """Their bases."""
         return frozenset(place.base for place in self.places)
 
 

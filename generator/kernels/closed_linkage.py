@@ -9,10 +9,11 @@ import sympy as sp
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.start import start_values
-from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, Section
-from gudgeon.generator.ir.signatures import PARAMETERS, STATE
+from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, Section
+from gudgeon.generator.ir.signatures import PARAMETERS, STATE, Number, result, source
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Given
+from gudgeon.generator.symbols.storage import Element
 
 
 def prepare_kernel(model: Model) -> Kernel:
@@ -21,27 +22,32 @@ def prepare_kernel(model: Model) -> Kernel:
     info = model.symbols.info
     for i, entry in enumerate(model.slots.entries.values()):
         told = f"{entry.address}, from 0: {', '.join(entry.words)}" if entry.words else entry.address
-        slots.append(Statement(entry.symbol.name, Given(i, entry.value), True, told))
-        slots.append(Statement(info[entry.symbol].home, entry.symbol, False))
+        slots.append(Statement(entry.symbol.name, Given(i, entry.value), told))
+        slots.append(_stored(model, entry.symbol))
     derived: list[Statement] = []
     for symbol, value in model.slots.derived.items():
-        derived.append(Statement(symbol.name, value, True, info[symbol].meaning))
-        derived.append(Statement(info[symbol].home, symbol, False))
+        derived.append(Statement(symbol.name, value, info[symbol].meaning))
+        derived.append(_stored(model, symbol))
     return Kernel(
         "prepare",
         ("Every number of a run: slots given or by default, then what follows from them.",),
-        (Argument("const double *", "given"), Argument("const unsigned char *", "is_given"),
-         Argument("Parameters *", "p")),
+        (source("given"), source("is_given", Number.BYTE), result(PARAMETERS.name, PARAMETERS.type)),
         (Section("slots", tuple(slots)), Section("derived", tuple(derived))),
     )  # fmt: skip
+
+
+def _stored(model: Model, symbol: sp.Symbol) -> Statement:
+    home = model.symbols.info[symbol].home
+    assert home is not None
+    return Statement(home, symbol)
 
 
 def mass_kernel(model: Model) -> Kernel:
     build = KernelBuilder(model.symbols, "mass_matrix", ["The diagonal of M (n)."])
     build.section("M")
     for k, mass in enumerate(model.masses):
-        build.out(f"m[{k}]", mass)
-    return build.build((PARAMETERS, Argument("double *", "m")))
+        build.out(Element("m", k), mass)
+    return build.build((PARAMETERS, result("m")))
 
 
 def row_kernels(model: Model) -> list[Kernel]:
@@ -53,8 +59,8 @@ def row_kernels(model: Model) -> list[Kernel]:
         build = KernelBuilder(model.symbols, name, [doc])
         build.section("rows")
         for r, row in enumerate(model.all_rows):
-            build.out(f"{out}[{r}]", value(row), f"{row.name}, {row.unit}{per}")
-        arguments = (*STATE, PARAMETERS, Argument("double *", out))
+            build.out(Element(out, r), value(row), f"{row.name}, {row.unit}{per}")
+        arguments = (*STATE, PARAMETERS, result(out))
         return build.build(arguments if velocity else (*STATE[:2], *arguments[3:]))
 
     return [
@@ -71,8 +77,8 @@ def _jacobian_kernel(model: Model) -> Kernel:
     place = {q: k for k, q in enumerate(model.q)}
     for r, row in enumerate(model.all_rows):
         for q, value in row.phi_q.items():
-            build.out(f"phi_q[{r * len(model.q) + place[q]}]", value, f"d {row.name} / d {q.name}")
-    return build.build((*STATE[:2], PARAMETERS, Argument("double *", "phi_q")))
+            build.out(Element("phi_q", r * len(model.q) + place[q]), value, f"d {row.name} / d {q.name}")
+    return build.build((*STATE[:2], PARAMETERS, result("phi_q")))
 
 
 def start_kernel(model: Model) -> Kernel:
@@ -81,6 +87,6 @@ def start_kernel(model: Model) -> Kernel:
     build.section("start")
     for key, group in start_values(model).items():
         for k, (quantity, sign) in enumerate(group):
-            build.out(f"{key}[{k}]", sign * model.slots.use(quantity), quantity.address)
-    arguments = (PARAMETERS, *(Argument("double *", key) for key in ("guess", "set", "rates")))
+            build.out(Element(key, k), sign * model.slots.use(quantity), quantity.address)
+    arguments = (PARAMETERS, *(result(key) for key in ("guess", "set", "rates")))
     return build.build(arguments)

@@ -13,10 +13,11 @@ import sympy as sp
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.notes import jumping_drives
-from gudgeon.generator.ir.kernels import Argument, Kernel, Section
+from gudgeon.generator.ir.kernels import Kernel, Section
+from gudgeon.generator.ir.signatures import ASIDE, PARAMETERS, TIME, result
 from gudgeon.generator.ir.statements import Sides, Statement
-from gudgeon.generator.ir.values import Place
 from gudgeon.generator.symbols.corners import SideOf
+from gudgeon.generator.symbols.storage import Element, Place
 
 _DOC = ("Switching functions that hang on time alone.",)
 
@@ -47,12 +48,11 @@ def jumps_of(dynamics: Kernel, model: Model) -> Jumps | None:
             waiting += [symbol.name for symbol in value.free_symbols] if isinstance(value, sp.Expr) else []
     needed = [s for name, s in known.items() if name in read]
     nested = any(isinstance(s.value, SideOf) for s in needed)
-    outs = Section("corners", tuple(Statement(f"out[{k}]", g, local=False) for k, g in enumerate(corners)))
-    time, p = Argument("const double", "t"), next(a for a in dynamics.arguments if a.name == "p")
+    outs = Section("corners", tuple(Statement(Element("out", k), g) for k, g in enumerate(corners)))
     front = ((Sides("", held=False),), (Sides("nobody", held=False),)) if nested else ((), ())
     ranges, values = (Section("parameters and time", (*lines, *needed)) for lines in front)
-    own, bounds = (time, p, Argument("double *", "out")), (time, p, Argument("Aside *", "aside"))
-    kernel = replace(dynamics, doc=_DOC, returns="void", inline=False)
+    own, bounds = (TIME, PARAMETERS, result("out")), (TIME, PARAMETERS, ASIDE)
+    kernel = replace(dynamics, doc=_DOC, status=False, inline=False)
     return Jumps(
         len(corners), replace(kernel, name="drive_corners", arguments=own, sections=(values, outs)),
         replace(kernel, name="drive_corner_ranges", arguments=bounds, sections=(ranges, outs)),
@@ -66,16 +66,16 @@ def _of_time(dynamics: Kernel) -> tuple[dict[str, Statement], list[sp.Expr]]:
     corners: dict[sp.Expr, None] = {}
     for s in _statements(dynamics):
         if not isinstance(s.value, sp.Basic):
-            if s.local and isinstance(s.value, Place) and s.value.base in ("t", "p"):
-                known[s.target] = s
-                timed |= {s.target} if s.value.base == "t" else set()
+            if s.defines and isinstance(s.value, Place) and s.value.base in (TIME.name, PARAMETERS.name):
+                known[s.defines] = s
+                timed |= {s.defines} if s.value.base == TIME.name else set()
             continue
         names = {symbol.name for symbol in s.value.free_symbols}
-        if not names <= known.keys() or not s.local:
+        if not names <= known.keys() or not s.defines:
             continue
-        known[s.target] = s
+        known[s.defines] = s
         if names & timed:
-            timed.add(s.target)
+            timed.add(s.defines)
             if isinstance(s.value, SideOf):
                 corners[s.value.args[1]] = None
     return known, list(corners)

@@ -13,7 +13,7 @@ computed once and read by all kernels of the motion.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import sympy as sp
@@ -23,19 +23,19 @@ from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.differentiation import Tangents
 from gudgeon.generator.ir.kernels import (
     HELD,
-    Argument,
     Kernel,
     KernelBuilder,
     Section,
     with_sides,
     without_unused,
 )
-from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE
+from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE, Number, result
 from gudgeon.generator.ir.sine_pairs import side_by_side
 from gudgeon.generator.ir.statements import LargestRow, Return, Sides, Statement, Unread
 from gudgeon.generator.reduction.driven_chains import Chain
 from gudgeon.generator.solvers.square_rows import SquareRows
 from gudgeon.generator.symbols.corners import SideOf
+from gudgeon.generator.symbols.storage import Element
 
 ZERO = sp.Integer(0)
 STEP, RATES, THIRD, DIRECTIONS = "chain_step", "chain_rates", "chain_third", "chain_directions"
@@ -71,23 +71,13 @@ class ChainKernels:
         first = self.first + len(self.chain.names)
         symbols = [symbol for direction in self.chain.directions for symbol in (direction.cos, direction.sin)]
         for k, symbol in enumerate(symbols):
-            build.out(f"out[{first + k}]", self.symbols.definitions[symbol], symbol.name)
-        return build.build((*STATE[:2], MEMORY, PARAMETERS, Argument("double *", "out")), owner="")
+            build.out(Element("out", first + k), self.symbols.definitions[symbol], symbol.name)
+        return build.build((*STATE[:2], MEMORY, PARAMETERS, result("out")), owner="")
 
-    def turned(self) -> list[tuple[int, str]]:
-        """Where each direction is in q that a step of the chains' coordinates turns, and how far it turns, in C."""
+    def turned(self) -> list[tuple[int, Mapping[int, sp.Expr]]]:
+        """Where each direction is in q that a step turns, and how far it does: a factor of each coordinate's step."""
         first = self.first + len(self.chain.names)
-
-        def factor(c: sp.Expr) -> str:
-            if c == 1:
-                return ""
-            return f"{float(c)!r} * " if c.is_Number else f"-p->{-c} * " if (-c).is_Symbol else f"p->{c} * "
-
-        return [
-            (first + 2 * k, " + ".join(f"{factor(c)}step[{j}]" for j, c in d.turns.items()))
-            for k, d in enumerate(self.chain.directions)
-            if d.turns
-        ]
+        return [(first + 2 * k, d.turns) for k, d in enumerate(self.chain.directions) if d.turns]
 
     def _extent(self) -> sp.Expr:
         """The size that a step of a slide is measured by: of all points together."""
@@ -95,11 +85,6 @@ class ChainKernels:
         ground = map(geometry.ground_vector, self.system.model.scene.mechanism.ground.values())
         squares = [x**2 for point in (*geometry.local.values(), *ground) for x in point]
         return slots.derive("extent", sp.sqrt(sp.Add(*squares)), "extent of all points")
-
-    def shares(self) -> list[str]:
-        """What a step of each coordinate is multiplied by to be a number: an angle is one, a slide goes by the size."""
-        size = f"1.0 / (p->{self.size} + DBL_MIN)" if self.size.is_Symbol else "1.0"  # without one all points are one
-        return ["1.0" if "." not in name else size for name in self.chain.names]
 
     def _step(self) -> Kernel:
         """A step towards the closures at a position."""
@@ -119,11 +104,11 @@ class ChainKernels:
         build.section("what the rows' curvature adds")
         bend = self.square.solve(build, solvers, [self._curvature(row, newton) / 2 for row in self.chain.rows], "bend")
         for k, (x, more) in enumerate(zip(newton, bend, strict=True)):
-            build.out(f"step[{k}]", x + more)
-            build.out(f"bend[{k}]", more)
+            build.out(Element("step", k), x + more)
+            build.out(Element("bend", k), more)
         build.line(Return())
-        outs = (Argument("double *", "step"), Argument("double *", "bend"), Argument("int *", "row"))
-        return build.build((*STATE[:2], MEMORY, PARAMETERS, *outs), "int", owner="", prune=True)
+        outs = (result("step"), result("bend"), result("row", Number.INTEGER))
+        return build.build((*STATE[:2], MEMORY, PARAMETERS, *outs), status=True, owner="", prune=True)
 
     def _curvature(self, row: Row, x: Sequence[sp.Expr]) -> sp.Expr:
         """Φ_cc[x, x]."""
@@ -150,10 +135,10 @@ class ChainKernels:
         second = self.square.solve(build, solvers, [row.gamma for row in rows], "second")
         build.section("results")
         for at, (x, value) in enumerate(zip(known, second, strict=True), self.first):
-            build.out(f"v[{at}]", x.rate)
-            build.out(f"v[{at + len(known)}]", value)
+            build.out(Element("v", at), x.rate)
+            build.out(Element("v", at + len(known)), value)
         build.line(Return())
-        return build.build((*STATE[:2], MEMORY, PARAMETERS, Argument("double *", "v")), "int", owner="", prune=True)
+        return build.build((*STATE[:2], MEMORY, PARAMETERS, result("v")), status=True, owner="", prune=True)
 
     def _third(self) -> Kernel:
         """Third rates, forwards: d/dt of γ − Φ_c c̈ at the same c̈."""
@@ -171,9 +156,9 @@ class ChainKernels:
         left = [sp.Add(row.gamma, *(-row.phi_q.get(k.q, ZERO) * k.second for k in known)) for row in self.chain.rows]
         slopes = [tangents.gradient(value).get(t, ZERO) for value in left]
         for at, value in enumerate(self.square.solve(build, solvers, slopes, "third")):
-            build.out(f"out[{at}]", value)
+            build.out(Element("out", at), value)
         build.line(Return())
-        return build.build((*STATE, MEMORY, PARAMETERS, Argument("double *", "out")), "int", owner="", prune=True)
+        return build.build((*STATE, MEMORY, PARAMETERS, result("out")), status=True, owner="", prune=True)
 
     def _moving(self) -> list[sp.Symbol]:
         """Definitions in the chains' rates: they come after these, not in front of the kernel."""
@@ -198,5 +183,5 @@ class ChainKernels:
             name = f"side_{side.args[0]}"
             build.line(Statement(name, side))
             build.line(Unread(name))
-        kernel = build.build((*STATE[:2], MEMORY, PARAMETERS, Argument("double *", "g")), owner="")
+        kernel = build.build((*STATE[:2], MEMORY, PARAMETERS, result("g")), owner="")
         return replace(kernel, sections=(TOLD_SIDES, *kernel.sections))

@@ -12,16 +12,17 @@ from dataclasses import replace
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.ir.kernels import Kernel, Section, with_sides
+from gudgeon.generator.ir.signatures import ASIDE, rhs_output
 from gudgeon.generator.ir.statements import Line, Sides, Statement
-from gudgeon.generator.ir.values import Place
 from gudgeon.generator.symbols.corners import SideOf
+from gudgeon.generator.symbols.storage import Element, Field, Place
 
 NAME, RANGES = "watched_functions", "watched_ranges"
 _DOC = (
     "Switching functions of the scene's own corners, in aside->g, and what the user watches, in aside->event.",
 )  # fmt: skip
 _RANGES_DOC = ("Ranges of the scene's own corners and of what the user watches over ranges of t, q and v.",)
-_KNOWN_LATE = "aside"  # what reads this is known only once forces or accelerations are
+_KNOWN_LATE = ASIDE.name  # what reads this is known only once forces or accelerations are
 
 
 def watched_kernel(dynamics: Kernel, model: Model, chain_corners: Kernel | None = None) -> Kernel | None:
@@ -35,8 +36,8 @@ def watched_kernel(dynamics: Kernel, model: Model, chain_corners: Kernel | None 
     every = _merge_sections(chain_corners, dynamics)
     outs = {s: out for section in every for s in section.statements
             if isinstance(s, Statement) and (out := _out(s, corners))}  # fmt: skip
-    by_target = {s.target: s for section in every for s in section.statements
-                 if isinstance(s, Statement) and s.local}  # fmt: skip
+    by_target = {s.defines: s for section in every for s in section.statements
+                 if isinstance(s, Statement) and s.defines}  # fmt: skip
     read: set[Statement] = set()
     waiting = list(outs.values())
     while waiting:
@@ -54,7 +55,7 @@ def watched_kernel(dynamics: Kernel, model: Model, chain_corners: Kernel | None 
         if lines:
             sections.append(Section(section.title, tuple(lines)))
     arguments = tuple(a for a in dynamics.arguments if a.name != "a")
-    watched = replace(dynamics, name=NAME, doc=_DOC, arguments=arguments, sections=tuple(sections), returns="void")
+    watched = replace(dynamics, name=NAME, doc=_DOC, arguments=arguments, sections=tuple(sections), status=False)
     return with_sides(watched, "aside")
 
 
@@ -72,14 +73,14 @@ def _merge_sections(*kernels: Kernel | None) -> list[Section]:
 
 def ranges_kernel(watched: Kernel, corners: Sequence[int], events: int) -> Kernel:
     """The same for ranges of t, q and v: what is watched goes to `out`, corners first, in this order."""
-    place = {f"aside->g[{k}]": i for i, k in enumerate(corners)}
-    place |= {f"aside->event[{k}]": i for k, i in enumerate(range(len(corners), len(corners) + events))}
+    place: dict[Place, int] = {rhs_output("g", k): i for i, k in enumerate(corners)}
+    place |= {rhs_output("event", k): i for k, i in enumerate(range(len(corners), len(corners) + events))}
     sections = []
     for section in watched.sections:
         kept: list[Line] = []
         for s in section.statements:
-            if isinstance(s, Statement) and not s.local:
-                s = replace(s, target=f"out[{place[s.target]}]")
+            if isinstance(s, Statement) and isinstance(s.target, Place):
+                s = replace(s, target=Element("out", place[s.target]))
             kept.append(Sides("") if isinstance(s, Sides) else s)
         sections.append(Section(section.title, tuple(kept)))
     return replace(watched, name=RANGES, doc=_RANGES_DOC, sections=tuple(s for s in sections if s.statements))
@@ -93,7 +94,7 @@ def reads_state(kernel: Kernel) -> bool:
 def reads_beyond(kernel: Kernel, count: int) -> bool:
     """Whether it reads a coordinate, or the rate of one, behind the first `count`."""
     values = [s.value for section in kernel.sections for s in section.statements if isinstance(s, Statement)]
-    places = [value for value in values if isinstance(value, Place) and value.base in ("q", "v")]
+    places = [value for value in values if isinstance(value, Element) and value.of in ("q", "v")]
     return max((place.index for place in places), default=-1) >= count
 
 
@@ -101,5 +102,6 @@ def _out(statement: Statement, corners: Collection[int]) -> Statement | None:
     """What is written of a statement that tells a corner or an event."""
     value = statement.value
     if isinstance(value, SideOf) and int(value.args[0]) in corners:
-        return Statement(f"aside->g[{int(value.args[0])}]", value.args[1], local=False)
-    return statement if not statement.local and statement.target.startswith("aside->event") else None
+        return Statement(rhs_output("g", int(value.args[0])), value.args[1])
+    target = statement.target
+    return statement if isinstance(target, Element) and target.of == Field(ASIDE.name, "event") else None

@@ -5,11 +5,12 @@ from __future__ import annotations
 import sympy as sp
 
 from gudgeon.generator.equations.system import System
-from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, without_unused
-from gudgeon.generator.ir.signatures import PARAMETERS, STATE
+from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, without_unused
+from gudgeon.generator.ir.signatures import PARAMETERS, STATE, result
 from gudgeon.generator.ir.sine_pairs import side_by_side
 from gudgeon.generator.ir.statements import Largest, Return
 from gudgeon.generator.solvers.square_rows import SquareRows
+from gudgeon.generator.symbols.storage import Element
 
 
 def kinematic_kernels(system: System, rows: SquareRows) -> list[Kernel]:
@@ -31,12 +32,12 @@ def _close_step(system: System, rows: SquareRows) -> Kernel:
     rates = rows.solve(build, solvers, [row.nu for row in system.rows], "rate")
     build.section("results")
     for k, (x, u) in enumerate(zip(step, rates, strict=True)):
-        build.out(f"step[{k}]", x)
-        build.out(f"rates[{k}]", u)
+        build.out(Element("step", k), x)
+        build.out(Element("rates", k), u)
     build.line(Largest("worst", tuple(phi)))
     build.line(Return())
-    outs = (Argument("double *", name) for name in ("step", "rates", "worst"))
-    return build.build((*STATE[:2], PARAMETERS, *outs), "int")
+    outs = (result(name) for name in ("step", "rates", "worst"))
+    return build.build((*STATE[:2], PARAMETERS, *outs), status=True)
 
 
 def _arrive(system: System, rows: SquareRows) -> Kernel:
@@ -49,8 +50,8 @@ def _arrive(system: System, rows: SquareRows) -> Kernel:
     build.section("positions and velocities of the bodies")
     for body in bodies:
         for k, (q, v) in enumerate(zip(body.q, body.v, strict=True), body.index):
-            build.out(f"all_q[{k}]", q)
-            build.out(f"all_v[{k}]", v)
+            build.out(Element("all_q", k), q)
+            build.out(Element("all_v", k), v)
     build.section("rates of the closures")
     named = zip(rows.names, system.rows, strict=True)
     phi_dot = [build.local(f"phi_dot_{name}", row.phi_q_v - row.nu) for name, row in named]
@@ -59,11 +60,11 @@ def _arrive(system: System, rows: SquareRows) -> Kernel:
     build.section("accelerations")
     a = rows.solve(build, solvers, [row.gamma for row in system.rows], "second")
     for k, value in enumerate(a):
-        build.out(f"a[{k}]", value)
+        build.out(Element("a", k), value)
     for body in bodies:
         motion = system.motions[body.name]
         for k, (line, bias) in enumerate(zip(motion.jacobian, motion.bias, strict=True), body.index):
-            build.out(f"all_a[{k}]", sp.Add(bias, *(entry * a[j] for j, entry in line.items())))
+            build.out(Element("all_a", k), sp.Add(bias, *(entry * a[j] for j, entry in line.items())))
     build.line(Return())
-    outs = (Argument("double *", name) for name in ("a", "all_q", "all_v", "all_a", "worst"))
-    return build.build((*STATE, PARAMETERS, *outs), "int")
+    outs = (result(name) for name in ("a", "all_q", "all_v", "all_a", "worst"))
+    return build.build((*STATE, PARAMETERS, *outs), status=True)

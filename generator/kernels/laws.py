@@ -6,12 +6,13 @@ import sympy as sp
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations, letter_of
-from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder
+from gudgeon.generator.ir.kernels import Kernel, KernelBuilder
 from gudgeon.generator.ir.reciprocals import hoisted, with_reciprocals
-from gudgeon.generator.ir.signatures import PARAMETERS, SIDES
+from gudgeon.generator.ir.signatures import PARAMETERS, SIDES, Argument, result
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.kernels.shared import SharedCall, SharedFunctions, joint_numbers
 from gudgeon.generator.kinds.laws.law import OWN
+from gudgeon.generator.symbols.storage import Result
 
 
 def law_calls(model: Model, clearance: Clearance, shared: SharedFunctions) -> dict[str, SharedCall]:
@@ -43,18 +44,18 @@ def law_name(equations: LawEquations) -> str:
 
 
 def _law_kernel(model: Model, clearance: Clearance, equations: LawEquations) -> Kernel:
-    """Abbreviations become locals, results `*F_…` pointers; the law says its source and validity."""
+    """Abbreviations become locals, results go to `F_…_out`; the law says its source and validity."""
     results = equations.results
     build = KernelBuilder(model.symbols, law_name(equations), law_doc(equations))
     build.section("")
     for name, equation in equations.steps.items():
         value = hoisted(model.slots, sp.sympify(equation))
         if name in results:
-            build.out(f"*{name}_out", value)
+            build.out(Result(f"{name}_out"), value)
         else:
             build.line(Statement(name, value))
-    variables = (Argument("double", symbol.name) for symbol in equations.variables)
-    outs = (Argument("double *", f"{name}_out") for name in results)
+    variables = (Argument(symbol.name) for symbol in equations.variables)
+    outs = (result(f"{name}_out") for name in results)
     kernel = build.build((*variables, PARAMETERS, *SIDES, *outs), inline=True, owner=clearance.name)
     return with_reciprocals(kernel)
 

@@ -16,7 +16,16 @@ from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Chosen, Test
 from gudgeon.generator.kernels.laws import law_calls, law_name
 from gudgeon.generator.kernels.shared import SharedCall, SharedFunctions, joint_numbers
-from gudgeon.generator.solvers.contact_slopes import DEEP, dry_slopes, film_slopes, in_place, share_slope, unlatched
+from gudgeon.generator.solvers.contact_slopes import (
+    DEEP,
+    FORCE,
+    dry_slopes,
+    film_slopes,
+    in_place,
+    share_slope,
+    unlatched,
+)
+from gudgeon.generator.symbols.storage import Key
 
 Statements = tuple[Statement, ...]
 # At e = 0 any direction will do for the normal: the force is isotropic there.
@@ -54,9 +63,10 @@ class Pin:
         """What its normal law reads besides δ and δ̇/δ̇⁻."""
         return self.clearance.normal.further if self.clearance.normal else ()
 
-    def given(self, of_latch: str) -> tuple[str, ...]:
-        """The same as text of a target: a force that is held is one of the latch, `of_latch` before its name."""
-        return (f"{of_latch}force",) if self.clearance.rigid else self.further
+    @property
+    def given(self) -> tuple[Key, ...]:
+        """The same as what a joint has it under: a force that is held is one of the latch."""
+        return (FORCE.place,) if self.clearance.rigid else self.further
 
     @property
     def has_transition(self) -> bool:

@@ -8,12 +8,12 @@ import sympy as sp
 
 from gudgeon.generator.equations.constraints import Row, rate_jumps
 from gudgeon.generator.equations.system import System
-from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, with_sides
-from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE
+from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, with_sides
+from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE, result, source
 from gudgeon.generator.ir.statements import Largest, Return
-from gudgeon.generator.ir.values import Place
 from gudgeon.generator.solvers.kkt import KKT
 from gudgeon.generator.solvers.pivots import LEAST_SIZE
+from gudgeon.generator.symbols.storage import Element
 
 LEAST_MASS = 1e-4  # of the mass of all bodies: the least that a body counts in projections
 FILM_MASS = 1e6  # times the mass of all bodies: what projections give to motions that squeeze a film
@@ -31,16 +31,16 @@ def projection_kernel(system: System, rows: tuple[Row, ...], name: str) -> tuple
     build.section("right-hand side")
     place = {row.name: k for k, row in enumerate(model.all_rows)}
     r = {
-        kkt.n + k: build.local(f"r_{row.name.replace('.', '_')}", Place(f"r[{place[row.name]}]"))
+        kkt.n + k: build.local(f"r_{row.name.replace('.', '_')}", Element("r", place[row.name]))
         for k, row in enumerate(kkt.rows)
     }
     x = kkt.solve(build, kkt.factorize(build), r, "step_")
     build.section("results")
     for k, _ in enumerate(system.q):
-        build.out(f"x[{k}]", x[k])
+        build.out(Element("x", k), x[k])
     build.line(Return())
-    arguments = (*STATE[:2], Argument("const double *", "r"), PARAMETERS, Argument("double *", "x"))
-    return build.build(arguments, "int"), kkt
+    arguments = (*STATE[:2], source("r"), PARAMETERS, result("x"))
+    return build.build(arguments, status=True), kkt
 
 
 def with_film_masses(system: System) -> System:
@@ -104,11 +104,11 @@ def closing_kernel(system: System, name: str = "closing_step") -> Kernel:
     x, u = kkt.solve(build, factor, phi, "dq_"), kkt.solve(build, factor, phi_dot, "dv_")
     build.section("results")
     for k, _ in enumerate(system.q):
-        build.out(f"dq[{k}]", x[k])
-        build.out(f"dv[{k}]", u[k])
+        build.out(Element("dq", k), x[k])
+        build.out(Element("dv", k), u[k])
     build.line(Largest("worst", tuple(phi.values())))
     build.line(Return())
-    outs = (Argument("double *", name) for name in ("dq", "dv", "worst"))
+    outs = (result(name) for name in ("dq", "dv", "worst"))
     # a corner that no acceleration knows (in lengths and parameters alone) is watched by nobody, so not held
-    kernel = build.build((*STATE, MEMORY, PARAMETERS, *outs), "int", owner="", only_known=True)
+    kernel = build.build((*STATE, MEMORY, PARAMETERS, *outs), status=True, owner="", only_known=True)
     return with_sides(kernel)

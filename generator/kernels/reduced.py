@@ -9,8 +9,8 @@ import sympy as sp
 from gudgeon.generator.equations.constraints import Row
 from gudgeon.generator.equations.fields import JointFields
 from gudgeon.generator.equations.model import Model
-from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, without_unused
-from gudgeon.generator.ir.signatures import PARAMETERS, STATE
+from gudgeon.generator.ir.kernels import Kernel, KernelBuilder, without_unused
+from gudgeon.generator.ir.signatures import PARAMETERS, STATE, Argument, result, source
 from gudgeon.generator.ir.statements import Jump, Rescue
 from gudgeon.generator.kernels.driven_chains import ChainKernels
 from gudgeon.generator.kernels.dynamics import dynamics_kernel
@@ -19,6 +19,7 @@ from gudgeon.generator.kernels.projection import projection_kernel
 from gudgeon.generator.reduction.links import Link
 from gudgeon.generator.reduction.reduction import TreeSystem
 from gudgeon.generator.solvers.kkt import KKT
+from gudgeon.generator.symbols.storage import Element, PlaceSymbol
 
 DYNAMICS = "reduced_dynamics"  # the right-hand side's name
 _DOC = (
@@ -73,10 +74,9 @@ def _expand(system: TreeSystem) -> Kernel:
     build.section("bodies")
     for body in system.model.bodies:
         for k, (q, v) in enumerate(zip(body.q, body.v, strict=True)):
-            build.out(f"all_q[{body.index + k}]", q)
-            build.out(f"all_v[{body.index + k}]", v)
-    out = (Argument("double *", "all_q"), Argument("double *", "all_v"))
-    return build.build((*STATE, PARAMETERS, *out))
+            build.out(Element("all_q", body.index + k), q)
+            build.out(Element("all_v", body.index + k), v)
+    return build.build((*STATE, PARAMETERS, result("all_q"), result("all_v")))
 
 
 def _reduce(model: Model, system: TreeSystem) -> list[Kernel]:
@@ -91,20 +91,18 @@ def _reduce(model: Model, system: TreeSystem) -> list[Kernel]:
     ])  # fmt: skip
     state.section("tree coordinates")
     for k, (position, rate) in enumerate(zip(positions, rates, strict=True)):
-        state.out(f"s[{k}]", position, names[k])
-        state.out(f"s_rate[{k}]", rate)
+        state.out(Element("s", k), position, names[k])
+        state.out(Element("s_rate", k), rate)
     accelerations = KernelBuilder(model.symbols, "reduce_accelerations", ["Their second rates a, from absolute all_a."])
     accelerations.section("tree coordinates")
     for k, (position, rate) in enumerate(zip(positions, rates, strict=True)):
         if k == len(system.unknowns):
             break
-        along = (diff(position, q) * sp.Symbol(f"all_a[{i}]") for i, q in enumerate(model.q))
-        accelerations.out(f"a[{k}]", sp.Add(*along, *(diff(rate, q) * v for q, v in pairs)), system.unknowns[k])
-    out = (Argument("double *", "s"), Argument("double *", "s_rate"))
-    given = Argument("const double *", "all_a")
-    kernels = [state.build((*STATE, PARAMETERS, *out))]
+        along = (diff(position, q) * PlaceSymbol(Element("all_a", i)) for i, q in enumerate(model.q))
+        accelerations.out(Element("a", k), sp.Add(*along, *(diff(rate, q) * v for q, v in pairs)), system.unknowns[k])
+    kernels = [state.build((*STATE, PARAMETERS, result("s"), result("s_rate")))]
     if is_rescued(system):
-        kernels.append(accelerations.build((*STATE, given, PARAMETERS, Argument("double *", "a"))))
+        kernels.append(accelerations.build((*STATE, source("all_a"), PARAMETERS, result("a"))))
     return kernels
 
 
@@ -134,9 +132,9 @@ def _closures(system: TreeSystem) -> list[Kernel]:
         build = KernelBuilder(system.model.symbols, name, [doc])
         build.section("rows")
         for r, row in enumerate(system.rows):
-            build.out(f"out[{r}]", value(row), row.name)
+            build.out(Element("out", r), value(row), row.name)
         arguments: Sequence[Argument] = STATE if velocity else STATE[:2]
-        return build.build((*arguments, PARAMETERS, Argument("double *", "out")))
+        return build.build((*arguments, PARAMETERS, result("out")))
 
     return [
         kernel("closures", "Phi of the loop closures in tree coordinates; m and rad.", False, lambda row: row.phi),

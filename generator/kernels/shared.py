@@ -14,24 +14,24 @@ import sympy as sp
 
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations, letter_of
-from gudgeon.generator.ir.kernels import Argument, Kernel, Section
-from gudgeon.generator.ir.readable import NUMBERS
-from gudgeon.generator.ir.signatures import PARAMETERS, SIDES
+from gudgeon.generator.ir.kernels import Kernel, Section
+from gudgeon.generator.ir.signatures import PARAMETERS, SIDES, Argument, Number
 from gudgeon.generator.ir.statements import Line, Statement
-from gudgeon.generator.ir.values import Chosen, Place
+from gudgeon.generator.ir.values import Chosen
 from gudgeon.generator.symbols.corners import SideOf
+from gudgeon.generator.symbols.storage import Key, Place, PlaceSymbol, key_of
 
-CORNER = Argument("int", "corner")
+CORNER = Argument("corner", Number.INTEGER)
 NOTHING: Mapping[str, str] = {}
 _SIDE = "side_"
 
 
 @dataclass(frozen=True)
 class SharedCall:
-    """A joint's call: the function, the fields of Parameters that it is given (`p->pin_radius`), its first corner."""
+    """A joint's call: the function, the parameters that it is given, its first corner."""
 
     kernel: Kernel
-    numbers: tuple[str, ...]
+    numbers: tuple[Place, ...]
     corner: int | None  # None: it has no corners
 
 
@@ -43,20 +43,21 @@ class SharedFunctions:
         self._known: dict[object, Kernel] = {}
 
     def call(
-        self, kernel: Kernel, numbers: Mapping[str, str], joint: str, meanings: Mapping[str, str] = NOTHING
+        self, kernel: Kernel, numbers: Mapping[Place, str], joint: str, meanings: Mapping[str, str] = NOTHING
     ) -> SharedCall:  # fmt: skip
-        """The call of a joint's own function: `numbers` are what fields (`p->pin_radius`) are called in it (`R_i`).
+        """The call of a joint's own function: `numbers` are what parameters (`p.pin_radius`) are called in it (`R_i`).
 
         `meanings` of numbers by these names go to its doc comment.
         """
         called, given = _called(kernel, numbers)
+        names = [called[place] for place in given]
         first = min(_corners(kernel), default=None)
         if first is not None:
             called |= {f"{_SIDE}{k}": f"{_SIDE}{k - first + 1}" for k in _corners(kernel)}
-        told = [f"{name}: {meanings[name]}" for name in map(called.__getitem__, given) if name in meanings]
-        doc = (*kernel.doc, *textwrap.wrap("; ".join(told) + ".", 110)) if told else kernel.doc
+        meant = [f"{name}: {meanings[name]}" for name in names if name in meanings]
+        doc = (*kernel.doc, *textwrap.wrap("; ".join(meant) + ".", 110)) if meant else kernel.doc
         shared = replace(
-            kernel, doc=doc, arguments=_arguments(kernel, [called[field] for field in given], first is not None),
+            kernel, doc=doc, arguments=_arguments(kernel, names, first is not None),
             sections=_without_numbers(kernel), names={**kernel.names, **called}, first_corner=first,
         )  # fmt: skip
         key = (kernel.name, shared.arguments, *_contents(shared))
@@ -67,8 +68,8 @@ class SharedFunctions:
         return SharedCall(self._known[key], tuple(given), first)
 
 
-def joint_numbers(model: Model, clearance: Clearance) -> dict[str, str]:
-    """What fields of Parameters are called in the equations of a joint with play, those of its laws first."""
+def joint_numbers(model: Model, clearance: Clearance) -> dict[Place, str]:
+    """What parameters are called in the equations of a joint with play, those of its laws first."""
     laws = clearance.laws
     named = [(letter_of(law.law, name), value) for law in laws for name, value in law.numbers.items()]
     pair = clearance.pair
@@ -79,13 +80,14 @@ def joint_numbers(model: Model, clearance: Clearance) -> dict[str, str]:
     taken = {*(name for name, _ in named), *(name for law in laws for name in (*law.law.variables, *law.steps))}
     for name, symbol in _of_file(model, laws):
         named.append((f"{name}_of_file" if name in taken else name, symbol))
-    fields: dict[str, str] = {}
+    homes = {symbol: own.home for symbol, own in info.items() if own.home}
+    fields: dict[Place, str] = {}
     for name, symbol in named:
-        if symbol in info and name not in fields.values():
-            fields.setdefault(info[symbol].home, name)
+        if symbol in homes and name not in fields.values():
+            fields.setdefault(homes[symbol], name)
     for symbol, value in model.slots.derived.items():  # reciprocals
-        if value.is_Pow and value.exp == -1 and value.base in info and info[value.base].home in fields:
-            fields.setdefault(info[symbol].home, f"inverse_{fields[info[value.base].home]}")
+        if value.is_Pow and value.exp == -1 and homes.get(value.base) in fields:
+            fields.setdefault(homes[symbol], f"inverse_{fields[homes[value.base]]}")
     return fields
 
 
@@ -98,13 +100,14 @@ def _of_file(model: Model, laws: Iterable[LawEquations]) -> Iterator[tuple[str, 
             yield model.slots.field(entry.symbol), entry.symbol
 
 
-def _called(kernel: Kernel, numbers: Mapping[str, str]) -> tuple[dict[str, str], list[str]]:
-    """What symbols and fields are called in the shared function; the fields in the order of its arguments."""
-    fields = {line.defines: text for line in _lines(kernel) if (text := _number(line))}
+def _called(kernel: Kernel, numbers: Mapping[Place, str]) -> tuple[dict[Key, str], list[Place]]:
+    """What symbols and parameters are called in the shared function; these in the order of its arguments."""
+    fields: dict[Key, Place] = {line.defines: place for line in _lines(kernel) if (place := _number(line))}
     for line in _lines(kernel):
         for expression in line.expressions:
-            fields |= {s.name: s.name for s in expression.free_symbols if s.name.startswith(NUMBERS)}
-    known = {field: numbers.get(field, field.removeprefix(NUMBERS)) for field in fields.values()}
+            read = (s.place for s in expression.free_symbols if isinstance(s, PlaceSymbol))
+            fields |= {place: place for place in read if place.is_parameter}
+    known = {field: numbers.get(field, field.member) for field in fields.values()}
     order = [*(field for field in numbers if field in known), *(field for field in known if field not in numbers)]
     return {symbol: known[field] for symbol, field in fields.items()} | known, order
 
@@ -113,10 +116,10 @@ def _lines(kernel: Kernel) -> Iterator[Line]:
     return (line for section in kernel.sections for line in section.statements)
 
 
-def _number(line: Line) -> str:
-    """The field of Parameters that a local is; "" where it is none."""
+def _number(line: Line) -> Place | None:
+    """The parameter that a local is; None where it is none."""
     place = line.value if isinstance(line, Statement) and isinstance(line.value, Place) else None
-    return place.text if place and place.text.startswith(NUMBERS) else ""
+    return place if place and place.is_parameter else None
 
 
 def _without_numbers(kernel: Kernel) -> tuple[Section, ...]:
@@ -129,7 +132,7 @@ def _arguments(kernel: Kernel, numbers: list[str], corners: bool) -> tuple[Argum
     found: list[Argument] = []
     for argument in kernel.arguments:
         if argument == PARAMETERS:
-            found += [Argument("double", name) for name in numbers]
+            found += [Argument(name) for name in numbers]
         elif argument not in SIDES or corners:
             found.append(argument)
         if argument == SIDES[-1] and corners:
@@ -146,12 +149,13 @@ def _contents(kernel: Kernel) -> Iterator[object]:
     first = kernel.first_corner or 0
 
     def named(value: sp.Basic) -> sp.Basic:
-        symbols = {s: sp.Symbol(kernel.names.get(s.name, s.name), real=True) for s in value.free_symbols}
+        known = {s: kernel.names[key] for s in value.free_symbols if (key := key_of(s)) in kernel.names}
+        symbols = {s: sp.Symbol(str(name), real=True) for s, name in known.items()}
         sides = {part: SideOf(part.args[0] - first, part.args[1]) for part in value.atoms(SideOf)}
         return value.xreplace(sides).xreplace(symbols)
 
     for line in _lines(kernel):
         value = line.value if isinstance(line, Statement) else None
-        what = line.target if isinstance(line, Statement) else type(line).__name__
-        how = value.test.relation if isinstance(value, Chosen) else value.text if isinstance(value, Place) else ""
+        what: Key = line.target if isinstance(line, Statement) else type(line).__name__
+        how = value.test.relation if isinstance(value, Chosen) else value if isinstance(value, Place) else ""
         yield kernel.names.get(what, what), how, tuple(map(named, line.expressions))

@@ -11,12 +11,14 @@ from gudgeon.errors import BadValueError
 from gudgeon.generator.ir.kernels import KernelBuilder, without_unused
 from gudgeon.generator.ir.series import Linear, Series, series_of
 from gudgeon.generator.ir.series_rules import NoSeries
+from gudgeon.generator.ir.signatures import ASIDE
 from gudgeon.generator.ir.values import Threshold
 from gudgeon.generator.kernels.dynamics import dynamics_kernel
 from gudgeon.generator.kernels.reduced import DYNAMICS, is_rescued
 from gudgeon.generator.reduction.reduction import TreeSystem
 from gudgeon.generator.solvers.kkt import FACTORS, KKT
 from gudgeon.generator.solvers.pivots import SINGULAR, VANISHING, ZERO, Factor
+from gudgeon.generator.symbols.storage import Element, Field, Place
 
 if TYPE_CHECKING:
     from gudgeon.generator.kernels.program import Program
@@ -87,6 +89,11 @@ def _nobody(build: KernelBuilder, kkt: KKT, b: Mapping[int, sp.Expr]) -> None:
     """Mends a vanishing pivot: another method takes the step."""
 
 
-def _place(target: str) -> str:
+def _place(target: Place) -> Place | None:
     """Where a result goes: what other functions tell of a state nobody wants here."""
-    return target.removeprefix("aside->") if target.startswith(("a[", "aside->power[")) else ""
+    match target:
+        case Element("a"):
+            return target
+        case Element(Field(ASIDE.name, "power"), k):
+            return Element("power", k)
+    return None

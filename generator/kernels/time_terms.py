@@ -14,11 +14,12 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from gudgeon.generator.ir.finite_slopes import as_written
-from gudgeon.generator.ir.kernels import Argument, Kernel, Section
+from gudgeon.generator.ir.kernels import Kernel, Section
+from gudgeon.generator.ir.signatures import ASIDE, PARAMETERS, TIME
 from gudgeon.generator.ir.statements import Statement
-from gudgeon.generator.ir.values import Place
 from gudgeon.generator.symbols.corners import Pick, SideOf
 from gudgeon.generator.symbols.periods import ModOn, PeriodsOf
+from gudgeon.generator.symbols.storage import Element, Place, Variable
 from gudgeon.generator.symbols.wholes import Whole
 
 NAME = "time_terms"
@@ -39,7 +40,7 @@ class TimeTerms:
     def count(self) -> int:
         """How many there are."""
         statements = [s for section in self.kernel.sections for s in section.statements] if self.kernel else []
-        return sum(isinstance(s, Statement) and not s.local for s in statements)
+        return sum(isinstance(s, Statement) and not s.defines for s in statements)
 
 
 def time_terms(dynamics: Kernel, rests: bool) -> TimeTerms:
@@ -63,11 +64,10 @@ def _read(dynamics: Kernel, rests: bool) -> _Terms:
 
 
 def _kernel(dynamics: Kernel, found: _Terms, terms: list[sp.Expr]) -> Kernel:
-    outs = [Statement(f"out[{k}]", term, local=False) for k, term in enumerate(terms)]
+    outs = [Statement(Element("out", k), term) for k, term in enumerate(terms)]
     sections = (Section("parameters and time", tuple(found.needed(terms))), Section("terms", tuple(outs)))
-    arguments = (Argument("const double", "t"), *(a for a in dynamics.arguments if a.name == "p"),
-                 Argument("Aside *", "aside"))  # fmt: skip
-    return replace(dynamics, name=NAME, doc=_DOC, arguments=arguments, sections=sections, returns="void")
+    arguments = (TIME, PARAMETERS, ASIDE)
+    return replace(dynamics, name=NAME, doc=_DOC, arguments=arguments, sections=sections, status=False)
 
 
 class _Terms:
@@ -78,24 +78,24 @@ class _Terms:
         self.known: dict[str, Statement] = {}  # locals that time and parameters determine
         self.timed: dict[str, sp.Expr] = {}  # those of them that hang on time, written out
         self.terms: dict[sp.Expr, None] = {}
-        self.time = "t"
+        self.time = TIME.name
         self._tame: dict[sp.Expr, bool] = {}  # parts recur in the derivatives of what is nested
         self._names: dict[sp.Expr, frozenset[str]] = {}
 
     def read(self, statement: Statement) -> None:
         if isinstance(statement.value, sp.Expr):
             statement = replace(statement, value=as_written(statement.value))
-        value = statement.value
+        value, local = statement.value, statement.defines
         if not isinstance(value, sp.Basic):
-            if statement.local and isinstance(value, Place) and value.base in ("t", "p"):
-                self.known[statement.target] = statement
-            if value == Place("t"):
-                self.time = statement.target
+            if local and isinstance(value, Place) and value.base in (TIME.name, PARAMETERS.name):
+                self.known[local] = statement
+            if value == Variable(TIME.name):
+                self.time = local
             return
         names = {symbol.name for symbol in value.free_symbols}
         if names <= self.known.keys():
-            if statement.local:
-                self.known[statement.target] = statement
+            if local:
+                self.known[local] = statement
             self.collect(value)
         else:
             for part in sp.preorder_traversal(value):
@@ -103,8 +103,8 @@ class _Terms:
                     part = part.func(*(factor for factor in part.args if self.is_timed(factor)))
                 if isinstance(part, sp.Expr):
                     self.collect(part)
-        if statement.local and statement.target in self.known and self.is_timed(value):
-            self.timed[statement.target] = self.written_out(value)
+        if local in self.known and self.is_timed(value):
+            self.timed[local] = self.written_out(value)
 
     def written_out(self, value: sp.Expr) -> sp.Expr:
         """With the locals that hang on time as what they are."""

@@ -102,8 +102,8 @@ class Motions:
             theta = self.named(f"{name}_angle", theta, turns)
         if not omega.is_Symbol and omega != 0:
             omega = self.named_rate(f"{name}_rate", omega, turns)
-        cos = self.symbols.define(f"cos_theta_{name}", sp.cos(theta), "", f"cos of {name}.theta")
-        sin = self.symbols.define(f"sin_theta_{name}", sp.sin(theta), "", f"sin of {name}.theta")
+        cos = self.symbols.define(f"cos_theta_{name}", sp.cos(theta), None, f"cos of {name}.theta")
+        sin = self.symbols.define(f"sin_theta_{name}", sp.sin(theta), None, f"sin of {name}.theta")
         frame = Frame(name, theta, omega, cos, sin, turns)
         self.symbols.rules[cos] = self.rules({k: -c * sin for k, c in turns.items()})
         self.symbols.rules[sin] = self.rules({k: c * cos for k, c in turns.items()})
@@ -120,8 +120,8 @@ class Motions:
             a_x, a_y = self._arms[frame.name, -x, -y]
             return -a_x, -a_y
         if (frame.name, x, y) not in self._arms:
-            a_x = self.symbols.define(f"{wanted}_x", frame.cos * x - frame.sin * y, "", "A(theta) s, x")
-            a_y = self.symbols.define(f"{wanted}_y", frame.sin * x + frame.cos * y, "", "A(theta) s, y")
+            a_x = self.symbols.define(f"{wanted}_x", frame.cos * x - frame.sin * y, None, "A(theta) s, x")
+            a_y = self.symbols.define(f"{wanted}_y", frame.sin * x + frame.cos * y, None, "A(theta) s, y")
             self.symbols.rules[a_x] = self.rules({k: -c * a_y for k, c in frame.turns.items()})
             self.symbols.rules[a_y] = self.rules({k: c * a_x for k, c in frame.turns.items()})
             self._arms[frame.name, x, y] = a_x, a_y

@@ -17,11 +17,12 @@ from gudgeon.generator.equations.contact_steps import Step
 from gudgeon.generator.equations.model import Model
 from gudgeon.generator.equations.play import Clearance, LawEquations
 from gudgeon.generator.ir.differentiation import Tangent, Tangents
-from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder
+from gudgeon.generator.ir.kernels import Kernel, KernelBuilder
 from gudgeon.generator.ir.reciprocals import hoisted
-from gudgeon.generator.ir.signatures import PARAMETERS, SIDES, ZERO
+from gudgeon.generator.ir.signatures import PARAMETERS, SIDES, ZERO, Argument, result, source
 from gudgeon.generator.ir.statements import Statement
 from gudgeon.generator.ir.values import Chosen, Test
+from gudgeon.generator.symbols.storage import Element, Field, PlaceSymbol
 
 INPUTS = (contact.e, contact.deltadot, contact.de_t, contact.omega_i, contact.omega_j)
 OF_CONTOUR = (contact.e, contact.de_n, contact.across, contact.omega_i, contact.omega_j, contact.worn,
@@ -29,9 +30,10 @@ OF_CONTOUR = (contact.e, contact.de_n, contact.across, contact.omega_i, contact.
 UNCLIPPED = sp.Symbol("unclipped", real=True)
 _DEEP = Test(contact.delta, ">", (0.0,))
 DEEP = Statement(contact.depth.name, Chosen(_DEEP, contact.delta, ZERO))
-_CLOSED = Test(sp.Symbol("latch->closed", real=True))
-_STORED = sp.Symbol("latch->deltadot_minus", real=True)
-_FORCE = sp.Symbol("latch->force", real=True)  # of surfaces that do not give
+LATCH = source("latch", "Latch")
+_CLOSED = Test(PlaceSymbol(Field(LATCH.name, "closed")))
+_STORED = PlaceSymbol(Field(LATCH.name, "deltadot_minus"))
+FORCE = PlaceSymbol(Field(LATCH.name, "force"))  # of surfaces that do not give
 
 
 def inputs(clearance: Clearance) -> tuple[sp.Symbol, ...]:
@@ -40,9 +42,9 @@ def inputs(clearance: Clearance) -> tuple[sp.Symbol, ...]:
 
 
 def _arguments(clearance: Clearance) -> tuple[Argument, ...]:
-    given = (Argument("double", symbol.name) for symbol in inputs(clearance))
-    out = Argument("ContourSlopes *" if clearance.contour else "PinSlopes *", "out")
-    return (*given, Argument("const Latch *", "latch"), PARAMETERS, *SIDES, out)
+    given = (Argument(symbol.name) for symbol in inputs(clearance))
+    out = result("out", "ContourSlopes" if clearance.contour else "PinSlopes")
+    return (*given, LATCH, PARAMETERS, *SIDES, out)
 
 
 class _Slopes:
@@ -88,10 +90,10 @@ class _Slopes:
         """Writes (F along n, F along t, M_i, M_j) and their slopes, then rates of inner states; 0 where it has none."""
         self.section("results")
         for row, value in enumerate([*values, *[ZERO] * (4 + len(self.states) - len(values))]):
-            self.build.out(f"out->value[{row}]", value)
+            self.build.out(Element(Field("out", "value"), row), value)
             slopes: Tangent = self.tangents.gradient(value)
             for column, base in enumerate(self.inputs):
-                self.build.out(f"out->slope[{row}][{column}]", slopes.get(base, ZERO))
+                self.build.out(Element(Element(Field("out", "slope"), row), column), slopes.get(base, ZERO))
         return self.build.build(_arguments(self.clearance), inline=True, prune=True)
 
 
@@ -129,7 +131,7 @@ def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kern
     for step in contact.before_dry(clearance):
         slopes.step(unlatched(step))
     slopes.section("contact")
-    further = [_FORCE if clearance.rigid else sp.Symbol(name, real=True) for name in normal.further]  # inputs as well
+    further = [FORCE if clearance.rigid else sp.Symbol(name, real=True) for name in normal.further]  # inputs as well
     F_n = slopes.law(normal, (contact.depth, contact.ratio, *further))["F_n"]
     tangential = contact.of_part(contact.F_along_t, "dry")
     for step in contact.pressing(clearance):
@@ -137,7 +139,8 @@ def dry_slopes(model: Model, clearance: Clearance, normal: LawEquations) -> Kern
     pressed = contact.F_N if clearance.contour else F_n
     rubbed: dict[str, sp.Symbol] = {}
     if clearance.friction is not None:
-        own = [build.local("bent", sp.Symbol(f"latch->state[{k}]", real=True)) for k in range(len(clearance.states))]
+        bent = Field(LATCH.name, "state")
+        own = [build.local("bent", PlaceSymbol(Element(bent, k))) for k in range(len(clearance.states))]
         for state, base in zip(own, slopes.states, strict=False):
             tangents.know(state, {base: sp.Integer(1)})
         rubbed = slopes.law(clearance.friction, (pressed, contact.v_t, *own))
@@ -159,9 +162,7 @@ def unlatched(step: Step) -> Step:
 
 def in_place(model: Model, value: sp.Expr) -> sp.Expr:
     """A step's value with parameters read from their struct, the reciprocals that it needs of them as well."""
-    value = hoisted(model.slots, value)
-    info = model.symbols.info
-    return value.xreplace({s: sp.Symbol(info[s].home) for s in value.free_symbols if s in info})
+    return model.symbols.in_place(hoisted(model.slots, value))
 
 
 def share_slope(model: Model, clearance: Clearance) -> Kernel:
@@ -180,7 +181,7 @@ def share_slope(model: Model, clearance: Clearance) -> Kernel:
         build.line(Statement(step.symbol.name, tangents.held(value)))
         tangents.know(step.symbol, tangents.gradient(value, step.symbol))
     value = in_place(model, last.value)
-    build.out("out[0]", tangents.held(value))
-    build.out("out[1]", tangents.gradient(value).get(contact.delta, ZERO))
-    arguments = (Argument("double", "delta"), PARAMETERS, *SIDES, Argument("double *", "out"))
+    build.out(Element("out", 0), tangents.held(value))
+    build.out(Element("out", 1), tangents.gradient(value).get(contact.delta, ZERO))
+    arguments = (Argument(contact.delta.name), PARAMETERS, *SIDES, result("out"))
     return build.build(arguments, inline=True)

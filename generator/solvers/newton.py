@@ -31,18 +31,29 @@ from gudgeon.generator.equations.model import stick_gain
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.complex_parts import at_complex
 from gudgeon.generator.ir.differentiation import Tangents
-from gudgeon.generator.ir.kernels import Argument, Kernel, KernelBuilder, Section, with_sides
-from gudgeon.generator.ir.signatures import MEMORY, PARAMETERS, STATE
+from gudgeon.generator.ir.kernels import LINEARIZATION, Kernel, KernelBuilder, Section, with_sides
+from gudgeon.generator.ir.signatures import (
+    ASIDE,
+    MEMORY,
+    PARAMETERS,
+    STATE,
+    Access,
+    Argument,
+    Number,
+    result,
+    source,
+)
 from gudgeon.generator.ir.statements import Call, Declare, Return, RunNumbers, Statement
 from gudgeon.generator.ir.stored_values import Pool
-from gudgeon.generator.ir.values import Place
 from gudgeon.generator.solvers.dependent_coordinates import FirstPivots
 from gudgeon.generator.solvers.factors import ETA, ETA_ROW, ETA_STICK, Factors
 from gudgeon.generator.solvers.linearization import Linearization, Pair, Parts
 from gudgeon.generator.solvers.pivots import is_simple
 from gudgeon.generator.sparsity.elimination import choose_elimination
+from gudgeon.generator.symbols.storage import Element, Field, PlaceSymbol, Variable
 
 ZERO = sp.Integer(0)
+_LU = Field(LINEARIZATION, "lu")
 
 
 class Newton:
@@ -59,9 +70,9 @@ class Newton:
         partner = self.first.partner
         self.equation = {**partner, **{r: k for k, r in partner.items()}}  # by its unknown, if not its own
         self.names = [q.name for q in system.q] + [name.replace(".", "_") for name in named + states]
-        self.values = Pool(system.model.symbols, "lin->value")
-        self.factors = Pool(system.model.symbols, "lin->lu")
-        self.lin = Argument("const Linear *", "lin")
+        self.values = Pool(system.model.symbols, Field(LINEARIZATION, "value"))
+        self.factors = Pool(system.model.symbols, _LU)
+        self.lin = source(LINEARIZATION, "Linear")
         self.linearize = self._linearize()
         self.factor = self._factor()
         self.substitute = self._substitute()
@@ -82,10 +93,9 @@ class Newton:
         self.parts = self._pooled(build, parts, work.tangents)
         self.sticks = [self.values.keep(build, stick, f"is_{stick.name}") for stick in work.sticks]
         self.tables = self._tables(build)
-        build.out("lin->p", Place("p"))
+        build.out(Field(LINEARIZATION, PARAMETERS.name), Variable(PARAMETERS.name))
         arguments = (
-            *STATE, MEMORY, PARAMETERS, Argument("const double *", "a"), Argument("const Aside *", "aside"),
-            self._own_lin(),
+            *STATE, MEMORY, PARAMETERS, source("a"), source(ASIDE.name, ASIDE.type), self._own_lin(),
         )  # fmt: skip
         return with_sides(build.build(arguments, owner="", prune=True))
 
@@ -188,16 +198,16 @@ class Newton:
             factors.eliminate(k, self.elimination.structure[k])
         self.lower, self.upper, self.inverse = factors.lower, factors.upper, factors.inverse
         build.line(Return())
-        return self._build(build, (Argument("double", "eta"), self._own_lin()), "int")
+        return self._build(build, (Argument("eta"), self._own_lin()), status=True)
 
     def _own_lin(self) -> Argument:
-        return replace(self.lin, type=self.lin.type.removeprefix("const "))
+        return replace(self.lin, access=Access.WRITTEN)
 
-    def _build(self, build: KernelBuilder, arguments: Sequence[Argument], returns: str = "void") -> Kernel:
+    def _build(self, build: KernelBuilder, arguments: Sequence[Argument], status: bool = False) -> Kernel:
         """A kernel that reads the run's numbers through `lin`."""
-        kernel = build.build(arguments, returns, prune=True)
+        kernel = build.build(arguments, status, prune=True)
         numbers = Section("numbers of the run", (RunNumbers(),))
-        reads = any("p" in s.reads for section in kernel.sections for s in section.statements)
+        reads = any(PARAMETERS.name in s.reads for section in kernel.sections for s in section.statements)
         return replace(kernel, sections=(numbers, *kernel.sections)) if reads else kernel
 
     def _substitute(self) -> Kernel:
@@ -211,14 +221,14 @@ class Newton:
             earlier[i].append(j)
         for k in order:
             i = self.equation.get(k, k)
-            value = sp.Symbol(f"x[{i}]") - sp.Add(*(self.lower[i, j] * x[j] for j in earlier[i]))
+            value = PlaceSymbol(Element("x", i)) - sp.Add(*(self.lower[i, j] * x[j] for j in earlier[i]))
             x[k] = build.local(f"b_{self.names[k]}", value)
         build.section("backward")
         for k in reversed(order):
             value = x[k] - sp.Add(*(self.upper[k, j] * x[j] for j in self.elimination.structure[k]))
             x[k] = build.local(f"x_{self.names[k]}", value * self.inverse[k])
-            build.out(f"x[{k}]", x[k])
-        return self._build(build, (self.lin, Argument("double *", "x")))
+            build.out(Element("x", k), x[k])
+        return self._build(build, (self.lin, result("x")))
 
     def _solve(self) -> Kernel:
         """From r (2n + works + inner states) to u."""
@@ -230,9 +240,9 @@ class Newton:
         ])  # fmt: skip
         self._scales(build, {self._scale(node) for node in range(self.nodes)})
         build.section("right-hand side")
-        build.line(Declare("double", "x", (self.nodes,)))
+        build.line(Declare(Number.REAL, "x", (self.nodes,)))
         beta_squared = self.model.slots.derive("beta_squared", self.model.baumgarte[1] ** 2)
-        r_q, r_v = ([sp.Symbol(f"r[{first + k}]") for k in range(n)] for first in (0, n))
+        r_q, r_v = ([PlaceSymbol(Element("r", first + k)) for k in range(n)] for first in (0, n))
         wanted = sorted({k for node, k in parts.phi_q if node < n + self.m})
         shifted = {k: build.local(f"shifted_{self.names[k]}", r_v[k] - ETA * beta_squared * r_q[k]) for k in wanted}
         b: list[list[sp.Expr]] = [[] for _ in range(self.nodes)]
@@ -245,20 +255,19 @@ class Newton:
         for i, value in parts.by_t.items():
             b[i].append(-sp.Symbol("s") * value)
         for i in range(self.first_state, self.nodes):
-            b[i].append(sp.Symbol(f"r[{self._behind(i)}]"))
+            b[i].append(PlaceSymbol(Element("r", self._behind(i))))
         for i, terms in enumerate(b):
-            build.out(f"x[{i}]", self._scale(i) * sp.Add(*terms))
-        build.line(Call("newton_substitute", (Place("lin"),), (Place("x"),)))
+            build.out(Element("x", i), self._scale(i) * sp.Add(*terms))
+        build.line(Call("newton_substitute", (Variable(LINEARIZATION),), (Variable("x"),)))
         build.section("solution")
         for k in range(n):
-            build.out(f"u[{k}]", ETA * (r_q[k] + sp.Symbol(f"x[{k}]")))
-            build.out(f"u[{n + k}]", sp.Symbol(f"x[{k}]"))
+            build.out(Element("u", k), ETA * (r_q[k] + PlaceSymbol(Element("x", k))))
+            build.out(Element("u", n + k), PlaceSymbol(Element("x", k)))
         for i in range(self.first_state, self.nodes):
-            build.out(f"u[{self._behind(i)}]", sp.Symbol(f"x[{i}]"))
+            build.out(Element("u", self._behind(i)), PlaceSymbol(Element("x", i)))
         for w in range(N_WORK):
-            build.out(f"u[{2 * n + w}]", self._work(w))
-        arguments = (self.lin, Argument("double", "eta"), Argument("double", "s"), Argument("const double *", "r"),
-                     Argument("double *", "u"))  # fmt: skip
+            build.out(Element("u", 2 * n + w), self._work(w))
+        arguments = (self.lin, Argument("eta"), Argument("s"), source("r"), result("u"))
         return self._build(build, arguments)
 
     def _behind(self, state: int) -> int:
@@ -268,17 +277,17 @@ class Newton:
     def _work(self, w: int) -> sp.Expr:
         """u_w; x holds u_v, that is η (δa + r_v), and η μ behind it."""
         parts, n = self.parts, self.n
-        terms = [sp.Symbol(f"r[{2 * n + w}]"), sp.Symbol("s") * parts.power_t.get(w, ZERO)]
+        terms = [PlaceSymbol(Element("r", 2 * n + w)), sp.Symbol("s") * parts.power_t.get(w, ZERO)]
         for part, first in ((parts.power_q, 0), (parts.power_v, n), (parts.power_z, 2 * n + N_WORK)):
-            terms += [value * sp.Symbol(f"u[{first + k}]") for (i, k), value in part.items() if i == w]
+            terms += [value * PlaceSymbol(Element("u", first + k)) for (i, k), value in part.items() if i == w]
         changes = [ZERO]
         for (i, node), value in parts.power_row.items():
-            before = ETA * sp.Symbol(f"r[{n + node}]") if node < n else ZERO
-            changes += [value * (sp.Symbol(f"x[{node}]") - before)] if i == w else []
+            before = ETA * PlaceSymbol(Element("r", n + node)) if node < n else ZERO
+            changes += [value * (PlaceSymbol(Element("x", node)) - before)] if i == w else []
         return ETA * sp.Add(*terms) + sp.Add(*changes)
 
 
 def at_complex_step(newton: Newton) -> tuple[Kernel, ...]:
     """Its matrix at complex η, factorized and solved where s is 0."""
-    arrays = ("eta", "r", "u", "x", "lin->lu")
+    arrays = ("eta", "r", "u", "x", _LU)
     return tuple(at_complex(kernel, arrays, ("s",)) for kernel in (newton.factor, newton.substitute, newton.solve))

@@ -17,11 +17,13 @@ import sympy as sp
 
 from gudgeon.generator.equations.system import System
 from gudgeon.generator.ir.kernels import KernelBuilder
+from gudgeon.generator.ir.signatures import Number
 from gudgeon.generator.ir.statements import Call, Declare, Guard
-from gudgeon.generator.ir.values import Place, Test, Threshold
+from gudgeon.generator.ir.values import Test, Threshold
 from gudgeon.generator.solvers.pivots import SINGULAR
 from gudgeon.generator.sparsity.matching import Block, triangular_blocks
 from gudgeon.generator.symbols.corners import Size
+from gudgeon.generator.symbols.storage import Element, Place, Variable
 
 ZERO = sp.Integer(0)
 # A block is singular when its determinant is less than this share of what it could be, were the arms in it turned:
@@ -106,11 +108,11 @@ class SquareRows:
     def _dense(self, build: KernelBuilder, block: Block) -> Solver:
         n, name = len(block.rows), self._symbols.unique(f"block_{self.names[block.rows[0]]}")
         values, order = f"{name}_values", f"{name}_order"
-        build.line(Declare("double", values, (n * n,)))
-        build.line(Declare("int", order, (n,)))
+        build.line(Declare(Number.REAL, values, (n * n,)))
+        build.line(Declare(Number.INTEGER, order, (n,)))
         for k, value in enumerate(value for line in self._square(block) for value in line):
-            build.out(f"{values}[{k}]", value)
-        factored = Call("factor_block", (sp.Integer(n),), (Place(values), Place(order)))
+            build.out(Element(values, k), value)
+        factored = Call("factor_block", (sp.Integer(n),), (Variable(values), Variable(order)))
         build.line(Guard(factored, block.rows[0] + 1))
         return Solver(block, name=name)
 
@@ -143,9 +145,9 @@ class SquareRows:
             (a, b), (c, d) = self._square(solver.block)
             return [(d * left[0] - b * left[1]) * solver.inverse, (a * left[1] - c * left[0]) * solver.inverse]
         name, n = self._symbols.unique(f"{solver.name}_{prefix}"), len(left)
-        build.line(Declare("double", name, (n,)))
+        build.line(Declare(Number.REAL, name, (n,)))
         for k, value in enumerate(left):
-            build.out(f"{name}[{k}]", value)
-        given = (sp.Integer(n), Place(f"{solver.name}_values"), Place(f"{solver.name}_order"))
-        build.line(Call("solve_block", given, (Place(name),)))
-        return [Place(f"{name}[{k}]") for k in range(n)]
+            build.out(Element(name, k), value)
+        given = (sp.Integer(n), Variable(f"{solver.name}_values"), Variable(f"{solver.name}_order"))
+        build.line(Call("solve_block", given, (Variable(name),)))
+        return [Element(name, k) for k in range(n)]

@@ -16,7 +16,8 @@ from gudgeon.generator.mechanism.mechanism import Quantity
 from gudgeon.generator.mechanism.scene import Scene
 from gudgeon.generator.symbols.freezable import Freezable
 from gudgeon.generator.symbols.from_expressions import to_sympy
-from gudgeon.generator.symbols.symbols import Symbols
+from gudgeon.generator.symbols.storage import PARAMETERS, Element, Field, Place
+from gudgeon.generator.symbols.symbols import OWN_FIELD, Symbols
 from gudgeon.language.tree import Expr, evaluate, names
 from gudgeon.language.units import DIMENSIONLESS, Dimension
 
@@ -75,7 +76,7 @@ class Slots(Freezable):
     def is_constant(self, expression: sp.Expr) -> bool:
         """Whether `prepare` could compute it: nothing but slots and numbers in it."""
         info = self.symbols.info
-        return all(s in info and info[s].home.startswith("p->") for s in expression.free_symbols)
+        return all(s in info and info[s].is_parameter for s in expression.free_symbols)
 
     def _parameter(self, name: str) -> sp.Symbol:
         waiting = [name]  # not by recursion: thousands may be defined through each other
@@ -90,7 +91,7 @@ class Slots(Freezable):
                 self._add(f"parameters.{last}", last, quantity)
         return self.entries[f"parameters.{name}"].symbol
 
-    def _add(self, address: str, wanted: str, quantity: Quantity, home: str = "p->{}") -> sp.Symbol:
+    def _add(self, address: str, wanted: str, quantity: Quantity, home: Place = OWN_FIELD) -> sp.Symbol:
         parts = {part.address: part for part in quantity.of}
 
         def symbol(path: str) -> sp.Expr:
@@ -125,7 +126,8 @@ class Slots(Freezable):
         if not known:
             known = self.symbols.unique(wanted)
             self.tables[known] = [
-                self._add(own.address, f"{known}_{k}", own, f"p->{known}[{k}]") for k, own in enumerate(quantities)
+                self._add(own.address, f"{known}_{k}", own, Element(Field(PARAMETERS, known), k))
+                for k, own in enumerate(quantities)
             ]
         for symbol in self.tables[known]:
             self.symbols.adopt(symbol)
@@ -138,7 +140,7 @@ class Slots(Freezable):
     def constant(self, address: str, wanted: str, default: float, dimension: Dimension = DIMENSIONLESS) -> sp.Symbol:
         """A slot that no file names, such as the Baumgarte gains."""
         if address not in self.entries:
-            symbol = self.symbols.new(wanted, "p->{}", address)
+            symbol = self.symbols.new(wanted, OWN_FIELD, address)
             self.entries[address] = SlotEntry(symbol, address, sp.Float(default, 17), default, dimension)
         self.symbols.adopt(self.entries[address].symbol)
         return self.entries[address].symbol
@@ -152,10 +154,10 @@ class Slots(Freezable):
         self, wanted: str, expression: sp.Expr, meaning: str = "", shown: str = "", of: Owned | None = None
     ) -> sp.Expr:
         """A number that `prepare` computes once a run; numbers and slots themselves stay as they are."""
-        if expression.is_number or (expression.is_Symbol and self.symbols.info[expression].home.startswith("p->")):
+        if expression.is_number or (expression.is_Symbol and self.symbols.info[expression].is_parameter):
             return expression
         if expression not in self._derived_by:
-            symbol = self.symbols.define(wanted, expression, "p->{}", meaning, shown=shown)
+            symbol = self.symbols.define(wanted, expression, OWN_FIELD, meaning, shown=shown)
             self.derived[symbol] = expression
             if of is not None:
                 self.of_owner[symbol] = of
@@ -182,7 +184,8 @@ class Slots(Freezable):
 
     def field(self, symbol: sp.Symbol) -> str:
         """What a number is called in Parameters."""
-        return self.symbols.info[symbol].home.removeprefix("p->")
+        home = self.symbols.info[symbol].home
+        return home.member if home else ""
 
 
 def names_any(quantity: Quantity) -> bool:

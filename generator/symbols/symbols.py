@@ -20,6 +20,9 @@ import sympy as sp
 from gudgeon.generator.symbols.corners import Switches
 from gudgeon.generator.symbols.derivatives import derivative, symbols_of
 from gudgeon.generator.symbols.freezable import Freezable
+from gudgeon.generator.symbols.storage import PARAMETERS, Field, Key, Place, PlaceSymbol
+
+OWN_FIELD = Field(PARAMETERS, "")  # the home of a parameter whose field is called as the symbol
 
 
 def made_name(wanted: str) -> str:
@@ -37,11 +40,16 @@ def plain_name(symbol: sp.Symbol) -> str:
 
 @dataclass(frozen=True)
 class SymbolInfo:
-    """`home` is the C text that reads the symbol; empty for a local of its kernel."""
+    """`home` is where the symbol is read; None for a local of its kernel."""
 
-    home: str
+    home: Place | None
     meaning: str
     unit: str
+
+    @property
+    def is_parameter(self) -> bool:
+        """Return whether the symbol is a parameter of the run."""
+        return self.home is not None and self.home.base == PARAMETERS
 
 
 class Symbols(Freezable):
@@ -72,7 +80,7 @@ class Symbols(Freezable):
         other = Symbols()
         other._shared, other.switches = self, self.switches.beside()
         for symbol, info in self.info.items():
-            if info.home.startswith("p->"):
+            if info.is_parameter:
                 other.adopt(symbol)
         return other
 
@@ -97,9 +105,9 @@ class Symbols(Freezable):
             self._numbered[candidate] = name
         return candidate
 
-    def shorter(self, used: Collection[str]) -> dict[str, str]:
+    def shorter(self, used: Collection[str]) -> dict[Key, Key]:
         """What names that bear a number are called in a function that uses these: without it, or with the least."""
-        own = [name for name in used if not self._home(name).startswith("p->")]
+        own = [name for name in used if not ((home := self._home(name)) and home.is_parameter)]
         numbered = sorted((name for name in own if name in self._numbered), key=lambda name: (len(name), name))
         taken = {*own} - {*numbered}
         found: dict[str, str] = {}
@@ -114,23 +122,24 @@ class Symbols(Freezable):
 
     def _is_member(self, name: str) -> bool:
         """Whether a number of the run has this name: the same one for something else would mislead."""
-        return self._home(name) == f"p->{name}"
+        return self._home(name) == Field(PARAMETERS, name)
 
-    def _home(self, name: str) -> str:
+    def _home(self, name: str) -> Place | None:
         info = self.info.get(sp.Symbol(name, real=True))
-        return info.home if info else ""
+        return info.home if info else None
 
     def new(
-        self, wanted: str, home: str = "", meaning: str = "", unit: str = "", shown: str = ""
+        self, wanted: str, home: Place | None = None, meaning: str = "", unit: str = "", shown: str = ""
     ) -> sp.Symbol:  # fmt: skip
-        """A new real symbol; `{}` in `home` stands for the C name that it gets: `shown`, or its own.
+        """A new real symbol; with OWN_FIELD for its home the field is called `shown`, or as the symbol.
 
         Its own name is what terms are put in order by.
         """
-        shared = self._shared if home.startswith("p->") else None
+        shared = self._shared if home and home.is_parameter else None
         name, called = (self._unshared(text, shared) if text else "" for text in (wanted, shown))
         symbol = sp.Symbol(name, real=True)
-        self.info[symbol] = SymbolInfo(home.replace("{}", called or name), meaning, unit)
+        home = Field(PARAMETERS, called or name) if home == OWN_FIELD else home
+        self.info[symbol] = SymbolInfo(home, meaning, unit)
         if shared is not None:
             shared.info[symbol] = self.info[symbol]
         return symbol
@@ -145,12 +154,13 @@ class Symbols(Freezable):
         return name
 
     def define(
-        self, wanted: str, expression: sp.Expr, home: str = "", meaning: str = "", unit: str = "", shown: str = ""
+        self, wanted: str, expression: sp.Expr, home: Place | None = None, meaning: str = "", unit: str = "",
+        shown: str = "",
     ) -> sp.Symbol:  # fmt: skip
         """A new symbol that stands for `expression`."""
         symbol = self.new(wanted, home, meaning, unit, shown)
         self.definitions[symbol] = expression
-        if self._shared is not None and home.startswith("p->"):
+        if self._shared is not None and home is not None and home.is_parameter:
             self._shared.definitions[symbol] = expression
         return symbol
 
@@ -172,6 +182,11 @@ class Symbols(Freezable):
             if inner != 0:
                 total += derivative(expression, symbol) * inner
         return total
+
+    def in_place(self, value: sp.Expr) -> sp.Expr:
+        """Return the value with every symbol that has a home read there."""
+        homes = ((s, self.info[s].home) for s in value.free_symbols if s in self.info)
+        return value.xreplace({s: PlaceSymbol(home) for s, home in homes if home})
 
     def explicit(self, expression: sp.Expr) -> sp.Expr:
         """`expression` with every derived symbol written out."""

@@ -13,9 +13,10 @@ import sympy as sp
 from gudgeon.generator.ir.complex_parts import at_complex
 from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.statements import Call, Guard, Statement
-from gudgeon.generator.ir.values import Chosen, Place
+from gudgeon.generator.ir.values import Chosen
 from gudgeon.generator.kernels.program import make_program
 from gudgeon.generator.pipeline import derive
+from gudgeon.generator.symbols.storage import Element, Field, Key, Place, key_of
 from gudgeon.loading.shipped import shipped_file
 from tests.slow import slow_but
 
@@ -23,22 +24,22 @@ ETA = complex(0.31, -0.42)
 SCENES = (("nine_bar_press", "lubricated"), ("slider_crank_spring", "ideal"), ("andrews_squeezer", "ideal"))
 
 
-class Memory(defaultdict[str, Any]):
+class Memory(defaultdict[Key, Any]):
     """Numbers by their place; one that nobody wrote is made up, the same for the same name."""
 
-    def __missing__(self, name: str) -> float:
-        self[name] = random.Random(name).uniform(0.5, 1.5)
+    def __missing__(self, name: Key) -> float:
+        self[name] = random.Random(str(name)).uniform(0.5, 1.5)
         return self[name]
 
 
 def value_of(value: Any, memory: Memory) -> complex:
     match value:
         case Place():
-            return memory[value.text]
+            return memory[value]
         case Chosen():
             assert value.test.relation == "!=" and value.test.bound == (0.0,)
             return value_of(value.then if value_of(value.test.value, memory) != 0 else value.otherwise, memory)
-    names = {symbol: memory[symbol.name] for symbol in value.free_symbols}
+    names = {symbol: memory[key_of(symbol)] for symbol in value.free_symbols}
     function = sp.lambdify(list(names), value, [{"Size": abs}, "math"])
     return complex(function(*names.values()))
 
@@ -63,19 +64,21 @@ def kernels_of(name: str, scene: str) -> tuple[Kernel, Kernel, Kernel]:
 @pytest.mark.parametrize("of", slow_but(SCENES[1:2], SCENES), ids="-".join)
 def test_both_parts_are_those_of_the_complex_numbers(of: tuple[str, str]) -> None:
     plain = kernels_of(*of)
-    twins = tuple(at_complex(kernel, ("eta", "r", "u", "x", "lin->lu"), ("s",)) for kernel in plain)
+    twins = tuple(at_complex(kernel, ("eta", "r", "u", "x", Field("lin", "lu")), ("s",)) for kernel in plain)
     one, two = Memory(eta=ETA, s=0.0), Memory(eta=ETA.real, eta_i=ETA.imag)
-    sizes = {int(s.name[2:-1]) for line in plain[2].sections for x in line.statements for e in x.expressions
-             for s in e.free_symbols if s.name.startswith("r[")}  # fmt: skip
+    read = {key_of(s) for section in plain[2].sections for x in section.statements for e in x.expressions
+            for s in e.free_symbols}  # fmt: skip
+    sizes = {key.index for key in read if isinstance(key, Element) and key.of == "r"}
     for k in range(max(sizes) + 1):
         r = complex(random.Random(k).uniform(-1, 1), random.Random(-k - 1).uniform(-1, 1))
-        one[f"r[{k}]"], two[f"r[{2 * k}]"], two[f"r[{2 * k + 1}]"] = r, r.real, r.imag
+        one[Element("r", k)] = r
+        two[Element("r", 2 * k)], two[Element("r", 2 * k + 1)] = r.real, r.imag
     for kernels, memory in ((plain, one), (twins, two)):
         by_name = {kernel.name: kernel for kernel in kernels}
         run(kernels[0], memory, by_name)
         run(kernels[2], memory, by_name)
-    found = {k: complex(two[f"u[{2 * k}]"], two[f"u[{2 * k + 1}]"]) for k in range(max(sizes) + 1)}
-    exact = {k: complex(one[f"u[{k}]"]) for k in found}
+    found = {k: complex(two[Element("u", 2 * k)], two[Element("u", 2 * k + 1)]) for k in range(max(sizes) + 1)}
+    exact = {k: complex(one[Element("u", k)]) for k in found}
     scale = max(map(abs, exact.values()))
     assert scale > 1e-3 and max(abs(u.imag) for u in exact.values()) > 1e-3 * scale
     assert max(abs(found[k] - exact[k]) for k in found) < 1e-10 * scale
@@ -84,9 +87,9 @@ def test_both_parts_are_those_of_the_complex_numbers(of: tuple[str, str]) -> Non
 
 def test_a_pivot_is_judged_by_the_size_of_both_parts() -> None:
     """|Re| + |Im| is compared with the share of the same of what it is measured by, in one number."""
-    factor = at_complex(kernels_of("nine_bar_press", "lubricated")[0], ("eta", "lin->lu"))
+    factor = at_complex(kernels_of("nine_bar_press", "lubricated")[0], ("eta", Field("lin", "lu")))
     lines = [line for section in factor.sections for line in section.statements]
-    locals_ = {line.target for line in lines if isinstance(line, Statement) and line.local}
+    locals_ = {line.target for line in lines if isinstance(line, Statement) and line.defines}
     for guard in (line for line in lines if isinstance(line, Guard)):
         bound = [x for x in guard.test.bound if isinstance(x, sp.Basic)]  # type: ignore[union-attr]
         assert all(x.is_Symbol and x.name in locals_ for x in (guard.test.value, *bound))  # type: ignore[union-attr]

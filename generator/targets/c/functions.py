@@ -8,9 +8,10 @@ from collections.abc import Iterable, Iterator, Sequence
 import sympy as sp
 
 from gudgeon.generator.ir.branches import Branch, JointsAlone
-from gudgeon.generator.ir.kernels import Argument, Kernel
+from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import Readable, lines, readable
 from gudgeon.generator.ir.series_rules import Gathered
+from gudgeon.generator.ir.signatures import Access, Argument, Number, Type
 from gudgeon.generator.ir.split import cut
 from gudgeon.generator.ir.statements import (
     Call,
@@ -32,9 +33,10 @@ from gudgeon.generator.ir.statements import (
     Unread,
     When,
 )
-from gudgeon.generator.ir.values import NONE, Place
+from gudgeon.generator.ir.values import NONE
 from gudgeon.generator.kernels.shared import CORNER, SharedCall
 from gudgeon.generator.symbols.derivatives import symbols_of
+from gudgeon.generator.symbols.storage import Element, Field, Place, key_of
 from gudgeon.generator.targets.c.layout import WIDTH, broken
 from gudgeon.generator.targets.c.printer import CPrinter, Text, comment_text
 
@@ -48,6 +50,7 @@ CALLED_BY_ENGINE = frozenset({
     "watched_ranges", "time_terms", "drive_corners", "drive_corner_ranges",
 })  # fmt: skip
 
+_NUMBERS = {Number.REAL: "double", Number.INTEGER: "int", Number.BYTE: "unsigned char"}
 _PLAIN: dict[type, str] = {
     Status: "int pivot = 0;", Jump: "goto powers;", RunNumbers: "const Parameters *const p = lin->p;",
 }  # fmt: skip
@@ -71,7 +74,7 @@ class Lines(Text):
             case Branch():
                 return self._branch(item)
             case Declare():
-                return [f"{item.type} {item.name}{''.join(f'[{n}]' for n in item.sizes)};"]
+                return [f"{type_name(item.type)} {item.name}{''.join(f'[{n}]' for n in item.sizes)};"]
             case Call():
                 return [f"{self._call(item)};"]
             case Guard():
@@ -101,14 +104,15 @@ class Lines(Text):
             case LargestRow():
                 return self._largest_row(item)
             case Gathered():
-                return [f"{item.target} = (Wide){{{', '.join(map(self.expression, item.values))}}};"]
+                values = ", ".join(map(self.expression, item.values))
+                return [f"{self.printer.called(item.target)} = (Wide){{{values}}};"]
             case Unread():
                 return [f"(void){self.printer.called(item.name)};"]
         return [_PLAIN[type(item)]]
 
     def _branch(self, item: Branch) -> list[str]:
         target = self.printer.called(item.target)
-        declared = [f"{self.number} {target};"] if item.local else []
+        declared = [f"{self.number} {target};"] if item.defines else []
         comment = [f"/* {comment_text(item.comment)} */"] if item.comment else []
         return [
             *comment, *declared, f"if ({self.expression(item.side)} < 0.0)",
@@ -126,7 +130,8 @@ class Lines(Text):
 
     def handed_over(self, place: Place) -> str:
         """A struct within another one by its address, all else as it is."""
-        return f"&{place.text}" if "->" in place.text else self.place(place)
+        text = self.printer.called(place)
+        return f"&{text}" if isinstance(place, (Element, Field)) else text
 
     def _guard(self, item: Guard) -> list[str]:
         fails = self._call(item.test) if isinstance(item.test, Call) else f"!({self.test(item.test)})"
@@ -157,9 +162,10 @@ class Lines(Text):
         if not item.force:
             return ["dependent:", "pivot = solve_by_absolute(t, q, v, memory, p, a, aside);", "powers:"]
         given = (("force", item.force), ("rhs", item.rhs))
-        values = [Statement(f"    {name}[{k}]", x, False) for name, some in given for k, x in enumerate(some)]
+        stored = (f"{name}[{k}] = {self.expression(x)};" for name, some in given for k, x in enumerate(some))
         return [
-            "dependent: {", "    double force[N_Q], rhs[N_ROWS];", *(self.statement(x)[4:] for x in values),
+            "dependent: {", "    double force[N_Q], rhs[N_ROWS];",
+            *("\n".join(broken(f"        {code}"))[4:] for code in stored),
             "    pivot = solve_dependent(t, q, p, force, rhs, a, aside->lambda, pivot, memory);", "}", "powers:",
         ]  # fmt: skip
 
@@ -173,7 +179,7 @@ class Lines(Text):
     def statement(self, item: Statement) -> str:
         """One assignment; its comment behind it where there is room, else in front."""
         target = self.printer.called(item.target)
-        head = f"const {self.number} {target}" if item.local else target
+        head = f"const {self.number} {target}" if item.defines else target
         code = broken(f"    {head} = {self.expression(item.value)};")
         if not item.comment:
             return "\n".join(code)
@@ -204,7 +210,8 @@ def one_by_one(items: Sequence[Statement]) -> list[tuple[str, Line]]:
 def shared_call(call: SharedCall, given: Sequence[str], results: Sequence[str]) -> str:
     """A joint's call of a function that joints share."""
     held = ["side", "g", str(call.corner)] if call.corner is not None else []
-    return f"{call.kernel.name}({', '.join([*given, *call.numbers, *held, *results])});"
+    numbers = map(CPrinter().called, call.numbers)
+    return f"{call.kernel.name}({', '.join([*given, *numbers, *held, *results])});"
 
 
 def unread_sides(calls: Iterable[SharedCall], statements: Iterable[Statement] = ()) -> list[str]:
@@ -215,7 +222,18 @@ def unread_sides(calls: Iterable[SharedCall], statements: Iterable[Statement] = 
 
 
 def arguments(items: tuple[Argument, ...]) -> str:
-    return ", ".join(f"{a.type}{a.name}" if a.type.endswith("*") else f"{a.type} {a.name}" for a in items)
+    return ", ".join(map(_argument, items))
+
+
+def _argument(item: Argument) -> str:
+    constant = "const " * (item.access in (Access.CONSTANT, Access.READ))
+    pointer = "*" * (item.access in (Access.READ, Access.WRITTEN))
+    return f"{constant}{type_name(item.type)} {pointer}{item.name}"
+
+
+def type_name(of: Type) -> str:
+    """Return the type of one number or struct."""
+    return _NUMBERS[of] if isinstance(of, Number) else of
 
 
 def kernel(item: Kernel) -> str:
@@ -227,9 +245,10 @@ def _touched(item: Kernel) -> frozenset[str]:
     """What its lines read and write, by what it is called there."""
     lines = [line for section in item.sections for line in section.statements]
     names = NONE.union(*(line.reads | line.writes for line in lines))
-    names |= {s.name for line in lines for x in line.expressions for s in symbols_of(x)}
+    keys = names | {key_of(s) for line in lines for x in line.expressions for s in symbols_of(x)}
+    called = (item.names.get(key, key) for key in keys)
     corner = NONE if item.first_corner is None else {CORNER.name}
-    return names | corner | {item.names.get(name, name) for name in names}
+    return names | corner | {key.base if isinstance(key, Place) else key for key in called}
 
 
 def comment(doc: Sequence[str]) -> str:
@@ -252,7 +271,7 @@ def pieces(
     attribute = f"__attribute__(({item.attribute})) " if item.attribute else ""
     inline = "inline " if item.inline else ""
     static = "" if called else "static "
-    head = f"{attribute}{static}{inline}{item.returns} {item.name}({arguments(item.arguments)})"
+    head = f"{attribute}{static}{inline}{'int' if item.status else 'void'} {item.name}({arguments(item.arguments)})"
     together = head.replace(", ", ",\n").replace(" ", "\0").replace("\n", " ")  # an argument is never parted
     head = "\n".join(textwrap.wrap(together, WIDTH, subsequent_indent="    ")).replace("\0", " ")
     yield f"{comment(item.doc)}{head}\n{{", None

@@ -12,9 +12,10 @@ from dataclasses import replace
 import sympy as sp
 
 from gudgeon.generator.ir.branches import Branch, JointsAlone
-from gudgeon.generator.ir.kernels import Argument, Kernel, Section
+from gudgeon.generator.ir.kernels import Kernel, Section
 from gudgeon.generator.ir.readable import lines, readable
 from gudgeon.generator.ir.series_rules import WIDE, Gathered
+from gudgeon.generator.ir.signatures import Number, Type, result
 from gudgeon.generator.ir.sine_pairs import lane_by_lane
 from gudgeon.generator.ir.statements import (
     Call,
@@ -31,20 +32,18 @@ from gudgeon.generator.ir.statements import (
     Statement,
     Status,
 )
-from gudgeon.generator.ir.values import Chosen, Place, Test, Value
+from gudgeon.generator.ir.values import Chosen, Test, Value
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
+from gudgeon.generator.symbols.storage import Element, Place
 from gudgeon.generator.targets.c import functions, printer
 from gudgeon.generator.targets.c.printer import Text
 
-_TYPES = {
-    "double": "Lanes", "const double": "const Lanes", "double *": "Lanes *", "const double *": "const Lanes *",
-    "const Parameters *": "const LaneParameters *", "const Memory *": "const LaneMemory *", "Aside *": "LaneAside *",
-    "const Aside *": "const LaneAside *", "const Latch *": "const LaneLatch *", "Linear *": "LaneLinear *",
-    "const Linear *": "const LaneLinear *",
-    "ComplexLinear *": "LaneComplexLinear *", "const ComplexLinear *": "const LaneComplexLinear *",
-    "PinSlopes *": "LaneSlopes *", "Wide *": "Lanes *",
+_TYPES: dict[Type, Type] = {
+    Number.REAL: "Lanes", "Parameters": "LaneParameters", "Memory": "LaneMemory", "Aside": "LaneAside",
+    "Latch": "LaneLatch", "Linear": "LaneLinear", "ComplexLinear": "LaneComplexLinear", "PinSlopes": "LaneSlopes",
+    "Wide": "Lanes",
 }  # fmt: skip
-_RARE = Argument("LaneBits *", "rare")
+_RARE = result("rare", "LaneBits")
 # Lines of single runs that have no counterpart: what becomes of a vanished pivot, and what they ask for alone.
 _LEFT_OUT = (Status, JointsAlone, Jump, Rescue, Return)
 
@@ -134,7 +133,7 @@ class LaneLines(functions.Lines):
     def _lines(self, item: Line) -> Sequence[str]:
         match item:
             case Branch():
-                head = f"{'const Lanes ' * item.local}{self.printer.called(item.target)}"
+                head = f"{'const Lanes ' * bool(item.defines)}{self.printer.called(item.target)}"
                 side, then, otherwise = map(self.expression, (item.side, item.then, item.otherwise))
                 return [f"{head} = pick({side} < 0.0, {otherwise}, {then});"]
             case Guard(test=Test() as test, only=None):
@@ -143,7 +142,7 @@ class LaneLines(functions.Lines):
                 passed = (*item.given, *item.results)
                 given = [self.handed_over(x) if isinstance(x, Place) else self.expression(x) for x in passed]
                 return [f"{item.function}({', '.join(given)});"]
-            case Declare(type="double"):
+            case Declare(type=Number.REAL):
                 return super()._lines(replace(item, type="Lanes"))
             case RunNumbers():
                 return ["const LaneParameters *const p = lin->p;"]
@@ -158,8 +157,10 @@ class LaneLines(functions.Lines):
                            for old, x in zip(before, item.values, strict=False)]
                 return largest or [f"{name} = all_of(0.0);"]
             case Gathered():
-                array, row = item.target.removesuffix("]").split("[")
-                return [f"{array}[{WIDE * int(row) + i}] = {self.expression(x)};" for i, x in enumerate(item.values)]
+                array, first = item.target.of, WIDE * item.target.index
+                places = (Element(array, first + i) for i in range(len(item.values)))
+                return [f"{self.printer.called(place)} = {self.expression(x)};"
+                        for place, x in zip(places, item.values, strict=True)]
             case Sines():
                 return super()._lines(item)
         raise ValueError(f"a line of a kernel that has no counterpart for vectors: {item}")
@@ -182,9 +183,9 @@ def kernel(item: Kernel) -> str:
         Section(section.title, tuple(x for x in section.statements if not isinstance(x, _LEFT_OUT)))
         for section in item.sections
     )
-    arguments = tuple(Argument(_TYPES.get(a.type, a.type), a.name) for a in item.arguments)
+    arguments = tuple(replace(a, type=_TYPES.get(a.type, a.type)) for a in item.arguments)
     sections = tuple(section for section in kept if section.statements)
-    lanes = replace(item, sections=sections, arguments=arguments, returns="void")
+    lanes = replace(item, sections=sections, arguments=arguments, status=False)
     told = any(isinstance(x, (Guard, Sines)) for section in sections for x in section.statements)
     own = readable(lanes)
     return functions.function(lanes, LaneLines(LanesPrinter(own)), own, frozenset([_RARE.name] if told else []))

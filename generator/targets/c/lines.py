@@ -9,6 +9,7 @@ from gudgeon.generator.ir.branches import Branch
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import Readable
 from gudgeon.generator.ir.statements import Line, Statement
+from gudgeon.generator.symbols.storage import Key
 from gudgeon.generator.targets.c.functions import printed
 from gudgeon.generator.targets.c.layout import within
 
@@ -20,7 +21,7 @@ class Stored:
     `where`: "<" and the side's name of what is stored where that is below zero, ">" of the other; "": a plain line.
     """
 
-    target: str
+    target: Key
     lines: range
     where: str = ""
 

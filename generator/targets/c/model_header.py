@@ -279,14 +279,13 @@ def of_joints(model: Model) -> list[tuple[str, str, list[str]]]:
             f"{name}_of": [c.normal.numbers[name] if c.rigid and c.normal else 0 for c in model.clearances]
             for name in ("restitution", "threshold")
         }
-    read = {s: sp.Symbol(info.home) for s, info in model.symbols.info.items() if info.home}
     told = dict(_OF_JOINTS)
     if any(DEEPEST in c.constants for c in model.clearances):
         told["deepest"] = told["deepest"].replace("radius.", "radius, or a law's own.")
     if any(c.wall for c in model.clearances):
         told["deepest"] = told["deepest"].replace("radius", "radius, of half a guide's width", 1)
     return [
-        (told[name], name, [printer.expression(sp.sympify(x).xreplace(read)) for x in some])
+        (told[name], name, [printer.expression(model.symbols.in_place(sp.sympify(x))) for x in some])
         for name, some in values.items()
     ]
 

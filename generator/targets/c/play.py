@@ -13,6 +13,7 @@ from gudgeon.generator.kernels.play import Pin
 from gudgeon.generator.kernels.program import Program
 from gudgeon.generator.targets.c import functions
 from gudgeon.generator.targets.c.layout import broken
+from gudgeon.generator.targets.c.printer import CPrinter
 
 Render = Callable[..., str]  # template name, substitutions -> text
 
@@ -159,12 +160,12 @@ def calls_of_dry(pin: Pin, delta: str, number: str) -> str:
 
 def _calls_of_dry(pin: Pin, delta: str, number: str) -> list[tuple[str, str]]:
     """Text, and the local that it fills, or ""."""
-    given: Sequence[str] = [delta, "ratio", *pin.given("latch->")]
+    given: Sequence[str] = [delta, "ratio", *map(CPrinter().called, pin.given)]
     normal = functions.shared_call(pin.laws["normal"], given, ("&F_n",))
     found = [(f"{number} F_n;", ""), (normal, "F_n")]
     pressed = "F_N" if pin.pressing else "F_n"
     pressing = zip(functions.one_by_one(pin.pressing), pin.pressing, strict=True)
-    found += [(code.strip(), step.target) for (code, _), step in pressing]
+    found += [(code.strip(), step.defines) for (code, _), step in pressing]
     if "friction" in pin.laws:
         states = range(len(pin.clearance.states))
         given, told = [f"latch->state[{k}]" for k in states], [f"&rate[{k}]" for k in states]

@@ -10,10 +10,11 @@ import sympy as sp
 from sympy.printing.c import C99CodePrinter
 
 from gudgeon.generator.ir.readable import Readable, share_of_pi
-from gudgeon.generator.ir.values import Chosen, Given, Place, Sum, Test, Threshold, Value
+from gudgeon.generator.ir.values import Chosen, Given, Sum, Test, Threshold, Value
 from gudgeon.generator.symbols.contours import ContourOf
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
 from gudgeon.generator.symbols.functions import CLASSES
+from gudgeon.generator.symbols.storage import PARAMETERS, Element, Field, Key, Place, PlaceSymbol, Result
 from gudgeon.generator.targets.quick import Quick
 
 _PLAIN = Readable(())
@@ -29,12 +30,29 @@ class CPrinter(Quick, C99CodePrinter):
         super().__init__({"math_macros": {}})  # M_PI_2 and the like are not in C11
         self.of = of
 
-    def called(self, name: str) -> str:
-        """What a symbol or local is called in this function."""
-        return self.of.names.get(name, name)
+    def called(self, key: Key) -> str:
+        """What a symbol, local or place is called in this function."""
+        found = self.of.names.get(key, key)
+        return self.place(found) if isinstance(found, Place) else found
+
+    def place(self, place: Place) -> str:
+        """Return the lvalue; arguments that are structs are pointers."""
+        match place:
+            case Field(str() as pointer, name):
+                return f"{pointer}->{name}"
+            case Field(Place() as whole, name):
+                return f"{self.place(whole)}.{name}"
+            case Element(of, index):
+                return f"{self.place(of) if isinstance(of, Place) else of}[{index}]"
+            case Result(name):
+                return f"*{name}"
+        return self.called(place.base)
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         return self.called(expr.name)
+
+    def _print_PlaceSymbol(self, expr: PlaceSymbol) -> str:
+        return self.called(expr.place)
 
     def parenthesize(self, item: sp.Expr, level: float, strict: bool = False) -> str:
         """A number such as 0.5 needs no brackets; 2*PI/3 in a product does, for it is one number."""
@@ -156,7 +174,8 @@ class CPrinter(Quick, C99CodePrinter):
 
     def _print_ContourOf(self, expr: ContourOf) -> str:
         """From contours.py."""
-        return f"contour({self.called(f'p->{expr.table}')}, {expr.count}, {expr.order}, {self._print(expr.args[3])})"
+        table, angle = self.called(Field(PARAMETERS, expr.table)), self._print(expr.args[3])
+        return f"contour({table}, {expr.count}, {expr.order}, {angle})"
 
     def _print_ModOf(self, expr: sp.Expr) -> str:
         """From periods.py."""
@@ -206,20 +225,16 @@ class Text:
     def __init__(self, printer: CPrinter) -> None:
         self.printer = printer
 
-    def place(self, place: Place) -> str:
-        """Where a number lives."""
-        return self.printer.called(place.text)
-
     def expression(self, value: Value) -> str:
         """C text of a value."""
         match value:
             case Place():
-                return self.place(value)
+                return self.printer.called(value)
             case Chosen():
                 then, otherwise = self.expression(value.then), self.expression(value.otherwise)
                 return f"{self.test(value.test)} ? {then} : {otherwise}"
             case Sum():
-                return " + ".join(map(self.place, value.places))
+                return " + ".join(map(self.printer.called, value.places))
             case Given():
                 return f"is_given[{value.k}] ? given[{value.k}] : {self.expression(value.default)}"
             case _:
@@ -237,7 +252,7 @@ class Text:
     def _factor(self, value: sp.Basic | float) -> str:
         """Of a bound: model.h has the names of thresholds."""
         if isinstance(value, Threshold):
-            return value.place or value.name
+            return self.printer.called(value.place) if value.place else value.name
         return repr(value) if isinstance(value, float) else self.expression(value)
 
 

@@ -6,14 +6,16 @@ from dataclasses import replace
 
 import sympy as sp
 
-from gudgeon.generator.ir.kernels import Argument, Kernel
-from gudgeon.generator.ir.readable import NUMBERS, readable
+from gudgeon.generator.ir.kernels import Kernel
+from gudgeon.generator.ir.readable import readable
+from gudgeon.generator.ir.signatures import Number, Type
 from gudgeon.generator.ir.values import Value
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
+from gudgeon.generator.symbols.storage import Place
 from gudgeon.generator.targets.c import functions, printer
 from gudgeon.generator.targets.quick import ordered_terms
 
-_TYPES = {"const double": "const Range", "const double *": "const Range *", "Aside *": "Range *"}
+_TYPES: dict[Type, Type] = {Number.REAL: "Range", "Aside": "Range"}
 _NAMES = {"aside": "out"}
 _RANGES = {"q", "v", "t"}  # what a range is handed over for; everything else is a number
 
@@ -21,10 +23,10 @@ _RANGES = {"q", "v", "t"}  # what a range is handed over for; everything else is
 class RangesPrinter(printer.CPrinter):
     """Every operation is a call; what no symbol is in stays a number."""
 
-    def called(self, name: str) -> str:
-        """A number of the run is the range of one."""
-        text = super().called(name)
-        return f"only({text})" if text.startswith(NUMBERS) else text
+    def place(self, place: Place) -> str:
+        """A parameter is the range of one."""
+        text = super().place(place)
+        return f"only({text})" if place.is_parameter else text
 
     def _range(self, expr: sp.Expr) -> str:
         text: str = self._print(expr)
@@ -116,7 +118,9 @@ class _RangeLines(functions.Lines):
 
 def kernel(item: Kernel) -> str:
     """The function with ranges for its time, coordinates and velocities, and numbers for its parameters."""
-    arguments = tuple(Argument(_TYPES.get(a.type, a.type), _NAMES.get(a.name, a.name)) for a in item.arguments)
+    arguments = tuple(
+        replace(a, name=_NAMES.get(a.name, a.name), type=_TYPES.get(a.type, a.type)) for a in item.arguments
+    )
     ranged = replace(item, arguments=arguments)
     own = readable(ranged, branching=False)
     return functions.function(ranged, _RangeLines(RangesPrinter(own), "Range"), own, called=True)

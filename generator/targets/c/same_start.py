@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from gudgeon.generator.ir.kernels import Kernel
-from gudgeon.generator.ir.readable import NUMBERS
 from gudgeon.generator.ir.statements import Line, Statement
-from gudgeon.generator.ir.values import Place, base_of
+from gudgeon.generator.symbols.storage import PARAMETERS, Place
 
 
 def same_start(called: Iterable[Kernel]) -> str:
@@ -17,7 +16,7 @@ def same_start(called: Iterable[Kernel]) -> str:
     """
     lines = [line for kernel in called for section in kernel.sections for line in section.statements]
     read = [name for line in lines for name in _numbers(line)]
-    names = [*dict.fromkeys(name.removeprefix(NUMBERS) for name in read)]
+    names = [*dict.fromkeys(read)]
     tests = "\n        && ".join(f"same_number(p->{name}, other->{name})" for name in names)
     known = all(name.isidentifier() for name in names)
     body = f"    return {tests};\n" if known and tests else f"    (void)p, (void)other;\n    return {int(known)};\n"
@@ -29,7 +28,6 @@ def same_start(called: Iterable[Kernel]) -> str:
 
 def _numbers(line: Line) -> list[str]:
     """What a line reads of Parameters; "" is all of it."""
-    if isinstance(line, Statement) and isinstance(line.value, Place) and line.value.text.startswith(NUMBERS):
-        return [line.value.text]
-    whole = base_of(NUMBERS + "x") in line.reads
-    return [*sorted(name for name in line.reads if name.startswith(NUMBERS)), *([""] if whole else [])]
+    if isinstance(line, Statement) and isinstance(line.value, Place) and line.value.is_parameter:
+        return [line.value.member]
+    return [""] if PARAMETERS in line.reads else []

@@ -99,7 +99,7 @@ def right_hand_sides(dynamics: Kernel, model: Model) -> set[str]:
     """Locals of `dynamics` that the right-hand sides of the rows of its linear system hang on."""
     names = {made_name(f"rhs_{row.name}") for row in model.rows}
     found = slices(readable(dynamics), lambda line: frozenset({"rhs"} if line.target in names else ()))
-    return {name for name in found.stored if name.isidentifier()}
+    return {name for name in found.stored if isinstance(name, str)}
 
 
 def _called(program: Program) -> dict[str, list[str]]:

@@ -60,7 +60,7 @@ def _dry(own: Pin, read: set[str]) -> list[str]:
     ratio = "unclipped" if own.clearance.clip_ratio else "ratio"
     before, after = _Part(own.before_dry, read), _Part(own.after_dry, read)
     body = [f"const {ratio} = latch.closed ? deltadot / latch.deltadot_minus : 1;", *before.text]
-    body += _call(own.laws["normal"], ("max_of(delta, 0)", "ratio", *own.given("latch.")), ("F_n",), read)
+    body += _call(own.laws["normal"], ("max_of(delta, 0)", "ratio", *map(str, own.given)), ("F_n",), read)
     pressing = _Part(own.pressing, read)
     pressed, body = "F_N" if own.pressing else "F_n", [*body, *pressing.text]
     if "friction" in own.laws:

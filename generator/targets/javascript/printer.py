@@ -11,8 +11,8 @@ import sympy as sp
 
 from gudgeon.generator.ir.branches import Branch, JointsAlone
 from gudgeon.generator.ir.kernels import Kernel
-from gudgeon.generator.ir.readable import NUMBERS, Readable, readable
-from gudgeon.generator.ir.signatures import SIDES
+from gudgeon.generator.ir.readable import Readable, readable
+from gudgeon.generator.ir.signatures import ASIDE, SIDES, Access, Number
 from gudgeon.generator.ir.statements import (
     Call,
     Guard,
@@ -26,10 +26,11 @@ from gudgeon.generator.ir.statements import (
     Statement,
     Status,
 )
-from gudgeon.generator.ir.values import Place, Test
+from gudgeon.generator.ir.values import Test
 from gudgeon.generator.kernels.shared import CORNER
 from gudgeon.generator.symbols.contours import ContourOf
 from gudgeon.generator.symbols.curves import CurveOf, c_name
+from gudgeon.generator.symbols.storage import Element, Field, Place, Result, Variable
 from gudgeon.generator.targets.c.printer import CPrinter, Text
 from gudgeon.language.functions import IN_SYMPY
 
@@ -60,13 +61,7 @@ const contour = (depth, order, angle) => {
     return per * (slope + s * (bend + s * rest * (4.5 + s * (5 * s - 10))));
 };
 """
-_SIDES = tuple(Place(argument.name) for argument in SIDES)
-_FILLED = "double *"  # the type of what a function returns by its arguments
-
-
-def name(text: str) -> str:
-    """A local or place of C in JavaScript: `p->mass` is `p.mass`."""
-    return text.replace("->", ".").lstrip("*")
+_SIDES = tuple(Variable(argument.name) for argument in SIDES)
 
 
 class JavaScriptPrinter(CPrinter):
@@ -76,12 +71,11 @@ class JavaScriptPrinter(CPrinter):
         super().__init__(of)
         self.numbers = numbers
 
-    def called(self, text: str) -> str:
-        """By what it is called in this function."""
-        plain = super().called(text)
-        if plain.startswith(NUMBERS):
-            self.numbers.add(plain.removeprefix(NUMBERS))
-        return name(plain)
+    def place(self, place: Place) -> str:
+        """Return the path."""
+        if place.is_parameter:
+            self.numbers.add(place.member)
+        return str(place)
 
     def _print_SideOf(self, expr: sp.Expr) -> str:
         """The side on which its difference is."""
@@ -96,9 +90,6 @@ class JavaScriptPrinter(CPrinter):
         """From contours.py; its depths are an array of p."""
         return f"contour(p.{expr.table}, {expr.order}, {self._print(expr.args[3])})"
 
-    def _print_Pick(self, expr: sp.Expr) -> str:
-        return name(super()._print_Pick(expr))
-
 
 def function(kernel: Kernel, numbers: set[str], only: Collection[str] | None = None) -> str:
     """A method that returns its locals and arrays by name; `numbers` gets the members of p that it reads.
@@ -111,7 +102,7 @@ def function(kernel: Kernel, numbers: set[str], only: Collection[str] | None = N
     writer = Lines(own, numbers, "var" if ends else "const")
     body = writer.all(only)
     body = ["solved: {", *(f"    {line}" for line in body), "}"] if ends else body
-    outs = [a.name for a in kernel.arguments if a.type == _FILLED and a not in SIDES] if only is None else []
+    outs = results(kernel) if only is None else []
     outs = [out for out in outs if out not in writer.locals]
     arrays = [f"    const {', '.join(f'{out} = []' for out in outs)};"] if outs else []
     if aside := _aside(kernel) if only is None else "":
@@ -125,26 +116,27 @@ def function(kernel: Kernel, numbers: set[str], only: Collection[str] | None = N
 def arguments(kernel: Kernel) -> list[str]:
     """What a function is given: not the arrays that it returns."""
     given = (a for a in kernel.arguments if a not in (*SIDES, CORNER))
-    return [name(a.name) for a in given if a.type.startswith("const") or not a.type.endswith("*")]
+    return [a.name for a in given if a.access is not Access.WRITTEN]
 
 
 def results(kernel: Kernel) -> list[str]:
-    """Numbers that a law returns by its pointers, in their order."""
-    return [name(a.name) for a in kernel.arguments if a.type == _FILLED and a not in SIDES]
+    """Numbers and arrays of numbers that a function returns by its arguments, in their order."""
+    written = (a for a in kernel.arguments if a.access is Access.WRITTEN and a not in SIDES)
+    return [a.name for a in written if a.type is Number.REAL]
 
 
 def _aside(kernel: Kernel) -> str:
     """What the function says beside its results, as an object to be filled; "": nothing."""
     lines = [line for section in kernel.sections for line in section.statements]
     places = [line.target for line in lines if isinstance(line, Statement)]
-    places += [place.text for line in lines if isinstance(line, Call) for place in line.results]
+    places += [place for line in lines if isinstance(line, Call) for place in line.results]
     parts = dict[str, int]()
     for place in places:
-        array, _, behind = place.removeprefix("aside->").partition("[")
-        index, _, member = behind.partition("]")
-        if place.startswith("aside->") and behind:
-            structs = 1 + int(index) if member or array == "clearance" else 0
-            parts[array] = max(structs, parts.get(array, 0))
+        element = place.of if isinstance(place, Field) else place
+        match element:
+            case Element(Field(ASIDE.name, array), k):
+                structs = 1 + k if element is not place or array == "clearance" else 0
+                parts[array] = max(structs, parts.get(array, 0))
     told = ", ".join(f"{name}: [{', '.join(['{}'] * count)}]" for name, count in parts.items())
     return f"{{{told}}}" if parts else ""
 
@@ -180,11 +172,11 @@ class Lines:
             return [f"if ({only}!({self.text.test(item.test)})) break solved;"]
         if isinstance(item, Call) and item.function.startswith("clearance_"):
             given = ", ".join(self._given(x) for x in item.given if x not in _SIDES)
-            return [f"Object.assign({name(item.results[0].text)}, functions.{item.function}({given}, {{}}).force);"]
+            return [f"Object.assign({item.results[0]}, functions.{item.function}({given}, {{}}).force);"]
         if not isinstance(item, (Statement, Branch)):
             raise ValueError(f"a line of a function that has no counterpart in JavaScript: {item}")
         target = self.text.printer.called(item.target)
-        declared = f"{self.word} " * (item.local or item.target.startswith("*"))
+        declared = f"{self.word} " * isinstance(item.target, (str, Result))
         if declared:
             self.locals.append(target)
         if isinstance(item, Statement):
@@ -193,7 +185,7 @@ class Lines:
         return [f"{declared}{target} = {self.text.expression(item.side)} < 0 ? {below} : {other};"]
 
     def _given(self, value: sp.Basic | Place) -> str:
-        return name(value.text) if isinstance(value, Place) else self.text.expression(value)
+        return str(value) if isinstance(value, Place) else self.text.expression(value)
 
     def _sines(self, item: Sines) -> list[str]:
         """One vector of all, or groups of four."""

@@ -86,7 +86,7 @@ def _callable(found: Functions, kernel: Kernel) -> Any:
 
 
 def _called(found: Functions, call: SharedCall, p: Mapping[str, float], *given: Any) -> Any:
-    return _callable(found, call.kernel)(*given, *(p[number.removeprefix("p->")] for number in call.numbers))
+    return _callable(found, call.kernel)(*given, *(p[number.member] for number in call.numbers))
 
 
 def _value(found: Functions, p: Mapping[str, float], number: Any) -> float:

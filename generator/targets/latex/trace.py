@@ -17,18 +17,18 @@ from gudgeon.generator.ir.branches import Branch
 from gudgeon.generator.ir.dependence import NO_MARKS, Marks, free_names, slices
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import readable
+from gudgeon.generator.ir.signatures import ASIDE
 from gudgeon.generator.ir.statements import Statement
-from gudgeon.generator.ir.values import Place
 from gudgeon.generator.kernels.driven_chains import STEP
 from gudgeon.generator.kernels.program import Program, make_program
 from gudgeon.generator.mechanism.quantities import quantities
+from gudgeon.generator.symbols.storage import PARAMETERS, Element, Field, Key, Place
 from gudgeon.generator.symbols.symbols import made_name
 from gudgeon.generator.targets.c import functions
 from gudgeon.generator.targets.c.emit import described, emit, file_names, render
 from gudgeon.generator.targets.c.lines import Stored, find, find_within, place_of
 from gudgeon.generator.targets.c.play import pin_functions
 from gudgeon.generator.targets.javascript.module import right_hand_sides, tree_functions
-from gudgeon.generator.targets.javascript.printer import name as name_of
 from gudgeon.generator.targets.latex.tokens import entries_of, entry_token, joint_tokens, row_token, sum_token
 
 # Functions of the closed linkage by the letter of what they give: `constraints` gives phi[r].
@@ -85,7 +85,7 @@ class _Finder:
         self.program, self.model, self.files = program, program.model, source.files
         self.lines: defaultdict[str, defaultdict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
         self.values: defaultdict[str, dict[int, str]] = defaultdict(dict)
-        self.numbers: defaultdict[str, set[str]] = defaultdict(set)  # by `p->field`
+        self.numbers: defaultdict[Key, set[str]] = defaultdict(set)
         self.number_of = {row.name: k for k, row in enumerate(self.model.rows, 1)}
         self.every = self.model.all_rows
         self.computed = right_hand_sides(program.dynamics, self.model)
@@ -93,7 +93,7 @@ class _Finder:
         self.laws = {kernel.name for kernel in program.laws}
         self.multipliers = {made_name(f"lambda_{row.name}"): k for k, row in enumerate(self.model.rows, 1)}
         members = map(self.model.slots.field, self.model.slots.members())
-        self.place_in_p = {f"p->{member}": k for k, member in enumerate(members, 1)}
+        self.place_in_p = {f"{PARAMETERS}.{member}": k for k, member in enumerate(members, 1)}
         tree = program.tree
         in_chains = tree.chains.chain.rows if tree and tree.chains else ()
         self.in_chains = {made_name(f"phi_{row.name}"): row.name for row in in_chains}
@@ -127,7 +127,7 @@ class _Finder:
             self.numbers[number] |= marks
         self._note(kernel, marked.stored)
 
-    def _note(self, kernel: Kernel, stored: Mapping[str, Marks]) -> None:
+    def _note(self, kernel: Kernel, stored: Mapping[Key, Marks]) -> None:
         for found in find(kernel, self.files):
             for one in found.lines:
                 own = stored.get(one.target, NO_MARKS) | self._result(kernel.name, one.target)
@@ -135,83 +135,84 @@ class _Finder:
                     self.lines[found.file][number] |= own
                 self._keep(found.file, one, partial(self._called, kernel.name, found.own.names))
 
-    def _keep(self, file: str, one: Stored, value: Callable[[str], str]) -> None:
+    def _keep(self, file: str, one: Stored, value: Callable[[Key], str]) -> None:
         """What a line stores; of a branch where it does, or, of a side without a value, on its last line alone."""
         where, side = one.where[:1], value(one.where[1:]) if one.where[1:] else ""
         if (called := value(one.target)) and (side or where != "<"):
             self.values[file][one.lines[-1]] = f"{called}{where}{side.rpartition('.')[2]}" if side else called
 
-    def _called(self, function: str, names: Mapping[str, str], name: str) -> str:
-        return self._value(function, names.get(name, name))
+    def _called(self, function: str, names: Mapping[Key, Key], key: Key) -> str:
+        return self._value(function, names.get(key, key))
 
-    def _value(self, function: str, called: str) -> str:
+    def _value(self, function: str, key: Key) -> str:
         """What a page calls the value that a line stores; "": it has none."""
+        called = str(key)
         if function in GIVES:
             return f"{GIVES[function]}.{called}"
         if function == "dynamics":
-            return self._of_rows(called)
+            return self._of_rows(key)
         if function in self.in_tree:
-            return f"tree.{function}.{name_of(called)}"
+            return f"tree.{function}.{called}"
         if function in self.laws:
-            return f"law.{function}.{name_of(called)}"
+            return f"law.{function}.{called}"
         if function == "prepare" and called in self.place_in_p:
             return f"p.{self.place_in_p[called]}"
         return ""
 
-    def _of_rows(self, called: str) -> str:
+    def _of_rows(self, key: Key) -> str:
         """Of `dynamics`: what the right-hand sides hang on, Φ and Φ̇ of a row, multipliers."""
-        if called in self.computed:
-            return f"rhs.{called}"
-        place = _place(called)
-        row = self.model.rows[place.index].name if 0 <= place.index < len(self.model.rows) else ""
-        name = made_name(f"{place.base}_{row}")
-        if row and place.base == "lambda":
-            return f"lambda.{place.index + 1}"
-        if called in self.multipliers:
-            return f"lambda.{self.multipliers[called]}"
+        if key in self.computed:
+            return f"rhs.{key}"
+        array, index = _element(key)
+        row = self.model.rows[index].name if 0 <= index < len(self.model.rows) else ""
+        name = made_name(f"{array}_{row}")
+        if row and array == "lambda":
+            return f"lambda.{index + 1}"
+        if isinstance(key, str) and key in self.multipliers:
+            return f"lambda.{self.multipliers[key]}"
         return f"rhs.{name}" if row and name in self.computed else ""
 
     def _marks(self, function: str, line: Statement | Branch) -> Marks:
         """What a line is looked for: rows where Φ, Φ_q, ν, γ are stored, terms where their names are."""
-        target, place = line.target, _place(line.target)
-        if function == "mass_matrix" and place.index >= 0:
-            return frozenset({f"body-{self.model.bodies[place.index // 3].name}"})
+        target, (array, index) = line.target, _element(line.target)
+        if function == "mass_matrix" and index >= 0:
+            return frozenset({f"body-{self.model.bodies[index // 3].name}"})
         if function in GIVES:
             own = self._terms(target) if function == "constraints" else NO_MARKS
-            if place.index < 0:
+            if index < 0:
                 return own
             if function == "jacobian":
-                row, column = divmod(place.index, len(self.model.q))
+                row, column = divmod(index, len(self.model.q))
                 number = self.number_of.get(self.every[row].name)
                 return own | ({entry_token(number, column + 1)} if number else NO_MARKS)
-            return own | self._row(self.every[place.index].name)
+            return own | self._row(self.every[index].name)
         if function in ("dynamics", "closures", "closure_rates"):
-            return self._of_dynamics(function, target, place)
+            return self._of_dynamics(function, line.defines, array, index)
         if function == STEP:
-            return self._row(self.in_chains.get(target, ""))
+            return self._row(self.in_chains.get(line.defines, ""))
         return NO_MARKS
 
-    def _of_dynamics(self, function: str, target: str, place: Place) -> Marks:
+    def _of_dynamics(self, function: str, local: str, array: str, index: int) -> Marks:
         rows = self.model.rows if function == "dynamics" else self.program.integrated.system.rows
-        if place.index >= 0 and place.base in ("phi", "phi_dot", "out"):
-            return self._row(rows[place.index].name)
-        name = next((row.name for row in rows if target == made_name(f"rhs_{row.name}")), "")
+        if index >= 0 and array in ("phi", "phi_dot", "out"):
+            return self._row(rows[index].name)
+        name = next((row.name for row in rows if local == made_name(f"rhs_{row.name}")), "")
         return self._row(name)
 
     def _row(self, name: str) -> Marks:
         return frozenset({row_token(self.number_of[name])}) if name in self.number_of else NO_MARKS
 
-    def _terms(self, target: str) -> Marks:
+    def _terms(self, target: Key) -> Marks:
         return frozenset({f"name-{target}"}) if target in self.shown else NO_MARKS
 
-    def _result(self, function: str, target: str) -> Marks:
+    def _result(self, function: str, target: Key) -> Marks:
         """Of a line alone: where Φ of a row is summed; a multiplier hangs on everything, its own line is the row's."""
-        place = _place(target)
-        if function == "constraints" and place.index >= 0:
-            number = self.number_of.get(self.every[place.index].name)
+        array, index = _element(target)
+        if function == "constraints" and index >= 0:
+            number = self.number_of.get(self.every[index].name)
             return frozenset({sum_token(number)} if number else ())
-        if function == "dynamics" and place.base == "lambda" and 0 <= place.index < len(self.model.rows):
-            return self._row(self.model.rows[place.index].name)
+        if function == "dynamics" and array == "lambda" and 0 <= index < len(self.model.rows):
+            return self._row(self.model.rows[index].name)
         return NO_MARKS
 
     def _whole(self, text: str, own: Marks) -> None:
@@ -222,7 +223,7 @@ class _Finder:
 
     def _prepare(self) -> None:
         kernel = self.program.prepare
-        own = {s.name: self.model.symbols.info[s].home for s in self.model.slots.members()}
+        own = {s.name: home for s in self.model.slots.members() if (home := self.model.symbols.info[s].home)}
         slots = {entry.symbol.name for entry in self.model.slots.entries.values()}
         fields = {name: self.numbers[home] | ({f"number-{name}"} if name in slots else set())
                   for name, home in own.items()}  # fmt: skip
@@ -235,15 +236,18 @@ class _Finder:
         """Tokens of each number of the file."""
         info = self.model.symbols.info
         entries = self.model.slots.entries.values()
-        return {entry.address: frozenset(self.numbers[info[entry.symbol].home]) for entry in entries}
+        return {own.address: frozenset(self.numbers[home]) for own in entries if (home := info[own.symbol].home)}
 
 
-def _place(target: str) -> Place:
-    """`aside->phi[3]` is phi[3] too."""
-    return Place(target.removeprefix("aside->"))
+def _element(target: Key) -> tuple[str, int]:
+    """An array of numbers, of a function or within its `aside`, and which element of it; −1 of everything else."""
+    match target:
+        case Element(str() as array, index) | Element(Field(ASIDE.name, array), index):
+            return array, index
+    return str(target), -1
 
 
-def _field(line: Statement | Branch, homes: Mapping[str, str]) -> str:
+def _field(line: Statement | Branch, homes: Mapping[str, Place]) -> str:
     """The symbol of the number that a line of `prepare` stores."""
     return next((name for name, home in homes.items() if line.target in (name, home)), "")
 

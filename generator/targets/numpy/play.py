@@ -58,7 +58,7 @@ def _dry(own: Pin) -> list[str]:
     rubs = _call(own.laws["friction"], pressed, "v_t", *given) if "friction" in own.laws else "0.0"
     return [
         f"{ratio} = deltadot / latch.deltadot_minus if latch.closed else 1.0", *lines(own.before_dry),
-        *assigned("F_n", _call(own.laws["normal"], "delta", "ratio", *own.given("latch.")), is_call=True),
+        *assigned("F_n", _call(own.laws["normal"], "delta", "ratio", *map(name, own.given)), is_call=True),
         *lines(own.pressing),
         *assigned(", ".join(["F_along_t_dry", *told]), rubs, is_call=True),
         *lines(own.after_dry), f"F = -{pressed}, {', '.join(_DRY[1:])}",

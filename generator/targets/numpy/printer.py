@@ -13,6 +13,7 @@ from gudgeon.generator.ir.branches import Branch, JointsAlone
 from gudgeon.generator.ir.kernels import Kernel
 from gudgeon.generator.ir.readable import Readable, readable, share_of_pi
 from gudgeon.generator.ir.readable import lines as readable_lines
+from gudgeon.generator.ir.signatures import SIDES
 from gudgeon.generator.ir.statements import (
     Call,
     Guard,
@@ -26,24 +27,28 @@ from gudgeon.generator.ir.statements import (
     Status,
     When,
 )
-from gudgeon.generator.ir.values import Chosen, Given, Place, Sum, Test, Threshold, Value
+from gudgeon.generator.ir.values import Chosen, Given, Sum, Test, Threshold, Value
 from gudgeon.generator.symbols.contours import ContourOf
 from gudgeon.generator.symbols.curves import CurveOf, CurveOn, KnotsOf, c_name
 from gudgeon.generator.symbols.functions import CLASSES
+from gudgeon.generator.symbols.storage import Element, Field, Key, Place, PlaceSymbol, Result, Variable
 from gudgeon.generator.targets.numpy.layout import assigned, code, docstring, indented, remark
 from gudgeon.generator.targets.quick import Quick
 
 _NOWHERE = (Status, JointsAlone, Jump, Rescue, Sides)  # vanished pivots, held corners, what single runs ask for
-_HELD = (Place("side"), Place("g"))
+_HELD = tuple(Variable(argument.name) for argument in SIDES)
 _SIDES = ("side", "g", "corner")
 
 
-def name(text: str) -> str:
-    """A local or place of C in Python: `aside->lambda[3]` is `aside.lambda_[3]`."""
-    head, bracket, index = text.replace("->", ".").partition("[")
-    inner, closing, tail = index.partition("]")
-    words = [f"{word}_" if keyword.iskeyword(word) else word for word in head.lstrip("*").split(".")]
-    return ".".join(words) + bracket + inner + closing + (name(tail) if tail else "")
+def name(key: Key) -> str:
+    """Return the expression of a local or place: of a field `lambda` it is `aside.lambda_[3]`."""
+    match key:
+        case Field(of, word):
+            return f"{name(of)}.{name(word)}"
+        case Element(of, index):
+            return f"{name(of)}[{index}]"
+    word = str(key)
+    return f"{word}_" if keyword.iskeyword(word) else word
 
 
 class NumPyPrinter(Quick, PythonCodePrinter):
@@ -53,12 +58,15 @@ class NumPyPrinter(Quick, PythonCodePrinter):
         super().__init__({"fully_qualified_modules": False})
         self.of = of
 
-    def called(self, text: str) -> str:
-        """A local or place of C, by what it is called in this function."""
-        return name(self.of.names.get(text, text))
+    def called(self, key: Key) -> str:
+        """A local or place, by what it is called in this function."""
+        return name(self.of.names.get(key, key))
 
     def _print_Symbol(self, expr: sp.Symbol) -> str:
         return self.called(expr.name)
+
+    def _print_PlaceSymbol(self, expr: PlaceSymbol) -> str:
+        return self.called(expr.place)
 
     def _print_Float(self, expr: sp.Float) -> str:
         share = share_of_pi(expr)
@@ -176,12 +184,12 @@ class Lines:
         """A value."""
         match value:
             case Place():
-                return self.printer.called(value.text)
+                return self.printer.called(value)
             case Chosen():
                 then, otherwise = self.expression(value.then), self.expression(value.otherwise)
                 return f"np.where({self._test(value.test)}, {then}, {otherwise})"
             case Sum():
-                return " + ".join(name(place.text) for place in value.places)
+                return " + ".join(map(name, value.places))
             case Given():
                 return f"given[{value.k}] if is_given[{value.k}] else {self.expression(value.default)}"
             case _:
@@ -236,7 +244,7 @@ def lines(items: Sequence[Statement]) -> list[str]:
 def function(kernel: Kernel) -> str:
     """A whole one; numbers that C hands back through pointers are returned."""
     stored = [line.target for section in kernel.sections for line in section.statements if isinstance(line, Statement)]
-    returned = [a.name for a in kernel.arguments if f"*{a.name}" in stored]
+    returned = [a.name for a in kernel.arguments if Result(a.name) in stored]
     given = [name(a.name) for a in kernel.arguments if a.name not in (*_SIDES, *returned)]
     text = [*code(f"def {kernel.name}({', '.join(given)}):"), *indented(docstring(kernel.doc))]
     own = readable(kernel)
